@@ -1,0 +1,82 @@
+// The rig file: which car, scene, lamps, views and processes belong together. Reader of config/rigs/*.toml.
+// Keys in the file carry degrees where the name ends in _deg; here everything is SI.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "config/result.h"
+
+namespace phare {
+
+enum class LampFunction { kPosition, kLow, kHigh, kFog, kDaytime, kCornering };
+
+/// Which direction of a type C (or EULUMDAT) table is the optical axis: gamma 0, or C 0 / gamma 90. The format leaves it open.
+enum class GammaAxis { kGamma0, kGamma90 };
+
+/// One photometry file, mounted. Aim turns the lamp axes in the car frame: R = Rz(yaw)·Ry(-pitch)·Rx(roll).
+struct SourceConfig {
+  LampFunction function = LampFunction::kLow;
+  std::filesystem::path file;      ///< resolved, absolute
+  GammaAxis axis = GammaAxis::kGamma0;
+  double scale = 1.0;              ///< multiplies candela
+  double yaw_rad = 0.0;            ///< > 0 left
+  double pitch_rad = 0.0;          ///< > 0 up, as lighting engineers aim
+  double roll_rad = 0.0;           ///< > 0 right side down
+  double colour_temperature_k = 5000.0;
+};
+
+/// Sources at one position. Everything that shines from here becomes one beam image.
+struct LampConfig {
+  std::string name;
+  glm::dvec3 position_m{0.0};  ///< car frame
+  std::vector<SourceConfig> sources;
+};
+
+/// A named set of lamps; designs are swapped while driving.
+struct DesignConfig {
+  std::string name;
+  std::vector<LampConfig> lamps;
+};
+
+/// One visual process: its window and its eye.
+struct ChannelConfig {
+  std::string name = "front";
+  int width_px = 1280;
+  int height_px = 720;
+  double fov_horizontal_rad = 1.0471975511965976;
+  glm::dvec3 eye_m{1.6, 0.37, 1.22};  ///< car frame
+  double yaw_rad = 0.0;               ///< > 0 left
+  double pitch_rad = 0.0;             ///< > 0 up
+};
+
+struct Rig {
+  std::filesystem::path file;
+  std::string name;
+  std::string bind_address = "127.0.0.1";
+  std::uint16_t port_base = 47000;
+  std::int64_t frame_rate_hz = 60;       ///< of lockstep frames
+  std::filesystem::path scene_file;      ///< glTF; resolved
+  std::filesystem::path vehicle_file;    ///< resolved
+  std::filesystem::path cockpit_file;    ///< resolved
+  std::string dynamics_level = "kinematic";
+  double dynamics_step_s = 0.002;
+  bool high_keeps_low = true;            ///< low beam stays lit under high beam
+  std::vector<ChannelConfig> channels;
+  std::vector<DesignConfig> designs;
+};
+
+/// Reads and checks a rig file. Every key is checked; an unknown one is an error that names the nearest known key.
+Result<Rig> read_rig(const std::filesystem::path& file);
+
+/// Path of a file named in a config file: absolute as it is; "generated/…" below the directory the build generated lamps and
+/// scenes into (environment PHARE_GENERATED_DIR, else the build's own); anything else relative to the naming file's directory.
+std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file);
+
+/// A lamp given on the command line: FILE,x=1.5,y=0.6,z=0.65,yaw_deg=0,pitch_deg=-0.5729,roll_deg=0[,axis=gamma0|gamma90][,scale=1]
+Result<LampConfig> parse_lamp_argument(const std::string& text);
+
+}  // namespace phare

@@ -1,0 +1,110 @@
+// The messages of phare.proto as plain structs; models and renderers see these and never protobuf.
+// Units, frames and meanings of the fields are written once, in phare.proto.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "net/sim_time.h"
+
+namespace phare {
+
+enum class Sender { kUnknown = 0, kCockpit = 1, kDynamics = 2, kVisual = 3, kControl = 4 };
+enum class LightSwitch { kOff = 0, kPosition = 1, kLow = 2, kHigh = 3 };
+enum class Gear { kDrive = 0, kNeutral = 1, kReverse = 2, kPark = 3 };
+
+struct CockpitState {
+  std::int64_t frame_index = -1;
+  LightSwitch light_switch = LightSwitch::kOff;
+  bool flash = false;
+  bool fog_front = false;
+  std::uint32_t design_index = 0;
+  double steering_wheel_rad = 0.0;
+  double accelerator_01 = 0.0;
+  double brake_01 = 0.0;
+  Gear gear = Gear::kDrive;
+  bool fail_safe = false;
+  std::uint64_t light_changes = 0;
+  WallTime light_change_wall;
+  SimTime light_change_sim;
+  bool drive_ended = false;
+  std::string source;
+
+  friend bool operator==(const CockpitState&, const CockpitState&) = default;
+};
+
+struct VehicleState {
+  std::int64_t frame_index = -1;
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
+  double roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;
+  double vx_mps = 0.0, vy_mps = 0.0, vz_mps = 0.0;
+  double roll_rate_radps = 0.0, pitch_rate_radps = 0.0, yaw_rate_radps = 0.0;
+  double ax_mps2 = 0.0, ay_mps2 = 0.0;
+  double speed_mps = 0.0;
+  double steer_rad = 0.0;
+  double suspension_pitch_rad = 0.0, suspension_roll_rad = 0.0, suspension_heave_m = 0.0;
+  std::string level;
+  std::uint64_t step = 0;
+  std::uint64_t state_hash = 0;
+  double lag_s = 0.0;
+  bool high_beam_telltale = false;
+  bool drive_ended = false;
+
+  friend bool operator==(const VehicleState&, const VehicleState&) = default;
+};
+
+struct FrameReport {
+  std::int64_t frame_index = -1;
+  std::uint32_t channel = 0;
+  std::uint32_t channels = 1;
+  double frame_ms = 0.0;
+  double gpu_ms = 0.0;
+  std::uint64_t light_changes_drawn = 0;
+  VehicleState drawn;
+  bool pose_stale = false;
+
+  friend bool operator==(const FrameReport&, const FrameReport&) = default;
+};
+
+struct RigControl {
+  struct Pause { bool on = false; friend bool operator==(const Pause&, const Pause&) = default; };
+  struct Seek { double to_s = 0.0; friend bool operator==(const Seek&, const Seek&) = default; };
+  struct Design { std::uint32_t index = 0; friend bool operator==(const Design&, const Design&) = default; };
+  struct Aim { double pitch_rad = 0.0; friend bool operator==(const Aim&, const Aim&) = default; };
+  struct Quit { friend bool operator==(const Quit&, const Quit&) = default; };
+  std::variant<Pause, Seek, Design, Aim, Quit> command;
+
+  friend bool operator==(const RigControl&, const RigControl&) = default;
+};
+
+struct ProbeRequest {
+  std::uint64_t request_id = 0;
+  std::vector<double> x_m, y_m, z_m, nx, ny, nz;
+
+  friend bool operator==(const ProbeRequest&, const ProbeRequest&) = default;
+};
+
+struct ProbeReply {
+  std::uint64_t request_id = 0;
+  std::vector<double> illuminance_lx;
+  std::string error;
+
+  friend bool operator==(const ProbeReply&, const ProbeReply&) = default;
+};
+
+using Payload = std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply>;
+
+/// The envelope every payload travels in.
+struct Datagram {
+  Sender sender = Sender::kUnknown;
+  std::uint32_t sender_channel = 0;
+  std::uint64_t start_id = 0;
+  std::uint64_t sequence = 0;
+  SimTime sim_time;
+  WallTime sent;
+  Payload payload;
+};
+
+}  // namespace phare

@@ -1,0 +1,44 @@
+// The beam image: what one lamp position shines, in candela, summed over its lit sources. What the GPU reads.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <span>
+#include <vector>
+
+#include "visual/photometry/intensity_table.h"
+
+namespace phare {
+
+/// One table at a lamp position, aimed and dimmed.
+struct AimedSource {
+  const IntensityTable* table = nullptr;
+  glm::dmat3 car_from_lamp{1.0};  ///< columns: the lamp's forward, left, up in the car frame
+  double scale = 1.0;             ///< multiplies candela; 0 = dark
+  double colour_temperature_k = 5000.0;
+};
+
+/// R = Rz(yaw)·Ry(-pitch)·Rx(roll), columns forward, left, up of the lamp in the car. Angles as in SourceConfig.
+glm::dmat3 aim_rotation(double yaw_rad, double pitch_rad, double roll_rad);
+
+/// Candela on the nodes of the tables it was made from, in float32, with own bilinear weights in the nodes' angles.
+/// Sources that agree in type, axis and aim sum exactly (union of their nodes). Others are resampled by direction
+/// onto a type A grid in the first source's aim; `resampled` says so.
+struct BeamImage {
+  PhotometricType type = PhotometricType::kA;
+  GammaAxis axis = GammaAxis::kGamma0;
+  glm::dmat3 car_from_image{1.0};
+  std::vector<double> first_deg;   ///< strictly ascending, at least 2
+  std::vector<double> second_deg;  ///< strictly ascending, at least 2
+  std::vector<float> candela;      ///< [second][first]
+  glm::vec3 colour{1.0f};          ///< linear sRGB of the light, luminance (Rec. 709) exactly 1
+  bool resampled = false;
+  bool dark = true;                ///< nothing lit: no need to draw
+};
+
+/// Composes the image of one lamp position. Sources may be empty (a dark image).
+BeamImage compose_beam_image(std::span<const AimedSource> sources);
+
+/// Linear sRGB of a black body at `temperature_k` (1667 K to 25000 K), luminance 1. Source: Kim et al. 2002 cubic spline of the Planckian locus.
+glm::vec3 black_body_colour(double temperature_k);
+
+}  // namespace phare

@@ -1,0 +1,136 @@
+// What draws: one Vulkan device, one scene, some lamps, one view at a time. Used by the visual process and by `phare measure`.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "config/result.h"
+#include "visual/photometry/beam_image.h"
+
+struct GLFWwindow;
+
+namespace phare {
+
+struct Scene;  // visual/scene/scene.h
+
+struct RendererOptions {
+  int width_px = 1280;
+  int height_px = 720;
+  int samples = 1;             ///< 1 or 4 (multisampling)
+  bool validation = false;     ///< Vulkan validation with synchronization validation
+  GLFWwindow* window = nullptr;  ///< nullptr: headless
+  std::string device_name;     ///< pick a device whose name contains this; empty: the first discrete GPU, else any
+};
+
+/// An eye in the world. Perspective, or from above with parallel rays.
+struct Camera {
+  glm::dvec3 eye_m{0.0};
+  glm::dmat3 world_from_eye{1.0};     ///< columns: forward, left, up
+  double fov_horizontal_rad = 1.0471975511965976;
+  double orthographic_width_m = 0.0;  ///< > 0: parallel projection of that width
+  double near_m = 0.15;
+  double far_m = 3000.0;
+};
+
+/// A lamp position in the world this frame.
+struct PlacedLamp {
+  glm::dvec3 position_m{0.0};
+  glm::dmat3 world_from_image{1.0};  ///< columns: forward, left, up of the beam image
+  std::size_t beam = 0;              ///< index of the beam image set with set_beam
+};
+
+enum class View { kPhoto, kFalseColour };  ///< as the eye sees it, or illuminance by colour with isolux lines
+
+struct FrameInput {
+  Camera camera;
+  std::vector<PlacedLamp> lamps;      ///< at most 8; positions whose beam is dark are left out by the caller or by us
+  double exposure_per_cdm2 = 0.35;    ///< multiplies luminance before the tone curve
+  double sky_luminance_cdm2 = 0.004;
+  View view = View::kPhoto;
+  bool want_hdr = false;              ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass
+  bool want_image = false;            ///< read the finished picture back
+  bool draw_overlay = false;          ///< window: the ImGui draw data of this frame is drawn on top
+};
+
+struct PassTime {
+  std::string name;
+  double ms = 0.0;
+};
+
+struct FrameResult {
+  double wall_ms = 0.0;                 ///< from the call until the GPU was done
+  double gpu_ms = 0.0;                  ///< first to last time stamp
+  std::vector<PassTime> passes;
+  std::uint32_t draws = 0;
+  std::uint32_t pass_count = 0;
+  std::uint64_t triangles = 0;
+};
+
+struct Image8 {
+  int width_px = 0, height_px = 0;
+  std::vector<std::uint8_t> rgba;  ///< sRGB, rows from the top
+};
+struct ImageF {
+  int width_px = 0, height_px = 0;
+  std::vector<float> rgba;  ///< linear, cd/m² (RGB, Rec. 709 primaries scaled so that luminance is Y), alpha: illuminance in lx
+};
+
+struct MeasurePoint {
+  glm::dvec3 position_m{0.0};
+  glm::dvec3 normal{0.0, 0.0, 1.0};
+};
+
+/// A point of the frame recomputed: what the picture's shader found there.
+struct AuditSample {
+  MeasurePoint point;        ///< world position and normal of the pixel
+  double illuminance_lx = 0; ///< by the GPU
+};
+
+class Renderer {
+ public:
+  static Result<Renderer> create(const RendererOptions& options);
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  Status load_scene(const Scene& scene);
+  /// Uploads a beam image; `index` < 8. Only when it changed.
+  void set_beam(std::size_t index, const BeamImage& image);
+  /// Another size of picture (stills, window resize).
+  void resize(int width_px, int height_px);
+
+  /// Draws one frame and waits for it. In a window it is also presented.
+  FrameResult draw(const FrameInput& input);
+  Image8 read_image() const;   ///< after draw with want_image
+  ImageF read_hdr() const;     ///< after draw with want_hdr
+
+  /// Illuminance in lx at points, per lamp, through the same fragment shader: result[lamp][point].
+  std::vector<std::vector<float>> measure(std::span<const PlacedLamp> lamps, std::span<const MeasurePoint> points);
+
+  /// Draws the frame again at `width` x `height` with position and normal out, and returns `count` lit pixels chosen by `seed`.
+  std::vector<AuditSample> audit(const FrameInput& input, std::size_t count, std::uint64_t seed);
+
+  std::string device() const;        ///< name, driver, Vulkan version
+  std::uint64_t device_memory_bytes() const;   ///< allocated by us
+  std::uint64_t validation_messages() const;   ///< since create
+
+  /// For the overlay: called once per frame between these by the window code. No-ops when headless.
+  void begin_overlay();
+
+ private:
+  struct Impl;
+  explicit Renderer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Names of the Vulkan devices of this machine, or why there are none (for `phare doctor`).
+Result<std::vector<std::string>> list_vulkan_devices();
+
+}  // namespace phare
