@@ -72,6 +72,10 @@ struct Rig {
 /// Reads and checks a rig file. Every key is checked; an unknown one is an error that names the nearest known key.
 Result<Rig> read_rig(const std::filesystem::path& file);
 
+/// Checks that the files a rig names are there: scene, vehicle, cockpit, every photometry file. The error names the first that
+/// is not, and where the rig file names it.
+Status check_rig_files(const Rig& rig);
+
 /// Path of a file named in a config file: absolute as it is; "generated/…" below the directory the build generated lamps and
 /// scenes into (environment PHARE_GENERATED_DIR, else the build's own); anything else relative to the naming file's directory.
 std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file);

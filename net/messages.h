@@ -68,12 +68,22 @@ struct FrameReport {
   friend bool operator==(const FrameReport&, const FrameReport&) = default;
 };
 
+// The commands of RigControl stand outside it because a nested struct with initialisers has no default constructor until the
+// outer one is complete (CWG 1397).
+namespace rig_command {
+struct Pause { bool on = false; friend bool operator==(const Pause&, const Pause&) = default; };
+struct Seek { double to_s = 0.0; friend bool operator==(const Seek&, const Seek&) = default; };
+struct Design { std::uint32_t index = 0; friend bool operator==(const Design&, const Design&) = default; };
+struct Aim { double pitch_rad = 0.0; friend bool operator==(const Aim&, const Aim&) = default; };
+struct Quit { friend bool operator==(const Quit&, const Quit&) = default; };
+}  // namespace rig_command
+
 struct RigControl {
-  struct Pause { bool on = false; friend bool operator==(const Pause&, const Pause&) = default; };
-  struct Seek { double to_s = 0.0; friend bool operator==(const Seek&, const Seek&) = default; };
-  struct Design { std::uint32_t index = 0; friend bool operator==(const Design&, const Design&) = default; };
-  struct Aim { double pitch_rad = 0.0; friend bool operator==(const Aim&, const Aim&) = default; };
-  struct Quit { friend bool operator==(const Quit&, const Quit&) = default; };
+  using Pause = rig_command::Pause;
+  using Seek = rig_command::Seek;
+  using Design = rig_command::Design;
+  using Aim = rig_command::Aim;
+  using Quit = rig_command::Quit;
   std::variant<Pause, Seek, Design, Aim, Quit> command;
 
   friend bool operator==(const RigControl&, const RigControl&) = default;

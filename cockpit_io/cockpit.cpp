@@ -1,0 +1,65 @@
+#include "cockpit_io/cockpit.h"
+
+#include <algorithm>
+
+namespace phare {
+
+namespace {
+constexpr double kPedalFade_s = 1.0;  // chosen: a foot leaving the pedal, not a jerk
+}
+
+Cockpit::Cockpit(SwitchParams params, std::string source) : params_(params), source_(std::move(source)) {}
+
+void Cockpit::take(const DriverInput& input, bool silent, Moment now) {
+  newest_ = now.sim = std::max(now.sim, newest_);
+  if (silent && !switches_.fail_safe) silent_since_ = now.sim;
+  advance_switches(params_, input.switches, silent, now, switches_);
+  input_ = input;
+  if (silent) {
+    const double share = std::clamp(1.0 - (now.sim.seconds() - silent_since_.seconds()) / kPedalFade_s, 0.0, 1.0);
+    input_.accelerator_01 *= share;
+    input_.brake_01 *= share;
+  }
+}
+
+void Cockpit::take_recorded(const CockpitState& recorded, Moment now) {
+  newest_ = now.sim = std::max(now.sim, newest_);
+  input_.steering_wheel_rad = recorded.steering_wheel_rad;
+  input_.accelerator_01 = recorded.accelerator_01;
+  input_.brake_01 = recorded.brake_01;
+  input_.gear = recorded.gear;
+  switches_.fail_safe = recorded.fail_safe;
+  Lights lights{recorded.light_switch, recorded.flash, recorded.fog_front,
+                recorded.design_index % std::max(params_.design_count, 1u)};
+  if (lights == switches_.lights) return;
+  switches_.lights = lights;
+  ++switches_.light_changes;
+  switches_.light_change = now;
+}
+
+void Cockpit::choose_design(std::uint32_t design_index, Moment now) {
+  now.sim = std::max(now.sim, newest_);
+  phare::choose_design(params_, design_index, now, switches_);
+}
+
+CockpitState Cockpit::state(std::int64_t frame_index, bool drive_ended) const {
+  CockpitState state;
+  state.frame_index = frame_index;
+  state.light_switch = switches_.lights.light_switch;
+  state.flash = switches_.lights.flash;
+  state.fog_front = switches_.lights.fog_front;
+  state.design_index = switches_.lights.design_index;
+  state.steering_wheel_rad = input_.steering_wheel_rad;
+  state.accelerator_01 = input_.accelerator_01;
+  state.brake_01 = input_.brake_01;
+  state.gear = input_.gear;
+  state.fail_safe = switches_.fail_safe;
+  state.light_changes = switches_.light_changes;
+  state.light_change_wall = switches_.light_change.wall;
+  state.light_change_sim = switches_.light_change.sim;
+  state.drive_ended = drive_ended;
+  state.source = source_;
+  return state;
+}
+
+}  // namespace phare

@@ -1,0 +1,28 @@
+// The driver's controls from a candump log, played at the pace of simulated time.
+#pragma once
+
+#include "cockpit_io/candump.h"
+#include "cockpit_io/signal_map.h"
+#include "cockpit_io/source.h"
+
+namespace phare {
+
+class LogSource : public Source {
+ public:
+  /// Takes ownership of a log that was read; stamps count from its first entry. `map`: bound with start_ns 0.
+  LogSource(CandumpLog log, SignalMap map);
+
+  void advance(Moment now, const VehicleState* vehicle, Cockpit& cockpit) override;
+  bool ended() const override { return next_ == log_.entries.size(); }
+  std::string status() const override;
+
+ private:
+  CandumpLog log_;
+  SignalMap map_;
+  std::size_t next_ = 0;
+  std::int64_t due_ns_ = 0;  // of the newest entry taken; a stamp that goes back is due at once
+  bool silent_ = false;
+  DriverInput input_;
+};
+
+}  // namespace phare

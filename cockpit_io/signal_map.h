@@ -1,0 +1,61 @@
+// The cockpit file's mapping bound to a DBC: CAN frames in, the driver's controls out, and a clock for each mapped message.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cockpit_io/can_frame.h"
+#include "cockpit_io/dbc.h"
+#include "cockpit_io/driver_input.h"
+#include "config/cockpit.h"
+#include "config/result.h"
+
+namespace phare {
+
+class SignalMap {
+ public:
+  enum class Taken {
+    kNotMapped,   ///< no control comes from this id
+    kDecoded,     ///< every control of it was read
+    kIncomplete,  ///< too short, or a multiplexed signal was not in it, or a value fits no level: those controls stay
+  };
+
+  /// Looks up every signal. Error at the cockpit file's line for a message or signal the DBC has not (naming the nearest), or
+  /// one that the DBC reader had to drop (naming the DBC's line). `start_ns`: when listening begins, see take().
+  static Result<SignalMap> bind(const CockpitConfig& config, Dbc dbc, std::int64_t start_ns);
+
+  /// Reads a frame into the controls. `at_ns`: when it was on the bus, on any one clock that does not go back.
+  Taken take(const CanFrame& frame, std::int64_t at_ns, DriverInput& input);
+
+  /// When the source will have been silent for its timeout if no more frames come: the first of the mapped messages.
+  std::int64_t silent_at_ns() const;
+
+  bool knows(const CanFrame& frame) const;
+  std::vector<CanId> ids() const;
+  const Dbc& dbc() const { return dbc_; }
+
+ private:
+  struct BoundControl {
+    ControlMapping mapping;
+    std::size_t signal = 0;                  ///< index in its message
+    std::optional<std::size_t> fine_signal;
+  };
+  struct BoundMessage {
+    std::size_t message = 0;  ///< index in the DBC
+    std::vector<BoundControl> controls;
+    std::int64_t timeout_ns = 0;
+    std::int64_t last_ns = 0;
+  };
+
+  bool read(const BoundControl& control, const DbcMessage& message, const CanFrame& frame, DriverInput& input);
+  void settle_beam_bits(DriverInput& input) const;
+
+  Dbc dbc_;
+  std::vector<BoundMessage> messages_;
+  bool beam_bits_ = false;  // position and low come as flags, not as levels
+  bool position_bit_ = false;
+  bool low_bit_ = false;
+};
+
+}  // namespace phare

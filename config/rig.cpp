@@ -1,0 +1,222 @@
+#include "config/rig.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "config/toml_table.h"
+
+namespace phare {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr std::size_t kMaxChannels = 16;
+constexpr std::size_t kMaxLampsOfDesign = 8;  // positions the renderer sums per pixel (visual/renderer.h)
+
+constexpr std::array<std::string_view, 6> kFunctionNames{"position", "low", "high", "fog", "daytime", "cornering"};
+constexpr std::array<std::string_view, 2> kAxisNames{"gamma0", "gamma90"};
+constexpr std::array<std::string_view, 2> kDynamicsLevels{"pose", "kinematic"};
+
+glm::dvec3 vector3(const std::vector<double>& xyz) { return {xyz[0], xyz[1], xyz[2]}; }
+
+double degrees(TomlTable& table, std::string_view key, double min_deg, double max_deg) {
+  return table.number_or(key, 0.0, min_deg, max_deg) * kRadPerDeg;
+}
+
+ChannelConfig read_channel(TomlTable table, std::size_t index) {
+  ChannelConfig channel;
+  channel.name = table.text_or("name", "channel-" + std::to_string(index));
+  channel.width_px = static_cast<int>(table.integer_or("width_px", channel.width_px, 64, 16384));
+  channel.height_px = static_cast<int>(table.integer_or("height_px", channel.height_px, 64, 16384));
+  channel.fov_horizontal_rad = table.number_or("fov_horizontal_deg", 60.0, 1.0, 170.0) * kRadPerDeg;
+  channel.eye_m = vector3(table.numbers_or("eye_m", std::array{channel.eye_m.x, channel.eye_m.y, channel.eye_m.z}));
+  channel.yaw_rad = degrees(table, "yaw_deg", -180.0, 180.0);
+  channel.pitch_rad = degrees(table, "pitch_deg", -89.0, 89.0);
+  return channel;
+}
+
+SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file) {
+  SourceConfig source;
+  source.function = static_cast<LampFunction>(table.choice("function", kFunctionNames));
+  source.file = resolve_path(table.text("file"), rig_file);
+  source.axis = static_cast<GammaAxis>(table.choice_or("axis", 0, kAxisNames));
+  source.scale = table.number_or("scale", 1.0, 0.0, 1e6);
+  source.yaw_rad = degrees(table, "yaw_deg", -180.0, 180.0);
+  source.pitch_rad = degrees(table, "pitch_deg", -90.0, 90.0);
+  source.roll_rad = degrees(table, "roll_deg", -180.0, 180.0);
+  source.colour_temperature_k = table.number_or("colour_temperature_k", source.colour_temperature_k, 1667.0, 25000.0);
+  return source;
+}
+
+/// The lamp across the car: the same photometry on the other side, its aim mirrored about the car's middle plane.
+LampConfig across(LampConfig lamp) {
+  lamp.position_m.y = -lamp.position_m.y;
+  for (SourceConfig& source : lamp.sources) {
+    source.yaw_rad = -source.yaw_rad;
+    source.roll_rad = -source.roll_rad;
+  }
+  return lamp;
+}
+
+void read_lamp(TomlTable table, const std::filesystem::path& rig_file, DesignConfig& design) {
+  LampConfig lamp;
+  lamp.name = table.text("name");
+  lamp.position_m = vector3(table.numbers("position_m", 3));
+  for (TomlTable source : table.tables("source")) lamp.sources.push_back(read_source(source, rig_file));
+  if (lamp.sources.empty()) table.fail("source", "a lamp needs at least one [[design.lamp.source]]");
+  if (!table.flag_or("pair", false)) {
+    design.lamps.push_back(lamp);
+    return;
+  }
+  if (!(lamp.position_m.y > 0.0)) table.fail("position_m", "a pair is given by its left lamp, y > 0");
+  LampConfig right = across(lamp);
+  lamp.name += " left";
+  right.name += " right";
+  design.lamps.push_back(std::move(lamp));
+  design.lamps.push_back(std::move(right));
+}
+
+DesignConfig read_design(TomlTable table, const std::filesystem::path& rig_file) {
+  DesignConfig design;
+  design.name = table.text("name");
+  for (TomlTable lamp : table.tables("lamp")) read_lamp(lamp, rig_file, design);
+  if (design.lamps.empty()) table.fail("lamp", "a design needs at least one [[design.lamp]]");
+  if (design.lamps.size() > kMaxLampsOfDesign) {
+    table.fail("lamp", std::to_string(design.lamps.size()) + " lamp positions; at most " +
+                           std::to_string(kMaxLampsOfDesign) + " are drawn");
+  }
+  return design;
+}
+
+template <typename Named>
+void check_names_differ(TomlTable& table, std::string_view key, const std::vector<Named>& items) {
+  std::set<std::string> seen;
+  for (const Named& item : items) {
+    if (!seen.insert(item.name).second) table.fail(key, "two of them are named \"" + item.name + "\"");
+  }
+}
+
+std::filesystem::path generated_dir() {
+  const char* from_environment = std::getenv("PHARE_GENERATED_DIR");
+  if (from_environment != nullptr && *from_environment != '\0') return from_environment;
+  return PHARE_BUILD_GENERATED_DIR;
+}
+
+}  // namespace
+
+std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file) {
+  if (named.empty() || named.is_absolute()) return named;
+  if (*named.begin() == "generated") return std::filesystem::absolute(generated_dir() / named.lexically_relative("generated"));
+  return std::filesystem::absolute(naming_file.parent_path() / named).lexically_normal();
+}
+
+Result<Rig> read_rig(const std::filesystem::path& file) {
+  auto read = TomlTable::read(file);
+  if (!read) return read.error();
+  TomlTable root = *read;
+  const std::filesystem::path rig_file = std::filesystem::absolute(file).lexically_normal();
+
+  Rig rig;
+  rig.file = rig_file;
+  rig.name = root.text_or("name", rig_file.stem().string());
+  rig.scene_file = resolve_path(root.text("scene"), rig_file);
+  rig.vehicle_file = resolve_path(root.text("vehicle"), rig_file);
+  rig.cockpit_file = resolve_path(root.text("cockpit"), rig_file);
+  if (auto bus = root.table_if("bus")) {
+    rig.bind_address = bus->text_or("address", rig.bind_address);
+    rig.port_base = static_cast<std::uint16_t>(bus->integer_or("port_base", rig.port_base, 1024, 65500));
+    // Off loopback datagrams need a shared key, which this version does not have: better no bus than an open one.
+    if (!rig.bind_address.starts_with("127.")) bus->fail("address", "only loopback addresses (127.…) are served");
+  }
+  if (auto clock = root.table_if("clock")) rig.frame_rate_hz = clock->integer_or("frame_rate_hz", rig.frame_rate_hz, 1, 1000);
+  if (auto dynamics = root.table_if("dynamics")) {
+    rig.dynamics_level = kDynamicsLevels[dynamics->choice_or("level", 1, kDynamicsLevels)];
+    rig.dynamics_step_s = dynamics->number_or("step_s", rig.dynamics_step_s, 1e-5, 0.05);
+  }
+  if (auto beams = root.table_if("beams")) rig.high_keeps_low = beams->flag_or("high_keeps_low", rig.high_keeps_low);
+  for (TomlTable channel : root.tables("channel")) rig.channels.push_back(read_channel(channel, rig.channels.size()));
+  for (TomlTable design : root.tables("design")) rig.designs.push_back(read_design(design, rig_file));
+
+  if (rig.channels.empty()) root.fail("channel", "a rig needs at least one [[channel]]");
+  if (rig.channels.size() > kMaxChannels) root.fail("channel", "at most 16 channels");
+  if (rig.designs.empty()) root.fail("design", "a rig needs at least one [[design]]");
+  check_names_differ(root, "channel", rig.channels);
+  check_names_differ(root, "design", rig.designs);
+  if (Status status = root.finish(); !status) return status.error();
+  return rig;
+}
+
+Status check_rig_files(const Rig& rig) {
+  const auto missing = [&](const std::filesystem::path& path, const std::string& what) -> std::optional<Error> {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+    return Error{path.string(), "no such file; it is " + what + " of " + rig.file.string()};
+  };
+  if (auto error = missing(rig.scene_file, "the scene")) return *error;
+  if (auto error = missing(rig.vehicle_file, "the vehicle")) return *error;
+  if (auto error = missing(rig.cockpit_file, "the cockpit")) return *error;
+  for (const DesignConfig& design : rig.designs) {
+    for (const LampConfig& lamp : design.lamps) {
+      for (const SourceConfig& source : lamp.sources) {
+        if (auto error = missing(source.file, "lamp \"" + lamp.name + "\", design \"" + design.name + "\",")) return *error;
+      }
+    }
+  }
+  return Done{};
+}
+
+Result<LampConfig> parse_lamp_argument(const std::string& text) {
+  static const std::vector<std::string> known{"x", "y", "z", "yaw_deg", "pitch_deg", "roll_deg", "axis", "scale"};
+  const auto wrong = [&](const std::string& reason) { return Error{"--lamp " + text, reason}; };
+  LampConfig lamp;
+  SourceConfig source;
+
+  std::size_t start = text.find(',');
+  const std::string file = text.substr(0, start);
+  if (file.empty()) return wrong("expected FILE,x=…,y=…,z=…");
+  if (file.find('=') != std::string::npos) return wrong("the photometry file comes first: FILE,x=…,y=…,z=…");
+  source.file = std::filesystem::absolute(file).lexically_normal();
+  std::set<std::string> given;
+  while (start != std::string::npos) {
+    const std::size_t end = text.find(',', start + 1);
+    const std::string item = text.substr(start + 1, end == std::string::npos ? end : end - start - 1);
+    start = end;
+    const std::size_t equals = item.find('=');
+    if (equals == std::string::npos) return wrong("expected key=value, got \"" + item + "\"");
+    const std::string key = item.substr(0, equals), value = item.substr(equals + 1);
+    if (std::find(known.begin(), known.end(), key) == known.end()) return wrong(unknown_name_reason("key", key, known));
+    if (!given.insert(key).second) return wrong("\"" + key + "\" is given twice");
+    if (key == "axis") {
+      if (value != "gamma0" && value != "gamma90") return wrong("\"axis\": \"" + value + "\" is none of gamma0, gamma90");
+      source.axis = value == "gamma0" ? GammaAxis::kGamma0 : GammaAxis::kGamma90;
+      continue;
+    }
+    double number = 0.0;
+    const auto [stop, failed] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (failed != std::errc() || stop != value.data() + value.size() || !std::isfinite(number)) {
+      return wrong("\"" + key + "\": expected a finite number, got \"" + value + "\"");
+    }
+    if (key == "x") lamp.position_m.x = number;
+    if (key == "y") lamp.position_m.y = number;
+    if (key == "z") lamp.position_m.z = number;
+    if (key == "yaw_deg") source.yaw_rad = number * kRadPerDeg;
+    if (key == "pitch_deg") source.pitch_rad = number * kRadPerDeg;
+    if (key == "roll_deg") source.roll_rad = number * kRadPerDeg;
+    if (key == "scale") source.scale = number;
+  }
+  for (const char* key : {"x", "y", "z"}) {
+    if (!given.contains(key)) return wrong(std::string("\"") + key + "\" is missing (position in m)");
+  }
+  if (source.scale < 0.0) return wrong("\"scale\" is negative");
+  lamp.name = source.file.stem().string();
+  lamp.sources.push_back(std::move(source));
+  return lamp;
+}
+
+}  // namespace phare

@@ -1,0 +1,189 @@
+#include "net/bus.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <ctime>
+#include <random>
+#include <utility>
+
+namespace phare {
+namespace {
+
+constexpr std::size_t kMaxDatagramsPerPoll = 4096;
+constexpr std::size_t kDatagramsPerTimeCheck = 64;
+constexpr std::int64_t kMaxPollCpu_ns = 2'000'000;
+constexpr std::chrono::seconds kLogInterval{1};
+
+/// Processor time of this thread: on a loaded machine the wall clock would end a poll before it has done anything.
+std::int64_t cpu_now_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+}
+
+/// Two starts never share one, and 0 means none.
+std::uint64_t draw_start_id() {
+  std::random_device random;
+  std::uint64_t id = 0;
+  while (id == 0) id = (static_cast<std::uint64_t>(random()) << 32) | random();
+  return id;
+}
+
+std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text.data(), text.size())); }
+
+}  // namespace
+
+Result<Bus> Bus::open(const Rig& rig, Role role, std::uint32_t channel) {
+  const std::string place = rig.file.string();
+  const std::size_t channels = std::max<std::size_t>(rig.channels.size(), 1);
+  if (channels > kMaxChannels) {
+    return Error{place, std::to_string(channels) + " channels, at most " + std::to_string(kMaxChannels)};
+  }
+  if (role == Role::kVisual ? channel >= channels : channel != 0) {
+    return Error{place, "has no channel " + std::to_string(channel) + " (channels count from 0, there are " +
+                            std::to_string(channels) + ")"};
+  }
+  if (!rig.bind_address.starts_with("127.")) {
+    return Error{place, "bind address " + rig.bind_address +
+                            " lies off loopback: datagrams need a key there, which this version cannot check yet"};
+  }
+  if (rig.port_base > 65535 - kMaxPortOffset) {
+    return Error{place, "port base " + std::to_string(rig.port_base) + " leaves no room for " +
+                            std::to_string(kMaxPortOffset + 1) + " ports"};
+  }
+  const auto port = static_cast<std::uint16_t>(rig.port_base + port_offset(role, channel));
+  Result<UdpSocket> socket = UdpSocket::open(rig.bind_address, port);
+  if (!socket) return socket.error();
+  if (!socket->filter_in_kernel()) spdlog::debug("no socket filter in this kernel: garbage is refused by the process itself");
+  return Bus(std::move(*socket), rig, role, channel);
+}
+
+Bus::Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel)
+    : socket_(std::move(socket)),
+      role_(role),
+      channel_(channel),
+      channels_(static_cast<std::uint32_t>(std::max<std::size_t>(rig.channels.size(), 1))),
+      port_base_(rig.port_base),
+      start_id_(draw_start_id()),
+      next_log_(std::chrono::steady_clock::now()) {
+  std::get<std::vector<Inbox<CockpitState>>>(inboxes_).resize(1);
+  std::get<std::vector<Inbox<VehicleState>>>(inboxes_).resize(1);
+  std::get<std::vector<Inbox<FrameReport>>>(inboxes_).resize(channels_);
+  std::get<std::vector<Inbox<RigControl>>>(inboxes_).resize(1);
+  std::get<std::vector<Inbox<ProbeRequest>>>(inboxes_).resize(1);
+  std::get<std::vector<Inbox<ProbeReply>>>(inboxes_).resize(channels_);
+}
+
+void Bus::send(SimTime now, const Payload& payload) {
+  const std::size_t index = payload.index();
+  Datagram datagram{sender_of(role_), channel_, start_id_, counters_.sent[index] + 1, now, wall_now(), payload};
+  if (const Refusal refusal = check(datagram); refusal != Refusal::kNone) {
+    ++counters_.not_sent;
+    const auto wall = std::chrono::steady_clock::now();
+    if (wall >= next_log_) {
+      next_log_ = wall + kLogInterval;
+      spdlog::error("{} not sent: {} ({} so far)", kChannels[index].message, refusal_text(refusal), counters_.not_sent);
+    }
+    return;
+  }
+  ++counters_.sent[index];
+  encode_into(datagram, last_bytes_[index]);
+  transmit(index);
+}
+
+void Bus::send_again(std::size_t payload_index) {
+  if (payload_index < last_bytes_.size() && !last_bytes_[payload_index].empty()) transmit(payload_index);
+}
+
+void Bus::transmit(std::size_t payload_index) {
+  const Channel& row = kChannels[payload_index];
+  const auto send_to = [&](Role role, std::uint32_t channel) {
+    const auto port = static_cast<std::uint16_t>(port_base_ + port_offset(role, channel));
+    if (!socket_.send_to(port, bytes_of(last_bytes_[payload_index]))) ++counters_.send_failures;
+  };
+  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl}) {
+    if (row.receivers.has(role)) send_to(role, 0);
+  }
+  if (row.receivers.has(Role::kVisual)) {
+    const std::uint32_t count = row.first_visual_only ? 1 : channels_;
+    for (std::uint32_t channel = 0; channel < count; ++channel) send_to(Role::kVisual, channel);
+  }
+}
+
+std::size_t Bus::poll() {
+  std::size_t news = 0;
+  const std::int64_t give_up_ns = cpu_now_ns() + kMaxPollCpu_ns;
+  for (std::size_t count = 1; count <= kMaxDatagramsPerPoll; ++count) {
+    const auto bytes = socket_.receive();
+    if (!bytes) break;
+    if (accept(*bytes)) ++news;
+    if (count % kDatagramsPerTimeCheck == 0 && cpu_now_ns() >= give_up_ns) break;
+  }
+
+  const auto dropped = static_cast<std::uint32_t>(socket_.dropped_in_kernel());
+  const std::uint32_t more = dropped - static_cast<std::uint32_t>(counters_.refused_in_kernel);  // wraps as the kernel's count
+  counters_.refused_in_kernel += more;
+  counters_.refused += more;
+  if (counters_.refused != refused_logged_) log_refusals();
+  return news;
+}
+
+bool Bus::accept(std::span<const std::byte> bytes) {
+  if (const Refusal refusal = decode_into(bytes, incoming_); refusal != Refusal::kNone) {
+    refuse(refusal);
+    return false;
+  }
+  const std::size_t index = incoming_.payload.index();
+  const Channel& row = kChannels[index];
+  const bool for_us = row.receivers.has(role_) && !(row.first_visual_only && channel_ != 0) && incoming_.sender_channel < channels_;
+  if (!for_us) {
+    refuse(Refusal::kNotForUs);
+    return false;
+  }
+
+  const Arrival arrival = std::visit(
+      [&](const auto& payload) {
+        using T = std::decay_t<decltype(payload)>;
+        auto& inbox = std::get<std::vector<Inbox<T>>>(inboxes_)[incoming_.sender_channel];
+        InboxCounters& sum = counters_.received[index];
+        const InboxCounters before = inbox.counters();
+        const Arrival judged = inbox.deliver(incoming_, payload, wall_now(), row.repeat_is_news);
+        sum += inbox.counters();
+        sum -= before;
+        return judged;
+      },
+      incoming_.payload);
+  if (arrival == Arrival::kNewest) {
+    if (on_datagram) on_datagram(incoming_, bytes);
+    return true;
+  }
+  if (arrival == Arrival::kNewestAgain) {
+    if (on_repeat) on_repeat(incoming_);
+    return row.repeat_is_news;
+  }
+  return false;
+}
+
+void Bus::refuse(Refusal refusal) {
+  ++counters_.refused;
+  ++counters_.refused_because[static_cast<std::size_t>(refusal)];
+}
+
+void Bus::log_refusals() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_log_) return;
+  next_log_ = now + kLogInterval;
+  std::size_t main_reason = 0;
+  for (std::size_t i = 1; i < kRefusals; ++i) {
+    if (counters_.refused_because[i] > counters_.refused_because[main_reason]) main_reason = i;
+  }
+  spdlog::warn("refused {} datagrams, {} in all ({} by the kernel; most of the others: {})",
+               counters_.refused - refused_logged_, counters_.refused, counters_.refused_in_kernel,
+               main_reason == 0 ? "none" : refusal_text(static_cast<Refusal>(main_reason)));
+  refused_logged_ = counters_.refused;
+}
+
+bool Bus::wait(std::chrono::nanoseconds at_most) { return socket_.wait(at_most); }
+
+}  // namespace phare

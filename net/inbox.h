@@ -1,0 +1,108 @@
+// What a receiver keeps of one stream (one sender, channel and payload type): the newest valid message, and the counts.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "net/messages.h"
+#include "net/sim_time.h"
+
+namespace phare {
+
+/// Datagrams of one stream. Of one start id: received + late + lost = newest sequence - first sequence + 1, as long as
+/// nothing comes more than SequenceTracker::kWindow behind the newest.
+struct InboxCounters {
+  std::uint64_t received = 0;   ///< taken as the newest
+  std::uint64_t lost = 0;       ///< gaps in the sequence that nothing has filled yet
+  std::uint64_t late = 0;       ///< valid, but older than the newest, or of a sender's earlier start
+  std::uint64_t duplicate = 0;  ///< sequence already seen
+  std::uint64_t restarted = 0;  ///< new start ids after the first
+
+  InboxCounters& operator+=(const InboxCounters& other);
+  InboxCounters& operator-=(const InboxCounters& other);
+  friend bool operator==(const InboxCounters&, const InboxCounters&) = default;
+};
+
+enum class Arrival {
+  kNewest,         ///< take it
+  kLate,           ///< older than the newest
+  kDuplicate,      ///< seen before
+  kNewestAgain,    ///< the newest once more
+};
+
+/// Judges start ids and sequences.
+class SequenceTracker {
+ public:
+  /// How far behind the newest a straggler is still told from a duplicate; further behind all count as late.
+  static constexpr std::uint64_t kWindow = 1024;
+
+  /// Judges one arrival and counts it.
+  Arrival arrived(std::uint64_t start_id, std::uint64_t sequence);
+
+  const InboxCounters& counters() const { return counters_; }
+
+ private:
+  bool seen(std::uint64_t sequence) const;
+  void mark(std::uint64_t sequence, bool seen);
+  bool retired(std::uint64_t start_id) const;
+
+  InboxCounters counters_;
+  std::uint64_t start_id_ = 0;  // 0: nothing has arrived
+  std::uint64_t first_ = 0;     // sequences before it were sent before this receiver listened: not lost
+  std::uint64_t newest_ = 0;
+  std::array<std::uint64_t, kWindow / 64> seen_{};  // bit sequence % kWindow, for the kWindow newest sequences
+  std::array<std::uint64_t, 8> retired_{};          // start ids of earlier starts, a ring
+  std::size_t next_retired_ = 0;
+};
+
+/// The newest valid message of a stream and its envelope.
+template <class T>
+struct Newest {
+  T value;
+  SimTime sim_time;                ///< simulated time the value is valid for
+  WallTime sent;
+  WallTime received;
+  std::uint32_t sender_channel = 0;
+};
+
+template <class T>
+class Inbox {
+ public:
+  /// Keeps the payload when it is the newest. `repeat_is_news`: a repeat of the newest can be taken again.
+  Arrival deliver(const Datagram& datagram, const T& payload, WallTime received, bool repeat_is_news) {
+    const Arrival arrival = tracker_.arrived(datagram.start_id, datagram.sequence);
+    if (arrival == Arrival::kNewest) {
+      newest_.value = payload;
+      newest_.sim_time = datagram.sim_time;
+      newest_.sent = datagram.sent;
+      newest_.received = received;
+      newest_.sender_channel = datagram.sender_channel;
+      present_ = true;
+      untaken_ = true;
+    } else if (arrival == Arrival::kNewestAgain && repeat_is_news) {
+      untaken_ = true;
+    }
+    return arrival;
+  }
+
+  /// nullptr before the first.
+  const Newest<T>* newest() const { return present_ ? &newest_ : nullptr; }
+
+  /// nullptr when the newest has been taken. The pointer is valid until the next delivery.
+  const Newest<T>* take() {
+    if (!untaken_) return nullptr;
+    untaken_ = false;
+    return &newest_;
+  }
+
+  const InboxCounters& counters() const { return tracker_.counters(); }
+
+ private:
+  SequenceTracker tracker_;
+  Newest<T> newest_;
+  bool present_ = false;
+  bool untaken_ = false;
+};
+
+}  // namespace phare

@@ -1,0 +1,53 @@
+// One bound UDP socket on IPv4, non-blocking, read in batches.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "config/result.h"
+
+namespace phare {
+
+/// Largest payload of a UDP datagram over IPv4, bytes.
+inline constexpr std::size_t kMaxDatagramBytes = 65507;
+
+class UdpSocket {
+ public:
+  /// Bound to `address` (dotted IPv4) and `port` (0: any free one). Error when the address is malformed or the port taken.
+  static Result<UdpSocket> open(const std::string& address, std::uint16_t port);
+
+  UdpSocket(UdpSocket&&) noexcept;
+  UdpSocket& operator=(UdpSocket&&) noexcept;
+  ~UdpSocket();
+
+  /// Sends to `port` at the socket's own address; false when the kernel refused.
+  bool send_to(std::uint16_t port, std::span<const std::byte> bytes);
+
+  /// The next datagram, nullopt when none waits. The view is valid until the next call.
+  std::optional<std::span<const std::byte>> receive();
+
+  /// Sleeps until a datagram waits (true), or time is up or a signal came (false).
+  bool wait(std::chrono::nanoseconds at_most);
+
+  /// Lets the kernel drop what cannot be a Datagram (its first and last tag, see wire.h) before it takes room in the
+  /// buffer and time of this process. False where the kernel has no socket filters; everything then arrives here.
+  bool filter_in_kernel();
+
+  /// Datagrams the kernel has dropped since open(): by the filter, or because the buffer was full.
+  std::uint64_t dropped_in_kernel() const;
+
+  int fd() const;
+  std::uint16_t port() const;
+
+ private:
+  struct State;
+  explicit UdpSocket(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace phare

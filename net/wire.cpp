@@ -1,0 +1,512 @@
+#include "net/wire.h"
+
+#include <google/protobuf/arena.h>
+#include <google/protobuf/message.h>
+#include <google/protobuf/stubs/logging.h>
+#include <zlib.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "net/channels.h"
+#include "net/udp.h"
+#include "phare.pb.h"
+
+namespace phare {
+namespace {
+
+// Tag of field 16, fixed32, as a varint; then four bytes, little-endian.
+constexpr std::size_t kCheckBytes = 6;
+constexpr unsigned char kCheckTag[2] = {0x85, 0x01};
+// version, sender, start id, sequence, payload of length 0, check
+constexpr std::size_t kMinDatagramBytes = 2 + 2 + 9 + 2 + 2 + kCheckBytes;
+
+std::uint32_t crc_of(const void* bytes, std::size_t size) {
+  return static_cast<std::uint32_t>(crc32(0, static_cast<const Bytef*>(bytes), static_cast<uInt>(size)));
+}
+
+/// One protobuf message on an arena whose first block is kept, so that small datagrams need no heap at all.
+class Scratch {
+ public:
+  Scratch() : arena_(options(block_)) {
+    // Otherwise protobuf writes a line to stderr for every string that is not UTF-8.
+    google::protobuf::SetLogHandler(nullptr);
+  }
+
+  wire::Datagram& fresh() {
+    arena_.Reset();
+    return *google::protobuf::Arena::CreateMessage<wire::Datagram>(&arena_);
+  }
+
+ private:
+  using Block = std::array<char, 16384>;
+  static google::protobuf::ArenaOptions options(Block& block) {
+    google::protobuf::ArenaOptions options;
+    options.initial_block = block.data();
+    options.initial_block_size = block.size();
+    return options;
+  }
+
+  alignas(16) Block block_;
+  google::protobuf::Arena arena_;
+};
+
+wire::Datagram& fresh_message() {
+  thread_local Scratch scratch;
+  return scratch.fresh();
+}
+
+// ---- struct to protobuf
+
+template <typename Enum>
+Enum to_wire_enum(int value) {
+  return static_cast<Enum>(value);
+}
+
+void fill(wire::CockpitState& to, const CockpitState& from) {
+  to.set_frame_index(from.frame_index);
+  to.set_light_switch(to_wire_enum<wire::LightSwitch>(static_cast<int>(from.light_switch)));
+  to.set_flash(from.flash);
+  to.set_fog_front(from.fog_front);
+  to.set_design_index(from.design_index);
+  to.set_steering_wheel_rad(from.steering_wheel_rad);
+  to.set_accelerator_01(from.accelerator_01);
+  to.set_brake_01(from.brake_01);
+  to.set_gear(to_wire_enum<wire::Gear>(static_cast<int>(from.gear)));
+  to.set_fail_safe(from.fail_safe);
+  to.set_light_changes(from.light_changes);
+  to.set_light_change_wall_ns(from.light_change_wall.ns);
+  to.set_light_change_sim_ns(from.light_change_sim.ns);
+  to.set_drive_ended(from.drive_ended);
+  to.set_source(from.source);
+}
+
+void fill(wire::VehicleState& to, const VehicleState& from) {
+  to.set_frame_index(from.frame_index);
+  to.set_x_m(from.x_m);
+  to.set_y_m(from.y_m);
+  to.set_z_m(from.z_m);
+  to.set_roll_rad(from.roll_rad);
+  to.set_pitch_rad(from.pitch_rad);
+  to.set_yaw_rad(from.yaw_rad);
+  to.set_vx_mps(from.vx_mps);
+  to.set_vy_mps(from.vy_mps);
+  to.set_vz_mps(from.vz_mps);
+  to.set_roll_rate_radps(from.roll_rate_radps);
+  to.set_pitch_rate_radps(from.pitch_rate_radps);
+  to.set_yaw_rate_radps(from.yaw_rate_radps);
+  to.set_ax_mps2(from.ax_mps2);
+  to.set_ay_mps2(from.ay_mps2);
+  to.set_speed_mps(from.speed_mps);
+  to.set_steer_rad(from.steer_rad);
+  to.set_suspension_pitch_rad(from.suspension_pitch_rad);
+  to.set_suspension_roll_rad(from.suspension_roll_rad);
+  to.set_suspension_heave_m(from.suspension_heave_m);
+  to.set_level(from.level);
+  to.set_step(from.step);
+  to.set_state_hash(from.state_hash);
+  to.set_lag_s(from.lag_s);
+  to.set_high_beam_telltale(from.high_beam_telltale);
+  to.set_drive_ended(from.drive_ended);
+}
+
+void fill(wire::FrameReport& to, const FrameReport& from) {
+  to.set_frame_index(from.frame_index);
+  to.set_channel(from.channel);
+  to.set_channels(from.channels);
+  to.set_frame_ms(from.frame_ms);
+  to.set_gpu_ms(from.gpu_ms);
+  to.set_light_changes_drawn(from.light_changes_drawn);
+  fill(*to.mutable_drawn(), from.drawn);
+  to.set_pose_stale(from.pose_stale);
+}
+
+struct CommandFiller {
+  wire::RigControl& to;
+  void operator()(const RigControl::Pause& pause) const { to.set_pause(pause.on); }
+  void operator()(const RigControl::Seek& seek) const { to.set_seek_s(seek.to_s); }
+  void operator()(const RigControl::Design& design) const { to.set_design_index(design.index); }
+  void operator()(const RigControl::Aim& aim) const { to.set_aim_pitch_rad(aim.pitch_rad); }
+  void operator()(const RigControl::Quit&) const { to.set_quit(true); }
+};
+
+void fill(wire::RigControl& to, const RigControl& from) { std::visit(CommandFiller{to}, from.command); }
+
+void fill(wire::ProbeRequest& to, const ProbeRequest& from) {
+  to.set_request_id(from.request_id);
+  to.mutable_x_m()->Add(from.x_m.begin(), from.x_m.end());
+  to.mutable_y_m()->Add(from.y_m.begin(), from.y_m.end());
+  to.mutable_z_m()->Add(from.z_m.begin(), from.z_m.end());
+  to.mutable_nx()->Add(from.nx.begin(), from.nx.end());
+  to.mutable_ny()->Add(from.ny.begin(), from.ny.end());
+  to.mutable_nz()->Add(from.nz.begin(), from.nz.end());
+}
+
+void fill(wire::ProbeReply& to, const ProbeReply& from) {
+  to.set_request_id(from.request_id);
+  to.mutable_illuminance_lx()->Add(from.illuminance_lx.begin(), from.illuminance_lx.end());
+  to.set_error(from.error);
+}
+
+struct PayloadFiller {
+  wire::Datagram& to;
+  void operator()(const CockpitState& from) const { fill(*to.mutable_cockpit_state(), from); }
+  void operator()(const VehicleState& from) const { fill(*to.mutable_vehicle_state(), from); }
+  void operator()(const FrameReport& from) const { fill(*to.mutable_frame_report(), from); }
+  void operator()(const RigControl& from) const { fill(*to.mutable_rig_control(), from); }
+  void operator()(const ProbeRequest& from) const { fill(*to.mutable_probe_request(), from); }
+  void operator()(const ProbeReply& from) const { fill(*to.mutable_probe_reply(), from); }
+};
+
+// ---- protobuf to struct
+
+void read(CockpitState& to, const wire::CockpitState& from) {
+  to.frame_index = from.frame_index();
+  to.light_switch = static_cast<LightSwitch>(static_cast<int>(from.light_switch()));
+  to.flash = from.flash();
+  to.fog_front = from.fog_front();
+  to.design_index = from.design_index();
+  to.steering_wheel_rad = from.steering_wheel_rad();
+  to.accelerator_01 = from.accelerator_01();
+  to.brake_01 = from.brake_01();
+  to.gear = static_cast<Gear>(static_cast<int>(from.gear()));
+  to.fail_safe = from.fail_safe();
+  to.light_changes = from.light_changes();
+  to.light_change_wall.ns = from.light_change_wall_ns();
+  to.light_change_sim.ns = from.light_change_sim_ns();
+  to.drive_ended = from.drive_ended();
+  to.source = from.source();
+}
+
+void read(VehicleState& to, const wire::VehicleState& from) {
+  to.frame_index = from.frame_index();
+  to.x_m = from.x_m();
+  to.y_m = from.y_m();
+  to.z_m = from.z_m();
+  to.roll_rad = from.roll_rad();
+  to.pitch_rad = from.pitch_rad();
+  to.yaw_rad = from.yaw_rad();
+  to.vx_mps = from.vx_mps();
+  to.vy_mps = from.vy_mps();
+  to.vz_mps = from.vz_mps();
+  to.roll_rate_radps = from.roll_rate_radps();
+  to.pitch_rate_radps = from.pitch_rate_radps();
+  to.yaw_rate_radps = from.yaw_rate_radps();
+  to.ax_mps2 = from.ax_mps2();
+  to.ay_mps2 = from.ay_mps2();
+  to.speed_mps = from.speed_mps();
+  to.steer_rad = from.steer_rad();
+  to.suspension_pitch_rad = from.suspension_pitch_rad();
+  to.suspension_roll_rad = from.suspension_roll_rad();
+  to.suspension_heave_m = from.suspension_heave_m();
+  to.level = from.level();
+  to.step = from.step();
+  to.state_hash = from.state_hash();
+  to.lag_s = from.lag_s();
+  to.high_beam_telltale = from.high_beam_telltale();
+  to.drive_ended = from.drive_ended();
+}
+
+void read(FrameReport& to, const wire::FrameReport& from) {
+  to.frame_index = from.frame_index();
+  to.channel = from.channel();
+  to.channels = from.channels();
+  to.frame_ms = from.frame_ms();
+  to.gpu_ms = from.gpu_ms();
+  to.light_changes_drawn = from.light_changes_drawn();
+  read(to.drawn, from.drawn());
+  to.pose_stale = from.pose_stale();
+}
+
+bool read(RigControl& to, const wire::RigControl& from) {
+  switch (from.command_case()) {
+    case wire::RigControl::kPause: to.command = RigControl::Pause{from.pause()}; return true;
+    case wire::RigControl::kSeekS: to.command = RigControl::Seek{from.seek_s()}; return true;
+    case wire::RigControl::kDesignIndex: to.command = RigControl::Design{from.design_index()}; return true;
+    case wire::RigControl::kAimPitchRad: to.command = RigControl::Aim{from.aim_pitch_rad()}; return true;
+    case wire::RigControl::kQuit: to.command = RigControl::Quit{}; return from.quit();
+    case wire::RigControl::COMMAND_NOT_SET: break;
+  }
+  return false;
+}
+
+void read(ProbeRequest& to, const wire::ProbeRequest& from) {
+  to.request_id = from.request_id();
+  to.x_m.assign(from.x_m().begin(), from.x_m().end());
+  to.y_m.assign(from.y_m().begin(), from.y_m().end());
+  to.z_m.assign(from.z_m().begin(), from.z_m().end());
+  to.nx.assign(from.nx().begin(), from.nx().end());
+  to.ny.assign(from.ny().begin(), from.ny().end());
+  to.nz.assign(from.nz().begin(), from.nz().end());
+}
+
+void read(ProbeReply& to, const wire::ProbeReply& from) {
+  to.request_id = from.request_id();
+  to.illuminance_lx.assign(from.illuminance_lx().begin(), from.illuminance_lx().end());
+  to.error = from.error();
+}
+
+/// The payload to read into: the one of the last datagram where the type fits, so that its memory is used again.
+template <typename T>
+T& reused(Payload& payload) {
+  if (T* held = std::get_if<T>(&payload)) return *held;
+  return payload.emplace<T>();
+}
+
+// ---- unknown fields, at any depth
+
+bool unknown_in(const google::protobuf::Message& message) {
+  return !message.GetReflection()->GetUnknownFields(message).empty();
+}
+
+bool any_unknown(const wire::Datagram& message) {
+  if (unknown_in(message)) return true;
+  switch (message.payload_case()) {
+    case wire::Datagram::kCockpitState: return unknown_in(message.cockpit_state());
+    case wire::Datagram::kVehicleState: return unknown_in(message.vehicle_state());
+    case wire::Datagram::kFrameReport:
+      return unknown_in(message.frame_report()) || unknown_in(message.frame_report().drawn());
+    case wire::Datagram::kRigControl: return unknown_in(message.rig_control());
+    case wire::Datagram::kProbeRequest: return unknown_in(message.probe_request());
+    case wire::Datagram::kProbeReply: return unknown_in(message.probe_reply());
+    case wire::Datagram::PAYLOAD_NOT_SET: break;
+  }
+  return true;
+}
+
+/// Every message has one encoding. What parses but encodes otherwise repeats fields, pads numbers or changes their order.
+bool is_the_encoding_of(const wire::Datagram& message, const std::uint8_t* bytes, std::size_t size) {
+  if (message.ByteSizeLong() != size) return false;
+  thread_local std::vector<std::uint8_t> canonical(kMaxDatagramBytes);
+  message.SerializeWithCachedSizesToArray(canonical.data());
+  return std::memcmp(canonical.data(), bytes, size) == 0;
+}
+
+// ---- sane ranges. Wide enough for every hard case of a drive, narrow enough that sums and squares stay finite.
+
+constexpr double kMaxCoordinate_m = 1e8;         // beyond the earth's radius
+constexpr double kMaxAngle_rad = 1e6;            // yaw need not be wrapped
+constexpr double kMaxSpeed_mps = 1e5;
+constexpr double kMaxRate_radps = 1e5;
+constexpr double kMaxAcceleration_mps2 = 1e6;
+constexpr double kMaxSteeringWheel_rad = 20.0;   // three turns to a side
+constexpr double kMaxRoadWheel_rad = 1.6;
+constexpr double kMaxTime_s = 1e9;               // thirty years; fits the 32 bits of a pcap stamp
+constexpr std::int64_t kMaxTime_ns = 1'000'000'000'000'000'000;
+constexpr double kMaxFrame_ms = 1e9;
+constexpr double kMaxAim_rad = 1.6;
+constexpr double kMaxNormal = 1.001;
+constexpr double kMaxIlluminance_lx = 1e15;
+constexpr std::int64_t kMaxFrameIndex = 1'000'000'000'000;
+constexpr std::uint64_t kMaxSequence = std::uint64_t{1} << 62;
+constexpr std::uint32_t kMaxDesigns = 10000;
+constexpr std::size_t kMaxNameBytes = 64;
+constexpr std::size_t kMaxErrorBytes = 4096;
+
+/// Collects the first thing wrong.
+class Checker {
+ public:
+  Refusal first() const { return first_; }
+
+  void number(double value, double min, double max) {
+    if (!std::isfinite(value)) return refuse(Refusal::kNotFinite);
+    if (value < min || value > max) refuse(Refusal::kRange);
+  }
+  void within(double value, double limit) { number(value, -limit, limit); }
+  void numbers(const std::vector<double>& values, double min, double max) {
+    for (const double value : values) number(value, min, max);
+  }
+  void require(bool fine, Refusal otherwise = Refusal::kRange) {
+    if (!fine) refuse(otherwise);
+  }
+  void frame_index(std::int64_t index) { require(index >= -1 && index <= kMaxFrameIndex); }
+
+ private:
+  void refuse(Refusal refusal) {
+    if (first_ == Refusal::kNone) first_ = refusal;
+  }
+  Refusal first_ = Refusal::kNone;
+};
+
+template <typename Enum>
+bool enum_within(Enum value, Enum last) {
+  return static_cast<int>(value) >= 0 && static_cast<int>(value) <= static_cast<int>(last);
+}
+
+void check(Checker& c, const CockpitState& s) {
+  c.frame_index(s.frame_index);
+  c.require(enum_within(s.light_switch, LightSwitch::kHigh));
+  c.require(enum_within(s.gear, Gear::kPark));
+  c.require(s.design_index < kMaxDesigns);
+  c.within(s.steering_wheel_rad, kMaxSteeringWheel_rad);
+  c.number(s.accelerator_01, 0.0, 1.0);
+  c.number(s.brake_01, 0.0, 1.0);
+  c.require(s.light_change_sim.ns >= -kMaxTime_ns && s.light_change_sim.ns <= kMaxTime_ns);
+  c.require(s.source.size() <= kMaxNameBytes);
+}
+
+void check(Checker& c, const VehicleState& s) {
+  c.frame_index(s.frame_index);
+  for (const double coordinate_m : {s.x_m, s.y_m, s.z_m}) c.within(coordinate_m, kMaxCoordinate_m);
+  for (const double angle_rad : {s.roll_rad, s.pitch_rad, s.yaw_rad, s.suspension_pitch_rad, s.suspension_roll_rad}) {
+    c.within(angle_rad, kMaxAngle_rad);
+  }
+  for (const double speed_mps : {s.vx_mps, s.vy_mps, s.vz_mps, s.speed_mps}) c.within(speed_mps, kMaxSpeed_mps);
+  for (const double rate_radps : {s.roll_rate_radps, s.pitch_rate_radps, s.yaw_rate_radps}) {
+    c.within(rate_radps, kMaxRate_radps);
+  }
+  for (const double acceleration_mps2 : {s.ax_mps2, s.ay_mps2}) c.within(acceleration_mps2, kMaxAcceleration_mps2);
+  c.within(s.steer_rad, kMaxRoadWheel_rad);
+  c.within(s.suspension_heave_m, kMaxCoordinate_m);
+  c.number(s.lag_s, 0.0, kMaxTime_s);
+  c.require(s.level.size() <= kMaxNameBytes);
+}
+
+void check(Checker& c, const FrameReport& r) {
+  c.frame_index(r.frame_index);
+  c.require(r.channels >= 1 && r.channels <= kMaxChannels && r.channel < r.channels);
+  c.number(r.frame_ms, 0.0, kMaxFrame_ms);
+  c.number(r.gpu_ms, 0.0, kMaxFrame_ms);
+  check(c, r.drawn);
+}
+
+struct CommandChecker {
+  Checker& c;
+  void operator()(const RigControl::Pause&) const {}
+  void operator()(const RigControl::Seek& seek) const { c.number(seek.to_s, 0.0, kMaxTime_s); }
+  void operator()(const RigControl::Design& design) const { c.require(design.index < kMaxDesigns); }
+  void operator()(const RigControl::Aim& aim) const { c.within(aim.pitch_rad, kMaxAim_rad); }
+  void operator()(const RigControl::Quit&) const {}
+};
+
+void check(Checker& c, const RigControl& control) { std::visit(CommandChecker{c}, control.command); }
+
+void check(Checker& c, const ProbeRequest& r) {
+  const std::size_t count = r.x_m.size();
+  c.require(count <= kMaxProbePoints, Refusal::kArrays);
+  for (const auto* array : {&r.y_m, &r.z_m, &r.nx, &r.ny, &r.nz}) c.require(array->size() == count, Refusal::kArrays);
+  for (const auto* array : {&r.x_m, &r.y_m, &r.z_m}) c.numbers(*array, -kMaxCoordinate_m, kMaxCoordinate_m);
+  for (const auto* array : {&r.nx, &r.ny, &r.nz}) c.numbers(*array, -kMaxNormal, kMaxNormal);
+}
+
+void check(Checker& c, const ProbeReply& r) {
+  c.require(r.illuminance_lx.size() <= kMaxProbePoints, Refusal::kArrays);
+  c.numbers(r.illuminance_lx, 0.0, kMaxIlluminance_lx);
+  c.require(r.error.size() <= kMaxErrorBytes);
+}
+
+}  // namespace
+
+const char* refusal_text(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::kNone: return "accepted";
+    case Refusal::kSize: return "shorter or longer than any datagram";
+    case Refusal::kHeader: return "no datagram of this protocol version";
+    case Refusal::kChecksum: return "checksum does not fit: cut short or changed on the way";
+    case Refusal::kMalformed: return "not the encoding of a datagram";
+    case Refusal::kEnvelope: return "start id, sequence, channel or time out of range";
+    case Refusal::kSender: return "sender may not send this payload";
+    case Refusal::kNotFinite: return "a number is not finite";
+    case Refusal::kRange: return "a value is out of range";
+    case Refusal::kArrays: return "probe arrays differ in length or exceed 1000 points";
+    case Refusal::kNotForUs: return "not meant for this process";
+  }
+  return "unknown";
+}
+
+void encode_into(const Datagram& datagram, std::string& bytes) {
+  wire::Datagram& message = fresh_message();
+  message.set_protocol_version(kProtocolVersion);
+  message.set_sender(to_wire_enum<wire::Sender>(static_cast<int>(datagram.sender)));
+  message.set_sender_channel(datagram.sender_channel);
+  message.set_start_id(datagram.start_id);
+  message.set_sequence(datagram.sequence);
+  message.set_sim_time_ns(datagram.sim_time.ns);
+  message.set_sent_wall_ns(datagram.sent.ns);
+  std::visit(PayloadFiller{message}, datagram.payload);
+
+  // There are no maps and no unknown fields: protobuf's encoding of equal messages is equal.
+  const std::size_t size = message.ByteSizeLong();
+  bytes.resize(size + kCheckBytes);
+  auto* const begin = reinterpret_cast<std::uint8_t*>(bytes.data());
+  std::uint8_t* end = message.SerializeWithCachedSizesToArray(begin);
+  const std::uint32_t crc = crc_of(begin, size);
+  *end++ = kCheckTag[0];
+  *end++ = kCheckTag[1];
+  for (int shift = 0; shift < 32; shift += 8) *end++ = static_cast<std::uint8_t>(crc >> shift);
+}
+
+std::string encode(const Datagram& datagram) {
+  std::string bytes;
+  encode_into(datagram, bytes);
+  return bytes;
+}
+
+Refusal check(const Datagram& datagram) {
+  Checker c;
+  c.require(datagram.start_id != 0 && datagram.sequence >= 1 && datagram.sequence <= kMaxSequence, Refusal::kEnvelope);
+  c.require(datagram.sim_time.ns >= 0 && datagram.sim_time.ns <= kMaxTime_ns, Refusal::kEnvelope);
+  const bool visual = datagram.sender == Sender::kVisual;
+  c.require(datagram.sender_channel < (visual ? kMaxChannels : 1), Refusal::kEnvelope);
+  c.require(kChannels[datagram.payload.index()].sender == datagram.sender, Refusal::kSender);
+  if (const auto* report = std::get_if<FrameReport>(&datagram.payload)) {
+    c.require(report->channel == datagram.sender_channel, Refusal::kEnvelope);
+  }
+  std::visit([&c](const auto& payload) { check(c, payload); }, datagram.payload);
+  return c.first();
+}
+
+Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
+  // Cheap checks first, so that a flood of garbage costs little: size, first bytes, check tag, CRC.
+  if (bytes.size() < kMinDatagramBytes || bytes.size() > kMaxDatagramBytes) return Refusal::kSize;
+  const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  if (data[0] != 0x08 || data[1] != kProtocolVersion || data[2] != 0x10 || data[3] < 1 || data[3] > 4) {
+    return Refusal::kHeader;
+  }
+  const std::size_t size = bytes.size() - kCheckBytes;
+  const std::uint8_t* const tail = data + size;
+  if (tail[0] != kCheckTag[0] || tail[1] != kCheckTag[1]) return Refusal::kChecksum;
+  std::uint32_t crc = 0;
+  for (unsigned i = 0; i < 4; ++i) crc |= static_cast<std::uint32_t>(tail[2 + i]) << (8 * i);
+  if (crc != crc_of(data, size)) return Refusal::kChecksum;
+
+  wire::Datagram& message = fresh_message();
+  if (!message.ParseFromArray(data, static_cast<int>(size))) return Refusal::kMalformed;
+  if (any_unknown(message) || message.check() != 0 || !is_the_encoding_of(message, data, size)) return Refusal::kMalformed;
+
+  datagram.sender = static_cast<Sender>(static_cast<int>(message.sender()));
+  datagram.sender_channel = message.sender_channel();
+  datagram.start_id = message.start_id();
+  datagram.sequence = message.sequence();
+  datagram.sim_time.ns = message.sim_time_ns();
+  datagram.sent.ns = message.sent_wall_ns();
+  switch (message.payload_case()) {
+    case wire::Datagram::kCockpitState: read(reused<CockpitState>(datagram.payload), message.cockpit_state()); break;
+    case wire::Datagram::kVehicleState: read(reused<VehicleState>(datagram.payload), message.vehicle_state()); break;
+    case wire::Datagram::kFrameReport:
+      if (!message.frame_report().has_drawn()) return Refusal::kMalformed;
+      read(reused<FrameReport>(datagram.payload), message.frame_report());
+      break;
+    case wire::Datagram::kRigControl:
+      if (!read(reused<RigControl>(datagram.payload), message.rig_control())) return Refusal::kMalformed;
+      break;
+    case wire::Datagram::kProbeRequest: read(reused<ProbeRequest>(datagram.payload), message.probe_request()); break;
+    case wire::Datagram::kProbeReply: read(reused<ProbeReply>(datagram.payload), message.probe_reply()); break;
+    case wire::Datagram::PAYLOAD_NOT_SET: return Refusal::kMalformed;
+  }
+  return check(datagram);
+}
+
+Result<Datagram> decode(std::span<const std::byte> bytes) {
+  Datagram datagram;
+  const Refusal refusal = decode_into(bytes, datagram);
+  if (refusal != Refusal::kNone) return Error{"datagram", refusal_text(refusal)};
+  return datagram;
+}
+
+}  // namespace phare

@@ -1,0 +1,100 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/beam.glsl"
+#include "lib/tone.h"
+
+layout(constant_id = 0) const uint lamp_count = 0;
+layout(constant_id = 1) const uint surface = 0;
+layout(constant_id = 2) const uint retro = 0;
+layout(constant_id = 3) const uint output_kind = 0;
+layout(constant_id = 4) const uint lamp_base = 0;
+
+layout(location = 0) in vec3 point;
+layout(location = 1) in vec3 point_normal;
+layout(location = 2) in vec3 detail;
+layout(location = 0) out vec4 result;
+layout(location = 1) out vec4 result_normal;
+
+const float kPi = 3.14159265;
+
+// Reflectance detail: one grain texture at several sizes, all whole tiles in the 1024 m after which `detail` repeats;
+// mip maps take away what a pixel cannot resolve. Mean factor 1, so that the reflectance of the material holds.
+vec3 surface_reflectance(vec3 rho) {
+  if (surface == 1) {  // asphalt: chippings, patches of binder, darker wheel tracks of the world scale
+    float chips = texture(grain, detail.xy * (614.0 / 1024.0)).r;
+    float patches = texture(grain, detail.yx * (46.0 / 1024.0)).g;
+    return rho * (0.35 + 0.7 * chips + 0.6 * patches);
+  }
+  if (surface == 2) {  // grass: tufts
+    float tufts = texture(grain, detail.xy * (317.0 / 1024.0)).g;
+    float blades = texture(grain, detail.yx * (1024.0 / 1024.0)).r;
+    return rho * (0.35 + 0.7 * tufts + 0.6 * blades) * vec3(1.0 + 0.3 * (tufts - 0.5), 1.0, 1.0);
+  }
+  if (surface == 3) {  // paint: worn
+    float wear = texture(grain, detail.xy * (922.0 / 1024.0)).r;
+    return rho * (0.8 + 0.3 * wear);
+  }
+  if (surface == 4) {  // foliage
+    float leaves = texture(grain, detail.xz * (461.0 / 1024.0) + detail.y * (276.0 / 1024.0)).r;
+    return rho * (0.3 + 1.4 * leaves);
+  }
+  return rho;
+}
+
+// Share of R_A left at an observation angle (eye - point - lamp). Falls to half at 0.5°, a tenth at 1.5°: between the
+// figures of ASTM D4956 type III at 0.2°, 0.5° and 1°; chosen by eye, one curve for all sheeting.
+float retro_share(vec3 toward_lamp, vec3 toward_eye) {
+  float sin_half = length(cross(toward_lamp, toward_eye));
+  float ratio = sin_half / 0.0087;
+  return 1.0 / (1.0 + ratio * ratio);
+}
+
+void main() {
+  vec3 n = normalize(point_normal);
+  vec3 toward_eye = -normalize(point);
+  if (output_kind != kOutputMeasure && !gl_FrontFacing) n = -n;
+
+  if (output_kind == kOutputMeasure) {
+    vec4 lx = vec4(0.0);
+    for (uint i = 0; i < 4; ++i)
+      if (lamp_base + i < lamp_count) lx[i] = lamp_light(lamp_base + i, point, n).illuminance_lx;
+    result = lx;
+    return;
+  }
+
+  float total_lx = 0.0;
+  vec3 coloured_lx = vec3(0.0);
+  vec3 retro_cdm2 = vec3(0.0);
+  float retro_coefficient = materials[uint(draw.detail_origin.w)].reflectance.w;
+  for (uint i = 0; i < lamp_count; ++i) {
+    LampLight light = lamp_light(i, point, n);
+    total_lx += light.illuminance_lx;
+    coloured_lx += light.illuminance_lx * frame.lamps[i].colour.rgb;
+    if (retro != 0) {
+      float share = retro_share(light.toward_lamp, toward_eye) * smoothstep(0.1, 0.7, light.cos_incidence);
+      retro_cdm2 += frame.lamps[i].colour.rgb * (light.normal_lx * retro_coefficient * share);
+    }
+  }
+
+  if (output_kind == kOutputAudit) {
+    result = vec4(point, total_lx);
+    result_normal = vec4(n, lamp_count);
+    return;
+  }
+  if (output_kind == kOutputFalseColour) {
+    // Isolux lines of the field: 1, 3, 5, 10, 30, 50, 100 lx, one pixel wide by the screen gradient of log E.
+    vec3 colour = false_colour(total_lx);
+    float level[7] = float[](1.0, 3.0, 5.0, 10.0, 30.0, 50.0, 100.0);
+    float width = max(fwidth(total_lx), 1e-6);
+    float line = 0.0;
+    for (int i = 0; i < 7; ++i) line = max(line, 1.0 - smoothstep(0.6, 1.4, abs(total_lx - level[i]) / width));
+    result = vec4(mix(colour, vec3(1.0), 0.7 * line), 1.0);
+    return;
+  }
+
+  vec3 rho = surface_reflectance(materials[uint(draw.detail_origin.w)].reflectance.rgb);
+  vec3 sky_lx = frame.sky.rgb * kPi * (0.5 + 0.5 * n.z);  // half the dome, unoccluded
+  vec3 radiance = rho * (coloured_lx + sky_lx) / kPi;
+  if (retro != 0) radiance += retro_cdm2 * rho / max(max(rho.r, rho.g), max(rho.b, 1e-3));
+  result = output_kind == kOutputHdr ? vec4(radiance, total_lx) : vec4(tone_curve(radiance * frame.exposure.x), 1.0);
+}

@@ -1,0 +1,57 @@
+// Contract of the lamp pass (and of the depth and measure passes, which share its layout): bindings, constants, structs.
+// Compiled by the shaders and by visual/passes/lamps.cpp, which asserts sizes and offsets.
+#ifndef PHARE_SHADERS_LAMPS_H
+#define PHARE_SHADERS_LAMPS_H
+#include "lib/portable.h"
+
+PHARE_SHADER_BEGIN
+
+const uint kMaxLamps = 8u;
+
+// Specialization constants of lamps.frag
+const uint kSpecLampCount = 0u;
+const uint kSpecSurface = 1u;   // procedural detail: 0 plain, 1 asphalt, 2 grass, 3 paint, 4 foliage
+const uint kSpecRetro = 2u;     // 1: the material sends light back to where it came from
+const uint kSpecOutput = 3u;    // what a texel means, below
+const uint kSpecLampBase = 4u;  // measure: first of four lamps
+
+const uint kOutputDisplay = 0u;      // display-linear colour, tone curve applied here
+const uint kOutputHdr = 1u;          // cd/m² and illuminance in alpha
+const uint kOutputFalseColour = 2u;  // illuminance by colour with isolux lines
+const uint kOutputMeasure = 3u;      // lx of lamps base..base+3
+const uint kOutputAudit = 4u;        // position and illuminance; normal and illuminance
+
+// One lamp position. Directions are rows: dot(row, d) is a component in the frame of the lamp's table,
+// first angle = atan2(b, a), second angle = atan2(c, hypot(a, b)):
+//   type A: a forward, b right, c up;  type B: a forward, b up, c right (first is V);  type C: a c0, b c90, c -g0 (second is gamma - 90).
+struct GpuLamp {
+  vec4 position;     // xyz relative to the eye, m
+  vec4 row_a;
+  vec4 row_b;
+  vec4 row_c;
+  vec4 colour;       // rgb, luminance 1
+  vec4 range;        // first min, max; second min, max; degrees
+  vec4 bins_per_deg; // first, second; count of first, second
+  uvec4 table;       // guide of first, guide of second (in vec4s), candela (in floats), row length
+};
+
+struct GpuFrame {
+  vec4 clip_from_eye[4];    // columns; "eye" is the world turned to the eye's place, not its direction
+  vec4 exposure;            // x: 1/(cd/m²)
+  vec4 sky;                 // rgb zenith cd/m², w: factor at the horizon
+  vec4 view_from_clip[4];   // columns: clip position to eye-relative direction
+  GpuLamp lamps[kMaxLamps];
+};
+
+struct GpuMaterial {
+  vec4 reflectance;  // rgb rho, w: R_A in cd/(lx·m²)
+};
+
+// Push constants of one draw.
+struct GpuDraw {
+  vec4 origin;         // of the chunk, relative to the eye, m
+  vec4 detail_origin;  // of the chunk modulo 1024 m, so that detail stays put in float32; w: material index
+};
+
+PHARE_SHADER_END
+#endif

@@ -1,0 +1,28 @@
+// The one step that leaves photometric units: luminance to display. Fixed exposure, fixed curve, so that two beams compare.
+#ifndef PHARE_SHADERS_LIB_TONE_H
+#define PHARE_SHADERS_LIB_TONE_H
+#include "lib/portable.h"
+
+PHARE_SHADER_BEGIN
+
+/// Exposed luminance (1 = middle of the curve) to display-linear 0..1. Reinhard et al. 2002, eq. 4, with white at 12,
+/// applied to luminance so that colours keep their hue.
+PHARE_INLINE vec3 tone_curve(vec3 exposed) {
+  const float white = 12.0f;
+  float y = dot(exposed, vec3(0.2126f, 0.7152f, 0.0722f));
+  float scale = (1.0f + y / (white * white)) / (1.0f + y);
+  return clamp(exposed * scale, vec3(0.0f), vec3(1.0f));
+}
+
+/// Illuminance in lx as colour, display-linear: dark blue below 0.3 lx over cyan, green, yellow, red to white above 200 lx, by log E.
+PHARE_INLINE vec3 false_colour(float illuminance_lx) {
+  float t = clamp((log2(max(illuminance_lx, 1e-4f)) - log2(0.3f)) / (log2(200.0f) - log2(0.3f)), 0.0f, 1.0f) * 5.0f;
+  vec3 colour = mix(vec3(0.0f, 0.0f, 0.02f), vec3(0.01f, 0.02f, 0.35f), min(t, 1.0f));
+  colour = mix(colour, vec3(0.0f, 0.42f, 0.55f), clamp(t - 1.0f, 0.0f, 1.0f));
+  colour = mix(colour, vec3(0.05f, 0.55f, 0.06f), clamp(t - 2.0f, 0.0f, 1.0f));
+  colour = mix(colour, vec3(0.85f, 0.65f, 0.02f), clamp(t - 3.0f, 0.0f, 1.0f));
+  return mix(colour, vec3(0.8f, 0.05f, 0.02f), clamp(t - 4.0f, 0.0f, 1.0f));
+}
+
+PHARE_SHADER_END
+#endif

@@ -1,0 +1,13 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/tone.h"
+#include "tone_mapping.h"
+
+layout(set = 0, binding = 0) uniform sampler2D hdr_cdm2;
+layout(push_constant) uniform Constants { ToneConstants constants; };
+layout(location = 0) out vec4 result;
+
+void main() {
+  vec3 luminance = texelFetch(hdr_cdm2, ivec2(gl_FragCoord.xy), 0).rgb;
+  result = vec4(tone_curve(luminance * constants.exposure.x), 1.0);
+}

@@ -1,0 +1,11 @@
+// Contract of the tone-mapping pass: reads the HDR image, writes display-linear colour.
+#ifndef PHARE_SHADERS_TONE_MAPPING_H
+#define PHARE_SHADERS_TONE_MAPPING_H
+#include "lib/portable.h"
+PHARE_SHADER_BEGIN
+const uint kToneInput = 0u;  // binding: hdr_cdm2
+struct ToneConstants {
+  vec4 exposure;  // x: 1/(cd/m²)
+};
+PHARE_SHADER_END
+#endif

@@ -1,0 +1,156 @@
+#include "tests/net/sample.h"
+
+#include "net/channels.h"
+
+namespace phare::test {
+namespace {
+
+class Values {
+ public:
+  explicit Values(std::mt19937_64& random) : random_(random) {}
+  double number(double min, double max) { return std::uniform_real_distribution<double>(min, max)(random_); }
+  std::uint64_t whole(std::uint64_t max) { return std::uniform_int_distribution<std::uint64_t>(0, max)(random_); }
+  std::uint64_t bits() { return random_(); }
+  bool flag() { return (random_() & 1) != 0; }
+  std::vector<double> numbers(std::size_t count, double min, double max) {
+    std::vector<double> values(count);
+    for (double& value : values) value = number(min, max);
+    return values;
+  }
+
+ private:
+  std::mt19937_64& random_;
+};
+
+VehicleState vehicle(Values& v) {
+  VehicleState s;
+  s.frame_index = static_cast<std::int64_t>(v.whole(100000)) - 1;
+  s.x_m = v.number(-1e8, 1e8);
+  s.y_m = v.number(-1e8, 1e8);
+  s.z_m = v.number(-1e3, 1e4);
+  s.roll_rad = v.number(-1, 1);
+  s.pitch_rad = v.number(-1, 1);
+  s.yaw_rad = v.number(-7, 7);
+  s.vx_mps = v.number(-80, 80);
+  s.vy_mps = v.number(-80, 80);
+  s.vz_mps = v.number(-5, 5);
+  s.roll_rate_radps = v.number(-3, 3);
+  s.pitch_rate_radps = v.number(-3, 3);
+  s.yaw_rate_radps = v.number(-3, 3);
+  s.ax_mps2 = v.number(-12, 12);
+  s.ay_mps2 = v.number(-12, 12);
+  s.speed_mps = v.number(-10, 80);
+  s.steer_rad = v.number(-0.6, 0.6);
+  s.suspension_pitch_rad = v.number(-0.1, 0.1);
+  s.suspension_roll_rad = v.number(-0.1, 0.1);
+  s.suspension_heave_m = v.number(-0.2, 0.2);
+  s.level = v.flag() ? "single-track" : "kinematic";
+  s.step = v.bits();
+  s.state_hash = v.bits();
+  s.lag_s = v.number(0, 10);
+  s.high_beam_telltale = v.flag();
+  s.drive_ended = v.flag();
+  return s;
+}
+
+Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
+  switch (index) {
+    case kPayloadIndex<CockpitState>: {
+      CockpitState s;
+      s.frame_index = static_cast<std::int64_t>(v.whole(100000)) - 1;
+      s.light_switch = static_cast<LightSwitch>(v.whole(3));
+      s.flash = v.flag();
+      s.fog_front = v.flag();
+      s.design_index = static_cast<std::uint32_t>(v.whole(99));
+      s.steering_wheel_rad = v.number(-20, 20);
+      s.accelerator_01 = v.number(0, 1);
+      s.brake_01 = v.number(0, 1);
+      s.gear = static_cast<Gear>(v.whole(3));
+      s.fail_safe = v.flag();
+      s.light_changes = v.bits();
+      s.light_change_wall.ns = static_cast<std::int64_t>(v.whole(2'000'000'000'000'000'000));
+      s.light_change_sim.ns = static_cast<std::int64_t>(v.whole(3'600'000'000'000));
+      s.drive_ended = v.flag();
+      s.source = "can0";
+      return s;
+    }
+    case kPayloadIndex<VehicleState>: return vehicle(v);
+    case kPayloadIndex<FrameReport>: {
+      FrameReport r;
+      r.frame_index = static_cast<std::int64_t>(v.whole(100000)) - 1;
+      r.channel = channel;
+      r.channels = kMaxChannels;
+      r.frame_ms = v.number(0, 100);
+      r.gpu_ms = v.number(0, 100);
+      r.light_changes_drawn = v.bits();
+      r.drawn = vehicle(v);
+      r.pose_stale = v.flag();
+      return r;
+    }
+    case kPayloadIndex<RigControl>: {
+      switch (v.whole(4)) {
+        case 0: return RigControl{RigControl::Pause{v.flag()}};
+        case 1: return RigControl{RigControl::Seek{v.number(0, 1000)}};
+        case 2: return RigControl{RigControl::Design{static_cast<std::uint32_t>(v.whole(9))}};
+        case 3: return RigControl{RigControl::Aim{v.number(-0.1, 0.1)}};
+        default: return RigControl{RigControl::Quit{}};
+      }
+    }
+    case kPayloadIndex<ProbeRequest>: {
+      const std::size_t n = v.whole(50);
+      ProbeRequest r;
+      r.request_id = v.bits();
+      r.x_m = v.numbers(n, -1e8, 1e8);
+      r.y_m = v.numbers(n, -1e8, 1e8);
+      r.z_m = v.numbers(n, -1e3, 1e4);
+      r.nx = v.numbers(n, -1, 1);
+      r.ny = v.numbers(n, -1, 1);
+      r.nz = v.numbers(n, -1, 1);
+      return r;
+    }
+    default: {
+      ProbeReply r;
+      r.request_id = v.bits();
+      r.illuminance_lx = v.numbers(v.whole(50), 0, 1e4);
+      r.error = v.flag() ? "" : "no lamp is lit — prüfen";
+      return r;
+    }
+  }
+}
+
+}  // namespace
+
+Datagram sample(std::size_t payload_index, std::mt19937_64& random) {
+  Values v(random);
+  Datagram d;
+  d.sender = kChannels[payload_index].sender;
+  d.sender_channel = d.sender == Sender::kVisual ? static_cast<std::uint32_t>(v.whole(kMaxChannels - 1)) : 0;
+  d.start_id = v.bits() | 1;
+  d.sequence = 1 + v.whole(1'000'000);
+  d.sim_time.ns = static_cast<std::int64_t>(v.whole(3'600'000'000'000));
+  d.sent.ns = static_cast<std::int64_t>(v.whole(2'000'000'000'000'000'000));
+  d.payload = payload_of(payload_index, d.sender_channel, v);
+  return d;
+}
+
+std::vector<Datagram> samples(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Datagram> all;
+  for (std::size_t i = 0; i < kChannels.size(); ++i) all.push_back(sample(i, random));
+  const RigControl commands[] = {{RigControl::Pause{true}},  {RigControl::Pause{false}}, {RigControl::Seek{0.0}},
+                                 {RigControl::Seek{12.5}},   {RigControl::Design{0}},    {RigControl::Design{3}},
+                                 {RigControl::Aim{-0.01}},   {RigControl::Quit{}}};
+  for (const RigControl& command : commands) {
+    Datagram d = sample(kPayloadIndex<RigControl>, random);
+    d.payload = command;
+    all.push_back(d);
+  }
+  return all;
+}
+
+bool equal(const Datagram& a, const Datagram& b) {
+  return a.sender == b.sender && a.sender_channel == b.sender_channel && a.start_id == b.start_id &&
+         a.sequence == b.sequence && a.sim_time == b.sim_time && a.sent == b.sent && a.payload == b.payload;
+}
+
+}  // namespace phare::test

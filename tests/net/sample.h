@@ -1,0 +1,20 @@
+// Valid datagrams with every field set, for tests.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "net/messages.h"
+
+namespace phare::test {
+
+/// A valid datagram of payload `payload_index` with random values in every field.
+Datagram sample(std::size_t payload_index, std::mt19937_64& random);
+
+/// One of each payload, all RigControl commands among them.
+std::vector<Datagram> samples(std::uint64_t seed);
+
+bool equal(const Datagram& a, const Datagram& b);
+
+}  // namespace phare::test

@@ -1,0 +1,84 @@
+// phare-throw-garbage: a flood of datagrams that no process may take, against one port of the loopback.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <arpa/inet.h>
+#include <chrono>
+#include <cstdio>
+#include <netinet/in.h>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/socket.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "config/result.h"
+#include "net/drive_file.h"
+#include "net/wire.h"
+#include "tests/net/garbage.h"
+#include "tests/net/sample.h"
+
+int main(int argc, char** argv) {
+  using namespace phare;
+  CLI::App app{"Sends random, cut and bit-flipped datagrams to 127.0.0.1 and prints what it sent as one line of JSON.\n"
+               "Example: phare-throw-garbage --port 47001 --count 10000000 --seed 7"};
+  std::uint16_t port = 0;
+  std::uint64_t count = 0;
+  std::uint64_t seed = 1;
+  double rate_hz = 0.0;
+  std::string template_file;
+  app.add_option("--port", port, "UDP port")->required()->check(CLI::Range(1, 65535));
+  app.add_option("--count", count, "how many")->required()->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+  app.add_option("--seed", seed, "of the random numbers");
+  app.add_option("--rate", rate_hz, "datagrams a second, 0: as fast as it goes")->check(CLI::NonNegativeNumber);
+  app.add_option("--template", template_file, "drive file whose datagrams are cut and flipped; else made-up ones");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitDone : kExitBadInput;
+  }
+
+  std::vector<Datagram> valid = test::samples(seed);
+  if (!template_file.empty()) {
+    Result<Drive> drive = read_drive(template_file);
+    if (!drive || drive->datagrams.empty()) {
+      std::fprintf(stderr, "%s\n", drive ? (template_file + ": holds no datagram").c_str() : drive.error().text().c_str());
+      return kExitBadInput;
+    }
+    valid = std::move(drive->datagrams);
+    valid.resize(std::min<std::size_t>(valid.size(), 4096));
+  }
+  std::vector<std::string> encoded;
+  for (const Datagram& datagram : valid) encoded.push_back(encode(datagram));
+  test::Garbage garbage(std::move(encoded), seed);
+
+  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(port);
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (fd < 0) {
+    std::perror("socket");
+    return kExitBadInput;
+  }
+
+  const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  std::uint64_t failed = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto bytes = garbage.next();
+    if (sendto(fd, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to) < 0) ++failed;
+    if (rate_hz > 0.0 && i % 64 == 63) {
+      const double ahead_s = static_cast<double>(i + 1) / rate_hz - seconds();
+      if (ahead_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead_s));
+    }
+  }
+  const double took_s = seconds();
+  close(fd);
+  const nlohmann::json result = {{"port", port},     {"sent", count - failed},
+                                 {"failed", failed}, {"seed", seed},
+                                 {"seconds", took_s}, {"per_second", static_cast<double>(count - failed) / took_s}};
+  std::printf("%s\n", result.dump().c_str());
+  return kExitDone;
+}

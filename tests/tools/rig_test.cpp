@@ -1,0 +1,128 @@
+// unit: the rig reader and the lamp argument, good and bad.
+#include "config/rig.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+
+namespace phare {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+constexpr const char* kGoodRig = R"(scene = "generated/scenes/a.glb"
+vehicle = "../car.toml"
+cockpit = "/etc/cockpit.toml"
+[[channel]]
+fov_horizontal_deg = 90
+[[design]]
+name = "one"
+[[design.lamp]]
+name = "head"
+pair = true
+position_m = [3.0, 0.6, 0.7]
+[[design.lamp.source]]
+function = "low"
+file = "generated/lamps/l.ies"
+pitch_deg = -0.573
+yaw_deg = 1
+)";
+
+std::filesystem::path write_rig(std::string text) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "phare_rig_test.toml";
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string rig_error(const std::string& from, const std::string& to) {
+  std::string text = kGoodRig;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  const auto rig = read_rig(write_rig(text));
+  if (rig) return "";
+  return rig.error().text().substr(testing::TempDir().size());
+}
+
+TEST(Rig, ReadsGoodRig) {
+  setenv("PHARE_GENERATED_DIR", "/gen", 1);
+  const auto rig = read_rig(write_rig(kGoodRig));
+  unsetenv("PHARE_GENERATED_DIR");
+  ASSERT_TRUE(rig) << rig.error().text();
+  EXPECT_EQ(rig->scene_file, "/gen/scenes/a.glb");
+  EXPECT_EQ(rig->cockpit_file, "/etc/cockpit.toml");
+  EXPECT_TRUE(rig->vehicle_file.is_absolute());
+  EXPECT_EQ(rig->port_base, 47000);
+  ASSERT_EQ(rig->channels.size(), 1u);
+  EXPECT_DOUBLE_EQ(rig->channels[0].fov_horizontal_rad, 90 * kRadPerDeg);
+  ASSERT_EQ(rig->designs.size(), 1u);
+  ASSERT_EQ(rig->designs[0].lamps.size(), 2u);
+  const LampConfig& left = rig->designs[0].lamps[0];
+  const LampConfig& right = rig->designs[0].lamps[1];
+  EXPECT_EQ(left.name, "head left");
+  EXPECT_EQ(left.position_m, glm::dvec3(3.0, 0.6, 0.7));
+  EXPECT_EQ(right.position_m, glm::dvec3(3.0, -0.6, 0.7));
+  EXPECT_DOUBLE_EQ(left.sources.at(0).pitch_rad, -0.573 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(left.sources.at(0).yaw_rad, kRadPerDeg);
+  EXPECT_DOUBLE_EQ(right.sources.at(0).yaw_rad, -kRadPerDeg);
+  EXPECT_EQ(left.sources.at(0).function, LampFunction::kLow);
+}
+
+TEST(Rig, BadRigsSayWhere) {
+  EXPECT_EQ(rig_error("fov_horizontal_deg", "fov_deg"),
+            "phare_rig_test.toml:5: no key \"fov_deg\"; did you mean \"fov_horizontal_deg\"? (in channel)");
+  EXPECT_EQ(rig_error("= 90", "= 190"), "phare_rig_test.toml:5: \"channel.fov_horizontal_deg\": 190 is outside 1 … 170");
+  EXPECT_EQ(rig_error("\"low\"", "\"lwo\""),
+            "phare_rig_test.toml:13: \"design.lamp.source.function\": \"lwo\" is none of position, low, high, fog, daytime, cornering");
+  EXPECT_EQ(rig_error("0.6,", "-0.6,"), "phare_rig_test.toml:11: \"design.lamp.position_m\": a pair is given by its left lamp, y > 0");
+  EXPECT_EQ(rig_error("scene =", "scnee ="), "phare_rig_test.toml:1: no key \"scnee\"; did you mean \"scene\"?");
+  EXPECT_EQ(rig_error("[[channel]]", "[bus]\naddress=\"0.0.0.0\"\n[[channel]]"),
+            "phare_rig_test.toml:5: \"bus.address\": only loopback addresses (127.…) are served");
+  EXPECT_TRUE(rig_error("[[design.lamp]]", "[[design.lamp]").starts_with("phare_rig_test.toml:8: "));
+}
+
+TEST(Rig, MissingFilesAreNamed) {
+  const auto rig = read_rig(write_rig(kGoodRig));
+  ASSERT_TRUE(rig);
+  const Status status = check_rig_files(*rig);
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().text().find("scenes/a.glb: no such file; it is the scene of"), std::string::npos);
+  EXPECT_EQ(read_rig("/nowhere.toml").error().text(), "/nowhere.toml: no such file");
+}
+
+TEST(Rig, TheDemoRigReads) {
+  const auto rig = read_rig(PHARE_SOURCE_DIR "/config/rigs/country_road.toml");
+  ASSERT_TRUE(rig) << rig.error().text();
+  ASSERT_EQ(rig->designs.size(), 2u);
+  EXPECT_EQ(rig->designs[0].name, "halogen");
+  EXPECT_EQ(rig->designs[0].lamps.size(), 4u);
+  EXPECT_EQ(rig->designs[0].lamps[0].sources.size(), 2u);
+}
+
+TEST(LampArgument, GoodAndBad) {
+  const auto lamp = parse_lamp_argument("/d/low.ies,x=1.5,y=0.6,z=0.65,yaw_deg=2,pitch_deg=-0.5729,roll_deg=1,axis=gamma90,scale=2");
+  ASSERT_TRUE(lamp) << lamp.error().text();
+  EXPECT_EQ(lamp->position_m, glm::dvec3(1.5, 0.6, 0.65));
+  ASSERT_EQ(lamp->sources.size(), 1u);
+  EXPECT_EQ(lamp->sources[0].file, "/d/low.ies");
+  EXPECT_EQ(lamp->sources[0].axis, GammaAxis::kGamma90);
+  EXPECT_DOUBLE_EQ(lamp->sources[0].pitch_rad, -0.5729 * kRadPerDeg);
+  EXPECT_EQ(lamp->sources[0].scale, 2.0);
+
+  const auto reason = [](const char* text) {
+    const auto bad = parse_lamp_argument(text);
+    return bad ? std::string() : bad.error().reason;
+  };
+  EXPECT_EQ(reason("a.ies,x=1,y=2"), "\"z\" is missing (position in m)");
+  EXPECT_EQ(reason("a.ies,x=1,y=2,z=3m"), "\"z\": expected a finite number, got \"3m\"");
+  EXPECT_EQ(reason("a.ies,x=1,y=2,z=nan"), "\"z\": expected a finite number, got \"nan\"");
+  EXPECT_EQ(reason("a.ies,x=1,y=2,z=3,pitch=1"), "no key \"pitch\"; did you mean \"pitch_deg\"?");
+  EXPECT_EQ(reason("a.ies,x=1,x=2"), "\"x\" is given twice");
+  EXPECT_EQ(reason("x=1,y=2,z=3"), "the photometry file comes first: FILE,x=…,y=…,z=…");
+  EXPECT_EQ(reason("a.ies,x=1,y=2,z=3,axis=up"), "\"axis\": \"up\" is none of gamma0, gamma90");
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,129 @@
+#include "visual/image/image.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "visual/image/canvas.h"
+#include "visual/image/contact_sheet.h"
+#include "visual/image/lux_scale.h"
+
+namespace phare {
+namespace {
+
+std::filesystem::path temporary(const char* name) { return std::filesystem::path(testing::TempDir()) / name; }
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Image8 pattern(int width_px, int height_px) {
+  Image8 image = blank_image(width_px, height_px, 0, 0, 0);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = i % 4 == 3 ? 255 : static_cast<std::uint8_t>(i * 31 % 251);
+  return image;
+}
+
+TEST(Png, ReadsBackAndIsTheSameBytesTwice) {
+  const Image8 image = pattern(37, 23);
+  ASSERT_TRUE(write_png(temporary("a.png"), image).ok());
+  ASSERT_TRUE(write_png(temporary("b.png"), image).ok());
+  EXPECT_EQ(bytes_of(temporary("a.png")), bytes_of(temporary("b.png")));
+  const Result<Image8> back = read_png(temporary("a.png"));
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(back->width_px, 37);
+  EXPECT_EQ(back->height_px, 23);
+  EXPECT_EQ(back->rgba, image.rgba);
+}
+
+TEST(Png, AFolderThatIsNotThereIsAnErrorAndLeavesNothing) {
+  const std::filesystem::path file = temporary("no_such_folder") / "a.png";
+  const Status written = write_png(file, pattern(4, 4));
+  ASSERT_FALSE(written.ok());
+  EXPECT_NE(written.error().place.find("a.png"), std::string::npos);
+  EXPECT_FALSE(read_png(file).ok());
+}
+
+TEST(Exr, KeepsFloatsAndIlluminance) {
+  ImageF image{5, 3, {}};
+  for (int i = 0; i < 5 * 3 * 4; ++i) image.rgba.push_back(0.001f * static_cast<float>(i * i) + 1e-5f);
+  ASSERT_TRUE(write_exr(temporary("a.exr"), image).ok());
+  const Result<ImageF> back = read_exr(temporary("a.exr"));
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(back->width_px, 5);
+  EXPECT_EQ(back->height_px, 3);
+  EXPECT_EQ(back->rgba, image.rgba);
+  EXPECT_FALSE(read_exr(temporary("none.exr")).ok());
+  EXPECT_FALSE(write_exr(temporary("no_such_folder") / "a.exr", image).ok());
+}
+
+TEST(BoxDownscale, AveragesInLinearLight) {
+  Image8 image = blank_image(4, 2, 0, 0, 0);
+  fill_box(image, 0, 0, 1, 2, {255, 255, 255});  // half of the left box white
+  const Image8 small = box_downscale(image, 2);
+  EXPECT_EQ(small.width_px, 2);
+  EXPECT_EQ(small.height_px, 1);
+  EXPECT_EQ(small.rgba[0], 188);  // sRGB of 0.5
+  EXPECT_EQ(small.rgba[4], 0);
+  EXPECT_EQ(thumbnail(blank_image(1280, 720, 9, 9, 9), 320).height_px, 180);
+  EXPECT_EQ(thumbnail(blank_image(200, 100, 9, 9, 9), 320).width_px, 200);
+}
+
+TEST(Text, PutsInkInsideItsBox) {
+  Image8 image = blank_image(200, 40, 0, 0, 0);
+  draw_text(image, 10, 10, "25 m ±20°", {255, 255, 255});
+  int ink = 0, outside = 0;
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      if (image.rgba[static_cast<std::size_t>(y * 200 + x) * 4] == 0) continue;
+      ++ink;
+      if (x < 10 || y < 10 || x >= 10 + text_width_px("25 m ±20°") || y >= 10 + text_height_px()) ++outside;
+    }
+  }
+  EXPECT_GT(ink, 40);
+  EXPECT_EQ(outside, 0);
+  draw_text(image, -300, -300, "clipped", {255, 0, 0});  // no crash
+  draw_text(image, 190, 35, "clipped", {255, 0, 0}, 3);
+}
+
+TEST(ContactSheet, LayoutHoldsAllPictures) {
+  const SheetLayout layout = contact_sheet_layout(14, 320, 180);
+  EXPECT_EQ(layout.columns, 4);
+  EXPECT_EQ(layout.rows, 4);
+  EXPECT_GE(layout.width_px, 4 * 320);
+  EXPECT_GE(layout.height_px, 4 * 180);
+  EXPECT_EQ(contact_sheet_layout(2, 320, 180).columns, 2);
+  EXPECT_EQ(contact_sheet_layout(0, 320, 180).width_px, 0);
+  const Image8 sheet = contact_sheet({{blank_image(64, 36, 200, 0, 0), "0.0 s"}, {blank_image(64, 36, 0, 200, 0), "1.0 s"}});
+  EXPECT_EQ(sheet.width_px, contact_sheet_layout(2, 64, 36).width_px);
+}
+
+TEST(Thumbnails, StayFewAndEvenOverALongDrive) {
+  Thumbnails thumbnails;
+  for (int second = 0; second < 3600; ++second) {
+    if (thumbnails.wants_next()) thumbnails.offer({blank_image(8, 8, 0, 0, 0), std::to_string(second)});
+    else thumbnails.skip();
+    EXPECT_LE(thumbnails.size(), Thumbnails::kMost);
+  }
+  const std::vector<LabelledImage> picked = thumbnails.pick(16);
+  ASSERT_EQ(picked.size(), 16u);
+  EXPECT_EQ(picked.front().label, "0");
+  EXPECT_GT(std::stoi(picked.back().label), 3200);
+  for (std::size_t i = 1; i < picked.size(); ++i) {
+    const int gap = std::stoi(picked[i].label) - std::stoi(picked[i - 1].label);
+    EXPECT_GT(gap, 0);
+    EXPECT_LT(gap, 400);
+  }
+}
+
+TEST(LuxScale, BandsAreTheIsoluxLevels) {
+  EXPECT_EQ(isolux_band(0.5), 0);
+  EXPECT_EQ(isolux_band(1.0), 1);
+  EXPECT_EQ(isolux_band(4.0), 2);
+  EXPECT_EQ(isolux_band(1000.0), 7);
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,161 @@
+#include "visual/process/lamps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "visual/process/stills.h"
+
+namespace phare {
+namespace {
+
+/// A type A table of the same intensity everywhere within ±30° x ±20°, LM-63-2002.
+std::filesystem::path even_lamp(const char* name, int intensity_cd) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
+  std::ofstream out(file);
+  out << "IESNA:LM-63-2002\n[TEST] even\n[MANUFAC] Phare\nTILT=NONE\n1 -1 1 3 3 3 2 0 0 0\n1 1 0\n-20 0 20\n-30 0 30\n";
+  for (int i = 0; i < 3; ++i) out << intensity_cd << ' ' << intensity_cd << ' ' << intensity_cd << '\n';
+  return file;
+}
+
+SourceConfig source(LampFunction function, const std::filesystem::path& file) {
+  SourceConfig config;
+  config.function = function;
+  config.file = file;
+  return config;
+}
+
+Rig two_lamp_rig() {
+  const std::filesystem::path low = even_lamp("even_low.ies", 900), high = even_lamp("even_high.ies", 2500);
+  Rig rig;
+  for (const char* name : {"first", "second"}) {
+    DesignConfig design;
+    design.name = name;
+    for (const double y_m : {0.6, -0.6}) {
+      LampConfig lamp;
+      lamp.name = "headlamp";
+      lamp.position_m = {3.0, y_m, 0.7};
+      lamp.sources = {source(LampFunction::kLow, low), source(LampFunction::kHigh, high)};
+      design.lamps.push_back(lamp);
+    }
+    rig.designs.push_back(design);
+  }
+  return rig;
+}
+
+CockpitState controls(LightSwitch light, bool flash = false, bool fog = false) {
+  CockpitState state;
+  state.light_switch = light;
+  state.flash = flash;
+  state.fog_front = fog;
+  return state;
+}
+
+using Lit = std::set<LampFunction>;
+
+TEST(LitFunctions, FollowTheSwitch) {
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kOff), true), Lit{});
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kOff, true), true), Lit{LampFunction::kHigh});
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kOff, false, true), true), Lit{});
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kPosition), true), Lit{LampFunction::kPosition});
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kPosition, false, true), true), (Lit{LampFunction::kPosition, LampFunction::kFog}));
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kLow), true), (Lit{LampFunction::kPosition, LampFunction::kLow}));
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kHigh), true), (Lit{LampFunction::kPosition, LampFunction::kLow, LampFunction::kHigh}));
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kHigh), false), (Lit{LampFunction::kPosition, LampFunction::kHigh}));
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kLow, true), false), (Lit{LampFunction::kPosition, LampFunction::kHigh}));
+}
+
+TEST(Lamps, ComposeOnlyWhatWasNotSeenBefore) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok()) << lamps.error().text();
+  EXPECT_EQ(lamps->set_controls(controls(LightSwitch::kLow)).size(), 2u);
+  EXPECT_EQ(lamps->compositions(), 2u);
+  for (int frame = 0; frame < 100; ++frame) EXPECT_TRUE(lamps->set_controls(controls(LightSwitch::kLow)).empty());
+  EXPECT_EQ(lamps->compositions(), 2u);
+  EXPECT_EQ(lamps->set_controls(controls(LightSwitch::kHigh)).size(), 2u);
+  EXPECT_EQ(lamps->compositions(), 4u);
+  EXPECT_EQ(lamps->set_controls(controls(LightSwitch::kLow)).size(), 2u);  // uploaded again, not composed again
+  EXPECT_EQ(lamps->compositions(), 4u);
+  EXPECT_EQ(lamps->uploads(), 6u);
+  EXPECT_TRUE(lamps->set_controls(controls(LightSwitch::kLow, false, true)).empty());  // no fog lamps: nothing changes
+  EXPECT_EQ(lamps->compositions(), 4u);
+  CockpitState other = controls(LightSwitch::kLow);
+  other.design_index = 1;
+  EXPECT_EQ(lamps->set_controls(other).size(), 2u);
+  EXPECT_EQ(lamps->compositions(), 6u);
+  other.design_index = 99;  // past the last: the last
+  EXPECT_TRUE(lamps->set_controls(other).empty());
+  EXPECT_EQ(lamps->design().name, "second");
+}
+
+TEST(Lamps, DarkPositionsAreNotPlaced) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok());
+  lamps->set_controls(controls(LightSwitch::kOff));
+  EXPECT_TRUE(lamps->placed(VehicleState{}).empty());
+  lamps->set_controls(controls(LightSwitch::kLow));
+  EXPECT_EQ(lamps->placed(VehicleState{}).size(), 2u);
+}
+
+TEST(Lamps, StandInTheWorldWithTheBody) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok());
+  lamps->set_controls(controls(LightSwitch::kLow));
+  VehicleState pose;
+  pose.x_m = 100.0;
+  pose.yaw_rad = M_PI / 2;  // heads north (y)
+  const PlacedLamp left = lamps->placed(pose).front();
+  EXPECT_NEAR(left.position_m.x, 99.4, 1e-12);
+  EXPECT_NEAR(left.position_m.y, 3.0, 1e-12);
+  EXPECT_NEAR(left.position_m.z, 0.7, 1e-12);
+  EXPECT_NEAR(left.world_from_image[0].y, 1.0, 1e-12);
+
+  pose = {};
+  pose.pitch_rad = 0.1;  // nose down: the beam falls
+  EXPECT_LT(lamps->placed(pose).front().world_from_image[0].z, -0.09);
+  lamps->set_aim(0.1);  // aim up by as much: level again
+  EXPECT_NEAR(lamps->placed(pose).front().world_from_image[0].z, 0.0, 1e-12);
+}
+
+TEST(Lamps, IlluminanceIsIntensityOverDistanceSquared) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok());
+  lamps->set_controls(controls(LightSwitch::kLow));
+  VehicleState pose;
+  pose.x_m = 5e6;  // far from the origin
+  const MeasurePoint wall{{5e6 + 28.0, 0.0, 0.7}, {-1.0, 0.0, 0.0}};
+  const double r2 = 25.0 * 25.0 + 0.36;
+  EXPECT_NEAR(lamps->illuminance_lx(pose, wall), 2.0 * 900.0 / r2 * 25.0 / std::sqrt(r2), 1e-7);
+  lamps->set_controls(controls(LightSwitch::kHigh));
+  EXPECT_NEAR(lamps->illuminance_lx(pose, wall), 2.0 * 3400.0 / r2 * 25.0 / std::sqrt(r2), 1e-7);
+  EXPECT_EQ(lamps->illuminance_lx(pose, {wall.position_m, {1.0, 0.0, 0.0}}), 0.0);  // lit from behind
+}
+
+TEST(Lamps, BadRigsAreErrors) {
+  Rig none;
+  EXPECT_FALSE(Lamps::load(none).ok());
+  Rig missing = two_lamp_rig();
+  missing.designs[0].lamps[0].sources[0].file = "/nonexistent/lamp.ies";
+  const Result<Lamps> loaded = Lamps::load(missing);
+  ASSERT_FALSE(loaded.ok());
+  EXPECT_NE(loaded.error().text().find("lamp.ies"), std::string::npos);
+  Rig many = two_lamp_rig();
+  many.designs[0].lamps.resize(9);
+  EXPECT_FALSE(Lamps::load(many).ok());
+}
+
+TEST(Stills, TheWallHasItsGridAndLight) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok());
+  const Image8 page = wall_picture(*lamps, 0);
+  EXPECT_GT(page.width_px, 40 * 28);
+  EXPECT_GT(page.height_px, 16 * 28);
+  // 2 x 900 cd at 25 m: 2.9 lx, a colour well away from black in the middle of the wall, off the grid lines
+  const std::size_t at = (static_cast<std::size_t>(page.height_px / 2 + 20) * static_cast<std::size_t>(page.width_px) + 700) * 4;
+  EXPECT_GT(page.rgba[at] + page.rgba[at + 1] + page.rgba[at + 2], 60);
+}
+
+}  // namespace
+}  // namespace phare

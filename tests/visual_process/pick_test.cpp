@@ -1,0 +1,78 @@
+#include "visual/process/pick.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "visual/process/cameras.h"
+
+namespace phare {
+namespace {
+
+/// One ground square, 200 m wide, about (1000, 0, 2).
+Scene ground() {
+  Scene scene;
+  scene.materials.resize(1);
+  for (const glm::vec3 corner : {glm::vec3{-100, -100, 0}, {100, -100, 0}, {100, 100, 0}, {-100, 100, 0}}) scene.vertices.push_back({corner, {0, 0, 1}});
+  scene.indices = {0, 1, 2, 0, 2, 3};
+  SceneChunk chunk;
+  chunk.origin_m = {1000.0, 0.0, 2.0};
+  chunk.low_m = {900.0, -100.0, 2.0};
+  chunk.high_m = {1100.0, 100.0, 2.0};
+  chunk.index_count = 6;
+  chunk.vertex_count = 4;
+  scene.chunks.push_back(chunk);
+  return scene;
+}
+
+TEST(Pick, MeetsTheGroundWhereGeometrySays) {
+  const Scene scene = ground();
+  const Ray ray{{1000.0, 5.0, 12.0}, glm::dvec3{std::sqrt(0.5), 0.0, -std::sqrt(0.5)}};
+  const auto point = pick(scene, ray);
+  ASSERT_TRUE(point.has_value());
+  EXPECT_NEAR(point->position_m.x, 1010.0, 1e-9);
+  EXPECT_NEAR(point->position_m.y, 5.0, 1e-9);
+  EXPECT_NEAR(point->position_m.z, 2.0, 1e-9);
+  EXPECT_NEAR(point->normal.z, 1.0, 1e-12);
+  EXPECT_FALSE(pick(scene, {{1000.0, 5.0, 12.0}, {0.0, 0.0, 1.0}}).has_value());
+  EXPECT_FALSE(pick(scene, ray, 5.0).has_value());
+}
+
+TEST(RayThrough, MiddleAndEdgesOfThePicture) {
+  Camera camera;  // looks along x
+  camera.fov_horizontal_rad = M_PI / 2;
+  const Ray middle = ray_through(camera, 99.5, 49.5, 200, 100);
+  EXPECT_NEAR(middle.direction.x, 1.0, 1e-12);
+  const Ray right = ray_through(camera, 199.5, 49.5, 200, 100);  // the right edge: 45° to the right, y < 0
+  EXPECT_NEAR(right.direction.y, -std::sqrt(0.5), 1e-12);
+  const Ray top = ray_through(camera, 99.5, -0.5, 200, 100);
+  EXPECT_GT(top.direction.z, 0.4);
+}
+
+TEST(BirdsEye, IsAMapAheadOfTheCar) {
+  VehicleState pose;
+  pose.x_m = 1000.0;
+  pose.z_m = 2.0;
+  pose.pitch_rad = 0.05;  // does not tilt the map
+  const Camera camera = birds_eye_camera(pose);
+  const auto near_left = pick(ground(), ray_through(camera, -0.5, -0.5, 1000, 400));
+  ASSERT_TRUE(near_left.has_value());
+  EXPECT_NEAR(near_left->position_m.x, 1000.0 + kBirdsEyeStart_m, 1e-9);
+  EXPECT_NEAR(near_left->position_m.y, 20.0, 1e-9);
+  const auto far_right = pick(ground(), ray_through(camera, 999.5 - 1e-6, 399.5, 1000, 400));
+  ASSERT_TRUE(far_right.has_value());
+  EXPECT_NEAR(far_right->position_m.x, 1100.0, 1e-6);
+  EXPECT_NEAR(far_right->position_m.y, -20.0, 1e-9);
+}
+
+TEST(DriverCamera, MovesWithTheBody) {
+  ChannelConfig channel;
+  VehicleState pose;
+  pose.pitch_rad = 0.02;
+  const Camera camera = driver_camera(channel, pose);
+  EXPECT_NEAR(camera.world_from_eye[0].z, -std::sin(0.02), 1e-12);  // nose down, the eye looks down
+  EXPECT_LT(camera.eye_m.z, channel.eye_m.z);
+}
+
+}  // namespace
+}  // namespace phare

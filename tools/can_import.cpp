@@ -1,0 +1,379 @@
+#include "tools/can_import.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "cockpit_io/candump.h"
+#include "cockpit_io/dbc.h"
+#include "tools/csv_columns.h"
+#include "tools/local_fit.h"
+#include "vehicle_dynamics/models/kinematic.h"
+#include "vehicle_dynamics/state.h"
+
+namespace phare {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr std::int64_t kPeriod_ns = 10'000'000;   // 100 Hz, both messages
+constexpr double kSpeedWindow_s = 0.4;  // speed is quantised to 0.01 km/h at 40 Hz: leaves 0.02 m/s² of noise on acceleration
+constexpr double kPoseWindow_s = 0.25;  // pose comes at 20 Hz: ten points
+constexpr double kSteerWindow_s = 0.05;
+constexpr double kCoasting_mps2 = 0.5;  // a car in gear slows that much by itself; more is braking
+
+struct Samples {
+  std::vector<double> t_s, value;
+};
+
+/// One control: the signals that add up to it and the factor into SI.
+struct Control {
+  std::string what;
+  std::vector<const DbcSignal*> signals;
+  const DbcMessage* message = nullptr;
+  double factor = 1.0;
+  Samples samples;
+};
+
+double si_factor(const std::string& unit) {
+  if (unit == "km/h" || unit == "kph") return 1.0 / 3.6;
+  if (unit == "mph") return 0.44704;
+  if (unit == "deg") return kRadPerDeg;
+  if (unit == "%") return 0.01;
+  return 1.0;
+}
+
+/// Finds "MESSAGE.SIGNAL+MESSAGE.SIGNAL" in the DBC.
+Result<Control> find_control(const Dbc& dbc, const std::string& what, const std::string& path) {
+  Control control;
+  control.what = what;
+  for (std::size_t start = 0; start <= path.size();) {
+    const std::size_t end = std::min(path.find('+', start), path.size());
+    const std::string term = path.substr(start, end - start);
+    start = end + 1;
+    const std::size_t dot = term.find('.');
+    if (dot == std::string::npos) return Error{what, "expected MESSAGE.SIGNAL, got \"" + term + "\""};
+    const DbcMessage* message = dbc.find(term.substr(0, dot));
+    if (message == nullptr) return Error{dbc.file.string(), "no message \"" + term.substr(0, dot) + "\" for the " + what};
+    if (control.message != nullptr && control.message != message) return Error{what, "signals of one message only can be added"};
+    const DbcSignal* signal = message->find(term.substr(dot + 1));
+    if (signal == nullptr) {
+      return Error{dbc.file.string() + ":" + std::to_string(message->line),
+                   "message " + message->name + " has no signal \"" + term.substr(dot + 1) + "\" for the " + what};
+    }
+    control.message = message;
+    control.signals.push_back(signal);
+    control.factor = si_factor(signal->unit);
+  }
+  return control;
+}
+
+std::optional<double> decode_control(const Control& control, const CanFrame& frame) {
+  double sum = 0.0;
+  for (const DbcSignal* signal : control.signals) {
+    const auto value = decode(*control.message, *signal, frame);
+    if (!value) return std::nullopt;
+    sum += *value;
+  }
+  return sum * control.factor;
+}
+
+double held_at(const Samples& samples, double t_s, double before_first) {
+  const auto after = std::upper_bound(samples.t_s.begin(), samples.t_s.end(), t_s);
+  if (after == samples.t_s.begin()) return before_first;
+  return samples.value[static_cast<std::size_t>(after - samples.t_s.begin()) - 1];
+}
+
+/// The lane to drive on, metre by metre.
+struct Lane {
+  std::vector<double> s_m, x_m, y_m, z_m, heading_rad, curvature_1pm;
+
+  struct Point {
+    double x_m, y_m, z_m, heading_rad, curvature_1pm, grade;
+  };
+  /// Cubic Hermite between the rows, with the headings as tangents; straight on past the ends.
+  Point at(double s) const {
+    const auto after = std::upper_bound(s_m.begin() + 1, s_m.end() - 1, s);
+    const auto j = static_cast<std::size_t>(after - s_m.begin()), i = j - 1;
+    const double h = s_m[j] - s_m[i], u = (s - s_m[i]) / h;
+    const double h00 = (1 + 2 * u) * (1 - u) * (1 - u), h10 = u * (1 - u) * (1 - u);
+    const double h01 = u * u * (3 - 2 * u), h11 = u * u * (u - 1);
+    const auto mix = [&](double a, double b) { return a + u * (b - a); };
+    const double grade_i = grade(i), grade_j = grade(j);
+    return {h00 * x_m[i] + h10 * h * std::cos(heading_rad[i]) + h01 * x_m[j] + h11 * h * std::cos(heading_rad[j]),
+            h00 * y_m[i] + h10 * h * std::sin(heading_rad[i]) + h01 * y_m[j] + h11 * h * std::sin(heading_rad[j]),
+            h00 * z_m[i] + h10 * h * grade_i + h01 * z_m[j] + h11 * h * grade_j,
+            mix(heading_rad[i], heading_rad[j]), mix(curvature_1pm[i], curvature_1pm[j]), mix(grade_i, grade_j)};
+  }
+
+ private:
+  double grade(std::size_t i) const {
+    const std::size_t a = i == 0 ? 0 : i - 1, b = std::min(i + 1, s_m.size() - 1);
+    return (z_m[b] - z_m[a]) / (s_m[b] - s_m[a]);
+  }
+};
+
+void unwrap(std::vector<double>& angles_rad) {
+  for (std::size_t i = 1; i < angles_rad.size(); ++i) {
+    const double turns = std::round((angles_rad[i] - angles_rad[i - 1]) / (2.0 * std::numbers::pi));
+    angles_rad[i] -= turns * 2.0 * std::numbers::pi;
+  }
+}
+
+Status check_ascending(const std::vector<double>& values, const std::filesystem::path& file, const char* column) {
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (!(values[i] > values[i - 1])) {
+      return Error{file.string(), std::string("\"") + column + "\" does not ascend at row " + std::to_string(i + 1)};
+    }
+  }
+  if (values.size() < 2) return Error{file.string(), "needs at least two rows"};
+  return Done{};
+}
+
+Result<Lane> read_lane(const std::filesystem::path& file) {
+  const std::array<std::string, 6> names{"s_m", "x_m", "y_m", "z_m", "heading_rad", "curvature_1pm"};
+  auto columns = read_csv_columns(file, names);
+  if (!columns) return columns.error();
+  auto& c = *columns;
+  Lane lane{std::move(c[0]), std::move(c[1]), std::move(c[2]), std::move(c[3]), std::move(c[4]), std::move(c[5])};
+  if (const Status status = check_ascending(lane.s_m, file, "s_m"); !status) return status.error();
+  unwrap(lane.heading_rad);
+  return lane;
+}
+
+struct Pose {
+  std::vector<double> t_s, east_m, north_m, up_m, yaw_rad, pitch_rad;
+};
+
+Result<Pose> read_pose(const std::filesystem::path& file) {
+  const std::array<std::string, 6> names{"t_s", "east_m", "north_m", "up_m", "heading_deg_cw_from_north", "path_pitch_deg"};
+  auto columns = read_csv_columns(file, names);
+  if (!columns) return columns.error();
+  auto& c = *columns;
+  Pose pose{std::move(c[0]), std::move(c[1]), std::move(c[2]), std::move(c[3]), std::move(c[4]), std::move(c[5])};
+  if (const Status status = check_ascending(pose.t_s, file, "t_s"); !status) return status.error();
+  for (double& angle : pose.yaw_rad) angle = std::numbers::pi / 2.0 - angle * kRadPerDeg;
+  for (double& angle : pose.pitch_rad) angle = -angle * kRadPerDeg;  // the table's is positive uphill, ISO 8855's nose down
+  unwrap(pose.yaw_rad);
+  return pose;
+}
+
+/// Heights under the wheels from the scene's road; where it has none, the plane through the lane's point.
+void stand_on_road(const ImportOptions& options, double z_m, double grade, CarState& car, double dt) {
+  const auto contacts = kinematic::contact_points(options.vehicle, car);
+  std::array<double, 4> height{};
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto road = options.road.at(contacts[i].x, contacts[i].y);
+    height[i] = road ? road->z_m : z_m + (i < 2 ? grade * options.vehicle.wheelbase_m : 0.0);
+  }
+  kinematic::stand_on(options.vehicle, height, car, dt);
+}
+
+LightSwitch light_switch(ImportLight light, bool parking, bool low, bool high) {
+  if (light == ImportLight::kLow) return LightSwitch::kLow;
+  if (light == ImportLight::kHigh) return LightSwitch::kHigh;
+  if (high) return LightSwitch::kHigh;
+  if (low) return LightSwitch::kLow;
+  return parking ? LightSwitch::kPosition : LightSwitch::kOff;
+}
+
+}  // namespace
+
+Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
+  auto log = read_candump(options.can_log);
+  if (!log) return log.error();
+  auto dbc = read_dbc(options.dbc);
+  if (!dbc) return dbc.error();
+  auto pose = read_pose(options.pose);
+  if (!pose) return pose.error();
+  std::optional<Lane> lane;
+  if (options.lane) {
+    auto read = read_lane(*options.lane);
+    if (!read) return read.error();
+    lane = std::move(*read);
+  }
+
+  // Which signals: steering and speed must be there, the others may.
+  enum { kSteering, kSpeed, kAccelerator, kBrake, kParking, kLow, kHigh, kControls };
+  const std::array<std::pair<const char*, const std::string*>, kControls> wanted{{
+      {"steering", &options.signals.steering}, {"speed", &options.signals.speed},
+      {"accelerator", &options.signals.accelerator}, {"brake", &options.signals.brake},
+      {"parking light", &options.signals.parking_light}, {"low beam", &options.signals.low_beam},
+      {"high beam", &options.signals.high_beam}}};
+  ImportedDrive drive;
+  std::vector<Control> controls;
+  for (const auto& [what, path] : wanted) {
+    auto control = find_control(*dbc, what, *path);
+    if (!control && controls.size() <= kSpeed) return control.error();
+    if (!control) drive.notes.push_back(std::string(what) + ": " + control.error().text());
+    controls.push_back(control ? std::move(*control) : Control{what, {}, nullptr, 1.0, {}});
+  }
+
+  // Decode every frame within the time that log and pose share.
+  ImportCounts& counts = drive.counts;
+  const double log_begin_s = static_cast<double>(log->entries.front().stamp_ns) * 1e-9;
+  const double log_end_s = static_cast<double>(log->entries.back().stamp_ns) * 1e-9;
+  const double begin_s = std::max(log_begin_s, pose->t_s.front()), end_s = std::min(log_end_s, pose->t_s.back());
+  if (!(end_s > begin_s)) return Error{options.pose.string(), "shares no time with " + options.can_log.string()};
+  counts.broken_lines = log->broken_lines;
+  counts.backward_stamps = log->backward_stamps;
+  counts.pose_rows = pose->t_s.size();
+  for (const CandumpEntry& entry : log->entries) {
+    ++counts.frames;
+    const double t_s = static_cast<double>(entry.stamp_ns) * 1e-9;
+    if (t_s < begin_s || t_s > end_s) {
+      ++counts.outside;
+      continue;
+    }
+    bool ours = false, decoded = false;
+    for (Control& control : controls) {
+      if (control.message == nullptr || control.message->id != entry.frame.id ||
+          control.message->extended != entry.frame.extended) {
+        continue;
+      }
+      ours = true;
+      Samples& samples = control.samples;
+      if (!samples.t_s.empty() && t_s <= samples.t_s.back()) continue;  // stamped backwards: order is the log's, not time's
+      if (const auto value = decode_control(control, entry.frame)) {
+        decoded = true;
+        samples.t_s.push_back(t_s);
+        samples.value.push_back(*value);
+      }
+    }
+    ++(decoded ? counts.used : ours ? counts.undecodable : counts.other_ids);
+  }
+  const auto sample_count = [&](std::size_t i) { return static_cast<std::uint64_t>(controls[i].samples.t_s.size()); };
+  counts.steering_samples = sample_count(kSteering);
+  counts.speed_samples = sample_count(kSpeed);
+  counts.accelerator_samples = sample_count(kAccelerator);
+  counts.brake_samples = sample_count(kBrake);
+  counts.light_samples = sample_count(kLow);
+  for (const std::size_t i : {std::size_t{kSteering}, std::size_t{kSpeed}}) {
+    if (sample_count(i) < 4) {
+      return Error{options.can_log.string(), "fewer than four frames of " + controls[i].message->name + " for the " + controls[i].what};
+    }
+  }
+  if (counts.accelerator_samples == 0) drive.notes.push_back("accelerator: not in the log, 0");
+  if (counts.brake_samples == 0) {
+    drive.notes.push_back("brake: not in the log; taken from the deceleration while the accelerator is released");
+  }
+  if (options.light != ImportLight::kAsRecorded) {
+    const bool dark = std::none_of(controls[kLow].samples.value.begin(), controls[kLow].samples.value.end(),
+                                   [](double on) { return on > 0.5; });
+    drive.notes.push_back(std::string("light switch: ") + (options.light == ImportLight::kLow ? "low" : "high") + " throughout, " +
+                          (dark ? "because the recorded stalk is off" : "instead of the recorded one"));
+  }
+  if (lane) {
+    drive.notes.push_back("path: put onto " + options.lane->filename().string() +
+                          " by path length; speed and acceleration are the recorded ones, the turns are the lane's");
+  }
+
+  // Every 10 ms: controls, motion, attitude.
+  const auto frames = static_cast<std::int64_t>(std::floor((end_s - begin_s) * 1e9 / static_cast<double>(kPeriod_ns)));
+  const auto begin_ns = static_cast<std::int64_t>(std::llround(begin_s * 1e9));
+  const double dt = static_cast<double>(kPeriod_ns) * 1e-9;
+  double path_m = lane ? options.lane_start_m : 0.0, speed_before = 0.0;
+  CockpitState cockpit;
+  cockpit.source = "import " + options.can_log.filename().string();
+  CarState car;
+  for (std::int64_t k = 0; k <= frames; ++k) {
+    const SimTime sim_time{k * kPeriod_ns};
+    const double t_s = begin_s + sim_time.seconds();
+    const bool last = k == frames;
+    const FittedValue speed = local_fit(controls[kSpeed].samples.t_s, controls[kSpeed].samples.value, t_s, kSpeedWindow_s);
+    const FittedValue steering = local_fit(controls[kSteering].samples.t_s, controls[kSteering].samples.value, t_s, kSteerWindow_s);
+    const double accelerator = std::clamp(held_at(controls[kAccelerator].samples, t_s, 0.0), 0.0, 1.0);
+
+    const LightSwitch light = light_switch(options.light, held_at(controls[kParking].samples, t_s, 0.0) > 0.5,
+                                           held_at(controls[kLow].samples, t_s, 0.0) > 0.5,
+                                           held_at(controls[kHigh].samples, t_s, 0.0) > 0.5);
+    if (light != cockpit.light_switch) {
+      cockpit.light_switch = light;
+      ++cockpit.light_changes;
+      cockpit.light_change_sim = sim_time;
+      cockpit.light_change_wall = WallTime{begin_ns + sim_time.ns};
+    }
+    cockpit.steering_wheel_rad = steering.value;
+    cockpit.accelerator_01 = accelerator;
+    const double braking_mps2 = accelerator < 0.01 ? std::max(0.0, -speed.slope - kCoasting_mps2) : 0.0;
+    cockpit.brake_01 = counts.brake_samples > 0
+                           ? std::clamp(held_at(controls[kBrake].samples, t_s, 0.0), 0.0, 1.0)
+                           : std::clamp(braking_mps2 * options.vehicle.mass_kg / options.vehicle.max_brake_force_n, 0.0, 1.0);
+    cockpit.drive_ended = last;
+
+    car.speed_mps = speed.value;
+    car.ax_mps2 = speed.slope;
+    if (k > 0) path_m += 0.5 * (speed_before + speed.value) * dt;
+    speed_before = speed.value;
+    if (lane) {
+      if (path_m + options.vehicle.wheelbase_m > lane->s_m.back()) {
+        return Error{options.lane->string(), "the lane ends after " + std::to_string(lane->s_m.back()) + " m, the drive goes on; choose a smaller --start"};
+      }
+      const Lane::Point at = lane->at(path_m);
+      car.x_m = at.x_m;
+      car.y_m = at.y_m;
+      car.yaw_rad = at.heading_rad;
+      car.yaw_rate_radps = at.curvature_1pm * speed.value;
+      car.steer_rad = std::atan(options.vehicle.wheelbase_m * at.curvature_1pm);
+      stand_on_road(options, at.z_m, at.grade, car, k == 0 ? 0.0 : dt);
+    } else {
+      const FittedValue yaw = local_fit(pose->t_s, pose->yaw_rad, t_s, kPoseWindow_s);
+      const FittedValue pitch = local_fit(pose->t_s, pose->pitch_rad, t_s, kPoseWindow_s);
+      car.x_m = local_fit(pose->t_s, pose->east_m, t_s, kPoseWindow_s).value;
+      car.y_m = local_fit(pose->t_s, pose->north_m, t_s, kPoseWindow_s).value;
+      car.z_m = local_fit(pose->t_s, pose->up_m, t_s, kPoseWindow_s).value;
+      car.yaw_rad = yaw.value;
+      car.yaw_rate_radps = yaw.slope;
+      car.road_pitch_rad = pitch.value;
+      car.road_pitch_rate_radps = pitch.slope;
+      car.steer_rad = steering.value / options.vehicle.steering_ratio;
+    }
+    car.ay_mps2 = car.yaw_rate_radps * speed.value;
+    const kinematic::Attitude attitude = kinematic::quasi_static_attitude(
+        options.vehicle, car.ax_mps2 - kGravity_mps2 * std::sin(car.road_pitch_rad),
+        car.ay_mps2 + kGravity_mps2 * std::cos(car.road_pitch_rad) * std::sin(car.road_roll_rad));
+    car.pitch_rate_radps = k == 0 ? 0.0 : (attitude.pitch_rad - car.pitch_rad) / dt;
+    car.roll_rate_radps = k == 0 ? 0.0 : (attitude.roll_rad - car.roll_rad) / dt;
+    car.heave_rate_mps = k == 0 ? 0.0 : (attitude.heave_m - car.heave_m) / dt;
+    car.pitch_rad = attitude.pitch_rad;
+    car.roll_rad = attitude.roll_rad;
+    car.heave_m = attitude.heave_m;
+
+    VehicleState vehicle = to_message(car);
+    vehicle.level = "import";
+    vehicle.step = static_cast<std::uint64_t>(k);
+    vehicle.state_hash = state_hash(car);
+    vehicle.high_beam_telltale = light == LightSwitch::kHigh;
+    vehicle.drive_ended = last;
+    Datagram datagram;
+    datagram.start_id = 1;  // fixed, so the same input gives the same file
+    datagram.sequence = static_cast<std::uint64_t>(k) + 1;
+    datagram.sim_time = sim_time;
+    datagram.sent = WallTime{begin_ns + sim_time.ns};
+    datagram.sender = Sender::kCockpit;
+    datagram.payload = cockpit;
+    drive.datagrams.push_back(datagram);
+    datagram.sender = Sender::kDynamics;
+    datagram.payload = vehicle;
+    drive.datagrams.push_back(std::move(datagram));
+    ++counts.cockpit_messages;
+    ++counts.vehicle_messages;
+  }
+  drive.duration_s = static_cast<double>(frames * kPeriod_ns) * 1e-9;
+  drive.distance_m = path_m - (lane ? options.lane_start_m : 0.0);
+  return drive;
+}
+
+nlohmann::json to_json(const ImportedDrive& drive) {
+  const ImportCounts& c = drive.counts;
+  return {{"duration_s", drive.duration_s},
+          {"distance_m", drive.distance_m},
+          {"frames", {{"read", c.frames}, {"used", c.used}, {"other_ids", c.other_ids}, {"undecodable", c.undecodable},
+                      {"outside", c.outside}, {"broken_lines", c.broken_lines}, {"backward_stamps", c.backward_stamps}}},
+          {"samples", {{"steering", c.steering_samples}, {"speed", c.speed_samples}, {"accelerator", c.accelerator_samples},
+                       {"brake", c.brake_samples}, {"light", c.light_samples}, {"pose", c.pose_rows}}},
+          {"messages", {{"cockpit_state", c.cockpit_messages}, {"vehicle_state", c.vehicle_messages}}},
+          {"notes", drive.notes}};
+}
+
+}  // namespace phare

@@ -1,0 +1,39 @@
+// Writes every datagram the recorder's port accepts into a drive file.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "config/result.h"
+#include "config/rig.h"
+#include "net/bus.h"
+#include "net/drive_file.h"
+
+namespace phare {
+
+class Recorder {
+ public:
+  /// Binds the recorder's port and creates the file.
+  static Result<std::unique_ptr<Recorder>> open(const Rig& rig, const std::filesystem::path& out);
+
+  /// Takes what has come. Error once the disk does not take it.
+  Status poll();
+  bool wait(std::chrono::nanoseconds at_most) { return bus_.wait(at_most); }
+  /// The dynamics process has said that the drive is over.
+  bool drive_ended() const { return drive_ended_; }
+  std::uint64_t written() const { return written_; }
+  const Bus& bus() const { return bus_; }
+
+ private:
+  Recorder(Bus bus, DriveWriter writer);
+
+  Bus bus_;
+  DriveWriter writer_;
+  std::uint64_t written_ = 0;
+  bool drive_ended_ = false;
+  std::optional<Error> failed_;
+};
+
+}  // namespace phare

@@ -1,0 +1,27 @@
+// What the scene is put together from; each function adds its nodes to the model.
+#pragma once
+
+#include <vector>
+
+#include "tools/scene/alignment.h"
+#include "tools/scene/mesh.h"
+
+namespace phare::scene {
+
+/// "road_…", "ground_…" and "marking_…", one node each 50 m.
+void add_road(Model& model, const Alignment& road);
+/// "post_…", "rail_…", "sign_…".
+void add_furniture(Model& model, const Alignment& road);
+/// "tree_…" (some trees of one place per node) and "bush_…".
+void add_plants(Model& model, const Alignment& road);
+/// "barn", "car_parked", "fence_…", "bale_…".
+void add_things(Model& model, const Alignment& road);
+/// "pedestrian_1", "pedestrian_2", "cyclist".
+void add_people(Model& model, const Alignment& road);
+
+/// Object frame on the ground at station and offset: x along the road turned left by turn_rad, z straight up.
+glm::dmat4 placed(const Alignment& road, double s_m, double t_m, double turn_rad = 0.0, double raise_m = 0.0);
+/// Object frame at a point of the world.
+glm::dmat4 placed_at(glm::dvec3 point_m, double heading_rad);
+
+}  // namespace phare::scene

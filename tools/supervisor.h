@@ -1,0 +1,82 @@
+// Keeps the processes of a rig running: starts them, restarts one that dies, ends them all in order.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/result.h"
+#include "tools/child_process.h"
+
+namespace phare {
+
+struct ProcessSpec {
+  std::string name;                    ///< "cockpit", "dynamics", "visual-0"
+  std::filesystem::path program;
+  std::vector<std::string> arguments;
+  bool ends_the_drive = false;         ///< the drive is over when every such process has ended with exit 0
+};
+
+struct Restart {
+  std::string process;
+  double at_s = 0.0;   ///< wall time since the start
+  std::string because; ///< how it ended: "SIGKILL", "exit 1"
+};
+
+/// Not thread safe: one loop calls step().
+class Supervisor {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  static constexpr std::size_t kMaxRestarts = 5;  ///< of one process within kRestartWindow; one more and we give up
+  static constexpr std::chrono::seconds kRestartWindow{10};
+  static constexpr std::chrono::milliseconds kFirstBackoff{50};  ///< doubled by every restart within the window
+
+  explicit Supervisor(std::vector<ProcessSpec> specs);
+  ~Supervisor();  ///< ends what still runs
+  Supervisor(const Supervisor&) = delete;
+  Supervisor& operator=(const Supervisor&) = delete;
+
+  /// Starts every process; on an error those already started are ended.
+  Status start();
+
+  /// Looks after the processes once. False when the drive is over: outcome() is then set and end_all() is due.
+  bool step();
+
+  /// SIGTERM to all, SIGKILL to those still there after `grace`; returns when none runs.
+  void end_all(std::chrono::milliseconds grace);
+
+  /// Exit code for the launcher, and why when it is not 0.
+  int exit_code() const { return exit_code_; }
+  const std::string& why() const { return why_; }
+  const std::vector<Restart>& restarts() const { return restarts_; }
+
+  struct Ended {
+    std::string process;
+    std::string how;  ///< "exit 0"; "never started"
+  };
+  std::vector<Ended> ends() const;
+
+ private:
+  struct Watched {
+    ProcessSpec spec;
+    std::optional<ChildProcess> child;
+    std::string last_end = "never started";
+    bool done = false;                        ///< ended with exit 0, stays ended
+    std::optional<Clock::time_point> due;     ///< next start
+    std::deque<Clock::time_point> restarted;  ///< within the window
+  };
+  bool look_after(Watched& process);
+  bool give_up(int exit_code, std::string why);
+
+  std::vector<Watched> processes_;
+  std::vector<Restart> restarts_;
+  Clock::time_point started_ = Clock::now();
+  int exit_code_ = kExitDone;
+  std::string why_;
+};
+
+}  // namespace phare

@@ -1,0 +1,367 @@
+// phare-dynamics: the car. Takes the driver's controls from the bus, gives the pose of the car.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "config/rig.h"
+#include "net/bus.h"
+#include "net/clock.h"
+#include "net/drive_file.h"
+#include "net/stats.h"
+#include "vehicle_dynamics/start_pose.h"
+#include "vehicle_dynamics/step.h"
+
+namespace phare {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string rig_file, drive_file, stats_file, level, log_level = "info";
+  std::optional<std::uint16_t> port_base;
+  bool lockstep = false;
+};
+
+// What the run starts from: the setup, and the car at simulated time 0.
+struct Begin {
+  RunSetup setup;
+  CarState state;
+};
+
+// What a rig control asked for since the last look.
+struct Requests {
+  bool paused = false;
+  std::optional<double> seek_s;
+};
+
+Controls controls_of(const CockpitState& state) {
+  return {state.steering_wheel_rad, state.accelerator_01, state.brake_01, state.gear};
+}
+
+bool high_beam_on(const CockpitState& state) { return state.flash || state.light_switch == LightSwitch::kHigh; }
+
+Result<Begin> prepare(const Rig& rig, const Options& options) {
+  const std::string named = options.level.empty() ? rig.dynamics_level : options.level;
+  const Result<Level> level = parse_level(named, options.level.empty() ? rig.file.string() : "--level");
+  if (!level) return level.error();
+  Begin begin;
+  begin.setup.level = *level;
+  begin.setup.step.ns = static_cast<std::int64_t>(rig.dynamics_step_s * 1e9 + 0.5);
+  if (begin.setup.step.ns <= 0) return Error{rig.file.string(), "the step of the dynamics is not positive"};
+
+  if (!options.drive_file.empty()) {
+    const Result<Drive> drive = read_drive(options.drive_file);
+    if (!drive) return drive.error();
+    begin.setup.track = PoseTrack::from_drive(drive->datagrams);
+    if (drive->cut) spdlog::warn("{}: cut off, read up to its last whole record", options.drive_file);
+  }
+  if (*level == Level::kPose) {
+    if (options.drive_file.empty()) return Error{"--level", "pose replays a drive: give --drive FILE"};
+    if (begin.setup.track.empty()) return Error{options.drive_file, "holds no VehicleState to replay"};
+    return begin;
+  }
+
+  Result<VehicleParams> vehicle = read_vehicle(rig.vehicle_file);
+  if (!vehicle) return vehicle.error();
+  begin.setup.vehicle = std::move(*vehicle);
+  if (!rig.scene_file.empty()) {
+    Result<RoadSurface> road = RoadSurface::read(rig.scene_file);
+    if (!road) return road.error();
+    begin.setup.road = std::move(*road);
+    if (begin.setup.road.triangle_count() == 0)
+      spdlog::warn("{}: no node whose name begins with road or ground; the car drives on a plane", rig.scene_file.string());
+  }
+
+  if (!begin.setup.track.empty()) {
+    begin.state = from_message(begin.setup.track.at(begin.setup.track.begin()), begin.setup.vehicle.wheelbase_m,
+                               begin.setup.vehicle.track_m);
+    return begin;
+  }
+  if (const auto lane = lane_file_of(rig.scene_file); std::filesystem::exists(lane)) {
+    Result<CarState> start = start_of_lane(lane);
+    if (!start) return start.error();
+    begin.state = *start;
+  } else {
+    spdlog::info("no lane file {}; the car starts at the origin", lane.string());
+  }
+  return begin;
+}
+
+class Process {
+ public:
+  Process(Bus bus, const Rig& rig, const Options& options, StopFlag stop)
+      : bus_(std::move(bus)), rig_(rig), options_(options), stop_(stop) {
+    bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
+      const auto* control = std::get_if<RigControl>(&datagram.payload);
+      if (!control) return;
+      if (std::holds_alternative<RigControl::Quit>(control->command)) stop_.request();
+      if (const auto* pause = std::get_if<RigControl::Pause>(&control->command)) requests_.paused = pause->on;
+      if (const auto* seek = std::get_if<RigControl::Seek>(&control->command)) requests_.seek_s = seek->to_s;
+    };
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void run(Begin begin) {
+    if (options_.lockstep) {
+      run_lockstep(std::move(begin));
+    } else {
+      run_real_time(std::move(begin));
+    }
+    write_stats();
+  }
+
+ private:
+  // Frame by frame, as fast as the slowest process: the run is the same however long a frame takes.
+  void run_lockstep(Begin begin) {
+    std::int64_t sent = -1;  // newest frame answered
+    while (!stop_) {
+      bus_.wait(std::chrono::milliseconds(50));
+      bus_.poll();
+      stats_once_a_second();
+      if (!loop_) {
+        const auto newest_frame = everyones_newest_frame();
+        if (!newest_frame) continue;
+        sent = begin_at_frame(std::move(begin), *newest_frame);
+      }
+
+      // A channel that asks for what was sent already has lost it, or is new.
+      for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
+        const auto report = bus_.take<FrameReport>(channel);
+        if (report && report->value.frame_index < sent) bus_.send_again(kPayloadIndex<VehicleState>);
+      }
+
+      const auto* cockpit = bus_.newest<CockpitState>();
+      if (!cockpit || cockpit->value.frame_index != sent + 1 || !all_channels_at(sent)) continue;
+      const SimTime time = frame_time(sent + 1, rig_.frame_rate_hz);
+      loop_->set_controls(controls_of(cockpit->value));
+      loop_->run_to(time);
+      send_state(time, ++sent, &cockpit->value);
+    }
+  }
+
+  // By the wall clock: a wake-up per step, those due are done, the newest is sent 250 times a second.
+  void run_real_time(Begin begin) {
+    constexpr std::int64_t kSendEvery_ns = 4'000'000;
+    begin_in_real_time(std::move(begin));
+    Pacer pacer(std::chrono::nanoseconds(loop_->setup().step.ns));
+    Clock::time_point start = Clock::now(), before = start;
+    std::int64_t next_send_ns = loop_->time().ns;
+    while (!stop_) {
+      pacer.wait();
+      bus_.poll();
+      stats_once_a_second();
+      const Clock::time_point now = Clock::now();
+      if (requests_.seek_s && seek()) {
+        start = before = now;
+        next_send_ns = loop_->time().ns;
+      }
+      if (requests_.paused) {
+        loop_->skip(SimTime{(now - before).count()});
+        next_send_ns = std::min(next_send_ns, loop_->time().ns);  // the pose goes on being sent, so nobody takes us for dead
+      }
+      before = now;
+
+      const auto* cockpit = bus_.newest<CockpitState>();
+      if (cockpit) loop_->set_controls(controls_now(*cockpit));
+      loop_->catch_up(SimTime{(now - start).count()});
+      report_lag();
+      if (requests_.paused ? ++paused_wakes_ % 8 != 0 : loop_->time().ns < next_send_ns) continue;
+      next_send_ns = std::max(next_send_ns + kSendEvery_ns, loop_->time().ns + 1);
+      send_state(loop_->time(), -1, cockpit ? &cockpit->value : nullptr);
+    }
+  }
+
+  void send_state(SimTime time, std::int64_t frame, const CockpitState* cockpit) {
+    VehicleState state = loop_->at(time);
+    state.frame_index = frame;
+    state.high_beam_telltale = cockpit && high_beam_on(*cockpit);
+    if (cockpit && cockpit->drive_ended) state.drive_ended = true;
+    bus_.send(time, state);
+    if (loop_->off_road() && !off_road_logged_) {
+      off_road_logged_ = true;
+      spdlog::warn("no road under a wheel at x {:.1f} m, y {:.1f} m: its last height is held", state.x_m, state.y_m);
+    }
+  }
+
+  // ---- beginning, or going on for a predecessor
+
+  void begin_at(Begin begin, SimTime time, const VehicleState& drawn) {
+    const VehicleParams& car = begin.setup.vehicle;
+    const CarState state = from_message(drawn, std::max(car.wheelbase_m, 1.0), std::max(car.track_m, 1.0));
+    spdlog::info("going on at {:.3f} s, step {}", time.seconds(), drawn.step);
+    loop_.emplace(std::move(begin.setup), state, time, drawn.step);
+  }
+
+  // The newest frame any channel has drawn, once all have reported.
+  std::optional<std::int64_t> everyones_newest_frame() const {
+    std::int64_t newest = -1;
+    for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
+      const auto* report = bus_.newest<FrameReport>(channel);
+      if (!report) return std::nullopt;
+      newest = std::max(newest, report->value.frame_index);
+    }
+    return newest;
+  }
+
+  // Returns the frame that counts as answered.
+  std::int64_t begin_at_frame(Begin begin, std::int64_t frame) {
+    if (frame < 0) {
+      loop_.emplace(std::move(begin.setup), begin.state);
+      return -1;
+    }
+    for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
+      const auto* report = bus_.newest<FrameReport>(channel);
+      if (report->value.frame_index != frame) continue;
+      const SimTime time = frame_time(frame, rig_.frame_rate_hz);
+      begin_at(std::move(begin), time, report->value.drawn);
+      // Channels that have not drawn this frame yet still need it; our predecessor may have been killed before it sent it.
+      const auto* cockpit = bus_.newest<CockpitState>();
+      if (!all_channels_at(frame)) send_state(time, frame, cockpit ? &cockpit->value : nullptr);
+      break;
+    }
+    return frame;
+  }
+
+  bool all_channels_at(std::int64_t frame) const {
+    for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
+      const auto* report = bus_.newest<FrameReport>(channel);
+      if (!report || report->value.frame_index != frame) return false;
+    }
+    return true;
+  }
+
+  // A visual that has drawn the car before us shows where to go on; without one it starts anew.
+  void begin_in_real_time(Begin begin) {
+    const auto until = Clock::now() + std::chrono::milliseconds(200);
+    while (!stop_ && Clock::now() < until) {
+      bus_.wait(std::chrono::milliseconds(10));
+      bus_.poll();
+      for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
+        const auto* report = bus_.newest<FrameReport>(channel);
+        if (report && !report->value.drawn.level.empty())
+          return begin_at(std::move(begin), report->sim_time, report->value.drawn);
+      }
+    }
+    loop_.emplace(std::move(begin.setup), begin.state);
+  }
+
+  // Level pose only: a simulated car has no past to go back to.
+  bool seek() {
+    const double to_s = *requests_.seek_s;
+    requests_.seek_s.reset();
+    if (loop_->setup().level != Level::kPose) {
+      spdlog::warn("seek needs level pose; ignored");
+      return false;
+    }
+    const SimTime end = loop_->setup().track.end();
+    const SimTime time{std::clamp<std::int64_t>(static_cast<std::int64_t>(std::clamp(to_s, 0.0, 1e9) * 1e9), 0, end.ns)};
+    loop_.emplace(RunSetup(loop_->setup()), CarState{}, time);
+    return true;
+  }
+
+  // ---- controls, reports
+
+  Controls controls_now(const Bus::Newest<CockpitState>& cockpit) {
+    const std::chrono::nanoseconds silence(wall_now().ns - cockpit.received.ns);
+    const bool silent = silence > kSilentAfter;
+    if (silent && !silent_) spdlog::warn("no cockpit for {} ms: pedals fade", kSilentAfter.count() / 1'000'000);
+    if (!silent && silent_) spdlog::info("the cockpit is back");
+    silent_ = silent;
+    return faded(controls_of(cockpit.value), silence);
+  }
+
+  void report_lag() {
+    if (loop_->drops() == drops_logged_ || Clock::now() < next_lag_log_) return;
+    spdlog::warn("wall time dropped {} times, simulated time is {:.3f} s behind", loop_->drops(), loop_->dropped().seconds());
+    drops_logged_ = loop_->drops();
+    next_lag_log_ = Clock::now() + std::chrono::seconds(5);
+  }
+
+  void stats_once_a_second() {
+    if (options_.stats_file.empty() || Clock::now() < next_stats_) return;
+    next_stats_ = Clock::now() + std::chrono::seconds(1);
+    write_stats();
+  }
+
+  void write_stats() const {
+    if (options_.stats_file.empty()) return;
+    nlohmann::json json = stats_json("dynamics", bus_);
+    if (loop_) {
+      const StepTimes& times = loop_->times();
+      json["level"] = name(loop_->setup().level);
+      json["sim_time_s"] = loop_->time().seconds();
+      json["steps"] = loop_->steps();
+      json["lag_s"] = loop_->dropped().seconds();
+      json["drops"] = loop_->drops();
+      json["controls_refused"] = loop_->controls_refused();
+      json["off_road"] = loop_->off_road();
+      json["step_ns"] = {{"count", times.count()},
+                         {"p50", times.quantile_ns(0.5)},
+                         {"p99", times.quantile_ns(0.99)},
+                         {"p99_9", times.quantile_ns(0.999)},
+                         {"max", times.max_ns()}};
+    }
+    if (!write_json(options_.stats_file, json)) spdlog::warn("{}: cannot be written", options_.stats_file);
+  }
+
+  Bus bus_;
+  const Rig& rig_;
+  const Options& options_;
+  StopFlag stop_;
+  Requests requests_;
+  std::optional<StepLoop> loop_;
+  bool silent_ = false, off_road_logged_ = false;
+  std::uint64_t drops_logged_ = 0, paused_wakes_ = 0;
+  Clock::time_point next_lag_log_{}, next_stats_{};
+};
+
+int fail(const Error& error) {
+  std::fprintf(stderr, "phare-dynamics: %s\n", error.text().c_str());
+  return kExitBadInput;
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  CLI::App app{"The car of a rig: controls in, pose out."};
+  app.footer("Example: phare-dynamics --rig config/rigs/demo.toml --lockstep --level kinematic");
+  app.set_version_flag("--version", PHARE_VERSION);
+  app.add_option("--rig", options.rig_file, "Rig file (TOML)")->required();
+  app.add_flag("--lockstep", options.lockstep, "Advance frame by frame with the picture, reproducibly");
+  app.add_option("--drive", options.drive_file, "Drive file to replay (pose) or to take the first pose from (kinematic)");
+  app.add_option("--level", options.level, "Model: pose, kinematic (default: the rig's)");
+  app.add_option("--stats", options.stats_file, "Write counters and times to this JSON file every second");
+  app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off");
+  app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? kExitDone : kExitBadInput;
+  }
+  spdlog::set_default_logger(spdlog::stderr_color_mt("dynamics"));
+  spdlog::set_level(spdlog::level::from_str(options.log_level));
+
+  Result<Rig> rig = read_rig(options.rig_file);
+  if (!rig) return fail(rig.error());
+  if (options.port_base) rig->port_base = *options.port_base;
+  StopFlag stop = install_stop_signals();
+  Result<Begin> begin = prepare(*rig, options);
+  if (!begin) return fail(begin.error());
+  Result<Bus> bus = Bus::open(*rig, Role::kDynamics);
+  if (!bus) return fail(bus.error());
+  Process(std::move(*bus), *rig, options, stop).run(std::move(*begin));
+  return kExitDone;
+}
+
+}  // namespace
+}  // namespace phare
+
+int main(int argc, char** argv) { return phare::run(argc, argv); }

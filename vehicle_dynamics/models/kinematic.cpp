@@ -1,0 +1,123 @@
+#include "vehicle_dynamics/models/kinematic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "config/conventions.h"
+
+namespace phare::kinematic {
+namespace {
+
+constexpr double kAirDensity_kgpm3 = 1.2041;  // dry air, 20 degrees C, 101325 Pa
+// A driver turns the wheel at 1000 degrees a second at most; faster input is a fault or a joystick.
+constexpr double kMaxSteeringWheelRate_radps = 1000.0 * std::numbers::pi / 180.0;
+constexpr double kParkLockSpeed_mps = 0.5;  // below it the pawl of the parking lock falls in; chosen
+
+double sign(double value) { return value > 0.0 ? 1.0 : (value < 0.0 ? -1.0 : 0.0); }
+
+double drive_force_n(const VehicleParams& p, const Controls& input, double speed_mps) {
+  if (input.gear == Gear::kNeutral || input.gear == Gear::kPark) return 0.0;
+  const double speed = std::abs(speed_mps);
+  const double force = input.accelerator_01 * std::min(p.max_drive_force_n, p.max_power_w / std::max(speed, 0.1));
+  return input.gear == Gear::kReverse ? -force : force;
+}
+
+// Speed after dt. Brakes and rolling resistance only ever oppose the motion: they stop the car at exactly 0 and hold it there.
+double next_speed_mps(const VehicleParams& p, const Controls& input, const CarState& s, double dt) {
+  const double v = s.speed_mps;
+  const double drag = 0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * v * std::abs(v);
+  const double push = drive_force_n(p, input, v) + p.mass_kg * kGravity_mps2 * std::sin(s.road_pitch_rad) - drag;
+  const bool locked = input.gear == Gear::kPark && std::abs(v) < kParkLockSpeed_mps;
+  const double brake = (locked ? 1.0 : input.brake_01) * p.max_brake_force_n;
+  const double hold = brake + p.rolling_coefficient * p.mass_kg * kGravity_mps2 * std::cos(s.road_pitch_rad);
+  const double inertia = p.mass_kg + 4.0 * p.wheel_inertia_kgm2 / (p.tyre_radius_m * p.tyre_radius_m);
+
+  if (v == 0.0) return std::abs(push) <= hold ? 0.0 : (push - sign(push) * hold) / inertia * dt;
+  const double next = v + (push - sign(v) * hold) / inertia * dt;
+  return next * v < 0.0 ? 0.0 : next;
+}
+
+// x'' = w^2 (target - x) - 2 zeta w x', semi-implicit Euler: its resting point is the target exactly.
+void approach(double& value, double& rate, double target, double w, double zeta, double dt) {
+  constexpr double kSettled = 1e-9;  // rad or m, and per second: far below the 0.02 mrad that a beam shows
+  if (std::abs(target - value) < kSettled && std::abs(rate) < kSettled) {
+    value = target;
+    rate = 0.0;
+    return;
+  }
+  rate += (w * w * (target - value) - 2.0 * zeta * w * rate) * dt;
+  value += rate * dt;
+}
+
+}  // namespace
+
+Attitude quasi_static_attitude(const VehicleParams& p, double fx_mps2, double fy_mps2) {
+  const auto in_series = [&p](double spring) { return spring * p.tyre_rate_npm / (spring + p.tyre_rate_npm); };
+  const double transfer_n = -p.mass_kg * fx_mps2 * p.cg_height_m / p.wheelbase_m;  // onto the front axle under braking
+  const double front_share = transfer_n > 0.0 ? 1.0 - p.anti_dive_01 : 1.0;
+  const double front_m = -transfer_n * front_share / (2.0 * in_series(p.front_rate_npm));
+  const double rear_m = transfer_n / (2.0 * in_series(p.rear_rate_npm));
+  const double toppling = p.sprung_mass_kg * p.cg_height_m;
+  return {.pitch_rad = (rear_m - front_m) / p.wheelbase_m,
+          .roll_rad = toppling * fy_mps2 / (p.roll_stiffness_nmprad - toppling * kGravity_mps2),
+          .heave_m = rear_m};
+}
+
+void advance(const VehicleParams& p, const Controls& input, CarState& s, double dt) {
+  // steer: lock and rate are those of the steering wheel
+  const double wheel = std::clamp(input.steering_wheel_rad, -p.max_steering_wheel_rad, p.max_steering_wheel_rad);
+  const double most = kMaxSteeringWheelRate_radps / p.steering_ratio * dt;
+  s.steer_rad += std::clamp(wheel / p.steering_ratio - s.steer_rad, -most, most);
+
+  // speed
+  const double before = s.speed_mps;
+  s.speed_mps = next_speed_mps(p, input, s, dt);
+  s.ax_mps2 = (s.speed_mps - before) / dt;
+  const double v = 0.5 * (before + s.speed_mps);
+
+  // path: an arc of constant curvature, its chord exact
+  double curvature = std::tan(s.steer_rad) / p.wheelbase_m;
+  const double grip = p.max_lateral_mps2 / std::max(v * v, 1e-6);
+  curvature = std::clamp(curvature, -grip, grip);
+  const double turned = v * curvature * dt;
+  const double half = 0.5 * turned;
+  const double chord = v * dt * (std::abs(half) < 1e-9 ? 1.0 : std::sin(half) / half) * std::cos(s.road_pitch_rad);
+  s.x_m += chord * std::cos(s.yaw_rad + half);
+  s.y_m += chord * std::sin(s.yaw_rad + half);
+  s.yaw_rad += turned;
+  s.yaw_rate_radps = s.speed_mps * curvature;
+  s.ay_mps2 = s.speed_mps * s.yaw_rate_radps;
+
+  // attitude: what is felt in the car is acceleration less gravity along the road plane
+  const double fx = s.ax_mps2 - kGravity_mps2 * std::sin(s.road_pitch_rad);
+  const double fy = s.ay_mps2 + kGravity_mps2 * std::cos(s.road_pitch_rad) * std::sin(s.road_roll_rad);
+  const Attitude target = quasi_static_attitude(p, fx, fy);
+  const double w = 2.0 * std::numbers::pi * p.ride_frequency_hz;
+  approach(s.pitch_rad, s.pitch_rate_radps, target.pitch_rad, w, p.ride_damping, dt);
+  approach(s.roll_rad, s.roll_rate_radps, target.roll_rad, w, p.ride_damping, dt);
+  approach(s.heave_m, s.heave_rate_mps, target.heave_m, w, p.ride_damping, dt);
+}
+
+std::array<glm::dvec2, 4> contact_points(const VehicleParams& p, const CarState& s) {
+  const glm::dvec2 forward(std::cos(s.yaw_rad), std::sin(s.yaw_rad)), left(-forward.y, forward.x);
+  const glm::dvec2 rear(s.x_m, s.y_m);
+  const glm::dvec2 front = rear + p.wheelbase_m * forward, side = 0.5 * p.track_m * left;
+  return {front + side, front - side, rear + side, rear - side};
+}
+
+void stand_on(const VehicleParams& p, const std::array<double, 4>& h, CarState& s, double dt) {
+  const double front = 0.5 * (h[0] + h[1]), rear = 0.5 * (h[2] + h[3]);
+  const double left = 0.5 * (h[0] + h[2]), right = 0.5 * (h[1] + h[3]);
+  const double pitch = -std::atan((front - rear) / p.wheelbase_m);
+  // Roll turns about the pitched x axis, hence the cosine: R = Rz·Ry·Rx then puts the car's z on the plane's normal.
+  const double roll = std::atan((left - right) / p.track_m * std::cos(pitch));
+  s.road_pitch_rate_radps = dt > 0.0 ? (pitch - s.road_pitch_rad) / dt : 0.0;
+  s.road_roll_rate_radps = dt > 0.0 ? (roll - s.road_roll_rad) / dt : 0.0;
+  s.road_pitch_rad = pitch;
+  s.road_roll_rad = roll;
+  s.z_m = rear;
+  s.contact_z_m = h;
+}
+
+}  // namespace phare::kinematic

@@ -1,0 +1,92 @@
+// The loop of the dynamics: fixed steps under a clock, one model, output at an exact time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "config/result.h"
+#include "config/road_surface.h"
+#include "config/vehicle.h"
+#include "net/messages.h"
+#include "vehicle_dynamics/models/pose.h"
+#include "vehicle_dynamics/state.h"
+#include "vehicle_dynamics/step_times.h"
+
+namespace phare {
+
+/// The ladder of models; those not yet there are refused by name.
+enum class Level { kPose, kKinematic };
+
+const char* name(Level level);
+
+/// The level of that name, or an Error that names those there are. `place`: flag or file the name came from.
+Result<Level> parse_level(const std::string& text, const std::string& place);
+
+/// What a run is made of; does not change while it runs.
+struct RunSetup {
+  Level level = Level::kKinematic;
+  VehicleParams vehicle;   ///< not needed by level pose
+  RoadSurface road;        ///< empty: the plane at the start's height
+  PoseTrack track;         ///< needed by level pose only
+  SimTime step{2'000'000};
+};
+
+/// Fixed steps, counted: step n ends at start + n·h, exact in integers, so no rounding adds up over a day.
+class StepLoop {
+ public:
+  /// From `state` at `start` on. `steps_before`: steps a predecessor had done, when this one goes on for it.
+  StepLoop(RunSetup setup, const CarState& state, SimTime start = {}, std::uint64_t steps_before = 0);
+
+  /// Controls for the coming steps, held until the next call. Not finite: refused and counted, the last ones stay.
+  void set_controls(const Controls& controls);
+
+  /// Lockstep: all steps until `time` is reached. Any length, exactly the steps it takes.
+  void run_to(SimTime time);
+
+  /// Real time: the steps due `elapsed` after the start, but no more than max_catch_up(). Time beyond is dropped: simulated
+  /// time then lags behind, so overload slows the car down instead of the machine. Returns the steps done.
+  int catch_up(SimTime elapsed);
+
+  /// Real time: `elapsed` goes on but the car does not (pause).
+  void skip(SimTime paused);
+
+  /// The car at `time`: between the last two steps, else the nearer of them. Step, hash and lag are filled in; level pose
+  /// gives the record at exactly `time`.
+  VehicleState at(SimTime time) const;
+
+  SimTime time() const { return time_of(steps_); }         ///< of the newest step
+  std::uint64_t steps() const { return steps_before_ + steps_; }
+  std::uint64_t steps_done() const { return steps_; }      ///< by this loop itself
+  const CarState& state() const { return now_; }
+  SimTime dropped() const { return dropped_; }
+  std::uint64_t drops() const { return drops_; }           ///< how often time was dropped
+  std::uint64_t controls_refused() const { return controls_refused_; }
+  bool off_road() const { return off_road_; }              ///< a wheel has been where there is no surface
+  const StepTimes& times() const { return times_; }
+  const RunSetup& setup() const { return setup_; }
+
+  /// 25 steps, and no more than 50 ms of simulated time; at least one.
+  int max_catch_up() const;
+
+ private:
+  SimTime time_of(std::uint64_t step) const {
+    return SimTime{start_.ns + static_cast<std::int64_t>(step) * setup_.step.ns};
+  }
+  void step_once();
+  void place_on_road(double dt);
+
+  RunSetup setup_;
+  CarState before_, now_;
+  Controls controls_;
+  SimTime start_;
+  std::uint64_t steps_before_ = 0;
+  std::uint64_t steps_ = 0;
+  SimTime dropped_;
+  std::uint64_t drops_ = 0;
+  SimTime paused_;
+  std::uint64_t controls_refused_ = 0;
+  bool off_road_ = false;
+  StepTimes times_;
+};
+
+}  // namespace phare

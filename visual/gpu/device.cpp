@@ -1,0 +1,195 @@
+#include "visual/gpu/device.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+namespace phare::gpu {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  static_cast<std::atomic<std::uint64_t>*>(user)->fetch_add(1);
+  spdlog::error("vulkan validation: {}", data->pMessage);
+  return VK_FALSE;
+}
+
+vk::raii::Instance make_instance(const vk::raii::Context& context, const DeviceOptions& options) {
+  const vk::ApplicationInfo application{.pApplicationName = "phare", .pEngineName = "phare", .apiVersion = VK_API_VERSION_1_3};
+  std::vector<const char*> layers;
+  std::vector<const char*> extensions = options.instance_extensions;
+  const std::array enabled = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+  const vk::ValidationFeaturesEXT features{.enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size()),
+                                           .pEnabledValidationFeatures = enabled.data()};
+  vk::InstanceCreateInfo info{.pApplicationInfo = &application};
+  if (options.validation) {
+    const auto there = context.enumerateInstanceLayerProperties();
+    if (std::none_of(there.begin(), there.end(),
+                     [](const vk::LayerProperties& layer) { return std::string_view(layer.layerName.data()) == kValidationLayer; }))
+      throw std::runtime_error("Vulkan validation was asked for, but its layer is missing (apt-get install vulkan-validationlayers)");
+    layers.push_back(kValidationLayer);
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    info.pNext = &features;
+  }
+  info.enabledLayerCount = static_cast<std::uint32_t>(layers.size());
+  info.ppEnabledLayerNames = layers.data();
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
+  return vk::raii::Instance(context, info);
+}
+
+vk::raii::PhysicalDevice pick_device(const vk::raii::Instance& instance, const std::string& wanted) {
+  std::vector<vk::raii::PhysicalDevice> devices = vk::raii::PhysicalDevices(instance);
+  if (devices.empty()) throw std::runtime_error("no Vulkan device (apt-get install mesa-vulkan-drivers gives a software one)");
+  auto rank = [&](const vk::raii::PhysicalDevice& device) {
+    const vk::PhysicalDeviceProperties properties = device.getProperties();
+    if (properties.apiVersion < VK_API_VERSION_1_3) return -1;
+    if (!wanted.empty()) return std::string_view(properties.deviceName.data()).find(wanted) != std::string_view::npos ? 1 : -1;
+    switch (properties.deviceType) {
+      case vk::PhysicalDeviceType::eDiscreteGpu: return 3;
+      case vk::PhysicalDeviceType::eIntegratedGpu: return 2;
+      case vk::PhysicalDeviceType::eVirtualGpu: return 1;
+      default: return 0;
+    }
+  };
+  auto best = std::max_element(devices.begin(), devices.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  if (rank(*best) < 0)
+    throw std::runtime_error(wanted.empty() ? "no Vulkan 1.3 device" : "no Vulkan 1.3 device whose name contains \"" + wanted + "\"");
+  return std::move(*best);
+}
+
+}  // namespace
+
+Device::Device(const DeviceOptions& options) {
+  instance = make_instance(context, options);
+  if (options.validation) {
+    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+    messenger = vk::raii::DebugUtilsMessengerEXT(
+        instance, vk::DebugUtilsMessengerCreateInfoEXT{.messageSeverity = Severity::eWarning | Severity::eError,
+                                                       .messageType = Type::eValidation | Type::ePerformance,
+                                                       .pfnUserCallback = on_message,
+                                                       .pUserData = validation_messages.get()});
+  }
+  physical = pick_device(instance, options.device_name);
+  const auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+  properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
+  const auto& driver_properties = chain.get<vk::PhysicalDeviceDriverProperties>();
+  driver = std::string(driver_properties.driverName.data()) + " " + std::string(driver_properties.driverInfo.data());
+
+  const std::vector<vk::QueueFamilyProperties> families = physical.getQueueFamilyProperties();
+  const auto family = std::find_if(families.begin(), families.end(), [](const vk::QueueFamilyProperties& f) {
+    return static_cast<bool>(f.queueFlags & vk::QueueFlagBits::eGraphics);
+  });
+  if (family == families.end()) throw std::runtime_error("the Vulkan device has no graphics queue");
+  queue_family = static_cast<std::uint32_t>(family - families.begin());
+
+  const float priority = 1.0f;
+  const vk::DeviceQueueCreateInfo queue_info{.queueFamilyIndex = queue_family, .queueCount = 1, .pQueuePriorities = &priority};
+  vk::PhysicalDeviceVulkan13Features features13{.synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE};
+  const vk::PhysicalDeviceFeatures features{};
+  std::vector<const char*> extensions;
+  if (!options.instance_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  device = vk::raii::Device(physical, vk::DeviceCreateInfo{.pNext = &features13,
+                                                           .queueCreateInfoCount = 1,
+                                                           .pQueueCreateInfos = &queue_info,
+                                                           .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                                           .ppEnabledExtensionNames = extensions.data(),
+                                                           .pEnabledFeatures = &features});
+  queue = vk::raii::Queue(device, queue_family, 0);
+  command_pool = vk::raii::CommandPool(
+      device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = queue_family});
+}
+
+vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags flags) {
+  const vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
+  for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+    if ((need.memoryTypeBits & (1u << i)) == 0 || (memory.memoryTypes[i].propertyFlags & flags) != flags) continue;
+    allocated_bytes += need.size;
+    return vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo{.allocationSize = need.size, .memoryTypeIndex = i});
+  }
+  throw std::runtime_error("no Vulkan memory type with " + vk::to_string(flags));
+}
+
+void Device::run_once(const std::function<void(vk::CommandBuffer)>& record) {
+  vk::raii::CommandBuffers buffers(device, vk::CommandBufferAllocateInfo{.commandPool = *command_pool, .commandBufferCount = 1});
+  const vk::CommandBuffer commands = *buffers.front();
+  commands.begin(vk::CommandBufferBeginInfo{.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  record(commands);
+  commands.end();
+  const vk::raii::Fence fence(device, vk::FenceCreateInfo{});
+  queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &commands}, *fence);
+  if (device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess) throw std::runtime_error("waiting for the GPU failed");
+}
+
+void Device::name(vk::ObjectType type, std::uint64_t handle, const std::string& text) const {
+  if (!*messenger) return;
+  device.setDebugUtilsObjectNameEXT(
+      vk::DebugUtilsObjectNameInfoEXT{.objectType = type, .objectHandle = handle, .pObjectName = text.c_str()});
+}
+
+HostBuffer::HostBuffer(Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage, const std::string& name, bool read_back)
+    : buffer(device.device, vk::BufferCreateInfo{.size = size, .usage = usage}), bytes(size) {
+  using Flag = vk::MemoryPropertyFlagBits;
+  const vk::MemoryPropertyFlags flags = Flag::eHostVisible | Flag::eHostCoherent;
+  try {
+    // What shaders read each pixel had better lie on the device; what the CPU reads, in its caches.
+    memory = device.allocate(buffer.getMemoryRequirements(), flags | (read_back ? Flag::eHostCached : Flag::eDeviceLocal));
+  } catch (const std::runtime_error&) {
+    memory = device.allocate(buffer.getMemoryRequirements(), flags);
+  }
+  buffer.bindMemory(*memory, 0);
+  data = memory.mapMemory(0, VK_WHOLE_SIZE);
+  device.name(vk::ObjectType::eBuffer, reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer)), name);
+}
+
+DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage, const std::string& name)
+    : buffer(device.device, vk::BufferCreateInfo{.size = std::max<vk::DeviceSize>(content.size(), 16),
+                                                 .usage = usage | vk::BufferUsageFlagBits::eTransferDst}),
+      bytes(std::max<vk::DeviceSize>(content.size(), 16)) {
+  memory = device.allocate(buffer.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal);
+  buffer.bindMemory(*memory, 0);
+  device.name(vk::ObjectType::eBuffer, reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer)), name);
+  if (content.empty()) return;
+  HostBuffer staging(device, content.size(), vk::BufferUsageFlagBits::eTransferSrc, name + " staging");
+  std::memcpy(staging.data, content.data(), content.size());
+  device.run_once([&](vk::CommandBuffer commands) {
+    commands.copyBuffer(*staging.buffer, *buffer, vk::BufferCopy{.size = content.size()});
+  });
+  device.allocated_bytes -= staging.bytes;
+}
+
+Image::Image(Device& device, vk::Format format_, vk::Extent2D extent_, vk::ImageUsageFlags usage, const std::string& name_,
+             vk::SampleCountFlagBits samples_, std::uint32_t mip_levels)
+    : image(device.device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
+                                               .format = format_,
+                                               .extent = {extent_.width, extent_.height, 1},
+                                               .mipLevels = mip_levels,
+                                               .arrayLayers = 1,
+                                               .samples = samples_,
+                                               .usage = usage}),
+      format(format_),
+      extent(extent_),
+      aspect(format_ == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor),
+      samples(samples_),
+      name(name_) {
+  memory = device.allocate(image.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal);
+  image.bindMemory(*memory, 0);
+  view = vk::raii::ImageView(device.device, vk::ImageViewCreateInfo{.image = *image,
+                                                                    .viewType = vk::ImageViewType::e2D,
+                                                                    .format = format,
+                                                                    .subresourceRange = {aspect, 0, mip_levels, 0, 1}});
+  device.name(vk::ObjectType::eImage, reinterpret_cast<std::uint64_t>(static_cast<VkImage>(*image)), name);
+}
+
+vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv) {
+  return vk::raii::ShaderModule(device.device, vk::ShaderModuleCreateInfo{.codeSize = spirv.size_bytes(), .pCode = spirv.data()});
+}
+
+}  // namespace phare::gpu

@@ -1,0 +1,90 @@
+// Instance, device, queue, memory. One queue for everything; dedicated allocations, of which a renderer of this size has tens.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "visual/gpu/vulkan.h"
+
+namespace phare::gpu {
+
+struct DeviceOptions {
+  bool validation = false;
+  std::vector<const char*> instance_extensions{}; ///< what a window needs
+  std::string device_name{};                      ///< part of the name of the wanted device; empty: the first discrete GPU, else any
+};
+
+/// Throws vk::SystemError or std::runtime_error; the renderer turns these into a Result at its border.
+class Device {
+ public:
+  explicit Device(const DeviceOptions& options);
+
+  vk::raii::Context context;
+  vk::raii::Instance instance{nullptr};
+  vk::raii::DebugUtilsMessengerEXT messenger{nullptr};
+  vk::raii::PhysicalDevice physical{nullptr};
+  vk::raii::Device device{nullptr};
+  std::uint32_t queue_family = 0;
+  vk::raii::Queue queue{nullptr};
+  vk::raii::CommandPool command_pool{nullptr};
+  vk::PhysicalDeviceProperties properties{};
+  std::string driver;
+  std::shared_ptr<std::atomic<std::uint64_t>> validation_messages = std::make_shared<std::atomic<std::uint64_t>>(0);
+  std::uint64_t allocated_bytes = 0;
+
+  vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags flags);
+  /// Records, submits and waits.
+  void run_once(const std::function<void(vk::CommandBuffer)>& record);
+  void name(vk::ObjectType type, std::uint64_t handle, const std::string& text) const;
+};
+
+/// A buffer the CPU can write (or read) all the time.
+struct HostBuffer {
+  vk::raii::DeviceMemory memory{nullptr};
+  vk::raii::Buffer buffer{nullptr};
+  vk::DeviceSize bytes = 0;
+  void* data = nullptr;
+
+  HostBuffer() = default;
+  /// `read_back`: prefer cached memory, for the CPU reads what the GPU wrote.
+  HostBuffer(Device& device, vk::DeviceSize bytes, vk::BufferUsageFlags usage, const std::string& name, bool read_back = false);
+};
+
+/// A buffer in device memory, filled once.
+struct DeviceBuffer {
+  vk::raii::DeviceMemory memory{nullptr};
+  vk::raii::Buffer buffer{nullptr};
+  vk::DeviceSize bytes = 0;
+
+  DeviceBuffer() = default;
+  DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage, const std::string& name);
+};
+
+/// A 2D image with one view. The frame graph keeps its layout.
+struct Image {
+  vk::raii::DeviceMemory memory{nullptr};
+  vk::raii::Image image{nullptr};
+  vk::raii::ImageView view{nullptr};
+  vk::Format format = vk::Format::eUndefined;
+  vk::Extent2D extent{};
+  vk::ImageAspectFlags aspect{};
+  vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+  std::string name;
+  // Last use, for barriers.
+  vk::ImageLayout layout = vk::ImageLayout::eUndefined;
+  vk::PipelineStageFlags2 stage = vk::PipelineStageFlagBits2::eNone;
+  vk::AccessFlags2 access = vk::AccessFlagBits2::eNone;
+
+  Image() = default;
+  Image(Device& device, vk::Format format, vk::Extent2D extent, vk::ImageUsageFlags usage, const std::string& name,
+        vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1, std::uint32_t mip_levels = 1);
+};
+
+vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv);
+
+}  // namespace phare::gpu

@@ -1,0 +1,107 @@
+#include "visual/passes/grain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+namespace phare {
+
+namespace {
+
+constexpr std::uint32_t kSize = 512;
+
+// Value noise that repeats after `cells` cells, smooth between them.
+std::vector<float> value_noise(std::uint32_t cells, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<float> lattice(cells * cells);
+  for (float& value : lattice) value = static_cast<float>(random() >> 8) / 16777216.0f;
+  std::vector<float> result(kSize * kSize);
+  for (std::uint32_t y = 0; y < kSize; ++y)
+    for (std::uint32_t x = 0; x < kSize; ++x) {
+      const float u = static_cast<float>(x) * static_cast<float>(cells) / kSize;
+      const float v = static_cast<float>(y) * static_cast<float>(cells) / kSize;
+      const auto i = static_cast<std::uint32_t>(u), j = static_cast<std::uint32_t>(v);
+      auto ease = [](float t) { return t * t * (3.0f - 2.0f * t); };
+      const float s = ease(u - static_cast<float>(i)), t = ease(v - static_cast<float>(j));
+      auto at = [&](std::uint32_t a, std::uint32_t b) { return lattice[(b % cells) * cells + a % cells]; };
+      result[y * kSize + x] = std::lerp(std::lerp(at(i, j), at(i + 1, j), s), std::lerp(at(i, j + 1), at(i + 1, j + 1), s), t);
+    }
+  return result;
+}
+
+std::vector<float> sum_of(std::initializer_list<std::pair<std::uint32_t, float>> octaves, std::uint32_t seed) {
+  std::vector<float> result(kSize * kSize, 0.0f);
+  for (const auto& [cells, weight] : octaves) {
+    const std::vector<float> octave = value_noise(cells, seed++);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] += weight * (octave[i] - 0.5f);
+  }
+  double mean = 0.0;
+  for (float value : result) mean += value;
+  mean /= static_cast<double>(result.size());
+  for (float& value : result) value = std::clamp(value - static_cast<float>(mean) + 0.5f, 0.0f, 1.0f);
+  return result;
+}
+
+}  // namespace
+
+gpu::Image make_grain(gpu::Device& device) {
+  std::vector<float> fine = sum_of({{256, 0.9f}, {128, 0.4f}, {64, 0.2f}}, 1998);
+  std::vector<float> soft = sum_of({{6, 0.8f}, {13, 0.5f}, {31, 0.3f}, {70, 0.2f}}, 1999);
+
+  std::uint32_t levels = 1;
+  while ((kSize >> levels) > 0) ++levels;
+  std::vector<std::uint8_t> texels;
+  std::vector<vk::BufferImageCopy> copies;
+  for (std::uint32_t level = 0; level < levels; ++level) {
+    const std::uint32_t size = kSize >> level;
+    copies.push_back({.bufferOffset = texels.size(),
+                      .imageSubresource = {vk::ImageAspectFlagBits::eColor, level, 0, 1},
+                      .imageExtent = {size, size, 1}});
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+      texels.push_back(static_cast<std::uint8_t>(std::lround(fine[i] * 255.0f)));
+      texels.push_back(static_cast<std::uint8_t>(std::lround(soft[i] * 255.0f)));
+    }
+    auto halve = [&](std::vector<float>& image) {
+      std::vector<float> next((size / 2) * (size / 2));
+      for (std::uint32_t y = 0; y < size / 2; ++y)
+        for (std::uint32_t x = 0; x < size / 2; ++x) {
+          const float* p = &image[2 * y * size + 2 * x];
+          next[y * (size / 2) + x] = 0.25f * (p[0] + p[1] + p[size] + p[size + 1]);
+        }
+      image = std::move(next);
+    };
+    halve(fine);
+    halve(soft);
+  }
+  gpu::Image grain(device, vk::Format::eR8G8Unorm, {kSize, kSize}, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
+                   "grain", vk::SampleCountFlagBits::e1, levels);
+  gpu::HostBuffer staging(device, texels.size(), vk::BufferUsageFlagBits::eTransferSrc, "grain staging");
+  std::memcpy(staging.data, texels.data(), texels.size());
+  device.run_once([&](vk::CommandBuffer commands) {
+    auto turn = [&](vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 after, vk::AccessFlags2 wrote,
+                    vk::PipelineStageFlags2 before, vk::AccessFlags2 reads) {
+      const vk::ImageMemoryBarrier2 barrier{.srcStageMask = after,
+                                            .srcAccessMask = wrote,
+                                            .dstStageMask = before,
+                                            .dstAccessMask = reads,
+                                            .oldLayout = from,
+                                            .newLayout = to,
+                                            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                            .image = *grain.image,
+                                            .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, levels, 0, 1}};
+      commands.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+    };
+    using Stage = vk::PipelineStageFlagBits2;
+    using Access = vk::AccessFlagBits2;
+    turn(vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal, Stage::eNone, Access::eNone, Stage::eCopy, Access::eTransferWrite);
+    commands.copyBufferToImage(*staging.buffer, *grain.image, vk::ImageLayout::eTransferDstOptimal, copies);
+    turn(vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite,
+         Stage::eFragmentShader, Access::eShaderSampledRead);
+  });
+  device.allocated_bytes -= staging.bytes;
+  return grain;
+}
+
+}  // namespace phare

@@ -1,0 +1,314 @@
+#include "visual/passes/lamps.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include "shaders/depth_vert.h"
+#include "shaders/fullscreen_vert.h"
+#include "shaders/lamps_frag.h"
+#include "shaders/measure_vert.h"
+#include "shaders/scene_vert.h"
+#include "shaders/sky_frag.h"
+#include "visual/passes/grain.h"
+
+namespace phare {
+
+namespace {
+
+// std140 and std430 agree for these: all members are 16 bytes.
+static_assert(sizeof(shader::GpuLamp) == 128 && offsetof(shader::GpuLamp, table) == 112);
+static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 160);
+static_assert(sizeof(shader::GpuFrame) == 160 + shader::kMaxLamps * 128);
+static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
+static_assert(sizeof(SceneVertex) == 24 && offsetof(SceneVertex, normal) == 12);
+
+constexpr std::array kVertexAttributes{
+    vk::VertexInputAttributeDescription{.location = 0, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 0},
+    vk::VertexInputAttributeDescription{.location = 1, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 12}};
+
+constexpr auto kStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+
+// Clip space of Vulkan: x right, y down, z 1 at the near plane and 0 at infinity (reversed, for float depth), from eye-relative world.
+glm::dmat4 clip_from_eye_matrix(const Camera& camera, double aspect) {
+  const glm::dvec3 forward = camera.world_from_eye[0], left = camera.world_from_eye[1], up = camera.world_from_eye[2];
+  glm::dmat4 rows(0.0);  // rows[i] is row i; transposed below
+  if (camera.orthographic_width_m > 0.0) {
+    const double half_width = camera.orthographic_width_m / 2.0;
+    rows[0] = glm::dvec4(-left / half_width, 0.0);
+    rows[1] = glm::dvec4(-up / (half_width / aspect), 0.0);
+    rows[2] = glm::dvec4(-forward / camera.far_m, 1.0);
+    rows[3] = glm::dvec4(0, 0, 0, 1);
+  } else {
+    const double tan_h = std::tan(camera.fov_horizontal_rad / 2.0);
+    rows[0] = glm::dvec4(-left / tan_h, 0.0);
+    rows[1] = glm::dvec4(-up / (tan_h / aspect), 0.0);
+    rows[2] = glm::dvec4(0, 0, 0, camera.near_m);
+    rows[3] = glm::dvec4(forward, 0.0);
+  }
+  return glm::transpose(rows);
+}
+
+// Direction of a pixel: ndc x, y and 1 to an eye-relative direction.
+glm::dmat4 view_from_clip_matrix(const Camera& camera, double aspect) {
+  const glm::dvec3 forward = camera.world_from_eye[0], left = camera.world_from_eye[1], up = camera.world_from_eye[2];
+  const double tan_h = camera.orthographic_width_m > 0.0 ? 0.0 : std::tan(camera.fov_horizontal_rad / 2.0);
+  return {glm::dvec4(-left * tan_h, 0.0), glm::dvec4(-up * (tan_h / aspect), 0.0), glm::dvec4(forward, 0.0), glm::dvec4(0.0)};
+}
+
+vk::RenderingAttachmentInfo attachment(const gpu::Image& image, vk::ImageLayout layout, vk::AttachmentLoadOp load, vk::ClearValue clear,
+                                       const gpu::Image* resolved) {
+  vk::RenderingAttachmentInfo info{.imageView = *image.view,
+                                   .imageLayout = layout,
+                                   .loadOp = load,
+                                   .storeOp = resolved != nullptr ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore,
+                                   .clearValue = clear};
+  if (resolved != nullptr) {
+    info.resolveMode = vk::ResolveModeFlagBits::eAverage;
+    info.resolveImageView = *resolved->view;
+    info.resolveImageLayout = vk::ImageLayout::eColorAttachmentOptimal;
+  }
+  return info;
+}
+
+}  // namespace
+
+LampPass::LampPass(gpu::Device& device)
+    : device_(device),
+      scene_vert_(gpu::make_shader(device, k_scene_vert)),
+      depth_vert_(gpu::make_shader(device, k_depth_vert)),
+      measure_vert_(gpu::make_shader(device, k_measure_vert)),
+      fullscreen_vert_(gpu::make_shader(device, k_fullscreen_vert)),
+      lamps_frag_(gpu::make_shader(device, k_lamps_frag)),
+      sky_frag_(gpu::make_shader(device, k_sky_frag)) {
+  using Type = vk::DescriptorType;
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  for (const auto& [binding, type] :
+       {std::pair(0u, Type::eUniformBuffer), std::pair(1u, Type::eStorageBuffer), std::pair(2u, Type::eStorageBuffer),
+        std::pair(3u, Type::eStorageBuffer), std::pair(4u, Type::eCombinedImageSampler)})
+    bindings.push_back({.binding = binding, .descriptorType = type, .descriptorCount = 1, .stageFlags = kStages});
+  set_layout_ = vk::raii::DescriptorSetLayout(
+      device.device, vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()),
+                                                       .pBindings = bindings.data()});
+  const vk::PushConstantRange push{.stageFlags = kStages, .offset = 0, .size = sizeof(shader::GpuDraw)};
+  layout_ = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
+                                                                                 .pSetLayouts = &*set_layout_,
+                                                                                 .pushConstantRangeCount = 1,
+                                                                                 .pPushConstantRanges = &push});
+  const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, 1}, vk::DescriptorPoolSize{Type::eStorageBuffer, 3},
+                         vk::DescriptorPoolSize{Type::eCombinedImageSampler, 1}};
+  pool_ = vk::raii::DescriptorPool(device.device,
+                                   vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                                                .maxSets = 1,
+                                                                .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                                                .pPoolSizes = sizes.data()});
+  vk::raii::DescriptorSets sets(device.device, vk::DescriptorSetAllocateInfo{.descriptorPool = *pool_, .descriptorSetCount = 1,
+                                                                             .pSetLayouts = &*set_layout_});
+  set_ = std::move(sets.front());
+  sampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
+                                                                    .minFilter = vk::Filter::eLinear,
+                                                                    .mipmapMode = vk::SamplerMipmapMode::eLinear,
+                                                                    .maxLod = VK_LOD_CLAMP_NONE});
+  grain_ = make_grain(device);
+  frame_ = gpu::HostBuffer(device, sizeof(shader::GpuFrame), vk::BufferUsageFlagBits::eUniformBuffer, "frame");
+}
+
+void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
+  using Type = vk::DescriptorType;
+  const std::array buffers{vk::DescriptorBufferInfo{*frame_.buffer, 0, VK_WHOLE_SIZE}, vk::DescriptorBufferInfo{beams.guides(), 0, VK_WHOLE_SIZE},
+                           vk::DescriptorBufferInfo{beams.candela(), 0, VK_WHOLE_SIZE},
+                           vk::DescriptorBufferInfo{*scene.material_buffer.buffer, 0, VK_WHOLE_SIZE}};
+  const vk::DescriptorImageInfo grain{*sampler_, *grain_.view, vk::ImageLayout::eShaderReadOnlyOptimal};
+  std::vector<vk::WriteDescriptorSet> writes;
+  for (std::uint32_t i = 0; i < buffers.size(); ++i)
+    writes.push_back({.dstSet = *set_,
+                      .dstBinding = i,
+                      .descriptorCount = 1,
+                      .descriptorType = i == 0 ? Type::eUniformBuffer : Type::eStorageBuffer,
+                      .pBufferInfo = &buffers[i]});
+  writes.push_back({.dstSet = *set_, .dstBinding = 4, .descriptorCount = 1, .descriptorType = Type::eCombinedImageSampler, .pImageInfo = &grain});
+  device_.device.updateDescriptorSets(writes, nullptr);
+}
+
+void LampPass::set_frame(const Camera& camera, double aspect, double exposure_per_cdm2, double sky_cdm2,
+                         std::span<const PlacedLamp> lamps, const BeamStore& beams) {
+  shader::GpuFrame frame{};
+  const glm::mat4 clip = glm::mat4(clip_from_eye_matrix(camera, aspect));
+  const glm::mat4 view = glm::mat4(view_from_clip_matrix(camera, aspect));
+  for (int i = 0; i < 4; ++i) {
+    frame.clip_from_eye[i] = clip[i];
+    frame.view_from_clip[i] = view[i];
+  }
+  frame.exposure = glm::vec4(static_cast<float>(exposure_per_cdm2));
+  // Zenith bluish, the horizon three times brighter: a clear night far from towns, brightened enough to be seen on a display.
+  frame.sky = glm::vec4(glm::vec3(0.75f, 1.0f, 1.7f) * static_cast<float>(sky_cdm2), 3.0f);
+  lamp_count_ = 0;
+  for (const PlacedLamp& lamp : lamps) {
+    const PackedBeam& beam = beams.beam(lamp.beam);
+    if (beam.dark || lamp_count_ == shader::kMaxLamps) continue;
+    shader::GpuLamp& out = frame.lamps[lamp_count_++];
+    out.position = glm::vec4(glm::vec3(lamp.position_m - camera.eye_m), 0.0f);
+    const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
+    out.row_a = glm::vec4(glm::vec3(rows[0]), 0.0f);
+    out.row_b = glm::vec4(glm::vec3(rows[1]), 0.0f);
+    out.row_c = glm::vec4(glm::vec3(rows[2]), 0.0f);
+    beams.describe(lamp.beam, out);
+  }
+  std::memcpy(frame_.data, &frame, sizeof frame);
+}
+
+vk::Pipeline LampPass::lit_pipeline(const Variant& variant) {
+  if (const auto found = lit_.find(variant); found != lit_.end()) return *found->second;
+  const std::array<std::uint32_t, 5> values{variant.lamp_count, static_cast<std::uint32_t>(variant.surface), variant.retro ? 1u : 0u,
+                                            static_cast<std::uint32_t>(variant.output), variant.lamp_base};
+  std::array<vk::SpecializationMapEntry, 5> entries;
+  for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = vk::SpecializationMapEntry{.constantID = i, .offset = 4 * i, .size = 4};
+  const vk::SpecializationInfo constants{.mapEntryCount = entries.size(), .pMapEntries = entries.data(), .dataSize = sizeof values, .pData = values.data()};
+  const bool measure = variant.output == LampOutput::kMeasure;
+  PipelineRecipe recipe{.vertex = measure ? *measure_vert_ : *scene_vert_,
+                        .fragment = *lamps_frag_,
+                        .constants = &constants,
+                        .attributes = kVertexAttributes,
+                        .stride = sizeof(SceneVertex),
+                        .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
+                        .colour = {variant.format},
+                        .depth = !measure,
+                        .depth_write = !measure && !variant.depth_done,
+                        .compare = variant.depth_done ? vk::CompareOp::eEqual : vk::CompareOp::eGreater,
+                        .samples = variant.samples,
+                        .layout = *layout_};
+  if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
+  return *lit_.emplace(variant, make_pipeline(device_, recipe)).first->second;
+}
+
+vk::Pipeline LampPass::sky_pipeline(LampOutput output, vk::Format format, vk::SampleCountFlagBits samples) {
+  const auto key = std::tuple(output, format, samples);
+  if (const auto found = sky_.find(key); found != sky_.end()) return *found->second;
+  const auto value = static_cast<std::uint32_t>(output);
+  const vk::SpecializationMapEntry entry{.constantID = shader::kSpecOutput, .offset = 0, .size = 4};
+  const vk::SpecializationInfo constants{.mapEntryCount = 1, .pMapEntries = &entry, .dataSize = 4, .pData = &value};
+  return *sky_.emplace(key, make_pipeline(device_, {.vertex = *fullscreen_vert_,
+                                                    .fragment = *sky_frag_,
+                                                    .constants = &constants,
+                                                    .colour = {format},
+                                                    .depth = true,
+                                                    .compare = vk::CompareOp::eEqual,
+                                                    .samples = samples,
+                                                    .layout = *layout_})).first->second;
+}
+
+vk::Pipeline LampPass::depth_pipeline(vk::SampleCountFlagBits samples) {
+  if (const auto found = depth_.find(samples); found != depth_.end()) return *found->second;
+  return *depth_.emplace(samples, make_pipeline(device_, {.vertex = *depth_vert_,
+                                                          .attributes = std::span(kVertexAttributes).first(1),
+                                                          .stride = sizeof(SceneVertex),
+                                                          .depth = true,
+                                                          .depth_write = true,
+                                                          .samples = samples,
+                                                          .layout = *layout_})).first->second;
+}
+
+void LampPass::draw_items(vk::CommandBuffer commands, const SceneBuffers& scene, std::span<const DrawItem> items, const Variant& common) {
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
+  commands.bindVertexBuffers(0, *scene.vertices.buffer, vk::DeviceSize{0});
+  commands.bindIndexBuffer(*scene.indices.buffer, 0, vk::IndexType::eUint32);
+  vk::Pipeline bound;
+  for (const DrawItem& item : items) {
+    const SceneMaterial& material = scene.materials[item.chunk->material];
+    Variant variant = common;
+    variant.surface = material.surface;
+    variant.retro = material.retroreflection_cd_per_lx_m2 > 0.0f;
+    if (variant.output == LampOutput::kAudit) variant.surface = Surface::kPlain, variant.retro = false;
+    const vk::Pipeline pipeline = lit_pipeline(variant);
+    if (pipeline != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
+    commands.pushConstants<shader::GpuDraw>(*layout_, kStages, 0, item.push);
+    commands.drawIndexed(item.chunk->index_count, 1, item.chunk->first_index, static_cast<std::int32_t>(item.chunk->first_vertex), 0);
+  }
+}
+
+void LampPass::depth(gpu::FrameGraph& graph, gpu::Image& depth, const SceneBuffers& scene, std::span<const DrawItem> items) {
+  graph.pass("depth", {{&depth, gpu::Use::kDepthTarget, true}}, [&](vk::CommandBuffer commands) {
+    const vk::RenderingAttachmentInfo target = attachment(depth, vk::ImageLayout::eDepthStencilAttachmentOptimal, vk::AttachmentLoadOp::eClear,
+                                                          vk::ClearDepthStencilValue{0.0f, 0}, nullptr);
+    commands.beginRendering(vk::RenderingInfo{.renderArea = {{0, 0}, depth.extent}, .layerCount = 1, .pDepthAttachment = &target});
+    set_area(commands, depth.extent);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, depth_pipeline(depth.samples));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
+    commands.bindVertexBuffers(0, *scene.vertices.buffer, vk::DeviceSize{0});
+    commands.bindIndexBuffer(*scene.indices.buffer, 0, vk::IndexType::eUint32);
+    for (const DrawItem& item : items) {
+      commands.pushConstants<shader::GpuDraw>(*layout_, kStages, 0, item.push);
+      commands.drawIndexed(item.chunk->index_count, 1, item.chunk->first_index, static_cast<std::int32_t>(item.chunk->first_vertex), 0);
+    }
+    commands.endRendering();
+  });
+}
+
+void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* resolved, gpu::Image& depth, bool depth_done, LampOutput output,
+                     const SceneBuffers& scene, std::span<const DrawItem> items) {
+  std::vector<gpu::ImageUse> uses{{&colour, gpu::Use::kColourTarget, true},
+                                  {&depth, depth_done ? gpu::Use::kDepthRead : gpu::Use::kDepthTarget, !depth_done}};
+  if (resolved != nullptr) uses.push_back({resolved, gpu::Use::kColourTarget, true});
+  graph.pass("lamps", uses, [&](vk::CommandBuffer commands) {
+    const vk::RenderingAttachmentInfo target =
+        attachment(colour, vk::ImageLayout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eDontCare, {}, resolved);
+    const vk::RenderingAttachmentInfo depth_target = attachment(
+        depth, depth_done ? vk::ImageLayout::eDepthStencilReadOnlyOptimal : vk::ImageLayout::eDepthStencilAttachmentOptimal,
+        depth_done ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear, vk::ClearDepthStencilValue{0.0f, 0}, nullptr);
+    commands.beginRendering(vk::RenderingInfo{.renderArea = {{0, 0}, colour.extent},
+                                              .layerCount = 1,
+                                              .colorAttachmentCount = 1,
+                                              .pColorAttachments = &target,
+                                              .pDepthAttachment = &depth_target});
+    set_area(commands, colour.extent);
+    draw_items(commands, scene, items,
+               {.output = output, .lamp_count = lamp_count_, .samples = colour.samples, .format = colour.format, .depth_done = depth_done});
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, sky_pipeline(output, colour.format, colour.samples));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
+    commands.draw(3, 1, 0, 0);
+    commands.endRendering();
+  });
+}
+
+void LampPass::measure(gpu::FrameGraph& graph, gpu::Image& lx, vk::Buffer points, std::uint32_t count, std::uint32_t lamp_base) {
+  graph.pass("measure", {{&lx, gpu::Use::kColourTarget, true}}, [&](vk::CommandBuffer commands) {
+    const vk::RenderingAttachmentInfo target =
+        attachment(lx, vk::ImageLayout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr);
+    commands.beginRendering(vk::RenderingInfo{.renderArea = {{0, 0}, lx.extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &target});
+    set_area(commands, lx.extent);
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
+                          lit_pipeline({.output = LampOutput::kMeasure, .lamp_count = lamp_count_, .lamp_base = lamp_base, .format = lx.format}));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
+    const shader::GpuDraw push{.origin = glm::vec4(static_cast<float>(lx.extent.width), static_cast<float>(lx.extent.height), 0, 0),
+                               .detail_origin = glm::vec4(0.0f)};
+    commands.pushConstants<shader::GpuDraw>(*layout_, kStages, 0, push);
+    commands.bindVertexBuffers(0, points, vk::DeviceSize{0});
+    commands.draw(count, 1, 0, 0);
+    commands.endRendering();
+  });
+}
+
+void LampPass::audit(gpu::FrameGraph& graph, gpu::Image& position, gpu::Image& normal, gpu::Image& depth, const SceneBuffers& scene,
+                     std::span<const DrawItem> items) {
+  graph.pass("audit",
+             {{&position, gpu::Use::kColourTarget, true}, {&normal, gpu::Use::kColourTarget, true}, {&depth, gpu::Use::kDepthTarget, true}},
+             [&](vk::CommandBuffer commands) {
+               const std::array targets{
+                   attachment(position, vk::ImageLayout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr),
+                   attachment(normal, vk::ImageLayout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr)};
+               const vk::RenderingAttachmentInfo depth_target =
+                   attachment(depth, vk::ImageLayout::eDepthStencilAttachmentOptimal, vk::AttachmentLoadOp::eClear,
+                              vk::ClearDepthStencilValue{0.0f, 0}, nullptr);
+               commands.beginRendering(vk::RenderingInfo{.renderArea = {{0, 0}, position.extent},
+                                                         .layerCount = 1,
+                                                         .colorAttachmentCount = static_cast<std::uint32_t>(targets.size()),
+                                                         .pColorAttachments = targets.data(),
+                                                         .pDepthAttachment = &depth_target});
+               set_area(commands, position.extent);
+               draw_items(commands, scene, items, {.output = LampOutput::kAudit, .lamp_count = lamp_count_, .format = position.format});
+               commands.endRendering();
+             });
+}
+
+}  // namespace phare

@@ -1,0 +1,75 @@
+// The lamp pass: every surface lit by every lamp, per pixel; the sky behind. Also its depth pass, measure and audit variants,
+// which share bindings (shaders/lamps.h).
+#pragma once
+
+#include <map>
+#include <span>
+#include <tuple>
+
+#include "visual/beam_store.h"
+#include "visual/gpu/frame_graph.h"
+#include "visual/gpu/scene_buffers.h"
+#include "visual/passes/pipeline.h"
+
+namespace phare {
+
+/// What the lamp pass writes.
+enum class LampOutput : std::uint32_t { kDisplay = 0, kHdr = 1, kFalseColour = 2, kMeasure = 3, kAudit = 4 };
+
+/// Shared by all passes that read the scene and the lamps.
+class LampPass {
+ public:
+  explicit LampPass(gpu::Device& device);
+
+  /// Binds buffers; after load_scene and whenever the beam store has new buffers.
+  void bind(const SceneBuffers& scene, const BeamStore& beams);
+  /// This frame's view and lamps.
+  void set_frame(const Camera& camera, double aspect, double exposure_per_cdm2, double sky_cdm2,
+                 std::span<const PlacedLamp> lamps, const BeamStore& beams);
+  std::uint32_t lamp_count() const { return lamp_count_; }
+
+  /// Depth of everything, no colour.
+  void depth(gpu::FrameGraph& graph, gpu::Image& depth, const SceneBuffers& scene, std::span<const DrawItem> items);
+  /// Light of everything. `depth_done`: the depth pass ran, only equal depth is drawn. `resolved`: for multisampled targets.
+  void light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* resolved, gpu::Image& depth, bool depth_done,
+             LampOutput output, const SceneBuffers& scene, std::span<const DrawItem> items);
+  /// Illuminance at points, lamps base..base+3, one pixel each.
+  void measure(gpu::FrameGraph& graph, gpu::Image& lx, vk::Buffer points, std::uint32_t count, std::uint32_t lamp_base);
+  /// Positions, normals and illuminance of a view.
+  void audit(gpu::FrameGraph& graph, gpu::Image& position, gpu::Image& normal, gpu::Image& depth, const SceneBuffers& scene,
+             std::span<const DrawItem> items);
+
+ private:
+  struct Variant {
+    Surface surface = Surface::kPlain;
+    bool retro = false;
+    LampOutput output = LampOutput::kDisplay;
+    std::uint32_t lamp_count = 0, lamp_base = 0;
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+    vk::Format format = vk::Format::eUndefined;
+    bool depth_done = false;
+
+    friend auto operator<=>(const Variant&, const Variant&) = default;
+  };
+  vk::Pipeline lit_pipeline(const Variant& variant);
+  vk::Pipeline sky_pipeline(LampOutput output, vk::Format format, vk::SampleCountFlagBits samples);
+  vk::Pipeline depth_pipeline(vk::SampleCountFlagBits samples);
+  void draw_items(vk::CommandBuffer commands, const SceneBuffers& scene, std::span<const DrawItem> items, const Variant& common);
+
+  gpu::Device& device_;
+  vk::raii::DescriptorSetLayout set_layout_{nullptr};
+  vk::raii::PipelineLayout layout_{nullptr};
+  vk::raii::DescriptorPool pool_{nullptr};
+  vk::raii::DescriptorSet set_{nullptr};
+  vk::raii::Sampler sampler_{nullptr};
+  gpu::Image grain_;
+  gpu::HostBuffer frame_;
+  std::uint32_t lamp_count_ = 0;
+  std::map<Variant, vk::raii::Pipeline> lit_;
+  std::map<std::tuple<LampOutput, vk::Format, vk::SampleCountFlagBits>, vk::raii::Pipeline> sky_;
+  std::map<vk::SampleCountFlagBits, vk::raii::Pipeline> depth_;
+  vk::raii::ShaderModule scene_vert_{nullptr}, depth_vert_{nullptr}, measure_vert_{nullptr}, fullscreen_vert_{nullptr}, lamps_frag_{nullptr},
+      sky_frag_{nullptr};
+};
+
+}  // namespace phare

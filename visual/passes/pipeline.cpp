@@ -1,0 +1,67 @@
+#include "visual/passes/pipeline.h"
+
+#include <array>
+
+namespace phare {
+
+vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe& recipe) {
+  std::vector<vk::PipelineShaderStageCreateInfo> stages{
+      {.stage = vk::ShaderStageFlagBits::eVertex, .module = recipe.vertex, .pName = "main"}};
+  if (recipe.fragment)
+    stages.push_back({.stage = vk::ShaderStageFlagBits::eFragment,
+                      .module = recipe.fragment,
+                      .pName = "main",
+                      .pSpecializationInfo = recipe.constants});
+  const vk::VertexInputBindingDescription binding{.binding = 0, .stride = recipe.stride, .inputRate = vk::VertexInputRate::eVertex};
+  const vk::PipelineVertexInputStateCreateInfo input{
+      .vertexBindingDescriptionCount = recipe.stride > 0 ? 1u : 0u,
+      .pVertexBindingDescriptions = &binding,
+      .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(recipe.attributes.size()),
+      .pVertexAttributeDescriptions = recipe.attributes.data()};
+  const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = recipe.topology};
+  const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
+  const vk::PipelineRasterizationStateCreateInfo raster{.polygonMode = vk::PolygonMode::eFill,
+                                                        .cullMode = recipe.cull,
+                                                        .frontFace = vk::FrontFace::eCounterClockwise,
+                                                        .lineWidth = 1.0f};
+  const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = recipe.samples};
+  const vk::PipelineDepthStencilStateCreateInfo depth{.depthTestEnable = recipe.depth,
+                                                      .depthWriteEnable = recipe.depth_write,
+                                                      .depthCompareOp = recipe.compare};
+  using Mask = vk::ColorComponentFlagBits;
+  const std::vector<vk::PipelineColorBlendAttachmentState> blends(
+      recipe.colour.size(), {.colorWriteMask = Mask::eR | Mask::eG | Mask::eB | Mask::eA});
+  const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = static_cast<std::uint32_t>(blends.size()),
+                                                    .pAttachments = blends.data()};
+  const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+  const vk::PipelineDynamicStateCreateInfo dynamics{.dynamicStateCount = static_cast<std::uint32_t>(dynamic.size()),
+                                                    .pDynamicStates = dynamic.data()};
+  const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = static_cast<std::uint32_t>(recipe.colour.size()),
+                                                  .pColorAttachmentFormats = recipe.colour.data(),
+                                                  .depthAttachmentFormat = recipe.depth ? vk::Format::eD32Sfloat : vk::Format::eUndefined};
+  return vk::raii::Pipeline(device.device, nullptr,
+                            vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
+                                                           .stageCount = static_cast<std::uint32_t>(stages.size()),
+                                                           .pStages = stages.data(),
+                                                           .pVertexInputState = &input,
+                                                           .pInputAssemblyState = &assembly,
+                                                           .pViewportState = &viewport,
+                                                           .pRasterizationState = &raster,
+                                                           .pMultisampleState = &multisample,
+                                                           .pDepthStencilState = &depth,
+                                                           .pColorBlendState = &blend,
+                                                           .pDynamicState = &dynamics,
+                                                           .layout = recipe.layout});
+}
+
+void set_area(vk::CommandBuffer commands, vk::Extent2D extent) {
+  commands.setViewport(0, vk::Viewport{.x = 0,
+                                       .y = 0,
+                                       .width = static_cast<float>(extent.width),
+                                       .height = static_cast<float>(extent.height),
+                                       .minDepth = 0.0f,
+                                       .maxDepth = 1.0f});
+  commands.setScissor(0, vk::Rect2D{{0, 0}, extent});
+}
+
+}  // namespace phare

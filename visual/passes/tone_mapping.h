@@ -1,0 +1,27 @@
+// The tone-mapping pass: HDR image in cd/m² to the display. Runs only when something calls for the HDR image; else the lamp pass applies the curve.
+#pragma once
+
+#include <map>
+
+#include "visual/gpu/frame_graph.h"
+
+namespace phare {
+
+class ToneMappingPass {
+ public:
+  explicit ToneMappingPass(gpu::Device& device);
+
+  void draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, double exposure_per_cdm2);
+
+ private:
+  gpu::Device& device_;
+  vk::raii::DescriptorSetLayout set_layout_{nullptr};
+  vk::raii::PipelineLayout layout_{nullptr};
+  vk::raii::DescriptorPool pool_{nullptr};
+  vk::raii::DescriptorSet set_{nullptr};
+  vk::raii::Sampler sampler_{nullptr};
+  std::map<vk::Format, vk::raii::Pipeline> pipelines_;
+  vk::raii::ShaderModule vertex_{nullptr}, fragment_{nullptr};
+};
+
+}  // namespace phare

@@ -1,0 +1,140 @@
+// Luminous intensity of one photometry file over direction.
+// Computes: I(direction) bilinear in the file's own angles, and the flux as the exact integral of that surface.
+// Source: ANSI/IES LM-63-19 and LM-75 for the three goniometer types; the integrals are worked out below.
+// Frame: the lamp's, x along the optical axis, y left, z up. Leaves out: near field (lamps are points), spectrum.
+// Checked by tests/photometry/reference_test.cpp (0_intensity.csv, f_flux.csv) and lm63_test.cpp.
+#include "visual/photometry/intensity_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace phare {
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+
+/// Cell of `x` on ascending nodes and the share of its upper node; index + 1 is a node, too. False outside the range.
+struct Cell {
+  std::size_t index = 0;
+  double upper_share_01 = 0.0;
+};
+
+bool find_cell(const std::vector<double>& nodes, double x, Cell& cell) {
+  // Written so that a NaN is outside.
+  if (nodes.size() < 2 || !(x >= nodes.front() && x <= nodes.back())) return false;
+  const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x);
+  cell.index = static_cast<std::size_t>(above - nodes.begin()) - 1;
+  const double low = nodes[cell.index];
+  cell.upper_share_01 = (x - low) / (nodes[cell.index + 1] - low);
+  return true;
+}
+
+/// What a cell's lower and upper node contribute to the integral of a linear function times the weight.
+struct Weights {
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+/// Weight 1 (the angle about the polar axis). Radians.
+Weights flat_weights(double from_rad, double to_rad) {
+  const double half = 0.5 * (to_rad - from_rad);
+  return {half, half};
+}
+
+/// Weight cos(x). With m the middle, h half the width and x = m + u:
+///   ∫ cos(x)·(1/2 ± u/2h) du over [-h, h] = cos(m)·sin(h) ∓ sin(m)·(sin(h) - h·cos(h))/h.
+/// About the middle nothing cancels, so narrow cells keep their digits.
+Weights cosine_weights(double from_rad, double to_rad) {
+  const double m = 0.5 * (from_rad + to_rad);
+  const double h = 0.5 * (to_rad - from_rad);
+  // (sin h - h cos h)/h = h²/3 - h⁴/30 + h⁶/840 - … ; the closed form loses digits below 0.1 rad.
+  const double h2 = h * h;
+  const double tilt = h < 0.1 ? h2 * (1.0 / 3.0 - h2 * (1.0 / 30.0 - h2 * (1.0 / 840.0 - h2 / 45360.0)))
+                              : std::sin(h) / h - std::cos(h);
+  return {std::cos(m) * std::sin(h) + std::sin(m) * tilt, std::cos(m) * std::sin(h) - std::sin(m) * tilt};
+}
+
+/// Weight sin(x) = cos(x - 90°).
+Weights sine_weights(double from_rad, double to_rad) {
+  return cosine_weights(from_rad - std::numbers::pi / 2, to_rad - std::numbers::pi / 2);
+}
+
+/// Weight of each node for the integral over the whole axis.
+std::vector<double> node_weights(const std::vector<double>& nodes_deg, Weights (*cell_weights)(double, double)) {
+  std::vector<double> weights(nodes_deg.size(), 0.0);
+  for (std::size_t i = 0; i + 1 < nodes_deg.size(); ++i) {
+    const Weights cell = cell_weights(nodes_deg[i] / kDegreesPerRadian, nodes_deg[i + 1] / kDegreesPerRadian);
+    weights[i] += cell.lower;
+    weights[i + 1] += cell.upper;
+  }
+  return weights;
+}
+
+}  // namespace
+
+// Lamp axes: x ahead out of the page towards the driver's view, y left, z up. As seen from the lamp, looking ahead:
+//
+//            z, V > 0                 type A: polar axis z. H turns about z (right positive), V is the latitude.
+//               |                     type B: polar axis y. V turns about y (up positive), H is the latitude.
+//   y  ---------+---------  H > 0     type C: polar axis gamma = 0; C turns about it, counter-clockwise as LM-63 says.
+//  left         |           right       gamma0:  gamma = 0 along x, C = 0 to the right, C = 90 up.
+//               |                       gamma90: gamma = 0 straight down, C = 0 ahead, C = 90 left.
+TableAngles table_angles(PhotometricType type, GammaAxis axis, const glm::dvec3& direction) {
+  const double x = direction.x;
+  const double y = direction.y;
+  const double z = direction.z;
+  switch (type) {
+    case PhotometricType::kA:
+      return {std::atan2(-y, x) * kDegreesPerRadian, std::atan2(z, std::sqrt(x * x + y * y)) * kDegreesPerRadian};
+    case PhotometricType::kB:
+      return {std::atan2(-y, std::sqrt(x * x + z * z)) * kDegreesPerRadian, std::atan2(z, x) * kDegreesPerRadian};
+    case PhotometricType::kC:
+      break;
+  }
+  const glm::dvec3 c = axis == GammaAxis::kGamma0 ? glm::dvec3{-y, z, x} : glm::dvec3{x, y, -z};  // along c0, c90, g0
+  double c_deg = std::atan2(c.y, c.x) * kDegreesPerRadian;
+  if (c_deg < 0.0) c_deg += 360.0;
+  if (c_deg >= 360.0) c_deg = 0.0;  // -1e-15 + 360 rounds to 360
+  return {c_deg, std::atan2(std::sqrt(c.x * c.x + c.y * c.y), c.z) * kDegreesPerRadian};
+}
+
+double IntensityTable::intensity_cd(const glm::dvec3& direction) const {
+  if (direction == glm::dvec3{0.0}) return 0.0;
+  return intensity_at_cd(table_angles(type, axis, direction));
+}
+
+double IntensityTable::intensity_at_cd(TableAngles angles) const {
+  Cell first;
+  Cell second;
+  if (!find_cell(first_deg, angles.first_deg, first) || !find_cell(second_deg, angles.second_deg, second)) return 0.0;
+  const double* row = candela.data() + second.index * first_deg.size() + first.index;
+  const double* next_row = row + first_deg.size();
+  const double u = first.upper_share_01;
+  const double v = second.upper_share_01;
+  const double low = row[0] * (1.0 - u) + row[1] * u;
+  const double high = next_row[0] * (1.0 - u) + next_row[1] * u;
+  return low * (1.0 - v) + high * v;
+}
+
+double IntensityTable::flux_lm() const {
+  // dω = cos V dV dH (A), cos H dH dV (B), sin γ dγ dC (C).
+  const auto first = node_weights(first_deg, type == PhotometricType::kB ? cosine_weights : flat_weights);
+  const auto second = node_weights(second_deg, type == PhotometricType::kA   ? cosine_weights
+                                               : type == PhotometricType::kB ? flat_weights
+                                                                             : sine_weights);
+  double flux_lm = 0.0;
+  for (std::size_t j = 0; j < second.size(); ++j) {
+    double row = 0.0;
+    for (std::size_t i = 0; i < first.size(); ++i) row += first[i] * candela[j * first.size() + i];
+    flux_lm += second[j] * row;
+  }
+  return flux_lm;
+}
+
+double IntensityTable::peak_cd() const {
+  return candela.empty() ? 0.0 : *std::max_element(candela.begin(), candela.end());
+}
+
+}  // namespace phare

@@ -1,0 +1,86 @@
+#include "visual/process/album.h"
+
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+
+#include "visual/image/image.h"
+#include "visual/process/stills.h"
+
+namespace phare {
+namespace {
+
+constexpr int kThumbnailWidth_px = 320;
+constexpr std::size_t kSheetPictures = 16;
+
+/// A picture that cannot be written is told once each; the drive goes on.
+void tell(const Status& status) {
+  if (!status) spdlog::error("{}", status.error().text());
+}
+
+/// The middle rows that show kBirdsEyeWidth_m of a map kBirdsEyeLength_m wide.
+Image8 cut_to_map(const Image8& map) {
+  const int height_px = std::min(map.height_px, static_cast<int>(map.width_px * kBirdsEyeWidth_m / kBirdsEyeLength_m));
+  const auto row_bytes = static_cast<std::ptrdiff_t>(map.width_px) * 4;
+  const auto from = map.rgba.begin() + row_bytes * ((map.height_px - height_px) / 2);
+  return {map.width_px, height_px, {from, from + row_bytes * height_px}};
+}
+
+}  // namespace
+
+Result<Album> Album::open(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder / "frames", failed);
+  if (failed) return Error{folder.string(), failed.message()};
+  Album album;
+  album.folder_ = folder;
+  return album;
+}
+
+void Album::keep_frame(std::int64_t frame_index, const Image8& image, const std::string& label) {
+  char name[40];
+  std::snprintf(name, sizeof name, "frames/%06lld.png", static_cast<long long>(frame_index));
+  save(name, image);
+  for (const std::uint8_t byte : image.rgba) frames_hash_ = (frames_hash_ ^ byte) * 0x100000001b3ull;
+  ++kept_frames_;
+  if (thumbnails_.wants_next()) thumbnails_.offer({thumbnail(image, kThumbnailWidth_px), label});
+  else thumbnails_.skip();
+}
+
+void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps, int width_px, int height_px,
+                        const std::string& label) {
+  has_stills_ = true;
+  driver.want_image = true;
+  driver.draw_overlay = false;
+
+  constexpr int kFiner = 2;
+  renderer.resize(kFiner * width_px, kFiner * height_px);
+  renderer.draw(driver);
+  const Image8 fine = renderer.read_image();
+  save("drivers_view.png", box_downscale(fine, fine.width_px / width_px));  // a window keeps its size
+
+  FrameInput above = driver;
+  above.camera = birds_eye_camera(pose);
+  above.view = View::kFalseColour;
+  renderer.resize(1200, 480);
+  renderer.draw(above);
+  save("birds_eye.png", birds_eye_picture(cut_to_map(renderer.read_image()), "Illuminance on the ground from above, lux; " + label));
+
+  renderer.resize(width_px, height_px);
+  driver.want_hdr = true;
+  driver.want_image = false;
+  renderer.draw(driver);
+  tell(write_exr(folder_ / "hdr.exr", renderer.read_hdr()));
+
+  save("wall_25m.png", wall_picture(lamps, lamps.design_index()));
+}
+
+void Album::finish() {
+  if (!wanted()) return;
+  const std::vector<LabelledImage> pictures = thumbnails_.pick(kSheetPictures);
+  if (!pictures.empty()) save("contact_sheet.png", contact_sheet(pictures));
+}
+
+void Album::save(const char* name, const Image8& image) { tell(write_png(folder_ / name, image)); }
+
+}  // namespace phare

@@ -1,0 +1,46 @@
+// The folder of pictures that a drive leaves behind.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "config/result.h"
+#include "visual/image/contact_sheet.h"
+#include "visual/process/cameras.h"
+#include "visual/process/lamps.h"
+
+namespace phare {
+
+class Album {
+ public:
+  /// An album without a folder keeps nothing.
+  Album() = default;
+  /// Makes the folder and frames/ in it.
+  static Result<Album> open(const std::filesystem::path& folder);
+
+  bool wanted() const { return !folder_.empty(); }
+  /// frames/NNNNNN.png, and a thumbnail for the contact sheet.
+  void keep_frame(std::int64_t frame_index, const Image8& image, const std::string& label);
+  /// drivers_view.png (drawn at twice the size and averaged), hdr.exr, birds_eye.png, wall_25m.png. `driver` is the driver's
+  /// frame; the map below the bird's eye is made of it with another camera. Leaves the renderer at `width_px` x `height_px`.
+  void keep_stills(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps, int width_px, int height_px,
+                   const std::string& label);
+  bool has_stills() const { return has_stills_; }
+  /// contact_sheet.png
+  void finish();
+
+  /// One number over the bytes of every kept frame in order (FNV-1a, 64 bit): equal drives give equal numbers.
+  std::uint64_t frames_hash() const { return frames_hash_; }
+  std::uint64_t kept_frames() const { return kept_frames_; }
+
+ private:
+  void save(const char* name, const Image8& image);
+
+  std::filesystem::path folder_;
+  Thumbnails thumbnails_;
+  bool has_stills_ = false;
+  std::uint64_t frames_hash_ = 0xcbf29ce484222325ull;
+  std::uint64_t kept_frames_ = 0;
+};
+
+}  // namespace phare

@@ -1,0 +1,98 @@
+// Figures over any number of frames in bounded memory: a histogram with bins 1 % wide.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "visual/renderer.h"
+
+namespace phare {
+
+/// Values from 1e-9 to 1e9 in log-spaced bins; percentiles are right within half a percent of the value. Minimum, maximum,
+/// count and mean are exact. Smaller values (zero too) count in the lowest bin. Memory: 33 KiB, whatever the count.
+class LogHistogram {
+ public:
+  void add(double value) {
+    ++count_;
+    sum_ += value;
+    lowest_ = std::min(lowest_, value);
+    highest_ = std::max(highest_, value);
+    ++bins_[bin_of(value)];
+  }
+
+  std::uint64_t count() const { return count_; }
+  double min() const { return count_ == 0 ? 0.0 : lowest_; }
+  double max() const { return count_ == 0 ? 0.0 : highest_; }
+  double mean() const { return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_); }
+
+  /// The value that `share` (0..1) of all values do not exceed (nearest rank); 0 without values.
+  double percentile(double share) const {
+    if (count_ == 0) return 0.0;
+    const auto rank = static_cast<std::uint64_t>(std::ceil(std::clamp(share, 0.0, 1.0) * static_cast<double>(count_)));
+    std::uint64_t below = 0;
+    for (std::size_t bin = 0; bin < kBins; ++bin) {
+      below += bins_[bin];
+      if (below >= std::max<std::uint64_t>(rank, 1)) return std::clamp(middle_of(bin), lowest_, highest_);
+    }
+    return highest_;
+  }
+
+ private:
+  static constexpr double kLowest = 1e-9;
+  static constexpr double kLogStep = 0.00995033085316808;  // ln 1.01
+  static constexpr std::size_t kBins = 4166;               // ln(1e18) / ln(1.01)
+
+  static std::size_t bin_of(double value) {
+    if (!(value > kLowest)) return 0;
+    return static_cast<std::size_t>(std::min(std::log(value / kLowest) / kLogStep, static_cast<double>(kBins - 1)));
+  }
+  static double middle_of(std::size_t bin) { return kLowest * std::exp((static_cast<double>(bin) + 0.5) * kLogStep); }
+
+  std::array<std::uint64_t, kBins> bins_{};
+  std::uint64_t count_ = 0;
+  double sum_ = 0.0;
+  double lowest_ = std::numeric_limits<double>::infinity();
+  double highest_ = -std::numeric_limits<double>::infinity();
+};
+
+/// {"count", "min", "median", "mean", "p95", "p99", "max"}
+inline nlohmann::json to_json(const LogHistogram& histogram) {
+  return {{"count", histogram.count()},           {"min", histogram.min()},
+          {"median", histogram.percentile(0.50)}, {"mean", histogram.mean()},
+          {"p95", histogram.percentile(0.95)},    {"p99", histogram.percentile(0.99)},
+          {"max", histogram.max()}};
+}
+
+/// Times of the frames of a run, ms.
+struct FrameStats {
+  LogHistogram wall_ms;              ///< every frame
+  LogHistogram wall_no_capture_ms;   ///< frames whose picture was not read back
+  LogHistogram gpu_ms;               ///< frames whose picture was not read back
+  LogHistogram interval_ms;          ///< from the end of one frame to the end of the next, waiting included
+  std::map<std::string, LogHistogram> pass_ms;
+  std::uint64_t frames = 0;
+  std::uint64_t captured_frames = 0;
+  std::uint64_t stale_frames = 0;    ///< drawn with a held pose
+  FrameResult newest;
+
+  void add(const FrameResult& result, bool captured) {
+    ++frames;
+    wall_ms.add(result.wall_ms);
+    newest = result;
+    if (captured) {
+      ++captured_frames;
+      return;
+    }
+    wall_no_capture_ms.add(result.wall_ms);
+    gpu_ms.add(result.gpu_ms);
+    for (const PassTime& pass : result.passes) pass_ms[pass.name].add(pass.ms);
+  }
+};
+
+}  // namespace phare

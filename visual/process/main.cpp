@@ -1,0 +1,96 @@
+// phare-visual: one channel of the picture. Reads the rig, its scene and its lamps, then draws what the bus says.
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+
+#include "net/drive_file.h"
+#include "visual/process/run_loop.h"
+
+namespace {
+
+using namespace phare;
+
+int refuse(const Error& error) {
+  std::fprintf(stderr, "phare-visual: %s\n", error.text().c_str());
+  return kExitBadInput;
+}
+
+nlohmann::json describe(const Lamps& lamps) {
+  nlohmann::json tables = nlohmann::json::array();
+  for (const Lamps::TableInfo& table : lamps.tables()) {
+    tables.push_back({{"file", table.name}, {"content_hash", table.content_hash}, {"peak_cd", table.peak_cd},
+                      {"flux_lm", table.flux_lm}, {"notes", table.notes}});
+  }
+  return tables;
+}
+
+/// Nothing is written before everything that can be wrong has been read.
+int draw_channel(VisualOptions options) {
+  Result<Rig> rig = read_rig(options.rig_file);
+  if (!rig) return refuse(rig.error());
+  if (options.port_base) rig->port_base = *options.port_base;
+  if (options.channel >= rig->channels.size()) {
+    return refuse({"--channel", "the rig has " + std::to_string(rig->channels.size()) + " channel(s), counted from 0"});
+  }
+  const ChannelConfig& channel = rig->channels[options.channel];
+  if (options.width_px == 0) options.width_px = channel.width_px, options.height_px = channel.height_px;
+
+  Result<Lamps> lamps = Lamps::load(*rig);
+  if (!lamps) return refuse(lamps.error());
+  Result<Scene> scene = read_scene(rig->scene_file);
+  if (!scene) return refuse(scene.error());
+  if (options.still_at_s < 0.0 && !options.drive_file.empty()) {
+    const Result<Drive> drive = read_drive(options.drive_file);
+    if (!drive) return refuse(drive.error());
+    options.still_at_s = 0.2 * drive->duration.seconds();
+  }
+
+  std::optional<Window> window;
+  if (!options.headless) {
+    Result<Window> opened = Window::open("Phare", options.width_px, options.height_px);
+    if (!opened) return refuse(opened.error());
+    window = std::move(*opened);
+  }
+  RendererOptions drawing;
+  drawing.width_px = options.width_px;
+  drawing.height_px = options.height_px;
+  drawing.samples = options.samples;
+  drawing.validation = options.validation;
+  drawing.device_name = options.device_name;
+  drawing.window = window ? window->handle() : nullptr;
+  Result<Renderer> renderer = Renderer::create(drawing);
+  if (!renderer) return refuse(renderer.error());
+  if (const Status loaded = renderer->load_scene(*scene); !loaded) return refuse(loaded.error());
+
+  Result<Bus> bus = Bus::open(*rig, Role::kVisual, options.channel);
+  if (!bus) return refuse(bus.error());
+  Result<Album> album = options.out.empty() ? Result<Album>(Album{}) : Album::open(options.out);
+  if (!album) return refuse(album.error());
+
+  nlohmann::json lamps_json = describe(*lamps);
+  Session session{std::move(options), std::move(*rig), std::move(*scene), std::move(*lamps), std::move(window), std::move(*renderer),
+                  std::move(*bus), std::move(*album), install_stop_signals(), {}, {}, {}, std::move(lamps_json)};
+  spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
+  run_loop(session);
+  if (session.renderer.validation_messages() > 0) {
+    spdlog::error("{} Vulkan validation messages", session.renderer.validation_messages());
+    return kExitCheckFailed;
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const ParsedOptions parsed = parse_options(argc, argv);
+  if (!parsed.options) return parsed.exit_code;
+  spdlog::set_default_logger(spdlog::stderr_logger_st("visual"));
+  spdlog::set_level(spdlog::level::from_str(parsed.options->log_level));
+  try {
+    return draw_channel(*parsed.options);
+  } catch (const std::exception& failure) {  // the device was lost, or memory ran out: say so once and leave
+    spdlog::critical("phare-visual leaves: {}", failure.what());
+    return kExitCheckFailed;
+  }
+}

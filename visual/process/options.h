@@ -1,0 +1,42 @@
+// The command line of phare-visual.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "config/result.h"
+
+namespace phare {
+
+struct VisualOptions {
+  std::filesystem::path rig_file;
+  std::filesystem::path drive_file;     ///< only to know how long the drive is; may be empty
+  std::filesystem::path out;            ///< folder of the pictures; empty: none are written
+  std::filesystem::path stats_file;     ///< empty: visual-<channel>.json in `out`
+  std::uint32_t channel = 0;
+  bool lockstep = false;
+  bool headless = false;
+  std::int64_t frames = 0;              ///< > 0: save every one of this many frames, then leave
+  int width_px = 0, height_px = 0;      ///< 0: the channel's
+  int samples = 1;
+  double still_at_s = -1.0;             ///< simulated time of the stills; negative: chosen
+  double exposure_per_cdm2 = 0.35;
+  std::int64_t audit_every = 300;       ///< frames; 0: never
+  bool false_colour = false;
+  bool validation = false;
+  std::string device_name;
+  std::string log_level = "info";
+  std::optional<std::uint16_t> port_base;
+};
+
+/// What came of reading the command line: options, or the exit code (help was shown, or an error told on stderr).
+struct ParsedOptions {
+  std::optional<VisualOptions> options;
+  int exit_code = kExitDone;
+};
+
+ParsedOptions parse_options(int argc, const char* const* argv);
+
+}  // namespace phare

@@ -1,0 +1,48 @@
+#include "visual/process/report.h"
+
+#include <fmt/format.h>
+
+#include "net/stats.h"
+
+namespace phare {
+
+nlohmann::json report_json(const Session& session, SimTime now) {
+  nlohmann::json report = stats_json("visual", session.bus);
+  const FrameStats& stats = session.stats;
+  report["version"] = PHARE_VERSION;
+  report["channel"] = session.channel().name;
+  report["channel_index"] = session.options.channel;
+  report["size_px"] = {session.options.width_px, session.options.height_px};
+  report["lockstep"] = session.options.lockstep;
+  report["sim_time_s"] = now.seconds();
+  report["device"] = session.renderer.device();
+  report["device_memory_bytes"] = session.renderer.device_memory_bytes();
+  report["validation"] = session.options.validation;
+  report["validation_messages"] = session.renderer.validation_messages();
+
+  report["frames"] = stats.frames;
+  report["frames_captured"] = stats.captured_frames;
+  report["frames_stale_pose"] = stats.stale_frames;
+  report["frame_ms"] = to_json(stats.wall_ms);
+  report["frame_ms_without_capture"] = to_json(stats.wall_no_capture_ms);
+  report["gpu_ms"] = to_json(stats.gpu_ms);
+  report["interval_ms"] = to_json(stats.interval_ms);
+  report["pass_ms"] = nlohmann::json::object();
+  for (const auto& [pass, times] : stats.pass_ms) report["pass_ms"][pass] = to_json(times);
+  report["draws"] = stats.newest.draws;
+  report["passes"] = stats.newest.pass_count;
+  report["triangles"] = stats.newest.triangles;
+
+  report["beams"] = {{"compositions", session.lamps.compositions()},
+                     {"uploads", session.lamps.uploads()},
+                     {"resampled", session.lamps.resampled_images()}};
+  report["self_audit"] = session.audit.json();
+  report["switch_to_photon"] = session.switches.json();
+  report["scene"] = {{"file", session.scene.file.filename().string()}, {"content_hash", session.scene.content_hash},
+                     {"triangles", session.scene.indices.size() / 3}};
+  report["lamps"] = session.lamps_json;
+  report["kept_frames"] = {{"count", session.album.kept_frames()}, {"hash", fmt::format("{:016x}", session.album.frames_hash())}};
+  return report;
+}
+
+}  // namespace phare

@@ -1,0 +1,302 @@
+#include "visual/process/run_loop.h"
+
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+
+#include "net/stats.h"
+#include "visual/image/canvas.h"
+#include "visual/process/pick.h"
+#include "visual/process/pose_buffer.h"
+#include "visual/process/report.h"
+
+namespace phare {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto kRepeatAfter = 100ms;  // of no progress the last FrameReport is sent again
+constexpr auto kStatsEvery = 1s;
+
+/// What one frame shows.
+struct Moment {
+  std::int64_t frame_index = -1;  ///< real time: -1
+  SimTime time;
+  CockpitState controls;
+  PoseBuffer::Drawn car;
+};
+
+class Loop {
+ public:
+  explicit Loop(Session& session) : s_(session), pacer_(std::chrono::nanoseconds(1'000'000'000 / session.rig.frame_rate_hz)) {
+    s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
+    controls_.light_switch = LightSwitch::kLow;  // until the cockpit speaks, low beam: the safe state
+    announce();
+  }
+
+  bool over();
+  void receive() { s_.bus.poll(); }
+  std::optional<Moment> next_moment() { return s_.options.lockstep ? lockstep_moment() : display_moment(); }
+  void draw(const Moment& moment);
+  void report(const Moment& moment);
+  void keep(const Moment& moment);
+  void audit(const Moment& moment);
+  void finish();
+
+ private:
+  void take(const Datagram& datagram);
+  void answer(const ProbeRequest& request, SimTime now);
+  void announce();
+  void repeat_when_stalled();
+  std::optional<Moment> lockstep_moment();
+  std::optional<Moment> display_moment();
+  bool wants_picture(const Moment& moment);
+  bool wants_stills(const Moment& moment) const;
+  std::string label(const Moment& moment) const;
+  void show_title(const Moment& moment);
+  void write_stats(SimTime now);
+
+  Session& s_;
+  Pacer pacer_;
+  PoseBuffer poses_;
+  DisplayClock clock_;
+  CockpitState controls_;
+  std::int64_t drawn_index_ = -1;        // lockstep
+  std::int64_t drawn_frames_ = 0;
+  std::int64_t next_picture_ns_ = 0;
+  Clock::time_point progress_ = Clock::now(), stats_written_ = Clock::now(), frame_end_{};
+  bool ended_ = false;
+  bool captured_ = false;                // the picture of this frame is read back
+  FrameInput input_;
+  std::optional<Moment> newest_;
+};
+
+bool Loop::over() {
+  if (s_.window && !s_.window->poll()) ended_ = true;
+  return ended_ || s_.stop.requested();
+}
+
+/// Every accepted datagram, in order.
+void Loop::take(const Datagram& datagram) {
+  if (const auto* state = std::get_if<VehicleState>(&datagram.payload)) {
+    poses_.push(datagram.sim_time, *state);
+    clock_.observe(datagram.sim_time, datagram.sent);
+  } else if (const auto* controls = std::get_if<CockpitState>(&datagram.payload)) {
+    controls_ = *controls;
+  } else if (const auto* request = std::get_if<ProbeRequest>(&datagram.payload)) {
+    answer(*request, datagram.sim_time);
+  } else if (const auto* control = std::get_if<RigControl>(&datagram.payload)) {
+    if (const auto* aim = std::get_if<RigControl::Aim>(&control->command)) s_.lamps.set_aim(aim->pitch_rad);
+    if (std::holds_alternative<RigControl::Quit>(control->command)) s_.stop.request();
+  }
+}
+
+/// Lux at points of the world under the lamps of the newest frame, through the shader that draws it.
+void Loop::answer(const ProbeRequest& request, SimTime now) {
+  ProbeReply reply{request.request_id, {}, {}};
+  std::vector<MeasurePoint> points;
+  for (std::size_t i = 0; i < request.x_m.size(); ++i) {
+    points.push_back({{request.x_m[i], request.y_m[i], request.z_m[i]}, {request.nx[i], request.ny[i], request.nz[i]}});
+  }
+  reply.illuminance_lx.assign(points.size(), 0.0);
+  if (!newest_) {
+    reply.illuminance_lx.clear();
+    reply.error = "no frame has been drawn yet";
+  } else {
+    for (const std::vector<float>& lamp_lx : s_.renderer.measure(input_.lamps, points)) {
+      for (std::size_t i = 0; i < points.size(); ++i) reply.illuminance_lx[i] += static_cast<double>(lamp_lx[i]);
+    }
+  }
+  s_.bus.send(now, reply);
+}
+
+/// "Up, and waiting for the first pose."
+void Loop::announce() {
+  FrameReport report;
+  report.channel = s_.options.channel;
+  report.channels = static_cast<std::uint32_t>(s_.rig.channels.size());
+  s_.bus.send(SimTime{}, report);
+}
+
+void Loop::repeat_when_stalled() {
+  if (Clock::now() - progress_ < kRepeatAfter) return;
+  progress_ = Clock::now();
+  const auto* controls = s_.bus.newest<CockpitState>();
+  const auto* car = s_.bus.newest<VehicleState>();
+  if (s_.options.lockstep && drawn_index_ < 0 && controls != nullptr && car != nullptr && car->value.frame_index >= 0) {
+    // Started anew in the middle of a drive where one of the two is a frame behind: the pose we hold sets both going again.
+    drawn_index_ = car->value.frame_index;
+    FrameReport report{drawn_index_, s_.options.channel, static_cast<std::uint32_t>(s_.rig.channels.size()), 0.0, 0.0, 0, car->value, true};
+    s_.bus.send(car->sim_time, report);
+    return;
+  }
+  s_.bus.send_again(kPayloadIndex<FrameReport>);
+}
+
+/// Frame k as soon as controls and pose of k are both here.
+std::optional<Moment> Loop::lockstep_moment() {
+  const auto* controls = s_.bus.newest<CockpitState>();
+  const auto* car = s_.bus.newest<VehicleState>();
+  const bool both = controls != nullptr && car != nullptr && controls->value.frame_index == car->value.frame_index;
+  if (both && car->value.frame_index > drawn_index_) {
+    drawn_index_ = car->value.frame_index;
+    return Moment{drawn_index_, frame_time(drawn_index_, s_.rig.frame_rate_hz), controls->value, {car->value, 0.0, false}};
+  }
+  s_.bus.wait(s_.window ? 10ms : 20ms);
+  repeat_when_stalled();
+  return std::nullopt;
+}
+
+/// The pose of now, at the frame rate of the rig.
+std::optional<Moment> Loop::display_moment() {
+  if (!pacer_.due()) {
+    s_.bus.wait(pacer_.left());
+    return std::nullopt;
+  }
+  const WallTime now = wall_now();
+  const std::optional<SimTime> time = clock_.at(now);
+  const std::optional<PoseBuffer::Drawn> car = time ? poses_.at(*time) : std::nullopt;
+  if (!car) {
+    repeat_when_stalled();
+    return std::nullopt;
+  }
+  Moment moment{-1, *time, controls_, *car};
+  const auto* newest = s_.bus.newest<CockpitState>();
+  const bool silent = newest == nullptr || std::chrono::nanoseconds(now.ns - newest->received.ns) > channel_of<CockpitState>().stale_after;
+  if (silent && moment.controls.light_switch < LightSwitch::kLow) moment.controls.light_switch = LightSwitch::kLow;
+  if (silent) moment.controls.flash = false;
+  return moment;
+}
+
+void Loop::draw(const Moment& moment) {
+  for (const Lamps::Change& change : s_.lamps.set_controls(moment.controls)) s_.renderer.set_beam(change.position, *change.image);
+  const CameraKind camera = s_.window ? s_.window->camera() : CameraKind::kDriver;
+  input_.camera = camera_of(camera, s_.channel(), moment.car.pose);
+  input_.view = s_.window ? s_.window->view() : View::kPhoto;
+  if (s_.options.false_colour) input_.view = input_.view == View::kPhoto ? View::kFalseColour : View::kPhoto;
+  input_.lamps = s_.lamps.placed(moment.car.pose);
+  input_.exposure_per_cdm2 = s_.options.exposure_per_cdm2;
+  captured_ = wants_picture(moment);
+  input_.want_image = captured_;
+
+  const FrameResult result = s_.renderer.draw(input_);
+  s_.stats.add(result, captured_);
+  if (moment.car.stale) ++s_.stats.stale_frames;
+  const Clock::time_point now = Clock::now();
+  if (frame_end_ != Clock::time_point{}) s_.stats.interval_ms.add(std::chrono::duration<double, std::milli>(now - frame_end_).count());
+  frame_end_ = now;
+  progress_ = now;
+  ++drawn_frames_;
+  newest_ = moment;
+  s_.switches.frame_finished(moment.controls, moment.time, wall_now(), s_.options.lockstep ? s_.rig.frame_rate_hz : 0);
+}
+
+void Loop::report(const Moment& moment) {
+  FrameReport report{moment.frame_index, s_.options.channel, static_cast<std::uint32_t>(s_.rig.channels.size()),
+                     s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms, moment.controls.light_changes, moment.car.pose, moment.car.stale};
+  s_.bus.send(moment.time, report);
+  const bool enough = s_.options.frames > 0 && drawn_frames_ >= s_.options.frames;
+  if (enough || moment.controls.drive_ended || moment.car.pose.drive_ended) ended_ = true;
+}
+
+void Loop::keep(const Moment& moment) {
+  if (captured_) {
+    Image8 image = s_.renderer.read_image();
+    if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);
+    s_.album.keep_frame(s_.options.lockstep ? moment.frame_index : drawn_frames_ - 1, image, label(moment));
+  }
+  if (wants_stills(moment)) {
+    FrameInput driver = input_;
+    driver.camera = driver_camera(s_.channel(), moment.car.pose);
+    driver.view = View::kPhoto;
+    s_.album.keep_stills(s_.renderer, driver, moment.car.pose, s_.lamps, s_.options.width_px, s_.options.height_px, label(moment));
+    progress_ = Clock::now();
+    frame_end_ = {};  // not a frame interval
+  }
+  if (s_.window) show_title(moment);
+}
+
+void Loop::audit(const Moment& moment) {
+  constexpr std::size_t kPixels = 32;
+  if (s_.options.audit_every > 0 && drawn_frames_ % s_.options.audit_every == 1 % s_.options.audit_every && !input_.lamps.empty()) {
+    const auto samples = s_.renderer.audit(input_, kPixels, static_cast<std::uint64_t>(drawn_frames_));
+    s_.audit.add(s_.lamps, moment.car.pose, samples);
+  }
+  if (Clock::now() - stats_written_ > kStatsEvery) write_stats(moment.time);
+}
+
+void Loop::finish() {
+  s_.bus.on_datagram = nullptr;
+  s_.album.finish();
+  write_stats(newest_ ? newest_->time : SimTime{});
+}
+
+/// With --frames every one, else the first frame of each second of simulated time.
+bool Loop::wants_picture(const Moment& moment) {
+  if (!s_.album.wanted()) return false;
+  if (s_.options.frames > 0) return drawn_frames_ < s_.options.frames;
+  if (moment.time.ns < next_picture_ns_) return false;
+  next_picture_ns_ = (moment.time.ns / 1'000'000'000 + 1) * 1'000'000'000;
+  return true;
+}
+
+/// Low beam at speed past the wanted time tells most; at the end whatever there is.
+bool Loop::wants_stills(const Moment& moment) const {
+  constexpr double kTellingSpeed_mps = 8.0;
+  if (!s_.album.wanted() || s_.album.has_stills()) return false;
+  if (ended_) return true;
+  if (moment.time.seconds() < s_.options.still_at_s) return false;
+  return moment.controls.light_switch == LightSwitch::kLow && !moment.controls.flash && moment.car.pose.speed_mps > kTellingSpeed_mps;
+}
+
+std::string Loop::label(const Moment& moment) const {
+  char text[120];
+  std::snprintf(text, sizeof text, "%.1f s  %.0f km/h  %s%s%s", moment.time.seconds(), moment.car.pose.speed_mps * 3.6,
+                s_.lamps.lit_text().c_str(), s_.lamps.designs().size() > 1 ? "  " : "",
+                s_.lamps.designs().size() > 1 ? s_.lamps.design().name.c_str() : "");
+  return text;
+}
+
+/// Telltales and the lux under the mouse, in the title line; some ten times a second.
+void Loop::show_title(const Moment& moment) {
+  if (drawn_frames_ % 6 != 0) return;
+  std::string title = "Phare  " + label(moment);
+  char text[120];
+  std::snprintf(text, sizeof text, "  frame %.1f ms", s_.stats.newest.wall_ms);
+  title += text;
+  if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside) {
+    if (const auto point = pick(s_.scene, ray_through(input_.camera, mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px))) {
+      std::snprintf(text, sizeof text, "  %.3g lx at (%.2f, %.2f, %.2f) m", s_.lamps.illuminance_lx(moment.car.pose, *point),
+                    point->position_m.x, point->position_m.y, point->position_m.z);
+      title += text;
+    }
+  }
+  if (moment.car.stale) title += "  POSE HELD: no VehicleState";
+  if (moment.controls.fail_safe) title += "  FAIL-SAFE";
+  s_.window->set_title(title);
+}
+
+void Loop::write_stats(SimTime now) {
+  stats_written_ = Clock::now();
+  if (s_.options.stats_file.empty()) return;
+  if (!write_json(s_.options.stats_file, report_json(s_, now))) spdlog::warn("{}: cannot be written", s_.options.stats_file.string());
+}
+
+}  // namespace
+
+void run_loop(Session& session) {
+  Loop loop(session);
+  while (!loop.over()) {
+    loop.receive();
+    const std::optional<Moment> moment = loop.next_moment();
+    if (!moment) continue;
+    loop.draw(*moment);
+    loop.report(*moment);
+    loop.keep(*moment);
+    loop.audit(*moment);
+  }
+  loop.finish();
+}
+
+}  // namespace phare

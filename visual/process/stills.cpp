@@ -1,0 +1,125 @@
+#include "visual/process/stills.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "visual/image/canvas.h"
+#include "visual/image/image.h"
+#include "visual/image/lux_scale.h"
+#include "visual/process/cameras.h"
+
+namespace phare {
+namespace {
+
+constexpr double kWall_m = 25.0;        // UN R149, annex 4: measured at 25 m
+constexpr double kHalfWidth_deg = 20.0;
+constexpr double kHalfHeight_deg = 8.0;
+constexpr int kPxPerDeg = 28;
+constexpr int kMarginLeft_px = 52, kMarginTop_px = 30, kMarginBottom_px = 36, kMarginRight_px = 84;
+constexpr Colour kInk{220, 220, 220};
+constexpr Colour kGrid{80, 84, 96};
+
+Image8 page_around(int width_px, int height_px) {
+  return blank_image(kMarginLeft_px + width_px + kMarginRight_px, kMarginTop_px + height_px + kMarginBottom_px, 18, 18, 20);
+}
+
+/// A whole number in the middle of (x, y), or left of it.
+void draw_number(Image8& page, int x_px, int y_px, int value, bool centred) {
+  const std::string text = std::to_string(value);
+  const int width_px = text_width_px(text);
+  draw_text(page, x_px - (centred ? width_px / 2 : width_px), y_px, text, kInk);
+}
+
+/// The middle of the positions that have a low beam.
+glm::dvec3 middle_of_low_beam(const DesignConfig& design) {
+  glm::dvec3 sum{0.0};
+  double count = 0.0;
+  for (const LampConfig& lamp : design.lamps) {
+    const bool low = std::ranges::any_of(lamp.sources, [](const SourceConfig& s) { return s.function == LampFunction::kLow; });
+    if (low) sum += lamp.position_m, count += 1.0;
+  }
+  return count > 0.0 ? sum / count : sum;
+}
+
+}  // namespace
+
+Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
+  const DesignConfig& design = lamps.designs()[design_index];
+  const glm::dvec3 origin_m = middle_of_low_beam(design);
+  const int width_px = static_cast<int>(2.0 * kHalfWidth_deg) * kPxPerDeg, height_px = static_cast<int>(2.0 * kHalfHeight_deg) * kPxPerDeg;
+  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+  // Type A: azimuth h about the vertical axis, then elevation v; H to the right, so y falls.
+  const auto illuminance_lx = [&](double h_deg, double v_deg) {
+    const double h_rad = h_deg * kRadPerDeg, v_rad = v_deg * kRadPerDeg;
+    const glm::dvec3 on_wall_m{kWall_m, -kWall_m * std::tan(h_rad), kWall_m / std::cos(h_rad) * std::tan(v_rad)};
+    return lamps.illuminance_in_car_lx(design_index, {LampFunction::kLow}, {origin_m + on_wall_m, {-1.0, 0.0, 0.0}});
+  };
+  Image8 map = blank_image(width_px, height_px, 0, 0, 0);
+  std::vector<int> above(static_cast<std::size_t>(width_px), 0);  // isolux bands of the row before
+  double brightest_lx = 0.0;
+  for (int y = 0; y < height_px; ++y) {
+    int before = -1;
+    for (int x = 0; x < width_px; ++x) {
+      const double e_lx = illuminance_lx((x + 0.5) / kPxPerDeg - kHalfWidth_deg, kHalfHeight_deg - (y + 0.5) / kPxPerDeg);
+      brightest_lx = std::max(brightest_lx, e_lx);
+      const int band = isolux_band(e_lx);
+      const bool line = (before >= 0 && band != before) || (y > 0 && band != above[static_cast<std::size_t>(x)]);
+      fill_box(map, x, y, 1, 1, line ? Colour{255, 255, 255} : false_colour(e_lx));
+      before = band;
+      above[static_cast<std::size_t>(x)] = band;
+    }
+  }
+  for (int deg = -15; deg <= 15; deg += 5) {
+    const int x = static_cast<int>((deg + kHalfWidth_deg) * kPxPerDeg);
+    draw_line(map, x, 0, x, height_px - 1, deg == 0 ? kInk : kGrid);
+  }
+  for (int deg = -6; deg <= 6; deg += 2) {
+    const int y = static_cast<int>((kHalfHeight_deg - deg) * kPxPerDeg);
+    draw_line(map, 0, y, width_px - 1, y, deg == 0 ? kInk : kGrid);
+  }
+  const int hv_x = width_px / 2, hv_y = height_px / 2;
+  draw_text(map, hv_x + 6, hv_y - 18, "HV", {255, 255, 255});
+
+  Image8 page = page_around(width_px, height_px);
+  paste(page, map, kMarginLeft_px, kMarginTop_px);
+  for (int deg = -20; deg <= 20; deg += 5) {
+    draw_number(page, kMarginLeft_px + (deg + 20) * kPxPerDeg, kMarginTop_px + height_px + 4, deg, true);
+  }
+  for (int deg = -8; deg <= 8; deg += 2) {
+    draw_number(page, kMarginLeft_px - 6, kMarginTop_px + (8 - deg) * kPxPerDeg - text_height_px() / 2, deg, false);
+  }
+  draw_text(page, kMarginLeft_px + width_px / 2 - 60, kMarginTop_px + height_px + 18, "H, degrees to the right", kInk);
+  draw_text(page, 2, kMarginTop_px - 16, "V, deg", kInk);
+  char title[160];
+  std::snprintf(title, sizeof title, "Wall at 25 m, low beam of '%s', aimed as mounted; lux on the wall, brightest %.1f lx", design.name.c_str(), brightest_lx);
+  draw_text(page, kMarginLeft_px + 50, 8, title, kInk);
+  draw_lux_legend(page, kMarginLeft_px + width_px + 14, kMarginTop_px + 20, height_px - 20);
+  return page;
+}
+
+Image8 birds_eye_picture(const Image8& map, const std::string& caption) {
+  const double px_per_m = map.width_px / kBirdsEyeLength_m;
+  Image8 page = page_around(map.width_px, map.height_px);
+  paste(page, map, kMarginLeft_px, kMarginTop_px);
+  for (int ahead_m = 0; ahead_m <= static_cast<int>(kBirdsEyeLength_m); ahead_m += 10) {
+    const int x = kMarginLeft_px + static_cast<int>(ahead_m * px_per_m);
+    draw_line(page, x, kMarginTop_px + map.height_px, x, kMarginTop_px + map.height_px + 4, kInk);
+    draw_number(page, x, kMarginTop_px + map.height_px + 5, static_cast<int>(kBirdsEyeStart_m) + ahead_m, true);
+  }
+  const int half_m = static_cast<int>(kBirdsEyeWidth_m) / 2;
+  for (int left_m = -half_m; left_m <= half_m; left_m += 5) {
+    const int y = kMarginTop_px + static_cast<int>((half_m - left_m) * px_per_m);
+    draw_line(page, kMarginLeft_px - 4, y, kMarginLeft_px - 1, y, kInk);
+    draw_number(page, kMarginLeft_px - 6, y - text_height_px() / 2, left_m, false);
+  }
+  draw_text(page, kMarginLeft_px + map.width_px / 2 - 110, kMarginTop_px + map.height_px + 19, "x, m ahead of the car's origin (rear axle)", kInk);
+  draw_text(page, 2, kMarginTop_px - 16, "y, m", kInk);
+  draw_text(page, kMarginLeft_px + 50, 8, caption, kInk);
+  draw_lux_legend(page, kMarginLeft_px + map.width_px + 14, kMarginTop_px + 20, map.height_px - 20);
+  return page;
+}
+
+}  // namespace phare

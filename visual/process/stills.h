@@ -1,0 +1,16 @@
+// Pictures with figures on them: the 25 m wall and the frame of the bird's eye.
+#pragma once
+
+#include "visual/process/lamps.h"
+
+namespace phare {
+
+/// A wall 25 m before the lamps, seen squarely: low beam of all lamps of a design, aimed as mounted, car level. False colour
+/// by illuminance (lx on the wall), isolux lines, H-V grid in degrees (azimuth, then elevation, LM-63 type A) about the point
+/// of the wall at mounting height straight before the car, ±20° x ±8°. Float64 from the native tables on the CPU.
+Image8 wall_picture(const Lamps& lamps, std::size_t design);
+
+/// Puts axes in metres, legend and `caption` around a false-colour map of birds_eye_camera, 100 m x 40 m.
+Image8 birds_eye_picture(const Image8& map, const std::string& caption);
+
+}  // namespace phare

@@ -1,0 +1,284 @@
+#include "visual/renderer.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "visual/frame.h"
+#include "visual/gpu/window_surface.h"
+
+namespace phare {
+
+namespace {
+
+gpu::DeviceOptions device_options(const RendererOptions& options) {
+  gpu::DeviceOptions result{.validation = options.validation, .device_name = options.device_name};
+  if (options.window != nullptr) {
+    std::uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    if (names == nullptr) throw std::runtime_error("GLFW finds no Vulkan surface on this display");
+    result.instance_extensions.assign(names, names + count);
+  }
+  return result;
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  RendererOptions options;
+  gpu::Device device;
+  gpu::FrameGraph graph{device};
+  std::unique_ptr<gpu::WindowSurface> surface;
+  BeamStore beams{device};
+  LampPass lamps{device};
+  ToneMappingPass tone_mapping{device};
+  SceneBuffers scene;
+  FrameTargets targets;
+  gpu::HostBuffer display_copy, hdr_copy;
+  vk::raii::CommandBuffers commands{nullptr};
+  vk::raii::Fence fence{nullptr};
+
+  explicit Impl(const RendererOptions& wanted) : options(wanted), device(device_options(wanted)) {
+    if (options.window != nullptr) surface = std::make_unique<gpu::WindowSurface>(device, options.window);
+    commands = vk::raii::CommandBuffers(device.device,
+                                        vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
+    fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
+    make_targets(options.width_px, options.height_px);
+    set_scene(Scene{});
+  }
+
+  ~Impl() {
+    if (*device.device) device.device.waitIdle();
+  }
+
+  void make_targets(int width_px, int height_px) {
+    vk::Extent2D extent{static_cast<std::uint32_t>(width_px), static_cast<std::uint32_t>(height_px)};
+    if (surface) extent = surface->extent();
+    device.device.waitIdle();
+    targets = FrameTargets(device, extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
+                           surface ? surface->format() : vk::Format::eR8G8B8A8Srgb);
+    display_copy = {};
+    hdr_copy = {};
+  }
+
+  void set_scene(const Scene& new_scene) {
+    device.device.waitIdle();
+    scene = SceneBuffers(device, new_scene);
+    lamps.bind(scene, beams);
+  }
+
+  /// Submits what `record` puts into the graph and waits for it.
+  template <typename Record>
+  void submit(Record&& record) {
+    const vk::CommandBuffer buffer = *commands.front();
+    buffer.reset();
+    buffer.begin(vk::CommandBufferBeginInfo{.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    graph.begin(buffer);
+    record();
+    graph.end();
+    buffer.end();
+    device.device.resetFences(*fence);
+    device.queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &buffer}, *fence);
+    if (device.device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess) throw std::runtime_error("waiting for the GPU failed");
+  }
+
+  void copy_out(gpu::Image& image, gpu::HostBuffer& buffer, vk::DeviceSize bytes_per_texel) {
+    const vk::DeviceSize bytes = bytes_per_texel * image.extent.width * image.extent.height;
+    if (buffer.bytes != bytes) buffer = gpu::HostBuffer(device, bytes, vk::BufferUsageFlagBits::eTransferDst, image.name + " copy", true);
+    graph.pass("read back " + image.name, {{&image, gpu::Use::kCopySource, false}}, [&](vk::CommandBuffer c) {
+      c.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *buffer.buffer,
+                          vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                                              .imageExtent = {image.extent.width, image.extent.height, 1}});
+      const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
+                                       .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
+                                       .dstStageMask = vk::PipelineStageFlagBits2::eHost,
+                                       .dstAccessMask = vk::AccessFlagBits2::eHostRead};
+      c.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
+    });
+  }
+
+  FrameParts parts() {
+    return {device, graph, targets, scene, beams, lamps, tone_mapping, device.properties.deviceType == vk::PhysicalDeviceType::eCpu};
+  }
+};
+
+Result<Renderer> Renderer::create(const RendererOptions& options) {
+  const std::uint32_t largest = 16384;
+  if (options.width_px < 1 || options.height_px < 1 || options.width_px > static_cast<int>(largest) || options.height_px > static_cast<int>(largest))
+    return Error{"picture size", "width and height have to be 1 to 16384 pixels"};
+  if (options.samples != 1 && options.samples != 4) return Error{"samples", "1 or 4 samples a pixel"};
+  try {
+    return Renderer(std::make_unique<Impl>(options));
+  } catch (const std::exception& error) {
+    return Error{"vulkan", error.what()};
+  }
+}
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Status Renderer::load_scene(const Scene& scene) {
+  try {
+    impl_->set_scene(scene);
+    return Done{};
+  } catch (const std::exception& error) {
+    return Error{scene.file.string(), error.what()};
+  }
+}
+
+void Renderer::set_beam(std::size_t index, const BeamImage& image) { impl_->beams.set(index, image); }
+
+void Renderer::resize(int width_px, int height_px) {
+  if (impl_->surface) impl_->surface->rebuild();
+  impl_->make_targets(width_px, height_px);
+}
+
+FrameResult Renderer::draw(const FrameInput& input) {
+  const auto start = std::chrono::steady_clock::now();
+  FrameParts parts = impl_->parts();
+  FrameCounts counts;
+  impl_->submit([&] {
+    counts = draw_frame(parts, input);
+    if (input.want_image) impl_->copy_out(impl_->targets.display, impl_->display_copy, 4);
+    if (input.want_hdr && *impl_->targets.hdr_cdm2.image) impl_->copy_out(impl_->targets.hdr_cdm2, impl_->hdr_copy, 8);
+  });
+  if (impl_->surface && !impl_->surface->present(impl_->targets.display)) resize(0, 0);
+
+  FrameResult result;
+  for (const gpu::FrameGraph::Timing& timing : impl_->graph.timings()) result.passes.push_back({timing.name, timing.ms});
+  result.gpu_ms = impl_->graph.total_ms();
+  result.draws = counts.draws;
+  result.pass_count = counts.passes;
+  result.triangles = counts.triangles;
+  result.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+Image8 Renderer::read_image() const {
+  const FrameTargets& targets = impl_->targets;
+  Image8 image{static_cast<int>(targets.extent.width), static_cast<int>(targets.extent.height), {}};
+  image.rgba.resize(impl_->display_copy.bytes);
+  std::memcpy(image.rgba.data(), impl_->display_copy.data, image.rgba.size());
+  if (targets.display_format == vk::Format::eB8G8R8A8Srgb)
+    for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) std::swap(image.rgba[i], image.rgba[i + 2]);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  return image;
+}
+
+ImageF Renderer::read_hdr() const {
+  const FrameTargets& targets = impl_->targets;
+  ImageF image{static_cast<int>(targets.extent.width), static_cast<int>(targets.extent.height), {}};
+  const auto* half = static_cast<const std::uint16_t*>(impl_->hdr_copy.data);
+  const std::size_t count = impl_->hdr_copy.bytes / 2;
+  image.rgba.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    // IEEE 754 binary16 to float: exponent and mantissa moved, subnormals scaled.
+    const std::uint32_t bits = half[i];
+    const float sign = (bits & 0x8000u) != 0 ? -1.0f : 1.0f;
+    const int exponent = static_cast<int>((bits >> 10) & 0x1fu);
+    const auto mantissa = static_cast<float>(bits & 0x3ffu);
+    image.rgba[i] = sign * (exponent == 0 ? std::ldexp(mantissa, -24) : exponent == 31 ? INFINITY : std::ldexp(mantissa + 1024.0f, exponent - 25));
+  }
+  return image;
+}
+
+std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> lamps, std::span<const MeasurePoint> points) {
+  std::vector<std::vector<float>> result(lamps.size(), std::vector<float>(points.size(), 0.0f));
+  if (lamps.empty() || points.empty()) return result;
+  constexpr std::size_t kWidth = 1024, kBatch = 1024 * 256;
+  // Coordinates are relative to the lamps, so float32 serves anywhere in the world.
+  Camera camera;
+  camera.eye_m = lamps.front().position_m;
+  for (std::size_t begin = 0; begin < points.size(); begin += kBatch) {
+    const std::size_t count = std::min(kBatch, points.size() - begin);
+    std::vector<SceneVertex> vertices;
+    vertices.reserve(count);
+    for (const MeasurePoint& point : points.subspan(begin, count))
+      vertices.push_back({glm::vec3(point.position_m - camera.eye_m), glm::vec3(glm::normalize(point.normal))});
+    const gpu::DeviceBuffer buffer(impl_->device, std::as_bytes(std::span(vertices)), vk::BufferUsageFlagBits::eVertexBuffer, "points");
+    const vk::Extent2D extent{kWidth, static_cast<std::uint32_t>((count + kWidth - 1) / kWidth)};
+    gpu::Image lx(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
+                  vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc, "lx");
+    gpu::HostBuffer copy;
+    // One lamp at a time: what each gives is asked for, dark ones included.
+    for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
+      if (impl_->beams.upload()) impl_->lamps.bind(impl_->scene, impl_->beams);
+      impl_->lamps.set_frame(camera, 1.0, 1.0, 0.0, lamps.subspan(lamp, 1), impl_->beams);
+      if (impl_->lamps.lamp_count() == 0) continue;
+      impl_->submit([&] {
+        impl_->lamps.measure(impl_->graph, lx, *buffer.buffer, static_cast<std::uint32_t>(count), 0);
+        impl_->copy_out(lx, copy, 16);
+      });
+      const auto* values = static_cast<const float*>(copy.data);
+      for (std::size_t i = 0; i < count; ++i) result[lamp][begin + i] = values[4 * i];
+    }
+    impl_->device.allocated_bytes -= buffer.bytes + copy.bytes + 16ull * extent.width * extent.height;
+  }
+  return result;
+}
+
+std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t count, std::uint64_t seed) {
+  const vk::Extent2D extent{320, 180};
+  using Usage = vk::ImageUsageFlagBits;
+  const std::uint64_t before = impl_->device.allocated_bytes;
+  gpu::Image position(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent, Usage::eColorAttachment | Usage::eTransferSrc, "audit position");
+  gpu::Image normal(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent, Usage::eColorAttachment | Usage::eTransferSrc, "audit normal");
+  gpu::Image depth(impl_->device, vk::Format::eD32Sfloat, extent, Usage::eDepthStencilAttachment, "audit depth");
+  gpu::HostBuffer position_copy, normal_copy;
+  const double aspect = static_cast<double>(extent.width) / extent.height;
+  const std::vector<DrawItem> items = impl_->scene.visible(input.camera, aspect);
+  if (impl_->beams.upload()) impl_->lamps.bind(impl_->scene, impl_->beams);
+  impl_->lamps.set_frame(input.camera, aspect, input.exposure_per_cdm2, input.sky_luminance_cdm2, input.lamps, impl_->beams);
+  impl_->submit([&] {
+    impl_->lamps.audit(impl_->graph, position, normal, depth, impl_->scene, items);
+    impl_->copy_out(position, position_copy, 16);
+    impl_->copy_out(normal, normal_copy, 16);
+  });
+  const auto* p = static_cast<const float*>(position_copy.data);
+  const auto* n = static_cast<const float*>(normal_copy.data);
+  std::vector<std::size_t> lit;
+  for (std::size_t i = 0; i < std::size_t{extent.width} * extent.height; ++i)
+    if (n[4 * i + 3] > 0.0f && p[4 * i + 3] > 0.0f) lit.push_back(i);
+  std::vector<AuditSample> samples;
+  std::mt19937_64 random(seed);
+  for (std::size_t k = 0; k < count && !lit.empty(); ++k) {
+    const std::size_t i = lit[random() % lit.size()];
+    samples.push_back({{input.camera.eye_m + glm::dvec3(p[4 * i], p[4 * i + 1], p[4 * i + 2]), glm::dvec3(n[4 * i], n[4 * i + 1], n[4 * i + 2])},
+                       static_cast<double>(p[4 * i + 3])});
+  }
+  impl_->device.allocated_bytes = before;
+  return samples;
+}
+
+std::string Renderer::device() const { return std::string(impl_->device.properties.deviceName.data()) + ", " + impl_->device.driver; }
+std::uint64_t Renderer::device_memory_bytes() const { return impl_->device.allocated_bytes; }
+std::uint64_t Renderer::validation_messages() const { return impl_->device.validation_messages->load(); }
+void Renderer::begin_overlay() {}
+
+Result<std::vector<std::string>> list_vulkan_devices() {
+  try {
+    const vk::raii::Context context;
+    const vk::ApplicationInfo application{.pApplicationName = "phare", .apiVersion = VK_API_VERSION_1_3};
+    const vk::raii::Instance instance(context, vk::InstanceCreateInfo{.pApplicationInfo = &application});
+    std::vector<std::string> names;
+    for (const vk::raii::PhysicalDevice& device : vk::raii::PhysicalDevices(instance)) {
+      const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+      const auto& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
+      names.push_back(std::string(properties.deviceName.data()) + ", " +
+                      std::string(chain.get<vk::PhysicalDeviceDriverProperties>().driverInfo.data()) + ", Vulkan " +
+                      std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." + std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)));
+    }
+    return names;
+  } catch (const std::exception& error) {
+    return Error{"vulkan", error.what()};
+  }
+}
+
+}  // namespace phare
