@@ -19,17 +19,19 @@ inline constexpr double kGravity_mps2 = 9.80665;  // 3rd CGPM, 1901
 ///               |        ---- pitch > 0, nose down
 ///
 /// So braking (pitch > 0) gives a negative aim: the beam falls. In radians, both relative to the horizontal.
-inline double aim_from_pitch_rad(double iso_pitch_rad) { return -iso_pitch_rad; }
+inline double aim_from_pitch_rad(double iso_pitch_rad) {
+  return -iso_pitch_rad;
+}
 
-/// Rotation world_from_car = Rz(yaw)·Ry(pitch)·Rx(roll), ISO 8855 angles in radians (yaw > 0 to the left, pitch > 0 nose
-/// down, roll > 0 right side down). Its columns are the car's forward, left and up directions in the world.
+/// Rotation world_from_car = Rz(yaw)·Ry(pitch)·Rx(roll), ISO 8855 angles in radians (yaw > 0 to the left, pitch > 0
+/// nose down, roll > 0 right side down). Its columns are the car's forward, left and up directions in the world.
 inline glm::dmat3 world_from_car(double roll_rad, double pitch_rad, double yaw_rad) {
   const double cr = std::cos(roll_rad), sr = std::sin(roll_rad);
   const double cp = std::cos(pitch_rad), sp = std::sin(pitch_rad);
   const double cy = std::cos(yaw_rad), sy = std::sin(yaw_rad);
-  return glm::dmat3{{cy * cp, sy * cp, -sp},                                    // forward
-                    {cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr},  // left
-                    {cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr}}; // up
+  return glm::dmat3{{cy * cp, sy * cp, -sp},                                     // forward
+                    {cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr},   // left
+                    {cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr}};  // up
 }
 
 }  // namespace phare

@@ -18,7 +18,9 @@ namespace {
 constexpr int kMaxNesting = 128;
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 30;
 
-Error bad(std::string place, std::string reason) { return Error{std::move(place), std::move(reason)}; }
+Error bad(std::string place, std::string reason) {
+  return Error{std::move(place), std::move(reason)};
+}
 
 // Images do not matter to us: accept them unseen.
 bool ignore_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
@@ -102,8 +104,8 @@ bool finite(const glm::dmat4& matrix) {
 }
 
 // Depth first; `visited` makes a node that is reached twice (glTF allows one parent) an error, so a cycle ends.
-Status visit(const tinygltf::Model& model, int index, const glm::dmat4& world_from_parent, const std::string& parent_name,
-             int depth, std::vector<bool>& visited, std::vector<MeshInstance>& out) {
+Status visit(const tinygltf::Model& model, int index, const glm::dmat4& world_from_parent,
+             const std::string& parent_name, int depth, std::vector<bool>& visited, std::vector<MeshInstance>& out) {
   const std::string place = "node " + std::to_string(index);
   if (index < 0 || static_cast<std::size_t>(index) >= model.nodes.size()) return bad(place, "does not exist");
   if (visited[static_cast<std::size_t>(index)]) return bad(place, "has two parents or is its own ancestor");
@@ -161,10 +163,10 @@ Result<tinygltf::Model> read_gltf(const std::filesystem::path& file) try {
   std::string error, warning;
   const std::string directory = file.parent_path().string();
   const auto length = static_cast<unsigned int>(bytes.size());
-  const bool loaded =
-      binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), length, directory)
-             : loader.LoadASCIIFromString(&model, &error, &warning, reinterpret_cast<const char*>(bytes.data()), length,
-                                          directory);
+  const bool loaded = binary
+                          ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), length, directory)
+                          : loader.LoadASCIIFromString(&model, &error, &warning,
+                                                       reinterpret_cast<const char*>(bytes.data()), length, directory);
   if (!loaded) {
     while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
     for (char& c : error)
@@ -172,7 +174,8 @@ Result<tinygltf::Model> read_gltf(const std::filesystem::path& file) try {
     return bad(place, error.empty() ? "is not a glTF 2.0 file" : error);
   }
   for (const std::string& extension : model.extensionsRequired)
-    if (!harmless_extension(extension)) return bad(place, "requires the extension " + extension + ", which is not supported");
+    if (!harmless_extension(extension))
+      return bad(place, "requires the extension " + extension + ", which is not supported");
   return model;
 } catch (const std::exception& problem) {  // out of memory, or a JSON type tinygltf did not expect
   return bad(file.string(), problem.what());
@@ -259,7 +262,8 @@ Result<std::vector<MeshInstance>> mesh_instances(const tinygltf::Model& model) {
     std::vector<bool> is_child(model.nodes.size(), false);
     for (const tinygltf::Node& node : model.nodes)
       for (const int child : node.children)
-        if (child >= 0 && static_cast<std::size_t>(child) < is_child.size()) is_child[static_cast<std::size_t>(child)] = true;
+        if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
+          is_child[static_cast<std::size_t>(child)] = true;
     for (std::size_t i = 0; i < is_child.size(); ++i)
       if (!is_child[i]) roots.push_back(static_cast<int>(i));
   }

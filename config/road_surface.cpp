@@ -9,7 +9,8 @@
 namespace phare {
 namespace {
 
-// A point this far outside a triangle, in barycentric units, still belongs to it: neighbours must leave no crack between.
+// A point this far outside a triangle, in barycentric units, still belongs to it: neighbours must leave no crack
+// between.
 constexpr double kEdgeTolerance = 1e-7;
 constexpr std::uint64_t kMaxCells = 4'000'000;
 constexpr std::uint64_t kMaxCellEntries = 16'000'000;
@@ -99,8 +100,8 @@ RoadSurface RoadSurface::from_triangles(const std::vector<Triangle>& triangles) 
     surface.rows_ = static_cast<std::int64_t>(depth / surface.cell_m_) + 1;
     std::uint64_t entries = 0;
     for (const Box& box : boxes) {
-      const std::int64_t columns =
-          cell_of(box.max_x, surface.min_x_, surface.columns_) - cell_of(box.min_x, surface.min_x_, surface.columns_) + 1;
+      const std::int64_t columns = cell_of(box.max_x, surface.min_x_, surface.columns_) -
+                                   cell_of(box.min_x, surface.min_x_, surface.columns_) + 1;
       const std::int64_t rows =
           cell_of(box.max_y, surface.min_y_, surface.rows_) - cell_of(box.min_y, surface.min_y_, surface.rows_) + 1;
       entries += static_cast<std::uint64_t>(columns * rows);
@@ -127,7 +128,8 @@ std::optional<RoadPoint> RoadSurface::at(double x_m, double y_m) const {
   // Written so that NaN fails.
   if (!(column >= 0.0 && column < static_cast<double>(columns_) && row >= 0.0 && row < static_cast<double>(rows_)))
     return std::nullopt;
-  const auto cell = static_cast<std::size_t>(static_cast<std::int64_t>(row) * columns_ + static_cast<std::int64_t>(column));
+  const auto cell =
+      static_cast<std::size_t>(static_cast<std::int64_t>(row) * columns_ + static_cast<std::int64_t>(column));
 
   const Facet* best = nullptr;
   double best_z = 0.0;

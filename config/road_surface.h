@@ -20,8 +20,8 @@ struct RoadPoint {
   bool road = true;                  ///< false: open ground beside it
 };
 
-/// Triangles of the nodes whose names begin with "road" or "ground" under a uniform grid. Where both cover a point the road
-/// counts; of several roads above one another the highest (bridges are not told apart).
+/// Triangles of the nodes whose names begin with "road" or "ground" under a uniform grid. Where both cover a point the
+/// road counts; of several roads above one another the highest (bridges are not told apart).
 class RoadSurface {
  public:
   /// Reads a glTF file (see gltf_file.h for axes and names). A file without any such triangle gives an empty surface.
@@ -36,8 +36,8 @@ class RoadSurface {
 
   RoadSurface() = default;
 
-  /// The surface above or below (x, y), nullopt beside it or for numbers that are not finite. No allocation; well below a
-  /// microsecond (measured by RoadSurface.QueryTime).
+  /// The surface above or below (x, y), nullopt beside it or for numbers that are not finite. No allocation; well below
+  /// a microsecond (measured by RoadSurface.QueryTime).
   std::optional<RoadPoint> at(double x_m, double y_m) const;
 
   std::size_t triangle_count() const { return facets_.size(); }

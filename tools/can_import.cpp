@@ -274,7 +274,7 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   const double dt = static_cast<double>(kPeriod_ns) * 1e-9;
   double path_m = lane ? options.lane_start_m : 0.0, speed_before = 0.0;
   CockpitState cockpit;
-  cockpit.source = "import " + options.can_log.filename().string();
+  cockpit.source = ("import " + options.can_log.filename().string()).substr(0, 64);  // longest text on the wire
   CarState car;
   for (std::int64_t k = 0; k <= frames; ++k) {
     const SimTime sim_time{k * kPeriod_ns};

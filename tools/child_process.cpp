@@ -36,8 +36,7 @@ Result<ChildProcess> ChildProcess::start(const std::filesystem::path& program, c
     return Error{path, std::string("fork: ") + std::strerror(failed)};
   }
   if (pid == 0) {
-    // Its own group: Ctrl-C in a terminal reaches only us, and we end the processes in order.
-    setpgid(0, 0);
+    // It stays in our process group: keys of the terminal reach the cockpit, Ctrl-C reaches all.
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(127);
     execv(path.c_str(), argv.data());

@@ -1,4 +1,4 @@
-// One program started by us, in its own process group, that dies with us.
+// One program started by us, in our process group, that dies with us.
 #pragma once
 
 #include <sys/types.h>

@@ -46,7 +46,9 @@ Controls controls_of(const CockpitState& state) {
   return {state.steering_wheel_rad, state.accelerator_01, state.brake_01, state.gear};
 }
 
-bool high_beam_on(const CockpitState& state) { return state.flash || state.light_switch == LightSwitch::kHigh; }
+bool high_beam_on(const CockpitState& state) {
+  return state.flash || state.light_switch == LightSwitch::kHigh;
+}
 
 Result<Begin> prepare(const Rig& rig, const Options& options) {
   const std::string named = options.level.empty() ? rig.dynamics_level : options.level;
@@ -77,7 +79,8 @@ Result<Begin> prepare(const Rig& rig, const Options& options) {
     if (!road) return road.error();
     begin.setup.road = std::move(*road);
     if (begin.setup.road.triangle_count() == 0)
-      spdlog::warn("{}: no node whose name begins with road or ground; the car drives on a plane", rig.scene_file.string());
+      spdlog::warn("{}: no node whose name begins with road or ground; the car drives on a plane",
+                   rig.scene_file.string());
   }
 
   if (!begin.setup.track.empty()) {
@@ -150,32 +153,26 @@ class Process {
 
   // By the wall clock: a wake-up per step, those due are done, the newest is sent 250 times a second.
   void run_real_time(Begin begin) {
-    constexpr std::int64_t kSendEvery_ns = 4'000'000;
+    constexpr std::chrono::milliseconds kSendEvery(4);
     begin_in_real_time(std::move(begin));
-    Pacer pacer(std::chrono::nanoseconds(loop_->setup().step.ns));
-    Clock::time_point start = Clock::now(), before = start;
-    std::int64_t next_send_ns = loop_->time().ns;
+    const std::chrono::nanoseconds step(loop_->setup().step.ns);
+    Pacer pacer(step);
+    Clock::time_point start = Clock::now(), before = start, next_send = start;
     while (!stop_) {
       pacer.wait();
       bus_.poll();
       stats_once_a_second();
       const Clock::time_point now = Clock::now();
-      if (requests_.seek_s && seek()) {
-        start = before = now;
-        next_send_ns = loop_->time().ns;
-      }
-      if (requests_.paused) {
-        loop_->skip(SimTime{(now - before).count()});
-        next_send_ns = std::min(next_send_ns, loop_->time().ns);  // the pose goes on being sent, so nobody takes us for dead
-      }
+      if (requests_.seek_s && seek()) start = before = now;
+      if (requests_.paused) loop_->skip(SimTime{(now - before).count()});  // the pose goes on being sent
       before = now;
 
       const auto* cockpit = bus_.newest<CockpitState>();
       if (cockpit) loop_->set_controls(controls_now(*cockpit));
       loop_->catch_up(SimTime{(now - start).count()});
       report_lag();
-      if (requests_.paused ? ++paused_wakes_ % 8 != 0 : loop_->time().ns < next_send_ns) continue;
-      next_send_ns = std::max(next_send_ns + kSendEvery_ns, loop_->time().ns + 1);
+      if (now + step / 2 < next_send) continue;  // half a step early is this wake-up, not the next
+      next_send = std::max(next_send + kSendEvery, now);
       send_state(loop_->time(), -1, cockpit ? &cockpit->value : nullptr);
     }
   }
@@ -186,7 +183,8 @@ class Process {
     state.high_beam_telltale = cockpit && high_beam_on(*cockpit);
     if (cockpit && cockpit->drive_ended) state.drive_ended = true;
     bus_.send(time, state);
-    if (loop_->off_road() && !off_road_logged_) {
+    const bool has_road = loop_->setup().road.triangle_count() > 0;  // without one it has been said already
+    if (has_road && loop_->off_road() && !off_road_logged_) {
       off_road_logged_ = true;
       spdlog::warn("no road under a wheel at x {:.1f} m, y {:.1f} m: its last height is held", state.x_m, state.y_m);
     }
@@ -223,7 +221,8 @@ class Process {
       if (report->value.frame_index != frame) continue;
       const SimTime time = frame_time(frame, rig_.frame_rate_hz);
       begin_at(std::move(begin), time, report->value.drawn);
-      // Channels that have not drawn this frame yet still need it; our predecessor may have been killed before it sent it.
+      // Channels that have not drawn this frame yet still need it; our predecessor may have been killed before it sent
+      // it.
       const auto* cockpit = bus_.newest<CockpitState>();
       if (!all_channels_at(frame)) send_state(time, frame, cockpit ? &cockpit->value : nullptr);
       break;
@@ -263,7 +262,8 @@ class Process {
       return false;
     }
     const SimTime end = loop_->setup().track.end();
-    const SimTime time{std::clamp<std::int64_t>(static_cast<std::int64_t>(std::clamp(to_s, 0.0, 1e9) * 1e9), 0, end.ns)};
+    const SimTime time{
+        std::clamp<std::int64_t>(static_cast<std::int64_t>(std::clamp(to_s, 0.0, 1e9) * 1e9), 0, end.ns)};
     loop_.emplace(RunSetup(loop_->setup()), CarState{}, time);
     return true;
   }
@@ -281,7 +281,8 @@ class Process {
 
   void report_lag() {
     if (loop_->drops() == drops_logged_ || Clock::now() < next_lag_log_) return;
-    spdlog::warn("wall time dropped {} times, simulated time is {:.3f} s behind", loop_->drops(), loop_->dropped().seconds());
+    spdlog::warn("wall time dropped {} times, simulated time is {:.3f} s behind", loop_->drops(),
+                 loop_->dropped().seconds());
     drops_logged_ = loop_->drops();
     next_lag_log_ = Clock::now() + std::chrono::seconds(5);
   }
@@ -320,7 +321,7 @@ class Process {
   Requests requests_;
   std::optional<StepLoop> loop_;
   bool silent_ = false, off_road_logged_ = false;
-  std::uint64_t drops_logged_ = 0, paused_wakes_ = 0;
+  std::uint64_t drops_logged_ = 0;
   Clock::time_point next_lag_log_{}, next_stats_{};
 };
 
@@ -332,14 +333,16 @@ int fail(const Error& error) {
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"The car of a rig: controls in, pose out."};
-  app.footer("Example: phare-dynamics --rig config/rigs/demo.toml --lockstep --level kinematic");
+  app.footer("Example: phare-dynamics --rig config/rigs/country_road.toml --lockstep --level kinematic");
   app.set_version_flag("--version", PHARE_VERSION);
   app.add_option("--rig", options.rig_file, "Rig file (TOML)")->required();
   app.add_flag("--lockstep", options.lockstep, "Advance frame by frame with the picture, reproducibly");
-  app.add_option("--drive", options.drive_file, "Drive file to replay (pose) or to take the first pose from (kinematic)");
+  app.add_option("--drive", options.drive_file,
+                 "Drive file to replay (pose) or to take the first pose from (kinematic)");
   app.add_option("--level", options.level, "Model: pose, kinematic (default: the rig's)");
   app.add_option("--stats", options.stats_file, "Write counters and times to this JSON file every second");
-  app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off");
+  app.add_option("--log-level", options.log_level, "How much to tell")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
   app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
   try {
     app.parse(argc, argv);
@@ -364,4 +367,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace phare
 
-int main(int argc, char** argv) { return phare::run(argc, argv); }
+int main(int argc, char** argv) {
+  return phare::run(argc, argv);
+}

@@ -11,9 +11,10 @@ namespace {
 // Every double of a state in declaration order; one list for hash and interpolation.
 template <class State, class Visit>
 void for_each_field(State& s, Visit&& visit) {
-  for (auto* field : {&s.x_m, &s.y_m, &s.z_m, &s.yaw_rad, &s.speed_mps, &s.steer_rad, &s.road_pitch_rad, &s.road_roll_rad,
-                      &s.road_pitch_rate_radps, &s.road_roll_rate_radps, &s.pitch_rad, &s.pitch_rate_radps, &s.roll_rad,
-                      &s.roll_rate_radps, &s.heave_m, &s.heave_rate_mps, &s.ax_mps2, &s.ay_mps2, &s.yaw_rate_radps})
+  for (auto* field :
+       {&s.x_m, &s.y_m, &s.z_m, &s.yaw_rad, &s.speed_mps, &s.steer_rad, &s.road_pitch_rad, &s.road_roll_rad,
+        &s.road_pitch_rate_radps, &s.road_roll_rate_radps, &s.pitch_rad, &s.pitch_rate_radps, &s.roll_rad,
+        &s.roll_rate_radps, &s.heave_m, &s.heave_rate_mps, &s.ax_mps2, &s.ay_mps2, &s.yaw_rate_radps})
     visit(*field);
   for (auto& height : s.contact_z_m) visit(height);
 }
@@ -93,7 +94,8 @@ Controls accepted(const Controls& controls, const Controls& last, bool* refused)
   if (refused) *refused = !sane;
   if (!sane) return last;
   Controls limited = controls;
-  limited.steering_wheel_rad = std::clamp(controls.steering_wheel_rad, -100.0, 100.0);  // the model knows the car's lock
+  limited.steering_wheel_rad =
+      std::clamp(controls.steering_wheel_rad, -100.0, 100.0);  // the model knows the car's lock
   limited.accelerator_01 = std::clamp(controls.accelerator_01, 0.0, 1.0);
   limited.brake_01 = std::clamp(controls.brake_01, 0.0, 1.0);
   return limited;

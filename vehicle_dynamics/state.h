@@ -17,23 +17,23 @@ struct Controls {
   Gear gear = Gear::kDrive;
 };
 
-/// State of the car after a step. Position and angles are those of proto VehicleState: origin on the ground under the middle
-/// of the rear axle, world frame, ISO 8855 signs (pitch > 0 nose down). Road angles and suspension angles add up to the
-/// body's; the product of rotations would differ by their products, below 0.1 mrad on ordinary roads.
+/// State of the car after a step. Position and angles are those of proto VehicleState: origin on the ground under the
+/// middle of the rear axle, world frame, ISO 8855 signs (pitch > 0 nose down). Road angles and suspension angles add up
+/// to the body's; the product of rotations would differ by their products, below 0.1 mrad on ordinary roads.
 struct CarState {
   double x_m = 0.0, y_m = 0.0;
-  double z_m = 0.0;                  ///< of the road under the origin; the body's is this plus heave
-  double yaw_rad = 0.0;              ///< counts on beyond ±pi
-  double speed_mps = 0.0;            ///< along the car's x, < 0 backwards
-  double steer_rad = 0.0;            ///< mean road-wheel angle, left positive
+  double z_m = 0.0;        ///< of the road under the origin; the body's is this plus heave
+  double yaw_rad = 0.0;    ///< counts on beyond ±pi
+  double speed_mps = 0.0;  ///< along the car's x, < 0 backwards
+  double steer_rad = 0.0;  ///< mean road-wheel angle, left positive
   double road_pitch_rad = 0.0, road_roll_rad = 0.0;
   double road_pitch_rate_radps = 0.0, road_roll_rate_radps = 0.0;
   double pitch_rad = 0.0, pitch_rate_radps = 0.0;  ///< of the body on its springs, relative to the road plane
   double roll_rad = 0.0, roll_rate_radps = 0.0;
-  double heave_m = 0.0, heave_rate_mps = 0.0;      ///< lift of the body at the origin, i.e. over the rear axle
-  double ax_mps2 = 0.0, ay_mps2 = 0.0;             ///< of the last step, car frame, without gravity
+  double heave_m = 0.0, heave_rate_mps = 0.0;  ///< lift of the body at the origin, i.e. over the rear axle
+  double ax_mps2 = 0.0, ay_mps2 = 0.0;         ///< of the last step, car frame, without gravity
   double yaw_rate_radps = 0.0;
-  std::array<double, 4> contact_z_m{};             ///< road under the wheels: front left, front right, rear left, rear right
+  std::array<double, 4> contact_z_m{};  ///< road under the wheels: front left, front right, rear left, rear right
 
   friend bool operator==(const CarState&, const CarState&) = default;
 };
@@ -44,17 +44,19 @@ std::uint64_t state_hash(const CarState& state);
 /// Linear between two states, 0 gives `from` and 1 gives `to` exactly.
 CarState interpolate(const CarState& from, const CarState& to, double fraction);
 
-/// The message: yaw brought into (-pi, pi], world velocity from speed and road. Level, step, hash and flags are the caller's.
+/// The message: yaw brought into (-pi, pi], world velocity from speed and road. Level, step, hash and flags are the
+/// caller's.
 VehicleState to_message(const CarState& state);
 
-/// What a message tells of a state, to go on from after a restart. Rates of the road plane start at 0; contact heights are
-/// those of the road plane through the pose.
+/// What a message tells of a state, to go on from after a restart. Rates of the road plane start at 0; contact heights
+/// are those of the road plane through the pose.
 CarState from_message(const VehicleState& message, double wheelbase_m, double track_m);
 
 /// `controls` if every number is finite, limited to their ranges; otherwise `last`. So models see sane numbers only.
 Controls accepted(const Controls& controls, const Controls& last, bool* refused = nullptr);
 
-/// Silence of the cockpit: from 0.5 s on the pedals fade to zero within another second, linearly; steering and gear stay.
+/// Silence of the cockpit: from 0.5 s on the pedals fade to zero within another second, linearly; steering and gear
+/// stay.
 inline constexpr std::chrono::nanoseconds kSilentAfter = std::chrono::milliseconds(500);
 Controls faded(const Controls& controls, std::chrono::nanoseconds silence);
 

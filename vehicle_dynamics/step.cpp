@@ -45,8 +45,8 @@ int StepLoop::catch_up(SimTime elapsed) {
 
 VehicleState StepLoop::at(SimTime time) const {
   const double ahead = static_cast<double>(this->time().ns - time.ns) / static_cast<double>(setup_.step.ns);
-  VehicleState out = setup_.level == Level::kPose ? setup_.track.at(time)
-                                                  : to_message(interpolate(before_, now_, 1.0 - ahead));
+  VehicleState out =
+      setup_.level == Level::kPose ? setup_.track.at(time) : to_message(interpolate(before_, now_, 1.0 - ahead));
   out.frame_index = -1;
   out.level = name(setup_.level);
   out.step = steps();
@@ -93,20 +93,25 @@ void StepLoop::set_controls(const Controls& controls) {
   controls_refused_ += refused ? 1 : 0;
 }
 
-void StepLoop::skip(SimTime paused) { paused_.ns += paused.ns; }
+void StepLoop::skip(SimTime paused) {
+  paused_.ns += paused.ns;
+}
 
 int StepLoop::max_catch_up() const {
   constexpr std::int64_t kMaxSteps = 25, kMaxTime_ns = 50'000'000;
   return static_cast<int>(std::clamp<std::int64_t>(kMaxTime_ns / setup_.step.ns, 1, kMaxSteps));
 }
 
-const char* name(Level level) { return level == Level::kPose ? "pose" : "kinematic"; }
+const char* name(Level level) {
+  return level == Level::kPose ? "pose" : "kinematic";
+}
 
 Result<Level> parse_level(const std::string& text, const std::string& place) {
   for (const Level level : {Level::kPose, Level::kKinematic})
     if (text == name(level)) return level;
   const bool planned = text == "single-track" || text == "full";
-  return Error{place, "level \"" + text + "\" " + (planned ? "is not built yet" : "is unknown") + "; there are pose, kinematic"};
+  return Error{
+      place, "level \"" + text + "\" " + (planned ? "is not built yet" : "is unknown") + "; there are pose, kinematic"};
 }
 
 }  // namespace phare

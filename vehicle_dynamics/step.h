@@ -25,9 +25,9 @@ Result<Level> parse_level(const std::string& text, const std::string& place);
 /// What a run is made of; does not change while it runs.
 struct RunSetup {
   Level level = Level::kKinematic;
-  VehicleParams vehicle;   ///< not needed by level pose
-  RoadSurface road;        ///< empty: the plane at the start's height
-  PoseTrack track;         ///< needed by level pose only
+  VehicleParams vehicle;  ///< not needed by level pose
+  RoadSurface road;       ///< empty: the plane at the start's height
+  PoseTrack track;        ///< needed by level pose only
   SimTime step{2'000'000};
 };
 
@@ -43,25 +43,25 @@ class StepLoop {
   /// Lockstep: all steps until `time` is reached. Any length, exactly the steps it takes.
   void run_to(SimTime time);
 
-  /// Real time: the steps due `elapsed` after the start, but no more than max_catch_up(). Time beyond is dropped: simulated
-  /// time then lags behind, so overload slows the car down instead of the machine. Returns the steps done.
+  /// Real time: the steps due `elapsed` after the start, but no more than max_catch_up(). Time beyond is dropped:
+  /// simulated time then lags behind, so overload slows the car down instead of the machine. Returns the steps done.
   int catch_up(SimTime elapsed);
 
   /// Real time: `elapsed` goes on but the car does not (pause).
   void skip(SimTime paused);
 
-  /// The car at `time`: between the last two steps, else the nearer of them. Step, hash and lag are filled in; level pose
-  /// gives the record at exactly `time`.
+  /// The car at `time`: between the last two steps, else the nearer of them. Step, hash and lag are filled in; level
+  /// pose gives the record at exactly `time`.
   VehicleState at(SimTime time) const;
 
-  SimTime time() const { return time_of(steps_); }         ///< of the newest step
+  SimTime time() const { return time_of(steps_); }  ///< of the newest step
   std::uint64_t steps() const { return steps_before_ + steps_; }
-  std::uint64_t steps_done() const { return steps_; }      ///< by this loop itself
+  std::uint64_t steps_done() const { return steps_; }  ///< by this loop itself
   const CarState& state() const { return now_; }
   SimTime dropped() const { return dropped_; }
-  std::uint64_t drops() const { return drops_; }           ///< how often time was dropped
+  std::uint64_t drops() const { return drops_; }  ///< how often time was dropped
   std::uint64_t controls_refused() const { return controls_refused_; }
-  bool off_road() const { return off_road_; }              ///< a wheel has been where there is no surface
+  bool off_road() const { return off_road_; }  ///< a wheel has been where there is no surface
   const StepTimes& times() const { return times_; }
   const RunSetup& setup() const { return setup_; }
 

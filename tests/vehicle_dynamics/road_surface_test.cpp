@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <random>
 
@@ -11,7 +12,9 @@
 namespace phare {
 namespace {
 
-double hill(double x, double y) { return 2.0 * std::sin(0.02 * x) + 0.05 * y; }
+double hill(double x, double y) {
+  return 2.0 * std::sin(0.02 * x) + 0.05 * y;
+}
 
 // A road 400 m long and 8 m wide in cells of `cell_m`.
 RoadSurface hilly_road(double cell_m) {
@@ -41,7 +44,7 @@ TEST(RoadSurface, FollowsAnAnalyticSurface) {
     ASSERT_TRUE(point) << x << ", " << y;
     EXPECT_NEAR(point->z_m, hill(x, y), height_bound);
     const glm::dvec3 slope(-0.04 * std::cos(0.02 * x), -0.05, 1.0);
-    EXPECT_GT(dot(point->normal, normalize(slope)), 1.0 - 1e-6);
+    EXPECT_GT(glm::dot(point->normal, glm::normalize(slope)), 1.0 - 1e-6);
   }
 }
 
@@ -73,10 +76,10 @@ TEST(RoadSurface, RoadGoesBeforeGround) {
 
 TEST(RoadSurface, DegenerateTrianglesAreLeftOut) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  const RoadSurface surface = RoadSurface::from_triangles(
-      {{{glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(2, 0, 0)}, true},     // a line
-       {{glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 5)}, true},     // a wall
-       {{glm::dvec3(kNan, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 5)}, true}});
+  const RoadSurface surface =
+      RoadSurface::from_triangles({{{glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(2, 0, 0)}, true},  // a line
+                                   {{glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 5)}, true},  // a wall
+                                   {{glm::dvec3(kNan, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 5)}, true}});
   EXPECT_EQ(surface.triangle_count(), 0u);
 }
 
@@ -90,8 +93,8 @@ TEST(RoadSurface, QueryTime) {
       const auto point = road.at(std::fmod(i * 0.037, 400.0), std::fmod(i * 0.011, 8.0) - 4.0);
       sum += point ? point->z_m : 0.0;
     }
-    best_ns = std::min(best_ns, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count() /
-                                    kQueries);
+    best_ns = std::min(
+        best_ns, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count() / kQueries);
   }
   std::printf("road query: %.0f ns over %zu triangles (checksum %.3g)\n", best_ns, road.triangle_count(), sum);
 #ifdef NDEBUG

@@ -2,6 +2,7 @@
 #include "vehicle_dynamics/state.h"
 
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <numbers>
 
 #include "config/conventions.h"
@@ -18,12 +19,12 @@ TEST(Conventions, NoseDownIsBeamDown) {
 
 TEST(Conventions, RotationIsYawPitchRoll) {
   const glm::dmat3 r = world_from_car(0.2, -0.3, 1.1);
-  EXPECT_NEAR(determinant(r), 1.0, 1e-15);
+  EXPECT_NEAR(glm::determinant(r), 1.0, 1e-15);
   const glm::dmat3 product = world_from_car(0, 0, 1.1) * world_from_car(0, -0.3, 0) * world_from_car(0.2, 0, 0);
   for (int column = 0; column < 3; ++column)
     for (int row = 0; row < 3; ++row) EXPECT_NEAR(r[column][row], product[column][row], 1e-15);
   EXPECT_NEAR(world_from_car(0, 0, 0.5 * std::numbers::pi)[0].y, 1.0, 1e-15);  // yaw > 0: to the left
-  EXPECT_GT(world_from_car(0.1, 0, 0)[1].z, 0.0);                              // roll > 0: left side up, right side down
+  EXPECT_GT(world_from_car(0.1, 0, 0)[1].z, 0.0);  // roll > 0: left side up, right side down
 }
 
 TEST(State, HashSeesEveryBit) {

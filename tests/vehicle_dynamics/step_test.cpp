@@ -63,7 +63,7 @@ TEST(StepLoop, StallIsCappedAndDropped) {
   EXPECT_EQ(loop.catch_up(seconds(0.520)), 25);  // 250 due after 500 ms of stall
   EXPECT_EQ(loop.dropped().ns, 450'000'000);
   EXPECT_EQ(loop.drops(), 1u);
-  EXPECT_EQ(loop.catch_up(seconds(0.524)), 2);   // and goes on from there
+  EXPECT_EQ(loop.catch_up(seconds(0.524)), 2);  // and goes on from there
   EXPECT_DOUBLE_EQ(loop.at(loop.time()).lag_s, 0.45);
 }
 

@@ -21,7 +21,9 @@ inline RunSetup kinematic_setup(const char* file = "bmw_320i.toml") {
   return setup;
 }
 
-constexpr SimTime seconds(double s) { return SimTime{static_cast<std::int64_t>(s * 1e9)}; }
+constexpr SimTime seconds(double s) {
+  return SimTime{static_cast<std::int64_t>(s * 1e9)};
+}
 
 /// z = z0 + slope_x x + slope_y y over a square of 2·half around the origin.
 inline RoadSurface tilted_plane(double slope_x, double slope_y, double half_m = 500.0) {

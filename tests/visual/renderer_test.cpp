@@ -45,7 +45,8 @@ class RendererTest : public testing::Test {
     renderer = shared().get();
   }
   void TearDown() override {
-    if (renderer != nullptr) EXPECT_EQ(renderer->validation_messages(), 0u) << "messages of Vulkan validation stand above";
+    if (renderer == nullptr) return;
+    EXPECT_EQ(renderer->validation_messages(), 0u) << "messages of Vulkan validation stand above";
   }
   Renderer* renderer = nullptr;
 };
@@ -106,7 +107,9 @@ TEST_F(RendererTest, MeasuresWhatDoubleComputesForEveryTableType) {
     for (std::size_t i = 0; i < points.size(); ++i)
       worst.add(got[0][i], illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, points[i].position_m, points[i].normal));
     EXPECT_GT(worst.judged, 3000u);
-    EXPECT_LT(worst.relative, 2e-5) << "type " << static_cast<int>(type) << ", " << worst.absolute_lx << " lx";
+    // Components of the direction carry about 3 roundings of 2^-24 of its length: 1.8e-7 rad or 1e-5°; the cut-off of this
+    // table is a logistic of width 0.06°, so intensity changes by at most 1/0.06° of itself: 1.7e-4.
+    EXPECT_LT(worst.relative, 2e-4) << "type " << static_cast<int>(type) << ", " << worst.absolute_lx << " lx";
     RecordProperty("worst_relative_type_" + std::to_string(static_cast<int>(type)), std::to_string(worst.relative));
   }
 }
@@ -170,14 +173,26 @@ TEST_F(RendererTest, AgreesWithTheReferenceTables) {
     const Csv csv = read_csv(data / c.table);
     ASSERT_LT(csv.column(c.column), csv.names.size()) << c.table << " " << c.column;
     const nlohmann::json& file = manifest["files"][c.file];
-    const GammaAxis axis = std::string(c.file) == "low_C_horiz" ? GammaAxis::kGamma90 : GammaAxis::kGamma0;
+    const bool gamma0_ahead = !file.contains("frame_in_lamp_axes") || file["frame_in_lamp_axes"]["g0"][0] == 1;
+    const GammaAxis axis = gamma0_ahead ? GammaAxis::kGamma0 : GammaAxis::kGamma90;
     const Result<IntensityTable> table = read_lm63(data / file["file"].get<std::string>(), axis);
     ASSERT_TRUE(table.ok()) << table.error().text();
     renderer->set_beam(0, image_of(*table));
+    // A type C lamp whose C 0 is not where ours is by default is mounted turned: fog_C has C 0 up, a roll of -90°.
+    glm::dmat3 turn(1.0);
+    if (file.contains("frame_in_lamp_axes")) {
+      auto axis_of = [&](const char* key) {
+        const nlohmann::json& v = file["frame_in_lamp_axes"][key];
+        return glm::dvec3(v[0], v[1], v[2]);
+      };
+      const glm::dmat3 wanted(axis_of("c0"), axis_of("c90"), axis_of("g0"));
+      const glm::dmat3 ours = gamma0_ahead ? glm::dmat3(0, -1, 0, 0, 0, 1, 1, 0, 0) : glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1);
+      turn = wanted * glm::transpose(ours);
+    }
     std::vector<PlacedLamp> lamps;
     for (const nlohmann::json& mounting : manifest["mounting"][c.beam]) {
       auto vec = [&](const char* key) { return glm::dvec3(mounting[key][0], mounting[key][1], mounting[key][2]); };
-      lamps.push_back({.position_m = vec("position_m"), .world_from_image = glm::dmat3(vec("forward"), vec("left"), vec("up"))});
+      lamps.push_back({.position_m = vec("position_m"), .world_from_image = glm::dmat3(vec("forward"), vec("left"), vec("up")) * turn});
     }
     const bool wall = std::string(c.table)[0] == 'b';
     std::vector<MeasurePoint> points;
@@ -241,7 +256,9 @@ TEST_F(RendererTest, PictureEqualsTheGoldenOne) {
   EXPECT_EQ(result.pass_count, result.draws == 3 ? 1u : 2u) << "no pass that nothing called for";
   const Image8 got = renderer->read_image();
   const fs::path golden = fs::path(PHARE_GOLDEN_DIR) / "yard.png";
-  if (std::getenv("PHARE_WRITE_GOLDEN") != nullptr) ASSERT_TRUE(write_png(golden, got).ok());
+  if (std::getenv("PHARE_WRITE_GOLDEN") != nullptr) {
+    ASSERT_TRUE(write_png(golden, got).ok());
+  }
   const Result<Image8> expected = read_png(golden);
   ASSERT_TRUE(expected.ok()) << expected.error().text();
   ASSERT_EQ(got.rgba.size(), expected->rgba.size());
@@ -279,7 +296,7 @@ TEST_F(RendererTest, HdrPassComesWhenCalledForAndHoldsIlluminance) {
   // The wall's middle: Lambert, so luminance is rho·E/pi plus what the sky gives, to the 11 bits of 16-bit float.
   const std::size_t at = (static_cast<std::size_t>(hdr.height_px / 2 + 6) * static_cast<std::size_t>(hdr.width_px) + static_cast<std::size_t>(hdr.width_px * 6 / 10)) * 4;
   const double lx = static_cast<double>(hdr.rgba[at + 3]);
-  EXPECT_GT(lx, 1.0);
+  EXPECT_GT(lx, 0.3);
   const double luminance = 0.2126 * static_cast<double>(hdr.rgba[at]) + 0.7152 * static_cast<double>(hdr.rgba[at + 1]) + 0.0722 * static_cast<double>(hdr.rgba[at + 2]);
   EXPECT_NEAR(luminance, 0.6 * lx / 3.14159265, 0.01 * lx + 0.02);
 }
@@ -309,8 +326,8 @@ TEST_F(RendererTest, NoLampNoLight) {
   input.sky_luminance_cdm2 = 0.0;
   input.want_image = true;
   renderer->draw(input);
-  for (std::size_t i = 0; const std::uint8_t value : renderer->read_image().rgba)
-    if (i++ % 4 != 3) ASSERT_EQ(value, 0);
+  const Image8 picture = renderer->read_image();
+  for (std::size_t i = 0; i < picture.rgba.size(); ++i) ASSERT_EQ(picture.rgba[i], i % 4 == 3 ? 255 : 0) << i;
 }
 
 TEST(RendererCreate, RefusesBadOptionsWithAReason) {

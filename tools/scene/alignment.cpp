@@ -24,7 +24,8 @@ double smooth_integral(double u) {
 }
 
 double bend_curvature(const Bend& b, double s) {
-  return (smooth((s - b.begin_m) / (b.full_begin_m - b.begin_m)) - smooth((s - b.full_end_m) / (b.end_m - b.full_end_m))) /
+  return (smooth((s - b.begin_m) / (b.full_begin_m - b.begin_m)) -
+          smooth((s - b.full_end_m) / (b.end_m - b.full_end_m))) /
          b.radius_m;
 }
 
@@ -42,8 +43,8 @@ double hump(const Hump& h, double s) {
 
 /// Roll of the land, in the plane: a few long waves that never line up. About ±1.
 double land(double x, double y) {
-  return 0.45 * std::sin(x / 71.0 + 0.7 * std::sin(y / 53.0)) + 0.35 * std::sin(y / 43.0 + 1.3 + 0.5 * std::sin(x / 61.0)) +
-         0.2 * std::sin((x + 1.7 * y) / 23.0 + 0.4);
+  return 0.45 * std::sin(x / 71.0 + 0.7 * std::sin(y / 53.0)) +
+         0.35 * std::sin(y / 43.0 + 1.3 + 0.5 * std::sin(x / 61.0)) + 0.2 * std::sin((x + 1.7 * y) / 23.0 + 0.4);
 }
 
 /// 1 where a ditch runs beside the road, 0 at the lay-by, the farm yard and the way into the field.
@@ -57,19 +58,29 @@ double ditch_share(double s, double t) {
 
 }  // namespace
 
-double smooth_step(double a, double b, double x) { return smooth((x - a) / (b - a)); }
+double smooth_step(double a, double b, double x) {
+  return smooth((x - a) / (b - a));
+}
 
-double curvature_1pm(double s) { return bend_curvature(kFirstBend, s) + bend_curvature(kSecondBend, s); }
+double curvature_1pm(double s) {
+  return bend_curvature(kFirstBend, s) + bend_curvature(kSecondBend, s);
+}
 
-double heading_rad(double s) { return bend_heading(kFirstBend, s) + bend_heading(kSecondBend, s); }
+double heading_rad(double s) {
+  return bend_heading(kFirstBend, s) + bend_heading(kSecondBend, s);
+}
 
 double profile_m(double s) {
   // A long gentle wave under crest and dip, so that no stretch is quite level.
   return hump(kCrest, s) + hump(kDip, s) + 1.2 * (1.0 - std::cos(2.0 * std::numbers::pi * s / 900.0));
 }
 
-glm::dvec3 Station::forward() const { return {std::cos(heading_rad), std::sin(heading_rad), 0.0}; }
-glm::dvec3 Station::left() const { return {-std::sin(heading_rad), std::cos(heading_rad), 0.0}; }
+glm::dvec3 Station::forward() const {
+  return {std::cos(heading_rad), std::sin(heading_rad), 0.0};
+}
+glm::dvec3 Station::left() const {
+  return {-std::sin(heading_rad), std::cos(heading_rad), 0.0};
+}
 
 namespace {
 
@@ -104,7 +115,9 @@ Station Alignment::at(double s) const {
   const double index = std::clamp(std::floor((s - kTableBegin_m) / kKnotStep_m), 0.0, last);
   const Knot& knot = knots_[static_cast<std::size_t>(index)];
   const auto rest = integrate(kTableBegin_m + kKnotStep_m * index, s);
-  return {{knot.x_m + rest[0], knot.y_m + rest[1], profile_m(s)}, phare::scene::heading_rad(s), phare::scene::curvature_1pm(s)};
+  return {{knot.x_m + rest[0], knot.y_m + rest[1], profile_m(s)},
+          phare::scene::heading_rad(s),
+          phare::scene::curvature_1pm(s)};
 }
 
 double Alignment::height_m(double s, double t) const {
@@ -125,10 +138,12 @@ double Alignment::height_m(double s, double t) const {
   z -= 0.05 * (std::min(d, 5.3) - kPavedHalfWidth_m);
   z -= 0.5 * ditch * smooth_step(5.3, 6.3, d) * (1.0 - smooth_step(6.9, 8.4, d));
   if (d > 8.0) {
-    const glm::dvec3 p = at(s).position_m + at(s).left() * t;
+    const Station station = at(s);
+    const glm::dvec3 p = station.position_m + station.left() * t;
     const double away = smooth_step(8.0, 70.0, d);
     const double bank = (0.5 + 0.5 * std::sin(s / 47.0 + (t > 0.0 ? 0.9 : 3.4))) * smooth_step(8.4, 16.0, d);
     z += 1.1 * bank * ditch + away * (2.6 * land(p.x, p.y) + 0.45 * (0.0 - hump(kCrest, s) - hump(kDip, s)));
+    z += 7.0 * smooth_step(45.0, 130.0, d) * (0.55 + 0.5 * land(0.45 * p.x - 90.0, 0.45 * p.y + 300.0));  // ridges
     z += 0.045 * std::max(0.0, d - 14.0) * (0.9 + 0.5 * land(0.6 * p.x + 200.0, 0.6 * p.y));
   }
   return z;

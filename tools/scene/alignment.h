@@ -1,7 +1,7 @@
-// The line, profile and cross-section of the country road, and the ground beside it, as functions of station and offset.
-// What: where a point "s metres along the road, t metres to its left" lies. Source: layout by us, after the German rural
-// road guide RAL (lane 3.25 m, crossfall 2.5 %). Frame: world, x east, y north, z up, m; the road begins at the origin
-// and heads east. Leaves out: junctions, widening in curves. Tests: tests/scene.
+// The line, profile and cross-section of the country road, and the ground beside it, as functions of station and
+// offset. What: where a point "s metres along the road, t metres to its left" lies. Source: layout by us, after the
+// German rural road guide RAL (lane 3.25 m, crossfall 2.5 %). Frame: world, x east, y north, z up, m; the road begins
+// at the origin and heads east. Leaves out: junctions, widening in curves. Tests: tests/scene.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -10,8 +10,8 @@
 
 namespace phare::scene {
 
-inline constexpr double kLength_m = 1800.0;        ///< of the part that can be driven, from s = 0
-inline constexpr double kMargin_m = 60.0;          ///< the road goes on that far before 0 and after kLength_m
+inline constexpr double kLength_m = 1800.0;  ///< of the part that can be driven, from s = 0
+inline constexpr double kMargin_m = 60.0;    ///< the road goes on that far before 0 and after kLength_m
 inline constexpr double kLaneWidth_m = 3.25;
 inline constexpr double kLaneCentre_m = -1.625;    ///< offset of the right-hand lane's centre
 inline constexpr double kPavedHalfWidth_m = 3.75;  ///< lanes, edge line and a strip of asphalt outside it
@@ -25,8 +25,8 @@ struct Bend {
 inline constexpr Bend kFirstBend{300.0, 380.0, 520.0, 600.0, 200.0};
 inline constexpr Bend kSecondBend{1220.0, 1300.0, 1440.0, 1520.0, -180.0};
 
-/// A hump or a hollow of the profile, 64 h u³ with u = (s - begin)/length · (end - s)/length: continuous up to curvature.
-/// Its peak curvature is 24 |h| / length², its steepest grade about 3.4 |h| / length.
+/// A hump or a hollow of the profile, 64 h u³ with u = (s - begin)/length · (end - s)/length: continuous up to
+/// curvature. Its peak curvature is 24 |h| / length², its steepest grade about 3.4 |h| / length.
 struct Hump {
   double begin_m, end_m, height_m;
   double middle_m() const { return 0.5 * (begin_m + end_m); }
@@ -38,7 +38,7 @@ inline constexpr Hump kDip{960.0, 1180.0, -4.0};  // vertical radius at the bott
 struct Station {
   glm::dvec3 position_m;
   double heading_rad;
-  double curvature_1pm;  ///< positive to the left
+  double curvature_1pm;        ///< positive to the left
   glm::dvec3 forward() const;  ///< level
   glm::dvec3 left() const;     ///< level
 };

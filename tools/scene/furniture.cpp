@@ -28,8 +28,14 @@ void draw_post(const Pen& post_pen, double outer) {
   const double high_left = outer > 0.0 ? 1.02 : 0.97, high_right = outer > 0.0 ? 0.97 : 1.02;
   const auto slab = [&](Material m, double z0_left, double z0_right, double z1_left, double z1_right, double grow) {
     const double x = d + grow, y = w + grow;
-    pen.block(m, {{{-x, -y, z0_right}, {x, -y, z0_right}, {x, y, z0_left}, {-x, y, z0_left},
-                   {-x, -y, z1_right}, {x, -y, z1_right}, {x, y, z1_left}, {-x, y, z1_left}}});
+    pen.block(m, {{{-x, -y, z0_right},
+                   {x, -y, z0_right},
+                   {x, y, z0_left},
+                   {-x, y, z0_left},
+                   {-x, -y, z1_right},
+                   {x, -y, z1_right},
+                   {x, y, z1_left},
+                   {-x, y, z1_left}}});
   };
   slab(Material::kPostWhite, -0.3, -0.3, high_left, high_right, 0.0);
   const double tilt = outer > 0.0 ? 0.04 : -0.04;
@@ -70,9 +76,18 @@ void add_posts(Model& model, const Alignment& road) {
   }
 }
 
-/// W profile: depth towards the road, height; m. 310 mm high and 80 mm deep as ASTM A-profile and EN 1317 systems have it.
-constexpr std::array<std::array<double, 2>, 10> kRailProfile{{{0.0, 0.44}, {0.02, 0.455}, {0.08, 0.50}, {0.08, 0.535},
-    {0.015, 0.58}, {0.015, 0.61}, {0.08, 0.655}, {0.08, 0.69}, {0.02, 0.735}, {0.0, 0.75}}};
+/// W profile: depth towards the road, height; m. 310 mm high and 80 mm deep as ASTM A-profile and EN 1317 systems have
+/// it.
+constexpr std::array<std::array<double, 2>, 10> kRailProfile{{{0.0, 0.44},
+                                                              {0.02, 0.455},
+                                                              {0.08, 0.50},
+                                                              {0.08, 0.535},
+                                                              {0.015, 0.58},
+                                                              {0.015, 0.61},
+                                                              {0.08, 0.655},
+                                                              {0.08, 0.69},
+                                                              {0.02, 0.735},
+                                                              {0.0, 0.75}}};
 
 void add_rail(Model& model, const Alignment& road, double begin, double end, double side, int& number) {
   constexpr double kOffset_m = 4.45, kPost_m = 4.0, kPiece_m = 40.0, kEndSlope_m = 8.0;
@@ -124,7 +139,8 @@ class Plate {
     polygon(m, {{a[0] - nu, a[1] - nv}, {b[0] - nu, b[1] - nv}, {b[0] + nu, b[1] + nv}, {a[0] + nu, a[1] + nv}}, layer);
   }
   /// Everything between two outlines of equal count.
-  void ring(Material m, const std::vector<std::array<double, 2>>& outer, const std::vector<std::array<double, 2>>& inner) {
+  void ring(Material m, const std::vector<std::array<double, 2>>& outer,
+            const std::vector<std::array<double, 2>>& inner) {
     for (std::size_t i = 0; i < outer.size(); ++i) {
       const std::size_t k = (i + 1) % outer.size();
       polygon(m, {outer[i], outer[k], inner[k], inner[i]}, 0.0);
@@ -132,12 +148,11 @@ class Plate {
   }
   void back(const std::vector<std::array<double, 2>>& outline) {
     std::vector<dvec3> points;
-    for (auto it = outline.rbegin(); it != outline.rend(); ++it) points.push_back({0.014, (*it)[0], height_m_ + (*it)[1]});
+    for (auto it = outline.rbegin(); it != outline.rend(); ++it)
+      points.push_back({0.014, (*it)[0], height_m_ + (*it)[1]});
     pen_.polygon(Material::kSignBack, points);
   }
-  void mast(double u, double top) {
-    pen_.cone(Material::kSteel, {-0.04, u, -0.4}, 0.035, {-0.04, u, top}, 0.035, 8);
-  }
+  void mast(double u, double top) { pen_.cone(Material::kSteel, {-0.04, u, -0.4}, 0.035, {-0.04, u, top}, 0.035, 8); }
 
  private:
   Pen pen_;
@@ -163,15 +178,25 @@ Outline regular(int corners, double radius, double turn_rad) {
 /// Digit height 0.3 m by strokes on a 2 × 4 grid.
 void draw_digit(Plate& plate, char digit, double u0) {
   const double w = 0.07, h = 0.13, thick = 0.042;
-  const std::array<double, 2> tl{u0 - w, h}, tr{u0 + w, h}, ml{u0 - w, 0.0}, mr{u0 + w, 0.0}, bl{u0 - w, -h}, br{u0 + w, -h};
+  const std::array<double, 2> tl{u0 - w, h}, tr{u0 + w, h}, ml{u0 - w, 0.0}, mr{u0 + w, 0.0}, bl{u0 - w, -h},
+      br{u0 + w, -h};
   const auto line = [&](std::array<double, 2> a, std::array<double, 2> b) {
     plate.stroke(Material::kSheetBlack, a, b, thick, 1.0);
   };
   switch (digit) {
-    case '7': line({tl[0] - 0.02, tl[1]}, {tr[0] + 0.02, tr[1]}), line(tr, {u0 - 0.03, -h - 0.02}); break;
-    case '0': line(tl, tr), line(bl, br), line({tl[0], h + 0.02}, {bl[0], -h - 0.02}), line({tr[0], h + 0.02}, {br[0], -h - 0.02}); break;
-    case '5': line(tl, tr), line({tl[0], h + 0.02}, ml), line(ml, mr), line(mr, br), line({br[0] + 0.02, -h}, bl); break;
-    default: line(ml, mr); break;
+    case '7':
+      line({tl[0] - 0.02, tl[1]}, {tr[0] + 0.02, tr[1]}), line(tr, {u0 - 0.03, -h - 0.02});
+      break;
+    case '0':
+      line(tl, tr), line(bl, br), line({tl[0], h + 0.02}, {bl[0], -h - 0.02}),
+          line({tr[0], h + 0.02}, {br[0], -h - 0.02});
+      break;
+    case '5':
+      line(tl, tr), line({tl[0], h + 0.02}, ml), line(ml, mr), line(mr, br), line({br[0] + 0.02, -h}, bl);
+      break;
+    default:
+      line(ml, mr);
+      break;
   }
 }
 
@@ -199,7 +224,8 @@ void draw_warning(Node& node, const glm::dmat4& frame, double bend) {
     plate.stroke(Material::kSheetBlack, {-bend * u0, v0}, {-bend * u1, v1}, 0.05, 1.0);
   };
   line(-0.06, -0.15, -0.06, 0.0), line(-0.06, -0.01, 0.05, 0.10);
-  line(0.05, 0.11, 0.05, 0.03), line(0.05, 0.10, -0.03, 0.10);  // arrow head; u is mirrored so that it points into the bend
+  line(0.05, 0.11, 0.05, 0.03),
+      line(0.05, 0.10, -0.03, 0.10);  // arrow head; u is mirrored so that it points into the bend
   plate.mast(0.0, 2.3);
 }
 
@@ -250,7 +276,8 @@ void draw_village(Node& node, const glm::dmat4& frame) {
   // "PHARE" as strokes on a grid, 0.16 m high; the line below stands for the district.
   const auto letter = [&](double u, std::vector<std::array<double, 4>> strokes) {
     for (const auto& l : strokes) {
-      plate.stroke(Material::kSheetBlack, {u + 0.10 * l[0], 0.02 + 0.18 * l[1]}, {u + 0.10 * l[2], 0.02 + 0.18 * l[3]}, 0.026, 1.0);
+      plate.stroke(Material::kSheetBlack, {u + 0.10 * l[0], 0.02 + 0.18 * l[1]}, {u + 0.10 * l[2], 0.02 + 0.18 * l[3]},
+                   0.026, 1.0);
     }
   };
   letter(-0.40, {{0, 0, 0, 1}, {0, 0.95, 1, 0.95}, {1, 1, 1, 0.5}, {1, 0.5, 0, 0.5}});

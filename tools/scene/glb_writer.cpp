@@ -12,9 +12,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-enum : int { kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963 };
+enum : int {
+  kFloat = 5126,
+  kUnsignedShort = 5123,
+  kUnsignedInt = 5125,
+  kArrayBuffer = 34962,
+  kElementArrayBuffer = 34963
+};
 
-glm::dvec3 gltf_axes(glm::dvec3 world) { return {world.x, world.z, -world.y}; }
+glm::dvec3 gltf_axes(glm::dvec3 world) {
+  return {world.x, world.z, -world.y};
+}
 
 template <typename T>
 void append(std::string& bytes, const T* data, std::size_t count) {
@@ -78,7 +86,7 @@ class Writer {
         for (const glm::dvec3& p : t.corner) low = glm::min(low, p), high = glm::max(high, p);
       }
     }
-    if (!(low.x <= high.x)) return;  // an empty node has no place
+    if (!(low.x <= high.x)) return;                            // an empty node has no place
     const glm::dvec3 middle = glm::round(0.5 * (low + high));  // whole metres: exact in float32
 
     Json primitives = Json::array();
@@ -97,10 +105,12 @@ class Writer {
       }
       Json primitive;
       const std::size_t vertices = mesh.vertices.size();
-      primitive["attributes"]["POSITION"] = accessor(positions.data(), positions.size(), vertices, kFloat, "VEC3", kArrayBuffer);
+      primitive["attributes"]["POSITION"] =
+          accessor(positions.data(), positions.size(), vertices, kFloat, "VEC3", kArrayBuffer);
       root_["accessors"].back()["min"] = tidy(least);
       root_["accessors"].back()["max"] = tidy(most);
-      primitive["attributes"]["NORMAL"] = accessor(normals.data(), normals.size(), vertices, kFloat, "VEC3", kArrayBuffer);
+      primitive["attributes"]["NORMAL"] =
+          accessor(normals.data(), normals.size(), vertices, kFloat, "VEC3", kArrayBuffer);
       const std::size_t indices = mesh.indices.size();
       if (vertices <= 0xFFFF) {
         const std::vector<std::uint16_t> narrow(mesh.indices.begin(), mesh.indices.end());
@@ -136,6 +146,8 @@ class Writer {
 
 }  // namespace
 
-std::string glb_bytes(const Model& model) { return Writer(model).bytes(); }
+std::string glb_bytes(const Model& model) {
+  return Writer(model).bytes();
+}
 
 }  // namespace phare::scene

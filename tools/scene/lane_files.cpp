@@ -9,10 +9,14 @@ namespace phare::scene {
 namespace {
 
 /// Arc length of the lane per metre of centreline: a line at offset t is 1 - t·curvature times as long.
-double lane_scale(double s) { return 1.0 - kLaneCentre_m * curvature_1pm(s); }
+double lane_scale(double s) {
+  return 1.0 - kLaneCentre_m * curvature_1pm(s);
+}
 
 /// Arc length of the lane at a station; the integral of lane_scale is exact through the heading.
-double lane_s_m(double station) { return station - kLaneCentre_m * (heading_rad(station) - heading_rad(0.0)); }
+double lane_s_m(double station) {
+  return station - kLaneCentre_m * (heading_rad(station) - heading_rad(0.0));
+}
 
 double station_of_lane(double lane_s) {
   double s = lane_s;
@@ -20,7 +24,9 @@ double station_of_lane(double lane_s) {
   return s;
 }
 
-double rounded_cm(double s) { return std::round(100.0 * lane_s_m(s)) / 100.0; }
+double rounded_cm(double s) {
+  return std::round(100.0 * lane_s_m(s)) / 100.0;
+}
 
 }  // namespace
 
@@ -62,7 +68,8 @@ std::string places_json(const Alignment& road) {
   spot("dip_bottom", kDip.middle_m(), kLaneCentre_m, "vertical radius 504 m");
   stretch("rail_dip", kRailDipBegin_m, kRailDipEnd_m, "guard rail on the right");
   stretch("curve_2", kSecondBend.begin_m, kSecondBend.end_m, "right, radius 180 m between s = 1300 and 1440");
-  stretch("rail_curve_2", kRailBendBegin_m, kRailBendEnd_m, "guard rail on the left, outside of curve_2, with chevrons");
+  stretch("rail_curve_2", kRailBendBegin_m, kRailBendEnd_m,
+          "guard rail on the left, outside of curve_2, with chevrons");
   stretch("wood", kWoodBegin_m, kWoodEnd_m, "trees close to the road on both sides");
   spot("end", kLength_m - 20.0, kLaneCentre_m, "stop before it");
   return places.dump(2) + "\n";

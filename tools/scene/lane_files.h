@@ -13,7 +13,7 @@ inline constexpr double kParkedCar_m = 240.0;    ///< lay-by on the right
 inline constexpr double kBarn_m = 462.0;         ///< outside of the first bend, its light wall faces the driver
 inline constexpr double kPedestrian2_m = 640.0;  ///< steps towards the road from the right
 inline constexpr double kCyclist_m = 862.0;      ///< on the right edge, behind the crest
-inline constexpr double kRailDipBegin_m = 1010.0, kRailDipEnd_m = 1130.0;     ///< right side, through the dip
+inline constexpr double kRailDipBegin_m = 1010.0, kRailDipEnd_m = 1130.0;    ///< right side, through the dip
 inline constexpr double kRailBendBegin_m = 1230.0, kRailBendEnd_m = 1490.0;  ///< left side, outside of the second bend
 inline constexpr double kWoodBegin_m = 1545.0, kWoodEnd_m = 1770.0;
 

@@ -54,10 +54,12 @@ Status write_scene(const std::filesystem::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Makes the scene country_road: a two-lane road of 1.8 km with bends, crest, dip and what stands beside it."};
+  CLI::App app{
+      "Makes the scene country_road: a two-lane road of 1.8 km with bends, crest, dip and what stands beside it."};
   app.footer("Example:\n  phare-make-scene --out build/scenes");
   std::filesystem::path folder;
-  app.add_option("--out", folder, "folder for country_road.glb, country_road_lane.csv, country_road_places.json")->required();
+  app.add_option("--out", folder, "folder for country_road.glb, country_road_lane.csv, country_road_places.json")
+      ->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

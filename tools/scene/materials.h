@@ -7,11 +7,45 @@
 namespace phare::scene {
 
 enum class Material {
-  kAsphalt, kPaint, kVerge, kGrass, kBark, kLeaves, kSpruce, kBush, kLeavesAutumn,
-  kPostWhite, kPostBlack, kReflectorWhite, kReflectorAmber, kReflectorRed, kSteel, kWood, kWoodOld,
-  kPlaster, kRoofTiles, kStone, kDoor, kHay, kCarPaint, kGlass, kRubber, kDarkPlastic, kChrome, kPlate,
-  kSkin, kHair, kClothDark, kClothBlue, kClothLight, kClothRed,
-  kSheetWhite, kSheetRed, kSheetYellow, kSheetBlack, kSignBack,
+  kAsphalt,
+  kPaint,
+  kVerge,
+  kGrass,
+  kBark,
+  kLeaves,
+  kSpruce,
+  kBush,
+  kLeavesAutumn,
+  kPostWhite,
+  kPostBlack,
+  kReflectorWhite,
+  kReflectorAmber,
+  kReflectorRed,
+  kSteel,
+  kWood,
+  kWoodOld,
+  kPlaster,
+  kRoofTiles,
+  kStone,
+  kDoor,
+  kHay,
+  kCarPaint,
+  kGlass,
+  kRubber,
+  kDarkPlastic,
+  kChrome,
+  kPlate,
+  kSkin,
+  kHair,
+  kClothDark,
+  kClothBlue,
+  kClothLight,
+  kClothRed,
+  kSheetWhite,
+  kSheetRed,
+  kSheetYellow,
+  kSheetBlack,
+  kSignBack,
   kCount
 };
 
@@ -23,8 +57,9 @@ struct MaterialData {
   bool double_sided;
 };
 
-/// Reflectances by eye within published ranges: asphalt 0.07–0.10, grass 0.08–0.15, plaster 0.6–0.7, dark cloth 0.03–0.05
-/// (CIE 66, road photometry handbooks). R_A of sheeting: EN 12899-1 class RA2 at 0.33°/5°: white 180, yellow 120, red 25.
+/// Reflectances by eye within published ranges: asphalt 0.07–0.10, grass 0.08–0.15, plaster 0.6–0.7, dark cloth
+/// 0.03–0.05 (CIE 66, road photometry handbooks). R_A of sheeting: EN 12899-1 class RA2 at 0.33°/5°: white 180, yellow
+/// 120, red 25.
 inline constexpr std::array<MaterialData, static_cast<std::size_t>(Material::kCount)> kMaterials{{
     {"asphalt", {0.085, 0.083, 0.080}, "asphalt", 0.0, false},
     {"road paint", {0.50, 0.50, 0.48}, "paint", 0.2, false},

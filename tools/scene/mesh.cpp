@@ -12,10 +12,16 @@ namespace {
 using Key = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 
 /// Positions that agree to a tenth of a millimetre are one corner.
-Key key_of(glm::dvec3 p) { return {std::llround(p.x * 1e4), std::llround(p.y * 1e4), std::llround(p.z * 1e4)}; }
-Key key_of_normal(glm::dvec3 n) { return {std::llround(n.x * 1e3), std::llround(n.y * 1e3), std::llround(n.z * 1e3)}; }
+Key key_of(glm::dvec3 p) {
+  return {std::llround(p.x * 1e4), std::llround(p.y * 1e4), std::llround(p.z * 1e4)};
+}
+Key key_of_normal(glm::dvec3 n) {
+  return {std::llround(n.x * 1e3), std::llround(n.y * 1e3), std::llround(n.z * 1e3)};
+}
 
-glm::dvec3 area_vector(const Triangle& t) { return glm::cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]); }
+glm::dvec3 area_vector(const Triangle& t) {
+  return glm::cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]);
+}
 
 glm::dvec3 round_point(glm::dvec3 centre, glm::dvec3 u, glm::dvec3 v, double radius, double turn_01) {
   const double a = 2.0 * std::numbers::pi * turn_01;
@@ -65,7 +71,9 @@ double Random::uniform(double low, double high) {
   return low + (high - low) * (static_cast<double>(z >> 11) * 0x1p-53);
 }
 
-void Pen::triangle(Material m, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) { triangle(m, Triangle{{a, b, c}}); }
+void Pen::triangle(Material m, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+  triangle(m, Triangle{{a, b, c}});
+}
 
 void Pen::triangle(Material m, const Triangle& t) {
   Triangle world;
@@ -92,8 +100,14 @@ void Pen::outward(Material m, glm::dvec3 inside, glm::dvec3 a, glm::dvec3 b, glm
 }
 
 void Pen::box(Material m, glm::dvec3 low, glm::dvec3 high) {
-  block(m, {{{low.x, low.y, low.z}, {high.x, low.y, low.z}, {high.x, high.y, low.z}, {low.x, high.y, low.z},
-             {low.x, low.y, high.z}, {high.x, low.y, high.z}, {high.x, high.y, high.z}, {low.x, high.y, high.z}}});
+  block(m, {{{low.x, low.y, low.z},
+             {high.x, low.y, low.z},
+             {high.x, high.y, low.z},
+             {low.x, high.y, low.z},
+             {low.x, low.y, high.z},
+             {high.x, low.y, high.z},
+             {high.x, high.y, high.z},
+             {low.x, high.y, high.z}}});
 }
 
 void Pen::block(Material m, const std::array<glm::dvec3, 8>& p) {
@@ -109,7 +123,8 @@ void Pen::block(Material m, const std::array<glm::dvec3, 8>& p) {
 
 void Pen::cone(Material m, glm::dvec3 a, double radius_a, glm::dvec3 b, double radius_b, int sides, bool caps) {
   const glm::dvec3 axis = glm::normalize(b - a);
-  const glm::dvec3 u = glm::normalize(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+  const glm::dvec3 u =
+      glm::normalize(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
   const glm::dvec3 v = glm::cross(axis, u);
   const glm::dvec3 middle = 0.5 * (a + b);
   for (int i = 0; i < sides; ++i) {

@@ -1,4 +1,5 @@
-// Triangles on their way into a glTF file: nodes, each with one triangle soup per material, and a pen that draws solids.
+// Triangles on their way into a glTF file: nodes, each with one triangle soup per material, and a pen that draws
+// solids.
 #pragma once
 
 #include <array>
@@ -41,8 +42,8 @@ struct IndexedMesh {
   std::vector<std::uint32_t> indices;
 };
 
-/// Joins equal corners. Missing normals become the area-weighted mean of the faces around a corner that turn by less than
-/// crease_deg: round where round, hard where hard. Triangles without area are left out.
+/// Joins equal corners. Missing normals become the area-weighted mean of the faces around a corner that turn by less
+/// than crease_deg: round where round, hard where hard. Triangles without area are left out.
 IndexedMesh weld(std::span<const Triangle> triangles, double crease_deg = 42.0);
 
 /// Same numbers everywhere for one seed (splitmix64, Steele et al. 2014).

@@ -1,4 +1,5 @@
-// Two pedestrians and a cyclist. Proportions after an adult of 1.75 m (Drillis and Contini 1966: segment lengths by stature).
+// Two pedestrians and a cyclist. Proportions after an adult of 1.75 m (Drillis and Contini 1966: segment lengths by
+// stature).
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -24,7 +25,8 @@ void limb(Pen& pen, Material m, dvec3 a, double radius_a, dvec3 b, double radius
 
 void shoe(Pen& pen, dvec3 ankle, double pitch) {
   const dvec3 ahead(std::cos(pitch), 0.0, -std::sin(pitch));
-  limb(pen, Material::kDarkPlastic, ankle - dvec3(0.02, 0.0, 0.035), 0.045, ankle + 0.14 * ahead - dvec3(0, 0, 0.045), 0.035);
+  limb(pen, Material::kDarkPlastic, ankle - dvec3(0.02, 0.0, 0.035), 0.045, ankle + 0.14 * ahead - dvec3(0, 0, 0.045),
+       0.035);
 }
 
 void head(Pen& pen, dvec3 centre) {
@@ -39,8 +41,13 @@ void torso(Pen& pen, Material m, dvec3 hips, dvec3 lean, double coat) {
   struct Section {
     double along, half_width, half_depth;
   };
-  const std::array<Section, 7> sections{{{-coat, 0.185, 0.135}, {0.0, 0.165, 0.115}, {0.25, 0.145, 0.10}, {0.55, 0.165, 0.115},
-                                         {0.82, 0.185, 0.105}, {0.94, 0.13, 0.08}, {1.0, 0.06, 0.055}}};
+  const std::array<Section, 7> sections{{{-coat, 0.185, 0.135},
+                                         {0.0, 0.165, 0.115},
+                                         {0.25, 0.145, 0.10},
+                                         {0.55, 0.165, 0.115},
+                                         {0.82, 0.185, 0.105},
+                                         {0.94, 0.13, 0.08},
+                                         {1.0, 0.06, 0.055}}};
   const dvec3 left(0, 1, 0), ahead = glm::normalize(glm::cross(left, lean));
   std::vector<std::vector<dvec3>> rings;
   for (const Section& s : sections) {
@@ -73,7 +80,8 @@ void draw_walker(Pen pen, const Clothes& clothes, double stride, bool coat, bool
     limb(pen, clothes.sleeves, shoulder, 0.062, elbow, 0.047);
     limb(pen, clothes.sleeves, elbow, 0.045, hand, 0.036);
     pen.ellipsoid(Material::kSkin, hand + dvec3(0.02, 0.0, -0.05), {0.035, 0.025, 0.06}, 5, 7);
-    if (bag && side > 0.0) pen.box(Material::kClothRed, hand + dvec3(-0.14, -0.05, -0.42), hand + dvec3(0.18, 0.05, -0.10));
+    if (bag && side > 0.0)
+      pen.box(Material::kClothRed, hand + dvec3(-0.14, -0.05, -0.42), hand + dvec3(0.18, 0.05, -0.10));
   }
   torso(pen, clothes.torso, hips, {0.02, 0.0, 0.58}, coat ? 0.62 : 0.10);
   head(pen, hips + dvec3(0.03, 0.0, 0.70));
@@ -82,18 +90,21 @@ void draw_walker(Pen pen, const Clothes& clothes, double stride, bool coat, bool
 /// x forward, the rear wheel's contact at the origin.
 void draw_cyclist(Pen pen) {
   constexpr double kWheel = 0.335, kBase = 1.05;
-  const dvec3 rear(0, 0, kWheel), front(kBase, 0, kWheel), crank(0.43, 0, 0.29), seat(0.27, 0, 0.88), stem(0.86, 0, 0.86), fork(0.90, 0, 0.72);
+  const dvec3 rear(0, 0, kWheel), front(kBase, 0, kWheel), crank(0.43, 0, 0.29), seat(0.27, 0, 0.88),
+      stem(0.86, 0, 0.86), fork(0.90, 0, 0.72);
   for (const dvec3 hub : {rear, front}) {
     pen.torus(Material::kRubber, hub, kWheel - 0.018, 0.018, 24, 5);
     pen.torus(Material::kChrome, hub, kWheel - 0.045, 0.008, 24, 4);
     pen.cone(Material::kChrome, hub - dvec3(0, 0.05, 0), 0.022, hub + dvec3(0, 0.05, 0), 0.022, 7);
     for (int i = 0; i < 9; ++i) {
       const double a = 2.0 * std::numbers::pi * i / 9.0;
-      pen.cone(Material::kChrome, hub, 0.0035, hub + (kWheel - 0.05) * dvec3(std::cos(a), 0, std::sin(a)), 0.0035, 3, false);
+      pen.cone(Material::kChrome, hub, 0.0035, hub + (kWheel - 0.05) * dvec3(std::cos(a), 0, std::sin(a)), 0.0035, 3,
+               false);
     }
   }
   const auto tube = [&](dvec3 a, dvec3 b, double r) { pen.cone(Material::kClothRed, a, r, b, r, 7); };
-  tube(crank, seat - dvec3(0, 0, 0.08), 0.017), tube(crank, fork, 0.019), tube(seat - dvec3(0.0, 0, 0.12), stem - dvec3(0, 0, 0.06), 0.017);
+  tube(crank, seat - dvec3(0, 0, 0.08), 0.017), tube(crank, fork, 0.019),
+      tube(seat - dvec3(0.0, 0, 0.12), stem - dvec3(0, 0, 0.06), 0.017);
   for (const double y : {-0.05, 0.05}) {
     tube(rear + dvec3(0, y, 0), crank, 0.010), tube(rear + dvec3(0, y, 0), seat - dvec3(0, 0, 0.12), 0.009);
     tube(front + dvec3(0, y, 0), fork, 0.012);
@@ -104,7 +115,8 @@ void draw_cyclist(Pen pen) {
   pen.box(Material::kDarkPlastic, {-0.28, -0.03, kWheel + 0.345}, {0.20, 0.03, kWheel + 0.36});  // mudguard and carrier
   // Red rear reflector, broad as German ones are, and amber ones in the pedals.
   pen.box(Material::kDarkPlastic, {-0.30, -0.055, 0.60}, {-0.275, 0.055, 0.69});
-  pen.quad(Material::kReflectorRed, {-0.304, 0.05, 0.605}, {-0.304, -0.05, 0.605}, {-0.304, -0.05, 0.685}, {-0.304, 0.05, 0.685});
+  pen.quad(Material::kReflectorRed, {-0.304, 0.05, 0.605}, {-0.304, -0.05, 0.605}, {-0.304, -0.05, 0.685},
+           {-0.304, 0.05, 0.685});
 
   const dvec3 hips = seat + dvec3(0.0, 0.0, 0.09), neck = hips + dvec3(0.36, 0.0, 0.46);
   for (const double side : {-1.0, 1.0}) {

@@ -1,5 +1,5 @@
-// Trees and bushes. A crown is a few dark lumps inside a shell of ragged leaf clumps, so its outline against the sky is that of a
-// tree; the clumps' normals look away from the crown's middle, so that headlamps model it as one round thing.
+// Trees and bushes. A crown is a few dark lumps inside a shell of ragged leaf clumps, so its outline against the sky is
+// that of a tree; the clumps' normals look away from the crown's middle, so that headlamps model it as one round thing.
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
@@ -53,7 +53,9 @@ void draw_lump(Pen& pen, Material m, Random& random, dvec3 centre, dvec3 radii) 
   }
   // Faces are the triples of corners at the icosahedron's edge length, 2 before normalizing.
   const double edge = 2.0 / std::sqrt(1.0 + g * g);
-  const auto joined = [&](std::size_t i, std::size_t k) { return std::abs(glm::length(unit[i] - unit[k]) - edge) < 1e-6; };
+  const auto joined = [&](std::size_t i, std::size_t k) {
+    return std::abs(glm::length(unit[i] - unit[k]) - edge) < 1e-6;
+  };
   for (std::size_t i = 0; i < 12; ++i) {
     for (std::size_t k = i + 1; k < 12; ++k) {
       for (std::size_t l = k + 1; l < 12; ++l) {
@@ -88,12 +90,12 @@ void draw_broadleaf(Pen pen, Random& random, double height, Material leaves) {
   }
   const dvec3 heart = lean + dvec3(0.0, 0.0, 0.58 * height);
   for (const Lobe& lobe : lobes) {
-    draw_lump(pen, leaves, random, lobe.centre, 0.82 * lobe.radii);
-    for (int i = 0; i < 11; ++i) {
+    draw_lump(pen, leaves, random, lobe.centre, 0.68 * lobe.radii);
+    for (int i = 0; i < 18; ++i) {
       const dvec3 way = direction(random);
-      const dvec3 at = lobe.centre + lobe.radii * way * random.uniform(0.8, 1.12);
+      const dvec3 at = lobe.centre + lobe.radii * way * random.uniform(0.68, 1.1);
       draw_clump(pen, leaves, random, at, glm::normalize(0.6 * way + 0.6 * glm::normalize(at - heart)),
-                 random.uniform(0.055, 0.095) * height);
+                 random.uniform(0.045, 0.078) * height);
     }
   }
 }
@@ -113,7 +115,8 @@ void draw_spruce(Pen pen, Random& random, double height) {
       const dvec3 root(0.0, 0.0, up + 0.05 * height * random.uniform(0.8, 1.2));
       const dvec3 tip = dvec3(0.0, 0.0, up - random.uniform(0.16, 0.34) * length) + length * out;
       const dvec3 elbow = 0.55 * length * out + dvec3(0.0, 0.0, up - 0.02 * height);
-      const dvec3 left = elbow + wide * side - dvec3(0, 0, 0.12 * length), right = elbow - wide * side - dvec3(0, 0, 0.12 * length);
+      const dvec3 left = elbow + wide * side - dvec3(0, 0, 0.12 * length),
+                  right = elbow - wide * side - dvec3(0, 0, 0.12 * length);
       const dvec3 normal = glm::normalize(out + dvec3(0.0, 0.0, 0.6));
       pen.triangle(Material::kSpruce, Triangle{{root, right, tip}, {normal, normal, normal}});
       pen.triangle(Material::kSpruce, Triangle{{root, tip, left}, {normal, normal, normal}});
@@ -123,8 +126,9 @@ void draw_spruce(Pen pen, Random& random, double height) {
   for (int k = 0; k < 3; ++k) {
     const double a = kTurn * k / 3.0;
     const dvec3 out(std::cos(a), std::sin(a), 0.0);
-    pen.triangle(Material::kSpruce, Triangle{{dvec3(0, 0, 0.84 * height), 0.025 * height * out + dvec3(0, 0, 0.86 * height),
-                                              dvec3(0, 0, height)}, {out, out, out}});
+    pen.triangle(Material::kSpruce, Triangle{{dvec3(0, 0, 0.84 * height),
+                                              0.025 * height * out + dvec3(0, 0, 0.86 * height), dvec3(0, 0, height)},
+                                             {out, out, out}});
   }
 }
 
@@ -134,7 +138,8 @@ void draw_bush(Pen pen, Random& random, double size) {
   for (int i = 0; i < 14; ++i) {
     dvec3 way = direction(random);
     way.z = std::abs(way.z);
-    draw_clump(pen, Material::kBush, random, centre + dvec3(0.62, 0.62, 0.5) * size * way, way, random.uniform(0.16, 0.3) * size);
+    draw_clump(pen, Material::kBush, random, centre + dvec3(0.62, 0.62, 0.5) * size * way, way,
+               random.uniform(0.16, 0.3) * size);
   }
 }
 
@@ -144,7 +149,10 @@ class Grove {
   explicit Grove(Model& model, const Alignment& road) : model_(&model), road_(&road) {}
 
   Pen place(const char* kind, double s, double t, double turn) {
-    const auto cell = std::make_pair(static_cast<int>(std::floor(s / 24.0)), t > 40.0 ? 2 : t > 0.0 ? 1 : t > -40.0 ? -1 : -2);
+    const auto cell = std::make_pair(static_cast<int>(std::floor(s / 24.0)), t > 40.0    ? 2
+                                                                             : t > 0.0   ? 1
+                                                                             : t > -40.0 ? -1
+                                                                                         : -2);
     const auto [at, fresh] = nodes_.try_emplace({kind, cell}, nullptr);
     if (fresh) {
       char name[48];
@@ -178,22 +186,26 @@ void add_plants(Model& model, const Alignment& road) {
   };
 
   // A row of old trees along the left of the first straight.
-  for (double s = 20.0; s <= 215.0; s += 24.0) broadleaf(s + random.uniform(-2.0, 2.0), random.uniform(8.8, 9.6), random.uniform(9.5, 12.5));
+  for (double s = 20.0; s <= 215.0; s += 24.0)
+    broadleaf(s + random.uniform(-2.0, 2.0), random.uniform(8.8, 9.6), random.uniform(9.5, 12.5));
   // The wood on both sides of the last straight: close trees at its edge, others behind.
   for (double s = kWoodBegin_m; s <= kWoodEnd_m; s += 8.5) {
     for (const double side : {-1.0, 1.0}) {
       const double t = side * random.uniform(8.6, 11.5), at = s + random.uniform(-3.0, 3.0);
-      random.uniform(0.0, 1.0) < 0.55 ? spruce(at, t, random.uniform(11.0, 18.0)) : broadleaf(at, t, random.uniform(10.0, 15.0));
+      random.uniform(0.0, 1.0) < 0.55 ? spruce(at, t, random.uniform(11.0, 18.0))
+                                      : broadleaf(at, t, random.uniform(10.0, 15.0));
       const double behind = side * random.uniform(15.0, 24.0);
       random.uniform(0.0, 1.0) < 0.7 ? spruce(s + random.uniform(-4.0, 4.0), behind, random.uniform(14.0, 20.0))
                                      : broadleaf(s + random.uniform(-4.0, 4.0), behind, random.uniform(12.0, 16.0));
-      if (random.uniform(0.0, 1.0) < 0.3) bush(s + random.uniform(-4.0, 4.0), side * random.uniform(7.8, 8.6), random.uniform(1.0, 1.8));
+      if (random.uniform(0.0, 1.0) < 0.3)
+        bush(s + random.uniform(-4.0, 4.0), side * random.uniform(7.8, 8.6), random.uniform(1.0, 1.8));
     }
   }
   // Where the road goes on beyond both ends, trees close the view.
   for (const double end : {-kMargin_m + 4.0, kLength_m + kMargin_m - 4.0}) {
     for (double t = -60.0; t <= 60.0; t += 9.0) {
-      if (std::abs(t) > 6.0) spruce(end + random.uniform(-3.0, 3.0), t + random.uniform(-2.0, 2.0), random.uniform(12.0, 18.0));
+      if (std::abs(t) > 6.0)
+        spruce(end + random.uniform(-3.0, 3.0), t + random.uniform(-2.0, 2.0), random.uniform(12.0, 18.0));
     }
   }
   // The barn has a walnut beside it, the crest its lonely oak.
@@ -208,9 +220,12 @@ void add_plants(Model& model, const Alignment& road) {
       const bool bales = side > 0.0 && at > 930.0 && at < 1040.0 && t < 50.0;
       const double kind = random.uniform(0.0, 1.0);
       if (yard || bales || kind < 0.42) continue;
-      if (kind < 0.66) broadleaf(at, t, random.uniform(7.0, 12.0));
-      else if (kind < 0.78) spruce(at, t, random.uniform(8.0, 14.0));
-      else bush(at, t * 0.6, random.uniform(1.2, 2.4));
+      if (kind < 0.66)
+        broadleaf(at, t, random.uniform(7.0, 12.0));
+      else if (kind < 0.78)
+        spruce(at, t, random.uniform(8.0, 14.0));
+      else
+        bush(at, t * 0.6, random.uniform(1.2, 2.4));
     }
   }
   for (double s = 1000.0; s < 1140.0; s += 4.5) bush(s, 11.5 + random.uniform(-0.6, 0.6), random.uniform(1.0, 1.9));

@@ -14,7 +14,8 @@ namespace {
 
 using glm::dvec3;
 
-/// x of the barn points at the driver; its light wall lies in x = 0, from y = 0 (next to the road) to y = kWide on his right.
+/// x of the barn points at the driver; its light wall lies in x = 0, from y = 0 (next to the road) to y = kWide on his
+/// right.
 void draw_barn(Pen pen) {
   constexpr double kWide = 14.0, kDeep = 10.0, kPlaster = 3.6, kEaves = 5.4, kRidge = 9.2, kFoot = -2.0;
   pen.box(Material::kStone, {-kDeep - 0.06, -0.06, kFoot}, {0.06, kWide + 0.06, 0.45});
@@ -41,8 +42,9 @@ void draw_barn(Pen pen) {
       return dvec3(-0.5 * kDeep + side * x_from_ridge, y, kRidge - slope * x_from_ridge + lift);
     };
     const double reach = 0.5 * kDeep + over;
-    pen.block(Material::kRoofTiles, {{at(0, -0.6, 0.05), at(reach, -0.6, 0.05), at(reach, kWide + 0.6, 0.05), at(0, kWide + 0.6, 0.05),
-                                      at(0, -0.6, 0.25), at(reach, -0.6, 0.25), at(reach, kWide + 0.6, 0.25), at(0, kWide + 0.6, 0.25)}});
+    pen.block(Material::kRoofTiles,
+              {{at(0, -0.6, 0.05), at(reach, -0.6, 0.05), at(reach, kWide + 0.6, 0.05), at(0, kWide + 0.6, 0.05),
+                at(0, -0.6, 0.25), at(reach, -0.6, 0.25), at(reach, kWide + 0.6, 0.25), at(0, kWide + 0.6, 0.25)}});
   }
   // Two-leaved door with frame and braces at the far end of the wall: the near 9 m stay plain, to see the cut-off on.
   const double y0 = 9.6, y1 = 12.8, top = 3.2;
@@ -50,7 +52,8 @@ void draw_barn(Pen pen) {
   for (const double leaf : {0.0, 1.0}) {
     const double a = y0 + 1.61 * leaf, b = a + 1.57;
     pen.box(Material::kDoor, {0.0, a, 0.0}, {0.10, b, top});
-    for (const double z : {0.35, 1.55, 2.75}) pen.box(Material::kWoodOld, {0.10, a + 0.05, z}, {0.13, b - 0.05, z + 0.16});
+    for (const double z : {0.35, 1.55, 2.75})
+      pen.box(Material::kWoodOld, {0.10, a + 0.05, z}, {0.13, b - 0.05, z + 0.16});
   }
   pen.box(Material::kDarkPlastic, {0.0, 7.6, 1.7}, {0.05, 8.4, 2.5});  // a small window, dark
   pen.box(Material::kWoodOld, {0.0, 7.52, 1.6}, {0.09, 8.48, 1.7});
@@ -59,9 +62,14 @@ void draw_barn(Pen pen) {
 /// Half cross-section of the body at one x, mirrored; z of sill, shoulder, and the deck in the middle.
 std::vector<dvec3> body_ring(double x, double half_width, double sill, double shoulder, double deck) {
   const double w = half_width;
-  const std::vector<std::array<double, 2>> half{{0.0, sill},         {0.72 * w, sill},      {0.96 * w, sill + 0.07},
-                                                {w, 0.45 * sill + 0.55 * shoulder}, {0.98 * w, shoulder - 0.06},
-                                                {0.90 * w, shoulder}, {0.5 * w, 0.4 * shoulder + 0.6 * deck}, {0.0, deck}};
+  const std::vector<std::array<double, 2>> half{{0.0, sill},
+                                                {0.72 * w, sill},
+                                                {0.96 * w, sill + 0.07},
+                                                {w, 0.45 * sill + 0.55 * shoulder},
+                                                {0.98 * w, shoulder - 0.06},
+                                                {0.90 * w, shoulder},
+                                                {0.5 * w, 0.4 * shoulder + 0.6 * deck},
+                                                {0.0, deck}};
   std::vector<dvec3> ring;
   for (const auto& [y, z] : half) ring.push_back({x, y, z});
   for (std::size_t i = half.size() - 1; i-- > 1;) ring.push_back({x, -half[i][0], half[i][1]});
@@ -73,10 +81,17 @@ void draw_car(Pen pen) {
   struct Section {
     double x, half_width, sill, shoulder, deck;
   };
-  constexpr std::array<Section, 11> body{{{-0.98, 0.70, 0.42, 0.72, 0.74}, {-0.90, 0.82, 0.30, 0.93, 0.97}, {-0.72, 0.87, 0.24, 0.97, 1.03},
-                                          {-0.30, 0.89, 0.22, 0.95, 1.04}, {0.40, 0.90, 0.20, 0.92, 0.98},  {1.40, 0.90, 0.20, 0.90, 0.96},
-                                          {2.05, 0.90, 0.20, 0.89, 0.96},  {2.60, 0.89, 0.20, 0.85, 0.92},  {3.15, 0.87, 0.22, 0.78, 0.84},
-                                          {3.42, 0.80, 0.25, 0.68, 0.72},  {3.54, 0.68, 0.34, 0.56, 0.58}}};
+  constexpr std::array<Section, 11> body{{{-0.98, 0.70, 0.42, 0.72, 0.74},
+                                          {-0.90, 0.82, 0.30, 0.93, 0.97},
+                                          {-0.72, 0.87, 0.24, 0.97, 1.03},
+                                          {-0.30, 0.89, 0.22, 0.95, 1.04},
+                                          {0.40, 0.90, 0.20, 0.92, 0.98},
+                                          {1.40, 0.90, 0.20, 0.90, 0.96},
+                                          {2.05, 0.90, 0.20, 0.89, 0.96},
+                                          {2.60, 0.89, 0.20, 0.85, 0.92},
+                                          {3.15, 0.87, 0.22, 0.78, 0.84},
+                                          {3.42, 0.80, 0.25, 0.68, 0.72},
+                                          {3.54, 0.68, 0.34, 0.56, 0.58}}};
   std::vector<std::vector<dvec3>> rings;
   for (const Section& s : body) rings.push_back(body_ring(s.x, s.half_width, s.sill, s.shoulder, s.deck));
   pen.loft(Material::kCarPaint, rings);
@@ -84,10 +99,11 @@ void draw_car(Pen pen) {
   // Greenhouse: glass all round under a painted roof, pillars in front of the glass.
   const auto slab = [](double x0, double x1, double w, double z) {
     return std::vector<dvec3>{{x0, -0.8 * w, z}, {x0 + 0.05, -w, z}, {x1 - 0.1, -w, z}, {x1, -0.7 * w, z},
-                              {x1, 0.7 * w, z}, {x1 - 0.1, w, z}, {x0 + 0.05, w, z}, {x0, 0.8 * w, z}};
+                              {x1, 0.7 * w, z},  {x1 - 0.1, w, z},   {x0 + 0.05, w, z}, {x0, 0.8 * w, z}};
   };
   pen.loft(Material::kGlass, {slab(-0.52, 2.42, 0.80, 0.90), slab(-0.10, 1.72, 0.66, 1.36)}, false);
-  pen.loft(Material::kCarPaint, {slab(-0.14, 1.76, 0.675, 1.345), slab(0.0, 1.62, 0.63, 1.43), slab(0.25, 1.4, 0.48, 1.46)});
+  pen.loft(Material::kCarPaint,
+           {slab(-0.14, 1.76, 0.675, 1.345), slab(0.0, 1.62, 0.63, 1.43), slab(0.25, 1.4, 0.48, 1.46)});
   for (const double side : {-1.0, 1.0}) {
     const auto pillar = [&](dvec3 low, dvec3 high, double thick) {
       low.y *= side, high.y *= side;
@@ -105,7 +121,8 @@ void draw_car(Pen pen) {
     // Tail lamp: a housing with its retroreflector; headlamp.
     pen.box(Material::kSheetRed, {-0.965, side * 0.56 - 0.17, 0.72}, {-0.80, side * 0.56 + 0.17, 0.87});
     const double y = side * 0.58;
-    pen.quad(Material::kReflectorRed, {-0.97, y + 0.14, 0.735}, {-0.97, y - 0.14, 0.735}, {-0.97, y - 0.14, 0.80}, {-0.97, y + 0.14, 0.80});
+    pen.quad(Material::kReflectorRed, {-0.97, y + 0.14, 0.735}, {-0.97, y - 0.14, 0.735}, {-0.97, y - 0.14, 0.80},
+             {-0.97, y + 0.14, 0.80});
     pen.ellipsoid(Material::kChrome, {3.36, side * 0.60, 0.61}, {0.14, 0.16, 0.075}, 5, 9);
     pen.box(Material::kDarkPlastic, {0.3, side * 0.87, 0.20}, {2.3, side * 0.905, 0.30});
   }
@@ -133,8 +150,8 @@ void add_fence(Model& model, const Alignment& road, double begin, double end, do
     const dvec3 side = 0.04 * glm::normalize(glm::cross(b - a, dvec3(0, 0, 1)));
     for (const double z : {0.5, 0.95}) {
       const dvec3 low(0, 0, z), high(0, 0, z + 0.1);
-      rails.block(Material::kWoodOld, {{a - side + low, b - side + low, b + side + low, a + side + low,
-                                        a - side + high, b - side + high, b + side + high, a + side + high}});
+      rails.block(Material::kWoodOld, {{a - side + low, b - side + low, b + side + low, a + side + low, a - side + high,
+                                        b - side + high, b + side + high, a + side + high}});
     }
   }
 }
@@ -156,8 +173,12 @@ void add_things(Model& model, const Alignment& road) {
   add_fence(model, road, 885.0, 1005.0, -10.4, fences);
   add_fence(model, road, 510.0, 612.0, -9.6, fences);
 
-  constexpr std::array<std::array<double, 3>, 6> bales{{{958.0, 17.0, 0.3}, {966.0, 21.0, 1.2}, {975.0, 15.5, 2.2},
-                                                        {984.0, 25.0, 0.7}, {1000.0, 19.0, 1.7}, {1012.0, 28.0, 0.1}}};
+  constexpr std::array<std::array<double, 3>, 6> bales{{{958.0, 17.0, 0.3},
+                                                        {966.0, 21.0, 1.2},
+                                                        {975.0, 15.5, 2.2},
+                                                        {984.0, 25.0, 0.7},
+                                                        {1000.0, 19.0, 1.7},
+                                                        {1012.0, 28.0, 0.1}}};
   for (std::size_t i = 0; i < bales.size(); ++i) {
     char name[32];
     std::snprintf(name, sizeof name, "bale_%03zu", i);

@@ -14,7 +14,9 @@ constexpr double kAirDensity_kgpm3 = 1.2041;  // dry air, 20 degrees C, 101325 P
 constexpr double kMaxSteeringWheelRate_radps = 1000.0 * std::numbers::pi / 180.0;
 constexpr double kParkLockSpeed_mps = 0.5;  // below it the pawl of the parking lock falls in; chosen
 
-double sign(double value) { return value > 0.0 ? 1.0 : (value < 0.0 ? -1.0 : 0.0); }
+double sign(double value) {
+  return value > 0.0 ? 1.0 : (value < 0.0 ? -1.0 : 0.0);
+}
 
 double drive_force_n(const VehicleParams& p, const Controls& input, double speed_mps) {
   if (input.gear == Gear::kNeutral || input.gear == Gear::kPark) return 0.0;
@@ -23,7 +25,8 @@ double drive_force_n(const VehicleParams& p, const Controls& input, double speed
   return input.gear == Gear::kReverse ? -force : force;
 }
 
-// Speed after dt. Brakes and rolling resistance only ever oppose the motion: they stop the car at exactly 0 and hold it there.
+// Speed after dt. Brakes and rolling resistance only ever oppose the motion: they stop the car at exactly 0 and hold it
+// there.
 double next_speed_mps(const VehicleParams& p, const Controls& input, const CarState& s, double dt) {
   const double v = s.speed_mps;
   const double drag = 0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * v * std::abs(v);

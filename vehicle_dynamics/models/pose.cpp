@@ -15,12 +15,19 @@ using Field = double VehicleState::*;
 constexpr std::array<Field, 3> kAngles{&VehicleState::roll_rad, &VehicleState::pitch_rad, &VehicleState::yaw_rad};
 constexpr std::array<Field, 6> kSmooth{&VehicleState::x_m,      &VehicleState::y_m,       &VehicleState::z_m,
                                        &VehicleState::roll_rad, &VehicleState::pitch_rad, &VehicleState::yaw_rad};
-constexpr std::array<Field, 13> kLinear{
-    &VehicleState::vx_mps,          &VehicleState::vy_mps,           &VehicleState::vz_mps,
-    &VehicleState::roll_rate_radps, &VehicleState::pitch_rate_radps, &VehicleState::yaw_rate_radps,
-    &VehicleState::ax_mps2,         &VehicleState::ay_mps2,          &VehicleState::speed_mps,
-    &VehicleState::steer_rad,       &VehicleState::suspension_pitch_rad,
-    &VehicleState::suspension_roll_rad, &VehicleState::suspension_heave_m};
+constexpr std::array<Field, 13> kLinear{&VehicleState::vx_mps,
+                                        &VehicleState::vy_mps,
+                                        &VehicleState::vz_mps,
+                                        &VehicleState::roll_rate_radps,
+                                        &VehicleState::pitch_rate_radps,
+                                        &VehicleState::yaw_rate_radps,
+                                        &VehicleState::ax_mps2,
+                                        &VehicleState::ay_mps2,
+                                        &VehicleState::speed_mps,
+                                        &VehicleState::steer_rad,
+                                        &VehicleState::suspension_pitch_rad,
+                                        &VehicleState::suspension_roll_rad,
+                                        &VehicleState::suspension_heave_m};
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
@@ -33,9 +40,9 @@ PoseTrack PoseTrack::from_drive(std::span<const Datagram> datagrams) {
       track.samples_.push_back({datagram.sim_time, *state});
   std::vector<Sample>& samples = track.samples_;
   std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.time < b.time; });
-  samples.erase(std::unique(samples.begin(), samples.end(),
-                            [](const Sample& a, const Sample& b) { return a.time == b.time; }),
-                samples.end());
+  samples.erase(
+      std::unique(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.time == b.time; }),
+      samples.end());
   for (std::size_t i = 1; i < samples.size(); ++i)
     for (const Field angle : kAngles) {
       const double before = samples[i - 1].state.*angle;
@@ -57,10 +64,10 @@ VehicleState PoseTrack::at(SimTime time) const {
   } else if (after == samples_.end()) {
     out = samples_.back().state;
     if (time > end()) {
-      for (const Field rate : {&VehicleState::vx_mps, &VehicleState::vy_mps, &VehicleState::vz_mps,
-                               &VehicleState::roll_rate_radps, &VehicleState::pitch_rate_radps,
-                               &VehicleState::yaw_rate_radps, &VehicleState::ax_mps2, &VehicleState::ay_mps2,
-                               &VehicleState::speed_mps})
+      for (const Field rate :
+           {&VehicleState::vx_mps, &VehicleState::vy_mps, &VehicleState::vz_mps, &VehicleState::roll_rate_radps,
+            &VehicleState::pitch_rate_radps, &VehicleState::yaw_rate_radps, &VehicleState::ax_mps2,
+            &VehicleState::ay_mps2, &VehicleState::speed_mps})
         out.*rate = 0.0;
     }
     out.drive_ended = true;

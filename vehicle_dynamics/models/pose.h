@@ -1,7 +1,8 @@
 // Level `pose`.
 //
 // What: the recorded motion of a drive, at any time between its records.
-// Source: cubic Hermite interpolation with tangents from the parabola through three neighbours (de Boor, A Practical Guide
+// Source: cubic Hermite interpolation with tangents from the parabola through three neighbours (de Boor, A Practical
+// Guide
 //   to Splines, 1978, ch. IV: Bessel's tangents); third-order, so 60 Hz records of a car are exact to micrometres.
 // Frame: that of the records, world and ISO 8855; angles are unwrapped first, so a turn through ±pi is a small one.
 // Leaves out: everything between records further apart than 1 s, where it goes straight; forces; the driver's controls.
@@ -26,8 +27,8 @@ class PoseTrack {
   SimTime begin() const { return empty() ? SimTime{} : samples_.front().time; }
   SimTime end() const { return empty() ? SimTime{} : samples_.back().time; }
 
-  /// The pose at `time`. Before the first record it is the first; from the last on it holds that, at rest, with drive_ended.
-  /// Step, hash, lag and telltale are the caller's.
+  /// The pose at `time`. Before the first record it is the first; from the last on it holds that, at rest, with
+  /// drive_ended. Step, hash, lag and telltale are the caller's.
   VehicleState at(SimTime time) const;
 
  private:

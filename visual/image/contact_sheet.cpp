@@ -45,7 +45,7 @@ void Thumbnails::offer(LabelledImage picture) {
   if (wants_next()) kept_.push_back(std::move(picture));
   ++offered_;
   if (kept_.size() < kMost) return;
-  for (std::size_t i = 0; i < kMost / 2; ++i) kept_[i] = std::move(kept_[2 * i]);
+  for (std::size_t i = 1; i < kMost / 2; ++i) kept_[i] = std::move(kept_[2 * i]);
   kept_.resize(kMost / 2);
   stride_ *= 2;
 }

@@ -127,7 +127,7 @@ const double kRise15 = std::tan(radians(15.0));  // UN R149: the right part rise
 /// A reflector or projector lamp with a bulb's levels.
 BeamFormula halogen_low() {
   return {.beam = {{10500, 1.4, -0.4, 3.2, 1.4, 2.0}, {9600, 0.4, -0.6, 12.5, 3.0, 2.0}, {8300, 0, -1.9, 41, 8.5, 3.0}},
-          .stray = {{190, 0, 1.2, 9, 3, 1.3}, {75, 0, 2, 30, 14, 2}},
+          .stray = {{190, 0, 0.6, 9, 3, 1.3}, {75, 0, 2, 30, 14, 2}},
           .step_deg = 0.168,
           .kink_deg = 0.15,
           .rise = kRise15};
@@ -136,7 +136,7 @@ BeamFormula halogen_low() {
 /// A projector LED lamp: sharper, wider, more light.
 BeamFormula led_low() {
   return {.beam = {{8500, 1.3, -0.5, 4.0, 1.3, 2.0}, {12500, 0.3, -0.8, 16, 3.0, 2.0}, {8800, 0, -2.2, 46, 9.0, 3.0}},
-          .stray = {{170, 0, 1.2, 10, 3, 1.3}, {70, 0, 2, 32, 14, 2}},
+          .stray = {{170, 0, 0.4, 10, 3, 1.3}, {70, 0, 2, 32, 14, 2}},
           .step_deg = 0.135,
           .kink_deg = 0.10,
           .rise = kRise15};

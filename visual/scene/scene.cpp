@@ -21,7 +21,8 @@ namespace phare {
 
 namespace {
 
-/// Cells are smaller than the 100 m promised for a chunk, for a triangle belongs to the cell of its middle and juts out.
+/// Cells are smaller than the 100 m promised for a chunk, for a triangle belongs to the cell of its middle and juts
+/// out.
 constexpr double kCell_m = 72.0;
 constexpr double kFarthest_m = 1e8;  ///< Earth and back; beyond it a file is wrong
 /// A small file can place one mesh many times; this many vertices (1.5 GB) are taken for an error.
@@ -156,7 +157,8 @@ Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   const glm::dmat3 linear(instance.world_from_mesh);
   const double volume = glm::determinant(linear);
   // Normals go with the inverse transpose; the cofactor matrix has its direction and needs no division.
-  const glm::dmat3 turn(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]));
+  const glm::dmat3 turn(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                        glm::cross(linear[0], linear[1]));
   std::vector<Corner> corners;
   corners.reserve(positions->size());
   for (const glm::vec3& p : *positions) {

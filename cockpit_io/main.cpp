@@ -1,0 +1,105 @@
+// phare-cockpit: what the driver does, from CAN, a log, keys, a drive or a script, onto the bus.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cockpit_io/process.h"
+#include "cockpit_io/source.h"
+#include "config/cockpit.h"
+#include "config/rig.h"
+#include "net/bus.h"
+#include "net/clock.h"
+
+namespace phare {
+namespace {
+
+struct Options {
+  std::string rig_file, cockpit_file, source, dbc_file, log_file, drive_file, script_file, stats_file, log_level = "info";
+  std::optional<std::uint16_t> port_base;
+  bool lockstep = false;
+};
+
+int fail(const Error& error) {
+  std::fprintf(stderr, "phare-cockpit: %s\n", error.text().c_str());
+  return kExitBadInput;
+}
+
+/// The cockpit file with what the command line puts in its place.
+Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
+  Result<CockpitConfig> config = read_cockpit(options.cockpit_file.empty() ? rig.cockpit_file : std::filesystem::path(options.cockpit_file));
+  if (!config) return config.error();
+  const auto choose = [&](SourceKind kind, const std::string& file) {
+    config->source = kind;
+    config->input_file = file;
+  };
+  if (!options.log_file.empty()) choose(SourceKind::kLog, options.log_file);
+  if (!options.drive_file.empty()) choose(SourceKind::kDrive, options.drive_file);
+  if (!options.script_file.empty()) choose(SourceKind::kDriver, options.script_file);
+  if (!options.source.empty()) {
+    const auto named = std::find(kSourceKindNames.begin(), kSourceKindNames.end(), options.source);
+    config->source = static_cast<SourceKind>(named - kSourceKindNames.begin());
+  }
+  if (config->source == SourceKind::kCan && config->interface.empty()) {
+    return Error{config->file.string(), "names no CAN interface: it needs [source] kind = \"can\" and interface = \"can0\""};
+  }
+  if (!options.dbc_file.empty()) config->dbc_file = options.dbc_file;
+  return config;
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  CLI::App app{"What the driver of a rig does: stalk, wheel and pedals, from CAN, a log, keys, a drive or a script."};
+  app.footer("Example: phare-cockpit --rig config/rigs/country_road.toml --cockpit config/cockpits/phare_stalk.toml");
+  app.set_version_flag("--version", PHARE_VERSION);
+  app.add_option("--rig", options.rig_file, "Rig file (TOML)")->required();
+  app.add_option("--cockpit", options.cockpit_file, "Cockpit file (default: the rig's)");
+  app.add_option("--source", options.source, "can, log, keyboard, drive or driver (default: the cockpit file's)")
+      ->check(CLI::IsMember(std::vector<std::string>(kSourceKindNames.begin(), kSourceKindNames.end())));
+  app.add_option("--dbc", options.dbc_file, "DBC file (default: the cockpit file's)");
+  auto* log = app.add_option("--log", options.log_file, "candump log to play");
+  auto* drive = app.add_option("--drive", options.drive_file, "Drive file whose controls to play");
+  auto* script = app.add_option("--script", options.script_file, "Script of a driver who follows the lane");
+  log->excludes(drive)->excludes(script);
+  drive->excludes(script);
+  app.add_flag("--lockstep", options.lockstep, "Advance frame by frame with the picture, reproducibly");
+  app.add_option("--stats", options.stats_file, "Write counters and latencies to this JSON file every second");
+  app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off");
+  app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? kExitDone : kExitBadInput;
+  }
+  spdlog::set_default_logger(spdlog::stderr_color_mt("cockpit"));
+  spdlog::set_level(spdlog::level::from_str(options.log_level));
+
+  Result<Rig> rig = read_rig(options.rig_file);
+  if (!rig) return fail(rig.error());
+  if (options.port_base) rig->port_base = *options.port_base;
+  Result<CockpitConfig> config = configure(*rig, options);
+  if (!config) return fail(config.error());
+  const StopFlag stop = install_stop_signals();
+  Result<Bus> bus = Bus::open(*rig, Role::kCockpit);
+  if (!bus) return fail(bus.error());
+  Result<std::unique_ptr<Source>> source = open_source(*config);
+  if (!source) return fail(source.error());
+
+  CockpitProcess process(std::move(*bus), std::move(*source), *rig, std::move(*config), options.stats_file, stop);
+  if (options.lockstep) {
+    process.run_lockstep();
+  } else {
+    process.run_real_time();
+  }
+  return kExitDone;
+}
+
+}  // namespace
+}  // namespace phare
+
+int main(int argc, char** argv) { return phare::run(argc, argv); }

@@ -1,0 +1,222 @@
+#include "cockpit_io/process.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "net/stats.h"
+
+namespace phare {
+
+namespace {
+
+constexpr std::chrono::milliseconds kSendEvery(10);
+constexpr std::chrono::milliseconds kLookEvery(2);         // at the source, between two datagrams
+constexpr std::chrono::milliseconds kCoast(200);           // of simulated time when the car is silent, as long as the picture
+constexpr std::chrono::seconds kWaitForCar(2);             // then simulated time runs by the wall clock alone
+constexpr std::size_t kMostUnsentStamps = 20'000;
+
+std::string source_name(const CockpitConfig& config) {
+  return config.source == SourceKind::kCan ? config.interface
+                                           : std::string(kSourceKindNames[static_cast<std::size_t>(config.source)]);
+}
+
+nlohmann::json latency_json(const LatencyHistogram& histogram) {
+  return {{"count", histogram.count()},
+          {"median_us", static_cast<double>(histogram.quantile_ns(0.5)) * 1e-3},
+          {"p99_us", static_cast<double>(histogram.quantile_ns(0.99)) * 1e-3},
+          {"max_us", static_cast<double>(histogram.most_ns()) * 1e-3}};
+}
+
+}  // namespace
+
+CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Rig& rig, CockpitConfig config,
+                               std::filesystem::path stats_file, StopFlag stop)
+    : bus_(std::move(bus)),
+      rig_(rig),
+      config_(std::move(config)),
+      stats_file_(std::move(stats_file)),
+      stop_(stop),
+      cockpit_(new_cockpit()) {
+  take_source(std::move(source));
+  bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
+    const auto* control = std::get_if<RigControl>(&datagram.payload);
+    if (control == nullptr) return;
+    if (std::holds_alternative<RigControl::Quit>(control->command)) stop_.request();
+    if (const auto* pause = std::get_if<RigControl::Pause>(&control->command)) paused_ = pause->on;
+    if (const auto* design = std::get_if<RigControl::Design>(&control->command)) wanted_design_ = design->index;
+    if (std::holds_alternative<RigControl::Seek>(control->command)) seek_ = true;
+  };
+}
+
+Cockpit CockpitProcess::new_cockpit() const {
+  SwitchParams params;
+  params.design_count = static_cast<std::uint32_t>(std::max<std::size_t>(rig_.designs.size(), 1));
+  // A script has no contacts that bounce.
+  params.debounce_ns = config_.source == SourceKind::kDriver ? 0 : static_cast<std::int64_t>(config_.debounce_s * 1e9);
+  return Cockpit(params, source_name(config_));
+}
+
+void CockpitProcess::take_source(std::unique_ptr<Source> source) {
+  source_ = std::move(source);
+  source_->on_frame = [this](WallTime stamp) {
+    if (real_time_ && unsent_stamps_.size() < kMostUnsentStamps) unsent_stamps_.push_back(stamp);
+  };
+}
+
+/// After a seek: what plays by simulated time is played again up to the new time.
+void CockpitProcess::begin_anew() {
+  seek_ = false;
+  if (config_.source != SourceKind::kLog && config_.source != SourceKind::kDrive) return;
+  Result<std::unique_ptr<Source>> source = open_source(config_);
+  if (!source) return spdlog::warn("{}", source.error().text());
+  take_source(std::move(*source));
+  cockpit_ = new_cockpit();
+  newest_ = {};
+}
+
+// ---- real time
+
+/// Simulated time is the car's, carried on by the wall clock; it does not go back.
+Moment CockpitProcess::now_in_real_time() {
+  const WallTime wall = wall_now();
+  SimTime sim = newest_;
+  if (const auto* vehicle = bus_.newest<VehicleState>()) {
+    const std::int64_t age_ns = std::clamp<std::int64_t>(wall.ns - vehicle->received.ns, 0, std::chrono::nanoseconds(kCoast).count());
+    sim.ns = vehicle->sim_time.ns + age_ns;
+  } else if (const auto waited = Clock::now() - start_; waited > kWaitForCar) {
+    sim.ns = std::chrono::nanoseconds(waited - kWaitForCar).count();
+  }
+  newest_ = std::max(newest_, sim);
+  return {newest_, wall};
+}
+
+void CockpitProcess::evaluate(Moment now, const VehicleState* vehicle) {
+  source_->advance(now, vehicle, cockpit_);
+  if (wanted_design_) cockpit_.choose_design(*std::exchange(wanted_design_, std::nullopt), now);
+}
+
+void CockpitProcess::send(SimTime time, std::int64_t frame) {
+  const CockpitState state = cockpit_.state(frame, source_->ended());
+  bus_.send(time, state);
+  if (!real_time_) return;
+  const WallTime sent = wall_now();
+  for (const WallTime stamp : unsent_stamps_) latency_.add(sent.ns - stamp.ns);
+  unsent_stamps_.clear();
+  if (state.light_changes != light_changes_sent_) light_latency_.add(sent.ns - state.light_change_wall.ns);
+  light_changes_sent_ = state.light_changes;
+}
+
+void CockpitProcess::run_real_time() {
+  real_time_ = true;
+  start_ = Clock::now();
+  Pacer pacer(kSendEvery);
+  while (!stop_) {
+    bus_.wait(std::min<std::chrono::nanoseconds>(pacer.left(), kLookEvery));
+    bus_.poll();
+    stats_once_a_second();
+    if (seek_) begin_anew();
+    const Moment now = now_in_real_time();
+    const auto* vehicle = bus_.newest<VehicleState>();
+    evaluate(now, vehicle != nullptr ? &vehicle->value : nullptr);
+    if (pacer.due() || cockpit_.light_changes() != light_changes_sent_) send(now.sim, -1);
+  }
+  write_stats();
+}
+
+// ---- lockstep
+
+/// The newest frame any channel has drawn, once all have reported.
+std::optional<std::int64_t> CockpitProcess::newest_frame_of_all() const {
+  std::int64_t newest = -1;
+  for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
+    const auto* report = bus_.newest<FrameReport>(channel);
+    if (report == nullptr) return std::nullopt;
+    newest = std::max(newest, report->value.frame_index);
+  }
+  return newest;
+}
+
+bool CockpitProcess::all_channels_at(std::int64_t frame) const {
+  for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
+    const auto* report = bus_.newest<FrameReport>(channel);
+    if (report == nullptr || report->value.frame_index != frame) return false;
+  }
+  return true;
+}
+
+/// The car in the picture of a frame. Not the newest VehicleState, which may or may not have arrived: this one has.
+const VehicleState* CockpitProcess::drawn_at(std::int64_t frame) const {
+  for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
+    const auto* report = bus_.newest<FrameReport>(channel);
+    if (report == nullptr || report->value.frame_index != frame) continue;
+    return report->value.drawn.level.empty() ? nullptr : &report->value.drawn;
+  }
+  return nullptr;
+}
+
+void CockpitProcess::evaluate_frame(std::int64_t frame) {
+  evaluate({frame_time(frame, rig_.frame_rate_hz), wall_now()}, drawn_at(frame - 1));
+}
+
+void CockpitProcess::run_lockstep() {
+  std::optional<std::int64_t> sent;  // newest frame the controls went out for
+  while (!stop_) {
+    bus_.wait(std::chrono::milliseconds(50));
+    bus_.poll();
+    stats_once_a_second();
+    if (!sent) {
+      // A cockpit that was restarted goes through every frame again, so that it stands where its predecessor stood.
+      sent = newest_frame_of_all();
+      if (!sent) continue;
+      for (std::int64_t frame = 0; frame <= *sent; ++frame) evaluate_frame(frame);
+      if (*sent >= 0 && !all_channels_at(*sent)) send(frame_time(*sent, rig_.frame_rate_hz), *sent);
+      if (*sent >= 0) spdlog::info("going on after frame {}", *sent);
+    }
+    // A channel that asks for what went out already has lost it, or is new.
+    for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
+      const auto report = bus_.take<FrameReport>(channel);
+      if (report && report->value.frame_index < *sent) bus_.send_again(kPayloadIndex<CockpitState>);
+    }
+    if (paused_ || !all_channels_at(*sent)) continue;
+    ++*sent;
+    evaluate_frame(*sent);
+    send(frame_time(*sent, rig_.frame_rate_hz), *sent);
+  }
+  write_stats();
+}
+
+// ---- reports
+
+void CockpitProcess::stats_once_a_second() {
+  if (stats_file_.empty() || Clock::now() < next_stats_) return;
+  next_stats_ = Clock::now() + std::chrono::seconds(1);
+  write_stats();
+}
+
+void CockpitProcess::write_stats() const {
+  if (stats_file_.empty()) return;
+  nlohmann::json json = stats_json("cockpit", bus_);
+  const SourceCounts& counts = source_->counts();
+  json["source"] = {{"name", source_name(config_)},
+                    {"status", source_->status()},
+                    {"frames_read", counts.frames_read},
+                    {"decoded", counts.decoded},
+                    {"incomplete", counts.incomplete},
+                    {"unknown_ids", counts.unknown_ids},
+                    {"error_frames", counts.error_frames},
+                    {"dropped", counts.dropped},
+                    {"broken_lines", counts.broken_lines},
+                    {"reconnects", counts.reconnects},
+                    {"fail_safes", counts.fail_safes}};
+  json["light_changes"] = cockpit_.light_changes();
+  json["fail_safe"] = cockpit_.fail_safe();
+  json["frame_to_datagram"] = latency_json(latency_);
+  json["light_change_to_datagram"] = latency_json(light_latency_);
+  if (!write_json(stats_file_, json)) spdlog::warn("{}: cannot be written", stats_file_.string());
+}
+
+}  // namespace phare

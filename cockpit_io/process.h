@@ -1,0 +1,73 @@
+// The cockpit on the bus: asks its source what the driver does and sends CockpitState, by the wall clock or frame by frame.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cockpit_io/cockpit.h"
+#include "cockpit_io/latency.h"
+#include "cockpit_io/source.h"
+#include "config/cockpit.h"
+#include "config/rig.h"
+#include "net/bus.h"
+#include "net/clock.h"
+
+namespace phare {
+
+class CockpitProcess {
+ public:
+  /// `stats_file` may be empty: no statistics.
+  CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Rig& rig, CockpitConfig config, std::filesystem::path stats_file,
+                 StopFlag stop);
+  CockpitProcess(const CockpitProcess&) = delete;
+  CockpitProcess& operator=(const CockpitProcess&) = delete;
+
+  /// Sends 100 times a second, and at once when a light changes, until told to stop.
+  void run_real_time();
+
+  /// Answers FrameReport(j) of all channels with CockpitState(j + 1), until told to stop.
+  void run_lockstep();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Cockpit new_cockpit() const;
+  void take_source(std::unique_ptr<Source> source);
+  void begin_anew();
+  Moment now_in_real_time();
+  void evaluate(Moment now, const VehicleState* vehicle);
+  void send(SimTime time, std::int64_t frame);
+
+  std::optional<std::int64_t> newest_frame_of_all() const;
+  bool all_channels_at(std::int64_t frame) const;
+  const VehicleState* drawn_at(std::int64_t frame) const;
+  void evaluate_frame(std::int64_t frame);
+
+  void stats_once_a_second();
+  void write_stats() const;
+
+  Bus bus_;
+  const Rig& rig_;
+  CockpitConfig config_;
+  std::filesystem::path stats_file_;
+  StopFlag stop_;
+  std::unique_ptr<Source> source_;
+  Cockpit cockpit_;
+
+  bool paused_ = false;
+  bool seek_ = false;
+  std::optional<std::uint32_t> wanted_design_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point next_stats_{};
+  SimTime newest_;
+  std::vector<WallTime> unsent_stamps_;  // of frames decoded since the last datagram
+  LatencyHistogram latency_;
+  LatencyHistogram light_latency_;
+  std::uint64_t light_changes_sent_ = 0;
+  bool real_time_ = false;
+};
+
+}  // namespace phare

@@ -1,0 +1,83 @@
+#include "cockpit_io/candump.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace phare {
+namespace {
+
+CandumpEntry entry(const char* line) {
+  const auto parsed = parse_candump_line(line);
+  EXPECT_TRUE(parsed.ok()) << line << ": " << (parsed.ok() ? "" : parsed.error().reason);
+  return parsed.ok() ? *parsed : CandumpEntry{};
+}
+
+TEST(Candump, ReadsEveryKindOfFrame) {
+  const CandumpEntry classic = entry("(46408.584930) can0 260#08FFFB0000001884");
+  EXPECT_EQ(classic.stamp_ns, 46408'584930000);
+  EXPECT_EQ(classic.frame.id, 0x260u);
+  EXPECT_FALSE(classic.frame.extended);
+  EXPECT_EQ(classic.frame.length, 8);
+  EXPECT_EQ(classic.frame.data[1], 0xFF);
+  EXPECT_EQ(classic.frame.data[7], 0x84);
+
+  EXPECT_EQ(entry("(1700000000.123456789) vcan0 123#").stamp_ns, 1700000000'123456789);
+  EXPECT_EQ(entry("(1.5) c 00000123#AB").frame.extended, true);
+}
+
+TEST(Candump, ReadsRemoteFdAndErrorFrames) {
+  EXPECT_TRUE(entry("(1.0) c 123#R").frame.remote);
+  EXPECT_EQ(entry("(1.0) c 123#R4").frame.length, 4);
+  const CanFrame fd = entry("(1.0) c 12345678##3112233445566778899").frame;
+  EXPECT_TRUE(fd.fd && fd.extended);
+  EXPECT_EQ(fd.fd_flags, 3);
+  EXPECT_EQ(fd.length, 9);
+  EXPECT_EQ(entry("(1.0) c 001##0").frame.length, 0);
+  const CanFrame error = entry("(1.0) c 20000040#0000000000000000").frame;
+  EXPECT_TRUE(error.error);
+  EXPECT_EQ(error.id, 0x40u);
+  EXPECT_EQ(entry("(1.0) c 123#1122334455667788_F").frame.length, 8);
+  EXPECT_EQ(entry("(1.0) c 123#11.22.33 T").frame.length, 3);
+}
+
+TEST(Candump, RefusesBrokenLines) {
+  for (const char* line : {"", "x", "(1) c 123#", "(1.) c 123#", "(-1.0) c 123#", "(99999999999999.0) c 123#", "(1.0)", "(1.0) c",
+                           "(1.0) 123#11", "(1.0) c 123", "(1.0) c 12#11", "(1.0) c FFF#11", "(1.0) c G23#11", "(1.0) c 123#1",
+                           "(1.0) c 123#112233445566778899", "(1.0) c 123#R9", "(1.0) c 123##", "(1.0) c 123#11 X",
+                           "(1.0) c 123#11 R R", "(1.0) c FFFFFFFF#11"}) {
+    EXPECT_FALSE(parse_candump_line(line).ok()) << line;
+  }
+}
+
+TEST(Candump, KeepsTheRestOfABrokenLog) {
+  const auto log = parse_candump("# comment\n(1.0) c 123#11\n\nbroken\n(0.5) c 123#22\r\n(2.0) c 123#3", "a.log");
+  ASSERT_TRUE(log.ok());
+  EXPECT_EQ(log->entries.size(), 2u);
+  EXPECT_EQ(log->broken_lines, 2u);
+  EXPECT_EQ(log->backward_stamps, 1u);
+  ASSERT_EQ(log->problems.size(), 2u);
+  EXPECT_EQ(log->problems[0].line, 4);
+  EXPECT_EQ(log->problems[1].line, 6);
+}
+
+TEST(Candump, ALogWithoutAFrameIsAnError) {
+  EXPECT_FALSE(parse_candump("", "a.log").ok());
+  const auto broken = parse_candump("\nbroken\n", "a.log");
+  ASSERT_FALSE(broken.ok());
+  EXPECT_EQ(broken.error().place, "a.log:2");
+  EXPECT_FALSE(read_candump("/nonexistent.log").ok());
+}
+
+TEST(Candump, CountsEveryFrameOfARealDrive) {
+  const auto file = std::filesystem::path(PHARE_SHARED_DATA_DIR) / "drives/comma2k19/rav4_seg40_bus0_00-30s.candump.log";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  const auto log = read_candump(file);
+  ASSERT_TRUE(log.ok());
+  EXPECT_EQ(log->entries.size(), 26904u);  // wc -l
+  EXPECT_EQ(log->broken_lines, 0u);
+  EXPECT_EQ(log->backward_stamps, 0u);
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,163 @@
+// reference: 30 s of a real car (comma2k19), imported; speed and steering against its own decoded table. Skips without ../shared.
+#include "tools/can_import.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "net/wire.h"
+#include "tools/csv_columns.h"
+
+namespace phare {
+namespace {
+
+const std::filesystem::path kData = PHARE_SHARED_DATA_DIR;
+const std::filesystem::path kDrives = kData / "drives/comma2k19";
+
+/// A lane along x with a bend of 500 m radius and a grade of 2 %.
+std::filesystem::path bent_lane() {
+  const auto path = std::filesystem::path(testing::TempDir()) / "phare_import_lane.csv";
+  std::ofstream csv(path);
+  csv.precision(17);
+  csv << "s_m,x_m,y_m,z_m,heading_rad,curvature_1pm\n";
+  constexpr double kRadius = 500.0;
+  for (int s = 0; s <= 900; ++s) {
+    const double a = s / kRadius;
+    csv << s << ',' << kRadius * std::sin(a) << ',' << kRadius * (1 - std::cos(a)) << ',' << 0.02 * s << ',' << a << ',' << 1 / kRadius << '\n';
+  }
+  return path;
+}
+
+ImportOptions comma_options() {
+  ImportOptions options;
+  options.can_log = kDrives / "rav4_seg40_bus0_00-30s.candump.log";
+  options.dbc = kData / "dbc/opendbc/toyota_nodsu_pt_generated.dbc";
+  options.pose = kDrives / "rav4_seg40_pose_00-30s.csv";
+  const auto vehicle = read_vehicle(PHARE_SOURCE_DIR "/config/vehicles/hatchback.toml");
+  EXPECT_TRUE(vehicle);
+  if (vehicle) options.vehicle = *vehicle;
+  return options;
+}
+
+class CanImport : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kDrives)) GTEST_SKIP() << "no " << kDrives.string();
+  }
+};
+
+TEST_F(CanImport, EveryStageIsCounted) {
+  const auto drive = import_can_drive(comma_options());
+  ASSERT_TRUE(drive) << drive.error().text();
+  const ImportCounts& c = drive->counts;
+  EXPECT_NEAR(drive->duration_s, 30.0, 0.1);
+  EXPECT_EQ(c.frames, c.used + c.other_ids + c.undecodable + c.outside);
+  EXPECT_EQ(c.frames + c.broken_lines, 26904u);
+  EXPECT_EQ(c.broken_lines, 0u);
+  EXPECT_EQ(c.undecodable, 0u);
+  EXPECT_GT(c.steering_samples, 2480u);
+  EXPECT_GT(c.speed_samples, 1240u);
+  EXPECT_GT(c.accelerator_samples, 940u);
+  EXPECT_EQ(c.pose_rows, 601u);
+  EXPECT_EQ(c.cockpit_messages, drive->datagrams.size() / 2);
+  EXPECT_EQ(c.cockpit_messages, static_cast<std::uint64_t>(std::llround(drive->duration_s * 100)) + 1);
+  for (const Datagram& datagram : drive->datagrams) ASSERT_EQ(check(datagram), Refusal::kNone);
+}
+
+TEST_F(CanImport, SpeedAndSteeringFollowTheDecodedTable) {
+  const auto drive = import_can_drive(comma_options());
+  ASSERT_TRUE(drive) << drive.error().text();
+  const std::array<std::string, 3> names{"t_s", "speed_mps", "steer_wheel_deg"};
+  const auto table = read_csv_columns(kDrives / "rav4_seg40_can_decoded_00-30s.csv", names);
+  ASSERT_TRUE(table) << table.error().text();
+  const auto& t = (*table)[0];
+  double worst_speed = 0.0, worst_steer = 0.0;
+  std::size_t row = 0;
+  for (const Datagram& datagram : drive->datagrams) {
+    const double at = static_cast<double>(datagram.sent.ns) * 1e-9;  // the recorded stamp
+    while (row + 2 < t.size() && t[row + 1] < at) ++row;
+    if (at < t.front() || at > t.back()) continue;
+    const double u = (at - t[row]) / (t[row + 1] - t[row]);
+    const auto value = [&](std::size_t column) { return (*table)[column][row] * (1 - u) + (*table)[column][row + 1] * u; };
+    if (const auto* vehicle = std::get_if<VehicleState>(&datagram.payload)) {
+      worst_speed = std::max(worst_speed, std::abs(vehicle->speed_mps - value(1)));
+    } else if (const auto* cockpit = std::get_if<CockpitState>(&datagram.payload)) {
+      worst_steer = std::max(worst_steer, std::abs(cockpit->steering_wheel_rad * 180 / std::numbers::pi - value(2)));
+    }
+  }
+  EXPECT_LT(worst_speed, 0.10);  // m/s; the table itself steps every 24 ms, acceleration up to 3 m/s²
+  EXPECT_LT(worst_steer, 1.0);   // deg; steering turns at up to 40 deg/s
+  RecordProperty("worst_speed_mps", std::to_string(worst_speed));
+  RecordProperty("worst_steer_deg", std::to_string(worst_steer));
+}
+
+TEST_F(CanImport, KeepsTheRecordedPose) {
+  const auto drive = import_can_drive(comma_options());
+  ASSERT_TRUE(drive) << drive.error().text();
+  const std::array<std::string, 5> names{"t_s", "east_m", "north_m", "up_m", "heading_deg_cw_from_north"};
+  const auto table = read_csv_columns(kDrives / "rav4_seg40_pose_00-30s.csv", names);
+  ASSERT_TRUE(table);
+  const auto& last = std::get<VehicleState>(drive->datagrams.back().payload);
+  EXPECT_TRUE(last.drive_ended);
+  EXPECT_NEAR(last.x_m, (*table)[1].back(), 0.5);
+  EXPECT_NEAR(last.y_m, (*table)[2].back(), 0.5);
+  EXPECT_NEAR(last.yaw_rad, std::numbers::pi / 2 - (*table)[4].back() * std::numbers::pi / 180, 0.01);
+  EXPECT_NEAR(drive->distance_m, 521.9, 5.0);  // CAN speed against the length of the recorded path
+}
+
+TEST_F(CanImport, OntoALaneKeepsSpeedAndFollowsTheLane) {
+  ImportOptions options = comma_options();
+  options.lane = bent_lane();
+  const auto drive = import_can_drive(options), free = import_can_drive(comma_options());
+  ASSERT_TRUE(drive && free);
+  const double worst_radius = 0.002;
+  for (std::size_t i = 1; i < drive->datagrams.size(); i += 2) {
+    const auto& on = std::get<VehicleState>(drive->datagrams[i].payload);
+    const auto& off = std::get<VehicleState>(free->datagrams[i].payload);
+    EXPECT_EQ(on.speed_mps, off.speed_mps);
+    EXPECT_EQ(on.ax_mps2, off.ax_mps2);
+    EXPECT_NEAR(std::hypot(on.x_m, on.y_m - 500.0), 500.0, worst_radius);
+    EXPECT_NEAR(on.pitch_rad - on.suspension_pitch_rad, -std::atan(0.02), 2e-4);  // uphill: nose up
+    // braking presses the nose down, felt acceleration includes the grade
+    if (on.ax_mps2 - 0.02 * 9.81 < -0.5) EXPECT_GT(on.suspension_pitch_rad, 0.0);
+  }
+  EXPECT_EQ(std::get<CockpitState>(drive->datagrams.front().payload).light_switch, LightSwitch::kLow);
+}
+
+TEST_F(CanImport, SameInputSameBytes) {
+  const auto a = import_can_drive(comma_options()), b = import_can_drive(comma_options());
+  ASSERT_TRUE(a && b);
+  ASSERT_EQ(a->datagrams.size(), b->datagrams.size());
+  for (std::size_t i = 0; i < a->datagrams.size(); ++i) ASSERT_EQ(encode(a->datagrams[i]), encode(b->datagrams[i]));
+}
+
+TEST_F(CanImport, BadInputIsNamed) {
+  ImportOptions options = comma_options();
+  options.signals.speed = "SPEED.SPEDE";
+  EXPECT_NE(import_can_drive(options).error().text().find("has no signal \"SPEDE\""), std::string::npos);
+  options = comma_options();
+  options.pose = kDrives / "rav4_seg40_imu_00-30s.csv";
+  EXPECT_NE(import_can_drive(options).error().text().find("imu_00-30s.csv:1: no column \"east_m\""), std::string::npos);
+  options = comma_options();
+  options.can_log = "/nowhere.log";
+  EXPECT_FALSE(import_can_drive(options).ok());
+}
+
+TEST(CsvColumns, ErrorsSayWhere) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "phare_csv_test.csv";
+  std::ofstream(path) << "# made up\na,b\n1,2\n3,x\n";
+  const std::array<std::string, 2> names{"b", "a"};
+  EXPECT_EQ(read_csv_columns(path, names).error().text(), path.string() + ":4: \"b\": expected a finite number, got \"x\"");
+  std::ofstream(path) << "a,b\n1,2\n\n3,4\n";
+  const auto columns = read_csv_columns(path, names);
+  ASSERT_TRUE(columns);
+  EXPECT_EQ((*columns)[0], (std::vector<double>{2, 4}));
+  EXPECT_EQ((*columns)[1], (std::vector<double>{1, 3}));
+  EXPECT_EQ(read_csv_columns("/nowhere.csv", names).error().text(), "/nowhere.csv: no such file, or it cannot be read");
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,226 @@
+// phare-dynamics as a process: lockstep twice, killed and started again, real time with silence, ended by signals.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "net/bus.h"
+#include "net/drive_file.h"
+
+extern char** environ;
+
+namespace phare {
+namespace {
+
+using namespace std::chrono_literals;
+using SteadyClock = std::chrono::steady_clock;
+
+// The process under test, killed at the latest when the test ends.
+class Child {
+ public:
+  explicit Child(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), PHARE_DYNAMICS_PROGRAM);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    if (posix_spawn(&pid_, PHARE_DYNAMICS_PROGRAM, nullptr, nullptr, argv.data(), environ) != 0) pid_ = -1;
+  }
+  ~Child() {
+    if (pid_ > 0) end(SIGKILL);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  // Exit code, or -signal.
+  int end(int signal_number) {
+    if (signal_number != 0) ::kill(pid_, signal_number);
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+ private:
+  pid_t pid_ = -1;
+};
+
+class DynamicsProcess : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) / ("phare_dynamics_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+    // A scene without a road, but with a lane to start on.
+    std::ofstream(folder_ / "scene.gltf") << R"({"asset":{"version":"2.0"}})";
+    std::ofstream(folder_ / "scene_lane.csv") << "x_m,y_m,z_m,heading_rad\n5,6,7,0.5\n";
+    std::ofstream(folder_ / "rig.toml") << "name = \"test\"\nscene = \"scene.gltf\"\nvehicle = \"" PHARE_VEHICLES_DIR
+                                           "/hatchback.toml\"\ncockpit = \"none.toml\"\n"
+                                           "[dynamics]\nlevel = \"kinematic\"\nstep_s = 0.002\n"
+                                           "[[channel]]\nname = \"front\"\n[[design]]\nname = \"a\"\n"
+                                           "[[design.lamp]]\nname = \"l\"\npair = true\nposition_m = [3.4, 0.6, 0.6]\n"
+                                           "[[design.lamp.source]]\nfunction = \"low\"\nfile = \"l.ies\"\n";
+    rig_.port_base = static_cast<std::uint16_t>(30000 + ::getpid() % 20000);
+    rig_.channels.resize(1);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::vector<std::string> arguments(std::initializer_list<std::string> more) const {
+    std::vector<std::string> all{
+        "--rig", (folder_ / "rig.toml").string(), "--port-base", std::to_string(rig_.port_base), "--log-level", "warn"};
+    all.insert(all.end(), more);
+    return all;
+  }
+
+  std::string drive_file() const {  // 2 s of recorded poses
+    const std::string path = (folder_ / "drive.pcap").string();
+    auto writer = DriveWriter::create(path, rig_.port_base);
+    for (std::int64_t k = 0; k <= 120; ++k) {
+      VehicleState state;
+      state.frame_index = k;
+      state.x_m = 20.0 * frame_time(k, 60).seconds();
+      state.level = "pose";
+      const Datagram datagram{Sender::kDynamics, 0,  77,   static_cast<std::uint64_t>(k + 1),
+                              frame_time(k, 60), {}, state};
+      const std::string bytes = encode(datagram);
+      EXPECT_TRUE(writer->write(datagram, std::as_bytes(std::span(bytes))).ok());
+    }
+    return path;
+  }
+
+  // Plays cockpit and visual for frames first..last; every pose as received. Repeats its report as a visual does.
+  std::vector<VehicleState> play(Bus& cockpit, Bus& visual, std::int64_t first, std::int64_t last,
+                                 VehicleState drawn = {}) {
+    std::vector<VehicleState> poses;
+    for (std::int64_t k = first; k <= last; ++k) {
+      const SimTime time = frame_time(k, rig_.frame_rate_hz);
+      FrameReport report;
+      report.frame_index = k - 1;
+      report.drawn = drawn;
+      visual.send(time, report);
+      CockpitState controls;
+      controls.frame_index = k;
+      controls.accelerator_01 = 0.8;
+      controls.steering_wheel_rad = 0.2 * std::sin(time.seconds());
+      controls.drive_ended = k == 1000;
+      cockpit.send(time, controls);
+      const auto give_up = SteadyClock::now() + 10s;
+      for (auto repeat = SteadyClock::now() + 100ms;;) {
+        visual.wait(5ms);
+        visual.poll();
+        cockpit.poll();
+        const auto* pose = visual.newest<VehicleState>();
+        if (pose && pose->value.frame_index == k) {
+          poses.push_back(drawn = pose->value);
+          break;
+        }
+        if (SteadyClock::now() > give_up) return poses;
+        if (SteadyClock::now() > repeat) {
+          visual.send_again(kPayloadIndex<FrameReport>);
+          cockpit.send_again(kPayloadIndex<CockpitState>);
+          repeat += 100ms;
+        }
+      }
+    }
+    return poses;
+  }
+
+  Rig rig_;
+  std::filesystem::path folder_;
+};
+
+TEST_F(DynamicsProcess, LockstepRepeatsAndSurvivesAKill) {
+  std::vector<VehicleState> run[2];
+  for (auto& poses : run) {
+    auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+    ASSERT_TRUE(cockpit.ok() && visual.ok());
+    Child child(arguments({"--lockstep", "--level", "kinematic"}));
+    poses = play(*cockpit, *visual, 0, 120);
+    ASSERT_EQ(poses.size(), 121u);
+    EXPECT_EQ(poses.front().x_m, 5.0);
+    EXPECT_EQ(poses.front().z_m, 7.0);
+    EXPECT_EQ(poses.back().step, 1000u);
+    EXPECT_GT(poses.back().speed_mps, 3.0);
+    if (&poses == &run[1]) {
+      EXPECT_EQ(child.end(SIGKILL), -SIGKILL);
+      Child successor(arguments({"--lockstep", "--level", "kinematic", "--stats", (folder_ / "s.json").string()}));
+      const auto more = play(*cockpit, *visual, 121, 180, poses.back());
+      ASSERT_EQ(more.size(), 60u);
+      EXPECT_NEAR(more.front().x_m - poses.back().x_m, poses.back().vx_mps / 60.0, 0.01);
+      EXPECT_NEAR(more.front().pitch_rad, poses.back().pitch_rad, 1e-3);
+      EXPECT_EQ(successor.end(SIGTERM), 0);
+      const auto stats = nlohmann::json::parse(std::ifstream(folder_ / "s.json"));
+      EXPECT_EQ(stats["process"], "dynamics");
+      EXPECT_GT(stats["step_ns"]["p50"].get<double>(), 0.0);
+    } else {
+      EXPECT_EQ(child.end(SIGTERM), 0);
+    }
+  }
+  for (std::size_t k = 0; k < run[0].size(); ++k) EXPECT_EQ(run[0][k], run[1][k]) << "frame " << k;
+}
+
+TEST_F(DynamicsProcess, ReplaysADriveToItsEnd) {
+  auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+  ASSERT_TRUE(cockpit.ok() && visual.ok());
+  Child child(arguments({"--lockstep", "--level", "pose", "--drive", drive_file()}));
+  const auto poses = play(*cockpit, *visual, 0, 120);
+  ASSERT_EQ(poses.size(), 121u);
+  for (std::size_t k = 0; k <= 120; ++k) {
+    EXPECT_NEAR(poses[k].x_m, 20.0 * frame_time(static_cast<std::int64_t>(k), 60).seconds(), 1e-9);
+    EXPECT_EQ(poses[k].drive_ended, k == 120);
+  }
+  EXPECT_EQ(child.end(SIGINT), 0);
+}
+
+TEST_F(DynamicsProcess, RealTimeSendsAndFadesInSilence) {
+  auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+  ASSERT_TRUE(cockpit.ok() && visual.ok());
+  Child child(arguments({"--level", "kinematic"}));
+  int received = 0;
+  SimTime first{-1}, last{};
+  double fastest = 0.0, end_ax = 1.0;
+  const auto begin = SteadyClock::now();
+  while (SteadyClock::now() < begin + 4s) {
+    if (SteadyClock::now() < begin + 1500ms) {  // then the driver is gone, foot on the accelerator
+      CockpitState controls;
+      controls.accelerator_01 = 0.5;
+      cockpit->send({}, controls);
+    }
+    visual->wait(2ms);
+    visual->poll();
+    if (const auto pose = visual->take<VehicleState>()) {
+      if (first.ns < 0) first = pose->sim_time;
+      last = pose->sim_time;
+      ++received;
+      fastest = std::max(fastest, pose->value.speed_mps);
+      end_ax = pose->value.ax_mps2;
+    }
+  }
+  EXPECT_GT(received, 100);  // 250 a second on a machine that is not loaded
+  EXPECT_GT(last.seconds() - first.seconds(), 1.0);
+  EXPECT_GT(fastest, 0.5);
+  EXPECT_LT(end_ax, 0.0);  // coasting
+  RigControl quit;
+  quit.command = RigControl::Quit{};
+  auto control = Bus::open(rig_, Role::kControl);
+  ASSERT_TRUE(control.ok());
+  control->send({}, quit);
+  EXPECT_EQ(child.end(0), 0);
+}
+
+TEST_F(DynamicsProcess, BadUseExitsWithTwo) {
+  EXPECT_EQ(Child({"--nonsense"}).end(0), 2);
+  EXPECT_EQ(Child({"--rig", "/nonexistent.toml"}).end(0), 2);
+  EXPECT_EQ(Child(arguments({"--level", "full"})).end(0), 2);
+  EXPECT_EQ(Child(arguments({"--level", "pose"})).end(0), 2);
+  EXPECT_EQ(Child(arguments({"--level", "pose", "--drive", "/nonexistent.pcap"})).end(0), 2);
+  EXPECT_EQ(Child({"--help"}).end(0), 0);
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,27 @@
+// The subcommands of `phare`. Each adds itself to the parser and, when it was chosen, leaves what to run in `chosen`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "config/result.h"
+
+namespace phare {
+
+using Command = std::function<int()>;  ///< returns the exit code
+
+void add_drive(CLI::App& app, Command& chosen);
+void add_record(CLI::App& app, Command& chosen);
+void add_replay(CLI::App& app, Command& chosen);
+void add_import(CLI::App& app, Command& chosen);
+void add_measure(CLI::App& app, Command& chosen);
+void add_doctor(CLI::App& app, Command& chosen);
+
+/// Prints one line to stderr and gives exit code 2.
+int bad_input(const Error& error);
+
+/// config/ of this source tree: the demo rig and drive.
+std::string config_path(const std::string& below);
+
+}  // namespace phare

@@ -1,0 +1,152 @@
+// phare doctor: what this machine has, and which Debian package gives what it lacks.
+#include <sys/socket.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+#include "tools/child_process.h"
+#include "tools/commands.h"
+#ifdef PHARE_WITH_GRAPHICS
+#include "visual/renderer.h"
+#endif
+
+namespace phare {
+namespace {
+
+struct Finding {
+  std::string what;
+  bool there = false;
+  bool needed = false;   ///< phare drive cannot do without
+  std::string detail;
+  std::string remedy;    ///< when it is missing
+};
+
+Finding vulkan_devices() {
+  Finding finding{"Vulkan device", false, true, "", "apt-get install mesa-vulkan-drivers (draws without a GPU)"};
+#ifdef PHARE_WITH_GRAPHICS
+  const auto devices = list_vulkan_devices();
+  if (!devices) {
+    finding.detail = devices.error().text();
+  } else {
+    finding.there = !devices->empty();
+    for (const std::string& device : *devices) finding.detail += (finding.detail.empty() ? "" : "; ") + device;
+    if (!finding.there) finding.detail = "none";
+  }
+#else
+  finding.needed = false;
+  finding.detail = "not asked: built without graphics (PHARE_GRAPHICS=OFF)";
+#endif
+  return finding;
+}
+
+/// Where the Vulkan loader looks for explicit layers; the environment can add to it.
+Finding validation_layer() {
+  Finding finding{"Vulkan validation layer", false, false, "not found; --validation does not work", "apt-get install vulkan-validationlayers"};
+  std::vector<std::filesystem::path> folders{"/usr/share/vulkan/explicit_layer.d", "/etc/vulkan/explicit_layer.d",
+                                             "/usr/local/share/vulkan/explicit_layer.d"};
+  if (const char* path = std::getenv("VK_LAYER_PATH")) folders.insert(folders.begin(), path);
+  for (const auto& folder : folders) {
+    std::error_code ignored;
+    const auto file = folder / "VkLayer_khronos_validation.json";
+    if (!std::filesystem::exists(file, ignored)) continue;
+    finding.there = true;
+    finding.detail = file.string();
+    break;
+  }
+  return finding;
+}
+
+Finding can_sockets() {
+  const int fd = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, 1 /* CAN_RAW */);
+  Finding finding{"SocketCAN", fd >= 0, false, "the kernel opens CAN sockets", ""};
+  if (fd < 0) {
+    finding.detail = std::string("the kernel has none (") + std::strerror(errno) + "); logs and the keyboard work";
+    finding.remedy = "a kernel with CONFIG_CAN (Debian's linux-image-amd64: modprobe can can_raw vcan); tools: apt-get install can-utils";
+  } else {
+    close(fd);
+  }
+  return finding;
+}
+
+Finding display() {
+  const char* wayland = std::getenv("WAYLAND_DISPLAY");
+  const char* x11 = std::getenv("DISPLAY");
+  const bool has_wayland = wayland != nullptr && *wayland != '\0', has_x11 = x11 != nullptr && *x11 != '\0';
+  Finding finding{"Display", has_wayland || has_x11, false, "", ""};
+  if (has_wayland) finding.detail = std::string("Wayland ") + wayland;
+  if (has_x11) finding.detail += (finding.detail.empty() ? "X11 " : ", X11 ") + std::string(x11);
+  if (!finding.there) {
+    finding.detail = "none; phare drive writes pictures instead";
+    finding.remedy = "apt-get install xvfb for a virtual one";
+  }
+  return finding;
+}
+
+Finding clock_found() {
+  timespec resolution{};
+  clock_getres(CLOCK_MONOTONIC, &resolution);
+  const auto before = std::chrono::steady_clock::now();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const double late_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - before).count() - 1000.0;
+  char text[96];
+  std::snprintf(text, sizeof text, "resolution %ld ns, a sleep of 1 ms came back %.0f us late", resolution.tv_nsec, late_us);
+  return {"Clock", resolution.tv_sec == 0 && resolution.tv_nsec <= 1000, false, text, "high-resolution timers in the kernel"};
+}
+
+Finding program(const char* name, const char* what_for) {
+  const auto path = find_in_path(name);
+  return {name, path.has_value(), false, path ? path->string() : std::string("not in PATH; ") + what_for, std::string("apt-get install ") + name};
+}
+
+Finding processes() {
+  Finding finding{"Phare's processes", true, true, "", "build everything: cmake --build --preset release"};
+  for (const char* name : {"phare-cockpit", "phare-dynamics", "phare-visual"}) {
+    if (access(program_beside_us(name).c_str(), X_OK) == 0) continue;
+    finding.there = false;
+    finding.detail += (finding.detail.empty() ? "not beside phare: " : ", ") + std::string(name);
+  }
+  if (finding.there) finding.detail = program_beside_us("").parent_path().string();
+  return finding;
+}
+
+int doctor(bool json) {
+  const std::vector<Finding> findings{vulkan_devices(), validation_layer(), processes(), can_sockets(), display(), clock_found(),
+                                      program("ffmpeg", "no video from the frames"), program("tshark", "drive files cannot be looked into")};
+  bool healthy = true;
+  nlohmann::json report = nlohmann::json::array();
+  for (const Finding& finding : findings) {
+    healthy = healthy && (finding.there || !finding.needed);
+    if (json) {
+      nlohmann::json item{{"what", finding.what}, {"there", finding.there}, {"needed", finding.needed}, {"detail", finding.detail}};
+      if (!finding.there) item["remedy"] = finding.remedy;
+      report.push_back(std::move(item));
+      continue;
+    }
+    std::printf("%-8s %-24s %s\n", finding.there ? "there" : finding.needed ? "MISSING" : "missing", finding.what.c_str(), finding.detail.c_str());
+    if (!finding.there && !finding.remedy.empty()) std::printf("%-8s %-24s -> %s\n", "", "", finding.remedy.c_str());
+  }
+  if (json) std::printf("%s\n", nlohmann::json{{"healthy", healthy}, {"findings", report}}.dump(2).c_str());
+  return healthy ? kExitDone : kExitCheckFailed;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Command& chosen) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("doctor", "What this machine has, and which package gives what is missing");
+  command->footer("Exit code 1 when something is missing that phare drive needs.\nExample:\n  phare doctor --json");
+  command->add_flag("--json", *json, "Print as JSON");
+  command->callback([json, &chosen] { chosen = [json] { return doctor(*json); }; });
+}
+
+}  // namespace phare

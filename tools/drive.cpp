@@ -1,0 +1,322 @@
+// phare drive: starts the processes of a rig, keeps them running, ends them, and tells what came out.
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "net/bus.h"
+#include "net/clock.h"
+#include "net/drive_file.h"
+#include "net/stats.h"
+#include "tools/child_process.h"
+#include "tools/commands.h"
+#include "tools/recorder.h"
+#include "tools/report.h"
+#include "tools/supervisor.h"
+
+namespace phare {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct DriveOptions {
+  std::string rig_file = config_path("rigs/country_road.toml");
+  std::string drive, script, log, dbc, out, record, size, log_level = "info";
+  bool headless = false, lockstep = false, closed_loop = false, validation = false, json = false;
+  std::int64_t frames = 0;
+  int samples = 0;
+  std::uint16_t port_base = 0;
+  std::vector<std::string> command;
+};
+
+bool set_in_environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr && *value != '\0';
+}
+
+/// Everything that can be wrong before a process is started: files, ports, flags.
+Result<Rig> prepare(DriveOptions& options) {
+  auto rig = read_rig(options.rig_file);
+  if (!rig) return rig.error();
+  if (options.port_base != 0) rig->port_base = options.port_base;
+  if (const Status status = check_rig_files(*rig); !status) return status.error();
+  if (!options.log.empty() && options.dbc.empty()) return Error{"--log", "needs --dbc FILE, which says what its frames mean"};
+
+  const std::string demo = config_path("drives/country_road.pcap");
+  const bool any_source = !options.drive.empty() || !options.script.empty() || !options.log.empty();
+  if (!any_source && fs::exists(demo)) options.drive = demo;
+  for (std::string* file : {&options.drive, &options.script, &options.log, &options.dbc}) {
+    if (file->empty()) continue;
+    if (!fs::is_regular_file(*file)) return Error{*file, "no such file"};
+    *file = fs::absolute(*file).string();
+  }
+  if (!options.headless && !set_in_environment("DISPLAY") && !set_in_environment("WAYLAND_DISPLAY")) {
+    spdlog::info("no display: driving headless");
+    options.headless = true;
+  }
+  if (options.headless && options.out.empty()) options.out = "out";
+  if (!options.out.empty()) {
+    std::error_code failed;
+    fs::create_directories(options.out, failed);
+    if (failed) return Error{options.out, failed.message()};
+    options.out = fs::absolute(options.out).string();
+  }
+  for (const char* name : {"phare-cockpit", "phare-dynamics", "phare-visual"}) {
+    if (access(program_beside_us(name).c_str(), X_OK) != 0) return Error{program_beside_us(name).string(), "is not there; build everything"};
+  }
+  return rig;
+}
+
+/// What an earlier drive left in the folder; nothing else in it is touched.
+void remove_earlier_output(const fs::path& out, const std::vector<std::string>& process_names) {
+  std::error_code ignored;
+  for (const char* file : {"report.json", "index.html", "drive.mp4", "contact_sheet.png", "drivers_view.png", "birds_eye.png", "wall_25m.png"}) {
+    fs::remove(out / file, ignored);
+  }
+  for (const std::string& name : process_names) fs::remove(out / (name + ".json"), ignored);
+  for (const auto& entry : fs::directory_iterator(out / "frames", ignored)) {
+    const std::string stem = entry.path().stem().string();
+    const bool ours = entry.path().extension() == ".png" && std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c); });
+    if (ours) fs::remove(entry.path(), ignored);
+  }
+}
+
+std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& options) {
+  const auto common = [&](const std::string& name) {
+    std::vector<std::string> arguments{"--rig", rig.file.string(), "--port-base", std::to_string(rig.port_base), "--log-level", options.log_level};
+    if (options.lockstep) arguments.push_back("--lockstep");
+    if (!options.drive.empty()) arguments.insert(arguments.end(), {"--drive", options.drive});
+    if (!options.out.empty()) arguments.insert(arguments.end(), {"--stats", (fs::path(options.out) / (name + ".json")).string()});
+    return arguments;
+  };
+  ProcessSpec cockpit{"cockpit", program_beside_us("phare-cockpit"), common("cockpit")};
+  if (!options.script.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--script", options.script});
+  if (!options.log.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--log", options.log, "--dbc", options.dbc});
+
+  ProcessSpec dynamics{"dynamics", program_beside_us("phare-dynamics"), common("dynamics")};
+  // Open loop shows the recorded poses; closed loop lets the car answer the recorded controls.
+  if (!options.drive.empty() && !options.closed_loop) dynamics.arguments.insert(dynamics.arguments.end(), {"--level", "pose"});
+
+  std::vector<ProcessSpec> specs{dynamics, cockpit};
+  for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
+    const std::string name = "visual-" + std::to_string(channel);
+    ProcessSpec visual{name, program_beside_us("phare-visual"), common(name), true};
+    auto& arguments = visual.arguments;
+    arguments.insert(arguments.end(), {"--channel", std::to_string(channel)});
+    if (options.headless) arguments.push_back("--headless");
+    if (options.frames > 0) arguments.insert(arguments.end(), {"--frames", std::to_string(options.frames)});
+    if (!options.size.empty()) arguments.insert(arguments.end(), {"--size", options.size});
+    if (options.samples > 0) arguments.insert(arguments.end(), {"--samples", std::to_string(options.samples)});
+    if (options.validation) arguments.push_back("--validation");
+    if (!options.out.empty()) {
+      const fs::path out = channel == 0 ? fs::path(options.out) : fs::path(options.out) / rig.channels[channel].name;
+      arguments.insert(arguments.end(), {"--out", out.string()});
+    }
+    specs.push_back(std::move(visual));
+  }
+  return specs;
+}
+
+/// One line that is written over while the drive goes on; silent when nobody looks at it.
+class Progress {
+ public:
+  explicit Progress(std::int64_t frames_expected) : expected_(frames_expected), shown_(isatty(STDERR_FILENO) != 0) {}
+  ~Progress() {
+    if (written_) std::fputc('\n', stderr);
+  }
+  void show(const FrameReport& report, std::int64_t frame) {
+    if (!shown_ || Clock::now() < next_) return;
+    next_ = Clock::now() + std::chrono::milliseconds(200);
+    written_ = true;
+    const double percent = expected_ > 0 ? 100.0 * static_cast<double>(frame) / static_cast<double>(expected_) : 0.0;
+    std::fprintf(stderr, "\r  frame %lld", static_cast<long long>(frame));
+    if (expected_ > 0) std::fprintf(stderr, " of %lld  %3.0f %%", static_cast<long long>(expected_), std::min(percent, 100.0));
+    std::fprintf(stderr, "  %6.2f ms a frame  %5.1f km/h   ", report.frame_ms, report.drawn.speed_mps * 3.6);
+    std::fflush(stderr);
+  }
+
+ private:
+  std::int64_t expected_;
+  bool shown_, written_ = false;
+  Clock::time_point next_;
+};
+
+/// Frames there will be, as far as that is known.
+std::int64_t frames_expected(const DriveOptions& options, const Rig& rig, SimTime duration) {
+  if (options.frames > 0) return options.frames;
+  return static_cast<std::int64_t>(duration.seconds() * static_cast<double>(rig.frame_rate_hz));
+}
+
+/// frames/*.png to drive.mp4; says so when there is no ffmpeg.
+void make_video(const fs::path& out, std::int64_t frame_rate_hz) {
+  std::error_code ignored;
+  std::int64_t count = 0, last = -1;
+  for (const auto& entry : fs::directory_iterator(out / "frames", ignored)) {
+    if (entry.path().extension() != ".png") continue;
+    ++count;
+    last = std::max<std::int64_t>(last, std::atoll(entry.path().stem().c_str()));
+  }
+  if (count < 2) return;
+  const auto ffmpeg = find_in_path("ffmpeg");
+  if (!ffmpeg) {
+    spdlog::info("no ffmpeg in PATH, so no drive.mp4 (apt-get install ffmpeg)");
+    return;
+  }
+  // Every frame kept: at the frame rate. One kept a second: eight a second, a time lapse.
+  const std::int64_t rate = last + 1 <= count + 1 ? frame_rate_hz : 8;
+  auto child = ChildProcess::start(*ffmpeg, {"-y", "-nostdin", "-loglevel", "error", "-framerate", std::to_string(rate), "-pattern_type", "glob",
+                                             "-i", (out / "frames" / "*.png").string(), "-pix_fmt", "yuv420p", "-crf", "18",
+                                             "-movflags", "+faststart", (out / "drive.mp4").string()});
+  if (!child) return;
+  const auto deadline = Clock::now() + std::chrono::minutes(5);
+  std::optional<ProcessEnd> end;
+  while (!(end = child->ended()) && Clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  if (!end) child->send_signal(9);
+  if (!end || end->exit_code != 0 || end->signal != 0) {
+    spdlog::warn("ffmpeg made no video ({})", end ? end->text() : "took more than 5 minutes");
+    fs::remove(out / "drive.mp4", ignored);
+  }
+}
+
+void print_summary(const nlohmann::json& report, const std::string& out) {
+  const auto& summary = report["summary"];
+  for (const auto& [process, how] : report["ends"].items()) {
+    std::printf("%-10s %-10s", process.c_str(), how.get<std::string>().c_str());
+    if (summary["messages"].contains(process)) {
+      const auto& m = summary["messages"][process];
+      std::printf(" received %s, lost %s, late %s, duplicate %s, refused %s", m["received"].dump().c_str(), m["lost"].dump().c_str(),
+                  m["late"].dump().c_str(), m["duplicate"].dump().c_str(), m["refused"].dump().c_str());
+    }
+    if (summary["memory"].contains(process)) std::printf("; %s KiB", summary["memory"][process].value("peak_kib", nlohmann::json(0)).dump().c_str());
+    std::printf("\n");
+  }
+  if (summary.contains("frame_ms")) {
+    const auto& t = summary["frame_ms"];
+    std::printf("%s frames, %.2f ms median, %.2f ms p99, %.0f frames a second at the median\n", summary["frames"].dump().c_str(),
+                t.value("median", 0.0), t.value("p99", 0.0), summary.value("frames_per_s_median", 0.0));
+  }
+  std::printf("%s\n", (fs::path(out) / "index.html").c_str());
+}
+
+int drive(DriveOptions& options) {
+  auto rig = prepare(options);
+  if (!rig) return bad_input(rig.error());
+  SimTime duration;
+  if (!options.drive.empty()) {
+    const auto read = read_drive(options.drive);
+    if (!read) return bad_input(read.error());
+    if (read->datagrams.empty()) return bad_input({options.drive, "holds no valid datagram"});
+    if (read->cut) spdlog::warn("{}: cut off, driving up to its last whole record", options.drive);
+    duration = read->duration;
+  }
+  const std::vector<ProcessSpec> specs = processes_of(*rig, options);
+  DriveFacts facts;
+  for (const ProcessSpec& spec : specs) facts.process_names.push_back(spec.name);
+  if (!options.out.empty()) remove_earlier_output(options.out, facts.process_names);
+
+  const StopFlag stop = install_stop_signals();
+  auto bus = Bus::open(*rig, Role::kControl);
+  if (!bus) return bad_input(bus.error());
+  // The recorder listens before anyone speaks, so that the first message is in the file.
+  std::unique_ptr<Recorder> recorder;
+  if (!options.record.empty()) {
+    auto opened = Recorder::open(*rig, options.record);
+    if (!opened) return bad_input(opened.error());
+    recorder = std::move(*opened);
+  }
+
+  Supervisor supervisor(specs);
+  const auto begin = Clock::now();
+  if (const Status status = supervisor.start(); !status) return bad_input(status.error());
+  Status recorded = Done{};
+  {
+    Progress progress(frames_expected(options, *rig, duration));
+    while (!stop && supervisor.step()) {
+      bus->wait(std::chrono::milliseconds(10));
+      bus->poll();
+      if (const auto report = bus->take<FrameReport>()) {
+        const std::int64_t frame = report->value.frame_index >= 0
+                                       ? report->value.frame_index
+                                       : static_cast<std::int64_t>(report->sim_time.seconds() * static_cast<double>(rig->frame_rate_hz));
+        progress.show(report->value, frame);
+      }
+      if (recorder && recorded.ok()) recorded = recorder->poll();
+    }
+  }
+  // A visual process writes its pictures when it is told to end; give it the time.
+  supervisor.end_all(std::chrono::seconds(stop ? 30 : 10));
+  if (recorder && recorded.ok()) recorded = recorder->poll();
+  facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  facts.exit_code = supervisor.exit_code();
+  facts.why = supervisor.why();
+  if (!recorded) return bad_input(recorded.error());
+  if (recorder) spdlog::info("{} datagrams recorded in {}", recorder->written(), options.record);
+  if (facts.exit_code != kExitDone) std::fprintf(stderr, "phare: %s\n", facts.why.c_str());
+
+  if (!options.out.empty() && facts.exit_code != kExitBadInput) {
+    facts.command = options.command;
+    facts.lockstep = options.lockstep;
+    facts.restarts = supervisor.restarts();
+    facts.ends = supervisor.ends();
+    for (const std::string* file : {&options.drive, &options.script, &options.log}) {
+      if (!file->empty()) facts.source_file = *file;
+    }
+    make_video(options.out, rig->frame_rate_hz);
+    const nlohmann::json report = make_report(*rig, facts, options.out);
+    if (!write_json(fs::path(options.out) / "report.json", report)) return bad_input({options.out, "report.json cannot be written"});
+    std::ofstream(fs::path(options.out) / "index.html") << report_page(report, options.out);
+    if (options.json) {
+      std::printf("%s\n", report.dump(2).c_str());
+    } else {
+      print_summary(report, options.out);
+    }
+  }
+  return facts.exit_code;
+}
+
+}  // namespace
+
+void add_drive(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<DriveOptions>();
+  CLI::App* command = app.add_subcommand("drive", "Drive a rig: in a window, or headless into a folder");
+  command->footer("Examples:\n  phare drive\n  phare drive --headless --lockstep --frames 60 --out out\n"
+                  "  phare drive --script config/drives/country_road.toml --headless --lockstep --record evening.pcap");
+  command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
+  auto* drive_file = command->add_option("--drive", options->drive, "Drive file to replay [the demo drive, when it is there]");
+  auto* script = command->add_option("--script", options->script, "Script for the driver model")->excludes(drive_file);
+  command->add_option("--log", options->log, "candump log that moves the controls")->excludes(drive_file)->excludes(script);
+  command->add_option("--dbc", options->dbc, "DBC file for --log");
+  command->add_flag("--headless", options->headless, "No window (also when there is no display)");
+  command->add_flag("--lockstep", options->lockstep, "Frame by frame: reproducible bit for bit, however slow");
+  command->add_option("--frames", options->frames, "Keep each of the first N frames as a picture, then end")->check(CLI::Range(1, 1'000'000));
+  command->add_option("--size", options->size, "WIDTHxHEIGHT of the picture [the rig's]");
+  command->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}));
+  command->add_option("--out", options->out, "Folder for pictures and report [headless: out]");
+  command->add_option("--record", options->record, "Record the drive into this file (pcap)");
+  command->add_flag("--closed-loop", options->closed_loop, "With --drive: replay the controls and let the car answer, instead of the poses");
+  command->add_flag("--validation", options->validation, "Vulkan validation with synchronization validation");
+  command->add_option("--log-level", options->log_level, "trace, debug, info, warn, error, off")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))->capture_default_str();
+  command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")->check(CLI::Range(1024, 65000));
+  command->add_flag("--json", options->json, "Print the report as JSON");
+  command->callback([options, &app, &chosen] {
+    spdlog::set_level(spdlog::level::from_str(options->log_level));
+    options->command = {"phare", "drive"};
+    for (const CLI::Option* option : app.get_subcommand("drive")->parse_order()) {
+      options->command.push_back(option->get_name());
+      for (const std::string& value : option->get_expected_max() > 0 ? option->results() : CLI::results_t{}) options->command.push_back(value);
+    }
+    chosen = [options] { return drive(*options); };
+  });
+}
+
+}  // namespace phare

@@ -1,0 +1,60 @@
+// phare record: every datagram of a running rig into a drive file.
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <memory>
+
+#include "net/clock.h"
+#include "net/stats.h"
+#include "tools/commands.h"
+#include "tools/recorder.h"
+
+namespace phare {
+namespace {
+
+struct RecordOptions {
+  std::string rig_file = config_path("rigs/country_road.toml"), out;
+  std::uint16_t port_base = 0;
+  bool json = false;
+};
+
+int record(const RecordOptions& options) {
+  auto rig = read_rig(options.rig_file);
+  if (!rig) return bad_input(rig.error());
+  if (options.port_base != 0) rig->port_base = options.port_base;
+  const StopFlag stop = install_stop_signals();
+  auto recorder = Recorder::open(*rig, options.out);
+  if (!recorder) return bad_input(recorder.error());
+  spdlog::info("recording port {} into {} until Ctrl-C or the end of the drive", rig->port_base + 2, options.out);
+
+  // After the last pose the frame that shows it is still being reported: stay until it is quiet.
+  int quiet = 0;
+  while (!stop && quiet < 5) {
+    const bool something = (*recorder)->wait(std::chrono::milliseconds(100));
+    if (const Status status = (*recorder)->poll(); !status) return bad_input(status.error());
+    quiet = (*recorder)->drive_ended() && !something ? quiet + 1 : 0;
+  }
+  if (options.json) {
+    nlohmann::json report = stats_json("recorder", (*recorder)->bus());
+    report["written"] = (*recorder)->written();
+    std::printf("%s\n", report.dump(2).c_str());
+  } else {
+    std::printf("%llu datagrams in %s\n", static_cast<unsigned long long>((*recorder)->written()), options.out.c_str());
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_record(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<RecordOptions>();
+  CLI::App* command = app.add_subcommand("record", "Write every datagram of a running rig into a drive file (pcap)");
+  command->footer("Example:\n  phare record --out evening.pcap");
+  command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
+  command->add_option("--out", options->out, "Drive file to write")->required();
+  command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")->check(CLI::Range(1024, 65000));
+  command->add_flag("--json", options->json, "Print the counts as JSON");
+  command->callback([options, &chosen] { chosen = [options] { return record(*options); }; });
+}
+
+}  // namespace phare

@@ -1,0 +1,98 @@
+// phare replay: the datagrams of a drive file onto the bus again, in their time.
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <span>
+#include <thread>
+
+#include "net/channels.h"
+#include "net/clock.h"
+#include "net/drive_file.h"
+#include "net/udp.h"
+#include "net/wire.h"
+#include "tools/commands.h"
+
+namespace phare {
+namespace {
+
+struct ReplayOptions {
+  std::string file, rig_file = config_path("rigs/country_road.toml");
+  double speed = 1.0;
+  std::uint16_t port_base = 0;
+};
+
+/// Ports that take this datagram.
+std::vector<std::uint16_t> receiver_ports(const Datagram& datagram, const Rig& rig) {
+  const Channel& row = kChannels[datagram.payload.index()];
+  std::vector<std::uint16_t> ports;
+  const auto add = [&](Role role, std::uint32_t channel = 0) {
+    ports.push_back(static_cast<std::uint16_t>(rig.port_base + port_offset(role, channel)));
+  };
+  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl}) {
+    if (row.receivers.has(role)) add(role);
+  }
+  if (row.receivers.has(Role::kVisual)) {
+    for (std::uint32_t channel = 0; channel < (row.first_visual_only ? 1 : rig.channels.size()); ++channel) {
+      add(Role::kVisual, channel);
+    }
+  }
+  return ports;
+}
+
+int replay(const ReplayOptions& options) {
+  auto rig = read_rig(options.rig_file);
+  if (!rig) return bad_input(rig.error());
+  if (options.port_base != 0) rig->port_base = options.port_base;
+  auto drive = read_drive(options.file);
+  if (!drive) return bad_input(drive.error());
+  if (drive->datagrams.empty()) return bad_input({options.file, "holds no valid datagram"});
+  if (drive->cut) spdlog::warn("{}: cut off, read up to its last whole record", options.file);
+  auto socket = UdpSocket::open(rig->bind_address, 0);
+  if (!socket) return bad_input(socket.error());
+  const StopFlag stop = install_stop_signals();
+
+  std::stable_sort(drive->datagrams.begin(), drive->datagrams.end(),
+                   [](const Datagram& a, const Datagram& b) { return a.sim_time < b.sim_time; });
+  // A new start id: a receiver that has seen this drive before takes it for a new start, not for repeats.
+  const std::uint64_t run_id = static_cast<std::uint64_t>(wall_now().ns) | 1u;
+  const auto begin = std::chrono::steady_clock::now();
+  std::uint64_t sent = 0, refused = 0;
+  for (Datagram& datagram : drive->datagrams) {
+    const auto due = begin + std::chrono::nanoseconds(static_cast<std::int64_t>(static_cast<double>(datagram.sim_time.ns) / options.speed));
+    while (!stop && std::chrono::steady_clock::now() < due) {
+      std::this_thread::sleep_until(std::min(due, std::chrono::steady_clock::now() + std::chrono::milliseconds(50)));
+    }
+    if (stop) break;
+    datagram.start_id = datagram.start_id == run_id ? run_id : datagram.start_id ^ run_id;
+    datagram.sent = wall_now();
+    // In real time there are no frames to wait for.
+    if (auto* cockpit = std::get_if<CockpitState>(&datagram.payload)) cockpit->frame_index = -1;
+    if (auto* vehicle = std::get_if<VehicleState>(&datagram.payload)) vehicle->frame_index = -1;
+    const std::string bytes = encode(datagram);
+    for (const std::uint16_t port : receiver_ports(datagram, *rig)) {
+      // A port nobody listens on is no failure of the replay.
+      ++(socket->send_to(port, std::as_bytes(std::span(bytes))) ? sent : refused);
+    }
+  }
+  std::printf("%llu datagrams sent, %llu not taken, %.3f s of drive\n", static_cast<unsigned long long>(sent),
+              static_cast<unsigned long long>(refused), drive->duration.seconds());
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* command = app.add_subcommand("replay", "Send the datagrams of a drive file again, in real time");
+  command->footer("Takes the place of phare-cockpit and phare-dynamics for a phare-visual that runs.\n"
+                  "Example:\n  phare replay evening.pcap --speed 0.5");
+  command->add_option("file", options->file, "Drive file")->required();
+  command->add_option("--rig", options->rig_file, "Rig file: address, ports and channels")->capture_default_str();
+  command->add_option("--speed", options->speed, "Times real time")->check(CLI::Range(0.01, 100.0))->capture_default_str();
+  command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")->check(CLI::Range(1024, 65000));
+  command->callback([options, &chosen] { chosen = [options] { return replay(*options); }; });
+}
+
+}  // namespace phare

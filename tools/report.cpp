@@ -1,0 +1,128 @@
+#include "tools/report.h"
+
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <map>
+
+#include "config/content_hash.h"
+#include "visual/photometry/intensity_table.h"
+
+namespace phare {
+namespace {
+
+using nlohmann::json;
+
+json read_json(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return stream ? json::parse(stream, nullptr, false) : json(json::value_t::discarded);
+}
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+json named_by_content(const std::filesystem::path& file) {
+  const auto hash = content_hash_of_file(file);
+  return {{"file", file.filename().string()}, {"content_hash", hash ? *hash : ""}};
+}
+
+const char* function_name(LampFunction function) {
+  constexpr std::array<const char*, 6> kNames{"position", "low", "high", "fog", "daytime", "cornering"};
+  return kNames[static_cast<std::size_t>(function)];
+}
+
+json lamps_of(const Rig& rig) {
+  json lamps = json::array();
+  std::map<std::string, json> known;  // a file in several lamps is read once
+  for (const DesignConfig& design : rig.designs) {
+    for (const LampConfig& lamp : design.lamps) {
+      for (const SourceConfig& source : lamp.sources) {
+        auto [at, fresh] = known.try_emplace(source.file.string());
+        if (fresh) {
+          at->second = {{"file", source.file.filename().string()}};
+          if (const auto table = read_lm63(source.file, source.axis)) {
+            at->second["content_hash"] = table->content_hash;
+            at->second["flux_lm"] = table->flux_lm();
+            at->second["peak_cd"] = table->peak_cd();
+          }
+        }
+        json row = at->second;
+        row["design"] = design.name;
+        row["lamp"] = lamp.name;
+        row["function"] = function_name(source.function);
+        row["scale"] = source.scale;
+        lamps.push_back(std::move(row));
+      }
+    }
+  }
+  return lamps;
+}
+
+/// Lost, late, duplicate … over all messages of one process.
+json message_totals(const json& bus) {
+  json totals{{"received", 0}, {"lost", 0}, {"late", 0}, {"duplicate", 0}, {"restarted", 0}};
+  for (const auto& [message, counts] : bus.items()) {
+    if (!counts.is_object() || !counts.contains("received") || !counts.contains("lost")) continue;
+    for (auto& [name, total] : totals.items()) total = total.get<std::uint64_t>() + counts.value(name, std::uint64_t{0});
+  }
+  totals["refused"] = bus.value("refused", std::uint64_t{0});
+  return totals;
+}
+
+}  // namespace
+
+nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::filesystem::path& out) {
+  json report{{"version", PHARE_VERSION}, {"made_at", utc_now()}, {"command", facts.command}, {"lockstep", facts.lockstep},
+              {"wall_s", facts.wall_s}, {"exit_code", facts.exit_code}};
+  if (!facts.why.empty()) report["why"] = facts.why;
+  report["rig"] = named_by_content(rig.file);
+  report["rig"]["name"] = rig.name;
+  report["scene"] = named_by_content(rig.scene_file);
+  report["vehicle"] = named_by_content(rig.vehicle_file);
+  report["cockpit"] = named_by_content(rig.cockpit_file);
+  if (facts.source_file) report["drive"] = named_by_content(*facts.source_file);
+  report["lamps"] = lamps_of(rig);
+
+  report["processes"] = json::object();
+  json messages = json::object(), memory = json::object();
+  for (const std::string& name : facts.process_names) {
+    json stats = read_json(out / (name + ".json"));
+    if (!stats.is_object()) continue;
+    if (stats.contains("bus")) messages[name] = message_totals(stats["bus"]);
+    if (stats.contains("memory")) memory[name] = stats["memory"];
+    report["processes"][name] = std::move(stats);
+  }
+  report["restarts"] = json::array();
+  for (const Restart& restart : facts.restarts) {
+    report["restarts"].push_back({{"process", restart.process}, {"at_s", restart.at_s}, {"because", restart.because}});
+  }
+  report["ends"] = json::object();
+  for (const auto& end : facts.ends) report["ends"][end.process] = end.how;
+
+  // The first picture speaks for the drive; the others are under "processes".
+  json summary{{"messages", messages}, {"memory", memory}, {"restarts", facts.restarts.size()}};
+  if (report["processes"].contains("visual-0")) {
+    const json& visual = report["processes"]["visual-0"];
+    for (const char* key : {"frames", "frame_ms", "frame_ms_without_capture", "gpu_ms", "pass_ms", "draws", "passes", "triangles",
+                            "self_audit", "switch_to_photon", "device", "device_memory_bytes", "size_px", "sim_time_s",
+                            "validation", "validation_messages"}) {
+      if (visual.contains(key)) summary[key] = visual[key];
+    }
+    if (visual.contains("interval_ms")) {
+      summary["interval_ms"] = visual["interval_ms"];
+      const double median_ms = visual["interval_ms"].value("median", 0.0);
+      if (median_ms > 0.0) summary["frames_per_s_median"] = 1000.0 / median_ms;
+    }
+  }
+  report["summary"] = std::move(summary);
+  return report;
+}
+
+}  // namespace phare

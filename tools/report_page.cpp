@@ -1,0 +1,214 @@
+// The page of a drive: static HTML, style within, pictures beside it. No script.
+#include <cstdio>
+#include <sstream>
+
+#include "tools/report.h"
+
+namespace phare {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kStyle = R"(
+:root{--bg:#0b0e13;--card:#141922;--line:#242c38;--ink:#e6eaf0;--dim:#8e9aab;--lamp:#ffd48a;--bad:#ff8a7a}
+*{box-sizing:border-box}body{margin:0;background:var(--bg);color:var(--ink);font:15px/1.55 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif}
+header{position:relative}header img{display:block;width:100%;max-height:72vh;object-fit:cover}
+header .title{padding:28px max(24px,calc(50vw - 560px)) 20px;background:linear-gradient(transparent,var(--bg) 85%)}
+header img+.title{position:absolute;left:0;right:0;bottom:0;padding-top:120px}
+h1{margin:0;font-size:34px;font-weight:650;letter-spacing:-.01em}h1 span{color:var(--lamp)}
+h2{margin:44px 0 14px;font-size:13px;font-weight:600;letter-spacing:.09em;text-transform:uppercase;color:var(--lamp)}
+main{max-width:1120px;margin:0 auto;padding:0 24px 72px}p{margin:6px 0;color:var(--dim)}
+.facts{display:grid;grid-template-columns:repeat(auto-fit,minmax(150px,1fr));gap:12px;margin-top:20px}
+.fact{background:var(--card);border:1px solid var(--line);border-radius:10px;padding:14px 16px}
+.fact b{display:block;font-size:24px;font-weight:600;font-variant-numeric:tabular-nums;overflow-wrap:anywhere}.fact i{font-style:normal;color:var(--dim);font-size:13px}
+.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(320px,1fr));gap:16px}figure{margin:0}
+figure img,video{display:block;width:100%;border-radius:10px;border:1px solid var(--line);background:#000}figcaption{padding:8px 2px 0;color:var(--dim);font-size:13px}
+.scroll{overflow-x:auto;border:1px solid var(--line);border-radius:10px;background:var(--card)}
+table{border-collapse:collapse;width:100%;font-size:14px}th,td{padding:8px 14px;text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums;border-top:1px solid var(--line)}
+tr:first-child>*{border-top:0}th{color:var(--dim);font-weight:500}th:first-child,td:first-child,td.text,th.text{text-align:left}
+code{font:12px/1.4 ui-monospace,Menlo,Consolas,monospace;color:var(--dim)}.bad{color:var(--bad)}
+)";
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&': result += "&amp;"; break;
+      case '<': result += "&lt;"; break;
+      case '>': result += "&gt;"; break;
+      case '"': result += "&quot;"; break;
+      default: result += c;
+    }
+  }
+  return result;
+}
+
+std::string number(double value, const char* format = "%.3g") {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// A value as short text; "–" when it is not there.
+std::string value_text(const json& object, const char* key, const char* format = "%.2f") {
+  if (!object.is_object() || !object.contains(key)) return "–";
+  const json& value = object[key];
+  if (value.is_number_float()) return number(value.get<double>(), format);
+  if (value.is_number()) return value.dump();
+  if (value.is_string()) return escaped(value.get<std::string>());
+  return "–";
+}
+
+std::string short_hash(const std::string& hash) {
+  const std::size_t colon = hash.find(':');
+  return escaped(colon == std::string::npos ? hash.substr(0, 12) : hash.substr(colon + 1, 12));
+}
+
+class Page {
+ public:
+  Page(const json& report, const std::filesystem::path& out) : report_(report), summary_(report["summary"]), out_(out) {}
+
+  std::string html() {
+    head();
+    facts();
+    pictures();
+    timings();
+    messages();
+    lamps();
+    inputs();
+    page_ << "</main></body></html>\n";
+    return page_.str();
+  }
+
+ private:
+  bool there(const std::string& file) const {
+    std::error_code ignored;
+    return std::filesystem::exists(out_ / file, ignored);
+  }
+
+  void head() {
+    const std::string rig = escaped(report_["rig"].value("name", ""));
+    page_ << "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
+          << "<title>Phare · " << rig << "</title><style>" << kStyle << "</style></head><body><header>";
+    if (there("drivers_view.png")) page_ << "<img src=\"drivers_view.png\" alt=\"The driver's view\">";
+    page_ << "<div class=\"title\"><h1><span>Phare</span> · " << rig << "</h1><p>" << escaped(report_.value("made_at", ""))
+          << " · " << (report_.value("lockstep", false) ? "lockstep" : "real time");
+    if (summary_.contains("device")) page_ << " · " << value_text(summary_, "device");
+    page_ << "</p></div></header><main>";
+    if (report_.contains("why")) page_ << "<p class=\"bad\">Ended early: " << value_text(report_, "why") << "</p>";
+  }
+
+  void fact(const std::string& value, const std::string& what) {
+    page_ << "<div class=\"fact\"><b>" << value << "</b><i>" << what << "</i></div>";
+  }
+
+  void facts() {
+    page_ << "<div class=\"facts\">";
+    if (summary_.contains("sim_time_s")) fact(value_text(summary_, "sim_time_s", "%.1f") + " s", "driven");
+    fact(value_text(summary_, "frames"), "frames drawn");
+    if (summary_.contains("frame_ms")) {
+      fact(value_text(summary_["frame_ms"], "median") + " ms", "a frame, median");
+      fact(value_text(summary_["frame_ms"], "p99") + " ms", "a frame, 99th percentile");
+    }
+    if (summary_.contains("frames_per_s_median")) fact(value_text(summary_, "frames_per_s_median", "%.0f"), "frames a second, all processes running");
+    std::uint64_t lost = 0;
+    for (const auto& [process, counts] : summary_["messages"].items()) lost += counts.value("lost", std::uint64_t{0});
+    fact(std::to_string(lost), "messages lost");
+    if (summary_.contains("self_audit") && summary_["self_audit"].contains("residual_percent")) {
+      fact(value_text(summary_["self_audit"]["residual_percent"], "p99", "%.2g") + " %", "self-audit residual, 99th percentile");
+    }
+    fact(value_text(summary_, "restarts"), "restarts");
+    page_ << "</div>";
+  }
+
+  void picture(const std::string& file, const std::string& caption) {
+    if (there(file)) page_ << "<figure><a href=\"" << file << "\"><img loading=\"lazy\" src=\"" << file << "\" alt=\"" << caption << "\"></a><figcaption>" << caption << "</figcaption></figure>";
+  }
+
+  void pictures() {
+    if (there("drive.mp4")) page_ << "<h2>The drive</h2><video controls muted loop src=\"drive.mp4\"></video>";
+    if (there("birds_eye.png") || there("wall_25m.png")) {
+      page_ << "<h2>The beam</h2><div class=\"pictures\">";
+      picture("birds_eye.png", "Illuminance on the road from above, lx");
+      picture("wall_25m.png", "On a wall 25 m ahead, lx");
+      page_ << "</div>";
+    }
+    if (there("contact_sheet.png")) {
+      page_ << "<h2>Along the road</h2>";
+      picture("contact_sheet.png", "Frames of the drive in order");
+    }
+  }
+
+  void timing_row(const std::string& name, const json& times) {
+    page_ << "<tr><td>" << escaped(name) << "</td>";
+    for (const char* key : {"min", "median", "p95", "p99", "max"}) page_ << "<td>" << value_text(times, key, "%.3f") << "</td>";
+    page_ << "<td>" << value_text(times, "count") << "</td></tr>";
+  }
+
+  void timings() {
+    if (!summary_.contains("frame_ms")) return;
+    page_ << "<h2>Time, ms</h2><div class=\"scroll\"><table><tr><th></th><th>min</th><th>median</th><th>p95</th><th>p99</th><th>max</th><th>frames</th></tr>";
+    timing_row("frame", summary_["frame_ms"]);
+    if (summary_.contains("frame_ms_without_capture")) timing_row("frame, not read back", summary_["frame_ms_without_capture"]);
+    if (summary_.contains("interval_ms")) timing_row("frame to frame", summary_["interval_ms"]);
+    if (summary_.contains("gpu_ms")) timing_row("GPU", summary_["gpu_ms"]);
+    if (summary_.contains("pass_ms")) {
+      for (const auto& [pass, times] : summary_["pass_ms"].items()) timing_row("pass " + pass, times);
+    }
+    if (summary_.contains("switch_to_photon")) timing_row("light switch to photon", summary_["switch_to_photon"].value("ms", json::object()));
+    page_ << "</table></div><p>" << value_text(summary_, "passes") << " passes, " << value_text(summary_, "draws") << " draws, "
+          << value_text(summary_, "triangles") << " triangles a frame.</p>";
+  }
+
+  void messages() {
+    page_ << "<h2>Processes</h2><div class=\"scroll\"><table><tr><th></th><th>received</th><th>lost</th><th>late</th><th>duplicate</th>"
+             "<th>refused</th><th>memory, MiB</th><th>peak, MiB</th><th class=\"text\">ended</th></tr>";
+    for (const auto& [process, counts] : summary_["messages"].items()) {
+      page_ << "<tr><td>" << escaped(process) << "</td>";
+      for (const char* key : {"received", "lost", "late", "duplicate", "refused"}) page_ << "<td>" << value_text(counts, key) << "</td>";
+      const json memory = summary_["memory"].value(process, json::object());
+      for (const char* key : {"rss_kib", "peak_kib"}) {
+        page_ << "<td>" << (memory.contains(key) ? number(memory[key].get<double>() / 1024.0, "%.1f") : "–") << "</td>";
+      }
+      page_ << "<td class=\"text\">" << value_text(report_["ends"], process.c_str()) << "</td></tr>";
+    }
+    page_ << "</table></div>";
+    for (const json& restart : report_["restarts"]) {
+      page_ << "<p>" << value_text(restart, "process") << " restarted at " << value_text(restart, "at_s") << " s after " << value_text(restart, "because") << ".</p>";
+    }
+  }
+
+  void lamps() {
+    page_ << "<h2>Lamps</h2><div class=\"scroll\"><table><tr><th>design</th><th class=\"text\">lamp</th><th class=\"text\">function</th>"
+             "<th>flux, lm</th><th>peak, cd</th><th class=\"text\">file</th><th class=\"text\">content</th></tr>";
+    for (const json& lamp : report_["lamps"]) {
+      page_ << "<tr><td>" << value_text(lamp, "design") << "</td><td class=\"text\">" << value_text(lamp, "lamp") << "</td><td class=\"text\">"
+            << value_text(lamp, "function") << "</td><td>" << value_text(lamp, "flux_lm", "%.0f") << "</td><td>" << value_text(lamp, "peak_cd", "%.0f")
+            << "</td><td class=\"text\">" << value_text(lamp, "file") << "</td><td class=\"text\"><code>" << short_hash(lamp.value("content_hash", "")) << "</code></td></tr>";
+    }
+    page_ << "</table></div>";
+  }
+
+  void inputs() {
+    page_ << "<h2>Made from</h2><div class=\"scroll\"><table>";
+    for (const char* what : {"rig", "scene", "vehicle", "cockpit", "drive"}) {
+      if (!report_.contains(what)) continue;
+      page_ << "<tr><td>" << what << "</td><td class=\"text\">" << value_text(report_[what], "file") << "</td><td class=\"text\"><code>"
+            << escaped(report_[what].value("content_hash", "")) << "</code></td></tr>";
+    }
+    page_ << "<tr><td>Phare</td><td class=\"text\">" << value_text(report_, "version") << "</td><td class=\"text\"><code>";
+    for (const json& word : report_["command"]) page_ << escaped(word.get<std::string>()) << ' ';
+    page_ << "</code></td></tr></table></div><p>Everything in numbers: <a style=\"color:inherit\" href=\"report.json\">report.json</a></p>";
+  }
+
+  const json& report_;
+  const json& summary_;
+  std::filesystem::path out_;
+  std::ostringstream page_;
+};
+
+}  // namespace
+
+std::string report_page(const nlohmann::json& report, const std::filesystem::path& out) { return Page(report, out).html(); }
+
+}  // namespace phare
