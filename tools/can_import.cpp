@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "cockpit_io/candump.h"
 #include "cockpit_io/dbc.h"
+#include "config/conventions.h"
 #include "tools/csv_columns.h"
 #include "tools/local_fit.h"
 #include "vehicle_dynamics/models/kinematic.h"
@@ -361,6 +363,17 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   }
   drive.duration_s = static_cast<double>(frames * kPeriod_ns) * 1e-9;
   drive.distance_m = path_m - (lane ? options.lane_start_m : 0.0);
+  for (std::size_t i = 1; i < pose->t_s.size(); ++i) {
+    if (pose->t_s[i - 1] < begin_s || pose->t_s[i] > end_s) continue;
+    drive.pose_path_m += std::hypot(pose->east_m[i] - pose->east_m[i - 1], pose->north_m[i] - pose->north_m[i - 1],
+                                    pose->up_m[i] - pose->up_m[i - 1]);
+  }
+  if (drive.pose_path_m > 0.0) {
+    char text[160];
+    std::snprintf(text, sizeof text, "speed: the CAN signal adds up to %.1f m, the recorded positions to %.1f m (%+.1f %%); kept as it is",
+                  drive.distance_m, drive.pose_path_m, 100.0 * (drive.distance_m / drive.pose_path_m - 1.0));
+    drive.notes.push_back(text);
+  }
   return drive;
 }
 
@@ -368,6 +381,7 @@ nlohmann::json to_json(const ImportedDrive& drive) {
   const ImportCounts& c = drive.counts;
   return {{"duration_s", drive.duration_s},
           {"distance_m", drive.distance_m},
+          {"pose_path_m", drive.pose_path_m},
           {"frames", {{"read", c.frames}, {"used", c.used}, {"other_ids", c.other_ids}, {"undecodable", c.undecodable},
                       {"outside", c.outside}, {"broken_lines", c.broken_lines}, {"backward_stamps", c.backward_stamps}}},
           {"samples", {{"steering", c.steering_samples}, {"speed", c.speed_samples}, {"accelerator", c.accelerator_samples},

@@ -64,7 +64,8 @@ struct ImportedDrive {
   std::vector<Datagram> datagrams;   ///< in order of time, numbered, ready to be written
   ImportCounts counts;
   double duration_s = 0.0;
-  double distance_m = 0.0;
+  double distance_m = 0.0;           ///< integral of the CAN speed
+  double pose_path_m = 0.0;          ///< length of the recorded positions' path in the same time, for comparison
   std::vector<std::string> notes;    ///< what was put in place of what was not recorded
 };
 

@@ -6,7 +6,9 @@
 #include <memory>
 #include <span>
 #include <thread>
+#include <vector>
 
+#include "config/rig.h"
 #include "net/channels.h"
 #include "net/clock.h"
 #include "net/drive_file.h"

@@ -66,7 +66,9 @@ TEST(SwitchLogic, EveryTransition) {
         stalk.step(100, (silent & 2) != 0);
         ASSERT_EQ(stalk.state.lights, expected(to, (silent & 2) != 0));
         ASSERT_EQ(stalk.state.light_changes, changes + (stalk.state.lights == before ? 0 : 1));
-        if (stalk.state.lights != before) ASSERT_EQ(stalk.state.light_change, at_ms(100));
+        if (stalk.state.lights != before) {
+          ASSERT_EQ(stalk.state.light_change, at_ms(100));
+        }
         ASSERT_EQ(stalk.state.fail_safe, (silent & 2) != 0);
       }
     }

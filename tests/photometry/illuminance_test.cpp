@@ -1,4 +1,6 @@
 // Illuminance by hand, and the points and angles files of `phare measure`.
+#include "visual/photometry/illuminance.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 
 #include "photometry_test_files.h"
 #include "visual/photometry/beam_image.h"
-#include "visual/photometry/illuminance.h"
 #include "visual/photometry/points_file.h"
 
 namespace phare {
@@ -30,8 +31,8 @@ TEST(Illuminance, DistanceLawByHand) {
   EXPECT_NEAR(illuminance_lx(lamp, ahead, table, 1.0, {4, 0, 0}, {0, 0, 1}), 1000.0 * 0.6 / 25.0, 1e-12);  // 3-4-5
   EXPECT_EQ(illuminance_lx(lamp, ahead, table, 1.0, {5, 0, 3}, {1, 0, 0}), 0.0);                           // faces away
   EXPECT_EQ(illuminance_lx(lamp, ahead, table, 1.0, {5, 0, 3}, {0, 1, 0}), 0.0);                           // edge on
-  EXPECT_EQ(illuminance_lx(lamp, ahead, table, 1.0, lamp, {-1, 0, 0}), 0.0);                               // in the lamp
-  EXPECT_EQ(illuminance_lx(lamp, ahead, table, 1.0, {-5, 0, 3}, {1, 0, 0}), 0.0);                          // behind it
+  EXPECT_EQ(illuminance_lx(lamp, ahead, table, 1.0, lamp, {-1, 0, 0}), 0.0);       // in the lamp
+  EXPECT_EQ(illuminance_lx(lamp, ahead, table, 1.0, {-5, 0, 3}, {1, 0, 0}), 0.0);  // behind it
 }
 
 TEST(Illuminance, SumsByLamp) {
@@ -57,7 +58,9 @@ TEST(AimRotation, Signs) {
 }
 
 TEST(PointsFile, KeepsColumnsAndAddsItsOwn) {
-  const auto path = test::temporary_file("points.csv", "\xEF\xBB\xBFname,x_m,y_m,z_m,nx,ny,nz,note\r\n\r\n# a remark\r\n\"a, b\",1,2,3,0,0,-2,\r\nq,1e1,+2,3.5,1,1,0,x\r\n");
+  const auto path = test::temporary_file("points.csv",
+                                         "\xEF\xBB\xBFname,x_m,y_m,z_m,nx,ny,nz,note\r\n\r\n# a remark\r\n\"a, "
+                                         "b\",1,2,3,0,0,-2,\r\nq,1e1,+2,3.5,1,1,0,x\r\n");
   const auto points = read_points(path);
   ASSERT_TRUE(points.ok()) << points.error().text();
   ASSERT_EQ(points->rows.size(), 2u);
@@ -89,7 +92,8 @@ TEST(PointsFile, RefusalsSayWhereAndWhy) {
   EXPECT_EQ(reason(head + "1,2,3,0,0,0\n"), "p.csv:2: the normal nx, ny, nz is zero");
   EXPECT_EQ(reason(head + "1,2,3,0,0\n"), "p.csv:2: expected 6 columns, got 5");
   EXPECT_EQ(reason(head + "1,2,,0,0,1\n"), "p.csv:2: z_m is not a finite number: \"\"");
-  EXPECT_EQ(reason("x_m,y_m,z_m,nx,ny,nz,illuminance_lx\n"), "p.csv:1: column illuminance_lx is there already; the result would have it twice");
+  EXPECT_EQ(reason("x_m,y_m,z_m,nx,ny,nz,illuminance_lx\n"),
+            "p.csv:1: column illuminance_lx is there already; the result would have it twice");
   EXPECT_FALSE(read_points("/nowhere.csv").ok());
 }
 

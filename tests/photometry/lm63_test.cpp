@@ -75,7 +75,8 @@ TEST(Lm63, FirstHorizontalAngleZeroMirrorsTypesAAndB) {
     ASSERT_TRUE(table.ok()) << table.error().text();
     EXPECT_EQ(table->first_deg, (std::vector<double>{-40, 0, 40}));
     for (const double h : {0.0, 3.0, 17.0, 40.0}) {
-      for (const double v : {-10.0, -3.0, 10.0}) EXPECT_DOUBLE_EQ(table->intensity_at_cd({h, v}), table->intensity_at_cd({-h, v}));
+      for (const double v : {-10.0, -3.0, 10.0})
+        EXPECT_DOUBLE_EQ(table->intensity_at_cd({h, v}), table->intensity_at_cd({-h, v}));
     }
   }
 }
@@ -110,7 +111,8 @@ TEST(Lm63, TypeCUnfolds) {
 
 TEST(Lm63, FactorsOfTheEditions) {
   const auto peak = [](const std::string& first_lines, const std::string& field_12) {
-    const auto table = read(first_lines + "TILT=NONE\n1 1000 1.5 2 2 3 1 0 0 0\n0.9 " + field_12 + " 55\n0 10\n-5 5\n1 2\n3 4\n");
+    const auto table =
+        read(first_lines + "TILT=NONE\n1 1000 1.5 2 2 3 1 0 0 0\n0.9 " + field_12 + " 55\n0 10\n-5 5\n1 2\n3 4\n");
     return table.ok() ? table->peak_cd() : -1.0;
   };
   EXPECT_DOUBLE_EQ(peak("any words\n", "0.8"), 4 * 1.5 * 0.9 * 0.8);  // 1986
@@ -145,20 +147,31 @@ TEST(Lm63, RefusalsSayWhereAndWhy) {
   EXPECT_EQ(reason("a\nb\n"), "lamp.ies:2: no TILT= line: not an LM-63 file, or cut off");
   EXPECT_EQ(reason("IESNA91\nTILT=tilt table.txt\n"),
             "lamp.ies:2: TILT=\"tilt table.txt\" names another file; only TILT=NONE and TILT=INCLUDE are read");
-  EXPECT_EQ(reason(kHead + "1 -1 1 0 3 3 2 0 0 0\n"), "lamp.ies:4: the number of vertical angles cannot be 0 in a file of 57 bytes");
+  EXPECT_EQ(reason(kHead + "1 -1 1 0 3 3 2 0 0 0\n"),
+            "lamp.ies:4: the number of vertical angles cannot be 0 in a file of 57 bytes");
   EXPECT_EQ(reason(kHead + "1 -1 1 40 40 3 2 0 0 0\n"), "lamp.ies:4: 40 × 40 candela cannot be in a file of 59 bytes");
-  EXPECT_EQ(reason(kHead + "1 -1 1 2 2.5 3 2 0 0 0\n"), "lamp.ies:4: the number of horizontal angles cannot be 2.5 in a file of 59 bytes");
-  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 4 2 0 0 0\n1 1 0\n"), "lamp.ies:4: the photometric type is 4, not 1 (C), 2 (B) or 3 (A)");
-  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n10 -10\n0 9\n1 2 3 4"), "lamp.ies:6: vertical angles must increase, but -10 follows 10");
-  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 5\n1 2 3 4"), "lamp.ies:7: horizontal angles must increase, but 5 follows 5");
-  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 100\n5 6\n1 2 3 4"), "lamp.ies:6: vertical angle 100 is outside -90 to 90");
-  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2 nan 4"), "lamp.ies:8: a candela value is not a finite number: \"nan\" (value 3 of 4)");
-  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2 3,5x 4"), "lamp.ies:8: a candela value is not a number: \"5x\" (value 4 of 4)");
+  EXPECT_EQ(reason(kHead + "1 -1 1 2 2.5 3 2 0 0 0\n"),
+            "lamp.ies:4: the number of horizontal angles cannot be 2.5 in a file of 59 bytes");
+  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 4 2 0 0 0\n1 1 0\n"),
+            "lamp.ies:4: the photometric type is 4, not 1 (C), 2 (B) or 3 (A)");
+  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n10 -10\n0 9\n1 2 3 4"),
+            "lamp.ies:6: vertical angles must increase, but -10 follows 10");
+  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 5\n1 2 3 4"),
+            "lamp.ies:7: horizontal angles must increase, but 5 follows 5");
+  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 100\n5 6\n1 2 3 4"),
+            "lamp.ies:6: vertical angle 100 is outside -90 to 90");
+  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2 nan 4"),
+            "lamp.ies:8: a candela value is not a finite number: \"nan\" (value 3 of 4)");
+  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2 3,5x 4"),
+            "lamp.ies:8: a candela value is not a number: \"5x\" (value 4 of 4)");
   EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2\n-3 4"), "lamp.ies:9: negative candela -3");
-  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2\n3\n"), "lamp.ies:10: the file ends where a candela value is expected (value 4 of 4)");
-  EXPECT_EQ(reason(kHead + "1 -1 1e300 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2\n3 1e300"), "lamp.ies:9: candela times the factors of the header is no finite number");
+  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2\n3\n"),
+            "lamp.ies:10: the file ends where a candela value is expected (value 4 of 4)");
+  EXPECT_EQ(reason(kHead + "1 -1 1e300 2 2 3 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2\n3 1e300"),
+            "lamp.ies:9: candela times the factors of the header is no finite number");
   EXPECT_EQ(reason(kHead + "1 -1 0 2 2 3 2 0 0 0\n"), "lamp.ies:4: the candela multiplier is 0, not above 0");
-  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 1 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2 3 4"), "lamp.ies:7: C angles from 5 to 6 are no symmetry of LM-63");
+  EXPECT_EQ(reason(kHead + "1 -1 1 2 2 1 2 0 0 0\n1 1 0\n0 10\n5 6\n1 2 3 4"),
+            "lamp.ies:7: C angles from 5 to 6 are no symmetry of LM-63");
   EXPECT_FALSE(read_lm63("/nowhere/lamp.ies").ok());
   EXPECT_FALSE(read_lm63("/").ok());
 }
@@ -173,7 +186,8 @@ TEST(Lm63, TooManyValuesAreReported) {
   const auto table = read(kTypeA + "7 8 9\n");
   ASSERT_TRUE(table.ok());
   ASSERT_EQ(table->notes.size(), 1u);
-  EXPECT_NE(table->notes[0].find("lamp.ies:11: 3 word(s) after the last candela value ignored"), std::string::npos) << table->notes[0];
+  EXPECT_NE(table->notes[0].find("lamp.ies:11: 3 word(s) after the last candela value ignored"), std::string::npos)
+      << table->notes[0];
 }
 
 TEST(Lm63, DamagedFilesDoNotCrash) {

@@ -14,14 +14,30 @@
 
 namespace phare::test {
 
-/// Writes `text` to a file of its own for the running test.
+/// A folder for the files of this run; gone at its end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder()
+      : path_(std::filesystem::path(::testing::TempDir()) / ("phare_photometry_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Writes `text` to a file, replacing one of that name.
 inline std::filesystem::path temporary_file(const std::string& name, const std::string& text) {
-  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path folder =
-      std::filesystem::path(::testing::TempDir()) / ("phare_photometry_" + std::to_string(::getpid()) + "_" + info->name());
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / name, std::ios::binary) << text;
-  return folder / name;
+  static const TemporaryFolder folder;
+  std::ofstream(folder.path() / name, std::ios::binary) << text;
+  return folder.path() / name;
 }
 
 inline std::string content_of(const std::filesystem::path& path) {
@@ -55,14 +71,18 @@ struct Csv {
 
   bool has(const std::string& name) const { return column.contains(name); }
   const std::string& text(std::size_t row, const std::string& name) const { return rows[row].at(column.at(name)); }
-  double number(std::size_t row, const std::string& name) const { return std::strtod(text(row, name).c_str(), nullptr); }
+  double number(std::size_t row, const std::string& name) const {
+    return std::strtod(text(row, name).c_str(), nullptr);
+  }
 };
 
-inline std::filesystem::path shared_data(const std::string& below) { return std::filesystem::path(PHARE_SHARED_DATA_DIR) / below; }
+inline std::filesystem::path shared_data(const std::string& below) {
+  return std::filesystem::path(PHARE_SHARED_DATA_DIR) / below;
+}
 
 }  // namespace phare::test
 
 /// Tests against data that is not part of the repository say so where it is missing.
-#define PHARE_NEEDS_SHARED_DATA(below)                                                            \
-  if (!std::filesystem::exists(phare::test::shared_data(below)))                                  \
+#define PHARE_NEEDS_SHARED_DATA(below)                           \
+  if (!std::filesystem::exists(phare::test::shared_data(below))) \
   GTEST_SKIP() << "reference data " << phare::test::shared_data(below).string() << " is not here"

@@ -1,5 +1,5 @@
-// The float64 path against the photometry reference set (an independent program's values, see its README): intensities of
-// every LM-63 file, illuminance on road, wall and plates, hard single-lamp cases, and flux.
+// The float64 path against the photometry reference set (an independent program's values, see its README): intensities
+// of every LM-63 file, illuminance on road, wall and plates, hard single-lamp cases, and flux.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,9 @@ using test::shared_data;
 
 constexpr double kTolerance = 1e-10;  // relative; the set's own limit for a double reference
 
-glm::dvec3 vector_of(const nlohmann::json& json) { return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()}; }
+glm::dvec3 vector_of(const nlohmann::json& json) {
+  return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+}
 
 /// A table of the set and how its axes lie in the lamp (a type C file may be rolled about its axis).
 struct ReferenceLamp {
@@ -39,7 +41,8 @@ class Reference : public ::testing::Test {
       GammaAxis axis = GammaAxis::kGamma0;
       if (file.contains("frame_in_lamp_axes")) {
         const auto& frame = file.at("frame_in_lamp_axes");
-        const glm::dvec3 c0 = vector_of(frame.at("c0")), c90 = vector_of(frame.at("c90")), g0 = vector_of(frame.at("g0"));
+        const glm::dvec3 c0 = vector_of(frame.at("c0")), c90 = vector_of(frame.at("c90")),
+                         g0 = vector_of(frame.at("g0"));
         if (g0 == glm::dvec3{0, 0, -1}) {
           axis = GammaAxis::kGamma90;  // c0 forward, c90 left: nothing left to turn
           ASSERT_EQ(c0, (glm::dvec3{1, 0, 0}));
@@ -66,15 +69,19 @@ class Reference : public ::testing::Test {
     ASSERT_LE(difference, kTolerance) << what << ": expected " << expected << ", got " << actual;
   }
 
-  void say(const std::string& what) const { std::printf("%s: %zu values, worst relative difference %.2g\n", what.c_str(), count_, worst_); }
+  void say(const std::string& what) const {
+    std::printf("%s: %zu values, worst relative difference %.2g\n", what.c_str(), count_, worst_);
+  }
 
   /// Both lamps of a kind with the table of `key`.
   std::vector<PlacedSource> mounted(const std::string& kind, const std::string& key) const {
     std::vector<PlacedSource> sources;
     for (const auto& mount : manifest_.at("mounting").at(kind)) {
       const ReferenceLamp& lamp = lamps_.at(key);
-      const glm::dmat3 world_from_lamp{vector_of(mount.at("forward")), vector_of(mount.at("left")), vector_of(mount.at("up"))};
-      sources.push_back({&lamp.table, vector_of(mount.at("position_m")), world_from_lamp * lamp.lamp_from_table, 1.0, sources.size()});
+      const glm::dmat3 world_from_lamp{vector_of(mount.at("forward")), vector_of(mount.at("left")),
+                                       vector_of(mount.at("up"))};
+      sources.push_back({&lamp.table, vector_of(mount.at("position_m")), world_from_lamp * lamp.lamp_from_table, 1.0,
+                         sources.size()});
     }
     return sources;
   }
@@ -114,10 +121,12 @@ TEST_F(Reference, IlluminanceOnRoadAndWall) {
         other_formats += is_primary ? 0 : 1;
         const auto sources = mounted(beam, key);
         for (std::size_t i = 0; i < csv.rows.size(); ++i) {
-          const glm::dvec3 point = wall ? glm::dvec3{wall_x_m, csv.number(i, "y"), csv.number(i, "z")} : glm::dvec3{csv.number(i, "x"), csv.number(i, "y"), 0.0};
+          const glm::dvec3 point = wall ? glm::dvec3{wall_x_m, csv.number(i, "y"), csv.number(i, "z")}
+                                        : glm::dvec3{csv.number(i, "x"), csv.number(i, "y"), 0.0};
           const glm::dvec3 normal = wall ? glm::dvec3{-1, 0, 0} : glm::dvec3{0, 0, 1};
           const Illuminance e = illuminance_lx(sources, sources.size(), point, normal);
-          const std::string what = std::string(beam) + (wall ? " wall " : " road ") + column + " row " + std::to_string(i + 2);
+          const std::string what =
+              std::string(beam) + (wall ? " wall " : " road ") + column + " row " + std::to_string(i + 2);
           compare(e.total_lx, csv.number(i, column), what);
           if (is_primary) {
             compare(e.lamps_lx[0], csv.number(i, "E_left"), what + " left");
@@ -161,8 +170,8 @@ TEST_F(Reference, HardSingleLampCases) {
     if (found == lamps_.end()) continue;
     const auto n = [&](const char* column) { return csv.number(i, column); };
     const glm::dmat3 aim = aim_rotation(glm::radians(n("yaw")), glm::radians(n("pitch")), glm::radians(n("roll")));
-    const double e = illuminance_lx({n("lx"), n("ly"), n("lz")}, aim * found->second.lamp_from_table, found->second.table, 1.0,
-                                    {n("px"), n("py"), n("pz")}, {n("nx"), n("ny"), n("nz")});
+    const double e = illuminance_lx({n("lx"), n("ly"), n("lz")}, aim * found->second.lamp_from_table,
+                                    found->second.table, 1.0, {n("px"), n("py"), n("pz")}, {n("nx"), n("ny"), n("nz")});
     compare(e, n("E_lx"), csv.text(i, "case") + " of " + found->first);
     if (HasFatalFailure()) return;
   }
@@ -176,7 +185,8 @@ TEST_F(Reference, ConstantSourceInARoom) {
     if (csv.text(i, "what").starts_with("flux")) continue;
     const auto n = [&](const char* column) { return csv.number(i, column); };
     const glm::dvec3 lamp{n("sx"), n("sy"), n("sz")};
-    compare(illuminance_lx(lamp, glm::dmat3{1.0}, lamps_.at("iso_C").table, 1.0, {n("x"), n("y"), n("z")}, {n("nx"), n("ny"), n("nz")}),
+    compare(illuminance_lx(lamp, glm::dmat3{1.0}, lamps_.at("iso_C").table, 1.0, {n("x"), n("y"), n("z")},
+                           {n("nx"), n("ny"), n("nz")}),
             n("E_lx_or_flux_lm"), "row " + std::to_string(i + 2));
     if (HasFatalFailure()) return;
   }
@@ -206,8 +216,8 @@ TEST_F(Reference, OddFilesAreRead) {
       ASSERT_TRUE(table.ok()) << table.error().text();
       tables.emplace(name, std::move(*table));
     }
-    compare(tables.at(name).intensity_cd({csv.number(i, "dx"), csv.number(i, "dy"), csv.number(i, "dz")}), csv.number(i, "I_cd"),
-            name + " row " + std::to_string(i + 2));
+    compare(tables.at(name).intensity_cd({csv.number(i, "dx"), csv.number(i, "dy"), csv.number(i, "dz")}),
+            csv.number(i, "I_cd"), name + " row " + std::to_string(i + 2));
     if (HasFatalFailure()) return;
   }
   nlohmann::json expected;

@@ -1,4 +1,6 @@
 // Our sample lamps: as written and read back, against the regulation rows, and smooth to the eye.
+#include "visual/photometry/sample_lamps.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include "photometry_test_files.h"
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/regulation.h"
-#include "visual/photometry/sample_lamps.h"
 
 namespace phare {
 namespace {
@@ -22,7 +23,9 @@ const SampleLamp& lamp(const std::string& file) {
   return *std::find_if(lamps().begin(), lamps().end(), [&](const SampleLamp& l) { return l.file == file; });
 }
 
-glm::dmat3 mounted() { return aim_rotation(0.0, sample_pitch_rad(), 0.0); }
+glm::dmat3 mounted() {
+  return aim_rotation(0.0, sample_pitch_rad(), 0.0);
+}
 
 TEST(SampleLamps, ComeBackFromTheirFiles) {
   for (const SampleLamp& made : lamps()) {
@@ -39,7 +42,8 @@ TEST(SampleLamps, ComeBackFromTheirFiles) {
 }
 
 TEST(SampleLamps, PassTheirRows) {
-  const auto expect = [](const SampleLamp& l, const glm::dmat3& aim, std::span<const RegulationRow> rows, bool mirrored) {
+  const auto expect = [](const SampleLamp& l, const glm::dmat3& aim, std::span<const RegulationRow> rows,
+                         bool mirrored) {
     for (const RowResult& row : check_rows(l.table, aim, rows, mirrored)) {
       EXPECT_TRUE(row.passed) << l.file << " " << row.id << ": " << row.lowest_cd << " to " << row.highest_cd;
     }
@@ -67,7 +71,8 @@ TEST(SampleLamps, PassTheirRows) {
 
 TEST(SampleLamps, ARightHandBeamFailsTheLeftHandRows) {
   std::size_t failed = 0;
-  for (const RowResult& row : check_rows(lamp("low_rht.ies").table, mounted(), r149_passing_class_c(), true)) failed += row.passed ? 0 : 1;
+  for (const RowResult& row : check_rows(lamp("low_rht.ies").table, mounted(), r149_passing_class_c(), true))
+    failed += row.passed ? 0 : 1;
   EXPECT_GT(failed, 2u);
 }
 
@@ -76,11 +81,13 @@ TEST(SampleLamps, CutoffIsSharpLevelAndOnItsLine) {
     const Cutoff at_line = find_cutoff(lamp(file).table, mounted(), -2.5);
     EXPECT_GE(at_line.sharpness_g, 0.20) << file;
     EXPECT_LE(at_line.sharpness_g, 0.40) << file;
-    for (const double h : {-1.5, -2.5, -3.5}) EXPECT_NEAR(find_cutoff(lamp(file).table, mounted(), h).elevation_deg, -0.57, 0.055) << file << h;
+    for (const double h : {-1.5, -2.5, -3.5})
+      EXPECT_NEAR(find_cutoff(lamp(file).table, mounted(), h).elevation_deg, -0.57, 0.055) << file << h;
     // To the right it rises by 15°: tan 15° = 0.268 per degree.
     EXPECT_NEAR(find_cutoff(lamp(file).table, glm::dmat3{1.0}, 3.0).elevation_deg, 3.0 * 0.268, 0.06) << file;
   }
-  EXPECT_GT(find_cutoff(lamp("led_low_rht.ies").table, mounted(), -2.5).sharpness_g, find_cutoff(lamp("low_rht.ies").table, mounted(), -2.5).sharpness_g);
+  EXPECT_GT(find_cutoff(lamp("led_low_rht.ies").table, mounted(), -2.5).sharpness_g,
+            find_cutoff(lamp("low_rht.ies").table, mounted(), -2.5).sharpness_g);
 }
 
 TEST(SampleLamps, LeftHandIsTheExactMirror) {
@@ -135,7 +142,9 @@ void expect_same_rows(std::span<const RegulationRow> ours, const nlohmann::json&
     const std::string id = row.at(id_key);
     const auto mine = std::find_if(ours.begin(), ours.end(), [&](const RegulationRow& r) { return r.id == id; });
     ASSERT_NE(mine, ours.end()) << id;
-    const auto limit = [&](const char* key, double none) { return row.contains(key) && !row[key].is_null() ? row[key].get<double>() : none; };
+    const auto limit = [&](const char* key, double none) {
+      return row.contains(key) && !row[key].is_null() ? row[key].get<double>() : none;
+    };
     EXPECT_EQ(mine->min_cd, limit("min_cd", kNoMinimum)) << id;
     EXPECT_EQ(mine->max_cd, limit("max_cd", kNoMaximum)) << id;
     EXPECT_EQ(mine->min_of_peak_01, limit("min_fraction_of_Imax", 0.0)) << id;
@@ -189,8 +198,9 @@ TEST(Regulation, ChecksAFlatTable) {
   flat.second_deg = {-90, 90};
   flat.candela.assign(4, 512.0);
   for (const RowResult& row : check_rows(flat, glm::dmat3{1.0}, r149_passing_class_c())) {
-    const bool expected = row.id == "Zone III" || row.id == "BR" || row.id == "Segment BLL" || row.id == "P" || row.id == "Segment 15" ||
-                          row.id == "Segment 10" || row.id.starts_with("S50+") || row.id.starts_with("S100+");
+    const bool expected = row.id == "Zone III" || row.id == "BR" || row.id == "Segment BLL" || row.id == "P" ||
+                          row.id == "Segment 15" || row.id == "Segment 10" || row.id.starts_with("S50+") ||
+                          row.id.starts_with("S100+");
     EXPECT_EQ(row.passed, expected) << row.id;
     if (row.id.starts_with("S50+")) {
       EXPECT_NEAR(row.lowest_cd, 1536.0, 1e-9);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -67,6 +68,39 @@ TEST_F(CanImport, EveryStageIsCounted) {
   for (const Datagram& datagram : drive->datagrams) ASSERT_EQ(check(datagram), Refusal::kNone);
 }
 
+/// Linear between the rows of a table whose times ascend.
+double interpolated(const std::vector<double>& t, const std::vector<double>& v, double at) {
+  const auto j = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(std::upper_bound(t.begin(), t.end(), at) - t.begin(), 1,
+                                                                     static_cast<std::ptrdiff_t>(t.size()) - 1));
+  const double u = (at - t[j - 1]) / (t[j] - t[j - 1]);
+  return v[j - 1] * (1 - u) + v[j] * u;
+}
+
+// The frame of SPEED taken apart here by hand: id 0B4, bytes 5 and 6, big-endian, 0.01 km/h.
+TEST_F(CanImport, SpeedIsTheSignalsSpeed) {
+  std::ifstream log(kDrives / "rav4_seg40_bus0_00-30s.candump.log");
+  std::vector<double> t, speed_mps;
+  for (std::string line; std::getline(log, line);) {
+    const std::size_t frame = line.find(" 0B4#");
+    if (frame == std::string::npos) continue;
+    t.push_back(std::stod(line.substr(1)));
+    speed_mps.push_back(static_cast<double>(std::stoul(line.substr(frame + 5 + 10, 4), nullptr, 16)) * 0.01 / 3.6);
+  }
+  const auto drive = import_can_drive(comma_options());
+  ASSERT_TRUE(drive) << drive.error().text();
+  ASSERT_GT(t.size(), 1000u);
+  double worst = 0.0;
+  for (const Datagram& datagram : drive->datagrams) {
+    const double at = static_cast<double>(datagram.sent.ns) * 1e-9;  // the recorded stamp
+    if (const auto* vehicle = std::get_if<VehicleState>(&datagram.payload)) {
+      worst = std::max(worst, std::abs(vehicle->speed_mps - interpolated(t, speed_mps, at)));
+    }
+  }
+  EXPECT_LT(worst, 0.1);  // m/s: what smoothing over 0.4 s takes off a signal that shakes by 0.1
+  RecordProperty("worst_mps", std::to_string(worst));
+}
+
+// The decoded table's speed is the mean of the wheels, which read 2.1 % less than SPEED in this car (positions: 1.3 % less).
 TEST_F(CanImport, SpeedAndSteeringFollowTheDecodedTable) {
   const auto drive = import_can_drive(comma_options());
   ASSERT_TRUE(drive) << drive.error().text();
@@ -75,21 +109,18 @@ TEST_F(CanImport, SpeedAndSteeringFollowTheDecodedTable) {
   ASSERT_TRUE(table) << table.error().text();
   const auto& t = (*table)[0];
   double worst_speed = 0.0, worst_steer = 0.0;
-  std::size_t row = 0;
   for (const Datagram& datagram : drive->datagrams) {
-    const double at = static_cast<double>(datagram.sent.ns) * 1e-9;  // the recorded stamp
-    while (row + 2 < t.size() && t[row + 1] < at) ++row;
+    const double at = static_cast<double>(datagram.sent.ns) * 1e-9;
     if (at < t.front() || at > t.back()) continue;
-    const double u = (at - t[row]) / (t[row + 1] - t[row]);
-    const auto value = [&](std::size_t column) { return (*table)[column][row] * (1 - u) + (*table)[column][row + 1] * u; };
     if (const auto* vehicle = std::get_if<VehicleState>(&datagram.payload)) {
-      worst_speed = std::max(worst_speed, std::abs(vehicle->speed_mps - value(1)));
+      worst_speed = std::max(worst_speed, std::abs(vehicle->speed_mps / 1.021 - interpolated(t, (*table)[1], at)));
     } else if (const auto* cockpit = std::get_if<CockpitState>(&datagram.payload)) {
-      worst_steer = std::max(worst_steer, std::abs(cockpit->steering_wheel_rad * 180 / std::numbers::pi - value(2)));
+      const double steer_deg = cockpit->steering_wheel_rad * 180 / std::numbers::pi;
+      worst_steer = std::max(worst_steer, std::abs(steer_deg - interpolated(t, (*table)[2], at)));
     }
   }
-  EXPECT_LT(worst_speed, 0.10);  // m/s; the table itself steps every 24 ms, acceleration up to 3 m/s²
-  EXPECT_LT(worst_steer, 1.0);   // deg; steering turns at up to 40 deg/s
+  EXPECT_LT(worst_speed, 0.25);  // m/s
+  EXPECT_LT(worst_steer, 1.0);   // deg
   RecordProperty("worst_speed_mps", std::to_string(worst_speed));
   RecordProperty("worst_steer_deg", std::to_string(worst_steer));
 }
@@ -105,7 +136,8 @@ TEST_F(CanImport, KeepsTheRecordedPose) {
   EXPECT_NEAR(last.x_m, (*table)[1].back(), 0.5);
   EXPECT_NEAR(last.y_m, (*table)[2].back(), 0.5);
   EXPECT_NEAR(last.yaw_rad, std::numbers::pi / 2 - (*table)[4].back() * std::numbers::pi / 180, 0.01);
-  EXPECT_NEAR(drive->distance_m, 521.9, 5.0);  // CAN speed against the length of the recorded path
+  EXPECT_NEAR(drive->pose_path_m, 521.0, 2.0);
+  EXPECT_NEAR(drive->distance_m / drive->pose_path_m, 1.0129, 0.002);  // SPEED reads that much more than the positions
 }
 
 TEST_F(CanImport, OntoALaneKeepsSpeedAndFollowsTheLane) {
@@ -122,7 +154,9 @@ TEST_F(CanImport, OntoALaneKeepsSpeedAndFollowsTheLane) {
     EXPECT_NEAR(std::hypot(on.x_m, on.y_m - 500.0), 500.0, worst_radius);
     EXPECT_NEAR(on.pitch_rad - on.suspension_pitch_rad, -std::atan(0.02), 2e-4);  // uphill: nose up
     // braking presses the nose down, felt acceleration includes the grade
-    if (on.ax_mps2 - 0.02 * 9.81 < -0.5) EXPECT_GT(on.suspension_pitch_rad, 0.0);
+    if (on.ax_mps2 + 0.02 * 9.81 < -0.5) {
+      EXPECT_GT(on.suspension_pitch_rad, 0.0);
+    }
   }
   EXPECT_EQ(std::get<CockpitState>(drive->datagrams.front().payload).light_switch, LightSwitch::kLow);
 }

@@ -32,14 +32,15 @@ bool same_aim(const glm::dmat3& a, const glm::dmat3& b) {
 }
 
 bool same_grid_kind(const AimedSource& a, const AimedSource& b) {
-  return a.table->type == b.table->type &&
-         (a.table->type != PhotometricType::kC || a.table->axis == b.table->axis) && same_aim(a.car_from_lamp, b.car_from_lamp);
+  return a.table->type == b.table->type && (a.table->type != PhotometricType::kC || a.table->axis == b.table->axis) &&
+         same_aim(a.car_from_lamp, b.car_from_lamp);
 }
 
 /// Sorted, each value once, none closer than `gap` to the one before unless gap is 0.
 void sort_unique(std::vector<double>& nodes, double gap) {
   std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end(), [gap](double kept, double next) { return next - kept <= gap; }), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end(), [gap](double kept, double next) { return next - kept <= gap; }),
+              nodes.end());
 }
 
 /// Does the table shine on one of its limits? `first` chooses the axis, `upper` the end.
@@ -72,9 +73,13 @@ std::vector<double> union_nodes(const std::vector<AimedSource>& lit, bool first)
   return nodes;
 }
 
-/// Widest step of a resampled grid at this distance from the axis, degrees. A cut-off changes by a factor 2.5 in 0.1°.
-double widest_step_deg(double angle_deg) {
+/// Widest step of a resampled grid at this distance from the axis, degrees. Across a cut-off light changes by a factor
+/// of up to 2.5 in 0.1° of V. Measured on our passing and driving beam aimed 0.2° apart and rolled by 1°
+/// (beam_image_test.cpp): worst error 0.17 % of the peak, and 1.6 % of the local intensity above 100 cd; 0.05° in V
+/// makes that 0.32 % and 3.1 %.
+double widest_step_deg(double angle_deg, bool first) {
   const double a = std::abs(angle_deg);
+  if (!first && a < 3.0) return 0.025;
   return a < 5.0 ? 0.05 : a < 10.0 ? 0.1 : a < 30.0 ? 0.5 : 2.5;
 }
 
@@ -84,7 +89,8 @@ glm::dvec3 direction_a(double h_deg, double v_deg) {
   return {std::cos(v) * std::cos(h), -std::cos(v) * std::sin(h), std::sin(v)};
 }
 
-/// Nodes of a resampled type A grid: those of every type A source, seen in the image near its axis, and steps in between.
+/// Nodes of a resampled type A grid: those of every type A source, seen in the image near its axis, and steps in
+/// between.
 std::vector<double> resampled_nodes(const std::vector<AimedSource>& lit, const glm::dmat3& image_from_car, bool first) {
   std::vector<double> seed{first ? -180.0 : -90.0, 0.0, first ? 180.0 : 90.0};
   for (const AimedSource& source : lit) {
@@ -102,7 +108,7 @@ std::vector<double> resampled_nodes(const std::vector<AimedSource>& lit, const g
   for (std::size_t i = 0; i + 1 < seed.size(); ++i) {
     nodes.push_back(seed[i]);
     while (true) {
-      const double step = widest_step_deg(nodes.back());
+      const double step = widest_step_deg(nodes.back(), first);
       if (seed[i + 1] - nodes.back() <= step) break;
       const double left = seed[i + 1] - nodes.back();
       nodes.push_back(left < 2.0 * step ? nodes.back() + 0.5 * left : nodes.back() + step);
@@ -130,7 +136,7 @@ glm::dmat3 aim_rotation(double yaw_rad, double pitch_rad, double roll_rad) {
   const double cy = std::cos(yaw_rad), sy = std::sin(yaw_rad);
   const double cp = std::cos(pitch_rad), sp = std::sin(pitch_rad);
   const double cr = std::cos(roll_rad), sr = std::sin(roll_rad);
-  return {glm::dvec3{cy * cp, sy * cp, sp},                                    // forward: pitch > 0 is up
+  return {glm::dvec3{cy * cp, sy * cp, sp},                                       // forward: pitch > 0 is up
           glm::dvec3{-cy * sp * sr - sy * cr, -sy * sp * sr + cy * cr, cp * sr},  // left: rises with roll > 0
           glm::dvec3{-cy * sp * cr + sy * sr, -sy * sp * cr - cy * sr, cp * cr}};
 }
@@ -152,7 +158,8 @@ BeamImage compose_beam_image(std::span<const AimedSource> sources) {
   image.dark = false;
   image.car_from_image = lit.front().car_from_lamp;
   image.colour = mean_colour(lit);
-  image.resampled = !std::all_of(lit.begin(), lit.end(), [&](const AimedSource& s) { return same_grid_kind(s, lit.front()); });
+  image.resampled =
+      !std::all_of(lit.begin(), lit.end(), [&](const AimedSource& s) { return same_grid_kind(s, lit.front()); });
   const glm::dmat3 image_from_car = glm::transpose(image.car_from_image);
   if (image.resampled) {
     image.type = PhotometricType::kA;
@@ -172,13 +179,17 @@ BeamImage compose_beam_image(std::span<const AimedSource> sources) {
     for (std::size_t j = 0; j < image.second_deg.size(); ++j) {
       for (std::size_t i = 0; i < columns; ++i) {
         const TableAngles angles{image.first_deg[i], image.second_deg[j]};
-        sum[j * columns + i] += source.scale * (image.resampled ? source.table->intensity_cd(lamp_from_image * direction_a(angles.first_deg, angles.second_deg))
-                                                                : source.table->intensity_at_cd(angles));
+        sum[j * columns + i] +=
+            source.scale *
+            (image.resampled
+                 ? source.table->intensity_cd(lamp_from_image * direction_a(angles.first_deg, angles.second_deg))
+                 : source.table->intensity_at_cd(angles));
       }
     }
   }
   image.candela.reserve(sum.size());
-  std::transform(sum.begin(), sum.end(), std::back_inserter(image.candela), [](double cd) { return static_cast<float>(cd); });
+  std::transform(sum.begin(), sum.end(), std::back_inserter(image.candela),
+                 [](double cd) { return static_cast<float>(cd); });
   return image;
 }
 

@@ -1,4 +1,5 @@
-// Illuminance at a point in float64, from the tables themselves: what every faster way of this program is measured against.
+// Illuminance at a point in float64, from the tables themselves: what every faster way of this program is measured
+// against.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -19,10 +20,11 @@ struct PlacedSource {
   std::size_t lamp = 0;
 };
 
-/// E = I·cos/r² in lux at `point_m` (world) on a surface with unit normal. 0 where the surface faces away and at the lamp
-/// itself (r = 0). Lamps are points. Error below 1e-12 relative, except where a far origin costs digits of point - lamp.
-double illuminance_lx(const glm::dvec3& lamp_m, const glm::dmat3& world_from_lamp, const IntensityTable& table, double scale,
-                      const glm::dvec3& point_m, const glm::dvec3& unit_normal);
+/// E = I·cos/r² in lux at `point_m` (world) on a surface with unit normal. 0 where the surface faces away and at the
+/// lamp itself (r = 0). Lamps are points. Error below 1e-12 relative, except where a far origin costs digits of point -
+/// lamp.
+double illuminance_lx(const glm::dvec3& lamp_m, const glm::dmat3& world_from_lamp, const IntensityTable& table,
+                      double scale, const glm::dvec3& point_m, const glm::dvec3& unit_normal);
 
 /// Illuminance of several sources, lamp by lamp.
 struct Illuminance {

@@ -1,9 +1,10 @@
 // Reader of IES LM-63 photometry files, editions 1986 to 2019, types A, B and C.
-// Liberal in layout (any line breaks, commas or blanks, any case), strict in numbers: what it cannot mean is refused with
-// file:line. What it repaired is in IntensityTable::notes. The whole table comes out unfolded: H on both sides, C 0..360.
+// Liberal in layout (any line breaks, commas or blanks, any case), strict in numbers: what it cannot mean is refused
+// with file:line. What it repaired is in IntensityTable::notes. The whole table comes out unfolded: H on both sides, C
+// 0..360.
 #include <algorithm>
-#include <charconv>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -17,9 +18,12 @@
 namespace phare {
 namespace {
 
-constexpr std::uintmax_t kMaxFileBytes = 64u << 20;  // a 0.01° grid of a headlamp stays below; more is no photometry file
+constexpr std::uintmax_t kMaxFileBytes = 64u
+                                         << 20;  // a 0.01° grid of a headlamp stays below; more is no photometry file
 
-bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\f' || c == '\v'; }
+bool is_separator(char c) {
+  return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\f' || c == '\v';
+}
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_separator(text.front())) text.remove_prefix(1);
@@ -83,8 +87,10 @@ class Text {
     if (word.front() == '+') word.remove_prefix(1);
     double value = 0.0;
     const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (code == std::errc::result_out_of_range) return error(what + " " + in_quotes(all) + " is too large or too small a number");
-    if (code != std::errc{} || end != word.data() + word.size()) return error(what + " is not a number: " + in_quotes(all));
+    if (code == std::errc::result_out_of_range)
+      return error(what + " " + in_quotes(all) + " is too large or too small a number");
+    if (code != std::errc{} || end != word.data() + word.size())
+      return error(what + " is not a number: " + in_quotes(all));
     if (!std::isfinite(value)) return error(what + " is not a finite number: " + in_quotes(all));
     return value;
   }
@@ -128,7 +134,8 @@ Result<std::size_t> read_count(Text& text, const std::string& what) {
   if (!value) return value.error();
   // A table of n values takes at least 2n - 1 characters, so no count can reach the size of the file.
   if (*value < 1.0 || *value != std::floor(*value) || *value > static_cast<double>(text.size())) {
-    return text.error(what + " cannot be " + number_text(*value) + " in a file of " + std::to_string(text.size()) + " bytes");
+    return text.error(what + " cannot be " + number_text(*value) + " in a file of " + std::to_string(text.size()) +
+                      " bytes");
   }
   return static_cast<std::size_t>(*value);
 }
@@ -147,7 +154,8 @@ Status skip_tilt_table(Text& text, std::vector<std::string>& notes) {
     if (!factor) return factor.error();
     all_one = all_one && *factor == 1.0;
   }
-  if (!all_one) notes.push_back(text.place() + ": tilt factors are not applied: the photometry is of the lamp as mounted");
+  if (!all_one)
+    notes.push_back(text.place() + ": tilt factors are not applied: the photometry is of the lamp as mounted");
   return Done{};
 }
 
@@ -164,8 +172,8 @@ Result<Header> read_header(Text& text, const Edition& edition, std::vector<std::
   if (!first_count) return first_count.error();
   // Each value needs a character and a separator; checked before anything of that size is allocated.
   if (*second_count > text.size() / *first_count) {
-    return text.error(std::to_string(*first_count) + " × " + std::to_string(*second_count) + " candela cannot be in a file of " +
-                      std::to_string(text.size()) + " bytes");
+    return text.error(std::to_string(*first_count) + " × " + std::to_string(*second_count) +
+                      " candela cannot be in a file of " + std::to_string(text.size()) + " bytes");
   }
   const auto type = text.number("the photometric type");
   if (!type) return type.error();
@@ -174,7 +182,9 @@ Result<Header> read_header(Text& text, const Edition& edition, std::vector<std::
   }
   const auto units = text.number("the units type");  // feet or metres: of the luminaire's size, candela do not care
   if (!units) return units.error();
-  if (*units != 1.0 && *units != 2.0) notes.push_back(text.place() + ": units type " + number_text(*units) + " is neither feet (1) nor metres (2); unused");
+  if (*units != 1.0 && *units != 2.0)
+    notes.push_back(text.place() + ": units type " + number_text(*units) +
+                    " is neither feet (1) nor metres (2); unused");
   for (const char* what : {"the luminaire's width", "the luminaire's length", "the luminaire's height"}) {
     if (const auto size = text.number(what); !size) return size.error();
   }
@@ -202,17 +212,20 @@ Result<Header> read_header(Text& text, const Edition& edition, std::vector<std::
 }
 
 /// Strictly ascending angles within [min, max].
-Result<std::vector<double>> read_angles(Text& text, std::size_t count, const std::string& what, double min_deg, double max_deg) {
+Result<std::vector<double>> read_angles(Text& text, std::size_t count, const std::string& what, double min_deg,
+                                        double max_deg) {
   std::vector<double> angles;
   angles.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto angle = text.number(what + " angle " + std::to_string(i + 1) + " of " + std::to_string(count));
     if (!angle) return angle.error();
     if (*angle < min_deg || *angle > max_deg) {
-      return text.error(what + " angle " + number_text(*angle) + " is outside " + number_text(min_deg) + " to " + number_text(max_deg));
+      return text.error(what + " angle " + number_text(*angle) + " is outside " + number_text(min_deg) + " to " +
+                        number_text(max_deg));
     }
     if (!angles.empty() && *angle <= angles.back()) {
-      return text.error(what + " angles must increase, but " + number_text(*angle) + " follows " + number_text(angles.back()));
+      return text.error(what + " angles must increase, but " + number_text(*angle) + " follows " +
+                        number_text(angles.back()));
     }
     angles.push_back(*angle);
   }
@@ -225,10 +238,15 @@ struct Column {
   std::size_t source = 0;
 };
 
-bool before(const Column& a, const Column& b) { return a.angle_deg < b.angle_deg; }
-bool before_angle(const Column& column, double angle_deg) { return column.angle_deg < angle_deg; }
+bool before(const Column& a, const Column& b) {
+  return a.angle_deg < b.angle_deg;
+}
+bool before_angle(const Column& column, double angle_deg) {
+  return column.angle_deg < angle_deg;
+}
 
-/// Adds to each (ascending) column its image at `about2 - angle`, but none that is there already (a column on the mirror plane).
+/// Adds to each (ascending) column its image at `about2 - angle`, but none that is there already (a column on the
+/// mirror plane).
 void mirror(std::vector<Column>& columns, double about2_deg) {
   const std::vector<Column> half = columns;
   for (const Column& column : half) {
@@ -264,7 +282,8 @@ Result<std::vector<Column>> unfold(const std::vector<double>& first_deg, Photome
     std::vector<Column> all = columns;
     for (const Column& column : columns) {
       const double angle = 180.0 - column.angle_deg;  // -90 .. 90
-      if (column.angle_deg != 90.0 && column.angle_deg != 270.0) all.push_back({angle < 0.0 ? angle + 360.0 : angle, column.source});
+      if (column.angle_deg != 90.0 && column.angle_deg != 270.0)
+        all.push_back({angle < 0.0 ? angle + 360.0 : angle, column.source});
       if (angle == 0.0) all.push_back({360.0, column.source});
     }
     std::sort(all.begin(), all.end(), before);
@@ -273,7 +292,8 @@ Result<std::vector<Column>> unfold(const std::vector<double>& first_deg, Photome
   } else if (begin == 0.0 && end > 180.0 && end < 360.0) {
     double widest = 0.0;
     for (std::size_t i = 1; i < first_deg.size(); ++i) widest = std::max(widest, first_deg[i] - first_deg[i - 1]);
-    if (360.0 - end > widest * 1.0001) return text.error("C angles end at " + number_text(end) + ", not at 0, 90, 180 or 360");
+    if (360.0 - end > widest * 1.0001)
+      return text.error("C angles end at " + number_text(end) + ", not at 0, 90, 180 or 360");
     notes.push_back(text.place() + ": C angles end at " + number_text(end) + "; the plane C 0 repeated at 360");
     columns.push_back({360.0, 0});
   } else if (begin != 0.0 || end != 360.0) {
@@ -348,10 +368,12 @@ Result<IntensityTable> read_lm63(const std::filesystem::path& file, GammaAxis ax
   const bool is_c = table.type == PhotometricType::kC;
   const double second_max = table.type == PhotometricType::kB ? 180.0 : is_c ? 180.0 : 90.0;
   const double first_max = table.type == PhotometricType::kB ? 90.0 : is_c ? 360.0 : 180.0;
-  auto second = read_angles(text, header->second_count, is_c ? "gamma" : "vertical", is_c ? 0.0 : -second_max, second_max);
+  auto second =
+      read_angles(text, header->second_count, is_c ? "gamma" : "vertical", is_c ? 0.0 : -second_max, second_max);
   if (!second) return second.error();
   if (second->size() < 2) return text.error("one vertical angle (" + number_text(second->front()) + ") is no beam");
-  const auto first = read_angles(text, header->first_count, is_c ? "C" : "horizontal", is_c ? 0.0 : -first_max, first_max);
+  const auto first =
+      read_angles(text, header->first_count, is_c ? "C" : "horizontal", is_c ? 0.0 : -first_max, first_max);
   if (!first) return first.error();
   auto columns = unfold(*first, table.type, text, table.notes);
   if (!columns) return columns.error();
@@ -361,7 +383,9 @@ Result<IntensityTable> read_lm63(const std::filesystem::path& file, GammaAxis ax
   std::vector<double> in_file(first->size() * rows);
   for (std::size_t i = 0; i < in_file.size(); ++i) {
     const auto value = text.number("a candela value");
-    if (!value) return Error{value.error().place, value.error().reason + " (value " + std::to_string(i + 1) + " of " + std::to_string(in_file.size()) + ")"};
+    if (!value)
+      return Error{value.error().place, value.error().reason + " (value " + std::to_string(i + 1) + " of " +
+                                            std::to_string(in_file.size()) + ")"};
     if (*value < 0.0) return text.error("negative candela " + number_text(*value));
     in_file[i] = *value * header->scale;
     if (!std::isfinite(in_file[i])) return text.error("candela times the factors of the header is no finite number");

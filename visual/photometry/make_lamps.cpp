@@ -1,4 +1,5 @@
-// phare-make-lamps: writes the sample lamps and lamps.json, reads them back and checks them against their regulation rows.
+// phare-make-lamps: writes the sample lamps and lamps.json, reads them back and checks them against their regulation
+// rows.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -29,13 +30,15 @@ int report(const std::string& lamp, const std::string& rule, const std::vector<R
   for (const RowResult& row : results) {
     if (!row.passed) ++failed;
     if (row.passed && !verbose) continue;
-    std::printf("%-16s %-28s %-22s %9.1f … %9.1f cd, allowed %.1f … %.5g  %s\n", lamp.c_str(), rule.c_str(), row.id.c_str(),
-                row.lowest_cd, row.highest_cd, row.min_cd, row.max_cd, row.passed ? "passed" : "FAILED");
+    std::printf("%-16s %-28s %-22s %9.1f … %9.1f cd, allowed %.1f … %.5g  %s\n", lamp.c_str(), rule.c_str(),
+                row.id.c_str(), row.lowest_cd, row.highest_cd, row.min_cd, row.max_cd,
+                row.passed ? "passed" : "FAILED");
   }
   return failed;
 }
 
-/// Sharpness and linearity of a passing beam's cut-off (UN R149: 0.13 ≤ G ≤ 0.40, spread at 1.5°, 2.5°, 3.5° at most 0.2°).
+/// Sharpness and linearity of a passing beam's cut-off (UN R149: 0.13 ≤ G ≤ 0.40, spread at 1.5°, 2.5°, 3.5° at most
+/// 0.2°).
 int check_cutoff(const SampleLamp& lamp, const IntensityTable& table, const glm::dmat3& aim, nlohmann::json& entry) {
   const double side = lamp.kind == SampleKind::kLowLeft ? 1.0 : -1.0;
   double low = 90.0, high = -90.0;
@@ -49,8 +52,8 @@ int check_cutoff(const SampleLamp& lamp, const IntensityTable& table, const glm:
   entry["cutoff_elevation_deg"] = cutoff.elevation_deg;
   const bool passed = cutoff.sharpness_g >= 0.13 && cutoff.sharpness_g <= 0.40 && high - low <= 0.2 &&
                       std::abs(cutoff.elevation_deg + 0.57) <= 0.05;
-  std::printf("%-16s cut-off at %.2f deg, spread %.2f deg, G = %.3f  %s\n", lamp.file.c_str(), cutoff.elevation_deg, high - low,
-              cutoff.sharpness_g, passed ? "passed" : "FAILED");
+  std::printf("%-16s cut-off at %.2f deg, spread %.2f deg, G = %.3f  %s\n", lamp.file.c_str(), cutoff.elevation_deg,
+              high - low, cutoff.sharpness_g, passed ? "passed" : "FAILED");
   return passed ? 0 : 1;
 }
 
@@ -61,6 +64,7 @@ int make(const std::filesystem::path& out, bool verbose) {
     std::fprintf(stderr, "%s: %s\n", out.c_str(), code.message().c_str());
     return kExitBadInput;
   }
+  std::filesystem::remove(out / "lamps.json", code);
   int failed = 0;
   nlohmann::json list = nlohmann::json::array();
   for (const SampleLamp& lamp : sample_lamps()) {
@@ -71,11 +75,13 @@ int make(const std::filesystem::path& out, bool verbose) {
       return kExitCheckFailed;
     }
     const IntensityTable& table = *read;
-    if (table.candela != lamp.table.candela || table.first_deg != lamp.table.first_deg || table.second_deg != lamp.table.second_deg) {
+    if (table.candela != lamp.table.candela || table.first_deg != lamp.table.first_deg ||
+        table.second_deg != lamp.table.second_deg) {
       std::printf("%-16s what was read back differs from what was written  FAILED\n", lamp.file.c_str());
       ++failed;
     }
-    const std::size_t at = static_cast<std::size_t>(std::max_element(table.candela.begin(), table.candela.end()) - table.candela.begin());
+    const std::size_t at =
+        static_cast<std::size_t>(std::max_element(table.candela.begin(), table.candela.end()) - table.candela.begin());
     nlohmann::json entry{{"file", lamp.file},
                          {"description", lamp.description},
                          {"peak_cd", table.peak_cd()},
@@ -100,17 +106,20 @@ int make(const std::filesystem::path& out, bool verbose) {
       case SampleKind::kHigh:
         entry["function"] = "high";
         for (const auto& [mounted, aim] : {std::pair{"level", glm::dmat3{1.0}}, {"1 % down", down}}) {
-          failed += report(lamp.file, std::string("R149 class B, ") + mounted, check_rows(table, aim, r149_driving_class_b()), verbose);
-          failed += report(lamp.file, std::string("R149 class A, ") + mounted, check_rows(table, aim, r149_driving_class_a()), verbose);
-          failed += report(lamp.file, std::string("FMVSS UB2, ") + mounted, check_rows(table, aim, fmvss108_upper_ub2()), verbose);
+          failed += report(lamp.file, std::string("R149 class B, ") + mounted,
+                           check_rows(table, aim, r149_driving_class_b()), verbose);
+          failed += report(lamp.file, std::string("R149 class A, ") + mounted,
+                           check_rows(table, aim, r149_driving_class_a()), verbose);
+          failed += report(lamp.file, std::string("FMVSS UB2, ") + mounted,
+                           check_rows(table, aim, fmvss108_upper_ub2()), verbose);
         }
         break;
       case SampleKind::kFog:
         entry["function"] = "fog";
         break;
     }
-    std::printf("%-16s %6.0f cd at %+.2f, %+.2f deg, %6.1f lm\n", lamp.file.c_str(), table.peak_cd(), entry["peak_h_deg"].get<double>(),
-                entry["peak_v_deg"].get<double>(), table.flux_lm());
+    std::printf("%-16s %6.0f cd at %+.2f, %+.2f deg, %6.1f lm\n", lamp.file.c_str(), table.peak_cd(),
+                entry["peak_h_deg"].get<double>(), entry["peak_v_deg"].get<double>(), table.flux_lm());
     list.push_back(std::move(entry));
   }
   if (failed > 0) {
@@ -126,7 +135,8 @@ int make(const std::filesystem::path& out, bool verbose) {
 }  // namespace phare
 
 int main(int argc, char** argv) {
-  CLI::App app{"Makes the sample lamps (LM-63-2019 type A) and checks them.\nExample: phare-make-lamps --out generated/lamps"};
+  CLI::App app{
+      "Makes the sample lamps (LM-63-2019 type A) and checks them.\nExample: phare-make-lamps --out generated/lamps"};
   std::string out;
   bool verbose = false;
   app.add_option("--out", out, "folder to write into")->required();

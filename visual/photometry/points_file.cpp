@@ -53,8 +53,9 @@ Result<double> number(std::string_view field, const std::string& place, std::str
 
 /// Reads a CSV file and hands each row's line and the numbers of `columns` to `row`. Returns the header line.
 template <std::size_t n>
-Result<std::string> read_rows(const std::filesystem::path& path, const std::array<const char*, n>& columns, const char* taken_prefix,
-                              const std::function<Status(const std::string&, std::size_t, const std::array<double, n>&)>& row) {
+Result<std::string> read_rows(
+    const std::filesystem::path& path, const std::array<const char*, n>& columns, const char* taken_prefix,
+    const std::function<Status(const std::string&, std::size_t, const std::array<double, n>&)>& row) {
   const std::string name = path.string();
   std::ifstream stream(path, std::ios::binary);
   std::error_code code;
@@ -91,7 +92,8 @@ Result<std::string> read_rows(const std::filesystem::path& path, const std::arra
       continue;
     }
     if (fields.size() != column_count) {
-      return Error{place, "expected " + std::to_string(column_count) + " columns, got " + std::to_string(fields.size())};
+      return Error{place,
+                   "expected " + std::to_string(column_count) + " columns, got " + std::to_string(fields.size())};
     }
     std::array<double, n> values{};
     for (std::size_t k = 0; k < n; ++k) {
@@ -102,7 +104,8 @@ Result<std::string> read_rows(const std::filesystem::path& path, const std::arra
     if (const auto taken = row(line, line_number, values); !taken) return taken.error();
   }
   if (stream.bad()) return Error{name, "cannot be read to its end"};
-  if (header.empty()) return Error{name, "is empty: expected a header line with " + std::string(columns.front()) + " …"};
+  if (header.empty())
+    return Error{name, "is empty: expected a header line with " + std::string(columns.front()) + " …"};
   return header;
 }
 
@@ -136,22 +139,25 @@ Status write_whole(const std::filesystem::path& path, const std::string& content
 Result<PointsFile> read_points(const std::filesystem::path& path) {
   PointsFile points;
   const std::array<const char*, 6> columns{"x_m", "y_m", "z_m", "nx", "ny", "nz"};
-  auto header = read_rows<6>(path, columns, "illuminance_lx",
-                             [&](const std::string& line, std::size_t line_number, const std::array<double, 6>& v) -> Status {
-    PointRow row{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, line, line_number};
-    // Scaled first, so that no length over- or underflows on the way.
-    const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
-    if (!(largest > 0.0)) return Error{path.string() + ":" + std::to_string(line_number), "the normal nx, ny, nz is zero"};
-    row.normal = glm::normalize(row.normal / largest);
-    points.rows.push_back(std::move(row));
-    return Done{};
-  });
+  auto header =
+      read_rows<6>(path, columns, "illuminance_lx",
+                   [&](const std::string& line, std::size_t line_number, const std::array<double, 6>& v) -> Status {
+                     PointRow row{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, line, line_number};
+                     // Scaled first, so that no length over- or underflows on the way.
+                     const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
+                     if (!(largest > 0.0))
+                       return Error{path.string() + ":" + std::to_string(line_number), "the normal nx, ny, nz is zero"};
+                     row.normal = glm::normalize(row.normal / largest);
+                     points.rows.push_back(std::move(row));
+                     return Done{};
+                   });
   if (!header) return header.error();
   points.header = std::move(*header);
   return points;
 }
 
-Status write_illuminance(const std::filesystem::path& path, const PointsFile& points, std::span<const Illuminance> illuminance) {
+Status write_illuminance(const std::filesystem::path& path, const PointsFile& points,
+                         std::span<const Illuminance> illuminance) {
   assert(illuminance.size() == points.rows.size());
   const std::size_t lamps = illuminance.empty() ? 0 : illuminance.front().lamps_lx.size();
   std::string content = points.header + ",illuminance_lx";
@@ -170,9 +176,9 @@ Result<AnglesFile> read_angles(const std::filesystem::path& path) {
   const std::array<const char*, 2> columns{"h_deg", "v_deg"};
   auto header = read_rows<2>(path, columns, "intensity_cd",
                              [&](const std::string& line, std::size_t, const std::array<double, 2>& v) -> Status {
-    angles.rows.push_back({{v[0], v[1]}, line});
-    return Done{};
-  });
+                               angles.rows.push_back({{v[0], v[1]}, line});
+                               return Done{};
+                             });
   if (!header) return header.error();
   angles.header = std::move(*header);
   return angles;
@@ -180,7 +186,8 @@ Result<AnglesFile> read_angles(const std::filesystem::path& path) {
 
 Status write_intensity(const std::filesystem::path& path, const AnglesFile& angles, const IntensityTable& table) {
   std::string content = angles.header + ",intensity_cd\n";
-  for (const AngleRow& row : angles.rows) content += row.text + "," + digits_17(table.intensity_at_cd(row.angles)) + '\n';
+  for (const AngleRow& row : angles.rows)
+    content += row.text + "," + digits_17(table.intensity_at_cd(row.angles)) + '\n';
   return write_whole(path, content);
 }
 

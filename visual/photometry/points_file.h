@@ -15,9 +15,9 @@ namespace phare {
 
 /// One line of a points file.
 struct PointRow {
-  glm::dvec3 position_m{0.0};          ///< world
-  glm::dvec3 normal{0.0, 0.0, 1.0};    ///< unit length (the file's may have any length but 0)
-  std::string text;                    ///< the line as it stands, further columns included
+  glm::dvec3 position_m{0.0};        ///< world
+  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit length (the file's may have any length but 0)
+  std::string text;                  ///< the line as it stands, further columns included
   std::size_t line = 0;
 };
 
@@ -26,12 +26,14 @@ struct PointsFile {
   std::vector<PointRow> rows;
 };
 
-/// Reads columns x_m,y_m,z_m,nx,ny,nz, in any order, among any others. Blank lines and lines that begin with # are skipped.
+/// Reads columns x_m,y_m,z_m,nx,ny,nz, in any order, among any others. Blank lines and lines that begin with # are
+/// skipped.
 Result<PointsFile> read_points(const std::filesystem::path& path);
 
-/// Writes the input's columns and illuminance_lx, illuminance_lx_1 … _n, with 17 significant digits. The file appears whole
-/// or not at all. `illuminance` belongs to `points.rows`, row by row, all with the same number of lamps.
-Status write_illuminance(const std::filesystem::path& path, const PointsFile& points, std::span<const Illuminance> illuminance);
+/// Writes the input's columns and illuminance_lx, illuminance_lx_1 … _n, with 17 significant digits. The file appears
+/// whole or not at all. `illuminance` belongs to `points.rows`, row by row, all with the same number of lamps.
+Status write_illuminance(const std::filesystem::path& path, const PointsFile& points,
+                         std::span<const Illuminance> illuminance);
 
 /// One line of an angles file: columns h_deg,v_deg, the table's own two angles (for type C: C and gamma).
 struct AngleRow {

@@ -1,15 +1,15 @@
 // Rows of UN R149 01 series and FMVSS 108, and their check.
-// Source: UN R149 01 series as transcribed in the project's field notes §5.3 (ECE/TRANS/WP.29/2022/93 Tables 5 and 6 with
-// Supplements 1 to 7; one transcription, not re-read in the UN text) and 49 CFR 571.108 Table XVIII.
-// Leaves out: the receiver's 65 mm square at 25 m (0.149°), re-aim tolerances, gradients beyond G.
-// Checked by tests/photometry/sample_lamps_test.cpp, which compares the rows with the regulation data set.
+// Source: UN R149 01 series as transcribed in the project's field notes §5.3 (ECE/TRANS/WP.29/2022/93 Tables 5 and 6
+// with Supplements 1 to 7; one transcription, not re-read in the UN text) and 49 CFR 571.108 Table XVIII. Leaves out:
+// the receiver's 65 mm square at 25 m (0.149°), re-aim tolerances, gradients beyond G. Checked by
+// tests/photometry/sample_lamps_test.cpp, which compares the rows with the regulation data set.
 #include "visual/photometry/regulation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <glm/trigonometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace phare {
 namespace {
@@ -42,7 +42,8 @@ std::vector<RegulationRow> driving(double peak_min, double up_2, double h_3, dou
 }
 
 void along(HV from, HV to, const std::function<void(HV)>& visit) {
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::hypot(to.h_deg - from.h_deg, to.v_deg - from.v_deg) / kSample_deg)));
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(std::hypot(to.h_deg - from.h_deg, to.v_deg - from.v_deg) / kSample_deg)));
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
     visit({from.h_deg + t * (to.h_deg - from.h_deg), from.v_deg + t * (to.v_deg - from.v_deg)});
@@ -66,7 +67,8 @@ void over_area(HV low, HV high, const std::function<void(HV)>& visit) {
   const int rows = static_cast<int>(std::ceil((high.v_deg - low.v_deg) / kSample_deg));
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
-      visit({low.h_deg + (high.h_deg - low.h_deg) * i / std::max(columns, 1), low.v_deg + (high.v_deg - low.v_deg) * j / std::max(rows, 1)});
+      visit({low.h_deg + (high.h_deg - low.h_deg) * i / std::max(columns, 1),
+             low.v_deg + (high.v_deg - low.v_deg) * j / std::max(rows, 1)});
     }
   }
 }
@@ -117,7 +119,11 @@ std::span<const RegulationRow> r149_passing_class_c() {
        .max_cd = 625.0,
        .reference = {}},
       most("BR", {{2.5, 1.0}}, 1750.0),
-      {.id = "Segment BLL", .shape = RowShape::kLine, .at = {{-20, 0.57}, {-8, 0.57}}, .max_cd = 625.0, .reference = {}},
+      {.id = "Segment BLL",
+       .shape = RowShape::kLine,
+       .at = {{-20, 0.57}, {-8, 0.57}},
+       .max_cd = 625.0,
+       .reference = {}},
       most("B50L", {{-3.43, 0.57}}, 350.0),
       least("75R", {{1.15, -0.57}}, 12100.0),
       least("P", {{-7.0, 0.0}}, 63.0),
@@ -174,8 +180,8 @@ std::span<const RegulationRow> fmvss108_upper_ub2() {
   return rows;
 }
 
-std::vector<RowResult> check_rows(const IntensityTable& table, const glm::dmat3& car_from_lamp, std::span<const RegulationRow> rows,
-                                  bool mirrored) {
+std::vector<RowResult> check_rows(const IntensityTable& table, const glm::dmat3& car_from_lamp,
+                                  std::span<const RegulationRow> rows, bool mirrored) {
   const double peak_cd = table.peak_cd();
   const auto intensity_cd = [&](HV p) {
     return intensity_mounted_cd(table, car_from_lamp, {mirrored ? -p.h_deg : p.h_deg, p.v_deg});
@@ -204,7 +210,8 @@ std::vector<RowResult> check_rows(const IntensityTable& table, const glm::dmat3&
   return results;
 }
 
-Cutoff find_cutoff(const IntensityTable& table, const glm::dmat3& car_from_lamp, double h_deg, double from_v_deg, double to_v_deg) {
+Cutoff find_cutoff(const IntensityTable& table, const glm::dmat3& car_from_lamp, double h_deg, double from_v_deg,
+                   double to_v_deg) {
   Cutoff best;
   const int steps = static_cast<int>(std::lround((to_v_deg - from_v_deg) / 0.05));
   const auto log_e = [&](int i) {

@@ -1,5 +1,5 @@
-// Test points of the headlamp rules, and their check on a table. Directions are the rule's: azimuth H right positive and
-// elevation V up positive, degrees, from the lamp as mounted.
+// Test points of the headlamp rules, and their check on a table. Directions are the rule's: azimuth H right positive
+// and elevation V up positive, degrees, from the lamp as mounted.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -11,7 +11,8 @@
 
 namespace phare {
 
-/// Where a row applies. kLine and kPolygon use the points as corners; kBelow: V at most that of the two points, H between them.
+/// Where a row applies. kLine and kPolygon use the points as corners; kBelow: V at most that of the two points, H
+/// between them.
 enum class RowShape { kPoints, kLine, kPolygon, kBelow, kSum, kPeak };
 
 struct HV {
@@ -28,8 +29,8 @@ struct RegulationRow {
   std::vector<HV> at;
   double min_cd = kNoMinimum;
   double max_cd = kNoMaximum;
-  double min_of_peak_01 = 0.0;   ///< at least this share of the table's highest intensity
-  double max_of_first = 0.0;     ///< at most this factor times the intensity at `reference`; 0 = no such limit
+  double min_of_peak_01 = 0.0;  ///< at least this share of the table's highest intensity
+  double max_of_first = 0.0;    ///< at most this factor times the intensity at `reference`; 0 = no such limit
   HV reference;
 };
 
@@ -43,16 +44,17 @@ std::span<const RegulationRow> fmvss108_upper_ub2();
 
 struct RowResult {
   std::string id;
-  double lowest_cd = 0.0;   ///< over the row's points; of a sum, the sum
+  double lowest_cd = 0.0;  ///< over the row's points; of a sum, the sum
   double highest_cd = 0.0;
   double min_cd = kNoMinimum;
   double max_cd = kNoMaximum;
   bool passed = false;
 };
 
-/// Evaluates rows on a table mounted by `car_from_lamp`. Lines and areas are sampled every 0.05°. `mirrored`: left-hand traffic.
-std::vector<RowResult> check_rows(const IntensityTable& table, const glm::dmat3& car_from_lamp, std::span<const RegulationRow> rows,
-                                  bool mirrored = false);
+/// Evaluates rows on a table mounted by `car_from_lamp`. Lines and areas are sampled every 0.05°. `mirrored`: left-hand
+/// traffic.
+std::vector<RowResult> check_rows(const IntensityTable& table, const glm::dmat3& car_from_lamp,
+                                  std::span<const RegulationRow> rows, bool mirrored = false);
 
 /// The cut-off on a vertical scan at `h_deg`: G = max of log10 E(b) - log10 E(b + 0.1°) in steps of 0.05°, and the
 /// elevation b + 0.05° in the middle of the steepest 0.1° (UN R149 §4.13.2, annex on cut-off quality).

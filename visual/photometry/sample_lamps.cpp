@@ -1,9 +1,10 @@
-// Sample headlamps from formulas. Computes: a sum of bells B below the cut-off and stray light F above it, joined along the
-// cut-off line in log I, I = F·(1 + B/F)^S with S a logistic step: so the steepest place of log I, by which cut-offs are aimed
-// and judged, lies on the line, and the sharpness G is log10(1 + B/F)·0.1°/(4·s) there.
-// Source: chosen by hand so that every row of UN R149 01 series class C (passing) and class B (driving) and FMVSS 108 UB2 holds
+// Sample headlamps from formulas. Computes: a sum of bells B below the cut-off and stray light F above it, joined along
+// the cut-off line in log I, I = F·(1 + B/F)^S with S a logistic step: so the steepest place of log I, by which
+// cut-offs are aimed and judged, lies on the line, and the sharpness G is log10(1 + B/F)·0.1°/(4·s) there. Source:
+// chosen by hand so that every row of UN R149 01 series class C (passing) and class B (driving) and FMVSS 108 UB2 holds
 // and the beam looks like one on a 25 m wall and on the road; nothing measured. Frame: LM-63 type A, H right, V up.
-// Leaves out: colour fringes, LED pixels, facets. Checked by tests/photometry/sample_lamps_test.cpp and by the program itself.
+// Leaves out: colour fringes, LED pixels, facets. Checked by tests/photometry/sample_lamps_test.cpp and by the program
+// itself.
 #include "visual/photometry/sample_lamps.h"
 
 #include <algorithm>
@@ -31,7 +32,9 @@ double sum_at(const std::vector<Bell>& bells, double h, double v) {
   return sum;
 }
 
-double radians(double deg) { return deg * std::numbers::pi / 180.0; }
+double radians(double deg) {
+  return deg * std::numbers::pi / 180.0;
+}
 
 /// The housing: nothing goes sideways or back.
 double window(double h, double v) {
@@ -41,13 +44,14 @@ double window(double h, double v) {
 
 struct BeamFormula {
   std::vector<Bell> beam;
-  std::vector<Bell> stray;       ///< empty: no cut-off
-  double step_deg = 0.0;         ///< s of the logistic step
-  double kink_deg = 0.0;         ///< rounding of the kink
-  double rise = 0.0;             ///< slope of the cut-off right of the kink
+  std::vector<Bell> stray;  ///< empty: no cut-off
+  double step_deg = 0.0;    ///< s of the logistic step
+  double kink_deg = 0.0;    ///< rounding of the kink
+  double rise = 0.0;        ///< slope of the cut-off right of the kink
 };
 
-/// Elevation of the cut-off: flat on the left, rising on the right to a shoulder near 7° right that sinks again outward.
+/// Elevation of the cut-off: flat on the left, rising on the right to a shoulder near 7° right that sinks again
+/// outward.
 double cutoff_deg(const BeamFormula& f, double h) {
   const double right = 0.5 * (h + std::hypot(h, f.kink_deg));
   return f.rise * right / (std::pow(1.0 + std::pow(right / 6.0, 6.0), 1.0 / 6.0) * (1.0 + std::pow(right / 16.0, 4.0)));
@@ -100,9 +104,12 @@ double rounded(double cd) {
 
 IntensityTable sample(const BeamFormula& f) {
   // 0.05° where the kink and the cut-off are; 0.2° across where the 15° line runs, so that it climbs 0.05° per column.
-  const std::vector<int> h = outward({{500, 50}, {3000, 100}, {10000, 200}, {16000, 500}, {30000, 1000}, {60000, 2500}, {90000, 5000}});
-  const std::vector<int> down = outward({{1000, 50}, {3000, 100}, {6000, 250}, {10000, 500}, {20000, 1000}, {45000, 2500}, {90000, 5000}});
-  const std::vector<int> up = outward({{2000, 50}, {4000, 100}, {6000, 250}, {10000, 500}, {20000, 1000}, {45000, 2500}, {90000, 5000}});
+  const std::vector<int> h =
+      outward({{500, 50}, {3000, 100}, {10000, 200}, {16000, 500}, {30000, 1000}, {60000, 2500}, {90000, 5000}});
+  const std::vector<int> down =
+      outward({{1000, 50}, {3000, 100}, {6000, 250}, {10000, 500}, {20000, 1000}, {45000, 2500}, {90000, 5000}});
+  const std::vector<int> up =
+      outward({{2000, 50}, {4000, 100}, {6000, 250}, {10000, 500}, {20000, 1000}, {45000, 2500}, {90000, 5000}});
   IntensityTable table;
   table.version = "IES:LM-63-2019";
   table.first_deg = both_sides(h, h);
@@ -190,11 +197,15 @@ std::vector<std::string> words_of(const std::vector<double>& values) {
 
 }  // namespace
 
-double sample_pitch_rad() { return -std::atan(0.01); }
+double sample_pitch_rad() {
+  return -std::atan(0.01);
+}
 
 std::vector<SampleLamp> sample_lamps() {
-  const std::string passing = "Kink of the cut-off at H=V=0 of this file: mount it 1 % (0.573 deg) down, pitch_deg = -0.5729386976834859";
-  const std::string driving = "Peak at H=V=0 of this file; passes its rows mounted level and with the passing beam's pitch of -1 %";
+  const std::string passing =
+      "Kink of the cut-off at H=V=0 of this file: mount it 1 % (0.573 deg) down, pitch_deg = -0.5729386976834859";
+  const std::string driving =
+      "Peak at H=V=0 of this file; passes its rows mounted level and with the passing beam's pitch of -1 %";
   std::vector<SampleLamp> lamps;
   const auto add = [&](const char* file, SampleKind kind, std::string description, IntensityTable table) {
     table.name = file;
@@ -203,21 +214,29 @@ std::vector<SampleLamp> sample_lamps() {
   const IntensityTable low = sample(halogen_low());
   const IntensityTable led = sample(led_low());
   add("low_rht.ies", SampleKind::kLowRight, "Passing beam, right-hand traffic, UN R149 class C. " + passing, low);
-  add("low_lht.ies", SampleKind::kLowLeft, "Passing beam, left-hand traffic, mirror image of low_rht.ies. " + passing, mirrored(low));
-  add("high.ies", SampleKind::kHigh, "Driving beam, UN R149 class B and FMVSS 108 UB2. " + driving, sample(halogen_high()));
+  add("low_lht.ies", SampleKind::kLowLeft, "Passing beam, left-hand traffic, mirror image of low_rht.ies. " + passing,
+      mirrored(low));
+  add("high.ies", SampleKind::kHigh, "Driving beam, UN R149 class B and FMVSS 108 UB2. " + driving,
+      sample(halogen_high()));
   add("fog.ies", SampleKind::kFog,
-      "Front fog beam, flat wide cut-off like UN R19 class F3 (its rows are not checked). Cut-off at V=0 of this file: mount it 1 % down or lower",
+      "Front fog beam, flat wide cut-off like UN R19 class F3 (its rows are not checked). Cut-off at V=0 of this file: "
+      "mount it 1 % down or lower",
       sample(fog_formula()));
-  add("led_low_rht.ies", SampleKind::kLowRight, "LED passing beam, right-hand traffic, UN R149 class C, sharper and wider. " + passing, led);
-  add("led_low_lht.ies", SampleKind::kLowLeft, "LED passing beam, left-hand traffic, mirror image of led_low_rht.ies. " + passing, mirrored(led));
-  add("led_high.ies", SampleKind::kHigh, "LED driving beam, UN R149 class B and FMVSS 108 UB2, wider. " + driving, sample(led_high()));
+  add("led_low_rht.ies", SampleKind::kLowRight,
+      "LED passing beam, right-hand traffic, UN R149 class C, sharper and wider. " + passing, led);
+  add("led_low_lht.ies", SampleKind::kLowLeft,
+      "LED passing beam, left-hand traffic, mirror image of led_low_rht.ies. " + passing, mirrored(led));
+  add("led_high.ies", SampleKind::kHigh, "LED driving beam, UN R149 class B and FMVSS 108 UB2, wider. " + driving,
+      sample(led_high()));
   return lamps;
 }
 
 std::string lm63_text(const SampleLamp& lamp) {
   const IntensityTable& table = lamp.table;
   char line[160];
-  std::string text = "IES:LM-63-2019\n[TEST] SYNTHETIC\n[TESTLAB] none: computed from formulas by phare-make-lamps\n[ISSUEDATE] 01-JAN-2025\n[MANUFAC] Phare\n";
+  std::string text =
+      "IES:LM-63-2019\n[TEST] SYNTHETIC\n[TESTLAB] none: computed from formulas by phare-make-lamps\n[ISSUEDATE] "
+      "01-JAN-2025\n[MANUFAC] Phare\n";
   text += "[LUMCAT] " + lamp.file.substr(0, lamp.file.size() - 4) + "\n[LUMINAIRE] sample headlamp, no product\n";
   // Keyword lines hold at most 256 characters (LM-63-19 §5.2); sentences are short enough for one line each.
   std::size_t begin = 0;
@@ -226,17 +245,20 @@ std::string lm63_text(const SampleLamp& lamp) {
     text += std::string(more ? "[MORE] " : "[OTHER] ") + lamp.description.substr(begin, end - begin) + "\n";
     begin = end + 2;
   }
-  std::snprintf(line, sizeof line, "[OTHER] Flux %.1f lm (integral of this table), peak %.0f cd\n", table.flux_lm(), table.peak_cd());
+  std::snprintf(line, sizeof line, "[OTHER] Flux %.1f lm (integral of this table), peak %.0f cd\n", table.flux_lm(),
+                table.peak_cd());
   text += line;
   text += "TILT=NONE\n";
   // One lamp, absolute photometry (-1 lm), type A (3), metres (2), a point; 1.00010: computed, not measured.
-  std::snprintf(line, sizeof line, "1 -1 1 %zu %zu 3 2 0 0 0\n1 1.00010 0\n", table.second_deg.size(), table.first_deg.size());
+  std::snprintf(line, sizeof line, "1 -1 1 %zu %zu 3 2 0 0 0\n1 1.00010 0\n", table.second_deg.size(),
+                table.first_deg.size());
   text += line;
   append_wrapped(text, words_of(table.second_deg));
   append_wrapped(text, words_of(table.first_deg));
   for (std::size_t i = 0; i < table.first_deg.size(); ++i) {
     std::vector<std::string> column;
-    for (std::size_t j = 0; j < table.second_deg.size(); ++j) column.push_back(candela_text(table.candela[j * table.first_deg.size() + i]));
+    for (std::size_t j = 0; j < table.second_deg.size(); ++j)
+      column.push_back(candela_text(table.candela[j * table.first_deg.size() + i]));
     append_wrapped(text, column);
   }
   return text;

@@ -1,6 +1,7 @@
-// Our own sample headlamps: smooth formulas with the shape and levels of real beams, sampled to LM-63-2019 type A tables.
-// They are no product of anyone. Passing beams have the kink of their cut-off at H = V = 0 of the file, as lamps lie on a
-// goniometer aimed by their cut-off: mount them 0.57° (1 %) down. Driving beams have their peak at HV of the file.
+// Our own sample headlamps: smooth formulas with the shape and levels of real beams, sampled to LM-63-2019 type A
+// tables. They are no product of anyone. Passing beams have the kink of their cut-off at H = V = 0 of the file, as
+// lamps lie on a goniometer aimed by their cut-off: mount them 0.57° (1 %) down. Driving beams have their peak at HV of
+// the file.
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@ namespace phare {
 enum class SampleKind { kLowRight, kLowLeft, kHigh, kFog };
 
 struct SampleLamp {
-  std::string file;         ///< "low_rht.ies"
+  std::string file;  ///< "low_rht.ies"
   SampleKind kind = SampleKind::kLowRight;
   std::string description;  ///< one line, for the file's keywords
   IntensityTable table;     ///< as rounded in the file

@@ -18,14 +18,6 @@ void tell(const Status& status) {
   if (!status) spdlog::error("{}", status.error().text());
 }
 
-/// The middle rows that show kBirdsEyeWidth_m of a map kBirdsEyeLength_m wide.
-Image8 cut_to_map(const Image8& map) {
-  const int height_px = std::min(map.height_px, static_cast<int>(map.width_px * kBirdsEyeWidth_m / kBirdsEyeLength_m));
-  const auto row_bytes = static_cast<std::ptrdiff_t>(map.width_px) * 4;
-  const auto from = map.rgba.begin() + row_bytes * ((map.height_px - height_px) / 2);
-  return {map.width_px, height_px, {from, from + row_bytes * height_px}};
-}
-
 }  // namespace
 
 Result<Album> Album::open(const std::filesystem::path& folder) {
@@ -61,14 +53,13 @@ void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleStat
 
   FrameInput above = driver;
   above.camera = birds_eye_camera(pose);
-  above.view = View::kFalseColour;
+  above.want_hdr = true;  // its alpha is the illuminance
   renderer.resize(1200, 480);
   renderer.draw(above);
-  save("birds_eye.png", birds_eye_picture(cut_to_map(renderer.read_image()), "Illuminance on the ground from above, lux; " + label));
+  save("birds_eye.png", birds_eye_picture(renderer.read_hdr(), "Illuminance on what lies below, lux; " + label));
 
   renderer.resize(width_px, height_px);
   driver.want_hdr = true;
-  driver.want_image = false;
   renderer.draw(driver);
   tell(write_exr(folder_ / "hdr.exr", renderer.read_hdr()));
 

@@ -68,9 +68,7 @@ Result<Lamps> Lamps::load(const Rig& rig) {
 std::vector<Lamps::Change> Lamps::set_controls(const CockpitState& controls) {
   design_ = std::min<std::size_t>(controls.design_index, designs_.size() - 1);
   lit_ = lit_functions(controls, high_keeps_low_);
-  lit_text_.clear();
-  for (const LampFunction function : lit_) lit_text_ += (lit_text_.empty() ? "" : " ") + std::string(name_of(function));
-  if (lit_.empty()) lit_text_ = "off";
+  lit_text_ = text_of_lit();
 
   std::vector<Change> changes;
   for (std::size_t position = 0; position < designs_[design_].lamps.size(); ++position) {
@@ -114,6 +112,18 @@ double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunct
     }
   }
   return total_lx;
+}
+
+/// Only functions that a lamp of the design has.
+std::string Lamps::text_of_lit() const {
+  std::string text;
+  for (const LampFunction function : lit_) {
+    const bool present = std::ranges::any_of(designs_[design_].lamps, [&](const LampConfig& lamp) {
+      return std::ranges::any_of(lamp.sources, [&](const SourceConfig& source) { return source.function == function; });
+    });
+    if (present) text += (text.empty() ? "" : " ") + std::string(name_of(function));
+  }
+  return text.empty() ? "off" : text;
 }
 
 std::uint64_t Lamps::resampled_images() const {

@@ -65,6 +65,7 @@ class Lamps {
 
  private:
   using SourceMask = std::uint64_t;
+  std::string text_of_lit() const;
   SourceMask lit_mask(const LampConfig& lamp, const std::set<LampFunction>& lit) const;
   const BeamImage& image_of(std::size_t design, std::size_t position, SourceMask mask);
   AimedSource aimed(const SourceConfig& source) const;

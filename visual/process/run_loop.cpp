@@ -32,6 +32,7 @@ class Loop {
   explicit Loop(Session& session) : s_(session), pacer_(std::chrono::nanoseconds(1'000'000'000 / session.rig.frame_rate_hz)) {
     s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
     controls_.light_switch = LightSwitch::kLow;  // until the cockpit speaks, low beam: the safe state
+    warm_up();
     announce();
   }
 
@@ -47,6 +48,7 @@ class Loop {
  private:
   void take(const Datagram& datagram);
   void answer(const ProbeRequest& request, SimTime now);
+  void warm_up();
   void announce();
   void repeat_when_stalled();
   std::optional<Moment> lockstep_moment();
@@ -109,6 +111,17 @@ void Loop::answer(const ProbeRequest& request, SimTime now) {
     }
   }
   s_.bus.send(now, reply);
+}
+
+/// The first picture of a device makes its machine code, which may take seconds: before the drive, not in it.
+void Loop::warm_up() {
+  const VehicleState pose;
+  for (const Lamps::Change& change : s_.lamps.set_controls(controls_)) s_.renderer.set_beam(change.position, *change.image);
+  FrameInput input;
+  input.camera = driver_camera(s_.channel(), pose);
+  input.lamps = s_.lamps.placed(pose);
+  input.want_image = s_.album.wanted();
+  s_.renderer.draw(input);
 }
 
 /// "Up, and waiting for the first pose."

@@ -32,6 +32,25 @@ void draw_number(Image8& page, int x_px, int y_px, int value, bool centred) {
   draw_text(page, x_px - (centred ? width_px / 2 : width_px), y_px, text, kInk);
 }
 
+/// False colour of illuminance_lx(x, y) of each pixel, white where the isolux band changes from the left or from above.
+template <typename Illuminance>
+Image8 isolux_map(int width_px, int height_px, Illuminance illuminance_lx) {
+  Image8 map = blank_image(width_px, height_px, 0, 0, 0);
+  std::vector<int> above(static_cast<std::size_t>(width_px), -1);
+  for (int y = 0; y < height_px; ++y) {
+    int before = -1;
+    for (int x = 0; x < width_px; ++x) {
+      const double e_lx = illuminance_lx(x, y);
+      const int band = isolux_band(e_lx);
+      int& over = above[static_cast<std::size_t>(x)];
+      const bool line = (before >= 0 && band != before) || (over >= 0 && band != over);
+      fill_box(map, x, y, 1, 1, line ? Colour{255, 255, 255} : false_colour(e_lx));
+      before = over = band;
+    }
+  }
+  return map;
+}
+
 /// The middle of the positions that have a low beam.
 glm::dvec3 middle_of_low_beam(const DesignConfig& design) {
   glm::dvec3 sum{0.0};
@@ -57,21 +76,12 @@ Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
     const glm::dvec3 on_wall_m{kWall_m, -kWall_m * std::tan(h_rad), kWall_m / std::cos(h_rad) * std::tan(v_rad)};
     return lamps.illuminance_in_car_lx(design_index, {LampFunction::kLow}, {origin_m + on_wall_m, {-1.0, 0.0, 0.0}});
   };
-  Image8 map = blank_image(width_px, height_px, 0, 0, 0);
-  std::vector<int> above(static_cast<std::size_t>(width_px), 0);  // isolux bands of the row before
   double brightest_lx = 0.0;
-  for (int y = 0; y < height_px; ++y) {
-    int before = -1;
-    for (int x = 0; x < width_px; ++x) {
-      const double e_lx = illuminance_lx((x + 0.5) / kPxPerDeg - kHalfWidth_deg, kHalfHeight_deg - (y + 0.5) / kPxPerDeg);
-      brightest_lx = std::max(brightest_lx, e_lx);
-      const int band = isolux_band(e_lx);
-      const bool line = (before >= 0 && band != before) || (y > 0 && band != above[static_cast<std::size_t>(x)]);
-      fill_box(map, x, y, 1, 1, line ? Colour{255, 255, 255} : false_colour(e_lx));
-      before = band;
-      above[static_cast<std::size_t>(x)] = band;
-    }
-  }
+  Image8 map = isolux_map(width_px, height_px, [&](int x, int y) {
+    const double e_lx = illuminance_lx((x + 0.5) / kPxPerDeg - kHalfWidth_deg, kHalfHeight_deg - (y + 0.5) / kPxPerDeg);
+    brightest_lx = std::max(brightest_lx, e_lx);
+    return e_lx;
+  });
   for (int deg = -15; deg <= 15; deg += 5) {
     const int x = static_cast<int>((deg + kHalfWidth_deg) * kPxPerDeg);
     draw_line(map, x, 0, x, height_px - 1, deg == 0 ? kInk : kGrid);
@@ -92,7 +102,7 @@ Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
     draw_number(page, kMarginLeft_px - 6, kMarginTop_px + (8 - deg) * kPxPerDeg - text_height_px() / 2, deg, false);
   }
   draw_text(page, kMarginLeft_px + width_px / 2 - 60, kMarginTop_px + height_px + 18, "H, degrees to the right", kInk);
-  draw_text(page, 2, kMarginTop_px - 16, "V, deg", kInk);
+  draw_text(page, 2, 6, "V, deg", kInk);
   char title[160];
   std::snprintf(title, sizeof title, "Wall at 25 m, low beam of '%s', aimed as mounted; lux on the wall, brightest %.1f lx", design.name.c_str(), brightest_lx);
   draw_text(page, kMarginLeft_px + 50, 8, title, kInk);
@@ -100,7 +110,13 @@ Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
   return page;
 }
 
-Image8 birds_eye_picture(const Image8& map, const std::string& caption) {
+Image8 birds_eye_picture(const ImageF& seen, const std::string& caption) {
+  // The middle rows that show kBirdsEyeWidth_m: a window may be higher than the map.
+  const int map_height_px = std::min(seen.height_px, static_cast<int>(seen.width_px * kBirdsEyeWidth_m / kBirdsEyeLength_m));
+  const int first_row = (seen.height_px - map_height_px) / 2;
+  const Image8 map = isolux_map(seen.width_px, map_height_px, [&](int x, int y) {
+    return static_cast<double>(seen.rgba[(static_cast<std::size_t>(first_row + y) * static_cast<std::size_t>(seen.width_px) + static_cast<std::size_t>(x)) * 4 + 3]);
+  });
   const double px_per_m = map.width_px / kBirdsEyeLength_m;
   Image8 page = page_around(map.width_px, map.height_px);
   paste(page, map, kMarginLeft_px, kMarginTop_px);
@@ -116,7 +132,7 @@ Image8 birds_eye_picture(const Image8& map, const std::string& caption) {
     draw_number(page, kMarginLeft_px - 6, y - text_height_px() / 2, left_m, false);
   }
   draw_text(page, kMarginLeft_px + map.width_px / 2 - 110, kMarginTop_px + map.height_px + 19, "x, m ahead of the car's origin (rear axle)", kInk);
-  draw_text(page, 2, kMarginTop_px - 16, "y, m", kInk);
+  draw_text(page, 2, 6, "y, m", kInk);
   draw_text(page, kMarginLeft_px + 50, 8, caption, kInk);
   draw_lux_legend(page, kMarginLeft_px + map.width_px + 14, kMarginTop_px + 20, map.height_px - 20);
   return page;

@@ -10,7 +10,8 @@ namespace phare {
 /// of the wall at mounting height straight before the car, ±20° x ±8°. Float64 from the native tables on the CPU.
 Image8 wall_picture(const Lamps& lamps, std::size_t design);
 
-/// Puts axes in metres, legend and `caption` around a false-colour map of birds_eye_camera, 100 m x 40 m.
-Image8 birds_eye_picture(const Image8& map, const std::string& caption);
+/// Illuminance (alpha of `seen`, lx, seen by birds_eye_camera) in false colour with isolux lines, cut to 100 m x 40 m, with
+/// axes in metres, legend and `caption`.
+Image8 birds_eye_picture(const ImageF& seen, const std::string& caption);
 
 }  // namespace phare

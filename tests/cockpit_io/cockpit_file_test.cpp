@@ -1,0 +1,128 @@
+// The cockpit file, its mapping onto a DBC, and what is said when they do not fit.
+#include "config/cockpit.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "cockpit_io/signal_map.h"
+
+namespace phare {
+namespace {
+
+const std::filesystem::path kCockpits = PHARE_COCKPITS_DIR;
+
+std::string error_of(const std::string& text) {
+  const auto config = parse_cockpit(text, "c.toml");
+  return config.ok() ? "" : config.error().text();
+}
+
+std::string bind_error(const std::string& control) {
+  const auto config = parse_cockpit("[source]\nkind = \"can\"\ninterface = \"can0\"\n" + control, "c.toml");
+  if (!config.ok()) return config.error().text();
+  const auto map = SignalMap::bind(*config, *read_dbc(kCockpits / "phare_stalk.dbc"), 0);
+  return map.ok() ? "" : map.error().text();
+}
+
+TEST(CockpitFile, UnknownKeyNamesTheNearest) {
+  EXPECT_EQ(error_of("[source]\nkind = \"keyboard\"\ntimeout = 1\n"),
+            "c.toml:3: no key \"timeout\"; did you mean \"timeout_s\"? (in source)");
+  EXPECT_NE(error_of("[source]\nkind = \"log\"\n[control.flsh]\n").find("did you mean \"flash\"?"), std::string::npos);
+  EXPECT_NE(error_of("[source]\nkind = \"canbus\"\n"), "");
+  EXPECT_NE(error_of("[source]\nkind = \"can\"\n"), "") << "no interface";
+  EXPECT_NE(error_of("[source]\nkind = \"keyboard\"\ntimeout_s = -1\n"), "");
+  EXPECT_NE(error_of(""), "");
+}
+
+TEST(CockpitFile, TwoSignalsForOneControlAreAnError) {
+  const std::string levels =
+      "[source]\nkind = \"log\"\n[control.light_switch]\nmessage = \"M\"\nsignal = \"S\"\nlevels = { off = 0, low = 2, high = 3 }\n";
+  const auto flag = [](const std::string& name) { return "[control." + name + "]\nmessage = \"M\"\nsignal = \"T\"\n"; };
+  EXPECT_EQ(error_of(levels), "");
+  EXPECT_EQ(error_of(levels + flag("low")),
+            "c.toml:7: \"control.low\": two signals for one control: T here, and S of light_switch");
+  EXPECT_NE(error_of(levels + flag("high")).find("two signals for one control"), std::string::npos);
+  EXPECT_NE(error_of(levels + flag("flash") + flag("flash")), "");
+  EXPECT_NE(error_of("[source]\nkind = \"log\"\n[control.light_switch]\nmessage = \"M\"\nsignal = \"S\"\n"
+                     "levels = { off = 0, low = 0 }\n").find("another level"), std::string::npos);
+}
+
+TEST(CockpitFile, UnknownSignalAndMessageNameTheNearest) {
+  EXPECT_EQ(bind_error("[control.flash]\nmessage = \"BEAM_STALK\"\nsignal = \"FLASHH\"\n"),
+            "c.toml:6: no signal \"FLASHH\"; did you mean \"FLASH\"? (in message BEAM_STALK of phare_stalk.dbc)");
+  EXPECT_EQ(bind_error("[control.flash]\nmessage = \"BEAM_STOLK\"\nsignal = \"FLASH\"\n"),
+            "c.toml:5: no message \"BEAM_STOLK\" in phare_stalk.dbc; did you mean \"BEAM_STALK\"?");
+  EXPECT_EQ(bind_error("[control.flash]\nmessage = \"BEAM_STALK\"\nsignal = \"FLASH\"\n"), "");
+}
+
+TEST(CockpitFile, ADroppedSignalIsExplained) {
+  const auto config = parse_cockpit("[source]\nkind = \"log\"\n[control.flash]\nmessage = \"M\"\nsignal = \"WIDE\"\n", "c.toml");
+  ASSERT_TRUE(config.ok());
+  const auto dbc = parse_dbc("BO_ 1 M: 1 X\n SG_ WIDE : 4|8@1+ (1,0) [0|0] \"\" X\n", "m.dbc");
+  const auto map = SignalMap::bind(*config, *dbc, 0);
+  ASSERT_FALSE(map.ok());
+  EXPECT_NE(map.error().reason.find("m.dbc:2: does not fit its message"), std::string::npos) << map.error().reason;
+}
+
+TEST(CockpitFile, ShippedFilesAreGood) {
+  for (const char* name : {"keyboard.toml", "phare_stalk.toml", "toyota_rav4.toml"}) {
+    const auto config = read_cockpit(kCockpits / name);
+    ASSERT_TRUE(config.ok()) << config.error().text();
+  }
+  const auto config = read_cockpit(kCockpits / "phare_stalk.toml");
+  const auto dbc = read_dbc(config->dbc_file);
+  ASSERT_TRUE(dbc.ok()) << dbc.error().text();
+  EXPECT_TRUE(dbc->problems.empty());
+  const auto map = SignalMap::bind(*config, *dbc, 0);
+  ASSERT_TRUE(map.ok()) << map.error().text();
+  EXPECT_EQ(map->ids().size(), 3u);
+  const auto toyota_dbc = std::filesystem::path(PHARE_SHARED_DATA_DIR) / "dbc/opendbc/toyota_nodsu_pt_generated.dbc";
+  if (!std::filesystem::exists(toyota_dbc)) GTEST_SKIP() << "no " << toyota_dbc;
+  const auto toyota = SignalMap::bind(*read_cockpit(kCockpits / "toyota_rav4.toml"), *read_dbc(toyota_dbc), 0);
+  EXPECT_TRUE(toyota.ok()) << toyota.error().text();
+}
+
+TEST(SignalMap, ReadsOurOwnStalk) {
+  const auto config = read_cockpit(kCockpits / "phare_stalk.toml");
+  const Dbc dbc = *read_dbc(config->dbc_file);
+  SignalMap map = *SignalMap::bind(*config, dbc, 0);
+  DriverInput input;
+
+  const DbcMessage& stalk = *dbc.find("BEAM_STALK");
+  CanFrame frame = empty_frame(stalk);
+  ASSERT_TRUE(encode(stalk, *stalk.find("BEAM_SWITCH"), 3, frame));
+  ASSERT_TRUE(encode(stalk, *stalk.find("FLASH"), 1, frame));
+  ASSERT_TRUE(encode(stalk, *stalk.find("DESIGN_DOWN"), 1, frame));
+  ASSERT_TRUE(encode(stalk, *stalk.find("IGNITION"), 1, frame));
+  EXPECT_EQ(frame.data[0], 0x87);  // as in the comment of phare_stalk.toml, with design down
+  EXPECT_EQ(map.take(frame, 10, input), SignalMap::Taken::kDecoded);
+  EXPECT_EQ(input.switches.stalk, LightSwitch::kHigh);
+  EXPECT_TRUE(input.switches.flash && input.switches.design_previous && input.switches.ignition);
+  EXPECT_FALSE(input.switches.fog_front || input.switches.design_next);
+
+  const DbcMessage& steering = *dbc.find("STEERING");
+  frame = empty_frame(steering);
+  ASSERT_TRUE(encode(steering, steering.signals[0], -90.0, frame));
+  EXPECT_EQ(map.take(frame, 20, input), SignalMap::Taken::kDecoded);
+  EXPECT_NEAR(input.steering_wheel_rad, -1.5707963, 1e-6);
+  ASSERT_TRUE(encode(steering, steering.signals[0], 700.0, frame));
+  map.take(frame, 20, input);
+  EXPECT_NEAR(input.steering_wheel_rad, 9.4247780, 1e-6) << "limited to range_deg";
+
+  const DbcMessage& pedals = *dbc.find("PEDALS");
+  frame = empty_frame(pedals);
+  ASSERT_TRUE(encode(pedals, *pedals.find("BRAKE"), 25.0, frame));
+  ASSERT_TRUE(encode(pedals, *pedals.find("GEAR"), 2.0, frame));
+  EXPECT_EQ(map.take(frame, 30, input), SignalMap::Taken::kDecoded);
+  EXPECT_DOUBLE_EQ(input.brake_01, 0.25);
+  EXPECT_EQ(input.gear, Gear::kReverse);
+  EXPECT_EQ(map.silent_at_ns(), 10 + 200'000'000);
+
+  frame.length = 3;
+  EXPECT_EQ(map.take(frame, 40, input), SignalMap::Taken::kIncomplete);
+  frame.id = 1;
+  EXPECT_EQ(map.take(frame, 40, input), SignalMap::Taken::kNotMapped);
+}
+
+}  // namespace
+}  // namespace phare
