@@ -23,7 +23,9 @@ constexpr std::array<std::string_view, 6> kFunctionNames{"position", "low", "hig
 constexpr std::array<std::string_view, 2> kAxisNames{"gamma0", "gamma90"};
 constexpr std::array<std::string_view, 2> kDynamicsLevels{"pose", "kinematic"};
 
-glm::dvec3 vector3(const std::vector<double>& xyz) { return {xyz[0], xyz[1], xyz[2]}; }
+glm::dvec3 vector3(const std::vector<double>& xyz) {
+  return {xyz[0], xyz[1], xyz[2]};
+}
 
 double degrees(TomlTable& table, std::string_view key, double min_deg, double max_deg) {
   return table.number_or(key, 0.0, min_deg, max_deg) * kRadPerDeg;
@@ -112,7 +114,8 @@ std::filesystem::path generated_dir() {
 
 std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file) {
   if (named.empty() || named.is_absolute()) return named;
-  if (*named.begin() == "generated") return std::filesystem::absolute(generated_dir() / named.lexically_relative("generated"));
+  if (*named.begin() == "generated")
+    return std::filesystem::absolute(generated_dir() / named.lexically_relative("generated"));
   return std::filesystem::absolute(naming_file.parent_path() / named).lexically_normal();
 }
 
@@ -134,7 +137,8 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
     // Off loopback datagrams need a shared key, which this version does not have: better no bus than an open one.
     if (!rig.bind_address.starts_with("127.")) bus->fail("address", "only loopback addresses (127.…) are served");
   }
-  if (auto clock = root.table_if("clock")) rig.frame_rate_hz = clock->integer_or("frame_rate_hz", rig.frame_rate_hz, 1, 1000);
+  if (auto clock = root.table_if("clock"))
+    rig.frame_rate_hz = clock->integer_or("frame_rate_hz", rig.frame_rate_hz, 1, 1000);
   if (auto dynamics = root.table_if("dynamics")) {
     rig.dynamics_level = kDynamicsLevels[dynamics->choice_or("level", 1, kDynamicsLevels)];
     rig.dynamics_step_s = dynamics->number_or("step_s", rig.dynamics_step_s, 1e-5, 0.05);
@@ -164,7 +168,8 @@ Status check_rig_files(const Rig& rig) {
   for (const DesignConfig& design : rig.designs) {
     for (const LampConfig& lamp : design.lamps) {
       for (const SourceConfig& source : lamp.sources) {
-        if (auto error = missing(source.file, "lamp \"" + lamp.name + "\", design \"" + design.name + "\",")) return *error;
+        if (auto error = missing(source.file, "lamp \"" + lamp.name + "\", design \"" + design.name + "\","))
+          return *error;
       }
     }
   }
@@ -193,7 +198,8 @@ Result<LampConfig> parse_lamp_argument(const std::string& text) {
     if (std::find(known.begin(), known.end(), key) == known.end()) return wrong(unknown_name_reason("key", key, known));
     if (!given.insert(key).second) return wrong("\"" + key + "\" is given twice");
     if (key == "axis") {
-      if (value != "gamma0" && value != "gamma90") return wrong("\"axis\": \"" + value + "\" is none of gamma0, gamma90");
+      if (value != "gamma0" && value != "gamma90")
+        return wrong("\"axis\": \"" + value + "\" is none of gamma0, gamma90");
       source.axis = value == "gamma0" ? GammaAxis::kGamma0 : GammaAxis::kGamma90;
       continue;
     }

@@ -14,18 +14,19 @@ namespace phare {
 
 enum class LampFunction { kPosition, kLow, kHigh, kFog, kDaytime, kCornering };
 
-/// Which direction of a type C (or EULUMDAT) table is the optical axis: gamma 0, or C 0 / gamma 90. The format leaves it open.
+/// Which direction of a type C (or EULUMDAT) table is the optical axis: gamma 0, or C 0 / gamma 90. The format leaves
+/// it open.
 enum class GammaAxis { kGamma0, kGamma90 };
 
 /// One photometry file, mounted. Aim turns the lamp axes in the car frame: R = Rz(yaw)·Ry(-pitch)·Rx(roll).
 struct SourceConfig {
   LampFunction function = LampFunction::kLow;
-  std::filesystem::path file;      ///< resolved, absolute
+  std::filesystem::path file;  ///< resolved, absolute
   GammaAxis axis = GammaAxis::kGamma0;
-  double scale = 1.0;              ///< multiplies candela
-  double yaw_rad = 0.0;            ///< > 0 left
-  double pitch_rad = 0.0;          ///< > 0 up, as lighting engineers aim
-  double roll_rad = 0.0;           ///< > 0 right side down
+  double scale = 1.0;      ///< multiplies candela
+  double yaw_rad = 0.0;    ///< > 0 left
+  double pitch_rad = 0.0;  ///< > 0 up, as lighting engineers aim
+  double roll_rad = 0.0;   ///< > 0 right side down
   double colour_temperature_k = 5000.0;
 };
 
@@ -58,13 +59,13 @@ struct Rig {
   std::string name;
   std::string bind_address = "127.0.0.1";
   std::uint16_t port_base = 47000;
-  std::int64_t frame_rate_hz = 60;       ///< of lockstep frames
-  std::filesystem::path scene_file;      ///< glTF; resolved
-  std::filesystem::path vehicle_file;    ///< resolved
-  std::filesystem::path cockpit_file;    ///< resolved
+  std::int64_t frame_rate_hz = 60;     ///< of lockstep frames
+  std::filesystem::path scene_file;    ///< glTF; resolved
+  std::filesystem::path vehicle_file;  ///< resolved
+  std::filesystem::path cockpit_file;  ///< resolved
   std::string dynamics_level = "kinematic";
   double dynamics_step_s = 0.002;
-  bool high_keeps_low = true;            ///< low beam stays lit under high beam
+  bool high_keeps_low = true;  ///< low beam stays lit under high beam
   std::vector<ChannelConfig> channels;
   std::vector<DesignConfig> designs;
 };
@@ -72,15 +73,17 @@ struct Rig {
 /// Reads and checks a rig file. Every key is checked; an unknown one is an error that names the nearest known key.
 Result<Rig> read_rig(const std::filesystem::path& file);
 
-/// Checks that the files a rig names are there: scene, vehicle, cockpit, every photometry file. The error names the first that
-/// is not, and where the rig file names it.
+/// Checks that the files a rig names are there: scene, vehicle, cockpit, every photometry file. The error names the
+/// first that is not, and where the rig file names it.
 Status check_rig_files(const Rig& rig);
 
-/// Path of a file named in a config file: absolute as it is; "generated/…" below the directory the build generated lamps and
-/// scenes into (environment PHARE_GENERATED_DIR, else the build's own); anything else relative to the naming file's directory.
+/// Path of a file named in a config file: absolute as it is; "generated/…" below the directory the build generated
+/// lamps and scenes into (environment PHARE_GENERATED_DIR, else the build's own); anything else relative to the naming
+/// file's directory.
 std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file);
 
-/// A lamp given on the command line: FILE,x=1.5,y=0.6,z=0.65,yaw_deg=0,pitch_deg=-0.5729,roll_deg=0[,axis=gamma0|gamma90][,scale=1]
+/// A lamp given on the command line:
+/// FILE,x=1.5,y=0.6,z=0.65,yaw_deg=0,pitch_deg=-0.5729,roll_deg=0[,axis=gamma0|gamma90][,scale=1]
 Result<LampConfig> parse_lamp_argument(const std::string& text);
 
 }  // namespace phare

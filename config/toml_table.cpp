@@ -19,7 +19,7 @@ namespace phare {
 struct TomlTable::Node {
   toml::table* table = nullptr;  ///< nullptr: missing, and already complained about
   std::uint32_t line = 1;
-  std::string prefix;            ///< "channel.", for messages
+  std::string prefix;  ///< "channel.", for messages
   std::set<std::string> asked;
 };
 
@@ -60,8 +60,8 @@ struct TomlTable::Document {
   }
 
   template <typename Number>
-  Number bounded(const Node& node, std::string_view key, const toml::node& value, std::optional<Number> number, Number min,
-                 Number max, const char* kind) {
+  Number bounded(const Node& node, std::string_view key, const toml::node& value, std::optional<Number> number,
+                 Number min, Number max, const char* kind) {
     const Number harmless = std::clamp(Number{}, min, max);
     if (!number) {
       wrong(node, key, value, std::string("expected ") + kind);
@@ -126,7 +126,8 @@ std::string nearest_name(std::string_view name, std::span<const std::string> kno
   for (const std::string& candidate : known) {
     // Letters left out ("fov_deg" for "fov_horizontal_deg") or too many are a likely slip, though many edits away.
     const bool part = name.size() >= 3 && (is_subsequence(name, candidate) || is_subsequence(candidate, name));
-    const std::size_t distance = std::min<std::size_t>(edit_distance(name, candidate), part ? 2 : std::numeric_limits<std::size_t>::max());
+    const std::size_t distance =
+        std::min<std::size_t>(edit_distance(name, candidate), part ? 2 : std::numeric_limits<std::size_t>::max());
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;
@@ -142,7 +143,8 @@ std::string unknown_name_reason(std::string_view what, std::string_view name, st
   }
   reason += "; there is";
   for (std::size_t i = 0; i < known.size(); ++i) reason += (i == 0 ? " " : ", ") + known[i];
-  return known.empty() ? "no " + std::string(what) + " is known here, \"" + std::string(name) + "\" is one too many" : reason;
+  return known.empty() ? "no " + std::string(what) + " is known here, \"" + std::string(name) + "\" is one too many"
+                       : reason;
 }
 
 Result<TomlTable> TomlTable::read(const std::filesystem::path& path) {
@@ -159,7 +161,8 @@ Result<TomlTable> TomlTable::parse(std::string_view text, const std::string& nam
   toml::parse_result parsed = toml::parse(text, name);
   if (!parsed) {
     const toml::parse_error& error = parsed.error();
-    return Error{name + ":" + std::to_string(std::max(error.source().begin.line, 1u)), std::string(error.description())};
+    return Error{name + ":" + std::to_string(std::max(error.source().begin.line, 1u)),
+                 std::string(error.description())};
   }
   auto document = std::make_shared<Document>();
   document->file = name;
@@ -227,7 +230,8 @@ std::size_t TomlTable::choice(std::string_view key, std::span<const std::string_
   return 0;
 }
 
-std::size_t TomlTable::choice_or(std::string_view key, std::size_t fallback, std::span<const std::string_view> choices) {
+std::size_t TomlTable::choice_or(std::string_view key, std::size_t fallback,
+                                 std::span<const std::string_view> choices) {
   return has(key) ? choice(key, choices) : fallback;
 }
 
@@ -245,8 +249,9 @@ std::vector<double> TomlTable::numbers(std::string_view key, std::size_t count) 
     good = good && (count == 0 || result.size() == count);
   }
   if (!good) {
-    document_->wrong(*node_, key, *value,
-                     "expected an array of " + (count == 0 ? "finite numbers" : std::to_string(count) + " finite numbers"));
+    document_->wrong(
+        *node_, key, *value,
+        "expected an array of " + (count == 0 ? "finite numbers" : std::to_string(count) + " finite numbers"));
     return std::vector<double>(count, 0.0);
   }
   return result;
@@ -328,7 +333,9 @@ void TomlTable::fail(std::string_view key, std::string reason) {
   document_->errors.push_back({place(key), "\"" + node_->prefix + std::string(key) + "\": " + std::move(reason)});
 }
 
-const std::filesystem::path& TomlTable::file() const { return document_->file; }
+const std::filesystem::path& TomlTable::file() const {
+  return document_->file;
+}
 
 Status TomlTable::finish() {
   const Error* first = nullptr;
@@ -345,8 +352,8 @@ Status TomlTable::finish() {
       unknown.emplace_back(line, Error{document_->at(line), std::move(reason)});
     }
   }
-  const auto earliest = std::min_element(unknown.begin(), unknown.end(),
-                                         [](const auto& a, const auto& b) { return a.first < b.first; });
+  const auto earliest =
+      std::min_element(unknown.begin(), unknown.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (earliest != unknown.end()) {
     first = &earliest->second;
   } else if (!document_->errors.empty()) {

@@ -15,9 +15,9 @@
 
 namespace phare {
 
-/// A table of a TOML file. A getter notes the key as known; a wrong type, a missing required key or a value out of range
-/// is noted as an error (the getter then returns a harmless value) and comes out of `finish`. Copies refer to the same
-/// document, so a child's errors come out of its root's `finish`, and a child must not ask after that.
+/// A table of a TOML file. A getter notes the key as known; a wrong type, a missing required key or a value out of
+/// range is noted as an error (the getter then returns a harmless value) and comes out of `finish`. Copies refer to the
+/// same document, so a child's errors come out of its root's `finish`, and a child must not ask after that.
 class TomlTable {
  public:
   /// Parses `path`. Error when it cannot be read (place: the path) or is not TOML (place: path:line).

@@ -18,8 +18,9 @@ namespace phare {
 namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr std::int64_t kPeriod_ns = 10'000'000;   // 100 Hz, both messages
-constexpr double kSpeedWindow_s = 0.4;  // speed is quantised to 0.01 km/h at 40 Hz: leaves 0.02 m/s² of noise on acceleration
+constexpr std::int64_t kPeriod_ns = 10'000'000;  // 100 Hz, both messages
+constexpr double kSpeedWindow_s =
+    0.4;  // wheel speeds jump by 0.3 m/s in 20 ms over a bump: no acceleration of the body
 constexpr double kPoseWindow_s = 0.25;  // pose comes at 20 Hz: ten points
 constexpr double kSteerWindow_s = 0.05;
 constexpr double kCoasting_mps2 = 0.5;  // a car in gear slows that much by itself; more is braking
@@ -56,8 +57,10 @@ Result<Control> find_control(const Dbc& dbc, const std::string& what, const std:
     const std::size_t dot = term.find('.');
     if (dot == std::string::npos) return Error{what, "expected MESSAGE.SIGNAL, got \"" + term + "\""};
     const DbcMessage* message = dbc.find(term.substr(0, dot));
-    if (message == nullptr) return Error{dbc.file.string(), "no message \"" + term.substr(0, dot) + "\" for the " + what};
-    if (control.message != nullptr && control.message != message) return Error{what, "signals of one message only can be added"};
+    if (message == nullptr)
+      return Error{dbc.file.string(), "no message \"" + term.substr(0, dot) + "\" for the " + what};
+    if (control.message != nullptr && control.message != message)
+      return Error{what, "signals of one message only can be added"};
     const DbcSignal* signal = message->find(term.substr(dot + 1));
     if (signal == nullptr) {
       return Error{dbc.file.string() + ":" + std::to_string(message->line),
@@ -105,7 +108,9 @@ struct Lane {
     return {h00 * x_m[i] + h10 * h * std::cos(heading_rad[i]) + h01 * x_m[j] + h11 * h * std::cos(heading_rad[j]),
             h00 * y_m[i] + h10 * h * std::sin(heading_rad[i]) + h01 * y_m[j] + h11 * h * std::sin(heading_rad[j]),
             h00 * z_m[i] + h10 * h * grade_i + h01 * z_m[j] + h11 * h * grade_j,
-            mix(heading_rad[i], heading_rad[j]), mix(curvature_1pm[i], curvature_1pm[j]), mix(grade_i, grade_j)};
+            mix(heading_rad[i], heading_rad[j]),
+            mix(curvature_1pm[i], curvature_1pm[j]),
+            mix(grade_i, grade_j)};
   }
 
  private:
@@ -148,14 +153,16 @@ struct Pose {
 };
 
 Result<Pose> read_pose(const std::filesystem::path& file) {
-  const std::array<std::string, 6> names{"t_s", "east_m", "north_m", "up_m", "heading_deg_cw_from_north", "path_pitch_deg"};
+  const std::array<std::string, 6> names{"t_s",           "east_m", "north_m", "up_m", "heading_deg_cw_from_north",
+                                         "path_pitch_deg"};
   auto columns = read_csv_columns(file, names);
   if (!columns) return columns.error();
   auto& c = *columns;
   Pose pose{std::move(c[0]), std::move(c[1]), std::move(c[2]), std::move(c[3]), std::move(c[4]), std::move(c[5])};
   if (const Status status = check_ascending(pose.t_s, file, "t_s"); !status) return status.error();
   for (double& angle : pose.yaw_rad) angle = std::numbers::pi / 2.0 - angle * kRadPerDeg;
-  for (double& angle : pose.pitch_rad) angle = -angle * kRadPerDeg;  // the table's is positive uphill, ISO 8855's nose down
+  for (double& angle : pose.pitch_rad)
+    angle = -angle * kRadPerDeg;  // the table's is positive uphill, ISO 8855's nose down
   unwrap(pose.yaw_rad);
   return pose;
 }
@@ -197,11 +204,14 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
 
   // Which signals: steering and speed must be there, the others may.
   enum { kSteering, kSpeed, kAccelerator, kBrake, kParking, kLow, kHigh, kControls };
-  const std::array<std::pair<const char*, const std::string*>, kControls> wanted{{
-      {"steering", &options.signals.steering}, {"speed", &options.signals.speed},
-      {"accelerator", &options.signals.accelerator}, {"brake", &options.signals.brake},
-      {"parking light", &options.signals.parking_light}, {"low beam", &options.signals.low_beam},
-      {"high beam", &options.signals.high_beam}}};
+  const std::array<std::pair<const char*, const std::string*>, kControls> wanted{
+      {{"steering", &options.signals.steering},
+       {"speed", &options.signals.speed},
+       {"accelerator", &options.signals.accelerator},
+       {"brake", &options.signals.brake},
+       {"parking light", &options.signals.parking_light},
+       {"low beam", &options.signals.low_beam},
+       {"high beam", &options.signals.high_beam}}};
   ImportedDrive drive;
   std::vector<Control> controls;
   for (const auto& [what, path] : wanted) {
@@ -235,7 +245,8 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
       }
       ours = true;
       Samples& samples = control.samples;
-      if (!samples.t_s.empty() && t_s <= samples.t_s.back()) continue;  // stamped backwards: order is the log's, not time's
+      if (!samples.t_s.empty() && t_s <= samples.t_s.back())
+        continue;  // stamped backwards: order is the log's, not time's
       if (const auto value = decode_control(control, entry.frame)) {
         decoded = true;
         samples.t_s.push_back(t_s);
@@ -252,7 +263,8 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   counts.light_samples = sample_count(kLow);
   for (const std::size_t i : {std::size_t{kSteering}, std::size_t{kSpeed}}) {
     if (sample_count(i) < 4) {
-      return Error{options.can_log.string(), "fewer than four frames of " + controls[i].message->name + " for the " + controls[i].what};
+      return Error{options.can_log.string(),
+                   "fewer than four frames of " + controls[i].message->name + " for the " + controls[i].what};
     }
   }
   if (counts.accelerator_samples == 0) drive.notes.push_back("accelerator: not in the log, 0");
@@ -262,7 +274,8 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   if (options.light != ImportLight::kAsRecorded) {
     const bool dark = std::none_of(controls[kLow].samples.value.begin(), controls[kLow].samples.value.end(),
                                    [](double on) { return on > 0.5; });
-    drive.notes.push_back(std::string("light switch: ") + (options.light == ImportLight::kLow ? "low" : "high") + " throughout, " +
+    drive.notes.push_back(std::string("light switch: ") + (options.light == ImportLight::kLow ? "low" : "high") +
+                          " throughout, " +
                           (dark ? "because the recorded stalk is off" : "instead of the recorded one"));
   }
   if (lane) {
@@ -282,13 +295,15 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
     const SimTime sim_time{k * kPeriod_ns};
     const double t_s = begin_s + sim_time.seconds();
     const bool last = k == frames;
-    const FittedValue speed = local_fit(controls[kSpeed].samples.t_s, controls[kSpeed].samples.value, t_s, kSpeedWindow_s);
-    const FittedValue steering = local_fit(controls[kSteering].samples.t_s, controls[kSteering].samples.value, t_s, kSteerWindow_s);
+    const FittedValue speed =
+        local_fit(controls[kSpeed].samples.t_s, controls[kSpeed].samples.value, t_s, kSpeedWindow_s);
+    const FittedValue steering =
+        local_fit(controls[kSteering].samples.t_s, controls[kSteering].samples.value, t_s, kSteerWindow_s);
     const double accelerator = std::clamp(held_at(controls[kAccelerator].samples, t_s, 0.0), 0.0, 1.0);
 
-    const LightSwitch light = light_switch(options.light, held_at(controls[kParking].samples, t_s, 0.0) > 0.5,
-                                           held_at(controls[kLow].samples, t_s, 0.0) > 0.5,
-                                           held_at(controls[kHigh].samples, t_s, 0.0) > 0.5);
+    const LightSwitch light =
+        light_switch(options.light, held_at(controls[kParking].samples, t_s, 0.0) > 0.5,
+                     held_at(controls[kLow].samples, t_s, 0.0) > 0.5, held_at(controls[kHigh].samples, t_s, 0.0) > 0.5);
     if (light != cockpit.light_switch) {
       cockpit.light_switch = light;
       ++cockpit.light_changes;
@@ -298,9 +313,10 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
     cockpit.steering_wheel_rad = steering.value;
     cockpit.accelerator_01 = accelerator;
     const double braking_mps2 = accelerator < 0.01 ? std::max(0.0, -speed.slope - kCoasting_mps2) : 0.0;
-    cockpit.brake_01 = counts.brake_samples > 0
-                           ? std::clamp(held_at(controls[kBrake].samples, t_s, 0.0), 0.0, 1.0)
-                           : std::clamp(braking_mps2 * options.vehicle.mass_kg / options.vehicle.max_brake_force_n, 0.0, 1.0);
+    cockpit.brake_01 =
+        counts.brake_samples > 0
+            ? std::clamp(held_at(controls[kBrake].samples, t_s, 0.0), 0.0, 1.0)
+            : std::clamp(braking_mps2 * options.vehicle.mass_kg / options.vehicle.max_brake_force_n, 0.0, 1.0);
     cockpit.drive_ended = last;
 
     car.speed_mps = speed.value;
@@ -309,7 +325,8 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
     speed_before = speed.value;
     if (lane) {
       if (path_m + options.vehicle.wheelbase_m > lane->s_m.back()) {
-        return Error{options.lane->string(), "the lane ends after " + std::to_string(lane->s_m.back()) + " m, the drive goes on; choose a smaller --start"};
+        return Error{options.lane->string(), "the lane ends after " + std::to_string(lane->s_m.back()) +
+                                                 " m, the drive goes on; choose a smaller --start"};
       }
       const Lane::Point at = lane->at(path_m);
       car.x_m = at.x_m;
@@ -370,7 +387,8 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   }
   if (drive.pose_path_m > 0.0) {
     char text[160];
-    std::snprintf(text, sizeof text, "speed: the CAN signal adds up to %.1f m, the recorded positions to %.1f m (%+.1f %%); kept as it is",
+    std::snprintf(text, sizeof text,
+                  "speed: the CAN signal adds up to %.1f m, the recorded positions to %.1f m (%+.1f %%); kept as it is",
                   drive.distance_m, drive.pose_path_m, 100.0 * (drive.distance_m / drive.pose_path_m - 1.0));
     drive.notes.push_back(text);
   }
@@ -382,10 +400,21 @@ nlohmann::json to_json(const ImportedDrive& drive) {
   return {{"duration_s", drive.duration_s},
           {"distance_m", drive.distance_m},
           {"pose_path_m", drive.pose_path_m},
-          {"frames", {{"read", c.frames}, {"used", c.used}, {"other_ids", c.other_ids}, {"undecodable", c.undecodable},
-                      {"outside", c.outside}, {"broken_lines", c.broken_lines}, {"backward_stamps", c.backward_stamps}}},
-          {"samples", {{"steering", c.steering_samples}, {"speed", c.speed_samples}, {"accelerator", c.accelerator_samples},
-                       {"brake", c.brake_samples}, {"light", c.light_samples}, {"pose", c.pose_rows}}},
+          {"frames",
+           {{"read", c.frames},
+            {"used", c.used},
+            {"other_ids", c.other_ids},
+            {"undecodable", c.undecodable},
+            {"outside", c.outside},
+            {"broken_lines", c.broken_lines},
+            {"backward_stamps", c.backward_stamps}}},
+          {"samples",
+           {{"steering", c.steering_samples},
+            {"speed", c.speed_samples},
+            {"accelerator", c.accelerator_samples},
+            {"brake", c.brake_samples},
+            {"light", c.light_samples},
+            {"pose", c.pose_rows}}},
           {"messages", {{"cockpit_state", c.cockpit_messages}, {"vehicle_state", c.vehicle_messages}}},
           {"notes", drive.notes}};
 }

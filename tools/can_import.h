@@ -1,8 +1,8 @@
 // A recorded drive of a real car, CAN log and pose, turned into a drive file.
 //
-// What: controls from decoded CAN signals, motion from CAN speed and a pose table, both every 10 ms from simulated time 0.
-// Source: smoothing by local regression (local_fit.h); attitude on the springs as the kinematic level has it at rest.
-// Frame: world x east, y north, z up; pose tables say their heading clockwise from north, so yaw = 90° - heading.
+// What: controls from decoded CAN signals, motion from CAN speed and a pose table, both every 10 ms from simulated time
+// 0. Source: smoothing by local regression (local_fit.h); attitude on the springs as the kinematic level has it at
+// rest. Frame: world x east, y north, z up; pose tables say their heading clockwise from north, so yaw = 90° - heading.
 // Leaves out: where on the car the recorded position was taken (it is used as the rear axle), camera and IMU records.
 // Test: tests/tools/can_import_test.cpp.
 #pragma once
@@ -37,13 +37,13 @@ struct ImportSignals {
 struct ImportOptions {
   std::filesystem::path can_log;
   std::filesystem::path dbc;
-  std::filesystem::path pose;   ///< CSV t_s, east_m, north_m, up_m, heading_deg_cw_from_north, path_pitch_deg
+  std::filesystem::path pose;  ///< CSV t_s, east_m, north_m, up_m, heading_deg_cw_from_north, path_pitch_deg
   std::optional<std::filesystem::path> lane;  ///< CSV of a lane to put the drive onto; none: the recorded pose
-  double lane_start_m = 15.0;   ///< where on the lane the drive begins
+  double lane_start_m = 15.0;                 ///< where on the lane the drive begins
   ImportLight light = ImportLight::kLow;
   ImportSignals signals;
   VehicleParams vehicle;
-  RoadSurface road;             ///< empty: height and grade from the lane
+  RoadSurface road;  ///< empty: height and grade from the lane
 };
 
 /// What became of every frame of the log: frames = used + other_ids + undecodable + outside, and what came out.
@@ -52,21 +52,21 @@ struct ImportCounts {
   std::uint64_t broken_lines = 0;
   std::uint64_t backward_stamps = 0;
   std::uint64_t used = 0;
-  std::uint64_t other_ids = 0;      ///< hold no signal asked for
-  std::uint64_t undecodable = 0;    ///< right id, but too short or no data frame
-  std::uint64_t outside = 0;        ///< outside the time that log and pose share
+  std::uint64_t other_ids = 0;    ///< hold no signal asked for
+  std::uint64_t undecodable = 0;  ///< right id, but too short or no data frame
+  std::uint64_t outside = 0;      ///< outside the time that log and pose share
   std::uint64_t steering_samples = 0, speed_samples = 0, accelerator_samples = 0, brake_samples = 0, light_samples = 0;
   std::uint64_t pose_rows = 0;
   std::uint64_t cockpit_messages = 0, vehicle_messages = 0;
 };
 
 struct ImportedDrive {
-  std::vector<Datagram> datagrams;   ///< in order of time, numbered, ready to be written
+  std::vector<Datagram> datagrams;  ///< in order of time, numbered, ready to be written
   ImportCounts counts;
   double duration_s = 0.0;
-  double distance_m = 0.0;           ///< integral of the CAN speed
-  double pose_path_m = 0.0;          ///< length of the recorded positions' path in the same time, for comparison
-  std::vector<std::string> notes;    ///< what was put in place of what was not recorded
+  double distance_m = 0.0;         ///< integral of the CAN speed
+  double pose_path_m = 0.0;        ///< length of the recorded positions' path in the same time, for comparison
+  std::vector<std::string> notes;  ///< what was put in place of what was not recorded
 };
 
 Result<ImportedDrive> import_can_drive(const ImportOptions& options);

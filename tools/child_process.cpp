@@ -18,7 +18,8 @@ std::string ProcessEnd::text() const {
   return name != nullptr ? std::string("SIG") + name : "signal " + std::to_string(signal);
 }
 
-Result<ChildProcess> ChildProcess::start(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
+Result<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
+                                         const std::vector<std::string>& arguments) {
   // Everything that allocates comes before fork; between fork and exec only async-signal-safe calls are made.
   const std::string path = program.string();
   std::vector<char*> argv{const_cast<char*>(path.c_str())};

@@ -33,7 +33,8 @@ Result<std::vector<std::vector<double>>> read_csv_columns(const std::filesystem:
                                                           std::span<const std::string> names) {
   std::ifstream stream(file);
   std::error_code ignored;
-  if (!stream || !std::filesystem::is_regular_file(file, ignored)) return Error{file.string(), "no such file, or it cannot be read"};
+  if (!stream || !std::filesystem::is_regular_file(file, ignored))
+    return Error{file.string(), "no such file, or it cannot be read"};
   std::vector<std::vector<double>> columns(names.size());
   std::vector<std::size_t> places;
   std::string line;

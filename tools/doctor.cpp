@@ -26,9 +26,9 @@ namespace {
 struct Finding {
   std::string what;
   bool there = false;
-  bool needed = false;   ///< phare drive cannot do without
+  bool needed = false;  ///< phare drive cannot do without
   std::string detail;
-  std::string remedy;    ///< when it is missing
+  std::string remedy;  ///< when it is missing
 };
 
 Finding vulkan_devices() {
@@ -51,7 +51,8 @@ Finding vulkan_devices() {
 
 /// Where the Vulkan loader looks for explicit layers; the environment can add to it.
 Finding validation_layer() {
-  Finding finding{"Vulkan validation layer", false, false, "not found; --validation does not work", "apt-get install vulkan-validationlayers"};
+  Finding finding{"Vulkan validation layer", false, false, "not found; --validation does not work",
+                  "apt-get install vulkan-validationlayers"};
   std::vector<std::filesystem::path> folders{"/usr/share/vulkan/explicit_layer.d", "/etc/vulkan/explicit_layer.d",
                                              "/usr/local/share/vulkan/explicit_layer.d"};
   if (const char* path = std::getenv("VK_LAYER_PATH")) folders.insert(folders.begin(), path);
@@ -71,7 +72,9 @@ Finding can_sockets() {
   Finding finding{"SocketCAN", fd >= 0, false, "the kernel opens CAN sockets", ""};
   if (fd < 0) {
     finding.detail = std::string("the kernel has none (") + std::strerror(errno) + "); logs and the keyboard work";
-    finding.remedy = "a kernel with CONFIG_CAN (Debian's linux-image-amd64: modprobe can can_raw vcan); tools: apt-get install can-utils";
+    finding.remedy =
+        "a kernel with CONFIG_CAN (Debian's linux-image-amd64: modprobe can can_raw vcan); tools: apt-get install "
+        "can-utils";
   } else {
     close(fd);
   }
@@ -97,15 +100,19 @@ Finding clock_found() {
   clock_getres(CLOCK_MONOTONIC, &resolution);
   const auto before = std::chrono::steady_clock::now();
   std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  const double late_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - before).count() - 1000.0;
+  const double late_us =
+      std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - before).count() - 1000.0;
   char text[96];
-  std::snprintf(text, sizeof text, "resolution %ld ns, a sleep of 1 ms came back %.0f us late", resolution.tv_nsec, late_us);
-  return {"Clock", resolution.tv_sec == 0 && resolution.tv_nsec <= 1000, false, text, "high-resolution timers in the kernel"};
+  std::snprintf(text, sizeof text, "resolution %ld ns, a sleep of 1 ms came back %.0f us late", resolution.tv_nsec,
+                late_us);
+  return {"Clock", resolution.tv_sec == 0 && resolution.tv_nsec <= 1000, false, text,
+          "high-resolution timers in the kernel"};
 }
 
 Finding program(const char* name, const char* what_for) {
   const auto path = find_in_path(name);
-  return {name, path.has_value(), false, path ? path->string() : std::string("not in PATH; ") + what_for, std::string("apt-get install ") + name};
+  return {name, path.has_value(), false, path ? path->string() : std::string("not in PATH; ") + what_for,
+          std::string("apt-get install ") + name};
 }
 
 Finding processes() {
@@ -120,19 +127,30 @@ Finding processes() {
 }
 
 int doctor(bool json) {
-  const std::vector<Finding> findings{vulkan_devices(), validation_layer(), processes(), can_sockets(), display(), clock_found(),
-                                      program("ffmpeg", "no video from the frames"), program("tshark", "drive files cannot be looked into")};
+  const std::vector<Finding> findings{vulkan_devices(),
+                                      validation_layer(),
+                                      processes(),
+                                      can_sockets(),
+                                      display(),
+                                      clock_found(),
+                                      program("ffmpeg", "no video from the frames"),
+                                      program("tshark", "drive files cannot be looked into")};
   bool healthy = true;
   nlohmann::json report = nlohmann::json::array();
   for (const Finding& finding : findings) {
     healthy = healthy && (finding.there || !finding.needed);
     if (json) {
-      nlohmann::json item{{"what", finding.what}, {"there", finding.there}, {"needed", finding.needed}, {"detail", finding.detail}};
+      nlohmann::json item{
+          {"what", finding.what}, {"there", finding.there}, {"needed", finding.needed}, {"detail", finding.detail}};
       if (!finding.there) item["remedy"] = finding.remedy;
       report.push_back(std::move(item));
       continue;
     }
-    std::printf("%-8s %-24s %s\n", finding.there ? "there" : finding.needed ? "MISSING" : "missing", finding.what.c_str(), finding.detail.c_str());
+    std::printf("%-8s %-24s %s\n",
+                finding.there    ? "there"
+                : finding.needed ? "MISSING"
+                                 : "missing",
+                finding.what.c_str(), finding.detail.c_str());
     if (!finding.there && !finding.remedy.empty()) std::printf("%-8s %-24s -> %s\n", "", "", finding.remedy.c_str());
   }
   if (json) std::printf("%s\n", nlohmann::json{{"healthy", healthy}, {"findings", report}}.dump(2).c_str());

@@ -49,7 +49,8 @@ Result<Rig> prepare(DriveOptions& options) {
   if (!rig) return rig.error();
   if (options.port_base != 0) rig->port_base = options.port_base;
   if (const Status status = check_rig_files(*rig); !status) return status.error();
-  if (!options.log.empty() && options.dbc.empty()) return Error{"--log", "needs --dbc FILE, which says what its frames mean"};
+  if (!options.log.empty() && options.dbc.empty())
+    return Error{"--log", "needs --dbc FILE, which says what its frames mean"};
 
   const std::string demo = config_path("drives/country_road.pcap");
   const bool any_source = !options.drive.empty() || !options.script.empty() || !options.log.empty();
@@ -71,7 +72,8 @@ Result<Rig> prepare(DriveOptions& options) {
     options.out = fs::absolute(options.out).string();
   }
   for (const char* name : {"phare-cockpit", "phare-dynamics", "phare-visual"}) {
-    if (access(program_beside_us(name).c_str(), X_OK) != 0) return Error{program_beside_us(name).string(), "is not there; build everything"};
+    if (access(program_beside_us(name).c_str(), X_OK) != 0)
+      return Error{program_beside_us(name).string(), "is not there; build everything"};
   }
   return rig;
 }
@@ -79,32 +81,38 @@ Result<Rig> prepare(DriveOptions& options) {
 /// What an earlier drive left in the folder; nothing else in it is touched.
 void remove_earlier_output(const fs::path& out, const std::vector<std::string>& process_names) {
   std::error_code ignored;
-  for (const char* file : {"report.json", "index.html", "drive.mp4", "contact_sheet.png", "drivers_view.png", "birds_eye.png", "wall_25m.png"}) {
+  for (const char* file : {"report.json", "index.html", "drive.mp4", "contact_sheet.png", "drivers_view.png",
+                           "birds_eye.png", "wall_25m.png", "hdr.exr"}) {
     fs::remove(out / file, ignored);
   }
   for (const std::string& name : process_names) fs::remove(out / (name + ".json"), ignored);
   for (const auto& entry : fs::directory_iterator(out / "frames", ignored)) {
     const std::string stem = entry.path().stem().string();
-    const bool ours = entry.path().extension() == ".png" && std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c); });
+    const bool ours = entry.path().extension() == ".png" &&
+                      std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c); });
     if (ours) fs::remove(entry.path(), ignored);
   }
 }
 
 std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& options) {
   const auto common = [&](const std::string& name) {
-    std::vector<std::string> arguments{"--rig", rig.file.string(), "--port-base", std::to_string(rig.port_base), "--log-level", options.log_level};
+    std::vector<std::string> arguments{"--rig",       rig.file.string(), "--port-base", std::to_string(rig.port_base),
+                                       "--log-level", options.log_level};
     if (options.lockstep) arguments.push_back("--lockstep");
     if (!options.drive.empty()) arguments.insert(arguments.end(), {"--drive", options.drive});
-    if (!options.out.empty()) arguments.insert(arguments.end(), {"--stats", (fs::path(options.out) / (name + ".json")).string()});
+    if (!options.out.empty())
+      arguments.insert(arguments.end(), {"--stats", (fs::path(options.out) / (name + ".json")).string()});
     return arguments;
   };
   ProcessSpec cockpit{"cockpit", program_beside_us("phare-cockpit"), common("cockpit")};
   if (!options.script.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--script", options.script});
-  if (!options.log.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--log", options.log, "--dbc", options.dbc});
+  if (!options.log.empty())
+    cockpit.arguments.insert(cockpit.arguments.end(), {"--log", options.log, "--dbc", options.dbc});
 
   ProcessSpec dynamics{"dynamics", program_beside_us("phare-dynamics"), common("dynamics")};
   // Open loop shows the recorded poses; closed loop lets the car answer the recorded controls.
-  if (!options.drive.empty() && !options.closed_loop) dynamics.arguments.insert(dynamics.arguments.end(), {"--level", "pose"});
+  if (!options.drive.empty() && !options.closed_loop)
+    dynamics.arguments.insert(dynamics.arguments.end(), {"--level", "pose"});
 
   std::vector<ProcessSpec> specs{dynamics, cockpit};
   for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
@@ -139,7 +147,8 @@ class Progress {
     written_ = true;
     const double percent = expected_ > 0 ? 100.0 * static_cast<double>(frame) / static_cast<double>(expected_) : 0.0;
     std::fprintf(stderr, "\r  frame %lld", static_cast<long long>(frame));
-    if (expected_ > 0) std::fprintf(stderr, " of %lld  %3.0f %%", static_cast<long long>(expected_), std::min(percent, 100.0));
+    if (expected_ > 0)
+      std::fprintf(stderr, " of %lld  %3.0f %%", static_cast<long long>(expected_), std::min(percent, 100.0));
     std::fprintf(stderr, "  %6.2f ms a frame  %5.1f km/h   ", report.frame_ms, report.drawn.speed_mps * 3.6);
     std::fflush(stderr);
   }
@@ -173,9 +182,10 @@ void make_video(const fs::path& out, std::int64_t frame_rate_hz) {
   }
   // Every frame kept: at the frame rate. One kept a second: eight a second, a time lapse.
   const std::int64_t rate = last + 1 <= count + 1 ? frame_rate_hz : 8;
-  auto child = ChildProcess::start(*ffmpeg, {"-y", "-nostdin", "-loglevel", "error", "-framerate", std::to_string(rate), "-pattern_type", "glob",
-                                             "-i", (out / "frames" / "*.png").string(), "-pix_fmt", "yuv420p", "-crf", "18",
-                                             "-movflags", "+faststart", (out / "drive.mp4").string()});
+  auto child =
+      ChildProcess::start(*ffmpeg, {"-y", "-nostdin", "-loglevel", "error", "-framerate", std::to_string(rate),
+                                    "-pattern_type", "glob", "-i", (out / "frames" / "*.png").string(), "-pix_fmt",
+                                    "yuv420p", "-crf", "18", "-movflags", "+faststart", (out / "drive.mp4").string()});
   if (!child) return;
   const auto deadline = Clock::now() + std::chrono::minutes(5);
   std::optional<ProcessEnd> end;
@@ -193,16 +203,19 @@ void print_summary(const nlohmann::json& report, const std::string& out) {
     std::printf("%-10s %-10s", process.c_str(), how.get<std::string>().c_str());
     if (summary["messages"].contains(process)) {
       const auto& m = summary["messages"][process];
-      std::printf(" received %s, lost %s, late %s, duplicate %s, refused %s", m["received"].dump().c_str(), m["lost"].dump().c_str(),
-                  m["late"].dump().c_str(), m["duplicate"].dump().c_str(), m["refused"].dump().c_str());
+      std::printf(" received %s, lost %s, late %s, duplicate %s, refused %s", m["received"].dump().c_str(),
+                  m["lost"].dump().c_str(), m["late"].dump().c_str(), m["duplicate"].dump().c_str(),
+                  m["refused"].dump().c_str());
     }
-    if (summary["memory"].contains(process)) std::printf("; %s KiB", summary["memory"][process].value("peak_kib", nlohmann::json(0)).dump().c_str());
+    if (summary["memory"].contains(process))
+      std::printf("; %s KiB", summary["memory"][process].value("peak_kib", nlohmann::json(0)).dump().c_str());
     std::printf("\n");
   }
   if (summary.contains("frame_ms")) {
     const auto& t = summary["frame_ms"];
-    std::printf("%s frames, %.2f ms median, %.2f ms p99, %.0f frames a second at the median\n", summary["frames"].dump().c_str(),
-                t.value("median", 0.0), t.value("p99", 0.0), summary.value("frames_per_s_median", 0.0));
+    std::printf("%s frames, %.2f ms median, %.2f ms p99, %.0f frames a second at the median\n",
+                summary["frames"].dump().c_str(), t.value("median", 0.0), t.value("p99", 0.0),
+                summary.value("frames_per_s_median", 0.0));
   }
   std::printf("%s\n", (fs::path(out) / "index.html").c_str());
 }
@@ -244,9 +257,10 @@ int drive(DriveOptions& options) {
       bus->wait(std::chrono::milliseconds(10));
       bus->poll();
       if (const auto report = bus->take<FrameReport>()) {
-        const std::int64_t frame = report->value.frame_index >= 0
-                                       ? report->value.frame_index
-                                       : static_cast<std::int64_t>(report->sim_time.seconds() * static_cast<double>(rig->frame_rate_hz));
+        const std::int64_t frame =
+            report->value.frame_index >= 0
+                ? report->value.frame_index
+                : static_cast<std::int64_t>(report->sim_time.seconds() * static_cast<double>(rig->frame_rate_hz));
         progress.show(report->value, frame);
       }
       if (recorder && recorded.ok()) recorded = recorder->poll();
@@ -272,7 +286,8 @@ int drive(DriveOptions& options) {
     }
     make_video(options.out, rig->frame_rate_hz);
     const nlohmann::json report = make_report(*rig, facts, options.out);
-    if (!write_json(fs::path(options.out) / "report.json", report)) return bad_input({options.out, "report.json cannot be written"});
+    if (!write_json(fs::path(options.out) / "report.json", report))
+      return bad_input({options.out, "report.json cannot be written"});
     std::ofstream(fs::path(options.out) / "index.html") << report_page(report, options.out);
     if (options.json) {
       std::printf("%s\n", report.dump(2).c_str());
@@ -288,32 +303,41 @@ int drive(DriveOptions& options) {
 void add_drive(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<DriveOptions>();
   CLI::App* command = app.add_subcommand("drive", "Drive a rig: in a window, or headless into a folder");
-  command->footer("Examples:\n  phare drive\n  phare drive --headless --lockstep --frames 60 --out out\n"
-                  "  phare drive --script config/drives/country_road.toml --headless --lockstep --record evening.pcap");
+  command->footer(
+      "Examples:\n  phare drive\n  phare drive --headless --lockstep --frames 60 --out out\n"
+      "  phare drive --script config/drives/country_road.toml --headless --lockstep --record evening.pcap");
   command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
-  auto* drive_file = command->add_option("--drive", options->drive, "Drive file to replay [the demo drive, when it is there]");
+  auto* drive_file =
+      command->add_option("--drive", options->drive, "Drive file to replay [the demo drive, when it is there]");
   auto* script = command->add_option("--script", options->script, "Script for the driver model")->excludes(drive_file);
-  command->add_option("--log", options->log, "candump log that moves the controls")->excludes(drive_file)->excludes(script);
+  command->add_option("--log", options->log, "candump log that moves the controls")
+      ->excludes(drive_file)
+      ->excludes(script);
   command->add_option("--dbc", options->dbc, "DBC file for --log");
   command->add_flag("--headless", options->headless, "No window (also when there is no display)");
   command->add_flag("--lockstep", options->lockstep, "Frame by frame: reproducible bit for bit, however slow");
-  command->add_option("--frames", options->frames, "Keep each of the first N frames as a picture, then end")->check(CLI::Range(1, 1'000'000));
+  command->add_option("--frames", options->frames, "Keep each of the first N frames as a picture, then end")
+      ->check(CLI::Range(1, 1'000'000));
   command->add_option("--size", options->size, "WIDTHxHEIGHT of the picture [the rig's]");
   command->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}));
   command->add_option("--out", options->out, "Folder for pictures and report [headless: out]");
   command->add_option("--record", options->record, "Record the drive into this file (pcap)");
-  command->add_flag("--closed-loop", options->closed_loop, "With --drive: replay the controls and let the car answer, instead of the poses");
+  command->add_flag("--closed-loop", options->closed_loop,
+                    "With --drive: replay the controls and let the car answer, instead of the poses");
   command->add_flag("--validation", options->validation, "Vulkan validation with synchronization validation");
   command->add_option("--log-level", options->log_level, "trace, debug, info, warn, error, off")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))->capture_default_str();
-  command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")->check(CLI::Range(1024, 65000));
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+      ->capture_default_str();
+  command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
+      ->check(CLI::Range(1024, 65000));
   command->add_flag("--json", options->json, "Print the report as JSON");
   command->callback([options, &app, &chosen] {
     spdlog::set_level(spdlog::level::from_str(options->log_level));
     options->command = {"phare", "drive"};
     for (const CLI::Option* option : app.get_subcommand("drive")->parse_order()) {
       options->command.push_back(option->get_name());
-      for (const std::string& value : option->get_expected_max() > 0 ? option->results() : CLI::results_t{}) options->command.push_back(value);
+      for (const std::string& value : option->get_expected_max() > 0 ? option->results() : CLI::results_t{})
+        options->command.push_back(value);
     }
     chosen = [options] { return drive(*options); };
   });

@@ -48,8 +48,9 @@ int import_drive(ImportArguments& arguments) {
   auto vehicle = read_vehicle(rig->vehicle_file);
   if (!vehicle) return bad_input(vehicle.error());
   options.vehicle = *vehicle;
-  options.light = arguments.light == "high" ? ImportLight::kHigh
-                  : arguments.light == "low" ? ImportLight::kLow : ImportLight::kAsRecorded;
+  options.light = arguments.light == "high"  ? ImportLight::kHigh
+                  : arguments.light == "low" ? ImportLight::kLow
+                                             : ImportLight::kAsRecorded;
   if (arguments.onto.empty()) {
     std::filesystem::path lane = rig->scene_file;
     lane.replace_filename(rig->scene_file.stem().string() + "_lane.csv");
@@ -69,7 +70,8 @@ int import_drive(ImportArguments& arguments) {
 
   auto drive = import_can_drive(options);
   if (!drive) return bad_input(drive.error());
-  if (const Status status = write_drive(drive->datagrams, arguments.out, rig->port_base); !status) return bad_input(status.error());
+  if (const Status status = write_drive(drive->datagrams, arguments.out, rig->port_base); !status)
+    return bad_input(status.error());
   for (const std::string& note : drive->notes) spdlog::info("{}", note);
   if (arguments.json) {
     nlohmann::json report = to_json(*drive);
@@ -77,13 +79,14 @@ int import_drive(ImportArguments& arguments) {
     std::printf("%s\n", report.dump(2).c_str());
   } else {
     const ImportCounts& c = drive->counts;
-    std::printf("%s: %.2f s, %.1f m, %llu messages from %llu CAN frames (%llu used, %llu of other ids, %llu undecodable, "
-                "%llu outside) and %llu poses\n",
-                arguments.out.c_str(), drive->duration_s, drive->distance_m,
-                static_cast<unsigned long long>(drive->datagrams.size()), static_cast<unsigned long long>(c.frames),
-                static_cast<unsigned long long>(c.used), static_cast<unsigned long long>(c.other_ids),
-                static_cast<unsigned long long>(c.undecodable), static_cast<unsigned long long>(c.outside),
-                static_cast<unsigned long long>(c.pose_rows));
+    std::printf(
+        "%s: %.2f s, %.1f m, %llu messages from %llu CAN frames (%llu used, %llu of other ids, %llu undecodable, "
+        "%llu outside) and %llu poses\n",
+        arguments.out.c_str(), drive->duration_s, drive->distance_m,
+        static_cast<unsigned long long>(drive->datagrams.size()), static_cast<unsigned long long>(c.frames),
+        static_cast<unsigned long long>(c.used), static_cast<unsigned long long>(c.other_ids),
+        static_cast<unsigned long long>(c.undecodable), static_cast<unsigned long long>(c.outside),
+        static_cast<unsigned long long>(c.pose_rows));
   }
   return kExitDone;
 }
@@ -94,22 +97,28 @@ void add_import(CLI::App& app, Command& chosen) {
   auto arguments = std::make_shared<ImportArguments>();
   ImportOptions& import = arguments->import;
   CLI::App* command = app.add_subcommand("import", "Turn a recorded drive of a real car into a drive file");
-  command->footer("Example:\n  phare import --can rav4.candump.log --dbc toyota.dbc --pose rav4_pose.csv --out rav4.pcap\n"
-                  "The pose table has columns t_s, east_m, north_m, up_m, heading_deg_cw_from_north, path_pitch_deg.");
+  command->footer(
+      "Example:\n  phare import --can rav4.candump.log --dbc toyota.dbc --pose rav4_pose.csv --out rav4.pcap\n"
+      "The pose table has columns t_s, east_m, north_m, up_m, heading_deg_cw_from_north, path_pitch_deg.");
   command->add_option("--can", import.can_log, "CAN log (candump -l)")->required();
   command->add_option("--dbc", import.dbc, "DBC file that describes its signals")->required();
   command->add_option("--pose", import.pose, "Pose table (CSV), on the log's clock")->required();
   command->add_option("--out", arguments->out, "Drive file to write")->required();
   command->add_option("--rig", arguments->rig_file, "Rig file: vehicle and scene")->capture_default_str();
-  command->add_option("--onto", arguments->onto,
-                      "Lane (CSV) to put the drive onto by path length, or none to keep the recorded pose [the scene's lane]");
+  command->add_option(
+      "--onto", arguments->onto,
+      "Lane (CSV) to put the drive onto by path length, or none to keep the recorded pose [the scene's lane]");
   command->add_option("--start", import.lane_start_m, "Where on the lane the drive begins, m")
-      ->check(CLI::NonNegativeNumber)->capture_default_str();
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_option("--light", arguments->light, "Light switch: low, high or as-recorded")
-      ->check(CLI::IsMember({"low", "high", "as-recorded"}))->capture_default_str();
-  command->add_option("--steering", import.signals.steering, "MESSAGE.SIGNAL of the steering wheel, left positive")->capture_default_str();
+      ->check(CLI::IsMember({"low", "high", "as-recorded"}))
+      ->capture_default_str();
+  command->add_option("--steering", import.signals.steering, "MESSAGE.SIGNAL of the steering wheel, left positive")
+      ->capture_default_str();
   command->add_option("--speed", import.signals.speed, "MESSAGE.SIGNAL of the speed")->capture_default_str();
-  command->add_option("--accelerator", import.signals.accelerator, "MESSAGE.SIGNAL of the accelerator")->capture_default_str();
+  command->add_option("--accelerator", import.signals.accelerator, "MESSAGE.SIGNAL of the accelerator")
+      ->capture_default_str();
   command->add_option("--brake", import.signals.brake, "MESSAGE.SIGNAL of the brake")->capture_default_str();
   command->add_flag("--json", arguments->json, "Print what was read as JSON");
   command->callback([arguments, &chosen] { chosen = [arguments] { return import_drive(*arguments); }; });

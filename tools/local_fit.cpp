@@ -5,7 +5,8 @@
 
 namespace phare {
 
-FittedValue local_fit(std::span<const double> times_s, std::span<const double> values, double t_s, double half_window_s) {
+FittedValue local_fit(std::span<const double> times_s, std::span<const double> values, double t_s,
+                      double half_window_s) {
   if (times_s.empty()) return {};
   auto low = std::lower_bound(times_s.begin(), times_s.end(), t_s - half_window_s) - times_s.begin();
   auto high = std::upper_bound(times_s.begin(), times_s.end(), t_s + half_window_s) - times_s.begin();
@@ -31,15 +32,17 @@ FittedValue local_fit(std::span<const double> times_s, std::span<const double> v
       if (k < 3) r[k] += power * values[i];
     }
   }
-  const double determinant = s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[2] * s[3]) +
-                             s[2] * (s[1] * s[3] - s[2] * s[2]);
+  const double determinant =
+      s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[2] * s[3]) + s[2] * (s[1] * s[3] - s[2] * s[2]);
   if (!(determinant > 1e-12 * s[0] * s[0] * s[0])) {
     return {s[0] > 0.0 ? r[0] / s[0] : values[first], 0.0};
   }
-  const double a = (r[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (r[1] * s[4] - r[2] * s[3]) +
-                    s[2] * (r[1] * s[3] - r[2] * s[2])) / determinant;
-  const double b = (s[0] * (r[1] * s[4] - r[2] * s[3]) - r[0] * (s[1] * s[4] - s[2] * s[3]) +
-                    s[2] * (s[1] * r[2] - s[2] * r[1])) / determinant;
+  const double a =
+      (r[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (r[1] * s[4] - r[2] * s[3]) + s[2] * (r[1] * s[3] - r[2] * s[2])) /
+      determinant;
+  const double b =
+      (s[0] * (r[1] * s[4] - r[2] * s[3]) - r[0] * (s[1] * s[4] - s[2] * s[3]) + s[2] * (s[1] * r[2] - s[2] * r[1])) /
+      determinant;
   return {a, b / reach};
 }
 

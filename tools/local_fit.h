@@ -7,12 +7,13 @@ namespace phare {
 
 struct FittedValue {
   double value = 0.0;
-  double slope = 0.0;   ///< per second
+  double slope = 0.0;  ///< per second
 };
 
-/// Parabola through the samples within `half_window_s` of `t_s`, by least squares with tricube weights (Cleveland 1979, local
-/// regression). Times ascend. Where fewer than four samples lie in the window it is widened to the nearest four; one sample
-/// gives its value and no slope.
-FittedValue local_fit(std::span<const double> times_s, std::span<const double> values, double t_s, double half_window_s);
+/// Parabola through the samples within `half_window_s` of `t_s`, by least squares with tricube weights (Cleveland 1979,
+/// local regression). Times ascend. Where fewer than four samples lie in the window it is widened to the nearest four;
+/// one sample gives its value and no slope.
+FittedValue local_fit(std::span<const double> times_s, std::span<const double> values, double t_s,
+                      double half_window_s);
 
 }  // namespace phare

@@ -15,7 +15,9 @@ int bad_input(const Error& error) {
   return kExitBadInput;
 }
 
-std::string config_path(const std::string& below) { return std::string(PHARE_CONFIG_DIR "/") + below; }
+std::string config_path(const std::string& below) {
+  return std::string(PHARE_CONFIG_DIR "/") + below;
+}
 
 namespace {
 
@@ -23,7 +25,8 @@ int run(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("phare"));
   spdlog::set_pattern("%T.%e phare %^%l%$ %v");
   CLI::App app{"Phare drives headlamps through the night before they exist.", "phare"};
-  app.footer("Example:\n  phare drive --headless --lockstep --frames 60 --out out\nEvery command has --help with an example.");
+  app.footer(
+      "Example:\n  phare drive --headless --lockstep --frames 60 --out out\nEvery command has --help with an example.");
   app.set_version_flag("--version", PHARE_VERSION);
   app.require_subcommand(1);
   Command chosen;

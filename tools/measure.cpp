@@ -87,7 +87,8 @@ const IntensityTable& table_of(const Tables& tables, const SourceConfig& source)
 }
 
 /// float64 from the tables themselves. The car stands at the world's origin.
-std::vector<Illuminance> measure_reference(const std::vector<LampConfig>& lamps, const Tables& tables, const PointsFile& points) {
+std::vector<Illuminance> measure_reference(const std::vector<LampConfig>& lamps, const Tables& tables,
+                                           const PointsFile& points) {
   std::vector<PlacedSource> sources;
   for (std::size_t i = 0; i < lamps.size(); ++i) {
     for (const SourceConfig& source : lamps[i].sources) {
@@ -97,7 +98,8 @@ std::vector<Illuminance> measure_reference(const std::vector<LampConfig>& lamps,
   }
   std::vector<Illuminance> result;
   result.reserve(points.rows.size());
-  for (const PointRow& row : points.rows) result.push_back(illuminance_lx(sources, lamps.size(), row.position_m, row.normal));
+  for (const PointRow& row : points.rows)
+    result.push_back(illuminance_lx(sources, lamps.size(), row.position_m, row.normal));
   return result;
 }
 
@@ -166,17 +168,20 @@ int measure(const MeasureOptions& options) {
     return bad_input({"--method fragment", "this build has no graphics (PHARE_GRAPHICS=OFF); use --method reference"});
 #endif
   }
-  if (const Status status = write_illuminance(options.out, *points, illuminance); !status) return bad_input(status.error());
+  if (const Status status = write_illuminance(options.out, *points, illuminance); !status)
+    return bad_input(status.error());
 
   double highest = 0.0;
   for (const Illuminance& at : illuminance) highest = std::max(highest, at.total_lx);
   if (options.json) {
-    nlohmann::json report{{"out", options.out}, {"method", options.method}, {"device", device},
-                          {"points", illuminance.size()}, {"max_illuminance_lx", highest}, {"lamps", nlohmann::json::array()}};
+    nlohmann::json report{
+        {"out", options.out},           {"method", options.method},      {"device", device},
+        {"points", illuminance.size()}, {"max_illuminance_lx", highest}, {"lamps", nlohmann::json::array()}};
     for (const LampConfig& lamp : *lamps) {
       for (const SourceConfig& source : lamp.sources) {
         const IntensityTable& table = table_of(*tables, source);
-        report["lamps"].push_back({{"lamp", lamp.name}, {"file", source.file.string()}, {"content_hash", table.content_hash}});
+        report["lamps"].push_back(
+            {{"lamp", lamp.name}, {"file", source.file.string()}, {"content_hash", table.content_hash}});
       }
     }
     std::printf("%s\n", report.dump(2).c_str());
@@ -192,19 +197,29 @@ int measure(const MeasureOptions& options) {
 void add_measure(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<MeasureOptions>();
   CLI::App* command = app.add_subcommand("measure", "Illuminance in lux at points");
-  command->footer("Points: CSV with x_m,y_m,z_m,nx,ny,nz. The answer repeats them and adds illuminance_lx and one column per lamp.\n"
-                  "Example:\n  phare measure --lamp low.ies,x=1.5,y=0.6,z=0.65,pitch_deg=-0.573 --points road.csv --out road_lx.csv");
+  command->footer(
+      "Points: CSV with x_m,y_m,z_m,nx,ny,nz. The answer repeats them and adds illuminance_lx and one column per "
+      "lamp.\n"
+      "Example:\n  phare measure --lamp low.ies,x=1.5,y=0.6,z=0.65,pitch_deg=-0.573 --points road.csv --out "
+      "road_lx.csv");
   command->add_option("--rig", options->rig_file, "Rig file whose lamps are measured; the car stands at the origin");
-  command->add_option("--lamp", options->lamps,
-                      "FILE,x=1.5,y=0.6,z=0.65[,yaw_deg=0][,pitch_deg=-0.573][,roll_deg=0][,axis=gamma0|gamma90][,scale=1]; repeat for more")
+  command
+      ->add_option("--lamp", options->lamps,
+                   "FILE,x=1.5,y=0.6,z=0.65[,yaw_deg=0][,pitch_deg=-0.573][,roll_deg=0][,axis=gamma0|gamma90][,scale=1]"
+                   "; repeat for more")
       ->allow_extra_args(false);
   command->add_option("--design", options->design, "Design of the rig [its first]");
-  command->add_option("--beams", options->beams, "Lit functions of the rig: position low high fog daytime cornering, joined by commas")
-      ->delimiter(',')->check(CLI::IsMember({"position", "low", "high", "fog", "daytime", "cornering"}))->capture_default_str();
+  command
+      ->add_option("--beams", options->beams,
+                   "Lit functions of the rig: position low high fog daytime cornering, joined by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"position", "low", "high", "fog", "daytime", "cornering"}))
+      ->capture_default_str();
   command->add_option("--points", options->points, "Points file")->required();
   command->add_option("--out", options->out, "File to write")->required();
   command->add_option("--method", options->method, "fragment: the shader that draws the frame; reference: float64")
-      ->check(CLI::IsMember({"fragment", "reference"}))->capture_default_str();
+      ->check(CLI::IsMember({"fragment", "reference"}))
+      ->capture_default_str();
   command->add_flag("--validation", options->validation, "Vulkan validation with synchronization validation");
   command->add_flag("--json", options->json, "Print a summary as JSON");
   command->callback([options, &chosen] { chosen = [options] { return measure(*options); }; });

@@ -52,7 +52,8 @@ void add_record(CLI::App& app, Command& chosen) {
   command->footer("Example:\n  phare record --out evening.pcap");
   command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
   command->add_option("--out", options->out, "Drive file to write")->required();
-  command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")->check(CLI::Range(1024, 65000));
+  command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
+      ->check(CLI::Range(1024, 65000));
   command->add_flag("--json", options->json, "Print the counts as JSON");
   command->callback([options, &chosen] { chosen = [options] { return record(*options); }; });
 }

@@ -62,7 +62,8 @@ int replay(const ReplayOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   std::uint64_t sent = 0, refused = 0;
   for (Datagram& datagram : drive->datagrams) {
-    const auto due = begin + std::chrono::nanoseconds(static_cast<std::int64_t>(static_cast<double>(datagram.sim_time.ns) / options.speed));
+    const auto due = begin + std::chrono::nanoseconds(
+                                 static_cast<std::int64_t>(static_cast<double>(datagram.sim_time.ns) / options.speed));
     while (!stop && std::chrono::steady_clock::now() < due) {
       std::this_thread::sleep_until(std::min(due, std::chrono::steady_clock::now() + std::chrono::milliseconds(50)));
     }
@@ -88,12 +89,16 @@ int replay(const ReplayOptions& options) {
 void add_replay(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand("replay", "Send the datagrams of a drive file again, in real time");
-  command->footer("Takes the place of phare-cockpit and phare-dynamics for a phare-visual that runs.\n"
-                  "Example:\n  phare replay evening.pcap --speed 0.5");
+  command->footer(
+      "Takes the place of phare-cockpit and phare-dynamics for a phare-visual that runs.\n"
+      "Example:\n  phare replay evening.pcap --speed 0.5");
   command->add_option("file", options->file, "Drive file")->required();
   command->add_option("--rig", options->rig_file, "Rig file: address, ports and channels")->capture_default_str();
-  command->add_option("--speed", options->speed, "Times real time")->check(CLI::Range(0.01, 100.0))->capture_default_str();
-  command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")->check(CLI::Range(1024, 65000));
+  command->add_option("--speed", options->speed, "Times real time")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
+  command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
+      ->check(CLI::Range(1024, 65000));
   command->callback([options, &chosen] { chosen = [options] { return replay(*options); }; });
 }
 

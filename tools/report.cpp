@@ -70,7 +70,8 @@ json message_totals(const json& bus) {
   json totals{{"received", 0}, {"lost", 0}, {"late", 0}, {"duplicate", 0}, {"restarted", 0}};
   for (const auto& [message, counts] : bus.items()) {
     if (!counts.is_object() || !counts.contains("received") || !counts.contains("lost")) continue;
-    for (auto& [name, total] : totals.items()) total = total.get<std::uint64_t>() + counts.value(name, std::uint64_t{0});
+    for (auto& [name, total] : totals.items())
+      total = total.get<std::uint64_t>() + counts.value(name, std::uint64_t{0});
   }
   totals["refused"] = bus.value("refused", std::uint64_t{0});
   return totals;
@@ -79,8 +80,8 @@ json message_totals(const json& bus) {
 }  // namespace
 
 nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::filesystem::path& out) {
-  json report{{"version", PHARE_VERSION}, {"made_at", utc_now()}, {"command", facts.command}, {"lockstep", facts.lockstep},
-              {"wall_s", facts.wall_s}, {"exit_code", facts.exit_code}};
+  json report{{"version", PHARE_VERSION},   {"made_at", utc_now()},   {"command", facts.command},
+              {"lockstep", facts.lockstep}, {"wall_s", facts.wall_s}, {"exit_code", facts.exit_code}};
   if (!facts.why.empty()) report["why"] = facts.why;
   report["rig"] = named_by_content(rig.file);
   report["rig"]["name"] = rig.name;
@@ -110,9 +111,9 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
   json summary{{"messages", messages}, {"memory", memory}, {"restarts", facts.restarts.size()}};
   if (report["processes"].contains("visual-0")) {
     const json& visual = report["processes"]["visual-0"];
-    for (const char* key : {"frames", "frame_ms", "frame_ms_without_capture", "gpu_ms", "pass_ms", "draws", "passes", "triangles",
-                            "self_audit", "switch_to_photon", "device", "device_memory_bytes", "size_px", "sim_time_s",
-                            "validation", "validation_messages"}) {
+    for (const char* key : {"frames", "frame_ms", "frame_ms_without_capture", "gpu_ms", "pass_ms", "draws", "passes",
+                            "triangles", "self_audit", "switch_to_photon", "device", "device_memory_bytes", "size_px",
+                            "sim_time_s", "validation", "validation_messages"}) {
       if (visual.contains(key)) summary[key] = visual[key];
     }
     if (visual.contains("interval_ms")) {

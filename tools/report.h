@@ -13,18 +13,19 @@
 namespace phare {
 
 struct DriveFacts {
-  std::vector<std::string> command;                 ///< as typed
+  std::vector<std::string> command;  ///< as typed
   bool lockstep = false;
   double wall_s = 0.0;
   int exit_code = 0;
-  std::string why;                                  ///< when exit_code is not 0
+  std::string why;  ///< when exit_code is not 0
   std::vector<Restart> restarts;
   std::vector<Supervisor::Ended> ends;
-  std::optional<std::filesystem::path> source_file; ///< drive, script or log that was driven
-  std::vector<std::string> process_names;           ///< "cockpit", "dynamics", "visual-0": OUT/<name>.json
+  std::optional<std::filesystem::path> source_file;  ///< drive, script or log that was driven
+  std::vector<std::string> process_names;            ///< "cockpit", "dynamics", "visual-0": OUT/<name>.json
 };
 
-/// Merges OUT/<process>.json of every process and names every input by its content. A process that left no file is left out.
+/// Merges OUT/<process>.json of every process and names every input by its content. A process that left no file is left
+/// out.
 nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::filesystem::path& out);
 
 /// A self-contained page on a report and the pictures that lie in `out`. Pictures that are not there are left out.

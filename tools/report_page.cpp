@@ -33,11 +33,20 @@ std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
     }
   }
   return result;
@@ -66,7 +75,8 @@ std::string short_hash(const std::string& hash) {
 
 class Page {
  public:
-  Page(const json& report, const std::filesystem::path& out) : report_(report), summary_(report["summary"]), out_(out) {}
+  Page(const json& report, const std::filesystem::path& out)
+      : report_(report), summary_(report["summary"]), out_(out) {}
 
   std::string html() {
     head();
@@ -88,11 +98,13 @@ class Page {
 
   void head() {
     const std::string rig = escaped(report_["rig"].value("name", ""));
-    page_ << "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
+    page_ << "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+             "content=\"width=device-width\">"
           << "<title>Phare · " << rig << "</title><style>" << kStyle << "</style></head><body><header>";
     if (there("drivers_view.png")) page_ << "<img src=\"drivers_view.png\" alt=\"The driver's view\">";
-    page_ << "<div class=\"title\"><h1><span>Phare</span> · " << rig << "</h1><p>" << escaped(report_.value("made_at", ""))
-          << " · " << (report_.value("lockstep", false) ? "lockstep" : "real time");
+    page_ << "<div class=\"title\"><h1><span>Phare</span> · " << rig << "</h1><p>"
+          << escaped(report_.value("made_at", "")) << " · "
+          << (report_.value("lockstep", false) ? "lockstep" : "real time");
     if (summary_.contains("device")) page_ << " · " << value_text(summary_, "device");
     page_ << "</p></div></header><main>";
     if (report_.contains("why")) page_ << "<p class=\"bad\">Ended early: " << value_text(report_, "why") << "</p>";
@@ -110,19 +122,23 @@ class Page {
       fact(value_text(summary_["frame_ms"], "median") + " ms", "a frame, median");
       fact(value_text(summary_["frame_ms"], "p99") + " ms", "a frame, 99th percentile");
     }
-    if (summary_.contains("frames_per_s_median")) fact(value_text(summary_, "frames_per_s_median", "%.0f"), "frames a second, all processes running");
+    if (summary_.contains("frames_per_s_median"))
+      fact(value_text(summary_, "frames_per_s_median", "%.0f"), "frames a second, all processes running");
     std::uint64_t lost = 0;
     for (const auto& [process, counts] : summary_["messages"].items()) lost += counts.value("lost", std::uint64_t{0});
     fact(std::to_string(lost), "messages lost");
     if (summary_.contains("self_audit") && summary_["self_audit"].contains("residual_percent")) {
-      fact(value_text(summary_["self_audit"]["residual_percent"], "p99", "%.2g") + " %", "self-audit residual, 99th percentile");
+      fact(value_text(summary_["self_audit"]["residual_percent"], "p99", "%.2g") + " %",
+           "self-audit residual, 99th percentile");
     }
     fact(value_text(summary_, "restarts"), "restarts");
     page_ << "</div>";
   }
 
   void picture(const std::string& file, const std::string& caption) {
-    if (there(file)) page_ << "<figure><a href=\"" << file << "\"><img loading=\"lazy\" src=\"" << file << "\" alt=\"" << caption << "\"></a><figcaption>" << caption << "</figcaption></figure>";
+    if (there(file))
+      page_ << "<figure><a href=\"" << file << "\"><img loading=\"lazy\" src=\"" << file << "\" alt=\"" << caption
+            << "\"></a><figcaption>" << caption << "</figcaption></figure>";
   }
 
   void pictures() {
@@ -141,31 +157,38 @@ class Page {
 
   void timing_row(const std::string& name, const json& times) {
     page_ << "<tr><td>" << escaped(name) << "</td>";
-    for (const char* key : {"min", "median", "p95", "p99", "max"}) page_ << "<td>" << value_text(times, key, "%.3f") << "</td>";
+    for (const char* key : {"min", "median", "p95", "p99", "max"})
+      page_ << "<td>" << value_text(times, key, "%.3f") << "</td>";
     page_ << "<td>" << value_text(times, "count") << "</td></tr>";
   }
 
   void timings() {
     if (!summary_.contains("frame_ms")) return;
-    page_ << "<h2>Time, ms</h2><div class=\"scroll\"><table><tr><th></th><th>min</th><th>median</th><th>p95</th><th>p99</th><th>max</th><th>frames</th></tr>";
+    page_ << "<h2>Time, ms</h2><div "
+             "class=\"scroll\"><table><tr><th></th><th>min</th><th>median</th><th>p95</th><th>p99</th><th>max</"
+             "th><th>frames</th></tr>";
     timing_row("frame", summary_["frame_ms"]);
-    if (summary_.contains("frame_ms_without_capture")) timing_row("frame, not read back", summary_["frame_ms_without_capture"]);
+    if (summary_.contains("frame_ms_without_capture"))
+      timing_row("frame, not read back", summary_["frame_ms_without_capture"]);
     if (summary_.contains("interval_ms")) timing_row("frame to frame", summary_["interval_ms"]);
     if (summary_.contains("gpu_ms")) timing_row("GPU", summary_["gpu_ms"]);
     if (summary_.contains("pass_ms")) {
       for (const auto& [pass, times] : summary_["pass_ms"].items()) timing_row("pass " + pass, times);
     }
-    if (summary_.contains("switch_to_photon")) timing_row("light switch to photon", summary_["switch_to_photon"].value("ms", json::object()));
-    page_ << "</table></div><p>" << value_text(summary_, "passes") << " passes, " << value_text(summary_, "draws") << " draws, "
-          << value_text(summary_, "triangles") << " triangles a frame.</p>";
+    if (summary_.contains("switch_to_photon"))
+      timing_row("light switch to photon", summary_["switch_to_photon"].value("ms", json::object()));
+    page_ << "</table></div><p>" << value_text(summary_, "passes") << " passes, " << value_text(summary_, "draws")
+          << " draws, " << value_text(summary_, "triangles") << " triangles a frame.</p>";
   }
 
   void messages() {
-    page_ << "<h2>Processes</h2><div class=\"scroll\"><table><tr><th></th><th>received</th><th>lost</th><th>late</th><th>duplicate</th>"
+    page_ << "<h2>Processes</h2><div "
+             "class=\"scroll\"><table><tr><th></th><th>received</th><th>lost</th><th>late</th><th>duplicate</th>"
              "<th>refused</th><th>memory, MiB</th><th>peak, MiB</th><th class=\"text\">ended</th></tr>";
     for (const auto& [process, counts] : summary_["messages"].items()) {
       page_ << "<tr><td>" << escaped(process) << "</td>";
-      for (const char* key : {"received", "lost", "late", "duplicate", "refused"}) page_ << "<td>" << value_text(counts, key) << "</td>";
+      for (const char* key : {"received", "lost", "late", "duplicate", "refused"})
+        page_ << "<td>" << value_text(counts, key) << "</td>";
       const json memory = summary_["memory"].value(process, json::object());
       for (const char* key : {"rss_kib", "peak_kib"}) {
         page_ << "<td>" << (memory.contains(key) ? number(memory[key].get<double>() / 1024.0, "%.1f") : "–") << "</td>";
@@ -174,17 +197,21 @@ class Page {
     }
     page_ << "</table></div>";
     for (const json& restart : report_["restarts"]) {
-      page_ << "<p>" << value_text(restart, "process") << " restarted at " << value_text(restart, "at_s") << " s after " << value_text(restart, "because") << ".</p>";
+      page_ << "<p>" << value_text(restart, "process") << " restarted at " << value_text(restart, "at_s") << " s after "
+            << value_text(restart, "because") << ".</p>";
     }
   }
 
   void lamps() {
-    page_ << "<h2>Lamps</h2><div class=\"scroll\"><table><tr><th>design</th><th class=\"text\">lamp</th><th class=\"text\">function</th>"
+    page_ << "<h2>Lamps</h2><div class=\"scroll\"><table><tr><th>design</th><th class=\"text\">lamp</th><th "
+             "class=\"text\">function</th>"
              "<th>flux, lm</th><th>peak, cd</th><th class=\"text\">file</th><th class=\"text\">content</th></tr>";
     for (const json& lamp : report_["lamps"]) {
-      page_ << "<tr><td>" << value_text(lamp, "design") << "</td><td class=\"text\">" << value_text(lamp, "lamp") << "</td><td class=\"text\">"
-            << value_text(lamp, "function") << "</td><td>" << value_text(lamp, "flux_lm", "%.0f") << "</td><td>" << value_text(lamp, "peak_cd", "%.0f")
-            << "</td><td class=\"text\">" << value_text(lamp, "file") << "</td><td class=\"text\"><code>" << short_hash(lamp.value("content_hash", "")) << "</code></td></tr>";
+      page_ << "<tr><td>" << value_text(lamp, "design") << "</td><td class=\"text\">" << value_text(lamp, "lamp")
+            << "</td><td class=\"text\">" << value_text(lamp, "function") << "</td><td>"
+            << value_text(lamp, "flux_lm", "%.0f") << "</td><td>" << value_text(lamp, "peak_cd", "%.0f")
+            << "</td><td class=\"text\">" << value_text(lamp, "file") << "</td><td class=\"text\"><code>"
+            << short_hash(lamp.value("content_hash", "")) << "</code></td></tr>";
     }
     page_ << "</table></div>";
   }
@@ -193,12 +220,15 @@ class Page {
     page_ << "<h2>Made from</h2><div class=\"scroll\"><table>";
     for (const char* what : {"rig", "scene", "vehicle", "cockpit", "drive"}) {
       if (!report_.contains(what)) continue;
-      page_ << "<tr><td>" << what << "</td><td class=\"text\">" << value_text(report_[what], "file") << "</td><td class=\"text\"><code>"
-            << escaped(report_[what].value("content_hash", "")) << "</code></td></tr>";
+      page_ << "<tr><td>" << what << "</td><td class=\"text\">" << value_text(report_[what], "file")
+            << "</td><td class=\"text\"><code>" << escaped(report_[what].value("content_hash", ""))
+            << "</code></td></tr>";
     }
-    page_ << "<tr><td>Phare</td><td class=\"text\">" << value_text(report_, "version") << "</td><td class=\"text\"><code>";
+    page_ << "<tr><td>Phare</td><td class=\"text\">" << value_text(report_, "version")
+          << "</td><td class=\"text\"><code>";
     for (const json& word : report_["command"]) page_ << escaped(word.get<std::string>()) << ' ';
-    page_ << "</code></td></tr></table></div><p>Everything in numbers: <a style=\"color:inherit\" href=\"report.json\">report.json</a></p>";
+    page_ << "</code></td></tr></table></div><p>Everything in numbers: <a style=\"color:inherit\" "
+             "href=\"report.json\">report.json</a></p>";
   }
 
   const json& report_;
@@ -209,6 +239,8 @@ class Page {
 
 }  // namespace
 
-std::string report_page(const nlohmann::json& report, const std::filesystem::path& out) { return Page(report, out).html(); }
+std::string report_page(const nlohmann::json& report, const std::filesystem::path& out) {
+  return Page(report, out).html();
+}
 
 }  // namespace phare

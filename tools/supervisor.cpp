@@ -9,10 +9,13 @@
 namespace phare {
 
 Supervisor::Supervisor(std::vector<ProcessSpec> specs) {
-  for (ProcessSpec& spec : specs) processes_.push_back(Watched{.spec = std::move(spec), .child = {}, .due = {}, .restarted = {}});
+  for (ProcessSpec& spec : specs)
+    processes_.push_back(Watched{.spec = std::move(spec), .child = {}, .due = {}, .restarted = {}});
 }
 
-Supervisor::~Supervisor() { end_all(std::chrono::seconds(2)); }
+Supervisor::~Supervisor() {
+  end_all(std::chrono::seconds(2));
+}
 
 Status Supervisor::start() {
   started_ = Clock::now();

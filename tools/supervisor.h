@@ -14,16 +14,16 @@
 namespace phare {
 
 struct ProcessSpec {
-  std::string name;                    ///< "cockpit", "dynamics", "visual-0"
+  std::string name;  ///< "cockpit", "dynamics", "visual-0"
   std::filesystem::path program;
   std::vector<std::string> arguments;
-  bool ends_the_drive = false;         ///< the drive is over when every such process has ended with exit 0
+  bool ends_the_drive = false;  ///< the drive is over when every such process has ended with exit 0
 };
 
 struct Restart {
   std::string process;
-  double at_s = 0.0;   ///< wall time since the start
-  std::string because; ///< how it ended: "SIGKILL", "exit 1"
+  double at_s = 0.0;    ///< wall time since the start
+  std::string because;  ///< how it ended: "SIGKILL", "exit 1"
 };
 
 /// Not thread safe: one loop calls step().

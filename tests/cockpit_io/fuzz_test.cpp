@@ -133,7 +133,7 @@ TEST(Fuzz, Keys) {
   for (int i = 0; i < 20000; ++i) {
     std::string bytes(random() % 12, ' ');
     for (char& c : bytes) c = random() % 3 == 0 ? "\x1b[ABCDO;1lLfgnp "[random() % 16] : static_cast<char>(random());
-    const Moment now{SimTime{i * 3'000'000}, {}};
+    const Moment now{SimTime{std::int64_t{i} * 3'000'000}, {}};
     driver.press(bytes, now, cockpit);
     driver.advance(now, cockpit);
   }

@@ -1,10 +1,13 @@
 // Sources: the log's timing and fail-safe, real CAN numbers, keys, a socket on a kernel without CAN.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "cockpit_io/can_socket.h"
 #include "cockpit_io/candump.h"
@@ -106,10 +109,25 @@ TEST(RealDrive, SpeedAndSteeringAgreeWithTheDecodedTable) {
     return decode(message, *message.find(name), frame).value_or(NAN);
   };
 
+  // The table gives steering at the stamps of the wheel speeds, linearly between its own frames.
+  std::vector<std::pair<double, double>> steering;  // s, degrees
+  for (const CandumpEntry& e : log.entries) {
+    if (e.frame.id != angle.id) continue;
+    steering.emplace_back(static_cast<double>(e.stamp_ns) * 1e-9,
+                          value(angle, "STEER_ANGLE", e.frame) + value(angle, "STEER_FRACTION", e.frame));
+  }
+  const auto steering_deg = [&](double t_s) {
+    const auto after = std::upper_bound(steering.begin(), steering.end(), std::pair(t_s, 1e9));
+    if (after == steering.begin()) return after->second;
+    if (after == steering.end()) return steering.back().second;
+    const auto before = after - 1;
+    return before->second + (t_s - before->first) / (after->first - before->first) * (after->second - before->second);
+  };
+
   std::ifstream table(folder / "rav4_seg40_can_decoded_00-30s.csv");
   std::string line;
   std::getline(table, line);
-  double steering_deg = NAN, worst_mps = 0.0, worst_deg = 0.0;
+  double worst_mps = 0.0, worst_deg = 0.0;
   std::size_t rows = 0, entry = 0;
   while (std::getline(table, line)) {
     TextScanner scan(line);
@@ -121,7 +139,6 @@ TEST(RealDrive, SpeedAndSteeringAgreeWithTheDecodedTable) {
     double decoded_mps = NAN;
     for (; entry < log.entries.size() && std::isnan(decoded_mps); ++entry) {
       const CanFrame& frame = log.entries[entry].frame;
-      if (frame.id == angle.id) steering_deg = value(angle, "STEER_ANGLE", frame) + value(angle, "STEER_FRACTION", frame);
       if (frame.id != wheels.id) continue;
       decoded_mps = 0.0;
       for (const char* wheel : {"WHEEL_SPEED_FR", "WHEEL_SPEED_FL", "WHEEL_SPEED_RR", "WHEEL_SPEED_RL"}) {
@@ -130,7 +147,7 @@ TEST(RealDrive, SpeedAndSteeringAgreeWithTheDecodedTable) {
       EXPECT_NEAR(static_cast<double>(log.entries[entry].stamp_ns) * 1e-9, t_s, 1e-4);
     }
     worst_mps = std::max(worst_mps, std::abs(decoded_mps - speed_mps));
-    worst_deg = std::max(worst_deg, std::abs(steering_deg - wheel_deg));
+    worst_deg = std::max(worst_deg, std::abs(steering_deg(t_s) - wheel_deg));
     ASSERT_FALSE(std::isnan(decoded_mps)) << line;
     ++rows;
   }

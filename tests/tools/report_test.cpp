@@ -12,12 +12,14 @@ TEST(Report, MergesWhatThereIs) {
   const auto out = std::filesystem::path(testing::TempDir()) / "phare_report_test";
   std::filesystem::remove_all(out);
   std::filesystem::create_directories(out);
-  std::ofstream(out / "cockpit.json") << R"({"process":"cockpit","bus":{"vehicle_state":{"received":7,"lost":1,"late":0,"duplicate":2,"restarted":0},)"
-                                         R"("frame_report":{"received":3,"lost":0,"late":0,"duplicate":0,"restarted":1},"sent":{"cockpit_state":9},"refused":4},)"
-                                         R"("memory":{"rss_kib":10,"peak_kib":20}})";
+  std::ofstream(out / "cockpit.json")
+      << R"({"process":"cockpit","bus":{"vehicle_state":{"received":7,"lost":1,"late":0,"duplicate":2,"restarted":0},)"
+         R"("frame_report":{"received":3,"lost":0,"late":0,"duplicate":0,"restarted":1},"sent":{"cockpit_state":9},"refused":4},)"
+         R"("memory":{"rss_kib":10,"peak_kib":20}})";
   std::ofstream(out / "dynamics.json") << "{ broken";
-  std::ofstream(out / "visual-0.json") << R"({"process":"visual","frames":10,"frame_ms":{"count":10,"min":1.0,"median":2.0,"p95":3.0,"p99":4.0,"max":5.0},)"
-                                          R"("interval_ms":{"count":9,"min":1.0,"median":10.0,"p95":3.0,"p99":4.0,"max":5.0},"pass_ms":{"lamps":{"median":1.0}},"device":"<lavapipe>"})";
+  std::ofstream(out / "visual-0.json")
+      << R"({"process":"visual","frames":10,"frame_ms":{"count":10,"min":1.0,"median":2.0,"p95":3.0,"p99":4.0,"max":5.0},)"
+         R"("interval_ms":{"count":9,"min":1.0,"median":10.0,"p95":3.0,"p99":4.0,"max":5.0},"pass_ms":{"lamps":{"median":1.0}},"device":"<lavapipe>"})";
   std::ofstream(out / "birds_eye.png") << "x";
 
   Rig rig;

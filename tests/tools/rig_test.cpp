@@ -73,10 +73,13 @@ TEST(Rig, ReadsGoodRig) {
 TEST(Rig, BadRigsSayWhere) {
   EXPECT_EQ(rig_error("fov_horizontal_deg", "fov_deg"),
             "phare_rig_test.toml:5: no key \"fov_deg\"; did you mean \"fov_horizontal_deg\"? (in channel)");
-  EXPECT_EQ(rig_error("= 90", "= 190"), "phare_rig_test.toml:5: \"channel.fov_horizontal_deg\": 190 is outside 1 … 170");
+  EXPECT_EQ(rig_error("= 90", "= 190"),
+            "phare_rig_test.toml:5: \"channel.fov_horizontal_deg\": 190 is outside 1 … 170");
   EXPECT_EQ(rig_error("\"low\"", "\"lwo\""),
-            "phare_rig_test.toml:13: \"design.lamp.source.function\": \"lwo\" is none of position, low, high, fog, daytime, cornering");
-  EXPECT_EQ(rig_error("0.6,", "-0.6,"), "phare_rig_test.toml:11: \"design.lamp.position_m\": a pair is given by its left lamp, y > 0");
+            "phare_rig_test.toml:13: \"design.lamp.source.function\": \"lwo\" is none of position, low, high, fog, "
+            "daytime, cornering");
+  EXPECT_EQ(rig_error("0.6,", "-0.6,"),
+            "phare_rig_test.toml:11: \"design.lamp.position_m\": a pair is given by its left lamp, y > 0");
   EXPECT_EQ(rig_error("scene =", "scnee ="), "phare_rig_test.toml:1: no key \"scnee\"; did you mean \"scene\"?");
   EXPECT_EQ(rig_error("[[channel]]", "[bus]\naddress=\"0.0.0.0\"\n[[channel]]"),
             "phare_rig_test.toml:5: \"bus.address\": only loopback addresses (127.…) are served");
@@ -102,7 +105,8 @@ TEST(Rig, TheDemoRigReads) {
 }
 
 TEST(LampArgument, GoodAndBad) {
-  const auto lamp = parse_lamp_argument("/d/low.ies,x=1.5,y=0.6,z=0.65,yaw_deg=2,pitch_deg=-0.5729,roll_deg=1,axis=gamma90,scale=2");
+  const auto lamp =
+      parse_lamp_argument("/d/low.ies,x=1.5,y=0.6,z=0.65,yaw_deg=2,pitch_deg=-0.5729,roll_deg=1,axis=gamma90,scale=2");
   ASSERT_TRUE(lamp) << lamp.error().text();
   EXPECT_EQ(lamp->position_m, glm::dvec3(1.5, 0.6, 0.65));
   ASSERT_EQ(lamp->sources.size(), 1u);

@@ -39,11 +39,13 @@ TEST(Supervisor, GivesUpAfterFiveRestarts) {
   EXPECT_EQ(supervisor.exit_code(), kExitCheckFailed);
   EXPECT_EQ(supervisor.restarts().size(), Supervisor::kMaxRestarts);
   EXPECT_EQ(supervisor.restarts()[0].because, "exit 1");
-  EXPECT_NE(supervisor.why().find("dynamics ended with exit 1 after 5 restarts"), std::string::npos) << supervisor.why();
+  EXPECT_NE(supervisor.why().find("dynamics ended with exit 1 after 5 restarts"), std::string::npos)
+      << supervisor.why();
 }
 
 TEST(Supervisor, BadInputIsNotTriedAgain) {
-  Supervisor supervisor({{"cockpit", "/bin/ls", {"/no/such/file"}}, {"visual-0", "/bin/sleep", {"60"}, true}});  // ls: exit 2
+  Supervisor supervisor(
+      {{"cockpit", "/bin/ls", {"/no/such/file"}}, {"visual-0", "/bin/sleep", {"60"}, true}});  // ls: exit 2
   ASSERT_TRUE(supervisor.start());
   EXPECT_TRUE(over_within(supervisor, 5s));
   EXPECT_EQ(supervisor.exit_code(), kExitBadInput);

@@ -31,7 +31,8 @@ width_m = 0.2
 x_m = 1.0
 [[lamp]]
 x_m = 2.0
-)", "car.toml");
+)",
+                                "car.toml");
   ASSERT_TRUE(table);
   EXPECT_EQ(table->number("mass_kg", 0, 5000), 1200.0);
   EXPECT_EQ(table->text("name"), "hatch");
@@ -64,17 +65,32 @@ TEST(TomlTable, UnknownKeyNamesNearest) {
 }
 
 TEST(TomlTable, MissingWrongTypeRange) {
-  EXPECT_EQ(error_of("b = 1\n", [](TomlTable& t) { t.number_or("b", 0, 0, 2); t.number("a", 0, 1); }),
+  EXPECT_EQ(error_of("b = 1\n",
+                     [](TomlTable& t) {
+                       t.number_or("b", 0, 0, 2);
+                       t.number("a", 0, 1);
+                     }),
             "car.toml:1: missing key \"a\"");
-  EXPECT_EQ(error_of("a = 1\nb = \"x\"\n", [](TomlTable& t) { t.number("a", 0, 1); t.number("b", 0, 1); }),
+  EXPECT_EQ(error_of("a = 1\nb = \"x\"\n",
+                     [](TomlTable& t) {
+                       t.number("a", 0, 1);
+                       t.number("b", 0, 1);
+                     }),
             "car.toml:2: \"b\": expected a finite number");
-  EXPECT_EQ(error_of("a = 7.5\n", [](TomlTable& t) { t.number("a", 0, 1); }), "car.toml:1: \"a\": 7.5 is outside 0 … 1");
-  EXPECT_EQ(error_of("a = nan\n", [](TomlTable& t) { t.number("a", 0, 1); }), "car.toml:1: \"a\": expected a finite number");
-  EXPECT_EQ(error_of("a = 1.5\n", [](TomlTable& t) { t.integer("a", 0, 9); }), "car.toml:1: \"a\": expected a whole number");
+  EXPECT_EQ(error_of("a = 7.5\n", [](TomlTable& t) { t.number("a", 0, 1); }),
+            "car.toml:1: \"a\": 7.5 is outside 0 … 1");
+  EXPECT_EQ(error_of("a = nan\n", [](TomlTable& t) { t.number("a", 0, 1); }),
+            "car.toml:1: \"a\": expected a finite number");
+  EXPECT_EQ(error_of("a = 1.5\n", [](TomlTable& t) { t.integer("a", 0, 9); }),
+            "car.toml:1: \"a\": expected a whole number");
   EXPECT_EQ(error_of("a = [1, 2]\n", [](TomlTable& t) { t.numbers("a", 3); }),
             "car.toml:1: \"a\": expected an array of 3 finite numbers");
-  EXPECT_EQ(error_of("a = 1\n", [](TomlTable& t) { t.table("a").number("x", 0, 1); }), "car.toml:1: \"a\": expected a table");
-  EXPECT_EQ(error_of("[[l]]\nx = 1\n[[l]]\n", [](TomlTable& t) { for (auto& l : t.tables("l")) l.number("x", 0, 1); }),
+  EXPECT_EQ(error_of("a = 1\n", [](TomlTable& t) { t.table("a").number("x", 0, 1); }),
+            "car.toml:1: \"a\": expected a table");
+  EXPECT_EQ(error_of("[[l]]\nx = 1\n[[l]]\n",
+                     [](TomlTable& t) {
+                       for (auto& l : t.tables("l")) l.number("x", 0, 1);
+                     }),
             "car.toml:3: missing key \"l.x\"");
   constexpr std::array<std::string_view, 2> kinds{"low", "high"};
   EXPECT_EQ(error_of("a = \"lo\"\n", [&](TomlTable& t) { t.choice("a", kinds); }),

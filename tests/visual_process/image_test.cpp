@@ -13,7 +13,9 @@
 namespace phare {
 namespace {
 
-std::filesystem::path temporary(const char* name) { return std::filesystem::path(testing::TempDir()) / name; }
+std::filesystem::path temporary(const char* name) {
+  return std::filesystem::path(testing::TempDir()) / name;
+}
 
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -22,7 +24,8 @@ std::string bytes_of(const std::filesystem::path& file) {
 
 Image8 pattern(int width_px, int height_px) {
   Image8 image = blank_image(width_px, height_px, 0, 0, 0);
-  for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = i % 4 == 3 ? 255 : static_cast<std::uint8_t>(i * 31 % 251);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i)
+    image.rgba[i] = i % 4 == 3 ? 255 : static_cast<std::uint8_t>(i * 31 % 251);
   return image;
 }
 
@@ -96,15 +99,18 @@ TEST(ContactSheet, LayoutHoldsAllPictures) {
   EXPECT_GE(layout.height_px, 4 * 180);
   EXPECT_EQ(contact_sheet_layout(2, 320, 180).columns, 2);
   EXPECT_EQ(contact_sheet_layout(0, 320, 180).width_px, 0);
-  const Image8 sheet = contact_sheet({{blank_image(64, 36, 200, 0, 0), "0.0 s"}, {blank_image(64, 36, 0, 200, 0), "1.0 s"}});
+  const Image8 sheet =
+      contact_sheet({{blank_image(64, 36, 200, 0, 0), "0.0 s"}, {blank_image(64, 36, 0, 200, 0), "1.0 s"}});
   EXPECT_EQ(sheet.width_px, contact_sheet_layout(2, 64, 36).width_px);
 }
 
 TEST(Thumbnails, StayFewAndEvenOverALongDrive) {
   Thumbnails thumbnails;
   for (int second = 0; second < 3600; ++second) {
-    if (thumbnails.wants_next()) thumbnails.offer({blank_image(8, 8, 0, 0, 0), std::to_string(second)});
-    else thumbnails.skip();
+    if (thumbnails.wants_next())
+      thumbnails.offer({blank_image(8, 8, 0, 0, 0), std::to_string(second)});
+    else
+      thumbnails.skip();
     EXPECT_LE(thumbnails.size(), Thumbnails::kMost);
   }
   const std::vector<LabelledImage> picked = thumbnails.pick(16);

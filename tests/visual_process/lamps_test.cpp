@@ -60,11 +60,14 @@ TEST(LitFunctions, FollowTheSwitch) {
   EXPECT_EQ(lit_functions(controls(LightSwitch::kOff, true), true), Lit{LampFunction::kHigh});
   EXPECT_EQ(lit_functions(controls(LightSwitch::kOff, false, true), true), Lit{});
   EXPECT_EQ(lit_functions(controls(LightSwitch::kPosition), true), Lit{LampFunction::kPosition});
-  EXPECT_EQ(lit_functions(controls(LightSwitch::kPosition, false, true), true), (Lit{LampFunction::kPosition, LampFunction::kFog}));
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kPosition, false, true), true),
+            (Lit{LampFunction::kPosition, LampFunction::kFog}));
   EXPECT_EQ(lit_functions(controls(LightSwitch::kLow), true), (Lit{LampFunction::kPosition, LampFunction::kLow}));
-  EXPECT_EQ(lit_functions(controls(LightSwitch::kHigh), true), (Lit{LampFunction::kPosition, LampFunction::kLow, LampFunction::kHigh}));
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kHigh), true),
+            (Lit{LampFunction::kPosition, LampFunction::kLow, LampFunction::kHigh}));
   EXPECT_EQ(lit_functions(controls(LightSwitch::kHigh), false), (Lit{LampFunction::kPosition, LampFunction::kHigh}));
-  EXPECT_EQ(lit_functions(controls(LightSwitch::kLow, true), false), (Lit{LampFunction::kPosition, LampFunction::kHigh}));
+  EXPECT_EQ(lit_functions(controls(LightSwitch::kLow, true), false),
+            (Lit{LampFunction::kPosition, LampFunction::kHigh}));
 }
 
 TEST(Lamps, ComposeOnlyWhatWasNotSeenBefore) {
@@ -153,7 +156,8 @@ TEST(Stills, TheWallHasItsGridAndLight) {
   EXPECT_GT(page.width_px, 40 * 28);
   EXPECT_GT(page.height_px, 16 * 28);
   // 2 x 900 cd at 25 m: 2.9 lx, a colour well away from black in the middle of the wall, off the grid lines
-  const std::size_t at = (static_cast<std::size_t>(page.height_px / 2 + 20) * static_cast<std::size_t>(page.width_px) + 700) * 4;
+  const std::size_t at =
+      (static_cast<std::size_t>(page.height_px / 2 + 20) * static_cast<std::size_t>(page.width_px) + 700) * 4;
   EXPECT_GT(page.rgba[at] + page.rgba[at + 1] + page.rgba[at + 2], 60);
 }
 

@@ -13,7 +13,8 @@ namespace {
 Scene ground() {
   Scene scene;
   scene.materials.resize(1);
-  for (const glm::vec3 corner : {glm::vec3{-100, -100, 0}, {100, -100, 0}, {100, 100, 0}, {-100, 100, 0}}) scene.vertices.push_back({corner, {0, 0, 1}});
+  for (const glm::vec3 corner : {glm::vec3{-100, -100, 0}, {100, -100, 0}, {100, 100, 0}, {-100, 100, 0}})
+    scene.vertices.push_back({corner, {0, 0, 1}});
   scene.indices = {0, 1, 2, 0, 2, 3};
   SceneChunk chunk;
   chunk.origin_m = {1000.0, 0.0, 2.0};

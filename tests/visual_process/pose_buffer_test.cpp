@@ -24,9 +24,13 @@ VehicleState on_circle(double t_s) {
   return state;
 }
 
-SimTime at_s(double seconds) { return SimTime{static_cast<std::int64_t>(std::llround(seconds * 1e9))}; }
+SimTime at_s(double seconds) {
+  return SimTime{static_cast<std::int64_t>(std::llround(seconds * 1e9))};
+}
 
-double distance_m(const VehicleState& a, const VehicleState& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+double distance_m(const VehicleState& a, const VehicleState& b) {
+  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+}
 
 TEST(PoseBuffer, InterpolatesAndExtrapolatesWithinMicrometres) {
   PoseBuffer poses;
@@ -71,7 +75,7 @@ TEST(PoseBuffer, ASeekBackBeginsAnew) {
   poses.push(at_s(1.0), on_circle(1.0));
   EXPECT_LT(distance_m(poses.at(at_s(1.0))->pose, on_circle(1.0)), 1e-9);
   EXPECT_LT(distance_m(poses.at(at_s(0.5))->pose, on_circle(1.0)), 1e-9);  // before the oldest: the oldest
-  poses.push(at_s(1.0), on_circle(2.0));                                   // the same moment again: the newer word counts
+  poses.push(at_s(1.0), on_circle(2.0));  // the same moment again: the newer word counts
   EXPECT_LT(distance_m(poses.at(at_s(1.0))->pose, on_circle(2.0)), 1e-9);
 }
 

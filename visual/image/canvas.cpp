@@ -51,7 +51,9 @@ std::u32string code_points(std::string_view text) {
   return points;
 }
 
-const ImFontGlyph* glyph_of(char32_t point) { return font().font->FindGlyph(static_cast<ImWchar>(point)); }
+const ImFontGlyph* glyph_of(char32_t point) {
+  return font().font->FindGlyph(static_cast<ImWchar>(point));
+}
 
 }  // namespace
 
@@ -78,7 +80,9 @@ void paste(Image8& image, const Image8& picture, int x_px, int y_px) {
   }
 }
 
-int text_height_px(int scale) { return 13 * scale; }
+int text_height_px(int scale) {
+  return 13 * scale;
+}
 
 int text_width_px(std::string_view text, int scale) {
   float width = 0.0f;

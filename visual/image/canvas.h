@@ -20,7 +20,8 @@ void paste(Image8& image, const Image8& picture, int x_px, int y_px);
 /// Height of a line of text.
 int text_height_px(int scale = 1);
 int text_width_px(std::string_view text, int scale = 1);
-/// Draws one line of Latin-1 text (given as UTF-8) with its top left corner at (x, y), in whole-number sizes of a bitmap font.
+/// Draws one line of Latin-1 text (given as UTF-8) with its top left corner at (x, y), in whole-number sizes of a
+/// bitmap font.
 void draw_text(Image8& image, int x_px, int y_px, std::string_view text, Colour colour, int scale = 1);
 
 }  // namespace phare

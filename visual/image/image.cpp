@@ -48,7 +48,8 @@ const std::array<float, 256>& linear_of_srgb() {
 }
 
 std::uint8_t srgb_of_linear(float linear) {
-  const double c = linear <= 0.0031308f ? 12.92 * linear : 1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055;
+  const double c =
+      linear <= 0.0031308f ? 12.92 * linear : 1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055;
   return static_cast<std::uint8_t>(std::lround(std::fmin(std::fmax(c, 0.0), 1.0) * 255.0));
 }
 
@@ -75,7 +76,8 @@ Status write_png(const std::filesystem::path& file, const Image8& image) {
     for (std::size_t c = 0; c < 3; ++c) rgb[i * 3 + c] = image.rgba[i * 4 + c];
   }
   return write_beside(file, [&](const std::string& name) -> std::string {
-    const int written = stbi_write_png(name.c_str(), image.width_px, image.height_px, 3, rgb.data(), image.width_px * 3);
+    const int written =
+        stbi_write_png(name.c_str(), image.width_px, image.height_px, 3, rgb.data(), image.width_px * 3);
     return written != 0 ? "" : "the picture cannot be written here";
   });
 }
@@ -125,7 +127,8 @@ Result<ImageF> read_exr(const std::filesystem::path& file) {
     const std::array<const char*, 4> names{"R", "G", "B", kIlluminanceChannel};
     const std::size_t row_bytes = static_cast<std::size_t>(image.width_px) * 4 * sizeof(float);
     for (std::size_t c = 0; c < names.size(); ++c) {
-      buffer.insert(names[c], Imf::Slice::Make(Imf::FLOAT, image.rgba.data() + c, window, 4 * sizeof(float), row_bytes));
+      buffer.insert(names[c],
+                    Imf::Slice::Make(Imf::FLOAT, image.rgba.data() + c, window, 4 * sizeof(float), row_bytes));
     }
     in.setFrameBuffer(buffer);
     in.readPixels(window.min.y, window.max.y);
@@ -145,7 +148,8 @@ Image8 box_downscale(const Image8& image, int factor) {
       std::array<float, 3> sum{};
       for (int v = 0; v < factor; ++v) {
         for (int u = 0; u < factor; ++u) {
-          const std::size_t at = (texels(image.width_px, y * factor + v) + static_cast<std::size_t>(x * factor + u)) * 4;
+          const std::size_t at =
+              (texels(image.width_px, y * factor + v) + static_cast<std::size_t>(x * factor + u)) * 4;
           for (std::size_t c = 0; c < 3; ++c) sum[c] += linear[image.rgba[at + c]];
         }
       }
@@ -156,6 +160,8 @@ Image8 box_downscale(const Image8& image, int factor) {
   return small;
 }
 
-Image8 thumbnail(const Image8& image, int width_px) { return box_downscale(image, image.width_px / width_px); }
+Image8 thumbnail(const Image8& image, int width_px) {
+  return box_downscale(image, image.width_px / width_px);
+}
 
 }  // namespace phare

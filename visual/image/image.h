@@ -11,7 +11,8 @@ namespace phare {
 /// An opaque picture of one colour.
 Image8 blank_image(int width_px, int height_px, std::uint8_t red, std::uint8_t green, std::uint8_t blue);
 
-/// Writes a PNG, RGB without alpha. The same picture gives the same bytes. Written beside and renamed: never half a file.
+/// Writes a PNG, RGB without alpha. The same picture gives the same bytes. Written beside and renamed: never half a
+/// file.
 Status write_png(const std::filesystem::path& file, const Image8& image);
 Result<Image8> read_png(const std::filesystem::path& file);
 

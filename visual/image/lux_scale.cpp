@@ -15,7 +15,8 @@ constexpr double kHighest_lx = 200.0;
 constexpr int kBarWidth_px = 18;
 
 std::uint8_t srgb(float linear) {
-  const double c = linear <= 0.0031308f ? 12.92 * linear : 1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055;
+  const double c =
+      linear <= 0.0031308f ? 12.92 * linear : 1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055;
   return static_cast<std::uint8_t>(std::lround(std::clamp(c, 0.0, 1.0) * 255.0));
 }
 
@@ -40,7 +41,8 @@ void draw_lux_legend(Image8& image, int x_px, int y_px, int height_px) {
   for (const double level_lx : kIsoluxLevels_lx) {
     const int y = y_px + static_cast<int>(std::log(kHighest_lx / level_lx) / decades * (height_px - 1));
     draw_line(image, x_px, y, x_px + kBarWidth_px + 3, y, {255, 255, 255});
-    draw_text(image, x_px + kBarWidth_px + 7, y - text_height_px() / 2, std::to_string(static_cast<int>(level_lx)), {220, 220, 220});
+    draw_text(image, x_px + kBarWidth_px + 7, y - text_height_px() / 2, std::to_string(static_cast<int>(level_lx)),
+              {220, 220, 220});
   }
   draw_text(image, x_px, y_px - text_height_px() - 3, "lux", {220, 220, 220});
 }

@@ -35,12 +35,14 @@ void Album::keep_frame(std::int64_t frame_index, const Image8& image, const std:
   save(name, image);
   for (const std::uint8_t byte : image.rgba) frames_hash_ = (frames_hash_ ^ byte) * 0x100000001b3ull;
   ++kept_frames_;
-  if (thumbnails_.wants_next()) thumbnails_.offer({thumbnail(image, kThumbnailWidth_px), label});
-  else thumbnails_.skip();
+  if (thumbnails_.wants_next())
+    thumbnails_.offer({thumbnail(image, kThumbnailWidth_px), label});
+  else
+    thumbnails_.skip();
 }
 
-void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps, int width_px, int height_px,
-                        const std::string& label) {
+void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps,
+                        int width_px, int height_px, const std::string& label) {
   has_stills_ = true;
   driver.want_image = true;
   driver.draw_overlay = false;
@@ -72,6 +74,8 @@ void Album::finish() {
   if (!pictures.empty()) save("contact_sheet.png", contact_sheet(pictures));
 }
 
-void Album::save(const char* name, const Image8& image) { tell(write_png(folder_ / name, image)); }
+void Album::save(const char* name, const Image8& image) {
+  tell(write_png(folder_ / name, image));
+}
 
 }  // namespace phare

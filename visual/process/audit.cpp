@@ -17,7 +17,10 @@ void AuditStats::add(const Lamps& lamps, const VehicleState& pose, std::span<con
 
 nlohmann::json AuditStats::json() const {
   const auto brief = [](const LogHistogram& residual) -> nlohmann::json {
-    return {{"pixels", residual.count()}, {"max", residual.max()}, {"p99", residual.percentile(0.99)}, {"median", residual.percentile(0.5)}};
+    return {{"pixels", residual.count()},
+            {"max", residual.max()},
+            {"p99", residual.percentile(0.99)},
+            {"median", residual.percentile(0.5)}};
   };
   return {{"audits", audits_},
           {"pixels", residual_lx_.count()},

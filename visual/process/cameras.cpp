@@ -5,7 +5,9 @@
 namespace phare {
 namespace {
 
-glm::dvec3 position_of(const VehicleState& pose) { return {pose.x_m, pose.y_m, pose.z_m}; }
+glm::dvec3 position_of(const VehicleState& pose) {
+  return {pose.x_m, pose.y_m, pose.z_m};
+}
 
 }  // namespace
 
@@ -42,9 +44,12 @@ Camera chase_camera(const ChannelConfig& channel, const VehicleState& pose) {
 
 Camera camera_of(CameraKind kind, const ChannelConfig& channel, const VehicleState& pose) {
   switch (kind) {
-    case CameraKind::kDriver: break;
-    case CameraKind::kBirdsEye: return birds_eye_camera(pose);
-    case CameraKind::kChase: return chase_camera(channel, pose);
+    case CameraKind::kDriver:
+      break;
+    case CameraKind::kBirdsEye:
+      return birds_eye_camera(pose);
+    case CameraKind::kChase:
+      return chase_camera(channel, pose);
   }
   return driver_camera(channel, pose);
 }

@@ -14,8 +14,9 @@
 
 namespace phare {
 
-/// Values from 1e-9 to 1e9 in log-spaced bins; percentiles are right within half a percent of the value. Minimum, maximum,
-/// count and mean are exact. Smaller values (zero too) count in the lowest bin. Memory: 33 KiB, whatever the count.
+/// Values from 1e-9 to 1e9 in log-spaced bins; percentiles are right within half a percent of the value. Minimum,
+/// maximum, count and mean are exact. Smaller values (zero too) count in the lowest bin. Memory: 33 KiB, whatever the
+/// count.
 class LogHistogram {
  public:
   void add(double value) {
@@ -63,22 +64,25 @@ class LogHistogram {
 
 /// {"count", "min", "median", "mean", "p95", "p99", "max"}
 inline nlohmann::json to_json(const LogHistogram& histogram) {
-  return {{"count", histogram.count()},           {"min", histogram.min()},
-          {"median", histogram.percentile(0.50)}, {"mean", histogram.mean()},
-          {"p95", histogram.percentile(0.95)},    {"p99", histogram.percentile(0.99)},
+  return {{"count", histogram.count()},
+          {"min", histogram.min()},
+          {"median", histogram.percentile(0.50)},
+          {"mean", histogram.mean()},
+          {"p95", histogram.percentile(0.95)},
+          {"p99", histogram.percentile(0.99)},
           {"max", histogram.max()}};
 }
 
 /// Times of the frames of a run, ms.
 struct FrameStats {
-  LogHistogram wall_ms;              ///< every frame
-  LogHistogram wall_no_capture_ms;   ///< frames whose picture was not read back
-  LogHistogram gpu_ms;               ///< frames whose picture was not read back
-  LogHistogram interval_ms;          ///< from the end of one frame to the end of the next, waiting included
+  LogHistogram wall_ms;             ///< every frame
+  LogHistogram wall_no_capture_ms;  ///< frames whose picture was not read back
+  LogHistogram gpu_ms;              ///< frames whose picture was not read back
+  LogHistogram interval_ms;         ///< from the end of one frame to the end of the next, waiting included
   std::map<std::string, LogHistogram> pass_ms;
   std::uint64_t frames = 0;
   std::uint64_t captured_frames = 0;
-  std::uint64_t stale_frames = 0;    ///< drawn with a held pose
+  std::uint64_t stale_frames = 0;  ///< drawn with a held pose
   FrameResult newest;
 
   void add(const FrameResult& result, bool captured) {

@@ -11,18 +11,28 @@ namespace {
 
 const char* name_of(LampFunction function) {
   switch (function) {
-    case LampFunction::kPosition: return "position";
-    case LampFunction::kLow: return "low";
-    case LampFunction::kHigh: return "high";
-    case LampFunction::kFog: return "fog";
-    case LampFunction::kDaytime: return "daytime";
-    case LampFunction::kCornering: return "cornering";
+    case LampFunction::kPosition:
+      return "position";
+    case LampFunction::kLow:
+      return "low";
+    case LampFunction::kHigh:
+      return "high";
+    case LampFunction::kFog:
+      return "fog";
+    case LampFunction::kDaytime:
+      return "daytime";
+    case LampFunction::kCornering:
+      return "cornering";
   }
   return "?";
 }
 
-glm::dvec3 position_of(const VehicleState& pose) { return {pose.x_m, pose.y_m, pose.z_m}; }
-glm::dmat3 rotation_of(const VehicleState& pose) { return world_from_car(pose.roll_rad, pose.pitch_rad, pose.yaw_rad); }
+glm::dvec3 position_of(const VehicleState& pose) {
+  return {pose.x_m, pose.y_m, pose.z_m};
+}
+glm::dmat3 rotation_of(const VehicleState& pose) {
+  return world_from_car(pose.roll_rad, pose.pitch_rad, pose.yaw_rad);
+}
 
 }  // namespace
 
@@ -51,7 +61,8 @@ Result<Lamps> Lamps::load(const Rig& rig) {
     }
     most_positions = std::max(most_positions, design.lamps.size());
     for (const LampConfig& lamp : design.lamps) {
-      if (lamp.sources.size() > 64) return Error{rig.file.string(), "lamp '" + lamp.name + "' has more than 64 sources"};
+      if (lamp.sources.size() > 64)
+        return Error{rig.file.string(), "lamp '" + lamp.name + "' has more than 64 sources"};
       for (const SourceConfig& source : lamp.sources) {
         const std::pair key{source.file.string(), source.axis};
         if (lamps.tables_.contains(key)) continue;
@@ -90,7 +101,8 @@ std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
   for (std::size_t position = 0; position < lamps.size(); ++position) {
     const BeamImage* image = shown_[position];
     if (image == nullptr || image->dark) continue;
-    placed.push_back({position_of(pose) + rotation * lamps[position].position_m, rotation * aim * image->car_from_image, position});
+    placed.push_back(
+        {position_of(pose) + rotation * lamps[position].position_m, rotation * aim * image->car_from_image, position});
   }
   return placed;
 }
@@ -101,14 +113,16 @@ double Lamps::illuminance_lx(const VehicleState& pose, const MeasurePoint& at) c
   return illuminance_in_car_lx(design_, lit_, in_car);
 }
 
-double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at) const {
+double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit,
+                                    const MeasurePoint& at) const {
   const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_, 0.0);
   double total_lx = 0.0;
   for (const LampConfig& lamp : designs_[design].lamps) {
     for (const SourceConfig& source : lamp.sources) {
       if (!lit.contains(source.function)) continue;
       const AimedSource light = aimed(source);
-      total_lx += phare::illuminance_lx(lamp.position_m, aim * light.car_from_lamp, *light.table, light.scale, at.position_m, at.normal);
+      total_lx += phare::illuminance_lx(lamp.position_m, aim * light.car_from_lamp, *light.table, light.scale,
+                                        at.position_m, at.normal);
     }
   }
   return total_lx;
@@ -162,8 +176,8 @@ const BeamImage& Lamps::image_of(std::size_t design, std::size_t position, Sourc
 }
 
 AimedSource Lamps::aimed(const SourceConfig& source) const {
-  return {&tables_.at({source.file.string(), source.axis}), aim_rotation(source.yaw_rad, source.pitch_rad, source.roll_rad),
-          source.scale, source.colour_temperature_k};
+  return {&tables_.at({source.file.string(), source.axis}),
+          aim_rotation(source.yaw_rad, source.pitch_rad, source.roll_rad), source.scale, source.colour_temperature_k};
 }
 
 }  // namespace phare

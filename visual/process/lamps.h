@@ -16,8 +16,8 @@
 
 namespace phare {
 
-/// Functions that the controls light. Off lights nothing; flash adds high beam whatever the switch; high beam keeps low beam
-/// where the rig says so; fog needs the position lights at least.
+/// Functions that the controls light. Off lights nothing; flash adds high beam whatever the switch; high beam keeps low
+/// beam where the rig says so; fog needs the position lights at least.
 std::set<LampFunction> lit_functions(const CockpitState& controls, bool high_keeps_low);
 
 class Lamps {
@@ -34,8 +34,8 @@ class Lamps {
     const BeamImage* image = nullptr;  ///< valid as long as these Lamps
   };
 
-  /// Adopts the controls. Composes a beam image only when a lamp position is lit in a way not seen before, and reports only
-  /// slots whose image is another than before. A design index past the last means the last.
+  /// Adopts the controls. Composes a beam image only when a lamp position is lit in a way not seen before, and reports
+  /// only slots whose image is another than before. A design index past the last means the last.
   std::vector<Change> set_controls(const CockpitState& controls);
 
   /// All lamps turned up (positive) together, rad.
@@ -44,7 +44,8 @@ class Lamps {
   /// The positions that shine, in the world. The body's rotation is that of `pose`: Rz(yaw)·Ry(pitch)·Rx(roll).
   std::vector<PlacedLamp> placed(const VehicleState& pose) const;
 
-  /// E in lx at a point of the world: float64 from the native tables, no beam image in between. The truth the GPU is held to.
+  /// E in lx at a point of the world: float64 from the native tables, no beam image in between. The truth the GPU is
+  /// held to.
   double illuminance_lx(const VehicleState& pose, const MeasurePoint& at) const;
   /// The same in the car frame for one set of lit functions of one design: the wall.
   double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at) const;

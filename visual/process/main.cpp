@@ -19,8 +19,11 @@ int refuse(const Error& error) {
 nlohmann::json describe(const Lamps& lamps) {
   nlohmann::json tables = nlohmann::json::array();
   for (const Lamps::TableInfo& table : lamps.tables()) {
-    tables.push_back({{"file", table.name}, {"content_hash", table.content_hash}, {"peak_cd", table.peak_cd},
-                      {"flux_lm", table.flux_lm}, {"notes", table.notes}});
+    tables.push_back({{"file", table.name},
+                      {"content_hash", table.content_hash},
+                      {"peak_cd", table.peak_cd},
+                      {"flux_lm", table.flux_lm},
+                      {"notes", table.notes}});
   }
   return tables;
 }
@@ -69,8 +72,19 @@ int draw_channel(VisualOptions options) {
   if (!album) return refuse(album.error());
 
   nlohmann::json lamps_json = describe(*lamps);
-  Session session{std::move(options), std::move(*rig), std::move(*scene), std::move(*lamps), std::move(window), std::move(*renderer),
-                  std::move(*bus), std::move(*album), install_stop_signals(), {}, {}, {}, std::move(lamps_json)};
+  Session session{std::move(options),
+                  std::move(*rig),
+                  std::move(*scene),
+                  std::move(*lamps),
+                  std::move(window),
+                  std::move(*renderer),
+                  std::move(*bus),
+                  std::move(*album),
+                  install_stop_signals(),
+                  {},
+                  {},
+                  {},
+                  std::move(lamps_json)};
   spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
   run_loop(session);
   if (session.renderer.validation_messages() > 0) {

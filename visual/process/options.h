@@ -12,18 +12,18 @@ namespace phare {
 
 struct VisualOptions {
   std::filesystem::path rig_file;
-  std::filesystem::path drive_file;     ///< only to know how long the drive is; may be empty
-  std::filesystem::path out;            ///< folder of the pictures; empty: none are written
-  std::filesystem::path stats_file;     ///< empty: visual-<channel>.json in `out`
+  std::filesystem::path drive_file;  ///< only to know how long the drive is; may be empty
+  std::filesystem::path out;         ///< folder of the pictures; empty: none are written
+  std::filesystem::path stats_file;  ///< empty: visual-<channel>.json in `out`
   std::uint32_t channel = 0;
   bool lockstep = false;
   bool headless = false;
-  std::int64_t frames = 0;              ///< > 0: save every one of this many frames, then leave
-  int width_px = 0, height_px = 0;      ///< 0: the channel's
+  std::int64_t frames = 0;          ///< > 0: save every one of this many frames, then leave
+  int width_px = 0, height_px = 0;  ///< 0: the channel's
   int samples = 1;
-  double still_at_s = -1.0;             ///< simulated time of the stills; negative: chosen
+  double still_at_s = -1.0;  ///< simulated time of the stills; negative: chosen
   double exposure_per_cdm2 = 0.35;
-  std::int64_t audit_every = 300;       ///< frames; 0: never
+  std::int64_t audit_every = 300;  ///< frames; 0: never
   bool false_colour = false;
   bool validation = false;
   std::string device_name;

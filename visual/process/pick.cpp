@@ -68,7 +68,8 @@ std::optional<MeasurePoint> pick(const Scene& scene, const Ray& ray, double most
       if (!distance_m || *distance_m >= most_m) continue;
       most_m = *distance_m;
       const glm::dvec3 normal = glm::normalize(glm::cross(ab, ac));
-      nearest = MeasurePoint{ray.origin_m + ray.direction * most_m, glm::dot(normal, ray.direction) > 0.0 ? -normal : normal};
+      nearest =
+          MeasurePoint{ray.origin_m + ray.direction * most_m, glm::dot(normal, ray.direction) > 0.0 ? -normal : normal};
     }
   }
   return nearest;

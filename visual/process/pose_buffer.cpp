@@ -8,14 +8,19 @@
 namespace phare {
 namespace {
 
-double seconds_between(SimTime from, SimTime to) { return static_cast<double>(to.ns - from.ns) * 1e-9; }
+double seconds_between(SimTime from, SimTime to) {
+  return static_cast<double>(to.ns - from.ns) * 1e-9;
+}
 
 /// From a to b by the short way round.
-double angle_between(double from_rad, double to_rad) { return std::remainder(to_rad - from_rad, 2.0 * std::numbers::pi); }
+double angle_between(double from_rad, double to_rad) {
+  return std::remainder(to_rad - from_rad, 2.0 * std::numbers::pi);
+}
 
 double hermite(double p0, double v0, double p1, double v1, double u, double interval_s) {
   const double u2 = u * u, u3 = u2 * u;
-  return (2 * u3 - 3 * u2 + 1) * p0 + (u3 - 2 * u2 + u) * interval_s * v0 + (3 * u2 - 2 * u3) * p1 + (u3 - u2) * interval_s * v1;
+  return (2 * u3 - 3 * u2 + 1) * p0 + (u3 - 2 * u2 + u) * interval_s * v0 + (3 * u2 - 2 * u3) * p1 +
+         (u3 - u2) * interval_s * v1;
 }
 
 VehicleState interpolate(const VehicleState& a, const VehicleState& b, double u, double interval_s) {
@@ -67,7 +72,9 @@ std::optional<PoseBuffer::Drawn> PoseBuffer::at(SimTime time) const {
     const Entry& earlier = ring_[(newest_ + ring_.size() - back) % ring_.size()];
     if (earlier.time <= time) {
       const double interval_s = seconds_between(earlier.time, later->time);
-      return Drawn{interpolate(earlier.state, later->state, seconds_between(earlier.time, time) / interval_s, interval_s), 0.0, false};
+      return Drawn{
+          interpolate(earlier.state, later->state, seconds_between(earlier.time, time) / interval_s, interval_s), 0.0,
+          false};
     }
     later = &earlier;
   }

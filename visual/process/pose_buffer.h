@@ -9,20 +9,22 @@
 
 namespace phare {
 
-/// The pose `seconds` later (or earlier) under constant velocity and yaw, pitch and roll rate; acceleration adds its half
-/// square. Position error below jerk·dt³/6: at 10 m/s³ over one 4 ms message interval under a micrometre, over 200 ms 13 mm.
+/// The pose `seconds` later (or earlier) under constant velocity and yaw, pitch and roll rate; acceleration adds its
+/// half square. Position error below jerk·dt³/6: at 10 m/s³ over one 4 ms message interval under a micrometre, over 200
+/// ms 13 mm.
 VehicleState extrapolate(const VehicleState& state, double seconds);
 
 /// Real time only: keeps the newest few poses. Between two it interpolates (cubic Hermite on position, so velocity is
-/// continuous; linear on angles, the short way round); past the newest it coasts for 200 ms, then holds (design, section 3).
+/// continuous; linear on angles, the short way round); past the newest it coasts for 200 ms, then holds (design,
+/// section 3).
 class PoseBuffer {
  public:
   static constexpr double kCoast_s = 0.2;
 
   struct Drawn {
     VehicleState pose;
-    double age_s = 0.0;   ///< how long ago the newest message was due
-    bool stale = false;   ///< older than the coast: the pose is held
+    double age_s = 0.0;  ///< how long ago the newest message was due
+    bool stale = false;  ///< older than the coast: the pose is held
   };
 
   /// Poses that go back in time (a seek, a new start) clear the buffer.
@@ -39,9 +41,9 @@ class PoseBuffer {
   std::size_t newest_ = 0;  // index
 };
 
-/// Simulated time of now in real time, from the stamps of the messages that came: simulation runs at the speed of the wall
-/// clock, so the largest (simulated - wall) of late is the one with the least delay. Follows slow drift (100 ppm) and jumps
-/// (pause, seek) of more than 50 ms.
+/// Simulated time of now in real time, from the stamps of the messages that came: simulation runs at the speed of the
+/// wall clock, so the largest (simulated - wall) of late is the one with the least delay. Follows slow drift (100 ppm)
+/// and jumps (pause, seek) of more than 50 ms.
 class DisplayClock {
  public:
   void observe(SimTime stamped, WallTime sent);

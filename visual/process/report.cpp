@@ -38,10 +38,12 @@ nlohmann::json report_json(const Session& session, SimTime now) {
                      {"resampled", session.lamps.resampled_images()}};
   report["self_audit"] = session.audit.json();
   report["switch_to_photon"] = session.switches.json();
-  report["scene"] = {{"file", session.scene.file.filename().string()}, {"content_hash", session.scene.content_hash},
+  report["scene"] = {{"file", session.scene.file.filename().string()},
+                     {"content_hash", session.scene.content_hash},
                      {"triangles", session.scene.indices.size() / 3}};
   report["lamps"] = session.lamps_json;
-  report["kept_frames"] = {{"count", session.album.kept_frames()}, {"hash", fmt::format("{:016x}", session.album.frames_hash())}};
+  report["kept_frames"] = {{"count", session.album.kept_frames()},
+                           {"hash", fmt::format("{:016x}", session.album.frames_hash())}};
   return report;
 }
 

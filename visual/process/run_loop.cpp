@@ -29,7 +29,8 @@ struct Moment {
 
 class Loop {
  public:
-  explicit Loop(Session& session) : s_(session), pacer_(std::chrono::nanoseconds(1'000'000'000 / session.rig.frame_rate_hz)) {
+  explicit Loop(Session& session)
+      : s_(session), pacer_(std::chrono::nanoseconds(1'000'000'000 / session.rig.frame_rate_hz)) {
     s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
     controls_.light_switch = LightSwitch::kLow;  // until the cockpit speaks, low beam: the safe state
     warm_up();
@@ -64,12 +65,12 @@ class Loop {
   PoseBuffer poses_;
   DisplayClock clock_;
   CockpitState controls_;
-  std::int64_t drawn_index_ = -1;        // lockstep
+  std::int64_t drawn_index_ = -1;  // lockstep
   std::int64_t drawn_frames_ = 0;
   std::int64_t next_picture_ns_ = 0;
   Clock::time_point progress_ = Clock::now(), stats_written_ = Clock::now(), frame_end_{};
   bool ended_ = false;
-  bool captured_ = false;                // the picture of this frame is read back
+  bool captured_ = false;  // the picture of this frame is read back
   FrameInput input_;
   std::optional<Moment> newest_;
 };
@@ -116,7 +117,8 @@ void Loop::answer(const ProbeRequest& request, SimTime now) {
 /// The first picture of a device makes its machine code, which may take seconds: before the drive, not in it.
 void Loop::warm_up() {
   const VehicleState pose;
-  for (const Lamps::Change& change : s_.lamps.set_controls(controls_)) s_.renderer.set_beam(change.position, *change.image);
+  for (const Lamps::Change& change : s_.lamps.set_controls(controls_))
+    s_.renderer.set_beam(change.position, *change.image);
   FrameInput input;
   input.camera = driver_camera(s_.channel(), pose);
   input.lamps = s_.lamps.placed(pose);
@@ -138,9 +140,12 @@ void Loop::repeat_when_stalled() {
   const auto* controls = s_.bus.newest<CockpitState>();
   const auto* car = s_.bus.newest<VehicleState>();
   if (s_.options.lockstep && drawn_index_ < 0 && controls != nullptr && car != nullptr && car->value.frame_index >= 0) {
-    // Started anew in the middle of a drive where one of the two is a frame behind: the pose we hold sets both going again.
+    // Started anew in the middle of a drive where one of the two is a frame behind: the pose we hold sets both going
+    // again.
     drawn_index_ = car->value.frame_index;
-    FrameReport report{drawn_index_, s_.options.channel, static_cast<std::uint32_t>(s_.rig.channels.size()), 0.0, 0.0, 0, car->value, true};
+    FrameReport report{
+        drawn_index_, s_.options.channel, static_cast<std::uint32_t>(s_.rig.channels.size()), 0.0, 0.0, 0, car->value,
+        true};
     s_.bus.send(car->sim_time, report);
     return;
   }
@@ -154,7 +159,8 @@ std::optional<Moment> Loop::lockstep_moment() {
   const bool both = controls != nullptr && car != nullptr && controls->value.frame_index == car->value.frame_index;
   if (both && car->value.frame_index > drawn_index_) {
     drawn_index_ = car->value.frame_index;
-    return Moment{drawn_index_, frame_time(drawn_index_, s_.rig.frame_rate_hz), controls->value, {car->value, 0.0, false}};
+    return Moment{
+        drawn_index_, frame_time(drawn_index_, s_.rig.frame_rate_hz), controls->value, {car->value, 0.0, false}};
   }
   s_.bus.wait(s_.window ? 10ms : 20ms);
   repeat_when_stalled();
@@ -176,14 +182,16 @@ std::optional<Moment> Loop::display_moment() {
   }
   Moment moment{-1, *time, controls_, *car};
   const auto* newest = s_.bus.newest<CockpitState>();
-  const bool silent = newest == nullptr || std::chrono::nanoseconds(now.ns - newest->received.ns) > channel_of<CockpitState>().stale_after;
+  const bool silent = newest == nullptr ||
+                      std::chrono::nanoseconds(now.ns - newest->received.ns) > channel_of<CockpitState>().stale_after;
   if (silent && moment.controls.light_switch < LightSwitch::kLow) moment.controls.light_switch = LightSwitch::kLow;
   if (silent) moment.controls.flash = false;
   return moment;
 }
 
 void Loop::draw(const Moment& moment) {
-  for (const Lamps::Change& change : s_.lamps.set_controls(moment.controls)) s_.renderer.set_beam(change.position, *change.image);
+  for (const Lamps::Change& change : s_.lamps.set_controls(moment.controls))
+    s_.renderer.set_beam(change.position, *change.image);
   const CameraKind camera = s_.window ? s_.window->camera() : CameraKind::kDriver;
   input_.camera = camera_of(camera, s_.channel(), moment.car.pose);
   input_.view = s_.window ? s_.window->view() : View::kPhoto;
@@ -197,7 +205,8 @@ void Loop::draw(const Moment& moment) {
   s_.stats.add(result, captured_);
   if (moment.car.stale) ++s_.stats.stale_frames;
   const Clock::time_point now = Clock::now();
-  if (frame_end_ != Clock::time_point{}) s_.stats.interval_ms.add(std::chrono::duration<double, std::milli>(now - frame_end_).count());
+  if (frame_end_ != Clock::time_point{})
+    s_.stats.interval_ms.add(std::chrono::duration<double, std::milli>(now - frame_end_).count());
   frame_end_ = now;
   progress_ = now;
   ++drawn_frames_;
@@ -206,8 +215,10 @@ void Loop::draw(const Moment& moment) {
 }
 
 void Loop::report(const Moment& moment) {
-  FrameReport report{moment.frame_index, s_.options.channel, static_cast<std::uint32_t>(s_.rig.channels.size()),
-                     s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms, moment.controls.light_changes, moment.car.pose, moment.car.stale};
+  FrameReport report{
+      moment.frame_index,      s_.options.channel,     static_cast<std::uint32_t>(s_.rig.channels.size()),
+      s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms, moment.controls.light_changes,
+      moment.car.pose,         moment.car.stale};
   s_.bus.send(moment.time, report);
   const bool enough = s_.options.frames > 0 && drawn_frames_ >= s_.options.frames;
   if (enough || moment.controls.drive_ended || moment.car.pose.drive_ended) ended_ = true;
@@ -223,7 +234,8 @@ void Loop::keep(const Moment& moment) {
     FrameInput driver = input_;
     driver.camera = driver_camera(s_.channel(), moment.car.pose);
     driver.view = View::kPhoto;
-    s_.album.keep_stills(s_.renderer, driver, moment.car.pose, s_.lamps, s_.options.width_px, s_.options.height_px, label(moment));
+    s_.album.keep_stills(s_.renderer, driver, moment.car.pose, s_.lamps, s_.options.width_px, s_.options.height_px,
+                         label(moment));
     progress_ = Clock::now();
     frame_end_ = {};  // not a frame interval
   }
@@ -232,7 +244,8 @@ void Loop::keep(const Moment& moment) {
 
 void Loop::audit(const Moment& moment) {
   constexpr std::size_t kPixels = 32;
-  if (s_.options.audit_every > 0 && drawn_frames_ % s_.options.audit_every == 1 % s_.options.audit_every && !input_.lamps.empty()) {
+  if (s_.options.audit_every > 0 && drawn_frames_ % s_.options.audit_every == 1 % s_.options.audit_every &&
+      !input_.lamps.empty()) {
     const auto samples = s_.renderer.audit(input_, kPixels, static_cast<std::uint64_t>(drawn_frames_));
     s_.audit.add(s_.lamps, moment.car.pose, samples);
   }
@@ -260,7 +273,8 @@ bool Loop::wants_stills(const Moment& moment) const {
   if (!s_.album.wanted() || s_.album.has_stills()) return false;
   if (ended_) return true;
   if (moment.time.seconds() < s_.options.still_at_s) return false;
-  return moment.controls.light_switch == LightSwitch::kLow && !moment.controls.flash && moment.car.pose.speed_mps > kTellingSpeed_mps;
+  return moment.controls.light_switch == LightSwitch::kLow && !moment.controls.flash &&
+         moment.car.pose.speed_mps > kTellingSpeed_mps;
 }
 
 std::string Loop::label(const Moment& moment) const {
@@ -279,9 +293,11 @@ void Loop::show_title(const Moment& moment) {
   std::snprintf(text, sizeof text, "  frame %.1f ms", s_.stats.newest.wall_ms);
   title += text;
   if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside) {
-    if (const auto point = pick(s_.scene, ray_through(input_.camera, mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px))) {
-      std::snprintf(text, sizeof text, "  %.3g lx at (%.2f, %.2f, %.2f) m", s_.lamps.illuminance_lx(moment.car.pose, *point),
-                    point->position_m.x, point->position_m.y, point->position_m.z);
+    if (const auto point =
+            pick(s_.scene, ray_through(input_.camera, mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px))) {
+      std::snprintf(text, sizeof text, "  %.3g lx at (%.2f, %.2f, %.2f) m",
+                    s_.lamps.illuminance_lx(moment.car.pose, *point), point->position_m.x, point->position_m.y,
+                    point->position_m.z);
       title += text;
     }
   }
@@ -293,7 +309,8 @@ void Loop::show_title(const Moment& moment) {
 void Loop::write_stats(SimTime now) {
   stats_written_ = Clock::now();
   if (s_.options.stats_file.empty()) return;
-  if (!write_json(s_.options.stats_file, report_json(s_, now))) spdlog::warn("{}: cannot be written", s_.options.stats_file.string());
+  if (!write_json(s_.options.stats_file, report_json(s_, now)))
+    spdlog::warn("{}: cannot be written", s_.options.stats_file.string());
 }
 
 }  // namespace

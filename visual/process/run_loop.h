@@ -5,8 +5,8 @@
 
 namespace phare {
 
-/// Runs until the drive has ended, N frames are done, the window is closed or a signal came. Throws what Vulkan throws when the
-/// device is lost.
+/// Runs until the drive has ended, N frames are done, the window is closed or a signal came. Throws what Vulkan throws
+/// when the device is lost.
 void run_loop(Session& session);
 
 }  // namespace phare

@@ -13,7 +13,7 @@
 namespace phare {
 namespace {
 
-constexpr double kWall_m = 25.0;        // UN R149, annex 4: measured at 25 m
+constexpr double kWall_m = 25.0;  // UN R149, annex 4: measured at 25 m
 constexpr double kHalfWidth_deg = 20.0;
 constexpr double kHalfHeight_deg = 8.0;
 constexpr int kPxPerDeg = 28;
@@ -22,7 +22,8 @@ constexpr Colour kInk{220, 220, 220};
 constexpr Colour kGrid{80, 84, 96};
 
 Image8 page_around(int width_px, int height_px) {
-  return blank_image(kMarginLeft_px + width_px + kMarginRight_px, kMarginTop_px + height_px + kMarginBottom_px, 18, 18, 20);
+  return blank_image(kMarginLeft_px + width_px + kMarginRight_px, kMarginTop_px + height_px + kMarginBottom_px, 18, 18,
+                     20);
 }
 
 /// A whole number in the middle of (x, y), or left of it.
@@ -56,7 +57,8 @@ glm::dvec3 middle_of_low_beam(const DesignConfig& design) {
   glm::dvec3 sum{0.0};
   double count = 0.0;
   for (const LampConfig& lamp : design.lamps) {
-    const bool low = std::ranges::any_of(lamp.sources, [](const SourceConfig& s) { return s.function == LampFunction::kLow; });
+    const bool low =
+        std::ranges::any_of(lamp.sources, [](const SourceConfig& s) { return s.function == LampFunction::kLow; });
     if (low) sum += lamp.position_m, count += 1.0;
   }
   return count > 0.0 ? sum / count : sum;
@@ -67,7 +69,8 @@ glm::dvec3 middle_of_low_beam(const DesignConfig& design) {
 Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
   const DesignConfig& design = lamps.designs()[design_index];
   const glm::dvec3 origin_m = middle_of_low_beam(design);
-  const int width_px = static_cast<int>(2.0 * kHalfWidth_deg) * kPxPerDeg, height_px = static_cast<int>(2.0 * kHalfHeight_deg) * kPxPerDeg;
+  const int width_px = static_cast<int>(2.0 * kHalfWidth_deg) * kPxPerDeg,
+            height_px = static_cast<int>(2.0 * kHalfHeight_deg) * kPxPerDeg;
   constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
   // Type A: azimuth h about the vertical axis, then elevation v; H to the right, so y falls.
@@ -104,7 +107,9 @@ Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
   draw_text(page, kMarginLeft_px + width_px / 2 - 60, kMarginTop_px + height_px + 18, "H, degrees to the right", kInk);
   draw_text(page, 2, 6, "V, deg", kInk);
   char title[160];
-  std::snprintf(title, sizeof title, "Wall at 25 m, low beam of '%s', aimed as mounted; lux on the wall, brightest %.1f lx", design.name.c_str(), brightest_lx);
+  std::snprintf(title, sizeof title,
+                "Wall at 25 m, low beam of '%s', aimed as mounted; lux on the wall, brightest %.1f lx",
+                design.name.c_str(), brightest_lx);
   draw_text(page, kMarginLeft_px + 50, 8, title, kInk);
   draw_lux_legend(page, kMarginLeft_px + width_px + 14, kMarginTop_px + 20, height_px - 20);
   return page;
@@ -112,10 +117,15 @@ Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
 
 Image8 birds_eye_picture(const ImageF& seen, const std::string& caption) {
   // The middle rows that show kBirdsEyeWidth_m: a window may be higher than the map.
-  const int map_height_px = std::min(seen.height_px, static_cast<int>(seen.width_px * kBirdsEyeWidth_m / kBirdsEyeLength_m));
+  const int map_height_px =
+      std::min(seen.height_px, static_cast<int>(seen.width_px * kBirdsEyeWidth_m / kBirdsEyeLength_m));
   const int first_row = (seen.height_px - map_height_px) / 2;
   const Image8 map = isolux_map(seen.width_px, map_height_px, [&](int x, int y) {
-    return static_cast<double>(seen.rgba[(static_cast<std::size_t>(first_row + y) * static_cast<std::size_t>(seen.width_px) + static_cast<std::size_t>(x)) * 4 + 3]);
+    return static_cast<double>(
+        seen.rgba[(static_cast<std::size_t>(first_row + y) * static_cast<std::size_t>(seen.width_px) +
+                   static_cast<std::size_t>(x)) *
+                      4 +
+                  3]);
   });
   const double px_per_m = map.width_px / kBirdsEyeLength_m;
   Image8 page = page_around(map.width_px, map.height_px);
@@ -131,7 +141,8 @@ Image8 birds_eye_picture(const ImageF& seen, const std::string& caption) {
     draw_line(page, kMarginLeft_px - 4, y, kMarginLeft_px - 1, y, kInk);
     draw_number(page, kMarginLeft_px - 6, y - text_height_px() / 2, left_m, false);
   }
-  draw_text(page, kMarginLeft_px + map.width_px / 2 - 110, kMarginTop_px + map.height_px + 19, "x, m ahead of the car's origin (rear axle)", kInk);
+  draw_text(page, kMarginLeft_px + map.width_px / 2 - 110, kMarginTop_px + map.height_px + 19,
+            "x, m ahead of the car's origin (rear axle)", kInk);
   draw_text(page, 2, 6, "y, m", kInk);
   draw_text(page, kMarginLeft_px + 50, 8, caption, kInk);
   draw_lux_legend(page, kMarginLeft_px + map.width_px + 14, kMarginTop_px + 20, map.height_px - 20);

@@ -5,13 +5,14 @@
 
 namespace phare {
 
-/// A wall 25 m before the lamps, seen squarely: low beam of all lamps of a design, aimed as mounted, car level. False colour
-/// by illuminance (lx on the wall), isolux lines, H-V grid in degrees (azimuth, then elevation, LM-63 type A) about the point
-/// of the wall at mounting height straight before the car, ±20° x ±8°. Float64 from the native tables on the CPU.
+/// A wall 25 m before the lamps, seen squarely: low beam of all lamps of a design, aimed as mounted, car level. False
+/// colour by illuminance (lx on the wall), isolux lines, H-V grid in degrees (azimuth, then elevation, LM-63 type A)
+/// about the point of the wall at mounting height straight before the car, ±20° x ±8°. Float64 from the native tables
+/// on the CPU.
 Image8 wall_picture(const Lamps& lamps, std::size_t design);
 
-/// Illuminance (alpha of `seen`, lx, seen by birds_eye_camera) in false colour with isolux lines, cut to 100 m x 40 m, with
-/// axes in metres, legend and `caption`.
+/// Illuminance (alpha of `seen`, lx, seen by birds_eye_camera) in false colour with isolux lines, cut to 100 m x 40 m,
+/// with axes in metres, legend and `caption`.
 Image8 birds_eye_picture(const ImageF& seen, const std::string& caption);
 
 }  // namespace phare

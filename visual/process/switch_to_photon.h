@@ -10,12 +10,15 @@ namespace phare {
 
 class SwitchToPhoton {
  public:
-  /// Call after every finished frame, with the controls drawn in it. `next_frame_sim`: simulated time of frame and spacing
-  /// are only used in lockstep, where frames are counted in simulated time: 1 is the first frame due at or after the change.
-  /// In real time they are counted by the wall clock: frames finished after the change, the showing one included.
-  void frame_finished(const CockpitState& controls, SimTime frame_sim, WallTime finished, std::int64_t lockstep_rate_hz);
+  /// Call after every finished frame, with the controls drawn in it. `next_frame_sim`: simulated time of frame and
+  /// spacing are only used in lockstep, where frames are counted in simulated time: 1 is the first frame due at or
+  /// after the change. In real time they are counted by the wall clock: frames finished after the change, the showing
+  /// one included.
+  void frame_finished(const CockpitState& controls, SimTime frame_sim, WallTime finished,
+                      std::int64_t lockstep_rate_hz);
 
-  /// {"changes", "frames": {"1": n, "2": n, …}, "ms": {…}, "newest": [{"change", "frames", "ms", "sim_s"}]} newest 200 changes.
+  /// {"changes", "frames": {"1": n, "2": n, …}, "ms": {…}, "newest": [{"change", "frames", "ms", "sim_s"}]} newest 200
+  /// changes.
   nlohmann::json json() const;
 
  private:

@@ -33,7 +33,8 @@ Result<Window> Window::open(const std::string& title, int width_px, int height_p
   const char* reason = nullptr;
   if (glfwInit() != GLFW_TRUE) {
     glfwGetError(&reason);
-    return Error{"window", std::string("no display (") + (reason != nullptr ? reason : "GLFW") + "); --headless draws without one"};
+    return Error{"window", std::string("no display (") + (reason != nullptr ? reason : "GLFW") +
+                               "); --headless draws without one"};
   }
   auto state = std::make_unique<State>();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
@@ -57,10 +58,18 @@ bool Window::poll() {
   return glfwWindowShouldClose(state_->window) == GLFW_FALSE;
 }
 
-void Window::set_title(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
-CameraKind Window::camera() const { return state_->camera; }
-View Window::view() const { return state_->view; }
-GLFWwindow* Window::handle() const { return state_->window; }
+void Window::set_title(const std::string& title) {
+  glfwSetWindowTitle(state_->window, title.c_str());
+}
+CameraKind Window::camera() const {
+  return state_->camera;
+}
+View Window::view() const {
+  return state_->view;
+}
+GLFWwindow* Window::handle() const {
+  return state_->window;
+}
 
 Window::Mouse Window::mouse() const {
   // GLFW speaks in screen coordinates; the picture has as many pixels as the framebuffer.
