@@ -18,9 +18,12 @@ namespace phare {
 
 namespace {
 
-constexpr int kReceiveBuffer_bytes = 4 << 20;  // a full 1 Mbit/s bus for seconds; 208 KiB, the default, lost 494 of 20000
+constexpr int kReceiveBuffer_bytes =
+    4 << 20;  // a full 1 Mbit/s bus for seconds; 208 KiB, the default, lost 494 of 20000
 
-std::string reason(int error) { return std::strerror(error); }
+std::string reason(int error) {
+  return std::strerror(error);
+}
 
 Error no_can(int error) {
   if (error == EAFNOSUPPORT || error == EPROTONOSUPPORT) {
@@ -82,8 +85,10 @@ Result<CanSocket> CanSocket::open(const std::string& interface, std::span<const 
   address.can_family = AF_CAN;
   address.can_ifindex = static_cast<int>(if_nametoindex(interface.c_str()));
   if (address.can_ifindex == 0) {
-    return Error{interface, "there is no such interface; \"ip link\" shows those there are, and a CAN adapter is switched on with "
-                            "\"ip link set " + interface + " up type can bitrate 500000\""};
+    return Error{interface,
+                 "there is no such interface; \"ip link\" shows those there are, and a CAN adapter is switched on with "
+                 "\"ip link set " +
+                     interface + " up type can bitrate 500000\""};
   }
   const can_err_mask_t errors = CAN_ERR_MASK;
   const int on = 1;
@@ -91,17 +96,21 @@ Result<CanSocket> CanSocket::open(const std::string& interface, std::span<const 
   set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, on);
   set_option(fd, SOL_SOCKET, SO_RXQ_OVFL, on);
   set_option(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on);
-  if (!set_option(fd, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBuffer_bytes)) set_option(fd, SOL_SOCKET, SO_RCVBUF, kReceiveBuffer_bytes);
+  if (!set_option(fd, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBuffer_bytes))
+    set_option(fd, SOL_SOCKET, SO_RCVBUF, kReceiveBuffer_bytes);
   if (!set_filters(fd, ids) || !set_option(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors)) {
     return Error{interface, "the CAN socket takes no filters: " + reason(errno)};
   }
   if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    return Error{interface, errno == ENODEV ? std::string("is not a CAN interface") : "cannot be bound: " + reason(errno)};
+    return Error{interface,
+                 errno == ENODEV ? std::string("is not a CAN interface") : "cannot be bound: " + reason(errno)};
   }
   return can;
 }
 
-CanSocket::CanSocket(CanSocket&& other) noexcept { *this = std::move(other); }
+CanSocket::CanSocket(CanSocket&& other) noexcept {
+  *this = std::move(other);
+}
 
 CanSocket& CanSocket::operator=(CanSocket&& other) noexcept {
   std::swap(fd_, other.fd_);
@@ -128,7 +137,9 @@ std::optional<CanSocket::Received> CanSocket::receive() {
     size = recvmsg(fd_, &message, 0);
   } while (size < 0 && errno == EINTR);
   if (size < 0) {
-    why_ = errno == EAGAIN || errno == EWOULDBLOCK ? Nothing::kNoFrame : errno == ENETDOWN ? Nothing::kLinkDown : Nothing::kGone;
+    why_ = errno == EAGAIN || errno == EWOULDBLOCK ? Nothing::kNoFrame
+           : errno == ENETDOWN                     ? Nothing::kLinkDown
+                                                   : Nothing::kGone;
     return std::nullopt;
   }
 

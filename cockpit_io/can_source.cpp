@@ -60,9 +60,14 @@ void CanSource::take(const CanSocket::Received& received, Moment now, Cockpit& c
     return;
   }
   switch (map_.take(received.frame, received.stamp.ns, input_)) {
-    case SignalMap::Taken::kNotMapped: return;
-    case SignalMap::Taken::kIncomplete: ++counts_.incomplete; break;
-    case SignalMap::Taken::kDecoded: ++counts_.decoded; break;
+    case SignalMap::Taken::kNotMapped:
+      return;
+    case SignalMap::Taken::kIncomplete:
+      ++counts_.incomplete;
+      break;
+    case SignalMap::Taken::kDecoded:
+      ++counts_.decoded;
+      break;
   }
   if (on_frame) on_frame(received.stamp);
   // Silent until every message is back: the others' controls may still be wrong.

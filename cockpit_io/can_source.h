@@ -27,8 +27,8 @@ class CanSource : public Source {
   std::string interface_;
   SignalMap map_;
   std::optional<CanSocket> socket_;
-  bool link_up_ = true;      // of an open socket
-  bool said_lost_ = false;   // each loss is said once
+  bool link_up_ = true;     // of an open socket
+  bool said_lost_ = false;  // each loss is said once
   bool silent_ = false;
   std::int64_t next_open_ns_ = 0;
   std::uint64_t dropped_before_ = 0;  // by sockets that are gone

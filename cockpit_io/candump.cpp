@@ -23,7 +23,9 @@ int hex_digit(char c) {
   return -1;
 }
 
-Error broken(std::string reason) { return Error{{}, std::move(reason)}; }
+Error broken(std::string reason) {
+  return Error{{}, std::move(reason)};
+}
 
 /// "(seconds.fraction)" in nanoseconds, exactly: a double would not hold today's date to the nanosecond.
 std::optional<std::int64_t> stamp(TextScanner& scan) {
@@ -58,7 +60,8 @@ std::optional<Error> read_id(std::string_view text, CanFrame& frame) {
     frame.extended = false;
     id &= kExtendedIdMax;
   }
-  if (id > (frame.extended || frame.error ? kExtendedIdMax : kStandardIdMax)) return broken("the id does not fit its bits");
+  if (id > (frame.extended || frame.error ? kExtendedIdMax : kStandardIdMax))
+    return broken("the id does not fit its bits");
   frame.id = id;
   return std::nullopt;
 }
@@ -66,7 +69,8 @@ std::optional<Error> read_id(std::string_view text, CanFrame& frame) {
 std::optional<Error> read_data(std::string_view text, CanFrame& frame) {
   const std::size_t most = frame.fd ? CanFrame::kMaxLength : 8;
   while (!text.empty()) {
-    if (text.front() == '_' && !frame.fd && frame.length == 8 && text.size() == 2 && hex_digit(text[1]) > 8) break;  // raw DLC
+    if (text.front() == '_' && !frame.fd && frame.length == 8 && text.size() == 2 && hex_digit(text[1]) > 8)
+      break;  // raw DLC
     if (text.front() == '.') {
       text.remove_prefix(1);
       continue;
@@ -90,7 +94,8 @@ Result<CandumpEntry> parse_candump_line(std::string_view line) {
   if (!stamp_ns) return broken("expected a stamp such as (1700000000.123456)");
   entry.stamp_ns = *stamp_ns;
   const std::string_view interface = scan.token();
-  if (interface.empty() || interface.find('#') != std::string_view::npos) return broken("expected an interface such as can0");
+  if (interface.empty() || interface.find('#') != std::string_view::npos)
+    return broken("expected an interface such as can0");
   const std::string_view text = scan.token();
   const std::size_t hash = text.find('#');
   if (hash == std::string_view::npos) return broken("expected id#data");

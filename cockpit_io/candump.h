@@ -1,7 +1,8 @@
 // candump logs: "(46408.584930) can0 260#08FFFB0000001884", one frame a line, as candump -l writes and canplayer reads.
 //
-// Also read: 29-bit ids (eight digits), remote frames "123#R" and "123#R4", CAN FD "123##1AABB" (one digit of flags), error
-// frames (id with bit 0x20000000), dots between data bytes, a direction " R" or " T" at the end, empty lines and "# comments".
+// Also read: 29-bit ids (eight digits), remote frames "123#R" and "123#R4", CAN FD "123##1AABB" (one digit of flags),
+// error frames (id with bit 0x20000000), dots between data bytes, a direction " R" or " T" at the end, empty lines and
+// "# comments".
 #pragma once
 
 #include <cstdint>

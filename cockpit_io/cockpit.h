@@ -15,8 +15,8 @@ class Cockpit {
   /// `source`: what drives, for CockpitState.source.
   Cockpit(SwitchParams params, std::string source);
 
-  /// The driver's controls at `now`; to be called for every change, and once more when time has passed. Times that go back
-  /// count as the newest seen.
+  /// The driver's controls at `now`; to be called for every change, and once more when time has passed. Times that go
+  /// back count as the newest seen.
   void take(const DriverInput& input, bool silent, Moment now);
 
   /// Controls that went through switch logic when they were recorded.

@@ -33,11 +33,17 @@ std::uint32_t bytes_needed(const DbcSignal& s) {
   return first_byte + 1 + (s.length_bits - bits_in_first + 7) / 8;
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
-bool is_integer(const DbcSignal& s) { return s.type == DbcSignal::Type::kUnsigned || s.type == DbcSignal::Type::kSigned; }
+bool is_integer(const DbcSignal& s) {
+  return s.type == DbcSignal::Type::kUnsigned || s.type == DbcSignal::Type::kSigned;
+}
 
-std::uint64_t mask(std::uint32_t bits) { return bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1; }
+std::uint64_t mask(std::uint32_t bits) {
+  return bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+}
 
 std::int64_t sign_extended(std::uint64_t raw, std::uint32_t bits) {
   const std::uint64_t sign = std::uint64_t{1} << (bits - 1);
@@ -92,17 +98,18 @@ class Parser {
       if (!scan.at_end()) problem({}, "begins with no keyword");
       return;
     }
-    const bool passed_over = keyword == "CM_" || keyword == "VERSION" || keyword.starts_with("BA_") || keyword == "BU_" ||
-                             keyword == "BS_" || keyword.starts_with("VAL_TABLE_") || keyword.starts_with("EV_") ||
-                             keyword.starts_with("ENVVAR_") || keyword.starts_with("BU_") || keyword.starts_with("SIG") ||
-                             keyword.starts_with("SGTYPE") || keyword.starts_with("SG_MUL") || keyword.starts_with("CAT_") ||
-                             keyword == "BO_TX_BU_" || keyword == "FILTER" || keyword == "NS_DESC_";
+    const bool passed_over =
+        keyword == "CM_" || keyword == "VERSION" || keyword.starts_with("BA_") || keyword == "BU_" ||
+        keyword == "BS_" || keyword.starts_with("VAL_TABLE_") || keyword.starts_with("EV_") ||
+        keyword.starts_with("ENVVAR_") || keyword.starts_with("BU_") || keyword.starts_with("SIG") ||
+        keyword.starts_with("SGTYPE") || keyword.starts_with("SG_MUL") || keyword.starts_with("CAT_") ||
+        keyword == "BO_TX_BU_" || keyword == "FILTER" || keyword == "NS_DESC_";
     if (!passed_over) return problem({}, "unknown keyword \"" + std::string(keyword) + "\"");
     pass_over_text();
   }
 
-  /// Moves on to the line where a quoted text that this line begins ends. A line that looks like a new message or signal ends
-  /// it too: the closing quote was forgotten.
+  /// Moves on to the line where a quoted text that this line begins ends. A line that looks like a new message or
+  /// signal ends it too: the closing quote was forgotten.
   void pass_over_text() {
     if (std::count(line_text_.begin(), line_text_.end(), '"') % 2 == 0) return;
     const int begin = line_;
@@ -111,7 +118,8 @@ class Parser {
       if (!next_line()) break;
       TextScanner scan(line_text_);
       const std::string_view keyword = scan.word();
-      const bool new_block = (keyword == "BO_" && scan.number<std::uint64_t>()) || (keyword == "SG_" && looks_like_signal(scan));
+      const bool new_block =
+          (keyword == "BO_" && scan.number<std::uint64_t>()) || (keyword == "SG_" && looks_like_signal(scan));
       if (new_block) {
         rest_ = before;
         --line_;
@@ -143,7 +151,8 @@ class Parser {
     if (!length) return problem({}, "expected the message's length in bytes; its signals are left out");
     if (is_digit(name.front())) problem({}, "a name must not begin with a digit; kept");
     if (name == kOrphans) return;  // a container of signals that lie in no message
-    if (*length > CanFrame::kMaxLength) return problem({}, "a message of " + std::to_string(*length) + " bytes; 64 is the most");
+    if (*length > CanFrame::kMaxLength)
+      return problem({}, "a message of " + std::to_string(*length) + " bytes; 64 is the most");
 
     DbcMessage message;
     message.extended = *number <= 0xFFFF'FFFFu && (*number & kExtendedMark) != 0;
@@ -189,7 +198,8 @@ class Parser {
       return problem(s.name, "is " + std::to_string(s.length_bits) + " bits long; 1 to 64 are possible");
     }
     if (s.start_bit >= 8 * CanFrame::kMaxLength || bytes_needed(s) > message.length_bytes) {
-      return problem(s.name, "does not fit its message: it needs " + std::to_string(std::uint64_t{s.start_bit} / 8 + 1) +
+      return problem(s.name, "does not fit its message: it needs " +
+                                 std::to_string(std::uint64_t{s.start_bit} / 8 + 1) +
                                  (s.start_bit < 8 * CanFrame::kMaxLength && bytes_needed(s) > s.start_bit / 8 + 1
                                       ? " to " + std::to_string(bytes_needed(s))
                                       : "") +
@@ -268,7 +278,8 @@ class Parser {
     return true;
   }
 
-  /// The signal a VAL_ or SIG_VALTYPE_ line names. Nothing (and no problem) when the message or signal was left out before.
+  /// The signal a VAL_ or SIG_VALTYPE_ line names. Nothing (and no problem) when the message or signal was left out
+  /// before.
   DbcSignal* named_signal(TextScanner& scan) {
     message_name_.clear();
     const auto number = scan.number<std::uint64_t>();
@@ -279,7 +290,8 @@ class Parser {
     const auto found = by_id_.find({id, extended});
     if (found == by_id_.end()) return nullptr;
     auto& signals = dbc_.messages[found->second].signals;
-    const auto signal = std::find_if(signals.begin(), signals.end(), [&](const DbcSignal& s) { return s.name == name; });
+    const auto signal =
+        std::find_if(signals.begin(), signals.end(), [&](const DbcSignal& s) { return s.name == name; });
     return signal == signals.end() ? nullptr : &*signal;
   }
 
@@ -333,7 +345,8 @@ const DbcSignal* DbcMessage::multiplexor() const {
 }
 
 const DbcMessage* Dbc::find(std::string_view message) const {
-  const auto found = std::find_if(messages.begin(), messages.end(), [&](const DbcMessage& m) { return m.name == message; });
+  const auto found =
+      std::find_if(messages.begin(), messages.end(), [&](const DbcMessage& m) { return m.name == message; });
   return found == messages.end() ? nullptr : &*found;
 }
 
@@ -398,10 +411,18 @@ std::optional<double> decode(const DbcMessage& message, const DbcSignal& s, cons
   if (!raw) return std::nullopt;
   double value = 0.0;
   switch (s.type) {
-    case DbcSignal::Type::kUnsigned: value = static_cast<double>(*raw); break;
-    case DbcSignal::Type::kSigned: value = static_cast<double>(sign_extended(*raw, s.length_bits)); break;
-    case DbcSignal::Type::kFloat: value = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(*raw))); break;
-    case DbcSignal::Type::kDouble: value = std::bit_cast<double>(*raw); break;
+    case DbcSignal::Type::kUnsigned:
+      value = static_cast<double>(*raw);
+      break;
+    case DbcSignal::Type::kSigned:
+      value = static_cast<double>(sign_extended(*raw, s.length_bits));
+      break;
+    case DbcSignal::Type::kFloat:
+      value = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(*raw)));
+      break;
+    case DbcSignal::Type::kDouble:
+      value = std::bit_cast<double>(*raw);
+      break;
   }
   const double physical = value * s.factor + s.offset;
   return std::isfinite(physical) ? std::optional(physical) : std::nullopt;
@@ -414,9 +435,11 @@ bool encode(const DbcMessage& message, const DbcSignal& s, double value, CanFram
   if (is_integer(s)) {
     const double rounded = std::round(scaled);
     const bool is_signed = s.type == DbcSignal::Type::kSigned;
-    const double end = std::ldexp(1.0, static_cast<int>(s.length_bits) - (is_signed ? 1 : 0));  // first that does not fit
+    const double end =
+        std::ldexp(1.0, static_cast<int>(s.length_bits) - (is_signed ? 1 : 0));  // first that does not fit
     if (rounded >= end || rounded < (is_signed ? -end : 0.0)) return false;
-    raw = is_signed ? static_cast<std::uint64_t>(static_cast<std::int64_t>(rounded)) : static_cast<std::uint64_t>(rounded);
+    raw = is_signed ? static_cast<std::uint64_t>(static_cast<std::int64_t>(rounded))
+                    : static_cast<std::uint64_t>(rounded);
   } else if (s.type == DbcSignal::Type::kFloat) {
     raw = std::bit_cast<std::uint32_t>(static_cast<float>(scaled));
   } else {

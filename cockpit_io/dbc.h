@@ -1,8 +1,8 @@
 // DBC files: which signals lie where in which CAN frame. Format: Vector's DBC, as real cars' files write it.
 //
-// Read: BO_, SG_ (Intel and Motorola order, signed, simple multiplexing m0 … and M), VAL_, SIG_VALTYPE_ (float, double),
-// 29-bit ids (bit 31 of the number). Passed over: comments, attributes, nodes, and the signals that no message holds
-// (VECTOR__INDEPENDENT_SIG_MSG). Left for later: nested multiplexing (SG_MUL_VAL_); such signals are reported.
+// Read: BO_, SG_ (Intel and Motorola order, signed, simple multiplexing m0 … and M), VAL_, SIG_VALTYPE_ (float,
+// double), 29-bit ids (bit 31 of the number). Passed over: comments, attributes, nodes, and the signals that no message
+// holds (VECTOR__INDEPENDENT_SIG_MSG). Left for later: nested multiplexing (SG_MUL_VAL_); such signals are reported.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,12 @@ struct DbcSignal {
   enum class Type { kUnsigned, kSigned, kFloat, kDouble };
 
   std::string name;
-  std::uint32_t start_bit = 0;   ///< as the file numbers it: Intel: least significant bit; Motorola: most significant bit
-  std::uint32_t length_bits = 1; ///< 1 … 64
-  bool motorola = false;         ///< bits run from the start bit down, bytes upwards
+  std::uint32_t start_bit =
+      0;  ///< as the file numbers it: Intel: least significant bit; Motorola: most significant bit
+  std::uint32_t length_bits = 1;  ///< 1 … 64
+  bool motorola = false;          ///< bits run from the start bit down, bytes upwards
   Type type = Type::kUnsigned;
-  double factor = 1.0;           ///< physical = raw * factor + offset
+  double factor = 1.0;  ///< physical = raw * factor + offset
   double offset = 0.0;
   double minimum = 0.0, maximum = 0.0;  ///< as the file says; both 0: not given
   std::string unit;
@@ -78,12 +79,13 @@ std::optional<std::uint64_t> raw_bits(const DbcSignal& signal, std::span<const s
 /// Raw value of an integer signal as the file's VAL_ tables count it, sign-extended.
 std::optional<std::int64_t> raw_value(const DbcSignal& signal, std::span<const std::uint8_t> data);
 
-/// Physical value in the signal's unit. nullopt when the frame is no data frame, is too short, has another signal in this
-/// place (multiplexing), or holds a float that is not finite.
+/// Physical value in the signal's unit. nullopt when the frame is no data frame, is too short, has another signal in
+/// this place (multiplexing), or holds a float that is not finite.
 std::optional<double> decode(const DbcMessage& message, const DbcSignal& signal, const CanFrame& frame);
 
-/// Writes a physical value into the frame's bits, rounded to the nearest raw value; false (frame unchanged) when the value is
-/// not finite, does not fit the bits, or the frame is too short. Sets the multiplexor for a multiplexed signal.
+/// Writes a physical value into the frame's bits, rounded to the nearest raw value; false (frame unchanged) when the
+/// value is not finite, does not fit the bits, or the frame is too short. Sets the multiplexor for a multiplexed
+/// signal.
 bool encode(const DbcMessage& message, const DbcSignal& signal, double value, CanFrame& frame);
 
 /// A frame of this message, all bits 0. A message longer than 8 bytes makes an FD frame.

@@ -13,10 +13,12 @@ Result<std::unique_ptr<Source>> DriveSource::open(const std::filesystem::path& f
   auto source = std::make_unique<DriveSource>();
   source->end_ = drive->duration;
   for (const Datagram& datagram : drive->datagrams) {
-    if (const auto* state = std::get_if<CockpitState>(&datagram.payload)) source->entries_.push_back({datagram.sim_time, *state});
+    if (const auto* state = std::get_if<CockpitState>(&datagram.payload))
+      source->entries_.push_back({datagram.sim_time, *state});
   }
   // A recorder writes in order of arrival; a cockpit that was restarted may have gone back.
-  std::stable_sort(source->entries_.begin(), source->entries_.end(), [](const Entry& a, const Entry& b) { return a.due < b.due; });
+  std::stable_sort(source->entries_.begin(), source->entries_.end(),
+                   [](const Entry& a, const Entry& b) { return a.due < b.due; });
   if (source->entries_.empty()) {
     CockpitState low;
     low.light_switch = LightSwitch::kLow;

@@ -27,13 +27,16 @@ constexpr double kLeastSpeed_mps = 1.0;  // of the profile: a car that stands ha
 
 constexpr std::array<std::string_view, 4> kLights{"off", "position", "low", "high"};
 
-double squared(double value) { return value * value; }
+double squared(double value) {
+  return value * value;
+}
 
 LightEvent read_event(TomlTable table) {
   LightEvent event;
   if (table.has("at_s_m")) event.at_s_m = table.number("at_s_m", 0.0, 1e6);
   if (table.has("at_t_s")) event.at_t_s = table.number("at_t_s", 0.0, 1e6);
-  if (event.at_s_m.has_value() == event.at_t_s.has_value()) table.fail("at_s_m", "an event needs at_s_m or at_t_s, and not both");
+  if (event.at_s_m.has_value() == event.at_t_s.has_value())
+    table.fail("at_s_m", "an event needs at_s_m or at_t_s, and not both");
   if (table.has("light")) event.light = static_cast<LightSwitch>(table.choice("light", kLights));
   event.flash_s = table.number_or("flash_s", 0.0, 0.0, 60.0);
   if (table.has("fog")) event.fog_front = table.flag_or("fog", false);
@@ -57,7 +60,8 @@ Result<DriverScript> read(TomlTable root) {
   script.lane_file = resolve_path(root.text("lane"), root.file());
   script.end_s_m = root.number_or("end_s_m", 1e9, 1.0, 1e9);
   script.end_t_s = root.number_or("end_t_s", 1e9, 0.1, 1e9);
-  script.light = static_cast<LightSwitch>(root.choice_or("light", static_cast<std::size_t>(LightSwitch::kLow), kLights));
+  script.light =
+      static_cast<LightSwitch>(root.choice_or("light", static_cast<std::size_t>(LightSwitch::kLow), kLights));
 
   TomlTable car = root.table("car");
   script.wheelbase_m = car.number("wheelbase_m", 0.5, 10.0);
@@ -112,7 +116,8 @@ Result<std::vector<LanePoint>> read_lane(const std::filesystem::path& file) {
     for (double* field : fields) {
       const bool first = field == fields[0];
       const auto value = first || scan.take(',') ? scan.number<double>() : std::nullopt;
-      if (!value || !std::isfinite(*value)) return Error{place, "expected six finite numbers, " + std::string(kLaneHeader)};
+      if (!value || !std::isfinite(*value))
+        return Error{place, "expected six finite numbers, " + std::string(kLaneHeader)};
       *field = *value;
     }
     if (!scan.at_end()) return Error{place, "more than six numbers"};
@@ -127,7 +132,8 @@ std::vector<double> speed_profile(const std::vector<LanePoint>& lane, const Driv
   // What curves and slow stretches allow at each point.
   std::vector<double> speed(lane.size());
   for (std::size_t i = 0; i < lane.size(); ++i) {
-    speed[i] = std::min(script.max_speed_mps, std::sqrt(script.lateral_mps2 / std::max(std::abs(lane[i].curvature_1pm), 1e-9)));
+    speed[i] = std::min(script.max_speed_mps,
+                        std::sqrt(script.lateral_mps2 / std::max(std::abs(lane[i].curvature_1pm), 1e-9)));
     for (const SlowStretch& slow : script.slow) {
       if (!slow.brake_mps2 && lane[i].s_m >= slow.from_s_m && lane[i].s_m <= slow.to_s_m) {
         speed[i] = std::min(speed[i], slow.speed_mps);
@@ -165,12 +171,16 @@ Result<std::unique_ptr<Source>> DriverSource::open(const std::filesystem::path& 
 }
 
 DriverSource::DriverSource(DriverScript script, std::vector<LanePoint> lane)
-    : script_(std::move(script)), lane_(std::move(lane)), speed_mps_(speed_profile(lane_, script_)), done_(script_.events.size()) {
+    : script_(std::move(script)),
+      lane_(std::move(lane)),
+      speed_mps_(speed_profile(lane_, script_)),
+      done_(script_.events.size()) {
   input_.switches.stalk = script_.light;
 }
 
 LanePoint DriverSource::at(double s_m) const {
-  const auto after = std::upper_bound(lane_.begin() + 1, lane_.end() - 1, s_m, [](double s, const LanePoint& p) { return s < p.s_m; });
+  const auto after =
+      std::upper_bound(lane_.begin() + 1, lane_.end() - 1, s_m, [](double s, const LanePoint& p) { return s < p.s_m; });
   const LanePoint& a = *(after - 1);
   const LanePoint& b = *after;
   const double u = (s_m - a.s_m) / (b.s_m - a.s_m);  // beyond the ends: straight on
@@ -182,14 +192,17 @@ LanePoint DriverSource::at(double s_m) const {
 }
 
 double DriverSource::profile_mps(double s_m) const {
-  const auto after = std::upper_bound(lane_.begin() + 1, lane_.end() - 1, s_m, [](double s, const LanePoint& p) { return s < p.s_m; });
+  const auto after =
+      std::upper_bound(lane_.begin() + 1, lane_.end() - 1, s_m, [](double s, const LanePoint& p) { return s < p.s_m; });
   const auto i = static_cast<std::size_t>(after - lane_.begin());
   const double u = std::clamp((s_m - lane_[i - 1].s_m) / (lane_[i].s_m - lane_[i - 1].s_m), 0.0, 1.0);
   return speed_mps_[i - 1] + u * (speed_mps_[i] - speed_mps_[i - 1]);
 }
 
 void DriverSource::locate(const VehicleState& vehicle) {
-  const auto distance = [&](std::size_t i) { return squared(lane_[i].x_m - vehicle.x_m) + squared(lane_[i].y_m - vehicle.y_m); };
+  const auto distance = [&](std::size_t i) {
+    return squared(lane_[i].x_m - vehicle.x_m) + squared(lane_[i].y_m - vehicle.y_m);
+  };
   if (!located_) {  // anywhere on the lane: the car may have been driving before this process began
     for (std::size_t i = 0; i < lane_.size(); ++i) {
       if (distance(i) < distance(nearest_)) nearest_ = i;
@@ -236,7 +249,8 @@ void DriverSource::lights(Moment now, Cockpit& cockpit) {
   if (now.sim.ns >= flash_until_ns_) switches.flash = false;
   for (std::size_t i = 0; i < done_.size(); ++i) {
     const LightEvent& event = script_.events[i];
-    const bool due = event.at_s_m ? located_ && station_m_ >= *event.at_s_m : now.sim.seconds() >= event.at_t_s.value_or(0.0);
+    const bool due =
+        event.at_s_m ? located_ && station_m_ >= *event.at_s_m : now.sim.seconds() >= event.at_t_s.value_or(0.0);
     if (done_[i] || !due) continue;
     done_[i] = true;
     if (event.light) switches.stalk = *event.light;

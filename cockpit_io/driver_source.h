@@ -1,7 +1,7 @@
 // A scripted driver who follows a lane, for drives of our own.
-// What: steering by pure pursuit, speed by a profile over the lane that keeps lateral, driving and braking acceleration within
-// comfort, lights by a list of events. Source: pure pursuit: R. C. Coulter, CMU-RI-TR-92-01, 1992. Frame: world; the lane CSV
-// gives the line the car's origin (rear axle) is to follow. Leaves out: traffic, reaction time, tyre slip.
+// What: steering by pure pursuit, speed by a profile over the lane that keeps lateral, driving and braking acceleration
+// within comfort, lights by a list of events. Source: pure pursuit: R. C. Coulter, CMU-RI-TR-92-01, 1992. Frame: world;
+// the lane CSV gives the line the car's origin (rear axle) is to follow. Leaves out: traffic, reaction time, tyre slip.
 // Tests: tests/cockpit_io/driver_test.cpp.
 #pragma once
 
@@ -34,22 +34,22 @@ struct SlowStretch {
 struct LightEvent {
   std::optional<double> at_s_m, at_t_s;  ///< one of the two
   std::optional<LightSwitch> light;
-  double flash_s = 0.0;                  ///< flash that long; 0: no flash
+  double flash_s = 0.0;  ///< flash that long; 0: no flash
   std::optional<bool> fog_front;
-  int design_steps = 0;                  ///< > 0: next, that many times; < 0: previous
+  int design_steps = 0;  ///< > 0: next, that many times; < 0: previous
 };
 
 struct DriverScript {
   std::filesystem::path file, lane_file;
-  double end_s_m = 0.0;              ///< the drive ends here, or
-  double end_t_s = 0.0;              ///< at this time, whichever comes first
+  double end_s_m = 0.0;  ///< the drive ends here, or
+  double end_t_s = 0.0;  ///< at this time, whichever comes first
   double wheelbase_m = 0.0, steering_ratio = 0.0;
   double full_throttle_mps2 = 0.0, power_wpkg = 0.0, full_brake_mps2 = 0.0;  ///< what the pedals give
   double max_speed_mps = 0.0;
-  double lateral_mps2 = 0.0, accelerate_mps2 = 0.0, brake_mps2 = 0.0;        ///< comfort
-  LightSwitch light = LightSwitch::kLow;                                     ///< at the start
+  double lateral_mps2 = 0.0, accelerate_mps2 = 0.0, brake_mps2 = 0.0;  ///< comfort
+  LightSwitch light = LightSwitch::kLow;                               ///< at the start
   std::vector<SlowStretch> slow;
-  std::vector<LightEvent> events;    ///< in the file's order
+  std::vector<LightEvent> events;  ///< in the file's order
 };
 
 Result<DriverScript> read_driver_script(const std::filesystem::path& file);

@@ -16,9 +16,9 @@ namespace {
 constexpr std::int64_t kHeld_ns = 600'000'000;
 constexpr double kAccelerator_01 = 0.5;
 constexpr double kBrake_01 = 0.35;
-constexpr double kSteeringStep_rad = 0.09;      // 5 degrees of the wheel a press
-constexpr double kSteeringMost_rad = 4.7;       // three quarters of a turn
-constexpr double kSteeringReturn_1ps = 3.0;     // the wheel runs back when no key is held
+constexpr double kSteeringStep_rad = 0.09;   // 5 degrees of the wheel a press
+constexpr double kSteeringMost_rad = 4.7;    // three quarters of a turn
+constexpr double kSteeringReturn_1ps = 3.0;  // the wheel runs back when no key is held
 
 }  // namespace
 
@@ -44,13 +44,19 @@ void KeyboardDriver::key(char key, Moment now, Cockpit& cockpit) {
   SwitchInput& switches = input_.switches;
   const int level = static_cast<int>(switches.stalk);
   switch (key) {
-    case 'l': switches.stalk = static_cast<LightSwitch>(std::min(level + 1, static_cast<int>(LightSwitch::kHigh))); break;
-    case 'L': switches.stalk = static_cast<LightSwitch>(std::max(level - 1, static_cast<int>(LightSwitch::kOff))); break;
+    case 'l':
+      switches.stalk = static_cast<LightSwitch>(std::min(level + 1, static_cast<int>(LightSwitch::kHigh)));
+      break;
+    case 'L':
+      switches.stalk = static_cast<LightSwitch>(std::max(level - 1, static_cast<int>(LightSwitch::kOff)));
+      break;
     case 'f':
       switches.flash = true;
       flash_until_ns_ = now.sim.ns + kHeld_ns;
       break;
-    case 'g': switches.fog_front = !switches.fog_front; break;
+    case 'g':
+      switches.fog_front = !switches.fog_front;
+      break;
     case 'n':
     case 'p':  // pressed here, let go below: one step a press
       (key == 'n' ? switches.design_next : switches.design_previous) = true;
@@ -60,7 +66,8 @@ void KeyboardDriver::key(char key, Moment now, Cockpit& cockpit) {
     case ' ':
       input_.steering_wheel_rad = input_.accelerator_01 = input_.brake_01 = 0.0;
       break;
-    default: return;
+    default:
+      return;
   }
   cockpit.take(input_, false, now);
 }
@@ -81,11 +88,13 @@ void KeyboardDriver::arrow(char direction, Moment now) {
     case 'C':
     case 'D': {
       const double step_rad = direction == 'D' ? kSteeringStep_rad : -kSteeringStep_rad;
-      input_.steering_wheel_rad = std::clamp(input_.steering_wheel_rad + step_rad, -kSteeringMost_rad, kSteeringMost_rad);
+      input_.steering_wheel_rad =
+          std::clamp(input_.steering_wheel_rad + step_rad, -kSteeringMost_rad, kSteeringMost_rad);
       steering_until_ns_ = until_ns;
       break;
     }
-    default: break;
+    default:
+      break;
   }
 }
 

@@ -12,8 +12,8 @@
 
 namespace phare {
 
-/// What keys mean, apart from the terminal. A terminal tells presses only, so a pedal or the flash counts as held for a while
-/// after the newest press; the repeat of a held key keeps it down.
+/// What keys mean, apart from the terminal. A terminal tells presses only, so a pedal or the flash counts as held for a
+/// while after the newest press; the repeat of a held key keeps it down.
 class KeyboardDriver {
  public:
   /// Bytes as the terminal sends them; unknown ones and unknown escape sequences are passed over.
@@ -34,7 +34,8 @@ class KeyboardDriver {
 
 class KeyboardSource : public Source {
  public:
-  /// Puts standard input into raw mode if it is a terminal in the foreground; else there are no keys and low beam is on.
+  /// Puts standard input into raw mode if it is a terminal in the foreground; else there are no keys and low beam is
+  /// on.
   KeyboardSource();
   ~KeyboardSource() override;  ///< gives the terminal back as it was
 

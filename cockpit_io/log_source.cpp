@@ -46,6 +46,8 @@ void LogSource::advance(Moment now, const VehicleState*, Cockpit& cockpit) {
   cockpit.take(input_, silent_, now);
 }
 
-std::string LogSource::status() const { return ended() ? "ended" : silent_ ? "silent" : "up"; }
+std::string LogSource::status() const {
+  return ended() ? "ended" : silent_ ? "silent" : "up";
+}
 
 }  // namespace phare

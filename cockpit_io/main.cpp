@@ -20,7 +20,8 @@ namespace phare {
 namespace {
 
 struct Options {
-  std::string rig_file, cockpit_file, source, dbc_file, log_file, drive_file, script_file, stats_file, log_level = "info";
+  std::string rig_file, cockpit_file, source, dbc_file, log_file, drive_file, script_file, stats_file,
+      log_level = "info";
   std::optional<std::uint16_t> port_base;
   bool lockstep = false;
 };
@@ -32,7 +33,8 @@ int fail(const Error& error) {
 
 /// The cockpit file with what the command line puts in its place.
 Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
-  Result<CockpitConfig> config = read_cockpit(options.cockpit_file.empty() ? rig.cockpit_file : std::filesystem::path(options.cockpit_file));
+  Result<CockpitConfig> config =
+      read_cockpit(options.cockpit_file.empty() ? rig.cockpit_file : std::filesystem::path(options.cockpit_file));
   if (!config) return config.error();
   const auto choose = [&](SourceKind kind, const std::string& file) {
     config->source = kind;
@@ -46,7 +48,8 @@ Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
     config->source = static_cast<SourceKind>(named - kSourceKindNames.begin());
   }
   if (config->source == SourceKind::kCan && config->interface.empty()) {
-    return Error{config->file.string(), "names no CAN interface: it needs [source] kind = \"can\" and interface = \"can0\""};
+    return Error{config->file.string(),
+                 "names no CAN interface: it needs [source] kind = \"can\" and interface = \"can0\""};
   }
   if (!options.dbc_file.empty()) config->dbc_file = options.dbc_file;
   return config;
@@ -102,4 +105,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace phare
 
-int main(int argc, char** argv) { return phare::run(argc, argv); }
+int main(int argc, char** argv) {
+  return phare::run(argc, argv);
+}

@@ -21,8 +21,8 @@ Result<SignalMap> read_signals(const CockpitConfig& config, std::int64_t start_n
   if (!dbc) return dbc.error();
   if (!dbc->problems.empty()) {
     const DbcProblem& first = dbc->problems.front();
-    spdlog::warn("{}:{}: {} {}: {}; {} such lines, the rest is used", config.dbc_file.string(), first.line, first.message,
-                 first.signal, first.reason, dbc->problems.size());
+    spdlog::warn("{}:{}: {} {}: {}; {} such lines, the rest is used", config.dbc_file.string(), first.line,
+                 first.message, first.signal, first.reason, dbc->problems.size());
   }
   return SignalMap::bind(config, std::move(*dbc), start_ns);
 }
@@ -50,8 +50,10 @@ Result<std::unique_ptr<Source>> open_source(const CockpitConfig& config) {
       if (!map) return map.error();
       return CanSource::open(config.interface, std::move(*map));
     }
-    case SourceKind::kLog: return open_log(config);
-    case SourceKind::kKeyboard: return std::unique_ptr<Source>(std::make_unique<KeyboardSource>());
+    case SourceKind::kLog:
+      return open_log(config);
+    case SourceKind::kKeyboard:
+      return std::unique_ptr<Source>(std::make_unique<KeyboardSource>());
     case SourceKind::kDrive:
       if (config.input_file.empty()) return Error{config.file.string(), "names no drive; give one with --drive FILE"};
       return DriveSource::open(config.input_file);

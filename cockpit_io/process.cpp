@@ -14,9 +14,9 @@ namespace phare {
 namespace {
 
 constexpr std::chrono::milliseconds kSendEvery(10);
-constexpr std::chrono::milliseconds kLookEvery(2);         // at the source, between two datagrams
-constexpr std::chrono::milliseconds kCoast(200);           // of simulated time when the car is silent, as long as the picture
-constexpr std::chrono::seconds kWaitForCar(2);             // then simulated time runs by the wall clock alone
+constexpr std::chrono::milliseconds kLookEvery(2);  // at the source, between two datagrams
+constexpr std::chrono::milliseconds kCoast(200);    // of simulated time when the car is silent, as long as the picture
+constexpr std::chrono::seconds kWaitForCar(2);      // then simulated time runs by the wall clock alone
 constexpr std::size_t kMostUnsentStamps = 20'000;
 
 std::string source_name(const CockpitConfig& config) {
@@ -85,7 +85,8 @@ Moment CockpitProcess::now_in_real_time() {
   const WallTime wall = wall_now();
   SimTime sim = newest_;
   if (const auto* vehicle = bus_.newest<VehicleState>()) {
-    const std::int64_t age_ns = std::clamp<std::int64_t>(wall.ns - vehicle->received.ns, 0, std::chrono::nanoseconds(kCoast).count());
+    const std::int64_t age_ns =
+        std::clamp<std::int64_t>(wall.ns - vehicle->received.ns, 0, std::chrono::nanoseconds(kCoast).count());
     sim.ns = vehicle->sim_time.ns + age_ns;
   } else if (const auto waited = Clock::now() - start_; waited > kWaitForCar) {
     sim.ns = std::chrono::nanoseconds(waited - kWaitForCar).count();
@@ -201,17 +202,11 @@ void CockpitProcess::write_stats() const {
   if (stats_file_.empty()) return;
   nlohmann::json json = stats_json("cockpit", bus_);
   const SourceCounts& counts = source_->counts();
-  json["source"] = {{"name", source_name(config_)},
-                    {"status", source_->status()},
-                    {"frames_read", counts.frames_read},
-                    {"decoded", counts.decoded},
-                    {"incomplete", counts.incomplete},
-                    {"unknown_ids", counts.unknown_ids},
-                    {"error_frames", counts.error_frames},
-                    {"dropped", counts.dropped},
-                    {"broken_lines", counts.broken_lines},
-                    {"reconnects", counts.reconnects},
-                    {"fail_safes", counts.fail_safes}};
+  json["source"] = {
+      {"name", source_name(config_)},        {"status", source_->status()},     {"frames_read", counts.frames_read},
+      {"decoded", counts.decoded},           {"incomplete", counts.incomplete}, {"unknown_ids", counts.unknown_ids},
+      {"error_frames", counts.error_frames}, {"dropped", counts.dropped},       {"broken_lines", counts.broken_lines},
+      {"reconnects", counts.reconnects},     {"fail_safes", counts.fail_safes}};
   json["light_changes"] = cockpit_.light_changes();
   json["fail_safe"] = cockpit_.fail_safe();
   json["frame_to_datagram"] = latency_json(latency_);

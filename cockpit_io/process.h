@@ -1,4 +1,5 @@
-// The cockpit on the bus: asks its source what the driver does and sends CockpitState, by the wall clock or frame by frame.
+// The cockpit on the bus: asks its source what the driver does and sends CockpitState, by the wall clock or frame by
+// frame.
 #pragma once
 
 #include <chrono>
@@ -20,8 +21,8 @@ namespace phare {
 class CockpitProcess {
  public:
   /// `stats_file` may be empty: no statistics.
-  CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Rig& rig, CockpitConfig config, std::filesystem::path stats_file,
-                 StopFlag stop);
+  CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Rig& rig, CockpitConfig config,
+                 std::filesystem::path stats_file, StopFlag stop);
   CockpitProcess(const CockpitProcess&) = delete;
   CockpitProcess& operator=(const CockpitProcess&) = delete;
 

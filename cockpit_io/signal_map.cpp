@@ -13,12 +13,13 @@ namespace phare {
 namespace {
 
 /// The index of a named signal, or the Error that says why there is none.
-Result<std::size_t> find_signal(const Dbc& dbc, const DbcMessage& message, const std::string& name, const std::string& place) {
+Result<std::size_t> find_signal(const Dbc& dbc, const DbcMessage& message, const std::string& name,
+                                const std::string& place) {
   if (const DbcSignal* found = message.find(name)) return static_cast<std::size_t>(found - message.signals.data());
   for (const DbcProblem& problem : dbc.problems) {
     if (problem.message == message.name && problem.signal == name) {
-      return Error{place, "signal \"" + name + "\" cannot be used: " + dbc.file.string() + ":" + std::to_string(problem.line) +
-                              ": " + problem.reason};
+      return Error{place, "signal \"" + name + "\" cannot be used: " + dbc.file.string() + ":" +
+                              std::to_string(problem.line) + ": " + problem.reason};
     }
   }
   std::vector<std::string> names;
@@ -31,14 +32,15 @@ Result<std::size_t> find_message(const Dbc& dbc, const std::string& name, const 
   if (const DbcMessage* found = dbc.find(name)) return static_cast<std::size_t>(found - dbc.messages.data());
   for (const DbcProblem& problem : dbc.problems) {
     if (problem.message == name && problem.signal.empty()) {
-      return Error{place, "message \"" + name + "\" cannot be used: " + dbc.file.string() + ":" + std::to_string(problem.line) +
-                              ": " + problem.reason};
+      return Error{place, "message \"" + name + "\" cannot be used: " + dbc.file.string() + ":" +
+                              std::to_string(problem.line) + ": " + problem.reason};
     }
   }
   std::vector<std::string> names;
   for (const DbcMessage& message : dbc.messages) names.push_back(message.name);
   std::string reason = "no message \"" + name + "\" in " + dbc.file.filename().string();
-  if (const std::string nearest = nearest_name(name, names); !nearest.empty()) reason += "; did you mean \"" + nearest + "\"?";
+  if (const std::string nearest = nearest_name(name, names); !nearest.empty())
+    reason += "; did you mean \"" + nearest + "\"?";
   return Error{place, reason};
 }
 
@@ -62,7 +64,8 @@ Result<SignalMap> SignalMap::bind(const CockpitConfig& config, Dbc dbc, std::int
     }
     map.beam_bits_ |= mapping.control == Control::kPosition || mapping.control == Control::kLow;
 
-    auto bound = std::find_if(map.messages_.begin(), map.messages_.end(), [&](const auto& m) { return m.message == *message; });
+    auto bound =
+        std::find_if(map.messages_.begin(), map.messages_.end(), [&](const auto& m) { return m.message == *message; });
     if (bound == map.messages_.end()) {
       bound = map.messages_.insert(bound, BoundMessage{*message, {}, 0, start_ns});
     }
@@ -72,7 +75,9 @@ Result<SignalMap> SignalMap::bind(const CockpitConfig& config, Dbc dbc, std::int
   return map;
 }
 
-bool SignalMap::knows(const CanFrame& frame) const { return dbc_.find(frame.id, frame.extended) != nullptr; }
+bool SignalMap::knows(const CanFrame& frame) const {
+  return dbc_.find(frame.id, frame.extended) != nullptr;
+}
 
 SignalMap::Taken SignalMap::take(const CanFrame& frame, std::int64_t at_ns, DriverInput& input) {
   if (!frame.carries_data()) return Taken::kNotMapped;
@@ -91,7 +96,8 @@ SignalMap::Taken SignalMap::take(const CanFrame& frame, std::int64_t at_ns, Driv
   return complete ? Taken::kDecoded : Taken::kIncomplete;
 }
 
-bool SignalMap::read(const BoundControl& control, const DbcMessage& message, const CanFrame& frame, DriverInput& input) {
+bool SignalMap::read(const BoundControl& control, const DbcMessage& message, const CanFrame& frame,
+                     DriverInput& input) {
   const ControlMapping& m = control.mapping;
   const auto decoded = decode(message, message.signals[control.signal], frame);
   if (!decoded) return false;
@@ -117,21 +123,41 @@ bool SignalMap::read(const BoundControl& control, const DbcMessage& message, con
       if (!level()) return false;
       input.gear = static_cast<Gear>(*level());
       break;
-    case Control::kPosition: position_bit_ = pressed; break;
-    case Control::kLow: low_bit_ = pressed; break;
-    case Control::kHigh: input.switches.high = pressed; break;
-    case Control::kFlash: input.switches.flash = pressed; break;
-    case Control::kFogFront: input.switches.fog_front = pressed; break;
-    case Control::kDesignNext: input.switches.design_next = pressed; break;
-    case Control::kDesignPrevious: input.switches.design_previous = pressed; break;
-    case Control::kIgnition: input.switches.ignition = pressed; break;
+    case Control::kPosition:
+      position_bit_ = pressed;
+      break;
+    case Control::kLow:
+      low_bit_ = pressed;
+      break;
+    case Control::kHigh:
+      input.switches.high = pressed;
+      break;
+    case Control::kFlash:
+      input.switches.flash = pressed;
+      break;
+    case Control::kFogFront:
+      input.switches.fog_front = pressed;
+      break;
+    case Control::kDesignNext:
+      input.switches.design_next = pressed;
+      break;
+    case Control::kDesignPrevious:
+      input.switches.design_previous = pressed;
+      break;
+    case Control::kIgnition:
+      input.switches.ignition = pressed;
+      break;
     case Control::kSteering: {
       const double wheel_deg = std::clamp(value * m.scale + m.offset_deg, m.lowest, m.highest);
       input.steering_wheel_rad = wheel_deg * std::numbers::pi / 180.0;
       break;
     }
-    case Control::kAccelerator: input.accelerator_01 = pedal_01; break;
-    case Control::kBrake: input.brake_01 = pedal_01; break;
+    case Control::kAccelerator:
+      input.accelerator_01 = pedal_01;
+      break;
+    case Control::kBrake:
+      input.brake_01 = pedal_01;
+      break;
   }
   return true;
 }
@@ -148,7 +174,8 @@ std::int64_t SignalMap::silent_at_ns() const {
 
 std::vector<CanId> SignalMap::ids() const {
   std::vector<CanId> ids;
-  for (const BoundMessage& m : messages_) ids.push_back({dbc_.messages[m.message].id, dbc_.messages[m.message].extended});
+  for (const BoundMessage& m : messages_)
+    ids.push_back({dbc_.messages[m.message].id, dbc_.messages[m.message].extended});
   return ids;
 }
 

@@ -1,4 +1,5 @@
-// The cockpit file's mapping bound to a DBC: CAN frames in, the driver's controls out, and a clock for each mapped message.
+// The cockpit file's mapping bound to a DBC: CAN frames in, the driver's controls out, and a clock for each mapped
+// message.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +22,9 @@ class SignalMap {
     kIncomplete,  ///< too short, or a multiplexed signal was not in it, or a value fits no level: those controls stay
   };
 
-  /// Looks up every signal. Error at the cockpit file's line for a message or signal the DBC has not (naming the nearest), or
-  /// one that the DBC reader had to drop (naming the DBC's line). `start_ns`: when listening begins, see take().
+  /// Looks up every signal. Error at the cockpit file's line for a message or signal the DBC has not (naming the
+  /// nearest), or one that the DBC reader had to drop (naming the DBC's line). `start_ns`: when listening begins, see
+  /// take().
   static Result<SignalMap> bind(const CockpitConfig& config, Dbc dbc, std::int64_t start_ns);
 
   /// Reads a frame into the controls. `at_ns`: when it was on the bus, on any one clock that does not go back.
@@ -38,7 +40,7 @@ class SignalMap {
  private:
   struct BoundControl {
     ControlMapping mapping;
-    std::size_t signal = 0;                  ///< index in its message
+    std::size_t signal = 0;  ///< index in its message
     std::optional<std::size_t> fine_signal;
   };
   struct BoundMessage {

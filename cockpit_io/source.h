@@ -15,23 +15,23 @@ namespace phare {
 
 /// What a source has read so far, for the statistics.
 struct SourceCounts {
-  std::uint64_t frames_read = 0;      ///< CAN frames of socket or log; recorded states of a drive
-  std::uint64_t decoded = 0;          ///< of them those that moved or held a mapped control
-  std::uint64_t incomplete = 0;       ///< mapped, but too short or with a value that means nothing
-  std::uint64_t unknown_ids = 0;      ///< frames that the DBC does not know
-  std::uint64_t error_frames = 0;     ///< reports of the CAN controller
-  std::uint64_t dropped = 0;          ///< frames the kernel dropped because the socket was full
-  std::uint64_t broken_lines = 0;     ///< of a log
-  std::uint64_t reconnects = 0;       ///< times a lost interface came back
-  std::uint64_t fail_safes = 0;       ///< times the source fell silent
+  std::uint64_t frames_read = 0;   ///< CAN frames of socket or log; recorded states of a drive
+  std::uint64_t decoded = 0;       ///< of them those that moved or held a mapped control
+  std::uint64_t incomplete = 0;    ///< mapped, but too short or with a value that means nothing
+  std::uint64_t unknown_ids = 0;   ///< frames that the DBC does not know
+  std::uint64_t error_frames = 0;  ///< reports of the CAN controller
+  std::uint64_t dropped = 0;       ///< frames the kernel dropped because the socket was full
+  std::uint64_t broken_lines = 0;  ///< of a log
+  std::uint64_t reconnects = 0;    ///< times a lost interface came back
+  std::uint64_t fail_safes = 0;    ///< times the source fell silent
 };
 
 class Source {
  public:
   virtual ~Source() = default;
 
-  /// Reads everything up to `now` and hands it to the cockpit, each entry at its own time. Never blocks. `vehicle`: newest
-  /// known state of the car, may be nullptr.
+  /// Reads everything up to `now` and hands it to the cockpit, each entry at its own time. Never blocks. `vehicle`:
+  /// newest known state of the car, may be nullptr.
   virtual void advance(Moment now, const VehicleState* vehicle, Cockpit& cockpit) = 0;
 
   /// The source has no more to give.

@@ -6,7 +6,9 @@ namespace phare {
 
 namespace {
 
-bool later(const Moment& a, const Moment& b) { return a.sim > b.sim; }
+bool later(const Moment& a, const Moment& b) {
+  return a.sim > b.sim;
+}
 
 /// Follows one contact. Returns true when its value has changed.
 bool follow(DebouncedControl& control, int contact, const SwitchParams& params, Moment now) {

@@ -1,8 +1,9 @@
 // Switch logic: from the stalk as the driver holds it to the lights that are to burn.
 // What: debounce, the state table below, fail-safe, and the count and stamps of light changes.
-// Source: UN R48 rev. 12: 6.2.7 (dipped beam), 6.1.7 (main beam only with dipped beam, flash apart), 6.3.7 (front fog with
-// position lamps); fail-safe low beam: design §3 and §7. Frame: none. Leaves out: automatic high beam, rear fog, turn signals.
-// Tests: tests/cockpit_io/switch_logic_test.cpp walks through every row. The same table is in docs/switch-logic.md.
+// Source: UN R48 rev. 12: 6.2.7 (dipped beam), 6.1.7 (main beam only with dipped beam, flash apart), 6.3.7 (front fog
+// with position lamps); fail-safe low beam: design §3 and §7. Frame: none. Leaves out: automatic high beam, rear fog,
+// turn signals. Tests: tests/cockpit_io/switch_logic_test.cpp walks through every row. The same table is in
+// docs/switch-logic.md.
 //
 //   ignition | source | stalk     high pushed | light switch out | flash out        | front fog out
 //   ---------+--------+-----------------------+------------------+------------------+---------------------------
@@ -66,10 +67,10 @@ struct Lights {
 
 /// One debounced control.
 struct DebouncedControl {
-  int value = 0;                   ///< what counts
-  int raw = 0;                     ///< what the contact says
-  Moment raw_since;                ///< when the contact last changed
-  std::int64_t quiet_until_ns = 0; ///< SimTime before which value holds; 0: at once
+  int value = 0;                    ///< what counts
+  int raw = 0;                      ///< what the contact says
+  Moment raw_since;                 ///< when the contact last changed
+  std::int64_t quiet_until_ns = 0;  ///< SimTime before which value holds; 0: at once
 };
 
 struct SwitchState {
@@ -82,7 +83,8 @@ struct SwitchState {
 
 /// Moves the state on to `now`. `silent`: the source has said nothing for its timeout, `input` is what it said last.
 /// `now.sim` must not go back between calls.
-void advance_switches(const SwitchParams& params, const SwitchInput& input, bool silent, Moment now, SwitchState& state);
+void advance_switches(const SwitchParams& params, const SwitchInput& input, bool silent, Moment now,
+                      SwitchState& state);
 
 /// A design chosen from elsewhere (RigControl); beyond the last one it wraps.
 void choose_design(const SwitchParams& params, std::uint32_t design_index, Moment now, SwitchState& state);

@@ -1,4 +1,5 @@
-// Reads words, numbers and marks off one line of text, left to right; shared by the readers of DBC files and candump logs.
+// Reads words, numbers and marks off one line of text, left to right; shared by the readers of DBC files and candump
+// logs.
 #pragma once
 
 #include <charconv>
@@ -62,8 +63,7 @@ class TextScanner {
 
   /// A number of type T: whole (no sign for unsigned types), or decimal with sign and exponent.
   template <typename T>
-    requires std::integral<T> || std::floating_point<T>
-  std::optional<T> number() {
+  requires std::integral<T> || std::floating_point<T> std::optional<T> number() {
     skip_space();
     std::string_view text = rest_;
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);

@@ -26,15 +26,20 @@ constexpr std::pair<std::string_view, int> kGearLevels[]{{"drive", static_cast<i
                                                          {"reverse", static_cast<int>(Gear::kReverse)},
                                                          {"park", static_cast<int>(Gear::kPark)}};
 
-bool has_levels(Control control) { return control == Control::kLightSwitch || control == Control::kGear; }
-bool is_pedal(Control control) { return control == Control::kAccelerator || control == Control::kBrake; }
+bool has_levels(Control control) {
+  return control == Control::kLightSwitch || control == Control::kGear;
+}
+bool is_pedal(Control control) {
+  return control == Control::kAccelerator || control == Control::kBrake;
+}
 
 void read_levels(TomlTable table, Levels names, ControlMapping& mapping) {
   TomlTable levels = table.table("levels");
   for (const auto& [name, level] : names) {
     if (!levels.has(name)) continue;
     const double value = levels.number(name, -kAnyNumber, kAnyNumber);
-    const bool twice = std::any_of(mapping.levels.begin(), mapping.levels.end(), [&](const auto& l) { return l.first == value; });
+    const bool twice =
+        std::any_of(mapping.levels.begin(), mapping.levels.end(), [&](const auto& l) { return l.first == value; });
     if (twice) levels.fail(name, "another level has this value too");
     mapping.levels.emplace_back(value, level);
   }
@@ -67,7 +72,8 @@ ControlMapping read_control(Control control, TomlTable table, double timeout_s) 
     const auto range = table.numbers_or("range", kUnit);
     mapping.lowest = range[0];
     mapping.highest = range[1];
-    if (range[0] == range[1]) table.fail("range", "expected [value when released, value when pressed], two different ones");
+    if (range[0] == range[1])
+      table.fail("range", "expected [value when released, value when pressed], two different ones");
   } else if (table.has("on")) {
     mapping.on = table.number("on", -kAnyNumber, kAnyNumber);
   }

@@ -42,10 +42,26 @@ TEST(Candump, ReadsRemoteFdAndErrorFrames) {
 }
 
 TEST(Candump, RefusesBrokenLines) {
-  for (const char* line : {"", "x", "(1) c 123#", "(1.) c 123#", "(-1.0) c 123#", "(99999999999999.0) c 123#", "(1.0)", "(1.0) c",
-                           "(1.0) 123#11", "(1.0) c 123", "(1.0) c 12#11", "(1.0) c FFF#11", "(1.0) c G23#11", "(1.0) c 123#1",
-                           "(1.0) c 123#112233445566778899", "(1.0) c 123#R9", "(1.0) c 123##", "(1.0) c 123#11 X",
-                           "(1.0) c 123#11 R R", "(1.0) c FFFFFFFF#11"}) {
+  for (const char* line : {"",
+                           "x",
+                           "(1) c 123#",
+                           "(1.) c 123#",
+                           "(-1.0) c 123#",
+                           "(99999999999999.0) c 123#",
+                           "(1.0)",
+                           "(1.0) c",
+                           "(1.0) 123#11",
+                           "(1.0) c 123",
+                           "(1.0) c 12#11",
+                           "(1.0) c FFF#11",
+                           "(1.0) c G23#11",
+                           "(1.0) c 123#1",
+                           "(1.0) c 123#112233445566778899",
+                           "(1.0) c 123#R9",
+                           "(1.0) c 123##",
+                           "(1.0) c 123#11 X",
+                           "(1.0) c 123#11 R R",
+                           "(1.0) c FFFFFFFF#11"}) {
     EXPECT_FALSE(parse_candump_line(line).ok()) << line;
   }
 }
@@ -70,7 +86,8 @@ TEST(Candump, ALogWithoutAFrameIsAnError) {
 }
 
 TEST(Candump, CountsEveryFrameOfARealDrive) {
-  const auto file = std::filesystem::path(PHARE_SHARED_DATA_DIR) / "drives/comma2k19/rav4_seg40_bus0_00-30s.candump.log";
+  const auto file =
+      std::filesystem::path(PHARE_SHARED_DATA_DIR) / "drives/comma2k19/rav4_seg40_bus0_00-30s.candump.log";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   const auto log = read_candump(file);
   ASSERT_TRUE(log.ok());

@@ -1,11 +1,10 @@
 // The cockpit file, its mapping onto a DBC, and what is said when they do not fit.
-#include "config/cockpit.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "cockpit_io/signal_map.h"
+#include "config/cockpit.h"
 
 namespace phare {
 namespace {
@@ -36,7 +35,8 @@ TEST(CockpitFile, UnknownKeyNamesTheNearest) {
 
 TEST(CockpitFile, TwoSignalsForOneControlAreAnError) {
   const std::string levels =
-      "[source]\nkind = \"log\"\n[control.light_switch]\nmessage = \"M\"\nsignal = \"S\"\nlevels = { off = 0, low = 2, high = 3 }\n";
+      "[source]\nkind = \"log\"\n[control.light_switch]\nmessage = \"M\"\nsignal = \"S\"\nlevels = { off = 0, low = 2, "
+      "high = 3 }\n";
   const auto flag = [](const std::string& name) { return "[control." + name + "]\nmessage = \"M\"\nsignal = \"T\"\n"; };
   EXPECT_EQ(error_of(levels), "");
   EXPECT_EQ(error_of(levels + flag("low")),
@@ -44,7 +44,9 @@ TEST(CockpitFile, TwoSignalsForOneControlAreAnError) {
   EXPECT_NE(error_of(levels + flag("high")).find("two signals for one control"), std::string::npos);
   EXPECT_NE(error_of(levels + flag("flash") + flag("flash")), "");
   EXPECT_NE(error_of("[source]\nkind = \"log\"\n[control.light_switch]\nmessage = \"M\"\nsignal = \"S\"\n"
-                     "levels = { off = 0, low = 0 }\n").find("another level"), std::string::npos);
+                     "levels = { off = 0, low = 0 }\n")
+                .find("another level"),
+            std::string::npos);
 }
 
 TEST(CockpitFile, UnknownSignalAndMessageNameTheNearest) {
@@ -56,7 +58,8 @@ TEST(CockpitFile, UnknownSignalAndMessageNameTheNearest) {
 }
 
 TEST(CockpitFile, ADroppedSignalIsExplained) {
-  const auto config = parse_cockpit("[source]\nkind = \"log\"\n[control.flash]\nmessage = \"M\"\nsignal = \"WIDE\"\n", "c.toml");
+  const auto config =
+      parse_cockpit("[source]\nkind = \"log\"\n[control.flash]\nmessage = \"M\"\nsignal = \"WIDE\"\n", "c.toml");
   ASSERT_TRUE(config.ok());
   const auto dbc = parse_dbc("BO_ 1 M: 1 X\n SG_ WIDE : 4|8@1+ (1,0) [0|0] \"\" X\n", "m.dbc");
   const auto map = SignalMap::bind(*config, *dbc, 0);

@@ -66,7 +66,8 @@ TEST(Dbc, DecodesFloats) {
       "BO_ 1 M: 8 X\n SG_ F : 32|32@1- (1,0) [0|0] \"\" X\n SG_ G : 0|32@1- (1,0) [0|0] \"\" X\n"
       "SIG_VALTYPE_ 1 F : 1;\nSIG_VALTYPE_ 1 G : 2;\n");
   EXPECT_EQ(value(dbc, "F", frame_of(dbc.messages.front(), {0, 0, 0, 0, 0, 0, 0xC0, 0x3F})), 1.5);
-  EXPECT_TRUE(std::isnan(value(dbc, "F", frame_of(dbc.messages.front(), {0, 0, 0, 0, 0, 0, 0x80, 0x7F})))) << "infinite";
+  EXPECT_TRUE(std::isnan(value(dbc, "F", frame_of(dbc.messages.front(), {0, 0, 0, 0, 0, 0, 0x80, 0x7F}))))
+      << "infinite";
   ASSERT_EQ(dbc.problems.size(), 1u);  // a double needs 64 bits
   EXPECT_EQ(dbc.problems[0].line, 5);
 }
@@ -105,19 +106,19 @@ TEST(Dbc, BrokenLinesAreReportedWithTheirNumberAndTheRestIsKept) {
   const Dbc dbc = parsed(
       "BO_ 1 GOOD: 2 X\n"
       " SG_ OK : 0|8@1+ (1,0) [0|0] \"\" X\n"
-      " SG_ NOLENGTH : 8@1+ (1,0) [0|0] \"\" X\n"           // 3
-      " SG_ BIG : 8|9@1+ (1,0) [0|0] \"\" X\n"              // 4: a bit too far
-      " SG_ BIGM : 8|2@0+ (1,0) [0|0] \"\" X\n"             // 5: Motorola runs into byte 2
+      " SG_ NOLENGTH : 8@1+ (1,0) [0|0] \"\" X\n"                  // 3
+      " SG_ BIG : 8|9@1+ (1,0) [0|0] \"\" X\n"                     // 4: a bit too far
+      " SG_ BIGM : 8|2@0+ (1,0) [0|0] \"\" X\n"                    // 5: Motorola runs into byte 2
       " SG_ HUGE : 4294967295|4294967295@1+ (1,0) [0|0] \"\" X\n"  // 6
-      " SG_ ZERO : 0|0@1+ (1,0) [0|0] \"\" X\n"             // 7
-      " SG_ NOFACTOR : 0|8@1+ (0,0) [0|0] \"\" X\n"         // 8
-      " SG_ OK : 0|8@1+ (1,0) [0|0] \"\" X\n"               // 9: twice
-      "BO_ 1 AGAIN: 2 X\n"                                   // 10
+      " SG_ ZERO : 0|0@1+ (1,0) [0|0] \"\" X\n"                    // 7
+      " SG_ NOFACTOR : 0|8@1+ (0,0) [0|0] \"\" X\n"                // 8
+      " SG_ OK : 0|8@1+ (1,0) [0|0] \"\" X\n"                      // 9: twice
+      "BO_ 1 AGAIN: 2 X\n"                                         // 10
       " SG_ LEFTOUT : 0|8@1+ (1,0) [0|0] \"\" X\n"
-      "BO_ 2048 WIDE: 2 X\n"                                 // 12: 12 bits, taken as 29-bit id
-      "BO_ nonsense\n"                                       // 13
-      "WHAT_ is this\n"                                      // 14
-      "CM_ \"never ends\n"                                   // 15
+      "BO_ 2048 WIDE: 2 X\n"  // 12: 12 bits, taken as 29-bit id
+      "BO_ nonsense\n"        // 13
+      "WHAT_ is this\n"       // 14
+      "CM_ \"never ends\n"    // 15
       "BO_ 3 LAST: 1 X\n SG_ L : 0|8@1+ (1,0) [0|0] \"\" X\n");
   std::vector<int> lines;
   for (const DbcProblem& problem : dbc.problems) lines.push_back(problem.line);
@@ -190,10 +191,11 @@ TEST(Dbc, RealFilesLoad) {
   for (const Expected& expected : files) {
     Result<Dbc> dbc = read_dbc(folder / expected.file);
     ASSERT_TRUE(dbc.ok()) << dbc.error().text();
-    std::printf("%s: %zu messages, %zu signals, %zu lines reported\n", expected.file, dbc->messages.size(), dbc->signal_count(),
-                dbc->problems.size());
+    std::printf("%s: %zu messages, %zu signals, %zu lines reported\n", expected.file, dbc->messages.size(),
+                dbc->signal_count(), dbc->problems.size());
     for (const DbcProblem& problem : dbc->problems) {
-      std::printf("  line %d: %s %s: %s\n", problem.line, problem.message.c_str(), problem.signal.c_str(), problem.reason.c_str());
+      std::printf("  line %d: %s %s: %s\n", problem.line, problem.message.c_str(), problem.signal.c_str(),
+                  problem.reason.c_str());
       EXPECT_GT(problem.line, 0);
     }
     EXPECT_EQ(dbc->messages.size(), expected.messages) << expected.file;

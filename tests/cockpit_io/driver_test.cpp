@@ -1,11 +1,11 @@
 // The scripted driver: files, speed profile, and a drive over a bend with a car of the simplest kind.
-#include "cockpit_io/driver_source.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+
+#include "cockpit_io/driver_source.h"
 
 namespace phare {
 namespace {
@@ -16,7 +16,8 @@ constexpr const char* kScript =
     "[comfort]\nmax_speed_kmh = 90\nlateral_mps2 = 2.5\naccelerate_mps2 = 2\nbrake_mps2 = 2\n"
     "[[slow]]\nfrom_s_m = 500\nto_s_m = 560\nspeed_kmh = 36\nbrake_mps2 = 6\n"
     "[[event]]\nat_s_m = 100\nlight = \"high\"\n[[event]]\nat_s_m = 200\nlight = \"low\"\n"
-    "[[event]]\nat_t_s = 2\nfog = true\n[[event]]\nat_s_m = 300\nflash_s = 0.5\n[[event]]\nat_s_m = 350\ndesign_steps = 1\n";
+    "[[event]]\nat_t_s = 2\nfog = true\n[[event]]\nat_s_m = 300\nflash_s = 0.5\n[[event]]\nat_s_m = 350\ndesign_steps "
+    "= 1\n";
 
 /// 200 m straight, a quarter of a circle of 150 m radius to the left, straight on.
 std::vector<LanePoint> lane() {
@@ -87,7 +88,8 @@ TEST(Driver, FollowsTheLaneAndItsScript) {
     if (lights.empty() || lights.back() != controls.light_switch) lights.push_back(controls.light_switch);
     if (controls.flash) flash_s += dt;
     // a car without mass: kinematic single track, pedals give acceleration
-    const double a = controls.accelerator_01 * std::min(4.0, 60.0 / std::max(car.speed_mps, 1.0)) - controls.brake_01 * 9.0 - 0.15;
+    const double a =
+        controls.accelerator_01 * std::min(4.0, 60.0 / std::max(car.speed_mps, 1.0)) - controls.brake_01 * 9.0 - 0.15;
     car.speed_mps = std::max(0.0, car.speed_mps + a * dt);
     car.yaw_rad += car.speed_mps / 2.6 * std::tan(controls.steering_wheel_rad / 15.0) * dt;
     car.x_m += car.speed_mps * std::cos(car.yaw_rad) * dt;

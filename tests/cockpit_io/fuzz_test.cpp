@@ -31,11 +31,21 @@ std::string damaged(const std::string& good, std::mt19937_64& random) {
   for (auto edits = random() % 12 + 1; edits > 0 && !text.empty(); --edits) {
     const std::size_t at = random() % text.size();
     switch (random() % 5) {
-      case 0: text[at] = static_cast<char>(random()); break;
-      case 1: text.erase(at, random() % 20); break;
-      case 2: text.insert(at, text.substr(random() % text.size(), random() % 40)); break;
-      case 3: text.insert(at, std::to_string(random())); break;
-      default: text[at] = "0123456789-+.|@()[]\":;#\n mM"[random() % 27]; break;
+      case 0:
+        text[at] = static_cast<char>(random());
+        break;
+      case 1:
+        text.erase(at, random() % 20);
+        break;
+      case 2:
+        text.insert(at, text.substr(random() % text.size(), random() % 40));
+        break;
+      case 3:
+        text.insert(at, std::to_string(random()));
+        break;
+      default:
+        text[at] = "0123456789-+.|@()[]\":;#\n mM"[random() % 27];
+        break;
     }
   }
   return text;

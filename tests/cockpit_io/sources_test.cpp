@@ -1,20 +1,26 @@
 // Sources: the log's timing and fail-safe, real CAN numbers, keys, a socket on a kernel without CAN.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "cockpit_io/can_socket.h"
 #include "cockpit_io/candump.h"
+#include "cockpit_io/drive_source.h"
 #include "cockpit_io/keyboard_source.h"
 #include "cockpit_io/latency.h"
 #include "cockpit_io/log_source.h"
 #include "cockpit_io/text_scanner.h"
+#include "net/drive_file.h"
+#include "net/wire.h"
 
 namespace phare {
 namespace {
@@ -22,21 +28,27 @@ namespace {
 const std::filesystem::path kCockpits = PHARE_COCKPITS_DIR;
 const std::filesystem::path kShared = PHARE_SHARED_DATA_DIR;
 
-Moment at_ms(std::int64_t ms) { return {SimTime{ms * 1'000'000}, WallTime{1'000'000'000 + ms * 1'000'000}}; }
+Moment at_ms(std::int64_t ms) {
+  return {SimTime{ms * 1'000'000}, WallTime{1'000'000'000 + ms * 1'000'000}};
+}
 
 SignalMap stalk_map() {
   const auto config = parse_cockpit(
-      "[source]\nkind = \"log\"\ntimeout_s = 0.2\n[control.light_switch]\nmessage = \"BEAM_STALK\"\nsignal = \"BEAM_SWITCH\"\n"
-      "levels = { off = 0, position = 1, low = 2, high = 3 }\n[control.flash]\nmessage = \"BEAM_STALK\"\nsignal = \"FLASH\"\n",
+      "[source]\nkind = \"log\"\ntimeout_s = 0.2\n[control.light_switch]\nmessage = \"BEAM_STALK\"\nsignal = "
+      "\"BEAM_SWITCH\"\n"
+      "levels = { off = 0, position = 1, low = 2, high = 3 }\n[control.flash]\nmessage = \"BEAM_STALK\"\nsignal = "
+      "\"FLASH\"\n",
       "c.toml");
   return *SignalMap::bind(*config, *read_dbc(kCockpits / "phare_stalk.dbc"), 0);
 }
 
 TEST(LogSource, PlaysByTheStampAndNotByTheTick) {
-  LogSource source(*parse_candump("(50.000) can0 500#0200000000000000\n(50.105) can0 500#0300000000000000\n"
-                                  "(50.200) can0 500#0300000000000000\n(50.210) can0 7FF#\nbad\n(50.400) can0 20000040#0000000000000000\n",
-                                  "l"),
-                   stalk_map());
+  LogSource source(
+      *parse_candump(
+          "(50.000) can0 500#0200000000000000\n(50.105) can0 500#0300000000000000\n"
+          "(50.200) can0 500#0300000000000000\n(50.210) can0 7FF#\nbad\n(50.400) can0 20000040#0000000000000000\n",
+          "l"),
+      stalk_map());
   Cockpit cockpit({20'000'000, 2}, "log");
   source.advance(at_ms(0), nullptr, cockpit);
   EXPECT_EQ(cockpit.state(-1, false).light_switch, LightSwitch::kLow);
@@ -180,8 +192,47 @@ TEST(RealDrive, TheToyotaCockpitPlaysTheLog) {
   EXPECT_GT(most_deg, 1.0);
   EXPECT_GT(most_accelerator, 0.05);
   std::printf("decoded %llu, unknown ids %llu, steering up to %.1f degrees, accelerator up to %.2f\n",
-              static_cast<unsigned long long>(source.counts().decoded), static_cast<unsigned long long>(source.counts().unknown_ids),
-              most_deg, most_accelerator);
+              static_cast<unsigned long long>(source.counts().decoded),
+              static_cast<unsigned long long>(source.counts().unknown_ids), most_deg, most_accelerator);
+}
+
+TEST(DriveSource, PlaysTheRecordedControlsToTheEndOfTheDrive) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("phare_drive_source_test_" + std::to_string(getpid()) + ".pcap");
+  {
+    auto writer = DriveWriter::create(file, 47000);
+    ASSERT_TRUE(writer.ok()) << writer.error().text();
+    const auto write = [&](std::int64_t ms, Sender sender, std::uint64_t sequence, const Payload& payload) {
+      const Datagram datagram{sender, 0, 77, sequence, at_ms(ms).sim, at_ms(ms).wall, payload};
+      const std::string bytes = encode(datagram);
+      ASSERT_TRUE(writer->write(datagram, std::as_bytes(std::span(bytes))).ok());
+    };
+    CockpitState state;
+    state.light_switch = LightSwitch::kLow;
+    state.steering_wheel_rad = 0.5;
+    write(0, Sender::kCockpit, 1, state);
+    state.light_switch = LightSwitch::kHigh;
+    state.design_index = 7;
+    write(105, Sender::kCockpit, 2, state);
+    VehicleState pose;
+    pose.level = "pose";
+    write(300, Sender::kDynamics, 1, pose);
+  }
+  auto source = DriveSource::open(file);
+  ASSERT_TRUE(source.ok()) << source.error().text();
+  Cockpit cockpit({20'000'000, 2}, "drive");
+  (*source)->advance(at_ms(104), nullptr, cockpit);
+  EXPECT_EQ(cockpit.state(-1, false).light_switch, LightSwitch::kLow);
+  EXPECT_DOUBLE_EQ(cockpit.state(-1, false).steering_wheel_rad, 0.5);
+  (*source)->advance(at_ms(120), nullptr, cockpit);
+  EXPECT_EQ(cockpit.state(-1, false).light_switch, LightSwitch::kHigh);
+  EXPECT_EQ(cockpit.state(-1, false).design_index, 1u) << "wraps where the rig has fewer designs";
+  EXPECT_EQ(cockpit.state(-1, false).light_change_sim, at_ms(105).sim);
+  EXPECT_EQ(cockpit.state(-1, false).light_changes, 2u);
+  EXPECT_FALSE((*source)->ended());
+  (*source)->advance(at_ms(300), nullptr, cockpit);
+  EXPECT_TRUE((*source)->ended());
+  std::filesystem::remove(file);
 }
 
 TEST(Keyboard, KeysMoveTheControls) {

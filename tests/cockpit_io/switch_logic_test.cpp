@@ -41,12 +41,17 @@ std::vector<SwitchInput> every_input() {
 /// The state table of the header, row by row, written independently of the code.
 Lights expected(const SwitchInput& in, bool silent) {
   if (in.ignition && silent) return {LightSwitch::kLow, false, false, 0};
-  if (!in.ignition) return {in.stalk == LightSwitch::kPosition ? LightSwitch::kPosition : LightSwitch::kOff, false, false, 0};
+  if (!in.ignition)
+    return {in.stalk == LightSwitch::kPosition ? LightSwitch::kPosition : LightSwitch::kOff, false, false, 0};
   switch (in.stalk) {
-    case LightSwitch::kOff: return {LightSwitch::kOff, in.flash, false, 0};
-    case LightSwitch::kPosition: return {LightSwitch::kPosition, in.flash, in.fog_front, 0};
-    case LightSwitch::kLow: return {in.high ? LightSwitch::kHigh : LightSwitch::kLow, in.flash, in.fog_front, 0};
-    case LightSwitch::kHigh: return {LightSwitch::kHigh, in.flash, in.fog_front, 0};
+    case LightSwitch::kOff:
+      return {LightSwitch::kOff, in.flash, false, 0};
+    case LightSwitch::kPosition:
+      return {LightSwitch::kPosition, in.flash, in.fog_front, 0};
+    case LightSwitch::kLow:
+      return {in.high ? LightSwitch::kHigh : LightSwitch::kLow, in.flash, in.fog_front, 0};
+    case LightSwitch::kHigh:
+      return {LightSwitch::kHigh, in.flash, in.fog_front, 0};
   }
   return {};
 }
