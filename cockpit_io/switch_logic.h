@@ -1,9 +1,9 @@
 // Switch logic: from the stalk as the driver holds it to the lights that are to burn.
 // What: debounce, the state table below, fail-safe, and the count and stamps of light changes.
-// Source: UN R48 rev. 12: 6.2.7 (dipped beam), 6.1.7 (main beam only with dipped beam, flash apart), 6.3.7 (front fog
-// with position lamps); fail-safe low beam: design §3 and §7. Frame: none. Leaves out: automatic high beam, rear fog,
-// turn signals. Tests: tests/cockpit_io/switch_logic_test.cpp walks through every row. The same table is in
-// docs/switch-logic.md.
+// Source: UN R48 5.12 (main beam, dipped beam and front fog lamps only with position lamps, the flash excepted); high
+// only with low on, as cars have it; fail-safe low beam: design §3 and §7. Frame: none. Leaves out: automatic high beam,
+// rear fog, turn signals. Tests: tests/cockpit_io/switch_logic_test.cpp walks through every row.
+// The same table is in docs/switch-logic.md.
 //
 //   ignition | source | stalk     high pushed | light switch out | flash out        | front fog out
 //   ---------+--------+-----------------------+------------------+------------------+---------------------------

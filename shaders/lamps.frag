@@ -12,6 +12,7 @@ layout(constant_id = 4) const uint lamp_base = 0;
 layout(location = 0) in vec3 point;
 layout(location = 1) in vec3 point_normal;
 layout(location = 2) in vec3 detail;
+layout(location = 3) flat in uint material;
 layout(location = 0) out vec4 result;
 layout(location = 1) out vec4 result_normal;
 
@@ -65,7 +66,7 @@ void main() {
   float total_lx = 0.0;
   vec3 coloured_lx = vec3(0.0);
   vec3 retro_cdm2 = vec3(0.0);
-  float retro_coefficient = materials[uint(draw.detail_origin.w)].reflectance.w;
+  float retro_coefficient = materials[material].reflectance.w;
   for (uint i = 0; i < lamp_count; ++i) {
     LampLight light = lamp_light(i, point, n);
     total_lx += light.illuminance_lx;
@@ -92,9 +93,9 @@ void main() {
     return;
   }
 
-  vec3 rho = surface_reflectance(materials[uint(draw.detail_origin.w)].reflectance.rgb);
+  vec3 rho = surface_reflectance(materials[material].reflectance.rgb);
   vec3 sky_lx = frame.sky.rgb * kPi * (0.5 + 0.5 * n.z);  // half the dome, unoccluded
   vec3 radiance = rho * (coloured_lx + sky_lx) / kPi;
   if (retro != 0) radiance += retro_cdm2 * rho / max(max(rho.r, rho.g), max(rho.b, 1e-3));
-  result = output_kind == kOutputHdr ? vec4(radiance, total_lx) : vec4(tone_curve(radiance * frame.exposure.x), 1.0);
+  result = output_kind == kOutputHdr ? vec4(radiance, total_lx) : vec4(tone_curve(radiance * frame.exposure.rgb), 1.0);
 }

@@ -37,7 +37,7 @@ struct GpuLamp {
 
 struct GpuFrame {
   vec4 clip_from_eye[4];    // columns; "eye" is the world turned to the eye's place, not its direction
-  vec4 exposure;            // x: 1/(cd/m²)
+  vec4 exposure;            // rgb: 1/(cd/m²), with the balance of the eye's adaptation
   vec4 sky;                 // rgb zenith cd/m², w: factor at the horizon
   vec4 view_from_clip[4];   // columns: clip position to eye-relative direction
   GpuLamp lamps[kMaxLamps];
@@ -49,8 +49,8 @@ struct GpuMaterial {
 
 // Push constants of one draw.
 struct GpuDraw {
-  vec4 origin;         // of the chunk, relative to the eye, m
-  vec4 detail_origin;  // of the chunk modulo 1024 m, so that detail stays put in float32; w: material index
+  vec4 origin;         // of the batch, relative to the eye, m
+  vec4 detail_origin;  // of the batch modulo 1024 m, so that detail stays put in float32
 };
 
 PHARE_SHADER_END

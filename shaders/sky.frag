@@ -15,5 +15,5 @@ void main() {
   vec3 luminance = frame.sky.rgb * mix(1.0, frame.sky.w, horizon);
   if (output_kind == kOutputHdr) result = vec4(luminance, 0.0);
   else if (output_kind == kOutputFalseColour) result = vec4(0.0, 0.0, 0.01, 1.0);
-  else result = vec4(tone_curve(luminance * frame.exposure.x), 1.0);
+  else result = vec4(tone_curve(luminance * frame.exposure.rgb), 1.0);
 }

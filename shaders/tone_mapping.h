@@ -5,7 +5,7 @@
 PHARE_SHADER_BEGIN
 const uint kToneInput = 0u;  // binding: hdr_cdm2
 struct ToneConstants {
-  vec4 exposure;  // x: 1/(cd/m²)
+  vec4 exposure;  // rgb: 1/(cd/m²), with the balance of the eye's adaptation
 };
 PHARE_SHADER_END
 #endif

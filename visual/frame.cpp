@@ -9,7 +9,7 @@ FrameCounts draw_frame(FrameParts& parts, const FrameInput& input) {
   // What is seen, by which lamps.
   const std::vector<DrawItem> items = parts.scene.visible(input.camera, aspect);
   if (parts.beams.upload()) parts.lamps.bind(parts.scene, parts.beams);
-  parts.lamps.set_frame(input.camera, aspect, input.exposure_per_cdm2, input.sky_luminance_cdm2, input.lamps, parts.beams);
+  parts.lamps.set_frame(input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2, input.lamps, parts.beams);
 
   // What this frame calls for.
   const EffectPlan plan = plan_effects(input, parts.lamps.lamp_count(), parts.software_device);
@@ -29,12 +29,16 @@ FrameCounts draw_frame(FrameParts& parts, const FrameInput& input) {
                     output, parts.scene, items);
 
   // From cd/m² to the display. Without an HDR image the lamp pass has done it.
-  if (plan.hdr_image) parts.tone_mapping.draw(parts.graph, targets.hdr_cdm2, targets.display, input.exposure_per_cdm2);
+  if (plan.hdr_image) parts.tone_mapping.draw(parts.graph, targets.hdr_cdm2, targets.display, exposure_of(input));
 
   FrameCounts counts{.passes = 1u + (plan.depth_first ? 1u : 0u) + (plan.hdr_image ? 1u : 0u)};
   counts.draws = static_cast<std::uint32_t>(items.size()) * (plan.depth_first ? 2 : 1) + 1 + (plan.hdr_image ? 1 : 0);
-  for (const DrawItem& item : items) counts.triangles += item.chunk->index_count / 3;
+  for (const DrawItem& item : items) counts.triangles += item.batch->index_count / 3;
   return counts;
+}
+
+glm::vec3 exposure_of(const FrameInput& input) {
+  return static_cast<float>(input.exposure_per_cdm2) / black_body_colour(input.adaptation_k);
 }
 
 EffectPlan plan_effects(const FrameInput& input, std::uint32_t lamp_count, bool software_device) {

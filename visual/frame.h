@@ -24,6 +24,9 @@ struct FrameTargets {
   void make_hdr(gpu::Device& device);
 };
 
+/// Factors that take luminance to the tone curve: exposure, and the balance that makes light of `adaptation_k` white.
+glm::vec3 exposure_of(const FrameInput& input);
+
 /// Which effects this frame has and why. Each line is "name on|off: reason".
 struct EffectPlan {
   bool depth_first = false;   ///< a depth pass before the lamp pass

@@ -198,10 +198,10 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
   camera.eye_m = lamps.front().position_m;
   for (std::size_t begin = 0; begin < points.size(); begin += kBatch) {
     const std::size_t count = std::min(kBatch, points.size() - begin);
-    std::vector<SceneVertex> vertices;
+    std::vector<GpuVertex> vertices;
     vertices.reserve(count);
     for (const MeasurePoint& point : points.subspan(begin, count))
-      vertices.push_back({glm::vec3(point.position_m - camera.eye_m), glm::vec3(glm::normalize(point.normal))});
+      vertices.push_back({glm::vec3(point.position_m - camera.eye_m), glm::vec3(glm::normalize(point.normal)), 0});
     const gpu::DeviceBuffer buffer(impl_->device, std::as_bytes(std::span(vertices)), vk::BufferUsageFlagBits::eVertexBuffer, "points");
     const vk::Extent2D extent{kWidth, static_cast<std::uint32_t>((count + kWidth - 1) / kWidth)};
     gpu::Image lx(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
@@ -210,7 +210,7 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
     // One lamp at a time: what each gives is asked for, dark ones included.
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
       if (impl_->beams.upload()) impl_->lamps.bind(impl_->scene, impl_->beams);
-      impl_->lamps.set_frame(camera, 1.0, 1.0, 0.0, lamps.subspan(lamp, 1), impl_->beams);
+      impl_->lamps.set_frame(camera, 1.0, glm::vec3(1.0f), 0.0, lamps.subspan(lamp, 1), impl_->beams);
       if (impl_->lamps.lamp_count() == 0) continue;
       impl_->submit([&] {
         impl_->lamps.measure(impl_->graph, lx, *buffer.buffer, static_cast<std::uint32_t>(count), 0);
@@ -235,7 +235,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   const double aspect = static_cast<double>(extent.width) / extent.height;
   const std::vector<DrawItem> items = impl_->scene.visible(input.camera, aspect);
   if (impl_->beams.upload()) impl_->lamps.bind(impl_->scene, impl_->beams);
-  impl_->lamps.set_frame(input.camera, aspect, input.exposure_per_cdm2, input.sky_luminance_cdm2, input.lamps, impl_->beams);
+  impl_->lamps.set_frame(input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2, input.lamps, impl_->beams);
   impl_->submit([&] {
     impl_->lamps.audit(impl_->graph, position, normal, depth, impl_->scene, items);
     impl_->copy_out(position, position_copy, 16);

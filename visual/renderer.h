@@ -51,7 +51,8 @@ enum class View { kPhoto, kFalseColour };  ///< as the eye sees it, or illuminan
 struct FrameInput {
   Camera camera;
   std::vector<PlacedLamp> lamps;      ///< at most 8; positions whose beam is dark are left out by the caller or by us
-  double exposure_per_cdm2 = 0.35;    ///< multiplies luminance before the tone curve
+  double exposure_per_cdm2 = 0.8;     ///< multiplies luminance before the tone curve; fixed, so that beams compare
+  double adaptation_k = 4000.0;       ///< light of this colour temperature looks white: the eye half adapts to its own lamps
   double sky_luminance_cdm2 = 0.004;
   View view = View::kPhoto;
   bool want_hdr = false;              ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass

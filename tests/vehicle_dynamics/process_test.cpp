@@ -65,7 +65,7 @@ class DynamicsProcess : public testing::Test {
                                            "[[channel]]\nname = \"front\"\n[[design]]\nname = \"a\"\n"
                                            "[[design.lamp]]\nname = \"l\"\npair = true\nposition_m = [3.4, 0.6, 0.6]\n"
                                            "[[design.lamp.source]]\nfunction = \"low\"\nfile = \"l.ies\"\n";
-    rig_.port_base = static_cast<std::uint16_t>(30000 + ::getpid() % 20000);
+    rig_.port_base = static_cast<std::uint16_t>(20000 + (::getpid() % 500) * 20);
     rig_.channels.resize(1);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

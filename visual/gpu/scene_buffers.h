@@ -10,22 +10,45 @@
 
 namespace phare {
 
-/// One chunk to draw, ready for its push constants.
+/// What makes a pipeline: materials of one kind are drawn together.
+struct MaterialKind {
+  Surface surface = Surface::kPlain;
+  bool retro = false;
+
+  friend auto operator<=>(const MaterialKind&, const MaterialKind&) = default;
+};
+
+/// A vertex on the device.
+struct GpuVertex {
+  glm::vec3 position_m;  ///< relative to the batch's origin
+  glm::vec3 normal;
+  std::uint32_t material = 0;
+};
+
+/// Chunks of one kind in one cell of the ground, drawn in one call: on a software device a call costs as much as a hundred triangles.
+struct SceneBatch {
+  MaterialKind kind;
+  glm::dvec3 origin_m{0.0};
+  glm::dvec3 low_m{0.0}, high_m{0.0};
+  std::uint32_t first_index = 0, index_count = 0;
+  std::int32_t first_vertex = 0;
+};
+
+/// One batch to draw, ready for its push constants.
 struct DrawItem {
-  const SceneChunk* chunk = nullptr;
+  const SceneBatch* batch = nullptr;
   shader::GpuDraw push{};
   float distance_m = 0.0f;
 };
 
 struct SceneBuffers {
-  std::vector<SceneMaterial> materials;
-  std::vector<SceneChunk> chunks;
+  std::vector<SceneBatch> batches;
   gpu::DeviceBuffer vertices, indices, material_buffer;
 
   SceneBuffers() = default;
   SceneBuffers(gpu::Device& device, const Scene& scene);
 
-  /// Chunks whose bounds touch the view, those of one kind of material together, near ones first.
+  /// Batches whose bounds touch the view, those of one kind together, near ones first.
   std::vector<DrawItem> visible(const Camera& camera, double aspect) const;
 };
 

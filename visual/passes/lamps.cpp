@@ -22,11 +22,12 @@ static_assert(sizeof(shader::GpuLamp) == 128 && offsetof(shader::GpuLamp, table)
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 160);
 static_assert(sizeof(shader::GpuFrame) == 160 + shader::kMaxLamps * 128);
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
-static_assert(sizeof(SceneVertex) == 24 && offsetof(SceneVertex, normal) == 12);
+static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
 
 constexpr std::array kVertexAttributes{
     vk::VertexInputAttributeDescription{.location = 0, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 0},
-    vk::VertexInputAttributeDescription{.location = 1, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 12}};
+    vk::VertexInputAttributeDescription{.location = 1, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 12},
+    vk::VertexInputAttributeDescription{.location = 2, .binding = 0, .format = vk::Format::eR32Uint, .offset = 24}};
 
 constexpr auto kStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
@@ -131,7 +132,7 @@ void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
   device_.device.updateDescriptorSets(writes, nullptr);
 }
 
-void LampPass::set_frame(const Camera& camera, double aspect, double exposure_per_cdm2, double sky_cdm2,
+void LampPass::set_frame(const Camera& camera, double aspect, const glm::vec3& exposure_per_cdm2, double sky_cdm2,
                          std::span<const PlacedLamp> lamps, const BeamStore& beams) {
   shader::GpuFrame frame{};
   const glm::mat4 clip = glm::mat4(clip_from_eye_matrix(camera, aspect));
@@ -140,7 +141,7 @@ void LampPass::set_frame(const Camera& camera, double aspect, double exposure_pe
     frame.clip_from_eye[i] = clip[i];
     frame.view_from_clip[i] = view[i];
   }
-  frame.exposure = glm::vec4(static_cast<float>(exposure_per_cdm2));
+  frame.exposure = glm::vec4(exposure_per_cdm2, 0.0f);
   // Zenith bluish, the horizon three times brighter: a clear night far from towns, brightened enough to be seen on a display.
   frame.sky = glm::vec4(glm::vec3(0.75f, 1.0f, 1.7f) * static_cast<float>(sky_cdm2), 3.0f);
   lamp_count_ = 0;
@@ -169,8 +170,8 @@ vk::Pipeline LampPass::lit_pipeline(const Variant& variant) {
   PipelineRecipe recipe{.vertex = measure ? *measure_vert_ : *scene_vert_,
                         .fragment = *lamps_frag_,
                         .constants = &constants,
-                        .attributes = kVertexAttributes,
-                        .stride = sizeof(SceneVertex),
+                        .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
+                        .stride = sizeof(GpuVertex),
                         .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
                         .colour = {variant.format},
                         .depth = !measure,
@@ -202,7 +203,7 @@ vk::Pipeline LampPass::depth_pipeline(vk::SampleCountFlagBits samples) {
   if (const auto found = depth_.find(samples); found != depth_.end()) return *found->second;
   return *depth_.emplace(samples, make_pipeline(device_, {.vertex = *depth_vert_,
                                                           .attributes = std::span(kVertexAttributes).first(1),
-                                                          .stride = sizeof(SceneVertex),
+                                                          .stride = sizeof(GpuVertex),
                                                           .depth = true,
                                                           .depth_write = true,
                                                           .samples = samples,
@@ -215,15 +216,14 @@ void LampPass::draw_items(vk::CommandBuffer commands, const SceneBuffers& scene,
   commands.bindIndexBuffer(*scene.indices.buffer, 0, vk::IndexType::eUint32);
   vk::Pipeline bound;
   for (const DrawItem& item : items) {
-    const SceneMaterial& material = scene.materials[item.chunk->material];
     Variant variant = common;
-    variant.surface = material.surface;
-    variant.retro = material.retroreflection_cd_per_lx_m2 > 0.0f;
+    variant.surface = item.batch->kind.surface;
+    variant.retro = item.batch->kind.retro;
     if (variant.output == LampOutput::kAudit) variant.surface = Surface::kPlain, variant.retro = false;
     const vk::Pipeline pipeline = lit_pipeline(variant);
     if (pipeline != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
     commands.pushConstants<shader::GpuDraw>(*layout_, kStages, 0, item.push);
-    commands.drawIndexed(item.chunk->index_count, 1, item.chunk->first_index, static_cast<std::int32_t>(item.chunk->first_vertex), 0);
+    commands.drawIndexed(item.batch->index_count, 1, item.batch->first_index, item.batch->first_vertex, 0);
   }
 }
 
@@ -239,7 +239,7 @@ void LampPass::depth(gpu::FrameGraph& graph, gpu::Image& depth, const SceneBuffe
     commands.bindIndexBuffer(*scene.indices.buffer, 0, vk::IndexType::eUint32);
     for (const DrawItem& item : items) {
       commands.pushConstants<shader::GpuDraw>(*layout_, kStages, 0, item.push);
-      commands.drawIndexed(item.chunk->index_count, 1, item.chunk->first_index, static_cast<std::int32_t>(item.chunk->first_vertex), 0);
+      commands.drawIndexed(item.batch->index_count, 1, item.batch->first_index, item.batch->first_vertex, 0);
     }
     commands.endRendering();
   });

@@ -24,7 +24,7 @@ class LampPass {
   /// Binds buffers; after load_scene and whenever the beam store has new buffers.
   void bind(const SceneBuffers& scene, const BeamStore& beams);
   /// This frame's view and lamps.
-  void set_frame(const Camera& camera, double aspect, double exposure_per_cdm2, double sky_cdm2,
+  void set_frame(const Camera& camera, double aspect, const glm::vec3& exposure_per_cdm2, double sky_cdm2,
                  std::span<const PlacedLamp> lamps, const BeamStore& beams);
   std::uint32_t lamp_count() const { return lamp_count_; }
 

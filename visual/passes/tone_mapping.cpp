@@ -33,7 +33,7 @@ ToneMappingPass::ToneMappingPass(gpu::Device& device)
   sampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo{});
 }
 
-void ToneMappingPass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, double exposure_per_cdm2) {
+void ToneMappingPass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, const glm::vec3& exposure_per_cdm2) {
   if (!pipelines_.contains(display.format))
     pipelines_.emplace(display.format,
                        make_pipeline(device_, {.vertex = *vertex_, .fragment = *fragment_, .colour = {display.format}, .layout = *layout_}));
@@ -54,7 +54,7 @@ void ToneMappingPass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Im
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_.at(display.format));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
     commands.pushConstants<shader::ToneConstants>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
-                                                  shader::ToneConstants{glm::vec4(static_cast<float>(exposure_per_cdm2))});
+                                                  shader::ToneConstants{glm::vec4(exposure_per_cdm2, 0.0f)});
     commands.draw(3, 1, 0, 0);
     commands.endRendering();
   });

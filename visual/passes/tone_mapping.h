@@ -1,6 +1,7 @@
 // The tone-mapping pass: HDR image in cd/m² to the display. Runs only when something calls for the HDR image; else the lamp pass applies the curve.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <map>
 
 #include "visual/gpu/frame_graph.h"
@@ -11,7 +12,7 @@ class ToneMappingPass {
  public:
   explicit ToneMappingPass(gpu::Device& device);
 
-  void draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, double exposure_per_cdm2);
+  void draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, const glm::vec3& exposure_per_cdm2);
 
  private:
   gpu::Device& device_;

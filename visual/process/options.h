@@ -22,7 +22,7 @@ struct VisualOptions {
   int width_px = 0, height_px = 0;  ///< 0: the channel's
   int samples = 1;
   double still_at_s = -1.0;  ///< simulated time of the stills; negative: chosen
-  double exposure_per_cdm2 = 0.35;
+  double exposure_per_cdm2 = 0.8;
   std::int64_t audit_every = 300;  ///< frames; 0: never
   bool false_colour = false;
   bool validation = false;
