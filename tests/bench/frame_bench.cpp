@@ -1,0 +1,88 @@
+// How long a frame takes, and how many bare two-lamp quads that is: the ratio stays when the machine is slower or busy.
+//   phare_frame_bench SCENE.glb LAMP.ies [WIDTHxHEIGHT] [ROUNDS]
+// The quad: one full-screen surface, the same two lamps, the same shader. Rounds alternate, so both see the same machine.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "visual/photometry/beam_image.h"
+#include "visual/renderer.h"
+#include "visual/scene/scene.h"
+
+namespace phare {
+namespace {
+
+Scene one_quad() {
+  Scene scene;
+  scene.materials = {{.name = "quad", .reflectance = glm::vec3(0.1f)}};
+  for (const glm::vec3 corner : {glm::vec3(20, 40, -30), glm::vec3(20, -40, -30), glm::vec3(20, -40, 30), glm::vec3(20, 40, 30)})
+    scene.vertices.push_back({corner, {-1, 0, 0}});
+  scene.indices = {0, 1, 2, 0, 2, 3};
+  scene.chunks = {{.node = "quad", .origin_m = {}, .low_m = {20, -40, -30}, .high_m = {20, 40, 30}, .index_count = 6, .vertex_count = 4}};
+  return scene;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+int run(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: phare_frame_bench SCENE.glb LAMP.ies [WIDTHxHEIGHT] [ROUNDS]\n");
+    return kExitBadInput;
+  }
+  int width = 1280, height = 720;
+  if (argc > 3 && std::sscanf(argv[3], "%dx%d", &width, &height) != 2) return kExitBadInput;
+  const int rounds = argc > 4 ? std::max(1, std::atoi(argv[4])) : 40;
+  const Result<Scene> scene = read_scene(argv[1]);
+  const Result<IntensityTable> table = read_lm63(argv[2]);
+  if (!scene || !table) {
+    std::fprintf(stderr, "%s\n", (scene ? table.error() : scene.error()).text().c_str());
+    return kExitBadInput;
+  }
+  const AimedSource source{.table = &*table};
+  const BeamImage image = compose_beam_image(std::span(&source, 1));
+  const RendererOptions options{.width_px = width, .height_px = height};
+  Result<Renderer> road = Renderer::create(options), quad = Renderer::create(options);
+  if (!road || !quad) {
+    std::fprintf(stderr, "%s\n", (road ? quad.error() : road.error()).text().c_str());
+    return kExitCheckFailed;
+  }
+  if (!road->load_scene(*scene) || !quad->load_scene(one_quad())) return kExitCheckFailed;
+  road->set_beam(0, image);
+  quad->set_beam(0, image);
+
+  // The scene's road starts at the origin along x; its first straight is the fullest view.
+  auto view = [&](int lamps) {
+    FrameInput input;
+    input.camera.eye_m = {25.0, -1.2, 1.22};
+    const glm::dmat3 aim = aim_rotation(0.0, -0.01, 0.0);
+    for (int i = 0; i < lamps; ++i) input.lamps.push_back({.position_m = {26.9, -1.6 + (i % 2 == 0 ? 0.6 : -0.6), 0.65}, .world_from_image = aim});
+    return input;
+  };
+  FrameInput quad_view = view(2);
+  quad_view.camera.eye_m = {0.0, 0.0, 0.0};
+  for (PlacedLamp& lamp : quad_view.lamps) lamp.position_m -= glm::dvec3(25.0, -1.6, 0.0);
+  std::vector<double> road_ms, dark_ms, quad_ms;
+  FrameResult result;
+  for (int i = -2; i < rounds; ++i) {
+    const double quad_now = quad->draw(quad_view).wall_ms;
+    const double dark_now = road->draw(view(0)).wall_ms;
+    result = road->draw(view(2));
+    if (i < 0) continue;  // pipelines were compiled
+    quad_ms.push_back(quad_now);
+    dark_ms.push_back(dark_now);
+    road_ms.push_back(result.wall_ms);
+  }
+  std::printf("%s, %dx%d, %d rounds\n", road->device().c_str(), width, height, rounds);
+  std::printf("road, two lamps  %7.2f ms median (%u draws, %llu triangles)\n", median(road_ms), result.draws, static_cast<unsigned long long>(result.triangles));
+  std::printf("road, no lamp    %7.2f ms\nbare two-lamp quad %5.2f ms\nratio road / quad %6.2f\n", median(dark_ms), median(quad_ms), median(road_ms) / median(quad_ms));
+  return kExitDone;
+}
+
+}  // namespace
+}  // namespace phare
+
+int main(int argc, char** argv) { return phare::run(argc, argv); }
