@@ -3,16 +3,12 @@
 #include "lib/beam.glsl"
 #include "lib/tone.h"
 
-layout(constant_id = 0) const uint lamp_count = 0;
 layout(constant_id = 1) const uint surface = 0;
 layout(constant_id = 2) const uint retro = 0;
 layout(constant_id = 3) const uint output_kind = 0;
 layout(constant_id = 4) const uint lamp_base = 0;
+layout(constant_id = 6) const uint colours = 0;
 
-layout(location = 0) in vec3 point;
-layout(location = 1) in vec3 point_normal;
-layout(location = 2) in vec3 detail;
-layout(location = 3) flat in uint material;
 layout(location = 0) out vec4 result;
 layout(location = 1) out vec4 result_normal;
 
@@ -52,13 +48,15 @@ float retro_share(vec3 toward_lamp, vec3 toward_eye) {
 
 void main() {
   vec3 n = normalize(point_normal);
-  vec3 toward_eye = -normalize(point);
   if (output_kind != kOutputMeasure && !gl_FrontFacing) n = -n;
 
   if (output_kind == kOutputMeasure) {
     vec4 lx = vec4(0.0);
-    for (uint i = 0; i < 4; ++i)
-      if (lamp_base + i < lamp_count) lx[i] = lamp_light(lamp_base + i, point, n).illuminance_lx;
+#define MEASURE(I) \
+  if (I / 4 == lamp_base / 4) {                  \
+    if (lamp_count > I) lx[I % 4] = PHARE_LAMP_LIGHT(I).illuminance_lx; \
+  }
+    PHARE_EACH_LAMP(MEASURE)
     result = lx;
     return;
   }
@@ -66,20 +64,24 @@ void main() {
   float total_lx = 0.0;
   vec3 coloured_lx = vec3(0.0);
   vec3 retro_cdm2 = vec3(0.0);
-  float retro_coefficient = materials[material].reflectance.w;
-  for (uint i = 0; i < lamp_count; ++i) {
-    LampLight light = lamp_light(i, point, n);
-    total_lx += light.illuminance_lx;
-    coloured_lx += light.illuminance_lx * frame.lamps[i].colour.rgb;
-    if (retro != 0) {
-      float share = retro_share(light.toward_lamp, toward_eye) * smoothstep(0.1, 0.7, light.cos_incidence);
-      retro_cdm2 += frame.lamps[i].colour.rgb * (light.normal_lx * retro_coefficient * share);
-    }
+  vec3 toward_eye = -normalize(point);
+#define LIGHT(I)                                                                                           \
+  if (lamp_count > I) {                                                                                    \
+    LampLight light = PHARE_LAMP_LIGHT(I);                                                                 \
+    vec3 colour = colours != 0 ? frame.lamps[I].colour.rgb : common_light.rgb;                             \
+    total_lx += light.illuminance_lx;                                                                      \
+    if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
+    if (retro != 0) {                                                                                      \
+      float share = retro_share(light.toward_lamp, toward_eye) * smoothstep(0.1, 0.7, light.cos_incidence); \
+      retro_cdm2 += colour * (light.normal_lx * reflectance.w * share);                                    \
+    }                                                                                                      \
   }
+  PHARE_EACH_LAMP(LIGHT)
+  if (colours == 0) coloured_lx = total_lx * common_light.rgb;
 
   if (output_kind == kOutputAudit) {
     result = vec4(point, total_lx);
-    result_normal = vec4(n, lamp_count);
+    result_normal = vec4(n, float(lamp_count));
     return;
   }
   if (output_kind == kOutputFalseColour) {
@@ -93,9 +95,9 @@ void main() {
     return;
   }
 
-  vec3 rho = surface_reflectance(materials[material].reflectance.rgb);
-  vec3 sky_lx = frame.sky.rgb * kPi * (0.5 + 0.5 * n.z);  // half the dome, unoccluded
+  vec3 rho = surface_reflectance(reflectance.rgb);
+  vec3 sky_lx = kSkyColour * (common_light.w * kPi * (0.5 + 0.5 * n.z));  // half the dome, unoccluded
   vec3 radiance = rho * (coloured_lx + sky_lx) / kPi;
   if (retro != 0) radiance += retro_cdm2 * rho / max(max(rho.r, rho.g), max(rho.b, 1e-3));
-  result = output_kind == kOutputHdr ? vec4(radiance, total_lx) : vec4(tone_curve(radiance * frame.exposure.rgb), 1.0);
+  result = output_kind == kOutputHdr ? vec4(radiance, total_lx) : vec4(tone_curve(radiance * exposure), 1.0);
 }

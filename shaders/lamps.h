@@ -7,6 +7,8 @@
 PHARE_SHADER_BEGIN
 
 const uint kMaxLamps = 8u;
+const uint kMaxMaterials = 1024u;  // 16 KiB, the uniform buffer that every device has
+const uint kGuideRow = 1024u;      // bins in a row of the guide image
 
 // Specialization constants of lamps.frag
 const uint kSpecLampCount = 0u;
@@ -14,6 +16,13 @@ const uint kSpecSurface = 1u;   // procedural detail: 0 plain, 1 asphalt, 2 gras
 const uint kSpecRetro = 2u;     // 1: the material sends light back to where it came from
 const uint kSpecOutput = 3u;    // what a texel means, below
 const uint kSpecLampBase = 4u;  // measure: first of four lamps
+const uint kSpecLookups = 5u;   // how each lamp's table is looked up, two bits a lamp, below
+const uint kSpecColours = 6u;   // 1: lamps differ in colour
+
+const uint kLookupEven = 0u;      // nodes at multiples of a fine step about 0°, of a coarse one beyond
+const uint kLookupEvenTurn = 1u;  // the same, first angle 0 to 360 (type C)
+const uint kLookupGuide = 2u;     // any nodes, found through the guide image
+const uint kMaxNodes = 4096u;     // of an even axis; at most half of them before 0°
 
 const uint kOutputDisplay = 0u;      // display-linear colour, tone curve applied here
 const uint kOutputHdr = 1u;          // cd/m² and illuminance in alpha
@@ -21,7 +30,7 @@ const uint kOutputFalseColour = 2u;  // illuminance by colour with isolux lines
 const uint kOutputMeasure = 3u;      // lx of lamps base..base+3
 const uint kOutputAudit = 4u;        // position and illuminance; normal and illuminance
 
-// One lamp position. Directions are rows: dot(row, d) is a component in the frame of the lamp's table,
+// One lamp position, or what a frame's shaders need of it. Directions are rows: dot(row, d) is a component in the frame of the lamp's table,
 // first angle = atan2(b, a), second angle = atan2(c, hypot(a, b)):
 //   type A: a forward, b right, c up;  type B: a forward, b up, c right (first is V);  type C: a c0, b c90, c -g0 (second is gamma - 90).
 struct GpuLamp {
@@ -30,15 +39,17 @@ struct GpuLamp {
   vec4 row_b;
   vec4 row_c;
   vec4 colour;       // rgb, luminance 1
-  vec4 range;        // first min, max; second min, max; degrees
-  vec4 bins_per_deg; // first, second; count of first, second
-  uvec4 table;       // guide of first, guide of second (in vec4s), candela (in floats), row length
+  vec4 grid;         // even: fine nodes per degree of first and second; nodes before 0° and fine nodes after 0°, for first and for second, in one number each
+  vec4 coarse;       // even: fine steps in a coarse one, first and second
+  vec4 range;        // guide: first min, max; second min, max; degrees
+  vec4 bins_per_deg; // guide: first, second; last bin of first, second
+  uvec4 guide;       // bin where the guide of second begins
 };
 
 struct GpuFrame {
   vec4 clip_from_eye[4];    // columns; "eye" is the world turned to the eye's place, not its direction
   vec4 exposure;            // rgb: 1/(cd/m²), with the balance of the eye's adaptation
-  vec4 sky;                 // rgb zenith cd/m², w: factor at the horizon
+  vec4 sky;                 // y zenith cd/m², w: factor at the horizon
   vec4 view_from_clip[4];   // columns: clip position to eye-relative direction
   GpuLamp lamps[kMaxLamps];
 };

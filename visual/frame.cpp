@@ -8,8 +8,7 @@ FrameCounts draw_frame(FrameParts& parts, const FrameInput& input) {
 
   // What is seen, by which lamps.
   const std::vector<DrawItem> items = parts.scene.visible(input.camera, aspect);
-  if (parts.beams.upload()) parts.lamps.bind(parts.scene, parts.beams);
-  parts.lamps.set_frame(input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2, input.lamps, parts.beams);
+  parts.lamps.set_frame(parts.scene, parts.beams, input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2, input.lamps);
 
   // What this frame calls for.
   const EffectPlan plan = plan_effects(input, parts.lamps.lamp_count(), parts.software_device);

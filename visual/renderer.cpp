@@ -209,8 +209,7 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
     gpu::HostBuffer copy;
     // One lamp at a time: what each gives is asked for, dark ones included.
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
-      if (impl_->beams.upload()) impl_->lamps.bind(impl_->scene, impl_->beams);
-      impl_->lamps.set_frame(camera, 1.0, glm::vec3(1.0f), 0.0, lamps.subspan(lamp, 1), impl_->beams);
+      impl_->lamps.set_frame(impl_->scene, impl_->beams, camera, 1.0, glm::vec3(1.0f), 0.0, lamps.subspan(lamp, 1));
       if (impl_->lamps.lamp_count() == 0) continue;
       impl_->submit([&] {
         impl_->lamps.measure(impl_->graph, lx, *buffer.buffer, static_cast<std::uint32_t>(count), 0);
@@ -234,8 +233,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   gpu::HostBuffer position_copy, normal_copy;
   const double aspect = static_cast<double>(extent.width) / extent.height;
   const std::vector<DrawItem> items = impl_->scene.visible(input.camera, aspect);
-  if (impl_->beams.upload()) impl_->lamps.bind(impl_->scene, impl_->beams);
-  impl_->lamps.set_frame(input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2, input.lamps, impl_->beams);
+  impl_->lamps.set_frame(impl_->scene, impl_->beams, input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2, input.lamps);
   impl_->submit([&] {
     impl_->lamps.audit(impl_->graph, position, normal, depth, impl_->scene, items);
     impl_->copy_out(position, position_copy, 16);

@@ -1,10 +1,13 @@
 #ifndef PHARE_LAMP_BINDINGS
 #define PHARE_LAMP_BINDINGS
 #include "lamps.h"
+layout(constant_id = 0) const uint lamp_count = 0;
+
 layout(std140, set = 0, binding = 0) uniform Frame { GpuFrame frame; };
-layout(std430, set = 0, binding = 1) readonly buffer Guides { vec4 guides[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Candela { float candela[]; };
-layout(std430, set = 0, binding = 3) readonly buffer Materials { GpuMaterial materials[]; };
+// Tables are images and not storage buffers: a software device gathers texels for eight pixels at once, buffer words one by one.
+layout(set = 0, binding = 1) uniform sampler2D guides[kMaxLamps];
+layout(set = 0, binding = 2) uniform sampler2D candela[kMaxLamps];
+layout(std140, set = 0, binding = 3) uniform Materials { GpuMaterial materials[kMaxMaterials]; };
 layout(set = 0, binding = 4) uniform sampler2D grain;
 layout(push_constant) uniform Draw { GpuDraw draw; };
 

@@ -5,6 +5,9 @@
 
 PHARE_SHADER_BEGIN
 
+/// A clear night sky by its luminance: bluish.
+const vec3 kSkyColour = vec3(0.75f, 1.0f, 1.7f);
+
 /// Exposed luminance (1 = middle of the curve) to display-linear 0..1. Reinhard et al. 2002, eq. 4, with white at 12,
 /// applied to luminance so that colours keep their hue.
 PHARE_INLINE vec3 tone_curve(vec3 exposed) {

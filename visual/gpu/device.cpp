@@ -179,13 +179,48 @@ Image::Image(Device& device, vk::Format format_, vk::Extent2D extent_, vk::Image
       aspect(format_ == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor),
       samples(samples_),
       name(name_) {
-  memory = device.allocate(image.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal);
+  const vk::MemoryRequirements need = image.getMemoryRequirements();
+  memory = device.allocate(need, vk::MemoryPropertyFlagBits::eDeviceLocal);
+  bytes = need.size;
   image.bindMemory(*memory, 0);
   view = vk::raii::ImageView(device.device, vk::ImageViewCreateInfo{.image = *image,
                                                                     .viewType = vk::ImageViewType::e2D,
                                                                     .format = format,
                                                                     .subresourceRange = {aspect, 0, mip_levels, 0, 1}});
   device.name(vk::ObjectType::eImage, reinterpret_cast<std::uint64_t>(static_cast<VkImage>(*image)), name);
+}
+
+void fill_image(Device& device, Image& image, std::span<const std::byte> bytes, std::span<const vk::BufferImageCopy> copies) {
+  const vk::BufferImageCopy whole{.imageSubresource = {image.aspect, 0, 0, 1}, .imageExtent = {image.extent.width, image.extent.height, 1}};
+  if (copies.empty()) copies = std::span(&whole, 1);
+  HostBuffer staging(device, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, image.name + " staging");
+  std::memcpy(staging.data, bytes.data(), bytes.size());
+  device.run_once([&](vk::CommandBuffer commands) {
+    using Stage = vk::PipelineStageFlagBits2;
+    using Access = vk::AccessFlagBits2;
+    using Layout = vk::ImageLayout;
+    auto turn = [&](Layout from, Layout to, vk::PipelineStageFlags2 after, vk::AccessFlags2 wrote, vk::PipelineStageFlags2 before, vk::AccessFlags2 reads) {
+      const vk::ImageMemoryBarrier2 barrier{.srcStageMask = after,
+                                            .srcAccessMask = wrote,
+                                            .dstStageMask = before,
+                                            .dstAccessMask = reads,
+                                            .oldLayout = from,
+                                            .newLayout = to,
+                                            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                            .image = *image.image,
+                                            .subresourceRange = {image.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, 1}};
+      commands.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+    };
+    turn(Layout::eUndefined, Layout::eTransferDstOptimal, image.stage, image.access, Stage::eCopy, Access::eTransferWrite);
+    commands.copyBufferToImage(*staging.buffer, *image.image, Layout::eTransferDstOptimal, {static_cast<std::uint32_t>(copies.size()), copies.data()});
+    turn(Layout::eTransferDstOptimal, Layout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite, Stage::eFragmentShader,
+         Access::eShaderSampledRead);
+  });
+  image.layout = vk::ImageLayout::eShaderReadOnlyOptimal;
+  image.stage = vk::PipelineStageFlagBits2::eFragmentShader;
+  image.access = vk::AccessFlagBits2::eShaderSampledRead;
+  device.allocated_bytes -= staging.bytes;
 }
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv) {

@@ -72,6 +72,7 @@ struct Image {
   vk::raii::ImageView view{nullptr};
   vk::Format format = vk::Format::eUndefined;
   vk::Extent2D extent{};
+  vk::DeviceSize bytes = 0;
   vk::ImageAspectFlags aspect{};
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   std::string name;
@@ -84,6 +85,9 @@ struct Image {
   Image(Device& device, vk::Format format, vk::Extent2D extent, vk::ImageUsageFlags usage, const std::string& name,
         vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1, std::uint32_t mip_levels = 1);
 };
+
+/// Fills a sampled image (usage eTransferDst) anew and waits. `copies` is for more than the first mip level.
+void fill_image(Device& device, Image& image, std::span<const std::byte> bytes, std::span<const vk::BufferImageCopy> copies = {});
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv);
 

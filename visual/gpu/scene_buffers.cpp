@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <tuple>
 
 namespace phare {
@@ -52,14 +53,16 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene) {
   std::vector<shader::GpuMaterial> packed;
   for (const SceneMaterial& material : scene.materials)
     packed.push_back({glm::vec4(material.reflectance, material.retroreflection_cd_per_lx_m2)});
-  if (packed.empty()) packed.push_back({glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
+  if (packed.size() > shader::kMaxMaterials)
+    throw std::runtime_error(std::to_string(packed.size()) + " materials, at most " + std::to_string(shader::kMaxMaterials) + " are drawn");
+  packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
   std::vector<GpuVertex> gathered;
   std::vector<std::uint32_t> gathered_indices;
   batches = gather(scene, gathered, gathered_indices);
   using Usage = vk::BufferUsageFlagBits;
   vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(gathered)), Usage::eVertexBuffer, "scene vertices");
   indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(gathered_indices)), Usage::eIndexBuffer, "scene indices");
-  material_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(packed)), Usage::eStorageBuffer, "materials");
+  material_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(packed)), Usage::eUniformBuffer, "materials");
 }
 
 std::vector<DrawItem> SceneBuffers::visible(const Camera& camera, double aspect) const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <random>
 
 namespace phare {
@@ -61,6 +60,7 @@ gpu::Image make_grain(gpu::Device& device) {
     for (std::size_t i = 0; i < fine.size(); ++i) {
       texels.push_back(static_cast<std::uint8_t>(std::lround(fine[i] * 255.0f)));
       texels.push_back(static_cast<std::uint8_t>(std::lround(soft[i] * 255.0f)));
+      texels.insert(texels.end(), {0, 255});
     }
     auto halve = [&](std::vector<float>& image) {
       std::vector<float> next((size / 2) * (size / 2));
@@ -74,33 +74,9 @@ gpu::Image make_grain(gpu::Device& device) {
     halve(fine);
     halve(soft);
   }
-  gpu::Image grain(device, vk::Format::eR8G8Unorm, {kSize, kSize}, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
+  gpu::Image grain(device, vk::Format::eR8G8B8A8Unorm, {kSize, kSize}, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
                    "grain", vk::SampleCountFlagBits::e1, levels);
-  gpu::HostBuffer staging(device, texels.size(), vk::BufferUsageFlagBits::eTransferSrc, "grain staging");
-  std::memcpy(staging.data, texels.data(), texels.size());
-  device.run_once([&](vk::CommandBuffer commands) {
-    auto turn = [&](vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 after, vk::AccessFlags2 wrote,
-                    vk::PipelineStageFlags2 before, vk::AccessFlags2 reads) {
-      const vk::ImageMemoryBarrier2 barrier{.srcStageMask = after,
-                                            .srcAccessMask = wrote,
-                                            .dstStageMask = before,
-                                            .dstAccessMask = reads,
-                                            .oldLayout = from,
-                                            .newLayout = to,
-                                            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                            .image = *grain.image,
-                                            .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, levels, 0, 1}};
-      commands.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
-    };
-    using Stage = vk::PipelineStageFlagBits2;
-    using Access = vk::AccessFlagBits2;
-    turn(vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal, Stage::eNone, Access::eNone, Stage::eCopy, Access::eTransferWrite);
-    commands.copyBufferToImage(*staging.buffer, *grain.image, vk::ImageLayout::eTransferDstOptimal, copies);
-    turn(vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite,
-         Stage::eFragmentShader, Access::eShaderSampledRead);
-  });
-  device.allocated_bytes -= staging.bytes;
+  gpu::fill_image(device, grain, std::as_bytes(std::span(texels)), copies);
   return grain;
 }
 

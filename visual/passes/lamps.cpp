@@ -4,13 +4,20 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "shaders/depth_vert.h"
-#include "shaders/fullscreen_vert.h"
-#include "shaders/lamps_frag.h"
-#include "shaders/measure_vert.h"
-#include "shaders/scene_vert.h"
+#include "shaders/lamps_frag_2.h"
+#include "shaders/lamps_frag_4.h"
+#include "shaders/lamps_frag_8.h"
+#include "shaders/measure_vert_2.h"
+#include "shaders/measure_vert_4.h"
+#include "shaders/measure_vert_8.h"
+#include "shaders/scene_vert_2.h"
+#include "shaders/scene_vert_4.h"
+#include "shaders/scene_vert_8.h"
 #include "shaders/sky_frag.h"
+#include "shaders/sky_vert.h"
 #include "visual/passes/grain.h"
 
 namespace phare {
@@ -18,9 +25,9 @@ namespace phare {
 namespace {
 
 // std140 and std430 agree for these: all members are 16 bytes.
-static_assert(sizeof(shader::GpuLamp) == 128 && offsetof(shader::GpuLamp, table) == 112);
+static_assert(sizeof(shader::GpuLamp) == 160 && offsetof(shader::GpuLamp, guide) == 144);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 160);
-static_assert(sizeof(shader::GpuFrame) == 160 + shader::kMaxLamps * 128);
+static_assert(sizeof(shader::GpuFrame) == 160 + shader::kMaxLamps * 160);
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
 
@@ -77,18 +84,19 @@ vk::RenderingAttachmentInfo attachment(const gpu::Image& image, vk::ImageLayout 
 
 LampPass::LampPass(gpu::Device& device)
     : device_(device),
-      scene_vert_(gpu::make_shader(device, k_scene_vert)),
+      scene_vert_{gpu::make_shader(device, k_scene_vert_2), gpu::make_shader(device, k_scene_vert_4), gpu::make_shader(device, k_scene_vert_8)},
+      measure_vert_{gpu::make_shader(device, k_measure_vert_2), gpu::make_shader(device, k_measure_vert_4), gpu::make_shader(device, k_measure_vert_8)},
+      lamps_frag_{gpu::make_shader(device, k_lamps_frag_2), gpu::make_shader(device, k_lamps_frag_4), gpu::make_shader(device, k_lamps_frag_8)},
       depth_vert_(gpu::make_shader(device, k_depth_vert)),
-      measure_vert_(gpu::make_shader(device, k_measure_vert)),
-      fullscreen_vert_(gpu::make_shader(device, k_fullscreen_vert)),
-      lamps_frag_(gpu::make_shader(device, k_lamps_frag)),
+      sky_vert_(gpu::make_shader(device, k_sky_vert)),
       sky_frag_(gpu::make_shader(device, k_sky_frag)) {
   using Type = vk::DescriptorType;
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
-  for (const auto& [binding, type] :
-       {std::pair(0u, Type::eUniformBuffer), std::pair(1u, Type::eStorageBuffer), std::pair(2u, Type::eStorageBuffer),
-        std::pair(3u, Type::eStorageBuffer), std::pair(4u, Type::eCombinedImageSampler)})
-    bindings.push_back({.binding = binding, .descriptorType = type, .descriptorCount = 1, .stageFlags = kStages});
+  for (const auto& [binding, type, count] :
+       {std::tuple(0u, Type::eUniformBuffer, 1u), std::tuple(1u, Type::eCombinedImageSampler, shader::kMaxLamps),
+        std::tuple(2u, Type::eCombinedImageSampler, shader::kMaxLamps), std::tuple(3u, Type::eUniformBuffer, 1u),
+        std::tuple(4u, Type::eCombinedImageSampler, 1u)})
+    bindings.push_back({.binding = binding, .descriptorType = type, .descriptorCount = count, .stageFlags = kStages});
   set_layout_ = vk::raii::DescriptorSetLayout(
       device.device, vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()),
                                                        .pBindings = bindings.data()});
@@ -97,8 +105,7 @@ LampPass::LampPass(gpu::Device& device)
                                                                                  .pSetLayouts = &*set_layout_,
                                                                                  .pushConstantRangeCount = 1,
                                                                                  .pPushConstantRanges = &push});
-  const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, 1}, vk::DescriptorPoolSize{Type::eStorageBuffer, 3},
-                         vk::DescriptorPoolSize{Type::eCombinedImageSampler, 1}};
+  const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, 2}, vk::DescriptorPoolSize{Type::eCombinedImageSampler, 2 * shader::kMaxLamps + 1}};
   pool_ = vk::raii::DescriptorPool(device.device,
                                    vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                                                 .maxSets = 1,
@@ -109,31 +116,37 @@ LampPass::LampPass(gpu::Device& device)
   set_ = std::move(sets.front());
   sampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                                                     .minFilter = vk::Filter::eLinear,
-                                                                    .mipmapMode = vk::SamplerMipmapMode::eLinear,
+                                                                    .mipmapMode = vk::SamplerMipmapMode::eNearest,
                                                                     .maxLod = VK_LOD_CLAMP_NONE});
+  table_sampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo{});  // tables are fetched, never filtered
   grain_ = make_grain(device);
   frame_ = gpu::HostBuffer(device, sizeof(shader::GpuFrame), vk::BufferUsageFlagBits::eUniformBuffer, "frame");
 }
 
 void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
   using Type = vk::DescriptorType;
-  const std::array buffers{vk::DescriptorBufferInfo{*frame_.buffer, 0, VK_WHOLE_SIZE}, vk::DescriptorBufferInfo{beams.guides(), 0, VK_WHOLE_SIZE},
-                           vk::DescriptorBufferInfo{beams.candela(), 0, VK_WHOLE_SIZE},
-                           vk::DescriptorBufferInfo{*scene.material_buffer.buffer, 0, VK_WHOLE_SIZE}};
-  const vk::DescriptorImageInfo grain{*sampler_, *grain_.view, vk::ImageLayout::eShaderReadOnlyOptimal};
+  const std::array buffers{std::pair(0u, vk::DescriptorBufferInfo{*frame_.buffer, 0, VK_WHOLE_SIZE}),
+                           std::pair(3u, vk::DescriptorBufferInfo{*scene.material_buffer.buffer, 0, VK_WHOLE_SIZE})};
+  const auto layout = vk::ImageLayout::eShaderReadOnlyOptimal;
+  std::array<vk::DescriptorImageInfo, shader::kMaxLamps> guides, candela;
+  for (std::size_t i = 0; i < beam_of_lamp_.size(); ++i) {
+    guides[i] = {*table_sampler_, *beams.guide(beam_of_lamp_[i]).view, layout};
+    candela[i] = {*table_sampler_, *beams.candela(beam_of_lamp_[i]).view, layout};
+  }
+  const vk::DescriptorImageInfo grain{*sampler_, *grain_.view, layout};
   std::vector<vk::WriteDescriptorSet> writes;
-  for (std::uint32_t i = 0; i < buffers.size(); ++i)
-    writes.push_back({.dstSet = *set_,
-                      .dstBinding = i,
-                      .descriptorCount = 1,
-                      .descriptorType = i == 0 ? Type::eUniformBuffer : Type::eStorageBuffer,
-                      .pBufferInfo = &buffers[i]});
-  writes.push_back({.dstSet = *set_, .dstBinding = 4, .descriptorCount = 1, .descriptorType = Type::eCombinedImageSampler, .pImageInfo = &grain});
+  for (const auto& [binding, info] : buffers)
+    writes.push_back({.dstSet = *set_, .dstBinding = binding, .descriptorCount = 1, .descriptorType = Type::eUniformBuffer, .pBufferInfo = &info});
+  for (const auto& [binding, infos] : {std::pair(1u, std::span<const vk::DescriptorImageInfo>(guides)), std::pair(2u, std::span<const vk::DescriptorImageInfo>(candela)),
+                                       std::pair(4u, std::span(&grain, 1))})
+    writes.push_back({.dstSet = *set_, .dstBinding = binding, .descriptorCount = static_cast<std::uint32_t>(infos.size()),
+                      .descriptorType = Type::eCombinedImageSampler, .pImageInfo = infos.data()});
   device_.device.updateDescriptorSets(writes, nullptr);
 }
 
-void LampPass::set_frame(const Camera& camera, double aspect, const glm::vec3& exposure_per_cdm2, double sky_cdm2,
-                         std::span<const PlacedLamp> lamps, const BeamStore& beams) {
+void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Camera& camera, double aspect, const glm::vec3& exposure_per_cdm2,
+                         double sky_cdm2, std::span<const PlacedLamp> lamps) {
+  bool rebind = beams.upload();
   shader::GpuFrame frame{};
   const glm::mat4 clip = glm::mat4(clip_from_eye_matrix(camera, aspect));
   const glm::mat4 view = glm::mat4(view_from_clip_matrix(camera, aspect));
@@ -142,12 +155,16 @@ void LampPass::set_frame(const Camera& camera, double aspect, const glm::vec3& e
     frame.view_from_clip[i] = view[i];
   }
   frame.exposure = glm::vec4(exposure_per_cdm2, 0.0f);
-  // Zenith bluish, the horizon three times brighter: a clear night far from towns, brightened enough to be seen on a display.
-  frame.sky = glm::vec4(glm::vec3(0.75f, 1.0f, 1.7f) * static_cast<float>(sky_cdm2), 3.0f);
-  lamp_count_ = 0;
+  // The horizon three times brighter: a clear night far from towns, brightened enough to be seen on a display.
+  frame.sky = glm::vec4(0.0f, static_cast<float>(sky_cdm2), 0.0f, 3.0f);
+  lamp_count_ = lookups_ = 0;
+  colours_differ_ = false;
   for (const PlacedLamp& lamp : lamps) {
     const PackedBeam& beam = beams.beam(lamp.beam);
     if (beam.dark || lamp_count_ == shader::kMaxLamps) continue;
+    rebind |= std::exchange(beam_of_lamp_[lamp_count_], lamp.beam) != lamp.beam;
+    lookups_ |= beam.lookup << (2 * lamp_count_);
+    colours_differ_ |= lamp_count_ > 0 && glm::vec3(frame.lamps[0].colour) != beam.colour;
     shader::GpuLamp& out = frame.lamps[lamp_count_++];
     out.position = glm::vec4(glm::vec3(lamp.position_m - camera.eye_m), 0.0f);
     const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
@@ -157,18 +174,21 @@ void LampPass::set_frame(const Camera& camera, double aspect, const glm::vec3& e
     beams.describe(lamp.beam, out);
   }
   std::memcpy(frame_.data, &frame, sizeof frame);
+  if (rebind) bind(scene, beams);
 }
 
 vk::Pipeline LampPass::lit_pipeline(const Variant& variant) {
   if (const auto found = lit_.find(variant); found != lit_.end()) return *found->second;
-  const std::array<std::uint32_t, 5> values{variant.lamp_count, static_cast<std::uint32_t>(variant.surface), variant.retro ? 1u : 0u,
-                                            static_cast<std::uint32_t>(variant.output), variant.lamp_base};
-  std::array<vk::SpecializationMapEntry, 5> entries;
+  const std::array<std::uint32_t, 7> values{variant.lamp_count, static_cast<std::uint32_t>(variant.surface), variant.retro ? 1u : 0u,
+                                            static_cast<std::uint32_t>(variant.output), variant.lamp_base, variant.lookups,
+                                            variant.colours_differ ? 1u : 0u};
+  std::array<vk::SpecializationMapEntry, 7> entries;
   for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = vk::SpecializationMapEntry{.constantID = i, .offset = 4 * i, .size = 4};
   const vk::SpecializationInfo constants{.mapEntryCount = entries.size(), .pMapEntries = entries.data(), .dataSize = sizeof values, .pData = values.data()};
   const bool measure = variant.output == LampOutput::kMeasure;
-  PipelineRecipe recipe{.vertex = measure ? *measure_vert_ : *scene_vert_,
-                        .fragment = *lamps_frag_,
+  const std::size_t size = variant.lamp_count <= 2 ? 0 : variant.lamp_count <= 4 ? 1 : 2;
+  PipelineRecipe recipe{.vertex = measure ? *measure_vert_[size] : *scene_vert_[size],
+                        .fragment = *lamps_frag_[size],
                         .constants = &constants,
                         .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
                         .stride = sizeof(GpuVertex),
@@ -189,7 +209,7 @@ vk::Pipeline LampPass::sky_pipeline(LampOutput output, vk::Format format, vk::Sa
   const auto value = static_cast<std::uint32_t>(output);
   const vk::SpecializationMapEntry entry{.constantID = shader::kSpecOutput, .offset = 0, .size = 4};
   const vk::SpecializationInfo constants{.mapEntryCount = 1, .pMapEntries = &entry, .dataSize = 4, .pData = &value};
-  return *sky_.emplace(key, make_pipeline(device_, {.vertex = *fullscreen_vert_,
+  return *sky_.emplace(key, make_pipeline(device_, {.vertex = *sky_vert_,
                                                     .fragment = *sky_frag_,
                                                     .constants = &constants,
                                                     .colour = {format},
@@ -263,7 +283,7 @@ void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* res
                                               .pDepthAttachment = &depth_target});
     set_area(commands, colour.extent);
     draw_items(commands, scene, items,
-               {.output = output, .lamp_count = lamp_count_, .samples = colour.samples, .format = colour.format, .depth_done = depth_done});
+               {.output = output, .lamp_count = lamp_count_, .lookups = lookups_, .colours_differ = colours_differ_, .samples = colour.samples, .format = colour.format, .depth_done = depth_done});
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, sky_pipeline(output, colour.format, colour.samples));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
     commands.draw(3, 1, 0, 0);
@@ -278,7 +298,7 @@ void LampPass::measure(gpu::FrameGraph& graph, gpu::Image& lx, vk::Buffer points
     commands.beginRendering(vk::RenderingInfo{.renderArea = {{0, 0}, lx.extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &target});
     set_area(commands, lx.extent);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
-                          lit_pipeline({.output = LampOutput::kMeasure, .lamp_count = lamp_count_, .lamp_base = lamp_base, .format = lx.format}));
+                          lit_pipeline({.output = LampOutput::kMeasure, .lamp_count = lamp_count_, .lamp_base = lamp_base, .lookups = lookups_, .format = lx.format}));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
     const shader::GpuDraw push{.origin = glm::vec4(static_cast<float>(lx.extent.width), static_cast<float>(lx.extent.height), 0, 0),
                                .detail_origin = glm::vec4(0.0f)};
@@ -306,7 +326,7 @@ void LampPass::audit(gpu::FrameGraph& graph, gpu::Image& position, gpu::Image& n
                                                          .pColorAttachments = targets.data(),
                                                          .pDepthAttachment = &depth_target});
                set_area(commands, position.extent);
-               draw_items(commands, scene, items, {.output = LampOutput::kAudit, .lamp_count = lamp_count_, .format = position.format});
+               draw_items(commands, scene, items, {.output = LampOutput::kAudit, .lamp_count = lamp_count_, .lookups = lookups_, .format = position.format});
                commands.endRendering();
              });
 }

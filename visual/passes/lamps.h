@@ -2,6 +2,7 @@
 // which share bindings (shaders/lamps.h).
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <tuple>
@@ -21,11 +22,11 @@ class LampPass {
  public:
   explicit LampPass(gpu::Device& device);
 
-  /// Binds buffers; after load_scene and whenever the beam store has new buffers.
+  /// Binds buffers; after load_scene. set_frame does it when a lamp got another beam.
   void bind(const SceneBuffers& scene, const BeamStore& beams);
-  /// This frame's view and lamps.
-  void set_frame(const Camera& camera, double aspect, const glm::vec3& exposure_per_cdm2, double sky_cdm2,
-                 std::span<const PlacedLamp> lamps, const BeamStore& beams);
+  /// This frame's view and lamps; uploads the beams that changed.
+  void set_frame(const SceneBuffers& scene, BeamStore& beams, const Camera& camera, double aspect, const glm::vec3& exposure_per_cdm2,
+                 double sky_cdm2, std::span<const PlacedLamp> lamps);
   std::uint32_t lamp_count() const { return lamp_count_; }
 
   /// Depth of everything, no colour.
@@ -44,7 +45,8 @@ class LampPass {
     Surface surface = Surface::kPlain;
     bool retro = false;
     LampOutput output = LampOutput::kDisplay;
-    std::uint32_t lamp_count = 0, lamp_base = 0;
+    std::uint32_t lamp_count = 0, lamp_base = 0, lookups = 0;
+    bool colours_differ = false;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     vk::Format format = vk::Format::eUndefined;
     bool depth_done = false;
@@ -61,15 +63,17 @@ class LampPass {
   vk::raii::PipelineLayout layout_{nullptr};
   vk::raii::DescriptorPool pool_{nullptr};
   vk::raii::DescriptorSet set_{nullptr};
-  vk::raii::Sampler sampler_{nullptr};
+  vk::raii::Sampler sampler_{nullptr}, table_sampler_{nullptr};
   gpu::Image grain_;
   gpu::HostBuffer frame_;
-  std::uint32_t lamp_count_ = 0;
+  std::uint32_t lamp_count_ = 0, lookups_ = 0;
+  bool colours_differ_ = false;
+  std::array<std::size_t, shader::kMaxLamps> beam_of_lamp_{};
   std::map<Variant, vk::raii::Pipeline> lit_;
   std::map<std::tuple<LampOutput, vk::Format, vk::SampleCountFlagBits>, vk::raii::Pipeline> sky_;
   std::map<vk::SampleCountFlagBits, vk::raii::Pipeline> depth_;
-  vk::raii::ShaderModule scene_vert_{nullptr}, depth_vert_{nullptr}, measure_vert_{nullptr}, fullscreen_vert_{nullptr}, lamps_frag_{nullptr},
-      sky_frag_{nullptr};
+  std::array<vk::raii::ShaderModule, 3> scene_vert_, measure_vert_, lamps_frag_;  ///< for up to 2, 4, 8 lamps
+  vk::raii::ShaderModule depth_vert_, sky_vert_, sky_frag_;
 };
 
 }  // namespace phare

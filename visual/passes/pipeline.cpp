@@ -6,7 +6,7 @@ namespace phare {
 
 vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe& recipe) {
   std::vector<vk::PipelineShaderStageCreateInfo> stages{
-      {.stage = vk::ShaderStageFlagBits::eVertex, .module = recipe.vertex, .pName = "main"}};
+      {.stage = vk::ShaderStageFlagBits::eVertex, .module = recipe.vertex, .pName = "main", .pSpecializationInfo = recipe.constants}};
   if (recipe.fragment)
     stages.push_back({.stage = vk::ShaderStageFlagBits::eFragment,
                       .module = recipe.fragment,

@@ -11,7 +11,7 @@ namespace phare {
 struct PipelineRecipe {
   vk::ShaderModule vertex{};
   vk::ShaderModule fragment{};                   ///< null: depth only
-  const vk::SpecializationInfo* constants = nullptr;
+  const vk::SpecializationInfo* constants = nullptr;  ///< of both stages
   std::span<const vk::VertexInputAttributeDescription> attributes{};
   std::uint32_t stride = 0;                     ///< of a vertex; 0: none are read
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
