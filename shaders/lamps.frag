@@ -8,11 +8,10 @@ layout(constant_id = 2) const uint retro = 0;
 layout(constant_id = 3) const uint output_kind = 0;
 layout(constant_id = 4) const uint lamp_base = 0;
 layout(constant_id = 6) const uint colours = 0;
+layout(constant_id = 7) const uint sides = 1;
 
 layout(location = 0) out vec4 result;
 layout(location = 1) out vec4 result_normal;
-
-const float kPi = 3.14159265;
 
 // Reflectance detail: one grain texture at several sizes, all whole tiles in the 1024 m after which `detail` repeats;
 // mip maps take away what a pixel cannot resolve. Mean factor 1, so that the reflectance of the material holds.
@@ -48,7 +47,8 @@ float retro_share(vec3 toward_lamp, vec3 toward_eye) {
 
 void main() {
   vec3 n = normalize(point_normal);
-  if (output_kind != kOutputMeasure && !gl_FrontFacing) n = -n;
+  if (sides == 2) n = gl_FrontFacing ? n : -n;
+  float level = dot(n, point);
 
   if (output_kind == kOutputMeasure) {
     vec4 lx = vec4(0.0);
@@ -63,21 +63,20 @@ void main() {
 
   float total_lx = 0.0;
   vec3 coloured_lx = vec3(0.0);
-  vec3 retro_cdm2 = vec3(0.0);
-  vec3 toward_eye = -normalize(point);
+  vec3 retro_lx = vec3(0.0);  // what a diffuse surface would need to be as bright
 #define LIGHT(I)                                                                                           \
   if (lamp_count > I) {                                                                                    \
     LampLight light = PHARE_LAMP_LIGHT(I);                                                                 \
-    vec3 colour = colours != 0 ? frame.lamps[I].colour.rgb : common_light.rgb;                             \
+    vec3 colour = colours != 0 ? frame.lamps[I].colour.rgb : light_colour;                             \
     total_lx += light.illuminance_lx;                                                                      \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
     if (retro != 0) {                                                                                      \
-      float share = retro_share(light.toward_lamp, toward_eye) * smoothstep(0.1, 0.7, light.cos_incidence); \
-      retro_cdm2 += colour * (light.normal_lx * reflectance.w * share);                                    \
+      float share = retro_share(normalize(PHARE_LAMP_POSITION(I).xyz - point), -normalize(point)) * smoothstep(0.1, 0.7, light.cos_incidence); \
+      retro_lx += colour * (light.normal_lx * reflectance.w * share);                                    \
     }                                                                                                      \
   }
   PHARE_EACH_LAMP(LIGHT)
-  if (colours == 0) coloured_lx = total_lx * common_light.rgb;
+  if (colours == 0) coloured_lx = total_lx * light_colour;
 
   if (output_kind == kOutputAudit) {
     result = vec4(point, total_lx);
@@ -96,8 +95,7 @@ void main() {
   }
 
   vec3 rho = surface_reflectance(reflectance.rgb);
-  vec3 sky_lx = kSkyColour * (common_light.w * kPi * (0.5 + 0.5 * n.z));  // half the dome, unoccluded
-  vec3 radiance = rho * (coloured_lx + sky_lx) / kPi;
-  if (retro != 0) radiance += retro_cdm2 * rho / max(max(rho.r, rho.g), max(rho.b, 1e-3));
-  result = output_kind == kOutputHdr ? vec4(radiance, total_lx) : vec4(tone_curve(radiance * exposure), 1.0);
+  vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + n.z));  // the sky's half dome, unoccluded
+  if (retro != 0) light += retro_lx * rho;
+  result = output_kind == kOutputHdr ? vec4(light, total_lx) : vec4(tone_curve(light), 1.0);
 }

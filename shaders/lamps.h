@@ -18,11 +18,14 @@ const uint kSpecOutput = 3u;    // what a texel means, below
 const uint kSpecLampBase = 4u;  // measure: first of four lamps
 const uint kSpecLookups = 5u;   // how each lamp's table is looked up, two bits a lamp, below
 const uint kSpecColours = 6u;   // 1: lamps differ in colour
+const uint kSpecSides = 7u;     // 2: both sides of a surface are seen
 
-const uint kLookupEven = 0u;      // nodes at multiples of a fine step about 0°, of a coarse one beyond
-const uint kLookupEvenTurn = 1u;  // the same, first angle 0 to 360 (type C)
-const uint kLookupGuide = 2u;     // any nodes, found through the guide image
-const uint kMaxNodes = 4096u;     // of an even axis; at most half of them before 0°
+// Even: nodes at multiples of a fine step about 0°, of a coarse one beyond. The first two are for tables that look ahead: no first
+// angle beyond 90°, and what lies at 90° or behind counts as dark.
+const uint kLookupDark = 0u;   // even, ahead, and dark at the table's edge: no need to look whether a direction is within
+const uint kLookupAhead = 1u;  // even, ahead
+const uint kLookupTurn = 2u;   // even, first angle 0° to 360° (type C), no coarse step
+const uint kLookupGuide = 3u;  // any nodes, found through the guide image
 
 const uint kOutputDisplay = 0u;      // display-linear colour, tone curve applied here
 const uint kOutputHdr = 1u;          // cd/m² and illuminance in alpha
@@ -34,13 +37,14 @@ const uint kOutputAudit = 4u;        // position and illuminance; normal and ill
 // first angle = atan2(b, a), second angle = atan2(c, hypot(a, b)):
 //   type A: a forward, b right, c up;  type B: a forward, b up, c right (first is V);  type C: a c0, b c90, c -g0 (second is gamma - 90).
 struct GpuLamp {
-  vec4 position;     // xyz relative to the eye, m
+  vec4 position;     // xyz relative to the eye, m; w even: fine steps in a coarse one, inverted
   vec4 row_a;
   vec4 row_b;
   vec4 row_c;
   vec4 colour;       // rgb, luminance 1
-  vec4 grid;         // even: fine nodes per degree of first and second; nodes before 0° and fine nodes after 0°, for first and for second, in one number each
-  vec4 coarse;       // even: fine steps in a coarse one, first and second
+  vec4 nodes;        // even: fine nodes per radian of first, of second; fine nodes on either side of 0°, of first, of second
+  vec4 coordinates;  // even: image coordinate of the gather about a node: factors, then offsets, of first and of second
+  vec4 within;       // even: first and last node from 0°, of first; of second
   vec4 range;        // guide: first min, max; second min, max; degrees
   vec4 bins_per_deg; // guide: first, second; last bin of first, second
   uvec4 guide;       // bin where the guide of second begins
@@ -49,7 +53,7 @@ struct GpuLamp {
 struct GpuFrame {
   vec4 clip_from_eye[4];    // columns; "eye" is the world turned to the eye's place, not its direction
   vec4 exposure;            // rgb: 1/(cd/m²), with the balance of the eye's adaptation
-  vec4 sky;                 // y zenith cd/m², w: factor at the horizon
+  vec4 sky;                 // rgb zenith cd/m², w: factor at the horizon
   vec4 view_from_clip[4];   // columns: clip position to eye-relative direction
   GpuLamp lamps[kMaxLamps];
 };

@@ -11,10 +11,9 @@ void main() {
   point = position_m;
   point_normal = normal;
   detail = vec3(0.0);
-  reflectance = vec4(0.0);
   uint width = uint(draw.origin.x);
   vec2 pixel = vec2(gl_VertexIndex % width, gl_VertexIndex / width) + 0.5;
   gl_Position = vec4(pixel / draw.origin.xy * 2.0 - 1.0, 0.5, 1.0);
   gl_PointSize = 1.0;
-  pass_light();
+  pass_light(vec4(0.0));
 }

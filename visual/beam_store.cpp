@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -11,15 +12,16 @@ namespace phare {
 namespace {
 
 constexpr std::size_t kMaxBins = 65536;
-constexpr std::size_t kMaxEvenNodes = 4u << 20;
+constexpr std::int64_t kMaxEvenNodes = 4096;      // of one axis
+constexpr std::int64_t kMaxEvenImage = 4 << 20;   // nodes: 16 MiB
 
 /// Nodes at multiples of a fine step within ±fine·step, beyond that at multiples of a coarse one from there.
 struct EvenAxis {
   std::int64_t step = 0;    ///< millionths of a degree
   std::int64_t fine = 0;    ///< fine nodes on either side of 0
   std::int64_t coarse = 1;  ///< fine steps in a coarse one
-  std::int64_t before = 0;  ///< nodes before 0
-  std::size_t count = 0;
+  std::int64_t first = 0;   ///< node, from the one at 0
+  std::int64_t count = 0;
 
   double angle_deg(std::int64_t node) const {
     const std::int64_t inner = std::clamp(node, -fine, fine);
@@ -32,30 +34,42 @@ struct EvenAxis {
   }
 };
 
-// The even axis with the fewest nodes that has all of these. Angles count as written in millionths of a degree.
-std::optional<EvenAxis> even_axis(const std::vector<double>& nodes_deg) {
+// Angles as written, in millionths of a degree; nothing if one is not whole.
+std::optional<std::vector<std::int64_t>> in_millionths(const std::vector<double>& nodes_deg) {
   std::vector<std::int64_t> nodes;
-  std::int64_t step = 0, farthest = 0;
   for (double node : nodes_deg) {
-    const double millionths = node * 1e6;
-    if (std::abs(millionths - std::round(millionths)) > 1e-3) return std::nullopt;
-    nodes.push_back(std::llround(millionths));
-    step = std::gcd(step, nodes.back());
-    farthest = std::max(farthest, std::abs(nodes.back()));
+    if (std::abs(node * 1e6 - std::round(node * 1e6)) > 1e-3) return std::nullopt;
+    nodes.push_back(std::llround(node * 1e6));
   }
+  return nodes;
+}
+
+// The even axis of this coarse step with the fewest nodes that has all of these.
+std::optional<EvenAxis> even_axis(const std::vector<std::int64_t>& nodes, std::int64_t coarse) {
+  std::int64_t step = 0;
+  for (std::int64_t node : nodes) step = std::gcd(step, node);
   std::optional<EvenAxis> best;
-  for (std::int64_t border : nodes) {
-    if (border < 0) continue;
-    EvenAxis axis{.step = step, .fine = border / step};
-    std::int64_t rest = 0;
+  auto propose = [&](std::int64_t border) {
+    EvenAxis axis{.step = step, .fine = border / step, .coarse = coarse};
     for (std::int64_t node : nodes)
-      if (std::abs(node) > border) rest = std::gcd(rest, std::abs(node) - border);
-    axis.coarse = rest > 0 ? rest / step : 1;
-    axis.before = -axis.node_of(nodes.front());
-    axis.count = static_cast<std::size_t>(axis.node_of(nodes.back()) + axis.before + 1);
-    const auto most = static_cast<std::int64_t>(shader::kMaxNodes) - 1;
-    if (axis.count > shader::kMaxNodes - 1 || axis.before < 0 || axis.before > most || axis.fine > most || axis.coarse > most) continue;
+      if (std::abs(node) > border && (std::abs(node) - border) % (step * coarse) != 0) return;
+    axis.first = axis.node_of(nodes.front());
+    axis.count = axis.node_of(nodes.back()) - axis.first + 1;
     if (!best || axis.count < best->count) best = axis;
+  };
+  for (std::int64_t border : nodes) propose(std::abs(border));
+  return best && best->count < kMaxEvenNodes ? best : std::nullopt;
+}
+
+// Both axes with one coarse step, for the shader has room for one; the smallest image wins.
+std::optional<std::pair<EvenAxis, EvenAxis>> even_axes(const std::vector<double>& first_deg, const std::vector<double>& second_deg, bool may_be_coarse) {
+  const auto first = in_millionths(first_deg), second = in_millionths(second_deg);
+  if (!first || !second) return std::nullopt;
+  std::optional<std::pair<EvenAxis, EvenAxis>> best;
+  for (std::int64_t coarse = 1; coarse <= (may_be_coarse ? 100 : 1); ++coarse) {
+    const auto a = even_axis(*first, coarse), b = even_axis(*second, coarse);
+    if (!a || !b || a->count * b->count > kMaxEvenImage) continue;
+    if (!best || a->count * b->count < best->first.count * best->second.count) best.emplace(*a, *b);
   }
   return best;
 }
@@ -64,21 +78,30 @@ std::optional<EvenAxis> even_axis(const std::vector<double>& nodes_deg) {
 std::vector<std::pair<std::size_t, double>> places_on(const std::vector<double>& nodes_deg, const EvenAxis& axis) {
   std::vector<std::pair<std::size_t, double>> places;
   std::size_t before = 0;
-  for (std::size_t i = 0; i < axis.count; ++i) {
-    const double at = axis.angle_deg(static_cast<std::int64_t>(i) - axis.before);
+  for (std::int64_t i = 0; i < axis.count; ++i) {
+    const double at = axis.angle_deg(axis.first + i);
     while (before + 2 < nodes_deg.size() && nodes_deg[before + 1] <= at + 1e-9) ++before;
     places.emplace_back(before, std::clamp((at - nodes_deg[before]) / (nodes_deg[before + 1] - nodes_deg[before]), 0.0, 1.0));
   }
   return places;
 }
 
-float in_one_number(const EvenAxis& axis) { return static_cast<float>(axis.before * shader::kMaxNodes + axis.fine); }
+bool dark_at_its_edge(const std::vector<float>& candela, std::size_t columns) {
+  const std::size_t rows = candela.size() / columns;
+  for (std::size_t i = 0; i < columns; ++i)
+    if (candela[i] != 0.0f || candela[(rows - 1) * columns + i] != 0.0f) return false;
+  for (std::size_t j = 0; j < rows; ++j)
+    if (candela[j * columns] != 0.0f || candela[(j + 1) * columns - 1] != 0.0f) return false;
+  return true;
+}
 
 void pack_even(PackedBeam& packed, const std::vector<double>& first_deg, const std::vector<double>& second_deg, const EvenAxis& first, const EvenAxis& second,
-               const std::vector<float>& candela) {
+               const std::vector<float>& candela, bool turn) {
   const auto columns = places_on(first_deg, first);
   const auto rows = places_on(second_deg, second);
-  packed.candela.reserve((first.count + 1) * (second.count + 1));
+  packed.columns = static_cast<std::uint32_t>(columns.size() + 1);
+  packed.candela_rows = static_cast<std::uint32_t>(rows.size() + 1);
+  packed.candela.reserve(std::size_t{packed.columns} * packed.candela_rows);
   for (const auto& [j, t] : rows) {
     const float* low = &candela[j * first_deg.size()];
     const float* high = low + first_deg.size();
@@ -88,11 +111,17 @@ void pack_even(PackedBeam& packed, const std::vector<double>& first_deg, const s
     }
     packed.candela.push_back(0.0f);
   }
-  packed.candela.resize(packed.candela.size() + first.count + 1, 0.0f);
-  packed.columns = static_cast<std::uint32_t>(first.count + 1);
-  packed.candela_rows = static_cast<std::uint32_t>(second.count + 1);
-  packed.grid = {1e6 / static_cast<double>(first.step), 1e6 / static_cast<double>(second.step), in_one_number(first), in_one_number(second)};
-  packed.coarse = {first.coarse, second.coarse, 0, 0};
+  packed.candela.resize(std::size_t{packed.columns} * packed.candela_rows, 0.0f);
+  packed.lookup = turn ? shader::kLookupTurn : dark_at_its_edge(candela, first_deg.size()) ? shader::kLookupDark : shader::kLookupAhead;
+  const auto per_rad = [](const EvenAxis& axis) { return 180e6 / std::numbers::pi / static_cast<double>(axis.step); };
+  packed.nodes = {per_rad(first), per_rad(second), first.fine, second.fine};
+  packed.inverse_coarse = 1.0f / static_cast<float>(first.coarse);
+  // A gather midway between node i and the next finds both: at (i - first + 1) texels.
+  const double width = packed.columns, height = packed.candela_rows;
+  packed.coordinates = {1.0 / width, 1.0 / height, static_cast<double>(1 - first.first) / width, static_cast<double>(1 - second.first) / height};
+  const std::int64_t first_last = first.first + first.count - 1, second_last = second.first + second.count - 1;
+  packed.within = turn ? glm::vec4(first_last, second.first, second_last, 360e6 / static_cast<double>(first.step))
+                       : glm::vec4(first.first, first_last, second.first, second_last);
 }
 
 std::vector<glm::vec4> make_guide(const std::vector<double>& nodes_deg, float& bins_per_deg) {
@@ -158,14 +187,11 @@ PackedBeam pack_beam(const BeamImage& image) {
       for (double& gamma_deg : second) gamma_deg -= 90.0;
       break;
   }
-  const std::optional<EvenAxis> even_first = even_axis(first), even_second = even_axis(second);
-  const bool turn = first.back() > 180.0;  // the shader's turn knows no coarse steps
-  if (even_first && even_second && even_first->count * even_second->count <= kMaxEvenNodes && (!turn || (even_first->coarse == 1 && even_second->coarse == 1))) {
-    packed.lookup = turn ? shader::kLookupEvenTurn : shader::kLookupEven;
-    pack_even(packed, first, second, *even_first, *even_second, candela);
-  } else {
-    pack_guided(packed, first, second, candela);
-  }
+  const bool turn = first.back() > 180.0;
+  const bool ahead = first.front() >= -90.0 && first.back() <= 90.0;
+  const auto even = turn || ahead ? even_axes(first, second, !turn) : std::nullopt;
+  if (even) pack_even(packed, first, second, even->first, even->second, candela, turn);
+  else pack_guided(packed, first, second, candela);
   return packed;
 }
 
@@ -206,8 +232,10 @@ bool BeamStore::upload() {
 void BeamStore::describe(std::size_t index, shader::GpuLamp& lamp) const {
   const PackedBeam& beam = beams_.at(index).packed;
   lamp.colour = {beam.colour.x, beam.colour.y, beam.colour.z, 1.0f};
-  lamp.grid = beam.grid;
-  lamp.coarse = beam.coarse;
+  lamp.position.w = beam.inverse_coarse;
+  lamp.nodes = beam.nodes;
+  lamp.coordinates = beam.coordinates;
+  lamp.within = beam.within;
   lamp.range = beam.range;
   lamp.bins_per_deg = beam.bins_per_deg;
   lamp.guide = {beam.second_guide, 0u, 0u, 0u};

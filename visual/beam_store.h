@@ -19,14 +19,15 @@ struct PackedBeam {
   std::uint32_t columns = 0, candela_rows = 0;          ///< with the zeros
   std::vector<glm::vec4> guide;                         ///< of first, then of second; whole rows of kGuideRow
   std::uint32_t second_guide = 0;                       ///< bin where that of second begins
-  glm::vec4 grid{0.0f}, coarse{1.0f}, range{0.0f}, bins_per_deg{0.0f};  ///< as in shaders/lamps.h
+  float inverse_coarse = 1.0f;
+  glm::vec4 nodes{0.0f}, coordinates{0.0f}, within{0.0f}, range{0.0f}, bins_per_deg{0.0f};  ///< as in shaders/lamps.h
   // Which axes of the image the shader's rows a, b, c are: columns in the image frame (forward, left, up).
   glm::dmat3 rows{1.0};
   glm::vec3 colour{1.0f};
   bool dark = true;
 };
 
-/// An even grid has at most kMaxNodes a side and 4 M nodes. Guides hold at most one node a bin, so bins are as narrow as the closest
+/// An even grid has at most 4096 nodes a side and 4 M in all. Guides hold at most one node a bin, so bins are as narrow as the closest
 /// nodes; at most 65,536 bins: nodes closer than range/65536 make the guide inexact there by less than one such bin.
 PackedBeam pack_beam(const BeamImage& image);
 

@@ -7,7 +7,7 @@ FrameCounts draw_frame(FrameParts& parts, const FrameInput& input) {
   const double aspect = static_cast<double>(targets.extent.width) / static_cast<double>(targets.extent.height);
 
   // What is seen, by which lamps.
-  const std::vector<DrawItem> items = parts.scene.visible(input.camera, aspect);
+  const std::vector<DrawItem> items = parts.scene.visible(input.camera, aspect, input.far_mesh_from_m);
   parts.lamps.set_frame(parts.scene, parts.beams, input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2, input.lamps);
 
   // What this frame calls for.

@@ -232,7 +232,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   gpu::Image depth(impl_->device, vk::Format::eD32Sfloat, extent, Usage::eDepthStencilAttachment, "audit depth");
   gpu::HostBuffer position_copy, normal_copy;
   const double aspect = static_cast<double>(extent.width) / extent.height;
-  const std::vector<DrawItem> items = impl_->scene.visible(input.camera, aspect);
+  const std::vector<DrawItem> items = impl_->scene.visible(input.camera, aspect, input.far_mesh_from_m);
   impl_->lamps.set_frame(impl_->scene, impl_->beams, input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2, input.lamps);
   impl_->submit([&] {
     impl_->lamps.audit(impl_->graph, position, normal, depth, impl_->scene, items);

@@ -48,12 +48,16 @@ struct PlacedLamp {
 
 enum class View { kPhoto, kFalseColour };  ///< as the eye sees it, or illuminance by colour with isolux lines
 
+/// Blocks of the scene farther than this are drawn with fewer triangles: their errors are made for this distance.
+constexpr double kFarMeshFrom_m = 150.0;
+
 struct FrameInput {
   Camera camera;
   std::vector<PlacedLamp> lamps;      ///< at most 8; positions whose beam is dark are left out by the caller or by us
   double exposure_per_cdm2 = 0.8;     ///< multiplies luminance before the tone curve; fixed, so that beams compare
   double adaptation_k = 4000.0;       ///< light of this colour temperature looks white: the eye half adapts to its own lamps
   double sky_luminance_cdm2 = 0.004;
+  double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;
   bool want_hdr = false;              ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;            ///< read the finished picture back

@@ -28,5 +28,18 @@ PHARE_INLINE float atan2_deg(float y, float x) {
   return y < 0.0f ? -angle : angle;
 }
 
+/// atan2(y, x) in radians for x > 0, as above.
+PHARE_INLINE float atan2_forward_rad(float y, float x) {
+  float ay = abs(y);
+  bool turned = min(ay, x) > 0.41421356f * max(ay, x);
+  float numerator = turned ? ay - x : min(ay, x);
+  float t = numerator / (turned ? ay + x : max(ay, x));
+  float angle = t * atan_over_t(t * t);
+  // turned: 45° + atan((y - x)/(y + x)), for either order of y and x. Else beyond 45°: 90° - atan(x/y).
+  float beyond = ay > x ? 1.5707963268f - angle : angle;
+  angle = turned ? angle + 0.7853981634f : beyond;
+  return y < 0.0f ? -angle : angle;
+}
+
 PHARE_SHADER_END
 #endif

@@ -13,64 +13,64 @@ vec2 node_before(sampler2D guide, uint first_bin, float bin, float last_bin, flo
   return past_deg < 0.0 ? vec2(g.y - 1.0, 1.0 + past_deg * g.z) : vec2(g.y, past_deg * g.w);
 }
 
-// Bilinear between the four nodes about a cell, weights in float32.
-float in_cell(sampler2D table, vec2 cell, vec2 part) {
-  vec4 cd = textureGather(table, (cell + 1.0) / vec2(textureSize(table, 0)));
+// Bilinear between the four nodes that a gather at `coordinate` finds, weights in float32.
+float between(sampler2D table, vec2 coordinate, vec2 part) {
+  vec4 cd = textureGather(table, coordinate);
   return mix(mix(cd.w, cd.z, part.x), mix(cd.x, cd.y, part.x), part.y);
 }
 
-// cd toward p, given in the lamp's frame; bilinear on the table's nodes, dark outside.
-float intensity_cd(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, float first_per_deg, vec4 grid) {
-  float first = atan2_deg(p.y, p.x);
-  float second = atan2_deg(p.z, sqrt(p.x * p.x + p.y * p.y));
-  vec2 cell, part;
-  bool lit;
+// cd toward p, given in the lamp's frame; bilinear on the table's nodes, dark outside. `h`: length of p without its third component.
+float intensity_cd(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, float h, float inverse_coarse, vec4 nodes, vec4 coordinates) {
   if (lookup == kLookupGuide) {
+    float first = atan2_deg(p.y, p.x);
+    float second = atan2_deg(p.z, h);
     first += first < lamp.range.x ? 360.0 : 0.0;  // type C runs from 0 to 360
-    lit = first <= lamp.range.y && second >= lamp.range.z && second <= lamp.range.w;
+    bool lit = first <= lamp.range.y && second >= lamp.range.z && second <= lamp.range.w;
     vec2 u = node_before(guide, 0, (first - lamp.range.x) * lamp.bins_per_deg.x, lamp.bins_per_deg.z, first);
     vec2 v = node_before(guide, lamp.guide.x, (second - lamp.range.z) * lamp.bins_per_deg.y, lamp.bins_per_deg.w, second);
-    cell = vec2(u.x, v.x);
-    part = vec2(u.y, v.y);
-  } else {
-    // In nodes from the one at 0°: next to the cut-off the numbers are small and the parts exact.
-    vec2 first_places = from_one_number(grid.y), second_places = from_one_number(grid.z);
-    vec2 before = vec2(first_places.x, second_places.x), fine = vec2(first_places.y, second_places.y);
-    vec2 at = vec2(first * first_per_deg, second * grid.x);
-    if (lookup == kLookupEvenTurn) at.x += at.x < 0.0 ? 360.0 * first_per_deg : 0.0;
-    else {
-      vec2 inner = clamp(at, -fine, fine);
-      at = inner + (at - inner) / from_one_number(grid.w);
-    }
-    vec2 node = floor(at);
-    part = at - node;
-    cell = node + before;
-    vec2 last = vec2(textureSize(table, 0)) - 2.0 - before;
-    lit = at.x >= -before.x && at.x <= last.x && at.y >= -before.y && at.y <= last.y;
+    return lit ? between(table, (vec2(u.x, v.x) + 1.0) / vec2(textureSize(table, 0)), vec2(u.y, v.y)) : 0.0;
   }
-  return lit ? in_cell(table, cell, part) : 0.0;
+  // In nodes from the one at 0°: next to the cut-off the numbers are small and the parts exact.
+  vec2 at;
+  bool lit;
+  if (lookup == kLookupTurn) {
+    at = vec2(radians(atan2_deg(p.y, p.x)), atan2_forward_rad(p.z, h)) * nodes.xy;
+    at.x += at.x < 0.0 ? lamp.within.w : 0.0;  // a whole turn
+    lit = at.y >= lamp.within.y && at.y <= lamp.within.z && at.x <= lamp.within.x;
+  } else {
+    at = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h)) * nodes.xy;
+    vec2 fine = clamp(at, -nodes.zw, nodes.zw);
+    at = fine + (at - fine) * inverse_coarse;
+    lit = p.x > 0.0;
+    if (lookup == kLookupAhead) lit = lit && at.x >= lamp.within.x && at.x <= lamp.within.y && at.y >= lamp.within.z && at.y <= lamp.within.w;
+  }
+  vec2 node = floor(at);
+  float cd = between(table, node * coordinates.xy + coordinates.zw, at - node);
+  return lit ? cd : 0.0;
 }
 
 struct LampLight {
   float illuminance_lx;  // on the surface
   float normal_lx;       // on a plane facing the lamp
   float cos_incidence;
-  vec3 toward_lamp;      // unit
 };
 
-LampLight lamp_light(float cd, vec3 lamp_position, vec3 p, vec3 n) {
-  vec3 d = p - lamp_position;
-  float r2 = dot(d, d);
-  float inv_r2 = r2 > 0.0 ? 1.0 / r2 : 0.0;
+layout(constant_id = 5) const uint lookups = 0;
+
+// By a lamp at `place` (w: inverse of its coarse step); `level`: n·point. The rows of a lamp's frame are orthonormal, so p is as long as the way.
+LampLight lamp_light(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, vec4 place, vec4 nodes, vec4 coordinates, vec3 n, float level) {
+  float h2 = p.x * p.x + p.y * p.y;
+  float r2 = h2 + p.z * p.z;
+  float cd = intensity_cd(table, guide, lamp, lookup, p, sqrt(h2), place.w, nodes, coordinates);
+  float inverse_r = r2 > 0.0 ? inversesqrt(r2) : 0.0;
   LampLight light;
-  light.toward_lamp = d * -sqrt(inv_r2);
-  light.cos_incidence = max(dot(light.toward_lamp, n), 0.0);
-  light.normal_lx = cd * inv_r2;
+  light.cos_incidence = max(dot(place.xyz, n) - level, 0.0) * inverse_r;
+  light.normal_lx = r2 > 0.0 ? cd * (inverse_r * inverse_r) : 0.0;
   light.illuminance_lx = light.normal_lx * light.cos_incidence;
   return light;
 }
 
-layout(constant_id = 5) const uint lookups = 0;
-#define PHARE_LAMP_LIGHT(I) \
-  lamp_light(intensity_cd(candela[I], guides[I], frame.lamps[I], (lookups >> (2 * I)) & 3, in_lamp[I], lamp_place[I].w, lamp_grid[I]), lamp_place[I].xyz, point, n)
+#define PHARE_LAMP_LIGHT(I)                                                                                                    \
+  lamp_light(candela[I], guides[I], frame.lamps[I], (lookups >> (2 * I)) & 3, in_lamp[I], PHARE_LAMP_POSITION(I), PHARE_LAMP_NODES(I), \
+             PHARE_LAMP_COORDINATES(I), n, level)
 #endif

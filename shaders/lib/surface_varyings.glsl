@@ -20,35 +20,53 @@
 #define PHARE_VARYING in
 #endif
 
-layout(location = 0) PHARE_VARYING vec3 point;              // relative to the eye, m
+layout(location = 0) PHARE_VARYING vec3 point;            // relative to the eye, m
 layout(location = 1) PHARE_VARYING vec3 point_normal;
-layout(location = 2) PHARE_VARYING vec3 detail;             // world position modulo 1024 m
-layout(location = 3) flat PHARE_VARYING vec4 reflectance;   // of the material: rho, R_A
-layout(location = 4) flat PHARE_VARYING vec3 exposure;
-layout(location = 5) flat PHARE_VARYING vec4 common_light;  // colour of the lamps where all have one, zenith luminance
-layout(location = 6) PHARE_VARYING vec3 in_lamp[PHARE_LAMPS];       // the point in each lamp's frame, rows a, b, c
-layout(location = 6 + PHARE_LAMPS) flat PHARE_VARYING vec4 lamp_place[PHARE_LAMPS];  // position relative to the eye; fine nodes per degree of first
-layout(location = 6 + 2 * PHARE_LAMPS) flat PHARE_VARYING vec4 lamp_grid[PHARE_LAMPS];   // the same of second; places of first, of second; coarse steps, in one number
+layout(location = 2) PHARE_VARYING vec3 detail;           // world position modulo 1024 m
+layout(location = 3) flat PHARE_VARYING vec4 reflectance; // rho/pi, exposed where the display is written; R_A·pi over the greatest rho
+layout(location = 4) flat PHARE_VARYING vec3 light_colour;  // of the lamps, where all have one
+layout(location = 5) flat PHARE_VARYING vec3 ambient_lx;  // half of what the whole sky gives a level surface
+layout(location = 6) PHARE_VARYING vec3 in_lamp[PHARE_LAMPS];  // the point in each lamp's frame, rows a, b, c
 
-// Two whole numbers below kMaxNodes in one float, exactly. Varyings are few.
-float in_one_number(vec2 n) { return n.x * float(kMaxNodes) + n.y; }
-vec2 from_one_number(float n) {
-  float high = floor(n / float(kMaxNodes));
-  return vec2(high, n - high * float(kMaxNodes));
-}
+#if PHARE_LAMPS <= 4
+layout(location = 6 + PHARE_LAMPS) flat PHARE_VARYING vec4 lamp_position[PHARE_LAMPS];
+layout(location = 6 + 2 * PHARE_LAMPS) flat PHARE_VARYING vec4 lamp_nodes[PHARE_LAMPS];
+layout(location = 6 + 3 * PHARE_LAMPS) flat PHARE_VARYING vec4 lamp_coordinates[PHARE_LAMPS];
+#define PHARE_LAMP_POSITION(I) lamp_position[I]
+#define PHARE_LAMP_NODES(I) lamp_nodes[I]
+#define PHARE_LAMP_COORDINATES(I) lamp_coordinates[I]
+#else  // a device passes 32 varyings
+#define PHARE_LAMP_POSITION(I) frame.lamps[I].position
+#define PHARE_LAMP_NODES(I) frame.lamps[I].nodes
+#define PHARE_LAMP_COORDINATES(I) frame.lamps[I].coordinates
+#endif
 
 #ifdef PHARE_VERTEX
-void pass_light() {
-  exposure = frame.exposure.rgb;
-  common_light = vec4(frame.lamps[0].colour.rgb, frame.sky.g);
-#define PHARE_PASS(I)                                                                        \
-  if (lamp_count > I) {                                                                      \
-    vec3 d = point - frame.lamps[I].position.xyz;                                            \
+layout(constant_id = 3) const uint output_kind = 0;
+
+void pass_light(vec4 material) {
+  const float pi = 3.14159265;
+  // Retroreflected light keeps the tint of the material and not its darkness.
+  float whitest = max(max(material.r, material.g), max(material.b, 1e-3));
+  reflectance = vec4(material.rgb / pi, material.w * pi / whitest);
+  if (output_kind == kOutputDisplay) reflectance.rgb *= frame.exposure.rgb;
+  light_colour = frame.lamps[0].colour.rgb;
+  ambient_lx = frame.sky.rgb * (0.5 * pi);
+#define PHARE_POINT_IN(I)                                                                                       \
+  if (lamp_count > I) {                                                                                         \
+    vec3 d = point - frame.lamps[I].position.xyz;                                                               \
     in_lamp[I] = vec3(dot(frame.lamps[I].row_a.xyz, d), dot(frame.lamps[I].row_b.xyz, d), dot(frame.lamps[I].row_c.xyz, d)); \
-    lamp_place[I] = vec4(frame.lamps[I].position.xyz, frame.lamps[I].grid.x);                \
-    lamp_grid[I] = vec4(frame.lamps[I].grid.yzw, in_one_number(frame.lamps[I].coarse.xy));   \
+  }
+  PHARE_EACH_LAMP(PHARE_POINT_IN)
+#if PHARE_LAMPS <= 4
+#define PHARE_PASS(I)                                         \
+  if (lamp_count > I) {                                       \
+    lamp_position[I] = frame.lamps[I].position;               \
+    lamp_nodes[I] = frame.lamps[I].nodes;                     \
+    lamp_coordinates[I] = frame.lamps[I].coordinates;         \
   }
   PHARE_EACH_LAMP(PHARE_PASS)
+#endif
 }
 #endif
 #endif

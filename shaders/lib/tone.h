@@ -5,16 +5,13 @@
 
 PHARE_SHADER_BEGIN
 
-/// A clear night sky by its luminance: bluish.
-const vec3 kSkyColour = vec3(0.75f, 1.0f, 1.7f);
-
-/// Exposed luminance (1 = middle of the curve) to display-linear 0..1. Reinhard et al. 2002, eq. 4, with white at 12,
+/// Exposed luminance (1 = middle of the curve) to display-linear; above 1 the display clips. Reinhard et al. 2002, eq. 4, with white at 12,
 /// applied to luminance so that colours keep their hue.
 PHARE_INLINE vec3 tone_curve(vec3 exposed) {
   const float white = 12.0f;
   float y = dot(exposed, vec3(0.2126f, 0.7152f, 0.0722f));
   float scale = (1.0f + y / (white * white)) / (1.0f + y);
-  return clamp(exposed * scale, vec3(0.0f), vec3(1.0f));
+  return exposed * scale;
 }
 
 /// Illuminance in lx as colour, display-linear: dark blue below 0.3 lx over cyan, green, yellow, red to white above 200 lx, by log E.

@@ -73,6 +73,8 @@ int run(int argc, char** argv) {
   FrameInput quad_view = view(2);
   quad_view.camera.eye_m = {0.0, 0.0, 0.0};
   for (PlacedLamp& lamp : quad_view.lamps) lamp.position_m -= glm::dvec3(25.0, -1.6, 0.0);
+  FrameInput quad_dark = quad_view;
+  quad_dark.lamps.clear();
   struct Case {
     const char* name;
     Renderer& renderer;
@@ -81,7 +83,7 @@ int run(int argc, char** argv) {
   };
   FrameInput sky = view(0);
   sky.camera.world_from_eye = glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0));  // straight up
-  std::vector<Case> cases{{"road, two lamps", *road, view(2)}, {"road, no lamp", *road, view(0)}, {"bare two-lamp quad", *quad, quad_view}, {"sky alone", *road, sky}};
+  std::vector<Case> cases{{"road, two lamps", *road, view(2)}, {"road, no lamp", *road, view(0)}, {"bare two-lamp quad", *quad, quad_view}, {"bare quad, no lamp", *quad, quad_dark}, {"sky alone", *road, sky}};
   FrameResult result;
   for (int i = -2; i < rounds; ++i) {
     for (Case& one : cases) {

@@ -234,7 +234,7 @@ Scene yard() {
     scene.chunks.push_back(chunk);
   };
   quad("road", 0, {-5, -10, 0}, {65, 0, 0}, {0, 20, 0});
-  quad("wall", 1, {25, -4, 0}, {0, 4, 0}, {0, 0, 4});
+  quad("wall", 1, {25, 0, 0}, {0, -4, 0}, {0, 0, 4});
   return scene;
 }
 

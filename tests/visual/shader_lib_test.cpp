@@ -35,14 +35,28 @@ TEST(Angles, AxesAndOriginAreExact) {
   EXPECT_EQ(atan2_deg(0.0f, 0.0f), 0.0f);
 }
 
-TEST(Tone, DarkStaysProportionalWhiteIsReachedAndNothingLeavesTheRange) {
+// Both halves of the range and both reductions; the limit is that of atan2_deg, in radians.
+TEST(Angles, ForwardInRadiansIsExactToFloat) {
+  for (double degrees = -89.99; degrees < 90.0; degrees += 0.0137) {
+    for (const double length : {1e-3, 1.0, 4321.0}) {
+      const auto y = static_cast<float>(length * std::sin(degrees * std::numbers::pi / 180.0));
+      const auto x = static_cast<float>(length * std::cos(degrees * std::numbers::pi / 180.0));
+      const double truth = std::atan2(static_cast<double>(y), static_cast<double>(x));
+      ASSERT_NEAR(static_cast<double>(atan2_forward_rad(y, x)), truth, 3e-7 * std::abs(truth) + 1e-12) << degrees << " degrees";
+    }
+  }
+}
+
+TEST(Tone, DarkStaysProportionalWhiteIsReachedAndOnlyBrighterIsClipped) {
   EXPECT_NEAR(tone_curve(vec3(1e-4f)).x, 1e-4f, 2e-8f);
   EXPECT_NEAR(tone_curve(vec3(12.0f)).x, 1.0f, 1e-5f);
   float last = 0.0f;
   for (float y = 0.0f; y < 100.0f; y += 0.01f) {
     const float now = tone_curve(vec3(y)).x;
     ASSERT_GE(now, last);
-    ASSERT_LE(now, 1.0f);
+    if (std::abs(y - 12.0f) > 0.01f) {
+      ASSERT_EQ(now > 1.0f, y > 12.0f) << y;
+    }
     last = now;
   }
 }

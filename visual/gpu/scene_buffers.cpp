@@ -4,47 +4,82 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
+
+#include "visual/scene/far_mesh.h"
 
 namespace phare {
 
 namespace {
 
 // Side of the cells that batches are gathered in. Smaller culls better, larger draws fewer: chosen by timing the country road.
-constexpr double kCell_m = 64.0;
+constexpr double kBlock_m = 96.0;
 
-std::vector<SceneBatch> gather(const Scene& scene, std::vector<GpuVertex>& vertices, std::vector<std::uint32_t>& indices) {
-  using Key = std::tuple<MaterialKind, std::int64_t, std::int64_t>;
-  std::map<Key, std::vector<const SceneChunk*>> cells;
-  for (const SceneChunk& chunk : scene.chunks) {
-    const SceneMaterial& material = scene.materials[chunk.material];
-    const glm::dvec3 centre = (chunk.low_m + chunk.high_m) * 0.5;
-    cells[{{material.surface, material.retroreflection_cd_per_lx_m2 > 0.0f},
-           static_cast<std::int64_t>(std::floor(centre.x / kCell_m)),
-           static_cast<std::int64_t>(std::floor(centre.y / kCell_m))}]
-        .push_back(&chunk);
+using Cell = std::pair<std::int64_t, std::int64_t>;
+
+Cell cell_of(const SceneChunk& chunk, double side_m) {
+  const glm::dvec3 centre = (chunk.low_m + chunk.high_m) * 0.5;
+  return {static_cast<std::int64_t>(std::floor(centre.x / side_m)), static_cast<std::int64_t>(std::floor(centre.y / side_m))};
+}
+
+struct Gathered {
+  std::vector<GpuVertex> vertices;
+  std::vector<std::uint32_t> indices;
+};
+
+void append(Gathered& all, const SceneBatch& batch, const SceneChunk& chunk, std::span<const SceneVertex> vertices, std::span<const std::uint32_t> indices) {
+  const auto base = static_cast<std::uint32_t>(all.vertices.size()) - static_cast<std::uint32_t>(batch.first_vertex);
+  const glm::vec3 shift(chunk.origin_m - batch.origin_m);
+  for (const SceneVertex& vertex : vertices) all.vertices.push_back({vertex.position_m + shift, vertex.normal, chunk.material});
+  for (std::uint32_t index : indices) all.indices.push_back(base + index);
+}
+
+// One batch for each kind and cell of `side_m` among the chunks.
+std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m, std::optional<std::size_t> far_level, Gathered& all) {
+  std::map<std::pair<MaterialKind, Cell>, std::vector<const SceneChunk*>> groups;
+  for (const SceneChunk* chunk : chunks) {
+    const SceneMaterial& material = scene.materials[chunk->material];
+    groups[{{material.surface, material.retroreflection_cd_per_lx_m2 > 0.0f, material.double_sided}, cell_of(*chunk, side_m)}].push_back(chunk);
   }
   std::vector<SceneBatch> batches;
-  for (const auto& [key, chunks] : cells) {
-    SceneBatch batch{.kind = std::get<0>(key), .origin_m = chunks.front()->origin_m, .low_m = chunks.front()->low_m, .high_m = chunks.front()->high_m};
-    batch.first_index = static_cast<std::uint32_t>(indices.size());
-    batch.first_vertex = static_cast<std::int32_t>(vertices.size());
-    for (const SceneChunk* chunk : chunks) {
-      const auto base = static_cast<std::uint32_t>(vertices.size()) - static_cast<std::uint32_t>(batch.first_vertex);
-      const glm::vec3 shift(chunk->origin_m - batch.origin_m);
-      for (std::uint32_t i = 0; i < chunk->vertex_count; ++i) {
-        const SceneVertex& vertex = scene.vertices[chunk->first_vertex + i];
-        vertices.push_back({vertex.position_m + shift, vertex.normal, chunk->material});
+  for (const auto& [key, group] : groups) {
+    SceneBatch batch{.kind = key.first, .origin_m = group.front()->origin_m, .low_m = group.front()->low_m, .high_m = group.front()->high_m};
+    batch.first_index = static_cast<std::uint32_t>(all.indices.size());
+    batch.first_vertex = static_cast<std::int32_t>(all.vertices.size());
+    for (const SceneChunk* chunk : group) {
+      if (far_level) {
+        const FarMesh mesh = far_mesh(scene, *chunk, *far_level, kFarLevels[*far_level].from * kFarMeshFrom_m);
+        append(all, batch, *chunk, mesh.vertices, mesh.indices);
+      } else {
+        append(all, batch, *chunk, std::span(scene.vertices).subspan(chunk->first_vertex, chunk->vertex_count),
+               std::span(scene.indices).subspan(chunk->first_index, chunk->index_count));
       }
-      for (std::uint32_t i = 0; i < chunk->index_count; ++i) indices.push_back(base + scene.indices[chunk->first_index + i]);
       batch.low_m = glm::min(batch.low_m, chunk->low_m);
       batch.high_m = glm::max(batch.high_m, chunk->high_m);
     }
-    batch.index_count = static_cast<std::uint32_t>(indices.size()) - batch.first_index;
-    batches.push_back(batch);
+    batch.index_count = static_cast<std::uint32_t>(all.indices.size()) - batch.first_index;
+    if (batch.index_count > 0) batches.push_back(batch);
   }
   return batches;
+}
+
+std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all) {
+  std::map<Cell, std::vector<const SceneChunk*>> cells;
+  for (const SceneChunk& chunk : scene.chunks) cells[cell_of(chunk, kBlock_m)].push_back(&chunk);
+  std::vector<SceneBlock> blocks;
+  for (const auto& [cell, chunks] : cells) {
+    SceneBlock block{.low_m = chunks.front()->low_m, .high_m = chunks.front()->high_m};
+    for (const SceneChunk* chunk : chunks) {
+      block.low_m = glm::min(block.low_m, chunk->low_m);
+      block.high_m = glm::max(block.high_m, chunk->high_m);
+    }
+    block.near = gather(scene, chunks, kBlock_m, std::nullopt, all);
+    for (std::size_t level = 0; level < kFarLevels.size(); ++level) block.far[level] = gather(scene, chunks, kBlock_m, level, all);
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
 }
 
 }  // namespace
@@ -56,16 +91,15 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene) {
   if (packed.size() > shader::kMaxMaterials)
     throw std::runtime_error(std::to_string(packed.size()) + " materials, at most " + std::to_string(shader::kMaxMaterials) + " are drawn");
   packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
-  std::vector<GpuVertex> gathered;
-  std::vector<std::uint32_t> gathered_indices;
-  batches = gather(scene, gathered, gathered_indices);
+  Gathered all;
+  blocks = make_blocks(scene, all);
   using Usage = vk::BufferUsageFlagBits;
-  vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(gathered)), Usage::eVertexBuffer, "scene vertices");
-  indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(gathered_indices)), Usage::eIndexBuffer, "scene indices");
+  vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.vertices)), Usage::eVertexBuffer, "scene vertices");
+  indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)), Usage::eIndexBuffer, "scene indices");
   material_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(packed)), Usage::eUniformBuffer, "materials");
 }
 
-std::vector<DrawItem> SceneBuffers::visible(const Camera& camera, double aspect) const {
+std::vector<DrawItem> SceneBuffers::visible(const Camera& camera, double aspect, double far_from_m) const {
   // Planes of the view as inward normals in the eye's frame (forward, left, up); a box is out when its nearest corner is.
   std::array<glm::dvec4, 5> planes{};
   const glm::dmat3& axes = camera.world_from_eye;
@@ -81,21 +115,31 @@ std::vector<DrawItem> SceneBuffers::visible(const Camera& camera, double aspect)
               glm::dvec4(glm::normalize(axes[0] * tan_v + axes[2]), 0.0), glm::dvec4(glm::normalize(axes[0] * tan_v - axes[2]), 0.0),
               glm::dvec4(axes[0], 0.0)};
   }
-  std::vector<DrawItem> items;
-  for (const SceneBatch& batch : batches) {
-    const glm::dvec3 centre = (batch.low_m + batch.high_m) * 0.5 - camera.eye_m;
-    const glm::dvec3 half = (batch.high_m - batch.low_m) * 0.5;
-    const bool out = std::any_of(planes.begin(), planes.end(), [&](const glm::dvec4& plane) {
+  // Distance of a box from the eye; nothing if none of it is in view.
+  auto seen_at = [&](const glm::dvec3& low, const glm::dvec3& high) -> std::optional<double> {
+    const glm::dvec3 centre = (low + high) * 0.5 - camera.eye_m;
+    const glm::dvec3 half = (high - low) * 0.5;
+    for (const glm::dvec4& plane : planes) {
       const glm::dvec3 normal(plane);
-      return glm::dot(normal, centre) + glm::dot(glm::abs(normal), half) + plane.w < 0.0;
-    });
-    if (out) continue;
-    const glm::dvec3 nearest = glm::max(glm::abs(centre) - half, glm::dvec3(0.0));
-    const double distance = glm::length(nearest);
-    if (distance > camera.far_m) continue;
-    const glm::dvec3 origin = batch.origin_m - camera.eye_m;
-    const glm::dvec3 detail = batch.origin_m - glm::floor(batch.origin_m / 1024.0) * 1024.0;
-    items.push_back({&batch, {glm::vec4(glm::vec3(origin), 0.0f), glm::vec4(glm::vec3(detail), 0.0f)}, static_cast<float>(distance)});
+      if (glm::dot(normal, centre) + glm::dot(glm::abs(normal), half) + plane.w < 0.0) return std::nullopt;
+    }
+    const double distance = glm::length(glm::max(glm::abs(centre) - half, glm::dvec3(0.0)));
+    return distance > camera.far_m ? std::nullopt : std::optional(distance);
+  };
+  std::vector<DrawItem> items;
+  for (const SceneBlock& block : blocks) {
+    const std::optional<double> block_at = seen_at(block.low_m, block.high_m);
+    if (!block_at) continue;
+    const std::vector<SceneBatch>* batches = &block.near;
+    for (std::size_t level = 0; level < kFarLevels.size(); ++level)
+      if (*block_at >= kFarLevels[level].from * far_from_m) batches = &block.far[level];
+    for (const SceneBatch& batch : *batches) {
+      const std::optional<double> distance = seen_at(batch.low_m, batch.high_m);
+      if (!distance) continue;
+      const glm::dvec3 origin = batch.origin_m - camera.eye_m;
+      const glm::dvec3 detail = batch.origin_m - glm::floor(batch.origin_m / 1024.0) * 1024.0;
+      items.push_back({&batch, {glm::vec4(glm::vec3(origin), 0.0f), glm::vec4(glm::vec3(detail), 0.0f)}, static_cast<float>(*distance)});
+    }
   }
   std::sort(items.begin(), items.end(), [](const DrawItem& a, const DrawItem& b) {
     return std::tuple(a.batch->kind, a.distance_m, a.batch->first_index) < std::tuple(b.batch->kind, b.distance_m, b.batch->first_index);

@@ -1,11 +1,13 @@
 // A scene on the device, and which of its chunks a view has to draw.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "shaders/lamps.h"
 #include "visual/gpu/device.h"
 #include "visual/renderer.h"
+#include "visual/scene/far_mesh.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
@@ -14,6 +16,7 @@ namespace phare {
 struct MaterialKind {
   Surface surface = Surface::kPlain;
   bool retro = false;
+  bool double_sided = false;
 
   friend auto operator<=>(const MaterialKind&, const MaterialKind&) = default;
 };
@@ -34,6 +37,13 @@ struct SceneBatch {
   std::int32_t first_vertex = 0;
 };
 
+/// A piece of the ground: its batches in full, and as they are drawn from afar (visual/scene/far_mesh.h).
+struct SceneBlock {
+  glm::dvec3 low_m{0.0}, high_m{0.0};
+  std::vector<SceneBatch> near{};
+  std::array<std::vector<SceneBatch>, kFarLevels.size()> far{};
+};
+
 /// One batch to draw, ready for its push constants.
 struct DrawItem {
   const SceneBatch* batch = nullptr;
@@ -42,14 +52,15 @@ struct DrawItem {
 };
 
 struct SceneBuffers {
-  std::vector<SceneBatch> batches;
+  std::vector<SceneBlock> blocks;
   gpu::DeviceBuffer vertices, indices, material_buffer;
 
   SceneBuffers() = default;
   SceneBuffers(gpu::Device& device, const Scene& scene);
 
   /// Batches whose bounds touch the view, those of one kind together, near ones first.
-  std::vector<DrawItem> visible(const Camera& camera, double aspect) const;
+  /// Blocks that begin at the multiples kFarLevels of `far_from_m` or beyond are drawn with their far meshes.
+  std::vector<DrawItem> visible(const Camera& camera, double aspect, double far_from_m) const;
 };
 
 }  // namespace phare

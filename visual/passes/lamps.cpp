@@ -25,9 +25,9 @@ namespace phare {
 namespace {
 
 // std140 and std430 agree for these: all members are 16 bytes.
-static_assert(sizeof(shader::GpuLamp) == 160 && offsetof(shader::GpuLamp, guide) == 144);
+static_assert(sizeof(shader::GpuLamp) == 176 && offsetof(shader::GpuLamp, guide) == 160);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 160);
-static_assert(sizeof(shader::GpuFrame) == 160 + shader::kMaxLamps * 160);
+static_assert(sizeof(shader::GpuFrame) == 160 + shader::kMaxLamps * 176);
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
 
@@ -118,7 +118,7 @@ LampPass::LampPass(gpu::Device& device)
                                                                     .minFilter = vk::Filter::eLinear,
                                                                     .mipmapMode = vk::SamplerMipmapMode::eNearest,
                                                                     .maxLod = VK_LOD_CLAMP_NONE});
-  table_sampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo{});  // tables are fetched, never filtered
+  table_sampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.addressModeU = vk::SamplerAddressMode::eClampToEdge, .addressModeV = vk::SamplerAddressMode::eClampToEdge});  // tables are fetched, never filtered
   grain_ = make_grain(device);
   frame_ = gpu::HostBuffer(device, sizeof(shader::GpuFrame), vk::BufferUsageFlagBits::eUniformBuffer, "frame");
 }
@@ -155,8 +155,8 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Came
     frame.view_from_clip[i] = view[i];
   }
   frame.exposure = glm::vec4(exposure_per_cdm2, 0.0f);
-  // The horizon three times brighter: a clear night far from towns, brightened enough to be seen on a display.
-  frame.sky = glm::vec4(0.0f, static_cast<float>(sky_cdm2), 0.0f, 3.0f);
+  // Zenith bluish, the horizon three times brighter: a clear night far from towns, brightened enough to be seen on a display.
+  frame.sky = glm::vec4(glm::vec3(0.75f, 1.0f, 1.7f) * static_cast<float>(sky_cdm2), 3.0f);
   lamp_count_ = lookups_ = 0;
   colours_differ_ = false;
   for (const PlacedLamp& lamp : lamps) {
@@ -166,7 +166,7 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Came
     lookups_ |= beam.lookup << (2 * lamp_count_);
     colours_differ_ |= lamp_count_ > 0 && glm::vec3(frame.lamps[0].colour) != beam.colour;
     shader::GpuLamp& out = frame.lamps[lamp_count_++];
-    out.position = glm::vec4(glm::vec3(lamp.position_m - camera.eye_m), 0.0f);
+    out.position = glm::vec4(glm::vec3(lamp.position_m - camera.eye_m), 1.0f);
     const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
     out.row_a = glm::vec4(glm::vec3(rows[0]), 0.0f);
     out.row_b = glm::vec4(glm::vec3(rows[1]), 0.0f);
@@ -179,10 +179,10 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Came
 
 vk::Pipeline LampPass::lit_pipeline(const Variant& variant) {
   if (const auto found = lit_.find(variant); found != lit_.end()) return *found->second;
-  const std::array<std::uint32_t, 7> values{variant.lamp_count, static_cast<std::uint32_t>(variant.surface), variant.retro ? 1u : 0u,
+  const std::array<std::uint32_t, 8> values{variant.lamp_count, static_cast<std::uint32_t>(variant.kind.surface), variant.kind.retro ? 1u : 0u,
                                             static_cast<std::uint32_t>(variant.output), variant.lamp_base, variant.lookups,
-                                            variant.colours_differ ? 1u : 0u};
-  std::array<vk::SpecializationMapEntry, 7> entries;
+                                            variant.colours_differ ? 1u : 0u, variant.kind.double_sided ? 2u : 1u};
+  std::array<vk::SpecializationMapEntry, 8> entries;
   for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = vk::SpecializationMapEntry{.constantID = i, .offset = 4 * i, .size = 4};
   const vk::SpecializationInfo constants{.mapEntryCount = entries.size(), .pMapEntries = entries.data(), .dataSize = sizeof values, .pData = values.data()};
   const bool measure = variant.output == LampOutput::kMeasure;
@@ -193,6 +193,7 @@ vk::Pipeline LampPass::lit_pipeline(const Variant& variant) {
                         .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
                         .stride = sizeof(GpuVertex),
                         .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
+                        .cull = variant.kind.double_sided || measure ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack,
                         .colour = {variant.format},
                         .depth = !measure,
                         .depth_write = !measure && !variant.depth_done,
@@ -237,9 +238,8 @@ void LampPass::draw_items(vk::CommandBuffer commands, const SceneBuffers& scene,
   vk::Pipeline bound;
   for (const DrawItem& item : items) {
     Variant variant = common;
-    variant.surface = item.batch->kind.surface;
-    variant.retro = item.batch->kind.retro;
-    if (variant.output == LampOutput::kAudit) variant.surface = Surface::kPlain, variant.retro = false;
+    variant.kind = item.batch->kind;
+    if (variant.output == LampOutput::kAudit) variant.kind = {.double_sided = variant.kind.double_sided};
     const vk::Pipeline pipeline = lit_pipeline(variant);
     if (pipeline != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = pipeline);
     commands.pushConstants<shader::GpuDraw>(*layout_, kStages, 0, item.push);

@@ -42,8 +42,7 @@ class LampPass {
 
  private:
   struct Variant {
-    Surface surface = Surface::kPlain;
-    bool retro = false;
+    MaterialKind kind{};
     LampOutput output = LampOutput::kDisplay;
     std::uint32_t lamp_count = 0, lamp_base = 0, lookups = 0;
     bool colours_differ = false;

@@ -1,0 +1,31 @@
+// A chunk as it is drawn from afar, with fewer triangles. A level of detail: the whole mesh is the truth; the frame benchmark says
+// what these save.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "visual/scene/scene.h"
+
+namespace phare {
+
+struct FarLevel {
+  double from;                  ///< multiple of FrameInput::far_mesh_from_m
+  std::uint32_t leaves_per_leaf;  ///< of so many leaf triangles one stays, grown to their area
+};
+inline constexpr std::array<FarLevel, 3> kFarLevels{{{0.4, 1}, {1.0, 3}, {2.5, 9}}};
+/// Errors in the place of corners, as angles from the level's beginning. A pixel of 1280 across 60° is 0.8 mrad.
+constexpr double kFarGroundError_rad = 0.2e-3;  ///< road and ground, which a crest shows edge on
+constexpr double kFarThingError_rad = 0.75e-3;  ///< things beside the road
+
+struct FarMesh {
+  std::vector<SceneVertex> vertices;   ///< relative to the chunk's origin
+  std::vector<std::uint32_t> indices;
+};
+
+/// Ground is simplified by quadric error (Garland and Heckbert 1997), things by joining corners, both by meshoptimizer; foliage is
+/// thinned; retroreflectors stay whole, and paint but at the last level, for what is seen of them far away is their exact place.
+/// `from_m`: the nearest distance this mesh is drawn at.
+FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level, double from_m);
+
+}  // namespace phare
