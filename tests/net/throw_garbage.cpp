@@ -28,10 +28,12 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   double rate_hz = 0.0;
   std::string template_file;
+  bool quiet = false;
   app.add_option("--port", port, "UDP port")->required()->check(CLI::Range(1, 65535));
   app.add_option("--count", count, "how many")->required()->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   app.add_option("--seed", seed, "of the random numbers");
   app.add_option("--rate", rate_hz, "datagrams a second, 0: as fast as it goes")->check(CLI::NonNegativeNumber);
+  app.add_flag("--quiet", quiet, "print nothing");
   app.add_option("--template", template_file, "drive file whose datagrams are cut and flipped; else made-up ones");
   try {
     app.parse(argc, argv);
@@ -79,6 +81,6 @@ int main(int argc, char** argv) {
   const nlohmann::json result = {{"port", port},     {"sent", count - failed},
                                  {"failed", failed}, {"seed", seed},
                                  {"seconds", took_s}, {"per_second", static_cast<double>(count - failed) / took_s}};
-  std::printf("%s\n", result.dump().c_str());
+  if (!quiet) std::printf("%s\n", result.dump().c_str());
   return kExitDone;
 }

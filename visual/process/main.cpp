@@ -68,7 +68,7 @@ int draw_channel(VisualOptions options) {
 
   Result<Bus> bus = Bus::open(*rig, Role::kVisual, options.channel);
   if (!bus) return refuse(bus.error());
-  Result<Album> album = options.out.empty() ? Result<Album>(Album{}) : Album::open(options.out);
+  Result<Album> album = options.out.empty() ? Result<Album>(Album{}) : Album::open(options.out, options.going_on);
   if (!album) return refuse(album.error());
 
   nlohmann::json lamps_json = describe(*lamps);
