@@ -4,6 +4,7 @@
 #include <array>
 #include <arpa/inet.h>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
@@ -29,10 +30,13 @@ int main(int argc, char** argv) {
   double rate_hz = 0.0;
   std::string template_file;
   bool quiet = false;
+  double on_s = 0.0, period_s = 0.0;
   app.add_option("--port", port, "UDP port")->required()->check(CLI::Range(1, 65535));
   app.add_option("--count", count, "how many")->required()->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   app.add_option("--seed", seed, "of the random numbers");
   app.add_option("--rate", rate_hz, "datagrams a second, 0: as fast as it goes")->check(CLI::NonNegativeNumber);
+  app.add_option("--on", on_s, "s of every --period, by the wall clock, in which it throws")->check(CLI::PositiveNumber);
+  app.add_option("--period", period_s, "s, see --on; 0: all the time")->check(CLI::NonNegativeNumber);
   app.add_flag("--quiet", quiet, "print nothing");
   app.add_option("--template", template_file, "drive file whose datagrams are cut and flipped; else made-up ones");
   try {
@@ -68,13 +72,18 @@ int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   std::uint64_t failed = 0;
+  double paused_s = 0.0;
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto bytes = garbage.next();
     if (sendto(fd, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to) < 0) ++failed;
-    if (rate_hz > 0.0 && i % 64 == 63) {
-      const double ahead_s = static_cast<double>(i + 1) / rate_hz - seconds();
-      if (ahead_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead_s));
-    }
+    if (i % 64 != 63) continue;
+    const double ahead_s = rate_hz > 0.0 ? static_cast<double>(i + 1) / rate_hz + paused_s - seconds() : 0.0;
+    if (ahead_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead_s));
+    if (period_s <= 0.0) continue;
+    const double into_s = std::fmod(static_cast<double>(wall_now().ns) * 1e-9, period_s);
+    if (into_s < on_s) continue;
+    paused_s += period_s - into_s;  // no catching up afterwards
+    std::this_thread::sleep_for(std::chrono::duration<double>(period_s - into_s));
   }
   const double took_s = seconds();
   close(fd);
@@ -82,5 +91,5 @@ int main(int argc, char** argv) {
                                  {"failed", failed}, {"seed", seed},
                                  {"seconds", took_s}, {"per_second", static_cast<double>(count - failed) / took_s}};
   if (!quiet) std::printf("%s\n", result.dump().c_str());
-  return kExitDone;
+  return failed == 0 ? kExitDone : kExitCheckFailed;
 }

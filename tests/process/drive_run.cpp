@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -23,11 +24,14 @@ std::string bytes_of(const fs::path& file) {
 
 ChildProcess start_drive(const fs::path& out, const fs::path& from, const std::vector<std::string>& arguments) {
   // env -C is the working directory; the program that runs is phare itself.
-  std::vector<std::string> words{"-C",          from.string(), PHARE_PROGRAM, "drive",
-                                 "--headless",  "--lockstep",  "--size",      "160x90",
-                                 "--out",       out.string(),  "--port-base", std::to_string(port_base()),
-                                 "--log-level", "error"};
+  std::vector<std::string> words{
+      "-C",          from.string(), PHARE_PROGRAM, "drive",       "--headless",
+      "--lockstep",  "--out",       out.string(),  "--port-base", std::to_string(port_base()),
+      "--log-level", "error"};
   words.insert(words.end(), arguments.begin(), arguments.end());
+  if (std::find(arguments.begin(), arguments.end(), "--size") == arguments.end()) {
+    words.insert(words.end(), {"--size", "160x90"});
+  }
   auto child = ChildProcess::start("/usr/bin/env", words);
   if (!child) {
     std::fprintf(stderr, "%s\n", child.error().text().c_str());
