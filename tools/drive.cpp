@@ -12,6 +12,7 @@
 #include <memory>
 #include <thread>
 
+#include "config/vehicle.h"
 #include "net/bus.h"
 #include "net/clock.h"
 #include "net/drive_file.h"
@@ -50,6 +51,8 @@ Result<Rig> prepare(DriveOptions& options) {
   if (options.port_base != 0) rig->port_base = options.port_base;
   if (!options.cockpit.empty()) rig->cockpit_file = fs::absolute(options.cockpit).lexically_normal();
   if (const Status status = check_rig_files(*rig); !status) return status.error();
+
+  if (const auto vehicle = read_vehicle(rig->vehicle_file); !vehicle) return vehicle.error();
 
   const std::string demo = config_path("drives/country_road.pcap");
   const bool any_source =

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "config/remedies.h"
 #include "config/rig.h"
 #include "tools/commands.h"
 #include "tools/reference_table.h"
@@ -116,7 +117,7 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
   renderer_options.width_px = renderer_options.height_px = 64;  // nothing is drawn to it
   renderer_options.validation = validation;
   auto renderer = Renderer::create(renderer_options);
-  if (!renderer) return renderer.error();
+  if (!renderer) return with_remedy(renderer.error());
   device = renderer->device();
   std::vector<MeasurePoint> at;
   at.reserve(points.rows.size());

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "config/remedies.h"
 #include "net/drive_file.h"
 #include "visual/process/run_loop.h"
 
@@ -63,7 +64,7 @@ int draw_channel(VisualOptions options) {
   drawing.device_name = options.device_name;
   drawing.window = window ? window->handle() : nullptr;
   Result<Renderer> renderer = Renderer::create(drawing);
-  if (!renderer) return refuse(renderer.error());
+  if (!renderer) return refuse(with_remedy(renderer.error()));
   if (const Status loaded = renderer->load_scene(*scene); !loaded) return refuse(loaded.error());
 
   Result<Bus> bus = Bus::open(*rig, Role::kVisual, options.channel);
