@@ -104,12 +104,22 @@ void remove_earlier_output(const fs::path& out, const std::vector<std::string>& 
   }
 }
 
-/// After bad input: no count, no picture, and no folder that was not there before.
-void remove_traces(const fs::path& out, const std::vector<std::string>& process_names) {
+/// The topmost folder that has to be made for `out`; empty when it is there.
+fs::path first_missing(fs::path out) {
+  fs::path missing;
+  for (; !out.empty() && !fs::exists(out); out = out.parent_path()) missing = out;
+  return missing;
+}
+
+/// After bad input: no count, no picture, and no folder from `made` down, which was not there before.
+void remove_traces(const fs::path& out, const fs::path& made, const std::vector<std::string>& process_names) {
   remove_earlier_output(out, process_names);
   std::error_code ignored;
-  fs::remove(out / "frames", ignored);  // only when empty
-  fs::remove(out, ignored);
+  fs::remove(out / "frames", ignored);  // only when empty, as those below
+  for (fs::path folder = out; !made.empty(); folder = folder.parent_path()) {
+    fs::remove(folder, ignored);
+    if (folder == made) break;
+  }
 }
 
 std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& options) {
@@ -269,9 +279,11 @@ int drive(DriveOptions& options) {
     if (!opened) return bad_input(opened.error());
     recorder = std::move(*opened);
   }
+  fs::path made;
   // The folder is touched last: whatever was wrong up to here leaves an earlier drive as it lay.
   if (!options.out.empty()) {
     std::error_code failed;
+    made = first_missing(options.out);
     fs::create_directories(options.out, failed);
     if (failed) return bad_input({options.out, failed.message()});
     remove_earlier_output(options.out, facts.process_names);
@@ -310,7 +322,7 @@ int drive(DriveOptions& options) {
   facts.why = supervisor.why();
   if (!recorded) return bad_input(recorded.error());
   if (recorder) spdlog::info("{} datagrams recorded in {}", recorder->written(), options.record);
-  if (facts.exit_code == kExitBadInput && !options.out.empty()) remove_traces(options.out, facts.process_names);
+  if (facts.exit_code == kExitBadInput && !options.out.empty()) remove_traces(options.out, made, facts.process_names);
   // What was wrong with its input the process has said itself.
   if (facts.exit_code != kExitDone && facts.exit_code != kExitBadInput)
     std::fprintf(stderr, "phare: %s\n", facts.why.c_str());

@@ -1,6 +1,7 @@
-// phare-endurance: a long lockstep drive with a flood of garbage on every socket, eight seconds of every ten.
-// Prints what the project promises: garbage refused and counted, frame times as in the two seconds without, memory that
-// does not grow. Takes minutes: a command, not a test.
+// phare-endurance: a long lockstep drive with a flood of garbage on every socket, eight seconds of every ten; in the
+// other two the same flood goes to sockets nobody reads, so that its own work weighs on both.
+// Prints what the project promises: garbage refused and counted, frame times as in the two seconds, memory that does
+// not grow. Takes minutes: a command, not a test.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -123,9 +124,10 @@ void say_memory(const Samples& rss, double minutes) {
       const auto first = samples.begin() + static_cast<std::ptrdiff_t>(from);
       return median({first, first + static_cast<std::ptrdiff_t>(minute - 2)});
     };
-    const double first = middle_of(2), second = middle_of(minute), last = middle_of(samples.size() - minute);
-    std::printf("%-15s resident: first minute %.0f KiB, second %.0f, last %.0f; %+.0f KiB since the second\n",
-                program.c_str(), first, second, last, last - second);
+    std::printf("%-15s resident, MiB, minute by minute:", program.c_str());
+    for (std::size_t from = 0; from + minute <= samples.size(); from += minute)
+      std::printf(" %.1f", middle_of(from) / 1024.0);
+    std::printf("\n");
   }
 }
 
@@ -164,7 +166,8 @@ bool say_counts(const Options& options, const json& report) {
     const auto refused = bus.value("refused", std::uint64_t{0}),
                early = bus.value("refused_in_kernel", std::uint64_t{0});
     const json& own = report["summary"]["messages"][process];
-    good = good && refused == options.garbage && own["restarted"] == 0;
+    // More than was thrown: messages of the drive that found no room behind the flood, and were sent again.
+    good = good && refused >= options.garbage && own["lost"] == 0 && own["restarted"] == 0;
     std::printf(
         "%-9s thrown %llu, refused %llu: %llu by the socket (its filter, or no room), %s; own messages received "
         "%s, lost %s\n",
