@@ -53,6 +53,9 @@ class BadInput : public testing::Test {
     write_rig("rig_bad_car.toml", text, "\"../vehicles/hatchback.toml\"", "\"bad_car.toml\"");
     write_rig("rig_bad_cockpit.toml", text, "\"../cockpits/keyboard.toml\"", "\"bad_cockpit.toml\"");
     write_rig("rig_off_loopback.toml", text, "127.0.0.1", "10.0.0.1");
+    write_rig("rig_no_key.toml", text, "address = ", "key_file = \"absent.key\"\naddress = ");
+    write_rig("rig_bad_key.toml", text, "address = ", "key_file = \"bad.key\"\naddress = ");
+    write("bad.key", "00ff\n");
     write("rig_syntax.toml", "name = \"x\"\nscene = \n");
     write("bad.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6 oops\n1 2 3\n");
     write("short.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6\n");
@@ -122,6 +125,8 @@ TEST_F(BadInput, OfADrive) {
       {"rig not TOML", drive + "--rig rig_syntax.toml", "rig_syntax.toml:2: "},
       {"rig with unknown key", drive + "--rig rig_unknown_key.toml", "no key \"scnee\"; did you mean \"scene\"?"},
       {"rig off loopback", drive + "--rig rig_off_loopback.toml", "rig_off_loopback.toml:"},
+      {"no key", drive + "--rig rig_no_key.toml", "absent.key: no such file"},
+      {"key too short", drive + "--rig rig_bad_key.toml", "bad.key:1: expected 64 hexadecimal digits"},
       {"no IES", drive + "--rig rig_no_ies.toml", "absent.ies: no such file"},
       {"IES with a word", drive + "--rig rig_bad_ies.toml", "bad.ies:7: a candela value is not a number: \"oops\""},
       {"no glTF", drive + "--rig rig_no_glb.toml", "absent.glb: no such file"},

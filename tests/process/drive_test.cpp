@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 #include "net/drive_file.h"
 #include "tests/process/drive_run.h"
@@ -92,6 +93,31 @@ TEST_F(DriveTest, TheSameBitForBitFromAnotherWorkingDirectory) {
   ASSERT_EQ(drive("again", elsewhere, arguments()), 0);  // relative to the working directory
   expect_the_same_pictures(elsewhere / "again");
   EXPECT_EQ(facts_of(quiet_.report), facts_of(report_of(elsewhere / "again")));
+}
+
+TEST_F(DriveTest, TheSameOffLoopbackWithAKey) {
+  std::ifstream rig(PHARE_SOURCE_DIR "/config/rigs/country_road.toml");
+  std::string text{std::istreambuf_iterator<char>(rig), {}};
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+  };
+  replace("\"../", "\"" PHARE_SOURCE_DIR "/config/");
+  replace("\"127.0.0.1\"", "\"0.0.0.0\"\nkey_file = \"bus.key\"");
+  std::ofstream(folder_ / "sealed.toml") << text;
+  std::ofstream(folder_ / "bus.key") << std::string(64, 'a') << '\n';
+  ASSERT_EQ(
+      drive(folder_ / "sealed", folder_ / "home", {"--frames", "12", "--rig", (folder_ / "sealed.toml").string()}), 0);
+  const auto pictures = pictures_of(folder_ / "sealed");
+  for (int frame = 0; frame < 12; ++frame) {
+    char name[40];
+    std::snprintf(name, sizeof name, "frames/%06d.png", frame);
+    ASSERT_TRUE(pictures.contains(name)) << name;
+    EXPECT_EQ(pictures.at(name), quiet_.pictures.at(name)) << name;
+  }
+  const json report = report_of(folder_ / "sealed");
+  for (const char* process : {"cockpit", "dynamics", "visual-0", "phare"})
+    EXPECT_EQ(report["summary"]["messages"][process]["refused"], 0) << process;
 }
 
 class KillTest : public DriveTest, public testing::WithParamInterface<const char*> {};
