@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -104,6 +105,21 @@ void check_names_differ(TomlTable& table, std::string_view key, const std::vecto
   }
 }
 
+/// Never tells what stands in the file.
+Result<BusKey> read_key(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string digits, more;
+  if (!(stream >> digits)) return Error{file.string(), "no such file, or it is empty; openssl rand -hex 32 makes a key"};
+  BusKey key{};
+  bool good = digits.size() == 2 * key.size() && !(stream >> more);
+  for (std::size_t i = 0; good && i < key.size(); ++i) {
+    const char* byte = digits.data() + 2 * i;
+    good = std::from_chars(byte, byte + 2, key[i], 16).ptr == byte + 2;
+  }
+  if (!good) return Error{file.string() + ":1", "expected " + std::to_string(2 * key.size()) + " hexadecimal digits"};
+  return key;
+}
+
 std::filesystem::path generated_dir() {
   const char* from_environment = std::getenv("PHARE_GENERATED_DIR");
   if (from_environment != nullptr && *from_environment != '\0') return from_environment;
@@ -134,8 +150,14 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
   if (auto bus = root.table_if("bus")) {
     rig.bind_address = bus->text_or("address", rig.bind_address);
     rig.port_base = static_cast<std::uint16_t>(bus->integer_or("port_base", rig.port_base, 1024, 65500));
-    // Off loopback datagrams need a shared key, which this version does not have: better no bus than an open one.
-    if (!rig.bind_address.starts_with("127.")) bus->fail("address", "only loopback addresses (127.…) are served");
+    const std::string key_file = bus->text_or("key_file", "");
+    if (!key_file.empty()) {
+      const Result<BusKey> key = read_key(resolve_path(key_file, rig_file));
+      if (!key) return key.error();
+      rig.bus_key = *key;
+    } else if (!rig.bind_address.starts_with("127.")) {
+      bus->fail("address", "off loopback (127.…) a key_file is required: 64 hexadecimal digits, as of openssl rand -hex 32");
+    }
   }
   if (auto clock = root.table_if("clock"))
     rig.frame_rate_hz = clock->integer_or("frame_rate_hz", rig.frame_rate_hz, 1, 1000);

@@ -2,9 +2,11 @@
 // Keys in the file carry degrees where the name ends in _deg; here everything is SI.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,11 +56,15 @@ struct ChannelConfig {
   double pitch_rad = 0.0;             ///< > 0 up
 };
 
+/// Shared by the processes of a bus that is not on loopback.
+using BusKey = std::array<std::uint8_t, 32>;
+
 struct Rig {
   std::filesystem::path file;
   std::string name;
   std::string bind_address = "127.0.0.1";
   std::uint16_t port_base = 47000;
+  std::optional<BusKey> bus_key{};    ///< of [bus] key_file: 64 hexadecimal digits; required off loopback
   std::int64_t frame_rate_hz = 60;     ///< of lockstep frames
   std::filesystem::path scene_file;    ///< glTF; resolved
   std::filesystem::path vehicle_file;  ///< resolved

@@ -44,9 +44,8 @@ Result<Bus> Bus::open(const Rig& rig, Role role, std::uint32_t channel) {
     return Error{place, "has no channel " + std::to_string(channel) + " (channels count from 0, there are " +
                             std::to_string(channels) + ")"};
   }
-  if (!rig.bind_address.starts_with("127.")) {
-    return Error{place, "bind address " + rig.bind_address +
-                            " lies off loopback: datagrams need a key there, which this version cannot check yet"};
+  if (!rig.bind_address.starts_with("127.") && !rig.bus_key) {
+    return Error{place, "bind address " + rig.bind_address + " lies off loopback: a key is required there"};
   }
   if (rig.port_base > 65535 - kMaxPortOffset) {
     return Error{place, "port base " + std::to_string(rig.port_base) + " leaves no room for " +
@@ -55,18 +54,20 @@ Result<Bus> Bus::open(const Rig& rig, Role role, std::uint32_t channel) {
   const auto port = static_cast<std::uint16_t>(rig.port_base + port_offset(role, channel));
   Result<UdpSocket> socket = UdpSocket::open(rig.bind_address, port);
   if (!socket) return socket.error();
-  if (!socket->filter_in_kernel()) spdlog::debug("no socket filter in this kernel: garbage is refused by the process itself");
+  if (!socket->filter_in_kernel(Seal(rig.bus_key).tag_bytes())) spdlog::debug("no socket filter in this kernel: garbage is refused by the process itself");
   return Bus(std::move(*socket), rig, role, channel);
 }
 
 Bus::Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel)
     : socket_(std::move(socket)),
+      seal_(rig.bus_key),
       role_(role),
       channel_(channel),
       channels_(static_cast<std::uint32_t>(std::max<std::size_t>(rig.channels.size(), 1))),
       port_base_(rig.port_base),
       start_id_(draw_start_id()),
       next_log_(std::chrono::steady_clock::now()) {
+  if (rig.bus_key) replays_.emplace();
   std::get<std::vector<Inbox<CockpitState>>>(inboxes_).resize(1);
   std::get<std::vector<Inbox<VehicleState>>>(inboxes_).resize(1);
   std::get<std::vector<Inbox<FrameReport>>>(inboxes_).resize(channels_);
@@ -89,6 +90,7 @@ void Bus::send(SimTime now, const Payload& payload) {
   }
   ++counters_.sent[index];
   encode_into(datagram, last_bytes_[index]);
+  seal_.close(last_bytes_[index]);
   transmit(index);
 }
 
@@ -129,7 +131,13 @@ std::size_t Bus::poll() {
   return news;
 }
 
-bool Bus::accept(std::span<const std::byte> bytes) {
+bool Bus::accept(std::span<const std::byte> sealed) {
+  const auto opened = seal_.open(sealed);
+  if (!opened) {
+    refuse(Refusal::kKey);
+    return false;
+  }
+  const std::span<const std::byte> bytes = *opened;
   if (const Refusal refusal = decode_into(bytes, incoming_); refusal != Refusal::kNone) {
     refuse(refusal);
     return false;
@@ -139,6 +147,10 @@ bool Bus::accept(std::span<const std::byte> bytes) {
   const bool for_us = row.receivers.has(role_) && !(row.first_visual_only && channel_ != 0) && incoming_.sender_channel < channels_;
   if (!for_us) {
     refuse(Refusal::kNotForUs);
+    return false;
+  }
+  if (replays_ && replays_->is_replay(incoming_)) {
+    refuse(Refusal::kReplay);
     return false;
   }
 

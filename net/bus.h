@@ -19,6 +19,7 @@
 #include "net/channels.h"
 #include "net/inbox.h"
 #include "net/messages.h"
+#include "net/seal.h"
 #include "net/udp.h"
 #include "net/wire.h"
 
@@ -40,7 +41,7 @@ class Bus {
   using Newest = phare::Newest<T>;
 
   /// Binds the port of `role` (and `channel`, for a visual process). Error when it is taken, when the rig has no such
-  /// channel, or when rig.bind_address lies off loopback.
+  /// channel, or when rig.bind_address lies off loopback and rig has no key.
   static Result<Bus> open(const Rig& rig, Role role, std::uint32_t channel = 0);
 
   /// Numbers, stamps and encodes the payload and sends it to every receiver of its row in kChannels. A payload that no
@@ -95,6 +96,8 @@ class Bus {
   void log_refusals();
 
   UdpSocket socket_;
+  Seal seal_;
+  std::optional<Replays> replays_;  // where there is a key
   Role role_;
   std::uint32_t channel_;
   std::uint32_t channels_;
@@ -104,7 +107,7 @@ class Bus {
   std::tuple<std::vector<Inbox<CockpitState>>, std::vector<Inbox<VehicleState>>, std::vector<Inbox<FrameReport>>,
              std::vector<Inbox<RigControl>>, std::vector<Inbox<ProbeRequest>>, std::vector<Inbox<ProbeReply>>>
       inboxes_;  // one per sender channel
-  std::array<std::string, kChannels.size()> last_bytes_;
+  std::array<std::string, kChannels.size()> last_bytes_;  // sealed
   BusCounters counters_;
   Datagram incoming_;                          // reused
   std::chrono::steady_clock::time_point next_log_;

@@ -41,6 +41,8 @@ const char* refusal_key(Refusal refusal) {
     case Refusal::kRange: return "range";
     case Refusal::kArrays: return "arrays";
     case Refusal::kNotForUs: return "not_for_us";
+    case Refusal::kKey: return "key";
+    case Refusal::kReplay: return "replay";
   }
   return "none";
 }

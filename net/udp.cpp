@@ -111,12 +111,13 @@ bool UdpSocket::wait(std::chrono::nanoseconds at_most) {
   return ppoll(&waited, 1, &timeout, nullptr) > 0;
 }
 
-bool UdpSocket::filter_in_kernel() {
-  // Accepts what begins with 08 01 10 {01..04} and has 85 01 six bytes before its end.
+bool UdpSocket::filter_in_kernel(std::size_t tag_bytes) {
+  const auto tag = static_cast<std::uint32_t>(tag_bytes);
+  // Accepts what begins with 08 01 10 {01..04} and has 85 01 six bytes before its end, or before its tag.
   std::array<sock_filter, 13> program{{
       BPF_STMT(BPF_LD | BPF_W | BPF_LEN, 0),
-      BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, kUdpHeaderBytes + 16, 0, 10),
-      BPF_STMT(BPF_ALU | BPF_SUB | BPF_K, 6),
+      BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, kUdpHeaderBytes + 16 + tag, 0, 10),
+      BPF_STMT(BPF_ALU | BPF_SUB | BPF_K, 6 + tag),
       BPF_STMT(BPF_MISC | BPF_TAX, 0),
       BPF_STMT(BPF_LD | BPF_H | BPF_IND, 0),
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, 0x8501, 0, 6),

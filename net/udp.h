@@ -36,7 +36,8 @@ class UdpSocket {
 
   /// Lets the kernel drop what cannot be a Datagram (its first and last tag, see wire.h) before it takes room in the
   /// buffer and time of this process. False where the kernel has no socket filters; everything then arrives here.
-  bool filter_in_kernel();
+  /// `tag_bytes` follow each datagram (net/seal.h).
+  bool filter_in_kernel(std::size_t tag_bytes = 0);
 
   /// Datagrams the kernel has dropped since open(): by the filter, or because the buffer was full.
   std::uint64_t dropped_in_kernel() const;

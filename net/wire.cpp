@@ -415,6 +415,8 @@ const char* refusal_text(Refusal refusal) {
     case Refusal::kRange: return "a value is out of range";
     case Refusal::kArrays: return "probe arrays differ in length or exceed 1000 points";
     case Refusal::kNotForUs: return "not meant for this process";
+    case Refusal::kKey: return "not sealed with the key of this bus";
+    case Refusal::kReplay: return "of an earlier start of its sender";
   }
   return "unknown";
 }

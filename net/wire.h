@@ -33,8 +33,10 @@ enum class Refusal {
   kRange,       ///< a number, enum or text length outside its sane range
   kArrays,      ///< probe arrays of different or excessive length
   kNotForUs,    ///< valid, but this process is no receiver of it (told by Bus)
+  kKey,         ///< not sealed with the key of this bus (told by Bus)
+  kReplay,      ///< of an earlier start of its sender, played again (told by Bus, where there is a key)
 };
-inline constexpr std::size_t kRefusals = 11;
+inline constexpr std::size_t kRefusals = 13;
 
 /// One short sentence, static.
 const char* refusal_text(Refusal refusal);

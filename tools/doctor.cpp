@@ -9,14 +9,21 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <thread>
 #include <vector>
 
+#include "config/remedies.h"
 #include "tools/child_process.h"
 #include "tools/commands.h"
 #ifdef PHARE_WITH_GRAPHICS
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
 #include "visual/renderer.h"
 #endif
 
@@ -32,11 +39,11 @@ struct Finding {
 };
 
 Finding vulkan_devices() {
-  Finding finding{"Vulkan device", false, true, "", "apt-get install mesa-vulkan-drivers (draws without a GPU)"};
+  Finding finding{"Vulkan device", false, true, "", kVulkanRemedy};
 #ifdef PHARE_WITH_GRAPHICS
   const auto devices = list_vulkan_devices();
   if (!devices) {
-    finding.detail = devices.error().text();
+    finding.detail = "none (" + devices.error().reason + ")";
   } else {
     finding.there = !devices->empty();
     for (const std::string& device : *devices) finding.detail += (finding.detail.empty() ? "" : "; ") + device;
@@ -51,8 +58,7 @@ Finding vulkan_devices() {
 
 /// Where the Vulkan loader looks for explicit layers; the environment can add to it.
 Finding validation_layer() {
-  Finding finding{"Vulkan validation layer", false, false, "not found; --validation does not work",
-                  "apt-get install vulkan-validationlayers"};
+  Finding finding{"Vulkan validation layer", false, false, "not found; --validation does not work", kValidationRemedy};
   std::vector<std::filesystem::path> folders{"/usr/share/vulkan/explicit_layer.d", "/etc/vulkan/explicit_layer.d",
                                              "/usr/local/share/vulkan/explicit_layer.d"};
   if (const char* path = std::getenv("VK_LAYER_PATH")) folders.insert(folders.begin(), path);
@@ -85,13 +91,19 @@ Finding display() {
   const char* wayland = std::getenv("WAYLAND_DISPLAY");
   const char* x11 = std::getenv("DISPLAY");
   const bool has_wayland = wayland != nullptr && *wayland != '\0', has_x11 = x11 != nullptr && *x11 != '\0';
-  Finding finding{"Display", has_wayland || has_x11, false, "", ""};
-  if (has_wayland) finding.detail = std::string("Wayland ") + wayland;
-  if (has_x11) finding.detail += (finding.detail.empty() ? "X11 " : ", X11 ") + std::string(x11);
-  if (!finding.there) {
-    finding.detail = "none; phare drive writes pictures instead";
-    finding.remedy = "apt-get install xvfb for a virtual one";
-  }
+  Finding finding{"Display", has_wayland || has_x11, false, "none; phare drive writes pictures instead",
+                  kDisplayRemedy};
+  if (!finding.there) return finding;
+  finding.detail = has_wayland ? std::string("Wayland ") + wayland : "X11 " + std::string(x11);
+#ifdef PHARE_WITH_GRAPHICS
+  // Named is not yet open.
+  const bool opens = glfwInit() == GLFW_TRUE;
+  const char* reason = nullptr;
+  if (!opens) glfwGetError(&reason);
+  glfwTerminate();
+  finding.there = opens;
+  if (!opens) finding.detail += ", which does not open (" + std::string(reason != nullptr ? reason : "GLFW") + ")";
+#endif
   return finding;
 }
 
@@ -115,6 +127,33 @@ Finding program(const char* name, const char* what_for) {
           std::string("apt-get install ") + name};
 }
 
+/// packages.txt of this source tree against what dpkg has.
+Finding packages() {
+  Finding finding{"Debian packages", false, false, "", ""};
+  std::ifstream list(config_path("../packages.txt"));
+  std::set<std::string> installed;
+  FILE* dpkg = popen("dpkg-query -W -f '${db:Status-Abbrev} ${Package}\\n' 2>/dev/null", "r");
+  for (char state[16], name[256]; dpkg != nullptr && std::fscanf(dpkg, "%15s %255s", state, name) == 2;) {
+    if (std::strncmp(state, "ii", 2) == 0) installed.insert(name);
+  }
+  if (dpkg != nullptr) pclose(dpkg);
+  if (!list || installed.empty()) {
+    finding.detail = !list ? "packages.txt is not beside this build" : "dpkg-query tells of none: not a Debian";
+    return finding;
+  }
+  std::size_t wanted = 0;
+  std::string missing;
+  for (std::string line, name; std::getline(list, line);) {
+    if (!(std::istringstream(line.substr(0, line.find('#'))) >> name)) continue;
+    ++wanted;
+    if (!installed.contains(name)) missing += " " + name;
+  }
+  finding.there = missing.empty();
+  finding.detail = finding.there ? "all " + std::to_string(wanted) + " of packages.txt" : "not all of packages.txt";
+  finding.remedy = "apt-get install" + missing;
+  return finding;
+}
+
 Finding processes() {
   Finding finding{"Phare's processes", true, true, "", "build everything: cmake --build --preset release"};
   for (const char* name : {"phare-cockpit", "phare-dynamics", "phare-visual"}) {
@@ -130,6 +169,7 @@ int doctor(bool json) {
   const std::vector<Finding> findings{vulkan_devices(),
                                       validation_layer(),
                                       processes(),
+                                      packages(),
                                       can_sockets(),
                                       display(),
                                       clock_found(),

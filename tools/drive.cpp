@@ -12,6 +12,7 @@
 #include <memory>
 #include <thread>
 
+#include "config/vehicle.h"
 #include "net/bus.h"
 #include "net/clock.h"
 #include "net/drive_file.h"
@@ -30,7 +31,7 @@ using Clock = std::chrono::steady_clock;
 
 struct DriveOptions {
   std::string rig_file = config_path("rigs/country_road.toml");
-  std::string drive, script, log, dbc, out, record, size, log_level = "info";
+  std::string drive, script, log, dbc, cockpit, out, record, size, log_level = "info";
   bool headless = false, lockstep = false, closed_loop = false, validation = false, json = false;
   std::int64_t frames = 0;
   int samples = 0;
@@ -48,12 +49,14 @@ Result<Rig> prepare(DriveOptions& options) {
   auto rig = read_rig(options.rig_file);
   if (!rig) return rig.error();
   if (options.port_base != 0) rig->port_base = options.port_base;
+  if (!options.cockpit.empty()) rig->cockpit_file = fs::absolute(options.cockpit).lexically_normal();
   if (const Status status = check_rig_files(*rig); !status) return status.error();
-  if (!options.log.empty() && options.dbc.empty())
-    return Error{"--log", "needs --dbc FILE, which says what its frames mean"};
+
+  if (const auto vehicle = read_vehicle(rig->vehicle_file); !vehicle) return vehicle.error();
 
   const std::string demo = config_path("drives/country_road.pcap");
-  const bool any_source = !options.drive.empty() || !options.script.empty() || !options.log.empty();
+  const bool any_source =
+      !options.drive.empty() || !options.script.empty() || !options.log.empty() || !options.cockpit.empty();
   if (!any_source && fs::exists(demo)) options.drive = demo;
   for (std::string* file : {&options.drive, &options.script, &options.log, &options.dbc}) {
     if (file->empty()) continue;
@@ -65,17 +68,23 @@ Result<Rig> prepare(DriveOptions& options) {
     options.headless = true;
   }
   if (options.headless && options.out.empty()) options.out = "out";
-  if (!options.out.empty()) {
-    std::error_code failed;
-    fs::create_directories(options.out, failed);
-    if (failed) return Error{options.out, failed.message()};
-    options.out = fs::absolute(options.out).string();
-  }
+  if (!options.out.empty()) options.out = fs::absolute(options.out).lexically_normal().string();
   for (const char* name : {"phare-cockpit", "phare-dynamics", "phare-visual"}) {
     if (access(program_beside_us(name).c_str(), X_OK) != 0)
       return Error{program_beside_us(name).string(), "is not there; build everything"};
   }
   return rig;
+}
+
+/// A process that is killed while it writes its counts leaves <name>.json.tmp<process id>.
+void remove_half_written(const fs::path& out, const std::vector<std::string>& process_names) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(out, ignored)) {
+    const std::string file = entry.path().filename().string();
+    for (const std::string& name : process_names) {
+      if (file.starts_with(name + ".json.tmp")) fs::remove(entry.path(), ignored);
+    }
+  }
 }
 
 /// What an earlier drive left in the folder; nothing else in it is touched.
@@ -86,11 +95,30 @@ void remove_earlier_output(const fs::path& out, const std::vector<std::string>& 
     fs::remove(out / file, ignored);
   }
   for (const std::string& name : process_names) fs::remove(out / (name + ".json"), ignored);
+  remove_half_written(out, process_names);
   for (const auto& entry : fs::directory_iterator(out / "frames", ignored)) {
     const std::string stem = entry.path().stem().string();
     const bool ours = entry.path().extension() == ".png" &&
                       std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c); });
     if (ours) fs::remove(entry.path(), ignored);
+  }
+}
+
+/// The topmost folder that has to be made for `out`; empty when it is there.
+fs::path first_missing(fs::path out) {
+  fs::path missing;
+  for (; !out.empty() && !fs::exists(out); out = out.parent_path()) missing = out;
+  return missing;
+}
+
+/// After bad input: no count, no picture, and no folder from `made` down, which was not there before.
+void remove_traces(const fs::path& out, const fs::path& made, const std::vector<std::string>& process_names) {
+  remove_earlier_output(out, process_names);
+  std::error_code ignored;
+  fs::remove(out / "frames", ignored);  // only when empty, as those below
+  for (fs::path folder = out; !made.empty(); folder = folder.parent_path()) {
+    fs::remove(folder, ignored);
+    if (folder == made) break;
   }
 }
 
@@ -105,9 +133,10 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
     return arguments;
   };
   ProcessSpec cockpit{"cockpit", program_beside_us("phare-cockpit"), common("cockpit")};
+  cockpit.arguments.insert(cockpit.arguments.end(), {"--cockpit", rig.cockpit_file.string()});
   if (!options.script.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--script", options.script});
-  if (!options.log.empty())
-    cockpit.arguments.insert(cockpit.arguments.end(), {"--log", options.log, "--dbc", options.dbc});
+  if (!options.log.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--log", options.log});
+  if (!options.dbc.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--dbc", options.dbc});
 
   ProcessSpec dynamics{"dynamics", program_beside_us("phare-dynamics"), common("dynamics")};
   // Open loop shows the recorded poses; closed loop lets the car answer the recorded controls.
@@ -128,6 +157,7 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
     if (!options.out.empty()) {
       const fs::path out = channel == 0 ? fs::path(options.out) : fs::path(options.out) / rig.channels[channel].name;
       arguments.insert(arguments.end(), {"--out", out.string()});
+      visual.restart_arguments = {"--go-on"};
     }
     specs.push_back(std::move(visual));
   }
@@ -211,6 +241,10 @@ void print_summary(const nlohmann::json& report, const std::string& out) {
       std::printf("; %s KiB", summary["memory"][process].value("peak_kib", nlohmann::json(0)).dump().c_str());
     std::printf("\n");
   }
+  for (const auto& restart : report["restarts"]) {
+    std::printf("%s was started again at %.2f s after %s\n", restart["process"].get<std::string>().c_str(),
+                restart["at_s"].get<double>(), restart["because"].get<std::string>().c_str());
+  }
   if (summary.contains("frame_ms")) {
     const auto& t = summary["frame_ms"];
     std::printf("%s frames, %.2f ms median, %.2f ms p99, %.0f frames a second at the median\n",
@@ -234,7 +268,6 @@ int drive(DriveOptions& options) {
   const std::vector<ProcessSpec> specs = processes_of(*rig, options);
   DriveFacts facts;
   for (const ProcessSpec& spec : specs) facts.process_names.push_back(spec.name);
-  if (!options.out.empty()) remove_earlier_output(options.out, facts.process_names);
 
   const StopFlag stop = install_stop_signals();
   auto bus = Bus::open(*rig, Role::kControl);
@@ -246,11 +279,21 @@ int drive(DriveOptions& options) {
     if (!opened) return bad_input(opened.error());
     recorder = std::move(*opened);
   }
+  fs::path made;
+  // The folder is touched last: whatever was wrong up to here leaves an earlier drive as it lay.
+  if (!options.out.empty()) {
+    std::error_code failed;
+    made = first_missing(options.out);
+    fs::create_directories(options.out, failed);
+    if (failed) return bad_input({options.out, failed.message()});
+    remove_earlier_output(options.out, facts.process_names);
+  }
 
   Supervisor supervisor(specs);
   const auto begin = Clock::now();
   if (const Status status = supervisor.start(); !status) return bad_input(status.error());
   Status recorded = Done{};
+  std::size_t restarts_seen = 0;
   {
     Progress progress(frames_expected(options, *rig, duration));
     while (!stop && supervisor.step()) {
@@ -264,6 +307,11 @@ int drive(DriveOptions& options) {
         progress.show(report->value, frame);
       }
       if (recorder && recorded.ok()) recorded = recorder->poll();
+      // What a process last said of itself, before the one that takes its place writes over it.
+      for (; restarts_seen < supervisor.restarts().size(); ++restarts_seen) {
+        const std::string& name = supervisor.restarts()[restarts_seen].process;
+        if (!options.out.empty()) facts.before_restarts.push_back(read_stats(options.out, name));
+      }
     }
   }
   // A visual process writes its pictures when it is told to end; give it the time.
@@ -274,13 +322,20 @@ int drive(DriveOptions& options) {
   facts.why = supervisor.why();
   if (!recorded) return bad_input(recorded.error());
   if (recorder) spdlog::info("{} datagrams recorded in {}", recorder->written(), options.record);
-  if (facts.exit_code != kExitDone) std::fprintf(stderr, "phare: %s\n", facts.why.c_str());
+  if (facts.exit_code == kExitBadInput && !options.out.empty()) remove_traces(options.out, made, facts.process_names);
+  // What was wrong with its input the process has said itself.
+  if (facts.exit_code != kExitDone && facts.exit_code != kExitBadInput)
+    std::fprintf(stderr, "phare: %s\n", facts.why.c_str());
 
   if (!options.out.empty() && facts.exit_code != kExitBadInput) {
     facts.command = options.command;
     facts.lockstep = options.lockstep;
     facts.restarts = supervisor.restarts();
     facts.ends = supervisor.ends();
+    bus->poll();
+    facts.own_counts["phare"] = stats_json("phare", *bus);
+    if (recorder) facts.own_counts["recorder"] = stats_json("recorder", recorder->bus());
+    remove_half_written(options.out, facts.process_names);
     for (const std::string* file : {&options.drive, &options.script, &options.log}) {
       if (!file->empty()) facts.source_file = *file;
     }
@@ -313,7 +368,9 @@ void add_drive(CLI::App& app, Command& chosen) {
   command->add_option("--log", options->log, "candump log that moves the controls")
       ->excludes(drive_file)
       ->excludes(script);
-  command->add_option("--dbc", options->dbc, "DBC file for --log");
+  command->add_option("--dbc", options->dbc, "DBC file for --log [the cockpit file's]");
+  command->add_option("--cockpit", options->cockpit,
+                      "Cockpit file, instead of the rig's: which signals move the controls");
   command->add_flag("--headless", options->headless, "No window (also when there is no display)");
   command->add_flag("--lockstep", options->lockstep, "Frame by frame: reproducible bit for bit, however slow");
   command->add_option("--frames", options->frames, "Keep each of the first N frames as a picture, then end")

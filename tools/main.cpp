@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "config/toml_table.h"
 #include "tools/commands.h"
 
 namespace phare {
@@ -40,6 +41,12 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return app.exit(help);
+  } catch (const CLI::RequiredError& wrong) {
+    const bool named = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
+    if (!named) return bad_input({"", wrong.what() + std::string(" (see --help)")});
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) commands.push_back(command->get_name());
+    return bad_input({"", unknown_name_reason("command", argv[1], commands)});
   } catch (const CLI::ParseError& wrong) {
     std::fprintf(stderr, "phare: %s (see --help)\n", wrong.what());
     return kExitBadInput;

@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "config/remedies.h"
 #include "config/rig.h"
 #include "tools/commands.h"
+#include "tools/reference_table.h"
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/illuminance.h"
 #include "visual/photometry/points_file.h"
@@ -20,11 +22,15 @@ namespace phare {
 namespace {
 
 struct MeasureOptions {
-  std::string rig_file, points, out, method = "fragment", design;
+  std::string rig_file, points, table, out, method = "fragment", design;
   std::vector<std::string> lamps;
   std::vector<std::string> beams{"low"};
+  double max_error = 0.0;  ///< relative; 0: the method's own
   bool validation = false, json = false;
 };
+
+/// What each method is held to (relative, where E > 0.01 lx): beam image of half floats through the GPU; float64.
+constexpr double kFragmentError = 2e-3, kReferenceError = 1e-9;
 
 constexpr std::array<const char*, 6> kFunctionNames{"position", "low", "high", "fog", "daytime", "cornering"};
 
@@ -111,7 +117,7 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
   renderer_options.width_px = renderer_options.height_px = 64;  // nothing is drawn to it
   renderer_options.validation = validation;
   auto renderer = Renderer::create(renderer_options);
-  if (!renderer) return renderer.error();
+  if (!renderer) return with_remedy(renderer.error());
   device = renderer->device();
   std::vector<MeasurePoint> at;
   at.reserve(points.rows.size());
@@ -147,7 +153,71 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
 }
 #endif
 
+/// By the chosen method. `device`: what computed it.
+Result<std::vector<Illuminance>> measure_points(const MeasureOptions& options, const std::vector<LampConfig>& lamps,
+                                                const Tables& tables, const PointsFile& points, std::string& device) {
+  if (options.method == "reference") {
+    device = "float64 on the CPU";
+    return measure_reference(lamps, tables, points);
+  }
+#ifdef PHARE_WITH_GRAPHICS
+  return measure_fragment(lamps, tables, points, options.validation, device);
+#else
+  return Error{"--method fragment", "this build has no graphics (PHARE_GRAPHICS=OFF); use --method reference"};
+#endif
+}
+
+/// Every column of a reference table that an LM-63 file answers for.
+int measure_table(const MeasureOptions& options) {
+  const auto cases = read_reference_table(options.table);
+  if (!cases) return bad_input(cases.error());
+  const double limit = options.max_error > 0.0         ? options.max_error
+                       : options.method == "reference" ? kReferenceError
+                                                       : kFragmentError;
+  const std::string table_name = std::filesystem::path(options.table).stem().string();
+  nlohmann::json report{{"table", options.table}, {"method", options.method}, {"limit", limit}};
+  bool within = true;
+  std::string device;
+  for (const ReferenceCase& asked : *cases) {
+    const auto tables = read_tables(asked.lamps);
+    if (!tables) return bad_input(tables.error());
+    const auto measured = measure_points(options, asked.lamps, *tables, PointsFile{"", asked.points}, device);
+    if (!measured) return bad_input(measured.error());
+    std::vector<double> total_lx;
+    for (const Illuminance& at : *measured) total_lx.push_back(at.total_lx);
+    const ReferenceErrors errors = compare(asked, total_lx);
+    within = within && errors.judged > 0 && errors.worst_relative <= limit;
+    const std::string file = asked.lamps.front().sources.front().file.filename().string();
+    if (options.json) {
+      report["columns"].push_back({{"column", asked.column},
+                                   {"file", file},
+                                   {"points", asked.points.size()},
+                                   {"judged", errors.judged},
+                                   {"worst_relative", errors.worst_relative},
+                                   {"worst_line", errors.worst_line},
+                                   {"worst_absolute_lx", errors.worst_absolute_lx},
+                                   {"highest_lx", errors.highest_lx}});
+      continue;
+    }
+    std::printf(
+        "%-16s %-14s %-20s %5zu points, %5zu above %g lx: worst %.2e relative (line %zu); %.2e of the highest\n",
+        table_name.c_str(), asked.column.c_str(), file.c_str(), asked.points.size(), errors.judged,
+        ReferenceErrors::kDim_lx, errors.worst_relative, errors.worst_line,
+        errors.highest_lx > 0.0 ? errors.worst_absolute_lx / errors.highest_lx : 0.0);
+  }
+  report["device"] = device;
+  report["within"] = within;
+  if (options.json) std::printf("%s\n", report.dump(2).c_str());
+  if (!within)
+    std::fprintf(stderr, "phare: %s: further than %g from the truth by %s\n", options.table.c_str(), limit,
+                 options.method.c_str());
+  return within ? kExitDone : kExitCheckFailed;
+}
+
 int measure(const MeasureOptions& options) {
+  if (!options.table.empty()) return measure_table(options);
+  if (options.points.empty() || options.out.empty())
+    return bad_input({"", "give --points FILE and --out FILE, or --table FILE of a reference set"});
   const auto lamps = chosen_lamps(options);
   if (!lamps) return bad_input(lamps.error());
   const auto tables = read_tables(*lamps);
@@ -155,19 +225,10 @@ int measure(const MeasureOptions& options) {
   const auto points = read_points(options.points);
   if (!points) return bad_input(points.error());
 
-  std::vector<Illuminance> illuminance;
-  std::string device = "float64 on the CPU";
-  if (options.method == "reference") {
-    illuminance = measure_reference(*lamps, *tables, *points);
-  } else {
-#ifdef PHARE_WITH_GRAPHICS
-    auto measured = measure_fragment(*lamps, *tables, *points, options.validation, device);
-    if (!measured) return bad_input(measured.error());
-    illuminance = std::move(*measured);
-#else
-    return bad_input({"--method fragment", "this build has no graphics (PHARE_GRAPHICS=OFF); use --method reference"});
-#endif
-  }
+  std::string device;
+  const auto measured = measure_points(options, *lamps, *tables, *points, device);
+  if (!measured) return bad_input(measured.error());
+  const std::vector<Illuminance>& illuminance = *measured;
   if (const Status status = write_illuminance(options.out, *points, illuminance); !status)
     return bad_input(status.error());
 
@@ -201,7 +262,7 @@ void add_measure(CLI::App& app, Command& chosen) {
       "Points: CSV with x_m,y_m,z_m,nx,ny,nz. The answer repeats them and adds illuminance_lx and one column per "
       "lamp.\n"
       "Example:\n  phare measure --lamp low.ies,x=1.5,y=0.6,z=0.65,pitch_deg=-0.573 --points road.csv --out "
-      "road_lx.csv");
+      "road_lx.csv\n  phare measure --table a_road_flat_low.csv --method reference");
   command->add_option("--rig", options->rig_file, "Rig file whose lamps are measured; the car stands at the origin");
   command
       ->add_option("--lamp", options->lamps,
@@ -215,8 +276,17 @@ void add_measure(CLI::App& app, Command& chosen) {
       ->delimiter(',')
       ->check(CLI::IsMember({"position", "low", "high", "fog", "daytime", "cornering"}))
       ->capture_default_str();
-  command->add_option("--points", options->points, "Points file")->required();
-  command->add_option("--out", options->out, "File to write")->required();
+  auto* points = command->add_option("--points", options->points, "Points file");
+  command->add_option("--out", options->out, "File to write");
+  command
+      ->add_option("--table", options->table,
+                   "Instead of points: a table of a photometry reference set (manifest.json beside it), held against "
+                   "every LM-63 file it knows; exit 1 when one is further off than --max-error")
+      ->excludes(points);
+  command
+      ->add_option("--max-error", options->max_error,
+                   "With --table: relative, where more than 0.01 lx is expected [fragment: 2e-3; reference: 1e-9]")
+      ->check(CLI::PositiveNumber);
   command->add_option("--method", options->method, "fragment: the shader that draws the frame; reference: float64")
       ->check(CLI::IsMember({"fragment", "reference"}))
       ->capture_default_str();

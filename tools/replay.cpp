@@ -12,6 +12,7 @@
 #include "net/channels.h"
 #include "net/clock.h"
 #include "net/drive_file.h"
+#include "net/seal.h"
 #include "net/udp.h"
 #include "net/wire.h"
 #include "tools/commands.h"
@@ -54,6 +55,7 @@ int replay(const ReplayOptions& options) {
   auto socket = UdpSocket::open(rig->bind_address, 0);
   if (!socket) return bad_input(socket.error());
   const StopFlag stop = install_stop_signals();
+  const Seal seal(rig->bus_key);
 
   std::stable_sort(drive->datagrams.begin(), drive->datagrams.end(),
                    [](const Datagram& a, const Datagram& b) { return a.sim_time < b.sim_time; });
@@ -73,7 +75,8 @@ int replay(const ReplayOptions& options) {
     // In real time there are no frames to wait for.
     if (auto* cockpit = std::get_if<CockpitState>(&datagram.payload)) cockpit->frame_index = -1;
     if (auto* vehicle = std::get_if<VehicleState>(&datagram.payload)) vehicle->frame_index = -1;
-    const std::string bytes = encode(datagram);
+    std::string bytes = encode(datagram);
+    seal.close(bytes);
     for (const std::uint16_t port : receiver_ports(datagram, *rig)) {
       // A port nobody listens on is no failure of the replay.
       ++(socket->send_to(port, std::as_bytes(std::span(bytes))) ? sent : refused);

@@ -14,11 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-json read_json(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return stream ? json::parse(stream, nullptr, false) : json(json::value_t::discarded);
-}
-
 std::string utc_now() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm parts{};
@@ -79,6 +74,12 @@ json message_totals(const json& bus) {
 
 }  // namespace
 
+nlohmann::json read_stats(const std::filesystem::path& out, const std::string& process) {
+  std::ifstream stream(out / (process + ".json"));
+  json stats = stream ? json::parse(stream, nullptr, false) : json(nullptr);
+  return stats.is_object() ? stats : json(nullptr);
+}
+
 nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::filesystem::path& out) {
   json report{{"version", PHARE_VERSION},   {"made_at", utc_now()},   {"command", facts.command},
               {"lockstep", facts.lockstep}, {"wall_s", facts.wall_s}, {"exit_code", facts.exit_code}};
@@ -94,15 +95,25 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
   report["processes"] = json::object();
   json messages = json::object(), memory = json::object();
   for (const std::string& name : facts.process_names) {
-    json stats = read_json(out / (name + ".json"));
-    if (!stats.is_object()) continue;
+    json stats = read_stats(out, name);
+    if (stats.is_null()) continue;
     if (stats.contains("bus")) messages[name] = message_totals(stats["bus"]);
     if (stats.contains("memory")) memory[name] = stats["memory"];
     report["processes"][name] = std::move(stats);
   }
+  for (const auto& [name, stats] : facts.own_counts) {
+    messages[name] = message_totals(stats["bus"]);
+    memory[name] = stats["memory"];
+    report["processes"][name] = stats;
+  }
   report["restarts"] = json::array();
-  for (const Restart& restart : facts.restarts) {
+  for (std::size_t i = 0; i < facts.restarts.size(); ++i) {
+    const Restart& restart = facts.restarts[i];
     report["restarts"].push_back({{"process", restart.process}, {"at_s", restart.at_s}, {"because", restart.because}});
+    // Counts under "processes" are of the process that runs at the end; those of the one that died, up to a second
+    // before its death, stand here.
+    if (i < facts.before_restarts.size() && !facts.before_restarts[i].is_null())
+      report["restarts"].back()["before"] = facts.before_restarts[i];
   }
   report["ends"] = json::object();
   for (const auto& end : facts.ends) report["ends"][end.process] = end.how;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -22,7 +23,13 @@ struct DriveFacts {
   std::vector<Supervisor::Ended> ends;
   std::optional<std::filesystem::path> source_file;  ///< drive, script or log that was driven
   std::vector<std::string> process_names;            ///< "cockpit", "dynamics", "visual-0": OUT/<name>.json
+  std::map<std::string, nlohmann::json>
+      own_counts{};                               ///< stats_json of the launcher's own sockets: "phare", "recorder"
+  std::vector<nlohmann::json> before_restarts{};  ///< per restart: the last OUT/<name>.json of the process that died
 };
+
+/// OUT/<process>.json; null when it is missing or broken.
+nlohmann::json read_stats(const std::filesystem::path& out, const std::string& process);
 
 /// Merges OUT/<process>.json of every process and names every input by its content. A process that left no file is left
 /// out.

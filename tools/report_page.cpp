@@ -1,5 +1,8 @@
 // The page of a drive: static HTML, style within, pictures beside it. No script.
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <map>
 #include <sstream>
 
 #include "tools/report.h"
@@ -27,6 +30,7 @@ figure img,video{display:block;width:100%;border-radius:10px;border:1px solid va
 table{border-collapse:collapse;width:100%;font-size:14px}th,td{padding:8px 14px;text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums;border-top:1px solid var(--line)}
 tr:first-child>*{border-top:0}th{color:var(--dim);font-weight:500}th:first-child,td:first-child,td.text,th.text{text-align:left}
 code{font:12px/1.4 ui-monospace,Menlo,Consolas,monospace;color:var(--dim)}.bad{color:var(--bad)}
+.bar{display:inline-block;height:.8em;background:var(--lamp);border-radius:2px;margin-right:.4em}
 )";
 
 std::string escaped(const std::string& text) {
@@ -83,6 +87,7 @@ class Page {
     facts();
     pictures();
     timings();
+    light_switch();
     messages();
     lamps();
     inputs();
@@ -175,10 +180,33 @@ class Page {
     if (summary_.contains("pass_ms")) {
       for (const auto& [pass, times] : summary_["pass_ms"].items()) timing_row("pass " + pass, times);
     }
-    if (summary_.contains("switch_to_photon"))
-      timing_row("light switch to photon", summary_["switch_to_photon"].value("ms", json::object()));
     page_ << "</table></div><p>" << value_text(summary_, "passes") << " passes, " << value_text(summary_, "draws")
           << " draws, " << value_text(summary_, "triangles") << " triangles a frame.</p>";
+  }
+
+  /// How many frames it took, as bars: 1 is the first frame that could show the new beam.
+  void light_switch() {
+    const json switches = summary_.value("switch_to_photon", json::object());
+    const json frames = switches.value("frames", json::object());
+    if (frames.empty()) return;
+    std::map<int, std::uint64_t> histogram;
+    std::uint64_t most = 1;
+    for (const auto& [count, changes] : frames.items()) {
+      histogram[std::atoi(count.c_str())] = changes.get<std::uint64_t>();
+      most = std::max(most, changes.get<std::uint64_t>());
+    }
+    page_ << "<h2>Light switch to photon</h2><div class=\"scroll\"><table><tr><th>frames</th><th "
+             "class=\"text\">changes of the beam</th></tr>";
+    for (const auto& [count, changes] : histogram) {
+      page_ << "<tr><td>" << count << "</td><td class=\"text\"><span class=\"bar\" style=\"width:"
+            << number(30.0 * static_cast<double>(changes) / static_cast<double>(most), "%.2f") << "em\"></span> "
+            << changes << "</td></tr>";
+    }
+    page_ << "</table></div><p>From the message that moved the stalk to the finished first frame with the new beam: "
+          << value_text(switches["ms"], "median") << " ms median, " << value_text(switches["ms"], "max")
+          << " ms at most";
+    if (report_.value("lockstep", false)) page_ << " of wall time; frames are counted in simulated time";
+    page_ << ".</p>";
   }
 
   void messages() {

@@ -45,7 +45,9 @@ bool Supervisor::look_after(Watched& process) {
   const auto now = Clock::now();
   if (process.due && now >= *process.due) {
     process.due.reset();
-    auto child = ChildProcess::start(process.spec.program, process.spec.arguments);
+    std::vector<std::string> arguments = process.spec.arguments;
+    arguments.insert(arguments.end(), process.spec.restart_arguments.begin(), process.spec.restart_arguments.end());
+    auto child = ChildProcess::start(process.spec.program, arguments);
     if (!child) return give_up(kExitCheckFailed, child.error().text());
     process.child = *child;
     process.last_end = "running";

@@ -17,12 +17,13 @@ struct ProcessSpec {
   std::string name;  ///< "cockpit", "dynamics", "visual-0"
   std::filesystem::path program;
   std::vector<std::string> arguments;
-  bool ends_the_drive = false;  ///< the drive is over when every such process has ended with exit 0
+  bool ends_the_drive = false;                   ///< the drive is over when every such process has ended with exit 0
+  std::vector<std::string> restart_arguments{};  ///< given as well when it is started again
 };
 
 struct Restart {
   std::string process;
-  double at_s = 0.0;    ///< wall time since the start
+  double at_s = 0.0;    ///< wall time since the start, of its end
   std::string because;  ///< how it ended: "SIGKILL", "exit 1"
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <arpa/inet.h>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
@@ -28,10 +29,16 @@ int main(int argc, char** argv) {
   std::uint64_t seed = 1;
   double rate_hz = 0.0;
   std::string template_file;
+  bool quiet = false;
+  double on_s = 0.0, period_s = 0.0;
   app.add_option("--port", port, "UDP port")->required()->check(CLI::Range(1, 65535));
   app.add_option("--count", count, "how many")->required()->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   app.add_option("--seed", seed, "of the random numbers");
   app.add_option("--rate", rate_hz, "datagrams a second, 0: as fast as it goes")->check(CLI::NonNegativeNumber);
+  app.add_option("--on", on_s, "s of every --period, by the wall clock, in which it throws at the port; else at nobody")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--period", period_s, "s, see --on; 0: all the time")->check(CLI::NonNegativeNumber);
+  app.add_flag("--quiet", quiet, "print nothing");
   app.add_option("--template", template_file, "drive file whose datagrams are cut and flipped; else made-up ones");
   try {
     app.parse(argc, argv);
@@ -58,7 +65,14 @@ int main(int argc, char** argv) {
   to.sin_family = AF_INET;
   to.sin_port = htons(port);
   to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (fd < 0) {
+  // Outside its window the flood goes to a socket nobody reads, so that throwing costs the machine the same.
+  const int dead_end = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_in decoy{};
+  socklen_t decoy_size = sizeof decoy;
+  decoy.sin_family = AF_INET;
+  decoy.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (fd < 0 || dead_end < 0 || bind(dead_end, reinterpret_cast<const sockaddr*>(&decoy), sizeof decoy) != 0 ||
+      getsockname(dead_end, reinterpret_cast<sockaddr*>(&decoy), &decoy_size) != 0) {
     std::perror("socket");
     return kExitBadInput;
   }
@@ -66,19 +80,29 @@ int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   std::uint64_t failed = 0;
-  for (std::uint64_t i = 0; i < count; ++i) {
+  const auto in_window = [&] {
+    return period_s <= 0.0 || std::fmod(static_cast<double>(wall_now().ns) * 1e-9, period_s) < on_s;
+  };
+  bool on_target = in_window();
+  std::uint64_t thrown = 0;  // decoys too
+  for (std::uint64_t i = 0; i < count; ++thrown) {
     const auto bytes = garbage.next();
-    if (sendto(fd, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to) < 0) ++failed;
-    if (rate_hz > 0.0 && i % 64 == 63) {
-      const double ahead_s = static_cast<double>(i + 1) / rate_hz - seconds();
-      if (ahead_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead_s));
+    const sockaddr_in& at = on_target ? to : decoy;
+    const bool sent = sendto(fd, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&at), sizeof at) >= 0;
+    if (on_target) {
+      ++i;
+      failed += sent ? 0 : 1;
     }
+    if (thrown % 64 != 63) continue;
+    const double ahead_s = rate_hz > 0.0 ? static_cast<double>(thrown + 1) / rate_hz - seconds() : 0.0;
+    if (ahead_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead_s));
+    on_target = in_window();
   }
   const double took_s = seconds();
   close(fd);
   const nlohmann::json result = {{"port", port},     {"sent", count - failed},
                                  {"failed", failed}, {"seed", seed},
                                  {"seconds", took_s}, {"per_second", static_cast<double>(count - failed) / took_s}};
-  std::printf("%s\n", result.dump().c_str());
-  return kExitDone;
+  if (!quiet) std::printf("%s\n", result.dump().c_str());
+  return failed == 0 ? kExitDone : kExitCheckFailed;
 }

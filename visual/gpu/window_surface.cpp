@@ -56,8 +56,13 @@ bool WindowSurface::present(Image& picture) {
   if (!*swapchain_) return true;
   if (picture.extent != extent_) return false;
   try {
-    const auto [acquire_result, index] = swapchain_.acquireNextImage(UINT64_MAX, *acquired_);
-    const vk::Image target = swapchain_.getImages()[index];
+    const std::vector<vk::Image> images = swapchain_.getImages();  // asked for before acquiring: the validation layer counts on it
+    // With the smallest number of images the window may hold on to all: then this picture is not shown, rather than waited for
+    // without end (VUID-vkAcquireNextImageKHR-surface-07783).
+    constexpr std::uint64_t kPatience_ns = 100'000'000;
+    const auto [acquire_result, index] = swapchain_.acquireNextImage(kPatience_ns, *acquired_);
+    if (acquire_result == vk::Result::eTimeout || acquire_result == vk::Result::eNotReady) return true;
+    const vk::Image target = images[index];
     vk::raii::CommandBuffers buffers(device_.device,
                                      vk::CommandBufferAllocateInfo{.commandPool = *device_.command_pool, .commandBufferCount = 1});
     const vk::CommandBuffer commands = *buffers.front();

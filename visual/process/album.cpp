@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kThumbnailWidth_px = 320;
 constexpr std::size_t kSheetPictures = 16;
+constexpr const char* kLastStill = "wall_25m.png";  // written last: where it is, the others are whole
 
 /// A picture that cannot be written is told once each; the drive goes on.
 void tell(const Status& status) {
@@ -20,12 +21,16 @@ void tell(const Status& status) {
 
 }  // namespace
 
-Result<Album> Album::open(const std::filesystem::path& folder) {
+Result<Album> Album::open(const std::filesystem::path& folder, bool going_on) {
   std::error_code failed;
   std::filesystem::create_directories(folder / "frames", failed);
   if (failed) return Error{folder.string(), failed.message()};
   Album album;
   album.folder_ = folder;
+  if (!going_on) return album;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", failed))
+    album.frames_found_ += entry.path().extension() == ".png" ? 1 : 0;
+  album.has_stills_ = std::filesystem::exists(folder / kLastStill, failed);
   return album;
 }
 
@@ -65,7 +70,7 @@ void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleStat
   renderer.draw(driver);
   tell(write_exr(folder_ / "hdr.exr", renderer.read_hdr()));
 
-  save("wall_25m.png", wall_picture(lamps, lamps.design_index()));
+  save(kLastStill, wall_picture(lamps, lamps.design_index()));
 }
 
 void Album::finish() {

@@ -15,8 +15,9 @@ class Album {
  public:
   /// An album without a folder keeps nothing.
   Album() = default;
-  /// Makes the folder and frames/ in it.
-  static Result<Album> open(const std::filesystem::path& folder);
+  /// Makes the folder and frames/ in it. `going_on`: the pictures there are of this drive, left by a process that was
+  /// killed; stills that are whole are not made again.
+  static Result<Album> open(const std::filesystem::path& folder, bool going_on = false);
 
   bool wanted() const { return !folder_.empty(); }
   /// frames/NNNNNN.png, and a thumbnail for the contact sheet.
@@ -33,6 +34,8 @@ class Album {
   /// One number over the bytes of every kept frame in order (FNV-1a, 64 bit): equal drives give equal numbers.
   std::uint64_t frames_hash() const { return frames_hash_; }
   std::uint64_t kept_frames() const { return kept_frames_; }
+  /// Frames that lay in frames/ when going on; 0 otherwise.
+  std::int64_t frames_found() const { return frames_found_; }
 
  private:
   void save(const char* name, const Image8& image);
@@ -42,6 +45,7 @@ class Album {
   bool has_stills_ = false;
   std::uint64_t frames_hash_ = 0xcbf29ce484222325ull;
   std::uint64_t kept_frames_ = 0;
+  std::int64_t frames_found_ = 0;
 };
 
 }  // namespace phare

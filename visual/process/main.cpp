@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "config/remedies.h"
 #include "net/drive_file.h"
 #include "visual/process/run_loop.h"
 
@@ -63,12 +64,12 @@ int draw_channel(VisualOptions options) {
   drawing.device_name = options.device_name;
   drawing.window = window ? window->handle() : nullptr;
   Result<Renderer> renderer = Renderer::create(drawing);
-  if (!renderer) return refuse(renderer.error());
+  if (!renderer) return refuse(with_remedy(renderer.error()));
   if (const Status loaded = renderer->load_scene(*scene); !loaded) return refuse(loaded.error());
 
   Result<Bus> bus = Bus::open(*rig, Role::kVisual, options.channel);
   if (!bus) return refuse(bus.error());
-  Result<Album> album = options.out.empty() ? Result<Album>(Album{}) : Album::open(options.out);
+  Result<Album> album = options.out.empty() ? Result<Album>(Album{}) : Album::open(options.out, options.going_on);
   if (!album) return refuse(album.error());
 
   nlohmann::json lamps_json = describe(*lamps);

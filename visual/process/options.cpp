@@ -31,6 +31,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--channel", options.channel, "Which visual channel of the rig")->capture_default_str();
   app.add_flag("--lockstep", options.lockstep, "One frame per simulated frame time, reproducible bit for bit");
   app.add_flag("--headless", options.headless, "No window");
+  app.add_flag("--go-on", options.going_on,
+               "Take the place of one that was killed: keep the pictures it left in --out");
   app.add_option("--frames", options.frames, "Save each of the first N frames, then leave")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--size", size, "WIDTHxHEIGHT of the picture in pixels, such as 1280x720");

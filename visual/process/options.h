@@ -18,7 +18,8 @@ struct VisualOptions {
   std::uint32_t channel = 0;
   bool lockstep = false;
   bool headless = false;
-  std::int64_t frames = 0;          ///< > 0: save every one of this many frames, then leave
+  bool going_on = false;    ///< takes the place of a process that was killed in this drive: what it left in `out` stays
+  std::int64_t frames = 0;  ///< > 0: save every one of this many frames, then leave
   int width_px = 0, height_px = 0;  ///< 0: the channel's
   int samples = 1;
   double still_at_s = -1.0;  ///< simulated time of the stills; negative: chosen

@@ -33,6 +33,7 @@ class Loop {
       : s_(session), pacer_(std::chrono::nanoseconds(1'000'000'000 / session.rig.frame_rate_hz)) {
     s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
     controls_.light_switch = LightSwitch::kLow;  // until the cockpit speaks, low beam: the safe state
+    if (!session.options.lockstep) drawn_frames_ = session.album.frames_found();
     warm_up();
     announce();
   }
@@ -54,6 +55,7 @@ class Loop {
   void repeat_when_stalled();
   std::optional<Moment> lockstep_moment();
   std::optional<Moment> display_moment();
+  std::int64_t number_of(const Moment& moment) const;
   bool wants_picture(const Moment& moment);
   bool wants_stills(const Moment& moment) const;
   std::string label(const Moment& moment) const;
@@ -211,6 +213,8 @@ void Loop::draw(const Moment& moment) {
   progress_ = now;
   ++drawn_frames_;
   newest_ = moment;
+  const bool enough = s_.options.frames > 0 && number_of(moment) + 1 >= s_.options.frames;
+  if (enough || moment.controls.drive_ended || moment.car.pose.drive_ended) ended_ = true;
   s_.switches.frame_finished(moment.controls, moment.time, wall_now(), s_.options.lockstep ? s_.rig.frame_rate_hz : 0);
 }
 
@@ -220,15 +224,13 @@ void Loop::report(const Moment& moment) {
       s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms, moment.controls.light_changes,
       moment.car.pose,         moment.car.stale};
   s_.bus.send(moment.time, report);
-  const bool enough = s_.options.frames > 0 && drawn_frames_ >= s_.options.frames;
-  if (enough || moment.controls.drive_ended || moment.car.pose.drive_ended) ended_ = true;
 }
 
 void Loop::keep(const Moment& moment) {
   if (captured_) {
     Image8 image = s_.renderer.read_image();
     if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);
-    s_.album.keep_frame(s_.options.lockstep ? moment.frame_index : drawn_frames_ - 1, image, label(moment));
+    s_.album.keep_frame(number_of(moment), image, label(moment));
   }
   if (wants_stills(moment)) {
     FrameInput driver = input_;
@@ -244,9 +246,9 @@ void Loop::keep(const Moment& moment) {
 
 void Loop::audit(const Moment& moment) {
   constexpr std::size_t kPixels = 32;
-  if (s_.options.audit_every > 0 && drawn_frames_ % s_.options.audit_every == 1 % s_.options.audit_every &&
-      !input_.lamps.empty()) {
-    const auto samples = s_.renderer.audit(input_, kPixels, static_cast<std::uint64_t>(drawn_frames_));
+  const std::int64_t number = number_of(moment);
+  if (s_.options.audit_every > 0 && number % s_.options.audit_every == 0 && !input_.lamps.empty()) {
+    const auto samples = s_.renderer.audit(input_, kPixels, static_cast<std::uint64_t>(number) + 1);
     s_.audit.add(s_.lamps, moment.car.pose, samples);
   }
   if (Clock::now() - stats_written_ > kStatsEvery) write_stats(moment.time);
@@ -258,10 +260,16 @@ void Loop::finish() {
   write_stats(newest_ ? newest_->time : SimTime{});
 }
 
+/// Frames count from 0. In lockstep by simulated time, so that a visual started anew in the middle of a drive goes on
+/// with the number its predecessor had come to; in real time as they are drawn.
+std::int64_t Loop::number_of(const Moment& moment) const {
+  return s_.options.lockstep ? moment.frame_index : drawn_frames_ - 1;
+}
+
 /// With --frames every one, else the first frame of each second of simulated time.
 bool Loop::wants_picture(const Moment& moment) {
   if (!s_.album.wanted()) return false;
-  if (s_.options.frames > 0) return drawn_frames_ < s_.options.frames;
+  if (s_.options.frames > 0) return (s_.options.lockstep ? moment.frame_index : drawn_frames_) < s_.options.frames;
   if (moment.time.ns < next_picture_ns_) return false;
   next_picture_ns_ = (moment.time.ns / 1'000'000'000 + 1) * 1'000'000'000;
   return true;
@@ -322,9 +330,11 @@ void run_loop(Session& session) {
     const std::optional<Moment> moment = loop.next_moment();
     if (!moment) continue;
     loop.draw(*moment);
-    loop.report(*moment);
+    // Reported when its picture is on the disk: a visual killed in between is given the same frame again, and no
+    // picture is missing.
     loop.keep(*moment);
     loop.audit(*moment);
+    loop.report(*moment);
   }
   loop.finish();
 }

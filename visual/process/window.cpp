@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "config/remedies.h"
+
 namespace phare {
 
 struct Window::State {
@@ -34,7 +36,7 @@ Result<Window> Window::open(const std::string& title, int width_px, int height_p
   if (glfwInit() != GLFW_TRUE) {
     glfwGetError(&reason);
     return Error{"window", std::string("no display (") + (reason != nullptr ? reason : "GLFW") +
-                               "); --headless draws without one"};
+                               "); --headless draws without one; or " + kDisplayRemedy};
   }
   auto state = std::make_unique<State>();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);

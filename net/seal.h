@@ -1,0 +1,53 @@
+// The key of a bus that leaves this machine: every datagram carries a tag that only holders of the key can make.
+//
+// The tag is libsodium's crypto_auth (HMAC-SHA-512-256, RFC 4231) over the datagram's bytes, and follows them. It says
+// who may speak, it hides nothing. A datagram sent again falls to the sequence numbers; one of an earlier start of its
+// sender to Replays. Without a key bytes travel as they are, which is allowed on loopback only.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "config/rig.h"
+#include "net/messages.h"
+
+namespace phare {
+
+class Seal {
+ public:
+  static constexpr std::size_t kTagBytes = 32;
+
+  explicit Seal(const std::optional<BusKey>& key) : key_(key) {}
+
+  /// Bytes that close() adds.
+  std::size_t tag_bytes() const { return key_ ? kTagBytes : 0; }
+  /// Appends the tag.
+  void close(std::string& bytes) const;
+  /// The datagram without its tag; nullopt when the tag is missing or made with another key.
+  std::optional<std::span<const std::byte>> open(std::span<const std::byte> bytes) const;
+
+ private:
+  std::optional<BusKey> key_;
+};
+
+/// Tells an old start of a sender, recorded and played again by a stranger, from a new one: a new start has been sent
+/// later than anything of the start before it, by the sender's own clock. A receiver that has just begun knows no
+/// earlier start and takes what it hears first; the true sender then replaces it.
+class Replays {
+ public:
+  bool is_replay(const Datagram& datagram);
+
+ private:
+  struct Seen {
+    std::uint64_t start_id = 0;
+    WallTime newest{};
+  };
+  std::map<std::pair<std::size_t, std::uint32_t>, Seen> streams_;  // by payload index and sender channel
+};
+
+}  // namespace phare

@@ -1,0 +1,208 @@
+// process: everything that can be wrong with what a user gives. One line on stderr with place and reason, exit 2, and
+// nothing left behind. What the machine lacks is told with the package that gives it.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <set>
+
+#include "config/remedies.h"
+#include "tests/process/drive_run.h"
+
+namespace phare::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Case {
+  std::string name;
+  std::string command;  ///< after "phare "; may begin with VARIABLE=value for the environment
+  std::string says;     ///< part of the line
+};
+
+const std::string kConfig = PHARE_SOURCE_DIR "/config/";
+
+/// Runs in `folder` through the shell; stderr into `said`.
+int run(const fs::path& folder, const std::string& command, std::string& said) {
+  // The words before "phare" are for env.
+  const std::string line = "cd '" + folder.string() + "' && timeout 100 env -u DISPLAY -u WAYLAND_DISPLAY " + command +
+                           " 2>&1 >/dev/null </dev/null";
+  said.clear();
+  FILE* pipe = popen(line.c_str(), "r");
+  if (pipe == nullptr) return -1;
+  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) said.push_back(static_cast<char>(c));
+  const int status = pclose(pipe);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+class BadInput : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ifstream rig(kConfig + "rigs/country_road.toml");
+    const std::string text{std::istreambuf_iterator<char>(rig), {}};
+    write_rig("rig.toml", text, "", "");
+    write_rig("rig_bad_ies.toml", text, "\"generated/lamps/low_rht.ies\"",
+              "\"" + (folder_ / "bad.ies").string() + "\"");
+    write_rig("rig_no_ies.toml", text, "\"generated/lamps/low_rht.ies\"", "\"absent.ies\"");
+    write_rig("rig_bad_glb.toml", text, "\"generated/scenes/country_road.glb\"", "\"bad.glb\"");
+    write_rig("rig_bad_gltf.toml", text, "\"generated/scenes/country_road.glb\"", "\"bad.gltf\"");
+    write_rig("rig_no_glb.toml", text, "\"generated/scenes/country_road.glb\"", "\"absent.glb\"");
+    write_rig("rig_unknown_key.toml", text, "scene = ", "scnee = ");
+    write_rig("rig_bad_car.toml", text, "\"../vehicles/hatchback.toml\"", "\"bad_car.toml\"");
+    write_rig("rig_bad_cockpit.toml", text, "\"../cockpits/keyboard.toml\"", "\"bad_cockpit.toml\"");
+    write_rig("rig_off_loopback.toml", text, "127.0.0.1", "10.0.0.1");
+    write_rig("rig_no_key.toml", text, "address = ", "key_file = \"absent.key\"\naddress = ");
+    write_rig("rig_bad_key.toml", text, "address = ", "key_file = \"bad.key\"\naddress = ");
+    write("bad.key", "00ff\n");
+    write("rig_syntax.toml", "name = \"x\"\nscene = \n");
+    write("bad.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6 oops\n1 2 3\n");
+    write("short.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6\n");
+    write("bad.glb", std::string("glTF\2\0\0\0\377\0\0\0junk", 16));
+    write("bad.gltf", "{\"asset\": {\"version\": \"2.0\"},\n oops");
+    write("bad_car.toml", "name = \"x\"\nmass_kg = -3\n");
+    write("bad_cockpit.toml", "[source]\nkind = \"telepathy\"\n");
+    write("bad.pcap", "not a capture\n");
+    write("bad_script.toml", "at = [\n");
+    write("bad.log", "nonsense\n");
+    write("good.log", "(1.0) can0 500#0201000000000000\n");
+    write("bad.dbc", "BO_ x\n");
+    write("bad.csv", "x_m,y_m,z_m,nx,ny,nz\n1,2,3,0,0,1\n1,2,3,0,0,oops\n");
+    write("short.csv", "x_m,y_m,z_m,nx,ny\n1,2,3,0,0\n");
+    write("good.csv", "x_m,y_m,z_m,nx,ny,nz\n1,2,3,0,0,1\n");
+    write("pose.csv", "t_s,east_m,north_m,up_m,heading_deg_cw_from_north,path_pitch_deg\n1,0,0,0,0,0\n2,0,9,0,0,0\n");
+    write("file", "");
+  }
+
+  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+
+  /// The demo rig with one text replaced and files found from here.
+  void write_rig(const std::string& name, std::string text, const std::string& from, const std::string& to) {
+    const auto replace = [&](const std::string& a, const std::string& b) {
+      for (std::size_t at = 0; !a.empty() && (at = text.find(a, at)) != std::string::npos; at += b.size())
+        text.replace(at, a.size(), b);
+    };
+    replace(from, to);
+    replace("\"../", "\"" + kConfig);
+    write(name, text);
+  }
+
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path()))
+      names.insert(entry.path().lexically_relative(folder_.path()).string());
+    return names;
+  }
+
+  void expect_refused(const std::vector<Case>& cases) {
+    const std::set<std::string> before = files();
+    for (const Case& given : cases) {
+      std::string said, command = given.command;
+      const std::size_t phare = command.find("phare ");
+      ASSERT_NE(phare, std::string::npos);
+      command.replace(phare, 5, PHARE_PROGRAM);
+      EXPECT_EQ(run(folder_.path(), command, said), kExitBadInput) << given.name << ": " << said;
+      EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << given.name << ": " << said;
+      EXPECT_NE(said.find(given.says), std::string::npos)
+          << given.name << ": expected " << given.says << "\ngot " << said;
+      EXPECT_TRUE(said.starts_with("phare")) << said;
+      for (const std::string& file : files()) EXPECT_TRUE(before.contains(file)) << given.name << " left " << file;
+      std::printf("%-24s %s", given.name.c_str(), said.c_str());
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(BadInput, OfADrive) {
+  const std::string drive =
+      "phare drive --headless --lockstep --frames 3 --out out/here --log-level warn --port-base " +
+      std::to_string(port_base()) + " ";
+  const std::string stalk = " --cockpit " + kConfig + "cockpits/phare_stalk.toml";
+  expect_refused({
+      {"no rig", drive + "--rig absent.toml", "absent.toml: no such file"},
+      {"rig not TOML", drive + "--rig rig_syntax.toml", "rig_syntax.toml:2: "},
+      {"rig with unknown key", drive + "--rig rig_unknown_key.toml", "no key \"scnee\"; did you mean \"scene\"?"},
+      {"rig off loopback", drive + "--rig rig_off_loopback.toml", "rig_off_loopback.toml:"},
+      {"no key", drive + "--rig rig_no_key.toml", "absent.key: no such file"},
+      {"key too short", drive + "--rig rig_bad_key.toml", "bad.key:1: expected 64 hexadecimal digits"},
+      {"no IES", drive + "--rig rig_no_ies.toml", "absent.ies: no such file"},
+      {"IES with a word", drive + "--rig rig_bad_ies.toml", "bad.ies:7: a candela value is not a number: \"oops\""},
+      {"no glTF", drive + "--rig rig_no_glb.toml", "absent.glb: no such file"},
+      {"GLB cut off", drive + "--rig rig_bad_glb.toml", "bad.glb: "},
+      {"glTF not JSON", drive + "--rig rig_bad_gltf.toml", "line 2"},
+      {"vehicle", drive + "--rig rig_bad_car.toml", "bad_car.toml:"},
+      {"cockpit file", drive + "--rig rig_bad_cockpit.toml", "bad_cockpit.toml:2: "},
+      {"no drive", drive + "--drive absent.pcap", "absent.pcap: no such file"},
+      {"drive not pcap", drive + "--drive bad.pcap", "bad.pcap: is no drive file"},
+      {"no script", drive + "--script absent.toml", "absent.toml: no such file"},
+      {"script not TOML", drive + "--script bad_script.toml", "bad_script.toml:1: "},
+      {"no log", drive + "--log absent.log" + stalk, "absent.log: no such file"},
+      {"log without a frame", drive + "--log bad.log" + stalk, "bad.log:1: "},
+      {"log without mapping", drive + "--log good.log", "keyboard.toml: maps no signal"},
+      {"DBC", drive + "--log good.log --dbc bad.dbc" + stalk, "bad.dbc:1: "},
+      {"no DBC", drive + "--log good.log --dbc absent.dbc" + stalk, "absent.dbc: no such file"},
+      {"size", drive + "--size 3x3", "--size: expected WIDTHxHEIGHT"},
+      {"unknown flag", drive + "--siez 3x3", "--siez"},
+      {"frames not a number", "phare drive --frames many", "--frames"},
+      {"two sources", drive + "--drive bad.pcap --script bad_script.toml", "--script"},
+      {"out is a file", "phare drive --headless --out file --port-base " + std::to_string(port_base()), "file"},
+      {"record nowhere", drive + "--record /nonexistent/x.pcap", "/nonexistent/x.pcap: cannot be written"},
+  });
+}
+
+TEST_F(BadInput, OfTheOtherCommands) {
+  const std::string measure = "phare measure --method reference --out out.csv ";
+  const std::string lamp = " --lamp short.ies,x=0,y=0,z=1";
+  const std::string import = "phare import --out out.pcap ";
+  expect_refused({
+      {"no command", "phare ", "subcommand"},
+      {"unknown command", "phare drvie", "no command \"drvie\"; did you mean \"drive\"?"},
+      {"points without a number", measure + "--points bad.csv" + lamp, "short.ies:"},
+      {"points with a word", measure + "--points bad.csv --rig rig.toml", "bad.csv:3: nz is not a finite number"},
+      {"points without a column", measure + "--points short.csv --rig rig.toml", "short.csv:1: "},
+      {"no points", measure + "--points absent.csv --rig rig.toml", "absent.csv: "},
+      {"lamp without place", measure + "--points good.csv --lamp short.ies,x=0", "is missing (position in m)"},
+      {"no lamp", measure + "--points good.csv", "give --rig FILE or --lamp"},
+      {"no beam", measure + "--points good.csv --rig rig.toml --beams cornering", "--beams: "},
+      {"no table", "phare measure --table absent.csv", "absent.csv: no such file"},
+      {"nowhere to write", "phare measure --method reference --rig rig.toml --points good.csv --out /nonexistent/e.csv",
+       "/nonexistent/e.csv"},
+      {"import: no log", import + "--can absent.log --dbc bad.dbc --pose pose.csv", "absent.log: "},
+      {"import: DBC", import + "--can good.log --dbc bad.dbc --pose pose.csv", "bad.dbc:1: "},
+      {"import: other signals", import + "--can good.log --dbc " + kConfig + "cockpits/phare_stalk.dbc --pose pose.csv",
+       "phare_stalk.dbc: no message"},
+      {"replay: no drive", "phare replay absent.pcap", "absent.pcap: "},
+      {"replay: not pcap", "phare replay bad.pcap", "bad.pcap: is no drive file"},
+      {"record nowhere", "phare record --out /nonexistent/x.pcap --port-base " + std::to_string(port_base()),
+       "/nonexistent/x.pcap"},
+  });
+}
+
+TEST_F(BadInput, OfTheMachine) {
+  const std::string ports = " --port-base " + std::to_string(port_base());
+  const std::string no_vulkan = "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent ";
+  std::vector<Case> cases{
+      {"no Vulkan: drive", no_vulkan + "phare drive --headless --out out" + ports, kVulkanRemedy},
+      {"no Vulkan: measure", no_vulkan + "phare measure --rig rig.toml --points good.csv --out out.csv", kVulkanRemedy},
+      {"no such display", "DISPLAY=:9876 phare drive" + ports, kDisplayRemedy},
+      {"no CAN", "phare drive --headless --out out --cockpit " + kConfig + "cockpits/phare_stalk.toml" + ports,
+       "can0: "},
+  };
+  if (fs::exists("/proc/net/can")) cases.pop_back();  // this kernel has it
+  expect_refused(cases);
+
+  std::string nothing;
+  const std::string doctor = std::string(PHARE_PROGRAM) + " doctor > doctor.txt";
+  EXPECT_EQ(run(folder_.path(), "sh -c '" + no_vulkan + doctor + "'", nothing), kExitCheckFailed);
+  std::ifstream stream(folder_ / "doctor.txt");
+  const std::string says{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_NE(says.find("MISSING  Vulkan device"), std::string::npos) << says;
+  EXPECT_NE(says.find(kVulkanRemedy), std::string::npos) << says;
+  EXPECT_NE(says.find(kDisplayRemedy), std::string::npos) << says;
+  EXPECT_NE(says.find("Debian packages"), std::string::npos) << says;
+}
+
+}  // namespace
+}  // namespace phare::test

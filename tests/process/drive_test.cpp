@@ -1,0 +1,260 @@
+// process: whole drives, three processes and the launcher on loopback, lockstep and validation on. The same drive
+// twice, each process killed in its midst, every socket under a flood: the pictures and the lux are the same, bit for
+// bit.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "net/drive_file.h"
+#include "tests/process/drive_run.h"
+
+namespace phare::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int kFrames = 75;
+constexpr int kStills = 4;  // driver's view, bird's eye, wall, EXR
+
+/// What a report says that does not depend on the time it took, nor on who was restarted: lux (float64 residual of the
+/// audited pixels), frames, draws, the drive's length, the hash over all frames.
+json facts_of(const json& report) {
+  const json& visual = report["processes"]["visual-0"];
+  json facts;
+  for (const char* key : {"self_audit", "draws", "passes", "triangles", "sim_time_s", "kept_frames", "scene", "lamps",
+                          "validation", "validation_messages", "frames", "frames_captured", "frames_stale_pose"})
+    facts[key] = visual[key];
+  facts["light_changes"] = visual["switch_to_photon"]["changes"];
+  facts["light_frames"] = visual["switch_to_photon"]["frames"];
+  for (const char* key : {"scene", "vehicle", "lamps", "drive", "rig", "ends"}) facts["report"][key] = report[key];
+  return facts;
+}
+
+/// The undisturbed drive, driven once for all tests of this program.
+struct QuietDrive {
+  TemporaryFolder folder;
+  int exit_code = -1;
+  std::map<std::string, std::string> pictures;
+  json report;
+};
+
+class DriveTest : public testing::Test {
+ protected:
+  DriveTest() : quiet_(quiet()), folder_(quiet_.folder) {}
+  void SetUp() override {
+    ASSERT_EQ(quiet_.exit_code, 0);
+    ASSERT_EQ(quiet_.pictures.size(), static_cast<std::size_t>(kFrames + kStills));
+    for (const auto& [name, bytes] : quiet_.pictures) ASSERT_FALSE(bytes.empty()) << name;
+  }
+
+  static const QuietDrive& quiet() {
+    static const auto the_only = [] {
+      auto driven = std::make_unique<QuietDrive>();
+      fs::create_directories(driven->folder / "home");
+      const fs::path out = driven->folder / "quiet";
+      driven->exit_code = drive(out, driven->folder / "home", arguments());
+      driven->pictures = pictures_of(out);
+      driven->report = report_of(out);
+      return driven;
+    }();
+    return *the_only;
+  }
+
+  static std::vector<std::string> arguments() { return {"--frames", std::to_string(kFrames), "--validation"}; }
+
+  void expect_the_same_pictures(const fs::path& out) {
+    const auto different = differences(quiet_.pictures, pictures_of(out));
+    EXPECT_TRUE(different.empty()) << different.size() << " pictures differ, first " << different.front();
+  }
+
+  const QuietDrive& quiet_;
+  const TemporaryFolder& folder_;
+};
+
+TEST_F(DriveTest, FramesAreOfADriveAndNotAllTheSame) {
+  EXPECT_NE(quiet_.pictures.at("frames/000000.png"), quiet_.pictures.at("frames/000074.png"));
+  EXPECT_EQ(quiet_.report["summary"]["validation_messages"], 0);
+  EXPECT_EQ(quiet_.report["summary"]["restarts"], 0);
+  EXPECT_GT(quiet_.report["summary"]["self_audit"]["residual_percent"]["pixels"], 0);
+  for (const char* process : {"cockpit", "dynamics", "visual-0", "phare"}) {
+    const json& counts = quiet_.report["summary"]["messages"][process];
+    EXPECT_GT(counts["received"], 0) << process;
+    for (const char* bad : {"lost", "late", "refused", "restarted"}) EXPECT_EQ(counts[bad], 0) << process << " " << bad;
+  }
+}
+
+TEST_F(DriveTest, TheSameBitForBitFromAnotherWorkingDirectory) {
+  const fs::path elsewhere = folder_ / "a folder elsewhere";
+  fs::create_directories(elsewhere);
+  ASSERT_EQ(drive("again", elsewhere, arguments()), 0);  // relative to the working directory
+  expect_the_same_pictures(elsewhere / "again");
+  EXPECT_EQ(facts_of(quiet_.report), facts_of(report_of(elsewhere / "again")));
+}
+
+TEST_F(DriveTest, TheSameOffLoopbackWithAKey) {
+  std::ifstream rig(PHARE_SOURCE_DIR "/config/rigs/country_road.toml");
+  std::string text{std::istreambuf_iterator<char>(rig), {}};
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+  };
+  replace("\"../", "\"" PHARE_SOURCE_DIR "/config/");
+  replace("\"127.0.0.1\"", "\"0.0.0.0\"\nkey_file = \"bus.key\"");
+  std::ofstream(folder_ / "sealed.toml") << text;
+  std::ofstream(folder_ / "bus.key") << std::string(64, 'a') << '\n';
+  ASSERT_EQ(
+      drive(folder_ / "sealed", folder_ / "home", {"--frames", "12", "--rig", (folder_ / "sealed.toml").string()}), 0);
+  const auto pictures = pictures_of(folder_ / "sealed");
+  for (int frame = 0; frame < 12; ++frame) {
+    char name[40];
+    std::snprintf(name, sizeof name, "frames/%06d.png", frame);
+    ASSERT_TRUE(pictures.contains(name)) << name;
+    EXPECT_EQ(pictures.at(name), quiet_.pictures.at(name)) << name;
+  }
+  const json report = report_of(folder_ / "sealed");
+  for (const char* process : {"cockpit", "dynamics", "visual-0", "phare"})
+    EXPECT_EQ(report["summary"]["messages"][process]["refused"], 0) << process;
+}
+
+class KillTest : public DriveTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(KillTest, TheDriveGoesOnAsIfNothingHadHappened) {
+  const std::string name = GetParam(), program = "phare-" + name.substr(0, name.find('-'));
+  const fs::path out = folder_ / ("killed " + name);
+  DriveRun run(out, folder_ / "home", arguments());
+  ASSERT_TRUE(run.wait_for_frame(15));
+  const auto before = run.processes();
+  ASSERT_EQ(before.size(), 3u);
+  ASSERT_EQ(kill(before.at(program), SIGKILL), 0);
+  ASSERT_TRUE(run.wait_for_frame(kFrames - 10));
+  const auto after = run.processes();
+  EXPECT_EQ(after.size(), 3u);
+  for (const auto& [other, process] : before) {
+    if (other == program) {
+      EXPECT_NE(after.at(other), process);
+    } else {
+      EXPECT_EQ(after.at(other), process) << other << " was not to leave";
+    }
+  }
+  EXPECT_EQ(run.wait(), 0);
+  expect_the_same_pictures(out);
+
+  const json report = report_of(out);
+  ASSERT_EQ(report["restarts"].size(), 1u);
+  EXPECT_EQ(report["restarts"][0]["process"], name);
+  EXPECT_EQ(report["restarts"][0]["because"], "SIGKILL");
+  for (const char* process : {"cockpit", "dynamics", "visual-0"}) {
+    const json& counts = report["summary"]["messages"][process];
+    // Each sender that others hear from is noticed as started again, once per message it sends.
+    if (process != name) {
+      EXPECT_EQ(counts["restarted"], 1) << process;
+    }
+    EXPECT_EQ(counts["refused"], 0) << process;
+    std::printf("%s killed: %-9s lost %s, late %s, duplicate %s, restarted %s\n", name.c_str(), process,
+                counts["lost"].dump().c_str(), counts["late"].dump().c_str(), counts["duplicate"].dump().c_str(),
+                counts["restarted"].dump().c_str());
+  }
+  EXPECT_EQ(report["summary"]["validation_messages"], 0);
+}
+INSTANTIATE_TEST_SUITE_P(Each, KillTest, testing::Values("cockpit", "dynamics", "visual-0"),
+                         [](const auto& info) { return std::string(info.param, std::strcspn(info.param, "-")); });
+
+// A car that answers the controls goes on from the pose of the newest picture, which says less than its state: rates of
+// the road under it start at 0, and the pose lies between two steps. It stays where it was within a fraction of this.
+TEST_F(DriveTest, AKilledCarThatAnswersTheControlsGoesOnFromItsPicture) {
+  constexpr double kNear_m = 0.01;
+  Drive drives[2];
+  for (const bool killed : {false, true}) {
+    const std::string name = killed ? "car killed" : "car";
+    const fs::path recorded = folder_ / (name + ".pcap");
+    DriveRun run(folder_ / name, folder_ / "home",
+                 {"--frames", std::to_string(kFrames), "--closed-loop", "--record", recorded.string()});
+    ASSERT_TRUE(run.wait_for_frame(15));
+    if (killed) {
+      ASSERT_EQ(kill(run.processes().at("phare-dynamics"), SIGKILL), 0);
+    }
+    EXPECT_EQ(run.wait(), 0);
+    auto read = read_drive(recorded);
+    ASSERT_TRUE(read.ok()) << read.error().text();
+    drives[killed ? 1 : 0] = std::move(*read);
+  }
+  std::map<std::int64_t, VehicleState> undisturbed;
+  for (const Datagram& datagram : drives[0].datagrams) {
+    if (const auto* car = std::get_if<VehicleState>(&datagram.payload)) undisturbed[car->frame_index] = *car;
+  }
+  double most_m = 0.0;
+  std::int64_t last = -1;
+  for (const Datagram& datagram : drives[1].datagrams) {
+    const auto* car = std::get_if<VehicleState>(&datagram.payload);
+    if (car == nullptr || !undisturbed.contains(car->frame_index)) continue;
+    const VehicleState& other = undisturbed[car->frame_index];
+    most_m = std::max(
+        {most_m, std::abs(car->x_m - other.x_m), std::abs(car->y_m - other.y_m), std::abs(car->z_m - other.z_m)});
+    last = std::max(last, car->frame_index);
+  }
+  EXPECT_GE(last, kFrames - 1);
+  EXPECT_LT(most_m, kNear_m);
+  std::printf("a killed car is at most %.2g m beside the one that was not\n", most_m);
+}
+
+TEST_F(DriveTest, AKilledLauncherLeavesNoProcessBehind) {
+  DriveRun run(folder_ / "orphans", folder_ / "home", arguments());
+  ASSERT_TRUE(run.wait_for_frame(5));
+  const auto processes = run.processes();
+  ASSERT_EQ(processes.size(), 3u);
+  run.end(SIGKILL);
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  for (const auto& [name, process] : processes) {
+    while (fs::exists("/proc/" + std::to_string(process) + "/exe") && std::chrono::steady_clock::now() < until)
+      usleep(1000);
+    EXPECT_FALSE(fs::exists("/proc/" + std::to_string(process) + "/exe")) << name;  // a zombie has none
+  }
+}
+
+TEST_F(DriveTest, GarbageIsRefusedCountedAndWithoutEffect) {
+  constexpr std::uint64_t kCount =
+      20'000;  // a port; the whole measurement of millions is a command: docs/robustness.md
+  const fs::path out = folder_ / "garbage";
+  auto with_recorder = arguments();
+  with_recorder.insert(with_recorder.end(), {"--record", (folder_ / "garbage.pcap").string()});
+  DriveRun run(out, folder_ / "home", with_recorder);
+  ASSERT_TRUE(run.wait_for_frame(2));
+  const std::map<std::string, int> port_of{
+      {"cockpit", 0}, {"dynamics", 1}, {"recorder", 2}, {"phare", 3}, {"visual-0", 10}};
+  std::vector<ChildProcess> throwers;
+  for (const auto& [process, offset] : port_of) {
+    auto thrower = ChildProcess::start(
+        PHARE_THROW_GARBAGE, {"--port", std::to_string(port_base() + offset), "--count", std::to_string(kCount),
+                              "--seed", std::to_string(offset + 1), "--quiet"});
+    ASSERT_TRUE(thrower);
+    throwers.push_back(*thrower);
+  }
+  for (ChildProcess& thrower : throwers) {
+    while (!thrower.ended()) usleep(1000);
+    EXPECT_EQ(thrower.ended()->text(), "exit 0");
+  }
+  ASSERT_TRUE(run.running()) << "the flood outlived the drive: its end is not in the counts";
+  EXPECT_EQ(run.wait(), 0);
+  expect_the_same_pictures(out);
+  const json report = report_of(out);
+  EXPECT_EQ(report["summary"]["restarts"], 0);
+  EXPECT_EQ(facts_of(report), facts_of(quiet_.report));
+  for (const auto& [process, offset] : port_of) {
+    const json& bus = report["processes"][process]["bus"];
+    EXPECT_EQ(bus["refused"], kCount) << process;
+    EXPECT_GT(bus["refused_in_kernel"], 0) << process;
+    const json& counts = report["summary"]["messages"][process];
+    EXPECT_EQ(counts["restarted"], 0) << process;
+    std::printf("%-9s refused %s of %llu, by the kernel's filter or for want of room %s, lost %s, duplicate %s\n",
+                process.c_str(), bus["refused"].dump().c_str(), static_cast<unsigned long long>(kCount),
+                bus["refused_in_kernel"].dump().c_str(), counts["lost"].dump().c_str(),
+                counts["duplicate"].dump().c_str());
+  }
+}
+
+}  // namespace
+}  // namespace phare::test
