@@ -123,6 +123,16 @@ CanSocket::~CanSocket() {
   if (fd_ >= 0) close(fd_);
 }
 
+bool CanSocket::send(const CanFrame& frame) {
+  canfd_frame raw{};
+  raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0u) | (frame.remote ? CAN_RTR_FLAG : 0u);
+  raw.len = frame.length;
+  if (frame.fd) raw.flags = frame.fd_flags;
+  std::copy_n(frame.data.begin(), std::min<std::size_t>(frame.length, sizeof raw.data), raw.data);
+  const auto size = static_cast<ssize_t>(frame.fd ? CANFD_MTU : CAN_MTU);
+  return write(fd_, &raw, static_cast<std::size_t>(size)) == size;
+}
+
 std::optional<CanSocket::Received> CanSocket::receive() {
   canfd_frame raw{};
   iovec part{&raw, sizeof raw};

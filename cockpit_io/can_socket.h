@@ -41,6 +41,10 @@ class CanSocket {
   std::optional<Received> receive();
   Nothing why() const { return why_; }
 
+  /// Puts a frame onto the bus, without blocking; false when the kernel does not take it (queue full, link down). Other
+  /// sockets of this machine hear it too, this one does not.
+  bool send(const CanFrame& frame);
+
   /// Frames the kernel dropped since the socket was opened because it was full (SO_RXQ_OVFL).
   std::uint64_t dropped() const { return dropped_; }
   int fd() const { return fd_; }

@@ -41,6 +41,8 @@ class CockpitProcess {
   Moment now_in_real_time();
   void evaluate(Moment now, const VehicleState* vehicle);
   void send(SimTime time, std::int64_t frame);
+  void send_back(Moment now, const VehicleState* vehicle);
+  void wait(std::chrono::nanoseconds at_most);
 
   std::optional<std::int64_t> newest_frame_of_all() const;
   bool all_channels_at(std::int64_t frame) const;
@@ -64,6 +66,7 @@ class CockpitProcess {
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_stats_{};
   SimTime newest_;
+  WallTime newest_stamp_;                // of all frames decoded
   std::vector<WallTime> unsent_stamps_;  // of frames decoded since the last datagram
   LatencyHistogram latency_;
   LatencyHistogram light_latency_;
