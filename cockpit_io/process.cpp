@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <thread>
 #include <utility>
 #include <variant>
 
@@ -17,6 +18,7 @@ namespace phare {
 namespace {
 
 constexpr std::chrono::milliseconds kSendEvery(10);
+constexpr std::chrono::microseconds kRest(400);     // between two wake-ups by the source
 constexpr std::chrono::milliseconds kLookEvery(2);  // at the source, between two datagrams
 constexpr std::chrono::milliseconds kCoast(200);    // of simulated time when the car is silent, as long as the picture
 constexpr std::chrono::seconds kWaitForCar(2);      // then simulated time runs by the wall clock alone
@@ -126,9 +128,13 @@ void CockpitProcess::wait(std::chrono::nanoseconds at_most) {
   }
   std::vector<pollfd> polled;
   for (const int fd : fds) polled.push_back({fd, POLLIN, 0});
+  // A full bus would wake us for every frame; most of the time would go into that.
+  const auto rested = Clock::now() - woken_;
+  if (rested < kRest) std::this_thread::sleep_for(kRest - rested);
   const std::int64_t ns = std::max<std::int64_t>(at_most.count(), 0);
   const timespec limit{ns / 1'000'000'000, ns % 1'000'000'000};
   ppoll(polled.data(), polled.size(), &limit, nullptr);
+  woken_ = Clock::now();
 }
 
 /// Telltales and speed for the car whose stalk this is.

@@ -65,6 +65,7 @@ class CockpitProcess {
   std::optional<std::uint32_t> wanted_design_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_stats_{};
+  Clock::time_point woken_{};  // by the source
   SimTime newest_;
   WallTime newest_stamp_;                // of all frames decoded
   std::vector<WallTime> unsent_stamps_;  // of frames decoded since the last datagram
