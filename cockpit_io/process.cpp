@@ -36,6 +36,14 @@ nlohmann::json latency_json(const LatencyHistogram& histogram) {
           {"max_us", static_cast<double>(histogram.most_ns()) * 1e-3}};
 }
 
+/// Processor time of this process since it was started.
+double processor_s() {
+  rusage use{};
+  getrusage(RUSAGE_SELF, &use);
+  return static_cast<double>(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
+         static_cast<double>(use.ru_utime.tv_usec + use.ru_stime.tv_usec) * 1e-6;
+}
+
 }  // namespace
 
 CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Rig& rig, CockpitConfig config,
@@ -45,7 +53,8 @@ CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Ri
       config_(std::move(config)),
       stats_file_(std::move(stats_file)),
       stop_(stop),
-      cockpit_(new_cockpit()) {
+      cockpit_(new_cockpit()),
+      processor_before_s_(processor_s()) {
   take_source(std::move(source));
   bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
     const auto* control = std::get_if<RigControl>(&datagram.payload);
@@ -249,10 +258,7 @@ void CockpitProcess::write_stats() const {
       {"link_dropped", counts.link_dropped}, {"bus_offs", counts.bus_offs},       {"sent", counts.sent},
       {"not_sent", counts.not_sent},         {"fault", source_->fault()},         {"reconnects", counts.reconnects},
       {"fail_safes", counts.fail_safes}};
-  rusage use{};
-  getrusage(RUSAGE_SELF, &use);
-  json["cpu_s"] = static_cast<double>(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
-                  static_cast<double>(use.ru_utime.tv_usec + use.ru_stime.tv_usec) * 1e-6;
+  json["cpu_s"] = processor_s() - processor_before_s_;
   json["wall_s"] = std::chrono::duration<double>(Clock::now() - start_).count();
   json["light_changes"] = cockpit_.light_changes();
   json["fail_safe"] = cockpit_.fail_safe();

@@ -73,6 +73,7 @@ class CockpitProcess {
   LatencyHistogram light_latency_;
   std::uint64_t light_changes_sent_ = 0;
   bool real_time_ = false;
+  double processor_before_s_ = 0.0;  // processor time that starting up took
 };
 
 }  // namespace phare

@@ -1,8 +1,7 @@
 // Decoding and encoding against cantools (PyPI), bit for bit, on every signal of every DBC file at hand.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include <string>
 
 #include "cockpit_io/dbc.h"
+#include "tests/cockpit_io/oracle.h"
 
 namespace phare {
 namespace {
@@ -20,25 +20,6 @@ namespace {
 const std::filesystem::path kShared = PHARE_SHARED_DATA_DIR;
 const std::string kVenv = PHARE_ORACLE_VENV;
 const std::string kTests = PHARE_COCKPIT_TESTS_DIR;
-
-/// Standard output of a command and its exit status.
-std::pair<std::string, int> output_of(const std::string& command) {
-  std::string out;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return {out, -1};
-  std::array<char, 65536> part{};
-  for (std::size_t n = 0; (n = fread(part.data(), 1, part.size(), pipe)) > 0;) out.append(part.data(), n);
-  const int status = pclose(pipe);
-  return {out, WIFEXITED(status) ? WEXITSTATUS(status) : -1};
-}
-
-std::vector<std::uint8_t> bytes_of(const std::string& hex) {
-  std::vector<std::uint8_t> bytes;
-  for (std::size_t i = 0; hex != "-" && i + 1 < hex.size(); i += 2) {
-    bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  }
-  return bytes;
-}
 
 CanFrame frame_with(const DbcMessage& message, const std::vector<std::uint8_t>& bytes) {
   CanFrame frame;
@@ -141,7 +122,7 @@ class Comparison {
 
 TEST(DbcOracle, AgreesWithCantoolsOnEverySignalOfEveryFile) {
   if (!std::filesystem::exists(kShared / "dbc")) GTEST_SKIP() << "no " << kShared / "dbc";
-  const auto [why, status] = output_of(kTests + "/oracle_venv.sh " + kVenv);
+  const auto [why, status] = make_oracle_venv();
   if (status == 77) GTEST_SKIP() << "no cantools to compare with: " << why;
   ASSERT_EQ(status, 0) << why;
 

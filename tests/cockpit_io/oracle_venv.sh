@@ -3,7 +3,7 @@
 # Exit 77 and one line where it cannot be had (no python3, no network).
 set -u
 dir=$1
-packages='cantools==45.1.0 crccheck==1.3.1 e2e==0.1.0'
+packages='cantools==45.1.0 autosar-e2e==1.0.0'
 mkdir -p "$(dirname "$dir")" || exit 77
 exec 9>"$dir.lock"
 command -v flock >/dev/null && flock 9  # tests of several builds may come at once
