@@ -33,6 +33,9 @@ class CanSocket {
   /// interface, not allowed.
   static Result<CanSocket> open(const std::string& interface, std::span<const CanId> ids);
 
+  /// The same, but hears every data and remote frame.
+  static Result<CanSocket> open_to_all(const std::string& interface);
+
   CanSocket(CanSocket&& other) noexcept;
   CanSocket& operator=(CanSocket&& other) noexcept;
   ~CanSocket();
@@ -50,6 +53,7 @@ class CanSocket {
   int fd() const { return fd_; }
 
  private:
+  static Result<CanSocket> open_filtered(const std::string& interface, const std::vector<CanId>* ids);
   explicit CanSocket(int fd) : fd_(fd) {}
 
   int fd_ = -1;
