@@ -7,7 +7,8 @@ namespace phare {
 
 namespace {
 
-constexpr std::size_t kMostValues = 16;  // more of them: an angle or a pedal, not a switch
+constexpr std::uint64_t kMostMoves = 40;  // of one signal are shown
+constexpr std::size_t kMostValues = 16;   // more of them: an angle or a pedal, not a switch
 
 std::string number_text(double value) {
   char text[32];
@@ -50,8 +51,7 @@ std::string Learner::name_of(const Key& key) const {
          std::to_string(key.index % 8);
 }
 
-std::optional<std::string> Learner::watch(Key key, std::uint64_t raw, const DbcMessage* message,
-                                          const DbcSignal* signal, std::int64_t at_ns) {
+std::optional<std::string> Learner::watch(Key key, std::uint64_t raw, const DbcSignal* signal, std::int64_t at_ns) {
   const auto [found, first] = watched_.try_emplace(key);
   Watched& w = found->second;
   if (first) {
@@ -69,13 +69,12 @@ std::optional<std::string> Learner::watch(Key key, std::uint64_t raw, const DbcM
   if (w.restless) return std::nullopt;
   ++w.moves;
   if (w.values.size() <= kMostValues) ++w.values[before], ++w.values[raw];
-  // A wheel that turns would fill the screen.
-  if (w.values.size() > kMostValues) return std::nullopt;
+  // A wheel that turns, or a bit of one, would fill the screen.
+  if (w.values.size() > kMostValues || w.moves > kMostMoves) return std::nullopt;
   char time[32];
   std::snprintf(time, sizeof time, "%9.3f s  ", static_cast<double>(at_ns) * 1e-9);
   std::string line = time + name_of(key) + "  " + value_text(signal, before) + " -> " + value_text(signal, raw);
   if (signal != nullptr && !signal->comment.empty()) line += "   " + signal->comment.substr(0, 60);
-  (void)message;
   return line;
 }
 
@@ -86,17 +85,18 @@ std::vector<std::string> Learner::take(const CanFrame& frame, std::int64_t at_ns
   const auto show = [&](std::optional<std::string> line) {
     if (line) lines.push_back(std::move(*line));
   };
-  bits_.try_emplace({frame.id, frame.extended});
+  ids_.insert({frame.id, frame.extended});
   if (const DbcMessage* message = dbc_.find(frame.id, frame.extended)) {
     for (std::uint32_t i = 0; i < message->signals.size(); ++i) {
       const DbcSignal& signal = message->signals[i];
       if (!is_present(*message, signal, frame.bytes())) continue;
-      show(watch({frame.id, frame.extended, i}, *raw_bits(signal, frame.bytes()), message, &signal, at_ns));
+      show(watch({frame.id, frame.extended, i}, *raw_bits(signal, frame.bytes()), &signal, at_ns));
     }
     return lines;
   }
+  if (!dbc_.messages.empty()) return lines;  // of ids that the DBC does not know, a bit says little
   for (std::uint32_t bit = 0; bit < 8u * frame.length; ++bit) {
-    show(watch({frame.id, frame.extended, bit}, (frame.data[bit / 8] >> bit % 8) & 1u, nullptr, nullptr, at_ns));
+    show(watch({frame.id, frame.extended, bit}, (frame.data[bit / 8] >> bit % 8) & 1u, nullptr, at_ns));
   }
   return lines;
 }
@@ -111,7 +111,7 @@ std::vector<std::string> Learner::summary() const {
   std::stable_sort(moved.begin(), moved.end(),
                    [](const auto& a, const auto& b) { return a.second->values.size() < b.second->values.size(); });
   std::vector<std::string> lines;
-  lines.push_back(std::to_string(frames_) + " frames of " + std::to_string(bits_.size()) + " ids; " +
+  lines.push_back(std::to_string(frames_) + " frames of " + std::to_string(ids_.size()) + " ids; " +
                   std::to_string(restless) + " signals changed by themselves and are left out; " +
                   std::to_string(moved.size()) + " moved afterwards:");
   for (const auto& [key, w] : moved) {

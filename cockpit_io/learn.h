@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,7 +29,7 @@ class Learner {
   std::vector<std::string> summary() const;
 
   std::size_t frames() const { return frames_; }
-  std::size_t ids() const { return bits_.size(); }
+  std::size_t ids() const { return ids_.size(); }
 
  private:
   struct Key {
@@ -43,19 +44,14 @@ class Learner {
     std::uint64_t moves = 0;              ///< after that
     std::map<std::uint64_t, int> values;  ///< raw values and how often they came, after that
   };
-  struct Bits {
-    CanFrame last;
-  };
-
-  std::optional<std::string> watch(Key key, std::uint64_t raw, const DbcMessage* message, const DbcSignal* signal,
-                                   std::int64_t at_ns);
+  std::optional<std::string> watch(Key key, std::uint64_t raw, const DbcSignal* signal, std::int64_t at_ns);
   std::string name_of(const Key& key) const;
 
   Dbc dbc_;
   std::int64_t rest_ns_;
   std::size_t frames_ = 0;
   std::map<Key, Watched> watched_;
-  std::map<std::pair<std::uint32_t, bool>, Bits> bits_;
+  std::set<std::pair<std::uint32_t, bool>> ids_;
 };
 
 }  // namespace phare
