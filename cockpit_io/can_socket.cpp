@@ -77,6 +77,15 @@ Status can_supported() {
 }
 
 Result<CanSocket> CanSocket::open(const std::string& interface, std::span<const CanId> ids) {
+  const std::vector<CanId> wanted(ids.begin(), ids.end());
+  return open_filtered(interface, &wanted);
+}
+
+Result<CanSocket> CanSocket::open_to_all(const std::string& interface) {
+  return open_filtered(interface, nullptr);
+}
+
+Result<CanSocket> CanSocket::open_filtered(const std::string& interface, const std::vector<CanId>* ids) {
   const int fd = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   if (fd < 0) return no_can(errno);
   CanSocket can(fd);
@@ -98,7 +107,7 @@ Result<CanSocket> CanSocket::open(const std::string& interface, std::span<const 
   set_option(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on);
   if (!set_option(fd, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBuffer_bytes))
     set_option(fd, SOL_SOCKET, SO_RCVBUF, kReceiveBuffer_bytes);
-  if (!set_filters(fd, ids) || !set_option(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors)) {
+  if ((ids != nullptr && !set_filters(fd, *ids)) || !set_option(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors)) {
     return Error{interface, "the CAN socket takes no filters: " + reason(errno)};
   }
   if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
@@ -121,6 +130,16 @@ CanSocket& CanSocket::operator=(CanSocket&& other) noexcept {
 
 CanSocket::~CanSocket() {
   if (fd_ >= 0) close(fd_);
+}
+
+bool CanSocket::send(const CanFrame& frame) {
+  canfd_frame raw{};
+  raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0u) | (frame.remote ? CAN_RTR_FLAG : 0u);
+  raw.len = frame.length;
+  if (frame.fd) raw.flags = frame.fd_flags;
+  std::copy_n(frame.data.begin(), std::min<std::size_t>(frame.length, sizeof raw.data), raw.data);
+  const auto size = static_cast<ssize_t>(frame.fd ? CANFD_MTU : CAN_MTU);
+  return write(fd_, &raw, static_cast<std::size_t>(size)) == size;
 }
 
 std::optional<CanSocket::Received> CanSocket::receive() {

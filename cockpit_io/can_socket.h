@@ -33,6 +33,9 @@ class CanSocket {
   /// interface, not allowed.
   static Result<CanSocket> open(const std::string& interface, std::span<const CanId> ids);
 
+  /// The same, but hears every data and remote frame.
+  static Result<CanSocket> open_to_all(const std::string& interface);
+
   CanSocket(CanSocket&& other) noexcept;
   CanSocket& operator=(CanSocket&& other) noexcept;
   ~CanSocket();
@@ -41,11 +44,16 @@ class CanSocket {
   std::optional<Received> receive();
   Nothing why() const { return why_; }
 
+  /// Puts a frame onto the bus, without blocking; false when the kernel does not take it (queue full, link down). Other
+  /// sockets of this machine hear it too, this one does not.
+  bool send(const CanFrame& frame);
+
   /// Frames the kernel dropped since the socket was opened because it was full (SO_RXQ_OVFL).
   std::uint64_t dropped() const { return dropped_; }
   int fd() const { return fd_; }
 
  private:
+  static Result<CanSocket> open_filtered(const std::string& interface, const std::vector<CanId>* ids);
   explicit CanSocket(int fd) : fd_(fd) {}
 
   int fd_ = -1;

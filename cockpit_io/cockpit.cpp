@@ -13,12 +13,13 @@ Cockpit::Cockpit(SwitchParams params, std::string source) : params_(params), sou
 void Cockpit::take(const DriverInput& input, bool silent, Moment now) {
   newest_ = now.sim = std::max(now.sim, newest_);
   if (silent && !switches_.fail_safe) silent_since_ = now.sim;
-  advance_switches(params_, input.switches, silent, now, switches_);
+  advance_switches(params_, input.switches, silent, now, switches_, speed_mps_);
   input_ = input;
   if (silent) {
     const double share = std::clamp(1.0 - (now.sim.seconds() - silent_since_.seconds()) / kPedalFade_s, 0.0, 1.0);
     input_.accelerator_01 *= share;
     input_.brake_01 *= share;
+    input_.clutch_01 *= share;
   }
 }
 
@@ -28,6 +29,10 @@ void Cockpit::take_recorded(const CockpitState& recorded, Moment now) {
   input_.accelerator_01 = recorded.accelerator_01;
   input_.brake_01 = recorded.brake_01;
   input_.gear = recorded.gear;
+  input_.clutch_01 = recorded.clutch_01;
+  input_.lamp_aim_rad = recorded.lamp_aim_rad;
+  switches_.signals = {recorded.fog_rear, recorded.turn, recorded.hazard, recorded.high_beam_automatic};
+  switches_.contacts[static_cast<std::size_t>(Contact::kIgnition)].value = !recorded.ignition_off;
   switches_.fail_safe = recorded.fail_safe;
   Lights lights{recorded.light_switch, recorded.flash, recorded.fog_front,
                 recorded.design_index % std::max(params_.design_count, 1u)};
@@ -59,6 +64,13 @@ CockpitState Cockpit::state(std::int64_t frame_index, bool drive_ended) const {
   state.light_change_sim = switches_.light_change.sim;
   state.drive_ended = drive_ended;
   state.source = source_;
+  state.fog_rear = switches_.signals.fog_rear;
+  state.turn = switches_.signals.turn;
+  state.hazard = switches_.signals.hazard;
+  state.high_beam_automatic = switches_.signals.automatic_armed;
+  state.lamp_aim_rad = input_.lamp_aim_rad;
+  state.clutch_01 = input_.clutch_01;
+  state.ignition_off = switches_.contacts[static_cast<std::size_t>(Contact::kIgnition)].value == 0;
   return state;
 }
 

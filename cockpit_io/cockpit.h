@@ -10,22 +10,35 @@
 
 namespace phare {
 
-class Cockpit {
+/// Where a source puts what it reads.
+class ControlSink {
+ public:
+  virtual ~ControlSink() = default;
+
+  /// The driver's controls at `now`; to be called for every change, and once more when time has passed. Times that go
+  /// back count as the newest seen.
+  virtual void take(const DriverInput& input, bool silent, Moment now) = 0;
+
+  /// Controls that went through switch logic when they were recorded.
+  virtual void take_recorded(const CockpitState& recorded, Moment now) = 0;
+};
+
+class Cockpit : public ControlSink {
  public:
   /// `source`: what drives, for CockpitState.source.
   Cockpit(SwitchParams params, std::string source);
 
-  /// The driver's controls at `now`; to be called for every change, and once more when time has passed. Times that go
-  /// back count as the newest seen.
-  void take(const DriverInput& input, bool silent, Moment now);
-
-  /// Controls that went through switch logic when they were recorded.
-  void take_recorded(const CockpitState& recorded, Moment now);
+  void take(const DriverInput& input, bool silent, Moment now) override;
+  void take_recorded(const CockpitState& recorded, Moment now) override;
 
   /// RigControl::Design.
   void choose_design(std::uint32_t design_index, Moment now);
 
+  /// The car's speed, for the automatic high beam; counts from the next take() on.
+  void set_speed(double speed_mps) { speed_mps_ = speed_mps; }
+
   CockpitState state(std::int64_t frame_index, bool drive_ended) const;
+  Telltales telltales(SimTime now) const { return phare::telltales(switches_, now); }
   std::uint64_t light_changes() const { return switches_.light_changes; }
   bool fail_safe() const { return switches_.fail_safe; }
 
@@ -34,6 +47,7 @@ class Cockpit {
   std::string source_;
   SwitchState switches_;
   DriverInput input_;
+  double speed_mps_ = 0.0;
   SimTime newest_;
   SimTime silent_since_;
 };

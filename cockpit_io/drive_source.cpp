@@ -27,7 +27,7 @@ Result<std::unique_ptr<Source>> DriveSource::open(const std::filesystem::path& f
   return std::unique_ptr<Source>(std::move(source));
 }
 
-void DriveSource::advance(Moment now, const VehicleState*, Cockpit& cockpit) {
+void DriveSource::advance(Moment now, const VehicleState*, ControlSink& cockpit) {
   for (; next_ < entries_.size() && entries_[next_].due <= now.sim; ++next_) {
     const Entry& entry = entries_[next_];
     ++counts_.frames_read;

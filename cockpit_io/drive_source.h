@@ -13,7 +13,7 @@ class DriveSource : public Source {
   /// Error when the file cannot be read. A drive without CockpitStates plays to its end with low beam on.
   static Result<std::unique_ptr<Source>> open(const std::filesystem::path& file);
 
-  void advance(Moment now, const VehicleState* vehicle, Cockpit& cockpit) override;
+  void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
   bool ended() const override { return ended_; }
 
  private:

@@ -11,6 +11,8 @@ struct DriverInput {
   double steering_wheel_rad = 0.0;  ///< left positive
   double accelerator_01 = 0.0;
   double brake_01 = 0.0;
+  double clutch_01 = 0.0;
+  double lamp_aim_rad = 0.0;  ///< of the levelling wheel, positive up
   Gear gear = Gear::kDrive;
 
   friend bool operator==(const DriverInput&, const DriverInput&) = default;

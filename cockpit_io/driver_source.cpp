@@ -244,7 +244,7 @@ void DriverSource::pedals(const VehicleState& vehicle, double dt_s) {
   input_.brake_01 = wish_mps2 < -kCoast_mps2 ? std::clamp(-wish_mps2 / script_.full_brake_mps2, 0.0, 1.0) : 0.0;
 }
 
-void DriverSource::lights(Moment now, Cockpit& cockpit) {
+void DriverSource::lights(Moment now, ControlSink& cockpit) {
   SwitchInput& switches = input_.switches;
   if (now.sim.ns >= flash_until_ns_) switches.flash = false;
   for (std::size_t i = 0; i < done_.size(); ++i) {
@@ -272,7 +272,7 @@ void DriverSource::lights(Moment now, Cockpit& cockpit) {
   }
 }
 
-void DriverSource::advance(Moment now, const VehicleState* vehicle, Cockpit& cockpit) {
+void DriverSource::advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) {
   const double now_s = now.sim.seconds();
   if (vehicle != nullptr) {
     locate(*vehicle);

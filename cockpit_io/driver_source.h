@@ -64,7 +64,7 @@ class DriverSource : public Source {
   /// `lane` has at least two points.
   DriverSource(DriverScript script, std::vector<LanePoint> lane);
 
-  void advance(Moment now, const VehicleState* vehicle, Cockpit& cockpit) override;
+  void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
   bool ended() const override { return ended_; }
 
   double station_m() const { return station_m_; }  ///< progress along the lane
@@ -73,7 +73,7 @@ class DriverSource : public Source {
   void locate(const VehicleState& vehicle);
   void steer(const VehicleState& vehicle);
   void pedals(const VehicleState& vehicle, double dt_s);
-  void lights(Moment now, Cockpit& cockpit);
+  void lights(Moment now, ControlSink& cockpit);
   LanePoint at(double s_m) const;
   double profile_mps(double s_m) const;
 

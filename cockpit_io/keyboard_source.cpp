@@ -22,7 +22,7 @@ constexpr double kSteeringReturn_1ps = 3.0;  // the wheel runs back when no key 
 
 }  // namespace
 
-void KeyboardDriver::press(std::string_view bytes, Moment now, Cockpit& cockpit) {
+void KeyboardDriver::press(std::string_view bytes, Moment now, ControlSink& cockpit) {
   while (!bytes.empty()) {
     const char first = bytes.front();
     bytes.remove_prefix(1);
@@ -40,7 +40,7 @@ void KeyboardDriver::press(std::string_view bytes, Moment now, Cockpit& cockpit)
   }
 }
 
-void KeyboardDriver::key(char key, Moment now, Cockpit& cockpit) {
+void KeyboardDriver::key(char key, Moment now, ControlSink& cockpit) {
   SwitchInput& switches = input_.switches;
   const int level = static_cast<int>(switches.stalk);
   switch (key) {
@@ -98,7 +98,7 @@ void KeyboardDriver::arrow(char direction, Moment now) {
   }
 }
 
-void KeyboardDriver::advance(Moment now, Cockpit& cockpit) {
+void KeyboardDriver::advance(Moment now, ControlSink& cockpit) {
   const double dt_s = static_cast<double>(std::max<std::int64_t>(now.sim.ns - newest_ns_, 0)) * 1e-9;
   newest_ns_ = std::max(newest_ns_, now.sim.ns);
   if (now.sim.ns >= flash_until_ns_) input_.switches.flash = false;
@@ -124,7 +124,13 @@ KeyboardSource::~KeyboardSource() {
   if (terminal_ && tcgetpgrp(STDIN_FILENO) == getpgrp()) tcsetattr(STDIN_FILENO, TCSANOW, &*terminal_);
 }
 
-void KeyboardSource::advance(Moment now, const VehicleState*, Cockpit& cockpit) {
+std::vector<int> KeyboardSource::wait_fds() const {
+  // In the background the keys are not ours to read, and would wake us for ever.
+  if (!terminal_ || tcgetpgrp(STDIN_FILENO) != getpgrp()) return {};
+  return {STDIN_FILENO};
+}
+
+void KeyboardSource::advance(Moment now, const VehicleState*, ControlSink& cockpit) {
   std::array<char, 256> bytes{};
   pollfd wait{STDIN_FILENO, POLLIN, 0};
   if (terminal_ && tcgetpgrp(STDIN_FILENO) == getpgrp() && poll(&wait, 1, 0) > 0) {

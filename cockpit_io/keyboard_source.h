@@ -17,14 +17,14 @@ namespace phare {
 class KeyboardDriver {
  public:
   /// Bytes as the terminal sends them; unknown ones and unknown escape sequences are passed over.
-  void press(std::string_view bytes, Moment now, Cockpit& cockpit);
+  void press(std::string_view bytes, Moment now, ControlSink& cockpit);
   /// Lets go of what has been held long enough.
-  void advance(Moment now, Cockpit& cockpit);
+  void advance(Moment now, ControlSink& cockpit);
 
   const DriverInput& input() const { return input_; }
 
  private:
-  void key(char key, Moment now, Cockpit& cockpit);
+  void key(char key, Moment now, ControlSink& cockpit);
   void arrow(char direction, Moment now);
 
   DriverInput input_{.switches = {.stalk = LightSwitch::kLow}};
@@ -39,7 +39,8 @@ class KeyboardSource : public Source {
   KeyboardSource();
   ~KeyboardSource() override;  ///< gives the terminal back as it was
 
-  void advance(Moment now, const VehicleState* vehicle, Cockpit& cockpit) override;
+  void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
+  std::vector<int> wait_fds() const override;
   std::string status() const override { return terminal_ ? "up" : "no terminal"; }
 
  private:

@@ -1,20 +1,36 @@
 #include "cockpit_io/log_source.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace phare {
 
 LogSource::LogSource(CandumpLog log, SignalMap map) : log_(std::move(log)), map_(std::move(map)) {
   counts_.broken_lines = log_.broken_lines;
+  input_ = initial_input(map_.config());
 }
 
-void LogSource::advance(Moment now, const VehicleState*, Cockpit& cockpit) {
+std::int64_t LogSource::sim_ns(std::int64_t log_ns) const {
+  const double speed = map_.config().log_speed;
+  return speed == 1.0 ? log_ns : std::llround(static_cast<double>(log_ns) / speed);
+}
+
+std::int64_t LogSource::log_ns(std::int64_t sim_ns) const {
+  const double speed = map_.config().log_speed;
+  return speed == 1.0 ? sim_ns : std::llround(static_cast<double>(sim_ns) * speed);
+}
+
+void LogSource::advance(Moment now, const VehicleState*, ControlSink& cockpit) {
   // The wall stamp of an entry is the moment at which the log was due, which for entries before `now` lies in the past.
-  const auto moment = [&](std::int64_t sim_ns) {
-    return Moment{SimTime{sim_ns}, WallTime{now.wall.ns - (now.sim.ns - sim_ns)}};
+  const auto moment = [&](std::int64_t at_ns) {
+    const std::int64_t sim = std::min(sim_ns(at_ns), now.sim.ns);
+    return Moment{SimTime{sim}, WallTime{now.wall.ns - (now.sim.ns - sim)}};
   };
-  const auto fall_silent_before = [&](std::int64_t sim_ns) {
-    if (silent_ || map_.silent_at_ns() > sim_ns) return;
+  const std::int64_t now_ns = log_ns(now.sim.ns);
+  const auto fall_silent_before = [&](std::int64_t at_ns) {
+    if (silent_ || map_.silent_at_ns() > at_ns) return;
     silent_ = true;
     ++counts_.fail_safes;
     cockpit.take(input_, true, moment(map_.silent_at_ns()));
@@ -24,7 +40,7 @@ void LogSource::advance(Moment now, const VehicleState*, Cockpit& cockpit) {
   for (; next_ < log_.entries.size(); ++next_) {
     const CandumpEntry& entry = log_.entries[next_];
     const std::int64_t due_ns = std::max(due_ns_, entry.stamp_ns - begin_ns);
-    if (due_ns > now.sim.ns) break;
+    if (due_ns > now_ns) break;
     due_ns_ = due_ns;
     fall_silent_before(due_ns);
     ++counts_.frames_read;
@@ -37,12 +53,23 @@ void LogSource::advance(Moment now, const VehicleState*, Cockpit& cockpit) {
       if (!map_.knows(entry.frame)) ++counts_.unknown_ids;
       continue;
     }
+    if (taken == SignalMap::Taken::kBadCrc || taken == SignalMap::Taken::kBadCounter) {
+      const bool crc = taken == SignalMap::Taken::kBadCrc;
+      if (counts_.bad_crc + counts_.bad_counter == 0) {
+        spdlog::warn("{}: a frame of {} is refused: its {}; such frames are counted from here on", log_.file.string(),
+                     map_.dbc().find(entry.frame.id, entry.frame.extended)->name,
+                     crc ? "CRC is wrong" : "counter stands still or jumps");
+      }
+      ++(crc ? counts_.bad_crc : counts_.bad_counter);
+      continue;
+    }
     ++(taken == SignalMap::Taken::kDecoded ? counts_.decoded : counts_.incomplete);
+    counts_.lost_in_data = map_.lost();
     silent_ = map_.silent_at_ns() <= due_ns;
     if (on_frame) on_frame(moment(due_ns).wall);
     cockpit.take(input_, silent_, moment(due_ns));
   }
-  fall_silent_before(now.sim.ns);
+  fall_silent_before(now_ns);
   cockpit.take(input_, silent_, now);
 }
 

@@ -1,4 +1,4 @@
-// The driver's controls from a candump log, played at the pace of simulated time.
+// The driver's controls from a candump log, played at the pace of simulated time or a multiple of it.
 #pragma once
 
 #include "cockpit_io/candump.h"
@@ -9,14 +9,18 @@ namespace phare {
 
 class LogSource : public Source {
  public:
-  /// Takes ownership of a log that was read; stamps count from its first entry. `map`: bound with start_ns 0.
+  /// Takes ownership of a log that was read; stamps count from its first entry. `map`: bound with start_ns 0; its
+  /// timeouts count in the log's time. The log plays config().log_speed times as fast as it was recorded.
   LogSource(CandumpLog log, SignalMap map);
 
-  void advance(Moment now, const VehicleState* vehicle, Cockpit& cockpit) override;
+  void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
   bool ended() const override { return next_ == log_.entries.size(); }
   std::string status() const override;
 
  private:
+  std::int64_t sim_ns(std::int64_t log_ns) const;
+  std::int64_t log_ns(std::int64_t sim_ns) const;
+
   CandumpLog log_;
   SignalMap map_;
   std::size_t next_ = 0;

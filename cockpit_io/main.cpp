@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "cockpit_io/learn_command.h"
 #include "cockpit_io/process.h"
 #include "cockpit_io/source.h"
 #include "config/cockpit.h"
@@ -24,6 +25,9 @@ struct Options {
       log_level = "info";
   std::optional<std::uint16_t> port_base;
   bool lockstep = false;
+  bool learn = false, gamepad = false;
+  std::string interface;
+  double rest_s = 5.0, seconds = 0.0, log_speed = 0.0;
 };
 
 int fail(const Error& error) {
@@ -47,11 +51,13 @@ Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
     const auto named = std::find(kSourceKindNames.begin(), kSourceKindNames.end(), options.source);
     config->source = static_cast<SourceKind>(named - kSourceKindNames.begin());
   }
+  if (!options.interface.empty()) config->interface = options.interface;
   if (config->source == SourceKind::kCan && config->interface.empty()) {
     return Error{config->file.string(),
                  "names no CAN interface: it needs [source] kind = \"can\" and interface = \"can0\""};
   }
   if (!options.dbc_file.empty()) config->dbc_file = options.dbc_file;
+  if (options.log_speed > 0.0) config->log_speed = options.log_speed;
   return config;
 }
 
@@ -60,7 +66,7 @@ int run(int argc, char** argv) {
   CLI::App app{"What the driver of a rig does: stalk, wheel and pedals, from CAN, a log, keys, a drive or a script."};
   app.footer("Example: phare-cockpit --rig config/rigs/country_road.toml --cockpit config/cockpits/phare_stalk.toml");
   app.set_version_flag("--version", PHARE_VERSION);
-  app.add_option("--rig", options.rig_file, "Rig file (TOML)")->required();
+  auto* rig_option = app.add_option("--rig", options.rig_file, "Rig file (TOML)");
   app.add_option("--cockpit", options.cockpit_file, "Cockpit file (default: the rig's)");
   app.add_option("--source", options.source, "can, log, keyboard, drive or driver (default: the cockpit file's)")
       ->check(CLI::IsMember(std::vector<std::string>(kSourceKindNames.begin(), kSourceKindNames.end())));
@@ -73,6 +79,17 @@ int run(int argc, char** argv) {
   app.add_flag("--lockstep", options.lockstep, "Advance frame by frame with the picture, reproducibly");
   app.add_option("--stats", options.stats_file, "Write counters and latencies to this JSON file every second");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off");
+  app.add_option("--log-speed", options.log_speed, "Play the log so many times as fast as it was recorded")
+      ->check(CLI::Range(0.01, 1000.0));
+  auto* learn_flag =
+      app.add_flag("--learn", options.learn,
+                   "Show which signals change while the stalk is moved; with --interface or --log, and --dbc");
+  app.add_option("--interface", options.interface, "CAN interface (default: the cockpit file's)");
+  app.add_flag("--gamepad", options.gamepad, "With --learn: the axes and buttons of a gamepad")->needs(learn_flag);
+  app.add_option("--rest", options.rest_s, "With --learn: seconds in which nobody touches anything")
+      ->check(CLI::Range(0.0, 600.0))
+      ->needs(learn_flag);
+  app.add_option("--seconds", options.seconds, "With --learn: end after so long")->needs(learn_flag);
   app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
   try {
     app.parse(argc, argv);
@@ -81,6 +98,13 @@ int run(int argc, char** argv) {
   }
   spdlog::set_default_logger(spdlog::stderr_color_mt("cockpit"));
   spdlog::set_level(spdlog::level::from_str(options.log_level));
+
+  if (options.learn) {
+    return learn(
+        {options.interface, options.log_file, options.dbc_file, options.gamepad, options.rest_s, options.seconds},
+        install_stop_signals());
+  }
+  if (rig_option->count() == 0) return fail({"--rig", "is required"});
 
   Result<Rig> rig = read_rig(options.rig_file);
   if (!rig) return fail(rig.error());

@@ -1,10 +1,14 @@
 #include <spdlog/spdlog.h>
 
+#include <iterator>
 #include <memory>
+#include <vector>
 
 #include "cockpit_io/can_source.h"
+#include "cockpit_io/combined_source.h"
 #include "cockpit_io/drive_source.h"
 #include "cockpit_io/driver_source.h"
+#include "cockpit_io/gamepad_source.h"
 #include "cockpit_io/keyboard_source.h"
 #include "cockpit_io/log_source.h"
 #include "cockpit_io/source.h"
@@ -41,19 +45,24 @@ Result<std::unique_ptr<Source>> open_log(const CockpitConfig& config) {
   return std::unique_ptr<Source>(std::make_unique<LogSource>(std::move(*log), std::move(*map)));
 }
 
-}  // namespace
-
-Result<std::unique_ptr<Source>> open_source(const CockpitConfig& config) {
+Result<std::unique_ptr<Source>> open_one(const CockpitConfig& config) {
   switch (config.source) {
     case SourceKind::kCan: {
       Result<SignalMap> map = read_signals(config, wall_now().ns);
       if (!map) return map.error();
-      return CanSource::open(config.interface, std::move(*map));
+      Result<Feedback> feedback = Feedback::bind(config, map->dbc());
+      if (!feedback) return feedback.error();
+      return CanSource::open(config.interface, std::move(*map), std::move(*feedback));
     }
     case SourceKind::kLog:
       return open_log(config);
     case SourceKind::kKeyboard:
       return std::unique_ptr<Source>(std::make_unique<KeyboardSource>());
+    case SourceKind::kGamepad: {
+      Result<GamepadSource::Reader> reader = open_glfw_gamepad(config.device);
+      if (!reader) return reader.error();
+      return std::unique_ptr<Source>(std::make_unique<GamepadSource>(config, std::move(*reader)));
+    }
     case SourceKind::kDrive:
       if (config.input_file.empty()) return Error{config.file.string(), "names no drive; give one with --drive FILE"};
       return DriveSource::open(config.input_file);
@@ -62,6 +71,44 @@ Result<std::unique_ptr<Source>> open_source(const CockpitConfig& config) {
       return DriverSource::open(config.input_file);
   }
   return Error{config.file.string(), "unknown source"};
+}
+
+bool plays_by_itself(const CockpitConfig& config) {
+  return config.source == SourceKind::kDrive || config.source == SourceKind::kDriver;
+}
+
+}  // namespace
+
+SourceCounts& SourceCounts::operator+=(const SourceCounts& other) {
+  constexpr std::uint64_t SourceCounts::*kAll[]{
+      &SourceCounts::frames_read,  &SourceCounts::decoded,      &SourceCounts::incomplete,  &SourceCounts::unknown_ids,
+      &SourceCounts::error_frames, &SourceCounts::bad_crc,      &SourceCounts::bad_counter, &SourceCounts::lost_in_data,
+      &SourceCounts::dropped,      &SourceCounts::link_dropped, &SourceCounts::bus_offs,    &SourceCounts::sent,
+      &SourceCounts::not_sent,     &SourceCounts::broken_lines, &SourceCounts::reconnects,  &SourceCounts::fail_safes};
+  static_assert(sizeof(SourceCounts) == std::size(kAll) * sizeof(std::uint64_t), "a count is missing here");
+  for (const auto count : kAll) this->*count += other.*count;
+  return *this;
+}
+
+Result<std::unique_ptr<Source>> open_source(const CockpitConfig& config) {
+  Result<std::unique_ptr<Source>> first = open_one(config);
+  if (!first || config.also.empty() || plays_by_itself(config)) return first;
+  std::vector<CombinedSource::Part> parts;
+  parts.push_back({std::move(*first), config});
+  for (const std::filesystem::path& file : config.also) {
+    Result<CockpitConfig> beside = read_cockpit(file);
+    if (!beside) return beside.error();
+    if (plays_by_itself(*beside)) return Error{file.string(), "a drive or a script cannot stand beside another source"};
+    if (!beside->also.empty()) return Error{file.string(), "names further sources itself (also)"};
+    Result<std::unique_ptr<Source>> source = open_one(*beside);
+    if (!source) {
+      // The first has to be there; what stands beside it is a convenience.
+      spdlog::warn("{}; goes on without it", source.error().text());
+      continue;
+    }
+    parts.push_back({std::move(*source), std::move(*beside)});
+  }
+  return std::unique_ptr<Source>(std::make_unique<CombinedSource>(std::move(parts)));
 }
 
 }  // namespace phare

@@ -1,12 +1,16 @@
 #include "cockpit_io/process.h"
 
+#include <poll.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <string>
+#include <thread>
 #include <utility>
 #include <variant>
 
+#include "cockpit_io/control_reader.h"
 #include "net/stats.h"
 
 namespace phare {
@@ -14,6 +18,7 @@ namespace phare {
 namespace {
 
 constexpr std::chrono::milliseconds kSendEvery(10);
+constexpr std::chrono::microseconds kRest(400);     // between two wake-ups by the source
 constexpr std::chrono::milliseconds kLookEvery(2);  // at the source, between two datagrams
 constexpr std::chrono::milliseconds kCoast(200);    // of simulated time when the car is silent, as long as the picture
 constexpr std::chrono::seconds kWaitForCar(2);      // then simulated time runs by the wall clock alone
@@ -31,6 +36,14 @@ nlohmann::json latency_json(const LatencyHistogram& histogram) {
           {"max_us", static_cast<double>(histogram.most_ns()) * 1e-3}};
 }
 
+/// Processor time of this process since it was started.
+double processor_s() {
+  rusage use{};
+  getrusage(RUSAGE_SELF, &use);
+  return static_cast<double>(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
+         static_cast<double>(use.ru_utime.tv_usec + use.ru_stime.tv_usec) * 1e-6;
+}
+
 }  // namespace
 
 CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Rig& rig, CockpitConfig config,
@@ -40,7 +53,8 @@ CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Ri
       config_(std::move(config)),
       stats_file_(std::move(stats_file)),
       stop_(stop),
-      cockpit_(new_cockpit()) {
+      cockpit_(new_cockpit()),
+      processor_before_s_(processor_s()) {
   take_source(std::move(source));
   bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
     const auto* control = std::get_if<RigControl>(&datagram.payload);
@@ -53,16 +67,14 @@ CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Ri
 }
 
 Cockpit CockpitProcess::new_cockpit() const {
-  SwitchParams params;
-  params.design_count = static_cast<std::uint32_t>(std::max<std::size_t>(rig_.designs.size(), 1));
-  // A script has no contacts that bounce.
-  params.debounce_ns = config_.source == SourceKind::kDriver ? 0 : static_cast<std::int64_t>(config_.debounce_s * 1e9);
-  return Cockpit(params, source_name(config_));
+  const auto designs = static_cast<std::uint32_t>(std::max<std::size_t>(rig_.designs.size(), 1));
+  return Cockpit(switch_params(config_, designs), source_name(config_));
 }
 
 void CockpitProcess::take_source(std::unique_ptr<Source> source) {
   source_ = std::move(source);
   source_->on_frame = [this](WallTime stamp) {
+    newest_stamp_ = std::max(newest_stamp_, stamp);
     if (real_time_ && unsent_stamps_.size() < kMostUnsentStamps) unsent_stamps_.push_back(stamp);
   };
 }
@@ -96,12 +108,17 @@ Moment CockpitProcess::now_in_real_time() {
 }
 
 void CockpitProcess::evaluate(Moment now, const VehicleState* vehicle) {
+  if (vehicle != nullptr) cockpit_.set_speed(vehicle->speed_mps);
   source_->advance(now, vehicle, cockpit_);
   if (wanted_design_) cockpit_.choose_design(*std::exchange(wanted_design_, std::nullopt), now);
 }
 
 void CockpitProcess::send(SimTime time, std::int64_t frame) {
-  const CockpitState state = cockpit_.state(frame, source_->ended());
+  CockpitState state = cockpit_.state(frame, source_->ended());
+  if (real_time_) {  // in lockstep two runs must be equal, whatever the wall clock says
+    state.source_stamp = newest_stamp_;
+    state.source_fault = source_->fault();
+  }
   bus_.send(time, state);
   if (!real_time_) return;
   const WallTime sent = wall_now();
@@ -111,18 +128,49 @@ void CockpitProcess::send(SimTime time, std::int64_t frame) {
   light_changes_sent_ = state.light_changes;
 }
 
+/// Sleeps until the source has something, or the bus where the source cannot be waited for.
+void CockpitProcess::wait(std::chrono::nanoseconds at_most) {
+  const std::vector<int> fds = source_->wait_fds();
+  if (fds.empty()) {
+    bus_.wait(at_most);
+    return;
+  }
+  std::vector<pollfd> polled;
+  for (const int fd : fds) polled.push_back({fd, POLLIN, 0});
+  // A full bus would wake us for every frame; most of the time would go into that.
+  const auto rested = Clock::now() - woken_;
+  if (rested < kRest) std::this_thread::sleep_for(kRest - rested);
+  const std::int64_t ns = std::max<std::int64_t>(at_most.count(), 0);
+  const timespec limit{ns / 1'000'000'000, ns % 1'000'000'000};
+  ppoll(polled.data(), polled.size(), &limit, nullptr);
+  woken_ = Clock::now();
+}
+
+/// Telltales and speed for the car whose stalk this is.
+void CockpitProcess::send_back(Moment now, const VehicleState* vehicle) {
+  const CockpitState state = cockpit_.state(-1, false);
+  FeedbackValues values;
+  values.telltales = cockpit_.telltales(now.sim);
+  values.light = state.light_switch;
+  values.design_index = state.design_index;
+  values.speed_mps = vehicle != nullptr ? vehicle->speed_mps : 0.0;
+  values.steering_wheel_rad = state.steering_wheel_rad;
+  source_->send_back(values, now.wall);
+}
+
 void CockpitProcess::run_real_time() {
   real_time_ = true;
   start_ = Clock::now();
   Pacer pacer(kSendEvery);
   while (!stop_) {
-    bus_.wait(std::min<std::chrono::nanoseconds>(pacer.left(), kLookEvery));
+    wait(std::min<std::chrono::nanoseconds>(pacer.left(), kLookEvery));
     bus_.poll();
     stats_once_a_second();
     if (seek_) begin_anew();
     const Moment now = now_in_real_time();
     const auto* vehicle = bus_.newest<VehicleState>();
     evaluate(now, vehicle != nullptr ? &vehicle->value : nullptr);
+    send_back(now, vehicle != nullptr ? &vehicle->value : nullptr);
     if (pacer.due() || cockpit_.light_changes() != light_changes_sent_) send(now.sim, -1);
   }
   write_stats();
@@ -203,10 +251,15 @@ void CockpitProcess::write_stats() const {
   nlohmann::json json = stats_json("cockpit", bus_);
   const SourceCounts& counts = source_->counts();
   json["source"] = {
-      {"name", source_name(config_)},        {"status", source_->status()},     {"frames_read", counts.frames_read},
-      {"decoded", counts.decoded},           {"incomplete", counts.incomplete}, {"unknown_ids", counts.unknown_ids},
-      {"error_frames", counts.error_frames}, {"dropped", counts.dropped},       {"broken_lines", counts.broken_lines},
-      {"reconnects", counts.reconnects},     {"fail_safes", counts.fail_safes}};
+      {"name", source_name(config_)},        {"status", source_->status()},       {"frames_read", counts.frames_read},
+      {"decoded", counts.decoded},           {"incomplete", counts.incomplete},   {"unknown_ids", counts.unknown_ids},
+      {"error_frames", counts.error_frames}, {"dropped", counts.dropped},         {"broken_lines", counts.broken_lines},
+      {"bad_crc", counts.bad_crc},           {"bad_counter", counts.bad_counter}, {"lost_in_data", counts.lost_in_data},
+      {"link_dropped", counts.link_dropped}, {"bus_offs", counts.bus_offs},       {"sent", counts.sent},
+      {"not_sent", counts.not_sent},         {"fault", source_->fault()},         {"reconnects", counts.reconnects},
+      {"fail_safes", counts.fail_safes}};
+  json["cpu_s"] = processor_s() - processor_before_s_;
+  json["wall_s"] = std::chrono::duration<double>(Clock::now() - start_).count();
   json["light_changes"] = cockpit_.light_changes();
   json["fail_safe"] = cockpit_.fail_safe();
   json["frame_to_datagram"] = latency_json(latency_);

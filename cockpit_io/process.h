@@ -41,6 +41,8 @@ class CockpitProcess {
   Moment now_in_real_time();
   void evaluate(Moment now, const VehicleState* vehicle);
   void send(SimTime time, std::int64_t frame);
+  void send_back(Moment now, const VehicleState* vehicle);
+  void wait(std::chrono::nanoseconds at_most);
 
   std::optional<std::int64_t> newest_frame_of_all() const;
   bool all_channels_at(std::int64_t frame) const;
@@ -63,12 +65,15 @@ class CockpitProcess {
   std::optional<std::uint32_t> wanted_design_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_stats_{};
+  Clock::time_point woken_{};  // by the source
   SimTime newest_;
+  WallTime newest_stamp_;                // of all frames decoded
   std::vector<WallTime> unsent_stamps_;  // of frames decoded since the last datagram
   LatencyHistogram latency_;
   LatencyHistogram light_latency_;
   std::uint64_t light_changes_sent_ = 0;
   bool real_time_ = false;
+  double processor_before_s_ = 0.0;  // processor time that starting up took
 };
 
 }  // namespace phare

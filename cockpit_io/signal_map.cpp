@@ -1,9 +1,7 @@
 #include "cockpit_io/signal_map.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "config/toml_table.h"
@@ -12,65 +10,79 @@ namespace phare {
 
 namespace {
 
-/// The index of a named signal, or the Error that says why there is none.
-Result<std::size_t> find_signal(const Dbc& dbc, const DbcMessage& message, const std::string& name,
-                                const std::string& place) {
-  if (const DbcSignal* found = message.find(name)) return static_cast<std::size_t>(found - message.signals.data());
-  for (const DbcProblem& problem : dbc.problems) {
-    if (problem.message == message.name && problem.signal == name) {
-      return Error{place, "signal \"" + name + "\" cannot be used: " + dbc.file.string() + ":" +
-                              std::to_string(problem.line) + ": " + problem.reason};
-    }
-  }
+/// Gives a named value its number.
+Status look_up(const Dbc& dbc, const DbcSignal& signal, const std::string& place, NamedValue& value) {
+  if (value.name.empty()) return Done{};
   std::vector<std::string> names;
-  for (const DbcSignal& signal : message.signals) names.push_back(signal.name);
-  return Error{place, unknown_name_reason("signal", name, names) + " (in message " + message.name + " of " +
-                          dbc.file.filename().string() + ")"};
+  for (const auto& [raw, name] : signal.value_names) {
+    if (name == value.name) {
+      value.value = static_cast<double>(raw) * signal.factor + signal.offset;
+      return Done{};
+    }
+    names.push_back(name);
+  }
+  if (names.empty()) {
+    return Error{place, "signal \"" + signal.name + "\" has no value names (VAL_) in " + dbc.file.filename().string() +
+                            "; write the number that means \"" + value.name + "\""};
+  }
+  return Error{place, unknown_name_reason("value", value.name, names) + " (of signal " + signal.name + ")"};
 }
 
-Result<std::size_t> find_message(const Dbc& dbc, const std::string& name, const std::string& place) {
-  if (const DbcMessage* found = dbc.find(name)) return static_cast<std::size_t>(found - dbc.messages.data());
-  for (const DbcProblem& problem : dbc.problems) {
-    if (problem.message == name && problem.signal.empty()) {
-      return Error{place, "message \"" + name + "\" cannot be used: " + dbc.file.string() + ":" +
-                              std::to_string(problem.line) + ": " + problem.reason};
-    }
+Status look_up_all(const Dbc& dbc, const DbcSignal& signal, ControlMapping& mapping) {
+  for (Level& level : mapping.levels) {
+    if (const Status status = look_up(dbc, signal, mapping.place, level.when); !status) return status;
   }
-  std::vector<std::string> names;
-  for (const DbcMessage& message : dbc.messages) names.push_back(message.name);
-  std::string reason = "no message \"" + name + "\" in " + dbc.file.filename().string();
-  if (const std::string nearest = nearest_name(name, names); !nearest.empty())
-    reason += "; did you mean \"" + nearest + "\"?";
-  return Error{place, reason};
+  for (NamedValue& value : mapping.on) {
+    if (const Status status = look_up(dbc, signal, mapping.place, value); !status) return status;
+  }
+  return Done{};
 }
 
 }  // namespace
 
 Result<SignalMap> SignalMap::bind(const CockpitConfig& config, Dbc dbc, std::int64_t start_ns) {
   SignalMap map;
+  map.config_ = config;
   map.dbc_ = std::move(dbc);
-  for (const ControlMapping& mapping : config.controls) {
+  for (ControlMapping mapping : config.controls) {
     const auto message = find_message(map.dbc_, mapping.message, mapping.message_place);
     if (!message) return message.error();
     const DbcMessage& dbc_message = map.dbc_.messages[*message];
-    BoundControl control{mapping, 0, std::nullopt};
     const auto signal = find_signal(map.dbc_, dbc_message, mapping.signal, mapping.signal_place);
     if (!signal) return signal.error();
-    control.signal = *signal;
-    if (!mapping.fine_signal.empty()) {
-      const auto fine = find_signal(map.dbc_, dbc_message, mapping.fine_signal, mapping.place);
-      if (!fine) return fine.error();
-      control.fine_signal = *fine;
+    std::optional<std::size_t> others[2];
+    for (int i = 0; i < 2; ++i) {
+      const std::string& name = i == 0 ? mapping.fine_signal : mapping.sign_signal;
+      if (name.empty()) continue;
+      const auto found = find_signal(map.dbc_, dbc_message, name, mapping.place);
+      if (!found) return found.error();
+      others[i] = *found;
     }
-    map.beam_bits_ |= mapping.control == Control::kPosition || mapping.control == Control::kLow;
+    if (const Status status = look_up_all(map.dbc_, dbc_message.signals[*signal], mapping); !status)
+      return status.error();
 
     auto bound =
         std::find_if(map.messages_.begin(), map.messages_.end(), [&](const auto& m) { return m.message == *message; });
     if (bound == map.messages_.end()) {
-      bound = map.messages_.insert(bound, BoundMessage{*message, {}, 0, start_ns});
+      bound = map.messages_.insert(bound, BoundMessage{*message, {}, std::nullopt, 0, start_ns});
     }
     bound->timeout_ns = std::max(bound->timeout_ns, static_cast<std::int64_t>(mapping.timeout_s * 1e9));
-    bound->controls.push_back(std::move(control));
+    const double debounce_s = mapping.debounce_s.value_or(config.debounce_s);
+    bound->controls.push_back({ControlReader(std::move(mapping), static_cast<std::int64_t>(debounce_s * 1e9)), *signal,
+                               others[0], others[1]});
+  }
+  for (const MessageCheck& check : config.checks) {
+    const auto message = find_message(map.dbc_, check.message, check.message_place);
+    if (!message) return message.error();
+    auto checker = MessageChecker::bind(check, map.dbc_, map.dbc_.messages[*message]);
+    if (!checker) return checker.error();
+    const auto bound =
+        std::find_if(map.messages_.begin(), map.messages_.end(), [&](const auto& m) { return m.message == *message; });
+    const bool sent = std::any_of(config.sends.begin(), config.sends.end(),
+                                  [&](const SendMessage& send) { return send.message == check.message; });
+    if (bound == map.messages_.end() && !sent)
+      return Error{check.place, "no control comes from message \"" + check.message + "\", and it is not sent"};
+    if (bound != map.messages_.end()) bound->checker = std::move(*checker);
   }
   return map;
 }
@@ -86,90 +98,58 @@ SignalMap::Taken SignalMap::take(const CanFrame& frame, std::int64_t at_ns, Driv
     return message.id == frame.id && message.extended == frame.extended;
   });
   if (bound == messages_.end()) return Taken::kNotMapped;
-  bool complete = true;
-  for (const BoundControl& control : bound->controls) {
-    complete = read(control, dbc_.messages[bound->message], frame, input) && complete;
+  if (bound->checker) {
+    const auto verdict = bound->checker->take(frame);
+    if (verdict == MessageChecker::Verdict::kBadCrc) return Taken::kBadCrc;
+    if (verdict == MessageChecker::Verdict::kBadCounter) return Taken::kBadCounter;
   }
-  if (beam_bits_) settle_beam_bits(input);
+  bool complete = true;
+  for (BoundControl& control : bound->controls) {
+    complete = read(control, dbc_.messages[bound->message], frame, at_ns, bits_, input) != Read::kUnfit && complete;
+  }
+  settle_bits(config_, bits_, input);
   // A frame too short to read does not prove that the stalk is there.
   if (complete) bound->last_ns = std::max(bound->last_ns, at_ns);
   return complete ? Taken::kDecoded : Taken::kIncomplete;
 }
 
-bool SignalMap::read(const BoundControl& control, const DbcMessage& message, const CanFrame& frame,
-                     DriverInput& input) {
-  const ControlMapping& m = control.mapping;
-  const auto decoded = decode(message, message.signals[control.signal], frame);
-  if (!decoded) return false;
+SignalMap::Read SignalMap::read(BoundControl& control, const DbcMessage& message, const CanFrame& frame,
+                                std::int64_t at_ns, BeamBits& bits, DriverInput& input) {
+  const DbcSignal& signal = message.signals[control.signal];
+  const auto decoded = decode(message, signal, frame);
+  // Of a multiplexed message each frame holds a part; the others come with the next frames.
+  if (!decoded && !signal.multiplexor.empty() && bytes_needed(signal) <= frame.length) return Read::kAbsent;
+  if (!decoded) return Read::kUnfit;
   double value = *decoded;
   if (control.fine_signal) {
     const auto fine = decode(message, message.signals[*control.fine_signal], frame);
-    if (!fine) return false;
+    if (!fine) return Read::kUnfit;
     value += *fine;
   }
-
-  const auto level = [&]() -> std::optional<int> {
-    const auto found = std::find_if(m.levels.begin(), m.levels.end(), [&](const auto& l) { return l.first == value; });
-    return found == m.levels.end() ? std::nullopt : std::optional(found->second);
-  };
-  const bool pressed = m.on ? value == *m.on : value != 0.0;
-  const double pedal_01 = std::clamp((value - m.lowest) / (m.highest - m.lowest), 0.0, 1.0);
-  switch (m.control) {
-    case Control::kLightSwitch:
-      if (!level()) return false;
-      input.switches.stalk = static_cast<LightSwitch>(*level());
-      break;
-    case Control::kGear:
-      if (!level()) return false;
-      input.gear = static_cast<Gear>(*level());
-      break;
-    case Control::kPosition:
-      position_bit_ = pressed;
-      break;
-    case Control::kLow:
-      low_bit_ = pressed;
-      break;
-    case Control::kHigh:
-      input.switches.high = pressed;
-      break;
-    case Control::kFlash:
-      input.switches.flash = pressed;
-      break;
-    case Control::kFogFront:
-      input.switches.fog_front = pressed;
-      break;
-    case Control::kDesignNext:
-      input.switches.design_next = pressed;
-      break;
-    case Control::kDesignPrevious:
-      input.switches.design_previous = pressed;
-      break;
-    case Control::kIgnition:
-      input.switches.ignition = pressed;
-      break;
-    case Control::kSteering: {
-      const double wheel_deg = std::clamp(value * m.scale + m.offset_deg, m.lowest, m.highest);
-      input.steering_wheel_rad = wheel_deg * std::numbers::pi / 180.0;
-      break;
-    }
-    case Control::kAccelerator:
-      input.accelerator_01 = pedal_01;
-      break;
-    case Control::kBrake:
-      input.brake_01 = pedal_01;
-      break;
+  if (control.sign_signal) {
+    const auto sign = decode(message, message.signals[*control.sign_signal], frame);
+    if (!sign) return Read::kUnfit;
+    if (*sign != 0.0) value = -value;
   }
-  return true;
+  return control.reader.take(value, at_ns, bits, input) ? Read::kRead : Read::kUnfit;
 }
 
-void SignalMap::settle_beam_bits(DriverInput& input) const {
-  input.switches.stalk = low_bit_ ? LightSwitch::kLow : position_bit_ ? LightSwitch::kPosition : LightSwitch::kOff;
+const SignalMap::BoundMessage* SignalMap::first_silent() const {
+  const auto first = std::min_element(messages_.begin(), messages_.end(), [](const auto& a, const auto& b) {
+    return a.last_ns + a.timeout_ns < b.last_ns + b.timeout_ns;
+  });
+  return first == messages_.end() ? nullptr : &*first;
 }
 
 std::int64_t SignalMap::silent_at_ns() const {
-  std::int64_t first = std::numeric_limits<std::int64_t>::max();
-  for (const BoundMessage& message : messages_) first = std::min(first, message.last_ns + message.timeout_ns);
-  return first;
+  const BoundMessage* first = first_silent();
+  return first == nullptr ? std::numeric_limits<std::int64_t>::max() : first->last_ns + first->timeout_ns;
+}
+
+const std::string& SignalMap::most_silent() const {
+  static const std::string kNone;
+  const BoundMessage* first = first_silent();
+  return first == nullptr ? kNone : dbc_.messages[first->message].name;
 }
 
 std::vector<CanId> SignalMap::ids() const {
@@ -177,6 +157,12 @@ std::vector<CanId> SignalMap::ids() const {
   for (const BoundMessage& m : messages_)
     ids.push_back({dbc_.messages[m.message].id, dbc_.messages[m.message].extended});
   return ids;
+}
+
+std::uint64_t SignalMap::lost() const {
+  std::uint64_t lost = 0;
+  for (const BoundMessage& m : messages_) lost += m.checker ? m.checker->lost() : 0;
+  return lost;
 }
 
 }  // namespace phare

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "cockpit_io/can_frame.h"
+#include "cockpit_io/control_reader.h"
 #include "cockpit_io/dbc.h"
 #include "cockpit_io/driver_input.h"
+#include "cockpit_io/message_check.h"
 #include "config/cockpit.h"
 #include "config/result.h"
 
@@ -20,6 +22,8 @@ class SignalMap {
     kNotMapped,   ///< no control comes from this id
     kDecoded,     ///< every control of it was read
     kIncomplete,  ///< too short, or a multiplexed signal was not in it, or a value fits no level: those controls stay
+    kBadCrc,      ///< refused: nothing was read
+    kBadCounter,  ///< refused: nothing was read
   };
 
   /// Looks up every signal. Error at the cockpit file's line for a message or signal the DBC has not (naming the
@@ -32,32 +36,39 @@ class SignalMap {
 
   /// When the source will have been silent for its timeout if no more frames come: the first of the mapped messages.
   std::int64_t silent_at_ns() const;
+  /// The name of that message.
+  const std::string& most_silent() const;
 
   bool knows(const CanFrame& frame) const;
   std::vector<CanId> ids() const;
   const Dbc& dbc() const { return dbc_; }
+  const CockpitConfig& config() const { return config_; }
+  /// Frames missing between those that came, by the alive counters that are checked.
+  std::uint64_t lost() const;
 
  private:
   struct BoundControl {
-    ControlMapping mapping;
+    ControlReader reader;
     std::size_t signal = 0;  ///< index in its message
-    std::optional<std::size_t> fine_signal;
+    std::optional<std::size_t> fine_signal, sign_signal;
   };
   struct BoundMessage {
     std::size_t message = 0;  ///< index in the DBC
     std::vector<BoundControl> controls;
+    std::optional<MessageChecker> checker;
     std::int64_t timeout_ns = 0;
     std::int64_t last_ns = 0;
   };
+  enum class Read { kRead, kAbsent, kUnfit };
 
-  bool read(const BoundControl& control, const DbcMessage& message, const CanFrame& frame, DriverInput& input);
-  void settle_beam_bits(DriverInput& input) const;
+  static Read read(BoundControl& control, const DbcMessage& message, const CanFrame& frame, std::int64_t at_ns,
+                   BeamBits& bits, DriverInput& input);
+  const BoundMessage* first_silent() const;
 
+  CockpitConfig config_;
   Dbc dbc_;
   std::vector<BoundMessage> messages_;
-  bool beam_bits_ = false;  // position and low come as flags, not as levels
-  bool position_bit_ = false;
-  bool low_bit_ = false;
+  BeamBits bits_;
 };
 
 }  // namespace phare

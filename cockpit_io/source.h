@@ -5,8 +5,10 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cockpit_io/cockpit.h"
+#include "cockpit_io/feedback.h"
 #include "config/cockpit.h"
 #include "config/result.h"
 #include "net/messages.h"
@@ -20,10 +22,19 @@ struct SourceCounts {
   std::uint64_t incomplete = 0;    ///< mapped, but too short or with a value that means nothing
   std::uint64_t unknown_ids = 0;   ///< frames that the DBC does not know
   std::uint64_t error_frames = 0;  ///< reports of the CAN controller
+  std::uint64_t bad_crc = 0;       ///< mapped, but refused by their checksum
+  std::uint64_t bad_counter = 0;   ///< mapped, but refused by their alive counter
+  std::uint64_t lost_in_data = 0;  ///< frames missing by the alive counters that are checked
   std::uint64_t dropped = 0;       ///< frames the kernel dropped because the socket was full
+  std::uint64_t link_dropped = 0;  ///< frames lost in the interface before any socket
+  std::uint64_t bus_offs = 0;      ///< times the controller left the bus
+  std::uint64_t sent = 0;          ///< frames put onto the bus
+  std::uint64_t not_sent = 0;      ///< frames the kernel did not take
   std::uint64_t broken_lines = 0;  ///< of a log
   std::uint64_t reconnects = 0;    ///< times a lost interface came back
   std::uint64_t fail_safes = 0;    ///< times the source fell silent
+
+  SourceCounts& operator+=(const SourceCounts& other);
 };
 
 class Source {
@@ -32,13 +43,22 @@ class Source {
 
   /// Reads everything up to `now` and hands it to the cockpit, each entry at its own time. Never blocks. `vehicle`:
   /// newest known state of the car, may be nullptr.
-  virtual void advance(Moment now, const VehicleState* vehicle, Cockpit& cockpit) = 0;
+  virtual void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) = 0;
 
   /// The source has no more to give.
   virtual bool ended() const { return false; }
 
   /// One word for the statistics: "up", "down", "silent", "ended".
   virtual std::string status() const { return ended() ? "ended" : "up"; }
+
+  /// What is wrong, for the driver's eye: "can0: link down"; empty when nothing is.
+  virtual std::string fault() const { return {}; }
+
+  /// Tells the source's car what its telltales show. `now`: the wall clock.
+  virtual void send_back(const FeedbackValues&, WallTime /*now*/) {}
+
+  /// File descriptors that become readable when the source has something.
+  virtual std::vector<int> wait_fds() const { return {}; }
 
   const SourceCounts& counts() const { return counts_; }
 
@@ -49,7 +69,8 @@ class Source {
   SourceCounts counts_;
 };
 
-/// Opens the source a cockpit file names. Errors: missing or malformed files, a kernel without CAN.
+/// Opens the source a cockpit file names, with those it names beside it (also). Errors: missing or malformed files, a
+/// kernel without CAN.
 Result<std::unique_ptr<Source>> open_source(const CockpitConfig& config);
 
 }  // namespace phare

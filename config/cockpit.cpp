@@ -1,139 +1,145 @@
 #include "config/cockpit.h"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 
+#include "config/cockpit_control.h"
 #include "config/rig.h"
 #include "config/toml_table.h"
-#include "net/messages.h"
 
 namespace phare {
 
 namespace {
 
-constexpr double kAnyNumber = 1e12;  // keeps values well inside double without limiting a real signal
-constexpr double kMostTimeout_s = 3600.0;
-
-using Levels = std::span<const std::pair<std::string_view, int>>;
-
-constexpr std::pair<std::string_view, int> kLightLevels[]{{"off", static_cast<int>(LightSwitch::kOff)},
-                                                          {"position", static_cast<int>(LightSwitch::kPosition)},
-                                                          {"low", static_cast<int>(LightSwitch::kLow)},
-                                                          {"high", static_cast<int>(LightSwitch::kHigh)}};
-constexpr std::pair<std::string_view, int> kGearLevels[]{{"drive", static_cast<int>(Gear::kDrive)},
-                                                         {"neutral", static_cast<int>(Gear::kNeutral)},
-                                                         {"reverse", static_cast<int>(Gear::kReverse)},
-                                                         {"park", static_cast<int>(Gear::kPark)}};
-
-bool has_levels(Control control) {
-  return control == Control::kLightSwitch || control == Control::kGear;
-}
-bool is_pedal(Control control) {
-  return control == Control::kAccelerator || control == Control::kBrake;
-}
-
-void read_levels(TomlTable table, Levels names, ControlMapping& mapping) {
-  TomlTable levels = table.table("levels");
-  for (const auto& [name, level] : names) {
-    if (!levels.has(name)) continue;
-    const double value = levels.number(name, -kAnyNumber, kAnyNumber);
-    const bool twice =
-        std::any_of(mapping.levels.begin(), mapping.levels.end(), [&](const auto& l) { return l.first == value; });
-    if (twice) levels.fail(name, "another level has this value too");
-    mapping.levels.emplace_back(value, level);
-  }
-  if (mapping.levels.size() < 2 && table.has("levels")) table.fail("levels", "expected at least two levels");
-}
-
-ControlMapping read_control(Control control, TomlTable table, double timeout_s) {
-  ControlMapping mapping;
-  mapping.control = control;
-  mapping.place = table.place();
-  mapping.message = table.text("message");
-  mapping.message_place = table.place("message");
-  mapping.signal = table.text("signal");
-  mapping.signal_place = table.place("signal");
-  mapping.timeout_s = table.number_or("timeout_s", timeout_s, 0.001, kMostTimeout_s);
-  if (has_levels(control)) {
-    read_levels(table, control == Control::kGear ? Levels(kGearLevels) : Levels(kLightLevels), mapping);
-  } else if (control == Control::kSteering) {
-    constexpr double kFull_deg[]{-720.0, 720.0};
-    mapping.fine_signal = table.text_or("fine_signal", "");
-    mapping.scale = table.number_or("scale", 1.0, -kAnyNumber, kAnyNumber);
-    mapping.offset_deg = table.number_or("offset_deg", 0.0, -3600.0, 3600.0);
-    const auto range = table.numbers_or("range_deg", kFull_deg);
-    mapping.lowest = range[0];
-    mapping.highest = range[1];
-    if (!(range[0] < range[1])) table.fail("range_deg", "expected [lowest, highest]");
-  } else if (is_pedal(control)) {
-    constexpr double kUnit[]{0.0, 1.0};
-    mapping.fine_signal = table.text_or("fine_signal", "");
-    const auto range = table.numbers_or("range", kUnit);
-    mapping.lowest = range[0];
-    mapping.highest = range[1];
-    if (range[0] == range[1])
-      table.fail("range", "expected [value when released, value when pressed], two different ones");
-  } else if (table.has("on")) {
-    mapping.on = table.number("on", -kAnyNumber, kAnyNumber);
-  }
-  return mapping;
-}
-
-/// Two signals that claim the same control.
-void check_conflicts(TomlTable& controls, const CockpitConfig& config) {
-  const auto find = [&](Control wanted) {
-    const auto found = std::find_if(config.controls.begin(), config.controls.end(),
-                                    [&](const ControlMapping& m) { return m.control == wanted; });
-    return found == config.controls.end() ? nullptr : &*found;
-  };
-  const ControlMapping* levels = find(Control::kLightSwitch);
-  if (levels == nullptr) return;
-  const auto two = [&](const ControlMapping& other) {
-    controls.fail(kControlNames[static_cast<std::size_t>(other.control)],
-                  "two signals for one control: " + other.signal + " here, and " + levels->signal + " of light_switch");
-  };
-  for (const Control flag : {Control::kPosition, Control::kLow}) {
-    if (const ControlMapping* other = find(flag)) two(*other);
-  }
-  const bool knows_high = std::any_of(levels->levels.begin(), levels->levels.end(),
-                                      [](const auto& l) { return l.second == static_cast<int>(LightSwitch::kHigh); });
-  if (const ControlMapping* other = find(Control::kHigh); other != nullptr && knows_high) two(*other);
-}
+constexpr std::size_t kE2eProfile2Ids = 16;
+constexpr std::size_t kMostSources = 8;
+constexpr std::array<std::string_view, 4> kLightNames{"off", "position", "low", "high"};  // LightSwitch
 
 std::filesystem::path named_file(TomlTable& table, std::string_view key) {
   const std::string named = table.text_or(key, "");
   return named.empty() ? std::filesystem::path{} : resolve_path(named, table.file());
 }
 
+bool is_e2e(CrcKind kind) {
+  return kind == CrcKind::kE2eProfile1 || kind == CrcKind::kE2eProfile2;
+}
+
+std::vector<std::int64_t> data_ids(TomlTable& table, CrcKind kind) {
+  if (kind == CrcKind::kE2eProfile2) {
+    std::vector<std::int64_t> ids;
+    for (const double id : table.numbers("data_ids", kE2eProfile2Ids)) {
+      if (!(id >= 0 && id <= 255)) table.fail("data_ids", "expected sixteen bytes, one for each counter value");
+      ids.push_back(static_cast<std::int64_t>(std::clamp(id, 0.0, 255.0)));
+    }
+    return ids;
+  }
+  if (kind == CrcKind::kE2eProfile1) return {table.integer("data_id", 0, 0xFFFF)};
+  if (table.has("data_id")) return {table.integer("data_id", 0, 0xFF)};
+  return {};
+}
+
+MessageCheck read_check(const std::string& message, TomlTable table) {
+  MessageCheck check;
+  check.message = message;
+  check.place = check.message_place = table.place();
+  check.counter = table.text_or("counter", "");
+  check.counter_place = table.place("counter");
+  if (!check.counter.empty()) {
+    check.counter_step = table.integer_or("counter_step", 1, 1, 255);
+    check.counter_most_lost = table.integer_or("counter_most_lost", 5, 0, 1000);
+    if (table.has("counter_values")) check.counter_values = table.integer("counter_values", 2, 1 << 30);
+  }
+  check.crc = table.text_or("crc", "");
+  check.crc_place = table.place("crc");
+  if (!check.crc.empty()) {
+    check.crc_kind = static_cast<CrcKind>(table.choice("crc_kind", kCrcNames));
+    if (check.crc_kind == CrcKind::kNone) table.fail("crc_kind", "a crc needs its kind");
+    check.data_ids = data_ids(table, check.crc_kind);
+    if (check.crc_kind == CrcKind::kE2eProfile1)
+      check.data_id_mode = static_cast<DataIdMode>(table.choice_or("data_id_mode", 0, kDataIdModeNames));
+    if (is_e2e(check.crc_kind) && check.counter.empty()) table.fail("crc_kind", "this profile needs a counter");
+    // AUTOSAR: the counter of profile 1 goes from 0 to 14.
+    if (check.crc_kind == CrcKind::kE2eProfile1 && !check.counter_values) check.counter_values = 15;
+  }
+  if (check.counter.empty() && check.crc.empty()) table.fail({}, "expected a counter, a crc or both");
+  return check;
+}
+
+SendMessage read_send(TomlTable table) {
+  SendMessage send;
+  send.place = table.place("message");
+  send.message = table.text("message");
+  send.period_s = table.number_or("period_s", 0.1, 0.005, 60.0);
+  TomlTable signals = table.table("signals");
+  for (const std::string& signal : signals.keys()) {
+    send.signals.push_back(
+        {signal, static_cast<SendValue>(signals.choice(signal, kSendValueNames)), signals.place(signal)});
+  }
+  if (send.signals.empty() && table.has("signals")) table.fail("signals", "expected at least one signal");
+  return send;
+}
+
+void read_automatic(TomlTable table, CockpitConfig& config) {
+  config.automatic_high = table.flag_or("enabled", true);
+  config.automatic_above_mps = table.number_or("above_kmh", 40.0, 0.0, 300.0) / 3.6;
+  config.automatic_below_mps = table.number_or("below_kmh", 25.0, 0.0, 300.0) / 3.6;
+  config.automatic_delay_s = table.number_or("delay_s", config.automatic_delay_s, 0.0, 60.0);
+  if (config.automatic_below_mps > config.automatic_above_mps)
+    table.fail("below_kmh", "must not be above above_kmh, or the beam would flicker");
+}
+
+void read_source(TomlTable source, CockpitConfig& config) {
+  config.source = static_cast<SourceKind>(source.choice("kind", kSourceKindNames));
+  const bool is_can = config.source == SourceKind::kCan;
+  const bool is_log = config.source == SourceKind::kLog;
+  if (is_can) config.interface = source.text("interface");
+  if (is_can && config.interface.size() > 15) source.fail("interface", "an interface's name has at most 15 letters");
+  if (is_can || is_log) config.dbc_file = named_file(source, "dbc");
+  if (is_log || config.source == SourceKind::kDrive || config.source == SourceKind::kDriver)
+    config.input_file = named_file(source, "file");
+  if (is_log) config.log_speed = source.number_or("speed", 1.0, 0.01, 1000.0);
+  if (config.source == SourceKind::kGamepad) config.device = source.text_or("device", "");
+  config.timeout_s = source.number_or("timeout_s", config.timeout_s, 0.001, kMostTimeout_s);
+  config.debounce_s = source.number_or("debounce_s", config.debounce_s, 0.0, 1.0);
+  config.default_light = static_cast<int>(source.choice_or("lights", 0, kLightNames));
+  for (const std::string& file : source.texts_or_empty("also")) {
+    config.also.push_back(resolve_path(file, source.file()));
+  }
+  if (config.also.size() >= kMostSources) source.fail("also", "at most 7 further sources");
+}
+
 Result<CockpitConfig> read(TomlTable root) {
   CockpitConfig config;
   config.file = root.file();
-  TomlTable source = root.table("source");
-  config.source = static_cast<SourceKind>(source.choice("kind", kSourceKindNames));
-  const bool is_can = config.source == SourceKind::kCan;
-  if (is_can) config.interface = source.text("interface");
-  if (is_can && config.interface.size() > 15) source.fail("interface", "an interface's name has at most 15 letters");
-  if (is_can || config.source == SourceKind::kLog) config.dbc_file = named_file(source, "dbc");
-  if (!is_can && config.source != SourceKind::kKeyboard) config.input_file = named_file(source, "file");
-  config.timeout_s = source.number_or("timeout_s", config.timeout_s, 0.001, kMostTimeout_s);
-  config.debounce_s = source.number_or("debounce_s", config.debounce_s, 0.0, 1.0);
-
+  read_source(root.table("source"), config);
+  const bool is_gamepad = config.source == SourceKind::kGamepad;
+  if (auto automatic = root.table_if("automatic_high_beam")) read_automatic(*automatic, config);
   if (auto controls = root.table_if("control")) {
     for (std::size_t i = 0; i < kControlNames.size(); ++i) {
       if (auto table = controls->table_if(kControlNames[i])) {
-        config.controls.push_back(read_control(static_cast<Control>(i), *table, config.timeout_s));
+        config.controls.push_back(read_control(static_cast<Control>(i), *table, config.timeout_s, is_gamepad));
       }
     }
     check_conflicts(*controls, config);
-  } else if (is_can) {
-    root.fail("source", "a CAN source needs at least one [control.…] table");
+  } else if (config.source == SourceKind::kCan || is_gamepad) {
+    root.fail("source", "this source needs at least one [control.…] table");
   }
+  if (auto checks = root.table_if("check")) {
+    for (const std::string& message : checks->keys()) {
+      config.checks.push_back(read_check(message, checks->table(message)));
+    }
+  }
+  for (const TomlTable& send : root.tables("send")) config.sends.push_back(read_send(send));
   if (const Status status = root.finish(); !status) return status.error();
   return config;
 }
 
 }  // namespace
+
+const ControlMapping* CockpitConfig::find(Control control) const {
+  const auto found =
+      std::find_if(controls.begin(), controls.end(), [&](const ControlMapping& m) { return m.control == control; });
+  return found == controls.end() ? nullptr : &*found;
+}
 
 Result<CockpitConfig> read_cockpit(const std::filesystem::path& file) {
   Result<TomlTable> root = TomlTable::read(file);

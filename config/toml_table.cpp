@@ -264,6 +264,32 @@ std::vector<double> TomlTable::numbers_or(std::string_view key, std::span<const 
   return numbers(key, fallback.size());
 }
 
+std::vector<std::variant<double, std::string>> TomlTable::values_or_empty(std::string_view key) {
+  const toml::node* value = document_->value(*node_, key, false);
+  std::vector<std::variant<double, std::string>> result;
+  if (value == nullptr) return result;
+  bool good = true;
+  const auto take = [&](const toml::node& element) {
+    if (const auto* string = element.as_string()) {
+      result.emplace_back(string->get());
+    } else if (const auto number = finite_number(element)) {
+      result.emplace_back(*number);
+    } else {
+      good = false;
+    }
+  };
+  if (const auto* array = value->as_array()) {
+    for (const toml::node& element : *array) take(element);
+  } else {
+    take(*value);
+  }
+  if (!good || result.empty()) {
+    document_->wrong(*node_, key, *value, "expected a finite number or a text, or an array of them");
+    result.clear();
+  }
+  return result;
+}
+
 std::vector<std::string> TomlTable::texts_or_empty(std::string_view key) {
   const toml::node* value = document_->value(*node_, key, false);
   std::vector<std::string> result;

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "config/result.h"
@@ -41,6 +42,8 @@ class TomlTable {
   /// A required array of exactly `count` finite numbers (0: any count); zeros when it is not.
   std::vector<double> numbers(std::string_view key, std::size_t count);
   std::vector<double> numbers_or(std::string_view key, std::span<const double> fallback);
+  /// Numbers and texts: one of them, or an array of them; empty when the key is missing.
+  std::vector<std::variant<double, std::string>> values_or_empty(std::string_view key);
   /// An array of texts; empty when the key is missing.
   std::vector<std::string> texts_or_empty(std::string_view key);
 

@@ -13,6 +13,7 @@ namespace phare {
 
 enum class Sender { kUnknown = 0, kCockpit = 1, kDynamics = 2, kVisual = 3, kControl = 4 };
 enum class LightSwitch { kOff = 0, kPosition = 1, kLow = 2, kHigh = 3 };
+enum class TurnSignal { kNone = 0, kLeft = 1, kRight = 2 };
 enum class Gear { kDrive = 0, kNeutral = 1, kReverse = 2, kPark = 3 };
 
 struct CockpitState {
@@ -31,6 +32,15 @@ struct CockpitState {
   SimTime light_change_sim;
   bool drive_ended = false;
   std::string source;
+  bool fog_rear = false;
+  TurnSignal turn = TurnSignal::kNone;
+  bool hazard = false;
+  bool high_beam_automatic = false;
+  double lamp_aim_rad = 0.0;
+  double clutch_01 = 0.0;
+  bool ignition_off = false;
+  WallTime source_stamp;
+  std::string source_fault;
 
   friend bool operator==(const CockpitState&, const CockpitState&) = default;
 };

@@ -84,6 +84,15 @@ void fill(wire::CockpitState& to, const CockpitState& from) {
   to.set_light_change_sim_ns(from.light_change_sim.ns);
   to.set_drive_ended(from.drive_ended);
   to.set_source(from.source);
+  to.set_fog_rear(from.fog_rear);
+  to.set_turn(to_wire_enum<wire::TurnSignal>(static_cast<int>(from.turn)));
+  to.set_hazard(from.hazard);
+  to.set_high_beam_automatic(from.high_beam_automatic);
+  to.set_lamp_aim_rad(from.lamp_aim_rad);
+  to.set_clutch_01(from.clutch_01);
+  to.set_ignition_off(from.ignition_off);
+  to.set_source_stamp_wall_ns(from.source_stamp.ns);
+  to.set_source_fault(from.source_fault);
 }
 
 void fill(wire::VehicleState& to, const VehicleState& from) {
@@ -181,6 +190,15 @@ void read(CockpitState& to, const wire::CockpitState& from) {
   to.light_change_sim.ns = from.light_change_sim_ns();
   to.drive_ended = from.drive_ended();
   to.source = from.source();
+  to.fog_rear = from.fog_rear();
+  to.turn = static_cast<TurnSignal>(static_cast<int>(from.turn()));
+  to.hazard = from.hazard();
+  to.high_beam_automatic = from.high_beam_automatic();
+  to.lamp_aim_rad = from.lamp_aim_rad();
+  to.clutch_01 = from.clutch_01();
+  to.ignition_off = from.ignition_off();
+  to.source_stamp.ns = from.source_stamp_wall_ns();
+  to.source_fault = from.source_fault();
 }
 
 void read(VehicleState& to, const wire::VehicleState& from) {
@@ -348,6 +366,10 @@ void check(Checker& c, const CockpitState& s) {
   c.number(s.brake_01, 0.0, 1.0);
   c.require(s.light_change_sim.ns >= -kMaxTime_ns && s.light_change_sim.ns <= kMaxTime_ns);
   c.require(s.source.size() <= kMaxNameBytes);
+  c.require(enum_within(s.turn, TurnSignal::kRight));
+  c.within(s.lamp_aim_rad, kMaxAim_rad);
+  c.number(s.clutch_01, 0.0, 1.0);
+  c.require(s.source_fault.size() <= kMaxErrorBytes);
 }
 
 void check(Checker& c, const VehicleState& s) {

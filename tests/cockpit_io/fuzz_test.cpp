@@ -1,6 +1,8 @@
 // Random bytes and damaged files to every reader: any answer will do, a crash will not. Seeds are fixed.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -110,6 +112,47 @@ TEST(Fuzz, CockpitFile) {
   }
 }
 
+TEST(Fuzz, MultiplexedDbc) {
+  const std::string good =
+      "BO_ 1280 M: 8 X\n SG_ W M : 0|4@1+ (1,0) [0|0] \"\" X\n SG_ I m3M : 4|4@1- (1,0) [0|0] \"\" X\n"
+      " SG_ D m1 : 15|8@0+ (0.5,1) [0|0] \"\" X\n SG_ F m2 : 16|32@1- (1,0) [0|0] \"\" X\n"
+      "SG_MUL_VAL_ 1280 I W 3-5;\nSG_MUL_VAL_ 1280 D I 1-1, 9-9;\nSIG_VALTYPE_ 1280 F : 1;\n"
+      "VAL_TABLE_ T 0 \"a\" 1 \"b\";\nVAL_ 1280 W T;\nCM_ SG_ 1280 W \"x\ny\";\nBA_ \"VFrameFormat\" BO_ 1280 14;\n"
+      "BA_ \"SystemSignalLongSymbol\" SG_ 1280 W \"WHICH\";\n";
+  std::mt19937_64 random(7);
+  for (int round = 0; round < 8000; ++round) {
+    const auto dbc = parse_dbc(damaged(good, random), "f.dbc");
+    if (!dbc.ok()) continue;
+    CanFrame frame = random_frame(random);
+    for (const DbcMessage& message : dbc->messages) {
+      for (const DbcSignal& signal : message.signals) {
+        ASSERT_EQ(signal.multiplexor.empty(), signal.multiplex_values.empty());
+        ASSERT_TRUE(signal.multiplexor.empty() || message.find(signal.multiplexor) != nullptr);
+        encode(message, signal, 1.0, frame);
+        decode(message, signal, frame);
+      }
+    }
+  }
+}
+
+TEST(Fuzz, EveryShippedCockpitFile) {
+  std::mt19937_64 random(8);
+  std::size_t read = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(PHARE_COCKPITS_DIR)) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string good = contents(entry.path());
+    for (int round = 0; round < 150; ++round) {
+      const auto config = parse_cockpit(damaged(good, random), "f.toml");
+      if (!config.ok()) {
+        EXPECT_FALSE(config.error().reason.empty());
+      } else {
+        ++read;
+      }
+    }
+  }
+  EXPECT_GT(read, 50u);
+}
+
 TEST(Fuzz, FramesThroughTheMapAndTheSwitches) {
   const auto config = read_cockpit(std::string(PHARE_COCKPITS_DIR) + "/phare_stalk.toml");
   SignalMap map = *SignalMap::bind(*config, *read_dbc(config->dbc_file), 0);
@@ -124,6 +167,8 @@ TEST(Fuzz, FramesThroughTheMapAndTheSwitches) {
     ASSERT_TRUE(state.accelerator_01 >= 0.0 && state.accelerator_01 <= 1.0);
     ASSERT_TRUE(state.brake_01 >= 0.0 && state.brake_01 <= 1.0);
     ASSERT_LT(state.design_index, 2u);
+    ASSERT_TRUE(state.clutch_01 >= 0.0 && state.clutch_01 <= 1.0);
+    ASSERT_LE(std::abs(state.lamp_aim_rad), 0.2);
   }
 }
 

@@ -1,0 +1,142 @@
+#include "cockpit_io/learn.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace phare {
+
+namespace {
+
+constexpr std::uint64_t kMostMoves = 40;  // of one signal are shown
+constexpr std::size_t kMostValues = 16;   // more of them: an angle or a pedal, not a switch
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+std::string id_text(std::uint32_t id, bool extended) {
+  char text[16];
+  std::snprintf(text, sizeof text, extended ? "%08X" : "%03X", id);
+  return text;
+}
+
+double physical(const DbcSignal& s, std::uint64_t raw) {
+  CanFrame frame;  // the signal's bits alone, decoded as any other frame
+  frame.length = CanFrame::kMaxLength;
+  DbcMessage alone;
+  DbcSignal free = s;
+  free.multiplexor.clear();
+  encode_raw(alone, free, raw, frame);
+  return decode(alone, free, frame).value_or(0.0);
+}
+
+std::string value_text(const DbcSignal* s, std::uint64_t raw) {
+  if (s == nullptr) return std::to_string(raw);
+  std::string text = number_text(physical(*s, raw)) + (s->unit.empty() ? "" : " " + s->unit);
+  const auto key = s->type == DbcSignal::Type::kSigned && s->length_bits < 64 && (raw >> (s->length_bits - 1)) != 0
+                       ? static_cast<std::int64_t>(raw) - (std::int64_t{1} << s->length_bits)
+                       : static_cast<std::int64_t>(raw);
+  if (const auto name = s->value_names.find(key); name != s->value_names.end()) text += " (" + name->second + ")";
+  return text;
+}
+
+}  // namespace
+
+std::string Learner::name_of(const Key& key) const {
+  if (const DbcMessage* message = dbc_.find(key.id, key.extended))
+    return message->name + "." + message->signals[key.index].name;
+  return id_text(key.id, key.extended) + " byte " + std::to_string(key.index / 8) + " bit " +
+         std::to_string(key.index % 8);
+}
+
+std::optional<std::string> Learner::watch(Key key, std::uint64_t raw, const DbcSignal* signal, std::int64_t at_ns) {
+  const auto [found, first] = watched_.try_emplace(key);
+  Watched& w = found->second;
+  if (first) {
+    w.raw = raw;
+    // A signal that shows up only now is one that is sent when something moves.
+    if (at_ns >= rest_ns_) ++w.values[raw];
+    return std::nullopt;
+  }
+  if (raw == w.raw) return std::nullopt;
+  const std::uint64_t before = std::exchange(w.raw, raw);
+  if (at_ns < rest_ns_) {
+    w.restless = true;
+    return std::nullopt;
+  }
+  if (w.restless) return std::nullopt;
+  ++w.moves;
+  if (w.values.size() <= kMostValues) ++w.values[before], ++w.values[raw];
+  // A wheel that turns, or a bit of one, would fill the screen.
+  if (w.values.size() > kMostValues || w.moves > kMostMoves) return std::nullopt;
+  char time[32];
+  std::snprintf(time, sizeof time, "%9.3f s  ", static_cast<double>(at_ns) * 1e-9);
+  std::string line = time + name_of(key) + "  " + value_text(signal, before) + " -> " + value_text(signal, raw);
+  if (signal != nullptr && !signal->comment.empty()) line += "   " + signal->comment.substr(0, 60);
+  return line;
+}
+
+std::vector<std::string> Learner::take(const CanFrame& frame, std::int64_t at_ns) {
+  std::vector<std::string> lines;
+  if (!frame.carries_data()) return lines;
+  ++frames_;
+  const auto show = [&](std::optional<std::string> line) {
+    if (line) lines.push_back(std::move(*line));
+  };
+  ids_.insert({frame.id, frame.extended});
+  if (const DbcMessage* message = dbc_.find(frame.id, frame.extended)) {
+    for (std::uint32_t i = 0; i < message->signals.size(); ++i) {
+      const DbcSignal& signal = message->signals[i];
+      if (!is_present(*message, signal, frame.bytes())) continue;
+      show(watch({frame.id, frame.extended, i}, *raw_bits(signal, frame.bytes()), &signal, at_ns));
+    }
+    return lines;
+  }
+  if (!dbc_.messages.empty()) return lines;  // of ids that the DBC does not know, a bit says little
+  for (std::uint32_t bit = 0; bit < 8u * frame.length; ++bit) {
+    show(watch({frame.id, frame.extended, bit}, (frame.data[bit / 8] >> bit % 8) & 1u, nullptr, at_ns));
+  }
+  return lines;
+}
+
+std::vector<std::string> Learner::summary() const {
+  std::vector<std::pair<const Key*, const Watched*>> moved;
+  std::size_t restless = 0;
+  for (const auto& [key, w] : watched_) {
+    restless += w.restless ? 1 : 0;
+    if (!w.restless && w.moves > 0) moved.emplace_back(&key, &w);
+  }
+  std::stable_sort(moved.begin(), moved.end(),
+                   [](const auto& a, const auto& b) { return a.second->values.size() < b.second->values.size(); });
+  std::vector<std::string> lines;
+  lines.push_back(std::to_string(frames_) + " frames of " + std::to_string(ids_.size()) + " ids; " +
+                  std::to_string(restless) + " signals changed by themselves and are left out; " +
+                  std::to_string(moved.size()) + " moved afterwards:");
+  for (const auto& [key, w] : moved) {
+    const DbcMessage* message = dbc_.find(key->id, key->extended);
+    const DbcSignal* signal = message != nullptr ? &message->signals[key->index] : nullptr;
+    std::string line = "  " + name_of(*key) + "  " + std::to_string(w->moves) + " moves, ";
+    if (w->values.size() > kMostValues) {
+      line += "more than " + std::to_string(kMostValues) + " values: an angle or a pedal";
+    } else {
+      line += "values";
+      for (const auto& [raw, count] : w->values) line += " " + value_text(signal, raw);
+    }
+    lines.push_back(line);
+  }
+  bool drafted = false;
+  for (const auto& [key, w] : moved) {
+    const DbcMessage* message = dbc_.find(key->id, key->extended);
+    if (message == nullptr || w->values.size() > 2) continue;
+    if (!drafted)
+      lines.push_back("\n# For the cockpit file; put the control's name in place of NAME (docs/cockpit-file.md):");
+    drafted = true;
+    lines.push_back("[control.NAME]\nmessage = \"" + message->name + "\"\nsignal = \"" +
+                    message->signals[key->index].name + "\"\n");
+  }
+  return lines;
+}
+
+}  // namespace phare

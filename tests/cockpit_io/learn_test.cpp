@@ -1,0 +1,69 @@
+// --learn: what changes by itself is left out, what is moved is named.
+#include "cockpit_io/learn.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cockpit_io/candump.h"
+
+namespace phare {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+bool any_has(const std::vector<std::string>& lines, const std::string& text) {
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const std::string& line) { return line.find(text) != std::string::npos; });
+}
+
+/// Ten seconds of phare_stalk frames, 50 a second: the counter runs, at 7 s the flash is pulled.
+std::vector<std::string> shown(Learner& learner) {
+  std::vector<std::string> all;
+  for (int i = 0; i < 500; ++i) {
+    CanFrame frame;
+    frame.id = 0x500;
+    frame.length = 8;
+    frame.data[0] = static_cast<std::uint8_t>(i >= 350 && i < 360 ? 6 : 2);
+    frame.data[7] = static_cast<std::uint8_t>(i & 0xF);
+    const auto lines = learner.take(frame, i * kSecond / 50);
+    all.insert(all.end(), lines.begin(), lines.end());
+  }
+  return all;
+}
+
+TEST(Learn, NamesTheSignalThatMovedAndNotTheCounter) {
+  Learner learner(*read_dbc(PHARE_COCKPITS_DIR "/phare_stalk.dbc"), 5 * kSecond);
+  const auto lines = shown(learner);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_NE(lines[0].find("7.000 s  BEAM_STALK.FLASH  0 -> 1"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[1].find("7.200 s  BEAM_STALK.FLASH  1 -> 0"), std::string::npos) << lines[1];
+  const auto summary = learner.summary();
+  EXPECT_TRUE(any_has(summary, "500 frames of 1 ids; 1 signals changed by themselves")) << summary[0];
+  EXPECT_TRUE(any_has(summary, "signal = \"FLASH\""));
+}
+
+TEST(Learn, WithoutADbcNamesBits) {
+  Learner learner({}, 5 * kSecond);
+  const auto lines = shown(learner);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_NE(lines[0].find("500 byte 0 bit 2  0 -> 1"), std::string::npos) << lines[0];
+}
+
+TEST(Learn, FindsTheTurnButtonOfARealDrive) {
+  const std::filesystem::path shared = PHARE_SHARED_DATA_DIR;
+  if (!std::filesystem::exists(shared / "drives/comma2k19")) GTEST_SKIP() << "no " << shared;
+  const auto log = read_candump(shared / "drives/comma2k19/rav4_seg40_bus0_00-30s.candump.log");
+  Learner learner(*read_dbc(shared / "dbc/opendbc/toyota_nodsu_pt_generated.dbc"), 2 * kSecond);
+  std::vector<std::string> all;
+  for (const CandumpEntry& entry : log->entries) {
+    const auto lines = learner.take(entry.frame, entry.stamp_ns - log->entries.front().stamp_ns);
+    all.insert(all.end(), lines.begin(), lines.end());
+  }
+  EXPECT_TRUE(any_has(all, "BLINKERS_STATE.BLINKER_BUTTON_PRESSED  0 (not pressed) -> 1 (button pressed)"));
+  EXPECT_FALSE(any_has(all, "LIGHT_STALK.")) << "the light stalk stays off throughout";
+}
+
+}  // namespace
+}  // namespace phare
