@@ -22,7 +22,7 @@ constexpr std::size_t kMaxLampsOfDesign = 8;  // positions the renderer sums per
 
 constexpr std::array<std::string_view, 6> kFunctionNames{"position", "low", "high", "fog", "daytime", "cornering"};
 constexpr std::array<std::string_view, 2> kAxisNames{"gamma0", "gamma90"};
-constexpr std::array<std::string_view, 2> kDynamicsLevels{"pose", "kinematic"};
+constexpr std::array<std::string_view, 5> kDynamicsLevels{"pose", "kinematic", "single-track", "full", "auto"};
 
 glm::dvec3 vector3(const std::vector<double>& xyz) {
   return {xyz[0], xyz[1], xyz[2]};

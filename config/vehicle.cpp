@@ -1,5 +1,7 @@
 #include "config/vehicle.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "config/conventions.h"
@@ -8,6 +10,106 @@
 namespace phare {
 namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kRadpsPerRpm = std::numbers::pi / 30.0;
+
+TyreParams read_tyre(TomlTable tyre) {
+  TyreParams p;
+  p.long_shape = tyre.number("long_shape", 1.0, 2.0);
+  p.long_peak = tyre.number("long_peak", 0.05, 3.0);
+  p.long_curvature = tyre.number("long_curvature", -10.0, 1.0);
+  p.long_stiffness = tyre.number("long_stiffness", 1.0, 100.0);
+  p.lat_shape = tyre.number("lat_shape", 1.0, 2.0);
+  p.lat_peak = tyre.number("lat_peak", 0.05, 3.0);
+  p.lat_curvature = tyre.number("lat_curvature", -10.0, 1.0);
+  p.lat_stiffness = tyre.number("lat_stiffness", 1.0, 100.0);
+  p.long_weight = tyre.number("long_weight", 0.0, 100.0);
+  p.long_weight_fall = tyre.number("long_weight_fall", -100.0, 100.0);
+  p.long_weight_shape = tyre.number("long_weight_shape", 0.1, 2.0);
+  p.long_weight_curvature = tyre.number("long_weight_curvature", -10.0, 1.0);
+  p.lat_weight = tyre.number("lat_weight", 0.0, 100.0);
+  p.lat_weight_fall = tyre.number("lat_weight_fall", -100.0, 100.0);
+  p.lat_weight_shape = tyre.number("lat_weight_shape", 0.1, 2.0);
+  p.lat_weight_curvature = tyre.number("lat_weight_curvature", -10.0, 1.0);
+  p.long_relaxation_m = tyre.number("long_relaxation_m", 0.005, 2.0);
+  p.lat_relaxation_m = tyre.number("lat_relaxation_m", 0.005, 2.0);
+  p.carcass_damping_nspm = tyre.number("carcass_damping_nspm", 0.0, 1e5);
+  return p;
+}
+
+ChassisParams read_chassis(TomlTable body, TomlTable suspension, TomlTable drive, TomlTable steering, TomlTable tyre) {
+  ChassisParams p;
+  p.roll_inertia_kgm2 = body.number("roll_inertia_kgm2", 10.0, 1e5);
+  p.pitch_inertia_kgm2 = body.number("pitch_inertia_kgm2", 10.0, 1e6);
+  p.yaw_inertia_kgm2 = body.number("yaw_inertia_kgm2", 10.0, 1e6);
+  p.front_axle_kg = body.number("front_axle_kg", 5.0, 5000.0);
+  p.rear_axle_kg = body.number("rear_axle_kg", 5.0, 5000.0);
+  p.front_track_m = body.number("front_track_m", 0.5, 3.0);
+  p.rear_track_m = body.number("rear_track_m", 0.5, 3.0);
+  p.front_damping_nspm = suspension.number("front_damping_nspm", 0.0, 1e6);
+  p.rear_damping_nspm = suspension.number("rear_damping_nspm", 0.0, 1e6);
+  p.front_anti_roll_nmprad = suspension.number("front_anti_roll_nmprad", 0.0, 1e7);
+  p.rear_anti_roll_nmprad = suspension.number("rear_anti_roll_nmprad", 0.0, 1e7);
+  p.tyre_damping_nspm = suspension.number_or("tyre_damping_nspm", 0.0, 0.0, 1e5);
+  p.anti_squat_01 = suspension.number_or("anti_squat_01", 0.0, 0.0, 1.0);
+  p.bump_travel_m = suspension.number("bump_travel_m", 0.01, 1.0);
+  p.rebound_travel_m = suspension.number("rebound_travel_m", 0.01, 1.0);
+  p.stop_rate_npm = suspension.number("stop_rate_npm", 0.0, 1e7);
+  p.brake_front_01 = drive.number("brake_front_01", 0.0, 1.0);
+  p.drive_front_01 = drive.number("drive_front_01", 0.0, 1.0);
+  p.ackermann_01 = steering.number("ackermann_01", 0.0, 1.0);
+  p.tyre = read_tyre(tyre);
+  return p;
+}
+
+EngineParams read_engine(TomlTable engine) {
+  EngineParams p;
+  p.speed_radps = engine.numbers("speed_rpm", 0);
+  p.torque_nm = engine.numbers("torque_nm", 0);
+  for (double& speed : p.speed_radps) speed *= kRadpsPerRpm;
+  p.idle_radps = engine.number("idle_rpm", 100.0, 3000.0) * kRadpsPerRpm;
+  p.drag_nm = engine.number("drag_nm", 0.0, 1000.0);
+  p.gear_ratio = engine.numbers("gear_ratio", 0);
+  p.reverse_ratio = engine.number("reverse_ratio", 0.5, 50.0);
+  p.final_ratio = engine.number("final_ratio", 0.5, 50.0);
+  p.efficiency_01 = engine.number("efficiency_01", 0.1, 1.0);
+  p.converter_ratio = engine.number("converter_ratio", 1.0, 5.0);
+  p.shift_up_low_radps = engine.number("shift_up_low_rpm", 500.0, 15000.0) * kRadpsPerRpm;
+  p.shift_up_full_radps = engine.number("shift_up_full_rpm", 500.0, 15000.0) * kRadpsPerRpm;
+  p.shift_down_radps = engine.number("shift_down_rpm", 300.0, 15000.0) * kRadpsPerRpm;
+  if (p.speed_radps.size() < 2 || p.speed_radps.size() != p.torque_nm.size())
+    engine.fail("torque_nm", "needs as many values as speed_rpm, two at least");
+  for (std::size_t i = 0; i < p.speed_radps.size(); ++i) {
+    if (!(p.speed_radps[i] >= 0.0 && p.speed_radps[i] < 2500.0) ||
+        (i > 0 && !(p.speed_radps[i] > p.speed_radps[i - 1])))
+      engine.fail("speed_rpm", "does not rise from 0 towards 20000 at most");
+    if (i < p.torque_nm.size() && !(p.torque_nm[i] >= 0.0 && p.torque_nm[i] <= 5000.0))
+      engine.fail("torque_nm", "is outside 0 to 5000");
+  }
+  if (p.gear_ratio.empty()) engine.fail("gear_ratio", "names no gear");
+  double last = 50.0, closest = 1.0;
+  for (const double ratio : p.gear_ratio) {
+    if (!(ratio > 0.1 && ratio < last)) engine.fail("gear_ratio", "does not fall from gear to gear within 50 to 0.1");
+    if (last < 50.0) closest = std::min(closest, ratio / last);
+    last = ratio;
+  }
+  // A gearbox that shifts up must not at once want to shift down again.
+  if (p.shift_down_radps >= closest * p.shift_up_low_radps || p.shift_up_full_radps < p.shift_up_low_radps)
+    engine.fail("shift_down_rpm", "lies above the speed that a shift up leads to: the gearbox would hunt");
+  return p;
+}
+
+LevellingParams read_levelling(TomlTable levelling) {
+  LevellingParams p;
+  p.lamp_x_m = levelling.number("lamp_x_m", -5.0, 10.0);
+  p.lamp_height_m = levelling.number("lamp_height_m", 0.3, 2.0);
+  p.aim_rad = levelling.number("aim_percent", -10.0, 10.0) * 0.01;
+  p.manual_step_rad = levelling.number("manual_step_percent", 0.0, 5.0) * 0.01;
+  p.range_rad = levelling.number("range_deg", 0.0, 10.0) * kRadPerDeg;
+  p.rate_radps = levelling.number("rate_degps", 0.01, 1000.0) * kRadPerDeg;
+  p.filter_s = levelling.number("filter_s", 0.0, 60.0);
+  return p;
+}
+
 }  // namespace
 
 Result<VehicleParams> read_vehicle(const std::filesystem::path& file) {
@@ -48,6 +150,17 @@ Result<VehicleParams> read_vehicle(const std::filesystem::path& file) {
   p.drag_area_m2 = drive.number("drag_area_m2", 0.0, 20.0);
   p.rolling_coefficient = drive.number("rolling_coefficient", 0.0, 0.1);
 
+  const bool has_body = root.has("body"), has_tyre = root.has("tyre");
+  if (has_body || has_tyre)
+    p.chassis = read_chassis(root.table("body"), suspension, drive, steering, root.table("tyre"));
+  if (auto engine = root.table_if("engine")) p.engine = read_engine(*engine);
+  if (auto levelling = root.table_if("levelling")) p.levelling = read_levelling(*levelling);
+
+  if (p.chassis) {
+    const double axles_kg = p.chassis->front_axle_kg + p.chassis->rear_axle_kg;
+    if (std::abs(p.sprung_mass_kg + axles_kg - p.mass_kg) > 0.01 * p.mass_kg)
+      root.fail("mass_kg", "is not sprung_mass_kg and both axles together");
+  }
   if (p.sprung_mass_kg > p.mass_kg) root.fail("sprung_mass_kg", "is more than mass_kg");
   if (p.cg_to_front_m >= p.wheelbase_m) root.fail("cg_to_front_m", "lies behind the rear axle");
   if (p.roll_stiffness_nmprad <= 1.1 * p.sprung_mass_kg * kGravity_mps2 * p.cg_height_m)

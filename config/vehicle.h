@@ -3,11 +3,65 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "config/result.h"
 
 namespace phare {
+
+/// Magic Formula with combined slip: the mirror-symmetric subset of PAC2002 (H. B. Pacejka, Tire and Vehicle Dynamics,
+/// 3rd ed. 2012, ch. 4) that the CommonRoad tables give. Stiffnesses are slip stiffness over load.
+struct TyreParams {
+  double long_shape = 0.0, long_peak = 0.0, long_curvature = 0.0, long_stiffness = 0.0;  ///< C, D/Fz, E, K/Fz
+  double lat_shape = 0.0, lat_peak = 0.0, lat_curvature = 0.0, lat_stiffness = 0.0;
+  /// Weighting of the longitudinal force by side slip: stiffness factor, its fall with kappa, shape, curvature.
+  double long_weight = 0.0, long_weight_fall = 0.0, long_weight_shape = 0.0, long_weight_curvature = 0.0;
+  double lat_weight = 0.0, lat_weight_fall = 0.0, lat_weight_shape = 0.0, lat_weight_curvature = 0.0;
+  double long_relaxation_m = 0.0, lat_relaxation_m = 0.0;  ///< at small slip
+  double carcass_damping_nspm = 0.0;  ///< of the contact patch against the rim at 2.7 kN, standing still
+};
+
+/// What the levels single-track and full need beyond the kinematic one.
+struct ChassisParams {
+  double roll_inertia_kgm2 = 0.0;   ///< of the sprung mass about its own centre
+  double pitch_inertia_kgm2 = 0.0;  ///< the same
+  double yaw_inertia_kgm2 = 0.0;    ///< of the whole car
+  double front_axle_kg = 0.0;       ///< unsprung mass, both wheels
+  double rear_axle_kg = 0.0;
+  double front_track_m = 0.0, rear_track_m = 0.0;
+  double front_damping_nspm = 0.0, rear_damping_nspm = 0.0;      ///< at one wheel
+  double front_anti_roll_nmprad = 0.0, rear_anti_roll_nmprad = 0.0;  ///< of the bar, per radian of roll
+  double tyre_damping_nspm = 0.0;                                 ///< vertical, one tyre
+  double anti_squat_01 = 0.0;  ///< share of the load transfer of driving that the rear linkage carries past the spring
+  double bump_travel_m = 0.0, rebound_travel_m = 0.0;  ///< from rest to the stops
+  double stop_rate_npm = 0.0;                          ///< added beyond them
+  double brake_front_01 = 0.0, drive_front_01 = 0.0;   ///< front share of brake and drive torque
+  double ackermann_01 = 0.0;                           ///< 0: parallel front wheels, 1: all axes meet
+  TyreParams tyre;
+};
+
+/// Torque curve and automatic gearbox. Without one the drive is the hyperbola of max_drive_force_n and max_power_w.
+struct EngineParams {
+  std::vector<double> speed_radps, torque_nm;  ///< full load, rising speed
+  double idle_radps = 0.0;
+  double drag_nm = 0.0;            ///< engine braking at zero accelerator
+  std::vector<double> gear_ratio;  ///< first gear first, falling
+  double reverse_ratio = 0.0, final_ratio = 0.0, efficiency_01 = 0.0;
+  double converter_ratio = 1.0;  ///< torque ratio of the converter at stall
+  double shift_up_low_radps = 0.0, shift_up_full_radps = 0.0, shift_down_radps = 0.0;  ///< accelerator 0, 1
+};
+
+/// Headlamp levelling.
+struct LevellingParams {
+  double lamp_x_m = 0.0, lamp_height_m = 0.0;  ///< of the lamp, from the car's origin
+  double aim_rad = 0.0;                        ///< of the cut-off, > 0 up, at rest
+  double manual_step_rad = 0.0;                ///< down per step of the wheel at the dashboard
+  double range_rad = 0.0;                      ///< of the actuator, either way
+  double rate_radps = 0.0;
+  double filter_s = 0.0;  ///< time constant of the dynamic system's axle sensors
+};
 
 struct VehicleParams {
   std::string name;
@@ -37,6 +91,10 @@ struct VehicleParams {
   double max_brake_force_n = 0.0;    ///< brake 1
   double drag_area_m2 = 0.0;         ///< drag coefficient times frontal area
   double rolling_coefficient = 0.0;  ///< rolling resistance over weight
+
+  std::optional<ChassisParams> chassis;  ///< tables [body] and [tyre] of the file
+  std::optional<EngineParams> engine;    ///< table [engine]
+  LevellingParams levelling;             ///< table [levelling]
 };
 
 /// Reads and checks a vehicle file: all keys, their ranges, and that the centre of gravity lies between the axles and

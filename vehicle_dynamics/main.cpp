@@ -16,6 +16,7 @@
 #include "net/clock.h"
 #include "net/drive_file.h"
 #include "net/stats.h"
+#include "vehicle_dynamics/batch_command.h"
 #include "vehicle_dynamics/start_pose.h"
 #include "vehicle_dynamics/step.h"
 
@@ -74,6 +75,11 @@ Result<Begin> prepare(const Rig& rig, const Options& options) {
   Result<VehicleParams> vehicle = read_vehicle(rig.vehicle_file);
   if (!vehicle) return vehicle.error();
   begin.setup.vehicle = std::move(*vehicle);
+  if (*level != Level::kKinematic) {
+    Result<SprungCar> sprung = SprungCar::of(begin.setup.vehicle, rig.vehicle_file.string());
+    if (!sprung) return sprung.error();
+    begin.setup.sprung = std::move(*sprung);
+  }
   if (!rig.scene_file.empty()) {
     Result<RoadSurface> road = RoadSurface::read(rig.scene_file);
     if (!road) return road.error();
@@ -299,6 +305,13 @@ class Process {
     if (loop_) {
       const StepTimes& times = loop_->times();
       json["level"] = name(loop_->setup().level);
+      if (loop_->setup().level == Level::kAuto) {
+        const AutoLevel& choice = loop_->choice();
+        json["auto"] = {{"level", name(loop_->level_now())},
+                        {"reason", name(choice.now().reason)},
+                        {"switches", choice.switches()},
+                        {"seconds", {{"kinematic", choice.seconds()[0]}, {"single-track", choice.seconds()[1]}, {"full", choice.seconds()[2]}}}};
+      }
       json["sim_time_s"] = loop_->time().seconds();
       json["steps"] = loop_->steps();
       json["lag_s"] = loop_->dropped().seconds();
@@ -335,20 +348,24 @@ int run(int argc, char** argv) {
   CLI::App app{"The car of a rig: controls in, pose out."};
   app.footer("Example: phare-dynamics --rig config/rigs/country_road.toml --lockstep --level kinematic");
   app.set_version_flag("--version", PHARE_VERSION);
-  app.add_option("--rig", options.rig_file, "Rig file (TOML)")->required();
+  app.add_option("--rig", options.rig_file, "Rig file (TOML)");
   app.add_flag("--lockstep", options.lockstep, "Advance frame by frame with the picture, reproducibly");
   app.add_option("--drive", options.drive_file,
                  "Drive file to replay (pose) or to take the first pose from (kinematic)");
-  app.add_option("--level", options.level, "Model: pose, kinematic (default: the rig's)");
+  app.add_option("--level", options.level, "Model: pose, kinematic, single-track, full, auto (default: the rig's; batch: full)");
   app.add_option("--stats", options.stats_file, "Write counters and times to this JSON file every second");
   app.add_option("--log-level", options.log_level, "How much to tell")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
   app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
+  BatchCommand batch;
+  batch.add_to(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? kExitDone : kExitBadInput;
   }
+  if (batch.asked()) return batch.run(options.level.empty() ? "full" : options.level);
+  if (options.rig_file.empty()) return fail({"--rig", "is required, unless --batch runs a file"});
   spdlog::set_default_logger(spdlog::stderr_color_mt("dynamics"));
   spdlog::set_level(spdlog::level::from_str(options.log_level));
 

@@ -23,14 +23,21 @@ static_assert(sizeof(CarState) == (19 + 4) * sizeof(double), "a new field belong
 }  // namespace
 
 std::uint64_t state_hash(const CarState& state) {
+  std::array<double, 23> values{};
+  std::size_t i = 0;
+  for_each_field(state, [&](const double& field) { values[i++] = field; });
+  return hash_of(values.data(), values.size());
+}
+
+std::uint64_t hash_of(const double* values, std::size_t count) {
   std::uint64_t hash = 0xcbf29ce484222325u;
-  for_each_field(state, [&hash](const double& field) {
-    const auto bits = std::bit_cast<std::uint64_t>(field);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto bits = std::bit_cast<std::uint64_t>(values[i]);
     for (int byte = 0; byte < 8; ++byte) {
       hash ^= (bits >> (8 * byte)) & 0xffu;
       hash *= 0x100000001b3u;
     }
-  });
+  }
   return hash;
 }
 

@@ -3,7 +3,10 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 #include "net/messages.h"
 
@@ -40,6 +43,16 @@ struct CarState {
 
 /// FNV-1a (Fowler, Noll, Vo 1991; 64 bit) over the bits of every field in order: equal for bitwise equal states only.
 std::uint64_t state_hash(const CarState& state);
+
+/// The same over any state that is doubles only.
+std::uint64_t hash_of(const double* values, std::size_t count);
+template <class State>
+std::uint64_t state_hash(const State& state) {
+  static_assert(sizeof(State) % sizeof(double) == 0 && std::is_trivially_copyable_v<State>);
+  std::array<double, sizeof(State) / sizeof(double)> values;
+  std::memcpy(values.data(), &state, sizeof(State));
+  return hash_of(values.data(), values.size());
+}
 
 /// Linear between two states, 0 gives `from` and 1 gives `to` exactly.
 CarState interpolate(const CarState& from, const CarState& to, double fraction);

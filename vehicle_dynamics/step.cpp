@@ -4,17 +4,22 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "vehicle_dynamics/models/kinematic.h"
 
 namespace phare {
+namespace {
+constexpr std::array<const char*, 5> kLevelNames{"pose", "kinematic", "single-track", "full", "auto"};
+}  // namespace
 
 void StepLoop::step_once() {
   const auto begin = std::chrono::steady_clock::now();
   const double dt = setup_.step.seconds();
   before_ = now_;
-  switch (setup_.level) {
+  if (setup_.level == Level::kAuto) choose_level(dt);
+  switch (running_) {
     case Level::kPose:
       now_ = from_message(setup_.track.at(time_of(steps_ + 1)), 1.0, 1.0);
       break;
@@ -22,7 +27,15 @@ void StepLoop::step_once() {
       kinematic::advance(setup_.vehicle, controls_, now_, dt);
       place_on_road(dt);
       break;
+    case Level::kSingleTrack:
+    case Level::kFull:
+    case Level::kAuto:  // never runs itself
+      setup_.sprung->advance(controls_, road(), dt);
+      now_ = setup_.sprung->state();
+      off_road_ |= setup_.sprung->off_road();
+      break;
   }
+  path_m_ = sprung() ? setup_.sprung->path_m() : path_m_ + now_.speed_mps * dt;
   ++steps_;
   times_.add(std::chrono::steady_clock::now() - begin);
 }
@@ -48,9 +61,13 @@ VehicleState StepLoop::at(SimTime time) const {
   VehicleState out =
       setup_.level == Level::kPose ? setup_.track.at(time) : to_message(interpolate(before_, now_, 1.0 - ahead));
   out.frame_index = -1;
-  out.level = name(setup_.level);
+  out.level = name(running_);
   out.step = steps();
-  out.state_hash = state_hash(now_);
+  out.state_hash = sprung() ? setup_.sprung->hash() : state_hash(now_);
+  if (sprung()) {
+    out.vx_mps -= setup_.sprung->side_speed_mps() * std::sin(out.yaw_rad);
+    out.vy_mps += setup_.sprung->side_speed_mps() * std::cos(out.yaw_rad);
+  }
   out.lag_s = dropped_.seconds();
   out.high_beam_telltale = false;
   return out;
@@ -63,7 +80,13 @@ void StepLoop::place_on_road(double dt) {
   double moved = 0.0;
   int count = 0;
   for (std::size_t wheel = 0; wheel < 4; ++wheel) {
-    const auto point = setup_.road.at(points[wheel].x, points[wheel].y);
+    auto point = setup_.road.at(points[wheel].x, points[wheel].y);
+    if (!setup_.on_top.profiles.empty()) {
+      bool off = false;
+      const double path = path_m_ + (wheel < 2 ? setup_.vehicle.cg_to_front_m : setup_.vehicle.cg_to_front_m - setup_.vehicle.wheelbase_m);
+      const double z = road().at(points[wheel].x, points[wheel].y, path, wheel % 2 == 0, height[wheel], &off).z_m;
+      if (!off) point = RoadPoint{.z_m = z};
+    }
     if (!point) continue;
     moved += point->z_m - height[wheel];
     height[wheel] = point->z_m;
@@ -79,12 +102,38 @@ void StepLoop::place_on_road(double dt) {
   kinematic::stand_on(setup_.vehicle, height, now_, dt);
 }
 
+const Road& StepLoop::road() {
+  road_.mesh = setup_.road.triangle_count() > 0 ? &setup_.road : nullptr;  // a loop may have been moved
+  return road_;
+}
+
 StepLoop::StepLoop(RunSetup setup, const CarState& state, SimTime start, std::uint64_t steps_before)
     : setup_(std::move(setup)), before_(state), now_(state), start_(start), steps_before_(steps_before) {
   assert(setup_.step.ns > 0);
-  if (setup_.level == Level::kPose) now_ = from_message(setup_.track.at(start), 1.0, 1.0);
-  if (setup_.level == Level::kKinematic) place_on_road(0.0);
+  road_ = setup_.on_top;
+  running_ = setup_.level == Level::kAuto ? Level::kKinematic : setup_.level;
+  road_.z_m = 0.25 * (state.contact_z_m[0] + state.contact_z_m[1] + state.contact_z_m[2] + state.contact_z_m[3]);
+  if (running_ == Level::kPose) now_ = from_message(setup_.track.at(start), 1.0, 1.0);
+  if (running_ == Level::kKinematic) place_on_road(0.0);
+  if (running_ == Level::kSingleTrack || running_ == Level::kFull) {
+    place_on_road(0.0);
+    run_as(running_);
+  }
   before_ = now_;
+}
+
+void StepLoop::run_as(Level level) {
+  const double side = sprung() ? setup_.sprung->side_speed_mps() : 0.0;
+  if (level == Level::kSingleTrack) setup_.sprung->take_over(SprungCar::Model::kSingleTrack, now_, path_m_, side);
+  if (level == Level::kFull) setup_.sprung->take_over(SprungCar::Model::kFull, now_, path_m_, side);
+  running_ = level;
+}
+
+void StepLoop::choose_level(double dt) {
+  constexpr std::array<Level, 3> kRungs{Level::kKinematic, Level::kSingleTrack, Level::kFull};
+  const Scene scene = scene_of(setup_.vehicle, now_, controls_, road(), path_m_, sprung() ? setup_.sprung->least_load_share() : 1.0);
+  const Level level = kRungs[static_cast<std::size_t>(auto_.next(scene, dt).rung)];
+  if (level != running_) run_as(level);
 }
 
 void StepLoop::set_controls(const Controls& controls) {
@@ -103,15 +152,13 @@ int StepLoop::max_catch_up() const {
 }
 
 const char* name(Level level) {
-  return level == Level::kPose ? "pose" : "kinematic";
+  return kLevelNames[static_cast<std::size_t>(level)];
 }
 
 Result<Level> parse_level(const std::string& text, const std::string& place) {
-  for (const Level level : {Level::kPose, Level::kKinematic})
-    if (text == name(level)) return level;
-  const bool planned = text == "single-track" || text == "full";
-  return Error{
-      place, "level \"" + text + "\" " + (planned ? "is not built yet" : "is unknown") + "; there are pose, kinematic"};
+  for (std::size_t i = 0; i < kLevelNames.size(); ++i)
+    if (text == kLevelNames[i]) return static_cast<Level>(i);
+  return Error{place, "level \"" + text + "\" is unknown; there are pose, kinematic, single-track, full, auto"};
 }
 
 }  // namespace phare

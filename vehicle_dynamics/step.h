@@ -2,20 +2,24 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "config/result.h"
 #include "config/road_surface.h"
 #include "config/vehicle.h"
 #include "net/messages.h"
+#include "vehicle_dynamics/auto_level.h"
 #include "vehicle_dynamics/models/pose.h"
+#include "vehicle_dynamics/sprung_car.h"
 #include "vehicle_dynamics/state.h"
 #include "vehicle_dynamics/step_times.h"
 
 namespace phare {
 
 /// The ladder of models; those not yet there are refused by name.
-enum class Level { kPose, kKinematic };
+/// kAuto: kinematic, single-track or full, by what the scene calls for.
+enum class Level { kPose, kKinematic, kSingleTrack, kFull, kAuto };
 
 const char* name(Level level);
 
@@ -27,6 +31,8 @@ struct RunSetup {
   Level level = Level::kKinematic;
   VehicleParams vehicle;  ///< not needed by level pose
   RoadSurface road;       ///< empty: the plane at the start's height
+  Road on_top;            ///< profiles and friction laid on it; its mesh and plane are not looked at
+  std::optional<SprungCar> sprung;  ///< needed by single-track, full and auto
   PoseTrack track;        ///< needed by level pose only
   SimTime step{2'000'000};
 };
@@ -64,6 +70,8 @@ class StepLoop {
   bool off_road() const { return off_road_; }  ///< a wheel has been where there is no surface
   const StepTimes& times() const { return times_; }
   const RunSetup& setup() const { return setup_; }
+  Level level_now() const { return running_; }  ///< of level auto the one that runs
+  const AutoLevel& choice() const { return auto_; }
 
   /// 25 steps, and no more than 50 ms of simulated time; at least one.
   int max_catch_up() const;
@@ -74,9 +82,17 @@ class StepLoop {
   }
   void step_once();
   void place_on_road(double dt);
+  void choose_level(double dt);
+  void run_as(Level level);
+  const Road& road();
+  bool sprung() const { return running_ == Level::kSingleTrack || running_ == Level::kFull; }
 
   RunSetup setup_;
   CarState before_, now_;
+  Level running_ = Level::kKinematic;
+  Road road_;
+  AutoLevel auto_;
+  double path_m_ = 0.0;
   Controls controls_;
   SimTime start_;
   std::uint64_t steps_before_ = 0;

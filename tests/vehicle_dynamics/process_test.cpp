@@ -216,7 +216,7 @@ TEST_F(DynamicsProcess, RealTimeSendsAndFadesInSilence) {
 TEST_F(DynamicsProcess, BadUseExitsWithTwo) {
   EXPECT_EQ(Child({"--nonsense"}).end(0), 2);
   EXPECT_EQ(Child({"--rig", "/nonexistent.toml"}).end(0), 2);
-  EXPECT_EQ(Child(arguments({"--level", "full"})).end(0), 2);
+  EXPECT_EQ(Child(arguments({"--level", "best"})).end(0), 2);
   EXPECT_EQ(Child(arguments({"--level", "pose"})).end(0), 2);
   EXPECT_EQ(Child(arguments({"--level", "pose", "--drive", "/nonexistent.pcap"})).end(0), 2);
   EXPECT_EQ(Child({"--help"}).end(0), 0);

@@ -187,10 +187,15 @@ TEST(StepLoop, StepTimesAreReported) {
 
 TEST(Level, NamesThoseThereAre) {
   EXPECT_TRUE(parse_level("pose", "--level").ok());
-  const Result<Level> planned = parse_level("single-track", "--level");
-  ASSERT_FALSE(planned.ok());
-  EXPECT_EQ(planned.error().text(), "--level: level \"single-track\" is not built yet; there are pose, kinematic");
-  EXPECT_FALSE(parse_level("best", "--level").ok());
+  for (const char* level : {"kinematic", "single-track", "full", "auto"}) {
+    const Result<Level> read = parse_level(level, "--level");
+    ASSERT_TRUE(read.ok());
+    EXPECT_STREQ(name(*read), level);
+  }
+  const Result<Level> unknown = parse_level("best", "--level");
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_EQ(unknown.error().text(),
+            "--level: level \"best\" is unknown; there are pose, kinematic, single-track, full, auto");
 }
 
 TEST(StepTimes, QuantilesWithinABucket) {

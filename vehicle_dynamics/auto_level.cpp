@@ -1,0 +1,81 @@
+#include "vehicle_dynamics/auto_level.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/conventions.h"
+#include "vehicle_dynamics/models/kinematic.h"
+
+namespace phare {
+
+const char* name(Reason reason) {
+  constexpr std::array<const char*, 8> kNames{"smooth road, gentle driving",
+                                              "acceleration above 0.5 m/s2",
+                                              "road uneven by more than 2 mm",
+                                              "tyres used by more than half",
+                                              "low friction",
+                                              "road uneven by more than 3 cm",
+                                              "a wheel nearly lifts",
+                                              "standing or creeping with brakes or on a grade"};
+  return kNames[static_cast<std::size_t>(reason)];
+}
+
+Choice choose(const Scene& s, double scale) {
+  if (s.least_load_share < 1.0 - 0.8 * scale) return {2, Reason::kLoad};
+  if (s.unevenness_m > 0.03 * scale) return {2, Reason::kUnevenness};
+  if (s.friction < 0.5 / scale) return {2, Reason::kFriction};
+  if (s.utilisation_01 > 0.5 * scale) return {2, Reason::kUtilisation};
+  if (std::abs(s.speed_mps) < 1.5 / scale && s.brake_or_grade) return {2, Reason::kStandstill};
+  if (s.unevenness_m > 0.002 * scale) return {1, Reason::kRoughness};
+  if (std::max(std::abs(s.ax_mps2), std::abs(s.ay_mps2)) > 0.5 * scale) return {1, Reason::kAcceleration};
+  return {};
+}
+
+Choice AutoLevel::next(const Scene& scene, double dt) {
+  constexpr double kCalmer = 0.7, kQuiet_s = 2.0;
+  const Choice wanted = choose(scene);
+  if (wanted.rung > now_.rung) {
+    now_ = wanted;
+    ++switches_;
+    quiet_s_ = 0.0;
+  } else if (const Choice strict = choose(scene, kCalmer); strict.rung < now_.rung) {
+    quiet_s_ += dt;
+    if (quiet_s_ >= kQuiet_s) {
+      now_ = strict;
+      ++switches_;
+      quiet_s_ = 0.0;
+    }
+  } else {
+    quiet_s_ = 0.0;
+    if (wanted.rung == now_.rung) now_.reason = wanted.reason;
+  }
+  seconds_[static_cast<std::size_t>(now_.rung)] += dt;
+  return now_;
+}
+
+Scene scene_of(const VehicleParams& v, const CarState& s, const Controls& controls, const Road& road, double path_m,
+               double least_load_share) {
+  Scene scene;
+  const double peak = v.chassis ? v.chassis->tyre.lat_peak : v.max_lateral_mps2 / kGravity_mps2;
+  const auto points = kinematic::contact_points(v, s);
+  const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad), way = s.speed_mps < 0.0 ? -1.0 : 1.0;
+  bool off = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::array<double, 3> z{};
+    const double here = path_m + (i < 2 ? v.cg_to_front_m : v.cg_to_front_m - v.wheelbase_m);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double ahead = way * static_cast<double>(k);
+      const Ground ground = road.at(points[i].x + c * ahead, points[i].y + sn * ahead, here + ahead, i % 2 == 0, s.contact_z_m[i], &off);
+      z[k] = ground.z_m;
+      scene.friction = std::min(scene.friction, ground.friction);
+    }
+    if (!off) scene.unevenness_m = std::max(scene.unevenness_m, 2.0 * std::abs(z[1] - 0.5 * (z[0] + z[2])));
+  }
+  scene.utilisation_01 = std::hypot(s.ax_mps2, s.ay_mps2) / (scene.friction * peak * kGravity_mps2);
+  scene.least_load_share = least_load_share;
+  scene.ax_mps2 = s.ax_mps2, scene.ay_mps2 = s.ay_mps2, scene.speed_mps = s.speed_mps;
+  scene.brake_or_grade = controls.brake_01 > 0.0 || controls.gear == Gear::kPark || std::abs(s.road_pitch_rad) > 0.005;
+  return scene;
+}
+
+}  // namespace phare

@@ -1,0 +1,147 @@
+#include "vehicle_dynamics/batch_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "vehicle_dynamics/batch.h"
+
+namespace phare {
+
+struct BatchCommand::Options {
+  std::string in, out, vehicle, integrator = "rk4", tyre = "magic", attitude = "dynamic", road,
+                                resistance = "auto", levelling = "none", roughness;
+  double step_s = 0.002, output_hz = 100.0, speed_mps = 0.0, start_x_m = 0.0, friction = 1.0, envelope_m = 0.1,
+         relaxation_scale = 1.0;
+  std::uint64_t seed = 1;
+};
+
+BatchCommand::BatchCommand() : options_(std::make_unique<Options>()) {}
+BatchCommand::~BatchCommand() = default;
+
+void BatchCommand::add_to(CLI::App& app) {
+  Options& o = *options_;
+  const std::string group = "Batch";
+  app.add_option("--batch", o.in, "Run these inputs (CSV) instead of a rig")->group(group);
+  app.add_option("--out", o.out, "Batch: motion (CSV)")->group(group);
+  app.add_option("--vehicle", o.vehicle, "Batch: vehicle file (TOML)")->group(group);
+  app.add_option("--integrator", o.integrator, "Batch: semi-implicit-euler, etd2, rk4 or reference")
+      ->check(CLI::IsMember({"semi-implicit-euler", "etd2", "rk4", "reference"}))
+      ->group(group);
+  app.add_option("--step-s", o.step_s, "Batch: fixed step, s")->check(CLI::Range(1e-6, 0.1))->group(group);
+  app.add_option("--output-hz", o.output_hz, "Batch: rows a second")->check(CLI::Range(0.01, 1e5))->group(group);
+  app.add_option("--speed-mps", o.speed_mps, "Batch: speed at the start")->check(CLI::Range(-60.0, 120.0))->group(group);
+  app.add_option("--start-x-m", o.start_x_m, "Batch: x of the centre of gravity at the start")
+      ->check(CLI::Range(-1e8, 1e8))
+      ->group(group);
+  app.add_option("--road", o.road, "Batch: glTF with a road, or height profile (CSV: x_m, z_m or z_left_m, z_right_m)")
+      ->group(group);
+  app.add_option("--roughness", o.roughness, "Batch: ISO 8608 class A to E on top of the road")->group(group);
+  app.add_option("--seed", o.seed, "Batch: of the roughness")->group(group);
+  app.add_option("--envelope-m", o.envelope_m, "Batch: length over which a tyre averages a profile; 0: point contact")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group);
+  app.add_option("--friction", o.friction, "Batch: of the whole road, 1 as the tyre was measured")
+      ->check(CLI::Range(0.01, 2.0))
+      ->group(group);
+  app.add_option("--tyre", o.tyre, "Batch, single-track: magic or linear")->check(CLI::IsMember({"magic", "linear"}))->group(group);
+  app.add_option("--attitude", o.attitude, "Batch, single-track: dynamic or quasi-static")
+      ->check(CLI::IsMember({"dynamic", "quasi-static"}))
+      ->group(group);
+  app.add_option("--resistance", o.resistance, "Batch: air and rolling resistance; auto: off when wheel torques are given")
+      ->check(CLI::IsMember({"auto", "on", "off"}))
+      ->group(group);
+  app.add_option("--relaxation-scale", o.relaxation_scale, "Batch: multiplies the tyre's relaxation lengths")
+      ->check(CLI::Range(0.01, 100.0))
+      ->group(group);
+  app.add_option("--levelling", o.levelling, "Batch: none, manual, static or dynamic")
+      ->check(CLI::IsMember({"none", "manual", "static", "dynamic"}))
+      ->group(group);
+}
+
+bool BatchCommand::asked() const { return !options_->in.empty(); }
+
+namespace {
+
+int fail(const Error& error) {
+  std::fprintf(stderr, "phare-dynamics: %s\n", error.text().c_str());
+  return kExitBadInput;
+}
+
+std::size_t index_of(const std::string& text, std::initializer_list<const char*> names) {
+  std::size_t i = 0;
+  for (const char* name : names) {
+    if (text == name) return i;
+    ++i;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int BatchCommand::run(const std::string& level_name) const {
+  const Options& o = *options_;
+  if (o.out.empty()) return fail({"--out", "--batch needs a file to write the motion to"});
+  if (o.vehicle.empty()) return fail({"--vehicle", "--batch needs a vehicle file"});
+  batch::Options options;
+  const Result<Level> level = parse_level(level_name, "--level");
+  if (!level) return fail(level.error());
+  if (*level == Level::kPose) return fail({"--level", "pose replays a drive; a batch run moves a model"});
+  if (*level == Level::kAuto) return fail({"--level", "auto chooses while driving; a batch run names its level"});
+  options.level = *level;
+  Result<VehicleParams> vehicle = read_vehicle(o.vehicle);
+  if (!vehicle) return fail(vehicle.error());
+  options.vehicle = std::move(*vehicle);
+  options.vehicle_place = o.vehicle;
+  options.integrator = static_cast<Integrator>(index_of(o.integrator, {"semi-implicit-euler", "etd2", "rk4", "reference"}));
+  options.single_track = {.magic_formula = o.tyre == "magic", .dynamic_attitude = o.attitude == "dynamic"};
+  options.step_s = o.step_s, options.output_hz = o.output_hz;
+  options.speed_mps = o.speed_mps, options.start_x_m = o.start_x_m;
+  options.resistance = static_cast<batch::Resistance>(index_of(o.resistance, {"auto", "on", "off"}));
+  options.levelling = static_cast<levelling::Kind>(index_of(o.levelling, {"none", "manual", "static", "dynamic"}));
+  if (o.relaxation_scale != 1.0) options.relaxation_scale = o.relaxation_scale;
+  Result<batch::Inputs> inputs = batch::read_inputs(o.in);
+  if (!inputs) return fail(inputs.error());
+
+  Road road;
+  RoadSurface surface;
+  road.friction_everywhere = o.friction;
+  if (!o.road.empty()) {
+    if (!inputs->road_m[0].empty()) return fail({"--road", "the inputs give the road's heights already"});
+    if (o.road.ends_with(".csv")) {
+      Result<HeightProfile> profile = HeightProfile::read(o.road);
+      if (!profile) return fail(profile.error());
+      profile->smooth(o.envelope_m);
+      road.profiles.push_back(std::move(*profile));
+    } else {
+      Result<RoadSurface> mesh = RoadSurface::read(o.road);
+      if (!mesh) return fail(mesh.error());
+      if (mesh->triangle_count() == 0) return fail({o.road, "no node whose name begins with road or ground"});
+      surface = std::move(*mesh);
+      road.mesh = &surface;
+    }
+  }
+  if (!o.roughness.empty()) {
+    const Result<RoughnessClass> roughness = parse_roughness(o.roughness, "--roughness");
+    if (!roughness) return fail(roughness.error());
+    road.profiles.push_back(HeightProfile::iso8608(*roughness, o.seed));
+  }
+  options.road = &road;
+
+  std::FILE* file = std::fopen(o.out.c_str(), "w");
+  if (!file) return fail({o.out, "cannot be written"});
+  std::fprintf(file, "%s\n", batch::header().c_str());
+  const Result<batch::Summary> summary = batch::run(options, *inputs, [&](const batch::Row& row) { batch::print(row, file); });
+  const bool written = std::ferror(file) == 0;
+  if (std::fclose(file) != 0 || !written) return fail({o.out, "could not be written to its end"});
+  if (!summary) return fail(summary.error());
+  if (summary->gave_up) return fail({"--integrator", "the reference integrator gave up"});
+  std::printf("%llu steps of %g s in %.3f s: %.0f times real time; state hash %016llx%s%s\n",
+              static_cast<unsigned long long>(summary->steps), o.step_s, summary->wall_s,
+              summary->simulated_s / std::max(summary->wall_s, 1e-9), static_cast<unsigned long long>(summary->state_hash),
+              summary->resistance ? "" : "; no air and rolling resistance", summary->off_road ? "; a wheel left the road" : "");
+  return kExitDone;
+}
+
+}  // namespace phare

@@ -1,0 +1,29 @@
+// phare-dynamics --batch: the command line of batch runs and of measurements.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace phare {
+
+/// Adds the options to the program's, and runs what they ask for.
+class BatchCommand {
+ public:
+  BatchCommand();
+  ~BatchCommand();
+  void add_to(CLI::App& app);
+  /// One of --batch, --compare, --work-precision was given.
+  bool asked() const;
+  /// Exit code; says on stderr what was wrong.
+  int run(const std::string& level) const;
+
+ private:
+  struct Options;
+  std::unique_ptr<Options> options_;
+};
+
+}  // namespace phare

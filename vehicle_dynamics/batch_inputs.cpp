@@ -1,0 +1,71 @@
+// Reader of batch input files.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "vehicle_dynamics/batch.h"
+
+namespace phare::batch {
+namespace {
+
+constexpr std::array<const char*, 4> kWheels{"fl", "fr", "rl", "rr"};
+
+struct Column {
+  std::string name;
+  std::vector<double>* target;
+  double min, max;
+  bool required;
+};
+
+}  // namespace
+
+Result<Inputs> read_inputs(const std::filesystem::path& csv_file) {
+  Result<CsvTable> table = CsvTable::read(csv_file);
+  if (!table) return table.error();
+  const auto has = [&](const std::string& name) { return table->find({name.c_str()}).has_value(); };
+  const std::string header_place = csv_file.string() + ":1";
+
+  Inputs in;
+  const bool torques = has("torque_fl_nm"), pedals = has("accelerator_01") || has("brake_01");
+  if (torques && pedals) return Error{header_place, "gives both pedals and wheel torques; one of them drives the car"};
+  if (!torques && !pedals)
+    return Error{header_place, "has neither accelerator_01, brake_01 nor torque_fl_nm to torque_rr_nm"};
+  const bool road = std::any_of(kWheels.begin(), kWheels.end(), [&](const char* w) { return has("road_" + std::string(w) + "_m"); });
+
+  std::vector<Column> columns{{"time_s", &in.time_s, -1e9, 1e9, true}, {"steer_rad", &in.steer_rad, -1.2, 1.2, true}};
+  if (pedals) {
+    columns.push_back({"accelerator_01", &in.accelerator_01, 0.0, 1.0, true});
+    columns.push_back({"brake_01", &in.brake_01, 0.0, 1.0, true});
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (torques) columns.push_back({"torque_" + std::string(kWheels[i]) + "_nm", &in.torque_nm[i], -1e5, 1e5, true});
+    if (road) columns.push_back({"road_" + std::string(kWheels[i]) + "_m", &in.road_m[i], -1e4, 1e4, true});
+  }
+  columns.push_back({"gear", &in.gear, 0.0, 3.0, false});
+  columns.push_back({"parking_brake_01", &in.parking_01, 0.0, 1.0, false});
+  columns.push_back({"levelling_step", &in.levelling_step, 0.0, 10.0, false});
+
+  for (const std::string& name : table->columns())
+    if (std::none_of(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; }))
+      return Error{header_place, "column \"" + name + "\" is none that a batch run knows"};
+  if (table->rows() < 2) return Error{csv_file.string(), "needs two rows at least: a beginning and an end"};
+  for (const Column& column : columns) {
+    const auto at = table->find({column.name.c_str()});
+    if (!at && column.required) return Error{header_place, "has no column " + column.name};
+    if (!at) continue;
+    for (std::size_t row = 0; row < table->rows(); ++row) {
+      const double value = table->at(row, *at);
+      if (value < column.min || value > column.max)
+        return Error{table->place(row), column.name + " " + std::to_string(value) + " is outside " +
+                                            std::to_string(column.min) + " to " + std::to_string(column.max)};
+      column.target->push_back(value);
+    }
+  }
+  for (std::size_t row = 1; row < in.time_s.size(); ++row)
+    if (!(in.time_s[row] > in.time_s[row - 1])) return Error{table->place(row), "time_s does not rise"};
+  for (std::size_t row = 0; row < in.gear.size(); ++row)
+    if (in.gear[row] != std::floor(in.gear[row])) return Error{table->place(row), "gear is not 0, 1, 2 or 3"};
+  return in;
+}
+
+}  // namespace phare::batch

@@ -1,0 +1,122 @@
+// Level `full`: fourteen degrees of freedom.
+//
+// What: a sprung body (6), four wheels that hop (4) and spin (4), eight transient slips; load transfer, lift-off,
+//   locking, standing still, kerbs, split friction.
+// Source: R. Rajamani, Vehicle Dynamics and Control, 2nd ed. 2012, ch. 8; T. Shim, C. Ghike, "Understanding the
+//   limitations of different vehicle models for roll dynamics studies", Vehicle System Dynamics 45(3), 2007; Newton-Euler
+//   in the body's own axes with a quaternion instead of small angles. Tyres: models/tyre.h.
+// Frame: state at the centre of gravity of the body, velocities in the body's axes (ISO 8855), position in the world;
+//   z_m is the height of that centre less its height at rest.
+// Leaves out: linkage kinematics beyond anti-dive and anti-squat (wheels move along the body's z axis, no bump steer, no
+//   camber), roll centres above the ground, the pitching moment of gravity on the pitched body (2 to 5 % of dive) as the
+//   textbook does, products of inertia, frame flexibility, side wind.
+// Tests: tests/vehicle_dynamics/full_test.cpp (closed forms), reference_test.cpp (two other programs),
+// hard_cases_test.cpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "vehicle_dynamics/models/fixed_step.h"
+#include "vehicle_dynamics/models/tyre.h"
+#include "vehicle_dynamics/road.h"
+
+namespace phare::full {
+
+/// A car, worked out once from its file. Wheels: front left, front right, rear left, rear right.
+struct Params {
+  double mass_kg = 0.0, sprung_kg = 0.0, cg_height_m = 0.0, radius_m = 0.0, spin_inertia_kgm2 = 0.0;
+  double roll_inertia_kgm2 = 0.0, pitch_inertia_kgm2 = 0.0, yaw_inertia_kgm2 = 0.0;
+  double drag_area_m2 = 0.0, rolling_coefficient = 0.0;
+  double wheelbase_m = 0.0, ackermann_01 = 0.0;
+  double tyre_rate_npm = 0.0, tyre_damping_nspm = 0.0;
+  double bump_travel_m = 0.0, rebound_travel_m = 0.0, stop_rate_npm = 0.0;
+  std::array<double, 4> x_m{}, y_m{};  ///< from the centre of gravity
+  std::array<double, 4> unsprung_kg{}, spring_npm{}, damper_nspm{}, bar_npm{};  ///< bar: per difference of travel
+  std::array<double, 4> load_n{}, spring_n{};  ///< at rest: of the tyre, of the spring
+  std::array<double, 4> unsprung_couple{};     ///< vertical force per N of lateral force, from the axle's own height
+  std::array<double, 4> brake_jack{}, drive_jack{};  ///< anti-dive, anti-squat: vertical over longitudinal force
+  std::array<double, 4> lever_share{};               ///< of each corner in the height of the centre of gravity
+  tyre::Constants tyre;
+  Integrator integrator = Integrator::kRk4;
+};
+
+/// From a vehicle file that has [body] and [tyre]. Error names the table that is missing.
+Result<Params> params_of(const VehicleParams& vehicle, const std::string& place);
+
+/// Plain numbers only; all zero with w = 1 is a car at rest on a level road of height 0.
+struct State {
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
+  double qw = 1.0, qx = 0.0, qy = 0.0, qz = 0.0;  ///< world from body, unit
+  double path_m = 0.0;                            ///< travelled along the body's x
+  double u_mps = 0.0, v_mps = 0.0, w_mps = 0.0;
+  double p_radps = 0.0, q_radps = 0.0, r_radps = 0.0;
+  std::array<double, 4> travel_m{};     ///< of the wheel towards the body, 0 at rest
+  std::array<double, 4> rise_mps{};     ///< of the wheel along the body's z, absolute
+  std::array<double, 4> spin_radps{};   ///< > 0 forwards
+  std::array<double, 4> kappa{}, tan_alpha{};  ///< transient slips
+
+  friend bool operator==(const State&, const State&) = default;
+};
+inline constexpr std::size_t kStateSize = 34;
+static_assert(sizeof(State) == kStateSize * sizeof(double));
+
+/// What acts on the car during one step.
+struct Input {
+  double steer_rad = 0.0;                          ///< mean of the front wheels
+  std::array<double, 4> drive_nm{}, brake_nm{};    ///< brake: dry friction, >= 0, never turns a wheel
+  bool air_and_rolling = true;                     ///< drag and rolling resistance
+  const Road* road = nullptr;                      ///< nullptr: level, friction 1
+  bool heights_given = false;                      ///< road heights under the wheels come as numbers, over the step
+  std::array<double, 4> height_m{}, height_rate_mps{};  ///< given: at the step's start, and their slope over it
+};
+
+/// What a step shows besides the state.
+struct Forces {
+  std::array<double, 4> load_n{}, fx_n{}, fy_n{};  ///< in the wheel's heading
+  std::array<double, 4> ground_m{};
+  double ax_mps2 = 0.0, ay_mps2 = 0.0;  ///< of the centre of gravity along the body's axes, without gravity
+  double roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;  ///< R = Rz Ry Rx
+  double roll_rate_radps = 0.0, pitch_rate_radps = 0.0, yaw_rate_radps = 0.0;
+  double road_pitch_rad = 0.0, road_roll_rad = 0.0;  ///< of the plane through the contacts
+  bool off_road = false;
+};
+
+/// Car at rest in its springs on the plane through four contacts, rolling at `speed_mps`, its centre of gravity over
+/// (x, y).
+State at_rest(const Params& params, double x_m, double y_m, double yaw_rad, double speed_mps,
+              const std::array<double, 4>& height_m);
+
+/// Front wheels turned by a mean angle, each by its share of the Ackermann angle.
+struct Steer {
+  std::array<double, 4> cosine{}, sine{};
+};
+
+/// What is decided once for a step: wheels held by their brakes, steering, the floor of the relaxation lengths.
+struct Held {
+  Steer steer;
+  std::array<bool, 4> locked{};
+  std::array<double, 4> brake_nm{};  ///< signed, of the turning wheels, for the whole step
+  double shortest_slip_m = 0.0;
+};
+
+/// d state/dt at `t_s` into the step.
+void derivative(const Params& params, const Input& input, const Held& held, const State& state, double t_s,
+                State& rate, std::array<double, 8>* slip_decay_ps = nullptr);
+
+/// Which wheels stick in their brakes over the coming step.
+Held held(const Params& params, const Input& input, const State& state, double dt);
+
+/// After any integrator's step: wheels whose brakes stopped them stand, the quaternion is unit again.
+void finish_step(const Held& held, const State& before, State& state);
+
+/// One step of dt seconds.
+void advance(const Params& params, const Input& input, State& state, double dt);
+
+/// At the state, for output.
+Forces forces(const Params& params, const Input& input, const State& state, double t_s = 0.0);
+
+/// Kinetic energy, of springs, tyres and height, J: 0 at rest on a level road at height 0.
+double energy_j(const Params& params, const State& state, const Forces& forces);
+
+}  // namespace phare::full

@@ -1,0 +1,232 @@
+// Level `full`: parameters, start, and one step of each integrator.
+#include <algorithm>
+#include <cmath>
+
+#include "config/conventions.h"
+#include "vehicle_dynamics/models/full_parts.h"
+
+namespace phare::full {
+
+Result<Params> params_of(const VehicleParams& vehicle, const std::string& place) {
+  if (!vehicle.chassis) return Error{place, "level full needs the tables [body] and [tyre] in the vehicle file"};
+  const ChassisParams& c = *vehicle.chassis;
+  Params p;
+  p.mass_kg = vehicle.sprung_mass_kg + c.front_axle_kg + c.rear_axle_kg;
+  p.sprung_kg = vehicle.sprung_mass_kg;
+  p.cg_height_m = vehicle.cg_height_m;
+  p.radius_m = vehicle.tyre_radius_m;
+  p.spin_inertia_kgm2 = std::max(vehicle.wheel_inertia_kgm2, 0.05);  // a wheel without inertia has no spin to integrate
+  p.roll_inertia_kgm2 = c.roll_inertia_kgm2;
+  p.pitch_inertia_kgm2 = c.pitch_inertia_kgm2;
+  p.yaw_inertia_kgm2 = c.yaw_inertia_kgm2;
+  p.drag_area_m2 = vehicle.drag_area_m2;
+  p.rolling_coefficient = vehicle.rolling_coefficient;
+  p.wheelbase_m = vehicle.wheelbase_m;
+  p.ackermann_01 = c.ackermann_01;
+  p.tyre_rate_npm = vehicle.tyre_rate_npm;
+  p.tyre_damping_nspm = c.tyre_damping_nspm;
+  p.bump_travel_m = c.bump_travel_m, p.rebound_travel_m = c.rebound_travel_m, p.stop_rate_npm = c.stop_rate_npm;
+  const double to_rear = vehicle.wheelbase_m - vehicle.cg_to_front_m;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool front = i < 2, left = i % 2 == 0;
+    const double track = front ? c.front_track_m : c.rear_track_m;
+    p.x_m[i] = front ? vehicle.cg_to_front_m : -to_rear;
+    p.y_m[i] = (left ? 0.5 : -0.5) * track;
+    p.unsprung_kg[i] = 0.5 * (front ? c.front_axle_kg : c.rear_axle_kg);
+    p.spring_npm[i] = front ? vehicle.front_rate_npm : vehicle.rear_rate_npm;
+    p.damper_nspm[i] = front ? c.front_damping_nspm : c.rear_damping_nspm;
+    p.bar_npm[i] = (front ? c.front_anti_roll_nmprad : c.rear_anti_roll_nmprad) / (track * track);
+    const double share = (front ? to_rear : vehicle.cg_to_front_m) / vehicle.wheelbase_m;
+    p.lever_share[i] = 0.5 * share;
+    p.spring_n[i] = 0.5 * share * p.sprung_kg * kGravity_mps2;
+    p.load_n[i] = p.spring_n[i] + p.unsprung_kg[i] * kGravity_mps2;
+    // The axle's mass is pushed sideways at wheel height and held on the ground.
+    p.unsprung_couple[i] = (left ? 1.0 : -1.0) * 2.0 * p.unsprung_kg[i] / p.mass_kg * p.radius_m / track;
+    // Written for the share of the whole load transfer, as anti-dive is quoted; the linkage knows its own wheels' force.
+    const double lever = vehicle.cg_height_m / vehicle.wheelbase_m;
+    if (front && c.brake_front_01 > 0.0) p.brake_jack[i] = vehicle.anti_dive_01 * lever / c.brake_front_01;
+    if (!front && c.drive_front_01 < 1.0) p.drive_jack[i] = c.anti_squat_01 * lever / (1.0 - c.drive_front_01);
+  }
+  p.tyre = tyre::constants(c.tyre);
+  return p;
+}
+
+State at_rest(const Params& p, double x_m, double y_m, double yaw_rad, double speed_mps,
+              const std::array<double, 4>& h) {
+  State s;
+  s.x_m = x_m, s.y_m = y_m, s.path_m = x_m;
+  const double front = 0.5 * (h[0] + h[1]), rear = 0.5 * (h[2] + h[3]);
+  const double left = 0.5 * (h[0] + h[2]), right = 0.5 * (h[1] + h[3]);
+  const double pitch = -std::atan((front - rear) / p.wheelbase_m);
+  const double track = 0.5 * (p.y_m[0] - p.y_m[1] + p.y_m[2] - p.y_m[3]);
+  const double roll = std::atan((left - right) / track * std::cos(pitch));
+  // Height of the plane below the centre of gravity, which lies on the plane's normal.
+  const double under = rear + (front - rear) * (-p.x_m[2] / p.wheelbase_m);
+  const double cp = std::cos(0.5 * pitch), sp = std::sin(0.5 * pitch), cr = std::cos(0.5 * roll),
+               sr = std::sin(0.5 * roll), cy = std::cos(0.5 * yaw_rad), sy = std::sin(0.5 * yaw_rad);
+  s.qw = cr * cp * cy + sr * sp * sy, s.qx = sr * cp * cy - cr * sp * sy;
+  s.qy = cr * sp * cy + sr * cp * sy, s.qz = cr * cp * sy - sr * sp * cy;
+  s.z_m = under + p.cg_height_m / (std::cos(pitch) * std::cos(roll)) - p.cg_height_m;
+  s.u_mps = speed_mps;
+  s.spin_radps.fill(speed_mps / p.radius_m);
+  return s;
+}
+
+void derivative(const Params& p, const Input& input, const Held& held, const State& s, double t_s, State& rate,
+                std::array<double, 8>* slip_decay_ps) {
+  const Geometry g = geometry(p, input, s, t_s);
+  Contact contact;
+  TyreForces tyres;
+  kinematics(p, held, g, held.steer, s, rate, contact);
+  dynamics(p, input, held, g, contact, s, rate, tyres);
+  if (slip_decay_ps) *slip_decay_ps = contact.decay_ps;
+}
+
+Held held(const Params& p, const Input& input, const State& s, double dt) {
+  Held h;
+  h.steer = steer_angles(p, input.steer_rad);
+  h.shortest_slip_m = 0.5 * std::abs(s.u_mps) * dt;
+  if (std::all_of(input.brake_nm.begin(), input.brake_nm.end(), [](double b) { return b <= 0.0; })) return h;
+  bool slow = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double brake = input.brake_nm[i], spin = s.spin_radps[i];
+    h.brake_nm[i] = spin > 0.0 ? brake : (spin < 0.0 ? -brake : 0.0);
+    slow = slow || (brake > 0.0 && std::abs(spin) * p.spin_inertia_kgm2 <= dt * brake);
+  }
+  if (!slow) return h;
+  // A wheel that the brake can stop within the step, and that nothing turns against it, stands for the whole step:
+  // decided before the tyres move, or the car would creep by a little each step.
+  Held all = h;
+  all.locked.fill(true);
+  const Geometry g = geometry(p, input, s, 0.0);
+  Contact contact;
+  TyreForces tyres;
+  State rate;
+  kinematics(p, all, g, h.steer, s, rate, contact);
+  dynamics(p, input, all, g, contact, s, rate, tyres);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double brake = input.brake_nm[i];
+    if (brake <= 0.0 || std::abs(s.spin_radps[i]) * p.spin_inertia_kgm2 > dt * brake) continue;
+    if (std::abs(tyres.net_nm[i]) <= brake) {
+      h.locked[i] = true;
+    } else if (s.spin_radps[i] == 0.0) {
+      h.brake_nm[i] = tyres.net_nm[i] > 0.0 ? brake : -brake;  // breaks loose: the brake opposes what turns it
+    }
+  }
+  return h;
+}
+
+void finish_step(const Held& held, const State& before, State& s) {
+  for (std::size_t i = 0; i < 4; ++i)
+    if (held.locked[i] || (held.brake_nm[i] != 0.0 && before.spin_radps[i] * s.spin_radps[i] < 0.0)) s.spin_radps[i] = 0.0;
+  const double inv = 1.0 / std::sqrt(s.qw * s.qw + s.qx * s.qx + s.qy * s.qy + s.qz * s.qz);
+  s.qw *= inv, s.qx *= inv, s.qy *= inv, s.qz *= inv;
+}
+
+namespace {
+
+// Velocities first, with the forces of the old place; then places with the new velocities. The slips' decay is taken at
+// the end of the step, so that no speed makes it overshoot.
+void step_semi_implicit(const Params& p, const Input& input, const Held& held, State& s, double dt) {
+  const Geometry g = geometry(p, input, s, 0.0);
+  Contact contact;
+  TyreForces tyres;
+  State rate;
+  kinematics(p, held, g, held.steer, s, rate, contact);
+  dynamics(p, input, held, g, contact, s, rate, tyres);
+  s.u_mps += dt * rate.u_mps, s.v_mps += dt * rate.v_mps, s.w_mps += dt * rate.w_mps;
+  s.p_radps += dt * rate.p_radps, s.q_radps += dt * rate.q_radps, s.r_radps += dt * rate.r_radps;
+  for (std::size_t i = 0; i < 4; ++i) {
+    s.rise_mps[i] += dt * rate.rise_mps[i];
+    s.spin_radps[i] += dt * rate.spin_radps[i];
+  }
+  kinematics(p, held, g, held.steer, s, rate, contact);
+  s.x_m += dt * rate.x_m, s.y_m += dt * rate.y_m, s.z_m += dt * rate.z_m, s.path_m += dt * rate.path_m;
+  s.qw += dt * rate.qw, s.qx += dt * rate.qx, s.qy += dt * rate.qy, s.qz += dt * rate.qz;
+  for (std::size_t i = 0; i < 4; ++i) {
+    s.travel_m[i] += dt * rate.travel_m[i];
+    s.kappa[i] += dt * rate.kappa[i] / (1.0 + dt * contact.decay_ps[i]);
+    s.tan_alpha[i] += dt * rate.tan_alpha[i] / (1.0 + dt * contact.decay_ps[i + 4]);
+  }
+}
+
+}  // namespace
+
+void advance(const Params& p, const Input& input, State& state, double dt) {
+  const Held during = held(p, input, state, dt);
+  const State before = state;
+  switch (p.integrator) {
+    case Integrator::kSemiImplicitEuler:
+      step_semi_implicit(p, input, during, state, dt);
+      break;
+    case Integrator::kEtd2:
+      step_etd2<8>(state, dt, [&](const State& at, double t, std::array<double, 8>& decay) {
+        State rate;
+        derivative(p, input, during, at, t, rate, &decay);
+        return rate;
+      });
+      break;
+    case Integrator::kRk4:
+    case Integrator::kReference:  // the caller's, see reference.h; a real-time run takes the best it has
+      step_rk4(state, dt, [&](const State& at, double t) {
+        State rate;
+        derivative(p, input, during, at, t, rate);
+        return rate;
+      });
+      break;
+  }
+  finish_step(during, before, state);
+}
+
+Forces forces(const Params& p, const Input& input, const State& s, double t_s) {
+  Held turning;
+  turning.steer = steer_angles(p, input.steer_rad);
+  for (std::size_t i = 0; i < 4; ++i) turning.locked[i] = s.spin_radps[i] == 0.0 && input.brake_nm[i] > 0.0;
+  const Geometry g = geometry(p, input, s, t_s);
+  Contact contact;
+  TyreForces tyres;
+  State rate;
+  kinematics(p, turning, g, turning.steer, s, rate, contact);
+  dynamics(p, input, turning, g, contact, s, rate, tyres);
+  Forces out;
+  out.load_n = tyres.load_n, out.fx_n = tyres.fx_n, out.fy_n = tyres.fy_n;
+  out.ground_m = g.ground_m;
+  out.ax_mps2 = tyres.ax_mps2, out.ay_mps2 = tyres.ay_mps2;
+  out.off_road = g.off_road;
+  const auto& m = g.world_from_body;
+  out.pitch_rad = std::asin(std::clamp(-m[6], -1.0, 1.0));
+  out.roll_rad = std::atan2(m[7], m[8]);
+  out.yaw_rad = std::atan2(m[3], m[0]);
+  const double cr = std::cos(out.roll_rad), sr = std::sin(out.roll_rad), cp = std::max(std::cos(out.pitch_rad), 1e-6);
+  out.yaw_rate_radps = (s.q_radps * sr + s.r_radps * cr) / cp;
+  out.pitch_rate_radps = s.q_radps * cr - s.r_radps * sr;
+  out.roll_rate_radps = s.p_radps + out.yaw_rate_radps * -m[6];
+  // The plane's angles in the heading of the car, so that body less plane is what the springs show.
+  const double cy = std::cos(out.yaw_rad), sy = std::sin(out.yaw_rad);
+  const auto& n = g.normal_world;
+  out.road_pitch_rad = std::atan2(n[0] * cy + n[1] * sy, n[2]);
+  out.road_roll_rad = std::asin(std::clamp(n[0] * sy - n[1] * cy, -1.0, 1.0));
+  return out;
+}
+
+double energy_j(const Params& p, const State& s, const Forces& f) {
+  double e = 0.5 * p.mass_kg * (s.u_mps * s.u_mps + s.v_mps * s.v_mps) + 0.5 * p.sprung_kg * s.w_mps * s.w_mps +
+             0.5 * (p.roll_inertia_kgm2 * s.p_radps * s.p_radps + p.pitch_inertia_kgm2 * s.q_radps * s.q_radps +
+                    p.yaw_inertia_kgm2 * s.r_radps * s.r_radps) +
+             p.sprung_kg * kGravity_mps2 * s.z_m;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double travel = s.travel_m[i], squeeze = f.load_n[i] / p.tyre_rate_npm, rest = p.load_n[i] / p.tyre_rate_npm;
+    e += 0.5 * p.unsprung_kg[i] * s.rise_mps[i] * s.rise_mps[i] +
+         0.5 * p.spin_inertia_kgm2 * s.spin_radps[i] * s.spin_radps[i] + p.spring_n[i] * travel +
+         0.5 * p.spring_npm[i] * travel * travel + 0.25 * p.bar_npm[i] * (travel - s.travel_m[i ^ 1u]) * (travel - s.travel_m[i ^ 1u]) +
+         0.5 * p.tyre_rate_npm * (squeeze * squeeze - rest * rest);
+    if (travel > p.bump_travel_m) e += 0.5 * p.stop_rate_npm * (travel - p.bump_travel_m) * (travel - p.bump_travel_m);
+    if (travel < -p.rebound_travel_m) e += 0.5 * p.stop_rate_npm * (travel + p.rebound_travel_m) * (travel + p.rebound_travel_m);
+    // Height of the wheel itself over its place at rest.
+    const double body_z = s.z_m + 2.0 * (s.qx * s.qz - s.qw * s.qy) * p.x_m[i] + 2.0 * (s.qy * s.qz + s.qw * s.qx) * p.y_m[i];
+    e += p.unsprung_kg[i] * kGravity_mps2 * (body_z + travel);
+  }
+  return e;
+}
+
+}  // namespace phare::full

@@ -1,0 +1,116 @@
+#include "vehicle_dynamics/reference.h"
+
+#include <arkode/arkode_erkstep.h>
+#include <nvector/nvector_serial.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace phare {
+
+struct ReferenceIntegrator::Solver {
+  using Rates = std::function<void(double, const double*, double*)>;
+
+  Solver() { SUNContext_Create(nullptr, &context); }
+  ~Solver() {
+    drop();
+    SUNContext_Free(&context);
+  }
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  void drop() {
+    if (memory) ERKStepFree(&memory);
+    if (y) N_VDestroy(y);
+    memory = nullptr, y = nullptr, size = 0;
+  }
+
+  static int evaluate(realtype t, N_Vector at, N_Vector rate, void* self) {
+    static_cast<Solver*>(self)->rates(t, N_VGetArrayPointer(at), N_VGetArrayPointer(rate));
+    return 0;
+  }
+
+  bool step(double* state, std::size_t count, double dt, Rates with) {
+    rates = std::move(with);
+    if (count != size) {
+      drop();
+      size = count;
+      y = N_VNew_Serial(static_cast<sunindextype>(count), context);
+      std::copy_n(state, count, N_VGetArrayPointer(y));
+      memory = ERKStepCreate(evaluate, 0.0, y, context);
+      ERKStepSetTableNum(memory, ARKODE_FEHLBERG_13_7_8);
+      ERKStepSStolerances(memory, 1e-11, 1e-13);
+      ERKStepSetUserData(memory, this);
+      ERKStepSetMaxNumSteps(memory, 100'000);
+    } else {
+      std::copy_n(state, count, N_VGetArrayPointer(y));
+      ERKStepReInit(memory, evaluate, 0.0, y);
+    }
+    ERKStepSetStopTime(memory, dt);
+    realtype reached = 0.0;
+    const int result = ERKStepEvolve(memory, dt, y, &reached, ARK_NORMAL);
+    std::copy_n(N_VGetArrayPointer(y), count, state);
+    return result >= 0;
+  }
+
+  SUNContext context = nullptr;
+  void* memory = nullptr;
+  N_Vector y = nullptr;
+  std::size_t size = 0;
+  Rates rates;
+};
+
+ReferenceIntegrator::ReferenceIntegrator() : solver_(std::make_unique<Solver>()) {}
+ReferenceIntegrator::~ReferenceIntegrator() = default;
+
+namespace {
+
+template <class State>
+State from_array(const double* values) {
+  std::array<double, sizeof(State) / sizeof(double)> all;
+  std::copy_n(values, all.size(), all.begin());
+  return std::bit_cast<State>(all);
+}
+
+template <class State>
+void to_array(const State& state, double* values) {
+  const auto all = std::bit_cast<std::array<double, sizeof(State) / sizeof(double)>>(state);
+  std::copy(all.begin(), all.end(), values);
+}
+
+}  // namespace
+
+bool ReferenceIntegrator::advance(const full::Params& p, const full::Input& in, full::State& state, double dt) {
+  full::Held during = full::held(p, in, state, dt);
+  during.shortest_slip_m = 0.0;  // the floor is there for fixed steps
+  const full::State before = state;
+  std::array<double, full::kStateSize> y;
+  to_array(state, y.data());
+  const bool done = solver_->step(y.data(), y.size(), dt, [&](double t, const double* at, double* rate) {
+    full::State d;
+    full::derivative(p, in, during, from_array<full::State>(at), t, d);
+    to_array(d, rate);
+  });
+  state = from_array<full::State>(y.data());
+  full::finish_step(during, before, state);
+  return done;
+}
+
+bool ReferenceIntegrator::advance(const single_track::Params& p, const full::Input& in, single_track::State& state,
+                                  double dt) {
+  single_track::Held during = single_track::held(p, in, state, dt);
+  during.shortest_slip_m = 0.0;
+  const single_track::State before = state;
+  std::array<double, single_track::kStateSize> y;
+  to_array(state, y.data());
+  const bool done = solver_->step(y.data(), y.size(), dt, [&](double t, const double* at, double* rate) {
+    single_track::State d;
+    single_track::derivative(p, in, during, from_array<single_track::State>(at), t, d);
+    to_array(d, rate);
+  });
+  state = from_array<single_track::State>(y.data());
+  single_track::finish_step(in, during, before, state);
+  return done;
+}
+
+}  // namespace phare

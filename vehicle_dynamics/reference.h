@@ -1,0 +1,32 @@
+// The reference integrator: SUNDIALS ARKODE with tight tolerances, to measure the fixed-step ones against.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+#include "vehicle_dynamics/models/full.h"
+#include "vehicle_dynamics/models/single_track.h"
+
+namespace phare {
+
+/// Explicit Runge-Kutta of order 8 with error control (Fehlberg 13-7-8), relative tolerance 1e-11, absolute 1e-13. Its
+/// time per step is unbounded and it allocates: for batch and tests, never for real time.
+class ReferenceIntegrator {
+ public:
+  ReferenceIntegrator();
+  ~ReferenceIntegrator();
+  ReferenceIntegrator(const ReferenceIntegrator&) = delete;
+  ReferenceIntegrator& operator=(const ReferenceIntegrator&) = delete;
+
+  /// One step of the model, as its advance() does it but exact between decisions that are taken once a step. False: the
+  /// solver gave up; the state is then as far as it came.
+  bool advance(const full::Params& params, const full::Input& input, full::State& state, double dt);
+  bool advance(const single_track::Params& params, const full::Input& input, single_track::State& state, double dt);
+
+ private:
+  struct Solver;
+  std::unique_ptr<Solver> solver_;
+};
+
+}  // namespace phare
