@@ -228,7 +228,7 @@ CheckRow measured(std::string id, std::string clause, std::string unit, double v
   row.min = min;
   row.max = max;
   row.lowest = row.highest = value;
-  row.margin = std::min(value - min, max - value);
+  row.margin = min > kNoMinimum ? std::min(value - min, max - value) : max - value;
   row.resolution = resolution;
   row.verdict = std::abs(row.margin) < resolution ? Verdict::kWithinResolution
                 : row.margin >= 0.0               ? Verdict::kPass
@@ -371,8 +371,12 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
   result.aim_method = "as filed";
   const CutoffAim* aim = nullptr;
   double sharpest = 0.0;
+  // Of VOL and VOR the one on the flat side of the kink; without a kink the sharper.
+  const CutoffSide side = rule.cutoff_aims.size() > 1 ? cutoff_shape(as_function(beam)).side : CutoffSide::kNone;
   for (const CutoffAim& candidate : rule.cutoff_aims) {
-    const double g = find_cutoff(as_function(beam), candidate.scan_h_deg).sharpness_g;
+    double g = find_cutoff(as_function(beam), candidate.scan_h_deg).sharpness_g;
+    if (side == CutoffSide::kRisesRight && candidate.scan_h_deg > 0.0) g = 0.0;
+    if (side == CutoffSide::kRisesLeft && candidate.scan_h_deg < 0.0) g = 0.0;
     if (aim == nullptr || g > sharpest) {
       aim = &candidate;
       sharpest = g;
