@@ -35,6 +35,7 @@ int run(int argc, char** argv) {
   add_record(app, chosen);
   add_replay(app, chosen);
   add_import(app, chosen);
+  add_lamp(app, chosen);
   add_measure(app, chosen);
   add_doctor(app, chosen);
   try {

@@ -14,6 +14,7 @@
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/illuminance.h"
 #include "visual/photometry/points_file.h"
+#include "visual/photometry/read_lamp.h"
 #ifdef PHARE_WITH_GRAPHICS
 #include "visual/renderer.h"
 #endif
@@ -80,7 +81,7 @@ Result<Tables> read_tables(const std::vector<LampConfig>& lamps) {
     for (const SourceConfig& source : lamp.sources) {
       const auto key = std::make_pair(source.file.string(), source.axis);
       if (tables.contains(key)) continue;
-      auto table = read_lm63(source.file, source.axis);
+      auto table = read_lamp(source.file, {.axis = source.axis, .folder = {}});
       if (!table) return table.error();
       tables.emplace(key, std::move(*table));
     }

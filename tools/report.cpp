@@ -7,7 +7,7 @@
 #include <map>
 
 #include "config/content_hash.h"
-#include "visual/photometry/intensity_table.h"
+#include "visual/photometry/read_lamp.h"
 
 namespace phare {
 namespace {
@@ -42,7 +42,7 @@ json lamps_of(const Rig& rig) {
         auto [at, fresh] = known.try_emplace(source.file.string());
         if (fresh) {
           at->second = {{"file", source.file.filename().string()}};
-          if (const auto table = read_lm63(source.file, source.axis)) {
+          if (const auto table = read_lamp(source.file, {.axis = source.axis, .folder = {}})) {
             at->second["content_hash"] = table->content_hash;
             at->second["flux_lm"] = table->flux_lm();
             at->second["peak_cd"] = table->peak_cd();

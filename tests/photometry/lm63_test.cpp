@@ -145,8 +145,7 @@ TEST(Lm63, LayoutIsFree) {
 TEST(Lm63, RefusalsSayWhereAndWhy) {
   EXPECT_EQ(reason(""), "lamp.ies: is empty");
   EXPECT_EQ(reason("a\nb\n"), "lamp.ies:2: no TILT= line: not an LM-63 file, or cut off");
-  EXPECT_EQ(reason("IESNA91\nTILT=tilt table.txt\n"),
-            "lamp.ies:2: TILT=\"tilt table.txt\" names another file; only TILT=NONE and TILT=INCLUDE are read");
+  EXPECT_EQ(reason("IESNA91\nTILT=\n"), "lamp.ies:2: TILT= names nothing; expected NONE, INCLUDE or a file");
   EXPECT_EQ(reason(kHead + "1 -1 1 0 3 3 2 0 0 0\n"),
             "lamp.ies:4: the number of vertical angles cannot be 0 in a file of 57 bytes");
   EXPECT_EQ(reason(kHead + "1 -1 1 40 40 3 2 0 0 0\n"), "lamp.ies:4: 40 × 40 candela cannot be in a file of 59 bytes");

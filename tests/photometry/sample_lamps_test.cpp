@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "photometry_test_files.h"
 #include "visual/photometry/beam_image.h"
-#include "visual/photometry/regulation.h"
+#include "visual/photometry/check.h"
+#include "visual/photometry/combine.h"
+#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/write_lamp.h"
 
 namespace phare {
 namespace {
@@ -29,7 +31,7 @@ glm::dmat3 mounted() {
 
 TEST(SampleLamps, ComeBackFromTheirFiles) {
   for (const SampleLamp& made : lamps()) {
-    const std::string text = lm63_text(made);
+    const std::string text = lm63_text(made.table, kSampleGeneration);
     EXPECT_LT(text.size(), 400000u);
     const auto read = read_lm63(test::temporary_file(made.file, text));
     ASSERT_TRUE(read.ok()) << read.error().text();
@@ -41,53 +43,49 @@ TEST(SampleLamps, ComeBackFromTheirFiles) {
   }
 }
 
-TEST(SampleLamps, PassTheirRows) {
-  const auto expect = [](const SampleLamp& l, const glm::dmat3& aim, std::span<const RegulationRow> rows,
-                         bool mirrored) {
-    for (const RowResult& row : check_rows(l.table, aim, rows, mirrored)) {
-      EXPECT_TRUE(row.passed) << l.file << " " << row.id << ": " << row.lowest_cd << " to " << row.highest_cd;
-    }
-  };
+TEST(SampleLamps, PassTheirRules) {
   for (const SampleLamp& l : lamps()) {
-    switch (l.kind) {
-      case SampleKind::kLowRight:
-      case SampleKind::kLowLeft:
-        expect(l, mounted(), r149_passing_class_c(), l.kind == SampleKind::kLowLeft);
-        EXPECT_GE(l.table.flux_lm(), 1000.0);
-        break;
-      case SampleKind::kHigh:
-        for (const glm::dmat3& aim : {glm::dmat3{1.0}, mounted()}) {
-          expect(l, aim, r149_driving_class_a(), false);
-          expect(l, aim, r149_driving_class_b(), false);
-          expect(l, aim, fmvss108_upper_ub2(), false);
-        }
-        EXPECT_EQ(l.table.peak_cd(), l.table.intensity_at_cd({0.0, 0.0}));
-        break;
-      case SampleKind::kFog:
-        break;
+    for (const std::string& id : l.rules) {
+      const auto rule = find_rulebook(PHARE_RULES_DIR, id);
+      ASSERT_TRUE(rule.ok()) << rule.error().text();
+      const IntensityTable* table[] = {&l.table};
+      const CheckResult result = check_lamp(table, *rule);
+      EXPECT_EQ(result.left_hand, l.kind == SampleKind::kLowLeft) << l.file;
+      for (const CheckRow& row : result.rows)
+        EXPECT_NE(row.verdict, Verdict::kFail)
+            << l.file << " " << id << " " << row.id << ": " << row.lowest << " to " << row.highest;
+    }
+    if (l.kind == SampleKind::kHigh) {
+      EXPECT_EQ(l.table.peak_cd(), l.table.intensity_at_cd({0.0, 0.0}));
     }
   }
 }
 
 TEST(SampleLamps, ARightHandBeamFailsTheLeftHandRows) {
-  std::size_t failed = 0;
-  for (const RowResult& row : check_rows(lamp("low_rht.ies").table, mounted(), r149_passing_class_c(), true))
-    failed += row.passed ? 0 : 1;
-  EXPECT_GT(failed, 2u);
+  const auto rule = find_rulebook(PHARE_RULES_DIR, "r149-passing-c");
+  ASSERT_TRUE(rule.ok()) << rule.error().text();
+  const IntensityTable* table[] = {&lamp("low_rht.ies").table};
+  CheckOptions options;
+  options.traffic = Traffic::kLeft;
+  EXPECT_GT(check_lamp(table, *rule, options).failed, 2u);
 }
 
 TEST(SampleLamps, CutoffIsSharpLevelAndOnItsLine) {
   for (const char* file : {"low_rht.ies", "led_low_rht.ies"}) {
-    const Cutoff at_line = find_cutoff(lamp(file).table, mounted(), -2.5);
+    const IntensityHv as_mounted = mounted_intensity(lamp(file).table, mounted());
+    const Cutoff at_line = find_cutoff(as_mounted, -2.5);
     EXPECT_GE(at_line.sharpness_g, 0.20) << file;
     EXPECT_LE(at_line.sharpness_g, 0.40) << file;
     for (const double h : {-1.5, -2.5, -3.5})
-      EXPECT_NEAR(find_cutoff(lamp(file).table, mounted(), h).elevation_deg, -0.57, 0.055) << file << h;
+      EXPECT_NEAR(find_cutoff(as_mounted, h).elevation_deg, -0.573, 0.02) << file << h;
     // To the right it rises by 15°: tan 15° = 0.268 per degree.
-    EXPECT_NEAR(find_cutoff(lamp(file).table, glm::dmat3{1.0}, 3.0).elevation_deg, 3.0 * 0.268, 0.06) << file;
+    const IntensityHv level = mounted_intensity(lamp(file).table, glm::dmat3{1.0});
+    EXPECT_NEAR(find_cutoff(level, 3.0).elevation_deg, 3.0 * 0.268, 0.06) << file;
   }
-  EXPECT_GT(find_cutoff(lamp("led_low_rht.ies").table, mounted(), -2.5).sharpness_g,
-            find_cutoff(lamp("low_rht.ies").table, mounted(), -2.5).sharpness_g);
+  const auto g = [](const char* file) {
+    return find_cutoff(mounted_intensity(lamp(file).table, mounted()), -2.5).sharpness_g;
+  };
+  EXPECT_GT(g("led_low_rht.ies"), g("low_rht.ies"));
 }
 
 TEST(SampleLamps, LeftHandIsTheExactMirror) {
@@ -135,77 +133,27 @@ TEST(SampleLamps, HaveNoBands) {
   }
 }
 
-/// Compares our rows with a list of the regulation data set; both ways, every limit and every point.
-void expect_same_rows(std::span<const RegulationRow> ours, const nlohmann::json& theirs, const char* id_key) {
-  EXPECT_EQ(ours.size(), theirs.size());
-  for (const auto& row : theirs) {
-    const std::string id = row.at(id_key);
-    const auto mine = std::find_if(ours.begin(), ours.end(), [&](const RegulationRow& r) { return r.id == id; });
-    ASSERT_NE(mine, ours.end()) << id;
-    const auto limit = [&](const char* key, double none) {
-      return row.contains(key) && !row[key].is_null() ? row[key].get<double>() : none;
-    };
-    EXPECT_EQ(mine->min_cd, limit("min_cd", kNoMinimum)) << id;
-    EXPECT_EQ(mine->max_cd, limit("max_cd", kNoMaximum)) << id;
-    EXPECT_EQ(mine->min_of_peak_01, limit("min_fraction_of_Imax", 0.0)) << id;
-    EXPECT_EQ(mine->max_of_first, limit("max_factor", 0.0)) << id;
-    nlohmann::json points = nlohmann::json::array();
-    RowShape shape = RowShape::kPoints;
-    if (row.contains("sum_of")) {
-      shape = RowShape::kSum;
-      points = row["sum_of"];
-    } else if (!row.contains("at")) {
-      shape = RowShape::kPeak;
-    } else if (row["at"].is_array()) {
-      points = row["at"];
-    } else if (row["at"].contains("line")) {
-      shape = RowShape::kLine;
-      const auto& line = row["at"]["line"];
-      points = {{line[0], line[1]}, {line[2], line[3]}};
-    } else if (row["at"].contains("polygon")) {
-      shape = RowShape::kPolygon;
-      points = row["at"]["polygon"];
-    } else {
-      shape = RowShape::kBelow;
-      EXPECT_EQ(row["at"]["region"], "v<=-4, h in [-4.5,2]");
-      points = {{-4.5, -4.0}, {2.0, -4.0}};
-    }
-    EXPECT_EQ(mine->shape, shape) << id;
-    std::vector<std::pair<double, double>> a, b;
-    for (const auto& p : points) a.emplace_back(p[0].get<double>(), p[1].get<double>());
-    for (const HV& p : mine->at) b.emplace_back(p.h_deg, p.v_deg);
-    std::sort(a.begin(), a.end());
-    std::sort(b.begin(), b.end());
-    EXPECT_EQ(a, b) << id;
+TEST(MatrixSegments, TogetherPassADrivingBeam) {
+  const std::vector<SampleLamp> segments = matrix_segments();
+  ASSERT_EQ(segments.size(), static_cast<std::size_t>(kMatrixRows * kMatrixColumns));
+  std::vector<const IntensityTable*> tables;
+  double flux_lm = 0.0;
+  for (const SampleLamp& segment : segments) {
+    tables.push_back(&segment.table);
+    flux_lm += segment.table.flux_lm();
+    EXPECT_GT(segment.table.peak_cd(), 500.0) << segment.file;
   }
-}
-
-TEST(Regulation, RowsAgreeWithTheDataSet) {
-  PHARE_NEEDS_SHARED_DATA("regulation/un_r149_01_headlamps.json");
-  nlohmann::json r149, fmvss;
-  std::ifstream(test::shared_data("regulation/un_r149_01_headlamps.json")) >> r149;
-  std::ifstream(test::shared_data("regulation/fmvss108_headlamps.json")) >> fmvss;
-  expect_same_rows(r149_passing_class_c(), r149["passing"]["C"], "id");
-  expect_same_rows(r149_driving_class_b(), r149["driving"]["B"], "id");
-  expect_same_rows(r149_driving_class_a(), r149["driving"]["A"], "id");
-  expect_same_rows(fmvss108_upper_ub2(), fmvss["upper"]["UB2"], "row");
-}
-
-// A flat 512 cd everywhere: what passes and fails can be said without a computer.
-TEST(Regulation, ChecksAFlatTable) {
-  IntensityTable flat;
-  flat.first_deg = {-90, 90};
-  flat.second_deg = {-90, 90};
-  flat.candela.assign(4, 512.0);
-  for (const RowResult& row : check_rows(flat, glm::dmat3{1.0}, r149_passing_class_c())) {
-    const bool expected = row.id == "Zone III" || row.id == "BR" || row.id == "Segment BLL" || row.id == "P" ||
-                          row.id == "Segment 15" || row.id == "Segment 10" || row.id.starts_with("S50+") ||
-                          row.id.starts_with("S100+");
-    EXPECT_EQ(row.passed, expected) << row.id;
-    if (row.id.starts_with("S50+")) {
-      EXPECT_NEAR(row.lowest_cd, 1536.0, 1e-9);
-    }
-  }
+  const IntensityTable sum = sum_tables(tables);
+  EXPECT_NEAR(sum.flux_lm(), flux_lm, 1e-9 * flux_lm);
+  for (const IntensityTable* segment : tables) EXPECT_LT(segment->peak_cd(), sum.peak_cd());
+  const auto rule = find_rulebook(PHARE_RULES_DIR, "r149-driving-b");
+  ASSERT_TRUE(rule.ok()) << rule.error().text();
+  const IntensityTable* whole[] = {&sum};
+  for (const CheckRow& row : check_lamp(whole, *rule).rows)
+    EXPECT_EQ(row.verdict, Verdict::kPass) << row.id << " " << row.lowest;
+  // Smooth where segments meet: no ripple along H at V = 0 between the centres.
+  for (double h = 0.0; h < 12.0; h += 0.05)
+    EXPECT_GE(sum.intensity_at_cd({h, 0.0}), sum.intensity_at_cd({h + 0.05, 0.0}) * (1.0 - 1e-3)) << h;
 }
 
 }  // namespace

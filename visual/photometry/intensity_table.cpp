@@ -100,15 +100,78 @@ TableAngles table_angles(PhotometricType type, GammaAxis axis, const glm::dvec3&
   return {c_deg, std::atan2(std::sqrt(c.x * c.x + c.y * c.y), c.z) * kDegreesPerRadian};
 }
 
+glm::dvec3 direction_hv(double h_deg, double v_deg) {
+  const double h = h_deg / kDegreesPerRadian;
+  const double v = v_deg / kDegreesPerRadian;
+  return {std::cos(v) * std::cos(h), -std::cos(v) * std::sin(h), std::sin(v)};
+}
+
+glm::dvec3 table_direction(PhotometricType type, GammaAxis axis, TableAngles angles) {
+  const double first = angles.first_deg / kDegreesPerRadian;
+  const double second = angles.second_deg / kDegreesPerRadian;
+  switch (type) {
+    case PhotometricType::kA:
+      return direction_hv(angles.first_deg, angles.second_deg);
+    case PhotometricType::kB:
+      return {std::cos(first) * std::cos(second), -std::sin(first), std::cos(first) * std::sin(second)};
+    case PhotometricType::kC:
+      break;
+  }
+  const double c0 = std::sin(second) * std::cos(first), c90 = std::sin(second) * std::sin(first);
+  const double g0 = std::cos(second);
+  return axis == GammaAxis::kGamma0 ? glm::dvec3{g0, -c0, c90} : glm::dvec3{c0, c90, -g0};
+}
+
+TableAngles IntensityTable::angles_of(const glm::dvec3& direction) const {
+  if (screen_distance_m <= 0.0) return table_angles(type, axis, direction);
+  return {std::atan2(-direction.y, direction.x) * kDegreesPerRadian,
+          std::atan2(direction.z, direction.x) * kDegreesPerRadian};
+}
+
+glm::dvec3 IntensityTable::direction_of(TableAngles angles) const {
+  if (screen_distance_m <= 0.0) return table_direction(type, axis, angles);
+  return glm::normalize(glm::dvec3{1.0, -std::tan(angles.first_deg / kDegreesPerRadian),
+                                   std::tan(angles.second_deg / kDegreesPerRadian)});
+}
+
 double IntensityTable::intensity_cd(const glm::dvec3& direction) const {
   if (direction == glm::dvec3{0.0}) return 0.0;
-  return intensity_at_cd(table_angles(type, axis, direction));
+  return intensity_at_cd(angles_of(direction));
 }
+
+namespace {
+
+/// (1 + t² + u²)^1.5 = (distance / distance along the axis)³ of a point with tangents t and u on a flat screen.
+double screen_factor(double t, double u) {
+  const double s = 1.0 + t * t + u * u;
+  return s * std::sqrt(s);
+}
+
+/// E on the screen is bilinear in the tangents: I = (1 + t² + u²)^1.5 · Σ w·I_node / (1 + t_node² + u_node²)^1.5.
+double screen_intensity_cd(const IntensityTable& table, const Cell& first, const Cell& second, TableAngles angles) {
+  const auto tangent = [](double deg) { return std::tan(deg / kDegreesPerRadian); };
+  const double t[2] = {tangent(table.first_deg[first.index]), tangent(table.first_deg[first.index + 1])};
+  const double u[2] = {tangent(table.second_deg[second.index]), tangent(table.second_deg[second.index + 1])};
+  const double at_t = tangent(angles.first_deg), at_u = tangent(angles.second_deg);
+  const double share_t = (at_t - t[0]) / (t[1] - t[0]), share_u = (at_u - u[0]) / (u[1] - u[0]);
+  const double* row = table.candela.data() + second.index * table.first_deg.size() + first.index;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < 2; ++j) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double weight = (i == 0 ? 1.0 - share_t : share_t) * (j == 0 ? 1.0 - share_u : share_u);
+      sum += weight * row[j * table.first_deg.size() + i] / screen_factor(t[i], u[j]);
+    }
+  }
+  return sum * screen_factor(at_t, at_u);
+}
+
+}  // namespace
 
 double IntensityTable::intensity_at_cd(TableAngles angles) const {
   Cell first;
   Cell second;
   if (!find_cell(first_deg, angles.first_deg, first) || !find_cell(second_deg, angles.second_deg, second)) return 0.0;
+  if (screen_distance_m > 0.0) return screen_intensity_cd(*this, first, second, angles);
   const double* row = candela.data() + second.index * first_deg.size() + first.index;
   const double* next_row = row + first_deg.size();
   const double u = first.upper_share_01;
@@ -118,7 +181,30 @@ double IntensityTable::intensity_at_cd(TableAngles angles) const {
   return low * (1.0 - v) + high * v;
 }
 
+namespace {
+
+/// ∫E dA of a flat screen: with D² out of E·D² and of the area, Σ cells (mean of the corners)·Δt·Δu.
+double screen_flux_lm(const IntensityTable& table) {
+  std::vector<double> t, u;
+  for (const double deg : table.first_deg) t.push_back(std::tan(deg / kDegreesPerRadian));
+  for (const double deg : table.second_deg) u.push_back(std::tan(deg / kDegreesPerRadian));
+  const auto weight = [](const std::vector<double>& nodes, std::size_t i) {
+    return 0.5 * ((i > 0 ? nodes[i] - nodes[i - 1] : 0.0) + (i + 1 < nodes.size() ? nodes[i + 1] - nodes[i] : 0.0));
+  };
+  double flux_lm = 0.0;
+  for (std::size_t j = 0; j < u.size(); ++j) {
+    double row = 0.0;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      row += weight(t, i) * table.candela[j * t.size() + i] / screen_factor(t[i], u[j]);
+    flux_lm += weight(u, j) * row;
+  }
+  return flux_lm;
+}
+
+}  // namespace
+
 double IntensityTable::flux_lm() const {
+  if (screen_distance_m > 0.0) return screen_flux_lm(*this);
   // dω = cos V dV dH (A), cos H dH dV (B), sin γ dγ dC (C).
   const auto first = node_weights(first_deg, type == PhotometricType::kB ? cosine_weights : flat_weights);
   const auto second = node_weights(second_deg, type == PhotometricType::kA   ? cosine_weights
@@ -135,6 +221,16 @@ double IntensityTable::flux_lm() const {
 
 double IntensityTable::peak_cd() const {
   return candela.empty() ? 0.0 : *std::max_element(candela.begin(), candela.end());
+}
+
+TableAngles IntensityTable::peak_at() const {
+  if (candela.empty()) return {};
+  const auto peak = std::max_element(candela.begin(), candela.end());
+  const std::size_t at = static_cast<std::size_t>(peak - candela.begin());
+  const std::size_t columns = first_deg.size();
+  std::size_t last = at % columns;
+  while (last + 1 < columns && candela[at - at % columns + last + 1] == *peak) ++last;
+  return {first_deg[(at % columns + last) / 2], second_deg[at / columns]};
 }
 
 }  // namespace phare

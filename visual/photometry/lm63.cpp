@@ -1,156 +1,78 @@
-// Reader of IES LM-63 photometry files, editions 1986 to 2019, types A, B and C.
+// Reader of IES LM-63 photometry files, editions 1986 to 2019, types A, B, C.
 // Liberal in layout (any line breaks, commas or blanks, any case), strict in numbers: what it cannot mean is refused
 // with file:line. What it repaired is in IntensityTable::notes. The whole table comes out unfolded: H on both sides, C
-// 0..360.
+// 0..360. Field 12 is a factor in 1986 and 1991 alone ("ballast-lamp photometric factor"); 1995 and 2002 reserve it
+// ("future use"), 2019 codes there how the file was made.
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <optional>
-#include <span>
-#include <string_view>
 
-#include "config/content_hash.h"
-#include "visual/photometry/intensity_table.h"
+#include "visual/photometry/file_text.h"
+#include "visual/photometry/grid_build.h"
+#include "visual/photometry/read_lamp.h"
 
 namespace phare {
 namespace {
 
-constexpr std::uintmax_t kMaxFileBytes = 64u
-                                         << 20;  // a 0.01° grid of a headlamp stays below; more is no photometry file
-
-bool is_separator(char c) {
-  return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\f' || c == '\v';
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_separator(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_separator(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-std::string upper(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  }
-  return result;
-}
-
-/// A word of a hostile file, fit for an error line.
-std::string in_quotes(std::string_view word) {
-  std::string text = "\"";
-  for (const char c : word.substr(0, 24)) text += c >= 0x20 && c < 0x7f ? c : '?';
-  return text + (word.size() > 24 ? "…\"" : "\"");
-}
-
-/// Shortest text of a number.
-std::string number_text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
-}
-
-/// The text of a file, line by line for the header and word by word for the numbers.
-class Text {
- public:
-  Text(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
-
-  std::optional<std::string_view> next_line() {
-    if (at_ >= text_.size()) return std::nullopt;
-    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    const std::string_view line = text_.substr(at_, end - at_);
-    at_ = end + 1;
-    word_line_ = line_++;
-    return trimmed(line);
-  }
-
-  /// Next word after separators and line ends; empty at the end of the file. `line()` is the word's.
-  std::string_view next_word() {
-    while (at_ < text_.size() && (is_separator(text_[at_]) || text_[at_] == '\n')) {
-      if (text_[at_] == '\n') ++line_;
-      ++at_;
-    }
-    word_line_ = line_;
-    const std::size_t begin = std::min(at_, text_.size());
-    while (at_ < text_.size() && !is_separator(text_[at_]) && text_[at_] != '\n') ++at_;
-    return text_.substr(begin, at_ - begin);
-  }
-
-  /// A finite number, or the error. `what` names it.
-  Result<double> number(const std::string& what) {
-    std::string_view word = next_word();
-    if (word.empty()) return error("the file ends where " + what + " is expected");
-    const std::string_view all = word;
-    if (word.front() == '+') word.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (code == std::errc::result_out_of_range)
-      return error(what + " " + in_quotes(all) + " is too large or too small a number");
-    if (code != std::errc{} || end != word.data() + word.size())
-      return error(what + " is not a number: " + in_quotes(all));
-    if (!std::isfinite(value)) return error(what + " is not a finite number: " + in_quotes(all));
-    return value;
-  }
-
-  Error error(std::string reason) const { return {place(), std::move(reason)}; }
-  std::string place() const { return file_ + ":" + std::to_string(word_line_); }
-  std::size_t size() const { return text_.size(); }
-
- private:
-  std::string_view text_;
-  std::string file_;
-  std::size_t at_ = 0;
-  std::size_t line_ = 1;
-  std::size_t word_line_ = 1;
-};
-
-/// Edition of the file from its first line. Field 12 is a factor only before 1995.
+/// Edition of the file from its first line.
 struct Edition {
   std::string version;
-  bool field_12_is_factor = false;
+  int year = 1986;
 };
 
 Edition edition_of(std::string_view first_line) {
-  const std::string line = upper(first_line);
-  if (line.starts_with("IESNA91")) return {"IESNA91", true};
-  if (line.starts_with("IESNA:LM-63-") || line.starts_with("IES:LM-63-")) {
-    return {std::string(first_line.substr(0, 32)), false};
+  const std::string line = upper_case(first_line);
+  if (line.starts_with("IESNA91")) return {"IESNA91", 1991};
+  for (const std::string_view mark : {"IESNA:LM-63-", "IES:LM-63-"}) {
+    if (!line.starts_with(mark)) continue;
+    const auto year = parse_number(std::string_view(line).substr(mark.size(), 4));
+    return {std::string(first_line.substr(0, 32)), year ? static_cast<int>(*year) : 2002};
   }
-  return {"LM-63-1986", true};  // that edition has no such line
+  return {"LM-63-1986", 1986};  // that edition has no such line
 }
 
-struct Header {
-  std::size_t second_count = 0;  // vertical angles, or gamma
-  std::size_t first_count = 0;   // horizontal angles, or C
-  PhotometricType type = PhotometricType::kA;
+/// LM-63-19 table of file generation types: 1.abcde, each digit a flag.
+std::string generation_text(double code) {
+  if (code == 1.00001) return "undefined or older file";
+  if (code == 1.0001) return "computer simulation";
+  const int digits = static_cast<int>(std::lround((code - 1.0) * 1e5));
+  if (code < 1.0 || code > 1.2 || std::abs((code - 1.0) * 1e5 - digits) > 1e-3) return "unknown code";
+  std::string text =
+      digits / 10000 % 10 == 1 ? "test at an accredited laboratory" : "test at an unaccredited laboratory";
+  if (digits / 1000 % 10 == 1) text += ", interpolated angles";
+  if (digits / 100 % 10 == 1) text += ", lumens scaled";
+  if (digits / 10 % 10 == 1) text += ", computer simulation";
+  if (digits % 10 == 1) text += ", undefined";
+  return text;
+}
+
+struct Counts {
+  std::size_t second = 0;  // vertical angles, or gamma
+  std::size_t first = 0;   // horizontal angles, or C
   double scale = 1.0;
 };
 
-Result<std::size_t> read_count(Text& text, const std::string& what) {
+Result<std::size_t> read_count(FileText& text, const char* what) {
   const auto value = text.number(what);
   if (!value) return value.error();
   // A table of n values takes at least 2n - 1 characters, so no count can reach the size of the file.
   if (*value < 1.0 || *value != std::floor(*value) || *value > static_cast<double>(text.size())) {
-    return text.error(what + " cannot be " + number_text(*value) + " in a file of " + std::to_string(text.size()) +
-                      " bytes");
+    return text.error(std::string(what) + " cannot be " + number_text(*value) + " in a file of " +
+                      std::to_string(text.size()) + " bytes");
   }
   return static_cast<std::size_t>(*value);
 }
 
-/// TILT=INCLUDE: a table of lamp position over tilt. Headlamp photometry is as mounted, so the factors are not used.
-Status skip_tilt_table(Text& text, std::vector<std::string>& notes) {
+/// A table of light output over tilt. Headlamp photometry is as mounted (tilt 0), so the factors are not used.
+Status skip_tilt_table(FileText& text, std::vector<std::string>& notes) {
   if (const auto geometry = text.number("the lamp-to-luminaire geometry"); !geometry) return geometry.error();
   const auto count = read_count(text, "the number of tilt angles");
   if (!count) return count.error();
   for (std::size_t i = 0; i < *count; ++i) {
-    if (const auto angle = text.number("tilt angle " + std::to_string(i + 1)); !angle) return angle.error();
+    if (const auto angle = text.number("a tilt angle"); !angle) return angle.error();
   }
   bool all_one = true;
   for (std::size_t i = 0; i < *count; ++i) {
-    const auto factor = text.number("tilt factor " + std::to_string(i + 1));
+    const auto factor = text.number("a tilt factor");
     if (!factor) return factor.error();
     all_one = all_one && *factor == 1.0;
   }
@@ -159,10 +81,32 @@ Status skip_tilt_table(Text& text, std::vector<std::string>& notes) {
   return Done{};
 }
 
-Result<Header> read_header(Text& text, const Edition& edition, std::vector<std::string>& notes) {
-  Header header;
-  if (const auto lamps = text.number("the number of lamps"); !lamps) return lamps.error();
-  if (const auto lumens = text.number("the lumens per lamp"); !lumens) return lumens.error();
+/// TILT=name: looked for beside the lamp's file, checked, and like an included table not used.
+Status check_tilt_file(const FileText& text, std::string_view named, const LampReadSettings& settings,
+                       std::vector<std::string>& notes) {
+  const std::filesystem::path name = std::filesystem::path(std::string(named)).filename();
+  const std::filesystem::path file = settings.folder / name;
+  std::error_code code;
+  if (name.empty() || settings.folder.empty() || !std::filesystem::is_regular_file(file, code)) {
+    notes.push_back(
+        text.place() + ": TILT=" + in_quotes(named) +
+        " is not beside this file; its factors would not be applied: the photometry is of the lamp as mounted");
+    return Done{};
+  }
+  const auto bytes = read_photometry_bytes(file, file.string());
+  if (!bytes) return bytes.error();
+  FileText tilt(*bytes, file.string());
+  return skip_tilt_table(tilt, notes);
+}
+
+Result<Counts> read_header(FileText& text, const Edition& edition, IntensityTable& table) {
+  LampHeader& header = table.header;
+  Counts counts;
+  const auto lamps = text.number("the number of lamps");
+  if (!lamps) return lamps.error();
+  const std::size_t first_line = text.line();
+  const auto lumens = text.number("the lumens per lamp");
+  if (!lumens) return lumens.error();
   const auto multiplier = text.number("the candela multiplier");
   if (!multiplier) return multiplier.error();
   if (*multiplier <= 0.0) return text.error("the candela multiplier is " + number_text(*multiplier) + ", not above 0");
@@ -182,11 +126,21 @@ Result<Header> read_header(Text& text, const Edition& edition, std::vector<std::
   }
   const auto units = text.number("the units type");  // feet or metres: of the luminaire's size, candela do not care
   if (!units) return units.error();
+  header.units = *units == 1.0 ? "feet" : *units == 2.0 ? "metres" : "unknown";
   if (*units != 1.0 && *units != 2.0)
-    notes.push_back(text.place() + ": units type " + number_text(*units) +
-                    " is neither feet (1) nor metres (2); unused");
-  for (const char* what : {"the luminaire's width", "the luminaire's length", "the luminaire's height"}) {
-    if (const auto size = text.number(what); !size) return size.error();
+    table.notes.push_back(text.place() + ": units type " + number_text(*units) +
+                          " is neither feet (1) nor metres (2); unused");
+  const double to_m = *units == 1.0 ? 0.3048 : 1.0;
+  for (const auto& [what, size_m] : {std::pair{"the luminaire's width", &header.width_m},
+                                     {"the luminaire's length", &header.length_m},
+                                     {"the luminaire's height", &header.height_m}}) {
+    const auto size = text.number(what);
+    if (!size) return size.error();
+    *size_m = *size * to_m;
+  }
+  if (text.line() != first_line) {
+    table.notes.push_back(text.place() + ": the ten values that begin on line " + std::to_string(first_line) +
+                          " belong on one line; read on");
   }
   const auto ballast = text.number("the ballast factor");
   if (!ballast) return ballast.error();
@@ -194,201 +148,140 @@ Result<Header> read_header(Text& text, const Edition& edition, std::vector<std::
   double factor = 1.0;
   const auto field_12 = text.number("field 12 (ballast-lamp factor or file generation type)");
   if (!field_12) return field_12.error();
-  if (edition.field_12_is_factor) {
+  if (edition.year < 1995) {
     if (*field_12 < 0.0) return text.error("the ballast-lamp photometric factor is " + number_text(*field_12));
     if (*field_12 == 0.0) {
-      notes.push_back(text.place() + ": ballast-lamp photometric factor 0 taken as 1");
+      table.notes.push_back(text.place() + ": ballast-lamp photometric factor 0 taken as 1");
     } else {
       factor = *field_12;
     }
+  } else if (edition.year < 2019 && *field_12 != 1.0) {
+    table.notes.push_back(text.place() + ": field 12 is " + number_text(*field_12) +
+                          ", reserved in this edition; not applied");
   }
-  if (const auto watts = text.number("the input watts"); !watts) return watts.error();
+  const auto watts = text.number("the input watts");
+  if (!watts) return watts.error();
 
-  header.second_count = *second_count;
-  header.first_count = *first_count;
-  header.type = static_cast<PhotometricType>(static_cast<int>(*type));
-  header.scale = *multiplier * *ballast * factor;
-  return header;
+  counts.second = *second_count;
+  counts.first = *first_count;
+  counts.scale = *multiplier * *ballast * factor;
+  table.type = static_cast<PhotometricType>(static_cast<int>(*type));
+  header.lamp_count = *lamps;
+  header.absolute = *lumens < 0.0;
+  header.stated_flux_lm = *lumens > 0.0 && *lamps > 0.0 ? *lumens * *lamps : 0.0;
+  header.multiplier = *multiplier;
+  header.ballast_factor = *ballast;
+  header.field_12 = *field_12;
+  header.field_12_applied = edition.year < 1995;
+  if (edition.year >= 2019) header.generation = generation_text(*field_12);
+  header.input_w = *watts;
+  return counts;
 }
 
 /// Strictly ascending angles within [min, max].
-Result<std::vector<double>> read_angles(Text& text, std::size_t count, const std::string& what, double min_deg,
+Result<std::vector<double>> read_angles(FileText& text, std::size_t count, const std::string& what, double min_deg,
                                         double max_deg) {
   std::vector<double> angles;
   angles.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto angle = text.number(what + " angle " + std::to_string(i + 1) + " of " + std::to_string(count));
-    if (!angle) return angle.error();
-    if (*angle < min_deg || *angle > max_deg) {
-      return text.error(what + " angle " + number_text(*angle) + " is outside " + number_text(min_deg) + " to " +
+    double angle = 0.0;
+    if (!text.number(angle)) return text.why(what + " angle " + std::to_string(i + 1) + " of " + std::to_string(count));
+    if (angle < min_deg || angle > max_deg) {
+      return text.error(what + " angle " + number_text(angle) + " is outside " + number_text(min_deg) + " to " +
                         number_text(max_deg));
     }
-    if (!angles.empty() && *angle <= angles.back()) {
-      return text.error(what + " angles must increase, but " + number_text(*angle) + " follows " +
+    if (!angles.empty() && angle <= angles.back()) {
+      return text.error(what + " angles must increase, but " + number_text(angle) + " follows " +
                         number_text(angles.back()));
     }
-    angles.push_back(*angle);
+    angles.push_back(angle);
   }
   return angles;
 }
 
-/// Columns of the file become columns of the unfolded table: target angle and the column it repeats.
-struct Column {
-  double angle_deg = 0.0;
-  std::size_t source = 0;
-};
-
-bool before(const Column& a, const Column& b) {
-  return a.angle_deg < b.angle_deg;
-}
-bool before_angle(const Column& column, double angle_deg) {
-  return column.angle_deg < angle_deg;
-}
-
-/// Adds to each (ascending) column its image at `about2 - angle`, but none that is there already (a column on the
-/// mirror plane).
-void mirror(std::vector<Column>& columns, double about2_deg) {
-  const std::vector<Column> half = columns;
-  for (const Column& column : half) {
-    const double angle = about2_deg - column.angle_deg;
-    const auto there = std::lower_bound(half.begin(), half.end(), angle, before_angle);
-    if (there == half.end() || there->angle_deg != angle) columns.push_back({angle, column.source});
+/// "[KEY] value" into the header; [MORE] goes on with the last.
+void read_keyword(std::string_view line, LampHeader& header) {
+  constexpr std::size_t kMaxKeywords = 1000;
+  if (!line.starts_with('[') || header.keywords.size() >= kMaxKeywords) return;
+  const std::size_t end = line.find(']');
+  if (end == std::string_view::npos) return;
+  const std::string key = upper_case(line.substr(1, end - 1));
+  const std::string value(trimmed(line.substr(end + 1)));
+  if (key == "MORE" && !header.keywords.empty()) {
+    header.keywords.back().second += " " + value;
+  } else {
+    header.keywords.emplace_back(key, value);
   }
-  std::sort(columns.begin(), columns.end(), before);
-}
-
-/// Undoes the symmetry that the first and last horizontal angle stand for (LM-63-19 §5.15).
-Result<std::vector<Column>> unfold(const std::vector<double>& first_deg, PhotometricType type, const Text& text,
-                                   std::vector<std::string>& notes) {
-  std::vector<Column> columns;
-  for (std::size_t i = 0; i < first_deg.size(); ++i) columns.push_back({first_deg[i], i});
-  const double begin = first_deg.front();
-  const double end = first_deg.back();
-
-  if (type != PhotometricType::kC) {
-    if (begin == 0.0) mirror(columns, 0.0);
-    if (columns.size() < 2) return text.error("one horizontal angle (" + number_text(begin) + ") is no beam");
-    return columns;
-  }
-  if (begin == 0.0 && end == 0.0) {
-    columns.push_back({360.0, 0});
-  } else if (begin == 0.0 && end == 90.0) {
-    mirror(columns, 180.0);
-    mirror(columns, 360.0);
-  } else if (begin == 0.0 && end == 180.0) {
-    mirror(columns, 360.0);
-  } else if (begin == 90.0 && end == 270.0) {
-    // Symmetric about the plane C 90 - C 270: C and 180 - C are alike.
-    std::vector<Column> all = columns;
-    for (const Column& column : columns) {
-      const double angle = 180.0 - column.angle_deg;  // -90 .. 90
-      if (column.angle_deg != 90.0 && column.angle_deg != 270.0)
-        all.push_back({angle < 0.0 ? angle + 360.0 : angle, column.source});
-      if (angle == 0.0) all.push_back({360.0, column.source});
-    }
-    std::sort(all.begin(), all.end(), before);
-    if (all.front().angle_deg != 0.0) return text.error("C angles from 90 to 270 need one at 180");
-    columns = std::move(all);
-  } else if (begin == 0.0 && end > 180.0 && end < 360.0) {
-    double widest = 0.0;
-    for (std::size_t i = 1; i < first_deg.size(); ++i) widest = std::max(widest, first_deg[i] - first_deg[i - 1]);
-    if (360.0 - end > widest * 1.0001)
-      return text.error("C angles end at " + number_text(end) + ", not at 0, 90, 180 or 360");
-    notes.push_back(text.place() + ": C angles end at " + number_text(end) + "; the plane C 0 repeated at 360");
-    columns.push_back({360.0, 0});
-  } else if (begin != 0.0 || end != 360.0) {
-    return text.error("C angles from " + number_text(begin) + " to " + number_text(end) + " are no symmetry of LM-63");
-  }
-  return columns;
-}
-
-Result<std::string> read_bytes(const std::filesystem::path& file, const std::string& name) {
-  std::error_code code;
-  if (std::filesystem::is_directory(file, code)) return Error{name, "is a directory"};
-  const std::uintmax_t size = std::filesystem::file_size(file, code);
-  if (code) return Error{name, "cannot be read: " + code.message()};
-  if (size > kMaxFileBytes) return Error{name, "is larger than 64 MiB, no photometry file"};
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!stream) return Error{name, std::string("cannot be read: ") + std::strerror(errno)};
-  return bytes;
 }
 
 }  // namespace
 
-Result<IntensityTable> read_lm63(const std::filesystem::path& file, GammaAxis axis) {
-  const std::string place = file.string();
-  auto bytes = read_bytes(file, place);
-  if (!bytes) return bytes.error();
-
+Result<IntensityTable> parse_lm63(std::string_view bytes, const std::string& name, const LampReadSettings& settings) {
   IntensityTable table;
-  table.name = file.filename().string();
-  table.content_hash = content_hash(std::as_bytes(std::span(*bytes)));
-  table.axis = axis;
-  if (bytes->empty()) return Error{place, "is empty"};
-
-  std::string_view content = *bytes;
-  if (content.starts_with("\xEF\xBB\xBF")) {
-    content.remove_prefix(3);
-    table.notes.push_back(place + ":1: byte order mark skipped");
-  }
-  std::string old_mac_lines;  // a lone CR as line end: only the line numbers and the header need it
-  if (content.find('\n') == std::string_view::npos && content.find('\r') != std::string_view::npos) {
-    old_mac_lines = content;
-    std::replace(old_mac_lines.begin(), old_mac_lines.end(), '\r', '\n');
-    content = old_mac_lines;
-  }
-  Text text(content, place);
+  table.name = name;
+  table.axis = settings.axis;
+  table.header.format = "LM-63";
+  FileText text(bytes, name);
 
   // Free text and keywords up to the TILT line.
   std::optional<Edition> edition;
-  std::string tilt;
   while (true) {
     const auto line = text.next_line();
     if (!line) return text.error("no TILT= line: not an LM-63 file, or cut off");
     if (!edition) edition = edition_of(*line);
-    const std::string capitals = upper(*line);
+    read_keyword(*line, table.header);
+    const std::string capitals = upper_case(*line);
     if (!capitals.starts_with("TILT")) continue;
     const std::size_t equals = capitals.find_first_not_of(" \t", 4);
     if (equals == std::string::npos || capitals[equals] != '=') continue;
-    tilt = trimmed(line->substr(equals + 1));
+    table.header.tilt = trimmed(line->substr(equals + 1));
     break;
   }
   table.version = edition->version;
-  if (upper(tilt) == "INCLUDE") {
+  const std::string tilt = upper_case(table.header.tilt);
+  if (tilt == "INCLUDE") {
     if (const auto skipped = skip_tilt_table(text, table.notes); !skipped) return skipped.error();
-  } else if (upper(tilt) != "NONE") {
-    return text.error("TILT=" + in_quotes(tilt) + " names another file; only TILT=NONE and TILT=INCLUDE are read");
+  } else if (tilt.empty()) {
+    return text.error("TILT= names nothing; expected NONE, INCLUDE or a file");
+  } else if (tilt != "NONE") {
+    if (const auto checked = check_tilt_file(text, table.header.tilt, settings, table.notes); !checked)
+      return checked.error();
   }
 
-  const auto header = read_header(text, *edition, table.notes);
-  if (!header) return header.error();
-  table.type = header->type;
+  const auto counts = read_header(text, *edition, table);
+  if (!counts) return counts.error();
   const bool is_c = table.type == PhotometricType::kC;
   const double second_max = table.type == PhotometricType::kB ? 180.0 : is_c ? 180.0 : 90.0;
   const double first_max = table.type == PhotometricType::kB ? 90.0 : is_c ? 360.0 : 180.0;
-  auto second =
-      read_angles(text, header->second_count, is_c ? "gamma" : "vertical", is_c ? 0.0 : -second_max, second_max);
+  auto second = read_angles(text, counts->second, is_c ? "gamma" : "vertical", is_c ? 0.0 : -second_max, second_max);
   if (!second) return second.error();
   if (second->size() < 2) return text.error("one vertical angle (" + number_text(second->front()) + ") is no beam");
-  const auto first =
-      read_angles(text, header->first_count, is_c ? "C" : "horizontal", is_c ? 0.0 : -first_max, first_max);
+  const auto first = read_angles(text, counts->first, is_c ? "C" : "horizontal", is_c ? 0.0 : -first_max, first_max);
   if (!first) return first.error();
-  auto columns = unfold(*first, table.type, text, table.notes);
-  if (!columns) return columns.error();
+  auto unfolded = unfold_lm63(*first, table.type);
+  if (!unfolded) return text.error(unfolded.error().reason);
+  table.header.symmetry = unfolded->symmetry;
+  if (!unfolded->note.empty()) table.notes.push_back(text.place() + ": " + unfolded->note);
 
-  // The file stores one horizontal angle after the other; the table one vertical angle after the other.
-  const std::size_t rows = second->size();
-  std::vector<double> in_file(first->size() * rows);
-  for (std::size_t i = 0; i < in_file.size(); ++i) {
-    const auto value = text.number("a candela value");
-    if (!value)
-      return Error{value.error().place, value.error().reason + " (value " + std::to_string(i + 1) + " of " +
-                                            std::to_string(in_file.size()) + ")"};
-    if (*value < 0.0) return text.error("negative candela " + number_text(*value));
-    in_file[i] = *value * header->scale;
-    if (!std::isfinite(in_file[i])) return text.error("candela times the factors of the header is no finite number");
+  // The file stores one horizontal angle after the other.
+  std::vector<double> planes(first->size() * second->size());
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    double value = 0.0;
+    const std::string_view before = text.rest();
+    if (!text.number(value)) {
+      const Error why = text.why("a candela value");
+      return Error{why.place,
+                   why.reason + " (value " + std::to_string(i + 1) + " of " + std::to_string(planes.size()) + ")"};
+    }
+    if (value < 0.0) return text.error("negative candela " + number_text(value));
+    planes[i] = value * counts->scale;
+    if (!std::isfinite(planes[i])) return text.error("candela times the factors of the header is no finite number");
+    if (value != 0.0 && (i < 1000 || i % 61 == 0)) {  // enough to see how many digits the file was written with
+      const std::string_view word = trimmed(before.substr(0, before.size() - text.rest().size()));
+      const double step = last_digit(word) * counts->scale;
+      double& smallest = table.header.smallest_step_cd;
+      smallest = smallest == 0.0 ? step : std::min(smallest, step);
+    }
   }
   if (!text.next_word().empty()) {
     const std::string where = text.place();
@@ -396,14 +289,8 @@ Result<IntensityTable> read_lm63(const std::filesystem::path& file, GammaAxis ax
     while (!text.next_word().empty()) ++extra;
     table.notes.push_back(where + ": " + std::to_string(extra) + " word(s) after the last candela value ignored");
   }
-
-  table.second_deg = std::move(*second);
-  table.candela.resize(rows * columns->size());
-  for (std::size_t i = 0; i < columns->size(); ++i) {
-    const Column& column = (*columns)[i];
-    table.first_deg.push_back(column.angle_deg);
-    for (std::size_t j = 0; j < rows; ++j) table.candela[j * columns->size() + i] = in_file[column.source * rows + j];
-  }
+  fill_table(table, unfolded->columns, std::move(*second), planes);
+  if (is_c) turn_about_axis(table, settings.c0_turn_deg);
   return table;
 }
 

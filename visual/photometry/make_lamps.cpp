@@ -1,75 +1,79 @@
-// phare-make-lamps: writes the sample lamps and lamps.json, reads them back and checks them against their regulation
-// rows.
+// phare-make-lamps: writes the sample lamps and lamps.json, reads them back and checks them against their rulebooks.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <glm/trigonometric.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/regulation.h"
+#include "visual/photometry/check.h"
+#include "visual/photometry/combine.h"
+#include "visual/photometry/read_lamp.h"
 #include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/write_lamp.h"
 
 namespace phare {
 namespace {
 
-bool write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) std::fprintf(stderr, "%s: cannot be written\n", path.c_str());
-  return static_cast<bool>(stream);
-}
+constexpr const char* kKindNames[] = {"low", "low", "high", "fog", "cornering", "high"};
 
-/// Prints every failed row, and all with `verbose`. Returns the count of the failed.
-int report(const std::string& lamp, const std::string& rule, const std::vector<RowResult>& results, bool verbose) {
-  int failed = 0;
-  for (const RowResult& row : results) {
-    if (!row.passed) ++failed;
-    if (row.passed && !verbose) continue;
-    std::printf("%-16s %-28s %-22s %9.1f … %9.1f cd, allowed %.1f … %.5g  %s\n", lamp.c_str(), rule.c_str(),
-                row.id.c_str(), row.lowest_cd, row.highest_cd, row.min_cd, row.max_cd,
-                row.passed ? "passed" : "FAILED");
+/// Rulebooks, each read once.
+class Rules {
+ public:
+  const Rulebook* find(const std::string& id) {
+    const auto known = rules_.find(id);
+    if (known != rules_.end()) return &known->second;
+    auto rule = find_rulebook(PHARE_RULES_DIR, id);
+    if (!rule) {
+      std::fprintf(stderr, "%s\n", rule.error().text().c_str());
+      return nullptr;
+    }
+    return &rules_.emplace(id, std::move(*rule)).first->second;
   }
-  return failed;
-}
 
-/// Sharpness and linearity of a passing beam's cut-off (UN R149: 0.13 ≤ G ≤ 0.40, spread at 1.5°, 2.5°, 3.5° at most
-/// 0.2°).
-int check_cutoff(const SampleLamp& lamp, const IntensityTable& table, const glm::dmat3& aim, nlohmann::json& entry) {
-  const double side = lamp.kind == SampleKind::kLowLeft ? 1.0 : -1.0;
-  double low = 90.0, high = -90.0;
-  for (const double h : {1.5, 2.5, 3.5}) {
-    const double v = find_cutoff(table, aim, side * h).elevation_deg;
-    low = std::min(low, v);
-    high = std::max(high, v);
+ private:
+  std::map<std::string, Rulebook> rules_;
+};
+
+/// Checks a lamp and prints every failed row, and all with `verbose`. Returns the count of the failed.
+std::size_t report(const std::string& lamp, const IntensityTable& table, const Rulebook& rule,
+                   const CheckOptions& options, bool verbose, nlohmann::json& entry) {
+  const IntensityTable* tables[] = {&table};
+  const CheckResult result = check_lamp(tables, rule, options);
+  for (const CheckRow& row : result.rows) {
+    if (row.verdict != Verdict::kFail && !verbose) continue;
+    std::printf("%-20s %-18s %-24s %9.1f … %9.1f %s, allowed %.1f … %.5g  %s\n", lamp.c_str(), rule.id.c_str(),
+                row.id.c_str(), row.lowest, row.highest, row.unit.c_str(), row.min, row.max,
+                row.verdict == Verdict::kFail ? "FAILED" : "passed");
   }
-  const Cutoff cutoff = find_cutoff(table, aim, side * 2.5);
-  entry["sharpness_g"] = cutoff.sharpness_g;
-  entry["cutoff_elevation_deg"] = cutoff.elevation_deg;
-  const bool passed = cutoff.sharpness_g >= 0.13 && cutoff.sharpness_g <= 0.40 && high - low <= 0.2 &&
-                      std::abs(cutoff.elevation_deg + 0.57) <= 0.05;
-  std::printf("%-16s cut-off at %.2f deg, spread %.2f deg, G = %.3f  %s\n", lamp.file.c_str(), cutoff.elevation_deg,
-              high - low, cutoff.sharpness_g, passed ? "passed" : "FAILED");
-  return passed ? 0 : 1;
+  if (result.cutoff.found) {
+    entry["sharpness_g"] = result.cutoff.sharpness_g;
+    entry["cutoff_elevation_deg"] = result.cutoff.elevation_deg - result.aim_up_deg;
+  }
+  return result.failed;
 }
 
 int make(const std::filesystem::path& out, bool verbose) {
   std::error_code code;
-  std::filesystem::create_directories(out, code);
+  std::filesystem::create_directories(out / "matrix", code);
   if (code) {
     std::fprintf(stderr, "%s: %s\n", out.c_str(), code.message().c_str());
     return kExitBadInput;
   }
   std::filesystem::remove(out / "lamps.json", code);
-  int failed = 0;
+  std::size_t failed = 0;
+  Rules rules;
   nlohmann::json list = nlohmann::json::array();
-  for (const SampleLamp& lamp : sample_lamps()) {
-    if (!write_text(out / lamp.file, lm63_text(lamp))) return kExitBadInput;
-    const auto read = read_lm63(out / lamp.file);
+  std::vector<SampleLamp> lamps = sample_lamps();
+  for (SampleLamp& segment : matrix_segments()) lamps.push_back(std::move(segment));
+  std::vector<const IntensityTable*> segments;
+  for (const SampleLamp& lamp : lamps) {
+    const std::string path = (out / lamp.file).string();
+    if (const Status written = write_whole_file(path, lm63_text(lamp.table, kSampleGeneration)); !written) {
+      std::fprintf(stderr, "%s\n", written.error().text().c_str());
+      return kExitBadInput;
+    }
+    const auto read = read_lamp(path);
     if (!read) {
       std::fprintf(stderr, "%s\n", read.error().text().c_str());
       return kExitCheckFailed;
@@ -77,58 +81,51 @@ int make(const std::filesystem::path& out, bool verbose) {
     const IntensityTable& table = *read;
     if (table.candela != lamp.table.candela || table.first_deg != lamp.table.first_deg ||
         table.second_deg != lamp.table.second_deg) {
-      std::printf("%-16s what was read back differs from what was written  FAILED\n", lamp.file.c_str());
+      std::printf("%-20s what was read back differs from what was written  FAILED\n", lamp.file.c_str());
       ++failed;
     }
-    const std::size_t at =
-        static_cast<std::size_t>(std::max_element(table.candela.begin(), table.candela.end()) - table.candela.begin());
+    const TableAngles peak = table.peak_at();
     nlohmann::json entry{{"file", lamp.file},
+                         {"function", kKindNames[static_cast<int>(lamp.kind)]},
                          {"description", lamp.description},
                          {"peak_cd", table.peak_cd()},
-                         {"peak_h_deg", table.first_deg[at % table.first_deg.size()]},
-                         {"peak_v_deg", table.second_deg[at / table.first_deg.size()]},
+                         {"peak_h_deg", peak.first_deg},
+                         {"peak_v_deg", peak.second_deg},
                          {"flux_lm", table.flux_lm()},
                          {"mount_pitch_deg", glm::degrees(sample_pitch_rad())},
+                         {"passes", lamp.rules},
                          {"content_hash", table.content_hash}};
-    const glm::dmat3 down = aim_rotation(0.0, sample_pitch_rad(), 0.0);
-    switch (lamp.kind) {
-      case SampleKind::kLowRight:
-      case SampleKind::kLowLeft:
-        entry["function"] = "low";
-        failed += report(lamp.file, "R149 class C",
-                         check_rows(table, down, r149_passing_class_c(), lamp.kind == SampleKind::kLowLeft), verbose);
-        failed += check_cutoff(lamp, table, down, entry);
-        if (table.flux_lm() < 1000.0) {  // R149 class C: objective luminous flux at least 1,000 lm
-          std::printf("%-16s flux %.1f lm is below 1000 lm  FAILED\n", lamp.file.c_str(), table.flux_lm());
-          ++failed;
-        }
-        break;
-      case SampleKind::kHigh:
-        entry["function"] = "high";
-        for (const auto& [mounted, aim] : {std::pair{"level", glm::dmat3{1.0}}, {"1 % down", down}}) {
-          failed += report(lamp.file, std::string("R149 class B, ") + mounted,
-                           check_rows(table, aim, r149_driving_class_b()), verbose);
-          failed += report(lamp.file, std::string("R149 class A, ") + mounted,
-                           check_rows(table, aim, r149_driving_class_a()), verbose);
-          failed += report(lamp.file, std::string("FMVSS UB2, ") + mounted,
-                           check_rows(table, aim, fmvss108_upper_ub2()), verbose);
-        }
-        break;
-      case SampleKind::kFog:
-        entry["function"] = "fog";
-        break;
+    for (const std::string& id : lamp.rules) {
+      const Rulebook* rule = rules.find(id);
+      if (rule == nullptr) return kExitBadInput;
+      failed += report(lamp.file, table, *rule, {}, verbose, entry);
+      if (lamp.kind != SampleKind::kHigh) continue;
+      CheckOptions down;  // one adjuster turns the whole lamp: aimed with the passing beam it passes, too
+      down.aim = HV{0.0, glm::degrees(sample_pitch_rad())};
+      failed += report(lamp.file, table, *rule, down, verbose, entry);
     }
-    std::printf("%-16s %6.0f cd at %+.2f, %+.2f deg, %6.1f lm\n", lamp.file.c_str(), table.peak_cd(),
-                entry["peak_h_deg"].get<double>(), entry["peak_v_deg"].get<double>(), table.flux_lm());
+    if (lamp.kind == SampleKind::kSegment) segments.push_back(&lamp.table);
+    std::printf("%-20s %6.0f cd at %+.2f, %+.2f deg, %6.1f lm\n", lamp.file.c_str(), table.peak_cd(), peak.first_deg,
+                peak.second_deg, table.flux_lm());
     list.push_back(std::move(entry));
   }
+  const IntensityTable matrix = sum_tables(segments);
+  nlohmann::json whole{{"segments", segments.size()}, {"rows", kMatrixRows},         {"columns", kMatrixColumns},
+                       {"peak_cd", matrix.peak_cd()}, {"flux_lm", matrix.flux_lm()}, {"passes", {"r149-driving-b"}}};
+  const Rulebook* driving = rules.find("r149-driving-b");
+  if (driving == nullptr) return kExitBadInput;
+  failed += report("matrix, all lit", matrix, *driving, {}, verbose, whole);
   if (failed > 0) {
-    std::printf("%d check(s) failed\n", failed);
+    std::printf("%zu check(s) failed\n", failed);
     return kExitCheckFailed;
   }
   // Written last: where it is, the lamps are whole and passed.
-  const bool written = write_text(out / "lamps.json", nlohmann::json{{"lamps", list}}.dump(2) + "\n");
-  return written ? kExitDone : kExitBadInput;
+  const std::string json = nlohmann::json{{"lamps", list}, {"matrix", whole}}.dump(2) + "\n";
+  if (const Status written = write_whole_file((out / "lamps.json").string(), json); !written) {
+    std::fprintf(stderr, "%s\n", written.error().text().c_str());
+    return kExitBadInput;
+  }
+  return kExitDone;
 }
 
 }  // namespace

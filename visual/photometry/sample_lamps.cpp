@@ -167,38 +167,44 @@ BeamFormula fog_formula() {
           .rise = 0.0};
 }
 
-void append_wrapped(std::string& text, const std::vector<std::string>& words) {
-  std::size_t column = 0;
-  for (const std::string& word : words) {
-    if (column > 0 && column + 1 + word.size() > 120) {
-      text += '\n';
-      column = 0;
-    }
-    if (column > 0) {
-      text += ' ';
-      ++column;
-    }
-    text += word;
-    column += word.size();
-  }
-  text += '\n';
-}
-
-std::string shortest(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
-std::vector<std::string> words_of(const std::vector<double>& values) {
-  std::vector<std::string> words;
-  for (const double value : values) words.push_back(shortest(value));
-  return words;
+/// A cornering lamp of the left side: a wide soft patch to the left, low, with a soft upper edge.
+BeamFormula cornering_left() {
+  return {.beam = {{3400, -38, -4.5, 22, 6.0, 2.2}, {1500, -55, -5.0, 26, 8.0, 2.2}},
+          .stray = {{90, -38, 0.5, 30, 6, 1.5}},
+          .step_deg = 0.6,
+          .kink_deg = 0.0,
+          .rise = 0.0};
 }
 
 }  // namespace
 
+LampHeader sample_header(const std::string& file, const std::string& description, const IntensityTable& table) {
+  LampHeader header;
+  header.format = "LM-63";
+  header.keywords = {{"TEST", "SYNTHETIC"},
+                     {"TESTLAB", "none: computed from formulas by phare-make-lamps"},
+                     {"ISSUEDATE", "01-JAN-2025"},
+                     {"MANUFAC", "Phare"},
+                     {"LUMCAT", file.substr(0, file.size() - 4)},
+                     {"LUMINAIRE", "sample headlamp, no product"}};
+  for (std::size_t begin = 0; begin < description.size();) {
+    const std::size_t end = std::min(description.find(". ", begin), description.size());
+    header.keywords.emplace_back("OTHER", description.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  char flux[80];
+  std::snprintf(flux, sizeof flux, "Flux %.1f lm (integral of this table), peak %.0f cd", table.flux_lm(),
+                table.peak_cd());
+  header.keywords.emplace_back("OTHER", flux);
+  return header;
+}
+
 double sample_pitch_rad() {
   return -std::atan(0.01);
+}
+
+double rounded_cd(double cd) {
+  return rounded(cd);
 }
 
 std::vector<SampleLamp> sample_lamps() {
@@ -206,62 +212,40 @@ std::vector<SampleLamp> sample_lamps() {
       "Kink of the cut-off at H=V=0 of this file: mount it 1 % (0.573 deg) down, pitch_deg = -0.5729386976834859";
   const std::string driving =
       "Peak at H=V=0 of this file; passes its rows mounted level and with the passing beam's pitch of -1 %";
+  const std::vector<std::string> passes_low{"r149-passing-c", "r149-passing-v", "r123-passing-c"};
+  const std::vector<std::string> passes_high{"r149-driving-b", "r149-driving-a", "r112-driving-a", "fmvss108-ub2"};
   std::vector<SampleLamp> lamps;
-  const auto add = [&](const char* file, SampleKind kind, std::string description, IntensityTable table) {
+  const auto add = [&](const char* file, SampleKind kind, std::string description, std::vector<std::string> rules,
+                       IntensityTable table) {
     table.name = file;
-    lamps.push_back({file, kind, std::move(description), std::move(table)});
+    table.header = sample_header(file, description, table);
+    lamps.push_back({file, kind, std::move(description), std::move(rules), std::move(table)});
   };
   const IntensityTable low = sample(halogen_low());
   const IntensityTable led = sample(led_low());
-  add("low_rht.ies", SampleKind::kLowRight, "Passing beam, right-hand traffic, UN R149 class C. " + passing, low);
+  const IntensityTable corner = sample(cornering_left());
+  add("low_rht.ies", SampleKind::kLowRight, "Passing beam, right-hand traffic, UN R149 class C. " + passing, passes_low,
+      low);
   add("low_lht.ies", SampleKind::kLowLeft, "Passing beam, left-hand traffic, mirror image of low_rht.ies. " + passing,
-      mirrored(low));
-  add("high.ies", SampleKind::kHigh, "Driving beam, UN R149 class B and FMVSS 108 UB2. " + driving,
+      passes_low, mirrored(low));
+  add("high.ies", SampleKind::kHigh, "Driving beam, UN R149 class B and FMVSS 108 UB2. " + driving, passes_high,
       sample(halogen_high()));
   add("fog.ies", SampleKind::kFog,
-      "Front fog beam, flat wide cut-off like UN R19 class F3 (its rows are not checked). Cut-off at V=0 of this file: "
-      "mount it 1 % down or lower",
-      sample(fog_formula()));
+      "Front fog beam, flat wide cut-off like UN R19 class F3. Cut-off at V=0 of this file: mount it 1 % down or lower",
+      {}, sample(fog_formula()));
+  add("cornering_left.ies", SampleKind::kCornering,
+      "Cornering beam of the left side, a soft patch about 40 deg to the left. No rule's numbers were at hand: not "
+      "checked",
+      {}, corner);
+  add("cornering_right.ies", SampleKind::kCornering,
+      "Cornering beam of the right side, mirror image of cornering_left.ies", {}, mirrored(corner));
   add("led_low_rht.ies", SampleKind::kLowRight,
-      "LED passing beam, right-hand traffic, UN R149 class C, sharper and wider. " + passing, led);
+      "LED passing beam, right-hand traffic, UN R149 class C, sharper and wider. " + passing, passes_low, led);
   add("led_low_lht.ies", SampleKind::kLowLeft,
-      "LED passing beam, left-hand traffic, mirror image of led_low_rht.ies. " + passing, mirrored(led));
+      "LED passing beam, left-hand traffic, mirror image of led_low_rht.ies. " + passing, passes_low, mirrored(led));
   add("led_high.ies", SampleKind::kHigh, "LED driving beam, UN R149 class B and FMVSS 108 UB2, wider. " + driving,
-      sample(led_high()));
+      passes_high, sample(led_high()));
   return lamps;
-}
-
-std::string lm63_text(const SampleLamp& lamp) {
-  const IntensityTable& table = lamp.table;
-  char line[160];
-  std::string text =
-      "IES:LM-63-2019\n[TEST] SYNTHETIC\n[TESTLAB] none: computed from formulas by phare-make-lamps\n[ISSUEDATE] "
-      "01-JAN-2025\n[MANUFAC] Phare\n";
-  text += "[LUMCAT] " + lamp.file.substr(0, lamp.file.size() - 4) + "\n[LUMINAIRE] sample headlamp, no product\n";
-  // Keyword lines hold at most 256 characters (LM-63-19 §5.2); sentences are short enough for one line each.
-  std::size_t begin = 0;
-  for (bool more = false; begin < lamp.description.size(); more = true) {
-    const std::size_t end = std::min(lamp.description.find(". ", begin), lamp.description.size());
-    text += std::string(more ? "[MORE] " : "[OTHER] ") + lamp.description.substr(begin, end - begin) + "\n";
-    begin = end + 2;
-  }
-  std::snprintf(line, sizeof line, "[OTHER] Flux %.1f lm (integral of this table), peak %.0f cd\n", table.flux_lm(),
-                table.peak_cd());
-  text += line;
-  text += "TILT=NONE\n";
-  // One lamp, absolute photometry (-1 lm), type A (3), metres (2), a point; 1.00010: computed, not measured.
-  std::snprintf(line, sizeof line, "1 -1 1 %zu %zu 3 2 0 0 0\n1 1.00010 0\n", table.second_deg.size(),
-                table.first_deg.size());
-  text += line;
-  append_wrapped(text, words_of(table.second_deg));
-  append_wrapped(text, words_of(table.first_deg));
-  for (std::size_t i = 0; i < table.first_deg.size(); ++i) {
-    std::vector<std::string> column;
-    for (std::size_t j = 0; j < table.second_deg.size(); ++j)
-      column.push_back(candela_text(table.candela[j * table.first_deg.size() + i]));
-    append_wrapped(text, column);
-  }
-  return text;
 }
 
 }  // namespace phare

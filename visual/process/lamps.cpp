@@ -5,6 +5,7 @@
 
 #include "config/conventions.h"
 #include "visual/photometry/illuminance.h"
+#include "visual/photometry/read_lamp.h"
 
 namespace phare {
 namespace {
@@ -66,7 +67,7 @@ Result<Lamps> Lamps::load(const Rig& rig) {
       for (const SourceConfig& source : lamp.sources) {
         const std::pair key{source.file.string(), source.axis};
         if (lamps.tables_.contains(key)) continue;
-        Result<IntensityTable> table = read_lm63(source.file, source.axis);
+        Result<IntensityTable> table = read_lamp(source.file, {.axis = source.axis, .folder = {}});
         if (!table) return table.error();
         lamps.tables_.emplace(key, std::move(*table));
       }

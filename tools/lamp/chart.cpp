@@ -1,0 +1,255 @@
+#include "tools/lamp/chart.h"
+
+#include <cairo-svg.h>
+#include <cairo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+namespace phare {
+namespace {
+
+constexpr const char* kFont = "DejaVu Sans";
+
+void set_colour(cairo_t* cairo, Rgb c, double alpha = 1.0) {
+  cairo_set_source_rgba(cairo, c.r, c.g, c.b, alpha);
+}
+
+std::string tick_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", std::abs(value) < 1e-9 ? 0.0 : value);
+  return text;
+}
+
+}  // namespace
+
+Rgb false_colour(double t) {
+  constexpr std::array<Rgb, 8> kStops{{{0, 0, 0}, {0.05, 0.05, 0.40}, {0.35, 0.05, 0.62}, {0.72, 0.10, 0.45}, {0.93, 0.30, 0.15},
+                                       {0.99, 0.62, 0.08}, {0.99, 0.92, 0.35}, {1, 1, 1}}};
+  t = std::clamp(t, 0.0, 1.0) * static_cast<double>(kStops.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(t), kStops.size() - 2);
+  const double u = t - static_cast<double>(i);
+  const Rgb a = kStops[i], b = kStops[i + 1];
+  return {a.r + u * (b.r - a.r), a.g + u * (b.g - a.g), a.b + u * (b.b - a.b)};
+}
+
+void Chart::rectangle(double x, double y, double w, double h, Rgb fill) {
+  cairo_rectangle(cairo_, x, y, w, h);
+  set_colour(cairo_, fill);
+  cairo_fill(cairo_);
+}
+
+void Chart::line(const std::vector<std::array<double, 2>>& points, Rgb colour, double width, bool closed, bool dashed) {
+  if (points.empty()) return;
+  cairo_new_path(cairo_);
+  for (const auto& p : points) cairo_line_to(cairo_, p[0], p[1]);
+  if (closed) cairo_close_path(cairo_);
+  const double dash[] = {4.0, 3.0};
+  cairo_set_dash(cairo_, dash, dashed ? 2 : 0, 0.0);
+  cairo_set_line_width(cairo_, width);
+  cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
+  set_colour(cairo_, colour);
+  cairo_stroke(cairo_);
+  cairo_set_dash(cairo_, nullptr, 0, 0.0);
+}
+
+void Chart::circle(double x, double y, double radius, Rgb colour, double width, bool filled) {
+  cairo_new_path(cairo_);
+  cairo_arc(cairo_, x, y, radius, 0.0, 2.0 * M_PI);
+  set_colour(cairo_, colour);
+  cairo_set_line_width(cairo_, width);
+  if (filled) {
+    cairo_fill(cairo_);
+  } else {
+    cairo_stroke(cairo_);
+  }
+}
+
+void Chart::text(double x, double y, const std::string& text, double size, int align, Rgb colour, bool bold, bool halo) {
+  cairo_select_font_face(cairo_, kFont, CAIRO_FONT_SLANT_NORMAL, bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo_, size);
+  cairo_text_extents_t box;
+  cairo_text_extents(cairo_, text.c_str(), &box);
+  const double left = x - box.x_bearing - (align < 0 ? 0.0 : align == 0 ? 0.5 * box.width : box.width);
+  const double base = y + 0.36 * size;
+  if (halo) {
+    cairo_move_to(cairo_, left, base);
+    cairo_text_path(cairo_, text.c_str());
+    const bool light = colour.r + colour.g + colour.b > 1.5;
+    set_colour(cairo_, light ? kBlack : kWhite, 0.75);
+    cairo_set_line_width(cairo_, 2.5);
+    cairo_stroke(cairo_);
+  }
+  cairo_move_to(cairo_, left, base);
+  set_colour(cairo_, colour);
+  cairo_show_text(cairo_, text.c_str());
+}
+
+void Chart::vertical_text(double x, double y, const std::string& what, double size, Rgb colour) {
+  cairo_save(cairo_);
+  cairo_translate(cairo_, x, y);
+  cairo_rotate(cairo_, -0.5 * M_PI);
+  text(0.0, 0.0, what, size, 0, colour);
+  cairo_restore(cairo_);
+}
+
+void Chart::picture(const Axes& axes, std::size_t columns, std::size_t rows, const std::function<Rgb(std::size_t, std::size_t)>& pixel) {
+  cairo_surface_t* image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(columns), static_cast<int>(rows));
+  unsigned char* data = cairo_image_surface_get_data(image);
+  const int stride = cairo_image_surface_get_stride(image);
+  for (std::size_t j = 0; j < rows; ++j) {
+    for (std::size_t i = 0; i < columns; ++i) {
+      const Rgb c = pixel(i, j);
+      unsigned char* p = data + j * static_cast<std::size_t>(stride) + 4 * i;
+      p[0] = static_cast<unsigned char>(std::lround(255.0 * c.b));  // little endian: B, G, R
+      p[1] = static_cast<unsigned char>(std::lround(255.0 * c.g));
+      p[2] = static_cast<unsigned char>(std::lround(255.0 * c.r));
+    }
+  }
+  cairo_surface_mark_dirty(image);
+  cairo_save(cairo_);
+  cairo_translate(cairo_, axes.left, axes.top);
+  cairo_scale(cairo_, axes.width / static_cast<double>(columns), axes.height / static_cast<double>(rows));
+  cairo_set_source_surface(cairo_, image, 0.0, 0.0);
+  cairo_paint(cairo_);
+  cairo_restore(cairo_);
+  cairo_surface_destroy(image);
+}
+
+void Chart::axes(const Axes& a, double x_step, double y_step, const std::string& x_title, const std::string& y_title, Rgb grid, double grid_width) {
+  const double bottom = a.top + a.height, right = a.left + a.width;
+  if (x_step > 0.0) {
+    for (double v = std::ceil(a.x_min / x_step - 1e-9) * x_step; v <= a.x_max + 1e-9; v += x_step) {
+      if (grid_width > 0.0) line({{a.x(v), a.top}, {a.x(v), bottom}}, grid, grid_width);
+      line({{a.x(v), bottom}, {a.x(v), bottom + 4}}, kBlack, 0.8);
+      text(a.x(v), bottom + 12, tick_text(v), 9, 0, kBlack);
+    }
+  }
+  if (y_step > 0.0) {
+    for (double v = std::ceil(a.y_min / y_step - 1e-9) * y_step; v <= a.y_max + 1e-9; v += y_step) {
+      if (grid_width > 0.0) line({{a.left, a.y(v)}, {right, a.y(v)}}, grid, grid_width);
+      line({{a.left - 4, a.y(v)}, {a.left, a.y(v)}}, kBlack, 0.8);
+      text(a.left - 7, a.y(v), tick_text(v), 9, 1, kBlack);
+    }
+  }
+  line({{a.left, a.top}, {right, a.top}, {right, bottom}, {a.left, bottom}}, kBlack, 1.0, true);
+  text(0.5 * (a.left + right), bottom + 27, x_title, 10, 0, kBlack);
+  vertical_text(a.left - 38, a.top + 0.5 * a.height, y_title, 10, kBlack);
+}
+
+void Chart::begin_clip(const Axes& a) {
+  cairo_save(cairo_);
+  cairo_rectangle(cairo_, a.left, a.top, a.width, a.height);
+  cairo_clip(cairo_);
+}
+
+void Chart::end_clip() {
+  cairo_restore(cairo_);
+}
+
+std::vector<Contour> contours(const std::vector<double>& values, const std::vector<double>& x, const std::vector<double>& y, double level) {
+  // Marching squares. A crossing belongs to a grid edge, which is its name: equal names join segments to lines.
+  const std::size_t columns = x.size(), rows = y.size();
+  using Edge = std::size_t;  // 2·node + (0: to the right, 1: upwards)
+  std::map<Edge, std::array<double, 2>> place;
+  std::multimap<Edge, Edge> joined;
+  const auto crossing = [&](std::size_t i, std::size_t j, bool up) {
+    const std::size_t a = j * columns + i, b = up ? a + columns : a + 1;
+    const double t = (level - values[a]) / (values[b] - values[a]);
+    const Edge edge = 2 * a + (up ? 1 : 0);
+    place[edge] = up ? std::array<double, 2>{x[i], y[j] + t * (y[j + 1] - y[j])} : std::array<double, 2>{x[i] + t * (x[i + 1] - x[i]), y[j]};
+    return edge;
+  };
+  for (std::size_t j = 0; j + 1 < rows; ++j) {
+    for (std::size_t i = 0; i + 1 < columns; ++i) {
+      const auto above = [&](std::size_t di, std::size_t dj) { return values[(j + dj) * columns + i + di] >= level; };
+      const bool a = above(0, 0), b = above(1, 0), c = above(1, 1), d = above(0, 1);
+      std::vector<Edge> cut;
+      if (a != b) cut.push_back(crossing(i, j, false));
+      if (b != c) cut.push_back(crossing(i + 1, j, true));
+      if (c != d) cut.push_back(crossing(i, j + 1, false));
+      if (d != a) cut.push_back(crossing(i, j, true));
+      for (std::size_t k = 0; k + 1 < cut.size(); k += 2) {
+        joined.emplace(cut[k], cut[k + 1]);
+        joined.emplace(cut[k + 1], cut[k]);
+      }
+    }
+  }
+  std::vector<Contour> lines;
+  const auto follow = [&](Edge at) {
+    Contour line;
+    while (true) {
+      line.points.push_back(place[at]);
+      const auto next = joined.find(at);
+      if (next == joined.end()) return line;
+      const Edge to = next->second;
+      joined.erase(next);
+      const auto range = joined.equal_range(to);
+      for (auto it = range.first; it != range.second; ++it) {
+        if (it->second == at) {
+          joined.erase(it);
+          break;
+        }
+      }
+      at = to;
+    }
+  };
+  // Open lines from their ends first, then the rings.
+  for (const auto& [edge, where] : place) {
+    if (joined.count(edge) == 1) lines.push_back(follow(edge));
+  }
+  while (!joined.empty()) lines.push_back(follow(joined.begin()->first));
+  return lines;
+}
+
+void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& lines, Rgb colour, double width, const std::string& label, bool halo) {
+  double longest = 0.0;
+  std::array<double, 2> at{};
+  for (const Contour& contour : lines) {
+    std::vector<std::array<double, 2>> points;
+    double length = 0.0;
+    for (const auto& p : contour.points) {
+      points.push_back({axes.x(p[0]), axes.y(p[1])});
+      const auto n = points.size();
+      if (n > 1) length += std::hypot(points[n - 1][0] - points[n - 2][0], points[n - 1][1] - points[n - 2][1]);
+    }
+    chart.line(points, colour, width);
+    if (length > longest) {
+      longest = length;
+      at = points[points.size() / 3];
+    }
+  }
+  if (longest > 45.0 && !label.empty()) chart.text(at[0], at[1], label, 8, 0, colour, true, halo);
+}
+
+Status write_chart(const std::string& stem, double width, double height, const std::function<void(Chart&)>& draw) {
+  const auto paint = [&](cairo_surface_t* surface, double scale) {
+    cairo_t* cairo = cairo_create(surface);
+    cairo_scale(cairo, scale, scale);
+    Chart chart(cairo);
+    chart.rectangle(0, 0, width, height, kWhite);
+    draw(chart);
+    const cairo_status_t status = cairo_status(cairo);
+    cairo_destroy(cairo);
+    return status;
+  };
+  constexpr double kPixelsPerPoint = 2.0;
+  cairo_surface_t* svg = cairo_svg_surface_create((stem + ".svg").c_str(), width, height);
+  cairo_status_t status = paint(svg, 1.0);
+  cairo_surface_finish(svg);
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(svg);
+  cairo_surface_destroy(svg);
+  if (status != CAIRO_STATUS_SUCCESS) return Error{stem + ".svg", std::string("cannot be written: ") + cairo_status_to_string(status)};
+  cairo_surface_t* png = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerPoint),
+                                                    static_cast<int>(height * kPixelsPerPoint));
+  status = paint(png, kPixelsPerPoint);
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png(png, (stem + ".png").c_str());
+  cairo_surface_destroy(png);
+  if (status != CAIRO_STATUS_SUCCESS) return Error{stem + ".png", std::string("cannot be written: ") + cairo_status_to_string(status)};
+  return Done{};
+}
+
+}  // namespace phare

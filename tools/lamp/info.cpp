@@ -1,0 +1,128 @@
+// phare lamp info, phare lamp table: what a photometry file is, and what it says in a direction.
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tools/commands.h"
+#include "tools/lamp/lamp_commands.h"
+#include "visual/photometry/lint.h"
+#include "visual/photometry/points_file.h"
+
+namespace phare {
+namespace {
+
+const char* side_name(CutoffSide side) {
+  switch (side) {
+    case CutoffSide::kNone:
+      return "none";
+    case CutoffSide::kFlat:
+      return "flat";
+    case CutoffSide::kRisesRight:
+      return "rises right";
+    case CutoffSide::kRisesLeft:
+      break;
+  }
+  return "rises left";
+}
+
+nlohmann::json as_json(const std::string& file, const IntensityTable& table, const LampReport& report) {
+  const LampHeader& header = table.header;
+  nlohmann::json findings = nlohmann::json::array();
+  for (const Finding& f : report.findings)
+    findings.push_back({{"grade", grade_name(f.grade)}, {"id", f.id}, {"place", f.place}, {"text", f.text}});
+  nlohmann::json keywords = nlohmann::json::array();
+  for (const auto& [key, value] : header.keywords) keywords.push_back({key, value});
+  const CutoffSide side = report.cutoff.side;
+  nlohmann::json json{
+      {"file", file},
+      {"format", header.format},
+      {"version", table.version},
+      {"photometric_type", type_name(table)},
+      {"units", header.units},
+      {"symmetry", header.symmetry},
+      {"absolute", header.absolute},
+      {"multiplier", header.multiplier},
+      {"ballast_factor", header.ballast_factor},
+      {"field_12", header.field_12},
+      {"field_12_applied", header.field_12_applied},
+      {"flux_lm", report.flux_lm},
+      {"stated_flux_lm", header.stated_flux_lm},
+      {"expected_flux_lm", report.expected_flux_lm},
+      {"peak_cd", report.peak_cd},
+      {"peak_h_deg", report.peak.first_deg},
+      {"peak_v_deg", report.peak.second_deg},
+      {"grid",
+       {{"first_count", table.first_deg.size()},
+        {"second_count", table.second_deg.size()},
+        {"first_range_deg", {table.first_deg.front(), table.first_deg.back()}},
+        {"second_range_deg", {table.second_deg.front(), table.second_deg.back()}},
+        {"first_step_at_peak_deg", report.step_h_deg},
+        {"second_step_at_peak_deg", report.step_v_deg},
+        {"smallest_step_cd", header.smallest_step_cd}}},
+      {"cutoff", {{"shape", side_name(side)}}},
+      {"traffic", side == CutoffSide::kRisesRight ? "right" : side == CutoffSide::kRisesLeft ? "left" : "unknown"},
+      {"content_hash", table.content_hash},
+      {"keywords", keywords},
+      {"findings", findings}};
+  if (side != CutoffSide::kNone) {
+    json["cutoff"]["flat_v_deg"] = report.cutoff.flat_v_deg;
+    json["cutoff"]["sharpness_g"] = report.cutoff.sharpness_g;
+    if (side != CutoffSide::kFlat) {
+      json["cutoff"]["kink_h_deg"] = report.cutoff.kink_h_deg;
+      json["cutoff"]["rise_deg"] = report.cutoff.rise_deg;
+    }
+  }
+  return json;
+}
+
+void print(const std::string& file, const IntensityTable& table, const LampReport& report) {
+  const LampHeader& header = table.header;
+  const bool c = table.type == PhotometricType::kC;
+  std::printf("%s\n", file.c_str());
+  std::printf("  version   %s, type %s%s%s\n", table.version.c_str(), type_name(table).c_str(), header.absolute ? ", absolute" : ", relative",
+              header.units.empty() ? "" : (", " + header.units).c_str());
+  std::printf("  grid      %zu × %zu values, %s %g to %g, %s %g to %g deg; %.3g × %.3g deg at the peak\n", table.first_deg.size(),
+              table.second_deg.size(), c ? "C" : "H", table.first_deg.front(), table.first_deg.back(), c ? "gamma" : "V",
+              table.second_deg.front(), table.second_deg.back(), report.step_h_deg, report.step_v_deg);
+  std::printf("  peak      %.6g cd at H %+.2f, V %+.2f deg\n", report.peak_cd, report.peak.first_deg, report.peak.second_deg);
+  std::printf("  flux      %.1f lm\n", report.flux_lm);
+  std::printf("  hash      %s\n", table.content_hash.c_str());
+  for (const Finding& f : report.findings)
+    std::printf("  %-8s  %s%s%s\n", grade_name(f.grade).c_str(), f.place.c_str(), f.place.empty() ? "" : ": ", f.text.c_str());
+}
+
+}  // namespace
+
+std::string base_name(const std::string& file) {
+  return std::filesystem::path(file).filename().string();
+}
+
+int lamp_info(const LampInfoOptions& options) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const std::string& file : options.files) {
+    const auto table = read_lamp(file, options.settings);
+    if (!table) return bad_input(table.error());
+    const LampReport report = lint_lamp(*table);
+    if (options.json) {
+      all.push_back(as_json(file, *table, report));
+    } else {
+      print(file, *table, report);
+    }
+  }
+  if (options.json) {
+    const nlohmann::json& shown = all.size() == 1 ? all.front() : all;
+    std::printf("%s\n", shown.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  }
+  return kExitDone;
+}
+
+int lamp_table(const LampTableOptions& options) {
+  const auto table = read_lamp(options.file, options.settings);
+  if (!table) return bad_input(table.error());
+  const auto angles = read_angles(options.at);
+  if (!angles) return bad_input(angles.error());
+  if (const Status written = write_intensity(options.out, *angles, *table); !written) return bad_input(written.error());
+  return kExitDone;
+}
+
+}  // namespace phare

@@ -1,0 +1,146 @@
+// phare lamp: the photometry bench on the command line.
+#include "tools/commands.h"
+#include "tools/lamp/lamp_commands.h"
+
+namespace phare {
+namespace {
+
+/// What every command that reads a lamp file takes.
+void add_reading(CLI::App* command, LampReadSettings& settings) {
+  command
+      ->add_option_function<std::string>(
+          "--axis", [&settings](const std::string& v) { settings.axis = v == "gamma90" ? GammaAxis::kGamma90 : GammaAxis::kGamma0; },
+          "Type C and EULUMDAT: gamma0 = the optical axis is gamma 0, gamma90 = it is C 0, gamma 90")
+      ->check(CLI::IsMember({"gamma0", "gamma90"}))
+      ->default_str("gamma0");
+  command->add_option("--c0", settings.c0_turn_deg, "Type C and EULUMDAT: plane C 0 lies at this angle (0 right, 90 up)")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->capture_default_str();
+  command->add_option("--lamp-set", settings.lamp_set, "EULUMDAT: lamp set to use, from 1")->capture_default_str();
+  command->add_option("--emitter", settings.emitter, "TM-33: emitter to use, from 1")->capture_default_str();
+  command->add_option("--distance", settings.distance_m, "CSV in lx without a distance_m: metres");
+  command->add_flag("--mirror", settings.mirror_h, "Turn left and right round while reading (clockwise type B)");
+  command
+      ->add_option_function<std::string>(
+          "--format",
+          [&settings](const std::string& v) {
+            settings.format = v == "lm63"       ? LampFormat::kLm63
+                              : v == "eulumdat" ? LampFormat::kEulumdat
+                              : v == "tm33"     ? LampFormat::kTm33
+                                                : LampFormat::kCsv;
+          },
+          "Format of the file [found by its content]")
+      ->check(CLI::IsMember({"lm63", "eulumdat", "tm33", "csv"}));
+}
+
+template <typename Options>
+void run_with(CLI::App* command, const std::shared_ptr<Options>& options, Command& chosen, int (*run)(const Options&)) {
+  command->callback([options, &chosen, run] { chosen = [options, run] { return run(*options); }; });
+}
+
+void add_info(CLI::App* lamp, Command& chosen) {
+  auto options = std::make_shared<LampInfoOptions>();
+  CLI::App* command = lamp->add_subcommand("info", "What a photometry file is, and what is odd about it");
+  command->footer("Example:\n  phare lamp info low_beam.ies --json");
+  command->add_option("files", options->files, "Photometry files")->required();
+  command->add_flag("--json", options->json, "For machines");
+  add_reading(command, options->settings);
+  run_with(command, options, chosen, lamp_info);
+}
+
+void add_table(CLI::App* lamp, Command& chosen) {
+  auto options = std::make_shared<LampTableOptions>();
+  CLI::App* command = lamp->add_subcommand("table", "Intensity at pairs of the table's own angles");
+  command->footer("Example:\n  phare lamp table low_beam.ies --at angles.csv --out intensity.csv");
+  command->add_option("file", options->file, "Photometry file")->required();
+  command->add_option("--at", options->at, "CSV with h_deg,v_deg")->required();
+  command->add_option("--out", options->out, "CSV to write; adds intensity_cd")->default_val("/dev/stdout");
+  add_reading(command, options->settings);
+  run_with(command, options, chosen, lamp_table);
+}
+
+void add_check(CLI::App* lamp, Command& chosen) {
+  auto options = std::make_shared<LampCheckOptions>();
+  CLI::App* command = lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails");
+  command->footer("Example:\n  phare lamp check low_beam.ies --rule r112-passing-b --json\n  phare lamp check --list");
+  command->add_option("files", options->files, "One file, or left and right (rules of half the sum)");
+  command->add_option("--rule", options->rules, "Rulebook of config/rules, or a .toml file; repeat for more")->allow_extra_args(false);
+  command->add_option("--traffic", options->traffic, "Side of the road [by the cut-off]")
+      ->check(CLI::IsMember({"find", "right", "left"}))
+      ->capture_default_str();
+  command->add_option("--aim-up", options->aim_up_deg, "Turn the lamp up by this, deg, instead of the rule's aim");
+  command->add_option("--aim-right", options->aim_right_deg, "Turn the lamp right by this, deg, instead of the rule's aim");
+  command->add_flag("!--no-reaim", options->reaim, "Do not use the rule's re-aim allowance");
+  command->add_flag("--list", options->list, "List the rulebooks");
+  command->add_flag("--json", options->json, "For machines");
+  add_reading(command, options->settings);
+  run_with(command, options, chosen, lamp_check);
+}
+
+void add_convert(CLI::App* lamp, Command& chosen) {
+  auto options = std::make_shared<LampConvertOptions>();
+  CLI::App* command = lamp->add_subcommand("convert", "Write a lamp as LM-63-2019, EULUMDAT or CSV; several files are summed");
+  command->footer("Example:\n  phare lamp convert low_beam.ldt --out low_beam.ies\n  phare lamp convert rht.ies --mirror --out lht.ies");
+  command->add_option("files", options->files, "Photometry files")->required();
+  command->add_option("--out", options->out, "File to write: .ies, .ldt or .csv")->required();
+  command->add_option("--to", options->format, "Format to write [by the ending]")->check(CLI::IsMember({"lm63", "eulumdat", "csv"}));
+  add_reading(command, options->settings);
+  run_with(command, options, chosen, lamp_convert);
+}
+
+void add_mounting(CLI::App* command, double& height_m, double& spacing_m, double& pitch_deg, bool& given) {
+  command->add_option("--height", height_m, "Height of the lamps above the road, m")->check(CLI::Range(0.1, 5.0))->capture_default_str();
+  command->add_option("--spacing", spacing_m, "Distance between the lamps, m")->check(CLI::Range(0.0, 5.0))->capture_default_str();
+  command->add_option_function<double>(
+      "--pitch-deg",
+      [&pitch_deg, &given](double value) {
+        pitch_deg = value;
+        given = true;
+      },
+      "Aim, deg, up positive [a passing beam: cut-off on 0.57 deg down; others as filed]");
+}
+
+void add_compare(CLI::App* lamp, Command& chosen) {
+  auto options = std::make_shared<LampCompareOptions>();
+  CLI::App* command = lamp->add_subcommand("compare", "Two beams, aligned by cut-off: difference and ratio in angle space and on the road");
+  command->footer("Example:\n  phare lamp compare old.ies new.ies --out out/compare");
+  command->add_option("a", options->a, "Photometry file A")->required();
+  command->add_option("b", options->b, "Photometry file B")->required();
+  command->add_option("--out", options->out, "Folder for ratio.svg and ratio.png");
+  command->add_flag("!--no-align", options->align, "Compare as filed");
+  command->add_option("--height", options->height_m, "Height of the lamps above the road, m")->capture_default_str();
+  command->add_flag("--json", options->json, "For machines");
+  add_reading(command, options->settings);
+  run_with(command, options, chosen, lamp_compare);
+}
+
+void add_plot(CLI::App* lamp, Command& chosen) {
+  auto options = std::make_shared<LampPlotOptions>();
+  CLI::App* command = lamp->add_subcommand("plot", "25 m wall, isocandela, bird's-eye isolux, vertical cut, false colour: SVG and PNG");
+  command->footer("Example:\n  phare lamp plot low_beam.ies --rule r112-passing-b --out out/plots");
+  command->add_option("files", options->files, "One file, or left and right")->required();
+  command->add_option("--out", options->out, "Folder to write into")->required();
+  command->add_option("--rule", options->rule, "Rulebook whose rows are drawn with pass and fail");
+  add_mounting(command, options->height_m, options->spacing_m, options->pitch_deg, options->pitch_given);
+  add_reading(command, options->settings);
+  run_with(command, options, chosen, lamp_plot);
+}
+
+}  // namespace
+
+std::string rules_folder() {
+  return config_path("rules");
+}
+
+void add_lamp(CLI::App& app, Command& chosen) {
+  CLI::App* lamp = app.add_subcommand("lamp", "The photometry bench: info, table, check, plot, compare, convert, hspr, levels");
+  lamp->require_subcommand(1);
+  add_info(lamp, chosen);
+  add_table(lamp, chosen);
+  add_check(lamp, chosen);
+  add_convert(lamp, chosen);
+  add_compare(lamp, chosen);
+  add_plot(lamp, chosen);
+}
+
+}  // namespace phare

@@ -1,0 +1,85 @@
+// The lamp bench: `phare lamp info|table|check|plot|compare|convert|hspr|levels`. Options are plain data here; lamp.cpp
+// hangs them on the command line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "visual/photometry/check.h"
+#include "visual/photometry/read_lamp.h"
+
+namespace phare {
+
+struct LampInfoOptions {
+  std::vector<std::string> files;
+  LampReadSettings settings;
+  bool json = false;
+};
+int lamp_info(const LampInfoOptions& options);
+
+struct LampTableOptions {
+  std::string file, at, out;
+  LampReadSettings settings;
+};
+int lamp_table(const LampTableOptions& options);
+
+struct LampCheckOptions {
+  std::vector<std::string> files;  ///< one, or left and right
+  std::vector<std::string> rules;
+  LampReadSettings settings;
+  std::string traffic = "find";
+  std::optional<double> aim_up_deg, aim_right_deg;
+  bool reaim = true, json = false, all = false, list = false;
+};
+int lamp_check(const LampCheckOptions& options);
+
+struct LampConvertOptions {
+  std::vector<std::string> files;  ///< several: their sum
+  std::string out, format;
+  LampReadSettings settings;
+  bool mirror = false;
+};
+int lamp_convert(const LampConvertOptions& options);
+
+struct LampCompareOptions {
+  std::string a, b, out;
+  LampReadSettings settings;
+  bool align = true, json = false;
+  double height_m = 0.65;
+};
+int lamp_compare(const LampCompareOptions& options);
+
+struct LampPlotOptions {
+  std::vector<std::string> files;  ///< one, or left and right
+  std::string out, rule;
+  LampReadSettings settings;
+  double height_m = 0.65, spacing_m = 1.2;
+  double pitch_deg = 0.0;
+  bool pitch_given = false;
+};
+int lamp_plot(const LampPlotOptions& options);
+
+struct LampHsprOptions {
+  std::string left, right, beam = "find";
+  LampReadSettings settings;
+  double height_m = 0.65, spacing_m = 1.2;
+  double pitch_deg = 0.0;
+  bool pitch_given = false, json = false;
+};
+int lamp_hspr(const LampHsprOptions& options);
+
+struct LampLevelsOptions {
+  std::string file;
+  LampReadSettings settings;
+  bool json = false, bench = false;
+};
+int lamp_levels(const LampLevelsOptions& options);
+
+/// Folder of the rulebooks.
+std::string rules_folder();
+
+/// A file name for tables of people: without folders.
+std::string base_name(const std::string& file);
+
+}  // namespace phare
