@@ -224,6 +224,7 @@ void Loop::report(const Moment& moment) {
       s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms, moment.controls.light_changes,
       moment.car.pose,         moment.car.stale};
   s_.bus.send(moment.time, report);
+  progress_ = Clock::now();  // keeping the picture may have taken longer than a stall
 }
 
 void Loop::keep(const Moment& moment) {
