@@ -1,6 +1,7 @@
 #include "config/road_surface_profile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -70,6 +71,7 @@ Result<HeightProfile> HeightProfile::read(const std::filesystem::path& csv_file)
   if (points > kMaxPoints) return Error{csv_file.string(), "more than 4 million grid points"};
   profile.start_m_ = from;
   profile.spacing_m_ = (to - from) / (points - 1.0);
+  profile.per_spacing_ = 1.0 / profile.spacing_m_;
   std::size_t row = 1;
   for (double i = 0; i < points; ++i) {
     const double s = from + profile.spacing_m_ * i;
@@ -87,6 +89,7 @@ HeightProfile HeightProfile::iso8608(RoughnessClass roughness, std::uint64_t see
   HeightProfile profile;
   profile.repeats_ = true;
   profile.spacing_m_ = 0.05;
+  profile.per_spacing_ = 20.0;
   const auto points = static_cast<std::size_t>(std::round(length_m / profile.spacing_m_));
   const double period = static_cast<double>(points) * profile.spacing_m_, dn = 1.0 / period;
   profile.left_.assign(points, 0.0);
@@ -117,6 +120,7 @@ HeightProfile HeightProfile::bumps(const std::vector<Bump>& bumps) {
   HeightProfile profile;
   if (bumps.empty()) return profile;
   profile.spacing_m_ = 0.005;
+  profile.per_spacing_ = 200.0;
   double from = INFINITY, to = -INFINITY;
   for (const Bump& bump : bumps) {
     from = std::min(from, bump.start_m - 1.0);
@@ -157,9 +161,10 @@ void HeightProfile::smooth(double contact_length_m) {
 
 HeightProfile::Sample HeightProfile::at(double s_m, bool left) const {
   const std::vector<double>& track = left ? left_ : right_;
-  const auto count = static_cast<std::int64_t>(track.size());
-  double place = (s_m - start_m_) / spacing_m_;
-  if (count < 2 || !std::isfinite(place)) return {};
+  const std::int64_t count = points();
+  double place = (s_m - start_m_) * per_spacing_;
+  // Written so that NaN fails.
+  if (count < 2 || !(std::abs(place) < 1e15)) return {};
   if (repeats_) {
     place -= std::floor(place / static_cast<double>(count)) * static_cast<double>(count);
   } else if (place <= 0.0) {
@@ -169,15 +174,19 @@ HeightProfile::Sample HeightProfile::at(double s_m, bool left) const {
   }
   const auto i = std::min(static_cast<std::int64_t>(place), count - 1);
   const double u = place - static_cast<double>(i);
-  const auto value = [&](std::int64_t k) {
-    k = repeats_ ? (k < 0 ? k + count : (k >= count ? k - count : k)) : std::clamp<std::int64_t>(k, 0, count - 1);
-    return track[static_cast<std::size_t>(k)];
-  };
+  std::array<double, 4> z;
+  if (i >= 1 && i + 2 < count) {
+    for (std::size_t k = 0; k < 4; ++k) z[k] = track[static_cast<std::size_t>(i) - 1 + k];
+  } else {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::int64_t at = i - 1 + static_cast<std::int64_t>(k);
+      z[k] = track[static_cast<std::size_t>(repeats_ ? (at + count) % count : std::clamp<std::int64_t>(at, 0, count - 1))];
+    }
+  }
   // Catmull and Rom 1974: the cubic with the slopes of the neighbours' chords.
-  const double a = value(i - 1), b = value(i), c = value(i + 1), d = value(i + 2);
-  const double slope_b = 0.5 * (c - a), slope_c = 0.5 * (d - b);
-  const double c2 = 3.0 * (c - b) - 2.0 * slope_b - slope_c, c3 = slope_b + slope_c - 2.0 * (c - b);
-  return {b + u * (slope_b + u * (c2 + u * c3)), (slope_b + u * (2.0 * c2 + 3.0 * u * c3)) / spacing_m_};
+  const double slope_b = 0.5 * (z[2] - z[0]), slope_c = 0.5 * (z[3] - z[1]);
+  const double c2 = 3.0 * (z[2] - z[1]) - 2.0 * slope_b - slope_c, c3 = slope_b + slope_c - 2.0 * (z[2] - z[1]);
+  return {z[1] + u * (slope_b + u * (c2 + u * c3)), (slope_b + u * (2.0 * c2 + 3.0 * u * c3)) * per_spacing_};
 }
 
 }  // namespace phare

@@ -53,7 +53,9 @@ class HeightProfile {
   Sample at(double s_m, bool left) const;
 
  private:
-  double start_m_ = 0.0, spacing_m_ = 1.0;
+  std::int64_t points() const { return static_cast<std::int64_t>(left_.size()); }
+
+  double start_m_ = 0.0, spacing_m_ = 1.0, per_spacing_ = 1.0;
   bool repeats_ = false;
   std::vector<double> left_, right_;
 };

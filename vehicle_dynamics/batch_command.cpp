@@ -6,15 +6,18 @@
 #include <string>
 
 #include "vehicle_dynamics/batch.h"
+#include "vehicle_dynamics/compare.h"
+#include "vehicle_dynamics/work_precision.h"
 
 namespace phare {
 
 struct BatchCommand::Options {
-  std::string in, out, vehicle, integrator = "rk4", tyre = "magic", attitude = "dynamic", road,
+  std::string in, compare_with, out, vehicle, integrator = "rk4", tyre = "magic", attitude = "dynamic", road,
                                 resistance = "auto", levelling = "none", roughness;
   double step_s = 0.002, output_hz = 100.0, speed_mps = 0.0, start_x_m = 0.0, friction = 1.0, envelope_m = 0.1,
          relaxation_scale = 1.0;
   std::uint64_t seed = 1;
+  bool work_precision = false;
 };
 
 BatchCommand::BatchCommand() : options_(std::make_unique<Options>()) {}
@@ -55,12 +58,18 @@ void BatchCommand::add_to(CLI::App& app) {
   app.add_option("--relaxation-scale", o.relaxation_scale, "Batch: multiplies the tyre's relaxation lengths")
       ->check(CLI::Range(0.01, 100.0))
       ->group(group);
+  app.add_option("--compare", o.compare_with, "Run the reference manoeuvres of this directory and say how far we are off")
+      ->group(group);
+  app.add_flag("--work-precision", o.work_precision, "Print error and cost of every level, integrator and step (--vehicle)")
+      ->group(group);
   app.add_option("--levelling", o.levelling, "Batch: none, manual, static or dynamic")
       ->check(CLI::IsMember({"none", "manual", "static", "dynamic"}))
       ->group(group);
 }
 
-bool BatchCommand::asked() const { return !options_->in.empty(); }
+bool BatchCommand::asked() const {
+  return !options_->in.empty() || !options_->compare_with.empty() || options_->work_precision;
+}
 
 namespace {
 
@@ -78,10 +87,35 @@ std::size_t index_of(const std::string& text, std::initializer_list<const char*>
   return 0;
 }
 
+int run_compare(const std::string& directory, const std::string& vehicle, Integrator integrator, double step_s) {
+  if (vehicle.empty()) return fail({"--vehicle", "--compare needs the reference car's vehicle file"});
+  const auto lines = compare::manoeuvres(directory, vehicle, integrator, step_s);
+  if (!lines) return fail(lines.error());
+  bool within = true;
+  for (const compare::Line& line : *lines) {
+    std::printf("%s\n", compare::text(line).c_str());
+    within = within && (line.band == 0.0 || line.error <= line.allowed());
+  }
+  return within ? kExitDone : kExitCheckFailed;
+}
+
+int run_work_precision(const std::string& vehicle_file) {
+  if (vehicle_file.empty()) return fail({"--vehicle", "--work-precision needs a vehicle file"});
+  const Result<VehicleParams> vehicle = read_vehicle(vehicle_file);
+  if (!vehicle) return fail(vehicle.error());
+  const auto lines = work_precision::table(*vehicle, vehicle_file, false);
+  if (!lines) return fail(lines.error());
+  std::printf("%s", work_precision::markdown(*lines).c_str());
+  return kExitDone;
+}
+
 }  // namespace
 
 int BatchCommand::run(const std::string& level_name) const {
   const Options& o = *options_;
+  const auto integrator = static_cast<Integrator>(index_of(o.integrator, {"semi-implicit-euler", "etd2", "rk4", "reference"}));
+  if (!o.compare_with.empty()) return run_compare(o.compare_with, o.vehicle, integrator, o.step_s);
+  if (o.work_precision) return run_work_precision(o.vehicle);
   if (o.out.empty()) return fail({"--out", "--batch needs a file to write the motion to"});
   if (o.vehicle.empty()) return fail({"--vehicle", "--batch needs a vehicle file"});
   batch::Options options;
@@ -94,7 +128,7 @@ int BatchCommand::run(const std::string& level_name) const {
   if (!vehicle) return fail(vehicle.error());
   options.vehicle = std::move(*vehicle);
   options.vehicle_place = o.vehicle;
-  options.integrator = static_cast<Integrator>(index_of(o.integrator, {"semi-implicit-euler", "etd2", "rk4", "reference"}));
+  options.integrator = integrator;
   options.single_track = {.magic_formula = o.tyre == "magic", .dynamic_attitude = o.attitude == "dynamic"};
   options.step_s = o.step_s, options.output_hz = o.output_hz;
   options.speed_mps = o.speed_mps, options.start_x_m = o.start_x_m;

@@ -82,7 +82,7 @@ void to_array(const State& state, double* values) {
 
 bool ReferenceIntegrator::advance(const full::Params& p, const full::Input& in, full::State& state, double dt) {
   full::Held during = full::held(p, in, state, dt);
-  during.shortest_slip_m = 0.0;  // the floor is there for fixed steps
+  during.most_slip_pm = std::numeric_limits<double>::infinity();  // the floor is there for fixed steps
   const full::State before = state;
   std::array<double, full::kStateSize> y;
   to_array(state, y.data());
@@ -99,7 +99,7 @@ bool ReferenceIntegrator::advance(const full::Params& p, const full::Input& in, 
 bool ReferenceIntegrator::advance(const single_track::Params& p, const full::Input& in, single_track::State& state,
                                   double dt) {
   single_track::Held during = single_track::held(p, in, state, dt);
-  during.shortest_slip_m = 0.0;
+  during.most_slip_pm = std::numeric_limits<double>::infinity();
   const single_track::State before = state;
   std::array<double, single_track::kStateSize> y;
   to_array(state, y.data());

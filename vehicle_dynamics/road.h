@@ -26,8 +26,8 @@ struct FrictionZone {
 struct Road {
   const RoadSurface* mesh = nullptr;  ///< nullptr: the plane z = z_m + slope_x x + slope_y y
   double z_m = 0.0, slope_x = 0.0, slope_y = 0.0;
-  std::vector<HeightProfile> profiles;
-  std::vector<FrictionZone> friction;
+  std::vector<HeightProfile> profiles{};
+  std::vector<FrictionZone> friction{};
   double friction_everywhere = 1.0;
 
   /// At world (x, y), `path_m` along the path, in the left or right track. Beside a mesh the height is `beside_m` and

@@ -91,14 +91,14 @@ void kinematics(const Params& p, const Held& held, const Geometry& g, const Stee
     const double aside = vx * left[0] + vy * left[1] + vz * left[2];
     contact.rolling_mps[i] = s.spin_radps[i] * p.radius_m;
     const tyre::SlipRate slip = tyre::slip_rate(p.tyre, s.kappa[i], s.tan_alpha[i], ahead, aside, contact.rolling_mps[i],
-                                                held.shortest_slip_m);
+                                                held.most_slip_pm);
     d.kappa[i] = slip.kappa_ps;
     d.tan_alpha[i] = slip.tan_alpha_ps;
     contact.decay_ps[i] = slip.kappa_decay_ps;
     contact.decay_ps[i + 4] = slip.tan_alpha_decay_ps;
-    contact.carried_mps[i] = slip.kappa_decay_ps * slip.kappa_m;
-    contact.stretch_mps[i] = slip.kappa_ps * slip.kappa_m;
-    contact.stretch_mps[i + 4] = slip.tan_alpha_ps * slip.tan_alpha_m;
+    contact.carried_mps[i] = slip.carried_mps;
+    contact.stretch_mps[i] = slip.kappa_stretch_mps;
+    contact.stretch_mps[i + 4] = slip.tan_alpha_stretch_mps;
     // Closing speed of the tyre: the wheel's against the road, along the normal.
     contact.closing_mps[i] = -(vx * g.normal[0] + vy * g.normal[1] + vz * g.normal[2]);
   }
@@ -153,8 +153,11 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
   // Suspension: springs, dampers, bars, stops, and what the linkage carries past them.
   const double gx = -kGravity_mps2 * m[6], gy = -kGravity_mps2 * m[7], gz = -kGravity_mps2 * m[8];
   double lift = 0.0, roll = 0.0, pitch = 0.0;
-  double sink = 0.0;  // of the body against the wheels: its centre comes nearer to the road
-  for (std::size_t i = 0; i < 4; ++i) sink -= p.lever_share[i] * (s.travel_m[i] + (tyres.load_n[i] - p.load_n[i]) / p.tyre_rate_npm);
+  // The lever of the tyres' forces: height of the centre of gravity, less what the body has sunk from rest on this grade.
+  double sink = 0.0;
+  const double lighter = 1.0 + gz / kGravity_mps2;
+  for (std::size_t i = 0; i < 4; ++i)
+    sink -= p.lever_share[i] * (s.travel_m[i] + (tyres.load_n[i] - p.load_n[i]) / p.tyre_rate_npm + lighter * p.rest_m[i]);
   for (std::size_t i = 0; i < 4; ++i) {
     yaw += p.unsprung_kg[i] * (p.x_m[i] * gy - p.y_m[i] * gx);  // weight of the wheels, at the wheels
     const double other = s.travel_m[i ^ 1u], travel = s.travel_m[i];

@@ -16,6 +16,8 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <string>
 
 #include "vehicle_dynamics/models/fixed_step.h"
 #include "vehicle_dynamics/models/tyre.h"
@@ -37,6 +39,7 @@ struct Params {
   std::array<double, 4> unsprung_couple{};     ///< vertical force per N of lateral force, from the axle's own height
   std::array<double, 4> brake_jack{}, drive_jack{};  ///< anti-dive, anti-squat: vertical over longitudinal force
   std::array<double, 4> lever_share{};               ///< of each corner in the height of the centre of gravity
+  std::array<double, 4> rest_m{};                    ///< what spring and tyre give under the weight at rest
   tyre::Constants tyre;
   Integrator integrator = Integrator::kRk4;
 };
@@ -97,7 +100,7 @@ struct Held {
   Steer steer;
   std::array<bool, 4> locked{};
   std::array<double, 4> brake_nm{};  ///< signed, of the turning wheels, for the whole step
-  double shortest_slip_m = 0.0;
+  double most_slip_pm = std::numeric_limits<double>::infinity();  ///< one over the floor
 };
 
 /// d state/dt at `t_s` into the step.

@@ -40,6 +40,7 @@ Result<Params> params_of(const VehicleParams& vehicle, const std::string& place)
     p.lever_share[i] = 0.5 * share;
     p.spring_n[i] = 0.5 * share * p.sprung_kg * kGravity_mps2;
     p.load_n[i] = p.spring_n[i] + p.unsprung_kg[i] * kGravity_mps2;
+    p.rest_m[i] = p.spring_n[i] / p.spring_npm[i] + p.load_n[i] / p.tyre_rate_npm;
     // The axle's mass is pushed sideways at wheel height and held on the ground.
     p.unsprung_couple[i] = (left ? 1.0 : -1.0) * 2.0 * p.unsprung_kg[i] / p.mass_kg * p.radius_m / track;
     // Written for the share of the whole load transfer, as anti-dive is quoted; the linkage knows its own wheels' force.
@@ -85,7 +86,7 @@ void derivative(const Params& p, const Input& input, const Held& held, const Sta
 Held held(const Params& p, const Input& input, const State& s, double dt) {
   Held h;
   h.steer = steer_angles(p, input.steer_rad);
-  h.shortest_slip_m = 0.5 * std::abs(s.u_mps) * dt;
+  h.most_slip_pm = 1.0 / std::max(0.5 * std::abs(s.u_mps) * dt, 1e-6);
   if (std::all_of(input.brake_nm.begin(), input.brake_nm.end(), [](double b) { return b <= 0.0; })) return h;
   bool slow = false;
   for (std::size_t i = 0; i < 4; ++i) {

@@ -82,15 +82,15 @@ Acting acting(const Params& p, const full::Input& in, const Held& held, const St
   // across
   const double vf = s.v_mps + car.x_m[0] * s.r_radps, vr = s.v_mps + car.x_m[2] * s.r_radps;
   const double ahead = s.u_mps * held.cosine + vf * held.sine, aside = vf * held.cosine - s.u_mps * held.sine;
-  const auto front = tyre::slip_rate(car.tyre, 0.0, s.front_slip, ahead, aside, ahead, held.shortest_slip_m);
-  const auto rear = tyre::slip_rate(car.tyre, 0.0, s.rear_slip, s.u_mps, vr, s.u_mps, held.shortest_slip_m);
+  const auto front = tyre::slip_rate(car.tyre, 0.0, s.front_slip, ahead, aside, ahead, held.most_slip_pm);
+  const auto rear = tyre::slip_rate(car.tyre, 0.0, s.rear_slip, s.u_mps, vr, s.u_mps, held.most_slip_pm);
   a.slip_rate_ps = {front.tan_alpha_ps, rear.tan_alpha_ps};
   a.slip_decay_ps = {front.tan_alpha_decay_ps, rear.tan_alpha_decay_ps};
   const auto damping = [&](const tyre::SlipRate& slip, double speed, double load) {
     constexpr double kDampedBelow_mps = 2.0, kFullDamping_n = 2700.0;  // as in level full
     const double fade = 1.0 - std::abs(speed) / kDampedBelow_mps;
     return fade <= 0.0 ? 0.0
-                       : car.tyre.p.carcass_damping_nspm * fade * load / kFullDamping_n * slip.tan_alpha_ps * slip.tan_alpha_m;
+                       : car.tyre.p.carcass_damping_nspm * fade * load / kFullDamping_n * slip.tan_alpha_stretch_mps;
   };
   const double used_f = front_limit > 0.0 ? ahead_f / front_limit : 1.0, used_r = rear_limit > 0.0 ? ahead_r / rear_limit : 1.0;
   const double side_f = mu * car.tyre.p.lat_peak * front_load, side_r = mu * car.tyre.p.lat_peak * rear_load;
@@ -197,7 +197,7 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
   h.steer_rad = in.steer_rad;
   h.cosine = std::cos(in.steer_rad), h.sine = std::sin(in.steer_rad);
   h.brake_sign = sign(s.u_mps);
-  h.shortest_slip_m = 0.5 * std::abs(s.u_mps) * dt;
+  h.most_slip_pm = 1.0 / std::max(0.5 * std::abs(s.u_mps) * dt, 1e-6);
   double brake = 0.0;
   for (const double torque : in.brake_nm) brake += torque / p.car.radius_m;
   if (brake > 0.0 && std::abs(s.u_mps) * p.effective_kg <= dt * brake) {
@@ -264,8 +264,8 @@ void step_semi_implicit(const Params& p, const full::Input& in, const Held& h, S
   const full::Params& car = p.car;
   const double vf = s.v_mps + car.x_m[0] * s.r_radps, vr = s.v_mps + car.x_m[2] * s.r_radps;
   const double ahead = s.u_mps * h.cosine + vf * h.sine, aside = vf * h.cosine - s.u_mps * h.sine;
-  const auto front = tyre::slip_rate(car.tyre, 0.0, s.front_slip, ahead, aside, ahead, h.shortest_slip_m);
-  const auto rear = tyre::slip_rate(car.tyre, 0.0, s.rear_slip, s.u_mps, vr, s.u_mps, h.shortest_slip_m);
+  const auto front = tyre::slip_rate(car.tyre, 0.0, s.front_slip, ahead, aside, ahead, h.most_slip_pm);
+  const auto rear = tyre::slip_rate(car.tyre, 0.0, s.rear_slip, s.u_mps, vr, s.u_mps, h.most_slip_pm);
   s.front_slip += dt * front.tan_alpha_ps / (1.0 + dt * front.tan_alpha_decay_ps);
   s.rear_slip += dt * rear.tan_alpha_ps / (1.0 + dt * rear.tan_alpha_decay_ps);
 }

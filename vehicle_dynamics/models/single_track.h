@@ -63,7 +63,7 @@ struct Held {
   double steer_rad = 0.0, cosine = 1.0, sine = 0.0;
   double brake_sign = 0.0;  ///< of the motion that the brakes oppose
   bool stopped = false;     ///< brakes hold the car along its x
-  double shortest_slip_m = 0.0;
+  double most_slip_pm = std::numeric_limits<double>::infinity();
 };
 Held held(const Params& params, const full::Input& input, const State& state, double dt);
 void finish_step(const full::Input& input, const Held& held, const State& before, State& state);

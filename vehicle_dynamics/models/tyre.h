@@ -25,8 +25,9 @@ struct Force {
 /// What does not change while driving, worked out once.
 struct Constants {
   TyreParams p;
-  double kappa_bend = 0.0, tan_alpha_bend = 0.0;  ///< slip at 1.5 times the peak: relaxation has halved there
-  double bx = 0.0, by = 0.0;                      ///< B = K / (C D) at mu 1
+  double per_kappa_bend = 0.0, per_tan_alpha_bend = 0.0;  ///< one over 1.5 times the slip at the peak: relaxation halves
+  double per_long_m = 0.0, per_lat_m = 0.0;               ///< one over the relaxation lengths
+  double bx = 0.0, by = 0.0;                              ///< B = K / (C D) at mu 1
 };
 Constants constants(const TyreParams& params);
 
@@ -36,32 +37,33 @@ Force steady_force(const Constants& tyre, double kappa, double tan_alpha, double
 void steady_forces(const Constants& tyre, const double kappa[4], const double tan_alpha[4], const double load_n[4],
                    const double mu[4], double fx_n[4], double fy_n[4]);
 
-/// Rate of change of the slips, and the speed they are carried away with over their relaxation lengths: for the
-/// exponential integrator. No division by speed: at rest the patch is a spring.
+/// Rate of change of the slips. No division by speed: at rest the patch is a spring.
 struct SlipRate {
   double kappa_ps = 0.0, tan_alpha_ps = 0.0;
-  double kappa_decay_ps = 0.0, tan_alpha_decay_ps = 0.0;
-  double kappa_m = 0.0, tan_alpha_m = 0.0;  ///< relaxation lengths used
+  double kappa_decay_ps = 0.0, tan_alpha_decay_ps = 0.0;          ///< for the exponential integrator
+  double carried_mps = 0.0;                                       ///< speed at which the patch carries its slip away
+  double kappa_stretch_mps = 0.0, tan_alpha_stretch_mps = 0.0;    ///< rate of the carcass' deflection
 };
 
-/// `vx`, `vy`: velocity of the wheel's contact point along and across it; `rolling`: spin times radius;
-/// `shortest_m`: floor of the relaxation length, half of what the wheel travels in a step, so that explicit steps stay
-/// stable.
+/// `vx`, `vy`: velocity of the wheel's contact point along and across it; `rolling`: spin times radius; `most_pm`: one
+/// over the floor of the relaxation length, which is half of what the wheel travels in a step, so that explicit steps
+/// stay stable; infinite for none.
 inline SlipRate slip_rate(const Constants& tyre, double kappa, double tan_alpha, double vx, double vy, double rolling,
-                          double shortest_m) {
+                          double most_pm) {
   // Slip falls with what has passed through the patch. A wheel that slides sideways passes little: a tenth of its slide.
-  const double carried = std::max({std::abs(vx), std::abs(rolling), 0.1 * std::abs(vy)});
-  const double k = kappa / tyre.kappa_bend, t = tan_alpha / tyre.tan_alpha_bend;
-  // Beyond the peak the patch slides and has nothing left to build up (Pacejka 7.2.2: sigma falls with slip stiffness).
-  const double along = std::max({tyre.p.long_relaxation_m / (1.0 + k * k), 0.1 * tyre.p.long_relaxation_m, shortest_m});
-  const double across = std::max({tyre.p.lat_relaxation_m / (1.0 + t * t), 0.1 * tyre.p.lat_relaxation_m, shortest_m});
-  const double inv_along = 1.0 / along, inv_across = 1.0 / across;
-  return {.kappa_ps = -((vx - rolling) + carried * kappa) * inv_along,
-          .tan_alpha_ps = -(vy + carried * tan_alpha) * inv_across,
-          .kappa_decay_ps = carried * inv_along,
-          .tan_alpha_decay_ps = carried * inv_across,
-          .kappa_m = along,
-          .tan_alpha_m = across};
+  const double carried = std::max(std::max(std::abs(vx), std::abs(rolling)), 0.1 * std::abs(vy));
+  const double k = kappa * tyre.per_kappa_bend, t = tan_alpha * tyre.per_tan_alpha_bend;
+  // Beyond the peak the patch slides and has nothing left to build up: sigma falls with slip (Pacejka 7.2.2), to a tenth.
+  const double along_pm = std::min(std::min(tyre.per_long_m * (1.0 + k * k), 10.0 * tyre.per_long_m), most_pm);
+  const double across_pm = std::min(std::min(tyre.per_lat_m * (1.0 + t * t), 10.0 * tyre.per_lat_m), most_pm);
+  const double along = rolling - vx - carried * kappa, across = -vy - carried * tan_alpha;
+  return {.kappa_ps = along * along_pm,
+          .tan_alpha_ps = across * across_pm,
+          .kappa_decay_ps = carried * along_pm,
+          .tan_alpha_decay_ps = carried * across_pm,
+          .carried_mps = carried,
+          .kappa_stretch_mps = along,
+          .tan_alpha_stretch_mps = across};
 }
 
 }  // namespace phare::tyre

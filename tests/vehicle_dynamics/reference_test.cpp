@@ -1,0 +1,38 @@
+// Levels full and single-track against two independent programs and the pass bands set for them; skipped without the
+// shared data. The reference car's tyres have no relaxation length; 0.02 m is ours (config/vehicles/bmw_320i.toml).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "vehicle_dynamics/compare.h"
+
+namespace phare {
+namespace {
+
+const std::filesystem::path kData = std::filesystem::path(PHARE_SHARED_DATA_DIR) / "dynamics";
+const std::filesystem::path kCar = std::filesystem::path(PHARE_VEHICLES_DIR) / "bmw_320i.toml";
+
+TEST(Reference, EveryManoeuvreWithinItsBand) {
+  if (!std::filesystem::exists(kData)) GTEST_SKIP() << kData << " is not here";
+  const Result<std::vector<compare::Line>> lines = compare::manoeuvres(kData, kCar, Integrator::kRk4, 0.002);
+  ASSERT_TRUE(lines.ok()) << lines.error().text();
+  EXPECT_GE(lines->size(), 60u);
+  for (const compare::Line& line : *lines)
+    if (line.band > 0.0) {
+      EXPECT_LE(line.error, line.allowed()) << compare::text(line);
+    }
+}
+
+TEST(Reference, MeasuredDrive) {
+  if (!std::filesystem::exists(kData)) GTEST_SKIP() << kData << " is not here";
+  const Result<compare::Measured> m = compare::measured_drive(kData, std::filesystem::path(PHARE_VEHICLES_DIR) / "bmw_m8.toml");
+  ASSERT_TRUE(m.ok()) << m.error().text();
+  std::printf("measured drive: speed rms %.3f m/s of %.1f, pitch rms %.2f mrad of %.1f\n", m->speed_rms_mps, m->speed_peak_mps,
+              m->pitch_rms_rad * 1e3, m->pitch_peak_rad * 1e3);
+  // Brakes build up slower in that car than in ours, and its ABS stops it a quarter of a second later.
+  EXPECT_LT(m->pitch_rms_rad, 0.3 * m->pitch_peak_rad);
+  EXPECT_LT(m->speed_rms_mps, 0.05 * m->speed_peak_mps);
+}
+
+}  // namespace
+}  // namespace phare
