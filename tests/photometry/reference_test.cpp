@@ -239,7 +239,7 @@ TEST_F(Reference, CutFilesDoNotCrash) {
     const std::string content = test::content_of(entry.path());
     const std::size_t last_number = content.find_last_of(" \n", content.find_last_not_of(" \r\n"));
     for (std::size_t length = 0; length < content.size(); length += 7) {
-      const auto table = read_lamp(test::temporary_file("cut.ies", content.substr(0, length)));
+      const auto table = parse_lamp(content.substr(0, length), "cut.ies");
       if (last_number != std::string::npos && length <= last_number) {
         EXPECT_FALSE(table.ok()) << entry.path() << " cut at " << length;
       }

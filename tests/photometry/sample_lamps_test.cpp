@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 
 #include "photometry_test_files.h"
 #include "visual/photometry/beam_image.h"
@@ -49,7 +50,9 @@ TEST(SampleLamps, PassTheirRules) {
       const auto rule = find_rulebook(PHARE_RULES_DIR, id);
       ASSERT_TRUE(rule.ok()) << rule.error().text();
       const IntensityTable* table[] = {&l.table};
-      const CheckResult result = check_lamp(table, *rule);
+      CheckOptions options;
+      if (l.kind == SampleKind::kFog) options.aim = HV{0.0, glm::degrees(sample_pitch_rad())};
+      const CheckResult result = check_lamp(table, *rule, options);
       EXPECT_EQ(result.left_hand, l.kind == SampleKind::kLowLeft) << l.file;
       for (const CheckRow& row : result.rows)
         EXPECT_NE(row.verdict, Verdict::kFail)

@@ -27,8 +27,14 @@ std::string tick_text(double value) {
 }  // namespace
 
 Rgb false_colour(double t) {
-  constexpr std::array<Rgb, 8> kStops{{{0, 0, 0}, {0.05, 0.05, 0.40}, {0.35, 0.05, 0.62}, {0.72, 0.10, 0.45}, {0.93, 0.30, 0.15},
-                                       {0.99, 0.62, 0.08}, {0.99, 0.92, 0.35}, {1, 1, 1}}};
+  constexpr std::array<Rgb, 8> kStops{{{0, 0, 0},
+                                       {0.05, 0.05, 0.40},
+                                       {0.35, 0.05, 0.62},
+                                       {0.72, 0.10, 0.45},
+                                       {0.93, 0.30, 0.15},
+                                       {0.99, 0.62, 0.08},
+                                       {0.99, 0.92, 0.35},
+                                       {1, 1, 1}}};
   t = std::clamp(t, 0.0, 1.0) * static_cast<double>(kStops.size() - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(t), kStops.size() - 2);
   const double u = t - static_cast<double>(i);
@@ -68,8 +74,10 @@ void Chart::circle(double x, double y, double radius, Rgb colour, double width, 
   }
 }
 
-void Chart::text(double x, double y, const std::string& text, double size, int align, Rgb colour, bool bold, bool halo) {
-  cairo_select_font_face(cairo_, kFont, CAIRO_FONT_SLANT_NORMAL, bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+void Chart::text(double x, double y, const std::string& text, double size, int align, Rgb colour, bool bold,
+                 bool halo) {
+  cairo_select_font_face(cairo_, kFont, CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo_, size);
   cairo_text_extents_t box;
   cairo_text_extents(cairo_, text.c_str(), &box);
@@ -96,8 +104,10 @@ void Chart::vertical_text(double x, double y, const std::string& what, double si
   cairo_restore(cairo_);
 }
 
-void Chart::picture(const Axes& axes, std::size_t columns, std::size_t rows, const std::function<Rgb(std::size_t, std::size_t)>& pixel) {
-  cairo_surface_t* image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(columns), static_cast<int>(rows));
+void Chart::picture(const Axes& axes, std::size_t columns, std::size_t rows,
+                    const std::function<Rgb(std::size_t, std::size_t)>& pixel) {
+  cairo_surface_t* image =
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(columns), static_cast<int>(rows));
   unsigned char* data = cairo_image_surface_get_data(image);
   const int stride = cairo_image_surface_get_stride(image);
   for (std::size_t j = 0; j < rows; ++j) {
@@ -114,15 +124,19 @@ void Chart::picture(const Axes& axes, std::size_t columns, std::size_t rows, con
   cairo_translate(cairo_, axes.left, axes.top);
   cairo_scale(cairo_, axes.width / static_cast<double>(columns), axes.height / static_cast<double>(rows));
   cairo_set_source_surface(cairo_, image, 0.0, 0.0);
-  cairo_paint(cairo_);
+  cairo_pattern_set_extend(cairo_get_source(cairo_), CAIRO_EXTEND_PAD);  // no soft rim
+  cairo_rectangle(cairo_, 0.0, 0.0, static_cast<double>(columns), static_cast<double>(rows));
+  cairo_fill(cairo_);
   cairo_restore(cairo_);
   cairo_surface_destroy(image);
 }
 
-void Chart::axes(const Axes& a, double x_step, double y_step, const std::string& x_title, const std::string& y_title, Rgb grid, double grid_width) {
+void Chart::axes(const Axes& a, double x_step, double y_step, const std::string& x_title, const std::string& y_title,
+                 Rgb grid, double grid_width) {
   const double bottom = a.top + a.height, right = a.left + a.width;
   if (x_step > 0.0) {
-    for (double v = std::ceil(a.x_min / x_step - 1e-9) * x_step; v <= a.x_max + 1e-9; v += x_step) {
+    const double low = std::min(a.x_min, a.x_max), high = std::max(a.x_min, a.x_max);
+    for (double v = std::ceil(low / x_step - 1e-9) * x_step; v <= high + 1e-9; v += x_step) {
       if (grid_width > 0.0) line({{a.x(v), a.top}, {a.x(v), bottom}}, grid, grid_width);
       line({{a.x(v), bottom}, {a.x(v), bottom + 4}}, kBlack, 0.8);
       text(a.x(v), bottom + 12, tick_text(v), 9, 0, kBlack);
@@ -150,7 +164,8 @@ void Chart::end_clip() {
   cairo_restore(cairo_);
 }
 
-std::vector<Contour> contours(const std::vector<double>& values, const std::vector<double>& x, const std::vector<double>& y, double level) {
+std::vector<Contour> contours(const std::vector<double>& values, const std::vector<double>& x,
+                              const std::vector<double>& y, double level) {
   // Marching squares. A crossing belongs to a grid edge, which is its name: equal names join segments to lines.
   const std::size_t columns = x.size(), rows = y.size();
   using Edge = std::size_t;  // 2·node + (0: to the right, 1: upwards)
@@ -160,7 +175,8 @@ std::vector<Contour> contours(const std::vector<double>& values, const std::vect
     const std::size_t a = j * columns + i, b = up ? a + columns : a + 1;
     const double t = (level - values[a]) / (values[b] - values[a]);
     const Edge edge = 2 * a + (up ? 1 : 0);
-    place[edge] = up ? std::array<double, 2>{x[i], y[j] + t * (y[j + 1] - y[j])} : std::array<double, 2>{x[i] + t * (x[i + 1] - x[i]), y[j]};
+    place[edge] = up ? std::array<double, 2>{x[i], y[j] + t * (y[j + 1] - y[j])}
+                     : std::array<double, 2>{x[i] + t * (x[i + 1] - x[i]), y[j]};
     return edge;
   };
   for (std::size_t j = 0; j + 1 < rows; ++j) {
@@ -205,7 +221,8 @@ std::vector<Contour> contours(const std::vector<double>& values, const std::vect
   return lines;
 }
 
-void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& lines, Rgb colour, double width, const std::string& label, bool halo) {
+void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& lines, Rgb colour, double width,
+                   const std::string& label, bool halo, double label_at_01) {
   double longest = 0.0;
   std::array<double, 2> at{};
   for (const Contour& contour : lines) {
@@ -219,7 +236,8 @@ void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& l
     chart.line(points, colour, width);
     if (length > longest) {
       longest = length;
-      at = points[points.size() / 3];
+      at = points[std::min(points.size() - 1,
+                           static_cast<std::size_t>(label_at_01 * static_cast<double>(points.size())))];
     }
   }
   if (longest > 45.0 && !label.empty()) chart.text(at[0], at[1], label, 8, 0, colour, true, halo);
@@ -242,13 +260,15 @@ Status write_chart(const std::string& stem, double width, double height, const s
   cairo_surface_finish(svg);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(svg);
   cairo_surface_destroy(svg);
-  if (status != CAIRO_STATUS_SUCCESS) return Error{stem + ".svg", std::string("cannot be written: ") + cairo_status_to_string(status)};
+  if (status != CAIRO_STATUS_SUCCESS)
+    return Error{stem + ".svg", std::string("cannot be written: ") + cairo_status_to_string(status)};
   cairo_surface_t* png = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerPoint),
                                                     static_cast<int>(height * kPixelsPerPoint));
   status = paint(png, kPixelsPerPoint);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png(png, (stem + ".png").c_str());
   cairo_surface_destroy(png);
-  if (status != CAIRO_STATUS_SUCCESS) return Error{stem + ".png", std::string("cannot be written: ") + cairo_status_to_string(status)};
+  if (status != CAIRO_STATUS_SUCCESS)
+    return Error{stem + ".png", std::string("cannot be written: ") + cairo_status_to_string(status)};
   return Done{};
 }
 

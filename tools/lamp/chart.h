@@ -16,16 +16,16 @@ struct Rgb {
   double r = 0.0, g = 0.0, b = 0.0;
 };
 
-inline constexpr Rgb kBlack{0, 0, 0}, kWhite{1, 1, 1}, kGrey{0.55, 0.55, 0.55}, kPass{0.0, 0.62, 0.25}, kFailed{0.85, 0.05, 0.05},
-    kWithin{0.9, 0.6, 0.0};
+inline constexpr Rgb kBlack{0, 0, 0}, kWhite{1, 1, 1}, kGrey{0.55, 0.55, 0.55}, kPass{0.0, 0.62, 0.25},
+    kFailed{0.85, 0.05, 0.05}, kWithin{0.9, 0.6, 0.0};
 
 /// False colour of t in 0..1: black, blue, violet, red, orange, yellow, white.
 Rgb false_colour(double t_01);
 
 /// A rectangle of the page with two linear axes.
 struct Axes {
-  double left = 0, top = 0, width = 0, height = 0;     ///< on the page
-  double x_min = 0, x_max = 1, y_min = 0, y_max = 1;   ///< y_max is at the top
+  double left = 0, top = 0, width = 0, height = 0;    ///< on the page
+  double x_min = 0, x_max = 1, y_min = 0, y_max = 1;  ///< y_max is at the top
   double x(double value) const { return left + (value - x_min) / (x_max - x_min) * width; }
   double y(double value) const { return top + (y_max - value) / (y_max - y_min) * height; }
 };
@@ -35,16 +35,19 @@ class Chart {
   explicit Chart(cairo_t* cairo) : cairo_(cairo) {}
 
   void rectangle(double x, double y, double w, double h, Rgb fill);
-  void line(const std::vector<std::array<double, 2>>& points, Rgb colour, double width, bool closed = false, bool dashed = false);
+  void line(const std::vector<std::array<double, 2>>& points, Rgb colour, double width, bool closed = false,
+            bool dashed = false);
   void circle(double x, double y, double radius, Rgb colour, double width, bool filled = false);
   /// align: -1 left, 0 middle, 1 right of the point, at its height. `halo`: a rim that stands out from pictures.
-  void text(double x, double y, const std::string& text, double size, int align, Rgb colour, bool bold = false, bool halo = false);
+  void text(double x, double y, const std::string& text, double size, int align, Rgb colour, bool bold = false,
+            bool halo = false);
   void vertical_text(double x, double y, const std::string& text, double size, Rgb colour);
   /// A picture of columns × rows pixels over the axes' rectangle, first row at the top.
-  void picture(const Axes& axes, std::size_t columns, std::size_t rows, const std::function<Rgb(std::size_t, std::size_t)>& pixel);
+  void picture(const Axes& axes, std::size_t columns, std::size_t rows,
+               const std::function<Rgb(std::size_t, std::size_t)>& pixel);
   /// Frame, ticks and grid. Steps of 0: none.
-  void axes(const Axes& axes, double x_step, double y_step, const std::string& x_title, const std::string& y_title, Rgb grid,
-            double grid_width);
+  void axes(const Axes& axes, double x_step, double y_step, const std::string& x_title, const std::string& y_title,
+            Rgb grid, double grid_width);
   /// Everything until `end_clip` stays inside the axes.
   void begin_clip(const Axes& axes);
   void end_clip();
@@ -57,11 +60,12 @@ class Chart {
 struct Contour {
   std::vector<std::array<double, 2>> points;
 };
-std::vector<Contour> contours(const std::vector<double>& values, const std::vector<double>& x, const std::vector<double>& y, double level);
+std::vector<Contour> contours(const std::vector<double>& values, const std::vector<double>& x,
+                              const std::vector<double>& y, double level);
 
 /// Draws contours with their label on the longest.
-void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& lines, Rgb colour, double width, const std::string& label,
-                   bool halo);
+void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& lines, Rgb colour, double width,
+                   const std::string& label, bool halo, double label_at_01 = 0.33);
 
 /// Writes `stem`.svg and `stem`.png (twice the size in pixels).
 Status write_chart(const std::string& stem, double width, double height, const std::function<void(Chart&)>& draw);

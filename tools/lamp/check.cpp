@@ -68,22 +68,29 @@ void print(const CheckResult& result, const std::string& file) {
               result.left_hand ? "left" : "right");
   std::printf("aim: %s, turned %+.2f deg up, %+.2f deg right%s", result.aim_method.c_str(), result.aim_up_deg,
               result.aim_right_deg, result.reaimed ? " (within the rule's re-aim allowance)" : "");
-  if (result.cutoff.found) std::printf("; cut-off at %+.3f deg, G %.3f", result.cutoff.elevation_deg, result.cutoff.sharpness_g);
+  if (result.cutoff.found)
+    std::printf("; cut-off at %+.3f deg, G %.3f", result.cutoff.elevation_deg, result.cutoff.sharpness_g);
   std::printf("\n  %-24s %-16s %17s %12s %15s %12s\n", "row", "clause", "limit", "value", "at H, V", "margin");
   for (const CheckRow& row : result.rows) {
     const bool by_min = row.min > kNoMinimum && row.margin == row.lowest - row.min;
     const double value = by_min ? row.lowest : row.highest;
     const HV at = by_min ? row.lowest_at : row.highest_at;
     char place[32] = "";
-    if (row.unit == "cd" && row.shape != RowShape::kSum) std::snprintf(place, sizeof place, "%+.2f, %+.2f", at.h_deg, at.v_deg);
+    if (row.unit == "cd" && row.shape != RowShape::kSum)
+      std::snprintf(place, sizeof place, "%+.2f, %+.2f", at.h_deg, at.v_deg);
     const bool whole = row.unit == "cd" || row.unit == "lm";
-    std::printf(whole ? "  %-24s %-16s %17s %12.0f %15s %+12.0f %-2s %s%s\n" : "  %-24s %-16s %17s %12.3f %15s %+12.3f %-2s %s%s\n",
-                row.id.c_str(), row.clause.substr(0, 16).c_str(), limits_text(row).c_str(), value, place, row.margin, row.unit.c_str(),
-                row.verdict == Verdict::kPass ? "pass" : row.verdict == Verdict::kFail ? "FAIL" : "within resolution",
+    std::printf(whole ? "  %-24s %-16s %17s %12.0f %15s %+12.0f %-2s %s%s\n"
+                      : "  %-24s %-16s %17s %12.3f %15s %+12.3f %-2s %s%s\n",
+                row.id.c_str(), row.clause.substr(0, 16).c_str(), limits_text(row).c_str(), value, place, row.margin,
+                row.unit.c_str(),
+                row.verdict == Verdict::kPass   ? "pass"
+                : row.verdict == Verdict::kFail ? "FAIL"
+                                                : "within resolution",
                 row.unconfirmed.empty() ? "" : " *");
   }
-  std::printf("%s: %zu rows, %zu failed, %zu within the file's resolution", result.verdict == Verdict::kFail ? "FAIL" : "PASS",
-              result.rows.size(), result.failed, result.within_resolution);
+  std::printf("%s: %zu rows, %zu failed, %zu within the file's resolution",
+              result.verdict == Verdict::kFail ? "FAIL" : "PASS", result.rows.size(), result.failed,
+              result.within_resolution);
   if (result.unconfirmed > 0) std::printf("; * %zu limits rest on one source", result.unconfirmed);
   std::printf("\n");
 }
@@ -91,7 +98,8 @@ void print(const CheckResult& result, const std::string& file) {
 int list_rules() {
   const auto rules = read_rulebooks(rules_folder());
   if (!rules) return bad_input(rules.error());
-  for (const Rulebook& rule : *rules) std::printf("%-18s %s, %zu rows\n", rule.id.c_str(), rule.name.c_str(), rule.rows.size());
+  for (const Rulebook& rule : *rules)
+    std::printf("%-18s %s, %zu rows\n", rule.id.c_str(), rule.name.c_str(), rule.rows.size());
   return kExitDone;
 }
 
@@ -113,7 +121,9 @@ int lamp_check(const LampCheckOptions& options) {
   std::vector<const IntensityTable*> pointers;
   for (const IntensityTable& table : tables) pointers.push_back(&table);
   CheckOptions check;
-  check.traffic = options.traffic == "left" ? Traffic::kLeft : options.traffic == "right" ? Traffic::kRight : Traffic::kFind;
+  check.traffic = options.traffic == "left"    ? Traffic::kLeft
+                  : options.traffic == "right" ? Traffic::kRight
+                                               : Traffic::kFind;
   check.reaim = options.reaim;
   if (options.aim_up_deg || options.aim_right_deg)
     check.aim = HV{options.aim_right_deg.value_or(0.0), options.aim_up_deg.value_or(0.0)};

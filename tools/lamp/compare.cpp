@@ -1,4 +1,5 @@
-// phare lamp compare: two beams, aligned by their cut-offs first, then difference and ratio in angle space and on the road.
+// phare lamp compare: two beams, aligned by their cut-offs first, then difference and ratio in angle space and on the
+// road.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -42,15 +43,17 @@ struct Place {
   const char* name;
   double h_deg, v_deg;
 };
-constexpr Place kPlaces[] = {{"HV", 0, 0},           {"B50L", -3.43, 0.57}, {"BR", 2.5, 1.0},      {"75R", 1.15, -0.57},
-                             {"50L", -3.43, -0.86},  {"50V", 0, -0.86},     {"50R", 1.72, -0.86},  {"25L", -9, -1.72},
-                             {"25R", 9, -1.72},      {"H-3L", -3, 0},       {"H-3R", 3, 0}};
+constexpr Place kPlaces[] = {{"HV", 0, 0},          {"B50L", -3.43, 0.57}, {"BR", 2.5, 1.0},     {"75R", 1.15, -0.57},
+                             {"50L", -3.43, -0.86}, {"50V", 0, -0.86},     {"50R", 1.72, -0.86}, {"25L", -9, -1.72},
+                             {"25R", 9, -1.72},     {"H-3L", -3, 0},       {"H-3R", 3, 0}};
 struct RoadPlace {
   const char* name;
   double x_m, y_m;
 };
-constexpr RoadPlace kRoad[] = {{"own lane, 25 m", 25, 0}, {"own lane, 50 m", 50, 0}, {"own lane, 75 m", 75, 0}, {"own lane, 100 m", 100, 0},
-                               {"right edge, 50 m", 50, -2.5}, {"left lane, 50 m", 50, 3.5}, {"left edge, 25 m", 25, 5.5}};
+constexpr RoadPlace kRoad[] = {{"own lane, 25 m", 25, 0},      {"own lane, 50 m", 50, 0},
+                               {"own lane, 75 m", 75, 0},      {"own lane, 100 m", 100, 0},
+                               {"right edge, 50 m", 50, -2.5}, {"left lane, 50 m", 50, 3.5},
+                               {"left edge, 25 m", 25, 5.5}};
 
 }  // namespace
 
@@ -61,7 +64,9 @@ int lamp_compare(const LampCompareOptions& options) {
   if (!b) return bad_input(b.error());
   const CutoffShape shape_a = cutoff_shape(mounted_intensity(*a, glm::dmat3{1.0}));
   const CutoffShape shape_b = cutoff_shape(mounted_intensity(*b, glm::dmat3{1.0}));
-  const auto kinked = [](const CutoffShape& s) { return s.side == CutoffSide::kRisesRight || s.side == CutoffSide::kRisesLeft; };
+  const auto kinked = [](const CutoffShape& s) {
+    return s.side == CutoffSide::kRisesRight || s.side == CutoffSide::kRisesLeft;
+  };
   const bool both = shape_a.side != CutoffSide::kNone && shape_b.side != CutoffSide::kNone && options.align;
   // B is turned onto A; A itself is put on 0.57° down where it has a cut-off, so that places mean what they say.
   const double pitch_a = shape_a.side != CutoffSide::kNone ? -0.57 - shape_a.flat_v_deg : 0.0;
@@ -83,13 +88,27 @@ int lamp_compare(const LampCompareOptions& options) {
     alignment = text;
   }
   if (options.json) {
-    nlohmann::json json{{"a", options.a}, {"b", options.b}, {"aligned_by_cutoff", both}, {"b_turned_up_deg", up}, {"b_turned_right_deg", right},
-                        {"worst_difference_cd", d.worst_cd}, {"worst_at_deg", {d.worst_h_deg, d.worst_v_deg}},
-                        {"mean_absolute_difference_cd", d.mean_abs_cd}, {"correlation", d.correlation},
-                        {"flux_a_lm", d.flux_a_lm}, {"flux_b_lm", d.flux_b_lm}, {"peak_a_cd", a->peak_cd()}, {"peak_b_cd", b->peak_cd()}};
+    nlohmann::json json{{"a", options.a},
+                        {"b", options.b},
+                        {"aligned_by_cutoff", both},
+                        {"b_turned_up_deg", up},
+                        {"b_turned_right_deg", right},
+                        {"worst_difference_cd", d.worst_cd},
+                        {"worst_at_deg", {d.worst_h_deg, d.worst_v_deg}},
+                        {"mean_absolute_difference_cd", d.mean_abs_cd},
+                        {"correlation", d.correlation},
+                        {"flux_a_lm", d.flux_a_lm},
+                        {"flux_b_lm", d.flux_b_lm},
+                        {"peak_a_cd", a->peak_cd()},
+                        {"peak_b_cd", b->peak_cd()}};
     for (const Place& p : kPlaces) {
       const double x = in_a(p.h_deg, p.v_deg), y = in_b(p.h_deg, p.v_deg);
-      json["points"].push_back({{"name", p.name}, {"h_deg", p.h_deg}, {"v_deg", p.v_deg}, {"a_cd", x}, {"b_cd", y}, {"difference_cd", y - x}});
+      json["points"].push_back({{"name", p.name},
+                                {"h_deg", p.h_deg},
+                                {"v_deg", p.v_deg},
+                                {"a_cd", x},
+                                {"b_cd", y},
+                                {"difference_cd", y - x}});
     }
     for (const RoadPlace& p : kRoad) {
       const double x = road_lux(road_a, p.x_m, p.y_m, 0.25, true), y = road_lux(road_b, p.x_m, p.y_m, 0.25, true);
@@ -97,11 +116,11 @@ int lamp_compare(const LampCompareOptions& options) {
     }
     std::printf("%s\n", json.dump(2).c_str());
   } else {
-    std::printf("A  %s: %.0f cd, %.0f lm\nB  %s: %.0f cd, %.0f lm\n", base_name(options.a).c_str(), a->peak_cd(), d.flux_a_lm,
-                base_name(options.b).c_str(), b->peak_cd(), d.flux_b_lm);
+    std::printf("A  %s: %.0f cd, %.0f lm\nB  %s: %.0f cd, %.0f lm\n", base_name(options.a).c_str(), a->peak_cd(),
+                d.flux_a_lm, base_name(options.b).c_str(), b->peak_cd(), d.flux_b_lm);
     std::printf("%s\n", alignment.c_str());
-    std::printf("worst difference %.0f cd at H %+.1f, V %+.1f; mean |difference| %.1f cd; correlation %.5f\n", d.worst_cd, d.worst_h_deg,
-                d.worst_v_deg, d.mean_abs_cd, d.correlation);
+    std::printf("worst difference %.0f cd at H %+.1f, V %+.1f; mean |difference| %.1f cd; correlation %.5f\n",
+                d.worst_cd, d.worst_h_deg, d.worst_v_deg, d.mean_abs_cd, d.correlation);
     std::printf("  %-18s %10s %10s %10s %8s\n", "cut-off at 0.57 D", "A cd", "B cd", "B - A", "B / A");
     for (const Place& p : kPlaces) {
       const double x = in_a(p.h_deg, p.v_deg), y = in_b(p.h_deg, p.v_deg);
@@ -117,7 +136,8 @@ int lamp_compare(const LampCompareOptions& options) {
     std::error_code code;
     std::filesystem::create_directories(options.out, code);
     const auto draw = [&](Chart& c) { draw_ratio(c, in_a, in_b, a->name + " (A), " + b->name + " (B)", alignment); };
-    if (const Status written = write_chart(options.out + "/ratio", kPageWidth, kPageHeight, draw); !written) return bad_input(written.error());
+    if (const Status written = write_chart(options.out + "/ratio", kPageWidth, kPageHeight, draw); !written)
+      return bad_input(written.error());
   }
   return kExitDone;
 }

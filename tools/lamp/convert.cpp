@@ -54,13 +54,17 @@ int lamp_convert(const LampConvertOptions& options) {
     format = ending == ".LDT" ? "eulumdat" : ending == ".CSV" ? "csv" : ending == ".IES" ? "lm63" : "";
   }
   if (format.empty()) return bad_input({options.out, "ends in none of .ies, .ldt, .csv; say --format"});
-  const std::string text = format == "eulumdat" ? eulumdat_text(table) : format == "csv" ? csv_text(table) : lm63_text(table);
+  const std::string text = format == "eulumdat" ? eulumdat_text(table)
+                           : format == "csv"    ? csv_text(table)
+                                                : lm63_text(table);
   if (const Status written = write_whole_file(options.out, text); !written) return bad_input(written.error());
 
   // Read back what stands on the disk: the truth about the round trip.
   LampReadSettings settings;
   settings.axis = format == "eulumdat" ? GammaAxis::kGamma0 : table.axis;
-  settings.format = format == "eulumdat" ? LampFormat::kEulumdat : format == "csv" ? LampFormat::kCsv : LampFormat::kLm63;
+  settings.format = format == "eulumdat" ? LampFormat::kEulumdat
+                    : format == "csv"    ? LampFormat::kCsv
+                                         : LampFormat::kLm63;
   const auto back = read_lamp(options.out, settings);
   if (!back) return bad_input(back.error());
   const double worst = worst_at_nodes(table, *back);

@@ -33,37 +33,38 @@ nlohmann::json as_json(const std::string& file, const IntensityTable& table, con
   nlohmann::json keywords = nlohmann::json::array();
   for (const auto& [key, value] : header.keywords) keywords.push_back({key, value});
   const CutoffSide side = report.cutoff.side;
-  nlohmann::json json{
-      {"file", file},
-      {"format", header.format},
-      {"version", table.version},
-      {"photometric_type", type_name(table)},
-      {"units", header.units},
-      {"symmetry", header.symmetry},
-      {"absolute", header.absolute},
-      {"multiplier", header.multiplier},
-      {"ballast_factor", header.ballast_factor},
-      {"field_12", header.field_12},
-      {"field_12_applied", header.field_12_applied},
-      {"flux_lm", report.flux_lm},
-      {"stated_flux_lm", header.stated_flux_lm},
-      {"expected_flux_lm", report.expected_flux_lm},
-      {"peak_cd", report.peak_cd},
-      {"peak_h_deg", report.peak.first_deg},
-      {"peak_v_deg", report.peak.second_deg},
-      {"grid",
-       {{"first_count", table.first_deg.size()},
-        {"second_count", table.second_deg.size()},
-        {"first_range_deg", {table.first_deg.front(), table.first_deg.back()}},
-        {"second_range_deg", {table.second_deg.front(), table.second_deg.back()}},
-        {"first_step_at_peak_deg", report.step_h_deg},
-        {"second_step_at_peak_deg", report.step_v_deg},
-        {"smallest_step_cd", header.smallest_step_cd}}},
-      {"cutoff", {{"shape", side_name(side)}}},
-      {"traffic", side == CutoffSide::kRisesRight ? "right" : side == CutoffSide::kRisesLeft ? "left" : "unknown"},
-      {"content_hash", table.content_hash},
-      {"keywords", keywords},
-      {"findings", findings}};
+  nlohmann::json json{{"file", file},
+                      {"format", header.format},
+                      {"version", table.version},
+                      {"photometric_type", type_name(table)},
+                      {"units", header.units},
+                      {"symmetry", header.symmetry},
+                      {"absolute", header.absolute},
+                      {"multiplier", header.multiplier},
+                      {"ballast_factor", header.ballast_factor},
+                      {"field_12", header.field_12},
+                      {"field_12_applied", header.field_12_applied},
+                      {"flux_lm", report.flux_lm},
+                      {"stated_flux_lm", header.stated_flux_lm},
+                      {"expected_flux_lm", report.expected_flux_lm},
+                      {"peak_cd", report.peak_cd},
+                      {"peak_h_deg", report.peak.first_deg},
+                      {"peak_v_deg", report.peak.second_deg},
+                      {"grid",
+                       {{"first_count", table.first_deg.size()},
+                        {"second_count", table.second_deg.size()},
+                        {"first_range_deg", {table.first_deg.front(), table.first_deg.back()}},
+                        {"second_range_deg", {table.second_deg.front(), table.second_deg.back()}},
+                        {"first_step_at_peak_deg", report.step_h_deg},
+                        {"second_step_at_peak_deg", report.step_v_deg},
+                        {"smallest_step_cd", header.smallest_step_cd}}},
+                      {"cutoff", {{"shape", side_name(side)}}},
+                      {"traffic", side == CutoffSide::kRisesRight  ? "right"
+                                  : side == CutoffSide::kRisesLeft ? "left"
+                                                                   : "unknown"},
+                      {"content_hash", table.content_hash},
+                      {"keywords", keywords},
+                      {"findings", findings}};
   if (side != CutoffSide::kNone) {
     json["cutoff"]["flat_v_deg"] = report.cutoff.flat_v_deg;
     json["cutoff"]["sharpness_g"] = report.cutoff.sharpness_g;
@@ -79,16 +80,19 @@ void print(const std::string& file, const IntensityTable& table, const LampRepor
   const LampHeader& header = table.header;
   const bool c = table.type == PhotometricType::kC;
   std::printf("%s\n", file.c_str());
-  std::printf("  version   %s, type %s%s%s\n", table.version.c_str(), type_name(table).c_str(), header.absolute ? ", absolute" : ", relative",
-              header.units.empty() ? "" : (", " + header.units).c_str());
-  std::printf("  grid      %zu × %zu values, %s %g to %g, %s %g to %g deg; %.3g × %.3g deg at the peak\n", table.first_deg.size(),
-              table.second_deg.size(), c ? "C" : "H", table.first_deg.front(), table.first_deg.back(), c ? "gamma" : "V",
-              table.second_deg.front(), table.second_deg.back(), report.step_h_deg, report.step_v_deg);
-  std::printf("  peak      %.6g cd at H %+.2f, V %+.2f deg\n", report.peak_cd, report.peak.first_deg, report.peak.second_deg);
+  std::printf("  version   %s, type %s%s%s\n", table.version.c_str(), type_name(table).c_str(),
+              header.absolute ? ", absolute" : ", relative", header.units.empty() ? "" : (", " + header.units).c_str());
+  std::printf("  grid      %zu × %zu values, %s %g to %g, %s %g to %g deg; %.3g × %.3g deg at the peak\n",
+              table.first_deg.size(), table.second_deg.size(), c ? "C" : "H", table.first_deg.front(),
+              table.first_deg.back(), c ? "gamma" : "V", table.second_deg.front(), table.second_deg.back(),
+              report.step_h_deg, report.step_v_deg);
+  std::printf("  peak      %.6g cd at H %+.2f, V %+.2f deg\n", report.peak_cd, report.peak.first_deg,
+              report.peak.second_deg);
   std::printf("  flux      %.1f lm\n", report.flux_lm);
   std::printf("  hash      %s\n", table.content_hash.c_str());
   for (const Finding& f : report.findings)
-    std::printf("  %-8s  %s%s%s\n", grade_name(f.grade).c_str(), f.place.c_str(), f.place.empty() ? "" : ": ", f.text.c_str());
+    std::printf("  %-8s  %s%s%s\n", grade_name(f.grade).c_str(), f.place.c_str(), f.place.empty() ? "" : ": ",
+                f.text.c_str());
 }
 
 }  // namespace

@@ -9,11 +9,15 @@ namespace {
 void add_reading(CLI::App* command, LampReadSettings& settings) {
   command
       ->add_option_function<std::string>(
-          "--axis", [&settings](const std::string& v) { settings.axis = v == "gamma90" ? GammaAxis::kGamma90 : GammaAxis::kGamma0; },
+          "--axis",
+          [&settings](const std::string& v) {
+            settings.axis = v == "gamma90" ? GammaAxis::kGamma90 : GammaAxis::kGamma0;
+          },
           "Type C and EULUMDAT: gamma0 = the optical axis is gamma 0, gamma90 = it is C 0, gamma 90")
       ->check(CLI::IsMember({"gamma0", "gamma90"}))
       ->default_str("gamma0");
-  command->add_option("--c0", settings.c0_turn_deg, "Type C and EULUMDAT: plane C 0 lies at this angle (0 right, 90 up)")
+  command
+      ->add_option("--c0", settings.c0_turn_deg, "Type C and EULUMDAT: plane C 0 lies at this angle (0 right, 90 up)")
       ->check(CLI::Range(-360.0, 360.0))
       ->capture_default_str();
   command->add_option("--lamp-set", settings.lamp_set, "EULUMDAT: lamp set to use, from 1")->capture_default_str();
@@ -64,12 +68,14 @@ void add_check(CLI::App* lamp, Command& chosen) {
   CLI::App* command = lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails");
   command->footer("Example:\n  phare lamp check low_beam.ies --rule r112-passing-b --json\n  phare lamp check --list");
   command->add_option("files", options->files, "One file, or left and right (rules of half the sum)");
-  command->add_option("--rule", options->rules, "Rulebook of config/rules, or a .toml file; repeat for more")->allow_extra_args(false);
+  command->add_option("--rule", options->rules, "Rulebook of config/rules, or a .toml file; repeat for more")
+      ->allow_extra_args(false);
   command->add_option("--traffic", options->traffic, "Side of the road [by the cut-off]")
       ->check(CLI::IsMember({"find", "right", "left"}))
       ->capture_default_str();
   command->add_option("--aim-up", options->aim_up_deg, "Turn the lamp up by this, deg, instead of the rule's aim");
-  command->add_option("--aim-right", options->aim_right_deg, "Turn the lamp right by this, deg, instead of the rule's aim");
+  command->add_option("--aim-right", options->aim_right_deg,
+                      "Turn the lamp right by this, deg, instead of the rule's aim");
   command->add_flag("!--no-reaim", options->reaim, "Do not use the rule's re-aim allowance");
   command->add_flag("--list", options->list, "List the rulebooks");
   command->add_flag("--json", options->json, "For machines");
@@ -79,18 +85,26 @@ void add_check(CLI::App* lamp, Command& chosen) {
 
 void add_convert(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampConvertOptions>();
-  CLI::App* command = lamp->add_subcommand("convert", "Write a lamp as LM-63-2019, EULUMDAT or CSV; several files are summed");
-  command->footer("Example:\n  phare lamp convert low_beam.ldt --out low_beam.ies\n  phare lamp convert rht.ies --mirror --out lht.ies");
+  CLI::App* command =
+      lamp->add_subcommand("convert", "Write a lamp as LM-63-2019, EULUMDAT or CSV; several files are summed");
+  command->footer(
+      "Example:\n  phare lamp convert low_beam.ldt --out low_beam.ies\n  phare lamp convert rht.ies --mirror --out "
+      "lht.ies");
   command->add_option("files", options->files, "Photometry files")->required();
   command->add_option("--out", options->out, "File to write: .ies, .ldt or .csv")->required();
-  command->add_option("--to", options->format, "Format to write [by the ending]")->check(CLI::IsMember({"lm63", "eulumdat", "csv"}));
+  command->add_option("--to", options->format, "Format to write [by the ending]")
+      ->check(CLI::IsMember({"lm63", "eulumdat", "csv"}));
   add_reading(command, options->settings);
   run_with(command, options, chosen, lamp_convert);
 }
 
 void add_mounting(CLI::App* command, double& height_m, double& spacing_m, double& pitch_deg, bool& given) {
-  command->add_option("--height", height_m, "Height of the lamps above the road, m")->check(CLI::Range(0.1, 5.0))->capture_default_str();
-  command->add_option("--spacing", spacing_m, "Distance between the lamps, m")->check(CLI::Range(0.0, 5.0))->capture_default_str();
+  command->add_option("--height", height_m, "Height of the lamps above the road, m")
+      ->check(CLI::Range(0.1, 5.0))
+      ->capture_default_str();
+  command->add_option("--spacing", spacing_m, "Distance between the lamps, m")
+      ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
   command->add_option_function<double>(
       "--pitch-deg",
       [&pitch_deg, &given](double value) {
@@ -102,7 +116,8 @@ void add_mounting(CLI::App* command, double& height_m, double& spacing_m, double
 
 void add_compare(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampCompareOptions>();
-  CLI::App* command = lamp->add_subcommand("compare", "Two beams, aligned by cut-off: difference and ratio in angle space and on the road");
+  CLI::App* command = lamp->add_subcommand(
+      "compare", "Two beams, aligned by cut-off: difference and ratio in angle space and on the road");
   command->footer("Example:\n  phare lamp compare old.ies new.ies --out out/compare");
   command->add_option("a", options->a, "Photometry file A")->required();
   command->add_option("b", options->b, "Photometry file B")->required();
@@ -116,7 +131,8 @@ void add_compare(CLI::App* lamp, Command& chosen) {
 
 void add_plot(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampPlotOptions>();
-  CLI::App* command = lamp->add_subcommand("plot", "25 m wall, isocandela, bird's-eye isolux, vertical cut, false colour: SVG and PNG");
+  CLI::App* command =
+      lamp->add_subcommand("plot", "25 m wall, isocandela, bird's-eye isolux, vertical cut, false colour: SVG and PNG");
   command->footer("Example:\n  phare lamp plot low_beam.ies --rule r112-passing-b --out out/plots");
   command->add_option("files", options->files, "One file, or left and right")->required();
   command->add_option("--out", options->out, "Folder to write into")->required();
@@ -126,6 +142,33 @@ void add_plot(CLI::App* lamp, Command& chosen) {
   run_with(command, options, chosen, lamp_plot);
 }
 
+void add_hspr(CLI::App* lamp, Command& chosen) {
+  auto options = std::make_shared<LampHsprOptions>();
+  CLI::App* command = lamp->add_subcommand("hspr", "HSPR of a pair (GTB CE-5815): ranges, widths, flux, glare, points");
+  command->footer("Example:\n  phare lamp hspr left.ies right.ies");
+  command->add_option("left", options->left, "Photometry file of the left lamp")->required();
+  command->add_option("right", options->right, "Photometry file of the right lamp")->required();
+  command->add_option("--beam", options->beam, "Which method [low where there is a kinked cut-off]")
+      ->check(CLI::IsMember({"find", "low", "high"}))
+      ->capture_default_str();
+  add_mounting(command, options->height_m, options->spacing_m, options->pitch_deg, options->pitch_given);
+  command->add_flag("--json", options->json, "For machines");
+  add_reading(command, options->settings);
+  run_with(command, options, chosen, lamp_hspr);
+}
+
+void add_levels(CLI::App* lamp, Command& chosen) {
+  auto options = std::make_shared<LampLevelsOptions>();
+  CLI::App* command =
+      lamp->add_subcommand("levels", "Error and bytes of every level of beam image; time of recomposing one");
+  command->footer("Example:\n  phare lamp levels low_beam.ies --bench");
+  command->add_option("file", options->file, "Photometry file");
+  command->add_flag("--bench", options->bench, "Also time the recomposition of 1801 x 601 texels from 36 sources");
+  command->add_flag("--json", options->json, "For machines");
+  add_reading(command, options->settings);
+  run_with(command, options, chosen, lamp_levels);
+}
+
 }  // namespace
 
 std::string rules_folder() {
@@ -133,7 +176,8 @@ std::string rules_folder() {
 }
 
 void add_lamp(CLI::App& app, Command& chosen) {
-  CLI::App* lamp = app.add_subcommand("lamp", "The photometry bench: info, table, check, plot, compare, convert, hspr, levels");
+  CLI::App* lamp =
+      app.add_subcommand("lamp", "The photometry bench: info, table, check, plot, compare, convert, hspr, levels");
   lamp->require_subcommand(1);
   add_info(lamp, chosen);
   add_table(lamp, chosen);
@@ -141,6 +185,8 @@ void add_lamp(CLI::App& app, Command& chosen) {
   add_convert(lamp, chosen);
   add_compare(lamp, chosen);
   add_plot(lamp, chosen);
+  add_hspr(lamp, chosen);
+  add_levels(lamp, chosen);
 }
 
 }  // namespace phare

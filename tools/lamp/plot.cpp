@@ -48,16 +48,19 @@ int lamp_plot(const LampPlotOptions& options) {
   const IntensityHv intensity =
       mounted_intensity(left, aim_rotation(glm::radians(yaw_deg), glm::radians(pitch_deg), 0.0));
   char facts[200];
-  std::snprintf(facts, sizeof facts, "%s, turned %+.2f deg up; peak %.0f cd, %.0f lm", aim.c_str(), pitch_deg, left.peak_cd(), left.flux_lm());
+  std::snprintf(facts, sizeof facts, "%s, turned %+.2f deg up; peak %.0f cd, %.0f lm", aim.c_str(), pitch_deg,
+                left.peak_cd(), left.flux_lm());
   std::string subtitle = facts;
   if (check) {
-    subtitle += "; " + check->rule_name + ": " +
-                (check->verdict == Verdict::kFail ? "FAIL, " + std::to_string(check->failed) + " rows" : std::string("pass"));
+    subtitle +=
+        "; " + check->rule_name + ": " +
+        (check->verdict == Verdict::kFail ? "FAIL, " + std::to_string(check->failed) + " rows" : std::string("pass"));
   }
   const std::string name = left.name;
   std::vector<RoadLamp> pair{{&tables.front(), 0.5 * options.spacing_m, options.height_m, pitch_deg},
                              {&tables.back(), -0.5 * options.spacing_m, options.height_m, pitch_deg}};
-  std::snprintf(facts, sizeof facts, "pair at %.2f m height, %.2f m apart, %s (%+.2f deg)", options.height_m, options.spacing_m, aim.c_str(), pitch_deg);
+  std::snprintf(facts, sizeof facts, "pair at %.2f m height, %.2f m apart, %s (%+.2f deg)", options.height_m,
+                options.spacing_m, aim.c_str(), pitch_deg);
   const std::string mounted = facts;
   const bool left_hand = check ? check->left_hand : cutoff_shape(intensity).side == CutoffSide::kRisesLeft;
   const double cut_h = left_hand ? 2.5 : -2.5;
@@ -69,10 +72,14 @@ int lamp_plot(const LampPlotOptions& options) {
       {"isocandela", [&](Chart& c) { draw_wall(c, intensity, name + ": isocandela", subtitle, rows, false); }},
       {"birds_eye", [&](Chart& c) { draw_road(c, pair, name + ": isolux of the road", mounted); }},
       {"vertical_cut",
-       [&](Chart& c) { draw_cut(c, intensity, cut_h, name + (left_hand ? ": vertical cut at 2.5 deg R" : ": vertical cut at 2.5 deg L"), subtitle); }},
+       [&](Chart& c) {
+         draw_cut(c, intensity, cut_h,
+                  name + (left_hand ? ": vertical cut at 2.5 deg R" : ": vertical cut at 2.5 deg L"), subtitle);
+       }},
       {"false_colour", [&](Chart& c) { draw_bands(c, intensity, name + ": false colour", subtitle); }}};
   for (const auto& [stem, draw] : views) {
-    if (const Status written = write_chart(folder + stem, kPageWidth, kPageHeight, draw); !written) return bad_input(written.error());
+    if (const Status written = write_chart(folder + stem, kPageWidth, kPageHeight, draw); !written)
+      return bad_input(written.error());
     std::printf("%s%s.svg, .png\n", folder.c_str(), stem.c_str());
   }
   return kExitDone;

@@ -27,11 +27,13 @@ struct Grid {
   std::vector<double> x, y, values;  // values[y][x]
 };
 
-Grid sample(const std::function<double(double, double)>& f, double x_min, double x_max, double y_min, double y_max, std::size_t columns,
-            std::size_t rows) {
+Grid sample(const std::function<double(double, double)>& f, double x_min, double x_max, double y_min, double y_max,
+            std::size_t columns, std::size_t rows) {
   Grid grid;
-  for (std::size_t i = 0; i < columns; ++i) grid.x.push_back(x_min + (x_max - x_min) * static_cast<double>(i) / static_cast<double>(columns - 1));
-  for (std::size_t j = 0; j < rows; ++j) grid.y.push_back(y_min + (y_max - y_min) * static_cast<double>(j) / static_cast<double>(rows - 1));
+  for (std::size_t i = 0; i < columns; ++i)
+    grid.x.push_back(x_min + (x_max - x_min) * static_cast<double>(i) / static_cast<double>(columns - 1));
+  for (std::size_t j = 0; j < rows; ++j)
+    grid.y.push_back(y_min + (y_max - y_min) * static_cast<double>(j) / static_cast<double>(rows - 1));
   for (const double y : grid.y) {
     for (const double x : grid.x) grid.values.push_back(f(x, y));
   }
@@ -63,8 +65,9 @@ void draw_rows(Chart& chart, const Axes& axes, const CheckResult& check) {
       chart.line(outline, colour, 1.4, true);
     } else if (row.shape == RowShape::kArea) {
       const HV a = row.at[0], b = row.at[1];
-      chart.line({point({a.h_deg, a.v_deg}), point({b.h_deg, a.v_deg}), point({b.h_deg, b.v_deg}), point({a.h_deg, b.v_deg})}, colour, 1.2,
-                 true, true);
+      chart.line(
+          {point({a.h_deg, a.v_deg}), point({b.h_deg, a.v_deg}), point({b.h_deg, b.v_deg}), point({a.h_deg, b.v_deg})},
+          colour, 1.2, true, true);
     } else if (row.shape == RowShape::kLine) {
       chart.line(outline, colour, 1.6);
     }
@@ -111,27 +114,31 @@ double road_lux(const std::vector<RoadLamp>& lamps, double x_m, double y_m, doub
   return lux;
 }
 
-void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& title, const std::string& subtitle, const CheckResult* check,
-               bool coloured) {
+void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& title, const std::string& subtitle,
+               const CheckResult* check, bool coloured) {
   Axes axes{62, 52, 700, 372, -21, 21, -6, 5};
-  const Grid grid = sample([&](double h, double v) { return log_cd(intensity(h, v)); }, axes.x_min, axes.x_max, axes.y_min, axes.y_max, 701, 373);
+  const Grid grid = sample([&](double h, double v) { return log_cd(intensity(h, v)); }, axes.x_min, axes.x_max,
+                           axes.y_min, axes.y_max, 701, 373);
   constexpr double kLow = 1.5, kHigh = 5.0;  // 30 cd to 100,000 cd
   if (coloured) {
     chart.picture(axes, grid.x.size(), grid.y.size(), [&](std::size_t i, std::size_t j) {
       return false_colour((grid.values[(grid.y.size() - 1 - j) * grid.x.size() + i] - kLow) / (kHigh - kLow));
     });
   }
+  chart.axes(axes, 2, 1, "H in deg, right positive, seen from the lamp (25 m: 1 deg = 0.436 m)",
+             "V in deg, up positive", coloured ? Rgb{0.4, 0.4, 0.4} : Rgb{0.8, 0.8, 0.8}, coloured ? 0.25 : 0.4);
   chart.begin_clip(axes);
-  for (const double cd : {50.0, 100.0, 200.0, 350.0, 625.0, 1000.0, 2000.0, 5000.0, 10000.0, 20000.0, 30000.0, 40000.0, 60000.0, 80000.0}) {
+  double label_at = 0.1;  // labels of crowded lines stand side by side
+  for (const double cd : {50.0, 100.0, 200.0, 350.0, 625.0, 1000.0, 2000.0, 5000.0, 10000.0, 20000.0, 30000.0, 40000.0,
+                          60000.0, 80000.0}) {
     const Rgb own = false_colour(0.85 * (std::log10(cd) - kLow) / (kHigh - kLow) + 0.05);
-    draw_contours(chart, axes, contours(grid.values, grid.x, grid.y, std::log10(cd)), coloured ? Rgb{0.92, 0.92, 0.92} : own,
-                  coloured ? 0.7 : 1.1, short_number(cd), true);
+    draw_contours(chart, axes, contours(grid.values, grid.x, grid.y, std::log10(cd)),
+                  coloured ? Rgb{0.92, 0.92, 0.92} : own, coloured ? 0.7 : 1.1, short_number(cd), true, label_at);
+    label_at = label_at > 0.38 ? 0.1 : label_at + 0.05;
   }
   draw_cross(chart, axes, coloured ? Rgb{0.35, 0.85, 1.0} : kBlack);
   if (check != nullptr) draw_rows(chart, axes, *check);
   chart.end_clip();
-  chart.axes(axes, 2, 1, "H in deg, right positive, seen from the lamp (25 m: 1 deg = 0.436 m)", "V in deg, up positive", coloured ? Rgb{0.4, 0.4, 0.4} : Rgb{0.8, 0.8, 0.8},
-             coloured ? 0.25 : 0.4);
   chart.text(axes.x(0) + 3, axes.top + 8, "V", 9, -1, coloured ? kWhite : kBlack, true, true);
   chart.text(axes.left + axes.width - 10, axes.y(0) - 8, "H", 9, -1, coloured ? kWhite : kBlack, true, true);
   heading(chart, title, subtitle);
@@ -139,7 +146,8 @@ void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& ti
   Axes legend{788, 72, 16, 340, 0, 1, kLow, kHigh};
   chart.text(796, 58, "cd", 9, 0, kBlack, true);
   chart.text(838, 58, "lx 25 m", 9, 0, kBlack, true);
-  chart.picture(legend, 1, 256, [](std::size_t, std::size_t j) { return false_colour(1.0 - static_cast<double>(j) / 255.0); });
+  chart.picture(legend, 1, 256,
+                [](std::size_t, std::size_t j) { return false_colour(1.0 - static_cast<double>(j) / 255.0); });
   chart.line({{788, 72}, {804, 72}, {804, 412}, {788, 412}}, kBlack, 0.8, true);
   for (const double cd : {50.0, 100.0, 350.0, 625.0, 1000.0, 3000.0, 10000.0, 30000.0, 100000.0}) {
     const double y = legend.y(std::log10(cd));
@@ -150,44 +158,53 @@ void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& ti
     chart.text(810, y, lux, 8, -1, kBlack);
   }
   if (check != nullptr) {
-    chart.circle(70, 460, 3, kPass, 0, true);
-    chart.text(78, 460, "pass", 8.5, -1, kBlack);
-    chart.line({{108, 457}, {114, 463}}, kFailed, 2);
-    chart.line({{108, 463}, {114, 457}}, kFailed, 2);
-    chart.text(120, 460, "fail", 8.5, -1, kBlack);
-    chart.circle(150, 460, 3, kWithin, 0, true);
-    chart.text(158, 460, "within the file's resolution", 8.5, -1, kBlack);
+    chart.circle(560, 20, 3, kPass, 0, true);
+    chart.text(568, 20, "pass", 8.5, -1, kBlack);
+    chart.line({{598, 17}, {604, 23}}, kFailed, 2);
+    chart.line({{598, 23}, {604, 17}}, kFailed, 2);
+    chart.text(610, 20, "fail", 8.5, -1, kBlack);
+    chart.circle(640, 20, 3, kWithin, 0, true);
+    chart.text(648, 20, "within the file's resolution", 8.5, -1, kBlack);
   }
 }
 
-void draw_road(Chart& chart, const std::vector<RoadLamp>& lamps, const std::string& title, const std::string& subtitle) {
+void draw_road(Chart& chart, const std::vector<RoadLamp>& lamps, const std::string& title,
+               const std::string& subtitle) {
   heading(chart, title, subtitle);
   const double levels[] = {1, 3, 5, 10, 30, 50, 100};
   for (const int panel : {0, 1}) {
     const bool facing = panel == 1;
     const double ahead = facing ? 160.0 : 80.0;
-    Axes axes{panel == 0 ? 62.0 : 472.0, 74, 340, 350, 15, -15, 0, ahead};  // y to the left is left on the page
-    const Grid grid = sample([&](double y, double x) { return std::log10(std::max(road_lux(lamps, x, y, facing ? 0.25 : 0.0, facing), 1e-4)); },
-                             axes.x_min, axes.x_max, std::max(0.5, axes.y_min), axes.y_max, 241, 321);
+    const double side = facing ? 25.0 : 15.0;
+    Axes axes{panel == 0 ? 62.0 : 472.0, 74, 340, 336, side, -side, 0, ahead};  // y to the left is left on the page
+    const Grid grid =
+        sample([&](double y,
+                   double x) { return std::log10(std::max(road_lux(lamps, x, y, facing ? 0.25 : 0.0, facing), 1e-4)); },
+               axes.x_min, axes.x_max, std::max(0.5, axes.y_min), axes.y_max, 241, 321);
     chart.picture(axes, grid.x.size(), grid.y.size(), [&](std::size_t i, std::size_t j) {
       return false_colour((grid.values[(grid.y.size() - 1 - j) * grid.x.size() + i] + 1.0) / 3.2);  // 0.1 to 160 lx
     });
     chart.begin_clip(axes);
-    for (const double lane : {-5.25, -1.75, 1.75}) chart.line({{axes.x(lane), axes.top}, {axes.x(lane), axes.top + axes.height}}, {0.75, 0.75, 0.75}, 0.8, false, true);
+    for (const double lane : {-5.25, -1.75, 1.75})
+      chart.line({{axes.x(lane), axes.top}, {axes.x(lane), axes.top + axes.height}}, {0.75, 0.75, 0.75}, 0.8, false,
+                 true);
     for (const double lx : levels) {
       const bool main = lx <= 5.0;
-      draw_contours(chart, axes, contours(grid.values, grid.x, grid.y, std::log10(lx)), main ? Rgb{0.4, 1.0, 0.55} : kWhite, main ? 1.4 : 0.8,
-                    short_number(lx) + " lx", true);
+      draw_contours(chart, axes, contours(grid.values, grid.x, grid.y, std::log10(lx)),
+                    main ? Rgb{0.4, 1.0, 0.55} : kWhite, main ? 1.4 : 0.8, short_number(lx) + " lx", true);
     }
     for (const RoadLamp& lamp : lamps) chart.circle(axes.x(lamp.y_m), axes.y(0.0), 3, kWhite, 0.0, true);
     chart.end_clip();
     chart.axes(axes, 5, facing ? 20 : 10, "y in m, left positive", "x ahead of the lamps in m", {0.5, 0.5, 0.5}, 0.2);
-    chart.text(axes.left, 62, facing ? "E facing the car (vertical plane, 0.25 m high)" : "E on the road (horizontal)", 10, -1, kBlack, true);
+    chart.text(axes.left, 62, facing ? "E facing the car (vertical plane, 0.25 m high)" : "E on the road (horizontal)",
+               10, -1, kBlack, true);
   }
-  chart.text(430, 458, "isolux 1, 3, 5, 10, 30, 50, 100 lx; dashed: lanes of 3.5 m, car in the middle of the right one", 8.5, 0, {0.3, 0.3, 0.3});
+  chart.text(430, 459, "isolux 1, 3, 5, 10, 30, 50, 100 lx; dashed: lanes of 3.5 m, car in the middle of the right one",
+             8.5, 0, {0.3, 0.3, 0.3});
 }
 
-void draw_cut(Chart& chart, const IntensityHv& intensity, double h_deg, const std::string& title, const std::string& subtitle) {
+void draw_cut(Chart& chart, const IntensityHv& intensity, double h_deg, const std::string& title,
+              const std::string& subtitle) {
   heading(chart, title, subtitle);
   Axes axes{82, 52, 620, 372, -3, 2, 1.5, 5};
   chart.axes(axes, 0.5, 0, "V in deg", "intensity in cd (log)", {0.85, 0.85, 0.85}, 0.4);
@@ -216,7 +233,8 @@ void draw_cut(Chart& chart, const IntensityHv& intensity, double h_deg, const st
   chart.line(curve, kBlue, 2.0);
   const Cutoff cutoff = find_cutoff(intensity, h_deg);
   if (cutoff.found) {
-    chart.line({{axes.x(cutoff.elevation_deg), axes.top}, {axes.x(cutoff.elevation_deg), axes.top + axes.height}}, kPass, 1.2, false, true);
+    chart.line({{axes.x(cutoff.elevation_deg), axes.top}, {axes.x(cutoff.elevation_deg), axes.top + axes.height}},
+               kPass, 1.2, false, true);
     char text[96];
     std::snprintf(text, sizeof text, "inflection at %+.3f deg, G = %.3f", cutoff.elevation_deg, cutoff.sharpness_g);
     chart.text(axes.x(cutoff.elevation_deg) + 6, axes.top + 14, text, 10, -1, kPass, true, true);
@@ -227,7 +245,8 @@ void draw_cut(Chart& chart, const IntensityHv& intensity, double h_deg, const st
     std::snprintf(text, sizeof text, "%.1f", g);
     chart.text(axes.left + axes.width + 6, g_axes.y(g), text, 9, -1, kOrange);
   }
-  chart.vertical_text(axes.left + axes.width + 34, axes.top + 0.5 * axes.height, "G = log E(V-0.05) - log E(V+0.05)", 10, kOrange);
+  chart.vertical_text(axes.left + axes.width + 34, axes.top + 0.5 * axes.height, "G = log E(V-0.05) - log E(V+0.05)",
+                      10, kOrange);
 }
 
 void draw_bands(Chart& chart, const IntensityHv& intensity, const std::string& title, const std::string& subtitle) {
@@ -235,11 +254,14 @@ void draw_bands(Chart& chart, const IntensityHv& intensity, const std::string& t
   Axes axes{62, 52, 700, 372, -50, 50, -20, 15};
   const double edges[] = {30, 100, 300, 625, 1000, 2000, 5000, 10000, 20000, 40000, 80000};
   constexpr std::size_t kBands = 12;
-  const auto band = [&](double cd) { return static_cast<std::size_t>(std::upper_bound(std::begin(edges), std::end(edges), cd) - std::begin(edges)); };
+  const auto band = [&](double cd) {
+    return static_cast<std::size_t>(std::upper_bound(std::begin(edges), std::end(edges), cd) - std::begin(edges));
+  };
   const auto colour = [](std::size_t b) { return false_colour(static_cast<double>(b) / (kBands - 1)); };
   const Grid grid = sample(intensity, axes.x_min, axes.x_max, axes.y_min, axes.y_max, 701, 373);
-  chart.picture(axes, grid.x.size(), grid.y.size(),
-                [&](std::size_t i, std::size_t j) { return colour(band(grid.values[(grid.y.size() - 1 - j) * grid.x.size() + i])); });
+  chart.picture(axes, grid.x.size(), grid.y.size(), [&](std::size_t i, std::size_t j) {
+    return colour(band(grid.values[(grid.y.size() - 1 - j) * grid.x.size() + i]));
+  });
   chart.begin_clip(axes);
   draw_cross(chart, axes, {0.35, 0.85, 1.0});
   chart.end_clip();
@@ -253,7 +275,8 @@ void draw_bands(Chart& chart, const IntensityHv& intensity, const std::string& t
   chart.line({{782, 412 - 28.0 * kBands}, {800, 412 - 28.0 * kBands}, {800, 412}, {782, 412}}, kBlack, 0.8, true);
 }
 
-void draw_ratio(Chart& chart, const IntensityHv& a, const IntensityHv& b, const std::string& title, const std::string& subtitle) {
+void draw_ratio(Chart& chart, const IntensityHv& a, const IntensityHv& b, const std::string& title,
+                const std::string& subtitle) {
   heading(chart, title, subtitle);
   Axes axes{62, 52, 700, 372, -21, 21, -6, 5};
   const Grid grid = sample(
@@ -264,21 +287,26 @@ void draw_ratio(Chart& chart, const IntensityHv& a, const IntensityHv& b, const 
       axes.x_min, axes.x_max, axes.y_min, axes.y_max, 701, 373);
   const auto colour = [](double octaves) {
     const double t = std::clamp(octaves / 2.0, -1.0, 1.0);  // a quarter to four times
-    return t < 0.0 ? Rgb{1.0 + t * 0.9, 1.0 + t * 0.65, 1.0 + t * 0.2} : Rgb{1.0 - t * 0.2, 1.0 - t * 0.85, 1.0 - t * 0.85};
+    return t < 0.0 ? Rgb{1.0 + t * 0.9, 1.0 + t * 0.65, 1.0 + t * 0.2}
+                   : Rgb{1.0 - t * 0.2, 1.0 - t * 0.85, 1.0 - t * 0.85};
   };
-  chart.picture(axes, grid.x.size(), grid.y.size(),
-                [&](std::size_t i, std::size_t j) { return colour(grid.values[(grid.y.size() - 1 - j) * grid.x.size() + i]); });
+  chart.picture(axes, grid.x.size(), grid.y.size(), [&](std::size_t i, std::size_t j) {
+    return colour(grid.values[(grid.y.size() - 1 - j) * grid.x.size() + i]);
+  });
   chart.begin_clip(axes);
   for (const double ratio : {0.25, 0.5, 0.8, 0.9, 1.1, 1.25, 2.0, 4.0})
-    draw_contours(chart, axes, contours(grid.values, grid.x, grid.y, std::log2(ratio)), {0.25, 0.25, 0.25}, 0.6, short_number(ratio), true);
+    draw_contours(chart, axes, contours(grid.values, grid.x, grid.y, std::log2(ratio)), {0.25, 0.25, 0.25}, 0.6,
+                  short_number(ratio), true);
   draw_cross(chart, axes, kBlack);
   chart.end_clip();
   chart.axes(axes, 2, 1, "H in deg, right positive", "V in deg, up positive", {0.6, 0.6, 0.6}, 0.2);
   Axes legend{788, 72, 16, 340, 0, 1, -2, 2};
   chart.text(800, 58, "B / A", 9, 0, kBlack, true);
-  chart.picture(legend, 1, 256, [&](std::size_t, std::size_t j) { return colour(2.0 - 4.0 * static_cast<double>(j) / 255.0); });
+  chart.picture(legend, 1, 256,
+                [&](std::size_t, std::size_t j) { return colour(2.0 - 4.0 * static_cast<double>(j) / 255.0); });
   chart.line({{788, 72}, {804, 72}, {804, 412}, {788, 412}}, kBlack, 0.8, true);
-  for (const double ratio : {0.25, 0.5, 1.0, 2.0, 4.0}) chart.text(809, legend.y(std::log2(ratio)), short_number(ratio), 8.5, -1, kBlack);
+  for (const double ratio : {0.25, 0.5, 1.0, 2.0, 4.0})
+    chart.text(809, legend.y(std::log2(ratio)), short_number(ratio), 8.5, -1, kBlack);
 }
 
 }  // namespace phare

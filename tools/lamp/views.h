@@ -22,20 +22,22 @@ struct RoadLamp {
 double road_lux(const std::vector<RoadLamp>& lamps, double x_m, double y_m, double z_m, bool facing);
 
 /// 25 m wall: log candela in false colour or on white, isocandela lines, HV cross, rows of a check with their verdict.
-void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& title, const std::string& subtitle, const CheckResult* check,
-               bool coloured);
+void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& title, const std::string& subtitle,
+               const CheckResult* check, bool coloured);
 
 /// Bird's-eye isolux, on the road and facing the car side by side.
 void draw_road(Chart& chart, const std::vector<RoadLamp>& lamps, const std::string& title, const std::string& subtitle);
 
 /// Vertical cut at H with G.
-void draw_cut(Chart& chart, const IntensityHv& intensity, double h_deg, const std::string& title, const std::string& subtitle);
+void draw_cut(Chart& chart, const IntensityHv& intensity, double h_deg, const std::string& title,
+              const std::string& subtitle);
 
 /// False colour in bands over a wide field, with a legend in cd and lx at 25 m.
 void draw_bands(Chart& chart, const IntensityHv& intensity, const std::string& title, const std::string& subtitle);
 
 /// B over A: ratio in false colour (blue weaker, red stronger), with lines at factors.
-void draw_ratio(Chart& chart, const IntensityHv& a, const IntensityHv& b, const std::string& title, const std::string& subtitle);
+void draw_ratio(Chart& chart, const IntensityHv& a, const IntensityHv& b, const std::string& title,
+                const std::string& subtitle);
 
 inline constexpr double kPageWidth = 860.0, kPageHeight = 470.0;
 

@@ -79,12 +79,15 @@ class Linter {
   }
 
  private:
-  void add(Grade grade, const char* id, std::string text) { report_.findings.push_back({grade, id, "", std::move(text)}); }
+  void add(Grade grade, const char* id, std::string text) {
+    report_.findings.push_back({grade, id, "", std::move(text)});
+  }
 
   void describe() {
     const LampHeader& header = table_.header;
     if (header.units == "feet") add(Grade::kInfo, "feet", "sizes are in feet; candela do not depend on it");
-    if (!header.absolute) add(Grade::kInfo, "relative", "relative photometry: candela belong to the rated lumens of the lamp");
+    if (!header.absolute)
+      add(Grade::kInfo, "relative", "relative photometry: candela belong to the rated lumens of the lamp");
     if (header.multiplier * header.ballast_factor * (header.field_12_applied ? header.field_12 : 1.0) != 1.0) {
       add(Grade::kInfo, "factors",
           format("values are multiplied by %g × %g × %g (multiplier, ballast factor, field 12)", header.multiplier,
@@ -109,8 +112,10 @@ class Linter {
               (table_.axis == GammaAxis::kGamma0 ? "90 (--axis gamma90)" : "0 (--axis gamma0)"));
     }
     if (report_.peak_cd > 430000.0)  // all driving beams of a car together (UN R48)
-      add(Grade::kWarning, "too-bright", format("a peak of %.0f cd is more than all driving beams of a car may have", report_.peak_cd));
-    if (report_.peak_cd < 50.0) add(Grade::kWarning, "too-dim", format("a peak of %.3g cd is no headlamp", report_.peak_cd));
+      add(Grade::kWarning, "too-bright",
+          format("a peak of %.0f cd is more than all driving beams of a car may have", report_.peak_cd));
+    if (report_.peak_cd < 50.0)
+      add(Grade::kWarning, "too-dim", format("a peak of %.3g cd is no headlamp", report_.peak_cd));
   }
 
   void flux() {
@@ -121,16 +126,18 @@ class Linter {
     if (header.output_ratio > 0.0) report_.expected_flux_lm = header.stated_flux_lm * header.output_ratio;
     if (report_.expected_flux_lm > 0.0) {
       const double ratio = report_.flux_lm / report_.expected_flux_lm;
-      const std::string text = format("the candela integrate to %.1f lm, the header promises %.1f lm (%+.1f %%)", report_.flux_lm,
-                                      report_.expected_flux_lm, (ratio - 1.0) * 100.0);
+      const std::string text = format("the candela integrate to %.1f lm, the header promises %.1f lm (%+.1f %%)",
+                                      report_.flux_lm, report_.expected_flux_lm, (ratio - 1.0) * 100.0);
       const bool agrees = std::abs(ratio - 1.0) <= kFluxTolerance;
       add(agrees || partial ? Grade::kInfo : Grade::kWarning, agrees ? "flux" : "flux-mismatch", text);
     } else if (report_.flux_lm > header.stated_flux_lm * (1.0 + kFluxTolerance)) {
       add(Grade::kWarning, "flux-mismatch",
-          format("the candela integrate to %.1f lm, more than the %.1f lm of its lamps", report_.flux_lm, header.stated_flux_lm));
+          format("the candela integrate to %.1f lm, more than the %.1f lm of its lamps", report_.flux_lm,
+                 header.stated_flux_lm));
     } else {
-      add(Grade::kInfo, "flux", format("%.1f lm of the %.1f lm of its lamps: %.0f %%", report_.flux_lm, header.stated_flux_lm,
-                                       100.0 * report_.flux_lm / header.stated_flux_lm));
+      add(Grade::kInfo, "flux",
+          format("%.1f lm of the %.1f lm of its lamps: %.0f %%", report_.flux_lm, header.stated_flux_lm,
+                 100.0 * report_.flux_lm / header.stated_flux_lm));
     }
   }
 
@@ -144,8 +151,9 @@ class Linter {
       return;
     }
     add(Grade::kInfo, "cut-off",
-        format("cut-off at V %+.2f deg, kink at H %+.2f deg, G %.3f, rising by %.0f deg", shape.flat_v_deg, shape.kink_h_deg,
-               shape.sharpness_g, shape.rise_deg) + (left ? " to the left" : " to the right"));
+        format("cut-off at V %+.2f deg, kink at H %+.2f deg, G %.3f, rising by %.0f deg", shape.flat_v_deg,
+               shape.kink_h_deg, shape.sharpness_g, shape.rise_deg) +
+            (left ? " to the left" : " to the right"));
     std::string words;
     for (const auto& [key, value] : table_.header.keywords) words += upper_case(value) + " ";
     const bool says_right = has_word(words, "RHT") || has_word(words, "RIGHT-HAND TRAFFIC");
@@ -154,10 +162,12 @@ class Linter {
       add(Grade::kWarning, "mirrored",
           std::string("the keywords say ") + (says_right ? "right" : "left") +
               "-hand traffic, but the cut-off rises to the " + (left ? "left" : "right") +
-              (table_.type == PhotometricType::kB ? ": stored clockwise" : ": mirrored") + "; read with --mirror to turn it");
+              (table_.type == PhotometricType::kB ? ": stored clockwise" : ": mirrored") +
+              "; read with --mirror to turn it");
     } else if (left && table_.type == PhotometricType::kB && !says_left) {
       add(Grade::kWarning, "left-hand-traffic",
-          "the cut-off rises to the left: a lamp for left-hand traffic, or type B stored clockwise, as about 30 % of these "
+          "the cut-off rises to the left: a lamp for left-hand traffic, or type B stored clockwise, as about 30 % of "
+          "these "
           "files are; if it is for right-hand traffic, read with --mirror");
     } else if (left) {
       add(Grade::kInfo, "left-hand-traffic",
@@ -201,7 +211,8 @@ class Linter {
           lowest = std::min(lowest, value);
         }
         if (cd(i, j) == 0.0 && lowest > 0.0 && holes++ == 0) first_hole = j * columns + i;
-        if (cd(i, j) > kSpike * highest && cd(i, j) > 0.01 * report_.peak_cd && spikes++ == 0) first_spike = j * columns + i;
+        if (cd(i, j) > kSpike * highest && cd(i, j) > 0.01 * report_.peak_cd && spikes++ == 0)
+          first_spike = j * columns + i;
       }
     }
     // A whole line of zeros with light on both sides.
@@ -219,11 +230,19 @@ class Linter {
       if (column_sum(i) == 0.0 && column_sum(i - 1) > 0.0 && column_sum(i + 1) > 0.0) ++dark_columns;
     for (std::size_t j = 1; j + 1 < rows; ++j)
       if (row_sum(j) == 0.0 && row_sum(j - 1) > 0.0 && row_sum(j + 1) > 0.0) ++dark_rows;
-    const auto where = [&](std::size_t k) { return format(", first at %g, %g", table_.first_deg[k % columns], table_.second_deg[k / columns]); };
-    if (holes > 0) add(Grade::kWarning, "missing-data", std::to_string(holes) + " value(s) of 0 in the midst of light" + where(first_hole));
+    const auto where = [&](std::size_t k) {
+      return format(", first at %g, %g", table_.first_deg[k % columns], table_.second_deg[k / columns]);
+    };
+    if (holes > 0)
+      add(Grade::kWarning, "missing-data",
+          std::to_string(holes) + " value(s) of 0 in the midst of light" + where(first_hole));
     if (dark_columns + dark_rows > 0)
-      add(Grade::kWarning, "missing-data", std::to_string(dark_columns) + " column(s) and " + std::to_string(dark_rows) + " row(s) of 0 in the midst of light");
-    if (spikes > 0) add(Grade::kWarning, "spike", std::to_string(spikes) + " value(s) above five times all their neighbours" + where(first_spike));
+      add(Grade::kWarning, "missing-data",
+          std::to_string(dark_columns) + " column(s) and " + std::to_string(dark_rows) +
+              " row(s) of 0 in the midst of light");
+    if (spikes > 0)
+      add(Grade::kWarning, "spike",
+          std::to_string(spikes) + " value(s) above five times all their neighbours" + where(first_spike));
   }
 
   void steps() {
@@ -241,7 +260,9 @@ class Linter {
       const double at_cutoff = widest(table_.second_deg, report_.cutoff.flat_v_deg, 0.1);
       if (at_cutoff > 1.001 * kCutoffStep_deg)
         add(at_cutoff > 0.2 ? Grade::kWarning : Grade::kInfo, "coarse",
-            format("rows %.3g deg apart at the cut-off: its sharpness G is that of the interpolation (the rules measure in 0.05 deg)", at_cutoff));
+            format("rows %.3g deg apart at the cut-off: its sharpness G is that of the interpolation (the rules "
+                   "measure in 0.05 deg)",
+                   at_cutoff));
     }
   }
 

@@ -23,7 +23,7 @@ struct LampReport {
   double flux_lm = 0.0;
   double expected_flux_lm = 0.0;  ///< what the header promises of the luminaire; 0: nothing
   double peak_cd = 0.0;
-  TableAngles peak;               ///< type A and B: the table's own H and V; type C: azimuth and elevation
+  TableAngles peak;  ///< type A and B: the table's own H and V; type C: azimuth and elevation
   CutoffShape cutoff;
   double step_h_deg = 0.0, step_v_deg = 0.0;  ///< widest steps within 5° by 2° of the peak
   std::vector<Finding> findings;

@@ -98,11 +98,11 @@ int make(const std::filesystem::path& out, bool verbose) {
     for (const std::string& id : lamp.rules) {
       const Rulebook* rule = rules.find(id);
       if (rule == nullptr) return kExitBadInput;
-      failed += report(lamp.file, table, *rule, {}, verbose, entry);
-      if (lamp.kind != SampleKind::kHigh) continue;
-      CheckOptions down;  // one adjuster turns the whole lamp: aimed with the passing beam it passes, too
+      CheckOptions down;  // one adjuster turns the whole lamp: aimed with the passing beam a driving beam passes, too
       down.aim = HV{0.0, glm::degrees(sample_pitch_rad())};
-      failed += report(lamp.file, table, *rule, down, verbose, entry);
+      if (lamp.kind != SampleKind::kFog) failed += report(lamp.file, table, *rule, {}, verbose, entry);
+      if (lamp.kind == SampleKind::kFog || lamp.kind == SampleKind::kHigh)
+        failed += report(lamp.file, table, *rule, down, verbose, entry);
     }
     if (lamp.kind == SampleKind::kSegment) segments.push_back(&lamp.table);
     std::printf("%-20s %6.0f cd at %+.2f, %+.2f deg, %6.1f lm\n", lamp.file.c_str(), table.peak_cd(), peak.first_deg,

@@ -4,7 +4,6 @@
 // public descriptions of matrix headlamps have them (1.2° to 3° a segment). Frame: LM-63 type A. Leaves out: dark gaps
 // and colour between pixels. Checked by tests/photometry/sample_lamps_test.cpp: the sum passes R149 driving class B.
 #include <cmath>
-#include <cstdio>
 
 #include "visual/photometry/sample_lamps.h"
 
@@ -37,8 +36,8 @@ std::vector<SampleLamp> matrix_segments() {
   for (int r = 0; r < kMatrixRows; ++r) {
     for (int c = 0; c < kMatrixColumns; ++c) {
       SampleLamp lamp;
-      char name[32];
-      std::snprintf(name, sizeof name, "matrix/r%d_c%02d.ies", r + 1, c + 1);
+      const std::string column = std::to_string(c + 1);
+      const std::string name = "matrix/r" + std::to_string(r + 1) + (c < 9 ? "_c0" : "_c") + column + ".ies";
       lamp.file = name;
       lamp.kind = SampleKind::kSegment;
       lamp.description = "Segment of a matrix driving beam, row " + std::to_string(r + 1) +

@@ -1,0 +1,70 @@
+// The image of a lamp position kept up to date: many dimmable sources on one grid, and when some change, only the
+// rectangles they shine into are summed again.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "visual/photometry/intensity_table.h"
+
+namespace phare {
+
+/// What was done so far, for tests and reports.
+struct ComposeCount {
+  std::size_t images = 0;   ///< updates that changed something
+  std::size_t idle = 0;     ///< updates that found nothing changed
+  std::size_t sources = 0;  ///< sources sampled onto the grid (made, swivelled or exchanged)
+  std::size_t texels = 0;   ///< texels summed again
+};
+
+/// A rectangle of texels, half open.
+struct TexelRect {
+  std::size_t column = 0, row = 0, end_column = 0, end_row = 0;
+  bool empty() const { return column >= end_column || row >= end_row; }
+  std::size_t texels() const { return empty() ? 0 : (end_column - column) * (end_row - row); }
+};
+
+/// Sums sources into one image in candela, float32. Each source is sampled once onto its own rectangle of the grid; a
+/// change of dimming sums again only that rectangle, from all sources that reach into it and in their order, so the
+/// image is at every moment the same, bit for bit, as one made from nothing: no drift from adding differences.
+class BeamComposer {
+ public:
+  /// A type A grid. Nodes strictly ascending, at least 2 each.
+  BeamComposer(std::vector<double> first_deg, std::vector<double> second_deg);
+
+  /// Adds a source, undimmed, turned by yaw (left positive) and pitch (up positive); returns its index. The table must
+  /// outlive the composer.
+  std::size_t add(const IntensityTable& table, double yaw_rad = 0.0, double pitch_rad = 0.0);
+  void set_dimming(std::size_t source, double scale);  ///< 0 = off; same value: nothing to do
+  void set_swivel(std::size_t source, double yaw_rad, double pitch_rad);
+  void set_table(std::size_t source, const IntensityTable& table);
+
+  /// Brings the image up to date. Returns the rectangles that changed (for the upload); none when nothing did.
+  std::vector<TexelRect> update();
+
+  std::span<const float> candela() const { return image_; }  ///< [second][first]
+  std::size_t columns() const { return first_deg_.size(); }
+  std::size_t rows() const { return second_deg_.size(); }
+  const ComposeCount& count() const { return count_; }
+
+ private:
+  struct Source {
+    const IntensityTable* table = nullptr;
+    double yaw_rad = 0.0, pitch_rad = 0.0;
+    float scale = 1.0f;
+    TexelRect rect;              ///< where it shines
+    std::vector<float> candela;  ///< of the rectangle, undimmed
+    bool dirty = true;
+  };
+  void sample(Source& source);
+  void sum(const TexelRect& rect);
+
+  std::vector<double> first_deg_, second_deg_;
+  std::vector<Source> sources_;
+  std::vector<float> image_;
+  std::vector<TexelRect> stale_;  ///< rectangles that sources have left
+  ComposeCount count_;
+};
+
+}  // namespace phare
