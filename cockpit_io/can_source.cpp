@@ -185,7 +185,7 @@ void CanSource::advance(Moment now, const VehicleState*, ControlSink& cockpit) {
 }
 
 void CanSource::send_back(const FeedbackValues& values, WallTime now) {
-  if (feedback_.empty() || !socket_ || !link_up_ || bus_ == BusState::kOff) return;
+  if (!socket_ || !link_up_ || bus_ == BusState::kOff) return;
   for (const CanFrame& frame : feedback_.due(values, now.ns))
     ++(socket_->send(frame) ? counts_.sent : counts_.not_sent);
 }

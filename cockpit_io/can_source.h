@@ -20,6 +20,7 @@ class CanSource : public Source {
   void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
   std::string status() const override;
   std::string fault() const override;
+  bool sends_back() const override { return !feedback_.empty(); }
   void send_back(const FeedbackValues& values, WallTime now) override;
   std::vector<int> wait_fds() const override;
 

@@ -169,6 +169,10 @@ std::string CombinedSource::fault() const {
   return {};
 }
 
+bool CombinedSource::sends_back() const {
+  return std::any_of(children_.begin(), children_.end(), [](const Child& child) { return child.source->sends_back(); });
+}
+
 void CombinedSource::send_back(const FeedbackValues& values, WallTime now) {
   for (Child& child : children_) child.source->send_back(values, now);
 }

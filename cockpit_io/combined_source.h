@@ -44,6 +44,7 @@ class CombinedSource : public Source {
   bool ended() const override { return children_.front().source->ended(); }
   std::string status() const override { return children_.front().source->status(); }
   std::string fault() const override;
+  bool sends_back() const override;
   void send_back(const FeedbackValues& values, WallTime now) override;
   std::vector<int> wait_fds() const override;
 

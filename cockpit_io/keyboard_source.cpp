@@ -57,6 +57,24 @@ void KeyboardDriver::key(char key, Moment now, ControlSink& cockpit) {
     case 'g':
       switches.fog_front = !switches.fog_front;
       break;
+    case 'b':
+      switches.fog_rear = !switches.fog_rear;
+      break;
+    case 'h':
+      switches.hazard = !switches.hazard;
+      break;
+    case 'a':
+      switches.automatic = !switches.automatic;
+      break;
+    case ',':
+    case '.': {  // the lever latches; the other way, or the same once more, puts it back
+      const TurnSignal wanted = key == ',' ? TurnSignal::kLeft : TurnSignal::kRight;
+      switches.turn = switches.turn == TurnSignal::kNone ? wanted : TurnSignal::kNone;
+      break;
+    }
+    case 'r':
+      input_.gear = input_.gear == Gear::kReverse ? Gear::kDrive : Gear::kReverse;
+      break;
     case 'n':
     case 'p':  // pressed here, let go below: one step a press
       (key == 'n' ? switches.design_next : switches.design_previous) = true;

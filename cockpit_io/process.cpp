@@ -148,6 +148,7 @@ void CockpitProcess::wait(std::chrono::nanoseconds at_most) {
 
 /// Telltales and speed for the car whose stalk this is.
 void CockpitProcess::send_back(Moment now, const VehicleState* vehicle) {
+  if (!source_->sends_back()) return;
   const CockpitState state = cockpit_.state(-1, false);
   FeedbackValues values;
   values.telltales = cockpit_.telltales(now.sim);

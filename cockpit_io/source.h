@@ -54,6 +54,9 @@ class Source {
   /// What is wrong, for the driver's eye: "can0: link down"; empty when nothing is.
   virtual std::string fault() const { return {}; }
 
+  /// Whether send_back() does anything.
+  virtual bool sends_back() const { return false; }
+
   /// Tells the source's car what its telltales show. `now`: the wall clock.
   virtual void send_back(const FeedbackValues&, WallTime /*now*/) {}
 

@@ -93,6 +93,32 @@ TEST(LogSource, TheTickDoesNotChangeWhatComesOut) {
   EXPECT_EQ(ends.front().light_changes, 5u);  // low, flash, no flash (debounced), high, low; fail-safe is low as before
 }
 
+TEST(LogSource, PlaysFasterWithItsTimeoutsInTheLogsTime) {
+  const auto config = parse_cockpit(
+      "[source]\nkind = \"log\"\ntimeout_s = 0.2\nspeed = 4.0\n[control.light_switch]\nmessage = "
+      "\"BEAM_STALK\"\nsignal = "
+      "\"BEAM_SWITCH\"\nlevels = { off = 0, position = 1, low = 2, high = 3 }\n",
+      "c.toml");
+  ASSERT_TRUE(config.ok()) << config.error().text();
+  LogSource source(*parse_candump("(5.000) c 500#0200000000000000\n(5.100) c 500#0300000000000000\n"
+                                  "(5.200) c 500#0300000000000000\n(9.000) c 123#\n",
+                                  "l"),
+                   *SignalMap::bind(*config, *read_dbc(kCockpits / "phare_stalk.dbc"), 0));
+  Cockpit cockpit({20'000'000, 2}, "log");
+  source.advance(at_ms(24), nullptr, cockpit);
+  EXPECT_EQ(cockpit.state(-1, false).light_switch, LightSwitch::kLow);
+  source.advance(at_ms(26), nullptr, cockpit);
+  EXPECT_EQ(cockpit.state(-1, false).light_switch, LightSwitch::kHigh);
+  EXPECT_EQ(cockpit.state(-1, false).light_change_sim, at_ms(25).sim);
+  source.advance(at_ms(99), nullptr, cockpit);
+  EXPECT_FALSE(cockpit.state(-1, false).fail_safe);
+  source.advance(at_ms(150), nullptr, cockpit);
+  EXPECT_TRUE(cockpit.state(-1, false).fail_safe) << "200 ms of the log after its newest frame: 100 ms here";
+  EXPECT_EQ(cockpit.state(-1, false).light_change_sim, at_ms(100).sim);
+  source.advance(at_ms(1000), nullptr, cockpit);
+  EXPECT_TRUE(source.ended());
+}
+
 TEST(Cockpit, PedalsFadeWhenTheSourceIsSilent) {
   Cockpit cockpit({20'000'000, 1}, "can0");
   DriverInput input;
@@ -188,6 +214,7 @@ TEST(RealDrive, TheToyotaCockpitPlaysTheLog) {
   EXPECT_TRUE(source.ended());
   EXPECT_EQ(source.counts().frames_read, 26904u);
   EXPECT_EQ(source.counts().incomplete, 0u);
+  EXPECT_EQ(source.counts().bad_crc, 0u);  // GAS_PEDAL's checksum is checked
   EXPECT_GT(source.counts().decoded, 3000u);
   EXPECT_GT(most_deg, 1.0);
   EXPECT_GT(most_accelerator, 0.05);
@@ -251,6 +278,13 @@ TEST(Keyboard, KeysMoveTheControls) {
   EXPECT_EQ(cockpit.state(-1, false).design_index, 1u);
   driver.advance(at_ms(2000), cockpit);
   EXPECT_FALSE(cockpit.state(-1, false).flash);
+  driver.press("b,hr", at_ms(2005), cockpit);
+  EXPECT_TRUE(cockpit.state(-1, false).fog_rear && cockpit.state(-1, false).hazard);
+  EXPECT_EQ(cockpit.state(-1, false).turn, TurnSignal::kLeft);
+  EXPECT_EQ(cockpit.state(-1, false).gear, Gear::kReverse);
+  driver.press(".hr", at_ms(2008), cockpit);
+  driver.advance(at_ms(2009), cockpit);
+  EXPECT_EQ(cockpit.state(-1, false).gear, Gear::kDrive);
   driver.press("\x1b[A\x1b[D\x1b[1;5C\x1b[200~\x1bx", at_ms(2010), cockpit);
   driver.advance(at_ms(2020), cockpit);
   EXPECT_GT(cockpit.state(-1, false).accelerator_01, 0.0);
