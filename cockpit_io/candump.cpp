@@ -1,3 +1,4 @@
+#include "cockpit_io/can_frame.h"
 #include "cockpit_io/candump.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace phare {
 namespace {
 
 constexpr std::uint32_t kErrorFlag = 0x2000'0000u;  // CAN_ERR_FLAG of linux/can.h
-constexpr std::uint32_t kExtendedIdMax = 0x1FFF'FFFFu;
-constexpr std::uint32_t kStandardIdMax = 0x7FFu;
 
 int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -55,12 +54,12 @@ std::optional<Error> read_id(std::string_view text, CanFrame& frame) {
     id = id << 4 | static_cast<std::uint32_t>(hex_digit(c));
   }
   frame.extended = text.size() == 8;
-  if (frame.extended && (id & kErrorFlag) != 0 && id <= (kErrorFlag | kExtendedIdMax)) {
+  if (frame.extended && (id & kErrorFlag) != 0 && id <= (kErrorFlag | CanFrame::kExtendedIdMax)) {
     frame.error = true;
     frame.extended = false;
-    id &= kExtendedIdMax;
+    id &= CanFrame::kExtendedIdMax;
   }
-  if (id > (frame.extended || frame.error ? kExtendedIdMax : kStandardIdMax))
+  if (id > (frame.extended || frame.error ? CanFrame::kExtendedIdMax : CanFrame::kStandardIdMax))
     return broken("the id does not fit its bits");
   frame.id = id;
   return std::nullopt;

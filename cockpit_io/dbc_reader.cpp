@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "cockpit_io/can_frame.h"
 #include "cockpit_io/dbc.h"
 #include "cockpit_io/text_scanner.h"
 
@@ -13,8 +14,6 @@ namespace phare {
 namespace {
 
 constexpr std::uint32_t kExtendedMark = 0x8000'0000u;  // of a BO_ number
-constexpr std::uint32_t kStandardIdMax = 0x7FFu;
-constexpr std::uint32_t kExtendedIdMax = 0x1FFF'FFFFu;
 constexpr std::string_view kOrphans = "VECTOR__INDEPENDENT_SIG_MSG";
 constexpr int kFirstFdFormat = 14;  // VFrameFormat: 14 StandardCAN_FD, 15 ExtendedCAN_FD
 
@@ -150,11 +149,11 @@ class Parser {
     DbcMessage message;
     message.extended = *number <= 0xFFFF'FFFFu && (*number & kExtendedMark) != 0;
     const std::uint64_t id = message.extended ? *number & ~std::uint64_t{kExtendedMark} : *number;
-    if (!message.extended && id > kStandardIdMax && id <= kExtendedIdMax) {
+    if (!message.extended && id > CanFrame::kStandardIdMax && id <= CanFrame::kExtendedIdMax) {
       problem({}, "id " + std::to_string(id) + " does not fit 11 bits and lacks the mark of a 29-bit id; taken as one");
       message.extended = true;
     }
-    if (id > (message.extended ? kExtendedIdMax : kStandardIdMax)) {
+    if (id > (message.extended ? CanFrame::kExtendedIdMax : CanFrame::kStandardIdMax)) {
       return problem({}, "id " + std::to_string(id) + " does not fit " + (message.extended ? "29" : "11") + " bits");
     }
     message.id = static_cast<std::uint32_t>(id);
@@ -282,7 +281,7 @@ class Parser {
     if (!number) return nullptr;
     bool extended = *number <= 0xFFFF'FFFFu && (*number & kExtendedMark) != 0;
     const auto id = static_cast<std::uint32_t>(extended ? *number & ~std::uint64_t{kExtendedMark} : *number);
-    extended = extended || id > kStandardIdMax;  // as message() takes a number that lacks the mark
+    extended = extended || id > CanFrame::kStandardIdMax;  // as message() takes a number that lacks the mark
     const auto found = by_id_.find({id, extended});
     return found == by_id_.end() ? nullptr : &dbc_.messages[found->second];
   }

@@ -152,7 +152,7 @@ void KeyboardSource::advance(Moment now, const VehicleState*, ControlSink& cockp
   std::array<char, 256> bytes{};
   pollfd wait{STDIN_FILENO, POLLIN, 0};
   if (terminal_ && tcgetpgrp(STDIN_FILENO) == getpgrp() && poll(&wait, 1, 0) > 0) {
-    const ssize_t size = (wait.revents & POLLIN) != 0 ? read(STDIN_FILENO, bytes.data(), bytes.size()) : 0;
+    const ssize_t size = (wait.revents & POLLIN) != 0 ? ::read(STDIN_FILENO, bytes.data(), bytes.size()) : 0;
     if (size > 0) {
       ++counts_.frames_read;
       ++counts_.decoded;

@@ -13,6 +13,7 @@
 #include "cockpit_io/candump.h"
 #include "cockpit_io/gamepad_source.h"
 #include "cockpit_io/learn.h"
+#include "config/fail.h"
 #include "config/result.h"
 
 namespace phare {
@@ -20,11 +21,6 @@ namespace phare {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-int fail(const Error& error) {
-  std::fprintf(stderr, "phare-cockpit: %s\n", error.text().c_str());
-  return kExitBadInput;
-}
 
 void show(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) std::printf("%s\n", line.c_str());
@@ -43,7 +39,7 @@ double seconds_since(Clock::time_point start) {
 
 int learn_from_log(const LearnOptions& options, Learner learner) {
   const Result<CandumpLog> log = read_candump(options.log_file);
-  if (!log) return fail(log.error());
+  if (!log) return fail("phare-cockpit", log.error());
   if (log->broken_lines > 0) {
     std::fprintf(stderr, "%s:%d: %s; %llu broken lines, the rest is used\n", options.log_file.c_str(),
                  log->problems.front().line, log->problems.front().reason.c_str(),
@@ -57,7 +53,7 @@ int learn_from_log(const LearnOptions& options, Learner learner) {
 
 int learn_from_bus(const LearnOptions& options, Learner learner, const StopFlag& stop) {
   Result<CanSocket> socket = CanSocket::open_to_all(options.interface);
-  if (!socket) return fail(socket.error());
+  if (!socket) return fail("phare-cockpit", socket.error());
   std::printf("Touch nothing for %.0f s.\n", options.rest_s);
   std::fflush(stdout);
   const auto start = Clock::now();
@@ -74,7 +70,7 @@ int learn_from_bus(const LearnOptions& options, Learner learner, const StopFlag&
     while (const auto received = socket->receive()) {
       show(learner.take(received->frame, static_cast<std::int64_t>(at_s * 1e9)));
     }
-    if (socket->why() == CanSocket::Nothing::kGone) return fail({options.interface, "the interface is gone"});
+    if (socket->why() == CanSocket::Nothing::kGone) return fail("phare-cockpit", {options.interface, "the interface is gone"});
   }
   return finish(learner);
 }
@@ -82,7 +78,7 @@ int learn_from_bus(const LearnOptions& options, Learner learner, const StopFlag&
 int learn_gamepad(const LearnOptions& options, const StopFlag& stop) {
   constexpr float kMoved = 0.3f;  // of an axis that runs from -1 to 1
   Result<GamepadSource::Reader> reader = open_glfw_gamepad("");
-  if (!reader) return fail(reader.error());
+  if (!reader) return fail("phare-cockpit", reader.error());
   std::printf("Move one thing at a time. Ctrl-C ends.\n");
   std::optional<GamepadReading> last;
   const auto start = Clock::now();
@@ -118,7 +114,7 @@ int learn_gamepad(const LearnOptions& options, const StopFlag& stop) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  if (!last) return fail({"gamepad", "none is there"});
+  if (!last) return fail("phare-cockpit", {"gamepad", "none is there"});
   return moved ? kExitDone : kExitCheckFailed;
 }
 
@@ -129,7 +125,7 @@ int learn(const LearnOptions& options, const StopFlag& stop) {
   Dbc dbc;
   if (!options.dbc_file.empty()) {
     Result<Dbc> read = read_dbc(options.dbc_file);
-    if (!read) return fail(read.error());
+    if (!read) return fail("phare-cockpit", read.error());
     dbc = std::move(*read);
     if (!dbc.problems.empty()) {
       std::fprintf(stderr, "%s:%d: %s; %zu such lines, the rest is used\n", options.dbc_file.c_str(),
@@ -138,7 +134,7 @@ int learn(const LearnOptions& options, const StopFlag& stop) {
   }
   Learner learner(std::move(dbc), static_cast<std::int64_t>(options.rest_s * 1e9));
   if (!options.log_file.empty()) return learn_from_log(options, std::move(learner));
-  if (options.interface.empty()) return fail({"--learn", "needs --interface IF, --log FILE or --gamepad"});
+  if (options.interface.empty()) return fail("phare-cockpit", {"--learn", "needs --interface IF, --log FILE or --gamepad"});
   return learn_from_bus(options, std::move(learner), stop);
 }
 

@@ -12,6 +12,7 @@
 #include "cockpit_io/learn_command.h"
 #include "cockpit_io/process.h"
 #include "cockpit_io/source.h"
+#include "config/fail.h"
 #include "config/cockpit.h"
 #include "config/rig.h"
 #include "net/bus.h"
@@ -29,11 +30,6 @@ struct Options {
   std::string interface;
   double rest_s = 5.0, seconds = 0.0, log_speed = 0.0;
 };
-
-int fail(const Error& error) {
-  std::fprintf(stderr, "phare-cockpit: %s\n", error.text().c_str());
-  return kExitBadInput;
-}
 
 /// The cockpit file with what the command line puts in its place.
 Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
@@ -104,18 +100,18 @@ int run(int argc, char** argv) {
         {options.interface, options.log_file, options.dbc_file, options.gamepad, options.rest_s, options.seconds},
         install_stop_signals());
   }
-  if (rig_option->count() == 0) return fail({"--rig", "is required"});
+  if (rig_option->count() == 0) return fail("phare-cockpit", {"--rig", "is required"});
 
   Result<Rig> rig = read_rig(options.rig_file);
-  if (!rig) return fail(rig.error());
+  if (!rig) return fail("phare-cockpit", rig.error());
   if (options.port_base) rig->port_base = *options.port_base;
   Result<CockpitConfig> config = configure(*rig, options);
-  if (!config) return fail(config.error());
+  if (!config) return fail("phare-cockpit", config.error());
   const StopFlag stop = install_stop_signals();
   Result<Bus> bus = Bus::open(*rig, Role::kCockpit);
-  if (!bus) return fail(bus.error());
+  if (!bus) return fail("phare-cockpit", bus.error());
   Result<std::unique_ptr<Source>> source = open_source(*config);
-  if (!source) return fail(source.error());
+  if (!source) return fail("phare-cockpit", source.error());
 
   CockpitProcess process(std::move(*bus), std::move(*source), *rig, std::move(*config), options.stats_file, stop);
   if (options.lockstep) {

@@ -8,7 +8,6 @@
 namespace phare {
 namespace {
 
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 std::int64_t now_of(clockid_t clock) {
   timespec now{};

@@ -22,7 +22,6 @@ constexpr std::size_t kIpBytes = 20;
 constexpr std::size_t kUdpBytes = 8;
 constexpr std::size_t kEthernetBytes = 14;
 constexpr int kSnapBytes = 65535;
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 void put16(std::uint8_t* at, std::size_t value) {
   at[0] = static_cast<std::uint8_t>(value >> 8);

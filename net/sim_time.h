@@ -6,6 +6,8 @@
 
 namespace phare {
 
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+
 /// Simulated time since the start of the drive.
 struct SimTime {
   std::int64_t ns = 0;
@@ -28,7 +30,7 @@ WallTime wall_now();
 constexpr SimTime frame_time(std::int64_t frame_index, std::int64_t frame_rate_hz) {
   const std::int64_t whole = frame_index / frame_rate_hz;
   const std::int64_t rest = frame_index % frame_rate_hz;
-  return SimTime{whole * 1'000'000'000 + rest * 1'000'000'000 / frame_rate_hz};
+  return SimTime{whole * kNsPerSecond + rest * kNsPerSecond / frame_rate_hz};
 }
 
 }  // namespace phare

@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include "config/fail.h"
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"
@@ -338,11 +339,6 @@ class Process {
   Clock::time_point next_lag_log_{}, next_stats_{};
 };
 
-int fail(const Error& error) {
-  std::fprintf(stderr, "phare-dynamics: %s\n", error.text().c_str());
-  return kExitBadInput;
-}
-
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"The car of a rig: controls in, pose out."};
@@ -365,18 +361,18 @@ int run(int argc, char** argv) {
     return app.exit(problem) == 0 ? kExitDone : kExitBadInput;
   }
   if (batch.asked()) return batch.run(options.level.empty() ? "full" : options.level);
-  if (options.rig_file.empty()) return fail({"--rig", "is required, unless --batch runs a file"});
+  if (options.rig_file.empty()) return fail("phare-dynamics", {"--rig", "is required, unless --batch runs a file"});
   spdlog::set_default_logger(spdlog::stderr_color_mt("dynamics"));
   spdlog::set_level(spdlog::level::from_str(options.log_level));
 
   Result<Rig> rig = read_rig(options.rig_file);
-  if (!rig) return fail(rig.error());
+  if (!rig) return fail("phare-dynamics", rig.error());
   if (options.port_base) rig->port_base = *options.port_base;
   StopFlag stop = install_stop_signals();
   Result<Begin> begin = prepare(*rig, options);
-  if (!begin) return fail(begin.error());
+  if (!begin) return fail("phare-dynamics", begin.error());
   Result<Bus> bus = Bus::open(*rig, Role::kDynamics);
-  if (!bus) return fail(bus.error());
+  if (!bus) return fail("phare-dynamics", bus.error());
   Process(std::move(*bus), *rig, options, stop).run(std::move(*begin));
   return kExitDone;
 }

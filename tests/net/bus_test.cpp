@@ -42,8 +42,6 @@ Bus open_bus(const Rig& rig, Role role, std::uint32_t channel = 0) {
   return std::move(*bus);
 }
 
-std::span<const std::byte> view(const std::string& bytes) { return std::as_bytes(std::span(bytes.data(), bytes.size())); }
-
 FrameReport report(std::int64_t frame_index, std::uint32_t channel, std::uint32_t channels) {
   FrameReport r;
   r.frame_index = frame_index;
@@ -60,20 +58,20 @@ TEST(Udp, LoopbackCarriesDatagramsOfEverySize) {
   EXPECT_FALSE(b->wait(std::chrono::milliseconds(1)));
   for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{1472}, kMaxDatagramBytes}) {
     const std::string sent(size, 'x');
-    ASSERT_TRUE(a->send_to(b->port(), view(sent)));
+    ASSERT_TRUE(a->send_to(b->port(), test::view(sent)));
     ASSERT_TRUE(b->wait(std::chrono::seconds(5)));
     const auto received = b->receive();
     ASSERT_TRUE(received);
     EXPECT_EQ(std::string(reinterpret_cast<const char*>(received->data()), received->size()), sent);
   }
-  EXPECT_FALSE(a->send_to(b->port(), view(std::string(kMaxDatagramBytes + 1, 'x'))));
+  EXPECT_FALSE(a->send_to(b->port(), test::view(std::string(kMaxDatagramBytes + 1, 'x'))));
 }
 
 TEST(Udp, KeepsTheOrderOverManyBatches) {
   auto a = UdpSocket::open("127.0.0.1", 0);
   auto b = UdpSocket::open("127.0.0.1", 0);
   ASSERT_TRUE(a && b);
-  for (int i = 0; i < 100; ++i) a->send_to(b->port(), view(std::to_string(i)));
+  for (int i = 0; i < 100; ++i) a->send_to(b->port(), test::view(std::to_string(i)));
   for (int i = 0; i < 100; ++i) {
     ASSERT_TRUE(b->wait(std::chrono::seconds(5)));
     const auto received = b->receive();
@@ -99,14 +97,14 @@ TEST(Udp, TheKernelFilterLetsEveryValidDatagramThrough) {
   for (std::uint64_t seed = 1; seed < 20; ++seed) {
     for (const Datagram& datagram : test::samples(seed)) {
       const std::string sent = encode(datagram);
-      a->send_to(b->port(), view(sent));
+      a->send_to(b->port(), test::view(sent));
       ASSERT_TRUE(b->wait(std::chrono::seconds(5))) << kChannels[datagram.payload.index()].message;
       ASSERT_EQ(b->receive()->size(), sent.size());
     }
   }
   EXPECT_EQ(b->dropped_in_kernel(), 0u);
-  a->send_to(b->port(), view("hello, this is not a datagram of ours"));
-  a->send_to(b->port(), view(""));
+  a->send_to(b->port(), test::view("hello, this is not a datagram of ours"));
+  a->send_to(b->port(), test::view(""));
   EXPECT_FALSE(b->receive());
   EXPECT_EQ(b->dropped_in_kernel(), 2u);
 }
@@ -201,11 +199,11 @@ TEST(Bus, AValidDatagramForAnotherIsRefused) {
   auto stranger = UdpSocket::open("127.0.0.1", 0);
   ASSERT_TRUE(stranger);
   std::mt19937_64 random(1);
-  stranger->send_to(rig.port_base, view(encode(test::sample(kPayloadIndex<ProbeRequest>, random))));
+  stranger->send_to(rig.port_base, test::view(encode(test::sample(kPayloadIndex<ProbeRequest>, random))));
   Datagram of_absent_channel = test::sample(kPayloadIndex<FrameReport>, random);
   of_absent_channel.sender_channel = 5;
   std::get<FrameReport>(of_absent_channel.payload).channel = 5;
-  stranger->send_to(rig.port_base, view(encode(of_absent_channel)));
+  stranger->send_to(rig.port_base, test::view(encode(of_absent_channel)));
   EXPECT_EQ(cockpit.poll(), 0u);
   EXPECT_EQ(cockpit.counters().refused_because[static_cast<std::size_t>(Refusal::kNotForUs)], 2u);
 }
@@ -245,7 +243,7 @@ TEST(Bus, APollEndsThoughTheFloodDoesNot) {
   std::string flipped = encode(test::sample(kPayloadIndex<CockpitState>, random));
   flipped[10] = static_cast<char>(flipped[10] ^ 4);  // passes the kernel's filter
   const auto port = static_cast<std::uint16_t>(rig.port_base + port_offset(Role::kDynamics));
-  for (int i = 0; i < 20'000; ++i) stranger->send_to(port, view(flipped));
+  for (int i = 0; i < 20'000; ++i) stranger->send_to(port, test::view(flipped));
   const auto level = spdlog::get_level();
   spdlog::set_level(spdlog::level::off);
   dynamics.poll();

@@ -20,8 +20,6 @@
 namespace phare {
 namespace {
 
-std::span<const std::byte> view(const std::string& bytes) { return std::as_bytes(std::span(bytes.data(), bytes.size())); }
-
 std::string contents(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -59,12 +57,12 @@ class DriveFile : public testing::Test {
     ASSERT_TRUE(writer) << writer.error().text();
     record_ends_.push_back(std::filesystem::file_size(path_));
     for (const Datagram& datagram : written_) {
-      const Status status = writer->write(datagram, view(encode(datagram)));
+      const Status status = writer->write(datagram, test::view(encode(datagram)));
       ASSERT_TRUE(status) << status.error().text();
       record_ends_.push_back(std::filesystem::file_size(path_));  // on disk as soon as written
     }
     writer->close();
-    EXPECT_FALSE(writer->write(written_[0], view(encode(written_[0]))));
+    EXPECT_FALSE(writer->write(written_[0], test::view(encode(written_[0]))));
   }
   void TearDown() override { std::filesystem::remove_all(directory_); }
 
@@ -82,7 +80,7 @@ TEST_F(DriveFile, ComesBackAsWritten) {
   ASSERT_EQ(drive->datagrams.size(), written_.size());
   for (std::size_t i = 0; i < written_.size(); ++i) EXPECT_TRUE(test::equal(drive->datagrams[i], written_[i])) << i;
   EXPECT_EQ(drive->duration, written_.back().sim_time);
-  EXPECT_EQ(drive->content_hash, content_hash(view(contents(path_))));
+  EXPECT_EQ(drive->content_hash, content_hash(test::view(contents(path_))));
 }
 
 TEST_F(DriveFile, CutAnywhereOpensUpToItsLastWholeRecord) {
@@ -146,8 +144,8 @@ TEST_F(DriveFile, WithMicrosecondStampsOrFromTcpdumpIsReadToo) {
 TEST_F(DriveFile, HoldsForeignPacketsAsRefused) {
   auto writer = DriveWriter::create(path_, 47000);
   ASSERT_TRUE(writer);
-  ASSERT_TRUE(writer->write(written_[0], view(encode(written_[0]))));
-  ASSERT_TRUE(writer->write(written_[1], view("something else")));
+  ASSERT_TRUE(writer->write(written_[0], test::view(encode(written_[0]))));
+  ASSERT_TRUE(writer->write(written_[1], test::view("something else")));
   ASSERT_TRUE(writer->write(written_[2], {}));
   writer->close();
   const auto drive = read_drive(path_);
@@ -158,7 +156,7 @@ TEST_F(DriveFile, HoldsForeignPacketsAsRefused) {
   before_start.sim_time.ns = -1;
   auto again = DriveWriter::create(path_, 47000);
   ASSERT_TRUE(again);
-  EXPECT_FALSE(again->write(before_start, view(encode(before_start))));
+  EXPECT_FALSE(again->write(before_start, test::view(encode(before_start))));
 }
 
 TEST_F(DriveFile, SaysWhenTheDiskIsFull) {
@@ -202,7 +200,7 @@ TEST_F(DriveFile, EditcapCutsItAndWeReadWhatIsLeft) {
 
 TEST(ContentHash, IsSha256) {
   // FIPS 180-4 examples
-  EXPECT_EQ(content_hash(view("abc")), "sha256:ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(content_hash(test::view("abc")), "sha256:ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(content_hash({}), "sha256:e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_FALSE(content_hash_of_file("/nowhere/at/all"));
 }

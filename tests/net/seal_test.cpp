@@ -13,10 +13,6 @@
 namespace phare {
 namespace {
 
-std::span<const std::byte> view(const std::string& bytes) {
-  return std::as_bytes(std::span(bytes.data(), bytes.size()));
-}
-
 BusKey key_of(std::uint8_t first) {
   BusKey key{};
   for (std::size_t i = 0; i < key.size(); ++i) key[i] = static_cast<std::uint8_t>(first + i);
@@ -38,16 +34,16 @@ TEST(Seal, OpensWithTheSameKeyAndUnchangedBytesOnly) {
   std::string bytes = "a datagram";
   seal.close(bytes);
   ASSERT_EQ(bytes.size(), 10 + Seal::kTagBytes);
-  ASSERT_TRUE(seal.open(view(bytes)));
-  EXPECT_EQ(seal.open(view(bytes))->size(), 10u);
-  EXPECT_FALSE(other.open(view(bytes)));
-  EXPECT_EQ(none.open(view(bytes))->size(), bytes.size());
+  ASSERT_TRUE(seal.open(test::view(bytes)));
+  EXPECT_EQ(seal.open(test::view(bytes))->size(), 10u);
+  EXPECT_FALSE(other.open(test::view(bytes)));
+  EXPECT_EQ(none.open(test::view(bytes))->size(), bytes.size());
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     std::string changed = bytes;
     changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ (1 << (bit % 8)));
-    EXPECT_FALSE(seal.open(view(changed))) << bit;
+    EXPECT_FALSE(seal.open(test::view(changed))) << bit;
   }
-  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(seal.open(view(bytes.substr(0, size)))) << size;
+  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(seal.open(test::view(bytes.substr(0, size)))) << size;
 }
 
 TEST(Seal, BusesOffLoopbackSpeakWithTheKeyOnly) {
@@ -73,8 +69,8 @@ TEST(Seal, BusesOffLoopbackSpeakWithTheKeyOnly) {
   const auto port = static_cast<std::uint16_t>(rig.port_base + port_offset(Role::kDynamics));
   std::string plain = encode(test::sample(kPayloadIndex<CockpitState>, random)), wrong = plain;
   Seal(key_of(9)).close(wrong);
-  stranger->send_to(port, view(plain));
-  stranger->send_to(port, view(wrong));
+  stranger->send_to(port, test::view(plain));
+  stranger->send_to(port, test::view(wrong));
   dynamics->wait(std::chrono::seconds(5));
   dynamics->poll();
   EXPECT_EQ(dynamics->counters().refused, 2u);
@@ -94,7 +90,7 @@ TEST(Seal, WhatWasRecordedEarlierCannotBePlayedAgain) {
     Datagram datagram{Sender::kCockpit, 0, start_id, sequence, SimTime{}, WallTime{sent_ns}, CockpitState{}};
     std::string bytes = encode(datagram);
     Seal(rig.bus_key).close(bytes);
-    stranger->send_to(port, view(bytes));
+    stranger->send_to(port, test::view(bytes));
     dynamics->wait(std::chrono::seconds(5));
     return dynamics->poll();
   };

@@ -15,11 +15,9 @@
 namespace phare {
 namespace {
 
-std::span<const std::byte> view(const std::string& bytes) { return std::as_bytes(std::span(bytes.data(), bytes.size())); }
-
 Refusal refusal_of(const std::string& bytes) {
   Datagram datagram;
-  return decode_into(view(bytes), datagram);
+  return decode_into(test::view(bytes), datagram);
 }
 
 /// Adds the check field, as a foreign encoder would.
@@ -46,7 +44,7 @@ TEST(Wire, EveryMessageComesBackAsItWas) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     for (const Datagram& sent : test::samples(seed)) {
       const std::string bytes = encode(sent);
-      const Result<Datagram> received = decode(view(bytes));
+      const Result<Datagram> received = decode(test::view(bytes));
       ASSERT_TRUE(received) << kChannels[sent.payload.index()].message << ": " << received.error().text();
       ASSERT_TRUE(test::equal(sent, *received)) << kChannels[sent.payload.index()].message;
     }
@@ -60,7 +58,7 @@ TEST(Wire, EncodingIsDeterministicWhateverWasEncodedBefore) {
     const Datagram datagram = test::sample(random() % kChannels.size(), random);
     const std::string bytes = encode(datagram);
     ASSERT_EQ(bytes, encode(datagram));
-    ASSERT_EQ(decode_into(view(bytes), reused), Refusal::kNone);
+    ASSERT_EQ(decode_into(test::view(bytes), reused), Refusal::kNone);
     ASSERT_EQ(bytes, encode(reused));
   }
 }
@@ -68,11 +66,11 @@ TEST(Wire, EncodingIsDeterministicWhateverWasEncodedBefore) {
 TEST(Wire, TheDefaultsAndZerosComeBackBitForBit) {
   Datagram d{Sender::kDynamics, 0, 1, 1, SimTime{0}, WallTime{0}, VehicleState{}};
   std::get<VehicleState>(d.payload).x_m = -0.0;
-  const Result<Datagram> back = decode(view(encode(d)));
+  const Result<Datagram> back = decode(test::view(encode(d)));
   ASSERT_TRUE(back) << back.error().text();
   EXPECT_TRUE(std::signbit(std::get<VehicleState>(back->payload).x_m));
   std::get<VehicleState>(d.payload).x_m = std::numeric_limits<double>::denorm_min();
-  EXPECT_EQ(std::get<VehicleState>(decode(view(encode(d)))->payload).x_m, std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(std::get<VehicleState>(decode(test::view(encode(d)))->payload).x_m, std::numeric_limits<double>::denorm_min());
 }
 
 TEST(Wire, WiresharkAndPythonReadTheCheckAsAField) {
@@ -126,7 +124,7 @@ TEST(WireRefuses, OrTakesWhatIsValidWhenGarbageCarriesAFittingCheck) {
   for (int i = 0; i < 100'000; ++i) {
     const auto bytes = garbage.next();
     const std::string signed_bytes = sealed(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-    if (decode_into(view(signed_bytes), datagram) != Refusal::kNone) continue;
+    if (decode_into(test::view(signed_bytes), datagram) != Refusal::kNone) continue;
     ++taken;
     ASSERT_EQ(check(datagram), Refusal::kNone);
     ASSERT_EQ(encode(datagram), signed_bytes);
@@ -272,7 +270,7 @@ TEST(WireRefuses, ProbeArraysOfDifferentOrExcessiveLength) {
   Datagram d{Sender::kControl, 0, 1, 1, SimTime{}, WallTime{}, ProbeRequest{}};
   auto& request = std::get<ProbeRequest>(d.payload);
   for (auto* array : {&request.x_m, &request.y_m, &request.z_m, &request.nx, &request.ny, &request.nz}) array->assign(1000, 0.5);
-  EXPECT_TRUE(decode(view(encode(d))));
+  EXPECT_TRUE(decode(test::view(encode(d))));
   EXPECT_LE(encode(d).size(), 65507u);
   for (auto* array : {&request.x_m, &request.y_m, &request.z_m, &request.nx, &request.ny, &request.nz}) array->push_back(0.5);
   EXPECT_EQ(refusal_of(encode(d)), Refusal::kArrays);

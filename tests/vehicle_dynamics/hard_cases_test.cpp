@@ -15,7 +15,6 @@ using test::Drive;
 using test::finite;
 using test::hard_car;
 
-constexpr double kDeg = 180.0 / 3.14159265358979323846;
 
 bool long_run() { return std::getenv("PHARE_LONG_TESTS") != nullptr; }
 
@@ -48,7 +47,7 @@ TEST(HardCase, C01SlopeHold) {
     EXPECT_LT(std::hypot(d.state.x_m - x10, d.state.z_m - z10), 1e-6);
     const full::Forces f = d.forces();
     EXPECT_LT(std::abs(f.ax_mps2), 1e-6);
-    EXPECT_NEAR((f.pitch_rad - f.road_pitch_rad) * kDeg, -0.581, 0.005 * 0.581);
+    EXPECT_NEAR((f.pitch_rad - f.road_pitch_rad) * test::kDeg, -0.581, 0.005 * 0.581);
     double fx = 0.0, wind_up = 0.0;
     for (std::size_t i = 0; i < 4; ++i) fx += f.fx_n[i], wind_up += 0.25 * d.state.kappa[i] * p.tyre.p.long_relaxation_m;
     EXPECT_NEAR(fx, 2103.39, 0.005 * 2103.39);
@@ -176,9 +175,9 @@ TEST(HardCase, C06KerbStep) {
     EXPECT_NEAR(d.state.z_m, 0.10, 1e-5);
     EXPECT_NEAR(load, p.load_n[0] + p.tyre_rate_npm * 0.10, 0.002 * 18755.0);
     EXPECT_NEAR(z_most, 0.1338, 0.005);
-    EXPECT_NEAR(peak[k] * kDeg, 2.88, 0.1);
+    EXPECT_NEAR(peak[k] * test::kDeg, 2.88, 0.1);
   }
-  EXPECT_NEAR(peak[0] * kDeg, peak[1] * kDeg, 0.02);
+  EXPECT_NEAR(peak[0] * test::kDeg, peak[1] * test::kDeg, 0.02);
 }
 
 // 7. Friction 1.0 to 0.1 and back while braking from 100 km/h; then left and right apart.
@@ -258,7 +257,7 @@ TEST(HardCase, C08Spin) {
     });
     EXPECT_GE(turns_over, 3);
     EXPECT_LT(std::hypot(d.state.u_mps, d.state.v_mps), 1e-3);
-    end[k] = yaw * kDeg;
+    end[k] = yaw * test::kDeg;
   }
   EXPECT_GT(std::abs(end[0]), 360.0);
   EXPECT_NEAR(end[0], end[2], 0.5);
@@ -308,7 +307,7 @@ TEST(HardCase, C13SteeringSquareWave) {
     ASSERT_TRUE(std::isfinite(loop.state().x_m));
   }
   EXPECT_LE(ay, 1.2 * kGravity_mps2);
-  EXPECT_LT(roll * kDeg, 25.0);
+  EXPECT_LT(roll * test::kDeg, 25.0);
 }
 
 // 14. Class E at 150 km/h.
