@@ -119,6 +119,34 @@ TEST(BeamImage, ResampledErrorIsSmall) {
   }
 }
 
+// Lux on a flat screen is bilinear on the screen, not in degrees: such a table is resampled, and the error stated.
+TEST(BeamImage, AFlatScreenIsResampled) {
+  IntensityTable screen;
+  screen.screen_distance_m = 25.0;
+  for (double y = -8.0; y <= 8.0; y += 0.5) screen.first_deg.push_back(glm::degrees(std::atan(y / 25.0)));
+  for (double z = -3.0; z <= 2.0; z += 0.25) screen.second_deg.push_back(glm::degrees(std::atan(z / 25.0)));
+  for (const double v : screen.second_deg) {
+    for (const double h : screen.first_deg) screen.candela.push_back(20000.0 * std::exp(-h * h / 60.0 - v * v / 8.0));
+  }
+  const std::vector<AimedSource> source{{&screen, glm::dmat3{1.0}, 1.0, 5000.0}};
+  const BeamImage image = compose_beam_image(source);
+  EXPECT_TRUE(image.resampled);
+  const ImageReader reader(image);
+  double worst_of_local = 0.0, worst_of_peak = 0.0;
+  for (double h = -15.0; h <= 15.0; h += 0.37) {
+    for (double v = -5.5; v <= 4.0; v += 0.19) {
+      const double expected = screen.intensity_cd(direction_hv(h, v));
+      const double difference = std::abs(reader.candela(direction_hv(h, v)) - expected);
+      worst_of_peak = std::max(worst_of_peak, difference / screen.peak_cd());
+      worst_of_local = std::max(worst_of_local, difference / expected);
+    }
+  }
+  std::printf("flat screen resampled: worst difference %.2g of the peak, %.2g of the local intensity\n", worst_of_peak,
+              worst_of_local);
+  EXPECT_LT(worst_of_peak, 2e-3);  // as two aims that differ, above
+  EXPECT_LT(worst_of_local, 2e-2);
+}
+
 TEST(BeamImage, NothingLitIsDark) {
   EXPECT_TRUE(compose_beam_image({}).dark);
   const std::vector<AimedSource> off{{&sample("high.ies"), glm::dmat3{1.0}, 0.0, 5000.0},

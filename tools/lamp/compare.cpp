@@ -138,6 +138,11 @@ int lamp_compare(const LampCompareOptions& options) {
     const auto draw = [&](Chart& c) { draw_ratio(c, in_a, in_b, a->name + " (A), " + b->name + " (B)", alignment); };
     if (const Status written = write_chart(options.out + "/ratio", kPageWidth, kPageHeight, draw); !written)
       return bad_input(written.error());
+    const auto draw_both = [&](Chart& c) {
+      draw_difference(c, in_a, in_b, road_a, road_b, a->name + " (A), " + b->name + " (B): difference", alignment);
+    };
+    if (const Status written = write_chart(options.out + "/difference", kPageWidth, kPageHeight, draw_both); !written)
+      return bad_input(written.error());
   }
   return kExitDone;
 }

@@ -121,7 +121,7 @@ void add_compare(CLI::App* lamp, Command& chosen) {
   command->footer("Example:\n  phare lamp compare old.ies new.ies --out out/compare");
   command->add_option("a", options->a, "Photometry file A")->required();
   command->add_option("b", options->b, "Photometry file B")->required();
-  command->add_option("--out", options->out, "Folder for ratio.svg and ratio.png");
+  command->add_option("--out", options->out, "Folder for ratio and difference as .svg and .png");
   command->add_flag("!--no-align", options->align, "Compare as filed");
   command->add_option("--height", options->height_m, "Height of the lamps above the road, m")->capture_default_str();
   command->add_flag("--json", options->json, "For machines");

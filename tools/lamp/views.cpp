@@ -309,4 +309,51 @@ void draw_ratio(Chart& chart, const IntensityHv& a, const IntensityHv& b, const 
     chart.text(809, legend.y(std::log2(ratio)), short_number(ratio), 8.5, -1, kBlack);
 }
 
+void draw_difference(Chart& chart, const IntensityHv& a, const IntensityHv& b, const std::vector<RoadLamp>& road_a,
+                     const std::vector<RoadLamp>& road_b, const std::string& title, const std::string& subtitle) {
+  heading(chart, title, subtitle);
+  // Signed and logarithmic beyond one unit: what is small stays white, what is large does not drown the rest.
+  const auto signed_log = [](double value) { return std::copysign(std::log10(1.0 + std::abs(value)), value); };
+  const auto colour = [](double t) {
+    t = std::clamp(t, -1.0, 1.0);
+    return t < 0.0 ? Rgb{1.0 + t * 0.9, 1.0 + t * 0.65, 1.0 + t * 0.2}
+                   : Rgb{1.0 - t * 0.2, 1.0 - t * 0.85, 1.0 - t * 0.85};
+  };
+  const auto panel = [&](const Axes& axes, const Grid& grid, double full, const std::vector<double>& levels,
+                         double unit, const std::string& unit_name) {
+    chart.picture(axes, grid.x.size(), grid.y.size(), [&](std::size_t i, std::size_t j) {
+      return colour(grid.values[(grid.y.size() - 1 - j) * grid.x.size() + i] / full);
+    });
+    chart.begin_clip(axes);
+    double label_at = 0.1;
+    for (const double level : levels) {
+      for (const double sign : {-1.0, 1.0}) {
+        const std::string name = (sign < 0.0 ? "-" : "+") + short_number(level) + unit_name;
+        draw_contours(chart, axes, contours(grid.values, grid.x, grid.y, signed_log(sign * level / unit)),
+                      {0.25, 0.25, 0.25}, 0.7, name, true, label_at);
+        label_at = label_at > 0.5 ? 0.1 : label_at + 0.08;
+      }
+    }
+    chart.end_clip();
+  };
+  Axes wall{62, 74, 400, 336, -15, 15, -5, 4};
+  const Grid candela = sample([&](double h, double v) { return signed_log((b(h, v) - a(h, v)) / 100.0); }, wall.x_min,
+                              wall.x_max, wall.y_min, wall.y_max, 501, 301);
+  panel(wall, candela, signed_log(100.0), {300, 1000, 3000, 10000}, 100.0, "");
+  draw_cross(chart, wall, kBlack);
+  chart.axes(wall, 5, 1, "H in deg, right positive", "V in deg, up positive", {0.6, 0.6, 0.6}, 0.2);
+  chart.text(wall.left, 62, "B - A in cd", 10, -1, kBlack, true);
+  Axes road{532, 74, 290, 336, 20, -20, 0, 120};
+  const Grid lux = sample(
+      [&](double y, double x) {
+        return signed_log(road_lux(road_b, x, y, 0.25, true) - road_lux(road_a, x, y, 0.25, true));
+      },
+      road.x_min, road.x_max, 2.0, road.y_max, 241, 301);
+  panel(road, lux, signed_log(30.0), {1, 3, 10, 30}, 1.0, " lx");
+  chart.axes(road, 5, 20, "y in m, left positive", "x ahead of the lamps in m", {0.6, 0.6, 0.6}, 0.2);
+  chart.text(road.left, 62, "B - A in lx facing the car, pair, 0.25 m high", 10, -1, kBlack, true);
+  chart.text(430, 459, "red: B gives more, blue: B gives less; signed logarithm of the difference", 8.5, 0,
+             {0.3, 0.3, 0.3});
+}
+
 }  // namespace phare

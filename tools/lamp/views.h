@@ -39,6 +39,10 @@ void draw_bands(Chart& chart, const IntensityHv& intensity, const std::string& t
 void draw_ratio(Chart& chart, const IntensityHv& a, const IntensityHv& b, const std::string& title,
                 const std::string& subtitle);
 
+/// What B lights more (red) or less (blue) than A, lux facing the car, seen from above; and candela on the wall.
+void draw_difference(Chart& chart, const IntensityHv& a, const IntensityHv& b, const std::vector<RoadLamp>& road_a,
+                     const std::vector<RoadLamp>& road_b, const std::string& title, const std::string& subtitle);
+
 inline constexpr double kPageWidth = 860.0, kPageHeight = 470.0;
 
 }  // namespace phare

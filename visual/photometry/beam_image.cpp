@@ -31,8 +31,9 @@ bool same_aim(const glm::dmat3& a, const glm::dmat3& b) {
   return true;
 }
 
+/// Can the two share native nodes? A flat screen's nodes are not bilinear in degrees: it is always resampled.
 bool same_grid_kind(const AimedSource& a, const AimedSource& b) {
-  return a.table->type == b.table->type && (a.table->type != PhotometricType::kC || a.table->axis == b.table->axis) &&
+  return a.table->screen_distance_m <= 0.0 && b.table->screen_distance_m <= 0.0 && a.table->type == b.table->type && (a.table->type != PhotometricType::kC || a.table->axis == b.table->axis) &&
          same_aim(a.car_from_lamp, b.car_from_lamp);
 }
 

@@ -225,12 +225,8 @@ double IntensityTable::peak_cd() const {
 
 TableAngles IntensityTable::peak_at() const {
   if (candela.empty()) return {};
-  const auto peak = std::max_element(candela.begin(), candela.end());
-  const std::size_t at = static_cast<std::size_t>(peak - candela.begin());
-  const std::size_t columns = first_deg.size();
-  std::size_t last = at % columns;
-  while (last + 1 < columns && candela[at - at % columns + last + 1] == *peak) ++last;
-  return {first_deg[(at % columns + last) / 2], second_deg[at / columns]};
+  const std::size_t at = static_cast<std::size_t>(std::max_element(candela.begin(), candela.end()) - candela.begin());
+  return {first_deg[at % first_deg.size()], second_deg[at / first_deg.size()]};
 }
 
 }  // namespace phare

@@ -73,7 +73,7 @@ struct IntensityTable {
   /// Flux through the whole sphere, lm: exact integral of the bilinear table for type A, B and C.
   double flux_lm() const;
   double peak_cd() const;
-  /// Node with the highest intensity, the middle of a plateau of equals in one row.
+  /// Node with the highest intensity; of equals the first, row by row from below and left.
   TableAngles peak_at() const;
   /// Angles of a direction (lamp frame) on this table's grid.
   TableAngles angles_of(const glm::dvec3& direction) const;

@@ -104,7 +104,7 @@ class Linter {
     report_.peak = table_.peak_at();
     const glm::dvec3 d = table_.direction_of(report_.peak);
     const TableAngles hv = table_angles(PhotometricType::kA, GammaAxis::kGamma0, d);
-    if (table_.type == PhotometricType::kC) report_.peak = hv;
+    if (table_.type == PhotometricType::kC) report_.peak = {hv.first_deg + 0.0, hv.second_deg + 0.0};  // no -0
     const double off = std::acos(std::clamp(d.x, -1.0, 1.0)) * 57.29577951308232;
     if (table_.type == PhotometricType::kC && off > kAhead_deg) {
       add(Grade::kWarning, "axis",

@@ -105,11 +105,14 @@ int make(const std::filesystem::path& out, bool verbose) {
         failed += report(lamp.file, table, *rule, down, verbose, entry);
     }
     if (lamp.kind == SampleKind::kSegment) segments.push_back(&lamp.table);
-    std::printf("%-20s %6.0f cd at %+.2f, %+.2f deg, %6.1f lm\n", lamp.file.c_str(), table.peak_cd(), peak.first_deg,
-                peak.second_deg, table.flux_lm());
+    if (lamp.kind != SampleKind::kSegment || verbose)
+      std::printf("%-20s %6.0f cd at %+.2f, %+.2f deg, %6.1f lm\n", lamp.file.c_str(), table.peak_cd(), peak.first_deg,
+                  peak.second_deg, table.flux_lm());
     list.push_back(std::move(entry));
   }
   const IntensityTable matrix = sum_tables(segments);
+  std::printf("%-20s %6.0f cd, %6.1f lm from %zu segments\n", "matrix/", matrix.peak_cd(), matrix.flux_lm(),
+              segments.size());
   nlohmann::json whole{{"segments", segments.size()}, {"rows", kMatrixRows},         {"columns", kMatrixColumns},
                        {"peak_cd", matrix.peak_cd()}, {"flux_lm", matrix.flux_lm()}, {"passes", {"r149-driving-b"}}};
   const Rulebook* driving = rules.find("r149-driving-b");
