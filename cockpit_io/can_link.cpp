@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 namespace phare {
 
@@ -103,13 +104,6 @@ int restart_by_netlink(unsigned index) {
   return error;
 }
 
-std::uint64_t statistic(const std::string& interface, const char* name) {
-  std::ifstream stream("/sys/class/net/" + interface + "/statistics/" + name);
-  std::uint64_t value = 0;
-  stream >> value;
-  return stream ? value : 0;
-}
-
 }  // namespace
 
 bool can_link_up(const std::string& interface) {
@@ -117,7 +111,18 @@ bool can_link_up(const std::string& interface) {
 }
 
 std::uint64_t can_link_dropped(const std::string& interface) {
-  return statistic(interface, "rx_dropped") + statistic(interface, "rx_over_errors");
+  // Not /sys/class/net: that shows the namespace it was mounted in. Receive columns: bytes packets errs drop fifo
+  // frame.
+  std::ifstream stream("/proc/self/net/dev");
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream words(line);
+    std::string name;
+    std::uint64_t bytes = 0, packets = 0, errors = 0, dropped = 0, fifo = 0, overruns = 0;
+    std::getline(words >> std::ws, name, ':');
+    if (name == interface && words >> bytes >> packets >> errors >> dropped >> fifo >> overruns)
+      return dropped + fifo + overruns;
+  }
+  return 0;
 }
 
 Status restart_can_link(const std::string& interface) {

@@ -11,8 +11,8 @@ namespace phare {
 /// Whether the interface is there and set up.
 bool can_link_up(const std::string& interface);
 
-/// Frames that were lost before any socket saw them (rx_dropped and rx_over_errors of the interface: a full backlog of
-/// the kernel, an overrun of the controller); 0 when the interface is not there.
+/// Frames that were lost before any socket saw them (receive columns drop, fifo and frame of /proc/net/dev: a full
+/// backlog of the kernel, an overrun of the controller); 0 when the interface is not there.
 std::uint64_t can_link_dropped(const std::string& interface);
 
 /// Takes a controller out of bus-off: a restart by netlink, else (drivers that cannot, such as slcan) down and up.

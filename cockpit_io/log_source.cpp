@@ -7,6 +7,10 @@
 
 namespace phare {
 
+namespace {
+constexpr std::int64_t kShowRefused_ns = 2'000'000'000;
+}
+
 LogSource::LogSource(CandumpLog log, SignalMap map) : log_(std::move(log)), map_(std::move(map)) {
   counts_.broken_lines = log_.broken_lines;
   input_ = initial_input(map_.config());
@@ -28,7 +32,7 @@ void LogSource::advance(Moment now, const VehicleState*, ControlSink& cockpit) {
     const std::int64_t sim = std::min(sim_ns(at_ns), now.sim.ns);
     return Moment{SimTime{sim}, WallTime{now.wall.ns - (now.sim.ns - sim)}};
   };
-  const std::int64_t now_ns = log_ns(now.sim.ns);
+  const std::int64_t now_ns = now_ns_ = log_ns(now.sim.ns);
   const auto fall_silent_before = [&](std::int64_t at_ns) {
     if (silent_ || map_.silent_at_ns() > at_ns) return;
     silent_ = true;
@@ -55,11 +59,11 @@ void LogSource::advance(Moment now, const VehicleState*, ControlSink& cockpit) {
     }
     if (taken == SignalMap::Taken::kBadCrc || taken == SignalMap::Taken::kBadCounter) {
       const bool crc = taken == SignalMap::Taken::kBadCrc;
-      if (counts_.bad_crc + counts_.bad_counter == 0) {
-        spdlog::warn("{}: a frame of {} is refused: its {}; such frames are counted from here on", log_.file.string(),
-                     map_.dbc().find(entry.frame.id, entry.frame.extended)->name,
-                     crc ? "CRC is wrong" : "counter stands still or jumps");
-      }
+      refused_ = map_.dbc().find(entry.frame.id, entry.frame.extended)->name +
+                 (crc ? " refused: its CRC is wrong" : " refused: its counter stands still or jumps");
+      refused_until_ns_ = due_ns + kShowRefused_ns;
+      if (counts_.bad_crc + counts_.bad_counter == 0)
+        spdlog::warn("{}: {}; such frames are counted from here on", log_.file.string(), refused_);
       ++(crc ? counts_.bad_crc : counts_.bad_counter);
       continue;
     }
@@ -71,6 +75,11 @@ void LogSource::advance(Moment now, const VehicleState*, ControlSink& cockpit) {
   }
   fall_silent_before(now_ns);
   cockpit.take(input_, silent_, now);
+}
+
+std::string LogSource::fault() const {
+  if (silent_ && !ended()) return "log: " + map_.most_silent() + " silent";
+  return now_ns_ < refused_until_ns_ ? "log: " + refused_ : std::string();
 }
 
 std::string LogSource::status() const {

@@ -16,6 +16,7 @@ class LogSource : public Source {
   void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
   bool ended() const override { return next_ == log_.entries.size(); }
   std::string status() const override;
+  std::string fault() const override;
 
  private:
   std::int64_t sim_ns(std::int64_t log_ns) const;
@@ -26,6 +27,9 @@ class LogSource : public Source {
   std::size_t next_ = 0;
   std::int64_t due_ns_ = 0;  // of the newest entry taken; a stamp that goes back is due at once
   bool silent_ = false;
+  std::string refused_;                // the newest frame that a check refused
+  std::int64_t refused_until_ns_ = 0;  // and how long it is shown, in the log's time
+  std::int64_t now_ns_ = 0;            // the log's time
   DriverInput input_;
 };
 

@@ -163,7 +163,9 @@ TEST(RealCan, WhatTheSocketDropsIsCounted) {
   ASSERT_TRUE(rig.until([&] { return sender.send(stalk(kHigh)) && rig.state().light_switch == LightSwitch::kHigh; }));
   EXPECT_GT(rig.counts().dropped, 0u);
   EXPECT_LE(rig.counts().frames_read + rig.counts().dropped + rig.counts().link_dropped, sent + 20'000);
-  EXPECT_GE(rig.counts().frames_read + rig.counts().dropped + rig.counts().link_dropped, sent);
+  EXPECT_TRUE(rig.until([&] {  // the interface is looked at four times a second
+    return rig.counts().frames_read + rig.counts().dropped + rig.counts().link_dropped >= sent;
+  }));
   std::printf("flood of %llu: %llu read, %llu dropped by the socket, %llu by the interface\n",
               static_cast<unsigned long long>(sent), static_cast<unsigned long long>(rig.counts().frames_read),
               static_cast<unsigned long long>(rig.counts().dropped),

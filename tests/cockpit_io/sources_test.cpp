@@ -93,6 +93,28 @@ TEST(LogSource, TheTickDoesNotChangeWhatComesOut) {
   EXPECT_EQ(ends.front().light_changes, 5u);  // low, flash, no flash (debounced), high, low; fail-safe is low as before
 }
 
+TEST(LogSource, ARefusedFrameIsCountedAndShown) {
+  const auto config = parse_cockpit(
+      "[source]\nkind = \"log\"\n[control.flash]\nmessage = \"BEAM_STALK\"\nsignal = \"FLASH\"\n"
+      "[check.BEAM_STALK]\ncounter = \"COUNTER\"\n",
+      "c.toml");
+  ASSERT_TRUE(config.ok()) << config.error().text();
+  LogSource source(*parse_candump("(5.000) c 500#0400000000000001\n(5.050) c 500#0000000000000001\n"
+                                  "(5.100) c 500#0400000000000004\n(9.000) c 123#\n",
+                                  "l"),
+                   *SignalMap::bind(*config, *read_dbc(kCockpits / "phare_stalk.dbc"), 0));
+  Cockpit cockpit({20'000'000, 2}, "log");
+  source.advance(at_ms(40), nullptr, cockpit);
+  EXPECT_EQ(source.fault(), "");
+  source.advance(at_ms(120), nullptr, cockpit);
+  EXPECT_TRUE(cockpit.state(-1, false).flash) << "the frozen frame was not read";
+  EXPECT_EQ(source.counts().bad_counter, 1u);
+  EXPECT_EQ(source.counts().lost_in_data, 2u);
+  EXPECT_EQ(source.fault(), "log: BEAM_STALK refused: its counter stands still or jumps");
+  source.advance(at_ms(3000), nullptr, cockpit);
+  EXPECT_EQ(source.fault(), "log: BEAM_STALK silent");
+}
+
 TEST(LogSource, PlaysFasterWithItsTimeoutsInTheLogsTime) {
   const auto config = parse_cockpit(
       "[source]\nkind = \"log\"\ntimeout_s = 0.2\nspeed = 4.0\n[control.light_switch]\nmessage = "
