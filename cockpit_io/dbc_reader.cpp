@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::uint32_t kExtendedMark = 0x8000'0000u;  // of a BO_ number
 constexpr std::string_view kOrphans = "VECTOR__INDEPENDENT_SIG_MSG";
+/// Statements that run to a semicolon, by their beginnings; most are passed over.
+constexpr std::string_view kKeywords[]{"VERSION", "VAL_", "CM_",     "SG_MUL_VAL_", "SIG",    "SGTYPE",   "BA_", "BU_",
+                                       "BS_",     "EV_",  "ENVVAR_", "BO_TX_BU_",   "FILTER", "NS_DESC_", "CAT_"};
 constexpr int kFirstFdFormat = 14;  // VFrameFormat: 14 StandardCAN_FD, 15 ExtendedCAN_FD
 
 bool is_digit(char c) {
@@ -61,14 +64,9 @@ class Parser {
       if (!scan.at_end()) problem({}, "begins with no keyword");
       return;
     }
-    const bool passed_over = keyword == "VERSION" || keyword.starts_with("BA_") || keyword == "BU_" ||
-                             keyword == "BS_" || keyword.starts_with("EV_") || keyword.starts_with("ENVVAR_") ||
-                             keyword.starts_with("BU_") || keyword.starts_with("SIG") ||
-                             keyword.starts_with("SGTYPE") || keyword.starts_with("CAT_") || keyword == "BO_TX_BU_" ||
-                             keyword == "FILTER" || keyword == "NS_DESC_";
-    const bool read = keyword == "VAL_" || keyword == "VAL_TABLE_" || keyword == "SIG_VALTYPE_" || keyword == "CM_" ||
-                      keyword == "SG_MUL_VAL_";
-    if (!passed_over && !read) return problem({}, "unknown keyword \"" + std::string(keyword) + "\"");
+    const bool known = std::any_of(std::begin(kKeywords), std::end(kKeywords),
+                                   [&](std::string_view known) { return keyword.starts_with(known); });
+    if (!known) return problem({}, "unknown keyword \"" + std::string(keyword) + "\"");
     const std::string whole = to_its_end(keyword);
     TextScanner words(whole);
     words.word();  // the keyword
@@ -113,9 +111,9 @@ class Parser {
       ++lines_read_;
     }
     if (in_text) {
-      problem_of_text("a text in quotes does not end");
+      dbc_.problems.push_back({line_, {}, {}, "a text in quotes does not end"});
     } else if (!ends_by_line && !ended(newest)) {
-      problem_of_text("the semicolon at its end is missing");
+      dbc_.problems.push_back({line_, {}, {}, "the semicolon at its end is missing"});
     }
     return whole;
   }
@@ -127,8 +125,6 @@ class Parser {
   void problem(std::string_view signal, std::string reason) {
     dbc_.problems.push_back({line_, message_name_, std::string(signal), std::move(reason)});
   }
-
-  void problem_of_text(std::string reason) { dbc_.problems.push_back({line_, {}, {}, std::move(reason)}); }
 
   void message(TextScanner& scan) {
     in_message_ = false;

@@ -108,6 +108,31 @@ TEST_F(CanProgram, EightThousandFramesASecondAndNoneLost) {
       json["light_change_to_datagram"]["p99_us"].get<double>());
 }
 
+TEST_F(CanProgram, LearnShowsTheSignalThatMovesOnTheBus) {
+  if (IsSkipped()) return;
+  CanSocket sender = node("phc9");
+  const std::filesystem::path out = folder_ / "learned";
+  const auto said = [&] {
+    std::ifstream stream(out);
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  Program learner({"--learn", "--interface", "phc9", "--rest", "1", "--dbc", PHARE_COCKPITS_DIR "/phare_stalk.dbc"},
+                  folder_ / "errors", out);
+  // The counter runs all the time; the stalk moves when the program asks for it.
+  const auto limit = Clock::now() + kPatience;
+  bool moved = false;
+  for (int i = 0; Clock::now() < limit && !moved; ++i) {
+    const bool asked = said().find("Now move the stalk") != std::string::npos;
+    sender.send(counting(asked && i % 2 == 1 ? kHigh : kLow));
+    moved = said().find("BEAM_STALK.BEAM_SWITCH  2 (low) -> 3 (high)") != std::string::npos;
+    std::this_thread::sleep_for(20ms);
+  }
+  EXPECT_TRUE(moved) << said();
+  EXPECT_EQ(learner.end(SIGINT), 0) << said();
+  EXPECT_NE(said().find("signal = \"BEAM_SWITCH\""), std::string::npos) << said();
+  EXPECT_EQ(said().find("BEAM_STALK.COUNTER"), std::string::npos) << said();
+}
+
 TEST_F(CanProgram, SilenceBecomesLowBeamInTime) {
   if (IsSkipped()) return;
   Result<Bus> opened = Bus::open(rig_, Role::kDynamics);

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,14 +27,16 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPatience = 60s;  // the machine boots, the picture's shaders are compiled in software
+constexpr auto kPatience = 90s;  // the machine boots, the picture's shaders are compiled in software
 
 /// A program until the test ends, what it says in a file.
 class Child {
  public:
-  Child(std::vector<std::string> words, const std::filesystem::path& log) {
+  Child(std::vector<std::string> words, const std::filesystem::path& log, int niceness = 0) {
     pid_ = fork();
     if (pid_ != 0) return;
+    setpriority(PRIO_PROCESS, 0, niceness);
+    setpgid(0, 0);  // with all that it starts: the machine is a script's child
     const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     const int nothing = open("/dev/null", O_RDONLY);
     dup2(out, STDOUT_FILENO);
@@ -50,11 +53,11 @@ class Child {
   }
   /// Exit code, or 1000 + signal.
   int end(int signal) {
-    if (signal != 0) kill(pid_, signal);
+    if (signal != 0) kill(-pid_, signal);
     int status = 0;
     const auto limit = Clock::now() + 20s;
     while (waitpid(pid_, &status, WNOHANG) == 0) {
-      if (Clock::now() > limit) kill(pid_, SIGKILL);
+      if (Clock::now() > limit) kill(-pid_, SIGKILL);
       std::this_thread::sleep_for(10ms);
     }
     pid_ = -1;
@@ -116,15 +119,10 @@ TEST(WholeRig, TheStalkOnCanMovesTheBeamInThePicture) {
   ASSERT_TRUE(opened.ok()) << opened.error().text();
   Bus& bus = *opened;
   const std::string can = PHARE_CAN_TESTS_DIR;
-  Child machine({can + "/canvm", "run", "--rw", folder, "--udp", base + ":" + base, "--timeout", "170", cache, "--",
+  Child machine({can + "/canvm", "run", "--rw", folder, "--udp", base + ":" + base, "--timeout", "280", cache, "--",
                  can + "/rig_guest.sh", folder, base, PHARE_COCKPIT_PROGRAM, PHARE_RELAY_PROGRAM, rig_file,
                  folder / "stalk.toml"},
                 folder / "machine.log");
-  Child car({PHARE_DYNAMICS_PROGRAM, "--rig", rig_file, "--port-base", base}, folder / "dynamics.log");
-  Child picture({PHARE_VISUAL_PROGRAM, "--rig", rig_file, "--port-base", base, "--headless", "--size", "160x90",
-                 "--audit-every", "0", "--frames", "100000", "--out", folder / "out"},
-                folder / "visual.log");
-
   const auto until = [&](const std::function<bool()>& done) {
     const auto limit = Clock::now() + kPatience;
     while (Clock::now() < limit) {
@@ -156,6 +154,12 @@ TEST(WholeRig, TheStalkOnCanMovesTheBeamInThePicture) {
   };
 
   ASSERT_TRUE(until([&] { return light_is(LightSwitch::kLow); })) << logs();
+  // Only now, because a picture drawn in software leaves no time to boot a machine in.
+  Child car({PHARE_DYNAMICS_PROGRAM, "--rig", rig_file, "--port-base", base}, folder / "dynamics.log");
+  Child picture({PHARE_VISUAL_PROGRAM, "--rig", rig_file, "--port-base", base, "--headless", "--size", "160x90",
+                 "--audit-every", "0", "--frames", "100000", "--out", folder / "out"},
+                folder / "visual.log", 10);
+
   ASSERT_TRUE(until(drawn) && more_frames(5)) << logs();
   const auto before = newest_frame(folder / "out/frames");
   ASSERT_TRUE(before);

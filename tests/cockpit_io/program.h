@@ -21,7 +21,9 @@ inline constexpr auto kPatience = 20s;
 
 class Program {
  public:
-  Program(const std::vector<std::string>& arguments, const std::filesystem::path& errors) {
+  /// `output`: where its standard output goes; empty: where the test's goes.
+  Program(const std::vector<std::string>& arguments, const std::filesystem::path& errors,
+          const std::filesystem::path& output = {}) {
     std::vector<std::string> words{PHARE_COCKPIT_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
@@ -33,6 +35,7 @@ class Program {
       const int nothing = open("/dev/null", O_RDONLY);
       dup2(out, STDERR_FILENO);
       dup2(nothing, STDIN_FILENO);
+      if (!output.empty()) dup2(open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
       execv(pointers[0], pointers.data());
       _exit(127);
     }
