@@ -13,7 +13,7 @@ namespace phare {
 
 struct BatchCommand::Options {
   std::string in, compare_with, out, vehicle, integrator = "rk4", tyre = "magic", attitude = "dynamic", road,
-                                resistance = "auto", levelling = "none", roughness;
+                                              resistance = "auto", levelling = "none", roughness;
   double step_s = 0.002, output_hz = 100.0, speed_mps = 0.0, start_x_m = 0.0, friction = 1.0, envelope_m = 0.1,
          relaxation_scale = 1.0;
   std::uint64_t seed = 1;
@@ -34,7 +34,9 @@ void BatchCommand::add_to(CLI::App& app) {
       ->group(group);
   app.add_option("--step-s", o.step_s, "Batch: fixed step, s")->check(CLI::Range(1e-6, 0.1))->group(group);
   app.add_option("--output-hz", o.output_hz, "Batch: rows a second")->check(CLI::Range(0.01, 1e5))->group(group);
-  app.add_option("--speed-mps", o.speed_mps, "Batch: speed at the start")->check(CLI::Range(-60.0, 120.0))->group(group);
+  app.add_option("--speed-mps", o.speed_mps, "Batch: speed at the start")
+      ->check(CLI::Range(-60.0, 120.0))
+      ->group(group);
   app.add_option("--start-x-m", o.start_x_m, "Batch: x of the centre of gravity at the start")
       ->check(CLI::Range(-1e8, 1e8))
       ->group(group);
@@ -48,19 +50,24 @@ void BatchCommand::add_to(CLI::App& app) {
   app.add_option("--friction", o.friction, "Batch: of the whole road, 1 as the tyre was measured")
       ->check(CLI::Range(0.01, 2.0))
       ->group(group);
-  app.add_option("--tyre", o.tyre, "Batch, single-track: magic or linear")->check(CLI::IsMember({"magic", "linear"}))->group(group);
+  app.add_option("--tyre", o.tyre, "Batch, single-track: magic or linear")
+      ->check(CLI::IsMember({"magic", "linear"}))
+      ->group(group);
   app.add_option("--attitude", o.attitude, "Batch, single-track: dynamic or quasi-static")
       ->check(CLI::IsMember({"dynamic", "quasi-static"}))
       ->group(group);
-  app.add_option("--resistance", o.resistance, "Batch: air and rolling resistance; auto: off when wheel torques are given")
+  app.add_option("--resistance", o.resistance,
+                 "Batch: air and rolling resistance; auto: off when wheel torques are given")
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->group(group);
   app.add_option("--relaxation-scale", o.relaxation_scale, "Batch: multiplies the tyre's relaxation lengths")
       ->check(CLI::Range(0.01, 100.0))
       ->group(group);
-  app.add_option("--compare", o.compare_with, "Run the reference manoeuvres of this directory and say how far we are off")
+  app.add_option("--compare", o.compare_with,
+                 "Run the reference manoeuvres of this directory and say how far we are off")
       ->group(group);
-  app.add_flag("--work-precision", o.work_precision, "Print error and cost of every level, integrator and step (--vehicle)")
+  app.add_flag("--work-precision", o.work_precision,
+               "Print error and cost of every level, integrator and step (--vehicle)")
       ->group(group);
   app.add_option("--levelling", o.levelling, "Batch: none, manual, static or dynamic")
       ->check(CLI::IsMember({"none", "manual", "static", "dynamic"}))
@@ -113,7 +120,8 @@ int run_work_precision(const std::string& vehicle_file) {
 
 int BatchCommand::run(const std::string& level_name) const {
   const Options& o = *options_;
-  const auto integrator = static_cast<Integrator>(index_of(o.integrator, {"semi-implicit-euler", "etd2", "rk4", "reference"}));
+  const auto integrator =
+      static_cast<Integrator>(index_of(o.integrator, {"semi-implicit-euler", "etd2", "rk4", "reference"}));
   if (!o.compare_with.empty()) return run_compare(o.compare_with, o.vehicle, integrator, o.step_s);
   if (o.work_precision) return run_work_precision(o.vehicle);
   if (o.out.empty()) return fail({"--out", "--batch needs a file to write the motion to"});
@@ -166,15 +174,17 @@ int BatchCommand::run(const std::string& level_name) const {
   std::FILE* file = std::fopen(o.out.c_str(), "w");
   if (!file) return fail({o.out, "cannot be written"});
   std::fprintf(file, "%s\n", batch::header().c_str());
-  const Result<batch::Summary> summary = batch::run(options, *inputs, [&](const batch::Row& row) { batch::print(row, file); });
+  const Result<batch::Summary> summary =
+      batch::run(options, *inputs, [&](const batch::Row& row) { batch::print(row, file); });
   const bool written = std::ferror(file) == 0;
   if (std::fclose(file) != 0 || !written) return fail({o.out, "could not be written to its end"});
   if (!summary) return fail(summary.error());
   if (summary->gave_up) return fail({"--integrator", "the reference integrator gave up"});
-  std::printf("%llu steps of %g s in %.3f s: %.0f times real time; state hash %016llx%s%s\n",
-              static_cast<unsigned long long>(summary->steps), o.step_s, summary->wall_s,
-              summary->simulated_s / std::max(summary->wall_s, 1e-9), static_cast<unsigned long long>(summary->state_hash),
-              summary->resistance ? "" : "; no air and rolling resistance", summary->off_road ? "; a wheel left the road" : "");
+  std::printf(
+      "%llu steps of %g s in %.3f s: %.0f times real time; state hash %016llx%s%s\n",
+      static_cast<unsigned long long>(summary->steps), o.step_s, summary->wall_s,
+      summary->simulated_s / std::max(summary->wall_s, 1e-9), static_cast<unsigned long long>(summary->state_hash),
+      summary->resistance ? "" : "; no air and rolling resistance", summary->off_road ? "; a wheel left the road" : "");
   return kExitDone;
 }
 
