@@ -12,8 +12,8 @@
 
 namespace phare {
 
-/// Comma separated, one header line, every cell a finite number, every row as long as the header. Lines that are empty or
-/// begin with # are passed over. At most 2 GiB and 4096 columns.
+/// Comma separated, one header line, every cell a finite number, every row as long as the header. Lines that are empty
+/// or begin with # are passed over. At most 2 GiB and 4096 columns.
 class CsvTable {
  public:
   static Result<CsvTable> read(const std::filesystem::path& file);

@@ -50,7 +50,8 @@ Result<HeightProfile> HeightProfile::read(const std::filesystem::path& csv_file)
   if (!table) return table.error();
   const auto column = [&](std::initializer_list<const char*> names) { return table->find(names); };
   const auto x = column({"x_m", "x", "s_m"}), both = column({"z_m", "z"});
-  const auto left = both ? both : column({"z_left_m", "z_left"}), right = both ? both : column({"z_right_m", "z_right"});
+  const auto left = both ? both : column({"z_left_m", "z_left"}),
+             right = both ? both : column({"z_right_m", "z_right"});
   if (!x || !left || !right)
     return Error{csv_file.string() + ":1", "a height profile needs columns x_m and z_m, or x_m, z_left_m, z_right_m"};
   if (table->rows() < 2) return Error{csv_file.string(), "a height profile needs two rows at least"};
@@ -92,6 +93,7 @@ HeightProfile HeightProfile::iso8608(RoughnessClass roughness, std::uint64_t see
   profile.per_spacing_ = 20.0;
   const auto points = static_cast<std::size_t>(std::round(length_m / profile.spacing_m_));
   const double period = static_cast<double>(points) * profile.spacing_m_, dn = 1.0 / period;
+  profile.per_count_ = 1.0 / static_cast<double>(points);
   profile.left_.assign(points, 0.0);
   profile.right_.assign(points, 0.0);
   std::mt19937_64 random(seed);
@@ -166,7 +168,9 @@ HeightProfile::Sample HeightProfile::at(double s_m, bool left) const {
   // Written so that NaN fails.
   if (count < 2 || !(std::abs(place) < 1e15)) return {};
   if (repeats_) {
-    place -= std::floor(place / static_cast<double>(count)) * static_cast<double>(count);
+    // By truncation: floor() is a call where the processor's own is not assumed.
+    place -= static_cast<double>(static_cast<std::int64_t>(place * per_count_)) * static_cast<double>(count);
+    if (place < 0.0) place += static_cast<double>(count);
   } else if (place <= 0.0) {
     return {track.front(), 0.0};
   } else if (place >= static_cast<double>(count - 1)) {
@@ -180,7 +184,8 @@ HeightProfile::Sample HeightProfile::at(double s_m, bool left) const {
   } else {
     for (std::size_t k = 0; k < 4; ++k) {
       const std::int64_t at = i - 1 + static_cast<std::int64_t>(k);
-      z[k] = track[static_cast<std::size_t>(repeats_ ? (at + count) % count : std::clamp<std::int64_t>(at, 0, count - 1))];
+      z[k] =
+          track[static_cast<std::size_t>(repeats_ ? (at + count) % count : std::clamp<std::int64_t>(at, 0, count - 1))];
     }
   }
   // Catmull and Rom 1974: the cubic with the slopes of the neighbours' chords.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "config/result.h"
@@ -55,7 +56,7 @@ class HeightProfile {
  private:
   std::int64_t points() const { return static_cast<std::int64_t>(left_.size()); }
 
-  double start_m_ = 0.0, spacing_m_ = 1.0, per_spacing_ = 1.0;
+  double start_m_ = 0.0, spacing_m_ = 1.0, per_spacing_ = 1.0, per_count_ = 1.0;
   bool repeats_ = false;
   std::vector<double> left_, right_;
 };

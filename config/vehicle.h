@@ -31,9 +31,9 @@ struct ChassisParams {
   double front_axle_kg = 0.0;       ///< unsprung mass, both wheels
   double rear_axle_kg = 0.0;
   double front_track_m = 0.0, rear_track_m = 0.0;
-  double front_damping_nspm = 0.0, rear_damping_nspm = 0.0;      ///< at one wheel
+  double front_damping_nspm = 0.0, rear_damping_nspm = 0.0;          ///< at one wheel
   double front_anti_roll_nmprad = 0.0, rear_anti_roll_nmprad = 0.0;  ///< of the bar, per radian of roll
-  double tyre_damping_nspm = 0.0;                                 ///< vertical, one tyre
+  double tyre_damping_nspm = 0.0;                                    ///< vertical, one tyre
   double anti_squat_01 = 0.0;  ///< share of the load transfer of driving that the rear linkage carries past the spring
   double bump_travel_m = 0.0, rebound_travel_m = 0.0;  ///< from rest to the stops
   double stop_rate_npm = 0.0;                          ///< added beyond them

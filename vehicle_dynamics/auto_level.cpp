@@ -65,7 +65,8 @@ Scene scene_of(const VehicleParams& v, const CarState& s, const Controls& contro
     const double here = path_m + (i < 2 ? v.cg_to_front_m : v.cg_to_front_m - v.wheelbase_m);
     for (std::size_t k = 0; k < 3; ++k) {
       const double ahead = way * static_cast<double>(k);
-      const Ground ground = road.at(points[i].x + c * ahead, points[i].y + sn * ahead, here + ahead, i % 2 == 0, s.contact_z_m[i], &off);
+      const Ground ground =
+          road.at(points[i].x + c * ahead, points[i].y + sn * ahead, here + ahead, i % 2 == 0, s.contact_z_m[i], &off);
       z[k] = ground.z_m;
       scene.friction = std::min(scene.friction, ground.friction);
     }

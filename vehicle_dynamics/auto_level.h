@@ -13,9 +13,9 @@ namespace phare {
 
 /// What the choice looks at.
 struct Scene {
-  double utilisation_01 = 0.0;   ///< acceleration in the plane over what the tyres can do
-  double friction = 1.0;         ///< lowest under a wheel
-  double unevenness_m = 0.0;     ///< of the road within 2 m ahead of the wheels, beyond a straight line
+  double utilisation_01 = 0.0;  ///< acceleration in the plane over what the tyres can do
+  double friction = 1.0;        ///< lowest under a wheel
+  double unevenness_m = 0.0;    ///< of the road within 2 m ahead of the wheels, beyond a straight line
   double least_load_share = 1.0;
   double ax_mps2 = 0.0, ay_mps2 = 0.0;
   double speed_mps = 0.0;

@@ -75,7 +75,8 @@ class Car {
     } else if (o_.road) {
       bool off = false;
       for (std::size_t i = 0; i < 4; ++i) {
-        const double x = o_.start_x_m + (i < 2 ? o_.vehicle.cg_to_front_m : -b), y = (i % 2 == 0 ? 0.5 : -0.5) * o_.vehicle.track_m;
+        const double x = o_.start_x_m + (i < 2 ? o_.vehicle.cg_to_front_m : -b),
+                     y = (i % 2 == 0 ? 0.5 : -0.5) * o_.vehicle.track_m;
         height[i] = o_.road->at(x, y, x, i % 2 == 0, 0.0, &off).z_m;
       }
     }
@@ -115,7 +116,8 @@ class Car {
       return;
     }
     if (pedals) {
-      const auto torque = powertrain::advance(o_.vehicle, controls, parking, speed, spins(), o_.level == Level::kFull, power_, dt);
+      const auto torque =
+          powertrain::advance(o_.vehicle, controls, parking, speed, spins(), o_.level == Level::kFull, power_, dt);
       input_.drive_nm = torque.drive_nm, input_.brake_nm = torque.brake_nm;
     } else {
       for (std::size_t i = 0; i < 4; ++i) {
@@ -124,11 +126,15 @@ class Car {
       }
     }
     if (o_.level == Level::kFull) {
-      if (o_.integrator == Integrator::kReference) gave_up_ |= !reference_.advance(full_params_, input_, full_, dt);
-      else full::advance(full_params_, input_, full_, dt);
+      if (o_.integrator == Integrator::kReference)
+        gave_up_ |= !reference_.advance(full_params_, input_, full_, dt);
+      else
+        full::advance(full_params_, input_, full_, dt);
     } else {
-      if (o_.integrator == Integrator::kReference) gave_up_ |= !reference_.advance(single_params_, input_, single_, dt);
-      else single_track::advance(single_params_, input_, single_, dt);
+      if (o_.integrator == Integrator::kReference)
+        gave_up_ |= !reference_.advance(single_params_, input_, single_, dt);
+      else
+        single_track::advance(single_params_, input_, single_, dt);
     }
   }
 
@@ -157,14 +163,16 @@ class Car {
       return row;
     }
     const bool whole = o_.level == Level::kFull;
-    const full::Forces f = whole ? full::forces(full_params_, now, full_) : single_track::forces(single_params_, now, single_);
+    const full::Forces f =
+        whole ? full::forces(full_params_, now, full_) : single_track::forces(single_params_, now, single_);
     beside_ = f.ground_m;
     off_road_ |= f.off_road;
     row.x_m = whole ? full_.x_m : single_.x_m, row.y_m = whole ? full_.y_m : single_.y_m;
     row.z_m = whole ? full_.z_m : single_.z_m;
     row.roll_rad = f.roll_rad, row.pitch_rad = f.pitch_rad;
     row.yaw_rad = yaw_ += std::remainder(f.yaw_rad - yaw_, 2.0 * std::numbers::pi);
-    row.roll_rate_radps = f.roll_rate_radps, row.pitch_rate_radps = f.pitch_rate_radps, row.yaw_rate_radps = f.yaw_rate_radps;
+    row.roll_rate_radps = f.roll_rate_radps, row.pitch_rate_radps = f.pitch_rate_radps,
+    row.yaw_rate_radps = f.yaw_rate_radps;
     row.vx_mps = whole ? full_.u_mps : single_.u_mps, row.vy_mps = whole ? full_.v_mps : single_.v_mps;
     row.ax_mps2 = f.ax_mps2, row.ay_mps2 = f.ay_mps2;
     row.spin_radps = spins();
@@ -180,7 +188,8 @@ class Car {
     const double pitch = row.pitch_rad - road_pitch_;
     levelling::advance(p, o_.levelling, wheel_steps, pitch, row.vx_mps, lamps_, dt);
     row.lamp_tilt_rad = lamps_.tilt_rad;
-    row.cutoff_25m_m = levelling::cutoff_on_wall_m(p, pitch, (origin_z_ - plane_z_) * std::cos(road_pitch_), lamps_.tilt_rad);
+    row.cutoff_25m_m =
+        levelling::cutoff_on_wall_m(p, pitch, (origin_z_ - plane_z_) * std::cos(road_pitch_), lamps_.tilt_rad);
     row.cutoff_25m_z_m = levelling::cutoff_on_wall_m(p, row.pitch_rad, origin_z_, lamps_.tilt_rad);
   }
 
@@ -194,7 +203,9 @@ class Car {
     return spin;
   }
   std::uint64_t hash() const {
-    return o_.level == Level::kFull ? state_hash(full_) : o_.level == Level::kSingleTrack ? state_hash(single_) : state_hash(flat_);
+    return o_.level == Level::kFull          ? state_hash(full_)
+           : o_.level == Level::kSingleTrack ? state_hash(single_)
+                                             : state_hash(flat_);
   }
   bool off_road() const { return off_road_; }
   bool gave_up() const { return gave_up_; }
@@ -204,7 +215,8 @@ class Car {
     if (!pedals) {
       double force = 0.0;
       for (const auto& torque : inputs.torque_nm) force += in.linear(torque) / o_.vehicle.tyre_radius_m;
-      const double most = std::min(o_.vehicle.max_drive_force_n, o_.vehicle.max_power_w / std::max(std::abs(flat_.speed_mps), 0.1));
+      const double most =
+          std::min(o_.vehicle.max_drive_force_n, o_.vehicle.max_power_w / std::max(std::abs(flat_.speed_mps), 0.1));
       controls.accelerator_01 = std::clamp(force / most, 0.0, 1.0);
       controls.brake_01 = std::clamp(-force / o_.vehicle.max_brake_force_n, 0.0, 1.0);
     }
@@ -216,7 +228,10 @@ class Car {
       const auto points = kinematic::contact_points(o_.vehicle, flat_);
       const double path = flat_.x_m;
       for (std::size_t i = 0; i < 4; ++i)
-        height[i] = o_.road->at(points[i].x, points[i].y, path + (i < 2 ? o_.vehicle.wheelbase_m : 0.0), i % 2 == 0, beside_[i], &off_road_).z_m;
+        height[i] = o_.road
+                        ->at(points[i].x, points[i].y, path + (i < 2 ? o_.vehicle.wheelbase_m : 0.0), i % 2 == 0,
+                             beside_[i], &off_road_)
+                        .z_m;
     }
     beside_ = height;
     kinematic::stand_on(o_.vehicle, height, flat_, dt);
@@ -311,7 +326,8 @@ std::string header() {
 
 void print(const Row& row, std::FILE* file) {
   const double* values = &row.time_s;
-  for (std::size_t i = 0; i < sizeof(Row) / sizeof(double); ++i) std::fprintf(file, i == 0 ? "%.17g" : ",%.17g", values[i]);
+  for (std::size_t i = 0; i < sizeof(Row) / sizeof(double); ++i)
+    std::fprintf(file, i == 0 ? "%.17g" : ",%.17g", values[i]);
   std::fputc('\n', file);
 }
 

@@ -19,15 +19,15 @@ namespace phare::batch {
 /// What drives the car, at times that rise. Between rows numbers are linear, gear and steps of the wheel are held.
 struct Inputs {
   std::vector<double> time_s, steer_rad;
-  std::vector<double> accelerator_01, brake_01;        ///< empty when torques are given
-  std::array<std::vector<double>, 4> torque_nm;        ///< < 0 brakes: it never turns a wheel backwards
-  std::array<std::vector<double>, 4> road_m;           ///< empty unless given
+  std::vector<double> accelerator_01, brake_01;          ///< empty when torques are given
+  std::array<std::vector<double>, 4> torque_nm;          ///< < 0 brakes: it never turns a wheel backwards
+  std::array<std::vector<double>, 4> road_m;             ///< empty unless given
   std::vector<double> gear, parking_01, levelling_step;  ///< optional columns
 };
 
 /// Columns time_s, steer_rad and either accelerator_01, brake_01 or torque_fl_nm … torque_rr_nm; optional road_fl_m …
-/// road_rr_m, gear (0 D, 1 N, 2 R, 3 P), parking_brake_01, levelling_step. Numbers out of range, other columns, time that
-/// does not rise: an Error with file and line.
+/// road_rr_m, gear (0 D, 1 N, 2 R, 3 P), parking_brake_01, levelling_step. Numbers out of range, other columns, time
+/// that does not rise: an Error with file and line.
 Result<Inputs> read_inputs(const std::filesystem::path& csv_file);
 
 enum class Resistance { kAuto, kOn, kOff };  ///< kAuto: off when torques are given, they stand for all that pulls
@@ -48,8 +48,8 @@ struct Options {
   std::optional<double> relaxation_scale;  ///< multiplies the tyre's relaxation lengths
 };
 
-/// One line of output. Position and velocities of the centre of gravity, z from its height at rest; angles of the body in
-/// the world; velocities and accelerations along the car's axes; forces in the wheels' heading.
+/// One line of output. Position and velocities of the centre of gravity, z from its height at rest; angles of the body
+/// in the world; velocities and accelerations along the car's axes; forces in the wheels' heading.
 struct Row {
   double time_s = 0.0, x_m = 0.0, y_m = 0.0, z_m = 0.0;
   double roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;

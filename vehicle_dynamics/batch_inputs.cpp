@@ -30,7 +30,8 @@ Result<Inputs> read_inputs(const std::filesystem::path& csv_file) {
   if (torques && pedals) return Error{header_place, "gives both pedals and wheel torques; one of them drives the car"};
   if (!torques && !pedals)
     return Error{header_place, "has neither accelerator_01, brake_01 nor torque_fl_nm to torque_rr_nm"};
-  const bool road = std::any_of(kWheels.begin(), kWheels.end(), [&](const char* w) { return has("road_" + std::string(w) + "_m"); });
+  const bool road =
+      std::any_of(kWheels.begin(), kWheels.end(), [&](const char* w) { return has("road_" + std::string(w) + "_m"); });
 
   std::vector<Column> columns{{"time_s", &in.time_s, -1e9, 1e9, true}, {"steer_rad", &in.steer_rad, -1.2, 1.2, true}};
   if (pedals) {

@@ -44,12 +44,14 @@ double rms(const Column& c) {
 }
 double largest_percent(const Column& reference, const Column& ours) {
   double most = 0.0;
-  for (std::size_t i = 0; i < std::min(reference.size(), ours.size()); ++i) most = std::max(most, std::abs(reference[i] - ours[i]));
+  for (std::size_t i = 0; i < std::min(reference.size(), ours.size()); ++i)
+    most = std::max(most, std::abs(reference[i] - ours[i]));
   return 100.0 * most / peak(reference);
 }
 double path_m(const Column& x, const Column& y, const Column& our_x, const Column& our_y) {
   double most = 0.0;
-  for (std::size_t i = 0; i < std::min(x.size(), our_x.size()); ++i) most = std::max(most, std::hypot(x[i] - our_x[i], y[i] - our_y[i]));
+  for (std::size_t i = 0; i < std::min(x.size(), our_x.size()); ++i)
+    most = std::max(most, std::hypot(x[i] - our_x[i], y[i] - our_y[i]));
   return most;
 }
 
@@ -65,7 +67,8 @@ Result<Traces> run(const Record& record, const Record& heights, const VehiclePar
   for (std::size_t i = 0; i < 4; ++i) {
     in.torque_nm[i] = record.column(std::string("T_") + kWheels[i]);
     if (rough) in.road_m[i] = heights.column(std::string("h_") + kWheels[i]);
-    if (rough && in.road_m[i].size() != in.time_s.size()) return Error{heights.file, "has other times than " + record.file};
+    if (rough && in.road_m[i].size() != in.time_s.size())
+      return Error{heights.file, "has other times than " + record.file};
   }
   batch::Options o;
   o.vehicle = vehicle, o.vehicle_place = "vehicle";
@@ -101,7 +104,9 @@ std::string text(const Line& l) {
   std::string out = buffer;
   if (l.band > 0.0) {
     std::snprintf(buffer, sizeof buffer, "  band %6.2f, programs differ by %8.4f  %s", l.band, l.programs,
-                  l.error <= l.band ? "within" : l.error <= l.allowed() ? "within the programs' difference" : "OUTSIDE");
+                  l.error <= l.band        ? "within"
+                  : l.error <= l.allowed() ? "within the programs' difference"
+                                           : "OUTSIDE");
     out += buffer;
   }
   return out;
@@ -119,10 +124,12 @@ Result<std::vector<Line>> manoeuvres(const std::filesystem::path& directory, con
     const Result<Record> chrono = read(directory / (std::string(name) + "__chrono.csv"));
     if (!chrono) return chrono.error();
     const Traces of_mb = of(*mb), of_chrono = of(*chrono);
-    const bool turns = peak(of_mb.yaw_rate) > 0.05, pitches = peak(of_mb.pitch) > 0.01, rough = name[2] == '6', bump = name[2] == '4';
+    const bool turns = peak(of_mb.yaw_rate) > 0.05, pitches = peak(of_mb.pitch) > 0.01, rough = name[2] == '6',
+               bump = name[2] == '4';
     for (const Level level : {Level::kFull, Level::kSingleTrack})
       for (const bool is_mb : {true, false}) {
-        const Bands& band = level == Level::kFull ? (is_mb ? kFullMb : kFullChrono) : (is_mb ? kSingleMb : kSingleChrono);
+        const Bands& band =
+            level == Level::kFull ? (is_mb ? kFullMb : kFullChrono) : (is_mb ? kSingleMb : kSingleChrono);
         const Result<Traces> ours = run(is_mb ? *mb : *chrono, *mb, *vehicle, level, integrator, step_s);
         if (!ours) return ours.error();
         const Traces &ref = is_mb ? of_mb : of_chrono, &other = is_mb ? of_chrono : of_mb;
@@ -130,7 +137,8 @@ Result<std::vector<Line>> manoeuvres(const std::filesystem::path& directory, con
           lines.push_back({name, is_mb ? "MB" : "Chrono", phare::name(level), quantity, error, limit, programs, unit});
         };
         if (rough) {
-          const auto of_rms = [&](const char* quantity, const Column& a, const Column& b, const Column& c, double limit) {
+          const auto of_rms = [&](const char* quantity, const Column& a, const Column& b, const Column& c,
+                                  double limit) {
             add(quantity, 100.0 * std::abs(rms(b) / rms(a) - 1.0), limit, 100.0 * std::abs(rms(c) / rms(a) - 1.0), "%");
           };
           of_rms("pitch rms", ref.pitch, ours->pitch, other.pitch, band.rough);
@@ -140,11 +148,13 @@ Result<std::vector<Line>> manoeuvres(const std::filesystem::path& directory, con
           continue;
         }
         if (turns) {
-          add("yaw rate", largest_percent(ref.yaw_rate, ours->yaw_rate), band.yaw, largest_percent(ref.yaw_rate, other.yaw_rate), "%");
+          add("yaw rate", largest_percent(ref.yaw_rate, ours->yaw_rate), band.yaw,
+              largest_percent(ref.yaw_rate, other.yaw_rate), "%");
           add("roll", largest_percent(ref.roll, ours->roll), band.roll, largest_percent(ref.roll, other.roll), "%");
         }
         if (pitches)
-          add("pitch", largest_percent(ref.pitch, ours->pitch), bump ? band.bump : band.pitch, largest_percent(ref.pitch, other.pitch), "%");
+          add("pitch", largest_percent(ref.pitch, ours->pitch), bump ? band.bump : band.pitch,
+              largest_percent(ref.pitch, other.pitch), "%");
         add("path", path_m(ref.x, ref.y, ours->x, ours->y), band.path, path_m(ref.x, ref.y, other.x, other.y), "m");
       }
   }
@@ -158,7 +168,8 @@ Result<Measured> measured_drive(const std::filesystem::path& directory, const st
   const Result<CsvTable> inputs = CsvTable::read(base + "inputs.csv"), imu = CsvTable::read(base + "imu.csv");
   if (!inputs) return inputs.error();
   if (!imu) return imu.error();
-  const auto t = inputs->find({"t"}), throttle = inputs->find({"throttle"}), brake = inputs->find({"brake"}), vx = inputs->find({"vx"});
+  const auto t = inputs->find({"t"}), throttle = inputs->find({"throttle"}), brake = inputs->find({"brake"}),
+             vx = inputs->find({"vx"});
   const auto ti = imu->find({"t"}), pitch = imu->find({"pitch"});
   if (!t || !throttle || !brake || !vx || !ti || !pitch) return Error{base + "inputs.csv", "lacks a column"};
   batch::Inputs in;
@@ -174,7 +185,8 @@ Result<Measured> measured_drive(const std::filesystem::path& directory, const st
   batch::Options o;
   o.vehicle = std::move(*vehicle), o.vehicle_place = vehicle_file.string();
   std::vector<batch::Row> rows;
-  if (const auto done = batch::run(o, in, [&](const batch::Row& row) { rows.push_back(row); }); !done) return done.error();
+  if (const auto done = batch::run(o, in, [&](const batch::Row& row) { rows.push_back(row); }); !done)
+    return done.error();
 
   Measured out;
   double count = 0.0;

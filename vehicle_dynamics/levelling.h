@@ -25,8 +25,8 @@ struct State {
 void advance(const LevellingParams& params, Kind kind, double wheel_steps, double axle_pitch_rad, double speed_mps,
              State& state, double dt);
 
-/// Height of the cut-off on an upright wall 25 m ahead of the lamp, over the level ground under the car's origin, m: what
-/// an aiming screen shows. `pitch_rad`, `heave_m` of the body, nose down and up > 0, heave at the car's origin.
+/// Height of the cut-off on an upright wall 25 m ahead of the lamp, over the level ground under the car's origin, m:
+/// what an aiming screen shows. `pitch_rad`, `heave_m` of the body, nose down and up > 0, heave at the car's origin.
 double cutoff_on_wall_m(const LevellingParams& params, double pitch_rad, double heave_m, double tilt_rad);
 
 inline constexpr double kWall_m = 25.0;

@@ -170,6 +170,7 @@ class Process {
       bus_.poll();
       stats_once_a_second();
       const Clock::time_point now = Clock::now();
+      wake_late_.add(std::max(now - before - step, std::chrono::nanoseconds(0)));
       if (requests_.seek_s && seek()) start = before = now;
       if (requests_.paused) loop_->skip(SimTime{(now - before).count()});  // the pose goes on being sent
       before = now;
@@ -311,7 +312,10 @@ class Process {
         json["auto"] = {{"level", name(loop_->level_now())},
                         {"reason", name(choice.now().reason)},
                         {"switches", choice.switches()},
-                        {"seconds", {{"kinematic", choice.seconds()[0]}, {"single-track", choice.seconds()[1]}, {"full", choice.seconds()[2]}}}};
+                        {"seconds",
+                         {{"kinematic", choice.seconds()[0]},
+                          {"single-track", choice.seconds()[1]},
+                          {"full", choice.seconds()[2]}}}};
       }
       json["sim_time_s"] = loop_->time().seconds();
       json["steps"] = loop_->steps();
@@ -324,6 +328,10 @@ class Process {
                          {"p99", times.quantile_ns(0.99)},
                          {"p99_9", times.quantile_ns(0.999)},
                          {"max", times.max_ns()}};
+      if (wake_late_.count() > 0)
+        json["wake_late_ns"] = {{"count", wake_late_.count()},         {"p50", wake_late_.quantile_ns(0.5)},
+                                {"p99", wake_late_.quantile_ns(0.99)}, {"p99_9", wake_late_.quantile_ns(0.999)},
+                                {"max", wake_late_.max_ns()},          {"octaves", wake_late_.octaves()}};
     }
     if (!write_json(options_.stats_file, json)) spdlog::warn("{}: cannot be written", options_.stats_file);
   }
@@ -334,6 +342,7 @@ class Process {
   StopFlag stop_;
   Requests requests_;
   std::optional<StepLoop> loop_;
+  StepTimes wake_late_;  ///< real time: how much longer than a step it was since the last wake-up
   bool silent_ = false, off_road_logged_ = false;
   std::uint64_t drops_logged_ = 0;
   Clock::time_point next_lag_log_{}, next_stats_{};
@@ -348,7 +357,8 @@ int run(int argc, char** argv) {
   app.add_flag("--lockstep", options.lockstep, "Advance frame by frame with the picture, reproducibly");
   app.add_option("--drive", options.drive_file,
                  "Drive file to replay (pose) or to take the first pose from (kinematic)");
-  app.add_option("--level", options.level, "Model: pose, kinematic, single-track, full, auto (default: the rig's; batch: full)");
+  app.add_option("--level", options.level,
+                 "Model: pose, kinematic, single-track, full, auto (default: the rig's; batch: full)");
   app.add_option("--stats", options.stats_file, "Write counters and times to this JSON file every second");
   app.add_option("--log-level", options.log_level, "How much to tell")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));

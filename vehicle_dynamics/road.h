@@ -31,9 +31,8 @@ struct Road {
   double friction_everywhere = 1.0;
 
   /// At world (x, y), `path_m` along the path, in the left or right track. Beside a mesh the height is `beside_m` and
-  /// *off becomes true. No allocation; below a microsecond (road_test.cpp).
+  /// *off becomes true. No allocation; below a microsecond (road_profile_test.cpp).
   Ground at(double x_m, double y_m, double path_m, bool left, double beside_m, bool* off) const;
-
 };
 
 }  // namespace phare

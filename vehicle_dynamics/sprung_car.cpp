@@ -46,7 +46,8 @@ void SprungCar::take_over(Model model, const CarState& s, double path_m, double 
   const glm::dvec3 centre = origin + body[0] * b + body[2] * h;
 
   // Rates about the body's axes from those of the angles (R = Rz Ry Rx).
-  const double roll_rate = s.road_roll_rate_radps + s.roll_rate_radps, pitch_rate = s.road_pitch_rate_radps + s.pitch_rate_radps;
+  const double roll_rate = s.road_roll_rate_radps + s.roll_rate_radps,
+               pitch_rate = s.road_pitch_rate_radps + s.pitch_rate_radps;
   const double p_rate = roll_rate - s.yaw_rate_radps * std::sin(pitch);
   const double q_rate = pitch_rate * std::cos(roll) + s.yaw_rate_radps * std::sin(roll) * std::cos(pitch);
   const double r_rate = s.yaw_rate_radps * std::cos(roll) * std::cos(pitch) - pitch_rate * std::sin(roll);
@@ -60,8 +61,8 @@ void SprungCar::take_over(Model model, const CarState& s, double path_m, double 
   if (model == Model::kFull) {
     full::State f;
     f.x_m = centre.x, f.y_m = centre.y, f.z_m = centre.z - h;
-    const double cr = std::cos(0.5 * roll), sr = std::sin(0.5 * roll), cp = std::cos(0.5 * pitch), sp = std::sin(0.5 * pitch),
-                 cy = std::cos(0.5 * s.yaw_rad), sy = std::sin(0.5 * s.yaw_rad);
+    const double cr = std::cos(0.5 * roll), sr = std::sin(0.5 * roll), cp = std::cos(0.5 * pitch),
+                 sp = std::sin(0.5 * pitch), cy = std::cos(0.5 * s.yaw_rad), sy = std::sin(0.5 * s.yaw_rad);
     f.qw = cr * cp * cy + sr * sp * sy, f.qx = sr * cp * cy - cr * sp * sy;
     f.qy = cr * sp * cy + sr * cp * sy, f.qz = cr * cp * sy - sr * sp * cy;
     f.path_m = path_m;
@@ -100,17 +101,21 @@ void SprungCar::take_over(Model model, const CarState& s, double path_m, double 
 }
 
 void SprungCar::advance(const Controls& input, const Road& road, double dt) {
-  const double wheel = std::clamp(input.steering_wheel_rad, -vehicle_.max_steering_wheel_rad, vehicle_.max_steering_wheel_rad);
+  const double wheel =
+      std::clamp(input.steering_wheel_rad, -vehicle_.max_steering_wheel_rad, vehicle_.max_steering_wheel_rad);
   const double most = kMaxSteeringWheelRate_radps / vehicle_.steering_ratio * dt;
   input_.steer_rad += std::clamp(wheel / vehicle_.steering_ratio - input_.steer_rad, -most, most);
   input_.road = &road;
   const bool whole = model_ == Model::kFull;
   std::array<double, 4> spin = full_.spin_radps;
   if (!whole) spin.fill(single_.u_mps / vehicle_.tyre_radius_m);
-  const auto torque = powertrain::advance(vehicle_, input, 0.0, whole ? full_.u_mps : single_.u_mps, spin, whole, power_, dt);
+  const auto torque =
+      powertrain::advance(vehicle_, input, 0.0, whole ? full_.u_mps : single_.u_mps, spin, whole, power_, dt);
   input_.drive_nm = torque.drive_nm, input_.brake_nm = torque.brake_nm;
-  if (whole) full::advance(full_params_, input_, full_, dt);
-  else single_track::advance(single_params_, input_, single_, dt);
+  if (whole)
+    full::advance(full_params_, input_, full_, dt);
+  else
+    single_track::advance(single_params_, input_, single_, dt);
   show();
 }
 
@@ -124,7 +129,8 @@ void SprungCar::show() {
   CarState s;
   s.yaw_rad = shown_.yaw_rad + std::remainder(f.yaw_rad - shown_.yaw_rad, 2.0 * std::numbers::pi);
   const glm::dmat3 body = world_from_car(f.roll_rad, f.pitch_rad, s.yaw_rad);
-  const double x = whole ? full_.x_m : single_.x_m, y = whole ? full_.y_m : single_.y_m, z = (whole ? full_.z_m : single_.z_m) + h;
+  const double x = whole ? full_.x_m : single_.x_m, y = whole ? full_.y_m : single_.y_m,
+               z = (whole ? full_.z_m : single_.z_m) + h;
   s.x_m = x - b * body[0].x - h * body[2].x;
   s.y_m = y - b * body[0].y - h * body[2].y;
   const double origin_z = z - b * body[0].z - h * body[2].z;
@@ -137,7 +143,8 @@ void SprungCar::show() {
   const double q = f.pitch_rate_radps, r = f.yaw_rate_radps;
   s.speed_mps = whole ? u - q * h : u;
   side_mps_ = v - r * b;
-  const double vz = whole ? body[0].z * u + body[1].z * v + body[2].z * full_.w_mps + q * b : single_.z_rate_mps + q * b;
+  const double vz =
+      whole ? body[0].z * u + body[1].z * v + body[2].z * full_.w_mps + q * b : single_.z_rate_mps + q * b;
   s.heave_rate_mps = vz + s.speed_mps * std::sin(s.road_pitch_rad);
   s.steer_rad = input_.steer_rad;
   s.ax_mps2 = f.ax_mps2, s.ay_mps2 = f.ay_mps2, s.yaw_rate_radps = f.yaw_rate_radps;

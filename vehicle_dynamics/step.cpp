@@ -83,7 +83,8 @@ void StepLoop::place_on_road(double dt) {
     auto point = setup_.road.at(points[wheel].x, points[wheel].y);
     if (!setup_.on_top.profiles.empty()) {
       bool off = false;
-      const double path = path_m_ + (wheel < 2 ? setup_.vehicle.cg_to_front_m : setup_.vehicle.cg_to_front_m - setup_.vehicle.wheelbase_m);
+      const double path = path_m_ + (wheel < 2 ? setup_.vehicle.cg_to_front_m
+                                               : setup_.vehicle.cg_to_front_m - setup_.vehicle.wheelbase_m);
       const double z = road().at(points[wheel].x, points[wheel].y, path, wheel % 2 == 0, height[wheel], &off).z_m;
       if (!off) point = RoadPoint{.z_m = z};
     }
@@ -131,7 +132,8 @@ void StepLoop::run_as(Level level) {
 
 void StepLoop::choose_level(double dt) {
   constexpr std::array<Level, 3> kRungs{Level::kKinematic, Level::kSingleTrack, Level::kFull};
-  const Scene scene = scene_of(setup_.vehicle, now_, controls_, road(), path_m_, sprung() ? setup_.sprung->least_load_share() : 1.0);
+  const Scene scene =
+      scene_of(setup_.vehicle, now_, controls_, road(), path_m_, sprung() ? setup_.sprung->least_load_share() : 1.0);
   const Level level = kRungs[static_cast<std::size_t>(auto_.next(scene, dt).rung)];
   if (level != running_) run_as(level);
 }

@@ -29,11 +29,11 @@ Result<Level> parse_level(const std::string& text, const std::string& place);
 /// What a run is made of; does not change while it runs.
 struct RunSetup {
   Level level = Level::kKinematic;
-  VehicleParams vehicle;  ///< not needed by level pose
-  RoadSurface road;       ///< empty: the plane at the start's height
-  Road on_top;            ///< profiles and friction laid on it; its mesh and plane are not looked at
+  VehicleParams vehicle;            ///< not needed by level pose
+  RoadSurface road;                 ///< empty: the plane at the start's height
+  Road on_top;                      ///< profiles and friction laid on it; its mesh and plane are not looked at
   std::optional<SprungCar> sprung;  ///< needed by single-track, full and auto
-  PoseTrack track;        ///< needed by level pose only
+  PoseTrack track;                  ///< needed by level pose only
   SimTime step{2'000'000};
 };
 

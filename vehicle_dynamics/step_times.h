@@ -27,6 +27,12 @@ class StepTimes {
     }
     return 0.0;
   }
+  /// Histogram: how many lie in [2^i, 2^(i+1)) ns.
+  std::array<std::uint64_t, 40> octaves() const {
+    std::array<std::uint64_t, 40> counts{};
+    for (std::size_t i = 0; i < buckets_.size(); ++i) counts[i / 8] += buckets_[i];
+    return counts;
+  }
   std::uint64_t count() const { return count_; }
   std::uint64_t max_ns() const { return max_ns_; }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <functional>
 
 #include "vehicle_dynamics/reference.h"
@@ -57,7 +57,8 @@ double run(State state, const full::Params& p, const Road& road, double dt, cons
 template <class Params, class State, class ForcesOf>
 void add_lines(const std::string& level, Params params, const full::Params& car, const State& start, const Road& road,
                const std::vector<double>& steps, const ForcesOf& forces_of,
-               const std::function<void(const Params&, const full::Input&, State&, double)>& fixed, std::vector<Line>& lines) {
+               const std::function<void(const Params&, const full::Input&, State&, double)>& fixed,
+               std::vector<Line>& lines) {
   const auto noted = [&](Trace& trace) {
     return [&](const full::Input& in, const State& s) {
       const full::Forces f = forces_of(params, in, s);
@@ -68,8 +69,12 @@ void add_lines(const std::string& level, Params params, const full::Params& car,
   Trace exact;
   ReferenceIntegrator reference;
   // Where the road under a step counts as straight (single-track), the reference takes short ones.
-  run(start, car, road, level == "full" ? 1e-3 : 1e-4, [&](const full::Input& in, State& s, double dt) { reference.advance(params, in, s, dt); }, noted(exact));
-  for (const auto& [integrator, name] : {std::pair{Integrator::kSemiImplicitEuler, "semi-implicit-euler"}, {Integrator::kEtd2, "etd2"}, {Integrator::kRk4, "rk4"}})
+  run(
+      start, car, road, level == "full" ? 1e-3 : 1e-4,
+      [&](const full::Input& in, State& s, double dt) { reference.advance(params, in, s, dt); }, noted(exact));
+  for (const auto& [integrator, name] : {std::pair{Integrator::kSemiImplicitEuler, "semi-implicit-euler"},
+                                         {Integrator::kEtd2, "etd2"},
+                                         {Integrator::kRk4, "rk4"}})
     for (const double dt : steps) {
       params.integrator = integrator;
       Line line{.level = level, .integrator = name, .step_s = dt};
@@ -78,8 +83,10 @@ void add_lines(const std::string& level, Params params, const full::Params& car,
       run(start, car, road, dt, advance, noted(trace));
       for (std::size_t i = 0; i < exact.pitch.size(); ++i) {
         line.pitch_error_rad = std::max(line.pitch_error_rad, std::abs(trace.pitch[i] - exact.pitch[i]));
-        line.yaw_rate_error_radps = std::max(line.yaw_rate_error_radps, std::abs(trace.yaw_rate[i] - exact.yaw_rate[i]));
-        line.position_error_m = std::max(line.position_error_m, std::hypot(trace.x[i] - exact.x[i], trace.y[i] - exact.y[i]));
+        line.yaw_rate_error_radps =
+            std::max(line.yaw_rate_error_radps, std::abs(trace.yaw_rate[i] - exact.yaw_rate[i]));
+        line.position_error_m =
+            std::max(line.position_error_m, std::hypot(trace.x[i] - exact.x[i], trace.y[i] - exact.y[i]));
       }
       std::vector<double> spent;
       for (int repeat = 0; repeat < (dt < 5e-4 ? 3 : 7); ++repeat)
@@ -88,11 +95,14 @@ void add_lines(const std::string& level, Params params, const full::Params& car,
       line.real_time = kEnd_s / least_s;
       line.ns_per_step = least_s / (kEnd_s / dt) * 1e9;
       StepTimes times;
-      run(start, car, road, dt, [&](const full::Input& in, State& s, double h) {
-        const auto begin = Clock::now();
-        fixed(params, in, s, h);
-        times.add(Clock::now() - begin);
-      }, [](const full::Input&, const State&) {});
+      run(
+          start, car, road, dt,
+          [&](const full::Input& in, State& s, double h) {
+            const auto begin = Clock::now();
+            fixed(params, in, s, h);
+            times.add(Clock::now() - begin);
+          },
+          [](const full::Input&, const State&) {});
       line.p99_9_ns = times.quantile_ns(0.999);
       lines.push_back(line);
     }
@@ -107,30 +117,37 @@ Result<std::vector<Line>> table(const VehicleParams& vehicle, const std::string&
   if (!single) return single.error();
   Road road;
   road.profiles.push_back(HeightProfile::iso8608(RoughnessClass::kC, 1));
-  const std::vector<double> steps = short_run ? std::vector<double>{1e-3, 2e-3, 5e-3} : std::vector<double>{1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2};
+  const std::vector<double> steps =
+      short_run ? std::vector<double>{1e-3, 2e-3, 5e-3} : std::vector<double>{1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2};
   std::vector<Line> lines;
   const double speed = 80.0 / 3.6;
   add_lines<full::Params, full::State>(
       "full", *car, *car, full::at_rest(*car, 0.0, 0.0, 0.0, speed, {}), road, steps,
       [](const full::Params& p, const full::Input& in, const full::State& s) { return full::forces(p, in, s); },
-      [](const full::Params& p, const full::Input& in, full::State& s, double dt) { full::advance(p, in, s, dt); }, lines);
+      [](const full::Params& p, const full::Input& in, full::State& s, double dt) { full::advance(p, in, s, dt); },
+      lines);
   add_lines<single_track::Params, single_track::State>(
       "single-track", *single, *car, single_track::at_rest(*single, 0.0, 0.0, 0.0, speed, {}), road, steps,
-      [](const single_track::Params& p, const full::Input& in, const single_track::State& s) { return single_track::forces(p, in, s); },
-      [](const single_track::Params& p, const full::Input& in, single_track::State& s, double dt) { single_track::advance(p, in, s, dt); },
+      [](const single_track::Params& p, const full::Input& in, const single_track::State& s) {
+        return single_track::forces(p, in, s);
+      },
+      [](const single_track::Params& p, const full::Input& in, single_track::State& s, double dt) {
+        single_track::advance(p, in, s, dt);
+      },
       lines);
   return lines;
 }
 
 std::string markdown(const std::vector<Line>& lines) {
   std::string out =
-      "| level | integrator | step ms | ns a step | x real time | 99.9 % of steps under ns | pitch error mrad | yaw rate error "
+      "| level | integrator | step ms | ns a step | x real time | 99.9 % of steps under ns | pitch error mrad | yaw "
+      "rate error "
       "rad/s | position error m |\n|---|---|---|---|---|---|---|---|---|\n";
   char buffer[240];
   for (const Line& l : lines) {
-    std::snprintf(buffer, sizeof buffer, "| %s | %s | %g | %.0f | %.0f | %.0f | %.2g | %.2g | %.2g |\n", l.level.c_str(),
-                  l.integrator.c_str(), l.step_s * 1e3, l.ns_per_step, l.real_time, l.p99_9_ns, l.pitch_error_rad * 1e3,
-                  l.yaw_rate_error_radps, l.position_error_m);
+    std::snprintf(buffer, sizeof buffer, "| %s | %s | %g | %.0f | %.0f | %.0f | %.2g | %.2g | %.2g |\n",
+                  l.level.c_str(), l.integrator.c_str(), l.step_s * 1e3, l.ns_per_step, l.real_time, l.p99_9_ns,
+                  l.pitch_error_rad * 1e3, l.yaw_rate_error_radps, l.position_error_m);
     out += buffer;
   }
   return out;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "config/vehicle.h"
 #include "config/result.h"
+#include "config/vehicle.h"
 #include "vehicle_dynamics/models/fixed_step.h"
 
 namespace phare::work_precision {
@@ -19,8 +19,8 @@ struct Line {
   double pitch_error_rad = 0.0, yaw_rate_error_radps = 0.0, position_error_m = 0.0;  ///< largest over 10 s
 };
 
-/// Ten seconds: class C road, 80 km/h, step steer of 10 mrad at 1 s, braking with 5.5 m/s2 from 4 s on. Inputs change at
-/// multiples of 10 ms only, so that every step size sees the same. `short_run`: steps 1, 2, 5 ms only.
+/// Ten seconds: class C road, 80 km/h, step steer of 10 mrad at 1 s, braking with 5.5 m/s2 from 4 s on. Inputs change
+/// at multiples of 10 ms only, so that every step size sees the same. `short_run`: steps 1, 2, 5 ms only.
 Result<std::vector<Line>> table(const VehicleParams& vehicle, const std::string& place, bool short_run);
 
 std::string markdown(const std::vector<Line>& lines);

@@ -9,9 +9,7 @@
 
 namespace phare::test {
 
-constexpr double kDeg = 180.0 / 3.14159265358979323846;
-
-/// The 320i of the references: no relaxation to speak of, no air. `sigma_scale` 15 gives 0.3 m.
+/// The 320i of the references: relaxation as in its file, unless lengths are given.
 inline full::Params full_car(const char* file = "bmw_320i.toml", double long_relaxation_m = 0.0,
                              double lat_relaxation_m = 0.0) {
   VehicleParams vehicle = car(file);
@@ -25,7 +23,9 @@ inline full::Params full_car(const char* file = "bmw_320i.toml", double long_rel
 }
 
 /// As the notes' hard cases have it: relaxation 0.3 m along, 0.5 m across.
-inline full::Params hard_car() { return full_car("bmw_320i.toml", 0.3, 0.5); }
+inline full::Params hard_car() {
+  return full_car("bmw_320i.toml", 0.3, 0.5);
+}
 
 inline single_track::Params single_car(single_track::Options options = {}, const char* file = "bmw_320i.toml") {
   Result<single_track::Params> params = single_track::params_of(car(file), options, file);
@@ -46,7 +46,8 @@ struct Drive {
     std::array<double, 4> height{};
     bool off = false;
     if (road)
-      for (std::size_t i = 0; i < 4; ++i) height[i] = road->at(p.x_m[i], p.y_m[i], p.x_m[i], p.y_m[i] > 0.0, 0.0, &off).z_m;
+      for (std::size_t i = 0; i < 4; ++i)
+        height[i] = road->at(p.x_m[i], p.y_m[i], p.x_m[i], p.y_m[i] > 0.0, 0.0, &off).z_m;
     state = full::at_rest(p, 0.0, 0.0, 0.0, speed_mps, height);
   }
   void step(double dt) {

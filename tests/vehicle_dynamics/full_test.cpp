@@ -12,6 +12,7 @@ namespace {
 using test::Drive;
 using test::full_car;
 
+constexpr double kDeg = 180.0 / 3.14159265358979323846;
 
 void expect_close(double value, double expected, double share, const char* what) {
   EXPECT_NEAR(value, expected, share * std::abs(expected)) << what;
@@ -34,19 +35,20 @@ TEST(Full, DiveUnderAConstantForce) {
     const char* file;
     double deg_per_g;
   };
-  for (const Case& c : {Case{"bmw_320i.toml", 2.9617}, Case{"ford_escort.toml", 3.644}, Case{"vw_vanagon.toml", 3.543}}) {
+  for (const Case& c :
+       {Case{"bmw_320i.toml", 2.9617}, Case{"ford_escort.toml", 3.644}, Case{"vw_vanagon.toml", 3.543}}) {
     Drive d(full_car(c.file), 40.0);
     d.brake(0.1);  // small: the figures are those of a linear car
     d.run(5.0, 0.001);
     const full::Forces f = d.forces();
-    expect_close(f.pitch_rad / -f.ax_mps2 * 9.81 * test::kDeg, c.deg_per_g, 0.005, c.file);
+    expect_close(f.pitch_rad / -f.ax_mps2 * 9.81 * kDeg, c.deg_per_g, 0.005, c.file);
     if (c.file[0] != 'b') continue;
     const double front_lower = -(d.state.z_m - d.params.x_m[0] * f.pitch_rad) / -f.ax_mps2 * 9.81;
     const double rear_lift = (d.state.z_m - d.params.x_m[2] * f.pitch_rad) / -f.ax_mps2 * 9.81;
     expect_close(front_lower, 60.3e-3, 0.005, "front lowers per g");
     expect_close(rear_lift, 73.1e-3, 0.005, "rear lifts per g");
-    const double transfer = 0.5 * (f.load_n[0] + f.load_n[1] - f.load_n[2] - f.load_n[3]) -
-                            (d.params.load_n[0] - d.params.load_n[2]);
+    const double transfer =
+        0.5 * (f.load_n[0] + f.load_n[1] - f.load_n[2] - f.load_n[3]) - (d.params.load_n[0] - d.params.load_n[2]);
     expect_close(transfer / -f.ax_mps2 * 9.81, 2552.4, 0.005, "load transfer per g");
   }
 }
@@ -70,7 +72,8 @@ TEST(Full, DiveAfterAStep) {
   Drive d(p, 30.0);
   const double weight = d.params.mass_kg;
   d.brake(0.1);
-  const double peak_rate = 1.0 / (1.0 + 4.0 * d.params.spin_inertia_kgm2 / (weight * d.params.radius_m * d.params.radius_m));
+  const double peak_rate =
+      1.0 / (1.0 + 4.0 * d.params.spin_inertia_kgm2 / (weight * d.params.radius_m * d.params.radius_m));
   double peak = 0.0, peak_at = 0.0;
   std::array<double, 4> at{0.1, 0.2, 0.3, 0.5}, expected{1.7306e-3, 4.8311e-3, 6.8146e-3, 6.0330e-3}, seen{};
   d.run(1.0, 0.0001, [&](const Drive& now) {
@@ -96,8 +99,9 @@ TEST(Full, RollInASteadyTurn) {
     d.input.steer_rad = 0.006;
     d.run(8.0, 0.002);
     const full::Forces f = d.forces();
-    // 1 % for the part of roll that the unsprung axle's own couple adds through the tyres, which the closed form leaves out.
-    expect_close(f.roll_rad / f.ay_mps2 * 9.81 * test::kDeg, c.deg_per_g, 0.02, c.file);
+    // 1 % for the part of roll that the unsprung axle's own couple adds through the tyres, which the closed form leaves
+    // out.
+    expect_close(f.roll_rad / f.ay_mps2 * 9.81 * kDeg, c.deg_per_g, 0.02, c.file);
   }
 }
 
@@ -118,7 +122,8 @@ TEST(Full, UndampedFrequencies) {
     double re = 0.0, im = 0.0;
     const auto n = static_cast<double>(signal.size());
     for (std::size_t i = 0; i < signal.size(); ++i) {
-      const double t = static_cast<double>(i) * kStep, window = 0.5 - 0.5 * std::cos(2.0 * 3.14159265358979 * static_cast<double>(i) / n);
+      const double t = static_cast<double>(i) * kStep,
+                   window = 0.5 - 0.5 * std::cos(2.0 * 3.14159265358979 * static_cast<double>(i) / n);
       re += window * signal[i] * std::cos(2.0 * 3.14159265358979 * hz * t);
       im += window * signal[i] * std::sin(2.0 * 3.14159265358979 * hz * t);
     }

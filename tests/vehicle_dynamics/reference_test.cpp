@@ -25,10 +25,11 @@ TEST(Reference, EveryManoeuvreWithinItsBand) {
 
 TEST(Reference, MeasuredDrive) {
   if (!std::filesystem::exists(kData)) GTEST_SKIP() << kData << " is not here";
-  const Result<compare::Measured> m = compare::measured_drive(kData, std::filesystem::path(PHARE_VEHICLES_DIR) / "bmw_m8.toml");
+  const Result<compare::Measured> m =
+      compare::measured_drive(kData, std::filesystem::path(PHARE_VEHICLES_DIR) / "bmw_m8.toml");
   ASSERT_TRUE(m.ok()) << m.error().text();
-  std::printf("measured drive: speed rms %.3f m/s of %.1f, pitch rms %.2f mrad of %.1f\n", m->speed_rms_mps, m->speed_peak_mps,
-              m->pitch_rms_rad * 1e3, m->pitch_peak_rad * 1e3);
+  std::printf("measured drive: speed rms %.3f m/s of %.1f, pitch rms %.2f mrad of %.1f\n", m->speed_rms_mps,
+              m->speed_peak_mps, m->pitch_rms_rad * 1e3, m->pitch_peak_rad * 1e3);
   // Brakes build up slower in that car than in ours, and its ABS stops it a quarter of a second later.
   EXPECT_LT(m->pitch_rms_rad, 0.3 * m->pitch_peak_rad);
   EXPECT_LT(m->speed_rms_mps, 0.05 * m->speed_peak_mps);

@@ -25,11 +25,9 @@ void step_rk4(State& state, double dt, const Rates& rates) {
   using boost::numeric::odeint::array_algebra;
   boost::numeric::odeint::runge_kutta4<Vector, double, Vector, double, array_algebra> stepper;
   auto y = std::bit_cast<Vector>(state);
-  stepper.do_step(
-      [&](const Vector& at, Vector& rate, double t) {
-        rate = std::bit_cast<Vector>(rates(std::bit_cast<State>(at), t));
-      },
-      y, 0.0, dt);
+  stepper.do_step([&](const Vector& at, Vector& rate,
+                      double t) { rate = std::bit_cast<Vector>(rates(std::bit_cast<State>(at), t)); },
+                  y, 0.0, dt);
   state = std::bit_cast<State>(y);
 }
 
@@ -44,8 +42,8 @@ inline Phi phi(double z) {
   return {one, (one - 1.0) / z};
 }
 
-/// Exponential time differencing of second order (Cox, Matthews, J. Comput. Phys. 176, 2002, eq. 20 to 22): the decay of
-/// the slips, taken at the start of the step, is integrated exactly, so no decay is too fast for the step; the other
+/// Exponential time differencing of second order (Cox, Matthews, J. Comput. Phys. 176, 2002, eq. 20 to 22): the decay
+/// of the slips, taken at the start of the step, is integrated exactly, so no decay is too fast for the step; the other
 /// states get Heun's method. `rates(state, t, decay)` also fills the decays of the slips.
 template <std::size_t Slips, class State, class Rates>
 void step_etd2(State& state, double dt, const Rates& rates) {

@@ -15,9 +15,9 @@ Geometry geometry(const Params& p, const Input& input, const State& s, double t_
   const double xx = s.qx * s.qx * n2, yy = s.qy * s.qy * n2, zz = s.qz * s.qz * n2;
   const double xy = s.qx * s.qy * n2, xz = s.qx * s.qz * n2, yz = s.qy * s.qz * n2;
   const double wx = s.qw * s.qx * n2, wy = s.qw * s.qy * n2, wz = s.qw * s.qz * n2;
-  g.world_from_body = {1.0 - yy - zz, xy - wz, xz + wy,  //
-                       xy + wz, 1.0 - xx - zz, yz - wx,  //
-                       xz - wy, yz + wx, 1.0 - xx - yy};
+  g.world_from_body = {1.0 - yy - zz, xy - wz,       xz + wy,  //
+                       xy + wz,       1.0 - xx - zz, yz - wx,  //
+                       xz - wy,       yz + wx,       1.0 - xx - yy};
   const auto& m = g.world_from_body;
 
   // Wheel centres, and the road below them.
@@ -90,8 +90,8 @@ void kinematics(const Params& p, const Held& held, const Geometry& g, const Stee
     const double ahead = vx * along[0] + vy * along[1] + vz * along[2];
     const double aside = vx * left[0] + vy * left[1] + vz * left[2];
     contact.rolling_mps[i] = s.spin_radps[i] * p.radius_m;
-    const tyre::SlipRate slip = tyre::slip_rate(p.tyre, s.kappa[i], s.tan_alpha[i], ahead, aside, contact.rolling_mps[i],
-                                                held.most_slip_pm);
+    const tyre::SlipRate slip =
+        tyre::slip_rate(p.tyre, s.kappa[i], s.tan_alpha[i], ahead, aside, contact.rolling_mps[i], held.most_slip_pm);
     d.kappa[i] = slip.kappa_ps;
     d.tan_alpha[i] = slip.tan_alpha_ps;
     contact.decay_ps[i] = slip.kappa_decay_ps;
@@ -104,8 +104,8 @@ void kinematics(const Params& p, const Held& held, const Geometry& g, const Stee
   }
 }
 
-void dynamics(const Params& p, const Input& input, const Held& held, const Geometry& g, const Contact& c, const State& s,
-              State& d, TyreForces& tyres) {
+void dynamics(const Params& p, const Input& input, const Held& held, const Geometry& g, const Contact& c,
+              const State& s, State& d, TyreForces& tyres) {
   constexpr double kAirDensity_kgpm3 = 1.2041;  // dry air, 20 degrees C, 101325 Pa
   constexpr double kFullDamping_n = 2700.0;     // load at which carcass_damping_nspm is given
   constexpr double kDampedBelow_mps = 2.0;      // faded out there: a rolling tyre carries its deflection away
@@ -113,7 +113,8 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
   const auto& m = g.world_from_body;
 
   for (std::size_t i = 0; i < 4; ++i) {
-    const double closing = p.tyre_damping_nspm * (c.closing_mps[i] + (input.heights_given ? input.height_rate_mps[i] : 0.0));
+    const double closing =
+        p.tyre_damping_nspm * (c.closing_mps[i] + (input.heights_given ? input.height_rate_mps[i] : 0.0));
     tyres.load_n[i] = g.squeeze_m[i] > 0.0 ? std::max(0.0, p.tyre_rate_npm * g.squeeze_m[i] + closing) : 0.0;
   }
   tyre::steady_forces(p.tyre, s.kappa.data(), s.tan_alpha.data(), tyres.load_n.data(), g.friction.data(),
@@ -125,11 +126,11 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
     if (c.carried_mps[i] < kDampedBelow_mps && tyres.load_n[i] > 0.0) {
       const double damping = p.tyre.p.carcass_damping_nspm * (1.0 - c.carried_mps[i] / kDampedBelow_mps) *
                              tyres.load_n[i] / kFullDamping_n;
-      double x = tyres.fx_n[i] + damping * c.stretch_mps[i], y = tyres.fy_n[i] + damping * c.stretch_mps[i + 4];
+      const double x = tyres.fx_n[i] + damping * c.stretch_mps[i], y = tyres.fy_n[i] + damping * c.stretch_mps[i + 4];
       const double most = g.friction[i] * tyres.load_n[i];
       const double ex = x / (most * p.tyre.p.long_peak), ey = y / (most * p.tyre.p.lat_peak), over = ex * ex + ey * ey;
-      if (over > 1.0) x /= std::sqrt(over), y /= std::sqrt(over);
-      tyres.fx_n[i] = x, tyres.fy_n[i] = y;
+      const double scale = 1.0 / std::sqrt(std::max(over, 1.0));
+      tyres.fx_n[i] = x * scale, tyres.fy_n[i] = y * scale;
     }
     const double along = tyres.fx_n[i], left = tyres.fy_n[i], load = tyres.load_n[i];
     const double rx = along * c.along[i][0] + left * c.left[i][0];
@@ -140,29 +141,32 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
     fx += bx, fy += by;
     yaw += p.x_m[i] * by - p.y_m[i] * bx;
 
-    const double rolling = input.air_and_rolling && !held.locked[i]
-                               ? p.rolling_coefficient * load * p.radius_m * c.rolling_mps[i] /
-                                     std::sqrt(c.rolling_mps[i] * c.rolling_mps[i] + kRollingKnee_mps * kRollingKnee_mps)
-                               : 0.0;
-    d.spin_radps[i] = held.locked[i] ? 0.0
-                                     : (input.drive_nm[i] - held.brake_nm[i] - rolling - p.radius_m * along) /
-                                           p.spin_inertia_kgm2;
+    const double rolling =
+        input.air_and_rolling && !held.locked[i]
+            ? p.rolling_coefficient * load * p.radius_m * c.rolling_mps[i] /
+                  std::sqrt(c.rolling_mps[i] * c.rolling_mps[i] + kRollingKnee_mps * kRollingKnee_mps)
+            : 0.0;
+    d.spin_radps[i] = held.locked[i]
+                          ? 0.0
+                          : (input.drive_nm[i] - held.brake_nm[i] - rolling - p.radius_m * along) / p.spin_inertia_kgm2;
     if (held.locked[i]) tyres.net_nm[i] = input.drive_nm[i] - p.radius_m * along;
   }
 
   // Suspension: springs, dampers, bars, stops, and what the linkage carries past them.
   const double gx = -kGravity_mps2 * m[6], gy = -kGravity_mps2 * m[7], gz = -kGravity_mps2 * m[8];
   double lift = 0.0, roll = 0.0, pitch = 0.0;
-  // The lever of the tyres' forces: height of the centre of gravity, less what the body has sunk from rest on this grade.
+  // The lever of the tyres' forces: height of the centre of gravity, less what the body has sunk from rest on this
+  // grade.
   double sink = 0.0;
   const double lighter = 1.0 + gz / kGravity_mps2;
   for (std::size_t i = 0; i < 4; ++i)
-    sink -= p.lever_share[i] * (s.travel_m[i] + (tyres.load_n[i] - p.load_n[i]) / p.tyre_rate_npm + lighter * p.rest_m[i]);
+    sink -=
+        p.lever_share[i] * (s.travel_m[i] + (tyres.load_n[i] - p.load_n[i]) / p.tyre_rate_npm + lighter * p.rest_m[i]);
   for (std::size_t i = 0; i < 4; ++i) {
     yaw += p.unsprung_kg[i] * (p.x_m[i] * gy - p.y_m[i] * gx);  // weight of the wheels, at the wheels
     const double other = s.travel_m[i ^ 1u], travel = s.travel_m[i];
-    double force = p.spring_n[i] + p.spring_npm[i] * travel + p.damper_nspm[i] * d.travel_m[i] +
-                   p.bar_npm[i] * (travel - other);
+    double force =
+        p.spring_n[i] + p.spring_npm[i] * travel + p.damper_nspm[i] * d.travel_m[i] + p.bar_npm[i] * (travel - other);
     if (travel > p.bump_travel_m) force += p.stop_rate_npm * (travel - p.bump_travel_m);
     if (travel < -p.rebound_travel_m) force += p.stop_rate_npm * (travel + p.rebound_travel_m);
     force -= std::min(tyres.fx_n[i], 0.0) * p.brake_jack[i];
@@ -176,7 +180,8 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
   roll += p.sprung_kg / p.mass_kg * p.cg_height_m * fy;
   pitch -= (p.cg_height_m + sink) * road_fx;
 
-  const double drag = input.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * s.u_mps * std::abs(s.u_mps) : 0.0;
+  const double drag =
+      input.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * s.u_mps * std::abs(s.u_mps) : 0.0;
   tyres.ax_mps2 = (fx - drag) / p.mass_kg + gx;
   tyres.ay_mps2 = fy / p.mass_kg + gy;
   d.u_mps = tyres.ax_mps2 - s.q_radps * s.w_mps + s.r_radps * s.v_mps;

@@ -3,13 +3,14 @@
 // What: a sprung body (6), four wheels that hop (4) and spin (4), eight transient slips; load transfer, lift-off,
 //   locking, standing still, kerbs, split friction.
 // Source: R. Rajamani, Vehicle Dynamics and Control, 2nd ed. 2012, ch. 8; T. Shim, C. Ghike, "Understanding the
-//   limitations of different vehicle models for roll dynamics studies", Vehicle System Dynamics 45(3), 2007; Newton-Euler
-//   in the body's own axes with a quaternion instead of small angles. Tyres: models/tyre.h.
+//   limitations of different vehicle models for roll dynamics studies", Vehicle System Dynamics 45(3), 2007;
+//   Newton-Euler in the body's own axes with a quaternion instead of small angles. Tyres: models/tyre.h.
 // Frame: state at the centre of gravity of the body, velocities in the body's axes (ISO 8855), position in the world;
 //   z_m is the height of that centre less its height at rest.
-// Leaves out: linkage kinematics beyond anti-dive and anti-squat (wheels move along the body's z axis, no bump steer, no
-//   camber), roll centres above the ground, the pitching moment of gravity on the pitched body (2 to 5 % of dive) as the
-//   textbook does, products of inertia, frame flexibility, side wind.
+// Leaves out: linkage kinematics beyond anti-dive and anti-squat (wheels move along the body's z axis, no bump steer,
+// no
+//   camber), roll centres above the ground, the pitching moment of gravity on the pitched body (2 to 5 % of dive) as
+//   the textbook does, products of inertia, frame flexibility, side wind.
 // Tests: tests/vehicle_dynamics/full_test.cpp (closed forms), reference_test.cpp (two other programs),
 // hard_cases_test.cpp.
 #pragma once
@@ -33,10 +34,10 @@ struct Params {
   double wheelbase_m = 0.0, ackermann_01 = 0.0;
   double tyre_rate_npm = 0.0, tyre_damping_nspm = 0.0;
   double bump_travel_m = 0.0, rebound_travel_m = 0.0, stop_rate_npm = 0.0;
-  std::array<double, 4> x_m{}, y_m{};  ///< from the centre of gravity
+  std::array<double, 4> x_m{}, y_m{};                                           ///< from the centre of gravity
   std::array<double, 4> unsprung_kg{}, spring_npm{}, damper_nspm{}, bar_npm{};  ///< bar: per difference of travel
-  std::array<double, 4> load_n{}, spring_n{};  ///< at rest: of the tyre, of the spring
-  std::array<double, 4> unsprung_couple{};     ///< vertical force per N of lateral force, from the axle's own height
+  std::array<double, 4> load_n{}, spring_n{};                                   ///< at rest: of the tyre, of the spring
+  std::array<double, 4> unsprung_couple{};  ///< vertical force per N of lateral force, from the axle's own height
   std::array<double, 4> brake_jack{}, drive_jack{};  ///< anti-dive, anti-squat: vertical over longitudinal force
   std::array<double, 4> lever_share{};               ///< of each corner in the height of the centre of gravity
   std::array<double, 4> rest_m{};                    ///< what spring and tyre give under the weight at rest
@@ -54,9 +55,9 @@ struct State {
   double path_m = 0.0;                            ///< travelled along the body's x
   double u_mps = 0.0, v_mps = 0.0, w_mps = 0.0;
   double p_radps = 0.0, q_radps = 0.0, r_radps = 0.0;
-  std::array<double, 4> travel_m{};     ///< of the wheel towards the body, 0 at rest
-  std::array<double, 4> rise_mps{};     ///< of the wheel along the body's z, absolute
-  std::array<double, 4> spin_radps{};   ///< > 0 forwards
+  std::array<double, 4> travel_m{};            ///< of the wheel towards the body, 0 at rest
+  std::array<double, 4> rise_mps{};            ///< of the wheel along the body's z, absolute
+  std::array<double, 4> spin_radps{};          ///< > 0 forwards
   std::array<double, 4> kappa{}, tan_alpha{};  ///< transient slips
 
   friend bool operator==(const State&, const State&) = default;
@@ -66,11 +67,11 @@ static_assert(sizeof(State) == kStateSize * sizeof(double));
 
 /// What acts on the car during one step.
 struct Input {
-  double steer_rad = 0.0;                          ///< mean of the front wheels
-  std::array<double, 4> drive_nm{}, brake_nm{};    ///< brake: dry friction, >= 0, never turns a wheel
-  bool air_and_rolling = true;                     ///< drag and rolling resistance
-  const Road* road = nullptr;                      ///< nullptr: level, friction 1
-  bool heights_given = false;                      ///< road heights under the wheels come as numbers, over the step
+  double steer_rad = 0.0;                        ///< mean of the front wheels
+  std::array<double, 4> drive_nm{}, brake_nm{};  ///< brake: dry friction, >= 0, never turns a wheel
+  bool air_and_rolling = true;                   ///< drag and rolling resistance
+  const Road* road = nullptr;                    ///< nullptr: level, friction 1
+  bool heights_given = false;                    ///< road heights under the wheels come as numbers, over the step
   std::array<double, 4> height_m{}, height_rate_mps{};  ///< given: at the step's start, and their slope over it
 };
 
@@ -99,13 +100,13 @@ struct Steer {
 struct Held {
   Steer steer;
   std::array<bool, 4> locked{};
-  std::array<double, 4> brake_nm{};  ///< signed, of the turning wheels, for the whole step
+  std::array<double, 4> brake_nm{};                               ///< signed, of the turning wheels, for the whole step
   double most_slip_pm = std::numeric_limits<double>::infinity();  ///< one over the floor
 };
 
 /// d state/dt at `t_s` into the step.
-void derivative(const Params& params, const Input& input, const Held& held, const State& state, double t_s,
-                State& rate, std::array<double, 8>* slip_decay_ps = nullptr);
+void derivative(const Params& params, const Input& input, const Held& held, const State& state, double t_s, State& rate,
+                std::array<double, 8>* slip_decay_ps = nullptr);
 
 /// Which wheels stick in their brakes over the coming step.
 Held held(const Params& params, const Input& input, const State& state, double dt);

@@ -9,7 +9,7 @@ namespace phare::full {
 
 /// Where body and wheels are against the road.
 struct Geometry {
-  std::array<double, 9> world_from_body{};  ///< rows
+  std::array<double, 9> world_from_body{};         ///< rows
   std::array<double, 3> normal_world{}, normal{};  ///< of the road plane; body axes
   std::array<double, 4> ground_m{}, friction{}, squeeze_m{};
   bool off_road = false;
@@ -31,8 +31,8 @@ struct TyreForces {
 };
 
 /// Rates of position, attitude, travel and slip.
-void kinematics(const Params& params, const Held& held, const Geometry& geometry, const Steer& steer, const State& state,
-                State& rate, Contact& contact);
+void kinematics(const Params& params, const Held& held, const Geometry& geometry, const Steer& steer,
+                const State& state, State& rate, Contact& contact);
 
 /// Rates of velocities and spins; reads rate.travel_m.
 void dynamics(const Params& params, const Input& input, const Held& held, const Geometry& geometry,

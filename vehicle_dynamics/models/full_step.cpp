@@ -43,7 +43,8 @@ Result<Params> params_of(const VehicleParams& vehicle, const std::string& place)
     p.rest_m[i] = p.spring_n[i] / p.spring_npm[i] + p.load_n[i] / p.tyre_rate_npm;
     // The axle's mass is pushed sideways at wheel height and held on the ground.
     p.unsprung_couple[i] = (left ? 1.0 : -1.0) * 2.0 * p.unsprung_kg[i] / p.mass_kg * p.radius_m / track;
-    // Written for the share of the whole load transfer, as anti-dive is quoted; the linkage knows its own wheels' force.
+    // Written for the share of the whole load transfer, as anti-dive is quoted; the linkage knows its own wheels'
+    // force.
     const double lever = vehicle.cg_height_m / vehicle.wheelbase_m;
     if (front && c.brake_front_01 > 0.0) p.brake_jack[i] = vehicle.anti_dive_01 * lever / c.brake_front_01;
     if (!front && c.drive_front_01 < 1.0) p.drive_jack[i] = c.anti_squat_01 * lever / (1.0 - c.drive_front_01);
@@ -86,7 +87,12 @@ void derivative(const Params& p, const Input& input, const Held& held, const Sta
 Held held(const Params& p, const Input& input, const State& s, double dt) {
   Held h;
   h.steer = steer_angles(p, input.steer_rad);
-  h.most_slip_pm = 1.0 / std::max(0.5 * std::abs(s.u_mps) * dt, 1e-6);
+  if (p.integrator == Integrator::kRk4) {
+    // Of the fastest patch: a spinning wheel's runs faster than the car.
+    double fastest = std::max(std::abs(s.u_mps), 0.1 * std::abs(s.v_mps));
+    for (const double spin : s.spin_radps) fastest = std::max(fastest, std::abs(spin) * p.radius_m);
+    h.most_slip_pm = 1.0 / std::max(0.5 * fastest * dt, 1e-6);
+  }
   if (std::all_of(input.brake_nm.begin(), input.brake_nm.end(), [](double b) { return b <= 0.0; })) return h;
   bool slow = false;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -119,7 +125,8 @@ Held held(const Params& p, const Input& input, const State& s, double dt) {
 
 void finish_step(const Held& held, const State& before, State& s) {
   for (std::size_t i = 0; i < 4; ++i)
-    if (held.locked[i] || (held.brake_nm[i] != 0.0 && before.spin_radps[i] * s.spin_radps[i] < 0.0)) s.spin_radps[i] = 0.0;
+    if (held.locked[i] || (held.brake_nm[i] != 0.0 && before.spin_radps[i] * s.spin_radps[i] < 0.0))
+      s.spin_radps[i] = 0.0;
   const double inv = 1.0 / std::sqrt(s.qw * s.qw + s.qx * s.qx + s.qy * s.qy + s.qz * s.qz);
   s.qw *= inv, s.qx *= inv, s.qy *= inv, s.qz *= inv;
 }
@@ -219,12 +226,15 @@ double energy_j(const Params& p, const State& s, const Forces& f) {
     const double travel = s.travel_m[i], squeeze = f.load_n[i] / p.tyre_rate_npm, rest = p.load_n[i] / p.tyre_rate_npm;
     e += 0.5 * p.unsprung_kg[i] * s.rise_mps[i] * s.rise_mps[i] +
          0.5 * p.spin_inertia_kgm2 * s.spin_radps[i] * s.spin_radps[i] + p.spring_n[i] * travel +
-         0.5 * p.spring_npm[i] * travel * travel + 0.25 * p.bar_npm[i] * (travel - s.travel_m[i ^ 1u]) * (travel - s.travel_m[i ^ 1u]) +
+         0.5 * p.spring_npm[i] * travel * travel +
+         0.25 * p.bar_npm[i] * (travel - s.travel_m[i ^ 1u]) * (travel - s.travel_m[i ^ 1u]) +
          0.5 * p.tyre_rate_npm * (squeeze * squeeze - rest * rest);
     if (travel > p.bump_travel_m) e += 0.5 * p.stop_rate_npm * (travel - p.bump_travel_m) * (travel - p.bump_travel_m);
-    if (travel < -p.rebound_travel_m) e += 0.5 * p.stop_rate_npm * (travel + p.rebound_travel_m) * (travel + p.rebound_travel_m);
+    if (travel < -p.rebound_travel_m)
+      e += 0.5 * p.stop_rate_npm * (travel + p.rebound_travel_m) * (travel + p.rebound_travel_m);
     // Height of the wheel itself over its place at rest.
-    const double body_z = s.z_m + 2.0 * (s.qx * s.qz - s.qw * s.qy) * p.x_m[i] + 2.0 * (s.qy * s.qz + s.qw * s.qx) * p.y_m[i];
+    const double body_z =
+        s.z_m + 2.0 * (s.qx * s.qz - s.qw * s.qy) * p.x_m[i] + 2.0 * (s.qy * s.qz + s.qw * s.qx) * p.y_m[i];
     e += p.unsprung_kg[i] * kGravity_mps2 * (body_z + travel);
   }
   return e;

@@ -14,7 +14,8 @@ constexpr double kAbsFall_ps = 20.0, kAbsRise_ps = 8.0;   // of the pressure sha
 constexpr double kParkLock_mps = 0.5;                     // below it the pawl of the parking lock falls in
 constexpr double kParkTorque_nm = 3000.0;                 // of the pawl, at each driven wheel; chosen: it never slips
 
-double with_engine_nm(const EngineParams& e, double accelerator, double wheel_radps, bool reverse, double dt, State& s) {
+double with_engine_nm(const EngineParams& e, double accelerator, double wheel_radps, bool reverse, double dt,
+                      State& s) {
   const auto ratio = [&](double gear) { return e.gear_ratio[static_cast<std::size_t>(gear)] * e.final_ratio; };
   s.since_shift_s += dt;
   if (!reverse && s.since_shift_s > kShiftPause_s) {
@@ -23,8 +24,10 @@ double with_engine_nm(const EngineParams& e, double accelerator, double wheel_ra
     // Down again well below, and lower still the lighter the foot: the gearbox does not hunt.
     const double down = std::min(std::lerp(e.shift_down_radps, 0.5 * e.shift_up_full_radps, accelerator),
                                  s.gear > 0.0 ? 0.85 * up * ratio(s.gear) / ratio(s.gear - 1.0) : 0.0);
-    if (s.gear < top && speed > up) s.gear += 1.0, s.since_shift_s = 0.0;
-    else if (s.gear > 0.0 && speed < down) s.gear -= 1.0, s.since_shift_s = 0.0;
+    if (s.gear < top && speed > up)
+      s.gear += 1.0, s.since_shift_s = 0.0;
+    else if (s.gear > 0.0 && speed < down)
+      s.gear -= 1.0, s.since_shift_s = 0.0;
   }
   const double total = reverse ? e.reverse_ratio * e.final_ratio : ratio(s.gear);
   const double turbine = std::abs(wheel_radps) * total;
@@ -81,9 +84,12 @@ Torques advance(const VehicleParams& v, const Controls& input, double parking_01
   slip[2] = slip[3] = std::min(slip[2], slip[3]);
   for (std::size_t i = 0; i < 4; ++i) {
     const bool active = has_slip && std::abs(speed_mps) > kAbsFrom_mps && s.brake_01 > 0.0;
-    if (!active) s.abs_01[i] = 1.0;
-    else if (slip[i] < kAbsRelease) s.abs_01[i] = std::max(0.0, s.abs_01[i] - kAbsFall_ps * dt);
-    else if (slip[i] > kAbsApply) s.abs_01[i] = std::min(1.0, s.abs_01[i] + kAbsRise_ps * dt);
+    if (!active)
+      s.abs_01[i] = 1.0;
+    else if (slip[i] < kAbsRelease)
+      s.abs_01[i] = std::max(0.0, s.abs_01[i] - kAbsFall_ps * dt);
+    else if (slip[i] > kAbsApply)
+      s.abs_01[i] = std::min(1.0, s.abs_01[i] + kAbsRise_ps * dt);
     const double share = 0.5 * (i < 2 ? front_brake : 1.0 - front_brake);
     out.brake_nm[i] = s.brake_01 * s.abs_01[i] * share * v.max_brake_force_n * v.tyre_radius_m;
     if (i >= 2) out.brake_nm[i] += parking_01 * 0.25 * v.max_brake_force_n * v.tyre_radius_m;

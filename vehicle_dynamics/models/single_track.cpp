@@ -23,14 +23,19 @@ Slopes slopes(const full::Params& car, const std::array<double, 4>& h) {
           (h[0] + h[2] - h[1] - h[3]) / (car.y_m[0] - car.y_m[1] + car.y_m[2] - car.y_m[3])};
 }
 
+// Attitude is kept as slopes: on a steep plane an angle more is a larger step of slope, d tan = (1 + tan2) d angle.
+double steep(double slope) {
+  return 1.0 + slope * slope;
+}
+
 // Everything the tyres and springs do at a state.
 struct Acting {
   std::array<double, 4> height_m{}, spring_n{}, load_n{};
   Slopes plane;
   double gx = 0.0, gy = 0.0;
   double front_x_n = 0.0, rear_x_n = 0.0, front_y_n = 0.0, rear_y_n = 0.0;  ///< in the wheels' heading
-  double push_n = 0.0;  ///< along the car without brakes
-  double fx_n = 0.0, fy_n = 0.0;  ///< of the tyres, along the car's axes
+  double push_n = 0.0;                                                      ///< along the car without brakes
+  double fx_n = 0.0, fy_n = 0.0;                                            ///< of the tyres, along the car's axes
   double ax_mps2 = 0.0, ay_mps2 = 0.0;
   std::array<double, 2> slip_rate_ps{}, slip_decay_ps{};
 };
@@ -52,7 +57,8 @@ Acting acting(const Params& p, const full::Input& in, const Held& held, const St
   for (std::size_t i = 0; i < 4; ++i) {
     a.height_m[i] = held.road.height_m[i] + held.road.rate_mps[i] * t_s;
     const double lift = s.z_m - car.x_m[i] * s.pitch + car.y_m[i] * s.roll - a.height_m[i];
-    const double rate = s.z_rate_mps - car.x_m[i] * s.pitch_rate_ps + car.y_m[i] * s.roll_rate_ps - held.road.rate_mps[i];
+    const double rate =
+        s.z_rate_mps - car.x_m[i] * s.pitch_rate_ps + car.y_m[i] * s.roll_rate_ps - held.road.rate_mps[i];
     a.spring_n[i] = -p.spring_npm[i] * lift - (p.options.dynamic_attitude ? p.damper_nspm[i] * rate : 0.0);
   }
   a.plane = slopes(car, a.height_m);
@@ -92,7 +98,8 @@ Acting acting(const Params& p, const full::Input& in, const Held& held, const St
     return fade <= 0.0 ? 0.0
                        : car.tyre.p.carcass_damping_nspm * fade * load / kFullDamping_n * slip.tan_alpha_stretch_mps;
   };
-  const double used_f = front_limit > 0.0 ? ahead_f / front_limit : 1.0, used_r = rear_limit > 0.0 ? ahead_r / rear_limit : 1.0;
+  const double used_f = front_limit > 0.0 ? ahead_f / front_limit : 1.0,
+               used_r = rear_limit > 0.0 ? ahead_r / rear_limit : 1.0;
   const double side_f = mu * car.tyre.p.lat_peak * front_load, side_r = mu * car.tyre.p.lat_peak * rear_load;
   a.front_y_n = side_force_n(p, s.front_slip, front_load, mu, used_f) + damping(front, ahead, front_load);
   a.rear_y_n = side_force_n(p, s.rear_slip, rear_load, mu, used_r) + damping(rear, s.u_mps, rear_load);
@@ -118,17 +125,21 @@ Acting acting(const Params& p, const full::Input& in, const Held& held, const St
 // Where constant forces hold the body: front and rear springs share the transfer, the roll stiffness the side force.
 void settle(const Params& p, const Acting& a, State& s) {
   const full::Params& car = p.car;
-  const double transfer = car.cg_height_m * a.fx_n / car.wheelbase_m;  // from the front axle to the rear one
-  const double jack_f = -std::min(a.front_x_n, 0.0) * p.front_brake_jack, jack_r = std::max(a.rear_x_n, 0.0) * p.rear_drive_jack;
+  const double transfer =
+      car.cg_height_m * a.fx_n * steep(a.plane.along) / car.wheelbase_m;  // from the front axle to the rear one
+  const double jack_f = -std::min(a.front_x_n, 0.0) * p.front_brake_jack,
+               jack_r = std::max(a.rear_x_n, 0.0) * p.rear_drive_jack;
   const double front_up = (transfer + jack_f) / (p.spring_npm[0] + p.spring_npm[1]);
   const double rear_up = (-transfer + jack_r) / (p.spring_npm[2] + p.spring_npm[3]);
-  const double front = 0.5 * (a.height_m[0] + a.height_m[1]) + front_up, rear = 0.5 * (a.height_m[2] + a.height_m[3]) + rear_up;
+  const double front = 0.5 * (a.height_m[0] + a.height_m[1]) + front_up,
+               rear = 0.5 * (a.height_m[2] + a.height_m[3]) + rear_up;
   s.pitch = (rear - front) / car.wheelbase_m;
   s.z_m = front + car.x_m[0] * s.pitch;
   double stiffness = p.front_bar_nmprad + p.rear_bar_nmprad;
   for (std::size_t i = 0; i < 4; ++i) stiffness += p.spring_npm[i] * car.y_m[i] * car.y_m[i];
   const double toppling = car.sprung_kg * car.cg_height_m;
-  s.roll = a.plane.across + toppling * a.fy_n / car.mass_kg / (stiffness - toppling * kGravity_mps2);
+  s.roll =
+      a.plane.across + toppling * a.fy_n / car.mass_kg * steep(a.plane.across) / (stiffness - toppling * kGravity_mps2);
 }
 
 }  // namespace
@@ -142,7 +153,8 @@ Result<Params> params_of(const VehicleParams& vehicle, const Options& options, c
   for (std::size_t i = 0; i < 4; ++i) {
     const double share = p.car.tyre_rate_npm / (p.car.spring_npm[i] + p.car.tyre_rate_npm);
     p.spring_npm[i] = p.car.spring_npm[i] * share;
-    p.damper_nspm[i] = p.car.damper_nspm[i] * share * share;  // the spring's share of the whole stroke, in rate and force
+    p.damper_nspm[i] =
+        p.car.damper_nspm[i] * share * share;  // the spring's share of the whole stroke, in rate and force
   }
   const auto bar = [&](std::size_t left) {
     const double track = p.car.y_m[left] - p.car.y_m[left + 1], half2 = 0.5 * track * track;
@@ -156,7 +168,8 @@ Result<Params> params_of(const VehicleParams& vehicle, const Options& options, c
   return p;
 }
 
-State at_rest(const Params& p, double x_m, double y_m, double yaw_rad, double speed_mps, const std::array<double, 4>& h) {
+State at_rest(const Params& p, double x_m, double y_m, double yaw_rad, double speed_mps,
+              const std::array<double, 4>& h) {
   State s;
   s.x_m = x_m, s.y_m = y_m, s.yaw_rad = yaw_rad, s.path_m = x_m;
   s.u_mps = speed_mps;
@@ -174,7 +187,9 @@ Under under(const Params& p, const full::Input& in, const State& s, double dt) {
     return road;
   }
   if (!in.road) return road;
-  const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
+  // Along a road that is made of profiles only, where the car is in the world does not matter.
+  const bool placed = in.road->mesh || in.road->slope_x != 0.0 || in.road->slope_y != 0.0;
+  const double c = placed ? std::cos(s.yaw_rad) : 1.0, sn = placed ? std::sin(s.yaw_rad) : 0.0;
   const double dx = (s.u_mps * c - s.v_mps * sn) * dt, dy = (s.u_mps * sn + s.v_mps * c) * dt;
   double friction = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -197,7 +212,11 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
   h.steer_rad = in.steer_rad;
   h.cosine = std::cos(in.steer_rad), h.sine = std::sin(in.steer_rad);
   h.brake_sign = sign(s.u_mps);
-  h.most_slip_pm = 1.0 / std::max(0.5 * std::abs(s.u_mps) * dt, 1e-6);
+  if (p.integrator == Integrator::kRk4) {
+    const double fastest =
+        std::abs(s.u_mps) + std::abs(h.sine) * (std::abs(s.v_mps) + p.car.x_m[0] * std::abs(s.r_radps));
+    h.most_slip_pm = 1.0 / std::max(0.5 * fastest * dt, 1e-6);
+  }
   double brake = 0.0;
   for (const double torque : in.brake_nm) brake += torque / p.car.radius_m;
   if (brake > 0.0 && std::abs(s.u_mps) * p.effective_kg <= dt * brake) {
@@ -214,12 +233,13 @@ void finish_step(const full::Input& in, const Held& h, const State& before, Stat
   if (h.stopped || (braked && before.u_mps * s.u_mps < 0.0)) s.u_mps = 0.0;
 }
 
-void derivative(const Params& p, const full::Input& in, const Held& h, const State& s, double t_s, State& d,
-                std::array<double, 2>* slip_decay_ps) {
+namespace {
+
+// All rates but those of the place, which the semi-implicit step works out its own way.
+void rates(const Params& p, const full::Input& in, const Held& h, const State& s, double t_s, State& d,
+           std::array<double, 2>* slip_decay_ps) {
   const full::Params& car = p.car;
   const Acting a = acting(p, in, h, s, t_s);
-  const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
-  d.x_m = s.u_mps * c - s.v_mps * sn, d.y_m = s.u_mps * sn + s.v_mps * c;
   d.yaw_rad = s.r_radps, d.path_m = s.u_mps;
   d.u_mps = h.stopped ? 0.0 : a.ax_mps2 + s.r_radps * s.v_mps;
   d.v_mps = a.ay_mps2 - s.r_radps * s.u_mps;
@@ -228,7 +248,7 @@ void derivative(const Params& p, const full::Input& in, const Held& h, const Sta
   d.front_slip = a.slip_rate_ps[0], d.rear_slip = a.slip_rate_ps[1];
   if (slip_decay_ps) *slip_decay_ps = a.slip_decay_ps;
   if (!p.options.dynamic_attitude) return;
-  double lift = 0.0, pitch = -car.cg_height_m * a.fx_n, roll = 0.0;
+  double lift = 0.0, pitch = -car.cg_height_m * a.fx_n * steep(a.plane.along), roll = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     double force = a.spring_n[i];
     if (i < 2) force -= 0.5 * std::min(a.front_x_n, 0.0) * p.front_brake_jack;
@@ -239,19 +259,17 @@ void derivative(const Params& p, const full::Input& in, const Held& h, const Sta
   }
   const double relative = s.roll - a.plane.across;
   roll -= (p.front_bar_nmprad + p.rear_bar_nmprad) * relative;
-  roll += car.sprung_kg * car.cg_height_m * (a.fy_n / car.mass_kg + kGravity_mps2 * relative);
+  roll += car.sprung_kg * car.cg_height_m * (a.fy_n / car.mass_kg * steep(a.plane.across) + kGravity_mps2 * relative);
   d.z_m = s.z_rate_mps, d.pitch = s.pitch_rate_ps, d.roll = s.roll_rate_ps;
   d.z_rate_mps = lift / car.sprung_kg;
   d.pitch_rate_ps = pitch / car.pitch_inertia_kgm2;
   d.roll_rate_ps = roll / car.roll_inertia_kgm2;
 }
 
-namespace {
-
 void step_semi_implicit(const Params& p, const full::Input& in, const Held& h, State& s, double dt) {
   State d;
   std::array<double, 2> decay{};
-  derivative(p, in, h, s, 0.0, d, &decay);
+  rates(p, in, h, s, 0.0, d, &decay);
   s.u_mps += dt * d.u_mps, s.v_mps += dt * d.v_mps, s.r_radps += dt * d.r_radps;
   s.z_rate_mps += dt * d.z_rate_mps, s.pitch_rate_ps += dt * d.pitch_rate_ps, s.roll_rate_ps += dt * d.roll_rate_ps;
   // Trapezoidal for the path: the velocities at both ends are known.
@@ -271,6 +289,13 @@ void step_semi_implicit(const Params& p, const full::Input& in, const Held& h, S
 }
 
 }  // namespace
+
+void derivative(const Params& p, const full::Input& in, const Held& h, const State& s, double t_s, State& d,
+                std::array<double, 2>* slip_decay_ps) {
+  rates(p, in, h, s, t_s, d, slip_decay_ps);
+  const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
+  d.x_m = s.u_mps * c - s.v_mps * sn, d.y_m = s.u_mps * sn + s.v_mps * c;
+}
 
 void advance(const Params& p, const full::Input& in, State& s, double dt) {
   const Held during = held(p, in, s, dt);

@@ -47,11 +47,12 @@ Force steady_force(const Constants& tyre, double kappa, double tan_alpha, double
   double fx = dx * magic(tyre.bx * inv_mu, p.long_shape, p.long_curvature, kappa);
   double fy = dy * magic(tyre.by * inv_mu, p.lat_shape, p.lat_curvature, tan_alpha);
   const double fall_x = p.long_weight_fall * kappa, fall_y = p.lat_weight_fall * tan_alpha;
-  fx *= weight(p.long_weight / std::sqrt(1.0 + fall_x * fall_x), p.long_weight_shape, p.long_weight_curvature, tan_alpha);
+  fx *=
+      weight(p.long_weight / std::sqrt(1.0 + fall_x * fall_x), p.long_weight_shape, p.long_weight_curvature, tan_alpha);
   fy *= weight(p.lat_weight / std::sqrt(1.0 + fall_y * fall_y), p.lat_weight_shape, p.lat_weight_curvature, kappa);
   // The weighting is a fit and may leave the friction ellipse by a little; friction may not.
   const double ex = fx / dx, ey = fy / dy, over = ex * ex + ey * ey;
-  const double scale = over > 1.0 ? load_n / std::sqrt(over) : load_n;
+  const double scale = load_n / std::sqrt(std::max(over, 1.0));
   return {fx * scale, fy * scale};
 }
 
@@ -88,7 +89,7 @@ extern "C" Four _ZGVdN4v_cos(Four);
                   _ZGVdN4v_cos(p.lat_weight_shape * bent(by * k, p.lat_weight_curvature));
   const Four over = ex * ex + ey * ey;
   for (int i = 0; i < 4; ++i) {
-    const double scale = mu[i] * load[i] * (over[i] > 1.0 ? 1.0 / std::sqrt(over[i]) : 1.0);
+    const double scale = mu[i] * load[i] * (1.0 / std::sqrt(std::max(over[i], 1.0)));
     fx_n[i] = ex[i] * p.long_peak * scale;
     fy_n[i] = ey[i] * p.lat_peak * scale;
   }

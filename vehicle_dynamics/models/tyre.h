@@ -1,13 +1,15 @@
 // The tyre: force of a slipping contact patch, and how slip builds up.
 //
 // What: longitudinal and lateral force under combined slip; the transient slip of a single contact point.
-// Source: H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed. 2012: Magic Formula ch. 4.3 (PAC2002) with cosine weighting,
+// Source: H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed. 2012: Magic Formula ch. 4.3 (PAC2002) with cosine
+// weighting,
 //   transient slip ch. 7.2 (eq. 7.20, 7.21 with slip instead of deflection as the state), carcass damping at standstill
 //   ch. 8.6; coefficients from the vehicle file.
-// Frame: contact patch, x along the wheel's heading in the road plane, y left, ISO 8855. Slip: kappa > 0 drives, tan_alpha
+// Frame: contact patch, x along the wheel's heading in the road plane, y left, ISO 8855. Slip: kappa > 0 drives,
+// tan_alpha
 //   > 0 pushes to the left.
-// Leaves out: camber, conicity and ply steer, turn slip, self-aligning torque, falling friction with speed, temperature.
-// Tests: tests/vehicle_dynamics/tyre_test.cpp (stiffness, peak, friction ellipse, mirror symmetry).
+// Leaves out: camber, conicity and ply steer, turn slip, self-aligning torque, falling friction with speed,
+// temperature. Tests: tests/vehicle_dynamics/tyre_test.cpp (stiffness, peak, friction ellipse, mirror symmetry).
 #pragma once
 
 #include <algorithm>
@@ -25,9 +27,10 @@ struct Force {
 /// What does not change while driving, worked out once.
 struct Constants {
   TyreParams p;
-  double per_kappa_bend = 0.0, per_tan_alpha_bend = 0.0;  ///< one over 1.5 times the slip at the peak: relaxation halves
-  double per_long_m = 0.0, per_lat_m = 0.0;               ///< one over the relaxation lengths
-  double bx = 0.0, by = 0.0;                              ///< B = K / (C D) at mu 1
+  double per_kappa_bend = 0.0,
+         per_tan_alpha_bend = 0.0;           ///< one over 1.5 times the slip at the peak: relaxation halves
+  double per_long_m = 0.0, per_lat_m = 0.0;  ///< one over the relaxation lengths
+  double bx = 0.0, by = 0.0;                 ///< B = K / (C D) at mu 1
 };
 Constants constants(const TyreParams& params);
 
@@ -40,9 +43,9 @@ void steady_forces(const Constants& tyre, const double kappa[4], const double ta
 /// Rate of change of the slips. No division by speed: at rest the patch is a spring.
 struct SlipRate {
   double kappa_ps = 0.0, tan_alpha_ps = 0.0;
-  double kappa_decay_ps = 0.0, tan_alpha_decay_ps = 0.0;          ///< for the exponential integrator
-  double carried_mps = 0.0;                                       ///< speed at which the patch carries its slip away
-  double kappa_stretch_mps = 0.0, tan_alpha_stretch_mps = 0.0;    ///< rate of the carcass' deflection
+  double kappa_decay_ps = 0.0, tan_alpha_decay_ps = 0.0;        ///< for the exponential integrator
+  double carried_mps = 0.0;                                     ///< speed at which the patch carries its slip away
+  double kappa_stretch_mps = 0.0, tan_alpha_stretch_mps = 0.0;  ///< rate of the carcass' deflection
 };
 
 /// `vx`, `vy`: velocity of the wheel's contact point along and across it; `rolling`: spin times radius; `most_pm`: one
@@ -50,10 +53,12 @@ struct SlipRate {
 /// stay stable; infinite for none.
 inline SlipRate slip_rate(const Constants& tyre, double kappa, double tan_alpha, double vx, double vy, double rolling,
                           double most_pm) {
-  // Slip falls with what has passed through the patch. A wheel that slides sideways passes little: a tenth of its slide.
+  // Slip falls with what has passed through the patch. A wheel that slides sideways passes little: a tenth of its
+  // slide.
   const double carried = std::max(std::max(std::abs(vx), std::abs(rolling)), 0.1 * std::abs(vy));
   const double k = kappa * tyre.per_kappa_bend, t = tan_alpha * tyre.per_tan_alpha_bend;
-  // Beyond the peak the patch slides and has nothing left to build up: sigma falls with slip (Pacejka 7.2.2), to a tenth.
+  // Beyond the peak the patch slides and has nothing left to build up: sigma falls with slip (Pacejka 7.2.2), to a
+  // tenth.
   const double along_pm = std::min(std::min(tyre.per_long_m * (1.0 + k * k), 10.0 * tyre.per_long_m), most_pm);
   const double across_pm = std::min(std::min(tyre.per_lat_m * (1.0 + t * t), 10.0 * tyre.per_lat_m), most_pm);
   const double along = rolling - vx - carried * kappa, across = -vy - carried * tan_alpha;

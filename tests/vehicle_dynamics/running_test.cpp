@@ -1,0 +1,261 @@
+// The larger levels in the loop: no allocation, no system call, the same bits again, levels by scene, lamps.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <random>
+
+#include "full_car.h"
+#include "vehicle_dynamics/levelling.h"
+
+namespace {
+std::atomic<long> g_allocations{0};
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++g_allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace phare {
+namespace {
+
+RunSetup setup_of(Level level, const char* file = "hatchback.toml") {
+  RunSetup setup = test::kinematic_setup(file);
+  setup.level = level;
+  setup.sprung = *SprungCar::of(setup.vehicle, file);
+  setup.on_top.profiles.push_back(HeightProfile::iso8608(RoughnessClass::kB, 3, 200.0));
+  return setup;
+}
+
+Controls controls_at(double t) {
+  return {.steering_wheel_rad = 0.5 * std::sin(0.7 * t),
+          .accelerator_01 = std::max(0.0, std::sin(0.31 * t)),
+          .brake_01 = std::max(0.0, -std::sin(0.31 * t))};
+}
+
+TEST(Running, NoAllocationInTheStep) {
+  for (const Level level : {Level::kSingleTrack, Level::kFull, Level::kAuto})
+    for (const Integrator integrator : {Integrator::kSemiImplicitEuler, Integrator::kEtd2, Integrator::kRk4}) {
+      RunSetup setup = setup_of(level);
+      setup.sprung->set_integrator(integrator);
+      StepLoop loop(setup, CarState{});
+      loop.run_to(test::seconds(0.1));
+      const long before = g_allocations;
+      for (int i = 1; i <= 300; ++i) {
+        loop.set_controls(controls_at(0.1 * i));
+        loop.run_to(test::seconds(0.1 + 0.02 * i));
+      }
+      EXPECT_EQ(g_allocations - before, 0) << name(level);
+    }
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(Running, NoSystemCallInTheStep) {
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    test::Drive d(test::hard_car(), 20.0);
+    Road road;
+    road.profiles.push_back(HeightProfile::iso8608(RoughnessClass::kB, 3, 100.0));
+    d.input.road = &road;
+    SprungCar car = *SprungCar::of(test::car("hatchback.toml"), "");
+    car.take_over(SprungCar::Model::kFull, CarState{}, 0.0, 0.0);
+    d.step(0.002);  // symbols bound
+    car.advance({.steering_wheel_rad = 0.1, .accelerator_01 = 0.5}, road, 0.002);
+    if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_STRICT) != 0) syscall(SYS_exit, 77);
+    // From here any call but read, write and exit kills the process.
+    for (int i = 0; i < 2000; ++i) {
+      d.input.steer_rad = 0.02;
+      if (i > 1000) d.brake(12.0);
+      d.step(0.002);
+      car.advance({.steering_wheel_rad = 0.3, .accelerator_01 = i < 1000 ? 1.0 : 0.0, .brake_01 = i < 1000 ? 0.0 : 1.0},
+                  road, 0.002);
+    }
+    syscall(SYS_exit, 0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "no seccomp here";
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << (WIFSIGNALED(status) ? "killed in a system call" : "");
+}
+#endif
+
+TEST(Running, TheSameBitsAgain) {
+  for (const Level level : {Level::kSingleTrack, Level::kFull, Level::kAuto}) {
+    std::uint64_t hash[2]{};
+    for (std::uint64_t& run : hash) {
+      StepLoop loop(setup_of(level), CarState{});
+      for (std::int64_t frame = 0; frame <= 900; ++frame) {
+        const SimTime time = frame_time(frame, 60);
+        loop.set_controls(controls_at(time.seconds()));
+        loop.run_to(time);
+        run = run * 31 + loop.at(time).state_hash;
+      }
+      EXPECT_GT(std::hypot(loop.state().x_m, loop.state().y_m), 5.0);
+    }
+    EXPECT_EQ(hash[0], hash[1]) << name(level);
+  }
+}
+
+// Hard case 11 at level full: when the clock wakes us does not matter.
+TEST(Running, C11JitterOfTheClock) {
+  StepLoop even(setup_of(Level::kFull), CarState{}), jittery(setup_of(Level::kFull), CarState{});
+  std::mt19937 random(7);
+  std::int64_t elapsed_ns = 0;
+  for (StepLoop* loop : {&even, &jittery}) loop->set_controls({.steering_wheel_rad = 0.4, .accelerator_01 = 0.6});
+  for (int i = 0; i < 300; ++i) {
+    elapsed_ns += i % 30 == 29 ? 500'000'000 : 1'000'000 + static_cast<std::int64_t>(random() % 32'000'000);
+    jittery.catch_up(SimTime{elapsed_ns});
+  }
+  even.run_to(jittery.time());
+  EXPECT_EQ(even.steps(), jittery.steps());
+  EXPECT_EQ(even.state(), jittery.state());
+  EXPECT_EQ(even.at(even.time()).state_hash, jittery.at(jittery.time()).state_hash);
+  EXPECT_EQ(jittery.drops(), 10u);  // ten stalls, each capped and counted
+}
+
+// Hard case 12: nonsense is refused, the last good controls stay.
+TEST(Running, C12NonsenseIsRefused) {
+  StepLoop loop(setup_of(Level::kFull), CarState{}), same(setup_of(Level::kFull), CarState{});
+  for (StepLoop* l : {&loop, &same})
+    l->set_controls({.steering_wheel_rad = 0.2, .accelerator_01 = 0.5}), l->run_to(test::seconds(1.0));
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  loop.set_controls({.steering_wheel_rad = kNan});
+  loop.set_controls({.brake_01 = std::numeric_limits<double>::infinity()});
+  for (StepLoop* l : {&loop, &same}) l->run_to(test::seconds(2.0));
+  EXPECT_EQ(loop.state(), same.state());
+  EXPECT_EQ(loop.controls_refused(), 2u);
+  loop.set_controls({.steering_wheel_rad = 1e308, .accelerator_01 = 1e308, .brake_01 = -1e308});
+  loop.run_to(test::seconds(4.0));
+  EXPECT_TRUE(std::isfinite(loop.state().x_m) && std::isfinite(loop.state().roll_rad));
+}
+
+TEST(AutoLevel, TheTable) {
+  Scene calm{.speed_mps = 20.0};
+  EXPECT_EQ(choose(calm).rung, 0);
+  Scene s = calm;
+  s.ax_mps2 = -0.8;
+  EXPECT_EQ(choose(s).rung, 1);
+  s = calm, s.unevenness_m = 0.004;
+  EXPECT_EQ(choose(s).reason, Reason::kRoughness);
+  s = calm, s.unevenness_m = 0.05;
+  EXPECT_EQ(choose(s).rung, 2);
+  s = calm, s.friction = 0.3;
+  EXPECT_EQ(choose(s).reason, Reason::kFriction);
+  s = calm, s.utilisation_01 = 0.6;
+  EXPECT_EQ(choose(s).reason, Reason::kUtilisation);
+  s = calm, s.least_load_share = 0.1;
+  EXPECT_EQ(choose(s).reason, Reason::kLoad);
+  s = calm, s.speed_mps = 0.5, s.brake_or_grade = true;
+  EXPECT_EQ(choose(s).reason, Reason::kStandstill);
+}
+
+TEST(AutoLevel, UpAtOnceDownAfterTwoSeconds) {
+  AutoLevel level;
+  Scene hard{.utilisation_01 = 0.6, .speed_mps = 20.0}, calm{.speed_mps = 20.0};
+  EXPECT_EQ(level.next(calm, 0.01).rung, 0);
+  EXPECT_EQ(level.next(hard, 0.01).rung, 2);
+  for (int i = 0; i < 198; ++i) EXPECT_EQ(level.next(calm, 0.01).rung, 2);
+  for (int i = 0; i < 4; ++i) level.next(calm, 0.01);
+  EXPECT_EQ(level.now().rung, 0);
+  EXPECT_EQ(level.switches(), 2u);
+}
+
+TEST(AutoLevel, SwitchesWithoutABump) {
+  RunSetup setup = setup_of(Level::kAuto);
+  setup.on_top.profiles.clear();
+  CarState start;
+  start.speed_mps = 20.0;
+  StepLoop loop(setup, start);
+  Level before = loop.level_now();
+  double pitch = 0.0, rate = 0.0, worst = 0.0;
+  std::uint64_t seen = 0;
+  for (int i = 1; i <= 10'000; ++i) {
+    const double t = 0.002 * i;
+    loop.set_controls({.steering_wheel_rad = t > 6.0 && t < 8.0 ? 1.0 : 0.0,
+                       .accelerator_01 = 0.1,
+                       .brake_01 = t > 3.0 && t < 4.0 ? 0.6 : 0.0});
+    loop.run_to(SimTime{static_cast<std::int64_t>(i) * 2'000'000});
+    if (loop.level_now() != before) {
+      // Beside what the pitch did in the step before: the jump is what the switch added.
+      worst = std::max(worst, std::abs(loop.state().pitch_rad - pitch - 0.002 * rate));
+      before = loop.level_now();
+      ++seen;
+    }
+    rate = loop.state().pitch_rate_radps, pitch = loop.state().pitch_rad;
+  }
+  EXPECT_GE(seen, 2u);
+  EXPECT_EQ(seen, loop.choice().switches());
+  EXPECT_LT(worst, 0.05e-3);
+}
+
+TEST(Levelling, KeepsTheCutOff) {
+  const LevellingParams p = test::car("hatchback.toml").levelling;
+  EXPECT_NEAR(levelling::cutoff_on_wall_m(p, 0.0, 0.0, 0.0), p.lamp_height_m - 0.01 * 25.0, 1e-4);
+  // Ten mrad nose down lower it by a quarter of a metre and the lamp's own fall.
+  EXPECT_NEAR(levelling::cutoff_on_wall_m(p, 0.01, 0.0, 0.0) - levelling::cutoff_on_wall_m(p, 0.0, 0.0, 0.0),
+              -0.25 - 0.01 * p.lamp_x_m, 2e-3);
+  levelling::State s;
+  for (int i = 0; i < 4000; ++i) levelling::advance(p, levelling::Kind::kDynamic, 0.0, 0.01, 20.0, s, 0.002);
+  EXPECT_NEAR(s.tilt_rad, 0.01, 1e-6);
+  // Half of a step is followed after filter and actuator: ln 2 of the filter's time at least.
+  levelling::State quick;
+  double half_at = 0.0;
+  for (int i = 1; half_at == 0.0; ++i) {
+    levelling::advance(p, levelling::Kind::kDynamic, 0.0, 0.01, 20.0, quick, 0.001);
+    if (quick.tilt_rad >= 0.005) half_at = 0.001 * i;
+  }
+  EXPECT_NEAR(half_at, 0.3 * std::log(2.0), 0.01);
+  // A load in the boot lifts the nose; the static system follows while the car stands, not while it brakes.
+  levelling::State load;
+  for (int i = 0; i < 60'000; ++i) levelling::advance(p, levelling::Kind::kStatic, 0.0, -0.008, 0.0, load, 0.002);
+  EXPECT_NEAR(load.tilt_rad, -0.008, 1e-4);
+  for (int i = 0; i < 1000; ++i) levelling::advance(p, levelling::Kind::kStatic, 0.0, 0.02, 15.0, load, 0.002);
+  EXPECT_NEAR(load.tilt_rad, -0.008, 1e-4);
+  levelling::State wheel;
+  for (int i = 0; i < 1000; ++i) levelling::advance(p, levelling::Kind::kManual, 2.0, 0.0, 15.0, wheel, 0.002);
+  EXPECT_NEAR(wheel.tilt_rad, -2.0 * p.manual_step_rad, 1e-9);
+}
+
+TEST(Powertrain, GearboxAndAbs) {
+  RunSetup setup = setup_of(Level::kFull);
+  setup.on_top.profiles.clear();
+  StepLoop loop(setup, CarState{});
+  loop.set_controls({.accelerator_01 = 1.0});
+  loop.run_to(test::seconds(12.0));
+  EXPECT_GT(loop.state().speed_mps, 100.0 / 3.6);  // 0 to 100 km/h in 10 s or so: the class
+  EXPECT_LT(loop.state().speed_mps, 45.0);
+  const double speed = loop.state().speed_mps, x = loop.state().x_m;
+  loop.set_controls({.brake_01 = 1.0});
+  loop.run_to(test::seconds(12.5));
+  double least = 1e9;
+  for (int i = 0; i < 100; ++i) {
+    loop.run_to(test::seconds(12.5 + 0.01 * i));
+    if (loop.state().speed_mps > 5.0) least = std::min(least, -loop.state().ax_mps2);
+  }
+  EXPECT_GT(least, 6.0);
+  loop.run_to(test::seconds(20.0));
+  EXPECT_LT(std::abs(loop.state().speed_mps), 1e-3);
+  const double mean = speed * speed / 2.0 / (loop.state().x_m - x);
+  EXPECT_GT(mean, 8.0);
+  EXPECT_LT(mean, 11.6);
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,68 @@
+// The tyre: stiffness, peak, friction ellipse, symmetry, and the two ways of working it out.
+#include "vehicle_dynamics/models/tyre.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "test_car.h"
+
+namespace phare {
+namespace {
+
+tyre::Constants passenger_tyre() {
+  return tyre::constants(test::car("bmw_320i.toml").chassis->tyre);
+}
+
+TEST(Tyre, SlipStiffnessAndPeak) {
+  const tyre::Constants t = passenger_tyre();
+  const double load = 3000.0, slip = 1e-6;
+  EXPECT_NEAR(tyre::steady_force(t, slip, 0.0, load, 1.0).x_n / slip, 22.303 * load, 1e-3 * 22.303 * load);
+  EXPECT_NEAR(tyre::steady_force(t, 0.0, slip, load, 1.0).y_n / slip, 21.92 * load, 1e-3 * 21.92 * load);
+  // Friction changes the peak, not the stiffness.
+  EXPECT_NEAR(tyre::steady_force(t, 0.0, slip, load, 0.3).y_n / slip, 21.92 * load, 1e-3 * 21.92 * load);
+  double most_x = 0.0, most_y = 0.0;
+  for (double s = 0.0; s < 1.0; s += 1e-3) {
+    most_x = std::max(most_x, tyre::steady_force(t, s, 0.0, load, 0.3).x_n);
+    most_y = std::max(most_y, tyre::steady_force(t, 0.0, s, load, 0.3).y_n);
+  }
+  EXPECT_NEAR(most_x, 0.3 * 1.1739 * load, 1e-3 * load);
+  EXPECT_NEAR(most_y, 0.3 * 1.0489 * load, 1e-3 * load);
+}
+
+TEST(Tyre, StaysInTheEllipseAndFourAtOnceAgree) {
+  const tyre::Constants t = passenger_tyre();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> slip(-2.0, 2.0), load(0.0, 8000.0), mu(0.05, 1.2);
+  double worst = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    double kappa[4], tan_alpha[4], n[4], m[4], x[4], y[4];
+    for (int k = 0; k < 4; ++k)
+      kappa[k] = slip(random), tan_alpha[k] = slip(random), n[k] = load(random), m[k] = mu(random);
+    n[i % 4] = i % 8 == 0 ? 0.0 : n[i % 4];
+    tyre::steady_forces(t, kappa, tan_alpha, n, m, x, y);
+    for (int k = 0; k < 4; ++k) {
+      const tyre::Force one = tyre::steady_force(t, kappa[k], tan_alpha[k], n[k], m[k]);
+      worst = std::max({worst, std::abs(one.x_n - x[k]), std::abs(one.y_n - y[k])});
+      const double ex = x[k] / (m[k] * 1.1739 * std::max(n[k], 1.0)), ey = y[k] / (m[k] * 1.0489 * std::max(n[k], 1.0));
+      ASSERT_LE(ex * ex + ey * ey, 1.0 + 1e-9);
+      const tyre::Force mirrored = tyre::steady_force(t, kappa[k], -tan_alpha[k], n[k], m[k]);
+      ASSERT_EQ(mirrored.x_n, one.x_n);
+      ASSERT_EQ(mirrored.y_n, -one.y_n);
+    }
+  }
+  EXPECT_LT(worst, 1e-8);  // a few units in the last place of 8 kN
+}
+
+TEST(Tyre, SlipSettlesWithoutDividingBySpeed) {
+  const tyre::Constants t = passenger_tyre();
+  // Steady: kappa = (R w - v) / |v|; at rest nothing decays, a push stretches the patch like a spring.
+  const auto rolling = tyre::slip_rate(t, 0.05, 0.0, 10.0, 0.0, 10.5, 1e6);
+  EXPECT_NEAR(rolling.kappa_ps, -(10.0 - 10.5 + 10.5 * 0.05) / t.p.long_relaxation_m, 0.1 * std::abs(rolling.kappa_ps));
+  const auto resting = tyre::slip_rate(t, 0.01, 0.0, 0.0, 0.0, 0.0, 1e6);
+  EXPECT_EQ(resting.kappa_ps, 0.0);
+  EXPECT_EQ(resting.kappa_decay_ps, 0.0);
+}
+
+}  // namespace
+}  // namespace phare
