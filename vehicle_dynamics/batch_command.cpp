@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include "config/fail.h"
 #include "vehicle_dynamics/batch.h"
 #include "vehicle_dynamics/compare.h"
 #include "vehicle_dynamics/work_precision.h"
@@ -80,11 +81,6 @@ bool BatchCommand::asked() const {
 
 namespace {
 
-int fail(const Error& error) {
-  std::fprintf(stderr, "phare-dynamics: %s\n", error.text().c_str());
-  return kExitBadInput;
-}
-
 std::size_t index_of(const std::string& text, std::initializer_list<const char*> names) {
   std::size_t i = 0;
   for (const char* name : names) {
@@ -95,9 +91,9 @@ std::size_t index_of(const std::string& text, std::initializer_list<const char*>
 }
 
 int run_compare(const std::string& directory, const std::string& vehicle, Integrator integrator, double step_s) {
-  if (vehicle.empty()) return fail({"--vehicle", "--compare needs the reference car's vehicle file"});
+  if (vehicle.empty()) return fail("phare-dynamics", {"--vehicle", "--compare needs the reference car's vehicle file"});
   const auto lines = compare::manoeuvres(directory, vehicle, integrator, step_s);
-  if (!lines) return fail(lines.error());
+  if (!lines) return fail("phare-dynamics", lines.error());
   bool within = true;
   for (const compare::Line& line : *lines) {
     std::printf("%s\n", compare::text(line).c_str());
@@ -107,11 +103,11 @@ int run_compare(const std::string& directory, const std::string& vehicle, Integr
 }
 
 int run_work_precision(const std::string& vehicle_file) {
-  if (vehicle_file.empty()) return fail({"--vehicle", "--work-precision needs a vehicle file"});
+  if (vehicle_file.empty()) return fail("phare-dynamics", {"--vehicle", "--work-precision needs a vehicle file"});
   const Result<VehicleParams> vehicle = read_vehicle(vehicle_file);
-  if (!vehicle) return fail(vehicle.error());
+  if (!vehicle) return fail("phare-dynamics", vehicle.error());
   const auto lines = work_precision::table(*vehicle, vehicle_file, false);
-  if (!lines) return fail(lines.error());
+  if (!lines) return fail("phare-dynamics", lines.error());
   std::printf("%s", work_precision::markdown(*lines).c_str());
   return kExitDone;
 }
@@ -124,16 +120,16 @@ int BatchCommand::run(const std::string& level_name) const {
       static_cast<Integrator>(index_of(o.integrator, {"semi-implicit-euler", "etd2", "rk4", "reference"}));
   if (!o.compare_with.empty()) return run_compare(o.compare_with, o.vehicle, integrator, o.step_s);
   if (o.work_precision) return run_work_precision(o.vehicle);
-  if (o.out.empty()) return fail({"--out", "--batch needs a file to write the motion to"});
-  if (o.vehicle.empty()) return fail({"--vehicle", "--batch needs a vehicle file"});
+  if (o.out.empty()) return fail("phare-dynamics", {"--out", "--batch needs a file to write the motion to"});
+  if (o.vehicle.empty()) return fail("phare-dynamics", {"--vehicle", "--batch needs a vehicle file"});
   batch::Options options;
   const Result<Level> level = parse_level(level_name, "--level");
-  if (!level) return fail(level.error());
-  if (*level == Level::kPose) return fail({"--level", "pose replays a drive; a batch run moves a model"});
-  if (*level == Level::kAuto) return fail({"--level", "auto chooses while driving; a batch run names its level"});
+  if (!level) return fail("phare-dynamics", level.error());
+  if (*level == Level::kPose) return fail("phare-dynamics", {"--level", "pose replays a drive; a batch run moves a model"});
+  if (*level == Level::kAuto) return fail("phare-dynamics", {"--level", "auto chooses while driving; a batch run names its level"});
   options.level = *level;
   Result<VehicleParams> vehicle = read_vehicle(o.vehicle);
-  if (!vehicle) return fail(vehicle.error());
+  if (!vehicle) return fail("phare-dynamics", vehicle.error());
   options.vehicle = std::move(*vehicle);
   options.vehicle_place = o.vehicle;
   options.integrator = integrator;
@@ -144,42 +140,42 @@ int BatchCommand::run(const std::string& level_name) const {
   options.levelling = static_cast<levelling::Kind>(index_of(o.levelling, {"none", "manual", "static", "dynamic"}));
   if (o.relaxation_scale != 1.0) options.relaxation_scale = o.relaxation_scale;
   Result<batch::Inputs> inputs = batch::read_inputs(o.in);
-  if (!inputs) return fail(inputs.error());
+  if (!inputs) return fail("phare-dynamics", inputs.error());
 
   Road road;
   RoadSurface surface;
   road.friction_everywhere = o.friction;
   if (!o.road.empty()) {
-    if (!inputs->road_m[0].empty()) return fail({"--road", "the inputs give the road's heights already"});
+    if (!inputs->road_m[0].empty()) return fail("phare-dynamics", {"--road", "the inputs give the road's heights already"});
     if (o.road.ends_with(".csv")) {
       Result<HeightProfile> profile = HeightProfile::read(o.road);
-      if (!profile) return fail(profile.error());
+      if (!profile) return fail("phare-dynamics", profile.error());
       profile->smooth(o.envelope_m);
       road.profiles.push_back(std::move(*profile));
     } else {
       Result<RoadSurface> mesh = RoadSurface::read(o.road);
-      if (!mesh) return fail(mesh.error());
-      if (mesh->triangle_count() == 0) return fail({o.road, "no node whose name begins with road or ground"});
+      if (!mesh) return fail("phare-dynamics", mesh.error());
+      if (mesh->triangle_count() == 0) return fail("phare-dynamics", {o.road, "no node whose name begins with road or ground"});
       surface = std::move(*mesh);
       road.mesh = &surface;
     }
   }
   if (!o.roughness.empty()) {
     const Result<RoughnessClass> roughness = parse_roughness(o.roughness, "--roughness");
-    if (!roughness) return fail(roughness.error());
+    if (!roughness) return fail("phare-dynamics", roughness.error());
     road.profiles.push_back(HeightProfile::iso8608(*roughness, o.seed));
   }
   options.road = &road;
 
   std::FILE* file = std::fopen(o.out.c_str(), "w");
-  if (!file) return fail({o.out, "cannot be written"});
+  if (!file) return fail("phare-dynamics", {o.out, "cannot be written"});
   std::fprintf(file, "%s\n", batch::header().c_str());
   const Result<batch::Summary> summary =
       batch::run(options, *inputs, [&](const batch::Row& row) { batch::print(row, file); });
   const bool written = std::ferror(file) == 0;
-  if (std::fclose(file) != 0 || !written) return fail({o.out, "could not be written to its end"});
-  if (!summary) return fail(summary.error());
-  if (summary->gave_up) return fail({"--integrator", "the reference integrator gave up"});
+  if (std::fclose(file) != 0 || !written) return fail("phare-dynamics", {o.out, "could not be written to its end"});
+  if (!summary) return fail("phare-dynamics", summary.error());
+  if (summary->gave_up) return fail("phare-dynamics", {"--integrator", "the reference integrator gave up"});
   std::printf(
       "%llu steps of %g s in %.3f s: %.0f times real time; state hash %016llx%s%s\n",
       static_cast<unsigned long long>(summary->steps), o.step_s, summary->wall_s,

@@ -9,6 +9,8 @@
 
 namespace phare::test {
 
+constexpr double kDeg = 180.0 / 3.14159265358979323846;
+
 /// The 320i of the references: relaxation as in its file, unless lengths are given.
 inline full::Params full_car(const char* file = "bmw_320i.toml", double long_relaxation_m = 0.0,
                              double lat_relaxation_m = 0.0) {

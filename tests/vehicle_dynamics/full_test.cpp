@@ -12,7 +12,6 @@ namespace {
 using test::Drive;
 using test::full_car;
 
-constexpr double kDeg = 180.0 / 3.14159265358979323846;
 
 void expect_close(double value, double expected, double share, const char* what) {
   EXPECT_NEAR(value, expected, share * std::abs(expected)) << what;
@@ -41,7 +40,7 @@ TEST(Full, DiveUnderAConstantForce) {
     d.brake(0.1);  // small: the figures are those of a linear car
     d.run(5.0, 0.001);
     const full::Forces f = d.forces();
-    expect_close(f.pitch_rad / -f.ax_mps2 * 9.81 * kDeg, c.deg_per_g, 0.005, c.file);
+    expect_close(f.pitch_rad / -f.ax_mps2 * 9.81 * test::kDeg, c.deg_per_g, 0.005, c.file);
     if (c.file[0] != 'b') continue;
     const double front_lower = -(d.state.z_m - d.params.x_m[0] * f.pitch_rad) / -f.ax_mps2 * 9.81;
     const double rear_lift = (d.state.z_m - d.params.x_m[2] * f.pitch_rad) / -f.ax_mps2 * 9.81;
@@ -101,7 +100,7 @@ TEST(Full, RollInASteadyTurn) {
     const full::Forces f = d.forces();
     // 1 % for the part of roll that the unsprung axle's own couple adds through the tyres, which the closed form leaves
     // out.
-    expect_close(f.roll_rad / f.ay_mps2 * 9.81 * kDeg, c.deg_per_g, 0.02, c.file);
+    expect_close(f.roll_rad / f.ay_mps2 * 9.81 * test::kDeg, c.deg_per_g, 0.02, c.file);
   }
 }
 

@@ -10,7 +10,6 @@ namespace phare {
 namespace {
 
 using single_track::Options;
-constexpr double kDeg = 180.0 / 3.14159265358979323846;
 
 struct Track {
   single_track::Params params;
@@ -40,7 +39,7 @@ TEST(SingleTrack, DiveAndRollOfBothAttitudes) {
     turn.input.steer_rad = 0.004;
     turn.run(6.0, 0.005);
     const full::Forces g = single_track::forces(turn.params, turn.input, turn.state);
-    EXPECT_NEAR(g.roll_rad / g.ay_mps2 * 9.81 * kDeg, 8.80, 0.005 * 8.80) << dynamic;
+    EXPECT_NEAR(g.roll_rad / g.ay_mps2 * 9.81 * test::kDeg, 8.80, 0.005 * 8.80) << dynamic;
   }
 }
 
@@ -88,7 +87,7 @@ TEST(SingleTrack, StandsOnASlope) {
     EXPECT_EQ(parked.state.x_m, x);
     EXPECT_EQ(parked.state.u_mps, 0.0);
     const full::Forces f = single_track::forces(parked.params, parked.input, parked.state);
-    EXPECT_NEAR((f.pitch_rad - f.road_pitch_rad) * kDeg, -0.581, 0.01 * 0.581);
+    EXPECT_NEAR((f.pitch_rad - f.road_pitch_rad) * test::kDeg, -0.581, 0.01 * 0.581);
   }
 }
 
