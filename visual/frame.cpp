@@ -30,7 +30,13 @@ FrameCounts draw_frame(FrameParts& parts, const FrameInput& input) {
   // From cd/m² to the display. Without an HDR image the lamp pass has done it.
   if (plan.hdr_image) parts.tone_mapping.draw(parts.graph, targets.hdr_cdm2, targets.display, exposure_of(input));
 
-  FrameCounts counts{.passes = 1u + (plan.depth_first ? 1u : 0u) + (plan.hdr_image ? 1u : 0u)};
+  // What the driver is told besides.
+  if (plan.overlay) {
+    if (!parts.overlay) parts.overlay = std::make_unique<OverlayPass>(parts.device, targets.display_format);
+    parts.overlay->draw(parts.graph, targets.display, input.overlay);
+  }
+
+  FrameCounts counts{.passes = 1u + (plan.overlay ? 1u : 0u) + (plan.depth_first ? 1u : 0u) + (plan.hdr_image ? 1u : 0u)};
   counts.draws = static_cast<std::uint32_t>(items.size()) * (plan.depth_first ? 2 : 1) + 1 + (plan.hdr_image ? 1 : 0);
   for (const DrawItem& item : items) counts.triangles += item.batch->index_count / 3;
   return counts;
@@ -50,6 +56,8 @@ EffectPlan plan_effects(const FrameInput& input, std::uint32_t lamp_count, bool 
   plan.hdr_image = input.want_hdr && input.view == View::kPhoto;
   plan.reasons.push_back(plan.hdr_image ? "tone mapping pass on: the HDR image is called for"
                                         : "tone mapping pass off: nothing reads the HDR image, the lamp pass applies the curve");
+  plan.overlay = !input.overlay.empty();
+  plan.reasons.push_back(plan.overlay ? "overlay on: there are lines to show" : "overlay off: nothing to show");
   return plan;
 }
 

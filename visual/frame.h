@@ -3,6 +3,7 @@
 
 #include "visual/gpu/frame_graph.h"
 #include "visual/passes/lamps.h"
+#include "visual/passes/overlay.h"
 #include "visual/passes/tone_mapping.h"
 #include "visual/renderer.h"
 
@@ -31,6 +32,7 @@ glm::vec3 exposure_of(const FrameInput& input);
 struct EffectPlan {
   bool depth_first = false;   ///< a depth pass before the lamp pass
   bool hdr_image = false;     ///< an HDR image and a tone-mapping pass
+  bool overlay = false;       ///< text over the picture
   std::vector<std::string> reasons{};
 };
 EffectPlan plan_effects(const FrameInput& input, std::uint32_t lamp_count, bool software_device);
@@ -43,6 +45,7 @@ struct FrameParts {
   BeamStore& beams;
   LampPass& lamps;
   ToneMappingPass& tone_mapping;
+  std::unique_ptr<OverlayPass>& overlay;  ///< made by the first frame that calls for it
   bool software_device = false;
 };
 

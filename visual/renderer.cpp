@@ -37,6 +37,7 @@ struct Renderer::Impl {
   BeamStore beams{device};
   LampPass lamps{device};
   ToneMappingPass tone_mapping{device};
+  std::unique_ptr<OverlayPass> overlay;
   SceneBuffers scene;
   FrameTargets targets;
   gpu::HostBuffer display_copy, hdr_copy;
@@ -103,7 +104,7 @@ struct Renderer::Impl {
   }
 
   FrameParts parts() {
-    return {device, graph, targets, scene, beams, lamps, tone_mapping, device.properties.deviceType == vk::PhysicalDeviceType::eCpu};
+    return {device, graph, targets, scene, beams, lamps, tone_mapping, overlay, device.properties.deviceType == vk::PhysicalDeviceType::eCpu};
   }
 };
 
@@ -258,7 +259,6 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
 std::string Renderer::device() const { return std::string(impl_->device.properties.deviceName.data()) + ", " + impl_->device.driver; }
 std::uint64_t Renderer::device_memory_bytes() const { return impl_->device.allocated_bytes; }
 std::uint64_t Renderer::validation_messages() const { return impl_->device.validation_messages->load(); }
-void Renderer::begin_overlay() {}
 
 Result<std::vector<std::string>> list_vulkan_devices() {
   try {

@@ -61,7 +61,7 @@ struct FrameInput {
   View view = View::kPhoto;
   bool want_hdr = false;              ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;            ///< read the finished picture back
-  bool draw_overlay = false;          ///< window: the ImGui draw data of this frame is drawn on top
+  std::vector<std::string> overlay{};  ///< lines of text over the picture; none: no overlay pass
 };
 
 struct PassTime {
@@ -125,9 +125,6 @@ class Renderer {
   std::string device() const;        ///< name, driver, Vulkan version
   std::uint64_t device_memory_bytes() const;   ///< allocated by us
   std::uint64_t validation_messages() const;   ///< since create
-
-  /// For the overlay: called once per frame between these by the window code. No-ops when headless.
-  void begin_overlay();
 
  private:
   struct Impl;

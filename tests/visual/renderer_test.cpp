@@ -301,6 +301,29 @@ TEST_F(RendererTest, HdrPassComesWhenCalledForAndHoldsIlluminance) {
   EXPECT_NEAR(luminance, 0.6 * lx / 3.14159265, 0.01 * lx + 0.02);
 }
 
+TEST_F(RendererTest, OverlayComesWhenThereAreLinesAndLeavesTheRestAlone) {
+  const IntensityTable table = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
+  renderer->set_beam(0, image_of(table));
+  ASSERT_TRUE(renderer->load_scene(yard()).ok());
+  FrameInput input = driver_view();
+  input.want_image = true;
+  const std::uint32_t without = renderer->draw(input).pass_count;
+  const Image8 bare = renderer->read_image();
+  input.overlay = {"12.3 lx", "pose held"};
+  EXPECT_EQ(renderer->draw(input).pass_count, without + 1);
+  const Image8 told = renderer->read_image();
+  std::size_t bright = 0, changed_below = 0;
+  for (int y = 0; y < told.height_px; ++y)
+    for (int x = 0; x < told.width_px; ++x) {
+      const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(told.width_px) + static_cast<std::size_t>(x)) * 4;
+      const bool same = std::equal(&told.rgba[at], &told.rgba[at] + 3, &bare.rgba[at]);
+      if (y < 64) bright += told.rgba[at] > 200 && !same;
+      else changed_below += !same;
+    }
+  EXPECT_GT(bright, 50u) << "letters";
+  EXPECT_EQ(changed_below, 0u);
+}
+
 TEST_F(RendererTest, AuditedPixelsAgreeWithDouble) {
   const IntensityTable table = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
   renderer->set_beam(0, image_of(table));

@@ -50,7 +50,7 @@ void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleStat
                         int width_px, int height_px, const std::string& label) {
   has_stills_ = true;
   driver.want_image = true;
-  driver.draw_overlay = false;
+  driver.overlay.clear();
 
   constexpr int kFiner = 2;
   renderer.resize(kFiner * width_px, kFiner * height_px);

@@ -80,6 +80,7 @@ Result<Lamps> Lamps::load(const Rig& rig) {
 std::vector<Lamps::Change> Lamps::set_controls(const CockpitState& controls) {
   design_ = std::min<std::size_t>(controls.design_index, designs_.size() - 1);
   lit_ = lit_functions(controls, high_keeps_low_);
+  wheel_pitch_rad_ = controls.lamp_aim_rad;
   lit_text_ = text_of_lit();
 
   std::vector<Change> changes;
@@ -96,7 +97,7 @@ std::vector<Lamps::Change> Lamps::set_controls(const CockpitState& controls) {
 
 std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
   const glm::dmat3 rotation = rotation_of(pose);
-  const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_, 0.0);
+  const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_ + wheel_pitch_rad_, 0.0);
   const std::vector<LampConfig>& lamps = designs_[design_].lamps;
   std::vector<PlacedLamp> placed;
   for (std::size_t position = 0; position < lamps.size(); ++position) {
@@ -116,7 +117,7 @@ double Lamps::illuminance_lx(const VehicleState& pose, const MeasurePoint& at) c
 
 double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit,
                                     const MeasurePoint& at) const {
-  const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_, 0.0);
+  const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_ + wheel_pitch_rad_, 0.0);
   double total_lx = 0.0;
   for (const LampConfig& lamp : designs_[design].lamps) {
     for (const SourceConfig& source : lamp.sources) {

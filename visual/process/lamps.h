@@ -78,7 +78,8 @@ class Lamps {
   std::vector<const BeamImage*> shown_;  // per slot
   std::set<LampFunction> lit_;
   std::size_t design_ = 0;
-  double aim_pitch_rad_ = 0.0;
+  double aim_pitch_rad_ = 0.0;    // of the program's aim command
+  double wheel_pitch_rad_ = 0.0;  // of the driver's aim wheel
   std::string lit_text_;
   std::uint64_t compositions_ = 0;
   std::uint64_t uploads_ = 0;

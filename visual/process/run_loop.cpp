@@ -59,7 +59,7 @@ class Loop {
   bool wants_picture(const Moment& moment);
   bool wants_stills(const Moment& moment) const;
   std::string label(const Moment& moment) const;
-  void show_title(const Moment& moment);
+  std::vector<std::string> overlay(const Moment& moment) const;
   void write_stats(SimTime now);
 
   Session& s_;
@@ -200,6 +200,7 @@ void Loop::draw(const Moment& moment) {
   if (s_.options.false_colour) input_.view = input_.view == View::kPhoto ? View::kFalseColour : View::kPhoto;
   input_.lamps = s_.lamps.placed(moment.car.pose);
   input_.exposure_per_cdm2 = s_.options.exposure_per_cdm2;
+  if (s_.window && drawn_frames_ % 6 == 0) input_.overlay = overlay(moment);  // ten times a second: the lux under the mouse takes a ray through the scene
   captured_ = wants_picture(moment);
   input_.want_image = captured_;
 
@@ -231,6 +232,7 @@ void Loop::keep(const Moment& moment) {
   if (captured_) {
     Image8 image = s_.renderer.read_image();
     if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);
+    if (!moment.controls.source_fault.empty()) draw_text(image, 12, 36, moment.controls.source_fault, {255, 90, 60}, 2);
     s_.album.keep_frame(number_of(moment), image, label(moment));
   }
   if (wants_stills(moment)) {
@@ -242,7 +244,6 @@ void Loop::keep(const Moment& moment) {
     progress_ = Clock::now();
     frame_end_ = {};  // not a frame interval
   }
-  if (s_.window) show_title(moment);
 }
 
 void Loop::audit(const Moment& moment) {
@@ -294,25 +295,24 @@ std::string Loop::label(const Moment& moment) const {
   return text;
 }
 
-/// Telltales and the lux under the mouse, in the title line; some ten times a second.
-void Loop::show_title(const Moment& moment) {
-  if (drawn_frames_ % 6 != 0) return;
-  std::string title = "Phare  " + label(moment);
-  char text[120];
-  std::snprintf(text, sizeof text, "  frame %.1f ms", s_.stats.newest.wall_ms);
-  title += text;
+/// What the driver is told over the picture: telltales, the lux under the mouse, and everything that is not as it should be.
+std::vector<std::string> Loop::overlay(const Moment& moment) const {
+  char text[160];
+  std::vector<std::string> lines{label(moment)};
+  std::snprintf(text, sizeof text, "frame %.1f ms   C camera   F false colour", s_.stats.newest.wall_ms);
+  lines.emplace_back(text);
   if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside) {
     if (const auto point =
             pick(s_.scene, ray_through(input_.camera, mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px))) {
-      std::snprintf(text, sizeof text, "  %.3g lx at (%.2f, %.2f, %.2f) m",
-                    s_.lamps.illuminance_lx(moment.car.pose, *point), point->position_m.x, point->position_m.y,
-                    point->position_m.z);
-      title += text;
+      std::snprintf(text, sizeof text, "%.3g lx at (%.2f, %.2f, %.2f) m", s_.lamps.illuminance_lx(moment.car.pose, *point),
+                    point->position_m.x, point->position_m.y, point->position_m.z);
+      lines.emplace_back(text);
     }
   }
-  if (moment.car.stale) title += "  POSE HELD: no VehicleState";
-  if (moment.controls.fail_safe) title += "  FAIL-SAFE";
-  s_.window->set_title(title);
+  if (moment.car.stale) lines.emplace_back("POSE HELD: no VehicleState");
+  if (moment.controls.fail_safe) lines.emplace_back("FAIL-SAFE low beam: the light switch is silent");
+  if (!moment.controls.source_fault.empty()) lines.push_back(moment.controls.source_fault);
+  return lines;
 }
 
 void Loop::write_stats(SimTime now) {

@@ -60,9 +60,6 @@ bool Window::poll() {
   return glfwWindowShouldClose(state_->window) == GLFW_FALSE;
 }
 
-void Window::set_title(const std::string& title) {
-  glfwSetWindowTitle(state_->window, title.c_str());
-}
 CameraKind Window::camera() const {
   return state_->camera;
 }

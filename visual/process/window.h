@@ -21,7 +21,6 @@ class Window {
 
   /// Handles what keys and mouse did: Esc closes, c next camera, f false colour. False once closed.
   bool poll();
-  void set_title(const std::string& title);
 
   CameraKind camera() const;
   View view() const;
