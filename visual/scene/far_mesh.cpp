@@ -39,17 +39,13 @@ void drop_unused(FarMesh& mesh) {
   mesh.vertices = std::move(kept);
 }
 
-void simplify(FarMesh& mesh, float error_m, bool joined) {
+void simplify(FarMesh& mesh, float error_m) {
   const float* positions = &mesh.vertices.front().position_m.x;
   const float scale = meshopt_simplifyScale(positions, mesh.vertices.size(), sizeof(SceneVertex));
   if (!(scale > 0.0f)) return;
   std::vector<std::uint32_t> indices(mesh.indices.size());
-  const auto run = [&](auto&& simplifier) {
-    return simplifier(indices.data(), mesh.indices.data(), mesh.indices.size(), positions, mesh.vertices.size(), sizeof(SceneVertex), std::size_t{3},
-                      std::min(1.0f, error_m / scale));
-  };
-  indices.resize(joined ? run([](auto... a) { return meshopt_simplifySloppy(a..., nullptr); })
-                        : run([](auto... a) { return meshopt_simplify(a..., 0u, nullptr); }));
+  indices.resize(meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), positions, mesh.vertices.size(), sizeof(SceneVertex),
+                                  std::size_t{3}, std::min(1.0f, error_m / scale), 0u, nullptr));
   mesh.indices = std::move(indices);
   drop_unused(mesh);
 }
@@ -67,10 +63,10 @@ FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level,
   switch (material.surface) {
     case Surface::kFoliage: thin_leaves(mesh, kFarLevels[level].leaves_per_leaf); break;
     case Surface::kAsphalt:
-    case Surface::kGrass: simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m), false); break;
-    case Surface::kPlain: simplify(mesh, static_cast<float>(kFarThingError_rad * from_m), true); break;
+    case Surface::kGrass: simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m)); break;
+    case Surface::kPlain: simplify(mesh, static_cast<float>(kFarThingError_rad * from_m)); break;
     case Surface::kPaint:
-      if (level + 1 == kFarLevels.size()) simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m), false);
+      if (level + 1 == kFarLevels.size()) simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m));
       break;
   }
   return mesh;
