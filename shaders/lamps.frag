@@ -16,6 +16,7 @@ layout(location = 1) out vec4 result_normal;
 // Reflectance detail: one grain texture at several sizes, all whole tiles in the 1024 m after which `detail` repeats;
 // mip maps take away what a pixel cannot resolve. Mean factor 1, so that the reflectance of the material holds.
 vec3 surface_reflectance(vec3 rho) {
+  vec3 detail = point + detail_from_point;
   if (surface == 1) {  // asphalt: chippings, patches of binder, darker wheel tracks of the world scale
     float chips = texture(grain, detail.xy * (614.0 / 1024.0)).r;
     float patches = texture(grain, detail.yx * (46.0 / 1024.0)).g;

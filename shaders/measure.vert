@@ -10,7 +10,7 @@ layout(location = 1) in vec3 normal;
 void main() {
   point = position_m;
   point_normal = normal;
-  detail = vec3(0.0);
+  detail_from_point = vec3(0.0);
   uint width = uint(draw.origin.x);
   vec2 pixel = vec2(gl_VertexIndex % width, gl_VertexIndex / width) + 0.5;
   gl_Position = vec4(pixel / draw.origin.xy * 2.0 - 1.0, 0.5, 1.0);

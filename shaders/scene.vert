@@ -12,7 +12,7 @@ invariant gl_Position;  // the depth pass and the lamp pass must agree to the bi
 void main() {
   point = position_m + draw.origin.xyz;
   point_normal = normal;
-  detail = position_m + draw.detail_origin.xyz;
+  detail_from_point = draw.detail_origin.xyz - draw.origin.xyz;
   gl_Position = clip_from_eye() * vec4(point, 1.0);
   pass_light(materials[material_index].reflectance);
 }

@@ -22,7 +22,7 @@
 
 layout(location = 0) PHARE_VARYING vec3 point;            // relative to the eye, m
 layout(location = 1) PHARE_VARYING vec3 point_normal;
-layout(location = 2) PHARE_VARYING vec3 detail;           // world position modulo 1024 m
+layout(location = 2) flat PHARE_VARYING vec3 detail_from_point;  // to the world position modulo 1024 m, for surface detail
 layout(location = 3) flat PHARE_VARYING vec4 reflectance; // rho/pi, exposed where the display is written; R_A·pi over the greatest rho
 layout(location = 4) flat PHARE_VARYING vec3 light_colour;  // of the lamps, where all have one
 layout(location = 5) flat PHARE_VARYING vec3 ambient_lx;  // half of what the whole sky gives a level surface
