@@ -36,7 +36,10 @@ float intensity_cd(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, 
   if (lookup == kLookupTurn) {
     at = vec2(radians(atan2_deg(p.y, p.x)), atan2_forward_rad(p.z, h)) * nodes.xy;
     at.x += at.x < 0.0 ? lamp.within.w : 0.0;  // a whole turn
-    lit = at.y >= lamp.within.y && at.y <= lamp.within.z && at.x <= lamp.within.x;
+    // The poles are nodes, and float32 misses them by up to 1e-4 of a node: what is nearer than that to the edge counts as within.
+    vec2 inside = vec2(min(at.x, lamp.within.x), clamp(at.y, lamp.within.y, lamp.within.z));
+    lit = all(lessThan(abs(at - inside), vec2(1e-3)));
+    at = inside;
   } else {
     at = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h)) * nodes.xy;
     vec2 fine = clamp(at, -nodes.zw, nodes.zw);

@@ -114,6 +114,33 @@ TEST_F(RendererTest, MeasuresWhatDoubleComputesForEveryTableType) {
   }
 }
 
+// For type C this is the pole of the table, for every type a node that rounding must not lose.
+TEST_F(RendererTest, StraightAheadIsLit) {
+  const std::pair<PhotometricType, GammaAxis> kinds[] = {{PhotometricType::kA, GammaAxis::kGamma0},
+                                                         {PhotometricType::kB, GammaAxis::kGamma0},
+                                                         {PhotometricType::kC, GammaAxis::kGamma0},
+                                                         {PhotometricType::kC, GammaAxis::kGamma90}};
+  for (const auto& [type, axis] : kinds)
+    for (const bool uneven : {false, true}) {
+      IntensityTable table = cut_off_table(type, axis);
+      if (!uneven) {  // steps of 0.25°: the even lookup
+        table.second_deg.clear();
+        for (int i = 0; i <= 240; ++i) table.second_deg.push_back(type == PhotometricType::kC ? (axis == GammaAxis::kGamma90 ? 60.0 : 0.0) + 0.25 * i : 0.25 * i - 30.0);
+      }
+      table.candela.clear();  // one value at the pole, whichever half-plane it is reached from
+      for (double v : table.second_deg) table.candela.insert(table.candela.end(), table.first_deg.size(), 1000.0 + 10.0 * v);
+      renderer->set_beam(0, image_of(table));
+      const PlacedLamp lamp{.position_m = {0, 0, 0}};
+      const std::vector<MeasurePoint> points{{{25, 0, 0}, {-1, 0, 0}}, {{25, 1e-9, 0}, {-1, 0, 0}}, {{25, -1e-9, -1e-9}, {-1, 0, 0}}};
+      const auto lx = renderer->measure(std::span(&lamp, 1), points);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const double expected = illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, points[i].position_m, points[i].normal);
+        EXPECT_GT(expected, 0.1);
+        EXPECT_NEAR(static_cast<double>(lx[0][i]), expected, 2e-4 * expected) << "type " << static_cast<int>(type) << ", axis " << static_cast<int>(axis);
+      }
+    }
+}
+
 TEST_F(RendererTest, OutsideTheTableAndBehindIsDark) {
   IntensityTable table = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
   renderer->set_beam(0, image_of(table));
