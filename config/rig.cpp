@@ -49,11 +49,22 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
   source.function = static_cast<LampFunction>(table.choice("function", kFunctionNames));
   source.file = resolve_path(table.text("file"), rig_file);
   source.axis = static_cast<GammaAxis>(table.choice_or("axis", 0, kAxisNames));
+  source.c0_turn_deg = table.number_or("c0_deg", 0.0, -360.0, 360.0);
+  source.mirror = table.flag_or("mirror", false);
+  source.lamp_set = static_cast<std::size_t>(table.integer_or("lamp_set", 1, 1, 1000));
+  source.emitter = static_cast<std::size_t>(table.integer_or("emitter", 1, 1, 1000));
   source.scale = table.number_or("scale", 1.0, 0.0, 1e6);
   source.yaw_rad = degrees(table, "yaw_deg", -180.0, 180.0);
   source.pitch_rad = degrees(table, "pitch_deg", -90.0, 90.0);
   source.roll_rad = degrees(table, "roll_deg", -180.0, 180.0);
   source.colour_temperature_k = table.number_or("colour_temperature_k", source.colour_temperature_k, 1667.0, 25000.0);
+  if (table.has("chromaticity_xy")) {
+    const std::vector<double> xy = table.numbers("chromaticity_xy", 2);
+    if (table.has("colour_temperature_k")) table.fail("chromaticity_xy", "a light has a colour temperature or a chromaticity, not both");
+    // Inside the triangle that holds every real colour, and bright enough in y to divide by it.
+    if (xy.size() == 2 && !(xy[0] >= 0.0 && xy[1] >= 0.01 && xy[0] + xy[1] <= 1.0)) table.fail("chromaticity_xy", "x and y of CIE 1931: x >= 0, y >= 0.01, x + y <= 1");
+    if (xy.size() == 2) source.chromaticity_xy = glm::dvec2{xy[0], xy[1]};
+  }
   return source;
 }
 
@@ -165,7 +176,10 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
     rig.dynamics_level = kDynamicsLevels[dynamics->choice_or("level", 1, kDynamicsLevels)];
     rig.dynamics_step_s = dynamics->number_or("step_s", rig.dynamics_step_s, 1e-5, 0.05);
   }
-  if (auto beams = root.table_if("beams")) rig.high_keeps_low = beams->flag_or("high_keeps_low", rig.high_keeps_low);
+  if (auto beams = root.table_if("beams")) {
+    rig.high_keeps_low = beams->flag_or("high_keeps_low", rig.high_keeps_low);
+    rig.beam_image = static_cast<ImageLevel>(beams->choice_or("image", static_cast<std::size_t>(rig.beam_image), kImageLevelNames));
+  }
   for (TomlTable channel : root.tables("channel")) rig.channels.push_back(read_channel(channel, rig.channels.size()));
   for (TomlTable design : root.tables("design")) rig.designs.push_back(read_design(design, rig_file));
 
@@ -199,7 +213,7 @@ Status check_rig_files(const Rig& rig) {
 }
 
 Result<LampConfig> parse_lamp_argument(const std::string& text) {
-  static const std::vector<std::string> known{"x", "y", "z", "yaw_deg", "pitch_deg", "roll_deg", "axis", "scale"};
+  static const std::vector<std::string> known{"x", "y", "z", "yaw_deg", "pitch_deg", "roll_deg", "axis", "c0_deg", "mirror", "lamp_set", "emitter", "scale"};
   const auto wrong = [&](const std::string& reason) { return Error{"--lamp " + text, reason}; };
   LampConfig lamp;
   SourceConfig source;
@@ -237,6 +251,15 @@ Result<LampConfig> parse_lamp_argument(const std::string& text) {
     if (key == "pitch_deg") source.pitch_rad = number * kRadPerDeg;
     if (key == "roll_deg") source.roll_rad = number * kRadPerDeg;
     if (key == "scale") source.scale = number;
+    if (key == "c0_deg") source.c0_turn_deg = number;
+    if (key == "mirror") {
+      if (number != 0.0 && number != 1.0) return wrong("\"mirror\" is 0 or 1");
+      source.mirror = number == 1.0;
+    }
+    if (key == "lamp_set" || key == "emitter") {
+      if (!(number >= 1.0 && number <= 1000.0) || number != std::floor(number)) return wrong("\"" + key + "\" counts from 1");
+      (key == "emitter" ? source.emitter : source.lamp_set) = static_cast<std::size_t>(number);
+    }
   }
   for (const char* key : {"x", "y", "z"}) {
     if (!given.contains(key)) return wrong(std::string("\"") + key + "\" is missing (position in m)");

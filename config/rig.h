@@ -5,9 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/result.h"
@@ -20,16 +22,26 @@ enum class LampFunction { kPosition, kLow, kHigh, kFog, kDaytime, kCornering };
 /// it open.
 enum class GammaAxis { kGamma0, kGamma90 };
 
+/// How a beam image is stored and looked up, from the cheapest to the table itself (visual/photometry/image_levels.h).
+enum class ImageLevel { kNormalised8, kHalfEven, kHalfNodes, kFloatNodes };
+inline constexpr std::array<std::string_view, 4> kImageLevelNames{"normalised-8bit-1999", "half-float-texture-filter", "half-float-native-nodes",
+                                                                  "float32-native-nodes"};
+
 /// One photometry file, mounted. Aim turns the lamp axes in the car frame: R = Rz(yaw)·Ry(-pitch)·Rx(roll).
 struct SourceConfig {
   LampFunction function = LampFunction::kLow;
   std::filesystem::path file;  ///< resolved, absolute
   GammaAxis axis = GammaAxis::kGamma0;
+  double c0_turn_deg = 0.0;  ///< type C, EULUMDAT: where the file's plane C 0 lies (visual/photometry/read_lamp.h)
+  bool mirror = false;       ///< left and right turned round: for the other side of the road, or a clockwise file
+  std::size_t lamp_set = 1;  ///< EULUMDAT: which of the file's lamp sets, from 1
+  std::size_t emitter = 1;   ///< TM-33: which of the file's emitters, from 1
   double scale = 1.0;      ///< multiplies candela
   double yaw_rad = 0.0;    ///< > 0 left
   double pitch_rad = 0.0;  ///< > 0 up, as lighting engineers aim
   double roll_rad = 0.0;   ///< > 0 right side down
   double colour_temperature_k = 5000.0;
+  std::optional<glm::dvec2> chromaticity_xy{};  ///< CIE 1931; in place of the colour temperature
 };
 
 /// Sources at one position. Everything that shines from here becomes one beam image.
@@ -72,6 +84,7 @@ struct Rig {
   std::string dynamics_level = "kinematic";
   double dynamics_step_s = 0.002;
   bool high_keeps_low = true;  ///< low beam stays lit under high beam
+  ImageLevel beam_image = ImageLevel::kFloatNodes;
   std::vector<ChannelConfig> channels;
   std::vector<DesignConfig> designs;
 };
@@ -89,7 +102,8 @@ Status check_rig_files(const Rig& rig);
 std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file);
 
 /// A lamp given on the command line:
-/// FILE,x=1.5,y=0.6,z=0.65,yaw_deg=0,pitch_deg=-0.5729,roll_deg=0[,axis=gamma0|gamma90][,scale=1]
+/// FILE,x=1.5,y=0.6,z=0.65,yaw_deg=0,pitch_deg=-0.5729,roll_deg=0[,axis=gamma0|gamma90][,c0_deg=0][,mirror=0|1]
+/// [,lamp_set=1][,emitter=1][,scale=1]
 Result<LampConfig> parse_lamp_argument(const std::string& text);
 
 }  // namespace phare

@@ -86,6 +86,9 @@ struct Seek { double to_s = 0.0; friend bool operator==(const Seek&, const Seek&
 struct Design { std::uint32_t index = 0; friend bool operator==(const Design&, const Design&) = default; };
 struct Aim { double pitch_rad = 0.0; friend bool operator==(const Aim&, const Aim&) = default; };
 struct Quit { friend bool operator==(const Quit&, const Quit&) = default; };
+/// Source counted from 1; 0: every source of the lamp.
+struct Dim { std::string lamp; std::uint32_t source = 0; double dimming_01 = 1.0; friend bool operator==(const Dim&, const Dim&) = default; };
+struct Swivel { std::string lamp; double yaw_rad = 0.0; double pitch_rad = 0.0; friend bool operator==(const Swivel&, const Swivel&) = default; };
 }  // namespace rig_command
 
 struct RigControl {
@@ -94,7 +97,9 @@ struct RigControl {
   using Design = rig_command::Design;
   using Aim = rig_command::Aim;
   using Quit = rig_command::Quit;
-  std::variant<Pause, Seek, Design, Aim, Quit> command;
+  using Dim = rig_command::Dim;
+  using Swivel = rig_command::Swivel;
+  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel> command;
 
   friend bool operator==(const RigControl&, const RigControl&) = default;
 };

@@ -142,6 +142,16 @@ struct CommandFiller {
   void operator()(const RigControl::Design& design) const { to.set_design_index(design.index); }
   void operator()(const RigControl::Aim& aim) const { to.set_aim_pitch_rad(aim.pitch_rad); }
   void operator()(const RigControl::Quit&) const { to.set_quit(true); }
+  void operator()(const RigControl::Dim& dim) const {
+    to.mutable_dim()->set_lamp(dim.lamp);
+    to.mutable_dim()->set_source(dim.source);
+    to.mutable_dim()->set_dimming_01(dim.dimming_01);
+  }
+  void operator()(const RigControl::Swivel& swivel) const {
+    to.mutable_swivel()->set_lamp(swivel.lamp);
+    to.mutable_swivel()->set_yaw_rad(swivel.yaw_rad);
+    to.mutable_swivel()->set_pitch_rad(swivel.pitch_rad);
+  }
 };
 
 void fill(wire::RigControl& to, const RigControl& from) { std::visit(CommandFiller{to}, from.command); }
@@ -248,6 +258,12 @@ bool read(RigControl& to, const wire::RigControl& from) {
     case wire::RigControl::kDesignIndex: to.command = RigControl::Design{from.design_index()}; return true;
     case wire::RigControl::kAimPitchRad: to.command = RigControl::Aim{from.aim_pitch_rad()}; return true;
     case wire::RigControl::kQuit: to.command = RigControl::Quit{}; return from.quit();
+    case wire::RigControl::kDim:
+      to.command = RigControl::Dim{from.dim().lamp(), from.dim().source(), from.dim().dimming_01()};
+      return true;
+    case wire::RigControl::kSwivel:
+      to.command = RigControl::Swivel{from.swivel().lamp(), from.swivel().yaw_rad(), from.swivel().pitch_rad()};
+      return true;
     case wire::RigControl::COMMAND_NOT_SET: break;
   }
   return false;
@@ -289,7 +305,10 @@ bool any_unknown(const wire::Datagram& message) {
     case wire::Datagram::kVehicleState: return unknown_in(message.vehicle_state());
     case wire::Datagram::kFrameReport:
       return unknown_in(message.frame_report()) || unknown_in(message.frame_report().drawn());
-    case wire::Datagram::kRigControl: return unknown_in(message.rig_control());
+    case wire::Datagram::kRigControl: {
+      const wire::RigControl& control = message.rig_control();
+      return unknown_in(control) || (control.has_dim() && unknown_in(control.dim())) || (control.has_swivel() && unknown_in(control.swivel()));
+    }
     case wire::Datagram::kProbeRequest: return unknown_in(message.probe_request());
     case wire::Datagram::kProbeReply: return unknown_in(message.probe_reply());
     case wire::Datagram::PAYLOAD_NOT_SET: break;
@@ -324,6 +343,7 @@ constexpr std::int64_t kMaxFrameIndex = 1'000'000'000'000;
 constexpr std::uint64_t kMaxSequence = std::uint64_t{1} << 62;
 constexpr std::uint32_t kMaxDesigns = 10000;
 constexpr std::size_t kMaxNameBytes = 64;
+constexpr std::uint32_t kMaxSources = 10000;  // of a lamp
 constexpr std::size_t kMaxErrorBytes = 4096;
 
 /// Collects the first thing wrong.
@@ -404,6 +424,14 @@ struct CommandChecker {
   void operator()(const RigControl::Design& design) const { c.require(design.index < kMaxDesigns); }
   void operator()(const RigControl::Aim& aim) const { c.within(aim.pitch_rad, kMaxAim_rad); }
   void operator()(const RigControl::Quit&) const {}
+  void operator()(const RigControl::Dim& dim) const {
+    c.require(!dim.lamp.empty() && dim.lamp.size() <= kMaxNameBytes && dim.source <= kMaxSources);
+    c.number(dim.dimming_01, 0.0, 1.0);
+  }
+  void operator()(const RigControl::Swivel& swivel) const {
+    c.require(!swivel.lamp.empty() && swivel.lamp.size() <= kMaxNameBytes);
+    for (const double angle_rad : {swivel.yaw_rad, swivel.pitch_rad}) c.within(angle_rad, kMaxAim_rad);
+  }
 };
 
 void check(Checker& c, const RigControl& control) { std::visit(CommandChecker{c}, control.command); }

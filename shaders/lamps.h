@@ -16,7 +16,7 @@ const uint kSpecSurface = 1u;   // procedural detail: 0 plain, 1 asphalt, 2 gras
 const uint kSpecRetro = 2u;     // 1: the material sends light back to where it came from
 const uint kSpecOutput = 3u;    // what a texel means, below
 const uint kSpecLampBase = 4u;  // measure: first of four lamps
-const uint kSpecLookups = 5u;   // how each lamp's table is looked up, two bits a lamp, below
+const uint kSpecLookups = 5u;   // how each lamp's table is looked up, four bits a lamp, below
 const uint kSpecColours = 6u;   // 1: lamps differ in colour
 const uint kSpecSides = 7u;     // 2: both sides of a surface are seen
 
@@ -24,8 +24,11 @@ const uint kSpecSides = 7u;     // 2: both sides of a surface are seen
 // angle beyond 90°, and what lies at 90° or behind counts as dark.
 const uint kLookupDark = 0u;   // even, ahead, and dark at the table's edge: no need to look whether a direction is within
 const uint kLookupAhead = 1u;  // even, ahead
-const uint kLookupTurn = 2u;   // even, first angle 0° to 360° (type C), no coarse step
+const uint kLookupTurn = 2u;   // even, first angle 0° to 360°, second from its pole (type C: C and gamma), no coarse step
 const uint kLookupGuide = 3u;  // any nodes, found through the guide image
+const uint kLookupFilter = 4u; // texels evenly over the range, weights by the texture filter
+const uint kLookupKind = 7u;   // mask of these
+const uint kLookupScaled = 8u; // the texture is not in candela: colour.w of the lamp is what 1.0 in it means
 
 const uint kOutputDisplay = 0u;      // display-linear colour, tone curve applied here
 const uint kOutputHdr = 1u;          // cd/m² and illuminance in alpha
@@ -35,19 +38,19 @@ const uint kOutputAudit = 4u;        // position and illuminance; normal and ill
 
 // One lamp position, or what a frame's shaders need of it. Directions are rows: dot(row, d) is a component in the frame of the lamp's table,
 // first angle = atan2(b, a), second angle = atan2(c, hypot(a, b)):
-//   type A: a forward, b right, c up;  type B: a forward, b up, c right (first is V);  type C: a c0, b c90, c -g0 (second is gamma - 90).
+//   type A: a forward, b right, c up;  type B: a forward, b up, c right (first is V);  type C: a c0, b c90, c -g0 (second is gamma - 90; kLookupTurn: gamma).
 struct GpuLamp {
   vec4 position;     // xyz relative to the eye, m; w even: fine steps in a coarse one, inverted
   vec4 row_a;
   vec4 row_b;
   vec4 row_c;
-  vec4 colour;       // rgb, luminance 1
-  vec4 nodes;        // even: fine nodes per radian of first, of second; fine nodes on either side of 0°, of first, of second
-  vec4 coordinates;  // even: image coordinate of the gather about a node: factors, then offsets, of first and of second
+  vec4 colour;       // rgb, luminance 1; w: candela of 1.0 in the texture
+  vec4 nodes;        // even: fine nodes per radian of first, of second; fine nodes on either side of 0° (turn: in 45°), of first, of second
+  vec4 coordinates;  // even: image coordinate of the gather about a node (filter: of an angle in degrees): factors, then offsets, of first and of second
   vec4 within;       // even: first and last node from 0°, of first; of second
-  vec4 range;        // guide: first min, max; second min, max; degrees
-  vec4 bins_per_deg; // guide: first, second; last bin of first, second
-  uvec4 guide;       // bin where the guide of second begins
+  vec4 range;        // guide, filter: first min, max; second min, max; degrees
+  vec4 bins;         // guide: bins per degree, of first and of second; lowest multiple of 45°, of first and of second
+  uvec4 guide;       // bin where the guide of second begins; bins in 45°, of first and of second
 };
 
 struct GpuFrame {

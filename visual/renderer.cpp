@@ -134,7 +134,9 @@ Status Renderer::load_scene(const Scene& scene) {
   }
 }
 
-void Renderer::set_beam(std::size_t index, const BeamImage& image) { impl_->beams.set(index, image); }
+void Renderer::set_beam(std::size_t index, const BeamImage& image) { impl_->beams.set(index, image, impl_->options.beam_level); }
+
+void Renderer::change_beam(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed) { impl_->beams.change(index, image, changed); }
 
 void Renderer::resize(int width_px, int height_px) {
   if (impl_->surface) impl_->surface->rebuild();
@@ -258,6 +260,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
 
 std::string Renderer::device() const { return std::string(impl_->device.properties.deviceName.data()) + ", " + impl_->device.driver; }
 std::uint64_t Renderer::device_memory_bytes() const { return impl_->device.allocated_bytes; }
+std::uint64_t Renderer::uploaded_texels() const { return impl_->beams.uploaded_texels(); }
 std::uint64_t Renderer::validation_messages() const { return impl_->device.validation_messages->load(); }
 
 Result<std::vector<std::string>> list_vulkan_devices() {

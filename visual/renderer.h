@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "config/result.h"
+#include "visual/photometry/beam_composer.h"
 #include "visual/photometry/beam_image.h"
+#include "visual/photometry/image_levels.h"
 
 struct GLFWwindow;
 
@@ -26,6 +28,7 @@ struct RendererOptions {
   int samples = 1;             ///< 1 or 4 (multisampling)
   bool validation = false;     ///< Vulkan validation with synchronization validation
   GLFWwindow* window = nullptr;  ///< nullptr: headless
+  ImageLevel beam_level = ImageLevel::kFloatNodes;  ///< how beam images are stored and looked up
   std::string device_name{};     ///< pick a device whose name contains this; empty: the first discrete GPU, else any
 };
 
@@ -106,8 +109,10 @@ class Renderer {
   ~Renderer();
 
   Status load_scene(const Scene& scene);
-  /// Uploads a beam image; `index` < 8. Only when it changed.
+  /// A new beam image; `index` < 8. Uploaded with the next frame.
   void set_beam(std::size_t index, const BeamImage& image);
+  /// The image set last, changed in these rectangles of its nodes only; nodes, type and aim are the same.
+  void change_beam(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed);
   /// Another size of picture (stills, window resize).
   void resize(int width_px, int height_px);
 
@@ -125,6 +130,7 @@ class Renderer {
   std::string device() const;        ///< name, driver, Vulkan version
   std::uint64_t device_memory_bytes() const;   ///< allocated by us
   std::uint64_t validation_messages() const;   ///< since create
+  std::uint64_t uploaded_texels() const;       ///< of beam images, since create
 
  private:
   struct Impl;

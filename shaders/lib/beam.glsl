@@ -4,12 +4,20 @@
 #include "lib/angles.h"
 #include "lib/surface_varyings.glsl"
 
-// Node before an angle (x) and the way to the next one, 0..1 (y). A guide bin holds at most one node: its angle, its index, and nodes
-// per degree on either side. Index and fraction stay apart: their sum would keep only 1e-4 of a node's width in float32.
-vec2 node_before(sampler2D guide, uint first_bin, float bin, float last_bin, float angle_deg) {
-  uint at = first_bin + uint(clamp(bin, 0.0, last_bin));
+// An angle as the table has it: the multiple of 45° that is nearest, and the rest in degrees. What lies beyond the table's last angle is a turn less.
+vec2 table_angle(float y, float x, float last_deg) {
+  vec2 octants = atan2_octants(y, x);
+  float rest_deg = degrees(octants.y);
+  return vec2(octants.x * 45.0 + rest_deg > last_deg ? octants.x - 8.0 : octants.x, rest_deg);
+}
+
+// Node before an angle (x) and the way to the next one, 0..1 (y). A guide bin holds at most one node: its angle from the same multiple of 45°, its
+// index, and nodes per degree on either side. Index and fraction stay apart: their sum would keep only 1e-4 of a node's width in float32.
+vec2 node_before(sampler2D guide, uint first_bin, uint bins_in_octant, vec2 angle, float first_octant, float bins_per_deg) {
+  uint bin = uint(clamp((angle.y + 22.5) * bins_per_deg, 0.0, float(bins_in_octant - 1)));
+  uint at = first_bin + uint(max(angle.x - first_octant, 0.0)) * bins_in_octant + bin;
   vec4 g = texelFetch(guide, ivec2(at & (kGuideRow - 1), at / kGuideRow), 0);
-  float past_deg = angle_deg - g.x;
+  float past_deg = angle.y - g.x;
   return past_deg < 0.0 ? vec2(g.y - 1.0, 1.0 + past_deg * g.z) : vec2(g.y, past_deg * g.w);
 }
 
@@ -19,36 +27,47 @@ float between(sampler2D table, vec2 coordinate, vec2 part) {
   return mix(mix(cd.w, cd.z, part.x), mix(cd.x, cd.y, part.x), part.y);
 }
 
-// cd toward p, given in the lamp's frame; bilinear on the table's nodes, dark outside. `h`: length of p without its third component.
-float intensity_cd(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, float h, float inverse_coarse, vec4 nodes, vec4 coordinates) {
+// In what the texture holds (candela, unless scaled) toward p, given in the lamp's frame; bilinear on the table's nodes, dark outside. `h`: length of p without its third component.
+float intensity(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, float h, float inverse_coarse, vec4 nodes, vec4 coordinates) {
   if (lookup == kLookupGuide) {
-    float first = atan2_deg(p.y, p.x);
-    float second = atan2_deg(p.z, h);
-    first += first < lamp.range.x ? 360.0 : 0.0;  // type C runs from 0 to 360
-    bool lit = first <= lamp.range.y && second >= lamp.range.z && second <= lamp.range.w;
-    vec2 u = node_before(guide, 0, (first - lamp.range.x) * lamp.bins_per_deg.x, lamp.bins_per_deg.z, first);
-    vec2 v = node_before(guide, lamp.guide.x, (second - lamp.range.z) * lamp.bins_per_deg.y, lamp.bins_per_deg.w, second);
+    vec2 first = table_angle(p.y, p.x, lamp.range.y), second = table_angle(p.z, h, lamp.range.w);
+    vec2 angles = vec2(first.x, second.x) * 45.0 + vec2(first.y, second.y);
+    bool lit = all(greaterThanEqual(angles, lamp.range.xz)) && all(lessThanEqual(angles, lamp.range.yw));
+    vec2 u = node_before(guide, 0, lamp.guide.y, first, lamp.bins.z, lamp.bins.x);
+    vec2 v = node_before(guide, lamp.guide.x, lamp.guide.z, second, lamp.bins.w, lamp.bins.y);
     return lit ? between(table, (vec2(u.x, v.x) + 1.0) / vec2(textureSize(table, 0)), vec2(u.y, v.y)) : 0.0;
   }
-  // In nodes from the one at 0°: next to the cut-off the numbers are small and the parts exact.
-  vec2 at;
+  if (lookup == kLookupFilter) {
+    vec2 angles = vec2(atan2_deg(p.y, p.x), atan2_deg(p.z, h));
+    angles.x += angles.x < lamp.range.x ? 360.0 : 0.0;
+    bool lit = all(greaterThanEqual(angles, lamp.range.xz)) && all(lessThanEqual(angles, lamp.range.yw));
+    float filtered = textureLod(table, angles * coordinates.xy + coordinates.zw, 0.0).r;
+    return lit ? filtered : 0.0;
+  }
+  vec2 node, part;
   bool lit;
   if (lookup == kLookupTurn) {
-    at = vec2(radians(atan2_deg(p.y, p.x)), atan2_forward_rad(p.z, h)) * nodes.xy;
-    at.x += at.x < 0.0 ? lamp.within.w : 0.0;  // a whole turn
-    // The poles are nodes, and float32 misses them by up to 1e-4 of a node: what is nearer than that to the edge counts as within.
-    vec2 inside = vec2(min(at.x, lamp.within.x), clamp(at.y, lamp.within.y, lamp.within.z));
-    lit = all(lessThan(abs(at - inside), vec2(1e-3)));
-    at = inside;
+    vec2 first = atan2_octants(p.y, p.x), second = atan2_octants(h, -p.z);
+    vec2 past = vec2(first.y, second.y) * nodes.xy;
+    node = vec2(first.x, second.x) * nodes.zw + floor(past);
+    part = past - floor(past);
+    // The limits belong to the table, and float32 misses them by up to 1e-4 of a node: what is nearer than that counts as within.
+    vec2 beyond = node + part - clamp(node + part, lamp.within.xz, lamp.within.yw);
+    lit = all(lessThan(abs(beyond), vec2(1e-3)));
+    if (beyond.x != 0.0) part.x = 0.0;
+    if (beyond.y != 0.0) part.y = 0.0;
+    node = clamp(node, lamp.within.xz, lamp.within.yw);
   } else {
-    at = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h)) * nodes.xy;
+    // In nodes from the one at 0°: next to the cut-off the numbers are small and the parts exact.
+    vec2 at = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h)) * nodes.xy;
     vec2 fine = clamp(at, -nodes.zw, nodes.zw);
     at = fine + (at - fine) * inverse_coarse;
     lit = p.x > 0.0;
     if (lookup == kLookupAhead) lit = lit && at.x >= lamp.within.x && at.x <= lamp.within.y && at.y >= lamp.within.z && at.y <= lamp.within.w;
+    node = floor(at);
+    part = at - node;
   }
-  vec2 node = floor(at);
-  float cd = between(table, node * coordinates.xy + coordinates.zw, at - node);
+  float cd = between(table, node * coordinates.xy + coordinates.zw, part);
   return lit ? cd : 0.0;
 }
 
@@ -64,7 +83,8 @@ layout(constant_id = 5) const uint lookups = 0;
 LampLight lamp_light(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, vec4 place, vec4 nodes, vec4 coordinates, vec3 n, float level) {
   float h2 = p.x * p.x + p.y * p.y;
   float r2 = h2 + p.z * p.z;
-  float cd = intensity_cd(table, guide, lamp, lookup, p, sqrt(h2), place.w, nodes, coordinates);
+  float cd = intensity(table, guide, lamp, lookup & kLookupKind, p, sqrt(h2), place.w, nodes, coordinates);
+  if ((lookup & kLookupScaled) != 0) cd *= lamp.colour.w;
   float inverse_r = r2 > 0.0 ? inversesqrt(r2) : 0.0;
   LampLight light;
   light.cos_incidence = max(dot(place.xyz, n) - level, 0.0) * inverse_r;
@@ -74,6 +94,6 @@ LampLight lamp_light(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup
 }
 
 #define PHARE_LAMP_LIGHT(I)                                                                                                    \
-  lamp_light(candela[I], guides[I], frame.lamps[I], (lookups >> (2 * I)) & 3, in_lamp[I], PHARE_LAMP_POSITION(I), PHARE_LAMP_NODES(I), \
+  lamp_light(candela[I], guides[I], frame.lamps[I], (lookups >> (4 * I)) & 15, in_lamp[I], PHARE_LAMP_POSITION(I), PHARE_LAMP_NODES(I), \
              PHARE_LAMP_COORDINATES(I), n, level)
 #endif

@@ -97,11 +97,13 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       return r;
     }
     case kPayloadIndex<RigControl>: {
-      switch (v.whole(4)) {
+      switch (v.whole(6)) {
         case 0: return RigControl{RigControl::Pause{v.flag()}};
         case 1: return RigControl{RigControl::Seek{v.number(0, 1000)}};
         case 2: return RigControl{RigControl::Design{static_cast<std::uint32_t>(v.whole(9))}};
         case 3: return RigControl{RigControl::Aim{v.number(-0.1, 0.1)}};
+        case 4: return RigControl{RigControl::Dim{"headlamp left", static_cast<std::uint32_t>(v.whole(36)), v.number(0, 1)}};
+        case 5: return RigControl{RigControl::Swivel{"headlamp right", v.number(-0.3, 0.3), v.number(-0.1, 0.1)}};
         default: return RigControl{RigControl::Quit{}};
       }
     }
@@ -148,7 +150,10 @@ std::vector<Datagram> samples(std::uint64_t seed) {
   for (std::size_t i = 0; i < kChannels.size(); ++i) all.push_back(sample(i, random));
   const RigControl commands[] = {{RigControl::Pause{true}},  {RigControl::Pause{false}}, {RigControl::Seek{0.0}},
                                  {RigControl::Seek{12.5}},   {RigControl::Design{0}},    {RigControl::Design{3}},
-                                 {RigControl::Aim{-0.01}},   {RigControl::Quit{}}};
+                                 {RigControl::Aim{-0.01}},   {RigControl::Quit{}},
+                                 {RigControl::Dim{"headlamp left", 0, 0.0}},
+                                 {RigControl::Dim{"headlamp right", 36, 0.25}},
+                                 {RigControl::Swivel{"headlamp left", 0.1, 0.0}}};
   for (const RigControl& command : commands) {
     Datagram d = sample(kPayloadIndex<RigControl>, random);
     d.payload = command;

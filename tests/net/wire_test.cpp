@@ -250,6 +250,19 @@ TEST(WireRefuses, ValuesOutOfRange) {
       {kReport, [](D& m) { m.mutable_frame_report()->set_frame_ms(-1.0); }},
       {kControl, [](D& m) { m.mutable_rig_control()->set_seek_s(-1.0); }},
       {kControl, [](D& m) { m.mutable_rig_control()->set_aim_pitch_rad(3.0); }},
+      {kControl, [](D& m) { m.mutable_rig_control()->mutable_dim()->set_dimming_01(0.5); }},  // of no lamp
+      {kControl, [](D& m) {
+         m.mutable_rig_control()->mutable_dim()->set_lamp("left");
+         m.mutable_rig_control()->mutable_dim()->set_dimming_01(1.5);
+       }},
+      {kControl, [](D& m) {
+         m.mutable_rig_control()->mutable_dim()->set_lamp("left");
+         m.mutable_rig_control()->mutable_dim()->set_source(10001);
+       }},
+      {kControl, [](D& m) {
+         m.mutable_rig_control()->mutable_swivel()->set_lamp("left");
+         m.mutable_rig_control()->mutable_swivel()->set_yaw_rad(1.7);
+       }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_nx(0, 1.1); }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_x_m(0, 1e9); }},
       {kReply, [](D& m) { m.mutable_probe_reply()->set_illuminance_lx(0, -1.0); }},

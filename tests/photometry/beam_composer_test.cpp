@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "visual/photometry/beam_image.h"
 #include "visual/photometry/image_levels.h"
 #include "visual/photometry/sample_lamps.h"
 
@@ -71,7 +72,7 @@ TEST(BeamComposer, NeverDriftsFromAFreshImage) {
   kept.update();
   BeamComposer fresh(h, v);
   for (std::size_t k = 0; k < 36; ++k) {
-    fresh.add(segments()[table[k]].table, yaw[k], 0.0);
+    fresh.add(segments()[table[k]].table, aim_rotation(yaw[k], 0.0, 0.0));
     fresh.set_dimming(k, dim[k]);
   }
   fresh.update();

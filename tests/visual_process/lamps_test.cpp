@@ -70,27 +70,70 @@ TEST(LitFunctions, FollowTheSwitch) {
             (Lit{LampFunction::kPosition, LampFunction::kHigh}));
 }
 
-TEST(Lamps, ComposeOnlyWhatWasNotSeenBefore) {
+TEST(Lamps, SumOnlyWhatChanges) {
   Result<Lamps> lamps = Lamps::load(two_lamp_rig());
   ASSERT_TRUE(lamps.ok()) << lamps.error().text();
   EXPECT_EQ(lamps->set_controls(controls(LightSwitch::kLow)).size(), 2u);
   EXPECT_EQ(lamps->compositions(), 2u);
+  const std::uint64_t texels = lamps->summed_texels();
+  EXPECT_GT(texels, 0u);
   for (int frame = 0; frame < 100; ++frame) EXPECT_TRUE(lamps->set_controls(controls(LightSwitch::kLow)).empty());
   EXPECT_EQ(lamps->compositions(), 2u);
+  EXPECT_EQ(lamps->summed_texels(), texels);
   EXPECT_EQ(lamps->set_controls(controls(LightSwitch::kHigh)).size(), 2u);
   EXPECT_EQ(lamps->compositions(), 4u);
-  EXPECT_EQ(lamps->set_controls(controls(LightSwitch::kLow)).size(), 2u);  // uploaded again, not composed again
-  EXPECT_EQ(lamps->compositions(), 4u);
+  EXPECT_EQ(lamps->set_controls(controls(LightSwitch::kLow)).size(), 2u);
+  EXPECT_EQ(lamps->compositions(), 6u);
   EXPECT_EQ(lamps->uploads(), 6u);
   EXPECT_TRUE(lamps->set_controls(controls(LightSwitch::kLow, false, true)).empty());  // no fog lamps: nothing changes
-  EXPECT_EQ(lamps->compositions(), 4u);
+  EXPECT_EQ(lamps->compositions(), 6u);
   CockpitState other = controls(LightSwitch::kLow);
   other.design_index = 1;
   EXPECT_EQ(lamps->set_controls(other).size(), 2u);
-  EXPECT_EQ(lamps->compositions(), 6u);
+  EXPECT_EQ(lamps->compositions(), 8u);
+  const std::vector<Lamps::Change> back = lamps->set_controls(controls(LightSwitch::kLow));
+  EXPECT_EQ(back.size(), 2u);  // the slots hold the other design: uploaded whole, but not summed again
+  for (const Lamps::Change& change : back) EXPECT_TRUE(change.part.empty());
+  EXPECT_EQ(lamps->compositions(), 8u);
+  lamps->set_controls(other);
   other.design_index = 99;  // past the last: the last
   EXPECT_TRUE(lamps->set_controls(other).empty());
   EXPECT_EQ(lamps->design().name, "second");
+}
+
+TEST(Lamps, ADimmedSourceChangesItsLampAlone) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok());
+  lamps->set_controls(controls(LightSwitch::kHigh));
+  const VehicleState pose;
+  const MeasurePoint wall{{28.0, 0.6, 0.7}, {-1.0, 0.0, 0.0}};
+  const double before_lx = lamps->illuminance_lx(pose, wall);
+  ASSERT_TRUE(lamps->dim({"headlamp", 2, 0.25}).ok());  // of two lamps of that name the first; its second source: high
+  const std::vector<Lamps::Change> changes = lamps->set_controls(controls(LightSwitch::kHigh));
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_FALSE(changes[0].part.empty());
+  // Straight ahead of the first lamp, 25 m: 0.75 of 2500 cd are gone.
+  EXPECT_NEAR(before_lx - lamps->illuminance_lx(pose, wall), 0.75 * 2500.0 / 625.0, 1e-9);
+  EXPECT_TRUE(lamps->set_controls(controls(LightSwitch::kHigh)).empty());
+  EXPECT_EQ(lamps->set_controls(controls(LightSwitch::kLow)).size(), 2u);  // a dark source stays dark whatever its dimming
+  EXPECT_EQ(lamps->placed(pose).size(), 2u);
+
+  EXPECT_EQ(lamps->dim({"headlamp", 3, 0.5}).error().text(), "lamp \"headlamp\": has 2 sources, no number 3");
+  EXPECT_FALSE(lamps->dim({"spotlight", 0, 0.5}).ok());
+  EXPECT_FALSE(lamps->swivel({"spotlight", 0.1, 0.0}).ok());
+}
+
+TEST(Lamps, ASwivelTurnsALampAndSumsNothing) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok());
+  lamps->set_controls(controls(LightSwitch::kLow));
+  const std::uint64_t texels = lamps->summed_texels();
+  ASSERT_TRUE(lamps->swivel({"headlamp", 0.2, 0.0}).ok());
+  EXPECT_TRUE(lamps->set_controls(controls(LightSwitch::kLow)).empty());
+  EXPECT_EQ(lamps->summed_texels(), texels);
+  const std::vector<PlacedLamp> placed = lamps->placed(VehicleState{});
+  EXPECT_NEAR(placed[0].world_from_image[0].y, std::sin(0.2), 1e-12);  // to the left
+  EXPECT_NEAR(placed[1].world_from_image[0].y, 0.0, 1e-12);
 }
 
 TEST(Lamps, DarkPositionsAreNotPlaced) {

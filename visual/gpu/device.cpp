@@ -212,7 +212,8 @@ void fill_image(Device& device, Image& image, std::span<const std::byte> bytes, 
                                             .subresourceRange = {image.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, 1}};
       commands.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
     };
-    turn(Layout::eUndefined, Layout::eTransferDstOptimal, image.stage, image.access, Stage::eCopy, Access::eTransferWrite);
+    // What the copies leave out stays as it was, if something was.
+    turn(image.layout, Layout::eTransferDstOptimal, image.stage, image.access, Stage::eCopy, Access::eTransferWrite);
     commands.copyBufferToImage(*staging.buffer, *image.image, Layout::eTransferDstOptimal, {static_cast<std::uint32_t>(copies.size()), copies.data()});
     turn(Layout::eTransferDstOptimal, Layout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite, Stage::eFragmentShader,
          Access::eShaderSampledRead);

@@ -86,7 +86,7 @@ struct Image {
         vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1, std::uint32_t mip_levels = 1);
 };
 
-/// Fills a sampled image (usage eTransferDst) anew and waits. `copies` is for more than the first mip level.
+/// Fills a sampled image (usage eTransferDst) and waits. `copies` is for more or less than the first mip level.
 void fill_image(Device& device, Image& image, std::span<const std::byte> bytes, std::span<const vk::BufferImageCopy> copies = {});
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv);

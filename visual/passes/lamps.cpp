@@ -118,7 +118,10 @@ LampPass::LampPass(gpu::Device& device)
                                                                     .minFilter = vk::Filter::eLinear,
                                                                     .mipmapMode = vk::SamplerMipmapMode::eNearest,
                                                                     .maxLod = VK_LOD_CLAMP_NONE});
-  table_sampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.addressModeU = vk::SamplerAddressMode::eClampToEdge, .addressModeV = vk::SamplerAddressMode::eClampToEdge});  // tables are fetched, never filtered
+  vk::SamplerCreateInfo table{.addressModeU = vk::SamplerAddressMode::eClampToEdge, .addressModeV = vk::SamplerAddressMode::eClampToEdge};
+  table_sampler_ = vk::raii::Sampler(device.device, table);  // nodes are fetched, and weighed in float32
+  table.magFilter = table.minFilter = vk::Filter::eLinear;
+  filter_sampler_ = vk::raii::Sampler(device.device, table);
   grain_ = make_grain(device);
   frame_ = gpu::HostBuffer(device, sizeof(shader::GpuFrame), vk::BufferUsageFlagBits::eUniformBuffer, "frame");
 }
@@ -131,7 +134,8 @@ void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
   std::array<vk::DescriptorImageInfo, shader::kMaxLamps> guides, candela;
   for (std::size_t i = 0; i < beam_of_lamp_.size(); ++i) {
     guides[i] = {*table_sampler_, *beams.guide(beam_of_lamp_[i]).view, layout};
-    candela[i] = {*table_sampler_, *beams.candela(beam_of_lamp_[i]).view, layout};
+    const bool filtered = beams.beam(beam_of_lamp_[i]).lookup == shader::kLookupFilter && *beams.candela(beam_of_lamp_[i]).image && beams.candela(beam_of_lamp_[i]).format != vk::Format::eR32Sfloat;
+    candela[i] = {filtered ? *filter_sampler_ : *table_sampler_, *beams.candela(beam_of_lamp_[i]).view, layout};
   }
   const vk::DescriptorImageInfo grain{*sampler_, *grain_.view, layout};
   std::vector<vk::WriteDescriptorSet> writes;
@@ -163,7 +167,7 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Came
     const PackedBeam& beam = beams.beam(lamp.beam);
     if (beam.dark || lamp_count_ == shader::kMaxLamps) continue;
     rebind |= std::exchange(beam_of_lamp_[lamp_count_], lamp.beam) != lamp.beam;
-    lookups_ |= beam.lookup << (2 * lamp_count_);
+    lookups_ |= beam.lookup_bits() << (4 * lamp_count_);
     colours_differ_ |= lamp_count_ > 0 && glm::vec3(frame.lamps[0].colour) != beam.colour;
     shader::GpuLamp& out = frame.lamps[lamp_count_++];
     out.position = glm::vec4(glm::vec3(lamp.position_m - camera.eye_m), 1.0f);

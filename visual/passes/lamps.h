@@ -62,7 +62,7 @@ class LampPass {
   vk::raii::PipelineLayout layout_{nullptr};
   vk::raii::DescriptorPool pool_{nullptr};
   vk::raii::DescriptorSet set_{nullptr};
-  vk::raii::Sampler sampler_{nullptr}, table_sampler_{nullptr};
+  vk::raii::Sampler sampler_{nullptr}, table_sampler_{nullptr}, filter_sampler_{nullptr};
   gpu::Image grain_;
   gpu::HostBuffer frame_;
   std::uint32_t lamp_count_ = 0, lookups_ = 0;

@@ -1,26 +1,27 @@
 // Recomposition of a beam image from what changed.
-// Computes: image = Σ scale·source, over rectangles. Source: design §4. Frame: type A angles of the lamp position.
+// Computes: image = Σ scale·source, over rectangles. Source: design §4. Frame: angles of the image, of its photometric type.
 // Leaves out: colour. Checked by tests/photometry/beam_composer_test.cpp (bit equality with a fresh image, counters).
 #include "visual/photometry/beam_composer.h"
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "visual/photometry/beam_image.h"
 
 namespace phare {
 
-BeamComposer::BeamComposer(std::vector<double> first_deg, std::vector<double> second_deg)
-    : first_deg_(std::move(first_deg)), second_deg_(std::move(second_deg)) {
+BeamComposer::BeamComposer(std::vector<double> first_deg, std::vector<double> second_deg, PhotometricType type,
+                           GammaAxis axis)
+    : first_deg_(std::move(first_deg)), second_deg_(std::move(second_deg)), type_(type), axis_(axis) {
   assert(first_deg_.size() >= 2 && second_deg_.size() >= 2);
   image_.assign(first_deg_.size() * second_deg_.size(), 0.0f);
 }
 
-std::size_t BeamComposer::add(const IntensityTable& table, double yaw_rad, double pitch_rad) {
+std::size_t BeamComposer::add(const IntensityTable& table, const glm::dmat3& image_from_lamp) {
   Source source;
   source.table = &table;
-  source.yaw_rad = yaw_rad;
-  source.pitch_rad = pitch_rad;
+  source.image_from_lamp = image_from_lamp;
   sample(source);
   sources_.push_back(std::move(source));
   return sources_.size() - 1;
@@ -35,10 +36,10 @@ void BeamComposer::set_dimming(std::size_t source, double scale) {
 
 void BeamComposer::set_swivel(std::size_t index, double yaw_rad, double pitch_rad) {
   Source& source = sources_[index];
-  if (source.yaw_rad == yaw_rad && source.pitch_rad == pitch_rad) return;
+  const glm::dmat3 image_from_lamp = aim_rotation(yaw_rad, pitch_rad, 0.0);
+  if (source.image_from_lamp == image_from_lamp) return;
   stale_.push_back(source.rect);
-  source.yaw_rad = yaw_rad;
-  source.pitch_rad = pitch_rad;
+  source.image_from_lamp = image_from_lamp;
   sample(source);
 }
 
@@ -52,15 +53,25 @@ void BeamComposer::set_table(std::size_t index, const IntensityTable& table) {
 void BeamComposer::sample(Source& source) {
   const IntensityTable& table = *source.table;
   const std::size_t columns = first_deg_.size(), rows = second_deg_.size();
-  const bool as_filed = source.yaw_rad == 0.0 && source.pitch_rad == 0.0 && table.type == PhotometricType::kA &&
-                        table.screen_distance_m <= 0.0;
-  const glm::dmat3 position_from_lamp = aim_rotation(source.yaw_rad, source.pitch_rad, 0.0);
+  const bool as_filed = source.image_from_lamp == glm::dmat3{1.0} && table.type == type_ &&
+                        (type_ != PhotometricType::kC || table.axis == axis_) && table.screen_distance_m <= 0.0;
+  // In its own angles a table is dark beyond its limits.
+  const auto within = [&](const std::vector<double>& nodes, const std::vector<double>& own) {
+    if (!as_filed) return std::pair{std::size_t{0}, nodes.size()};
+    const auto begin = std::lower_bound(nodes.begin(), nodes.end(), own.front());
+    return std::pair{static_cast<std::size_t>(begin - nodes.begin()),
+                     static_cast<std::size_t>(std::upper_bound(begin, nodes.end(), own.back()) - nodes.begin())};
+  };
+  const auto [first_column, last_column] = within(first_deg_, table.first_deg);
+  const auto [first_row, last_row] = within(second_deg_, table.second_deg);
   std::vector<float> whole(columns * rows, 0.0f);
   TexelRect rect{columns, rows, 0, 0};
-  for (std::size_t j = 0; j < rows; ++j) {
-    for (std::size_t i = 0; i < columns; ++i) {
-      const double cd = as_filed ? table.intensity_at_cd({first_deg_[i], second_deg_[j]})
-                                 : table.intensity_cd(direction_hv(first_deg_[i], second_deg_[j]) * position_from_lamp);
+  for (std::size_t j = first_row; j < last_row; ++j) {
+    for (std::size_t i = first_column; i < last_column; ++i) {
+      const TableAngles angles{first_deg_[i], second_deg_[j]};
+      const double cd = as_filed
+                            ? table.intensity_at_cd(angles)
+                            : table.intensity_cd(table_direction(type_, axis_, angles) * source.image_from_lamp);
       if (cd <= 0.0) continue;
       whole[j * columns + i] = static_cast<float>(cd);
       rect = {std::min(rect.column, i), std::min(rect.row, j), std::max(rect.end_column, i + 1),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/mat3x3.hpp>
 #include <span>
 #include <vector>
 
@@ -30,14 +31,15 @@ struct TexelRect {
 /// image is at every moment the same, bit for bit, as one made from nothing: no drift from adding differences.
 class BeamComposer {
  public:
-  /// A type A grid. Nodes strictly ascending, at least 2 each.
-  BeamComposer(std::vector<double> first_deg, std::vector<double> second_deg);
+  /// A grid in the angles of a type. Nodes strictly ascending, at least 2 each.
+  BeamComposer(std::vector<double> first_deg, std::vector<double> second_deg, PhotometricType type = PhotometricType::kA,
+               GammaAxis axis = GammaAxis::kGamma0);
 
-  /// Adds a source, undimmed, turned by yaw (left positive) and pitch (up positive); returns its index. The table must
-  /// outlive the composer.
-  std::size_t add(const IntensityTable& table, double yaw_rad = 0.0, double pitch_rad = 0.0);
+  /// Adds a source, undimmed; returns its index. The table must outlive the composer. Columns of `image_from_lamp`: the
+  /// lamp's forward, left, up in the image's frame. Sources of the grid's own type that are not turned keep their nodes.
+  std::size_t add(const IntensityTable& table, const glm::dmat3& image_from_lamp = glm::dmat3{1.0});
   void set_dimming(std::size_t source, double scale);  ///< 0 = off; same value: nothing to do
-  void set_swivel(std::size_t source, double yaw_rad, double pitch_rad);
+  void set_swivel(std::size_t source, double yaw_rad, double pitch_rad);  ///< left and up positive
   void set_table(std::size_t source, const IntensityTable& table);
 
   /// Brings the image up to date. Returns the rectangles that changed (for the upload); none when nothing did.
@@ -51,7 +53,7 @@ class BeamComposer {
  private:
   struct Source {
     const IntensityTable* table = nullptr;
-    double yaw_rad = 0.0, pitch_rad = 0.0;
+    glm::dmat3 image_from_lamp{1.0};
     float scale = 1.0f;
     TexelRect rect;              ///< where it shines
     std::vector<float> candela;  ///< of the rectangle, undimmed
@@ -61,6 +63,8 @@ class BeamComposer {
   void sum(const TexelRect& rect);
 
   std::vector<double> first_deg_, second_deg_;
+  PhotometricType type_;
+  GammaAxis axis_;
   std::vector<Source> sources_;
   std::vector<float> image_;
   std::vector<TexelRect> stale_;  ///< rectangles that sources have left

@@ -31,12 +31,6 @@ bool same_aim(const glm::dmat3& a, const glm::dmat3& b) {
   return true;
 }
 
-/// Can the two share native nodes? A flat screen's nodes are not bilinear in degrees: it is always resampled.
-bool same_grid_kind(const AimedSource& a, const AimedSource& b) {
-  return a.table->screen_distance_m <= 0.0 && b.table->screen_distance_m <= 0.0 && a.table->type == b.table->type && (a.table->type != PhotometricType::kC || a.table->axis == b.table->axis) &&
-         same_aim(a.car_from_lamp, b.car_from_lamp);
-}
-
 /// Sorted, each value once, none closer than `gap` to the one before unless gap is 0.
 void sort_unique(std::vector<double>& nodes, double gap) {
   std::sort(nodes.begin(), nodes.end());
@@ -56,7 +50,7 @@ bool lit_limit(const IntensityTable& table, bool first, bool upper) {
   return false;
 }
 
-std::vector<double> union_nodes(const std::vector<AimedSource>& lit, bool first) {
+std::vector<double> union_nodes(std::span<const AimedSource> lit, bool first) {
   std::vector<double> nodes;
   for (const AimedSource& source : lit) {
     const auto& own = first ? source.table->first_deg : source.table->second_deg;
@@ -84,22 +78,16 @@ double widest_step_deg(double angle_deg, bool first) {
   return a < 5.0 ? 0.05 : a < 10.0 ? 0.1 : a < 30.0 ? 0.5 : 2.5;
 }
 
-glm::dvec3 direction_a(double h_deg, double v_deg) {
-  const double h = glm::radians(h_deg);
-  const double v = glm::radians(v_deg);
-  return {std::cos(v) * std::cos(h), -std::cos(v) * std::sin(h), std::sin(v)};
-}
-
 /// Nodes of a resampled type A grid: those of every type A source, seen in the image near its axis, and steps in
 /// between.
-std::vector<double> resampled_nodes(const std::vector<AimedSource>& lit, const glm::dmat3& image_from_car, bool first) {
+std::vector<double> resampled_nodes(std::span<const AimedSource> lit, const glm::dmat3& image_from_car, bool first) {
   std::vector<double> seed{first ? -180.0 : -90.0, 0.0, first ? 180.0 : 90.0};
   for (const AimedSource& source : lit) {
     if (source.table->type == PhotometricType::kC) continue;
     const glm::dmat3 image_from_lamp = image_from_car * source.car_from_lamp;
     for (const double angle : first ? source.table->first_deg : source.table->second_deg) {
       if (std::abs(angle) > 60.0) continue;  // far out the lines of two aims cross; plain steps do there
-      const glm::dvec3 direction = image_from_lamp * (first ? direction_a(angle, 0.0) : direction_a(0.0, angle));
+      const glm::dvec3 direction = image_from_lamp * (first ? direction_hv(angle, 0.0) : direction_hv(0.0, angle));
       const TableAngles seen = table_angles(PhotometricType::kA, GammaAxis::kGamma0, direction);
       seed.push_back(first ? seen.first_deg : seen.second_deg);
     }
@@ -125,7 +113,7 @@ glm::vec3 mean_colour(const std::vector<AimedSource>& lit) {
   double weight = 0.0;
   for (const AimedSource& source : lit) {
     const double lumens = source.scale * source.table->flux_lm();
-    sum += lumens * glm::dvec3(black_body_colour(source.colour_temperature_k));
+    sum += lumens * glm::dvec3(light_colour(source));
     weight += lumens;
   }
   return weight > 0.0 ? glm::vec3(sum / weight) : glm::vec3{1.0f};
@@ -142,6 +130,30 @@ glm::dmat3 aim_rotation(double yaw_rad, double pitch_rad, double roll_rad) {
           glm::dvec3{-cy * sp * cr + sy * sr, -sy * sp * cr - cy * sr, cp * cr}};
 }
 
+bool same_angles(const AimedSource& a, const AimedSource& b) {
+  return a.table->screen_distance_m <= 0.0 && b.table->screen_distance_m <= 0.0 && a.table->type == b.table->type &&
+         (a.table->type != PhotometricType::kC || a.table->axis == b.table->axis) &&
+         same_aim(a.car_from_lamp, b.car_from_lamp);
+}
+
+BeamGrid beam_grid(std::span<const AimedSource> sources) {
+  BeamGrid grid;
+  grid.car_from_image = sources.front().car_from_lamp;
+  grid.resampled =
+      !std::all_of(sources.begin(), sources.end(), [&](const AimedSource& s) { return same_angles(s, sources.front()); });
+  if (grid.resampled) {
+    const glm::dmat3 image_from_car = glm::transpose(grid.car_from_image);
+    grid.first_deg = resampled_nodes(sources, image_from_car, true);
+    grid.second_deg = resampled_nodes(sources, image_from_car, false);
+  } else {
+    grid.type = sources.front().table->type;
+    grid.axis = sources.front().table->axis;
+    grid.first_deg = union_nodes(sources, true);
+    grid.second_deg = union_nodes(sources, false);
+  }
+  return grid;
+}
+
 BeamImage compose_beam_image(std::span<const AimedSource> sources) {
   std::vector<AimedSource> lit;
   for (const AimedSource& source : sources) {
@@ -156,23 +168,9 @@ BeamImage compose_beam_image(std::span<const AimedSource> sources) {
     return image;
   }
 
+  static_cast<BeamGrid&>(image) = beam_grid(lit);
   image.dark = false;
-  image.car_from_image = lit.front().car_from_lamp;
   image.colour = mean_colour(lit);
-  image.resampled =
-      !std::all_of(lit.begin(), lit.end(), [&](const AimedSource& s) { return same_grid_kind(s, lit.front()); });
-  const glm::dmat3 image_from_car = glm::transpose(image.car_from_image);
-  if (image.resampled) {
-    image.type = PhotometricType::kA;
-    image.first_deg = resampled_nodes(lit, image_from_car, true);
-    image.second_deg = resampled_nodes(lit, image_from_car, false);
-  } else {
-    image.type = lit.front().table->type;
-    image.axis = lit.front().table->axis;
-    image.first_deg = union_nodes(lit, true);
-    image.second_deg = union_nodes(lit, false);
-  }
-
   const std::size_t columns = image.first_deg.size();
   std::vector<double> sum(columns * image.second_deg.size(), 0.0);
   for (const AimedSource& source : lit) {
@@ -183,7 +181,7 @@ BeamImage compose_beam_image(std::span<const AimedSource> sources) {
         sum[j * columns + i] +=
             source.scale *
             (image.resampled
-                 ? source.table->intensity_cd(lamp_from_image * direction_a(angles.first_deg, angles.second_deg))
+                 ? source.table->intensity_cd(lamp_from_image * direction_hv(angles.first_deg, angles.second_deg))
                  : source.table->intensity_at_cd(angles));
       }
     }
@@ -194,6 +192,11 @@ BeamImage compose_beam_image(std::span<const AimedSource> sources) {
   return image;
 }
 
+glm::vec3 light_colour(const AimedSource& source) {
+  return source.chromaticity_xy ? chromaticity_colour(*source.chromaticity_xy)
+                                : black_body_colour(source.colour_temperature_k);
+}
+
 glm::vec3 black_body_colour(double temperature_k) {
   const double t = std::clamp(temperature_k, 1667.0, 25000.0);
   const double x = t <= 4000.0 ? -0.2661239e9 / (t * t * t) - 0.2343589e6 / (t * t) + 0.8776956e3 / t + 0.179910
@@ -201,11 +204,15 @@ glm::vec3 black_body_colour(double temperature_k) {
   const double y = t <= 2222.0   ? ((-1.1063814 * x - 1.34811020) * x + 2.18555832) * x - 0.20219683
                    : t <= 4000.0 ? ((-0.9549476 * x - 1.37418593) * x + 2.09137015) * x - 0.16748867
                                  : ((3.0817580 * x - 5.87338670) * x + 3.75112997) * x - 0.37001483;
-  const double big_x = x / y;  // of luminance Y = 1
-  const double big_z = (1.0 - x - y) / y;
+  return chromaticity_colour({x, y});
+}
+
+glm::vec3 chromaticity_colour(glm::dvec2 xy) {
+  const double big_x = xy.x / xy.y;  // of luminance Y = 1
+  const double big_z = (1.0 - xy.x - xy.y) / xy.y;
   glm::dvec3 rgb{3.2406 * big_x - 1.5372 - 0.4986 * big_z, -0.9689 * big_x + 1.8758 + 0.0415 * big_z,
                  0.0557 * big_x - 0.2040 + 1.0570 * big_z};
-  rgb = glm::max(rgb, glm::dvec3{0.0});  // below 1900 K blue lies outside sRGB
+  rgb = glm::max(rgb, glm::dvec3{0.0});  // so does a black body's blue below 1900 K
   return glm::vec3(rgb / (0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z));
 }
 

@@ -20,17 +20,17 @@ float to_eighth_bits(float weight) {
 }  // namespace
 
 std::string level_name(ImageLevel level) {
-  switch (level) {
-    case ImageLevel::kNormalised8:
-      return "normalised-8bit-1999";
-    case ImageLevel::kHalfEven:
-      return "half-float-texture-filter";
-    case ImageLevel::kHalfNodes:
-      return "half-float-native-nodes";
-    case ImageLevel::kFloatNodes:
-      break;
-  }
-  return "float32-native-nodes";
+  return std::string(kImageLevelNames[static_cast<std::size_t>(level)]);
+}
+
+std::vector<std::string> level_names() {
+  return {kImageLevelNames.begin(), kImageLevelNames.end()};
+}
+
+std::optional<ImageLevel> level_named(std::string_view name) {
+  const auto found = std::find(kImageLevelNames.begin(), kImageLevelNames.end(), name);
+  if (found == kImageLevelNames.end()) return std::nullopt;
+  return static_cast<ImageLevel>(found - kImageLevelNames.begin());
 }
 
 std::uint16_t half_from_float(float value) {

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "visual/photometry/intensity_table.h"
@@ -13,10 +16,11 @@ namespace phare {
 /// kNormalised8: I/Imax in 8 bits on an even grid, texture filter (Lecocq, Kelada, Kemeny 1999, pass two).
 /// kHalfEven: 16-bit float candela on an even grid, texture filter. kHalfNodes: 16-bit float on the table's own nodes,
 /// own weights. kFloatNodes: 32-bit float on the table's own nodes, own float32 weights.
-enum class ImageLevel { kNormalised8, kHalfEven, kHalfNodes, kFloatNodes };
 inline constexpr ImageLevel kImageLevels[] = {ImageLevel::kNormalised8, ImageLevel::kHalfEven, ImageLevel::kHalfNodes,
                                               ImageLevel::kFloatNodes};
 std::string level_name(ImageLevel level);
+std::vector<std::string> level_names();
+std::optional<ImageLevel> level_named(std::string_view name);
 
 /// A table stored as a level stores it. An even grid spans the table's range with `columns` × `rows` texels.
 class LevelImage {

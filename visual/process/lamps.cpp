@@ -5,7 +5,6 @@
 
 #include "config/conventions.h"
 #include "visual/photometry/illuminance.h"
-#include "visual/photometry/read_lamp.h"
 
 namespace phare {
 namespace {
@@ -62,18 +61,20 @@ Result<Lamps> Lamps::load(const Rig& rig) {
     }
     most_positions = std::max(most_positions, design.lamps.size());
     for (const LampConfig& lamp : design.lamps) {
-      if (lamp.sources.size() > 64)
-        return Error{rig.file.string(), "lamp '" + lamp.name + "' has more than 64 sources"};
       for (const SourceConfig& source : lamp.sources) {
-        const std::pair key{source.file.string(), source.axis};
-        if (lamps.tables_.contains(key)) continue;
-        Result<IntensityTable> table = read_lamp(source.file, {.axis = source.axis, .folder = {}});
-        if (!table) return table.error();
-        lamps.tables_.emplace(key, std::move(*table));
+        if (const Status read = lamps.tables_.add(source); !read) return read.error();
       }
     }
   }
-  lamps.shown_.assign(most_positions, nullptr);
+  for (const DesignConfig& design : rig.designs) {
+    std::vector<Position>& positions = lamps.positions_.emplace_back();
+    for (const LampConfig& lamp : design.lamps) {
+      std::vector<AimedSource> sources;
+      for (const SourceConfig& source : lamp.sources) sources.push_back(lamps.tables_.aimed(source));
+      positions.push_back({LiveBeam(std::move(sources)), std::vector<double>(lamp.sources.size(), 1.0)});
+    }
+  }
+  lamps.shown_.resize(most_positions);
   return lamps;
 }
 
@@ -84,27 +85,66 @@ std::vector<Lamps::Change> Lamps::set_controls(const CockpitState& controls) {
   lit_text_ = text_of_lit();
 
   std::vector<Change> changes;
-  for (std::size_t position = 0; position < designs_[design_].lamps.size(); ++position) {
-    const BeamImage& image = image_of(design_, position, lit_mask(designs_[design_].lamps[position], lit_));
-    if (shown_[position] == &image) continue;
-    shown_[position] = &image;
+  for (std::size_t slot = 0; slot < positions_[design_].size(); ++slot) {
+    Position& position = positions_[design_][slot];
+    const std::vector<SourceConfig>& sources = designs_[design_].lamps[slot].sources;
+    for (std::size_t k = 0; k < sources.size(); ++k)
+      position.beam.set_dimming(k, lit_.contains(sources[k].function) ? position.dimming_01[k] : 0.0);
+    const LiveBeam::Change change = position.beam.update();
+    const BeamImage& image = position.beam.image();
+    if (!position.beam.changed().empty()) ++compositions_;
     if (image.dark) continue;  // not drawn, so nothing to upload
-    changes.push_back({position, &image});
+    const bool another = shown_[slot] != design_ || change == LiveBeam::Change::kWhole;
+    if (!another && position.beam.changed().empty()) continue;
+    shown_[slot] = design_;
+    changes.push_back({slot, &image, another ? std::span<const TexelRect>{} : position.beam.changed()});
     ++uploads_;
   }
   return changes;
 }
 
+Result<std::size_t> Lamps::find(const std::string& lamp) const {
+  std::string names;
+  for (std::size_t slot = 0; slot < designs_[design_].lamps.size(); ++slot) {
+    const std::string& name = designs_[design_].lamps[slot].name;
+    if (name == lamp) return slot;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return Error{"lamp \"" + lamp + "\"", "design \"" + designs_[design_].name + "\" has " + names};
+}
+
+Status Lamps::dim(const RigControl::Dim& command) {
+  const Result<std::size_t> slot = find(command.lamp);
+  if (!slot) return slot.error();
+  std::vector<double>& dimming_01 = positions_[design_][*slot].dimming_01;
+  if (command.source > dimming_01.size())
+    return Error{"lamp \"" + command.lamp + "\"", "has " + std::to_string(dimming_01.size()) + " sources, no number " + std::to_string(command.source)};
+  if (command.source == 0) std::ranges::fill(dimming_01, command.dimming_01);
+  else dimming_01[command.source - 1] = command.dimming_01;
+  return Done{};
+}
+
+Status Lamps::swivel(const RigControl::Swivel& command) {
+  const Result<std::size_t> slot = find(command.lamp);
+  if (!slot) return slot.error();
+  positions_[design_][*slot].yaw_rad = command.yaw_rad;
+  positions_[design_][*slot].pitch_rad = command.pitch_rad;
+  return Done{};
+}
+
+glm::dmat3 Lamps::turned(const Position& position) const {
+  return aim_rotation(position.yaw_rad, aim_pitch_rad_ + wheel_pitch_rad_ + position.pitch_rad, 0.0);
+}
+
 std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
   const glm::dmat3 rotation = rotation_of(pose);
-  const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_ + wheel_pitch_rad_, 0.0);
   const std::vector<LampConfig>& lamps = designs_[design_].lamps;
   std::vector<PlacedLamp> placed;
-  for (std::size_t position = 0; position < lamps.size(); ++position) {
-    const BeamImage* image = shown_[position];
-    if (image == nullptr || image->dark) continue;
-    placed.push_back(
-        {position_of(pose) + rotation * lamps[position].position_m, rotation * aim * image->car_from_image, position});
+  for (std::size_t slot = 0; slot < lamps.size(); ++slot) {
+    const Position& position = positions_[design_][slot];
+    const BeamImage& image = position.beam.image();
+    if (image.dark) continue;
+    placed.push_back({position_of(pose) + rotation * lamps[slot].position_m, rotation * turned(position) * image.car_from_image, slot});
   }
   return placed;
 }
@@ -117,14 +157,16 @@ double Lamps::illuminance_lx(const VehicleState& pose, const MeasurePoint& at) c
 
 double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit,
                                     const MeasurePoint& at) const {
-  const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_ + wheel_pitch_rad_, 0.0);
   double total_lx = 0.0;
-  for (const LampConfig& lamp : designs_[design].lamps) {
-    for (const SourceConfig& source : lamp.sources) {
-      if (!lit.contains(source.function)) continue;
-      const AimedSource light = aimed(source);
-      total_lx += phare::illuminance_lx(lamp.position_m, aim * light.car_from_lamp, *light.table, light.scale,
-                                        at.position_m, at.normal);
+  for (std::size_t slot = 0; slot < designs_[design].lamps.size(); ++slot) {
+    const LampConfig& lamp = designs_[design].lamps[slot];
+    const Position& position = positions_[design][slot];
+    const glm::dmat3 turn = turned(position);
+    for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
+      if (!lit.contains(lamp.sources[k].function)) continue;
+      const AimedSource light = tables_.aimed(lamp.sources[k]);
+      total_lx += phare::illuminance_lx(lamp.position_m, turn * light.car_from_lamp, *light.table,
+                                        light.scale * position.dimming_01[k], at.position_m, at.normal);
     }
   }
   return total_lx;
@@ -143,8 +185,17 @@ std::string Lamps::text_of_lit() const {
 }
 
 std::uint64_t Lamps::resampled_images() const {
-  return static_cast<std::uint64_t>(
-      std::count_if(images_.begin(), images_.end(), [](const auto& entry) { return entry.second->resampled; }));
+  std::uint64_t count = 0;
+  for (const std::vector<Position>& design : positions_)
+    count += static_cast<std::uint64_t>(std::ranges::count_if(design, [](const Position& p) { return p.beam.image().resampled; }));
+  return count;
+}
+
+std::uint64_t Lamps::summed_texels() const {
+  std::uint64_t texels = 0;
+  for (const std::vector<Position>& design : positions_)
+    for (const Position& position : design) texels += position.beam.summed_texels();
+  return texels;
 }
 
 std::vector<Lamps::TableInfo> Lamps::tables() const {
@@ -153,33 +204,6 @@ std::vector<Lamps::TableInfo> Lamps::tables() const {
     infos.push_back({table.name, table.content_hash, table.peak_cd(), table.flux_lm(), table.notes});
   }
   return infos;
-}
-
-Lamps::SourceMask Lamps::lit_mask(const LampConfig& lamp, const std::set<LampFunction>& lit) const {
-  SourceMask mask = 0;
-  for (std::size_t i = 0; i < lamp.sources.size(); ++i) {
-    if (lit.contains(lamp.sources[i].function)) mask |= SourceMask{1} << i;
-  }
-  return mask;
-}
-
-const BeamImage& Lamps::image_of(std::size_t design, std::size_t position, SourceMask mask) {
-  std::unique_ptr<BeamImage>& image = images_[{design, position, mask}];
-  if (!image) {
-    std::vector<AimedSource> sources;
-    const std::vector<SourceConfig>& all = designs_[design].lamps[position].sources;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if ((mask >> i & 1u) != 0) sources.push_back(aimed(all[i]));
-    }
-    image = std::make_unique<BeamImage>(compose_beam_image(sources));
-    ++compositions_;
-  }
-  return *image;
-}
-
-AimedSource Lamps::aimed(const SourceConfig& source) const {
-  return {&tables_.at({source.file.string(), source.axis}),
-          aim_rotation(source.yaw_rad, source.pitch_rad, source.roll_rad), source.scale, source.colour_temperature_k};
 }
 
 }  // namespace phare

@@ -2,16 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <memory>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "config/result.h"
 #include "config/rig.h"
 #include "net/messages.h"
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/lamp_tables.h"
+#include "visual/photometry/live_beam.h"
 #include "visual/renderer.h"
 
 namespace phare {
@@ -31,12 +32,18 @@ class Lamps {
   /// A beam image that has to go to the renderer's slot `position` now.
   struct Change {
     std::size_t position = 0;
-    const BeamImage* image = nullptr;  ///< valid as long as these Lamps
+    const BeamImage* image = nullptr;     ///< valid as long as these Lamps
+    std::span<const TexelRect> part{};    ///< what of it changed, until the next call; empty: another image than before
   };
 
-  /// Adopts the controls. Composes a beam image only when a lamp position is lit in a way not seen before, and reports
-  /// only slots whose image is another than before. A design index past the last means the last.
+  /// Adopts the controls. Sums a beam image again only where a source was switched or dimmed, and reports only slots
+  /// whose image changed. A design index past the last means the last.
   std::vector<Change> set_controls(const CockpitState& controls);
+
+  /// Dims a source, counted from 1 (0: all), of a lamp of the design that shines; acts with the next controls. Error: no such lamp or source.
+  Status dim(const RigControl::Dim& command);
+  /// Turns a whole lamp of the design that shines: no image is summed for it. Error: no such lamp.
+  Status swivel(const RigControl::Swivel& command);
 
   /// All lamps turned up (positive) together, rad.
   void set_aim(double pitch_rad) { aim_pitch_rad_ = pitch_rad; }
@@ -54,7 +61,8 @@ class Lamps {
   const DesignConfig& design() const { return designs_[design_]; }
   std::size_t design_index() const { return design_; }
   const std::string& lit_text() const { return lit_text_; }  ///< "low high", for labels
-  std::uint64_t compositions() const { return compositions_; }
+  std::uint64_t compositions() const { return compositions_; }  ///< images that were summed, wholly or in part
+  std::uint64_t summed_texels() const;
   std::uint64_t uploads() const { return uploads_; }
   std::uint64_t resampled_images() const;
   struct TableInfo {
@@ -65,17 +73,22 @@ class Lamps {
   std::vector<TableInfo> tables() const;
 
  private:
-  using SourceMask = std::uint64_t;
+  /// One lamp of a design as it is now.
+  struct Position {
+    LiveBeam beam;
+    std::vector<double> dimming_01;  ///< of each source, as commanded
+    double yaw_rad = 0.0, pitch_rad = 0.0;  ///< as commanded
+  };
   std::string text_of_lit() const;
-  SourceMask lit_mask(const LampConfig& lamp, const std::set<LampFunction>& lit) const;
-  const BeamImage& image_of(std::size_t design, std::size_t position, SourceMask mask);
-  AimedSource aimed(const SourceConfig& source) const;
+  Result<std::size_t> find(const std::string& lamp) const;
+  /// All that turns a lamp besides the aim of its sources.
+  glm::dmat3 turned(const Position& position) const;
 
   std::vector<DesignConfig> designs_;
   bool high_keeps_low_ = true;
-  std::map<std::pair<std::string, GammaAxis>, IntensityTable> tables_;  // by file
-  std::map<std::tuple<std::size_t, std::size_t, SourceMask>, std::unique_ptr<BeamImage>> images_;
-  std::vector<const BeamImage*> shown_;  // per slot
+  LampTables tables_;
+  std::vector<std::vector<Position>> positions_;  ///< [design][lamp]
+  std::vector<std::optional<std::size_t>> shown_;  ///< per slot, the design whose image it holds
   std::set<LampFunction> lit_;
   std::size_t design_ = 0;
   double aim_pitch_rad_ = 0.0;    // of the program's aim command

@@ -61,6 +61,7 @@ int draw_channel(VisualOptions options) {
   drawing.height_px = options.height_px;
   drawing.samples = options.samples;
   drawing.validation = options.validation;
+  drawing.beam_level = options.beam_image.value_or(rig->beam_image);
   drawing.device_name = options.device_name;
   drawing.window = window ? window->handle() : nullptr;
   Result<Renderer> renderer = Renderer::create(drawing);

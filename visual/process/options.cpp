@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cstdio>
 
+#include "visual/photometry/image_levels.h"
+
 namespace phare {
 namespace {
 
@@ -21,7 +23,7 @@ bool parse_size(const std::string& text, int& width_px, int& height_px) {
 
 ParsedOptions parse_options(int argc, const char* const* argv) {
   VisualOptions options;
-  std::string size;
+  std::string size, beam_image;
   std::uint16_t port_base = 0;
   CLI::App app{"Draws the night road of one channel from CockpitState and VehicleState.", "phare-visual"};
   app.footer(
@@ -48,6 +50,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--audit-every", options.audit_every, "Frames between self-audits, 0: never")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
+  app.add_option("--beam-image", beam_image, "How beam images are stored and looked up, instead of the rig's: what accuracy costs in time")
+      ->check(CLI::IsMember(level_names()));
   app.add_flag("--false-colour", options.false_colour, "Begin with illuminance in false colour");
   app.add_flag("--validation", options.validation, "Vulkan validation with synchronization validation");
   app.add_option("--device", options.device_name, "Take the Vulkan device whose name contains this");
@@ -67,6 +71,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     std::fprintf(stderr, "phare-visual: --size: expected WIDTHxHEIGHT of 16 to 8192 pixels, got '%s'\n", size.c_str());
     return {std::nullopt, kExitBadInput};
   }
+  options.beam_image = level_named(beam_image);
   if (port_base != 0) options.port_base = port_base;
   if (options.headless && options.out.empty()) options.out = "out";
   if (options.stats_file.empty() && !options.out.empty()) {

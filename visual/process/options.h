@@ -7,6 +7,7 @@
 #include <string>
 
 #include "config/result.h"
+#include "config/rig.h"
 
 namespace phare {
 
@@ -26,6 +27,7 @@ struct VisualOptions {
   double exposure_per_cdm2 = 0.8;
   std::int64_t audit_every = 300;  ///< frames; 0: never
   bool false_colour = false;
+  std::optional<ImageLevel> beam_image;  ///< instead of the rig's
   bool validation = false;
   std::string device_name;
   std::string log_level = "info";

@@ -33,7 +33,10 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["passes"] = stats.newest.pass_count;
   report["triangles"] = stats.newest.triangles;
 
-  report["beams"] = {{"compositions", session.lamps.compositions()},
+  report["beams"] = {{"image", level_name(session.options.beam_image.value_or(session.rig.beam_image))},
+                     {"compositions", session.lamps.compositions()},
+                     {"summed_texels", session.lamps.summed_texels()},
+                     {"uploaded_texels", session.renderer.uploaded_texels()},
                      {"uploads", session.lamps.uploads()},
                      {"resampled", session.lamps.resampled_images()}};
   report["self_audit"] = session.audit.json();

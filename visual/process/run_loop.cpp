@@ -50,6 +50,8 @@ class Loop {
  private:
   void take(const Datagram& datagram);
   void answer(const ProbeRequest& request, SimTime now);
+  void obey(const RigControl& control);
+  void light_up(const CockpitState& controls);
   void warm_up();
   void announce();
   void repeat_when_stalled();
@@ -92,9 +94,17 @@ void Loop::take(const Datagram& datagram) {
   } else if (const auto* request = std::get_if<ProbeRequest>(&datagram.payload)) {
     answer(*request, datagram.sim_time);
   } else if (const auto* control = std::get_if<RigControl>(&datagram.payload)) {
-    if (const auto* aim = std::get_if<RigControl::Aim>(&control->command)) s_.lamps.set_aim(aim->pitch_rad);
-    if (std::holds_alternative<RigControl::Quit>(control->command)) s_.stop.request();
+    obey(*control);
   }
+}
+
+void Loop::obey(const RigControl& control) {
+  if (const auto* aim = std::get_if<RigControl::Aim>(&control.command)) s_.lamps.set_aim(aim->pitch_rad);
+  if (std::holds_alternative<RigControl::Quit>(control.command)) s_.stop.request();
+  Status done = Done{};
+  if (const auto* dim = std::get_if<RigControl::Dim>(&control.command)) done = s_.lamps.dim(*dim);
+  if (const auto* swivel = std::get_if<RigControl::Swivel>(&control.command)) done = s_.lamps.swivel(*swivel);
+  if (!done) spdlog::warn("{}", done.error().text());
 }
 
 /// Lux at points of the world under the lamps of the newest frame, through the shader that draws it.
@@ -119,8 +129,7 @@ void Loop::answer(const ProbeRequest& request, SimTime now) {
 /// The first picture of a device makes its machine code, which may take seconds: before the drive, not in it.
 void Loop::warm_up() {
   const VehicleState pose;
-  for (const Lamps::Change& change : s_.lamps.set_controls(controls_))
-    s_.renderer.set_beam(change.position, *change.image);
+  light_up(controls_);
   FrameInput input;
   input.camera = driver_camera(s_.channel(), pose);
   input.lamps = s_.lamps.placed(pose);
@@ -191,9 +200,16 @@ std::optional<Moment> Loop::display_moment() {
   return moment;
 }
 
+/// Beam images follow the controls; what did not change stays as it is.
+void Loop::light_up(const CockpitState& controls) {
+  for (const Lamps::Change& change : s_.lamps.set_controls(controls)) {
+    if (change.part.empty()) s_.renderer.set_beam(change.position, *change.image);
+    else s_.renderer.change_beam(change.position, *change.image, change.part);
+  }
+}
+
 void Loop::draw(const Moment& moment) {
-  for (const Lamps::Change& change : s_.lamps.set_controls(moment.controls))
-    s_.renderer.set_beam(change.position, *change.image);
+  light_up(moment.controls);
   const CameraKind camera = s_.window ? s_.window->camera() : CameraKind::kDriver;
   input_.camera = camera_of(camera, s_.channel(), moment.car.pose);
   input_.view = s_.window ? s_.window->view() : View::kPhoto;
