@@ -1,4 +1,6 @@
 // phare lamp: the photometry bench on the command line.
+#include <cstdio>
+
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 
@@ -11,7 +13,9 @@ CLI::Validator number_between(double low, double high) {
       [low, high](const std::string& text) {
         double value = 0.0;
         const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-        return good ? std::string() : text + " is not between " + std::to_string(low) + " and " + std::to_string(high);
+        char reason[64];
+        std::snprintf(reason, sizeof reason, " is not between %g and %g", low, high);
+        return good ? std::string() : text + reason;
       },
       "", "");
 }

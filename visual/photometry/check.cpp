@@ -1,8 +1,7 @@
 // Judging a beam by a rulebook.
 // Computes: the aim (inflection of log E on the rule's scan put on its line, UN R112 annex 9, FMVSS 108 S10.18.9), then
-// for every row its lowest and highest intensity. Lines are walked in 0.02°; areas by their edge and by every node of
-// the table inside, between which a bilinear table has no extreme of its own. Where a table has no data nothing passes.
-// Sources of the numbers: config/rules.
+// every row (check_rows.cpp), re-aimed where the rule allows it, and the cut-off's own quality. Sources of the numbers:
+// config/rules.
 // Frame: H, V of the rule as the lamp is mounted. Leaves out: the receiver's size (65 mm at 25 m), horizontal aim by
 // the 0.2 D line (the file's H is taken as aimed, within the re-aim allowance), temperature and voltage. Checked by
 // tests/photometry/check_test.cpp.
@@ -13,168 +12,12 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "visual/photometry/check_rows.h"
+
 namespace phare {
 namespace {
 
-constexpr double kLineStep_deg = 0.02;
-constexpr double kSearchStep_deg = 0.25;
 constexpr double kReaimStep_deg = 0.05;
-
-bool inside(const std::vector<HV>& polygon, HV p) {
-  bool is_inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const HV a = polygon[i], b = polygon[j];
-    if ((a.v_deg > p.v_deg) != (b.v_deg > p.v_deg) &&
-        p.h_deg < a.h_deg + (b.h_deg - a.h_deg) * (p.v_deg - a.v_deg) / (b.v_deg - a.v_deg)) {
-      is_inside = !is_inside;
-    }
-  }
-  return is_inside;
-}
-
-std::vector<HV> outline(const RuleRow& row) {
-  if (row.shape != RowShape::kArea) return row.at;
-  const HV a = row.at[0], b = row.at[1];
-  return {{a.h_deg, a.v_deg}, {b.h_deg, a.v_deg}, {b.h_deg, b.v_deg}, {a.h_deg, b.v_deg}};
-}
-
-template <typename Visit>
-void along(HV from, HV to, double step_deg, const Visit& visit) {
-  const double length = std::hypot(to.h_deg - from.h_deg, to.v_deg - from.v_deg);
-  const int steps = std::clamp(static_cast<int>(std::ceil(length / step_deg)), 1, 20000);
-  for (int i = 0; i <= steps; ++i) {
-    const double t = static_cast<double>(i) / steps;
-    visit(HV{from.h_deg + t * (to.h_deg - from.h_deg), from.v_deg + t * (to.v_deg - from.v_deg)});
-  }
-}
-
-/// Lowest and highest of a row; `shift` looks at places moved by it, as if the beam were turned the other way.
-struct Extremes {
-  double lowest = kNoMaximum, highest = 0.0, sum = 0.0;
-  HV lowest_at, highest_at;
-  bool any = false, no_data = false;
-  HV no_data_at;
-  void take(HV p, RuleBeam::Value value) {
-    if (!value.known) {
-      if (!no_data) no_data_at = p;
-      no_data = true;
-      return;
-    }
-    if (value.cd < lowest) {
-      lowest = value.cd;
-      lowest_at = p;
-    }
-    if (value.cd > highest || (highest == 0.0 && value.cd == 0.0)) {
-      highest = value.cd;
-      highest_at = p;
-    }
-    sum += value.cd;
-    any = true;
-  }
-};
-
-Extremes scan(RuleBeam& beam, const RuleRow& row, HV shift, bool coarse) {
-  Extremes e;
-  const auto look = [&](HV p) { e.take(p, beam.at(p.h_deg - shift.h_deg, p.v_deg - shift.v_deg)); };
-  const double step = coarse ? kSearchStep_deg : kLineStep_deg;
-  switch (row.shape) {
-    case RowShape::kPoints:
-    case RowShape::kSum:
-      for (const HV p : row.at) look(p);
-      break;
-    case RowShape::kLine:
-      for (std::size_t i = 0; i + 1 < row.at.size(); ++i) along(row.at[i], row.at[i + 1], step, look);
-      break;
-    case RowShape::kArea:
-    case RowShape::kPolygon: {
-      const std::vector<HV> edge = outline(row);
-      for (std::size_t i = 0; i < edge.size(); ++i) along(edge[i], edge[(i + 1) % edge.size()], step, look);
-      if (coarse) {
-        HV low = edge[0], high = edge[0];
-        for (const HV p : edge) {
-          low = {std::min(low.h_deg, p.h_deg), std::min(low.v_deg, p.v_deg)};
-          high = {std::max(high.h_deg, p.h_deg), std::max(high.v_deg, p.v_deg)};
-        }
-        const double wide = std::max(step, (high.h_deg - low.h_deg) / 80.0),
-                     tall = std::max(step, (high.v_deg - low.v_deg) / 80.0);
-        for (double h = low.h_deg; h <= high.h_deg; h += wide) {
-          for (double v = low.v_deg; v <= high.v_deg; v += tall) {
-            if (inside(edge, {h, v})) look({h, v});
-          }
-        }
-        break;
-      }
-      for (const RuleBeam::Node& node : beam.nodes()) {
-        const HV p{node.at.h_deg + shift.h_deg, node.at.v_deg + shift.v_deg};
-        if (inside(edge, p)) e.take(p, node.value);
-      }
-      break;
-    }
-    case RowShape::kPeak: {
-      const RuleBeam::Node peak = beam.peak();
-      e.take({peak.at.h_deg + shift.h_deg, peak.at.v_deg + shift.v_deg}, peak.value);
-      break;
-    }
-  }
-  if (row.shape == RowShape::kSum) e.lowest = e.highest = e.sum;
-  return e;
-}
-
-CheckRow judge(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, HV shift, bool coarse) {
-  CheckRow result;
-  result.id = row.id;
-  result.clause = row.clause;
-  result.unit = "cd";
-  result.shape = row.shape;
-  result.unconfirmed = row.unconfirmed;
-  result.min = row.min_cd;
-  result.max = row.max_cd;
-  result.reaim = shift;
-  const Extremes e = scan(beam, row, shift, coarse);
-  result.has_value = e.any;
-  result.no_data = e.no_data;
-  result.no_data_at = e.no_data_at;
-  if (row.min_of_peak_01 > 0.0) result.min = std::max(result.min, row.min_of_peak_01 * beam.peak().value.cd);
-  if (row.max_factor > 0.0) {
-    const Extremes other = scan(beam, *rule.row(row.max_of), shift, coarse);
-    result.max = std::min(result.max, row.max_factor * other.highest);
-    if (!other.any || other.no_data) {  // a limit that is not known
-      if (!result.no_data) result.no_data_at = other.no_data_at;
-      result.no_data = true;
-      if (!other.any) result.max = kNoMaximum;
-    }
-  }
-  if (!e.any) return result;
-  result.lowest = e.lowest;
-  result.highest = e.highest;
-  result.lowest_at = e.lowest_at;
-  result.highest_at = e.highest_at;
-  const double above = e.lowest - result.min, below = result.max - e.highest;
-  result.by_min = result.min > kNoMinimum && (result.max >= kNoMaximum || above < below);
-  result.margin = result.by_min ? above : below;
-  return result;
-}
-
-/// Adds resolution and verdict.
-void conclude(const RuleBeam& beam, const RuleRow& row, CheckRow& result) {
-  const HV tightest = result.by_min ? result.lowest_at : result.highest_at;
-  if (row.shape == RowShape::kSum) {
-    for (const HV p : row.at) {
-      const double error = beam.resolution_cd(p);
-      if (std::isfinite(error)) result.resolution += error;
-    }
-  } else if (result.has_value) {
-    result.resolution = beam.resolution_cd({tightest.h_deg - result.reaim.h_deg, tightest.v_deg - result.reaim.v_deg});
-  }
-  const bool close = std::abs(result.margin) < result.resolution;
-  result.verdict = close ? Verdict::kWithinResolution : result.margin >= 0.0 ? Verdict::kPass : Verdict::kFail;
-  if (!result.no_data) return;
-  // Light is never negative: a sum that is enough without a point stays so. Any other row fails by what is there, or
-  // is not known.
-  const bool sum = row.shape == RowShape::kSum, failed = result.has_value && result.verdict == Verdict::kFail;
-  const bool sum_decided = sum && (result.by_min ? result.verdict == Verdict::kPass : failed);
-  if (sum ? !sum_decided : !failed) result.verdict = Verdict::kNoData;
-}
 
 /// A row that is no candela of a place; `lowest` to `highest` is what the value may be.
 CheckRow measured(std::string id, std::string clause, std::string unit, double value, double lowest, double highest,
@@ -272,7 +115,7 @@ double total_shortfall(const std::vector<CheckRow>& rows, std::size_t& failed) {
 
 std::vector<CheckRow> judge_all(RuleBeam& beam, const Rulebook& rule, HV shift, bool coarse) {
   std::vector<CheckRow> rows;
-  for (const RuleRow& row : rule.rows) rows.push_back(judge(beam, rule, row, shift, coarse));
+  for (const RuleRow& row : rule.rows) rows.push_back(judge_row(beam, rule, row, shift, coarse));
   return rows;
 }
 
@@ -310,7 +153,7 @@ void reaim_one(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, CheckRo
       const double angle = k * glm::radians(22.5), radius = part * rule.point_reaim_deg;
       const auto snap = [](double x) { return std::abs(x) < 1e-12 ? 0.0 : x; };
       const HV shift{snap(radius * std::cos(angle)), snap(radius * std::sin(angle))};
-      const CheckRow turned = judge(beam, rule, row, shift, false);
+      const CheckRow turned = judge_row(beam, rule, row, shift, false);
       if (turned.margin > result.margin && turned.no_data == result.no_data) result = turned;
     }
   }
@@ -326,7 +169,7 @@ void reaim_row(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, CheckRo
   for (const HV p : row.at) {
     RuleRow single = row;
     single.at = {p};
-    CheckRow one = judge(beam, rule, single, {}, false);
+    CheckRow one = judge_row(beam, rule, single, {}, false);
     if (one.has_value) reaim_one(beam, rule, single, one);
     reaims.push_back(one.reaim);
     if (one.has_value && one.lowest < lowest) lowest = one.lowest, lowest_at = one.lowest_at;
@@ -463,7 +306,7 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].margin < 0.0 && rule.point_reaim_deg > 0.0 && options.reaim)
       reaim_row(beam, rule, rule.rows[i], rows[i]);
-    conclude(beam, rule.rows[i], rows[i]);
+    conclude_row(beam, rule.rows[i], rows[i]);
     rows[i].at = rule.rows[i].at;
   }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kOnLimit_deg = 1e-9;   // turning there and back costs digits: still on the table's limit
 constexpr double kGSpan_deg = 0.1;      // of G
-constexpr double kRowSearch_deg = 0.002;
+constexpr double kRowSearch_deg = 0.01;
 constexpr double kWidestRow_deg = 10.0;
 
 TableAngles onto_limits(const IntensityTable& table, TableAngles angles) {
@@ -181,11 +181,21 @@ RuleBeam::SharpnessRange RuleBeam::sharpness_range(std::size_t lamp, double h_de
   // From the inflection down and up to where the scan leaves its cell.
   Place start;
   cell(cutoff.elevation_deg, start);
+  const auto in_start = [&](double v_deg) {
+    Place place;
+    return cell(v_deg, place) && place == start;
+  };
   const auto edge = [&](double direction) {
-    double v_deg = cutoff.elevation_deg;
-    for (Place place = start; std::abs(v_deg - cutoff.elevation_deg) < kWidestRow_deg; v_deg += direction * kRowSearch_deg)
-      if (!cell(v_deg, place) || place != start) break;
-    return v_deg;
+    double inside = 0.0, outside = 0.0;
+    while (outside < kWidestRow_deg && in_start(cutoff.elevation_deg + direction * outside)) {
+      inside = outside;
+      outside += kRowSearch_deg;
+    }
+    for (int halving = 0; halving < 20; ++halving) {
+      const double middle = 0.5 * (inside + outside);
+      (in_start(cutoff.elevation_deg + direction * middle) ? inside : outside) = middle;
+    }
+    return cutoff.elevation_deg + direction * inside;
   };
   const double low_v = edge(-1.0), high_v = edge(1.0);
   SharpnessRange range{cutoff.sharpness_g, cutoff.sharpness_g, high_v - low_v};
@@ -195,7 +205,7 @@ RuleBeam::SharpnessRange RuleBeam::sharpness_range(std::size_t lamp, double h_de
   const auto error = [&](double v_deg) {
     return interpolation_error_cd(table, table.angles_of(in_lamp(lamp, h_deg, v_deg)));
   };
-  if (range.row_step_deg <= kGSpan_deg + 2.0 * kRowSearch_deg) {
+  if (range.row_step_deg <= 1.01 * kGSpan_deg) {
     double relative = 0.0;
     for (const double v_deg : {cutoff.elevation_deg - 0.5 * kGSpan_deg, cutoff.elevation_deg + 0.5 * kGSpan_deg})
       relative += error(v_deg) / std::max(own(v_deg), 1e-9);

@@ -54,6 +54,8 @@ RuleRow read_row(TomlTable table, const std::string& rule_clause, const std::str
   row.max_factor = table.number_or("max_factor", 0.0, 0.0, 100.0);
   row.max_of = table.text_or("max_of", "");
   row.max_led_module_cd = table.number_or("max_led_module_cd", 0.0, 0.0, 1e9);
+  constexpr std::array<std::string_view, 4> kSides{"", "left", "right", "down"};
+  row.open = static_cast<OpenSide>(table.choice_or("open", 0, kSides));
   row.unconfirmed = table.text_or("unconfirmed", rule_unconfirmed);
   if (row.min_cd == kNoMinimum && row.max_cd == kNoMaximum && row.min_of_peak_01 == 0.0 && row.max_factor == 0.0)
     table.fail("id", "a row needs a limit");

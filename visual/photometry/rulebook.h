@@ -22,6 +22,9 @@ enum class RowShape { kPoints, kLine, kArea, kPolygon, kSum, kPeak };
 inline constexpr double kNoMinimum = 0.0;
 inline constexpr double kNoMaximum = 1e30;
 
+/// Rows printed without a far end go on to one side as far as the file has data.
+enum class OpenSide { kNone, kLeft, kRight, kDown };
+
 struct RuleRow {
   std::string id;
   std::string clause;
@@ -32,6 +35,7 @@ struct RuleRow {
   double min_of_peak_01 = 0.0;  ///< at least this share of the beam's highest intensity
   double max_factor = 0.0;      ///< at most this times the intensity of row `max_of`; 0: no such limit
   std::string max_of;
+  OpenSide open = OpenSide::kNone;
   double max_led_module_cd = 0.0;  ///< instead of max_cd for a lamp of LED modules; 0: no limit of its own
   std::string unconfirmed;  ///< why the number rests on one source; empty: two sources agree
 };
