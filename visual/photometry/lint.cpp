@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kFluxTolerance = 0.02;   // between integral and header: rounding of catalogues and of grids
 constexpr double kLitEdge_01 = 0.01;      // of the peak: a table that ends brighter is cut off
+constexpr double kNoise_01 = 0.001;       // of the peak: zeros among values below this are the end of the photometer
 constexpr double kSpike = 5.0;            // a value this many times all its neighbours is no optics
 constexpr double kAhead_deg = 30.0;       // a headlamp's peak farther off its axis than this: wrong axis
 constexpr double kCutoffStep_deg = 0.05;  // the step in which the rules measure G
@@ -278,27 +279,32 @@ class Linter {
     const std::size_t columns = table_.first_deg.size(), rows = table_.second_deg.size();
     const std::vector<double>& cd = table_.candela;
     const bool round = table_.type == PhotometricType::kC;  // C closes on itself, gamma 0 is a point
-    std::vector<char> missing(cd.size(), 0);
-    std::vector<std::size_t> way;
-    for (std::size_t k = 0; k < cd.size(); ++k) missing[k] = cd[k] == 0.0 ? 1 : 0;
-    const auto reach = [&](std::size_t i, std::size_t j) {
-      if (missing[j * columns + i] != 1) return;
-      missing[j * columns + i] = 0;
-      way.push_back(j * columns + i);
-    };
-    for (std::size_t j = 0; j < rows; ++j) {
-      for (std::size_t i = 0; i < columns; ++i) {
-        const bool side = !round && (i == 0 || i + 1 == columns);
-        if (side || j + 1 == rows || (j == 0 && !(round && table_.second_deg[0] == 0.0))) reach(i, j);
+    std::vector<char> missing(cd.size(), 0), seen(cd.size(), 0);
+    for (std::size_t start = 0; start < cd.size(); ++start) {
+      if (cd[start] != 0.0 || seen[start] != 0) continue;
+      // All zeros that hang together with this one, and the brightest value beside them.
+      std::vector<std::size_t> patch{start};
+      seen[start] = 1;
+      bool to_border = false;
+      double beside_cd = 0.0;
+      const auto look = [&](std::size_t k) {
+        beside_cd = std::max(beside_cd, cd[k]);
+        if (cd[k] != 0.0 || seen[k] != 0) return;
+        seen[k] = 1;
+        patch.push_back(k);
+      };
+      for (std::size_t n = 0; n < patch.size(); ++n) {
+        const std::size_t i = patch[n] % columns, row = patch[n] - i;
+        const bool first = i == 0, last = i + 1 == columns, bottom = row == 0, top = row + columns == cd.size();
+        to_border = to_border || ((first || last) && !round) || top ||
+                    (bottom && !(round && table_.second_deg[0] == 0.0));
+        if (!first || round) look(row + (first ? columns - 1 : i - 1));
+        if (!last || round) look(row + (last ? 0 : i + 1));
+        if (!bottom) look(patch[n] - columns);
+        if (!top) look(patch[n] + columns);
       }
-    }
-    while (!way.empty()) {
-      const std::size_t i = way.back() % columns, j = way.back() / columns;
-      way.pop_back();
-      if (i > 0 || round) reach(i > 0 ? i - 1 : columns - 1, j);
-      if (i + 1 < columns || round) reach(i + 1 < columns ? i + 1 : 0, j);
-      if (j > 0) reach(i, j - 1);
-      if (j + 1 < rows) reach(i, j + 1);
+      if (to_border || beside_cd <= kNoise_01 * report_.peak_cd) continue;
+      for (const std::size_t k : patch) missing[k] = 1;
     }
     const double bright = kLitEdge_01 * report_.peak_cd;
     const auto between = [&](std::size_t start, std::size_t stride, std::size_t count) {
