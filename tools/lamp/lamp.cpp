@@ -1,24 +1,9 @@
 // phare lamp: the photometry bench on the command line.
-#include <cstdio>
-
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 
 namespace phare {
 namespace {
-
-/// Range lets a NaN through.
-CLI::Validator number_between(double low, double high) {
-  return CLI::Validator(
-      [low, high](const std::string& text) {
-        double value = 0.0;
-        const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-        char reason[64];
-        std::snprintf(reason, sizeof reason, " is not between %g and %g", low, high);
-        return good ? std::string() : text + reason;
-      },
-      "", "");
-}
 
 /// What every command that reads a lamp file takes.
 void add_reading(CLI::App* command, LampReadSettings& settings) {
@@ -33,7 +18,7 @@ void add_reading(CLI::App* command, LampReadSettings& settings) {
       ->default_str("gamma0");
   command
       ->add_option("--c0", settings.c0_turn_deg, "Type C and EULUMDAT: plane C 0 lies at this angle (0 right, 90 up)")
-      ->check(number_between(-360.0, 360.0))
+      ->check(CLI::Range(-360.0, 360.0))
       ->capture_default_str();
   command->add_option("--lamp-set", settings.lamp_set, "EULUMDAT: lamp set to use, from 1")->capture_default_str();
   command->add_option("--emitter", settings.emitter, "TM-33: emitter to use, from 1")->capture_default_str();
@@ -88,17 +73,12 @@ void add_check(CLI::App* lamp, Command& chosen) {
   command->add_option("--traffic", options->traffic, "Side of the road [by the cut-off]")
       ->check(CLI::IsMember({"find", "right", "left"}))
       ->capture_default_str();
-  command
-      ->add_option("--aim", options->aim, "Which of the rule's aims, as marked on the lens: VOL or VOR [by the beam]")
-      ->type_name("NAME");
-  command->add_option("--aim-up", options->aim_up_deg, "Turn the lamp up by this, deg, instead of the rule's aim")
-      ->check(number_between(-30.0, 30.0));
-  command
-      ->add_option("--aim-right", options->aim_right_deg,
-                   "Turn the lamp right by this, deg, instead of the rule's aim")
-      ->check(number_between(-30.0, 30.0));
-  command->add_flag("--led-module", options->led_module, "The light source is an LED module with control gear");
+  command->add_option("--aim-up", options->aim_up_deg, "Turn the lamp up by this, deg, instead of the rule's aim");
+  command->add_option("--aim-right", options->aim_right_deg,
+                      "Turn the lamp right by this, deg, instead of the rule's aim");
   command->add_flag("!--no-reaim", options->reaim, "Do not use the rule's re-aim allowance");
+  command->add_option("--aim", options->aim, "Which of the rule's aims, as marked on the lens: VOL or VOR [by the beam]");
+  command->add_flag("--led-module", options->led_module, "The light source is an LED module with control gear");
   command->add_flag("--list", options->list, "List the rulebooks");
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
