@@ -65,7 +65,7 @@ void add_table(CLI::App* lamp, Command& chosen) {
 
 void add_check(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampCheckOptions>();
-  CLI::App* command = lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails");
+  CLI::App* command = lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails or the file lacks data");
   command->footer("Example:\n  phare lamp check low_beam.ies --rule r112-passing-b --json\n  phare lamp check --list");
   command->add_option("files", options->files, "One file, or left and right (rules of half the sum)");
   command->add_option("--rule", options->rules, "Rulebook of config/rules, or a .toml file; repeat for more")
