@@ -68,11 +68,6 @@ nlohmann::json as_json(const CheckResult& result) {
   return json;
 }
 
-/// File names may be no UTF-8.
-std::string text_of(const nlohmann::json& json) {
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 std::string limits_text(const CheckRow& row) {
   char text[64];
   const auto number = [&](double value) {
@@ -191,7 +186,7 @@ int lamp_check(const LampCheckOptions& options) {
       print(result, names);
     }
   }
-  if (options.json) std::printf("%s\n", text_of(all.size() == 1 ? all.front() : all).c_str());
+  if (options.json) std::printf("%s\n", (all.size() == 1 ? all.front() : all).dump(2).c_str());
   return failed ? kExitCheckFailed : kExitDone;
 }
 

@@ -7,6 +7,7 @@
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "visual/photometry/cutoff.h"
 
 namespace phare {
 
@@ -45,13 +46,10 @@ int lamp_hspr(const LampHsprOptions& options) {
                         {"rows", rows},
                         {"scale_worst", result.worst},
                         {"scale_best", result.best}};
-    if (result.complete) {
-      json["weighted_points"] = result.weighted;
-      json["on_scale_01"] = result.on_scale_01;
-    } else {
-      json["no_points"] = "the one- and two-point values of this beam were not at hand";
-    }
-    std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    if (result.complete) json["on_scale_01"] = result.on_scale_01;
+    if (!result.complete) json["no_points"] = "the one- and two-point values of this beam were not at hand";
+    if (result.complete) json["weighted_points"] = result.weighted;
+    std::printf("%s\n", json.dump(2).c_str());
     return kExitDone;
   }
   std::printf(
