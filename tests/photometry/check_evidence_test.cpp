@@ -121,6 +121,10 @@ TEST(CheckEvidence, TheEndOfATableIsNoCutoff) {
     EXPECT_NEAR(row_of(result, "75R").lowest, row_of(truth, "75R").lowest, 1e-9) << zeros;
   }
   EXPECT_EQ(lint_lamp(cropped(whole, 90.0, -90.0, 1.2)).cutoff.side, CutoffSide::kRisesRight);
+  const LampReport flat = lint_lamp(cropped(whole, 90.0, -90.0, 0.3));
+  EXPECT_TRUE(std::any_of(flat.findings.begin(), flat.findings.end(), [](const Finding& f) {
+    return f.text.find("a kink cannot be told") != std::string::npos;
+  }));
   EXPECT_EQ(check_by(cropped(whole, 9.5, -4.8, 0.8), "fmvss108-lb2v").aim_method, "VOL");
   // Ends in the middle of the fall: the steepest place may lie outside.
   const CheckResult open = check_by(cropped(whole, 90.0, -90.0, 0.0), "r149-passing-c");
@@ -233,6 +237,12 @@ TEST(CheckEvidence, PointsOfOneRowAreReaimedOneByOne) {
   ASSERT_EQ(row.reaims.size(), 2u);
   EXPECT_LT(row.reaims[0].h_deg, 0.0);  // beam turned left: the left point sees what lies right of it
   EXPECT_GT(row.reaims[1].h_deg, 0.0);
+  // Known to 20 cd only: turned on until 1500 cd are certain.
+  EXPECT_LT(std::abs(row.reaims[0].h_deg), 0.1);
+  table.header.smallest_step_cd = 40.0;
+  const CheckRow rounded = check_lamp(tables, ub2).rows.front();
+  EXPECT_EQ(rounded.verdict, Verdict::kPass) << rounded.lowest;
+  EXPECT_GE(rounded.lowest, 1520.0);
   CheckOptions fixed;
   fixed.reaim = false;
   EXPECT_NEAR(check_lamp(tables, ub2, fixed).rows.front().margin, -10.0, 1e-6);

@@ -103,7 +103,7 @@ void print_row(const CheckRow& row) {
     if (row.unit == "cd" && row.shape != RowShape::kSum)
       std::snprintf(place, sizeof place, "%+.2f, %+.2f", at.h_deg, at.v_deg);
   }
-  std::printf("  %-24s %-16s %17s %12s %15s %12s %-2s %s", row.id.c_str(), row.clause.substr(0, 16).c_str(),
+  std::printf("  %-30s %-16s %17s %12s %15s %12s %-2s %s", row.id.c_str(), row.clause.substr(0, 16).c_str(),
               limits_text(row).c_str(), value, place, margin, row.unit.c_str(),
               row.verdict == Verdict::kFail ? "FAIL" : verdict_name(row.verdict).c_str());
   if (row.no_data && row.unit == "cd") std::printf(" at %+.2f, %+.2f", row.no_data_at.h_deg, row.no_data_at.v_deg);
@@ -114,7 +114,7 @@ void print(const CheckResult& result, const std::string& file) {
   std::printf("%s by %s (%s), %s-hand traffic\n", file.c_str(), result.rule_name.c_str(), result.document.c_str(),
               result.left_hand ? "left" : "right");
   print_aim(result);
-  std::printf("  %-24s %-16s %17s %12s %15s %12s\n", "row", "clause", "limit", "value", "at H, V", "margin");
+  std::printf("  %-30s %-16s %17s %12s %15s %12s\n", "row", "clause", "limit", "value", "at H, V", "margin");
   for (const CheckRow& row : result.rows) print_row(row);
   std::printf("%s: %zu rows, %zu failed, %zu without data, %zu within the file's resolution",
               result.verdict == Verdict::kPass   ? "PASS"

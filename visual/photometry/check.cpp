@@ -145,16 +145,22 @@ HV best_reaim(RuleBeam& beam, const Rulebook& rule) {
   return best;
 }
 
-/// FMVSS 108: a test point that fails may be looked at with the beam turned by up to a quarter degree.
+bool passes(const RuleBeam& beam, const RuleRow& row, CheckRow result) {
+  conclude_row(beam, row, result);
+  return result.verdict == Verdict::kPass;
+}
+
+/// FMVSS 108: a test point that fails may be looked at with the beam turned by up to a quarter degree. As far as it
+/// takes to pass for certain.
 void reaim_one(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, CheckRow& result) {
   for (const double part : {0.25, 0.5, 0.75, 1.0}) {
     for (int k = 0; k < 16; ++k) {
-      if (result.margin >= 0.0) return;
+      if (result.margin >= 0.0 && passes(beam, row, result)) return;
       const double angle = k * glm::radians(22.5), radius = part * rule.point_reaim_deg;
       const auto snap = [](double x) { return std::abs(x) < 1e-12 ? 0.0 : x; };
       const HV shift{snap(radius * std::cos(angle)), snap(radius * std::sin(angle))};
       const CheckRow turned = judge_row(beam, rule, row, shift, false);
-      if (turned.margin > result.margin && turned.no_data == result.no_data) result = turned;
+      if (turned.margin > result.margin && !turned.no_data) result = turned;
     }
   }
 }
@@ -304,7 +310,8 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
     }
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].margin < 0.0 && rule.point_reaim_deg > 0.0 && options.reaim)
+    if (rule.point_reaim_deg > 0.0 && options.reaim && rows[i].has_value && !rows[i].no_data &&
+        !passes(beam, rule.rows[i], rows[i]))
       reaim_row(beam, rule, rule.rows[i], rows[i]);
     conclude_row(beam, rule.rows[i], rows[i]);
     rows[i].at = rule.rows[i].at;

@@ -153,7 +153,8 @@ class Linter {
     if (shape.side == CutoffSide::kNone) return;
     const bool left = shape.side == CutoffSide::kRisesLeft;
     if (shape.side == CutoffSide::kFlat) {
-      add(Grade::kInfo, "cut-off", format("flat cut-off at V %+.2f deg, G %.3f", shape.flat_v_deg, shape.sharpness_g));
+      add(Grade::kInfo, "cut-off",
+          format("flat cut-off at V %+.2f deg, G %.3f", shape.flat_v_deg, shape.sharpness_g) + cut_side());
       return;
     }
     add(Grade::kInfo, "cut-off",
@@ -181,6 +182,19 @@ class Linter {
           "the cut-off rises to the left: for left-hand traffic" +
               std::string(says_left ? "" : "; if the lamp is not, the file is mirrored (--mirror)"));
     }
+  }
+
+  /// A flat part says nothing of the other side where that leaves the table before the light has fallen.
+  std::string cut_side() const {
+    const IntensityHv intensity = mounted_intensity(table_, glm::dmat3{1.0});
+    for (const double side : {-1.0, 1.0}) {
+      int outside = 0;
+      for (const double h : {1.5, 2.5, 3.5}) outside += find_cutoff(intensity, side * h).at_edge ? 1 : 0;
+      if (outside >= 2)
+        return std::string("; on the ") + (side < 0.0 ? "left" : "right") +
+               " the table ends before the light has fallen, so that a kink cannot be told";
+    }
+    return "";
   }
 
   /// A passing beam that shows its kink only when it is turned about its axis; a type C beam on its side.
