@@ -160,7 +160,7 @@ void reaim_one(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, CheckRo
       const auto snap = [](double x) { return std::abs(x) < 1e-12 ? 0.0 : x; };
       const HV shift{snap(radius * std::cos(angle)), snap(radius * std::sin(angle))};
       const CheckRow turned = judge_row(beam, rule, row, shift, false);
-      if (turned.margin > result.margin && !turned.no_data) result = turned;
+      if (turned.margin > result.margin && turned.has_value && turned.no_data <= result.no_data) result = turned;
     }
   }
 }
@@ -310,8 +310,8 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
     }
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rule.point_reaim_deg > 0.0 && options.reaim && rows[i].has_value && !rows[i].no_data &&
-        !passes(beam, rule.rows[i], rows[i]))
+    const bool open = rows[i].margin < 0.0 || (!rows[i].no_data && !passes(beam, rule.rows[i], rows[i]));
+    if (rule.point_reaim_deg > 0.0 && options.reaim && rows[i].has_value && open)
       reaim_row(beam, rule, rule.rows[i], rows[i]);
     conclude_row(beam, rule.rows[i], rows[i]);
     rows[i].at = rule.rows[i].at;
