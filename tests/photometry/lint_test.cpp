@@ -137,8 +137,16 @@ TEST(Lint, ABeamTurnedAboutItsAxisIsSuspected) {
     // The set's fog lamps have C 0 up, its low beams to the right: a quarter beside it the beam lies on its side.
     settings.c0_turn_deg = std::string(name) == "fog.ldt" ? 90.0 : 0.0;
     EXPECT_EQ(find(lint_lamp(*read_lamp(file, settings)), "turned"), nullptr) << name;
-    settings.c0_turn_deg += 90.0;
-    EXPECT_NE(find(lint_lamp(*read_lamp(file, settings)), "turned"), nullptr) << name;
+    for (const double beside : {90.0, 180.0, 270.0}) {
+      LampReadSettings turned = settings;
+      turned.c0_turn_deg += beside;
+      const LampReport report = lint_lamp(*read_lamp(file, turned));
+      ASSERT_NE(find(report, "turned"), nullptr) << name << " " << beside;
+      const std::string hint = beside == 90.0 ? "by -90 deg)" : beside == 180.0 ? "by +180 deg)" : "by +90 deg)";
+      if (std::string(name) == "low.ldt") {
+        EXPECT_NE(find(report, "turned")->text.find(hint), std::string::npos) << beside;
+      }
+    }
   }
 }
 

@@ -203,15 +203,20 @@ class Linter {
     if (as_read.side == CutoffSide::kRisesRight || as_read.side == CutoffSide::kRisesLeft) return;
     const bool c = table_.type == PhotometricType::kC;
     for (const double roll_deg : {180.0, 90.0, -90.0}) {
-      const CutoffShape turned =
-          cutoff_shape(mounted_intensity(table_, aim_rotation(0.0, 0.0, glm::radians(roll_deg))));
+      const IntensityHv rolled = mounted_intensity(table_, aim_rotation(0.0, 0.0, glm::radians(roll_deg)));
+      const double g = std::max(find_cutoff(rolled, -2.5).sharpness_g, find_cutoff(rolled, 2.5).sharpness_g);
+      if (g < kLeastCutoffG) continue;
+      const CutoffShape turned = cutoff_shape(rolled);
       const bool kinked = turned.side == CutoffSide::kRisesRight || turned.side == CutoffSide::kRisesLeft;
-      if (!kinked || turned.sharpness_g < std::max(kLeastCutoffG, as_read.sharpness_g)) continue;
+      // A flat edge is a lower one upside down only where the format leaves open how it lies.
+      const bool flat = c && roll_deg == 180.0 && as_read.side == CutoffSide::kNone && turned.side == CutoffSide::kFlat;
+      if (!(kinked || flat) || turned.sharpness_g < std::max(kLeastCutoffG, as_read.sharpness_g)) continue;
       add(Grade::kWarning, "turned",
-          (roll_deg == 180.0 ? std::string("the beam stands upside down")
-                             : std::string("the beam lies on its side")) +
-              ": a kinked cut-off shows when it is turned by " + (roll_deg == 180.0 ? "180" : "90") +
-              " deg about its axis" + (c ? "; plane C 0 may lie elsewhere (--c0)" : ""));
+          std::string(roll_deg == 180.0 ? "the beam stands upside down" : "the beam lies on its side") +
+              ": its cut-off shows when it is turned by " + (roll_deg == 180.0 ? "180" : "90") +
+              " deg about its axis" +
+              (c ? format("; plane C 0 may lie elsewhere (--c0 turned by %+.0f deg)", roll_deg == 180.0 ? 180.0 : -roll_deg)
+                 : ""));
       return;
     }
     const double tall = height_to_width();
