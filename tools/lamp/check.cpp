@@ -43,6 +43,7 @@ nlohmann::json as_json(const CheckResult& result) {
       one["sharpness_g"] = lamp.cutoff.sharpness_g;
       one["elevation_deg"] = lamp.cutoff.elevation_deg;
       one["resolution_deg"] = lamp.resolution_deg;
+      one["row_step_deg"] = lamp.row_step_deg;
     }
     lamps.push_back(std::move(one));
   }
@@ -87,8 +88,8 @@ void print_aim(const CheckResult& result) {
                 result.aim_unconfirmed.empty() ? "" : " *", lamp.up_deg, lamp.right_deg,
                 result.reaimed ? " (within the rule's re-aim allowance)" : "");
     if (lamp.cutoff.found)
-      std::printf("; cut-off at %+.3f deg, G %.3f, rows %.2g deg apart", lamp.cutoff.elevation_deg,
-                  lamp.cutoff.sharpness_g, lamp.resolution_deg);
+      std::printf("; cut-off at %+.3f +- %.2f deg, G %.3f, rows %.2g deg apart", lamp.cutoff.elevation_deg,
+                  lamp.resolution_deg, lamp.cutoff.sharpness_g, lamp.row_step_deg);
     std::printf("\n");
   }
 }

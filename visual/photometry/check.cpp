@@ -18,6 +18,9 @@ namespace phare {
 namespace {
 
 constexpr double kReaimStep_deg = 0.05;
+// How well rows tell the inflection. Our passing beams, G 0.27 to 0.57, filed on rows of 0.05° to 1° at any phase were
+// aimed within this (CoarseRowsTellTheAim measures it).
+constexpr double kFineRow_deg = 0.101, kFineAim_deg = 0.01, kAimOfWideRow_01 = 0.35;
 
 /// A row that is no candela of a place; `lowest` to `highest` is what the value may be.
 CheckRow measured(std::string id, std::string clause, std::string unit, double value, double lowest, double highest,
@@ -59,9 +62,11 @@ LampAim aim_by_cutoff(RuleBeam& beam, const CutoffAim& aim) {
     result.found = cutoff.found;
     if (!cutoff.found) {
       beam.set_aim(0, {});
-      break;
+      return result;
     }
     const double off = aim.line_v_deg - cutoff.elevation_deg;
+    const double step = beam.sharpness_range(0, aim.scan_h_deg, cutoff).row_step_deg;
+    result.resolution_deg = kFineAim_deg + (step > kFineRow_deg ? kAimOfWideRow_01 * step : 0.0);
     if (std::abs(off) < 0.003) break;
     beam.turn({0.0, off});
   }
@@ -76,7 +81,7 @@ void judge_cutoff(const RuleBeam& lamp, const CutoffAim& aim, const std::string&
   const Verdict none = cutoff.at_edge ? Verdict::kNoData : Verdict::kFail;
   RuleBeam::SharpnessRange range{cutoff.sharpness_g, cutoff.sharpness_g, 0.0};
   if (cutoff.found) range = lamp.sharpness_range(0, aim.scan_h_deg, cutoff);
-  result.resolution_deg = range.row_step_deg;
+  result.row_step_deg = range.row_step_deg;
   if (aim.sharpness_min > 0.0 || aim.sharpness_max < kNoMaximum) {
     CheckRow row = measured("cut-off sharpness G" + whose, aim.clause, "", cutoff.sharpness_g, range.lowest_g,
                             range.highest_g, aim.sharpness_min, aim.sharpness_max);
@@ -190,6 +195,17 @@ void reaim_row(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, CheckRo
   worst.highest_at = highest_at;
   worst.reaims = std::move(reaims);
   result = std::move(worst);
+}
+
+/// What the deciding value changes by when the beam is turned up or down by this.
+double change_by_aim(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, const CheckRow& at, double aim_deg) {
+  double most = 0.0;
+  for (const double side : {-aim_deg, aim_deg}) {
+    const CheckRow turned = judge_row(beam, rule, row, {at.reaim.h_deg, at.reaim.v_deg + side}, false);
+    if (turned.has_value)
+      most = std::max(most, std::abs(at.by_min ? turned.lowest - at.lowest : turned.highest - at.highest));
+  }
+  return most;
 }
 
 /// Of several aims (VOL, VOR) the one asked for, or that on the flat side of the kink; without a kink the sharper.
@@ -309,7 +325,14 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
       beam.set_aim(k, each[k].aim());
     }
   }
+  // Another aim within what the rows leave open counts, but for what the rule lets be re-aimed anyway.
+  double aim_open_deg = 0.0;
+  for (const LampAim& lamp : result.lamps) aim_open_deg = std::max(aim_open_deg, lamp.resolution_deg);
+  if (options.reaim && !result.reaimed)
+    aim_open_deg -= std::max(std::min(rule.reaim_up_deg, rule.reaim_down_deg), rule.point_reaim_deg);
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (aim_open_deg > 0.0 && rows[i].has_value)
+      rows[i].resolution = change_by_aim(beam, rule, rule.rows[i], rows[i], aim_open_deg);
     const bool open = rows[i].margin < 0.0 || (!rows[i].no_data && !passes(beam, rule.rows[i], rows[i]));
     if (rule.point_reaim_deg > 0.0 && options.reaim && rows[i].has_value && open)
       reaim_row(beam, rule, rule.rows[i], rows[i]);

@@ -53,7 +53,8 @@ struct LampAim {
   double up_deg = 0.0;          ///< turned by this from how the file has it
   double right_deg = 0.0;
   Cutoff cutoff;                ///< on the rule's scan, as aimed
-  double resolution_deg = 0.0;  ///< rows at the cut-off: the inflection is not known better
+  double row_step_deg = 0.0;    ///< of the table at the cut-off
+  double resolution_deg = 0.0;  ///< to this the rows tell the inflection
 };
 
 struct CheckResult {

@@ -169,8 +169,10 @@ void conclude_row(const RuleBeam& beam, const RuleRow& row, CheckRow& result) {
       const double error = beam.resolution_cd(p);
       if (std::isfinite(error)) result.resolution += error;
     }
+  } else if (row.shape == RowShape::kPeak) {
+    result.resolution += beam.peak_resolution_cd({tightest.h_deg - result.reaim.h_deg, tightest.v_deg - result.reaim.v_deg});
   } else if (result.has_value) {
-    result.resolution = beam.resolution_cd({tightest.h_deg - result.reaim.h_deg, tightest.v_deg - result.reaim.v_deg});
+    result.resolution += beam.resolution_cd({tightest.h_deg - result.reaim.h_deg, tightest.v_deg - result.reaim.v_deg});
   }
   const bool close = std::abs(result.margin) < result.resolution;
   result.verdict = close ? Verdict::kWithinResolution : result.margin >= 0.0 ? Verdict::kPass : Verdict::kFail;

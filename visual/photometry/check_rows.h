@@ -11,7 +11,7 @@ namespace phare {
 /// second order); `coarse` walks in 0.25° for searches.
 CheckRow judge_row(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, HV shift, bool coarse);
 
-/// Adds resolution and verdict.
+/// Adds to the resolution what interpolation and digits leave open, and tells the verdict.
 void conclude_row(const RuleBeam& beam, const RuleRow& row, CheckRow& result);
 
 }  // namespace phare

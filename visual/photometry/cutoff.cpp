@@ -13,6 +13,7 @@ constexpr double kFineStep_deg = 0.01;
 constexpr double kFloorShare = 1e-4;  // of the scan's highest: four decades, more than a photometer holds in one range
 constexpr double kFaintShare = 0.02;
 constexpr double kLeastG = 0.05;
+constexpr double kWidestRow_deg = 2.0;
 constexpr double kLeastRuleG = 0.13;  // UN R112 annex 9, FMVSS 108: what the rules accept as a cut-off
 
 /// A straight line through points by least squares.
@@ -97,6 +98,62 @@ Cutoff steepest(const Scan& scan, Evidence worst) {
   return result;
 }
 
+/// Candela that are linear between rows bend in the logarithm, which draws the steepest 0.1° towards a row's dark end.
+/// At the rows themselves log E is known: the mean slopes over so many rows as span 0.1°, and the top of a parabola
+/// through the steepest and its neighbours.
+void settle_on_rows(const IntensityHv& intensity, double h_deg, const Scan& scan, Evidence worst, Cutoff& cutoff) {
+  const auto row_at = [&](double v_deg) { return intensity.row(h_deg, v_deg); };
+  const std::size_t row = row_at(cutoff.elevation_deg);
+  double below = kFineStep_deg, above = kFineStep_deg;
+  while (below < kWidestRow_deg && row_at(cutoff.elevation_deg - below) == row) below += kFineStep_deg;
+  while (above < kWidestRow_deg && row_at(cutoff.elevation_deg + above) == row) above += kFineStep_deg;
+  const double reach = 3.5 * (below + above) + kSpan_deg;
+  struct Row {
+    double v_deg, log_e;
+    bool bright;
+  };
+  std::vector<Row> rows;
+  for (std::size_t i = 1; i < scan.cd.size(); ++i) {
+    double low = scan.from_v_deg + kFineStep_deg * static_cast<double>(i - 1), high = low + kFineStep_deg;
+    if (high < cutoff.elevation_deg - reach) continue;
+    if (low > cutoff.elevation_deg + reach) break;
+    if (scan.evidence[i] > worst || scan.evidence[i - 1] > worst) {
+      if (low > cutoff.elevation_deg) break;
+      rows.clear();  // only rows without a gap
+      continue;
+    }
+    const std::size_t lower_row = row_at(low);
+    if (row_at(high) == lower_row) continue;
+    for (int halving = 0; halving < 10; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (row_at(middle) == lower_row ? low : high) = middle;
+    }
+    const double cd = intensity(h_deg, low);
+    rows.push_back({low, std::log10(std::max(cd, kFloorShare * scan.highest_cd)), cd >= kFaintShare * scan.highest_cd});
+  }
+  struct Slope {
+    double v_deg, low_v_deg, high_v_deg, per_deg;
+  };
+  std::vector<Slope> slopes;
+  std::size_t top = 0;
+  for (std::size_t k = 0, last = 0; k < rows.size(); ++k) {
+    while (last < rows.size() && rows[last].v_deg - rows[k].v_deg < kSpan_deg - 1e-4) ++last;
+    if (last == rows.size()) break;
+    const double span = rows[last].v_deg - rows[k].v_deg;
+    slopes.push_back({0.5 * (rows[k].v_deg + rows[last].v_deg), rows[k].v_deg, rows[last].v_deg,
+                      (rows[k].log_e - rows[last].log_e) / span});
+    if (rows[k].bright && slopes.back().per_deg > slopes[top].per_deg) top = k;
+  }
+  if (slopes.empty()) return;
+  cutoff.elevation_deg = slopes[top].v_deg;
+  if (top == 0 || top + 1 == slopes.size()) return;
+  const double x0 = slopes[top - 1].v_deg - slopes[top].v_deg, x2 = slopes[top + 1].v_deg - slopes[top].v_deg;
+  const double d0 = (slopes[top - 1].per_deg - slopes[top].per_deg) / x0;
+  const double d2 = (slopes[top + 1].per_deg - slopes[top].per_deg) / x2;
+  const double bend = (d2 - d0) / (x2 - x0);
+  if (bend < 0.0) cutoff.elevation_deg += std::clamp(-0.5 * (d0 - bend * x0) / bend, 0.5 * x0, 0.5 * x2);
+}
+
 /// Index of the cell's lower node; false outside the range, whose limits belong to it.
 bool cell_of(const std::vector<double>& nodes, double at, std::size_t& index) {
   if (nodes.size() < 2 || !(at >= nodes.front() && at <= nodes.back())) return false;
@@ -121,12 +178,22 @@ Evidence evidence_of(const IntensityTable& table, const glm::dvec3& direction) {
   return std::min({row[0], row[1], next_row[0], next_row[1]}) > 0.0 ? Evidence::kLit : Evidence::kDark;
 }
 
+std::size_t row_of(const IntensityTable& table, const glm::dvec3& direction) {
+  const TableAngles angles = table.angles_of(direction);
+  std::size_t i = 0, j = 0;
+  if (!cell_of(table.first_deg, angles.first_deg, i) || !cell_of(table.second_deg, angles.second_deg, j)) return 0;
+  return 1 + j + (table.type == PhotometricType::kC ? table.second_deg.size() * i : 0);
+}
+
 IntensityHv mounted_intensity(const IntensityTable& table, const glm::dmat3& car_from_lamp, double scale) {
   IntensityHv intensity = [&table, car_from_lamp, scale](double h_deg, double v_deg) {
     return scale * table.intensity_cd(direction_hv(h_deg, v_deg) * car_from_lamp);
   };
   intensity.evidence = [&table, car_from_lamp](double h_deg, double v_deg) {
     return evidence_of(table, direction_hv(h_deg, v_deg) * car_from_lamp);
+  };
+  intensity.row = [&table, car_from_lamp](double h_deg, double v_deg) {
+    return row_of(table, direction_hv(h_deg, v_deg) * car_from_lamp);
   };
   return intensity;
 }
@@ -147,10 +214,16 @@ Cutoff find_cutoff(const IntensityHv& intensity, double h_deg, double from_v_deg
     scan.evidence.push_back(evidence);
     scan.highest_cd = std::max(scan.highest_cd, cd);
   }
-  const Cutoff lit = steepest(scan, Evidence::kLit);
-  if (!any_dark || (lit.found && lit.sharpness_g >= kLeastRuleG)) return lit;
-  const Cutoff dark = steepest(scan, Evidence::kDark);
-  return dark.found ? dark : lit;
+  Cutoff cutoff = steepest(scan, Evidence::kLit);
+  Evidence worst = Evidence::kLit;
+  if (any_dark && !(cutoff.found && cutoff.sharpness_g >= kLeastRuleG)) {
+    if (const Cutoff dark = steepest(scan, Evidence::kDark); dark.found) {
+      cutoff = dark;
+      worst = Evidence::kDark;
+    }
+  }
+  if (cutoff.found && intensity.row) settle_on_rows(intensity, h_deg, scan, worst, cutoff);
+  return cutoff;
 }
 
 CutoffShape cutoff_shape(const IntensityHv& intensity) {

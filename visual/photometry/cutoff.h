@@ -17,7 +17,11 @@ enum class Evidence { kLit, kDark, kNone };
 struct IntensityHv : std::function<double(double h_deg, double v_deg)> {
   using std::function<double(double, double)>::function;
   std::function<Evidence(double h_deg, double v_deg)> evidence;  ///< empty: kLit where there is light, else kDark
+  std::function<std::size_t(double h_deg, double v_deg)> row;    ///< between which rows that is; empty: not known
 };
+
+/// A number that is the same as long as a vertical scan stays between two rows of the table (type C: in one cell).
+std::size_t row_of(const IntensityTable& table, const glm::dvec3& direction);
 
 /// Of a direction in the lamp frame. A table that reaches 90° to both sides covers what lies behind it, too: kDark.
 Evidence evidence_of(const IntensityTable& table, const glm::dvec3& direction);
@@ -30,7 +34,8 @@ struct Cutoff {
   bool found = false;          ///< false: nothing like a cut-off on this scan (G below 0.05, or `at_edge`)
   bool at_edge = false;        ///< the light falls steepest where the data end: the inflection may lie outside them
   double sharpness_g = 0.0;    ///< max of log10 E(b) - log10 E(b + 0.1°) in steps of 0.05°
-  double elevation_deg = 0.0;  ///< inflection of log10 E: the middle of the steepest 0.1°, to about 0.005°
+  double elevation_deg = 0.0;  ///< inflection of log10 E: the middle of the steepest 0.1°, by the values
+                               ///< at the rows where they are known; to about 0.01° on rows up to 0.1° apart
 };
 
 /// Scans at `h_deg` between two elevations. Light below 2 % of the scan's highest is no cut-off, however steep; nor is

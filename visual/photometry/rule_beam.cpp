@@ -120,6 +120,28 @@ double RuleBeam::resolution_cd(HV p) const {
   return sum / static_cast<double>(lamps());
 }
 
+double RuleBeam::peak_resolution_cd(HV node) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < lamps(); ++k) {
+    const IntensityTable& table = *tables_[k];
+    const TableAngles at = onto_limits(table, table.angles_of(in_lamp(k, node.h_deg, node.v_deg)));
+    const auto middles = [](const std::vector<double>& nodes, double x) {
+      std::vector<double> result;
+      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        if (nodes[i] <= x + 1e-6 && nodes[i + 1] >= x - 1e-6) result.push_back(0.5 * (nodes[i] + nodes[i + 1]));
+      }
+      return result;
+    };
+    double most = 0.0;
+    for (const double first : middles(table.first_deg, at.first_deg)) {
+      for (const double second : middles(table.second_deg, at.second_deg))
+        most = std::max(most, interpolation_error_cd(table, {first, second}));
+    }
+    sum += most;
+  }
+  return sum / static_cast<double>(lamps());
+}
+
 const std::vector<RuleBeam::Node>& RuleBeam::nodes() {
   if (!nodes_.empty()) return nodes_;
   for (std::size_t k = 0; k < lamps(); ++k) {
@@ -163,28 +185,16 @@ IntensityHv RuleBeam::intensity() const {
       worst = std::max(worst, evidence_of(*tables_[k], in_lamp(k, h_deg, v_deg)));
     return worst;
   };
+  if (lamps() == 1)
+    intensity.row = [this](double h_deg, double v_deg) { return row_of(*tables_[0], in_lamp(0, h_deg, v_deg)); };
   return intensity;
 }
 
 RuleBeam::SharpnessRange RuleBeam::sharpness_range(std::size_t lamp, double h_deg, const Cutoff& cutoff) const {
   const IntensityTable& table = *tables_[lamp];
-  struct Place {
-    std::size_t i = 0, j = 0;
-    bool operator==(const Place&) const = default;
-  };
-  const auto cell = [&](double v_deg, Place& place) {
-    const TableAngles angles = table.angles_of(in_lamp(lamp, h_deg, v_deg));
-    double share = 0.0;
-    return place_in(table.first_deg, angles.first_deg, place.i, share) &&
-           place_in(table.second_deg, angles.second_deg, place.j, share);
-  };
-  // From the inflection down and up to where the scan leaves its cell.
-  Place start;
-  cell(cutoff.elevation_deg, start);
-  const auto in_start = [&](double v_deg) {
-    Place place;
-    return cell(v_deg, place) && place == start;
-  };
+  // From the inflection down and up to where the scan leaves its rows.
+  const std::size_t start = row_of(table, in_lamp(lamp, h_deg, cutoff.elevation_deg));
+  const auto in_start = [&](double v_deg) { return row_of(table, in_lamp(lamp, h_deg, v_deg)) == start; };
   const auto edge = [&](double direction) {
     double inside = 0.0, outside = 0.0;
     while (outside < kWidestRow_deg && in_start(cutoff.elevation_deg + direction * outside)) {

@@ -37,6 +37,8 @@ class RuleBeam {
   Value at(double h_deg, double v_deg) const;
   /// What interpolation and digits leave open, cd; infinite where there is no data.
   double resolution_cd(HV p) const;
+  /// At a node: what may stand higher in the cells about it, cd.
+  double peak_resolution_cd(HV node) const;
   /// Every node of the tables. Made when first asked for.
   const std::vector<Node>& nodes();
   Node peak();
