@@ -223,6 +223,13 @@ TEST(CheckEvidence, CoarseRowsTellTheAim) {
   }
 }
 
+// Scans in steps of 0.01° fall on rows of 0.05° to the last bit: none of them may be missed.
+TEST(CheckEvidence, NoRowIsMissed) {
+  const IntensityHv intensity = mounted_intensity(sample_table("low_rht.ies"), glm::dmat3{1.0});
+  for (const double from : {-4.0, -3.99, -3.95, -2.0, -1.0 / 3.0})
+    EXPECT_NEAR(find_cutoff(intensity, -2.5, from).elevation_deg, -0.0060, 0.001) << from;
+}
+
 // No row may pass or fail that does otherwise in truth, and values lie within the resolution told. On rows of 1°, of
 // which the linter warns, a cut-off falls between two rows: there 6 of 225 values lie outside.
 TEST(CheckEvidence, CoarseRowsNeverPassOrFailAgainstTheTruth) {

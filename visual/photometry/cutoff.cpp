@@ -50,6 +50,8 @@ struct Scan {
   double highest_cd = 0.0;
   std::vector<double> cd;
   std::vector<Evidence> evidence;
+
+  double v_deg(std::size_t i) const { return from_v_deg + kFineStep_deg * static_cast<double>(i); }
 };
 
 /// The steepest 0.1° among samples with no worse evidence than `worst`.
@@ -114,7 +116,7 @@ void settle_on_rows(const IntensityHv& intensity, double h_deg, const Scan& scan
   };
   std::vector<Row> rows;
   for (std::size_t i = 1; i < scan.cd.size(); ++i) {
-    double low = scan.from_v_deg + kFineStep_deg * static_cast<double>(i - 1), high = low + kFineStep_deg;
+    double low = scan.v_deg(i - 1), high = scan.v_deg(i);  // the next low is this high to the bit: no row is missed
     if (high < cutoff.elevation_deg - reach) continue;
     if (low > cutoff.elevation_deg + reach) break;
     if (scan.evidence[i] > worst || scan.evidence[i - 1] > worst) {
