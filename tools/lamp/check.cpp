@@ -5,6 +5,7 @@
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/print_json.h"
 
 namespace phare {
 namespace {
@@ -144,7 +145,7 @@ int lamp_check(const LampCheckOptions& options) {
       print(result, names);
     }
   }
-  if (options.json) std::printf("%s\n", (all.size() == 1 ? all.front() : all).dump(2).c_str());
+  if (options.json) print_json(all.size() == 1 ? all.front() : all);
   return failed ? kExitCheckFailed : kExitDone;
 }
 

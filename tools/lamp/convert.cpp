@@ -8,6 +8,7 @@
 #include "tools/lamp/lamp_commands.h"
 #include "visual/photometry/combine.h"
 #include "visual/photometry/file_text.h"
+#include "visual/photometry/whole_file.h"
 #include "visual/photometry/write_lamp.h"
 
 namespace phare {
@@ -59,16 +60,17 @@ int lamp_convert(const LampConvertOptions& options) {
                                                 : lm63_text(table);
   if (const Status written = write_whole_file(options.out, text); !written) return bad_input(written.error());
 
-  // Read back what stands on the disk: the truth about the round trip.
+  // Read back what was written: the truth about the round trip.
   LampReadSettings settings;
   settings.axis = format == "eulumdat" ? GammaAxis::kGamma0 : table.axis;
   settings.format = format == "eulumdat" ? LampFormat::kEulumdat
                     : format == "csv"    ? LampFormat::kCsv
                                          : LampFormat::kLm63;
-  const auto back = read_lamp(options.out, settings);
+  const auto back = parse_lamp(text, options.out, settings);
   if (!back) return bad_input(back.error());
   const double worst = worst_at_nodes(table, *back);
-  std::printf("%s: %s, type %d, %zu × %zu values; worst difference at a node of the input %.3g cd (%.2g of the peak)\n",
+  std::FILE* const words = is_standard_output(options.out) ? stderr : stdout;
+  std::fprintf(words, "%s: %s, type %d, %zu × %zu values; worst difference at a node of the input %.3g cd (%.2g of the peak)\n",
               options.out.c_str(), back->version.c_str(), static_cast<int>(back->type), back->first_deg.size(),
               back->second_deg.size(), worst, worst / std::max(table.peak_cd(), 1e-300));
   return kExitDone;

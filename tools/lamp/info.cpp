@@ -5,6 +5,7 @@
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/print_json.h"
 #include "visual/photometry/lint.h"
 #include "visual/photometry/points_file.h"
 
@@ -115,7 +116,7 @@ int lamp_info(const LampInfoOptions& options) {
   }
   if (options.json) {
     const nlohmann::json& shown = all.size() == 1 ? all.front() : all;
-    std::printf("%s\n", shown.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    print_json(shown);
   }
   return kExitDone;
 }
@@ -125,7 +126,7 @@ int lamp_table(const LampTableOptions& options) {
   if (!table) return bad_input(table.error());
   const auto angles = read_angles(options.at);
   if (!angles) return bad_input(angles.error());
-  if (const Status written = write_intensity(options.out, *angles, *table); !written) return bad_input(written.error());
+  if (const Status written = write_intensity(options.out.empty() ? "-" : options.out, *angles, *table); !written) return bad_input(written.error());
   return kExitDone;
 }
 

@@ -58,7 +58,7 @@ void add_table(CLI::App* lamp, Command& chosen) {
   command->footer("Example:\n  phare lamp table low_beam.ies --at angles.csv --out intensity.csv");
   command->add_option("file", options->file, "Photometry file")->required();
   command->add_option("--at", options->at, "CSV with h_deg,v_deg")->required();
-  command->add_option("--out", options->out, "CSV to write; adds intensity_cd")->default_val("/dev/stdout");
+  command->add_option("--out", options->out, "CSV to write; adds intensity_cd [standard output]");
   add_reading(command, options->settings);
   run_with(command, options, chosen, lamp_table);
 }
@@ -123,6 +123,7 @@ void add_compare(CLI::App* lamp, Command& chosen) {
   command->add_option("b", options->b, "Photometry file B")->required();
   command->add_option("--out", options->out, "Folder for ratio and difference as .svg and .png");
   command->add_flag("!--no-align", options->align, "Compare as filed");
+  command->add_flag("--mirror-b", options->mirror_b, "Turn B left to right first");
   command->add_option("--height", options->height_m, "Height of the lamps above the road, m")->capture_default_str();
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);

@@ -45,7 +45,7 @@ int lamp_convert(const LampConvertOptions& options);
 struct LampCompareOptions {
   std::string a, b, out;
   LampReadSettings settings;
-  bool align = true, json = false;
+  bool align = true, mirror_b = false, json = false;
   double height_m = 0.65;
 };
 int lamp_compare(const LampCompareOptions& options);

@@ -6,6 +6,7 @@
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/print_json.h"
 #include "visual/photometry/beam_composer.h"
 #include "visual/photometry/image_levels.h"
 #include "visual/photometry/sample_lamps.h"
@@ -110,7 +111,7 @@ int lamp_levels(const LampLevelsOptions& options) {
           b["sampling_36_sources_ms"].get<double>());
     }
   }
-  if (options.json) std::printf("%s\n", json.dump(2).c_str());
+  if (options.json) print_json(json);
   return kExitDone;
 }
 

@@ -108,7 +108,7 @@ double road_lux(const std::vector<RoadLamp>& lamps, double x_m, double y_m, doub
     const double r2 = d.x * d.x + d.y * d.y + d.z * d.z;
     const double cosine_r = facing ? d.x : -d.z;
     if (cosine_r <= 0.0) continue;
-    const glm::dmat3 car_from_lamp = aim_rotation(0.0, glm::radians(lamp.pitch_deg), 0.0);
+    const glm::dmat3 car_from_lamp = aim_rotation(glm::radians(lamp.yaw_deg), glm::radians(lamp.pitch_deg), 0.0);
     lux += lamp.table->intensity_cd(d * car_from_lamp) * cosine_r / (r2 * std::sqrt(r2));
   }
   return lux;

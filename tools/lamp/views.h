@@ -15,7 +15,8 @@ namespace phare {
 struct RoadLamp {
   const IntensityTable* table = nullptr;
   double y_m = 0.0, z_m = 0.65;
-  double pitch_deg = 0.0;
+  double pitch_deg = 0.0;  ///< up positive
+  double yaw_deg = 0.0;    ///< left positive
 };
 
 /// Lux at a point of the road from all lamps; `facing`: on a vertical plane that faces the car, else on the road.

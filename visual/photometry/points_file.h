@@ -30,8 +30,8 @@ struct PointsFile {
 /// skipped.
 Result<PointsFile> read_points(const std::filesystem::path& path);
 
-/// Writes the input's columns and illuminance_lx, illuminance_lx_1 … _n, with 17 significant digits. The file appears
-/// whole or not at all. `illuminance` belongs to `points.rows`, row by row, all with the same number of lamps.
+/// Writes the input's columns and illuminance_lx, illuminance_lx_1 … _n, with 17 significant digits, by
+/// write_whole_file. `illuminance` belongs to `points.rows`, row by row, all with the same number of lamps.
 Status write_illuminance(const std::filesystem::path& path, const PointsFile& points,
                          std::span<const Illuminance> illuminance);
 

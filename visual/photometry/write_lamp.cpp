@@ -1,13 +1,7 @@
 #include "visual/photometry/write_lamp.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 
 #include "visual/photometry/combine.h"
 #include "visual/photometry/file_text.h"
@@ -149,23 +143,6 @@ std::string csv_text(const IntensityTable& given) {
     text += '\n';
   }
   return text;
-}
-
-Status write_whole_file(const std::string& path, const std::string& content) {
-  const std::string temporary = path + ".part" + std::to_string(::getpid());
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (file == nullptr) return Error{path, std::string("cannot be written: ") + std::strerror(errno)};
-  const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
-  const bool closed = std::fclose(file) == 0;
-  const int cause = errno;
-  std::error_code code;
-  if (written && closed) {
-    std::filesystem::rename(temporary, path, code);
-    if (!code) return Done{};
-  }
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  return Error{path, "cannot be written: " + (code ? code.message() : std::string(std::strerror(cause)))};
 }
 
 }  // namespace phare

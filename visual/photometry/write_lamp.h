@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "config/result.h"
 #include "visual/photometry/intensity_table.h"
 
 namespace phare {
@@ -19,8 +18,5 @@ std::string eulumdat_text(const IntensityTable& table);
 
 /// A candela grid as CSV with its remarks.
 std::string csv_text(const IntensityTable& table);
-
-/// Writes beside `path`, then renames: a reader sees the old file or the whole new one.
-Status write_whole_file(const std::string& path, const std::string& content);
 
 }  // namespace phare
