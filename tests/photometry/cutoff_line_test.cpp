@@ -95,11 +95,13 @@ TEST(Kink, OfEveryRise) {
 
 TEST(Alignment, UndoesATurn) {
   for (const char* file : {"low_rht.ies", "led_low_rht.ies"}) {
-    for (const double right : {-2.0, -0.5, 1.5, 2.0}) {
+    for (const double right : {-2.0, -1.2, 0.5, 1.5}) {
       for (const double up : {0.0, 1.0}) {
         const CutoffAlignment turn = align(own_lamp(file), moved(own_lamp(file), right, up));
         EXPECT_TRUE(turn.aligned && turn.right_known) << file << " " << right << " " << up;
-        EXPECT_NEAR(turn.right_deg, -right, kSideways_deg) << file << " " << right << " " << up;
+        // Light about the cut-off places a copy better than scans do. Both moves at once are no turn: right·up of roll
+        // over 57°, 2.5° off the kink on a 15° rise.
+        EXPECT_NEAR(turn.right_deg, -right, 0.1 * kSideways_deg + 0.01 * std::abs(right * up)) << file << " " << right << " " << up;
         // Moved angles are a turn only near the axis: 5° aside by 1° · (1 - cos 5°).
         EXPECT_NEAR(turn.up_deg, -up, kUpward_deg + 0.004 * std::abs(up)) << file << " " << right << " " << up;
         EXPECT_LT(turn.apart_deg, 0.01) << file << " " << right << " " << up;
@@ -109,7 +111,18 @@ TEST(Alignment, UndoesATurn) {
   const auto step = [](double foot) {
     return beam([=](double h) { return std::clamp(h - foot, 0.0, 0.75); });
   };
-  EXPECT_NEAR(align(step(0.0), step(1.0)).right_deg, -1.0, kSideways_deg);
+  for (const double foot : {-1.0, 0.3, 1.0}) {
+    const CutoffAlignment turn = align(step(0.0), step(foot));
+    EXPECT_TRUE(turn.right_known) << foot;
+    EXPECT_NEAR(turn.right_deg, -foot, kSideways_deg) << foot;
+  }
+}
+
+// Different beams whose formulas have their kinks at H = V = 0: nothing to turn.
+TEST(Alignment, DifferentBeamsByTheirLines) {
+  const CutoffAlignment turn = align(own_lamp("low_rht.ies"), own_lamp("led_low_rht.ies"));
+  EXPECT_NEAR(turn.right_deg, 0.0, kSideways_deg);
+  EXPECT_NEAR(turn.up_deg, 0.0, kUpward_deg);
 }
 
 TEST(Alignment, SaysWhatItDoesNotKnow) {

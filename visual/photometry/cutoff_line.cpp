@@ -19,7 +19,8 @@ constexpr double kWindow_deg = 3.0;       // on each side of a kink: short of th
 constexpr double kLeastKink_deg = 0.03;   // rms by which the best straight line misses the cut-off; a 15° kink: 0.12°
 constexpr double kScan_deg = 0.01;        // what a scan may be off by
 constexpr double kLeastRise = 0.09;       // slope of the ramp: 5°
-constexpr double kRuleRow_deg = 0.05;     // what UN R112 annex 9 scans in
+constexpr double kRuleRow_deg = 0.051;    // UN R112 annex 9 scans in 0.05°
+constexpr double kOneBeam_log = 0.01;     // 2.3 %: two files of one beam
 constexpr double kRamps_deg[] = {0.3, 0.45, 0.6, 0.75, 0.9, 1.2, 1.6, 2.2, kWindow_deg};
 
 /// Straight line plus ramp: v = offset + slope·x + rise·clamp(x, 0, length), x outward from the foot.
@@ -127,13 +128,18 @@ double cell_height_deg(const IntensityTable& table, double h_deg, double v_deg) 
   return highest - lowest;
 }
 
-/// One Gauss-Newton step of log E of B onto log E of A in a band about A's cut-off; right, up. A difference in level is
-/// free, and one in contrast or sharpness is odd about the line and does not move it.
-glm::dvec2 band_step(const IntensityHv& a, const IntensityHv& b, const CutoffLine& line, bool sideways) {
+/// One Gauss-Newton step of log E of B onto log E of A in a band about A's cut-off. A difference in level is free, and
+/// one in contrast or sharpness is mostly odd about the line and moves it little.
+struct BandStep {
+  glm::dvec2 turn_deg{0.0};  ///< right, up
+  double rms_log = 0.0;      ///< what of log10 E differs before the step, level aside
+};
+BandStep band_step(const IntensityHv& a, const IntensityHv& b, const CutoffLine& line, bool sideways) {
   constexpr double kBand_deg = 0.75, kBandStep_deg = 0.05, kProbe_deg = 0.05;
   const auto log_cd = [](double cd) { return std::log10(std::max(cd, 1.0)); };
   glm::dmat3 m(0.0);
   glm::dvec3 r(0.0);
+  double squares = 0.0;
   for (std::size_t i = 0; i < line.h_deg.size(); i += 2) {
     const double h = line.h_deg[i];
     for (double off = -kBand_deg; off <= kBand_deg + 1e-9; off += kBandStep_deg) {
@@ -143,13 +149,16 @@ glm::dvec2 band_step(const IntensityHv& a, const IntensityHv& b, const CutoffLin
           sideways ? (log_cd(b(h - kProbe_deg, v)) - log_cd(b(h + kProbe_deg, v))) / (2.0 * kProbe_deg) : 0.0;
       const glm::dvec3 slope{right, up, 1.0};
       for (int k = 0; k < 3; ++k) m[k] += slope * slope[k];
-      r += slope * (log_cd(a(h, v)) - log_cd(b(h, v)));
+      const double off_log = log_cd(a(h, v)) - log_cd(b(h, v));
+      r += slope * off_log;
+      squares += off_log * off_log;
     }
   }
+  const double n = m[2][2];
   if (!sideways) m[0][0] = 1.0;
-  if (!(std::abs(glm::determinant(m)) > 1e-9)) return {0.0, 0.0};
+  if (!(std::abs(glm::determinant(m)) > 1e-9)) return {};
   const glm::dvec3 step = glm::inverse(m) * r;
-  return {step.x, step.y};
+  return {{step.x, step.y}, std::sqrt(std::max(0.0, squares / n - r.z / n * (r.z / n)))};
 }
 
 bool kinked(const CutoffShape& shape) {
@@ -213,15 +222,13 @@ LineShift align_lines(const CutoffLine& a, const CutoffLine& b, double a_kink_h_
       if (!std::isnan(v)) off.push_back(a.v_deg[i] - v);
     }
     if (off.size() < 10 || off.size() < asked / 2) return result;
+    constexpr double kBeside_deg = 0.25;  // a scan further off took another edge for the cut-off
     const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
     std::nth_element(off.begin(), middle, off.end());
     result.up_deg = *middle;
-    for (double& d : off) d = std::abs(d - result.up_deg);
-    // A tenth may be beside the line: scans that took another edge for the cut-off.
-    std::sort(off.begin(), off.end());
-    const std::size_t kept = off.size() - off.size() / 10;
     result.apart_deg = 0.0;
-    for (std::size_t i = 0; i < kept; ++i) result.apart_deg += off[i] / static_cast<double>(kept);
+    for (const double d : off)
+      result.apart_deg += std::min(std::abs(d - result.up_deg), kBeside_deg) / static_cast<double>(off.size());
     return result;
   };
   double best_right = start_right_deg;
@@ -267,30 +274,32 @@ CutoffAlignment align_cutoffs(const IntensityTable& a, const IntensityTable& b, 
         mounted_intensity(b, aim_rotation(-glm::radians(result.right_deg), glm::radians(result.up_deg), 0.0));
     const CutoffLine line_b = cutoff_line(turned, centre - 6.0, centre + 6.0, 0.1);
     const LineShift shift = align_lines(line_a, line_b, centre, 0.0, both ? reach : 0.0);
-    result.right_known = both && shift.right_known;
-    if (result.right_known) result.right_deg += shift.right_deg;
+    if (reach > 0.5) result.right_known = both && shift.right_known;
+    result.right_deg = result.right_known ? result.right_deg + shift.right_deg : 0.0;
     result.up_deg += shift.up_deg;
     result.apart_deg = shift.apart_deg;
   }
-  // Between rows wider than the rules' 0.05° the steepest place of the interpolation is not the beam's. Within what that
-  // leaves open, the light about the cut-off decides.
   const double rise = glm::radians(std::clamp(shape_a.rise_deg, 5.0, 45.0));
   const double row_deg = std::max(cell_height_deg(a, centre - 2.5, shape_a.flat_v_deg),
                                   cell_height_deg(b, centre - 2.5 - result.right_deg, shape_b.flat_v_deg));
   result.up_open_deg = row_deg;  // half a row for each of the two
   result.right_open_deg = result.right_known ? row_deg / std::tan(rise) : 0.0;
-  if (row_deg <= 1.02 * kRuleRow_deg) return result;
+  // The steepest place of an interpolated table jumps from row to row. Within what that leaves open, the light about the
+  // cut-off decides: where rows are wider than the rules scan, and between copies of one beam, where it is exact.
   const glm::dvec2 at{result.right_deg, result.up_deg};
   const glm::dvec2 open{result.right_open_deg, result.up_open_deg};
   glm::dvec2 turn = at;
+  double rms_log = 0.0;
   for (int round = 0; round < 6; ++round) {
     const IntensityHv turned = mounted_intensity(b, aim_rotation(-glm::radians(turn.x), glm::radians(turn.y), 0.0));
-    turn += glm::clamp(band_step(mounted_intensity(a, glm::dmat3{1.0}), turned, line_a, result.right_known),
-                       glm::dvec2(-0.2), glm::dvec2(0.2));
-    turn = glm::clamp(turn, at - open, at + open);
+    const BandStep step = band_step(mounted_intensity(a, glm::dmat3{1.0}), turned, line_a, result.right_known);
+    rms_log = step.rms_log;
+    turn = glm::clamp(turn + glm::clamp(step.turn_deg, glm::dvec2(-0.2), glm::dvec2(0.2)), at - open, at + open);
   }
-  result.right_deg = turn.x;
-  result.up_deg = turn.y;
+  if (row_deg > kRuleRow_deg || rms_log < kOneBeam_log) {
+    result.right_deg = turn.x;
+    result.up_deg = turn.y;
+  }
   return result;
 }
 
