@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,16 @@ struct Axes {
   double y(double value) const { return top + (y_max - value) / (y_max - y_min) * height; }
 };
 
+/// Where a label may stand: left (-1), middle (0) or right (1) of the point, at its height.
+struct LabelPlace {
+  double x = 0, y = 0;
+  int align = 0;
+};
+
 class Chart {
  public:
-  explicit Chart(cairo_t* cairo) : cairo_(cairo) {}
+  /// `svg_text`: texts are not drawn but written there as SVG elements, so that they stay text.
+  explicit Chart(cairo_t* cairo, std::string* svg_text = nullptr) : cairo_(cairo), svg_text_(svg_text) {}
 
   void rectangle(double x, double y, double w, double h, Rgb fill);
   void line(const std::vector<std::array<double, 2>>& points, Rgb colour, double width, bool closed = false,
@@ -41,6 +49,11 @@ class Chart {
   /// align: -1 left, 0 middle, 1 right of the point, at its height. `halo`: a rim that stands out from pictures.
   void text(double x, double y, const std::string& text, double size, int align, Rgb colour, bool bold = false,
             bool halo = false);
+  /// A text at the first of the places where it is inside the clip and on no other label. False: nowhere.
+  bool label(const std::vector<LabelPlace>& places, const std::string& text, double size, Rgb colour, bool bold = true,
+             bool halo = true);
+  /// Labels keep off this box.
+  void keep_free(double left, double top, double width, double height);
   void vertical_text(double x, double y, const std::string& text, double size, Rgb colour);
   /// A picture of columns × rows pixels over the axes' rectangle, first row at the top.
   void picture(const Axes& axes, std::size_t columns, std::size_t rows,
@@ -53,7 +66,14 @@ class Chart {
   void end_clip();
 
  private:
+  struct Box {
+    double left, top, right, bottom;
+  };
   cairo_t* cairo_;
+  std::string* svg_text_;
+  double turned_deg_ = 0.0;  ///< of texts
+  std::optional<Axes> clip_;
+  std::vector<Box> taken_;
 };
 
 /// Lines of equal value on a grid of columns × rows in axis coordinates, joined to long lines.
@@ -63,9 +83,20 @@ struct Contour {
 std::vector<Contour> contours(const std::vector<double>& values, const std::vector<double>& x,
                               const std::vector<double>& y, double level);
 
-/// Draws contours with their label on the longest.
+/// A label that waits until everything it could hide is drawn.
+struct PendingLabel {
+  std::string text;
+  Rgb colour;
+  std::vector<LabelPlace> places;
+};
+
+/// Draws contours; `labels` gets the name for the longest of them, unless that is too short to be named.
 void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& lines, Rgb colour, double width,
-                   const std::string& label, bool halo, double label_at_01 = 0.33);
+                   const std::string& label, std::vector<PendingLabel>& labels);
+void draw_labels(Chart& chart, const std::vector<PendingLabel>& labels);
+
+/// UTF-8 as it is; a byte that is none (file names may hold any) becomes '?'.
+std::string printable(const std::string& text);
 
 /// Writes `stem`.svg and `stem`.png (twice the size in pixels).
 Status write_chart(const std::string& stem, double width, double height, const std::function<void(Chart&)>& draw);

@@ -96,9 +96,25 @@ void print(const CheckResult& result, const std::string& file) {
   std::printf("\n");
 }
 
-int list_rules() {
+int list_rules(bool as_json) {
   const auto rules = read_rulebooks(rules_folder());
   if (!rules) return bad_input(rules.error());
+  if (as_json) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const Rulebook& rule : *rules) {
+      all.push_back({{"id", rule.id},
+                     {"name", rule.name},
+                     {"aliases", rule.aliases},
+                     {"document", rule.document},
+                     {"clause", rule.clause},
+                     {"function", rule.function},
+                     {"half_sum", rule.half_sum},
+                     {"sources", rule.sources},
+                     {"rows", rule.rows.size()}});
+    }
+    print_json(all);
+    return kExitDone;
+  }
   for (const Rulebook& rule : *rules)
     std::printf("%-18s %s, %zu rows\n", rule.id.c_str(), rule.name.c_str(), rule.rows.size());
   return kExitDone;
@@ -107,7 +123,7 @@ int list_rules() {
 }  // namespace
 
 int lamp_check(const LampCheckOptions& options) {
-  if (options.list) return list_rules();
+  if (options.list) return list_rules(options.json);
   if (options.files.empty()) return bad_input({"", "give a photometry file, or --list"});
   if (options.rules.empty()) return bad_input({"--rule", "name a rulebook; --list shows them"});
   if (options.files.size() > 2) return bad_input({"", "one file, or the left and the right lamp's"});

@@ -21,6 +21,7 @@ int lamp_info(const LampInfoOptions& options);
 struct LampTableOptions {
   std::string file, at, out;
   LampReadSettings settings;
+  bool json = false;
 };
 int lamp_table(const LampTableOptions& options);
 
@@ -38,7 +39,8 @@ struct LampConvertOptions {
   std::vector<std::string> files;  ///< several: their sum
   std::string out, format;
   LampReadSettings settings;
-  bool mirror = false;
+  GammaAxis out_axis = GammaAxis::kGamma0;  ///< of EULUMDAT
+  bool out_axis_given = false, json = false;
 };
 int lamp_convert(const LampConvertOptions& options);
 
@@ -56,7 +58,7 @@ struct LampPlotOptions {
   LampReadSettings settings;
   double height_m = 0.65, spacing_m = 1.2;
   double pitch_deg = 0.0;
-  bool pitch_given = false;
+  bool pitch_given = false, json = false;
 };
 int lamp_plot(const LampPlotOptions& options);
 

@@ -70,6 +70,7 @@ nlohmann::json bench() {
 }  // namespace
 
 int lamp_levels(const LampLevelsOptions& options) {
+  if (options.file.empty() && !options.bench) return bad_input({"", "give a photometry file, or --bench"});
   nlohmann::json json;
   if (!options.file.empty()) {
     const auto table = read_lamp(options.file, options.settings);

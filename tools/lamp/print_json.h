@@ -6,8 +6,8 @@
 
 namespace phare {
 
-inline void print_json(const nlohmann::json& json) {
-  std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+inline void print_json(const nlohmann::json& json, std::FILE* to = stdout) {
+  std::fprintf(to, "%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
 }  // namespace phare

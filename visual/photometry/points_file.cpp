@@ -165,10 +165,15 @@ Result<AnglesFile> read_angles(const std::filesystem::path& path) {
   return angles;
 }
 
+double intensity_of_row_cd(const IntensityTable& table, TableAngles angles) {
+  return table.screen_distance_m > 0.0 ? table.intensity_cd(direction_hv(angles.first_deg, angles.second_deg))
+                                       : table.intensity_at_cd(angles);
+}
+
 Status write_intensity(const std::filesystem::path& path, const AnglesFile& angles, const IntensityTable& table) {
   std::string content = angles.header + ",intensity_cd\n";
   for (const AngleRow& row : angles.rows)
-    content += row.text + "," + digits_17(table.intensity_at_cd(row.angles)) + '\n';
+    content += row.text + "," + digits_17(intensity_of_row_cd(table, row.angles)) + '\n';
   return write_whole_file(path, content);
 }
 

@@ -35,7 +35,8 @@ Result<PointsFile> read_points(const std::filesystem::path& path);
 Status write_illuminance(const std::filesystem::path& path, const PointsFile& points,
                          std::span<const Illuminance> illuminance);
 
-/// One line of an angles file: columns h_deg,v_deg, the table's own two angles (for type C: C and gamma).
+/// One line of an angles file: columns h_deg,v_deg, the table's own two angles (for type C: C and gamma). A flat screen
+/// has no angles of its own: there they are azimuth and elevation, as in type A.
 struct AngleRow {
   TableAngles angles;
   std::string text;
@@ -48,7 +49,10 @@ struct AnglesFile {
 
 Result<AnglesFile> read_angles(const std::filesystem::path& path);
 
-/// Writes the input's columns and intensity_cd at each pair of angles.
+/// Intensity at the angles of such a line.
+double intensity_of_row_cd(const IntensityTable& table, TableAngles angles);
+
+/// Writes the input's columns and intensity_cd at each pair of angles, by write_whole_file.
 Status write_intensity(const std::filesystem::path& path, const AnglesFile& angles, const IntensityTable& table);
 
 }  // namespace phare
