@@ -1,4 +1,5 @@
 // process: what every `phare lamp` command owes: --json, names that are no UTF-8, numbers that are none, clear refusals.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "lamp_program.h"

@@ -44,7 +44,57 @@ std::string svg_colour(Rgb c) {
 }
 
 Rgb rim_of(Rgb colour) {
-  return colour.r + colour.g + colour.b > 1.5 ? kBlack : kWhite;
+  return 0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b > 0.75 ? kBlack : kWhite;
+}
+
+void select_font(cairo_t* cairo, double size, bool bold) {
+  cairo_select_font_face(cairo, kFont, CAIRO_FONT_SLANT_NORMAL, bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo, size);
+}
+
+constexpr double kBaseline = 0.36;  ///< of the size below the middle of a text
+constexpr double kHalo = 2.5, kHaloAlpha = 0.75;
+
+void draw_text(cairo_t* cairo, const ChartText& t) {
+  select_font(cairo, t.size, t.bold);
+  cairo_text_extents_t box;
+  cairo_text_extents(cairo, t.text.c_str(), &box);
+  const double left = -box.x_bearing - (t.align < 0 ? 0.0 : t.align == 0 ? 0.5 * box.width : box.width);
+  cairo_save(cairo);
+  cairo_translate(cairo, t.x, t.y);
+  cairo_rotate(cairo, t.turned_deg * M_PI / 180.0);
+  if (t.halo) {
+    cairo_move_to(cairo, left, kBaseline * t.size);
+    cairo_text_path(cairo, t.text.c_str());
+    set_colour(cairo, rim_of(t.colour), kHaloAlpha);
+    cairo_set_line_width(cairo, kHalo);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke(cairo);
+  }
+  cairo_move_to(cairo, left, kBaseline * t.size);
+  set_colour(cairo, t.colour);
+  cairo_show_text(cairo, t.text.c_str());
+  cairo_restore(cairo);
+}
+
+std::string svg_text(const ChartText& t) {
+  char text[240];
+  std::snprintf(text, sizeof text, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%g\" text-anchor=\"%s\" fill=\"%s\"", t.x,
+                t.y + kBaseline * t.size, t.size, t.align < 0 ? "start" : t.align == 0 ? "middle" : "end",
+                svg_colour(t.colour).c_str());
+  std::string element = text;
+  if (t.bold) element += " font-weight=\"bold\"";
+  if (t.halo) {
+    std::snprintf(text, sizeof text,
+                  " paint-order=\"stroke\" stroke=\"%s\" stroke-opacity=\"%g\" stroke-width=\"%g\" stroke-linejoin=\"round\"",
+                  svg_colour(rim_of(t.colour)).c_str(), kHaloAlpha, kHalo);
+    element += text;
+  }
+  if (t.turned_deg != 0.0) {
+    std::snprintf(text, sizeof text, " transform=\"rotate(%g %.2f %.2f)\"", t.turned_deg, t.x, t.y);
+    element += text;
+  }
+  return element + ">" + xml_text(t.text) + "</text>\n";
 }
 
 cairo_status_t append(void* to, const unsigned char* data, unsigned int count) {
@@ -108,52 +158,13 @@ void Chart::circle(double x, double y, double radius, Rgb colour, double width, 
   }
 }
 
-void Chart::text(double x, double y, const std::string& given, double size, int align, Rgb colour, bool bold,
+void Chart::text(double x, double y, const std::string& text, double size, int align, Rgb colour, bool bold,
                  bool halo) {
-  const std::string text = printable(given);
-  const double base = y + 0.36 * size;
-  if (svg_text_ != nullptr) {
-    char place[200];
-    std::snprintf(place, sizeof place, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%g\" text-anchor=\"%s\" fill=\"%s\"", x,
-                  base, size, align < 0 ? "start" : align == 0 ? "middle" : "end", svg_colour(colour).c_str());
-    *svg_text_ += place;
-    if (bold) *svg_text_ += " font-weight=\"bold\"";
-    if (halo)
-      *svg_text_ += " paint-order=\"stroke\" stroke=\"" + svg_colour(rim_of(colour)) +
-                    "\" stroke-opacity=\"0.75\" stroke-width=\"2.5\" stroke-linejoin=\"round\"";
-    if (turned_deg_ != 0.0) {
-      std::snprintf(place, sizeof place, " transform=\"rotate(%g %.2f %.2f)\"", turned_deg_, x, y);
-      *svg_text_ += place;
-    }
-    *svg_text_ += ">" + xml_text(text) + "</text>\n";
-    return;
-  }
-  cairo_select_font_face(cairo_, kFont, CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cairo_, size);
-  cairo_text_extents_t box;
-  cairo_text_extents(cairo_, text.c_str(), &box);
-  cairo_save(cairo_);
-  cairo_translate(cairo_, x, y);
-  cairo_rotate(cairo_, turned_deg_ * M_PI / 180.0);
-  const double left = -box.x_bearing - (align < 0 ? 0.0 : align == 0 ? 0.5 * box.width : box.width);
-  if (halo) {
-    cairo_move_to(cairo_, left, base - y);
-    cairo_text_path(cairo_, text.c_str());
-    set_colour(cairo_, rim_of(colour), 0.75);
-    cairo_set_line_width(cairo_, 2.5);
-    cairo_stroke(cairo_);
-  }
-  cairo_move_to(cairo_, left, base - y);
-  set_colour(cairo_, colour);
-  cairo_show_text(cairo_, text.c_str());
-  cairo_restore(cairo_);
+  texts_.push_back({x, y, size, align, colour, bold, halo, 0.0, printable(text)});
 }
 
-void Chart::vertical_text(double x, double y, const std::string& what, double size, Rgb colour) {
-  turned_deg_ = -90.0;
-  text(x, y, what, size, 0, colour);
-  turned_deg_ = 0.0;
+void Chart::vertical_text(double x, double y, const std::string& text, double size, Rgb colour) {
+  texts_.push_back({x, y, size, 0, colour, false, false, -90.0, printable(text)});
 }
 
 void Chart::keep_free(double left, double top, double width, double height) {
@@ -162,9 +173,7 @@ void Chart::keep_free(double left, double top, double width, double height) {
 
 bool Chart::label(const std::vector<LabelPlace>& places, const std::string& what, double size, Rgb colour, bool bold,
                   bool halo) {
-  cairo_select_font_face(cairo_, kFont, CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cairo_, size);
+  select_font(cairo_, size, bold);
   cairo_text_extents_t extents;
   cairo_text_extents(cairo_, printable(what).c_str(), &extents);
   for (const LabelPlace& place : places) {
@@ -357,40 +366,52 @@ std::string printable(const std::string& text) {
 }
 
 Status write_chart(const std::string& stem, double width, double height, const std::function<void(Chart&)>& draw) {
-  const auto paint = [&](cairo_surface_t* surface, double scale, std::string* svg_text) {
-    cairo_t* cairo = cairo_create(surface);
+  // Drawn once, played into both files.
+  const cairo_rectangle_t page{0.0, 0.0, width, height};
+  cairo_surface_t* const recorded = cairo_recording_surface_create(CAIRO_CONTENT_COLOR, &page);
+  cairo_t* const recorder = cairo_create(recorded);
+  Chart chart(recorder);
+  chart.rectangle(0, 0, width, height, kWhite);
+  draw(chart);
+  cairo_status_t status = cairo_status(recorder);
+  cairo_destroy(recorder);
+  const auto play = [&](cairo_surface_t* surface, double scale, bool with_texts) {
+    cairo_t* const cairo = cairo_create(surface);
     cairo_scale(cairo, scale, scale);
-    Chart chart(cairo, svg_text);
-    chart.rectangle(0, 0, width, height, kWhite);
-    draw(chart);
-    const cairo_status_t status = cairo_status(cairo);
+    cairo_set_source_surface(cairo, recorded, 0.0, 0.0);
+    cairo_paint(cairo);
+    if (with_texts) {
+      for (const ChartText& text : chart.texts()) draw_text(cairo, text);
+    }
+    const cairo_status_t played = cairo_status(cairo);
     cairo_destroy(cairo);
-    return status;
+    return played;
   };
-  const auto failed = [](const std::string& file, cairo_status_t status) {
-    return Error{file, std::string("cannot be drawn: ") + cairo_status_to_string(status)};
+  const auto failed = [](const std::string& file, cairo_status_t cause) {
+    return Error{file, std::string("cannot be drawn: ") + cairo_status_to_string(cause)};
   };
-  std::string bytes, svg_text;
-  cairo_surface_t* svg = cairo_svg_surface_create_for_stream(append, &bytes, width, height);
-  cairo_status_t status = paint(svg, 1.0, &svg_text);
+
+  std::string svg_bytes, png_bytes;
+  cairo_surface_t* const svg = cairo_svg_surface_create_for_stream(append, &svg_bytes, width, height);
+  if (status == CAIRO_STATUS_SUCCESS) status = play(svg, 1.0, false);
   cairo_surface_finish(svg);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(svg);
   cairo_surface_destroy(svg);
-  if (status != CAIRO_STATUS_SUCCESS) return failed(stem + ".svg", status);
-  // cairo would draw texts as outlines; so they go in as texts, above everything.
-  const std::size_t end = std::min(bytes.rfind("</svg>"), bytes.size());
-  bytes.insert(end, std::string("<g font-family=\"") + kFont + ", Verdana, sans-serif\">\n" + svg_text + "</g>\n");
-  if (const Status written = write_whole_file(stem + ".svg", bytes); !written) return written.error();
 
   constexpr double kPixelsPerPoint = 2.0;
-  cairo_surface_t* png = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerPoint),
-                                                    static_cast<int>(height * kPixelsPerPoint));
-  status = paint(png, kPixelsPerPoint, nullptr);
-  bytes.clear();
-  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(png, append, &bytes);
+  cairo_surface_t* const png = cairo_image_surface_create(
+      CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerPoint), static_cast<int>(height * kPixelsPerPoint));
+  if (status == CAIRO_STATUS_SUCCESS) status = play(png, kPixelsPerPoint, true);
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(png, append, &png_bytes);
   cairo_surface_destroy(png);
-  if (status != CAIRO_STATUS_SUCCESS) return failed(stem + ".png", status);
-  return write_whole_file(stem + ".png", bytes);
+  cairo_surface_destroy(recorded);
+  if (status != CAIRO_STATUS_SUCCESS) return failed(stem, status);
+
+  std::string texts = std::string("<g font-family=\"") + kFont + ", Verdana, sans-serif\">\n";
+  for (const ChartText& text : chart.texts()) texts += svg_text(text);
+  svg_bytes.insert(std::min(svg_bytes.rfind("</svg>"), svg_bytes.size()), texts + "</g>\n");
+  if (const Status written = write_whole_file(stem + ".svg", svg_bytes); !written) return written.error();
+  return write_whole_file(stem + ".png", png_bytes);
 }
 
 }  // namespace phare

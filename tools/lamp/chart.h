@@ -37,10 +37,19 @@ struct LabelPlace {
   int align = 0;
 };
 
+/// A text of a chart. Kept apart from the drawing: SVG has it as text, and it stands above everything.
+struct ChartText {
+  double x = 0, y = 0, size = 10;
+  int align = -1;
+  Rgb colour;
+  bool bold = false, halo = false;
+  double turned_deg = 0.0;
+  std::string text;
+};
+
 class Chart {
  public:
-  /// `svg_text`: texts are not drawn but written there as SVG elements, so that they stay text.
-  explicit Chart(cairo_t* cairo, std::string* svg_text = nullptr) : cairo_(cairo), svg_text_(svg_text) {}
+  explicit Chart(cairo_t* cairo) : cairo_(cairo) {}
 
   void rectangle(double x, double y, double w, double h, Rgb fill);
   void line(const std::vector<std::array<double, 2>>& points, Rgb colour, double width, bool closed = false,
@@ -64,14 +73,14 @@ class Chart {
   /// Everything until `end_clip` stays inside the axes.
   void begin_clip(const Axes& axes);
   void end_clip();
+  const std::vector<ChartText>& texts() const { return texts_; }
 
  private:
   struct Box {
     double left, top, right, bottom;
   };
   cairo_t* cairo_;
-  std::string* svg_text_;
-  double turned_deg_ = 0.0;  ///< of texts
+  std::vector<ChartText> texts_;
   std::optional<Axes> clip_;
   std::vector<Box> taken_;
 };

@@ -171,6 +171,9 @@ void add_plot(CLI::App* lamp, Command& chosen) {
   command->add_option("files", options->files, "One file, or left and right")->required();
   command->add_option("--out", options->out, "Folder to write into")->required();
   command->add_option("--rule", options->rule, "Rulebook whose rows are drawn with pass and fail");
+  command->add_option("--view", options->views, "Draw this view alone; repeat for more [all]")
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(kPlotViews), std::end(kPlotViews))))
+      ->allow_extra_args(false);
   add_mounting(command, options->height_m, options->spacing_m, options->pitch_deg, options->pitch_given);
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);

@@ -52,9 +52,12 @@ struct LampCompareOptions {
 };
 int lamp_compare(const LampCompareOptions& options);
 
+inline constexpr const char* kPlotViews[] = {"wall_25m", "isocandela", "vertical_cut", "false_colour", "birds_eye"};
+
 struct LampPlotOptions {
   std::vector<std::string> files;  ///< one, or left and right
   std::string out, rule;
+  std::vector<std::string> views;  ///< stems of kPlotViews; empty: all
   LampReadSettings settings;
   double height_m = 0.65, spacing_m = 1.2;
   double pitch_deg = 0.0;

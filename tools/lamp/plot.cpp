@@ -74,7 +74,7 @@ std::string aim_text(const AimedLamp& lamp) {
 }
 
 std::string verdict_text(const CheckResult& check) {
-  std::string text = check.rule_name + ": ";
+  std::string text = check.rule_name + (check.left_hand ? ", rows mirrored: " : ": ");
   if (check.verdict == Verdict::kFail) {
     text += "FAIL, " + std::to_string(check.failed) + " of " + std::to_string(check.rows.size()) + " rows";
   } else if (check.verdict == Verdict::kPass) {
@@ -174,26 +174,35 @@ int lamp_plot(const LampPlotOptions& options) {
   const SharpnessLimits limits = sharpness_limits(judged_by, left.shape);
 
   std::vector<std::pair<std::string, std::function<void(Chart&)>>> views;
+  const auto add = [&](const std::string& view, const std::string& suffix, std::function<void(Chart&)> draw) {
+    const bool asked =
+        options.views.empty() || std::find(options.views.begin(), options.views.end(), view) != options.views.end();
+    if (asked) views.emplace_back(view + suffix, std::move(draw));
+  };
   for (const WallBeam& beam : walls) {
     const double cut_h = beam.left_hand ? 2.5 : -2.5;
-    views.emplace_back("wall_25m" + beam.suffix, [&beam](Chart& c) {
+    add("wall_25m", beam.suffix, [&beam](Chart& c) {
       draw_wall(c, beam.intensity, beam.name + ": 25 m wall, log candela", beam.subtitle, beam.check, true);
     });
-    views.emplace_back("isocandela" + beam.suffix, [&beam](Chart& c) {
+    add("isocandela", beam.suffix, [&beam](Chart& c) {
       draw_wall(c, beam.intensity, beam.name + ": isocandela", beam.subtitle, beam.check, false);
     });
-    views.emplace_back("vertical_cut" + beam.suffix, [&beam, &limits, cut_h](Chart& c) {
+    add("vertical_cut", beam.suffix, [&beam, &limits, cut_h](Chart& c) {
       draw_cut(c, beam.intensity, cut_h, limits,
                beam.name + (cut_h > 0.0 ? ": vertical cut at 2.5 deg R" : ": vertical cut at 2.5 deg L"), beam.subtitle);
     });
-    views.emplace_back("false_colour" + beam.suffix, [&beam](Chart& c) {
+    add("false_colour", beam.suffix, [&beam](Chart& c) {
       draw_bands(c, beam.intensity, beam.name + ": false colour", beam.subtitle);
     });
   }
-  views.emplace_back("birds_eye",
-                     [&](Chart& c) { draw_road(c, on_car, left_hand, names + ": isolux of the road", mounted); });
+  add("birds_eye", "", [&](Chart& c) { draw_road(c, on_car, left_hand, names + ": isolux of the road", mounted); });
 
-  nlohmann::json json{{"traffic", left_hand ? "left" : "right"}, {"lane_lines_m", lane_lines_m(left_hand)}};
+  const RoadExtent extent = road_extent(on_car, true);
+  nlohmann::json json{{"traffic", left_hand ? "left" : "right"},
+                      {"lane_lines_m", lane_lines_m(left_hand)},
+                      {"road_ahead_m", extent.ahead_m},
+                      {"road_aside_m", extent.aside_m},
+                      {"road_goes_on", extent.clipped}};
   for (const AimedLamp& lamp : lamps) {
     json["lamps"].push_back({{"file", lamp.file},
                              {"aim", lamp.aim},

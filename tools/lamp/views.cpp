@@ -71,7 +71,9 @@ void draw_rows(Chart& chart, const Axes& axes, const CheckResult& check) {
     if (row.at.empty() || !is_outline(row)) continue;
     std::vector<std::array<double, 2>> points;
     for (const HV p : outline(row)) points.push_back({axes.x(p.h_deg), axes.y(p.v_deg)});
-    chart.line(points, verdict_colour(row.verdict), 1.5, row.shape != RowShape::kLine, row.max >= kNoMaximum);
+    const bool closed = row.shape != RowShape::kLine, at_least = row.max >= kNoMaximum;
+    chart.line(points, kWhite, 3.2, closed, at_least);  // a rim, to stand out from the beam's colours
+    chart.line(points, verdict_colour(row.verdict), 1.6, closed, at_least);
   }
   const auto is_point = [](const CheckRow& row) {
     return row.shape == RowShape::kPoints || row.shape == RowShape::kSum;
@@ -145,11 +147,12 @@ void draw_row_legend(Chart& chart, const CheckResult& check) {
 
 std::vector<std::string> rows_beyond_wall(const CheckResult& check) {
   std::vector<std::string> ids;
+  std::ptrdiff_t failed = 0;
   for (const CheckRow& row : check.rows) {
     const bool out = std::any_of(row.at.begin(), row.at.end(), [](HV p) {
       return p.h_deg < kWall.x_min || p.h_deg > kWall.x_max || p.v_deg < kWall.y_min || p.v_deg > kWall.y_max;
     });
-    if (out) ids.push_back(row.id);
+    if (out) ids.insert(row.verdict == Verdict::kFail ? ids.begin() + failed++ : ids.end(), row.id);
   }
   return ids;
 }
@@ -184,7 +187,7 @@ void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& ti
   chart.end_clip();
   heading(chart, title, subtitle);
   chart.text(786, 58, "cd", 9, 1, kBlack, true);
-  chart.text(807, 58, "lx at 25 m", 9, -1, kBlack, true);
+  chart.text(807, 58, "lx, 25 m", 9, -1, kBlack, true);
   std::vector<BarMark> marks;
   for (const double cd : {50.0, 100.0, 350.0, 625.0, 1000.0, 3000.0, 10000.0, 30000.0, 100000.0}) {
     char lux[16];
@@ -261,7 +264,7 @@ void draw_bands(Chart& chart, const IntensityHv& intensity, const std::string& t
   draw_cross(chart, axes, {0.35, 0.85, 1.0});
   chart.end_clip();
   chart.axes(axes, 10, 5, "H in deg, right positive", "V in deg, up positive", {0.5, 0.5, 0.5}, 0.2);
-  chart.text(778, 62, "lx at 25 m", 8, 0, kBlack, true);
+  chart.text(792, 62, "lx, 25 m", 8, 1, kBlack, true);
   chart.text(822, 62, "cd", 9, 0, kBlack, true);
   for (std::size_t b = 0; b < kBands; ++b) {
     const double y = 412.0 - 28.0 * static_cast<double>(b);

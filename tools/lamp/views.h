@@ -30,7 +30,7 @@ constexpr std::array<double, 3> lane_lines_m(bool left_hand) {
   return left_hand ? std::array<double, 3>{1.75, -1.75, -5.25} : std::array<double, 3>{-1.75, 1.75, 5.25};
 }
 
-/// Ids of the rows whose place is not wholly on the page of `draw_wall`.
+/// Ids of the rows whose place is not wholly on the page of `draw_wall`, failed ones first.
 std::vector<std::string> rows_beyond_wall(const CheckResult& check);
 
 /// 25 m wall: log candela in false colour or on white, isocandela lines, HV cross, rows of a check with their verdict.
