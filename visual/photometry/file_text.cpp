@@ -123,6 +123,15 @@ bool FileText::number(double& value) {
   const bool plain =
       length > 0 && length <= 15 && (length > 1 || *begin != '.') && (at == end || is_separator(*at) || *at == '\n');
   if (!plain) {
+    // More digits, a sign or an exponent. std::from_chars finds the word's end itself; what it does not take whole is
+    // looked at once more for the error.
+    const char* const from = begin != end && *begin == '+' ? begin + 1 : begin;
+    const auto [stop, code] = std::from_chars(from, end, value);
+    if (code == std::errc{} && std::isfinite(value) && (stop == end || is_separator(*stop) || *stop == '\n')) {
+      word_ = {begin, static_cast<std::size_t>(stop - begin)};
+      at_ += word_.size();
+      return true;
+    }
     word_ = next_word();
     return parse(word_, value);
   }
