@@ -61,6 +61,7 @@ class Lamps {
   const DesignConfig& design() const { return designs_[design_]; }
   std::size_t design_index() const { return design_; }
   const std::string& lit_text() const { return lit_text_; }  ///< "low high", for labels
+  void begin_counting() { compositions_ = uploads_ = 0; }
   std::uint64_t compositions() const { return compositions_; }  ///< images that were summed, wholly or in part
   std::uint64_t summed_texels() const;
   std::uint64_t uploads() const { return uploads_; }
