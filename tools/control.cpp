@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "config/toml_table.h"
 #include "net/bus.h"
 #include "tools/commands.h"
 
@@ -18,12 +19,24 @@ struct ControlOptions {
   std::vector<std::string> words;
 };
 
-constexpr const char* kCommands =
-    "dim LAMP SOURCE LIGHT   LIGHT 0 to 1 for a source of the lamp, counted from 1 (0: all)\n"
-    "  swivel LAMP YAW_DEG [PITCH_DEG]   a whole lamp, left and up positive\n"
-    "  aim PITCH_DEG   all lamps, up positive\n"
-    "  design INDEX   counted from 0\n"
-    "  pause | resume | quit";
+struct Usage {
+  const char* verb;
+  const char* words;
+  const char* meaning;
+};
+constexpr Usage kCommands[] = {{"dim", "LAMP SOURCE LIGHT", "LIGHT 0 to 1 for a source of the lamp, counted from 1 (0: all)"},
+                               {"swivel", "LAMP YAW_DEG [PITCH_DEG]", "a whole lamp, left and up positive"},
+                               {"aim", "PITCH_DEG", "all lamps, up positive"},
+                               {"design", "INDEX", "counted from 0"},
+                               {"pause", "", ""},
+                               {"resume", "", ""},
+                               {"quit", "", ""}};
+
+std::string all_commands() {
+  std::string text;
+  for (const Usage& usage : kCommands) text += std::string("  ") + usage.verb + " " + usage.words + (*usage.meaning != 0 ? "   " : "") + usage.meaning + "\n";
+  return text;
+}
 
 Result<double> number(const std::string& word) {
   std::size_t used = 0;
@@ -69,7 +82,12 @@ Result<RigControl> parse(const std::vector<std::string>& words) {
   }
   if ((verb == "pause" || verb == "resume") && words.size() == 1) return RigControl{RigControl::Pause{verb == "pause"}};
   if (verb == "quit" && words.size() == 1) return RigControl{RigControl::Quit{}};
-  return Error{verb, std::string("not a command; there are\n  ") + kCommands};
+  std::vector<std::string> verbs;
+  for (const Usage& usage : kCommands) {
+    if (verb == usage.verb) return Error{verb, *usage.words != 0 ? std::string("expected ") + verb + " " + usage.words : "takes nothing more"};
+    verbs.emplace_back(usage.verb);
+  }
+  return Error{"", unknown_name_reason("command", verb, verbs)};
 }
 
 int control(const ControlOptions& options) {
@@ -103,8 +121,8 @@ int control(const ControlOptions& options) {
 void add_control(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ControlOptions>();
   CLI::App* command = app.add_subcommand("control", "Command a running rig: dim and swivel lamps, aim, swap designs, pause, quit");
-  command->footer(std::string("Commands:\n  ") + kCommands +
-                  "\nExample:\n  phare control dim \"headlamp left\" 17 0\n  adb_unit | phare control --rig config/rigs/matrix.toml -");
+  command->footer("Commands:\n" + all_commands() +
+                  "Example:\n  phare control dim \"headlamp left\" 17 0\n  adb_unit | phare control --rig config/rigs/matrix.toml -");
   command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
