@@ -152,6 +152,12 @@ struct CommandFiller {
     to.mutable_swivel()->set_yaw_rad(swivel.yaw_rad);
     to.mutable_swivel()->set_pitch_rad(swivel.pitch_rad);
   }
+  void operator()(const RigControl::Place& place) const {
+    to.mutable_place()->set_lamp(place.lamp);
+    to.mutable_place()->set_x_m(place.x_m);
+    to.mutable_place()->set_y_m(place.y_m);
+    to.mutable_place()->set_z_m(place.z_m);
+  }
 };
 
 void fill(wire::RigControl& to, const RigControl& from) { std::visit(CommandFiller{to}, from.command); }
@@ -264,6 +270,9 @@ bool read(RigControl& to, const wire::RigControl& from) {
     case wire::RigControl::kSwivel:
       to.command = RigControl::Swivel{from.swivel().lamp(), from.swivel().yaw_rad(), from.swivel().pitch_rad()};
       return true;
+    case wire::RigControl::kPlace:
+      to.command = RigControl::Place{from.place().lamp(), from.place().x_m(), from.place().y_m(), from.place().z_m()};
+      return true;
     case wire::RigControl::COMMAND_NOT_SET: break;
   }
   return false;
@@ -307,7 +316,8 @@ bool any_unknown(const wire::Datagram& message) {
       return unknown_in(message.frame_report()) || unknown_in(message.frame_report().drawn());
     case wire::Datagram::kRigControl: {
       const wire::RigControl& control = message.rig_control();
-      return unknown_in(control) || (control.has_dim() && unknown_in(control.dim())) || (control.has_swivel() && unknown_in(control.swivel()));
+      return unknown_in(control) || (control.has_dim() && unknown_in(control.dim())) || (control.has_swivel() && unknown_in(control.swivel())) ||
+             (control.has_place() && unknown_in(control.place()));
     }
     case wire::Datagram::kProbeRequest: return unknown_in(message.probe_request());
     case wire::Datagram::kProbeReply: return unknown_in(message.probe_reply());
@@ -344,6 +354,7 @@ constexpr std::uint64_t kMaxSequence = std::uint64_t{1} << 62;
 constexpr std::uint32_t kMaxDesigns = 10000;
 constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::uint32_t kMaxSources = 10000;  // of a lamp
+constexpr double kMaxMounting_m = 50.0;       // of a lamp from the car's origin: long lorries too
 constexpr std::size_t kMaxErrorBytes = 4096;
 
 /// Collects the first thing wrong.
@@ -431,6 +442,10 @@ struct CommandChecker {
   void operator()(const RigControl::Swivel& swivel) const {
     c.require(!swivel.lamp.empty() && swivel.lamp.size() <= kMaxNameBytes);
     for (const double angle_rad : {swivel.yaw_rad, swivel.pitch_rad}) c.within(angle_rad, kMaxAim_rad);
+  }
+  void operator()(const RigControl::Place& place) const {
+    c.require(!place.lamp.empty() && place.lamp.size() <= kMaxNameBytes);
+    for (const double at_m : {place.x_m, place.y_m, place.z_m}) c.within(at_m, kMaxMounting_m);
   }
 };
 

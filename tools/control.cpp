@@ -1,4 +1,4 @@
-// phare control: commands to a running rig - dim, swivel, aim, design, pause, quit.
+// phare control: commands to a running rig - dim, swivel, place, aim, design, pause, quit.
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -26,6 +26,7 @@ struct Usage {
 };
 constexpr Usage kCommands[] = {{"dim", "LAMP SOURCE LIGHT", "LIGHT 0 to 1 for a source of the lamp, counted from 1 (0: all)"},
                                {"swivel", "LAMP YAW_DEG [PITCH_DEG]", "a whole lamp, left and up positive"},
+                               {"place", "LAMP X_M Y_M Z_M", "a lamp elsewhere on the car: from below the rear axle's middle forward, left, up"},
                                {"aim", "PITCH_DEG", "all lamps, up positive"},
                                {"design", "INDEX", "counted from 0"},
                                {"pause", "", ""},
@@ -54,7 +55,7 @@ Result<RigControl> parse(const std::vector<std::string>& words) {
   if (words.empty()) return Error{"", "no command"};
   const std::string& verb = words.front();
   std::vector<double> numbers;
-  const bool names_a_lamp = verb == "dim" || verb == "swivel";
+  const bool names_a_lamp = verb == "dim" || verb == "swivel" || verb == "place";
   for (std::size_t i = names_a_lamp ? 2 : 1; i < words.size(); ++i) {
     const auto value = number(words[i]);
     if (!value) return Error{verb, value.error().reason};
@@ -71,6 +72,11 @@ Result<RigControl> parse(const std::vector<std::string>& words) {
     for (const double deg : numbers)
       if (std::abs(deg) > 90.0) return Error{verb, "an angle beyond 90 degrees"};
     return RigControl{RigControl::Swivel{words[1], numbers[0] * kRadPerDeg, numbers.size() == 2 ? numbers[1] * kRadPerDeg : 0.0}};
+  }
+  if (verb == "place" && numbers.size() == 3) {
+    for (const double at_m : numbers)
+      if (std::abs(at_m) > 50.0) return Error{verb, "a lamp more than 50 m from its car"};
+    return RigControl{RigControl::Place{words[1], numbers[0], numbers[1], numbers[2]}};
   }
   if (verb == "aim" && numbers.size() == 1) {
     if (std::abs(numbers[0]) > 90.0) return Error{verb, "an angle beyond 90 degrees"};
@@ -120,7 +126,7 @@ int control(const ControlOptions& options) {
 
 void add_control(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ControlOptions>();
-  CLI::App* command = app.add_subcommand("control", "Command a running rig: dim and swivel lamps, aim, swap designs, pause, quit");
+  CLI::App* command = app.add_subcommand("control", "Command a running rig: dim, swivel and move lamps, aim, swap designs, pause, quit");
   command->footer("Commands:\n" + all_commands() +
                   "Example:\n  phare control dim \"headlamp left\" 17 0\n  adb_unit | phare control --rig config/rigs/matrix.toml -");
   command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();

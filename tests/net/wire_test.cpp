@@ -263,6 +263,10 @@ TEST(WireRefuses, ValuesOutOfRange) {
          m.mutable_rig_control()->mutable_swivel()->set_lamp("left");
          m.mutable_rig_control()->mutable_swivel()->set_yaw_rad(1.7);
        }},
+      {kControl, [](D& m) {
+         m.mutable_rig_control()->mutable_place()->set_lamp("left");
+         m.mutable_rig_control()->mutable_place()->set_x_m(51.0);
+       }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_nx(0, 1.1); }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_x_m(0, 1e9); }},
       {kReply, [](D& m) { m.mutable_probe_reply()->set_illuminance_lx(0, -1.0); }},

@@ -176,6 +176,7 @@ TEST_F(BadInput, OfTheOtherCommands) {
       {"control: no such command", "phare control dmi", "no command \"dmi\"; did you mean \"dim\"?"},
       {"control: too few words", "phare control dim \"headlamp left\" 1", "dim: expected dim LAMP SOURCE LIGHT"},
       {"control: too bright", "phare control dim \"headlamp left\" 1 1.5", "dim: light is 0 to 1"},
+      {"control: far from its car", "phare control place \"headlamp left\" 3 0.6 66", "place: a lamp more than 50 m from its car"},
       {"control: no number", "phare control aim nan", "aim: expected a number, got \"nan\""},
       {"control: too far", "phare control aim -91", "aim: an angle beyond 90 degrees"},
       {"replay: no drive", "phare replay absent.pcap", "absent.pcap: "},

@@ -136,6 +136,18 @@ TEST(Lamps, ASwivelTurnsALampAndSumsNothing) {
   EXPECT_NEAR(placed[1].world_from_image[0].y, 0.0, 1e-12);
 }
 
+TEST(Lamps, ALampIsMovedOnTheCar) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok());
+  lamps->set_controls(controls(LightSwitch::kLow));
+  const MeasurePoint wall{{28.0, 0.6, 0.7}, {-1.0, 0.0, 0.0}};
+  const double before_lx = lamps->illuminance_lx(VehicleState{}, wall);
+  ASSERT_TRUE(lamps->place({"headlamp", 8.0, 0.6, 0.7}).ok());  // from 25 m to 20 m
+  EXPECT_EQ(lamps->placed(VehicleState{})[0].position_m, glm::dvec3(8.0, 0.6, 0.7));
+  EXPECT_NEAR(lamps->illuminance_lx(VehicleState{}, wall) - before_lx, 900.0 / 400.0 - 900.0 / 625.0, 1e-9);
+  EXPECT_FALSE(lamps->place({"spotlight", 0.0, 0.0, 0.0}).ok());
+}
+
 TEST(Lamps, DarkPositionsAreNotPlaced) {
   Result<Lamps> lamps = Lamps::load(two_lamp_rig());
   ASSERT_TRUE(lamps.ok());

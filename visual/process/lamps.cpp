@@ -132,6 +132,13 @@ Status Lamps::swivel(const RigControl::Swivel& command) {
   return Done{};
 }
 
+Status Lamps::place(const RigControl::Place& command) {
+  const Result<std::size_t> slot = find(command.lamp);
+  if (!slot) return slot.error();
+  designs_[design_].lamps[*slot].position_m = {command.x_m, command.y_m, command.z_m};
+  return Done{};
+}
+
 glm::dmat3 Lamps::turned(const Position& position) const {
   return aim_rotation(position.yaw_rad, aim_pitch_rad_ + wheel_pitch_rad_ + position.pitch_rad, 0.0);
 }

@@ -42,6 +42,8 @@ class Lamps {
 
   /// Dims a source, counted from 1 (0: all), of a lamp of the design that shines; acts with the next controls. Error: no such lamp or source.
   Status dim(const RigControl::Dim& command);
+  /// Moves a lamp of the design that shines to another place of the car. Error: no such lamp.
+  Status place(const RigControl::Place& command);
   /// Turns a whole lamp of the design that shines: no image is summed for it. Error: no such lamp.
   Status swivel(const RigControl::Swivel& command);
 

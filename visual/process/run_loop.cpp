@@ -104,6 +104,7 @@ void Loop::obey(const RigControl& control) {
   Status done = Done{};
   if (const auto* dim = std::get_if<RigControl::Dim>(&control.command)) done = s_.lamps.dim(*dim);
   if (const auto* swivel = std::get_if<RigControl::Swivel>(&control.command)) done = s_.lamps.swivel(*swivel);
+  if (const auto* place = std::get_if<RigControl::Place>(&control.command)) done = s_.lamps.place(*place);
   if (!done) spdlog::warn("{}", done.error().text());
 }
 
