@@ -97,7 +97,7 @@ std::vector<Lamps::Change> Lamps::set_controls(const CockpitState& controls) {
 
 std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
   const glm::dmat3 rotation = rotation_of(pose);
-  const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_ + wheel_pitch_rad_, 0.0);
+  const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_ + wheel_pitch_rad_ + pose.lamp_tilt_rad, 0.0);
   const std::vector<LampConfig>& lamps = designs_[design_].lamps;
   std::vector<PlacedLamp> placed;
   for (std::size_t position = 0; position < lamps.size(); ++position) {
@@ -112,12 +112,12 @@ std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
 double Lamps::illuminance_lx(const VehicleState& pose, const MeasurePoint& at) const {
   const glm::dmat3 car_from_world = glm::transpose(rotation_of(pose));
   const MeasurePoint in_car{car_from_world * (at.position_m - position_of(pose)), car_from_world * at.normal};
-  return illuminance_in_car_lx(design_, lit_, in_car);
+  return illuminance_in_car_lx(design_, lit_, in_car, pose.lamp_tilt_rad);
 }
 
-double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit,
-                                    const MeasurePoint& at) const {
-  const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_ + wheel_pitch_rad_, 0.0);
+double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
+                                    double tilt_rad) const {
+  const glm::dmat3 aim = aim_rotation(0.0, aim_pitch_rad_ + wheel_pitch_rad_ + tilt_rad, 0.0);
   double total_lx = 0.0;
   for (const LampConfig& lamp : designs_[design].lamps) {
     for (const SourceConfig& source : lamp.sources) {
