@@ -2,6 +2,7 @@
 // Units, frames and meanings of the fields are written once, in phare.proto.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -45,6 +46,9 @@ struct CockpitState {
   friend bool operator==(const CockpitState&, const CockpitState&) = default;
 };
 
+/// Most steps that one VehicleState names the hashes of.
+inline constexpr std::size_t kMaxStepHashes = 64;
+
 struct VehicleState {
   std::int64_t frame_index = -1;
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
@@ -61,6 +65,8 @@ struct VehicleState {
   double lag_s = 0.0;
   bool high_beam_telltale = false;
   bool drive_ended = false;
+  double lamp_tilt_rad = 0.0;
+  std::vector<std::uint64_t> step_hash;
 
   friend bool operator==(const VehicleState&, const VehicleState&) = default;
 };

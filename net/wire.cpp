@@ -122,6 +122,8 @@ void fill(wire::VehicleState& to, const VehicleState& from) {
   to.set_lag_s(from.lag_s);
   to.set_high_beam_telltale(from.high_beam_telltale);
   to.set_drive_ended(from.drive_ended);
+  to.set_lamp_tilt_rad(from.lamp_tilt_rad);
+  to.mutable_step_hash()->Add(from.step_hash.begin(), from.step_hash.end());
 }
 
 void fill(wire::FrameReport& to, const FrameReport& from) {
@@ -244,6 +246,8 @@ void read(VehicleState& to, const wire::VehicleState& from) {
   to.lag_s = from.lag_s();
   to.high_beam_telltale = from.high_beam_telltale();
   to.drive_ended = from.drive_ended();
+  to.lamp_tilt_rad = from.lamp_tilt_rad();
+  to.step_hash.assign(from.step_hash().begin(), from.step_hash().end());
 }
 
 void read(FrameReport& to, const wire::FrameReport& from) {
@@ -418,6 +422,8 @@ void check(Checker& c, const VehicleState& s) {
   c.within(s.suspension_heave_m, kMaxCoordinate_m);
   c.number(s.lag_s, 0.0, kMaxTime_s);
   c.require(s.level.size() <= kMaxNameBytes);
+  c.within(s.lamp_tilt_rad, kMaxAim_rad);
+  c.require(s.step_hash.size() <= kMaxStepHashes, Refusal::kArrays);
 }
 
 void check(Checker& c, const FrameReport& r) {

@@ -50,6 +50,9 @@ VehicleState vehicle(Values& v) {
   s.lag_s = v.number(0, 10);
   s.high_beam_telltale = v.flag();
   s.drive_ended = v.flag();
+  s.lamp_tilt_rad = v.number(-0.1, 0.1);
+  s.step_hash.resize(v.whole(16));
+  for (std::uint64_t& hash : s.step_hash) hash = v.bits();
   return s;
 }
 

@@ -177,6 +177,27 @@ TEST(Lamps, StandInTheWorldWithTheBody) {
   EXPECT_NEAR(lamps->placed(pose).front().world_from_image[0].z, 0.0, 1e-12);
 }
 
+TEST(Lamps, LevellingInThePoseTiltsTheBeamOnce) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok());
+  CockpitState wheel = controls(LightSwitch::kLow);
+  wheel.lamp_aim_rad = -0.02;
+  lamps->set_controls(wheel);
+  VehicleState pose;
+  pose.pitch_rad = 0.03;
+  pose.lamp_tilt_rad = 0.05;  // -0.03 of the body, -0.02 of the wheel, +0.05 of levelling: level
+  EXPECT_NEAR(lamps->placed(pose).front().world_from_image[0].z, 0.0, 1e-12);
+  pose.lamp_tilt_rad = 0.0;
+  EXPECT_NEAR(std::asin(lamps->placed(pose).front().world_from_image[0].z), -0.05, 1e-12);
+  // The truth that the picture is held to tilts alike: the table ends at 20 degrees, 0.35 rad.
+  const MeasurePoint wall{{28.0, 0.2, 0.9}, {-1.0, 0.0, 0.0}};
+  EXPECT_GT(lamps->illuminance_lx(pose, wall), 1.0);
+  pose.lamp_tilt_rad = 0.5;
+  EXPECT_EQ(lamps->illuminance_lx(pose, wall), 0.0);
+  lamps->set_aim(-0.5);
+  EXPECT_GT(lamps->illuminance_lx(pose, wall), 1.0);
+}
+
 TEST(Lamps, IlluminanceIsIntensityOverDistanceSquared) {
   Result<Lamps> lamps = Lamps::load(two_lamp_rig());
   ASSERT_TRUE(lamps.ok());
