@@ -103,9 +103,14 @@ std::string base_name(const std::string& file) {
 
 int lamp_info(const LampInfoOptions& options) {
   nlohmann::json all = nlohmann::json::array();
+  int exit = kExitDone;  // a file that cannot be read does not keep the others from being told
   for (const std::string& file : options.files) {
     const auto table = read_lamp(file, options.settings);
-    if (!table) return bad_input(table.error());
+    if (!table) {
+      exit = bad_input(table.error());
+      if (options.json) all.push_back({{"file", file}, {"error", table.error().text()}});
+      continue;
+    }
     const LampReport report = lint_lamp(*table);
     if (options.json) {
       all.push_back(as_json(file, *table, report));
@@ -113,11 +118,11 @@ int lamp_info(const LampInfoOptions& options) {
       print(file, *table, report);
     }
   }
-  if (options.json) {
+  if (options.json && !(exit != kExitDone && all.size() == 1)) {
     const nlohmann::json& shown = all.size() == 1 ? all.front() : all;
     std::printf("%s\n", shown.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   }
-  return kExitDone;
+  return exit;
 }
 
 int lamp_table(const LampTableOptions& options) {

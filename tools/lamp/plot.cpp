@@ -54,7 +54,7 @@ int lamp_plot(const LampPlotOptions& options) {
   if (check) {
     subtitle +=
         "; " + check->rule_name + ": " +
-        (check->verdict == Verdict::kFail ? "FAIL, " + std::to_string(check->failed) + " rows" : std::string("pass"));
+        (check->verdict == Verdict::kFail ? "FAIL, " + std::to_string(check->failed) + " rows" : verdict_name(check->verdict));
   }
   const std::string name = left.name;
   std::vector<RoadLamp> pair{{&tables.front(), 0.5 * options.spacing_m, options.height_m, pitch_deg},
