@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   Command chosen;
   add_drive(app, chosen);
   add_record(app, chosen);
+  add_control(app, chosen);
   add_replay(app, chosen);
   add_import(app, chosen);
   add_lamp(app, chosen);

@@ -78,5 +78,34 @@ TEST(Hspr, PointsAreLinearAndAHeadlampScoresInside) {
   EXPECT_LT(result.weighted, 25.0);
 }
 
+TEST(Hspr, TheScaleRunsFromWorstToBest) {
+  const IntensityTable table = constant(15000);
+  const std::vector<HsprLamp> pair{{&table, -0.6, 0.65, 0.0}, {&table, 0.6, 0.65, 0.0}};
+  const HsprResult low = hspr_low_beam(pair);
+  EXPECT_NEAR(low.worst + low.on_scale_01 * (low.best - low.worst), low.weighted, 1e-9);
+  EXPECT_FALSE(row(low, "glare").chosen.empty());  // the weights inside the window are ours
+  EXPECT_TRUE(row(low, "A").chosen.empty());
+}
+
+TEST(Hspr, WhichBeamAPairIs) {
+  const std::vector<SampleLamp> lamps = sample_lamps();
+  const auto beam_of = [&](const char* left, const char* right, HsprBeam asked = HsprBeam::kFind) {
+    std::vector<HsprLamp> pair;
+    for (const char* file : {left, right}) {
+      for (const SampleLamp& lamp : lamps)
+        if (lamp.file == file) pair.push_back({&lamp.table, 0.0, 0.65, 0.0});
+    }
+    const auto beam = hspr_beam(pair, asked);
+    return beam ? std::string(*beam == HsprBeam::kLow ? "low" : "high") : beam.error().place;
+  };
+  EXPECT_EQ(beam_of("low_rht.ies", "led_low_rht.ies"), "low");
+  EXPECT_EQ(beam_of("high.ies", "led_high.ies"), "high");
+  EXPECT_EQ(beam_of("low_rht.ies", "high.ies"), "high.ies");  // refused: no pair
+  EXPECT_EQ(beam_of("low_rht.ies", "high.ies", HsprBeam::kLow), "high.ies");
+  EXPECT_EQ(beam_of("low_rht.ies", "low_lht.ies"), "low_lht.ies");  // the one that it is
+  EXPECT_EQ(beam_of("fog.ies", "fog.ies"), "fog.ies");
+  EXPECT_EQ(beam_of("fog.ies", "fog.ies", HsprBeam::kLow), "low");
+}
+
 }  // namespace
 }  // namespace phare

@@ -85,12 +85,78 @@ TEST(Lint, MissingDataSpikesAndEdges) {
   IntensityTable spike = low();
   spike.candela[150 * spike.first_deg.size() + 100] = 30000.0;
   ASSERT_NE(find(lint_lamp(spike), "spike"), nullptr);
-  IntensityTable cut = resample(low(), PhotometricType::kA, GammaAxis::kGamma0, {-10, -5, 0, 5, 10}, {-5, -3, -1, 1});
+  IntensityTable cut = resample(low(), PhotometricType::kA, GammaAxis::kGamma0, {-10, -5, 0, 5, 10}, {-5, -3, -1, 1, 3});
   ASSERT_NE(find(lint_lamp(cut), "cut-table"), nullptr);
   ASSERT_NE(find(lint_lamp(cut), "coarse"), nullptr);
   IntensityTable dark = low();
   std::fill(dark.candela.begin(), dark.candela.end(), 0.0);
   EXPECT_EQ(lint_lamp(dark).findings.front().grade, Grade::kError);
+}
+
+// A block of zeros, and columns of zeros side by side, are as missing as single ones.
+TEST(Lint, MissingDataOfAnyWidth) {
+  const auto with_zeros = [](double h_low, double h_high, double v_low, double v_high) {
+    IntensityTable table = low();
+    std::size_t zeros = 0;
+    for (std::size_t j = 0; j < table.second_deg.size(); ++j) {
+      for (std::size_t i = 0; i < table.first_deg.size(); ++i) {
+        const double h = table.first_deg[i], v = table.second_deg[j];
+        if (h < h_low || h > h_high || v < v_low || v > v_high) continue;
+        table.candela[j * table.first_deg.size() + i] = 0.0;
+        ++zeros;
+      }
+    }
+    return std::pair{table, zeros};
+  };
+  const auto [block, zeros] = with_zeros(-1.0, 1.0, -1.5, -1.0);
+  ASSERT_NE(find(lint_lamp(block), "missing-data"), nullptr);
+  EXPECT_TRUE(find(lint_lamp(block), "missing-data")->text.starts_with(std::to_string(zeros) + " value(s)"));
+  for (const double high : {2.0, 2.2, 2.6})  // 1, 2, 6 columns of 0.1°, from below to above
+    EXPECT_NE(find(lint_lamp(with_zeros(2.0, high, -90.0, 90.0).first), "missing-data"), nullptr) << high;
+  EXPECT_NE(find(lint_lamp(with_zeros(-90.0, 90.0, -1.0, -0.8).first), "missing-data"), nullptr);
+  // Dark outside is no missing data.
+  EXPECT_EQ(find(lint_lamp(with_zeros(-90.0, 90.0, 2.0, 90.0).first), "missing-data"), nullptr);
+  EXPECT_EQ(find(lint_lamp(with_zeros(12.0, 90.0, -90.0, 90.0).first), "missing-data"), nullptr);
+}
+
+TEST(Lint, ABeamTurnedAboutItsAxisIsSuspected) {
+  IntensityTable upside = low();
+  const std::size_t columns = upside.first_deg.size(), rows = upside.second_deg.size();
+  for (std::size_t j = 0; j < rows; ++j) {
+    for (std::size_t i = 0; i < columns; ++i)
+      upside.candela[j * columns + i] = low().candela[(rows - 1 - j) * columns + i];
+  }
+  for (double& v : upside.second_deg) v = -v;
+  std::reverse(upside.second_deg.begin(), upside.second_deg.end());
+  ASSERT_NE(find(lint_lamp(upside), "turned"), nullptr);
+  EXPECT_NE(find(lint_lamp(upside), "turned")->text.find("upside down"), std::string::npos);
+  PHARE_NEEDS_SHARED_DATA("photometry-reference/photometry/low.ldt");
+  for (const char* name : {"low.ldt", "fog.ldt"}) {
+    const auto file = test::shared_data(std::string("photometry-reference/photometry/") + name);
+    LampReadSettings settings;
+    // The set's fog lamps have C 0 up, its low beams to the right: a quarter beside it the beam lies on its side.
+    settings.c0_turn_deg = std::string(name) == "fog.ldt" ? 90.0 : 0.0;
+    EXPECT_EQ(find(lint_lamp(*read_lamp(file, settings)), "turned"), nullptr) << name;
+    for (const double beside : {90.0, 180.0, 270.0}) {
+      LampReadSettings turned = settings;
+      turned.c0_turn_deg += beside;
+      const LampReport report = lint_lamp(*read_lamp(file, turned));
+      ASSERT_NE(find(report, "turned"), nullptr) << name << " " << beside;
+      const std::string hint = beside == 90.0 ? "by -90 deg)" : beside == 180.0 ? "by +180 deg)" : "by +90 deg)";
+      if (std::string(name) == "low.ldt") {
+        EXPECT_NE(find(report, "turned")->text.find(hint), std::string::npos) << beside;
+      }
+    }
+  }
+}
+
+TEST(Lint, TrafficSideIsReadWithoutHyphen) {
+  IntensityTable left = low();
+  mirror_left_right(left);
+  for (const char* words : {"passing beam for right hand traffic", "Right-hand-traffic", "RIGHT-HAND TRAFFIC", "RHT"}) {
+    left.header.keywords = {{"OTHER", words}};
+    EXPECT_NE(find(lint_lamp(left), "mirrored"), nullptr) << words;
+  }
 }
 
 TEST(Lint, WrongAxisOfATypeCFile) {

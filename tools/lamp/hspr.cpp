@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
@@ -18,17 +19,13 @@ int lamp_hspr(const LampHsprOptions& options) {
   if (!right) return bad_input(right.error());
   std::vector<HsprLamp> lamps{{&*left, -0.5 * options.spacing_m, options.height_m, 0.0},
                               {&*right, 0.5 * options.spacing_m, options.height_m, 0.0}};
-  bool low = options.beam == "low";
+  const auto beam = hspr_beam(lamps, options.beam == "low"    ? HsprBeam::kLow
+                                     : options.beam == "high" ? HsprBeam::kHigh
+                                                              : HsprBeam::kFind);
+  if (!beam) return bad_input(beam.error());
+  const bool low = *beam == HsprBeam::kLow;
   for (HsprLamp& lamp : lamps) {
-    const CutoffShape shape = cutoff_shape(mounted_intensity(*lamp.table, glm::dmat3{1.0}));
-    const bool kinked = shape.side == CutoffSide::kRisesRight || shape.side == CutoffSide::kRisesLeft;
-    if (options.beam == "find" && kinked) low = true;
-    if (shape.side == CutoffSide::kRisesLeft)
-      return bad_input(
-          {options.left,
-           "is for left-hand traffic; the method is written for right-hand traffic: turn it with --mirror"});
-    // Initial aim 1 % down by the cut-off (the method's 0.57°); a driving beam as filed.
-    lamp.aim_up_deg = options.pitch_given ? options.pitch_deg : kinked ? -0.573 - shape.flat_v_deg : 0.0;
+    if (options.pitch_given) lamp.aim_up_deg = options.pitch_deg;
   }
   const HsprResult result = low ? hspr_low_beam(lamps) : hspr_high_beam(lamps);
   if (options.json) {
@@ -38,6 +35,7 @@ int lamp_hspr(const LampHsprOptions& options) {
           {"id", row.id}, {"what", row.what}, {"unit", row.unit}, {"value", row.value}, {"weight", row.weight}};
       if (row.one_point != row.two_points)
         one["points"] = row.points, one["one_point"] = row.one_point, one["two_points"] = row.two_points;
+      if (!row.chosen.empty()) one["chosen"] = row.chosen;
       rows.push_back(std::move(one));
     }
     nlohmann::json json{{"beam", low ? "low" : "high"},
@@ -49,6 +47,8 @@ int lamp_hspr(const LampHsprOptions& options) {
                         {"rows", rows},
                         {"scale_worst", result.worst},
                         {"scale_best", result.best}};
+    if (result.complete) json["on_scale_01"] = result.on_scale_01;
+    if (!result.complete) json["no_points"] = "the one- and two-point values of this beam were not at hand";
     if (result.complete) json["weighted_points"] = result.weighted;
     print_json(json);
     return kExitDone;
@@ -60,12 +60,17 @@ int lamp_hspr(const LampHsprOptions& options) {
   for (const HsprRow& row : result.rows) {
     char points[16] = "-";
     if (row.one_point != row.two_points) std::snprintf(points, sizeof points, "%.2f", row.points);
-    std::printf("  %-8s %-58s %9.2f %-2s %8s %8.2f\n", row.id.c_str(), row.what.c_str(), row.value, row.unit.c_str(),
-                points, row.weight);
+    std::printf("  %-8s %-58s %9.2f %-2s %8s %8.2f%s\n", row.id.c_str(), row.what.c_str(), row.value, row.unit.c_str(),
+                points, row.weight, row.chosen.empty() ? "" : " *");
+  }
+  std::set<std::string> chosen;
+  for (const HsprRow& row : result.rows) {
+    if (!row.chosen.empty() && chosen.insert(row.chosen).second)
+      std::printf("  * %s: left open by the notes, chosen here: %s\n", row.id.c_str(), row.chosen.c_str());
   }
   if (result.complete) {
-    std::printf("weighted points %.2f; the method's scale runs from %.2f (worst) to %.2f (best)\n", result.weighted,
-                result.worst, result.best);
+    std::printf("weighted points %.2f: %.0f %% of the way from the method's worst, %.2f, to its best, %.2f\n",
+                result.weighted, 100.0 * result.on_scale_01, result.worst, result.best);
   } else {
     std::printf("no total: the one- and two-point values of this beam were not at hand\n");
   }

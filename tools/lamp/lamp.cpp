@@ -78,7 +78,7 @@ void add_table(CLI::App* lamp, Command& chosen) {
 
 void add_check(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampCheckOptions>();
-  CLI::App* command = lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails");
+  CLI::App* command = lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails or the file lacks data");
   command->footer("Example:\n  phare lamp check low_beam.ies --rule r112-passing-b --json\n  phare lamp check --list");
   command->add_option("files", options->files, "One file, or left and right (rules of half the sum)");
   command->add_option("--rule", options->rules, "Rulebook of config/rules, or a .toml file; repeat for more")
@@ -92,6 +92,8 @@ void add_check(CLI::App* lamp, Command& chosen) {
                       "Turn the lamp right by this, deg, instead of the rule's aim")
       ->check(finite());
   command->add_flag("!--no-reaim", options->reaim, "Do not use the rule's re-aim allowance");
+  command->add_option("--aim", options->aim, "Which of the rule's aims, as marked on the lens: VOL or VOR [by the beam]");
+  command->add_flag("--led-module", options->led_module, "The light source is an LED module with control gear");
   command->add_flag("--list", options->list, "List the rulebooks");
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);

@@ -31,7 +31,8 @@ struct LampCheckOptions {
   LampReadSettings settings;
   std::string traffic = "find";
   std::optional<double> aim_up_deg, aim_right_deg;
-  bool reaim = true, json = false, all = false, list = false;
+  std::string aim;  ///< one of the rule's: "VOL", "VOR"; empty: by the beam
+  bool reaim = true, led_module = false, json = false, list = false;
 };
 int lamp_check(const LampCheckOptions& options);
 

@@ -29,7 +29,7 @@ struct AimedLamp {
 };
 
 std::string aim_words(const std::string& method) {
-  if (method == "as filed") return "as filed";
+  if (method.ends_with("as filed")) return method;  // there may be no cut-off to aim by
   return method == "given" ? "aimed as given" : "aimed by " + method;
 }
 
@@ -77,11 +77,11 @@ std::string verdict_text(const CheckResult& check) {
   std::string text = check.rule_name + (check.left_hand ? ", rows mirrored: " : ": ");
   if (check.verdict == Verdict::kFail) {
     text += "FAIL, " + std::to_string(check.failed) + " of " + std::to_string(check.rows.size()) + " rows";
-  } else if (check.verdict == Verdict::kPass) {
-    text += "pass";
   } else {
-    text += "not decided, " + std::to_string(check.within_resolution) + " rows within the file's resolution";
+    text += check.verdict == Verdict::kPass ? "pass" : "undecided";
   }
+  if (check.within_resolution > 0) text += ", " + std::to_string(check.within_resolution) + " within the file's resolution";
+  if (check.no_data > 0) text += ", " + std::to_string(check.no_data) + " without data";
   return text;
 }
 
@@ -150,7 +150,12 @@ int lamp_plot(const LampPlotOptions& options) {
     walls.push_back(wall_beam(left, ""));
   } else if (rule && rule->half_sum) {
     const IntensityTable* pair[] = {left.table, right.table};
+    if (const Status same = same_traffic(pair); !same) return bad_input(same.error());
     both = check_lamp(pair, *rule, how_to_check(options));
+    for (std::size_t i = 0; i < lamps.size(); ++i) {  // drawn as judged
+      lamps[i].up_deg = both->lamps[i].up_deg;
+      lamps[i].right_deg = both->lamps[i].right_deg;
+    }
     const IntensityHv of_left = left.intensity(), of_right = right.intensity();
     walls.push_back({"", "half the sum of " + left.table->name + " and " + right.table->name,
                      "left " + aim_text(left) + "; right " + aim_text(right) + "; " + verdict_text(*both),
@@ -215,10 +220,10 @@ int lamp_plot(const LampPlotOptions& options) {
     if (beam.check == nullptr) continue;
     json["checks"].push_back({{"beam", beam.name},
                               {"rule", beam.check->rule_id},
-                              {"verdict", beam.check->verdict == Verdict::kPass   ? "pass"
-                                          : beam.check->verdict == Verdict::kFail ? "fail"
-                                                                                  : "within resolution"},
+                              {"verdict", verdict_name(beam.check->verdict)},
                               {"failed", beam.check->failed},
+                              {"within_resolution", beam.check->within_resolution},
+                              {"no_data", beam.check->no_data},
                               {"not_wholly_on_the_wall", rows_beyond_wall(*beam.check)}});
   }
   for (const auto& [stem, draw] : views) {

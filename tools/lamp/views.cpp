@@ -17,7 +17,17 @@ double log_cd(double cd) {
 }
 
 Rgb verdict_colour(Verdict verdict) {
-  return verdict == Verdict::kPass ? kPass : verdict == Verdict::kFail ? kFailed : kWithin;
+  switch (verdict) {
+    case Verdict::kPass:
+      return kPass;
+    case Verdict::kFail:
+      return kFailed;
+    case Verdict::kWithinResolution:
+      return kWithin;
+    case Verdict::kNoData:
+      break;
+  }
+  return kGrey;
 }
 
 /// Corners of a row's place, H and V.
@@ -118,7 +128,8 @@ void draw_row_legend(Chart& chart, const CheckResult& check) {
   double x = 70.0;
   for (const auto& [verdict, name, wide] : {std::tuple{Verdict::kPass, "pass", 45.0},
                                             {Verdict::kFail, "fail", 45.0},
-                                            {Verdict::kWithinResolution, "within the file's resolution", 160.0}}) {
+                                            {Verdict::kWithinResolution, "within the file's resolution", 150.0},
+                                            {Verdict::kNoData, "no data", 65.0}}) {
     draw_mark(chart, x, y, verdict);
     chart.text(x + 8, y, name, 8.5, -1, kBlack);
     x += wide;
@@ -137,8 +148,8 @@ void draw_row_legend(Chart& chart, const CheckResult& check) {
       break;
     }
     const auto row = std::find_if(check.rows.begin(), check.rows.end(), [&](const CheckRow& r) { return r.id == beyond[i]; });
-    text += (i > 0 ? ", " : "") + beyond[i] +
-            (row->verdict == Verdict::kPass ? " (pass)" : row->verdict == Verdict::kFail ? " (FAIL)" : " (undecided)");
+    text += (i > 0 ? ", " : "") + beyond[i] + " (" +
+            (row->verdict == Verdict::kFail ? "FAIL" : verdict_name(row->verdict)) + ")";
   }
   chart.text(66, 481, text, 8.5, -1, kText);
 }

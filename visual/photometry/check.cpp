@@ -1,7 +1,7 @@
 // Judging a beam by a rulebook.
 // Computes: the aim (inflection of log E on the rule's scan put on its line, UN R112 annex 9, FMVSS 108 S10.18.9), then
-// for every row its lowest and highest intensity. Lines are walked in 0.02°; areas by their edge and by every node of
-// the table inside, between which a bilinear table has no extreme of its own. Sources of the numbers: config/rules.
+// every row (check_rows.cpp), re-aimed where the rule allows it, and the cut-off's own quality. Sources of the numbers:
+// config/rules.
 // Frame: H, V of the rule as the lamp is mounted. Leaves out: the receiver's size (65 mm at 25 m), horizontal aim by
 // the 0.2 D line (the file's H is taken as aimed, within the re-aim allowance), temperature and voltage. Checked by
 // tests/photometry/check_test.cpp.
@@ -12,215 +12,16 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/check_rows.h"
 
 namespace phare {
 namespace {
 
-constexpr double kLineStep_deg = 0.02;
-constexpr double kSearchStep_deg = 0.25;
 constexpr double kReaimStep_deg = 0.05;
 
-struct Node {
-  HV at;
-  double cd;
-};
-
-/// The beam as mounted with an aim: half the sum of its tables, H mirrored for left-hand traffic.
-class Beam {
- public:
-  Beam(std::span<const IntensityTable* const> tables, bool mirrored) : tables_(tables), mirrored_(mirrored) { aim({}); }
-
-  void aim(HV aim) {
-    aim_ = aim;
-    const double side = mirrored_ ? -1.0 : 1.0;
-    car_from_lamp_ = aim_rotation(-side * glm::radians(aim.h_deg), glm::radians(aim.v_deg), 0.0);
-    nodes_.clear();
-    peak_.reset();
-  }
-  HV aim() const { return aim_; }
-
-  double at(double h_deg, double v_deg) const {
-    const glm::dvec3 in_lamp = direction_hv(mirrored_ ? -h_deg : h_deg, v_deg) * car_from_lamp_;
-    double sum = 0.0;
-    for (const IntensityTable* table : tables_) sum += table->intensity_cd(in_lamp);
-    return sum / static_cast<double>(tables_.size());
-  }
-  double resolution(HV p) const {
-    const glm::dvec3 in_lamp = direction_hv(mirrored_ ? -p.h_deg : p.h_deg, p.v_deg) * car_from_lamp_;
-    double sum = 0.0;
-    for (const IntensityTable* table : tables_) sum += interpolation_error_cd(*table, table->angles_of(in_lamp));
-    return sum / static_cast<double>(tables_.size());
-  }
-  /// Every node of the tables in the frame of the rule. Made when first asked for.
-  const std::vector<Node>& nodes() {
-    if (!nodes_.empty()) return nodes_;
-    for (const IntensityTable* table : tables_) {
-      for (const double second : table->second_deg) {
-        for (const double first : table->first_deg) {
-          const glm::dvec3 d = car_from_lamp_ * table->direction_of({first, second});
-          TableAngles hv = table_angles(PhotometricType::kA, GammaAxis::kGamma0, d);
-          if (mirrored_) hv.first_deg = -hv.first_deg;
-          nodes_.push_back({{hv.first_deg, hv.second_deg}, at(hv.first_deg, hv.second_deg)});
-        }
-      }
-    }
-    return nodes_;
-  }
-  Node peak() {
-    if (!peak_) {
-      const auto& all = nodes();
-      peak_ = *std::max_element(all.begin(), all.end(), [](const Node& a, const Node& b) { return a.cd < b.cd; });
-    }
-    return *peak_;
-  }
-  double flux_lm() const {
-    double sum = 0.0;
-    for (const IntensityTable* table : tables_) sum += table->flux_lm();
-    return sum / static_cast<double>(tables_.size());
-  }
-
- private:
-  std::span<const IntensityTable* const> tables_;
-  bool mirrored_;
-  HV aim_;
-  glm::dmat3 car_from_lamp_{1.0};
-  std::vector<Node> nodes_;
-  std::optional<Node> peak_;
-};
-
-bool inside(const std::vector<HV>& polygon, HV p) {
-  bool is_inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const HV a = polygon[i], b = polygon[j];
-    if ((a.v_deg > p.v_deg) != (b.v_deg > p.v_deg) &&
-        p.h_deg < a.h_deg + (b.h_deg - a.h_deg) * (p.v_deg - a.v_deg) / (b.v_deg - a.v_deg)) {
-      is_inside = !is_inside;
-    }
-  }
-  return is_inside;
-}
-
-std::vector<HV> outline(const RuleRow& row) {
-  if (row.shape != RowShape::kArea) return row.at;
-  const HV a = row.at[0], b = row.at[1];
-  return {{a.h_deg, a.v_deg}, {b.h_deg, a.v_deg}, {b.h_deg, b.v_deg}, {a.h_deg, b.v_deg}};
-}
-
-template <typename Visit>
-void along(HV from, HV to, double step_deg, const Visit& visit) {
-  const double length = std::hypot(to.h_deg - from.h_deg, to.v_deg - from.v_deg);
-  const int steps = std::clamp(static_cast<int>(std::ceil(length / step_deg)), 1, 20000);
-  for (int i = 0; i <= steps; ++i) {
-    const double t = static_cast<double>(i) / steps;
-    visit(HV{from.h_deg + t * (to.h_deg - from.h_deg), from.v_deg + t * (to.v_deg - from.v_deg)});
-  }
-}
-
-/// Lowest and highest of a row; `shift` looks at places moved by it, as if the beam were turned the other way.
-struct Extremes {
-  double lowest = kNoMaximum, highest = 0.0, sum = 0.0;
-  HV lowest_at, highest_at;
-  void take(HV p, double cd) {
-    if (cd < lowest) {
-      lowest = cd;
-      lowest_at = p;
-    }
-    if (cd > highest || (highest == 0.0 && cd == 0.0)) {
-      highest = cd;
-      highest_at = p;
-    }
-    sum += cd;
-  }
-};
-
-Extremes scan(Beam& beam, const RuleRow& row, HV shift, bool coarse) {
-  Extremes e;
-  const auto look = [&](HV p) { e.take(p, beam.at(p.h_deg - shift.h_deg, p.v_deg - shift.v_deg)); };
-  const double step = coarse ? kSearchStep_deg : kLineStep_deg;
-  switch (row.shape) {
-    case RowShape::kPoints:
-    case RowShape::kSum:
-      for (const HV p : row.at) look(p);
-      break;
-    case RowShape::kLine:
-      for (std::size_t i = 0; i + 1 < row.at.size(); ++i) along(row.at[i], row.at[i + 1], step, look);
-      break;
-    case RowShape::kArea:
-    case RowShape::kPolygon: {
-      const std::vector<HV> edge = outline(row);
-      for (std::size_t i = 0; i < edge.size(); ++i) along(edge[i], edge[(i + 1) % edge.size()], step, look);
-      if (coarse) {
-        HV low = edge[0], high = edge[0];
-        for (const HV p : edge) {
-          low = {std::min(low.h_deg, p.h_deg), std::min(low.v_deg, p.v_deg)};
-          high = {std::max(high.h_deg, p.h_deg), std::max(high.v_deg, p.v_deg)};
-        }
-        const double wide = std::max(step, (high.h_deg - low.h_deg) / 80.0),
-                     tall = std::max(step, (high.v_deg - low.v_deg) / 80.0);
-        for (double h = low.h_deg; h <= high.h_deg; h += wide) {
-          for (double v = low.v_deg; v <= high.v_deg; v += tall) {
-            if (inside(edge, {h, v})) look({h, v});
-          }
-        }
-        break;
-      }
-      for (const Node& node : beam.nodes()) {
-        const HV p{node.at.h_deg + shift.h_deg, node.at.v_deg + shift.v_deg};
-        if (inside(edge, p)) e.take(p, node.cd);
-      }
-      break;
-    }
-    case RowShape::kPeak: {
-      const Node peak = beam.peak();
-      e.take({peak.at.h_deg + shift.h_deg, peak.at.v_deg + shift.v_deg}, peak.cd);
-      break;
-    }
-  }
-  if (row.shape == RowShape::kSum) e.lowest = e.highest = e.sum;
-  return e;
-}
-
-CheckRow judge(Beam& beam, const Rulebook& rule, const RuleRow& row, HV shift, bool coarse) {
-  CheckRow result;
-  result.id = row.id;
-  result.clause = row.clause;
-  result.unit = "cd";
-  result.shape = row.shape;
-  result.unconfirmed = row.unconfirmed;
-  result.min = row.min_cd;
-  result.max = row.max_cd;
-  result.reaim = shift;
-  if (row.min_of_peak_01 > 0.0) result.min = std::max(result.min, row.min_of_peak_01 * beam.peak().cd);
-  if (row.max_factor > 0.0)
-    result.max = std::min(result.max, row.max_factor * scan(beam, *rule.row(row.max_of), shift, coarse).highest);
-  const Extremes e = scan(beam, row, shift, coarse);
-  result.lowest = e.lowest;
-  result.highest = e.highest;
-  result.lowest_at = e.lowest_at;
-  result.highest_at = e.highest_at;
-  const double above = e.lowest - result.min, below = result.max - e.highest;
-  const bool by_min = result.min > kNoMinimum && (result.max >= kNoMaximum || above < below);
-  result.margin = by_min ? above : below;
-  return result;
-}
-
-/// Adds resolution and verdict.
-void conclude(const Beam& beam, const RuleRow& row, CheckRow& result) {
-  const double above = result.lowest - result.min;
-  const HV tightest = result.margin == above ? result.lowest_at : result.highest_at;
-  if (row.shape == RowShape::kSum) {
-    for (const HV p : row.at) result.resolution += beam.resolution(p);
-  } else {
-    result.resolution = beam.resolution({tightest.h_deg - result.reaim.h_deg, tightest.v_deg - result.reaim.v_deg});
-  }
-  result.verdict = std::abs(result.margin) < result.resolution ? Verdict::kWithinResolution
-                   : result.margin >= 0.0                      ? Verdict::kPass
-                                                               : Verdict::kFail;
-}
-
-CheckRow measured(std::string id, std::string clause, std::string unit, double value, double min, double max,
-                  double resolution) {
+/// A row that is no candela of a place; `lowest` to `highest` is what the value may be.
+CheckRow measured(std::string id, std::string clause, std::string unit, double value, double lowest, double highest,
+                  double min, double max) {
   CheckRow row;
   row.id = std::move(id);
   row.clause = std::move(clause);
@@ -228,53 +29,99 @@ CheckRow measured(std::string id, std::string clause, std::string unit, double v
   row.min = min;
   row.max = max;
   row.lowest = row.highest = value;
-  row.margin = min > kNoMinimum ? std::min(value - min, max - value) : max - value;
-  row.resolution = resolution;
-  row.verdict = std::abs(row.margin) < resolution ? Verdict::kWithinResolution
-                : row.margin >= 0.0               ? Verdict::kPass
-                                                  : Verdict::kFail;
+  row.verdict = lowest >= min && highest <= max ? Verdict::kPass
+                : highest < min || lowest > max ? Verdict::kFail
+                                                : Verdict::kWithinResolution;
+  row.by_min = min > kNoMinimum && (max >= kNoMaximum || value - min < max - value);
+  // Inside both limits the one that it may yet miss is told.
+  if (row.verdict == Verdict::kWithinResolution && value >= min && value <= max && (lowest < min) != (highest > max))
+    row.by_min = lowest < min;
+  row.margin = row.by_min ? value - min : max - value;
+  row.resolution = row.by_min == (row.margin >= 0.0) ? value - lowest : highest - value;
   row.shape = RowShape::kPeak;
   return row;
 }
 
-IntensityHv as_function(const Beam& beam) {
-  return [&beam](double h, double v) { return beam.at(h, v); };
+/// A row that there is nothing to measure for.
+CheckRow nothing(CheckRow row, Verdict verdict) {
+  row.has_value = false;
+  row.lowest = row.highest = row.margin = row.resolution = 0.0;
+  row.no_data = verdict == Verdict::kNoData;
+  row.verdict = verdict;
+  return row;
 }
 
-/// Turns the beam until the inflection lies on the line. False: no cut-off to aim by.
-bool aim_by_cutoff(Beam& beam, const CutoffAim& aim) {
-  HV turned = beam.aim();
+/// Turns one lamp until its inflection lies on the line; as filed where there is none.
+LampAim aim_by_cutoff(RuleBeam& beam, const CutoffAim& aim) {
+  LampAim result;
   for (int round = 0; round < 5; ++round) {
-    const Cutoff cutoff = find_cutoff(as_function(beam), aim.scan_h_deg);
-    if (!cutoff.found) return false;
+    const Cutoff cutoff = find_cutoff(beam.intensity(), aim.scan_h_deg);
+    result.found = cutoff.found;
+    if (!cutoff.found) {
+      beam.set_aim(0, {});
+      break;
+    }
     const double off = aim.line_v_deg - cutoff.elevation_deg;
-    if (std::abs(off) < 0.003) return true;
-    turned.v_deg += off;
-    beam.aim(turned);
+    if (std::abs(off) < 0.003) break;
+    beam.turn({0.0, off});
   }
-  return true;
+  return result;
 }
 
+/// Sharpness and linearity of one lamp's own cut-off.
+void judge_cutoff(const RuleBeam& lamp, const CutoffAim& aim, const std::string& whose, LampAim& result,
+                  std::vector<CheckRow>& rows) {
+  result.cutoff = find_cutoff(lamp.intensity(), aim.scan_h_deg);
+  const Cutoff& cutoff = result.cutoff;
+  const Verdict none = cutoff.at_edge ? Verdict::kNoData : Verdict::kFail;
+  RuleBeam::SharpnessRange range{cutoff.sharpness_g, cutoff.sharpness_g, 0.0};
+  if (cutoff.found) range = lamp.sharpness_range(0, aim.scan_h_deg, cutoff);
+  result.resolution_deg = range.row_step_deg;
+  if (aim.sharpness_min > 0.0 || aim.sharpness_max < kNoMaximum) {
+    CheckRow row = measured("cut-off sharpness G" + whose, aim.clause, "", cutoff.sharpness_g, range.lowest_g,
+                            range.highest_g, aim.sharpness_min, aim.sharpness_max);
+    rows.push_back(cutoff.at_edge ? nothing(std::move(row), none) : std::move(row));
+  }
+  if (aim.linearity_h_deg.empty()) return;
+  double low = 90.0, high = -90.0, step = 0.0;
+  Verdict missing = Verdict::kPass;
+  for (const double h : aim.linearity_h_deg) {
+    const Cutoff at = find_cutoff(lamp.intensity(), h);
+    if (!at.found) {
+      missing = std::max(missing, at.at_edge ? Verdict::kNoData : Verdict::kFail);
+      continue;
+    }
+    low = std::min(low, at.elevation_deg);
+    high = std::max(high, at.elevation_deg);
+    step = std::max(step, lamp.sharpness_range(0, h, at).row_step_deg);
+  }
+  const double spread = high - low;
+  CheckRow row = measured("cut-off linearity" + whose, aim.clause, "deg", spread, std::max(0.0, spread - step),
+                          spread + step, 0.0, aim.linearity_max_deg);
+  rows.push_back(missing != Verdict::kPass ? nothing(std::move(row), missing) : std::move(row));
+}
+
+/// Rows that fail or are not known, and by how much.
 double total_shortfall(const std::vector<CheckRow>& rows, std::size_t& failed) {
   double sum = 0.0;
   failed = 0;
   for (const CheckRow& row : rows) {
-    if (row.margin >= 0.0) continue;
+    if (row.margin >= 0.0 && !row.no_data) continue;
     ++failed;
-    sum += -row.margin / std::max(1.0, row.max < kNoMaximum ? row.max : row.min);
+    sum += row.margin < 0.0 ? -row.margin / std::max(1.0, row.max < kNoMaximum ? row.max : row.min) : 1.0;
   }
   return sum;
 }
 
-std::vector<CheckRow> judge_all(Beam& beam, const Rulebook& rule, HV shift, bool coarse) {
+std::vector<CheckRow> judge_all(RuleBeam& beam, const Rulebook& rule, HV shift, bool coarse) {
   std::vector<CheckRow> rows;
-  for (const RuleRow& row : rule.rows) rows.push_back(judge(beam, rule, row, shift, coarse));
+  for (const RuleRow& row : rule.rows) rows.push_back(judge_row(beam, rule, row, shift, coarse));
   return rows;
 }
 
 /// The re-aim within the rule's allowance with the fewest failed rows, of these the smallest. Searched by shifting the
 /// rows (exact to second order in the shift), which keeps the nodes where they are.
-HV best_reaim(Beam& beam, const Rulebook& rule) {
+HV best_reaim(RuleBeam& beam, const Rulebook& rule) {
   HV best;
   std::size_t fewest = rule.rows.size() + 1;
   double least = kNoMaximum;
@@ -298,162 +145,200 @@ HV best_reaim(Beam& beam, const Rulebook& rule) {
   return best;
 }
 
-/// FMVSS 108: a row that fails may be looked at with the beam turned by up to a quarter degree.
-void reaim_row(Beam& beam, const Rulebook& rule, const RuleRow& row, CheckRow& result) {
+bool passes(const RuleBeam& beam, const RuleRow& row, CheckRow result) {
+  conclude_row(beam, row, result);
+  return result.verdict == Verdict::kPass;
+}
+
+/// FMVSS 108: a test point that fails may be looked at with the beam turned by up to a quarter degree. As far as it
+/// takes to pass for certain.
+void reaim_one(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, CheckRow& result) {
   for (const double part : {0.25, 0.5, 0.75, 1.0}) {
     for (int k = 0; k < 16; ++k) {
+      if (result.margin >= 0.0 && passes(beam, row, result)) return;
       const double angle = k * glm::radians(22.5), radius = part * rule.point_reaim_deg;
-      const CheckRow turned = judge(beam, rule, row, {radius * std::cos(angle), radius * std::sin(angle)}, false);
-      if (turned.margin > result.margin) result = turned;
+      const auto snap = [](double x) { return std::abs(x) < 1e-12 ? 0.0 : x; };
+      const HV shift{snap(radius * std::cos(angle)), snap(radius * std::sin(angle))};
+      const CheckRow turned = judge_row(beam, rule, row, shift, false);
+      if (turned.margin > result.margin && turned.has_value && turned.no_data <= result.no_data) result = turned;
     }
-    if (result.margin >= 0.0) return;
   }
 }
 
-/// Curvature of the values at four nodes i-1 … i+2 (ends clamped) as the largest error of a linear piece, at share u.
-double piece_error(const double (&x)[4], const double (&f)[4], double u) {
-  double curvature = 0.0;  // |f''|·h² of the middle interval
-  const double h = x[2] - x[1];
-  for (const int i : {0, 1}) {
-    const double a = x[i + 1] - x[i], b = x[i + 2] - x[i + 1];
-    if (a <= 0.0 || b <= 0.0) continue;
-    const double second = 2.0 * ((f[i + 2] - f[i + 1]) / b - (f[i + 1] - f[i]) / a) / (a + b);
-    curvature = std::max(curvature, std::abs(second) * h * h);
+/// The points of a row each by itself; a line or an area as a whole.
+void reaim_row(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, CheckRow& result) {
+  if (row.shape != RowShape::kPoints || row.at.size() < 2) return reaim_one(beam, rule, row, result);
+  CheckRow worst;
+  std::vector<HV> reaims;
+  double lowest = kNoMaximum, highest = 0.0;
+  HV lowest_at, highest_at;
+  for (const HV p : row.at) {
+    RuleRow single = row;
+    single.at = {p};
+    CheckRow one = judge_row(beam, rule, single, {}, false);
+    if (one.has_value) reaim_one(beam, rule, single, one);
+    reaims.push_back(one.reaim);
+    if (one.has_value && one.lowest < lowest) lowest = one.lowest, lowest_at = one.lowest_at;
+    if (one.has_value && one.highest > highest) highest = one.highest, highest_at = one.highest_at;
+    if (reaims.size() == 1 || !worst.has_value || (one.has_value && one.margin < worst.margin)) worst = one;
   }
-  return curvature * 0.5 * u * (1.0 - u);  // = curvature / 8 in the middle
+  worst.no_data = result.no_data;
+  worst.no_data_at = result.no_data_at;
+  worst.lowest = lowest;
+  worst.highest = highest;
+  worst.lowest_at = lowest_at;
+  worst.highest_at = highest_at;
+  worst.reaims = std::move(reaims);
+  result = std::move(worst);
+}
+
+/// Of several aims (VOL, VOR) the one asked for, or that on the flat side of the kink; without a kink the sharper.
+const CutoffAim* choose_aim(const RuleBeam& beam, const Rulebook& rule, const std::string& name) {
+  if (const CutoffAim* asked = rule.aim(name); asked != nullptr) return asked;
+  const CutoffAim* best = nullptr;
+  double sharpest = 0.0;
+  const CutoffSide side = rule.cutoff_aims.size() > 1 ? cutoff_shape(beam.intensity()).side : CutoffSide::kNone;
+  for (const CutoffAim& candidate : rule.cutoff_aims) {
+    double g = find_cutoff(beam.intensity(), candidate.scan_h_deg).sharpness_g;
+    if (side == CutoffSide::kRisesRight && candidate.scan_h_deg > 0.0) g = 0.0;
+    if (side == CutoffSide::kRisesLeft && candidate.scan_h_deg < 0.0) g = 0.0;
+    if (best == nullptr || g > sharpest) {
+      best = &candidate;
+      sharpest = g;
+    }
+  }
+  return best;
+}
+
+/// Back to the lamps' own left and right.
+void mirror_rows(std::vector<CheckRow>& rows) {
+  for (CheckRow& row : rows) {
+    for (HV* p : {&row.lowest_at, &row.highest_at, &row.reaim, &row.no_data_at}) p->h_deg = 0.0 - p->h_deg;
+    for (HV& p : row.at) p.h_deg = 0.0 - p.h_deg;
+    for (HV& p : row.reaims) p.h_deg = 0.0 - p.h_deg;
+  }
+}
+
+void count(CheckResult& result) {
+  for (const CheckRow& row : result.rows) {
+    if (row.verdict == Verdict::kFail) ++result.failed;
+    if (row.verdict == Verdict::kNoData) ++result.no_data;
+    if (row.verdict == Verdict::kWithinResolution) ++result.within_resolution;
+    if (!row.unconfirmed.empty()) ++result.unconfirmed;
+    result.verdict = std::max(result.verdict, row.verdict);
+  }
 }
 
 }  // namespace
 
-double interpolation_error_cd(const IntensityTable& table, TableAngles angles) {
-  const auto place = [](const std::vector<double>& nodes, double at, std::size_t& i, double& u) {
-    if (!(at >= nodes.front() && at <= nodes.back())) return false;
-    i = static_cast<std::size_t>(std::upper_bound(nodes.begin() + 1, nodes.end() - 1, at) - nodes.begin()) - 1;
-    u = (at - nodes[i]) / (nodes[i + 1] - nodes[i]);
-    return true;
-  };
-  std::size_t i = 0, j = 0;
-  double u = 0.0, v = 0.0;
-  const double digits = 0.5 * table.header.smallest_step_cd;
-  if (!place(table.first_deg, angles.first_deg, i, u) || !place(table.second_deg, angles.second_deg, j, v)) return 0.0;
-  const std::size_t columns = table.first_deg.size(), rows = table.second_deg.size();
-  double along_first = 0.0, along_second = 0.0;
-  for (const std::size_t other : {std::size_t{0}, std::size_t{1}}) {
-    double x[4], f[4], y[4], g[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t column = std::min(std::max(i + k, std::size_t{1}) - 1, columns - 1);
-      const std::size_t row = std::min(std::max(j + k, std::size_t{1}) - 1, rows - 1);
-      x[k] = table.first_deg[column];
-      f[k] = table.candela[(j + other) * columns + column];
-      y[k] = table.second_deg[row];
-      g[k] = table.candela[row * columns + i + other];
-    }
-    along_first = std::max(along_first, piece_error(x, f, u));
-    along_second = std::max(along_second, piece_error(y, g, v));
+std::string verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPass:
+      return "pass";
+    case Verdict::kWithinResolution:
+      return "within resolution";
+    case Verdict::kNoData:
+      return "no data";
+    case Verdict::kFail:
+      break;
   }
-  return along_first + along_second + digits;
+  return "fail";
 }
 
-CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rulebook& rule,
+Status same_traffic(std::span<const IntensityTable* const> tables) {
+  const IntensityTable *right = nullptr, *left = nullptr;
+  for (const IntensityTable* table : tables) {
+    const CutoffSide side = cutoff_shape(mounted_intensity(*table, glm::dmat3{1.0})).side;
+    if (side == CutoffSide::kRisesRight) right = table;
+    if (side == CutoffSide::kRisesLeft) left = table;
+  }
+  if (right == nullptr || left == nullptr) return Done{};
+  return Error{left->name, "is for left-hand traffic, " + right->name + " for right-hand traffic: no pair"};
+}
+
+CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rulebook& rulebook,
                        const CheckOptions& options) {
+  const Rulebook rule = options.led_module ? rulebook.for_led_modules() : rulebook;
   CheckResult result;
   result.rule_id = rule.id;
   result.rule_name = rule.name;
   result.document = rule.document;
-  const bool asymmetric = rule.function == "low";
   result.left_hand = options.traffic == Traffic::kLeft;
-  if (options.traffic == Traffic::kFind && asymmetric) {
-    const Beam as_filed(tables, false);
-    result.left_hand = cutoff_shape(as_function(as_filed)).side == CutoffSide::kRisesLeft;
+  for (const IntensityTable* table : tables) {
+    if (options.traffic != Traffic::kFind || rule.function != "low") break;
+    const bool left = cutoff_shape(mounted_intensity(*table, glm::dmat3{1.0})).side == CutoffSide::kRisesLeft;
+    result.left_hand = result.left_hand || left;
   }
 
-  Beam beam(tables, result.left_hand);
+  // Each lamp by itself is aimed, and its cut-off judged; the rows are of half the sum.
+  RuleBeam beam(tables, result.left_hand);
+  std::vector<RuleBeam> each;
+  for (std::size_t k = 0; k < tables.size(); ++k) each.emplace_back(tables.subspan(k, 1), result.left_hand);
+  result.lamps.resize(tables.size());
+  const CutoffAim* aim = rule.cutoff_aims.empty() ? nullptr : choose_aim(each.front(), rule, options.aim_name);
   result.aim_method = "as filed";
-  const CutoffAim* aim = nullptr;
-  double sharpest = 0.0;
-  // Of VOL and VOR the one on the flat side of the kink; without a kink the sharper.
-  const CutoffSide side = rule.cutoff_aims.size() > 1 ? cutoff_shape(as_function(beam)).side : CutoffSide::kNone;
-  for (const CutoffAim& candidate : rule.cutoff_aims) {
-    double g = find_cutoff(as_function(beam), candidate.scan_h_deg).sharpness_g;
-    if (side == CutoffSide::kRisesRight && candidate.scan_h_deg > 0.0) g = 0.0;
-    if (side == CutoffSide::kRisesLeft && candidate.scan_h_deg < 0.0) g = 0.0;
-    if (aim == nullptr || g > sharpest) {
-      aim = &candidate;
-      sharpest = g;
-    }
-  }
   bool aimed = true;
-  if (options.aim) {
-    beam.aim(*options.aim);
-    result.aim_method = "given";
-  } else if (aim != nullptr) {
-    result.aim_method = aim->name;
-    aimed = aim_by_cutoff(beam, *aim);
+  for (std::size_t k = 0; k < each.size(); ++k) {
+    if (options.aim) {
+      each[k].turn(*options.aim);
+      result.aim_method = "given";
+    } else if (aim != nullptr) {
+      result.lamps[k] = aim_by_cutoff(each[k], *aim);
+      aimed = aimed && result.lamps[k].found;
+      result.aim_method = aimed ? aim->name : "no cut-off found, as filed";
+      result.aim_unconfirmed = aim->unconfirmed;
+    }
+    beam.set_aim(k, each[k].aim());
   }
 
   std::vector<CheckRow> rows = judge_all(beam, rule, {}, false);
   std::size_t failed = 0;
   const double shortfall = total_shortfall(rows, failed);
+  const bool any_fails = std::any_of(rows.begin(), rows.end(), [](const CheckRow& row) { return row.margin < 0.0; });
   const double allowance = rule.reaim_left_deg + rule.reaim_right_deg + rule.reaim_up_deg + rule.reaim_down_deg;
-  if (failed > 0 && options.reaim && !options.aim && aimed && allowance > 0.0) {
-    const HV before = beam.aim();
+  if (any_fails && options.reaim && !options.aim && aimed && allowance > 0.0) {
     const HV turn = best_reaim(beam, rule);
-    beam.aim({before.h_deg + turn.h_deg, before.v_deg + turn.v_deg});
+    beam.turn(turn);
     std::vector<CheckRow> turned = judge_all(beam, rule, {}, false);
     std::size_t still_failed = 0;
     const double still = total_shortfall(turned, still_failed);
-    if (still_failed < failed || (still_failed == failed && still < shortfall)) {
-      rows = std::move(turned);
-      result.reaimed = true;
-    } else {
-      beam.aim(before);
+    result.reaimed = still_failed < failed || (still_failed == failed && still < shortfall);
+    if (result.reaimed) rows = std::move(turned);
+    for (std::size_t k = 0; k < each.size(); ++k) {
+      if (result.reaimed) each[k].turn(turn);
+      beam.set_aim(k, each[k].aim());
     }
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].margin < 0.0 && rule.point_reaim_deg > 0.0 && options.reaim)
+    const bool open = rows[i].margin < 0.0 || (!rows[i].no_data && !passes(beam, rule.rows[i], rows[i]));
+    if (rule.point_reaim_deg > 0.0 && options.reaim && rows[i].has_value && open)
       reaim_row(beam, rule, rule.rows[i], rows[i]);
-    conclude(beam, rule.rows[i], rows[i]);
+    conclude_row(beam, rule.rows[i], rows[i]);
     rows[i].at = rule.rows[i].at;
   }
-  result.aim_up_deg = beam.aim().v_deg;
-  result.aim_right_deg = result.left_hand ? -beam.aim().h_deg : beam.aim().h_deg;
 
-  if (aim != nullptr) {
-    result.cutoff = find_cutoff(as_function(beam), aim->scan_h_deg);
-    if (aim->sharpness_min > 0.0 || aim->sharpness_max < kNoMaximum) {
-      rows.push_back(measured("cut-off sharpness G", "cut-off quality", "", result.cutoff.sharpness_g,
-                              aim->sharpness_min, aim->sharpness_max, 0.0));
-    }
-    if (!aim->linearity_h_deg.empty()) {
-      double low = 90.0, high = -90.0;
-      for (const double h : aim->linearity_h_deg) {
-        const double v = find_cutoff(as_function(beam), h).elevation_deg;
-        low = std::min(low, v);
-        high = std::max(high, v);
-      }
-      rows.push_back(
-          measured("cut-off linearity", "cut-off quality", "deg", high - low, 0.0, aim->linearity_max_deg, 0.0));
-    }
+  for (std::size_t k = 0; k < each.size(); ++k) {
+    LampAim& lamp = result.lamps[k];
+    lamp.up_deg = each[k].aim().v_deg;
+    lamp.right_deg = result.left_hand ? 0.0 - each[k].aim().h_deg : each[k].aim().h_deg;
+    const std::string whose = each.size() < 2 ? "" : k == 0 ? ", left lamp" : ", right lamp";
+    if (aim != nullptr) judge_cutoff(each[k], *aim, whose, lamp, rows);
   }
   if (rule.flux_min_lm > 0.0) {
-    rows.push_back(measured("luminous flux", rule.clause, "lm", beam.flux_lm(), rule.flux_min_lm, kNoMaximum, 0.0));
-    rows.back().unconfirmed = rule.rows.front().unconfirmed;
+    const double flux_lm = beam.flux_lm();
+    CheckRow row = measured("luminous flux", rule.clause, "lm", flux_lm, flux_lm, flux_lm, rule.flux_min_lm, kNoMaximum);
+    row.unconfirmed = rule.rows.front().unconfirmed;
+    // What lies outside the table can only add.
+    row.no_data = row.verdict == Verdict::kFail && !beam.covers_the_front();
+    if (row.no_data) row.verdict = Verdict::kNoData;
+    rows.push_back(std::move(row));
   }
-  if (result.left_hand) {
-    for (CheckRow& row : rows) {
-      for (HV* p : {&row.lowest_at, &row.highest_at, &row.reaim}) p->h_deg = -p->h_deg;
-      for (HV& p : row.at) p.h_deg = -p.h_deg;
-    }
-  }
-  for (const CheckRow& row : rows) {
-    if (row.verdict == Verdict::kFail) ++result.failed;
-    if (row.verdict == Verdict::kWithinResolution) ++result.within_resolution;
-    if (!row.unconfirmed.empty()) ++result.unconfirmed;
-  }
-  result.verdict = result.failed > 0              ? Verdict::kFail
-                   : result.within_resolution > 0 ? Verdict::kWithinResolution
-                                                  : Verdict::kPass;
+  if (result.left_hand) mirror_rows(rows);
+  result.aim_up_deg = result.lamps.front().up_deg;
+  result.aim_right_deg = result.lamps.front().right_deg;
+  result.cutoff = result.lamps.front().cutoff;
   result.rows = std::move(rows);
+  count(result);
   return result;
 }
 

@@ -7,14 +7,20 @@
 #include <string>
 #include <vector>
 
+#include "config/result.h"
 #include "visual/photometry/cutoff.h"
 #include "visual/photometry/intensity_table.h"
+#include "visual/photometry/rule_beam.h"
 #include "visual/photometry/rulebook.h"
 
 namespace phare {
 
-/// kWithinResolution: the margin, for or against, is smaller than what the file can tell.
-enum class Verdict { kPass, kWithinResolution, kFail };
+/// kWithinResolution: the margin, for or against, is smaller than what the file can tell; kNoData: the table does not
+/// reach all of the row's place, and what it has does not fail. From good to bad.
+enum class Verdict { kPass, kWithinResolution, kNoData, kFail };
+
+/// "pass", "within resolution", "no data", "fail".
+std::string verdict_name(Verdict verdict);
 
 struct CheckRow {
   std::string id;
@@ -25,25 +31,43 @@ struct CheckRow {
   double lowest = 0.0;  ///< over the row's points; of a sum, the sum
   double highest = 0.0;
   HV lowest_at, highest_at;  ///< in the frame of the rule, mirrored rows as mirrored
+  bool by_min = false;       ///< the margin is that to the lower limit, of `lowest`
+  bool has_value = true;     ///< false: nothing to measure there; lowest, highest and margin are 0
   double margin = 0.0;       ///< smallest distance to a limit; negative: missed by that
   double resolution = 0.0;   ///< what interpolation and rounding of the table may be off there
-  HV reaim;                  ///< FMVSS: the quarter degree that this row used (right, up)
+  bool no_data = false;      ///< somewhere in the row, first at `no_data_at`; values are of the rest
+  HV no_data_at;
+  HV reaim;                  ///< FMVSS: the quarter degree that the deciding point used (right, up)
+  std::vector<HV> reaims;    ///< of each point, where the row has several and was re-aimed
   Verdict verdict = Verdict::kPass;
   std::string unconfirmed;  ///< from the rulebook
   RowShape shape = RowShape::kPoints;
   std::vector<HV> at;  ///< the row's place, mirrored where the check was
+
+  double value() const { return by_min ? lowest : highest; }  ///< that decides
+};
+
+/// How one lamp was aimed.
+struct LampAim {
+  bool found = true;            ///< false: the rule aims by the cut-off and there is none; as filed
+  double up_deg = 0.0;          ///< turned by this from how the file has it
+  double right_deg = 0.0;
+  Cutoff cutoff;                ///< on the rule's scan, as aimed
+  double resolution_deg = 0.0;  ///< rows at the cut-off: the inflection is not known better
 };
 
 struct CheckResult {
   std::string rule_id, rule_name, document;
   bool left_hand = false;   ///< rows were mirrored
-  std::string aim_method;   ///< "as filed", "cut-off", "VOL", "VOR", "given"
-  double aim_up_deg = 0.0;  ///< the lamp was turned by this from how the file has it
+  std::string aim_method;   ///< "as filed", "cut-off", "VOL", "VOR", "given", "no cut-off found, as filed"
+  std::string aim_unconfirmed;  ///< from the rulebook
+  double aim_up_deg = 0.0;      ///< of the first lamp
   double aim_right_deg = 0.0;
-  bool reaimed = false;  ///< the re-aim allowance of the rule was used
-  Cutoff cutoff;         ///< on the rule's scan, as aimed
+  bool reaimed = false;         ///< the re-aim allowance of the rule was used
+  Cutoff cutoff;                ///< of the first lamp
+  std::vector<LampAim> lamps;   ///< each by its own cut-off
   std::vector<CheckRow> rows;
-  std::size_t failed = 0, within_resolution = 0, unconfirmed = 0;
+  std::size_t failed = 0, within_resolution = 0, no_data = 0, unconfirmed = 0;
   Verdict verdict = Verdict::kPass;
 };
 
@@ -53,15 +77,16 @@ struct CheckOptions {
   Traffic traffic = Traffic::kFind;  ///< kFind: by the side on which the cut-off rises
   std::optional<HV> aim;             ///< turn the lamp by this (right, up) instead of what the rule says
   bool reaim = true;                 ///< use the rule's allowance where the first aim fails
+  std::string aim_name{};            ///< which of the rule's aims ("VOL", "VOR"); empty or unknown: by the beam
+  bool led_module = false;           ///< limits for LED modules where the rule has their own
 };
 
-/// Checks one lamp, or the left and right one where the rule says half the sum (one table stands for both).
+/// Lamps of a pair for different sides of the road? The error names which is which.
+Status same_traffic(std::span<const IntensityTable* const> tables);
+
+/// Checks one lamp, or the left and right one where the rule says half the sum (one table stands for both): each is
+/// aimed by its own cut-off, then the rows are looked at in half the sum.
 CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rulebook& rule,
                        const CheckOptions& options = {});
-
-/// What bilinear interpolation and the digits of the file leave open at these angles of the table, cd: the second
-/// differences of the neighbouring nodes over 8 (the bound of linear interpolation), scaled to where between the nodes,
-/// and half a unit of the last digit.
-double interpolation_error_cd(const IntensityTable& table, TableAngles angles);
 
 }  // namespace phare

@@ -12,9 +12,10 @@ namespace {
 constexpr double kSpan_deg = 0.1;       // of G
 constexpr double kRuleStep_deg = 0.05;  // UN R112 annex 9
 constexpr double kFineStep_deg = 0.01;
-constexpr double kFaintest_cd = 1e-6;  // below, log E has no meaning
+constexpr double kFloorShare = 1e-4;  // of the scan's highest: four decades, more than a photometer holds in one range
 constexpr double kFaintShare = 0.02;
 constexpr double kLeastG = 0.05;
+constexpr double kLeastRuleG = 0.13;  // UN R112 annex 9, FMVSS 108: what the rules accept as a cut-off
 
 /// A straight line through points by least squares.
 struct Line {
@@ -42,26 +43,33 @@ Line fit(const std::vector<std::pair<double, double>>& points) {
 
 }  // namespace
 
-IntensityHv mounted_intensity(const IntensityTable& table, const glm::dmat3& car_from_lamp, double scale) {
-  return [&table, car_from_lamp, scale](double h_deg, double v_deg) {
-    return scale * table.intensity_cd(direction_hv(h_deg, v_deg) * car_from_lamp);
-  };
-}
+namespace {
 
-Cutoff find_cutoff(const IntensityHv& intensity, double h_deg, double from_v_deg, double to_v_deg) {
-  const int steps = static_cast<int>(std::lround((to_v_deg - from_v_deg) / kFineStep_deg));
+/// A vertical scan in kFineStep_deg.
+struct Scan {
+  double from_v_deg = 0.0;
+  double highest_cd = 0.0;
+  std::vector<double> cd;
+  std::vector<Evidence> evidence;
+};
+
+/// The steepest 0.1° among samples with no worse evidence than `worst`.
+Cutoff steepest(const Scan& scan, Evidence worst) {
+  const int steps = static_cast<int>(scan.cd.size()) - 1;
   const int span = static_cast<int>(std::lround(kSpan_deg / kFineStep_deg));
   const int rule_step = static_cast<int>(std::lround(kRuleStep_deg / kFineStep_deg));
-  std::vector<double> cd;
-  double highest = 0.0;
-  for (int i = 0; i <= steps; ++i) {
-    cd.push_back(intensity(h_deg, from_v_deg + kFineStep_deg * i));
-    highest = std::max(highest, cd.back());
-  }
+  std::vector<int> unknown{0};  // how many of the first i samples are not to be used
+  for (const Evidence e : scan.evidence) unknown.push_back(unknown.back() + (e > worst ? 1 : 0));
+  const auto known = [&](int i) {
+    return i >= 0 && i + span <= steps &&
+           unknown[static_cast<std::size_t>(i + span + 1)] == unknown[static_cast<std::size_t>(i)];
+  };
+  const double floor_cd = kFloorShare * scan.highest_cd;
   const auto g_at = [&](int i) {
-    const double below = cd[static_cast<std::size_t>(i)], above = cd[static_cast<std::size_t>(i + span)];
-    if (below < kFaintShare * highest) return 0.0;
-    return std::log10(std::max(below, kFaintest_cd)) - std::log10(std::max(above, kFaintest_cd));
+    if (!known(i)) return 0.0;
+    const double below = scan.cd[static_cast<std::size_t>(i)], above = scan.cd[static_cast<std::size_t>(i + span)];
+    if (below < kFaintShare * scan.highest_cd || below <= 0.0) return 0.0;
+    return std::log10(std::max(below, floor_cd)) - std::log10(std::max(above, floor_cd));
   };
   Cutoff result;
   double finest = 0.0;
@@ -74,19 +82,77 @@ Cutoff find_cutoff(const IntensityHv& intensity, double h_deg, double from_v_deg
       best = i;
     }
   }
-  result.found = finest >= kLeastG;
-  if (!result.found) return result;
+  if (finest < kLeastG) return result;
   // On a table with coarse rows G has a flat top: take its middle.
   int first = best, last = best;
   while (first > 0 && g_at(first - 1) >= finest - 1e-6) --first;
   while (last + 1 + span <= steps && g_at(last + 1) >= finest - 1e-6) ++last;
+  result.at_edge = !known(first - 1) || !known(last + 1);
+  result.found = !result.at_edge;
+  if (result.at_edge) return result;
   double middle = 0.5 * (first + last);
-  if (first == last && best > 0 && best + 1 + span <= steps) {  // between the steps: the top of a parabola
+  if (first == last) {  // between the steps: the top of a parabola
     const double below = g_at(best - 1), above = g_at(best + 1), bend = below - 2.0 * finest + above;
     if (bend < 0.0) middle += std::clamp(0.5 * (below - above) / bend, -0.5, 0.5);
   }
-  result.elevation_deg = from_v_deg + kFineStep_deg * middle + 0.5 * kSpan_deg;
+  result.elevation_deg = scan.from_v_deg + kFineStep_deg * middle + 0.5 * kSpan_deg;
   return result;
+}
+
+/// Index of the cell's lower node; false outside the range, whose limits belong to it.
+bool cell_of(const std::vector<double>& nodes, double at, std::size_t& index) {
+  if (nodes.size() < 2 || !(at >= nodes.front() && at <= nodes.back())) return false;
+  index = static_cast<std::size_t>(std::upper_bound(nodes.begin() + 1, nodes.end() - 1, at) - nodes.begin()) - 1;
+  return true;
+}
+
+}  // namespace
+
+Evidence evidence_of(const IntensityTable& table, const glm::dvec3& direction) {
+  const TableAngles angles = table.angles_of(direction);
+  std::size_t i = 0, j = 0;
+  if (!cell_of(table.first_deg, angles.first_deg, i) || !cell_of(table.second_deg, angles.second_deg, j)) {
+    const bool to_both_sides =
+        table.type != PhotometricType::kC
+            ? !table.first_deg.empty() && table.first_deg.front() <= -90.0 && table.first_deg.back() >= 90.0
+            : table.axis == GammaAxis::kGamma0 && !table.second_deg.empty() && table.second_deg.back() >= 90.0;
+    return direction.x <= 1e-9 && to_both_sides && table.screen_distance_m <= 0.0 ? Evidence::kDark : Evidence::kNone;
+  }
+  const double* row = table.candela.data() + j * table.first_deg.size() + i;
+  const double* next_row = row + table.first_deg.size();
+  return std::min({row[0], row[1], next_row[0], next_row[1]}) > 0.0 ? Evidence::kLit : Evidence::kDark;
+}
+
+IntensityHv mounted_intensity(const IntensityTable& table, const glm::dmat3& car_from_lamp, double scale) {
+  IntensityHv intensity = [&table, car_from_lamp, scale](double h_deg, double v_deg) {
+    return scale * table.intensity_cd(direction_hv(h_deg, v_deg) * car_from_lamp);
+  };
+  intensity.evidence = [&table, car_from_lamp](double h_deg, double v_deg) {
+    return evidence_of(table, direction_hv(h_deg, v_deg) * car_from_lamp);
+  };
+  return intensity;
+}
+
+Cutoff find_cutoff(const IntensityHv& intensity, double h_deg, double from_v_deg, double to_v_deg) {
+  const int steps = static_cast<int>(std::lround((to_v_deg - from_v_deg) / kFineStep_deg));
+  Scan scan;
+  scan.from_v_deg = from_v_deg;
+  bool any_dark = false;
+  for (int i = 0; i <= steps; ++i) {
+    const double v_deg = from_v_deg + kFineStep_deg * i;
+    const double cd = intensity(h_deg, v_deg);
+    const Evidence evidence = intensity.evidence ? intensity.evidence(h_deg, v_deg)
+                              : cd > 0.0         ? Evidence::kLit
+                                                 : Evidence::kDark;
+    any_dark = any_dark || evidence == Evidence::kDark;
+    scan.cd.push_back(cd);
+    scan.evidence.push_back(evidence);
+    scan.highest_cd = std::max(scan.highest_cd, cd);
+  }
+  const Cutoff lit = steepest(scan, Evidence::kLit);
+  if (!any_dark || (lit.found && lit.sharpness_g >= kLeastRuleG)) return lit;
+  const Cutoff dark = steepest(scan, Evidence::kDark);
+  return dark.found ? dark : lit;
 }
 
 CutoffShape cutoff_shape(const IntensityHv& intensity) {

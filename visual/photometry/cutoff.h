@@ -10,20 +10,31 @@
 
 namespace phare {
 
+/// What stands behind an intensity: lit nodes; a node of exactly 0, towards which log E has no meaning; no data at all.
+enum class Evidence { kLit, kDark, kNone };
+
 /// Intensity in cd toward azimuth H (right positive) and elevation V (up positive), degrees, of a mounted lamp.
-using IntensityHv = std::function<double(double h_deg, double v_deg)>;
+struct IntensityHv : std::function<double(double h_deg, double v_deg)> {
+  using std::function<double(double, double)>::function;
+  std::function<Evidence(double h_deg, double v_deg)> evidence;  ///< empty: kLit where there is light, else kDark
+};
+
+/// Of a direction in the lamp frame. A table that reaches 90° to both sides covers what lies behind it, too: kDark.
+Evidence evidence_of(const IntensityTable& table, const glm::dvec3& direction);
 
 /// A table mounted by `car_from_lamp`, times `scale`. The table must outlive the function.
 IntensityHv mounted_intensity(const IntensityTable& table, const glm::dmat3& car_from_lamp, double scale = 1.0);
 
 /// The cut-off on a vertical scan. Source: UN R112 annex 9 / R149 annex 5 as in the field notes §5.1.
 struct Cutoff {
-  bool found = false;          ///< false: nothing like a cut-off on this scan (G below 0.05)
+  bool found = false;          ///< false: nothing like a cut-off on this scan (G below 0.05, or `at_edge`)
+  bool at_edge = false;        ///< the light falls steepest where the data end: the inflection may lie outside them
   double sharpness_g = 0.0;    ///< max of log10 E(b) - log10 E(b + 0.1°) in steps of 0.05°
   double elevation_deg = 0.0;  ///< inflection of log10 E: the middle of the steepest 0.1°, to about 0.005°
 };
 
-/// Scans at `h_deg` between two elevations. Light below 2 % of the scan's highest is no cut-off, however steep.
+/// Scans at `h_deg` between two elevations. Light below 2 % of the scan's highest is no cut-off, however steep; nor is
+/// the end of the table. The step to nodes of exactly 0 counts only where the lit ones show no cut-off.
 Cutoff find_cutoff(const IntensityHv& intensity, double h_deg, double from_v_deg = -4.0, double to_v_deg = 3.0);
 
 /// What the cut-off says about the lamp.

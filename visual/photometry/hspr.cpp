@@ -11,6 +11,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "visual/photometry/beam_image.h"
+#include "visual/photometry/cutoff.h"
 
 namespace phare {
 namespace {
@@ -90,7 +91,10 @@ void conclude(HsprResult& result) {
     row.points = (row.value - row.one_point) / (row.two_points - row.one_point) + 1.0;
     result.weighted += row.weight * row.points;
   }
+  if (result.complete) result.on_scale_01 = (result.weighted - result.worst) / (result.best - result.worst);
 }
+
+constexpr const char* kOffIsOncoming = "off taken as the side of oncoming traffic, near as one's own";
 
 }  // namespace
 
@@ -106,6 +110,34 @@ double hspr_illuminance_lx(const std::vector<HsprLamp>& lamps, double x_m, doubl
   return sum;
 }
 
+Result<HsprBeam> hspr_beam(std::vector<HsprLamp>& lamps, HsprBeam asked) {
+  std::vector<CutoffShape> shapes;
+  for (const HsprLamp& lamp : lamps) {
+    shapes.push_back(cutoff_shape(mounted_intensity(*lamp.table, glm::dmat3{1.0})));
+    if (shapes.back().side == CutoffSide::kRisesLeft)
+      return Error{lamp.table->name,
+                   "is for left-hand traffic; the method is written for right-hand traffic: turn it with --mirror"};
+  }
+  const auto kind = [](CutoffSide side) {
+    return side == CutoffSide::kRisesRight ? "a passing beam"
+           : side == CutoffSide::kFlat     ? "a beam with a flat cut-off"
+                                           : "a beam without a cut-off";
+  };
+  for (std::size_t k = 1; k < lamps.size(); ++k) {
+    if (shapes[k].side != shapes[0].side)
+      return Error{lamps[k].table->name, std::string("is ") + kind(shapes[k].side) + ", " + lamps[0].table->name +
+                                             " is " + kind(shapes[0].side) + ": no pair"};
+  }
+  const CutoffSide side = shapes.front().side;
+  if (asked == HsprBeam::kFind && side == CutoffSide::kFlat)
+    return Error{lamps.front().table->name,
+                 "has a flat cut-off, as fog lamps have: neither passing nor driving beam; name it with --beam"};
+  const bool low = asked == HsprBeam::kLow || (asked == HsprBeam::kFind && side == CutoffSide::kRisesRight);
+  for (std::size_t k = 0; k < lamps.size(); ++k)
+    lamps[k].aim_up_deg = low && side != CutoffSide::kNone ? -0.573 - shapes[k].flat_v_deg : 0.0;
+  return low ? HsprBeam::kLow : HsprBeam::kHigh;
+}
+
 HsprResult hspr_low_beam(const std::vector<HsprLamp>& lamps) {
   HsprResult result;
   const double tan_5 = std::tan(glm::radians(5.0));
@@ -117,20 +149,21 @@ HsprResult hspr_low_beam(const std::vector<HsprLamp>& lamps) {
   }
   result.rows = {{"A", "range ahead, 1, 3, 5 lx at x 0, 1.5, 3 m", "m",
                   mean_range(lamps, {0.0, 1.5, 3.0}, 0.0, {1.0, 3.0, 5.0}), 71.6, 95.1, 0, 1.5},
-                 {"B", "range along 5 deg right", "m", ray, 71.5, 138.4, 0, 1.0},
+                 {"B", "range along 5 deg right", "m", ray, 71.5, 138.4, 0, 1.0, "rays taken to start at x 0, 1.5, 3 m"},
                  {"C", "range on the oncoming side, x -3, -4.5, -6 m, 0.25 m high", "m",
                   mean_range(lamps, {-3.0, -4.5, -6.0}, 0.25, {1.0, 3.0, 5.0}), 32.7, 48.4, 0, 1.0},
                  {"D off", "3 lx width at 30, 40, 50 m, oncoming side", "m",
-                  mean_width(lamps, {30.0, 40.0, 50.0}, 0.0, -1.0), 4.8, 12.5, 0, 0.75},
+                  mean_width(lamps, {30.0, 40.0, 50.0}, 0.0, -1.0), 4.8, 12.5, 0, 0.75, kOffIsOncoming},
                  {"D near", "3 lx width at 30, 40, 50 m, own side", "m",
-                  mean_width(lamps, {30.0, 40.0, 50.0}, 0.0, 1.0), 7.6, 16.3, 0, 0.75},
+                  mean_width(lamps, {30.0, 40.0, 50.0}, 0.0, 1.0), 7.6, 16.3, 0, 0.75, kOffIsOncoming},
                  {"E off", "3 lx width at 10, 20 m, 0.25 m high, oncoming side", "m",
-                  mean_width(lamps, {10.0, 20.0}, 0.25, -1.0), 5.9, 9.6, 0, 0.5},
+                  mean_width(lamps, {10.0, 20.0}, 0.25, -1.0), 5.9, 9.6, 0, 0.5, kOffIsOncoming},
                  {"E near", "3 lx width at 10, 20 m, 0.25 m high, own side", "m",
-                  mean_width(lamps, {10.0, 20.0}, 0.25, 1.0), 6.6, 10.5, 0, 0.5},
+                  mean_width(lamps, {10.0, 20.0}, 0.25, 1.0), 6.6, 10.5, 0, 0.5, kOffIsOncoming},
                  {"flux", "flux in +-45 deg x -15 to +5 deg", "lm", window_flux_lm(lamps, 45.0, -15.0, 5.0), 747.6,
                   1785.1, 0, 1.0},
-                 {"glare", "weighted illuminance of oncoming eyes at 50 m", "lx", glare_lx(lamps), 0.73, 0.27, 0, 1.0}};
+                 {"glare", "weighted illuminance of oncoming eyes at 50 m", "lx", glare_lx(lamps), 0.73, 0.27, 0, 1.0,
+                  "weights 0.2, 0.5, 1 taken to grow towards the window's middle, sampled 11 x 7"}};
   result.worst = 11.15;
   result.best = 17.61;
   conclude(result);

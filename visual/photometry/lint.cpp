@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/trigonometric.hpp>
 
+#include "visual/photometry/beam_image.h"
 #include "visual/photometry/file_text.h"
 
 namespace phare {
@@ -16,9 +18,12 @@ namespace {
 
 constexpr double kFluxTolerance = 0.02;   // between integral and header: rounding of catalogues and of grids
 constexpr double kLitEdge_01 = 0.01;      // of the peak: a table that ends brighter is cut off
+constexpr double kNoise_01 = 0.001;       // of the peak: zeros among values below this are the end of the photometer
 constexpr double kSpike = 5.0;            // a value this many times all its neighbours is no optics
 constexpr double kAhead_deg = 30.0;       // a headlamp's peak farther off its axis than this: wrong axis
 constexpr double kCutoffStep_deg = 0.05;  // the step in which the rules measure G
+constexpr double kLeastCutoffG = 0.13;    // the least sharpness that the rules accept
+constexpr double kTall = 1.5;             // headlamps are wider than tall; the other way round by this: turned
 
 std::string format(const char* text, double a = 0.0, double b = 0.0, double c = 0.0, double d = 0.0) {
   char buffer[320];
@@ -70,6 +75,7 @@ class Linter {
     peak();
     flux();
     cutoff();
+    orientation();
     edges();
     broken_values();
     steps();
@@ -147,7 +153,8 @@ class Linter {
     if (shape.side == CutoffSide::kNone) return;
     const bool left = shape.side == CutoffSide::kRisesLeft;
     if (shape.side == CutoffSide::kFlat) {
-      add(Grade::kInfo, "cut-off", format("flat cut-off at V %+.2f deg, G %.3f", shape.flat_v_deg, shape.sharpness_g));
+      add(Grade::kInfo, "cut-off",
+          format("flat cut-off at V %+.2f deg, G %.3f", shape.flat_v_deg, shape.sharpness_g) + cut_side());
       return;
     }
     add(Grade::kInfo, "cut-off",
@@ -156,8 +163,9 @@ class Linter {
             (left ? " to the left" : " to the right"));
     std::string words;
     for (const auto& [key, value] : table_.header.keywords) words += upper_case(value) + " ";
-    const bool says_right = has_word(words, "RHT") || has_word(words, "RIGHT-HAND TRAFFIC");
-    const bool says_left = has_word(words, "LHT") || has_word(words, "LEFT-HAND TRAFFIC");
+    std::replace(words.begin(), words.end(), '-', ' ');
+    const bool says_right = has_word(words, "RHT") || has_word(words, "RIGHT HAND TRAFFIC");
+    const bool says_left = has_word(words, "LHT") || has_word(words, "LEFT HAND TRAFFIC");
     if (says_right != says_left && says_right == left) {
       add(Grade::kWarning, "mirrored",
           std::string("the keywords say ") + (says_right ? "right" : "left") +
@@ -174,6 +182,66 @@ class Linter {
           "the cut-off rises to the left: for left-hand traffic" +
               std::string(says_left ? "" : "; if the lamp is not, the file is mirrored (--mirror)"));
     }
+  }
+
+  /// A flat part says nothing of the other side where that leaves the table before the light has fallen.
+  std::string cut_side() const {
+    const IntensityHv intensity = mounted_intensity(table_, glm::dmat3{1.0});
+    for (const double side : {-1.0, 1.0}) {
+      int outside = 0;
+      for (const double h : {1.5, 2.5, 3.5}) outside += find_cutoff(intensity, side * h).at_edge ? 1 : 0;
+      if (outside >= 2)
+        return std::string("; on the ") + (side < 0.0 ? "left" : "right") +
+               " the table ends before the light has fallen, so that a kink cannot be told";
+    }
+    return "";
+  }
+
+  /// A passing beam that shows its kink only when it is turned about its axis; a type C beam on its side.
+  void orientation() {
+    const CutoffShape& as_read = report_.cutoff;
+    if (as_read.side == CutoffSide::kRisesRight || as_read.side == CutoffSide::kRisesLeft) return;
+    const bool c = table_.type == PhotometricType::kC;
+    for (const double roll_deg : {180.0, 90.0, -90.0}) {
+      const IntensityHv rolled = mounted_intensity(table_, aim_rotation(0.0, 0.0, glm::radians(roll_deg)));
+      const double g = std::max(find_cutoff(rolled, -2.5).sharpness_g, find_cutoff(rolled, 2.5).sharpness_g);
+      if (g < kLeastCutoffG) continue;
+      const CutoffShape turned = cutoff_shape(rolled);
+      const bool kinked = turned.side == CutoffSide::kRisesRight || turned.side == CutoffSide::kRisesLeft;
+      // A flat edge is a lower one upside down only where the format leaves open how it lies.
+      const bool flat = c && roll_deg == 180.0 && as_read.side == CutoffSide::kNone && turned.side == CutoffSide::kFlat;
+      if (!(kinked || flat) || turned.sharpness_g < std::max(kLeastCutoffG, as_read.sharpness_g)) continue;
+      add(Grade::kWarning, "turned",
+          std::string(roll_deg == 180.0 ? "the beam stands upside down" : "the beam lies on its side") +
+              ": its cut-off shows when it is turned by " + (roll_deg == 180.0 ? "180" : "90") +
+              " deg about its axis" +
+              (c ? format("; plane C 0 may lie elsewhere (--c0 turned by %+.0f deg)", roll_deg == 180.0 ? 180.0 : -roll_deg)
+                 : ""));
+      return;
+    }
+    const double tall = height_to_width();
+    if (c && tall > kTall) {
+      add(Grade::kWarning, "turned",
+          format("the beam is %.1f times as tall as wide: plane C 0 may lie elsewhere (--c0)", tall));
+    }
+  }
+
+  /// Of the light within 40° of the axis: spread in V over spread in H.
+  double height_to_width() const {
+    double sum = 0.0, h_sum = 0.0, v_sum = 0.0, hh = 0.0, vv = 0.0;
+    for (double v = -40.0; v <= 40.0; v += 1.0) {
+      for (double h = -40.0; h <= 40.0; h += 1.0) {
+        const double cd = table_.intensity_cd(direction_hv(h, v));
+        sum += cd;
+        h_sum += cd * h;
+        v_sum += cd * v;
+        hh += cd * h * h;
+        vv += cd * v * v;
+      }
+    }
+    if (sum <= 0.0) return 1.0;
+    const double wide = hh / sum - (h_sum / sum) * (h_sum / sum), tall = vv / sum - (v_sum / sum) * (v_sum / sum);
+    return wide > 0.0 ? std::sqrt(std::max(0.0, tall) / wide) : 1.0;
   }
 
   void edges() {
@@ -200,49 +268,76 @@ class Linter {
 
   void broken_values() {
     const std::size_t columns = table_.first_deg.size(), rows = table_.second_deg.size();
-    std::size_t holes = 0, spikes = 0, first_hole = 0, first_spike = 0, dark_columns = 0, dark_rows = 0;
+    std::size_t spikes = 0, first_spike = 0;
     const auto cd = [&](std::size_t i, std::size_t j) { return table_.candela[j * columns + i]; };
     for (std::size_t j = 1; j + 1 < rows; ++j) {
       for (std::size_t i = 1; i + 1 < columns; ++i) {
-        double highest = 0.0, lowest = 1e300;
-        for (const auto& [di, dj] : {std::pair{0, 1}, {2, 1}, {1, 0}, {1, 2}}) {
-          const double value = cd(i + static_cast<std::size_t>(di) - 1, j + static_cast<std::size_t>(dj) - 1);
-          highest = std::max(highest, value);
-          lowest = std::min(lowest, value);
-        }
-        if (cd(i, j) == 0.0 && lowest > 0.0 && holes++ == 0) first_hole = j * columns + i;
+        const double highest = std::max({cd(i - 1, j), cd(i + 1, j), cd(i, j - 1), cd(i, j + 1)});
         if (cd(i, j) > kSpike * highest && cd(i, j) > 0.01 * report_.peak_cd && spikes++ == 0)
           first_spike = j * columns + i;
       }
     }
-    // A whole line of zeros with light on both sides.
-    const auto column_sum = [&](std::size_t i) {
-      double sum = 0.0;
-      for (std::size_t j = 0; j < rows; ++j) sum += cd(i, j);
-      return sum;
-    };
-    const auto row_sum = [&](std::size_t j) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < columns; ++i) sum += cd(i, j);
-      return sum;
-    };
-    for (std::size_t i = 1; i + 1 < columns; ++i)
-      if (column_sum(i) == 0.0 && column_sum(i - 1) > 0.0 && column_sum(i + 1) > 0.0) ++dark_columns;
-    for (std::size_t j = 1; j + 1 < rows; ++j)
-      if (row_sum(j) == 0.0 && row_sum(j - 1) > 0.0 && row_sum(j + 1) > 0.0) ++dark_rows;
     const auto where = [&](std::size_t k) {
       return format(", first at %g, %g", table_.first_deg[k % columns], table_.second_deg[k / columns]);
     };
-    if (holes > 0)
+    const std::vector<char> missing = missing_values();
+    const auto first_missing = std::find(missing.begin(), missing.end(), 1);
+    if (first_missing != missing.end()) {
       add(Grade::kWarning, "missing-data",
-          std::to_string(holes) + " value(s) of 0 in the midst of light" + where(first_hole));
-    if (dark_columns + dark_rows > 0)
-      add(Grade::kWarning, "missing-data",
-          std::to_string(dark_columns) + " column(s) and " + std::to_string(dark_rows) +
-              " row(s) of 0 in the midst of light");
+          std::to_string(std::count(missing.begin(), missing.end(), 1)) + " value(s) of 0 in the midst of light" +
+              where(static_cast<std::size_t>(first_missing - missing.begin())));
+    }
     if (spikes > 0)
       add(Grade::kWarning, "spike",
           std::to_string(spikes) + " value(s) above five times all their neighbours" + where(first_spike));
+  }
+
+  /// Zeros in the midst of light, however many lie together: those that no way over zeros leads to the table's border,
+  /// and those between two bright values of one row or column.
+  std::vector<char> missing_values() const {
+    const std::size_t columns = table_.first_deg.size(), rows = table_.second_deg.size();
+    const std::vector<double>& cd = table_.candela;
+    const bool round = table_.type == PhotometricType::kC;  // C closes on itself, gamma 0 is a point
+    std::vector<char> missing(cd.size(), 0), seen(cd.size(), 0);
+    for (std::size_t start = 0; start < cd.size(); ++start) {
+      if (cd[start] != 0.0 || seen[start] != 0) continue;
+      // All zeros that hang together with this one, and the brightest value beside them.
+      std::vector<std::size_t> patch{start};
+      seen[start] = 1;
+      bool to_border = false;
+      double beside_cd = 0.0;
+      const auto look = [&](std::size_t k) {
+        beside_cd = std::max(beside_cd, cd[k]);
+        if (cd[k] != 0.0 || seen[k] != 0) return;
+        seen[k] = 1;
+        patch.push_back(k);
+      };
+      for (std::size_t n = 0; n < patch.size(); ++n) {
+        const std::size_t i = patch[n] % columns, row = patch[n] - i;
+        const bool first = i == 0, last = i + 1 == columns, bottom = row == 0, top = row + columns == cd.size();
+        to_border = to_border || ((first || last) && !round) || top ||
+                    (bottom && !(round && table_.second_deg[0] == 0.0));
+        if (!first || round) look(row + (first ? columns - 1 : i - 1));
+        if (!last || round) look(row + (last ? 0 : i + 1));
+        if (!bottom) look(patch[n] - columns);
+        if (!top) look(patch[n] + columns);
+      }
+      if (to_border || beside_cd <= kNoise_01 * report_.peak_cd) continue;
+      for (const std::size_t k : patch) missing[k] = 1;
+    }
+    const double bright = kLitEdge_01 * report_.peak_cd;
+    const auto between = [&](std::size_t start, std::size_t stride, std::size_t count) {
+      for (std::size_t a = 0; a < count; ++a) {
+        std::size_t b = a + 1;
+        if (cd[start + a * stride] <= bright) continue;
+        while (b < count && cd[start + b * stride] == 0.0) ++b;
+        if (b == count || b == a + 1 || cd[start + b * stride] <= bright) continue;
+        for (std::size_t k = a + 1; k < b; ++k) missing[start + k * stride] = 1;
+      }
+    };
+    for (std::size_t i = 0; i < columns; ++i) between(i, columns, rows);
+    for (std::size_t j = 0; j < rows && !round; ++j) between(j * columns, 1, columns);
+    return missing;
   }
 
   void steps() {

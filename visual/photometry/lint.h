@@ -29,7 +29,7 @@ struct LampReport {
   std::vector<Finding> findings;
 };
 
-/// Looks at a table as it was read. Takes a few milliseconds.
+/// Looks at a table as it was read. Takes some milliseconds.
 LampReport lint_lamp(const IntensityTable& table);
 
 std::string grade_name(Grade grade);

@@ -101,7 +101,7 @@ int make(const std::filesystem::path& out, bool verbose) {
       if (rule == nullptr) return kExitBadInput;
       CheckOptions down;  // one adjuster turns the whole lamp: aimed with the passing beam a driving beam passes, too
       down.aim = HV{0.0, glm::degrees(sample_pitch_rad())};
-      if (lamp.kind != SampleKind::kFog) failed += report(lamp.file, table, *rule, {}, verbose, entry);
+      failed += report(lamp.file, table, *rule, {}, verbose, entry);
       if (lamp.kind == SampleKind::kFog || lamp.kind == SampleKind::kHigh)
         failed += report(lamp.file, table, *rule, down, verbose, entry);
     }

@@ -53,14 +53,19 @@ RuleRow read_row(TomlTable table, const std::string& rule_clause, const std::str
   row.min_of_peak_01 = table.number_or("min_of_peak_01", 0.0, 0.0, 1.0);
   row.max_factor = table.number_or("max_factor", 0.0, 0.0, 100.0);
   row.max_of = table.text_or("max_of", "");
+  row.max_led_module_cd = table.number_or("max_led_module_cd", 0.0, 0.0, 1e9);
+  constexpr std::array<std::string_view, 4> kSides{"", "left", "right", "down"};
+  row.open = static_cast<OpenSide>(table.choice_or("open", 0, kSides));
   row.unconfirmed = table.text_or("unconfirmed", rule_unconfirmed);
   if (row.min_cd == kNoMinimum && row.max_cd == kNoMaximum && row.min_of_peak_01 == 0.0 && row.max_factor == 0.0)
     table.fail("id", "a row needs a limit");
   return row;
 }
 
-CutoffAim read_aim(TomlTable table) {
+CutoffAim read_aim(TomlTable table, const std::string& rule_clause) {
   CutoffAim aim;
+  aim.clause = table.text_or("clause", rule_clause);
+  aim.unconfirmed = table.text_or("unconfirmed", "");
   aim.name = table.text("name");
   aim.scan_h_deg = table.number("scan_h_deg", -20.0, 20.0);
   aim.line_v_deg = table.number("line_v_deg", -10.0, 10.0);
@@ -89,6 +94,24 @@ const RuleRow* Rulebook::row(const std::string& row_id) const {
   return found == rows.end() ? nullptr : &*found;
 }
 
+const CutoffAim* Rulebook::aim(const std::string& aim_name) const {
+  const auto found = std::find_if(cutoff_aims.begin(), cutoff_aims.end(),
+                                  [&](const CutoffAim& a) { return plain(a.name) == plain(aim_name); });
+  return found == cutoff_aims.end() ? nullptr : &*found;
+}
+
+bool Rulebook::has_led_module_limits() const {
+  return std::any_of(rows.begin(), rows.end(), [](const RuleRow& r) { return r.max_led_module_cd > 0.0; });
+}
+
+Rulebook Rulebook::for_led_modules() const {
+  Rulebook result = *this;
+  for (RuleRow& row : result.rows) {
+    if (row.max_led_module_cd > 0.0) row.max_cd = row.max_led_module_cd;
+  }
+  return result;
+}
+
 Result<Rulebook> read_rulebook(const std::filesystem::path& file) {
   auto read = TomlTable::read(file);
   if (!read) return read.error();
@@ -105,7 +128,7 @@ Result<Rulebook> read_rulebook(const std::filesystem::path& file) {
   rule.half_sum = table.flag_or("half_sum", false);
   rule.flux_min_lm = table.number_or("flux_min_lm", 0.0, 0.0, 1e6);
   const std::string unconfirmed = table.text_or("unconfirmed", "");
-  for (TomlTable& aim : table.tables("aim")) rule.cutoff_aims.push_back(read_aim(aim));
+  for (TomlTable& aim : table.tables("aim")) rule.cutoff_aims.push_back(read_aim(aim, rule.clause));
   if (auto reaim = table.table_if("reaim")) {
     rule.reaim_left_deg = reaim->number_or("left_deg", 0.0, 0.0, 5.0);
     rule.reaim_right_deg = reaim->number_or("right_deg", 0.0, 0.0, 5.0);

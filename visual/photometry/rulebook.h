@@ -22,6 +22,9 @@ enum class RowShape { kPoints, kLine, kArea, kPolygon, kSum, kPeak };
 inline constexpr double kNoMinimum = 0.0;
 inline constexpr double kNoMaximum = 1e30;
 
+/// Rows printed without a far end go on to one side as far as the file has data.
+enum class OpenSide { kNone, kLeft, kRight, kDown };
+
 struct RuleRow {
   std::string id;
   std::string clause;
@@ -32,6 +35,8 @@ struct RuleRow {
   double min_of_peak_01 = 0.0;  ///< at least this share of the beam's highest intensity
   double max_factor = 0.0;      ///< at most this times the intensity of row `max_of`; 0: no such limit
   std::string max_of;
+  OpenSide open = OpenSide::kNone;
+  double max_led_module_cd = 0.0;  ///< instead of max_cd for a lamp of LED modules; 0: no limit of its own
   std::string unconfirmed;  ///< why the number rests on one source; empty: two sources agree
 };
 
@@ -44,6 +49,8 @@ struct CutoffAim {
   double sharpness_max = kNoMaximum;
   std::vector<double> linearity_h_deg;  ///< empty: not asked
   double linearity_max_deg = 0.0;
+  std::string clause;       ///< of sharpness and linearity
+  std::string unconfirmed;  ///< why line and scan are not sure; empty: they are
 };
 
 struct Rulebook {
@@ -62,6 +69,11 @@ struct Rulebook {
   std::vector<RuleRow> rows;
 
   const RuleRow* row(const std::string& row_id) const;
+  /// The aim of that name in any case; null: none.
+  const CutoffAim* aim(const std::string& aim_name) const;
+  bool has_led_module_limits() const;
+  /// With the limits for LED modules in place of the others.
+  Rulebook for_led_modules() const;
 };
 
 /// Reads one rule file. Errors say file:line.

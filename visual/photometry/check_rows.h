@@ -1,0 +1,17 @@
+// One row of a rulebook looked at in a beam; check.h is the door.
+#pragma once
+
+#include "visual/photometry/check.h"
+#include "visual/photometry/rule_beam.h"
+#include "visual/photometry/rulebook.h"
+
+namespace phare {
+
+/// Lowest, highest and margin. `shift` looks at places moved by it, as if the beam were turned the other way (exact to
+/// second order); `coarse` walks in 0.25° for searches.
+CheckRow judge_row(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, HV shift, bool coarse);
+
+/// Adds resolution and verdict.
+void conclude_row(const RuleBeam& beam, const RuleRow& row, CheckRow& result);
+
+}  // namespace phare
