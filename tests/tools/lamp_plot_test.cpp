@@ -115,6 +115,21 @@ TEST_F(LampPlot, TheRoadReachesToWhereOneLuxEnds) {
   EXPECT_NE(svg("birds_eye").find(">100</text>"), std::string::npos);  // the colour bar's
 }
 
+TEST_F(LampPlot, WhatTheFileLacksIsNotDrawnAsDark) {
+  IntensityTable table = *read_lamp(ours("high.ies"));
+  EXPECT_EQ((plot(ours("high.ies"), "wall_25m"), svg("wall_25m")).find("no data in the file"), std::string::npos);
+  IntensityTable narrow = table;
+  narrow.first_deg = {-5.0, 0.0, 5.0};
+  narrow.candela.clear();
+  for (const double v : table.second_deg) {
+    for (const double h : narrow.first_deg) narrow.candela.push_back(table.intensity_at_cd({h, v}));
+  }
+  plot(file("narrow.ies", lm63_text(narrow)) + " --rule r149-driving-b", "wall_25m --view false_colour");
+  for (const char* view : {"wall_25m", "false_colour"})
+    EXPECT_NE(svg(view).find("no data in the file"), std::string::npos) << view;
+  EXPECT_NE(svg("wall_25m").find("without data"), std::string::npos);
+}
+
 TEST_F(LampPlot, AnyFileNameIsDrawn) {
   const std::string odd = in("b\xE9 <&>.ies");
   std::filesystem::copy_file(ours("fog.ies"), odd);

@@ -272,6 +272,9 @@ std::vector<Contour> contours(const std::vector<double>& values, const std::vect
   };
   for (std::size_t j = 0; j + 1 < rows; ++j) {
     for (std::size_t i = 0; i + 1 < columns; ++i) {
+      // Beside places without data there is no line.
+      const std::size_t at = j * columns + i;
+      if (std::isnan(values[at] + values[at + 1] + values[at + columns] + values[at + columns + 1])) continue;
       const auto above = [&](std::size_t di, std::size_t dj) { return values[(j + dj) * columns + i + di] >= level; };
       const bool a = above(0, 0), b = above(1, 0), c = above(1, 1), d = above(0, 1);
       std::vector<Edge> cut;

@@ -85,7 +85,7 @@ class Chart {
   std::vector<Box> taken_;
 };
 
-/// Lines of equal value on a grid of columns × rows in axis coordinates, joined to long lines.
+/// Lines of equal value on a grid of columns × rows in axis coordinates, joined to long lines. NaN: no value there.
 struct Contour {
   std::vector<std::array<double, 2>> points;
 };

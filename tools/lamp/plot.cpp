@@ -157,10 +157,13 @@ int lamp_plot(const LampPlotOptions& options) {
       lamps[i].right_deg = both->lamps[i].right_deg;
     }
     const IntensityHv of_left = left.intensity(), of_right = right.intensity();
+    IntensityHv half = [of_left, of_right](double h, double v) { return 0.5 * (of_left(h, v) + of_right(h, v)); };
+    half.evidence = [of_left, of_right](double h, double v) {  // as far as both reach
+      return std::max(of_left.evidence(h, v), of_right.evidence(h, v));
+    };
     walls.push_back({"", "half the sum of " + left.table->name + " and " + right.table->name,
                      "left " + aim_text(left) + "; right " + aim_text(right) + "; " + verdict_text(*both),
-                     [of_left, of_right](double h, double v) { return 0.5 * (of_left(h, v) + of_right(h, v)); }, &*both,
-                     both->left_hand});
+                     std::move(half), &*both, both->left_hand});
   } else {
     walls.push_back(wall_beam(left, "_left"));
     walls.push_back(wall_beam(right, "_right"));

@@ -1,6 +1,7 @@
 #include "tools/lamp/view_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace phare {
@@ -28,6 +29,13 @@ Grid sample_grid(const std::function<double(double, double)>& f, double x_min, d
   return grid;
 }
 
+void draw_no_data_note(Chart& chart, double x, double y, const Grid& grid) {
+  const bool some = std::any_of(grid.values.begin(), grid.values.end(), [](double v) { return std::isnan(v); });
+  if (!some) return;
+  chart.rectangle(x, y - 5, 14, 10, kNoDataColour);
+  chart.text(x + 19, y, "no data in the file", 8.5, -1, kBlack);
+}
+
 void heading(Chart& chart, const std::string& title, const std::string& subtitle) {
   chart.text(62, 20, title, 13, -1, kBlack, true);
   chart.text(62, 38, subtitle, 9, -1, {0.3, 0.3, 0.3});
@@ -51,6 +59,7 @@ void colour_bar(Chart& chart, double left, double top, double height, double low
 }
 
 Rgb difference_colour(double t) {
+  if (std::isnan(t)) return kNoDataColour;
   t = std::clamp(t, -1.0, 1.0);
   return t < 0.0 ? Rgb{1.0 + t * 0.9, 1.0 + t * 0.65, 1.0 + t * 0.2}
                  : Rgb{1.0 - t * 0.2, 1.0 - t * 0.85, 1.0 - t * 0.85};

@@ -23,6 +23,11 @@ struct Grid {
 Grid sample_grid(const std::function<double(double, double)>& f, double x_min, double x_max, double y_min, double y_max,
                  std::size_t columns, std::size_t rows);
 
+/// Where there is no value (NaN).
+inline constexpr Rgb kNoDataColour{0.72, 0.74, 0.76};
+/// Tells what the grey is, where the grid has some.
+void draw_no_data_note(Chart& chart, double x, double y, const Grid& grid);
+
 void heading(Chart& chart, const std::string& title, const std::string& subtitle);
 
 /// A mark on a colour bar; `value` on its scale.

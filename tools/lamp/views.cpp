@@ -5,12 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace phare {
 namespace {
 
 constexpr Axes kWall{62, 52, 700, 372, -21, 21, -6, 5};
 constexpr Rgb kText{0.3, 0.3, 0.3};
+
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+bool has_data(const IntensityHv& intensity, double h_deg, double v_deg) {
+  return !intensity.evidence || intensity.evidence(h_deg, v_deg) != Evidence::kNone;
+}
 
 double log_cd(double cd) {
   return std::log10(std::max(cd, 1e-3));
@@ -171,14 +178,15 @@ std::vector<std::string> rows_beyond_wall(const CheckResult& check) {
 void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& title, const std::string& subtitle,
                const CheckResult* check, bool coloured) {
   const Axes axes = kWall;
-  const Grid grid = sample_grid([&](double h, double v) { return log_cd(intensity(h, v)); }, axes.x_min, axes.x_max,
-                                axes.y_min, axes.y_max, 701, 373);
+  const Grid grid = sample_grid(
+      [&](double h, double v) { return has_data(intensity, h, v) ? log_cd(intensity(h, v)) : kNoValue; }, axes.x_min,
+      axes.x_max, axes.y_min, axes.y_max, 701, 373);
   constexpr double kLow = 1.5, kHigh = 5.0;  // 30 cd to 100,000 cd
   const auto colour = [](double log) { return false_colour((log - kLow) / (kHigh - kLow)); };
-  if (coloured) {
-    chart.picture(axes, grid.x.size(), grid.y.size(),
-                  [&](std::size_t i, std::size_t j) { return colour(grid.at_pixel(i, j)); });
-  }
+  chart.picture(axes, grid.x.size(), grid.y.size(), [&](std::size_t i, std::size_t j) {
+    const double log = grid.at_pixel(i, j);
+    return std::isnan(log) ? kNoDataColour : coloured ? colour(log) : kWhite;
+  });
   chart.axes(axes, 2, 1, "H in deg, right positive, seen from the lamp (25 m: 1 deg = 0.436 m)",
              "V in deg, up positive", coloured ? Rgb{0.4, 0.4, 0.4} : Rgb{0.8, 0.8, 0.8}, coloured ? 0.25 : 0.4);
   chart.begin_clip(axes);
@@ -207,6 +215,7 @@ void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& ti
   }
   colour_bar(chart, 790, 72, 340, kLow, kHigh, colour, marks);
   if (check != nullptr) draw_row_legend(chart, *check);
+  draw_no_data_note(chart, 640, 466, grid);
 }
 
 void draw_cut(Chart& chart, const IntensityHv& intensity, double h_deg, const SharpnessLimits& limits,
@@ -268,25 +277,30 @@ void draw_bands(Chart& chart, const IntensityHv& intensity, const std::string& t
     return static_cast<std::size_t>(std::upper_bound(std::begin(edges), std::end(edges), cd) - std::begin(edges));
   };
   const auto colour = [](std::size_t b) { return false_colour(static_cast<double>(b) / (kBands - 1)); };
-  const Grid grid = sample_grid(intensity, axes.x_min, axes.x_max, axes.y_min, axes.y_max, 701, 373);
-  chart.picture(axes, grid.x.size(), grid.y.size(),
-                [&](std::size_t i, std::size_t j) { return colour(band(grid.at_pixel(i, j))); });
+  const Grid grid =
+      sample_grid([&](double h, double v) { return has_data(intensity, h, v) ? intensity(h, v) : kNoValue; },
+                  axes.x_min, axes.x_max, axes.y_min, axes.y_max, 701, 373);
+  chart.picture(axes, grid.x.size(), grid.y.size(), [&](std::size_t i, std::size_t j) {
+    const double cd = grid.at_pixel(i, j);
+    return std::isnan(cd) ? kNoDataColour : colour(band(cd));
+  });
   chart.begin_clip(axes);
   draw_cross(chart, axes, {0.35, 0.85, 1.0});
   chart.end_clip();
   chart.axes(axes, 10, 5, "H in deg, right positive", "V in deg, up positive", {0.5, 0.5, 0.5}, 0.2);
-  chart.text(792, 62, "lx, 25 m", 8, 1, kBlack, true);
-  chart.text(822, 62, "cd", 9, 0, kBlack, true);
+  chart.text(786, 62, "cd", 9, 1, kBlack, true);
+  chart.text(807, 62, "lx, 25 m", 9, -1, kBlack, true);
   for (std::size_t b = 0; b < kBands; ++b) {
     const double y = 412.0 - 28.0 * static_cast<double>(b);
-    chart.rectangle(796, y - 28, 14, 28, colour(b));
+    chart.rectangle(790, y - 28, 14, 28, colour(b));
     if (b + 1 == kBands) continue;
     char lux[16];
-    std::snprintf(lux, sizeof lux, "%.2g", edges[b] / 625.0);
-    chart.text(793, y - 28, lux, 8, 1, kBlack);
-    chart.text(814, y - 28, short_number(edges[b]), 8.5, -1, kBlack);
+    std::snprintf(lux, sizeof lux, "%.3g", edges[b] / 625.0);
+    chart.text(787, y - 28, short_number(edges[b]), 8, 1, kBlack);
+    chart.text(809, y - 28, lux, 8, -1, kBlack);
   }
-  chart.line({{796, 412 - 28.0 * kBands}, {810, 412 - 28.0 * kBands}, {810, 412}, {796, 412}}, kBlack, 0.8, true);
+  chart.line({{790, 412 - 28.0 * kBands}, {804, 412 - 28.0 * kBands}, {804, 412}, {790, 412}}, kBlack, 0.8, true);
+  draw_no_data_note(chart, 640, 466, grid);
 }
 
 void draw_ratio(Chart& chart, const IntensityHv& a, const IntensityHv& b, const std::string& title,
@@ -295,6 +309,7 @@ void draw_ratio(Chart& chart, const IntensityHv& a, const IntensityHv& b, const 
   const Axes axes = kWall;
   const Grid grid = sample_grid(
       [&](double h, double v) {
+        if (!has_data(a, h, v) || !has_data(b, h, v)) return kNoValue;
         const double x = a(h, v), y = b(h, v);
         return x < 1.0 && y < 1.0 ? 0.0 : std::log2(std::max(y, 0.1) / std::max(x, 0.1));
       },
@@ -316,6 +331,17 @@ void draw_ratio(Chart& chart, const IntensityHv& a, const IntensityHv& b, const 
   for (const double ratio : {0.25, 0.5, 0.8, 1.0, 1.25, 2.0, 4.0})
     marks.push_back({std::log2(ratio), "", short_number(ratio)});
   colour_bar(chart, 790, 72, 340, -2, 2, colour, marks);
+  double least = 0.0, most = 0.0;
+  for (const double octaves : grid.values) {
+    if (std::isnan(octaves)) continue;
+    least = std::min(least, octaves);
+    most = std::max(most, octaves);
+  }
+  char extremes[120];
+  std::snprintf(extremes, sizeof extremes, "B / A on this page: %.3g to %.3g; 1 where both are below 1 cd",
+                std::exp2(least), std::exp2(most));
+  chart.text(66, 466, extremes, 8.5, -1, kText);
+  draw_no_data_note(chart, 640, 466, grid);
 }
 
 }  // namespace phare
