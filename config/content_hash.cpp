@@ -1,9 +1,10 @@
 #include "config/content_hash.h"
 
-#include <sodium.h>
+#include <nettle/sha2.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -11,35 +12,47 @@
 namespace phare {
 namespace {
 
-using Digest = std::array<unsigned char, crypto_hash_sha256_BYTES>;
+// Nettle uses the processor's SHA instructions, libsodium does not: 4 times faster on a file of 12 MB, which is a third
+// of what reading the largest photometry files takes.
+class Sha256 {
+ public:
+  Sha256() { sha256_init(&state_); }
+  void add(const void* bytes, std::size_t count) {
+    sha256_update(&state_, count, static_cast<const std::uint8_t*>(bytes));
+  }
+  std::string text() {
+    std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+    sha256_digest(&state_, digest.size(), digest.data());
+    std::string result = "sha256:";
+    for (const unsigned byte : digest) {
+      result += "0123456789abcdef"[byte >> 4];
+      result += "0123456789abcdef"[byte & 15];
+    }
+    return result;
+  }
 
-std::string text_of(const Digest& digest) {
-  std::array<char, 2 * crypto_hash_sha256_BYTES + 1> hex{};
-  sodium_bin2hex(hex.data(), hex.size(), digest.data(), digest.size());
-  return std::string("sha256:") + hex.data();
-}
+ private:
+  sha256_ctx state_{};
+};
 
 }  // namespace
 
 std::string content_hash(std::span<const std::byte> bytes) {
-  Digest digest{};
-  crypto_hash_sha256(digest.data(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-  return text_of(digest);
+  Sha256 hash;
+  hash.add(bytes.data(), bytes.size());
+  return hash.text();
 }
 
 Result<std::string> content_hash_of_file(const std::filesystem::path& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) return Error{path.string(), std::string("cannot be opened: ") + std::strerror(errno)};
-  crypto_hash_sha256_state state;
-  crypto_hash_sha256_init(&state);
+  Sha256 hash;
   std::array<unsigned char, 65536> piece{};
   while (const std::size_t count = std::fread(piece.data(), 1, piece.size(), file.get())) {
-    crypto_hash_sha256_update(&state, piece.data(), count);
+    hash.add(piece.data(), count);
   }
   if (std::ferror(file.get()) != 0) return Error{path.string(), "cannot be read"};
-  Digest digest{};
-  crypto_hash_sha256_final(&state, digest.data());
-  return text_of(digest);
+  return hash.text();
 }
 
 }  // namespace phare

@@ -73,15 +73,17 @@ Result<HeightProfile> HeightProfile::read(const std::filesystem::path& csv_file)
   profile.start_m_ = from;
   profile.spacing_m_ = (to - from) / (points - 1.0);
   profile.per_spacing_ = 1.0 / profile.spacing_m_;
+  profile.grid_.resize(static_cast<std::size_t>(points) + kMargin);
   std::size_t row = 1;
-  for (double i = 0; i < points; ++i) {
-    const double s = from + profile.spacing_m_ * i;
+  for (std::int64_t i = 0; i < profile.points(); ++i) {
+    const double s = from + profile.spacing_m_ * static_cast<double>(i);
     while (row + 1 < table->rows() && table->at(row, *x) < s) ++row;
     const double x0 = table->at(row - 1, *x), x1 = table->at(row, *x);
     const double u = std::clamp((s - x0) / (x1 - x0), 0.0, 1.0);
-    profile.left_.push_back(std::lerp(table->at(row - 1, *left), table->at(row, *left), u));
-    profile.right_.push_back(std::lerp(table->at(row - 1, *right), table->at(row, *right), u));
+    profile.point(i) = Two{std::lerp(table->at(row - 1, *left), table->at(row, *left), u),
+                           std::lerp(table->at(row - 1, *right), table->at(row, *right), u)};
   }
+  profile.fill_margin();
   return profile;
 }
 
@@ -94,8 +96,7 @@ HeightProfile HeightProfile::iso8608(RoughnessClass roughness, std::uint64_t see
   const auto points = static_cast<std::size_t>(std::round(length_m / profile.spacing_m_));
   const double period = static_cast<double>(points) * profile.spacing_m_, dn = 1.0 / period;
   profile.per_count_ = 1.0 / static_cast<double>(points);
-  profile.left_.assign(points, 0.0);
-  profile.right_.assign(points, 0.0);
+  profile.grid_.resize(points + kMargin);
   std::mt19937_64 random(seed);
   const double gd = roughness_gd_m3(roughness);
   // A sine per line of the spectrum, its amplitude fixed, its phase random; a rotation per point instead of a sine.
@@ -107,14 +108,15 @@ HeightProfile HeightProfile::iso8608(RoughnessClass roughness, std::uint64_t see
     const double other = 2.0 * std::numbers::pi * uniform_01(random);
     double c = std::cos(phase), s = std::sin(phase), oc = std::cos(other), os = std::sin(other);
     const double turn = 2.0 * std::numbers::pi * n * profile.spacing_m_, tc = std::cos(turn), ts = std::sin(turn);
-    for (std::size_t i = 0; i < points; ++i) {
-      profile.left_[i] += amplitude * c;
-      profile.right_[i] += amplitude * (alike * c + apart * oc);
+    for (std::int64_t i = 0; i < profile.points(); ++i) {
+      profile.point(i)[0] += amplitude * c;
+      profile.point(i)[1] += amplitude * (alike * c + apart * oc);
       const double next = c * tc - s * ts, other_next = oc * tc - os * ts;
       s = s * tc + c * ts, c = next;
       os = os * tc + oc * ts, oc = other_next;
     }
   }
+  profile.fill_margin();
   return profile;
 }
 
@@ -130,7 +132,8 @@ HeightProfile HeightProfile::bumps(const std::vector<Bump>& bumps) {
   }
   profile.start_m_ = from;
   const auto points = static_cast<std::size_t>(std::min((to - from) / profile.spacing_m_, kMaxPoints)) + 2;
-  for (std::size_t i = 0; i < points; ++i) {
+  profile.grid_.resize(points + kMargin);
+  for (std::int64_t i = 0; i < profile.points(); ++i) {
     const double s = from + profile.spacing_m_ * static_cast<double>(i);
     double left = 0.0, right = 0.0;
     for (const Bump& bump : bumps) {
@@ -138,60 +141,34 @@ HeightProfile HeightProfile::bumps(const std::vector<Bump>& bumps) {
       left += bump.left ? height : 0.0;
       right += bump.right ? height : 0.0;
     }
-    profile.left_.push_back(left);
-    profile.right_.push_back(right);
+    profile.point(i) = Two{left, right};
   }
+  profile.fill_margin();
   return profile;
 }
 
 void HeightProfile::smooth(double contact_length_m) {
   const auto half = static_cast<std::ptrdiff_t>(std::round(0.5 * contact_length_m / spacing_m_));
-  if (half < 1 || left_.size() < 2) return;
-  const auto count = static_cast<std::ptrdiff_t>(left_.size());
-  for (std::vector<double>* track : {&left_, &right_}) {
-    const std::vector<double> before = *track;
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-      double sum = 0.0;
-      for (std::ptrdiff_t j = i - half; j <= i + half; ++j) {
-        const std::ptrdiff_t at = repeats_ ? (j % count + count) % count : std::clamp<std::ptrdiff_t>(j, 0, count - 1);
-        sum += before[static_cast<std::size_t>(at)];
-      }
-      (*track)[static_cast<std::size_t>(i)] = sum / static_cast<double>(2 * half + 1);
+  const std::int64_t count = points();
+  if (half < 1 || count < 2) return;
+  const std::vector<Point> before = grid_;
+  for (std::int64_t i = 0; i < count; ++i) {
+    Two sum{};
+    for (std::int64_t j = i - half; j <= i + half; ++j) {
+      const std::int64_t at = repeats_ ? (j % count + count) % count : std::clamp<std::int64_t>(j, 0, count - 1);
+      sum += before[static_cast<std::size_t>(at + 1)].z_m;
     }
+    point(i) = sum / static_cast<double>(2 * half + 1);
   }
+  fill_margin();
 }
 
-HeightProfile::Sample HeightProfile::at(double s_m, bool left) const {
-  const std::vector<double>& track = left ? left_ : right_;
+void HeightProfile::fill_margin() {
   const std::int64_t count = points();
-  double place = (s_m - start_m_) * per_spacing_;
-  // Written so that NaN fails.
-  if (count < 2 || !(std::abs(place) < 1e15)) return {};
-  if (repeats_) {
-    // By truncation: floor() is a call where the processor's own is not assumed.
-    place -= static_cast<double>(static_cast<std::int64_t>(place * per_count_)) * static_cast<double>(count);
-    if (place < 0.0) place += static_cast<double>(count);
-  } else if (place <= 0.0) {
-    return {track.front(), 0.0};
-  } else if (place >= static_cast<double>(count - 1)) {
-    return {track.back(), 0.0};
-  }
-  const auto i = std::min(static_cast<std::int64_t>(place), count - 1);
-  const double u = place - static_cast<double>(i);
-  std::array<double, 4> z;
-  if (i >= 1 && i + 2 < count) {
-    for (std::size_t k = 0; k < 4; ++k) z[k] = track[static_cast<std::size_t>(i) - 1 + k];
-  } else {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::int64_t at = i - 1 + static_cast<std::int64_t>(k);
-      z[k] =
-          track[static_cast<std::size_t>(repeats_ ? (at + count) % count : std::clamp<std::int64_t>(at, 0, count - 1))];
-    }
-  }
-  // Catmull and Rom 1974: the cubic with the slopes of the neighbours' chords.
-  const double slope_b = 0.5 * (z[2] - z[0]), slope_c = 0.5 * (z[3] - z[1]);
-  const double c2 = 3.0 * (z[2] - z[1]) - 2.0 * slope_b - slope_c, c3 = slope_b + slope_c - 2.0 * (z[2] - z[1]);
-  return {z[1] + u * (slope_b + u * (c2 + u * c3)), (slope_b + u * (2.0 * c2 + 3.0 * u * c3)) * per_spacing_};
+  if (count < 1) return;
+  point(-1) = point(repeats_ ? count - 1 : 0);
+  point(count) = point(repeats_ ? 0 : count - 1);
+  point(count + 1) = point(repeats_ ? 1 % count : count - 1);
 }
 
 }  // namespace phare

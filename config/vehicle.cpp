@@ -1,8 +1,10 @@
 #include "config/vehicle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "config/conventions.h"
 #include "config/toml_table.h"
@@ -99,7 +101,9 @@ EngineParams read_engine(TomlTable engine) {
 }
 
 LevellingParams read_levelling(TomlTable levelling) {
+  constexpr std::array<std::string_view, 3> kSystems{"wheel", "static", "dynamic"};
   LevellingParams p;
+  p.system = static_cast<LevellingSystem>(levelling.choice_or("system", 0, kSystems));
   p.lamp_x_m = levelling.number("lamp_x_m", -5.0, 10.0);
   p.lamp_height_m = levelling.number("lamp_height_m", 0.3, 2.0);
   p.aim_rad = levelling.number("aim_percent", -10.0, 10.0) * 0.01;

@@ -53,8 +53,12 @@ struct EngineParams {
   double shift_up_low_radps = 0.0, shift_up_full_radps = 0.0, shift_down_radps = 0.0;  ///< accelerator 0, 1
 };
 
+/// What moves the lamps against the body: the driver's wheel, the load weighed at rest, or the axles' sensors.
+enum class LevellingSystem { kWheel, kStatic, kDynamic };
+
 /// Headlamp levelling.
 struct LevellingParams {
+  LevellingSystem system = LevellingSystem::kWheel;
   double lamp_x_m = 0.0, lamp_height_m = 0.0;  ///< of the lamp, from the car's origin
   double aim_rad = 0.0;                        ///< of the cut-off, > 0 up, at rest
   double manual_step_rad = 0.0;                ///< down per step of the wheel at the dashboard

@@ -34,15 +34,14 @@ std::span<const std::byte> bytes_of(const std::string& text) { return std::as_by
 
 }  // namespace
 
-Result<Bus> Bus::open(const Rig& rig, Role role, std::uint32_t channel) {
+namespace {
+
+/// What keeps a rig from having a bus.
+Status check_rig(const Rig& rig) {
   const std::string place = rig.file.string();
   const std::size_t channels = std::max<std::size_t>(rig.channels.size(), 1);
   if (channels > kMaxChannels) {
     return Error{place, std::to_string(channels) + " channels, at most " + std::to_string(kMaxChannels)};
-  }
-  if (role == Role::kVisual ? channel >= channels : channel != 0) {
-    return Error{place, "has no channel " + std::to_string(channel) + " (channels count from 0, there are " +
-                            std::to_string(channels) + ")"};
   }
   if (!rig.bind_address.starts_with("127.") && !rig.bus_key) {
     return Error{place, "bind address " + rig.bind_address + " lies off loopback: a key is required there"};
@@ -51,11 +50,30 @@ Result<Bus> Bus::open(const Rig& rig, Role role, std::uint32_t channel) {
     return Error{place, "port base " + std::to_string(rig.port_base) + " leaves no room for " +
                             std::to_string(kMaxPortOffset + 1) + " ports"};
   }
+  return Done{};
+}
+
+}  // namespace
+
+Result<Bus> Bus::open(const Rig& rig, Role role, std::uint32_t channel) {
+  const std::size_t channels = std::max<std::size_t>(rig.channels.size(), 1);
+  if (role == Role::kVisual ? channel >= channels : channel != 0) {
+    return Error{rig.file.string(), "has no channel " + std::to_string(channel) +
+                                        " (channels count from 0, there are " + std::to_string(channels) + ")"};
+  }
+  if (const Status fine = check_rig(rig); !fine) return fine.error();
   const auto port = static_cast<std::uint16_t>(rig.port_base + port_offset(role, channel));
   Result<UdpSocket> socket = UdpSocket::open(rig.bind_address, port);
   if (!socket) return socket.error();
   if (!socket->filter_in_kernel(Seal(rig.bus_key).tag_bytes())) spdlog::debug("no socket filter in this kernel: garbage is refused by the process itself");
   return Bus(std::move(*socket), rig, role, channel);
+}
+
+Result<Bus> Bus::open_to_send(const Rig& rig, Role role) {
+  if (const Status fine = check_rig(rig); !fine) return fine.error();
+  Result<UdpSocket> socket = UdpSocket::open(rig.bind_address, 0);
+  if (!socket) return socket.error();
+  return Bus(std::move(*socket), rig, role, 0);
 }
 
 Bus::Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel)

@@ -44,6 +44,9 @@ class Bus {
   /// channel, or when rig.bind_address lies off loopback and rig has no key.
   static Result<Bus> open(const Rig& rig, Role role, std::uint32_t channel = 0);
 
+  /// For one who only speaks, beside whoever holds the port of the role: bound to any free port, it hears nothing.
+  static Result<Bus> open_to_send(const Rig& rig, Role role);
+
   /// Numbers, stamps and encodes the payload and sends it to every receiver of its row in kChannels. A payload that no
   /// receiver would take (NaN, out of range) is not sent but counted and logged, at most once a second.
   void send(SimTime now, const Payload& payload);

@@ -29,7 +29,8 @@ Pacer::Pacer(std::chrono::nanoseconds period)
     : period_ns_(std::max<std::int64_t>(period.count(), 1)), deadline_ns_(now_of(CLOCK_MONOTONIC) + period_ns_) {}
 
 std::int64_t Pacer::advance(std::int64_t now_ns) {
-  const std::int64_t missed = (now_ns - deadline_ns_) / period_ns_;
+  late_ns_ = now_ns - deadline_ns_;
+  const std::int64_t missed = late_ns_ / period_ns_;
   deadline_ns_ += (missed + 1) * period_ns_;
   return missed;
 }

@@ -18,6 +18,9 @@ class Pacer {
   /// not caught up); 0 in time. Returns early when a signal came; the deadline then stays.
   std::int64_t wait();
 
+  /// How long after its deadline the last wait() came back, before it returned.
+  std::chrono::nanoseconds late() const { return std::chrono::nanoseconds(late_ns_); }
+
   /// Time left until the deadline, 0 when it has passed: for loops that sleep in Bus::wait.
   std::chrono::nanoseconds left() const;
 
@@ -32,6 +35,7 @@ class Pacer {
 
   std::int64_t period_ns_;
   std::int64_t deadline_ns_;
+  std::int64_t late_ns_ = 0;
 };
 
 /// True once SIGTERM or SIGINT has come. Copies show the same.

@@ -2,6 +2,7 @@
 // Units, frames and meanings of the fields are written once, in phare.proto.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -45,6 +46,9 @@ struct CockpitState {
   friend bool operator==(const CockpitState&, const CockpitState&) = default;
 };
 
+/// Most steps that one VehicleState names the hashes of.
+inline constexpr std::size_t kMaxStepHashes = 64;
+
 struct VehicleState {
   std::int64_t frame_index = -1;
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
@@ -61,6 +65,8 @@ struct VehicleState {
   double lag_s = 0.0;
   bool high_beam_telltale = false;
   bool drive_ended = false;
+  double lamp_tilt_rad = 0.0;
+  std::vector<std::uint64_t> step_hash;
 
   friend bool operator==(const VehicleState&, const VehicleState&) = default;
 };
@@ -89,6 +95,7 @@ struct Quit { friend bool operator==(const Quit&, const Quit&) = default; };
 /// Source counted from 1; 0: every source of the lamp.
 struct Dim { std::string lamp; std::uint32_t source = 0; double dimming_01 = 1.0; friend bool operator==(const Dim&, const Dim&) = default; };
 struct Swivel { std::string lamp; double yaw_rad = 0.0; double pitch_rad = 0.0; friend bool operator==(const Swivel&, const Swivel&) = default; };
+struct Place { std::string lamp; double x_m = 0.0, y_m = 0.0, z_m = 0.0; friend bool operator==(const Place&, const Place&) = default; };
 }  // namespace rig_command
 
 struct RigControl {
@@ -99,7 +106,8 @@ struct RigControl {
   using Quit = rig_command::Quit;
   using Dim = rig_command::Dim;
   using Swivel = rig_command::Swivel;
-  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel> command;
+  using Place = rig_command::Place;
+  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel, Place> command;
 
   friend bool operator==(const RigControl&, const RigControl&) = default;
 };

@@ -6,14 +6,12 @@
 #include <zlib.h>
 
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "net/channels.h"
 #include "net/udp.h"
 #include "phare.pb.h"
 
@@ -122,6 +120,8 @@ void fill(wire::VehicleState& to, const VehicleState& from) {
   to.set_lag_s(from.lag_s);
   to.set_high_beam_telltale(from.high_beam_telltale);
   to.set_drive_ended(from.drive_ended);
+  to.set_lamp_tilt_rad(from.lamp_tilt_rad);
+  to.mutable_step_hash()->Add(from.step_hash.begin(), from.step_hash.end());
 }
 
 void fill(wire::FrameReport& to, const FrameReport& from) {
@@ -151,6 +151,12 @@ struct CommandFiller {
     to.mutable_swivel()->set_lamp(swivel.lamp);
     to.mutable_swivel()->set_yaw_rad(swivel.yaw_rad);
     to.mutable_swivel()->set_pitch_rad(swivel.pitch_rad);
+  }
+  void operator()(const RigControl::Place& place) const {
+    to.mutable_place()->set_lamp(place.lamp);
+    to.mutable_place()->set_x_m(place.x_m);
+    to.mutable_place()->set_y_m(place.y_m);
+    to.mutable_place()->set_z_m(place.z_m);
   }
 };
 
@@ -238,6 +244,8 @@ void read(VehicleState& to, const wire::VehicleState& from) {
   to.lag_s = from.lag_s();
   to.high_beam_telltale = from.high_beam_telltale();
   to.drive_ended = from.drive_ended();
+  to.lamp_tilt_rad = from.lamp_tilt_rad();
+  to.step_hash.assign(from.step_hash().begin(), from.step_hash().end());
 }
 
 void read(FrameReport& to, const wire::FrameReport& from) {
@@ -263,6 +271,9 @@ bool read(RigControl& to, const wire::RigControl& from) {
       return true;
     case wire::RigControl::kSwivel:
       to.command = RigControl::Swivel{from.swivel().lamp(), from.swivel().yaw_rad(), from.swivel().pitch_rad()};
+      return true;
+    case wire::RigControl::kPlace:
+      to.command = RigControl::Place{from.place().lamp(), from.place().x_m(), from.place().y_m(), from.place().z_m()};
       return true;
     case wire::RigControl::COMMAND_NOT_SET: break;
   }
@@ -307,7 +318,8 @@ bool any_unknown(const wire::Datagram& message) {
       return unknown_in(message.frame_report()) || unknown_in(message.frame_report().drawn());
     case wire::Datagram::kRigControl: {
       const wire::RigControl& control = message.rig_control();
-      return unknown_in(control) || (control.has_dim() && unknown_in(control.dim())) || (control.has_swivel() && unknown_in(control.swivel()));
+      return unknown_in(control) || (control.has_dim() && unknown_in(control.dim())) || (control.has_swivel() && unknown_in(control.swivel())) ||
+             (control.has_place() && unknown_in(control.place()));
     }
     case wire::Datagram::kProbeRequest: return unknown_in(message.probe_request());
     case wire::Datagram::kProbeReply: return unknown_in(message.probe_reply());
@@ -324,152 +336,7 @@ bool is_the_encoding_of(const wire::Datagram& message, const std::uint8_t* bytes
   return std::memcmp(canonical.data(), bytes, size) == 0;
 }
 
-// ---- sane ranges. Wide enough for every hard case of a drive, narrow enough that sums and squares stay finite.
-
-constexpr double kMaxCoordinate_m = 1e8;         // beyond the earth's radius
-constexpr double kMaxAngle_rad = 1e6;            // yaw need not be wrapped
-constexpr double kMaxSpeed_mps = 1e5;
-constexpr double kMaxRate_radps = 1e5;
-constexpr double kMaxAcceleration_mps2 = 1e6;
-constexpr double kMaxSteeringWheel_rad = 20.0;   // three turns to a side
-constexpr double kMaxRoadWheel_rad = 1.6;
-constexpr double kMaxTime_s = 1e9;               // thirty years; fits the 32 bits of a pcap stamp
-constexpr std::int64_t kMaxTime_ns = 1'000'000'000'000'000'000;
-constexpr double kMaxFrame_ms = 1e9;
-constexpr double kMaxAim_rad = 1.6;
-constexpr double kMaxNormal = 1.001;
-constexpr double kMaxIlluminance_lx = 1e15;
-constexpr std::int64_t kMaxFrameIndex = 1'000'000'000'000;
-constexpr std::uint64_t kMaxSequence = std::uint64_t{1} << 62;
-constexpr std::uint32_t kMaxDesigns = 10000;
-constexpr std::size_t kMaxNameBytes = 64;
-constexpr std::uint32_t kMaxSources = 10000;  // of a lamp
-constexpr std::size_t kMaxErrorBytes = 4096;
-
-/// Collects the first thing wrong.
-class Checker {
- public:
-  Refusal first() const { return first_; }
-
-  void number(double value, double min, double max) {
-    if (!std::isfinite(value)) return refuse(Refusal::kNotFinite);
-    if (value < min || value > max) refuse(Refusal::kRange);
-  }
-  void within(double value, double limit) { number(value, -limit, limit); }
-  void numbers(const std::vector<double>& values, double min, double max) {
-    for (const double value : values) number(value, min, max);
-  }
-  void require(bool fine, Refusal otherwise = Refusal::kRange) {
-    if (!fine) refuse(otherwise);
-  }
-  void frame_index(std::int64_t index) { require(index >= -1 && index <= kMaxFrameIndex); }
-
- private:
-  void refuse(Refusal refusal) {
-    if (first_ == Refusal::kNone) first_ = refusal;
-  }
-  Refusal first_ = Refusal::kNone;
-};
-
-template <typename Enum>
-bool enum_within(Enum value, Enum last) {
-  return static_cast<int>(value) >= 0 && static_cast<int>(value) <= static_cast<int>(last);
-}
-
-void check(Checker& c, const CockpitState& s) {
-  c.frame_index(s.frame_index);
-  c.require(enum_within(s.light_switch, LightSwitch::kHigh));
-  c.require(enum_within(s.gear, Gear::kPark));
-  c.require(s.design_index < kMaxDesigns);
-  c.within(s.steering_wheel_rad, kMaxSteeringWheel_rad);
-  c.number(s.accelerator_01, 0.0, 1.0);
-  c.number(s.brake_01, 0.0, 1.0);
-  c.require(s.light_change_sim.ns >= -kMaxTime_ns && s.light_change_sim.ns <= kMaxTime_ns);
-  c.require(s.source.size() <= kMaxNameBytes);
-  c.require(enum_within(s.turn, TurnSignal::kRight));
-  c.within(s.lamp_aim_rad, kMaxAim_rad);
-  c.number(s.clutch_01, 0.0, 1.0);
-  c.require(s.source_fault.size() <= kMaxErrorBytes);
-}
-
-void check(Checker& c, const VehicleState& s) {
-  c.frame_index(s.frame_index);
-  for (const double coordinate_m : {s.x_m, s.y_m, s.z_m}) c.within(coordinate_m, kMaxCoordinate_m);
-  for (const double angle_rad : {s.roll_rad, s.pitch_rad, s.yaw_rad, s.suspension_pitch_rad, s.suspension_roll_rad}) {
-    c.within(angle_rad, kMaxAngle_rad);
-  }
-  for (const double speed_mps : {s.vx_mps, s.vy_mps, s.vz_mps, s.speed_mps}) c.within(speed_mps, kMaxSpeed_mps);
-  for (const double rate_radps : {s.roll_rate_radps, s.pitch_rate_radps, s.yaw_rate_radps}) {
-    c.within(rate_radps, kMaxRate_radps);
-  }
-  for (const double acceleration_mps2 : {s.ax_mps2, s.ay_mps2}) c.within(acceleration_mps2, kMaxAcceleration_mps2);
-  c.within(s.steer_rad, kMaxRoadWheel_rad);
-  c.within(s.suspension_heave_m, kMaxCoordinate_m);
-  c.number(s.lag_s, 0.0, kMaxTime_s);
-  c.require(s.level.size() <= kMaxNameBytes);
-}
-
-void check(Checker& c, const FrameReport& r) {
-  c.frame_index(r.frame_index);
-  c.require(r.channels >= 1 && r.channels <= kMaxChannels && r.channel < r.channels);
-  c.number(r.frame_ms, 0.0, kMaxFrame_ms);
-  c.number(r.gpu_ms, 0.0, kMaxFrame_ms);
-  check(c, r.drawn);
-}
-
-struct CommandChecker {
-  Checker& c;
-  void operator()(const RigControl::Pause&) const {}
-  void operator()(const RigControl::Seek& seek) const { c.number(seek.to_s, 0.0, kMaxTime_s); }
-  void operator()(const RigControl::Design& design) const { c.require(design.index < kMaxDesigns); }
-  void operator()(const RigControl::Aim& aim) const { c.within(aim.pitch_rad, kMaxAim_rad); }
-  void operator()(const RigControl::Quit&) const {}
-  void operator()(const RigControl::Dim& dim) const {
-    c.require(!dim.lamp.empty() && dim.lamp.size() <= kMaxNameBytes && dim.source <= kMaxSources);
-    c.number(dim.dimming_01, 0.0, 1.0);
-  }
-  void operator()(const RigControl::Swivel& swivel) const {
-    c.require(!swivel.lamp.empty() && swivel.lamp.size() <= kMaxNameBytes);
-    for (const double angle_rad : {swivel.yaw_rad, swivel.pitch_rad}) c.within(angle_rad, kMaxAim_rad);
-  }
-};
-
-void check(Checker& c, const RigControl& control) { std::visit(CommandChecker{c}, control.command); }
-
-void check(Checker& c, const ProbeRequest& r) {
-  const std::size_t count = r.x_m.size();
-  c.require(count <= kMaxProbePoints, Refusal::kArrays);
-  for (const auto* array : {&r.y_m, &r.z_m, &r.nx, &r.ny, &r.nz}) c.require(array->size() == count, Refusal::kArrays);
-  for (const auto* array : {&r.x_m, &r.y_m, &r.z_m}) c.numbers(*array, -kMaxCoordinate_m, kMaxCoordinate_m);
-  for (const auto* array : {&r.nx, &r.ny, &r.nz}) c.numbers(*array, -kMaxNormal, kMaxNormal);
-}
-
-void check(Checker& c, const ProbeReply& r) {
-  c.require(r.illuminance_lx.size() <= kMaxProbePoints, Refusal::kArrays);
-  c.numbers(r.illuminance_lx, 0.0, kMaxIlluminance_lx);
-  c.require(r.error.size() <= kMaxErrorBytes);
-}
-
 }  // namespace
-
-const char* refusal_text(Refusal refusal) {
-  switch (refusal) {
-    case Refusal::kNone: return "accepted";
-    case Refusal::kSize: return "shorter or longer than any datagram";
-    case Refusal::kHeader: return "no datagram of this protocol version";
-    case Refusal::kChecksum: return "checksum does not fit: cut short or changed on the way";
-    case Refusal::kMalformed: return "not the encoding of a datagram";
-    case Refusal::kEnvelope: return "start id, sequence, channel or time out of range";
-    case Refusal::kSender: return "sender may not send this payload";
-    case Refusal::kNotFinite: return "a number is not finite";
-    case Refusal::kRange: return "a value is out of range";
-    case Refusal::kArrays: return "probe arrays differ in length or exceed 1000 points";
-    case Refusal::kNotForUs: return "not meant for this process";
-    case Refusal::kKey: return "not sealed with the key of this bus";
-    case Refusal::kReplay: return "of an earlier start of its sender";
-  }
-  return "unknown";
-}
 
 void encode_into(const Datagram& datagram, std::string& bytes) {
   wire::Datagram& message = fresh_message();
@@ -497,20 +364,6 @@ std::string encode(const Datagram& datagram) {
   std::string bytes;
   encode_into(datagram, bytes);
   return bytes;
-}
-
-Refusal check(const Datagram& datagram) {
-  Checker c;
-  c.require(datagram.start_id != 0 && datagram.sequence >= 1 && datagram.sequence <= kMaxSequence, Refusal::kEnvelope);
-  c.require(datagram.sim_time.ns >= 0 && datagram.sim_time.ns <= kMaxTime_ns, Refusal::kEnvelope);
-  const bool visual = datagram.sender == Sender::kVisual;
-  c.require(datagram.sender_channel < (visual ? kMaxChannels : 1), Refusal::kEnvelope);
-  c.require(kChannels[datagram.payload.index()].sender == datagram.sender, Refusal::kSender);
-  if (const auto* report = std::get_if<FrameReport>(&datagram.payload)) {
-    c.require(report->channel == datagram.sender_channel, Refusal::kEnvelope);
-  }
-  std::visit([&c](const auto& payload) { check(c, payload); }, datagram.payload);
-  return c.first();
 }
 
 Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {

@@ -13,6 +13,7 @@ using Command = std::function<int()>;  ///< returns the exit code
 
 void add_drive(CLI::App& app, Command& chosen);
 void add_record(CLI::App& app, Command& chosen);
+void add_control(CLI::App& app, Command& chosen);
 void add_replay(CLI::App& app, Command& chosen);
 void add_import(CLI::App& app, Command& chosen);
 void add_lamp(CLI::App& app, Command& chosen);

@@ -61,6 +61,7 @@ class Car {
       if (!p) return p.error();
       single_params_ = *p;
       single_params_.integrator = o_.integrator;
+      single_track::set_step(single_params_, o_.step_s);
     }
     return Done{};
   }

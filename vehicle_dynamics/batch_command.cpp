@@ -11,10 +11,22 @@
 #include "vehicle_dynamics/work_precision.h"
 
 namespace phare {
+namespace {
+
+std::size_t index_of(const std::string& text, std::initializer_list<const char*> names) {
+  std::size_t i = 0;
+  for (const char* name : names) {
+    if (text == name) return i;
+    ++i;
+  }
+  return 0;
+}
+
+}  // namespace
 
 struct BatchCommand::Options {
   std::string in, compare_with, out, vehicle, integrator = "rk4", tyre = "magic", attitude = "dynamic", road,
-                                              resistance = "auto", levelling = "none", roughness;
+                                              resistance = "auto", levelling, roughness;
   double step_s = 0.002, output_hz = 100.0, speed_mps = 0.0, start_x_m = 0.0, friction = 1.0, envelope_m = 0.1,
          relaxation_scale = 1.0;
   std::uint64_t seed = 1;
@@ -70,25 +82,22 @@ void BatchCommand::add_to(CLI::App& app) {
   app.add_flag("--work-precision", o.work_precision,
                "Print error and cost of every level, integrator and step (--vehicle)")
       ->group(group);
-  app.add_option("--levelling", o.levelling, "Batch: none, manual, static or dynamic")
-      ->check(CLI::IsMember({"none", "manual", "static", "dynamic"}))
-      ->group(group);
+  app.add_option(
+         "--levelling", o.levelling,
+         "Headlamp levelling: none, manual (batch only), static or dynamic (default: live the vehicle's, batch none)")
+      ->check(CLI::IsMember({"none", "manual", "static", "dynamic"}));
 }
 
 bool BatchCommand::asked() const {
   return !options_->in.empty() || !options_->compare_with.empty() || options_->work_precision;
 }
 
-namespace {
-
-std::size_t index_of(const std::string& text, std::initializer_list<const char*> names) {
-  std::size_t i = 0;
-  for (const char* name : names) {
-    if (text == name) return i;
-    ++i;
-  }
-  return 0;
+std::optional<levelling::Kind> BatchCommand::levelling() const {
+  if (options_->levelling.empty()) return std::nullopt;
+  return static_cast<levelling::Kind>(index_of(options_->levelling, {"none", "manual", "static", "dynamic"}));
 }
+
+namespace {
 
 int run_compare(const std::string& directory, const std::string& vehicle, Integrator integrator, double step_s) {
   if (vehicle.empty()) return fail("phare-dynamics", {"--vehicle", "--compare needs the reference car's vehicle file"});
@@ -125,8 +134,10 @@ int BatchCommand::run(const std::string& level_name) const {
   batch::Options options;
   const Result<Level> level = parse_level(level_name, "--level");
   if (!level) return fail("phare-dynamics", level.error());
-  if (*level == Level::kPose) return fail("phare-dynamics", {"--level", "pose replays a drive; a batch run moves a model"});
-  if (*level == Level::kAuto) return fail("phare-dynamics", {"--level", "auto chooses while driving; a batch run names its level"});
+  if (*level == Level::kPose)
+    return fail("phare-dynamics", {"--level", "pose replays a drive; a batch run moves a model"});
+  if (*level == Level::kAuto)
+    return fail("phare-dynamics", {"--level", "auto chooses while driving; a batch run names its level"});
   options.level = *level;
   Result<VehicleParams> vehicle = read_vehicle(o.vehicle);
   if (!vehicle) return fail("phare-dynamics", vehicle.error());
@@ -137,7 +148,7 @@ int BatchCommand::run(const std::string& level_name) const {
   options.step_s = o.step_s, options.output_hz = o.output_hz;
   options.speed_mps = o.speed_mps, options.start_x_m = o.start_x_m;
   options.resistance = static_cast<batch::Resistance>(index_of(o.resistance, {"auto", "on", "off"}));
-  options.levelling = static_cast<levelling::Kind>(index_of(o.levelling, {"none", "manual", "static", "dynamic"}));
+  options.levelling = levelling().value_or(levelling::Kind::kNone);
   if (o.relaxation_scale != 1.0) options.relaxation_scale = o.relaxation_scale;
   Result<batch::Inputs> inputs = batch::read_inputs(o.in);
   if (!inputs) return fail("phare-dynamics", inputs.error());
@@ -146,7 +157,8 @@ int BatchCommand::run(const std::string& level_name) const {
   RoadSurface surface;
   road.friction_everywhere = o.friction;
   if (!o.road.empty()) {
-    if (!inputs->road_m[0].empty()) return fail("phare-dynamics", {"--road", "the inputs give the road's heights already"});
+    if (!inputs->road_m[0].empty())
+      return fail("phare-dynamics", {"--road", "the inputs give the road's heights already"});
     if (o.road.ends_with(".csv")) {
       Result<HeightProfile> profile = HeightProfile::read(o.road);
       if (!profile) return fail("phare-dynamics", profile.error());
@@ -155,7 +167,8 @@ int BatchCommand::run(const std::string& level_name) const {
     } else {
       Result<RoadSurface> mesh = RoadSurface::read(o.road);
       if (!mesh) return fail("phare-dynamics", mesh.error());
-      if (mesh->triangle_count() == 0) return fail("phare-dynamics", {o.road, "no node whose name begins with road or ground"});
+      if (mesh->triangle_count() == 0)
+        return fail("phare-dynamics", {o.road, "no node whose name begins with road or ground"});
       surface = std::move(*mesh);
       road.mesh = &surface;
     }

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+
+#include "vehicle_dynamics/levelling.h"
 
 namespace CLI {
 class App;
@@ -18,6 +21,8 @@ class BatchCommand {
   void add_to(CLI::App& app);
   /// One of --batch, --compare, --work-precision was given.
   bool asked() const;
+  /// --levelling, which counts for a live run too; nullopt: not given.
+  std::optional<levelling::Kind> levelling() const;
   /// Exit code; says on stderr what was wrong.
   int run(const std::string& level) const;
 

@@ -15,6 +15,13 @@ namespace phare::levelling {
 
 enum class Kind { kNone, kManual, kStatic, kDynamic };
 
+/// What the dynamics moves by itself: the driver's wheel is none of it, the cockpit sends its angle to the picture.
+inline Kind kind_of(LevellingSystem system) {
+  return system == LevellingSystem::kStatic    ? Kind::kStatic
+         : system == LevellingSystem::kDynamic ? Kind::kDynamic
+                                               : Kind::kNone;
+}
+
 struct State {
   double measured_rad = 0.0;  ///< body pitch against the axles as filtered, nose down > 0
   double tilt_rad = 0.0;      ///< of the lamps against the body, > 0 up

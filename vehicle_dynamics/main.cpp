@@ -52,7 +52,7 @@ bool high_beam_on(const CockpitState& state) {
   return state.flash || state.light_switch == LightSwitch::kHigh;
 }
 
-Result<Begin> prepare(const Rig& rig, const Options& options) {
+Result<Begin> prepare(const Rig& rig, const Options& options, std::optional<levelling::Kind> levelling) {
   const std::string named = options.level.empty() ? rig.dynamics_level : options.level;
   const Result<Level> level = parse_level(named, options.level.empty() ? rig.file.string() : "--level");
   if (!level) return level.error();
@@ -76,6 +76,9 @@ Result<Begin> prepare(const Rig& rig, const Options& options) {
   Result<VehicleParams> vehicle = read_vehicle(rig.vehicle_file);
   if (!vehicle) return vehicle.error();
   begin.setup.vehicle = std::move(*vehicle);
+  begin.setup.levelling = levelling.value_or(levelling::kind_of(begin.setup.vehicle.levelling.system));
+  if (begin.setup.levelling == levelling::Kind::kManual)
+    return Error{"--levelling", "manual: the cockpit's wheel turns the lamps of a live run"};
   if (*level != Level::kKinematic) {
     Result<SprungCar> sprung = SprungCar::of(begin.setup.vehicle, rig.vehicle_file.string());
     if (!sprung) return sprung.error();
@@ -166,11 +169,11 @@ class Process {
     Pacer pacer(step);
     Clock::time_point start = Clock::now(), before = start, next_send = start;
     while (!stop_) {
-      pacer.wait();
+      missed_wakes_ += static_cast<std::uint64_t>(pacer.wait());
+      wake_late_.add(pacer.late());
       bus_.poll();
       stats_once_a_second();
       const Clock::time_point now = Clock::now();
-      wake_late_.add(std::max(now - before - step, std::chrono::nanoseconds(0)));
       if (requests_.seek_s && seek()) start = before = now;
       if (requests_.paused) loop_->skip(SimTime{(now - before).count()});  // the pose goes on being sent
       before = now;
@@ -188,6 +191,8 @@ class Process {
   void send_state(SimTime time, std::int64_t frame, const CockpitState* cockpit) {
     VehicleState state = loop_->at(time);
     state.frame_index = frame;
+    state.step_hash = loop_->hashes_after(sent_step_);
+    sent_step_ = state.step;
     state.high_beam_telltale = cockpit && high_beam_on(*cockpit);
     if (cockpit && cockpit->drive_ended) state.drive_ended = true;
     bus_.send(time, state);
@@ -331,7 +336,8 @@ class Process {
       if (wake_late_.count() > 0)
         json["wake_late_ns"] = {{"count", wake_late_.count()},         {"p50", wake_late_.quantile_ns(0.5)},
                                 {"p99", wake_late_.quantile_ns(0.99)}, {"p99_9", wake_late_.quantile_ns(0.999)},
-                                {"max", wake_late_.max_ns()},          {"octaves", wake_late_.octaves()}};
+                                {"max", wake_late_.max_ns()},          {"missed", missed_wakes_},
+                                {"octaves", wake_late_.octaves()}};
     }
     if (!write_json(options_.stats_file, json)) spdlog::warn("{}: cannot be written", options_.stats_file);
   }
@@ -342,7 +348,10 @@ class Process {
   StopFlag stop_;
   Requests requests_;
   std::optional<StepLoop> loop_;
-  StepTimes wake_late_;  ///< real time: how much longer than a step it was since the last wake-up
+  std::uint64_t sent_step_ = 0;  ///< the newest step whose hash has been sent
+  StepTimes wake_late_;          ///< real time: how long after its time a wake-up came
+  std::uint64_t missed_wakes_ =
+      0;  ///< wake-ups that fell away because the one before came a step too late; their steps are caught up
   bool silent_ = false, off_road_logged_ = false;
   std::uint64_t drops_logged_ = 0;
   Clock::time_point next_lag_log_{}, next_stats_{};
@@ -379,7 +388,7 @@ int run(int argc, char** argv) {
   if (!rig) return fail("phare-dynamics", rig.error());
   if (options.port_base) rig->port_base = *options.port_base;
   StopFlag stop = install_stop_signals();
-  Result<Begin> begin = prepare(*rig, options);
+  Result<Begin> begin = prepare(*rig, options, batch.levelling());
   if (!begin) return fail("phare-dynamics", begin.error());
   Result<Bus> bus = Bus::open(*rig, Role::kDynamics);
   if (!bus) return fail("phare-dynamics", bus.error());

@@ -105,7 +105,7 @@ bool ReferenceIntegrator::advance(const single_track::Params& p, const full::Inp
   to_array(state, y.data());
   const bool done = solver_->step(y.data(), y.size(), dt, [&](double t, const double* at, double* rate) {
     single_track::State d;
-    single_track::derivative(p, in, during, from_array<single_track::State>(at), t, d);
+    single_track::derivative(p, during, from_array<single_track::State>(at), t, d);
     to_array(d, rate);
   });
   state = from_array<single_track::State>(y.data());

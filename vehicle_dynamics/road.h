@@ -33,6 +33,27 @@ struct Road {
   /// At world (x, y), `path_m` along the path, in the left or right track. Beside a mesh the height is `beside_m` and
   /// *off becomes true. No allocation; below a microsecond (road_profile_test.cpp).
   Ground at(double x_m, double y_m, double path_m, bool left, double beside_m, bool* off) const;
+
+  /// The two parts of at(): the mesh or plane there,
+  double base_m(double x_m, double y_m, double beside_m, bool* off) const;
+  /// and what lies on it along the path, for the left and the right wheel of an axle at once.
+  struct Laid {
+    Two z_m{}, slope{}, friction{};
+  };
+  Laid laid(double path_m) const;
+  /// Whether base_m() asks where in the world it is; otherwise it is z_m everywhere.
+  bool placed() const { return mesh || slope_x != 0.0 || slope_y != 0.0; }
 };
+
+inline Road::Laid Road::laid(double path_m) const {
+  Laid both{Two{}, Two{}, phare::both(friction_everywhere)};
+  for (const HeightProfile& profile : profiles) {
+    const HeightProfile::Pair pair = profile.across(path_m);
+    both.z_m += pair.z_m, both.slope += pair.slope;
+  }
+  for (const FrictionZone& zone : friction)
+    if (path_m >= zone.from_m && path_m < zone.to_m) both.friction = Two{zone.left, zone.right};
+  return both;
+}
 
 }  // namespace phare

@@ -112,10 +112,12 @@ void SprungCar::advance(const Controls& input, const Road& road, double dt) {
   const auto torque =
       powertrain::advance(vehicle_, input, 0.0, whole ? full_.u_mps : single_.u_mps, spin, whole, power_, dt);
   input_.drive_nm = torque.drive_nm, input_.brake_nm = torque.brake_nm;
-  if (whole)
+  if (whole) {
     full::advance(full_params_, input_, full_, dt);
-  else
+  } else {
+    single_track::set_step(single_params_, dt);
     single_track::advance(single_params_, input_, single_, dt);
+  }
   show();
 }
 

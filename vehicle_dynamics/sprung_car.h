@@ -25,7 +25,8 @@ class SprungCar {
   /// One step. `input` must come from accepted().
   void advance(const Controls& input, const Road& road, double dt);
 
-  /// As the other levels show it: angles split into road and springs, origin under the rear axle.
+  /// As the other levels show it: angles split into road and springs, origin under the rear axle. The lamps are not the
+  /// car's.
   CarState state() const { return shown_; }
   double path_m() const { return model_ == Model::kFull ? full_.path_m : single_.path_m; }
   double side_speed_mps() const { return side_mps_; }  ///< of the origin, to the left

@@ -8,22 +8,40 @@
 namespace phare {
 namespace {
 
+constexpr std::size_t kFields = 20 + 4;
+
 // Every double of a state in declaration order; one list for hash and interpolation.
 template <class State, class Visit>
 void for_each_field(State& s, Visit&& visit) {
-  for (auto* field :
-       {&s.x_m, &s.y_m, &s.z_m, &s.yaw_rad, &s.speed_mps, &s.steer_rad, &s.road_pitch_rad, &s.road_roll_rad,
-        &s.road_pitch_rate_radps, &s.road_roll_rate_radps, &s.pitch_rad, &s.pitch_rate_radps, &s.roll_rad,
-        &s.roll_rate_radps, &s.heave_m, &s.heave_rate_mps, &s.ax_mps2, &s.ay_mps2, &s.yaw_rate_radps})
+  for (auto* field : {&s.x_m,
+                      &s.y_m,
+                      &s.z_m,
+                      &s.yaw_rad,
+                      &s.speed_mps,
+                      &s.steer_rad,
+                      &s.road_pitch_rad,
+                      &s.road_roll_rad,
+                      &s.road_pitch_rate_radps,
+                      &s.road_roll_rate_radps,
+                      &s.pitch_rad,
+                      &s.pitch_rate_radps,
+                      &s.roll_rad,
+                      &s.roll_rate_radps,
+                      &s.heave_m,
+                      &s.heave_rate_mps,
+                      &s.ax_mps2,
+                      &s.ay_mps2,
+                      &s.yaw_rate_radps,
+                      &s.lamp_tilt_rad})
     visit(*field);
   for (auto& height : s.contact_z_m) visit(height);
 }
-static_assert(sizeof(CarState) == (19 + 4) * sizeof(double), "a new field belongs into for_each_field");
+static_assert(sizeof(CarState) == kFields * sizeof(double), "a new field belongs into for_each_field");
 
 }  // namespace
 
 std::uint64_t state_hash(const CarState& state) {
-  std::array<double, 23> values{};
+  std::array<double, kFields> values{};
   std::size_t i = 0;
   for_each_field(state, [&](const double& field) { values[i++] = field; });
   return hash_of(values.data(), values.size());
@@ -32,11 +50,8 @@ std::uint64_t state_hash(const CarState& state) {
 std::uint64_t hash_of(const double* values, std::size_t count) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto bits = std::bit_cast<std::uint64_t>(values[i]);
-    for (int byte = 0; byte < 8; ++byte) {
-      hash ^= (bits >> (8 * byte)) & 0xffu;
-      hash *= 0x100000001b3u;
-    }
+    hash = (hash ^ std::bit_cast<std::uint64_t>(values[i])) * 0x100000001b3u;
+    hash ^= hash >> 32;  // multiplication carries upwards only
   }
   return hash;
 }
@@ -44,7 +59,7 @@ std::uint64_t hash_of(const double* values, std::size_t count) {
 CarState interpolate(const CarState& from, const CarState& to, double fraction) {
   if (fraction <= 0.0) return from;
   if (fraction >= 1.0) return to;
-  std::array<double, 23> target{};
+  std::array<double, kFields> target{};
   std::size_t i = 0;
   for_each_field(to, [&](const double& field) { target[i++] = field; });
   CarState between = from;
@@ -72,6 +87,7 @@ VehicleState to_message(const CarState& s) {
   m.suspension_pitch_rad = s.pitch_rad;
   m.suspension_roll_rad = s.roll_rad;
   m.suspension_heave_m = s.heave_m;
+  m.lamp_tilt_rad = s.lamp_tilt_rad;
   return m;
 }
 
@@ -89,6 +105,7 @@ CarState from_message(const VehicleState& m, double wheelbase_m, double track_m)
   s.heave_rate_mps = m.vz_mps + m.speed_mps * std::sin(s.road_pitch_rad);
   s.ax_mps2 = m.ax_mps2, s.ay_mps2 = m.ay_mps2;
   s.yaw_rate_radps = m.yaw_rate_radps;
+  s.lamp_tilt_rad = m.lamp_tilt_rad;
   const double to_front = -wheelbase_m * std::tan(s.road_pitch_rad);
   const double to_left = 0.5 * track_m * std::tan(s.road_roll_rad) / std::cos(s.road_pitch_rad);
   s.contact_z_m = {s.z_m + to_front + to_left, s.z_m + to_front - to_left, s.z_m + to_left, s.z_m - to_left};

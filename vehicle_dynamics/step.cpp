@@ -14,11 +14,16 @@ namespace {
 constexpr std::array<const char*, 5> kLevelNames{"pose", "kinematic", "single-track", "full", "auto"};
 }  // namespace
 
+// The car, one step further. Who decides what is due, and what the outside sees of it, follows below.
 void StepLoop::step_once() {
   const auto begin = std::chrono::steady_clock::now();
   const double dt = setup_.step.seconds();
   before_ = now_;
+
+  // the level that the scene calls for
   if (setup_.level == Level::kAuto) choose_level(dt);
+
+  // the car over the road, by that level's model
   switch (running_) {
     case Level::kPose:
       now_ = from_message(setup_.track.at(time_of(steps_ + 1)), 1.0, 1.0);
@@ -36,7 +41,16 @@ void StepLoop::step_once() {
       break;
   }
   path_m_ = sprung() ? setup_.sprung->path_m() : path_m_ + now_.speed_mps * dt;
+
+  // the lamps against the body
+  if (running_ != Level::kPose) {  // a record holds them already
+    levelling::advance(setup_.vehicle.levelling, setup_.levelling, 0.0, now_.pitch_rad, now_.speed_mps, lamps_, dt);
+    now_.lamp_tilt_rad = lamps_.tilt_rad;
+  }
+
+  // what proves that a repeated run was the same, and what it cost
   ++steps_;
+  hashes_[steps_ % hashes_.size()] = hash();
   times_.add(std::chrono::steady_clock::now() - begin);
 }
 
@@ -63,7 +77,7 @@ VehicleState StepLoop::at(SimTime time) const {
   out.frame_index = -1;
   out.level = name(running_);
   out.step = steps();
-  out.state_hash = sprung() ? setup_.sprung->hash() : state_hash(now_);
+  out.state_hash = hash();
   if (sprung()) {
     out.vx_mps -= setup_.sprung->side_speed_mps() * std::sin(out.yaw_rad);
     out.vy_mps += setup_.sprung->side_speed_mps() * std::cos(out.yaw_rad);
@@ -71,6 +85,18 @@ VehicleState StepLoop::at(SimTime time) const {
   out.lag_s = dropped_.seconds();
   out.high_beam_telltale = false;
   return out;
+}
+
+std::uint64_t StepLoop::hash() const {
+  return (sprung() ? setup_.sprung->hash() : state_hash(now_)) * 31 + state_hash(lamps_);
+}
+
+std::vector<std::uint64_t> StepLoop::hashes_after(std::uint64_t step) const {
+  const std::uint64_t seen = step > steps_before_ ? step - steps_before_ : 0;
+  const std::uint64_t new_ones = std::min<std::uint64_t>(steps_ - std::min(seen, steps_), hashes_.size());
+  std::vector<std::uint64_t> hashes;
+  for (std::uint64_t n = steps_ - new_ones + 1; n <= steps_; ++n) hashes.push_back(hashes_[n % hashes_.size()]);
+  return hashes;
 }
 
 void StepLoop::place_on_road(double dt) {
@@ -120,6 +146,8 @@ StepLoop::StepLoop(RunSetup setup, const CarState& state, SimTime start, std::ui
     place_on_road(0.0);
     run_as(running_);
   }
+  lamps_.tilt_rad = lamps_.measured_rad = state.lamp_tilt_rad;
+  now_.lamp_tilt_rad = state.lamp_tilt_rad;
   before_ = now_;
 }
 

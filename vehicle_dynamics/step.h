@@ -1,15 +1,18 @@
 // The loop of the dynamics: fixed steps under a clock, one model, output at an exact time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config/result.h"
 #include "config/road_surface.h"
 #include "config/vehicle.h"
 #include "net/messages.h"
 #include "vehicle_dynamics/auto_level.h"
+#include "vehicle_dynamics/levelling.h"
 #include "vehicle_dynamics/models/pose.h"
 #include "vehicle_dynamics/sprung_car.h"
 #include "vehicle_dynamics/state.h"
@@ -34,6 +37,7 @@ struct RunSetup {
   Road on_top;                      ///< profiles and friction laid on it; its mesh and plane are not looked at
   std::optional<SprungCar> sprung;  ///< needed by single-track, full and auto
   PoseTrack track;                  ///< needed by level pose only
+  levelling::Kind levelling = levelling::Kind::kNone;
   SimTime step{2'000'000};
 };
 
@@ -60,6 +64,9 @@ class StepLoop {
   /// pose gives the record at exactly `time`.
   VehicleState at(SimTime time) const;
 
+  /// Hashes of the steps after step number `step`, oldest first, the newest kMaxStepHashes at most.
+  std::vector<std::uint64_t> hashes_after(std::uint64_t step) const;
+
   SimTime time() const { return time_of(steps_); }  ///< of the newest step
   std::uint64_t steps() const { return steps_before_ + steps_; }
   std::uint64_t steps_done() const { return steps_; }  ///< by this loop itself
@@ -85,6 +92,7 @@ class StepLoop {
   void choose_level(double dt);
   void run_as(Level level);
   const Road& road();
+  std::uint64_t hash() const;
   bool sprung() const { return running_ == Level::kSingleTrack || running_ == Level::kFull; }
 
   RunSetup setup_;
@@ -93,6 +101,8 @@ class StepLoop {
   Road road_;
   AutoLevel auto_;
   double path_m_ = 0.0;
+  levelling::State lamps_;
+  std::array<std::uint64_t, kMaxStepHashes> hashes_{};  ///< of the newest steps, step n at n modulo size
   Controls controls_;
   SimTime start_;
   std::uint64_t steps_before_ = 0;

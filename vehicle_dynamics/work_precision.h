@@ -20,7 +20,8 @@ struct Line {
 };
 
 /// Ten seconds: class C road, 80 km/h, step steer of 10 mrad at 1 s, braking with 5.5 m/s2 from 4 s on. Inputs change
-/// at multiples of 10 ms only, so that every step size sees the same. `short_run`: steps 1, 2, 5 ms only.
+/// at multiples of 10 ms only, so that every step size sees the same. `short_run`: steps 1, 2, 5 ms only,
+/// timed once, against rk4 with 0.1 ms.
 Result<std::vector<Line>> table(const VehicleParams& vehicle, const std::string& place, bool short_run);
 
 std::string markdown(const std::vector<Line>& lines);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -115,10 +116,15 @@ void fill(PackedBeam& packed, const BeamImage& image, const TexelRect& part) {
     for (std::size_t i = part.column; i < part.end_column; ++i) {
       const auto [column, s] = packed.column_places[i];
       const float* node = &image.candela[row * along + column * across];
+      float& texel = packed.candela[j * packed.columns + i];
+      if (s == 0.0 && t == 0.0) {
+        texel = *node;
+        continue;
+      }
       const std::size_t right = s > 0.0 ? across : 0, up = t > 0.0 ? along : 0;
       const double low = (1.0 - s) * static_cast<double>(node[0]) + s * static_cast<double>(node[right]);
       const double high = (1.0 - s) * static_cast<double>(node[up]) + s * static_cast<double>(node[up + right]);
-      packed.candela[j * packed.columns + i] = static_cast<float>((1.0 - t) * low + t * high);
+      texel = static_cast<float>((1.0 - t) * low + t * high);
     }
   }
 }
@@ -134,11 +140,12 @@ void describe_even(PackedBeam& packed, const EvenAxis& first, const EvenAxis& se
   packed.within = {first.first, first.first + first.count - 1, second.first, second.first + second.count - 1};
 }
 
-// A texture coordinate for each degree of the table's range: texel centres at its ends.
+// A texture coordinate for each radian of the table's range: texel centres at its ends.
 void describe_filter(PackedBeam& packed) {
+  packed.nodes = packed.range * static_cast<float>(std::numbers::pi / 180.0);
   const double width = kFilterColumns, height = kFilterRows;
-  const double u = (width - 1) / width / static_cast<double>(packed.range.y - packed.range.x), v = (height - 1) / height / static_cast<double>(packed.range.w - packed.range.z);
-  packed.coordinates = {u, v, 0.5 / width - static_cast<double>(packed.range.x) * u, 0.5 / height - static_cast<double>(packed.range.z) * v};
+  const double u = (width - 1) / width / static_cast<double>(packed.nodes.y - packed.nodes.x), v = (height - 1) / height / static_cast<double>(packed.nodes.w - packed.nodes.z);
+  packed.coordinates = {u, v, 0.5 / width - static_cast<double>(packed.nodes.x) * u, 0.5 / height - static_cast<double>(packed.nodes.z) * v};
 }
 
 // The guide of one axis: bins of equal width in each 45° about a multiple of 45° (shaders/lib/beam.glsl).
@@ -223,7 +230,7 @@ PackedBeam pack_beam(const BeamImage& image, ImageLevel level) {
   packed.range = {first.front(), first.back(), second.front(), second.back()};
 
   if (filtered) {
-    packed.lookup = shader::kLookupFilter;
+    packed.lookup = ahead ? shader::kLookupFilterAhead : shader::kLookupFilter;
     packed.column_places = places_between_ends(first, kFilterColumns);
     packed.row_places = places_between_ends(second, kFilterRows);
     describe_filter(packed);
@@ -274,22 +281,22 @@ TexelRect pack_again(PackedBeam& packed, const BeamImage& image, const TexelRect
 }
 
 std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& part) {
-  std::vector<std::byte> bytes;
-  bytes.reserve(part.texels() * packed.bytes_per_texel());
-  const auto put = [&](const auto& value) {
-    const auto* begin = reinterpret_cast<const std::byte*>(&value);
-    bytes.insert(bytes.end(), begin, begin + sizeof value);
-  };
-  for (std::size_t j = part.row; j < part.end_row; ++j) {
-    const float* row = &packed.candela[j * packed.columns];
-    for (std::size_t i = part.column; i < part.end_column; ++i) {
-      switch (packed.level) {
-        case ImageLevel::kNormalised8: put(static_cast<std::uint8_t>(std::lround(255.0f * row[i] / packed.scale_cd))); break;
-        case ImageLevel::kHalfEven:
-        case ImageLevel::kHalfNodes: put(half_from_float(row[i] / packed.scale_cd)); break;
-        case ImageLevel::kFloatNodes: put(row[i]); break;
+  std::vector<std::byte> bytes(part.texels() * packed.bytes_per_texel());
+  std::byte* out = bytes.data();
+  const auto put_rows = [&](const auto& texel_of) {
+    for (std::size_t j = part.row; j < part.end_row; ++j) {
+      for (std::size_t i = part.column; i < part.end_column; ++i) {
+        const auto texel = texel_of(packed.candela[j * packed.columns + i]);
+        std::memcpy(out, &texel, sizeof texel);
+        out += sizeof texel;
       }
     }
+  };
+  switch (packed.level) {
+    case ImageLevel::kNormalised8: put_rows([&](float cd) { return static_cast<std::uint8_t>(std::lround(255.0f * cd / packed.scale_cd)); }); break;
+    case ImageLevel::kHalfEven:
+    case ImageLevel::kHalfNodes: put_rows([&](float cd) { return half_from_float(cd / packed.scale_cd); }); break;
+    case ImageLevel::kFloatNodes: put_rows([](float cd) { return cd; }); break;
   }
   return bytes;
 }

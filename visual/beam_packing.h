@@ -39,7 +39,8 @@ struct PackedBeam {
   bool transposed = false;
   std::vector<NodePlace> column_places, row_places;
 
-  /// The eight bits of this lamp's word in the shader's `lookups`: kind, and whether candela have to be scaled.
+  bool filtered() const { return lookup >= shader::kLookupFilter; }
+  /// The four bits of this lamp in the shader's `lookups`: kind, and whether candela have to be scaled.
   std::uint32_t lookup_bits() const { return lookup | (scale_cd != 1.0f ? shader::kLookupScaled : 0u); }
   /// What the texture takes.
   std::size_t bytes_per_texel() const { return level == ImageLevel::kFloatNodes ? 4 : level == ImageLevel::kNormalised8 ? 1 : 2; }

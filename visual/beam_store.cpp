@@ -84,7 +84,7 @@ bool BeamStore::upload() {
 void BeamStore::describe(std::size_t index, shader::GpuLamp& lamp) const {
   const PackedBeam& beam = beams_.at(index).packed;
   lamp.colour = {beam.colour.x, beam.colour.y, beam.colour.z, beam.scale_cd};
-  lamp.position.w = beam.inverse_coarse;
+  lamp.position.w = beam.filtered() ? beam.scale_cd : beam.inverse_coarse;
   lamp.nodes = beam.nodes;
   lamp.coordinates = beam.coordinates;
   lamp.within = beam.within;

@@ -4,8 +4,8 @@
 #include <GLFW/glfw3.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstring>
 #include <random>
 
@@ -181,14 +181,7 @@ ImageF Renderer::read_hdr() const {
   const auto* half = static_cast<const std::uint16_t*>(impl_->hdr_copy.data);
   const std::size_t count = impl_->hdr_copy.bytes / 2;
   image.rgba.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    // IEEE 754 binary16 to float: exponent and mantissa moved, subnormals scaled.
-    const std::uint32_t bits = half[i];
-    const float sign = (bits & 0x8000u) != 0 ? -1.0f : 1.0f;
-    const int exponent = static_cast<int>((bits >> 10) & 0x1fu);
-    const auto mantissa = static_cast<float>(bits & 0x3ffu);
-    image.rgba[i] = sign * (exponent == 0 ? std::ldexp(mantissa, -24) : exponent == 31 ? INFINITY : std::ldexp(mantissa + 1024.0f, exponent - 25));
-  }
+  std::transform(half, half + count, image.rgba.begin(), float_from_half);
   return image;
 }
 

@@ -37,10 +37,15 @@ float intensity(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec
     vec2 v = node_before(guide, lamp.guide.x, lamp.guide.z, second, lamp.bins.w, lamp.bins.y);
     return lit ? between(table, (vec2(u.x, v.x) + 1.0) / vec2(textureSize(table, 0)), vec2(u.y, v.y)) : 0.0;
   }
-  if (lookup == kLookupFilter) {
-    vec2 angles = vec2(atan2_deg(p.y, p.x), atan2_deg(p.z, h));
-    angles.x += angles.x < lamp.range.x ? 360.0 : 0.0;
-    bool lit = all(greaterThanEqual(angles, lamp.range.xz)) && all(lessThanEqual(angles, lamp.range.yw));
+  if (lookup == kLookupFilter || lookup == kLookupFilterAhead) {
+    vec2 angles;
+    if (lookup == kLookupFilterAhead) angles = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h));
+    else {
+      angles = radians(vec2(atan2_deg(p.y, p.x), atan2_deg(p.z, h)));
+      angles.x += angles.x < nodes.x ? radians(360.0) : 0.0;
+    }
+    bool lit = all(greaterThanEqual(angles, nodes.xz)) && all(lessThanEqual(angles, nodes.yw));
+    if (lookup == kLookupFilterAhead) lit = lit && p.x > 0.0;
     float filtered = textureLod(table, angles * coordinates.xy + coordinates.zw, 0.0).r;
     return lit ? filtered : 0.0;
   }
@@ -84,7 +89,8 @@ LampLight lamp_light(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup
   float h2 = p.x * p.x + p.y * p.y;
   float r2 = h2 + p.z * p.z;
   float cd = intensity(table, guide, lamp, lookup & kLookupKind, p, sqrt(h2), place.w, nodes, coordinates);
-  if ((lookup & kLookupScaled) != 0) cd *= lamp.colour.w;
+  if ((lookup & kLookupKind) >= kLookupFilter) cd *= place.w;
+  else if ((lookup & kLookupScaled) != 0) cd *= lamp.colour.w;
   float inverse_r = r2 > 0.0 ? inversesqrt(r2) : 0.0;
   LampLight light;
   light.cos_incidence = max(dot(place.xyz, n) - level, 0.0) * inverse_r;

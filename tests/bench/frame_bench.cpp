@@ -99,6 +99,28 @@ int run(int argc, char** argv) {
               static_cast<unsigned long long>(result.triangles));
   for (const Case& one : cases) std::printf("  %-20s %8.2f wall %8.2f cpu, %8.2f cpu at best\n", one.name, median(one.wall), median(one.cpu), *std::min_element(one.cpu.begin(), one.cpu.end()));
   std::printf("  ratio road / quad    %8.2f wall %8.2f cpu\n", median(cases[0].wall) / median(cases[2].wall), median(cases[0].cpu) / median(cases[2].cpu));
+
+  // The levels of beam image, turn by turn in one run.
+  std::vector<Result<Renderer>> at_level;
+  for (const ImageLevel level : kImageLevels) {
+    at_level.push_back(Renderer::create({.width_px = width, .height_px = height, .beam_level = level}));
+    if (!at_level.back() || !at_level.back()->load_scene(one_quad())) return kExitCheckFailed;
+    at_level.back()->set_beam(0, image);
+  }
+  std::vector<std::vector<double>> wall(at_level.size()), cpu(at_level.size());
+  for (int i = -2; i < rounds; ++i) {
+    for (std::size_t level = 0; level < at_level.size(); ++level) {
+      const double before = cpu_ms();
+      const double ms = at_level[level]->draw(quad_view).wall_ms;
+      if (i < 0) continue;
+      wall[level].push_back(ms);
+      cpu[level].push_back(cpu_ms() - before);
+    }
+  }
+  std::printf("bare two-lamp quad by level of beam image\n");
+  for (std::size_t level = 0; level < at_level.size(); ++level)
+    std::printf("  %-28s %8.2f wall %8.2f cpu, %5.2f of the native one's cpu\n", level_name(kImageLevels[level]).c_str(), median(wall[level]), median(cpu[level]),
+                median(cpu[level]) / median(cpu.back()));
   return kExitDone;
 }
 

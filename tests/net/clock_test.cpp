@@ -54,6 +54,7 @@ TEST(Pacer, SkipsWhatWasMissed) {
   timespec nap{0, 10'500'000};
   nanosleep(&nap, nullptr);
   EXPECT_GE(pacer.wait(), 9);
+  EXPECT_GE(pacer.late(), std::chrono::milliseconds(9));
   EXPECT_LE(pacer.left(), std::chrono::milliseconds(1));
 }
 

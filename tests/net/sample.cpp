@@ -50,6 +50,9 @@ VehicleState vehicle(Values& v) {
   s.lag_s = v.number(0, 10);
   s.high_beam_telltale = v.flag();
   s.drive_ended = v.flag();
+  s.lamp_tilt_rad = v.number(-0.1, 0.1);
+  s.step_hash.resize(v.whole(16));
+  for (std::uint64_t& hash : s.step_hash) hash = v.bits();
   return s;
 }
 
@@ -97,13 +100,14 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       return r;
     }
     case kPayloadIndex<RigControl>: {
-      switch (v.whole(6)) {
+      switch (v.whole(7)) {
         case 0: return RigControl{RigControl::Pause{v.flag()}};
         case 1: return RigControl{RigControl::Seek{v.number(0, 1000)}};
         case 2: return RigControl{RigControl::Design{static_cast<std::uint32_t>(v.whole(9))}};
         case 3: return RigControl{RigControl::Aim{v.number(-0.1, 0.1)}};
         case 4: return RigControl{RigControl::Dim{"headlamp left", static_cast<std::uint32_t>(v.whole(36)), v.number(0, 1)}};
         case 5: return RigControl{RigControl::Swivel{"headlamp right", v.number(-0.3, 0.3), v.number(-0.1, 0.1)}};
+        case 6: return RigControl{RigControl::Place{"fog left", v.number(-1, 5), v.number(-1, 1), v.number(0, 3)}};
         default: return RigControl{RigControl::Quit{}};
       }
     }
@@ -153,7 +157,8 @@ std::vector<Datagram> samples(std::uint64_t seed) {
                                  {RigControl::Aim{-0.01}},   {RigControl::Quit{}},
                                  {RigControl::Dim{"headlamp left", 0, 0.0}},
                                  {RigControl::Dim{"headlamp right", 36, 0.25}},
-                                 {RigControl::Swivel{"headlamp left", 0.1, 0.0}}};
+                                 {RigControl::Swivel{"headlamp left", 0.1, 0.0}},
+                                 {RigControl::Place{"headlamp left", 3.4, 0.7, 0.9}}};
   for (const RigControl& command : commands) {
     Datagram d = sample(kPayloadIndex<RigControl>, random);
     d.payload = command;

@@ -213,9 +213,9 @@ TEST(WireRefuses, NumbersThatAreNotFinite) {
         return tried;
       };
   EXPECT_EQ(try_all(0, [](wire::Datagram& m) { return m.mutable_cockpit_state(); }), 5 * 3);
-  EXPECT_EQ(try_all(1, [](wire::Datagram& m) { return m.mutable_vehicle_state(); }), 20 * 3);
+  EXPECT_EQ(try_all(1, [](wire::Datagram& m) { return m.mutable_vehicle_state(); }), 21 * 3);
   EXPECT_EQ(try_all(2, [](wire::Datagram& m) { return m.mutable_frame_report(); }), 2 * 3);
-  EXPECT_EQ(try_all(2, [](wire::Datagram& m) { return m.mutable_frame_report()->mutable_drawn(); }), 20 * 3);
+  EXPECT_EQ(try_all(2, [](wire::Datagram& m) { return m.mutable_frame_report()->mutable_drawn(); }), 21 * 3);
   EXPECT_EQ(try_all(3, [](wire::Datagram& m) { return m.mutable_rig_control(); }), 2 * 3);
   EXPECT_EQ(try_all(4, [](wire::Datagram& m) { return m.mutable_probe_request(); }), 6 * 3);
   EXPECT_EQ(try_all(5, [](wire::Datagram& m) { return m.mutable_probe_reply(); }), 1 * 3);
@@ -244,6 +244,7 @@ TEST(WireRefuses, ValuesOutOfRange) {
       {kVehicle, [](D& m) { m.mutable_vehicle_state()->set_speed_mps(1e6); }},
       {kVehicle, [](D& m) { m.mutable_vehicle_state()->set_steer_rad(2.0); }},
       {kVehicle, [](D& m) { m.mutable_vehicle_state()->set_lag_s(-1.0); }},
+      {kVehicle, [](D& m) { m.mutable_vehicle_state()->set_lamp_tilt_rad(1.7); }},
       {kReport, [](D& m) { m.mutable_frame_report()->mutable_drawn()->set_y_m(2e8); }},
       {kReport, [](D& m) { m.mutable_frame_report()->set_channels(0); }},
       {kReport, [](D& m) { m.mutable_frame_report()->set_channels(17); }},
@@ -262,6 +263,10 @@ TEST(WireRefuses, ValuesOutOfRange) {
       {kControl, [](D& m) {
          m.mutable_rig_control()->mutable_swivel()->set_lamp("left");
          m.mutable_rig_control()->mutable_swivel()->set_yaw_rad(1.7);
+       }},
+      {kControl, [](D& m) {
+         m.mutable_rig_control()->mutable_place()->set_lamp("left");
+         m.mutable_rig_control()->mutable_place()->set_x_m(51.0);
        }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_nx(0, 1.1); }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_x_m(0, 1e9); }},
@@ -287,6 +292,18 @@ TEST(WireRefuses, ProbeArraysOfDifferentOrExcessiveLength) {
   EXPECT_LE(encode(d).size(), 65507u);
   for (auto* array : {&request.x_m, &request.y_m, &request.z_m, &request.nx, &request.ny, &request.nz}) array->push_back(0.5);
   EXPECT_EQ(refusal_of(encode(d)), Refusal::kArrays);
+}
+
+TEST(WireRefuses, MoreHashesThanStepsFitAMessage) {
+  constexpr std::size_t kVehicle = kPayloadIndex<VehicleState>;
+  const auto with = [](int count) {
+    return [count](wire::Datagram& m) {
+      m.mutable_vehicle_state()->clear_step_hash();
+      for (int i = 0; i < count; ++i) m.mutable_vehicle_state()->add_step_hash(7);
+    };
+  };
+  EXPECT_EQ(refusal_after(kVehicle, with(kMaxStepHashes)), Refusal::kNone);
+  EXPECT_EQ(refusal_after(kVehicle, with(kMaxStepHashes + 1)), Refusal::kArrays);
 }
 
 TEST(WireRefuses, TextThatIsNotUtf8WithoutAWordOnStandardError) {

@@ -4,10 +4,12 @@
 
 #include <cfenv>
 #include <cstdlib>
+#include <functional>
 #include <random>
 
 #include "config/conventions.h"
 #include "full_car.h"
+#include "vehicle_dynamics/reference.h"
 
 namespace phare {
 namespace {
@@ -324,9 +326,9 @@ TEST(HardCase, C14RoughRoad) {
   rough.profiles.push_back(HeightProfile::iso8608(RoughnessClass::kE, 5));
   full::Params p = hard_car();
   p.bump_travel_m = p.rebound_travel_m = 1.0;
-  double pitch[2]{}, z[2]{}, load[2]{};
-  const double steps[2] = {0.002, 0.0005};
-  for (int k = 0; k < 2; ++k) {
+  double pitch[3]{}, z[3]{}, load[3]{};
+  const double steps[3] = {0.002, 0.001, 0.0002};
+  for (int k = 0; k < 3; ++k) {
     Drive d(p, 150.0 / 3.6, &rough);
     double count = 0.0;
     const int every = static_cast<int>(std::lround(0.002 / steps[k]));
@@ -342,61 +344,74 @@ TEST(HardCase, C14RoughRoad) {
     ASSERT_TRUE(finite(d.state));
     pitch[k] = std::sqrt(pitch[k] / count), z[k] = std::sqrt(z[k] / count);
   }
-  EXPECT_NEAR(pitch[0], pitch[1], 0.001 * pitch[1]);
-  EXPECT_NEAR(z[0], z[1], 0.001 * z[1]);
-  EXPECT_NEAR(load[0], load[1], 0.01 * load[1]);
-  EXPECT_GT(pitch[1], 8e-3);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_NEAR(pitch[k], pitch[2], 0.001 * pitch[2]);
+    EXPECT_NEAR(z[k], z[2], 0.001 * z[2]);
+    EXPECT_NEAR(load[k], load[2], 0.01 * load[2]);
+  }
+  EXPECT_GT(pitch[2], 8e-3);
 }
 
-// 15. Springs without dampers keep their energy: and the explicit Euler method, tried on the same car, must not.
+// 15. Springs without dampers keep their energy, and the explicit Euler method, put to the same test, must not.
+// The notes' bounds (600 s: semi-implicit 0.994 to 1.007, rk4 0.99983) are for the integrator; so they are held against
+// the energy of the exact motion at the same time. The model itself trades 2 % of it over a beat of 80 s with the pitching
+// moment of the weight, which it leaves out as the textbook's dive does (docs/dynamics.md): any step shows the same.
+// The body starts lifted and pitched with the wheels where spring and tyre balance. With the wheels left on the ground
+// an eighth of the energy is wheel hop, for which the semi-implicit method swings by w h / 2 = 3.8 %: then 0.85 % in all.
 TEST(HardCase, C15UndampedEnergy) {
-  const auto car = [](Integrator integrator) {
-    full::Params p = hard_car();
-    p.damper_nspm = {};
-    p.bump_travel_m = p.rebound_travel_m = 1.0;
-    p.integrator = integrator;
-    Drive d(p);
-    d.state.z_m = 0.030;
-    const double pitch = 0.010;
-    d.state.qw = std::cos(0.5 * pitch), d.state.qy = std::sin(0.5 * pitch);
-    for (std::size_t i = 0; i < 4; ++i)  // wheels stay on the road
-      d.state.travel_m[i] = -(0.030 - p.x_m[i] * std::sin(pitch));
-    return d;
+  full::Params p = hard_car();
+  p.damper_nspm = {};
+  p.bump_travel_m = p.rebound_travel_m = 1.0;
+  Drive start(p);
+  start.state.z_m = 0.030;
+  const double pitch = 0.010;
+  start.state.qw = std::cos(0.5 * pitch), start.state.qy = std::sin(0.5 * pitch);
+  for (std::size_t i = 0; i < 4; ++i)
+    start.state.travel_m[i] =
+        -(0.030 - p.x_m[i] * std::sin(pitch)) * p.tyre_rate_npm / (p.tyre_rate_npm + p.spring_npm[i]);
+  const auto samples = static_cast<std::size_t>(long_run() ? 60'000 : 3000);  // every 10 ms
+  const auto energies = [&](const std::function<void(Drive&)>& ten_ms) {
+    Drive d = start;
+    std::vector<double> energy;
+    for (std::size_t k = 0; k < samples; ++k) {
+      ten_ms(d);
+      energy.push_back(full::energy_j(d.params, d.state, d.forces()));
+    }
+    return energy;
   };
-  const double seconds = long_run() ? 600.0 : 30.0;
-  const auto spread = [&](Integrator integrator) {
-    Drive d = car(integrator);
-    const double start = full::energy_j(d.params, d.state, d.forces());
-    double low = 1e9, high = 0.0;
-    int i = 0;
-    d.run(seconds, 0.001, [&](const Drive& now) {
-      if (++i % 10 != 0) return;
-      const double share = full::energy_j(now.params, now.state, now.forces()) / start;
-      low = std::min(low, share), high = std::max(high, share);
-    });
-    return std::pair{low, high};
+  ReferenceIntegrator reference;
+  const std::vector<double> exact =
+      energies([&](Drive& d) { ASSERT_TRUE(reference.advance(d.params, d.input, d.state, 0.01)); });
+  const auto bounded = [&](const char* name, double low, double high, const std::function<void(Drive&)>& ten_ms) {
+    const std::vector<double> energy = energies(ten_ms);
+    double least = 1e9, most = -1e9;
+    bool inside = true;
+    for (std::size_t k = 0; k < samples; ++k) {
+      const double share = energy[k] / exact[k];
+      inside = inside && share >= low && share <= high;  // NaN is not inside
+      least = std::min(least, share), most = std::max(most, share);
+    }
+    std::printf("%s: energy %.6f to %.6f of the exact motion's\n", name, least, most);
+    return inside;
   };
-  const auto rk4 = spread(Integrator::kRk4);
-  // Pitch trades 2 % with the weight's own moment, which the model leaves out, over the beat of 80 s; none of it is the
-  // integrator's: half the step gives the same.
-  EXPECT_GT(rk4.first, 0.97);
-  EXPECT_LT(rk4.second, 1.01);
-  const auto semi = spread(Integrator::kSemiImplicitEuler);
-  EXPECT_GT(semi.first, 0.95);
-  EXPECT_LT(semi.second, 1.05);
-
-  Drive d = car(Integrator::kRk4);
-  const double start = full::energy_j(d.params, d.state, d.forces());
-  const full::Held during = full::held(d.params, d.input, d.state, 0.001);
-  for (int i = 0; i < 10'000; ++i) {
-    full::State rate;
-    full::derivative(d.params, d.input, during, d.state, 0.0, rate);
-    double* at = &d.state.x_m;
-    const double* by = &rate.x_m;
-    for (std::size_t k = 0; k < full::kStateSize; ++k) at[k] += 0.001 * by[k];
-  }
-  const double grown = full::energy_j(d.params, d.state, d.forces()) / start;
-  EXPECT_TRUE(!(grown < 1.05)) << grown;
+  const auto by = [](Integrator integrator) {
+    return [integrator](Drive& d) {
+      d.params.integrator = integrator;
+      d.run(0.01, 0.001);
+    };
+  };
+  EXPECT_TRUE(bounded("semi-implicit Euler", 0.994, 1.007, by(Integrator::kSemiImplicitEuler)));
+  EXPECT_TRUE(bounded("rk4", 0.99983, 1.00017, by(Integrator::kRk4)));
+  EXPECT_FALSE(bounded("explicit Euler", 0.994, 1.007, [](Drive& d) {
+    const full::Held during = full::held(d.params, d.input, d.state, 0.001);
+    for (int i = 0; i < 10; ++i) {
+      full::State rate;
+      full::derivative(d.params, d.input, during, d.state, 0.0, rate);
+      double* at = &d.state.x_m;
+      const double* by = &rate.x_m;
+      for (std::size_t k = 0; k < full::kStateSize; ++k) at[k] += 0.001 * by[k];
+    }
+  }));
 }
 
 // 16. The level changes every half second through lane changes at 50 km/h.

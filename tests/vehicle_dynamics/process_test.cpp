@@ -10,6 +10,9 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <thread>
 
 #include "net/bus.h"
 #include "net/drive_file.h"
@@ -164,6 +167,53 @@ TEST_F(DynamicsProcess, LockstepRepeatsAndSurvivesAKill) {
   for (std::size_t k = 0; k < run[0].size(); ++k) EXPECT_EQ(run[0][k], run[1][k]) << "frame " << k;
 }
 
+// The picture gets what levelling does: the nose rises under power, the sensors see it, the lamps are turned down.
+TEST_F(DynamicsProcess, LevellingReachesTheBus) {
+  for (const bool dynamic : {false, true}) {
+    auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+    ASSERT_TRUE(cockpit.ok() && visual.ok());
+    std::vector<std::string> all = arguments({"--lockstep", "--level", "single-track"});
+    if (dynamic) all.insert(all.end(), {"--levelling", "dynamic"});
+    Child child(all);
+    const auto poses = play(*cockpit, *visual, 0, 120);
+    ASSERT_EQ(poses.size(), 121u);
+    EXPECT_LT(poses.back().suspension_pitch_rad, -5e-3);
+    if (!dynamic) {
+      EXPECT_EQ(poses.back().lamp_tilt_rad, 0.0);  // the hatchback has the driver's wheel only
+      continue;
+    }
+    EXPECT_EQ(poses.front().lamp_tilt_rad, 0.0);
+    // After two seconds, of which the filter forgets all but 0.3 s, the lamps follow within a quarter of the pitch.
+    EXPECT_NEAR(poses.back().lamp_tilt_rad, poses.back().suspension_pitch_rad,
+                0.25 * std::abs(poses.back().suspension_pitch_rad));
+    // No faster than the actuator.
+    for (std::size_t k = 1; k < poses.size(); ++k)
+      EXPECT_LE(std::abs(poses[k].lamp_tilt_rad - poses[k - 1].lamp_tilt_rad), 5.0 * M_PI / 180.0 / 60.0 + 1e-4);
+    EXPECT_EQ(child.end(SIGTERM), 0);
+  }
+}
+
+TEST_F(DynamicsProcess, EveryStepOfADriveHasItsHash) {
+  auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+  ASSERT_TRUE(cockpit.ok() && visual.ok());
+  Child child(arguments({"--lockstep", "--level", "full"}));
+  const auto poses = play(*cockpit, *visual, 0, 60);
+  ASSERT_EQ(poses.size(), 61u);
+  std::uint64_t step = 0;
+  std::set<std::uint64_t> different;
+  for (const VehicleState& pose : poses) {
+    ASSERT_EQ(pose.step_hash.size(), pose.step - step);
+    if (!pose.step_hash.empty()) {
+      EXPECT_EQ(pose.step_hash.back(), pose.state_hash);
+    }
+    different.insert(pose.step_hash.begin(), pose.step_hash.end());
+    step = pose.step;
+  }
+  EXPECT_EQ(step, 500u);
+  EXPECT_EQ(different.size(), 500u);
+  EXPECT_EQ(child.end(SIGTERM), 0);
+}
+
 TEST_F(DynamicsProcess, ReplaysADriveToItsEnd) {
   auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
   ASSERT_TRUE(cockpit.ok() && visual.ok());
@@ -211,6 +261,34 @@ TEST_F(DynamicsProcess, RealTimeSendsAndFadesInSilence) {
   ASSERT_TRUE(control.ok());
   control->send({}, quit);
   EXPECT_EQ(child.end(0), 0);
+}
+
+// At 1 kHz beside whatever else runs: every millisecond of wall time is a step done, a step dropped and told, or not yet
+// due; every wake-up is in the histogram of lateness. Counts only: how late they come is the machine's affair.
+TEST_F(DynamicsProcess, RealTimeAccountsForEveryMillisecond) {
+  std::stringstream rig;
+  rig << std::ifstream(folder_ / "rig.toml").rdbuf();
+  std::string text = rig.str();
+  text.replace(text.find("step_s = 0.002"), 14, "step_s = 0.001");
+  std::ofstream(folder_ / "rig.toml") << text;
+  const auto begin = SteadyClock::now();
+  Child child(arguments({"--level", "full", "--stats", (folder_ / "s.json").string()}));
+  std::this_thread::sleep_for(1500ms);
+  EXPECT_EQ(child.end(SIGTERM), 0);
+  const double ran_s = std::chrono::duration<double>(SteadyClock::now() - begin).count();
+  const auto stats = nlohmann::json::parse(std::ifstream(folder_ / "s.json"));
+  const nlohmann::json& wakes = stats["wake_late_ns"];
+  const auto count = wakes["count"].get<std::int64_t>(), missed = wakes["missed"].get<std::int64_t>(),
+             steps = stats["steps"].get<std::int64_t>(),
+             dropped = static_cast<std::int64_t>(std::llround(stats["lag_s"].get<double>() * 1e3));
+  std::int64_t in_histogram = 0;
+  for (const auto& octave : wakes["octaves"]) in_histogram += octave.get<std::int64_t>();
+  EXPECT_EQ(in_histogram, count);
+  // A wake-up may find its step not quite due, and the signal that ends the run wakes once more.
+  EXPECT_NEAR(static_cast<double>(steps + dropped), static_cast<double>(count + missed), 2.0);
+  EXPECT_GT(steps, 100);
+  EXPECT_LE(static_cast<double>(steps + dropped), ran_s * 1e3 + 1.0);
+  EXPECT_EQ(stats["drops"].get<int>() == 0, dropped == 0);
 }
 
 TEST_F(DynamicsProcess, BadUseExitsWithTwo) {

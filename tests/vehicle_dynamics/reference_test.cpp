@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vehicle_dynamics/compare.h"
+#include "vehicle_dynamics/work_precision.h"
 
 namespace phare {
 namespace {
@@ -21,6 +22,24 @@ TEST(Reference, EveryManoeuvreWithinItsBand) {
     if (line.band > 0.0) {
       EXPECT_LE(line.error, line.allowed()) << compare::text(line);
     }
+}
+
+// A headlamp asks for 0.02 mrad from the integrator: each level with the method and step of a real-time run.
+TEST(WorkPrecision, PitchOfTheRealTimeSettings) {
+  const Result<VehicleParams> car = read_vehicle(kCar);
+  ASSERT_TRUE(car.ok());
+  const auto lines = work_precision::table(*car, kCar.string(), true);
+  ASSERT_TRUE(lines.ok()) << lines.error().text();
+  int seen = 0;
+  for (const work_precision::Line& line : *lines) {
+    const bool real_time = (line.level == "full" && line.integrator == "rk4" && line.step_s == 0.002) ||
+                           (line.level == "single-track" && line.integrator == "etd2" && line.step_s >= 0.002) ||
+                           (line.level == "kinematic" && line.step_s == 0.002);
+    if (!real_time) continue;
+    ++seen;
+    EXPECT_LE(line.pitch_error_rad, 0.02e-3) << line.level << ' ' << line.step_s;
+  }
+  EXPECT_EQ(seen, 4);  // single-track at 2 and at 5 ms
 }
 
 TEST(Reference, MeasuredDrive) {

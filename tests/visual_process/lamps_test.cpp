@@ -136,6 +136,18 @@ TEST(Lamps, ASwivelTurnsALampAndSumsNothing) {
   EXPECT_NEAR(placed[1].world_from_image[0].y, 0.0, 1e-12);
 }
 
+TEST(Lamps, ALampIsMovedOnTheCar) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok());
+  lamps->set_controls(controls(LightSwitch::kLow));
+  const MeasurePoint wall{{28.0, 0.6, 0.7}, {-1.0, 0.0, 0.0}};
+  const double before_lx = lamps->illuminance_lx(VehicleState{}, wall);
+  ASSERT_TRUE(lamps->place({"headlamp", 8.0, 0.6, 0.7}).ok());  // from 25 m to 20 m
+  EXPECT_EQ(lamps->placed(VehicleState{})[0].position_m, glm::dvec3(8.0, 0.6, 0.7));
+  EXPECT_NEAR(lamps->illuminance_lx(VehicleState{}, wall) - before_lx, 900.0 / 400.0 - 900.0 / 625.0, 1e-9);
+  EXPECT_FALSE(lamps->place({"spotlight", 0.0, 0.0, 0.0}).ok());
+}
+
 TEST(Lamps, DarkPositionsAreNotPlaced) {
   Result<Lamps> lamps = Lamps::load(two_lamp_rig());
   ASSERT_TRUE(lamps.ok());
@@ -163,6 +175,27 @@ TEST(Lamps, StandInTheWorldWithTheBody) {
   EXPECT_LT(lamps->placed(pose).front().world_from_image[0].z, -0.09);
   lamps->set_aim(0.1);  // aim up by as much: level again
   EXPECT_NEAR(lamps->placed(pose).front().world_from_image[0].z, 0.0, 1e-12);
+}
+
+TEST(Lamps, LevellingInThePoseTiltsTheBeamOnce) {
+  Result<Lamps> lamps = Lamps::load(two_lamp_rig());
+  ASSERT_TRUE(lamps.ok());
+  CockpitState wheel = controls(LightSwitch::kLow);
+  wheel.lamp_aim_rad = -0.02;
+  lamps->set_controls(wheel);
+  VehicleState pose;
+  pose.pitch_rad = 0.03;
+  pose.lamp_tilt_rad = 0.05;  // -0.03 of the body, -0.02 of the wheel, +0.05 of levelling: level
+  EXPECT_NEAR(lamps->placed(pose).front().world_from_image[0].z, 0.0, 1e-12);
+  pose.lamp_tilt_rad = 0.0;
+  EXPECT_NEAR(std::asin(lamps->placed(pose).front().world_from_image[0].z), -0.05, 1e-12);
+  // The truth that the picture is held to tilts alike: the table ends at 20 degrees, 0.35 rad.
+  const MeasurePoint wall{{28.0, 0.2, 0.9}, {-1.0, 0.0, 0.0}};
+  EXPECT_GT(lamps->illuminance_lx(pose, wall), 1.0);
+  pose.lamp_tilt_rad = 0.5;
+  EXPECT_EQ(lamps->illuminance_lx(pose, wall), 0.0);
+  lamps->set_aim(-0.5);
+  EXPECT_GT(lamps->illuminance_lx(pose, wall), 1.0);
 }
 
 TEST(Lamps, IlluminanceIsIntensityOverDistanceSquared) {

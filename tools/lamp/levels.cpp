@@ -6,9 +6,13 @@
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/print_json.h"
 #include "visual/photometry/beam_composer.h"
 #include "visual/photometry/image_levels.h"
 #include "visual/photometry/sample_lamps.h"
+#ifdef PHARE_WITH_GRAPHICS
+#include "visual/renderer.h"
+#endif
 
 namespace phare {
 namespace {
@@ -24,6 +28,42 @@ double median_ms(int rounds, const Work& work) {
   std::sort(ms.begin(), ms.end());
   return ms[ms.size() / 2];
 }
+
+#ifdef PHARE_WITH_GRAPHICS
+/// The same on the device: what a frame takes longer in which all or one of the segments were dimmed, from the sums on the CPU to the texture.
+void bench_device(BeamComposer& matrix, const std::vector<double>& h, const std::vector<double>& v, nlohmann::json& json) {
+  auto renderer = Renderer::create({.width_px = 16, .height_px = 16});
+  if (!renderer) {
+    json["device"] = renderer.error().text();
+    return;
+  }
+  json["device"] = renderer->device();
+  BeamImage image;
+  image.first_deg = h;
+  image.second_deg = v;
+  image.dark = false;
+  FrameInput input;
+  input.lamps = {PlacedLamp{}};
+  const auto frame = [&](std::size_t first, std::size_t end, double scale, bool whole) {
+    for (std::size_t k = first; k < end; ++k) matrix.set_dimming(k, scale);
+    const std::vector<TexelRect> changed = matrix.update();
+    image.candela.resize(matrix.candela().size());
+    for (const TexelRect& rect : changed)
+      for (std::size_t j = rect.row; j < rect.end_row; ++j)
+        std::copy_n(matrix.candela().begin() + static_cast<std::ptrdiff_t>(j * h.size() + rect.column), rect.end_column - rect.column,
+                    image.candela.begin() + static_cast<std::ptrdiff_t>(j * h.size() + rect.column));
+    if (whole) renderer->set_beam(0, image);
+    else if (!changed.empty()) renderer->change_beam(0, image, changed);
+    renderer->draw(input);
+  };
+  frame(0, 36, 0.9, true);
+  const double still = median_ms(31, [&](int) { frame(0, 0, 0.0, false); });
+  json["device_frame_all_changed_ms"] = median_ms(15, [&](int round) { frame(0, 36, 0.5 + 0.01 * round, false); }) - still;
+  json["device_frame_one_changed_ms"] = median_ms(31, [&](int round) { frame(17, 18, 0.1 + 0.01 * round, false); }) - still;
+  json["device_new_image_ms"] = median_ms(7, [&](int round) { frame(0, 36, 0.5 + 0.01 * round, true); }) - still;
+  json["device_frame_none_changed_ms"] = still;
+}
+#endif
 
 /// 36 matrix segments on 1801 × 601 texels: all, one, none changed; and 36 sources that all fill the image.
 nlohmann::json bench() {
@@ -56,7 +96,8 @@ nlohmann::json bench() {
     for (std::size_t k = 0; k < 36; ++k) full.set_dimming(k, 0.5 + 0.01 * round);
     full.update();
   });
-  return {{"image", "1801 x 601"},
+  nlohmann::json json{
+          {"image", "1801 x 601"},
           {"sources", 36},
           {"sampling_36_sources_ms", sampled},
           {"all_changed_ms", all},
@@ -64,11 +105,16 @@ nlohmann::json bench() {
           {"none_changed_ms", none},
           {"texels_when_none_changed", texels_when_idle},
           {"all_changed_36_full_size_sources_ms", worst}};
+#ifdef PHARE_WITH_GRAPHICS
+  bench_device(matrix, h, v, json);
+#endif
+  return json;
 }
 
 }  // namespace
 
 int lamp_levels(const LampLevelsOptions& options) {
+  if (options.file.empty() && !options.bench) return bad_input({"", "give a photometry file, or --bench"});
   nlohmann::json json;
   if (!options.file.empty()) {
     const auto table = read_lamp(options.file, options.settings);
@@ -108,9 +154,13 @@ int lamp_levels(const LampLevelsOptions& options) {
           b["all_changed_ms"].get<double>(), b["one_changed_ms"].get<double>(), b["none_changed_ms"].get<double>(),
           b["texels_when_none_changed"].get<std::size_t>(), b["all_changed_36_full_size_sources_ms"].get<double>(),
           b["sampling_36_sources_ms"].get<double>());
+      if (b.contains("device_new_image_ms"))
+        std::printf("a frame on %s takes longer by: all changed %.2f ms, one changed %.2f ms, another image %.2f ms (none changed: %.2f ms in all)\n",
+                    b["device"].get<std::string>().c_str(), b["device_frame_all_changed_ms"].get<double>(), b["device_frame_one_changed_ms"].get<double>(),
+                    b["device_new_image_ms"].get<double>(), b["device_frame_none_changed_ms"].get<double>());
     }
   }
-  if (options.json) std::printf("%s\n", json.dump(2).c_str());
+  if (options.json) print_json(json);
   return kExitDone;
 }
 

@@ -13,7 +13,7 @@ namespace phare {
 /// Cheapest first; kReference is SUNDIALS with tight tolerances, in batch and tests only (reference.h).
 enum class Integrator {
   kSemiImplicitEuler,  ///< velocities first; slips implicit in their decay
-  kEtd2,               ///< exponential in the slips, second order
+  kEtd2,               ///< exponential in the slips, in single-track also in the body's springs; second order
   kRk4,                ///< Boost.odeint runge_kutta4
   kReference
 };
@@ -36,10 +36,11 @@ struct Phi {
   double one = 1.0, two = 0.5;
 };
 inline Phi phi(double z) {
-  if (std::abs(z) < 1e-2)
-    return {1.0 + z * (0.5 + z * (1.0 / 6.0 + z / 24.0)), 0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + z / 120.0))};
-  const double one = std::expm1(z) / z;
-  return {one, (one - 1.0) / z};
+  if (std::abs(z) < 1e-2)  // to the sixth power: below 1e-14
+    return {1.0 + z * (0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + z * (1.0 / 120.0 + z / 720.0)))),
+            0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + z * (1.0 / 120.0 + z * (1.0 / 720.0 + z / 5040.0))))};
+  const double per_z = 1.0 / z, one = (std::exp(z) - 1.0) * per_z;
+  return {one, (one - 1.0) * per_z};
 }
 
 /// Exponential time differencing of second order (Cox, Matthews, J. Comput. Phys. 176, 2002, eq. 20 to 22): the decay

@@ -22,6 +22,9 @@ Geometry geometry(const Params& p, const Input& input, const State& s, double t_
 
   // Wheel centres, and the road below them.
   std::array<double, 4> x, y, z;
+  Road::Laid laid[2];  // on the road, by axle
+  if (input.road && !input.heights_given)
+    laid[0] = input.road->laid(s.path_m + p.x_m[0]), laid[1] = input.road->laid(s.path_m + p.x_m[2]);
   for (std::size_t i = 0; i < 4; ++i) {
     const double up = p.radius_m - p.cg_height_m + s.travel_m[i];
     x[i] = m[0] * p.x_m[i] + m[1] * p.y_m[i] + m[2] * up;
@@ -32,10 +35,9 @@ Geometry geometry(const Params& p, const Input& input, const State& s, double t_
       g.ground_m[i] = input.height_m[i] + input.height_rate_mps[i] * t_s;
       if (input.road) g.friction[i] = input.road->friction_everywhere;
     } else if (input.road) {
-      const Ground ground = input.road->at(s.x_m + x[i], s.y_m + y[i], s.path_m + p.x_m[i], p.y_m[i] > 0.0,
-                                           input.height_m[i], &g.off_road);
-      g.ground_m[i] = ground.z_m;
-      g.friction[i] = ground.friction;
+      const Road::Laid& on_it = laid[i / 2];
+      g.ground_m[i] = input.road->base_m(s.x_m + x[i], s.y_m + y[i], input.height_m[i], &g.off_road) + on_it.z_m[i % 2];
+      g.friction[i] = on_it.friction[i % 2];
     }
   }
 

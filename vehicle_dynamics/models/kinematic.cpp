@@ -41,17 +41,31 @@ double next_speed_mps(const VehicleParams& p, const Controls& input, const CarSt
   return next * v < 0.0 ? 0.0 : next;
 }
 
-// x'' = w^2 (target - x) - 2 zeta w x', semi-implicit Euler: its resting point is the target exactly.
-void approach(double& value, double& rate, double target, double w, double zeta, double dt) {
-  constexpr double kSettled = 1e-9;  // rad or m, and per second: far below the 0.02 mrad that a beam shows
-  if (std::abs(target - value) < kSettled && std::abs(rate) < kSettled) {
-    value = target;
-    rate = 0.0;
-    return;
+// x'' = w^2 (target - x) - 2 zeta w x' over a step, exactly for a target that is held: no step is too long.
+struct Approach {
+  double from_x = 1.0, from_v = 0.0;  ///< distance from the target after the step, from distance and rate before
+  double rate_from_x = 0.0, rate_from_v = 1.0;
+
+  Approach(double w, double zeta, double dt) {
+    const double inside = w * w * (1.0 - zeta * zeta), root = std::sqrt(std::abs(inside)),
+                 decay = std::exp(-zeta * w * dt);
+    const double c = inside > 0.0 ? std::cos(root * dt) : std::cosh(root * dt);
+    const double s = root * dt < 1e-9 ? dt : (inside > 0.0 ? std::sin(root * dt) : std::sinh(root * dt)) / root;
+    from_x = decay * (c + zeta * w * s), from_v = decay * s;
+    rate_from_x = -decay * w * w * s, rate_from_v = decay * (c - zeta * w * s);
   }
-  rate += (w * w * (target - value) - 2.0 * zeta * w * rate) * dt;
-  value += rate * dt;
-}
+  void operator()(double& value, double& rate, double target) const {
+    constexpr double kSettled = 1e-9;  // rad or m, and per second: far below the 0.02 mrad that a beam shows
+    const double away = value - target, before = rate;
+    if (std::abs(away) < kSettled && std::abs(rate) < kSettled) {
+      value = target;
+      rate = 0.0;
+      return;
+    }
+    value = target + from_x * away + from_v * before;
+    rate = rate_from_x * away + rate_from_v * before;
+  }
+};
 
 }  // namespace
 
@@ -96,10 +110,10 @@ void advance(const VehicleParams& p, const Controls& input, CarState& s, double 
   const double fx = s.ax_mps2 - kGravity_mps2 * std::sin(s.road_pitch_rad);
   const double fy = s.ay_mps2 + kGravity_mps2 * std::cos(s.road_pitch_rad) * std::sin(s.road_roll_rad);
   const Attitude target = quasi_static_attitude(p, fx, fy);
-  const double w = 2.0 * std::numbers::pi * p.ride_frequency_hz;
-  approach(s.pitch_rad, s.pitch_rate_radps, target.pitch_rad, w, p.ride_damping, dt);
-  approach(s.roll_rad, s.roll_rate_radps, target.roll_rad, w, p.ride_damping, dt);
-  approach(s.heave_m, s.heave_rate_mps, target.heave_m, w, p.ride_damping, dt);
+  const Approach approach(2.0 * std::numbers::pi * p.ride_frequency_hz, p.ride_damping, dt);
+  approach(s.pitch_rad, s.pitch_rate_radps, target.pitch_rad);
+  approach(s.roll_rad, s.roll_rate_radps, target.roll_rad);
+  approach(s.heave_m, s.heave_rate_mps, target.heave_m);
 }
 
 std::array<glm::dvec2, 4> contact_points(const VehicleParams& p, const CarState& s) {

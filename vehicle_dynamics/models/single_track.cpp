@@ -4,23 +4,16 @@
 #include <cmath>
 
 #include "config/conventions.h"
+#include "vehicle_dynamics/models/single_track_parts.h"
 
 namespace phare::single_track {
 namespace {
 
 constexpr double kAirDensity_kgpm3 = 1.2041;  // dry air, 20 degrees C, 101325 Pa
+constexpr double kRollingKnee_mps = 0.05;     // rolling resistance turns its sign smoothly
 
 double sign(double value) {
   return value > 0.0 ? 1.0 : (value < 0.0 ? -1.0 : 0.0);
-}
-
-// The plane through the four contacts, as slopes along and across the car; > 0 rises forwards, to the left.
-struct Slopes {
-  double along = 0.0, across = 0.0;
-};
-Slopes slopes(const full::Params& car, const std::array<double, 4>& h) {
-  return {0.5 * (h[0] + h[1] - h[2] - h[3]) / car.wheelbase_m,
-          (h[0] + h[2] - h[1] - h[3]) / (car.y_m[0] - car.y_m[1] + car.y_m[2] - car.y_m[3])};
 }
 
 // Attitude is kept as slopes: on a steep plane an angle more is a larger step of slope, d tan = (1 + tan2) d angle.
@@ -28,121 +21,127 @@ double steep(double slope) {
   return 1.0 + slope * slope;
 }
 
-// Everything the tyres and springs do at a state.
-struct Acting {
-  std::array<double, 4> height_m{}, spring_n{}, load_n{};
-  Slopes plane;
-  double gx = 0.0, gy = 0.0;
-  double front_x_n = 0.0, rear_x_n = 0.0, front_y_n = 0.0, rear_y_n = 0.0;  ///< in the wheels' heading
-  double push_n = 0.0;                                                      ///< along the car without brakes
-  double fx_n = 0.0, fy_n = 0.0;                                            ///< of the tyres, along the car's axes
-  double ax_mps2 = 0.0, ay_mps2 = 0.0;
-  std::array<double, 2> slip_rate_ps{}, slip_decay_ps{};
+}  // namespace
+
+Grip grip(const Params& p, const Held& held, const State& s) {
+  const tyre::Constants& tyre = p.car.tyre;
+  const Two slip{s.front_slip, s.rear_slip};
+  if (!p.options.magic_formula)
+    return {tyre.p.lat_stiffness * slip, both(tyre.p.lat_stiffness), slip, std::numeric_limits<double>::infinity()};
+  const tyre::SideForce force = tyre::side_force(tyre, slip, held.friction);
+  return {force.share, force.rise, slip, held.friction * tyre.p.lat_peak};
+}
+
+namespace {
+
+// A wheel pair of the body: what its springs and dampers carry, and what the road under it adds.
+struct Corners {
+  Two load_n;       // of the tyres, left and right
+  Two from_road_n;  // on the body, beside what answers to the body's own place
 };
-
-// Side force of an axle whose longitudinal force uses up a part of the friction.
-double side_force_n(const Params& p, double slip, double load_n, double friction, double used) {
-  const tyre::Constants& t = p.car.tyre;
-  if (!p.options.magic_formula) return t.p.lat_stiffness * load_n * slip;
-  const double bs = t.by / friction * slip;
-  const double bent = bs - t.p.lat_curvature * (bs - std::atan(bs));
-  const double pure = friction * t.p.lat_peak * load_n * std::sin(t.p.lat_shape * std::atan(bent));
-  return used == 0.0 ? pure : pure * std::sqrt(std::max(0.0, 1.0 - used * used));
-}
-
-Acting acting(const Params& p, const full::Input& in, const Held& held, const State& s, double t_s) {
-  const full::Params& car = p.car;
-  Acting a;
-  // body over its contacts
-  for (std::size_t i = 0; i < 4; ++i) {
-    a.height_m[i] = held.road.height_m[i] + held.road.rate_mps[i] * t_s;
-    const double lift = s.z_m - car.x_m[i] * s.pitch + car.y_m[i] * s.roll - a.height_m[i];
-    const double rate =
-        s.z_rate_mps - car.x_m[i] * s.pitch_rate_ps + car.y_m[i] * s.roll_rate_ps - held.road.rate_mps[i];
-    a.spring_n[i] = -p.spring_npm[i] * lift - (p.options.dynamic_attitude ? p.damper_nspm[i] * rate : 0.0);
-  }
-  a.plane = slopes(car, a.height_m);
-  const double level = 1.0 / std::sqrt(1.0 + a.plane.along * a.plane.along + a.plane.across * a.plane.across);
-  a.gx = -kGravity_mps2 * a.plane.along * level;
-  a.gy = -kGravity_mps2 * a.plane.across * level;
-  const double roll = s.roll - a.plane.across;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double track = car.y_m[i & 2u] - car.y_m[(i & 2u) + 1u], bar = i < 2 ? p.front_bar_nmprad : p.rear_bar_nmprad;
-    a.load_n[i] = std::max(0.0, car.load_n[i] * level + a.spring_n[i] - sign(car.y_m[i]) * bar * roll / track);
-  }
-  const double front_load = a.load_n[0] + a.load_n[1], rear_load = a.load_n[2] + a.load_n[3];
-
-  // along: torque over radius up to the limit of friction
-  const double mu = held.road.friction, r = car.radius_m;
-  const double front_limit = mu * car.tyre.p.long_peak * front_load, rear_limit = mu * car.tyre.p.long_peak * rear_load;
-  const double drive_f = (in.drive_nm[0] + in.drive_nm[1]) / r, drive_r = (in.drive_nm[2] + in.drive_nm[3]) / r;
-  const double brake_f = (in.brake_nm[0] + in.brake_nm[1]) / r, brake_r = (in.brake_nm[2] + in.brake_nm[3]) / r;
-  double rolling = 0.0, drag = 0.0;
-  if (in.air_and_rolling) {
-    drag = 0.5 * kAirDensity_kgpm3 * car.drag_area_m2 * s.u_mps * std::abs(s.u_mps);
-    rolling = car.rolling_coefficient * (front_load + rear_load) * s.u_mps / std::sqrt(s.u_mps * s.u_mps + 0.0025);
-  }
-  const double ahead_f = std::clamp(drive_f - held.brake_sign * brake_f, -front_limit, front_limit);
-  const double ahead_r = std::clamp(drive_r - held.brake_sign * brake_r, -rear_limit, rear_limit);
-
-  // across
-  const double vf = s.v_mps + car.x_m[0] * s.r_radps, vr = s.v_mps + car.x_m[2] * s.r_radps;
-  const double ahead = s.u_mps * held.cosine + vf * held.sine, aside = vf * held.cosine - s.u_mps * held.sine;
-  const auto front = tyre::slip_rate(car.tyre, 0.0, s.front_slip, ahead, aside, ahead, held.most_slip_pm);
-  const auto rear = tyre::slip_rate(car.tyre, 0.0, s.rear_slip, s.u_mps, vr, s.u_mps, held.most_slip_pm);
-  a.slip_rate_ps = {front.tan_alpha_ps, rear.tan_alpha_ps};
-  a.slip_decay_ps = {front.tan_alpha_decay_ps, rear.tan_alpha_decay_ps};
-  const auto damping = [&](const tyre::SlipRate& slip, double speed, double load) {
-    constexpr double kDampedBelow_mps = 2.0, kFullDamping_n = 2700.0;  // as in level full
-    const double fade = 1.0 - std::abs(speed) / kDampedBelow_mps;
-    return fade <= 0.0 ? 0.0
-                       : car.tyre.p.carcass_damping_nspm * fade * load / kFullDamping_n * slip.tan_alpha_stretch_mps;
-  };
-  const double used_f = front_limit > 0.0 ? ahead_f / front_limit : 1.0,
-               used_r = rear_limit > 0.0 ? ahead_r / rear_limit : 1.0;
-  const double side_f = mu * car.tyre.p.lat_peak * front_load, side_r = mu * car.tyre.p.lat_peak * rear_load;
-  a.front_y_n = side_force_n(p, s.front_slip, front_load, mu, used_f) + damping(front, ahead, front_load);
-  a.rear_y_n = side_force_n(p, s.rear_slip, rear_load, mu, used_r) + damping(rear, s.u_mps, rear_load);
-  if (p.options.magic_formula) {
-    a.front_y_n = std::clamp(a.front_y_n, -side_f, side_f);
-    a.rear_y_n = std::clamp(a.rear_y_n, -side_r, side_r);
-  }
-
-  // What torque leaves for the car after spinning up its own wheels.
-  a.push_n = drive_f * held.cosine + drive_r + car.mass_kg * a.gx;
-  const double pull = ahead_f * held.cosine - a.front_y_n * held.sine + ahead_r - drag - rolling + car.mass_kg * a.gx;
-  const double accel = held.stopped ? 0.0 : pull / p.effective_kg;
-  const double spun = 0.5 * (p.effective_kg - car.mass_kg) * accel;
-  a.front_x_n = ahead_f - spun, a.rear_x_n = ahead_r - spun;
-  a.fx_n = held.stopped ? -car.mass_kg * a.gx : a.front_x_n * held.cosine - a.front_y_n * held.sine + a.rear_x_n;
-  a.fy_n = a.front_x_n * held.sine + a.front_y_n * held.cosine + a.rear_y_n;
-  if (held.stopped) a.fy_n = a.front_y_n * held.cosine + a.rear_y_n;
-  a.ax_mps2 = accel;
-  a.ay_mps2 = a.fy_n / car.mass_kg + a.gy;
-  return a;
-}
-
-// Where constant forces hold the body: front and rear springs share the transfer, the roll stiffness the side force.
-void settle(const Params& p, const Acting& a, State& s) {
-  const full::Params& car = p.car;
-  const double transfer =
-      car.cg_height_m * a.fx_n * steep(a.plane.along) / car.wheelbase_m;  // from the front axle to the rear one
-  const double jack_f = -std::min(a.front_x_n, 0.0) * p.front_brake_jack,
-               jack_r = std::max(a.rear_x_n, 0.0) * p.rear_drive_jack;
-  const double front_up = (transfer + jack_f) / (p.spring_npm[0] + p.spring_npm[1]);
-  const double rear_up = (-transfer + jack_r) / (p.spring_npm[2] + p.spring_npm[3]);
-  const double front = 0.5 * (a.height_m[0] + a.height_m[1]) + front_up,
-               rear = 0.5 * (a.height_m[2] + a.height_m[3]) + rear_up;
-  s.pitch = (rear - front) / car.wheelbase_m;
-  s.z_m = front + car.x_m[0] * s.pitch;
-  double stiffness = p.front_bar_nmprad + p.rear_bar_nmprad;
-  for (std::size_t i = 0; i < 4; ++i) stiffness += p.spring_npm[i] * car.y_m[i] * car.y_m[i];
-  const double toppling = car.sprung_kg * car.cg_height_m;
-  s.roll =
-      a.plane.across + toppling * a.fy_n / car.mass_kg * steep(a.plane.across) / (stiffness - toppling * kGravity_mps2);
+[[gnu::always_inline]] inline Corners corners(const Params& p, const Axle& axle, const Under& road, double rest_n,
+                                              double bank, double dt_s, const State& s, double t_s) {
+  const double damper = p.options.dynamic_attitude ? axle.damper_nspm : 0.0;
+  const Two y{axle.half_track_m, -axle.half_track_m};
+  const Two height = road.height_m + t_s * (road.rate_mps + (t_s - dt_s) * road.bend_mps2);
+  const Two rate = road.rate_mps + (2.0 * t_s - dt_s) * road.bend_mps2;
+  const Two from_road = axle.spring_npm * height + damper * rate;
+  const Two from_body = axle.spring_npm * (s.z_m - axle.x_m * s.pitch + y * s.roll) +
+                        damper * (s.z_rate_mps - axle.x_m * s.pitch_rate_ps + y * s.roll_rate_ps);
+  const double bar = axle.bar_n * bank;
+  return {largest(rest_n + from_road - from_body - Two{bar, -bar}, Two{}), from_road};
 }
 
 }  // namespace
+
+Acting acting(const Params& p, const Held& held, Two share, const State& s, double t_s) {
+  constexpr double kDampedBelow_mps = 2.0, kPerFullDamping_n = 1.0 / 2700.0;  // carcass damping, as in level full
+  const full::Params& car = p.car;
+
+  // body over its contacts
+  const double across = held.across + held.across_rate_ps * t_s, bank = s.roll - across;
+  const Corners front = corners(p, p.axles[0], held.front, car.load_n[0] * held.level, bank, held.dt_s, s, t_s);
+  const Corners rear = corners(p, p.axles[1], held.rear, car.load_n[2] * held.level, bank, held.dt_s, s, t_s);
+  const Two load{front.load_n[0] + front.load_n[1], rear.load_n[0] + rear.load_n[1]};
+
+  // along: torque over radius up to the limit of friction
+  const double along_limit = held.friction * car.tyre.p.long_peak;
+  const Two limit = along_limit * load, ahead = least(largest(Two{held.front_push_n, held.rear_push_n}, -limit), limit);
+  const double resisted = held.drag_kgpm * s.u_mps * std::abs(s.u_mps) + held.rolling * (load[0] + load[1]);
+
+  // across: what slip gives, less where the friction is used along; at walking pace the carcass' damping
+  const double vf = s.v_mps + car.x_m[0] * s.r_radps, vr = s.v_mps + car.x_m[2] * s.r_radps;
+  const Two vx{s.u_mps * held.cosine + vf * held.sine, s.u_mps}, vy{vf * held.cosine - s.u_mps * held.sine, vr};
+  const auto slip = tyre::side_slip_rate(car.tyre, Two{s.front_slip, s.rear_slip}, vx, vy, held.most_slip_pm);
+  Two side = share * load;
+  if ((ahead[0] != 0.0 || ahead[1] != 0.0) && p.options.magic_formula) {
+    const Two left_over = largest(limit * limit - ahead * ahead, Two{});
+    side = share / along_limit * Two{std::sqrt(left_over[0]), std::sqrt(left_over[1])};
+  }
+  const Two fade = largest(1.0 - magnitude(vx) / kDampedBelow_mps, Two{});
+  if (fade[0] > 0.0 || fade[1] > 0.0) {
+    side += car.tyre.p.carcass_damping_nspm * kPerFullDamping_n * fade * load * slip.stretch_mps;
+    const Two most = held.friction * car.tyre.p.lat_peak * load;
+    if (p.options.magic_formula) side = least(largest(side, -most), most);
+  }
+  const double front_y = side[0], rear_y = side[1];
+
+  // the car in the plane: what torque leaves for it after spinning up its own wheels
+  const double downhill_n = -car.mass_kg * kGravity_mps2 * held.along * held.level;
+  const double pull = ahead[0] * held.cosine - front_y * held.sine + ahead[1] - resisted + downhill_n;
+  const double ax = held.stopped ? 0.0 : pull * p.per_effective_kg;
+  const double spun = 0.5 * (p.effective_kg - car.mass_kg) * ax, front_x = ahead[0] - spun, rear_x = ahead[1] - spun;
+  const double front_side = held.stopped ? front_y * held.cosine : front_x * held.sine + front_y * held.cosine;
+  const double fx = held.stopped ? -downhill_n : front_x * held.cosine - front_y * held.sine + rear_x;
+  const double fy = front_side + rear_y, felt = fy * p.per_mass_kg;
+  const double ay = felt - kGravity_mps2 * across * held.level;
+
+  // the body: what the road lifts it by, the linkage's share, and the lever of the centre of gravity
+  const double front_n = front.from_road_n[0] + front.from_road_n[1] - std::min(front_x, 0.0) * p.front_brake_jack;
+  const double rear_n = rear.from_road_n[0] + rear.from_road_n[1] + std::max(rear_x, 0.0) * p.rear_drive_jack;
+  const double dive_nm = -car.x_m[0] * front_n - car.x_m[2] * rear_n - car.cg_height_m * fx * steep(held.along);
+  const double roll_nm = p.axles[0].half_track_m * (front.from_road_n[0] - front.from_road_n[1]) +
+                         p.axles[1].half_track_m * (rear.from_road_n[0] - rear.from_road_n[1]) +
+                         (p.axles[0].bar_nmprad + p.axles[1].bar_nmprad) * across +
+                         car.sprung_kg * car.cg_height_m * (felt * steep(across) - kGravity_mps2 * across);
+  return {.front_load_n = front.load_n,
+          .rear_load_n = rear.load_n,
+          .ahead_n = ahead,
+          .limit_n = limit,
+          .front_x_n = front_x,
+          .rear_x_n = rear_x,
+          .front_y_n = front_y,
+          .rear_y_n = rear_y,
+          .fx_n = fx,
+          .fy_n = fy,
+          .ax_mps2 = ax,
+          .ay_mps2 = ay,
+          .u_mps2 = held.stopped ? 0.0 : ax + s.r_radps * s.v_mps,
+          .v_mps2 = ay - s.r_radps * s.u_mps,
+          .r_ps2 = (car.x_m[0] * front_side + car.x_m[2] * rear_y) * p.per_yaw_kgm2,
+          .slip_rate_ps = slip.tan_alpha_ps,
+          .slip_decay_ps = slip.decay_ps,
+          .ride = {.heave = (front_n + rear_n) * p.per_sprung_kg,
+                   .pitch = dive_nm * p.per_pitch_kgm2,
+                   .roll = roll_nm * p.per_roll_kgm2}};
+}
+
+void derivative(const Params& p, const Held& h, const State& s, double t_s, State& d) {
+  const Acting a = acting(p, h, grip(p, h, s).share, s, t_s);
+  const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
+  d.x_m = s.u_mps * c - s.v_mps * sn, d.y_m = s.u_mps * sn + s.v_mps * c;
+  d.yaw_rad = s.r_radps, d.path_m = s.u_mps;
+  d.u_mps = a.u_mps2, d.v_mps = a.v_mps2, d.r_radps = a.r_ps2;
+  d.front_slip = a.slip_rate_ps[0], d.rear_slip = a.slip_rate_ps[1];
+  if (!p.options.dynamic_attitude) return;
+  const auto &k = p.springs.stiffness_ps2, &c2 = p.springs.damping_ps;
+  d.z_m = s.z_rate_mps, d.pitch = s.pitch_rate_ps, d.roll = s.roll_rate_ps;
+  d.z_rate_mps =
+      a.ride.heave - k[0][0] * s.z_m - k[0][1] * s.pitch - c2[0][0] * s.z_rate_mps - c2[0][1] * s.pitch_rate_ps;
+  d.pitch_rate_ps =
+      a.ride.pitch - k[1][0] * s.z_m - k[1][1] * s.pitch - c2[1][0] * s.z_rate_mps - c2[1][1] * s.pitch_rate_ps;
+  d.roll_rate_ps = a.ride.roll - p.springs.roll_stiffness_ps2 * s.roll - p.springs.roll_damping_ps * s.roll_rate_ps;
+}
 
 Result<Params> params_of(const VehicleParams& vehicle, const Options& options, const std::string& place) {
   Result<full::Params> car = full::params_of(vehicle, place);
@@ -150,21 +149,39 @@ Result<Params> params_of(const VehicleParams& vehicle, const Options& options, c
   Params p;
   p.car = *car;
   p.options = options;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double share = p.car.tyre_rate_npm / (p.car.spring_npm[i] + p.car.tyre_rate_npm);
-    p.spring_npm[i] = p.car.spring_npm[i] * share;
-    p.damper_nspm[i] =
-        p.car.damper_nspm[i] * share * share;  // the spring's share of the whole stroke, in rate and force
+  const double tyre_npm = p.car.tyre_rate_npm;
+  double roll_nm = -p.car.sprung_kg * p.car.cg_height_m * kGravity_mps2, roll_nms = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    Axle& axle = p.axles[k];
+    const std::size_t left = 2 * k;
+    axle.x_m = p.car.x_m[left], axle.half_track_m = p.car.y_m[left];
+    // In series with the tyre: its share of the whole stroke counts in rate and in force.
+    const double share = tyre_npm / (p.car.spring_npm[left] + tyre_npm), w2 = axle.half_track_m * axle.half_track_m;
+    axle.spring_npm = p.car.spring_npm[left] * share;
+    axle.damper_nspm = p.car.damper_nspm[left] * share * share;
+    const double springs = 2.0 * w2 * (p.car.spring_npm[left] + 2.0 * p.car.bar_npm[left]), tyres = 2.0 * w2 * tyre_npm;
+    axle.bar_nmprad = springs * tyres / (springs + tyres) - 2.0 * w2 * axle.spring_npm;
+    axle.bar_n = 0.5 * axle.bar_nmprad / axle.half_track_m;
+    const double x = axle.x_m, both_npm = 2.0 * axle.spring_npm, both_nspm = 2.0 * axle.damper_nspm;
+    const double per_kg = 1.0 / p.car.sprung_kg, per_inertia = 1.0 / p.car.pitch_inertia_kgm2;
+    const std::array<std::array<double, 2>, 2> arm{{{per_kg, -x * per_kg}, {-x * per_inertia, x * x * per_inertia}}};
+    for (std::size_t row = 0; row < 2; ++row)
+      for (std::size_t column = 0; column < 2; ++column) {
+        p.springs.stiffness_ps2[row][column] += both_npm * arm[row][column];
+        p.springs.damping_ps[row][column] += both_nspm * arm[row][column];
+      }
+    roll_nm += both_npm * w2 + axle.bar_nmprad, roll_nms += both_nspm * w2;
   }
-  const auto bar = [&](std::size_t left) {
-    const double track = p.car.y_m[left] - p.car.y_m[left + 1], half2 = 0.5 * track * track;
-    const double springs = p.car.spring_npm[left] * half2 + p.car.bar_npm[left] * track * track;
-    const double tyres = p.car.tyre_rate_npm * half2;
-    return springs * tyres / (springs + tyres) - p.spring_npm[left] * half2;
-  };
-  p.front_bar_nmprad = bar(0), p.rear_bar_nmprad = bar(2);
+  p.springs.roll_stiffness_ps2 = roll_nm / p.car.roll_inertia_kgm2;
+  p.springs.roll_damping_ps = roll_nms / p.car.roll_inertia_kgm2;
   p.effective_kg = p.car.mass_kg + 4.0 * p.car.spin_inertia_kgm2 / (p.car.radius_m * p.car.radius_m);
   p.front_brake_jack = p.car.brake_jack[0], p.rear_drive_jack = p.car.drive_jack[2];
+  p.per_effective_kg = 1.0 / p.effective_kg, p.per_mass_kg = 1.0 / p.car.mass_kg;
+  p.per_sprung_kg = 1.0 / p.car.sprung_kg, p.per_wheelbase_m = 1.0 / p.car.wheelbase_m;
+  p.per_tracks_m = 0.5 / (p.axles[0].half_track_m + p.axles[1].half_track_m);
+  p.per_roll_kgm2 = 1.0 / p.car.roll_inertia_kgm2, p.per_pitch_kgm2 = 1.0 / p.car.pitch_inertia_kgm2;
+  p.per_yaw_kgm2 = 1.0 / p.car.yaw_inertia_kgm2;
+  p.per_radius_m = 1.0 / p.car.radius_m;
   return p;
 }
 
@@ -173,181 +190,134 @@ State at_rest(const Params& p, double x_m, double y_m, double yaw_rad, double sp
   State s;
   s.x_m = x_m, s.y_m = y_m, s.yaw_rad = yaw_rad, s.path_m = x_m;
   s.u_mps = speed_mps;
-  const Slopes plane = slopes(p.car, h);
-  s.pitch = -plane.along, s.roll = plane.across;
-  s.z_m = 0.5 * (h[0] + h[1]) + p.car.x_m[0] * s.pitch;
+  s.pitch = -0.5 * (h[0] + h[1] - h[2] - h[3]) * p.per_wheelbase_m,
+  s.roll = (h[0] + h[2] - h[1] - h[3]) * p.per_tracks_m;
+  s.z_m = 0.5 * (h[0] + h[1]) + p.axles[0].x_m * s.pitch;
   return s;
-}
-
-Under under(const Params& p, const full::Input& in, const State& s, double dt) {
-  Under road;
-  if (in.heights_given) {
-    road.height_m = in.height_m, road.rate_mps = in.height_rate_mps;
-    if (in.road) road.friction = in.road->friction_everywhere;
-    return road;
-  }
-  if (!in.road) return road;
-  // Along a road that is made of profiles only, where the car is in the world does not matter.
-  const bool placed = in.road->mesh || in.road->slope_x != 0.0 || in.road->slope_y != 0.0;
-  const double c = placed ? std::cos(s.yaw_rad) : 1.0, sn = placed ? std::sin(s.yaw_rad) : 0.0;
-  const double dx = (s.u_mps * c - s.v_mps * sn) * dt, dy = (s.u_mps * sn + s.v_mps * c) * dt;
-  double friction = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double x = s.x_m + c * p.car.x_m[i] - sn * p.car.y_m[i], y = s.y_m + sn * p.car.x_m[i] + c * p.car.y_m[i];
-    const double path = s.path_m + p.car.x_m[i];
-    const bool left = p.car.y_m[i] > 0.0;
-    const Ground here = in.road->at(x, y, path, left, in.height_m[i], &road.off_road);
-    const Ground there = in.road->at(x + dx, y + dy, path + s.u_mps * dt, left, in.height_m[i], &road.off_road);
-    road.height_m[i] = here.z_m;
-    road.rate_mps[i] = dt > 0.0 ? (there.z_m - here.z_m) / dt : 0.0;
-    friction += 0.25 * here.friction;
-  }
-  road.friction = friction;
-  return road;
-}
-
-Held held(const Params& p, const full::Input& in, const State& s, double dt) {
-  Held h;
-  h.road = under(p, in, s, dt);
-  h.steer_rad = in.steer_rad;
-  h.cosine = std::cos(in.steer_rad), h.sine = std::sin(in.steer_rad);
-  h.brake_sign = sign(s.u_mps);
-  if (p.integrator == Integrator::kRk4) {
-    const double fastest =
-        std::abs(s.u_mps) + std::abs(h.sine) * (std::abs(s.v_mps) + p.car.x_m[0] * std::abs(s.r_radps));
-    h.most_slip_pm = 1.0 / std::max(0.5 * fastest * dt, 1e-6);
-  }
-  double brake = 0.0;
-  for (const double torque : in.brake_nm) brake += torque / p.car.radius_m;
-  if (brake > 0.0 && std::abs(s.u_mps) * p.effective_kg <= dt * brake) {
-    const Acting a = acting(p, in, h, s, 0.0);
-    const double limit = h.road.friction * p.car.tyre.p.long_peak * p.car.mass_kg * kGravity_mps2;
-    h.stopped = std::abs(a.push_n) <= std::min(brake, limit);
-    if (!h.stopped && s.u_mps == 0.0) h.brake_sign = sign(a.push_n);
-  }
-  return h;
-}
-
-void finish_step(const full::Input& in, const Held& h, const State& before, State& s) {
-  const bool braked = in.brake_nm[0] + in.brake_nm[1] + in.brake_nm[2] + in.brake_nm[3] > 0.0;
-  if (h.stopped || (braked && before.u_mps * s.u_mps < 0.0)) s.u_mps = 0.0;
 }
 
 namespace {
 
-// All rates but those of the place, which the semi-implicit step works out its own way.
-void rates(const Params& p, const full::Input& in, const Held& h, const State& s, double t_s, State& d,
-           std::array<double, 2>* slip_decay_ps) {
-  const full::Params& car = p.car;
-  const Acting a = acting(p, in, h, s, t_s);
-  d.yaw_rad = s.r_radps, d.path_m = s.u_mps;
-  d.u_mps = h.stopped ? 0.0 : a.ax_mps2 + s.r_radps * s.v_mps;
-  d.v_mps = a.ay_mps2 - s.r_radps * s.u_mps;
-  const double front_side = h.stopped ? a.front_y_n * h.cosine : a.front_x_n * h.sine + a.front_y_n * h.cosine;
-  d.r_radps = (car.x_m[0] * front_side + car.x_m[2] * a.rear_y_n) / car.yaw_inertia_kgm2;
-  d.front_slip = a.slip_rate_ps[0], d.rear_slip = a.slip_rate_ps[1];
-  if (slip_decay_ps) *slip_decay_ps = a.slip_decay_ps;
-  if (!p.options.dynamic_attitude) return;
-  double lift = 0.0, pitch = -car.cg_height_m * a.fx_n * steep(a.plane.along), roll = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    double force = a.spring_n[i];
-    if (i < 2) force -= 0.5 * std::min(a.front_x_n, 0.0) * p.front_brake_jack;
-    if (i >= 2) force += 0.5 * std::max(a.rear_x_n, 0.0) * p.rear_drive_jack;
-    lift += force;
-    pitch -= car.x_m[i] * force;
-    roll += car.y_m[i] * force;
-  }
-  const double relative = s.roll - a.plane.across;
-  roll -= (p.front_bar_nmprad + p.rear_bar_nmprad) * relative;
-  roll += car.sprung_kg * car.cg_height_m * (a.fy_n / car.mass_kg * steep(a.plane.across) + kGravity_mps2 * relative);
-  d.z_m = s.z_rate_mps, d.pitch = s.pitch_rate_ps, d.roll = s.roll_rate_ps;
-  d.z_rate_mps = lift / car.sprung_kg;
-  d.pitch_rate_ps = pitch / car.pitch_inertia_kgm2;
-  d.roll_rate_ps = roll / car.roll_inertia_kgm2;
-}
+struct Asked {
+  Under front, rear;
+  double friction;
+  bool off_road;
+};
 
-void step_semi_implicit(const Params& p, const full::Input& in, const Held& h, State& s, double dt) {
-  State d;
-  std::array<double, 2> decay{};
-  rates(p, in, h, s, 0.0, d, &decay);
-  s.u_mps += dt * d.u_mps, s.v_mps += dt * d.v_mps, s.r_radps += dt * d.r_radps;
-  s.z_rate_mps += dt * d.z_rate_mps, s.pitch_rate_ps += dt * d.pitch_rate_ps, s.roll_rate_ps += dt * d.roll_rate_ps;
-  // Trapezoidal for the path: the velocities at both ends are known.
-  const double u = s.u_mps - 0.5 * dt * d.u_mps, v = s.v_mps - 0.5 * dt * d.v_mps, r = s.r_radps - 0.5 * dt * d.r_radps;
-  const double yaw = s.yaw_rad + 0.5 * dt * r, c = std::cos(yaw), sn = std::sin(yaw);
-  s.x_m += dt * (u * c - v * sn), s.y_m += dt * (u * sn + v * c);
-  s.yaw_rad += dt * r, s.path_m += dt * u;
-  s.z_m += dt * s.z_rate_mps, s.pitch += dt * s.pitch_rate_ps, s.roll += dt * s.roll_rate_ps;
-  // Slips with the new velocities, their decay at the end of the step.
-  const full::Params& car = p.car;
-  const double vf = s.v_mps + car.x_m[0] * s.r_radps, vr = s.v_mps + car.x_m[2] * s.r_radps;
-  const double ahead = s.u_mps * h.cosine + vf * h.sine, aside = vf * h.cosine - s.u_mps * h.sine;
-  const auto front = tyre::slip_rate(car.tyre, 0.0, s.front_slip, ahead, aside, ahead, h.most_slip_pm);
-  const auto rear = tyre::slip_rate(car.tyre, 0.0, s.rear_slip, s.u_mps, vr, s.u_mps, h.most_slip_pm);
-  s.front_slip += dt * front.tan_alpha_ps / (1.0 + dt * front.tan_alpha_decay_ps);
-  s.rear_slip += dt * rear.tan_alpha_ps / (1.0 + dt * rear.tan_alpha_decay_ps);
+Asked ask_road(const Params& p, const full::Input& in, const State& s, double dt) {
+  if (in.heights_given) {
+    const auto &z = in.height_m, &rate = in.height_rate_mps;
+    return {{Two{z[0], z[1]}, Two{rate[0], rate[1]}, Two{}},
+            {Two{z[2], z[3]}, Two{rate[2], rate[3]}, Two{}},
+            in.road ? in.road->friction_everywhere : 1.0,
+            false};
+  }
+  if (!in.road) return {{}, {}, 1.0, false};
+  const double travelled = s.u_mps * dt, per_s = dt > 0.0 ? 1.0 / dt : 0.0;
+  bool off = false;
+  Two friction{};
+  const auto axle = [&](std::size_t left) __attribute__((always_inline)) {  // twice in every step
+    const double path = s.path_m + p.car.x_m[left];
+    const Road::Laid here = in.road->laid(path), there = in.road->laid(path + travelled);
+    Two from = here.z_m, to = there.z_m;
+    if (in.road->placed()) {
+      const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
+      const double dx = (s.u_mps * c - s.v_mps * sn) * dt, dy = (s.u_mps * sn + s.v_mps * c) * dt;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::size_t i = left + side;
+        const double x = s.x_m + c * p.car.x_m[i] - sn * p.car.y_m[i], y = s.y_m + sn * p.car.x_m[i] + c * p.car.y_m[i];
+        from[side] += in.road->base_m(x, y, in.height_m[i], &off);
+        to[side] += in.road->base_m(x + dx, y + dy, in.height_m[i], &off);
+      }
+    } else {  // along a road of profiles only, where the car is in the world does not matter
+      from += in.road->z_m, to += in.road->z_m;
+    }
+    friction += here.friction;
+    const Two bend = (there.slope - here.slope) * (0.5 * s.u_mps * per_s);
+    // The exponential step looks at its two ends and takes a straight line between: shifted by what the parabola's mean
+    // lies beside theirs, the road pushes as much.
+    const Two shift = p.integrator == Integrator::kEtd2 ? bend * (dt * dt / -6.0) : Two{};
+    return Under{from + shift, (to - from) * per_s, bend};
+  };
+  const Under front = axle(0), rear = axle(2);
+  return {front, rear, 0.25 * (friction[0] + friction[1]), off};
 }
 
 }  // namespace
 
-void derivative(const Params& p, const full::Input& in, const Held& h, const State& s, double t_s, State& d,
-                std::array<double, 2>* slip_decay_ps) {
-  rates(p, in, h, s, t_s, d, slip_decay_ps);
-  const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
-  d.x_m = s.u_mps * c - s.v_mps * sn, d.y_m = s.u_mps * sn + s.v_mps * c;
-}
+Held held(const Params& p, const full::Input& in, const State& s, double dt) {
+  const auto [front, rear, friction, off_road] = ask_road(p, in, s, dt);
+  // The plane through the contacts: > 0 rises forwards, to the left.
+  const Two all = front.height_m + rear.height_m, all_rate = front.rate_mps + rear.rate_mps;
+  const Two fall = front.height_m - rear.height_m + 0.5 * dt * (front.rate_mps - rear.rate_mps);
+  const double across = (all[0] - all[1]) * p.per_tracks_m, across_rate = (all_rate[0] - all_rate[1]) * p.per_tracks_m;
+  const double along = 0.5 * (fall[0] + fall[1]) * p.per_wheelbase_m, mid_across = across + 0.5 * dt * across_rate;
+  const double level = 1.0 / std::sqrt(1.0 + along * along + mid_across * mid_across);
 
-void advance(const Params& p, const full::Input& in, State& s, double dt) {
-  const Held during = held(p, in, s, dt);
-  const State before = s;
-  switch (p.integrator) {
-    case Integrator::kSemiImplicitEuler:
-      step_semi_implicit(p, in, during, s, dt);
-      break;
-    case Integrator::kEtd2:
-      step_etd2<2>(s, dt, [&](const State& at, double t, std::array<double, 2>& decay) {
-        State d;
-        derivative(p, in, during, at, t, d, &decay);
-        return d;
-      });
-      break;
-    case Integrator::kRk4:
-    case Integrator::kReference:  // the caller's, see reference.h
-      step_rk4(s, dt, [&](const State& at, double t) {
-        State d;
-        derivative(p, in, during, at, t, d);
-        return d;
-      });
-      break;
+  const double cosine = std::cos(in.steer_rad), sine = std::sin(in.steer_rad);
+  double most_slip_pm = std::numeric_limits<double>::infinity();
+  if (p.integrator == Integrator::kRk4) {
+    const double fastest =
+        std::abs(s.u_mps) + std::abs(sine) * (std::abs(s.v_mps) + p.car.x_m[0] * std::abs(s.r_radps));
+    most_slip_pm = 1.0 / std::max(0.5 * fastest * dt, 1e-6);
   }
-  finish_step(in, during, before, s);
-  if (!p.options.dynamic_attitude) {
-    settle(p, acting(p, in, during, s, dt), s);
-    s.z_rate_mps = (s.z_m - before.z_m) / dt;
-    s.pitch_rate_ps = (s.pitch - before.pitch) / dt;
-    s.roll_rate_ps = (s.roll - before.roll) / dt;
+
+  const double front_drive = (in.drive_nm[0] + in.drive_nm[1]) * p.per_radius_m,
+               rear_drive = (in.drive_nm[2] + in.drive_nm[3]) * p.per_radius_m,
+               front_brake = (in.brake_nm[0] + in.brake_nm[1]) * p.per_radius_m,
+               rear_brake = (in.brake_nm[2] + in.brake_nm[3]) * p.per_radius_m, brake = front_brake + rear_brake;
+  double against = sign(s.u_mps);  // the motion that the brakes oppose
+  bool stopped = false;
+  if (brake > 0.0 && std::abs(s.u_mps) * p.effective_kg <= dt * brake) {
+    // They can stop the car within the step: do they hold it against drive and grade?
+    const double push = front_drive * cosine + rear_drive - p.car.mass_kg * kGravity_mps2 * along * level;
+    const double limit = friction * p.car.tyre.p.long_peak * p.car.mass_kg * kGravity_mps2;
+    stopped = std::abs(push) <= std::min(brake, limit);
+    if (!stopped && s.u_mps == 0.0) against = sign(push);
   }
+  const double u = s.u_mps;
+  return {.front = front,
+          .rear = rear,
+          .friction = friction,
+          .dt_s = dt,
+          .along = along,
+          .across = across,
+          .across_rate_ps = across_rate,
+          .level = level,
+          .cosine = cosine,
+          .sine = sine,
+          .front_push_n = front_drive - against * front_brake,
+          .rear_push_n = rear_drive - against * rear_brake,
+          .drag_kgpm = in.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.car.drag_area_m2 : 0.0,
+          .rolling = in.air_and_rolling
+                         ? p.car.rolling_coefficient * u / std::sqrt(u * u + kRollingKnee_mps * kRollingKnee_mps)
+                         : 0.0,
+          .stopped = stopped,
+          .off_road = off_road,
+          .most_slip_pm = most_slip_pm};
 }
 
 full::Forces forces(const Params& p, const full::Input& in, const State& s) {
   const Held h = held(p, in, s, 1e-3);
-  const Acting a = acting(p, in, h, s, 0.0);
+  const Acting a = acting(p, h, grip(p, h, s).share, s, 0.0);
   full::Forces out;
-  out.load_n = a.load_n;
-  const double front = a.load_n[0] + a.load_n[1], rear = a.load_n[2] + a.load_n[3];
   for (std::size_t i = 0; i < 4; ++i) {
-    const double axle = i < 2 ? front : rear, share = axle > 0.0 ? a.load_n[i] / axle : 0.0;
+    const Two load = i < 2 ? a.front_load_n : a.rear_load_n;
+    const double axle = load[0] + load[1], share = axle > 0.0 ? load[i % 2] / axle : 0.0;
+    out.load_n[i] = load[i % 2];
     out.fx_n[i] = 0.5 * (i < 2 ? a.front_x_n : a.rear_x_n);
     out.fy_n[i] = share * (i < 2 ? a.front_y_n : a.rear_y_n);
+    out.ground_m[i] = (i < 2 ? h.front : h.rear).height_m[i % 2];
   }
-  out.ground_m = a.height_m;
+  const Two along = h.front.height_m - h.rear.height_m;
+  out.road_pitch_rad = -std::atan(0.5 * (along[0] + along[1]) * p.per_wheelbase_m);
+  out.road_roll_rad = std::atan(h.across);
   out.ax_mps2 = a.ax_mps2, out.ay_mps2 = a.ay_mps2;
   out.roll_rad = std::atan(s.roll), out.pitch_rad = std::atan(s.pitch), out.yaw_rad = s.yaw_rad;
-  out.roll_rate_radps = s.roll_rate_ps / (1.0 + s.roll * s.roll);
-  out.pitch_rate_radps = s.pitch_rate_ps / (1.0 + s.pitch * s.pitch);
+  out.roll_rate_radps = s.roll_rate_ps / steep(s.roll);
+  out.pitch_rate_radps = s.pitch_rate_ps / steep(s.pitch);
   out.yaw_rate_radps = s.r_radps;
-  out.road_pitch_rad = -std::atan(a.plane.along), out.road_roll_rad = std::atan(a.plane.across);
-  out.off_road = h.road.off_road;
+  out.off_road = h.off_road;
   return out;
 }
 

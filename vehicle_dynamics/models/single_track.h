@@ -4,17 +4,20 @@
 //   second-order body over four contacts or quasi-static; load transfer onto four wheels.
 // Source: M. Mitschke, H. Wallentowitz, Dynamik der Kraftfahrzeuge, 5th ed. 2014, ch. 19 (single track); D. L.
 // Milliken,
-//   W. F. Milliken, Race Car Vehicle Dynamics, 1995, ch. 5 and 18; body on springs in series with the tyres.
+//   W. F. Milliken, Race Car Vehicle Dynamics, 1995, ch. 5 and 18; body on springs in series with the tyres, see
+//   ride.h.
 // Frame: position and velocity of the centre of gravity, ISO 8855; attitude as slopes against the horizontal, small
-// angles. Leaves out: wheel hop and lift-off, wheel spin and locking (tyre force follows torque up to the friction
-// limit),
+//   angles.
+// Leaves out: wheel hop and lift-off, wheel spin and locking (tyre force follows torque up to the friction limit),
 //   differences between left and right tyres, damping of the tyres.
-// Tests: tests/vehicle_dynamics/single_track_test.cpp (closed forms), reference_test.cpp (two other programs).
+// Tests: tests/vehicle_dynamics/single_track_test.cpp (closed forms, order of the integrators), reference_test.cpp (two
+//   other programs).
 #pragma once
 
 #include <array>
 
 #include "vehicle_dynamics/models/full.h"
+#include "vehicle_dynamics/models/ride.h"
 
 namespace phare::single_track {
 
@@ -23,17 +26,32 @@ struct Options {
   bool dynamic_attitude = true;  ///< false: body at once where the forces hold it
 };
 
+/// One axle of the body on its springs; rates of one wheel.
+struct Axle {
+  double x_m = 0.0, half_track_m = 0.0;        ///< from the centre of gravity
+  double spring_npm = 0.0, damper_nspm = 0.0;  ///< in series with the tyre
+  double bar_nmprad = 0.0;                     ///< anti-roll bar, likewise
+  double bar_n = 0.0;                          ///< load that it moves from wheel to wheel per slope of roll
+};
+
 struct Params {
   full::Params car;
   Options options;
-  Integrator integrator = Integrator::kSemiImplicitEuler;
-  std::array<double, 4> spring_npm{}, damper_nspm{};  ///< in series with the tyre
-  double front_bar_nmprad = 0.0, rear_bar_nmprad = 0.0;
-  double effective_kg = 0.0;  ///< mass with the wheels' spin inertia
-  double front_brake_jack = 0.0, rear_drive_jack = 0.0;
+  Integrator integrator = Integrator::kEtd2;
+  std::array<Axle, 2> axles;                             ///< front, rear
+  double effective_kg = 0.0;                             ///< mass with the wheels' spin inertia
+  double front_brake_jack = 0.0, rear_drive_jack = 0.0;  ///< anti-dive, anti-squat: vertical over longitudinal force
+  ride::Springs springs;                                 ///< of the body, all the above together
+  ride::Step ride;                                       ///< for steps of one length, see set_step()
+  // One over what is divided by in every step.
+  double per_effective_kg = 0.0, per_mass_kg = 0.0, per_sprung_kg = 0.0, per_wheelbase_m = 0.0, per_tracks_m = 0.0;
+  double per_roll_kgm2 = 0.0, per_pitch_kgm2 = 0.0, per_yaw_kgm2 = 0.0, per_radius_m = 0.0;
 };
 
 Result<Params> params_of(const VehicleParams& vehicle, const Options& options, const std::string& place);
+
+/// Works out beforehand what steps of that length need; without it, or for another length, each step does so itself.
+void set_step(Params& params, double dt_s);
 
 /// All zero: at rest on a level road of height 0.
 struct State {
@@ -51,27 +69,32 @@ static_assert(sizeof(State) == kStateSize * sizeof(double));
 State at_rest(const Params& params, double x_m, double y_m, double yaw_rad, double speed_mps,
               const std::array<double, 4>& height_m);
 
-/// Road under the wheels during one step, held or linear: asked for once, at its start and its end.
+/// Road under the wheels of an axle (left, right) during one step, asked for once, at the step's start and where it
+/// will end: t into the step its height is height + t (rate + bend (t - dt)), the parabola through both heights that
+/// bends as the slopes there differ.
 struct Under {
-  std::array<double, 4> height_m{}, rate_mps{};
-  double friction = 1.0;  ///< mean of the wheels
-  bool off_road = false;
+  Two height_m{}, rate_mps{}, bend_mps2{};
 };
-Under under(const Params& params, const full::Input& input, const State& state, double dt);
 
 /// What is decided once for a step.
 struct Held {
-  Under road;
-  double steer_rad = 0.0, cosine = 1.0, sine = 0.0;
-  double brake_sign = 0.0;  ///< of the motion that the brakes oppose
-  bool stopped = false;     ///< brakes hold the car along its x
+  Under front, rear;
+  double friction = 1.0;  ///< mean of the wheels
+  double dt_s = 0.0;
+  double along = 0.0, across = 0.0, across_rate_ps = 0.0;  ///< slopes of the plane through the contacts: along in the
+                                                           ///< step's middle, across at its start
+  double level = 1.0;                                      ///< what is left of a load on that plane
+  double cosine = 1.0, sine = 0.0;                         ///< of the steering
+  double front_push_n = 0.0, rear_push_n = 0.0;            ///< drive less brake torque at the tread
+  double drag_kgpm = 0.0, rolling = 0.0;                   ///< drag over speed squared; rolling resistance over load
+  bool stopped = false;                                    ///< brakes hold the car along its x
+  bool off_road = false;
   double most_slip_pm = std::numeric_limits<double>::infinity();
 };
 Held held(const Params& params, const full::Input& input, const State& state, double dt);
 void finish_step(const full::Input& input, const Held& held, const State& before, State& state);
 
-void derivative(const Params& params, const full::Input& input, const Held& held, const State& state, double t_s,
-                State& rate, std::array<double, 2>* slip_decay_ps = nullptr);
+void derivative(const Params& params, const Held& held, const State& state, double t_s, State& rate);
 
 /// One step of dt seconds.
 void advance(const Params& params, const full::Input& input, State& state, double dt);

@@ -66,6 +66,20 @@ extern "C" Four _ZGVdN4v_atan(Four);
 extern "C" Four _ZGVdN4v_sin(Four);
 extern "C" Four _ZGVdN4v_cos(Four);
 
+// Two lanes, which every such processor has.
+extern "C" Two _ZGVbN2v_atan(Two);
+extern "C" Two _ZGVbN2v_sin(Two);
+extern "C" Two _ZGVbN2v_cos(Two);
+Two arctangent(Two v) {
+  return _ZGVbN2v_atan(v);
+}
+Two sine(Two v) {
+  return _ZGVbN2v_sin(v);
+}
+Two cosine(Two v) {
+  return _ZGVbN2v_cos(v);
+}
+
 [[gnu::target("avx2")]] inline Four bent(Four bs, double curvature) {
   return _ZGVdN4v_atan(bs - curvature * (bs - _ZGVdN4v_atan(bs)));
 }
@@ -98,6 +112,20 @@ extern "C" Four _ZGVdN4v_cos(Four);
 const bool kFourLanes = __builtin_cpu_supports("avx2");
 
 }  // namespace
+#else
+namespace {
+
+Two arctangent(Two v) {
+  return Two{std::atan(v[0]), std::atan(v[1])};
+}
+Two sine(Two v) {
+  return Two{std::sin(v[0]), std::sin(v[1])};
+}
+Two cosine(Two v) {
+  return Two{std::cos(v[0]), std::cos(v[1])};
+}
+
+}  // namespace
 #endif
 
 void steady_forces(const Constants& tyre, const double kappa[4], const double tan_alpha[4], const double load_n[4],
@@ -112,6 +140,15 @@ void steady_forces(const Constants& tyre, const double kappa[4], const double ta
     const Force force = steady_force(tyre, kappa[i], tan_alpha[i], load_n[i], mu[i]);
     fx_n[i] = force.x_n, fy_n[i] = force.y_n;
   }
+}
+
+SideForce side_force(const Constants& tyre, Two tan_alpha, double mu) {
+  const TyreParams& p = tyre.p;
+  const double b = tyre.by / mu, peak = mu * p.lat_peak, e = p.lat_curvature;
+  // sin(C atan(w)) with w = x - E (x - atan x), and its derivative.
+  const Two x = b * tan_alpha, w = x - e * (x - arctangent(x)), angle = p.lat_shape * arctangent(w), x2 = x * x;
+  return {peak * sine(angle),
+          peak * b * p.lat_shape * cosine(angle) * (1.0 + (1.0 - e) * x2) / ((1.0 + w * w) * (1.0 + x2))};
 }
 
 }  // namespace phare::tyre

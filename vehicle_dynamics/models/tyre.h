@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/two.h"
 #include "config/vehicle.h"
 
 namespace phare::tyre {
@@ -39,6 +40,12 @@ Force steady_force(const Constants& tyre, double kappa, double tan_alpha, double
 /// The same for the four wheels of a car at once: one pass that the compiler can overlap.
 void steady_forces(const Constants& tyre, const double kappa[4], const double tan_alpha[4], const double load_n[4],
                    const double mu[4], double fx_n[4], double fy_n[4]);
+
+/// Side force over load of the two axles of a single track, without longitudinal slip, and its rise with tan_alpha.
+struct SideForce {
+  Two share{}, rise{};
+};
+SideForce side_force(const Constants& tyre, Two tan_alpha, double mu);
 
 /// Rate of change of the slips. No division by speed: at rest the patch is a spring.
 struct SlipRate {
@@ -69,6 +76,17 @@ inline SlipRate slip_rate(const Constants& tyre, double kappa, double tan_alpha,
           .carried_mps = carried,
           .kappa_stretch_mps = along,
           .tan_alpha_stretch_mps = across};
+}
+
+/// The lateral part of it alone, for wheels that roll without longitudinal slip: the axles of a single track.
+struct SideSlipRate {
+  Two tan_alpha_ps{}, decay_ps{}, stretch_mps{};
+};
+inline SideSlipRate side_slip_rate(const Constants& tyre, Two tan_alpha, Two vx, Two vy, double most_pm) {
+  const Two carried = largest(magnitude(vx), 0.1 * magnitude(vy)), t = tan_alpha * tyre.per_tan_alpha_bend;
+  const Two per_m = least(least(tyre.per_lat_m * (1.0 + t * t), both(10.0 * tyre.per_lat_m)), both(most_pm));
+  const Two stretch = -vy - carried * tan_alpha;
+  return {stretch * per_m, carried * per_m, stretch};
 }
 
 }  // namespace phare::tyre

@@ -134,8 +134,9 @@ void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
   std::array<vk::DescriptorImageInfo, shader::kMaxLamps> guides, candela;
   for (std::size_t i = 0; i < beam_of_lamp_.size(); ++i) {
     guides[i] = {*table_sampler_, *beams.guide(beam_of_lamp_[i]).view, layout};
-    const bool filtered = beams.beam(beam_of_lamp_[i]).lookup == shader::kLookupFilter && *beams.candela(beam_of_lamp_[i]).image && beams.candela(beam_of_lamp_[i]).format != vk::Format::eR32Sfloat;
-    candela[i] = {filtered ? *filter_sampler_ : *table_sampler_, *beams.candela(beam_of_lamp_[i]).view, layout};
+    const gpu::Image& table = beams.candela(beam_of_lamp_[i]);  // "no beam" is float32, which not every device filters
+    const bool filtered = beams.beam(beam_of_lamp_[i]).filtered() && table.format != vk::Format::eR32Sfloat;
+    candela[i] = {filtered ? *filter_sampler_ : *table_sampler_, *table.view, layout};
   }
   const vk::DescriptorImageInfo grain{*sampler_, *grain_.view, layout};
   std::vector<vk::WriteDescriptorSet> writes;

@@ -17,6 +17,7 @@ bool is_blank(char c) {
 }  // namespace
 
 Result<std::string> read_photometry_bytes(const std::filesystem::path& file, const std::string& name) {
+  if (name.empty()) return Error{"\"\"", "names no file"};
   std::error_code code;
   if (std::filesystem::is_directory(file, code)) return Error{name, "is a directory"};
   const std::uintmax_t size = std::filesystem::file_size(file, code);
@@ -122,6 +123,15 @@ bool FileText::number(double& value) {
   const bool plain =
       length > 0 && length <= 15 && (length > 1 || *begin != '.') && (at == end || is_separator(*at) || *at == '\n');
   if (!plain) {
+    // More digits, a sign or an exponent. std::from_chars finds the word's end itself; what it does not take whole is
+    // looked at once more for the error.
+    const char* const from = begin != end && *begin == '+' ? begin + 1 : begin;
+    const auto [stop, code] = std::from_chars(from, end, value);
+    if (code == std::errc{} && std::isfinite(value) && (stop == end || is_separator(*stop) || *stop == '\n')) {
+      word_ = {begin, static_cast<std::size_t>(stop - begin)};
+      at_ += word_.size();
+      return true;
+    }
     word_ = next_word();
     return parse(word_, value);
   }

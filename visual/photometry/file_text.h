@@ -40,6 +40,8 @@ class FileText {
   Result<double> number(const char* what);
   /// The same for long tables: false and `why()` instead of a Result, and no allocation.
   bool number(double& value);
+  /// The last number as it stands in the text.
+  std::string_view word() const { return word_; }
   /// The error of the last number: what it was to be, and what stands there.
   Error why(const std::string& what) const;
 

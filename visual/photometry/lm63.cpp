@@ -264,21 +264,21 @@ Result<IntensityTable> parse_lm63(std::string_view bytes, const std::string& nam
   if (!unfolded->note.empty()) table.notes.push_back(text.place() + ": " + unfolded->note);
 
   // The file stores one horizontal angle after the other.
-  std::vector<double> planes(first->size() * second->size());
-  for (std::size_t i = 0; i < planes.size(); ++i) {
+  std::vector<double> planes;
+  const std::size_t count = first->size() * second->size();
+  planes.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
     double value = 0.0;
-    const std::string_view before = text.rest();
     if (!text.number(value)) {
       const Error why = text.why("a candela value");
       return Error{why.place,
-                   why.reason + " (value " + std::to_string(i + 1) + " of " + std::to_string(planes.size()) + ")"};
+                   why.reason + " (value " + std::to_string(i + 1) + " of " + std::to_string(count) + ")"};
     }
     if (value < 0.0) return text.error("negative candela " + number_text(value));
-    planes[i] = value * counts->scale;
-    if (!std::isfinite(planes[i])) return text.error("candela times the factors of the header is no finite number");
+    planes.push_back(value * counts->scale);
+    if (!std::isfinite(planes.back())) return text.error("candela times the factors of the header is no finite number");
     if (value != 0.0 && (i < 1000 || i % 61 == 0)) {  // enough to see how many digits the file was written with
-      const std::string_view word = trimmed(before.substr(0, before.size() - text.rest().size()));
-      const double step = last_digit(word) * counts->scale;
+      const double step = last_digit(text.word()) * counts->scale;
       double& smallest = table.header.smallest_step_cd;
       smallest = smallest == 0.0 ? step : std::min(smallest, step);
     }

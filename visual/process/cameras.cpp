@@ -1,5 +1,8 @@
 #include "visual/process/cameras.h"
 
+#include <algorithm>
+#include <glm/common.hpp>
+
 #include "config/conventions.h"
 
 namespace phare {
@@ -39,6 +42,21 @@ Camera chase_camera(const ChannelConfig& channel, const VehicleState& pose) {
   camera.eye_m = position_of(pose) + level * glm::dvec3{-9.0, 0.0, 3.2};
   camera.world_from_eye = level * world_from_car(0.0, 0.08, 0.0);  // a little down, onto the road
   camera.fov_horizontal_rad = channel.fov_horizontal_rad;
+  return camera;
+}
+
+Camera overview_camera(const Scene& scene) {
+  glm::dvec3 low{0.0}, high{0.0};
+  for (const SceneChunk& chunk : scene.chunks) {
+    low = glm::min(low, chunk.low_m);
+    high = glm::max(high, chunk.high_m);
+  }
+  Camera camera;
+  camera.eye_m = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), high.z + 10.0};
+  camera.world_from_eye = glm::dmat3{glm::dvec3{0, 0, -1}, glm::dvec3{-1, 0, 0}, glm::dvec3{0, 1, 0}};  // forward, left, up of the eye
+  camera.orthographic_width_m = std::max({high.x - low.x, 4.0 * (high.y - low.y), 1.0});  // of pictures up to four times as wide as high
+  camera.near_m = 1.0;
+  camera.far_m = high.z - low.z + 20.0;
   return camera;
 }
 

@@ -4,6 +4,7 @@
 #include "config/rig.h"
 #include "net/messages.h"
 #include "visual/renderer.h"
+#include "visual/scene/scene.h"
 
 namespace phare {
 
@@ -29,6 +30,9 @@ Camera birds_eye_camera(const VehicleState& pose);
 
 /// 9 m behind and 3.2 m above, level: shows the beam move on the road while the body pitches.
 Camera chase_camera(const ChannelConfig& channel, const VehicleState& pose);
+
+/// The whole scene from above with parallel rays.
+Camera overview_camera(const Scene& scene);
 
 Camera camera_of(CameraKind kind, const ChannelConfig& channel, const VehicleState& pose);
 

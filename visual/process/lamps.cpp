@@ -132,8 +132,15 @@ Status Lamps::swivel(const RigControl::Swivel& command) {
   return Done{};
 }
 
-glm::dmat3 Lamps::turned(const Position& position) const {
-  return aim_rotation(position.yaw_rad, aim_pitch_rad_ + wheel_pitch_rad_ + position.pitch_rad, 0.0);
+Status Lamps::place(const RigControl::Place& command) {
+  const Result<std::size_t> slot = find(command.lamp);
+  if (!slot) return slot.error();
+  designs_[design_].lamps[*slot].position_m = {command.x_m, command.y_m, command.z_m};
+  return Done{};
+}
+
+glm::dmat3 Lamps::turned(const Position& position, double tilt_rad) const {
+  return aim_rotation(position.yaw_rad, aim_pitch_rad_ + wheel_pitch_rad_ + tilt_rad + position.pitch_rad, 0.0);
 }
 
 std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
@@ -144,7 +151,7 @@ std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
     const Position& position = positions_[design_][slot];
     const BeamImage& image = position.beam.image();
     if (image.dark) continue;
-    placed.push_back({position_of(pose) + rotation * lamps[slot].position_m, rotation * turned(position) * image.car_from_image, slot});
+    placed.push_back({position_of(pose) + rotation * lamps[slot].position_m, rotation * turned(position, pose.lamp_tilt_rad) * image.car_from_image, slot});
   }
   return placed;
 }
@@ -152,16 +159,16 @@ std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
 double Lamps::illuminance_lx(const VehicleState& pose, const MeasurePoint& at) const {
   const glm::dmat3 car_from_world = glm::transpose(rotation_of(pose));
   const MeasurePoint in_car{car_from_world * (at.position_m - position_of(pose)), car_from_world * at.normal};
-  return illuminance_in_car_lx(design_, lit_, in_car);
+  return illuminance_in_car_lx(design_, lit_, in_car, pose.lamp_tilt_rad);
 }
 
-double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit,
-                                    const MeasurePoint& at) const {
+double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
+                                    double tilt_rad) const {
   double total_lx = 0.0;
   for (std::size_t slot = 0; slot < designs_[design].lamps.size(); ++slot) {
     const LampConfig& lamp = designs_[design].lamps[slot];
     const Position& position = positions_[design][slot];
-    const glm::dmat3 turn = turned(position);
+    const glm::dmat3 turn = turned(position, tilt_rad);
     for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
       if (!lit.contains(lamp.sources[k].function)) continue;
       const AimedSource light = tables_.aimed(lamp.sources[k]);

@@ -42,25 +42,31 @@ class Lamps {
 
   /// Dims a source, counted from 1 (0: all), of a lamp of the design that shines; acts with the next controls. Error: no such lamp or source.
   Status dim(const RigControl::Dim& command);
+  /// Moves a lamp of the design that shines to another place of the car. Error: no such lamp.
+  Status place(const RigControl::Place& command);
   /// Turns a whole lamp of the design that shines: no image is summed for it. Error: no such lamp.
   Status swivel(const RigControl::Swivel& command);
 
   /// All lamps turned up (positive) together, rad.
   void set_aim(double pitch_rad) { aim_pitch_rad_ = pitch_rad; }
 
-  /// The positions that shine, in the world. The body's rotation is that of `pose`: Rz(yaw)·Ry(pitch)·Rx(roll).
+  /// The positions that shine, in the world. The body's rotation is that of `pose`: Rz(yaw)·Ry(pitch)·Rx(roll); what
+  /// levelling tilts the lamps by, is in the pose too.
   std::vector<PlacedLamp> placed(const VehicleState& pose) const;
 
   /// E in lx at a point of the world: float64 from the native tables, no beam image in between. The truth the GPU is
   /// held to.
   double illuminance_lx(const VehicleState& pose, const MeasurePoint& at) const;
   /// The same in the car frame for one set of lit functions of one design: the wall.
-  double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at) const;
+  /// `tilt_rad`: of automatic levelling, positive up.
+  double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
+                               double tilt_rad = 0.0) const;
 
   const std::vector<DesignConfig>& designs() const { return designs_; }
   const DesignConfig& design() const { return designs_[design_]; }
   std::size_t design_index() const { return design_; }
   const std::string& lit_text() const { return lit_text_; }  ///< "low high", for labels
+  void begin_counting() { compositions_ = uploads_ = 0; }
   std::uint64_t compositions() const { return compositions_; }  ///< images that were summed, wholly or in part
   std::uint64_t summed_texels() const;
   std::uint64_t uploads() const { return uploads_; }
@@ -81,8 +87,8 @@ class Lamps {
   };
   std::string text_of_lit() const;
   Result<std::size_t> find(const std::string& lamp) const;
-  /// All that turns a lamp besides the aim of its sources.
-  glm::dmat3 turned(const Position& position) const;
+  /// All that turns a lamp besides the aim of its sources; `tilt_rad`: of the car's levelling.
+  glm::dmat3 turned(const Position& position, double tilt_rad) const;
 
   std::vector<DesignConfig> designs_;
   bool high_keeps_low_ = true;

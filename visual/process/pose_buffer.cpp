@@ -31,6 +31,7 @@ VehicleState interpolate(const VehicleState& a, const VehicleState& b, double u,
   mid.roll_rad = a.roll_rad + u * angle_between(a.roll_rad, b.roll_rad);
   mid.pitch_rad = a.pitch_rad + u * angle_between(a.pitch_rad, b.pitch_rad);
   mid.yaw_rad = a.yaw_rad + u * angle_between(a.yaw_rad, b.yaw_rad);
+  mid.lamp_tilt_rad = a.lamp_tilt_rad + u * (b.lamp_tilt_rad - a.lamp_tilt_rad);
   mid.speed_mps = a.speed_mps + u * (b.speed_mps - a.speed_mps);
   return mid;
 }

@@ -104,6 +104,7 @@ void Loop::obey(const RigControl& control) {
   Status done = Done{};
   if (const auto* dim = std::get_if<RigControl::Dim>(&control.command)) done = s_.lamps.dim(*dim);
   if (const auto* swivel = std::get_if<RigControl::Swivel>(&control.command)) done = s_.lamps.swivel(*swivel);
+  if (const auto* place = std::get_if<RigControl::Place>(&control.command)) done = s_.lamps.place(*place);
   if (!done) spdlog::warn("{}", done.error().text());
 }
 
@@ -126,15 +127,36 @@ void Loop::answer(const ProbeRequest& request, SimTime now) {
   s_.bus.send(now, reply);
 }
 
-/// The first picture of a device makes its machine code, which may take seconds: before the drive, not in it.
+/// The first picture of each kind makes the device's machine code, which may take a second: before the drive, not in it. Kinds differ by how
+/// many lamps shine and how their beams are looked up, so every design is switched through its lights over the whole scene; in lockstep, where
+/// a slow frame harms nobody, and in place of one that was killed, which is missed, the first picture must do.
 void Loop::warm_up() {
+  const Clock::time_point begin = Clock::now();
   const VehicleState pose;
-  light_up(controls_);
   FrameInput input;
+  input.camera = overview_camera(s_.scene);
+  const auto draw = [&](const CockpitState& controls) {
+    light_up(controls);
+    input.lamps = s_.lamps.placed(pose);
+    s_.renderer.draw(input);
+  };
+  const bool thorough = !s_.options.lockstep && !s_.options.going_on;
+  for (std::uint32_t design = 0; thorough && design < s_.lamps.designs().size(); ++design) {
+    for (const LightSwitch light : {LightSwitch::kOff, LightSwitch::kLow, LightSwitch::kHigh}) {
+      for (const bool fog : {false, true}) {
+        CockpitState controls = controls_;
+        controls.design_index = design;
+        controls.light_switch = light;
+        controls.fog_front = fog;
+        if (!(fog && light == LightSwitch::kOff)) draw(controls);
+      }
+    }
+  }
   input.camera = driver_camera(s_.channel(), pose);
-  input.lamps = s_.lamps.placed(pose);
   input.want_image = s_.album.wanted();
-  s_.renderer.draw(input);
+  draw(controls_);
+  s_.lamps.begin_counting();
+  spdlog::info("ready after {:.1f} s", std::chrono::duration<double>(Clock::now() - begin).count());
 }
 
 /// "Up, and waiting for the first pose."

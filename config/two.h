@@ -1,0 +1,22 @@
+// Two numbers in one register, for arithmetic that is the same twice: left and right wheel, front and rear axle.
+#pragma once
+
+namespace phare {
+
+/// Operators work lane by lane, comparisons choose lane by lane: `a > b ? a : b`. Two{x, y} sets, v[0] and v[1] read.
+using Two = double __attribute__((vector_size(16)));
+
+inline Two both(double value) {
+  return Two{value, value};
+}
+inline Two largest(Two a, Two b) {
+  return a > b ? a : b;
+}
+inline Two least(Two a, Two b) {
+  return a < b ? a : b;
+}
+inline Two magnitude(Two a) {
+  return a < 0.0 ? -a : a;
+}
+
+}  // namespace phare
