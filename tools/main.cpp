@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -39,16 +40,22 @@ int run(int argc, char** argv) {
   add_lamp(app, chosen);
   add_measure(app, chosen);
   add_doctor(app, chosen);
+  // A command that does not exist is told before anything else: --help after it must not hide the mistake.
+  const CLI::App* at = &app;
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    std::vector<std::string> commands;
+    for (const CLI::App* command : at->get_subcommands(nullptr)) commands.push_back(command->get_name());
+    if (commands.empty()) break;
+    const auto list = at->get_subcommands(nullptr);
+    const auto named = std::find_if(list.begin(), list.end(), [&](const CLI::App* c) { return c->get_name() == argv[i]; });
+    if (named == list.end())
+      return bad_input({"", unknown_name_reason(i == 1 ? "command" : "command of " + at->get_name(), argv[i], commands)});
+    at = *named;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return app.exit(help);
-  } catch (const CLI::RequiredError& wrong) {
-    const bool named = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
-    if (!named) return bad_input({"", wrong.what() + std::string(" (see --help)")});
-    std::vector<std::string> commands;
-    for (const CLI::App* command : app.get_subcommands(nullptr)) commands.push_back(command->get_name());
-    return bad_input({"", unknown_name_reason("command", argv[1], commands)});
   } catch (const CLI::ParseError& wrong) {
     std::fprintf(stderr, "phare: %s (see --help)\n", wrong.what());
     return kExitBadInput;

@@ -9,6 +9,8 @@
 #include <map>
 #include <utility>
 
+#include "visual/photometry/whole_file.h"
+
 namespace phare {
 namespace {
 
@@ -16,6 +18,88 @@ constexpr const char* kFont = "DejaVu Sans";
 
 void set_colour(cairo_t* cairo, Rgb c, double alpha = 1.0) {
   cairo_set_source_rgba(cairo, c.r, c.g, c.b, alpha);
+}
+
+std::string xml_text(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&') {
+      result += "&amp;";
+    } else if (c == '<') {
+      result += "&lt;";
+    } else if (c == '>') {
+      result += "&gt;";
+    } else {
+      result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return result;
+}
+
+std::string svg_colour(Rgb c) {
+  char text[32];
+  std::snprintf(text, sizeof text, "rgb(%ld,%ld,%ld)", std::lround(255 * c.r), std::lround(255 * c.g),
+                std::lround(255 * c.b));
+  return text;
+}
+
+Rgb rim_of(Rgb colour) {
+  return 0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b > 0.75 ? kBlack : kWhite;
+}
+
+void select_font(cairo_t* cairo, double size, bool bold) {
+  cairo_select_font_face(cairo, kFont, CAIRO_FONT_SLANT_NORMAL, bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo, size);
+}
+
+constexpr double kBaseline = 0.36;  ///< of the size below the middle of a text
+constexpr double kHalo = 2.5, kHaloAlpha = 0.75;
+
+void draw_text(cairo_t* cairo, const ChartText& t) {
+  select_font(cairo, t.size, t.bold);
+  cairo_text_extents_t box;
+  cairo_text_extents(cairo, t.text.c_str(), &box);
+  const double left = -box.x_bearing - (t.align < 0 ? 0.0 : t.align == 0 ? 0.5 * box.width : box.width);
+  cairo_save(cairo);
+  cairo_translate(cairo, t.x, t.y);
+  cairo_rotate(cairo, t.turned_deg * M_PI / 180.0);
+  if (t.halo) {
+    cairo_move_to(cairo, left, kBaseline * t.size);
+    cairo_text_path(cairo, t.text.c_str());
+    set_colour(cairo, rim_of(t.colour), kHaloAlpha);
+    cairo_set_line_width(cairo, kHalo);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke(cairo);
+  }
+  cairo_move_to(cairo, left, kBaseline * t.size);
+  set_colour(cairo, t.colour);
+  cairo_show_text(cairo, t.text.c_str());
+  cairo_restore(cairo);
+}
+
+std::string svg_text(const ChartText& t) {
+  char text[240];
+  std::snprintf(text, sizeof text, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%g\" text-anchor=\"%s\" fill=\"%s\"", t.x,
+                t.y + kBaseline * t.size, t.size, t.align < 0 ? "start" : t.align == 0 ? "middle" : "end",
+                svg_colour(t.colour).c_str());
+  std::string element = text;
+  if (t.bold) element += " font-weight=\"bold\"";
+  if (t.halo) {
+    std::snprintf(text, sizeof text,
+                  " paint-order=\"stroke\" stroke=\"%s\" stroke-opacity=\"%g\" stroke-width=\"%g\" stroke-linejoin=\"round\"",
+                  svg_colour(rim_of(t.colour)).c_str(), kHaloAlpha, kHalo);
+    element += text;
+  }
+  if (t.turned_deg != 0.0) {
+    std::snprintf(text, sizeof text, " transform=\"rotate(%g %.2f %.2f)\"", t.turned_deg, t.x, t.y);
+    element += text;
+  }
+  return element + ">" + xml_text(t.text) + "</text>\n";
+}
+
+cairo_status_t append(void* to, const unsigned char* data, unsigned int count) {
+  static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), count);
+  return CAIRO_STATUS_SUCCESS;
 }
 
 std::string tick_text(double value) {
@@ -76,32 +160,37 @@ void Chart::circle(double x, double y, double radius, Rgb colour, double width, 
 
 void Chart::text(double x, double y, const std::string& text, double size, int align, Rgb colour, bool bold,
                  bool halo) {
-  cairo_select_font_face(cairo_, kFont, CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cairo_, size);
-  cairo_text_extents_t box;
-  cairo_text_extents(cairo_, text.c_str(), &box);
-  const double left = x - box.x_bearing - (align < 0 ? 0.0 : align == 0 ? 0.5 * box.width : box.width);
-  const double base = y + 0.36 * size;
-  if (halo) {
-    cairo_move_to(cairo_, left, base);
-    cairo_text_path(cairo_, text.c_str());
-    const bool light = colour.r + colour.g + colour.b > 1.5;
-    set_colour(cairo_, light ? kBlack : kWhite, 0.75);
-    cairo_set_line_width(cairo_, 2.5);
-    cairo_stroke(cairo_);
-  }
-  cairo_move_to(cairo_, left, base);
-  set_colour(cairo_, colour);
-  cairo_show_text(cairo_, text.c_str());
+  texts_.push_back({x, y, size, align, colour, bold, halo, 0.0, printable(text)});
 }
 
-void Chart::vertical_text(double x, double y, const std::string& what, double size, Rgb colour) {
-  cairo_save(cairo_);
-  cairo_translate(cairo_, x, y);
-  cairo_rotate(cairo_, -0.5 * M_PI);
-  text(0.0, 0.0, what, size, 0, colour);
-  cairo_restore(cairo_);
+void Chart::vertical_text(double x, double y, const std::string& text, double size, Rgb colour) {
+  texts_.push_back({x, y, size, 0, colour, false, false, -90.0, printable(text)});
+}
+
+void Chart::keep_free(double left, double top, double width, double height) {
+  taken_.push_back({left, top, left + width, top + height});
+}
+
+bool Chart::label(const std::vector<LabelPlace>& places, const std::string& what, double size, Rgb colour, bool bold,
+                  bool halo) {
+  select_font(cairo_, size, bold);
+  cairo_text_extents_t extents;
+  cairo_text_extents(cairo_, printable(what).c_str(), &extents);
+  for (const LabelPlace& place : places) {
+    const double left = place.x - (place.align < 0 ? 0.0 : place.align == 0 ? 0.5 : 1.0) * extents.width;
+    const Box box{left - 1.0, place.y - 0.5 * size, left + extents.width + 1.0, place.y + 0.5 * size};
+    if (clip_ && (box.left < clip_->left || box.right > clip_->left + clip_->width || box.top < clip_->top ||
+                  box.bottom > clip_->top + clip_->height))
+      continue;
+    const bool free = std::none_of(taken_.begin(), taken_.end(), [&](const Box& other) {
+      return box.left < other.right && other.left < box.right && box.top < other.bottom && other.top < box.bottom;
+    });
+    if (!free) continue;
+    taken_.push_back(box);
+    text(place.x, place.y, what, size, place.align, colour, bold, halo);
+    return true;
+  }
+  return false;
 }
 
 void Chart::picture(const Axes& axes, std::size_t columns, std::size_t rows,
@@ -155,12 +244,14 @@ void Chart::axes(const Axes& a, double x_step, double y_step, const std::string&
 }
 
 void Chart::begin_clip(const Axes& a) {
+  clip_ = a;
   cairo_save(cairo_);
   cairo_rectangle(cairo_, a.left, a.top, a.width, a.height);
   cairo_clip(cairo_);
 }
 
 void Chart::end_clip() {
+  clip_.reset();
   cairo_restore(cairo_);
 }
 
@@ -222,9 +313,10 @@ std::vector<Contour> contours(const std::vector<double>& values, const std::vect
 }
 
 void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& lines, Rgb colour, double width,
-                   const std::string& label, bool halo, double label_at_01) {
+                   const std::string& label, std::vector<PendingLabel>& labels) {
+  constexpr double kWorthAName = 45.0;
   double longest = 0.0;
-  std::array<double, 2> at{};
+  std::vector<LabelPlace> places;
   for (const Contour& contour : lines) {
     std::vector<std::array<double, 2>> points;
     double length = 0.0;
@@ -234,42 +326,92 @@ void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& l
       if (n > 1) length += std::hypot(points[n - 1][0] - points[n - 2][0], points[n - 1][1] - points[n - 2][1]);
     }
     chart.line(points, colour, width);
-    if (length > longest) {
-      longest = length;
-      at = points[std::min(points.size() - 1,
-                           static_cast<std::size_t>(label_at_01 * static_cast<double>(points.size())))];
+    if (length <= std::max(longest, kWorthAName)) continue;
+    longest = length;
+    places.clear();
+    for (const double at : {0.33, 0.2, 0.45, 0.1, 0.6, 0.7, 0.8, 0.27, 0.52, 0.15, 0.9}) {
+      const auto& p = points[std::min(points.size() - 1, static_cast<std::size_t>(at * static_cast<double>(points.size())))];
+      places.push_back({p[0], p[1], 0});
     }
   }
-  if (longest > 45.0 && !label.empty()) chart.text(at[0], at[1], label, 8, 0, colour, true, halo);
+  if (!places.empty() && !label.empty()) labels.push_back({label, colour, std::move(places)});
+}
+
+void draw_labels(Chart& chart, const std::vector<PendingLabel>& labels) {
+  for (const PendingLabel& label : labels) chart.label(label.places, label.text, 8, label.colour);
+}
+
+std::string printable(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const unsigned char lead = static_cast<unsigned char>(text[i]);
+    const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3
+                               : lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
+    bool whole = length > 0 && i + length <= text.size();
+    for (std::size_t k = 1; whole && k < length; ++k) whole = (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80;
+    if (whole && length >= 3) {  // neither longer than need be, nor a surrogate, nor beyond the last character
+      const unsigned char second = static_cast<unsigned char>(text[i + 1]);
+      whole = !(lead == 0xE0 && second < 0xA0) && !(lead == 0xED && second >= 0xA0) && !(lead == 0xF0 && second < 0x90) &&
+              !(lead == 0xF4 && second >= 0x90);
+    }
+    if (whole) {
+      result += text.substr(i, length);
+      i += length;
+    } else {
+      result += '?';
+      ++i;
+    }
+  }
+  return result;
 }
 
 Status write_chart(const std::string& stem, double width, double height, const std::function<void(Chart&)>& draw) {
-  const auto paint = [&](cairo_surface_t* surface, double scale) {
-    cairo_t* cairo = cairo_create(surface);
+  // Drawn once, played into both files.
+  const cairo_rectangle_t page{0.0, 0.0, width, height};
+  cairo_surface_t* const recorded = cairo_recording_surface_create(CAIRO_CONTENT_COLOR, &page);
+  cairo_t* const recorder = cairo_create(recorded);
+  Chart chart(recorder);
+  chart.rectangle(0, 0, width, height, kWhite);
+  draw(chart);
+  cairo_status_t status = cairo_status(recorder);
+  cairo_destroy(recorder);
+  const auto play = [&](cairo_surface_t* surface, double scale, bool with_texts) {
+    cairo_t* const cairo = cairo_create(surface);
     cairo_scale(cairo, scale, scale);
-    Chart chart(cairo);
-    chart.rectangle(0, 0, width, height, kWhite);
-    draw(chart);
-    const cairo_status_t status = cairo_status(cairo);
+    cairo_set_source_surface(cairo, recorded, 0.0, 0.0);
+    cairo_paint(cairo);
+    if (with_texts) {
+      for (const ChartText& text : chart.texts()) draw_text(cairo, text);
+    }
+    const cairo_status_t played = cairo_status(cairo);
     cairo_destroy(cairo);
-    return status;
+    return played;
   };
-  constexpr double kPixelsPerPoint = 2.0;
-  cairo_surface_t* svg = cairo_svg_surface_create((stem + ".svg").c_str(), width, height);
-  cairo_status_t status = paint(svg, 1.0);
+  const auto failed = [](const std::string& file, cairo_status_t cause) {
+    return Error{file, std::string("cannot be drawn: ") + cairo_status_to_string(cause)};
+  };
+
+  std::string svg_bytes, png_bytes;
+  cairo_surface_t* const svg = cairo_svg_surface_create_for_stream(append, &svg_bytes, width, height);
+  if (status == CAIRO_STATUS_SUCCESS) status = play(svg, 1.0, false);
   cairo_surface_finish(svg);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(svg);
   cairo_surface_destroy(svg);
-  if (status != CAIRO_STATUS_SUCCESS)
-    return Error{stem + ".svg", std::string("cannot be written: ") + cairo_status_to_string(status)};
-  cairo_surface_t* png = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerPoint),
-                                                    static_cast<int>(height * kPixelsPerPoint));
-  status = paint(png, kPixelsPerPoint);
-  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png(png, (stem + ".png").c_str());
+
+  constexpr double kPixelsPerPoint = 2.0;
+  cairo_surface_t* const png = cairo_image_surface_create(
+      CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerPoint), static_cast<int>(height * kPixelsPerPoint));
+  if (status == CAIRO_STATUS_SUCCESS) status = play(png, kPixelsPerPoint, true);
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(png, append, &png_bytes);
   cairo_surface_destroy(png);
-  if (status != CAIRO_STATUS_SUCCESS)
-    return Error{stem + ".png", std::string("cannot be written: ") + cairo_status_to_string(status)};
-  return Done{};
+  cairo_surface_destroy(recorded);
+  if (status != CAIRO_STATUS_SUCCESS) return failed(stem, status);
+
+  std::string texts = std::string("<g font-family=\"") + kFont + ", Verdana, sans-serif\">\n";
+  for (const ChartText& text : chart.texts()) texts += svg_text(text);
+  svg_bytes.insert(std::min(svg_bytes.rfind("</svg>"), svg_bytes.size()), texts + "</g>\n");
+  if (const Status written = write_whole_file(stem + ".svg", svg_bytes); !written) return written.error();
+  return write_whole_file(stem + ".png", png_bytes);
 }
 
 }  // namespace phare

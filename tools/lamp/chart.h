@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,22 @@ struct Axes {
   double y(double value) const { return top + (y_max - value) / (y_max - y_min) * height; }
 };
 
+/// Where a label may stand: left (-1), middle (0) or right (1) of the point, at its height.
+struct LabelPlace {
+  double x = 0, y = 0;
+  int align = 0;
+};
+
+/// A text of a chart. Kept apart from the drawing: SVG has it as text, and it stands above everything.
+struct ChartText {
+  double x = 0, y = 0, size = 10;
+  int align = -1;
+  Rgb colour;
+  bool bold = false, halo = false;
+  double turned_deg = 0.0;
+  std::string text;
+};
+
 class Chart {
  public:
   explicit Chart(cairo_t* cairo) : cairo_(cairo) {}
@@ -41,6 +58,11 @@ class Chart {
   /// align: -1 left, 0 middle, 1 right of the point, at its height. `halo`: a rim that stands out from pictures.
   void text(double x, double y, const std::string& text, double size, int align, Rgb colour, bool bold = false,
             bool halo = false);
+  /// A text at the first of the places where it is inside the clip and on no other label. False: nowhere.
+  bool label(const std::vector<LabelPlace>& places, const std::string& text, double size, Rgb colour, bool bold = true,
+             bool halo = true);
+  /// Labels keep off this box.
+  void keep_free(double left, double top, double width, double height);
   void vertical_text(double x, double y, const std::string& text, double size, Rgb colour);
   /// A picture of columns × rows pixels over the axes' rectangle, first row at the top.
   void picture(const Axes& axes, std::size_t columns, std::size_t rows,
@@ -51,9 +73,16 @@ class Chart {
   /// Everything until `end_clip` stays inside the axes.
   void begin_clip(const Axes& axes);
   void end_clip();
+  const std::vector<ChartText>& texts() const { return texts_; }
 
  private:
+  struct Box {
+    double left, top, right, bottom;
+  };
   cairo_t* cairo_;
+  std::vector<ChartText> texts_;
+  std::optional<Axes> clip_;
+  std::vector<Box> taken_;
 };
 
 /// Lines of equal value on a grid of columns × rows in axis coordinates, joined to long lines.
@@ -63,9 +92,20 @@ struct Contour {
 std::vector<Contour> contours(const std::vector<double>& values, const std::vector<double>& x,
                               const std::vector<double>& y, double level);
 
-/// Draws contours with their label on the longest.
+/// A label that waits until everything it could hide is drawn.
+struct PendingLabel {
+  std::string text;
+  Rgb colour;
+  std::vector<LabelPlace> places;
+};
+
+/// Draws contours; `labels` gets the name for the longest of them, unless that is too short to be named.
 void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& lines, Rgb colour, double width,
-                   const std::string& label, bool halo, double label_at_01 = 0.33);
+                   const std::string& label, std::vector<PendingLabel>& labels);
+void draw_labels(Chart& chart, const std::vector<PendingLabel>& labels);
+
+/// UTF-8 as it is; a byte that is none (file names may hold any) becomes '?'.
+std::string printable(const std::string& text);
 
 /// Writes `stem`.svg and `stem`.png (twice the size in pixels).
 Status write_chart(const std::string& stem, double width, double height, const std::function<void(Chart&)>& draw);

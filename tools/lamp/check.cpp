@@ -6,6 +6,7 @@
 #include "config/toml_table.h"
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/print_json.h"
 
 namespace phare {
 namespace {
@@ -126,9 +127,25 @@ void print(const CheckResult& result, const std::string& file) {
   std::printf("\n");
 }
 
-int list_rules() {
+int list_rules(bool as_json) {
   const auto rules = read_rulebooks(rules_folder());
   if (!rules) return bad_input(rules.error());
+  if (as_json) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const Rulebook& rule : *rules) {
+      all.push_back({{"id", rule.id},
+                     {"name", rule.name},
+                     {"aliases", rule.aliases},
+                     {"document", rule.document},
+                     {"clause", rule.clause},
+                     {"function", rule.function},
+                     {"half_sum", rule.half_sum},
+                     {"sources", rule.sources},
+                     {"rows", rule.rows.size()}});
+    }
+    print_json(all);
+    return kExitDone;
+  }
   for (const Rulebook& rule : *rules)
     std::printf("%-18s %s, %zu rows\n", rule.id.c_str(), rule.name.c_str(), rule.rows.size());
   return kExitDone;
@@ -137,7 +154,7 @@ int list_rules() {
 }  // namespace
 
 int lamp_check(const LampCheckOptions& options) {
-  if (options.list) return list_rules();
+  if (options.list) return list_rules(options.json);
   if (options.files.empty()) return bad_input({"", "give a photometry file, or --list"});
   if (options.rules.empty()) return bad_input({"--rule", "name a rulebook; --list shows them"});
   if (options.files.size() > 2) return bad_input({"", "one file, or the left and the right lamp's"});
@@ -186,7 +203,7 @@ int lamp_check(const LampCheckOptions& options) {
       print(result, names);
     }
   }
-  if (options.json) std::printf("%s\n", (all.size() == 1 ? all.front() : all).dump(2).c_str());
+  if (options.json) print_json(all.size() == 1 ? all.front() : all);
   return failed ? kExitCheckFailed : kExitDone;
 }
 

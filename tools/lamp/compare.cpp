@@ -9,8 +9,10 @@
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/print_json.h"
 #include "tools/lamp/views.h"
 #include "visual/photometry/beam_image.h"
+#include "visual/photometry/cutoff_line.h"
 
 namespace phare {
 namespace {
@@ -18,7 +20,6 @@ namespace {
 struct Difference {
   double worst_cd = 0.0, worst_h_deg = 0.0, worst_v_deg = 0.0;
   double mean_abs_cd = 0.0, correlation = 0.0;
-  double flux_a_lm = 0.0, flux_b_lm = 0.0;
 };
 
 /// Over H ±20°, V -10 to +5° in 0.1°.
@@ -55,52 +56,142 @@ constexpr RoadPlace kRoad[] = {{"own lane, 25 m", 25, 0},      {"own lane, 50 m"
                                {"right edge, 50 m", 50, -2.5}, {"left lane, 50 m", 50, 3.5},
                                {"left edge, 25 m", 25, 5.5}};
 
+/// A lamp with what its cut-off looks like.
+struct Lamp {
+  IntensityTable table;
+  CutoffShape shape;
+  explicit Lamp(IntensityTable t)
+      : table(std::move(t)), shape(cutoff_shape(mounted_intensity(table, glm::dmat3{1.0}))) {}
+};
+
+/// B beside A, turned as asked, over the wall.
+struct Laid {
+  CutoffAlignment turn;
+  double pitch_a_deg = 0.0, pitch_b_deg = 0.0, yaw_b_deg = 0.0;
+  IntensityHv in_a, in_b;
+  Difference difference;
+};
+
+/// B is turned onto A; A itself is put on 0.57° down where it has a cut-off, so that places mean what they say.
+Laid lay(const Lamp& a, const Lamp& b, bool align) {
+  Laid laid;
+  if (align) laid.turn = align_cutoffs(a.table, b.table, a.shape, b.shape);
+  laid.pitch_a_deg = a.shape.side != CutoffSide::kNone ? -0.57 - a.shape.flat_v_deg : 0.0;
+  laid.pitch_b_deg = laid.pitch_a_deg + laid.turn.up_deg;
+  laid.yaw_b_deg = -laid.turn.right_deg;
+  laid.in_a = mounted_intensity(a.table, aim_rotation(0.0, glm::radians(laid.pitch_a_deg), 0.0));
+  laid.in_b =
+      mounted_intensity(b.table, aim_rotation(glm::radians(laid.yaw_b_deg), glm::radians(laid.pitch_b_deg), 0.0));
+  laid.difference = differ(laid.in_a, laid.in_b);
+  return laid;
+}
+
+std::string alignment_text(const Lamp& a, const Lamp& b, const Laid& laid, bool asked) {
+  if (!asked) return "not aligned, as asked";
+  if (!laid.turn.aligned) {
+    const bool no_a = a.shape.side == CutoffSide::kNone, no_b = b.shape.side == CutoffSide::kNone;
+    return std::string("not aligned, compared as filed: ") +
+           (no_a && no_b ? "neither beam has a cut-off" : no_a ? "A has no cut-off" : "B has no cut-off");
+  }
+  char text[200];
+  std::snprintf(text, sizeof text, "aligned by cut-off: B turned %+.3f deg up, %+.3f deg right", laid.turn.up_deg,
+                laid.turn.right_deg);
+  std::string why;
+  if (laid.turn.up_open_deg > 0.06) {  // rows wider than the rules scan in
+    char rows[80];
+    std::snprintf(rows, sizeof rows, " (rows %.2g deg apart)", laid.turn.up_open_deg);
+    why = rows;
+  }
+  if (laid.turn.other_side) {
+    why += "; kinks laid together, but the cut-offs rise on opposite sides";
+  } else if (!laid.turn.right_known) {
+    why += "; not to the side, because a cut-off without a kink does not say where";
+  }
+  return text + why;
+}
+
+/// Turned round B fits A far better: a lamp for the other side of the road, or one file is mirrored.
+bool looks_mirrored(const Difference& as_is, const Difference& turned) {
+  return turned.correlation > 0.95 && turned.mean_abs_cd < 0.5 * as_is.mean_abs_cd;
+}
+
+nlohmann::json ratio_of(double a, double b) {
+  return a > 0.0 ? nlohmann::json(b / a) : nlohmann::json(nullptr);
+}
+
+std::string ratio_text(double a, double b) {
+  char text[32] = "-";
+  if (a > 0.0) std::snprintf(text, sizeof text, "%.3f", b / a);
+  return text;
+}
+
 }  // namespace
 
 int lamp_compare(const LampCompareOptions& options) {
-  const auto a = read_lamp(options.a, options.settings);
-  if (!a) return bad_input(a.error());
-  const auto b = read_lamp(options.b, options.settings);
-  if (!b) return bad_input(b.error());
-  const CutoffShape shape_a = cutoff_shape(mounted_intensity(*a, glm::dmat3{1.0}));
-  const CutoffShape shape_b = cutoff_shape(mounted_intensity(*b, glm::dmat3{1.0}));
-  const auto kinked = [](const CutoffShape& s) {
-    return s.side == CutoffSide::kRisesRight || s.side == CutoffSide::kRisesLeft;
+  auto table_a = read_lamp(options.a, options.settings);
+  if (!table_a) return bad_input(table_a.error());
+  auto table_b = read_lamp(options.b, options.settings);
+  if (!table_b) return bad_input(table_b.error());
+  if (options.mirror_b) mirror_left_right(*table_b);
+  const Lamp a(std::move(*table_a)), b(std::move(*table_b));
+  const Laid laid = lay(a, b, options.align);
+  const Difference& d = laid.difference;
+  const IntensityHv &in_a = laid.in_a, &in_b = laid.in_b;
+  const double flux_a_lm = a.table.flux_lm(), flux_b_lm = b.table.flux_lm();
+  const auto pair = [&](const Lamp& lamp, double pitch_deg, double yaw_deg) {
+    return std::vector<RoadLamp>{{&lamp.table, 0.6, options.height_m, pitch_deg, yaw_deg},
+                                 {&lamp.table, -0.6, options.height_m, pitch_deg, yaw_deg}};
   };
-  const bool both = shape_a.side != CutoffSide::kNone && shape_b.side != CutoffSide::kNone && options.align;
-  // B is turned onto A; A itself is put on 0.57° down where it has a cut-off, so that places mean what they say.
-  const double pitch_a = shape_a.side != CutoffSide::kNone ? -0.57 - shape_a.flat_v_deg : 0.0;
-  const double up = both ? shape_a.flat_v_deg - shape_b.flat_v_deg : 0.0;
-  const double right = both && kinked(shape_a) && kinked(shape_b) ? shape_a.kink_h_deg - shape_b.kink_h_deg : 0.0;
-  const double pitch_b = pitch_a + up;
-  const IntensityHv in_a = mounted_intensity(*a, aim_rotation(0.0, glm::radians(pitch_a), 0.0));
-  const IntensityHv in_b = mounted_intensity(*b, aim_rotation(-glm::radians(right), glm::radians(pitch_b), 0.0));
-  Difference d = differ(in_a, in_b);
-  d.flux_a_lm = a->flux_lm();
-  d.flux_b_lm = b->flux_lm();
-  const std::vector<RoadLamp> road_a{{&*a, 0.6, options.height_m, pitch_a}, {&*a, -0.6, options.height_m, pitch_a}};
-  const std::vector<RoadLamp> road_b{{&*b, 0.6, options.height_m, pitch_b}, {&*b, -0.6, options.height_m, pitch_b}};
+  const std::vector<RoadLamp> road_a = pair(a, laid.pitch_a_deg, 0.0);
+  const std::vector<RoadLamp> road_b = pair(b, laid.pitch_b_deg, laid.yaw_b_deg);
 
-  std::string alignment = "not aligned: a beam has no cut-off, or --no-align";
-  if (both) {
-    char text[120];
-    std::snprintf(text, sizeof text, "aligned by cut-off: B turned %+.3f deg up, %+.3f deg right", up, right);
-    alignment = text;
+  const std::string alignment = alignment_text(a, b, laid, options.align);
+  IntensityTable turned_b = b.table;
+  mirror_left_right(turned_b);
+  const Lamp mirrored_b(std::move(turned_b));
+  const Difference mirrored = lay(a, mirrored_b, options.align).difference;
+  const bool mirror = looks_mirrored(d, mirrored);
+
+  std::vector<std::string> written;
+  if (!options.out.empty()) {
+    std::error_code code;
+    std::filesystem::create_directories(options.out, code);
+    const std::string names = a.table.name + " (A), " + b.table.name + " (B)";
+    const auto draw = [&](Chart& c) { draw_ratio(c, in_a, in_b, names, alignment); };
+    const auto draw_both = [&](Chart& c) {
+      draw_difference(c, in_a, in_b, road_a, road_b, names + ": difference", alignment);
+    };
+    for (const auto& [stem, view] : {std::pair<const char*, std::function<void(Chart&)>>{"/ratio", draw},
+                                     {"/difference", draw_both}}) {
+      if (const Status status = write_chart(options.out + stem, kPageWidth, kPageHeight, view); !status)
+        return bad_input(status.error());
+      for (const char* ending : {".svg", ".png"}) written.push_back(options.out + stem + ending);
+    }
   }
   if (options.json) {
     nlohmann::json json{{"a", options.a},
                         {"b", options.b},
-                        {"aligned_by_cutoff", both},
-                        {"b_turned_up_deg", up},
-                        {"b_turned_right_deg", right},
+                        {"alignment", alignment},
+                        {"aligned_by_cutoff", laid.turn.aligned},
+                        {"b_turned_up_deg", laid.turn.up_deg},
+                        {"b_turned_right_deg", laid.turn.right_deg},
+                        {"right_known", laid.turn.right_known},
+                        {"cutoffs_apart_deg", laid.turn.apart_deg},
+                        {"left_open_by_rows_deg", {{"up", laid.turn.up_open_deg}, {"right", laid.turn.right_open_deg}}},
                         {"worst_difference_cd", d.worst_cd},
                         {"worst_at_deg", {d.worst_h_deg, d.worst_v_deg}},
                         {"mean_absolute_difference_cd", d.mean_abs_cd},
                         {"correlation", d.correlation},
-                        {"flux_a_lm", d.flux_a_lm},
-                        {"flux_b_lm", d.flux_b_lm},
-                        {"peak_a_cd", a->peak_cd()},
-                        {"peak_b_cd", b->peak_cd()}};
+                        {"mirrored",
+                         {{"likely", mirror},
+                          {"correlation", mirrored.correlation},
+                          {"worst_difference_cd", mirrored.worst_cd},
+                          {"mean_absolute_difference_cd", mirrored.mean_abs_cd}}},
+                        {"flux_a_lm", flux_a_lm},
+                        {"flux_b_lm", flux_b_lm},
+                        {"peak_a_cd", a.table.peak_cd()},
+                        {"peak_b_cd", b.table.peak_cd()},
+                        {"files", written}};
     for (const Place& p : kPlaces) {
       const double x = in_a(p.h_deg, p.v_deg), y = in_b(p.h_deg, p.v_deg);
       json["points"].push_back({{"name", p.name},
@@ -108,42 +199,44 @@ int lamp_compare(const LampCompareOptions& options) {
                                 {"v_deg", p.v_deg},
                                 {"a_cd", x},
                                 {"b_cd", y},
-                                {"difference_cd", y - x}});
+                                {"difference_cd", y - x},
+                                {"ratio", ratio_of(x, y)}});
     }
     for (const RoadPlace& p : kRoad) {
       const double x = road_lux(road_a, p.x_m, p.y_m, 0.25, true), y = road_lux(road_b, p.x_m, p.y_m, 0.25, true);
-      json["road"].push_back({{"name", p.name}, {"a_lx", x}, {"b_lx", y}, {"difference_lx", y - x}});
+      json["road"].push_back({{"name", p.name},
+                              {"x_m", p.x_m},
+                              {"y_m", p.y_m},
+                              {"a_lx", x},
+                              {"b_lx", y},
+                              {"difference_lx", y - x},
+                              {"ratio", ratio_of(x, y)}});
     }
-    std::printf("%s\n", json.dump(2).c_str());
-  } else {
-    std::printf("A  %s: %.0f cd, %.0f lm\nB  %s: %.0f cd, %.0f lm\n", base_name(options.a).c_str(), a->peak_cd(),
-                d.flux_a_lm, base_name(options.b).c_str(), b->peak_cd(), d.flux_b_lm);
-    std::printf("%s\n", alignment.c_str());
-    std::printf("worst difference %.0f cd at H %+.1f, V %+.1f; mean |difference| %.1f cd; correlation %.5f\n",
-                d.worst_cd, d.worst_h_deg, d.worst_v_deg, d.mean_abs_cd, d.correlation);
-    std::printf("  %-18s %10s %10s %10s %8s\n", "cut-off at 0.57 D", "A cd", "B cd", "B - A", "B / A");
-    for (const Place& p : kPlaces) {
-      const double x = in_a(p.h_deg, p.v_deg), y = in_b(p.h_deg, p.v_deg);
-      std::printf("  %-18s %10.0f %10.0f %+10.0f %8.3f\n", p.name, x, y, y - x, x > 0.0 ? y / x : 0.0);
-    }
-    std::printf("  %-18s %10s %10s %10s %8s\n", "pair, 0.25 m high", "A lx", "B lx", "B - A", "B / A");
-    for (const RoadPlace& p : kRoad) {
-      const double x = road_lux(road_a, p.x_m, p.y_m, 0.25, true), y = road_lux(road_b, p.x_m, p.y_m, 0.25, true);
-      std::printf("  %-18s %10.2f %10.2f %+10.2f %8.3f\n", p.name, x, y, y - x, x > 0.0 ? y / x : 0.0);
-    }
+    print_json(json);
+    return kExitDone;
   }
-  if (!options.out.empty()) {
-    std::error_code code;
-    std::filesystem::create_directories(options.out, code);
-    const auto draw = [&](Chart& c) { draw_ratio(c, in_a, in_b, a->name + " (A), " + b->name + " (B)", alignment); };
-    if (const Status written = write_chart(options.out + "/ratio", kPageWidth, kPageHeight, draw); !written)
-      return bad_input(written.error());
-    const auto draw_both = [&](Chart& c) {
-      draw_difference(c, in_a, in_b, road_a, road_b, a->name + " (A), " + b->name + " (B): difference", alignment);
-    };
-    if (const Status written = write_chart(options.out + "/difference", kPageWidth, kPageHeight, draw_both); !written)
-      return bad_input(written.error());
+  std::printf("A  %s: %.0f cd, %.0f lm\nB  %s: %.0f cd, %.0f lm\n", base_name(options.a).c_str(), a.table.peak_cd(),
+              flux_a_lm, base_name(options.b).c_str(), b.table.peak_cd(), flux_b_lm);
+  std::printf("%s\n", alignment.c_str());
+  if (laid.turn.aligned && !laid.turn.other_side)
+    std::printf("the two cut-offs are then %.3f deg apart on average\n", laid.turn.apart_deg);
+  std::printf("worst difference %.0f cd at H %+.1f, V %+.1f; mean |difference| %.1f cd; correlation %.5f\n", d.worst_cd,
+              d.worst_h_deg, d.worst_v_deg, d.mean_abs_cd, d.correlation);
+  if (mirror) {
+    std::printf("B turned left to right fits A better: worst %.0f cd, correlation %.5f (--mirror-b compares so)\n",
+                mirrored.worst_cd, mirrored.correlation);
   }
+  std::printf("  %-18s %10s %10s %10s %8s\n", "cut-off at 0.57 D", "A cd", "B cd", "B - A", "B / A");
+  for (const Place& p : kPlaces) {
+    const double x = in_a(p.h_deg, p.v_deg), y = in_b(p.h_deg, p.v_deg);
+    std::printf("  %-18s %10.0f %10.0f %+10.0f %8s\n", p.name, x, y, y - x, ratio_text(x, y).c_str());
+  }
+  std::printf("  %-18s %10s %10s %10s %8s\n", "pair, 0.25 m high", "A lx", "B lx", "B - A", "B / A");
+  for (const RoadPlace& p : kRoad) {
+    const double x = road_lux(road_a, p.x_m, p.y_m, 0.25, true), y = road_lux(road_b, p.x_m, p.y_m, 0.25, true);
+    std::printf("  %-18s %10.2f %10.2f %+10.2f %8s\n", p.name, x, y, y - x, ratio_text(x, y).c_str());
+  }
+  for (const std::string& file : written) std::printf("%s\n", file.c_str());
   return kExitDone;
 }
 

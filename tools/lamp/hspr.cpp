@@ -7,6 +7,7 @@
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/print_json.h"
 #include "visual/photometry/cutoff.h"
 
 namespace phare {
@@ -49,7 +50,7 @@ int lamp_hspr(const LampHsprOptions& options) {
     if (result.complete) json["on_scale_01"] = result.on_scale_01;
     if (!result.complete) json["no_points"] = "the one- and two-point values of this beam were not at hand";
     if (result.complete) json["weighted_points"] = result.weighted;
-    std::printf("%s\n", json.dump(2).c_str());
+    print_json(json);
     return kExitDone;
   }
   std::printf(

@@ -5,6 +5,7 @@
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/print_json.h"
 #include "visual/photometry/lint.h"
 #include "visual/photometry/points_file.h"
 
@@ -103,12 +104,15 @@ std::string base_name(const std::string& file) {
 
 int lamp_info(const LampInfoOptions& options) {
   nlohmann::json all = nlohmann::json::array();
-  int exit = kExitDone;  // a file that cannot be read does not keep the others from being told
+  bool bad = false;
   for (const std::string& file : options.files) {
     const auto table = read_lamp(file, options.settings);
-    if (!table) {
-      exit = bad_input(table.error());
-      if (options.json) all.push_back({{"file", file}, {"error", table.error().text()}});
+    if (!table) {  // the others are still worth knowing
+      bad_input(table.error());
+      bad = true;
+      if (options.json)
+        all.push_back(
+            {{"file", file}, {"error", {{"place", table.error().place}, {"reason", table.error().reason}}}});
       continue;
     }
     const LampReport report = lint_lamp(*table);
@@ -118,11 +122,8 @@ int lamp_info(const LampInfoOptions& options) {
       print(file, *table, report);
     }
   }
-  if (options.json && !(exit != kExitDone && all.size() == 1)) {
-    const nlohmann::json& shown = all.size() == 1 ? all.front() : all;
-    std::printf("%s\n", shown.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  }
-  return exit;
+  if (options.json) print_json(all.size() == 1 ? all.front() : all);
+  return bad ? kExitBadInput : kExitDone;
 }
 
 int lamp_table(const LampTableOptions& options) {
@@ -130,7 +131,20 @@ int lamp_table(const LampTableOptions& options) {
   if (!table) return bad_input(table.error());
   const auto angles = read_angles(options.at);
   if (!angles) return bad_input(angles.error());
-  if (const Status written = write_intensity(options.out, *angles, *table); !written) return bad_input(written.error());
+  if (!options.out.empty() || !options.json) {
+    const Status written = write_intensity(options.out.empty() ? "-" : options.out, *angles, *table);
+    if (!written) return bad_input(written.error());
+  }
+  if (options.json) {
+    nlohmann::json json{{"file", options.file}, {"photometric_type", type_name(*table)}, {"rows", nlohmann::json::array()}};
+    if (!options.out.empty()) json["out"] = options.out;
+    for (const AngleRow& row : angles->rows) {
+      json["rows"].push_back({{"h_deg", row.angles.first_deg},
+                              {"v_deg", row.angles.second_deg},
+                              {"intensity_cd", intensity_of_row_cd(*table, row.angles)}});
+    }
+    print_json(json);
+  }
   return kExitDone;
 }
 

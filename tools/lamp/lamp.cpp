@@ -1,9 +1,19 @@
 // phare lamp: the photometry bench on the command line.
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "visual/photometry/file_text.h"
 
 namespace phare {
 namespace {
+
+/// A number that is one: "nan" passes every comparison of a range.
+CLI::Validator finite() {
+  return CLI::Validator(
+      [](std::string& text) {
+        return parse_number(text) ? std::string{} : text + " is not a finite number";
+      },
+      "", "finite");
+}
 
 /// What every command that reads a lamp file takes.
 void add_reading(CLI::App* command, LampReadSettings& settings) {
@@ -18,11 +28,13 @@ void add_reading(CLI::App* command, LampReadSettings& settings) {
       ->default_str("gamma0");
   command
       ->add_option("--c0", settings.c0_turn_deg, "Type C and EULUMDAT: plane C 0 lies at this angle (0 right, 90 up)")
+      ->check(finite())
       ->check(CLI::Range(-360.0, 360.0))
       ->capture_default_str();
   command->add_option("--lamp-set", settings.lamp_set, "EULUMDAT: lamp set to use, from 1")->capture_default_str();
   command->add_option("--emitter", settings.emitter, "TM-33: emitter to use, from 1")->capture_default_str();
-  command->add_option("--distance", settings.distance_m, "CSV in lx without a distance_m: metres");
+  command->add_option("--distance", settings.distance_m, "CSV in lx without a distance_m: metres")
+      ->check(finite());
   command->add_flag("--mirror", settings.mirror_h, "Turn left and right round while reading (clockwise type B)");
   command
       ->add_option_function<std::string>(
@@ -58,7 +70,8 @@ void add_table(CLI::App* lamp, Command& chosen) {
   command->footer("Example:\n  phare lamp table low_beam.ies --at angles.csv --out intensity.csv");
   command->add_option("file", options->file, "Photometry file")->required();
   command->add_option("--at", options->at, "CSV with h_deg,v_deg")->required();
-  command->add_option("--out", options->out, "CSV to write; adds intensity_cd")->default_val("/dev/stdout");
+  command->add_option("--out", options->out, "CSV to write; adds intensity_cd [standard output]");
+  command->add_flag("--json", options->json, "For machines; --out names the CSV to write as well");
   add_reading(command, options->settings);
   run_with(command, options, chosen, lamp_table);
 }
@@ -73,9 +86,11 @@ void add_check(CLI::App* lamp, Command& chosen) {
   command->add_option("--traffic", options->traffic, "Side of the road [by the cut-off]")
       ->check(CLI::IsMember({"find", "right", "left"}))
       ->capture_default_str();
-  command->add_option("--aim-up", options->aim_up_deg, "Turn the lamp up by this, deg, instead of the rule's aim");
+  command->add_option("--aim-up", options->aim_up_deg, "Turn the lamp up by this, deg, instead of the rule's aim")
+      ->check(finite());
   command->add_option("--aim-right", options->aim_right_deg,
-                      "Turn the lamp right by this, deg, instead of the rule's aim");
+                      "Turn the lamp right by this, deg, instead of the rule's aim")
+      ->check(finite());
   command->add_flag("!--no-reaim", options->reaim, "Do not use the rule's re-aim allowance");
   command->add_option("--aim", options->aim, "Which of the rule's aims, as marked on the lens: VOL or VOR [by the beam]");
   command->add_flag("--led-module", options->led_module, "The light source is an LED module with control gear");
@@ -96,24 +111,39 @@ void add_convert(CLI::App* lamp, Command& chosen) {
   command->add_option("--out", options->out, "File to write: .ies, .ldt or .csv")->required();
   command->add_option("--to", options->format, "Format to write [by the ending]")
       ->check(CLI::IsMember({"lm63", "eulumdat", "csv"}));
+  command
+      ->add_option_function<std::string>(
+          "--out-axis",
+          [options](const std::string& v) {
+            options->out_axis = v == "gamma90" ? GammaAxis::kGamma90 : GammaAxis::kGamma0;
+            options->out_axis_given = true;
+          },
+          "EULUMDAT: where the optical axis is put; gamma90 keeps the nodes of type A")
+      ->check(CLI::IsMember({"gamma0", "gamma90"}))
+      ->default_str("gamma0");
+  command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
   run_with(command, options, chosen, lamp_convert);
 }
 
 void add_mounting(CLI::App* command, double& height_m, double& spacing_m, double& pitch_deg, bool& given) {
   command->add_option("--height", height_m, "Height of the lamps above the road, m")
+      ->check(finite())
       ->check(CLI::Range(0.1, 5.0))
       ->capture_default_str();
   command->add_option("--spacing", spacing_m, "Distance between the lamps, m")
+      ->check(finite())
       ->check(CLI::Range(0.0, 5.0))
       ->capture_default_str();
-  command->add_option_function<double>(
+  command
+      ->add_option_function<double>(
       "--pitch-deg",
       [&pitch_deg, &given](double value) {
         pitch_deg = value;
         given = true;
       },
-      "Aim, deg, up positive [a passing beam: cut-off on 0.57 deg down; others as filed]");
+      "Aim, deg, up positive [a passing beam: cut-off on 0.57 deg down; others as filed]")
+      ->check(finite());
 }
 
 void add_compare(CLI::App* lamp, Command& chosen) {
@@ -125,7 +155,11 @@ void add_compare(CLI::App* lamp, Command& chosen) {
   command->add_option("b", options->b, "Photometry file B")->required();
   command->add_option("--out", options->out, "Folder for ratio and difference as .svg and .png");
   command->add_flag("!--no-align", options->align, "Compare as filed");
-  command->add_option("--height", options->height_m, "Height of the lamps above the road, m")->capture_default_str();
+  command->add_flag("--mirror-b", options->mirror_b, "Turn B left to right first");
+  command->add_option("--height", options->height_m, "Height of the lamps above the road, m")
+      ->check(finite())
+      ->check(CLI::Range(0.1, 5.0))
+      ->capture_default_str();
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
   run_with(command, options, chosen, lamp_compare);
@@ -139,7 +173,11 @@ void add_plot(CLI::App* lamp, Command& chosen) {
   command->add_option("files", options->files, "One file, or left and right")->required();
   command->add_option("--out", options->out, "Folder to write into")->required();
   command->add_option("--rule", options->rule, "Rulebook whose rows are drawn with pass and fail");
+  command->add_option("--view", options->views, "Draw this view alone; repeat for more [all]")
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(kPlotViews), std::end(kPlotViews))))
+      ->allow_extra_args(false);
   add_mounting(command, options->height_m, options->spacing_m, options->pitch_deg, options->pitch_given);
+  command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
   run_with(command, options, chosen, lamp_plot);
 }
@@ -164,7 +202,7 @@ void add_levels(CLI::App* lamp, Command& chosen) {
   CLI::App* command =
       lamp->add_subcommand("levels", "Error and bytes of every level of beam image; time of recomposing one");
   command->footer("Example:\n  phare lamp levels low_beam.ies --bench");
-  command->add_option("file", options->file, "Photometry file");
+  command->add_option("file", options->file, "Photometry file; without one --bench alone");
   command->add_flag("--bench", options->bench, "Also time the recomposition of 1801 x 601 texels from 36 sources");
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
@@ -180,6 +218,7 @@ std::string rules_folder() {
 void add_lamp(CLI::App& app, Command& chosen) {
   CLI::App* lamp =
       app.add_subcommand("lamp", "The photometry bench: info, table, check, plot, compare, convert, hspr, levels");
+  lamp->footer("Example:\n  phare lamp info low_beam.ies\n  phare lamp plot low_beam.ies --rule r149-passing-c --out out/plots");
   lamp->require_subcommand(1);
   add_info(lamp, chosen);
   add_table(lamp, chosen);

@@ -21,6 +21,7 @@ int lamp_info(const LampInfoOptions& options);
 struct LampTableOptions {
   std::string file, at, out;
   LampReadSettings settings;
+  bool json = false;
 };
 int lamp_table(const LampTableOptions& options);
 
@@ -39,25 +40,29 @@ struct LampConvertOptions {
   std::vector<std::string> files;  ///< several: their sum
   std::string out, format;
   LampReadSettings settings;
-  bool mirror = false;
+  GammaAxis out_axis = GammaAxis::kGamma0;  ///< of EULUMDAT
+  bool out_axis_given = false, json = false;
 };
 int lamp_convert(const LampConvertOptions& options);
 
 struct LampCompareOptions {
   std::string a, b, out;
   LampReadSettings settings;
-  bool align = true, json = false;
+  bool align = true, mirror_b = false, json = false;
   double height_m = 0.65;
 };
 int lamp_compare(const LampCompareOptions& options);
 
+inline constexpr const char* kPlotViews[] = {"wall_25m", "isocandela", "vertical_cut", "false_colour", "birds_eye"};
+
 struct LampPlotOptions {
   std::vector<std::string> files;  ///< one, or left and right
   std::string out, rule;
+  std::vector<std::string> views;  ///< stems of kPlotViews; empty: all
   LampReadSettings settings;
   double height_m = 0.65, spacing_m = 1.2;
   double pitch_deg = 0.0;
-  bool pitch_given = false;
+  bool pitch_given = false, json = false;
 };
 int lamp_plot(const LampPlotOptions& options);
 

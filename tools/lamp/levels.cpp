@@ -6,6 +6,7 @@
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/print_json.h"
 #include "visual/photometry/beam_composer.h"
 #include "visual/photometry/image_levels.h"
 #include "visual/photometry/sample_lamps.h"
@@ -113,6 +114,7 @@ nlohmann::json bench() {
 }  // namespace
 
 int lamp_levels(const LampLevelsOptions& options) {
+  if (options.file.empty() && !options.bench) return bad_input({"", "give a photometry file, or --bench"});
   nlohmann::json json;
   if (!options.file.empty()) {
     const auto table = read_lamp(options.file, options.settings);
@@ -158,7 +160,7 @@ int lamp_levels(const LampLevelsOptions& options) {
                     b["device_new_image_ms"].get<double>(), b["device_frame_none_changed_ms"].get<double>());
     }
   }
-  if (options.json) std::printf("%s\n", json.dump(2).c_str());
+  if (options.json) print_json(json);
   return kExitDone;
 }
 

@@ -3,85 +3,232 @@
 #include <cstdio>
 #include <filesystem>
 #include <glm/trigonometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/print_json.h"
 #include "tools/lamp/views.h"
 #include "visual/photometry/beam_image.h"
 
 namespace phare {
+namespace {
+
+/// A lamp with its aim. The table stays where it is.
+struct AimedLamp {
+  const IntensityTable* table = nullptr;
+  std::string file;
+  std::string aim = "as filed";  ///< in words
+  double up_deg = 0.0, right_deg = 0.0;
+  CutoffShape shape;                 ///< as filed
+  std::optional<CheckResult> check;  ///< of this lamp alone
+
+  IntensityHv intensity() const {
+    return mounted_intensity(*table, aim_rotation(-glm::radians(right_deg), glm::radians(up_deg), 0.0));
+  }
+};
+
+std::string aim_words(const std::string& method) {
+  if (method == "as filed") return "as filed";
+  return method == "given" ? "aimed as given" : "aimed by " + method;
+}
+
+CheckOptions how_to_check(const LampPlotOptions& options) {
+  CheckOptions how;
+  if (options.pitch_given) how.aim = HV{0.0, options.pitch_deg};
+  return how;
+}
+
+/// As given; else as the rule says; else a passing beam by its cut-off, any other as filed.
+AimedLamp aim_lamp(const std::string& file, const IntensityTable& table, const Rulebook* rule,
+                   const LampPlotOptions& options) {
+  AimedLamp lamp;
+  lamp.table = &table;
+  lamp.file = file;
+  lamp.shape = cutoff_shape(mounted_intensity(table, glm::dmat3{1.0}));
+  if (rule != nullptr) {
+    const IntensityTable* one[] = {&table};
+    lamp.check = check_lamp(one, *rule, how_to_check(options));
+    lamp.up_deg = lamp.check->aim_up_deg;
+    lamp.right_deg = lamp.check->aim_right_deg;
+    lamp.aim = aim_words(lamp.check->aim_method);
+  } else if (options.pitch_given) {
+    lamp.up_deg = options.pitch_deg;
+    lamp.aim = "aimed as given";
+  } else if (lamp.shape.side == CutoffSide::kRisesRight || lamp.shape.side == CutoffSide::kRisesLeft) {
+    lamp.up_deg = -0.57 - lamp.shape.flat_v_deg;
+    lamp.aim = "cut-off put on 0.57 deg down";
+  }
+  return lamp;
+}
+
+std::string aim_text(const AimedLamp& lamp) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%s, turned %+.2f deg up", lamp.aim.c_str(), lamp.up_deg);
+  std::string words = text;
+  if (std::abs(lamp.right_deg) >= 0.005) {
+    std::snprintf(text, sizeof text, ", %+.2f deg right", lamp.right_deg);
+    words += text;
+  }
+  return words;
+}
+
+std::string verdict_text(const CheckResult& check) {
+  std::string text = check.rule_name + (check.left_hand ? ", rows mirrored: " : ": ");
+  if (check.verdict == Verdict::kFail) {
+    text += "FAIL, " + std::to_string(check.failed) + " of " + std::to_string(check.rows.size()) + " rows";
+  } else if (check.verdict == Verdict::kPass) {
+    text += "pass";
+  } else {
+    text += "not decided, " + std::to_string(check.no_data) + " rows without data, " + std::to_string(check.within_resolution) + " within the file's resolution";
+  }
+  return text;
+}
+
+/// What is drawn on the wall: one lamp, or half the sum of two.
+struct WallBeam {
+  std::string suffix;  ///< of the files' names
+  std::string name, subtitle;
+  IntensityHv intensity;
+  const CheckResult* check = nullptr;
+  bool left_hand = false;
+};
+
+WallBeam wall_beam(const AimedLamp& lamp, std::string suffix) {
+  char facts[80];
+  std::snprintf(facts, sizeof facts, "; peak %.0f cd, %.0f lm", lamp.table->peak_cd(), lamp.table->flux_lm());
+  WallBeam beam{std::move(suffix), lamp.table->name, aim_text(lamp) + facts, lamp.intensity(), nullptr,
+                lamp.shape.side == CutoffSide::kRisesLeft};
+  if (lamp.check) {
+    beam.check = &*lamp.check;
+    beam.subtitle += "; " + verdict_text(*lamp.check);
+    beam.left_hand = lamp.check->left_hand;
+  }
+  return beam;
+}
+
+SharpnessLimits sharpness_limits(const Rulebook* rule, const CutoffShape& shape) {
+  if (rule != nullptr) {
+    if (rule->cutoff_aims.empty()) return {};
+    const CutoffAim& aim = rule->cutoff_aims.front();
+    return {aim.sharpness_min, aim.sharpness_max, rule->name};
+  }
+  const bool kinked = shape.side == CutoffSide::kRisesRight || shape.side == CutoffSide::kRisesLeft;
+  return kinked ? SharpnessLimits{0.13, 0.40, "UN R149 passing beams"} : SharpnessLimits{};
+}
+
+}  // namespace
 
 int lamp_plot(const LampPlotOptions& options) {
+  if (options.files.empty() || options.files.size() > 2)
+    return bad_input({"", "one file, or the left and the right lamp's"});
   std::vector<IntensityTable> tables;
   for (const std::string& file : options.files) {
     auto table = read_lamp(file, options.settings);
     if (!table) return bad_input(table.error());
     tables.push_back(std::move(*table));
   }
-  if (tables.empty() || tables.size() > 2) return bad_input({"", "one file, or the left and the right lamp's"});
-  const IntensityTable& left = tables.front();
+  std::optional<Rulebook> rule;
+  if (!options.rule.empty()) {
+    auto found = find_rulebook(rules_folder(), options.rule);
+    if (!found) return bad_input(found.error());
+    rule = std::move(*found);
+  }
+  const Rulebook* const judged_by = rule ? &*rule : nullptr;
   std::error_code code;
   std::filesystem::create_directories(options.out, code);
   if (code) return bad_input({options.out, code.message()});
 
-  // Aim: as given; else as the rule says; else a passing beam by its cut-off, any other as filed.
-  std::optional<CheckResult> check;
-  double pitch_deg = options.pitch_given ? options.pitch_deg : 0.0;
-  std::string aim = options.pitch_given ? "aimed as given" : "as filed";
-  if (!options.rule.empty()) {
-    const auto rule = find_rulebook(rules_folder(), options.rule);
-    if (!rule) return bad_input(rule.error());
-    CheckOptions how;
-    if (options.pitch_given) how.aim = HV{0.0, pitch_deg};
-    const IntensityTable* one[] = {&left};
-    check = check_lamp(one, *rule, how);
-    pitch_deg = check->aim_up_deg;
-    aim = "aimed by " + check->aim_method;
-  } else if (!options.pitch_given) {
-    const CutoffShape shape = cutoff_shape(mounted_intensity(left, glm::dmat3{1.0}));
-    if (shape.side == CutoffSide::kRisesRight || shape.side == CutoffSide::kRisesLeft) {
-      pitch_deg = -0.57 - shape.flat_v_deg;
-      aim = "cut-off put on 0.57 deg down";
-    }
-  }
-  const double yaw_deg = check ? -check->aim_right_deg : 0.0;
-  const IntensityHv intensity =
-      mounted_intensity(left, aim_rotation(glm::radians(yaw_deg), glm::radians(pitch_deg), 0.0));
-  char facts[200];
-  std::snprintf(facts, sizeof facts, "%s, turned %+.2f deg up; peak %.0f cd, %.0f lm", aim.c_str(), pitch_deg,
-                left.peak_cd(), left.flux_lm());
-  std::string subtitle = facts;
-  if (check) {
-    subtitle +=
-        "; " + check->rule_name + ": " +
-        (check->verdict == Verdict::kFail ? "FAIL, " + std::to_string(check->failed) + " rows" : verdict_name(check->verdict));
-  }
-  const std::string name = left.name;
-  std::vector<RoadLamp> pair{{&tables.front(), 0.5 * options.spacing_m, options.height_m, pitch_deg},
-                             {&tables.back(), -0.5 * options.spacing_m, options.height_m, pitch_deg}};
-  std::snprintf(facts, sizeof facts, "pair at %.2f m height, %.2f m apart, %s (%+.2f deg)", options.height_m,
-                options.spacing_m, aim.c_str(), pitch_deg);
-  const std::string mounted = facts;
-  const bool left_hand = check ? check->left_hand : cutoff_shape(intensity).side == CutoffSide::kRisesLeft;
-  const double cut_h = left_hand ? 2.5 : -2.5;
-  const CheckResult* rows = check ? &*check : nullptr;
+  std::vector<AimedLamp> lamps;
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    lamps.push_back(aim_lamp(options.files[i], tables[i], judged_by, options));
+  const AimedLamp &left = lamps.front(), &right = lamps.back();
 
-  const std::string folder = options.out + "/";
-  const std::vector<std::pair<std::string, std::function<void(Chart&)>>> views{
-      {"wall_25m", [&](Chart& c) { draw_wall(c, intensity, name + ": 25 m wall, log candela", subtitle, rows, true); }},
-      {"isocandela", [&](Chart& c) { draw_wall(c, intensity, name + ": isocandela", subtitle, rows, false); }},
-      {"birds_eye", [&](Chart& c) { draw_road(c, pair, name + ": isolux of the road", mounted); }},
-      {"vertical_cut",
-       [&](Chart& c) {
-         draw_cut(c, intensity, cut_h,
-                  name + (left_hand ? ": vertical cut at 2.5 deg R" : ": vertical cut at 2.5 deg L"), subtitle);
-       }},
-      {"false_colour", [&](Chart& c) { draw_bands(c, intensity, name + ": false colour", subtitle); }}};
-  for (const auto& [stem, draw] : views) {
-    if (const Status written = write_chart(folder + stem, kPageWidth, kPageHeight, draw); !written)
-      return bad_input(written.error());
-    std::printf("%s%s.svg, .png\n", folder.c_str(), stem.c_str());
+  std::vector<WallBeam> walls;
+  std::optional<CheckResult> both;
+  if (lamps.size() == 1) {
+    walls.push_back(wall_beam(left, ""));
+  } else if (rule && rule->half_sum) {
+    const IntensityTable* pair[] = {left.table, right.table};
+    both = check_lamp(pair, *rule, how_to_check(options));
+    const IntensityHv of_left = left.intensity(), of_right = right.intensity();
+    walls.push_back({"", "half the sum of " + left.table->name + " and " + right.table->name,
+                     "left " + aim_text(left) + "; right " + aim_text(right) + "; " + verdict_text(*both),
+                     [of_left, of_right](double h, double v) { return 0.5 * (of_left(h, v) + of_right(h, v)); }, &*both,
+                     both->left_hand});
+  } else {
+    walls.push_back(wall_beam(left, "_left"));
+    walls.push_back(wall_beam(right, "_right"));
   }
+
+  // Both lamps by themselves, at their own aim.
+  std::vector<RoadLamp> on_car{{left.table, 0.5 * options.spacing_m, options.height_m, left.up_deg, -left.right_deg},
+                               {right.table, -0.5 * options.spacing_m, options.height_m, right.up_deg, -right.right_deg}};
+  char facts[120];
+  std::snprintf(facts, sizeof facts, "pair at %.2f m height, %.2f m apart; ", options.height_m, options.spacing_m);
+  const bool left_hand = walls.front().left_hand || walls.back().left_hand;
+  const std::string mounted =
+      facts + (lamps.size() == 1 ? aim_text(left) : "left " + aim_text(left) + "; right " + aim_text(right));
+  const std::string names =
+      lamps.size() == 1 ? left.table->name : left.table->name + " (left), " + right.table->name + " (right)";
+  const SharpnessLimits limits = sharpness_limits(judged_by, left.shape);
+
+  std::vector<std::pair<std::string, std::function<void(Chart&)>>> views;
+  const auto add = [&](const std::string& view, const std::string& suffix, std::function<void(Chart&)> draw) {
+    const bool asked =
+        options.views.empty() || std::find(options.views.begin(), options.views.end(), view) != options.views.end();
+    if (asked) views.emplace_back(view + suffix, std::move(draw));
+  };
+  for (const WallBeam& beam : walls) {
+    const double cut_h = beam.left_hand ? 2.5 : -2.5;
+    add("wall_25m", beam.suffix, [&beam](Chart& c) {
+      draw_wall(c, beam.intensity, beam.name + ": 25 m wall, log candela", beam.subtitle, beam.check, true);
+    });
+    add("isocandela", beam.suffix, [&beam](Chart& c) {
+      draw_wall(c, beam.intensity, beam.name + ": isocandela", beam.subtitle, beam.check, false);
+    });
+    add("vertical_cut", beam.suffix, [&beam, &limits, cut_h](Chart& c) {
+      draw_cut(c, beam.intensity, cut_h, limits,
+               beam.name + (cut_h > 0.0 ? ": vertical cut at 2.5 deg R" : ": vertical cut at 2.5 deg L"), beam.subtitle);
+    });
+    add("false_colour", beam.suffix, [&beam](Chart& c) {
+      draw_bands(c, beam.intensity, beam.name + ": false colour", beam.subtitle);
+    });
+  }
+  add("birds_eye", "", [&](Chart& c) { draw_road(c, on_car, left_hand, names + ": isolux of the road", mounted); });
+
+  const RoadExtent extent = road_extent(on_car, true);
+  nlohmann::json json{{"traffic", left_hand ? "left" : "right"},
+                      {"lane_lines_m", lane_lines_m(left_hand)},
+                      {"road_ahead_m", extent.ahead_m},
+                      {"road_aside_m", extent.aside_m},
+                      {"road_goes_on", extent.clipped}};
+  for (const AimedLamp& lamp : lamps) {
+    json["lamps"].push_back({{"file", lamp.file},
+                             {"aim", lamp.aim},
+                             {"turned_up_deg", lamp.up_deg},
+                             {"turned_right_deg", lamp.right_deg},
+                             {"peak_cd", lamp.table->peak_cd()},
+                             {"flux_lm", lamp.table->flux_lm()}});
+  }
+  for (const WallBeam& beam : walls) {
+    if (beam.check == nullptr) continue;
+    json["checks"].push_back({{"beam", beam.name},
+                              {"rule", beam.check->rule_id},
+                              {"verdict", beam.check->verdict == Verdict::kPass   ? "pass"
+                                          : beam.check->verdict == Verdict::kFail ? "fail"
+                                                                                  : "within resolution"},
+                              {"failed", beam.check->failed},
+                              {"not_wholly_on_the_wall", rows_beyond_wall(*beam.check)}});
+  }
+  for (const auto& [stem, draw] : views) {
+    const std::string path = options.out + "/" + stem;
+    if (const Status written = write_chart(path, kPageWidth, kPageHeight, draw); !written)
+      return bad_input(written.error());
+    for (const char* ending : {".svg", ".png"}) json["files"].push_back(path + ending);
+    if (!options.json) std::printf("%s.svg, .png\n", path.c_str());
+  }
+  if (options.json) print_json(json);
   return kExitDone;
 }
 

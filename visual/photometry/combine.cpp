@@ -138,4 +138,62 @@ IntensityTable sum_tables(std::span<const IntensityTable* const> tables) {
   return sum;
 }
 
+namespace {
+
+/// Intensity toward a direction; one that misses a limit of the table by rounding is on it.
+double intensity_on_limit_cd(const IntensityTable& table, const glm::dvec3& direction) {
+  constexpr double kRounding_deg = 1e-9;
+  TableAngles at = table.angles_of(direction);
+  const auto onto = [](const std::vector<double>& nodes, double& x) {
+    if (std::abs(x - nodes.front()) < kRounding_deg) x = nodes.front();
+    if (std::abs(x - nodes.back()) < kRounding_deg) x = nodes.back();
+  };
+  onto(table.first_deg, at.first_deg);
+  onto(table.second_deg, at.second_deg);
+  return table.intensity_at_cd(at);
+}
+
+bool at_pole(const IntensityTable& table, TableAngles at) {
+  constexpr double kNear_deg = 1e-6;
+  if (table.screen_distance_m > 0.0) return false;
+  switch (table.type) {
+    case PhotometricType::kA:
+      return std::abs(at.second_deg) > 90.0 - kNear_deg;
+    case PhotometricType::kB:
+      return std::abs(at.first_deg) > 90.0 - kNear_deg;
+    case PhotometricType::kC:
+      break;
+  }
+  return at.second_deg < kNear_deg || at.second_deg > 180.0 - kNear_deg;
+}
+
+}  // namespace
+
+TableDifference difference_from_sum(std::span<const IntensityTable* const> parts, const IntensityTable& table) {
+  TableDifference difference;
+  for (const IntensityTable* const part : parts) {
+    const auto look = [&](TableAngles at) {
+      if (at_pole(*part, at)) return;
+      const glm::dvec3 d = part->direction_of(at);
+      double sum = 0.0;
+      for (const IntensityTable* const other : parts)
+        sum += other == part ? part->intensity_at_cd(at) : intensity_on_limit_cd(*other, d);
+      const double off = std::abs(sum - intensity_on_limit_cd(table, d));
+      ++difference.looked_at;
+      if (off <= difference.worst_cd) return;
+      difference.worst_cd = off;
+      difference.at = table_angles(PhotometricType::kA, GammaAxis::kGamma0, d);
+    };
+    const std::vector<double>&first = part->first_deg, &second = part->second_deg;
+    for (std::size_t j = 0; j < second.size(); ++j) {
+      for (std::size_t i = 0; i < first.size(); ++i) {
+        look({first[i], second[j]});
+        if (i + 1 < first.size() && j + 1 < second.size())
+          look({0.5 * (first[i] + first[i + 1]), 0.5 * (second[j] + second[j + 1])});
+      }
+    }
+  }
+  return difference;
+}
+
 }  // namespace phare

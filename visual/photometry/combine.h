@@ -1,4 +1,4 @@
-// New tables out of others: sums, a table on another grid, what two beams differ by after their cut-offs are aligned.
+// New tables out of others: sums, a table on another grid; and how far one table is from others.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -22,5 +22,14 @@ IntensityTable resample(const IntensityTable& table, PhotometricType type, Gamma
 /// A type A grid that holds what a table of any kind shows: its own nodes if it is type A; else 0.05° near the axis
 /// and coarser outward, within where it is lit.
 void type_a_grid(const IntensityTable& table, std::vector<double>& h_deg, std::vector<double>& v_deg);
+
+/// How far a table is from the sum of `parts`: at every node and in the middle of every cell of each part, but at the
+/// poles, where one direction has many angles. A direction on a limit counts as inside, however the angles round.
+struct TableDifference {
+  double worst_cd = 0.0;
+  TableAngles at;  ///< azimuth and elevation
+  std::size_t looked_at = 0;
+};
+TableDifference difference_from_sum(std::span<const IntensityTable* const> parts, const IntensityTable& table);
 
 }  // namespace phare

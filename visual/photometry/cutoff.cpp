@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "visual/photometry/cutoff_line.h"
+
 namespace phare {
 namespace {
 
@@ -155,11 +157,14 @@ Cutoff find_cutoff(const IntensityHv& intensity, double h_deg, double from_v_deg
 
 CutoffShape cutoff_shape(const IntensityHv& intensity) {
   CutoffShape shape;
+  const Kink kink = find_kink(intensity);  // flat and rising part are looked at beside it, wherever it lies
+  const double at[2] = {kink.h_deg - 2.5, kink.h_deg + 2.5};
   std::vector<std::pair<double, double>> sides[2];  // left, right
-  for (double h = 1.5; h <= 4.01; h += 0.5) {
+  for (double from_kink = 1.5; from_kink <= 4.01; from_kink += 0.5) {
     for (const int side : {0, 1}) {
-      const Cutoff cutoff = find_cutoff(intensity, side == 0 ? -h : h);
-      if (cutoff.found) sides[side].emplace_back(side == 0 ? -h : h, cutoff.elevation_deg);
+      const double h = kink.h_deg + (side == 0 ? -from_kink : from_kink);
+      const Cutoff cutoff = find_cutoff(intensity, h);
+      if (cutoff.found) sides[side].emplace_back(h, cutoff.elevation_deg);
     }
   }
   const auto slope_deg = [](const Line& line) { return std::atan(line.slope) * 180.0 / std::numbers::pi; };
@@ -175,26 +180,26 @@ CutoffShape cutoff_shape(const IntensityHv& intensity) {
   const bool flat[2] = {straight[0] && std::abs(rise[0]) < kFlat_deg, straight[1] && std::abs(rise[1]) < kFlat_deg};
   if (!flat[0] && !flat[1]) return shape;
   const int flat_side = flat[0] ? 0 : 1;
+  const auto elevation = [&](int side) { return lines[side].offset + lines[side].slope * at[side]; };
   shape.side = CutoffSide::kFlat;
-  shape.flat_v_deg = lines[flat_side].offset + lines[flat_side].slope * (flat_side == 0 ? -2.5 : 2.5);
-  shape.sharpness_g = find_cutoff(intensity, flat_side == 0 ? -2.5 : 2.5).sharpness_g;
+  shape.flat_v_deg = elevation(flat_side);
+  shape.sharpness_g = find_cutoff(intensity, at[flat_side]).sharpness_g;
   for (const int side : {0, 1}) {
     const int other = 1 - side;
     if (!flat[other]) continue;
     // A 45° shoulder is at its top within 1.5°: then the other side is flat again, but higher.
-    const double mean_v = sides[side].empty() ? 0.0 : lines[side].offset + lines[side].slope * (side == 0 ? -2.5 : 2.5);
     const bool rises = sides[side].size() >= 3 && rise[side] > kRising_deg;
-    const bool step =
-        flat[side] && mean_v - (lines[other].offset + lines[other].slope * (other == 0 ? -2.5 : 2.5)) > 0.25;
+    const bool step = flat[side] && elevation(side) - elevation(other) > 0.25;
     if (!rises && !step) continue;
     shape.side = side == 1 ? CutoffSide::kRisesRight : CutoffSide::kRisesLeft;
-    shape.flat_v_deg = lines[other].offset + lines[other].slope * (other == 0 ? -2.5 : 2.5);
-    shape.sharpness_g = find_cutoff(intensity, other == 0 ? -2.5 : 2.5).sharpness_g;
-    if (rises) {
+    shape.flat_v_deg = elevation(other);
+    shape.sharpness_g = find_cutoff(intensity, at[other]).sharpness_g;
+    if (kink.found) {
+      shape.rise_deg = kink.rise_deg;
+      shape.kink_h_deg = kink.h_deg;
+    } else if (rises) {
       shape.rise_deg = rise[side];
       shape.kink_h_deg = (lines[other].offset - lines[side].offset) / (lines[side].slope - lines[other].slope);
-    } else {
-      shape.rise_deg = 45.0;
     }
     break;
   }

@@ -44,7 +44,7 @@ struct CutoffShape {
   CutoffSide side = CutoffSide::kNone;  ///< rises right: for right-hand traffic
   double flat_v_deg = 0.0;              ///< elevation of the flat part
   double rise_deg = 0.0;                ///< angle of the rising part against the horizontal, about 15 or 45
-  double kink_h_deg = 0.0;              ///< where flat and rising part meet; 0 where there is no kink
+  double kink_h_deg = 0.0;              ///< where flat and rising part meet, by find_kink; 0 where there is no kink
   double sharpness_g = 0.0;             ///< on the flat side at 2.5° from the kink's side of V-V
 };
 CutoffShape cutoff_shape(const IntensityHv& intensity);

@@ -17,6 +17,7 @@ bool is_blank(char c) {
 }  // namespace
 
 Result<std::string> read_photometry_bytes(const std::filesystem::path& file, const std::string& name) {
+  if (name.empty()) return Error{"\"\"", "names no file"};
   std::error_code code;
   if (std::filesystem::is_directory(file, code)) return Error{name, "is a directory"};
   const std::uintmax_t size = std::filesystem::file_size(file, code);

@@ -10,6 +10,7 @@
 #include "visual/photometry/combine.h"
 #include "visual/photometry/read_lamp.h"
 #include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/whole_file.h"
 #include "visual/photometry/write_lamp.h"
 
 namespace phare {

@@ -1,7 +1,5 @@
 #include "visual/photometry/points_file.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -14,6 +12,8 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string_view>
+
+#include "visual/photometry/whole_file.h"
 
 namespace phare {
 namespace {
@@ -115,25 +115,6 @@ std::string digits_17(double value) {
   return buffer;
 }
 
-/// Writes beside `path`, then renames: a reader sees the old file or the whole new one.
-Status write_whole(const std::filesystem::path& path, const std::string& content) {
-  const std::string temporary = path.string() + ".part" + std::to_string(::getpid());
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (file == nullptr) return Error{path.string(), std::string("cannot be written: ") + std::strerror(errno)};
-  const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
-  const bool closed = std::fclose(file) == 0;
-  const int cause = errno;
-  std::error_code code;
-  if (written && closed) {
-    std::filesystem::rename(temporary, path, code);
-    if (!code) return Done{};
-  }
-  const std::string reason = code ? code.message() : std::strerror(cause);
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  return Error{path.string(), "cannot be written: " + reason};
-}
-
 }  // namespace
 
 Result<PointsFile> read_points(const std::filesystem::path& path) {
@@ -168,7 +149,7 @@ Status write_illuminance(const std::filesystem::path& path, const PointsFile& po
     for (const double e : illuminance[i].lamps_lx) content += "," + digits_17(e);
     content += '\n';
   }
-  return write_whole(path, content);
+  return write_whole_file(path, content);
 }
 
 Result<AnglesFile> read_angles(const std::filesystem::path& path) {
@@ -184,11 +165,16 @@ Result<AnglesFile> read_angles(const std::filesystem::path& path) {
   return angles;
 }
 
+double intensity_of_row_cd(const IntensityTable& table, TableAngles angles) {
+  return table.screen_distance_m > 0.0 ? table.intensity_cd(direction_hv(angles.first_deg, angles.second_deg))
+                                       : table.intensity_at_cd(angles);
+}
+
 Status write_intensity(const std::filesystem::path& path, const AnglesFile& angles, const IntensityTable& table) {
   std::string content = angles.header + ",intensity_cd\n";
   for (const AngleRow& row : angles.rows)
-    content += row.text + "," + digits_17(table.intensity_at_cd(row.angles)) + '\n';
-  return write_whole(path, content);
+    content += row.text + "," + digits_17(intensity_of_row_cd(table, row.angles)) + '\n';
+  return write_whole_file(path, content);
 }
 
 }  // namespace phare

@@ -30,12 +30,13 @@ struct PointsFile {
 /// skipped.
 Result<PointsFile> read_points(const std::filesystem::path& path);
 
-/// Writes the input's columns and illuminance_lx, illuminance_lx_1 … _n, with 17 significant digits. The file appears
-/// whole or not at all. `illuminance` belongs to `points.rows`, row by row, all with the same number of lamps.
+/// Writes the input's columns and illuminance_lx, illuminance_lx_1 … _n, with 17 significant digits, by
+/// write_whole_file. `illuminance` belongs to `points.rows`, row by row, all with the same number of lamps.
 Status write_illuminance(const std::filesystem::path& path, const PointsFile& points,
                          std::span<const Illuminance> illuminance);
 
-/// One line of an angles file: columns h_deg,v_deg, the table's own two angles (for type C: C and gamma).
+/// One line of an angles file: columns h_deg,v_deg, the table's own two angles (for type C: C and gamma). A flat screen
+/// has no angles of its own: there they are azimuth and elevation, as in type A.
 struct AngleRow {
   TableAngles angles;
   std::string text;
@@ -48,7 +49,10 @@ struct AnglesFile {
 
 Result<AnglesFile> read_angles(const std::filesystem::path& path);
 
-/// Writes the input's columns and intensity_cd at each pair of angles.
+/// Intensity at the angles of such a line.
+double intensity_of_row_cd(const IntensityTable& table, TableAngles angles);
+
+/// Writes the input's columns and intensity_cd at each pair of angles, by write_whole_file.
 Status write_intensity(const std::filesystem::path& path, const AnglesFile& angles, const IntensityTable& table);
 
 }  // namespace phare

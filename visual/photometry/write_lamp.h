@@ -4,23 +4,24 @@
 
 #include <string>
 
-#include "config/result.h"
 #include "visual/photometry/intensity_table.h"
 
 namespace phare {
 
 /// LM-63-2019, the table's own type and grid, symmetry not folded. A flat screen is written on a type A grid.
-/// Keywords come from the header. `generation` is field 12: 1.00010 computed, 1.00001 undefined or older file.
+/// Keywords, lamps and rated lumens (of relative photometry), size of the opening and watts come from the header.
+/// `generation` is field 12: 1.00010 computed, 1.00001 undefined or older file.
 std::string lm63_text(const IntensityTable& table, const std::string& generation = "1.00001");
 
-/// EULUMDAT, optical axis at gamma 0, absolute photometry (lamp count -1) with the table's flux. A type C table with
-/// its axis there keeps its grid; any other is sampled on 360 planes and 311 gamma angles, 0.05° apart near the axis.
-std::string eulumdat_text(const IntensityTable& table);
+/// EULUMDAT. Absolute photometry has lamp count -1 and the table's flux, relative that of its lamps and the output ratio.
+/// A type C table whose axis is `axis` keeps its grid, and so does a type A table with kGamma90 (C = -H, gamma = 90 + V).
+/// Any other is sampled: with kGamma0 on 360 planes and 311 gamma angles, 0.05° apart near the axis.
+std::string eulumdat_text(const IntensityTable& table, GammaAxis axis = GammaAxis::kGamma0);
 
-/// A candela grid as CSV with its remarks.
+/// A candela grid as CSV with its remarks; a flat screen as what it was, lux over y and z.
 std::string csv_text(const IntensityTable& table);
 
-/// Writes beside `path`, then renames: a reader sees the old file or the whole new one.
-Status write_whole_file(const std::string& path, const std::string& content);
+/// "Right-hand traffic", "RHT" and their like in a text turned to the side asked for; whole words, any case.
+std::string with_traffic_side(const std::string& text, bool left_hand);
 
 }  // namespace phare

@@ -1,0 +1,59 @@
+#include "tools/lamp/view_parts.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace phare {
+
+std::string short_number(double value) {
+  char text[32];
+  if (value >= 10000.0) {
+    std::snprintf(text, sizeof text, "%gk", value / 1000.0);
+  } else {
+    std::snprintf(text, sizeof text, "%g", value);
+  }
+  return text;
+}
+
+Grid sample_grid(const std::function<double(double, double)>& f, double x_min, double x_max, double y_min, double y_max,
+                 std::size_t columns, std::size_t rows) {
+  Grid grid;
+  for (std::size_t i = 0; i < columns; ++i)
+    grid.x.push_back(x_min + (x_max - x_min) * static_cast<double>(i) / static_cast<double>(columns - 1));
+  for (std::size_t j = 0; j < rows; ++j)
+    grid.y.push_back(y_min + (y_max - y_min) * static_cast<double>(j) / static_cast<double>(rows - 1));
+  for (const double y : grid.y) {
+    for (const double x : grid.x) grid.values.push_back(f(x, y));
+  }
+  return grid;
+}
+
+void heading(Chart& chart, const std::string& title, const std::string& subtitle) {
+  chart.text(62, 20, title, 13, -1, kBlack, true);
+  chart.text(62, 38, subtitle, 9, -1, {0.3, 0.3, 0.3});
+}
+
+void colour_bar(Chart& chart, double left, double top, double height, double low, double high,
+                const std::function<Rgb(double)>& colour, const std::vector<BarMark>& marks) {
+  constexpr double kWidth = 14.0;
+  const Axes bar{left, top, kWidth, height, 0, 1, low, high};
+  chart.picture(bar, 1, 256, [&](std::size_t, std::size_t j) {
+    return colour(high + (low - high) * static_cast<double>(j) / 255.0);
+  });
+  chart.line({{left, top}, {left + kWidth, top}, {left + kWidth, top + height}, {left, top + height}}, kBlack, 0.8, true);
+  for (const BarMark& mark : marks) {
+    const double y = bar.y(mark.value);
+    if (y < top - 0.5 || y > top + height + 0.5) continue;
+    if (!mark.right.empty()) chart.line({{left + kWidth, y}, {left + kWidth + 3, y}}, kBlack, 0.8);
+    chart.text(left - 3, y, mark.left, 8, 1, kBlack);
+    chart.text(left + kWidth + 5, y, mark.right, 8, -1, kBlack);
+  }
+}
+
+Rgb difference_colour(double t) {
+  t = std::clamp(t, -1.0, 1.0);
+  return t < 0.0 ? Rgb{1.0 + t * 0.9, 1.0 + t * 0.65, 1.0 + t * 0.2}
+                 : Rgb{1.0 - t * 0.2, 1.0 - t * 0.85, 1.0 - t * 0.85};
+}
+
+}  // namespace phare
