@@ -47,9 +47,11 @@ int run(int argc, char** argv) {
     for (const CLI::App* command : at->get_subcommands(nullptr)) commands.push_back(command->get_name());
     if (commands.empty()) break;
     const auto list = at->get_subcommands(nullptr);
-    const auto named = std::find_if(list.begin(), list.end(), [&](const CLI::App* c) { return c->get_name() == argv[i]; });
+    const auto named =
+        std::find_if(list.begin(), list.end(), [&](const CLI::App* c) { return c->get_name() == argv[i]; });
     if (named == list.end())
-      return bad_input({"", unknown_name_reason(i == 1 ? "command" : "command of " + at->get_name(), argv[i], commands)});
+      return bad_input(
+          {"", unknown_name_reason(i == 1 ? "command" : "command of " + at->get_name(), argv[i], commands)});
     at = *named;
   }
   try {

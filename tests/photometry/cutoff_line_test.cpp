@@ -101,16 +101,15 @@ TEST(Alignment, UndoesATurn) {
         EXPECT_TRUE(turn.aligned && turn.right_known) << file << " " << right << " " << up;
         // Light about the cut-off places a copy better than scans do. Both moves at once are no turn: right·up of roll
         // over 57°, 2.5° off the kink on a 15° rise.
-        EXPECT_NEAR(turn.right_deg, -right, 0.1 * kSideways_deg + 0.01 * std::abs(right * up)) << file << " " << right << " " << up;
+        EXPECT_NEAR(turn.right_deg, -right, 0.1 * kSideways_deg + 0.01 * std::abs(right * up))
+            << file << " " << right << " " << up;
         // Moved angles are a turn only near the axis: 5° aside by 1° · (1 - cos 5°).
         EXPECT_NEAR(turn.up_deg, -up, kUpward_deg + 0.004 * std::abs(up)) << file << " " << right << " " << up;
         EXPECT_LT(turn.apart_deg, 0.01) << file << " " << right << " " << up;
       }
     }
   }
-  const auto step = [](double foot) {
-    return beam([=](double h) { return std::clamp(h - foot, 0.0, 0.75); });
-  };
+  const auto step = [](double foot) { return beam([=](double h) { return std::clamp(h - foot, 0.0, 0.75); }); };
   for (const double foot : {-1.0, 0.3, 1.0}) {
     const CutoffAlignment turn = align(step(0.0), step(foot));
     EXPECT_TRUE(turn.right_known) << foot;

@@ -301,8 +301,8 @@ double least_cpu_ms(int runs, const Work& work) {
 }
 
 // Time on a shared machine says nothing, so reading and hashing is held against the floor of the same run: the standard
-// library's own conversion of the same numbers, without looking for lines, types, digits or errors. Where hashing took as
-// long as the numbers the largest file had a ratio of 3.
+// library's own conversion of the same numbers, without looking for lines, types, digits or errors. Where hashing took
+// as long as the numbers the largest file had a ratio of 3.
 TEST(ReadLamp, ReadingCostsLittleMoreThanItsNumbers) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
   GTEST_SKIP() << "a build that checks itself says nothing about time";
@@ -326,8 +326,8 @@ TEST(ReadLamp, ReadingCostsLittleMoreThanItsNumbers) {
       }
     });
     EXPECT_GT(sum, 0.0);
-    std::printf("%zu x %zu values, %.1f MB: %.1f ms of CPU, %.2f times std::from_chars alone (%.1f ms)\n", columns, rows,
-                static_cast<double>(text.size()) * 1e-6, read_ms, read_ms / floor_ms, floor_ms);
+    std::printf("%zu x %zu values, %.1f MB: %.1f ms of CPU, %.2f times std::from_chars alone (%.1f ms)\n", columns,
+                rows, static_cast<double>(text.size()) * 1e-6, read_ms, read_ms / floor_ms, floor_ms);
     EXPECT_LT(read_ms, 2.2 * floor_ms) << text.size();
   }
 }

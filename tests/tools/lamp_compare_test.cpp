@@ -37,7 +37,8 @@ class LampCompare : public test::LampProgram {
 };
 
 // Turned back, the copy lights the wall and the road as the original does. The alignment is good to 0.02° (see
-// cutoff_line_test.cpp), which on the cut-off (factor 2.5 in 0.1°, rise 15°) is 0.02·tan 15°·4 = 2 % of the light there.
+// cutoff_line_test.cpp), which on the cut-off (factor 2.5 in 0.1°, rise 15°) is 0.02·tan 15°·4 = 2 % of the light
+// there.
 TEST_F(LampCompare, ATurnedCopyIsTheSameBeamOnWallAndRoad) {
   for (const double right : {-2.0, 1.0}) {
     const auto json = compare(ours("low_rht.ies") + " " + moved("low_rht.ies", right));
@@ -67,6 +68,31 @@ TEST_F(LampCompare, AMirroredCopyIsRecognised) {
   EXPECT_GT(turned["correlation"], 0.9999);
   EXPECT_FALSE(compare(ours("low_rht.ies") + " " + ours("led_low_rht.ies"))["mirrored"]["likely"]);
   EXPECT_FALSE(compare(ours("high.ies") + " " + ours("led_high.ies"))["mirrored"]["likely"]);
+}
+
+// What a file lacks is not a difference.
+TEST_F(LampCompare, OnlyWhereBothHaveData) {
+  const auto table = read_lamp(ours("low_rht.ies"));
+  ASSERT_TRUE(table.ok());
+  IntensityTable part = *table;
+  part.first_deg.clear();
+  part.candela.clear();
+  for (const double h : table->first_deg) {
+    if (std::abs(h) <= 8.0) part.first_deg.push_back(h);
+  }
+  for (const double v : table->second_deg) {
+    for (const double h : part.first_deg) part.candela.push_back(table->intensity_at_cd({h, v}));
+  }
+  const std::string narrow = file("narrow.ies", lm63_text(part));
+  const auto json = compare(ours("low_rht.ies") + " " + narrow);
+  EXPECT_NEAR(json["compared_share_of_field"], 16.0 / 40.0, 0.01);
+  EXPECT_NEAR(json["b_turned_right_deg"], 0.0, 0.002);
+  EXPECT_LT(json["worst_difference_cd"], 0.002 * json["peak_a_cd"].get<double>());
+  for (const auto& p : json["points"]) {
+    const bool beside = std::abs(p["h_deg"].get<double>()) > 8.0;
+    EXPECT_EQ(p["ratio"].is_null(), beside) << p.dump();
+  }
+  EXPECT_NE(lamp("compare " + ours("low_rht.ies") + " " + narrow).out.find("40 % compared"), std::string::npos);
 }
 
 TEST_F(LampCompare, SaysWhyItDoesNotAlign) {

@@ -23,8 +23,9 @@ class LampConvert : public test::LampProgram {
   }
 };
 
-// Type A is type C about the same axis: C = -H, gamma = 90 + V. What EULUMDAT stores is cd per 1000 lm, so a number comes
-// back to the last bits; an angle near 360 is rounded to 6e-14°, and a beam changes by less than 20 peaks per degree.
+// Type A is type C about the same axis: C = -H, gamma = 90 + V. What EULUMDAT stores is cd per 1000 lm, so a number
+// comes back to the last bits; an angle near 360 is rounded to 6e-14°, and a beam changes by less than 20 peaks per
+// degree.
 constexpr double kRounding = 2e-12;
 TEST_F(LampConvert, EulumdatWithItsAxisAtGamma90KeepsTypeA) {
   const auto json = convert(ours("low_rht.ies") + " --out-axis gamma90 --out " + in("low.ldt"));
@@ -63,12 +64,14 @@ TEST_F(LampConvert, EulumdatKeepsTheDarkBesideATableThatEndsInLight) {
   for (const double h : {-5.0, -1.0, 0.0, 2.0, 9.9}) {
     EXPECT_NEAR(back->intensity_cd(direction_hv(h, 1.0)), table.intensity_cd(direction_hv(h, 1.0)), 1e-9) << h;
   }
-  for (const double h : {-5.02, 10.02, 90.0, 179.0, -120.0}) EXPECT_EQ(back->intensity_cd(direction_hv(h, 1.0)), 0.0) << h;
+  for (const double h : {-5.02, 10.02, 90.0, 179.0, -120.0})
+    EXPECT_EQ(back->intensity_cd(direction_hv(h, 1.0)), 0.0) << h;
 }
 
 // A screen goes out as lux over metres and comes back; 14 digits are written.
 TEST_F(LampConvert, AScreenIsWrittenBackAsAScreen) {
-  const std::string given = file("wall.csv", "# unit: lx\n# distance_m: 25\nz\\y,-3.3,-0.1,0,2\n-1.5,1.25,2,3,4.75\n0.4,5,6,7,8\n");
+  const std::string given =
+      file("wall.csv", "# unit: lx\n# distance_m: 25\nz\\y,-3.3,-0.1,0,2\n-1.5,1.25,2,3,4.75\n0.4,5,6,7,8\n");
   const auto json = convert(given + " --out " + in("back.csv"));
   EXPECT_LT(json["worst_difference_of_peak"], 1e-12);
   EXPECT_EQ(json["photometric_type"], "screen");
@@ -78,10 +81,13 @@ TEST_F(LampConvert, AScreenIsWrittenBackAsAScreen) {
 
 TEST_F(LampConvert, TellsTheTrueWorstDifference) {
   // A goniometer file on type A keeps every number, up to its limits.
-  const std::string given = file("gonio.csv", "# unit: lx\n# distance_m: 25\n# angles: type A\nV\\H,-33.3,0.1,17.7\n-7.1,1,2,3\n2.3,4,5,6\n");
+  const std::string given =
+      file("gonio.csv", "# unit: lx\n# distance_m: 25\n# angles: type A\nV\\H,-33.3,0.1,17.7\n-7.1,1,2,3\n2.3,4,5,6\n");
   EXPECT_EQ(convert(given + " --out " + in("gonio_back.csv"))["worst_difference_cd"], 0.0);
   // A sum of two grids of one type is exact; one of different types is not, and says how much it is off its parts.
-  EXPECT_LT(convert(ours("low_rht.ies") + " " + ours("fog.ies") + " --out " + in("sum.ies"))["worst_difference_of_peak"], 1e-12);
+  EXPECT_LT(
+      convert(ours("low_rht.ies") + " " + ours("fog.ies") + " --out " + in("sum.ies"))["worst_difference_of_peak"],
+      1e-12);
   convert(ours("low_rht.ies") + " --out " + in("low.ldt"));
   const auto json = convert(ours("fog.ies") + " " + in("low.ldt") + " --out " + in("mixed.ies"));
   const auto a = read_lamp(ours("fog.ies")), b = read_lamp(in("low.ldt")), sum = read_lamp(in("mixed.ies"));
@@ -94,7 +100,8 @@ TEST_F(LampConvert, TellsTheTrueWorstDifference) {
     }
   }
   EXPECT_GT(worst, 1.0);
-  EXPECT_GT(json["worst_difference_cd"], 0.5 * worst);  // nodes and middles of cells see at least half of a wedge's error
+  EXPECT_GT(json["worst_difference_cd"],
+            0.5 * worst);  // nodes and middles of cells see at least half of a wedge's error
 }
 
 TEST_F(LampConvert, MirrorTurnsTheWordsWithTheBeam) {

@@ -57,7 +57,8 @@ TEST_F(LampPlot, APairIsJudgedAndAimedAsAPair) {
   EXPECT_NE(svg("wall_25m_right").find("higher.ies"), std::string::npos);
   EXPECT_NE(svg("birds_eye").find("higher.ies (right)"), std::string::npos);
   const auto bare = plot(ours("low_rht.ies") + " " + higher, "vertical_cut");
-  EXPECT_NEAR(bare["lamps"][1]["turned_up_deg"].get<double>(), bare["lamps"][0]["turned_up_deg"].get<double>() - 0.5, 0.006);
+  EXPECT_NEAR(bare["lamps"][1]["turned_up_deg"].get<double>(), bare["lamps"][0]["turned_up_deg"].get<double>() - 0.5,
+              0.006);
 }
 
 TEST_F(LampPlot, LimitsOfGBelongToTheRule) {
@@ -74,7 +75,8 @@ TEST_F(LampPlot, LimitsOfGBelongToTheRule) {
 
 // Every row is named on the wall, or named as not being on this page.
 TEST_F(LampPlot, EveryRowIsNamed) {
-  for (const auto& [file, rule] : {std::pair{"low_rht.ies", "r149-passing-c"}, {"low_rht.ies", "fmvss108-lb2v"}, {"fog.ies", "r19-f3"}}) {
+  for (const auto& [file, rule] :
+       {std::pair{"low_rht.ies", "r149-passing-c"}, {"low_rht.ies", "fmvss108-lb2v"}, {"fog.ies", "r19-f3"}}) {
     plot(ours(file) + " --rule " + rule, "isocandela");
     const std::string text = svg("isocandela");
     const auto judged = nlohmann::json::parse(lamp("check " + ours(file) + " --rule " + rule + " --json").out);
@@ -101,7 +103,8 @@ TEST_F(LampPlot, TheRoadReachesToWhereOneLuxEnds) {
       double lux = 0.0;
       for (const double lamp_y : {0.6, -0.6}) {
         const double dz = 0.25 - 0.65, dy = y - lamp_y, r2 = x * x + dy * dy + dz * dz;
-        const glm::dvec3 in_lamp{std::cos(pitch) * x + std::sin(pitch) * dz, dy, std::cos(pitch) * dz - std::sin(pitch) * x};
+        const glm::dvec3 in_lamp{std::cos(pitch) * x + std::sin(pitch) * dz, dy,
+                                 std::cos(pitch) * dz - std::sin(pitch) * x};
         lux += table->intensity_cd(in_lamp) * x / (r2 * std::sqrt(r2));
       }
       if (lux >= 1.0) ahead = x;

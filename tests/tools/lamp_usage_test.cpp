@@ -1,4 +1,5 @@
-// process: what every `phare lamp` command owes: --json, names that are no UTF-8, numbers that are none, clear refusals.
+// process: what every `phare lamp` command owes: --json, names that are no UTF-8, numbers that are none, clear
+// refusals.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -12,9 +13,10 @@ using LampUsage = test::LampProgram;
 TEST_F(LampUsage, EveryCommandHasJson) {
   const std::string low = ours("low_rht.ies"), at = file("at.csv", "h_deg,v_deg\n0,-1\n");
   for (const std::string& command :
-       {"info " + low, "table " + low + " --at " + at, "check " + low + " --rule r149-passing-c", std::string("check --list"),
-        "plot " + low + " --out " + in("p"), "compare " + low + " " + low + " --out " + in("c"),
-        "convert " + low + " --out " + in("x.csv"), "hspr " + low + " " + low, "levels " + low}) {
+       {"info " + low, "table " + low + " --at " + at, "check " + low + " --rule r149-passing-c",
+        std::string("check --list"), "plot " + low + " --out " + in("p"),
+        "compare " + low + " " + low + " --out " + in("c"), "convert " + low + " --out " + in("x.csv"),
+        "hspr " + low + " " + low, "levels " + low}) {
     const Said said = lamp(command + " --json");
     EXPECT_EQ(said.code, 0) << command << "\n" << said.err;
     EXPECT_FALSE(nlohmann::json::parse(said.out, nullptr, false).is_discarded()) << command << "\n" << said.out;
@@ -25,10 +27,13 @@ TEST_F(LampUsage, EveryCommandHasJson) {
 }
 
 TEST_F(LampUsage, AnyFileNameIsJson) {
-  const std::string odd = in("b\xE9" "d.ies");
+  const std::string odd =
+      in("b\xE9"
+         "d.ies");
   std::filesystem::copy_file(ours("low_rht.ies"), odd);
-  for (const std::string& command : {"info " + odd, "check " + odd + " --rule r149-passing-c", "compare " + odd + " " + odd,
-                                     "hspr " + odd + " " + odd, "levels " + odd, "convert " + odd + " --out " + in("x.csv")}) {
+  for (const std::string& command :
+       {"info " + odd, "check " + odd + " --rule r149-passing-c", "compare " + odd + " " + odd,
+        "hspr " + odd + " " + odd, "levels " + odd, "convert " + odd + " --out " + in("x.csv")}) {
     const Said said = lamp(command + " --json");
     EXPECT_EQ(said.code, 0) << command << "\n" << said.err;
     EXPECT_FALSE(nlohmann::json::parse(said.out, nullptr, false).is_discarded()) << command;
@@ -66,10 +71,13 @@ TEST_F(LampUsage, InfoGoesOnAfterABadFile) {
 }
 
 TEST_F(LampUsage, MistakesAreNamed) {
-  for (const auto& [command, words] :
-       {std::pair<std::string, const char*>{"frobnicate", "frobnicate"}, {"frobnicate --help", "frobnicate"},
-        {"sum --help", "sum"}, {"inof x.ies", "did you mean"}, {"levels", "give a photometry file, or --bench"},
-        {"info ''", "names no file"}, {"convert " + ours("fog.ies") + " --out " + in("x.foo"), "say --to"}}) {
+  for (const auto& [command, words] : {std::pair<std::string, const char*>{"frobnicate", "frobnicate"},
+                                       {"frobnicate --help", "frobnicate"},
+                                       {"sum --help", "sum"},
+                                       {"inof x.ies", "did you mean"},
+                                       {"levels", "give a photometry file, or --bench"},
+                                       {"info ''", "names no file"},
+                                       {"convert " + ours("fog.ies") + " --out " + in("x.foo"), "say --to"}}) {
     const Said said = lamp(command);
     EXPECT_EQ(said.code, 2) << command;
     EXPECT_NE(said.err.find(words), std::string::npos) << command << "\n" << said.err;
@@ -85,7 +93,8 @@ TEST_F(LampUsage, MistakesAreNamed) {
 TEST_F(LampUsage, TableOfAScreenTakesAzimuthAndElevation) {
   const std::string screen = file("w.csv", "# unit: lx\n# distance_m: 10\nz\\y,-8,0,8\n-8,1,1,1\n8,1,1,1\n");
   const auto json = nlohmann::json::parse(
-      lamp("table " + screen + " --json --at " + file("at.csv", "h_deg,v_deg\n0,0\n30,0\n0,30\n30,20\n")).out, nullptr, false);
+      lamp("table " + screen + " --json --at " + file("at.csv", "h_deg,v_deg\n0,0\n30,0\n0,30\n30,20\n")).out, nullptr,
+      false);
   ASSERT_EQ(json["rows"].size(), 4u);
   for (const auto& row : json["rows"]) {
     const double h = row["h_deg"].get<double>() * 3.14159265358979323846 / 180.0;

@@ -48,7 +48,8 @@ Rgb rim_of(Rgb colour) {
 }
 
 void select_font(cairo_t* cairo, double size, bool bold) {
-  cairo_select_font_face(cairo, kFont, CAIRO_FONT_SLANT_NORMAL, bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_select_font_face(cairo, kFont, CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo, size);
 }
 
@@ -80,14 +81,18 @@ void draw_text(cairo_t* cairo, const ChartText& t) {
 std::string svg_text(const ChartText& t) {
   char text[240];
   std::snprintf(text, sizeof text, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%g\" text-anchor=\"%s\" fill=\"%s\"", t.x,
-                t.y + kBaseline * t.size, t.size, t.align < 0 ? "start" : t.align == 0 ? "middle" : "end",
+                t.y + kBaseline * t.size, t.size,
+                t.align < 0    ? "start"
+                : t.align == 0 ? "middle"
+                               : "end",
                 svg_colour(t.colour).c_str());
   std::string element = text;
   if (t.bold) element += " font-weight=\"bold\"";
   if (t.halo) {
-    std::snprintf(text, sizeof text,
-                  " paint-order=\"stroke\" stroke=\"%s\" stroke-opacity=\"%g\" stroke-width=\"%g\" stroke-linejoin=\"round\"",
-                  svg_colour(rim_of(t.colour)).c_str(), kHaloAlpha, kHalo);
+    std::snprintf(
+        text, sizeof text,
+        " paint-order=\"stroke\" stroke=\"%s\" stroke-opacity=\"%g\" stroke-width=\"%g\" stroke-linejoin=\"round\"",
+        svg_colour(rim_of(t.colour)).c_str(), kHaloAlpha, kHalo);
     element += text;
   }
   if (t.turned_deg != 0.0) {
@@ -333,7 +338,8 @@ void draw_contours(Chart& chart, const Axes& axes, const std::vector<Contour>& l
     longest = length;
     places.clear();
     for (const double at : {0.33, 0.2, 0.45, 0.1, 0.6, 0.7, 0.8, 0.27, 0.52, 0.15, 0.9}) {
-      const auto& p = points[std::min(points.size() - 1, static_cast<std::size_t>(at * static_cast<double>(points.size())))];
+      const auto& p =
+          points[std::min(points.size() - 1, static_cast<std::size_t>(at * static_cast<double>(points.size())))];
       places.push_back({p[0], p[1], 0});
     }
   }
@@ -348,14 +354,17 @@ std::string printable(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
     const unsigned char lead = static_cast<unsigned char>(text[i]);
-    const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3
-                               : lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
+    const std::size_t length = lead < 0x80                   ? 1
+                               : lead >= 0xC2 && lead < 0xE0 ? 2
+                               : lead >= 0xE0 && lead < 0xF0 ? 3
+                               : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                             : 0;
     bool whole = length > 0 && i + length <= text.size();
     for (std::size_t k = 1; whole && k < length; ++k) whole = (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80;
     if (whole && length >= 3) {  // neither longer than need be, nor a surrogate, nor beyond the last character
       const unsigned char second = static_cast<unsigned char>(text[i + 1]);
-      whole = !(lead == 0xE0 && second < 0xA0) && !(lead == 0xED && second >= 0xA0) && !(lead == 0xF0 && second < 0x90) &&
-              !(lead == 0xF4 && second >= 0x90);
+      whole = !(lead == 0xE0 && second < 0xA0) && !(lead == 0xED && second >= 0xA0) &&
+              !(lead == 0xF0 && second < 0x90) && !(lead == 0xF4 && second >= 0x90);
     }
     if (whole) {
       result += text.substr(i, length);
@@ -402,8 +411,8 @@ Status write_chart(const std::string& stem, double width, double height, const s
   cairo_surface_destroy(svg);
 
   constexpr double kPixelsPerPoint = 2.0;
-  cairo_surface_t* const png = cairo_image_surface_create(
-      CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerPoint), static_cast<int>(height * kPixelsPerPoint));
+  cairo_surface_t* const png = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerPoint),
+                                                          static_cast<int>(height * kPixelsPerPoint));
   if (status == CAIRO_STATUS_SUCCESS) status = play(png, kPixelsPerPoint, true);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(png, append, &png_bytes);
   cairo_surface_destroy(png);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
@@ -20,20 +21,29 @@ namespace {
 struct Difference {
   double worst_cd = 0.0, worst_h_deg = 0.0, worst_v_deg = 0.0;
   double mean_abs_cd = 0.0, correlation = 0.0;
+  double compared_01 = 0.0;  ///< share of the field in which both files have data; only there it is looked at
 };
+
+bool has_data(const IntensityHv& intensity, double h_deg, double v_deg) {
+  return !intensity.evidence || intensity.evidence(h_deg, v_deg) != Evidence::kNone;
+}
 
 /// Over H ±20°, V -10 to +5° in 0.1°.
 Difference differ(const IntensityHv& a, const IntensityHv& b) {
   Difference d;
-  double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0, n = 0;
+  double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0, n = 0, all = 0;
   for (double v = -10.0; v <= 5.001; v += 0.1) {
     for (double h = -20.0; h <= 20.001; h += 0.1) {
+      all += 1;
+      if (!has_data(a, h, v) || !has_data(b, h, v)) continue;
       const double x = a(h, v), y = b(h, v), difference = std::abs(y - x);
       if (difference > d.worst_cd) d.worst_cd = difference, d.worst_h_deg = h, d.worst_v_deg = v;
       d.mean_abs_cd += difference;
       sa += x, sb += y, saa += x * x, sbb += y * y, sab += x * y, n += 1;
     }
   }
+  d.compared_01 = n / all;
+  n = std::max(n, 1.0);
   d.mean_abs_cd /= n;
   const double spread = (saa - sa * sa / n) * (sbb - sb * sb / n);
   d.correlation = spread > 0.0 ? (sab - sa * sb / n) / std::sqrt(spread) : 1.0;
@@ -90,8 +100,9 @@ std::string alignment_text(const Lamp& a, const Lamp& b, const Laid& laid, bool 
   if (!asked) return "not aligned, as asked";
   if (!laid.turn.aligned) {
     const bool no_a = a.shape.side == CutoffSide::kNone, no_b = b.shape.side == CutoffSide::kNone;
-    return std::string("not aligned, compared as filed: ") +
-           (no_a && no_b ? "neither beam has a cut-off" : no_a ? "A has no cut-off" : "B has no cut-off");
+    return std::string("not aligned, compared as filed: ") + (no_a && no_b ? "neither beam has a cut-off"
+                                                              : no_a       ? "A has no cut-off"
+                                                                           : "B has no cut-off");
   }
   char text[200];
   std::snprintf(text, sizeof text, "aligned by cut-off: B turned %+.3f deg up, %+.3f deg right", laid.turn.up_deg,
@@ -113,6 +124,12 @@ std::string alignment_text(const Lamp& a, const Lamp& b, const Laid& laid, bool 
 /// Turned round B fits A far better: a lamp for the other side of the road, or one file is mirrored.
 bool looks_mirrored(const Difference& as_is, const Difference& turned) {
   return turned.correlation > 0.95 && turned.mean_abs_cd < 0.5 * as_is.mean_abs_cd;
+}
+
+/// Candela at a place, or none where the file has no data.
+std::optional<double> at_place(const IntensityHv& intensity, const Place& place) {
+  if (!has_data(intensity, place.h_deg, place.v_deg)) return std::nullopt;
+  return intensity(place.h_deg, place.v_deg);
 }
 
 nlohmann::json ratio_of(double a, double b) {
@@ -161,8 +178,8 @@ int lamp_compare(const LampCompareOptions& options) {
     const auto draw_both = [&](Chart& c) {
       draw_difference(c, in_a, in_b, road_a, road_b, names + ": difference", alignment);
     };
-    for (const auto& [stem, view] : {std::pair<const char*, std::function<void(Chart&)>>{"/ratio", draw},
-                                     {"/difference", draw_both}}) {
+    for (const auto& [stem, view] :
+         {std::pair<const char*, std::function<void(Chart&)>>{"/ratio", draw}, {"/difference", draw_both}}) {
       if (const Status status = write_chart(options.out + stem, kPageWidth, kPageHeight, view); !status)
         return bad_input(status.error());
       for (const char* ending : {".svg", ".png"}) written.push_back(options.out + stem + ending);
@@ -182,6 +199,7 @@ int lamp_compare(const LampCompareOptions& options) {
                         {"worst_at_deg", {d.worst_h_deg, d.worst_v_deg}},
                         {"mean_absolute_difference_cd", d.mean_abs_cd},
                         {"correlation", d.correlation},
+                        {"compared_share_of_field", d.compared_01},
                         {"mirrored",
                          {{"likely", mirror},
                           {"correlation", mirrored.correlation},
@@ -193,14 +211,13 @@ int lamp_compare(const LampCompareOptions& options) {
                         {"peak_b_cd", b.table.peak_cd()},
                         {"files", written}};
     for (const Place& p : kPlaces) {
-      const double x = in_a(p.h_deg, p.v_deg), y = in_b(p.h_deg, p.v_deg);
-      json["points"].push_back({{"name", p.name},
-                                {"h_deg", p.h_deg},
-                                {"v_deg", p.v_deg},
-                                {"a_cd", x},
-                                {"b_cd", y},
-                                {"difference_cd", y - x},
-                                {"ratio", ratio_of(x, y)}});
+      const auto x = at_place(in_a, p), y = at_place(in_b, p);
+      nlohmann::json one{{"name", p.name}, {"h_deg", p.h_deg}, {"v_deg", p.v_deg}};
+      one["a_cd"] = x ? nlohmann::json(*x) : nlohmann::json(nullptr);
+      one["b_cd"] = y ? nlohmann::json(*y) : nlohmann::json(nullptr);
+      one["difference_cd"] = x && y ? nlohmann::json(*y - *x) : nlohmann::json(nullptr);
+      one["ratio"] = x && y ? ratio_of(*x, *y) : nlohmann::json(nullptr);
+      json["points"].push_back(std::move(one));
     }
     for (const RoadPlace& p : kRoad) {
       const double x = road_lux(road_a, p.x_m, p.y_m, 0.25, true), y = road_lux(road_b, p.x_m, p.y_m, 0.25, true);
@@ -222,14 +239,20 @@ int lamp_compare(const LampCompareOptions& options) {
     std::printf("the two cut-offs are then %.3f deg apart on average\n", laid.turn.apart_deg);
   std::printf("worst difference %.0f cd at H %+.1f, V %+.1f; mean |difference| %.1f cd; correlation %.5f\n", d.worst_cd,
               d.worst_h_deg, d.worst_v_deg, d.mean_abs_cd, d.correlation);
+  if (d.compared_01 < 0.9995)
+    std::printf("of H +-20, V -10 to +5 deg %.0f %% compared: a file has no data in the rest\n", 100.0 * d.compared_01);
   if (mirror) {
     std::printf("B turned left to right fits A better: worst %.0f cd, correlation %.5f (--mirror-b compares so)\n",
                 mirrored.worst_cd, mirrored.correlation);
   }
   std::printf("  %-18s %10s %10s %10s %8s\n", "cut-off at 0.57 D", "A cd", "B cd", "B - A", "B / A");
   for (const Place& p : kPlaces) {
-    const double x = in_a(p.h_deg, p.v_deg), y = in_b(p.h_deg, p.v_deg);
-    std::printf("  %-18s %10.0f %10.0f %+10.0f %8s\n", p.name, x, y, y - x, ratio_text(x, y).c_str());
+    const auto x = at_place(in_a, p), y = at_place(in_b, p);
+    if (x && y) {
+      std::printf("  %-18s %10.0f %10.0f %+10.0f %8s\n", p.name, *x, *y, *y - *x, ratio_text(*x, *y).c_str());
+    } else {
+      std::printf("  %-18s no data in %s\n", p.name, x ? "B" : y ? "A" : "both");
+    }
   }
   std::printf("  %-18s %10s %10s %10s %8s\n", "pair, 0.25 m high", "A lx", "B lx", "B - A", "B / A");
   for (const RoadPlace& p : kRoad) {

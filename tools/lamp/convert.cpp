@@ -40,8 +40,7 @@ void describe_sum(IntensityTable& sum, const std::vector<IntensityTable>& parts)
 void describe_mirror(IntensityTable& table) {
   const CutoffSide side = cutoff_shape(mounted_intensity(table, glm::dmat3{1.0})).side;
   if (side == CutoffSide::kRisesRight || side == CutoffSide::kRisesLeft) {
-    for (auto& [key, value] : table.header.keywords)
-      value = with_traffic_side(value, side == CutoffSide::kRisesLeft);
+    for (auto& [key, value] : table.header.keywords) value = with_traffic_side(value, side == CutoffSide::kRisesLeft);
   }
   table.header.keywords.emplace_back("OTHER", "Mirrored left to right by phare lamp convert");
 }
@@ -52,7 +51,9 @@ nlohmann::json as_json(const std::string& out, const std::string& format, const 
           {"format", format},
           {"version", back.version},
           {"photometric_type", type_name(back)},
-          {"axis", back.type != PhotometricType::kC ? "" : back.axis == GammaAxis::kGamma90 ? "gamma90" : "gamma0"},
+          {"axis", back.type != PhotometricType::kC   ? ""
+                   : back.axis == GammaAxis::kGamma90 ? "gamma90"
+                                                      : "gamma0"},
           {"first_count", back.first_deg.size()},
           {"second_count", back.second_deg.size()},
           {"files", files},
@@ -106,24 +107,26 @@ int lamp_convert(const LampConvertOptions& options) {
   const double peak_cd = table.peak_cd();
   const bool to_standard_output = is_standard_output(options.out);
   if (options.json) {
-    print_json(as_json(options.out, format, *back, options.files, worst, peak_cd), to_standard_output ? stderr : stdout);
+    print_json(as_json(options.out, format, *back, options.files, worst, peak_cd),
+               to_standard_output ? stderr : stdout);
     return kExitDone;
   }
   std::string hint;
   if (worst.worst_cd > 1e-9 * peak_cd) {
     const bool a_to_axis = format == "eulumdat" && options.out_axis == GammaAxis::kGamma0 &&
                            table.type == PhotometricType::kA && table.screen_distance_m <= 0.0;
-    hint = a_to_axis ? "; resampled: --out-axis gamma90 keeps the nodes"
+    hint = a_to_axis          ? "; resampled: --out-axis gamma90 keeps the nodes"
            : parts.size() > 1 ? "; the parts' grids differ and were resampled"
                               : "; resampled";
   }
-  std::fprintf(to_standard_output ? stderr : stdout,
-               "%s: %s, type %s%s, %zu × %zu values; worst difference from the %s %.3g cd (%.2g of the peak) among %zu "
-               "directions%s\n",
-               options.out.c_str(), back->version.c_str(), type_name(*back).c_str(),
-               back->type == PhotometricType::kC && back->axis == GammaAxis::kGamma90 ? " (read with --axis gamma90)" : "",
-               back->first_deg.size(), back->second_deg.size(), parts.size() > 1 ? "sum of the parts" : "input",
-               worst.worst_cd, worst.worst_cd / std::max(peak_cd, 1e-300), worst.looked_at, hint.c_str());
+  std::fprintf(
+      to_standard_output ? stderr : stdout,
+      "%s: %s, type %s%s, %zu × %zu values; worst difference from the %s %.3g cd (%.2g of the peak) among %zu "
+      "directions%s\n",
+      options.out.c_str(), back->version.c_str(), type_name(*back).c_str(),
+      back->type == PhotometricType::kC && back->axis == GammaAxis::kGamma90 ? " (read with --axis gamma90)" : "",
+      back->first_deg.size(), back->second_deg.size(), parts.size() > 1 ? "sum of the parts" : "input", worst.worst_cd,
+      worst.worst_cd / std::max(peak_cd, 1e-300), worst.looked_at, hint.c_str());
   return kExitDone;
 }
 

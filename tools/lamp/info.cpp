@@ -111,8 +111,7 @@ int lamp_info(const LampInfoOptions& options) {
       bad_input(table.error());
       bad = true;
       if (options.json)
-        all.push_back(
-            {{"file", file}, {"error", {{"place", table.error().place}, {"reason", table.error().reason}}}});
+        all.push_back({{"file", file}, {"error", {{"place", table.error().place}, {"reason", table.error().reason}}}});
       continue;
     }
     const LampReport report = lint_lamp(*table);
@@ -136,7 +135,8 @@ int lamp_table(const LampTableOptions& options) {
     if (!written) return bad_input(written.error());
   }
   if (options.json) {
-    nlohmann::json json{{"file", options.file}, {"photometric_type", type_name(*table)}, {"rows", nlohmann::json::array()}};
+    nlohmann::json json{
+        {"file", options.file}, {"photometric_type", type_name(*table)}, {"rows", nlohmann::json::array()}};
     if (!options.out.empty()) json["out"] = options.out;
     for (const AngleRow& row : angles->rows) {
       json["rows"].push_back({{"h_deg", row.angles.first_deg},

@@ -9,10 +9,8 @@ namespace {
 /// A number that is one: "nan" passes every comparison of a range.
 CLI::Validator finite() {
   return CLI::Validator(
-      [](std::string& text) {
-        return parse_number(text) ? std::string{} : text + " is not a finite number";
-      },
-      "", "finite");
+      [](std::string& text) { return parse_number(text) ? std::string{} : text + " is not a finite number"; }, "",
+      "finite");
 }
 
 /// What every command that reads a lamp file takes.
@@ -33,8 +31,7 @@ void add_reading(CLI::App* command, LampReadSettings& settings) {
       ->capture_default_str();
   command->add_option("--lamp-set", settings.lamp_set, "EULUMDAT: lamp set to use, from 1")->capture_default_str();
   command->add_option("--emitter", settings.emitter, "TM-33: emitter to use, from 1")->capture_default_str();
-  command->add_option("--distance", settings.distance_m, "CSV in lx without a distance_m: metres")
-      ->check(finite());
+  command->add_option("--distance", settings.distance_m, "CSV in lx without a distance_m: metres")->check(finite());
   command->add_flag("--mirror", settings.mirror_h, "Turn left and right round while reading (clockwise type B)");
   command
       ->add_option_function<std::string>(
@@ -78,7 +75,8 @@ void add_table(CLI::App* lamp, Command& chosen) {
 
 void add_check(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampCheckOptions>();
-  CLI::App* command = lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails or the file lacks data");
+  CLI::App* command =
+      lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails or the file lacks data");
   command->footer("Example:\n  phare lamp check low_beam.ies --rule r112-passing-b --json\n  phare lamp check --list");
   command->add_option("files", options->files, "One file, or left and right (rules of half the sum)");
   command->add_option("--rule", options->rules, "Rulebook of config/rules, or a .toml file; repeat for more")
@@ -88,11 +86,12 @@ void add_check(CLI::App* lamp, Command& chosen) {
       ->capture_default_str();
   command->add_option("--aim-up", options->aim_up_deg, "Turn the lamp up by this, deg, instead of the rule's aim")
       ->check(finite());
-  command->add_option("--aim-right", options->aim_right_deg,
-                      "Turn the lamp right by this, deg, instead of the rule's aim")
+  command
+      ->add_option("--aim-right", options->aim_right_deg, "Turn the lamp right by this, deg, instead of the rule's aim")
       ->check(finite());
   command->add_flag("!--no-reaim", options->reaim, "Do not use the rule's re-aim allowance");
-  command->add_option("--aim", options->aim, "Which of the rule's aims, as marked on the lens: VOL or VOR [by the beam]");
+  command->add_option("--aim", options->aim,
+                      "Which of the rule's aims, as marked on the lens: VOL or VOR [by the beam]");
   command->add_flag("--led-module", options->led_module, "The light source is an LED module with control gear");
   command->add_flag("--list", options->list, "List the rulebooks");
   command->add_flag("--json", options->json, "For machines");
@@ -137,12 +136,12 @@ void add_mounting(CLI::App* command, double& height_m, double& spacing_m, double
       ->capture_default_str();
   command
       ->add_option_function<double>(
-      "--pitch-deg",
-      [&pitch_deg, &given](double value) {
-        pitch_deg = value;
-        given = true;
-      },
-      "Aim, deg, up positive [a passing beam: cut-off on 0.57 deg down; others as filed]")
+          "--pitch-deg",
+          [&pitch_deg, &given](double value) {
+            pitch_deg = value;
+            given = true;
+          },
+          "Aim, deg, up positive [a passing beam: cut-off on 0.57 deg down; others as filed]")
       ->check(finite());
 }
 
@@ -218,7 +217,8 @@ std::string rules_folder() {
 void add_lamp(CLI::App& app, Command& chosen) {
   CLI::App* lamp =
       app.add_subcommand("lamp", "The photometry bench: info, table, check, plot, compare, convert, hspr, levels");
-  lamp->footer("Example:\n  phare lamp info low_beam.ies\n  phare lamp plot low_beam.ies --rule r149-passing-c --out out/plots");
+  lamp->footer(
+      "Example:\n  phare lamp info low_beam.ies\n  phare lamp plot low_beam.ies --rule r149-passing-c --out out/plots");
   lamp->require_subcommand(1);
   add_info(lamp, chosen);
   add_table(lamp, chosen);

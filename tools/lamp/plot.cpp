@@ -80,7 +80,8 @@ std::string verdict_text(const CheckResult& check) {
   } else {
     text += check.verdict == Verdict::kPass ? "pass" : "undecided";
   }
-  if (check.within_resolution > 0) text += ", " + std::to_string(check.within_resolution) + " within the file's resolution";
+  if (check.within_resolution > 0)
+    text += ", " + std::to_string(check.within_resolution) + " within the file's resolution";
   if (check.no_data > 0) text += ", " + std::to_string(check.no_data) + " without data";
   return text;
 }
@@ -97,8 +98,8 @@ struct WallBeam {
 WallBeam wall_beam(const AimedLamp& lamp, std::string suffix) {
   char facts[80];
   std::snprintf(facts, sizeof facts, "; peak %.0f cd, %.0f lm", lamp.table->peak_cd(), lamp.table->flux_lm());
-  WallBeam beam{std::move(suffix), lamp.table->name, aim_text(lamp) + facts, lamp.intensity(), nullptr,
-                lamp.shape.side == CutoffSide::kRisesLeft};
+  WallBeam beam{std::move(suffix), lamp.table->name, aim_text(lamp) + facts,
+                lamp.intensity(),  nullptr,          lamp.shape.side == CutoffSide::kRisesLeft};
   if (lamp.check) {
     beam.check = &*lamp.check;
     beam.subtitle += "; " + verdict_text(*lamp.check);
@@ -170,8 +171,9 @@ int lamp_plot(const LampPlotOptions& options) {
   }
 
   // Both lamps by themselves, at their own aim.
-  std::vector<RoadLamp> on_car{{left.table, 0.5 * options.spacing_m, options.height_m, left.up_deg, -left.right_deg},
-                               {right.table, -0.5 * options.spacing_m, options.height_m, right.up_deg, -right.right_deg}};
+  std::vector<RoadLamp> on_car{
+      {left.table, 0.5 * options.spacing_m, options.height_m, left.up_deg, -left.right_deg},
+      {right.table, -0.5 * options.spacing_m, options.height_m, right.up_deg, -right.right_deg}};
   char facts[120];
   std::snprintf(facts, sizeof facts, "pair at %.2f m height, %.2f m apart; ", options.height_m, options.spacing_m);
   const bool left_hand = walls.front().left_hand || walls.back().left_hand;
@@ -197,11 +199,11 @@ int lamp_plot(const LampPlotOptions& options) {
     });
     add("vertical_cut", beam.suffix, [&beam, &limits, cut_h](Chart& c) {
       draw_cut(c, beam.intensity, cut_h, limits,
-               beam.name + (cut_h > 0.0 ? ": vertical cut at 2.5 deg R" : ": vertical cut at 2.5 deg L"), beam.subtitle);
+               beam.name + (cut_h > 0.0 ? ": vertical cut at 2.5 deg R" : ": vertical cut at 2.5 deg L"),
+               beam.subtitle);
     });
-    add("false_colour", beam.suffix, [&beam](Chart& c) {
-      draw_bands(c, beam.intensity, beam.name + ": false colour", beam.subtitle);
-    });
+    add("false_colour", beam.suffix,
+        [&beam](Chart& c) { draw_bands(c, beam.intensity, beam.name + ": false colour", beam.subtitle); });
   }
   add("birds_eye", "", [&](Chart& c) { draw_road(c, on_car, left_hand, names + ": isolux of the road", mounted); });
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <limits>
 
 #include "tools/lamp/views.h"
 #include "visual/photometry/beam_image.h"
@@ -44,8 +45,8 @@ std::string signed_number(double value) {
   return (value > 0.0 ? "+" : value < 0.0 ? "-" : "") + short_number(std::abs(value));
 }
 
-/// One panel of differences: signed and logarithmic beyond one unit, so that what is small stays white and what is large
-/// does not drown the rest.
+/// One panel of differences: signed and logarithmic beyond one unit, so that what is small stays white and what is
+/// large does not drown the rest.
 struct DifferencePanel {
   Axes axes;
   double unit = 1.0, full = 1.0;  ///< one unit; where the colour is full, in units of what is shown
@@ -123,8 +124,8 @@ void draw_road(Chart& chart, const std::vector<RoadLamp>& lamps, bool left_hand,
     // y to the left is left on the page
     Axes axes{panel == 0 ? 62.0 : 440.0, 74, 320, 350, extent.aside_m, -extent.aside_m, 0, extent.ahead_m};
     const auto light = road_light(lamps, facing);
-    const Grid grid = sample_grid([&](double y, double x) { return std::log10(std::max(light(x, y), 1e-4)); }, axes.x_min,
-                                  axes.x_max, 0.01, axes.y_max, 241, 321);
+    const Grid grid = sample_grid([&](double y, double x) { return std::log10(std::max(light(x, y), 1e-4)); },
+                                  axes.x_min, axes.x_max, 0.01, axes.y_max, 241, 321);
     chart.picture(axes, grid.x.size(), grid.y.size(),
                   [&](std::size_t i, std::size_t j) { return colour(grid.at_pixel(i, j)); });
     chart.begin_clip(axes);
@@ -140,7 +141,10 @@ void draw_road(Chart& chart, const std::vector<RoadLamp>& lamps, bool left_hand,
     for (const RoadLamp& lamp : lamps) chart.circle(axes.x(lamp.y_m), axes.y(0.0), 3, kWhite, 0.0, true);
     draw_labels(chart, labels);
     chart.end_clip();
-    chart.axes(axes, extent.aside_m > 30.0 ? 10 : 5, extent.ahead_m > 200.0 ? 40 : extent.ahead_m > 100.0 ? 20 : 10,
+    chart.axes(axes, extent.aside_m > 30.0 ? 10 : 5,
+               extent.ahead_m > 200.0   ? 40
+               : extent.ahead_m > 100.0 ? 20
+                                        : 10,
                "y in m, left positive", "x ahead of the lamps in m", {0.5, 0.5, 0.5}, 0.2);
     chart.text(axes.left, 62, facing ? "E facing the car (vertical plane, 0.25 m high)" : "E on the road (horizontal)",
                10, -1, kBlack, true);
@@ -150,21 +154,27 @@ void draw_road(Chart& chart, const std::vector<RoadLamp>& lamps, bool left_hand,
     marks.push_back({std::log10(lx), "", short_number(lx)});
   colour_bar(chart, 790, 88, 336, kLow, kHigh, colour, marks);
   chart.text(797, 76, "lx", 9, 0, kBlack, true);
-  chart.text(430, 472,
-             std::string("isolux 1, 3, 5 (green), 10, 30, 50, 100 lx; dashed: two lanes of 3.5 m, the car in the middle "
-                         "of the ") +
-                 (left_hand ? "left" : "right") + " one" + (clipped ? "; 1 lx reaches beyond this page" : ""),
-             8.5, 0, kText);
+  chart.text(
+      430, 472,
+      std::string("isolux 1, 3, 5 (green), 10, 30, 50, 100 lx; dashed: two lanes of 3.5 m, the car in the middle "
+                  "of the ") +
+          (left_hand ? "left" : "right") + " one" + (clipped ? "; 1 lx reaches beyond this page" : ""),
+      8.5, 0, kText);
 }
 
 void draw_difference(Chart& chart, const IntensityHv& a, const IntensityHv& b, const std::vector<RoadLamp>& road_a,
                      const std::vector<RoadLamp>& road_b, const std::string& title, const std::string& subtitle) {
   heading(chart, title, subtitle);
   const DifferencePanel wall{{62, 74, 350, 350, -15, 15, -5, 4}, 100.0, 10000.0, {300, 1000, 3000, 10000}, "cd"};
-  const Grid candela =
-      sample_grid([&](double h, double v) { return signed_log((b(h, v) - a(h, v)) / wall.unit); }, wall.axes.x_min,
-                  wall.axes.x_max, wall.axes.y_min, wall.axes.y_max, 501, 301);
+  const Grid candela = sample_grid(
+      [&](double h, double v) {
+        const bool none =
+            (a.evidence && a.evidence(h, v) == Evidence::kNone) || (b.evidence && b.evidence(h, v) == Evidence::kNone);
+        return none ? std::numeric_limits<double>::quiet_NaN() : signed_log((b(h, v) - a(h, v)) / wall.unit);
+      },
+      wall.axes.x_min, wall.axes.x_max, wall.axes.y_min, wall.axes.y_max, 501, 301);
   draw_panel(chart, wall, candela);
+  draw_no_data_note(chart, 66, 472, candela);
   chart.line({{wall.axes.x(0), wall.axes.top}, {wall.axes.x(0), wall.axes.top + wall.axes.height}}, kBlack, 1.1);
   chart.line({{wall.axes.left, wall.axes.y(0)}, {wall.axes.left + wall.axes.width, wall.axes.y(0)}}, kBlack, 1.1);
   chart.axes(wall.axes, 5, 1, "H in deg, right positive", "V in deg, up positive", {0.6, 0.6, 0.6}, 0.2);
@@ -179,7 +189,7 @@ void draw_difference(Chart& chart, const IntensityHv& a, const IntensityHv& b, c
   chart.axes(road.axes, aside > 30.0 ? 20 : 10, ahead > 200.0 ? 40 : 20, "y in m, left positive",
              "x ahead of the lamps in m", {0.6, 0.6, 0.6}, 0.2);
   chart.text(road.axes.left, 62, "B - A in lx facing the car, pair, 0.25 m high", 10, -1, kBlack, true);
-  chart.text(430, 472, "red: B gives more, blue: B gives less; signed logarithm of the difference", 8.5, 0, kText);
+  chart.text(500, 472, "red: B gives more, blue: B gives less; signed logarithm of the difference", 8.5, 0, kText);
 }
 
 }  // namespace phare

@@ -48,7 +48,8 @@ void colour_bar(Chart& chart, double left, double top, double height, double low
   chart.picture(bar, 1, 256, [&](std::size_t, std::size_t j) {
     return colour(high + (low - high) * static_cast<double>(j) / 255.0);
   });
-  chart.line({{left, top}, {left + kWidth, top}, {left + kWidth, top + height}, {left, top + height}}, kBlack, 0.8, true);
+  chart.line({{left, top}, {left + kWidth, top}, {left + kWidth, top + height}, {left, top + height}}, kBlack, 0.8,
+             true);
   for (const BarMark& mark : marks) {
     const double y = bar.y(mark.value);
     if (y < top - 0.5 || y > top + height + 0.5) continue;

@@ -15,7 +15,7 @@ inline constexpr double kPageWidth = 860.0, kPageHeight = 490.0;
 std::string short_number(double value);
 
 struct Grid {
-  std::vector<double> x, y, values;  ///< values[y][x]
+  std::vector<double> x, y, values;                             ///< values[y][x]
   double at_pixel(std::size_t column, std::size_t row) const {  ///< first row at the top of a picture
     return values[(y.size() - 1 - row) * x.size() + column];
   }

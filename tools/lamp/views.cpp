@@ -154,7 +154,8 @@ void draw_row_legend(Chart& chart, const CheckResult& check) {
       text += " and " + std::to_string(beyond.size() - i) + " more";
       break;
     }
-    const auto row = std::find_if(check.rows.begin(), check.rows.end(), [&](const CheckRow& r) { return r.id == beyond[i]; });
+    const auto row =
+        std::find_if(check.rows.begin(), check.rows.end(), [&](const CheckRow& r) { return r.id == beyond[i]; });
     text += (i > 0 ? ", " : "") + beyond[i] + " (" +
             (row->verdict == Verdict::kFail ? "FAIL" : verdict_name(row->verdict)) + ")";
   }
@@ -178,9 +179,9 @@ std::vector<std::string> rows_beyond_wall(const CheckResult& check) {
 void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& title, const std::string& subtitle,
                const CheckResult* check, bool coloured) {
   const Axes axes = kWall;
-  const Grid grid = sample_grid(
-      [&](double h, double v) { return has_data(intensity, h, v) ? log_cd(intensity(h, v)) : kNoValue; }, axes.x_min,
-      axes.x_max, axes.y_min, axes.y_max, 701, 373);
+  const Grid grid =
+      sample_grid([&](double h, double v) { return has_data(intensity, h, v) ? log_cd(intensity(h, v)) : kNoValue; },
+                  axes.x_min, axes.x_max, axes.y_min, axes.y_max, 701, 373);
   constexpr double kLow = 1.5, kHigh = 5.0;  // 30 cd to 100,000 cd
   const auto colour = [](double log) { return false_colour((log - kLow) / (kHigh - kLow)); };
   chart.picture(axes, grid.x.size(), grid.y.size(), [&](std::size_t i, std::size_t j) {
@@ -245,8 +246,8 @@ void draw_cut(Chart& chart, const IntensityHv& intensity, double h_deg, const Sh
     char text[120];
     std::snprintf(text, sizeof text, "G %.2f (%s, %s)", limit, word, limits.of.c_str());
     chart.line({{axes.left, g_axes.y(limit)}, {axes.left + axes.width, g_axes.y(limit)}}, kOrange, 0.9, false, true);
-    chart.label({{axes.left + 6, g_axes.y(limit) - 6, -1}, {axes.left + 6, g_axes.y(limit) + 7, -1}}, text, 8.5, kOrange,
-                false);
+    chart.label({{axes.left + 6, g_axes.y(limit) - 6, -1}, {axes.left + 6, g_axes.y(limit) + 7, -1}}, text, 8.5,
+                kOrange, false);
   }
   chart.line(sharpness, kOrange, 1.4);
   chart.line(curve, kBlue, 2.0);

@@ -15,12 +15,12 @@
 namespace phare {
 namespace {
 
-constexpr double kWindow_deg = 3.0;       // on each side of a kink: short of the shoulder of UN beams
-constexpr double kLeastKink_deg = 0.03;   // rms by which the best straight line misses the cut-off; a 15° kink: 0.12°
-constexpr double kScan_deg = 0.01;        // what a scan may be off by
-constexpr double kLeastRise = 0.09;       // slope of the ramp: 5°
-constexpr double kRuleRow_deg = 0.051;    // UN R112 annex 9 scans in 0.05°
-constexpr double kOneBeam_log = 0.01;     // 2.3 %: two files of one beam
+constexpr double kWindow_deg = 3.0;      // on each side of a kink: short of the shoulder of UN beams
+constexpr double kLeastKink_deg = 0.03;  // rms by which the best straight line misses the cut-off; a 15° kink: 0.12°
+constexpr double kScan_deg = 0.01;       // what a scan may be off by
+constexpr double kLeastRise = 0.09;      // slope of the ramp: 5°
+constexpr double kRuleRow_deg = 0.051;   // UN R112 annex 9 scans in 0.05°
+constexpr double kOneBeam_log = 0.01;    // 2.3 %: two files of one beam
 constexpr double kRamps_deg[] = {0.3, 0.45, 0.6, 0.75, 0.9, 1.2, 1.6, 2.2, kWindow_deg};
 
 /// Straight line plus ramp: v = offset + slope·x + rise·clamp(x, 0, length), x outward from the foot.
@@ -128,6 +128,10 @@ double cell_height_deg(const IntensityTable& table, double h_deg, double v_deg) 
   return highest - lowest;
 }
 
+bool has_data(const IntensityHv& intensity, double h_deg, double v_deg) {
+  return !intensity.evidence || intensity.evidence(h_deg, v_deg) != Evidence::kNone;
+}
+
 /// One Gauss-Newton step of log E of B onto log E of A in a band about A's cut-off. A difference in level is free, and
 /// one in contrast or sharpness is mostly odd about the line and moves it little.
 struct BandStep {
@@ -144,6 +148,9 @@ BandStep band_step(const IntensityHv& a, const IntensityHv& b, const CutoffLine&
     const double h = line.h_deg[i];
     for (double off = -kBand_deg; off <= kBand_deg + 1e-9; off += kBandStep_deg) {
       const double v = line.v_deg[i] + off;
+      if (!has_data(a, h, v) || !has_data(b, h, v - kProbe_deg) || !has_data(b, h, v + kProbe_deg) ||
+          !has_data(b, h - kProbe_deg, v) || !has_data(b, h + kProbe_deg, v))
+        continue;
       const double up = (log_cd(b(h, v - kProbe_deg)) - log_cd(b(h, v + kProbe_deg))) / (2.0 * kProbe_deg);
       const double right =
           sideways ? (log_cd(b(h - kProbe_deg, v)) - log_cd(b(h + kProbe_deg, v))) / (2.0 * kProbe_deg) : 0.0;
@@ -155,6 +162,7 @@ BandStep band_step(const IntensityHv& a, const IntensityHv& b, const CutoffLine&
     }
   }
   const double n = m[2][2];
+  if (n < 10.0) return {};
   if (!sideways) m[0][0] = 1.0;
   if (!(std::abs(glm::determinant(m)) > 1e-9)) return {};
   const glm::dvec3 step = glm::inverse(m) * r;
@@ -284,8 +292,8 @@ CutoffAlignment align_cutoffs(const IntensityTable& a, const IntensityTable& b, 
                                   cell_height_deg(b, centre - 2.5 - result.right_deg, shape_b.flat_v_deg));
   result.up_open_deg = row_deg;  // half a row for each of the two
   result.right_open_deg = result.right_known ? row_deg / std::tan(rise) : 0.0;
-  // The steepest place of an interpolated table jumps from row to row. Within what that leaves open, the light about the
-  // cut-off decides: where rows are wider than the rules scan, and between copies of one beam, where it is exact.
+  // The steepest place of an interpolated table jumps from row to row. Within what that leaves open, the light about
+  // the cut-off decides: where rows are wider than the rules scan, and between copies of one beam, where it is exact.
   const glm::dvec2 at{result.right_deg, result.up_deg};
   const glm::dvec2 open{result.right_open_deg, result.up_open_deg};
   glm::dvec2 turn = at;

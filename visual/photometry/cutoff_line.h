@@ -28,8 +28,8 @@ Kink find_kink(const IntensityHv& intensity);
 /// What is added to B's H and V to lay its line on A's.
 struct LineShift {
   double right_deg = 0.0, up_deg = 0.0;
-  bool right_known = false;   ///< false: both lines are straight, and slide along each other; right_deg is 0
-  double apart_deg = 0.0;     ///< mean distance that is left
+  bool right_known = false;  ///< false: both lines are straight, and slide along each other; right_deg is 0
+  double apart_deg = 0.0;    ///< mean distance that is left
 };
 /// Least mean distance within 5° of `a_kink_h_deg`, sideways within `reach_deg` of `start_right_deg`.
 LineShift align_lines(const CutoffLine& a, const CutoffLine& b, double a_kink_h_deg, double start_right_deg,

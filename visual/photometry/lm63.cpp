@@ -271,8 +271,7 @@ Result<IntensityTable> parse_lm63(std::string_view bytes, const std::string& nam
     double value = 0.0;
     if (!text.number(value)) {
       const Error why = text.why("a candela value");
-      return Error{why.place,
-                   why.reason + " (value " + std::to_string(i + 1) + " of " + std::to_string(count) + ")"};
+      return Error{why.place, why.reason + " (value " + std::to_string(i + 1) + " of " + std::to_string(count) + ")"};
     }
     if (value < 0.0) return text.error("negative candela " + number_text(value));
     planes.push_back(value * counts->scale);

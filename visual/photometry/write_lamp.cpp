@@ -93,7 +93,8 @@ std::string screen_csv(const IntensityTable& table) {
   const auto metres = [d](double deg) { return d * std::tan(deg * std::numbers::pi / 180.0); };
   std::string text = "# title: " + keyword_line(table.name) +
                      "\n# quantity: illuminance on a flat screen perpendicular to the lamp axis\n# unit: lx\n"
-                     "# distance_m: " + tidy_text(d) + "\nz\\y";
+                     "# distance_m: " +
+                     tidy_text(d) + "\nz\\y";
   const std::size_t columns = table.first_deg.size();
   for (std::size_t i = columns; i-- > 0;) text += "," + tidy_text(-metres(table.first_deg[i]) + 0.0);  // y ascending
   text += '\n';
@@ -139,8 +140,8 @@ std::string lm63_text(const IntensityTable& given, const std::string& generation
           " 1 " + std::to_string(table->second_deg.size()) + " " + std::to_string(table->first_deg.size()) + " " +
           std::to_string(static_cast<int>(table->type)) + (header.units == "feet" ? " 1 " : " 2 ") +
           size_text((round ? -header.length_m : header.width_m) / unit_m) + " " +
-          size_text((round ? -header.length_m : header.length_m) / unit_m) + " " +
-          size_text(header.height_m / unit_m) + "\n1 " + generation + " " + number_text(header.input_w) + "\n";
+          size_text((round ? -header.length_m : header.length_m) / unit_m) + " " + size_text(header.height_m / unit_m) +
+          "\n1 " + generation + " " + number_text(header.input_w) + "\n";
   append_numbers(text, table->second_deg.size(), [&](std::size_t j) { return table->second_deg[j]; });
   append_numbers(text, table->first_deg.size(), [&](std::size_t i) { return table->first_deg[i]; });
   const std::size_t columns = table->first_deg.size();
@@ -157,8 +158,8 @@ std::string eulumdat_text(const IntensityTable& given, GammaAxis axis) {
     if (axis == GammaAxis::kGamma90) {
       type_a_grid(given, first, second);
       const bool is_a = given.type == PhotometricType::kA && given.screen_distance_m <= 0.0;
-      on_grid = type_a_as_gamma90(
-          is_a ? given : resample(given, PhotometricType::kA, GammaAxis::kGamma0, first, second));
+      on_grid =
+          type_a_as_gamma90(is_a ? given : resample(given, PhotometricType::kA, GammaAxis::kGamma0, first, second));
     } else {
       for (int i = 0; i <= 360; ++i) first.push_back(i);
       for (int i = 0; i <= 200; ++i) second.push_back(i * 5 / 100.0);
@@ -184,10 +185,12 @@ std::string eulumdat_text(const IntensityTable& given, GammaAxis axis) {
   line(keyword(given, "LUMCAT", given.name));
   line(given.name);
   line(keyword(given, "ISSUEDATE", "unknown"));
-  // 13 to 21: luminaire and its opening in mm; a width of 0 is round. Of the luminaire no more is known than its opening.
+  // 13 to 21: luminaire and its opening in mm; a width of 0 is round. Of the luminaire no more is known than its
+  // opening.
   const std::string length_mm = size_text(1e3 * std::abs(header.length_m));
   const std::string width_mm = size_text(1e3 * std::max(0.0, header.width_m));
-  for (const std::string& value : {length_mm, width_mm, size_text(1e3 * std::abs(header.height_m)), length_mm, width_mm})
+  for (const std::string& value :
+       {length_mm, width_mm, size_text(1e3 * std::abs(header.height_m)), length_mm, width_mm})
     line(value);
   for (int i = 0; i < 4; ++i) line("0");
   line("100");
@@ -236,9 +239,12 @@ std::string with_traffic_side(const std::string& text, bool left_hand) {
   for (std::size_t i = 0; i < text.size();) {
     std::size_t length = 0, swapped_length = 0;
     const char* to = "";
-    for (const auto& [from, other] :
-         {std::pair{"RIGHT-HAND TRAFFIC", "LEFT"}, {"RIGHT HAND TRAFFIC", "LEFT"}, {"RHT", "LHT"},
-          {"LEFT-HAND TRAFFIC", "RIGHT"}, {"LEFT HAND TRAFFIC", "RIGHT"}, {"LHT", "RHT"}}) {
+    for (const auto& [from, other] : {std::pair{"RIGHT-HAND TRAFFIC", "LEFT"},
+                                      {"RIGHT HAND TRAFFIC", "LEFT"},
+                                      {"RHT", "LHT"},
+                                      {"LEFT-HAND TRAFFIC", "RIGHT"},
+                                      {"LEFT HAND TRAFFIC", "RIGHT"},
+                                      {"LHT", "RHT"}}) {
       const std::string_view word = from;
       const bool says_left = word.starts_with('L');
       if (says_left == left_hand || capitals.compare(i, word.size(), word) != 0) continue;

@@ -13,9 +13,9 @@ namespace phare {
 /// `generation` is field 12: 1.00010 computed, 1.00001 undefined or older file.
 std::string lm63_text(const IntensityTable& table, const std::string& generation = "1.00001");
 
-/// EULUMDAT. Absolute photometry has lamp count -1 and the table's flux, relative that of its lamps and the output ratio.
-/// A type C table whose axis is `axis` keeps its grid, and so does a type A table with kGamma90 (C = -H, gamma = 90 + V).
-/// Any other is sampled: with kGamma0 on 360 planes and 311 gamma angles, 0.05° apart near the axis.
+/// EULUMDAT. Absolute photometry has lamp count -1 and the table's flux, relative that of its lamps and the output
+/// ratio. A type C table whose axis is `axis` keeps its grid, and so does a type A table with kGamma90 (C = -H, gamma =
+/// 90 + V). Any other is sampled: with kGamma0 on 360 planes and 311 gamma angles, 0.05° apart near the axis.
 std::string eulumdat_text(const IntensityTable& table, GammaAxis axis = GammaAxis::kGamma0);
 
 /// A candela grid as CSV with its remarks; a flat screen as what it was, lux over y and z.
