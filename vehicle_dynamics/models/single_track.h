@@ -83,11 +83,12 @@ struct Held {
   double dt_s = 0.0;
   double along = 0.0, across = 0.0, across_rate_ps = 0.0;  ///< slopes of the plane through the contacts: along in the
                                                            ///< step's middle, across at its start
-  double level = 1.0;                                      ///< what is left of a load on that plane
-  double cosine = 1.0, sine = 0.0;                         ///< of the steering
-  double front_push_n = 0.0, rear_push_n = 0.0;            ///< drive less brake torque at the tread
-  double drag_kgpm = 0.0, rolling = 0.0;                   ///< drag over speed squared; rolling resistance over load
-  bool stopped = false;                                    ///< brakes hold the car along its x
+  double bank = 0.0;                ///< of it what pulls aside: of mesh or plane, two tracks of unlike height are none
+  double level = 1.0;               ///< what is left of a load on that plane
+  double cosine = 1.0, sine = 0.0;  ///< of the steering
+  double front_push_n = 0.0, rear_push_n = 0.0;  ///< drive less brake torque at the tread
+  double drag_kgpm = 0.0, rolling = 0.0;         ///< drag over speed squared; rolling resistance over load
+  bool stopped = false;                          ///< brakes hold the car along its x
   bool off_road = false;
   double most_slip_pm = std::numeric_limits<double>::infinity();
 };

@@ -111,8 +111,9 @@ void settle(const Params& p, const Held& h, const State& before, State& s, doubl
   const double rear = rear_road + 0.5 * (-transfer + rear_jack) / p.axles[1].spring_npm;
   s.pitch = (rear - front) / car.wheelbase_m;
   s.z_m = front + car.x_m[0] * s.pitch;
-  const double felt = car.sprung_kg * car.cg_height_m * a.fy_n / car.mass_kg * (1.0 + across * across);
-  s.roll = across + felt / (p.springs.roll_stiffness_ps2 * car.roll_inertia_kgm2);
+  const double felt_nm = car.sprung_kg * car.cg_height_m *
+                         (a.fy_n / car.mass_kg * (1.0 + h.bank * h.bank) + kGravity_mps2 * (across - h.bank));
+  s.roll = across + felt_nm / (p.springs.roll_stiffness_ps2 * car.roll_inertia_kgm2);
   s.z_rate_mps = (s.z_m - before.z_m) / dt;
   s.pitch_rate_ps = (s.pitch - before.pitch) / dt;
   s.roll_rate_ps = (s.roll - before.roll) / dt;
