@@ -109,7 +109,7 @@ void kinematics(const Params& p, const Held& held, const Geometry& g, const Stee
     d.tan_alpha[i] = slip.tan_alpha_ps;
     contact.decay_ps[i] = slip.kappa_decay_ps;
     contact.decay_ps[i + 4] = slip.tan_alpha_decay_ps;
-    contact.carried_mps[i] = slip.carried_mps;
+    contact.moving_mps[i] = std::max(slip.carried_mps, std::abs(aside));
     contact.stretch_mps[i] = slip.kappa_stretch_mps;
     contact.stretch_mps[i + 4] = slip.tan_alpha_stretch_mps;
     // Closing speed of the tyre: the wheel's against the road, along the normal.
@@ -121,7 +121,7 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
               const State& s, State& d, TyreForces& tyres) {
   constexpr double kAirDensity_kgpm3 = 1.2041;  // dry air, 20 degrees C, 101325 Pa
   constexpr double kFullDamping_n = 2700.0;     // load at which carcass_damping_nspm is given
-  constexpr double kDampedBelow_mps = 2.0;      // faded out there: a rolling tyre carries its deflection away
+  constexpr double kDampedBelow_mps = 2.0;      // faded out there: a rolling or sliding tyre carries it away
   constexpr double kRollingKnee_mps = 0.05;     // rolling resistance turns its sign smoothly
   const auto& m = g.world_from_body;
 
@@ -136,9 +136,9 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
   double fx = 0.0, fy = 0.0, road_fx = 0.0, yaw = 0.0;
   std::array<double, 4> up{};
   for (std::size_t i = 0; i < 4; ++i) {
-    if (c.carried_mps[i] < kDampedBelow_mps && tyres.load_n[i] > 0.0) {
-      const double damping = p.tyre.p.carcass_damping_nspm * (1.0 - c.carried_mps[i] / kDampedBelow_mps) *
-                             tyres.load_n[i] / kFullDamping_n;
+    if (c.moving_mps[i] < kDampedBelow_mps && tyres.load_n[i] > 0.0) {
+      const double damping =
+          p.tyre.p.carcass_damping_nspm * (1.0 - c.moving_mps[i] / kDampedBelow_mps) * tyres.load_n[i] / kFullDamping_n;
       const double x = tyres.fx_n[i] + damping * c.stretch_mps[i], y = tyres.fy_n[i] + damping * c.stretch_mps[i + 4];
       const double most = g.friction[i] * tyres.load_n[i];
       const double ex = x / (most * p.tyre.p.long_peak), ey = y / (most * p.tyre.p.lat_peak), over = ex * ex + ey * ey;

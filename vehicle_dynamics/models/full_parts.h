@@ -24,9 +24,9 @@ Steer steer_angles(const Params& params, double mean_rad);
 
 /// How the contact patches move.
 struct Contact {
-  std::array<std::array<double, 3>, 4> along{}, left{};  ///< wheel directions in the road plane, body axes
-  std::array<double, 4> rolling_mps{}, carried_mps{}, closing_mps{};
-  std::array<double, 8> decay_ps{}, stretch_mps{};  ///< kappa of the four wheels, then tan_alpha
+  std::array<std::array<double, 3>, 4> along{}, left{};              ///< wheel directions in the road plane, body axes
+  std::array<double, 4> rolling_mps{}, moving_mps{}, closing_mps{};  ///< moving: the patch, rolling or sliding
+  std::array<double, 8> decay_ps{}, stretch_mps{};                   ///< kappa of the four wheels, then tan_alpha
 };
 
 struct TyreForces {

@@ -78,7 +78,7 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
     const Two left_over = largest(limit * limit - ahead * ahead, Two{});
     side = share / along_limit * Two{std::sqrt(left_over[0]), std::sqrt(left_over[1])};
   }
-  const Two fade = largest(1.0 - magnitude(vx) / kDampedBelow_mps, Two{});
+  const Two fade = largest(1.0 - largest(magnitude(vx), magnitude(vy)) / kDampedBelow_mps, Two{});
   if (fade[0] > 0.0 || fade[1] > 0.0) {
     side += car.tyre.p.carcass_damping_nspm * kPerFullDamping_n * fade * load * slip.stretch_mps;
     const Two most = held.friction * car.tyre.p.lat_peak * load;
