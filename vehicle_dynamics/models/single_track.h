@@ -1,17 +1,16 @@
 // Level `single-track`: one wheel per axle in the plane, a body on springs above it.
 //
-// What: yaw and side slip with linear or Magic Formula tyres and their relaxation; dive, roll and heave, as a dynamic
-//   second-order body over four contacts or quasi-static; load transfer onto four wheels.
+// What: yaw and side slip with linear or Magic Formula tyres and their relaxation; dive, roll and heave, as a
+//   dynamic second-order body over four contacts or quasi-static; load transfer onto four wheels.
 // Source: M. Mitschke, H. Wallentowitz, Dynamik der Kraftfahrzeuge, 5th ed. 2014, ch. 19 (single track); D. L.
-// Milliken,
-//   W. F. Milliken, Race Car Vehicle Dynamics, 1995, ch. 5 and 18; body on springs in series with the tyres, see
-//   ride.h.
+//   Milliken, W. F. Milliken, Race Car Vehicle Dynamics, 1995, ch. 5 and 18; body on springs in series with the
+//   tyres, its step in ride.h.
 // Frame: position and velocity of the centre of gravity, ISO 8855; attitude as slopes against the horizontal, small
 //   angles.
 // Leaves out: wheel hop and lift-off, wheel spin and locking (tyre force follows torque up to the friction limit),
 //   differences between left and right tyres, damping of the tyres.
-// Tests: tests/vehicle_dynamics/single_track_test.cpp (closed forms, order of the integrators), reference_test.cpp (two
-//   other programs).
+// Tests: tests/vehicle_dynamics/single_track_test.cpp (closed forms), reference_test.cpp (two other programs, error
+//   of the integrator).
 #pragma once
 
 #include <array>
