@@ -259,7 +259,10 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
   const double along = 0.5 * (fall[0] + fall[1]) * p.per_wheelbase_m, bank = bank_m * p.per_tracks_m;
   const double level = 1.0 / std::sqrt(1.0 + along * along + bank * bank);
 
-  const double cosine = std::cos(in.steer_rad), sine = std::sin(in.steer_rad);
+  // Of the steering, and of the heading that the yaw rate brings in half a step.
+  const Two angle{in.steer_rad, s.yaw_rad + 0.5 * dt * s.r_radps}, cosines = phare::cosine(angle),
+                                                                   sines = phare::sine(angle);
+  const double cosine = cosines[0], sine = sines[0];
   double most_slip_pm = std::numeric_limits<double>::infinity();
   if (p.integrator == Integrator::kRk4) {
     const double fastest =
@@ -292,6 +295,8 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
           .level = level,
           .cosine = cosine,
           .sine = sine,
+          .yaw_cosine = cosines[1],
+          .yaw_sine = sines[1],
           .front_push_n = front_drive - against * front_brake,
           .rear_push_n = rear_drive - against * rear_brake,
           .drag_kgpm = in.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.car.drag_area_m2 : 0.0,

@@ -85,6 +85,7 @@ struct Held {
   double bank = 0.0;                ///< of it what pulls aside: of mesh or plane, two tracks of unlike height are none
   double level = 1.0;               ///< what is left of a load on that plane
   double cosine = 1.0, sine = 0.0;  ///< of the steering
+  double yaw_cosine = 1.0, yaw_sine = 0.0;       ///< of the heading in the middle of the step
   double front_push_n = 0.0, rear_push_n = 0.0;  ///< drive less brake torque at the tread
   double drag_kgpm = 0.0, rolling = 0.0;         ///< drag over speed squared; rolling resistance over load
   bool stopped = false;                          ///< brakes hold the car along its x

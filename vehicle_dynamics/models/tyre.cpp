@@ -72,20 +72,6 @@ extern "C" Four _ZGVdN4v_atan(Four);
 extern "C" Four _ZGVdN4v_sin(Four);
 extern "C" Four _ZGVdN4v_cos(Four);
 
-// Two lanes, which every such processor has.
-extern "C" Two _ZGVbN2v_atan(Two);
-extern "C" Two _ZGVbN2v_sin(Two);
-extern "C" Two _ZGVbN2v_cos(Two);
-Two arctangent(Two v) {
-  return _ZGVbN2v_atan(v);
-}
-Two sine(Two v) {
-  return _ZGVbN2v_sin(v);
-}
-Two cosine(Two v) {
-  return _ZGVbN2v_cos(v);
-}
-
 [[gnu::target("avx2")]] inline Four bent(Four bs, double curvature) {
   return _ZGVdN4v_atan(bs - curvature * (bs - _ZGVdN4v_atan(bs)));
 }
@@ -120,20 +106,6 @@ Two cosine(Two v) {
 }
 
 const bool kFourLanes = __builtin_cpu_supports("avx2");
-
-}  // namespace
-#else
-namespace {
-
-Two arctangent(Two v) {
-  return Two{std::atan(v[0]), std::atan(v[1])};
-}
-Two sine(Two v) {
-  return Two{std::sin(v[0]), std::sin(v[1])};
-}
-Two cosine(Two v) {
-  return Two{std::cos(v[0]), std::cos(v[1])};
-}
 
 }  // namespace
 #endif
