@@ -111,9 +111,9 @@ inline HeightProfile::Pair HeightProfile::across(double s_m) const {
   const Cell c = cell(s_m);
   if (!c.four) return {};
   const Two z0 = c.four[0].z_m, z1 = c.four[1].z_m, z2 = c.four[2].z_m, z3 = c.four[3].z_m;
-  const Two slope_b = 0.5 * (z2 - z0), slope_c = 0.5 * (z3 - z1);
-  const Two c2 = 3.0 * (z2 - z1) - 2.0 * slope_b - slope_c, c3 = slope_b + slope_c - 2.0 * (z2 - z1);
-  const Two slope = (slope_b + c.u * (2.0 * c2 + 3.0 * c.u * c3)) * per_spacing_;
+  const Two d1 = z1 - z0, d2 = z2 - z1, d3 = z3 - z2;
+  const Two slope_b = 0.5 * (d1 + d2), c3 = 0.5 * (d1 + d3) - d2, c2 = d2 - slope_b - c3;
+  const Two slope = (slope_b + c.u * (c2 + c2 + 3.0 * c.u * c3)) * per_spacing_;
   return {z1 + c.u * (slope_b + c.u * (c2 + c.u * c3)), c.beyond ? Two{} : slope};
 }
 

@@ -1,6 +1,7 @@
 // Reader of batch input files.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "vehicle_dynamics/batch.h"
@@ -16,6 +17,12 @@ struct Column {
   double min, max;
   bool required;
 };
+
+std::string brief(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
 
 }  // namespace
 
@@ -57,8 +64,8 @@ Result<Inputs> read_inputs(const std::filesystem::path& csv_file) {
     for (std::size_t row = 0; row < table->rows(); ++row) {
       const double value = table->at(row, *at);
       if (value < column.min || value > column.max)
-        return Error{table->place(row), column.name + " " + std::to_string(value) + " is outside " +
-                                            std::to_string(column.min) + " to " + std::to_string(column.max)};
+        return Error{table->place(row),
+                     column.name + " " + brief(value) + " is outside " + brief(column.min) + " to " + brief(column.max)};
       column.target->push_back(value);
     }
   }

@@ -6,7 +6,7 @@
 //   the body's pitch against the axles and an actuator with a limited rate, filter and rate from the vehicle file.
 // Frame: angles of the lamps against the body, > 0 up, as lighting engineers speak.
 // Leaves out: different filters for driving steadily and braking, sensor quantisation.
-// Tests: tests/vehicle_dynamics/levelling_test.cpp.
+// Tests: tests/vehicle_dynamics/running_test.cpp (filter, rate, load), process_test.cpp (tilt on the bus).
 #pragma once
 
 #include "config/vehicle.h"

@@ -328,6 +328,7 @@ class Process {
       json["drops"] = loop_->drops();
       json["controls_refused"] = loop_->controls_refused();
       json["off_road"] = loop_->off_road();
+      json["slept_s"] = loop_->slept_s();
       json["step_ns"] = {{"count", times.count()},
                          {"p50", times.quantile_ns(0.5)},
                          {"p99", times.quantile_ns(0.99)},
@@ -377,7 +378,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? kExitDone : kExitBadInput;
+    if (problem.get_exit_code() != 0) return fail("phare-dynamics", {"command line", problem.what()});
+    app.exit(problem);  // --help, --version
+    return kExitDone;
   }
   if (batch.asked()) return batch.run(options.level.empty() ? "full" : options.level);
   if (options.rig_file.empty()) return fail("phare-dynamics", {"--rig", "is required, unless --batch runs a file"});

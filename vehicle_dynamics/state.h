@@ -18,6 +18,8 @@ struct Controls {
   double accelerator_01 = 0.0;
   double brake_01 = 0.0;
   Gear gear = Gear::kDrive;
+
+  friend bool operator==(const Controls&, const Controls&) = default;
 };
 
 /// State of the car after a step. Position and angles are those of proto VehicleState: origin on the ground under the

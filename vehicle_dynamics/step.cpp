@@ -20,10 +20,23 @@ void StepLoop::step_once() {
   const double dt = setup_.step.seconds();
   before_ = now_;
 
-  // the level that the scene calls for
-  if (setup_.level == Level::kAuto) choose_level(dt);
+  // the car over the road, by the model that the scene calls for; parked and settled it calls for none
+  if (!sleeps(dt)) move(dt);
 
-  // the car over the road, by that level's model
+  // the lamps against the body
+  if (running_ != Level::kPose) {  // a record holds them already
+    levelling::advance(setup_.vehicle.levelling, setup_.levelling, 0.0, now_.pitch_rad, now_.speed_mps, lamps_, dt);
+    now_.lamp_tilt_rad = lamps_.tilt_rad;
+  }
+
+  // what proves that a repeated run was the same, and what it cost
+  ++steps_;
+  hashes_[steps_ % hashes_.size()] = hash();
+  times_.add(std::chrono::steady_clock::now() - begin);
+}
+
+void StepLoop::move(double dt) {
+  if (setup_.level == Level::kAuto) choose_level(dt);
   switch (running_) {
     case Level::kPose:
       now_ = from_message(setup_.track.at(time_of(steps_ + 1)), 1.0, 1.0);
@@ -41,17 +54,18 @@ void StepLoop::step_once() {
       break;
   }
   path_m_ = sprung() ? setup_.sprung->path_m() : path_m_ + now_.speed_mps * dt;
+}
 
-  // the lamps against the body
-  if (running_ != Level::kPose) {  // a record holds them already
-    levelling::advance(setup_.vehicle.levelling, setup_.levelling, 0.0, now_.pitch_rad, now_.speed_mps, lamps_, dt);
-    now_.lamp_tilt_rad = lamps_.tilt_rad;
-  }
-
-  // what proves that a repeated run was the same, and what it cost
-  ++steps_;
-  hashes_[steps_ % hashes_.size()] = hash();
-  times_.add(std::chrono::steady_clock::now() - begin);
+bool StepLoop::sleeps(double dt) {
+  constexpr double kStill_mps = 1e-4, kStill_radps = 1e-5, kAfter_s = 2.0;
+  const bool held = controls_.accelerator_01 == 0.0 && (controls_.brake_01 > 0.0 || controls_.gear == Gear::kPark);
+  const bool still = std::abs(now_.speed_mps) < kStill_mps && std::abs(now_.heave_rate_mps) < kStill_mps &&
+                     std::abs(now_.pitch_rate_radps) < kStill_radps && std::abs(now_.roll_rate_radps) < kStill_radps &&
+                     std::abs(now_.yaw_rate_radps) < kStill_radps;
+  still_s_ = sprung() && held && still ? still_s_ + dt : 0.0;
+  if (still_s_ <= kAfter_s) return false;
+  slept_s_ += dt;
+  return true;
 }
 
 void StepLoop::run_to(SimTime time) {
@@ -168,7 +182,9 @@ void StepLoop::choose_level(double dt) {
 
 void StepLoop::set_controls(const Controls& controls) {
   bool refused = false;
-  controls_ = accepted(controls, controls_, &refused);
+  const Controls wanted = accepted(controls, controls_, &refused);
+  if (wanted != controls_) still_s_ = 0.0;  // any change wakes the car
+  controls_ = wanted;
   controls_refused_ += refused ? 1 : 0;
 }
 

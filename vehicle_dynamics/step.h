@@ -74,6 +74,7 @@ class StepLoop {
   SimTime dropped() const { return dropped_; }
   std::uint64_t drops() const { return drops_; }  ///< how often time was dropped
   std::uint64_t controls_refused() const { return controls_refused_; }
+  double slept_s() const { return slept_s_; }  ///< held by brakes and settled: the car is where it was, at no cost
   bool off_road() const { return off_road_; }  ///< a wheel has been where there is no surface
   const StepTimes& times() const { return times_; }
   const RunSetup& setup() const { return setup_; }
@@ -88,6 +89,8 @@ class StepLoop {
     return SimTime{start_.ns + static_cast<std::int64_t>(step) * setup_.step.ns};
   }
   void step_once();
+  void move(double dt);
+  bool sleeps(double dt);
   void place_on_road(double dt);
   void choose_level(double dt);
   void run_as(Level level);
@@ -112,6 +115,7 @@ class StepLoop {
   SimTime paused_;
   std::uint64_t controls_refused_ = 0;
   bool off_road_ = false;
+  double still_s_ = 0.0, slept_s_ = 0.0;
   StepTimes times_;
 };
 

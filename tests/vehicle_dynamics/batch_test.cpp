@@ -124,6 +124,8 @@ TEST(Batch, TheProgram) {
   EXPECT_EQ(program(base + " --level pose"), 2);
   EXPECT_EQ(program(base + " --integrator magic"), 2);
   EXPECT_EQ(program(base + " --step-s 0"), 2);
+  EXPECT_EQ(program("--batch " + in + " --out " + out + " --vehicle " + car + " --speed-mps nan"), 2);
+  EXPECT_EQ(program("--batch " + in + " --out " + out + " --vehicle " + car + " --speed-mps inf"), 2);
   EXPECT_EQ(program(base + " --road /nonexistent.glb"), 2);
   EXPECT_EQ(program(base + " --roughness F"), 2);
   EXPECT_EQ(program("--batch " + in + " --vehicle " + car), 2);

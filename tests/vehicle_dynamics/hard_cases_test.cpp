@@ -18,7 +18,6 @@ using test::Drive;
 using test::finite;
 using test::hard_car;
 
-
 bool long_run() {
   return std::getenv("PHARE_LONG_TESTS") != nullptr;
 }
@@ -109,7 +108,41 @@ TEST(HardCase, C03Reverse) {
   EXPECT_LT(high, 0.0);
 }
 
-// 4. Full lock at walking pace.
+// 3, again: forwards, braked to walking pace, reverse gear while it still rolls, and drive again while it rolls
+// backwards; the car turns round each time and never feels more than its tyres hold.
+TEST(HardCase, C03GearChangeWhileRolling) {
+  RunSetup setup = test::kinematic_setup("hatchback.toml");
+  setup.level = Level::kFull;
+  setup.sprung = *SprungCar::of(setup.vehicle, "");
+  CarState start;
+  start.speed_mps = 3.0;
+  StepLoop loop(setup, start);
+  double slowest = 0.0, hardest = 0.0, at_change = 0.0;
+  for (int i = 1; i <= 4000; ++i) {
+    const double t = 0.005 * i;
+    const bool reverse = t > 1.0 && t<10.0, braking = t> 1.0 && t < 1.9;
+    loop.set_controls({.steering_wheel_rad = 1.0,
+                       .accelerator_01 = braking ? 0.0 : 0.3,
+                       .brake_01 = braking ? 0.3 : 0.0,
+                       .gear = reverse ? Gear::kReverse : Gear::kDrive});
+    loop.run_to(SimTime{static_cast<std::int64_t>(i) * 5'000'000});
+    const CarState& s = loop.state();
+    ASSERT_TRUE(std::isfinite(s.x_m) && std::isfinite(s.pitch_rad));
+    if (i == 381) at_change = s.speed_mps;  // the brake has just been let go
+    slowest = std::min(slowest, s.speed_mps);
+    hardest = std::max(hardest, std::hypot(s.ax_mps2, s.ay_mps2));
+    if (std::abs(s.speed_mps) > 1.0) {
+      ASSERT_GT(s.yaw_rate_radps * s.speed_mps, 0.0) << t;  // left lock: nose left forwards, right backwards
+    }
+  }
+  EXPECT_GT(at_change, 0.2);
+  EXPECT_LT(slowest, -3.0);
+  EXPECT_GT(loop.state().speed_mps, 3.0);
+  EXPECT_LT(hardest, 1.2 * kGravity_mps2);
+}
+
+// 4. Full lock at walking pace. The notes' carcass damping, 2.5 kN s/m, leaves parallel front wheels rocking for ever:
+// the vehicle files have 10 kN s/m, with which the notes' own criterion holds for both steerings.
 TEST(HardCase, C04FullLock) {
   for (const double ackermann : {1.0, 0.0}) {
     full::Params p = hard_car();
@@ -173,11 +206,12 @@ TEST(HardCase, C06KerbStep) {
   for (int k = 0; k < 2; ++k) {
     Drive d(p, 50.0 / 3.6);
     d.input.heights_given = true;
-    double load = 0.0, z_most = 0.0;
+    double load = 0.0, z_most = 0.0, airborne_s = 0.0;
     d.run(4.0, steps[k], [&](Drive& now) {
       for (std::size_t i = 0; i < 4; ++i) now.input.height_m[i] = now.state.x_m + now.params.x_m[i] > 8.0 ? 0.10 : 0.0;
       const full::Forces f = now.forces();
       load = std::max(load, f.load_n[0]);
+      for (const double n : f.load_n) airborne_s += n == 0.0 ? steps[k] : 0.0;
       peak[k] = std::max(peak[k], std::abs(f.pitch_rad));
       z_most = std::max(z_most, now.state.z_m);
     });
@@ -185,12 +219,15 @@ TEST(HardCase, C06KerbStep) {
     EXPECT_NEAR(d.state.z_m, 0.10, 1e-5);
     EXPECT_NEAR(load, p.load_n[0] + p.tyre_rate_npm * 0.10, 0.002 * 18755.0);
     EXPECT_NEAR(z_most, 0.1338, 0.005);
+    EXPECT_NEAR(airborne_s, 0.095, 0.005);  // all wheels together
     EXPECT_NEAR(peak[k] * test::kDeg, 2.88, 0.1);
   }
   EXPECT_NEAR(peak[0] * test::kDeg, peak[1] * test::kDeg, 0.02);
 }
 
-// 7. Friction 1.0 to 0.1 and back while braking from 100 km/h; then left and right apart.
+// 7. Friction 1.0 to 0.1 and back while braking from 100 km/h; then left and right apart. The notes' places (121.79 m;
+// 0.155 rad, 135.3 m) are their prototype's: this car stops after 93.35 m, and apart it spins to 1.95 rad within 104.1
+// m. What has to hold for any car does: both step sizes agree, friction is never exceeded, kinetic energy never rises.
 TEST(HardCase, C07FrictionJump) {
   double stop[2]{};
   const double steps[2] = {0.001, 0.002};
@@ -225,25 +262,29 @@ TEST(HardCase, C07SplitFriction) {
     split.friction = {{.from_m = -1e9, .to_m = 1e9, .left = 1.0, .right = 0.1}};
     Drive d(hard_car(), 100.0 / 3.6, &split);
     d.brake(7.0);
-    double before = 0.0, start = 0.0;
+    double before = 1e9;
     while (d.time_s < 12.0 && std::hypot(d.state.u_mps, d.state.v_mps) > 0.3) {
       d.step(steps[k]);
-      // With the springs' own: they hand back what they took, and the pitching weight that the model leaves out.
-      const double energy = full::energy_j(d.params, d.state, d.forces());
-      if (start == 0.0) start = before = energy;
-      ASSERT_LE(energy, before + 1e-3 * start);
-      before = std::min(before, energy);
+      const full::State& s = d.state;
+      double energy = 0.5 * d.params.mass_kg * (s.u_mps * s.u_mps + s.v_mps * s.v_mps) +
+                      0.5 * d.params.yaw_inertia_kgm2 * s.r_radps * s.r_radps;
+      for (const double spin : s.spin_radps) energy += 0.5 * d.params.spin_inertia_kgm2 * spin * spin;
+      ASSERT_LE(energy, before) << d.time_s;
+      before = energy;
     }
     psi[k] = d.forces().yaw_rad, x[k] = d.state.x_m;
   }
-  EXPECT_NEAR(psi[0], psi[1], 0.002 * std::abs(psi[1]) + 1e-4);
+  EXPECT_GT(std::abs(psi[1]), 0.1);
+  EXPECT_NEAR(psi[0], psi[1], 0.002 * std::abs(psi[1]));
   EXPECT_NEAR(x[0], x[1], 0.002 * x[1]);
 }
 
-// 8. Spin with locked wheels.
+// 8. Spin with locked wheels. The notes' 1274.59 degrees, 10.86 s, 96.08 m are their prototype's, whose steps of 2 and
+// 1 ms were 0.03 and 0.004 degrees from 0.25 ms; this car turns 1155.39 degrees in 13.27 s and 86.48 m, 0.04 and 0.007
+// apart.
 TEST(HardCase, C08Spin) {
-  double end[3]{};
-  const double steps[3] = {0.002, 0.001, 0.0005};
+  double end[3]{}, jump[3]{};
+  const double steps[3] = {0.002, 0.001, 0.00025};
   for (int k = 0; k < 3; ++k) {
     Road wet;
     wet.friction_everywhere = 0.3;
@@ -253,7 +294,7 @@ TEST(HardCase, C08Spin) {
     d.input.brake_nm.fill(1e5);
     double yaw = 0.0, last = 0.0;
     int turns_over = 0;
-    double ahead = 20.0;
+    double ahead = 20.0, felt = 0.0;
     full::Forces f = d.forces();
     d.run(20.0, steps[k], [&](const Drive& now) {
       const auto& s = now.state;
@@ -264,14 +305,21 @@ TEST(HardCase, C08Spin) {
       yaw += std::remainder(f.yaw_rad - last, 2.0 * 3.14159265358979323846);
       last = f.yaw_rad;
       ASSERT_LE(friction_use(now, f, 0.3), 1.001);
+      // While it slides, after the tyres have wound up.
+      const double feels = std::hypot(f.ax_mps2, f.ay_mps2);
+      if (now.time_s > 0.5 && std::hypot(s.u_mps, s.v_mps) > 0.1) jump[k] = std::max(jump[k], std::abs(feels - felt));
+      felt = feels;
     });
     EXPECT_GE(turns_over, 3);
     EXPECT_LT(std::hypot(d.state.u_mps, d.state.v_mps), 1e-3);
     end[k] = yaw * test::kDeg;
   }
   EXPECT_GT(std::abs(end[0]), 360.0);
-  EXPECT_NEAR(end[0], end[2], 0.5);
-  EXPECT_NEAR(end[1], end[2], 0.2);
+  EXPECT_NEAR(end[0], end[2], 0.05);
+  EXPECT_NEAR(end[1], end[2], 0.01);
+  // A force without a glitch changes by less in a shorter step.
+  EXPECT_LT(jump[1], 0.6 * jump[0]);
+  EXPECT_LT(jump[2], 0.3 * jump[1]);
 }
 
 // 9. A day straight ahead.
@@ -294,7 +342,7 @@ TEST(HardCase, C10FarFromTheOrigin) {
       now.input.steer_rad = 0.03 * std::sin(now.time_s);
       if (now.time_s > 5.0) now.brake(3.0);
     });
-  EXPECT_NEAR(far.state.x_m - 1e7, near.state.x_m, 3e-7);  // 5000 sums, each rounded to 1.9e-9 m
+  EXPECT_NEAR(far.state.x_m - 1e7, near.state.x_m, 1e-7);
   EXPECT_NEAR(far.state.y_m, near.state.y_m, 1e-7);
   EXPECT_NEAR(far.forces().pitch_rad, near.forces().pitch_rad, 1e-9);
   EXPECT_NEAR(far.forces().yaw_rad, near.forces().yaw_rad, 1e-9);
@@ -354,10 +402,11 @@ TEST(HardCase, C14RoughRoad) {
 
 // 15. Springs without dampers keep their energy, and the explicit Euler method, put to the same test, must not.
 // The notes' bounds (600 s: semi-implicit 0.994 to 1.007, rk4 0.99983) are for the integrator; so they are held against
-// the energy of the exact motion at the same time. The model itself trades 2 % of it over a beat of 80 s with the pitching
-// moment of the weight, which it leaves out as the textbook's dive does (docs/dynamics.md): any step shows the same.
-// The body starts lifted and pitched with the wheels where spring and tyre balance. With the wheels left on the ground
-// an eighth of the energy is wheel hop, for which the semi-implicit method swings by w h / 2 = 3.8 %: then 0.85 % in all.
+// the energy of the exact motion at the same time. The model itself trades 2 % of it over a beat of 80 s with the
+// pitching moment of the weight, which it leaves out as the textbook's dive does (docs/dynamics.md): any step shows the
+// same. The body starts lifted and pitched with the wheels where spring and tyre balance. With the wheels left on the
+// ground an eighth of the energy is wheel hop, for which the semi-implicit method swings by w h / 2 = 3.8 %: then 0.85
+// % in all.
 TEST(HardCase, C15UndampedEnergy) {
   full::Params p = hard_car();
   p.damper_nspm = {};
@@ -428,7 +477,7 @@ TEST(HardCase, C16LevelSwitches) {
   constexpr std::array<Level, 4> kOrder{Level::kKinematic, Level::kSingleTrack, Level::kFull, Level::kSingleTrack};
   CarState state = start;
   SimTime time{};
-  double jump = 0.0, jump_m = 0.0;
+  double jump = 0.0, jump_m = 0.0, beside = 0.0, way = 0.0;
   for (int k = 0; k < 120; ++k) {
     setup.level = kOrder[static_cast<std::size_t>(k) % 4];
     StepLoop part(setup, state, time);
@@ -437,7 +486,12 @@ TEST(HardCase, C16LevelSwitches) {
     jump_m = std::max(jump_m, std::abs(handed.z_m - (state.z_m + state.heave_m)));
     for (int i = 0; i < 5; ++i) {
       time.ns += 100'000'000;
+      const double x = pure.state().x_m, y = pure.state().y_m;
       for (StepLoop* loop : {&part, &pure}) loop->set_controls(controls(time.seconds())), loop->run_to(time);
+      way += std::hypot(pure.state().x_m - x, pure.state().y_m - y);
+      if (way > 10.0)
+        beside = std::max(beside,
+                          std::hypot(part.state().x_m - pure.state().x_m, part.state().y_m - pure.state().y_m) / way);
     }
     const double before = state.pitch_rad;
     state = part.state();
@@ -445,8 +499,8 @@ TEST(HardCase, C16LevelSwitches) {
   }
   EXPECT_LT(jump, 0.05e-3);
   EXPECT_LT(jump_m, 1e-6);
-  const double way = std::hypot(pure.state().x_m, pure.state().y_m);
-  EXPECT_LT(std::hypot(state.x_m - pure.state().x_m, state.y_m - pure.state().y_m), 0.01 * way);
+  EXPECT_GT(way, 300.0);
+  EXPECT_LT(beside, 0.01);  // at every tenth of a second, of the way travelled
 }
 
 // 17. Random inputs over every level and integrator; nothing may become infinite.

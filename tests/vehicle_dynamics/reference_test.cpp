@@ -13,15 +13,23 @@ namespace {
 const std::filesystem::path kData = std::filesystem::path(PHARE_SHARED_DATA_DIR) / "dynamics";
 const std::filesystem::path kCar = std::filesystem::path(PHARE_VEHICLES_DIR) / "bmw_320i.toml";
 
+// A figure has to stay within the notes' band, or within what the two programs themselves differ by where that is more:
+// then no band can tell who is right. Of the 49 judged figures four need that: against MB the path of D01 (0.087 of 0.05
+// m) and the roll of D05 (10.0 of 5 %), against Chrono the paths of D01 (1.75 of 0.4 m) and D05 (0.45 of 0.4 m).
 TEST(Reference, EveryManoeuvreWithinItsBand) {
   if (!std::filesystem::exists(kData)) GTEST_SKIP() << kData << " is not here";
   const Result<std::vector<compare::Line>> lines = compare::manoeuvres(kData, kCar, Integrator::kRk4, 0.002);
   ASSERT_TRUE(lines.ok()) << lines.error().text();
   EXPECT_GE(lines->size(), 60u);
+  int judged = 0, beyond_band = 0;
   for (const compare::Line& line : *lines)
     if (line.band > 0.0) {
       EXPECT_LE(line.error, line.allowed()) << compare::text(line);
+      ++judged;
+      beyond_band += line.error > line.band ? 1 : 0;
     }
+  EXPECT_EQ(judged, 49);
+  EXPECT_LE(beyond_band, 4);
 }
 
 // A headlamp asks for 0.02 mrad from the integrator: each level with the method and step of a real-time run.

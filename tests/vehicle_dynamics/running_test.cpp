@@ -115,6 +115,35 @@ TEST(Running, TheSameBitsAgain) {
   }
 }
 
+// Parked and settled the car sleeps: it is where it would be awake, wakes by any control, and drives off alike.
+TEST(Running, AParkedCarSleeps) {
+  for (const Level level : {Level::kSingleTrack, Level::kFull}) {
+    RunSetup setup = setup_of(level);
+    StepLoop loop(setup, CarState{}), awake(setup, CarState{});
+    for (int i = 1; i <= 600; ++i) {
+      const double t = 0.05 * i;
+      const Controls held{.accelerator_01 = t < 2.0 ? 0.5 : 0.0, .brake_01 = t < 2.0 ? 0.0 : 0.7};
+      loop.set_controls(held);
+      // The same brake for the car; never the same twice for the loop, so it does not sleep.
+      Controls never = held;
+      if (t >= 2.0) never.brake_01 += 1e-9 * (i % 2);
+      awake.set_controls(never);
+      for (StepLoop* l : {&loop, &awake}) l->run_to(test::seconds(t));
+    }
+    EXPECT_GT(loop.slept_s(), 10.0) << name(level);
+    EXPECT_EQ(awake.slept_s(), 0.0);
+    const VehicleState a = loop.at(loop.time()), b = awake.at(awake.time());
+    EXPECT_GT(a.x_m, 1.0);
+    EXPECT_NEAR(a.x_m, b.x_m, 1e-6);
+    EXPECT_NEAR(a.z_m, b.z_m, 1e-6);
+    EXPECT_NEAR(a.pitch_rad, b.pitch_rad, 1e-6);
+    EXPECT_NEAR(a.roll_rad, b.roll_rad, 1e-6);
+    for (StepLoop* l : {&loop, &awake}) l->set_controls({.accelerator_01 = 0.5}), l->run_to(test::seconds(33.0));
+    EXPECT_GT(loop.state().speed_mps, 1.0);
+    EXPECT_NEAR(loop.state().x_m, awake.state().x_m, 1e-5);
+  }
+}
+
 // Hard case 11 at level full: when the clock wakes us does not matter.
 TEST(Running, C11JitterOfTheClock) {
   StepLoop even(setup_of(Level::kFull), CarState{}), jittery(setup_of(Level::kFull), CarState{});

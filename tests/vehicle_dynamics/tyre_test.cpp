@@ -54,6 +54,37 @@ TEST(Tyre, StaysInTheEllipseAndFourAtOnceAgree) {
   EXPECT_LT(worst, 1e-8);  // a few units in the last place of 8 kN
 }
 
+// A sliding wheel takes energy from the car, never gives it: kappa > 0 pushes ahead, tan alpha > 0 to the left, however
+// far it slides. Far out the force lies along the slide.
+TEST(Tyre, ForceNeverTurnsItsSign) {
+  const tyre::Constants t = passenger_tyre();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> exponent(-4.0, 2.0), sign(-1.0, 1.0);
+  for (int i = 0; i < 5000; ++i) {
+    const double kappa = std::copysign(std::pow(10.0, exponent(random)), sign(random)),
+                 tan_alpha = std::copysign(std::pow(10.0, exponent(random)), sign(random));
+    const tyre::Force f = tyre::steady_force(t, kappa, tan_alpha, 3000.0, 1.0);
+    ASSERT_GT(f.x_n * kappa, 0.0) << kappa << ' ' << tan_alpha;
+    ASSERT_GT(f.y_n * tan_alpha, 0.0) << kappa << ' ' << tan_alpha;
+  }
+  const tyre::Force aside = tyre::steady_force(t, 0.1, 20.0, 3000.0, 1.0);
+  EXPECT_LT(std::abs(aside.x_n), 0.02 * aside.y_n);
+}
+
+TEST(Tyre, TwoAxlesAtOnceAndTheirRise) {
+  const tyre::Constants t = passenger_tyre();
+  for (double slip = -1.0; slip <= 1.0; slip += 0.01) {
+    const double other = 0.3 * slip, step = 1e-6;
+    const tyre::SideForce f = tyre::side_force(t, Two{slip, other}, 0.8);
+    EXPECT_NEAR(f.share[0] * 3000.0, tyre::steady_force(t, 0.0, slip, 3000.0, 0.8).y_n, 1e-8);
+    EXPECT_NEAR(f.share[1] * 3000.0, tyre::steady_force(t, 0.0, other, 3000.0, 0.8).y_n, 1e-8);
+    const double above = tyre::side_force(t, Two{slip + step, 0.0}, 0.8).share[0],
+                 below = tyre::side_force(t, Two{slip - step, 0.0}, 0.8).share[0];
+    // Central difference: (third derivative, B^3 C D at most) step^2 / 6, and rounding 2e-16 / step.
+    EXPECT_NEAR(f.rise[0], (above - below) / (2.0 * step), 2e-8);
+  }
+}
+
 TEST(Tyre, SlipSettlesWithoutDividingBySpeed) {
   const tyre::Constants t = passenger_tyre();
   // Steady: kappa = (R w - v) / |v|; at rest nothing decays, a push stretches the patch like a spring.

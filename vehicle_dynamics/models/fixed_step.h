@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "config/two.h"
+
 namespace phare {
 
 /// Cheapest first; kReference is SUNDIALS with tight tolerances, in batch and tests only (reference.h).
@@ -40,6 +42,19 @@ inline Phi phi(double z) {
     return {1.0 + z * (0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + z * (1.0 / 120.0 + z / 720.0)))),
             0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + z * (1.0 / 120.0 + z * (1.0 / 720.0 + z / 5040.0))))};
   const double per_z = 1.0 / z, one = (std::exp(z) - 1.0) * per_z;
+  return {one, (one - 1.0) * per_z};
+}
+
+/// The same for two at once.
+struct TwoPhi {
+  Two one{}, two{};
+};
+inline TwoPhi phi(Two z) {
+  if (std::abs(z[0]) < 1e-2 || std::abs(z[1]) < 1e-2) {
+    const Phi first = phi(z[0]), second = phi(z[1]);
+    return {Two{first.one, second.one}, Two{first.two, second.two}};
+  }
+  const Two per_z = 1.0 / z, one = (exponential(z) - 1.0) * per_z;
   return {one, (one - 1.0) * per_z};
 }
 

@@ -8,6 +8,19 @@
 
 namespace phare::full {
 
+// Half the cross product of the diagonals of four contacts: either pair of triangles gives the same.
+std::array<double, 3> normal_of(const std::array<double, 4>& x, const std::array<double, 4>& y,
+                                const std::array<double, 4>& z) {
+  const double ax = x[0] - x[3], ay = y[0] - y[3], az = z[0] - z[3];
+  const double bx = x[2] - x[1], by = y[2] - y[1], bz = z[2] - z[1];
+  if (az == 0.0 && bz == 0.0) return {0.0, 0.0, 1.0};
+  double nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+  // A car on its roof sees its contacts mirrored.
+  const double scale = (nz < 0.0 ? -1.0 : 1.0) / std::sqrt(nx * nx + ny * ny + nz * nz);
+  nx *= scale, ny *= scale, nz *= scale;
+  return {nx, ny, nz};
+}
+
 Geometry geometry(const Params& p, const Input& input, const State& s, double t_s) {
   Geometry g;
   // Rotation matrix of a quaternion; divided by its square so that a stage's slight stretch does not scale the car.
@@ -21,7 +34,7 @@ Geometry geometry(const Params& p, const Input& input, const State& s, double t_
   const auto& m = g.world_from_body;
 
   // Wheel centres, and the road below them.
-  std::array<double, 4> x, y, z;
+  std::array<double, 4>&x = g.x_m, &y = g.y_m, z, base_m{};
   Road::Laid laid[2];  // on the road, by axle
   if (input.road && !input.heights_given)
     laid[0] = input.road->laid(s.path_m + p.x_m[0]), laid[1] = input.road->laid(s.path_m + p.x_m[2]);
@@ -36,22 +49,20 @@ Geometry geometry(const Params& p, const Input& input, const State& s, double t_
       if (input.road) g.friction[i] = input.road->friction_everywhere;
     } else if (input.road) {
       const Road::Laid& on_it = laid[i / 2];
-      g.ground_m[i] = input.road->base_m(s.x_m + x[i], s.y_m + y[i], input.height_m[i], &g.off_road) + on_it.z_m[i % 2];
+      base_m[i] = input.road->base_m(s.x_m + x[i], s.y_m + y[i], input.height_m[i], &g.off_road);
+      g.ground_m[i] = base_m[i] + on_it.z_m[i % 2];
       g.friction[i] = on_it.friction[i % 2];
     }
   }
 
-  // Normal of the plane through the four contacts: half the diagonals' cross product, either pair gives the same.
-  const double ax = x[0] - x[3], ay = y[0] - y[3], az = g.ground_m[0] - g.ground_m[3];
-  const double bx = x[2] - x[1], by = y[2] - y[1], bz = g.ground_m[2] - g.ground_m[1];
-  double nx = 0.0, ny = 0.0, nz = 1.0;
-  if (az != 0.0 || bz != 0.0) {
-    nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
-    const double length = std::sqrt(nx * nx + ny * ny + nz * nz);
-    nx /= length, ny /= length, nz /= length;
-    if (nz < 0.0) nx = -nx, ny = -ny, nz = -nz;  // a car on its roof sees its contacts mirrored
+  // The tyres push along the normal of the plane through the contacts. Bank is that of the mesh or plane only: two
+  // tracks of unlike height are no slope aside under either tyre.
+  for (std::size_t i = 0; i < 4; i += 2) {
+    const double mean = 0.5 * (g.ground_m[i] + g.ground_m[i + 1]), bank = 0.5 * (base_m[i] - base_m[i + 1]);
+    g.tilt_m[i] = mean + bank, g.tilt_m[i + 1] = mean - bank;
   }
-  g.normal_world = {nx, ny, nz};
+  g.normal_world = normal_of(x, y, g.tilt_m);
+  const double nx = g.normal_world[0], ny = g.normal_world[1], nz = g.normal_world[2];
   g.normal = {m[0] * nx + m[3] * ny + m[6] * nz, m[1] * nx + m[4] * ny + m[7] * nz, m[2] * nx + m[5] * ny + m[8] * nz};
 
   for (std::size_t i = 0; i < 4; ++i)
@@ -98,7 +109,7 @@ void kinematics(const Params& p, const Held& held, const Geometry& g, const Stee
     d.tan_alpha[i] = slip.tan_alpha_ps;
     contact.decay_ps[i] = slip.kappa_decay_ps;
     contact.decay_ps[i + 4] = slip.tan_alpha_decay_ps;
-    contact.carried_mps[i] = slip.carried_mps;
+    contact.moving_mps[i] = std::max(slip.carried_mps, std::abs(aside));
     contact.stretch_mps[i] = slip.kappa_stretch_mps;
     contact.stretch_mps[i + 4] = slip.tan_alpha_stretch_mps;
     // Closing speed of the tyre: the wheel's against the road, along the normal.
@@ -110,7 +121,7 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
               const State& s, State& d, TyreForces& tyres) {
   constexpr double kAirDensity_kgpm3 = 1.2041;  // dry air, 20 degrees C, 101325 Pa
   constexpr double kFullDamping_n = 2700.0;     // load at which carcass_damping_nspm is given
-  constexpr double kDampedBelow_mps = 2.0;      // faded out there: a rolling tyre carries its deflection away
+  constexpr double kDampedBelow_mps = 2.0;      // faded out there: a rolling or sliding tyre carries it away
   constexpr double kRollingKnee_mps = 0.05;     // rolling resistance turns its sign smoothly
   const auto& m = g.world_from_body;
 
@@ -125,9 +136,9 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
   double fx = 0.0, fy = 0.0, road_fx = 0.0, yaw = 0.0;
   std::array<double, 4> up{};
   for (std::size_t i = 0; i < 4; ++i) {
-    if (c.carried_mps[i] < kDampedBelow_mps && tyres.load_n[i] > 0.0) {
-      const double damping = p.tyre.p.carcass_damping_nspm * (1.0 - c.carried_mps[i] / kDampedBelow_mps) *
-                             tyres.load_n[i] / kFullDamping_n;
+    if (c.moving_mps[i] < kDampedBelow_mps && tyres.load_n[i] > 0.0) {
+      const double damping =
+          p.tyre.p.carcass_damping_nspm * (1.0 - c.moving_mps[i] / kDampedBelow_mps) * tyres.load_n[i] / kFullDamping_n;
       const double x = tyres.fx_n[i] + damping * c.stretch_mps[i], y = tyres.fy_n[i] + damping * c.stretch_mps[i + 4];
       const double most = g.friction[i] * tyres.load_n[i];
       const double ex = x / (most * p.tyre.p.long_peak), ey = y / (most * p.tyre.p.lat_peak), over = ex * ex + ey * ey;

@@ -5,14 +5,14 @@
 // Source: R. Rajamani, Vehicle Dynamics and Control, 2nd ed. 2012, ch. 8; T. Shim, C. Ghike, "Understanding the
 //   limitations of different vehicle models for roll dynamics studies", Vehicle System Dynamics 45(3), 2007;
 //   Newton-Euler in the body's own axes with a quaternion instead of small angles. Tyres: models/tyre.h.
-// Frame: state at the centre of gravity of the body, velocities in the body's axes (ISO 8855), position in the world;
-//   z_m is the height of that centre less its height at rest.
-// Leaves out: linkage kinematics beyond anti-dive and anti-squat (wheels move along the body's z axis, no bump steer,
-// no
-//   camber), roll centres above the ground, the pitching moment of gravity on the pitched body (2 to 5 % of dive) as
-//   the textbook does, products of inertia, frame flexibility, side wind.
+// Frame: state at the centre of gravity of the body, velocities in the body's axes (ISO 8855), position in the
+//   world; z_m is the height of that centre less its height at rest.
+// Leaves out: linkage kinematics beyond anti-dive and anti-squat (wheels move along the body's z axis: no bump steer,
+//   no camber), roll centres above the ground, the sideways inertia of a body that rolls about the ground, the
+//   pitching moment of gravity on the pitched body (2 to 5 % of dive) as the textbook does, products of inertia,
+//   frame flexibility, side wind. Two tracks of unlike height roll the body and do not push it aside.
 // Tests: tests/vehicle_dynamics/full_test.cpp (closed forms), reference_test.cpp (two other programs),
-// hard_cases_test.cpp.
+//   hard_cases_test.cpp.
 #pragma once
 
 #include <array>

@@ -211,7 +211,7 @@ Forces forces(const Params& p, const Input& input, const State& s, double t_s) {
   out.roll_rate_radps = s.p_radps + out.yaw_rate_radps * -m[6];
   // The plane's angles in the heading of the car, so that body less plane is what the springs show.
   const double cy = std::cos(out.yaw_rad), sy = std::sin(out.yaw_rad);
-  const auto& n = g.normal_world;
+  const auto n = normal_of(g.x_m, g.y_m, g.ground_m);
   out.road_pitch_rad = std::atan2(n[0] * cy + n[1] * sy, n[2]);
   out.road_roll_rad = std::asin(std::clamp(n[0] * sy - n[1] * cy, -1.0, 1.0));
   return out;

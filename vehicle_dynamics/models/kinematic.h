@@ -1,16 +1,14 @@
 // Level `kinematic`.
 //
-// What: path, speed, stops, grade and bank of a car whose wheels do not slip, and the attitude its springs take under
-// the
-//   forces of driving: dive, squat, roll, heave.
+// What: path, speed, stops, grade and bank of a car whose wheels do not slip, and the attitude its springs take
+//   under the forces of driving: dive, squat, roll, heave.
 // Source: R. Rajamani, Vehicle Dynamics and Control, 2nd ed. 2012, ch. 2 (kinematic bicycle model, front steering),
 //   written for the rear axle; attitude quasi-static, theta = -m a_x h / K_th with axle springs and tyres in series
-//   (Milliken & Milliken, Race Car Vehicle Dynamics, 1995, ch. 18), approached through a second-order filter with the
-//   ride frequency and damping of the car, so that it neither jumps nor stops dead.
+//   (Milliken & Milliken, Race Car Vehicle Dynamics, 1995, ch. 18), approached through a second-order filter with
+//   the ride frequency and damping of the car, exact for a step, so that it neither jumps nor stops dead.
 // Frame: ISO 8855, origin on the ground under the middle of the rear axle; pitch > 0 nose down.
-// Leaves out: tyre slip (a turn beyond the car's grip is widened), wheel hop and bumps (the body follows the plane of
-// its
-//   four contacts), gearbox and engine inertia, idle creep, locked wheels.
+// Leaves out: tyre slip (a turn beyond the car's grip is widened), wheel hop and bumps (the body follows the plane
+//   of its four contacts), gearbox and engine inertia, idle creep, locked wheels.
 // Tests: tests/vehicle_dynamics/kinematic_test.cpp (closed forms), step_test.cpp (repeatability, standing still).
 #pragma once
 

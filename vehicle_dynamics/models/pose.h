@@ -1,11 +1,12 @@
 // Level `pose`.
 //
 // What: the recorded motion of a drive, at any time between its records.
-// Source: cubic Hermite interpolation with tangents from the parabola through three neighbours (de Boor, A Practical
-// Guide
-//   to Splines, 1978, ch. IV: Bessel's tangents); third-order, so 60 Hz records of a car are exact to micrometres.
+// Source: cubic Hermite interpolation with tangents from the parabola through three neighbours (de Boor, A
+//   Practical Guide to Splines, 1978, ch. IV: Bessel's tangents); third-order, so 60 Hz records of a car are exact
+//   to micrometres.
 // Frame: that of the records, world and ISO 8855; angles are unwrapped first, so a turn through ±pi is a small one.
-// Leaves out: everything between records further apart than 1 s, where it goes straight; forces; the driver's controls.
+// Leaves out: everything between records further apart than 1 s, where it goes straight; forces; the driver's
+//   controls.
 // Tests: tests/vehicle_dynamics/pose_test.cpp (a sampled analytic path, wrap, end, gaps).
 #pragma once
 

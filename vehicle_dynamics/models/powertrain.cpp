@@ -11,6 +11,7 @@ constexpr double kShiftPause_s = 0.6;                     // no two shifts withi
 constexpr double kAbsFrom_mps = 1.5;                      // below it wheel speed sensors are blind
 constexpr double kAbsRelease = -0.15, kAbsApply = -0.10;  // slip band around the tyre's peak
 constexpr double kAbsFall_ps = 20.0, kAbsRise_ps = 8.0;   // of the pressure share; gives 8 to 15 cycles a second
+constexpr double kReverseBelow_radps = 5.0;               // of the wheels, 1.5 m/s: rolling faster, gearboxes refuse it
 constexpr double kParkLock_mps = 0.5;                     // below it the pawl of the parking lock falls in
 constexpr double kParkTorque_nm = 3000.0;                 // of the pawl, at each driven wheel; chosen: it never slips
 
@@ -38,7 +39,7 @@ double with_engine_nm(const EngineParams& e, double accelerator, double wheel_ra
   const double dragging = std::clamp((turbine - e.idle_radps) / e.idle_radps, 0.0, 1.0);  // it idles, it does not stall
   const double torque = accelerator * engine_torque_nm(e, speed) * multiplied * e.efficiency_01 -
                         (1.0 - accelerator) * e.drag_nm * dragging;
-  return (reverse ? -torque : torque) * total * (reverse && wheel_radps > 0.0 ? 0.0 : 1.0);
+  return (reverse ? -torque : torque) * total * (reverse && wheel_radps > kReverseBelow_radps ? 0.0 : 1.0);
 }
 
 double without_engine_nm(const VehicleParams& v, double accelerator, double speed_mps, bool reverse) {

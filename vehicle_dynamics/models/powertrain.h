@@ -2,14 +2,13 @@
 //
 // What: torque of each wheel from accelerator, brake and gear.
 // Source: T. D. Gillespie, Fundamentals of Vehicle Dynamics, 1992, ch. 2 (tractive effort), ch. 3 (brake
-// proportioning);
-//   ABS as a slip band controller per front wheel, both rear wheels by the worse one ("select low"), after
-//   Bosch Automotive Handbook, chapter wheel slip control systems; lags chosen: engine 0.1 s, brake pressure 0.06 s.
+//   proportioning); ABS as a slip band controller per front wheel, both rear wheels by the worse one ("select
+//   low"), after Bosch Automotive Handbook, chapter wheel slip control systems; lags chosen: engine 0.1 s, brake
+//   pressure 0.06 s.
 // Frame: torque > 0 drives forwards.
 // Leaves out: clutch and converter dynamics (the converter is a torque ratio falling with speed), shift jerk, idle
-// creep,
-//   differential locks, traction control, brake fade.
-// Tests: tests/vehicle_dynamics/powertrain_test.cpp.
+//   creep, differential locks, traction control, brake fade.
+// Tests: tests/vehicle_dynamics/running_test.cpp (gearbox and ABS), hard_cases_test.cpp (gear change while rolling).
 #pragma once
 
 #include <array>

@@ -1,13 +1,13 @@
 // The body on its springs over one fixed step, exactly.
 //
-// What: heave, pitch and roll of a rigid body on linear springs and dampers, pushed by accelerations that change evenly
-//   during the step. Left and right are alike, so roll goes its own way; heave and pitch are coupled.
-// Source: variation of constants with the exponential of the body's matrix (M. Hochbruck, A. Ostermann, "Exponential
-//   integrators", Acta Numerica 19, 2010, sec. 2.1); the exponential by scaling and squaring its series (C. Moler, C.
-//   Van Loan, SIAM Review 45(1), 2003, method 3), once for a step length.
+// What: heave, pitch and roll of a rigid body on linear springs and dampers, pushed by accelerations that change
+//   evenly during the step. Left and right are alike, so roll goes its own way; heave and pitch are coupled.
+// Source: variation of constants with the exponential of the body's matrix (M. Hochbruck, A. Ostermann,
+//   "Exponential integrators", Acta Numerica 19, 2010, sec. 2.1); the exponential by scaling and squaring its
+//   series (C. Moler, C. Van Loan, SIAM Review 45(1), 2003, method 3), once for a step length.
 // Frame: ISO 8855, heights and slopes against the horizontal as in single_track.h.
-// Leaves out: all that is not linear: stops, wheels that lift. No step is too long for it, and none adds or takes
-// energy. Test: tests/vehicle_dynamics/ride_test.cpp (closed form of a damped oscillation, any step).
+// Leaves out: all that is not linear: stops, wheels that lift. No step is too long for it; none adds or takes energy.
+// Tests: tests/vehicle_dynamics/ride_test.cpp (closed form of a damped oscillation, any step; energy).
 #pragma once
 
 #include <array>

@@ -40,7 +40,7 @@ struct Corners {
   Two from_road_n;  // on the body, beside what answers to the body's own place
 };
 [[gnu::always_inline]] inline Corners corners(const Params& p, const Axle& axle, const Under& road, double rest_n,
-                                              double bank, double dt_s, const State& s, double t_s) {
+                                              double leaning, double dt_s, const State& s, double t_s) {
   const double damper = p.options.dynamic_attitude ? axle.damper_nspm : 0.0;
   const Two y{axle.half_track_m, -axle.half_track_m};
   const Two height = road.height_m + t_s * (road.rate_mps + (t_s - dt_s) * road.bend_mps2);
@@ -48,7 +48,7 @@ struct Corners {
   const Two from_road = axle.spring_npm * height + damper * rate;
   const Two from_body = axle.spring_npm * (s.z_m - axle.x_m * s.pitch + y * s.roll) +
                         damper * (s.z_rate_mps - axle.x_m * s.pitch_rate_ps + y * s.roll_rate_ps);
-  const double bar = axle.bar_n * bank;
+  const double bar = axle.bar_n * leaning;
   return {largest(rest_n + from_road - from_body - Two{bar, -bar}, Two{}), from_road};
 }
 
@@ -59,9 +59,9 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
   const full::Params& car = p.car;
 
   // body over its contacts
-  const double across = held.across + held.across_rate_ps * t_s, bank = s.roll - across;
-  const Corners front = corners(p, p.axles[0], held.front, car.load_n[0] * held.level, bank, held.dt_s, s, t_s);
-  const Corners rear = corners(p, p.axles[1], held.rear, car.load_n[2] * held.level, bank, held.dt_s, s, t_s);
+  const double across = held.across + held.across_rate_ps * t_s, leaning = s.roll - across;
+  const Corners front = corners(p, p.axles[0], held.front, car.load_n[0] * held.level, leaning, held.dt_s, s, t_s);
+  const Corners rear = corners(p, p.axles[1], held.rear, car.load_n[2] * held.level, leaning, held.dt_s, s, t_s);
   const Two load{front.load_n[0] + front.load_n[1], rear.load_n[0] + rear.load_n[1]};
 
   // along: torque over radius up to the limit of friction
@@ -78,7 +78,7 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
     const Two left_over = largest(limit * limit - ahead * ahead, Two{});
     side = share / along_limit * Two{std::sqrt(left_over[0]), std::sqrt(left_over[1])};
   }
-  const Two fade = largest(1.0 - magnitude(vx) / kDampedBelow_mps, Two{});
+  const Two fade = largest(1.0 - largest(magnitude(vx), magnitude(vy)) / kDampedBelow_mps, Two{});
   if (fade[0] > 0.0 || fade[1] > 0.0) {
     side += car.tyre.p.carcass_damping_nspm * kPerFullDamping_n * fade * load * slip.stretch_mps;
     const Two most = held.friction * car.tyre.p.lat_peak * load;
@@ -94,7 +94,7 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
   const double front_side = held.stopped ? front_y * held.cosine : front_x * held.sine + front_y * held.cosine;
   const double fx = held.stopped ? -downhill_n : front_x * held.cosine - front_y * held.sine + rear_x;
   const double fy = front_side + rear_y, felt = fy * p.per_mass_kg;
-  const double ay = felt - kGravity_mps2 * across * held.level;
+  const double ay = felt - kGravity_mps2 * held.bank * held.level;
 
   // the body: what the road lifts it by, the linkage's share, and the lever of the centre of gravity
   const double front_n = front.from_road_n[0] + front.from_road_n[1] - std::min(front_x, 0.0) * p.front_brake_jack;
@@ -103,7 +103,7 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
   const double roll_nm = p.axles[0].half_track_m * (front.from_road_n[0] - front.from_road_n[1]) +
                          p.axles[1].half_track_m * (rear.from_road_n[0] - rear.from_road_n[1]) +
                          (p.axles[0].bar_nmprad + p.axles[1].bar_nmprad) * across +
-                         car.sprung_kg * car.cg_height_m * (felt * steep(across) - kGravity_mps2 * across);
+                         car.sprung_kg * car.cg_height_m * (felt * steep(held.bank) - kGravity_mps2 * held.bank);
   return {.front_load_n = front.load_n,
           .rear_load_n = rear.load_n,
           .ahead_n = ahead,
@@ -200,6 +200,7 @@ namespace {
 
 struct Asked {
   Under front, rear;
+  double bank_m;  // left less right, of the mesh or plane, both axles together, in the middle of the step
   double friction;
   bool off_road;
 };
@@ -209,12 +210,14 @@ Asked ask_road(const Params& p, const full::Input& in, const State& s, double dt
     const auto &z = in.height_m, &rate = in.height_rate_mps;
     return {{Two{z[0], z[1]}, Two{rate[0], rate[1]}, Two{}},
             {Two{z[2], z[3]}, Two{rate[2], rate[3]}, Two{}},
+            0.0,
             in.road ? in.road->friction_everywhere : 1.0,
             false};
   }
-  if (!in.road) return {{}, {}, 1.0, false};
+  if (!in.road) return {{}, {}, 0.0, 1.0, false};
   const double travelled = s.u_mps * dt, per_s = dt > 0.0 ? 1.0 / dt : 0.0;
   bool off = false;
+  double bank = 0.0;
   Two friction{};
   const auto axle = [&](std::size_t left) __attribute__((always_inline)) {  // twice in every step
     const double path = s.path_m + p.car.x_m[left];
@@ -226,8 +229,10 @@ Asked ask_road(const Params& p, const full::Input& in, const State& s, double dt
       for (std::size_t side = 0; side < 2; ++side) {
         const std::size_t i = left + side;
         const double x = s.x_m + c * p.car.x_m[i] - sn * p.car.y_m[i], y = s.y_m + sn * p.car.x_m[i] + c * p.car.y_m[i];
-        from[side] += in.road->base_m(x, y, in.height_m[i], &off);
-        to[side] += in.road->base_m(x + dx, y + dy, in.height_m[i], &off);
+        const double base = in.road->base_m(x, y, in.height_m[i], &off),
+                     next = in.road->base_m(x + dx, y + dy, in.height_m[i], &off);
+        from[side] += base, to[side] += next;
+        bank += (side == 0 ? 0.5 : -0.5) * (base + next);
       }
     } else {  // along a road of profiles only, where the car is in the world does not matter
       from += in.road->z_m, to += in.road->z_m;
@@ -240,21 +245,24 @@ Asked ask_road(const Params& p, const full::Input& in, const State& s, double dt
     return Under{from + shift, (to - from) * per_s, bend};
   };
   const Under front = axle(0), rear = axle(2);
-  return {front, rear, 0.25 * (friction[0] + friction[1]), off};
+  return {front, rear, bank, 0.25 * (friction[0] + friction[1]), off};
 }
 
 }  // namespace
 
 Held held(const Params& p, const full::Input& in, const State& s, double dt) {
-  const auto [front, rear, friction, off_road] = ask_road(p, in, s, dt);
+  const auto [front, rear, bank_m, friction, off_road] = ask_road(p, in, s, dt);
   // The plane through the contacts: > 0 rises forwards, to the left.
   const Two all = front.height_m + rear.height_m, all_rate = front.rate_mps + rear.rate_mps;
   const Two fall = front.height_m - rear.height_m + 0.5 * dt * (front.rate_mps - rear.rate_mps);
   const double across = (all[0] - all[1]) * p.per_tracks_m, across_rate = (all_rate[0] - all_rate[1]) * p.per_tracks_m;
-  const double along = 0.5 * (fall[0] + fall[1]) * p.per_wheelbase_m, mid_across = across + 0.5 * dt * across_rate;
-  const double level = 1.0 / std::sqrt(1.0 + along * along + mid_across * mid_across);
+  const double along = 0.5 * (fall[0] + fall[1]) * p.per_wheelbase_m, bank = bank_m * p.per_tracks_m;
+  const double level = 1.0 / std::sqrt(1.0 + along * along + bank * bank);
 
-  const double cosine = std::cos(in.steer_rad), sine = std::sin(in.steer_rad);
+  // Of the steering, and of the heading that the yaw rate brings in half a step.
+  const Two angle{in.steer_rad, s.yaw_rad + 0.5 * dt * s.r_radps}, cosines = phare::cosine(angle),
+                                                                   sines = phare::sine(angle);
+  const double cosine = cosines[0], sine = sines[0];
   double most_slip_pm = std::numeric_limits<double>::infinity();
   if (p.integrator == Integrator::kRk4) {
     const double fastest =
@@ -283,9 +291,12 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
           .along = along,
           .across = across,
           .across_rate_ps = across_rate,
+          .bank = bank,
           .level = level,
           .cosine = cosine,
           .sine = sine,
+          .yaw_cosine = cosines[1],
+          .yaw_sine = sines[1],
           .front_push_n = front_drive - against * front_brake,
           .rear_push_n = rear_drive - against * rear_brake,
           .drag_kgpm = in.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.car.drag_area_m2 : 0.0,

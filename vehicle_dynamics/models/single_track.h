@@ -1,17 +1,16 @@
 // Level `single-track`: one wheel per axle in the plane, a body on springs above it.
 //
-// What: yaw and side slip with linear or Magic Formula tyres and their relaxation; dive, roll and heave, as a dynamic
-//   second-order body over four contacts or quasi-static; load transfer onto four wheels.
+// What: yaw and side slip with linear or Magic Formula tyres and their relaxation; dive, roll and heave, as a
+//   dynamic second-order body over four contacts or quasi-static; load transfer onto four wheels.
 // Source: M. Mitschke, H. Wallentowitz, Dynamik der Kraftfahrzeuge, 5th ed. 2014, ch. 19 (single track); D. L.
-// Milliken,
-//   W. F. Milliken, Race Car Vehicle Dynamics, 1995, ch. 5 and 18; body on springs in series with the tyres, see
-//   ride.h.
+//   Milliken, W. F. Milliken, Race Car Vehicle Dynamics, 1995, ch. 5 and 18; body on springs in series with the
+//   tyres, its step in ride.h.
 // Frame: position and velocity of the centre of gravity, ISO 8855; attitude as slopes against the horizontal, small
 //   angles.
 // Leaves out: wheel hop and lift-off, wheel spin and locking (tyre force follows torque up to the friction limit),
 //   differences between left and right tyres, damping of the tyres.
-// Tests: tests/vehicle_dynamics/single_track_test.cpp (closed forms, order of the integrators), reference_test.cpp (two
-//   other programs).
+// Tests: tests/vehicle_dynamics/single_track_test.cpp (closed forms), reference_test.cpp (two other programs, error
+//   of the integrator).
 #pragma once
 
 #include <array>
@@ -83,11 +82,13 @@ struct Held {
   double dt_s = 0.0;
   double along = 0.0, across = 0.0, across_rate_ps = 0.0;  ///< slopes of the plane through the contacts: along in the
                                                            ///< step's middle, across at its start
-  double level = 1.0;                                      ///< what is left of a load on that plane
-  double cosine = 1.0, sine = 0.0;                         ///< of the steering
-  double front_push_n = 0.0, rear_push_n = 0.0;            ///< drive less brake torque at the tread
-  double drag_kgpm = 0.0, rolling = 0.0;                   ///< drag over speed squared; rolling resistance over load
-  bool stopped = false;                                    ///< brakes hold the car along its x
+  double bank = 0.0;                ///< of it what pulls aside: of mesh or plane, two tracks of unlike height are none
+  double level = 1.0;               ///< what is left of a load on that plane
+  double cosine = 1.0, sine = 0.0;  ///< of the steering
+  double yaw_cosine = 1.0, yaw_sine = 0.0;       ///< of the heading in the middle of the step
+  double front_push_n = 0.0, rear_push_n = 0.0;  ///< drive less brake torque at the tread
+  double drag_kgpm = 0.0, rolling = 0.0;         ///< drag over speed squared; rolling resistance over load
+  bool stopped = false;                          ///< brakes hold the car along its x
   bool off_road = false;
   double most_slip_pm = std::numeric_limits<double>::infinity();
 };

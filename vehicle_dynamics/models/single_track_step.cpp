@@ -17,13 +17,12 @@ void set_body(State& s, const ride::Body& b) {
   s.roll = b.roll, s.roll_rate_ps = b.roll_rate_ps;
 }
 
-// The place, trapezoidal: the velocities at both ends of the step are known.
-void travel(const State& before, State& s, double dt) {
-  const double u = 0.5 * (before.u_mps + s.u_mps), v = 0.5 * (before.v_mps + s.v_mps),
-               r = 0.5 * (before.r_radps + s.r_radps);
-  const double yaw = before.yaw_rad + 0.5 * dt * r, c = std::cos(yaw), sn = std::sin(yaw);
-  s.x_m = before.x_m + dt * (u * c - v * sn), s.y_m = before.y_m + dt * (u * sn + v * c);
-  s.yaw_rad = before.yaw_rad + dt * r, s.path_m = before.path_m + dt * u;
+// The place, with the mean velocities: those at both ends of the step are known.
+void travel(const Held& h, const State& before, State& s, double dt) {
+  const double u = 0.5 * (before.u_mps + s.u_mps), v = 0.5 * (before.v_mps + s.v_mps);
+  s.x_m = before.x_m + dt * (u * h.yaw_cosine - v * h.yaw_sine);
+  s.y_m = before.y_m + dt * (u * h.yaw_sine + v * h.yaw_cosine);
+  s.yaw_rad = before.yaw_rad + dt * 0.5 * (before.r_radps + s.r_radps), s.path_m = before.path_m + dt * u;
 }
 
 // Mean over a step of a force that friction cuts off, the limit going evenly from one value to another.
@@ -43,9 +42,9 @@ void step_exponential(const Params& p, const Held& h, const ride::Step& ride, St
   const State before = s;
   const Grip tyres = grip(p, h, before);
   const Acting first = acting(p, h, tyres.share, before, 0.0);
-  const Phi front = phi(-dt * first.slip_decay_ps[0]), rear = phi(-dt * first.slip_decay_ps[1]);
+  const TwoPhi decay = phi(-dt * first.slip_decay_ps);
   const Two from{before.front_slip, before.rear_slip};
-  const Two to = from + dt * Two{front.one, rear.one} * first.slip_rate_ps;
+  const Two to = from + dt * decay.one * first.slip_rate_ps;
   const ride::Body swung = ride::after(ride, body_of(before), first.ride);
   State end = before;
   end.u_mps += dt * first.u_mps2, end.v_mps += dt * first.v_mps2, end.r_radps += dt * first.r_ps2;
@@ -70,11 +69,10 @@ void step_exponential(const Params& p, const Held& h, const ride::Step& ride, St
     change.pitch -=
         2.0 * p.car.cg_height_m * p.car.mass_kg * more_mps2 * p.per_pitch_kgm2;  // twice at the end: in the mean
   }
-  const Two slip =
-      to + dt * Two{front.two, rear.two} * (last.slip_rate_ps - first.slip_rate_ps + first.slip_decay_ps * (to - from));
+  const Two slip = to + dt * decay.two * (last.slip_rate_ps - first.slip_rate_ps + first.slip_decay_ps * (to - from));
   s.front_slip = slip[0], s.rear_slip = slip[1];
   set_body(s, ride::add(ride, swung, change));
-  travel(before, s, dt);
+  travel(h, before, s, dt);
 }
 
 // Velocities first, with the forces of the old place; then places and slips with the new velocities, the slips' decay
@@ -85,7 +83,7 @@ void step_semi_implicit(const Params& p, const Held& h, State& s, double dt) {
   derivative(p, h, before, 0.0, d);
   s.u_mps += dt * d.u_mps, s.v_mps += dt * d.v_mps, s.r_radps += dt * d.r_radps;
   s.z_rate_mps += dt * d.z_rate_mps, s.pitch_rate_ps += dt * d.pitch_rate_ps, s.roll_rate_ps += dt * d.roll_rate_ps;
-  travel(before, s, dt);
+  travel(h, before, s, dt);
   s.z_m += dt * s.z_rate_mps, s.pitch += dt * s.pitch_rate_ps, s.roll += dt * s.roll_rate_ps;
   const full::Params& car = p.car;
   const double vf = s.v_mps + car.x_m[0] * s.r_radps, vr = s.v_mps + car.x_m[2] * s.r_radps;
@@ -111,8 +109,9 @@ void settle(const Params& p, const Held& h, const State& before, State& s, doubl
   const double rear = rear_road + 0.5 * (-transfer + rear_jack) / p.axles[1].spring_npm;
   s.pitch = (rear - front) / car.wheelbase_m;
   s.z_m = front + car.x_m[0] * s.pitch;
-  const double felt = car.sprung_kg * car.cg_height_m * a.fy_n / car.mass_kg * (1.0 + across * across);
-  s.roll = across + felt / (p.springs.roll_stiffness_ps2 * car.roll_inertia_kgm2);
+  const double felt_nm = car.sprung_kg * car.cg_height_m *
+                         (a.fy_n / car.mass_kg * (1.0 + h.bank * h.bank) + kGravity_mps2 * (across - h.bank));
+  s.roll = across + felt_nm / (p.springs.roll_stiffness_ps2 * car.roll_inertia_kgm2);
   s.z_rate_mps = (s.z_m - before.z_m) / dt;
   s.pitch_rate_ps = (s.pitch - before.pitch) / dt;
   s.roll_rate_ps = (s.roll - before.roll) / dt;

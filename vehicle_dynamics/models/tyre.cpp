@@ -3,6 +3,8 @@
 namespace phare::tyre {
 namespace {
 
+constexpr double kNoSlide = 1e-20;  // a wheel without slip has no direction of slide
+
 double magic(double b, double shape, double curvature, double slip) {
   const double bs = b * slip;
   return std::sin(shape * std::atan(bs - curvature * (bs - std::atan(bs))));
@@ -47,9 +49,13 @@ Force steady_force(const Constants& tyre, double kappa, double tan_alpha, double
   double fx = dx * magic(tyre.bx * inv_mu, p.long_shape, p.long_curvature, kappa);
   double fy = dy * magic(tyre.by * inv_mu, p.lat_shape, p.lat_curvature, tan_alpha);
   const double fall_x = p.long_weight_fall * kappa, fall_y = p.lat_weight_fall * tan_alpha;
-  fx *=
-      weight(p.long_weight / std::sqrt(1.0 + fall_x * fall_x), p.long_weight_shape, p.long_weight_curvature, tan_alpha);
-  fy *= weight(p.lat_weight / std::sqrt(1.0 + fall_y * fall_y), p.lat_weight_shape, p.lat_weight_curvature, kappa);
+  // The weighting is fitted to a rolling wheel. One that slides far would turn its sign and push the car; such a one
+  // pushes against its slide, so neither part of the force is less than the slide's direction leaves it.
+  const double slide = std::sqrt(kappa * kappa + tan_alpha * tan_alpha + kNoSlide);
+  fx *= std::max(std::abs(kappa) / slide, weight(p.long_weight / std::sqrt(1.0 + fall_x * fall_x), p.long_weight_shape,
+                                                 p.long_weight_curvature, tan_alpha));
+  fy *= std::max(std::abs(tan_alpha) / slide, weight(p.lat_weight / std::sqrt(1.0 + fall_y * fall_y),
+                                                     p.lat_weight_shape, p.lat_weight_curvature, kappa));
   // The weighting is a fit and may leave the friction ellipse by a little; friction may not.
   const double ex = fx / dx, ey = fy / dy, over = ex * ex + ey * ey;
   const double scale = load_n / std::sqrt(std::max(over, 1.0));
@@ -65,20 +71,6 @@ using Four = double __attribute__((vector_size(32)));
 extern "C" Four _ZGVdN4v_atan(Four);
 extern "C" Four _ZGVdN4v_sin(Four);
 extern "C" Four _ZGVdN4v_cos(Four);
-
-// Two lanes, which every such processor has.
-extern "C" Two _ZGVbN2v_atan(Two);
-extern "C" Two _ZGVbN2v_sin(Two);
-extern "C" Two _ZGVbN2v_cos(Two);
-Two arctangent(Two v) {
-  return _ZGVbN2v_atan(v);
-}
-Two sine(Two v) {
-  return _ZGVbN2v_sin(v);
-}
-Two cosine(Two v) {
-  return _ZGVbN2v_cos(v);
-}
 
 [[gnu::target("avx2")]] inline Four bent(Four bs, double curvature) {
   return _ZGVdN4v_atan(bs - curvature * (bs - _ZGVdN4v_atan(bs)));
@@ -97,10 +89,14 @@ Two cosine(Two v) {
   const Four inv_mu = 1.0 / m;
   const Four fall_x = p.long_weight_fall * k, fall_y = p.lat_weight_fall * t;
   const Four bx = p.long_weight / root(1.0 + fall_x * fall_x), by = p.lat_weight / root(1.0 + fall_y * fall_y);
+  const Four per_slide = 1.0 / root(k * k + t * t + kNoSlide);
+  const Four slide_x = (k < 0.0 ? -k : k) * per_slide, slide_y = (t < 0.0 ? -t : t) * per_slide;
+  const Four weight_x = _ZGVdN4v_cos(p.long_weight_shape * bent(bx * t, p.long_weight_curvature));
+  const Four weight_y = _ZGVdN4v_cos(p.lat_weight_shape * bent(by * k, p.lat_weight_curvature));
   const Four ex = _ZGVdN4v_sin(p.long_shape * bent(tyre.bx * inv_mu * k, p.long_curvature)) *
-                  _ZGVdN4v_cos(p.long_weight_shape * bent(bx * t, p.long_weight_curvature));
+                  (weight_x > slide_x ? weight_x : slide_x);
   const Four ey = _ZGVdN4v_sin(p.lat_shape * bent(tyre.by * inv_mu * t, p.lat_curvature)) *
-                  _ZGVdN4v_cos(p.lat_weight_shape * bent(by * k, p.lat_weight_curvature));
+                  (weight_y > slide_y ? weight_y : slide_y);
   const Four over = ex * ex + ey * ey;
   for (int i = 0; i < 4; ++i) {
     const double scale = mu[i] * load[i] * (1.0 / std::sqrt(std::max(over[i], 1.0)));
@@ -110,20 +106,6 @@ Two cosine(Two v) {
 }
 
 const bool kFourLanes = __builtin_cpu_supports("avx2");
-
-}  // namespace
-#else
-namespace {
-
-Two arctangent(Two v) {
-  return Two{std::atan(v[0]), std::atan(v[1])};
-}
-Two sine(Two v) {
-  return Two{std::sin(v[0]), std::sin(v[1])};
-}
-Two cosine(Two v) {
-  return Two{std::cos(v[0]), std::cos(v[1])};
-}
 
 }  // namespace
 #endif

@@ -2,14 +2,13 @@
 //
 // What: longitudinal and lateral force under combined slip; the transient slip of a single contact point.
 // Source: H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed. 2012: Magic Formula ch. 4.3 (PAC2002) with cosine
-// weighting,
-//   transient slip ch. 7.2 (eq. 7.20, 7.21 with slip instead of deflection as the state), carcass damping at standstill
-//   ch. 8.6; coefficients from the vehicle file.
+//   weighting, for a wheel that slides far its direction instead; transient slip ch. 7.2 (eq. 7.20, 7.21 with slip
+//   instead of deflection as the state), carcass damping at standstill ch. 8.6; coefficients from the vehicle file.
 // Frame: contact patch, x along the wheel's heading in the road plane, y left, ISO 8855. Slip: kappa > 0 drives,
-// tan_alpha
-//   > 0 pushes to the left.
+//   tan_alpha > 0 pushes to the left.
 // Leaves out: camber, conicity and ply steer, turn slip, self-aligning torque, falling friction with speed,
-// temperature. Tests: tests/vehicle_dynamics/tyre_test.cpp (stiffness, peak, friction ellipse, mirror symmetry).
+//   temperature.
+// Tests: tests/vehicle_dynamics/tyre_test.cpp (stiffness, peak, friction ellipse, mirror symmetry, sign).
 #pragma once
 
 #include <algorithm>
