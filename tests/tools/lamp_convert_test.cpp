@@ -177,5 +177,32 @@ TEST(WriteLamp, TheHeaderComesThrough) {
   EXPECT_FALSE(lm63->header.absolute);
 }
 
+// Files of other people: what a format can hold comes back. Shortest digits that read as the same number, so only what
+// is computed on the way (angles from 9 decimals, candela per 1000 lm) may cost last bits.
+TEST(WriteLamp, EveryFileOfTheDataSetComesBack) {
+  const std::filesystem::path folder = PHARE_SHARED_DATA_DIR "/photometry";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending != ".ies" && ending != ".ldt") continue;
+    const auto table = read_lamp(entry.path());
+    ASSERT_TRUE(table.ok()) << table.error().text();
+    const IntensityTable* one[] = {&*table};
+    const auto off = [&](const std::string& text, const char* name) {
+      const auto back = parse_lamp(text, name);
+      EXPECT_TRUE(back.ok()) << entry.path() << " " << back.error().text();
+      return back.ok() ? difference_from_sum(one, *back).worst_cd / table->peak_cd() : 1.0;
+    };
+    EXPECT_LT(off(lm63_text(*table), "back.ies"), 1e-12) << entry.path();
+    EXPECT_LT(off(csv_text(*table), "back.csv"), 1e-12) << entry.path();
+    if (table->type == PhotometricType::kC) {
+      EXPECT_LT(off(eulumdat_text(*table), "back.ldt"), 1e-12) << entry.path();
+    }
+    ++count;
+  }
+  EXPECT_EQ(count, 37u);
+}
+
 }  // namespace
 }  // namespace phare
