@@ -11,8 +11,8 @@ PHARE_INLINE float atan_over_t(float t2) {
   return 0.99999998126f + t2 * (-0.33332785772f + t2 * (0.19974082416f + t2 * (-0.13848490213f + t2 * 0.07976291807f)));
 }
 
-/// atan2(y, x) in degrees, -180..180. (0, 0) gives 0. Error below 3e-7 of the angle for float32 inputs.
-PHARE_INLINE float atan2_deg(float y, float x) {
+/// atan2(|y|, |x|): the nearest multiple of 45° in x, 0 to 2, and the rest in y, radians within ±22.5°. (0, 0) gives 0.
+PHARE_INLINE vec2 quadrant_octants(float y, float x) {
   float ax = abs(x);
   float ay = abs(y);
   float low = min(ax, ay);
@@ -22,25 +22,22 @@ PHARE_INLINE float atan2_deg(float y, float x) {
   float numerator = turned ? low - high : low;
   float denominator = turned ? low + high : high;
   float t = denominator > 0.0f ? numerator / denominator : 0.0f;
-  float angle = t * atan_over_t(t * t) * 57.295779513f + (turned ? 45.0f : 0.0f);
-  angle = ay > ax ? 90.0f - angle : angle;
+  vec2 angle = vec2(turned ? 1.0f : 0.0f, t * atan_over_t(t * t));
+  return ay > ax ? vec2(2.0f - angle.x, -angle.y) : angle;
+}
+
+/// atan2(y, x) in degrees, -180..180. (0, 0) gives 0. Error below 3e-7 of the angle for float32 inputs.
+PHARE_INLINE float atan2_deg(float y, float x) {
+  vec2 octants = quadrant_octants(y, x);
+  float angle = octants.x * 45.0f + octants.y * 57.295779513f;
   angle = x < 0.0f ? 180.0f - angle : angle;
   return y < 0.0f ? -angle : angle;
 }
 
 /// atan2(y, x) from 0° to 360°: the nearest multiple of 45° in x, 0 to 8, and the rest in y, radians within ±22.5°. Apart they keep every angle
-/// as exactly as a small one. Error of the rest below 3e-7 of it and 6e-8 rad.
+/// as exactly as a small one: error of the rest below 3e-7 of it and 6e-8 rad.
 PHARE_INLINE vec2 atan2_octants(float y, float x) {
-  float ax = abs(x);
-  float ay = abs(y);
-  float low = min(ax, ay);
-  float high = max(ax, ay);
-  bool turned = low > 0.41421356f * high;
-  float numerator = turned ? low - high : low;
-  float denominator = turned ? low + high : high;
-  float t = denominator > 0.0f ? numerator / denominator : 0.0f;
-  vec2 angle = vec2(turned ? 1.0f : 0.0f, t * atan_over_t(t * t));
-  angle = ay > ax ? vec2(2.0f - angle.x, -angle.y) : angle;
+  vec2 angle = quadrant_octants(y, x);
   angle = x < 0.0f ? vec2(4.0f - angle.x, -angle.y) : angle;
   return y < 0.0f ? vec2(8.0f - angle.x, -angle.y) : angle;
 }

@@ -20,6 +20,21 @@ TEST(Angles, Atan2AgreesWithDoubleAllTheWayRound) {
   }
 }
 
+// Taken apart at multiples of 45° the rest stays small, and with it its rounding: about four steps of 2^-24 of it, and of the float32 arguments.
+TEST(Angles, OctantsKeepEveryAngleAsExactlyAsASmallOne) {
+  for (int i = 0; i < 360000; ++i) {
+    const double angle_rad = i * std::numbers::pi / 180000.0;
+    const auto y = static_cast<float>(7.0 * std::sin(angle_rad)), x = static_cast<float>(7.0 * std::cos(angle_rad));
+    double expected_rad = std::atan2(static_cast<double>(y), static_cast<double>(x));
+    if (expected_rad < 0.0) expected_rad += 2.0 * std::numbers::pi;
+    const vec2 octants = atan2_octants(y, x);
+    ASSERT_EQ(octants.x, std::round(octants.x)) << i;
+    ASSERT_LT(std::abs(octants.y), 0.3928f) << i;  // 22.5° and the last digit
+    const double rest_rad = expected_rad - static_cast<double>(octants.x) * std::numbers::pi / 4.0;
+    ASSERT_NEAR(static_cast<double>(octants.y), rest_rad, 3e-7 * std::abs(rest_rad) + 6e-8) << i;
+  }
+}
+
 TEST(Angles, SmallAnglesKeepTheirRelativePrecision) {
   for (float t : {1e-6f, 1e-4f, 0.01f, 0.02f, 0.3f}) {
     const double expected_deg = std::atan(static_cast<double>(t)) * 180.0 / std::numbers::pi;
