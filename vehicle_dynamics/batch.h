@@ -63,7 +63,7 @@ struct Row {
 
 struct Summary {
   std::uint64_t steps = 0, rows = 0;
-  double simulated_s = 0.0, wall_s = 0.0;
+  double simulated_s = 0.0, wall_s = 0.0;  ///< wall: of the car and its rows, not of what is done with them
   std::uint64_t state_hash = 0;
   bool off_road = false;
   bool resistance = false;
@@ -73,7 +73,7 @@ struct Summary {
 /// Runs the inputs; calls `each` for every row. Error: the level does not go with the vehicle file.
 Result<Summary> run(const Options& options, const Inputs& inputs, const std::function<void(const Row&)>& each);
 
-/// Column names of a row, and a row as text with 17 significant digits.
+/// Column names of a row, and a row as text: the fewest digits that read back as the same numbers.
 std::string header();
 void print(const Row& row, std::FILE* file);
 

@@ -55,10 +55,9 @@ double run(State state, const full::Params& p, const Road& road, double dt, cons
   return thread_s() - begin_s;
 }
 
-template <class Params, class State, class ForcesOf>
+template <class Params, class State, class ForcesOf, class Fixed>
 void add_lines(const std::string& level, Params params, const full::Params& car, const State& start, const Road& road,
-               const std::vector<double>& steps, bool short_run, const ForcesOf& forces_of,
-               const std::function<void(const Params&, const full::Input&, State&, double)>& fixed,
+               const std::vector<double>& steps, bool short_run, const ForcesOf& forces_of, const Fixed& fixed,
                std::vector<Line>& lines) {
   const auto noted = [&](Trace& trace) {
     return [&](const full::Input& in, const State& s) {
@@ -96,10 +95,12 @@ void add_lines(const std::string& level, Params params, const full::Params& car,
         line.position_error_m =
             std::max(line.position_error_m, std::hypot(trace.x[i] - exact.x[i], trace.y[i] - exact.y[i]));
       }
-      std::vector<double> spent;
-      for (int repeat = 0; repeat < (short_run ? 1 : dt < 5e-4 ? 3 : 7); ++repeat)
-        spent.push_back(run(start, car, road, dt, advance, [](const full::Input&, const State&) {}));
-      const double least_s = *std::min_element(spent.begin(), spent.end());
+      // The least of runs that take a tenth of a second together: what a neighbour slows down does not count.
+      double least_s = 1e9, spent_s = 0.0;
+      for (int repeat = 0; repeat < (short_run ? 1 : 3) || (!short_run && spent_s < 0.1); ++repeat) {
+        const double run_s = run(start, car, road, dt, advance, [](const full::Input&, const State&) {});
+        least_s = std::min(least_s, run_s), spent_s += run_s;
+      }
       line.real_time = kEnd_s / least_s;
       line.ns_per_step = least_s / (kEnd_s / dt) * 1e9;
       StepTimes times;

@@ -2,12 +2,18 @@
 #pragma once
 
 #include <cmath>
+#include <cstdlib>
 
 #include "test_car.h"
 #include "vehicle_dynamics/models/full.h"
 #include "vehicle_dynamics/models/single_track.h"
 
 namespace phare::test {
+
+/// Hours instead of minutes of simulated time.
+inline bool long_run() {
+  return std::getenv("PHARE_LONG_TESTS") != nullptr;
+}
 
 constexpr double kDeg = 180.0 / 3.14159265358979323846;
 

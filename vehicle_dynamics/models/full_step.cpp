@@ -176,11 +176,15 @@ void advance(const Params& p, const Input& input, State& state, double dt) {
       break;
     case Integrator::kRk4:
     case Integrator::kReference:  // the caller's, see reference.h; a real-time run takes the best it has
-      step_rk4(state, dt, [&](const State& at, double t) {
+      // From where the step begins: far from the origin each of the method's sums would round the place anew.
+      state.x_m = state.y_m = state.path_m = 0.0;
+      step_rk4(state, dt, [&](State at, double t) {
+        at.x_m += before.x_m, at.y_m += before.y_m, at.path_m += before.path_m;
         State rate;
         derivative(p, input, during, at, t, rate);
         return rate;
       });
+      state.x_m += before.x_m, state.y_m += before.y_m, state.path_m += before.path_m;
       break;
   }
   finish_step(during, before, state);
