@@ -262,9 +262,8 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
   const double level = q < 1e-4 ? 1.0 - q * (0.5 - q * (0.375 - q * 0.3125)) : 1.0 / std::sqrt(1.0 + q);
 
   // Of the steering, and of the heading that the yaw rate brings in half a step.
-  const Two angle{in.steer_rad, s.yaw_rad + 0.5 * dt * s.r_radps}, cosines = phare::cosine(angle),
-                                                                   sines = phare::sine(angle);
-  const double cosine = cosines[0], sine = sines[0];
+  const SineCosine turned = sine_cosine(Two{in.steer_rad, s.yaw_rad + 0.5 * dt * s.r_radps});
+  const double cosine = turned.cosine[0], sine = turned.sine[0];
   double most_slip_pm = std::numeric_limits<double>::infinity();
   if (p.integrator == Integrator::kRk4) {
     const double fastest =
@@ -297,8 +296,8 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
           .level = level,
           .cosine = cosine,
           .sine = sine,
-          .yaw_cosine = cosines[1],
-          .yaw_sine = sines[1],
+          .yaw_cosine = turned.cosine[1],
+          .yaw_sine = turned.sine[1],
           .front_push_n = front_drive - against * front_brake,
           .rear_push_n = rear_drive - against * rear_brake,
           .drag_kgpm = in.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.car.drag_area_m2 : 0.0,

@@ -129,8 +129,9 @@ SideForce side_force(const Constants& tyre, Two tan_alpha, double mu) {
   const double b = tyre.by / mu, peak = mu * p.lat_peak, e = p.lat_curvature;
   // sin(C atan(w)) with w = x - E (x - atan x), and its derivative.
   const Two x = b * tan_alpha, w = x - e * (x - arctangent(x)), angle = p.lat_shape * arctangent(w), x2 = x * x;
-  return {peak * sine(angle),
-          peak * b * p.lat_shape * cosine(angle) * (1.0 + (1.0 - e) * x2) / ((1.0 + w * w) * (1.0 + x2))};
+  const SineCosine bent = sine_cosine(angle);
+  return {peak * bent.sine,
+          peak * b * p.lat_shape * bent.cosine * (1.0 + (1.0 - e) * x2) / ((1.0 + w * w) * (1.0 + x2))};
 }
 
 }  // namespace phare::tyre
