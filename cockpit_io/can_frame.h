@@ -17,7 +17,7 @@ struct CanId {
 
 struct CanFrame {
   static constexpr std::uint32_t kStandardIdMax = 0x7FFu, kExtendedIdMax = 0x1FFF'FFFFu;  // 11 and 29 bits
-  static constexpr std::size_t kMaxLength = 64;  // ISO 11898-1:2015, CAN FD
+  static constexpr std::size_t kMaxLength = 64;                                           // ISO 11898-1:2015, CAN FD
 
   std::uint32_t id = 0;   ///< 11 or 29 bits; of an error frame: the error class bits of linux/can/error.h
   bool extended = false;  ///< 29-bit id

@@ -1,4 +1,3 @@
-#include "cockpit_io/can_frame.h"
 #include "cockpit_io/candump.h"
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "cockpit_io/can_frame.h"
 #include "cockpit_io/text_scanner.h"
 
 namespace phare {

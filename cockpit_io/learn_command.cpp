@@ -70,7 +70,8 @@ int learn_from_bus(const LearnOptions& options, Learner learner, const StopFlag&
     while (const auto received = socket->receive()) {
       show(learner.take(received->frame, static_cast<std::int64_t>(at_s * 1e9)));
     }
-    if (socket->why() == CanSocket::Nothing::kGone) return fail("phare-cockpit", {options.interface, "the interface is gone"});
+    if (socket->why() == CanSocket::Nothing::kGone)
+      return fail("phare-cockpit", {options.interface, "the interface is gone"});
   }
   return finish(learner);
 }
@@ -134,7 +135,8 @@ int learn(const LearnOptions& options, const StopFlag& stop) {
   }
   Learner learner(std::move(dbc), static_cast<std::int64_t>(options.rest_s * 1e9));
   if (!options.log_file.empty()) return learn_from_log(options, std::move(learner));
-  if (options.interface.empty()) return fail("phare-cockpit", {"--learn", "needs --interface IF, --log FILE or --gamepad"});
+  if (options.interface.empty())
+    return fail("phare-cockpit", {"--learn", "needs --interface IF, --log FILE or --gamepad"});
   return learn_from_bus(options, std::move(learner), stop);
 }
 

@@ -1,4 +1,5 @@
-// A value, or the place and reason why there is none. Bad data from outside (file, bus, socket, flag) travels as a Result.
+// A value, or the place and reason why there is none. Bad data from outside (file, bus, socket, flag) travels as a
+// Result.
 #pragma once
 
 #include <cassert>

@@ -60,9 +60,11 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
   source.colour_temperature_k = table.number_or("colour_temperature_k", source.colour_temperature_k, 1667.0, 25000.0);
   if (table.has("chromaticity_xy")) {
     const std::vector<double> xy = table.numbers("chromaticity_xy", 2);
-    if (table.has("colour_temperature_k")) table.fail("chromaticity_xy", "a light has a colour temperature or a chromaticity, not both");
+    if (table.has("colour_temperature_k"))
+      table.fail("chromaticity_xy", "a light has a colour temperature or a chromaticity, not both");
     // Inside the triangle that holds every real colour, and bright enough in y to divide by it.
-    if (xy.size() == 2 && !(xy[0] >= 0.0 && xy[1] >= 0.01 && xy[0] + xy[1] <= 1.0)) table.fail("chromaticity_xy", "x and y of CIE 1931: x >= 0, y >= 0.01, x + y <= 1");
+    if (xy.size() == 2 && !(xy[0] >= 0.0 && xy[1] >= 0.01 && xy[0] + xy[1] <= 1.0))
+      table.fail("chromaticity_xy", "x and y of CIE 1931: x >= 0, y >= 0.01, x + y <= 1");
     if (xy.size() == 2) source.chromaticity_xy = glm::dvec2{xy[0], xy[1]};
   }
   return source;
@@ -120,7 +122,8 @@ void check_names_differ(TomlTable& table, std::string_view key, const std::vecto
 Result<BusKey> read_key(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string digits, more;
-  if (!(stream >> digits)) return Error{file.string(), "no such file, or it is empty; openssl rand -hex 32 makes a key"};
+  if (!(stream >> digits))
+    return Error{file.string(), "no such file, or it is empty; openssl rand -hex 32 makes a key"};
   BusKey key{};
   bool good = digits.size() == 2 * key.size() && !(stream >> more);
   for (std::size_t i = 0; good && i < key.size(); ++i) {
@@ -167,7 +170,8 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
       if (!key) return key.error();
       rig.bus_key = *key;
     } else if (!rig.bind_address.starts_with("127.")) {
-      bus->fail("address", "off loopback (127.…) a key_file is required: 64 hexadecimal digits, as of openssl rand -hex 32");
+      bus->fail("address",
+                "off loopback (127.…) a key_file is required: 64 hexadecimal digits, as of openssl rand -hex 32");
     }
   }
   if (auto clock = root.table_if("clock"))
@@ -178,7 +182,8 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
   }
   if (auto beams = root.table_if("beams")) {
     rig.high_keeps_low = beams->flag_or("high_keeps_low", rig.high_keeps_low);
-    rig.beam_image = static_cast<ImageLevel>(beams->choice_or("image", static_cast<std::size_t>(rig.beam_image), kImageLevelNames));
+    rig.beam_image =
+        static_cast<ImageLevel>(beams->choice_or("image", static_cast<std::size_t>(rig.beam_image), kImageLevelNames));
   }
   for (TomlTable channel : root.tables("channel")) rig.channels.push_back(read_channel(channel, rig.channels.size()));
   for (TomlTable design : root.tables("design")) rig.designs.push_back(read_design(design, rig_file));
@@ -213,7 +218,8 @@ Status check_rig_files(const Rig& rig) {
 }
 
 Result<LampConfig> parse_lamp_argument(const std::string& text) {
-  static const std::vector<std::string> known{"x", "y", "z", "yaw_deg", "pitch_deg", "roll_deg", "axis", "c0_deg", "mirror", "lamp_set", "emitter", "scale"};
+  static const std::vector<std::string> known{"x",    "y",      "z",      "yaw_deg",  "pitch_deg", "roll_deg",
+                                              "axis", "c0_deg", "mirror", "lamp_set", "emitter",   "scale"};
   const auto wrong = [&](const std::string& reason) { return Error{"--lamp " + text, reason}; };
   LampConfig lamp;
   SourceConfig source;
@@ -257,7 +263,8 @@ Result<LampConfig> parse_lamp_argument(const std::string& text) {
       source.mirror = number == 1.0;
     }
     if (key == "lamp_set" || key == "emitter") {
-      if (!(number >= 1.0 && number <= 1000.0) || number != std::floor(number)) return wrong("\"" + key + "\" counts from 1");
+      if (!(number >= 1.0 && number <= 1000.0) || number != std::floor(number))
+        return wrong("\"" + key + "\" counts from 1");
       (key == "emitter" ? source.emitter : source.lamp_set) = static_cast<std::size_t>(number);
     }
   }

@@ -24,8 +24,8 @@ enum class GammaAxis { kGamma0, kGamma90 };
 
 /// How a beam image is stored and looked up, from the cheapest to the table itself (visual/photometry/image_levels.h).
 enum class ImageLevel { kNormalised8, kHalfEven, kHalfNodes, kFloatNodes };
-inline constexpr std::array<std::string_view, 4> kImageLevelNames{"normalised-8bit-1999", "half-float-texture-filter", "half-float-native-nodes",
-                                                                  "float32-native-nodes"};
+inline constexpr std::array<std::string_view, 4> kImageLevelNames{"normalised-8bit-1999", "half-float-texture-filter",
+                                                                  "half-float-native-nodes", "float32-native-nodes"};
 
 /// One photometry file, mounted. Aim turns the lamp axes in the car frame: R = Rz(yaw)·Ry(-pitch)·Rx(roll).
 struct SourceConfig {
@@ -36,10 +36,10 @@ struct SourceConfig {
   bool mirror = false;       ///< left and right turned round: for the other side of the road, or a clockwise file
   std::size_t lamp_set = 1;  ///< EULUMDAT: which of the file's lamp sets, from 1
   std::size_t emitter = 1;   ///< TM-33: which of the file's emitters, from 1
-  double scale = 1.0;      ///< multiplies candela
-  double yaw_rad = 0.0;    ///< > 0 left
-  double pitch_rad = 0.0;  ///< > 0 up, as lighting engineers aim
-  double roll_rad = 0.0;   ///< > 0 right side down
+  double scale = 1.0;        ///< multiplies candela
+  double yaw_rad = 0.0;      ///< > 0 left
+  double pitch_rad = 0.0;    ///< > 0 up, as lighting engineers aim
+  double roll_rad = 0.0;     ///< > 0 right side down
   double colour_temperature_k = 5000.0;
   std::optional<glm::dvec2> chromaticity_xy{};  ///< CIE 1931; in place of the colour temperature
 };
@@ -76,7 +76,7 @@ struct Rig {
   std::string name;
   std::string bind_address = "127.0.0.1";
   std::uint16_t port_base = 47000;
-  std::optional<BusKey> bus_key{};    ///< of [bus] key_file: 64 hexadecimal digits; required off loopback
+  std::optional<BusKey> bus_key{};     ///< of [bus] key_file: 64 hexadecimal digits; required off loopback
   std::int64_t frame_rate_hz = 60;     ///< of lockstep frames
   std::filesystem::path scene_file;    ///< glTF; resolved
   std::filesystem::path vehicle_file;  ///< resolved

@@ -11,7 +11,8 @@
 #include <sstream>
 
 // The only file that sees toml++, so its header-only implementation is compiled once.
-// Its parser asserts that a key begins well before it reports that it does not; a malformed file must not end a debug build.
+// Its parser asserts that a key begins well before it reports that it does not; a malformed file must not end a debug
+// build.
 #define TOML_EXCEPTIONS 0
 #define TOML_ASSERT(expr) static_assert(true)
 #include <toml++/toml.h>

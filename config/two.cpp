@@ -22,8 +22,8 @@ namespace {
 // angle of several radians: 4e-16.
 [[gnu::target("avx2")]] SineCosine sine_cosine_of_four(Two angle_rad) {
   constexpr double kQuarterTurn_rad = 1.5707963267948966;
-  const FourLanes all =
-      _ZGVdN4v_sin(FourLanes{angle_rad[0], angle_rad[1], angle_rad[0] + kQuarterTurn_rad, angle_rad[1] + kQuarterTurn_rad});
+  const FourLanes all = _ZGVdN4v_sin(
+      FourLanes{angle_rad[0], angle_rad[1], angle_rad[0] + kQuarterTurn_rad, angle_rad[1] + kQuarterTurn_rad});
   return {Two{all[0], all[1]}, Two{all[2], all[3]}};
 }
 // Four lanes, two of them for nothing, are still twice as fast: their code multiplies and adds at once.

@@ -30,7 +30,9 @@ std::uint64_t draw_start_id() {
   return id;
 }
 
-std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text.data(), text.size())); }
+std::span<const std::byte> bytes_of(const std::string& text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
 
 }  // namespace
 
@@ -65,7 +67,8 @@ Result<Bus> Bus::open(const Rig& rig, Role role, std::uint32_t channel) {
   const auto port = static_cast<std::uint16_t>(rig.port_base + port_offset(role, channel));
   Result<UdpSocket> socket = UdpSocket::open(rig.bind_address, port);
   if (!socket) return socket.error();
-  if (!socket->filter_in_kernel(Seal(rig.bus_key).tag_bytes())) spdlog::debug("no socket filter in this kernel: garbage is refused by the process itself");
+  if (!socket->filter_in_kernel(Seal(rig.bus_key).tag_bytes()))
+    spdlog::debug("no socket filter in this kernel: garbage is refused by the process itself");
   return Bus(std::move(*socket), rig, role, channel);
 }
 
@@ -142,7 +145,8 @@ std::size_t Bus::poll() {
   }
 
   const auto dropped = static_cast<std::uint32_t>(socket_.dropped_in_kernel());
-  const std::uint32_t more = dropped - static_cast<std::uint32_t>(counters_.refused_in_kernel);  // wraps as the kernel's count
+  const std::uint32_t more =
+      dropped - static_cast<std::uint32_t>(counters_.refused_in_kernel);  // wraps as the kernel's count
   counters_.refused_in_kernel += more;
   counters_.refused += more;
   if (counters_.refused != refused_logged_) log_refusals();
@@ -162,7 +166,8 @@ bool Bus::accept(std::span<const std::byte> sealed) {
   }
   const std::size_t index = incoming_.payload.index();
   const Channel& row = kChannels[index];
-  const bool for_us = row.receivers.has(role_) && !(row.first_visual_only && channel_ != 0) && incoming_.sender_channel < channels_;
+  const bool for_us =
+      row.receivers.has(role_) && !(row.first_visual_only && channel_ != 0) && incoming_.sender_channel < channels_;
   if (!for_us) {
     refuse(Refusal::kNotForUs);
     return false;
@@ -214,6 +219,8 @@ void Bus::log_refusals() {
   refused_logged_ = counters_.refused;
 }
 
-bool Bus::wait(std::chrono::nanoseconds at_most) { return socket_.wait(at_most); }
+bool Bus::wait(std::chrono::nanoseconds at_most) {
+  return socket_.wait(at_most);
+}
 
 }  // namespace phare

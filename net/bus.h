@@ -29,7 +29,7 @@ struct BusCounters {
   std::array<InboxCounters, kChannels.size()> received{};  ///< by payload index, all sender channels together
   std::array<std::uint64_t, kChannels.size()> sent{};      ///< datagrams numbered, by payload index
   std::array<std::uint64_t, kRefusals> refused_because{};  ///< by Refusal
-  std::uint64_t refused = 0;            ///< not taken, by this process or its socket filter
+  std::uint64_t refused = 0;                               ///< not taken, by this process or its socket filter
   std::uint64_t refused_in_kernel = 0;  ///< of them those that never reached the process: filtered, or no room
   std::uint64_t send_failures = 0;      ///< the kernel did not take a datagram
   std::uint64_t not_sent = 0;           ///< payloads of ours that no receiver would take
@@ -61,7 +61,8 @@ class Bus {
   /// Sleeps until something waits (true), or time is up or a signal came (false).
   bool wait(std::chrono::nanoseconds at_most);
 
-  /// The newest valid message, nullptr before the first. `channel`: of which visual process, for FrameReport and ProbeReply.
+  /// The newest valid message, nullptr before the first. `channel`: of which visual process, for FrameReport and
+  /// ProbeReply.
   template <class T>
   const Newest<T>* newest(std::uint32_t channel = 0) const {
     const auto& inboxes = std::get<std::vector<Inbox<T>>>(inboxes_);
@@ -77,8 +78,8 @@ class Bus {
     return taken ? std::optional<Newest<T>>(*taken) : std::nullopt;
   }
 
-  /// Called within poll() for every datagram that became the newest of its stream, in the order of arrival. For those who
-  /// must not miss one (recorder, RigControl): take() gives only the newest.
+  /// Called within poll() for every datagram that became the newest of its stream, in the order of arrival. For those
+  /// who must not miss one (recorder, RigControl): take() gives only the newest.
   std::function<void(const Datagram&, std::span<const std::byte>)> on_datagram;
 
   /// Called within poll() when the newest datagram of a stream arrives once more.
@@ -109,10 +110,10 @@ class Bus {
 
   std::tuple<std::vector<Inbox<CockpitState>>, std::vector<Inbox<VehicleState>>, std::vector<Inbox<FrameReport>>,
              std::vector<Inbox<RigControl>>, std::vector<Inbox<ProbeRequest>>, std::vector<Inbox<ProbeReply>>>
-      inboxes_;  // one per sender channel
+      inboxes_;                                           // one per sender channel
   std::array<std::string, kChannels.size()> last_bytes_;  // sealed
   BusCounters counters_;
-  Datagram incoming_;                          // reused
+  Datagram incoming_;  // reused
   std::chrono::steady_clock::time_point next_log_;
   std::uint64_t refused_logged_ = 0;
 };

@@ -24,11 +24,16 @@ inline constexpr std::uint32_t kMaxChannels = 16;
 /// Offset to rig.port_base; `channel` counts for visual processes only.
 constexpr std::uint16_t port_offset(Role role, std::uint32_t channel = 0) {
   switch (role) {
-    case Role::kCockpit: return 0;
-    case Role::kDynamics: return 1;
-    case Role::kRecorder: return 2;
-    case Role::kControl: return 3;
-    case Role::kVisual: break;
+    case Role::kCockpit:
+      return 0;
+    case Role::kDynamics:
+      return 1;
+    case Role::kRecorder:
+      return 2;
+    case Role::kControl:
+      return 3;
+    case Role::kVisual:
+      break;
   }
   return static_cast<std::uint16_t>(10 + channel);
 }
@@ -48,18 +53,18 @@ class Roles {
 };
 
 struct Channel {
-  std::string_view message;            ///< name of the oneof field in phare.proto
-  Sender sender;                       ///< the only process that may send it
+  std::string_view message;  ///< name of the oneof field in phare.proto
+  Sender sender;             ///< the only process that may send it
   Roles receivers;
-  bool first_visual_only;              ///< of the visual processes only channel 0 receives it
-  double rate_hz;                      ///< in real time; 0: when there is a reason
+  bool first_visual_only;                ///< of the visual processes only channel 0 receives it
+  double rate_hz;                        ///< in real time; 0: when there is a reason
   std::chrono::nanoseconds stale_after;  ///< older than this the receiver acts on silence; 0: never stale
-  bool repeat_is_news;                 ///< a repeat of the newest datagram asks for an answer, so take() gives it again
+  bool repeat_is_news;  ///< a repeat of the newest datagram asks for an answer, so take() gives it again
 };
 
 /// In the order of the alternatives of Payload.
-/// CockpitState goes stale when 20 are missing: pedals fade, low beam stays on. VehicleState goes stale when 50 are missing:
-/// until then the picture coasts, then it holds and says so.
+/// CockpitState goes stale when 20 are missing: pedals fade, low beam stays on. VehicleState goes stale when 50 are
+/// missing: until then the picture coasts, then it holds and says so.
 inline constexpr std::array<Channel, 6> kChannels{{
     // clang-format off
     // message          sender             receivers                                                                first  Hz   stale after                    repeat
@@ -98,11 +103,16 @@ constexpr const Channel& channel_of() {
 /// The sender a role signs with; kUnknown for the recorder.
 constexpr Sender sender_of(Role role) {
   switch (role) {
-    case Role::kCockpit: return Sender::kCockpit;
-    case Role::kDynamics: return Sender::kDynamics;
-    case Role::kControl: return Sender::kControl;
-    case Role::kVisual: return Sender::kVisual;
-    case Role::kRecorder: break;
+    case Role::kCockpit:
+      return Sender::kCockpit;
+    case Role::kDynamics:
+      return Sender::kDynamics;
+    case Role::kControl:
+      return Sender::kControl;
+    case Role::kVisual:
+      return Sender::kVisual;
+    case Role::kRecorder:
+      break;
   }
   return Sender::kUnknown;
 }
@@ -110,11 +120,15 @@ constexpr Sender sender_of(Role role) {
 /// Offset to rig.port_base of the port a sender speaks from.
 constexpr std::uint16_t port_offset_of_sender(Sender sender, std::uint32_t sender_channel) {
   switch (sender) {
-    case Sender::kCockpit: return port_offset(Role::kCockpit);
-    case Sender::kDynamics: return port_offset(Role::kDynamics);
-    case Sender::kVisual: return port_offset(Role::kVisual, sender_channel);
+    case Sender::kCockpit:
+      return port_offset(Role::kCockpit);
+    case Sender::kDynamics:
+      return port_offset(Role::kDynamics);
+    case Sender::kVisual:
+      return port_offset(Role::kVisual, sender_channel);
     case Sender::kControl:
-    case Sender::kUnknown: break;
+    case Sender::kUnknown:
+      break;
   }
   return port_offset(Role::kControl);
 }

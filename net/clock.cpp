@@ -8,7 +8,6 @@
 namespace phare {
 namespace {
 
-
 std::int64_t now_of(clockid_t clock) {
   timespec now{};
   clock_gettime(clock, &now);
@@ -19,11 +18,15 @@ std::int64_t now_of(clockid_t clock) {
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void on_stop_signal(int) { stop_requested.store(true, std::memory_order_relaxed); }
+void on_stop_signal(int) {
+  stop_requested.store(true, std::memory_order_relaxed);
+}
 
 }  // namespace
 
-WallTime wall_now() { return WallTime{now_of(CLOCK_REALTIME)}; }
+WallTime wall_now() {
+  return WallTime{now_of(CLOCK_REALTIME)};
+}
 
 Pacer::Pacer(std::chrono::nanoseconds period)
     : period_ns_(std::max<std::int64_t>(period.count(), 1)), deadline_ns_(now_of(CLOCK_MONOTONIC) + period_ns_) {}
@@ -38,7 +41,8 @@ std::int64_t Pacer::advance(std::int64_t now_ns) {
 std::int64_t Pacer::wait() {
   std::int64_t now_ns = now_of(CLOCK_MONOTONIC);
   if (now_ns < deadline_ns_) {
-    const timespec deadline{static_cast<time_t>(deadline_ns_ / kNsPerSecond), static_cast<long>(deadline_ns_ % kNsPerSecond)};
+    const timespec deadline{static_cast<time_t>(deadline_ns_ / kNsPerSecond),
+                            static_cast<long>(deadline_ns_ % kNsPerSecond)};
     if (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) != 0) return 0;
     now_ns = now_of(CLOCK_MONOTONIC);
   }
@@ -56,11 +60,17 @@ bool Pacer::due() {
   return true;
 }
 
-void Pacer::restart() { deadline_ns_ = now_of(CLOCK_MONOTONIC) + period_ns_; }
+void Pacer::restart() {
+  deadline_ns_ = now_of(CLOCK_MONOTONIC) + period_ns_;
+}
 
-bool StopFlag::requested() const { return stop_requested.load(std::memory_order_relaxed); }
+bool StopFlag::requested() const {
+  return stop_requested.load(std::memory_order_relaxed);
+}
 
-void StopFlag::request() const { stop_requested.store(true, std::memory_order_relaxed); }
+void StopFlag::request() const {
+  stop_requested.store(true, std::memory_order_relaxed);
+}
 
 StopFlag install_stop_signals() {
   struct sigaction action {};

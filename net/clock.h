@@ -14,8 +14,8 @@ class Pacer {
   /// The first deadline is one period from now.
   explicit Pacer(std::chrono::nanoseconds period);
 
-  /// Sleeps until the deadline and sets the next. Returns how many whole periods the caller was behind (they are skipped,
-  /// not caught up); 0 in time. Returns early when a signal came; the deadline then stays.
+  /// Sleeps until the deadline and sets the next. Returns how many whole periods the caller was behind (they are
+  /// skipped, not caught up); 0 in time. Returns early when a signal came; the deadline then stays.
   std::int64_t wait();
 
   /// How long after its deadline the last wait() came back, before it returned.

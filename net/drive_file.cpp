@@ -28,7 +28,9 @@ void put16(std::uint8_t* at, std::size_t value) {
   at[1] = static_cast<std::uint8_t>(value);
 }
 
-std::size_t get16(const std::uint8_t* at) { return static_cast<std::size_t>(at[0] << 8 | at[1]); }
+std::size_t get16(const std::uint8_t* at) {
+  return static_cast<std::size_t>(at[0] << 8 | at[1]);
+}
 
 /// RFC 791: one's complement of the one's complement sum of the header's 16-bit words.
 std::uint16_t ip_checksum(const std::uint8_t* header) {
@@ -38,7 +40,8 @@ std::uint16_t ip_checksum(const std::uint8_t* header) {
   return static_cast<std::uint16_t>(~sum);
 }
 
-/// IPv4 and UDP headers of a datagram from 127.0.0.1 to 127.0.0.1. UDP's checksum 0 means none; the datagram has its own.
+/// IPv4 and UDP headers of a datagram from 127.0.0.1 to 127.0.0.1. UDP's checksum 0 means none; the datagram has its
+/// own.
 void write_headers(std::uint8_t* at, std::uint16_t from_port, std::uint16_t to_port, std::size_t payload_bytes) {
   std::memset(at, 0, kIpBytes + kUdpBytes);
   at[0] = 0x45;  // version 4, five words of header
@@ -80,13 +83,14 @@ bool begins_like_pcap(const std::filesystem::path& path) {
   std::array<std::uint8_t, 25> bytes{};
   const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file.get());
   if (count >= 24) return false;
-  constexpr std::array<std::array<std::uint8_t, 4>, 5> kMagics{{{0x4d, 0x3c, 0xb2, 0xa1},     // nanoseconds, little-endian
-                                                                {0xa1, 0xb2, 0x3c, 0x4d},     // and big-endian
-                                                                {0xd4, 0xc3, 0xb2, 0xa1},     // microseconds
+  constexpr std::array<std::array<std::uint8_t, 4>, 5> kMagics{{{0x4d, 0x3c, 0xb2, 0xa1},  // nanoseconds, little-endian
+                                                                {0xa1, 0xb2, 0x3c, 0x4d},  // and big-endian
+                                                                {0xd4, 0xc3, 0xb2, 0xa1},  // microseconds
                                                                 {0xa1, 0xb2, 0xc3, 0xd4},
-                                                                {0x0a, 0x0d, 0x0d, 0x0a}}};   // pcapng
+                                                                {0x0a, 0x0d, 0x0d, 0x0a}}};  // pcapng
   return std::any_of(kMagics.begin(), kMagics.end(), [&](const auto& magic) {
-    return std::equal(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(std::min(count, magic.size())), magic.begin());
+    return std::equal(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(std::min(count, magic.size())),
+                      magic.begin());
   });
 }
 
@@ -133,7 +137,8 @@ Result<DriveWriter> DriveWriter::create(const std::filesystem::path& path, std::
     std::fclose(file);
     return Error{state->place, "cannot be written: " + reason};
   }
-  if (pcap_dump_flush(state->dumper) != 0) return Error{state->place, std::string("cannot be written: ") + std::strerror(errno)};
+  if (pcap_dump_flush(state->dumper) != 0)
+    return Error{state->place, std::string("cannot be written: ") + std::strerror(errno)};
   return DriveWriter(std::move(state));
 }
 
@@ -141,11 +146,13 @@ Status DriveWriter::write(const Datagram& datagram, std::span<const std::byte> b
   State& s = *state_;
   if (s.dumper == nullptr) return Error{s.place, "is closed"};
   if (bytes.size() > kSnapBytes - kIpBytes - kUdpBytes) return Error{s.place, "datagram too long"};
-  if (datagram.sim_time.ns < 0) return Error{s.place, "a time before the start of the drive has no place in a pcap file"};
+  if (datagram.sim_time.ns < 0)
+    return Error{s.place, "a time before the start of the drive has no place in a pcap file"};
 
   const Channel& row = kChannels[datagram.payload.index()];
   const Role to = row.receivers.has(Role::kRecorder) ? Role::kRecorder : Role::kVisual;
-  const auto from_port = static_cast<std::uint16_t>(s.port_base + port_offset_of_sender(datagram.sender, datagram.sender_channel));
+  const auto from_port =
+      static_cast<std::uint16_t>(s.port_base + port_offset_of_sender(datagram.sender, datagram.sender_channel));
   const auto to_port = static_cast<std::uint16_t>(s.port_base + port_offset(to));
   s.packet.resize(kIpBytes + kUdpBytes + bytes.size());
   write_headers(s.packet.data(), from_port, to_port, bytes.size());
@@ -153,7 +160,8 @@ Status DriveWriter::write(const Datagram& datagram, std::span<const std::byte> b
 
   pcap_pkthdr header{};
   header.ts.tv_sec = static_cast<time_t>(datagram.sim_time.ns / kNsPerSecond);
-  header.ts.tv_usec = static_cast<suseconds_t>(datagram.sim_time.ns % kNsPerSecond);  // nanoseconds in a file of that precision
+  header.ts.tv_usec =
+      static_cast<suseconds_t>(datagram.sim_time.ns % kNsPerSecond);  // nanoseconds in a file of that precision
   header.caplen = header.len = static_cast<bpf_u_int32>(s.packet.size());
   pcap_dump(reinterpret_cast<u_char*>(s.dumper), &header, s.packet.data());
   // Out of our hands at once: a killed recorder then loses at most the record it is writing.
@@ -187,7 +195,8 @@ Result<Drive> read_drive(const std::filesystem::path& path) {
   std::array<char, PCAP_ERRBUF_SIZE> reason{};
   std::FILE* const file = std::fopen(path.c_str(), "rb");
   if (file == nullptr) return Error{place, std::string("cannot be opened: ") + std::strerror(errno)};
-  const PcapPtr pcap(pcap_fopen_offline_with_tstamp_precision(file, PCAP_TSTAMP_PRECISION_NANO, reason.data()), &pcap_close);
+  const PcapPtr pcap(pcap_fopen_offline_with_tstamp_precision(file, PCAP_TSTAMP_PRECISION_NANO, reason.data()),
+                     &pcap_close);
   if (!pcap) {
     std::fclose(file);
     return Error{place, std::string("is no drive file (pcap): ") + reason.data()};

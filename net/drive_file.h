@@ -1,7 +1,7 @@
 // The drive file: every datagram of a drive in a pcap file that Wireshark, tshark, editcap and tcpdump read.
 //
-// Link type RAW (101): IPv4 and UDP headers with loopback addresses and the ports of net/channels.h, then the datagram as
-// it was on the wire. The record's stamp is the datagram's SimTime in nanoseconds since the start of the drive.
+// Link type RAW (101): IPv4 and UDP headers with loopback addresses and the ports of net/channels.h, then the datagram
+// as it was on the wire. The record's stamp is the datagram's SimTime in nanoseconds since the start of the drive.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ class DriveWriter {
   DriveWriter& operator=(DriveWriter&&) noexcept;
   ~DriveWriter();  // closes
 
-  /// Appends a datagram as it came from the bus; `bytes` is its encoding. Handed to the kernel before the call returns, so a
-  /// killed recorder loses nothing. Error when the disk does not take it, or the writer is closed.
+  /// Appends a datagram as it came from the bus; `bytes` is its encoding. Handed to the kernel before the call returns,
+  /// so a killed recorder loses nothing. Error when the disk does not take it, or the writer is closed.
   Status write(const Datagram& datagram, std::span<const std::byte> bytes);
 
   void close();

@@ -25,10 +25,10 @@ struct InboxCounters {
 };
 
 enum class Arrival {
-  kNewest,         ///< take it
-  kLate,           ///< older than the newest
-  kDuplicate,      ///< seen before
-  kNewestAgain,    ///< the newest once more
+  kNewest,       ///< take it
+  kLate,         ///< older than the newest
+  kDuplicate,    ///< seen before
+  kNewestAgain,  ///< the newest once more
 };
 
 /// Judges start ids and sequences.
@@ -60,7 +60,7 @@ class SequenceTracker {
 template <class T>
 struct Newest {
   T value;
-  SimTime sim_time;                ///< simulated time the value is valid for
+  SimTime sim_time;  ///< simulated time the value is valid for
   WallTime sent;
   WallTime received;
   std::uint32_t sender_channel = 0;

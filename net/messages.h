@@ -84,18 +84,46 @@ struct FrameReport {
   friend bool operator==(const FrameReport&, const FrameReport&) = default;
 };
 
-// The commands of RigControl stand outside it because a nested struct with initialisers has no default constructor until the
-// outer one is complete (CWG 1397).
+// The commands of RigControl stand outside it because a nested struct with initialisers has no default constructor
+// until the outer one is complete (CWG 1397).
 namespace rig_command {
-struct Pause { bool on = false; friend bool operator==(const Pause&, const Pause&) = default; };
-struct Seek { double to_s = 0.0; friend bool operator==(const Seek&, const Seek&) = default; };
-struct Design { std::uint32_t index = 0; friend bool operator==(const Design&, const Design&) = default; };
-struct Aim { double pitch_rad = 0.0; friend bool operator==(const Aim&, const Aim&) = default; };
-struct Quit { friend bool operator==(const Quit&, const Quit&) = default; };
+struct Pause {
+  bool on = false;
+  friend bool operator==(const Pause&, const Pause&) = default;
+};
+struct Seek {
+  double to_s = 0.0;
+  friend bool operator==(const Seek&, const Seek&) = default;
+};
+struct Design {
+  std::uint32_t index = 0;
+  friend bool operator==(const Design&, const Design&) = default;
+};
+struct Aim {
+  double pitch_rad = 0.0;
+  friend bool operator==(const Aim&, const Aim&) = default;
+};
+struct Quit {
+  friend bool operator==(const Quit&, const Quit&) = default;
+};
 /// Source counted from 1; 0: every source of the lamp.
-struct Dim { std::string lamp; std::uint32_t source = 0; double dimming_01 = 1.0; friend bool operator==(const Dim&, const Dim&) = default; };
-struct Swivel { std::string lamp; double yaw_rad = 0.0; double pitch_rad = 0.0; friend bool operator==(const Swivel&, const Swivel&) = default; };
-struct Place { std::string lamp; double x_m = 0.0, y_m = 0.0, z_m = 0.0; friend bool operator==(const Place&, const Place&) = default; };
+struct Dim {
+  std::string lamp;
+  std::uint32_t source = 0;
+  double dimming_01 = 1.0;
+  friend bool operator==(const Dim&, const Dim&) = default;
+};
+struct Swivel {
+  std::string lamp;
+  double yaw_rad = 0.0;
+  double pitch_rad = 0.0;
+  friend bool operator==(const Swivel&, const Swivel&) = default;
+};
+struct Place {
+  std::string lamp;
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
+  friend bool operator==(const Place&, const Place&) = default;
+};
 }  // namespace rig_command
 
 struct RigControl {

@@ -26,7 +26,8 @@ struct WallTime {
 /// The wall clock now.
 WallTime wall_now();
 
-/// Simulated time of lockstep frame `frame_index` at `frame_rate_hz` frames a second: floor(k·1e9 / rate), exact in integers.
+/// Simulated time of lockstep frame `frame_index` at `frame_rate_hz` frames a second: floor(k·1e9 / rate), exact in
+/// integers.
 constexpr SimTime frame_time(std::int64_t frame_index, std::int64_t frame_rate_hz) {
   const std::int64_t whole = frame_index / frame_rate_hz;
   const std::int64_t rest = frame_index % frame_rate_hz;

@@ -30,19 +30,32 @@ std::string hex(std::uint64_t value) {
 
 const char* refusal_key(Refusal refusal) {
   switch (refusal) {
-    case Refusal::kNone: break;
-    case Refusal::kSize: return "size";
-    case Refusal::kHeader: return "header";
-    case Refusal::kChecksum: return "checksum";
-    case Refusal::kMalformed: return "malformed";
-    case Refusal::kEnvelope: return "envelope";
-    case Refusal::kSender: return "sender";
-    case Refusal::kNotFinite: return "not_finite";
-    case Refusal::kRange: return "range";
-    case Refusal::kArrays: return "arrays";
-    case Refusal::kNotForUs: return "not_for_us";
-    case Refusal::kKey: return "key";
-    case Refusal::kReplay: return "replay";
+    case Refusal::kNone:
+      break;
+    case Refusal::kSize:
+      return "size";
+    case Refusal::kHeader:
+      return "header";
+    case Refusal::kChecksum:
+      return "checksum";
+    case Refusal::kMalformed:
+      return "malformed";
+    case Refusal::kEnvelope:
+      return "envelope";
+    case Refusal::kSender:
+      return "sender";
+    case Refusal::kNotFinite:
+      return "not_finite";
+    case Refusal::kRange:
+      return "range";
+    case Refusal::kArrays:
+      return "arrays";
+    case Refusal::kNotForUs:
+      return "not_for_us";
+    case Refusal::kKey:
+      return "key";
+    case Refusal::kReplay:
+      return "replay";
   }
   return "none";
 }
@@ -57,8 +70,11 @@ nlohmann::json stats_json(const char* process, const Bus& bus) {
     const std::string message(kChannels[i].message);
     if (kChannels[i].receivers.has(bus.role())) {
       const InboxCounters& c = counters.received[i];
-      on_bus[message] = {{"received", c.received}, {"lost", c.lost}, {"late", c.late},
-                         {"duplicate", c.duplicate}, {"restarted", c.restarted}};
+      on_bus[message] = {{"received", c.received},
+                         {"lost", c.lost},
+                         {"late", c.late},
+                         {"duplicate", c.duplicate},
+                         {"restarted", c.restarted}};
     }
     if (kChannels[i].sender == sender_of(bus.role())) sent[message] = counters.sent[i];
   }

@@ -17,9 +17,9 @@
 namespace phare {
 namespace {
 
-constexpr std::size_t kBatch = 32;               // datagrams per recvmmsg
-constexpr std::size_t kSlotBytes = 65536;        // > kMaxDatagramBytes
-constexpr int kReceiveBufferBytes = 4 << 20;     // some seconds of the whole bus while a process is busy drawing
+constexpr std::size_t kBatch = 32;            // datagrams per recvmmsg
+constexpr std::size_t kSlotBytes = 65536;     // > kMaxDatagramBytes
+constexpr int kReceiveBufferBytes = 4 << 20;  // some seconds of the whole bus while a process is busy drawing
 // Offsets in a UDP socket's filter count from the UDP header.
 constexpr std::uint32_t kUdpHeaderBytes = 8;
 
@@ -140,7 +140,11 @@ std::uint64_t UdpSocket::dropped_in_kernel() const {
   return info[SK_MEMINFO_DROPS];  // 32 bits: Bus adds up the differences
 }
 
-int UdpSocket::fd() const { return state_->fd; }
-std::uint16_t UdpSocket::port() const { return state_->port; }
+int UdpSocket::fd() const {
+  return state_->fd;
+}
+std::uint16_t UdpSocket::port() const {
+  return state_->port;
+}
 
 }  // namespace phare

@@ -18,7 +18,8 @@ inline constexpr std::size_t kMaxDatagramBytes = 65507;
 
 class UdpSocket {
  public:
-  /// Bound to `address` (dotted IPv4) and `port` (0: any free one). Error when the address is malformed or the port taken.
+  /// Bound to `address` (dotted IPv4) and `port` (0: any free one). Error when the address is malformed or the port
+  /// taken.
   static Result<UdpSocket> open(const std::string& address, std::uint16_t port);
 
   UdpSocket(UdpSocket&&) noexcept;

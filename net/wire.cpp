@@ -160,7 +160,9 @@ struct CommandFiller {
   }
 };
 
-void fill(wire::RigControl& to, const RigControl& from) { std::visit(CommandFiller{to}, from.command); }
+void fill(wire::RigControl& to, const RigControl& from) {
+  std::visit(CommandFiller{to}, from.command);
+}
 
 void fill(wire::ProbeRequest& to, const ProbeRequest& from) {
   to.set_request_id(from.request_id);
@@ -261,11 +263,21 @@ void read(FrameReport& to, const wire::FrameReport& from) {
 
 bool read(RigControl& to, const wire::RigControl& from) {
   switch (from.command_case()) {
-    case wire::RigControl::kPause: to.command = RigControl::Pause{from.pause()}; return true;
-    case wire::RigControl::kSeekS: to.command = RigControl::Seek{from.seek_s()}; return true;
-    case wire::RigControl::kDesignIndex: to.command = RigControl::Design{from.design_index()}; return true;
-    case wire::RigControl::kAimPitchRad: to.command = RigControl::Aim{from.aim_pitch_rad()}; return true;
-    case wire::RigControl::kQuit: to.command = RigControl::Quit{}; return from.quit();
+    case wire::RigControl::kPause:
+      to.command = RigControl::Pause{from.pause()};
+      return true;
+    case wire::RigControl::kSeekS:
+      to.command = RigControl::Seek{from.seek_s()};
+      return true;
+    case wire::RigControl::kDesignIndex:
+      to.command = RigControl::Design{from.design_index()};
+      return true;
+    case wire::RigControl::kAimPitchRad:
+      to.command = RigControl::Aim{from.aim_pitch_rad()};
+      return true;
+    case wire::RigControl::kQuit:
+      to.command = RigControl::Quit{};
+      return from.quit();
     case wire::RigControl::kDim:
       to.command = RigControl::Dim{from.dim().lamp(), from.dim().source(), from.dim().dimming_01()};
       return true;
@@ -275,7 +287,8 @@ bool read(RigControl& to, const wire::RigControl& from) {
     case wire::RigControl::kPlace:
       to.command = RigControl::Place{from.place().lamp(), from.place().x_m(), from.place().y_m(), from.place().z_m()};
       return true;
-    case wire::RigControl::COMMAND_NOT_SET: break;
+    case wire::RigControl::COMMAND_NOT_SET:
+      break;
   }
   return false;
 }
@@ -312,23 +325,30 @@ bool unknown_in(const google::protobuf::Message& message) {
 bool any_unknown(const wire::Datagram& message) {
   if (unknown_in(message)) return true;
   switch (message.payload_case()) {
-    case wire::Datagram::kCockpitState: return unknown_in(message.cockpit_state());
-    case wire::Datagram::kVehicleState: return unknown_in(message.vehicle_state());
+    case wire::Datagram::kCockpitState:
+      return unknown_in(message.cockpit_state());
+    case wire::Datagram::kVehicleState:
+      return unknown_in(message.vehicle_state());
     case wire::Datagram::kFrameReport:
       return unknown_in(message.frame_report()) || unknown_in(message.frame_report().drawn());
     case wire::Datagram::kRigControl: {
       const wire::RigControl& control = message.rig_control();
-      return unknown_in(control) || (control.has_dim() && unknown_in(control.dim())) || (control.has_swivel() && unknown_in(control.swivel())) ||
+      return unknown_in(control) || (control.has_dim() && unknown_in(control.dim())) ||
+             (control.has_swivel() && unknown_in(control.swivel())) ||
              (control.has_place() && unknown_in(control.place()));
     }
-    case wire::Datagram::kProbeRequest: return unknown_in(message.probe_request());
-    case wire::Datagram::kProbeReply: return unknown_in(message.probe_reply());
-    case wire::Datagram::PAYLOAD_NOT_SET: break;
+    case wire::Datagram::kProbeRequest:
+      return unknown_in(message.probe_request());
+    case wire::Datagram::kProbeReply:
+      return unknown_in(message.probe_reply());
+    case wire::Datagram::PAYLOAD_NOT_SET:
+      break;
   }
   return true;
 }
 
-/// Every message has one encoding. What parses but encodes otherwise repeats fields, pads numbers or changes their order.
+/// Every message has one encoding. What parses but encodes otherwise repeats fields, pads numbers or changes their
+/// order.
 bool is_the_encoding_of(const wire::Datagram& message, const std::uint8_t* bytes, std::size_t size) {
   if (message.ByteSizeLong() != size) return false;
   thread_local std::vector<std::uint8_t> canonical(kMaxDatagramBytes);
@@ -382,7 +402,8 @@ Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
 
   wire::Datagram& message = fresh_message();
   if (!message.ParseFromArray(data, static_cast<int>(size))) return Refusal::kMalformed;
-  if (any_unknown(message) || message.check() != 0 || !is_the_encoding_of(message, data, size)) return Refusal::kMalformed;
+  if (any_unknown(message) || message.check() != 0 || !is_the_encoding_of(message, data, size))
+    return Refusal::kMalformed;
 
   datagram.sender = static_cast<Sender>(static_cast<int>(message.sender()));
   datagram.sender_channel = message.sender_channel();
@@ -391,8 +412,12 @@ Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
   datagram.sim_time.ns = message.sim_time_ns();
   datagram.sent.ns = message.sent_wall_ns();
   switch (message.payload_case()) {
-    case wire::Datagram::kCockpitState: read(reused<CockpitState>(datagram.payload), message.cockpit_state()); break;
-    case wire::Datagram::kVehicleState: read(reused<VehicleState>(datagram.payload), message.vehicle_state()); break;
+    case wire::Datagram::kCockpitState:
+      read(reused<CockpitState>(datagram.payload), message.cockpit_state());
+      break;
+    case wire::Datagram::kVehicleState:
+      read(reused<VehicleState>(datagram.payload), message.vehicle_state());
+      break;
     case wire::Datagram::kFrameReport:
       if (!message.frame_report().has_drawn()) return Refusal::kMalformed;
       read(reused<FrameReport>(datagram.payload), message.frame_report());
@@ -400,9 +425,14 @@ Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
     case wire::Datagram::kRigControl:
       if (!read(reused<RigControl>(datagram.payload), message.rig_control())) return Refusal::kMalformed;
       break;
-    case wire::Datagram::kProbeRequest: read(reused<ProbeRequest>(datagram.payload), message.probe_request()); break;
-    case wire::Datagram::kProbeReply: read(reused<ProbeReply>(datagram.payload), message.probe_reply()); break;
-    case wire::Datagram::PAYLOAD_NOT_SET: return Refusal::kMalformed;
+    case wire::Datagram::kProbeRequest:
+      read(reused<ProbeRequest>(datagram.payload), message.probe_request());
+      break;
+    case wire::Datagram::kProbeReply:
+      read(reused<ProbeReply>(datagram.payload), message.probe_reply());
+      break;
+    case wire::Datagram::PAYLOAD_NOT_SET:
+      return Refusal::kMalformed;
   }
   return check(datagram);
 }

@@ -23,18 +23,18 @@ inline constexpr std::size_t kMaxProbePoints = 1000;
 /// Why a datagram is not taken. kNone: it is.
 enum class Refusal {
   kNone,
-  kSize,        ///< shorter than any, or longer than UDP carries
-  kHeader,      ///< does not begin with this protocol's version and a known sender
-  kChecksum,    ///< no or a wrong CRC: cut short, or bits changed
-  kMalformed,   ///< not the one encoding of a Datagram: broken, unknown or repeated fields, trailing bytes
-  kEnvelope,    ///< start id or sequence 0, channel or time out of range
-  kSender,      ///< this sender may not send this payload
-  kNotFinite,   ///< NaN or infinity
-  kRange,       ///< a number, enum or text length outside its sane range
-  kArrays,      ///< probe arrays of different or excessive length
-  kNotForUs,    ///< valid, but this process is no receiver of it (told by Bus)
-  kKey,         ///< not sealed with the key of this bus (told by Bus)
-  kReplay,      ///< of an earlier start of its sender, played again (told by Bus, where there is a key)
+  kSize,       ///< shorter than any, or longer than UDP carries
+  kHeader,     ///< does not begin with this protocol's version and a known sender
+  kChecksum,   ///< no or a wrong CRC: cut short, or bits changed
+  kMalformed,  ///< not the one encoding of a Datagram: broken, unknown or repeated fields, trailing bytes
+  kEnvelope,   ///< start id or sequence 0, channel or time out of range
+  kSender,     ///< this sender may not send this payload
+  kNotFinite,  ///< NaN or infinity
+  kRange,      ///< a number, enum or text length outside its sane range
+  kArrays,     ///< probe arrays of different or excessive length
+  kNotForUs,   ///< valid, but this process is no receiver of it (told by Bus)
+  kKey,        ///< not sealed with the key of this bus (told by Bus)
+  kReplay,     ///< of an earlier start of its sender, played again (told by Bus, where there is a key)
 };
 inline constexpr std::size_t kRefusals = 13;
 

@@ -11,14 +11,14 @@ namespace {
 
 // Wide enough for every hard case of a drive, narrow enough that sums and squares stay finite.
 
-constexpr double kMaxCoordinate_m = 1e8;         // beyond the earth's radius
-constexpr double kMaxAngle_rad = 1e6;            // yaw need not be wrapped
+constexpr double kMaxCoordinate_m = 1e8;  // beyond the earth's radius
+constexpr double kMaxAngle_rad = 1e6;     // yaw need not be wrapped
 constexpr double kMaxSpeed_mps = 1e5;
 constexpr double kMaxRate_radps = 1e5;
 constexpr double kMaxAcceleration_mps2 = 1e6;
-constexpr double kMaxSteeringWheel_rad = 20.0;   // three turns to a side
+constexpr double kMaxSteeringWheel_rad = 20.0;  // three turns to a side
 constexpr double kMaxRoadWheel_rad = 1.6;
-constexpr double kMaxTime_s = 1e9;               // thirty years; fits the 32 bits of a pcap stamp
+constexpr double kMaxTime_s = 1e9;  // thirty years; fits the 32 bits of a pcap stamp
 constexpr std::int64_t kMaxTime_ns = 1'000'000'000'000'000'000;
 constexpr double kMaxFrame_ms = 1e9;
 constexpr double kMaxAim_rad = 1.6;
@@ -126,7 +126,9 @@ struct CommandChecker {
   }
 };
 
-void check(Checker& c, const RigControl& control) { std::visit(CommandChecker{c}, control.command); }
+void check(Checker& c, const RigControl& control) {
+  std::visit(CommandChecker{c}, control.command);
+}
 
 void check(Checker& c, const ProbeRequest& r) {
   const std::size_t count = r.x_m.size();
@@ -160,19 +162,32 @@ Refusal check(const Datagram& datagram) {
 
 const char* refusal_text(Refusal refusal) {
   switch (refusal) {
-    case Refusal::kNone: return "accepted";
-    case Refusal::kSize: return "shorter or longer than any datagram";
-    case Refusal::kHeader: return "no datagram of this protocol version";
-    case Refusal::kChecksum: return "checksum does not fit: cut short or changed on the way";
-    case Refusal::kMalformed: return "not the encoding of a datagram";
-    case Refusal::kEnvelope: return "start id, sequence, channel or time out of range";
-    case Refusal::kSender: return "sender may not send this payload";
-    case Refusal::kNotFinite: return "a number is not finite";
-    case Refusal::kRange: return "a value is out of range";
-    case Refusal::kArrays: return "probe arrays differ in length or exceed 1000 points";
-    case Refusal::kNotForUs: return "not meant for this process";
-    case Refusal::kKey: return "not sealed with the key of this bus";
-    case Refusal::kReplay: return "of an earlier start of its sender";
+    case Refusal::kNone:
+      return "accepted";
+    case Refusal::kSize:
+      return "shorter or longer than any datagram";
+    case Refusal::kHeader:
+      return "no datagram of this protocol version";
+    case Refusal::kChecksum:
+      return "checksum does not fit: cut short or changed on the way";
+    case Refusal::kMalformed:
+      return "not the encoding of a datagram";
+    case Refusal::kEnvelope:
+      return "start id, sequence, channel or time out of range";
+    case Refusal::kSender:
+      return "sender may not send this payload";
+    case Refusal::kNotFinite:
+      return "a number is not finite";
+    case Refusal::kRange:
+      return "a value is out of range";
+    case Refusal::kArrays:
+      return "probe arrays differ in length or exceed 1000 points";
+    case Refusal::kNotForUs:
+      return "not meant for this process";
+    case Refusal::kKey:
+      return "not sealed with the key of this bus";
+    case Refusal::kReplay:
+      return "of an earlier start of its sender";
   }
   return "unknown";
 }

@@ -24,18 +24,21 @@ struct Usage {
   const char* words;
   const char* meaning;
 };
-constexpr Usage kCommands[] = {{"dim", "LAMP SOURCE LIGHT", "LIGHT 0 to 1 for a source of the lamp, counted from 1 (0: all)"},
-                               {"swivel", "LAMP YAW_DEG [PITCH_DEG]", "a whole lamp, left and up positive"},
-                               {"place", "LAMP X_M Y_M Z_M", "a lamp elsewhere on the car: from below the rear axle's middle forward, left, up"},
-                               {"aim", "PITCH_DEG", "all lamps, up positive"},
-                               {"design", "INDEX", "counted from 0"},
-                               {"pause", "", ""},
-                               {"resume", "", ""},
-                               {"quit", "", ""}};
+constexpr Usage kCommands[] = {
+    {"dim", "LAMP SOURCE LIGHT", "LIGHT 0 to 1 for a source of the lamp, counted from 1 (0: all)"},
+    {"swivel", "LAMP YAW_DEG [PITCH_DEG]", "a whole lamp, left and up positive"},
+    {"place", "LAMP X_M Y_M Z_M", "a lamp elsewhere on the car: from below the rear axle's middle forward, left, up"},
+    {"aim", "PITCH_DEG", "all lamps, up positive"},
+    {"design", "INDEX", "counted from 0"},
+    {"pause", "", ""},
+    {"resume", "", ""},
+    {"quit", "", ""}};
 
 std::string all_commands() {
   std::string text;
-  for (const Usage& usage : kCommands) text += std::string("  ") + usage.verb + " " + usage.words + (*usage.meaning != 0 ? "   " : "") + usage.meaning + "\n";
+  for (const Usage& usage : kCommands)
+    text +=
+        std::string("  ") + usage.verb + " " + usage.words + (*usage.meaning != 0 ? "   " : "") + usage.meaning + "\n";
   return text;
 }
 
@@ -71,7 +74,8 @@ Result<RigControl> parse(const std::vector<std::string>& words) {
   if (verb == "swivel" && (numbers.size() == 1 || numbers.size() == 2)) {
     for (const double deg : numbers)
       if (std::abs(deg) > 90.0) return Error{verb, "an angle beyond 90 degrees"};
-    return RigControl{RigControl::Swivel{words[1], numbers[0] * kRadPerDeg, numbers.size() == 2 ? numbers[1] * kRadPerDeg : 0.0}};
+    return RigControl{
+        RigControl::Swivel{words[1], numbers[0] * kRadPerDeg, numbers.size() == 2 ? numbers[1] * kRadPerDeg : 0.0}};
   }
   if (verb == "place" && numbers.size() == 3) {
     for (const double at_m : numbers)
@@ -90,7 +94,9 @@ Result<RigControl> parse(const std::vector<std::string>& words) {
   if (verb == "quit" && words.size() == 1) return RigControl{RigControl::Quit{}};
   std::vector<std::string> verbs;
   for (const Usage& usage : kCommands) {
-    if (verb == usage.verb) return Error{verb, *usage.words != 0 ? std::string("expected ") + verb + " " + usage.words : "takes nothing more"};
+    if (verb == usage.verb)
+      return Error{verb,
+                   *usage.words != 0 ? std::string("expected ") + verb + " " + usage.words : "takes nothing more"};
     verbs.emplace_back(usage.verb);
   }
   return Error{"", unknown_name_reason("command", verb, verbs)};
@@ -126,13 +132,16 @@ int control(const ControlOptions& options) {
 
 void add_control(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ControlOptions>();
-  CLI::App* command = app.add_subcommand("control", "Command a running rig: dim, swivel and move lamps, aim, swap designs, pause, quit");
+  CLI::App* command = app.add_subcommand(
+      "control", "Command a running rig: dim, swivel and move lamps, aim, swap designs, pause, quit");
   command->footer("Commands:\n" + all_commands() +
-                  "Example:\n  phare control dim \"headlamp left\" 17 0\n  adb_unit | phare control --rig config/rigs/matrix.toml -");
+                  "Example:\n  phare control dim \"headlamp left\" 17 0\n  adb_unit | phare control --rig "
+                  "config/rigs/matrix.toml -");
   command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
-  command->add_option("command", options->words, "A command and what it needs; - reads one a line from standard input")->required();
+  command->add_option("command", options->words, "A command and what it needs; - reads one a line from standard input")
+      ->required();
   command->callback([options, &chosen] { chosen = [options] { return control(*options); }; });
 }
 

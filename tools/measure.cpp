@@ -13,9 +13,9 @@
 #include "tools/reference_table.h"
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/illuminance.h"
-#include "visual/photometry/points_file.h"
 #include "visual/photometry/image_levels.h"
 #include "visual/photometry/lamp_tables.h"
+#include "visual/photometry/points_file.h"
 #ifdef PHARE_WITH_GRAPHICS
 #include "visual/renderer.h"
 #endif
@@ -24,7 +24,8 @@ namespace phare {
 namespace {
 
 struct MeasureOptions {
-  std::string rig_file, points, table, out, method = "fragment", design, beam_image = level_name(ImageLevel::kFloatNodes);
+  std::string rig_file, points, table, out, method = "fragment", design,
+                                            beam_image = level_name(ImageLevel::kFloatNodes);
   std::vector<std::string> lamps;
   std::vector<std::string> beams{"low"};
   double max_error = 0.0;  ///< relative; 0: the method's own
@@ -115,7 +116,8 @@ std::vector<Illuminance> measure_reference(const std::vector<LampConfig>& lamps,
 #ifdef PHARE_WITH_GRAPHICS
 /// Through the shader that draws the frame.
 Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>& lamps, const LampTables& tables,
-                                                  const PointsFile& points, const MeasureOptions& options, std::string& device) {
+                                                  const PointsFile& points, const MeasureOptions& options,
+                                                  std::string& device) {
   RendererOptions renderer_options;
   renderer_options.width_px = renderer_options.height_px = 64;  // nothing is drawn to it
   renderer_options.validation = options.validation;
@@ -156,7 +158,8 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
 
 /// By the chosen method. `device`: what computed it.
 Result<std::vector<Illuminance>> measure_points(const MeasureOptions& options, const std::vector<LampConfig>& lamps,
-                                                const LampTables& tables, const PointsFile& points, std::string& device) {
+                                                const LampTables& tables, const PointsFile& points,
+                                                std::string& device) {
   if (options.method == "reference") {
     device = "float64 on the CPU";
     return measure_reference(lamps, tables, points);
@@ -291,7 +294,8 @@ void add_measure(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command
       ->add_option("--beam-image", options->beam_image,
-                   "With --method fragment: how beam images are stored and looked up, from the 1999 paper's texture to the table's own nodes")
+                   "With --method fragment: how beam images are stored and looked up, from the 1999 paper's texture to "
+                   "the table's own nodes")
       ->check(CLI::IsMember(level_names()))
       ->capture_default_str();
   command->add_flag("--validation", options->validation, "Vulkan validation with synchronization validation");

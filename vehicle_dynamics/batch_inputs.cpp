@@ -64,8 +64,8 @@ Result<Inputs> read_inputs(const std::filesystem::path& csv_file) {
     for (std::size_t row = 0; row < table->rows(); ++row) {
       const double value = table->at(row, *at);
       if (value < column.min || value > column.max)
-        return Error{table->place(row),
-                     column.name + " " + brief(value) + " is outside " + brief(column.min) + " to " + brief(column.max)};
+        return Error{table->place(row), column.name + " " + brief(value) + " is outside " + brief(column.min) + " to " +
+                                            brief(column.max)};
       column.target->push_back(value);
     }
   }

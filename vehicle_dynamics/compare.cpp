@@ -143,9 +143,9 @@ Result<std::vector<Line>> manoeuvres(const std::filesystem::path& directory, con
           };
           of_rms("pitch rms", ref.pitch, ours->pitch, other.pitch, band.rough);
           of_rms("z rms", ref.z, ours->z, other.z, band.rough);
-          // MB's body slides sideways on its axles against a spring, and yaws eight times as much there as Chrono's: its
-          // roll lies 20 % above ours at 1.5 to 2 Hz and 80 % below at 6 to 10 Hz, where Chrono's lies 8 and 14 % below.
-          // Against it the rms of roll is told, not judged.
+          // MB's body slides sideways on its axles against a spring, and yaws eight times as much there as Chrono's:
+          // its roll lies 20 % above ours at 1.5 to 2 Hz and 80 % below at 6 to 10 Hz, where Chrono's lies 8 and 14 %
+          // below. Against it the rms of roll is told, not judged.
           of_rms("roll rms", ref.roll, ours->roll, other.roll, is_mb ? 0.0 : band.rough_roll);
           continue;
         }

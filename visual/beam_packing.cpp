@@ -12,10 +12,10 @@ namespace phare {
 
 namespace {
 
-constexpr std::size_t kMaxBins = 8192;           // in 45°
-constexpr std::int64_t kMaxEvenNodes = 4096;      // of one axis
-constexpr std::int64_t kMaxEvenImage = 4 << 20;   // nodes: 16 MiB
-constexpr std::int64_t kOctant = 45'000'000;      // millionths of a degree
+constexpr std::size_t kMaxBins = 8192;                           // in 45°
+constexpr std::int64_t kMaxEvenNodes = 4096;                     // of one axis
+constexpr std::int64_t kMaxEvenImage = 4 << 20;                  // nodes: 16 MiB
+constexpr std::int64_t kOctant = 45'000'000;                     // millionths of a degree
 constexpr std::size_t kFilterColumns = 1024, kFilterRows = 512;  // of the levels that the texture filter weighs
 
 /// Nodes at multiples of a fine step within ±fine·step, beyond that at multiples of a coarse one from there.
@@ -60,14 +60,16 @@ std::optional<EvenAxis> even_axis(const std::vector<std::int64_t>& nodes, std::i
     axis.count = axis.node_of(nodes.back()) - axis.first + 1;
     if (!best || axis.count < best->count) best = axis;
   };
-  if (coarse == 1) propose(std::max(std::abs(nodes.front()), std::abs(nodes.back())));  // one border is like another
+  if (coarse == 1)
+    propose(std::max(std::abs(nodes.front()), std::abs(nodes.back())));  // one border is like another
   else
     for (std::int64_t border : nodes) propose(std::abs(border));
   return best && best->count < kMaxEvenNodes ? best : std::nullopt;
 }
 
 // Both axes with one coarse step, for the shader has room for one; the smallest image wins.
-std::optional<std::pair<EvenAxis, EvenAxis>> even_axes(const std::vector<double>& first_deg, const std::vector<double>& second_deg, bool turn) {
+std::optional<std::pair<EvenAxis, EvenAxis>> even_axes(const std::vector<double>& first_deg,
+                                                       const std::vector<double>& second_deg, bool turn) {
   const auto first = in_millionths(first_deg), second = in_millionths(second_deg);
   if (!first || !second) return std::nullopt;
   std::optional<std::pair<EvenAxis, EvenAxis>> best;
@@ -86,12 +88,14 @@ std::vector<NodePlace> places_of(const std::vector<double>& nodes_deg, std::size
   for (std::size_t i = 0; i < count; ++i) {
     const double at = angle_of(i);
     while (before + 2 < nodes_deg.size() && nodes_deg[before + 1] <= at + 1e-9) ++before;
-    places.push_back({before, std::clamp((at - nodes_deg[before]) / (nodes_deg[before + 1] - nodes_deg[before]), 0.0, 1.0)});
+    places.push_back(
+        {before, std::clamp((at - nodes_deg[before]) / (nodes_deg[before + 1] - nodes_deg[before]), 0.0, 1.0)});
   }
   return places;
 }
 std::vector<NodePlace> places_on(const std::vector<double>& nodes_deg, const EvenAxis& axis) {
-  return places_of(nodes_deg, static_cast<std::size_t>(axis.count), [&](std::size_t i) { return axis.angle_deg(axis.first + static_cast<std::int64_t>(i)); });
+  return places_of(nodes_deg, static_cast<std::size_t>(axis.count),
+                   [&](std::size_t i) { return axis.angle_deg(axis.first + static_cast<std::int64_t>(i)); });
 }
 std::vector<NodePlace> places_between_ends(const std::vector<double>& nodes_deg, std::size_t count) {
   const double step = (nodes_deg.back() - nodes_deg.front()) / static_cast<double>(count - 1);
@@ -110,7 +114,8 @@ bool dark_at_its_edge(const std::vector<float>& candela, std::size_t columns) {
 // Candela of texels, from the nodes about each.
 void fill(PackedBeam& packed, const BeamImage& image, const TexelRect& part) {
   const std::size_t columns = image.first_deg.size();
-  const std::size_t across = packed.transposed ? columns : 1, along = packed.transposed ? 1 : columns;  // steps to the next column and row of the packed image
+  const std::size_t across = packed.transposed ? columns : 1,
+                    along = packed.transposed ? 1 : columns;  // steps to the next column and row of the packed image
   for (std::size_t j = part.row; j < part.end_row; ++j) {
     const auto [row, t] = packed.row_places[j];
     for (std::size_t i = part.column; i < part.end_column; ++i) {
@@ -136,7 +141,8 @@ void describe_even(PackedBeam& packed, const EvenAxis& first, const EvenAxis& se
   packed.inverse_coarse = 1.0f / static_cast<float>(first.coarse);
   // A gather midway between node i and the next finds both: at (i - first + 1) texels.
   const double width = static_cast<double>(first.count + 1), height = static_cast<double>(second.count + 1);
-  packed.coordinates = {1.0 / width, 1.0 / height, static_cast<double>(1 - first.first) / width, static_cast<double>(1 - second.first) / height};
+  packed.coordinates = {1.0 / width, 1.0 / height, static_cast<double>(1 - first.first) / width,
+                        static_cast<double>(1 - second.first) / height};
   packed.within = {first.first, first.first + first.count - 1, second.first, second.first + second.count - 1};
 }
 
@@ -144,8 +150,10 @@ void describe_even(PackedBeam& packed, const EvenAxis& first, const EvenAxis& se
 void describe_filter(PackedBeam& packed) {
   packed.nodes = packed.range * static_cast<float>(std::numbers::pi / 180.0);
   const double width = kFilterColumns, height = kFilterRows;
-  const double u = (width - 1) / width / static_cast<double>(packed.nodes.y - packed.nodes.x), v = (height - 1) / height / static_cast<double>(packed.nodes.w - packed.nodes.z);
-  packed.coordinates = {u, v, 0.5 / width - static_cast<double>(packed.nodes.x) * u, 0.5 / height - static_cast<double>(packed.nodes.z) * v};
+  const double u = (width - 1) / width / static_cast<double>(packed.nodes.y - packed.nodes.x),
+               v = (height - 1) / height / static_cast<double>(packed.nodes.w - packed.nodes.z);
+  packed.coordinates = {u, v, 0.5 / width - static_cast<double>(packed.nodes.x) * u,
+                        0.5 / height - static_cast<double>(packed.nodes.z) * v};
 }
 
 // The guide of one axis: bins of equal width in each 45° about a multiple of 45° (shaders/lib/beam.glsl).
@@ -159,20 +167,24 @@ struct Guide {
 Guide make_guide(const std::vector<double>& nodes_deg) {
   Guide guide;
   double closest_deg = 45.0;
-  for (std::size_t i = 1; i < nodes_deg.size(); ++i) closest_deg = std::min(closest_deg, nodes_deg[i] - nodes_deg[i - 1]);
+  for (std::size_t i = 1; i < nodes_deg.size(); ++i)
+    closest_deg = std::min(closest_deg, nodes_deg[i] - nodes_deg[i - 1]);
   guide.bins_in_octant = std::min(kMaxBins, static_cast<std::size_t>(std::ceil(1.01 * 45.0 / closest_deg)) + 1);
   guide.bins_per_deg = static_cast<double>(guide.bins_in_octant) / 45.0;
   const auto octant_of = [](double deg) { return static_cast<std::int64_t>(std::floor((deg + 22.5) / 45.0)); };
   guide.first_octant = octant_of(nodes_deg.front());
   const auto octants = static_cast<std::size_t>(octant_of(nodes_deg.back()) - guide.first_octant + 1);
-  const auto slope_after = [&](std::size_t i) { return i + 1 < nodes_deg.size() ? 1.0 / (nodes_deg[i + 1] - nodes_deg[i]) : 0.0; };
+  const auto slope_after = [&](std::size_t i) {
+    return i + 1 < nodes_deg.size() ? 1.0 / (nodes_deg[i + 1] - nodes_deg[i]) : 0.0;
+  };
   std::size_t node = 0;  // the last node at or before the end of this bin
   for (std::size_t octant = 0; octant < octants; ++octant) {
     const double centre_deg = 45.0 * static_cast<double>(guide.first_octant + static_cast<std::int64_t>(octant));
     for (std::size_t bin = 0; bin < guide.bins_in_octant; ++bin) {
       const double end_deg = centre_deg - 22.5 + static_cast<double>(bin + 1) / guide.bins_per_deg;
       while (node + 1 < nodes_deg.size() && nodes_deg[node + 1] < end_deg) ++node;
-      guide.bins.emplace_back(nodes_deg[node] - centre_deg, node, node > 0 ? slope_after(node - 1) : slope_after(0), slope_after(node));
+      guide.bins.emplace_back(nodes_deg[node] - centre_deg, node, node > 0 ? slope_after(node - 1) : slope_after(0),
+                              slope_after(node));
     }
   }
   return guide;
@@ -209,7 +221,9 @@ PackedBeam pack_beam(const BeamImage& image, ImageLevel level) {
   const glm::dvec3 forward(1, 0, 0), right(0, -1, 0), up(0, 0, 1);
   std::vector<double> first = image.first_deg, second = image.second_deg;
   switch (image.type) {
-    case PhotometricType::kA: packed.rows = {forward, right, up}; break;
+    case PhotometricType::kA:
+      packed.rows = {forward, right, up};
+      break;
     case PhotometricType::kB:
       packed.rows = {forward, up, right};
       std::swap(first, second);
@@ -217,8 +231,10 @@ PackedBeam pack_beam(const BeamImage& image, ImageLevel level) {
       break;
     case PhotometricType::kC:
       // gamma 0 ahead: c0 right, c90 up, g0 forward. gamma 90 ahead: c0 forward, c90 left, g0 down. c is along -g0.
-      if (image.axis == GammaAxis::kGamma0) packed.rows = {right, up, -forward};
-      else packed.rows = {forward, -right, up};
+      if (image.axis == GammaAxis::kGamma0)
+        packed.rows = {right, up, -forward};
+      else
+        packed.rows = {forward, -right, up};
       break;
   }
   const bool turn = image.type == PhotometricType::kC && first.back() > 180.0;
@@ -251,14 +267,16 @@ PackedBeam pack_beam(const BeamImage& image, ImageLevel level) {
   packed.candela.assign(std::size_t{packed.columns} * packed.rows_of_candela, 0.0f);
   packed.scale_cd = scale_for(level, image);
   fill(packed, image, {0, 0, packed.column_places.size(), packed.row_places.size()});
-  if (packed.lookup == shader::kLookupAhead && dark_at_its_edge(image.candela, image.first_deg.size())) packed.lookup = shader::kLookupDark;
+  if (packed.lookup == shader::kLookupAhead && dark_at_its_edge(image.candela, image.first_deg.size()))
+    packed.lookup = shader::kLookupDark;
   return packed;
 }
 
 TexelRect pack_again(PackedBeam& packed, const BeamImage& image, const TexelRect& changed) {
   packed.colour = image.colour;
   packed.dark = image.dark;
-  const bool edge_lit = packed.lookup == shader::kLookupDark && !dark_at_its_edge(image.candela, image.first_deg.size());
+  const bool edge_lit =
+      packed.lookup == shader::kLookupDark && !dark_at_its_edge(image.candela, image.first_deg.size());
   const bool too_bright = !packed.candela.empty() && scale_for(packed.level, image) > packed.scale_cd;
   if (packed.candela.empty() || edge_lit || too_bright) {
     packed = pack_beam(image, packed.level);
@@ -268,9 +286,13 @@ TexelRect pack_again(PackedBeam& packed, const BeamImage& image, const TexelRect
   TexelRect nodes = changed;
   if (packed.transposed) nodes = {changed.row, changed.column, changed.end_row, changed.end_column};
   const auto part_of = [](const std::vector<NodePlace>& places, std::size_t begin, std::size_t end) {
-    const auto node = [](const NodePlace& place) { return place.part > 0.0 ? place.node + 1 : place.node; };  // the last node it reads
-    const auto first = std::partition_point(places.begin(), places.end(), [&](const NodePlace& place) { return node(place) < begin; });
-    const auto last = std::partition_point(places.begin(), places.end(), [&](const NodePlace& place) { return place.node < end; });
+    const auto node = [](const NodePlace& place) {
+      return place.part > 0.0 ? place.node + 1 : place.node;
+    };  // the last node it reads
+    const auto first =
+        std::partition_point(places.begin(), places.end(), [&](const NodePlace& place) { return node(place) < begin; });
+    const auto last =
+        std::partition_point(places.begin(), places.end(), [&](const NodePlace& place) { return place.node < end; });
     return std::pair{static_cast<std::size_t>(first - places.begin()), static_cast<std::size_t>(last - places.begin())};
   };
   const auto [column, end_column] = part_of(packed.column_places, nodes.column, nodes.end_column);
@@ -293,10 +315,16 @@ std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& part
     }
   };
   switch (packed.level) {
-    case ImageLevel::kNormalised8: put_rows([&](float cd) { return static_cast<std::uint8_t>(std::lround(255.0f * cd / packed.scale_cd)); }); break;
+    case ImageLevel::kNormalised8:
+      put_rows([&](float cd) { return static_cast<std::uint8_t>(std::lround(255.0f * cd / packed.scale_cd)); });
+      break;
     case ImageLevel::kHalfEven:
-    case ImageLevel::kHalfNodes: put_rows([&](float cd) { return half_from_float(cd / packed.scale_cd); }); break;
-    case ImageLevel::kFloatNodes: put_rows([](float cd) { return cd; }); break;
+    case ImageLevel::kHalfNodes:
+      put_rows([&](float cd) { return half_from_float(cd / packed.scale_cd); });
+      break;
+    case ImageLevel::kFloatNodes:
+      put_rows([](float cd) { return cd; });
+      break;
   }
   return bytes;
 }

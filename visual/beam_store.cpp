@@ -8,10 +8,13 @@ namespace {
 
 vk::Format format_of(ImageLevel level) {
   switch (level) {
-    case ImageLevel::kNormalised8: return vk::Format::eR8Unorm;
+    case ImageLevel::kNormalised8:
+      return vk::Format::eR8Unorm;
     case ImageLevel::kHalfEven:
-    case ImageLevel::kHalfNodes: return vk::Format::eR16Sfloat;
-    case ImageLevel::kFloatNodes: break;
+    case ImageLevel::kHalfNodes:
+      return vk::Format::eR16Sfloat;
+    case ImageLevel::kFloatNodes:
+      break;
   }
   return vk::Format::eR32Sfloat;
 }
@@ -19,7 +22,8 @@ vk::Format format_of(ImageLevel level) {
 }  // namespace
 
 BeamStore::BeamStore(gpu::Device& device) : device_(device) {
-  nothing_ = gpu::Image(device, vk::Format::eR32Sfloat, {1, 1}, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst, "no beam");
+  nothing_ = gpu::Image(device, vk::Format::eR32Sfloat, {1, 1},
+                        vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst, "no beam");
   const float dark = 0.0f;
   gpu::fill_image(device, nothing_, std::as_bytes(std::span(&dark, 1)));
 }
@@ -44,7 +48,8 @@ void BeamStore::change(std::size_t index, const BeamImage& image, std::span<cons
 bool BeamStore::fit(gpu::Image& image, vk::Format format, std::uint32_t width, std::uint32_t height, const char* name) {
   if (*image.image && image.extent == vk::Extent2D{width, height} && image.format == format) return false;
   device_.allocated_bytes -= image.bytes;
-  image = gpu::Image(device_, format, {width, height}, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst, name);
+  image = gpu::Image(device_, format, {width, height},
+                     vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst, name);
   return true;
 }
 
@@ -56,7 +61,8 @@ void BeamStore::upload_parts(Beam& beam) {
     copies.push_back({.bufferOffset = texels.size(),
                       .imageSubresource = {beam.candela.aspect, 0, 0, 1},
                       .imageOffset = {static_cast<std::int32_t>(part.column), static_cast<std::int32_t>(part.row), 0},
-                      .imageExtent = {static_cast<std::uint32_t>(part.end_column - part.column), static_cast<std::uint32_t>(part.end_row - part.row), 1}});
+                      .imageExtent = {static_cast<std::uint32_t>(part.end_column - part.column),
+                                      static_cast<std::uint32_t>(part.end_row - part.row), 1}});
     const std::vector<std::byte> bytes = texels_of(beam.packed, part);
     texels.insert(texels.end(), bytes.begin(), bytes.end());
     uploaded_texels_ += part.texels();
@@ -71,7 +77,8 @@ bool BeamStore::upload() {
     ++uploads_;
     const bool all = std::exchange(beam.fresh, false) || !*beam.candela.image;
     if (all) beam.changed = {{0, 0, beam.packed.columns, beam.packed.rows_of_candela}};
-    new_images |= fit(beam.candela, format_of(beam.packed.level), beam.packed.columns, beam.packed.rows_of_candela, "beam candela");
+    new_images |= fit(beam.candela, format_of(beam.packed.level), beam.packed.columns, beam.packed.rows_of_candela,
+                      "beam candela");
     upload_parts(beam);
     if (!all || beam.packed.lookup != shader::kLookupGuide) continue;
     const auto guide_rows = static_cast<std::uint32_t>(beam.packed.guide.size() / shader::kGuideRow);

@@ -23,8 +23,12 @@ class BeamStore {
   /// Fills the table fields of a lamp with beam `index`.
   void describe(std::size_t index, shader::GpuLamp& lamp) const;
 
-  const gpu::Image& candela(std::size_t index) const { return *beams_[index].candela.image ? beams_[index].candela : nothing_; }
-  const gpu::Image& guide(std::size_t index) const { return *beams_[index].guide.image ? beams_[index].guide : nothing_; }
+  const gpu::Image& candela(std::size_t index) const {
+    return *beams_[index].candela.image ? beams_[index].candela : nothing_;
+  }
+  const gpu::Image& guide(std::size_t index) const {
+    return *beams_[index].guide.image ? beams_[index].guide : nothing_;
+  }
   /// Since the start.
   std::uint64_t uploads() const { return uploads_; }
   std::uint64_t uploaded_texels() const { return uploaded_texels_; }

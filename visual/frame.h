@@ -15,9 +15,9 @@ struct FrameTargets {
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Format display_format = vk::Format::eR8G8B8A8Srgb;
   gpu::Image depth;
-  gpu::Image display;                ///< what is seen
-  gpu::Image multisampled;           ///< only with samples > 1
-  gpu::Image hdr_cdm2;               ///< only once something called for it
+  gpu::Image display;       ///< what is seen
+  gpu::Image multisampled;  ///< only with samples > 1
+  gpu::Image hdr_cdm2;      ///< only once something called for it
   gpu::Image hdr_multisampled;
 
   FrameTargets() = default;
@@ -30,9 +30,9 @@ glm::vec3 exposure_of(const FrameInput& input);
 
 /// Which effects this frame has and why. Each line is "name on|off: reason".
 struct EffectPlan {
-  bool depth_first = false;   ///< a depth pass before the lamp pass
-  bool hdr_image = false;     ///< an HDR image and a tone-mapping pass
-  bool overlay = false;       ///< text over the picture
+  bool depth_first = false;  ///< a depth pass before the lamp pass
+  bool hdr_image = false;    ///< an HDR image and a tone-mapping pass
+  bool overlay = false;      ///< text over the picture
   std::vector<std::string> reasons{};
 };
 EffectPlan plan_effects(const FrameInput& input, std::uint32_t lamp_count, bool software_device);
@@ -55,7 +55,8 @@ struct FrameCounts {
   std::uint64_t triangles = 0;
 };
 
-/// Records the frame into the graph. Afterwards targets.display holds the picture (and targets.hdr_cdm2, if called for).
+/// Records the frame into the graph. Afterwards targets.display holds the picture (and targets.hdr_cdm2, if called
+/// for).
 FrameCounts draw_frame(FrameParts& parts, const FrameInput& input);
 
 }  // namespace phare

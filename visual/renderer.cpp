@@ -46,8 +46,8 @@ struct Renderer::Impl {
 
   explicit Impl(const RendererOptions& wanted) : options(wanted), device(device_options(wanted)) {
     if (options.window != nullptr) surface = std::make_unique<gpu::WindowSurface>(device, options.window);
-    commands = vk::raii::CommandBuffers(device.device,
-                                        vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
+    commands = vk::raii::CommandBuffers(
+        device.device, vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
     fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
     make_targets(options.width_px, options.height_px);
     set_scene(Scene{});
@@ -61,8 +61,9 @@ struct Renderer::Impl {
     vk::Extent2D extent{static_cast<std::uint32_t>(width_px), static_cast<std::uint32_t>(height_px)};
     if (surface) extent = surface->extent();
     device.device.waitIdle();
-    targets = FrameTargets(device, extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
-                           surface ? surface->format() : vk::Format::eR8G8B8A8Srgb);
+    targets =
+        FrameTargets(device, extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
+                     surface ? surface->format() : vk::Format::eR8G8B8A8Srgb);
     display_copy = {};
     hdr_copy = {};
   }
@@ -85,12 +86,14 @@ struct Renderer::Impl {
     buffer.end();
     device.device.resetFences(*fence);
     device.queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &buffer}, *fence);
-    if (device.device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess) throw std::runtime_error("waiting for the GPU failed");
+    if (device.device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
+      throw std::runtime_error("waiting for the GPU failed");
   }
 
   void copy_out(gpu::Image& image, gpu::HostBuffer& buffer, vk::DeviceSize bytes_per_texel) {
     const vk::DeviceSize bytes = bytes_per_texel * image.extent.width * image.extent.height;
-    if (buffer.bytes != bytes) buffer = gpu::HostBuffer(device, bytes, vk::BufferUsageFlagBits::eTransferDst, image.name + " copy", true);
+    if (buffer.bytes != bytes)
+      buffer = gpu::HostBuffer(device, bytes, vk::BufferUsageFlagBits::eTransferDst, image.name + " copy", true);
     graph.pass("read back " + image.name, {{&image, gpu::Use::kCopySource, false}}, [&](vk::CommandBuffer c) {
       c.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *buffer.buffer,
                           vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
@@ -104,13 +107,16 @@ struct Renderer::Impl {
   }
 
   FrameParts parts() {
-    return {device, graph, targets, scene, beams, lamps, tone_mapping, overlay, device.properties.deviceType == vk::PhysicalDeviceType::eCpu};
+    return {device,       graph,   targets,
+            scene,        beams,   lamps,
+            tone_mapping, overlay, device.properties.deviceType == vk::PhysicalDeviceType::eCpu};
   }
 };
 
 Result<Renderer> Renderer::create(const RendererOptions& options) {
   const std::uint32_t largest = 16384;
-  if (options.width_px < 1 || options.height_px < 1 || options.width_px > static_cast<int>(largest) || options.height_px > static_cast<int>(largest))
+  if (options.width_px < 1 || options.height_px < 1 || options.width_px > static_cast<int>(largest) ||
+      options.height_px > static_cast<int>(largest))
     return Error{"picture size", "width and height have to be 1 to 16384 pixels"};
   if (options.samples != 1 && options.samples != 4) return Error{"samples", "1 or 4 samples a pixel"};
   try {
@@ -134,9 +140,13 @@ Status Renderer::load_scene(const Scene& scene) {
   }
 }
 
-void Renderer::set_beam(std::size_t index, const BeamImage& image) { impl_->beams.set(index, image, impl_->options.beam_level); }
+void Renderer::set_beam(std::size_t index, const BeamImage& image) {
+  impl_->beams.set(index, image, impl_->options.beam_level);
+}
 
-void Renderer::change_beam(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed) { impl_->beams.change(index, image, changed); }
+void Renderer::change_beam(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed) {
+  impl_->beams.change(index, image, changed);
+}
 
 void Renderer::resize(int width_px, int height_px) {
   if (impl_->surface) impl_->surface->rebuild();
@@ -155,7 +165,8 @@ FrameResult Renderer::draw(const FrameInput& input) {
   if (impl_->surface && !impl_->surface->present(impl_->targets.display)) resize(0, 0);
 
   FrameResult result;
-  for (const gpu::FrameGraph::Timing& timing : impl_->graph.timings()) result.passes.push_back({timing.name, timing.ms});
+  for (const gpu::FrameGraph::Timing& timing : impl_->graph.timings())
+    result.passes.push_back({timing.name, timing.ms});
   result.gpu_ms = impl_->graph.total_ms();
   result.draws = counts.draws;
   result.pass_count = counts.passes;
@@ -185,7 +196,8 @@ ImageF Renderer::read_hdr() const {
   return image;
 }
 
-std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> lamps, std::span<const MeasurePoint> points) {
+std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> lamps,
+                                                  std::span<const MeasurePoint> points) {
   std::vector<std::vector<float>> result(lamps.size(), std::vector<float>(points.size(), 0.0f));
   if (lamps.empty() || points.empty()) return result;
   constexpr std::size_t kWidth = 1024, kBatch = 1024 * 256;
@@ -198,7 +210,8 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
     vertices.reserve(count);
     for (const MeasurePoint& point : points.subspan(begin, count))
       vertices.push_back({glm::vec3(point.position_m - camera.eye_m), glm::vec3(glm::normalize(point.normal)), 0});
-    const gpu::DeviceBuffer buffer(impl_->device, std::as_bytes(std::span(vertices)), vk::BufferUsageFlagBits::eVertexBuffer, "points");
+    const gpu::DeviceBuffer buffer(impl_->device, std::as_bytes(std::span(vertices)),
+                                   vk::BufferUsageFlagBits::eVertexBuffer, "points");
     const vk::Extent2D extent{kWidth, static_cast<std::uint32_t>((count + kWidth - 1) / kWidth)};
     gpu::Image lx(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
                   vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc, "lx");
@@ -223,13 +236,16 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   const vk::Extent2D extent{320, 180};
   using Usage = vk::ImageUsageFlagBits;
   const std::uint64_t before = impl_->device.allocated_bytes;
-  gpu::Image position(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent, Usage::eColorAttachment | Usage::eTransferSrc, "audit position");
-  gpu::Image normal(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent, Usage::eColorAttachment | Usage::eTransferSrc, "audit normal");
+  gpu::Image position(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
+                      Usage::eColorAttachment | Usage::eTransferSrc, "audit position");
+  gpu::Image normal(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
+                    Usage::eColorAttachment | Usage::eTransferSrc, "audit normal");
   gpu::Image depth(impl_->device, vk::Format::eD32Sfloat, extent, Usage::eDepthStencilAttachment, "audit depth");
   gpu::HostBuffer position_copy, normal_copy;
   const double aspect = static_cast<double>(extent.width) / extent.height;
   const std::vector<DrawItem> items = impl_->scene.visible(input.camera, aspect, input.far_mesh_from_m);
-  impl_->lamps.set_frame(impl_->scene, impl_->beams, input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2, input.lamps);
+  impl_->lamps.set_frame(impl_->scene, impl_->beams, input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2,
+                         input.lamps);
   impl_->submit([&] {
     impl_->lamps.audit(impl_->graph, position, normal, depth, impl_->scene, items);
     impl_->copy_out(position, position_copy, 16);
@@ -244,17 +260,26 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   std::mt19937_64 random(seed);
   for (std::size_t k = 0; k < count && !lit.empty(); ++k) {
     const std::size_t i = lit[random() % lit.size()];
-    samples.push_back({{input.camera.eye_m + glm::dvec3(p[4 * i], p[4 * i + 1], p[4 * i + 2]), glm::dvec3(n[4 * i], n[4 * i + 1], n[4 * i + 2])},
+    samples.push_back({{input.camera.eye_m + glm::dvec3(p[4 * i], p[4 * i + 1], p[4 * i + 2]),
+                        glm::dvec3(n[4 * i], n[4 * i + 1], n[4 * i + 2])},
                        static_cast<double>(p[4 * i + 3])});
   }
   impl_->device.allocated_bytes = before;
   return samples;
 }
 
-std::string Renderer::device() const { return std::string(impl_->device.properties.deviceName.data()) + ", " + impl_->device.driver; }
-std::uint64_t Renderer::device_memory_bytes() const { return impl_->device.allocated_bytes; }
-std::uint64_t Renderer::uploaded_texels() const { return impl_->beams.uploaded_texels(); }
-std::uint64_t Renderer::validation_messages() const { return impl_->device.validation_messages->load(); }
+std::string Renderer::device() const {
+  return std::string(impl_->device.properties.deviceName.data()) + ", " + impl_->device.driver;
+}
+std::uint64_t Renderer::device_memory_bytes() const {
+  return impl_->device.allocated_bytes;
+}
+std::uint64_t Renderer::uploaded_texels() const {
+  return impl_->beams.uploaded_texels();
+}
+std::uint64_t Renderer::validation_messages() const {
+  return impl_->device.validation_messages->load();
+}
 
 Result<std::vector<std::string>> list_vulkan_devices() {
   try {
@@ -267,7 +292,8 @@ Result<std::vector<std::string>> list_vulkan_devices() {
       const auto& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
       names.push_back(std::string(properties.deviceName.data()) + ", " +
                       std::string(chain.get<vk::PhysicalDeviceDriverProperties>().driverInfo.data()) + ", Vulkan " +
-                      std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." + std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)));
+                      std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
+                      std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)));
     }
     return names;
   } catch (const std::exception& error) {

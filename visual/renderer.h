@@ -1,4 +1,5 @@
-// What draws: one Vulkan device, one scene, some lamps, one view at a time. Used by the visual process and by `phare measure`.
+// What draws: one Vulkan device, one scene, some lamps, one view at a time. Used by the visual process and by `phare
+// measure`.
 #pragma once
 
 #include <cstdint>
@@ -25,17 +26,17 @@ struct Scene;  // visual/scene/scene.h
 struct RendererOptions {
   int width_px = 1280;
   int height_px = 720;
-  int samples = 1;             ///< 1 or 4 (multisampling)
-  bool validation = false;     ///< Vulkan validation with synchronization validation
-  GLFWwindow* window = nullptr;  ///< nullptr: headless
+  int samples = 1;                                  ///< 1 or 4 (multisampling)
+  bool validation = false;                          ///< Vulkan validation with synchronization validation
+  GLFWwindow* window = nullptr;                     ///< nullptr: headless
   ImageLevel beam_level = ImageLevel::kFloatNodes;  ///< how beam images are stored and looked up
-  std::string device_name{};     ///< pick a device whose name contains this; empty: the first discrete GPU, else any
+  std::string device_name{};  ///< pick a device whose name contains this; empty: the first discrete GPU, else any
 };
 
 /// An eye in the world. Perspective, or from above with parallel rays.
 struct Camera {
   glm::dvec3 eye_m{0.0};
-  glm::dmat3 world_from_eye{1.0};     ///< columns: forward, left, up
+  glm::dmat3 world_from_eye{1.0};  ///< columns: forward, left, up
   double fov_horizontal_rad = 1.0471975511965976;
   double orthographic_width_m = 0.0;  ///< > 0: parallel projection of that width
   double near_m = 0.15;
@@ -56,14 +57,14 @@ constexpr double kFarMeshFrom_m = 150.0;
 
 struct FrameInput {
   Camera camera;
-  std::vector<PlacedLamp> lamps;      ///< at most 8; positions whose beam is dark are left out by the caller or by us
-  double exposure_per_cdm2 = 0.8;     ///< multiplies luminance before the tone curve; fixed, so that beams compare
-  double adaptation_k = 4000.0;       ///< light of this colour temperature looks white: the eye half adapts to its own lamps
+  std::vector<PlacedLamp> lamps;   ///< at most 8; positions whose beam is dark are left out by the caller or by us
+  double exposure_per_cdm2 = 0.8;  ///< multiplies luminance before the tone curve; fixed, so that beams compare
+  double adaptation_k = 4000.0;  ///< light of this colour temperature looks white: the eye half adapts to its own lamps
   double sky_luminance_cdm2 = 0.004;
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;
-  bool want_hdr = false;              ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass
-  bool want_image = false;            ///< read the finished picture back
+  bool want_hdr = false;               ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass
+  bool want_image = false;             ///< read the finished picture back
   std::vector<std::string> overlay{};  ///< lines of text over the picture; none: no overlay pass
 };
 
@@ -73,8 +74,8 @@ struct PassTime {
 };
 
 struct FrameResult {
-  double wall_ms = 0.0;                 ///< from the call until the GPU was done
-  double gpu_ms = 0.0;                  ///< first to last time stamp
+  double wall_ms = 0.0;  ///< from the call until the GPU was done
+  double gpu_ms = 0.0;   ///< first to last time stamp
   std::vector<PassTime> passes;
   std::uint32_t draws = 0;
   std::uint32_t pass_count = 0;
@@ -87,7 +88,8 @@ struct Image8 {
 };
 struct ImageF {
   int width_px = 0, height_px = 0;
-  std::vector<float> rgba;  ///< linear, cd/m² (RGB, Rec. 709 primaries scaled so that luminance is Y), alpha: illuminance in lx
+  std::vector<float>
+      rgba;  ///< linear, cd/m² (RGB, Rec. 709 primaries scaled so that luminance is Y), alpha: illuminance in lx
 };
 
 struct MeasurePoint {
@@ -97,8 +99,8 @@ struct MeasurePoint {
 
 /// A point of the frame recomputed: what the picture's shader found there.
 struct AuditSample {
-  MeasurePoint point;        ///< world position and normal of the pixel
-  double illuminance_lx = 0; ///< by the GPU
+  MeasurePoint point;         ///< world position and normal of the pixel
+  double illuminance_lx = 0;  ///< by the GPU
 };
 
 class Renderer {
@@ -118,19 +120,20 @@ class Renderer {
 
   /// Draws one frame and waits for it. In a window it is also presented.
   FrameResult draw(const FrameInput& input);
-  Image8 read_image() const;   ///< after draw with want_image
-  ImageF read_hdr() const;     ///< after draw with want_hdr
+  Image8 read_image() const;  ///< after draw with want_image
+  ImageF read_hdr() const;    ///< after draw with want_hdr
 
   /// Illuminance in lx at points, per lamp, through the same fragment shader: result[lamp][point].
   std::vector<std::vector<float>> measure(std::span<const PlacedLamp> lamps, std::span<const MeasurePoint> points);
 
-  /// Draws the frame again at `width` x `height` with position and normal out, and returns `count` lit pixels chosen by `seed`.
+  /// Draws the frame again at `width` x `height` with position and normal out, and returns `count` lit pixels chosen by
+  /// `seed`.
   std::vector<AuditSample> audit(const FrameInput& input, std::size_t count, std::uint64_t seed);
 
-  std::string device() const;        ///< name, driver, Vulkan version
-  std::uint64_t device_memory_bytes() const;   ///< allocated by us
-  std::uint64_t validation_messages() const;   ///< since create
-  std::uint64_t uploaded_texels() const;       ///< of beam images, since create
+  std::string device() const;                 ///< name, driver, Vulkan version
+  std::uint64_t device_memory_bytes() const;  ///< allocated by us
+  std::uint64_t validation_messages() const;  ///< since create
+  std::uint64_t uploaded_texels() const;      ///< of beam images, since create
 
  private:
   struct Impl;

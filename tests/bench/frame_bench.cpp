@@ -1,6 +1,7 @@
 // How long a frame takes, and how many bare two-lamp quads that is: the ratio stays when the machine is slower or busy.
 //   phare_frame_bench SCENE.glb LAMP.ies [WIDTHxHEIGHT] [ROUNDS]
-// The quad: one full-screen surface, the same two lamps, the same shader. Rounds alternate, so both see the same machine.
+// The quad: one full-screen surface, the same two lamps, the same shader. Rounds alternate, so both see the same
+// machine.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -17,10 +18,16 @@ namespace {
 Scene one_quad() {
   Scene scene;
   scene.materials = {{.name = "quad", .reflectance = glm::vec3(0.1f)}};
-  for (const glm::vec3 corner : {glm::vec3(20, 40, -30), glm::vec3(20, -40, -30), glm::vec3(20, -40, 30), glm::vec3(20, 40, 30)})
+  for (const glm::vec3 corner :
+       {glm::vec3(20, 40, -30), glm::vec3(20, -40, -30), glm::vec3(20, -40, 30), glm::vec3(20, 40, 30)})
     scene.vertices.push_back({corner, {-1, 0, 0}});
   scene.indices = {0, 1, 2, 0, 2, 3};
-  scene.chunks = {{.node = "quad", .origin_m = {}, .low_m = {20, -40, -30}, .high_m = {20, 40, 30}, .index_count = 6, .vertex_count = 4}};
+  scene.chunks = {{.node = "quad",
+                   .origin_m = {},
+                   .low_m = {20, -40, -30},
+                   .high_m = {20, 40, 30},
+                   .index_count = 6,
+                   .vertex_count = 4}};
   return scene;
 }
 
@@ -67,7 +74,8 @@ int run(int argc, char** argv) {
     FrameInput input;
     input.camera.eye_m = {25.0, -1.2, 1.22};
     const glm::dmat3 aim = aim_rotation(0.0, -0.01, 0.0);
-    for (int i = 0; i < lamps; ++i) input.lamps.push_back({.position_m = {26.9, -1.6 + (i % 2 == 0 ? 0.6 : -0.6), 0.65}, .world_from_image = aim});
+    for (int i = 0; i < lamps; ++i)
+      input.lamps.push_back({.position_m = {26.9, -1.6 + (i % 2 == 0 ? 0.6 : -0.6), 0.65}, .world_from_image = aim});
     return input;
   };
   FrameInput quad_view = view(2);
@@ -82,8 +90,13 @@ int run(int argc, char** argv) {
     std::vector<double> wall{}, cpu{};
   };
   FrameInput sky = view(0);
-  sky.camera.world_from_eye = glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0));  // straight up
-  std::vector<Case> cases{{"road, two lamps", *road, view(2)}, {"road, no lamp", *road, view(0)}, {"bare two-lamp quad", *quad, quad_view}, {"bare quad, no lamp", *quad, quad_dark}, {"sky alone", *road, sky}};
+  sky.camera.world_from_eye =
+      glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0));  // straight up
+  std::vector<Case> cases{{"road, two lamps", *road, view(2)},
+                          {"road, no lamp", *road, view(0)},
+                          {"bare two-lamp quad", *quad, quad_view},
+                          {"bare quad, no lamp", *quad, quad_dark},
+                          {"sky alone", *road, sky}};
   FrameResult result;
   for (int i = -2; i < rounds; ++i) {
     for (Case& one : cases) {
@@ -95,10 +108,13 @@ int run(int argc, char** argv) {
       if (&one == &cases.front()) result = drawn;
     }
   }
-  std::printf("%s, %dx%d, %d rounds, median ms; %u draws, %llu triangles\n", road->device().c_str(), width, height, rounds, result.draws,
-              static_cast<unsigned long long>(result.triangles));
-  for (const Case& one : cases) std::printf("  %-20s %8.2f wall %8.2f cpu, %8.2f cpu at best\n", one.name, median(one.wall), median(one.cpu), *std::min_element(one.cpu.begin(), one.cpu.end()));
-  std::printf("  ratio road / quad    %8.2f wall %8.2f cpu\n", median(cases[0].wall) / median(cases[2].wall), median(cases[0].cpu) / median(cases[2].cpu));
+  std::printf("%s, %dx%d, %d rounds, median ms; %u draws, %llu triangles\n", road->device().c_str(), width, height,
+              rounds, result.draws, static_cast<unsigned long long>(result.triangles));
+  for (const Case& one : cases)
+    std::printf("  %-20s %8.2f wall %8.2f cpu, %8.2f cpu at best\n", one.name, median(one.wall), median(one.cpu),
+                *std::min_element(one.cpu.begin(), one.cpu.end()));
+  std::printf("  ratio road / quad    %8.2f wall %8.2f cpu\n", median(cases[0].wall) / median(cases[2].wall),
+              median(cases[0].cpu) / median(cases[2].cpu));
 
   // The levels of beam image, turn by turn in one run.
   std::vector<Result<Renderer>> at_level;
@@ -119,7 +135,8 @@ int run(int argc, char** argv) {
   }
   std::printf("bare two-lamp quad by level of beam image\n");
   for (std::size_t level = 0; level < at_level.size(); ++level)
-    std::printf("  %-28s %8.2f wall %8.2f cpu, %5.2f of the native one's cpu\n", level_name(kImageLevels[level]).c_str(), median(wall[level]), median(cpu[level]),
+    std::printf("  %-28s %8.2f wall %8.2f cpu, %5.2f of the native one's cpu\n",
+                level_name(kImageLevels[level]).c_str(), median(wall[level]), median(cpu[level]),
                 median(cpu[level]) / median(cpu.back()));
   return kExitDone;
 }
@@ -127,4 +144,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace phare
 
-int main(int argc, char** argv) { return phare::run(argc, argv); }
+int main(int argc, char** argv) {
+  return phare::run(argc, argv);
+}

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
-
 #include <unistd.h>
 
 #include <cmath>
@@ -117,11 +116,13 @@ TEST(Bus, SendsToEveryReceiverOfTheTableAndToNobodyElse) {
     Bus bus;
   };
   std::vector<Endpoint> all;
-  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl}) all.push_back({role, 0, open_bus(rig, role)});
+  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl})
+    all.push_back({role, 0, open_bus(rig, role)});
   all.push_back({Role::kVisual, 0, open_bus(rig, Role::kVisual, 0)});
   all.push_back({Role::kVisual, 1, open_bus(rig, Role::kVisual, 1)});
 
-  const std::array<Payload, 6> payloads = {CockpitState{}, VehicleState{}, report(3, 1, 2), RigControl{}, ProbeRequest{}, ProbeReply{}};
+  const std::array<Payload, 6> payloads = {CockpitState{}, VehicleState{}, report(3, 1, 2),
+                                           RigControl{},   ProbeRequest{}, ProbeReply{}};
   for (Endpoint& sender : all) {
     for (std::size_t i = 0; i < payloads.size(); ++i) {
       const bool may = kChannels[i].sender == sender_of(sender.role);
@@ -132,7 +133,8 @@ TEST(Bus, SendsToEveryReceiverOfTheTableAndToNobodyElse) {
   for (Endpoint& receiver : all) {
     receiver.bus.poll();
     for (std::size_t i = 0; i < payloads.size(); ++i) {
-      const bool expected = kChannels[i].receivers.has(receiver.role) && !(kChannels[i].first_visual_only && receiver.channel != 0);
+      const bool expected =
+          kChannels[i].receivers.has(receiver.role) && !(kChannels[i].first_visual_only && receiver.channel != 0);
       EXPECT_EQ(receiver.bus.counters().received[i].received, expected ? 1u : 0u)
           << kChannels[i].message << " at role " << static_cast<int>(receiver.role) << " channel " << receiver.channel;
     }

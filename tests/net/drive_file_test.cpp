@@ -39,7 +39,9 @@ std::optional<std::string> output_of(const std::string& command) {
   return pclose(pipe) == 0 ? std::optional(text) : std::nullopt;
 }
 
-bool installed(const std::string& program) { return output_of("command -v " + program).has_value(); }
+bool installed(const std::string& program) {
+  return output_of("command -v " + program).has_value();
+}
 
 class DriveFile : public testing::Test {
  protected:
@@ -166,9 +168,10 @@ TEST_F(DriveFile, SaysWhenTheDiskIsFull) {
 
 TEST_F(DriveFile, TsharkReadsPortsStampsAndChecksums) {
   if (!installed("tshark")) GTEST_SKIP() << "tshark is not installed";
-  const auto text = output_of("tshark -n -r " + path_.string() +
-                              " -o ip.check_checksum:TRUE -T fields -e frame.time_epoch -e ip.src -e udp.srcport -e udp.dstport"
-                              " -e ip.checksum.status -e udp.length");
+  const auto text =
+      output_of("tshark -n -r " + path_.string() +
+                " -o ip.check_checksum:TRUE -T fields -e frame.time_epoch -e ip.src -e udp.srcport -e udp.dstport"
+                " -e ip.checksum.status -e udp.length");
   ASSERT_TRUE(text);
   std::istringstream lines(*text);
   std::string line;
@@ -179,8 +182,8 @@ TEST_F(DriveFile, TsharkReadsPortsStampsAndChecksums) {
     std::snprintf(expected, sizeof expected, "%lld.%09lld\t127.0.0.1\t%d\t%d\t1\t%zu",
                   static_cast<long long>(datagram.sim_time.ns / 1'000'000'000),
                   static_cast<long long>(datagram.sim_time.ns % 1'000'000'000),
-                  47000 + port_offset_of_sender(datagram.sender, datagram.sender_channel),
-                  to_recorder ? 47002 : 47010, encode(datagram).size() + 8);
+                  47000 + port_offset_of_sender(datagram.sender, datagram.sender_channel), to_recorder ? 47002 : 47010,
+                  encode(datagram).size() + 8);
     EXPECT_EQ(line, expected);
   }
 }

@@ -5,7 +5,8 @@
 
 namespace phare::test {
 
-Garbage::Garbage(std::vector<std::string> templates, std::uint64_t seed) : templates_(std::move(templates)), random_(seed) {
+Garbage::Garbage(std::vector<std::string> templates, std::uint64_t seed)
+    : templates_(std::move(templates)), random_(seed) {
   assert(!templates_.empty());
 }
 

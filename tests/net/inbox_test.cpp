@@ -18,15 +18,25 @@ InboxCounters counted(const std::vector<std::uint64_t>& sequences) {
   return tracker.counters();
 }
 
-TEST(Sequences, InOrder) { EXPECT_EQ(counted({1, 2, 3, 4}), (InboxCounters{4, 0, 0, 0, 0})); }
+TEST(Sequences, InOrder) {
+  EXPECT_EQ(counted({1, 2, 3, 4}), (InboxCounters{4, 0, 0, 0, 0}));
+}
 
-TEST(Sequences, GapsAreLost) { EXPECT_EQ(counted({1, 2, 5, 9}), (InboxCounters{4, 5, 0, 0, 0})); }
+TEST(Sequences, GapsAreLost) {
+  EXPECT_EQ(counted({1, 2, 5, 9}), (InboxCounters{4, 5, 0, 0, 0}));
+}
 
-TEST(Sequences, AStragglerIsLateAndNoLongerLost) { EXPECT_EQ(counted({1, 3, 2, 4}), (InboxCounters{3, 0, 1, 0, 0})); }
+TEST(Sequences, AStragglerIsLateAndNoLongerLost) {
+  EXPECT_EQ(counted({1, 3, 2, 4}), (InboxCounters{3, 0, 1, 0, 0}));
+}
 
-TEST(Sequences, RepeatsAreDuplicates) { EXPECT_EQ(counted({1, 2, 2, 1, 3, 2}), (InboxCounters{3, 0, 0, 3, 0})); }
+TEST(Sequences, RepeatsAreDuplicates) {
+  EXPECT_EQ(counted({1, 2, 2, 1, 3, 2}), (InboxCounters{3, 0, 0, 3, 0}));
+}
 
-TEST(Sequences, ALateOneTwiceIsADuplicate) { EXPECT_EQ(counted({1, 3, 2, 2}), (InboxCounters{2, 0, 1, 1, 0})); }
+TEST(Sequences, ALateOneTwiceIsADuplicate) {
+  EXPECT_EQ(counted({1, 3, 2, 2}), (InboxCounters{2, 0, 1, 1, 0}));
+}
 
 TEST(Sequences, WhoListensLaterHasLostNothing) {
   EXPECT_EQ(counted({1000, 1001}), (InboxCounters{2, 0, 0, 0, 0}));

@@ -86,7 +86,8 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       s.source_fault = v.flag() ? "can0: link down" : "";
       return s;
     }
-    case kPayloadIndex<VehicleState>: return vehicle(v);
+    case kPayloadIndex<VehicleState>:
+      return vehicle(v);
     case kPayloadIndex<FrameReport>: {
       FrameReport r;
       r.frame_index = static_cast<std::int64_t>(v.whole(100000)) - 1;
@@ -101,14 +102,22 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
     }
     case kPayloadIndex<RigControl>: {
       switch (v.whole(7)) {
-        case 0: return RigControl{RigControl::Pause{v.flag()}};
-        case 1: return RigControl{RigControl::Seek{v.number(0, 1000)}};
-        case 2: return RigControl{RigControl::Design{static_cast<std::uint32_t>(v.whole(9))}};
-        case 3: return RigControl{RigControl::Aim{v.number(-0.1, 0.1)}};
-        case 4: return RigControl{RigControl::Dim{"headlamp left", static_cast<std::uint32_t>(v.whole(36)), v.number(0, 1)}};
-        case 5: return RigControl{RigControl::Swivel{"headlamp right", v.number(-0.3, 0.3), v.number(-0.1, 0.1)}};
-        case 6: return RigControl{RigControl::Place{"fog left", v.number(-1, 5), v.number(-1, 1), v.number(0, 3)}};
-        default: return RigControl{RigControl::Quit{}};
+        case 0:
+          return RigControl{RigControl::Pause{v.flag()}};
+        case 1:
+          return RigControl{RigControl::Seek{v.number(0, 1000)}};
+        case 2:
+          return RigControl{RigControl::Design{static_cast<std::uint32_t>(v.whole(9))}};
+        case 3:
+          return RigControl{RigControl::Aim{v.number(-0.1, 0.1)}};
+        case 4:
+          return RigControl{RigControl::Dim{"headlamp left", static_cast<std::uint32_t>(v.whole(36)), v.number(0, 1)}};
+        case 5:
+          return RigControl{RigControl::Swivel{"headlamp right", v.number(-0.3, 0.3), v.number(-0.1, 0.1)}};
+        case 6:
+          return RigControl{RigControl::Place{"fog left", v.number(-1, 5), v.number(-1, 1), v.number(0, 3)}};
+        default:
+          return RigControl{RigControl::Quit{}};
       }
     }
     case kPayloadIndex<ProbeRequest>: {
@@ -152,9 +161,14 @@ std::vector<Datagram> samples(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<Datagram> all;
   for (std::size_t i = 0; i < kChannels.size(); ++i) all.push_back(sample(i, random));
-  const RigControl commands[] = {{RigControl::Pause{true}},  {RigControl::Pause{false}}, {RigControl::Seek{0.0}},
-                                 {RigControl::Seek{12.5}},   {RigControl::Design{0}},    {RigControl::Design{3}},
-                                 {RigControl::Aim{-0.01}},   {RigControl::Quit{}},
+  const RigControl commands[] = {{RigControl::Pause{true}},
+                                 {RigControl::Pause{false}},
+                                 {RigControl::Seek{0.0}},
+                                 {RigControl::Seek{12.5}},
+                                 {RigControl::Design{0}},
+                                 {RigControl::Design{3}},
+                                 {RigControl::Aim{-0.01}},
+                                 {RigControl::Quit{}},
                                  {RigControl::Dim{"headlamp left", 0, 0.0}},
                                  {RigControl::Dim{"headlamp right", 36, 0.25}},
                                  {RigControl::Swivel{"headlamp left", 0.1, 0.0}},

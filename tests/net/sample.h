@@ -18,7 +18,9 @@ Datagram sample(std::size_t payload_index, std::mt19937_64& random);
 std::vector<Datagram> samples(std::uint64_t seed);
 
 /// Text as the bytes of a datagram.
-inline std::span<const std::byte> view(const std::string& bytes) { return std::as_bytes(std::span(bytes.data(), bytes.size())); }
+inline std::span<const std::byte> view(const std::string& bytes) {
+  return std::as_bytes(std::span(bytes.data(), bytes.size()));
+}
 
 bool equal(const Datagram& a, const Datagram& b);
 

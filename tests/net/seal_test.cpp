@@ -43,7 +43,8 @@ TEST(Seal, OpensWithTheSameKeyAndUnchangedBytesOnly) {
     changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ (1 << (bit % 8)));
     EXPECT_FALSE(seal.open(test::view(changed))) << bit;
   }
-  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(seal.open(test::view(bytes.substr(0, size)))) << size;
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(seal.open(test::view(bytes.substr(0, size)))) << size;
 }
 
 TEST(Seal, BusesOffLoopbackSpeakWithTheKeyOnly) {

@@ -1,17 +1,18 @@
 // phare-throw-garbage: a flood of datagrams that no process may take, against one port of the loopback.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <arpa/inet.h>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <netinet/in.h>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <sys/socket.h>
 #include <thread>
-#include <unistd.h>
 #include <vector>
 
 #include "config/result.h"
@@ -22,8 +23,9 @@
 
 int main(int argc, char** argv) {
   using namespace phare;
-  CLI::App app{"Sends random, cut and bit-flipped datagrams to 127.0.0.1 and prints what it sent as one line of JSON.\n"
-               "Example: phare-throw-garbage --port 47001 --count 10000000 --seed 7"};
+  CLI::App app{
+      "Sends random, cut and bit-flipped datagrams to 127.0.0.1 and prints what it sent as one line of JSON.\n"
+      "Example: phare-throw-garbage --port 47001 --count 10000000 --seed 7"};
   std::uint16_t port = 0;
   std::uint64_t count = 0;
   std::uint64_t seed = 1;
@@ -32,7 +34,9 @@ int main(int argc, char** argv) {
   bool quiet = false;
   double on_s = 0.0, period_s = 0.0;
   app.add_option("--port", port, "UDP port")->required()->check(CLI::Range(1, 65535));
-  app.add_option("--count", count, "how many")->required()->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+  app.add_option("--count", count, "how many")
+      ->required()
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   app.add_option("--seed", seed, "of the random numbers");
   app.add_option("--rate", rate_hz, "datagrams a second, 0: as fast as it goes")->check(CLI::NonNegativeNumber);
   app.add_option("--on", on_s, "s of every --period, by the wall clock, in which it throws at the port; else at nobody")
@@ -50,7 +54,8 @@ int main(int argc, char** argv) {
   if (!template_file.empty()) {
     Result<Drive> drive = read_drive(template_file);
     if (!drive || drive->datagrams.empty()) {
-      std::fprintf(stderr, "%s\n", drive ? (template_file + ": holds no datagram").c_str() : drive.error().text().c_str());
+      std::fprintf(stderr, "%s\n",
+                   drive ? (template_file + ": holds no datagram").c_str() : drive.error().text().c_str());
       return kExitBadInput;
     }
     valid = std::move(drive->datagrams);
@@ -100,8 +105,8 @@ int main(int argc, char** argv) {
   }
   const double took_s = seconds();
   close(fd);
-  const nlohmann::json result = {{"port", port},     {"sent", count - failed},
-                                 {"failed", failed}, {"seed", seed},
+  const nlohmann::json result = {{"port", port},      {"sent", count - failed},
+                                 {"failed", failed},  {"seed", seed},
                                  {"seconds", took_s}, {"per_second", static_cast<double>(count - failed) / took_s}};
   if (!quiet) std::printf("%s\n", result.dump().c_str());
   return failed == 0 ? kExitDone : kExitCheckFailed;

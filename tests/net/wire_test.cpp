@@ -70,7 +70,8 @@ TEST(Wire, TheDefaultsAndZerosComeBackBitForBit) {
   ASSERT_TRUE(back) << back.error().text();
   EXPECT_TRUE(std::signbit(std::get<VehicleState>(back->payload).x_m));
   std::get<VehicleState>(d.payload).x_m = std::numeric_limits<double>::denorm_min();
-  EXPECT_EQ(std::get<VehicleState>(decode(test::view(encode(d)))->payload).x_m, std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(std::get<VehicleState>(decode(test::view(encode(d)))->payload).x_m,
+            std::numeric_limits<double>::denorm_min());
 }
 
 TEST(Wire, WiresharkAndPythonReadTheCheckAsAField) {
@@ -78,7 +79,8 @@ TEST(Wire, WiresharkAndPythonReadTheCheckAsAField) {
   wire::Datagram message;
   ASSERT_TRUE(message.ParseFromString(bytes));
   EXPECT_TRUE(message.GetReflection()->GetUnknownFields(message).empty());
-  EXPECT_EQ(message.check(), crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size() - 6)));
+  EXPECT_EQ(message.check(),
+            crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size() - 6)));
   EXPECT_EQ(message.SerializeAsString(), bytes);
 }
 
@@ -138,9 +140,9 @@ TEST(WireRefuses, TrailingBytesAndSecondDatagrams) {
   EXPECT_EQ(refusal_of(bytes + bytes), Refusal::kChecksum);
   const std::string body = bytes.substr(0, bytes.size() - 6);
   EXPECT_EQ(refusal_of(sealed(body)), Refusal::kNone);
-  EXPECT_EQ(refusal_of(sealed(bytes)), Refusal::kMalformed);             // a check before the check
-  EXPECT_EQ(refusal_of(sealed(body + body)), Refusal::kMalformed);       // every field twice
-  EXPECT_EQ(refusal_of(sealed(body + "\xf8\x01\x05")), Refusal::kMalformed);  // field 31
+  EXPECT_EQ(refusal_of(sealed(bytes)), Refusal::kMalformed);                              // a check before the check
+  EXPECT_EQ(refusal_of(sealed(body + body)), Refusal::kMalformed);                        // every field twice
+  EXPECT_EQ(refusal_of(sealed(body + "\xf8\x01\x05")), Refusal::kMalformed);              // field 31
   EXPECT_EQ(refusal_of(sealed(body + std::string("\x18\x00", 2))), Refusal::kMalformed);  // a default written out
 }
 
@@ -252,19 +254,23 @@ TEST(WireRefuses, ValuesOutOfRange) {
       {kControl, [](D& m) { m.mutable_rig_control()->set_seek_s(-1.0); }},
       {kControl, [](D& m) { m.mutable_rig_control()->set_aim_pitch_rad(3.0); }},
       {kControl, [](D& m) { m.mutable_rig_control()->mutable_dim()->set_dimming_01(0.5); }},  // of no lamp
-      {kControl, [](D& m) {
+      {kControl,
+       [](D& m) {
          m.mutable_rig_control()->mutable_dim()->set_lamp("left");
          m.mutable_rig_control()->mutable_dim()->set_dimming_01(1.5);
        }},
-      {kControl, [](D& m) {
+      {kControl,
+       [](D& m) {
          m.mutable_rig_control()->mutable_dim()->set_lamp("left");
          m.mutable_rig_control()->mutable_dim()->set_source(10001);
        }},
-      {kControl, [](D& m) {
+      {kControl,
+       [](D& m) {
          m.mutable_rig_control()->mutable_swivel()->set_lamp("left");
          m.mutable_rig_control()->mutable_swivel()->set_yaw_rad(1.7);
        }},
-      {kControl, [](D& m) {
+      {kControl,
+       [](D& m) {
          m.mutable_rig_control()->mutable_place()->set_lamp("left");
          m.mutable_rig_control()->mutable_place()->set_x_m(51.0);
        }},
@@ -283,14 +289,17 @@ TEST(WireRefuses, ValuesOutOfRange) {
 TEST(WireRefuses, ProbeArraysOfDifferentOrExcessiveLength) {
   constexpr std::size_t kRequest = kPayloadIndex<ProbeRequest>;
   EXPECT_EQ(refusal_after(kRequest, [](auto& m) { m.mutable_probe_request()->add_nz(0.5); }), Refusal::kArrays);
-  EXPECT_EQ(refusal_after(kRequest, [](auto& m) { m.mutable_probe_request()->mutable_y_m()->Clear(); }), Refusal::kArrays);
+  EXPECT_EQ(refusal_after(kRequest, [](auto& m) { m.mutable_probe_request()->mutable_y_m()->Clear(); }),
+            Refusal::kArrays);
 
   Datagram d{Sender::kControl, 0, 1, 1, SimTime{}, WallTime{}, ProbeRequest{}};
   auto& request = std::get<ProbeRequest>(d.payload);
-  for (auto* array : {&request.x_m, &request.y_m, &request.z_m, &request.nx, &request.ny, &request.nz}) array->assign(1000, 0.5);
+  for (auto* array : {&request.x_m, &request.y_m, &request.z_m, &request.nx, &request.ny, &request.nz})
+    array->assign(1000, 0.5);
   EXPECT_TRUE(decode(test::view(encode(d))));
   EXPECT_LE(encode(d).size(), 65507u);
-  for (auto* array : {&request.x_m, &request.y_m, &request.z_m, &request.nx, &request.ny, &request.nz}) array->push_back(0.5);
+  for (auto* array : {&request.x_m, &request.y_m, &request.z_m, &request.nx, &request.ny, &request.nz})
+    array->push_back(0.5);
   EXPECT_EQ(refusal_of(encode(d)), Refusal::kArrays);
 }
 

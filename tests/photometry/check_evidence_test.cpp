@@ -94,7 +94,8 @@ TEST(CheckEvidence, NothingPassesWhereTheTableHasNoData) {
   EXPECT_EQ(row_of(r149, "luminous flux").verdict, Verdict::kNoData);  // light outside can only add
   EXPECT_EQ(check_by(part, "fmvss108-lb2v").failed, 0u);
   for (const char* id : {"Points 1, 2", "Points 8, 9"})
-    EXPECT_EQ(row_of(check_by(cropped(sample_table("fog.ies"), 20.0, -10.0, 10.0), "r19-f3"), id).verdict, Verdict::kNoData);
+    EXPECT_EQ(row_of(check_by(cropped(sample_table("fog.ies"), 20.0, -10.0, 10.0), "r19-f3"), id).verdict,
+              Verdict::kNoData);
   // What is there and too bright fails, whatever is missing beside it.
   IntensityTable bright = part;
   for (double& cd : bright.candela) cd *= 20.0;
@@ -122,9 +123,8 @@ TEST(CheckEvidence, TheEndOfATableIsNoCutoff) {
   }
   EXPECT_EQ(lint_lamp(cropped(whole, 90.0, -90.0, 1.2)).cutoff.side, CutoffSide::kRisesRight);
   const LampReport flat = lint_lamp(cropped(whole, 90.0, -90.0, 0.3));
-  EXPECT_TRUE(std::any_of(flat.findings.begin(), flat.findings.end(), [](const Finding& f) {
-    return f.text.find("a kink cannot be told") != std::string::npos;
-  }));
+  EXPECT_TRUE(std::any_of(flat.findings.begin(), flat.findings.end(),
+                          [](const Finding& f) { return f.text.find("a kink cannot be told") != std::string::npos; }));
   EXPECT_EQ(check_by(cropped(whole, 9.5, -4.8, 0.8), "fmvss108-lb2v").aim_method, "VOL");
   // Ends in the middle of the fall: the steepest place may lie outside.
   const CheckResult open = check_by(cropped(whole, 90.0, -90.0, 0.0), "r149-passing-c");
@@ -140,7 +140,8 @@ TEST(CheckEvidence, AStepToZeroIsACutoffWhereThereIsNoOther) {
   IntensityTable table;
   table.first_deg = {-20, 20};
   for (double v = -6.0; v <= 4.001; v += 0.05) table.second_deg.push_back(v);
-  for (const double v : table.second_deg) table.candela.insert(table.candela.end(), 2, v < 0.001 ? 8000.0 + 900.0 * v : 0.0);
+  for (const double v : table.second_deg)
+    table.candela.insert(table.candela.end(), 2, v < 0.001 ? 8000.0 + 900.0 * v : 0.0);
   const Cutoff cutoff = find_cutoff(mounted_intensity(table, glm::dmat3{1.0}), -2.5);
   ASSERT_TRUE(cutoff.found);
   EXPECT_NEAR(cutoff.elevation_deg, 0.025, 0.1);  // in the row of the step, to the width of G's span

@@ -85,7 +85,8 @@ TEST(Lint, MissingDataSpikesAndEdges) {
   IntensityTable spike = low();
   spike.candela[150 * spike.first_deg.size() + 100] = 30000.0;
   ASSERT_NE(find(lint_lamp(spike), "spike"), nullptr);
-  IntensityTable cut = resample(low(), PhotometricType::kA, GammaAxis::kGamma0, {-10, -5, 0, 5, 10}, {-5, -3, -1, 1, 3});
+  IntensityTable cut =
+      resample(low(), PhotometricType::kA, GammaAxis::kGamma0, {-10, -5, 0, 5, 10}, {-5, -3, -1, 1, 3});
   ASSERT_NE(find(lint_lamp(cut), "cut-table"), nullptr);
   ASSERT_NE(find(lint_lamp(cut), "coarse"), nullptr);
   IntensityTable dark = low();

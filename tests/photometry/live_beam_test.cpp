@@ -13,7 +13,8 @@ namespace phare {
 namespace {
 
 /// Type A, a bump of `peak_cd` at (h, v), dark at its limits.
-IntensityTable bump(double peak_cd, double h_deg, double v_deg, double half_width_deg, PhotometricType type = PhotometricType::kA) {
+IntensityTable bump(double peak_cd, double h_deg, double v_deg, double half_width_deg,
+                    PhotometricType type = PhotometricType::kA) {
   IntensityTable table;
   table.type = type;
   for (int i = -4; i <= 4; ++i) table.first_deg.push_back(h_deg + half_width_deg * i / 4.0);
@@ -36,7 +37,8 @@ double worst_difference_cd(const BeamImage& image, const std::vector<AimedSource
     for (double v = -10.0; v <= 10.0; v += 0.23) {
       const glm::dvec3 in_car = direction_hv(h, v);
       double truth_cd = 0.0;
-      for (const AimedSource& source : lit) truth_cd += source.scale * source.table->intensity_cd(in_car * source.car_from_lamp);
+      for (const AimedSource& source : lit)
+        truth_cd += source.scale * source.table->intensity_cd(in_car * source.car_from_lamp);
       worst = std::max(worst, std::abs(table.intensity_cd(in_car * image.car_from_image) - truth_cd));
     }
   }
@@ -81,14 +83,16 @@ TEST(LiveBeam, ResamplesOnlyWhatHasNoAnglesInCommon) {
   EXPECT_TRUE(beam.image().resampled);
   // Steps of at most 0.5° below 10°, and half a bump of 1 - x² over 4°: second derivative 2·50,000/16 cd/deg², error of
   // a chord h²/8 of it per axis.
-  EXPECT_LT(worst_difference_cd(beam.image(), {low_source, high_source}), 2.0 * (0.1 * 0.1 / 8.0) * 2.0 * 50000.0 / 16.0);
+  EXPECT_LT(worst_difference_cd(beam.image(), {low_source, high_source}),
+            2.0 * (0.1 * 0.1 / 8.0) * 2.0 * 50000.0 / 16.0);
   beam.set_dimming(0, 0.0);
   EXPECT_EQ(beam.update(), LiveBeam::Change::kWhole);
   EXPECT_EQ(beam.image().type, PhotometricType::kB);
   EXPECT_LT(worst_difference_cd(beam.image(), {high_source}), 50000.0 * kRounding);
 }
 
-// A matrix lamp: one segment dimmed sums its rectangle and no more; none dimmed, nothing; and what comes out never drifts.
+// A matrix lamp: one segment dimmed sums its rectangle and no more; none dimmed, nothing; and what comes out never
+// drifts.
 TEST(LiveBeam, OfAMatrixSumsOneSegmentsRectangle) {
   const std::vector<SampleLamp> segments = matrix_segments();
   ASSERT_EQ(segments.size(), 36u);

@@ -87,7 +87,8 @@ TEST_F(DriveTest, FramesAreOfADriveAndNotAllTheSame) {
   }
 }
 
-// Beam images are summed when a light changes, at most one for each of two headlamps and two fog lamps, and in no other frame.
+// Beam images are summed when a light changes, at most one for each of two headlamps and two fog lamps, and in no other
+// frame.
 TEST_F(DriveTest, BeamsAreSummedOnlyWhenALightChanges) {
   const json& visual = quiet_.report["processes"]["visual-0"];
   const int changes = visual["switch_to_photon"]["changes"];
@@ -95,23 +96,27 @@ TEST_F(DriveTest, BeamsAreSummedOnlyWhenALightChanges) {
   EXPECT_EQ(visual["beams"]["image"], "float32-native-nodes");
 }
 
-// A control unit beside the rig dims the segments of one matrix lamp: the picture follows, the other processes do not care.
+// A control unit beside the rig dims the segments of one matrix lamp: the picture follows, the other processes do not
+// care.
 TEST_F(DriveTest, ALampIsDimmedWhileDriving) {
-  const std::vector<std::string> arguments{"--frames", "40", "--validation", "--rig", PHARE_SOURCE_DIR "/config/rigs/matrix.toml"};
+  const std::vector<std::string> arguments{"--frames", "40", "--validation", "--rig",
+                                           PHARE_SOURCE_DIR "/config/rigs/matrix.toml"};
   const fs::path lit = folder_ / "matrix lit", dimmed = folder_ / "matrix dimmed";
   ASSERT_EQ(drive(lit, folder_ / "home", arguments), 0);
   {
     DriveRun run(dimmed, folder_ / "home", arguments);
     ASSERT_TRUE(run.wait_for_frame(5));
-    auto child = ChildProcess::start(program_beside_us("phare"), {"control", "--port-base", std::to_string(port_base()), "--rig", arguments.back(),
-                                                                  "dim", "headlamp left", "0", "0.5"});
+    auto child =
+        ChildProcess::start(program_beside_us("phare"), {"control", "--port-base", std::to_string(port_base()), "--rig",
+                                                         arguments.back(), "dim", "headlamp left", "0", "0.5"});
     ASSERT_TRUE(child.ok());
     EXPECT_EQ(run.wait(), 0);
   }
   const auto with = pictures_of(lit), without = pictures_of(dimmed);
   EXPECT_EQ(with.at("frames/000004.png"), without.at("frames/000004.png"));
   EXPECT_NE(with.at("frames/000039.png"), without.at("frames/000039.png"));
-  const json before = report_of(lit)["processes"]["visual-0"]["beams"], after = report_of(dimmed)["processes"]["visual-0"]["beams"];
+  const json before = report_of(lit)["processes"]["visual-0"]["beams"],
+             after = report_of(dimmed)["processes"]["visual-0"]["beams"];
   EXPECT_EQ(after["compositions"], before["compositions"].get<int>() + 1);  // one lamp, in one frame
 }
 

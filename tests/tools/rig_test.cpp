@@ -82,7 +82,8 @@ TEST(Rig, BadRigsSayWhere) {
             "phare_rig_test.toml:11: \"design.lamp.position_m\": a pair is given by its left lamp, y > 0");
   EXPECT_EQ(rig_error("scene =", "scnee ="), "phare_rig_test.toml:1: no key \"scnee\"; did you mean \"scene\"?");
   EXPECT_EQ(rig_error("[[channel]]", "[bus]\naddress=\"0.0.0.0\"\n[[channel]]"),
-            "phare_rig_test.toml:5: \"bus.address\": off loopback (127.…) a key_file is required: 64 hexadecimal digits, as of openssl rand -hex 32");
+            "phare_rig_test.toml:5: \"bus.address\": off loopback (127.…) a key_file is required: 64 hexadecimal "
+            "digits, as of openssl rand -hex 32");
   EXPECT_TRUE(rig_error("[[design.lamp]]", "[[design.lamp]").starts_with("phare_rig_test.toml:8: "));
 }
 

@@ -12,7 +12,6 @@ namespace {
 using test::Drive;
 using test::full_car;
 
-
 void expect_close(double value, double expected, double share, const char* what) {
   EXPECT_NEAR(value, expected, share * std::abs(expected)) << what;
 }

@@ -14,8 +14,8 @@ const std::filesystem::path kData = std::filesystem::path(PHARE_SHARED_DATA_DIR)
 const std::filesystem::path kCar = std::filesystem::path(PHARE_VEHICLES_DIR) / "bmw_320i.toml";
 
 // A figure has to stay within the notes' band, or within what the two programs themselves differ by where that is more:
-// then no band can tell who is right. Of the 49 judged figures four need that: against MB the path of D01 (0.087 of 0.05
-// m) and the roll of D05 (10.0 of 5 %), against Chrono the paths of D01 (1.75 of 0.4 m) and D05 (0.45 of 0.4 m).
+// then no band can tell who is right. Of the 49 judged figures four need that: against MB the path of D01 (0.087 of
+// 0.05 m) and the roll of D05 (10.0 of 5 %), against Chrono the paths of D01 (1.75 of 0.4 m) and D05 (0.45 of 0.4 m).
 TEST(Reference, EveryManoeuvreWithinItsBand) {
   if (!std::filesystem::exists(kData)) GTEST_SKIP() << kData << " is not here";
   const Result<std::vector<compare::Line>> lines = compare::manoeuvres(kData, kCar, Integrator::kRk4, 0.002);

@@ -1,4 +1,5 @@
-// Beam images on the device: the ladder of levels against float64, parts uploaded against the whole, and the cut-off read from a rendered wall.
+// Beam images on the device: the ladder of levels against float64, parts uploaded against the whole, and the cut-off
+// read from a rendered wall.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +33,8 @@ std::vector<MeasurePoint> points_on_sphere(std::size_t count, double h_limit_deg
   return points;
 }
 
-// What each level is off by, in cd, where a lamp of 27,000 cd and more shines. The twin on the CPU looks at all of the table.
+// What each level is off by, in cd, where a lamp of 27,000 cd and more shines. The twin on the CPU looks at all of the
+// table.
 TEST(BeamOnDevice, EveryLevelIsAsGoodAsItsTwinOnTheCpu) {
   const IntensityTable& table = sample("low_rht.ies");
   const AimedSource source{.table = &table};
@@ -41,13 +43,15 @@ TEST(BeamOnDevice, EveryLevelIsAsGoodAsItsTwinOnTheCpu) {
   const PlacedLamp lamp{};
   double finer_cd = 1e9;
   for (const ImageLevel level : kImageLevels) {
-    Result<Renderer> renderer = Renderer::create({.width_px = 64, .height_px = 64, .validation = true, .beam_level = level});
+    Result<Renderer> renderer =
+        Renderer::create({.width_px = 64, .height_px = 64, .validation = true, .beam_level = level});
     ASSERT_TRUE(renderer.ok()) << renderer.error().text();
     renderer->set_beam(0, image);
     const auto lx = renderer->measure(std::span(&lamp, 1), points);
     double worst_cd = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i)
-      worst_cd = std::max(worst_cd, std::abs(100.0 * static_cast<double>(lx[0][i]) - table.intensity_cd(points[i].position_m)));
+      worst_cd = std::max(worst_cd,
+                          std::abs(100.0 * static_cast<double>(lx[0][i]) - table.intensity_cd(points[i].position_m)));
     const LevelError twin = level_error(table, LevelImage(table, level));
     // float32 directions are off by up to 1e-5°; across the cut-off the table changes by about its peak a degree.
     const double angles_cd = 1e-5 * table.peak_cd();
@@ -56,13 +60,15 @@ TEST(BeamOnDevice, EveryLevelIsAsGoodAsItsTwinOnTheCpu) {
     EXPECT_GT(worst_cd, 0.1 * twin.worst_cd - angles_cd) << level_name(level);
     EXPECT_LT(worst_cd, finer_cd) << level_name(level) << " should be finer than the one before";
     finer_cd = worst_cd;
-    std::printf("%s: worst %.3g cd on the device, %.3g cd on the CPU over the whole table, %zu bytes\n", level_name(level).c_str(), worst_cd, twin.worst_cd,
+    std::printf("%s: worst %.3g cd on the device, %.3g cd on the CPU over the whole table, %zu bytes\n",
+                level_name(level).c_str(), worst_cd, twin.worst_cd,
                 static_cast<std::size_t>(renderer->device_memory_bytes()));
     EXPECT_EQ(renderer->validation_messages(), 0u);
   }
 }
 
-// Whatever way a table is packed: a part that changed and was uploaded alone leaves the very image that a fresh upload makes.
+// Whatever way a table is packed: a part that changed and was uploaded alone leaves the very image that a fresh upload
+// makes.
 TEST(BeamOnDevice, PartsUploadedEqualTheWhole) {
   std::vector<IntensityTable> tables;
   for (const bool uneven : {false, true}) {
@@ -71,7 +77,8 @@ TEST(BeamOnDevice, PartsUploadedEqualTheWhole) {
         IntensityTable table;
         table.type = type;
         const bool c = type == PhotometricType::kC;
-        for (int i = 0; i <= 24; ++i) table.first_deg.push_back(c ? 15.0 * i : 2.0 * i - 24.0 + (uneven ? 0.3 * std::sin(i) : 0.0));
+        for (int i = 0; i <= 24; ++i)
+          table.first_deg.push_back(c ? 15.0 * i : 2.0 * i - 24.0 + (uneven ? 0.3 * std::sin(i) : 0.0));
         for (int j = 0; j <= 20; ++j) table.second_deg.push_back(c ? j + (uneven ? 0.123456789 * j : 0.0) : j - 10.0);
         for (int j = 0; j <= 20; ++j)
           for (int i = 0; i <= 24; ++i) {
@@ -85,7 +92,8 @@ TEST(BeamOnDevice, PartsUploadedEqualTheWhole) {
   const std::vector<MeasurePoint> points = points_on_sphere(5000, 28.0, 14.0);
   const PlacedLamp lamp{};
   for (const ImageLevel level : {ImageLevel::kHalfEven, ImageLevel::kHalfNodes, ImageLevel::kFloatNodes}) {
-    Result<Renderer> renderer = Renderer::create({.width_px = 64, .height_px = 64, .validation = true, .beam_level = level});
+    Result<Renderer> renderer =
+        Renderer::create({.width_px = 64, .height_px = 64, .validation = true, .beam_level = level});
     ASSERT_TRUE(renderer.ok()) << renderer.error().text();
     for (std::size_t pair = 0; pair < tables.size(); pair += 2) {
       LiveBeam beam({{.table = &tables[pair]}, {.table = &tables[pair + 1]}});
@@ -118,7 +126,8 @@ Scene wall_25_m() {
   Scene scene;
   scene.materials = {{.name = "wall", .reflectance = glm::vec3(1.0f)}};
   SceneChunk chunk{.node = "wall", .material = 0, .origin_m = {}, .low_m = {25, -20, -10}, .high_m = {25, 20, 10}};
-  for (const glm::vec3& p : {glm::vec3(25, 20, -10), glm::vec3(25, -20, -10), glm::vec3(25, -20, 10), glm::vec3(25, 20, 10)})
+  for (const glm::vec3& p :
+       {glm::vec3(25, 20, -10), glm::vec3(25, -20, -10), glm::vec3(25, -20, 10), glm::vec3(25, 20, 10)})
     scene.vertices.push_back({p, {-1, 0, 0}});
   scene.indices = {0, 1, 2, 0, 2, 3};
   chunk.index_count = 6;
@@ -151,7 +160,9 @@ TEST(BeamOnDevice, SharpnessReadFromARenderedWallIsThatOfTheTable) {
       const double row = (1.0 - std::tan(v_deg * std::numbers::pi / 180.0) / tan_v) * kHeight / 2.0 - 0.5;
       const auto above = static_cast<std::size_t>(std::clamp(std::floor(row), 0.0, kHeight - 2.0));
       const double part = row - static_cast<double>(above);
-      const auto lx = [&](std::size_t y) { return static_cast<double>(picture.rgba[(y * kWidth + kWidth / 2) * 4 + 3]); };
+      const auto lx = [&](std::size_t y) {
+        return static_cast<double>(picture.rgba[(y * kWidth + kWidth / 2) * 4 + 3]);
+      };
       const double cosine = direction_hv(h_deg, v_deg).x;
       return ((1.0 - part) * lx(above) + part * lx(above + 1)) * 625.0 / (cosine * cosine * cosine);
     };
@@ -160,8 +171,8 @@ TEST(BeamOnDevice, SharpnessReadFromARenderedWallIsThatOfTheTable) {
     // Half floats of lux are off by 2^-11, two of them in a difference of logarithms by 4e-4.
     EXPECT_NEAR(read.sharpness_g, truth.sharpness_g, 0.01) << file;
     EXPECT_NEAR(read.elevation_deg, truth.elevation_deg, 0.02) << file;
-    std::printf("%s: G %.4f from the rendered wall, %.4f from the table; cut-off at %.3f and %.3f degrees\n", file, read.sharpness_g, truth.sharpness_g,
-                read.elevation_deg, truth.elevation_deg);
+    std::printf("%s: G %.4f from the rendered wall, %.4f from the table; cut-off at %.3f and %.3f degrees\n", file,
+                read.sharpness_g, truth.sharpness_g, read.elevation_deg, truth.elevation_deg);
   }
   EXPECT_EQ(renderer->validation_messages(), 0u);
 }

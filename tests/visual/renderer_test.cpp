@@ -1,4 +1,6 @@
 // The GPU path that draws the frame against float64, with Vulkan validation and synchronization validation on.
+#include "visual/renderer.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 
 #include "visual/image/image.h"
 #include "visual/photometry/illuminance.h"
-#include "visual/renderer.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
@@ -34,8 +35,10 @@ class RendererTest : public testing::Test {
   }
   static void SetUpTestSuite() {
     Result<Renderer> made = Renderer::create({.width_px = 320, .height_px = 180, .validation = true});
-    if (made) shared() = std::make_unique<Renderer>(std::move(*made));
-    else why_not() = made.error().text();
+    if (made)
+      shared() = std::make_unique<Renderer>(std::move(*made));
+    else
+      why_not() = made.error().text();
   }
   static void TearDownTestSuite() { shared().reset(); }
   static std::string& why_not() {
@@ -62,7 +65,8 @@ IntensityTable cut_off_table(PhotometricType type, GammaAxis axis) {
   const double from = c ? 0.0 : -60.0, to = c ? 360.0 : 60.0;
   for (double a = from; a <= to + 1e-9; a += c ? 4.0 : (std::abs(a) < 5.0 ? 0.25 : 2.5)) table.first_deg.push_back(a);
   const bool gamma90 = c && axis == GammaAxis::kGamma90;
-  for (double v = c ? (gamma90 ? 60.0 : 0.0) : -40.0; v <= (c ? (gamma90 ? 120.0 : 80.0) : 40.0) + 1e-9; v += 0.1 + 0.02 * std::abs(std::sin(v)))
+  for (double v = c ? (gamma90 ? 60.0 : 0.0) : -40.0; v <= (c ? (gamma90 ? 120.0 : 80.0) : 40.0) + 1e-9;
+       v += 0.1 + 0.02 * std::abs(std::sin(v)))
     table.second_deg.push_back(v);
   for (double v : table.second_deg)
     for (double h : table.first_deg) {
@@ -99,7 +103,8 @@ TEST_F(RendererTest, MeasuresWhatDoubleComputesForEveryTableType) {
   std::uniform_real_distribution<double> ahead(2.0, 120.0), side(-25.0, 25.0), high(-1.0, 4.0), tilt(-1.0, 1.0);
   std::vector<MeasurePoint> points;
   for (int i = 0; i < 20000; ++i)
-    points.push_back({{1e6 + ahead(random), -2e6 + side(random), high(random)}, glm::normalize(glm::dvec3(tilt(random) - 0.6, tilt(random), tilt(random) + 0.4))});
+    points.push_back({{1e6 + ahead(random), -2e6 + side(random), high(random)},
+                      glm::normalize(glm::dvec3(tilt(random) - 0.6, tilt(random), tilt(random) + 0.4))});
   for (const auto& [type, axis] : kinds) {
     const IntensityTable table = cut_off_table(type, axis);
     renderer->set_beam(0, image_of(table));
@@ -107,10 +112,11 @@ TEST_F(RendererTest, MeasuresWhatDoubleComputesForEveryTableType) {
     const std::vector<std::vector<float>> got = renderer->measure(std::span(&lamp, 1), points);
     Worst worst;
     for (std::size_t i = 0; i < points.size(); ++i)
-      worst.add(got[0][i], illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, points[i].position_m, points[i].normal));
+      worst.add(got[0][i], illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, points[i].position_m,
+                                          points[i].normal));
     EXPECT_GT(worst.judged, 3000u);
-    // Components of the direction carry about 3 roundings of 2^-24 of its length: 1.8e-7 rad or 1e-5°; the cut-off of this
-    // table is a logistic of width 0.06°, so intensity changes by at most 1/0.06° of itself: 1.7e-4.
+    // Components of the direction carry about 3 roundings of 2^-24 of its length: 1.8e-7 rad or 1e-5°; the cut-off of
+    // this table is a logistic of width 0.06°, so intensity changes by at most 1/0.06° of itself: 1.7e-4.
     EXPECT_LT(worst.relative, 2e-4) << "type " << static_cast<int>(type) << ", " << worst.absolute_lx << " lx";
     RecordProperty("worst_relative_type_" + std::to_string(static_cast<int>(type)), std::to_string(worst.relative));
   }
@@ -127,18 +133,24 @@ TEST_F(RendererTest, StraightAheadIsLit) {
       IntensityTable table = cut_off_table(type, axis);
       if (!uneven) {  // steps of 0.25°: the even lookup
         table.second_deg.clear();
-        for (int i = 0; i <= 240; ++i) table.second_deg.push_back(type == PhotometricType::kC ? (axis == GammaAxis::kGamma90 ? 60.0 : 0.0) + 0.25 * i : 0.25 * i - 30.0);
+        for (int i = 0; i <= 240; ++i)
+          table.second_deg.push_back(type == PhotometricType::kC ? (axis == GammaAxis::kGamma90 ? 60.0 : 0.0) + 0.25 * i
+                                                                 : 0.25 * i - 30.0);
       }
       table.candela.clear();  // one value at the pole, whichever half-plane it is reached from
-      for (double v : table.second_deg) table.candela.insert(table.candela.end(), table.first_deg.size(), 1000.0 + 10.0 * v);
+      for (double v : table.second_deg)
+        table.candela.insert(table.candela.end(), table.first_deg.size(), 1000.0 + 10.0 * v);
       renderer->set_beam(0, image_of(table));
       const PlacedLamp lamp{.position_m = {0, 0, 0}};
-      const std::vector<MeasurePoint> points{{{25, 0, 0}, {-1, 0, 0}}, {{25, 1e-9, 0}, {-1, 0, 0}}, {{25, -1e-9, -1e-9}, {-1, 0, 0}}};
+      const std::vector<MeasurePoint> points{
+          {{25, 0, 0}, {-1, 0, 0}}, {{25, 1e-9, 0}, {-1, 0, 0}}, {{25, -1e-9, -1e-9}, {-1, 0, 0}}};
       const auto lx = renderer->measure(std::span(&lamp, 1), points);
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const double expected = illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, points[i].position_m, points[i].normal);
+        const double expected =
+            illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, points[i].position_m, points[i].normal);
         EXPECT_GT(expected, 0.1);
-        EXPECT_NEAR(static_cast<double>(lx[0][i]), expected, 2e-4 * expected) << "type " << static_cast<int>(type) << ", axis " << static_cast<int>(axis);
+        EXPECT_NEAR(static_cast<double>(lx[0][i]), expected, 2e-4 * expected)
+            << "type " << static_cast<int>(type) << ", axis " << static_cast<int>(axis);
       }
     }
 }
@@ -158,7 +170,8 @@ TEST_F(RendererTest, OutsideTheTableAndBehindIsDark) {
   EXPECT_GT(lx[0][5], 10.0f);
 }
 
-// --- the reference tables of ../shared/data, where they are -----------------------------------------------------------
+// --- the reference tables of ../shared/data, where they are
+// -----------------------------------------------------------
 
 struct Csv {
   std::vector<std::string> names;
@@ -191,14 +204,22 @@ TEST_F(RendererTest, AgreesWithTheReferenceTables) {
     const char* column;
     const char* file;
   };
-  for (const Case& c : {Case{"a_road_flat_low.csv", "low", "E", "low_A"}, {"a_road_flat_low.csv", "low", "E[low_B]", "low_B"},
-                        {"a_road_flat_low.csv", "low", "E[low_C_axis]", "low_C_axis"}, {"a_road_flat_low.csv", "low", "E[low_C_horiz]", "low_C_horiz"},
-                        {"a_road_flat_high.csv", "high", "E", "high_A"}, {"a_road_flat_high.csv", "high", "E[high_B]", "high_B"},
-                        {"a_road_flat_fog.csv", "fog", "E", "fog_A"}, {"a_road_flat_fog.csv", "fog", "E[fog_C]", "fog_C"},
-                        {"b_wall25_low.csv", "low", "E", "low_A"}, {"b_wall25_low.csv", "low", "E[low_B]", "low_B"},
-                        {"b_wall25_low.csv", "low", "E[low_C_axis]", "low_C_axis"}, {"b_wall25_low.csv", "low", "E[low_C_horiz]", "low_C_horiz"},
-                        {"b_wall25_high.csv", "high", "E", "high_A"}, {"b_wall25_high.csv", "high", "E[high_B]", "high_B"},
-                        {"b_wall25_fog.csv", "fog", "E", "fog_A"}, {"b_wall25_fog.csv", "fog", "E[fog_C]", "fog_C"}}) {
+  for (const Case& c : {Case{"a_road_flat_low.csv", "low", "E", "low_A"},
+                        {"a_road_flat_low.csv", "low", "E[low_B]", "low_B"},
+                        {"a_road_flat_low.csv", "low", "E[low_C_axis]", "low_C_axis"},
+                        {"a_road_flat_low.csv", "low", "E[low_C_horiz]", "low_C_horiz"},
+                        {"a_road_flat_high.csv", "high", "E", "high_A"},
+                        {"a_road_flat_high.csv", "high", "E[high_B]", "high_B"},
+                        {"a_road_flat_fog.csv", "fog", "E", "fog_A"},
+                        {"a_road_flat_fog.csv", "fog", "E[fog_C]", "fog_C"},
+                        {"b_wall25_low.csv", "low", "E", "low_A"},
+                        {"b_wall25_low.csv", "low", "E[low_B]", "low_B"},
+                        {"b_wall25_low.csv", "low", "E[low_C_axis]", "low_C_axis"},
+                        {"b_wall25_low.csv", "low", "E[low_C_horiz]", "low_C_horiz"},
+                        {"b_wall25_high.csv", "high", "E", "high_A"},
+                        {"b_wall25_high.csv", "high", "E[high_B]", "high_B"},
+                        {"b_wall25_fog.csv", "fog", "E", "fog_A"},
+                        {"b_wall25_fog.csv", "fog", "E[fog_C]", "fog_C"}}) {
     const Csv csv = read_csv(data / c.table);
     ASSERT_LT(csv.column(c.column), csv.names.size()) << c.table << " " << c.column;
     const nlohmann::json& file = manifest["files"][c.file];
@@ -215,19 +236,24 @@ TEST_F(RendererTest, AgreesWithTheReferenceTables) {
         return glm::dvec3(v[0], v[1], v[2]);
       };
       const glm::dmat3 wanted(axis_of("c0"), axis_of("c90"), axis_of("g0"));
-      const glm::dmat3 ours = gamma0_ahead ? glm::dmat3(0, -1, 0, 0, 0, 1, 1, 0, 0) : glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1);
+      const glm::dmat3 ours =
+          gamma0_ahead ? glm::dmat3(0, -1, 0, 0, 0, 1, 1, 0, 0) : glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, -1);
       turn = wanted * glm::transpose(ours);
     }
     std::vector<PlacedLamp> lamps;
     for (const nlohmann::json& mounting : manifest["mounting"][c.beam]) {
       auto vec = [&](const char* key) { return glm::dvec3(mounting[key][0], mounting[key][1], mounting[key][2]); };
-      lamps.push_back({.position_m = vec("position_m"), .world_from_image = glm::dmat3(vec("forward"), vec("left"), vec("up")) * turn});
+      lamps.push_back({.position_m = vec("position_m"),
+                       .world_from_image = glm::dmat3(vec("forward"), vec("left"), vec("up")) * turn});
     }
     const bool wall = std::string(c.table)[0] == 'b';
     std::vector<MeasurePoint> points;
     for (const auto& row : csv.rows) {
-      if (wall) points.push_back({{manifest["wall_x_m"].get<double>(), row[csv.column("y")], row[csv.column("z")]}, {-1, 0, 0}});
-      else points.push_back({{row[csv.column("x")], row[csv.column("y")], 0.0}, {0, 0, 1}});
+      if (wall)
+        points.push_back(
+            {{manifest["wall_x_m"].get<double>(), row[csv.column("y")], row[csv.column("z")]}, {-1, 0, 0}});
+      else
+        points.push_back({{row[csv.column("x")], row[csv.column("y")], 0.0}, {0, 0, 1}});
     }
     const auto lx = renderer->measure(lamps, points);
     Worst worst;
@@ -236,19 +262,21 @@ TEST_F(RendererTest, AgreesWithTheReferenceTables) {
       for (const auto& lamp : lx) sum += static_cast<double>(lamp[i]);
       worst.add(sum, csv.rows[i][csv.column(c.column)]);
     }
-    std::printf("%s %s: %zu points above %g lx, worst %.2e relative, %.2e lx\n", c.table, c.column, worst.judged, kJudgedAbove_lx, worst.relative,
-                worst.absolute_lx);
+    std::printf("%s %s: %zu points above %g lx, worst %.2e relative, %.2e lx\n", c.table, c.column, worst.judged,
+                kJudgedAbove_lx, worst.relative, worst.absolute_lx);
     EXPECT_GT(worst.judged, 100u);
     EXPECT_LT(worst.relative, kRelativeLimit) << c.table << " " << c.column;
   }
 }
 
-// --- pictures ---------------------------------------------------------------------------------------------------------
+// --- pictures
+// ---------------------------------------------------------------------------------------------------------
 
 // A road 60 m long and a wall at 25 m; two lamps as on a car.
 Scene yard() {
   Scene scene;
-  scene.materials = {{.name = "road", .reflectance = glm::vec3(0.1f), .surface = Surface::kAsphalt}, {.name = "wall", .reflectance = glm::vec3(0.6f)}};
+  scene.materials = {{.name = "road", .reflectance = glm::vec3(0.1f), .surface = Surface::kAsphalt},
+                     {.name = "wall", .reflectance = glm::vec3(0.6f)}};
   auto quad = [&](const char* node, std::uint32_t material, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
     const glm::vec3 normal = glm::normalize(glm::cross(u, v));
     SceneChunk chunk{.node = node, .material = material, .origin_m = {}, .low_m = {}, .high_m = {}};
@@ -291,14 +319,15 @@ TEST_F(RendererTest, PictureEqualsTheGoldenOne) {
   const Result<Image8> expected = read_png(golden);
   ASSERT_TRUE(expected.ok()) << expected.error().text();
   ASSERT_EQ(got.rgba.size(), expected->rgba.size());
-  // Devices round differently and place edges differently by a fraction of a pixel: 99.5 % of all values within 2 of 255.
+  // Devices round differently and place edges differently by a fraction of a pixel: 99.5 % of all values within 2 of
+  // 255.
   std::size_t off = 0;
   for (std::size_t i = 0; i < got.rgba.size(); ++i) off += std::abs(int{got.rgba[i]} - int{expected->rgba[i]}) > 2;
   if (off > got.rgba.size() / 200) {
     const fs::path actual = fs::path(testing::TempDir()) / "yard_actual.png";
     ASSERT_TRUE(write_png(actual, got).ok());
-    ADD_FAILURE() << off << " of " << got.rgba.size() << " values differ by more than 2; see " << actual << " beside " << golden
-                  << "; when the change is meant: PHARE_WRITE_GOLDEN=1 phare_renderer_test";
+    ADD_FAILURE() << off << " of " << got.rgba.size() << " values differ by more than 2; see " << actual << " beside "
+                  << golden << "; when the change is meant: PHARE_WRITE_GOLDEN=1 phare_renderer_test";
   }
 }
 
@@ -324,10 +353,13 @@ TEST_F(RendererTest, HdrPassComesWhenCalledForAndHoldsIlluminance) {
   EXPECT_EQ(renderer->draw(input).pass_count, without + 1);
   const ImageF hdr = renderer->read_hdr();
   // The wall's middle: Lambert, so luminance is rho·E/pi plus what the sky gives, to the 11 bits of 16-bit float.
-  const std::size_t at = (static_cast<std::size_t>(hdr.height_px / 2 + 6) * static_cast<std::size_t>(hdr.width_px) + static_cast<std::size_t>(hdr.width_px * 6 / 10)) * 4;
+  const std::size_t at = (static_cast<std::size_t>(hdr.height_px / 2 + 6) * static_cast<std::size_t>(hdr.width_px) +
+                          static_cast<std::size_t>(hdr.width_px * 6 / 10)) *
+                         4;
   const double lx = static_cast<double>(hdr.rgba[at + 3]);
   EXPECT_GT(lx, 0.3);
-  const double luminance = 0.2126 * static_cast<double>(hdr.rgba[at]) + 0.7152 * static_cast<double>(hdr.rgba[at + 1]) + 0.0722 * static_cast<double>(hdr.rgba[at + 2]);
+  const double luminance = 0.2126 * static_cast<double>(hdr.rgba[at]) + 0.7152 * static_cast<double>(hdr.rgba[at + 1]) +
+                           0.0722 * static_cast<double>(hdr.rgba[at + 2]);
   EXPECT_NEAR(luminance, 0.6 * lx / 3.14159265, 0.01 * lx + 0.02);
 }
 
@@ -345,10 +377,13 @@ TEST_F(RendererTest, OverlayComesWhenThereAreLinesAndLeavesTheRestAlone) {
   std::size_t bright = 0, changed_below = 0;
   for (int y = 0; y < told.height_px; ++y)
     for (int x = 0; x < told.width_px; ++x) {
-      const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(told.width_px) + static_cast<std::size_t>(x)) * 4;
+      const std::size_t at =
+          (static_cast<std::size_t>(y) * static_cast<std::size_t>(told.width_px) + static_cast<std::size_t>(x)) * 4;
       const bool same = std::equal(&told.rgba[at], &told.rgba[at] + 3, &bare.rgba[at]);
-      if (y < 64) bright += told.rgba[at] > 200 && !same;
-      else changed_below += !same;
+      if (y < 64)
+        bright += told.rgba[at] > 200 && !same;
+      else
+        changed_below += !same;
     }
   EXPECT_GT(bright, 50u) << "letters";
   EXPECT_EQ(changed_below, 0u);
@@ -365,7 +400,8 @@ TEST_F(RendererTest, AuditedPixelsAgreeWithDouble) {
   for (const AuditSample& sample : samples) {
     double expected = 0.0;
     for (const PlacedLamp& lamp : input.lamps)
-      expected += illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, sample.point.position_m, sample.point.normal);
+      expected += illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, sample.point.position_m,
+                                 sample.point.normal);
     worst.add(sample.illuminance_lx, expected);
   }
   EXPECT_GT(worst.judged, 300u);

@@ -20,7 +20,8 @@ TEST(Angles, Atan2AgreesWithDoubleAllTheWayRound) {
   }
 }
 
-// Taken apart at multiples of 45° the rest stays small, and with it its rounding: about four steps of 2^-24 of it, and of the float32 arguments.
+// Taken apart at multiples of 45° the rest stays small, and with it its rounding: about four steps of 2^-24 of it, and
+// of the float32 arguments.
 TEST(Angles, OctantsKeepEveryAngleAsExactlyAsASmallOne) {
   for (int i = 0; i < 360000; ++i) {
     const double angle_rad = i * std::numbers::pi / 180000.0;
@@ -57,7 +58,8 @@ TEST(Angles, ForwardInRadiansIsExactToFloat) {
       const auto y = static_cast<float>(length * std::sin(degrees * std::numbers::pi / 180.0));
       const auto x = static_cast<float>(length * std::cos(degrees * std::numbers::pi / 180.0));
       const double truth = std::atan2(static_cast<double>(y), static_cast<double>(x));
-      ASSERT_NEAR(static_cast<double>(atan2_forward_rad(y, x)), truth, 3e-7 * std::abs(truth) + 1e-12) << degrees << " degrees";
+      ASSERT_NEAR(static_cast<double>(atan2_forward_rad(y, x)), truth, 3e-7 * std::abs(truth) + 1e-12)
+          << degrees << " degrees";
     }
   }
 }

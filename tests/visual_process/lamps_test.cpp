@@ -115,7 +115,8 @@ TEST(Lamps, ADimmedSourceChangesItsLampAlone) {
   // Straight ahead of the first lamp, 25 m: 0.75 of 2500 cd are gone.
   EXPECT_NEAR(before_lx - lamps->illuminance_lx(pose, wall), 0.75 * 2500.0 / 625.0, 1e-9);
   EXPECT_TRUE(lamps->set_controls(controls(LightSwitch::kHigh)).empty());
-  EXPECT_EQ(lamps->set_controls(controls(LightSwitch::kLow)).size(), 2u);  // a dark source stays dark whatever its dimming
+  EXPECT_EQ(lamps->set_controls(controls(LightSwitch::kLow)).size(),
+            2u);  // a dark source stays dark whatever its dimming
   EXPECT_EQ(lamps->placed(pose).size(), 2u);
 
   EXPECT_EQ(lamps->dim({"headlamp", 3, 0.5}).error().text(), "lamp \"headlamp\": has 2 sources, no number 3");

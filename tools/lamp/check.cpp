@@ -84,7 +84,8 @@ void print_aim(const CheckResult& result) {
   for (std::size_t k = 0; k < result.lamps.size(); ++k) {
     const LampAim& lamp = result.lamps[k];
     const char* whose = result.lamps.size() < 2 ? "" : k == 0 ? " of the left lamp" : " of the right lamp";
-    const char* method = result.lamps.size() > 1 && !lamp.found ? "no cut-off found, as filed" : result.aim_method.c_str();
+    const char* method =
+        result.lamps.size() > 1 && !lamp.found ? "no cut-off found, as filed" : result.aim_method.c_str();
     std::printf("aim%s: %s%s, turned %+.2f deg up, %+.2f deg right%s", whose, method,
                 result.aim_unconfirmed.empty() ? "" : " *", lamp.up_deg, lamp.right_deg,
                 result.reaimed ? " (within the rule's re-aim allowance)" : "");

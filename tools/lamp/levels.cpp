@@ -30,8 +30,10 @@ double median_ms(int rounds, const Work& work) {
 }
 
 #ifdef PHARE_WITH_GRAPHICS
-/// The same on the device: what a frame takes longer in which all or one of the segments were dimmed, from the sums on the CPU to the texture.
-void bench_device(BeamComposer& matrix, const std::vector<double>& h, const std::vector<double>& v, nlohmann::json& json) {
+/// The same on the device: what a frame takes longer in which all or one of the segments were dimmed, from the sums on
+/// the CPU to the texture.
+void bench_device(BeamComposer& matrix, const std::vector<double>& h, const std::vector<double>& v,
+                  nlohmann::json& json) {
   auto renderer = Renderer::create({.width_px = 16, .height_px = 16});
   if (!renderer) {
     json["device"] = renderer.error().text();
@@ -50,16 +52,21 @@ void bench_device(BeamComposer& matrix, const std::vector<double>& h, const std:
     image.candela.resize(matrix.candela().size());
     for (const TexelRect& rect : changed)
       for (std::size_t j = rect.row; j < rect.end_row; ++j)
-        std::copy_n(matrix.candela().begin() + static_cast<std::ptrdiff_t>(j * h.size() + rect.column), rect.end_column - rect.column,
+        std::copy_n(matrix.candela().begin() + static_cast<std::ptrdiff_t>(j * h.size() + rect.column),
+                    rect.end_column - rect.column,
                     image.candela.begin() + static_cast<std::ptrdiff_t>(j * h.size() + rect.column));
-    if (whole) renderer->set_beam(0, image);
-    else if (!changed.empty()) renderer->change_beam(0, image, changed);
+    if (whole)
+      renderer->set_beam(0, image);
+    else if (!changed.empty())
+      renderer->change_beam(0, image, changed);
     renderer->draw(input);
   };
   frame(0, 36, 0.9, true);
   const double still = median_ms(31, [&](int) { frame(0, 0, 0.0, false); });
-  json["device_frame_all_changed_ms"] = median_ms(15, [&](int round) { frame(0, 36, 0.5 + 0.01 * round, false); }) - still;
-  json["device_frame_one_changed_ms"] = median_ms(31, [&](int round) { frame(17, 18, 0.1 + 0.01 * round, false); }) - still;
+  json["device_frame_all_changed_ms"] =
+      median_ms(15, [&](int round) { frame(0, 36, 0.5 + 0.01 * round, false); }) - still;
+  json["device_frame_one_changed_ms"] =
+      median_ms(31, [&](int round) { frame(17, 18, 0.1 + 0.01 * round, false); }) - still;
   json["device_new_image_ms"] = median_ms(7, [&](int round) { frame(0, 36, 0.5 + 0.01 * round, true); }) - still;
   json["device_frame_none_changed_ms"] = still;
 }
@@ -96,15 +103,14 @@ nlohmann::json bench() {
     for (std::size_t k = 0; k < 36; ++k) full.set_dimming(k, 0.5 + 0.01 * round);
     full.update();
   });
-  nlohmann::json json{
-          {"image", "1801 x 601"},
-          {"sources", 36},
-          {"sampling_36_sources_ms", sampled},
-          {"all_changed_ms", all},
-          {"one_changed_ms", one},
-          {"none_changed_ms", none},
-          {"texels_when_none_changed", texels_when_idle},
-          {"all_changed_36_full_size_sources_ms", worst}};
+  nlohmann::json json{{"image", "1801 x 601"},
+                      {"sources", 36},
+                      {"sampling_36_sources_ms", sampled},
+                      {"all_changed_ms", all},
+                      {"one_changed_ms", one},
+                      {"none_changed_ms", none},
+                      {"texels_when_none_changed", texels_when_idle},
+                      {"all_changed_36_full_size_sources_ms", worst}};
 #ifdef PHARE_WITH_GRAPHICS
   bench_device(matrix, h, v, json);
 #endif
@@ -155,9 +161,12 @@ int lamp_levels(const LampLevelsOptions& options) {
           b["texels_when_none_changed"].get<std::size_t>(), b["all_changed_36_full_size_sources_ms"].get<double>(),
           b["sampling_36_sources_ms"].get<double>());
       if (b.contains("device_new_image_ms"))
-        std::printf("a frame on %s takes longer by: all changed %.2f ms, one changed %.2f ms, another image %.2f ms (none changed: %.2f ms in all)\n",
-                    b["device"].get<std::string>().c_str(), b["device_frame_all_changed_ms"].get<double>(), b["device_frame_one_changed_ms"].get<double>(),
-                    b["device_new_image_ms"].get<double>(), b["device_frame_none_changed_ms"].get<double>());
+        std::printf(
+            "a frame on %s takes longer by: all changed %.2f ms, one changed %.2f ms, another image %.2f ms (none "
+            "changed: %.2f ms in all)\n",
+            b["device"].get<std::string>().c_str(), b["device_frame_all_changed_ms"].get<double>(),
+            b["device_frame_one_changed_ms"].get<double>(), b["device_new_image_ms"].get<double>(),
+            b["device_frame_none_changed_ms"].get<double>());
     }
   }
   if (options.json) print_json(json);

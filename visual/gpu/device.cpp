@@ -21,7 +21,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
 }
 
 vk::raii::Instance make_instance(const vk::raii::Context& context, const DeviceOptions& options) {
-  const vk::ApplicationInfo application{.pApplicationName = "phare", .pEngineName = "phare", .apiVersion = VK_API_VERSION_1_3};
+  const vk::ApplicationInfo application{
+      .pApplicationName = "phare", .pEngineName = "phare", .apiVersion = VK_API_VERSION_1_3};
   std::vector<const char*> layers;
   std::vector<const char*> extensions = options.instance_extensions;
   const std::array enabled = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
@@ -30,9 +31,11 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, const DeviceO
   vk::InstanceCreateInfo info{.pApplicationInfo = &application};
   if (options.validation) {
     const auto there = context.enumerateInstanceLayerProperties();
-    if (std::none_of(there.begin(), there.end(),
-                     [](const vk::LayerProperties& layer) { return std::string_view(layer.layerName.data()) == kValidationLayer; }))
-      throw std::runtime_error("Vulkan validation was asked for, but its layer is missing (apt-get install vulkan-validationlayers)");
+    if (std::none_of(there.begin(), there.end(), [](const vk::LayerProperties& layer) {
+          return std::string_view(layer.layerName.data()) == kValidationLayer;
+        }))
+      throw std::runtime_error(
+          "Vulkan validation was asked for, but its layer is missing (apt-get install vulkan-validationlayers)");
     layers.push_back(kValidationLayer);
     extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     info.pNext = &features;
@@ -46,21 +49,29 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, const DeviceO
 
 vk::raii::PhysicalDevice pick_device(const vk::raii::Instance& instance, const std::string& wanted) {
   std::vector<vk::raii::PhysicalDevice> devices = vk::raii::PhysicalDevices(instance);
-  if (devices.empty()) throw std::runtime_error("no Vulkan device (apt-get install mesa-vulkan-drivers gives a software one)");
+  if (devices.empty())
+    throw std::runtime_error("no Vulkan device (apt-get install mesa-vulkan-drivers gives a software one)");
   auto rank = [&](const vk::raii::PhysicalDevice& device) {
     const vk::PhysicalDeviceProperties properties = device.getProperties();
     if (properties.apiVersion < VK_API_VERSION_1_3) return -1;
-    if (!wanted.empty()) return std::string_view(properties.deviceName.data()).find(wanted) != std::string_view::npos ? 1 : -1;
+    if (!wanted.empty())
+      return std::string_view(properties.deviceName.data()).find(wanted) != std::string_view::npos ? 1 : -1;
     switch (properties.deviceType) {
-      case vk::PhysicalDeviceType::eDiscreteGpu: return 3;
-      case vk::PhysicalDeviceType::eIntegratedGpu: return 2;
-      case vk::PhysicalDeviceType::eVirtualGpu: return 1;
-      default: return 0;
+      case vk::PhysicalDeviceType::eDiscreteGpu:
+        return 3;
+      case vk::PhysicalDeviceType::eIntegratedGpu:
+        return 2;
+      case vk::PhysicalDeviceType::eVirtualGpu:
+        return 1;
+      default:
+        return 0;
     }
   };
-  auto best = std::max_element(devices.begin(), devices.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  auto best =
+      std::max_element(devices.begin(), devices.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
   if (rank(*best) < 0)
-    throw std::runtime_error(wanted.empty() ? "no Vulkan 1.3 device" : "no Vulkan 1.3 device whose name contains \"" + wanted + "\"");
+    throw std::runtime_error(wanted.empty() ? "no Vulkan 1.3 device"
+                                            : "no Vulkan 1.3 device whose name contains \"" + wanted + "\"");
   return std::move(*best);
 }
 
@@ -91,20 +102,24 @@ Device::Device(const DeviceOptions& options) {
   queue_family = static_cast<std::uint32_t>(family - families.begin());
 
   const float priority = 1.0f;
-  const vk::DeviceQueueCreateInfo queue_info{.queueFamilyIndex = queue_family, .queueCount = 1, .pQueuePriorities = &priority};
-  vk::PhysicalDeviceVulkan13Features features13{.synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE, .maintenance4 = VK_TRUE};
+  const vk::DeviceQueueCreateInfo queue_info{
+      .queueFamilyIndex = queue_family, .queueCount = 1, .pQueuePriorities = &priority};
+  vk::PhysicalDeviceVulkan13Features features13{
+      .synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE, .maintenance4 = VK_TRUE};
   const vk::PhysicalDeviceFeatures features{};
   std::vector<const char*> extensions;
   if (!options.instance_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-  device = vk::raii::Device(physical, vk::DeviceCreateInfo{.pNext = &features13,
-                                                           .queueCreateInfoCount = 1,
-                                                           .pQueueCreateInfos = &queue_info,
-                                                           .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-                                                           .ppEnabledExtensionNames = extensions.data(),
-                                                           .pEnabledFeatures = &features});
+  device = vk::raii::Device(physical,
+                            vk::DeviceCreateInfo{.pNext = &features13,
+                                                 .queueCreateInfoCount = 1,
+                                                 .pQueueCreateInfos = &queue_info,
+                                                 .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                                 .ppEnabledExtensionNames = extensions.data(),
+                                                 .pEnabledFeatures = &features});
   queue = vk::raii::Queue(device, queue_family, 0);
   command_pool = vk::raii::CommandPool(
-      device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = queue_family});
+      device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                        .queueFamilyIndex = queue_family});
 }
 
 vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags flags) {
@@ -118,14 +133,16 @@ vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& need, vk::
 }
 
 void Device::run_once(const std::function<void(vk::CommandBuffer)>& record) {
-  vk::raii::CommandBuffers buffers(device, vk::CommandBufferAllocateInfo{.commandPool = *command_pool, .commandBufferCount = 1});
+  vk::raii::CommandBuffers buffers(
+      device, vk::CommandBufferAllocateInfo{.commandPool = *command_pool, .commandBufferCount = 1});
   const vk::CommandBuffer commands = *buffers.front();
   commands.begin(vk::CommandBufferBeginInfo{.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   record(commands);
   commands.end();
   const vk::raii::Fence fence(device, vk::FenceCreateInfo{});
   queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &commands}, *fence);
-  if (device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess) throw std::runtime_error("waiting for the GPU failed");
+  if (device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
+    throw std::runtime_error("waiting for the GPU failed");
 }
 
 void Device::name(vk::ObjectType type, std::uint64_t handle, const std::string& text) const {
@@ -134,13 +151,15 @@ void Device::name(vk::ObjectType type, std::uint64_t handle, const std::string& 
       vk::DebugUtilsObjectNameInfoEXT{.objectType = type, .objectHandle = handle, .pObjectName = text.c_str()});
 }
 
-HostBuffer::HostBuffer(Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage, const std::string& name, bool read_back)
+HostBuffer::HostBuffer(Device& device, vk::DeviceSize size, vk::BufferUsageFlags usage, const std::string& name,
+                       bool read_back)
     : buffer(device.device, vk::BufferCreateInfo{.size = size, .usage = usage}), bytes(size) {
   using Flag = vk::MemoryPropertyFlagBits;
   const vk::MemoryPropertyFlags flags = Flag::eHostVisible | Flag::eHostCoherent;
   try {
     // What shaders read each pixel had better lie on the device; what the CPU reads, in its caches.
-    memory = device.allocate(buffer.getMemoryRequirements(), flags | (read_back ? Flag::eHostCached : Flag::eDeviceLocal));
+    memory =
+        device.allocate(buffer.getMemoryRequirements(), flags | (read_back ? Flag::eHostCached : Flag::eDeviceLocal));
   } catch (const std::runtime_error&) {
     memory = device.allocate(buffer.getMemoryRequirements(), flags);
   }
@@ -149,7 +168,8 @@ HostBuffer::HostBuffer(Device& device, vk::DeviceSize size, vk::BufferUsageFlags
   device.name(vk::ObjectType::eBuffer, reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer)), name);
 }
 
-DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage, const std::string& name)
+DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage,
+                           const std::string& name)
     : buffer(device.device, vk::BufferCreateInfo{.size = std::max<vk::DeviceSize>(content.size(), 16),
                                                  .usage = usage | vk::BufferUsageFlagBits::eTransferDst}),
       bytes(std::max<vk::DeviceSize>(content.size(), 16)) {
@@ -165,8 +185,8 @@ DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, v
   device.allocated_bytes -= staging.bytes;
 }
 
-Image::Image(Device& device, vk::Format format_, vk::Extent2D extent_, vk::ImageUsageFlags usage, const std::string& name_,
-             vk::SampleCountFlagBits samples_, std::uint32_t mip_levels)
+Image::Image(Device& device, vk::Format format_, vk::Extent2D extent_, vk::ImageUsageFlags usage,
+             const std::string& name_, vk::SampleCountFlagBits samples_, std::uint32_t mip_levels)
     : image(device.device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
                                                .format = format_,
                                                .extent = {extent_.width, extent_.height, 1},
@@ -190,8 +210,10 @@ Image::Image(Device& device, vk::Format format_, vk::Extent2D extent_, vk::Image
   device.name(vk::ObjectType::eImage, reinterpret_cast<std::uint64_t>(static_cast<VkImage>(*image)), name);
 }
 
-void fill_image(Device& device, Image& image, std::span<const std::byte> bytes, std::span<const vk::BufferImageCopy> copies) {
-  const vk::BufferImageCopy whole{.imageSubresource = {image.aspect, 0, 0, 1}, .imageExtent = {image.extent.width, image.extent.height, 1}};
+void fill_image(Device& device, Image& image, std::span<const std::byte> bytes,
+                std::span<const vk::BufferImageCopy> copies) {
+  const vk::BufferImageCopy whole{.imageSubresource = {image.aspect, 0, 0, 1},
+                                  .imageExtent = {image.extent.width, image.extent.height, 1}};
   if (copies.empty()) copies = std::span(&whole, 1);
   HostBuffer staging(device, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, image.name + " staging");
   std::memcpy(staging.data, bytes.data(), bytes.size());
@@ -199,7 +221,8 @@ void fill_image(Device& device, Image& image, std::span<const std::byte> bytes, 
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
     using Layout = vk::ImageLayout;
-    auto turn = [&](Layout from, Layout to, vk::PipelineStageFlags2 after, vk::AccessFlags2 wrote, vk::PipelineStageFlags2 before, vk::AccessFlags2 reads) {
+    auto turn = [&](Layout from, Layout to, vk::PipelineStageFlags2 after, vk::AccessFlags2 wrote,
+                    vk::PipelineStageFlags2 before, vk::AccessFlags2 reads) {
       const vk::ImageMemoryBarrier2 barrier{.srcStageMask = after,
                                             .srcAccessMask = wrote,
                                             .dstStageMask = before,
@@ -214,9 +237,10 @@ void fill_image(Device& device, Image& image, std::span<const std::byte> bytes, 
     };
     // What the copies leave out stays as it was, if something was.
     turn(image.layout, Layout::eTransferDstOptimal, image.stage, image.access, Stage::eCopy, Access::eTransferWrite);
-    commands.copyBufferToImage(*staging.buffer, *image.image, Layout::eTransferDstOptimal, {static_cast<std::uint32_t>(copies.size()), copies.data()});
-    turn(Layout::eTransferDstOptimal, Layout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite, Stage::eFragmentShader,
-         Access::eShaderSampledRead);
+    commands.copyBufferToImage(*staging.buffer, *image.image, Layout::eTransferDstOptimal,
+                               {static_cast<std::uint32_t>(copies.size()), copies.data()});
+    turn(Layout::eTransferDstOptimal, Layout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite,
+         Stage::eFragmentShader, Access::eShaderSampledRead);
   });
   image.layout = vk::ImageLayout::eShaderReadOnlyOptimal;
   image.stage = vk::PipelineStageFlagBits2::eFragmentShader;
@@ -225,7 +249,8 @@ void fill_image(Device& device, Image& image, std::span<const std::byte> bytes, 
 }
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv) {
-  return vk::raii::ShaderModule(device.device, vk::ShaderModuleCreateInfo{.codeSize = spirv.size_bytes(), .pCode = spirv.data()});
+  return vk::raii::ShaderModule(device.device,
+                                vk::ShaderModuleCreateInfo{.codeSize = spirv.size_bytes(), .pCode = spirv.data()});
 }
 
 }  // namespace phare::gpu

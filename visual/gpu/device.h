@@ -1,4 +1,5 @@
-// Instance, device, queue, memory. One queue for everything; dedicated allocations, of which a renderer of this size has tens.
+// Instance, device, queue, memory. One queue for everything; dedicated allocations, of which a renderer of this size
+// has tens.
 #pragma once
 
 #include <atomic>
@@ -15,8 +16,8 @@ namespace phare::gpu {
 
 struct DeviceOptions {
   bool validation = false;
-  std::vector<const char*> instance_extensions{}; ///< what a window needs
-  std::string device_name{};                      ///< part of the name of the wanted device; empty: the first discrete GPU, else any
+  std::vector<const char*> instance_extensions{};  ///< what a window needs
+  std::string device_name{};  ///< part of the name of the wanted device; empty: the first discrete GPU, else any
 };
 
 /// Throws vk::SystemError or std::runtime_error; the renderer turns these into a Result at its border.
@@ -52,7 +53,8 @@ struct HostBuffer {
 
   HostBuffer() = default;
   /// `read_back`: prefer cached memory, for the CPU reads what the GPU wrote.
-  HostBuffer(Device& device, vk::DeviceSize bytes, vk::BufferUsageFlags usage, const std::string& name, bool read_back = false);
+  HostBuffer(Device& device, vk::DeviceSize bytes, vk::BufferUsageFlags usage, const std::string& name,
+             bool read_back = false);
 };
 
 /// A buffer in device memory, filled once.
@@ -87,7 +89,8 @@ struct Image {
 };
 
 /// Fills a sampled image (usage eTransferDst) and waits. `copies` is for more or less than the first mip level.
-void fill_image(Device& device, Image& image, std::span<const std::byte> bytes, std::span<const vk::BufferImageCopy> copies = {});
+void fill_image(Device& device, Image& image, std::span<const std::byte> bytes,
+                std::span<const vk::BufferImageCopy> copies = {});
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv);
 

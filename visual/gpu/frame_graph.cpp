@@ -21,14 +21,21 @@ State state_of(Use use) {
   const vk::PipelineStageFlags2 tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
   switch (use) {
     case Use::kColourTarget:
-      return {Layout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite | Access::eColorAttachmentRead};
+      return {Layout::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+              Access::eColorAttachmentWrite | Access::eColorAttachmentRead};
     case Use::kDepthTarget:
-      return {Layout::eDepthStencilAttachmentOptimal, tests, Access::eDepthStencilAttachmentWrite | Access::eDepthStencilAttachmentRead};
-    case Use::kDepthRead: return {Layout::eDepthStencilReadOnlyOptimal, tests, Access::eDepthStencilAttachmentRead};
-    case Use::kSampled: return {Layout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead};
-    case Use::kCopySource: return {Layout::eTransferSrcOptimal, Stage::eCopy, Access::eTransferRead};
-    case Use::kCopyTarget: return {Layout::eTransferDstOptimal, Stage::eCopy, Access::eTransferWrite};
-    case Use::kPresent: return {Layout::ePresentSrcKHR, Stage::eBottomOfPipe, Access::eNone};
+      return {Layout::eDepthStencilAttachmentOptimal, tests,
+              Access::eDepthStencilAttachmentWrite | Access::eDepthStencilAttachmentRead};
+    case Use::kDepthRead:
+      return {Layout::eDepthStencilReadOnlyOptimal, tests, Access::eDepthStencilAttachmentRead};
+    case Use::kSampled:
+      return {Layout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead};
+    case Use::kCopySource:
+      return {Layout::eTransferSrcOptimal, Stage::eCopy, Access::eTransferRead};
+    case Use::kCopyTarget:
+      return {Layout::eTransferDstOptimal, Stage::eCopy, Access::eTransferWrite};
+    case Use::kPresent:
+      return {Layout::ePresentSrcKHR, Stage::eBottomOfPipe, Access::eNone};
   }
   throw std::logic_error("image use");
 }
@@ -37,7 +44,8 @@ State state_of(Use use) {
 
 FrameGraph::FrameGraph(Device& device)
     : device_(device),
-      stamps_(device.device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2 * kMaxPasses}) {}
+      stamps_(device.device,
+              vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2 * kMaxPasses}) {}
 
 void FrameGraph::begin(vk::CommandBuffer commands) {
   commands_ = commands;
@@ -67,8 +75,9 @@ void FrameGraph::pass(const std::string& name, const std::vector<ImageUse>& uses
     image.access = next.access;
   }
   if (!barriers.empty())
-    commands_.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = static_cast<std::uint32_t>(barriers.size()),
-                                                  .pImageMemoryBarriers = barriers.data()});
+    commands_.pipelineBarrier2(
+        vk::DependencyInfo{.imageMemoryBarrierCount = static_cast<std::uint32_t>(barriers.size()),
+                           .pImageMemoryBarriers = barriers.data()});
   const auto first = static_cast<std::uint32_t>(2 * names_.size());
   commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *stamps_, first);
   record(commands_);
@@ -76,14 +85,16 @@ void FrameGraph::pass(const std::string& name, const std::vector<ImageUse>& uses
   names_.push_back(name);
 }
 
-void FrameGraph::end() { commands_ = nullptr; }
+void FrameGraph::end() {
+  commands_ = nullptr;
+}
 
 std::vector<FrameGraph::Timing> FrameGraph::timings() const {
   std::vector<Timing> result;
   if (names_.empty()) return result;
   const auto count = static_cast<std::uint32_t>(2 * names_.size());
-  const auto [status, stamps] = stamps_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                                  vk::QueryResultFlagBits::e64);
+  const auto [status, stamps] = stamps_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t),
+                                                                  sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
   if (status != vk::Result::eSuccess) return result;
   const double ms_per_tick = static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
   for (std::size_t i = 0; i < names_.size(); ++i)
@@ -94,10 +105,11 @@ std::vector<FrameGraph::Timing> FrameGraph::timings() const {
 double FrameGraph::total_ms() const {
   if (names_.empty()) return 0.0;
   const auto count = static_cast<std::uint32_t>(2 * names_.size());
-  const auto [status, stamps] = stamps_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                                  vk::QueryResultFlagBits::e64);
+  const auto [status, stamps] = stamps_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t),
+                                                                  sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
   if (status != vk::Result::eSuccess) return 0.0;
-  return static_cast<double>(stamps.back() - stamps.front()) * static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
+  return static_cast<double>(stamps.back() - stamps.front()) *
+         static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
 }
 
 }  // namespace phare::gpu

@@ -1,4 +1,5 @@
-// The passes of one frame, in order. A pass says which images it reads and writes; barriers, debug labels and time stamps follow from that.
+// The passes of one frame, in order. A pass says which images it reads and writes; barriers, debug labels and time
+// stamps follow from that.
 #pragma once
 
 #include <functional>
@@ -24,7 +25,8 @@ class FrameGraph {
   /// Starts a frame: records into `commands` from here on.
   void begin(vk::CommandBuffer commands);
   /// One pass: barriers for its images, then `record`, between two time stamps.
-  void pass(const std::string& name, const std::vector<ImageUse>& uses, const std::function<void(vk::CommandBuffer)>& record);
+  void pass(const std::string& name, const std::vector<ImageUse>& uses,
+            const std::function<void(vk::CommandBuffer)>& record);
   void end();
 
   struct Timing {

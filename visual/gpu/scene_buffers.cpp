@@ -14,14 +14,16 @@ namespace phare {
 
 namespace {
 
-// Side of the cells that batches are gathered in. Smaller culls better, larger draws fewer: chosen by timing the country road.
+// Side of the cells that batches are gathered in. Smaller culls better, larger draws fewer: chosen by timing the
+// country road.
 constexpr double kBlock_m = 96.0;
 
 using Cell = std::pair<std::int64_t, std::int64_t>;
 
 Cell cell_of(const SceneChunk& chunk, double side_m) {
   const glm::dvec3 centre = (chunk.low_m + chunk.high_m) * 0.5;
-  return {static_cast<std::int64_t>(std::floor(centre.x / side_m)), static_cast<std::int64_t>(std::floor(centre.y / side_m))};
+  return {static_cast<std::int64_t>(std::floor(centre.x / side_m)),
+          static_cast<std::int64_t>(std::floor(centre.y / side_m))};
 }
 
 struct Gathered {
@@ -29,23 +31,31 @@ struct Gathered {
   std::vector<std::uint32_t> indices;
 };
 
-void append(Gathered& all, const SceneBatch& batch, const SceneChunk& chunk, std::span<const SceneVertex> vertices, std::span<const std::uint32_t> indices) {
+void append(Gathered& all, const SceneBatch& batch, const SceneChunk& chunk, std::span<const SceneVertex> vertices,
+            std::span<const std::uint32_t> indices) {
   const auto base = static_cast<std::uint32_t>(all.vertices.size()) - static_cast<std::uint32_t>(batch.first_vertex);
   const glm::vec3 shift(chunk.origin_m - batch.origin_m);
-  for (const SceneVertex& vertex : vertices) all.vertices.push_back({vertex.position_m + shift, vertex.normal, chunk.material});
+  for (const SceneVertex& vertex : vertices)
+    all.vertices.push_back({vertex.position_m + shift, vertex.normal, chunk.material});
   for (std::uint32_t index : indices) all.indices.push_back(base + index);
 }
 
 // One batch for each kind and cell of `side_m` among the chunks.
-std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m, std::optional<std::size_t> far_level, Gathered& all) {
+std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m,
+                               std::optional<std::size_t> far_level, Gathered& all) {
   std::map<std::pair<MaterialKind, Cell>, std::vector<const SceneChunk*>> groups;
   for (const SceneChunk* chunk : chunks) {
     const SceneMaterial& material = scene.materials[chunk->material];
-    groups[{{material.surface, material.retroreflection_cd_per_lx_m2 > 0.0f, material.double_sided}, cell_of(*chunk, side_m)}].push_back(chunk);
+    groups[{{material.surface, material.retroreflection_cd_per_lx_m2 > 0.0f, material.double_sided},
+            cell_of(*chunk, side_m)}]
+        .push_back(chunk);
   }
   std::vector<SceneBatch> batches;
   for (const auto& [key, group] : groups) {
-    SceneBatch batch{.kind = key.first, .origin_m = group.front()->origin_m, .low_m = group.front()->low_m, .high_m = group.front()->high_m};
+    SceneBatch batch{.kind = key.first,
+                     .origin_m = group.front()->origin_m,
+                     .low_m = group.front()->low_m,
+                     .high_m = group.front()->high_m};
     batch.first_index = static_cast<std::uint32_t>(all.indices.size());
     batch.first_vertex = static_cast<std::int32_t>(all.vertices.size());
     for (const SceneChunk* chunk : group) {
@@ -76,7 +86,8 @@ std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all) {
       block.high_m = glm::max(block.high_m, chunk->high_m);
     }
     block.near = gather(scene, chunks, kBlock_m, std::nullopt, all);
-    for (std::size_t level = 0; level < kFarLevels.size(); ++level) block.far[level] = gather(scene, chunks, kBlock_m, level, all);
+    for (std::size_t level = 0; level < kFarLevels.size(); ++level)
+      block.far[level] = gather(scene, chunks, kBlock_m, level, all);
     blocks.push_back(std::move(block));
   }
   return blocks;
@@ -89,7 +100,8 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene) {
   for (const SceneMaterial& material : scene.materials)
     packed.push_back({glm::vec4(material.reflectance, material.retroreflection_cd_per_lx_m2)});
   if (packed.size() > shader::kMaxMaterials)
-    throw std::runtime_error(std::to_string(packed.size()) + " materials, at most " + std::to_string(shader::kMaxMaterials) + " are drawn");
+    throw std::runtime_error(std::to_string(packed.size()) + " materials, at most " +
+                             std::to_string(shader::kMaxMaterials) + " are drawn");
   packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
   Gathered all;
   blocks = make_blocks(scene, all);
@@ -100,7 +112,8 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene) {
 }
 
 std::vector<DrawItem> SceneBuffers::visible(const Camera& camera, double aspect, double far_from_m) const {
-  // Planes of the view as inward normals in the eye's frame (forward, left, up); a box is out when its nearest corner is.
+  // Planes of the view as inward normals in the eye's frame (forward, left, up); a box is out when its nearest corner
+  // is.
   std::array<glm::dvec4, 5> planes{};
   const glm::dmat3& axes = camera.world_from_eye;
   if (camera.orthographic_width_m > 0.0) {
@@ -111,9 +124,10 @@ std::vector<DrawItem> SceneBuffers::visible(const Camera& camera, double aspect,
   } else {
     const double tan_h = std::tan(camera.fov_horizontal_rad / 2.0);
     const double tan_v = tan_h / aspect;
-    planes = {glm::dvec4(glm::normalize(axes[0] * tan_h + axes[1]), 0.0), glm::dvec4(glm::normalize(axes[0] * tan_h - axes[1]), 0.0),
-              glm::dvec4(glm::normalize(axes[0] * tan_v + axes[2]), 0.0), glm::dvec4(glm::normalize(axes[0] * tan_v - axes[2]), 0.0),
-              glm::dvec4(axes[0], 0.0)};
+    planes = {glm::dvec4(glm::normalize(axes[0] * tan_h + axes[1]), 0.0),
+              glm::dvec4(glm::normalize(axes[0] * tan_h - axes[1]), 0.0),
+              glm::dvec4(glm::normalize(axes[0] * tan_v + axes[2]), 0.0),
+              glm::dvec4(glm::normalize(axes[0] * tan_v - axes[2]), 0.0), glm::dvec4(axes[0], 0.0)};
   }
   // Distance of a box from the eye; nothing if none of it is in view.
   auto seen_at = [&](const glm::dvec3& low, const glm::dvec3& high) -> std::optional<double> {
@@ -138,11 +152,14 @@ std::vector<DrawItem> SceneBuffers::visible(const Camera& camera, double aspect,
       if (!distance) continue;
       const glm::dvec3 origin = batch.origin_m - camera.eye_m;
       const glm::dvec3 detail = batch.origin_m - glm::floor(batch.origin_m / 1024.0) * 1024.0;
-      items.push_back({&batch, {glm::vec4(glm::vec3(origin), 0.0f), glm::vec4(glm::vec3(detail), 0.0f)}, static_cast<float>(*distance)});
+      items.push_back({&batch,
+                       {glm::vec4(glm::vec3(origin), 0.0f), glm::vec4(glm::vec3(detail), 0.0f)},
+                       static_cast<float>(*distance)});
     }
   }
   std::sort(items.begin(), items.end(), [](const DrawItem& a, const DrawItem& b) {
-    return std::tuple(a.batch->kind, a.distance_m, a.batch->first_index) < std::tuple(b.batch->kind, b.distance_m, b.batch->first_index);
+    return std::tuple(a.batch->kind, a.distance_m, a.batch->first_index) <
+           std::tuple(b.batch->kind, b.distance_m, b.batch->first_index);
   });
   return items;
 }

@@ -28,7 +28,8 @@ struct GpuVertex {
   std::uint32_t material = 0;
 };
 
-/// Chunks of one kind in one cell of the ground, drawn in one call: on a software device a call costs as much as a hundred triangles.
+/// Chunks of one kind in one cell of the ground, drawn in one call: on a software device a call costs as much as a
+/// hundred triangles.
 struct SceneBatch {
   MaterialKind kind;
   glm::dvec3 origin_m{0.0};

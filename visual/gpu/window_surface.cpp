@@ -11,12 +11,16 @@ extern "C" VkResult glfwCreateWindowSurface(VkInstance, GLFWwindow*, const VkAll
 namespace phare::gpu {
 
 WindowSurface::WindowSurface(Device& device, GLFWwindow* window)
-    : device_(device), window_(window), acquired_(device.device, vk::SemaphoreCreateInfo{}), copied_(device.device, vk::SemaphoreCreateInfo{}) {
+    : device_(device),
+      window_(window),
+      acquired_(device.device, vk::SemaphoreCreateInfo{}),
+      copied_(device.device, vk::SemaphoreCreateInfo{}) {
   VkSurfaceKHR surface = VK_NULL_HANDLE;
   if (glfwCreateWindowSurface(static_cast<VkInstance>(*device.instance), window, nullptr, &surface) != VK_SUCCESS)
     throw std::runtime_error("the window has no Vulkan surface");
   surface_ = vk::raii::SurfaceKHR(device.instance, surface);
-  if (!device.physical.getSurfaceSupportKHR(device.queue_family, *surface_)) throw std::runtime_error("the Vulkan device cannot present to this window");
+  if (!device.physical.getSurfaceSupportKHR(device.queue_family, *surface_))
+    throw std::runtime_error("the Vulkan device cannot present to this window");
   const std::vector<vk::SurfaceFormatKHR> formats = device.physical.getSurfaceFormatsKHR(*surface_);
   const auto srgb = std::find_if(formats.begin(), formats.end(), [](const vk::SurfaceFormatKHR& f) {
     return f.format == vk::Format::eB8G8R8A8Srgb || f.format == vk::Format::eR8G8B8A8Srgb;
@@ -33,7 +37,8 @@ void WindowSurface::rebuild() {
   if (extent_.width == UINT32_MAX) {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
-    extent_ = vk::Extent2D{static_cast<std::uint32_t>(std::max(width, 1)), static_cast<std::uint32_t>(std::max(height, 1))};
+    extent_ =
+        vk::Extent2D{static_cast<std::uint32_t>(std::max(width, 1)), static_cast<std::uint32_t>(std::max(height, 1))};
   }
   if (extent_.width == 0 || extent_.height == 0) return;  // minimized
   const std::uint32_t most = capabilities.maxImageCount == 0 ? 3 : capabilities.maxImageCount;
@@ -56,19 +61,20 @@ bool WindowSurface::present(Image& picture) {
   if (!*swapchain_) return true;
   if (picture.extent != extent_) return false;
   try {
-    const std::vector<vk::Image> images = swapchain_.getImages();  // asked for before acquiring: the validation layer counts on it
-    // With the smallest number of images the window may hold on to all: then this picture is not shown, rather than waited for
-    // without end (VUID-vkAcquireNextImageKHR-surface-07783).
+    const std::vector<vk::Image> images =
+        swapchain_.getImages();  // asked for before acquiring: the validation layer counts on it
+    // With the smallest number of images the window may hold on to all: then this picture is not shown, rather than
+    // waited for without end (VUID-vkAcquireNextImageKHR-surface-07783).
     constexpr std::uint64_t kPatience_ns = 100'000'000;
     const auto [acquire_result, index] = swapchain_.acquireNextImage(kPatience_ns, *acquired_);
     if (acquire_result == vk::Result::eTimeout || acquire_result == vk::Result::eNotReady) return true;
     const vk::Image target = images[index];
-    vk::raii::CommandBuffers buffers(device_.device,
-                                     vk::CommandBufferAllocateInfo{.commandPool = *device_.command_pool, .commandBufferCount = 1});
+    vk::raii::CommandBuffers buffers(
+        device_.device, vk::CommandBufferAllocateInfo{.commandPool = *device_.command_pool, .commandBufferCount = 1});
     const vk::CommandBuffer commands = *buffers.front();
     commands.begin(vk::CommandBufferBeginInfo{.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    auto turn = [&](vk::Image image, vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 after, vk::AccessFlags2 wrote,
-                    vk::PipelineStageFlags2 before, vk::AccessFlags2 use) {
+    auto turn = [&](vk::Image image, vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 after,
+                    vk::AccessFlags2 wrote, vk::PipelineStageFlags2 before, vk::AccessFlags2 use) {
       const vk::ImageMemoryBarrier2 barrier{.srcStageMask = after,
                                             .srcAccessMask = wrote,
                                             .dstStageMask = before,
@@ -83,13 +89,17 @@ bool WindowSurface::present(Image& picture) {
     };
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
-    turn(*picture.image, picture.layout, vk::ImageLayout::eTransferSrcOptimal, picture.stage, picture.access, Stage::eCopy, Access::eTransferRead);
-    turn(target, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal, Stage::eCopy, Access::eNone, Stage::eCopy, Access::eTransferWrite);
-    commands.copyImage(*picture.image, vk::ImageLayout::eTransferSrcOptimal, target, vk::ImageLayout::eTransferDstOptimal,
+    turn(*picture.image, picture.layout, vk::ImageLayout::eTransferSrcOptimal, picture.stage, picture.access,
+         Stage::eCopy, Access::eTransferRead);
+    turn(target, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal, Stage::eCopy, Access::eNone,
+         Stage::eCopy, Access::eTransferWrite);
+    commands.copyImage(*picture.image, vk::ImageLayout::eTransferSrcOptimal, target,
+                       vk::ImageLayout::eTransferDstOptimal,
                        vk::ImageCopy{.srcSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
                                      .dstSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
                                      .extent = {extent_.width, extent_.height, 1}});
-    turn(target, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::ePresentSrcKHR, Stage::eCopy, Access::eTransferWrite, Stage::eNone, Access::eNone);
+    turn(target, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::ePresentSrcKHR, Stage::eCopy,
+         Access::eTransferWrite, Stage::eNone, Access::eNone);
     commands.end();
     picture.layout = vk::ImageLayout::eTransferSrcOptimal;
     picture.stage = Stage::eCopy;
@@ -108,9 +118,13 @@ bool WindowSurface::present(Image& picture) {
                           *fence);
     const vk::SwapchainKHR swapchain = *swapchain_;
     const vk::Semaphore done = *copied_;
-    const vk::Result presented = device_.queue.presentKHR(vk::PresentInfoKHR{
-        .waitSemaphoreCount = 1, .pWaitSemaphores = &done, .swapchainCount = 1, .pSwapchains = &swapchain, .pImageIndices = &index});
-    if (device_.device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess) throw std::runtime_error("waiting for the GPU failed");
+    const vk::Result presented = device_.queue.presentKHR(vk::PresentInfoKHR{.waitSemaphoreCount = 1,
+                                                                             .pWaitSemaphores = &done,
+                                                                             .swapchainCount = 1,
+                                                                             .pSwapchains = &swapchain,
+                                                                             .pImageIndices = &index});
+    if (device_.device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
+      throw std::runtime_error("waiting for the GPU failed");
     return acquire_result == vk::Result::eSuccess && presented == vk::Result::eSuccess;
   } catch (const vk::OutOfDateKHRError&) {
     return false;

@@ -15,7 +15,8 @@ class WindowSurface {
   vk::Extent2D extent() const { return extent_; }
   /// Makes the swapchain anew after the window's size changed.
   void rebuild();
-  /// Copies `picture` (same size and format) to the window. False: the swapchain was out of date, rebuild and draw again.
+  /// Copies `picture` (same size and format) to the window. False: the swapchain was out of date, rebuild and draw
+  /// again.
   bool present(Image& picture);
 
  private:

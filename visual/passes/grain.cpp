@@ -24,7 +24,8 @@ std::vector<float> value_noise(std::uint32_t cells, std::uint32_t seed) {
       auto ease = [](float t) { return t * t * (3.0f - 2.0f * t); };
       const float s = ease(u - static_cast<float>(i)), t = ease(v - static_cast<float>(j));
       auto at = [&](std::uint32_t a, std::uint32_t b) { return lattice[(b % cells) * cells + a % cells]; };
-      result[y * kSize + x] = std::lerp(std::lerp(at(i, j), at(i + 1, j), s), std::lerp(at(i, j + 1), at(i + 1, j + 1), s), t);
+      result[y * kSize + x] =
+          std::lerp(std::lerp(at(i, j), at(i + 1, j), s), std::lerp(at(i, j + 1), at(i + 1, j + 1), s), t);
     }
   return result;
 }
@@ -74,8 +75,9 @@ gpu::Image make_grain(gpu::Device& device) {
     halve(fine);
     halve(soft);
   }
-  gpu::Image grain(device, vk::Format::eR8G8B8A8Unorm, {kSize, kSize}, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
-                   "grain", vk::SampleCountFlagBits::e1, levels);
+  gpu::Image grain(device, vk::Format::eR8G8B8A8Unorm, {kSize, kSize},
+                   vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst, "grain",
+                   vk::SampleCountFlagBits::e1, levels);
   gpu::fill_image(device, grain, std::as_bytes(std::span(texels)), copies);
   return grain;
 }

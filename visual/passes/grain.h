@@ -1,4 +1,5 @@
-// The grain of surfaces: a tile of noise with mip maps. Red: fine chippings; green: soft patches. Made here, seeded, no file.
+// The grain of surfaces: a tile of noise with mip maps. Red: fine chippings; green: soft patches. Made here, seeded, no
+// file.
 #pragma once
 
 #include "visual/gpu/device.h"

@@ -32,13 +32,16 @@ static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16
 static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
 
 constexpr std::array kVertexAttributes{
-    vk::VertexInputAttributeDescription{.location = 0, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 0},
-    vk::VertexInputAttributeDescription{.location = 1, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 12},
+    vk::VertexInputAttributeDescription{
+        .location = 0, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 0},
+    vk::VertexInputAttributeDescription{
+        .location = 1, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 12},
     vk::VertexInputAttributeDescription{.location = 2, .binding = 0, .format = vk::Format::eR32Uint, .offset = 24}};
 
 constexpr auto kStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
-// Clip space of Vulkan: x right, y down, z 1 at the near plane and 0 at infinity (reversed, for float depth), from eye-relative world.
+// Clip space of Vulkan: x right, y down, z 1 at the near plane and 0 at infinity (reversed, for float depth), from
+// eye-relative world.
 glm::dmat4 clip_from_eye_matrix(const Camera& camera, double aspect) {
   const glm::dvec3 forward = camera.world_from_eye[0], left = camera.world_from_eye[1], up = camera.world_from_eye[2];
   glm::dmat4 rows(0.0);  // rows[i] is row i; transposed below
@@ -62,16 +65,18 @@ glm::dmat4 clip_from_eye_matrix(const Camera& camera, double aspect) {
 glm::dmat4 view_from_clip_matrix(const Camera& camera, double aspect) {
   const glm::dvec3 forward = camera.world_from_eye[0], left = camera.world_from_eye[1], up = camera.world_from_eye[2];
   const double tan_h = camera.orthographic_width_m > 0.0 ? 0.0 : std::tan(camera.fov_horizontal_rad / 2.0);
-  return {glm::dvec4(-left * tan_h, 0.0), glm::dvec4(-up * (tan_h / aspect), 0.0), glm::dvec4(forward, 0.0), glm::dvec4(0.0)};
+  return {glm::dvec4(-left * tan_h, 0.0), glm::dvec4(-up * (tan_h / aspect), 0.0), glm::dvec4(forward, 0.0),
+          glm::dvec4(0.0)};
 }
 
-vk::RenderingAttachmentInfo attachment(const gpu::Image& image, vk::ImageLayout layout, vk::AttachmentLoadOp load, vk::ClearValue clear,
-                                       const gpu::Image* resolved) {
-  vk::RenderingAttachmentInfo info{.imageView = *image.view,
-                                   .imageLayout = layout,
-                                   .loadOp = load,
-                                   .storeOp = resolved != nullptr ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore,
-                                   .clearValue = clear};
+vk::RenderingAttachmentInfo attachment(const gpu::Image& image, vk::ImageLayout layout, vk::AttachmentLoadOp load,
+                                       vk::ClearValue clear, const gpu::Image* resolved) {
+  vk::RenderingAttachmentInfo info{
+      .imageView = *image.view,
+      .imageLayout = layout,
+      .loadOp = load,
+      .storeOp = resolved != nullptr ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore,
+      .clearValue = clear};
   if (resolved != nullptr) {
     info.resolveMode = vk::ResolveModeFlagBits::eAverage;
     info.resolveImageView = *resolved->view;
@@ -84,9 +89,12 @@ vk::RenderingAttachmentInfo attachment(const gpu::Image& image, vk::ImageLayout 
 
 LampPass::LampPass(gpu::Device& device)
     : device_(device),
-      scene_vert_{gpu::make_shader(device, k_scene_vert_2), gpu::make_shader(device, k_scene_vert_4), gpu::make_shader(device, k_scene_vert_8)},
-      measure_vert_{gpu::make_shader(device, k_measure_vert_2), gpu::make_shader(device, k_measure_vert_4), gpu::make_shader(device, k_measure_vert_8)},
-      lamps_frag_{gpu::make_shader(device, k_lamps_frag_2), gpu::make_shader(device, k_lamps_frag_4), gpu::make_shader(device, k_lamps_frag_8)},
+      scene_vert_{gpu::make_shader(device, k_scene_vert_2), gpu::make_shader(device, k_scene_vert_4),
+                  gpu::make_shader(device, k_scene_vert_8)},
+      measure_vert_{gpu::make_shader(device, k_measure_vert_2), gpu::make_shader(device, k_measure_vert_4),
+                    gpu::make_shader(device, k_measure_vert_8)},
+      lamps_frag_{gpu::make_shader(device, k_lamps_frag_2), gpu::make_shader(device, k_lamps_frag_4),
+                  gpu::make_shader(device, k_lamps_frag_8)},
       depth_vert_(gpu::make_shader(device, k_depth_vert)),
       sky_vert_(gpu::make_shader(device, k_sky_vert)),
       sky_frag_(gpu::make_shader(device, k_sky_frag)) {
@@ -105,20 +113,23 @@ LampPass::LampPass(gpu::Device& device)
                                                                                  .pSetLayouts = &*set_layout_,
                                                                                  .pushConstantRangeCount = 1,
                                                                                  .pPushConstantRanges = &push});
-  const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, 2}, vk::DescriptorPoolSize{Type::eCombinedImageSampler, 2 * shader::kMaxLamps + 1}};
-  pool_ = vk::raii::DescriptorPool(device.device,
-                                   vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-                                                                .maxSets = 1,
-                                                                .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
-                                                                .pPoolSizes = sizes.data()});
-  vk::raii::DescriptorSets sets(device.device, vk::DescriptorSetAllocateInfo{.descriptorPool = *pool_, .descriptorSetCount = 1,
-                                                                             .pSetLayouts = &*set_layout_});
+  const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, 2},
+                         vk::DescriptorPoolSize{Type::eCombinedImageSampler, 2 * shader::kMaxLamps + 1}};
+  pool_ = vk::raii::DescriptorPool(
+      device.device, vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                                  .maxSets = 1,
+                                                  .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                                  .pPoolSizes = sizes.data()});
+  vk::raii::DescriptorSets sets(
+      device.device,
+      vk::DescriptorSetAllocateInfo{.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_});
   set_ = std::move(sets.front());
   sampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                                                     .minFilter = vk::Filter::eLinear,
                                                                     .mipmapMode = vk::SamplerMipmapMode::eNearest,
                                                                     .maxLod = VK_LOD_CLAMP_NONE});
-  vk::SamplerCreateInfo table{.addressModeU = vk::SamplerAddressMode::eClampToEdge, .addressModeV = vk::SamplerAddressMode::eClampToEdge};
+  vk::SamplerCreateInfo table{.addressModeU = vk::SamplerAddressMode::eClampToEdge,
+                              .addressModeV = vk::SamplerAddressMode::eClampToEdge};
   table_sampler_ = vk::raii::Sampler(device.device, table);  // nodes are fetched, and weighed in float32
   table.magFilter = table.minFilter = vk::Filter::eLinear;
   filter_sampler_ = vk::raii::Sampler(device.device, table);
@@ -141,16 +152,24 @@ void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
   const vk::DescriptorImageInfo grain{*sampler_, *grain_.view, layout};
   std::vector<vk::WriteDescriptorSet> writes;
   for (const auto& [binding, info] : buffers)
-    writes.push_back({.dstSet = *set_, .dstBinding = binding, .descriptorCount = 1, .descriptorType = Type::eUniformBuffer, .pBufferInfo = &info});
-  for (const auto& [binding, infos] : {std::pair(1u, std::span<const vk::DescriptorImageInfo>(guides)), std::pair(2u, std::span<const vk::DescriptorImageInfo>(candela)),
-                                       std::pair(4u, std::span(&grain, 1))})
-    writes.push_back({.dstSet = *set_, .dstBinding = binding, .descriptorCount = static_cast<std::uint32_t>(infos.size()),
-                      .descriptorType = Type::eCombinedImageSampler, .pImageInfo = infos.data()});
+    writes.push_back({.dstSet = *set_,
+                      .dstBinding = binding,
+                      .descriptorCount = 1,
+                      .descriptorType = Type::eUniformBuffer,
+                      .pBufferInfo = &info});
+  for (const auto& [binding, infos] :
+       {std::pair(1u, std::span<const vk::DescriptorImageInfo>(guides)),
+        std::pair(2u, std::span<const vk::DescriptorImageInfo>(candela)), std::pair(4u, std::span(&grain, 1))})
+    writes.push_back({.dstSet = *set_,
+                      .dstBinding = binding,
+                      .descriptorCount = static_cast<std::uint32_t>(infos.size()),
+                      .descriptorType = Type::eCombinedImageSampler,
+                      .pImageInfo = infos.data()});
   device_.device.updateDescriptorSets(writes, nullptr);
 }
 
-void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Camera& camera, double aspect, const glm::vec3& exposure_per_cdm2,
-                         double sky_cdm2, std::span<const PlacedLamp> lamps) {
+void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Camera& camera, double aspect,
+                         const glm::vec3& exposure_per_cdm2, double sky_cdm2, std::span<const PlacedLamp> lamps) {
   bool rebind = beams.upload();
   shader::GpuFrame frame{};
   const glm::mat4 clip = glm::mat4(clip_from_eye_matrix(camera, aspect));
@@ -160,7 +179,8 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Came
     frame.view_from_clip[i] = view[i];
   }
   frame.exposure = glm::vec4(exposure_per_cdm2, 0.0f);
-  // Zenith bluish, the horizon three times brighter: a clear night far from towns, brightened enough to be seen on a display.
+  // Zenith bluish, the horizon three times brighter: a clear night far from towns, brightened enough to be seen on a
+  // display.
   frame.sky = glm::vec4(glm::vec3(0.75f, 1.0f, 1.7f) * static_cast<float>(sky_cdm2), 3.0f);
   lamp_count_ = lookups_ = 0;
   colours_differ_ = false;
@@ -184,27 +204,37 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Came
 
 vk::Pipeline LampPass::lit_pipeline(const Variant& variant) {
   if (const auto found = lit_.find(variant); found != lit_.end()) return *found->second;
-  const std::array<std::uint32_t, 8> values{variant.lamp_count, static_cast<std::uint32_t>(variant.kind.surface), variant.kind.retro ? 1u : 0u,
-                                            static_cast<std::uint32_t>(variant.output), variant.lamp_base, variant.lookups,
-                                            variant.colours_differ ? 1u : 0u, variant.kind.double_sided ? 2u : 1u};
+  const std::array<std::uint32_t, 8> values{variant.lamp_count,
+                                            static_cast<std::uint32_t>(variant.kind.surface),
+                                            variant.kind.retro ? 1u : 0u,
+                                            static_cast<std::uint32_t>(variant.output),
+                                            variant.lamp_base,
+                                            variant.lookups,
+                                            variant.colours_differ ? 1u : 0u,
+                                            variant.kind.double_sided ? 2u : 1u};
   std::array<vk::SpecializationMapEntry, 8> entries;
-  for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = vk::SpecializationMapEntry{.constantID = i, .offset = 4 * i, .size = 4};
-  const vk::SpecializationInfo constants{.mapEntryCount = entries.size(), .pMapEntries = entries.data(), .dataSize = sizeof values, .pData = values.data()};
+  for (std::uint32_t i = 0; i < entries.size(); ++i)
+    entries[i] = vk::SpecializationMapEntry{.constantID = i, .offset = 4 * i, .size = 4};
+  const vk::SpecializationInfo constants{.mapEntryCount = entries.size(),
+                                         .pMapEntries = entries.data(),
+                                         .dataSize = sizeof values,
+                                         .pData = values.data()};
   const bool measure = variant.output == LampOutput::kMeasure;
   const std::size_t size = variant.lamp_count <= 2 ? 0 : variant.lamp_count <= 4 ? 1 : 2;
-  PipelineRecipe recipe{.vertex = measure ? *measure_vert_[size] : *scene_vert_[size],
-                        .fragment = *lamps_frag_[size],
-                        .constants = &constants,
-                        .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
-                        .stride = sizeof(GpuVertex),
-                        .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
-                        .cull = variant.kind.double_sided || measure ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack,
-                        .colour = {variant.format},
-                        .depth = !measure,
-                        .depth_write = !measure && !variant.depth_done,
-                        .compare = variant.depth_done ? vk::CompareOp::eEqual : vk::CompareOp::eGreater,
-                        .samples = variant.samples,
-                        .layout = *layout_};
+  PipelineRecipe recipe{
+      .vertex = measure ? *measure_vert_[size] : *scene_vert_[size],
+      .fragment = *lamps_frag_[size],
+      .constants = &constants,
+      .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
+      .stride = sizeof(GpuVertex),
+      .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
+      .cull = variant.kind.double_sided || measure ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack,
+      .colour = {variant.format},
+      .depth = !measure,
+      .depth_write = !measure && !variant.depth_done,
+      .compare = variant.depth_done ? vk::CompareOp::eEqual : vk::CompareOp::eGreater,
+      .samples = variant.samples,
+      .layout = *layout_};
   if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
   return *lit_.emplace(variant, make_pipeline(device_, recipe)).first->second;
 }
@@ -222,21 +252,25 @@ vk::Pipeline LampPass::sky_pipeline(LampOutput output, vk::Format format, vk::Sa
                                                     .depth = true,
                                                     .compare = vk::CompareOp::eEqual,
                                                     .samples = samples,
-                                                    .layout = *layout_})).first->second;
+                                                    .layout = *layout_}))
+              .first->second;
 }
 
 vk::Pipeline LampPass::depth_pipeline(vk::SampleCountFlagBits samples) {
   if (const auto found = depth_.find(samples); found != depth_.end()) return *found->second;
-  return *depth_.emplace(samples, make_pipeline(device_, {.vertex = *depth_vert_,
-                                                          .attributes = std::span(kVertexAttributes).first(1),
-                                                          .stride = sizeof(GpuVertex),
-                                                          .depth = true,
-                                                          .depth_write = true,
-                                                          .samples = samples,
-                                                          .layout = *layout_})).first->second;
+  return *depth_
+              .emplace(samples, make_pipeline(device_, {.vertex = *depth_vert_,
+                                                        .attributes = std::span(kVertexAttributes).first(1),
+                                                        .stride = sizeof(GpuVertex),
+                                                        .depth = true,
+                                                        .depth_write = true,
+                                                        .samples = samples,
+                                                        .layout = *layout_}))
+              .first->second;
 }
 
-void LampPass::draw_items(vk::CommandBuffer commands, const SceneBuffers& scene, std::span<const DrawItem> items, const Variant& common) {
+void LampPass::draw_items(vk::CommandBuffer commands, const SceneBuffers& scene, std::span<const DrawItem> items,
+                          const Variant& common) {
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
   commands.bindVertexBuffers(0, *scene.vertices.buffer, vk::DeviceSize{0});
   commands.bindIndexBuffer(*scene.indices.buffer, 0, vk::IndexType::eUint32);
@@ -252,11 +286,14 @@ void LampPass::draw_items(vk::CommandBuffer commands, const SceneBuffers& scene,
   }
 }
 
-void LampPass::depth(gpu::FrameGraph& graph, gpu::Image& depth, const SceneBuffers& scene, std::span<const DrawItem> items) {
+void LampPass::depth(gpu::FrameGraph& graph, gpu::Image& depth, const SceneBuffers& scene,
+                     std::span<const DrawItem> items) {
   graph.pass("depth", {{&depth, gpu::Use::kDepthTarget, true}}, [&](vk::CommandBuffer commands) {
-    const vk::RenderingAttachmentInfo target = attachment(depth, vk::ImageLayout::eDepthStencilAttachmentOptimal, vk::AttachmentLoadOp::eClear,
-                                                          vk::ClearDepthStencilValue{0.0f, 0}, nullptr);
-    commands.beginRendering(vk::RenderingInfo{.renderArea = {{0, 0}, depth.extent}, .layerCount = 1, .pDepthAttachment = &target});
+    const vk::RenderingAttachmentInfo target =
+        attachment(depth, vk::ImageLayout::eDepthStencilAttachmentOptimal, vk::AttachmentLoadOp::eClear,
+                   vk::ClearDepthStencilValue{0.0f, 0}, nullptr);
+    commands.beginRendering(
+        vk::RenderingInfo{.renderArea = {{0, 0}, depth.extent}, .layerCount = 1, .pDepthAttachment = &target});
     set_area(commands, depth.extent);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, depth_pipeline(depth.samples));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
@@ -270,8 +307,8 @@ void LampPass::depth(gpu::FrameGraph& graph, gpu::Image& depth, const SceneBuffe
   });
 }
 
-void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* resolved, gpu::Image& depth, bool depth_done, LampOutput output,
-                     const SceneBuffers& scene, std::span<const DrawItem> items) {
+void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* resolved, gpu::Image& depth,
+                     bool depth_done, LampOutput output, const SceneBuffers& scene, std::span<const DrawItem> items) {
   std::vector<gpu::ImageUse> uses{{&colour, gpu::Use::kColourTarget, true},
                                   {&depth, depth_done ? gpu::Use::kDepthRead : gpu::Use::kDepthTarget, !depth_done}};
   if (resolved != nullptr) uses.push_back({resolved, gpu::Use::kColourTarget, true});
@@ -279,8 +316,10 @@ void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* res
     const vk::RenderingAttachmentInfo target =
         attachment(colour, vk::ImageLayout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eDontCare, {}, resolved);
     const vk::RenderingAttachmentInfo depth_target = attachment(
-        depth, depth_done ? vk::ImageLayout::eDepthStencilReadOnlyOptimal : vk::ImageLayout::eDepthStencilAttachmentOptimal,
-        depth_done ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear, vk::ClearDepthStencilValue{0.0f, 0}, nullptr);
+        depth,
+        depth_done ? vk::ImageLayout::eDepthStencilReadOnlyOptimal : vk::ImageLayout::eDepthStencilAttachmentOptimal,
+        depth_done ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear, vk::ClearDepthStencilValue{0.0f, 0},
+        nullptr);
     commands.beginRendering(vk::RenderingInfo{.renderArea = {{0, 0}, colour.extent},
                                               .layerCount = 1,
                                               .colorAttachmentCount = 1,
@@ -288,7 +327,13 @@ void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* res
                                               .pDepthAttachment = &depth_target});
     set_area(commands, colour.extent);
     draw_items(commands, scene, items,
-               {.output = output, .lamp_count = lamp_count_, .lookups = lookups_, .colours_differ = colours_differ_, .samples = colour.samples, .format = colour.format, .depth_done = depth_done});
+               {.output = output,
+                .lamp_count = lamp_count_,
+                .lookups = lookups_,
+                .colours_differ = colours_differ_,
+                .samples = colour.samples,
+                .format = colour.format,
+                .depth_done = depth_done});
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, sky_pipeline(output, colour.format, colour.samples));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
     commands.draw(3, 1, 0, 0);
@@ -296,17 +341,23 @@ void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* res
   });
 }
 
-void LampPass::measure(gpu::FrameGraph& graph, gpu::Image& lx, vk::Buffer points, std::uint32_t count, std::uint32_t lamp_base) {
+void LampPass::measure(gpu::FrameGraph& graph, gpu::Image& lx, vk::Buffer points, std::uint32_t count,
+                       std::uint32_t lamp_base) {
   graph.pass("measure", {{&lx, gpu::Use::kColourTarget, true}}, [&](vk::CommandBuffer commands) {
-    const vk::RenderingAttachmentInfo target =
-        attachment(lx, vk::ImageLayout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr);
-    commands.beginRendering(vk::RenderingInfo{.renderArea = {{0, 0}, lx.extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &target});
+    const vk::RenderingAttachmentInfo target = attachment(lx, vk::ImageLayout::eColorAttachmentOptimal,
+                                                          vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr);
+    commands.beginRendering(vk::RenderingInfo{
+        .renderArea = {{0, 0}, lx.extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &target});
     set_area(commands, lx.extent);
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
-                          lit_pipeline({.output = LampOutput::kMeasure, .lamp_count = lamp_count_, .lamp_base = lamp_base, .lookups = lookups_, .format = lx.format}));
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, lit_pipeline({.output = LampOutput::kMeasure,
+                                                                          .lamp_count = lamp_count_,
+                                                                          .lamp_base = lamp_base,
+                                                                          .lookups = lookups_,
+                                                                          .format = lx.format}));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
-    const shader::GpuDraw push{.origin = glm::vec4(static_cast<float>(lx.extent.width), static_cast<float>(lx.extent.height), 0, 0),
-                               .detail_origin = glm::vec4(0.0f)};
+    const shader::GpuDraw push{
+        .origin = glm::vec4(static_cast<float>(lx.extent.width), static_cast<float>(lx.extent.height), 0, 0),
+        .detail_origin = glm::vec4(0.0f)};
     commands.pushConstants<shader::GpuDraw>(*layout_, kStages, 0, push);
     commands.bindVertexBuffers(0, points, vk::DeviceSize{0});
     commands.draw(count, 1, 0, 0);
@@ -314,26 +365,32 @@ void LampPass::measure(gpu::FrameGraph& graph, gpu::Image& lx, vk::Buffer points
   });
 }
 
-void LampPass::audit(gpu::FrameGraph& graph, gpu::Image& position, gpu::Image& normal, gpu::Image& depth, const SceneBuffers& scene,
-                     std::span<const DrawItem> items) {
-  graph.pass("audit",
-             {{&position, gpu::Use::kColourTarget, true}, {&normal, gpu::Use::kColourTarget, true}, {&depth, gpu::Use::kDepthTarget, true}},
-             [&](vk::CommandBuffer commands) {
-               const std::array targets{
-                   attachment(position, vk::ImageLayout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr),
-                   attachment(normal, vk::ImageLayout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr)};
-               const vk::RenderingAttachmentInfo depth_target =
-                   attachment(depth, vk::ImageLayout::eDepthStencilAttachmentOptimal, vk::AttachmentLoadOp::eClear,
-                              vk::ClearDepthStencilValue{0.0f, 0}, nullptr);
-               commands.beginRendering(vk::RenderingInfo{.renderArea = {{0, 0}, position.extent},
-                                                         .layerCount = 1,
-                                                         .colorAttachmentCount = static_cast<std::uint32_t>(targets.size()),
-                                                         .pColorAttachments = targets.data(),
-                                                         .pDepthAttachment = &depth_target});
-               set_area(commands, position.extent);
-               draw_items(commands, scene, items, {.output = LampOutput::kAudit, .lamp_count = lamp_count_, .lookups = lookups_, .format = position.format});
-               commands.endRendering();
-             });
+void LampPass::audit(gpu::FrameGraph& graph, gpu::Image& position, gpu::Image& normal, gpu::Image& depth,
+                     const SceneBuffers& scene, std::span<const DrawItem> items) {
+  graph.pass(
+      "audit",
+      {{&position, gpu::Use::kColourTarget, true},
+       {&normal, gpu::Use::kColourTarget, true},
+       {&depth, gpu::Use::kDepthTarget, true}},
+      [&](vk::CommandBuffer commands) {
+        const std::array targets{attachment(position, vk::ImageLayout::eColorAttachmentOptimal,
+                                            vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr),
+                                 attachment(normal, vk::ImageLayout::eColorAttachmentOptimal,
+                                            vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr)};
+        const vk::RenderingAttachmentInfo depth_target =
+            attachment(depth, vk::ImageLayout::eDepthStencilAttachmentOptimal, vk::AttachmentLoadOp::eClear,
+                       vk::ClearDepthStencilValue{0.0f, 0}, nullptr);
+        commands.beginRendering(vk::RenderingInfo{.renderArea = {{0, 0}, position.extent},
+                                                  .layerCount = 1,
+                                                  .colorAttachmentCount = static_cast<std::uint32_t>(targets.size()),
+                                                  .pColorAttachments = targets.data(),
+                                                  .pDepthAttachment = &depth_target});
+        set_area(commands, position.extent);
+        draw_items(
+            commands, scene, items,
+            {.output = LampOutput::kAudit, .lamp_count = lamp_count_, .lookups = lookups_, .format = position.format});
+        commands.endRendering();
+      });
 }
 
 }  // namespace phare

@@ -1,5 +1,5 @@
-// The lamp pass: every surface lit by every lamp, per pixel; the sky behind. Also its depth pass, measure and audit variants,
-// which share bindings (shaders/lamps.h).
+// The lamp pass: every surface lit by every lamp, per pixel; the sky behind. Also its depth pass, measure and audit
+// variants, which share bindings (shaders/lamps.h).
 #pragma once
 
 #include <array>
@@ -25,20 +25,21 @@ class LampPass {
   /// Binds buffers; after load_scene. set_frame does it when a lamp got another beam.
   void bind(const SceneBuffers& scene, const BeamStore& beams);
   /// This frame's view and lamps; uploads the beams that changed.
-  void set_frame(const SceneBuffers& scene, BeamStore& beams, const Camera& camera, double aspect, const glm::vec3& exposure_per_cdm2,
-                 double sky_cdm2, std::span<const PlacedLamp> lamps);
+  void set_frame(const SceneBuffers& scene, BeamStore& beams, const Camera& camera, double aspect,
+                 const glm::vec3& exposure_per_cdm2, double sky_cdm2, std::span<const PlacedLamp> lamps);
   std::uint32_t lamp_count() const { return lamp_count_; }
 
   /// Depth of everything, no colour.
   void depth(gpu::FrameGraph& graph, gpu::Image& depth, const SceneBuffers& scene, std::span<const DrawItem> items);
-  /// Light of everything. `depth_done`: the depth pass ran, only equal depth is drawn. `resolved`: for multisampled targets.
+  /// Light of everything. `depth_done`: the depth pass ran, only equal depth is drawn. `resolved`: for multisampled
+  /// targets.
   void light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* resolved, gpu::Image& depth, bool depth_done,
              LampOutput output, const SceneBuffers& scene, std::span<const DrawItem> items);
   /// Illuminance at points, lamps base..base+3, one pixel each.
   void measure(gpu::FrameGraph& graph, gpu::Image& lx, vk::Buffer points, std::uint32_t count, std::uint32_t lamp_base);
   /// Positions, normals and illuminance of a view.
-  void audit(gpu::FrameGraph& graph, gpu::Image& position, gpu::Image& normal, gpu::Image& depth, const SceneBuffers& scene,
-             std::span<const DrawItem> items);
+  void audit(gpu::FrameGraph& graph, gpu::Image& position, gpu::Image& normal, gpu::Image& depth,
+             const SceneBuffers& scene, std::span<const DrawItem> items);
 
  private:
   struct Variant {
@@ -55,7 +56,8 @@ class LampPass {
   vk::Pipeline lit_pipeline(const Variant& variant);
   vk::Pipeline sky_pipeline(LampOutput output, vk::Format format, vk::SampleCountFlagBits samples);
   vk::Pipeline depth_pipeline(vk::SampleCountFlagBits samples);
-  void draw_items(vk::CommandBuffer commands, const SceneBuffers& scene, std::span<const DrawItem> items, const Variant& common);
+  void draw_items(vk::CommandBuffer commands, const SceneBuffers& scene, std::span<const DrawItem> items,
+                  const Variant& common);
 
   gpu::Device& device_;
   vk::raii::DescriptorSetLayout set_layout_{nullptr};

@@ -25,17 +25,21 @@ vk::raii::RenderPass make_render_pass(gpu::Device& device, vk::Format format) {
                                           .finalLayout = layout};
   const vk::AttachmentReference reference{0, layout};
   const vk::SubpassDescription subpass{.colorAttachmentCount = 1, .pColorAttachments = &reference};
-  return {device.device, vk::RenderPassCreateInfo{.attachmentCount = 1, .pAttachments = &picture, .subpassCount = 1, .pSubpasses = &subpass}};
+  return {device.device,
+          vk::RenderPassCreateInfo{
+              .attachmentCount = 1, .pAttachments = &picture, .subpassCount = 1, .pSubpasses = &subpass}};
 }
 
 }  // namespace
 
-OverlayPass::OverlayPass(gpu::Device& device, vk::Format format) : device_(device), render_pass_(make_render_pass(device, format)) {
+OverlayPass::OverlayPass(gpu::Device& device, vk::Format format)
+    : device_(device), render_pass_(make_render_pass(device, format)) {
   const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, 1};
-  pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-                                                                               .maxSets = 1,
-                                                                               .poolSizeCount = 1,
-                                                                               .pPoolSizes = &size});
+  pool_ = vk::raii::DescriptorPool(
+      device.device, vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                                  .maxSets = 1,
+                                                  .poolSizeCount = 1,
+                                                  .pPoolSizes = &size});
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // nothing is kept between runs
   ImGui::GetIO().FontGlobalScale = 1.25f;
@@ -50,7 +54,8 @@ OverlayPass::OverlayPass(gpu::Device& device, vk::Format format) : device_(devic
   info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
   info.CheckVkResultFn = check;
   ImGui_ImplVulkan_Init(&info, static_cast<VkRenderPass>(*render_pass_));
-  device.run_once([](vk::CommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(static_cast<VkCommandBuffer>(commands)); });
+  device.run_once(
+      [](vk::CommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(static_cast<VkCommandBuffer>(commands)); });
   ImGui_ImplVulkan_DestroyFontUploadObjects();
 }
 
@@ -70,7 +75,8 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
   const float height = ImGui::GetTextLineHeight() + 4.0f;
   float width = 0.0f;
   for (const std::string& line : lines) width = std::max(width, ImGui::CalcTextSize(line.c_str()).x);
-  list.AddRectFilled({8.0f, 8.0f}, {24.0f + width, 16.0f + height * static_cast<float>(lines.size())}, IM_COL32(0, 0, 0, 110), 4.0f);
+  list.AddRectFilled({8.0f, 8.0f}, {24.0f + width, 16.0f + height * static_cast<float>(lines.size())},
+                     IM_COL32(0, 0, 0, 110), 4.0f);
   float y = 12.0f;
   for (const std::string& line : lines) {
     list.AddText({16.0f, y}, IM_COL32(235, 235, 225, 255), line.c_str());
@@ -86,8 +92,10 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
                                                                                  .height = display.extent.height,
                                                                                  .layers = 1});
   graph.pass("overlay", {{&display, gpu::Use::kColourTarget, false}}, [&](vk::CommandBuffer commands) {
-    commands.beginRenderPass(vk::RenderPassBeginInfo{.renderPass = *render_pass_, .framebuffer = *framebuffer_, .renderArea = {{0, 0}, display.extent}},
-                             vk::SubpassContents::eInline);
+    commands.beginRenderPass(
+        vk::RenderPassBeginInfo{
+            .renderPass = *render_pass_, .framebuffer = *framebuffer_, .renderArea = {{0, 0}, display.extent}},
+        vk::SubpassContents::eInline);
     ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), static_cast<VkCommandBuffer>(commands));
     commands.endRenderPass();
   });

@@ -1,4 +1,5 @@
-// The overlay pass: lines of text over the finished picture, drawn by Dear ImGui. Exists once a frame had lines to show.
+// The overlay pass: lines of text over the finished picture, drawn by Dear ImGui. Exists once a frame had lines to
+// show.
 #pragma once
 
 #include <string>

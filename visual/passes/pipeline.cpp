@@ -5,14 +5,17 @@
 namespace phare {
 
 vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe& recipe) {
-  std::vector<vk::PipelineShaderStageCreateInfo> stages{
-      {.stage = vk::ShaderStageFlagBits::eVertex, .module = recipe.vertex, .pName = "main", .pSpecializationInfo = recipe.constants}};
+  std::vector<vk::PipelineShaderStageCreateInfo> stages{{.stage = vk::ShaderStageFlagBits::eVertex,
+                                                         .module = recipe.vertex,
+                                                         .pName = "main",
+                                                         .pSpecializationInfo = recipe.constants}};
   if (recipe.fragment)
     stages.push_back({.stage = vk::ShaderStageFlagBits::eFragment,
                       .module = recipe.fragment,
                       .pName = "main",
                       .pSpecializationInfo = recipe.constants});
-  const vk::VertexInputBindingDescription binding{.binding = 0, .stride = recipe.stride, .inputRate = vk::VertexInputRate::eVertex};
+  const vk::VertexInputBindingDescription binding{
+      .binding = 0, .stride = recipe.stride, .inputRate = vk::VertexInputRate::eVertex};
   const vk::PipelineVertexInputStateCreateInfo input{
       .vertexBindingDescriptionCount = recipe.stride > 0 ? 1u : 0u,
       .pVertexBindingDescriptions = &binding,
@@ -25,9 +28,8 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
                                                         .frontFace = vk::FrontFace::eCounterClockwise,
                                                         .lineWidth = 1.0f};
   const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = recipe.samples};
-  const vk::PipelineDepthStencilStateCreateInfo depth{.depthTestEnable = recipe.depth,
-                                                      .depthWriteEnable = recipe.depth_write,
-                                                      .depthCompareOp = recipe.compare};
+  const vk::PipelineDepthStencilStateCreateInfo depth{
+      .depthTestEnable = recipe.depth, .depthWriteEnable = recipe.depth_write, .depthCompareOp = recipe.compare};
   using Mask = vk::ColorComponentFlagBits;
   const std::vector<vk::PipelineColorBlendAttachmentState> blends(
       recipe.colour.size(), {.colorWriteMask = Mask::eR | Mask::eG | Mask::eB | Mask::eA});
@@ -36,9 +38,10 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
   const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
   const vk::PipelineDynamicStateCreateInfo dynamics{.dynamicStateCount = static_cast<std::uint32_t>(dynamic.size()),
                                                     .pDynamicStates = dynamic.data()};
-  const vk::PipelineRenderingCreateInfo rendering{.colorAttachmentCount = static_cast<std::uint32_t>(recipe.colour.size()),
-                                                  .pColorAttachmentFormats = recipe.colour.data(),
-                                                  .depthAttachmentFormat = recipe.depth ? vk::Format::eD32Sfloat : vk::Format::eUndefined};
+  const vk::PipelineRenderingCreateInfo rendering{
+      .colorAttachmentCount = static_cast<std::uint32_t>(recipe.colour.size()),
+      .pColorAttachmentFormats = recipe.colour.data(),
+      .depthAttachmentFormat = recipe.depth ? vk::Format::eD32Sfloat : vk::Format::eUndefined};
   return vk::raii::Pipeline(device.device, nullptr,
                             vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
                                                            .stageCount = static_cast<std::uint32_t>(stages.size()),

@@ -10,10 +10,10 @@ namespace phare {
 
 struct PipelineRecipe {
   vk::ShaderModule vertex{};
-  vk::ShaderModule fragment{};                   ///< null: depth only
+  vk::ShaderModule fragment{};                        ///< null: depth only
   const vk::SpecializationInfo* constants = nullptr;  ///< of both stages
   std::span<const vk::VertexInputAttributeDescription> attributes{};
-  std::uint32_t stride = 0;                     ///< of a vertex; 0: none are read
+  std::uint32_t stride = 0;  ///< of a vertex; 0: none are read
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
   vk::CullModeFlags cull = vk::CullModeFlagBits::eNone;
   std::vector<vk::Format> colour{};

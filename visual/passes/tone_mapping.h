@@ -1,4 +1,5 @@
-// The tone-mapping pass: HDR image in cd/m² to the display. Runs only when something calls for the HDR image; else the lamp pass applies the curve.
+// The tone-mapping pass: HDR image in cd/m² to the display. Runs only when something calls for the HDR image; else the
+// lamp pass applies the curve.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,6 +1,7 @@
 // Recomposition of a beam image from what changed.
-// Computes: image = Σ scale·source, over rectangles. Source: design §4. Frame: angles of the image, of its photometric type.
-// Leaves out: colour. Checked by tests/photometry/beam_composer_test.cpp (bit equality with a fresh image, counters).
+// Computes: image = Σ scale·source, over rectangles. Source: design §4. Frame: angles of the image, of its photometric
+// type. Leaves out: colour. Checked by tests/photometry/beam_composer_test.cpp (bit equality with a fresh image,
+// counters).
 #include "visual/photometry/beam_composer.h"
 
 #include <algorithm>
@@ -69,9 +70,8 @@ void BeamComposer::sample(Source& source) {
   for (std::size_t j = first_row; j < last_row; ++j) {
     for (std::size_t i = first_column; i < last_column; ++i) {
       const TableAngles angles{first_deg_[i], second_deg_[j]};
-      const double cd = as_filed
-                            ? table.intensity_at_cd(angles)
-                            : table.intensity_cd(table_direction(type_, axis_, angles) * source.image_from_lamp);
+      const double cd = as_filed ? table.intensity_at_cd(angles)
+                                 : table.intensity_cd(table_direction(type_, axis_, angles) * source.image_from_lamp);
       if (cd <= 0.0) continue;
       whole[j * columns + i] = static_cast<float>(cd);
       rect = {std::min(rect.column, i), std::min(rect.row, j), std::max(rect.end_column, i + 1),

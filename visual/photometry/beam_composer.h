@@ -32,13 +32,14 @@ struct TexelRect {
 class BeamComposer {
  public:
   /// A grid in the angles of a type. Nodes strictly ascending, at least 2 each.
-  BeamComposer(std::vector<double> first_deg, std::vector<double> second_deg, PhotometricType type = PhotometricType::kA,
-               GammaAxis axis = GammaAxis::kGamma0);
+  BeamComposer(std::vector<double> first_deg, std::vector<double> second_deg,
+               PhotometricType type = PhotometricType::kA, GammaAxis axis = GammaAxis::kGamma0);
 
   /// Adds a source, undimmed; returns its index. The table must outlive the composer. Columns of `image_from_lamp`: the
-  /// lamp's forward, left, up in the image's frame. Sources of the grid's own type that are not turned keep their nodes.
+  /// lamp's forward, left, up in the image's frame. Sources of the grid's own type that are not turned keep their
+  /// nodes.
   std::size_t add(const IntensityTable& table, const glm::dmat3& image_from_lamp = glm::dmat3{1.0});
-  void set_dimming(std::size_t source, double scale);  ///< 0 = off; same value: nothing to do
+  void set_dimming(std::size_t source, double scale);                     ///< 0 = off; same value: nothing to do
   void set_swivel(std::size_t source, double yaw_rad, double pitch_rad);  ///< left and up positive
   void set_table(std::size_t source, const IntensityTable& table);
 

@@ -139,8 +139,8 @@ bool same_angles(const AimedSource& a, const AimedSource& b) {
 BeamGrid beam_grid(std::span<const AimedSource> sources) {
   BeamGrid grid;
   grid.car_from_image = sources.front().car_from_lamp;
-  grid.resampled =
-      !std::all_of(sources.begin(), sources.end(), [&](const AimedSource& s) { return same_angles(s, sources.front()); });
+  grid.resampled = !std::all_of(sources.begin(), sources.end(),
+                                [&](const AimedSource& s) { return same_angles(s, sources.front()); });
   if (grid.resampled) {
     const glm::dmat3 image_from_car = glm::transpose(grid.car_from_image);
     grid.first_deg = resampled_nodes(sources, image_from_car, true);

@@ -37,8 +37,8 @@ struct BeamGrid {
   bool resampled = false;          ///< not all sources keep their nodes
 };
 
-/// Sources that share their angles keep them: the union of their nodes, on which the sum of bilinear tables is exact. Others
-/// are resampled by direction onto a type A grid in the first source's aim. At least one source.
+/// Sources that share their angles keep them: the union of their nodes, on which the sum of bilinear tables is exact.
+/// Others are resampled by direction onto a type A grid in the first source's aim. At least one source.
 BeamGrid beam_grid(std::span<const AimedSource> sources);
 
 /// Candela on such a grid, float32, with own bilinear weights in the nodes' angles.
@@ -51,7 +51,8 @@ struct BeamImage : BeamGrid {
 /// Composes the image of one lamp position. Sources may be empty (a dark image).
 BeamImage compose_beam_image(std::span<const AimedSource> sources);
 
-/// Linear sRGB of a black body at `temperature_k` (1667 K to 25000 K), luminance 1. Source: Kim et al. 2002 cubic spline of the Planckian locus.
+/// Linear sRGB of a black body at `temperature_k` (1667 K to 25000 K), luminance 1. Source: Kim et al. 2002 cubic
+/// spline of the Planckian locus.
 glm::vec3 black_body_colour(double temperature_k);
 
 /// Linear sRGB of a CIE 1931 chromaticity, luminance 1. What lies outside sRGB loses its negative parts.

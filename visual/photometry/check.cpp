@@ -349,7 +349,8 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
   }
   if (rule.flux_min_lm > 0.0) {
     const double flux_lm = beam.flux_lm();
-    CheckRow row = measured("luminous flux", rule.clause, "lm", flux_lm, flux_lm, flux_lm, rule.flux_min_lm, kNoMaximum);
+    CheckRow row =
+        measured("luminous flux", rule.clause, "lm", flux_lm, flux_lm, flux_lm, rule.flux_min_lm, kNoMaximum);
     row.unconfirmed = rule.rows.front().unconfirmed;
     // What lies outside the table can only add.
     row.no_data = row.verdict == Verdict::kFail && !beam.covers_the_front();

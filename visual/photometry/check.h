@@ -37,8 +37,8 @@ struct CheckRow {
   double resolution = 0.0;   ///< what interpolation and rounding of the table may be off there
   bool no_data = false;      ///< somewhere in the row, first at `no_data_at`; values are of the rest
   HV no_data_at;
-  HV reaim;                  ///< FMVSS: the quarter degree that the deciding point used (right, up)
-  std::vector<HV> reaims;    ///< of each point, where the row has several and was re-aimed
+  HV reaim;                ///< FMVSS: the quarter degree that the deciding point used (right, up)
+  std::vector<HV> reaims;  ///< of each point, where the row has several and was re-aimed
   Verdict verdict = Verdict::kPass;
   std::string unconfirmed;  ///< from the rulebook
   RowShape shape = RowShape::kPoints;
@@ -49,8 +49,8 @@ struct CheckRow {
 
 /// How one lamp was aimed.
 struct LampAim {
-  bool found = true;            ///< false: the rule aims by the cut-off and there is none; as filed
-  double up_deg = 0.0;          ///< turned by this from how the file has it
+  bool found = true;    ///< false: the rule aims by the cut-off and there is none; as filed
+  double up_deg = 0.0;  ///< turned by this from how the file has it
   double right_deg = 0.0;
   Cutoff cutoff;                ///< on the rule's scan, as aimed
   double row_step_deg = 0.0;    ///< of the table at the cut-off
@@ -59,14 +59,14 @@ struct LampAim {
 
 struct CheckResult {
   std::string rule_id, rule_name, document;
-  bool left_hand = false;   ///< rows were mirrored
-  std::string aim_method;   ///< "as filed", "cut-off", "VOL", "VOR", "given", "no cut-off found, as filed"
+  bool left_hand = false;       ///< rows were mirrored
+  std::string aim_method;       ///< "as filed", "cut-off", "VOL", "VOR", "given", "no cut-off found, as filed"
   std::string aim_unconfirmed;  ///< from the rulebook
   double aim_up_deg = 0.0;      ///< of the first lamp
   double aim_right_deg = 0.0;
-  bool reaimed = false;         ///< the re-aim allowance of the rule was used
-  Cutoff cutoff;                ///< of the first lamp
-  std::vector<LampAim> lamps;   ///< each by its own cut-off
+  bool reaimed = false;        ///< the re-aim allowance of the rule was used
+  Cutoff cutoff;               ///< of the first lamp
+  std::vector<LampAim> lamps;  ///< each by its own cut-off
   std::vector<CheckRow> rows;
   std::size_t failed = 0, within_resolution = 0, no_data = 0, unconfirmed = 0;
   Verdict verdict = Verdict::kPass;

@@ -69,7 +69,10 @@ struct Extremes {
 
 /// How far a place lies towards the side on which a row has no end.
 double towards(OpenSide side, HV p) {
-  return side == OpenSide::kLeft ? -p.h_deg : side == OpenSide::kRight ? p.h_deg : side == OpenSide::kDown ? -p.v_deg : 0.0;
+  return side == OpenSide::kLeft    ? -p.h_deg
+         : side == OpenSide::kRight ? p.h_deg
+         : side == OpenSide::kDown  ? -p.v_deg
+                                    : 0.0;
 }
 
 Extremes scan(RuleBeam& beam, const RuleRow& row, HV shift, bool coarse) {
@@ -170,7 +173,8 @@ void conclude_row(const RuleBeam& beam, const RuleRow& row, CheckRow& result) {
       if (std::isfinite(error)) result.resolution += error;
     }
   } else if (row.shape == RowShape::kPeak) {
-    result.resolution += beam.peak_resolution_cd({tightest.h_deg - result.reaim.h_deg, tightest.v_deg - result.reaim.v_deg});
+    result.resolution +=
+        beam.peak_resolution_cd({tightest.h_deg - result.reaim.h_deg, tightest.v_deg - result.reaim.v_deg});
   } else if (result.has_value) {
     result.resolution += beam.resolution_cd({tightest.h_deg - result.reaim.h_deg, tightest.v_deg - result.reaim.v_deg});
   }

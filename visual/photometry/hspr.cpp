@@ -147,23 +147,24 @@ HsprResult hspr_low_beam(const std::vector<HsprLamp>& lamps) {
       ray +=
           walk_in(kFar_m, kRangeStep_m, threshold, [&](double z) { return lux(lamps, x + z * tan_5, 0.0, z); }) / 9.0;
   }
-  result.rows = {{"A", "range ahead, 1, 3, 5 lx at x 0, 1.5, 3 m", "m",
-                  mean_range(lamps, {0.0, 1.5, 3.0}, 0.0, {1.0, 3.0, 5.0}), 71.6, 95.1, 0, 1.5},
-                 {"B", "range along 5 deg right", "m", ray, 71.5, 138.4, 0, 1.0, "rays taken to start at x 0, 1.5, 3 m"},
-                 {"C", "range on the oncoming side, x -3, -4.5, -6 m, 0.25 m high", "m",
-                  mean_range(lamps, {-3.0, -4.5, -6.0}, 0.25, {1.0, 3.0, 5.0}), 32.7, 48.4, 0, 1.0},
-                 {"D off", "3 lx width at 30, 40, 50 m, oncoming side", "m",
-                  mean_width(lamps, {30.0, 40.0, 50.0}, 0.0, -1.0), 4.8, 12.5, 0, 0.75, kOffIsOncoming},
-                 {"D near", "3 lx width at 30, 40, 50 m, own side", "m",
-                  mean_width(lamps, {30.0, 40.0, 50.0}, 0.0, 1.0), 7.6, 16.3, 0, 0.75, kOffIsOncoming},
-                 {"E off", "3 lx width at 10, 20 m, 0.25 m high, oncoming side", "m",
-                  mean_width(lamps, {10.0, 20.0}, 0.25, -1.0), 5.9, 9.6, 0, 0.5, kOffIsOncoming},
-                 {"E near", "3 lx width at 10, 20 m, 0.25 m high, own side", "m",
-                  mean_width(lamps, {10.0, 20.0}, 0.25, 1.0), 6.6, 10.5, 0, 0.5, kOffIsOncoming},
-                 {"flux", "flux in +-45 deg x -15 to +5 deg", "lm", window_flux_lm(lamps, 45.0, -15.0, 5.0), 747.6,
-                  1785.1, 0, 1.0},
-                 {"glare", "weighted illuminance of oncoming eyes at 50 m", "lx", glare_lx(lamps), 0.73, 0.27, 0, 1.0,
-                  "weights 0.2, 0.5, 1 taken to grow towards the window's middle, sampled 11 x 7"}};
+  result.rows = {
+      {"A", "range ahead, 1, 3, 5 lx at x 0, 1.5, 3 m", "m", mean_range(lamps, {0.0, 1.5, 3.0}, 0.0, {1.0, 3.0, 5.0}),
+       71.6, 95.1, 0, 1.5},
+      {"B", "range along 5 deg right", "m", ray, 71.5, 138.4, 0, 1.0, "rays taken to start at x 0, 1.5, 3 m"},
+      {"C", "range on the oncoming side, x -3, -4.5, -6 m, 0.25 m high", "m",
+       mean_range(lamps, {-3.0, -4.5, -6.0}, 0.25, {1.0, 3.0, 5.0}), 32.7, 48.4, 0, 1.0},
+      {"D off", "3 lx width at 30, 40, 50 m, oncoming side", "m", mean_width(lamps, {30.0, 40.0, 50.0}, 0.0, -1.0), 4.8,
+       12.5, 0, 0.75, kOffIsOncoming},
+      {"D near", "3 lx width at 30, 40, 50 m, own side", "m", mean_width(lamps, {30.0, 40.0, 50.0}, 0.0, 1.0), 7.6,
+       16.3, 0, 0.75, kOffIsOncoming},
+      {"E off", "3 lx width at 10, 20 m, 0.25 m high, oncoming side", "m", mean_width(lamps, {10.0, 20.0}, 0.25, -1.0),
+       5.9, 9.6, 0, 0.5, kOffIsOncoming},
+      {"E near", "3 lx width at 10, 20 m, 0.25 m high, own side", "m", mean_width(lamps, {10.0, 20.0}, 0.25, 1.0), 6.6,
+       10.5, 0, 0.5, kOffIsOncoming},
+      {"flux", "flux in +-45 deg x -15 to +5 deg", "lm", window_flux_lm(lamps, 45.0, -15.0, 5.0), 747.6, 1785.1, 0,
+       1.0},
+      {"glare", "weighted illuminance of oncoming eyes at 50 m", "lx", glare_lx(lamps), 0.73, 0.27, 0, 1.0,
+       "weights 0.2, 0.5, 1 taken to grow towards the window's middle, sampled 11 x 7"}};
   result.worst = 11.15;
   result.best = 17.61;
   conclude(result);

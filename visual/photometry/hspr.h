@@ -42,9 +42,9 @@ double hspr_illuminance_lx(const std::vector<HsprLamp>& lamps, double x_m, doubl
 
 enum class HsprBeam { kFind, kLow, kHigh };
 
-/// Which beam the lamps have, and their aims: the cut-off 1 % down (the method's 0.57°), a driving beam as filed. Refused:
-/// a passing beam beside another kind, one for left-hand traffic, and with kFind a flat cut-off, which is neither.
-/// The error names the table.
+/// Which beam the lamps have, and their aims: the cut-off 1 % down (the method's 0.57°), a driving beam as filed.
+/// Refused: a passing beam beside another kind, one for left-hand traffic, and with kFind a flat cut-off, which is
+/// neither. The error names the table.
 Result<HsprBeam> hspr_beam(std::vector<HsprLamp>& lamps, HsprBeam asked);
 
 HsprResult hspr_low_beam(const std::vector<HsprLamp>& lamps);

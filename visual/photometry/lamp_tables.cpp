@@ -23,7 +23,8 @@ Status LampTables::add(const SourceConfig& source) {
 }
 
 AimedSource LampTables::aimed(const SourceConfig& source) const {
-  return {&of(source), aim_rotation(source.yaw_rad, source.pitch_rad, source.roll_rad), source.scale, source.colour_temperature_k, source.chromaticity_xy};
+  return {&of(source), aim_rotation(source.yaw_rad, source.pitch_rad, source.roll_rad), source.scale,
+          source.colour_temperature_k, source.chromaticity_xy};
 }
 
 }  // namespace phare

@@ -213,9 +213,9 @@ class Linter {
       if (!(kinked || flat) || turned.sharpness_g < std::max(kLeastCutoffG, as_read.sharpness_g)) continue;
       add(Grade::kWarning, "turned",
           std::string(roll_deg == 180.0 ? "the beam stands upside down" : "the beam lies on its side") +
-              ": its cut-off shows when it is turned by " + (roll_deg == 180.0 ? "180" : "90") +
-              " deg about its axis" +
-              (c ? format("; plane C 0 may lie elsewhere (--c0 turned by %+.0f deg)", roll_deg == 180.0 ? 180.0 : -roll_deg)
+              ": its cut-off shows when it is turned by " + (roll_deg == 180.0 ? "180" : "90") + " deg about its axis" +
+              (c ? format("; plane C 0 may lie elsewhere (--c0 turned by %+.0f deg)",
+                          roll_deg == 180.0 ? 180.0 : -roll_deg)
                  : ""));
       return;
     }
@@ -315,8 +315,8 @@ class Linter {
       for (std::size_t n = 0; n < patch.size(); ++n) {
         const std::size_t i = patch[n] % columns, row = patch[n] - i;
         const bool first = i == 0, last = i + 1 == columns, bottom = row == 0, top = row + columns == cd.size();
-        to_border = to_border || ((first || last) && !round) || top ||
-                    (bottom && !(round && table_.second_deg[0] == 0.0));
+        to_border =
+            to_border || ((first || last) && !round) || top || (bottom && !(round && table_.second_deg[0] == 0.0));
         if (!first || round) look(row + (first ? columns - 1 : i - 1));
         if (!last || round) look(row + (last ? 0 : i + 1));
         if (!bottom) look(patch[n] - columns);

@@ -1,6 +1,6 @@
 // The image of a lamp position kept up to date.
-// Computes: which sums are needed, through BeamComposer; colour as the flux-weighted mean. Source: design §4. Frame: angles of the image.
-// Leaves out: colour over direction. Checked by tests/photometry/live_beam_test.cpp.
+// Computes: which sums are needed, through BeamComposer; colour as the flux-weighted mean. Source: design §4. Frame:
+// angles of the image. Leaves out: colour over direction. Checked by tests/photometry/live_beam_test.cpp.
 #include "visual/photometry/live_beam.h"
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace phare {
 LiveBeam::LiveBeam(std::vector<AimedSource> sources) {
   std::size_t kinds = 0;
   for (AimedSource& light : sources) {
-    Source source{.light = light, .lumens = light.scale * light.table->flux_lm(), .colour = light_colour(light), .kind = kinds};
+    Source source{
+        .light = light, .lumens = light.scale * light.table->flux_lm(), .colour = light_colour(light), .kind = kinds};
     for (const Source& other : sources_)
       if (same_angles(other.light, light)) source.kind = other.kind;
     if (source.kind == kinds) ++kinds;
@@ -52,7 +53,8 @@ LiveBeam::Sum LiveBeam::make_sum(std::size_t which) const {
   BeamGrid grid = beam_grid(lights);
   BeamComposer composer(grid.first_deg, grid.second_deg, grid.type, grid.axis);
   for (const AimedSource& light : lights)
-    composer.add(*light.table, grid.resampled ? glm::transpose(grid.car_from_image) * light.car_from_lamp : glm::dmat3{1.0});
+    composer.add(*light.table,
+                 grid.resampled ? glm::transpose(grid.car_from_image) * light.car_from_lamp : glm::dmat3{1.0});
   return {std::move(grid), std::move(composer), std::move(source_of)};
 }
 
@@ -95,7 +97,8 @@ LiveBeam::Change LiveBeam::update() {
   for (const TexelRect& rect : changed_) {
     for (std::size_t j = rect.row; j < rect.end_row; ++j) {
       const auto row = static_cast<std::ptrdiff_t>(j * columns);
-      std::copy(candela.begin() + row + static_cast<std::ptrdiff_t>(rect.column), candela.begin() + row + static_cast<std::ptrdiff_t>(rect.end_column),
+      std::copy(candela.begin() + row + static_cast<std::ptrdiff_t>(rect.column),
+                candela.begin() + row + static_cast<std::ptrdiff_t>(rect.end_column),
                 image_.candela.begin() + row + static_cast<std::ptrdiff_t>(rect.column));
     }
   }

@@ -1,4 +1,5 @@
-// The beam image of a lamp position while its sources are switched, dimmed and exchanged: summed again only where something changed.
+// The beam image of a lamp position while its sources are switched, dimmed and exchanged: summed again only where
+// something changed.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace phare {
 
-/// Sources that share their angles are summed on the union of their nodes, exactly. While sources of different angles are lit
-/// together they are resampled onto one grid, and only then.
+/// Sources that share their angles are summed on the union of their nodes, exactly. While sources of different angles
+/// are lit together they are resampled onto one grid, and only then.
 class LiveBeam {
  public:
   /// All sources of the position; their `scale` is that of full light. All are off at first. Tables outlive this.

@@ -15,8 +15,8 @@
 namespace phare {
 namespace {
 
-constexpr double kOnLimit_deg = 1e-9;   // turning there and back costs digits: still on the table's limit
-constexpr double kGSpan_deg = 0.1;      // of G
+constexpr double kOnLimit_deg = 1e-9;  // turning there and back costs digits: still on the table's limit
+constexpr double kGSpan_deg = 0.1;     // of G
 constexpr double kRowSearch_deg = 0.01;
 constexpr double kWidestRow_deg = 10.0;
 
@@ -160,8 +160,8 @@ const std::vector<RuleBeam::Node>& RuleBeam::nodes() {
 RuleBeam::Node RuleBeam::peak() {
   if (!peak_) {
     const auto& all = nodes();
-    peak_ = *std::max_element(all.begin(), all.end(),
-                              [](const Node& a, const Node& b) { return a.value.cd < b.value.cd; });
+    peak_ =
+        *std::max_element(all.begin(), all.end(), [](const Node& a, const Node& b) { return a.value.cd < b.value.cd; });
   }
   return *peak_;
 }

@@ -37,7 +37,7 @@ struct RuleRow {
   std::string max_of;
   OpenSide open = OpenSide::kNone;
   double max_led_module_cd = 0.0;  ///< instead of max_cd for a lamp of LED modules; 0: no limit of its own
-  std::string unconfirmed;  ///< why the number rests on one source; empty: two sources agree
+  std::string unconfirmed;         ///< why the number rests on one source; empty: two sources agree
 };
 
 /// Aim by the cut-off: inflection of log E on a vertical scan at `scan_h_deg` put on `line_v_deg`.

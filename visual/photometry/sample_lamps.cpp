@@ -213,7 +213,8 @@ std::vector<SampleLamp> sample_lamps() {
   const std::string driving =
       "Peak at H=V=0 of this file; passes its rows mounted level and with the passing beam's pitch of -1 %";
   const std::vector<std::string> passes_low{"r149-passing-c", "r149-passing-v", "r112-passing-b", "r123-passing-c"};
-  const std::vector<std::string> passes_high{"r149-driving-b", "r149-driving-a", "r112-driving-b", "r112-driving-a", "fmvss108-ub2"};
+  const std::vector<std::string> passes_high{"r149-driving-b", "r149-driving-a", "r112-driving-b", "r112-driving-a",
+                                             "fmvss108-ub2"};
   std::vector<SampleLamp> lamps;
   const auto add = [&](const char* file, SampleKind kind, std::string description, std::vector<std::string> rules,
                        IntensityTable table) {
@@ -231,7 +232,8 @@ std::vector<SampleLamp> sample_lamps() {
   add("high.ies", SampleKind::kHigh, "Driving beam, UN R149 class B and FMVSS 108 UB2. " + driving, passes_high,
       sample(halogen_high()));
   add("fog.ies", SampleKind::kFog,
-      "Front fog beam, flat wide cut-off like UN R19 class F3. Cut-off at V=0 of this file: mounted 1 % down it passes the rows of UN R19 class F3 that were at hand",
+      "Front fog beam, flat wide cut-off like UN R19 class F3. Cut-off at V=0 of this file: mounted 1 % down it passes "
+      "the rows of UN R19 class F3 that were at hand",
       {"r19-f3"}, sample(fog_formula()));
   add("cornering_left.ies", SampleKind::kCornering,
       "Cornering beam of the left side, a soft patch about 40 deg to the left. No rule's numbers were at hand: not "

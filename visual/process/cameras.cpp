@@ -53,8 +53,10 @@ Camera overview_camera(const Scene& scene) {
   }
   Camera camera;
   camera.eye_m = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), high.z + 10.0};
-  camera.world_from_eye = glm::dmat3{glm::dvec3{0, 0, -1}, glm::dvec3{-1, 0, 0}, glm::dvec3{0, 1, 0}};  // forward, left, up of the eye
-  camera.orthographic_width_m = std::max({high.x - low.x, 4.0 * (high.y - low.y), 1.0});  // of pictures up to four times as wide as high
+  camera.world_from_eye =
+      glm::dmat3{glm::dvec3{0, 0, -1}, glm::dvec3{-1, 0, 0}, glm::dvec3{0, 1, 0}};  // forward, left, up of the eye
+  camera.orthographic_width_m =
+      std::max({high.x - low.x, 4.0 * (high.y - low.y), 1.0});  // of pictures up to four times as wide as high
   camera.near_m = 1.0;
   camera.far_m = high.z - low.z + 20.0;
   return camera;

@@ -118,9 +118,12 @@ Status Lamps::dim(const RigControl::Dim& command) {
   if (!slot) return slot.error();
   std::vector<double>& dimming_01 = positions_[design_][*slot].dimming_01;
   if (command.source > dimming_01.size())
-    return Error{"lamp \"" + command.lamp + "\"", "has " + std::to_string(dimming_01.size()) + " sources, no number " + std::to_string(command.source)};
-  if (command.source == 0) std::ranges::fill(dimming_01, command.dimming_01);
-  else dimming_01[command.source - 1] = command.dimming_01;
+    return Error{"lamp \"" + command.lamp + "\"",
+                 "has " + std::to_string(dimming_01.size()) + " sources, no number " + std::to_string(command.source)};
+  if (command.source == 0)
+    std::ranges::fill(dimming_01, command.dimming_01);
+  else
+    dimming_01[command.source - 1] = command.dimming_01;
   return Done{};
 }
 
@@ -151,7 +154,8 @@ std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
     const Position& position = positions_[design_][slot];
     const BeamImage& image = position.beam.image();
     if (image.dark) continue;
-    placed.push_back({position_of(pose) + rotation * lamps[slot].position_m, rotation * turned(position, pose.lamp_tilt_rad) * image.car_from_image, slot});
+    placed.push_back({position_of(pose) + rotation * lamps[slot].position_m,
+                      rotation * turned(position, pose.lamp_tilt_rad) * image.car_from_image, slot});
   }
   return placed;
 }
@@ -194,7 +198,8 @@ std::string Lamps::text_of_lit() const {
 std::uint64_t Lamps::resampled_images() const {
   std::uint64_t count = 0;
   for (const std::vector<Position>& design : positions_)
-    count += static_cast<std::uint64_t>(std::ranges::count_if(design, [](const Position& p) { return p.beam.image().resampled; }));
+    count += static_cast<std::uint64_t>(
+        std::ranges::count_if(design, [](const Position& p) { return p.beam.image().resampled; }));
   return count;
 }
 

@@ -32,15 +32,16 @@ class Lamps {
   /// A beam image that has to go to the renderer's slot `position` now.
   struct Change {
     std::size_t position = 0;
-    const BeamImage* image = nullptr;     ///< valid as long as these Lamps
-    std::span<const TexelRect> part{};    ///< what of it changed, until the next call; empty: another image than before
+    const BeamImage* image = nullptr;   ///< valid as long as these Lamps
+    std::span<const TexelRect> part{};  ///< what of it changed, until the next call; empty: another image than before
   };
 
   /// Adopts the controls. Sums a beam image again only where a source was switched or dimmed, and reports only slots
   /// whose image changed. A design index past the last means the last.
   std::vector<Change> set_controls(const CockpitState& controls);
 
-  /// Dims a source, counted from 1 (0: all), of a lamp of the design that shines; acts with the next controls. Error: no such lamp or source.
+  /// Dims a source, counted from 1 (0: all), of a lamp of the design that shines; acts with the next controls. Error:
+  /// no such lamp or source.
   Status dim(const RigControl::Dim& command);
   /// Moves a lamp of the design that shines to another place of the car. Error: no such lamp.
   Status place(const RigControl::Place& command);
@@ -82,7 +83,7 @@ class Lamps {
   /// One lamp of a design as it is now.
   struct Position {
     LiveBeam beam;
-    std::vector<double> dimming_01;  ///< of each source, as commanded
+    std::vector<double> dimming_01;         ///< of each source, as commanded
     double yaw_rad = 0.0, pitch_rad = 0.0;  ///< as commanded
   };
   std::string text_of_lit() const;
@@ -93,7 +94,7 @@ class Lamps {
   std::vector<DesignConfig> designs_;
   bool high_keeps_low_ = true;
   LampTables tables_;
-  std::vector<std::vector<Position>> positions_;  ///< [design][lamp]
+  std::vector<std::vector<Position>> positions_;   ///< [design][lamp]
   std::vector<std::optional<std::size_t>> shown_;  ///< per slot, the design whose image it holds
   std::set<LampFunction> lit_;
   std::size_t design_ = 0;

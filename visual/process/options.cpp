@@ -50,7 +50,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--audit-every", options.audit_every, "Frames between self-audits, 0: never")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
-  app.add_option("--beam-image", beam_image, "How beam images are stored and looked up, instead of the rig's: what accuracy costs in time")
+  app.add_option("--beam-image", beam_image,
+                 "How beam images are stored and looked up, instead of the rig's: what accuracy costs in time")
       ->check(CLI::IsMember(level_names()));
   app.add_flag("--false-colour", options.false_colour, "Begin with illuminance in false colour");
   app.add_flag("--validation", options.validation, "Vulkan validation with synchronization validation");

@@ -127,9 +127,10 @@ void Loop::answer(const ProbeRequest& request, SimTime now) {
   s_.bus.send(now, reply);
 }
 
-/// The first picture of each kind makes the device's machine code, which may take a second: before the drive, not in it. Kinds differ by how
-/// many lamps shine and how their beams are looked up, so every design is switched through its lights over the whole scene; in lockstep, where
-/// a slow frame harms nobody, and in place of one that was killed, which is missed, the first picture must do.
+/// The first picture of each kind makes the device's machine code, which may take a second: before the drive, not in
+/// it. Kinds differ by how many lamps shine and how their beams are looked up, so every design is switched through its
+/// lights over the whole scene; in lockstep, where a slow frame harms nobody, and in place of one that was killed,
+/// which is missed, the first picture must do.
 void Loop::warm_up() {
   const Clock::time_point begin = Clock::now();
   const VehicleState pose;
@@ -225,8 +226,10 @@ std::optional<Moment> Loop::display_moment() {
 /// Beam images follow the controls; what did not change stays as it is.
 void Loop::light_up(const CockpitState& controls) {
   for (const Lamps::Change& change : s_.lamps.set_controls(controls)) {
-    if (change.part.empty()) s_.renderer.set_beam(change.position, *change.image);
-    else s_.renderer.change_beam(change.position, *change.image, change.part);
+    if (change.part.empty())
+      s_.renderer.set_beam(change.position, *change.image);
+    else
+      s_.renderer.change_beam(change.position, *change.image, change.part);
   }
 }
 
@@ -238,7 +241,8 @@ void Loop::draw(const Moment& moment) {
   if (s_.options.false_colour) input_.view = input_.view == View::kPhoto ? View::kFalseColour : View::kPhoto;
   input_.lamps = s_.lamps.placed(moment.car.pose);
   input_.exposure_per_cdm2 = s_.options.exposure_per_cdm2;
-  if (s_.window && drawn_frames_ % 6 == 0) input_.overlay = overlay(moment);  // ten times a second: the lux under the mouse takes a ray through the scene
+  if (s_.window && drawn_frames_ % 6 == 0)
+    input_.overlay = overlay(moment);  // ten times a second: the lux under the mouse takes a ray through the scene
   captured_ = wants_picture(moment);
   input_.want_image = captured_;
 
@@ -333,7 +337,8 @@ std::string Loop::label(const Moment& moment) const {
   return text;
 }
 
-/// What the driver is told over the picture: telltales, the lux under the mouse, and everything that is not as it should be.
+/// What the driver is told over the picture: telltales, the lux under the mouse, and everything that is not as it
+/// should be.
 std::vector<std::string> Loop::overlay(const Moment& moment) const {
   char text[160];
   std::vector<std::string> lines{label(moment)};
@@ -342,8 +347,9 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
   if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside) {
     if (const auto point =
             pick(s_.scene, ray_through(input_.camera, mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px))) {
-      std::snprintf(text, sizeof text, "%.3g lx at (%.2f, %.2f, %.2f) m", s_.lamps.illuminance_lx(moment.car.pose, *point),
-                    point->position_m.x, point->position_m.y, point->position_m.z);
+      std::snprintf(text, sizeof text, "%.3g lx at (%.2f, %.2f, %.2f) m",
+                    s_.lamps.illuminance_lx(moment.car.pose, *point), point->position_m.x, point->position_m.y,
+                    point->position_m.z);
       lines.emplace_back(text);
     }
   }

@@ -14,7 +14,8 @@ void thin_leaves(FarMesh& mesh, std::uint32_t share) {
   FarMesh far;
   const float grow = std::sqrt(static_cast<float>(share));
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += std::size_t{3} * share) {
-    std::array<SceneVertex, 3> leaf{mesh.vertices[mesh.indices[i]], mesh.vertices[mesh.indices[i + 1]], mesh.vertices[mesh.indices[i + 2]]};
+    std::array<SceneVertex, 3> leaf{mesh.vertices[mesh.indices[i]], mesh.vertices[mesh.indices[i + 1]],
+                                    mesh.vertices[mesh.indices[i + 2]]};
     const glm::vec3 middle = (leaf[0].position_m + leaf[1].position_m + leaf[2].position_m) / 3.0f;
     for (SceneVertex& vertex : leaf) {
       vertex.position_m = middle + grow * (vertex.position_m - middle);
@@ -44,8 +45,9 @@ void simplify(FarMesh& mesh, float error_m) {
   const float scale = meshopt_simplifyScale(positions, mesh.vertices.size(), sizeof(SceneVertex));
   if (!(scale > 0.0f)) return;
   std::vector<std::uint32_t> indices(mesh.indices.size());
-  indices.resize(meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), positions, mesh.vertices.size(), sizeof(SceneVertex),
-                                  std::size_t{3}, std::min(1.0f, error_m / scale), 0u, nullptr));
+  indices.resize(meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), positions,
+                                  mesh.vertices.size(), sizeof(SceneVertex), std::size_t{3},
+                                  std::min(1.0f, error_m / scale), 0u, nullptr));
   mesh.indices = std::move(indices);
   drop_unused(mesh);
 }
@@ -61,10 +63,16 @@ FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level,
   const SceneMaterial& material = scene.materials[chunk.material];
   if (mesh.indices.empty() || material.retroreflection_cd_per_lx_m2 > 0.0f) return mesh;
   switch (material.surface) {
-    case Surface::kFoliage: thin_leaves(mesh, kFarLevels[level].leaves_per_leaf); break;
+    case Surface::kFoliage:
+      thin_leaves(mesh, kFarLevels[level].leaves_per_leaf);
+      break;
     case Surface::kAsphalt:
-    case Surface::kGrass: simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m)); break;
-    case Surface::kPlain: simplify(mesh, static_cast<float>(kFarThingError_rad * from_m)); break;
+    case Surface::kGrass:
+      simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m));
+      break;
+    case Surface::kPlain:
+      simplify(mesh, static_cast<float>(kFarThingError_rad * from_m));
+      break;
     case Surface::kPaint:
       if (level + 1 == kFarLevels.size()) simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m));
       break;

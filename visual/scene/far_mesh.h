@@ -1,5 +1,5 @@
-// A chunk as it is drawn from afar, with fewer triangles. A level of detail: the whole mesh is the truth; the frame benchmark says
-// what these save.
+// A chunk as it is drawn from afar, with fewer triangles. A level of detail: the whole mesh is the truth; the frame
+// benchmark says what these save.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace phare {
 
 struct FarLevel {
-  double from;                  ///< multiple of FrameInput::far_mesh_from_m
+  double from;                    ///< multiple of FrameInput::far_mesh_from_m
   std::uint32_t leaves_per_leaf;  ///< of so many leaf triangles one stays, grown to their area
 };
 inline constexpr std::array<FarLevel, 3> kFarLevels{{{0.4, 1}, {1.0, 3}, {2.5, 9}}};
@@ -19,11 +19,12 @@ constexpr double kFarGroundError_rad = 0.2e-3;  ///< road and ground, which a cr
 constexpr double kFarThingError_rad = 0.75e-3;  ///< things beside the road
 
 struct FarMesh {
-  std::vector<SceneVertex> vertices;   ///< relative to the chunk's origin
+  std::vector<SceneVertex> vertices;  ///< relative to the chunk's origin
   std::vector<std::uint32_t> indices;
 };
 
-/// Ground and things are simplified by quadric error (Garland and Heckbert 1997) by meshoptimizer; foliage is thinned; retroreflectors stay whole, and paint but at the last level, for what is seen of them far away is their exact place.
+/// Ground and things are simplified by quadric error (Garland and Heckbert 1997) by meshoptimizer; foliage is thinned;
+/// retroreflectors stay whole, and paint but at the last level, for what is seen of them far away is their exact place.
 /// `from_m`: the nearest distance this mesh is drawn at.
 FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level, double from_m);
 

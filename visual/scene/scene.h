@@ -17,9 +17,9 @@ enum class Surface : std::uint32_t { kPlain = 0, kAsphalt = 1, kGrass = 2, kPain
 
 struct SceneMaterial {
   std::string name;
-  glm::vec3 reflectance{0.5f};               ///< diffuse rho, linear Rec. 709
-  Surface surface = Surface::kPlain;         ///< which procedural detail
-  float retroreflection_cd_per_lx_m2 = 0.0f; ///< R_A, at small observation angles; 0: none
+  glm::vec3 reflectance{0.5f};                ///< diffuse rho, linear Rec. 709
+  Surface surface = Surface::kPlain;          ///< which procedural detail
+  float retroreflection_cd_per_lx_m2 = 0.0f;  ///< R_A, at small observation angles; 0: none
   bool double_sided = false;
 };
 
@@ -31,11 +31,11 @@ struct SceneVertex {
 
 /// Triangles of one material that are drawn or culled together.
 struct SceneChunk {
-  std::string node;            ///< name of the glTF node, "road…", "tree…"
+  std::string node;  ///< name of the glTF node, "road…", "tree…"
   std::uint32_t material = 0;
   glm::dvec3 origin_m{0.0};
-  glm::dvec3 low_m{0.0}, high_m{0.0};  ///< bounds in the world
-  std::uint32_t first_index = 0, index_count = 0;   ///< in Scene::indices; indices are relative to first_vertex
+  glm::dvec3 low_m{0.0}, high_m{0.0};              ///< bounds in the world
+  std::uint32_t first_index = 0, index_count = 0;  ///< in Scene::indices; indices are relative to first_vertex
   std::uint32_t first_vertex = 0, vertex_count = 0;
 };
 
@@ -48,7 +48,8 @@ struct Scene {
   std::vector<SceneChunk> chunks;
 };
 
-/// Reads .gltf or .glb. World frame: x = gltf x, y = -gltf z, z = gltf y. Big meshes are cut into chunks of at most 100 m.
+/// Reads .gltf or .glb. World frame: x = gltf x, y = -gltf z, z = gltf y. Big meshes are cut into chunks of at most 100
+/// m.
 Result<Scene> read_scene(const std::filesystem::path& file);
 
 }  // namespace phare
