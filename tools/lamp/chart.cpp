@@ -378,49 +378,43 @@ std::string printable(const std::string& text) {
 }
 
 Status write_chart(const std::string& stem, double width, double height, const std::function<void(Chart&)>& draw) {
-  // Drawn once, played into both files.
-  const cairo_rectangle_t page{0.0, 0.0, width, height};
-  cairo_surface_t* const recorded = cairo_recording_surface_create(CAIRO_CONTENT_COLOR, &page);
-  cairo_t* const recorder = cairo_create(recorded);
-  Chart chart(recorder);
-  chart.rectangle(0, 0, width, height, kWhite);
-  draw(chart);
-  cairo_status_t status = cairo_status(recorder);
-  cairo_destroy(recorder);
-  const auto play = [&](cairo_surface_t* surface, double scale, bool with_texts) {
+  // Drawn into each file by itself: cairo 1.16 does not give back a recording that was played into an SVG.
+  std::vector<ChartText> all_texts;
+  const auto draw_on = [&](cairo_surface_t* surface, double scale, bool with_texts) {
     cairo_t* const cairo = cairo_create(surface);
     cairo_scale(cairo, scale, scale);
-    cairo_set_source_surface(cairo, recorded, 0.0, 0.0);
-    cairo_paint(cairo);
+    Chart chart(cairo);
+    chart.rectangle(0, 0, width, height, kWhite);
+    draw(chart);
+    all_texts = chart.texts();
     if (with_texts) {
-      for (const ChartText& text : chart.texts()) draw_text(cairo, text);
+      for (const ChartText& text : all_texts) draw_text(cairo, text);
     }
-    const cairo_status_t played = cairo_status(cairo);
+    const cairo_status_t drawn = cairo_status(cairo);
     cairo_destroy(cairo);
-    return played;
+    return drawn;
   };
   const auto failed = [](const std::string& file, cairo_status_t cause) {
     return Error{file, std::string("cannot be drawn: ") + cairo_status_to_string(cause)};
   };
 
   std::string svg_bytes, png_bytes;
-  cairo_surface_t* const svg = cairo_svg_surface_create_for_stream(append, &svg_bytes, width, height);
-  if (status == CAIRO_STATUS_SUCCESS) status = play(svg, 1.0, false);
-  cairo_surface_finish(svg);
-  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(svg);
-  cairo_surface_destroy(svg);
-
   constexpr double kPixelsPerPoint = 2.0;
   cairo_surface_t* const png = cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * kPixelsPerPoint),
                                                           static_cast<int>(height * kPixelsPerPoint));
-  if (status == CAIRO_STATUS_SUCCESS) status = play(png, kPixelsPerPoint, true);
+  cairo_status_t status = draw_on(png, kPixelsPerPoint, true);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(png, append, &png_bytes);
   cairo_surface_destroy(png);
-  cairo_surface_destroy(recorded);
+
+  cairo_surface_t* const svg = cairo_svg_surface_create_for_stream(append, &svg_bytes, width, height);
+  if (status == CAIRO_STATUS_SUCCESS) status = draw_on(svg, 1.0, false);
+  cairo_surface_finish(svg);
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(svg);
+  cairo_surface_destroy(svg);
   if (status != CAIRO_STATUS_SUCCESS) return failed(stem, status);
 
   std::string texts = std::string("<g font-family=\"") + kFont + ", Verdana, sans-serif\">\n";
-  for (const ChartText& text : chart.texts()) texts += svg_text(text);
+  for (const ChartText& text : all_texts) texts += svg_text(text);
   svg_bytes.insert(std::min(svg_bytes.rfind("</svg>"), svg_bytes.size()), texts + "</g>\n");
   if (const Status written = write_whole_file(stem + ".svg", svg_bytes); !written) return written.error();
   return write_whole_file(stem + ".png", png_bytes);
