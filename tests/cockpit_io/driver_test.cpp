@@ -42,7 +42,7 @@ TEST(DriverScript, ErrorsHavePlaces) {
 }
 
 TEST(Lane, ErrorsHavePlaces) {
-  const auto file = std::filesystem::temp_directory_path() / "phare_lane_test.csv";
+  const auto file = std::filesystem::path(testing::TempDir()) / "phare_lane_test.csv";
   const auto read = [&](const std::string& text) {
     std::ofstream(file) << text;
     return read_lane(file);
