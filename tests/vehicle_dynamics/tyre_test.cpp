@@ -71,18 +71,43 @@ TEST(Tyre, ForceNeverTurnsItsSign) {
   EXPECT_LT(std::abs(aside.x_n), 0.02 * aside.y_n);
 }
 
+// The table of single-track against the formula: its cubic is off by the fourth derivative (14.8 at most for this
+// tyre, over B tan alpha) times h^4 / 384, its rise by that times h^3 sqrt(3) / 216; h is 1/128. Slips from far beyond
+// the table's end on one axle alone and on both.
 TEST(Tyre, TwoAxlesAtOnceAndTheirRise) {
   const tyre::Constants t = passenger_tyre();
-  for (double slip = -1.0; slip <= 1.0; slip += 0.01) {
-    const double other = 0.3 * slip, step = 1e-6;
-    const tyre::SideForce f = tyre::side_force(t, Two{slip, other}, 0.8);
-    EXPECT_NEAR(f.share[0] * 3000.0, tyre::steady_force(t, 0.0, slip, 3000.0, 0.8).y_n, 1e-8);
-    EXPECT_NEAR(f.share[1] * 3000.0, tyre::steady_force(t, 0.0, other, 3000.0, 0.8).y_n, 1e-8);
-    const double above = tyre::side_force(t, Two{slip + step, 0.0}, 0.8).share[0],
-                 below = tyre::side_force(t, Two{slip - step, 0.0}, 0.8).share[0];
-    // Central difference: (third derivative, B^3 C D at most) step^2 / 6, and rounding 2e-16 / step.
-    EXPECT_NEAR(f.rise[0], (above - below) / (2.0 * step), 2e-8);
+  const double h = 1.0 / 128.0, fourth = 14.8, load = 3000.0, mu = 0.8, peak = mu * t.p.lat_peak;
+  const double off = peak * fourth * std::pow(h, 4) / 384.0,
+               rise_off = fourth * std::pow(h, 3) * std::sqrt(3.0) / 216.0;
+  const double b = t.by / mu, c = t.p.lat_shape, step = 3e-6;
+  double worst = 0.0, worst_rise = 0.0;
+  for (double slip = -1.0; slip <= 1.0; slip += 0.001) {
+    const double other = 0.3 * slip;
+    const tyre::SideForce f = tyre::side_force(t, Two{slip, other}, mu);
+    const auto exact = [&](double at) { return tyre::steady_force(t, 0.0, at, load, mu).y_n / load; };
+    worst = std::max({worst, std::abs(f.share[0] - exact(slip)), std::abs(f.share[1] - exact(other))});
+    worst_rise = std::max(worst_rise, std::abs(f.rise[0] - (exact(slip + step) - exact(slip - step)) / (2.0 * step)));
+    const tyre::SideForce mirrored = tyre::side_force(t, Two{-slip, -other}, mu);
+    ASSERT_EQ(mirrored.share[0], -f.share[0]);
+    ASSERT_NEAR(mirrored.rise[0], f.rise[0], 1e-12);
   }
+  EXPECT_LT(worst, 1.01 * off + 1e-15);
+  EXPECT_GT(worst, 0.5 * off);  // it is a table, and no finer than it says
+  // and what the difference quotient itself is off by: third derivative, B^3 D (2 C + C^3) at the origin for a small E,
+  // times step^2 / 6, and rounding
+  EXPECT_LT(worst_rise,
+            peak * b * rise_off + b * b * b * peak * (2.0 * c + c * c * c) * step * step / 6.0 + 2e-16 / step);
+}
+
+// A road wet to nothing or a wheel torn aside: the formula beyond the table, and no number where there is none.
+TEST(Tyre, SideForceBeyondItsTable) {
+  const tyre::Constants t = passenger_tyre();
+  for (const double slip : {0.6, 3.0, -50.0, 1e6, -1e300}) {
+    const tyre::SideForce f = tyre::side_force(t, Two{slip, 0.01}, 1.0);
+    EXPECT_NEAR(f.share[0], tyre::steady_force(t, 0.0, slip, 3000.0, 1.0).y_n / 3000.0, 1e-14) << slip;
+    EXPECT_GE(std::abs(f.share[1]), 0.2);
+  }
+  EXPECT_TRUE(std::isnan(tyre::side_force(t, Two{std::nan(""), 0.0}, 1.0).share[0]));
 }
 
 TEST(Tyre, SlipSettlesWithoutDividingBySpeed) {

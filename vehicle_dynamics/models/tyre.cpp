@@ -27,6 +27,16 @@ double peak_slip(double b, double shape, double curvature) {
   return 0.5 * (low + high);
 }
 
+// The table of side_force(): 16 KiB, of which a drive touches little at a time.
+constexpr double kCurveEnd = 8.0, kNodesPerUnit = 128.0;
+
+// sin(C atan(w)) with w = x - E (x - atan x), and its derivative.
+SideForce side_curve(Two x, double shape, double curvature) {
+  const Two w = x - curvature * (x - arctangent(x)), x2 = x * x;
+  const SineCosine bent = sine_cosine(shape * arctangent(w));
+  return {bent.sine, shape * bent.cosine * (1.0 + (1.0 - curvature) * x2) / ((1.0 + w * w) * (1.0 + x2))};
+}
+
 }  // namespace
 
 Constants constants(const TyreParams& p) {
@@ -38,6 +48,11 @@ Constants constants(const TyreParams& p) {
   c.per_tan_alpha_bend = 1.0 / (1.5 * peak_slip(c.by, p.lat_shape, p.lat_curvature));
   c.per_long_m = 1.0 / p.long_relaxation_m;
   c.per_lat_m = 1.0 / p.lat_relaxation_m;
+  constexpr auto kNodes = static_cast<std::size_t>(kCurveEnd * kNodesPerUnit) + 1;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const SideForce node = side_curve(both(static_cast<double>(i) / kNodesPerUnit), p.lat_shape, p.lat_curvature);
+    c.side_curve.push_back(Two{node.share[0], node.rise[0] / kNodesPerUnit});
+  }
   return c;
 }
 
@@ -125,13 +140,20 @@ void steady_forces(const Constants& tyre, const double kappa[4], const double ta
 }
 
 SideForce side_force(const Constants& tyre, Two tan_alpha, double mu) {
-  const TyreParams& p = tyre.p;
-  const double b = tyre.by / mu, peak = mu * p.lat_peak, e = p.lat_curvature;
-  // sin(C atan(w)) with w = x - E (x - atan x), and its derivative.
-  const Two x = b * tan_alpha, w = x - e * (x - arctangent(x)), angle = p.lat_shape * arctangent(w), x2 = x * x;
-  const SineCosine bent = sine_cosine(angle);
-  return {peak * bent.sine,
-          peak * b * p.lat_shape * bent.cosine * (1.0 + (1.0 - e) * x2) / ((1.0 + w * w) * (1.0 + x2))};
+  const double b = tyre.by / mu, peak = mu * tyre.p.lat_peak;
+  const Two x = b * tan_alpha, size = magnitude(x);
+  if (!(size[0] < kCurveEnd && size[1] < kCurveEnd)) {
+    const SideForce far = side_curve(x, tyre.p.lat_shape, tyre.p.lat_curvature);
+    return {peak * far.share, peak * b * far.rise};
+  }
+  const Two place = kNodesPerUnit * size;
+  const auto first = static_cast<std::size_t>(place[0]), second = static_cast<std::size_t>(place[1]);
+  const Two u = place - Two{static_cast<double>(first), static_cast<double>(second)};
+  const Two *f = &tyre.side_curve[first], *s = &tyre.side_curve[second];
+  const Two from{f[0][0], s[0][0]}, rise{f[0][1], s[0][1]}, step = Two{f[1][0], s[1][0]} - from, next{f[1][1], s[1][1]};
+  const Two c3 = rise + next - 2.0 * step, c2 = step - rise - c3;
+  const Two share = from + u * (rise + u * (c2 + u * c3));
+  return {(x < 0.0 ? -peak : peak) * share, peak * b * kNodesPerUnit * (rise + u * (2.0 * c2 + 3.0 * u * c3))};
 }
 
 }  // namespace phare::tyre
