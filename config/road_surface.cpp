@@ -15,6 +15,15 @@ constexpr double kEdgeTolerance = 1e-7;
 constexpr std::uint64_t kMaxCells = 4'000'000;
 constexpr std::uint64_t kMaxCellEntries = 16'000'000;
 
+// Bounds of a facet: min x, min y, max x, max y.
+using Box = std::array<double, 4>;
+
+// Which of `count` intervals a place lies in, `place` counted in intervals from the first. Rises with the place, so no
+// facet is missing from a cell that holds a point of it.
+std::int64_t interval(double place, std::int64_t count) {
+  return std::clamp(static_cast<std::int64_t>(place), std::int64_t{0}, count - 1);
+}
+
 }  // namespace
 
 Result<RoadSurface> RoadSurface::read(const std::filesystem::path& gltf_file) {
@@ -48,9 +57,6 @@ Result<RoadSurface> RoadSurface::read(const std::filesystem::path& gltf_file) {
 }
 
 RoadSurface RoadSurface::from_triangles(const std::vector<Triangle>& triangles) {
-  struct Box {
-    double min_x, min_y, max_x, max_y;
-  };
   RoadSurface surface;
   std::vector<Box> boxes;
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -74,37 +80,31 @@ RoadSurface RoadSurface::from_triangles(const std::vector<Triangle>& triangles) 
     const auto [low_y, high_y] = std::minmax({0.0, p.y, q.y});
     const Box box{a.x + low_x, a.y + low_y, a.x + high_x, a.y + high_y};
     boxes.push_back(box);
-    all = {std::min(all.min_x, box.min_x), std::min(all.min_y, box.min_y), std::max(all.max_x, box.max_x),
-           std::max(all.max_y, box.max_y)};
+    all = {std::min(all[0], box[0]), std::min(all[1], box[1]), std::max(all[2], box[2]), std::max(all[3], box[3])};
   }
   if (boxes.empty()) return surface;
 
   // About one triangle a cell where they spread evenly; coarser until cells and entries fit their limits.
-  const double width = all.max_x - all.min_x, depth = all.max_y - all.min_y;
-  surface.min_x_ = all.min_x;
-  surface.min_y_ = all.min_y;
-  surface.cell_m_ = std::max({std::sqrt(width * depth / static_cast<double>(boxes.size())), 0.25,
-                              std::sqrt(width * depth / static_cast<double>(kMaxCells))});
-  const auto cell_of = [&surface](double value, double from, std::int64_t count) {
-    return std::clamp(static_cast<std::int64_t>((value - from) / surface.cell_m_), std::int64_t{0}, count - 1);
+  const double width = all[2] - all[0], depth = all[3] - all[1];
+  surface.min_x_ = all[0], surface.min_y_ = all[1];
+  double cell_m = std::max({std::sqrt(width * depth / static_cast<double>(boxes.size())), 0.25,
+                            std::sqrt(width * depth / static_cast<double>(kMaxCells))});
+  struct Range {
+    std::int64_t from_column, to_column, from_row, to_row;
   };
-  const auto for_cells = [&](const Box& box, auto&& visit) {
-    for (std::int64_t row = cell_of(box.min_y, surface.min_y_, surface.rows_);
-         row <= cell_of(box.max_y, surface.min_y_, surface.rows_); ++row)
-      for (std::int64_t column = cell_of(box.min_x, surface.min_x_, surface.columns_);
-           column <= cell_of(box.max_x, surface.min_x_, surface.columns_); ++column)
-        visit(static_cast<std::size_t>(row * surface.columns_ + column));
+  const auto range = [&surface](const Box& box) {
+    const auto column = [&](double x) { return interval((x - surface.min_x_) * surface.cells_pm_, surface.columns_); };
+    const auto row = [&](double y) { return interval((y - surface.min_y_) * surface.cells_pm_, surface.rows_); };
+    return Range{column(box[0]), column(box[2]), row(box[1]), row(box[3])};
   };
-  for (;; surface.cell_m_ *= 2.0) {
-    surface.columns_ = static_cast<std::int64_t>(width / surface.cell_m_) + 1;
-    surface.rows_ = static_cast<std::int64_t>(depth / surface.cell_m_) + 1;
+  for (;; cell_m *= 2.0) {
+    surface.cells_pm_ = 1.0 / cell_m;
+    surface.columns_ = static_cast<std::int64_t>(width / cell_m) + 1;
+    surface.rows_ = static_cast<std::int64_t>(depth / cell_m) + 1;
     std::uint64_t entries = 0;
     for (const Box& box : boxes) {
-      const std::int64_t columns = cell_of(box.max_x, surface.min_x_, surface.columns_) -
-                                   cell_of(box.min_x, surface.min_x_, surface.columns_) + 1;
-      const std::int64_t rows =
-          cell_of(box.max_y, surface.min_y_, surface.rows_) - cell_of(box.min_y, surface.min_y_, surface.rows_) + 1;
-      entries += static_cast<std::uint64_t>(columns * rows);
+      const Range r = range(box);
+      entries += static_cast<std::uint64_t>((r.to_column - r.from_column + 1) * (r.to_row - r.from_row + 1));
     }
     const auto cells = static_cast<std::uint64_t>(surface.columns_ * surface.rows_);
     if (cells <= kMaxCells && entries <= std::max<std::uint64_t>(kMaxCellEntries, 2 * boxes.size())) break;
@@ -112,39 +112,110 @@ RoadSurface RoadSurface::from_triangles(const std::vector<Triangle>& triangles) 
   }
 
   // Count, add up, fill: one array for all cells.
-  surface.cell_start_.assign(static_cast<std::size_t>(surface.columns_ * surface.rows_) + 1, 0);
-  for (const Box& box : boxes) for_cells(box, [&](std::size_t cell) { ++surface.cell_start_[cell + 1]; });
-  for (std::size_t cell = 1; cell < surface.cell_start_.size(); ++cell)
-    surface.cell_start_[cell] += surface.cell_start_[cell - 1];
-  surface.cell_facets_.resize(surface.cell_start_.back());
-  std::vector<std::uint32_t> next(surface.cell_start_.begin(), surface.cell_start_.end() - 1);
+  const auto for_cells = [&](const Box& box, auto&& visit) {
+    const Range r = range(box);
+    for (std::int64_t row = r.from_row; row <= r.to_row; ++row)
+      for (std::int64_t column = r.from_column; column <= r.to_column; ++column)
+        visit(static_cast<std::size_t>(row * surface.columns_ + column));
+  };
+  std::vector<std::uint32_t> start(static_cast<std::size_t>(surface.columns_ * surface.rows_) + 1, 0);
+  for (const Box& box : boxes) for_cells(box, [&](std::size_t cell) { ++start[cell + 1]; });
+  for (std::size_t cell = 1; cell < start.size(); ++cell) start[cell] += start[cell - 1];
+  std::vector<std::uint32_t> facets(start.back()), next(start.begin(), start.end() - 1);
   for (std::size_t i = 0; i < boxes.size(); ++i)
-    for_cells(boxes[i], [&](std::size_t cell) { surface.cell_facets_[next[cell]++] = static_cast<std::uint32_t>(i); });
+    for_cells(boxes[i], [&](std::size_t cell) { facets[next[cell]++] = static_cast<std::uint32_t>(i); });
+  surface.divide(start, facets);
   return surface;
 }
 
-std::optional<RoadPoint> RoadSurface::at(double x_m, double y_m) const {
-  const double column = (x_m - min_x_) / cell_m_, row = (y_m - min_y_) / cell_m_;
+// Whether it may have a point in common with the square about (x, y): not if one of its barycentric coordinates, linear
+// as they are, is below zero all over the square. A little larger than both are, for rounding.
+bool RoadSurface::touches(const Facet& f, double x_m, double y_m, double half_m) {
+  const double dx = x_m - f.x0, dy = y_m - f.y0, reach_m = half_m * (1.0 + 1e-6);
+  const double u = f.ux * dx + f.uy * dy, v = f.vx * dx + f.vy * dy;
+  const auto most = [&](double middle, double slope_x, double slope_y) {
+    return middle + reach_m * (std::abs(slope_x) + std::abs(slope_y));
+  };
+  const double least = std::min({most(u, f.ux, f.uy), most(v, f.vx, f.vy), most(1.0 - u - v, f.ux + f.vx, f.uy + f.vy)});
+  return least >= -10.0 * kEdgeTolerance;
+}
+
+// A cell with more than a few facets becomes so many parts that each holds a few, if that does not copy them too often:
+// facets as large as the cell lie in all its parts.
+void RoadSurface::divide(const std::vector<std::uint32_t>& cell_start, const std::vector<std::uint32_t>& cell_facets) {
+  constexpr std::size_t kFew = 3, kMostCopies = 16;
+  constexpr double kPartsPerFacet = 16.0, kTests = 1e8;  // half a second, however the triangles lie
+  const double most_across = std::clamp(std::sqrt(kTests / static_cast<double>(cell_facets.size() + 1)), 1.0, 64.0);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // part, facet
+  for (std::size_t cell = 0; cell + 1 < cell_start.size(); ++cell) {
+    const std::size_t crowd = cell_start[cell + 1] - cell_start[cell];
+    const double cell_m = 1.0 / cells_pm_;
+    const double left_m = min_x_ + cell_m * static_cast<double>(static_cast<std::int64_t>(cell) % columns_),
+                 near_m = min_y_ + cell_m * static_cast<double>(static_cast<std::int64_t>(cell) / columns_);
+    std::uint32_t across = 1;
+    if (crowd > kFew)
+      across = static_cast<std::uint32_t>(std::min(most_across, std::ceil(std::sqrt(kPartsPerFacet * static_cast<double>(crowd)))));
+    for (;; across /= 2) {
+      entries.clear();
+      const double part_m = cell_m / static_cast<double>(across);
+      for (std::uint32_t row = 0; row < across; ++row)
+        for (std::uint32_t column = 0; column < across; ++column)
+          for (std::uint32_t i = cell_start[cell]; i < cell_start[cell + 1]; ++i)
+            if (touches(facets_[cell_facets[i]], left_m + (column + 0.5) * part_m, near_m + (row + 0.5) * part_m,
+                        0.5 * part_m))
+              entries.emplace_back(row * across + column, cell_facets[i]);
+      if (across == 1 || entries.size() <= kMostCopies * crowd) break;
+    }
+    cells_.push_back({static_cast<std::uint32_t>(part_start_.size()), across});
+    auto entry = entries.begin();
+    for (std::uint32_t part = 0; part < across * across; ++part) {
+      part_start_.push_back(static_cast<std::uint32_t>(part_facets_.size()));
+      for (; entry != entries.end() && entry->first == part; ++entry) part_facets_.push_back(entry->second);
+    }
+  }
+  part_start_.push_back(static_cast<std::uint32_t>(part_facets_.size()));
+}
+
+RoadSurface::Found RoadSurface::find(double x_m, double y_m) const {
+  const double column = (x_m - min_x_) * cells_pm_, row = (y_m - min_y_) * cells_pm_;
   // Written so that NaN fails.
   if (!(column >= 0.0 && column < static_cast<double>(columns_) && row >= 0.0 && row < static_cast<double>(rows_)))
-    return std::nullopt;
-  const auto cell =
-      static_cast<std::size_t>(static_cast<std::int64_t>(row) * columns_ + static_cast<std::int64_t>(column));
+    return {};
+  const auto whole_column = static_cast<std::int64_t>(column), whole_row = static_cast<std::int64_t>(row);
+  const Cell& cell = cells_[static_cast<std::size_t>(whole_row * columns_ + whole_column)];
+  std::size_t part = cell.first;
+  if (cell.across > 1) {
+    const auto across = static_cast<std::int64_t>(cell.across);
+    const auto within = [&](double place, std::int64_t whole) {
+      return interval((place - static_cast<double>(whole)) * static_cast<double>(across), across);
+    };
+    part += static_cast<std::size_t>(within(row, whole_row) * across + within(column, whole_column));
+  }
 
-  const Facet* best = nullptr;
-  double best_z = 0.0;
-  for (std::uint32_t i = cell_start_[cell]; i < cell_start_[cell + 1]; ++i) {
-    const Facet& f = facets_[cell_facets_[i]];
-    if (best && best->road && !f.road) continue;
+  Found best;
+  for (std::uint32_t i = part_start_[part]; i < part_start_[part + 1]; ++i) {
+    const Facet& f = facets_[part_facets_[i]];
+    if (best.facet && best.facet->road && !f.road) continue;
     const double dx = x_m - f.x0, dy = y_m - f.y0;
     const double u = f.ux * dx + f.uy * dy, v = f.vx * dx + f.vy * dy;
-    if (u < -kEdgeTolerance || v < -kEdgeTolerance || u + v > 1.0 + kEdgeTolerance) continue;
+    if (std::min(std::min(u, v), 1.0 - u - v) < -kEdgeTolerance) continue;
     const double z = f.z0 + f.slope_x * dx + f.slope_y * dy;
-    if (!best || (f.road && !best->road) || z > best_z) best = &f, best_z = z;
+    if (!best.facet || (f.road && !best.facet->road) || z > best.z_m) best = {&f, z};
   }
-  if (!best) return std::nullopt;
-  const double length = std::sqrt(best->slope_x * best->slope_x + best->slope_y * best->slope_y + 1.0);
-  return RoadPoint{best_z, {-best->slope_x / length, -best->slope_y / length, 1.0 / length}, best->road};
+  return best;
+}
+
+std::optional<double> RoadSurface::height_m(double x_m, double y_m) const {
+  const Found found = find(x_m, y_m);
+  if (!found.facet) return std::nullopt;
+  return found.z_m;
+}
+
+std::optional<RoadPoint> RoadSurface::at(double x_m, double y_m) const {
+  const auto [facet, z] = find(x_m, y_m);
+  if (!facet) return std::nullopt;
+  const double length = std::sqrt(facet->slope_x * facet->slope_x + facet->slope_y * facet->slope_y + 1.0);
+  return RoadPoint{z, {-facet->slope_x / length, -facet->slope_y / length, 1.0 / length}, facet->road};
 }
 
 }  // namespace phare

@@ -20,7 +20,8 @@ struct RoadPoint {
   bool road = true;                  ///< false: open ground beside it
 };
 
-/// Triangles of the nodes whose names begin with "road" or "ground" under a uniform grid. Where both cover a point the
+/// Triangles of the nodes whose names begin with "road" or "ground" under a grid of even cells, the crowded ones of which
+/// are divided again: a narrow road in a wide country has all its triangles in few cells. Where both cover a point the
 /// road counts; of several roads above one another the highest (bridges are not told apart).
 class RoadSurface {
  public:
@@ -40,6 +41,9 @@ class RoadSurface {
   /// a microsecond (measured by RoadSurface.QueryTime).
   std::optional<RoadPoint> at(double x_m, double y_m) const;
 
+  /// Its height alone: what a wheel asks for, a few dozen times a step.
+  std::optional<double> height_m(double x_m, double y_m) const;
+
   std::size_t triangle_count() const { return facets_.size(); }
 
  private:
@@ -51,10 +55,23 @@ class RoadSurface {
     bool road;
   };
 
+  // A cell of the grid: across by across parts, row by row from part `first` on.
+  struct Cell {
+    std::uint32_t first = 0, across = 1;
+  };
+  struct Found {
+    const Facet* facet = nullptr;  // nullptr: beside the surface
+    double z_m = 0.0;
+  };
+  Found find(double x_m, double y_m) const;
+  static bool touches(const Facet& facet, double x_m, double y_m, double half_m);
+  void divide(const std::vector<std::uint32_t>& cell_start, const std::vector<std::uint32_t>& cell_facets);
+
   std::vector<Facet> facets_;
-  std::vector<std::uint32_t> cell_start_;  // facets of cell c: cell_facets_[cell_start_[c] .. cell_start_[c + 1])
-  std::vector<std::uint32_t> cell_facets_;
-  double min_x_ = 0.0, min_y_ = 0.0, cell_m_ = 1.0;
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> part_start_;  // facets of part k: part_facets_[part_start_[k] .. part_start_[k + 1])
+  std::vector<std::uint32_t> part_facets_;
+  double min_x_ = 0.0, min_y_ = 0.0, cells_pm_ = 1.0;
   std::int64_t columns_ = 0, rows_ = 0;
 };
 

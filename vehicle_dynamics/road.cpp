@@ -4,9 +4,9 @@ namespace phare {
 
 double Road::base_m(double x_m, double y_m, double beside_m, bool* off) const {
   if (!mesh) return z_m + slope_x * x_m + slope_y * y_m;
-  const auto point = mesh->at(x_m, y_m);
-  if (!point) *off = true;
-  return point ? point->z_m : beside_m;
+  const std::optional<double> height_m = mesh->height_m(x_m, y_m);
+  if (!height_m) *off = true;
+  return height_m.value_or(beside_m);
 }
 
 Ground Road::at(double x_m, double y_m, double path_m, bool left, double beside_m, bool* off) const {
