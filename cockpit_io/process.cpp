@@ -161,6 +161,8 @@ void CockpitProcess::send_back(Moment now, const VehicleState* vehicle) {
 
 void CockpitProcess::run_real_time() {
   real_time_ = true;
+  scheduling_ = run_before_others(rig_.real_time_priority);
+  spdlog::info("scheduling: {}", scheduling_.text);
   start_ = Clock::now();
   Pacer pacer(kSendEvery);
   while (!stop_) {
@@ -250,6 +252,7 @@ void CockpitProcess::stats_once_a_second() {
 void CockpitProcess::write_stats() const {
   if (stats_file_.empty()) return;
   nlohmann::json json = stats_json("cockpit", bus_);
+  json["scheduling"] = scheduling_.text;
   const SourceCounts& counts = source_->counts();
   json["source"] = {
       {"name", source_name(config_)},        {"status", source_->status()},       {"frames_read", counts.frames_read},

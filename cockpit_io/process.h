@@ -15,6 +15,7 @@
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"
+#include "net/scheduling.h"
 
 namespace phare {
 
@@ -73,6 +74,7 @@ class CockpitProcess {
   LatencyHistogram light_latency_;
   std::uint64_t light_changes_sent_ = 0;
   bool real_time_ = false;
+  Scheduling scheduling_;
   double processor_before_s_ = 0.0;  // processor time that starting up took
 };
 

@@ -174,8 +174,10 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
                 "off loopback (127.…) a key_file is required: 64 hexadecimal digits, as of openssl rand -hex 32");
     }
   }
-  if (auto clock = root.table_if("clock"))
+  if (auto clock = root.table_if("clock")) {
     rig.frame_rate_hz = clock->integer_or("frame_rate_hz", rig.frame_rate_hz, 1, 1000);
+    rig.real_time_priority = clock->flag_or("real_time_priority", rig.real_time_priority);
+  }
   if (auto dynamics = root.table_if("dynamics")) {
     rig.dynamics_level = kDynamicsLevels[dynamics->choice_or("level", 1, kDynamicsLevels)];
     rig.dynamics_step_s = dynamics->number_or("step_s", rig.dynamics_step_s, 1e-5, 0.05);

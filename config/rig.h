@@ -78,6 +78,7 @@ struct Rig {
   std::uint16_t port_base = 47000;
   std::optional<BusKey> bus_key{};     ///< of [bus] key_file: 64 hexadecimal digits; required off loopback
   std::int64_t frame_rate_hz = 60;     ///< of lockstep frames
+  bool real_time_priority = true;      ///< in real time, of cockpit and dynamics, where the kernel allows it
   std::filesystem::path scene_file;    ///< glTF; resolved
   std::filesystem::path vehicle_file;  ///< resolved
   std::filesystem::path cockpit_file;  ///< resolved

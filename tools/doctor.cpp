@@ -1,4 +1,5 @@
 // phare doctor: what this machine has, and which Debian package gives what it lacks.
+#include <sched.h>
 #include <sys/socket.h>
 #include <time.h>
 #include <unistd.h>
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "config/remedies.h"
+#include "net/scheduling.h"
 #include "tools/child_process.h"
 #include "tools/commands.h"
 #ifdef PHARE_WITH_GRAPHICS
@@ -121,6 +123,15 @@ Finding clock_found() {
           "high-resolution timers in the kernel"};
 }
 
+/// May cockpit and dynamics run before other programs?
+Finding real_time_priority() {
+  const Scheduling scheduling = run_before_others(true);
+  const sched_param ordinary{};
+  sched_setscheduler(0, SCHED_OTHER | SCHED_RESET_ON_FORK, &ordinary);
+  return {"Real-time priority", scheduling.real_time, false, scheduling.text,
+          "echo '* - rtprio 10' > /etc/security/limits.d/phare.conf, then log in again"};
+}
+
 Finding program(const char* name, const char* what_for) {
   const auto path = find_in_path(name);
   return {name, path.has_value(), false, path ? path->string() : std::string("not in PATH; ") + what_for,
@@ -173,6 +184,7 @@ int doctor(bool json) {
                                       can_sockets(),
                                       display(),
                                       clock_found(),
+                                      real_time_priority(),
                                       program("ffmpeg", "no video from the frames"),
                                       program("tshark", "drive files cannot be looked into")};
   bool healthy = true;

@@ -16,6 +16,7 @@
 #include "net/bus.h"
 #include "net/clock.h"
 #include "net/drive_file.h"
+#include "net/scheduling.h"
 #include "net/stats.h"
 #include "vehicle_dynamics/batch_command.h"
 #include "vehicle_dynamics/start_pose.h"
@@ -164,6 +165,8 @@ class Process {
   // By the wall clock: a wake-up per step, those due are done, the newest is sent 250 times a second.
   void run_real_time(Begin begin) {
     constexpr std::chrono::milliseconds kSendEvery(4);
+    scheduling_ = run_before_others(rig_.real_time_priority);
+    spdlog::info("scheduling: {}", scheduling_.text);
     begin_in_real_time(std::move(begin));
     const std::chrono::nanoseconds step(loop_->setup().step.ns);
     Pacer pacer(step);
@@ -309,6 +312,7 @@ class Process {
   void write_stats() const {
     if (options_.stats_file.empty()) return;
     nlohmann::json json = stats_json("dynamics", bus_);
+    json["scheduling"] = scheduling_.text;
     if (loop_) {
       const StepTimes& times = loop_->times();
       json["level"] = name(loop_->setup().level);
@@ -350,6 +354,7 @@ class Process {
   Requests requests_;
   std::optional<StepLoop> loop_;
   std::uint64_t sent_step_ = 0;  ///< the newest step whose hash has been sent
+  Scheduling scheduling_;
   StepTimes wake_late_;          ///< real time: how long after its time a wake-up came
   std::uint64_t missed_wakes_ =
       0;  ///< wake-ups that fell away because the one before came a step too late; their steps are caught up
