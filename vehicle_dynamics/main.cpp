@@ -387,6 +387,7 @@ int run(int argc, char** argv) {
     app.exit(problem);  // --help, --version
     return kExitDone;
   }
+  if (const Status fit = batch.options_fit(); !fit) return fail("phare-dynamics", fit.error());
   if (batch.asked()) return batch.run(options.level.empty() ? "full" : options.level);
   if (options.rig_file.empty()) return fail("phare-dynamics", {"--rig", "is required, unless --batch runs a file"});
   spdlog::set_default_logger(spdlog::stderr_color_mt("dynamics"));
