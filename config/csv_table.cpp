@@ -71,6 +71,10 @@ Result<CsvTable> CsvTable::read(const std::filesystem::path& file) {
     if ((bytes += line.size() + 1) > kMostBytes + 1) return Error{place(), kTooMuch};
     std::string_view rest = trimmed(line);
     if (number == 1 && rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);  // a byte order mark of a spreadsheet
+    if (number == 1 && (rest.starts_with("\xff\xfe") || rest.starts_with("\xfe\xff")))
+      return Error{place(), "is UTF-16; plain text or UTF-8 is wanted"};
+    if (rest.find('\r') != std::string_view::npos)
+      return Error{place(), "has carriage returns within; a line ends with a line feed"};
     if (rest.empty() || rest.front() == '#') continue;
     const bool header = table.columns_.empty();
     if (header) table.header_line_ = number;

@@ -435,7 +435,8 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
     }
     if (Status stepped = car.step(in, inputs, from, dt); !stepped) return failed(from, stepped.error().reason);
     if (!car.sound()) return failed(to, kUnsound);
-    if (n % 1024 == 1023 && options.stop && options.stop()) return failed(to, "stopped from outside");
+    if (options.stop && (n % 64 == 0 || options.integrator == Integrator::kReference) && options.stop())
+      return failed(to, "stopped from outside");
     if (!reached && !every_step) continue;
     Row now = car.row(to, dt);
     car.lamps(lamps, in.held(inputs.levelling_step), dt, now);

@@ -219,11 +219,12 @@ std::string markdown(const std::vector<Line>& lines) {
       "| level | integrator | step ms | ns a step | x real time | 99.9 % of steps under ns | pitch error mrad | yaw "
       "rate error "
       "rad/s | position error m |\n|---|---|---|---|---|---|---|---|---|\n";
-  char buffer[240];
+  char buffer[240], steps[32];
   for (const Line& l : lines) {
-    std::snprintf(buffer, sizeof buffer, "| %s | %s | %g | %.0f | %.0f | %.0f | %.2g | %.2g | %.2g |\n",
-                  l.level.c_str(), l.integrator.c_str(), l.step_s * 1e3, l.ns_per_step, l.real_time, l.p99_9_ns,
-                  l.pitch_error_rad * 1e3, l.yaw_rate_error_radps, l.position_error_m);
+    std::snprintf(steps, sizeof steps, l.p99_9_ns > 0.0 ? "%.0f" : "", l.p99_9_ns);  // level kinematic measures none
+    std::snprintf(buffer, sizeof buffer, "| %s | %s | %g | %.0f | %.0f | %s | %.2g | %.2g | %.2g |\n", l.level.c_str(),
+                  l.integrator.c_str(), l.step_s * 1e3, l.ns_per_step, l.real_time, steps, l.pitch_error_rad * 1e3,
+                  l.yaw_rate_error_radps, l.position_error_m);
     out += buffer;
   }
   return out;

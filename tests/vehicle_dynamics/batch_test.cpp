@@ -2,27 +2,21 @@
 #include "vehicle_dynamics/batch.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
-#include <tuple>
 
+#include "batch_files.h"
 #include "full_car.h"
 
 namespace phare {
 namespace {
 
-std::string written(const std::string& name, const std::string& text) {
-  const std::string file = testing::TempDir() + name;
-  std::ofstream(file) << text;
-  return file;
-}
+using test::kBraking;
+using test::written;
 
 batch::Options options(Level level, Integrator integrator = Integrator::kRk4) {
   batch::Options o;
@@ -36,9 +30,6 @@ batch::Inputs inputs(const std::string& text) {
   if (!read) throw std::runtime_error(read.error().text());
   return *read;
 }
-
-constexpr const char* kBraking =
-    "time_s,steer_rad,accelerator_01,brake_01\n0,0,0,0\n1,0,0,0\n1.2,0,0,0.3\n2.5,0,0,0.3\n";
 
 TEST(Batch, CutOffFallsUnderBrakingAtEveryLevel) {
   for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull}) {
@@ -105,6 +96,8 @@ TEST(Batch, BadInputsAreNamedByLine) {
       {"time_s,steer_rad,accelerator_01,brake_01\n0,0,0,0\n1,+-1,0,0\n", "\"+-1\" is not a finite number"},
       {"time_s,steer_rad,accelerator_01,brake_01\n0,0,0,0\n5,0,0,0\n20000000,0,0,0\n",
        "in.csv:4: time_s 2e+07 is more"},
+      {"\xff\xfet\ni\nm\n", "in.csv:1: is UTF-16"},
+      {"time_s,steer_rad,accelerator_01,brake_01\r0,0,0,0\r1,0,0,0\r", "in.csv:1: has carriage returns within"},
       {"", "has no header"}};
   for (const auto& [text, expected] : bad) {
     const auto read = batch::read_inputs(written("in.csv", text));
@@ -317,168 +310,6 @@ TEST(Batch, TheStartMustBeOnTheRoad) {
     EXPECT_NE(refusal(o, inputs(kBraking)).find("--start-x-m: there is no road under the car"), std::string::npos);
     o.start_x_m = 0.0;
     EXPECT_EQ(refusal(o, inputs(kBraking)), "");
-  }
-}
-
-int program(const std::string& arguments, std::string* said = nullptr) {
-  const std::string errors = testing::TempDir() + "program_errors.txt";
-  const int status =
-      std::system((std::string(PHARE_DYNAMICS_PROGRAM) + " " + arguments + " >/dev/null 2>" + errors).c_str());
-  std::stringstream text;
-  text << std::ifstream(errors).rdbuf();
-  if (said) *said = text.str();
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-std::string content(const std::string& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-TEST(Batch, TheProgram) {
-  const std::string in = written("program_in.csv", kBraking), out = testing::TempDir() + "program_out.csv";
-  const std::string car = std::string(PHARE_VEHICLES_DIR) + "/bmw_320i.toml";
-  const std::string base = "--batch " + in + " --out " + out + " --vehicle " + car + " --speed-mps 20";
-  EXPECT_EQ(program(base + " --level full --integrator rk4 --step-s 0.002 --levelling dynamic"), 0);
-  std::ifstream file(out);
-  std::string header, line, last;
-  std::getline(file, header);
-  EXPECT_EQ(header.rfind("time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,", 0), 0u);
-  EXPECT_NE(header.find("cutoff_25m_m"), std::string::npos);
-  int rows = 0;
-  while (std::getline(file, line)) ++rows, last = line;
-  EXPECT_EQ(rows, 251);
-  EXPECT_EQ(std::count(last.begin(), last.end(), ','), std::count(header.begin(), header.end(), ','));
-  EXPECT_EQ(program(base + " --level best"), 2);
-  EXPECT_EQ(program(base + " --level pose"), 2);
-  EXPECT_EQ(program(base + " --integrator magic"), 2);
-  EXPECT_EQ(program(base + " --step-s 0"), 2);
-  EXPECT_EQ(program("--batch " + in + " --out " + out + " --vehicle " + car + " --speed-mps nan"), 2);
-  EXPECT_EQ(program("--batch " + in + " --out " + out + " --vehicle " + car + " --speed-mps inf"), 2);
-  EXPECT_EQ(program(base + " --road /nonexistent.glb"), 2);
-  EXPECT_EQ(program(base + " --roughness F"), 2);
-  EXPECT_EQ(program("--batch " + in + " --vehicle " + car), 2);
-  EXPECT_EQ(program("--batch /nonexistent.csv --out " + out + " --vehicle " + car), 2);
-  std::stringstream text;
-  text << std::ifstream(car).rdbuf();
-  std::string heavy = text.str();
-  heavy.replace(heavy.find("mass_kg = 1093.2952"), 19, "mass_kg = -1093.295");
-  EXPECT_EQ(program("--batch " + in + " --out " + out + " --vehicle " + written("bad_car.toml", heavy)), 2);
-  std::string wrong_unit = text.str();
-  wrong_unit.replace(wrong_unit.find("front_rate_npm = 24453"), 22, "front_rate_npm = 24.45");
-  EXPECT_EQ(program("--batch " + in + " --out " + out + " --vehicle " + written("bad_car.toml", wrong_unit)), 2);
-}
-
-// Nothing that was there is lost: not the inputs, under whatever name, nor an earlier result when a run fails.
-TEST(Batch, TheProgramKeepsWhatWasThere) {
-  namespace fs = std::filesystem;
-  const std::string folder = testing::TempDir() + "keeps/";
-  fs::remove_all(folder), fs::create_directories(folder);
-  const std::string in = written("keeps/in.csv", kBraking), car = folder + "car.toml", out = folder + "out.csv";
-  fs::copy_file(std::string(PHARE_VEHICLES_DIR) + "/bmw_320i.toml", car);
-  fs::create_symlink(in, folder + "link.csv"), fs::create_hard_link(in, folder + "hard.csv");
-  const std::string road = written("keeps/road.csv", "x_m,z_m\n0,0\n1000,0\n"), car_text = content(car);
-  const std::string base = "--batch " + in + " --vehicle " + car + " --road " + road + " --speed-mps 20 --out ";
-  for (const char* name : {"in.csv", "link.csv", "hard.csv", "car.toml", "road.csv"}) {
-    std::string said;
-    EXPECT_EQ(program(base + folder + name, &said), 2) << name;
-    EXPECT_NE(said.find("would be overwritten"), std::string::npos) << said;
-  }
-  EXPECT_EQ(content(in), kBraking);
-  EXPECT_EQ(content(car), car_text);
-  const auto files = [&] { return std::distance(fs::directory_iterator(folder), fs::directory_iterator{}); };
-  const auto before = files();
-  EXPECT_EQ(program(base + out + " --step-s 0.1"), 2);
-  EXPECT_EQ(files(), before);  // no output, nothing beside it
-  ASSERT_EQ(program(base + out), 0);
-  const std::string result = content(out);
-  std::string said;
-  EXPECT_EQ(program(base + out + " --step-s 0.1", &said), 2);
-  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
-  EXPECT_EQ(content(out), result);
-  EXPECT_EQ(files(), before + 1);
-  EXPECT_EQ(program(base + "/dev/full"), 2);
-  const std::string shell = std::string(PHARE_DYNAMICS_PROGRAM) + " " + base;
-  ASSERT_EQ(std::system((shell + "/dev/stdout 2>/dev/null >" + folder + "streamed.csv").c_str()), 0);
-  EXPECT_EQ(content(folder + "streamed.csv"), result);  // no summary among the rows
-  ASSERT_EQ(std::system(("cat " + in + " | " + PHARE_DYNAMICS_PROGRAM + " --batch /dev/stdin --vehicle " + car +
-                         " --road " + road + " --speed-mps 20 --out - 2>/dev/null | cmp - " + out)
-                            .c_str()),
-            0);
-}
-
-TEST(Batch, TheProgramRefusesOptionsThatMeanNothing) {
-  const std::string in = written("means_in.csv", kBraking), out = testing::TempDir() + "means_out.csv";
-  const std::string base =
-      "--batch " + in + " --out " + out + " --vehicle " + PHARE_VEHICLES_DIR + "/bmw_320i.toml --speed-mps 20 ";
-  std::filesystem::remove(out);
-  for (const char* option : {"--lockstep",
-                             "--rig x.toml",
-                             "--drive x.pcap",
-                             "--stats x.json",
-                             "--port-base 5000",
-                             "--compare x",
-                             "--work-precision",
-                             "--tyre linear",
-                             "--tyre magic",
-                             "--attitude quasi-static",
-                             "--level kinematic --tyre linear",
-                             "--level kinematic --integrator rk4",
-                             "--level kinematic --friction 0.5",
-                             "--level kinematic --relaxation-scale 2",
-                             "--seed 1",
-                             "--roughness A --seed -1",
-                             "--roughness A --seed 1.5",
-                             "--roughness A --seed 18446744073709551616",
-                             "--envelope-m 0.2",
-                             "--roughness A --envelope-m 0.2",
-                             "--levelling manual",
-                             "--level single-track --attitude quasi-static --integrator reference"}) {
-    std::string said;
-    EXPECT_EQ(program(base + option, &said), 2) << option;
-    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
-    EXPECT_FALSE(std::filesystem::exists(out)) << option;
-  }
-  for (const char* option : {"--level single-track --tyre linear", "--roughness A --seed 18446744073709551615"})
-    EXPECT_EQ(program(base + option), 0) << option;
-  EXPECT_EQ(program("--rig x.toml --step-s 0.001"), 2);
-  EXPECT_EQ(program("--work-precision --output-hz 10 --vehicle x.toml"), 2);
-}
-
-TEST(Batch, TheProgramSaysWhatItMeans) {
-  const std::string car = std::string(PHARE_VEHICLES_DIR) + "/bmw_320i.toml", out = testing::TempDir() + "says_out.csv";
-  const std::string in = written("says_in.csv", kBraking);
-  std::string said;
-  EXPECT_EQ(program("--batch " + in + " --out " + out + " --vehicle " + car + " --road " + car, &said), 2);
-  EXPECT_NE(said.find("a scene (.glb, .gltf) or a height profile (.csv)"), std::string::npos) << said;
-  const std::string escaping =
-      written("says_esc.csv", "time_s,steer_rad,accelerator_01,brake_01\n0,0,0,0\n1,0,0.1\x1b[31m\xc2\x9b,0\n");
-  EXPECT_EQ(program("--batch " + escaping + " --out " + out + " --vehicle " + car, &said), 2);
-  EXPECT_NE(said.find("0.1\\x1b[31m"), std::string::npos) << said;
-  EXPECT_EQ(said.find('\x1b'), std::string::npos);
-  EXPECT_EQ(said.find('\x9b'), std::string::npos);
-  const std::string unlit = std::string(PHARE_VEHICLES_DIR) + "/bmw_m8.toml";
-  EXPECT_EQ(program("--batch " + in + " --out " + out + " --vehicle " + unlit, &said), 0);
-  EXPECT_NE(said.find("no table [levelling]"), std::string::npos) << said;
-  EXPECT_EQ(content(out).find("cutoff"), std::string::npos);
-}
-
-// Without --integrator a level runs by the method of real time.
-TEST(Batch, TheProgramRunsAsRealTimeDoes) {
-  const std::string in = written("default_in.csv", kBraking), out = testing::TempDir() + "default_out.csv";
-  const std::string base =
-      "--batch " + in + " --out " + out + " --vehicle " + PHARE_VEHICLES_DIR + "/bmw_320i.toml --speed-mps 20 --level ";
-  for (const auto& [level, method, other] :
-       {std::tuple{"full", "rk4", "etd2"}, std::tuple{"single-track", "etd2", "rk4"}}) {
-    std::array<std::string, 3> results;
-    for (const std::string& options :
-         {std::string(), std::string(" --integrator ") + method, std::string(" --integrator ") + other}) {
-      ASSERT_EQ(program(base + level + options), 0);
-      results[options.empty() ? 0 : options.ends_with(method) ? 1 : 2] = content(out);
-    }
-    EXPECT_EQ(results[0], results[1]) << level;
-    EXPECT_NE(results[0], results[2]) << level;
   }
 }
 

@@ -78,6 +78,18 @@ TEST(WorkPrecision, PitchOfTheRealTimeSettings) {
   EXPECT_EQ(seen, 4);  // single-track at 2 and at 5 ms
 }
 
+// What the reference did not reach is no truth to measure against.
+TEST(WorkPrecision, FailedReferenceIsAnError) {
+  Result<VehicleParams> car = read_vehicle(kCar);
+  ASSERT_TRUE(car.ok());
+  car->chassis->tyre.long_relaxation_m = car->chassis->tyre.lat_relaxation_m = 1e-7;  // more steps than it may take
+  const auto lines = work_precision::table(*car, kCar.string(), false);
+  ASSERT_FALSE(lines.ok());
+  EXPECT_NE(lines.error().text().find("level full: there is nothing to measure against: the reference integrator"),
+            std::string::npos)
+      << lines.error().text();
+}
+
 TEST(Reference, MeasuredDrive) {
   if (!std::filesystem::exists(kData)) GTEST_SKIP() << kData << " is not here";
   const Result<compare::Measured> m =
