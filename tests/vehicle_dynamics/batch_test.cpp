@@ -176,9 +176,7 @@ TEST(Batch, ReferenceIntegratorBrakes) {
   for (const Level level : {Level::kSingleTrack, Level::kFull}) {
     std::vector<batch::Row> exact, fixed;
     batch::Options o = options(level, Integrator::kReference);
-    o.speed_mps = 25.0, o.step_s = 0.01;  // long ones, with most to shrink
-    EXPECT_EQ(refusal(o, in), "");
-    o.step_s = 0.001;
+    o.speed_mps = 25.0, o.step_s = 0.001;
     const auto done = batch::run(o, in, [&](const batch::Row& row) { exact.push_back(row); });
     ASSERT_TRUE(done.ok()) << done.error().text();
     o.integrator = Integrator::kRk4;
@@ -189,6 +187,20 @@ TEST(Batch, ReferenceIntegratorBrakes) {
       ASSERT_NEAR(exact[i].pitch_rad, fixed[i].pitch_rad, 1e-5) << name(level) << ' ' << exact[i].time_s;
     }
   }
+}
+
+// Where braking wheels come to a stand, and where a tyre reaches its limit in a turn.
+TEST(Batch, ReferenceIntegratorStops) {
+  const batch::Inputs stop = inputs("time_s,steer_rad,accelerator_01,brake_01\n0,0,0,0\n0.2,0,0,0.4\n2.5,0,0,0.4\n");
+  batch::Options o = options(Level::kFull, Integrator::kReference);
+  for (const auto& [speed_mps, step_s] : {std::pair{5.0, 0.005}, {6.0, 0.005}, {7.0, 0.01}, {8.0, 0.005}}) {
+    o.speed_mps = speed_mps, o.step_s = step_s;
+    EXPECT_EQ(refusal(o, stop), "") << speed_mps;
+  }
+  o.level = Level::kSingleTrack, o.speed_mps = 25.0;
+  const batch::Inputs turn = inputs(
+      "time_s,steer_rad,accelerator_01,brake_01\n0,0,0.2,0\n1,0.03,0.2,0\n2,0.03,0,0\n2.2,0.03,0,0.4\n6,0,0,0.4\n");
+  EXPECT_EQ(refusal(o, turn), "");
 }
 
 TEST(Batch, ReferenceIntegratorSaysWhyItGaveUp) {
