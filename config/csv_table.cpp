@@ -21,7 +21,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 constexpr std::uint64_t kMostBytes = 2ull << 30;
-constexpr std::size_t kMostColumns = 4096, kMostCells = 100'000'000, kMostInLine = 1 << 20;
+constexpr std::size_t kMostColumns = 4096, kMostCells = 50'000'000, kMostInLine = 1 << 20;
 
 // The next line without its end; false: there is none. Stops behind kMostInLine, so a stream without line ends ends.
 bool next_line(std::streambuf& from, std::string& line) {
@@ -98,7 +98,7 @@ Result<CsvTable> CsvTable::read(const std::filesystem::path& file) {
         if (const char* reason = refused(cell, value))
           return Error{place(),
                        "column " + table.columns_[column] + ": \"" + std::string(cell.substr(0, 40)) + "\" " + reason};
-        if (table.cells_.size() >= kMostCells) return Error{place(), "more than 100 million cells"};
+        if (table.cells_.size() >= kMostCells) return Error{place(), "more than 50 million cells"};
         table.cells_.push_back(value);
       }
       if (comma == std::string_view::npos) {

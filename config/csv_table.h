@@ -13,7 +13,7 @@
 namespace phare {
 
 /// Comma separated, one header line, every cell a finite number, every row as long as the header. Lines that are empty
-/// or begin with # are passed over. A file or a pipe, no device; at most 2 GiB, 4096 columns, 100 million cells and 1
+/// or begin with # are passed over. A file or a pipe, no device; at most 2 GiB, 4096 columns, 50 million cells and 1
 /// MiB in a line, so that no file takes all memory.
 class CsvTable {
  public:

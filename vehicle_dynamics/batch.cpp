@@ -45,11 +45,14 @@ std::string text_of(double value) {
   return text;
 }
 
-// Every number finite: what is not makes their products with 0 not 0.
+// Every number finite: what is not makes its product with 0 not 0. Four sums, which do not wait for one another.
 bool finite(const double* values, std::size_t count) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) sum += values[i] * 0.0;
-  return sum == 0.0;
+  std::array<double, 4> sum{};
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4)
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += values[i + k] * 0.0;
+  for (; i < count; ++i) sum[0] += values[i] * 0.0;
+  return sum[0] + sum[1] + sum[2] + sum[3] == 0.0;
 }
 
 // A car of any level behind one face, for this loop only.
@@ -114,8 +117,8 @@ class Car {
   }
 
   // Inputs over the step [time, time + dt]: heights linear, the rest at its middle.
-  // Error: the reference integrator gave up.
-  Status step(Playhead& in, const Inputs& inputs, double time_s, double dt) {
+  // False: the reference integrator gave up, see gave_up().
+  bool step(Playhead& in, const Inputs& inputs, double time_s, double dt) {
     if (!inputs.road_m[0].empty()) {
       in.go(time_s);
       for (std::size_t i = 0; i < 4; ++i) input_.height_m[i] = in.linear(inputs.road_m[i]);
@@ -138,7 +141,7 @@ class Car {
     const double parking = in.linear(inputs.parking_01);
     if (o_.level == Level::kKinematic) {
       kinematic_step(in, inputs, controls, pedals, parking, dt);
-      return Done{};
+      return true;
     }
     if (pedals) {
       const auto torque =
@@ -153,14 +156,16 @@ class Car {
               0.5 * kParkingShare_01 * parking * o_.vehicle.max_brake_force_n * o_.vehicle.tyre_radius_m;
       }
     }
-    if (o_.integrator == Integrator::kReference)
-      return o_.level == Level::kFull ? reference_.advance(full_params_, input_, full_, dt)
-                                      : reference_.advance(single_params_, input_, single_, dt);
+    if (o_.integrator == Integrator::kReference) {
+      gave_up_ = o_.level == Level::kFull ? reference_.advance(full_params_, input_, full_, dt)
+                                          : reference_.advance(single_params_, input_, single_, dt);
+      return gave_up_.ok();
+    }
     if (o_.level == Level::kFull)
       full::advance(full_params_, input_, full_, dt);
     else
       single_track::advance(single_params_, input_, single_, dt);
-    return Done{};
+    return true;
   }
 
   // Numbers that a car can have, by far: a step that is too long for the method, or a road that rises by kilometres,
@@ -249,6 +254,7 @@ class Car {
                                              : state_hash(flat_);
   }
   bool off_road() const { return off_road_; }
+  const Status& gave_up() const { return gave_up_; }
 
  private:
   // Of max_brake_force_n, on the rear axle, as powertrain.h has it.
@@ -323,6 +329,7 @@ class Car {
   std::array<double, 4> beside_{};
   double yaw_ = 0.0, road_pitch_ = 0.0, origin_z_ = 0.0, plane_z_ = 0.0;
   bool off_road_ = false;
+  Status gave_up_ = Done{};
 };
 
 Row between(const Row& a, const Row& b, double u) {
@@ -433,7 +440,7 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
       before = car.row(from, 0.0);
       car.lamps(lamps, 0.0, dt, before);
     }
-    if (Status stepped = car.step(in, inputs, from, dt); !stepped) return failed(from, stepped.error().reason);
+    if (!car.step(in, inputs, from, dt)) return failed(from, car.gave_up().error().reason);
     if (!car.sound()) return failed(to, kUnsound);
     if (options.stop && (n % 64 == 0 || options.integrator == Integrator::kReference) && options.stop())
       return failed(to, "stopped from outside");
