@@ -104,7 +104,8 @@ void kinematics(const Params& p, const Held& held, const Geometry& g, const Stee
     const double aside = vx * left[0] + vy * left[1] + vz * left[2];
     contact.rolling_mps[i] = s.spin_radps[i] * p.radius_m;
     const tyre::SlipRate slip =
-        tyre::slip_rate(p.tyre, s.kappa[i], s.tan_alpha[i], ahead, aside, contact.rolling_mps[i], held.most_slip_pm);
+        tyre::slip_rate(p.tyre, s.kappa[i], s.tan_alpha[i], ahead, aside, contact.rolling_mps[i], held.most_along_pm,
+                        held.most_across_pm);
     d.kappa[i] = slip.kappa_ps;
     d.tan_alpha[i] = slip.tan_alpha_ps;
     contact.decay_ps[i] = slip.kappa_decay_ps;
@@ -139,7 +140,7 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
     if (c.moving_mps[i] < kDampedBelow_mps && tyres.load_n[i] > 0.0) {
       const double damping =
           p.tyre.p.carcass_damping_nspm * (1.0 - c.moving_mps[i] / kDampedBelow_mps) * tyres.load_n[i] / kFullDamping_n;
-      const double x = tyres.fx_n[i] + damping * c.stretch_mps[i], y = tyres.fy_n[i] + damping * c.stretch_mps[i + 4];
+      const double x = tyres.fx_n[i] + std::min(damping, held.most_damping_nspm) * c.stretch_mps[i], y = tyres.fy_n[i] + damping * c.stretch_mps[i + 4];
       const double most = g.friction[i] * tyres.load_n[i];
       const double ex = x / (most * p.tyre.p.long_peak), ey = y / (most * p.tyre.p.lat_peak), over = ex * ex + ey * ey;
       const double scale = 1.0 / std::sqrt(std::max(over, 1.0));
