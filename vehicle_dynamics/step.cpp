@@ -53,7 +53,7 @@ void StepLoop::move(double dt) {
       off_road_ |= setup_.sprung->off_road();
       break;
   }
-  path_m_ = sprung() ? setup_.sprung->path_m() : path_m_ + now_.speed_mps * dt;
+  path_m_ = sprung() ? setup_.sprung->path_m() : path_m_ + now_.speed_mps * std::cos(now_.road_pitch_rad) * dt;
 }
 
 bool StepLoop::sleeps(double dt) {

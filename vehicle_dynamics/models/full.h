@@ -54,7 +54,7 @@ Result<Params> params_of(const VehicleParams& vehicle, const std::string& place)
 struct State {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
   double qw = 1.0, qx = 0.0, qy = 0.0, qz = 0.0;  ///< world from body, unit
-  double path_m = 0.0;                            ///< travelled along the body's x
+  double path_m = 0.0;                            ///< travelled ahead, on the map
   double u_mps = 0.0, v_mps = 0.0, w_mps = 0.0;
   double p_radps = 0.0, q_radps = 0.0, r_radps = 0.0;
   std::array<double, 4> travel_m{};            ///< of the wheel towards the body, 0 at rest
