@@ -8,7 +8,7 @@
 namespace phare {
 namespace {
 
-constexpr std::size_t kFields = 20 + 4;
+constexpr std::size_t kFields = kCarStateFields;
 
 // Every double of a state in declaration order; one list for hash and interpolation.
 template <class State, class Visit>
@@ -40,10 +40,15 @@ static_assert(sizeof(CarState) == kFields * sizeof(double), "a new field belongs
 
 }  // namespace
 
-std::uint64_t state_hash(const CarState& state) {
+std::array<double, kCarStateFields> fields_of(const CarState& state) {
   std::array<double, kFields> values{};
   std::size_t i = 0;
   for_each_field(state, [&](const double& field) { values[i++] = field; });
+  return values;
+}
+
+std::uint64_t state_hash(const CarState& state) {
+  const auto values = fields_of(state);
   return hash_of(values.data(), values.size());
 }
 

@@ -44,6 +44,10 @@ struct CarState {
   friend bool operator==(const CarState&, const CarState&) = default;
 };
 
+inline constexpr std::size_t kCarStateFields = 24;
+/// All of it, in order.
+std::array<double, kCarStateFields> fields_of(const CarState& state);
+
 /// Over the bits of every field in order, after FNV-1a (Fowler, Noll, Vo 1991; 64 bit) but eight bytes at a time: a
 /// step is hashed in a tenth of a microsecond. Two states that differ in one field never share it.
 std::uint64_t state_hash(const CarState& state);
