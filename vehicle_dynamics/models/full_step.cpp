@@ -15,7 +15,7 @@ Result<Params> params_of(const VehicleParams& vehicle, const std::string& place)
   p.sprung_kg = vehicle.sprung_mass_kg;
   p.cg_height_m = vehicle.cg_height_m;
   p.radius_m = vehicle.tyre_radius_m;
-  p.spin_inertia_kgm2 = std::max(vehicle.wheel_inertia_kgm2, 0.05);  // a wheel without inertia has no spin to integrate
+  p.spin_inertia_kgm2 = vehicle.wheel_inertia_kgm2;
   p.roll_inertia_kgm2 = c.roll_inertia_kgm2;
   p.pitch_inertia_kgm2 = c.pitch_inertia_kgm2;
   p.yaw_inertia_kgm2 = c.yaw_inertia_kgm2;
