@@ -46,7 +46,7 @@ struct Requests {
 };
 
 Controls controls_of(const CockpitState& state) {
-  return {state.steering_wheel_rad, state.accelerator_01, state.brake_01, state.gear};
+  return {state.steering_wheel_rad, state.accelerator_01, state.brake_01, state.gear, state.parking_brake_01};
 }
 
 bool high_beam_on(const CockpitState& state) {

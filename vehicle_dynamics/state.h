@@ -18,6 +18,7 @@ struct Controls {
   double accelerator_01 = 0.0;
   double brake_01 = 0.0;
   Gear gear = Gear::kDrive;
+  double parking_brake_01 = 0.0;  ///< on the rear wheels, half of what the brakes can do
 
   friend bool operator==(const Controls&, const Controls&) = default;
 };

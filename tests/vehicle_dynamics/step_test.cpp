@@ -160,6 +160,27 @@ TEST(StepLoop, BesideTheRoadTheHeightIsHeld) {
   EXPECT_GT(loop.state().z_m, 1.5);
 }
 
+// The lever of the parking brake alone, in neutral on 12 %: half of the brakes, at the rear wheels, holds every level; let
+// go, every level rolls.
+TEST(StepLoop, ParkingBrakeHoldsOnAGrade) {
+  for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull, Level::kAuto}) {
+    RunSetup setup = kinematic_setup("hatchback.toml");
+    setup.level = level;
+    setup.road = test::tilted_plane(0.12, 0.0);
+    setup.sprung = *SprungCar::of(setup.vehicle, "");
+    StepLoop loop(std::move(setup), CarState{});
+    loop.set_controls({.gear = Gear::kNeutral, .parking_brake_01 = 1.0});
+    loop.run_to(seconds(5.0));
+    const double x = loop.state().x_m;
+    loop.run_to(seconds(20.0));
+    EXPECT_NEAR(loop.state().x_m, x, 1e-6) << name(level);
+    EXPECT_NEAR(x, 0.0, 0.02) << name(level);
+    loop.set_controls({.gear = Gear::kNeutral});
+    loop.run_to(seconds(24.0));
+    EXPECT_LT(loop.state().speed_mps, -1.0) << name(level);
+  }
+}
+
 // A wall across the road, a road a mile high, a kerb that turns the car over: whatever the models make of it, no state
 // that is not a number leaves the loop, and the reason is told once and for all.
 TEST(StepLoop, LostCarStaysWhereItWas) {
