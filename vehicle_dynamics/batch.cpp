@@ -257,7 +257,7 @@ class Car {
   const Status& gave_up() const { return gave_up_; }
 
  private:
-  // Of max_brake_force_n, on the rear axle, as powertrain.h has it.
+  // Of max_brake_force_n, on the rear axle, as powertrain.cpp has it.
   static constexpr double kParkingShare_01 = 0.5;
 
   // Torques are forces at the wheels, whatever the gear; this level has them by way of the pedals, so no more than the
@@ -275,7 +275,7 @@ class Car {
       controls.accelerator_01 = std::min(drive / most, 1.0);
       controls.brake_01 = std::min(brake / o_.vehicle.max_brake_force_n, 1.0);
     }
-    controls.brake_01 = std::min(controls.brake_01 + kParkingShare_01 * parking, 1.0);
+    controls.parking_brake_01 = parking;
     kinematic::advance(o_.vehicle, controls, flat_, dt);
     std::array<double, 4> height = beside_;
     if (input_.heights_given) {

@@ -46,7 +46,7 @@ struct Requests {
 };
 
 Controls controls_of(const CockpitState& state) {
-  return {state.steering_wheel_rad, state.accelerator_01, state.brake_01, state.gear};
+  return {state.steering_wheel_rad, state.accelerator_01, state.brake_01, state.gear, state.parking_brake_01};
 }
 
 bool high_beam_on(const CockpitState& state) {
@@ -201,6 +201,11 @@ class Process {
     state.high_beam_telltale = cockpit && high_beam_on(*cockpit);
     if (cockpit && cockpit->drive_ended) state.drive_ended = true;
     bus_.send(time, state);
+    if (loop_->out_of_play() && !lost_logged_) {
+      lost_logged_ = true;
+      spdlog::error("{} at {:.3f} s, level {}: it stays where it is", loop_->out_of_play(), loop_->time().seconds(),
+                    name(loop_->level_now()));
+    }
     const bool has_road = loop_->setup().road.triangle_count() > 0;  // without one it has been said already
     if (has_road && loop_->off_road() && !off_road_logged_) {
       off_road_logged_ = true;
@@ -334,6 +339,7 @@ class Process {
       json["drops"] = loop_->drops();
       json["controls_refused"] = loop_->controls_refused();
       json["off_road"] = loop_->off_road();
+      json["out_of_play"] = loop_->out_of_play() ? nlohmann::json(loop_->out_of_play()) : nlohmann::json();
       json["slept_s"] = loop_->slept_s();
       json["step_ns"] = {{"count", times.count()},
                          {"p50", times.quantile_ns(0.5)},
@@ -360,7 +366,7 @@ class Process {
   StepTimes wake_late_;  ///< real time: how long after its time a wake-up came
   std::uint64_t missed_wakes_ =
       0;  ///< wake-ups that fell away because the one before came a step too late; their steps are caught up
-  bool silent_ = false, off_road_logged_ = false;
+  bool silent_ = false, off_road_logged_ = false, lost_logged_ = false;
   std::uint64_t drops_logged_ = 0;
   Clock::time_point next_lag_log_{}, next_stats_{};
 };

@@ -108,7 +108,8 @@ void to_array(const State& state, double* values) {
 
 Status ReferenceIntegrator::advance(const full::Params& p, const full::Input& in, full::State& state, double dt) {
   full::Held during = full::held(p, in, state, dt);
-  during.most_slip_pm = std::numeric_limits<double>::infinity();  // the floor is there for fixed steps
+  during.most_along_pm = during.most_across_pm = during.most_damping_nspm =
+      std::numeric_limits<double>::infinity();  // what fixed steps do not bear
   const full::State before = state;
   std::array<double, full::kStateSize> y;
   to_array(state, y.data());
