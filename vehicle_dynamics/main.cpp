@@ -80,6 +80,8 @@ Result<Begin> prepare(const Rig& rig, const Options& options, std::optional<leve
   begin.setup.levelling = levelling.value_or(levelling::kind_of(begin.setup.vehicle.levelling.system));
   if (begin.setup.levelling == levelling::Kind::kManual)
     return Error{"--levelling", "manual: the cockpit's wheel turns the lamps of a live run"};
+  if (begin.setup.levelling != levelling::Kind::kNone && begin.setup.vehicle.levelling.lamp_height_m <= 0.0)
+    return Error{rig.vehicle_file.string(), "has no table [levelling]: there are no lamps to level"};
   if (*level != Level::kKinematic) {
     Result<SprungCar> sprung = SprungCar::of(begin.setup.vehicle, rig.vehicle_file.string());
     if (!sprung) return sprung.error();
@@ -166,7 +168,7 @@ class Process {
   void run_real_time(Begin begin) {
     constexpr std::chrono::milliseconds kSendEvery(4);
     scheduling_ = run_before_others(rig_.real_time_priority);
-    spdlog::info("scheduling: {}", scheduling_.text);
+    spdlog::debug("scheduling: {}", scheduling_.text);
     begin_in_real_time(std::move(begin));
     const std::chrono::nanoseconds step(loop_->setup().step.ns);
     Pacer pacer(step);
@@ -361,7 +363,7 @@ class Process {
   std::optional<StepLoop> loop_;
   std::uint64_t sent_step_ = 0;  ///< the newest step whose hash has been sent
   Scheduling scheduling_;
-  StepTimes wake_late_;          ///< real time: how long after its time a wake-up came
+  StepTimes wake_late_;  ///< real time: how long after its time a wake-up came
   std::uint64_t missed_wakes_ =
       0;  ///< wake-ups that fell away because the one before came a step too late; their steps are caught up
   bool silent_ = false, off_road_logged_ = false, lost_logged_ = false;
@@ -393,6 +395,7 @@ int run(int argc, char** argv) {
     app.exit(problem);  // --help, --version
     return kExitDone;
   }
+  if (const Status fit = batch.options_fit(); !fit) return fail("phare-dynamics", fit.error());
   if (batch.asked()) return batch.run(options.level.empty() ? "full" : options.level);
   if (options.rig_file.empty()) return fail("phare-dynamics", {"--rig", "is required, unless --batch runs a file"});
   spdlog::set_default_logger(spdlog::stderr_color_mt("dynamics"));
