@@ -16,15 +16,9 @@ using test::finite;
 using test::hard_car;
 using test::long_run;
 
+// On a road of one friction.
 double friction_use(const Drive& d, const full::Forces& f, double mu) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (f.load_n[i] <= 0.0) continue;
-    const double x = f.fx_n[i] / (mu * d.params.tyre.p.long_peak * f.load_n[i]);
-    const double y = f.fy_n[i] / (mu * d.params.tyre.p.lat_peak * f.load_n[i]);
-    most = std::max(most, x * x + y * y);
-  }
-  return most;
+  return test::friction_use(d.params, f, {mu, mu, mu, mu});
 }
 
 // 1. Slope of 20 %, brakes on.
