@@ -1,5 +1,5 @@
 // Ride and dive against closed forms: eigenvalues of the half car, dive per g and after a step. Figures are those of
-// the notes (6.2 and 6.3); docs/dynamics.md has the table.
+// the notes (6.1 to 6.3); docs/dynamics.md has the table.
 #include <gtest/gtest.h>
 
 #include "closed_forms.h"
@@ -70,6 +70,19 @@ Modes modes_of(const single_track::Params& p) {
                        single_track::derivative(p, single_track::held(p, level, at, 1e-3), at, 0.0, rate);
                        return rate;
                      });
+}
+
+// 6.1. At rest.
+TEST(ClosedForm, LoadsAtRest) {
+  const Drive full(full_car());
+  const Track single(test::single_car());
+  for (const full::Forces& f : {full.forces(), single.forces()}) {
+    for (std::size_t i = 0; i < 4; ++i) expect_share(f.load_n[i], i < 2 ? 2926.07 : 2436.54, kForm, "load");
+    expect_share(f.load_n[0] / full.params.tyre_rate_npm, 18.49e-3, kForm, "front tyre");
+    expect_share(f.load_n[2] / full.params.tyre_rate_npm, 15.39e-3, kForm, "rear tyre");
+  }
+  expect_share(full.params.spring_n[0] / (full.params.spring_n[0] + full.params.spring_n[2]), 0.5517, kForm,
+               "front share of the body");
 }
 
 // 6.2. Natural frequencies of the damped car, heave and pitch first, then wheel hop; damping ratios of the 320i.
@@ -191,7 +204,7 @@ TEST(ClosedForm, DivePerG) {
       const double front = 1.0 / kf + 1.0 / kt, rear = 1.0 / kr + 1.0 / kt;
       const double expected = c.deg_per_g * ((1.0 - anti_dive) * front + rear) / (front + rear);
       // In level full the linkage carries its share past the spring only: the tyre still takes the whole, which leaves
-      // 2.492 deg/g of the 320i instead of 2.426.
+      // 2.498 deg/g of the 320i instead of 2.426.
       const double past_spring = c.deg_per_g * ((1.0 - anti_dive) / kf + 1.0 / kt + rear) / (front + rear);
 
       Drive full(*full::params_of(v, ""), 40.0);

@@ -133,6 +133,7 @@ TEST(HardCase, C05WheelLift) {
     f = now.forces();
     for (std::size_t i = 0; i < 4; ++i) {
       ASSERT_GE(f.load_n[i], 0.0);
+      ASSERT_LE(friction_use(now, f, 1.0), 1.001);
       lifted = lifted || f.load_n[i] == 0.0;
     }
     if (f.load_n[0] == 0.0) {
@@ -177,6 +178,7 @@ TEST(HardCase, C06KerbStep) {
       for (std::size_t i = 0; i < 4; ++i) now.input.height_m[i] = now.state.x_m + now.params.x_m[i] > 8.0 ? 0.10 : 0.0;
       const full::Forces f = now.forces();
       load = std::max(load, f.load_n[0]);
+      ASSERT_LE(friction_use(now, f, 1.0), 1.001);
       for (const double n : f.load_n) airborne_s[k] += n == 0.0 ? steps[k] : 0.0;
       peak[k] = std::max(peak[k], std::abs(f.pitch_rad) * test::kDeg);
       z_most[k] = std::max(z_most[k], now.state.z_m);
