@@ -168,7 +168,7 @@ class Process {
   void run_real_time(Begin begin) {
     constexpr std::chrono::milliseconds kSendEvery(4);
     scheduling_ = run_before_others(rig_.real_time_priority);
-    spdlog::info("scheduling: {}", scheduling_.text);
+    spdlog::debug("scheduling: {}", scheduling_.text);
     begin_in_real_time(std::move(begin));
     const std::chrono::nanoseconds step(loop_->setup().step.ns);
     Pacer pacer(step);

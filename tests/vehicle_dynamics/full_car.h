@@ -81,6 +81,57 @@ struct Drive {
   }
 };
 
+/// The same at level single-track.
+struct Track {
+  single_track::Params params;
+  full::Input input;
+  single_track::State state;
+  double time_s = 0.0;
+
+  explicit Track(const single_track::Params& p, double speed = 0.0)
+      : params(p), state(single_track::at_rest(p, 0.0, 0.0, 0.0, speed, {})) {
+    input.air_and_rolling = false;
+  }
+  void step(double dt) {
+    single_track::advance(params, input, state, dt);
+    time_s += dt;
+  }
+  template <class Each>
+  void run(double seconds, double dt, Each&& each) {
+    single_track::set_step(params, dt);
+    for (long i = 0; i < std::lround(seconds / dt); ++i) step(dt), each(*this);
+  }
+  void run(double seconds, double dt) {
+    run(seconds, dt, [](const Track&) {});
+  }
+  full::Forces forces() const { return single_track::forces(params, input, state); }
+  void brake(double mps2) {
+    const double torque = params.car.mass_kg * mps2 * params.car.radius_m;
+    input.brake_nm = {0.33 * torque, 0.33 * torque, 0.17 * torque, 0.17 * torque};
+  }
+};
+
+/// Most of the friction ellipse that a wheel uses: at most 1. `friction`: under each wheel.
+inline double friction_use(const full::Params& p, const full::Forces& f, const std::array<double, 4>& friction) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (f.load_n[i] <= 0.0) {
+      most = std::max(most, f.fx_n[i] != 0.0 || f.fy_n[i] != 0.0 ? 1e9 : 0.0);  // in the air nothing holds
+      continue;
+    }
+    const double x = f.fx_n[i] / (friction[i] * p.tyre.p.long_peak * f.load_n[i]);
+    const double y = f.fy_n[i] / (friction[i] * p.tyre.p.lat_peak * f.load_n[i]);
+    most = std::max(most, x * x + y * y);
+  }
+  return most;
+}
+
+/// What lies under each wheel along the car's way.
+inline std::array<double, 4> friction_under(const full::Params& p, const Road& road, double path_m) {
+  const Two front = road.laid(path_m + p.x_m[0]).friction, rear = road.laid(path_m + p.x_m[2]).friction;
+  return {front[0], front[1], rear[0], rear[1]};
+}
+
 inline bool finite(const full::State& s) {
   const double* values = &s.x_m;
   for (std::size_t i = 0; i < full::kStateSize; ++i)

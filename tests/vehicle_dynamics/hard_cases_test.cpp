@@ -2,6 +2,7 @@
 // Those that take hours run for minutes of simulated time here; PHARE_LONG_TESTS=1 gives them their full length.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "config/conventions.h"
@@ -16,15 +17,9 @@ using test::finite;
 using test::hard_car;
 using test::long_run;
 
+// On a road of one friction.
 double friction_use(const Drive& d, const full::Forces& f, double mu) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (f.load_n[i] <= 0.0) continue;
-    const double x = f.fx_n[i] / (mu * d.params.tyre.p.long_peak * f.load_n[i]);
-    const double y = f.fy_n[i] / (mu * d.params.tyre.p.lat_peak * f.load_n[i]);
-    most = std::max(most, x * x + y * y);
-  }
-  return most;
+  return test::friction_use(d.params, f, {mu, mu, mu, mu});
 }
 
 // 1. Slope of 20 %, brakes on.
@@ -138,6 +133,7 @@ TEST(HardCase, C05WheelLift) {
     f = now.forces();
     for (std::size_t i = 0; i < 4; ++i) {
       ASSERT_GE(f.load_n[i], 0.0);
+      ASSERT_LE(friction_use(now, f, 1.0), 1.001);
       lifted = lifted || f.load_n[i] == 0.0;
     }
     if (f.load_n[0] == 0.0) {
@@ -162,56 +158,82 @@ TEST(HardCase, C05WheelLift) {
 TEST(HardCase, C06KerbStep) {
   full::Params p = hard_car();
   p.bump_travel_m = p.rebound_travel_m = 1.0;  // the prototype had no stops
-  double peak[2]{};
-  const double steps[2] = {0.001, 0.0001};
-  for (int k = 0; k < 2; ++k) {
+  // A true step under all four wheels of the standing car: what the tyres are squeezed by and no more, 18 755 N in
+  // front.
+  Drive stepped(p);
+  stepped.input.heights_given = true;
+  stepped.input.height_m.fill(0.10);
+  const full::Forces at_once = stepped.forces();
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(at_once.load_n[i], p.load_n[i] + p.tyre_rate_npm * 0.10, 1e-6) << "Fz0 + K_t h";
+  EXPECT_NEAR(at_once.load_n[0], 18755.0, 1.0);  // g = 9.80665 here, 9.81 in the notes: 0.9 N
+
+  double peak[3]{}, z_most[3]{}, airborne_s[3]{};
+  const double steps[3] = {0.002, 0.001, 0.0001};
+  for (int k = 0; k < 3; ++k) {
     Drive d(p, 50.0 / 3.6);
     d.input.heights_given = true;
-    double load = 0.0, z_most = 0.0, airborne_s = 0.0;
+    double load = 0.0;
     d.run(4.0, steps[k], [&](Drive& now) {
       for (std::size_t i = 0; i < 4; ++i) now.input.height_m[i] = now.state.x_m + now.params.x_m[i] > 8.0 ? 0.10 : 0.0;
       const full::Forces f = now.forces();
       load = std::max(load, f.load_n[0]);
-      for (const double n : f.load_n) airborne_s += n == 0.0 ? steps[k] : 0.0;
-      peak[k] = std::max(peak[k], std::abs(f.pitch_rad));
-      z_most = std::max(z_most, now.state.z_m);
+      ASSERT_LE(friction_use(now, f, 1.0), 1.001);
+      for (const double n : f.load_n) airborne_s[k] += n == 0.0 ? steps[k] : 0.0;
+      peak[k] = std::max(peak[k], std::abs(f.pitch_rad) * test::kDeg);
+      z_most[k] = std::max(z_most[k], now.state.z_m);
     });
     ASSERT_TRUE(finite(d.state));
     EXPECT_NEAR(d.state.z_m, 0.10, 1e-5);
-    EXPECT_NEAR(load, p.load_n[0] + p.tyre_rate_npm * 0.10, 0.002 * 18755.0);
-    EXPECT_NEAR(z_most, 0.1338, 0.005);
-    EXPECT_NEAR(airborne_s, 0.095, 0.005);  // all wheels together
-    EXPECT_NEAR(peak[k] * test::kDeg, 2.88, 0.1);
+    // With only the front axle up, tyres are squeezed along the normal of a plane that has tilted by atan(h / L): 29 N
+    // more, (R - h)(1 - cos) of the height of the wheel's centre.
+    const double cosine = std::cos(std::atan(0.10 / p.wheelbase_m));
+    const double squeeze = 0.10 + (p.radius_m - 0.10) * (1.0 - cosine);
+    EXPECT_NEAR(load, p.load_n[0] + p.tyre_rate_npm * squeeze, 0.5);
+    EXPECT_NEAR(z_most[k], 0.1338, 0.0005);
+    EXPECT_NEAR(airborne_s[k], 0.095, 0.003);  // all wheels together; a step of 2 ms counts by 2 ms
+    // The notes' spread over steps and methods is 2.884 to 2.899 degrees; where in a step the kerb falls moves it here
+    // by 0.007.
+    EXPECT_GT(peak[k], 2.884 - 0.007);
+    EXPECT_LT(peak[k], 2.899 + 0.007);
   }
-  EXPECT_NEAR(peak[0] * test::kDeg, peak[1] * test::kDeg, 0.02);
+  EXPECT_NEAR(peak[1], peak[2], 0.02);
+  EXPECT_NEAR(peak[0], peak[2], 0.02);
 }
 
-// 7. Friction 1.0 to 0.1 and back while braking from 100 km/h; then left and right apart. The notes' places (121.79 m;
-// 0.155 rad, 135.3 m) are their prototype's: this car stops after 93.35 m, and apart it spins to 1.95 rad within 104.1
-// m. What has to hold for any car does: both step sizes agree, friction is never exceeded, kinetic energy never rises.
+// 7. Friction 1.0 to 0.1 and back while braking from 100 km/h; then left and right apart. The notes' places (121.79 m
+// and 11.08 m/s2; 0.155 rad, 135.3 m) are their prototype's: this car stops after 93.35 m with 10.93 m/s2 at most, and
+// apart it spins to 1.952 rad within 104.07 m, to what its steps differ by. What has to hold for any car does: friction
+// is never exceeded, kinetic energy never rises.
 TEST(HardCase, C07FrictionJump) {
-  double stop[2]{};
-  const double steps[2] = {0.001, 0.002};
-  for (int k = 0; k < 2; ++k) {
+  double stop[3]{}, hardest[3]{};
+  const double steps[3] = {0.002, 0.001, 0.0005};
+  const double v0 = 100.0 / 3.6;
+  for (int k = 0; k < 3; ++k) {
     Road ice;
     ice.friction = {{.from_m = 40.0, .to_m = 80.0, .left = 0.1, .right = 0.1}};
-    Drive d(hard_car(), 100.0 / 3.6, &ice);
+    Drive d(hard_car(), v0, &ice);
     d.brake(7.0);
     double most = 0.0;
     for (long i = 0; i < 200'000 && (d.state.u_mps > 0.0 || d.time_s < 1.0); ++i) {
       d.step(steps[k]);
-      if (i % 10 == 0) most = std::max(most, friction_use(d, d.forces(), 1.0));
-      const double at = d.state.path_m;
-      if (i % 10 == 0 && at > 42.0 && at < 78.0) {
-        EXPECT_LE(friction_use(d, d.forces(), 0.1), 1.001);
-      }
+      const full::Forces f = d.forces();
+      most = std::max(most, test::friction_use(d.params, f, test::friction_under(d.params, ice, d.state.path_m)));
+      // Until it rolls out: in the last metre a locked wheel may stick within a step.
+      if (d.state.u_mps > 1.0) hardest[k] = std::max(hardest[k], std::abs(f.ax_mps2));
     }
     stop[k] = d.state.x_m;
     EXPECT_LE(most, 1.001);
   }
-  EXPECT_NEAR(stop[0], stop[1], 0.05);
+  EXPECT_NEAR(stop[1], 93.35, 0.01);
+  EXPECT_NEAR(stop[0], stop[2], 0.01);
+  EXPECT_NEAR(stop[1], stop[2], 0.005);
+  EXPECT_NEAR(hardest[1], 10.934, 0.005);
+  EXPECT_NEAR(hardest[0], hardest[2], 0.002);
+  EXPECT_NEAR(hardest[1], hardest[2], 0.001);
+  EXPECT_LT(hardest[0], hard_car().tyre.p.long_peak * kGravity_mps2);  // what all tyres at their peak give
   // Energy: 7 m/s2 less the wheels' own inertia before and behind the ice, on it what a locked wheel finds there.
-  const double v0 = 100.0 / 3.6, off_ice = 7.0 * 1093.3 / 1150.76, on_ice = 0.1 * 1.1 * kGravity_mps2;
+  const double off_ice = 7.0 * 1093.3 / 1150.76, on_ice = 0.1 * 1.1 * kGravity_mps2;
   EXPECT_NEAR(stop[0], 80.0 + (v0 * v0 - 2.0 * off_ice * 40.0 - 2.0 * on_ice * 40.0) / (2.0 * off_ice), 3.0);
 }
 
@@ -231,20 +253,22 @@ TEST(HardCase, C07SplitFriction) {
                       0.5 * d.params.yaw_inertia_kgm2 * s.r_radps * s.r_radps;
       for (const double spin : s.spin_radps) energy += 0.5 * d.params.spin_inertia_kgm2 * spin * spin;
       ASSERT_LE(energy, before) << d.time_s;
+      ASSERT_LE(test::friction_use(d.params, d.forces(), {1.0, 0.1, 1.0, 0.1}), 1.001) << d.time_s;
       before = energy;
     }
     psi[k] = d.forces().yaw_rad, x[k] = d.state.x_m;
   }
-  EXPECT_GT(std::abs(psi[1]), 0.1);
-  EXPECT_NEAR(psi[0], psi[1], 0.002 * std::abs(psi[1]));
-  EXPECT_NEAR(x[0], x[1], 0.002 * x[1]);
+  EXPECT_NEAR(psi[1], 1.952, 0.001);
+  EXPECT_NEAR(x[1], 104.07, 0.01);
+  EXPECT_NEAR(psi[0], psi[1], 0.0002 * psi[1]);
+  EXPECT_NEAR(x[0], x[1], 0.0001 * x[1]);
 }
 
 // 8. Spin with locked wheels. The notes' 1274.59 degrees, 10.86 s, 96.08 m are their prototype's, whose steps of 2 and
 // 1 ms were 0.03 and 0.004 degrees from 0.25 ms; this car turns 1155.39 degrees in 13.27 s and 86.48 m, 0.04 and 0.007
 // apart.
 TEST(HardCase, C08Spin) {
-  double end[3]{}, jump[3]{};
+  double end[3]{}, jump[3]{}, still_at[3]{}, way[3]{};
   const double steps[3] = {0.002, 0.001, 0.00025};
   for (int k = 0; k < 3; ++k) {
     Road wet;
@@ -263,6 +287,7 @@ TEST(HardCase, C08Spin) {
       if (s.u_mps * ahead < 0.0) ++turns_over;
       ahead = s.u_mps;
       f = now.forces();
+      if (std::hypot(s.u_mps, s.v_mps) > 0.01) still_at[k] = now.time_s;
       yaw += std::remainder(f.yaw_rad - last, 2.0 * 3.14159265358979323846);
       last = f.yaw_rad;
       ASSERT_LE(friction_use(now, f, 0.3), 1.001);
@@ -274,24 +299,53 @@ TEST(HardCase, C08Spin) {
     EXPECT_GE(turns_over, 3);
     EXPECT_LT(std::hypot(d.state.u_mps, d.state.v_mps), 1e-3);
     end[k] = yaw * test::kDeg;
+    way[k] = std::hypot(d.state.x_m, d.state.y_m);
   }
-  EXPECT_GT(std::abs(end[0]), 360.0);
+  EXPECT_NEAR(end[2], 1155.39, 0.01);
   EXPECT_NEAR(end[0], end[2], 0.05);
   EXPECT_NEAR(end[1], end[2], 0.01);
+  EXPECT_NEAR(still_at[2], 13.27, 0.01);  // below 1 cm/s from then on
+  EXPECT_NEAR(still_at[0], still_at[2], 0.02);
+  EXPECT_NEAR(still_at[1], still_at[2], 0.01);
+  EXPECT_NEAR(way[2], 86.48, 0.01);
+  EXPECT_NEAR(way[0], way[2], 0.01);
+  EXPECT_NEAR(way[1], way[2], 0.002);
   // A force without a glitch changes by less in a shorter step.
   EXPECT_LT(jump[1], 0.6 * jump[0]);
   EXPECT_LT(jump[2], 0.3 * jump[1]);
 }
 
-// 9. A day straight ahead.
+long denormals(const double* values, std::size_t count) {
+  return std::count_if(values, values + count, [](double v) { return std::fpclassify(v) == FP_SUBNORMAL; });
+}
+
+// 9. A day straight ahead. (That memory stays constant is seen where allocations are counted, in running_test.cpp.)
 TEST(HardCase, C09StraightForADay) {
   Drive d(hard_car(), 30.0);
   const double seconds = long_run() ? 86'400.0 : 60.0;
-  d.run(seconds, 0.001);
+  long slow = 0;
+  d.run(seconds, 0.001, [&](const Drive& now) { slow += denormals(&now.state.x_m, full::kStateSize); });
+  EXPECT_EQ(slow, 0);
   EXPECT_LT(std::abs(d.state.y_m), 1e-9);
   EXPECT_LT(std::abs(d.forces().yaw_rad), 1e-12);
   EXPECT_NEAR(d.state.u_mps, 30.0, 1e-9);
   EXPECT_NEAR(d.state.x_m, 30.0 * seconds, 1.7e-3 * std::max(1.0, seconds / 86'400.0));
+}
+
+// Nor do states fade into denormal numbers, which take ten times as long: after a bend, and parked after a stop.
+TEST(HardCase, C09NoDenormalNumbers) {
+  const double seconds = long_run() ? 3600.0 : 150.0;  // a mode of 10/s passes 1e-308 after 70 s
+  Drive straight(hard_car(), 20.0), parked(hard_car(), 10.0);
+  straight.input.steer_rad = 0.02;
+  straight.run(1.0, 0.002);
+  straight.input.steer_rad = 0.0;
+  parked.input.steer_rad = 0.1;
+  parked.brake(6.0);
+  for (Drive* d : {&straight, &parked}) {
+    long slow = 0;
+    d->run(seconds, 0.002, [&](const Drive& now) { slow += denormals(&now.state.x_m, full::kStateSize); });
+    EXPECT_EQ(slow, 0);
+  }
 }
 
 // 10. Ten thousand kilometres away.
@@ -315,7 +369,7 @@ TEST(HardCase, C14RoughRoad) {
   rough.profiles.push_back(HeightProfile::iso8608(RoughnessClass::kE, 5));
   full::Params p = hard_car();
   p.bump_travel_m = p.rebound_travel_m = 1.0;
-  double pitch[3]{}, z[3]{}, load[3]{};
+  double pitch[3]{}, z[3]{}, load[3]{}, airborne[3]{};
   const double steps[3] = {0.002, 0.001, 0.0002};
   for (int k = 0; k < 3; ++k) {
     Drive d(p, 150.0 / 3.6, &rough);
@@ -328,17 +382,26 @@ TEST(HardCase, C14RoughRoad) {
       if (++i % every != 0) return;
       const full::Forces f = now.forces();
       pitch[k] += f.pitch_rad * f.pitch_rad, z[k] += now.state.z_m * now.state.z_m, count += 1.0;
-      for (const double n : f.load_n) load[k] = std::max(load[k], n);
+      ASSERT_LE(friction_use(now, f, 1.0), 1.001);
+      for (const double n : f.load_n) load[k] = std::max(load[k], n), airborne[k] += n == 0.0 ? 0.25 : 0.0;
     });
     ASSERT_TRUE(finite(d.state));
-    pitch[k] = std::sqrt(pitch[k] / count), z[k] = std::sqrt(z[k] / count);
+    pitch[k] = std::sqrt(pitch[k] / count), z[k] = std::sqrt(z[k] / count), airborne[k] /= count;
   }
   for (int k = 0; k < 2; ++k) {
     EXPECT_NEAR(pitch[k], pitch[2], 0.001 * pitch[2]);
     EXPECT_NEAR(z[k], z[2], 0.001 * z[2]);
     EXPECT_NEAR(load[k], load[2], 0.01 * load[2]);
   }
-  EXPECT_GT(pitch[2], 8e-3);
+  EXPECT_NEAR(airborne[0], airborne[2], 0.01);
+  EXPECT_NEAR(airborne[1], airborne[2], 0.01);
+  // The notes' figures are of another seed. What swings near 1.5 Hz with a width B of 0.8 Hz has an rms over T = 20 s
+  // that scatters by 1 / (2 sqrt(B T)) = 12 % (Bendat and Piersol 2010, ch. 8); here 13.37 mrad, 82.5 mm, 33 %, 16.1
+  // kN.
+  EXPECT_NEAR(pitch[2], 13.69e-3, 0.12 * 13.69e-3);
+  EXPECT_NEAR(z[2], 80.76e-3, 0.12 * 80.76e-3);
+  EXPECT_NEAR(airborne[2], 0.32, 0.12 * 0.32);
+  EXPECT_NEAR(load[2], 15.9e3, 0.12 * 15.9e3);
 }
 
 // 15. Springs without dampers keep their energy, and the explicit Euler method, put to the same test, must not.
@@ -369,19 +432,24 @@ TEST(HardCase, C15UndampedEnergy) {
     }
     return energy;
   };
+  constexpr double kBeat = 0.02;
+  const double at_start = full::energy_j(start.params, start.state, start.forces());
   ReferenceIntegrator reference;
   const std::vector<double> exact =
       energies([&](Drive& d) { ASSERT_TRUE(reference.advance(d.params, d.input, d.state, 0.01)); });
   const auto bounded = [&](const char* name, double low, double high, const std::function<void(Drive&)>& ten_ms) {
     const std::vector<double> energy = energies(ten_ms);
-    double least = 1e9, most = -1e9;
+    double least = 1e9, most = -1e9, least_of_start = 1e9, most_of_start = -1e9;
     bool inside = true;
     for (std::size_t k = 0; k < samples; ++k) {
-      const double share = energy[k] / exact[k];
-      inside = inside && share >= low && share <= high;  // NaN is not inside
+      const double share = energy[k] / exact[k], of_start = energy[k] / at_start;
+      // Against the start the model's own beat comes on top, 2 % at its height after 40 s. NaN is not inside.
+      inside = inside && share >= low && share <= high && of_start >= low - kBeat && of_start <= high + kBeat;
       least = std::min(least, share), most = std::max(most, share);
+      least_of_start = std::min(least_of_start, of_start), most_of_start = std::max(most_of_start, of_start);
     }
-    std::printf("%s: energy %.6f to %.6f of the exact motion's\n", name, least, most);
+    std::printf("%s: energy %.6f to %.6f of the exact motion's, %.6f to %.6f of the start's\n", name, least, most,
+                least_of_start, most_of_start);
     return inside;
   };
   const auto by = [](Integrator integrator) {
