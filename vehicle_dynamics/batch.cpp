@@ -109,7 +109,7 @@ class Car {
     }
     full_ = full::at_rest(full_params_, o_.start_x_m, 0.0, 0.0, o_.speed_mps, height);
     single_ = single_track::at_rest(single_params_, o_.start_x_m, 0.0, 0.0, o_.speed_mps, height);
-    flat_.x_m = o_.start_x_m - b;
+    flat_.x_m = flat_path_m_ = o_.start_x_m - b;
     flat_.speed_mps = o_.speed_mps;
     kinematic::stand_on(o_.vehicle, height, flat_, 0.0);
     beside_ = height;
@@ -257,7 +257,7 @@ class Car {
   const Status& gave_up() const { return gave_up_; }
 
  private:
-  // Of max_brake_force_n, on the rear axle, as powertrain.h has it.
+  // Of max_brake_force_n, on the rear axle, as powertrain.cpp has it.
   static constexpr double kParkingShare_01 = 0.5;
 
   // Torques are forces at the wheels, whatever the gear; this level has them by way of the pedals, so no more than the
@@ -275,17 +275,18 @@ class Car {
       controls.accelerator_01 = std::min(drive / most, 1.0);
       controls.brake_01 = std::min(brake / o_.vehicle.max_brake_force_n, 1.0);
     }
-    controls.brake_01 = std::min(controls.brake_01 + kParkingShare_01 * parking, 1.0);
+    controls.parking_brake_01 = parking;
+    const double before_mps = flat_.speed_mps;
     kinematic::advance(o_.vehicle, controls, flat_, dt);
+    flat_path_m_ += 0.5 * (before_mps + flat_.speed_mps) * std::cos(flat_.road_pitch_rad) * dt;
     std::array<double, 4> height = beside_;
     if (input_.heights_given) {
       for (std::size_t i = 0; i < 4; ++i) height[i] = input_.height_m[i] + input_.height_rate_mps[i] * dt;
     } else if (o_.road) {
       const auto points = kinematic::contact_points(o_.vehicle, flat_);
-      const double path = flat_.x_m;
       for (std::size_t i = 0; i < 4; ++i)
         height[i] = o_.road
-                        ->at(points[i].x, points[i].y, path + (i < 2 ? o_.vehicle.wheelbase_m : 0.0), i % 2 == 0,
+                        ->at(points[i].x, points[i].y, flat_path_m_ + (i < 2 ? o_.vehicle.wheelbase_m : 0.0), i % 2 == 0,
                              beside_[i], &off_road_)
                         .z_m;
     }
@@ -323,6 +324,7 @@ class Car {
   full::State full_;
   single_track::State single_;
   CarState flat_;
+  double flat_path_m_ = 0.0;  // of the rear axle, as travelled on the map
   powertrain::State power_;
   levelling::State lamps_;
   ReferenceIntegrator reference_;
