@@ -47,6 +47,35 @@ TEST(Batch, CutOffFallsUnderBrakingAtEveryLevel) {
   }
 }
 
+// One profile is one road: a straight slope of 20 % is driven as 20 % at every level, and a bump lies where the way leads,
+// on a circle too.
+TEST(Batch, ProfileIsTheSameRoadAtEveryLevel) {
+  for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull}) {
+    Road slope;
+    slope.profiles.push_back(*HeightProfile::read(written("slope.csv", "x_m,z_m\n-200,-40\n200,40\n")));
+    batch::Options o = options(level);
+    o.speed_mps = 0.0, o.road = &slope;
+    std::vector<batch::Row> rows;
+    const auto note = [&](const batch::Row& row) { rows.push_back(row); };
+    ASSERT_TRUE(batch::run(o, inputs("time_s,steer_rad,accelerator_01,brake_01\n0,0,0,1\n4,0,0,1\n"), note).ok());
+    // Springs add what the load transfer of standing on a grade gives: m g sin h over the dive stiffness, 10 mrad.
+    const double body = -std::atan(0.2) - 5.2693e-3 * 9.81 * std::sin(std::atan(0.2));
+    EXPECT_NEAR(rows.back().pitch_rad, body, 5e-4) << name(level);
+    for (const double load : rows.front().fz_n) EXPECT_GT(load, 1000.0) << name(level);  // it stands, and does not fall
+
+    Road bump;
+    bump.profiles.push_back(HeightProfile::bumps({{.start_m = 60.0, .height_m = 0.05, .length_m = 2.0}}));
+    o.road = &bump, o.speed_mps = 6.0, o.resistance = batch::Resistance::kOff;
+    rows.clear();
+    ASSERT_TRUE(batch::run(o, inputs("time_s,steer_rad,accelerator_01,brake_01\n0,0.12,0,0\n14,0.12,0,0\n"), note).ok());
+    double highest = 0.0, at_s = 0.0;
+    for (const batch::Row& row : rows)
+      if (row.z_m > highest) highest = row.z_m, at_s = row.time_s;
+    EXPECT_GT(highest, 0.02) << name(level);
+    EXPECT_NEAR(at_s, 61.0 / 6.0, 0.6) << name(level);
+  }
+}
+
 TEST(Batch, ReferenceIntegratorAgreesWithSmallSteps) {
   for (const Level level : {Level::kSingleTrack, Level::kFull}) {
     std::vector<batch::Row> exact, fixed;

@@ -6,6 +6,7 @@
 
 #include "test_car.h"
 #include "vehicle_dynamics/models/full.h"
+#include "vehicle_dynamics/models/full_parts.h"
 #include "vehicle_dynamics/models/single_track.h"
 
 namespace phare::test {
@@ -127,9 +128,8 @@ inline double friction_use(const full::Params& p, const full::Forces& f, const s
 }
 
 /// What lies under each wheel along the car's way.
-inline std::array<double, 4> friction_under(const full::Params& p, const Road& road, double path_m) {
-  const Two front = road.laid(path_m + p.x_m[0]).friction, rear = road.laid(path_m + p.x_m[2]).friction;
-  return {front[0], front[1], rear[0], rear[1]};
+inline std::array<double, 4> friction_under(const Drive& d) {
+  return full::geometry(d.params, d.input, d.state, 0.0).friction;
 }
 
 inline bool finite(const full::State& s) {
