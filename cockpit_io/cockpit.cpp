@@ -30,6 +30,7 @@ void Cockpit::take_recorded(const CockpitState& recorded, Moment now) {
   input_.brake_01 = recorded.brake_01;
   input_.gear = recorded.gear;
   input_.clutch_01 = recorded.clutch_01;
+  input_.parking_brake_01 = recorded.parking_brake_01;
   input_.lamp_aim_rad = recorded.lamp_aim_rad;
   switches_.signals = {recorded.fog_rear, recorded.turn, recorded.hazard, recorded.high_beam_automatic};
   switches_.contacts[static_cast<std::size_t>(Contact::kIgnition)].value = !recorded.ignition_off;
@@ -70,6 +71,7 @@ CockpitState Cockpit::state(std::int64_t frame_index, bool drive_ended) const {
   state.high_beam_automatic = switches_.signals.automatic_armed;
   state.lamp_aim_rad = input_.lamp_aim_rad;
   state.clutch_01 = input_.clutch_01;
+  state.parking_brake_01 = input_.parking_brake_01;
   state.ignition_off = switches_.contacts[static_cast<std::size_t>(Contact::kIgnition)].value == 0;
   return state;
 }

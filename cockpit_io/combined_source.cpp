@@ -69,6 +69,8 @@ ControlGroup group_of(Control control) {
       return ControlGroup::kClutch;
     case Control::kGear:
       return ControlGroup::kGear;
+    case Control::kParkingBrake:
+      return ControlGroup::kParkingBrake;
   }
   return ControlGroup::kLights;
 }
@@ -132,6 +134,7 @@ DriverInput CombinedSource::merged() const {
   from(ControlGroup::kBrake, [&](const DriverInput& in) { all.brake_01 = in.brake_01; });
   from(ControlGroup::kClutch, [&](const DriverInput& in) { all.clutch_01 = in.clutch_01; });
   from(ControlGroup::kGear, [&](const DriverInput& in) { all.gear = in.gear; });
+  from(ControlGroup::kParkingBrake, [&](const DriverInput& in) { all.parking_brake_01 = in.parking_brake_01; });
   s.design_next = s.design_previous = false;
   for (const Child& child : children_) {
     s.design_next |= child.input.switches.design_next;

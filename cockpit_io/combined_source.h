@@ -28,8 +28,9 @@ enum class ControlGroup {
   kBrake,
   kClutch,
   kGear,
+  kParkingBrake,
 };
-inline constexpr std::size_t kControlGroups = 16;
+inline constexpr std::size_t kControlGroups = 17;
 
 class CombinedSource : public Source {
  public:

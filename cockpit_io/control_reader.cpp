@@ -111,6 +111,9 @@ bool ControlReader::take(double value, std::int64_t at_ns, BeamBits& bits, Drive
     case Control::kClutch:
       input.clutch_01 = share_01(mapping_, value);
       return true;
+    case Control::kParkingBrake:
+      input.parking_brake_01 = share_01(mapping_, value);
+      return true;
     case Control::kLampAim:
       input.lamp_aim_rad = share_01(mapping_, value) * mapping_.lowest_aim_rad;
       return true;

@@ -75,6 +75,9 @@ void KeyboardDriver::key(char key, Moment now, ControlSink& cockpit) {
     case 'r':
       input_.gear = input_.gear == Gear::kReverse ? Gear::kDrive : Gear::kReverse;
       break;
+    case 'k':
+      input_.parking_brake_01 = input_.parking_brake_01 == 0.0 ? 1.0 : 0.0;
+      break;
     case 'n':
     case 'p':  // pressed here, let go below: one step a press
       (key == 'n' ? switches.design_next : switches.design_previous) = true;

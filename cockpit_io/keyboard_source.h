@@ -1,6 +1,7 @@
 // The driver's controls from the keys of a terminal.
 //   l L  light switch up, down        f  flash        g  fog        n p  design next, previous
 //   b  rear fog      , .  turn left, right      h  hazard      a  automatic high beam      r  reverse and back
+//   k  parking brake
 //   arrows  accelerate, brake, steer  space  wheel straight, pedals released
 #pragma once
 

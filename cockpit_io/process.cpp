@@ -162,7 +162,7 @@ void CockpitProcess::send_back(Moment now, const VehicleState* vehicle) {
 void CockpitProcess::run_real_time() {
   real_time_ = true;
   scheduling_ = run_before_others(rig_.real_time_priority);
-  spdlog::info("scheduling: {}", scheduling_.text);
+  spdlog::debug("scheduling: {}", scheduling_.text);
   start_ = Clock::now();
   Pacer pacer(kSendEvery);
   while (!stop_) {

@@ -52,7 +52,8 @@ Levels levels_of(Control control) {
 }
 
 bool is_pedal(Control control) {
-  return control == Control::kAccelerator || control == Control::kBrake || control == Control::kClutch;
+  return control == Control::kAccelerator || control == Control::kBrake || control == Control::kClutch ||
+         control == Control::kParkingBrake;
 }
 
 std::vector<NamedValue> named_values(TomlTable& table, std::string_view key) {

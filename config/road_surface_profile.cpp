@@ -166,9 +166,15 @@ void HeightProfile::smooth(double contact_length_m) {
 void HeightProfile::fill_margin() {
   const std::int64_t count = points();
   if (count < 1) return;
-  point(-1) = point(repeats_ ? count - 1 : 0);
-  point(count) = point(repeats_ ? 0 : count - 1);
-  point(count + 1) = point(repeats_ ? 1 % count : count - 1);
+  if (repeats_) {
+    point(-1) = point(count - 1), point(count) = point(0), point(count + 1) = point(1 % count);
+    return;
+  }
+  // Straight on, so that the cubic has the slope of its last cell at an end and a straight profile is straight.
+  const Two first = point(0), last = point(count - 1);
+  point(-1) = count > 1 ? first + first - point(1) : first;
+  point(count) = count > 1 ? last + last - point(count - 2) : last;
+  point(count + 1) = point(count);
 }
 
 }  // namespace phare

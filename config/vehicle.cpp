@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <string_view>
 
@@ -114,6 +115,52 @@ LevellingParams read_levelling(TomlTable levelling) {
   return p;
 }
 
+// What follows from several keys together, and lies elsewhere for no vehicle on the road: a wrong unit or a slip of the
+// decimal point in any of them shows here.
+void check_together(const VehicleParams& p, TomlTable& root, TomlTable& suspension) {
+  const auto within = [](TomlTable& table, std::string_view key, double value, double low, double high,
+                         const char* what, const char* unit) {
+    if (value >= low && value <= high) return;
+    char text[200];
+    std::snprintf(text, sizeof text, "does not fit the others: %s would be %.3g%s, of vehicles it is %g to %g", what, value,
+                  unit, low, high);
+    table.fail(key, text);
+  };
+  const double front_01 = (p.wheelbase_m - p.cg_to_front_m) / p.wheelbase_m;
+  within(root, "cg_to_front_m", 100.0 * front_01, 15.0, 85.0, "the front axle's share of the weight", " %");
+  if (!p.chassis) return;
+  const ChassisParams& c = *p.chassis;
+  TomlTable body = root.table("body");
+  double roll_nmprad = 0.0;
+  for (const bool front : {true, false}) {
+    const double rate = front ? p.front_rate_npm : p.rear_rate_npm, track = front ? c.front_track_m : c.rear_track_m;
+    const double damping = front ? c.front_damping_nspm : c.rear_damping_nspm;
+    const double corner_kg = 0.5 * p.sprung_mass_kg * (front ? front_01 : 1.0 - front_01);
+    const double wheel_kg = 0.5 * (front ? c.front_axle_kg : c.rear_axle_kg);
+    const auto hertz = [](double stiffness, double kg) { return std::sqrt(stiffness / kg) / (2.0 * std::numbers::pi); };
+    within(suspension, front ? "front_rate_npm" : "rear_rate_npm", hertz(rate, corner_kg), 0.5, 8.0,
+           "the body's frequency on it", " Hz");
+    within(suspension, front ? "front_damping_nspm" : "rear_damping_nspm",
+           damping / (2.0 * std::sqrt(rate * corner_kg)), 0.02, 3.0, "the body's damping ratio", "");
+    within(suspension, "tyre_rate_npm", hertz(rate + p.tyre_rate_npm, wheel_kg), 4.0, 40.0, "the wheels' hop", " Hz");
+    within(root, "wheel_inertia_kgm2", p.wheel_inertia_kgm2 / (wheel_kg * p.tyre_radius_m * p.tyre_radius_m), 0.05, 1.0,
+           "its share of axle mass times radius squared", "");
+    const double springs = 0.5 * rate * track * track + (front ? c.front_anti_roll_nmprad : c.rear_anti_roll_nmprad);
+    const double tyres = 0.5 * p.tyre_rate_npm * track * track;
+    roll_nmprad += springs * tyres / (springs + tyres);
+  }
+  within(root, "track_m", p.track_m / (0.5 * (c.front_track_m + c.rear_track_m)), 0.95, 1.05,
+         "its share of the axles' mean track", "");
+  within(suspension, "roll_stiffness_nmprad", p.roll_stiffness_nmprad / roll_nmprad, 0.7, 1.4,
+         "its share of what springs, bars and tyres give", "");
+  within(body, "roll_inertia_kgm2", std::sqrt(c.roll_inertia_kgm2 / p.sprung_mass_kg) / p.track_m, 0.15, 0.8,
+         "the radius of gyration over track_m", "");
+  within(body, "pitch_inertia_kgm2", std::sqrt(c.pitch_inertia_kgm2 / p.sprung_mass_kg) / p.wheelbase_m, 0.25, 0.8,
+         "the radius of gyration over wheelbase_m", "");
+  within(body, "yaw_inertia_kgm2", std::sqrt(c.yaw_inertia_kgm2 / p.mass_kg) / p.wheelbase_m, 0.25, 0.8,
+         "the radius of gyration over wheelbase_m", "");
+}
+
 }  // namespace
 
 Result<VehicleParams> read_vehicle(const std::filesystem::path& file) {
@@ -169,6 +216,7 @@ Result<VehicleParams> read_vehicle(const std::filesystem::path& file) {
   if (p.cg_to_front_m >= p.wheelbase_m) root.fail("cg_to_front_m", "lies behind the rear axle");
   if (p.roll_stiffness_nmprad <= 1.1 * p.sprung_mass_kg * kGravity_mps2 * p.cg_height_m)
     suspension.fail("roll_stiffness_nmprad", "does not hold the body upright against its weight at cg_height_m");
+  check_together(p, root, suspension);
   if (p.steering_ratio > 0.0 && p.max_steering_wheel_rad / p.steering_ratio > 70.0 * kRadPerDeg)
     steering.fail("max_wheel_deg", "turns the road wheels by more than 70 degrees");
   if (Status done = root.finish(); !done) return done.error();

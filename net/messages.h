@@ -39,6 +39,7 @@ struct CockpitState {
   bool high_beam_automatic = false;
   double lamp_aim_rad = 0.0;
   double clutch_01 = 0.0;
+  double parking_brake_01 = 0.0;
   bool ignition_off = false;
   WallTime source_stamp;
   std::string source_fault;

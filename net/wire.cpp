@@ -88,6 +88,7 @@ void fill(wire::CockpitState& to, const CockpitState& from) {
   to.set_high_beam_automatic(from.high_beam_automatic);
   to.set_lamp_aim_rad(from.lamp_aim_rad);
   to.set_clutch_01(from.clutch_01);
+  to.set_parking_brake_01(from.parking_brake_01);
   to.set_ignition_off(from.ignition_off);
   to.set_source_stamp_wall_ns(from.source_stamp.ns);
   to.set_source_fault(from.source_fault);
@@ -214,6 +215,7 @@ void read(CockpitState& to, const wire::CockpitState& from) {
   to.high_beam_automatic = from.high_beam_automatic();
   to.lamp_aim_rad = from.lamp_aim_rad();
   to.clutch_01 = from.clutch_01();
+  to.parking_brake_01 = from.parking_brake_01();
   to.ignition_off = from.ignition_off();
   to.source_stamp.ns = from.source_stamp_wall_ns();
   to.source_fault = from.source_fault();

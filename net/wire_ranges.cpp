@@ -75,6 +75,7 @@ void check(Checker& c, const CockpitState& s) {
   c.require(enum_within(s.turn, TurnSignal::kRight));
   c.within(s.lamp_aim_rad, kMaxAim_rad);
   c.number(s.clutch_01, 0.0, 1.0);
+  c.number(s.parking_brake_01, 0.0, 1.0);
   c.require(s.source_fault.size() <= kMaxErrorBytes);
 }
 

@@ -28,6 +28,7 @@ class Playhead {
     if (column.empty()) return 0.0;
     return column[row_] + share_ * (column[std::min(row_ + 1, column.size() - 1)] - column[row_]);
   }
+  std::size_t row() const { return row_; }
   double held(const std::vector<double>& column) const {
     return column.empty() ? 0.0 : column[share_ >= 1.0 ? std::min(row_ + 1, column.size() - 1) : row_];
   }
@@ -37,6 +38,22 @@ class Playhead {
   std::size_t row_ = 0;
   double share_ = 0.0;
 };
+
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+// Every number finite: what is not makes its product with 0 not 0. Four sums, which do not wait for one another.
+bool finite(const double* values, std::size_t count) {
+  std::array<double, 4> sum{};
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4)
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += values[i + k] * 0.0;
+  for (; i < count; ++i) sum[0] += values[i] * 0.0;
+  return sum[0] + sum[1] + sum[2] + sum[3] == 0.0;
+}
 
 // A car of any level behind one face, for this loop only.
 class Car {
@@ -58,6 +75,10 @@ class Car {
       full_params_ = *p;
       full_params_.integrator = o_.integrator;
     } else if (o_.level == Level::kSingleTrack) {
+      // Where forces hold the body is worked out after a step, not integrated: SUNDIALS would leave it where it was.
+      if (o_.integrator == Integrator::kReference && !o_.single_track.dynamic_attitude)
+        return Error{"--attitude quasi-static",
+                     "is no motion to integrate; it does not go with --integrator reference"};
       Result<single_track::Params> p = single_track::params_of(o_.vehicle, o_.single_track, o_.vehicle_place);
       if (!p) return p.error();
       single_params_ = *p;
@@ -67,7 +88,8 @@ class Car {
     return Done{};
   }
 
-  void place(const std::array<double, 4>* given) {
+  // Error: there is no road there.
+  Status place(const std::array<double, 4>* given) {
     const double b = o_.vehicle.wheelbase_m - o_.vehicle.cg_to_front_m;
     std::array<double, 4> height{};
     if (given) {
@@ -75,11 +97,14 @@ class Car {
       input_.heights_given = true;
       input_.height_m = height;
     } else if (o_.road) {
-      bool off = false;
       for (std::size_t i = 0; i < 4; ++i) {
         const double x = o_.start_x_m + (i < 2 ? o_.vehicle.cg_to_front_m : -b),
                      y = (i % 2 == 0 ? 0.5 : -0.5) * o_.vehicle.track_m;
+        bool off = false;
         height[i] = o_.road->at(x, y, x, i % 2 == 0, 0.0, &off).z_m;
+        if (off)
+          return Error{"--start-x-m", "there is no road under the car: none of its triangles is at x " + text_of(x) +
+                                          " m, y " + text_of(y) + " m"};
       }
     }
     full_ = full::at_rest(full_params_, o_.start_x_m, 0.0, 0.0, o_.speed_mps, height);
@@ -88,10 +113,12 @@ class Car {
     flat_.speed_mps = o_.speed_mps;
     kinematic::stand_on(o_.vehicle, height, flat_, 0.0);
     beside_ = height;
+    return Done{};
   }
 
   // Inputs over the step [time, time + dt]: heights linear, the rest at its middle.
-  void step(Playhead& in, const Inputs& inputs, double time_s, double dt) {
+  // False: the reference integrator gave up, see gave_up().
+  bool step(Playhead& in, const Inputs& inputs, double time_s, double dt) {
     if (!inputs.road_m[0].empty()) {
       in.go(time_s);
       for (std::size_t i = 0; i < 4; ++i) input_.height_m[i] = in.linear(inputs.road_m[i]);
@@ -105,39 +132,55 @@ class Car {
     input_.steer_rad = in.linear(inputs.steer_rad);
     Controls controls;
     controls.steering_wheel_rad = input_.steer_rad * o_.vehicle.steering_ratio;
-    controls.gear = static_cast<Gear>(static_cast<int>(in.held(inputs.gear)));
     const bool pedals = !inputs.accelerator_01.empty();
     if (pedals) {
+      controls.gear = static_cast<Gear>(static_cast<int>(in.held(inputs.gear)));
       controls.accelerator_01 = in.linear(inputs.accelerator_01);
       controls.brake_01 = in.linear(inputs.brake_01);
     }
     const double parking = in.linear(inputs.parking_01);
-    const double speed = this->speed();
     if (o_.level == Level::kKinematic) {
-      kinematic_step(in, inputs, controls, pedals, dt);
-      return;
+      kinematic_step(in, inputs, controls, pedals, parking, dt);
+      return true;
     }
     if (pedals) {
       const auto torque =
-          powertrain::advance(o_.vehicle, controls, parking, speed, spins(), o_.level == Level::kFull, power_, dt);
+          powertrain::advance(o_.vehicle, controls, parking, speed(), spins(), o_.level == Level::kFull, power_, dt);
       input_.drive_nm = torque.drive_nm, input_.brake_nm = torque.brake_nm;
     } else {
       for (std::size_t i = 0; i < 4; ++i) {
         const double torque = in.linear(inputs.torque_nm[i]);
         input_.drive_nm[i] = std::max(torque, 0.0), input_.brake_nm[i] = std::max(-torque, 0.0);
+        if (i >= 2)
+          input_.brake_nm[i] +=
+              0.5 * kParkingShare_01 * parking * o_.vehicle.max_brake_force_n * o_.vehicle.tyre_radius_m;
       }
     }
-    if (o_.level == Level::kFull) {
-      if (o_.integrator == Integrator::kReference)
-        gave_up_ |= !reference_.advance(full_params_, input_, full_, dt);
-      else
-        full::advance(full_params_, input_, full_, dt);
-    } else {
-      if (o_.integrator == Integrator::kReference)
-        gave_up_ |= !reference_.advance(single_params_, input_, single_, dt);
-      else
-        single_track::advance(single_params_, input_, single_, dt);
+    if (o_.integrator == Integrator::kReference) {
+      gave_up_ = o_.level == Level::kFull ? reference_.advance(full_params_, input_, full_, dt)
+                                          : reference_.advance(single_params_, input_, single_, dt);
+      return gave_up_.ok();
     }
+    if (o_.level == Level::kFull)
+      full::advance(full_params_, input_, full_, dt);
+    else
+      single_track::advance(single_params_, input_, single_, dt);
+    return true;
+  }
+
+  // Numbers that a car can have, by far: a step that is too long for the method, or a road that rises by kilometres,
+  // leaves them.
+  bool sound() const {
+    constexpr double kMost_mps = 1e4, kSteepest = 100.0;
+    const auto possible = [](double a, double b, double c) { return a * a + b * b + c * c < kMost_mps * kMost_mps; };
+    if (o_.level == Level::kFull)
+      return finite(&full_.x_m, full::kStateSize) && possible(full_.u_mps, full_.v_mps, full_.w_mps);
+    if (o_.level == Level::kSingleTrack)
+      return finite(&single_.x_m, single_track::kStateSize) &&
+             possible(single_.u_mps, single_.v_mps, single_.z_rate_mps) && std::abs(single_.pitch) < kSteepest &&
+             std::abs(single_.roll) < kSteepest;
+    return finite(&flat_.x_m, sizeof(CarState) / sizeof(double)) &&
+           possible(flat_.speed_mps, flat_.heave_rate_mps, 0.0);
   }
 
   // After a step of length dt, or at the start with 0. Not part of the model's own work.
@@ -161,6 +204,7 @@ class Car {
       row.vx_mps = s.speed_mps, row.vy_mps = s.yaw_rate_radps * b;
       row.ax_mps2 = s.ax_mps2, row.ay_mps2 = s.ay_mps2;
       row.spin_radps.fill(s.speed_mps / o_.vehicle.tyre_radius_m);
+      kinematic_forces(row);
       road_pitch_ = s.road_pitch_rad, origin_z_ = s.z_m + s.heave_m, plane_z_ = s.z_m;
       return row;
     }
@@ -210,18 +254,28 @@ class Car {
                                              : state_hash(flat_);
   }
   bool off_road() const { return off_road_; }
-  bool gave_up() const { return gave_up_; }
+  const Status& gave_up() const { return gave_up_; }
 
  private:
-  void kinematic_step(const Playhead& in, const Inputs& inputs, Controls controls, bool pedals, double dt) {
+  // Of max_brake_force_n, on the rear axle, as powertrain.h has it.
+  static constexpr double kParkingShare_01 = 0.5;
+
+  // Torques are forces at the wheels, whatever the gear; this level has them by way of the pedals, so no more than the
+  // car's own drive and brakes can give.
+  void kinematic_step(const Playhead& in, const Inputs& inputs, Controls controls, bool pedals, double parking,
+                      double dt) {
     if (!pedals) {
-      double force = 0.0;
-      for (const auto& torque : inputs.torque_nm) force += in.linear(torque) / o_.vehicle.tyre_radius_m;
+      double drive = 0.0, brake = 0.0;
+      for (const auto& column : inputs.torque_nm) {
+        const double force = in.linear(column) / o_.vehicle.tyre_radius_m;
+        drive += std::max(force, 0.0), brake += std::max(-force, 0.0);
+      }
       const double most =
           std::min(o_.vehicle.max_drive_force_n, o_.vehicle.max_power_w / std::max(std::abs(flat_.speed_mps), 0.1));
-      controls.accelerator_01 = std::clamp(force / most, 0.0, 1.0);
-      controls.brake_01 = std::clamp(-force / o_.vehicle.max_brake_force_n, 0.0, 1.0);
+      controls.accelerator_01 = std::min(drive / most, 1.0);
+      controls.brake_01 = std::min(brake / o_.vehicle.max_brake_force_n, 1.0);
     }
+    controls.brake_01 = std::min(controls.brake_01 + kParkingShare_01 * parking, 1.0);
     kinematic::advance(o_.vehicle, controls, flat_, dt);
     std::array<double, 4> height = beside_;
     if (input_.heights_given) {
@@ -239,6 +293,29 @@ class Car {
     kinematic::stand_on(o_.vehicle, height, flat_, dt);
   }
 
+  // What the motion needs of wheels that this level does not have: weight and inertia at the centre of gravity, borne
+  // by four contacts; side force by its share of the axles, all else as the loads.
+  void kinematic_forces(Row& row) const {
+    constexpr double kAirDensity_kgpm3 = 1.2041;  // as the models have it
+    const VehicleParams& p = o_.vehicle;
+    const CarState& s = flat_;
+    const double b = p.wheelbase_m - p.cg_to_front_m, weight = p.mass_kg * kGravity_mps2 * std::cos(s.road_pitch_rad);
+    const double felt_x = s.ax_mps2 - kGravity_mps2 * std::sin(s.road_pitch_rad);
+    const double felt_y = s.ay_mps2 + kGravity_mps2 * std::cos(s.road_pitch_rad) * std::sin(s.road_roll_rad);
+    const double drag = 0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * s.speed_mps * std::abs(s.speed_mps);
+    const double down = weight * std::cos(s.road_roll_rad), back = p.mass_kg * felt_x * p.cg_height_m / p.wheelbase_m;
+    const double ahead = p.mass_kg * felt_x + drag, aside = p.mass_kg * felt_y;
+    const double right = down > 0.0 ? aside * p.cg_height_m / p.track_m / down : 0.0;  // share that moves over
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double axle = std::max(down * (i < 2 ? b : p.cg_to_front_m) / p.wheelbase_m + (i < 2 ? -back : back), 0.0);
+      const double share = std::clamp(0.5 + (i % 2 == 0 ? -right : right), 0.0, 1.0);
+      const double turned = i < 2 ? s.steer_rad : 0.0, c = std::cos(turned), sn = std::sin(turned);
+      row.fz_n[i] = axle * share;
+      const double x = ahead * row.fz_n[i] / down, y = aside * (i < 2 ? b : p.cg_to_front_m) / p.wheelbase_m * share;
+      row.fx_n[i] = x * c + y * sn, row.fy_n[i] = y * c - x * sn;
+    }
+  }
+
   Options o_;
   full::Params full_params_;
   single_track::Params single_params_;
@@ -251,7 +328,8 @@ class Car {
   ReferenceIntegrator reference_;
   std::array<double, 4> beside_{};
   double yaw_ = 0.0, road_pitch_ = 0.0, origin_z_ = 0.0, plane_z_ = 0.0;
-  bool off_road_ = false, gave_up_ = false;
+  bool off_road_ = false;
+  Status gave_up_ = Done{};
 };
 
 Row between(const Row& a, const Row& b, double u) {
@@ -265,8 +343,55 @@ Row between(const Row& a, const Row& b, double u) {
 
 }  // namespace
 
+const char* name(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::kSemiImplicitEuler:
+      return "semi-implicit-euler";
+    case Integrator::kEtd2:
+      return "etd2";
+    case Integrator::kRk4:
+      return "rk4";
+    case Integrator::kReference:
+      return "reference";
+  }
+  return "";
+}
+
+namespace {
+
+// What can be said before the first step.
+Status check(const Options& o, const Inputs& in) {
+  const double span = in.time_s.back() - in.time_s.front();
+  const std::size_t last = in.time_s.size() - 1;
+  if (span > kMostSimulated_s) return Error{in.place(last), "more than 100 hours after the first row"};
+  if (span < o.step_s * (1.0 - 1e-6))
+    return Error{in.place(last),
+                 "is " + text_of(span) + " s after the first row, less than a step of " + text_of(o.step_s) + " s"};
+  if (span / o.step_s > kMostSteps)
+    return Error{in.place(last),
+                 text_of(span) + " s in steps of " + text_of(o.step_s) + " s are more than 2e9 of them"};
+  if (span * o.output_hz > kMostRows)
+    return Error{in.place(last), text_of(span) + " s at " + text_of(o.output_hz) + " Hz are more than 50 million rows"};
+  const double lock_rad = o.vehicle.max_steering_wheel_rad / o.vehicle.steering_ratio;
+  for (std::size_t row = 0; row < in.steer_rad.size(); ++row)
+    if (std::abs(in.steer_rad[row]) > lock_rad * (1.0 + 1e-9))
+      return Error{in.place(row),
+                   "steer_rad " + text_of(in.steer_rad[row]) + " is beyond the car's lock of " + text_of(lock_rad)};
+  if (o.levelling != levelling::Kind::kNone && !has_lamps(o.vehicle))
+    return Error{o.vehicle_place, "has no table [levelling]: there are no lamps to level"};
+  if (o.levelling == levelling::Kind::kManual && in.levelling_step.empty())
+    return Error{in.file.empty() ? "inputs" : in.file, "levelling by hand needs the column levelling_step"};
+  if (o.levelling != levelling::Kind::kManual && !in.levelling_step.empty())
+    return Error{in.file.empty() ? "inputs" : in.file,
+                 "the column levelling_step needs levelling by hand (--levelling manual)"};
+  return Done{};
+}
+
+}  // namespace
+
 Result<Summary> run(const Options& options, const Inputs& inputs, const std::function<void(const Row&)>& each) {
   const bool torques = inputs.accelerator_01.empty();
+  if (Status sane = check(options, inputs); !sane) return sane.error();
   Summary summary;
   summary.resistance = options.resistance == Resistance::kOn || (options.resistance == Resistance::kAuto && !torques);
   Car car(options, summary.resistance);
@@ -275,7 +400,7 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
   std::array<double, 4> first{};
   if (!inputs.road_m[0].empty())
     for (std::size_t i = 0; i < 4; ++i) first[i] = inputs.road_m[i].front();
-  car.place(inputs.road_m[0].empty() ? nullptr : &first);
+  if (Status placed = car.place(inputs.road_m[0].empty() ? nullptr : &first); !placed) return placed.error();
 
   const double start = inputs.time_s.front(), end = inputs.time_s.back(), dt = options.step_s;
   const auto steps = static_cast<std::uint64_t>(std::llround(std::ceil((end - start) / dt - 1e-6)));
@@ -298,6 +423,14 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
   car.lamps(lamps, in.held(inputs.levelling_step), dt, before);
   waiting.push_back(before);
   summary.rows = 1;
+  const auto failed = [&](double time_s, const std::string& what) {
+    const bool own = options.level == Level::kKinematic;
+    return Error{inputs.place(in.row()), "at " + text_of(time_s) + " s, level " + phare::name(options.level) +
+                                             (own ? "" : std::string(", ") + name(options.integrator)) + ", step " +
+                                             text_of(dt) + " s: " + what};
+  };
+  constexpr const char* kUnsound =
+      "the motion is not finite or no car's; a shorter step may help, or inputs that a car can follow";
   const auto begin = std::chrono::steady_clock::now();
   for (std::uint64_t n = 0; n < steps; ++n) {
     const double from = start + static_cast<double>(n) * dt, to = start + static_cast<double>(n + 1) * dt;
@@ -307,7 +440,10 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
       before = car.row(from, 0.0);
       car.lamps(lamps, 0.0, dt, before);
     }
-    car.step(in, inputs, from, dt);
+    if (!car.step(in, inputs, from, dt)) return failed(from, car.gave_up().error().reason);
+    if (!car.sound()) return failed(to, kUnsound);
+    if (options.stop && (n % 64 == 0 || options.integrator == Integrator::kReference) && options.stop())
+      return failed(to, "stopped from outside");
     if (!reached && !every_step) continue;
     Row now = car.row(to, dt);
     car.lamps(lamps, in.held(inputs.levelling_step), dt, now);
@@ -315,6 +451,7 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
       const double time = due();
       Row out = std::abs(time - to) < 1e-9 ? now : between(before, now, (time - from) / dt);
       out.time_s = time;
+      if (!finite(&out.time_s, sizeof(Row) / sizeof(double))) return failed(time, kUnsound);
       waiting.push_back(out);
       if (waiting.size() == waiting.capacity()) hand_on();
     }
@@ -326,29 +463,30 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
   summary.simulated_s = static_cast<double>(steps) * dt;
   summary.state_hash = car.hash();
   summary.off_road = car.off_road();
-  summary.gave_up = car.gave_up();
   return summary;
 }
 
-std::string header() {
+std::string header(bool lamps) {
   std::string text =
       "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,roll_rate_radps,pitch_rate_radps,yaw_rate_radps,vx_mps,vy_mps,"
       "ax_mps2,ay_mps2";
   for (const auto& [name, unit] : {std::pair{"spin", "radps"}, {"fz", "n"}, {"fx", "n"}, {"fy", "n"}})
     for (const char* wheel : {"fl", "fr", "rl", "rr"}) text += std::string(",") + name + "_" + wheel + "_" + unit;
-  return text + ",cutoff_25m_m,cutoff_25m_z_m,lamp_tilt_rad";
+  return text + (lamps ? ",cutoff_25m_m,cutoff_25m_z_m,lamp_tilt_rad\n" : "\n");
 }
 
-void print(const Row& row, std::FILE* file) {
-  constexpr std::size_t kCount = sizeof(Row) / sizeof(double), kMostPerNumber = 26;  // -2.2250738585072014e-308,
+void append(const Row& row, bool lamps, std::string& text) {
+  constexpr std::size_t kAll = sizeof(Row) / sizeof(double), kOfLamps = 3,
+                        kMostPerNumber = 26;  // -2.2250738585072014e-308,
+  const std::size_t count = lamps ? kAll : kAll - kOfLamps;
   const double* values = &row.time_s;
-  std::array<char, kCount * kMostPerNumber> line;
+  std::array<char, kAll * kMostPerNumber> line;
   char* at = line.data();
-  for (std::size_t i = 0; i < kCount; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     at = std::to_chars(at, line.data() + line.size(), values[i]).ptr;
-    *at++ = i + 1 < kCount ? ',' : '\n';
+    *at++ = i + 1 < count ? ',' : '\n';
   }
-  std::fwrite(line.data(), 1, static_cast<std::size_t>(at - line.data()), file);
+  text.append(line.data(), at);
 }
 
 }  // namespace phare::batch

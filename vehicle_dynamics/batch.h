@@ -23,12 +23,26 @@ struct Inputs {
   std::array<std::vector<double>, 4> torque_nm;          ///< < 0 brakes: it never turns a wheel backwards
   std::array<std::vector<double>, 4> road_m;             ///< empty unless given
   std::vector<double> gear, parking_01, levelling_step;  ///< optional columns
+  std::string file;                                      ///< where they were read, empty: nowhere
+  std::vector<std::size_t> line;                         ///< of each row in it
+
+  /// "file:line" of a row, or "inputs, row N".
+  std::string place(std::size_t row) const;
 };
 
 /// Columns time_s, steer_rad and either accelerator_01, brake_01 or torque_fl_nm … torque_rr_nm; optional road_fl_m …
 /// road_rr_m, gear (0 D, 1 N, 2 R, 3 P), parking_brake_01, levelling_step. Numbers out of range, other columns, time
-/// that does not rise: an Error with file and line.
+/// that does not rise or goes on for more than kMostSimulated_s: an Error with file and line.
 Result<Inputs> read_inputs(const std::filesystem::path& csv_file);
+
+/// A wrong time cell shall not fill the disk.
+inline constexpr double kMostSimulated_s = 100.0 * 3600.0, kMostSteps = 2e9, kMostRows = 50e6;
+
+/// What a level runs with in real time; kinematic has a method of its own.
+constexpr Integrator integrator_of(Level level) {
+  return level == Level::kSingleTrack ? Integrator::kEtd2 : Integrator::kRk4;
+}
+const char* name(Integrator integrator);
 
 enum class Resistance { kAuto, kOn, kOff };  ///< kAuto: off when torques are given, they stand for all that pulls
 
@@ -46,10 +60,12 @@ struct Options {
   Resistance resistance = Resistance::kAuto;
   levelling::Kind levelling = levelling::Kind::kNone;
   std::optional<double> relaxation_scale;  ///< multiplies the tyre's relaxation lengths
+  std::function<bool()> stop;              ///< asked now and then; true ends the run with an Error
 };
 
 /// One line of output. Position and velocities of the centre of gravity, z from its height at rest; angles of the body
-/// in the world; velocities and accelerations along the car's axes; forces in the wheels' heading.
+/// in the world; velocities and accelerations along the car's axes; forces in the wheels' heading. Level kinematic has
+/// no tyres: its forces are those that its motion needs, on wheels that share them as their loads.
 struct Row {
   double time_s = 0.0, x_m = 0.0, y_m = 0.0, z_m = 0.0;
   double roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;
@@ -67,14 +83,22 @@ struct Summary {
   std::uint64_t state_hash = 0;
   bool off_road = false;
   bool resistance = false;
-  bool gave_up = false;  ///< the reference integrator did
 };
 
-/// Runs the inputs; calls `each` for every row. Error: the level does not go with the vehicle file.
+/// Whether the vehicle file says where its lamps are: else there is no cut-off, and nothing to level.
+inline bool has_lamps(const VehicleParams& vehicle) {
+  return vehicle.levelling.lamp_height_m > 0.0;
+}
+
+/// Runs the inputs; calls `each` for every row. Error: level, integrator, vehicle and inputs do not go together, the
+/// inputs are too long or shorter than a step, the start is beside the road, the reference integrator gave up, or a
+/// state is not finite or no car's (10 km/s, slopes of 100), with the time and line of it. Rows before that have
+/// been handed on.
 Result<Summary> run(const Options& options, const Inputs& inputs, const std::function<void(const Row&)>& each);
 
-/// Column names of a row, and a row as text: the fewest digits that read back as the same numbers.
-std::string header();
-void print(const Row& row, std::FILE* file);
+/// Column names of a row, and a row as text: the fewest digits that read back as the same numbers. Without `lamps` its
+/// last three columns are left out.
+std::string header(bool lamps);
+void append(const Row& row, bool lamps, std::string& text);
 
 }  // namespace phare::batch

@@ -1,11 +1,17 @@
 #include "vehicle_dynamics/batch_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "config/fail.h"
+#include "config/whole_file.h"
+#include "net/clock.h"
 #include "vehicle_dynamics/batch.h"
 #include "vehicle_dynamics/compare.h"
 #include "vehicle_dynamics/work_precision.h"
@@ -39,8 +45,9 @@ CLI::Validator within(double least, double most) {
 }  // namespace
 
 struct BatchCommand::Options {
-  std::string in, compare_with, out, vehicle, integrator = "rk4", tyre = "magic", attitude = "dynamic", road,
-                                              resistance = "auto", levelling, roughness;
+  const CLI::App* app = nullptr;
+  std::string in, compare_with, out, vehicle, integrator, tyre = "magic", attitude = "dynamic", road,
+                                                          resistance = "auto", levelling, roughness;
   double step_s = 0.002, output_hz = 100.0, speed_mps = 0.0, start_x_m = 0.0, friction = 1.0, envelope_m = 0.1,
          relaxation_scale = 1.0;
   std::uint64_t seed = 1;
@@ -52,14 +59,19 @@ BatchCommand::~BatchCommand() = default;
 
 void BatchCommand::add_to(CLI::App& app) {
   Options& o = *options_;
+  o.app = &app;
   const std::string group = "Batch";
-  app.add_option("--batch", o.in, "Run these inputs (CSV) instead of a rig")->group(group);
-  app.add_option("--out", o.out, "Batch: motion (CSV)")->group(group);
+  app.add_option("--batch", o.in, "Run these inputs (CSV, at most 100 h and 2 GiB) instead of a rig")->group(group);
+  app.add_option("--out", o.out,
+                 "Batch: motion (CSV, at most 50 million rows); there whole or, after an error, not at all")
+      ->group(group);
   app.add_option("--vehicle", o.vehicle, "Batch: vehicle file (TOML)")->group(group);
-  app.add_option("--integrator", o.integrator, "Batch: semi-implicit-euler, etd2, rk4 or reference")
+  app.add_option("--integrator", o.integrator,
+                 "Batch: semi-implicit-euler, etd2, rk4 or reference (default: as in real time, "
+                 "rk4 for full and etd2 for single-track)")
       ->check(CLI::IsMember({"semi-implicit-euler", "etd2", "rk4", "reference"}))
       ->group(group);
-  app.add_option("--step-s", o.step_s, "Batch: fixed step, s")->check(within(1e-6, 0.1))->group(group);
+  app.add_option("--step-s", o.step_s, "Batch: fixed step, s (default 0.002)")->check(within(1e-6, 0.1))->group(group);
   app.add_option("--output-hz", o.output_hz, "Batch: rows a second")->check(within(0.01, 1e5))->group(group);
   app.add_option("--speed-mps", o.speed_mps, "Batch: speed at the start")->check(within(-60.0, 120.0))->group(group);
   app.add_option("--start-x-m", o.start_x_m, "Batch: x of the centre of gravity at the start")
@@ -68,7 +80,16 @@ void BatchCommand::add_to(CLI::App& app) {
   app.add_option("--road", o.road, "Batch: glTF with a road, or height profile (CSV: x_m, z_m or z_left_m, z_right_m)")
       ->group(group);
   app.add_option("--roughness", o.roughness, "Batch: ISO 8608 class A to E on top of the road")->group(group);
-  app.add_option("--seed", o.seed, "Batch: of the roughness")->group(group);
+  app.add_option("--seed", o.seed, "Batch: of the roughness, 0 to 2^64 - 1")
+      ->check(CLI::Validator(
+          [](const std::string& given) -> std::string {
+            std::uint64_t value = 0;
+            const char* const end = given.data() + given.size();
+            const auto [stop, error] = std::from_chars(given.data(), end, value);
+            return error == std::errc() && stop == end ? "" : given + " is not a whole number from 0 to 2^64 - 1";
+          },
+          "UINT"))
+      ->group(group);
   app.add_option("--envelope-m", o.envelope_m, "Batch: length over which a tyre averages a profile; 0: point contact")
       ->check(within(0.0, 1.0))
       ->group(group);
@@ -111,16 +132,118 @@ std::optional<levelling::Kind> BatchCommand::levelling() const {
 
 namespace {
 
-int run_compare(const std::string& directory, const std::string& vehicle, Integrator integrator, double step_s) {
+enum class Run { kLive, kBatch, kCompare, kWorkPrecision };
+
+struct Use {
+  const char* option;
+  std::initializer_list<Run> runs;
+};
+
+const Use kUses[] = {{"--rig", {Run::kLive}},
+                     {"--lockstep", {Run::kLive}},
+                     {"--drive", {Run::kLive}},
+                     {"--stats", {Run::kLive}},
+                     {"--port-base", {Run::kLive}},
+                     {"--level", {Run::kLive, Run::kBatch}},
+                     {"--levelling", {Run::kLive, Run::kBatch}},
+                     {"--vehicle", {Run::kBatch, Run::kCompare, Run::kWorkPrecision}},
+                     {"--integrator", {Run::kBatch, Run::kCompare}},
+                     {"--step-s", {Run::kBatch, Run::kCompare}},
+                     {"--out", {Run::kBatch}},
+                     {"--output-hz", {Run::kBatch}},
+                     {"--speed-mps", {Run::kBatch}},
+                     {"--start-x-m", {Run::kBatch}},
+                     {"--road", {Run::kBatch}},
+                     {"--roughness", {Run::kBatch}},
+                     {"--seed", {Run::kBatch}},
+                     {"--envelope-m", {Run::kBatch}},
+                     {"--friction", {Run::kBatch}},
+                     {"--tyre", {Run::kBatch}},
+                     {"--attitude", {Run::kBatch}},
+                     {"--resistance", {Run::kBatch}},
+                     {"--relaxation-scale", {Run::kBatch}}};
+
+}  // namespace
+
+Status BatchCommand::options_fit() const {
+  const CLI::App& app = *options_->app;
+  Run run = Run::kLive;
+  const char* named = nullptr;
+  for (const auto& [option, kind] :
+       {std::pair{"--batch", Run::kBatch}, {"--compare", Run::kCompare}, {"--work-precision", Run::kWorkPrecision}}) {
+    if (app.count(option) == 0) continue;
+    if (named) return Error{option, std::string("does not go with ") + named};
+    named = option, run = kind;
+  }
+  for (const Use& use : kUses)
+    if (app.count(use.option) > 0 && std::find(use.runs.begin(), use.runs.end(), run) == use.runs.end())
+      return Error{use.option,
+                   named ? std::string("means nothing with ") + named : "belongs to a run without a rig, see --batch"};
+  return Done{};
+}
+
+namespace {
+
+// Options that a level would pass over without a word.
+Status level_uses(const CLI::App& app, Level level) {
+  const std::string at = std::string("level ") + name(level) + " ";
+  if (level != Level::kSingleTrack)
+    for (const char* option : {"--tyre", "--attitude"})
+      if (app.count(option) > 0) return Error{option, at + "has no such choice, single-track has"};
+  if (level == Level::kKinematic)
+    for (const auto& [option, why] : {std::pair{"--integrator", "has an exact method of its own"},
+                                      {"--friction", "has no tyres, its grip is the vehicle's max_lateral_mps2"},
+                                      {"--relaxation-scale", "has no tyres"}})
+      if (app.count(option) > 0) return Error{option, at + why};
+  return Done{};
+}
+
+// The same file under whatever name; a terminal may well be both input and output.
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code code;
+  return !b.empty() && std::filesystem::is_regular_file(a, code) && std::filesystem::equivalent(a, b, code);
+}
+
+std::optional<Integrator> integrator_named(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return static_cast<Integrator>(index_of(text, {"semi-implicit-euler", "etd2", "rk4", "reference"}));
+}
+
+int run_compare(const std::string& directory, const std::string& vehicle, std::optional<Integrator> integrator,
+                double step_s) {
   if (vehicle.empty()) return fail("phare-dynamics", {"--vehicle", "--compare needs the reference car's vehicle file"});
   const auto lines = compare::manoeuvres(directory, vehicle, integrator, step_s);
   if (!lines) return fail("phare-dynamics", lines.error());
   bool within = true;
+  std::printf("full by %s, single-track by %s, steps of %g s\n",
+              batch::name(integrator.value_or(batch::integrator_of(Level::kFull))),
+              batch::name(integrator.value_or(batch::integrator_of(Level::kSingleTrack))), step_s);
   for (const compare::Line& line : *lines) {
     std::printf("%s\n", compare::text(line).c_str());
-    within = within && (line.band == 0.0 || line.error <= line.allowed());
+    within = within && line.passes();
   }
   return within ? kExitDone : kExitCheckFailed;
+}
+
+// The road that the options name, into `road` and what it points at.
+Status read_road(const std::string& file, double envelope_m, RoadSurface& surface, Road& road) {
+  std::string kind = std::filesystem::path(file).extension().string();
+  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (kind == ".csv") {
+    Result<HeightProfile> profile = HeightProfile::read(file);
+    if (!profile) return profile.error();
+    profile->smooth(envelope_m);
+    road.profiles.push_back(std::move(*profile));
+  } else if (kind == ".glb" || kind == ".gltf") {
+    Result<RoadSurface> mesh = RoadSurface::read(file);
+    if (!mesh) return mesh.error();
+    if (mesh->triangle_count() == 0) return Error{file, "no node whose name begins with road or ground"};
+    surface = std::move(*mesh);
+    road.mesh = &surface;
+  } else {
+    return Error{file, "is no road that --road reads: a scene (.glb, .gltf) or a height profile (.csv)"};
+  }
+  return Done{};
 }
 
 int run_work_precision(const std::string& vehicle_file) {
@@ -137,12 +260,15 @@ int run_work_precision(const std::string& vehicle_file) {
 
 int BatchCommand::run(const std::string& level_name) const {
   const Options& o = *options_;
-  const auto integrator =
-      static_cast<Integrator>(index_of(o.integrator, {"semi-implicit-euler", "etd2", "rk4", "reference"}));
+  const auto given = [&](const char* option) { return o.app->count(option) > 0; };
+  const std::optional<Integrator> integrator = integrator_named(o.integrator);
   if (!o.compare_with.empty()) return run_compare(o.compare_with, o.vehicle, integrator, o.step_s);
   if (o.work_precision) return run_work_precision(o.vehicle);
   if (o.out.empty()) return fail("phare-dynamics", {"--out", "--batch needs a file to write the motion to"});
   if (o.vehicle.empty()) return fail("phare-dynamics", {"--vehicle", "--batch needs a vehicle file"});
+  for (const auto& [option, file] : {std::pair{"--batch", o.in}, {"--vehicle", o.vehicle}, {"--road", o.road}})
+    if (same_file(o.out, file))
+      return fail("phare-dynamics", {"--out", o.out + " is the file of " + option + "; it would be overwritten"});
   batch::Options options;
   const Result<Level> level = parse_level(level_name, "--level");
   if (!level) return fail("phare-dynamics", level.error());
@@ -150,12 +276,17 @@ int BatchCommand::run(const std::string& level_name) const {
     return fail("phare-dynamics", {"--level", "pose replays a drive; a batch run moves a model"});
   if (*level == Level::kAuto)
     return fail("phare-dynamics", {"--level", "auto chooses while driving; a batch run names its level"});
+  if (const Status used = level_uses(*o.app, *level); !used) return fail("phare-dynamics", used.error());
+  if (given("--seed") && o.roughness.empty())
+    return fail("phare-dynamics", {"--seed", "is that of --roughness, which is not given"});
+  if (given("--envelope-m") && !o.road.ends_with(".csv"))
+    return fail("phare-dynamics", {"--envelope-m", "smoothes a height profile, and --road gives none"});
   options.level = *level;
   Result<VehicleParams> vehicle = read_vehicle(o.vehicle);
   if (!vehicle) return fail("phare-dynamics", vehicle.error());
   options.vehicle = std::move(*vehicle);
   options.vehicle_place = o.vehicle;
-  options.integrator = integrator;
+  options.integrator = integrator.value_or(batch::integrator_of(*level));
   options.single_track = {.magic_formula = o.tyre == "magic", .dynamic_attitude = o.attitude == "dynamic"};
   options.step_s = o.step_s, options.output_hz = o.output_hz;
   options.speed_mps = o.speed_mps, options.start_x_m = o.start_x_m;
@@ -168,23 +299,12 @@ int BatchCommand::run(const std::string& level_name) const {
   Road road;
   RoadSurface surface;
   road.friction_everywhere = o.friction;
-  if (!o.road.empty()) {
-    if (!inputs->road_m[0].empty())
-      return fail("phare-dynamics", {"--road", "the inputs give the road's heights already"});
-    if (o.road.ends_with(".csv")) {
-      Result<HeightProfile> profile = HeightProfile::read(o.road);
-      if (!profile) return fail("phare-dynamics", profile.error());
-      profile->smooth(o.envelope_m);
-      road.profiles.push_back(std::move(*profile));
-    } else {
-      Result<RoadSurface> mesh = RoadSurface::read(o.road);
-      if (!mesh) return fail("phare-dynamics", mesh.error());
-      if (mesh->triangle_count() == 0)
-        return fail("phare-dynamics", {o.road, "no node whose name begins with road or ground"});
-      surface = std::move(*mesh);
-      road.mesh = &surface;
-    }
-  }
+  if (!inputs->road_m[0].empty())
+    for (const char* option : {"--road", "--roughness"})
+      if (given(option)) return fail("phare-dynamics", {option, "the inputs give the road's heights already"});
+  if (!o.road.empty())
+    if (const Status read = read_road(o.road, o.envelope_m, surface, road); !read)
+      return fail("phare-dynamics", read.error());
   if (!o.roughness.empty()) {
     const Result<RoughnessClass> roughness = parse_roughness(o.roughness, "--roughness");
     if (!roughness) return fail("phare-dynamics", roughness.error());
@@ -192,16 +312,32 @@ int BatchCommand::run(const std::string& level_name) const {
   }
   options.road = &road;
 
-  std::FILE* file = std::fopen(o.out.c_str(), "w");
-  if (!file) return fail("phare-dynamics", {o.out, "cannot be written"});
-  std::fprintf(file, "%s\n", batch::header().c_str());
-  const Result<batch::Summary> summary =
-      batch::run(options, *inputs, [&](const batch::Row& row) { batch::print(row, file); });
-  const bool written = std::ferror(file) == 0;
-  if (std::fclose(file) != 0 || !written) return fail("phare-dynamics", {o.out, "could not be written to its end"});
+  const bool lamps = batch::has_lamps(options.vehicle);
+  Result<WholeFile> file = WholeFile::create(o.out);
+  if (!file) return fail("phare-dynamics", file.error());
+  const StopFlag stop = install_stop_signals();
+  std::string text = batch::header(lamps);
+  Status written = Done{};
+  const auto pass_on = [&](std::size_t from_size) {
+    if (text.size() < from_size) return;
+    if (written) written = file->write(text);
+    text.clear();
+  };
+  options.stop = [&] { return !written || stop; };
+  const Result<batch::Summary> summary = batch::run(options, *inputs, [&](const batch::Row& row) {
+    batch::append(row, lamps, text);
+    pass_on(1 << 18);
+  });
+  if (!written) return fail("phare-dynamics", written.error());
   if (!summary) return fail("phare-dynamics", summary.error());
-  if (summary->gave_up) return fail("phare-dynamics", {"--integrator", "the reference integrator gave up"});
-  std::printf(
+  pass_on(0);
+  if (written) written = file->finish();
+  if (!written) return fail("phare-dynamics", written.error());
+  if (!lamps)
+    std::fprintf(stderr, "phare-dynamics: %s has no table [levelling]: no columns for cut-off and lamps\n",
+                 printable(o.vehicle).c_str());
+  std::fprintf(
+      is_standard_output(o.out) ? stderr : stdout,
       "%llu steps of %g s in %.3f s: %.0f times real time; state hash %016llx%s%s\n",
       static_cast<unsigned long long>(summary->steps), o.step_s, summary->wall_s,
       summary->simulated_s / std::max(summary->wall_s, 1e-9), static_cast<unsigned long long>(summary->state_hash),

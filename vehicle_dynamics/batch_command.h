@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "config/result.h"
 #include "vehicle_dynamics/levelling.h"
 
 namespace CLI {
@@ -21,6 +22,8 @@ class BatchCommand {
   void add_to(CLI::App& app);
   /// One of --batch, --compare, --work-precision was given.
   bool asked() const;
+  /// Whether every option given has a meaning in the kind of run asked for; Error names the first that has none.
+  Status options_fit() const;
   /// --levelling, which counts for a live run too; nullopt: not given.
   std::optional<levelling::Kind> levelling() const;
   /// Exit code; says on stderr what was wrong.

@@ -26,13 +26,19 @@ std::string brief(double value) {
 
 }  // namespace
 
+std::string Inputs::place(std::size_t row) const {
+  return row < line.size() ? file + ":" + std::to_string(line[row]) : "inputs, row " + std::to_string(row + 1);
+}
+
 Result<Inputs> read_inputs(const std::filesystem::path& csv_file) {
   Result<CsvTable> table = CsvTable::read(csv_file);
   if (!table) return table.error();
   const auto has = [&](const std::string& name) { return table->find({name.c_str()}).has_value(); };
-  const std::string header_place = csv_file.string() + ":1";
+  const std::string header_place = csv_file.string() + ":" + std::to_string(table->header_line());
 
   Inputs in;
+  in.file = csv_file.string();
+  for (std::size_t row = 0; row < table->rows(); ++row) in.line.push_back(table->line(row));
   const bool torques = has("torque_fl_nm"), pedals = has("accelerator_01") || has("brake_01");
   if (torques && pedals) return Error{header_place, "gives both pedals and wheel torques; one of them drives the car"};
   if (!torques && !pedals)
@@ -55,7 +61,7 @@ Result<Inputs> read_inputs(const std::filesystem::path& csv_file) {
 
   for (const std::string& name : table->columns())
     if (std::none_of(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; }))
-      return Error{header_place, "column \"" + name + "\" is none that a batch run knows"};
+      return Error{header_place, "column \"" + name.substr(0, 40) + "\" is none that a batch run knows"};
   if (table->rows() < 2) return Error{csv_file.string(), "needs two rows at least: a beginning and an end"};
   for (const Column& column : columns) {
     const auto at = table->find({column.name.c_str()});
@@ -71,6 +77,9 @@ Result<Inputs> read_inputs(const std::filesystem::path& csv_file) {
   }
   for (std::size_t row = 1; row < in.time_s.size(); ++row)
     if (!(in.time_s[row] > in.time_s[row - 1])) return Error{table->place(row), "time_s does not rise"};
+  for (std::size_t row = 0; row < in.time_s.size(); ++row)
+    if (in.time_s[row] - in.time_s.front() > kMostSimulated_s)
+      return Error{table->place(row), "time_s " + brief(in.time_s[row]) + " is more than 100 hours after the first"};
   for (std::size_t row = 0; row < in.gear.size(); ++row)
     if (in.gear[row] != std::floor(in.gear[row])) return Error{table->place(row), "gear is not 0, 1, 2 or 3"};
   return in;

@@ -43,16 +43,7 @@ double rms(const Column& c) {
   return c.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(c.size()));
 }
 double largest_percent(const Column& reference, const Column& ours) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < std::min(reference.size(), ours.size()); ++i)
-    most = std::max(most, std::abs(reference[i] - ours[i]));
-  return 100.0 * most / peak(reference);
-}
-double path_m(const Column& x, const Column& y, const Column& our_x, const Column& our_y) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < std::min(x.size(), our_x.size()); ++i)
-    most = std::max(most, std::hypot(x[i] - our_x[i], y[i] - our_y[i]));
-  return most;
+  return 100.0 * largest_difference(reference, ours) / peak(reference);
 }
 
 struct Traces {
@@ -81,6 +72,9 @@ Result<Traces> run(const Record& record, const Record& heights, const VehiclePar
     out.yaw_rate.push_back(row.yaw_rate_radps), out.roll.push_back(row.roll_rad), out.pitch.push_back(row.pitch_rad);
   });
   if (!done) return done.error();
+  if (out.x.size() != in.time_s.size())
+    return Error{record.file, "our run has " + std::to_string(out.x.size()) + " rows, the record " +
+                                  std::to_string(in.time_s.size()) + ": its times are not even"};
   return out;
 }
 
@@ -97,23 +91,48 @@ constexpr Bands kFullMb{1.0, 3.0, 3.0, 5.0, 0.05, 1.0, 5.0}, kFullChrono{4.0, 4.
 
 }  // namespace
 
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    if (const double now = std::abs(a[i] - b[i]); !(now <= most)) {
+      if (std::isnan(now)) return now;
+      most = now;
+    }
+  return most;
+}
+
+double largest_distance(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& our_x,
+                        const std::vector<double>& our_y) {
+  std::vector<double> apart;
+  for (std::size_t i = 0; i < std::min(x.size(), our_x.size()); ++i)
+    apart.push_back(std::hypot(x[i] - our_x[i], y[i] - our_y[i]));
+  return largest_difference(apart, std::vector<double>(apart.size(), 0.0));
+}
+
+bool Line::passes() const {
+  return std::isfinite(error) && (band == 0.0 || error <= allowed());
+}
+
 std::string text(const Line& l) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof buffer, "%-22s %-7s %-13s %-9s %9.4f %-2s", l.manoeuvre.c_str(), l.reference.c_str(),
-                l.level.c_str(), l.quantity.c_str(), l.error, l.unit);
+  const bool far = !(std::abs(l.error) < 1e6);  // digits behind the point tell nothing then
+  char buffer[400];
+  std::snprintf(buffer, sizeof buffer, far ? "%-22s %-7s %-13s %-9s %9.3g %-2s" : "%-22s %-7s %-13s %-9s %9.4f %-2s",
+                l.manoeuvre.c_str(), l.reference.c_str(), l.level.c_str(), l.quantity.c_str(), l.error, l.unit);
   std::string out = buffer;
   if (l.band > 0.0) {
     std::snprintf(buffer, sizeof buffer, "  band %6.2f, programs differ by %8.4f  %s", l.band, l.programs,
-                  l.error <= l.band        ? "within"
-                  : l.error <= l.allowed() ? "within the programs' difference"
-                                           : "OUTSIDE");
+                  !l.passes()         ? "OUTSIDE"
+                  : l.error <= l.band ? "within"
+                                      : "within the programs' difference");
     out += buffer;
+  } else if (!l.passes()) {
+    out += "  NOT A NUMBER";
   }
   return out;
 }
 
 Result<std::vector<Line>> manoeuvres(const std::filesystem::path& directory, const std::filesystem::path& vehicle_file,
-                                     Integrator integrator, double step_s) {
+                                     std::optional<Integrator> integrator, double step_s) {
   const Result<VehicleParams> vehicle = read_vehicle(vehicle_file);
   if (!vehicle) return vehicle.error();
   std::vector<Line> lines;
@@ -130,7 +149,8 @@ Result<std::vector<Line>> manoeuvres(const std::filesystem::path& directory, con
       for (const bool is_mb : {true, false}) {
         const Bands& band =
             level == Level::kFull ? (is_mb ? kFullMb : kFullChrono) : (is_mb ? kSingleMb : kSingleChrono);
-        const Result<Traces> ours = run(is_mb ? *mb : *chrono, *mb, *vehicle, level, integrator, step_s);
+        const Result<Traces> ours =
+            run(is_mb ? *mb : *chrono, *mb, *vehicle, level, integrator.value_or(batch::integrator_of(level)), step_s);
         if (!ours) return ours.error();
         const Traces &ref = is_mb ? of_mb : of_chrono, &other = is_mb ? of_chrono : of_mb;
         const auto add = [&](const char* quantity, double error, double limit, double programs, const char* unit) {
@@ -157,7 +177,8 @@ Result<std::vector<Line>> manoeuvres(const std::filesystem::path& directory, con
         if (pitches)
           add("pitch", largest_percent(ref.pitch, ours->pitch), bump ? band.bump : band.pitch,
               largest_percent(ref.pitch, other.pitch), "%");
-        add("path", path_m(ref.x, ref.y, ours->x, ours->y), band.path, path_m(ref.x, ref.y, other.x, other.y), "m");
+        add("path", largest_distance(ref.x, ref.y, ours->x, ours->y), band.path,
+            largest_distance(ref.x, ref.y, other.x, other.y), "m");
       }
   }
   return lines;

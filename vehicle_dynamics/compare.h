@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,20 @@ struct Line {
   double programs = 0.0;  ///< the same figure between the two reference programs; where they differ more it is the band
   const char* unit = "%";
   double allowed() const { return programs > band ? programs : band; }
+  /// A figure that is not finite never does, band or none.
+  bool passes() const;
 };
 std::string text(const Line& line);
 
-/// Runs D01 to D06 open loop with the recorded inputs at both levels. Error: a file is missing or broken.
+/// Runs D01 to D06 open loop with the recorded inputs at both levels. Each by the method that real time runs it with
+/// (full: rk4, single-track: etd2), unless one is given. Error: a file is missing or broken, or a run came to no end.
 Result<std::vector<Line>> manoeuvres(const std::filesystem::path& directory, const std::filesystem::path& vehicle_file,
-                                     Integrator integrator, double step_s);
+                                     std::optional<Integrator> integrator, double step_s);
+
+/// The largest distance between two columns row by row, and between two paths; NaN if any of them is.
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b);
+double largest_distance(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& our_x,
+                        const std::vector<double>& our_y);
 
 /// Launch, coasting and ABS stop of a real car from its pedals.
 struct Measured {

@@ -46,7 +46,7 @@ struct Requests {
 };
 
 Controls controls_of(const CockpitState& state) {
-  return {state.steering_wheel_rad, state.accelerator_01, state.brake_01, state.gear};
+  return {state.steering_wheel_rad, state.accelerator_01, state.brake_01, state.gear, state.parking_brake_01};
 }
 
 bool high_beam_on(const CockpitState& state) {
@@ -80,6 +80,8 @@ Result<Begin> prepare(const Rig& rig, const Options& options, std::optional<leve
   begin.setup.levelling = levelling.value_or(levelling::kind_of(begin.setup.vehicle.levelling.system));
   if (begin.setup.levelling == levelling::Kind::kManual)
     return Error{"--levelling", "manual: the cockpit's wheel turns the lamps of a live run"};
+  if (begin.setup.levelling != levelling::Kind::kNone && begin.setup.vehicle.levelling.lamp_height_m <= 0.0)
+    return Error{rig.vehicle_file.string(), "has no table [levelling]: there are no lamps to level"};
   if (*level != Level::kKinematic) {
     Result<SprungCar> sprung = SprungCar::of(begin.setup.vehicle, rig.vehicle_file.string());
     if (!sprung) return sprung.error();
@@ -166,7 +168,7 @@ class Process {
   void run_real_time(Begin begin) {
     constexpr std::chrono::milliseconds kSendEvery(4);
     scheduling_ = run_before_others(rig_.real_time_priority);
-    spdlog::info("scheduling: {}", scheduling_.text);
+    spdlog::debug("scheduling: {}", scheduling_.text);
     begin_in_real_time(std::move(begin));
     const std::chrono::nanoseconds step(loop_->setup().step.ns);
     Pacer pacer(step);
@@ -199,6 +201,11 @@ class Process {
     state.high_beam_telltale = cockpit && high_beam_on(*cockpit);
     if (cockpit && cockpit->drive_ended) state.drive_ended = true;
     bus_.send(time, state);
+    if (loop_->out_of_play() && !lost_logged_) {
+      lost_logged_ = true;
+      spdlog::error("{} at {:.3f} s, level {}: it stays where it is", loop_->out_of_play(), loop_->time().seconds(),
+                    name(loop_->level_now()));
+    }
     const bool has_road = loop_->setup().road.triangle_count() > 0;  // without one it has been said already
     if (has_road && loop_->off_road() && !off_road_logged_) {
       off_road_logged_ = true;
@@ -332,6 +339,7 @@ class Process {
       json["drops"] = loop_->drops();
       json["controls_refused"] = loop_->controls_refused();
       json["off_road"] = loop_->off_road();
+      json["out_of_play"] = loop_->out_of_play() ? nlohmann::json(loop_->out_of_play()) : nlohmann::json();
       json["slept_s"] = loop_->slept_s();
       json["step_ns"] = {{"count", times.count()},
                          {"p50", times.quantile_ns(0.5)},
@@ -355,10 +363,10 @@ class Process {
   std::optional<StepLoop> loop_;
   std::uint64_t sent_step_ = 0;  ///< the newest step whose hash has been sent
   Scheduling scheduling_;
-  StepTimes wake_late_;          ///< real time: how long after its time a wake-up came
+  StepTimes wake_late_;  ///< real time: how long after its time a wake-up came
   std::uint64_t missed_wakes_ =
       0;  ///< wake-ups that fell away because the one before came a step too late; their steps are caught up
-  bool silent_ = false, off_road_logged_ = false;
+  bool silent_ = false, off_road_logged_ = false, lost_logged_ = false;
   std::uint64_t drops_logged_ = 0;
   Clock::time_point next_lag_log_{}, next_stats_{};
 };
@@ -387,6 +395,7 @@ int run(int argc, char** argv) {
     app.exit(problem);  // --help, --version
     return kExitDone;
   }
+  if (const Status fit = batch.options_fit(); !fit) return fail("phare-dynamics", fit.error());
   if (batch.asked()) return batch.run(options.level.empty() ? "full" : options.level);
   if (options.rig_file.empty()) return fail("phare-dynamics", {"--rig", "is required, unless --batch runs a file"});
   spdlog::set_default_logger(spdlog::stderr_color_mt("dynamics"));

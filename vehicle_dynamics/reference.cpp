@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstdio>
 
 namespace phare {
 
@@ -27,10 +29,30 @@ struct ReferenceIntegrator::Solver {
 
   static int evaluate(realtype t, N_Vector at, N_Vector rate, void* self) {
     static_cast<Solver*>(self)->rates(t, N_VGetArrayPointer(at), N_VGetArrayPointer(rate));
-    return 0;
+    const double* values = N_VGetArrayPointer(rate);
+    const bool finite =
+        std::all_of(values, values + N_VGetLength(rate), [](double value) { return std::isfinite(value); });
+    return finite ? 0 : 1;  // 1: try a shorter step
   }
 
-  bool step(double* state, std::size_t count, double dt, Rates with) {
+  // What the library says by itself goes nowhere: the caller is told once, and decides.
+  static void silent(int, const char*, const char*, char*, void*) {}
+
+  static Status outcome(int result, double reached_s) {
+    if (result >= 0) return Done{};
+    char text[160];
+    const char* why = result == ARK_TOO_MUCH_WORK ? "20000 steps of its own were not enough"
+                      : result == ARK_ERR_FAILURE ? "no step is short enough for its tolerances"
+                      : result == ARK_RHSFUNC_FAIL || result == ARK_FIRST_RHSFUNC_ERR ||
+                              result == ARK_REPTD_RHSFUNC_ERR || result == ARK_UNREC_RHSFUNC_ERR
+                          ? "the car's rates are not finite"
+                          : "see arkode.h for the code";
+    std::snprintf(text, sizeof text, "the reference integrator (ARKODE) gave up %.3g s into its step: %s (code %d)",
+                  reached_s, why, result);
+    return Error{"", text};
+  }
+
+  Status step(double* state, std::size_t count, double dt, Rates with) {
     rates = std::move(with);
     if (count != size) {
       drop();
@@ -41,7 +63,11 @@ struct ReferenceIntegrator::Solver {
       ERKStepSetTableNum(memory, ARKODE_FEHLBERG_13_7_8);
       ERKStepSStolerances(memory, 1e-11, 1e-13);
       ERKStepSetUserData(memory, this);
-      ERKStepSetMaxNumSteps(memory, 100'000);
+      ERKStepSetMaxNumSteps(memory, 20'000);
+      // Friction has kinks, where a lever, a brake or a slide turns its sign. The default of 7 attempts at a step is
+      // too few to shrink down to one; that, not stiffness, is what it used to give up at.
+      ERKStepSetMaxErrTestFails(memory, 100);
+      ERKStepSetErrHandlerFn(memory, silent, nullptr);
     } else {
       std::copy_n(state, count, N_VGetArrayPointer(y));
       ERKStepReInit(memory, evaluate, 0.0, y);
@@ -50,7 +76,7 @@ struct ReferenceIntegrator::Solver {
     realtype reached = 0.0;
     const int result = ERKStepEvolve(memory, dt, y, &reached, ARK_NORMAL);
     std::copy_n(N_VGetArrayPointer(y), count, state);
-    return result >= 0;
+    return outcome(result, reached);
   }
 
   SUNContext context = nullptr;
@@ -80,13 +106,14 @@ void to_array(const State& state, double* values) {
 
 }  // namespace
 
-bool ReferenceIntegrator::advance(const full::Params& p, const full::Input& in, full::State& state, double dt) {
+Status ReferenceIntegrator::advance(const full::Params& p, const full::Input& in, full::State& state, double dt) {
   full::Held during = full::held(p, in, state, dt);
-  during.most_slip_pm = std::numeric_limits<double>::infinity();  // the floor is there for fixed steps
+  during.most_along_pm = during.most_across_pm = during.most_damping_nspm =
+      std::numeric_limits<double>::infinity();  // what fixed steps do not bear
   const full::State before = state;
   std::array<double, full::kStateSize> y;
   to_array(state, y.data());
-  const bool done = solver_->step(y.data(), y.size(), dt, [&](double t, const double* at, double* rate) {
+  Status done = solver_->step(y.data(), y.size(), dt, [&](double t, const double* at, double* rate) {
     full::State d;
     full::derivative(p, in, during, from_array<full::State>(at), t, d);
     to_array(d, rate);
@@ -96,14 +123,14 @@ bool ReferenceIntegrator::advance(const full::Params& p, const full::Input& in, 
   return done;
 }
 
-bool ReferenceIntegrator::advance(const single_track::Params& p, const full::Input& in, single_track::State& state,
-                                  double dt) {
+Status ReferenceIntegrator::advance(const single_track::Params& p, const full::Input& in, single_track::State& state,
+                                    double dt) {
   single_track::Held during = single_track::held(p, in, state, dt);
   during.most_slip_pm = std::numeric_limits<double>::infinity();
   const single_track::State before = state;
   std::array<double, single_track::kStateSize> y;
   to_array(state, y.data());
-  const bool done = solver_->step(y.data(), y.size(), dt, [&](double t, const double* at, double* rate) {
+  Status done = solver_->step(y.data(), y.size(), dt, [&](double t, const double* at, double* rate) {
     single_track::State d;
     single_track::derivative(p, during, from_array<single_track::State>(at), t, d);
     to_array(d, rate);

@@ -5,13 +5,15 @@
 #include <functional>
 #include <memory>
 
+#include "config/result.h"
 #include "vehicle_dynamics/models/full.h"
 #include "vehicle_dynamics/models/single_track.h"
 
 namespace phare {
 
-/// Explicit Runge-Kutta of order 8 with error control (Fehlberg 13-7-8), relative tolerance 1e-11, absolute 1e-13. Its
-/// time per step is unbounded and it allocates: for batch and tests, never for real time.
+/// Explicit Runge-Kutta of order 8 with error control (Fehlberg 13-7-8), relative tolerance 1e-11, absolute 1e-13. It
+/// creeps up to the kinks of friction by ever shorter steps, up to 100 attempts each. Its time per step is unbounded
+/// and it allocates: for batch and tests, never for real time.
 class ReferenceIntegrator {
  public:
   ReferenceIntegrator();
@@ -19,10 +21,11 @@ class ReferenceIntegrator {
   ReferenceIntegrator(const ReferenceIntegrator&) = delete;
   ReferenceIntegrator& operator=(const ReferenceIntegrator&) = delete;
 
-  /// One step of the model, as its advance() does it but exact between decisions that are taken once a step. False: the
-  /// solver gave up; the state is then as far as it came.
-  bool advance(const full::Params& params, const full::Input& input, full::State& state, double dt);
-  bool advance(const single_track::Params& params, const full::Input& input, single_track::State& state, double dt);
+  /// One step of the model, as its advance() does it but exact between decisions that are taken once a step. Error: the
+  /// solver gave up, and why; the state is then as far as it came.
+  Status advance(const full::Params& params, const full::Input& input, full::State& state, double dt);
+  /// The same; the attitude must be dynamic: the quasi-static one is none of the model's rates.
+  Status advance(const single_track::Params& params, const full::Input& input, single_track::State& state, double dt);
 
  private:
   struct Solver;

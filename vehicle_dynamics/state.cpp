@@ -8,7 +8,7 @@
 namespace phare {
 namespace {
 
-constexpr std::size_t kFields = 20 + 4;
+constexpr std::size_t kFields = kCarStateFields;
 
 // Every double of a state in declaration order; one list for hash and interpolation.
 template <class State, class Visit>
@@ -40,10 +40,15 @@ static_assert(sizeof(CarState) == kFields * sizeof(double), "a new field belongs
 
 }  // namespace
 
-std::uint64_t state_hash(const CarState& state) {
+std::array<double, kCarStateFields> fields_of(const CarState& state) {
   std::array<double, kFields> values{};
   std::size_t i = 0;
   for_each_field(state, [&](const double& field) { values[i++] = field; });
+  return values;
+}
+
+std::uint64_t state_hash(const CarState& state) {
+  const auto values = fields_of(state);
   return hash_of(values.data(), values.size());
 }
 
@@ -114,7 +119,7 @@ CarState from_message(const VehicleState& m, double wheelbase_m, double track_m)
 
 Controls accepted(const Controls& controls, const Controls& last, bool* refused) {
   const bool sane = std::isfinite(controls.steering_wheel_rad) && std::isfinite(controls.accelerator_01) &&
-                    std::isfinite(controls.brake_01) && controls.gear >= Gear::kDrive && controls.gear <= Gear::kPark;
+                    std::isfinite(controls.brake_01) && std::isfinite(controls.parking_brake_01) && controls.gear >= Gear::kDrive && controls.gear <= Gear::kPark;
   if (refused) *refused = !sane;
   if (!sane) return last;
   Controls limited = controls;
@@ -122,6 +127,7 @@ Controls accepted(const Controls& controls, const Controls& last, bool* refused)
       std::clamp(controls.steering_wheel_rad, -100.0, 100.0);  // the model knows the car's lock
   limited.accelerator_01 = std::clamp(controls.accelerator_01, 0.0, 1.0);
   limited.brake_01 = std::clamp(controls.brake_01, 0.0, 1.0);
+  limited.parking_brake_01 = std::clamp(controls.parking_brake_01, 0.0, 1.0);
   return limited;
 }
 

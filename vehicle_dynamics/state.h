@@ -18,6 +18,7 @@ struct Controls {
   double accelerator_01 = 0.0;
   double brake_01 = 0.0;
   Gear gear = Gear::kDrive;
+  double parking_brake_01 = 0.0;  ///< on the rear wheels, half of what the brakes can do
 
   friend bool operator==(const Controls&, const Controls&) = default;
 };
@@ -43,6 +44,10 @@ struct CarState {
 
   friend bool operator==(const CarState&, const CarState&) = default;
 };
+
+inline constexpr std::size_t kCarStateFields = 24;
+/// All of it, in order.
+std::array<double, kCarStateFields> fields_of(const CarState& state);
 
 /// Over the bits of every field in order, after FNV-1a (Fowler, Noll, Vo 1991; 64 bit) but eight bytes at a time: a
 /// step is hashed in a tenth of a microsecond. Two states that differ in one field never share it.

@@ -21,7 +21,8 @@ void StepLoop::step_once() {
   before_ = now_;
 
   // the car over the road, by the model that the scene calls for; parked and settled it calls for none
-  if (!sleeps(dt)) move(dt);
+  if (!out_of_play_ && !sleeps(dt)) move(dt);
+  if (sprung()) stay_if_lost();
 
   // the lamps against the body
   if (running_ != Level::kPose) {  // a record holds them already
@@ -53,12 +54,26 @@ void StepLoop::move(double dt) {
       off_road_ |= setup_.sprung->off_road();
       break;
   }
-  path_m_ = sprung() ? setup_.sprung->path_m() : path_m_ + now_.speed_mps * dt;
+  path_m_ = sprung() ? setup_.sprung->path_m() : path_m_ + now_.speed_mps * std::cos(now_.road_pitch_rad) * dt;
+}
+
+void StepLoop::stay_if_lost() {
+  constexpr double kOver_rad = 1.2;  // of the body against the road: no car comes back from there
+  const auto fields = fields_of(now_);
+  if (!std::all_of(fields.begin(), fields.end(), [](double value) { return std::isfinite(value); }))
+    out_of_play_ = "the motion has no numbers any more";
+  else if (std::max(std::abs(now_.roll_rad), std::abs(now_.pitch_rad)) > kOver_rad)
+    out_of_play_ = "the car has rolled over";
+  if (!out_of_play_) return;
+  now_ = before_;
+  now_.speed_mps = now_.ax_mps2 = now_.ay_mps2 = now_.heave_rate_mps = 0.0;
+  now_.yaw_rate_radps = now_.pitch_rate_radps = now_.roll_rate_radps = 0.0;
+  now_.road_pitch_rate_radps = now_.road_roll_rate_radps = 0.0;
 }
 
 bool StepLoop::sleeps(double dt) {
   constexpr double kStill_mps = 1e-4, kStill_radps = 1e-5, kAfter_s = 2.0;
-  const bool held = controls_.accelerator_01 == 0.0 && (controls_.brake_01 > 0.0 || controls_.gear == Gear::kPark);
+  const bool held = controls_.accelerator_01 == 0.0 && (controls_.brake_01 > 0.0 || controls_.parking_brake_01 > 0.0 || controls_.gear == Gear::kPark);
   const bool still = std::abs(now_.speed_mps) < kStill_mps && std::abs(now_.heave_rate_mps) < kStill_mps &&
                      std::abs(now_.pitch_rate_radps) < kStill_radps && std::abs(now_.roll_rate_radps) < kStill_radps &&
                      std::abs(now_.yaw_rate_radps) < kStill_radps;
@@ -92,7 +107,7 @@ VehicleState StepLoop::at(SimTime time) const {
   out.level = name(running_);
   out.step = steps();
   out.state_hash = hash();
-  if (sprung()) {
+  if (sprung() && !out_of_play_) {
     out.vx_mps -= setup_.sprung->side_speed_mps() * std::sin(out.yaw_rad);
     out.vy_mps += setup_.sprung->side_speed_mps() * std::cos(out.yaw_rad);
   }
@@ -102,7 +117,7 @@ VehicleState StepLoop::at(SimTime time) const {
 }
 
 std::uint64_t StepLoop::hash() const {
-  return (sprung() ? setup_.sprung->hash() : state_hash(now_)) * 31 + state_hash(lamps_);
+  return (sprung() && !out_of_play_ ? setup_.sprung->hash() : state_hash(now_)) * 31 + state_hash(lamps_);
 }
 
 std::vector<std::uint64_t> StepLoop::hashes_after(std::uint64_t step) const {

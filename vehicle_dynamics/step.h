@@ -76,6 +76,9 @@ class StepLoop {
   std::uint64_t controls_refused() const { return controls_refused_; }
   double slept_s() const { return slept_s_; }  ///< held by brakes and settled: the car is where it was, at no cost
   bool off_road() const { return off_road_; }  ///< a wheel has been where there is no surface
+  /// Why the car stays where it is for good, nullptr while it drives: no level has a body that touches the road, and no
+  /// number that is not one leaves this loop.
+  const char* out_of_play() const { return out_of_play_; }
   const StepTimes& times() const { return times_; }
   const RunSetup& setup() const { return setup_; }
   Level level_now() const { return running_; }  ///< of level auto the one that runs
@@ -91,6 +94,7 @@ class StepLoop {
   void step_once();
   void move(double dt);
   bool sleeps(double dt);
+  void stay_if_lost();
   void place_on_road(double dt);
   void choose_level(double dt);
   void run_as(Level level);
@@ -115,6 +119,7 @@ class StepLoop {
   SimTime paused_;
   std::uint64_t controls_refused_ = 0;
   bool off_road_ = false;
+  const char* out_of_play_ = nullptr;
   double still_s_ = 0.0, slept_s_ = 0.0;
   StepTimes times_;
 };

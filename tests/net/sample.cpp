@@ -81,6 +81,7 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       s.high_beam_automatic = v.flag();
       s.lamp_aim_rad = v.number(-0.1, 0.1);
       s.clutch_01 = v.number(0, 1);
+      s.parking_brake_01 = v.number(0, 1);
       s.ignition_off = v.flag();
       s.source_stamp.ns = static_cast<std::int64_t>(v.whole(2'000'000'000'000'000'000));
       s.source_fault = v.flag() ? "can0: link down" : "";

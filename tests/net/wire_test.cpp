@@ -214,7 +214,7 @@ TEST(WireRefuses, NumbersThatAreNotFinite) {
         }
         return tried;
       };
-  EXPECT_EQ(try_all(0, [](wire::Datagram& m) { return m.mutable_cockpit_state(); }), 5 * 3);
+  EXPECT_EQ(try_all(0, [](wire::Datagram& m) { return m.mutable_cockpit_state(); }), 6 * 3);
   EXPECT_EQ(try_all(1, [](wire::Datagram& m) { return m.mutable_vehicle_state(); }), 21 * 3);
   EXPECT_EQ(try_all(2, [](wire::Datagram& m) { return m.mutable_frame_report(); }), 2 * 3);
   EXPECT_EQ(try_all(2, [](wire::Datagram& m) { return m.mutable_frame_report()->mutable_drawn(); }), 21 * 3);

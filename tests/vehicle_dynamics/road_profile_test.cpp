@@ -76,7 +76,15 @@ TEST(HeightProfile, FilesAndTheirFaults) {
   const auto good = HeightProfile::read(written("x_m,z_left_m,z_right_m\n0,0,0\n1,0.1,0.2\n2,0.2,0.4\n"));
   ASSERT_TRUE(good.ok()) << good.error().text();
   EXPECT_NEAR(good->at(1.0, true).z_m, 0.1, 1e-12);
-  EXPECT_NEAR(good->at(1.5, false).z_m, 0.3, 0.02);
+  for (double x = 0.0; x <= 2.0; x += 0.1) {  // straight tracks stay straight, in the first and last cell too
+    EXPECT_NEAR(good->at(x, true).z_m, 0.1 * x, 1e-12) << x;
+    EXPECT_NEAR(good->at(x, false).z_m, 0.2 * x, 1e-12) << x;
+  }
+  const auto two = HeightProfile::read(written("x_m,z_m\n0,0\n100,10\n"));
+  ASSERT_TRUE(two.ok());
+  EXPECT_NEAR(two->at(5.0, true).z_m, 0.5, 1e-12);
+  EXPECT_NEAR(two->at(50.0, true).slope, 0.1, 1e-12);
+  EXPECT_EQ(two->at(150.0, true).z_m, 10.0);
   const std::pair<const char*, const char*> bad[] = {{"x_m,z_m\n0,0\n0,1\n", "profile.csv:3: x_m does not rise"},
                                                      {"x_m,z_m\n0,0\n1,nan\n", "profile.csv:3: column z_m"},
                                                      {"x_m,z_m\n0,0\n1\n", "profile.csv:3: column z_m is missing"},

@@ -113,9 +113,9 @@ TEST(Tyre, SideForceBeyondItsTable) {
 TEST(Tyre, SlipSettlesWithoutDividingBySpeed) {
   const tyre::Constants t = passenger_tyre();
   // Steady: kappa = (R w - v) / |v|; at rest nothing decays, a push stretches the patch like a spring.
-  const auto rolling = tyre::slip_rate(t, 0.05, 0.0, 10.0, 0.0, 10.5, 1e6);
+  const auto rolling = tyre::slip_rate(t, 0.05, 0.0, 10.0, 0.0, 10.5, 1e6, 1e6);
   EXPECT_NEAR(rolling.kappa_ps, -(10.0 - 10.5 + 10.5 * 0.05) / t.p.long_relaxation_m, 0.1 * std::abs(rolling.kappa_ps));
-  const auto resting = tyre::slip_rate(t, 0.01, 0.0, 0.0, 0.0, 0.0, 1e6);
+  const auto resting = tyre::slip_rate(t, 0.01, 0.0, 0.0, 0.0, 0.0, 1e6, 1e6);
   EXPECT_EQ(resting.kappa_ps, 0.0);
   EXPECT_EQ(resting.kappa_decay_ps, 0.0);
 }

@@ -54,6 +54,18 @@ TEST(Vehicle, BadFilesAreRefusedWithPlaceAndReason) {
                         Case{"cg_to_front_m = 1.1562", "cg_to_front_m = 2.6", "rear axle"},
                         Case{"roll_stiffness_nmprad = 43670", "roll_stiffness_nmprad = 5000", "upright"},
                         Case{"front_rate_npm = 24453", "front_rate_npm = nan", "front_rate_npm"},
+                        Case{"front_rate_npm = 24453", "front_rate_npm = 2445.3", "0.48"},
+                        Case{"front_damping_nspm = 1786.24", "front_damping_nspm = 1.786", "damping ratio"},
+                        Case{"rear_damping_nspm = 1649.08", "rear_damping_nspm = 178600", "damping ratio"},
+                        Case{"wheel_inertia_kgm2 = 1.7", "wheel_inertia_kgm2 = 0", "wheel_inertia_kgm2"},
+                        Case{"wheel_inertia_kgm2 = 1.7", "wheel_inertia_kgm2 = 0.05", "wheel_inertia_kgm2"},
+                        Case{"yaw_inertia_kgm2 = 1791.5995", "yaw_inertia_kgm2 = 10", "gyration"},
+                        Case{"pitch_inertia_kgm2 = 1565.8179", "pitch_inertia_kgm2 = 15658", "gyration"},
+                        Case{"roll_inertia_kgm2 = 207.2652", "roll_inertia_kgm2 = 20730", "gyration"},
+                        Case{"roll_stiffness_nmprad = 43670", "roll_stiffness_nmprad = 1e8", "springs, bars"},
+                        Case{"track_m = 1.3755", "track_m = 2.9", "mean track"},
+                        Case{"wheelbase_m = 2.5789", "wheelbase_m = 1.2", "share of the weight"},
+                        Case{"tyre_rate_npm = 158294", "tyre_rate_npm = 15829", "springs, bars"},
                         Case{"[drive]", "[drvie]", "drive"}, Case{"ratio = 16.0", "ratio = ", "toml"}}) {
     const Result<VehicleParams> read = read_vehicle(written("car.toml", changed(c.from, c.to)));
     ASSERT_FALSE(read.ok()) << c.to;

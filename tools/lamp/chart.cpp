@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "visual/photometry/whole_file.h"
+#include "config/whole_file.h"
 
 namespace phare {
 namespace {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "config/whole_file.h"
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 #include "tools/lamp/print_json.h"
@@ -12,7 +13,6 @@
 #include "visual/photometry/cutoff.h"
 #include "visual/photometry/file_text.h"
 #include "visual/photometry/lint.h"
-#include "visual/photometry/whole_file.h"
 #include "visual/photometry/write_lamp.h"
 
 namespace phare {

@@ -35,14 +35,20 @@ Geometry geometry(const Params& p, const Input& input, const State& s, double t_
 
   // Wheel centres, and the road below them.
   std::array<double, 4>&x = g.x_m, &y = g.y_m, z, base_m{};
-  Road::Laid laid[2];  // on the road, by axle
-  if (input.road && !input.heights_given)
-    laid[0] = input.road->laid(s.path_m + p.x_m[0]), laid[1] = input.road->laid(s.path_m + p.x_m[2]);
   for (std::size_t i = 0; i < 4; ++i) {
     const double up = p.radius_m - p.cg_height_m + s.travel_m[i];
     x[i] = m[0] * p.x_m[i] + m[1] * p.y_m[i] + m[2] * up;
     y[i] = m[3] * p.x_m[i] + m[4] * p.y_m[i] + m[5] * up;
     z[i] = s.z_m + p.cg_height_m + m[6] * p.x_m[i] + m[7] * p.y_m[i] + m[8] * up;
+  }
+  const double per_level = 1.0 / std::sqrt(std::max(m[0] * m[0] + m[3] * m[3], 1e-12));
+  g.ahead_x = m[0] * per_level, g.ahead_y = m[3] * per_level;
+  Road::Laid laid[2];  // on the road, by axle: profiles count what is travelled on the map, not up and down
+  if (input.road && !input.heights_given)
+    for (std::size_t k = 0; k < 2; ++k)
+      laid[k] = input.road->laid(s.path_m + 0.5 * (g.ahead_x * (x[2 * k] + x[2 * k + 1]) +
+                                                   g.ahead_y * (y[2 * k] + y[2 * k + 1])));
+  for (std::size_t i = 0; i < 4; ++i) {
     g.friction[i] = 1.0;
     if (input.heights_given) {
       g.ground_m[i] = input.height_m[i] + input.height_rate_mps[i] * t_s;
@@ -76,7 +82,7 @@ void kinematics(const Params& p, const Held& held, const Geometry& g, const Stee
   d.x_m = m[0] * s.u_mps + m[1] * s.v_mps + m[2] * s.w_mps;
   d.y_m = m[3] * s.u_mps + m[4] * s.v_mps + m[5] * s.w_mps;
   d.z_m = m[6] * s.u_mps + m[7] * s.v_mps + m[8] * s.w_mps;
-  d.path_m = s.u_mps;
+  d.path_m = g.ahead_x * d.x_m + g.ahead_y * d.y_m;
   d.qw = 0.5 * (-s.qx * s.p_radps - s.qy * s.q_radps - s.qz * s.r_radps);
   d.qx = 0.5 * (s.qw * s.p_radps + s.qy * s.r_radps - s.qz * s.q_radps);
   d.qy = 0.5 * (s.qw * s.q_radps + s.qz * s.p_radps - s.qx * s.r_radps);
@@ -104,7 +110,8 @@ void kinematics(const Params& p, const Held& held, const Geometry& g, const Stee
     const double aside = vx * left[0] + vy * left[1] + vz * left[2];
     contact.rolling_mps[i] = s.spin_radps[i] * p.radius_m;
     const tyre::SlipRate slip =
-        tyre::slip_rate(p.tyre, s.kappa[i], s.tan_alpha[i], ahead, aside, contact.rolling_mps[i], held.most_slip_pm);
+        tyre::slip_rate(p.tyre, s.kappa[i], s.tan_alpha[i], ahead, aside, contact.rolling_mps[i], held.most_along_pm,
+                        held.most_across_pm);
     d.kappa[i] = slip.kappa_ps;
     d.tan_alpha[i] = slip.tan_alpha_ps;
     contact.decay_ps[i] = slip.kappa_decay_ps;
@@ -139,7 +146,7 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
     if (c.moving_mps[i] < kDampedBelow_mps && tyres.load_n[i] > 0.0) {
       const double damping =
           p.tyre.p.carcass_damping_nspm * (1.0 - c.moving_mps[i] / kDampedBelow_mps) * tyres.load_n[i] / kFullDamping_n;
-      const double x = tyres.fx_n[i] + damping * c.stretch_mps[i], y = tyres.fy_n[i] + damping * c.stretch_mps[i + 4];
+      const double x = tyres.fx_n[i] + std::min(damping, held.most_damping_nspm) * c.stretch_mps[i], y = tyres.fy_n[i] + damping * c.stretch_mps[i + 4];
       const double most = g.friction[i] * tyres.load_n[i];
       const double ex = x / (most * p.tyre.p.long_peak), ey = y / (most * p.tyre.p.lat_peak), over = ex * ex + ey * ey;
       const double scale = 1.0 / std::sqrt(std::max(over, 1.0));

@@ -41,6 +41,8 @@ struct Params {
   std::array<double, 4> brake_jack{}, drive_jack{};  ///< anti-dive, anti-squat: vertical over longitudinal force
   std::array<double, 4> lever_share{};               ///< of each corner in the height of the centre of gravity
   std::array<double, 4> rest_m{};                    ///< what spring and tyre give under the weight at rest
+  double spin_answer_mps2 = 0.0;  ///< of a loaded wheel's tread to a slip of one: k Fz R^2 / I
+  double spin_kg = 0.0;           ///< a wheel's inertia at its tread: I / R^2
   tyre::Constants tyre;
   Integrator integrator = Integrator::kRk4;
 };
@@ -52,7 +54,7 @@ Result<Params> params_of(const VehicleParams& vehicle, const std::string& place)
 struct State {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
   double qw = 1.0, qx = 0.0, qy = 0.0, qz = 0.0;  ///< world from body, unit
-  double path_m = 0.0;                            ///< travelled along the body's x
+  double path_m = 0.0;                            ///< travelled ahead, on the map
   double u_mps = 0.0, v_mps = 0.0, w_mps = 0.0;
   double p_radps = 0.0, q_radps = 0.0, r_radps = 0.0;
   std::array<double, 4> travel_m{};            ///< of the wheel towards the body, 0 at rest
@@ -101,7 +103,10 @@ struct Held {
   Steer steer;
   std::array<bool, 4> locked{};
   std::array<double, 4> brake_nm{};                               ///< signed, of the turning wheels, for the whole step
-  double most_slip_pm = std::numeric_limits<double>::infinity();  ///< one over the floor
+  // One over the floors of the relaxation lengths, and how much of the carcass' damping along the wheel the step bears.
+  double most_along_pm = std::numeric_limits<double>::infinity(),
+         most_across_pm = std::numeric_limits<double>::infinity();
+  double most_damping_nspm = std::numeric_limits<double>::infinity();
 };
 
 /// d state/dt at `t_s` into the step.

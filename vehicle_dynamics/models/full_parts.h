@@ -12,6 +12,7 @@ struct Geometry {
   std::array<double, 9> world_from_body{};         ///< rows
   std::array<double, 3> normal_world{}, normal{};  ///< along which the tyres are loaded; in the world, in body axes
   std::array<double, 4> x_m{}, y_m{};              ///< contacts from the centre of gravity, world axes
+  double ahead_x = 1.0, ahead_y = 0.0;             ///< where the car heads on the map, unit
   std::array<double, 4> tilt_m{};                  ///< heights that span the plane of that normal
   std::array<double, 4> ground_m{}, friction{}, squeeze_m{};
   bool off_road = false;

@@ -66,7 +66,8 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
 
   // along: torque over radius up to the limit of friction
   const double along_limit = held.friction * car.tyre.p.long_peak;
-  const Two limit = along_limit * load, ahead = least(largest(Two{held.front_push_n, held.rear_push_n}, -limit), limit);
+  const Two grip = along_limit * load, limit = held.reach * grip;
+  const Two ahead = least(largest(Two{held.front_push_n, held.rear_push_n}, -limit), limit);
   const double resisted = held.drag_kgpm * s.u_mps * std::abs(s.u_mps) + held.rolling * (load[0] + load[1]);
 
   // across: what slip gives, less where the friction is used along; at walking pace the carcass' damping
@@ -75,7 +76,7 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
   const auto slip = tyre::side_slip_rate(car.tyre, Two{s.front_slip, s.rear_slip}, vx, vy, held.most_slip_pm);
   Two side = share * load;
   if ((ahead[0] != 0.0 || ahead[1] != 0.0) && p.options.magic_formula) {
-    const Two left_over = largest(limit * limit - ahead * ahead, Two{});
+    const Two left_over = largest(grip * grip - ahead * ahead, Two{});
     side = share / along_limit * Two{std::sqrt(left_over[0]), std::sqrt(left_over[1])};
   }
   const Two fade = largest(1.0 - largest(magnitude(vx), magnitude(vy)) / kDampedBelow_mps, Two{});
@@ -266,8 +267,8 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
   const double cosine = turned.cosine[0], sine = turned.sine[0];
   double most_slip_pm = std::numeric_limits<double>::infinity();
   if (p.integrator == Integrator::kRk4) {
-    const double fastest =
-        std::abs(s.u_mps) + std::abs(sine) * (std::abs(s.v_mps) + p.car.x_m[0] * std::abs(s.r_radps));
+    const double turning = std::abs(s.v_mps) + std::max(p.car.x_m[0], -p.car.x_m[2]) * std::abs(s.r_radps);
+    const double fastest = std::max(std::abs(s.u_mps) + std::abs(sine) * turning, 0.1 * turning);
     most_slip_pm = 1.0 / std::max(0.5 * fastest * dt, 1e-6);
   }
 
@@ -277,7 +278,24 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
                rear_brake = (in.brake_nm[2] + in.brake_nm[3]) * p.per_radius_m, brake = front_brake + rear_brake;
   double against = sign(s.u_mps);  // the motion that the brakes oppose
   bool stopped = false;
-  if (brake > 0.0 && std::abs(s.u_mps) * p.effective_kg <= dt * brake) {
+  Two reach{1.0, 1.0};
+  double aside_mps = 0.0, sticks_n = brake;
+  if (brake > 0.0 && p.options.magic_formula) {
+    // A locked wheel pushes against its slide. Aside it slides beyond the slip of the highest force, at twice that all
+    // of its motion is slide; below it the patch sticks, and what moves is the carcass.
+    const double vf = s.v_mps + p.car.x_m[0] * s.r_radps, vr = s.v_mps + p.car.x_m[2] * s.r_radps;
+    const Two vx = magnitude(Two{s.u_mps * cosine + vf * sine, s.u_mps});
+    const Two over = magnitude(Two{s.front_slip, s.rear_slip}) * (1.5 * p.car.tyre.per_tan_alpha_bend) - both(1.0);
+    const Two aside = least(largest(over, Two{}), both(1.0)) * magnitude(Two{vf * cosine - s.u_mps * sine, vr});
+    aside_mps = std::max(aside[0], aside[1]);
+    if (aside_mps > 0.0) {
+      const Two slide2 = vx * vx + aside * aside;
+      for (int k = 0; k < 2; ++k)
+        if (slide2[k] > 0.0) reach[k] = vx[k] / std::sqrt(slide2[k]);
+      sticks_n = (aside[0] > 0.0 ? 0.0 : front_brake) + (aside[1] > 0.0 ? 0.0 : rear_brake);
+    }
+  }
+  if (brake > 0.0 && std::max(std::abs(s.u_mps), aside_mps) * p.effective_kg <= dt * brake) {
     // They can stop the car within the step: do they hold it against drive and grade?
     const double push = front_drive * cosine + rear_drive - p.car.mass_kg * kGravity_mps2 * along * level;
     const double limit = friction * p.car.tyre.p.long_peak * p.car.mass_kg * kGravity_mps2;
@@ -300,6 +318,8 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
           .yaw_sine = turned.sine[1],
           .front_push_n = front_drive - against * front_brake,
           .rear_push_n = rear_drive - against * rear_brake,
+          .reach = reach,
+          .sticks_mps = dt * sticks_n * p.per_effective_kg,
           .drag_kgpm = in.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.car.drag_area_m2 : 0.0,
           .rolling = in.air_and_rolling
                          ? p.car.rolling_coefficient * u / std::sqrt(u * u + kRollingKnee_mps * kRollingKnee_mps)
@@ -313,11 +333,13 @@ full::Forces forces(const Params& p, const full::Input& in, const State& s) {
   const Held h = held(p, in, s, 1e-3);
   const Acting a = acting(p, h, grip(p, h, s).share, s, 0.0);
   full::Forces out;
+  const double brakes_nm = in.brake_nm[0] + in.brake_nm[1] + in.brake_nm[2] + in.brake_nm[3];
   for (std::size_t i = 0; i < 4; ++i) {
     const Two load = i < 2 ? a.front_load_n : a.rear_load_n;
     const double axle = load[0] + load[1], share = axle > 0.0 ? load[i % 2] / axle : 0.0;
     out.load_n[i] = load[i % 2];
-    out.fx_n[i] = 0.5 * (i < 2 ? a.front_x_n : a.rear_x_n);
+    // What holds a car that stands, each wheel by its share of the brakes.
+    out.fx_n[i] = h.stopped ? a.fx_n * in.brake_nm[i] / brakes_nm : 0.5 * (i < 2 ? a.front_x_n : a.rear_x_n);
     out.fy_n[i] = share * (i < 2 ? a.front_y_n : a.rear_y_n);
     out.ground_m[i] = (i < 2 ? h.front : h.rear).height_m[i % 2];
   }

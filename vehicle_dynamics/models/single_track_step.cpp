@@ -125,7 +125,9 @@ void set_step(Params& p, double dt) {
 
 void finish_step(const full::Input& in, const Held& h, const State& before, State& s) {
   const bool braked = in.brake_nm[0] + in.brake_nm[1] + in.brake_nm[2] + in.brake_nm[3] > 0.0;
-  if (h.stopped || (braked && before.u_mps * s.u_mps < 0.0)) s.u_mps = 0.0;
+  // Brakes end a motion and begin none; a car that slides aside may well turn from forwards to backwards.
+  const bool turned = before.u_mps * s.u_mps < 0.0 && std::abs(before.u_mps) <= h.sticks_mps;
+  if (h.stopped || (braked && turned)) s.u_mps = 0.0;
 }
 
 void advance(const Params& p, const full::Input& in, State& s, double dt) {

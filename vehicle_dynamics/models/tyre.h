@@ -58,19 +58,18 @@ struct SlipRate {
   double kappa_stretch_mps = 0.0, tan_alpha_stretch_mps = 0.0;  ///< rate of the carcass' deflection
 };
 
-/// `vx`, `vy`: velocity of the wheel's contact point along and across it; `rolling`: spin times radius; `most_pm`: one
-/// over the floor of the relaxation length, which is half of what the wheel travels in a step, so that explicit steps
-/// stay stable; infinite for none.
+/// `vx`, `vy`: velocity of the wheel's contact point along and across it; `rolling`: spin times radius; `most_along_pm`,
+/// `most_across_pm`: one over the floors of the relaxation lengths that keep a step stable; infinite for none.
 inline SlipRate slip_rate(const Constants& tyre, double kappa, double tan_alpha, double vx, double vy, double rolling,
-                          double most_pm) {
+                          double most_along_pm, double most_across_pm) {
   // Slip falls with what has passed through the patch. A wheel that slides sideways passes little: a tenth of its
   // slide.
   const double carried = std::max(std::max(std::abs(vx), std::abs(rolling)), 0.1 * std::abs(vy));
   const double k = kappa * tyre.per_kappa_bend, t = tan_alpha * tyre.per_tan_alpha_bend;
   // Beyond the peak the patch slides and has nothing left to build up: sigma falls with slip (Pacejka 7.2.2), to a
   // tenth.
-  const double along_pm = std::min(std::min(tyre.per_long_m * (1.0 + k * k), 10.0 * tyre.per_long_m), most_pm);
-  const double across_pm = std::min(std::min(tyre.per_lat_m * (1.0 + t * t), 10.0 * tyre.per_lat_m), most_pm);
+  const double along_pm = std::min(std::min(tyre.per_long_m * (1.0 + k * k), 10.0 * tyre.per_long_m), most_along_pm);
+  const double across_pm = std::min(std::min(tyre.per_lat_m * (1.0 + t * t), 10.0 * tyre.per_lat_m), most_across_pm);
   const double along = rolling - vx - carried * kappa, across = -vy - carried * tan_alpha;
   return {.kappa_ps = along * along_pm,
           .tan_alpha_ps = across * across_pm,

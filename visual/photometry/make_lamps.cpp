@@ -6,11 +6,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "config/whole_file.h"
 #include "visual/photometry/check.h"
 #include "visual/photometry/combine.h"
 #include "visual/photometry/read_lamp.h"
 #include "visual/photometry/sample_lamps.h"
-#include "visual/photometry/whole_file.h"
 #include "visual/photometry/write_lamp.h"
 
 namespace phare {

@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 #include <string_view>
 
-#include "visual/photometry/whole_file.h"
+#include "config/whole_file.h"
 
 namespace phare {
 namespace {
