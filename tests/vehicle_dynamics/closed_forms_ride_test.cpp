@@ -195,9 +195,9 @@ TEST(ClosedForm, DivePerG) {
     for (const double anti_dive : {0.0, 0.4}) {
       VehicleParams v = test::car(c.file);
       v.anti_dive_01 = anti_dive;
-      // No inertia of the wheels but the least there is: it would take its part of the brakes' force, not shared as
-      // theirs is. So little of it wants short steps.
-      v.wheel_inertia_kgm2 = 0.0;
+      // Next to no inertia of the wheels: it would take its part of the brakes' force, not shared as theirs is. So
+      // little of it wants short steps.
+      v.wheel_inertia_kgm2 = 0.05;
       v.chassis->brake_front_01 = 0.66;  // as Drive and Track brake
       // Front lowers by transfer / (2 k'), the rear lifts likewise; anti-dive takes its share of the front's.
       const double kt = v.tyre_rate_npm, kf = v.front_rate_npm, kr = v.rear_rate_npm;
@@ -227,7 +227,7 @@ TEST(ClosedForm, DiveOnRigidTyres) {
   for (const double anti_dive : {0.0, 0.4}) {
     VehicleParams v = test::car("bmw_320i.toml");
     v.anti_dive_01 = anti_dive;
-    v.wheel_inertia_kgm2 = 0.0;
+    v.wheel_inertia_kgm2 = 0.05;
     const double front = 1.0 / v.front_rate_npm, rear = 1.0 / v.rear_rate_npm;
     full::Params p = *full::params_of(v, "");
     p.tyre_rate_npm = 1e8;

@@ -126,10 +126,14 @@ inline double friction_use(const full::Params& p, const full::Forces& f, const s
   return most;
 }
 
-/// What lies under each wheel along the car's way.
+/// What lies under each wheel along the car's way; within 5 cm of a border, which pitch and roll move, the better of
+/// both.
 inline std::array<double, 4> friction_under(const full::Params& p, const Road& road, double path_m) {
-  const Two front = road.laid(path_m + p.x_m[0]).friction, rear = road.laid(path_m + p.x_m[2]).friction;
-  return {front[0], front[1], rear[0], rear[1]};
+  std::array<double, 4> most{};
+  for (const double beside_m : {-0.05, 0.0, 0.05})
+    for (std::size_t i = 0; i < 4; ++i)
+      most[i] = std::max(most[i], road.laid(path_m + p.x_m[i] + beside_m).friction[i % 2]);
+  return most;
 }
 
 inline bool finite(const full::State& s) {
