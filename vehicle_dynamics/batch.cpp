@@ -1,7 +1,6 @@
 #include "vehicle_dynamics/batch.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -109,7 +108,7 @@ class Car {
     }
     full_ = full::at_rest(full_params_, o_.start_x_m, 0.0, 0.0, o_.speed_mps, height);
     single_ = single_track::at_rest(single_params_, o_.start_x_m, 0.0, 0.0, o_.speed_mps, height);
-    flat_.x_m = flat_path_m_ = o_.start_x_m - b;
+    flat_.x_m = path_m_ = o_.start_x_m - b;
     flat_.speed_mps = o_.speed_mps;
     kinematic::stand_on(o_.vehicle, height, flat_, 0.0);
     beside_ = height;
@@ -216,6 +215,9 @@ class Car {
     row.x_m = whole ? full_.x_m : single_.x_m, row.y_m = whole ? full_.y_m : single_.y_m;
     row.z_m = whole ? full_.z_m : single_.z_m;
     row.roll_rad = f.roll_rad, row.pitch_rad = f.pitch_rad;
+    if (!rolled_over_s_ &&
+        std::max(std::abs(f.roll_rad - f.road_roll_rad), std::abs(f.pitch_rad - f.road_pitch_rad)) > kOver_rad)
+      rolled_over_s_ = time_s;
     row.yaw_rad = yaw_ += std::remainder(f.yaw_rad - yaw_, 2.0 * std::numbers::pi);
     row.roll_rate_radps = f.roll_rate_radps, row.pitch_rate_radps = f.pitch_rate_radps,
     row.yaw_rate_radps = f.yaw_rate_radps;
@@ -254,9 +256,12 @@ class Car {
                                              : state_hash(flat_);
   }
   bool off_road() const { return off_road_; }
+  const std::optional<double>& rolled_over_s() const { return rolled_over_s_; }
   const Status& gave_up() const { return gave_up_; }
 
  private:
+  static constexpr double kOver_rad =
+      1.2;  // of the body against the road, as in step.cpp: no car comes back from there
   // Of max_brake_force_n, on the rear axle, as powertrain.cpp has it.
   static constexpr double kParkingShare_01 = 0.5;
 
@@ -278,7 +283,7 @@ class Car {
     controls.parking_brake_01 = parking;
     const double before_mps = flat_.speed_mps;
     kinematic::advance(o_.vehicle, controls, flat_, dt);
-    flat_path_m_ += 0.5 * (before_mps + flat_.speed_mps) * std::cos(flat_.road_pitch_rad) * dt;
+    path_m_ += 0.5 * (before_mps + flat_.speed_mps) * std::cos(flat_.road_pitch_rad) * dt;
     std::array<double, 4> height = beside_;
     if (input_.heights_given) {
       for (std::size_t i = 0; i < 4; ++i) height[i] = input_.height_m[i] + input_.height_rate_mps[i] * dt;
@@ -286,7 +291,7 @@ class Car {
       const auto points = kinematic::contact_points(o_.vehicle, flat_);
       for (std::size_t i = 0; i < 4; ++i)
         height[i] = o_.road
-                        ->at(points[i].x, points[i].y, flat_path_m_ + (i < 2 ? o_.vehicle.wheelbase_m : 0.0), i % 2 == 0,
+                        ->at(points[i].x, points[i].y, path_m_ + (i < 2 ? o_.vehicle.wheelbase_m : 0.0), i % 2 == 0,
                              beside_[i], &off_road_)
                         .z_m;
     }
@@ -324,13 +329,14 @@ class Car {
   full::State full_;
   single_track::State single_;
   CarState flat_;
-  double flat_path_m_ = 0.0;  // of the rear axle, as travelled on the map
   powertrain::State power_;
   levelling::State lamps_;
   ReferenceIntegrator reference_;
   std::array<double, 4> beside_{};
+  double path_m_ = 0.0;  // level kinematic: travelled by the rear axle
   double yaw_ = 0.0, road_pitch_ = 0.0, origin_z_ = 0.0, plane_z_ = 0.0;
   bool off_road_ = false;
+  std::optional<double> rolled_over_s_;
   Status gave_up_ = Done{};
 };
 
@@ -465,30 +471,8 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
   summary.simulated_s = static_cast<double>(steps) * dt;
   summary.state_hash = car.hash();
   summary.off_road = car.off_road();
+  summary.rolled_over_s = car.rolled_over_s();
   return summary;
-}
-
-std::string header(bool lamps) {
-  std::string text =
-      "time_s,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,roll_rate_radps,pitch_rate_radps,yaw_rate_radps,vx_mps,vy_mps,"
-      "ax_mps2,ay_mps2";
-  for (const auto& [name, unit] : {std::pair{"spin", "radps"}, {"fz", "n"}, {"fx", "n"}, {"fy", "n"}})
-    for (const char* wheel : {"fl", "fr", "rl", "rr"}) text += std::string(",") + name + "_" + wheel + "_" + unit;
-  return text + (lamps ? ",cutoff_25m_m,cutoff_25m_z_m,lamp_tilt_rad\n" : "\n");
-}
-
-void append(const Row& row, bool lamps, std::string& text) {
-  constexpr std::size_t kAll = sizeof(Row) / sizeof(double), kOfLamps = 3,
-                        kMostPerNumber = 26;  // -2.2250738585072014e-308,
-  const std::size_t count = lamps ? kAll : kAll - kOfLamps;
-  const double* values = &row.time_s;
-  std::array<char, kAll * kMostPerNumber> line;
-  char* at = line.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    at = std::to_chars(at, line.data() + line.size(), values[i]).ptr;
-    *at++ = i + 1 < count ? ',' : '\n';
-  }
-  text.append(line.data(), at);
 }
 
 }  // namespace phare::batch

@@ -82,6 +82,7 @@ struct Summary {
   double simulated_s = 0.0, wall_s = 0.0;  ///< wall: of the car and its rows, not of what is done with them
   std::uint64_t state_hash = 0;
   bool off_road = false;
+  std::optional<double> rolled_over_s;  ///< when a row first showed it; what follows is no car's motion
   bool resistance = false;
 };
 

@@ -333,6 +333,9 @@ int BatchCommand::run(const std::string& level_name) const {
   pass_on(0);
   if (written) written = file->finish();
   if (!written) return fail("phare-dynamics", written.error());
+  if (summary->rolled_over_s)
+    std::fprintf(stderr, "phare-dynamics: the car has rolled over at %.9g s; what follows is no car's motion\n",
+                 *summary->rolled_over_s);
   if (!lamps)
     std::fprintf(stderr, "phare-dynamics: %s has no table [levelling]: no columns for cut-off and lamps\n",
                  printable(o.vehicle).c_str());

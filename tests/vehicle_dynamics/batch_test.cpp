@@ -340,6 +340,37 @@ TEST(Batch, KinematicForcesAddUp) {
   }
 }
 
+// A profile lies along the way travelled, in a turn too: half a circle on a rise of 1 in 100.
+TEST(Batch, ProfilesAreTravelledInTurns) {
+  Result<HeightProfile> rise = HeightProfile::read(written("rise.csv", "x_m,z_m\n-10,-0.1\n500,5\n"));
+  ASSERT_TRUE(rise.ok());
+  Road road;
+  road.profiles.push_back(*rise);
+  const batch::Inputs in = inputs("time_s,steer_rad,accelerator_01,brake_01,gear\n0,0.15,0,0,1\n6,0.15,0,0,1\n");
+  for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull}) {
+    batch::Options o = options(level);
+    o.speed_mps = 10.0, o.road = &road;
+    const std::vector<batch::Row> rows = rows_of(o, in);
+    double way_m = 0.0;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      way_m += std::hypot(rows[i].x_m - rows[i - 1].x_m, rows[i].y_m - rows[i - 1].y_m);
+    EXPECT_GT(way_m - rows.back().x_m, 30.0);
+    EXPECT_NEAR(rows.back().z_m, 0.01 * way_m, 0.05) << name(level);
+  }
+}
+
+TEST(Batch, RollingOverIsSaid) {
+  const batch::Inputs cliff = inputs(
+      "time_s,steer_rad,accelerator_01,brake_01,road_fl_m,road_fr_m,road_rl_m,road_rr_m\n0,0,0,0,0,0,0,0\n"
+      "0.5,0,0,0,0,0,0,0\n0.51,0,0,0,5,0,5,0\n0.6,0,0,0,0,0,0,0\n3,0,0,0,0,0,0,0\n");
+  const auto over = batch::run(options(Level::kFull), cliff, [](const batch::Row&) {});
+  ASSERT_TRUE(over.ok()) << over.error().text();
+  ASSERT_TRUE(over->rolled_over_s.has_value());
+  EXPECT_GT(*over->rolled_over_s, 0.5);
+  const auto upright = batch::run(options(Level::kFull), inputs(kBraking), [](const batch::Row&) {});
+  EXPECT_FALSE(upright->rolled_over_s.has_value());
+}
+
 TEST(Batch, TheStartMustBeOnTheRoad) {
   const RoadSurface surface = test::tilted_plane(0.0, 0.0, 50.0);
   Road road;
