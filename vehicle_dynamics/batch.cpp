@@ -108,7 +108,7 @@ class Car {
     }
     full_ = full::at_rest(full_params_, o_.start_x_m, 0.0, 0.0, o_.speed_mps, height);
     single_ = single_track::at_rest(single_params_, o_.start_x_m, 0.0, 0.0, o_.speed_mps, height);
-    flat_.x_m = flat_path_m_ = o_.start_x_m - b;
+    flat_.x_m = path_m_ = o_.start_x_m - b;
     flat_.speed_mps = o_.speed_mps;
     kinematic::stand_on(o_.vehicle, height, flat_, 0.0);
     beside_ = height;
@@ -283,7 +283,7 @@ class Car {
     controls.parking_brake_01 = parking;
     const double before_mps = flat_.speed_mps;
     kinematic::advance(o_.vehicle, controls, flat_, dt);
-    flat_path_m_ += 0.5 * (before_mps + flat_.speed_mps) * std::cos(flat_.road_pitch_rad) * dt;
+    path_m_ += 0.5 * (before_mps + flat_.speed_mps) * std::cos(flat_.road_pitch_rad) * dt;
     std::array<double, 4> height = beside_;
     if (input_.heights_given) {
       for (std::size_t i = 0; i < 4; ++i) height[i] = input_.height_m[i] + input_.height_rate_mps[i] * dt;
@@ -291,8 +291,8 @@ class Car {
       const auto points = kinematic::contact_points(o_.vehicle, flat_);
       for (std::size_t i = 0; i < 4; ++i)
         height[i] = o_.road
-                        ->at(points[i].x, points[i].y, flat_path_m_ + (i < 2 ? o_.vehicle.wheelbase_m : 0.0),
-                             i % 2 == 0, beside_[i], &off_road_)
+                        ->at(points[i].x, points[i].y, path_m_ + (i < 2 ? o_.vehicle.wheelbase_m : 0.0), i % 2 == 0,
+                             beside_[i], &off_road_)
                         .z_m;
     }
     beside_ = height;
@@ -329,11 +329,11 @@ class Car {
   full::State full_;
   single_track::State single_;
   CarState flat_;
-  double flat_path_m_ = 0.0;  // of the rear axle, as travelled on the map
   powertrain::State power_;
   levelling::State lamps_;
   ReferenceIntegrator reference_;
   std::array<double, 4> beside_{};
+  double path_m_ = 0.0;  // level kinematic: travelled by the rear axle
   double yaw_ = 0.0, road_pitch_ = 0.0, origin_z_ = 0.0, plane_z_ = 0.0;
   bool off_road_ = false;
   std::optional<double> rolled_over_s_;

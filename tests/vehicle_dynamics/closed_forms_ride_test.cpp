@@ -195,8 +195,8 @@ TEST(ClosedForm, DivePerG) {
     for (const double anti_dive : {0.0, 0.4}) {
       VehicleParams v = test::car(c.file);
       v.anti_dive_01 = anti_dive;
-      // No inertia of the wheels but the least there is: it would take its part of the brakes' force, not shared as
-      // theirs is. So little of it wants short steps.
+      // Next to no inertia of the wheels: it would take its part of the brakes' force, not shared as theirs is. So
+      // little of it wants short steps.
       v.wheel_inertia_kgm2 = 0.05;
       v.chassis->brake_front_01 = 0.66;  // as Drive and Track brake
       // Front lowers by transfer / (2 k'), the rear lifts likewise; anti-dive takes its share of the front's.

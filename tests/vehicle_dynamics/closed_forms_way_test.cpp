@@ -167,12 +167,13 @@ TEST(ClosedForm, FrictionEllipseInEveryStep) {
          {static_cast<const Road*>(nullptr), &std::as_const(rough), &std::as_const(kerb), &std::as_const(slippery)})
       for (const bool relaxed : {false, true}) {
         Drive full(relaxed ? test::hard_car() : full_car(), m.speed_mps, road);
+        const Road smooth;
         double most = 0.0;
         for (double t = 0.0; t < m.seconds; t += 0.002) {
           m.drive(full.input, t);
           full.step(0.002);
           const full::Params& p = full.params;
-          const auto friction = test::friction_under(full);
+          const auto friction = test::friction_under(p, road ? *road : smooth, full.state.path_m);
           most = std::max(most, test::friction_use(p, full.forces(), friction));
           ++samples;
         }

@@ -6,7 +6,6 @@
 
 #include "test_car.h"
 #include "vehicle_dynamics/models/full.h"
-#include "vehicle_dynamics/models/full_parts.h"
 #include "vehicle_dynamics/models/single_track.h"
 
 namespace phare::test {
@@ -127,9 +126,14 @@ inline double friction_use(const full::Params& p, const full::Forces& f, const s
   return most;
 }
 
-/// What lies under each wheel along the car's way.
-inline std::array<double, 4> friction_under(const Drive& d) {
-  return full::geometry(d.params, d.input, d.state, 0.0).friction;
+/// What lies under each wheel along the car's way; within 5 cm of a border, which pitch and roll move, the better of
+/// both.
+inline std::array<double, 4> friction_under(const full::Params& p, const Road& road, double path_m) {
+  std::array<double, 4> most{};
+  for (const double beside_m : {-0.05, 0.0, 0.05})
+    for (std::size_t i = 0; i < 4; ++i)
+      most[i] = std::max(most[i], road.laid(path_m + p.x_m[i] + beside_m).friction[i % 2]);
+  return most;
 }
 
 inline bool finite(const full::State& s) {
