@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "config/conventions.h"
 #include "full_car.h"
 
@@ -55,6 +57,50 @@ TEST(SingleTrack, StopsAndReverses) {
   back.input.steer_rad = 0.25;
   back.run(10.0, 0.005);
   EXPECT_NEAR(back.state.r_radps, back.state.u_mps * std::tan(0.25) / back.params.car.wheelbase_m, 0.02 * 0.3);
+}
+
+// Hard case 9: no state fades into denormal numbers, which take ten times as long, after a bend or parked after a stop.
+TEST(SingleTrack, NoDenormalNumbers) {
+  for (const Integrator integrator : {Integrator::kSemiImplicitEuler, Integrator::kEtd2, Integrator::kRk4}) {
+    Track straight(test::single_car(), 20.0), parked(test::single_car(), 10.0);
+    straight.params.integrator = parked.params.integrator = integrator;
+    straight.input.steer_rad = 0.02;
+    straight.run(1.0, 0.005);
+    straight.input.steer_rad = 0.0;
+    parked.input.steer_rad = 0.1;
+    parked.brake(6.0);
+    for (Track* car : {&straight, &parked}) {
+      long slow = 0;
+      car->run(150.0, 0.005, [&](const Track& now) {
+        const double* values = &now.state.x_m;
+        slow += std::count_if(values, values + single_track::kStateSize,
+                              [](double v) { return std::fpclassify(v) == FP_SUBNORMAL; });
+      });
+      EXPECT_EQ(slow, 0) << static_cast<int>(integrator);
+    }
+  }
+}
+
+// No axle pulls more than its friction ellipse. A torque cut off by friction, then the wheels' own inertia on top; and
+// the carcass' damping at walking pace beside a brake.
+TEST(SingleTrack, FrictionEllipse) {
+  const auto axle_use = [](const Track& car) {
+    full::Forces f = car.forces();
+    for (std::size_t i = 0; i < 4; i += 2)
+      for (auto* part : {&f.load_n, &f.fx_n, &f.fy_n}) (*part)[i] += (*part)[i + 1], (*part)[i + 1] = 0.0;
+    return test::friction_use(car.params.car, f, {1.0, 1.0, 1.0, 1.0});
+  };
+  double driven = 0.0, slow = 0.0;
+  Track rear_alone(test::single_car(), 18.0);  // brakes in front, drives behind
+  rear_alone.input.brake_nm = {3000.0, 3000.0, 0.0, 0.0};
+  rear_alone.input.drive_nm = {0.0, 0.0, 3000.0, 3000.0};
+  rear_alone.run(2.0, 0.002, [&](const Track& now) { driven = std::max(driven, axle_use(now)); });
+  EXPECT_LE(driven, 1.001) << "driven to the limit";
+  Track walking(test::single_car(), 1.5);
+  walking.state.v_mps = -1.5;
+  walking.input.drive_nm = {0.0, 0.0, 3000.0, 3000.0};
+  walking.run(1.0, 0.002, [&](const Track& now) { slow = std::max(slow, axle_use(now)); });
+  EXPECT_LE(slow, 1.002) << "sliding at walking pace";  // what the wheels' inertia takes off comes after the cut
 }
 
 }  // namespace

@@ -105,10 +105,15 @@ void soften(const Params& p, const State& s, double dt, Held& h) {
   if (carried < 1.0) floor_m = swing * dt / answer * (carried > 1e-9 ? carried / -std::log1p(-carried) : 1.0);
   if (p.integrator == Integrator::kRk4) {
     // The decay itself: half of what the fastest patch rolls in a step; a spinning wheel's runs faster than the car.
+    const bool tilted = s.qx * s.qx + s.qy * s.qy > 0.25;  // by more than 60 degrees: wheels face any way
     double fastest = 0.0;
-    for (std::size_t i = 0; i < 4; ++i)
-      fastest = std::max({fastest, std::abs(s.u_mps - s.r_radps * p.y_m[i]),
-                          (std::abs(h.steer.sine[i]) + 0.1) * std::abs(s.v_mps + s.r_radps * p.x_m[i])});
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double x = s.u_mps - s.r_radps * p.y_m[i], y = s.v_mps + s.r_radps * p.x_m[i];
+      const double cosine = h.steer.cosine[i], sine = h.steer.sine[i];
+      fastest = std::max({fastest, std::abs(x * cosine + y * sine) + std::abs(s.rise_mps[i]),
+                          tyre::kSlideCarries * std::abs(y * cosine - x * sine)});
+      if (tilted) fastest = std::max(fastest, std::hypot(x, y, s.rise_mps[i]));
+    }
     for (const double spin : s.spin_radps) fastest = std::max(fastest, std::abs(spin) * p.radius_m);
     h.most_across_pm = 1.0 / std::max(0.5 * fastest * dt, 1e-6);
     floor_m = std::max(floor_m, 0.5 * fastest * dt);

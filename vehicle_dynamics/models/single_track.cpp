@@ -74,15 +74,16 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
   const double vf = s.v_mps + car.x_m[0] * s.r_radps, vr = s.v_mps + car.x_m[2] * s.r_radps;
   const Two vx{s.u_mps * held.cosine + vf * held.sine, s.u_mps}, vy{vf * held.cosine - s.u_mps * held.sine, vr};
   const auto slip = tyre::side_slip_rate(car.tyre, Two{s.front_slip, s.rear_slip}, vx, vy, held.most_slip_pm);
-  Two side = share * load;
+  Two for_side = load;  // the load whose friction is left for the side
   if ((ahead[0] != 0.0 || ahead[1] != 0.0) && p.options.magic_formula) {
     const Two left_over = largest(grip * grip - ahead * ahead, Two{});
-    side = share / along_limit * Two{std::sqrt(left_over[0]), std::sqrt(left_over[1])};
+    for_side = 1.0 / along_limit * Two{std::sqrt(left_over[0]), std::sqrt(left_over[1])};
   }
+  Two side = share * for_side;
   const Two fade = largest(1.0 - largest(magnitude(vx), magnitude(vy)) / kDampedBelow_mps, Two{});
   if (fade[0] > 0.0 || fade[1] > 0.0) {
     side += car.tyre.p.carcass_damping_nspm * kPerFullDamping_n * fade * load * slip.stretch_mps;
-    const Two most = held.friction * car.tyre.p.lat_peak * load;
+    const Two most = held.friction * car.tyre.p.lat_peak * for_side;
     if (p.options.magic_formula) side = least(largest(side, -most), most);
   }
   const double front_y = side[0], rear_y = side[1];
@@ -91,7 +92,8 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
   const double downhill_n = -car.mass_kg * kGravity_mps2 * held.along * held.level;
   const double pull = ahead[0] * held.cosine - front_y * held.sine + ahead[1] - resisted + downhill_n;
   const double ax = held.stopped ? 0.0 : pull * p.per_effective_kg;
-  const double spun = 0.5 * (p.effective_kg - car.mass_kg) * ax, front_x = ahead[0] - spun, rear_x = ahead[1] - spun;
+  const Two pulls = least(largest(ahead - both(0.5 * (p.effective_kg - car.mass_kg) * ax), -grip), grip);
+  const double front_x = pulls[0], rear_x = pulls[1];
   const double front_side = held.stopped ? front_y * held.cosine : front_x * held.sine + front_y * held.cosine;
   const double fx = held.stopped ? -downhill_n : front_x * held.cosine - front_y * held.sine + rear_x;
   const double fy = front_side + rear_y, felt = fy * p.per_mass_kg;
@@ -268,7 +270,7 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
   double most_slip_pm = std::numeric_limits<double>::infinity();
   if (p.integrator == Integrator::kRk4) {
     const double turning = std::abs(s.v_mps) + std::max(p.car.x_m[0], -p.car.x_m[2]) * std::abs(s.r_radps);
-    const double fastest = std::max(std::abs(s.u_mps) + std::abs(sine) * turning, 0.1 * turning);
+    const double fastest = std::max(std::abs(s.u_mps) + std::abs(sine) * turning, tyre::kSlideCarries * turning);
     most_slip_pm = 1.0 / std::max(0.5 * fastest * dt, 1e-6);
   }
 

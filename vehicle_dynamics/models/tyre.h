@@ -50,6 +50,10 @@ struct SideForce {
 };
 SideForce side_force(const Constants& tyre, Two tan_alpha, double mu);
 
+/// Share of its slide at which a patch that slides aside carries its slip away: one that rolls little passes little. The
+/// slip of such a patch is ten at most, and its force lies along the slide.
+inline constexpr double kSlideCarries = 0.1;
+
 /// Rate of change of the slips. No division by speed: at rest the patch is a spring.
 struct SlipRate {
   double kappa_ps = 0.0, tan_alpha_ps = 0.0;
@@ -62,9 +66,8 @@ struct SlipRate {
 /// `most_across_pm`: one over the floors of the relaxation lengths that keep a step stable; infinite for none.
 inline SlipRate slip_rate(const Constants& tyre, double kappa, double tan_alpha, double vx, double vy, double rolling,
                           double most_along_pm, double most_across_pm) {
-  // Slip falls with what has passed through the patch. A wheel that slides sideways passes little: a tenth of its
-  // slide.
-  const double carried = std::max(std::max(std::abs(vx), std::abs(rolling)), 0.1 * std::abs(vy));
+  // Slip falls with what has passed through the patch.
+  const double carried = std::max(std::max(std::abs(vx), std::abs(rolling)), kSlideCarries * std::abs(vy));
   const double k = kappa * tyre.per_kappa_bend, t = tan_alpha * tyre.per_tan_alpha_bend;
   // Beyond the peak the patch slides and has nothing left to build up: sigma falls with slip (Pacejka 7.2.2), to a
   // tenth.
@@ -85,7 +88,7 @@ struct SideSlipRate {
   Two tan_alpha_ps{}, decay_ps{}, stretch_mps{};
 };
 inline SideSlipRate side_slip_rate(const Constants& tyre, Two tan_alpha, Two vx, Two vy, double most_pm) {
-  const Two carried = largest(magnitude(vx), 0.1 * magnitude(vy)), t = tan_alpha * tyre.per_tan_alpha_bend;
+  const Two carried = largest(magnitude(vx), kSlideCarries * magnitude(vy)), t = tan_alpha * tyre.per_tan_alpha_bend;
   const Two per_m = least(least(tyre.per_lat_m * (1.0 + t * t), both(10.0 * tyre.per_lat_m)), both(most_pm));
   const Two stretch = -vy - carried * tan_alpha;
   return {stretch * per_m, carried * per_m, stretch};
