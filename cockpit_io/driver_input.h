@@ -13,7 +13,7 @@ struct DriverInput {
   double brake_01 = 0.0;
   double clutch_01 = 0.0;
   double parking_brake_01 = 0.0;  ///< stays when the source falls silent: a lever does not let go by itself
-  double lamp_aim_rad = 0.0;  ///< of the levelling wheel, positive up
+  double lamp_aim_rad = 0.0;      ///< of the levelling wheel, positive up
   Gear gear = Gear::kDrive;
 
   friend bool operator==(const DriverInput&, const DriverInput&) = default;

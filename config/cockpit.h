@@ -37,19 +37,18 @@ enum class Control {
   kAutomaticHigh,  ///< the switch of the automatic high beam
   kVehicleAhead,   ///< what its camera says
   kIgnition,
-  kSteering,     ///< degrees of the steering wheel, left positive
-  kAccelerator,  ///< 0 … 1
-  kBrake,        ///< 0 … 1
-  kClutch,       ///< 0 … 1
-  kGear,         ///< levels drive, neutral, reverse, park
+  kSteering,      ///< degrees of the steering wheel, left positive
+  kAccelerator,   ///< 0 … 1
+  kBrake,         ///< 0 … 1
+  kClutch,        ///< 0 … 1
+  kGear,          ///< levels drive, neutral, reverse, park
   kParkingBrake,  ///< 0 … 1
 };
 inline constexpr std::array<std::string_view, 24> kControlNames{
     "light_switch", "position",        "low",      "high",           "beam_lever",    "flash",
     "fog_front",    "fog_rear",        "turn",     "turn_left",      "turn_right",    "hazard",
     "design_next",  "design_previous", "lamp_aim", "automatic_high", "vehicle_ahead", "ignition",
-    "steering",     "accelerator",     "brake",    "clutch",         "gear",
-    "parking_brake"};
+    "steering",     "accelerator",     "brake",    "clutch",         "gear",          "parking_brake"};
 
 /// A signal's value as the cockpit file writes it: physical, or a name of the DBC's VAL_ table.
 struct NamedValue {

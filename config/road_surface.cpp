@@ -136,7 +136,8 @@ bool RoadSurface::touches(const Facet& f, double x_m, double y_m, double half_m)
   const auto most = [&](double middle, double slope_x, double slope_y) {
     return middle + reach_m * (std::abs(slope_x) + std::abs(slope_y));
   };
-  const double least = std::min({most(u, f.ux, f.uy), most(v, f.vx, f.vy), most(1.0 - u - v, f.ux + f.vx, f.uy + f.vy)});
+  const double least =
+      std::min({most(u, f.ux, f.uy), most(v, f.vx, f.vy), most(1.0 - u - v, f.ux + f.vx, f.uy + f.vy)});
   return least >= -10.0 * kEdgeTolerance;
 }
 
@@ -154,7 +155,8 @@ void RoadSurface::divide(const std::vector<std::uint32_t>& cell_start, const std
                  near_m = min_y_ + cell_m * static_cast<double>(static_cast<std::int64_t>(cell) / columns_);
     std::uint32_t across = 1;
     if (crowd > kFew)
-      across = static_cast<std::uint32_t>(std::min(most_across, std::ceil(std::sqrt(kPartsPerFacet * static_cast<double>(crowd)))));
+      across = static_cast<std::uint32_t>(
+          std::min(most_across, std::ceil(std::sqrt(kPartsPerFacet * static_cast<double>(crowd)))));
     for (;; across /= 2) {
       entries.clear();
       const double part_m = cell_m / static_cast<double>(across);

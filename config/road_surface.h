@@ -20,9 +20,9 @@ struct RoadPoint {
   bool road = true;                  ///< false: open ground beside it
 };
 
-/// Triangles of the nodes whose names begin with "road" or "ground" under a grid of even cells, the crowded ones of which
-/// are divided again: a narrow road in a wide country has all its triangles in few cells. Where both cover a point the
-/// road counts; of several roads above one another the highest (bridges are not told apart).
+/// Triangles of the nodes whose names begin with "road" or "ground" under a grid of even cells, the crowded ones of
+/// which are divided again: a narrow road in a wide country has all its triangles in few cells. Where both cover a
+/// point the road counts; of several roads above one another the highest (bridges are not told apart).
 class RoadSurface {
  public:
   /// Reads a glTF file (see gltf_file.h for axes and names). A file without any such triangle gives an empty surface.

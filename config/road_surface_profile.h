@@ -28,8 +28,8 @@ struct Bump {
 };
 
 /// Heights of a left and a right wheel track over the distance along the path, on an even grid, C1 between (cubic
-/// through four neighbours: kinks would excite wheel hop). Before and after a profile its end heights go on, level; random
-/// roughness repeats.
+/// through four neighbours: kinks would excite wheel hop). Before and after a profile its end heights go on, level;
+/// random roughness repeats.
 class HeightProfile {
  public:
   struct Sample {

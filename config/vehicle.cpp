@@ -122,8 +122,8 @@ void check_together(const VehicleParams& p, TomlTable& root, TomlTable& suspensi
                          const char* what, const char* unit) {
     if (value >= low && value <= high) return;
     char text[200];
-    std::snprintf(text, sizeof text, "does not fit the others: %s would be %.3g%s, of vehicles it is %g to %g", what, value,
-                  unit, low, high);
+    std::snprintf(text, sizeof text, "does not fit the others: %s would be %.3g%s, of vehicles it is %g to %g", what,
+                  value, unit, low, high);
     table.fail(key, text);
   };
   const double front_01 = (p.wheelbase_m - p.cg_to_front_m) / p.wheelbase_m;

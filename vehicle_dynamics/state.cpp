@@ -119,7 +119,8 @@ CarState from_message(const VehicleState& m, double wheelbase_m, double track_m)
 
 Controls accepted(const Controls& controls, const Controls& last, bool* refused) {
   const bool sane = std::isfinite(controls.steering_wheel_rad) && std::isfinite(controls.accelerator_01) &&
-                    std::isfinite(controls.brake_01) && std::isfinite(controls.parking_brake_01) && controls.gear >= Gear::kDrive && controls.gear <= Gear::kPark;
+                    std::isfinite(controls.brake_01) && std::isfinite(controls.parking_brake_01) &&
+                    controls.gear >= Gear::kDrive && controls.gear <= Gear::kPark;
   if (refused) *refused = !sane;
   if (!sane) return last;
   Controls limited = controls;

@@ -73,7 +73,8 @@ void StepLoop::stay_if_lost() {
 
 bool StepLoop::sleeps(double dt) {
   constexpr double kStill_mps = 1e-4, kStill_radps = 1e-5, kAfter_s = 2.0;
-  const bool held = controls_.accelerator_01 == 0.0 && (controls_.brake_01 > 0.0 || controls_.parking_brake_01 > 0.0 || controls_.gear == Gear::kPark);
+  const bool held = controls_.accelerator_01 == 0.0 &&
+                    (controls_.brake_01 > 0.0 || controls_.parking_brake_01 > 0.0 || controls_.gear == Gear::kPark);
   const bool still = std::abs(now_.speed_mps) < kStill_mps && std::abs(now_.heave_rate_mps) < kStill_mps &&
                      std::abs(now_.pitch_rate_radps) < kStill_radps && std::abs(now_.roll_rate_radps) < kStill_radps &&
                      std::abs(now_.yaw_rate_radps) < kStill_radps;

@@ -47,8 +47,8 @@ TEST(Batch, CutOffFallsUnderBrakingAtEveryLevel) {
   }
 }
 
-// One profile is one road: a straight slope of 20 % is driven as 20 % at every level, and a bump lies where the way leads,
-// on a circle too.
+// One profile is one road: a straight slope of 20 % is driven as 20 % at every level, and a bump lies where the way
+// leads, on a circle too.
 TEST(Batch, ProfileIsTheSameRoadAtEveryLevel) {
   for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull}) {
     Road slope;
@@ -67,7 +67,8 @@ TEST(Batch, ProfileIsTheSameRoadAtEveryLevel) {
     bump.profiles.push_back(HeightProfile::bumps({{.start_m = 60.0, .height_m = 0.05, .length_m = 2.0}}));
     o.road = &bump, o.speed_mps = 6.0, o.resistance = batch::Resistance::kOff;
     rows.clear();
-    ASSERT_TRUE(batch::run(o, inputs("time_s,steer_rad,accelerator_01,brake_01\n0,0.12,0,0\n14,0.12,0,0\n"), note).ok());
+    ASSERT_TRUE(
+        batch::run(o, inputs("time_s,steer_rad,accelerator_01,brake_01\n0,0.12,0,0\n14,0.12,0,0\n"), note).ok());
     double highest = 0.0, at_s = 0.0;
     for (const batch::Row& row : rows)
       if (row.z_m > highest) highest = row.z_m, at_s = row.time_s;

@@ -22,7 +22,8 @@ std::vector<Way> ways() {
 constexpr std::array<const char*, 5> kCars{"bmw_320i.toml", "ford_escort.toml", "vw_vanagon.toml", "hatchback.toml",
                                            "bmw_m8.toml"};
 
-// Way to a stand from 50 km/h, brakes applied fully or by a share that the tyres bear, as a driver would: build-up and ABS.
+// Way to a stand from 50 km/h, brakes applied fully or by a share that the tyres bear, as a driver would: build-up and
+// ABS.
 double stopping_m(const char* file, double brake_01, Integrator integrator, double dt) {
   const VehicleParams vehicle = test::car(file);
   full::Params p = *full::params_of(vehicle, file);
@@ -32,8 +33,7 @@ double stopping_m(const char* file, double brake_01, Integrator integrator, doub
   const Controls controls{.brake_01 = brake_01, .gear = Gear::kDrive};
   const auto steps = static_cast<int>(15.0 / dt);
   for (int i = 0; i < steps; ++i) {
-    const auto torque =
-        powertrain::advance(vehicle, controls, 0.0, d.state.u_mps, d.state.spin_radps, true, power, dt);
+    const auto torque = powertrain::advance(vehicle, controls, 0.0, d.state.u_mps, d.state.spin_radps, true, power, dt);
     d.input.drive_nm = torque.drive_nm, d.input.brake_nm = torque.brake_nm;
     d.step(dt);
     if (!test::finite(d.state)) return std::nan("");
@@ -53,8 +53,8 @@ TEST(LongSteps, EmergencyStopIsAsLong) {
       for (const auto& [integrator, dt] : ways()) {
         if ((dt < 1e-3 && !test::long_run()) || (brake == 1.0 && dt > 5e-3)) continue;
         const double way = stopping_m(file, brake, integrator, dt);
-        EXPECT_NEAR(way, exact, 2.0 * 13.9 * dt + 0.03 * exact) << file << ' ' << brake << ' '
-                                                                           << kNames[static_cast<std::size_t>(integrator)] << ' ' << dt;
+        EXPECT_NEAR(way, exact, 2.0 * 13.9 * dt + 0.03 * exact)
+            << file << ' ' << brake << ' ' << kNames[static_cast<std::size_t>(integrator)] << ' ' << dt;
         std::printf("%s brake %.1f %s, step %g ms: %.3f m, %+.2f %%\n", file, brake,
                     kNames[static_cast<std::size_t>(integrator)], 1e3 * dt, way, 100.0 * (way / exact - 1.0));
       }
@@ -81,8 +81,8 @@ TEST(LongSteps, ParkedCarStays) {
 }
 
 // Thrown into a spin, wheels braked hard. Kinetic energy falls all the way but for what the tyres' carcasses give back:
-// less than peak force times the deflection at it, sigma times slip. Forward speed changes its sign while the car slides
-// on. On a friction that does not roll the cars over (level full).
+// less than peak force times the deflection at it, sigma times slip. Forward speed changes its sign while the car
+// slides on. On a friction that does not roll the cars over (level full).
 struct Spin {
   double energy_j = 0.0, rise_j = 0.0, stored_j = 0.0, yaw_rad = 0.0, way_m = 0.0;
   int turns = 0;
@@ -130,7 +130,8 @@ TEST(LongSteps, BrakedSpinLosesItsEnergySingleTrack) {
       p.integrator = integrator;
       single_track::set_step(p, dt);
       const Spin s = spin(p, p.car, single_track::State{}, Road{}, dt, single_track::advance);
-      const std::string where = std::string(file) + ' ' + kNames[static_cast<std::size_t>(integrator)] + ' ' + std::to_string(dt);
+      const std::string where =
+          std::string(file) + ' ' + kNames[static_cast<std::size_t>(integrator)] + ' ' + std::to_string(dt);
       EXPECT_TRUE(s.stands) << where << ' ' << s.energy_j;
       EXPECT_LE(s.rise_j, s.stored_j) << where;
       EXPECT_GE(s.turns, 1) << where;  // it spun: beside a straight stop this would say nothing
@@ -140,9 +141,10 @@ TEST(LongSteps, BrakedSpinLosesItsEnergySingleTrack) {
   }
 }
 
-// Runge-Kutta as above. The second-order method gains 1 % of the energy at most, and the way is 5 % longer with the longest
-// step; Euler's takes the turning velocity straight on and gains (r dt)^2 of its square each step, r^2 dt a second: 4 rad/s
-// at first, over the 8 s of the slide 2.2 rad/s squared in the mean, so the way is some 4 % longer per millisecond.
+// Runge-Kutta as above. The second-order method gains 1 % of the energy at most, and the way is 5 % longer with the
+// longest step; Euler's takes the turning velocity straight on and gains (r dt)^2 of its square each step, r^2 dt a
+// second: 4 rad/s at first, over the 8 s of the slide 2.2 rad/s squared in the mean, so the way is some 4 % longer per
+// millisecond.
 TEST(LongSteps, BrakedSpinLosesItsEnergyFull) {
   Road slippery;
   slippery.friction_everywhere = 0.3;
@@ -155,8 +157,8 @@ TEST(LongSteps, BrakedSpinLosesItsEnergyFull) {
       p.integrator = integrator;
       const Spin s = spin(p, p, full::State{}, slippery, dt, full::advance);
       if (exact_m == 0.0) exact_m = s.way_m;
-      const std::string where = std::string(file) + ' ' + kNames[static_cast<std::size_t>(integrator)] + ' ' +
-                                std::to_string(dt);
+      const std::string where =
+          std::string(file) + ' ' + kNames[static_cast<std::size_t>(integrator)] + ' ' + std::to_string(dt);
       EXPECT_TRUE(s.stands) << where << ' ' << s.energy_j;
       EXPECT_GE(s.turns, 1) << where;
       const bool rk4 = integrator == Integrator::kRk4, etd2 = integrator == Integrator::kEtd2;

@@ -110,7 +110,8 @@ std::vector<RoadSurface::Triangle> winding_road() {
 }
 
 // The rule of the header, triangle by triangle.
-std::optional<RoadPoint> looked_for_everywhere(const std::vector<RoadSurface::Triangle>& triangles, double x, double y) {
+std::optional<RoadPoint> looked_for_everywhere(const std::vector<RoadSurface::Triangle>& triangles, double x,
+                                               double y) {
   std::optional<RoadPoint> best;
   for (const auto& [corner, road] : triangles) {
     const glm::dvec3 p = corner[1] - corner[0], q = corner[2] - corner[0];
@@ -170,11 +171,12 @@ TEST(RoadSurface, QueryTime) {
       const double s = 1000.0 * i / kQueries;
       sum += winding.height_m(s * std::cos(s / 400.0), s * std::sin(s / 400.0)).value_or(0.0);
     }
-    best_winding_ns = std::min(
-        best_winding_ns,
-        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count() / kQueries);
+    best_winding_ns =
+        std::min(best_winding_ns,
+                 std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count() / kQueries);
   }
-  std::printf("winding road: %.0f ns over %zu triangles (checksum %.3g)\n", best_winding_ns, winding.triangle_count(), sum);
+  std::printf("winding road: %.0f ns over %zu triangles (checksum %.3g)\n", best_winding_ns, winding.triangle_count(),
+              sum);
 #ifdef NDEBUG
   EXPECT_LT(best_ns, 1000.0);
   EXPECT_LT(best_winding_ns, 1000.0);

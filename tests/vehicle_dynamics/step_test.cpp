@@ -160,8 +160,8 @@ TEST(StepLoop, BesideTheRoadTheHeightIsHeld) {
   EXPECT_GT(loop.state().z_m, 1.5);
 }
 
-// The lever of the parking brake alone, in neutral on 12 %: half of the brakes, at the rear wheels, holds every level; let
-// go, every level rolls.
+// The lever of the parking brake alone, in neutral on 12 %: half of the brakes, at the rear wheels, holds every level;
+// let go, every level rolls.
 TEST(StepLoop, ParkingBrakeHoldsOnAGrade) {
   for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull, Level::kAuto}) {
     RunSetup setup = kinematic_setup("hatchback.toml");
@@ -189,8 +189,8 @@ TEST(StepLoop, LostCarStaysWhereItWas) {
       RunSetup setup = kinematic_setup("vw_vanagon.toml");
       setup.level = level;
       setup.sprung = *SprungCar::of(setup.vehicle, "");
-      setup.on_top.profiles.push_back(HeightProfile::bumps(
-          {{.shape = Bump::Shape::kStep, .start_m = 20.0, .height_m = height_m, .right = false}}));
+      setup.on_top.profiles.push_back(
+          HeightProfile::bumps({{.shape = Bump::Shape::kStep, .start_m = 20.0, .height_m = height_m, .right = false}}));
       CarState start;
       start.speed_mps = 25.0;
       StepLoop loop(std::move(setup), start);

@@ -49,7 +49,8 @@ TEST(Vehicle, BadFilesAreRefusedWithPlaceAndReason) {
   struct Case {
     std::string from, to, expected;
   };
-  for (const Case& c : {Case{"mass_kg = 1093.2952", "mass_kg = -1", "mass_kg"}, Case{"track_m", "trakc_m", "track_m"},
+  for (const Case& c : {Case{"mass_kg = 1093.2952", "mass_kg = -1", "mass_kg"},
+                        Case{"track_m", "trakc_m", "track_m"},
                         Case{"wheelbase_m = 2.5789", "wheelbase_m = \"long\"", "wheelbase_m"},
                         Case{"cg_to_front_m = 1.1562", "cg_to_front_m = 2.6", "rear axle"},
                         Case{"roll_stiffness_nmprad = 43670", "roll_stiffness_nmprad = 5000", "upright"},
@@ -66,7 +67,8 @@ TEST(Vehicle, BadFilesAreRefusedWithPlaceAndReason) {
                         Case{"track_m = 1.3755", "track_m = 2.9", "mean track"},
                         Case{"wheelbase_m = 2.5789", "wheelbase_m = 1.2", "share of the weight"},
                         Case{"tyre_rate_npm = 158294", "tyre_rate_npm = 15829", "springs, bars"},
-                        Case{"[drive]", "[drvie]", "drive"}, Case{"ratio = 16.0", "ratio = ", "toml"}}) {
+                        Case{"[drive]", "[drvie]", "drive"},
+                        Case{"ratio = 16.0", "ratio = ", "toml"}}) {
     const Result<VehicleParams> read = read_vehicle(written("car.toml", changed(c.from, c.to)));
     ASSERT_FALSE(read.ok()) << c.to;
     EXPECT_NE(read.error().text().find(c.expected), std::string::npos) << read.error().text();

@@ -46,8 +46,8 @@ Geometry geometry(const Params& p, const Input& input, const State& s, double t_
   Road::Laid laid[2];  // on the road, by axle: profiles count what is travelled on the map, not up and down
   if (input.road && !input.heights_given)
     for (std::size_t k = 0; k < 2; ++k)
-      laid[k] = input.road->laid(s.path_m + 0.5 * (g.ahead_x * (x[2 * k] + x[2 * k + 1]) +
-                                                   g.ahead_y * (y[2 * k] + y[2 * k + 1])));
+      laid[k] = input.road->laid(s.path_m +
+                                 0.5 * (g.ahead_x * (x[2 * k] + x[2 * k + 1]) + g.ahead_y * (y[2 * k] + y[2 * k + 1])));
   for (std::size_t i = 0; i < 4; ++i) {
     g.friction[i] = 1.0;
     if (input.heights_given) {
@@ -109,9 +109,8 @@ void kinematics(const Params& p, const Held& held, const Geometry& g, const Stee
     const double ahead = vx * along[0] + vy * along[1] + vz * along[2];
     const double aside = vx * left[0] + vy * left[1] + vz * left[2];
     contact.rolling_mps[i] = s.spin_radps[i] * p.radius_m;
-    const tyre::SlipRate slip =
-        tyre::slip_rate(p.tyre, s.kappa[i], s.tan_alpha[i], ahead, aside, contact.rolling_mps[i], held.most_along_pm,
-                        held.most_across_pm);
+    const tyre::SlipRate slip = tyre::slip_rate(p.tyre, s.kappa[i], s.tan_alpha[i], ahead, aside,
+                                                contact.rolling_mps[i], held.most_along_pm, held.most_across_pm);
     d.kappa[i] = slip.kappa_ps;
     d.tan_alpha[i] = slip.tan_alpha_ps;
     contact.decay_ps[i] = slip.kappa_decay_ps;
@@ -146,7 +145,8 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
     if (c.moving_mps[i] < kDampedBelow_mps && tyres.load_n[i] > 0.0) {
       const double damping =
           p.tyre.p.carcass_damping_nspm * (1.0 - c.moving_mps[i] / kDampedBelow_mps) * tyres.load_n[i] / kFullDamping_n;
-      const double x = tyres.fx_n[i] + std::min(damping, held.most_damping_nspm) * c.stretch_mps[i], y = tyres.fy_n[i] + damping * c.stretch_mps[i + 4];
+      const double x = tyres.fx_n[i] + std::min(damping, held.most_damping_nspm) * c.stretch_mps[i],
+                   y = tyres.fy_n[i] + damping * c.stretch_mps[i + 4];
       const double most = g.friction[i] * tyres.load_n[i];
       const double ex = x / (most * p.tyre.p.long_peak), ey = y / (most * p.tyre.p.lat_peak), over = ex * ex + ey * ey;
       const double scale = 1.0 / std::sqrt(std::max(over, 1.0));

@@ -41,8 +41,8 @@ struct Params {
   std::array<double, 4> brake_jack{}, drive_jack{};  ///< anti-dive, anti-squat: vertical over longitudinal force
   std::array<double, 4> lever_share{};               ///< of each corner in the height of the centre of gravity
   std::array<double, 4> rest_m{};                    ///< what spring and tyre give under the weight at rest
-  double spin_answer_mps2 = 0.0;  ///< of a loaded wheel's tread to a slip of one: k Fz R^2 / I
-  double spin_kg = 0.0;           ///< a wheel's inertia at its tread: I / R^2
+  double spin_answer_mps2 = 0.0;                     ///< of a loaded wheel's tread to a slip of one: k Fz R^2 / I
+  double spin_kg = 0.0;                              ///< a wheel's inertia at its tread: I / R^2
   tyre::Constants tyre;
   Integrator integrator = Integrator::kRk4;
 };
@@ -102,7 +102,7 @@ struct Steer {
 struct Held {
   Steer steer;
   std::array<bool, 4> locked{};
-  std::array<double, 4> brake_nm{};                               ///< signed, of the turning wheels, for the whole step
+  std::array<double, 4> brake_nm{};  ///< signed, of the turning wheels, for the whole step
   // One over the floors of the relaxation lengths, and how much of the carcass' damping along the wheel the step bears.
   double most_along_pm = std::numeric_limits<double>::infinity(),
          most_across_pm = std::numeric_limits<double>::infinity();

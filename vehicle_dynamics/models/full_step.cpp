@@ -89,9 +89,9 @@ void derivative(const Params& p, const Input& input, const Held& held, const Sta
 
 namespace {
 
-// What of the tyre a step of that length bears. A short patch answers a wheel's spin at once: spin and slip swing at the
-// root of answer / sigma, some 470 per second for 0.02 m, and each method follows only so much of a swing in a step. It
-// depends on the speed, too: what rolls through the patch carries the slip away.
+// What of the tyre a step of that length bears. A short patch answers a wheel's spin at once: spin and slip swing at
+// the root of answer / sigma, some 470 per second for 0.02 m, and each method follows only so much of a swing in a
+// step. It depends on the speed, too: what rolls through the patch carries the slip away.
 void soften(const Params& p, const State& s, double dt, Held& h) {
   struct Bears {
     double answer;   // (swing dt)^2; by Runge-Kutta 8, by Euler's methods 4 and 0: less, for what else moves

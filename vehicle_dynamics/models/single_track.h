@@ -87,10 +87,10 @@ struct Held {
   double cosine = 1.0, sine = 0.0;  ///< of the steering
   double yaw_cosine = 1.0, yaw_sine = 0.0;       ///< of the heading in the middle of the step
   double front_push_n = 0.0, rear_push_n = 0.0;  ///< drive less brake torque at the tread
-  Two reach{1.0, 1.0};     ///< of an axle's friction what brakes can use: a patch that slides aside gives little along
+  Two reach{1.0, 1.0};      ///< of an axle's friction what brakes can use: a patch that slides aside gives little along
   double sticks_mps = 0.0;  ///< speed that the brakes of those patches that do not slide aside end within the step
-  double drag_kgpm = 0.0, rolling = 0.0;         ///< drag over speed squared; rolling resistance over load
-  bool stopped = false;                          ///< brakes hold the car along its x
+  double drag_kgpm = 0.0, rolling = 0.0;  ///< drag over speed squared; rolling resistance over load
+  bool stopped = false;                   ///< brakes hold the car along its x
   bool off_road = false;
   double most_slip_pm = std::numeric_limits<double>::infinity();
 };

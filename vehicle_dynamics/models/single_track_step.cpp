@@ -128,10 +128,11 @@ void finish_step(const full::Input& in, const Held& h, const State& before, Stat
   // Brakes end a motion and begin none; a car that slides aside may well turn from forwards to backwards.
   const bool turned = before.u_mps * s.u_mps < 0.0 && std::abs(before.u_mps) <= h.sticks_mps;
   if (h.stopped || (braked && turned)) s.u_mps = 0.0;
-  // An exponential never ends: what has faded to nothing is none, before it becomes a denormal number, ten times as slow.
+  // An exponential never ends: what has faded to nothing is none, before it becomes a denormal number, ten times as
+  // slow.
   constexpr double kNothing = 1e-100;
-  for (double* value : {&s.v_mps, &s.r_radps, &s.z_m, &s.pitch, &s.roll, &s.z_rate_mps, &s.pitch_rate_ps, &s.roll_rate_ps,
-                        &s.front_slip, &s.rear_slip})
+  for (double* value : {&s.v_mps, &s.r_radps, &s.z_m, &s.pitch, &s.roll, &s.z_rate_mps, &s.pitch_rate_ps,
+                        &s.roll_rate_ps, &s.front_slip, &s.rear_slip})
     if (std::abs(*value) < kNothing) *value = 0.0;
 }
 

@@ -50,8 +50,8 @@ struct SideForce {
 };
 SideForce side_force(const Constants& tyre, Two tan_alpha, double mu);
 
-/// Share of its slide at which a patch that slides aside carries its slip away: one that rolls little passes little. The
-/// slip of such a patch is ten at most, and its force lies along the slide.
+/// Share of its slide at which a patch that slides aside carries its slip away: one that rolls little passes little.
+/// The slip of such a patch is ten at most, and its force lies along the slide.
 inline constexpr double kSlideCarries = 0.1;
 
 /// Rate of change of the slips. No division by speed: at rest the patch is a spring.
@@ -62,8 +62,9 @@ struct SlipRate {
   double kappa_stretch_mps = 0.0, tan_alpha_stretch_mps = 0.0;  ///< rate of the carcass' deflection
 };
 
-/// `vx`, `vy`: velocity of the wheel's contact point along and across it; `rolling`: spin times radius; `most_along_pm`,
-/// `most_across_pm`: one over the floors of the relaxation lengths that keep a step stable; infinite for none.
+/// `vx`, `vy`: velocity of the wheel's contact point along and across it; `rolling`: spin times radius;
+/// `most_along_pm`, `most_across_pm`: one over the floors of the relaxation lengths that keep a step stable; infinite
+/// for none.
 inline SlipRate slip_rate(const Constants& tyre, double kappa, double tan_alpha, double vx, double vy, double rolling,
                           double most_along_pm, double most_across_pm) {
   // Slip falls with what has passed through the patch.
