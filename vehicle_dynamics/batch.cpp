@@ -137,22 +137,22 @@ class Car {
       controls.accelerator_01 = in.linear(inputs.accelerator_01);
       controls.brake_01 = in.linear(inputs.brake_01);
     }
-    const double parking = in.linear(inputs.parking_01);
+    controls.parking_brake_01 = in.linear(inputs.parking_01);
     if (o_.level == Level::kKinematic) {
-      kinematic_step(in, inputs, controls, pedals, parking, dt);
+      kinematic_step(in, inputs, controls, pedals, dt);
       return true;
     }
     if (pedals) {
       const auto torque =
-          powertrain::advance(o_.vehicle, controls, parking, speed(), spins(), o_.level == Level::kFull, power_, dt);
+          powertrain::advance(o_.vehicle, controls, speed(), spins(), o_.level == Level::kFull, power_, dt);
       input_.drive_nm = torque.drive_nm, input_.brake_nm = torque.brake_nm;
     } else {
       for (std::size_t i = 0; i < 4; ++i) {
         const double torque = in.linear(inputs.torque_nm[i]);
         input_.drive_nm[i] = std::max(torque, 0.0), input_.brake_nm[i] = std::max(-torque, 0.0);
         if (i >= 2)
-          input_.brake_nm[i] +=
-              0.5 * kParkingShare_01 * parking * o_.vehicle.max_brake_force_n * o_.vehicle.tyre_radius_m;
+          input_.brake_nm[i] += 0.5 * kParkingShare_01 * controls.parking_brake_01 * o_.vehicle.max_brake_force_n *
+                                o_.vehicle.tyre_radius_m;
       }
     }
     if (o_.integrator == Integrator::kReference) {
@@ -216,7 +216,7 @@ class Car {
     row.z_m = whole ? full_.z_m : single_.z_m;
     row.roll_rad = f.roll_rad, row.pitch_rad = f.pitch_rad;
     if (!rolled_over_s_ &&
-        std::max(std::abs(f.roll_rad - f.road_roll_rad), std::abs(f.pitch_rad - f.road_pitch_rad)) > kOver_rad)
+        std::max(std::abs(f.roll_rad - f.road_roll_rad), std::abs(f.pitch_rad - f.road_pitch_rad)) > kRolledOver_rad)
       rolled_over_s_ = time_s;
     row.yaw_rad = yaw_ += std::remainder(f.yaw_rad - yaw_, 2.0 * std::numbers::pi);
     row.roll_rate_radps = f.roll_rate_radps, row.pitch_rate_radps = f.pitch_rate_radps,
@@ -260,15 +260,9 @@ class Car {
   const Status& gave_up() const { return gave_up_; }
 
  private:
-  static constexpr double kOver_rad =
-      1.2;  // of the body against the road, as in step.cpp: no car comes back from there
-  // Of max_brake_force_n, on the rear axle, as powertrain.cpp has it.
-  static constexpr double kParkingShare_01 = 0.5;
-
   // Torques are forces at the wheels, whatever the gear; this level has them by way of the pedals, so no more than the
   // car's own drive and brakes can give.
-  void kinematic_step(const Playhead& in, const Inputs& inputs, Controls controls, bool pedals, double parking,
-                      double dt) {
+  void kinematic_step(const Playhead& in, const Inputs& inputs, Controls controls, bool pedals, double dt) {
     if (!pedals) {
       double drive = 0.0, brake = 0.0;
       for (const auto& column : inputs.torque_nm) {
@@ -280,7 +274,6 @@ class Car {
       controls.accelerator_01 = std::min(drive / most, 1.0);
       controls.brake_01 = std::min(brake / o_.vehicle.max_brake_force_n, 1.0);
     }
-    controls.parking_brake_01 = parking;
     const double before_mps = flat_.speed_mps;
     kinematic::advance(o_.vehicle, controls, flat_, dt);
     path_m_ += 0.5 * (before_mps + flat_.speed_mps) * std::cos(flat_.road_pitch_rad) * dt;

@@ -109,8 +109,8 @@ void SprungCar::advance(const Controls& input, const Road& road, double dt) {
   const bool whole = model_ == Model::kFull;
   std::array<double, 4> spin = full_.spin_radps;
   if (!whole) spin.fill(single_.u_mps / vehicle_.tyre_radius_m);
-  const auto torque = powertrain::advance(vehicle_, input, input.parking_brake_01, whole ? full_.u_mps : single_.u_mps,
-                                          spin, whole, power_, dt);
+  const auto torque =
+      powertrain::advance(vehicle_, input, whole ? full_.u_mps : single_.u_mps, spin, whole, power_, dt);
   input_.drive_nm = torque.drive_nm, input_.brake_nm = torque.brake_nm;
   if (whole) {
     full::advance(full_params_, input_, full_, dt);

@@ -13,12 +13,15 @@
 namespace phare {
 
 /// What the driver does, as the models take it.
+/// What the parking brake can do, on the rear wheels: its share of max_brake_force_n. Chosen.
+inline constexpr double kParkingShare_01 = 0.5;
+
 struct Controls {
   double steering_wheel_rad = 0.0;  ///< left positive
   double accelerator_01 = 0.0;
   double brake_01 = 0.0;
   Gear gear = Gear::kDrive;
-  double parking_brake_01 = 0.0;  ///< on the rear wheels, half of what the brakes can do
+  double parking_brake_01 = 0.0;
 
   friend bool operator==(const Controls&, const Controls&) = default;
 };
@@ -44,6 +47,9 @@ struct CarState {
 
   friend bool operator==(const CarState&, const CarState&) = default;
 };
+
+/// Of the body against the road: no car comes back from there, and no level has a body that touches the road.
+inline constexpr double kRolledOver_rad = 1.2;
 
 inline constexpr std::size_t kCarStateFields = 24;
 /// All of it, in order.

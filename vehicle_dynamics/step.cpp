@@ -58,11 +58,10 @@ void StepLoop::move(double dt) {
 }
 
 void StepLoop::stay_if_lost() {
-  constexpr double kOver_rad = 1.2;  // of the body against the road: no car comes back from there
   const auto fields = fields_of(now_);
   if (!std::all_of(fields.begin(), fields.end(), [](double value) { return std::isfinite(value); }))
     out_of_play_ = "the motion has no numbers any more";
-  else if (std::max(std::abs(now_.roll_rad), std::abs(now_.pitch_rad)) > kOver_rad)
+  else if (std::max(std::abs(now_.roll_rad), std::abs(now_.pitch_rad)) > kRolledOver_rad)
     out_of_play_ = "the car has rolled over";
   if (!out_of_play_) return;
   now_ = before_;

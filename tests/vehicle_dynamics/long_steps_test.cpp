@@ -33,7 +33,7 @@ double stopping_m(const char* file, double brake_01, Integrator integrator, doub
   const Controls controls{.brake_01 = brake_01, .gear = Gear::kDrive};
   const auto steps = static_cast<int>(15.0 / dt);
   for (int i = 0; i < steps; ++i) {
-    const auto torque = powertrain::advance(vehicle, controls, 0.0, d.state.u_mps, d.state.spin_radps, true, power, dt);
+    const auto torque = powertrain::advance(vehicle, controls, d.state.u_mps, d.state.spin_radps, true, power, dt);
     d.input.drive_nm = torque.drive_nm, d.input.brake_nm = torque.brake_nm;
     d.step(dt);
     if (!test::finite(d.state)) return std::nan("");
@@ -42,9 +42,11 @@ double stopping_m(const char* file, double brake_01, Integrator integrator, doub
   return d.state.x_m;
 }
 
-// Brakes and ABS are decided upon once a step: onset and first release come later by dt at most, 13.9 m/s dt each; the
-// rest is the method's own, 3 %. With steps of 10 ms ABS cannot follow a wheel that locks within two of
-// them, so full braking is held against steps up to 5 ms.
+// Brakes and ABS are decided upon once a step: onset and first release come later by dt at most, 13.9 m/s dt each. A
+// patch that the step has lengthened builds its force up and down over so much more way, at the same two edges; that
+// counts with full braking only, where the tyre is at its peak, and is never let pass for more than 3 %. The rest is
+// the method's own, 1 %. With steps of 10 ms ABS cannot follow a wheel that locks within two of them, so full braking
+// is held against steps up to 5 ms.
 TEST(LongSteps, EmergencyStopIsAsLong) {
   for (const char* file : kCars)
     for (const double brake : {0.3, 1.0}) {
@@ -53,7 +55,10 @@ TEST(LongSteps, EmergencyStopIsAsLong) {
       for (const auto& [integrator, dt] : ways()) {
         if ((dt < 1e-3 && !test::long_run()) || (brake == 1.0 && dt > 5e-3)) continue;
         const double way = stopping_m(file, brake, integrator, dt);
-        EXPECT_NEAR(way, exact, 2.0 * 13.9 * dt + 0.03 * exact)
+        const full::Params p = test::full_car(file);
+        const double bears = integrator == Integrator::kRk4 ? 6.0 : integrator == Integrator::kEtd2 ? 0.5 : 2.0;
+        const double lengthened = brake < 1.0 ? 0.0 : 2.0 * p.spin_answer_mps2 * dt * dt / bears;
+        EXPECT_NEAR(way, exact, 2.0 * 13.9 * dt + std::min(0.01 * exact + lengthened, 0.03 * exact))
             << file << ' ' << brake << ' ' << kNames[static_cast<std::size_t>(integrator)] << ' ' << dt;
         std::printf("%s brake %.1f %s, step %g ms: %.3f m, %+.2f %%\n", file, brake,
                     kNames[static_cast<std::size_t>(integrator)], 1e3 * dt, way, 100.0 * (way / exact - 1.0));
@@ -135,16 +140,15 @@ TEST(LongSteps, BrakedSpinLosesItsEnergySingleTrack) {
       EXPECT_TRUE(s.stands) << where << ' ' << s.energy_j;
       EXPECT_LE(s.rise_j, s.stored_j) << where;
       EXPECT_GE(s.turns, 1) << where;  // it spun: beside a straight stop this would say nothing
-      if (way == 0.0) way = s.way_m;
+      if (way == 0.0) way = s.way_m;   // rk4 first, with the shortest step
+      const double euler = integrator == Integrator::kSemiImplicitEuler ? 1.1 * 16.0 * 2.5 / 3.0 * dt : 0.0;
+      EXPECT_NEAR(s.way_m, way, 20.0 * dt + (1e-3 + euler) * way) << where;
       std::printf("%s: %.2f m, rise %.2f of %.2f J, %d turns\n", where.c_str(), s.way_m, s.rise_j, s.stored_j, s.turns);
     }
   }
 }
 
-// Runge-Kutta as above. The second-order method gains 1 % of the energy at most, and the way is 5 % longer with the
-// longest step; Euler's takes the turning velocity straight on and gains (r dt)^2 of its square each step, r^2 dt a
-// second: 4 rad/s at first, over the 8 s of the slide 2.2 rad/s squared in the mean, so the way is some 4 % longer per
-// millisecond.
+// The second-order method gains 1 % of the energy at most, and the way is 5 % longer with the longest step.
 TEST(LongSteps, BrakedSpinLosesItsEnergyFull) {
   Road slippery;
   slippery.friction_everywhere = 0.3;
@@ -162,7 +166,8 @@ TEST(LongSteps, BrakedSpinLosesItsEnergyFull) {
       EXPECT_TRUE(s.stands) << where << ' ' << s.energy_j;
       EXPECT_GE(s.turns, 1) << where;
       const bool rk4 = integrator == Integrator::kRk4, etd2 = integrator == Integrator::kEtd2;
-      EXPECT_NEAR(s.way_m, exact_m, exact_m * (rk4 ? 0.003 : etd2 ? 0.05 : 5e-4 + 50.0 * dt)) << where;
+      const double euler = 1.1 * 16.0 * 8.5 / 3.0 * dt;
+      EXPECT_NEAR(s.way_m, exact_m, 20.0 * dt + exact_m * (rk4 ? 1e-3 : etd2 ? 0.05 : 1e-3 + euler)) << where;
       EXPECT_LE(s.rise_j, s.stored_j + (rk4 ? 0.0 : etd2 ? 0.01 : 16.0 * dt) * start_j) << where;
       std::printf("%s: %.2f m, rise %.2f of %.2f J, %d turns\n", where.c_str(), s.way_m, s.rise_j, s.stored_j, s.turns);
     }

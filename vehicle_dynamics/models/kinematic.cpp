@@ -33,7 +33,7 @@ double next_speed_mps(const VehicleParams& p, const Controls& input, const CarSt
   const double push = drive_force_n(p, input, v) + p.mass_kg * kGravity_mps2 * std::sin(s.road_pitch_rad) - drag;
   const bool locked = input.gear == Gear::kPark && std::abs(v) < kParkLockSpeed_mps;
   const double brake =
-      (locked ? 1.0 : std::min(1.0, input.brake_01 + 0.5 * input.parking_brake_01)) * p.max_brake_force_n;
+      (locked ? 1.0 : std::min(1.0, input.brake_01 + kParkingShare_01 * input.parking_brake_01)) * p.max_brake_force_n;
   const double hold = brake + p.rolling_coefficient * p.mass_kg * kGravity_mps2 * std::cos(s.road_pitch_rad);
   const double inertia = p.mass_kg + 4.0 * p.wheel_inertia_kgm2 / (p.tyre_radius_m * p.tyre_radius_m);
 

@@ -58,8 +58,8 @@ double engine_torque_nm(const EngineParams& e, double speed_radps) {
   return std::lerp(e.torque_nm[i - 1], e.torque_nm[i], u);
 }
 
-Torques advance(const VehicleParams& v, const Controls& input, double parking_01, double speed_mps,
-                const std::array<double, 4>& spin, bool has_slip, State& s, double dt) {
+Torques advance(const VehicleParams& v, const Controls& input, double speed_mps, const std::array<double, 4>& spin,
+                bool has_slip, State& s, double dt) {
   const double front_drive = v.chassis ? v.chassis->drive_front_01 : 0.0;
   const double front_brake = v.chassis ? v.chassis->brake_front_01 : 0.6;
   Torques out;
@@ -93,7 +93,8 @@ Torques advance(const VehicleParams& v, const Controls& input, double parking_01
       s.abs_01[i] = std::min(1.0, s.abs_01[i] + kAbsRise_ps * dt);
     const double share = 0.5 * (i < 2 ? front_brake : 1.0 - front_brake);
     out.brake_nm[i] = s.brake_01 * s.abs_01[i] * share * v.max_brake_force_n * v.tyre_radius_m;
-    if (i >= 2) out.brake_nm[i] += parking_01 * 0.25 * v.max_brake_force_n * v.tyre_radius_m;
+    if (i >= 2)
+      out.brake_nm[i] += 0.5 * kParkingShare_01 * input.parking_brake_01 * v.max_brake_force_n * v.tyre_radius_m;
     const bool driven = i < 2 ? front_drive > 0.0 : front_drive < 1.0;
     if (input.gear == Gear::kPark && driven && std::abs(speed_mps) < kParkLock_mps) out.brake_nm[i] += kParkTorque_nm;
   }

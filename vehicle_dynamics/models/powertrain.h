@@ -32,9 +32,9 @@ struct Torques {
   std::array<double, 4> drive_nm{}, brake_nm{};
 };
 
-/// One step. `speed_mps` along the car, `spin_radps` of the wheels (for ABS and engine speed), `parking_01`: hand brake
-/// on the rear wheels. `has_slip` false: a model without wheel slip, so no ABS.
-Torques advance(const VehicleParams& vehicle, const Controls& input, double parking_01, double speed_mps,
+/// One step. `speed_mps` along the car, `spin_radps` of the wheels (for ABS and engine speed). `has_slip` false: a
+/// model without wheel slip, so no ABS.
+Torques advance(const VehicleParams& vehicle, const Controls& input, double speed_mps,
                 const std::array<double, 4>& spin_radps, bool has_slip, State& state, double dt);
 
 /// Full-load torque of the engine, linear between the points of its curve.
