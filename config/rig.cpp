@@ -4,13 +4,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <string_view>
 
+#include "config/paths.h"
 #include "config/toml_table.h"
 
 namespace phare {
@@ -132,12 +132,6 @@ Result<BusKey> read_key(const std::filesystem::path& file) {
   }
   if (!good) return Error{file.string() + ":1", "expected " + std::to_string(2 * key.size()) + " hexadecimal digits"};
   return key;
-}
-
-std::filesystem::path generated_dir() {
-  const char* from_environment = std::getenv("PHARE_GENERATED_DIR");
-  if (from_environment != nullptr && *from_environment != '\0') return from_environment;
-  return PHARE_BUILD_GENERATED_DIR;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "config/paths.h"
 #include "config/toml_table.h"
 #include "tools/commands.h"
 
@@ -18,7 +19,7 @@ int bad_input(const Error& error) {
 }
 
 std::string config_path(const std::string& below) {
-  return std::string(PHARE_CONFIG_DIR "/") + below;
+  return (config_dir() / below).string();
 }
 
 namespace {

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include "tests/paths.h"
+
 namespace phare::can_test {
 
 Rig::Rig(const std::string& interface, double timeout_s, const std::string& more) {
@@ -17,7 +19,7 @@ Rig::Rig(const std::string& interface, double timeout_s, const std::string& more
                                         more,
                                     "rig.toml");
   EXPECT_TRUE(config.ok()) << (config.ok() ? "" : config.error().text());
-  const Dbc dbc = *read_dbc(std::filesystem::path(PHARE_COCKPITS_DIR) / "phare_stalk.dbc");
+  const Dbc dbc = *read_dbc(std::filesystem::path(cockpits_dir()) / "phare_stalk.dbc");
   auto map = SignalMap::bind(*config, dbc, wall_now().ns);
   EXPECT_TRUE(map.ok()) << (map.ok() ? "" : map.error().text());
   auto feedback = Feedback::bind(*config, dbc);

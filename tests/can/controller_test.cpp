@@ -9,6 +9,7 @@
 #include <atomic>
 
 #include "tests/can/can_rig.h"
+#include "tests/paths.h"
 
 namespace phare::can_test {
 namespace {
@@ -38,7 +39,7 @@ TEST(RealCan, TwoControllersOnOneBusSpeakBothWays) {
   ASSERT_TRUE(rig.until_light(LightSwitch::kHigh)) << rig.log();
 
   // The car's instrument panel: the high beam's telltale, 36 km/h, counters in a row, a CRC that fits.
-  const auto dbc = read_dbc(PHARE_COCKPITS_DIR "/phare_stalk.dbc");
+  const auto dbc = read_dbc(cockpits_dir() + "/phare_stalk.dbc");
   const DbcMessage& telltales = *dbc->find("TELLTALES");
   MessageCheck check;
   check.message = "TELLTALES";

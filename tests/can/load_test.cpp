@@ -8,6 +8,7 @@
 #include "net/bus.h"
 #include "tests/can/can_rig.h"
 #include "tests/cockpit_io/program.h"
+#include "tests/paths.h"
 
 namespace phare::can_test {
 namespace {
@@ -19,11 +20,11 @@ class CanProgram : public testing::Test {
     folder_ = std::filesystem::temp_directory_path() / ("phare-can-test-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "cockpit.toml")
-        << "[source]\nkind = \"can\"\ninterface = \"phc9\"\ndbc = \"" PHARE_COCKPITS_DIR
-           "/phare_stalk.dbc\"\ntimeout_s = 0.2\n[control.light_switch]\nmessage = \"BEAM_STALK\"\nsignal = "
-           "\"BEAM_SWITCH\"\nlevels = { off = 0, position = 1, low = 2, high = 3 }\n[check.BEAM_STALK]\ncounter = "
-           "\"COUNTER\"\n";
-    const std::string rig_file = PHARE_COCKPITS_DIR "/../rigs/country_road.toml";
+        << "[source]\nkind = \"can\"\ninterface = \"phc9\"\ndbc = \"" + cockpits_dir() +
+               "/phare_stalk.dbc\"\ntimeout_s = 0.2\n[control.light_switch]\nmessage = \"BEAM_STALK\"\nsignal = "
+               "\"BEAM_SWITCH\"\nlevels = { off = 0, position = 1, low = 2, high = 3 }\n[check.BEAM_STALK]\ncounter = "
+               "\"COUNTER\"\n";
+    const std::string rig_file = cockpits_dir() + "/../rigs/country_road.toml";
     rig_ = *read_rig(rig_file);
     rig_.port_base = static_cast<std::uint16_t>(20000 + getpid() % 1500 * 20);
     vcan_.emplace("phc9");
@@ -116,7 +117,7 @@ TEST_F(CanProgram, LearnShowsTheSignalThatMovesOnTheBus) {
     std::ifstream stream(out);
     return std::string{std::istreambuf_iterator<char>(stream), {}};
   };
-  Program learner({"--learn", "--interface", "phc9", "--rest", "1", "--dbc", PHARE_COCKPITS_DIR "/phare_stalk.dbc"},
+  Program learner({"--learn", "--interface", "phc9", "--rest", "1", "--dbc", cockpits_dir() + "/phare_stalk.dbc"},
                   folder_ / "errors", out);
   // The counter runs all the time; the stalk moves when the program asks for it.
   const auto limit = Clock::now() + kPatience;

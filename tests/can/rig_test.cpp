@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "net/bus.h"
+#include "tests/paths.h"
 #include "visual/image/image.h"
 
 namespace phare {
@@ -96,31 +97,31 @@ std::optional<std::pair<std::filesystem::path, Image8>> newest_frame(const std::
 TEST(WholeRig, TheStalkOnCanMovesTheBeamInThePicture) {
   const char* cache = std::getenv("PHARE_CANVM");
   if (cache == nullptr) GTEST_SKIP() << "no emulated machine: start this by tests/can/run_rig.sh";
-  const std::filesystem::path folder = PHARE_BUILD_DIR "/can_rig";
+  const std::filesystem::path folder = build_dir() + "/can_rig";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
-  const std::string rig_file = PHARE_COCKPITS_DIR "/../rigs/country_road.toml";
+  const std::string rig_file = cockpits_dir() + "/../rigs/country_road.toml";
   Rig rig = *read_rig(rig_file);
   rig.port_base = static_cast<std::uint16_t>(20000 + getpid() % 500 * 20);
   const std::string base = std::to_string(rig.port_base);
   // The stalk of phare_stalk.toml, on the machine's interface, patient with a slow one.
-  std::string stalk = contents(PHARE_COCKPITS_DIR "/phare_stalk.toml");
+  std::string stalk = contents(cockpits_dir() + "/phare_stalk.toml");
   const auto put = [&](const std::string& from, const std::string& to) {
     const std::size_t at = stalk.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     stalk.replace(at, from.size(), to);
   };
   put("\"can0\"", "\"phc0\"");
-  put("\"phare_stalk.dbc\"", "\"" PHARE_COCKPITS_DIR "/phare_stalk.dbc\"");
+  put("\"phare_stalk.dbc\"", "\"" + cockpits_dir() + "/phare_stalk.dbc\"");
   put("timeout_s = 0.2", "timeout_s = 15.0");
   std::ofstream(folder / "stalk.toml") << stalk;
 
   Result<Bus> opened = Bus::open(rig, Role::kRecorder);
   ASSERT_TRUE(opened.ok()) << opened.error().text();
   Bus& bus = *opened;
-  const std::string can = PHARE_CAN_TESTS_DIR;
+  const std::string can = tests_dir("can");
   Child machine({can + "/canvm", "run", "--rw", folder, "--udp", base + ":" + base, "--timeout", "280", cache, "--",
-                 can + "/rig_guest.sh", folder, base, PHARE_COCKPIT_PROGRAM, PHARE_RELAY_PROGRAM, rig_file,
+                 can + "/rig_guest.sh", folder, base, program("phare-cockpit"), program("phare_udp_relay"), rig_file,
                  folder / "stalk.toml"},
                 folder / "machine.log");
   const auto until = [&](const std::function<bool()>& done) {
@@ -155,8 +156,8 @@ TEST(WholeRig, TheStalkOnCanMovesTheBeamInThePicture) {
 
   ASSERT_TRUE(until([&] { return light_is(LightSwitch::kLow); })) << logs();
   // Only now, because a picture drawn in software leaves no time to boot a machine in.
-  Child car({PHARE_DYNAMICS_PROGRAM, "--rig", rig_file, "--port-base", base}, folder / "dynamics.log");
-  Child picture({PHARE_VISUAL_PROGRAM, "--rig", rig_file, "--port-base", base, "--headless", "--size", "160x90",
+  Child car({program("phare-dynamics"), "--rig", rig_file, "--port-base", base}, folder / "dynamics.log");
+  Child picture({program("phare-visual"), "--rig", rig_file, "--port-base", base, "--headless", "--size", "160x90",
                  "--audit-every", "0", "--frames", "100000", "--out", folder / "out"},
                 folder / "visual.log", 10);
 

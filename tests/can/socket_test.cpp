@@ -3,6 +3,7 @@
 
 #include "cockpit_io/candump.h"
 #include "tests/can/can_rig.h"
+#include "tests/paths.h"
 
 namespace phare::can_test {
 namespace {
@@ -66,8 +67,7 @@ TEST(RealCan, ErrorFramesAndCanFdArrive) {
 
 TEST(RealCan, EveryFrameOfADriveReplayedByCanplayerIsHeard) {
   PHARE_NEEDS_CAN();
-  const auto file =
-      std::filesystem::path(PHARE_SHARED_DATA_DIR) / "drives/comma2k19/rav4_seg40_bus0_00-30s.candump.log";
+  const auto file = std::filesystem::path(shared_data_dir()) / "drives/comma2k19/rav4_seg40_bus0_00-30s.candump.log";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   const auto log = read_candump(file);
   ASSERT_TRUE(log.ok());

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "tests/paths.h"
+
 namespace phare {
 namespace {
 
@@ -86,8 +88,7 @@ TEST(Candump, ALogWithoutAFrameIsAnError) {
 }
 
 TEST(Candump, CountsEveryFrameOfARealDrive) {
-  const auto file =
-      std::filesystem::path(PHARE_SHARED_DATA_DIR) / "drives/comma2k19/rav4_seg40_bus0_00-30s.candump.log";
+  const auto file = std::filesystem::path(shared_data_dir()) / "drives/comma2k19/rav4_seg40_bus0_00-30s.candump.log";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   const auto log = read_candump(file);
   ASSERT_TRUE(log.ok());

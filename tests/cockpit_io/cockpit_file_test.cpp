@@ -5,11 +5,12 @@
 
 #include "cockpit_io/signal_map.h"
 #include "config/cockpit.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
 
-const std::filesystem::path kCockpits = PHARE_COCKPITS_DIR;
+const std::filesystem::path kCockpits = cockpits_dir();
 
 std::string error_of(const std::string& text) {
   const auto config = parse_cockpit(text, "c.toml");
@@ -79,7 +80,7 @@ TEST(CockpitFile, ShippedFilesAreGood) {
   const auto map = SignalMap::bind(*config, *dbc, 0);
   ASSERT_TRUE(map.ok()) << map.error().text();
   EXPECT_EQ(map->ids().size(), 3u);
-  const auto toyota_dbc = std::filesystem::path(PHARE_SHARED_DATA_DIR) / "dbc/opendbc/toyota_nodsu_pt_generated.dbc";
+  const auto toyota_dbc = std::filesystem::path(shared_data_dir()) / "dbc/opendbc/toyota_nodsu_pt_generated.dbc";
   if (!std::filesystem::exists(toyota_dbc)) GTEST_SKIP() << "no " << toyota_dbc;
   const auto toyota = SignalMap::bind(*read_cockpit(kCockpits / "toyota_rav4.toml"), *read_dbc(toyota_dbc), 0);
   EXPECT_TRUE(toyota.ok()) << toyota.error().text();

@@ -9,6 +9,7 @@
 #include "cockpit_io/gamepad_source.h"
 #include "cockpit_io/signal_map.h"
 #include "config/cockpit.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
@@ -281,8 +282,8 @@ TEST(CockpitErrors, AreSaidAtTheirLineAndNameTheNearest) {
 }
 
 TEST(CockpitFile, EveryShippedCarFitsItsDbc) {
-  const std::filesystem::path cockpits = PHARE_COCKPITS_DIR;
-  const auto folder = std::filesystem::path(PHARE_SHARED_DATA_DIR) / "dbc/opendbc";
+  const std::filesystem::path cockpits = cockpits_dir();
+  const auto folder = std::filesystem::path(shared_data_dir()) / "dbc/opendbc";
   const bool there = std::filesystem::exists(folder);
   const std::vector<std::pair<const char*, const char*>> cars{
       {"toyota_rav4.toml", "toyota_nodsu_pt_generated.dbc"},
@@ -356,7 +357,7 @@ GamepadReading reading(std::vector<float> axes, std::vector<std::uint8_t> button
 }
 
 TEST(Gamepad, AxesButtonsAndHatsBecomeControls) {
-  const auto config = read_cockpit(std::filesystem::path(PHARE_COCKPITS_DIR) / "gamepad.toml");
+  const auto config = read_cockpit(std::filesystem::path(cockpits_dir()) / "gamepad.toml");
   ASSERT_TRUE(config.ok()) << config.error().text();
   std::optional<GamepadReading> now = reading({0, 0, -1, 0, 0, -1}, {0, 0, 0, 0, 0, 0});
   GamepadSource source(*config, [&] { return now; });

@@ -13,13 +13,14 @@
 
 #include "cockpit_io/dbc.h"
 #include "tests/cockpit_io/oracle.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
 
-const std::filesystem::path kShared = PHARE_SHARED_DATA_DIR;
-const std::string kVenv = PHARE_ORACLE_VENV;
-const std::string kTests = PHARE_COCKPIT_TESTS_DIR;
+const std::filesystem::path kShared = shared_data_dir();
+const std::string kVenv = build_root("oracle");
+const std::string kTests = tests_dir("cockpit_io");
 
 CanFrame frame_with(const DbcMessage& message, const std::vector<std::uint8_t>& bytes) {
   CanFrame frame;

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <random>
 
+#include "tests/paths.h"
+
 namespace phare {
 namespace {
 
@@ -270,7 +272,7 @@ TEST(Dbc, RealFilesLoad) {
                                            {"tesla_model3_vehicle.dbc", 11, 209, 0},
                                            {"toyota_nodsu_pt_generated.dbc", 60, 380, 0},
                                            {"vw_mqb.dbc", 113, 1348, 0}}};
-  const std::filesystem::path folder = std::filesystem::path(PHARE_SHARED_DATA_DIR) / "dbc/opendbc";
+  const std::filesystem::path folder = std::filesystem::path(shared_data_dir()) / "dbc/opendbc";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   for (const Expected& expected : files) {
     Result<Dbc> dbc = read_dbc(folder / expected.file);

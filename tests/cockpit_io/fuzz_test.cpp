@@ -13,6 +13,7 @@
 #include "cockpit_io/keyboard_source.h"
 #include "cockpit_io/signal_map.h"
 #include "config/cockpit.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
@@ -64,7 +65,7 @@ CanFrame random_frame(std::mt19937_64& random) {
 }
 
 TEST(Fuzz, Dbc) {
-  const std::string good = contents(std::string(PHARE_COCKPITS_DIR) + "/phare_stalk.dbc");
+  const std::string good = contents(std::string(cockpits_dir()) + "/phare_stalk.dbc");
   std::mt19937_64 random(1);
   std::size_t read = 0;
   for (int round = 0; round < 4000; ++round) {
@@ -97,8 +98,8 @@ TEST(Fuzz, Candump) {
 }
 
 TEST(Fuzz, CockpitFile) {
-  const std::string good = contents(std::string(PHARE_COCKPITS_DIR) + "/phare_stalk.toml");
-  const Dbc dbc = *read_dbc(std::string(PHARE_COCKPITS_DIR) + "/phare_stalk.dbc");
+  const std::string good = contents(std::string(cockpits_dir()) + "/phare_stalk.toml");
+  const Dbc dbc = *read_dbc(std::string(cockpits_dir()) + "/phare_stalk.dbc");
   std::mt19937_64 random(3);
   for (int round = 0; round < 1500; ++round) {
     const auto config = parse_cockpit(damaged(good, random), "f.toml");
@@ -138,7 +139,7 @@ TEST(Fuzz, MultiplexedDbc) {
 TEST(Fuzz, EveryShippedCockpitFile) {
   std::mt19937_64 random(8);
   std::size_t read = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(PHARE_COCKPITS_DIR)) {
+  for (const auto& entry : std::filesystem::directory_iterator(cockpits_dir())) {
     if (entry.path().extension() != ".toml") continue;
     const std::string good = contents(entry.path());
     for (int round = 0; round < 150; ++round) {
@@ -154,7 +155,7 @@ TEST(Fuzz, EveryShippedCockpitFile) {
 }
 
 TEST(Fuzz, FramesThroughTheMapAndTheSwitches) {
-  const auto config = read_cockpit(std::string(PHARE_COCKPITS_DIR) + "/phare_stalk.toml");
+  const auto config = read_cockpit(std::string(cockpits_dir()) + "/phare_stalk.toml");
   SignalMap map = *SignalMap::bind(*config, *read_dbc(config->dbc_file), 0);
   Cockpit cockpit({20'000'000, 2}, "fuzz");
   DriverInput input;
@@ -173,7 +174,7 @@ TEST(Fuzz, FramesThroughTheMapAndTheSwitches) {
 }
 
 TEST(Fuzz, DriverScript) {
-  const std::string good = contents(std::string(PHARE_COCKPITS_DIR) + "/../drives/country_road_script.toml");
+  const std::string good = contents(std::string(cockpits_dir()) + "/../drives/country_road_script.toml");
   std::mt19937_64 random(5);
   for (int round = 0; round < 1000; ++round) {
     const auto script = parse_driver_script(damaged(good, random), "f.toml");

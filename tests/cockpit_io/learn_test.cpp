@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cockpit_io/candump.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
@@ -34,7 +35,7 @@ std::vector<std::string> shown(Learner& learner) {
 }
 
 TEST(Learn, NamesTheSignalThatMovedAndNotTheCounter) {
-  Learner learner(*read_dbc(PHARE_COCKPITS_DIR "/phare_stalk.dbc"), 5 * kSecond);
+  Learner learner(*read_dbc(cockpits_dir() + "/phare_stalk.dbc"), 5 * kSecond);
   const auto lines = shown(learner);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_NE(lines[0].find("7.000 s  BEAM_STALK.FLASH  0 -> 1"), std::string::npos) << lines[0];
@@ -52,7 +53,7 @@ TEST(Learn, WithoutADbcNamesBits) {
 }
 
 TEST(Learn, FindsTheTurnButtonOfARealDrive) {
-  const std::filesystem::path shared = PHARE_SHARED_DATA_DIR;
+  const std::filesystem::path shared = shared_data_dir();
   if (!std::filesystem::exists(shared / "drives/comma2k19")) GTEST_SKIP() << "no " << shared;
   const auto log = read_candump(shared / "drives/comma2k19/rav4_seg40_bus0_00-30s.candump.log");
   Learner learner(*read_dbc(shared / "dbc/opendbc/toyota_nodsu_pt_generated.dbc"), 2 * kSecond);

@@ -11,6 +11,7 @@
 #include "cockpit_io/candump.h"
 #include "cockpit_io/crc.h"
 #include "tests/cockpit_io/oracle.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
@@ -144,7 +145,7 @@ TEST(MessageCheck, Profile1And2AgreeWithAnotherImplementation) {
   if (status == 77) GTEST_SKIP() << "no package to compare with: " << why;
   ASSERT_EQ(status, 0) << why;
   const auto [text, exit] =
-      output_of(std::string(PHARE_ORACLE_VENV) + "/bin/python " + PHARE_COCKPIT_TESTS_DIR "/e2e_oracle.py");
+      output_of(std::string(build_root("oracle")) + "/bin/python " + tests_dir("cockpit_io") + "/e2e_oracle.py");
   ASSERT_EQ(exit, 0);
   std::istringstream lines(text);
   std::string kind, mode, hex;
@@ -171,7 +172,7 @@ TEST(MessageCheck, Profile1And2AgreeWithAnotherImplementation) {
 }
 
 TEST(MessageCheck, ARealCarsChecksumsAreGood) {
-  const std::filesystem::path shared = PHARE_SHARED_DATA_DIR;
+  const std::filesystem::path shared = shared_data_dir();
   if (!std::filesystem::exists(shared / "drives/comma2k19")) GTEST_SKIP() << "no " << shared;
   const auto log = read_candump(shared / "drives/comma2k19/rav4_seg40_bus0_00-30s.candump.log");
   const auto dbc = read_dbc(shared / "dbc/opendbc/toyota_nodsu_pt_generated.dbc");

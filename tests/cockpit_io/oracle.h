@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/paths.h"
+
 namespace phare {
 
 /// Standard output of a command and its exit status.
@@ -25,7 +27,7 @@ inline std::pair<std::string, int> output_of(const std::string& command) {
 
 /// Status 77 and the reason where there is no Python or no network.
 inline std::pair<std::string, int> make_oracle_venv() {
-  return output_of(PHARE_COCKPIT_TESTS_DIR "/oracle_venv.sh " PHARE_ORACLE_VENV);
+  return output_of(tests_dir("cockpit_io") + "/oracle_venv.sh " + build_root("oracle"));
 }
 
 /// "-" is none.

@@ -19,6 +19,7 @@
 #include "config/rig.h"
 #include "net/bus.h"
 #include "tests/cockpit_io/program.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
@@ -37,11 +38,11 @@ class CockpitProcessTest : public testing::Test {
                                             "(9.400) can0 500#0301000000000000\n(9.500) can0 500#0301000000000000\n"
                                             "(11.000) can0 123#00\n";
     std::ofstream(folder_ / "cockpit.toml")
-        << "[source]\nkind = \"log\"\ndbc = \"" PHARE_COCKPITS_DIR
-           "/phare_stalk.dbc\"\ntimeout_s = 0.2\n"
-           "[control.light_switch]\nmessage = \"BEAM_STALK\"\nsignal = \"BEAM_SWITCH\"\n"
-           "levels = { off = 0, position = 1, low = 2, high = 3 }\n";
-    rig_file_ = std::string(PHARE_COCKPITS_DIR) + "/../rigs/country_road.toml";
+        << "[source]\nkind = \"log\"\ndbc = \"" + cockpits_dir() +
+               "/phare_stalk.dbc\"\ntimeout_s = 0.2\n"
+               "[control.light_switch]\nmessage = \"BEAM_STALK\"\nsignal = \"BEAM_SWITCH\"\n"
+               "levels = { off = 0, position = 1, low = 2, high = 3 }\n";
+    rig_file_ = std::string(cockpits_dir()) + "/../rigs/country_road.toml";
     Result<Rig> rig = read_rig(rig_file_);
     ASSERT_TRUE(rig.ok()) << rig.error().text();
     rig_ = *rig;
@@ -194,12 +195,13 @@ TEST_F(CockpitProcessTest, RealTimeKeepsItsRateAndFallsSafe) {
 
 TEST_F(CockpitProcessTest, KeysOfATerminalReachTheBus) {
   Bus car = bus(Role::kDynamics);
-  const auto words = arguments({"--cockpit", PHARE_COCKPITS_DIR "/keyboard.toml", "--stats", folder_ / "stats.json"});
+  const auto words = arguments({"--cockpit", cockpits_dir() + "/keyboard.toml", "--stats", folder_ / "stats.json"});
+  std::string cockpit = program("phare-cockpit");
   int terminal = -1;
   const pid_t pid = forkpty(&terminal, nullptr, nullptr, nullptr);
   ASSERT_GE(pid, 0);
   if (pid == 0) {
-    std::vector<char*> pointers{const_cast<char*>(PHARE_COCKPIT_PROGRAM)};
+    std::vector<char*> pointers{cockpit.data()};
     for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
     pointers.push_back(nullptr);
     execv(pointers[0], pointers.data());
@@ -242,7 +244,7 @@ TEST_F(CockpitProcessTest, KeysOfATerminalReachTheBus) {
 }
 
 TEST_F(CockpitProcessTest, BadInputIsOneLineAndExitTwo) {
-  const std::string cockpits = PHARE_COCKPITS_DIR;
+  const std::string cockpits = cockpits_dir();
   std::ofstream(folder_ / "empty.log") << "nothing\n";
   std::vector<std::vector<std::string>> all{
       arguments({"--log", "/nonexistent.log", "--cockpit", folder_ / "cockpit.toml"}),

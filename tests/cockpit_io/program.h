@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/paths.h"
+
 namespace phare {
 
 using namespace std::chrono_literals;
@@ -24,7 +26,7 @@ class Program {
   /// `output`: where its standard output goes; empty: where the test's goes.
   Program(const std::vector<std::string>& arguments, const std::filesystem::path& errors,
           const std::filesystem::path& output = {}) {
-    std::vector<std::string> words{PHARE_COCKPIT_PROGRAM};
+    std::vector<std::string> words{program("phare-cockpit")};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());

@@ -21,12 +21,13 @@
 #include "cockpit_io/text_scanner.h"
 #include "net/drive_file.h"
 #include "net/wire.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
 
-const std::filesystem::path kCockpits = PHARE_COCKPITS_DIR;
-const std::filesystem::path kShared = PHARE_SHARED_DATA_DIR;
+const std::filesystem::path kCockpits = cockpits_dir();
+const std::filesystem::path kShared = shared_data_dir();
 
 Moment at_ms(std::int64_t ms) {
   return {SimTime{ms * 1'000'000}, WallTime{1'000'000'000 + ms * 1'000'000}};

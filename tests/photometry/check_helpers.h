@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <string>
 
+#include "tests/paths.h"
 #include "visual/photometry/check.h"
 
 namespace phare::test {
 
 inline Rulebook rule(const std::string& name) {
-  auto found = find_rulebook(PHARE_RULES_DIR, name);
+  auto found = find_rulebook(rules_dir(), name);
   EXPECT_TRUE(found.ok()) << found.error().text();
   return found.ok() ? std::move(*found) : Rulebook{};
 }

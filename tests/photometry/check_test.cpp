@@ -11,6 +11,7 @@
 
 #include "check_helpers.h"
 #include "photometry_test_files.h"
+#include "tests/paths.h"
 #include "visual/photometry/beam_image.h"
 
 namespace phare {
@@ -41,7 +42,7 @@ IntensityTable stepped(double step_deg, double line_v_deg, double rise_right, do
 }
 
 TEST(Rulebook, EveryFileReadsAndNamesItsSources) {
-  const auto rules = read_rulebooks(PHARE_RULES_DIR);
+  const auto rules = read_rulebooks(rules_dir());
   ASSERT_TRUE(rules.ok()) << rules.error().text();
   EXPECT_GE(rules->size(), 25u);
   for (const Rulebook& r : *rules) {
@@ -52,7 +53,7 @@ TEST(Rulebook, EveryFileReadsAndNamesItsSources) {
   }
   EXPECT_EQ(rule("R149 Class C").id, "r149-passing-c");
   EXPECT_EQ(rule("LB2V").id, "fmvss108-lb2v");
-  EXPECT_NE(find_rulebook(PHARE_RULES_DIR, "r149-passing-d").error().text().find("did you mean"), std::string::npos);
+  EXPECT_NE(find_rulebook(rules_dir(), "r149-passing-d").error().text().find("did you mean"), std::string::npos);
 }
 
 TEST(Rulebook, RefusalsSayWhereAndWhy) {

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/paths.h"
+
 namespace phare::test {
 
 /// A folder for the files of this run; gone at its end.
@@ -77,7 +79,7 @@ struct Csv {
 };
 
 inline std::filesystem::path shared_data(const std::string& below) {
-  return std::filesystem::path(PHARE_SHARED_DATA_DIR) / below;
+  return std::filesystem::path(shared_data_dir()) / below;
 }
 
 }  // namespace phare::test

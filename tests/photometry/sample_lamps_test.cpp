@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "photometry_test_files.h"
+#include "tests/paths.h"
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/check.h"
 #include "visual/photometry/combine.h"
@@ -47,7 +48,7 @@ TEST(SampleLamps, ComeBackFromTheirFiles) {
 TEST(SampleLamps, PassTheirRules) {
   for (const SampleLamp& l : lamps()) {
     for (const std::string& id : l.rules) {
-      const auto rule = find_rulebook(PHARE_RULES_DIR, id);
+      const auto rule = find_rulebook(rules_dir(), id);
       ASSERT_TRUE(rule.ok()) << rule.error().text();
       const IntensityTable* table[] = {&l.table};
       CheckOptions options;
@@ -65,7 +66,7 @@ TEST(SampleLamps, PassTheirRules) {
 }
 
 TEST(SampleLamps, ARightHandBeamFailsTheLeftHandRows) {
-  const auto rule = find_rulebook(PHARE_RULES_DIR, "r149-passing-c");
+  const auto rule = find_rulebook(rules_dir(), "r149-passing-c");
   ASSERT_TRUE(rule.ok()) << rule.error().text();
   const IntensityTable* table[] = {&lamp("low_rht.ies").table};
   CheckOptions options;
@@ -149,7 +150,7 @@ TEST(MatrixSegments, TogetherPassADrivingBeam) {
   const IntensityTable sum = sum_tables(tables);
   EXPECT_NEAR(sum.flux_lm(), flux_lm, 1e-9 * flux_lm);
   for (const IntensityTable* segment : tables) EXPECT_LT(segment->peak_cd(), sum.peak_cd());
-  const auto rule = find_rulebook(PHARE_RULES_DIR, "r149-driving-b");
+  const auto rule = find_rulebook(rules_dir(), "r149-driving-b");
   ASSERT_TRUE(rule.ok()) << rule.error().text();
   const IntensityTable* whole[] = {&sum};
   for (const CheckRow& row : check_lamp(whole, *rule).rows)

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "config/remedies.h"
+#include "tests/paths.h"
 #include "tests/process/drive_run.h"
 
 namespace phare::test {
@@ -22,7 +23,7 @@ struct Case {
   std::string says;     ///< part of the line
 };
 
-const std::string kConfig = PHARE_SOURCE_DIR "/config/";
+const std::string kConfig = source_dir() + "/config/";
 
 /// Runs in `folder` through the shell; stderr into `said`.
 int run(const fs::path& folder, const std::string& command, std::string& said) {
@@ -101,7 +102,7 @@ class BadInput : public testing::Test {
       std::string said, command = given.command;
       const std::size_t phare = command.find("phare ");
       ASSERT_NE(phare, std::string::npos);
-      command.replace(phare, 5, PHARE_PROGRAM);
+      command.replace(phare, 5, program("phare"));
       EXPECT_EQ(run(folder_.path(), command, said), kExitBadInput) << given.name << ": " << said;
       EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << given.name << ": " << said;
       EXPECT_NE(said.find(given.says), std::string::npos)
@@ -201,7 +202,7 @@ TEST_F(BadInput, OfTheMachine) {
   expect_refused(cases);
 
   std::string nothing;
-  const std::string doctor = std::string(PHARE_PROGRAM) + " doctor > doctor.txt";
+  const std::string doctor = std::string(program("phare")) + " doctor > doctor.txt";
   EXPECT_EQ(run(folder_.path(), "sh -c '" + no_vulkan + doctor + "'", nothing), kExitCheckFailed);
   std::ifstream stream(folder_ / "doctor.txt");
   const std::string says{std::istreambuf_iterator<char>(stream), {}};

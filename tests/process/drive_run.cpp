@@ -10,6 +10,8 @@
 #include <iterator>
 #include <thread>
 
+#include "tests/paths.h"
+
 namespace phare::test {
 namespace {
 
@@ -25,8 +27,8 @@ std::string bytes_of(const fs::path& file) {
 ChildProcess start_drive(const fs::path& out, const fs::path& from, const std::vector<std::string>& arguments) {
   // env -C is the working directory; the program that runs is phare itself.
   std::vector<std::string> words{
-      "-C",          from.string(), PHARE_PROGRAM, "drive",       "--headless",
-      "--lockstep",  "--out",       out.string(),  "--port-base", std::to_string(port_base()),
+      "-C",          from.string(), program("phare"), "drive",       "--headless",
+      "--lockstep",  "--out",       out.string(),     "--port-base", std::to_string(port_base()),
       "--log-level", "error"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   if (std::find(arguments.begin(), arguments.end(), "--size") == arguments.end()) {

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "net/drive_file.h"
+#include "tests/paths.h"
 #include "tests/process/drive_run.h"
 
 namespace phare::test {
@@ -100,7 +101,7 @@ TEST_F(DriveTest, BeamsAreSummedOnlyWhenALightChanges) {
 // care.
 TEST_F(DriveTest, ALampIsDimmedWhileDriving) {
   const std::vector<std::string> arguments{"--frames", "40", "--validation", "--rig",
-                                           PHARE_SOURCE_DIR "/config/rigs/matrix.toml"};
+                                           source_dir() + "/config/rigs/matrix.toml"};
   const fs::path lit = folder_ / "matrix lit", dimmed = folder_ / "matrix dimmed";
   ASSERT_EQ(drive(lit, folder_ / "home", arguments), 0);
   {
@@ -129,13 +130,13 @@ TEST_F(DriveTest, TheSameBitForBitFromAnotherWorkingDirectory) {
 }
 
 TEST_F(DriveTest, TheSameOffLoopbackWithAKey) {
-  std::ifstream rig(PHARE_SOURCE_DIR "/config/rigs/country_road.toml");
+  std::ifstream rig(source_dir() + "/config/rigs/country_road.toml");
   std::string text{std::istreambuf_iterator<char>(rig), {}};
   const auto replace = [&](const std::string& from, const std::string& to) {
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
       text.replace(at, from.size(), to);
   };
-  replace("\"../", "\"" PHARE_SOURCE_DIR "/config/");
+  replace("\"../", "\"" + source_dir() + "/config/");
   replace("\"127.0.0.1\"", "\"0.0.0.0\"\nkey_file = \"bus.key\"");
   std::ofstream(folder_ / "sealed.toml") << text;
   std::ofstream(folder_ / "bus.key") << std::string(64, 'a') << '\n';
@@ -260,9 +261,9 @@ TEST_F(DriveTest, GarbageIsRefusedCountedAndWithoutEffect) {
       {"cockpit", 0}, {"dynamics", 1}, {"recorder", 2}, {"phare", 3}, {"visual-0", 10}};
   std::vector<ChildProcess> throwers;
   for (const auto& [process, offset] : port_of) {
-    auto thrower = ChildProcess::start(
-        PHARE_THROW_GARBAGE, {"--port", std::to_string(port_base() + offset), "--count", std::to_string(kCount),
-                              "--seed", std::to_string(offset + 1), "--quiet"});
+    auto thrower = ChildProcess::start(program("phare-throw-garbage"),
+                                       {"--port", std::to_string(port_base() + offset), "--count",
+                                        std::to_string(kCount), "--seed", std::to_string(offset + 1), "--quiet"});
     ASSERT_TRUE(thrower);
     throwers.push_back(*thrower);
   }

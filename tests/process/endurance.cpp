@@ -15,6 +15,7 @@
 
 #include "net/drive_file.h"
 #include "net/wire.h"
+#include "tests/paths.h"
 #include "tests/process/drive_run.h"
 
 namespace phare::test {
@@ -29,7 +30,7 @@ struct Options {
   double minutes = 10.0;
   std::uint64_t garbage = 10'000'000;
   double rate_per_s = 40'000.0;
-  std::string drive = PHARE_SOURCE_DIR "/config/drives/country_road.pcap", size = "160x90";
+  std::string drive = source_dir() + "/config/drives/country_road.pcap", size = "160x90";
 };
 
 /// The drive over and over, one after the other, until it is long enough. At each seam the car is back at the start.
@@ -86,7 +87,7 @@ std::vector<ChildProcess> begin_flood(const Options& options, double per_s) {
   std::vector<ChildProcess> throwers;
   for (const auto& [process, offset] : kPorts) {
     auto thrower =
-        ChildProcess::start(PHARE_THROW_GARBAGE,
+        ChildProcess::start(program("phare-throw-garbage"),
                             {"--port", std::to_string(port_base() + offset), "--count", std::to_string(options.garbage),
                              "--seed", std::to_string(offset + 1), "--rate", std::to_string(per_s), "--on",
                              std::to_string(kOn_s), "--period", std::to_string(kPeriod_s), "--quiet"});

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "tests/paths.h"
 #include "tests/process/drive_run.h"
 
 namespace phare::test {
@@ -42,7 +43,7 @@ void write_log(const fs::path& file, const std::vector<Move>& moves) {
 
 json drive_log(const TemporaryFolder& folder, const std::string& name, const std::vector<Move>& moves) {
   write_log(folder / (name + ".log"), moves);
-  const std::string cockpit = PHARE_SOURCE_DIR "/config/cockpits/phare_stalk.toml";
+  const std::string cockpit = source_dir() + "/config/cockpits/phare_stalk.toml";
   EXPECT_EQ(
       drive(folder / name, folder.path(),
             {"--frames", std::to_string(kFrames), "--log", (folder / (name + ".log")).string(), "--cockpit", cockpit}),

@@ -16,6 +16,8 @@
 #include <set>
 #include <sstream>
 
+#include "tests/paths.h"
+
 namespace phare {
 namespace {
 
@@ -30,7 +32,7 @@ std::string bytes_of(const fs::path& file) {
 
 const Scene& country_road() {
   static const Scene scene = [] {
-    auto read = read_scene(fs::path(PHARE_SCENE_DIR) / "country_road.glb");
+    auto read = read_scene(fs::path(scene_dir()) / "country_road.glb");
     if (!read) ADD_FAILURE() << read.error().text();
     return read ? *read : Scene{};
   }();
@@ -43,7 +45,7 @@ struct LaneRow {
 
 const std::vector<LaneRow>& lane() {
   static const std::vector<LaneRow> rows = [] {
-    std::ifstream in(fs::path(PHARE_SCENE_DIR) / "country_road_lane.csv");
+    std::ifstream in(fs::path(scene_dir()) / "country_road_lane.csv");
     std::vector<LaneRow> read;
     std::string line;
     std::getline(in, line);
@@ -87,10 +89,10 @@ std::optional<double> height_of(const Scene& scene, const std::string& kind, dou
 TEST(CountryRoad, GivesTheSameBytesEachRun) {
   const fs::path folder = fs::path(testing::TempDir()) / "phare_scene_again";
   fs::remove_all(folder);
-  const std::string command = std::string("'") + PHARE_MAKE_SCENE + "' --out '" + folder.string() + "'";
+  const std::string command = std::string("'") + program("phare-make-scene") + "' --out '" + folder.string() + "'";
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
   for (const char* name : {"country_road.glb", "country_road_lane.csv", "country_road_places.json"}) {
-    const std::string built = bytes_of(fs::path(PHARE_SCENE_DIR) / name);
+    const std::string built = bytes_of(fs::path(scene_dir()) / name);
     EXPECT_GT(built.size(), 1000u) << name;
     EXPECT_TRUE(built == bytes_of(folder / name)) << name;
   }
@@ -116,7 +118,7 @@ TEST(CountryRoad, LaneIsLongSmoothAndMeasuredInMetres) {
 }
 
 TEST(CountryRoad, HasCrestAndDip) {
-  const auto places = nlohmann::json::parse(bytes_of(fs::path(PHARE_SCENE_DIR) / "country_road_places.json"));
+  const auto places = nlohmann::json::parse(bytes_of(fs::path(scene_dir()) / "country_road_places.json"));
   const auto height = [&](double s) { return lane()[static_cast<std::size_t>(s)].z_m; };
   const double top = places["crest_top"]["s_m"], bottom = places["dip_bottom"]["s_m"];
   EXPECT_GT(height(top) - height(top - 150.0), 4.5);
@@ -304,7 +306,7 @@ TEST(ReadScene, RefusesWhatIsWrongWithAReason) {
   EXPECT_NE(reason(R"({"mesh":0,"translation":[1e30,0,0]})", "{}").find("1e8"), std::string::npos);
   EXPECT_NE(reason(R"({"mesh":5})", "{}").find("mesh"), std::string::npos);
   EXPECT_FALSE(read_scene("no_such_scene.glb"));
-  const std::string whole = bytes_of(fs::path(PHARE_SCENE_DIR) / "country_road.glb");
+  const std::string whole = bytes_of(fs::path(scene_dir()) / "country_road.glb");
   for (const double part : {0.0, 1e-6, 1e-5, 0.01, 0.5, 0.999}) {  // cut off anywhere
     const auto cut = write_gltf("phare_cut.glb",
                                 whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
@@ -313,7 +315,7 @@ TEST(ReadScene, RefusesWhatIsWrongWithAReason) {
 }
 
 TEST(ReadScene, ReadsOrRefusesTheSharedSamples) {
-  const fs::path folder = fs::path(PHARE_SHARED_DATA_DIR) / "gltf";
+  const fs::path folder = fs::path(shared_data_dir()) / "gltf";
   if (!fs::is_directory(folder)) GTEST_SKIP() << "no " << folder.string() << ", the shared glTF samples";
   std::size_t read = 0, refused = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -11,12 +11,13 @@
 #include <numbers>
 
 #include "net/wire.h"
+#include "tests/paths.h"
 #include "tools/csv_columns.h"
 
 namespace phare {
 namespace {
 
-const std::filesystem::path kData = PHARE_SHARED_DATA_DIR;
+const std::filesystem::path kData = shared_data_dir();
 const std::filesystem::path kDrives = kData / "drives/comma2k19";
 
 /// A lane along x with a bend of 500 m radius and a grade of 2 %.
@@ -39,7 +40,7 @@ ImportOptions comma_options() {
   options.can_log = kDrives / "rav4_seg40_bus0_00-30s.candump.log";
   options.dbc = kData / "dbc/opendbc/toyota_nodsu_pt_generated.dbc";
   options.pose = kDrives / "rav4_seg40_pose_00-30s.csv";
-  const auto vehicle = read_vehicle(PHARE_SOURCE_DIR "/config/vehicles/hatchback.toml");
+  const auto vehicle = read_vehicle(source_dir() + "/config/vehicles/hatchback.toml");
   EXPECT_TRUE(vehicle);
   if (vehicle) options.vehicle = *vehicle;
   return options;

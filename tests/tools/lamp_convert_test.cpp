@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lamp_program.h"
+#include "tests/paths.h"
 #include "visual/photometry/combine.h"
 #include "visual/photometry/read_lamp.h"
 #include "visual/photometry/write_lamp.h"
@@ -180,7 +181,7 @@ TEST(WriteLamp, TheHeaderComesThrough) {
 // Files of other people: what a format can hold comes back. Shortest digits that read as the same number, so only what
 // is computed on the way (angles from 9 decimals, candela per 1000 lm) may cost last bits.
 TEST(WriteLamp, EveryFileOfTheDataSetComesBack) {
-  const std::filesystem::path folder = PHARE_SHARED_DATA_DIR "/photometry";
+  const std::filesystem::path folder = shared_data_dir() + "/photometry";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

@@ -12,6 +12,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/paths.h"
+
 namespace phare::test {
 
 inline std::string content_of(const std::filesystem::path& path) {
@@ -38,7 +40,7 @@ class LampProgram : public testing::Test {
     return in(name);
   }
   /// A lamp of ours.
-  static std::string ours(const std::string& name) { return std::string(PHARE_LAMPS_DIR "/") + name; }
+  static std::string ours(const std::string& name) { return std::string(lamps_dir() + "/") + name; }
 
   struct Said {
     int code = 0;
@@ -47,8 +49,8 @@ class LampProgram : public testing::Test {
   /// `arguments` as a shell reads them, redirections included; what is not redirected comes back.
   Said lamp(const std::string& arguments) const {
     const std::string out = in("stdout.txt"), err = in("stderr.txt");
-    const int status =
-        std::system(("{ \"" PHARE_PROGRAM "\" lamp " + arguments + "; } >'" + out + "' 2>'" + err + "'").c_str());
+    const int status = std::system(
+        ("{ \"" + program("phare") + "\" lamp " + arguments + "; } >'" + out + "' 2>'" + err + "'").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(out), content_of(err)};
   }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "tests/paths.h"
+
 namespace phare {
 namespace {
 
@@ -74,7 +76,7 @@ TEST_F(ReferenceTable, RelativeErrorsCountInTheLight) {
 }
 
 TEST_F(ReferenceTable, ReadsTheSharedSet) {
-  const fs::path set = fs::path(PHARE_SHARED_DATA_DIR) / "photometry-reference";
+  const fs::path set = fs::path(shared_data_dir()) / "photometry-reference";
   if (!fs::exists(set)) GTEST_SKIP() << "no reference set at " << set;
   std::size_t columns = 0;
   for (const char* table : {"0_intensity", "a_road_flat_low", "a_road_flat_high", "a_road_flat_fog", "b_wall25_low",

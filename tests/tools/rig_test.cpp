@@ -7,6 +7,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "tests/paths.h"
+
 namespace phare {
 namespace {
 
@@ -97,7 +99,7 @@ TEST(Rig, MissingFilesAreNamed) {
 }
 
 TEST(Rig, TheDemoRigReads) {
-  const auto rig = read_rig(PHARE_SOURCE_DIR "/config/rigs/country_road.toml");
+  const auto rig = read_rig(source_dir() + "/config/rigs/country_road.toml");
   ASSERT_TRUE(rig) << rig.error().text();
   ASSERT_EQ(rig->designs.size(), 2u);
   EXPECT_EQ(rig->designs[0].name, "halogen");

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/paths.h"
+
 namespace phare::test {
 
 inline std::string written(const std::string& name, const std::string& text) {
@@ -23,8 +25,8 @@ inline constexpr const char* kBraking =
 /// Exit code of phare-dynamics; `said`: its stderr.
 inline int program(const std::string& arguments, std::string* said = nullptr) {
   const std::string errors = testing::TempDir() + "program_errors.txt";
-  const int status =
-      std::system((std::string(PHARE_DYNAMICS_PROGRAM) + " " + arguments + " >/dev/null 2>" + errors).c_str());
+  const int status = std::system(
+      (std::string(phare::program("phare-dynamics")) + " " + arguments + " >/dev/null 2>" + errors).c_str());
   std::stringstream text;
   text << std::ifstream(errors).rdbuf();
   if (said) *said = text.str();

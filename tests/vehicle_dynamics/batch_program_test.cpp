@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "batch_files.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
@@ -21,7 +22,7 @@ using test::written;
 
 TEST(BatchProgram, RunsAndRefuses) {
   const std::string in = written("program_in.csv", kBraking), out = testing::TempDir() + "program_out.csv";
-  const std::string car = std::string(PHARE_VEHICLES_DIR) + "/bmw_320i.toml";
+  const std::string car = std::string(vehicles_dir()) + "/bmw_320i.toml";
   const std::string base = "--batch " + in + " --out " + out + " --vehicle " + car + " --speed-mps 20";
   EXPECT_EQ(program(base + " --level full --integrator rk4 --step-s 0.002 --levelling dynamic"), 0);
   std::ifstream file(out);
@@ -59,7 +60,7 @@ TEST(BatchProgram, KeepsWhatWasThere) {
   const std::string folder = testing::TempDir() + "keeps/";
   fs::remove_all(folder), fs::create_directories(folder);
   const std::string in = written("keeps/in.csv", kBraking), car = folder + "car.toml", out = folder + "out.csv";
-  fs::copy_file(std::string(PHARE_VEHICLES_DIR) + "/bmw_320i.toml", car);
+  fs::copy_file(std::string(vehicles_dir()) + "/bmw_320i.toml", car);
   fs::create_symlink(in, folder + "link.csv"), fs::create_hard_link(in, folder + "hard.csv");
   const std::string road = written("keeps/road.csv", "x_m,z_m\n0,0\n1000,0\n"), car_text = content(car);
   const std::string base = "--batch " + in + " --vehicle " + car + " --road " + road + " --speed-mps 20 --out ";
@@ -82,11 +83,11 @@ TEST(BatchProgram, KeepsWhatWasThere) {
   EXPECT_EQ(content(out), result);
   EXPECT_EQ(files(), before + 1);
   EXPECT_EQ(program(base + "/dev/full"), 2);
-  const std::string shell = std::string(PHARE_DYNAMICS_PROGRAM) + " " + base;
+  const std::string shell = std::string(phare::program("phare-dynamics")) + " " + base;
   ASSERT_EQ(std::system((shell + "/dev/stdout 2>/dev/null >" + folder + "streamed.csv").c_str()), 0);
   EXPECT_EQ(content(folder + "streamed.csv"), result);  // no summary among the rows
-  ASSERT_EQ(std::system(("cat " + in + " | " + PHARE_DYNAMICS_PROGRAM + " --batch /dev/stdin --vehicle " + car +
-                         " --road " + road + " --speed-mps 20 --out - 2>/dev/null | cmp - " + out)
+  ASSERT_EQ(std::system(("cat " + in + " | " + phare::program("phare-dynamics") + " --batch /dev/stdin --vehicle " +
+                         car + " --road " + road + " --speed-mps 20 --out - 2>/dev/null | cmp - " + out)
                             .c_str()),
             0);
 }
@@ -94,7 +95,7 @@ TEST(BatchProgram, KeepsWhatWasThere) {
 TEST(BatchProgram, RefusesOptionsThatMeanNothing) {
   const std::string in = written("means_in.csv", kBraking), out = testing::TempDir() + "means_out.csv";
   const std::string base =
-      "--batch " + in + " --out " + out + " --vehicle " + PHARE_VEHICLES_DIR + "/bmw_320i.toml --speed-mps 20 ";
+      "--batch " + in + " --out " + out + " --vehicle " + vehicles_dir() + "/bmw_320i.toml --speed-mps 20 ";
   std::filesystem::remove(out);
   for (const char* option : {"--lockstep",
                              "--rig x.toml",
@@ -130,7 +131,7 @@ TEST(BatchProgram, RefusesOptionsThatMeanNothing) {
 }
 
 TEST(BatchProgram, SaysWhatItMeans) {
-  const std::string car = std::string(PHARE_VEHICLES_DIR) + "/bmw_320i.toml", out = testing::TempDir() + "says_out.csv";
+  const std::string car = std::string(vehicles_dir()) + "/bmw_320i.toml", out = testing::TempDir() + "says_out.csv";
   const std::string in = written("says_in.csv", kBraking);
   std::string said;
   EXPECT_EQ(program("--batch " + in + " --out " + out + " --vehicle " + car + " --road " + car, &said), 2);
@@ -141,7 +142,7 @@ TEST(BatchProgram, SaysWhatItMeans) {
   EXPECT_NE(said.find("0.1\\x1b[31m"), std::string::npos) << said;
   EXPECT_EQ(said.find('\x1b'), std::string::npos);
   EXPECT_EQ(said.find('\x9b'), std::string::npos);
-  const std::string unlit = std::string(PHARE_VEHICLES_DIR) + "/bmw_m8.toml";
+  const std::string unlit = std::string(vehicles_dir()) + "/bmw_m8.toml";
   EXPECT_EQ(program("--batch " + in + " --out " + out + " --vehicle " + unlit, &said), 0);
   EXPECT_NE(said.find("no table [levelling]"), std::string::npos) << said;
   EXPECT_EQ(content(out).find("cutoff"), std::string::npos);
@@ -150,7 +151,7 @@ TEST(BatchProgram, SaysWhatItMeans) {
 // In a live run, too, there must be lamps to level.
 TEST(BatchProgram, LiveLevellingNeedsLamps) {
   const std::string rig = written(
-      "unlit_rig.toml", std::string("name = \"test\"\nscene = \"scene.gltf\"\nvehicle = \"") + PHARE_VEHICLES_DIR +
+      "unlit_rig.toml", std::string("name = \"test\"\nscene = \"scene.gltf\"\nvehicle = \"") + vehicles_dir() +
                             "/bmw_m8.toml\"\ncockpit = \"none.toml\"\n[dynamics]\nlevel = \"kinematic\"\n"
                             "[[channel]]\nname = \"front\"\n[[design]]\nname = \"a\"\n[[design.lamp]]\nname = \"l\"\n"
                             "pair = true\nposition_m = [3.4, 0.6, 0.6]\n[[design.lamp.source]]\nfunction = \"low\"\n"
@@ -164,7 +165,7 @@ TEST(BatchProgram, LiveLevellingNeedsLamps) {
 TEST(BatchProgram, RunsAsRealTimeDoes) {
   const std::string in = written("default_in.csv", kBraking), out = testing::TempDir() + "default_out.csv";
   const std::string base =
-      "--batch " + in + " --out " + out + " --vehicle " + PHARE_VEHICLES_DIR + "/bmw_320i.toml --speed-mps 20 --level ";
+      "--batch " + in + " --out " + out + " --vehicle " + vehicles_dir() + "/bmw_320i.toml --speed-mps 20 --level ";
   for (const auto& [level, method, other] :
        {std::tuple{"full", "rk4", "etd2"}, std::tuple{"single-track", "etd2", "rk4"}}) {
     std::array<std::string, 3> results;

@@ -11,6 +11,7 @@
 
 #include "batch_files.h"
 #include "full_car.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
@@ -388,7 +389,7 @@ TEST(Batch, TheStartMustBeOnTheRoad) {
 
 TEST(Batch, SmallVehicleFileNamesWhatIsMissing) {
   std::stringstream text;
-  text << std::ifstream(std::string(PHARE_VEHICLES_DIR) + "/bmw_320i.toml").rdbuf();
+  text << std::ifstream(std::string(vehicles_dir()) + "/bmw_320i.toml").rdbuf();
   const std::string whole = text.str();
   const Result<VehicleParams> half = read_vehicle(written("half.toml", whole.substr(0, whole.find("[tyre]"))));
   ASSERT_FALSE(half.ok());

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "config/road_surface.h"
+#include "tests/paths.h"
 
 namespace phare {
 namespace {
@@ -136,7 +137,7 @@ TEST(GltfFile, FlippedBytesDoNotCrash) {
 }
 
 TEST(GltfFile, SharedFilesAreReadOrRefused) {
-  const std::filesystem::path folder = std::filesystem::path(PHARE_SHARED_DATA_DIR) / "gltf";
+  const std::filesystem::path folder = std::filesystem::path(shared_data_dir()) / "gltf";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   int good = 0, refused = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

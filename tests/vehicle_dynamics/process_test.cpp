@@ -16,6 +16,7 @@
 
 #include "net/bus.h"
 #include "net/drive_file.h"
+#include "tests/paths.h"
 
 extern char** environ;
 
@@ -29,11 +30,11 @@ using SteadyClock = std::chrono::steady_clock;
 class Child {
  public:
   explicit Child(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), PHARE_DYNAMICS_PROGRAM);
+    arguments.insert(arguments.begin(), program("phare-dynamics"));
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
-    if (posix_spawn(&pid_, PHARE_DYNAMICS_PROGRAM, nullptr, nullptr, argv.data(), environ) != 0) pid_ = -1;
+    if (posix_spawn(&pid_, arguments[0].c_str(), nullptr, nullptr, argv.data(), environ) != 0) pid_ = -1;
   }
   ~Child() {
     if (pid_ > 0) end(SIGKILL);
@@ -62,12 +63,13 @@ class DynamicsProcess : public testing::Test {
     // A scene without a road, but with a lane to start on.
     std::ofstream(folder_ / "scene.gltf") << R"({"asset":{"version":"2.0"}})";
     std::ofstream(folder_ / "scene_lane.csv") << "x_m,y_m,z_m,heading_rad\n5,6,7,0.5\n";
-    std::ofstream(folder_ / "rig.toml") << "name = \"test\"\nscene = \"scene.gltf\"\nvehicle = \"" PHARE_VEHICLES_DIR
-                                           "/hatchback.toml\"\ncockpit = \"none.toml\"\n"
-                                           "[dynamics]\nlevel = \"kinematic\"\nstep_s = 0.002\n"
-                                           "[[channel]]\nname = \"front\"\n[[design]]\nname = \"a\"\n"
-                                           "[[design.lamp]]\nname = \"l\"\npair = true\nposition_m = [3.4, 0.6, 0.6]\n"
-                                           "[[design.lamp.source]]\nfunction = \"low\"\nfile = \"l.ies\"\n";
+    std::ofstream(folder_ / "rig.toml")
+        << "name = \"test\"\nscene = \"scene.gltf\"\nvehicle = \"" + vehicles_dir() +
+               "/hatchback.toml\"\ncockpit = \"none.toml\"\n"
+               "[dynamics]\nlevel = \"kinematic\"\nstep_s = 0.002\n"
+               "[[channel]]\nname = \"front\"\n[[design]]\nname = \"a\"\n"
+               "[[design.lamp]]\nname = \"l\"\npair = true\nposition_m = [3.4, 0.6, 0.6]\n"
+               "[[design.lamp.source]]\nfunction = \"low\"\nfile = \"l.ies\"\n";
     rig_.port_base = static_cast<std::uint16_t>(20000 + (::getpid() % 500) * 20);
     rig_.channels.resize(1);
   }

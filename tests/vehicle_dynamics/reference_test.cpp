@@ -4,14 +4,15 @@
 
 #include <cmath>
 
+#include "tests/paths.h"
 #include "vehicle_dynamics/compare.h"
 #include "vehicle_dynamics/work_precision.h"
 
 namespace phare {
 namespace {
 
-const std::filesystem::path kData = std::filesystem::path(PHARE_SHARED_DATA_DIR) / "dynamics";
-const std::filesystem::path kCar = std::filesystem::path(PHARE_VEHICLES_DIR) / "bmw_320i.toml";
+const std::filesystem::path kData = std::filesystem::path(shared_data_dir()) / "dynamics";
+const std::filesystem::path kCar = std::filesystem::path(vehicles_dir()) / "bmw_320i.toml";
 
 // A figure has to stay within the notes' band, or within what the two programs themselves differ by where that is more:
 // then no band can tell who is right. Of the 49 judged figures four need that: against MB the path of D01 (0.087 of
@@ -93,7 +94,7 @@ TEST(WorkPrecision, FailedReferenceIsAnError) {
 TEST(Reference, MeasuredDrive) {
   if (!std::filesystem::exists(kData)) GTEST_SKIP() << kData << " is not here";
   const Result<compare::Measured> m =
-      compare::measured_drive(kData, std::filesystem::path(PHARE_VEHICLES_DIR) / "bmw_m8.toml");
+      compare::measured_drive(kData, std::filesystem::path(vehicles_dir()) / "bmw_m8.toml");
   ASSERT_TRUE(m.ok()) << m.error().text();
   std::printf("measured drive: speed rms %.3f m/s of %.1f, pitch rms %.2f mrad of %.1f\n", m->speed_rms_mps,
               m->speed_peak_mps, m->pitch_rms_rad * 1e3, m->pitch_peak_rad * 1e3);

@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "config/vehicle.h"
+#include "tests/paths.h"
 #include "vehicle_dynamics/step.h"
 
 namespace phare::test {
 
 inline VehicleParams car(const char* file) {
-  Result<VehicleParams> read = read_vehicle(std::string(PHARE_VEHICLES_DIR) + "/" + file);
+  Result<VehicleParams> read = read_vehicle(std::string(vehicles_dir()) + "/" + file);
   if (!read) throw std::runtime_error(read.error().text());
   return *read;
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "test_car.h"
+#include "tests/paths.h"
 #include "vehicle_dynamics/models/kinematic.h"
 #include "vehicle_dynamics/start_pose.h"
 
@@ -21,7 +22,7 @@ std::filesystem::path written(const std::string& name, const std::string& text) 
 // The 320i with one piece of text replaced.
 std::string changed(const std::string& from, const std::string& to) {
   std::stringstream text;
-  text << std::ifstream(std::string(PHARE_VEHICLES_DIR) + "/bmw_320i.toml").rdbuf();
+  text << std::ifstream(std::string(vehicles_dir()) + "/bmw_320i.toml").rdbuf();
   std::string out = text.str();
   const std::size_t where = out.find(from);
   if (where == std::string::npos) throw std::runtime_error("no " + from);
@@ -30,7 +31,7 @@ std::string changed(const std::string& from, const std::string& to) {
 
 TEST(Vehicle, ShippedFilesAreGood) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(PHARE_VEHICLES_DIR)) {
+  for (const auto& entry : std::filesystem::directory_iterator(vehicles_dir())) {
     const Result<VehicleParams> read = read_vehicle(entry.path());
     EXPECT_TRUE(read.ok()) << (read ? "" : read.error().text());
     ++count;

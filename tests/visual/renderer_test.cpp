@@ -11,6 +11,7 @@
 #include <random>
 #include <sstream>
 
+#include "tests/paths.h"
 #include "visual/image/image.h"
 #include "visual/photometry/illuminance.h"
 #include "visual/scene/scene.h"
@@ -195,7 +196,7 @@ Csv read_csv(const fs::path& file) {
 }
 
 TEST_F(RendererTest, AgreesWithTheReferenceTables) {
-  const fs::path data = fs::path(PHARE_SHARED_DATA_DIR) / "photometry-reference";
+  const fs::path data = fs::path(shared_data_dir()) / "photometry-reference";
   if (!fs::exists(data)) GTEST_SKIP() << "no reference tables at " << data;
   const nlohmann::json manifest = nlohmann::json::parse(std::ifstream(data / "manifest.json"));
   struct Case {
@@ -312,7 +313,7 @@ TEST_F(RendererTest, PictureEqualsTheGoldenOne) {
   const FrameResult result = renderer->draw(input);
   EXPECT_EQ(result.pass_count, result.draws == 3 ? 1u : 2u) << "no pass that nothing called for";
   const Image8 got = renderer->read_image();
-  const fs::path golden = fs::path(PHARE_GOLDEN_DIR) / "yard.png";
+  const fs::path golden = fs::path(tests_dir("visual/golden")) / "yard.png";
   if (std::getenv("PHARE_WRITE_GOLDEN") != nullptr) {
     ASSERT_TRUE(write_png(golden, got).ok());
   }

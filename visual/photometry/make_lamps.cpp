@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "config/paths.h"
 #include "config/whole_file.h"
 #include "visual/photometry/check.h"
 #include "visual/photometry/combine.h"
@@ -24,7 +25,7 @@ class Rules {
   const Rulebook* find(const std::string& id) {
     const auto known = rules_.find(id);
     if (known != rules_.end()) return &known->second;
-    auto rule = find_rulebook(PHARE_RULES_DIR, id);
+    auto rule = find_rulebook(config_dir() / "rules", id);
     if (!rule) {
       std::fprintf(stderr, "%s\n", rule.error().text().c_str());
       return nullptr;

@@ -1,0 +1,19 @@
+// Where the files that come with the program are: beside an installed program, else in the tree it was built from.
+#pragma once
+
+#include <filesystem>
+
+namespace phare {
+
+/// The folder of rigs, cockpits, vehicles, rules and drives: <prefix>/share/phare/config of an installed program
+/// (<prefix>/bin/…), else the config/ it was built from.
+std::filesystem::path config_dir();
+
+/// The folder of the lamps and scenes that the build makes: environment PHARE_GENERATED_DIR, else
+/// <prefix>/share/phare/generated of an installed program, else the build's own.
+std::filesystem::path generated_dir();
+
+/// This program is an installed one: nothing may be written beside its files.
+bool is_installed();
+
+}  // namespace phare
