@@ -59,7 +59,7 @@ make_bare() {
   local include=()
   ! sources | grep -q https: || include=(--include=ca-certificates)
   # No waiting for the disk: the system is thrown away. Nodes of /dev are the host's, see enter().
-  sources | mmdebstrap --variant=minbase --skip=output/dev --dpkgopt=force-unsafe-io "${include[@]}" bookworm "$work/bare.tar.new" - >"$work/log" 2>&1 ||
+  sources | mmdebstrap --format=tar --variant=minbase --skip=output/dev --dpkgopt=force-unsafe-io "${include[@]}" bookworm "$work/bare.tar.new" - >"$work/log" 2>&1 ||
     failed "mmdebstrap makes no bare system"
   mv "$work/bare.tar.new" "$work/bare.tar"
 }
