@@ -26,4 +26,8 @@ int bad_input(const Error& error);
 /// config/ of this source tree: the demo rig and drive.
 std::string config_path(const std::string& below);
 
+/// A file of config/examples/ as an example on the command line names it: from the root of the source tree, or, for an
+/// installed program, with its whole path.
+std::string example_file(const std::string& name);
+
 }  // namespace phare

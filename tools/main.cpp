@@ -22,6 +22,10 @@ std::string config_path(const std::string& below) {
   return (config_dir() / below).string();
 }
 
+std::string example_file(const std::string& name) {
+  return is_installed() ? config_path("examples/" + name) : "config/examples/" + name;
+}
+
 namespace {
 
 int run(int argc, char** argv) {

@@ -127,8 +127,13 @@ class Page {
       fact(value_text(summary_["frame_ms"], "median") + " ms", "a frame, median");
       fact(value_text(summary_["frame_ms"], "p99") + " ms", "a frame, 99th percentile");
     }
-    if (summary_.contains("frames_per_s_median"))
-      fact(value_text(summary_, "frames_per_s_median", "%.0f"), "frames a second, all processes running");
+    if (summary_.contains("frames_per_s")) {
+      const std::string median =
+          summary_.contains("frames_per_s_median")
+              ? "; " + value_text(summary_, "frames_per_s_median", "%.3g") + " by the median interval"
+              : "";
+      fact(value_text(summary_, "frames_per_s", "%.3g"), "frames a second: all frames by all seconds" + median);
+    }
     std::uint64_t lost = 0;
     for (const auto& [process, counts] : summary_["messages"].items()) lost += counts.value("lost", std::uint64_t{0});
     fact(std::to_string(lost), "messages lost");
