@@ -19,6 +19,10 @@ void add_import(CLI::App& app, Command& chosen);
 void add_lamp(CLI::App& app, Command& chosen);
 void add_measure(CLI::App& app, Command& chosen);
 void add_doctor(CLI::App& app, Command& chosen);
+void add_help_data(CLI::App& app, Command& chosen);
+
+/// Version, commit, Vulkan device.
+std::string version_text();
 
 /// Prints one line to stderr and gives exit code 2.
 int bad_input(const Error& error);

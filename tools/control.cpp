@@ -220,14 +220,13 @@ void add_control(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ControlOptions>();
   CLI::App* command = app.add_subcommand(
       "control", "Command a running rig, and hear what it says: dim, swivel, move and aim lamps, swap designs, pause");
-  command->footer("Commands:\n" + all_commands() +
-                  "The answer is what holds now. Exit code 2: the rig refuses, and says why; 1: nobody answers.\n"
-                  "With -, one command a line comes from standard input and one answer a line goes out, \"ok: ...\" or "
-                  "\"refused: ...\";\nwhat is refused does not end the stream, and makes its exit code 2.\n"
-                  "Examples (a rig must run: phare drive):\n  phare control status\n  phare control dim \"headlamp "
-                  "left\" 1 0.5\n  phare "
-                  "control - < " +
-                  example_file("commands.txt"));
+  command->footer(
+      "Commands:\n" + all_commands() +
+      "The answer is what holds now. Exit code 2: the rig refuses, and says why; 1: nobody answers.\n"
+      "With -, one command a line comes from standard input and one answer a line goes out, \"ok: ...\" or "
+      "\"refused: ...\";\nwhat is refused does not end the stream, and makes its exit code 2.\n"
+      "Examples, while phare drive runs:\n  phare control status\n  phare control dim \"headlamp left\" 1 0.5\n"
+      "  phare control - < commands.txt");
   command->add_option("--rig", options->rig_file, "Rig file: address, ports, channels and key")->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 
+#include "config/commit.h"
 #include "config/content_hash.h"
 #include "visual/photometry/read_lamp.h"
 
@@ -81,8 +82,9 @@ nlohmann::json read_stats(const std::filesystem::path& out, const std::string& p
 }
 
 nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::filesystem::path& out) {
-  json report{{"version", PHARE_VERSION},   {"made_at", utc_now()},   {"command", facts.command},
-              {"lockstep", facts.lockstep}, {"wall_s", facts.wall_s}, {"exit_code", facts.exit_code}};
+  json report{{"version", PHARE_VERSION},    {"commit", build_commit()},   {"made_at", utc_now()},
+              {"command", facts.command},    {"lockstep", facts.lockstep}, {"wall_s", facts.wall_s},
+              {"exit_code", facts.exit_code}};
   if (!facts.why.empty()) report["why"] = facts.why;
   report["rig"] = named_by_content(rig.file);
   report["rig"]["name"] = rig.name;

@@ -257,8 +257,8 @@ class Page {
             << "</td><td class=\"text\"><code>" << escaped(report_[what].value("content_hash", ""))
             << "</code></td></tr>";
     }
-    page_ << "<tr><td>Phare</td><td class=\"text\">" << value_text(report_, "version")
-          << "</td><td class=\"text\"><code>";
+    page_ << "<tr><td>Phare</td><td class=\"text\">" << value_text(report_, "version") << ", commit "
+          << value_text(report_, "commit") << "</td><td class=\"text\"><code>";
     for (const json& word : report_["command"]) page_ << escaped(word.get<std::string>()) << ' ';
     page_ << "</code></td></tr></table></div><p>Everything in numbers: <a style=\"color:inherit\" "
              "href=\"report.json\">report.json</a></p>";

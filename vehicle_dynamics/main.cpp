@@ -412,7 +412,7 @@ class Process {
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"The car of a rig: controls in, pose out."};
-  app.footer("Example: phare-dynamics --rig config/rigs/country_road.toml --lockstep --level kinematic");
+  app.footer("Example:\n  phare-dynamics --rig config/rigs/country_road.toml --lockstep --level kinematic");
   app.set_version_flag("--version", PHARE_VERSION);
   app.add_option("--rig", options.rig_file, "Rig file (TOML)");
   app.add_flag("--lockstep", options.lockstep, "Advance frame by frame with the picture, reproducibly");

@@ -16,6 +16,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   CLI::App app{"Draws the night road of one channel from CockpitState and VehicleState.", "phare-visual"};
   app.footer(
       "Example:\n  phare-visual --rig config/rigs/country_road.toml --headless --lockstep --frames 60 --out out");
+  app.set_version_flag("--version", PHARE_VERSION);
   app.add_option("--rig", options.rig_file, "Rig file")->required();
   app.add_option("--drive", options.drive_file, "Drive file being replayed; tells how long the drive is");
   app.add_option("--channel", options.channel, "Which visual channel of the rig")->capture_default_str();
