@@ -116,6 +116,7 @@ void ControlClient::step() {
   const auto oldest = std::ranges::find_if(open_, [](const Open& open) { return !open.answer; });
   for (auto open = oldest; open != open_.end(); ++open) {
     if (open->answer) continue;
+    if (open->control.request_id >= oldest->control.request_id + ControlDesk::kWindow) break;
     if (!open->sent || repeat) {
       open->control.first_open = oldest->control.request_id;
       bus_.send(SimTime{}, open->control);

@@ -123,9 +123,9 @@ TEST(ControlClient, SendsAgainUntilAllIsDoneOnceAndInOrder) {
   const Rig rig = rig_on_free_ports();
   PlayedRig played(rig);
   unsigned count = 0;
-  played.lose = [&] { return ++count % 3 == 0; };
+  played.lose = [&] { return ++count % 20 == 0; };
   ControlClient client(std::move(*Bus::open_to_send(rig, Role::kControl)), rig, 60s);
-  constexpr std::uint32_t kCount = 40;
+  constexpr std::uint32_t kCount = 3 * ControlDesk::kWindow;  // more than may be on their way
   for (std::uint32_t i = 1; i <= kCount; ++i) client.put(dim(i));
   for (std::uint32_t i = 1; i <= kCount; ++i) EXPECT_EQ(answer_of(client, &played).outcome, Outcome::kDone);
   ASSERT_EQ(played.done.size(), kCount);

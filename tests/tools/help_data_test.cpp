@@ -60,7 +60,7 @@ std::set<std::string> long_options_of_help(const std::string& help) {
     for (words >> word; word.starts_with("-"); word.clear(), words >> word) {
       std::istringstream parts(word);
       for (std::string name; std::getline(parts, name, ',');)
-        if (name.starts_with("--")) names.insert(name);
+        if (name.starts_with("--")) names.insert(name.substr(0, name.find('{')));  // a flag that turns off: "{false}"
     }
   }
   return names;
