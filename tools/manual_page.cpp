@@ -6,7 +6,8 @@
 namespace phare {
 namespace {
 
-/// Text as roff shows it: a backslash is one, a dash can be copied, no line is taken for a request.
+/// Text as roff shows it: a backslash is one, a dash can be copied, no line is taken for a request; a long word of an
+/// option may end its line at a comma.
 std::string for_roff(const std::string& text) {
   std::string safe;
   bool line_begins = true;
@@ -19,6 +20,7 @@ std::string for_roff(const std::string& text) {
       safe += "\\-";
     } else {
       safe += c;
+      if (c == ',') safe += "\\:";
     }
   }
   return safe;
@@ -72,7 +74,8 @@ void print_command(std::ostream& out, const CommandHelp& command) {
 std::string manual_page(const std::vector<CommandHelp>& commands, const std::string& version) {
   const CommandHelp& program = commands.front();
   std::ostringstream out;
-  out << ".\\\" Made by: phare manual\n.TH PHARE 1 \"\" " << argument("Phare " + version) << " \"User Commands\"\n"
+  out << ".\\\" Made by: phare manual\n.TH PHARE 1 \"\" " << argument("Phare " + version)
+      << " \"User Commands\"\n.ad l\n.nh\n"
       << ".SH NAME\nphare \\- interactive headlight simulator\n.SH SYNOPSIS\n"
       << synopsis(program) << "\n.SH DESCRIPTION\n"
       << for_roff(program.description) << "\n.SH OPTIONS\n";

@@ -149,7 +149,9 @@ int patience_s(const std::string& line) {
 
 void expect_to_run(const Clone& clone, const std::string& line) {
   const Said said = clone.run(on_our_ports(line), patience_s(line));
-  EXPECT_EQ(said.code, 0) << line << "\n" << said.text;
+  // What a check finds on this machine is no matter of the command line.
+  const bool told = subcommand_of(line) == "doctor" && said.code == 1;
+  EXPECT_TRUE(said.code == 0 || told) << said.code << " of " << line << "\n" << said.text;
   std::printf("%3d  %s\n", said.code, line.c_str());
   std::fflush(stdout);
 }

@@ -104,7 +104,7 @@ void add_convert(CLI::App* lamp, Command& chosen) {
   CLI::App* command =
       lamp->add_subcommand("convert", "Write a lamp as LM-63-2019, EULUMDAT or CSV; several files are summed");
   command->footer(
-      "Example:\n  phare lamp convert low_beam.ldt --out low_beam.ies\n  phare lamp convert low_beam.ies --mirror --out "
+      "Example:\n  phare lamp convert low_beam.ies --out low_beam.ldt\n  phare lamp convert low_beam.ies --mirror --out "
       "low_beam_lht.ies");
   command->add_option("files", options->files, "Photometry files")->required();
   command->add_option("--out", options->out, "File to write: .ies, .ldt or .csv")->required();
