@@ -6,6 +6,7 @@
 #   3. ./phare test --only-configure adds the packages of the tests and configures every preset;
 #   4. the package of 2 is installed by apt on a second bare system and drives from /usr, where nothing is written.
 # run.sh            all of it; the steps with what they took are on standard output
+# run.sh --package FILE   only 4, with that package
 # run.sh --shell    a shell in a bare system with these sources in /root/phare
 # Kept in build/fresh: the bare system (for a week) and the packages apt fetched; and the compiler cache is the host's.
 # Where the kernel lets no file system be mounted: one line and 77 (ctest: skipped), or 1 with PHARE_REQUIRE_BARE=1.
@@ -118,56 +119,72 @@ put_sources() {
 # has_report NAME FOLDER: a drive of three frames came to its end there.
 has_report() {
   local out=$work/$1$2 file
-  for file in report.json index.html drivers_view.png frames/0000.png; do
+  for file in report.json index.html drivers_view.png frames/000002.png; do
     [ -s "$out/$file" ] || { ls -R "$out" >"$work/log" 2>&1 || true; failed "$2/$file is not there"; }
   done
 }
 
 # ---- what is tried
 
+drive=(drive --headless --lockstep --frames 3 --port-base "$port_base")
+
+# The clone drives, makes its Debian package (left in $work) and configures its tests.
+try_clone() {
+  local mark name preset
+  step "./phare ${drive[*]}" first /root/phare ./phare "${drive[@]}"
+  grep '^phare: ' "$work/log" | sed 's/^/        /'
+  has_report first /root/phare/out
+  while read -r name mark _; do
+    [ "$mark" = test ] || continue
+    ! enter first / dpkg-query -W -f '${db:Status-Abbrev}' "$name" 2>/dev/null | grep -q ^ii || failed "the drive installed $name, which packages.txt marks \"test\""
+  done <"$source_dir/packages.txt"
+  step "./phare doctor finds all that driving needs" first /root/phare ./phare doctor
+  grep -q '^This machine can drive\.$' "$work/log" || failed "./phare doctor does not say that this machine can drive"
+  enter first /root/phare build/release/bin/phare-dynamics --batch none.csv --integrator reference >"$work/log" 2>&1 && failed "a reference integrator without SUNDIALS"
+  grep -q "apt-get install libsundials-dev" "$work/log" || failed "no word on where the reference integrator is to be had"
+
+  step "./phare package" first /root/phare ./phare package
+  cp "$work/first/root/phare/build/"phare-*.deb "$work/"
+
+  step "./phare test --only-configure" first /root/phare ./phare test --only-configure
+  for preset in release asan tsan; do
+    grep -q '^PHARE_TESTS:BOOL=ON' "$work/first/root/phare/build/$preset/CMakeCache.txt" || failed "$preset is configured without tests"
+  done
+}
+
+# try_package FILE: apt installs it on a second bare system, and it drives from /usr.
+try_package() {
+  local package=${1##*/}
+  fresh second
+  mkdir "$work/second/root/empty"
+  cp "$1" "$work/second/root/"
+  step "apt-get update" second /root apt-get update
+  step "apt-get install ./$package" second /root apt-get install -y --no-install-recommends "./$package"
+  of_system() { (cd "$work/second" && find usr etc opt -printf '%p %s %T@\n' | sort); }
+  of_system >"$work/before"
+  step "phare ${drive[*]} from /usr" second /root/empty phare "${drive[@]}" --out /tmp/x
+  has_report second /tmp/x
+  of_system >"$work/after"
+  cmp -s "$work/before" "$work/after" || { diff "$work/before" "$work/after" >"$work/log" || true; failed "a drive wrote beside the installed program"; }
+  [ -z "$(ls -A "$work/second/root/empty")" ] || failed "a drive with --out wrote into the folder it was started in"
+  step "phare doctor of an installed phare" second /root phare doctor
+  grep -q '^This machine can drive\.$' "$work/log" || failed "phare doctor does not say that this machine can drive"
+}
+
 begin=$SECONDS
 make_bare
+if [ "${1:-}" = --package ]; then
+  try_package "$2"
+  exit
+fi
+rm -f "$work"/phare-*.deb
 fresh first
 put_sources first
 took "$begin" "a bare Debian 12 ($(grep -c '^Package:' "$work/first/var/lib/dpkg/status") packages)"
-
 if [ "${1:-}" = --shell ]; then
   enter first /root/phare /bin/bash -i
   exit
 fi
-
-drive=(drive --headless --lockstep --frames 3 --port-base "$port_base")
-step "./phare ${drive[*]}" first /root/phare ./phare "${drive[@]}"
-has_report first /root/phare/out
-tr '\r' '\n' <"$work/log" | grep '^phare: ' | sed 's/^/        /'
-while read -r package mark _; do
-  [ "$mark" = test ] || continue
-  ! enter first / dpkg-query -W -f '${db:Status-Abbrev}' "$package" 2>/dev/null | grep -q ^ii || failed "the drive installed $package, which packages.txt marks \"test\""
-done <"$source_dir/packages.txt"
-step "./phare doctor finds all that driving needs" first /root/phare ./phare doctor
-enter first /root/phare build/release/bin/phare-dynamics --batch none.csv --integrator reference >"$work/log" 2>&1 && failed "a reference integrator without SUNDIALS"
-grep -q "apt-get install libsundials-dev" "$work/log" || failed "no word on where the reference integrator is to be had"
-
-step "./phare package" first /root/phare ./phare package
-package=$(cd "$work/first/root/phare/build" && ls phare-*.deb)
-cp "$work/first/root/phare/build/$package" "$work/$package"
-
-step "./phare test --only-configure" first /root/phare ./phare test --only-configure
-for preset in release asan tsan; do
-  grep -q '^PHARE_TESTS:BOOL=ON' "$work/first/root/phare/build/$preset/CMakeCache.txt" || failed "$preset is configured without tests"
-done
-
-fresh second
-mkdir "$work/second/root/empty"
-mv "$work/$package" "$work/second/root/$package"
-step "apt-get update" second /root apt-get update
-step "apt install ./$package" second /root apt-get install -y --no-install-recommends "./$package"
-of_usr() { (cd "$work/second" && find usr etc opt -printf '%p %s %T@\n' | sort); }
-of_usr >"$work/before"
-step "phare ${drive[*]} from /usr" second /root/empty phare "${drive[@]}" --out /tmp/x
-has_report second /tmp/x
-of_usr >"$work/after"
-cmp -s "$work/before" "$work/after" || { diff "$work/before" "$work/after" >"$work/log" || true; failed "a drive wrote beside the installed program"; }
-[ -z "$(ls -A "$work/second/root/empty")" ] || failed "a drive with --out wrote into the folder it was started in"
-step "phare doctor of an installed phare" second /root phare doctor
+try_clone
+try_package "$work"/phare-*.deb
 took "$begin" "in all; processor time of all: $(times | tail -n 1)"
