@@ -324,7 +324,7 @@ class Process {
   std::string time_text() const {
     if (!loop_) return {};
     char text[40];
-    std::snprintf(text, sizeof text, " at %.3f s", loop_->time().seconds());
+    std::snprintf(text, sizeof text, " at %.3f s", requests_.seek_s.value_or(loop_->time().seconds()));
     return text;
   }
 
