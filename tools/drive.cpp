@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "config/picture_options.h"
+#include "config/remedies.h"
 #include "config/vehicle.h"
 #include "net/bus.h"
 #include "net/clock.h"
@@ -205,7 +206,7 @@ void make_video(const fs::path& out, std::int64_t frame_rate_hz) {
   if (count < 2) return;
   const auto ffmpeg = find_in_path("ffmpeg");
   if (!ffmpeg) {
-    spdlog::info("no ffmpeg in PATH, so no drive.mp4 (apt-get install ffmpeg)");
+    spdlog::info("no ffmpeg in PATH, so no drive.mp4 ({})", kVideoRemedy);
     return;
   }
   // Every frame kept: at the frame rate. One kept a second: eight a second, a time lapse.
