@@ -1,5 +1,5 @@
 // How long a frame takes, and how many bare two-lamp quads that is: the ratio stays when the machine is slower or busy.
-//   phare_frame_bench SCENE.glb LAMP.ies [WIDTHxHEIGHT] [ROUNDS]
+//   phare_frame_bench SCENE.glb LAMP [WIDTHxHEIGHT] [ROUNDS]
 // The quad: one full-screen surface, the same two lamps, the same shader. Rounds alternate, so both see the same
 // machine.
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "visual/photometry/beam_image.h"
+#include "visual/photometry/read_lamp.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 
@@ -45,14 +46,14 @@ double median(std::vector<double> values) {
 
 int run(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: phare_frame_bench SCENE.glb LAMP.ies [WIDTHxHEIGHT] [ROUNDS]\n");
+    std::fprintf(stderr, "usage: phare_frame_bench SCENE.glb LAMP [WIDTHxHEIGHT] [ROUNDS]\n");
     return kExitBadInput;
   }
   int width = 1280, height = 720;
   if (argc > 3 && std::sscanf(argv[3], "%dx%d", &width, &height) != 2) return kExitBadInput;
   const int rounds = argc > 4 ? std::max(1, std::atoi(argv[4])) : 40;
   const Result<Scene> scene = read_scene(argv[1]);
-  const Result<IntensityTable> table = read_lm63(argv[2]);
+  const Result<IntensityTable> table = read_lamp(argv[2]);
   if (!scene || !table) {
     std::fprintf(stderr, "%s\n", (scene ? table.error() : scene.error()).text().c_str());
     return kExitBadInput;
