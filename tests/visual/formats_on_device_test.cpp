@@ -144,27 +144,29 @@ struct WorstOfFormat {
   glm::dvec3 at{};
 };
 
-/// Relative where more than 0.01 lx is expected. The limit of a table belongs to it, and a direction that lies on the
-/// limit to within float32 may count as beyond: points so close are left out (`margin` of a degree).
+/// Is a direction (of a lamp) on a limit of the table, to within float32? The limit belongs to the table, and the
+/// device counts as within what misses it by up to a thousandth of a node (beam.glsl), here below 1e-3 of a degree.
+bool on_limit(const IntensityTable& table, const glm::dvec3& direction, double margin_deg = 1e-3) {
+  const TableAngles at = table.angles_of(direction);
+  for (const auto& [nodes, deg] : {std::pair{&table.first_deg, at.first_deg}, {&table.second_deg, at.second_deg}}) {
+    if (std::abs(deg - nodes->front()) < margin_deg || std::abs(deg - nodes->back()) < margin_deg) return true;
+  }
+  return false;
+}
+
+/// Relative where more than 0.01 lx is expected; points on a table's limit are left out.
 WorstOfFormat compare_lx(const std::vector<AimedSource>& sources, const std::vector<MeasurePoint>& points,
                          const std::vector<float>& measured) {
-  constexpr double kMargin_deg = 1e-4;
   WorstOfFormat worst;
   for (std::size_t k = 0; k < points.size(); ++k) {
     double expected = 0.0;
-    bool on_limit = false;
+    bool limit = false;
     for (const AimedSource& source : sources) {
       expected += illuminance_lx(mounted().position_m, source.car_from_lamp, *source.table, source.scale,
                                  points[k].position_m, points[k].normal);
-      const TableAngles at =
-          source.table->angles_of((points[k].position_m - mounted().position_m) * source.car_from_lamp);
-      for (const auto& [nodes, deg] :
-           {std::pair{&source.table->first_deg, at.first_deg}, {&source.table->second_deg, at.second_deg}}) {
-        on_limit =
-            on_limit || std::abs(deg - nodes->front()) < kMargin_deg || std::abs(deg - nodes->back()) < kMargin_deg;
-      }
+      limit = limit || on_limit(*source.table, (points[k].position_m - mounted().position_m) * source.car_from_lamp);
     }
-    if (on_limit || !(expected > 0.01)) continue;
+    if (limit || !(expected > 0.01)) continue;
     ++worst.judged;
     const double relative = std::abs(static_cast<double>(measured[k]) - expected) / expected;
     if (relative <= worst.relative) continue;
@@ -266,12 +268,9 @@ TEST(FormatsOnDevice, ScreensAddUpOnTheirOwnNodes) {
   std::vector<MeasurePoint> apart;
   for (const MeasurePoint& point : points) {
     bool beside = false;
-    for (const AimedSource& source : sources) {
-      const TableAngles at = source.table->angles_of((point.position_m - mounted().position_m) * source.car_from_lamp);
-      for (const auto& [nodes, deg] :
-           {std::pair{&source.table->first_deg, at.first_deg}, {&source.table->second_deg, at.second_deg}})
-        beside = beside || std::abs(deg - nodes->front()) < 0.011 || std::abs(deg - nodes->back()) < 0.011;
-    }
+    for (const AimedSource& source : sources)
+      beside =
+          beside || on_limit(*source.table, (point.position_m - mounted().position_m) * source.car_from_lamp, 0.011);
     if (!beside) apart.push_back(point);
   }
   auto lx = renderer->measure(std::span(&lamp, 1), apart);
@@ -298,11 +297,12 @@ TEST(FormatsOnDevice, LevelsOfAScreenAreAsGoodAsTheirTwins) {
   for (double h = -60.0; h <= 60.0; h += 1.37) {
     for (double v = -20.0; v <= 15.0; v += 0.31) {
       const glm::dvec3 d = direction_hv(h, v);
+      if (on_limit(*table, d)) continue;
       points.push_back({10.0 * d, -d});
       expected.push_back(table->intensity_cd(d));
     }
   }
-  double finer = 1e9;
+  std::vector<double> worst_of_level;
   for (const ImageLevel level : kImageLevels) {
     Result<Renderer> renderer =
         Renderer::create({.width_px = 64, .height_px = 64, .validation = true, .beam_level = level});
@@ -316,12 +316,14 @@ TEST(FormatsOnDevice, LevelsOfAScreenAreAsGoodAsTheirTwins) {
     const LevelError twin = level_error(*table, LevelImage(*table, level));
     // float32 directions, as in beam_on_device_test.cpp.
     EXPECT_LT(worst, twin.worst_cd + 1e-5 * table->peak_cd()) << level_name(level);
-    EXPECT_LE(worst, finer) << level_name(level);
-    finer = worst;
+    worst_of_level.push_back(worst);
     std::printf("%s of a screen: worst %.3g cd on the device, %.3g cd by its twin\n", level_name(level).c_str(), worst,
                 twin.worst_cd);
     EXPECT_EQ(renderer->validation_messages(), 0u);
   }
+  // Native nodes are another class than what a texture filter weighs, float32 another than half floats (2^-11).
+  EXPECT_LT(worst_of_level[2], 0.1 * worst_of_level[1]);
+  EXPECT_LT(worst_of_level[3], 0.1 * worst_of_level[2]);
 }
 
 }  // namespace

@@ -140,10 +140,14 @@ float LevelImage::own_weights(float first_deg, float second_deg) const {
 }
 
 float LevelImage::intensity_cd(float first_deg, float second_deg) const {
-  const auto coordinate = [&](float deg) {
-    return screen_ ? static_cast<float>(std::tan(static_cast<double>(deg) * kRadians)) : deg;
+  const auto coordinate = [&](float deg, const std::vector<float>& nodes) {
+    if (!screen_) return deg;
+    // A screen's rim is no round angle: what misses it by a rounding is on it, as on the device.
+    const auto tangent = static_cast<float>(std::tan(static_cast<double>(deg) * kRadians));
+    const float within = std::clamp(tangent, nodes.front(), nodes.back());
+    return std::abs(tangent - within) < 1e-6f ? within : tangent;
   };
-  const float first = coordinate(first_deg), second = coordinate(second_deg);
+  const float first = coordinate(first_deg, first_), second = coordinate(second_deg, second_);
   if (!(first >= first_.front() && first <= first_.back() && second >= second_.front() && second <= second_.back()))
     return 0.0f;
   const float value = level_ == ImageLevel::kNormalised8 || level_ == ImageLevel::kHalfEven
@@ -169,7 +173,9 @@ LevelError level_error(const IntensityTable& table, const LevelImage& image, dou
       // The angles a float32 renderer has; the truth at these very angles.
       const float first = static_cast<float>(at(table.first_deg, i)),
                   second = static_cast<float>(at(table.second_deg, j));
-      const double truth = table.intensity_at_cd({first, second});
+      const double truth =
+          table.intensity_at_cd({std::clamp<double>(first, table.first_deg.front(), table.first_deg.back()),
+                                 std::clamp<double>(second, table.second_deg.front(), table.second_deg.back())});
       const double off = std::abs(static_cast<double>(image.intensity_cd(first, second)) - truth);
       ++error.looked_at;
       if (off > error.worst_cd) {
