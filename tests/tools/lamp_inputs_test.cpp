@@ -2,12 +2,12 @@
 // and never a result over an input, under whatever name.
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "lamp_program.h"
 #include "visual/photometry/combine.h"
 #include "visual/photometry/grid_build.h"
+#include "visual/photometry/lint.h"
 #include "visual/photometry/read_lamp.h"
 #include "visual/photometry/write_lamp.h"
 
@@ -32,10 +32,10 @@ struct Advice {
   std::vector<std::string> flags;
   bool without_mirror = false;
 };
-std::vector<Advice> advice_of(const nlohmann::json& info) {
+std::vector<Advice> advice_of(const LampReport& report) {
   std::vector<Advice> all;
-  for (const auto& finding : info["findings"]) {
-    Advice advice{finding["id"], finding["text"], {}, false};
+  for (const Finding& finding : report.findings) {
+    Advice advice{finding.id, finding.text, {}, false};
     const std::string text = advice.text;
     for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at + 2)) {
       std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-", at);
@@ -58,19 +58,27 @@ std::vector<Advice> advice_of(const nlohmann::json& info) {
   return all;
 }
 
-/// Flags as a user would set them anew: one that is there already gets its new value.
-std::string followed(std::map<std::string, std::string>& flags, const Advice& advice) {
+/// The settings of a user who does what a hint says: what it names is set anew, the rest stays.
+LampReadSettings followed(LampReadSettings settings, const Advice& advice) {
   for (const std::string& flag : advice.flags) {
-    const std::size_t blank = flag.find(' ');
-    flags[flag.substr(0, blank)] = blank == std::string::npos ? "" : flag.substr(blank + 1);
+    const std::size_t blank = std::min(flag.find(' '), flag.size() - 1);
+    const std::string name = flag.substr(0, flag.find(' ')), value = flag.substr(blank + 1);
+    if (name == "--axis") {
+      EXPECT_TRUE(value == "gamma0" || value == "gamma90") << advice.text;
+      settings.axis = value == "gamma90" ? GammaAxis::kGamma90 : GammaAxis::kGamma0;
+    } else if (name == "--c0") {
+      settings.c0_turn_deg = std::stod(value);
+    } else if (name == "--mirror") {
+      settings.mirror_h = true;
+    } else {
+      ADD_FAILURE() << name << " is unknown to this test: " << advice.text;
+    }
   }
-  if (advice.without_mirror) flags.erase("--mirror");
-  std::string line;
-  for (const auto& [name, value] : flags) line += " " + name + (value.empty() ? "" : " " + value);
-  return line;
+  if (advice.without_mirror) settings.mirror_h = false;
+  return settings;
 }
 
-// Every lamp read wrongly in every way that a setting can mend: each hint names a flag that `info` takes, following it
+// A lamp read wrongly in the ways that a setting can mend: each hint names a flag that `info` takes, following it
 // makes that hint go away, and following all of them ends, with the lamp as it is.
 TEST_F(LampInputs, EveryHintOfTheLinterHelpsWhenFollowed) {
   const auto low = read_lamp(ours("low_rht.ies"));
@@ -81,73 +89,66 @@ TEST_F(LampInputs, EveryHintOfTheLinterHelpsWhenFollowed) {
     return all;
   };
   struct Case {
-    std::string file, flags;
+    std::string name, text;
+    LampReadSettings settings;
   };
   std::vector<Case> cases;
   // Type C about the beam (gamma 0) and about the upright (gamma 90), plane C 0 in each of four places, read as either.
   for (const GammaAxis axis : {GammaAxis::kGamma0, GammaAxis::kGamma90}) {
     const bool upright = axis == GammaAxis::kGamma90;
-    IntensityTable whole = resample(*low, PhotometricType::kC, axis, nodes(0, 360, upright ? 0.5 : 2.5),
-                                    upright ? nodes(70, 110, 0.1) : nodes(0, 40, 0.1));
+    const IntensityTable whole = resample(*low, PhotometricType::kC, axis, nodes(0, 360, upright ? 1.0 : 5.0),
+                                          upright ? nodes(80, 100, 0.1) : nodes(0, 20, 0.1));
     for (const double c0 : {0.0, 90.0, 180.0, 270.0}) {
       IntensityTable turned = whole;
-      turned.header.keywords = {{"OTHER", "passing beam"}};
       turn_about_axis(turned, -c0);
-      const std::string name =
-          file("c" + std::to_string(upright) + "_" + std::to_string(static_cast<int>(c0)) + ".ies", lm63_text(turned));
-      for (const char* flags : {"", "--axis gamma90", "--axis gamma0 --c0 90", "--axis gamma90 --c0 180",
-                                "--axis gamma90 --c0 -90 --mirror"})
-        cases.push_back({name, flags});
+      const std::string name = std::string(upright ? "gamma90" : "gamma0") + ", C 0 at " + std::to_string(c0);
+      LampReadSettings other, mirrored;
+      other.axis = GammaAxis::kGamma90;
+      other.c0_turn_deg = 180.0;
+      mirrored.axis = GammaAxis::kGamma90;
+      mirrored.c0_turn_deg = -90.0;
+      mirrored.mirror_h = true;
+      for (const LampReadSettings& settings : {LampReadSettings{}, other, mirrored})
+        cases.push_back({name, lm63_text(turned), settings});
     }
   }
   // Stored clockwise, with words and without; read with --mirror where nothing is mirrored.
-  IntensityTable b = resample(*low, PhotometricType::kB, GammaAxis::kGamma0, nodes(-40, 40, 0.5), nodes(-10, 5, 0.1));
+  IntensityTable b = resample(*low, PhotometricType::kB, GammaAxis::kGamma0, nodes(-20, 20, 0.5), nodes(-5, 3, 0.1));
   for (const char* words : {"for right-hand traffic", "a lamp"}) {
     b.header.keywords = {{"OTHER", words}};
     IntensityTable clockwise = b;
     mirror_left_right(clockwise);
-    const std::string stem = words[0] == 'f' ? "says" : "silent";
-    cases.push_back({file(stem + "_clockwise.ies", lm63_text(clockwise)), ""});
-    cases.push_back({file(stem + "_right.ies", lm63_text(b)), ""});
-    cases.push_back({in(stem + "_right.ies"), "--mirror"});
+    LampReadSettings mirror;
+    mirror.mirror_h = true;
+    cases.push_back({std::string("clockwise, ") + words, lm63_text(clockwise), {}});
+    cases.push_back({std::string("right, mirrored, ") + words, lm63_text(b), mirror});
   }
   const std::string help = lamp("info --help").out;
   std::set<std::string> ids;
   for (const Case& one : cases) {
-    std::map<std::string, std::string> flags;
-    {
-      std::istringstream words(one.flags);
-      std::string last;
-      for (std::string word; words >> word;) {
-        if (word.starts_with("--"))
-          flags[last = word];
-        else
-          flags[last] = word;
-      }
-    }
-    std::string line = " " + one.flags;
+    const auto advices_of = [&](const LampReadSettings& settings) {
+      const auto table = parse_lamp(one.text, "lamp.ies", settings);
+      EXPECT_TRUE(table.ok());
+      return table.ok() ? advice_of(lint_lamp(*table)) : std::vector<Advice>{};
+    };
+    LampReadSettings settings = one.settings;
+    std::vector<Advice> advices = advices_of(settings);
     int steps = 0;
-    for (; steps < 6; ++steps) {
-      const Said said = lamp("info " + one.file + line + " --json");
-      ASSERT_EQ(said.code, 0) << one.file << line << said.err;
-      const std::vector<Advice> advices = advice_of(nlohmann::json::parse(said.out));
-      if (advices.empty()) break;
-      const Advice& advice = advices.front();
+    for (; steps < 6 && !advices.empty(); ++steps) {
+      const Advice advice = advices.front();
       ids.insert(advice.id);
       for (const std::string& flag : advice.flags)
-        EXPECT_NE(help.find(flag.substr(0, flag.find(' '))), std::string::npos) << "no such flag: " << advice.text;
-      const std::string before = line;
-      line = followed(flags, advice);
-      const Said after = lamp("info " + one.file + line + " --json");
-      ASSERT_EQ(after.code, 0) << one.file << line << after.err;
-      for (const Advice& next : advice_of(nlohmann::json::parse(after.out)))
+        EXPECT_NE(help.find(flag.substr(0, flag.find(' ')) + " "), std::string::npos) << "no flag: " << advice.text;
+      settings = followed(settings, advice);
+      advices = advices_of(settings);
+      for (const Advice& next : advices)
         EXPECT_FALSE(next.id == advice.id && next.text == advice.text)
-            << one.file << before << ": " << advice.text << "\n followed by" << line << ": still there";
+            << one.name << ": followed, and still there: " << advice.text;
     }
-    EXPECT_LT(steps, 5) << one.file << " " << one.flags << ": hints send in a circle, at last to" << line;
+    EXPECT_LT(steps, 5) << one.name << ": hints send in a circle";
     // Where the hints end the beam lies ahead.
-    const auto info = nlohmann::json::parse(lamp("info " + one.file + line + " --json").out);
-    for (const auto& finding : info["findings"]) EXPECT_NE(finding["id"], "axis") << one.file << line;
+    const auto table = parse_lamp(one.text, "lamp.ies", settings);
+    for (const Finding& finding : lint_lamp(*table).findings) EXPECT_NE(finding.id, "axis") << one.name;
   }
   EXPECT_TRUE(ids.contains("axis"));
   EXPECT_TRUE(ids.contains("turned"));

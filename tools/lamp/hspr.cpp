@@ -137,6 +137,7 @@ void print(const HsprRating& rating, const LampHsprOptions& options) {
 /// The six pairs of an ADB, in the order of kAdbSituations.
 Result<std::optional<HsprAdb>> rate_adb(HsprPairs& pairs, const LampHsprOptions& options) {
   if (options.adb.empty()) return std::optional<HsprAdb>{};
+  if (options.adb.size() % 3 != 0) return Error{"--adb", "takes SITUATION LEFT RIGHT each time"};
   std::array<std::vector<HsprLamp>, 6> situations;
   for (std::size_t i = 0; i + 2 < options.adb.size(); i += 3) {
     const std::string& name = options.adb[i];

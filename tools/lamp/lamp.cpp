@@ -133,8 +133,9 @@ void add_convert(CLI::App* lamp, Command& chosen) {
   CLI::App* command =
       lamp->add_subcommand("convert", "Write a lamp as LM-63-2019, EULUMDAT or CSV; several files are summed");
   command->footer(
-      "Example:\n  phare lamp convert low_beam.ldt --out low_beam.ies\n  phare lamp convert rht.ies --mirror --out "
-      "lht.ies");
+      "Example:\n  phare lamp convert low_beam.ies --out low_beam.ldt\n  phare lamp convert low_beam.ies --mirror "
+      "--out "
+      "low_beam_lht.ies");
   command->add_option("files", options->files, "Photometry files")->required();
   command->add_option("--out", options->out, "File to write: .ies, .ldt or .csv")->required();
   command->add_option("--to", options->format, "Format to write [by the ending]")
@@ -181,7 +182,7 @@ void add_compare(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampCompareOptions>();
   CLI::App* command = lamp->add_subcommand(
       "compare", "Two beams, aligned by cut-off: difference and ratio in angle space and on the road");
-  command->footer("Example:\n  phare lamp compare old.ies new.ies --out out/compare");
+  command->footer("Example:\n  phare lamp compare low_beam.ies led_low_beam.ies --out out/compare");
   command->add_option("a", options->a, "Photometry file A")->required();
   command->add_option("b", options->b, "Photometry file B")->required();
   command->add_option("--out", options->out, "Folder for ratio and difference as .svg and .png");
@@ -229,8 +230,8 @@ void add_hspr(CLI::App* lamp, Command& chosen) {
       "hspr", "HSPR of a pair (GTB CE-5815): ranges, widths, flux, glare, points, score and class");
   command->footer(
       "Each row has the method's figure and the physical one; points, score and class are the method's.\n"
-      "Example:\n  phare lamp hspr left.ies right.ies\n  phare lamp hspr left.ies right.ies --high left_high.ies "
-      "right_high.ies");
+      "Example:\n  phare lamp hspr low_beam.ies low_beam.ies\n  phare lamp hspr low_beam.ies low_beam.ies --high "
+      "high_beam.ies high_beam.ies");
   command->add_option("left", options->left, "Photometry file of the left lamp")->required();
   command->add_option("right", options->right, "Photometry file of the right lamp")->required();
   command->add_option("--beam", options->beam, "Which method [low where there is a kinked cut-off]")
@@ -243,9 +244,9 @@ void add_hspr(CLI::App* lamp, Command& chosen) {
           "--adb", options->adb,
           "With --high: SITUATION LEFT RIGHT of an adaptive driving beam, as filed; six times, for oncoming-50, "
           "-100, -200 and preceding-50, -100, -200")
-      ->expected(3)
-      ->allow_extra_args(false)
-      ->type_size(3);
+      ->type_size(3)
+      ->expected(1, 6)
+      ->allow_extra_args(false);
   add_mounting(command, options->height_m, options->spacing_m, options->pitch_deg, options->pitch_given);
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
