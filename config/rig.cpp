@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <string_view>
 
+#include "config/input_files.h"
 #include "config/paths.h"
 #include "config/toml_table.h"
 
@@ -53,6 +57,7 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
   source.mirror = table.flag_or("mirror", false);
   source.lamp_set = static_cast<std::size_t>(table.integer_or("lamp_set", 1, 1, 1000));
   source.emitter = static_cast<std::size_t>(table.integer_or("emitter", 1, 1, 1000));
+  source.distance_m = table.number_or("distance_m", 0.0, 0.0, 1e6);
   source.scale = table.number_or("scale", 1.0, 0.0, 1e6);
   source.yaw_rad = degrees(table, "yaw_deg", -180.0, 180.0);
   source.pitch_rad = degrees(table, "pitch_deg", -90.0, 90.0);
@@ -213,18 +218,74 @@ Status check_rig_files(const Rig& rig) {
   return Done{};
 }
 
+namespace {
+
+// The first key of a lamp argument: a comma, a word of letters, digits and '_', and '='. The comma, or npos.
+std::size_t first_key(const std::string& text) {
+  for (std::size_t comma = text.find(','); comma != std::string::npos; comma = text.find(',', comma + 1)) {
+    std::size_t end = comma + 1;
+    while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) != 0 || text[end] == '_')) ++end;
+    if (end > comma + 1 && end < text.size() && text[end] == '=') return comma;
+  }
+  return std::string::npos;
+}
+
+std::string short_text(double number) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%g", number);
+  return digits;
+}
+
+struct LampArgumentFile {
+  std::string name;
+  std::size_t end = std::string::npos;  ///< where the keys begin: a comma, or npos
+};
+
+// The file at the head of a lamp argument. A name may hold commas; one that holds ",word=" stands in double quotes, a
+// quote in it doubled.
+Result<LampArgumentFile> lamp_argument_file(const std::string& text, const Error& unfinished) {
+  LampArgumentFile file;
+  if (!text.starts_with('"')) {
+    file.end = first_key(text);
+    file.name = text.substr(0, file.end);
+    return file;
+  }
+  for (std::size_t at = 1; at < text.size(); ++at) {
+    if (text[at] != '"') {
+      file.name += text[at];
+    } else if (at + 1 < text.size() && text[at + 1] == '"') {
+      file.name += text[at++];
+    } else if (at + 1 < text.size() && text[at + 1] != ',') {
+      return unfinished;
+    } else {
+      file.end = at + 1 < text.size() ? at + 1 : std::string::npos;
+      return file;
+    }
+  }
+  return unfinished;
+}
+
+}  // namespace
+
 Result<LampConfig> parse_lamp_argument(const std::string& text) {
-  static const std::vector<std::string> known{"x",    "y",      "z",      "yaw_deg",  "pitch_deg", "roll_deg",
-                                              "axis", "c0_deg", "mirror", "lamp_set", "emitter",   "scale"};
+  static const std::vector<std::string> known{"x",        "y",          "z",      "yaw_deg", "pitch_deg",
+                                              "roll_deg", "axis",       "c0_deg", "mirror",  "lamp_set",
+                                              "emitter",  "distance_m", "scale"};
   const auto wrong = [&](const std::string& reason) { return Error{"--lamp " + text, reason}; };
   LampConfig lamp;
   SourceConfig source;
 
-  std::size_t start = text.find(',');
-  const std::string file = text.substr(0, start);
+  const auto named =
+      lamp_argument_file(text, wrong("a file name in double quotes ends with a quote, and a comma or nothing follows"));
+  if (!named) return named.error();
+  const std::string& file = named->name;
+  std::size_t start = named->end;
   if (file.empty()) return wrong("expected FILE,x=…,y=…,z=…");
-  if (file.find('=') != std::string::npos) return wrong("the photometry file comes first: FILE,x=…,y=…,z=…");
-  source.file = std::filesystem::absolute(file).lexically_normal();
+  if (!text.starts_with('"') && known.end() != std::find(known.begin(), known.end(), file.substr(0, file.find('='))) &&
+      file.find('=') != std::string::npos)
+    return wrong("the photometry file comes first: FILE,x=…,y=…,z=…");
+  source.file =
+      is_standard_input(file) ? std::filesystem::path(file) : std::filesystem::absolute(file).lexically_normal();
   std::set<std::string> given;
   while (start != std::string::npos) {
     const std::size_t end = text.find(',', start + 1);
@@ -246,6 +307,13 @@ Result<LampConfig> parse_lamp_argument(const std::string& text) {
     if (failed != std::errc() || stop != value.data() + value.size() || !std::isfinite(number)) {
       return wrong("\"" + key + "\": expected a finite number, got \"" + value + "\"");
     }
+    static const std::map<std::string, std::pair<double, double>> limits{
+        {"yaw_deg", {-180.0, 180.0}}, {"pitch_deg", {-90.0, 90.0}}, {"roll_deg", {-180.0, 180.0}},
+        {"c0_deg", {-360.0, 360.0}},  {"distance_m", {0.01, 1e6}},  {"scale", {0.0, 1e6}}};
+    if (const auto limit = limits.find(key);
+        limit != limits.end() && !(number >= limit->second.first && number <= limit->second.second))
+      return wrong("\"" + key + "\": " + value + " is outside " + short_text(limit->second.first) + " to " +
+                   short_text(limit->second.second));
     if (key == "x") lamp.position_m.x = number;
     if (key == "y") lamp.position_m.y = number;
     if (key == "z") lamp.position_m.z = number;
@@ -254,6 +322,7 @@ Result<LampConfig> parse_lamp_argument(const std::string& text) {
     if (key == "roll_deg") source.roll_rad = number * kRadPerDeg;
     if (key == "scale") source.scale = number;
     if (key == "c0_deg") source.c0_turn_deg = number;
+    if (key == "distance_m") source.distance_m = number;
     if (key == "mirror") {
       if (number != 0.0 && number != 1.0) return wrong("\"mirror\" is 0 or 1");
       source.mirror = number == 1.0;
@@ -267,8 +336,7 @@ Result<LampConfig> parse_lamp_argument(const std::string& text) {
   for (const char* key : {"x", "y", "z"}) {
     if (!given.contains(key)) return wrong(std::string("\"") + key + "\" is missing (position in m)");
   }
-  if (source.scale < 0.0) return wrong("\"scale\" is negative");
-  lamp.name = source.file.stem().string();
+  lamp.name = is_standard_input(source.file) ? input_name(source.file) : source.file.stem().string();
   lamp.sources.push_back(std::move(source));
   return lamp;
 }

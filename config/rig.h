@@ -36,6 +36,7 @@ struct SourceConfig {
   bool mirror = false;       ///< left and right turned round: for the other side of the road, or a clockwise file
   std::size_t lamp_set = 1;  ///< EULUMDAT: which of the file's lamp sets, from 1
   std::size_t emitter = 1;   ///< TM-33: which of the file's emitters, from 1
+  double distance_m = 0.0;   ///< CSV in lux that states no distance of its own; 0: none given
   double scale = 1.0;        ///< multiplies candela
   double yaw_rad = 0.0;      ///< > 0 left
   double pitch_rad = 0.0;    ///< > 0 up, as lighting engineers aim
@@ -104,7 +105,8 @@ std::filesystem::path resolve_path(const std::filesystem::path& named, const std
 
 /// A lamp given on the command line:
 /// FILE,x=1.5,y=0.6,z=0.65,yaw_deg=0,pitch_deg=-0.5729,roll_deg=0[,axis=gamma0|gamma90][,c0_deg=0][,mirror=0|1]
-/// [,lamp_set=1][,emitter=1][,scale=1]
+/// [,lamp_set=1][,emitter=1][,distance_m=25][,scale=1]
+/// FILE may be "-", standard input. It ends at the first ",word="; a name that holds such a thing stands in double quotes, a quote in it doubled.
 Result<LampConfig> parse_lamp_argument(const std::string& text);
 
 }  // namespace phare

@@ -1,7 +1,8 @@
 // A beam image as the shaders read it. Where the nodes of both axes are multiples of a fine step near 0° and of a
 // coarse one beyond, on that even grid: every node of the table is one of it, so bilinear interpolation on it is that
-// of the table. Else on the native nodes, with a guide that finds the node of an angle in one fetch. Cheaper levels lie
-// on a fixed even grid and leave the weights to the texture filter.
+// of the table. Else on the native nodes, with a guide that finds the node of an angle in one fetch. A flat screen
+// keeps its nodes too, by their tangents: evenly in metres, or through a guide. Cheaper levels lie on a fixed even grid
+// and leave the weights to the texture filter.
 #pragma once
 
 #include <cstdint>
@@ -41,10 +42,12 @@ struct PackedBeam {
   // Where the texels come from, to pack a part again.
   bool transposed = false;
   std::vector<NodePlace> column_places, row_places;
+  std::vector<double> column_tangents, row_tangents;  ///< of a flat screen's nodes; else empty
 
   bool filtered() const { return lookup >= shader::kLookupFilter; }
   /// The four bits of this lamp in the shader's `lookups`: kind, and whether candela have to be scaled.
-  std::uint32_t lookup_bits() const { return lookup | (scale_cd != 1.0f ? shader::kLookupScaled : 0u); }
+  std::uint32_t lookup_bits() const { return lookup | (scale_cd != 1.0f && !filtered() ? shader::kLookupScaled : 0u); }
+  bool guided() const { return lookup == shader::kLookupGuide || lookup == shader::kLookupScreenGuide; }
   /// What the texture takes.
   std::size_t bytes_per_texel() const {
     return level == ImageLevel::kFloatNodes ? 4 : level == ImageLevel::kNormalised8 ? 1 : 2;

@@ -79,7 +79,7 @@ bool BeamStore::upload() {
     new_images |= fit(beam.candela, format_of(beam.packed.level), beam.packed.columns, beam.packed.rows_of_candela,
                       "beam candela");
     upload_parts(beam);
-    if (!all || beam.packed.lookup != shader::kLookupGuide) continue;
+    if (!all || !beam.packed.guided()) continue;
     const auto guide_rows = static_cast<std::uint32_t>(beam.packed.guide.size() / shader::kGuideRow);
     new_images |= fit(beam.guide, vk::Format::eR32G32B32A32Sfloat, shader::kGuideRow, guide_rows, "beam guide");
     gpu::fill_image(device_, beam.guide, std::as_bytes(std::span(beam.packed.guide)));

@@ -27,8 +27,37 @@ float between(sampler2D table, vec2 coordinate, vec2 part) {
   return mix(mix(cd.w, cd.z, part.x), mix(cd.x, cd.y, part.x), part.y);
 }
 
+// The same for a flat screen: a projection in place of angles. E on the screen is bilinear there, and I = E·D²·(1 + t²)^1.5.
+float screen_intensity(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, vec4 nodes, vec4 coordinates) {
+  vec2 at = p.yz * (1.0 / p.x);
+  float s = 1.0 + dot(at, at);
+  float value;
+  bool lit = p.x > 0.0;
+  // The screen's rim belongs to it, and float32 misses it by a little: what is nearer than that counts as within.
+  if (lookup == kLookupFilterScreen) {
+    lit = lit && all(lessThan(abs(at - clamp(at, nodes.xz, nodes.yw)), vec2(1e-6)));
+    value = textureLod(table, at * coordinates.xy + coordinates.zw, 0.0).r;
+  } else if (lookup == kLookupScreenGuide) {
+    at *= nodes.xy;
+    vec2 within = clamp(at, lamp.range.xz, lamp.range.yw);
+    lit = lit && all(lessThan(abs(at - within), vec2(2e-5)));
+    vec2 u = node_before(guide, 0, lamp.guide.y, vec2(0.0, within.x), 0.0, lamp.bins.x);
+    vec2 v = node_before(guide, lamp.guide.x, lamp.guide.z, vec2(0.0, within.y), 0.0, lamp.bins.y);
+    value = between(table, (vec2(u.x, v.x) + 1.0) / vec2(textureSize(table, 0)), vec2(u.y, v.y));
+  } else {
+    at *= nodes.xy;
+    vec2 within = clamp(at, lamp.within.xz, lamp.within.yw);
+    lit = lit && all(lessThan(abs(at - within), vec2(1e-3)));
+    vec2 node = floor(within);
+    value = between(table, node * coordinates.xy + coordinates.zw, within - node);
+  }
+  return lit ? value * (s * sqrt(s)) : 0.0;
+}
+
 // In what the texture holds (candela, unless scaled) toward p, given in the lamp's frame; bilinear on the table's nodes, dark outside. `h`: length of p without its third component.
 float intensity(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, float h, float inverse_coarse, vec4 nodes, vec4 coordinates) {
+  if (lookup == kLookupScreen || lookup == kLookupScreenGuide || lookup == kLookupFilterScreen)
+    return screen_intensity(table, guide, lamp, lookup, p, nodes, coordinates);
   if (lookup == kLookupGuide) {
     vec2 first = table_angle(p.y, p.x, lamp.range.y), second = table_angle(p.z, h, lamp.range.w);
     vec2 angles = vec2(first.x, second.x) * 45.0 + vec2(first.y, second.y);
@@ -88,8 +117,9 @@ layout(constant_id = 5) const uint lookups = 0;
 LampLight lamp_light(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, vec4 place, vec4 nodes, vec4 coordinates, vec3 n, float level) {
   float h2 = p.x * p.x + p.y * p.y;
   float r2 = h2 + p.z * p.z;
-  float cd = intensity(table, guide, lamp, lookup & kLookupKind, p, sqrt(h2), place.w, nodes, coordinates);
-  if ((lookup & kLookupKind) >= kLookupFilter) cd *= place.w;
+  bool filtered = (lookup & kLookupKind) >= kLookupFilter;
+  float cd = intensity(table, guide, lamp, filtered ? lookup : lookup & kLookupKind, p, sqrt(h2), place.w, nodes, coordinates);
+  if (filtered) cd *= place.w;
   else if ((lookup & kLookupScaled) != 0) cd *= lamp.colour.w;
   float inverse_r = r2 > 0.0 ? inversesqrt(r2) : 0.0;
   LampLight light;

@@ -1,8 +1,10 @@
 // phare lamp info, phare lamp table: what a photometry file is, and what it says in a direction.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "config/input_files.h"
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 #include "tools/lamp/print_json.h"
@@ -99,12 +101,12 @@ void print(const std::string& file, const IntensityTable& table, const LampRepor
 }  // namespace
 
 std::string base_name(const std::string& file) {
-  return std::filesystem::path(file).filename().string();
+  return is_standard_input(file) ? input_name(file) : std::filesystem::path(file).filename().string();
 }
 
 int lamp_info(const LampInfoOptions& options) {
   nlohmann::json all = nlohmann::json::array();
-  bool bad = false;
+  bool bad = false, wrong = false;
   for (const std::string& file : options.files) {
     const auto table = read_lamp(file, options.settings);
     if (!table) {  // the others are still worth knowing
@@ -115,6 +117,8 @@ int lamp_info(const LampInfoOptions& options) {
       continue;
     }
     const LampReport report = lint_lamp(*table);
+    wrong = wrong || std::any_of(report.findings.begin(), report.findings.end(),
+                                 [](const Finding& finding) { return finding.grade == Grade::kError; });
     if (options.json) {
       all.push_back(as_json(file, *table, report));
     } else {
@@ -122,7 +126,7 @@ int lamp_info(const LampInfoOptions& options) {
     }
   }
   if (options.json) print_json(all.size() == 1 ? all.front() : all);
-  return bad ? kExitBadInput : kExitDone;
+  return bad ? kExitBadInput : options.strict && wrong ? kExitCheckFailed : kExitDone;
 }
 
 int lamp_table(const LampTableOptions& options) {

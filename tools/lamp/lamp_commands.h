@@ -14,7 +14,7 @@ namespace phare {
 struct LampInfoOptions {
   std::vector<std::string> files;
   LampReadSettings settings;
-  bool json = false;
+  bool json = false, strict = false;
 };
 int lamp_info(const LampInfoOptions& options);
 
@@ -68,8 +68,10 @@ int lamp_plot(const LampPlotOptions& options);
 
 struct LampHsprOptions {
   std::string left, right, beam = "find";
+  std::vector<std::string> high;  ///< left and right of the driving beam; empty: one beam alone
+  std::vector<std::string> adb;   ///< situation, left, right; all six or none
   LampReadSettings settings;
-  double height_m = 0.65, spacing_m = 1.2;
+  double height_m = 0.75, spacing_m = 1.5;  ///< of the method
   double pitch_deg = 0.0;
   bool pitch_given = false, json = false;
 };

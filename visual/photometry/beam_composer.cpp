@@ -13,8 +13,8 @@
 namespace phare {
 
 BeamComposer::BeamComposer(std::vector<double> first_deg, std::vector<double> second_deg, PhotometricType type,
-                           GammaAxis axis)
-    : first_deg_(std::move(first_deg)), second_deg_(std::move(second_deg)), type_(type), axis_(axis) {
+                           GammaAxis axis, bool screen)
+    : first_deg_(std::move(first_deg)), second_deg_(std::move(second_deg)), type_(type), axis_(axis), screen_(screen) {
   assert(first_deg_.size() >= 2 && second_deg_.size() >= 2);
   image_.assign(first_deg_.size() * second_deg_.size(), 0.0f);
 }
@@ -55,7 +55,8 @@ void BeamComposer::sample(Source& source) {
   const IntensityTable& table = *source.table;
   const std::size_t columns = first_deg_.size(), rows = second_deg_.size();
   const bool as_filed = source.image_from_lamp == glm::dmat3{1.0} && table.type == type_ &&
-                        (type_ != PhotometricType::kC || table.axis == axis_) && table.screen_distance_m <= 0.0;
+                        (type_ != PhotometricType::kC || table.axis == axis_) &&
+                        (table.screen_distance_m > 0.0) == screen_;
   // In its own angles a table is dark beyond its limits.
   const auto within = [&](const std::vector<double>& nodes, const std::vector<double>& own) {
     if (!as_filed) return std::pair{std::size_t{0}, nodes.size()};
@@ -70,8 +71,9 @@ void BeamComposer::sample(Source& source) {
   for (std::size_t j = first_row; j < last_row; ++j) {
     for (std::size_t i = first_column; i < last_column; ++i) {
       const TableAngles angles{first_deg_[i], second_deg_[j]};
-      const double cd = as_filed ? table.intensity_at_cd(angles)
-                                 : table.intensity_cd(table_direction(type_, axis_, angles) * source.image_from_lamp);
+      const glm::dvec3 direction = screen_ ? screen_direction(angles) : table_direction(type_, axis_, angles);
+      const double cd =
+          as_filed ? table.intensity_at_cd(angles) : table.intensity_cd(direction * source.image_from_lamp);
       if (cd <= 0.0) continue;
       whole[j * columns + i] = static_cast<float>(cd);
       rect = {std::min(rect.column, i), std::min(rect.row, j), std::max(rect.end_column, i + 1),

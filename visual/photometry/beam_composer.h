@@ -31,9 +31,9 @@ struct TexelRect {
 /// image is at every moment the same, bit for bit, as one made from nothing: no drift from adding differences.
 class BeamComposer {
  public:
-  /// A grid in the angles of a type. Nodes strictly ascending, at least 2 each.
+  /// A grid in the angles of a type, or on a flat screen. Nodes strictly ascending, at least 2 each.
   BeamComposer(std::vector<double> first_deg, std::vector<double> second_deg,
-               PhotometricType type = PhotometricType::kA, GammaAxis axis = GammaAxis::kGamma0);
+               PhotometricType type = PhotometricType::kA, GammaAxis axis = GammaAxis::kGamma0, bool screen = false);
 
   /// Adds a source, undimmed; returns its index. The table must outlive the composer. Columns of `image_from_lamp`: the
   /// lamp's forward, left, up in the image's frame. Sources of the grid's own type that are not turned keep their
@@ -66,6 +66,7 @@ class BeamComposer {
   std::vector<double> first_deg_, second_deg_;
   PhotometricType type_;
   GammaAxis axis_;
+  bool screen_;
   std::vector<Source> sources_;
   std::vector<float> image_;
   std::vector<TexelRect> stale_;  ///< rectangles that sources have left

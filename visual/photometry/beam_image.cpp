@@ -131,7 +131,7 @@ glm::dmat3 aim_rotation(double yaw_rad, double pitch_rad, double roll_rad) {
 }
 
 bool same_angles(const AimedSource& a, const AimedSource& b) {
-  return a.table->screen_distance_m <= 0.0 && b.table->screen_distance_m <= 0.0 && a.table->type == b.table->type &&
+  return (a.table->screen_distance_m > 0.0) == (b.table->screen_distance_m > 0.0) && a.table->type == b.table->type &&
          (a.table->type != PhotometricType::kC || a.table->axis == b.table->axis) &&
          same_aim(a.car_from_lamp, b.car_from_lamp);
 }
@@ -148,6 +148,7 @@ BeamGrid beam_grid(std::span<const AimedSource> sources) {
   } else {
     grid.type = sources.front().table->type;
     grid.axis = sources.front().table->axis;
+    grid.screen_distance_m = sources.front().table->screen_distance_m;
     grid.first_deg = union_nodes(sources, true);
     grid.second_deg = union_nodes(sources, false);
   }

@@ -129,23 +129,36 @@ TableAngles IntensityTable::angles_of(const glm::dvec3& direction) const {
 }
 
 glm::dvec3 IntensityTable::direction_of(TableAngles angles) const {
-  if (screen_distance_m <= 0.0) return table_direction(type, axis, angles);
+  return screen_distance_m > 0.0 ? screen_direction(angles) : table_direction(type, axis, angles);
+}
+
+// The distance to a point over its distance along the axis, cubed: two for 1/r², one for the cosine.
+double screen_factor(double t, double u) {
+  const double s = 1.0 + t * t + u * u;
+  return s * std::sqrt(s);
+}
+
+glm::dvec3 screen_direction(TableAngles angles) {
   return glm::normalize(glm::dvec3{1.0, -std::tan(angles.first_deg / kDegreesPerRadian),
                                    std::tan(angles.second_deg / kDegreesPerRadian)});
 }
 
 double IntensityTable::intensity_cd(const glm::dvec3& direction) const {
   if (direction == glm::dvec3{0.0}) return 0.0;
-  return intensity_at_cd(angles_of(direction));
+  TableAngles angles = angles_of(direction);
+  if (screen_distance_m > 0.0 && direction.x > 0.0 && !candela.empty()) {
+    // A point on the screen's rim may miss it by a rounding of its tangent: it is on it.
+    constexpr double kRounding_deg = 1e-12;
+    const auto onto_rim = [](const std::vector<double>& nodes, double deg) {
+      const double within = std::clamp(deg, nodes.front(), nodes.back());
+      return std::abs(deg - within) < kRounding_deg ? within : deg;
+    };
+    angles = {onto_rim(first_deg, angles.first_deg), onto_rim(second_deg, angles.second_deg)};
+  }
+  return intensity_at_cd(angles);
 }
 
 namespace {
-
-/// (1 + t² + u²)^1.5 = (distance / distance along the axis)³ of a point with tangents t and u on a flat screen.
-double screen_factor(double t, double u) {
-  const double s = 1.0 + t * t + u * u;
-  return s * std::sqrt(s);
-}
 
 /// E on the screen is bilinear in the tangents: I = (1 + t² + u²)^1.5 · Σ w·I_node / (1 + t_node² + u_node²)^1.5.
 double screen_intensity_cd(const IntensityTable& table, const Cell& first, const Cell& second, TableAngles angles) {

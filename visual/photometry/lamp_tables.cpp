@@ -2,20 +2,30 @@
 
 #include <utility>
 
+#include "config/input_files.h"
+
 namespace phare {
 
 LampTables::Key LampTables::key(const SourceConfig& source) {
-  return {source.file.string(), source.axis, source.c0_turn_deg, source.mirror, source.lamp_set, source.emitter};
+  return {source.file.string(), source.axis,    source.c0_turn_deg, source.mirror,
+          source.lamp_set,      source.emitter, source.distance_m};
 }
 
 Status LampTables::add(const SourceConfig& source) {
   if (tables_.contains(key(source))) return Done{};
+  for (const auto& [other, unused] : tables_) {
+    if (is_standard_input(source.file) && std::get<0>(other) == source.file.string())
+      return Error{input_name(source.file),
+                   "can be read only once: its lamps need the same axis, c0_deg, mirror, "
+                   "lamp_set, emitter and distance_m"};
+  }
   LampReadSettings settings;
   settings.axis = source.axis;
   settings.c0_turn_deg = source.c0_turn_deg;
   settings.mirror_h = source.mirror;
   settings.lamp_set = source.lamp_set;
   settings.emitter = source.emitter;
+  settings.distance_m = source.distance_m;
   Result<IntensityTable> table = read_lamp(source.file, settings);
   if (!table) return table.error();
   tables_.emplace(key(source), std::move(*table));

@@ -24,7 +24,7 @@ class LampTables {
   auto end() const { return tables_.end(); }
 
  private:
-  using Key = std::tuple<std::string, GammaAxis, double, bool, std::size_t, std::size_t>;
+  using Key = std::tuple<std::string, GammaAxis, double, bool, std::size_t, std::size_t, double>;
   static Key key(const SourceConfig& source);
 
   std::map<Key, IntensityTable> tables_;

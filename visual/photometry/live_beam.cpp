@@ -51,7 +51,7 @@ LiveBeam::Sum LiveBeam::make_sum(std::size_t which) const {
     source_of.push_back(k);
   }
   BeamGrid grid = beam_grid(lights);
-  BeamComposer composer(grid.first_deg, grid.second_deg, grid.type, grid.axis);
+  BeamComposer composer(grid.first_deg, grid.second_deg, grid.type, grid.axis, grid.screen_distance_m > 0.0);
   for (const AimedSource& light : lights)
     composer.add(*light.table,
                  grid.resampled ? glm::transpose(grid.car_from_image) * light.car_from_lamp : glm::dmat3{1.0});
