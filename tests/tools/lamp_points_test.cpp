@@ -97,6 +97,7 @@ TEST_F(LampPoints, AssumedSidesAreCalledSo) {
     EXPECT_EQ(said_by("check " + file + " --rule r112-passing-b")["traffic_source"], source) << name;
     EXPECT_EQ(said_by("compare " + file + " " + file)["traffic_source"], source) << name;
     EXPECT_EQ(said_by("plot " + file + " --view birds_eye --out " + in("p"))["traffic_source"], source) << name;
+    EXPECT_EQ(said_by("hspr " + file + " " + file + " --beam low")["traffic_source"], source) << name;
     const bool assumed = std::string(source) == "assumed";
     for (const std::string& command :
          {"info " + file, "check " + file + " --rule r112-passing-b", "compare " + file + " " + file,

@@ -27,6 +27,7 @@ int lamp_hspr(const LampHsprOptions& options) {
   for (HsprLamp& lamp : lamps) {
     if (options.pitch_given) lamp.aim_up_deg = options.pitch_deg;
   }
+  const CutoffShape shape = cutoff_shape(mounted_intensity(*left, glm::dmat3{1.0}));  // tells the side of traffic
   const HsprResult result = low ? hspr_low_beam(lamps) : hspr_high_beam(lamps);
   if (options.json) {
     nlohmann::json rows = nlohmann::json::array();
@@ -47,6 +48,7 @@ int lamp_hspr(const LampHsprOptions& options) {
                         {"rows", rows},
                         {"scale_worst", result.worst},
                         {"scale_best", result.best}};
+    json["traffic_source"] = shape.tells_side() ? "by the cut-off" : "assumed";
     if (result.complete) json["on_scale_01"] = result.on_scale_01;
     if (!result.complete) json["no_points"] = "the one- and two-point values of this beam were not at hand";
     if (result.complete) json["weighted_points"] = result.weighted;
@@ -56,6 +58,7 @@ int lamp_hspr(const LampHsprOptions& options) {
   std::printf(
       "HSPR (GTB CE-5815 by the field notes), %s beam, lamps %.2f m high, %.2f m apart, aimed %+.2f and %+.2f deg\n",
       low ? "low" : "high", options.height_m, options.spacing_m, lamps[0].aim_up_deg, lamps[1].aim_up_deg);
+  std::printf("right-hand traffic (%s)\n", side_source(shape).c_str());
   std::printf("  %-8s %-58s %12s %8s %8s\n", "row", "what", "value", "points", "weight");
   for (const HsprRow& row : result.rows) {
     char points[16] = "-";

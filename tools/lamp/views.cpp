@@ -257,10 +257,7 @@ void draw_point_wall(Chart& chart, const std::vector<PointMark>& points, const s
              "V in deg, up positive", {0.8, 0.8, 0.8}, 0.4);
   chart.begin_clip(axes);
   draw_cross(chart, axes, kBlack);
-  for (const PointMark& point : points) {
-    chart.circle(axes.x(point.at.h_deg), axes.y(point.at.v_deg), 4.6, kBlack, 1.0);
-    chart.keep_free(axes.x(point.at.h_deg) - 5, axes.y(point.at.v_deg) - 5, 10, 10);
-  }
+  for (const PointMark& point : points) chart.keep_free(axes.x(point.at.h_deg) - 5, axes.y(point.at.v_deg) - 5, 10, 10);
   if (check != nullptr) draw_rows(chart, axes, *check);
   std::size_t beyond = 0;
   for (const PointMark& point : points) {
@@ -270,6 +267,7 @@ void draw_point_wall(Chart& chart, const std::vector<PointMark>& points, const s
       ++beyond;
       continue;
     }
+    chart.circle(x, y, 4.6, kBlack, 1.0);
     std::vector<LabelPlace> places;
     for (const double away : {11.0, 18.0, 26.0}) {
       for (const double up : {away, -away}) {
@@ -284,8 +282,8 @@ void draw_point_wall(Chart& chart, const std::vector<PointMark>& points, const s
   chart.end_clip();
   heading(chart, title, subtitle);
   if (check != nullptr) draw_row_legend(chart, *check);
-  chart.circle(640, 50, 4.0, kBlack, 1.0);
-  chart.text(650, 50, beyond == 0 ? "measured" : "measured; " + std::to_string(beyond) + " beyond this page", 8.5, -1,
+  chart.circle(640, 466, 4.0, kBlack, 1.0);
+  chart.text(650, 466, beyond == 0 ? "measured" : "measured; " + std::to_string(beyond) + " beyond this page", 8.5, -1,
              kBlack);
 }
 

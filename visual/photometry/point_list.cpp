@@ -151,7 +151,10 @@ class ListReader {
   ListReader(std::string_view text, const std::string& name, const PointListSettings& settings)
       : text_(text, name, false), settings_(settings) {
     lists_.name = name;
-    for (const std::string& known : settings.known_names) known_.insert(plain_name(known));
+    for (const std::string& known : settings.known_names) {
+      known_.insert(plain_name(known));
+      known_.insert(mirrored_name(plain_name(known)));  // as lists for left-hand traffic have them
+    }
   }
 
   Result<PointLists> read() {
