@@ -79,8 +79,7 @@ void add_check(CLI::App* lamp, Command& chosen) {
       lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails or the file lacks data");
   command->footer(
       "Example:\n  phare lamp check low_beam.ies --rule r112-passing-b --json\n  phare lamp check low_beam.ies "
-      "--market "
-      "ECE --out out/check.html\n  phare lamp check --list");
+      "--rule r112-passing-b --rule r149-passing-c --out out/check.html\n  phare lamp check --list");
   command->add_option("files", options->files,
                       "One file, or left and right (rules of half the sum); or a laboratory's list of points");
   command
