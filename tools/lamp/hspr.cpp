@@ -44,6 +44,7 @@ struct HsprRating {
   std::string beam;  ///< "low", "high"
   std::vector<HsprLamp> lamps;
   HsprResult result;
+  CutoffShape shape;  ///< of the left lamp: tells the side of traffic, or that it is assumed
 };
 
 Result<HsprRating> rate(HsprPairs& pairs, const std::string& left, const std::string& right, HsprBeam asked,
@@ -56,7 +57,8 @@ Result<HsprRating> rate(HsprPairs& pairs, const std::string& left, const std::st
     if (options.pitch_given) lamp.aim_up_deg = options.pitch_deg;
   }
   const bool low = *beam == HsprBeam::kLow;
-  HsprRating rating{low ? "low" : "high", *lamps, low ? hspr_low_beam(*lamps) : hspr_high_beam(*lamps)};
+  HsprRating rating{low ? "low" : "high", *lamps, low ? hspr_low_beam(*lamps) : hspr_high_beam(*lamps),
+                    cutoff_shape(mounted_intensity(*lamps->front().table, glm::dmat3{1.0}))};
   return rating;
 }
 
@@ -131,6 +133,7 @@ void print(const HsprRating& rating, const LampHsprOptions& options) {
       "HSPR (GTB CE-5815 by the project's notes), %s beam, lamps %.2f m high, %.2f m apart, aimed %+.2f and %+.2f "
       "deg\n",
       rating.beam.c_str(), options.height_m, options.spacing_m, rating.lamps[0].aim_up_deg, rating.lamps[1].aim_up_deg);
+  std::printf("right-hand traffic (%s)\n", side_source(rating.shape).c_str());
   print_rows(rating.result);
 }
 
@@ -220,6 +223,7 @@ int lamp_hspr(const LampHsprOptions& options) {
   if (options.json) {
     nlohmann::json json = result_json(ratings[0].result);
     json["beam"] = ratings[0].beam;
+    json["traffic_source"] = ratings[0].shape.tells_side() ? "by the cut-off" : "assumed";
     json["left"] = options.left;
     json["right"] = options.right;
     json["aim_up_deg"] = {ratings[0].lamps[0].aim_up_deg, ratings[0].lamps[1].aim_up_deg};

@@ -105,10 +105,21 @@ void add_check(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampCheckOptions>();
   CLI::App* command =
       lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails or the file lacks data");
-  command->footer("Example:\n  phare lamp check low_beam.ies --rule r112-passing-b --json\n  phare lamp check --list");
-  command->add_option("files", options->files, "One file, or left and right (rules of half the sum)");
-  command->add_option("--rule", options->rules, "Rulebook of config/rules, or a .toml file; repeat for more")
+  command->footer(
+      "Example:\n  phare lamp check low_beam.ies --rule r112-passing-b --json\n  phare lamp check low_beam.ies "
+      "--rule r112-passing-b --rule r149-passing-c --out out/check.html\n  phare lamp check --list");
+  command->add_option("files", options->files,
+                      "One file, or left and right (rules of half the sum); or a laboratory's list of points");
+  command
+      ->add_option("--rule", options->rules,
+                   "Rulebook of config/rules, or a .toml file; repeat for more. all: every one for this kind of beam")
       ->allow_extra_args(false);
+  command->add_option("--market", options->market, "Every rule of this market for this kind of beam: ECE or US")
+      ->check(CLI::IsMember({"ECE", "EU", "UN", "US", "USA"}, CLI::ignore_case));
+  command->add_option("--function", options->function, "Kind of beam for --rule all and --market [by the beam]")
+      ->check(CLI::IsMember({"low", "high", "fog"}));
+  command->add_option("--beam", options->beam, "Of a list of points with several beams, this one [all]");
+  command->add_option("--out", options->out, "HTML page to write: rules, then all rows, the worst first");
   command->add_option("--traffic", options->traffic, "Side of the road [by the cut-off]")
       ->check(CLI::IsMember({"find", "right", "left"}))
       ->capture_default_str();
@@ -208,6 +219,7 @@ void add_plot(CLI::App* lamp, Command& chosen) {
   command->add_option("files", options->files, "One file, or left and right")->required();
   command->add_option("--out", options->out, "Folder to write into")->required();
   command->add_option("--rule", options->rule, "Rulebook whose rows are drawn with pass and fail");
+  command->add_option("--beam", options->beam, "Of a list of points with several beams, this one [all]");
   command->add_option("--view", options->views, "Draw this view alone; repeat for more [all]")
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(kPlotViews), std::end(kPlotViews))))
       ->allow_extra_args(false);

@@ -182,13 +182,15 @@ class Linter {
     const bool left = shape.side == CutoffSide::kRisesLeft;
     if (shape.side == CutoffSide::kFlat) {
       add(Grade::kInfo, "cut-off",
-          format("flat cut-off at V %+.2f deg, G %.3f", shape.flat_v_deg, shape.sharpness_g) + cut_side());
+          form_name(shape.form) + format(" cut-off at V %+.2f deg, G %.3f", shape.flat_v_deg, shape.sharpness_g) +
+              cut_side());
       return;
     }
     add(Grade::kInfo, "cut-off",
-        format("cut-off at V %+.2f deg, kink at H %+.2f deg, G %.3f, rising by %.0f deg", shape.flat_v_deg,
-               shape.kink_h_deg, shape.sharpness_g, shape.rise_deg) +
-            (left ? " to the left" : " to the right"));
+        form_name(shape.form) +
+            format(" cut-off at V %+.2f deg, kink at H %+.2f deg, G %.3f, rising by %.0f deg", shape.flat_v_deg,
+                   shape.kink_h_deg, shape.sharpness_g, shape.rise_deg) +
+            (left ? " to the left" : " to the right") + format(", to V %+.2f deg", shape.upper_v_deg));
     std::string words;
     for (const auto& [key, value] : table_.header.keywords) words += upper_case(value) + " ";
     std::replace(words.begin(), words.end(), '-', ' ');
