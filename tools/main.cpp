@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   add_import(app, chosen);
   add_lamp(app, chosen);
   add_measure(app, chosen);
+  add_rig(app, chosen);
   add_doctor(app, chosen);
   // A command that does not exist is told before anything else: --help after it must not hide the mistake.
   const CLI::App* at = &app;
