@@ -152,7 +152,8 @@ class DesignMaker {
         if (const Status read = tables_.add(source); !read) return read.error();
       }
     }
-    for (LampConfig& lamp : own_.lamps) aim_lamp(lamp, tables_);
+    for (LampConfig& lamp : own_.lamps)
+      if (lamp.aim.kind != AimConfig::Kind::kAsFiled) aim_lamp(lamp, tables_);
     return Done{};
   }
 

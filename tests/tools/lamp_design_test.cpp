@@ -192,7 +192,7 @@ TEST_F(OwnLamp, WhatIsRefusedSaysWhichAndWhy) {
   ends(refusal({.low = {low}, .aim = "nan"}), "expected as-filed, cut-off, or degrees up (-90 to 90)");
   const std::string bad =
       file("bad.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 2 3 2 0 0 0\n1 1 50\n-4 4\n-4 4\n1 2\n3 oops\n");
-  ends(refusal({.low = {bad}}), "bad.ies:8: a candela value is not a number: \"oops\"");
+  ends(refusal({.low = {bad}}), "bad.ies:8: a candela value is not a number: \"oops\" (value 4 of 4)");
   const std::string dark =
       file("dark.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 2 3 2 0 0 0\n1 1 50\n-4 4\n-4 4\n0 0\n0 0\n");
   EXPECT_NE(refusal({.low = {dark}}).find("dark.ies: sends no light ahead"), std::string::npos)

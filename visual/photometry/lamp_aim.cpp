@@ -65,10 +65,7 @@ std::string formatted(const char* format, double a, double b = 0.0, double c = 0
 }  // namespace
 
 AimLine aim_line(LampFunction function, double height_m) {
-  if (function == LampFunction::kFog) {
-    if (height_m > 0.8) return {-2.0, -2.5, -2.0, "UN R48 6.3.6.1.2"};
-    return {-2.0, -2.0, -1.5, "UN R48 6.3.6.1.2"};
-  }
+  if (function == LampFunction::kFog) return {-2.0, -2.5, -1.5, "UN R48 6.3.6.1.2"};
   if (height_m > 1.0) return {-1.5, -2.0, -1.5, "UN R48 6.2.6.1.2"};
   if (height_m > 0.8) return {-1.0, -2.0, -1.0, "UN R48 6.2.6.1.2"};
   return {};

@@ -3,9 +3,10 @@
 // side; all of the lamp's sources turned about their own lateral axis by what is missing, iterated to 0.003°.
 // Sources: UN R48 6.2.6.1.2, initial aiming of the passing beam by mounting height h: -1.0 to -1.5 % up to 1.0 m
 // (above 0.8 m the maker may choose -1.5 to -2.0 %), -1.5 to -2.0 % above. UN R48 6.3.6.1.2, front fog lamps: -1.5 %
-// or lower, for strong ones -1.5 to -2.0 % up to 0.8 m and -2.0 to -2.5 % above. Chosen within: the flattest of a
-// passing beam, as headlamps are marked (1 %), and -2 % for fog, which lies in every window. The clause measures h at
-// the lower edge of the apparent surface; here it is the lamp's position. Its limits under load are not looked at.
+// or lower; for strong ones -1.5 to -2.0 % up to 0.8 m and -2.0 to -2.5 % above, which a file does not tell apart: the
+// window here is all of it. Chosen within: the flattest of a passing beam, as headlamps are marked (1 %), and -2 % for
+// fog, which is right for each. The clause measures h at the lower edge of the apparent surface; here it is the lamp's
+// position. Its limits under load are not looked at.
 // Frame: H, V of the car. Left out: turning sideways, FMVSS 108 (VOL and VOR of `phare lamp check`).
 // Checked by tests/photometry/mounted_lamp_test.cpp.
 #pragma once
