@@ -29,7 +29,7 @@ std::string degrees_word(double rad) {
     const auto end = std::to_chars(text, text + sizeof text, deg, std::chars_format::general, digits).ptr;
     double back = 0.0;
     std::from_chars(text, end, back);
-    if (back * kRadPerDeg == rad) return {text, end};
+    if (back * kRadPerDeg == rad) return number_word(back);
   }
   for (double near : {deg, std::nextafter(deg, 1e9), std::nextafter(deg, -1e9)}) {
     if (near * kRadPerDeg == rad) return number_word(near);

@@ -297,8 +297,9 @@ class DesignMaker {
     std::vector<std::pair<std::string, std::string>> said;  // text, lamps
     for (const LampConfig& lamp : design_.lamps) {
       const bool chosen = std::ranges::any_of(lamp.sources, [&](const SourceConfig& source) {
-        return std::ranges::any_of(
-            choices_, [&](const LampChoice& c) { return c.left == source.file || c.right == source.file; });
+        return std::ranges::any_of(choices_, [&](const LampChoice& c) {
+          return c.function == source.function && (c.left == source.file || c.right == source.file);
+        });
       });
       if (!chosen) continue;
       LampConfig copy = lamp;

@@ -100,6 +100,7 @@ TEST_F(RigWriter, PairsAndDegreesStayAsAPersonWroteThem) {
   EXPECT_NE(text.find("pair = true"), std::string::npos);
   EXPECT_EQ(text.find("headlamp left"), std::string::npos);
   EXPECT_NE(text.find("pitch_deg = -0.573\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("fov_horizontal_deg = 70\n"), std::string::npos) << text;
   EXPECT_NE(text.find("file = \"generated/lamps/low_rht.ies\""), std::string::npos);
 }
 
