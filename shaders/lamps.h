@@ -19,6 +19,7 @@ const uint kSpecLampBase = 4u;  // measure: first of four lamps
 const uint kSpecLookups = 5u;   // how each lamp's table is looked up, four bits a lamp, below
 const uint kSpecColours = 6u;   // 1: lamps differ in colour
 const uint kSpecSides = 7u;     // 2: both sides of a surface are seen
+const uint kSpecGrain = 8u;     // first level of the grain that is there
 
 // Even: nodes at multiples of a fine step about 0°, of a coarse one beyond. The first two are for tables that look ahead: no first
 // angle beyond 90°, and what lies at 90° or behind counts as dark.
@@ -58,7 +59,6 @@ struct GpuFrame {
   vec4 clip_from_eye[4];    // columns; "eye" is the world turned to the eye's place, not its direction
   vec4 exposure;            // rgb: 1/(cd/m²), with the balance of the eye's adaptation
   vec4 sky;                 // rgb zenith cd/m², w: factor at the horizon
-  vec4 view_from_clip[4];   // columns: clip position to eye-relative direction
   GpuLamp lamps[kMaxLamps];
 };
 

@@ -103,7 +103,7 @@ int rig_new(const RigNewOptions& options) {
 
 void add_rig(CLI::App& app, Command& chosen) {
   CLI::App* rig = app.add_subcommand("rig", "Rig files: check one, write one");
-  rig->footer("Example:\n  phare rig check config/rigs/country_road.toml\n  phare rig new --lamp my.ies --out my.toml");
+  rig->footer("Example:\n  phare rig check config/rigs/country_road.toml\n  phare rig new --lamp led_low_beam.ies --out my.toml");
   rig->require_subcommand(1);
 
   auto check = std::make_shared<RigCheckOptions>();
@@ -117,7 +117,7 @@ void add_rig(CLI::App& app, Command& chosen) {
   auto made = std::make_shared<RigNewOptions>();
   CLI::App* new_command =
       rig->add_subcommand("new", "Writes a commented rig: another one with lamps of one's own as its first design");
-  new_command->footer(std::string("Examples:\n  phare rig new --lamp my.ies --out my.toml\n  phare rig new --rig "
+  new_command->footer(std::string("Examples:\n  phare rig new --lamp led_low_beam.ies --out my.toml\n  phare rig new --rig "
                                   "config/rigs/matrix.toml --out night/matrix.toml --portable\n") +
                       kLampFlagsHelp);
   new_command->add_option("--rig", made->rig_file, "Rig to begin with")->capture_default_str();

@@ -48,6 +48,8 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["validation_messages"] = session.renderer.validation_messages();
 
   report["frames"] = stats.frames;
+  report["frames_per_s"] = stats.frames_per_s();
+  report["drawn_s"] = stats.seconds();
   report["frames_captured"] = stats.captured_frames;
   report["frames_stale_pose"] = stats.stale_frames;
   report["frame_ms"] = to_json(stats.wall_ms);
@@ -59,6 +61,15 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["draws"] = stats.newest.draws;
   report["passes"] = stats.newest.pass_count;
   report["triangles"] = stats.newest.triangles;
+  report["images"] = {{"count", stats.newest.images}, {"bytes", stats.newest.image_bytes}};
+  report["effects"] = nlohmann::json::array();
+  for (const EffectRow& row : effect_table()) {
+    const EffectDecision& decision = stats.newest.effects[row.effect];
+    report["effects"].push_back({{"name", row.name},
+                                 {"level", row.levels[decision.level]},
+                                 {"because", decision.reason},
+                                 {"needs", row.needs}});
+  }
 
   report["beams"] = {{"image", level_name(session.options.beam_image.value_or(session.rig.beam_image))},
                      {"compositions", session.lamps.compositions()},
