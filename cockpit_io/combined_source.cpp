@@ -84,6 +84,9 @@ std::array<bool, kControlGroups> groups_of(const CockpitConfig& config) {
     }
   }
   for (const ControlMapping& mapping : config.controls) has[static_cast<std::size_t>(group_of(mapping.control))] = true;
+  // Recorded changes of design are left out; those of a hand beside the log are not.
+  if (config.keep_design && config.source == SourceKind::kLog)
+    has[static_cast<std::size_t>(ControlGroup::kDesign)] = false;
   return has;
 }
 
@@ -137,6 +140,7 @@ DriverInput CombinedSource::merged() const {
   from(ControlGroup::kParkingBrake, [&](const DriverInput& in) { all.parking_brake_01 = in.parking_brake_01; });
   s.design_next = s.design_previous = false;
   for (const Child& child : children_) {
+    if (!child.has[static_cast<std::size_t>(ControlGroup::kDesign)]) continue;
     s.design_next |= child.input.switches.design_next;
     s.design_previous |= child.input.switches.design_previous;
   }

@@ -36,6 +36,7 @@ Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
   Result<CockpitConfig> config =
       read_cockpit(options.cockpit_file.empty() ? rig.cockpit_file : std::filesystem::path(options.cockpit_file));
   if (!config) return config.error();
+  config->keep_design = rig.keep_design;
   const auto choose = [&](SourceKind kind, const std::string& file) {
     config->source = kind;
     config->input_file = file;

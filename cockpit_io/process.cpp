@@ -69,6 +69,9 @@ CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Ri
       cockpit_(new_cockpit()),
       processor_before_s_(processor_s()) {
   take_source(std::move(source));
+  const bool recorded = config_.source == SourceKind::kDrive || config_.source == SourceKind::kDriver ||
+                        (config_.source == SourceKind::kLog && config_.also.empty());
+  if (config_.keep_design && recorded) kept_design_.emplace(cockpit_);
   bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
     desk_.serve(bus_, datagram, [this](const RigControl& control) { return obey(control); });
   };
@@ -141,7 +144,12 @@ Moment CockpitProcess::now_in_real_time() {
 
 void CockpitProcess::evaluate(Moment now, const VehicleState* vehicle) {
   if (vehicle != nullptr) cockpit_.set_speed(vehicle->speed_mps);
-  source_->advance(now, vehicle, cockpit_);
+  source_->advance(now, vehicle, kept_design_ ? static_cast<ControlSink&>(*kept_design_) : cockpit_);
+  if (kept_design_ && kept_design_->left_out() > 0 && !said_design_left_out_) {
+    said_design_left_out_ = true;
+    spdlog::info("a recorded change of design is left out: the rig keeps \"{}\" (keep_design)",
+                 rig_.designs[cockpit_.design_index()].name);
+  }
   if (wanted_design_) cockpit_.choose_design(*std::exchange(wanted_design_, std::nullopt), now);
 }
 
@@ -298,6 +306,7 @@ void CockpitProcess::write_stats() const {
   json["wall_s"] = std::chrono::duration<double>(Clock::now() - start_).count();
   json["light_changes"] = cockpit_.light_changes();
   json["fail_safe"] = cockpit_.fail_safe();
+  if (kept_design_) json["design_changes_left_out"] = kept_design_->left_out();
   json["frame_to_datagram"] = latency_json(latency_);
   json["light_change_to_datagram"] = latency_json(light_latency_);
   if (!write_json(stats_file_, json)) spdlog::warn("{}: cannot be written", stats_file_.string());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cockpit_io/cockpit.h"
+#include "cockpit_io/kept_design.h"
 #include "cockpit_io/latency.h"
 #include "cockpit_io/source.h"
 #include "config/cockpit.h"
@@ -62,6 +63,9 @@ class CockpitProcess {
   StopFlag stop_;
   std::unique_ptr<Source> source_;
   Cockpit cockpit_;
+  std::optional<KeptDesign>
+      kept_design_;  // in front of cockpit_, where what plays by itself must not change the design
+  bool said_design_left_out_ = false;
 
   ControlDesk desk_;
   bool paused_ = false;

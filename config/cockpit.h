@@ -174,6 +174,7 @@ struct CockpitConfig {
   std::vector<MessageCheck> checks;
   std::vector<SendMessage> sends;
   std::vector<std::filesystem::path> also;  ///< cockpit files of further sources, in falling priority
+  bool keep_design = false;                 ///< of the rig, not of this file: recorded changes of design are left out
 
   const ControlMapping* find(Control control) const;
 };

@@ -22,10 +22,7 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr std::size_t kMaxChannels = 16;
-constexpr std::size_t kMaxLampsOfDesign = 8;  // positions the renderer sums per pixel (visual/renderer.h)
 
-constexpr std::array<std::string_view, 6> kFunctionNames{"position", "low", "high", "fog", "daytime", "cornering"};
-constexpr std::array<std::string_view, 2> kAxisNames{"gamma0", "gamma90"};
 constexpr std::array<std::string_view, 5> kDynamicsLevels{"pose", "kinematic", "single-track", "full", "auto"};
 
 glm::dvec3 vector3(const std::vector<double>& xyz) {
@@ -50,9 +47,9 @@ ChannelConfig read_channel(TomlTable table, std::size_t index) {
 
 SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file) {
   SourceConfig source;
-  source.function = static_cast<LampFunction>(table.choice("function", kFunctionNames));
+  source.function = static_cast<LampFunction>(table.choice("function", kLampFunctionNames));
   source.file = resolve_path(table.text("file"), rig_file);
-  source.axis = static_cast<GammaAxis>(table.choice_or("axis", 0, kAxisNames));
+  source.axis = static_cast<GammaAxis>(table.choice_or("axis", 0, kGammaAxisNames));
   source.c0_turn_deg = table.number_or("c0_deg", 0.0, -360.0, 360.0);
   source.mirror = table.flag_or("mirror", false);
   source.lamp_set = static_cast<std::size_t>(table.integer_or("lamp_set", 1, 1, 1000));
@@ -75,20 +72,31 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
   return source;
 }
 
-/// The lamp across the car: the same photometry on the other side, its aim mirrored about the car's middle plane.
-LampConfig across(LampConfig lamp) {
-  lamp.position_m.y = -lamp.position_m.y;
-  for (SourceConfig& source : lamp.sources) {
-    source.yaw_rad = -source.yaw_rad;
-    source.roll_rad = -source.roll_rad;
+/// "as-filed", "cut-off", or degrees up.
+AimConfig read_aim(TomlTable& table) {
+  AimConfig aim;
+  const auto values = table.values_or_empty("aim");
+  if (values.empty()) return aim;
+  const auto wrong = [&] {
+    table.fail("aim", "\"as-filed\", \"cut-off\", or the degrees (-90 to 90) by which the lamp is turned up");
+    return AimConfig{};
+  };
+  if (values.size() != 1) return wrong();
+  if (const auto* word = std::get_if<std::string>(&values.front())) {
+    if (*word != "as-filed" && *word != "cut-off") return wrong();
+    if (*word == "cut-off") aim.kind = AimConfig::Kind::kCutoff;
+    return aim;
   }
-  return lamp;
+  const double up_deg = std::get<double>(values.front());
+  if (!(std::abs(up_deg) <= 90.0)) return wrong();
+  return {AimConfig::Kind::kTurned, up_deg * kRadPerDeg};
 }
 
 void read_lamp(TomlTable table, const std::filesystem::path& rig_file, DesignConfig& design) {
   LampConfig lamp;
   lamp.name = table.text("name");
   lamp.position_m = vector3(table.numbers("position_m", 3));
+  lamp.aim = read_aim(table);
   for (TomlTable source : table.tables("source")) lamp.sources.push_back(read_source(source, rig_file));
   if (lamp.sources.empty()) table.fail("source", "a lamp needs at least one [[design.lamp.source]]");
   if (!table.flag_or("pair", false)) {
@@ -96,7 +104,7 @@ void read_lamp(TomlTable table, const std::filesystem::path& rig_file, DesignCon
     return;
   }
   if (!(lamp.position_m.y > 0.0)) table.fail("position_m", "a pair is given by its left lamp, y > 0");
-  LampConfig right = across(lamp);
+  LampConfig right = lamp_across(lamp);
   lamp.name += " left";
   right.name += " right";
   design.lamps.push_back(std::move(lamp));
@@ -108,9 +116,9 @@ DesignConfig read_design(TomlTable table, const std::filesystem::path& rig_file)
   design.name = table.text("name");
   for (TomlTable lamp : table.tables("lamp")) read_lamp(lamp, rig_file, design);
   if (design.lamps.empty()) table.fail("lamp", "a design needs at least one [[design.lamp]]");
-  if (design.lamps.size() > kMaxLampsOfDesign) {
+  if (design.lamps.size() > kMostLampsOfDesign) {
     table.fail("lamp", std::to_string(design.lamps.size()) + " lamp positions; at most " +
-                           std::to_string(kMaxLampsOfDesign) + " are drawn");
+                           std::to_string(kMostLampsOfDesign) + " are drawn");
   }
   return design;
 }
@@ -148,15 +156,33 @@ std::filesystem::path resolve_path(const std::filesystem::path& named, const std
   return std::filesystem::absolute(naming_file.parent_path() / named).lexically_normal();
 }
 
+LampConfig lamp_across(LampConfig lamp) {
+  lamp.position_m.y = -lamp.position_m.y;
+  for (SourceConfig& source : lamp.sources) {
+    source.yaw_rad = -source.yaw_rad;
+    source.roll_rad = -source.roll_rad;
+  }
+  return lamp;
+}
+
 Result<Rig> read_rig(const std::filesystem::path& file) {
+  auto reading = read_rig_whole(file);
+  if (!reading) return reading.error();
+  if (!reading->problems.empty()) return reading->problems.front();
+  return std::move(reading->rig);
+}
+
+Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
   auto read = TomlTable::read(file);
   if (!read) return read.error();
   TomlTable root = *read;
   const std::filesystem::path rig_file = std::filesystem::absolute(file).lexically_normal();
 
-  Rig rig;
+  RigReading reading;
+  Rig& rig = reading.rig;
   rig.file = rig_file;
   rig.name = root.text_or("name", rig_file.stem().string());
+  rig.keep_design = root.flag_or("keep_design", rig.keep_design);
   rig.scene_file = resolve_path(root.text("scene"), rig_file);
   rig.vehicle_file = resolve_path(root.text("vehicle"), rig_file);
   rig.cockpit_file = resolve_path(root.text("cockpit"), rig_file);
@@ -165,9 +191,12 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
     rig.port_base = static_cast<std::uint16_t>(bus->integer_or("port_base", rig.port_base, 1024, 65500));
     const std::string key_file = bus->text_or("key_file", "");
     if (!key_file.empty()) {
-      const Result<BusKey> key = read_key(resolve_path(key_file, rig_file));
-      if (!key) return key.error();
-      rig.bus_key = *key;
+      rig.key_file = resolve_path(key_file, rig_file);
+      const Result<BusKey> key = read_key(rig.key_file);
+      if (key)
+        rig.bus_key = *key;
+      else
+        reading.problems.push_back(key.error());
     } else if (!rig.bind_address.starts_with("127.")) {
       bus->fail("address",
                 "off loopback (127.…) a key_file is required: 64 hexadecimal digits, as of openssl rand -hex 32");
@@ -194,8 +223,10 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
   if (rig.designs.empty()) root.fail("design", "a rig needs at least one [[design]]");
   check_names_differ(root, "channel", rig.channels);
   check_names_differ(root, "design", rig.designs);
-  if (Status status = root.finish(); !status) return status.error();
-  return rig;
+  const std::vector<Error> of_file = root.problems();
+  reading.problems.insert(reading.problems.begin(), of_file.begin(), of_file.end());
+  reading.known_keys = root.known_keys();
+  return reading;
 }
 
 Status check_rig_files(const Rig& rig) {

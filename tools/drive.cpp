@@ -21,6 +21,8 @@
 #include "net/stats.h"
 #include "tools/child_process.h"
 #include "tools/commands.h"
+#include "tools/derived_rig.h"
+#include "tools/lamp_design.h"
 #include "tools/recorder.h"
 #include "tools/report.h"
 #include "tools/supervisor.h"
@@ -37,12 +39,26 @@ struct DriveOptions {
   bool headless = false, lockstep = false, closed_loop = false, json = false;
   PictureOptions picture;
   std::uint16_t port_base = 0;
+  LampFlags lamps;
+  std::string lamp_notes;  ///< what became of them
   std::vector<std::string> command;
 };
 
 bool set_in_environment(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr && *value != '\0';
+}
+
+/// Lamps of one's own, and what every adjuster of the rig was turned by.
+Status aim_and_tell(Rig& rig, DriveOptions& options) {
+  auto notes = options.lamps.any() ? put_lamp_design(rig, options.lamps) : aim_notes(rig);
+  if (!notes) return notes.error();
+  for (const std::string& line : notes->lines) {
+    spdlog::info("{}", line);
+    options.lamp_notes += line + "\n";
+  }
+  for (const std::string& line : notes->warnings) spdlog::warn("{}", line);
+  return Done{};
 }
 
 /// Everything that can be wrong before a process is started: files, ports, flags.
@@ -54,6 +70,9 @@ Result<Rig> prepare(DriveOptions& options) {
   if (const Status status = check_rig_files(*rig); !status) return status.error();
 
   if (const auto vehicle = read_vehicle(rig->vehicle_file); !vehicle) return vehicle.error();
+  if (!options.lamps.any() && !options.lamps.aim.empty())
+    return Error{"--aim " + options.lamps.aim, "aims a lamp of one's own: give --lamp, --lamp-high or --lamp-fog"};
+  if (const Status status = aim_and_tell(*rig, options); !status) return status.error();
 
   const std::string demo = config_path("drives/country_road.pcap");
   const bool any_source =
@@ -264,6 +283,14 @@ int drive(DriveOptions& options) {
     if (read->cut) spdlog::warn("{}: cut off, driving up to its last whole record", options.drive);
     duration = read->duration;
   }
+  std::optional<DerivedRig> derived;
+  if (options.lamps.any()) {
+    auto made_of_it = DerivedRig::for_drive(options.out);
+    if (!made_of_it) return bad_input(made_of_it.error());
+    derived.emplace(std::move(*made_of_it));
+  }
+  const fs::path given_rig = rig->file;
+  if (derived) rig->file = derived->file();
   const std::vector<ProcessSpec> specs = processes_of(*rig, options);
   DriveFacts facts;
   for (const ProcessSpec& spec : specs) facts.process_names.push_back(spec.name);
@@ -286,6 +313,10 @@ int drive(DriveOptions& options) {
     fs::create_directories(options.out, failed);
     if (failed) return bad_input({options.out, failed.message()});
     remove_earlier_output(options.out, facts.process_names);
+    remove_earlier_rig(options.out, given_rig);
+  }
+  if (derived) {
+    if (const Status status = derived->write(*rig, options.lamp_notes); !status) return bad_input(status.error());
   }
 
   Supervisor supervisor(specs);
@@ -321,6 +352,7 @@ int drive(DriveOptions& options) {
   facts.why = supervisor.why();
   if (!recorded) return bad_input(recorded.error());
   if (recorder) spdlog::info("{} datagrams recorded in {}", recorder->written(), options.record);
+  if (facts.exit_code == kExitBadInput && derived && derived->file() != given_rig) derived->remove();
   if (facts.exit_code == kExitBadInput && !options.out.empty()) remove_traces(options.out, made, facts.process_names);
   // What was wrong with its input the process has said itself.
   if (facts.exit_code != kExitDone && facts.exit_code != kExitBadInput)
@@ -359,7 +391,11 @@ void add_drive(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("drive", "Drive a rig: in a window, or headless into a folder");
   command->footer(
       "Examples:\n  phare drive\n  phare drive --headless --lockstep --frames 60 --out out\n"
-      "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap");
+      "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap
+"
+      "  phare drive --lamp led_low_beam.ies --lamp-high high_beam.ies --headless --lockstep --frames 60 --out own
+" +
+      std::string(kLampFlagsHelp));
   command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
   auto* drive_file =
       command->add_option("--drive", options->drive, "Drive file to replay [the demo drive, when it is there]");
@@ -368,6 +404,7 @@ void add_drive(CLI::App& app, Command& chosen) {
       ->excludes(drive_file)
       ->excludes(script);
   command->add_option("--dbc", options->dbc, "DBC file for --log [the cockpit file's]");
+  add_lamp_flags(command, options->lamps);
   command->add_option("--cockpit", options->cockpit,
                       "Cockpit file, instead of the rig's: which signals move the controls");
   command->add_flag("--headless", options->headless, "No window (also when there is no display)");

@@ -15,6 +15,7 @@
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/illuminance.h"
 #include "visual/photometry/image_levels.h"
+#include "visual/photometry/lamp_aim.h"
 #include "visual/photometry/lamp_tables.h"
 #include "visual/photometry/points_file.h"
 #ifdef PHARE_WITH_GRAPHICS
@@ -49,6 +50,16 @@ double limit_of(const MeasureOptions& options) {
 
 constexpr std::array<const char*, 6> kFunctionNames{"position", "low", "high", "fog", "daytime", "cornering"};
 
+Result<LampTables> read_tables(const std::vector<LampConfig>& lamps) {
+  LampTables tables;
+  for (const LampConfig& lamp : lamps) {
+    for (const SourceConfig& source : lamp.sources) {
+      if (const Status read = tables.add(source); !read) return read.error();
+    }
+  }
+  return tables;
+}
+
 /// Lamps of a design with only the sources that are lit.
 Result<std::vector<LampConfig>> lamps_of_rig(const MeasureOptions& options) {
   const auto rig = read_rig(options.rig_file);
@@ -68,6 +79,12 @@ Result<std::vector<LampConfig>> lamps_of_rig(const MeasureOptions& options) {
   if (design == nullptr) return Error{"--design " + options.design, "the rig has " + names};
   std::vector<LampConfig> lamps;
   for (LampConfig lamp : design->lamps) {
+    // All of a lamp's sources turn by what its low beam calls for, whichever are lit.
+    if (lamp.aim.kind != AimConfig::Kind::kAsFiled) {
+      const auto tables = read_tables({lamp});
+      if (!tables) return tables.error();
+      aim_lamp(lamp, *tables);
+    }
     std::erase_if(lamp.sources, [&](const SourceConfig& source) { return !lit.contains(source.function); });
     if (!lamp.sources.empty()) lamps.push_back(std::move(lamp));
   }
@@ -85,16 +102,6 @@ Result<std::vector<LampConfig>> chosen_lamps(const MeasureOptions& options) {
     lamps.push_back(std::move(*lamp));
   }
   return lamps;
-}
-
-Result<LampTables> read_tables(const std::vector<LampConfig>& lamps) {
-  LampTables tables;
-  for (const LampConfig& lamp : lamps) {
-    for (const SourceConfig& source : lamp.sources) {
-      if (const Status read = tables.add(source); !read) return read.error();
-    }
-  }
-  return tables;
 }
 
 /// float64 from the tables themselves. The car stands at the world's origin.

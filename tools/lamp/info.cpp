@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "config/input_files.h"
@@ -9,8 +10,10 @@
 #include "tools/lamp/lamp_commands.h"
 #include "tools/lamp/point_lists.h"
 #include "tools/lamp/print_json.h"
+#include "visual/photometry/lamp_aim.h"
 #include "visual/photometry/lint.h"
 #include "visual/photometry/points_file.h"
+#include "visual/photometry/table_end.h"
 
 namespace phare {
 namespace {
@@ -27,6 +30,19 @@ const char* side_name(CutoffSide side) {
       break;
   }
   return "rises left";
+}
+
+constexpr double kInfoHeight_m = 0.65;  // as `plot` and `hspr` mount it
+
+/// Where the table would end on the road in the driver's picture of a usual car, its cut-off on the line.
+std::optional<TableEnd> road_end(const IntensityTable& table, const LampReport& report) {
+  const CutoffShape& shape = report.cutoff;
+  const double up_deg =
+      shape.side == CutoffSide::kNone
+          ? 0.0
+          : degrees_of_percent(aim_line(LampFunction::kLow, kInfoHeight_m).line_percent) - shape.flat_v_deg;
+  const ChannelConfig window;
+  return table_end(table, aim_rotation(0.0, glm::radians(up_deg), 0.0), 1.0, {3.45, 0.62, kInfoHeight_m}, {&window, 1});
 }
 
 nlohmann::json as_json(const std::string& file, const IntensityTable& table, const LampReport& report) {
@@ -68,6 +84,11 @@ nlohmann::json as_json(const std::string& file, const IntensityTable& table, con
                       {"content_hash", table.content_hash},
                       {"keywords", keywords},
                       {"findings", findings}};
+  if (const auto end = road_end(table, report)) {
+    json["table_end"] = {{"text", end->text()}, {"height_m", kInfoHeight_m}};
+    if (end->below) json["table_end"]["v_deg"] = end->v_deg;
+    if (end->below) json["table_end"]["nearest_road_m"] = end->nearest_road_m;
+  }
   if (side != CutoffSide::kNone) {
     json["cutoff"]["flat_v_deg"] = report.cutoff.flat_v_deg;
     json["cutoff"]["sharpness_g"] = report.cutoff.sharpness_g;
@@ -99,6 +120,9 @@ void print(const std::string& file, const IntensityTable& table, const LampRepor
   std::printf("  traffic   %s-hand (%s)\n", report.cutoff.side == CutoffSide::kRisesLeft ? "left" : "right",
               side_source(report.cutoff).c_str());
   std::printf("  hash      %s\n", table.content_hash.c_str());
+  if (const auto end = road_end(table, report))
+    std::printf("  road      mounted %.2f m high%s: %s\n", kInfoHeight_m,
+                report.cutoff.side == CutoffSide::kNone ? "" : ", its cut-off 1 % down", end->text().c_str());
   for (const Finding& f : report.findings)
     std::printf("  %-8s  %s%s%s\n", grade_name(f.grade).c_str(), f.place.c_str(), f.place.empty() ? "" : ": ",
                 f.text.c_str());

@@ -66,7 +66,9 @@ Result<Lamps> Lamps::load(const Rig& rig) {
       }
     }
   }
-  for (const DesignConfig& design : rig.designs) {
+  lamps.aimings_ = aim_lamps(lamps.designs_, lamps.tables_);
+  lamps.table_ends_ = phare::table_ends(lamps.designs_, lamps.tables_, rig.channels);
+  for (const DesignConfig& design : lamps.designs_) {
     std::vector<Position>& positions = lamps.positions_.emplace_back();
     for (const LampConfig& lamp : design.lamps) {
       std::vector<AimedSource> sources;
@@ -193,6 +195,14 @@ std::string Lamps::text_of_lit() const {
     if (present) text += (text.empty() ? "" : " ") + std::string(name_of(function));
   }
   return text.empty() ? "off" : text;
+}
+
+std::vector<std::string> Lamps::lit_table_ends() const {
+  std::vector<std::string> lines;
+  for (const SourceEnd& end : table_ends_) {
+    if (end.design == design().name && lit_.contains(end.function)) lines.push_back(end.text());
+  }
+  return lines;
 }
 
 std::uint64_t Lamps::resampled_images() const {

@@ -75,18 +75,15 @@ int draw_channel(VisualOptions options) {
   if (!album) return refuse(album.error());
 
   nlohmann::json lamps_json = describe(*lamps);
-  Session session{std::move(options),
-                  std::move(*rig),
-                  std::move(*scene),
-                  std::move(*lamps),
-                  std::move(window),
-                  std::move(*renderer),
-                  std::move(*bus),
-                  std::move(*album),
-                  install_stop_signals(),
-                  {},
-                  {},
-                  {},
+  // Made before, so that nothing in the midst of the session can throw.
+  const StopFlag stop = install_stop_signals();
+  FrameStats stats;
+  AuditStats audit;
+  SwitchToPhoton switches;
+  Session session{std::move(options),   std::move(*rig),   std::move(*scene),
+                  std::move(*lamps),    std::move(window), std::move(*renderer),
+                  std::move(*bus),      std::move(*album), stop,
+                  std::move(stats),     std::move(audit),  std::move(switches),
                   std::move(lamps_json)};
   spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
   run_loop(session);

@@ -350,6 +350,7 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
       lines.emplace_back(text);
     }
   }
+  for (std::string& end : s_.lamps.lit_table_ends()) lines.push_back(std::move(end));
   if (moment.car.stale) lines.emplace_back("POSE HELD: no VehicleState");
   if (moment.controls.fail_safe) lines.emplace_back("FAIL-SAFE low beam: the light switch is silent");
   if (!moment.controls.source_fault.empty()) lines.push_back(moment.controls.source_fault);
