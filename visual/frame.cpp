@@ -45,7 +45,7 @@ FrameCounts draw_frame(FrameParts& parts, const FrameInput& input) {
 }
 
 glm::vec3 exposure_of(const FrameInput& input) {
-  return static_cast<float>(input.exposure_per_cdm2) / black_body_colour(input.adaptation_k);
+  return static_cast<float>(input.exposure_per_cdm2) / input.white.value_or(black_body_colour(input.adaptation_k));
 }
 
 EffectPlan plan_effects(const FrameInput& input, std::uint32_t lamp_count, bool software_device) {

@@ -25,7 +25,7 @@ struct FrameTargets {
   void make_hdr(gpu::Device& device);
 };
 
-/// Factors that take luminance to the tone curve: exposure, and the balance that makes light of `adaptation_k` white.
+/// Factors that take luminance to the tone curve: exposure, and the balance that makes the eye's white white.
 glm::vec3 exposure_of(const FrameInput& input);
 
 /// Which effects this frame has and why. Each line is "name on|off: reason".

@@ -23,7 +23,7 @@ bool parse_size(const std::string& text, int& width_px, int& height_px) {
 
 ParsedOptions parse_options(int argc, const char* const* argv) {
   VisualOptions options;
-  std::string size, beam_image;
+  std::string size, beam_image, adaptation;
   std::uint16_t port_base = 0;
   CLI::App app{"Draws the night road of one channel from CockpitState and VehicleState.", "phare-visual"};
   app.footer(
@@ -47,6 +47,10 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--exposure", options.exposure_per_cdm2, "Exposure, 1/(cd/m2)")
       ->check(CLI::Range(1e-6, 1e6))
       ->capture_default_str();
+  app.add_option(
+      "--adaptation", adaptation,
+      "Colour temperature in K of the light that looks white, or auto: the eye follows the lamps; instead of "
+      "the rig's");
   app.add_option("--audit-every", options.audit_every, "Frames between self-audits, 0: never")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
@@ -71,6 +75,14 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   if (!size.empty() && !parse_size(size, options.width_px, options.height_px)) {
     std::fprintf(stderr, "phare-visual: --size: expected WIDTHxHEIGHT of 16 to 8192 pixels, got '%s'\n", size.c_str());
     return {std::nullopt, kExitBadInput};
+  }
+  if (!adaptation.empty()) {
+    const auto setting = parse_adaptation(adaptation);
+    if (!setting) {
+      std::fprintf(stderr, "phare-visual: %s\n", setting.error().text().c_str());
+      return {std::nullopt, kExitBadInput};
+    }
+    options.adaptation = *setting;
   }
   options.beam_image = level_named(beam_image);
   if (port_base != 0) options.port_base = port_base;
