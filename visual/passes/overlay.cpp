@@ -91,12 +91,13 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
                                                                                  .width = display.extent.width,
                                                                                  .height = display.extent.height,
                                                                                  .layers = 1});
-  graph.pass("overlay", {{&display, gpu::Use::kColourTarget, false}}, [&](vk::CommandBuffer commands) {
+  graph.pass("overlay", {{&display, gpu::Use::kColourTarget, false}}, [&](gpu::Recorder& commands) {
     commands.beginRenderPass(
         vk::RenderPassBeginInfo{
             .renderPass = *render_pass_, .framebuffer = *framebuffer_, .renderArea = {{0, 0}, display.extent}},
         vk::SubpassContents::eInline);
-    ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), static_cast<VkCommandBuffer>(commands));
+    ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(),
+                                    static_cast<VkCommandBuffer>(static_cast<vk::CommandBuffer&>(commands)));
     commands.endRenderPass();
   });
 }
