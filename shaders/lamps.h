@@ -20,6 +20,7 @@ const uint kSpecLampBase = 4u;  // measure: first of four lamps
 const uint kSpecLookups = 5u;   // how each lamp's table is looked up, four bits a lamp, below
 const uint kSpecColours = 6u;   // 0: all light has one colour; bit 0: lamps differ in colour; bit 8 + i: lamp i has a table of colour
 const uint kSpecSides = 7u;     // 2: both sides of a surface are seen
+const uint kSpecGrain = 8u;     // first level of the grain that is there
 
 const uint kRetroNone = 0u;
 const uint kRetroSheeting = 1u;  // R_A by a table of its own

@@ -63,6 +63,9 @@ bool Window::poll() {
 CameraKind Window::camera() const {
   return state_->camera;
 }
+void Window::set_camera(CameraKind camera) {
+  state_->camera = camera;
+}
 View Window::view() const {
   return state_->view;
 }
