@@ -13,6 +13,7 @@
 #include <set>
 #include <string_view>
 
+#include "config/eye.h"
 #include "config/input_files.h"
 #include "config/paths.h"
 #include "config/toml_table.h"
@@ -214,6 +215,9 @@ Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
     rig.high_keeps_low = beams->flag_or("high_keeps_low", rig.high_keeps_low);
     rig.beam_image =
         static_cast<ImageLevel>(beams->choice_or("image", static_cast<std::size_t>(rig.beam_image), kImageLevelNames));
+  }
+  if (auto eye = root.table_if("eye")) {
+    eye->number_or("adaptation_k", 4000.0, kCoolestWhite_k, kHottestWhite_k);  // read by read_eye (config/eye.h)
   }
   for (TomlTable channel : root.tables("channel")) rig.channels.push_back(read_channel(channel, rig.channels.size()));
   for (TomlTable design : root.tables("design")) rig.designs.push_back(read_design(design, rig_file));

@@ -8,18 +8,23 @@ PHARE_SHADER_BEGIN
 
 const uint kMaxLamps = 8u;
 const uint kMaxMaterials = 1024u;  // 16 KiB, the uniform buffer that every device has
+const uint kMaxSheetings = 128u;   // 12 KiB
 const uint kGuideRow = 1024u;      // bins in a row of the guide image
 
 // Specialization constants of lamps.frag
 const uint kSpecLampCount = 0u;
 const uint kSpecSurface = 1u;   // procedural detail: 0 plain, 1 asphalt, 2 grass, 3 paint, 4 foliage
-const uint kSpecRetro = 2u;     // 1: the material sends light back to where it came from
+const uint kSpecRetro = 2u;     // how the material sends light back to where it came from, below
 const uint kSpecOutput = 3u;    // what a texel means, below
 const uint kSpecLampBase = 4u;  // measure: first of four lamps
 const uint kSpecLookups = 5u;   // how each lamp's table is looked up, four bits a lamp, below
-const uint kSpecColours = 6u;   // 1: lamps differ in colour
+const uint kSpecColours = 6u;   // 0: all light has one colour; bit 0: lamps differ in colour; bit 8 + i: lamp i has a table of colour
 const uint kSpecSides = 7u;     // 2: both sides of a surface are seen
 const uint kSpecGrain = 8u;     // first level of the grain that is there
+
+const uint kRetroNone = 0u;
+const uint kRetroSheeting = 1u;  // R_A by a table of its own
+const uint kRetroMarking = 2u;   // R_L by its class
 
 // Even: nodes at multiples of a fine step about 0°, of a coarse one beyond. The first two are for tables that look ahead: no first
 // angle beyond 90°, and what lies at 90° or behind counts as dark.
@@ -50,7 +55,7 @@ struct GpuLamp {
   vec4 row_a;
   vec4 row_b;
   vec4 row_c;
-  vec4 colour;       // rgb, luminance 1; w: candela of 1.0 in the texture (again, where position has no room for it)
+  vec4 colour;       // rgb, luminance 1 (with a table of colour: r and b what its texels are multiplied by); w: candela of 1.0 in the texture (again, where position has no room for it)
   vec4 nodes;        // filter: as range, in radians or tangents; screen: nodes per unit of tangent (guide: a scale), of first, of second; even: fine nodes per radian of first, of second; fine nodes on either side of 0° (turn: in 45°), of first, of second
   vec4 coordinates;  // even: image coordinate of the gather about a node (filter: of an angle in radians, or a tangent): factors, then offsets, of first and of second
   vec4 within;       // even: first and last node from 0°, of first; of second
@@ -67,7 +72,14 @@ struct GpuFrame {
 };
 
 struct GpuMaterial {
-  vec4 reflectance;  // rgb rho, w: R_A in cd/(lx·m²)
+  // rgb rho; w, sheeting: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there, in cd/(lx·m²), by
+  // which luminance follows from rho/pi: times pi over rho's luminance under illuminant A
+  vec4 reflectance;
+};
+
+// ln of R_A in cd/(lx·m²), scaled like R_L above: a row for each observation angle, x to w for entrance angles (lib/retro.h).
+struct GpuSheeting {
+  vec4 row[6];
 };
 
 // Push constants of one draw.

@@ -1,6 +1,7 @@
 #include "visual/beam_packing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -112,32 +113,38 @@ bool dark_at_its_edge(const std::vector<float>& candela, std::size_t columns) {
   return true;
 }
 
-// Candela of texels, from the nodes about each.
-void fill(PackedBeam& packed, const BeamImage& image, const TexelRect& part) {
+// Values of texels, from the nodes about each. Wide: what float32 values are weighed in.
+template <typename Wide, typename Value>
+void fill_values(const PackedBeam& packed, const BeamImage& image, const std::vector<Value>& nodes,
+                 std::vector<Value>& texels, const TexelRect& part) {
   const std::size_t columns = image.first_deg.size();
   const std::size_t across = packed.transposed ? columns : 1,
                     along = packed.transposed ? 1 : columns;  // steps to the next column and row of the packed image
   // What is bilinear: candela, and on a screen candela over its factor.
   const bool screen = !packed.column_tangents.empty();
   const auto value = [&](std::size_t column, std::size_t row) {
-    const auto cd = static_cast<double>(image.candela[row * along + column * across]);
+    const auto cd = static_cast<Wide>(nodes[row * along + column * across]);
     return screen ? cd / screen_factor(packed.column_tangents[column], packed.row_tangents[row]) : cd;
   };
   for (std::size_t j = part.row; j < part.end_row; ++j) {
     const auto [row, t] = packed.row_places[j];
     for (std::size_t i = part.column; i < part.end_column; ++i) {
       const auto [column, s] = packed.column_places[i];
-      float& texel = packed.candela[j * packed.columns + i];
+      Value& texel = texels[j * packed.columns + i];
       if (s == 0.0 && t == 0.0) {
-        texel = static_cast<float>(value(column, row));
+        texel = static_cast<Value>(value(column, row));
         continue;
       }
       const std::size_t right = s > 0.0 ? column + 1 : column, up = t > 0.0 ? row + 1 : row;
-      const double low = (1.0 - s) * value(column, row) + s * value(right, row);
-      const double high = (1.0 - s) * value(column, up) + s * value(right, up);
-      texel = static_cast<float>((1.0 - t) * low + t * high);
+      const Wide low = (1.0 - s) * value(column, row) + s * value(right, row);
+      const Wide high = (1.0 - s) * value(column, up) + s * value(right, up);
+      texel = static_cast<Value>((1.0 - t) * low + t * high);
     }
   }
+}
+void fill(PackedBeam& packed, const BeamImage& image, const TexelRect& part) {
+  fill_values<double>(packed, image, image.candela, packed.candela, part);
+  if (packed.tinted()) fill_values<glm::dvec2>(packed, image, image.tints, packed.tints, part);
 }
 
 // `per_unit`: millionths in what the shader counts in, a radian or a screen's tangent.
@@ -324,6 +331,7 @@ PackedBeam pack_beam(const BeamImage& image, ImageLevel level) {
   packed.columns = static_cast<std::uint32_t>(packed.column_places.size()) + zeros;
   packed.rows_of_candela = static_cast<std::uint32_t>(packed.row_places.size()) + zeros;
   packed.candela.assign(std::size_t{packed.columns} * packed.rows_of_candela, 0.0f);
+  if (!image.tints.empty()) packed.tints.assign(packed.candela.size(), glm::vec2(0.0f));
   packed.scale_cd = scale_for(level, image);
   fill(packed, image, {0, 0, packed.column_places.size(), packed.row_places.size()});
   if (packed.lookup == shader::kLookupAhead && dark_at_its_edge(image.candela, image.first_deg.size()))
@@ -337,7 +345,8 @@ TexelRect pack_again(PackedBeam& packed, const BeamImage& image, const TexelRect
   const bool edge_lit =
       packed.lookup == shader::kLookupDark && !dark_at_its_edge(image.candela, image.first_deg.size());
   const bool too_bright = !packed.candela.empty() && scale_for(packed.level, image) > packed.scale_cd;
-  if (packed.candela.empty() || edge_lit || too_bright) {
+  const bool recoloured = packed.tinted() == image.tints.empty();
+  if (packed.candela.empty() || edge_lit || too_bright || recoloured) {
     packed = pack_beam(image, packed.level);
     return {0, 0, packed.columns, packed.rows_of_candela};
   }
@@ -384,6 +393,21 @@ std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& part
     case ImageLevel::kFloatNodes:
       put_rows([](float cd) { return cd; });
       break;
+  }
+  return bytes;
+}
+
+std::vector<std::byte> tint_texels_of(const PackedBeam& packed, const TexelRect& part) {
+  const bool whole = packed.level == ImageLevel::kFloatNodes;
+  std::vector<std::byte> bytes(part.texels() * (whole ? 8 : 4));
+  std::byte* out = bytes.data();
+  for (std::size_t j = part.row; j < part.end_row; ++j) {
+    for (std::size_t i = part.column; i < part.end_column; ++i) {
+      const glm::vec2 tint = packed.tints[j * packed.columns + i] / packed.tint_scale();
+      const std::array half{half_from_float(tint.x), half_from_float(tint.y)};
+      std::memcpy(out, whole ? static_cast<const void*>(&tint) : half.data(), whole ? sizeof tint : sizeof half);
+      out += whole ? sizeof tint : sizeof half;
+    }
   }
   return bytes;
 }

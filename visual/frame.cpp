@@ -67,7 +67,7 @@ DrawnFrame draw_frame(FrameParts& parts, const FrameInput& input) {
 }
 
 glm::vec3 exposure_of(const FrameInput& input) {
-  return static_cast<float>(input.exposure_per_cdm2) / black_body_colour(input.adaptation_k);
+  return static_cast<float>(input.exposure_per_cdm2) / input.white.value_or(black_body_colour(input.adaptation_k));
 }
 
 }  // namespace phare

@@ -51,7 +51,8 @@ struct FrameInput {
   Camera camera;
   std::vector<PlacedLamp> lamps;   ///< at most 8; positions whose beam is dark are left out by the caller or by us
   double exposure_per_cdm2 = 0.8;  ///< multiplies luminance before the tone curve; fixed, so that beams compare
-  double adaptation_k = 4000.0;  ///< light of this colour temperature looks white: the eye half adapts to its own lamps
+  double adaptation_k = 4000.0;    ///< light of this colour temperature looks white
+  std::optional<glm::vec3> white;  ///< linear sRGB of the light that does, in place of it (visual/process/adaptation.h)
   double sky_luminance_cdm2 = 0.004;
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;

@@ -1,7 +1,7 @@
 // Recomposition of a beam image from what changed.
 // Computes: image = Σ scale·source, over rectangles. Source: design §4. Frame: angles of the image, of its photometric
-// type. Leaves out: colour. Checked by tests/photometry/beam_composer_test.cpp (bit equality with a fresh image,
-// counters).
+// type. Leaves out: colour over direction within one source. Checked by tests/photometry/beam_composer_test.cpp (bit
+// equality with a fresh image, counters).
 #include "visual/photometry/beam_composer.h"
 
 #include <algorithm>
@@ -19,10 +19,11 @@ BeamComposer::BeamComposer(std::vector<double> first_deg, std::vector<double> se
   image_.assign(first_deg_.size() * second_deg_.size(), 0.0f);
 }
 
-std::size_t BeamComposer::add(const IntensityTable& table, const glm::dmat3& image_from_lamp) {
+std::size_t BeamComposer::add(const IntensityTable& table, const glm::dmat3& image_from_lamp, const glm::vec3& colour) {
   Source source;
   source.table = &table;
   source.image_from_lamp = image_from_lamp;
+  source.red_blue = {colour.x, colour.z};
   sample(source);
   sources_.push_back(std::move(source));
   return sources_.size() - 1;
@@ -91,23 +92,49 @@ void BeamComposer::sample(Source& source) {
   ++count_.sources;
 }
 
+// Of row j of the rectangle: row(source, from, to, candela) for each lit source that reaches it, candela[i] of column
+// i.
+template <typename Row>
+void BeamComposer::each_row(const TexelRect& rect, std::size_t j, Row&& row) const {
+  for (const Source& source : sources_) {
+    if (source.scale == 0.0f || j < source.rect.row || j >= source.rect.end_row) continue;
+    const std::size_t from = std::max(rect.column, source.rect.column),
+                      to = std::min(rect.end_column, source.rect.end_column);
+    if (from >= to) continue;
+    row(source, from, to,
+        source.candela.data() + (j - source.rect.row) * (source.rect.end_column - source.rect.column) -
+            source.rect.column);
+  }
+}
+
 void BeamComposer::sum(const TexelRect& rect) {
   const std::size_t columns = first_deg_.size();
   for (std::size_t j = rect.row; j < rect.end_row; ++j) {
     float* out = image_.data() + j * columns;
     std::fill(out + rect.column, out + rect.end_column, 0.0f);
-    for (const Source& source : sources_) {
-      if (source.scale == 0.0f || j < source.rect.row || j >= source.rect.end_row) continue;
-      const std::size_t from = std::max(rect.column, source.rect.column),
-                        to = std::min(rect.end_column, source.rect.end_column);
-      if (from >= to) continue;
-      const float* in = source.candela.data() + (j - source.rect.row) * (source.rect.end_column - source.rect.column) -
-                        source.rect.column;
+    each_row(rect, j, [out](const Source& source, std::size_t from, std::size_t to, const float* in) {
       const float scale = source.scale;
       for (std::size_t i = from; i < to; ++i) out[i] += scale * in[i];
-    }
+    });
   }
   count_.texels += rect.texels();
+}
+
+void BeamComposer::sum_tints(const TexelRect& rect) {
+  const std::size_t columns = first_deg_.size();
+  for (std::size_t j = rect.row; j < rect.end_row; ++j) {
+    glm::vec2* out = tints_.data() + j * columns;
+    std::fill(out + rect.column, out + rect.end_column, glm::vec2{0.0f});
+    each_row(rect, j, [out](const Source& source, std::size_t from, std::size_t to, const float* in) {
+      const glm::vec2 scale = source.scale * source.red_blue;
+      for (std::size_t i = from; i < to; ++i) out[i] += scale * in[i];
+    });
+  }
+}
+
+void BeamComposer::keep_tints(bool wanted) {
+  tinted_ = wanted;
+  if (!wanted) tints_.clear();
 }
 
 std::vector<TexelRect> BeamComposer::update() {
@@ -134,6 +161,12 @@ std::vector<TexelRect> BeamComposer::update() {
     }
   }
   for (const TexelRect& rect : changed) sum(rect);
+  if (tinted_ && tints_.empty()) {
+    tints_.resize(image_.size());
+    sum_tints({0, 0, columns(), rows()});
+  } else if (tinted_) {
+    for (const TexelRect& rect : changed) sum_tints(rect);
+  }
   ++(changed.empty() ? count_.idle : count_.images);
   return changed;
 }

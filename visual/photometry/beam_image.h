@@ -46,8 +46,11 @@ BeamGrid beam_grid(std::span<const AimedSource> sources);
 /// candela / screen_factor, in the nodes' tangents).
 struct BeamImage : BeamGrid {
   std::vector<float> candela;  ///< [second][first]
-  glm::vec3 colour{1.0f};      ///< linear sRGB of the light, luminance (Rec. 709) exactly 1
-  bool dark = true;            ///< nothing lit: no need to draw
+  glm::vec3 colour{1.0f};      ///< linear sRGB of the light, luminance (Rec. 709) exactly 1; the mean where it differs
+  /// Where lit sources differ in colour: candela times red and times blue of each light, summed, on the same nodes.
+  /// Green follows from luminance. Empty while all light has `colour`.
+  std::vector<glm::vec2> tints;
+  bool dark = true;  ///< nothing lit: no need to draw
 };
 
 /// Composes the image of one lamp position. Sources may be empty (a dark image).

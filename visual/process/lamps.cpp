@@ -185,6 +185,17 @@ double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunct
   return total_lx;
 }
 
+std::optional<glm::vec3> Lamps::light() const {
+  glm::dvec3 sum{0.0};
+  double lumens = 0.0;
+  for (const Position& position : positions_[design_]) {
+    if (position.beam.image().dark) continue;
+    sum += position.beam.lumens() * glm::dvec3(position.beam.image().colour);
+    lumens += position.beam.lumens();
+  }
+  return lumens > 0.0 ? std::optional(glm::vec3(sum / lumens)) : std::nullopt;
+}
+
 /// Only functions that a lamp of the design has.
 std::string Lamps::text_of_lit() const {
   std::string text;
@@ -223,7 +234,8 @@ std::uint64_t Lamps::summed_texels() const {
 std::vector<Lamps::TableInfo> Lamps::tables() const {
   std::vector<TableInfo> infos;
   for (const auto& [key, table] : tables_) {
-    infos.push_back({table.name, table.content_hash, table.peak_cd(), table.flux_lm(), table.notes});
+    infos.push_back(
+        {table.name, table.content_hash, table.peak_cd(), table.flux_lm(), table.notes, LampTables::reading(key)});
   }
   return infos;
 }

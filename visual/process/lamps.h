@@ -76,6 +76,10 @@ class Lamps {
   double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
                                double tilt_rad = 0.0) const;
 
+  /// Mean colour of the light of all sources that shine, weighted by flux, linear sRGB of luminance 1; nothing when all
+  /// are dark.
+  std::optional<glm::vec3> light() const;
+
   const std::vector<DesignConfig>& designs() const { return designs_; }
   const DesignConfig& design() const { return designs_[design_]; }
   std::size_t design_index() const { return design_; }
@@ -89,6 +93,7 @@ class Lamps {
     std::string name, content_hash;
     double peak_cd = 0.0, flux_lm = 0.0;
     std::vector<std::string> notes;
+    std::string reading;  ///< how the file was read, where a rig says more than its name: "emitter 2, mirrored"
   };
   std::vector<TableInfo> tables() const;
   /// What came of every `aim` of the rig.

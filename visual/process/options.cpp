@@ -51,6 +51,14 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   options.beam_image = level_named(picture.beam_image);
   options.validation = picture.validation;
   options.device_name = picture.device_name;
+  if (!picture.adaptation.empty()) {
+    const auto setting = parse_adaptation(picture.adaptation);
+    if (!setting) {
+      std::fprintf(stderr, "phare-visual: %s\n", setting.error().text().c_str());
+      return {std::nullopt, kExitBadInput};
+    }
+    options.adaptation = *setting;
+  }
   if (port_base != 0) options.port_base = port_base;
   if (options.headless && options.out.empty()) options.out = "out";
   if (options.stats_file.empty() && !options.out.empty()) {

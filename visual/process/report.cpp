@@ -77,6 +77,7 @@ nlohmann::json report_json(const Session& session, SimTime now) {
                      {"uploaded_texels", session.renderer.uploaded_texels()},
                      {"uploads", session.lamps.uploads()},
                      {"resampled", session.lamps.resampled_images()}};
+  report["eye"] = {{"adaptation", session.eye.fixed() ? "fixed" : "auto"}, {"adapted_k", session.eye.adapted_k()}};
   report["self_audit"] = session.audit.json();
   report["switch_to_photon"] = session.switches.json();
   report["scene"] = {{"file", session.scene.file.filename().string()},

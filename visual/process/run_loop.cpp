@@ -236,6 +236,8 @@ void Loop::draw(const Moment& moment) {
   if (s_.options.false_colour) input_.view = input_.view == View::kPhoto ? View::kFalseColour : View::kPhoto;
   input_.lamps = s_.lamps.placed(moment.car.pose);
   input_.exposure_per_cdm2 = s_.options.exposure_per_cdm2;
+  s_.eye.see(moment.time, s_.lamps.light());
+  input_.white = s_.eye.white();
   if (s_.window && drawn_frames_ % 6 == 0)
     input_.overlay = overlay(moment);  // ten times a second: the lux under the mouse takes a ray through the scene
   captured_ = wants_picture(moment);
@@ -267,6 +269,7 @@ void Loop::report(const Moment& moment) {
 }
 
 void Loop::keep(const Moment& moment) {
+  if (!s_.eye.fixed()) s_.album.keep_eye(s_.eye.json());
   if (captured_) {
     Image8 image = s_.renderer.read_image();
     if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);
@@ -339,6 +342,8 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
   char text[160];
   std::vector<std::string> lines{label(moment)};
   std::snprintf(text, sizeof text, "frame %.1f ms   C camera   F false colour", s_.stats.newest.wall_ms);
+  lines.emplace_back(text);
+  std::snprintf(text, sizeof text, "eye adapted to %.0f K%s", s_.eye.adapted_k(), s_.eye.fixed() ? ", fixed" : "");
   lines.emplace_back(text);
   if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside) {
     if (const auto point =
