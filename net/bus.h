@@ -61,8 +61,8 @@ class Bus {
   /// Sleeps until something waits (true), or time is up or a signal came (false).
   bool wait(std::chrono::nanoseconds at_most);
 
-  /// The newest valid message, nullptr before the first. `channel`: of which visual process, for FrameReport and
-  /// ProbeReply.
+  /// The newest valid message, nullptr before the first. `channel`: of which visual process, for FrameReport,
+  /// ProbeReply and KeyInput.
   template <class T>
   const Newest<T>* newest(std::uint32_t channel = 0) const {
     const auto& inboxes = std::get<std::vector<Inbox<T>>>(inboxes_);
@@ -109,7 +109,8 @@ class Bus {
   std::uint64_t start_id_;
 
   std::tuple<std::vector<Inbox<CockpitState>>, std::vector<Inbox<VehicleState>>, std::vector<Inbox<FrameReport>>,
-             std::vector<Inbox<RigControl>>, std::vector<Inbox<ProbeRequest>>, std::vector<Inbox<ProbeReply>>>
+             std::vector<Inbox<RigControl>>, std::vector<Inbox<ProbeRequest>>, std::vector<Inbox<ProbeReply>>,
+             std::vector<Inbox<KeyInput>>>
       inboxes_;                                           // one per sender channel
   std::array<std::string, kChannels.size()> last_bytes_;  // sealed
   BusCounters counters_;

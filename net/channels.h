@@ -65,7 +65,7 @@ struct Channel {
 /// In the order of the alternatives of Payload.
 /// CockpitState goes stale when 20 are missing: pedals fade, low beam stays on. VehicleState goes stale when 50 are
 /// missing: until then the picture coasts, then it holds and says so.
-inline constexpr std::array<Channel, 6> kChannels{{
+inline constexpr std::array<Channel, 7> kChannels{{
     // clang-format off
     // message          sender             receivers                                                                first  Hz   stale after                    repeat
     {"cockpit_state",   Sender::kCockpit,  Roles(Role::kDynamics, Role::kVisual, Role::kRecorder),                   false, 100, std::chrono::milliseconds(200), false},
@@ -74,6 +74,7 @@ inline constexpr std::array<Channel, 6> kChannels{{
     {"rig_control",     Sender::kControl,  Roles(Role::kCockpit, Role::kDynamics, Role::kVisual, Role::kRecorder),   false, 0,   std::chrono::seconds(0),        false},
     {"probe_request",   Sender::kControl,  Roles(Role::kVisual),                                                     true,  0,   std::chrono::seconds(0),        false},
     {"probe_reply",     Sender::kVisual,   Roles(Role::kControl, Role::kRecorder),                                   false, 0,   std::chrono::seconds(0),        false},
+    {"key_input",       Sender::kVisual,   Roles(Role::kCockpit, Role::kControl),                                    false, 0,   std::chrono::seconds(1),        false},
     // clang-format on
 }};
 static_assert(kChannels.size() == std::variant_size_v<Payload>);

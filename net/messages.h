@@ -156,7 +156,18 @@ struct ProbeReply {
   friend bool operator==(const ProbeReply&, const ProbeReply&) = default;
 };
 
-using Payload = std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply>;
+/// Most keys held, and most newest events, that one KeyInput names.
+inline constexpr std::size_t kMostKeys = 16;
+
+struct KeyInput {
+  std::vector<std::uint32_t> held;
+  std::vector<std::int32_t> event;
+  std::uint64_t events = 0;
+
+  friend bool operator==(const KeyInput&, const KeyInput&) = default;
+};
+
+using Payload = std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply, KeyInput>;
 
 /// The envelope every payload travels in.
 struct Datagram {

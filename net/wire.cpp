@@ -181,6 +181,12 @@ void fill(wire::ProbeReply& to, const ProbeReply& from) {
   to.set_error(from.error);
 }
 
+void fill(wire::KeyInput& to, const KeyInput& from) {
+  to.mutable_held()->Add(from.held.begin(), from.held.end());
+  to.mutable_event()->Add(from.event.begin(), from.event.end());
+  to.set_events(from.events);
+}
+
 struct PayloadFiller {
   wire::Datagram& to;
   void operator()(const CockpitState& from) const { fill(*to.mutable_cockpit_state(), from); }
@@ -189,6 +195,7 @@ struct PayloadFiller {
   void operator()(const RigControl& from) const { fill(*to.mutable_rig_control(), from); }
   void operator()(const ProbeRequest& from) const { fill(*to.mutable_probe_request(), from); }
   void operator()(const ProbeReply& from) const { fill(*to.mutable_probe_reply(), from); }
+  void operator()(const KeyInput& from) const { fill(*to.mutable_key_input(), from); }
 };
 
 // ---- protobuf to struct
@@ -311,6 +318,12 @@ void read(ProbeReply& to, const wire::ProbeReply& from) {
   to.error = from.error();
 }
 
+void read(KeyInput& to, const wire::KeyInput& from) {
+  to.held.assign(from.held().begin(), from.held().end());
+  to.event.assign(from.event().begin(), from.event().end());
+  to.events = from.events();
+}
+
 /// The payload to read into: the one of the last datagram where the type fits, so that its memory is used again.
 template <typename T>
 T& reused(Payload& payload) {
@@ -343,6 +356,8 @@ bool any_unknown(const wire::Datagram& message) {
       return unknown_in(message.probe_request());
     case wire::Datagram::kProbeReply:
       return unknown_in(message.probe_reply());
+    case wire::Datagram::kKeyInput:
+      return unknown_in(message.key_input());
     case wire::Datagram::PAYLOAD_NOT_SET:
       break;
   }
@@ -432,6 +447,9 @@ Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
       break;
     case wire::Datagram::kProbeReply:
       read(reused<ProbeReply>(datagram.payload), message.probe_reply());
+      break;
+    case wire::Datagram::kKeyInput:
+      read(reused<KeyInput>(datagram.payload), message.key_input());
       break;
     case wire::Datagram::PAYLOAD_NOT_SET:
       return Refusal::kMalformed;

@@ -33,8 +33,9 @@ FrameCounts draw_frame(FrameParts& parts, const FrameInput& input) {
 
   // What the driver is told besides.
   if (plan.overlay) {
-    if (!parts.overlay) parts.overlay = std::make_unique<OverlayPass>(parts.device, targets.display_format);
-    parts.overlay->draw(parts.graph, targets.display, input.overlay);
+    if (!parts.overlay)
+      parts.overlay = std::make_unique<OverlayPass>(parts.device, targets.display_format, targets.extent.height);
+    parts.overlay->draw(parts.graph, targets.display, input.overlay, input.instruments, input.panel);
   }
 
   FrameCounts counts{.passes =
@@ -61,7 +62,7 @@ EffectPlan plan_effects(const FrameInput& input, std::uint32_t lamp_count, bool 
   plan.reasons.push_back(plan.hdr_image
                              ? "tone mapping pass on: the HDR image is called for"
                              : "tone mapping pass off: nothing reads the HDR image, the lamp pass applies the curve");
-  plan.overlay = !input.overlay.empty();
+  plan.overlay = !input.overlay.empty() || !input.instruments.empty() || !input.panel.empty();
   plan.reasons.push_back(plan.overlay ? "overlay on: there are lines to show" : "overlay off: nothing to show");
   return plan;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "config/result.h"
+#include "visual/overlay_content.h"
 #include "visual/photometry/beam_composer.h"
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/image_levels.h"
@@ -65,7 +66,9 @@ struct FrameInput {
   View view = View::kPhoto;
   bool want_hdr = false;               ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;             ///< read the finished picture back
-  std::vector<std::string> overlay{};  ///< lines of text over the picture; none: no overlay pass
+  std::vector<std::string> overlay{};  ///< lines of text over the picture
+  std::vector<OverlayInstrument> instruments{};
+  OverlayPanel panel{};  ///< nothing in these three: no overlay pass
 };
 
 struct PassTime {

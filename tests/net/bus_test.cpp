@@ -121,8 +121,8 @@ TEST(Bus, SendsToEveryReceiverOfTheTableAndToNobodyElse) {
   all.push_back({Role::kVisual, 0, open_bus(rig, Role::kVisual, 0)});
   all.push_back({Role::kVisual, 1, open_bus(rig, Role::kVisual, 1)});
 
-  const std::array<Payload, 6> payloads = {CockpitState{}, VehicleState{}, report(3, 1, 2),
-                                           RigControl{},   ProbeRequest{}, ProbeReply{}};
+  const std::array<Payload, 7> payloads = {CockpitState{}, VehicleState{}, report(3, 1, 2), RigControl{},
+                                           ProbeRequest{}, ProbeReply{},   KeyInput{}};
   for (Endpoint& sender : all) {
     for (std::size_t i = 0; i < payloads.size(); ++i) {
       const bool may = kChannels[i].sender == sender_of(sender.role);

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <memory>
 
 #include "config/remedies.h"
 #include "net/drive_file.h"
@@ -74,19 +75,20 @@ int draw_channel(VisualOptions options) {
   if (!album) return refuse(album.error());
 
   nlohmann::json lamps_json = describe(*lamps);
-  Session session{std::move(options),
-                  std::move(*rig),
-                  std::move(*scene),
-                  std::move(*lamps),
-                  std::move(window),
-                  std::move(*renderer),
-                  std::move(*bus),
-                  std::move(*album),
-                  install_stop_signals(),
-                  {},
-                  {},
-                  {},
-                  std::move(lamps_json)};
+  const std::unique_ptr<Session> held(new Session{std::move(options),
+                                                  std::move(*rig),
+                                                  std::move(*scene),
+                                                  std::move(*lamps),
+                                                  std::move(window),
+                                                  std::move(*renderer),
+                                                  std::move(*bus),
+                                                  std::move(*album),
+                                                  install_stop_signals(),
+                                                  {},
+                                                  {},
+                                                  {},
+                                                  std::move(lamps_json)});
+  Session& session = *held;
   spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
   run_loop(session);
   if (session.renderer.validation_messages() > 0) {

@@ -54,6 +54,13 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                  "How beam images are stored and looked up, instead of the rig's: what accuracy costs in time")
       ->check(CLI::IsMember(level_names()));
   app.add_flag("--false-colour", options.false_colour, "Begin with illuminance in false colour");
+  app.add_option(
+         "--guide", options.guide,
+         "Somebody sits at the window and drives (live) or looks on (replay): tell how to begin and what can be "
+         "done at the end, and wait there")
+      ->check(CLI::IsMember({"live", "replay"}));
+  app.add_flag("--demo", options.demo, "With --guide: the demo driver waits for his key");
+  app.add_option("--report", options.report, "With --guide: where the end screen says that the report will lie");
   app.add_flag("--validation", options.validation, "Vulkan validation with synchronization validation");
   app.add_option("--device", options.device_name, "Take the Vulkan device whose name contains this");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off")

@@ -27,6 +27,9 @@ struct VisualOptions {
   double exposure_per_cdm2 = 0.8;
   std::int64_t audit_every = 300;  ///< frames; 0: never
   bool false_colour = false;
+  std::string guide;                     ///< live, replay: somebody sits at the window; empty: nobody
+  bool demo = false;                     ///< a demo driver waits for his key
+  std::string report;                    ///< what the end screen says of the report
   std::optional<ImageLevel> beam_image;  ///< instead of the rig's
   bool validation = false;
   std::string device_name;
