@@ -34,11 +34,11 @@ constexpr KeyBinding kBindings[] = {
     {kDesignPrevious, kCar, 'p', "P", {"p"}, "previous design"},
     {kDemo, kCar, 'd', "D", {"d"}, "the demo driver takes the wheel; any driving key gives it back"},
     {kBeginAgain, kDrive, key::kBackspace, "Backspace", {}, "begin again from the start"},
-    {kHelp, kPicture, key::kF1, "F1", {}, "these keys, and away"},
+    {kHelp, kPicture, key::kF1, "F1", {}, "show or hide these keys"},
     {kHelp, kPicture, '?', "?", {}, "the same"},
     {kCamera, kPicture, 'c', "C", {}, "camera: driver, from above, behind the car"},
     {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour"},
-    {kLeave, kPicture, key::kEscape, "Esc", {}, "away with the keys, or leave"},
+    {kLeave, kPicture, key::kEscape, "Esc", {}, "hide these keys, or leave the drive"},
 };
 
 constexpr PadBinding kPadBindings[] = {

@@ -58,7 +58,6 @@ struct GpuFrame {
   vec4 clip_from_eye[4];    // columns; "eye" is the world turned to the eye's place, not its direction
   vec4 exposure;            // rgb: 1/(cd/m²), with the balance of the eye's adaptation
   vec4 sky;                 // rgb zenith cd/m², w: factor at the horizon
-  vec4 view_from_clip[4];   // columns: clip position to eye-relative direction
   GpuLamp lamps[kMaxLamps];
 };
 

@@ -1,17 +1,22 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/lamp_bindings.glsl"
+#include "lamps.h"
+#include "lib/tone.h"
+#include "sky.h"
 
-layout(location = 0) out vec3 ray;  // eye-relative, not normalized
-layout(location = 1) flat out vec3 exposure;
-layout(location = 2) flat out vec4 sky;
+layout(constant_id = kSpecSkyOutput) const uint output_kind = 0;
+layout(push_constant) uniform Push { SkyConstants sky; };
+layout(location = 0) out vec3 colour;
 
-// One triangle that covers the screen, at the far plane (reversed depth: 0).
+// Two triangles between each two rings and sectors, at infinity.
 void main() {
-  vec2 ndc = vec2(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0);
-  mat4 turn = mat4(frame.view_from_clip[0], frame.view_from_clip[1], frame.view_from_clip[2], frame.view_from_clip[3]);
-  ray = (turn * vec4(ndc, 1.0, 1.0)).xyz;
-  exposure = frame.exposure.rgb;
-  sky = frame.sky;
-  gl_Position = vec4(ndc, 0.0, 1.0);
+  uint cell = uint(gl_VertexIndex) / 6u, corner = uint(gl_VertexIndex) % 6u;
+  uint ring = cell / kSkySectors + (corner == 2u || corner == 3u || corner == 5u ? 1u : 0u);
+  uint sector = cell % kSkySectors + (corner == 1u || corner == 4u || corner == 5u ? 1u : 0u);
+  float sine = sky_ring_sine(ring), azimuth = radians(360.0) * float(sector % kSkySectors) / float(kSkySectors);
+  float cosine = sqrt(max(1.0 - sine * sine, 0.0));
+  vec3 luminance = sky_luminance(sky.zenith, sine);
+  colour = output_kind == kOutputHdr ? luminance : tone_curve(luminance * sky.exposure.rgb);
+  mat4 clip = mat4(sky.clip_from_eye[0], sky.clip_from_eye[1], sky.clip_from_eye[2], sky.clip_from_eye[3]);
+  gl_Position = clip * vec4(cosine * cos(azimuth), cosine * sin(azimuth), sine, 0.0);
 }

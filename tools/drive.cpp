@@ -31,8 +31,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// In real time the drive begins when every picture is ready; a machine without a GPU that is busy takes some seconds.
-constexpr const char* kPictureWithin_s = "60";
+// In real time the drive begins when every picture is ready; a busy machine without a GPU took a minute.
+constexpr const char* kPictureWithin_s = "180";
 
 struct DriveOptions {
   std::string rig_file = config_path("rigs/country_road.toml");

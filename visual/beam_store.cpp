@@ -47,7 +47,6 @@ void BeamStore::change(std::size_t index, const BeamImage& image, std::span<cons
 // Makes the image anew if it has another size or format.
 bool BeamStore::fit(gpu::Image& image, vk::Format format, std::uint32_t width, std::uint32_t height, const char* name) {
   if (*image.image && image.extent == vk::Extent2D{width, height} && image.format == format) return false;
-  device_.allocated_bytes -= image.bytes;
   image = gpu::Image(device_, format, {width, height},
                      vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst, name);
   return true;

@@ -39,7 +39,7 @@ struct Renderer::Impl {
   ToneMappingPass tone_mapping{device};
   std::unique_ptr<OverlayPass> overlay;
   SceneBuffers scene;
-  FrameTargets targets;
+  FrameTarget target;
   gpu::HostBuffer display_copy, hdr_copy;
   vk::raii::CommandBuffers commands{nullptr};
   vk::raii::Fence fence{nullptr};
@@ -49,7 +49,7 @@ struct Renderer::Impl {
     commands = vk::raii::CommandBuffers(
         device.device, vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
     fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
-    make_targets(options.width_px, options.height_px);
+    set_target(options.width_px, options.height_px);
     set_scene(Scene{});
   }
 
@@ -57,13 +57,12 @@ struct Renderer::Impl {
     if (*device.device) device.device.waitIdle();
   }
 
-  void make_targets(int width_px, int height_px) {
+  void set_target(int width_px, int height_px) {
     vk::Extent2D extent{static_cast<std::uint32_t>(width_px), static_cast<std::uint32_t>(height_px)};
     if (surface) extent = surface->extent();
     device.device.waitIdle();
-    targets =
-        FrameTargets(device, extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
-                     surface ? surface->format() : vk::Format::eR8G8B8A8Srgb);
+    target = {extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
+              surface ? surface->format() : vk::Format::eR8G8B8A8Srgb};
     display_copy = {};
     hdr_copy = {};
   }
@@ -94,7 +93,7 @@ struct Renderer::Impl {
     const vk::DeviceSize bytes = bytes_per_texel * image.extent.width * image.extent.height;
     if (buffer.bytes != bytes)
       buffer = gpu::HostBuffer(device, bytes, vk::BufferUsageFlagBits::eTransferDst, image.name + " copy", true);
-    graph.pass("read back " + image.name, {{&image, gpu::Use::kCopySource, false}}, [&](vk::CommandBuffer c) {
+    graph.copy("read back " + image.name, {{&image, gpu::Use::kCopySource, false}}, [&](gpu::Recorder& c) {
       c.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *buffer.buffer,
                           vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
                                               .imageExtent = {image.extent.width, image.extent.height, 1}});
@@ -107,7 +106,7 @@ struct Renderer::Impl {
   }
 
   FrameParts parts() {
-    return {device,       graph,   targets,
+    return {device,       graph,   target,
             scene,        beams,   lamps,
             tone_mapping, overlay, device.properties.deviceType == vk::PhysicalDeviceType::eCpu};
   }
@@ -150,45 +149,51 @@ void Renderer::change_beam(std::size_t index, const BeamImage& image, std::span<
 
 void Renderer::resize(int width_px, int height_px) {
   if (impl_->surface) impl_->surface->rebuild();
-  impl_->make_targets(width_px, height_px);
+  impl_->set_target(width_px, height_px);
 }
 
 FrameResult Renderer::draw(const FrameInput& input) {
   const auto start = std::chrono::steady_clock::now();
   FrameParts parts = impl_->parts();
-  FrameCounts counts;
+  DrawnFrame drawn;
   impl_->submit([&] {
-    counts = draw_frame(parts, input);
-    if (input.want_image) impl_->copy_out(impl_->targets.display, impl_->display_copy, 4);
-    if (input.want_hdr && *impl_->targets.hdr_cdm2.image) impl_->copy_out(impl_->targets.hdr_cdm2, impl_->hdr_copy, 8);
+    drawn = draw_frame(parts, input);
+    if (input.want_image) impl_->copy_out(*drawn.display, impl_->display_copy, 4);
+    if (input.want_hdr && drawn.hdr_cdm2 != nullptr) impl_->copy_out(*drawn.hdr_cdm2, impl_->hdr_copy, 8);
   });
-  if (impl_->surface && !impl_->surface->present(impl_->targets.display)) resize(0, 0);
+  const bool presented = !impl_->surface || impl_->surface->present(*drawn.display);
+  impl_->graph.free_unused();
+  if (!presented) resize(0, 0);
 
   FrameResult result;
   for (const gpu::FrameGraph::Timing& timing : impl_->graph.timings())
     result.passes.push_back({timing.name, timing.ms});
   result.gpu_ms = impl_->graph.total_ms();
+  const gpu::Counts& counts = impl_->graph.counts();
+  result.effects = drawn.effects;
   result.draws = counts.draws;
   result.pass_count = counts.passes;
   result.triangles = counts.triangles;
+  result.images = counts.images;
+  result.image_bytes = counts.image_bytes;
   result.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
 
 Image8 Renderer::read_image() const {
-  const FrameTargets& targets = impl_->targets;
-  Image8 image{static_cast<int>(targets.extent.width), static_cast<int>(targets.extent.height), {}};
+  const FrameTarget& target = impl_->target;
+  Image8 image{static_cast<int>(target.extent.width), static_cast<int>(target.extent.height), {}};
   image.rgba.resize(impl_->display_copy.bytes);
   std::memcpy(image.rgba.data(), impl_->display_copy.data, image.rgba.size());
-  if (targets.display_format == vk::Format::eB8G8R8A8Srgb)
+  if (target.display_format == vk::Format::eB8G8R8A8Srgb)
     for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) std::swap(image.rgba[i], image.rgba[i + 2]);
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
   return image;
 }
 
 ImageF Renderer::read_hdr() const {
-  const FrameTargets& targets = impl_->targets;
-  ImageF image{static_cast<int>(targets.extent.width), static_cast<int>(targets.extent.height), {}};
+  const FrameTarget& target = impl_->target;
+  ImageF image{static_cast<int>(target.extent.width), static_cast<int>(target.extent.height), {}};
   const auto* half = static_cast<const std::uint16_t*>(impl_->hdr_copy.data);
   const std::size_t count = impl_->hdr_copy.bytes / 2;
   image.rgba.resize(count);
@@ -218,7 +223,7 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
     gpu::HostBuffer copy;
     // One lamp at a time: what each gives is asked for, dark ones included.
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
-      impl_->lamps.set_frame(impl_->scene, impl_->beams, camera, 1.0, glm::vec3(1.0f), 0.0, lamps.subspan(lamp, 1));
+      impl_->lamps.set_frame(impl_->scene, impl_->beams, ViewGeometry(camera, 1.0), Sky{}, lamps.subspan(lamp, 1));
       if (impl_->lamps.lamp_count() == 0) continue;
       impl_->submit([&] {
         impl_->lamps.measure(impl_->graph, lx, *buffer.buffer, static_cast<std::uint32_t>(count), 0);
@@ -227,7 +232,6 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
       const auto* values = static_cast<const float*>(copy.data);
       for (std::size_t i = 0; i < count; ++i) result[lamp][begin + i] = values[4 * i];
     }
-    impl_->device.allocated_bytes -= buffer.bytes + copy.bytes + 16ull * extent.width * extent.height;
   }
   return result;
 }
@@ -235,17 +239,15 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
 std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t count, std::uint64_t seed) {
   const vk::Extent2D extent{320, 180};
   using Usage = vk::ImageUsageFlagBits;
-  const std::uint64_t before = impl_->device.allocated_bytes;
   gpu::Image position(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
                       Usage::eColorAttachment | Usage::eTransferSrc, "audit position");
   gpu::Image normal(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
                     Usage::eColorAttachment | Usage::eTransferSrc, "audit normal");
   gpu::Image depth(impl_->device, vk::Format::eD32Sfloat, extent, Usage::eDepthStencilAttachment, "audit depth");
   gpu::HostBuffer position_copy, normal_copy;
-  const double aspect = static_cast<double>(extent.width) / extent.height;
-  const std::vector<DrawItem> items = impl_->scene.visible(input.camera, aspect, input.far_mesh_from_m);
-  impl_->lamps.set_frame(impl_->scene, impl_->beams, input.camera, aspect, exposure_of(input), input.sky_luminance_cdm2,
-                         input.lamps);
+  const ViewGeometry view(input.camera, static_cast<double>(extent.width) / extent.height);
+  const std::vector<DrawItem> items = impl_->scene.visible(view, input.far_mesh_from_m);
+  impl_->lamps.set_frame(impl_->scene, impl_->beams, view, {exposure_of(input), input.sky_luminance_cdm2}, input.lamps);
   impl_->submit([&] {
     impl_->lamps.audit(impl_->graph, position, normal, depth, impl_->scene, items);
     impl_->copy_out(position, position_copy, 16);
@@ -264,7 +266,6 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
                         glm::dvec3(n[4 * i], n[4 * i + 1], n[4 * i + 2])},
                        static_cast<double>(p[4 * i + 3])});
   }
-  impl_->device.allocated_bytes = before;
   return samples;
 }
 
@@ -272,7 +273,7 @@ std::string Renderer::device() const {
   return std::string(impl_->device.properties.deviceName.data()) + ", " + impl_->device.driver;
 }
 std::uint64_t Renderer::device_memory_bytes() const {
-  return impl_->device.allocated_bytes;
+  return *impl_->device.allocated_bytes;
 }
 std::uint64_t Renderer::uploaded_texels() const {
   return impl_->beams.uploaded_texels();

@@ -13,10 +13,12 @@
 #include <vector>
 
 #include "config/result.h"
+#include "visual/effects.h"
 #include "visual/overlay_content.h"
 #include "visual/photometry/beam_composer.h"
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/image_levels.h"
+#include "visual/view.h"
 
 struct GLFWwindow;
 
@@ -32,16 +34,6 @@ struct RendererOptions {
   GLFWwindow* window = nullptr;                     ///< nullptr: headless
   ImageLevel beam_level = ImageLevel::kFloatNodes;  ///< how beam images are stored and looked up
   std::string device_name{};  ///< pick a device whose name contains this; empty: the first discrete GPU, else any
-};
-
-/// An eye in the world. Perspective, or from above with parallel rays.
-struct Camera {
-  glm::dvec3 eye_m{0.0};
-  glm::dmat3 world_from_eye{1.0};  ///< columns: forward, left, up
-  double fov_horizontal_rad = 1.0471975511965976;
-  double orthographic_width_m = 0.0;  ///< > 0: parallel projection of that width
-  double near_m = 0.15;
-  double far_m = 3000.0;
 };
 
 /// A lamp position in the world this frame.
@@ -68,7 +60,8 @@ struct FrameInput {
   bool want_image = false;             ///< read the finished picture back
   std::vector<std::string> overlay{};  ///< lines of text over the picture
   std::vector<OverlayInstrument> instruments{};
-  OverlayPanel panel{};  ///< nothing in these three: no overlay pass
+  OverlayPanel panel{};     ///< nothing in these three: no overlay pass
+  EffectChoices effects{};  ///< levels that the user has set; else the facts of the frame decide
 };
 
 struct PassTime {
@@ -80,9 +73,12 @@ struct FrameResult {
   double wall_ms = 0.0;  ///< from the call until the GPU was done
   double gpu_ms = 0.0;   ///< first to last time stamp
   std::vector<PassTime> passes;
-  std::uint32_t draws = 0;
-  std::uint32_t pass_count = 0;
+  EffectPlan effects;            ///< what was on, and why
+  std::uint32_t draws = 0;       ///< those of the overlay left out
+  std::uint32_t pass_count = 0;  ///< passes that draw; reading back draws nothing
   std::uint64_t triangles = 0;
+  std::uint32_t images = 0;  ///< images of the frame that live, and their bytes
+  std::uint64_t image_bytes = 0;
 };
 
 struct Image8 {
@@ -134,7 +130,7 @@ class Renderer {
   std::vector<AuditSample> audit(const FrameInput& input, std::size_t count, std::uint64_t seed);
 
   std::string device() const;                 ///< name, driver, Vulkan version
-  std::uint64_t device_memory_bytes() const;  ///< allocated by us
+  std::uint64_t device_memory_bytes() const;  ///< allocated by us and alive
   std::uint64_t validation_messages() const;  ///< since create
   std::uint64_t uploaded_texels() const;      ///< of beam images, since create
 

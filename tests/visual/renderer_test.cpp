@@ -364,6 +364,56 @@ TEST_F(RendererTest, HdrPassComesWhenCalledForAndHoldsIlluminance) {
   EXPECT_NEAR(luminance, 0.6 * lx / 3.14159265, 0.01 * lx + 0.02);
 }
 
+// Nothing lit, HDR on and off again: an image that a frame does not call for is freed, and memory accounts for itself.
+TEST_F(RendererTest, WhatNoFrameCallsForIsFreed) {
+  renderer->set_beam(0, image_of(cut_off_table(PhotometricType::kA, GammaAxis::kGamma0)));
+  ASSERT_TRUE(renderer->load_scene(yard()).ok());
+  FrameInput input = driver_view();
+  input.want_hdr = true;
+  renderer->draw(input);  // whatever buffers reading back takes are there now
+  input.want_hdr = false;
+  const FrameResult plain = renderer->draw(input);
+  const std::uint64_t bytes = renderer->device_memory_bytes();
+  EXPECT_EQ(plain.images, 2u) << "display and depth";
+  EXPECT_GE(plain.image_bytes, 320u * 180u * 8u);
+  EXPECT_FALSE(plain.effects.on(Effect::kHdrImage));
+
+  input.want_hdr = true;
+  const FrameResult hdr = renderer->draw(input);
+  EXPECT_EQ(hdr.images, 3u);
+  EXPECT_EQ(hdr.pass_count, plain.pass_count + 1);
+  EXPECT_EQ(hdr.draws, plain.draws + 1);
+  EXPECT_TRUE(hdr.effects.on(Effect::kHdrImage));
+  EXPECT_EQ(renderer->device_memory_bytes(), bytes + hdr.image_bytes - plain.image_bytes);
+
+  input.want_hdr = false;
+  EXPECT_EQ(renderer->draw(input).image_bytes, plain.image_bytes);
+  EXPECT_EQ(renderer->device_memory_bytes(), bytes);
+
+  input.lamps.clear();
+  const FrameResult dark = renderer->draw(input);
+  EXPECT_EQ(dark.pass_count, 1u);
+  EXPECT_EQ(dark.images, 2u);
+  EXPECT_FALSE(dark.effects.on(Effect::kDepthFirst));
+}
+
+TEST_F(RendererTest, AnotherSizeAndBackTakesTheSameMemory) {
+  ASSERT_TRUE(renderer->load_scene(yard()).ok());
+  const FrameInput input = driver_view();
+  renderer->resize(320, 180);
+  renderer->draw(input);
+  const std::uint64_t bytes = renderer->device_memory_bytes();
+  renderer->resize(640, 360);
+  EXPECT_GT(renderer->draw(input).image_bytes, 3u * 320u * 180u * 8u);
+  renderer->resize(320, 180);
+  renderer->draw(input);
+  EXPECT_EQ(renderer->device_memory_bytes(), bytes);
+  const std::vector<MeasurePoint> points{{{25, 0, 0}, {-1, 0, 0}}};
+  renderer->measure(input.lamps, points);
+  renderer->audit(input, 10, 1);
+  EXPECT_EQ(renderer->device_memory_bytes(), bytes) << "measuring and auditing keep nothing";
+}
+
 TEST_F(RendererTest, OverlayComesWhenThereAreLinesAndLeavesTheRestAlone) {
   const IntensityTable table = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
   renderer->set_beam(0, image_of(table));

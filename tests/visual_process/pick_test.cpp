@@ -42,11 +42,12 @@ TEST(Pick, MeetsTheGroundWhereGeometrySays) {
 TEST(RayThrough, MiddleAndEdgesOfThePicture) {
   Camera camera;  // looks along x
   camera.fov_horizontal_rad = M_PI / 2;
-  const Ray middle = ray_through(camera, 99.5, 49.5, 200, 100);
+  const Ray middle = ViewGeometry(camera, 200.0 / 100.0).ray_through(99.5, 49.5, 200, 100);
   EXPECT_NEAR(middle.direction.x, 1.0, 1e-12);
-  const Ray right = ray_through(camera, 199.5, 49.5, 200, 100);  // the right edge: 45° to the right, y < 0
+  const Ray right = ViewGeometry(camera, 200.0 / 100.0)
+                        .ray_through(199.5, 49.5, 200, 100);  // the right edge: 45° to the right, y < 0
   EXPECT_NEAR(right.direction.y, -std::sqrt(0.5), 1e-12);
-  const Ray top = ray_through(camera, 99.5, -0.5, 200, 100);
+  const Ray top = ViewGeometry(camera, 200.0 / 100.0).ray_through(99.5, -0.5, 200, 100);
   EXPECT_GT(top.direction.z, 0.4);
 }
 
@@ -56,11 +57,12 @@ TEST(BirdsEye, IsAMapAheadOfTheCar) {
   pose.z_m = 2.0;
   pose.pitch_rad = 0.05;  // does not tilt the map
   const Camera camera = birds_eye_camera(pose);
-  const auto near_left = pick(ground(), ray_through(camera, -0.5, -0.5, 1000, 400));
+  const auto near_left = pick(ground(), ViewGeometry(camera, 1000.0 / 400.0).ray_through(-0.5, -0.5, 1000, 400));
   ASSERT_TRUE(near_left.has_value());
   EXPECT_NEAR(near_left->position_m.x, 1000.0 + kBirdsEyeStart_m, 1e-9);
   EXPECT_NEAR(near_left->position_m.y, 20.0, 1e-9);
-  const auto far_right = pick(ground(), ray_through(camera, 999.5 - 1e-6, 399.5, 1000, 400));
+  const auto far_right =
+      pick(ground(), ViewGeometry(camera, 1000.0 / 400.0).ray_through(999.5 - 1e-6, 399.5, 1000, 400));
   ASSERT_TRUE(far_right.has_value());
   EXPECT_NEAR(far_right->position_m.x, 1100.0, 1e-6);
   EXPECT_NEAR(far_right->position_m.y, -20.0, 1e-9);

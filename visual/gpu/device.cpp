@@ -122,12 +122,13 @@ Device::Device(const DeviceOptions& options) {
                                         .queueFamilyIndex = queue_family});
 }
 
-vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags flags) {
+Memory Device::allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags flags) {
   const vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
   for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
     if ((need.memoryTypeBits & (1u << i)) == 0 || (memory.memoryTypes[i].propertyFlags & flags) != flags) continue;
-    allocated_bytes += need.size;
-    return vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo{.allocationSize = need.size, .memoryTypeIndex = i});
+    return Memory(
+        vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo{.allocationSize = need.size, .memoryTypeIndex = i}),
+        need.size, allocated_bytes);
   }
   throw std::runtime_error("no Vulkan memory type with " + vk::to_string(flags));
 }
@@ -164,7 +165,7 @@ HostBuffer::HostBuffer(Device& device, vk::DeviceSize size, vk::BufferUsageFlags
     memory = device.allocate(buffer.getMemoryRequirements(), flags);
   }
   buffer.bindMemory(*memory, 0);
-  data = memory.mapMemory(0, VK_WHOLE_SIZE);
+  data = memory->mapMemory(0, VK_WHOLE_SIZE);
   device.name(vk::ObjectType::eBuffer, reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer)), name);
 }
 
@@ -182,7 +183,6 @@ DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, v
   device.run_once([&](vk::CommandBuffer commands) {
     commands.copyBuffer(*staging.buffer, *buffer, vk::BufferCopy{.size = content.size()});
   });
-  device.allocated_bytes -= staging.bytes;
 }
 
 Image::Image(Device& device, vk::Format format_, vk::Extent2D extent_, vk::ImageUsageFlags usage,
@@ -245,7 +245,6 @@ void fill_image(Device& device, Image& image, std::span<const std::byte> bytes,
   image.layout = vk::ImageLayout::eShaderReadOnlyOptimal;
   image.stage = vk::PipelineStageFlagBits2::eFragmentShader;
   image.access = vk::AccessFlagBits2::eShaderSampledRead;
-  device.allocated_bytes -= staging.bytes;
 }
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv) {

@@ -8,11 +8,43 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "visual/gpu/vulkan.h"
 
 namespace phare::gpu {
+
+/// Bytes of device memory that live now; every allocation counts itself in and out.
+using MemoryCount = std::shared_ptr<std::uint64_t>;
+
+/// Device memory that is counted while it lives.
+class Memory {
+ public:
+  Memory() = default;
+  Memory(vk::raii::DeviceMemory memory, vk::DeviceSize bytes, MemoryCount count)
+      : memory_(std::move(memory)), bytes_(bytes), count_(std::move(count)) {
+    *count_ += bytes_;
+  }
+  Memory(Memory&& other) noexcept
+      : memory_(std::move(other.memory_)), bytes_(std::exchange(other.bytes_, 0)), count_(std::move(other.count_)) {}
+  Memory& operator=(Memory&& other) noexcept {
+    std::swap(memory_, other.memory_);
+    std::swap(bytes_, other.bytes_);
+    std::swap(count_, other.count_);
+    return *this;
+  }
+  ~Memory() {
+    if (count_) *count_ -= bytes_;
+  }
+  vk::DeviceMemory operator*() const { return *memory_; }
+  const vk::raii::DeviceMemory* operator->() const { return &memory_; }
+
+ private:
+  vk::raii::DeviceMemory memory_{nullptr};
+  vk::DeviceSize bytes_ = 0;
+  MemoryCount count_;
+};
 
 struct DeviceOptions {
   bool validation = false;
@@ -36,9 +68,9 @@ class Device {
   vk::PhysicalDeviceProperties properties{};
   std::string driver;
   std::shared_ptr<std::atomic<std::uint64_t>> validation_messages = std::make_shared<std::atomic<std::uint64_t>>(0);
-  std::uint64_t allocated_bytes = 0;
+  MemoryCount allocated_bytes = std::make_shared<std::uint64_t>(0);
 
-  vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags flags);
+  Memory allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags flags);
   /// Records, submits and waits.
   void run_once(const std::function<void(vk::CommandBuffer)>& record);
   void name(vk::ObjectType type, std::uint64_t handle, const std::string& text) const;
@@ -46,7 +78,7 @@ class Device {
 
 /// A buffer the CPU can write (or read) all the time.
 struct HostBuffer {
-  vk::raii::DeviceMemory memory{nullptr};
+  Memory memory;
   vk::raii::Buffer buffer{nullptr};
   vk::DeviceSize bytes = 0;
   void* data = nullptr;
@@ -59,7 +91,7 @@ struct HostBuffer {
 
 /// A buffer in device memory, filled once.
 struct DeviceBuffer {
-  vk::raii::DeviceMemory memory{nullptr};
+  Memory memory;
   vk::raii::Buffer buffer{nullptr};
   vk::DeviceSize bytes = 0;
 
@@ -69,7 +101,7 @@ struct DeviceBuffer {
 
 /// A 2D image with one view. The frame graph keeps its layout.
 struct Image {
-  vk::raii::DeviceMemory memory{nullptr};
+  Memory memory;
   vk::raii::Image image{nullptr};
   vk::raii::ImageView view{nullptr};
   vk::Format format = vk::Format::eUndefined;

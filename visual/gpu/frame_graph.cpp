@@ -50,11 +50,43 @@ FrameGraph::FrameGraph(Device& device)
 void FrameGraph::begin(vk::CommandBuffer commands) {
   commands_ = commands;
   names_.clear();
+  counts_ = {};
+  for (auto& [name, held] : images_) held.asked = false;
   commands_.resetQueryPool(*stamps_, 0, 2 * kMaxPasses);
 }
 
+Image& FrameGraph::image(const std::string& name, const ImageNeed& need) {
+  Held& held = images_[name];
+  held.asked = true;
+  if (!*held.image.image || held.need != need) {
+    held.image = {};  // first, so that both never take memory at once
+    held.image = Image(device_, need.format, need.extent, need.usage, name, need.samples);
+    held.need = need;
+  }
+  return held.image;
+}
+
+void FrameGraph::free_unused() {
+  std::erase_if(images_, [](const auto& named) { return !named.second.asked; });
+  counts_.images = static_cast<std::uint32_t>(images_.size());
+  counts_.image_bytes = 0;
+  for (const auto& [name, held] : images_) counts_.image_bytes += held.image.bytes;
+}
+
 void FrameGraph::pass(const std::string& name, const std::vector<ImageUse>& uses,
-                      const std::function<void(vk::CommandBuffer)>& record) {
+                      const std::function<void(Recorder&)>& record) {
+  ++counts_.passes;
+  record_pass(name, uses, record);
+}
+
+void FrameGraph::copy(const std::string& name, const std::vector<ImageUse>& uses,
+                      const std::function<void(Recorder&)>& record) {
+  ++counts_.copies;
+  record_pass(name, uses, record);
+}
+
+void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse>& uses,
+                             const std::function<void(Recorder&)>& record) {
   if (names_.size() == kMaxPasses) throw std::logic_error("more passes than time stamps");
   std::vector<vk::ImageMemoryBarrier2> barriers;
   for (const ImageUse& use : uses) {
@@ -80,7 +112,8 @@ void FrameGraph::pass(const std::string& name, const std::vector<ImageUse>& uses
                            .pImageMemoryBarriers = barriers.data()});
   const auto first = static_cast<std::uint32_t>(2 * names_.size());
   commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *stamps_, first);
-  record(commands_);
+  Recorder recorder(commands_, counts_);
+  record(recorder);
   commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *stamps_, first + 1);
   names_.push_back(name);
 }

@@ -111,46 +111,18 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene) {
   material_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(packed)), Usage::eUniformBuffer, "materials");
 }
 
-std::vector<DrawItem> SceneBuffers::visible(const Camera& camera, double aspect, double far_from_m) const {
-  // Planes of the view as inward normals in the eye's frame (forward, left, up); a box is out when its nearest corner
-  // is.
-  std::array<glm::dvec4, 5> planes{};
-  const glm::dmat3& axes = camera.world_from_eye;
-  if (camera.orthographic_width_m > 0.0) {
-    const double half_width = camera.orthographic_width_m / 2.0;
-    const double half_height = half_width / aspect;
-    planes = {glm::dvec4(axes[1], half_width), glm::dvec4(-axes[1], half_width), glm::dvec4(axes[2], half_height),
-              glm::dvec4(-axes[2], half_height), glm::dvec4(axes[0], 0.0)};
-  } else {
-    const double tan_h = std::tan(camera.fov_horizontal_rad / 2.0);
-    const double tan_v = tan_h / aspect;
-    planes = {glm::dvec4(glm::normalize(axes[0] * tan_h + axes[1]), 0.0),
-              glm::dvec4(glm::normalize(axes[0] * tan_h - axes[1]), 0.0),
-              glm::dvec4(glm::normalize(axes[0] * tan_v + axes[2]), 0.0),
-              glm::dvec4(glm::normalize(axes[0] * tan_v - axes[2]), 0.0), glm::dvec4(axes[0], 0.0)};
-  }
-  // Distance of a box from the eye; nothing if none of it is in view.
-  auto seen_at = [&](const glm::dvec3& low, const glm::dvec3& high) -> std::optional<double> {
-    const glm::dvec3 centre = (low + high) * 0.5 - camera.eye_m;
-    const glm::dvec3 half = (high - low) * 0.5;
-    for (const glm::dvec4& plane : planes) {
-      const glm::dvec3 normal(plane);
-      if (glm::dot(normal, centre) + glm::dot(glm::abs(normal), half) + plane.w < 0.0) return std::nullopt;
-    }
-    const double distance = glm::length(glm::max(glm::abs(centre) - half, glm::dvec3(0.0)));
-    return distance > camera.far_m ? std::nullopt : std::optional(distance);
-  };
+std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far_from_m) const {
   std::vector<DrawItem> items;
   for (const SceneBlock& block : blocks) {
-    const std::optional<double> block_at = seen_at(block.low_m, block.high_m);
+    const std::optional<double> block_at = view.sees(block.low_m, block.high_m);
     if (!block_at) continue;
     const std::vector<SceneBatch>* batches = &block.near;
     for (std::size_t level = 0; level < kFarLevels.size(); ++level)
       if (*block_at >= kFarLevels[level].from * far_from_m) batches = &block.far[level];
     for (const SceneBatch& batch : *batches) {
-      const std::optional<double> distance = seen_at(batch.low_m, batch.high_m);
+      const std::optional<double> distance = view.sees(batch.low_m, batch.high_m);
       if (!distance) continue;
-      const glm::dvec3 origin = batch.origin_m - camera.eye_m;
+      const glm::dvec3 origin = batch.origin_m - view.camera().eye_m;
       const glm::dvec3 detail = batch.origin_m - glm::floor(batch.origin_m / 1024.0) * 1024.0;
       items.push_back({&batch,
                        {glm::vec4(glm::vec3(origin), 0.0f), glm::vec4(glm::vec3(detail), 0.0f)},

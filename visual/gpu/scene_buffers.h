@@ -61,7 +61,7 @@ struct SceneBuffers {
 
   /// Batches whose bounds touch the view, those of one kind together, near ones first.
   /// Blocks that begin at the multiples kFarLevels of `far_from_m` or beyond are drawn with their far meshes.
-  std::vector<DrawItem> visible(const Camera& camera, double aspect, double far_from_m) const;
+  std::vector<DrawItem> visible(const ViewGeometry& view, double far_from_m) const;
 };
 
 }  // namespace phare

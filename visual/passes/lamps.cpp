@@ -1,7 +1,6 @@
 #include "visual/passes/lamps.h"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <utility>
@@ -16,8 +15,6 @@
 #include "shaders/scene_vert_2.h"
 #include "shaders/scene_vert_4.h"
 #include "shaders/scene_vert_8.h"
-#include "shaders/sky_frag.h"
-#include "shaders/sky_vert.h"
 #include "visual/passes/grain.h"
 
 namespace phare {
@@ -26,8 +23,8 @@ namespace {
 
 // std140 and std430 agree for these: all members are 16 bytes.
 static_assert(sizeof(shader::GpuLamp) == 176 && offsetof(shader::GpuLamp, guide) == 160);
-static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 160);
-static_assert(sizeof(shader::GpuFrame) == 160 + shader::kMaxLamps * 176);
+static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 96);
+static_assert(sizeof(shader::GpuFrame) == 96 + shader::kMaxLamps * 176);
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
 
@@ -39,35 +36,6 @@ constexpr std::array kVertexAttributes{
     vk::VertexInputAttributeDescription{.location = 2, .binding = 0, .format = vk::Format::eR32Uint, .offset = 24}};
 
 constexpr auto kStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
-
-// Clip space of Vulkan: x right, y down, z 1 at the near plane and 0 at infinity (reversed, for float depth), from
-// eye-relative world.
-glm::dmat4 clip_from_eye_matrix(const Camera& camera, double aspect) {
-  const glm::dvec3 forward = camera.world_from_eye[0], left = camera.world_from_eye[1], up = camera.world_from_eye[2];
-  glm::dmat4 rows(0.0);  // rows[i] is row i; transposed below
-  if (camera.orthographic_width_m > 0.0) {
-    const double half_width = camera.orthographic_width_m / 2.0;
-    rows[0] = glm::dvec4(-left / half_width, 0.0);
-    rows[1] = glm::dvec4(-up / (half_width / aspect), 0.0);
-    rows[2] = glm::dvec4(-forward / camera.far_m, 1.0);
-    rows[3] = glm::dvec4(0, 0, 0, 1);
-  } else {
-    const double tan_h = std::tan(camera.fov_horizontal_rad / 2.0);
-    rows[0] = glm::dvec4(-left / tan_h, 0.0);
-    rows[1] = glm::dvec4(-up / (tan_h / aspect), 0.0);
-    rows[2] = glm::dvec4(0, 0, 0, camera.near_m);
-    rows[3] = glm::dvec4(forward, 0.0);
-  }
-  return glm::transpose(rows);
-}
-
-// Direction of a pixel: ndc x, y and 1 to an eye-relative direction.
-glm::dmat4 view_from_clip_matrix(const Camera& camera, double aspect) {
-  const glm::dvec3 forward = camera.world_from_eye[0], left = camera.world_from_eye[1], up = camera.world_from_eye[2];
-  const double tan_h = camera.orthographic_width_m > 0.0 ? 0.0 : std::tan(camera.fov_horizontal_rad / 2.0);
-  return {glm::dvec4(-left * tan_h, 0.0), glm::dvec4(-up * (tan_h / aspect), 0.0), glm::dvec4(forward, 0.0),
-          glm::dvec4(0.0)};
-}
 
 vk::RenderingAttachmentInfo attachment(const gpu::Image& image, vk::ImageLayout layout, vk::AttachmentLoadOp load,
                                        vk::ClearValue clear, const gpu::Image* resolved) {
@@ -95,9 +63,7 @@ LampPass::LampPass(gpu::Device& device)
                     gpu::make_shader(device, k_measure_vert_8)},
       lamps_frag_{gpu::make_shader(device, k_lamps_frag_2), gpu::make_shader(device, k_lamps_frag_4),
                   gpu::make_shader(device, k_lamps_frag_8)},
-      depth_vert_(gpu::make_shader(device, k_depth_vert)),
-      sky_vert_(gpu::make_shader(device, k_sky_vert)),
-      sky_frag_(gpu::make_shader(device, k_sky_frag)) {
+      depth_vert_(gpu::make_shader(device, k_depth_vert)) {
   using Type = vk::DescriptorType;
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   for (const auto& [binding, type, count] :
@@ -168,20 +134,16 @@ void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
   device_.device.updateDescriptorSets(writes, nullptr);
 }
 
-void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Camera& camera, double aspect,
-                         const glm::vec3& exposure_per_cdm2, double sky_cdm2, std::span<const PlacedLamp> lamps) {
+void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const ViewGeometry& view, const Sky& sky,
+                         std::span<const PlacedLamp> lamps) {
+  view_ = view;
+  sky_ = sky;
   bool rebind = beams.upload();
   shader::GpuFrame frame{};
-  const glm::mat4 clip = glm::mat4(clip_from_eye_matrix(camera, aspect));
-  const glm::mat4 view = glm::mat4(view_from_clip_matrix(camera, aspect));
-  for (int i = 0; i < 4; ++i) {
-    frame.clip_from_eye[i] = clip[i];
-    frame.view_from_clip[i] = view[i];
-  }
-  frame.exposure = glm::vec4(exposure_per_cdm2, 0.0f);
-  // Zenith bluish, the horizon three times brighter: a clear night far from towns, brightened enough to be seen on a
-  // display.
-  frame.sky = glm::vec4(glm::vec3(0.75f, 1.0f, 1.7f) * static_cast<float>(sky_cdm2), 3.0f);
+  const glm::mat4 clip = glm::mat4(view.clip_from_eye());
+  for (int i = 0; i < 4; ++i) frame.clip_from_eye[i] = clip[i];
+  frame.exposure = glm::vec4(sky.exposure_per_cdm2, 0.0f);
+  frame.sky = sky.zenith();
   lamp_count_ = lookups_ = 0;
   colours_differ_ = false;
   for (const PlacedLamp& lamp : lamps) {
@@ -191,7 +153,7 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const Came
     lookups_ |= beam.lookup_bits() << (4 * lamp_count_);
     colours_differ_ |= lamp_count_ > 0 && glm::vec3(frame.lamps[0].colour) != beam.colour;
     shader::GpuLamp& out = frame.lamps[lamp_count_++];
-    out.position = glm::vec4(glm::vec3(lamp.position_m - camera.eye_m), 1.0f);
+    out.position = glm::vec4(glm::vec3(lamp.position_m - view.camera().eye_m), 1.0f);
     const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
     out.row_a = glm::vec4(glm::vec3(rows[0]), 0.0f);
     out.row_b = glm::vec4(glm::vec3(rows[1]), 0.0f);
@@ -239,23 +201,6 @@ vk::Pipeline LampPass::lit_pipeline(const Variant& variant) {
   return *lit_.emplace(variant, make_pipeline(device_, recipe)).first->second;
 }
 
-vk::Pipeline LampPass::sky_pipeline(LampOutput output, vk::Format format, vk::SampleCountFlagBits samples) {
-  const auto key = std::tuple(output, format, samples);
-  if (const auto found = sky_.find(key); found != sky_.end()) return *found->second;
-  const auto value = static_cast<std::uint32_t>(output);
-  const vk::SpecializationMapEntry entry{.constantID = shader::kSpecOutput, .offset = 0, .size = 4};
-  const vk::SpecializationInfo constants{.mapEntryCount = 1, .pMapEntries = &entry, .dataSize = 4, .pData = &value};
-  return *sky_.emplace(key, make_pipeline(device_, {.vertex = *sky_vert_,
-                                                    .fragment = *sky_frag_,
-                                                    .constants = &constants,
-                                                    .colour = {format},
-                                                    .depth = true,
-                                                    .compare = vk::CompareOp::eEqual,
-                                                    .samples = samples,
-                                                    .layout = *layout_}))
-              .first->second;
-}
-
 vk::Pipeline LampPass::depth_pipeline(vk::SampleCountFlagBits samples) {
   if (const auto found = depth_.find(samples); found != depth_.end()) return *found->second;
   return *depth_
@@ -269,7 +214,7 @@ vk::Pipeline LampPass::depth_pipeline(vk::SampleCountFlagBits samples) {
               .first->second;
 }
 
-void LampPass::draw_items(vk::CommandBuffer commands, const SceneBuffers& scene, std::span<const DrawItem> items,
+void LampPass::draw_items(gpu::Recorder& commands, const SceneBuffers& scene, std::span<const DrawItem> items,
                           const Variant& common) {
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
   commands.bindVertexBuffers(0, *scene.vertices.buffer, vk::DeviceSize{0});
@@ -288,7 +233,7 @@ void LampPass::draw_items(vk::CommandBuffer commands, const SceneBuffers& scene,
 
 void LampPass::depth(gpu::FrameGraph& graph, gpu::Image& depth, const SceneBuffers& scene,
                      std::span<const DrawItem> items) {
-  graph.pass("depth", {{&depth, gpu::Use::kDepthTarget, true}}, [&](vk::CommandBuffer commands) {
+  graph.pass("depth", {{&depth, gpu::Use::kDepthTarget, true}}, [&](gpu::Recorder& commands) {
     const vk::RenderingAttachmentInfo target =
         attachment(depth, vk::ImageLayout::eDepthStencilAttachmentOptimal, vk::AttachmentLoadOp::eClear,
                    vk::ClearDepthStencilValue{0.0f, 0}, nullptr);
@@ -312,9 +257,10 @@ void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* res
   std::vector<gpu::ImageUse> uses{{&colour, gpu::Use::kColourTarget, true},
                                   {&depth, depth_done ? gpu::Use::kDepthRead : gpu::Use::kDepthTarget, !depth_done}};
   if (resolved != nullptr) uses.push_back({resolved, gpu::Use::kColourTarget, true});
-  graph.pass("lamps", uses, [&](vk::CommandBuffer commands) {
+  graph.pass("lamps", uses, [&](gpu::Recorder& commands) {
     const vk::RenderingAttachmentInfo target =
-        attachment(colour, vk::ImageLayout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eDontCare, {}, resolved);
+        attachment(colour, vk::ImageLayout::eColorAttachmentOptimal, vk::AttachmentLoadOp::eClear,
+                   SkyPass::clear_value(sky_, output, view_), resolved);
     const vk::RenderingAttachmentInfo depth_target = attachment(
         depth,
         depth_done ? vk::ImageLayout::eDepthStencilReadOnlyOptimal : vk::ImageLayout::eDepthStencilAttachmentOptimal,
@@ -326,6 +272,7 @@ void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* res
                                               .pColorAttachments = &target,
                                               .pDepthAttachment = &depth_target});
     set_area(commands, colour.extent);
+    sky_pass_.draw(commands, sky_, view_, output, colour.format, colour.samples);
     draw_items(commands, scene, items,
                {.output = output,
                 .lamp_count = lamp_count_,
@@ -334,16 +281,13 @@ void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* res
                 .samples = colour.samples,
                 .format = colour.format,
                 .depth_done = depth_done});
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, sky_pipeline(output, colour.format, colour.samples));
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
-    commands.draw(3, 1, 0, 0);
     commands.endRendering();
   });
 }
 
 void LampPass::measure(gpu::FrameGraph& graph, gpu::Image& lx, vk::Buffer points, std::uint32_t count,
                        std::uint32_t lamp_base) {
-  graph.pass("measure", {{&lx, gpu::Use::kColourTarget, true}}, [&](vk::CommandBuffer commands) {
+  graph.pass("measure", {{&lx, gpu::Use::kColourTarget, true}}, [&](gpu::Recorder& commands) {
     const vk::RenderingAttachmentInfo target = attachment(lx, vk::ImageLayout::eColorAttachmentOptimal,
                                                           vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr);
     commands.beginRendering(vk::RenderingInfo{
@@ -372,7 +316,7 @@ void LampPass::audit(gpu::FrameGraph& graph, gpu::Image& position, gpu::Image& n
       {{&position, gpu::Use::kColourTarget, true},
        {&normal, gpu::Use::kColourTarget, true},
        {&depth, gpu::Use::kDepthTarget, true}},
-      [&](vk::CommandBuffer commands) {
+      [&](gpu::Recorder& commands) {
         const std::array targets{attachment(position, vk::ImageLayout::eColorAttachmentOptimal,
                                             vk::AttachmentLoadOp::eClear, vk::ClearValue{}, nullptr),
                                  attachment(normal, vk::ImageLayout::eColorAttachmentOptimal,

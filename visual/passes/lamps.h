@@ -11,6 +11,7 @@
 #include "visual/gpu/frame_graph.h"
 #include "visual/gpu/scene_buffers.h"
 #include "visual/passes/pipeline.h"
+#include "visual/passes/sky.h"
 
 namespace phare {
 
@@ -25,8 +26,8 @@ class LampPass {
   /// Binds buffers; after load_scene. set_frame does it when a lamp got another beam.
   void bind(const SceneBuffers& scene, const BeamStore& beams);
   /// This frame's view and lamps; uploads the beams that changed.
-  void set_frame(const SceneBuffers& scene, BeamStore& beams, const Camera& camera, double aspect,
-                 const glm::vec3& exposure_per_cdm2, double sky_cdm2, std::span<const PlacedLamp> lamps);
+  void set_frame(const SceneBuffers& scene, BeamStore& beams, const ViewGeometry& view, const Sky& sky,
+                 std::span<const PlacedLamp> lamps);
   std::uint32_t lamp_count() const { return lamp_count_; }
 
   /// Depth of everything, no colour.
@@ -54,12 +55,14 @@ class LampPass {
     friend auto operator<=>(const Variant&, const Variant&) = default;
   };
   vk::Pipeline lit_pipeline(const Variant& variant);
-  vk::Pipeline sky_pipeline(LampOutput output, vk::Format format, vk::SampleCountFlagBits samples);
   vk::Pipeline depth_pipeline(vk::SampleCountFlagBits samples);
-  void draw_items(vk::CommandBuffer commands, const SceneBuffers& scene, std::span<const DrawItem> items,
+  void draw_items(gpu::Recorder& commands, const SceneBuffers& scene, std::span<const DrawItem> items,
                   const Variant& common);
 
   gpu::Device& device_;
+  SkyPass sky_pass_{device_};
+  Sky sky_;  // of the frame being recorded
+  ViewGeometry view_{Camera{}, 1.0};
   vk::raii::DescriptorSetLayout set_layout_{nullptr};
   vk::raii::PipelineLayout layout_{nullptr};
   vk::raii::DescriptorPool pool_{nullptr};
@@ -71,10 +74,9 @@ class LampPass {
   bool colours_differ_ = false;
   std::array<std::size_t, shader::kMaxLamps> beam_of_lamp_{};
   std::map<Variant, vk::raii::Pipeline> lit_;
-  std::map<std::tuple<LampOutput, vk::Format, vk::SampleCountFlagBits>, vk::raii::Pipeline> sky_;
   std::map<vk::SampleCountFlagBits, vk::raii::Pipeline> depth_;
   std::array<vk::raii::ShaderModule, 3> scene_vert_, measure_vert_, lamps_frag_;  ///< for up to 2, 4, 8 lamps
-  vk::raii::ShaderModule depth_vert_, sky_vert_, sky_frag_;
+  vk::raii::ShaderModule depth_vert_;
 };
 
 }  // namespace phare

@@ -84,15 +84,15 @@ void draw_lines(const Pen& pen, const std::vector<std::string>& lines) {
   }
 }
 
-/// In the middle of the lower edge.
+/// In the middle of the lower edge, or at its right end.
 void draw_instruments(const Pen& small, const Pen& large, const ImVec2& picture,
-                      const std::vector<OverlayInstrument>& instruments) {
+                      const std::vector<OverlayInstrument>& instruments, bool to_the_right) {
   if (instruments.empty()) return;
   const float gap = 1.1f * small.size_px;
   float width = gap;
   for (const OverlayInstrument& each : instruments) width += (each.large ? large : small).width(each.text) + gap;
   const float height = 1.3f * large.size_px, top = picture.y - height - 0.5f * small.size_px;
-  float x = std::max(0.5f * (picture.x - width), 0.0f);
+  float x = std::max((picture.x - width) * (to_the_right ? 1.0f : 0.5f), 0.0f);
   small.list.AddRectFilled({x, top}, {x + width, top + height}, IM_COL32(0, 0, 0, 150), 6.0f);
   x += gap;
   for (const OverlayInstrument& each : instruments) {
@@ -180,8 +180,9 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
   const float scale = io.DisplaySize.y / kReferenceHeight_px;
   const Pen small{list, text_, std::max(kText_px * scale, kLeastText_px)};
   const Pen large{list, title_, std::max(kTitle_px * scale, kLeastText_px)};
-  draw_lines(small, lines);
-  draw_instruments(small, large, io.DisplaySize, instruments);
+  const bool left = !panel.empty() && panel.place == OverlayPanel::Place::kLeft;
+  if (!left) draw_lines(small, lines);  // the panel takes their place
+  draw_instruments(small, large, io.DisplaySize, instruments, left);
   draw_panel(small, large, io.DisplaySize, panel);
   ImGui::Render();
 
@@ -192,12 +193,13 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
                                                                                  .width = display.extent.width,
                                                                                  .height = display.extent.height,
                                                                                  .layers = 1});
-  graph.pass("overlay", {{&display, gpu::Use::kColourTarget, false}}, [&](vk::CommandBuffer commands) {
+  graph.pass("overlay", {{&display, gpu::Use::kColourTarget, false}}, [&](gpu::Recorder& commands) {
     commands.beginRenderPass(
         vk::RenderPassBeginInfo{
             .renderPass = *render_pass_, .framebuffer = *framebuffer_, .renderArea = {{0, 0}, display.extent}},
         vk::SubpassContents::eInline);
-    ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), static_cast<VkCommandBuffer>(commands));
+    ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(),
+                                    static_cast<VkCommandBuffer>(static_cast<vk::CommandBuffer&>(commands)));
     commands.endRenderPass();
   });
 }

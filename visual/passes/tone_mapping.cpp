@@ -54,7 +54,7 @@ void ToneMappingPass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Im
                              .pImageInfo = &input},
       nullptr);
   graph.pass("tone mapping", {{&hdr_cdm2, gpu::Use::kSampled, false}, {&display, gpu::Use::kColourTarget, true}},
-             [&](vk::CommandBuffer commands) {
+             [&](gpu::Recorder& commands) {
                const vk::RenderingAttachmentInfo target{.imageView = *display.view,
                                                         .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
                                                         .loadOp = vk::AttachmentLoadOp::eDontCare,

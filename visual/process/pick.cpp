@@ -41,19 +41,6 @@ std::optional<double> meets_triangle(const Ray& ray, const glm::dvec3& a, const 
 
 }  // namespace
 
-Ray ray_through(const Camera& camera, double x_px, double y_px, int width_px, int height_px) {
-  // Right and up of the picture, -1..1 across its width.
-  const double right = (2.0 * (x_px + 0.5) - width_px) / width_px;
-  const double up = (height_px - 2.0 * (y_px + 0.5)) / width_px;
-  const glm::dmat3& eye = camera.world_from_eye;
-  if (camera.orthographic_width_m > 0.0) {
-    const double half_m = 0.5 * camera.orthographic_width_m;
-    return {camera.eye_m + eye * glm::dvec3{0.0, -right * half_m, up * half_m}, eye[0]};
-  }
-  const double half = std::tan(0.5 * camera.fov_horizontal_rad);
-  return {camera.eye_m, glm::normalize(eye * glm::dvec3{1.0, -right * half, up * half})};
-}
-
 std::optional<MeasurePoint> pick(const Scene& scene, const Ray& ray, double most_m) {
   std::optional<MeasurePoint> nearest;
   for (const SceneChunk& chunk : scene.chunks) {

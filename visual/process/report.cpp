@@ -32,6 +32,15 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["draws"] = stats.newest.draws;
   report["passes"] = stats.newest.pass_count;
   report["triangles"] = stats.newest.triangles;
+  report["images"] = {{"count", stats.newest.images}, {"bytes", stats.newest.image_bytes}};
+  report["effects"] = nlohmann::json::array();
+  for (const EffectRow& row : effect_table()) {
+    const EffectDecision& decision = stats.newest.effects[row.effect];
+    report["effects"].push_back({{"name", row.name},
+                                 {"level", row.levels[decision.level]},
+                                 {"because", decision.reason},
+                                 {"needs", row.needs}});
+  }
 
   report["beams"] = {{"image", level_name(session.options.beam_image.value_or(session.rig.beam_image))},
                      {"compositions", session.lamps.compositions()},

@@ -390,7 +390,8 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
   std::vector<std::string> lines{text};
   if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside) {
     if (const auto point =
-            pick(s_.scene, ray_through(input_.camera, mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px))) {
+            pick(s_.scene, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
+                               .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px))) {
       std::snprintf(text, sizeof text, "%.3g lx at (%.2f, %.2f, %.2f) m",
                     s_.lamps.illuminance_lx(moment.car.pose, *point), point->position_m.x, point->position_m.y,
                     point->position_m.z);

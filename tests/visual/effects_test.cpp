@@ -1,0 +1,60 @@
+// Unit: what decides about each effect, without a device.
+#include "visual/effects.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace phare {
+namespace {
+
+TEST(Effects, NothingCalledForIsNothingDone) {
+  const EffectPlan plan = plan_effects({});
+  for (const EffectRow& row : effect_table()) {
+    EXPECT_FALSE(plan.on(row.effect)) << row.name;
+    EXPECT_FALSE(plan[row.effect].reason.empty()) << row.name;
+  }
+}
+
+TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
+  const struct {
+    EffectFacts facts;
+    Effect effect;
+  } cases[] = {{{.lit_lamps = 2}, Effect::kDepthFirst},
+               {{.hdr_wanted = true}, Effect::kHdrImage},
+               {{.overlay_lines = 3}, Effect::kOverlay}};
+  std::set<Effect> tried;
+  for (const auto& [facts, effect] : cases) {
+    const EffectPlan plan = plan_effects(facts);
+    for (const EffectRow& row : effect_table()) EXPECT_EQ(plan.on(row.effect), row.effect == effect) << row.name;
+    tried.insert(effect);
+  }
+  EXPECT_EQ(tried.size(), kEffectCount) << "every row has its case here";
+}
+
+TEST(Effects, DeviceAndViewCountToo) {
+  EXPECT_FALSE(plan_effects({.lit_lamps = 2, .software_device = true}).on(Effect::kDepthFirst));
+  EXPECT_FALSE(plan_effects({.hdr_wanted = true, .false_colour = true}).on(Effect::kHdrImage));
+}
+
+TEST(Effects, TheUserDecidesAndThePlanSaysSo) {
+  EffectChoices choices{};
+  choices[static_cast<std::size_t>(Effect::kDepthFirst)] = 1;
+  choices[static_cast<std::size_t>(Effect::kOverlay)] = 0;
+  const EffectPlan plan = plan_effects({.lit_lamps = 2, .software_device = true, .overlay_lines = 1}, choices);
+  EXPECT_TRUE(plan.on(Effect::kDepthFirst));
+  EXPECT_FALSE(plan.on(Effect::kOverlay));
+  EXPECT_NE(plan[Effect::kDepthFirst].reason.find("user"), std::string::npos);
+  choices[static_cast<std::size_t>(Effect::kDepthFirst)] = 99;
+  EXPECT_EQ(plan_effects({}, choices)[Effect::kDepthFirst].level, 1u) << "the finest there is";
+}
+
+TEST(Effects, EveryEffectIsExplainedInOneLine) {
+  const std::string text = explain(plan_effects({.lit_lamps = 2}));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), static_cast<std::ptrdiff_t>(kEffectCount));
+  for (const EffectRow& row : effect_table()) EXPECT_NE(text.find(row.name), std::string::npos);
+}
+
+}  // namespace
+}  // namespace phare

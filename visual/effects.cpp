@@ -1,0 +1,72 @@
+#include "visual/effects.h"
+
+#include <algorithm>
+
+namespace phare {
+namespace {
+
+constexpr std::array<std::string_view, 2> kOffOn{"off", "on"};
+
+EffectDecision depth_first(const EffectFacts& facts) {
+  if (facts.lit_lamps == 0) return {0, "no lamp is lit: a pixel drawn twice costs nothing"};
+  // On a software device chunks come near ones first, so few pixels are lit twice anyway.
+  if (facts.software_device)
+    return {0, "on a software device the second pass over the vertices costs more than it saves"};
+  return {1, std::to_string(facts.lit_lamps) + " lamps are lit, and vertices are cheap on this device"};
+}
+
+EffectDecision hdr_image(const EffectFacts& facts) {
+  if (facts.false_colour) return {0, "the view shows illuminance in false colour, which needs no tone curve"};
+  if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for"};
+  return {0, "nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself"};
+}
+
+EffectDecision overlay(const EffectFacts& facts) {
+  if (facts.overlay_lines == 0) return {0, "no line of text to show"};
+  return {1, std::to_string(facts.overlay_lines) + " lines of text to show"};
+}
+
+constexpr std::array<EffectRow, kEffectCount> kTable{
+    {{Effect::kDepthFirst, "depth first", kOffOn, "a depth pass before the lit pass", depth_first},
+     {Effect::kHdrImage, "hdr image", kOffOn, "an image of 8 bytes a pixel and the tone-mapping pass", hdr_image},
+     {Effect::kOverlay, "overlay", kOffOn, "a pass of text over the picture", overlay}}};
+
+constexpr bool in_order() {
+  for (std::size_t i = 0; i < kTable.size(); ++i)
+    if (static_cast<std::size_t>(kTable[i].effect) != i) return false;
+  return true;
+}
+static_assert(in_order());
+
+}  // namespace
+
+const std::array<EffectRow, kEffectCount>& effect_table() {
+  return kTable;
+}
+
+EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices) {
+  EffectPlan plan;
+  for (std::size_t i = 0; i < kEffectCount; ++i) {
+    const EffectRow& row = kTable[i];
+    plan.decisions[i] = row.decide(facts);
+    if (!choices[i]) continue;
+    plan.decisions[i] = {std::min(*choices[i], row.levels.size() - 1),
+                         "set by the user; by itself: " + plan.decisions[i].reason};
+  }
+  return plan;
+}
+
+std::string explain(const EffectPlan& plan) {
+  std::string text;
+  for (const EffectRow& row : kTable) {
+    const EffectDecision& decision = plan[row.effect];
+    std::string line(row.name);
+    line.resize(std::max<std::size_t>(line.size() + 1, 16), ' ');
+    line += row.levels[decision.level];
+    line.resize(std::max<std::size_t>(line.size() + 1, 24), ' ');
+    text += line + decision.reason + "\n";
+  }
+  return text;
+}
+
+}  // namespace phare

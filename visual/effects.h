@@ -1,0 +1,58 @@
+// The effects of a frame: for each its name, its levels, what it needs, and what decides. Pure: no device, no image.
+// To add one: its row here, its pass (one stem in passes/ and shaders/), its test.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace phare {
+
+enum class Effect : std::size_t { kDepthFirst, kHdrImage, kOverlay };
+inline constexpr std::size_t kEffectCount = 3;
+
+/// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
+struct EffectFacts {
+  std::size_t lit_lamps = 0;      ///< positions that give light in this view
+  bool software_device = false;   ///< vertices cost as much as pixels
+  bool hdr_wanted = false;        ///< something reads luminance in cd/m² (EXR, bird's eye)
+  bool false_colour = false;      ///< the view shows illuminance, not luminance
+  std::size_t overlay_lines = 0;  ///< text over the picture
+};
+
+/// Level 0 is off. `reason` says the fact that decided.
+struct EffectDecision {
+  std::size_t level = 0;
+  std::string reason{};
+};
+
+struct EffectRow {
+  Effect effect;
+  std::string_view name;
+  std::span<const std::string_view> levels;  ///< names, from off to the finest
+  std::string_view needs;                    ///< passes and images that it adds
+  EffectDecision (*decide)(const EffectFacts& facts);
+};
+
+/// In the order of Effect.
+const std::array<EffectRow, kEffectCount>& effect_table();
+
+/// A level that the user has set, for each effect; nothing: the facts decide.
+using EffectChoices = std::array<std::optional<std::size_t>, kEffectCount>;
+
+struct EffectPlan {
+  std::array<EffectDecision, kEffectCount> decisions{};
+
+  const EffectDecision& operator[](Effect effect) const { return decisions[static_cast<std::size_t>(effect)]; }
+  bool on(Effect effect) const { return (*this)[effect].level > 0; }
+};
+
+EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices = {});
+
+/// "tone mapping   off   nothing reads the HDR image …", a line an effect.
+std::string explain(const EffectPlan& plan);
+
+}  // namespace phare
