@@ -16,9 +16,9 @@ struct ScreensSetup {
   /// Nobody is told anything but the help; the person drives; a drive is shown to the person.
   enum class Kind { kNone, kLive, kReplay };
   Kind kind = Kind::kNone;
-  std::string shown;   ///< the rig that is driven, or the drive that is shown
-  bool demo = false;   ///< there is a demo driver
-  std::string report;  ///< where the report will lie; empty: there is none
+  std::string shown{};   ///< the rig that is driven, or the drive that is shown
+  bool demo = false;     ///< there is a demo driver
+  std::string report{};  ///< where the report will lie; empty: there is none
 };
 
 class Screens {
