@@ -67,7 +67,9 @@ Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"What the driver of a rig does: stalk, wheel and pedals, from CAN, a log, keys, a drive or a script."};
-  app.footer("Example: phare-cockpit --rig config/rigs/country_road.toml --cockpit config/cockpits/phare_stalk.toml");
+  app.footer(
+      "Example:\n  phare-cockpit --rig config/rigs/country_road.toml --cockpit config/cockpits/phare_stalk.toml --log "
+      "config/examples/stalk.log");
   app.set_version_flag("--version", PHARE_VERSION);
   auto* rig_option = app.add_option("--rig", options.rig_file, "Rig file (TOML)");
   app.add_option("--cockpit", options.cockpit_file, "Cockpit file (default: the rig's)");

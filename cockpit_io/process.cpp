@@ -5,6 +5,8 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <numbers>
 #include <string>
 #include <thread>
 #include <utility>
@@ -36,6 +38,17 @@ nlohmann::json latency_json(const LatencyHistogram& histogram) {
           {"max_us", static_cast<double>(histogram.most_ns()) * 1e-3}};
 }
 
+/// "drive: light low, steering wheel 3 deg, accelerator 20 %"
+std::string text_of(const CockpitState& state, const std::string& source) {
+  constexpr const char* kLights[] = {"off", "position", "low", "high"};
+  char text[200];
+  std::snprintf(text, sizeof text, ": light switch %s%s%s, steering wheel %.0f deg, accelerator %.0f %%, brake %.0f %%",
+                kLights[static_cast<std::size_t>(state.light_switch)], state.flash ? ", flash" : "",
+                state.fog_front ? ", fog" : "", state.steering_wheel_rad * 180.0 / std::numbers::pi,
+                state.accelerator_01 * 100.0, state.brake_01 * 100.0);
+  return source + text;
+}
+
 /// Processor time of this process since it was started.
 double processor_s() {
   rusage use{};
@@ -59,13 +72,32 @@ CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Ri
   bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
     if (const auto* keys = std::get_if<KeyInput>(&datagram.payload))
       source_->take_keys(datagram.sender_channel, datagram.start_id, *keys, wall_now());
-    const auto* control = std::get_if<RigControl>(&datagram.payload);
-    if (control == nullptr) return;
-    if (std::holds_alternative<RigControl::Quit>(control->command)) stop_.request();
-    if (const auto* pause = std::get_if<RigControl::Pause>(&control->command)) paused_ = pause->on;
-    if (const auto* design = std::get_if<RigControl::Design>(&control->command)) wanted_design_ = design->index;
-    if (std::holds_alternative<RigControl::Seek>(control->command)) seek_ = true;
+    desk_.serve(bus_, datagram, [this](const RigControl& control) { return obey(control); });
   };
+}
+
+ControlReply CockpitProcess::obey(const RigControl& control) {
+  if (std::holds_alternative<RigControl::Quit>(control.command)) {
+    stop_.request();
+    return accepted("leaves");
+  }
+  if (const auto* pause = std::get_if<RigControl::Pause>(&control.command)) {
+    paused_ = pause->on;
+    return accepted(real_time_ ? "" : pause->on ? "paused" : "goes on");
+  }
+  if (std::holds_alternative<RigControl::Seek>(control.command)) {
+    if (!real_time_) return refused("seek: not in lockstep, where every frame follows the one before");
+    seek_ = true;
+    return accepted("");
+  }
+  if (const auto* design = std::get_if<RigControl::Design>(&control.command)) {
+    if (design->index >= std::max<std::size_t>(rig_.designs.size(), 1))
+      return refused(no_such_design(rig_, design->index));
+    wanted_design_ = design->index;
+    return accepted("");  // visual says when it shines
+  }
+  return accepted(text_of(cockpit_.state(-1, source_->ended()),
+                          real_time_ && !source_->fault().empty() ? source_->fault() : source_name(config_)));
 }
 
 Cockpit CockpitProcess::new_cockpit() const {

@@ -15,6 +15,7 @@
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"
+#include "net/control_desk.h"
 #include "net/scheduling.h"
 
 namespace phare {
@@ -38,6 +39,7 @@ class CockpitProcess {
   using Clock = std::chrono::steady_clock;
 
   Cockpit new_cockpit() const;
+  ControlReply obey(const RigControl& control);
   void take_source(std::unique_ptr<Source> source);
   void begin_anew();
   Moment now_in_real_time();
@@ -62,6 +64,7 @@ class CockpitProcess {
   std::unique_ptr<Source> source_;
   Cockpit cockpit_;
 
+  ControlDesk desk_;
   bool paused_ = false;
   bool seek_ = false;
   std::optional<std::uint32_t> wanted_design_;

@@ -174,8 +174,9 @@ void advance_switches(const SwitchParams& params, const SwitchInput& input, bool
 }
 
 void choose_design(const SwitchParams& params, std::uint32_t design_index, Moment now, SwitchState& s) {
+  if (design_index >= std::max(params.design_count, 1u)) return;
   Lights lights = s.lights;
-  lights.design_index = design_index % std::max(params.design_count, 1u);
+  lights.design_index = design_index;
   take_lights(lights, now, s);
 }
 

@@ -182,7 +182,7 @@ struct SwitchState {
 void advance_switches(const SwitchParams& params, const SwitchInput& input, bool silent, Moment now, SwitchState& state,
                       double speed_mps = 0.0);
 
-/// A design chosen from elsewhere (RigControl); beyond the last one it wraps.
+/// A design chosen from elsewhere (RigControl); beyond the last one nothing changes: its sender has been told.
 void choose_design(const SwitchParams& params, std::uint32_t design_index, Moment now, SwitchState& state);
 
 Telltales telltales(const SwitchState& state, SimTime now);

@@ -34,4 +34,8 @@ std::filesystem::path generated_dir() {
   return is_installed() ? share_dir() / "generated" : std::filesystem::path(PHARE_BUILD_GENERATED_DIR);
 }
 
+std::filesystem::path packages_file() {
+  return config_dir().parent_path() / "packages.txt";
+}
+
 }  // namespace phare

@@ -13,6 +13,9 @@ std::filesystem::path config_dir();
 /// <prefix>/share/phare/generated of an installed program, else the build's own.
 std::filesystem::path generated_dir();
 
+/// The list of Debian packages: share/phare/packages.txt of an installed program, else that of the tree.
+std::filesystem::path packages_file();
+
 /// This program is an installed one: nothing may be written beside its files.
 bool is_installed();
 

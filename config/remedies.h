@@ -9,6 +9,9 @@ namespace phare {
 
 inline constexpr const char* kVulkanRemedy = "apt-get install mesa-vulkan-drivers (draws without a GPU)";
 inline constexpr const char* kValidationRemedy = "apt-get install vulkan-validationlayers";
+inline constexpr const char* kVideoRemedy = "apt-get install ffmpeg";
+inline constexpr const char* kReferenceRemedy =
+    "apt-get install libsundials-dev and cmake --preset release before the next ./phare";
 inline constexpr const char* kDisplayRemedy = "apt-get install xvfb xauth, and xvfb-run, for a virtual one";
 
 /// An error of the Vulkan loader that finds no driver, in words and with the package that brings one; others as they

@@ -96,9 +96,20 @@ Bus::Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel)
   std::get<std::vector<Inbox<ProbeRequest>>>(inboxes_).resize(1);
   std::get<std::vector<Inbox<ProbeReply>>>(inboxes_).resize(channels_);
   std::get<std::vector<Inbox<KeyInput>>>(inboxes_).resize(channels_);
+  std::get<std::vector<Inbox<ControlReply>>>(inboxes_).resize(channels_);
 }
 
 void Bus::send(SimTime now, const Payload& payload) {
+  if (encode_next(now, payload)) transmit(payload.index());
+}
+
+void Bus::answer(SimTime now, const Payload& payload) {
+  if (!encode_next(now, payload)) return;
+  if (!socket_.send_to(socket_.from_port(), bytes_of(last_bytes_[payload.index()]))) ++counters_.send_failures;
+}
+
+/// Numbers, stamps and encodes into last_bytes_; false, counted and logged, when no receiver would take it.
+bool Bus::encode_next(SimTime now, const Payload& payload) {
   const std::size_t index = payload.index();
   Datagram datagram{sender_of(role_), channel_, start_id_, counters_.sent[index] + 1, now, wall_now(), payload};
   if (const Refusal refusal = check(datagram); refusal != Refusal::kNone) {
@@ -108,12 +119,12 @@ void Bus::send(SimTime now, const Payload& payload) {
       next_log_ = wall + kLogInterval;
       spdlog::error("{} not sent: {} ({} so far)", kChannels[index].message, refusal_text(refusal), counters_.not_sent);
     }
-    return;
+    return false;
   }
   ++counters_.sent[index];
   encode_into(datagram, last_bytes_[index]);
   seal_.close(last_bytes_[index]);
-  transmit(index);
+  return true;
 }
 
 void Bus::send_again(std::size_t payload_index) {

@@ -44,12 +44,15 @@ class Bus {
   /// channel, or when rig.bind_address lies off loopback and rig has no key.
   static Result<Bus> open(const Rig& rig, Role role, std::uint32_t channel = 0);
 
-  /// For one who only speaks, beside whoever holds the port of the role: bound to any free port, it hears nothing.
+  /// For one who speaks beside whoever holds the port of the role: bound to any free port, it hears only answers.
   static Result<Bus> open_to_send(const Rig& rig, Role role);
 
   /// Numbers, stamps and encodes the payload and sends it to every receiver of its row in kChannels. A payload that no
   /// receiver would take (NaN, out of range) is not sent but counted and logged, at most once a second.
   void send(SimTime now, const Payload& payload);
+
+  /// Sends to the port alone that the datagram in hand came from: within on_datagram.
+  void answer(SimTime now, const Payload& payload);
 
   /// The last datagram of a payload type (kPayloadIndex<T>) again, byte for byte; nothing when there was none.
   void send_again(std::size_t payload_index);
@@ -86,6 +89,7 @@ class Bus {
   std::function<void(const Datagram&)> on_repeat;
 
   const BusCounters& counters() const { return counters_; }
+  int fd() const { return socket_.fd(); }  ///< to wait for it beside others
   std::uint64_t start_id() const { return start_id_; }
   Role role() const { return role_; }
   std::uint32_t channel() const { return channel_; }
@@ -96,6 +100,7 @@ class Bus {
 
   bool accept(std::span<const std::byte> bytes);
   void refuse(Refusal refusal);
+  bool encode_next(SimTime now, const Payload& payload);
   void transmit(std::size_t payload_index);
   void log_refusals();
 
@@ -110,7 +115,8 @@ class Bus {
 
   std::tuple<std::vector<Inbox<CockpitState>>, std::vector<Inbox<VehicleState>>, std::vector<Inbox<FrameReport>>,
              std::vector<Inbox<RigControl>>, std::vector<Inbox<ProbeRequest>>, std::vector<Inbox<ProbeReply>>,
-             std::vector<Inbox<KeyInput>>>
+             std::vector<Inbox<KeyInput>>,
+             std::vector<Inbox<ControlReply>>>
       inboxes_;                                           // one per sender channel
   std::array<std::string, kChannels.size()> last_bytes_;  // sealed
   BusCounters counters_;

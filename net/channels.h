@@ -59,22 +59,30 @@ struct Channel {
   bool first_visual_only;                ///< of the visual processes only channel 0 receives it
   double rate_hz;                        ///< in real time; 0: when there is a reason
   std::chrono::nanoseconds stale_after;  ///< older than this the receiver acts on silence; 0: never stale
-  bool repeat_is_news;  ///< a repeat of the newest datagram asks for an answer, so take() gives it again
+  bool repeat_is_news;       ///< a repeat of the newest datagram asks for an answer, so take() gives it again
+  bool many_starts = false;  ///< several starts speak at the same time, each with a sequence of its own (ManyStarts)
+  bool any_process = false;  ///< every process of the rig may send it, `sender` is only the first; to who asked alone
+
+  constexpr bool may_send(Sender who) const {
+    const bool of_the_rig = who == Sender::kCockpit || who == Sender::kDynamics || who == Sender::kVisual;
+    return who == sender || (any_process && of_the_rig);
+  }
 };
 
 /// In the order of the alternatives of Payload.
 /// CockpitState goes stale when 20 are missing: pedals fade, low beam stays on. VehicleState goes stale when 50 are
 /// missing: until then the picture coasts, then it holds and says so.
-inline constexpr std::array<Channel, 7> kChannels{{
+inline constexpr std::array<Channel, 8> kChannels{{
     // clang-format off
     // message          sender             receivers                                                                first  Hz   stale after                    repeat
     {"cockpit_state",   Sender::kCockpit,  Roles(Role::kDynamics, Role::kVisual, Role::kRecorder),                   false, 100, std::chrono::milliseconds(200), false},
     {"vehicle_state",   Sender::kDynamics, Roles(Role::kCockpit, Role::kVisual, Role::kRecorder),                    false, 250, std::chrono::milliseconds(200), false},
     {"frame_report",    Sender::kVisual,   Roles(Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl),  false, 60,  std::chrono::seconds(1),        true},
-    {"rig_control",     Sender::kControl,  Roles(Role::kCockpit, Role::kDynamics, Role::kVisual, Role::kRecorder),   false, 0,   std::chrono::seconds(0),        false},
+    {"rig_control",     Sender::kControl,  Roles(Role::kCockpit, Role::kDynamics, Role::kVisual, Role::kRecorder),   false, 0,   std::chrono::seconds(0),        false, true},
     {"probe_request",   Sender::kControl,  Roles(Role::kVisual),                                                     true,  0,   std::chrono::seconds(0),        false},
     {"probe_reply",     Sender::kVisual,   Roles(Role::kControl, Role::kRecorder),                                   false, 0,   std::chrono::seconds(0),        false},
     {"key_input",       Sender::kVisual,   Roles(Role::kCockpit, Role::kControl),                                    false, 0,   std::chrono::seconds(1),        false},
+    {"control_reply",   Sender::kCockpit,  Roles(Role::kControl),                                                    false, 0,   std::chrono::seconds(0),        false, true, true},
     // clang-format on
 }};
 static_assert(kChannels.size() == std::variant_size_v<Payload>);

@@ -88,4 +88,19 @@ Arrival SequenceTracker::arrived(std::uint64_t start_id, std::uint64_t sequence)
   return Arrival::kLate;
 }
 
+Arrival ManyStarts::arrived(std::uint64_t start_id, std::uint64_t sequence) {
+  auto known = std::ranges::find(starts_, start_id, &Start::id);
+  if (known == starts_.end()) {
+    if (starts_.size() == kMost) starts_.erase(starts_.begin());
+    starts_.push_back({start_id, {}});
+  } else {
+    std::rotate(known, known + 1, starts_.end());
+  }
+  SequenceTracker& tracker = starts_.back().tracker;
+  counters_ -= tracker.counters();
+  const Arrival arrival = tracker.arrived(start_id, sequence);
+  counters_ += tracker.counters();
+  return arrival;
+}
+
 }  // namespace phare

@@ -4,7 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
+#include <vector>
 
+#include "net/channels.h"
 #include "net/messages.h"
 #include "net/sim_time.h"
 
@@ -56,6 +59,25 @@ class SequenceTracker {
   std::size_t next_retired_ = 0;
 };
 
+/// The same for a stream that several starts share at the same time (Channel::many_starts): each has a sequence of its
+/// own, and none silences another. Of the starts the kMost heard last are known; counts are of all together.
+class ManyStarts {
+ public:
+  static constexpr std::size_t kMost = 64;
+
+  Arrival arrived(std::uint64_t start_id, std::uint64_t sequence);
+
+  const InboxCounters& counters() const { return counters_; }
+
+ private:
+  struct Start {
+    std::uint64_t id = 0;
+    SequenceTracker tracker;
+  };
+  std::vector<Start> starts_;  // in the order they were heard, the newest last
+  InboxCounters counters_;
+};
+
 /// The newest valid message of a stream and its envelope.
 template <class T>
 struct Newest {
@@ -99,7 +121,7 @@ class Inbox {
   const InboxCounters& counters() const { return tracker_.counters(); }
 
  private:
-  SequenceTracker tracker_;
+  std::conditional_t<channel_of<T>().many_starts, ManyStarts, SequenceTracker> tracker_;
   Newest<T> newest_;
   bool present_ = false;
   bool untaken_ = false;

@@ -125,6 +125,10 @@ struct Place {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
   friend bool operator==(const Place&, const Place&) = default;
 };
+/// Changes nothing; the answers say what holds now.
+struct Tell {
+  friend bool operator==(const Tell&, const Tell&) = default;
+};
 }  // namespace rig_command
 
 struct RigControl {
@@ -136,7 +140,10 @@ struct RigControl {
   using Dim = rig_command::Dim;
   using Swivel = rig_command::Swivel;
   using Place = rig_command::Place;
-  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel, Place> command;
+  using Tell = rig_command::Tell;
+  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel, Place, Tell> command;
+  std::uint64_t request_id = 0;
+  std::uint64_t first_open = 0;
 
   friend bool operator==(const RigControl&, const RigControl&) = default;
 };
@@ -167,7 +174,20 @@ struct KeyInput {
   friend bool operator==(const KeyInput&, const KeyInput&) = default;
 };
 
-using Payload = std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply, KeyInput>;
+enum class Verdict { kAccepted = 0, kRefused = 1, kPending = 2, kNotMine = 3 };
+
+struct ControlReply {
+  std::uint64_t to_start_id = 0;
+  std::uint64_t request_id = 0;
+  Verdict verdict = Verdict::kAccepted;
+  std::string reason;
+  std::string now;
+
+  friend bool operator==(const ControlReply&, const ControlReply&) = default;
+};
+
+using Payload =
+    std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply, KeyInput, ControlReply>;
 
 /// The envelope every payload travels in.
 struct Datagram {

@@ -6,12 +6,14 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "config/rig.h"
 #include "net/messages.h"
@@ -38,8 +40,12 @@ class Seal {
 /// Tells an old start of a sender, recorded and played again by a stranger, from a new one: a new start has been sent
 /// later than anything of the start before it, by the sender's own clock. A receiver that has just begun knows no
 /// earlier start and takes what it hears first; the true sender then replaces it.
+/// Where many starts speak at once (Channel::many_starts), a start that is not known must have been sent after all that
+/// was heard of the forgotten ones, and not more than kClocksApart before the newest of the known.
 class Replays {
  public:
+  static constexpr std::chrono::seconds kClocksApart{10};  ///< of the machines of one rig, chosen by us
+
   bool is_replay(const Datagram& datagram);
 
  private:
@@ -47,7 +53,14 @@ class Replays {
     std::uint64_t start_id = 0;
     WallTime newest{};
   };
+  bool is_replay_of_many(const Datagram& datagram);
+
   std::map<std::pair<std::size_t, std::uint32_t>, Seen> streams_;  // by payload index and sender channel
+  struct Many {
+    std::vector<Seen> starts;  // at most ManyStarts::kMost, in the order they were heard
+    WallTime newest{}, newest_forgotten{};
+  };
+  std::map<std::pair<std::size_t, std::uint32_t>, Many> shared_streams_;
 };
 
 }  // namespace phare

@@ -76,7 +76,7 @@ nlohmann::json stats_json(const char* process, const Bus& bus) {
                          {"duplicate", c.duplicate},
                          {"restarted", c.restarted}};
     }
-    if (kChannels[i].sender == sender_of(bus.role())) sent[message] = counters.sent[i];
+    if (kChannels[i].may_send(sender_of(bus.role()))) sent[message] = counters.sent[i];
   }
   nlohmann::json because = nlohmann::json::object();
   for (std::size_t i = 1; i < kRefusals; ++i) {

@@ -34,14 +34,17 @@ struct UdpSocket::State {
   std::unique_ptr<std::byte[]> slots{new std::byte[kBatch * kSlotBytes]};  // not zeroed: pages never used cost nothing
   std::array<iovec, kBatch> pieces{};
   std::array<mmsghdr, kBatch> messages{};
+  std::array<sockaddr_in, kBatch> senders{};
   std::size_t filled = 0;
   std::size_t next = 0;
+  std::uint16_t from_port = 0;
 
   State() {
     for (std::size_t i = 0; i < kBatch; ++i) {
       pieces[i] = {slots.get() + i * kSlotBytes, kSlotBytes};
       messages[i].msg_hdr.msg_iov = &pieces[i];
       messages[i].msg_hdr.msg_iovlen = 1;
+      messages[i].msg_hdr.msg_name = &senders[i];
     }
   }
   State(const State&) = delete;
@@ -95,11 +98,13 @@ std::optional<std::span<const std::byte>> UdpSocket::receive() {
   State& s = *state_;
   if (s.next == s.filled) {
     s.next = s.filled = 0;
+    for (mmsghdr& message : s.messages) message.msg_hdr.msg_namelen = sizeof(sockaddr_in);  // the kernel writes over it
     const int count = recvmmsg(s.fd, s.messages.data(), kBatch, MSG_DONTWAIT, nullptr);
     if (count <= 0) return std::nullopt;
     s.filled = static_cast<std::size_t>(count);
   }
   const std::size_t i = s.next++;
+  s.from_port = ntohs(s.senders[i].sin_port);
   return std::span<const std::byte>(s.slots.get() + i * kSlotBytes, s.messages[i].msg_len);
 }
 
@@ -140,6 +145,9 @@ std::uint64_t UdpSocket::dropped_in_kernel() const {
   return info[SK_MEMINFO_DROPS];  // 32 bits: Bus adds up the differences
 }
 
+std::uint16_t UdpSocket::from_port() const {
+  return state_->from_port;
+}
 int UdpSocket::fd() const {
   return state_->fd;
 }

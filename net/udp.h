@@ -32,6 +32,9 @@ class UdpSocket {
   /// The next datagram, nullopt when none waits. The view is valid until the next call.
   std::optional<std::span<const std::byte>> receive();
 
+  /// The port that sent the datagram receive() gave last; 0 before the first.
+  std::uint16_t from_port() const;
+
   /// Sleeps until a datagram waits (true), or time is up or a signal came (false).
   bool wait(std::chrono::nanoseconds at_most);
 

@@ -1,6 +1,6 @@
-// The keys of the windows, from KeyInput messages: what is held now, and what was pressed since the last look. A message
-// that is lost leaves no key stuck and loses no press; a window that is gone, or has lost the focus, holds nothing.
-// Tests: tests/net/window_keys_test.cpp.
+// The keys of the windows, from KeyInput messages: what is held now, and what was pressed since the last look. A
+// message that is lost leaves no key stuck and loses no press; a window that is gone, or has lost the focus, holds
+// nothing. Tests: tests/net/window_keys_test.cpp.
 #pragma once
 
 #include <bitset>

@@ -159,10 +159,13 @@ struct CommandFiller {
     to.mutable_place()->set_y_m(place.y_m);
     to.mutable_place()->set_z_m(place.z_m);
   }
+  void operator()(const RigControl::Tell&) const { to.set_tell(true); }
 };
 
 void fill(wire::RigControl& to, const RigControl& from) {
   std::visit(CommandFiller{to}, from.command);
+  to.set_request_id(from.request_id);
+  to.set_first_open(from.first_open);
 }
 
 void fill(wire::ProbeRequest& to, const ProbeRequest& from) {
@@ -187,6 +190,14 @@ void fill(wire::KeyInput& to, const KeyInput& from) {
   to.set_events(from.events);
 }
 
+void fill(wire::ControlReply& to, const ControlReply& from) {
+  to.set_to_start_id(from.to_start_id);
+  to.set_request_id(from.request_id);
+  to.set_verdict(to_wire_enum<wire::ControlVerdict>(static_cast<int>(from.verdict)));
+  to.set_reason(from.reason);
+  to.set_now(from.now);
+}
+
 struct PayloadFiller {
   wire::Datagram& to;
   void operator()(const CockpitState& from) const { fill(*to.mutable_cockpit_state(), from); }
@@ -196,6 +207,7 @@ struct PayloadFiller {
   void operator()(const ProbeRequest& from) const { fill(*to.mutable_probe_request(), from); }
   void operator()(const ProbeReply& from) const { fill(*to.mutable_probe_reply(), from); }
   void operator()(const KeyInput& from) const { fill(*to.mutable_key_input(), from); }
+  void operator()(const ControlReply& from) const { fill(*to.mutable_control_reply(), from); }
 };
 
 // ---- protobuf to struct
@@ -271,6 +283,8 @@ void read(FrameReport& to, const wire::FrameReport& from) {
 }
 
 bool read(RigControl& to, const wire::RigControl& from) {
+  to.request_id = from.request_id();
+  to.first_open = from.first_open();
   switch (from.command_case()) {
     case wire::RigControl::kPause:
       to.command = RigControl::Pause{from.pause()};
@@ -296,6 +310,9 @@ bool read(RigControl& to, const wire::RigControl& from) {
     case wire::RigControl::kPlace:
       to.command = RigControl::Place{from.place().lamp(), from.place().x_m(), from.place().y_m(), from.place().z_m()};
       return true;
+    case wire::RigControl::kTell:
+      to.command = RigControl::Tell{};
+      return from.tell();
     case wire::RigControl::COMMAND_NOT_SET:
       break;
   }
@@ -322,6 +339,14 @@ void read(KeyInput& to, const wire::KeyInput& from) {
   to.held.assign(from.held().begin(), from.held().end());
   to.event.assign(from.event().begin(), from.event().end());
   to.events = from.events();
+}
+
+void read(ControlReply& to, const wire::ControlReply& from) {
+  to.to_start_id = from.to_start_id();
+  to.request_id = from.request_id();
+  to.verdict = static_cast<Verdict>(static_cast<int>(from.verdict()));
+  to.reason = from.reason();
+  to.now = from.now();
 }
 
 /// The payload to read into: the one of the last datagram where the type fits, so that its memory is used again.
@@ -358,6 +383,8 @@ bool any_unknown(const wire::Datagram& message) {
       return unknown_in(message.probe_reply());
     case wire::Datagram::kKeyInput:
       return unknown_in(message.key_input());
+    case wire::Datagram::kControlReply:
+      return unknown_in(message.control_reply());
     case wire::Datagram::PAYLOAD_NOT_SET:
       break;
   }
@@ -450,6 +477,9 @@ Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
       break;
     case wire::Datagram::kKeyInput:
       read(reused<KeyInput>(datagram.payload), message.key_input());
+      break;
+    case wire::Datagram::kControlReply:
+      read(reused<ControlReply>(datagram.payload), message.control_reply());
       break;
     case wire::Datagram::PAYLOAD_NOT_SET:
       return Refusal::kMalformed;

@@ -126,10 +126,13 @@ struct CommandChecker {
     c.require(!place.lamp.empty() && place.lamp.size() <= kMaxNameBytes);
     for (const double at_m : {place.x_m, place.y_m, place.z_m}) c.within(at_m, kMaxMounting_m);
   }
+  void operator()(const RigControl::Tell&) const {}
 };
 
 void check(Checker& c, const RigControl& control) {
   std::visit(CommandChecker{c}, control.command);
+  c.require(control.request_id <= kMaxSequence && control.first_open <= control.request_id);
+  c.require((control.request_id == 0) == (control.first_open == 0));
 }
 
 void check(Checker& c, const ProbeRequest& r) {
@@ -158,6 +161,12 @@ void check(Checker& c, const KeyInput& keys) {
   c.require(keys.events >= keys.event.size() && keys.events <= kMaxSequence);
 }
 
+void check(Checker& c, const ControlReply& r) {
+  c.require(r.request_id >= 1 && r.request_id <= kMaxSequence);
+  c.require(enum_within(r.verdict, Verdict::kNotMine));
+  c.require(r.reason.size() <= kMaxErrorBytes && r.now.size() <= kMaxErrorBytes);
+}
+
 }  // namespace
 
 Refusal check(const Datagram& datagram) {
@@ -166,7 +175,7 @@ Refusal check(const Datagram& datagram) {
   c.require(datagram.sim_time.ns >= 0 && datagram.sim_time.ns <= kMaxTime_ns, Refusal::kEnvelope);
   const bool visual = datagram.sender == Sender::kVisual;
   c.require(datagram.sender_channel < (visual ? kMaxChannels : 1), Refusal::kEnvelope);
-  c.require(kChannels[datagram.payload.index()].sender == datagram.sender, Refusal::kSender);
+  c.require(kChannels[datagram.payload.index()].may_send(datagram.sender), Refusal::kSender);
   if (const auto* report = std::get_if<FrameReport>(&datagram.payload)) {
     c.require(report->channel == datagram.sender_channel, Refusal::kEnvelope);
   }

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/beam.glsl"
+#include "lib/grain.glsl"
 #include "lib/tone.h"
 
 layout(constant_id = 1) const uint surface = 0;
@@ -13,27 +14,25 @@ layout(constant_id = 7) const uint sides = 1;
 layout(location = 0) out vec4 result;
 layout(location = 1) out vec4 result_normal;
 
-// Reflectance detail: one grain texture at several sizes, all whole tiles in the 1024 m after which `detail` repeats;
-// mip maps take away what a pixel cannot resolve. Mean factor 1, so that the reflectance of the material holds.
+// Reflectance detail: one grain at several sizes, all whole tiles in the 1024 m after which `detail` repeats; coarser levels take away
+// what a pixel cannot resolve. Mean factor 1, so that the reflectance of the material holds.
 vec3 surface_reflectance(vec3 rho) {
+  if (surface == 0) return rho;
   vec3 detail = point + detail_from_point;
+  float footprint = grain_footprint(point);
+#define GRAIN(LAYER, AT, TILES) grain_at(LAYER, (AT) * ((TILES) / 1024.0), (TILES) / 1024.0, footprint)
   if (surface == 1) {  // asphalt: chippings, patches of binder, darker wheel tracks of the world scale
-    float chips = texture(grain, detail.xy * (614.0 / 1024.0)).r;
-    float patches = texture(grain, detail.yx * (46.0 / 1024.0)).g;
-    return rho * (0.35 + 0.7 * chips + 0.6 * patches);
+    return rho * (0.35 + 0.7 * GRAIN(kGrainFine, detail.xy, 614.0) + 0.6 * GRAIN(kGrainSoft, detail.yx, 46.0));
   }
   if (surface == 2) {  // grass: tufts
-    float tufts = texture(grain, detail.xy * (317.0 / 1024.0)).g;
-    float blades = texture(grain, detail.yx * (1024.0 / 1024.0)).r;
-    return rho * (0.35 + 0.7 * tufts + 0.6 * blades) * vec3(1.0 + 0.3 * (tufts - 0.5), 1.0, 1.0);
+    float tufts = GRAIN(kGrainSoft, detail.xy, 317.0);
+    return rho * (0.35 + 0.7 * tufts + 0.6 * GRAIN(kGrainFine, detail.yx, 1024.0)) * vec3(1.0 + 0.3 * (tufts - 0.5), 1.0, 1.0);
   }
   if (surface == 3) {  // paint: worn
-    float wear = texture(grain, detail.xy * (922.0 / 1024.0)).r;
-    return rho * (0.8 + 0.3 * wear);
+    return rho * (0.8 + 0.3 * GRAIN(kGrainFine, detail.xy, 922.0));
   }
   if (surface == 4) {  // foliage
-    float leaves = texture(grain, detail.xz * (461.0 / 1024.0) + detail.y * (276.0 / 1024.0)).r;
-    return rho * (0.3 + 1.4 * leaves);
+    return rho * (0.3 + 1.4 * grain_at(kGrainFine, detail.xz * (461.0 / 1024.0) + detail.y * (276.0 / 1024.0), 537.0 / 1024.0, footprint));
   }
   return rho;
 }

@@ -19,6 +19,7 @@ const uint kSpecLampBase = 4u;  // measure: first of four lamps
 const uint kSpecLookups = 5u;   // how each lamp's table is looked up, four bits a lamp, below
 const uint kSpecColours = 6u;   // 1: lamps differ in colour
 const uint kSpecSides = 7u;     // 2: both sides of a surface are seen
+const uint kSpecGrain = 8u;     // first level of the grain that is there
 
 // Even: nodes at multiples of a fine step about 0°, of a coarse one beyond. The first two are for tables that look ahead: no first
 // angle beyond 90°, and what lies at 90° or behind counts as dark.

@@ -19,11 +19,19 @@ void add_import(CLI::App& app, Command& chosen);
 void add_lamp(CLI::App& app, Command& chosen);
 void add_measure(CLI::App& app, Command& chosen);
 void add_doctor(CLI::App& app, Command& chosen);
+void add_help_data(CLI::App& app, Command& chosen);
+
+/// Version, commit, Vulkan device.
+std::string version_text();
 
 /// Prints one line to stderr and gives exit code 2.
 int bad_input(const Error& error);
 
 /// config/ of this source tree: the demo rig and drive.
 std::string config_path(const std::string& below);
+
+/// A file of config/examples/ as an example on the command line names it: from the root of the source tree, or, for an
+/// installed program, with its whole path.
+std::string example_file(const std::string& name);
 
 }  // namespace phare

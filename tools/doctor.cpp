@@ -1,4 +1,5 @@
-// phare doctor: what this machine has, and which Debian package gives what it lacks.
+// phare doctor: what this machine has, which Debian package gives what it lacks, and what would miss it: a drive, or
+// only Phare's own tests.
 #include <sched.h>
 #include <sys/socket.h>
 #include <time.h>
@@ -18,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "config/paths.h"
 #include "config/remedies.h"
 #include "net/scheduling.h"
 #include "tools/child_process.h"
@@ -37,7 +39,8 @@ struct Finding {
   bool there = false;
   bool needed = false;  ///< phare drive cannot do without
   std::string detail;
-  std::string remedy;  ///< when it is missing
+  std::string remedy;      ///< when it is missing
+  bool for_tests = false;  ///< a drive never uses it
 };
 
 Finding vulkan_devices() {
@@ -60,7 +63,8 @@ Finding vulkan_devices() {
 
 /// Where the Vulkan loader looks for explicit layers; the environment can add to it.
 Finding validation_layer() {
-  Finding finding{"Vulkan validation layer", false, false, "not found; --validation does not work", kValidationRemedy};
+  Finding finding{"Vulkan validation layer", false, false, "not found; --validation does not work",
+                  kValidationRemedy,         true};
   std::vector<std::filesystem::path> folders{"/usr/share/vulkan/explicit_layer.d", "/etc/vulkan/explicit_layer.d",
                                              "/usr/local/share/vulkan/explicit_layer.d"};
   if (const char* path = std::getenv("VK_LAYER_PATH")) folders.insert(folders.begin(), path);
@@ -132,35 +136,45 @@ Finding real_time_priority() {
           "echo '* - rtprio 10' > /etc/security/limits.d/phare.conf, then log in again"};
 }
 
-Finding program(const char* name, const char* what_for) {
+Finding program(const char* name, const char* what_for, const char* remedy, bool for_tests) {
   const auto path = find_in_path(name);
-  return {name, path.has_value(), false, path ? path->string() : std::string("not in PATH; ") + what_for,
-          std::string("apt-get install ") + name};
+  return {name,   path.has_value(), false, path ? path->string() : std::string("not in PATH; ") + what_for,
+          remedy, for_tests};
 }
 
-/// packages.txt of this source tree against what dpkg has.
-Finding packages() {
-  Finding finding{"Debian packages", false, false, "", ""};
-  std::ifstream list(config_path("../packages.txt"));
+/// What dpkg has installed; empty where there is no dpkg.
+std::set<std::string> installed_packages() {
   std::set<std::string> installed;
   FILE* dpkg = popen("dpkg-query -W -f '${db:Status-Abbrev} ${Package}\\n' 2>/dev/null", "r");
   for (char state[16], name[256]; dpkg != nullptr && std::fscanf(dpkg, "%15s %255s", state, name) == 2;) {
     if (std::strncmp(state, "ii", 2) == 0) installed.insert(name);
   }
   if (dpkg != nullptr) pclose(dpkg);
+  return installed;
+}
+
+/// The names in packages.txt that carry one of `marks` ("" for none), against what dpkg has.
+Finding packages(const std::string& what, const std::set<std::string>& marks, bool for_tests) {
+  Finding finding{what, false, false, "", "", for_tests};
+  std::ifstream list(packages_file());
+  const std::set<std::string> installed = installed_packages();
   if (!list || installed.empty()) {
-    finding.detail = !list ? "packages.txt is not beside this build" : "dpkg-query tells of none: not a Debian";
+    finding.detail = !list ? packages_file().string() + " cannot be read" : "dpkg-query tells of none: not a Debian";
     return finding;
   }
   std::size_t wanted = 0;
   std::string missing;
-  for (std::string line, name; std::getline(list, line);) {
-    if (!(std::istringstream(line.substr(0, line.find('#'))) >> name)) continue;
+  for (std::string line; std::getline(list, line);) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::string name, mark;
+    if (!(words >> name)) continue;
+    words >> mark;
+    if (!marks.contains(mark)) continue;
     ++wanted;
     if (!installed.contains(name)) missing += " " + name;
   }
   finding.there = missing.empty();
-  finding.detail = finding.there ? "all " + std::to_string(wanted) + " of packages.txt" : "not all of packages.txt";
+  finding.detail = (finding.there ? "all " : "not all ") + std::to_string(wanted) + " of packages.txt";
   finding.remedy = "apt-get install" + missing;
   return finding;
 }
@@ -176,36 +190,59 @@ Finding processes() {
   return finding;
 }
 
+std::vector<Finding> all_findings() {
+  std::vector<Finding> findings{
+      vulkan_devices(), processes(),
+      // An installed phare has been built; dpkg sees to its libraries.
+      is_installed() ? packages("Debian packages", {"run"}, false) : packages("Debian packages", {"", "run"}, false),
+      can_sockets(), display(), clock_found(), real_time_priority(),
+      program("ffmpeg", "no drive.mp4 from the frames", kVideoRemedy, false)};
+  if (!is_installed()) {  // its tests stay with its sources
+    findings.push_back(packages("Debian packages", {"test"}, true));
+    findings.push_back(validation_layer());
+    findings.push_back(program("tshark", "drive files are not looked into", "apt-get install tshark", true));
+    findings.push_back(program("xvfb-run", "no window is tried", kDisplayRemedy, true));
+    findings.push_back(program("mmdebstrap", "no bare Debian is tried", "apt-get install mmdebstrap", true));
+  }
+  return findings;
+}
+
+void print(const std::vector<Finding>& findings, bool for_tests) {
+  for (const Finding& finding : findings) {
+    if (finding.for_tests != for_tests) continue;
+    const char* state = finding.there ? "there" : finding.needed ? "MISSING" : "missing";
+    std::printf("  %-8s %-24s %s\n", state, finding.what.c_str(), finding.detail.c_str());
+    if (!finding.there && !finding.remedy.empty()) std::printf("  %-8s %-24s -> %s\n", "", "", finding.remedy.c_str());
+  }
+}
+
 int doctor(bool json) {
-  const std::vector<Finding> findings{vulkan_devices(),
-                                      validation_layer(),
-                                      processes(),
-                                      packages(),
-                                      can_sockets(),
-                                      display(),
-                                      clock_found(),
-                                      real_time_priority(),
-                                      program("ffmpeg", "no video from the frames"),
-                                      program("tshark", "drive files cannot be looked into")};
-  bool healthy = true;
+  const std::vector<Finding> findings = all_findings();
+  bool healthy = true, tests = true;
   nlohmann::json report = nlohmann::json::array();
   for (const Finding& finding : findings) {
     healthy = healthy && (finding.there || !finding.needed);
-    if (json) {
-      nlohmann::json item{
-          {"what", finding.what}, {"there", finding.there}, {"needed", finding.needed}, {"detail", finding.detail}};
-      if (!finding.there) item["remedy"] = finding.remedy;
-      report.push_back(std::move(item));
-      continue;
-    }
-    std::printf("%-8s %-24s %s\n",
-                finding.there    ? "there"
-                : finding.needed ? "MISSING"
-                                 : "missing",
-                finding.what.c_str(), finding.detail.c_str());
-    if (!finding.there && !finding.remedy.empty()) std::printf("%-8s %-24s -> %s\n", "", "", finding.remedy.c_str());
+    tests = tests && (finding.there || !finding.for_tests);
+    nlohmann::json item{{"what", finding.what},
+                        {"for", finding.for_tests ? "tests" : "drive"},
+                        {"there", finding.there},
+                        {"needed", finding.needed},
+                        {"detail", finding.detail}};
+    if (!finding.there) item["remedy"] = finding.remedy;
+    report.push_back(std::move(item));
   }
-  if (json) std::printf("%s\n", nlohmann::json{{"healthy", healthy}, {"findings", report}}.dump(2).c_str());
+  if (json) {
+    std::printf("%s\n", nlohmann::json{{"healthy", healthy}, {"findings", report}}.dump(2).c_str());
+    return healthy ? kExitDone : kExitCheckFailed;
+  }
+  std::printf("For driving\n");
+  print(findings, false);
+  if (!is_installed()) {
+    std::printf("Only for Phare's own tests (./phare test installs what is missing)\n");
+    print(findings, true);
+  }
+  std::printf("This machine %s.\n", healthy ? "can drive" : "cannot drive: see MISSING above");
+  if (!is_installed()) std::printf("It %s the tests need.\n", tests ? "has all that" : "lacks some of what only");
   return healthy ? kExitDone : kExitCheckFailed;
 }
 
@@ -214,7 +251,9 @@ int doctor(bool json) {
 void add_doctor(CLI::App& app, Command& chosen) {
   auto json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("doctor", "What this machine has, and which package gives what is missing");
-  command->footer("Exit code 1 when something is missing that phare drive needs.\nExample:\n  phare doctor --json");
+  command->footer(
+      "Exit code 1 when something is MISSING that phare drive needs; what is \"missing\" it can do "
+      "without.\nExample:\n  phare doctor --json");
   command->add_flag("--json", *json, "Print as JSON");
   command->callback([json, &chosen] { chosen = [json] { return doctor(*json); }; });
 }

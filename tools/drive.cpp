@@ -13,6 +13,8 @@
 #include <thread>
 
 #include "config/key_bindings.h"
+#include "config/picture_options.h"
+#include "config/remedies.h"
 #include "config/vehicle.h"
 #include "net/bus.h"
 #include "net/clock.h"
@@ -36,10 +38,9 @@ constexpr const char* kPictureWithin_s = "180";
 
 struct DriveOptions {
   std::string rig_file = config_path("rigs/country_road.toml");
-  std::string drive, script, log, dbc, cockpit, out, record, size, log_level = "info";
-  bool headless = false, lockstep = false, closed_loop = false, validation = false, json = false;
-  std::int64_t frames = 0;
-  int samples = 0;
+  std::string drive, script, log, dbc, cockpit, out, record, log_level = "info";
+  bool headless = false, lockstep = false, closed_loop = false, json = false;
+  PictureOptions picture;
   std::uint16_t port_base = 0;
   std::vector<std::string> command;
   std::string guide;          ///< somebody sits at the window and drives (live) or looks on (replay); empty: nobody
@@ -66,7 +67,7 @@ Result<Rig> prepare(DriveOptions& options) {
     options.headless = true;
   }
   // Whoever sits at a window drives, unless a drive is named; automation (--frames, --lockstep) waits for nobody's key.
-  const bool person = !options.headless && !options.lockstep && options.frames == 0;
+  const bool person = !options.headless && !options.lockstep && options.picture.frames == 0;
   const bool any_drive = !options.drive.empty() || !options.script.empty() || !options.log.empty();
   if (person) options.guide = any_drive ? "replay" : "live";
   const std::string demo = config_path("drives/country_road.pcap");
@@ -184,10 +185,8 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
     auto& arguments = visual.arguments;
     arguments.insert(arguments.end(), {"--channel", std::to_string(channel)});
     if (options.headless) arguments.push_back("--headless");
-    if (options.frames > 0) arguments.insert(arguments.end(), {"--frames", std::to_string(options.frames)});
-    if (!options.size.empty()) arguments.insert(arguments.end(), {"--size", options.size});
-    if (options.samples > 0) arguments.insert(arguments.end(), {"--samples", std::to_string(options.samples)});
-    if (options.validation) arguments.push_back("--validation");
+    const std::vector<std::string> picture = options.picture.arguments();
+    arguments.insert(arguments.end(), picture.begin(), picture.end());
     if (!options.out.empty()) {
       const fs::path out = channel == 0 ? fs::path(options.out) : fs::path(options.out) / rig.channels[channel].name;
       arguments.insert(arguments.end(), {"--out", out.string()});
@@ -226,7 +225,7 @@ class Progress {
 
 /// Frames there will be, as far as that is known.
 std::int64_t frames_expected(const DriveOptions& options, const Rig& rig, SimTime duration) {
-  if (options.frames > 0) return options.frames;
+  if (options.picture.frames > 0) return options.picture.frames;
   return static_cast<std::int64_t>(duration.seconds() * static_cast<double>(rig.frame_rate_hz));
 }
 
@@ -242,7 +241,7 @@ void make_video(const fs::path& out, std::int64_t frame_rate_hz) {
   if (count < 2) return;
   const auto ffmpeg = find_in_path("ffmpeg");
   if (!ffmpeg) {
-    spdlog::info("no ffmpeg in PATH, so no drive.mp4 (apt-get install ffmpeg)");
+    spdlog::info("no ffmpeg in PATH, so no drive.mp4 ({})", kVideoRemedy);
     return;
   }
   // Every frame kept: at the frame rate. One kept a second: eight a second, a time lapse.
@@ -282,9 +281,9 @@ void print_summary(const nlohmann::json& report, const std::string& out) {
   }
   if (summary.contains("frame_ms")) {
     const auto& t = summary["frame_ms"];
-    std::printf("%s frames, %.2f ms median, %.2f ms p99, %.0f frames a second at the median\n",
-                summary["frames"].dump().c_str(), t.value("median", 0.0), t.value("p99", 0.0),
-                summary.value("frames_per_s_median", 0.0));
+    std::printf("%s frames in %.1f s: %.3g a second; a frame %.2f ms median, %.2f ms p99\n",
+                summary["frames"].dump().c_str(), summary.value("drawn_s", 0.0), summary.value("frames_per_s", 0.0),
+                t.value("median", 0.0), t.value("p99", 0.0));
   }
   std::printf("%s\n", (fs::path(out) / "index.html").c_str());
 }
@@ -443,21 +442,17 @@ void add_drive(CLI::App& app, Command& chosen) {
                       "Cockpit file, instead of the rig's: which signals move the controls");
   command->add_flag("--headless", options->headless, "No window (also when there is no display)");
   command->add_flag("--lockstep", options->lockstep, "Frame by frame: reproducible bit for bit, however slow");
-  command->add_option("--frames", options->frames, "Keep each of the first N frames as a picture, then end")
-      ->check(CLI::Range(1, 1'000'000));
-  command->add_option("--size", options->size, "WIDTHxHEIGHT of the picture [the rig's]");
-  command->add_option("--samples", options->samples, "Samples a pixel: 1 or 4")->check(CLI::IsMember({1, 4}));
   command->add_option("--out", options->out, "Folder for pictures and report [headless: out]");
   command->add_option("--record", options->record, "Record the drive into this file (pcap)");
   command->add_flag("--closed-loop", options->closed_loop,
                     "With --drive: replay the controls and let the car answer, instead of the poses");
-  command->add_flag("--validation", options->validation, "Vulkan validation with synchronization validation");
   command->add_option("--log-level", options->log_level, "trace, debug, info, warn, error, off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
   command->add_flag("--json", options->json, "Print the report as JSON");
+  options->picture.add_to(*command);
   command->callback([options, &app, &chosen] {
     spdlog::set_level(spdlog::level::from_str(options->log_level));
     options->command = {"phare", "drive"};

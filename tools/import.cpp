@@ -98,7 +98,7 @@ void add_import(CLI::App& app, Command& chosen) {
   ImportOptions& import = arguments->import;
   CLI::App* command = app.add_subcommand("import", "Turn a recorded drive of a real car into a drive file");
   command->footer(
-      "Example:\n  phare import --can rav4.candump.log --dbc toyota.dbc --pose rav4_pose.csv --out rav4.pcap\n"
+      "Example:\n  phare import --can car.log --dbc car.dbc --pose car_pose.csv --out car.pcap\n"
       "The pose table has columns t_s, east_m, north_m, up_m, heading_deg_cw_from_north, path_pitch_deg.");
   command->add_option("--can", import.can_log, "CAN log (candump -l)")->required();
   command->add_option("--dbc", import.dbc, "DBC file that describes its signals")->required();

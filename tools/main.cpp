@@ -4,8 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 
 #include "config/paths.h"
 #include "config/toml_table.h"
@@ -22,7 +24,37 @@ std::string config_path(const std::string& below) {
   return (config_dir() / below).string();
 }
 
+std::string example_file(const std::string& name) {
+  return is_installed() ? config_path("examples/" + name) : "config/examples/" + name;
+}
+
 namespace {
+
+/// Files of config/examples/ that a footer names get the path they have from here; what an example writes does not.
+void show_example_paths(CLI::App& app) {
+  std::vector<std::string> names;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(config_path("examples"), missing))
+    names.push_back(entry.path().filename().string());
+  std::string footer = app.get_footer();
+  for (const std::string& name : names) {
+    const auto belongs_to_name = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '/' || c == '-';
+    };
+    for (std::size_t at = 0; (at = footer.find(name, at)) != std::string::npos; at += name.size()) {
+      const std::size_t end = at + name.size();
+      const bool whole = at > 0 && !belongs_to_name(footer[at - 1]) &&
+                         (end == footer.size() || footer[end] == '/' || !belongs_to_name(footer[end]));
+      const bool written = at >= 6 && footer.compare(at - 6, 6, "--out ") == 0;
+      if (!whole || written) continue;
+      const std::string path = example_file(name);
+      footer.replace(at, name.size(), path);
+      at += path.size() - name.size();
+    }
+  }
+  app.footer(footer);
+  for (CLI::App* command : app.get_subcommands(nullptr)) show_example_paths(*command);
+}
 
 int run(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("phare"));
@@ -30,7 +62,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Phare drives headlamps through the night before they exist.", "phare"};
   app.footer(
       "Example:\n  phare drive --headless --lockstep --frames 60 --out out\nEvery command has --help with an example.");
-  app.set_version_flag("--version", PHARE_VERSION);
+  app.set_version_flag("--version", version_text, "Version, commit and Vulkan device");
   app.require_subcommand(1);
   Command chosen;
   add_drive(app, chosen);
@@ -41,6 +73,8 @@ int run(int argc, char** argv) {
   add_lamp(app, chosen);
   add_measure(app, chosen);
   add_doctor(app, chosen);
+  add_help_data(app, chosen);
+  show_example_paths(app);
   // A command that does not exist is told before anything else: --help after it must not hide the mistake.
   const CLI::App* at = &app;
   for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {

@@ -263,8 +263,8 @@ void add_measure(CLI::App& app, Command& chosen) {
   command->footer(
       "Points: CSV with x_m,y_m,z_m,nx,ny,nz. The answer repeats them and adds illuminance_lx and one column per "
       "lamp.\n"
-      "Example:\n  phare measure --lamp low.ies,x=1.5,y=0.6,z=0.65,pitch_deg=-0.573 --points road.csv --out "
-      "road_lx.csv\n  phare measure --table a_road_flat_low.csv --method reference");
+      "Example:\n  phare measure --lamp low_beam.ies,x=1.5,y=0.6,z=0.65,pitch_deg=-0.573 --points points.csv --out "
+      "points_lx.csv\n  phare measure --table road_table/a_road_flat_low.csv --method reference");
   command->add_option("--rig", options->rig_file, "Rig file whose lamps are measured; the car stands at the origin");
   command
       ->add_option("--lamp", options->lamps,

@@ -94,7 +94,7 @@ void add_replay(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("replay", "Send the datagrams of a drive file again, in real time");
   command->footer(
       "Takes the place of phare-cockpit and phare-dynamics for a phare-visual that runs.\n"
-      "Example:\n  phare replay evening.pcap --speed 0.5");
+      "Example:\n  phare replay config/drives/country_road.pcap --speed 0.5");
   command->add_option("file", options->file, "Drive file")->required();
   command->add_option("--rig", options->rig_file, "Rig file: address, ports and channels")->capture_default_str();
   command->add_option("--speed", options->speed, "Times real time")

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 
+#include "config/commit.h"
 #include "config/content_hash.h"
 #include "visual/photometry/read_lamp.h"
 
@@ -81,8 +82,9 @@ nlohmann::json read_stats(const std::filesystem::path& out, const std::string& p
 }
 
 nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::filesystem::path& out) {
-  json report{{"version", PHARE_VERSION},   {"made_at", utc_now()},   {"command", facts.command},
-              {"lockstep", facts.lockstep}, {"wall_s", facts.wall_s}, {"exit_code", facts.exit_code}};
+  json report{{"version", PHARE_VERSION},    {"commit", build_commit()},   {"made_at", utc_now()},
+              {"command", facts.command},    {"lockstep", facts.lockstep}, {"wall_s", facts.wall_s},
+              {"exit_code", facts.exit_code}};
   if (!facts.why.empty()) report["why"] = facts.why;
   report["rig"] = named_by_content(rig.file);
   report["rig"]["name"] = rig.name;
@@ -122,9 +124,9 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
   json summary{{"messages", messages}, {"memory", memory}, {"restarts", facts.restarts.size()}};
   if (report["processes"].contains("visual-0")) {
     const json& visual = report["processes"]["visual-0"];
-    for (const char* key : {"frames", "frame_ms", "frame_ms_without_capture", "gpu_ms", "pass_ms", "draws", "passes",
-                            "triangles", "self_audit", "switch_to_photon", "device", "device_memory_bytes", "size_px",
-                            "sim_time_s", "validation", "validation_messages"}) {
+    for (const char* key : {"frames", "frames_per_s", "drawn_s", "frame_ms", "frame_ms_without_capture", "gpu_ms",
+                            "pass_ms", "draws", "passes", "triangles", "self_audit", "switch_to_photon", "device",
+                            "device_memory_bytes", "size_px", "sim_time_s", "validation", "validation_messages"}) {
       if (visual.contains(key)) summary[key] = visual[key];
     }
     if (visual.contains("interval_ms")) {

@@ -127,8 +127,13 @@ class Page {
       fact(value_text(summary_["frame_ms"], "median") + " ms", "a frame, median");
       fact(value_text(summary_["frame_ms"], "p99") + " ms", "a frame, 99th percentile");
     }
-    if (summary_.contains("frames_per_s_median"))
-      fact(value_text(summary_, "frames_per_s_median", "%.0f"), "frames a second, all processes running");
+    if (summary_.contains("frames_per_s")) {
+      const std::string median =
+          summary_.contains("frames_per_s_median")
+              ? "; " + value_text(summary_, "frames_per_s_median", "%.3g") + " by the median interval"
+              : "";
+      fact(value_text(summary_, "frames_per_s", "%.3g"), "frames a second: all frames by all seconds" + median);
+    }
     std::uint64_t lost = 0;
     for (const auto& [process, counts] : summary_["messages"].items()) lost += counts.value("lost", std::uint64_t{0});
     fact(std::to_string(lost), "messages lost");
@@ -252,8 +257,8 @@ class Page {
             << "</td><td class=\"text\"><code>" << escaped(report_[what].value("content_hash", ""))
             << "</code></td></tr>";
     }
-    page_ << "<tr><td>Phare</td><td class=\"text\">" << value_text(report_, "version")
-          << "</td><td class=\"text\"><code>";
+    page_ << "<tr><td>Phare</td><td class=\"text\">" << value_text(report_, "version") << ", commit "
+          << value_text(report_, "commit") << "</td><td class=\"text\"><code>";
     for (const json& word : report_["command"]) page_ << escaped(word.get<std::string>()) << ' ';
     page_ << "</code></td></tr></table></div><p>Everything in numbers: <a style=\"color:inherit\" "
              "href=\"report.json\">report.json</a></p>";

@@ -14,6 +14,7 @@
 #include "net/clock.h"
 #include "vehicle_dynamics/batch.h"
 #include "vehicle_dynamics/compare.h"
+#include "vehicle_dynamics/reference.h"
 #include "vehicle_dynamics/work_precision.h"
 
 namespace phare {
@@ -179,6 +180,7 @@ Status BatchCommand::options_fit() const {
     if (app.count(use.option) > 0 && std::find(use.runs.begin(), use.runs.end(), run) == use.runs.end())
       return Error{use.option,
                    named ? std::string("means nothing with ") + named : "belongs to a run without a rig, see --batch"};
+  if (options_->integrator == "reference" || options_->work_precision) return ReferenceIntegrator::there();
   return Done{};
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"
+#include "net/control_desk.h"
 #include "net/drive_file.h"
 #include "net/scheduling.h"
 #include "net/stats.h"
@@ -117,11 +119,7 @@ class Process {
   Process(Bus bus, const Rig& rig, const Options& options, StopFlag stop)
       : bus_(std::move(bus)), rig_(rig), options_(options), stop_(stop) {
     bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
-      const auto* control = std::get_if<RigControl>(&datagram.payload);
-      if (!control) return;
-      if (std::holds_alternative<RigControl::Quit>(control->command)) stop_.request();
-      if (const auto* pause = std::get_if<RigControl::Pause>(&control->command)) requests_.paused = pause->on;
-      if (const auto* seek = std::get_if<RigControl::Seek>(&control->command)) requests_.seek_s = seek->to_s;
+      desk_.serve(bus_, datagram, [this](const RigControl& control) { return obey(control); });
     };
   }
   Process(const Process&) = delete;
@@ -285,19 +283,58 @@ class Process {
     loop_.emplace(std::move(begin.setup), begin.state);
   }
 
-  // Level pose only: a simulated car has no past to go back to.
+  // A request that obey() has let through.
   bool seek() {
-    const double to_s = *requests_.seek_s;
+    const SimTime time{static_cast<std::int64_t>(*requests_.seek_s * 1e9)};
     requests_.seek_s.reset();
-    if (loop_->setup().level != Level::kPose) {
-      spdlog::warn("seek needs level pose; ignored");
-      return false;
-    }
-    const SimTime end = loop_->setup().track.end();
-    const SimTime time{
-        std::clamp<std::int64_t>(static_cast<std::int64_t>(std::clamp(to_s, 0.0, 1e9) * 1e9), 0, end.ns)};
     loop_.emplace(RunSetup(loop_->setup()), CarState{}, time);
     return true;
+  }
+
+  // ---- commands
+
+  ControlReply obey(const RigControl& control) {
+    if (std::holds_alternative<RigControl::Quit>(control.command)) {
+      stop_.request();
+      return accepted("leaves");
+    }
+    if (const auto* pause = std::get_if<RigControl::Pause>(&control.command)) {
+      requests_.paused = pause->on;
+      return accepted((pause->on ? "paused" : "goes on") + time_text());
+    }
+    if (const auto* seek = std::get_if<RigControl::Seek>(&control.command)) return may_seek(seek->to_s);
+    if (!loop_) return accepted("has not begun");
+    const VehicleState car = loop_->at(loop_->time());
+    char text[160];
+    std::snprintf(text, sizeof text, "%s%.1f km/h, x %.2f, y %.2f, z %.2f m, yaw %.2f, pitch %.3f deg, level %s",
+                  requests_.paused ? "paused, " : "", car.speed_mps * 3.6, car.x_m, car.y_m, car.z_m,
+                  car.yaw_rad * 180.0 / std::numbers::pi, car.pitch_rad * 180.0 / std::numbers::pi,
+                  name(loop_->level_now()));
+    return accepted(text + time_text());
+  }
+
+  // Level pose only: a simulated car has no past to go back to.
+  ControlReply may_seek(double to_s) {
+    if (options_.lockstep) return refused("seek: not in lockstep, where every frame follows the one before");
+    if (!loop_) return refused("seek: the drive has not begun");
+    if (loop_->setup().level != Level::kPose)
+      return refused("seek: only in a replayed drive; a simulated car has no past to go back to");
+    const double end_s = loop_->setup().track.end().seconds();
+    char text[80];
+    if (to_s > end_s) {
+      std::snprintf(text, sizeof text, "seek: the drive ends at %.3f s", end_s);
+      return refused(text);
+    }
+    requests_.seek_s = to_s;
+    std::snprintf(text, sizeof text, "at %.3f s of %.3f s", to_s, end_s);
+    return accepted(text);
+  }
+
+  std::string time_text() const {
+    if (!loop_) return {};
+    char text[40];
+    std::snprintf(text, sizeof text, " at %.3f s", loop_->time().seconds());
+    return text;
   }
 
   // ---- controls, reports
@@ -369,6 +406,7 @@ class Process {
   const Options& options_;
   StopFlag stop_;
   Requests requests_;
+  ControlDesk desk_;
   std::optional<StepLoop> loop_;
   std::uint64_t sent_step_ = 0;  ///< the newest step whose hash has been sent
   Scheduling scheduling_;
@@ -383,7 +421,7 @@ class Process {
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"The car of a rig: controls in, pose out."};
-  app.footer("Example: phare-dynamics --rig config/rigs/country_road.toml --lockstep --level kinematic");
+  app.footer("Example:\n  phare-dynamics --rig config/rigs/country_road.toml --lockstep --level kinematic");
   app.set_version_flag("--version", PHARE_VERSION);
   app.add_option("--rig", options.rig_file, "Rig file (TOML)");
   app.add_flag("--lockstep", options.lockstep, "Advance frame by frame with the picture, reproducibly");

@@ -21,6 +21,9 @@ class ReferenceIntegrator {
   ReferenceIntegrator(const ReferenceIntegrator&) = delete;
   ReferenceIntegrator& operator=(const ReferenceIntegrator&) = delete;
 
+  /// Is it in this build? Error: SUNDIALS was not there, and how to get it; advance() then gives the same.
+  static Status there();
+
   /// One step of the model, as its advance() does it but exact between decisions that are taken once a step. Error: the
   /// solver gave up, and why; the state is then as far as it came.
   Status advance(const full::Params& params, const full::Input& input, full::State& state, double dt);

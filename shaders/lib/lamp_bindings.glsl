@@ -8,7 +8,6 @@ layout(std140, set = 0, binding = 0) uniform Frame { GpuFrame frame; };
 layout(set = 0, binding = 1) uniform sampler2D guides[kMaxLamps];
 layout(set = 0, binding = 2) uniform sampler2D candela[kMaxLamps];
 layout(std140, set = 0, binding = 3) uniform Materials { GpuMaterial materials[kMaxMaterials]; };
-layout(set = 0, binding = 4) uniform sampler2D grain;
 layout(push_constant) uniform Draw { GpuDraw draw; };
 
 mat4 clip_from_eye() {

@@ -1,149 +1,254 @@
-// How long a frame takes, and how many bare two-lamp quads that is: the ratio stays when the machine is slower or busy.
-//   phare_frame_bench SCENE.glb LAMP.ies [WIDTHxHEIGHT] [ROUNDS]
-// The quad: one full-screen surface, the same two lamps, the same shader. Rounds alternate, so both see the same
-// machine.
+// How long a frame takes, where the time goes and how it grows, as ratios to the floor: the bare light integral of two
+// headlamps by hand (tests/bench/floor.h), taken in the same run and turn by turn, so that the ratios stay when the
+// machine is slower or busy.
+//   phare_frame_bench [--scene SCENE.glb --lamp LAMP.ies] [--size 1280x720] [--rounds 40] [--csv FILE]
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
 #include <string>
 
-#include "visual/photometry/beam_image.h"
-#include "visual/renderer.h"
+#include "config/paths.h"
+#include "tests/bench/floor.h"
+#include "tests/bench/straight_road.h"
+#include "visual/photometry/beam_composer.h"
+#include "visual/photometry/read_lamp.h"
 #include "visual/scene/scene.h"
 
-namespace phare {
+namespace phare::bench {
 namespace {
 
-Scene one_quad() {
-  Scene scene;
-  scene.materials = {{.name = "quad", .reflectance = glm::vec3(0.1f)}};
-  for (const glm::vec3 corner :
-       {glm::vec3(20, 40, -30), glm::vec3(20, -40, -30), glm::vec3(20, -40, 30), glm::vec3(20, 40, 30)})
-    scene.vertices.push_back({corner, {-1, 0, 0}});
-  scene.indices = {0, 1, 2, 0, 2, 3};
-  scene.chunks = {{.node = "quad",
-                   .origin_m = {},
-                   .low_m = {20, -40, -30},
-                   .high_m = {20, 40, 30},
-                   .index_count = 6,
-                   .vertex_count = 4}};
-  return scene;
-}
+struct Options {
+  std::string scene = (generated_dir() / "scenes/country_road.glb").string();
+  std::string lamp = (generated_dir() / "lamps/low_rht.ies").string();
+  int width_px = 1280, height_px = 720, rounds = 40;
+  std::string csv;
+};
 
-// Processor time of all threads: a busy machine lengthens it far less than the wall clock.
-double cpu_ms() {
+double clock_ms(clockid_t clock) {
   timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  clock_gettime(clock, &now);
   return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
 double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
-int run(int argc, char** argv) {
-  if (argc < 3) {
-    std::fprintf(stderr, "usage: phare_frame_bench SCENE.glb LAMP.ies [WIDTHxHEIGHT] [ROUNDS]\n");
-    return kExitBadInput;
+/// One thing that is timed: a frame of a renderer, or of the floor.
+struct Case {
+  std::string group, name;
+  std::function<FrameResult(int round)> draw;
+  std::vector<double> cpu_ms{}, wall_ms{}, cpu_floors{}, wall_floors{};
+  std::map<std::string, std::vector<double>> pass_ms{};
+  FrameResult newest{};
+};
+
+/// Renderers live as long as the cases that draw with them.
+class Bench {
+ public:
+  explicit Bench(const Options& options) : options_(options) {}
+
+  Renderer& renderer(const Scene& scene, const IntensityTable& table, int width_px, int height_px) {
+    Result<Renderer> made = Renderer::create({.width_px = width_px, .height_px = height_px});
+    if (!made) throw std::runtime_error(made.error().text());
+    renderers_.push_back(std::make_unique<Renderer>(std::move(*made)));
+    Renderer& renderer = *renderers_.back();
+    if (const Status loaded = renderer.load_scene(scene); !loaded) throw std::runtime_error(loaded.error().text());
+    const AimedSource source{.table = &table};
+    renderer.set_beam(0, compose_beam_image(std::span(&source, 1)));
+    return renderer;
   }
-  int width = 1280, height = 720;
-  if (argc > 3 && std::sscanf(argv[3], "%dx%d", &width, &height) != 2) return kExitBadInput;
-  const int rounds = argc > 4 ? std::max(1, std::atoi(argv[4])) : 40;
-  const Result<Scene> scene = read_scene(argv[1]);
-  const Result<IntensityTable> table = read_lm63(argv[2]);
-  if (!scene || !table) {
-    std::fprintf(stderr, "%s\n", (scene ? table.error() : scene.error()).text().c_str());
-    return kExitBadInput;
+  Renderer& renderer(const Scene& scene, const IntensityTable& table) {
+    return renderer(scene, table, options_.width_px, options_.height_px);
   }
-  const AimedSource source{.table = &*table};
-  const BeamImage image = compose_beam_image(std::span(&source, 1));
-  const RendererOptions options{.width_px = width, .height_px = height};
-  Result<Renderer> road = Renderer::create(options), quad = Renderer::create(options);
-  if (!road || !quad) {
-    std::fprintf(stderr, "%s\n", (road ? quad.error() : road.error()).text().c_str());
+
+  void add(const std::string& group, const std::string& name, Renderer& renderer,
+           const std::function<FrameInput(int)>& view) {
+    cases_.push_back({group, name, [&renderer, view](int round) { return renderer.draw(view(round)); }});
+  }
+
+  /// Turn by turn: each round times the floor and then every case.
+  void run(Floor& floor) {
+    std::vector<double> floor_cpu, floor_wall;
+    for (int round = -2; round < options_.rounds; ++round) {
+      const auto timed = [&](auto&& work) {
+        const double cpu = clock_ms(CLOCK_PROCESS_CPUTIME_ID), wall = clock_ms(CLOCK_MONOTONIC);
+        work();
+        return std::pair(clock_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu, clock_ms(CLOCK_MONOTONIC) - wall);
+      };
+      // Three frames, so that the first's cold caches are not the unit.
+      const auto unit = timed([&] {
+        for (int i = 0; i < 3; ++i) floor.draw(0.1f * static_cast<float>((round + 2) % 64));
+      });
+      if (round >= 0) floor_cpu.push_back(unit.first / 3.0), floor_wall.push_back(unit.second / 3.0);
+      for (Case& one : cases_) {
+        FrameResult result;
+        const auto [cpu, wall] = timed([&] { result = one.draw(std::max(round, 0)); });
+        if (round < 0) continue;  // pipelines were made
+        one.cpu_ms.push_back(cpu);
+        one.wall_ms.push_back(wall);
+        one.cpu_floors.push_back(cpu / floor_cpu.back());
+        one.wall_floors.push_back(wall / floor_wall.back());
+        for (const PassTime& pass : result.passes) one.pass_ms[pass.name].push_back(pass.ms);
+        one.newest = result;
+      }
+    }
+    std::printf("one floor: %.2f ms of processor, %.2f ms on the wall, medians of %d rounds at %dx%d\n",
+                median(floor_cpu), median(floor_wall), options_.rounds, options_.width_px, options_.height_px);
+  }
+
+  void print() const {
+    std::string group;
+    for (const Case& one : cases_) {
+      if (one.group != group) {
+        group = one.group;
+        std::printf("\n%-34s %9s %9s %9s %9s %7s %10s\n", group.c_str(), "cpu ms", "wall ms", "cpu/floor", "wall/fl.",
+                    "draws", "triangles");
+      }
+      std::printf("  %-32s %9.2f %9.2f %9.2f %9.2f %7u %10llu\n", one.name.c_str(), median(one.cpu_ms),
+                  median(one.wall_ms), median(one.cpu_floors), median(one.wall_floors), one.newest.draws,
+                  static_cast<unsigned long long>(one.newest.triangles));
+    }
+    std::printf("\npasses by the device's time stamps, ms\n");
+    for (const Case& one : cases_)
+      for (const auto& [pass, ms] : one.pass_ms)
+        std::printf("  %-52s %-14s %8.2f\n", (one.group + ": " + one.name).c_str(), pass.c_str(), median(ms));
+  }
+
+  double cpu_floors(const std::string& group, const std::string& name) const {
+    for (const Case& one : cases_)
+      if (one.group == group && one.name == name) return median(one.cpu_floors);
+    return 0.0;
+  }
+
+  void write_csv(const std::string& file) const {
+    std::ofstream out(file);
+    out << "group,case,cpu_ms,wall_ms,cpu_floors,wall_floors,draws,triangles\n";
+    for (const Case& one : cases_)
+      out << '"' << one.group << "\",\"" << one.name << "\"," << median(one.cpu_ms) << ',' << median(one.wall_ms) << ','
+          << median(one.cpu_floors) << ',' << median(one.wall_floors) << ',' << one.newest.draws << ','
+          << one.newest.triangles << '\n';
+  }
+
+ private:
+  const Options& options_;
+  std::vector<std::unique_ptr<Renderer>> renderers_;
+  std::vector<Case> cases_;
+};
+
+FrameInput without_lamps(FrameInput input) {
+  input.lamps.clear();
+  return input;
+}
+
+/// The first straight of the country road: its fullest view.
+FrameInput country_view(int round) {
+  const double x_m = 26.9 + 0.1 * (round % 64);
+  FrameInput input;
+  input.camera.eye_m = {x_m - 1.9, -1.2, 1.22};
+  const glm::dmat3 aim = aim_rotation(0.0, -0.01, 0.0);
+  for (const double y_m : {-1.0, -2.2})
+    input.lamps.push_back({.position_m = {x_m, y_m, 0.65}, .world_from_image = aim});
+  return input;
+}
+
+/// What a frame costs with nothing in it, with its surfaces unlit, and lit; differences tell where time goes.
+void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const std::function<FrameInput(int)>& view) {
+  bench.add(group, "fixed: nothing in view", renderer, [view](int round) {
+    FrameInput input = without_lamps(view(round));
+    input.camera.eye_m.z -= 1e5;  // far below the ground, looking down: no surface, no sky
+    input.camera.world_from_eye = glm::dmat3(glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0));
+    return input;
+  });
+  bench.add(group, "sky alone", renderer, [view](int round) {
+    FrameInput input = without_lamps(view(round));
+    input.camera.eye_m.z += 1e5;
+    input.camera.world_from_eye = glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0));
+    return input;
+  });
+  bench.add(group, "unlit: geometry and surfaces", renderer, [view](int round) { return without_lamps(view(round)); });
+  bench.add(group, "two lamps", renderer, view);
+}
+
+int run(const Options& options) {
+  if (!Floor::possible()) {
+    std::fprintf(stderr, "phare_frame_bench: this processor has no AVX2 and FMA, so no floor to compare with\n");
     return kExitCheckFailed;
   }
-  if (!road->load_scene(*scene) || !quad->load_scene(one_quad())) return kExitCheckFailed;
-  road->set_beam(0, image);
-  quad->set_beam(0, image);
+  const Result<Scene> country = read_scene(options.scene);
+  const Result<IntensityTable> lamp = read_lamp(options.lamp, {});
+  if (!country || !lamp) {
+    std::fprintf(stderr, "phare_frame_bench: %s\n", (country ? lamp.error() : country.error()).text().c_str());
+    return kExitBadInput;
+  }
+  const Scene straight = straight_road();
+  const IntensityTable even = straight_road_beam(Nodes::kEven), rounded = straight_road_beam(Nodes::kRounded);
+  const auto straight_view = [](int round) { return straight_road_view(0.1 * (round % 64)); };
 
-  // The scene's road starts at the origin along x; its first straight is the fullest view.
-  auto view = [&](int lamps) {
-    FrameInput input;
-    input.camera.eye_m = {25.0, -1.2, 1.22};
-    const glm::dmat3 aim = aim_rotation(0.0, -0.01, 0.0);
-    for (int i = 0; i < lamps; ++i)
-      input.lamps.push_back({.position_m = {26.9, -1.6 + (i % 2 == 0 ? 0.6 : -0.6), 0.65}, .world_from_image = aim});
-    return input;
-  };
-  FrameInput quad_view = view(2);
-  quad_view.camera.eye_m = {0.0, 0.0, 0.0};
-  for (PlacedLamp& lamp : quad_view.lamps) lamp.position_m -= glm::dvec3(25.0, -1.6, 0.0);
-  FrameInput quad_dark = quad_view;
-  quad_dark.lamps.clear();
-  struct Case {
-    const char* name;
-    Renderer& renderer;
-    FrameInput input;
-    std::vector<double> wall{}, cpu{};
-  };
-  FrameInput sky = view(0);
-  sky.camera.world_from_eye =
-      glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0));  // straight up
-  std::vector<Case> cases{{"road, two lamps", *road, view(2)},
-                          {"road, no lamp", *road, view(0)},
-                          {"bare two-lamp quad", *quad, quad_view},
-                          {"bare quad, no lamp", *quad, quad_dark},
-                          {"sky alone", *road, sky}};
-  FrameResult result;
-  for (int i = -2; i < rounds; ++i) {
-    for (Case& one : cases) {
-      const double before = cpu_ms();
-      const FrameResult drawn = one.renderer.draw(one.input);
-      if (i < 0) continue;  // pipelines were compiled
-      one.cpu.push_back(cpu_ms() - before);
-      one.wall.push_back(drawn.wall_ms);
-      if (&one == &cases.front()) result = drawn;
-    }
-  }
-  std::printf("%s, %dx%d, %d rounds, median ms; %u draws, %llu triangles\n", road->device().c_str(), width, height,
-              rounds, result.draws, static_cast<unsigned long long>(result.triangles));
-  for (const Case& one : cases)
-    std::printf("  %-20s %8.2f wall %8.2f cpu, %8.2f cpu at best\n", one.name, median(one.wall), median(one.cpu),
-                *std::min_element(one.cpu.begin(), one.cpu.end()));
-  std::printf("  ratio road / quad    %8.2f wall %8.2f cpu\n", median(cases[0].wall) / median(cases[2].wall),
-              median(cases[0].cpu) / median(cases[2].cpu));
+  Bench bench(options);
+  add_parts(bench, "straight road, even nodes", bench.renderer(straight, even), straight_view);
+  bench.add("straight road, rounded nodes", "two lamps", bench.renderer(straight, rounded), straight_view);
+  add_parts(bench, "country road", bench.renderer(*country, *lamp), country_view);
+  Renderer& lamps = bench.renderer(straight, even);
+  for (const std::size_t count : {1u, 2u, 4u, 8u})
+    bench.add("growth with lamps", std::to_string(count) + " lamps", lamps, [=](int round) {
+      FrameInput input = straight_view(round);
+      const PlacedLamp first = input.lamps.front();
+      input.lamps.assign(count, first);
+      for (std::size_t i = 0; i < count; ++i) input.lamps[i].position_m.y = -2.6 + 0.3 * static_cast<double>(i);
+      return input;
+    });
+  for (const auto& [w, h] : {std::pair(640, 360), std::pair(1920, 1080)})
+    bench.add("growth with pixels", std::to_string(w) + "x" + std::to_string(h), bench.renderer(straight, even, w, h),
+              straight_view);
 
-  // The levels of beam image, turn by turn in one run.
-  std::vector<Result<Renderer>> at_level;
-  for (const ImageLevel level : kImageLevels) {
-    at_level.push_back(Renderer::create({.width_px = width, .height_px = height, .beam_level = level}));
-    if (!at_level.back() || !at_level.back()->load_scene(one_quad())) return kExitCheckFailed;
-    at_level.back()->set_beam(0, image);
+  Floor floor(even, options.width_px, options.height_px);
+  bench.run(floor);
+  bench.print();
+  for (const std::string group : {"straight road, even nodes", "country road"}) {
+    const double fixed = bench.cpu_floors(group, "fixed: nothing in view");
+    const double unlit = bench.cpu_floors(group, "unlit: geometry and surfaces");
+    const double lit = bench.cpu_floors(group, "two lamps");
+    std::printf("\n%s, floors: %.2f = fixed %.2f + geometry and surfaces %.2f + lamps %.2f", group.c_str(), lit, fixed,
+                unlit - fixed, lit - unlit);
   }
-  std::vector<std::vector<double>> wall(at_level.size()), cpu(at_level.size());
-  for (int i = -2; i < rounds; ++i) {
-    for (std::size_t level = 0; level < at_level.size(); ++level) {
-      const double before = cpu_ms();
-      const double ms = at_level[level]->draw(quad_view).wall_ms;
-      if (i < 0) continue;
-      wall[level].push_back(ms);
-      cpu[level].push_back(cpu_ms() - before);
-    }
-  }
-  std::printf("bare two-lamp quad by level of beam image\n");
-  for (std::size_t level = 0; level < at_level.size(); ++level)
-    std::printf("  %-28s %8.2f wall %8.2f cpu, %5.2f of the native one's cpu\n",
-                level_name(kImageLevels[level]).c_str(), median(wall[level]), median(cpu[level]),
-                median(cpu[level]) / median(cpu.back()));
+  std::printf("\n");
+  if (!options.csv.empty()) bench.write_csv(options.csv);
   return kExitDone;
 }
 
 }  // namespace
-}  // namespace phare
+}  // namespace phare::bench
 
 int main(int argc, char** argv) {
-  return phare::run(argc, argv);
+  phare::bench::Options options;
+  std::string size = "1280x720";
+  CLI::App app{"Frame times in floors: the bare light integral of two headlamps, taken in the same run",
+               "phare_frame_bench"};
+  app.add_option("--scene", options.scene, "A road of any length, driven along x from the origin")
+      ->capture_default_str();
+  app.add_option("--lamp", options.lamp, "Its low beam")->capture_default_str();
+  app.add_option("--size", size, "WIDTHxHEIGHT, the width a multiple of 8")->capture_default_str();
+  app.add_option("--rounds", options.rounds, "Frames of each case")->check(CLI::Range(1, 10000))->capture_default_str();
+  app.add_option("--csv", options.csv, "Write the table there");
+  CLI11_PARSE(app, argc, argv);
+  if (std::sscanf(size.c_str(), "%dx%d", &options.width_px, &options.height_px) != 2 || options.width_px % 8 != 0 ||
+      options.width_px < 8 || options.height_px < 8) {
+    std::fprintf(stderr, "phare_frame_bench: --size: expected WIDTHxHEIGHT, got '%s'\n", size.c_str());
+    return phare::kExitBadInput;
+  }
+  try {
+    return phare::bench::run(options);
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "phare_frame_bench: %s\n", failure.what());
+    return phare::kExitCheckFailed;
+  }
 }

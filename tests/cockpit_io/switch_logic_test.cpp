@@ -401,7 +401,10 @@ TEST(SwitchLogic, DesignStepsOncePerPressAndWraps) {
   EXPECT_EQ(press(&SwitchInput::design_previous), 2u);
   EXPECT_EQ(press(&SwitchInput::design_previous), 1u);
   EXPECT_EQ(stalk.state.light_changes, 5u);
-  choose_design(stalk.params, 8, at_ms(1000), stalk.state);
+  choose_design(stalk.params, 8, at_ms(990), stalk.state);  // there is none, and none is taken in its place
+  EXPECT_EQ(stalk.state.lights.design_index, 1u);
+  EXPECT_EQ(stalk.state.light_changes, 5u);
+  choose_design(stalk.params, 2, at_ms(1000), stalk.state);
   EXPECT_EQ(stalk.state.lights.design_index, 2u);
   EXPECT_EQ(stalk.state.light_changes, 6u);
 

@@ -121,6 +121,7 @@ TEST(Bus, SendsToEveryReceiverOfTheTableAndToNobodyElse) {
   all.push_back({Role::kVisual, 0, open_bus(rig, Role::kVisual, 0)});
   all.push_back({Role::kVisual, 1, open_bus(rig, Role::kVisual, 1)});
 
+  // A ControlReply goes to who asked, not to the receivers of a table: see AnAnswerGoesToWhoAsked.
   const std::array<Payload, 7> payloads = {CockpitState{}, VehicleState{}, report(3, 1, 2), RigControl{},
                                            ProbeRequest{}, ProbeReply{},   KeyInput{}};
   for (Endpoint& sender : all) {

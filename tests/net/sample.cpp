@@ -102,7 +102,7 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       return r;
     }
     case kPayloadIndex<RigControl>: {
-      switch (v.whole(7)) {
+      switch (v.whole(8)) {
         case 0:
           return RigControl{RigControl::Pause{v.flag()}};
         case 1:
@@ -117,6 +117,12 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
           return RigControl{RigControl::Swivel{"headlamp right", v.number(-0.3, 0.3), v.number(-0.1, 0.1)}};
         case 6:
           return RigControl{RigControl::Place{"fog left", v.number(-1, 5), v.number(-1, 1), v.number(0, 3)}};
+        case 7: {
+          RigControl tell{RigControl::Tell{}};
+          tell.request_id = 1 + v.whole(1'000'000);
+          tell.first_open = 1 + v.whole(tell.request_id - 1);
+          return tell;
+        }
         default:
           return RigControl{RigControl::Quit{}};
       }
@@ -144,11 +150,20 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       k.events = k.event.size() + v.whole(1'000'000);
       return k;
     }
-    default: {
+    case kPayloadIndex<ProbeReply>: {
       ProbeReply r;
       r.request_id = v.bits();
       r.illuminance_lx = v.numbers(v.whole(50), 0, 1e4);
       r.error = v.flag() ? "" : "no lamp is lit — prüfen";
+      return r;
+    }
+    default: {
+      ControlReply r;
+      r.to_start_id = v.bits();
+      r.request_id = 1 + v.whole(1'000'000);
+      r.verdict = static_cast<Verdict>(v.whole(3));
+      r.reason = v.flag() ? "" : "lamp \"fog\": design \"für den Winter\" has headlamp left";
+      r.now = v.flag() ? "" : "headlamp left: source 17 at 0 %";
       return r;
     }
   }
@@ -184,7 +199,8 @@ std::vector<Datagram> samples(std::uint64_t seed) {
                                  {RigControl::Dim{"headlamp left", 0, 0.0}},
                                  {RigControl::Dim{"headlamp right", 36, 0.25}},
                                  {RigControl::Swivel{"headlamp left", 0.1, 0.0}},
-                                 {RigControl::Place{"headlamp left", 3.4, 0.7, 0.9}}};
+                                 {RigControl::Place{"headlamp left", 3.4, 0.7, 0.9}},
+                                 {RigControl::Tell{}, 12, 3}};
   for (const RigControl& command : commands) {
     Datagram d = sample(kPayloadIndex<RigControl>, random);
     d.payload = command;

@@ -181,7 +181,7 @@ TEST(WireRefuses, SendersThatMayNotSendThePayload) {
         m.set_sender_channel(0);
         if (m.has_frame_report()) m.mutable_frame_report()->set_channel(0);
       });
-      const bool allowed = static_cast<int>(kChannels[index].sender) == sender;
+      const bool allowed = kChannels[index].may_send(static_cast<Sender>(sender));
       EXPECT_EQ(refusal, allowed ? Refusal::kNone : Refusal::kSender) << kChannels[index].message << " from " << sender;
     }
   }
@@ -231,6 +231,7 @@ TEST(WireRefuses, ValuesOutOfRange) {
   constexpr std::size_t kControl = kPayloadIndex<RigControl>;
   constexpr std::size_t kRequest = kPayloadIndex<ProbeRequest>;
   constexpr std::size_t kReply = kPayloadIndex<ProbeReply>;
+  constexpr std::size_t kAnswer = kPayloadIndex<ControlReply>;
   const std::vector<std::pair<std::size_t, std::function<void(D&)>>> wrong = {
       {kCockpit, [](D& m) { m.mutable_cockpit_state()->set_accelerator_01(1.0000001); }},
       {kCockpit, [](D& m) { m.mutable_cockpit_state()->set_brake_01(-1e-9); }},
@@ -274,6 +275,11 @@ TEST(WireRefuses, ValuesOutOfRange) {
          m.mutable_rig_control()->mutable_place()->set_lamp("left");
          m.mutable_rig_control()->mutable_place()->set_x_m(51.0);
        }},
+      {kControl, [](D& m) { m.mutable_rig_control()->set_request_id(5), m.mutable_rig_control()->set_first_open(6); }},
+      {kControl, [](D& m) { m.mutable_rig_control()->set_request_id(5), m.mutable_rig_control()->set_first_open(0); }},
+      {kAnswer, [](D& m) { m.mutable_control_reply()->set_request_id(0); }},
+      {kAnswer, [](D& m) { m.mutable_control_reply()->set_verdict(static_cast<wire::ControlVerdict>(4)); }},
+      {kAnswer, [](D& m) { m.mutable_control_reply()->set_now(std::string(5000, 'x')); }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_nx(0, 1.1); }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_x_m(0, 1e9); }},
       {kReply, [](D& m) { m.mutable_probe_reply()->set_illuminance_lx(0, -1.0); }},

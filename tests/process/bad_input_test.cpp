@@ -212,5 +212,23 @@ TEST_F(BadInput, OfTheMachine) {
   EXPECT_NE(says.find("Debian packages"), std::string::npos) << says;
 }
 
+// Whoever only drives is not told to install what the tests call.
+TEST_F(BadInput, OfAMachineWithoutThePackagesOfTheTests) {
+  std::string nothing;
+  const std::string doctor = "PATH=/nonexistent " + std::string(program("phare")) + " doctor";
+  EXPECT_EQ(run(folder_.path(), "/bin/sh -c '" + doctor + " > doctor.txt'", nothing), kExitDone);
+  std::ifstream stream(folder_ / "doctor.txt");
+  const std::string says{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t tests = says.find("Only for Phare's own tests");
+  ASSERT_NE(tests, std::string::npos) << says;
+  for (const char* only_tests : {"tshark", "xvfb-run", "mmdebstrap", "Vulkan validation layer"}) {
+    const std::size_t at = says.find(only_tests);
+    EXPECT_TRUE(at != std::string::npos && at > tests) << only_tests << '\n' << says;
+  }
+  EXPECT_LT(says.find("ffmpeg"), tests) << says;
+  EXPECT_NE(says.find("This machine can drive."), std::string::npos) << says;
+  EXPECT_EQ(says.find("MISSING"), std::string::npos) << says;
+}
+
 }  // namespace
 }  // namespace phare::test

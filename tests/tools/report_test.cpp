@@ -18,7 +18,7 @@ TEST(Report, MergesWhatThereIs) {
          R"("memory":{"rss_kib":10,"peak_kib":20}})";
   std::ofstream(out / "dynamics.json") << "{ broken";
   std::ofstream(out / "visual-0.json")
-      << R"({"process":"visual","frames":10,"frame_ms":{"count":10,"min":1.0,"median":2.0,"p95":3.0,"p99":4.0,"max":5.0},)"
+      << R"({"process":"visual","frames":10,"frames_per_s":62.5,"drawn_s":0.144,"frame_ms":{"count":10,"min":1.0,"median":2.0,"p95":3.0,"p99":4.0,"max":5.0},)"
          R"("interval_ms":{"count":9,"min":1.0,"median":10.0,"p95":3.0,"p99":4.0,"max":5.0},"pass_ms":{"lamps":{"median":1.0}},"device":"<lavapipe>"})";
   std::ofstream(out / "birds_eye.png") << "x";
 
@@ -37,12 +37,15 @@ TEST(Report, MergesWhatThereIs) {
   EXPECT_FALSE(report["processes"].contains("dynamics"));
   EXPECT_EQ(report["summary"]["frames"], 10);
   EXPECT_DOUBLE_EQ(report["summary"]["frames_per_s_median"].get<double>(), 100.0);
+  EXPECT_DOUBLE_EQ(report["summary"]["frames_per_s"].get<double>(), 62.5);
   EXPECT_EQ(report["restarts"][0]["because"], "SIGKILL");
 
   const std::string page = report_page(report, out);
   EXPECT_NE(page.find("&lt;test&gt; &amp; road"), std::string::npos);
   EXPECT_NE(page.find("&lt;lavapipe&gt;"), std::string::npos);
   EXPECT_NE(page.find("birds_eye.png"), std::string::npos);
+  EXPECT_NE(page.find("<b>62.5</b><i>frames a second: all frames by all seconds; 100 by the median interval</i>"),
+            std::string::npos);
   EXPECT_EQ(page.find("wall_25m.png"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos);  // self-contained
 }

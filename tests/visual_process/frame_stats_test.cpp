@@ -90,5 +90,18 @@ TEST(SwitchToPhoton, RealTimeCountsFramesByTheWallClock) {
   EXPECT_EQ(switches.json()["frames"]["2"], 1);
 }
 
+TEST(FrameStats, FramesASecondAreAllFramesByAllSeconds) {
+  FrameStats stats;
+  EXPECT_EQ(stats.frames_per_s(), 0.0);
+  std::chrono::steady_clock::time_point now{};
+  for (const int after_ms : {0, 10, 10, 10, 970}) {  // the median interval alone would say 100
+    now += std::chrono::milliseconds(after_ms);
+    stats.add(FrameResult{}, false);
+    stats.frame_ended(now);
+  }
+  EXPECT_DOUBLE_EQ(stats.seconds(), 1.0);
+  EXPECT_DOUBLE_EQ(stats.frames_per_s(), 4.0);
+}
+
 }  // namespace
 }  // namespace phare

@@ -104,8 +104,8 @@ void add_convert(CLI::App* lamp, Command& chosen) {
   CLI::App* command =
       lamp->add_subcommand("convert", "Write a lamp as LM-63-2019, EULUMDAT or CSV; several files are summed");
   command->footer(
-      "Example:\n  phare lamp convert low_beam.ldt --out low_beam.ies\n  phare lamp convert rht.ies --mirror --out "
-      "lht.ies");
+      "Example:\n  phare lamp convert low_beam.ies --out low_beam.ldt\n  phare lamp convert low_beam.ies --mirror --out "
+      "low_beam_lht.ies");
   command->add_option("files", options->files, "Photometry files")->required();
   command->add_option("--out", options->out, "File to write: .ies, .ldt or .csv")->required();
   command->add_option("--to", options->format, "Format to write [by the ending]")
@@ -149,7 +149,7 @@ void add_compare(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampCompareOptions>();
   CLI::App* command = lamp->add_subcommand(
       "compare", "Two beams, aligned by cut-off: difference and ratio in angle space and on the road");
-  command->footer("Example:\n  phare lamp compare old.ies new.ies --out out/compare");
+  command->footer("Example:\n  phare lamp compare low_beam.ies led_low_beam.ies --out out/compare");
   command->add_option("a", options->a, "Photometry file A")->required();
   command->add_option("b", options->b, "Photometry file B")->required();
   command->add_option("--out", options->out, "Folder for ratio and difference as .svg and .png");
@@ -184,7 +184,7 @@ void add_plot(CLI::App* lamp, Command& chosen) {
 void add_hspr(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampHsprOptions>();
   CLI::App* command = lamp->add_subcommand("hspr", "HSPR of a pair (GTB CE-5815): ranges, widths, flux, glare, points");
-  command->footer("Example:\n  phare lamp hspr left.ies right.ies");
+  command->footer("Example:\n  phare lamp hspr low_beam.ies low_beam.ies");
   command->add_option("left", options->left, "Photometry file of the left lamp")->required();
   command->add_option("right", options->right, "Photometry file of the right lamp")->required();
   command->add_option("--beam", options->beam, "Which method [low where there is a kinked cut-off]")

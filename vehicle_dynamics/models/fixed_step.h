@@ -3,8 +3,6 @@
 
 #include <array>
 #include <bit>
-#include <boost/numeric/odeint/algebra/array_algebra.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <cmath>
 #include <cstddef>
 
@@ -16,22 +14,9 @@ namespace phare {
 enum class Integrator {
   kSemiImplicitEuler,  ///< velocities first; slips implicit in their decay
   kEtd2,               ///< exponential in the slips, in single-track also in the body's springs; second order
-  kRk4,                ///< Boost.odeint runge_kutta4
+  kRk4,                ///< Boost.odeint runge_kutta4, see rk4_step.h
   kReference
 };
-
-/// Classical Runge-Kutta by Boost.odeint; on a fixed-size array it allocates nothing. `rates(state, t) -> State`.
-template <class State, class Rates>
-void step_rk4(State& state, double dt, const Rates& rates) {
-  using Vector = std::array<double, sizeof(State) / sizeof(double)>;
-  using boost::numeric::odeint::array_algebra;
-  boost::numeric::odeint::runge_kutta4<Vector, double, Vector, double, array_algebra> stepper;
-  auto y = std::bit_cast<Vector>(state);
-  stepper.do_step([&](const Vector& at, Vector& rate,
-                      double t) { rate = std::bit_cast<Vector>(rates(std::bit_cast<State>(at), t)); },
-                  y, 0.0, dt);
-  state = std::bit_cast<State>(y);
-}
 
 /// (e^z - 1)/z and (e^z - 1 - z)/z^2; series where the differences would cancel.
 struct Phi {

@@ -4,6 +4,7 @@
 
 #include "config/conventions.h"
 #include "vehicle_dynamics/models/full_parts.h"
+#include "vehicle_dynamics/models/rk4_step.h"
 
 namespace phare::full {
 

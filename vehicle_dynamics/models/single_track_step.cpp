@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "config/conventions.h"
+#include "vehicle_dynamics/models/rk4_step.h"
 #include "vehicle_dynamics/models/single_track_parts.h"
 
 namespace phare::single_track {

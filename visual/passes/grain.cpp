@@ -45,40 +45,55 @@ std::vector<float> sum_of(std::initializer_list<std::pair<std::uint32_t, float>>
 
 }  // namespace
 
-gpu::Image make_grain(gpu::Device& device) {
+namespace {
+
+std::vector<float> halved(const std::vector<float>& image, std::uint32_t size) {
+  std::vector<float> next((size / 2) * (size / 2));
+  for (std::uint32_t y = 0; y < size / 2; ++y)
+    for (std::uint32_t x = 0; x < size / 2; ++x) {
+      const float* p = &image[2 * y * size + 2 * x];
+      next[y * (size / 2) + x] = 0.25f * (p[0] + p[1] + p[size] + p[size + 1]);
+    }
+  return next;
+}
+
+/// A texel a cell: its corners, eight bits each.
+void append_cells(std::vector<std::uint8_t>& texels, const std::vector<float>& image, std::uint32_t size) {
+  for (std::uint32_t y = 0; y < size; ++y)
+    for (std::uint32_t x = 0; x < size; ++x) {
+      const std::uint32_t right = (x + 1) % size, below = (y + 1) % size;
+      for (const std::uint32_t at : {y * size + x, y * size + right, below * size + x, below * size + right})
+        texels.push_back(static_cast<std::uint8_t>(std::lround(image[at] * 255.0f)));
+    }
+}
+
+}  // namespace
+
+Grain make_grain(gpu::Device& device) {
   std::vector<float> fine = sum_of({{256, 0.9f}, {128, 0.4f}, {64, 0.2f}}, 1998);
   std::vector<float> soft = sum_of({{6, 0.8f}, {13, 0.5f}, {31, 0.3f}, {70, 0.2f}}, 1999);
-
-  std::uint32_t levels = 1;
-  while ((kSize >> levels) > 0) ++levels;
+  const auto texels_from = [](std::uint32_t level) {
+    std::uint32_t count = 0;
+    for (std::uint32_t size = kSize >> level; size > 0; size /= 2) count += 2 * size * size;
+    return count;
+  };
+  Grain grain;
+  while (texels_from(grain.first_level) > device.properties.limits.maxTexelBufferElements) ++grain.first_level;
   std::vector<std::uint8_t> texels;
-  std::vector<vk::BufferImageCopy> copies;
-  for (std::uint32_t level = 0; level < levels; ++level) {
-    const std::uint32_t size = kSize >> level;
-    copies.push_back({.bufferOffset = texels.size(),
-                      .imageSubresource = {vk::ImageAspectFlagBits::eColor, level, 0, 1},
-                      .imageExtent = {size, size, 1}});
-    for (std::size_t i = 0; i < fine.size(); ++i) {
-      texels.push_back(static_cast<std::uint8_t>(std::lround(fine[i] * 255.0f)));
-      texels.push_back(static_cast<std::uint8_t>(std::lround(soft[i] * 255.0f)));
-      texels.insert(texels.end(), {0, 255});
+  for (std::uint32_t size = kSize; size > 0; size /= 2) {
+    if (size <= kSize >> grain.first_level) {
+      append_cells(texels, fine, size);
+      append_cells(texels, soft, size);
     }
-    auto halve = [&](std::vector<float>& image) {
-      std::vector<float> next((size / 2) * (size / 2));
-      for (std::uint32_t y = 0; y < size / 2; ++y)
-        for (std::uint32_t x = 0; x < size / 2; ++x) {
-          const float* p = &image[2 * y * size + 2 * x];
-          next[y * (size / 2) + x] = 0.25f * (p[0] + p[1] + p[size] + p[size + 1]);
-        }
-      image = std::move(next);
-    };
-    halve(fine);
-    halve(soft);
+    if (size == 1) break;
+    fine = halved(fine, size);
+    soft = halved(soft, size);
   }
-  gpu::Image grain(device, vk::Format::eR8G8B8A8Unorm, {kSize, kSize},
-                   vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst, "grain",
-                   vk::SampleCountFlagBits::e1, levels);
-  gpu::fill_image(device, grain, std::as_bytes(std::span(texels)), copies);
+  grain.texels = gpu::DeviceBuffer(device, std::as_bytes(std::span(texels)),
+                                   vk::BufferUsageFlagBits::eUniformTexelBuffer, "grain");
+  grain.view = vk::raii::BufferView(
+      device.device, vk::BufferViewCreateInfo{
+                         .buffer = *grain.texels.buffer, .format = vk::Format::eR8G8B8A8Unorm, .range = VK_WHOLE_SIZE});
   return grain;
 }
 

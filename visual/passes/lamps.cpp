@@ -15,7 +15,6 @@
 #include "shaders/scene_vert_2.h"
 #include "shaders/scene_vert_4.h"
 #include "shaders/scene_vert_8.h"
-#include "visual/passes/grain.h"
 
 namespace phare {
 
@@ -69,7 +68,7 @@ LampPass::LampPass(gpu::Device& device)
   for (const auto& [binding, type, count] :
        {std::tuple(0u, Type::eUniformBuffer, 1u), std::tuple(1u, Type::eCombinedImageSampler, shader::kMaxLamps),
         std::tuple(2u, Type::eCombinedImageSampler, shader::kMaxLamps), std::tuple(3u, Type::eUniformBuffer, 1u),
-        std::tuple(4u, Type::eCombinedImageSampler, 1u)})
+        std::tuple(4u, Type::eUniformTexelBuffer, 1u)})
     bindings.push_back({.binding = binding, .descriptorType = type, .descriptorCount = count, .stageFlags = kStages});
   set_layout_ = vk::raii::DescriptorSetLayout(
       device.device, vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()),
@@ -80,7 +79,8 @@ LampPass::LampPass(gpu::Device& device)
                                                                                  .pushConstantRangeCount = 1,
                                                                                  .pPushConstantRanges = &push});
   const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, 2},
-                         vk::DescriptorPoolSize{Type::eCombinedImageSampler, 2 * shader::kMaxLamps + 1}};
+                         vk::DescriptorPoolSize{Type::eCombinedImageSampler, 2 * shader::kMaxLamps},
+                         vk::DescriptorPoolSize{Type::eUniformTexelBuffer, 1}};
   pool_ = vk::raii::DescriptorPool(
       device.device, vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                                   .maxSets = 1,
@@ -90,10 +90,6 @@ LampPass::LampPass(gpu::Device& device)
       device.device,
       vk::DescriptorSetAllocateInfo{.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_});
   set_ = std::move(sets.front());
-  sampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
-                                                                    .minFilter = vk::Filter::eLinear,
-                                                                    .mipmapMode = vk::SamplerMipmapMode::eNearest,
-                                                                    .maxLod = VK_LOD_CLAMP_NONE});
   vk::SamplerCreateInfo table{.addressModeU = vk::SamplerAddressMode::eClampToEdge,
                               .addressModeV = vk::SamplerAddressMode::eClampToEdge};
   table_sampler_ = vk::raii::Sampler(device.device, table);  // nodes are fetched, and weighed in float32
@@ -115,7 +111,6 @@ void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
     const bool filtered = beams.beam(beam_of_lamp_[i]).filtered() && table.format != vk::Format::eR32Sfloat;
     candela[i] = {filtered ? *filter_sampler_ : *table_sampler_, *table.view, layout};
   }
-  const vk::DescriptorImageInfo grain{*sampler_, *grain_.view, layout};
   std::vector<vk::WriteDescriptorSet> writes;
   for (const auto& [binding, info] : buffers)
     writes.push_back({.dstSet = *set_,
@@ -123,14 +118,19 @@ void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
                       .descriptorCount = 1,
                       .descriptorType = Type::eUniformBuffer,
                       .pBufferInfo = &info});
-  for (const auto& [binding, infos] :
-       {std::pair(1u, std::span<const vk::DescriptorImageInfo>(guides)),
-        std::pair(2u, std::span<const vk::DescriptorImageInfo>(candela)), std::pair(4u, std::span(&grain, 1))})
+  for (const auto& [binding, infos] : {std::pair(1u, std::span<const vk::DescriptorImageInfo>(guides)),
+                                       std::pair(2u, std::span<const vk::DescriptorImageInfo>(candela))})
     writes.push_back({.dstSet = *set_,
                       .dstBinding = binding,
                       .descriptorCount = static_cast<std::uint32_t>(infos.size()),
                       .descriptorType = Type::eCombinedImageSampler,
                       .pImageInfo = infos.data()});
+  const vk::BufferView grain = *grain_.view;
+  writes.push_back({.dstSet = *set_,
+                    .dstBinding = 4,
+                    .descriptorCount = 1,
+                    .descriptorType = Type::eUniformTexelBuffer,
+                    .pTexelBufferView = &grain});
   device_.device.updateDescriptorSets(writes, nullptr);
 }
 
@@ -166,15 +166,16 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const View
 
 vk::Pipeline LampPass::lit_pipeline(const Variant& variant) {
   if (const auto found = lit_.find(variant); found != lit_.end()) return *found->second;
-  const std::array<std::uint32_t, 8> values{variant.lamp_count,
+  const std::array<std::uint32_t, 9> values{variant.lamp_count,
                                             static_cast<std::uint32_t>(variant.kind.surface),
                                             variant.kind.retro ? 1u : 0u,
                                             static_cast<std::uint32_t>(variant.output),
                                             variant.lamp_base,
                                             variant.lookups,
                                             variant.colours_differ ? 1u : 0u,
-                                            variant.kind.double_sided ? 2u : 1u};
-  std::array<vk::SpecializationMapEntry, 8> entries;
+                                            variant.kind.double_sided ? 2u : 1u,
+                                            grain_.first_level};
+  std::array<vk::SpecializationMapEntry, 9> entries;
   for (std::uint32_t i = 0; i < entries.size(); ++i)
     entries[i] = vk::SpecializationMapEntry{.constantID = i, .offset = 4 * i, .size = 4};
   const vk::SpecializationInfo constants{.mapEntryCount = entries.size(),

@@ -10,6 +10,7 @@
 #include "visual/beam_store.h"
 #include "visual/gpu/frame_graph.h"
 #include "visual/gpu/scene_buffers.h"
+#include "visual/passes/grain.h"
 #include "visual/passes/pipeline.h"
 #include "visual/passes/sky.h"
 
@@ -67,8 +68,8 @@ class LampPass {
   vk::raii::PipelineLayout layout_{nullptr};
   vk::raii::DescriptorPool pool_{nullptr};
   vk::raii::DescriptorSet set_{nullptr};
-  vk::raii::Sampler sampler_{nullptr}, table_sampler_{nullptr}, filter_sampler_{nullptr};
-  gpu::Image grain_;
+  vk::raii::Sampler table_sampler_{nullptr}, filter_sampler_{nullptr};
+  Grain grain_;
   gpu::HostBuffer frame_;
   std::uint32_t lamp_count_ = 0, lookups_ = 0;
   bool colours_differ_ = false;

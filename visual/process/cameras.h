@@ -8,7 +8,7 @@
 
 namespace phare {
 
-enum class CameraKind { kDriver, kBirdsEye, kChase };
+enum class CameraKind { kDriver, kBirdsEye, kChase };  ///< in the order of kCameraNames (config/picture_options.h)
 
 /// Length and width of the road seen by the bird's eye, and where its near edge lies ahead of the car's origin.
 inline constexpr double kBirdsEyeLength_m = 100.0;

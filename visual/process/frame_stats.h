@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "visual/renderer.h"
@@ -84,6 +86,16 @@ struct FrameStats {
   std::uint64_t captured_frames = 0;
   std::uint64_t stale_frames = 0;  ///< drawn with a held pose
   FrameResult newest;
+  std::optional<std::chrono::steady_clock::time_point> first_end, last_end;  ///< of the first and the newest frame
+
+  void frame_ended(std::chrono::steady_clock::time_point now) {
+    if (!first_end) first_end = now;
+    last_end = now;
+  }
+  /// Seconds from the end of the first frame to the end of the newest, whatever happened in between.
+  double seconds() const { return first_end ? std::chrono::duration<double>(*last_end - *first_end).count() : 0.0; }
+  /// Frames by seconds; 0 while there is no second frame.
+  double frames_per_s() const { return seconds() > 0.0 ? static_cast<double>(wall_ms.count() - 1) / seconds() : 0.0; }
 
   void add(const FrameResult& result, bool captured) {
     ++frames;

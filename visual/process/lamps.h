@@ -51,6 +51,17 @@ class Lamps {
   /// All lamps turned up (positive) together, rad.
   void set_aim(double pitch_rad) { aim_pitch_rad_ = pitch_rad; }
 
+  /// One lamp of the design that shines, as commanded.
+  struct Commanded {
+    std::span<const double> dimming_01;     ///< of each source
+    double yaw_rad = 0.0, pitch_rad = 0.0;  ///< of the lamp alone
+  };
+  Commanded commanded(std::size_t slot) const {
+    const Position& position = positions_[design_][slot];
+    return {position.dimming_01, position.yaw_rad, position.pitch_rad};
+  }
+  double aim_rad() const { return aim_pitch_rad_; }
+
   /// The positions that shine, in the world. The body's rotation is that of `pose`: Rz(yaw)·Ry(pitch)·Rx(roll); what
   /// levelling tilts the lamps by, is in the pose too.
   std::vector<PlacedLamp> placed(const VehicleState& pose) const;

@@ -56,6 +56,7 @@ int draw_channel(VisualOptions options) {
     Result<Window> opened = Window::open("Phare", options.width_px, options.height_px);
     if (!opened) return refuse(opened.error());
     window = std::move(*opened);
+    window->set_camera(options.camera);
   }
   RendererOptions drawing;
   drawing.width_px = options.width_px;

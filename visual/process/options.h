@@ -8,6 +8,7 @@
 
 #include "config/result.h"
 #include "config/rig.h"
+#include "visual/process/cameras.h"
 
 namespace phare {
 
@@ -23,7 +24,8 @@ struct VisualOptions {
   std::int64_t frames = 0;  ///< > 0: save every one of this many frames, then leave
   int width_px = 0, height_px = 0;  ///< 0: the channel's
   int samples = 1;
-  double still_at_s = -1.0;  ///< simulated time of the stills; negative: chosen
+  CameraKind camera = CameraKind::kDriver;  ///< a window begins with it
+  double still_at_s = -1.0;                 ///< simulated time of the stills; negative: chosen
   double exposure_per_cdm2 = 0.8;
   std::int64_t audit_every = 300;  ///< frames; 0: never
   bool false_colour = false;

@@ -21,6 +21,8 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["validation_messages"] = session.renderer.validation_messages();
 
   report["frames"] = stats.frames;
+  report["frames_per_s"] = stats.frames_per_s();
+  report["drawn_s"] = stats.seconds();
   report["frames_captured"] = stats.captured_frames;
   report["frames_stale_pose"] = stats.stale_frames;
   report["frame_ms"] = to_json(stats.wall_ms);

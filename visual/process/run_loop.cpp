@@ -4,8 +4,10 @@
 
 #include <cstdio>
 
+#include "net/control_desk.h"
 #include "net/stats.h"
 #include "visual/image/canvas.h"
+#include "visual/process/obey.h"
 #include "visual/process/pick.h"
 #include "visual/process/pose_buffer.h"
 #include "visual/process/report.h"
@@ -68,7 +70,6 @@ class Loop {
   void take(const Datagram& datagram);
   void mind_the_keys();
   void answer(const ProbeRequest& request, SimTime now);
-  void obey(const RigControl& control);
   void light_up(const CockpitState& controls);
   void warm_up();
   void announce();
@@ -83,6 +84,7 @@ class Loop {
   void write_stats(SimTime now);
 
   Session& s_;
+  ControlDesk desk_;
   Pacer pacer_;
   PoseBuffer poses_;
   DisplayClock clock_;
@@ -122,19 +124,12 @@ void Loop::take(const Datagram& datagram) {
     controls_ = *controls;
   } else if (const auto* request = std::get_if<ProbeRequest>(&datagram.payload)) {
     answer(*request, datagram.sim_time);
-  } else if (const auto* control = std::get_if<RigControl>(&datagram.payload)) {
-    obey(*control);
+  } else {
+    desk_.serve(s_.bus, datagram, [this](const RigControl& control) {
+      if (std::holds_alternative<RigControl::Quit>(control.command)) s_.stop.request();
+      return obey(s_.lamps, s_.rig, control);
+    });
   }
-}
-
-void Loop::obey(const RigControl& control) {
-  if (const auto* aim = std::get_if<RigControl::Aim>(&control.command)) s_.lamps.set_aim(aim->pitch_rad);
-  if (std::holds_alternative<RigControl::Quit>(control.command)) s_.stop.request();
-  Status done = Done{};
-  if (const auto* dim = std::get_if<RigControl::Dim>(&control.command)) done = s_.lamps.dim(*dim);
-  if (const auto* swivel = std::get_if<RigControl::Swivel>(&control.command)) done = s_.lamps.swivel(*swivel);
-  if (const auto* place = std::get_if<RigControl::Place>(&control.command)) done = s_.lamps.place(*place);
-  if (!done) spdlog::warn("{}", done.error().text());
 }
 
 /// Lux at points of the world under the lamps of the newest frame, through the shader that draws it.
@@ -268,7 +263,7 @@ void Loop::light_up(const CockpitState& controls) {
 
 void Loop::draw(const Moment& moment) {
   light_up(moment.controls);
-  const CameraKind camera = s_.window ? s_.window->camera() : CameraKind::kDriver;
+  const CameraKind camera = s_.window ? s_.window->camera() : s_.options.camera;
   input_.camera = camera_of(camera, s_.channel(), moment.car.pose);
   input_.view = s_.window ? s_.window->view() : View::kPhoto;
   if (s_.options.false_colour) input_.view = input_.view == View::kPhoto ? View::kFalseColour : View::kPhoto;
@@ -290,6 +285,7 @@ void Loop::draw(const Moment& moment) {
   s_.stats.add(result, captured_);
   if (moment.car.stale) ++s_.stats.stale_frames;
   const Clock::time_point now = Clock::now();
+  s_.stats.frame_ended(now);
   if (frame_end_ != Clock::time_point{})
     s_.stats.interval_ms.add(std::chrono::duration<double, std::milli>(now - frame_end_).count());
   frame_end_ = now;

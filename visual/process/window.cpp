@@ -110,6 +110,9 @@ WindowKeyboard& Window::keyboard() {
 CameraKind Window::camera() const {
   return state_->camera;
 }
+void Window::set_camera(CameraKind camera) {
+  state_->camera = camera;
+}
 View Window::view() const {
   return state_->view;
 }

@@ -29,6 +29,7 @@ class Window {
   WindowKeyboard& keyboard();
 
   CameraKind camera() const;
+  void set_camera(CameraKind camera);
   View view() const;
   struct Mouse {
     double x_px = 0.0, y_px = 0.0;  ///< picture pixels from the top left

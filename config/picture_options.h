@@ -1,0 +1,45 @@
+// How the picture is drawn, as options of the command line: declared once, for phare-visual and for `phare drive`,
+// which hands them on.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace phare {
+
+/// Eyes a picture can be drawn from, in the order of CameraKind (visual/process/cameras.h).
+inline constexpr std::array<std::string_view, 3> kCameraNames{"driver", "birds-eye", "chase"};
+
+class PictureOptions {
+ public:
+  PictureOptions() = default;
+  PictureOptions(const PictureOptions&) = delete;  // the parser holds addresses of the members
+  PictureOptions& operator=(const PictureOptions&) = delete;
+
+  /// Declares them all. This must live as long as `app`.
+  void add_to(CLI::App& app);
+
+  /// What was given, as arguments for another program that declares them.
+  std::vector<std::string> arguments() const;
+
+  std::int64_t frames = 0;          ///< > 0: save every one of this many frames, then leave
+  int width_px = 0, height_px = 0;  ///< 0: the channel's
+  int samples = 1;
+  std::string camera{kCameraNames[0]};
+  double still_at_s = -1.0;  ///< simulated time of the stills; negative: chosen
+  double exposure_per_cdm2 = 0.8;
+  bool false_colour = false;
+  std::string beam_image;          ///< one of kImageLevelNames; empty: the rig's
+  std::int64_t audit_every = 300;  ///< frames; 0: never
+  std::string device_name;
+  bool validation = false;
+
+ private:
+  std::vector<const CLI::Option*> declared_;
+};
+
+}  // namespace phare

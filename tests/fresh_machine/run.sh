@@ -1,0 +1,173 @@
+#!/usr/bin/env bash
+# process: what happens to someone who has Debian 12 and nothing else. mmdebstrap makes such systems (no sudo, no git,
+# no locale), and in them
+#   1. ./phare drive of these sources installs, builds and leaves a report, with no package that packages.txt marks "test";
+#   2. ./phare package makes a Debian package;
+#   3. ./phare test --only-configure adds the packages of the tests and configures every preset;
+#   4. the package of 2 is installed by apt on a second bare system and drives from /usr, where nothing is written.
+# run.sh            all of it; the steps with what they took are on standard output
+# run.sh --shell    a shell in a bare system with these sources in /root/phare
+# Kept in build/fresh: the bare system (for a week) and the packages apt fetched; and the compiler cache is the host's.
+# Where the kernel lets no file system be mounted: one line and 77 (ctest: skipped), or 1 with PHARE_REQUIRE_BARE=1.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source_dir=$(cd "$here/../.." && pwd)
+work=$source_dir/build/fresh
+port_base=$((8000 + $$ % 40 * 40))  # below those of other tests (10000 up)
+
+without() {
+  echo "SKIPPED: no bare Debian to try the first drive on: $1"
+  [ "${PHARE_REQUIRE_BARE:-0}" = 1 ] && exit 1
+  exit 77
+}
+failed() {
+  echo "FAILED: $1"
+  [ ! -s "$work/log" ] || tail -n 40 "$work/log"
+  exit 1
+}
+
+# ---- outside: a namespace in which file systems may be mounted, as root or as anyone
+
+if [ "${PHARE_IN_NAMESPACE:-0}" != 1 ]; then
+  command -v mmdebstrap >/dev/null || without "mmdebstrap missing"
+  mkdir -p "$work"
+  namespace=(unshare --mount --pid --fork --kill-child)
+  [ "$(id -u)" = 0 ] || namespace+=(--user --map-root-user --map-auto)
+  why=$("${namespace[@]}" sh -c "mount --bind '$work' '$work' && mount -t proc proc /proc" 2>&1) || without "this kernel forbids mounting (${why##*$'\n'})"
+  exec 9>"$work/lock"
+  flock 9
+  # Removed by one who sees none of the mounts: those of the compiler cache are in the namespace of the tests alone.
+  remove() { "${namespace[@]}" rm -rf "$work/first" "$work/second"; }
+  trap remove EXIT
+  remove
+  status=0
+  PHARE_IN_NAMESPACE=1 "${namespace[@]}" "${BASH_SOURCE[0]}" "$@" || status=$?
+  exit $status
+fi
+mount -t proc proc /proc
+
+# ---- the bare system
+
+# Debian 12's own sources on this machine, so that its mirror and proxy are used; else Debian's.
+sources() {
+  { apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE) main' "Created-By: Packages" "Component: main" 2>/dev/null || true; } |
+    grep -E ' bookworm(-updates|-security)? main$' | sort -u || echo "deb http://deb.debian.org/debian bookworm main"
+}
+
+make_bare() {
+  if [ -s "$work/bare.tar" ] && [ -n "$(find "$work/bare.tar" -mtime -7)" ]; then return; fi
+  local include=()
+  ! sources | grep -q https: || include=(--include=ca-certificates)
+  # No waiting for the disk: the system is thrown away. Nodes of /dev are the host's, see enter().
+  sources | mmdebstrap --format=tar --variant=minbase --skip=output/dev --dpkgopt=force-unsafe-io "${include[@]}" bookworm "$work/bare.tar.new" - >"$work/log" 2>&1 ||
+    failed "mmdebstrap makes no bare system"
+  mv "$work/bare.tar.new" "$work/bare.tar"
+}
+
+# fresh NAME: a new bare system in $work/NAME.
+fresh() {
+  local root=$work/$1 node
+  mkdir -p "$root" "$work/archives/partial"
+  tar -C "$root" -xpf "$work/bare.tar"
+  mount -t proc proc "$root/proc"
+  mount -t tmpfs tmpfs "$root/dev"
+  for node in null zero full random urandom; do
+    : >"$root/dev/$node"
+    mount --bind "/dev/$node" "$root/dev/$node"
+  done
+  ln -s /proc/self/fd "$root/dev/fd"
+  mkdir "$root/dev/shm"
+  mount --bind "$work/archives" "$root/var/cache/apt/archives"
+  cat /etc/resolv.conf >"$root/etc/resolv.conf"
+  # What this machine needs to reach its mirror.
+  apt-config dump 2>/dev/null | grep -E '^Acquire::(https?::|Check-|Retries|ForceIPv)' >"$root/etc/apt/apt.conf.d/99host" || true
+}
+
+# enter NAME [FOLDER] COMMAND…: as root of that system, with the environment of a bare container.
+enter() {
+  local root=$work/$1 folder=$2 proxies=() name
+  shift 2
+  for name in http_proxy https_proxy no_proxy; do [ -z "${!name:-}" ] || proxies+=("$name=${!name}"); done
+  # The host's compiler cache is not to be cleaned by another's measure.
+  chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb \
+    CCACHE_MAXSIZE=0 "${proxies[@]}" /bin/sh -c 'cd "$0" && exec "$@"' "$folder" "$@"
+}
+
+# took BEGIN WHAT: seconds since BEGIN by the clock.
+took() { printf '%4d s  %s\n' $((SECONDS - $1)) "$2"; }
+
+# step WHAT NAME FOLDER COMMAND…: with its seconds; its output is in the log.
+step() {
+  local what=$1 begin=$SECONDS
+  shift
+  enter "$@" >"$work/log" 2>&1 </dev/null || failed "$what"
+  took "$begin" "$what"
+}
+
+# The files of the clone, as they are (not what is only built or lies about).
+put_sources() {
+  local root=$work/$1/root/phare cache
+  mkdir -p "$root"
+  git -C "$source_dir" ls-files -z | tar -C "$source_dir" --null -T - --ignore-failed-read -c | tar -C "$root" --no-same-owner -x
+  if cache=$(ccache --get-config cache_dir 2>/dev/null) && mkdir -p "$cache"; then
+    mkdir -p "$work/$1/root/.cache/ccache"
+    mount --bind "$cache" "$work/$1/root/.cache/ccache"
+  fi
+}
+
+# has_report NAME FOLDER: a drive of three frames came to its end there.
+has_report() {
+  local out=$work/$1$2 file
+  for file in report.json index.html drivers_view.png frames/0000.png; do
+    [ -s "$out/$file" ] || { ls -R "$out" >"$work/log" 2>&1 || true; failed "$2/$file is not there"; }
+  done
+}
+
+# ---- what is tried
+
+begin=$SECONDS
+make_bare
+fresh first
+put_sources first
+took "$begin" "a bare Debian 12 ($(grep -c '^Package:' "$work/first/var/lib/dpkg/status") packages)"
+
+if [ "${1:-}" = --shell ]; then
+  enter first /root/phare /bin/bash -i
+  exit
+fi
+
+drive=(drive --headless --lockstep --frames 3 --port-base "$port_base")
+step "./phare ${drive[*]}" first /root/phare ./phare "${drive[@]}"
+has_report first /root/phare/out
+tr '\r' '\n' <"$work/log" | grep '^phare: ' | sed 's/^/        /'
+while read -r package mark _; do
+  [ "$mark" = test ] || continue
+  ! enter first / dpkg-query -W -f '${db:Status-Abbrev}' "$package" 2>/dev/null | grep -q ^ii || failed "the drive installed $package, which packages.txt marks \"test\""
+done <"$source_dir/packages.txt"
+step "./phare doctor finds all that driving needs" first /root/phare ./phare doctor
+enter first /root/phare build/release/bin/phare-dynamics --batch none.csv --integrator reference >"$work/log" 2>&1 && failed "a reference integrator without SUNDIALS"
+grep -q "apt-get install libsundials-dev" "$work/log" || failed "no word on where the reference integrator is to be had"
+
+step "./phare package" first /root/phare ./phare package
+package=$(cd "$work/first/root/phare/build" && ls phare-*.deb)
+cp "$work/first/root/phare/build/$package" "$work/$package"
+
+step "./phare test --only-configure" first /root/phare ./phare test --only-configure
+for preset in release asan tsan; do
+  grep -q '^PHARE_TESTS:BOOL=ON' "$work/first/root/phare/build/$preset/CMakeCache.txt" || failed "$preset is configured without tests"
+done
+
+fresh second
+mkdir "$work/second/root/empty"
+mv "$work/$package" "$work/second/root/$package"
+step "apt-get update" second /root apt-get update
+step "apt install ./$package" second /root apt-get install -y --no-install-recommends "./$package"
+of_usr() { (cd "$work/second" && find usr etc opt -printf '%p %s %T@\n' | sort); }
+of_usr >"$work/before"
+step "phare ${drive[*]} from /usr" second /root/empty phare "${drive[@]}" --out /tmp/x
+has_report second /tmp/x
+of_usr >"$work/after"
+cmp -s "$work/before" "$work/after" || { diff "$work/before" "$work/after" >"$work/log" || true; failed "a drive wrote beside the installed program"; }
+[ -z "$(ls -A "$work/second/root/empty")" ] || failed "a drive with --out wrote into the folder it was started in"
+step "phare doctor of an installed phare" second /root phare doctor
+took "$begin" "in all; processor time of all: $(times | tail -n 1)"

@@ -1,0 +1,104 @@
+// process: `phare control` and a rig that runs: answers, refusals, streams, several senders, no rig.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "tests/paths.h"
+#include "tests/process/drive_run.h"
+
+namespace phare::test {
+namespace {
+
+struct Heard {
+  int code = -1;
+  std::string out, err;
+};
+
+class Control : public testing::Test {
+ protected:
+  /// `shell` stands before the command: "printf … |".
+  Heard control(const std::string& arguments, const std::string& shell = "") const {
+    const std::string err = (folder_ / "err.txt").string();
+    const std::string command = shell + "timeout 100 '" + program("phare") + "' control --port-base " +
+                                std::to_string(port_base()) + " " + arguments + " 2>'" + err + "'";
+    Heard heard;
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) return heard;
+    for (int c = 0; (c = std::fgetc(pipe)) != EOF;) heard.out.push_back(static_cast<char>(c));
+    const int status = pclose(pipe);
+    heard.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    std::stringstream text;
+    text << std::ifstream(err).rdbuf();
+    heard.err = text.str();
+    return heard;
+  }
+  void expect_refused(const std::string& arguments, const std::string& why) const {
+    const Heard heard = control(arguments);
+    EXPECT_EQ(heard.code, 2) << arguments << heard.out << heard.err;
+    EXPECT_EQ(heard.out, "") << arguments;
+    EXPECT_NE(heard.err.find(why), std::string::npos) << arguments << ": " << heard.err;
+    EXPECT_EQ(std::count(heard.err.begin(), heard.err.end(), '\n'), 1) << heard.err;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Control, WithoutARigSaysSoAndEndsWithOne) {
+  const Heard heard = control("--wait 0.3 aim -0.5");
+  EXPECT_EQ(heard.code, 1);
+  EXPECT_EQ(heard.err, "phare: no rig answers on 127.0.0.1:" + std::to_string(port_base()) + "; is one running?\n");
+}
+
+TEST_F(Control, ARunningRigAnswers) {
+  DriveRun run(folder_ / "out", folder_.path(), {});
+  while (run.running() && control("--wait 2 status").code != 0) {
+  }
+  ASSERT_TRUE(run.running());
+
+  Heard heard = control("dim 'headlamp left' 1 0.25");
+  EXPECT_EQ(heard.code, 0) << heard.err;
+  EXPECT_EQ(heard.out, "headlamp left: source 1 at 25 %\n");
+  heard = control("status");
+  EXPECT_NE(heard.out.find("cockpit: "), std::string::npos) << heard.out;
+  EXPECT_NE(heard.out.find("dynamics: "), std::string::npos) << heard.out;
+  EXPECT_NE(heard.out.find("visual-0: design "), std::string::npos) << heard.out;
+  EXPECT_NE(heard.out.find("full light but source 1 at 25 %"), std::string::npos) << heard.out;
+
+  expect_refused("dim 'fog lamp of another car' 1 0", "lamp \"fog lamp of another car\": design ");
+  expect_refused("dim 'headlamp left' 99 0", "no number 99");
+  expect_refused("design 7", "design 7: the rig has 2, counted from 0: 0 \"");
+  expect_refused("seek 10", "seek: not in lockstep");
+  expect_refused("aim 91", "aim: an angle beyond 90 degrees");
+  EXPECT_NE(control("status").out.find("visual-0: design "), std::string::npos);
+
+  // A design that is chosen shines when the answer comes, so a lamp of it can be named at once. In between other
+  // senders speak, and the stream goes on.
+  const std::string one = "timeout 100 '" + program("phare") + "' control --port-base " + std::to_string(port_base()) +
+                          " aim 0.1 >/dev/null; ";
+  heard = control("-", "{ echo design 1; echo '# nothing'; echo 'dim \"headlamp left\" 1 0'; " + one +
+                           "echo 'dim \"nobody\" 1 0'; " + one +
+                           "echo design 7; echo aim nan; echo 'dim \"headlamp left\" 1 1'; echo design 0; } | ");
+  EXPECT_EQ(heard.code, 2);
+  std::vector<std::string> lines;
+  std::istringstream in(heard.out);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 7u) << heard.out << heard.err;
+  EXPECT_TRUE(lines[0].starts_with("ok: design 1 of 2, ")) << lines[0];
+  EXPECT_EQ(lines[1], "ok: headlamp left: source 1 at 0 %");
+  EXPECT_TRUE(lines[2].starts_with("refused: lamp \"nobody\": ")) << lines[2];
+  EXPECT_TRUE(lines[3].starts_with("refused: design 7: ")) << lines[3];
+  EXPECT_TRUE(lines[4].starts_with("refused: line 7: aim: ")) << lines[4];
+  EXPECT_EQ(lines[5], "ok: headlamp left: source 1 at 100 %");
+  EXPECT_TRUE(lines[6].starts_with("ok: design 0 of 2, ")) << lines[6];
+  EXPECT_EQ(heard.err, "phare: standard input: 3 of 7 commands refused\n");
+
+  EXPECT_EQ(control("quit").out, "leaves\n");
+  EXPECT_EQ(run.wait(), 0);
+}
+
+}  // namespace
+}  // namespace phare::test

@@ -1,0 +1,24 @@
+// Stands for reference.cpp where SUNDIALS was not there when Phare was built.
+#include "config/remedies.h"
+#include "vehicle_dynamics/reference.h"
+
+namespace phare {
+
+struct ReferenceIntegrator::Solver {};
+
+ReferenceIntegrator::ReferenceIntegrator() = default;
+ReferenceIntegrator::~ReferenceIntegrator() = default;
+
+Status ReferenceIntegrator::there() {
+  return Error{"reference integrator", std::string("this build has none; ") + kReferenceRemedy};
+}
+
+Status ReferenceIntegrator::advance(const full::Params&, const full::Input&, full::State&, double) {
+  return there();
+}
+
+Status ReferenceIntegrator::advance(const single_track::Params&, const full::Input&, single_track::State&, double) {
+  return there();
+}
+
+}  // namespace phare
