@@ -184,6 +184,10 @@ void CombinedSource::send_back(const FeedbackValues& values, WallTime now) {
   for (Child& child : children_) child.source->send_back(values, now);
 }
 
+void CombinedSource::take_keys(std::uint32_t channel, std::uint64_t start_id, const KeyInput& keys, WallTime received) {
+  for (Child& child : children_) child.source->take_keys(channel, start_id, keys, received);
+}
+
 std::vector<int> CombinedSource::wait_fds() const {
   std::vector<int> all;
   for (const Child& child : children_) {

@@ -14,6 +14,7 @@
 
 #include "config/result.h"
 #include "visual/effects.h"
+#include "visual/overlay_content.h"
 #include "visual/photometry/beam_composer.h"
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/image_levels.h"
@@ -58,8 +59,10 @@ struct FrameInput {
   View view = View::kPhoto;
   bool want_hdr = false;               ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;             ///< read the finished picture back
-  std::vector<std::string> overlay{};  ///< lines of text over the picture; none: no overlay pass
-  EffectChoices effects{};             ///< levels that the user has set; else the facts of the frame decide
+  std::vector<std::string> overlay{};  ///< lines of text over the picture
+  std::vector<OverlayInstrument> instruments{};
+  OverlayPanel panel{};     ///< nothing in these three: no overlay pass
+  EffectChoices effects{};  ///< levels that the user has set; else the facts of the frame decide
 };
 
 struct PassTime {

@@ -59,6 +59,8 @@ void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleStat
   has_stills_ = true;
   driver.want_image = true;
   driver.overlay.clear();
+  driver.instruments.clear();
+  driver.panel = {};
 
   constexpr int kFiner = 2;
   renderer.resize(kFiner * width_px, kFiner * height_px);

@@ -31,6 +31,9 @@ struct VisualOptions {
   std::optional<EyeSetting> adaptation;  ///< instead of the rig's
   std::int64_t audit_every = 300;               ///< frames; 0: never
   bool false_colour = false;
+  std::string guide;                     ///< live, replay: somebody sits at the window; empty: nobody
+  bool demo = false;                     ///< a demo driver waits for his key
+  std::string report;                    ///< what the end screen says of the report
   std::optional<ImageLevel> beam_image;  ///< instead of the rig's
   bool validation = false;
   std::string device_name;
