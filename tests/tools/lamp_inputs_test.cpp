@@ -180,7 +180,7 @@ TEST_F(LampInputs, StandardInputIsAFile) {
   same("info LOW", "26");  // its grid or peak
   same("table LOW --at " + at, "");
   same("check LOW --rule r112-passing-b", "standard input");
-  same("convert LOW --out -", "");
+  same("convert LOW --to lm63 --out -", "IES:LM-63-2019");
   same("compare LOW " + low, "");
   same("plot LOW --view birds_eye --out " + in("p"), "");
   same("hspr LOW " + low, "");
