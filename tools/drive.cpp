@@ -438,11 +438,12 @@ std::string numbered(const std::string& path, int number) {
 }
 
 /// One drive, and those that the person at the window wants after it.
-int drive(const DriveOptions& given) {
-  DriveOptions options = given;
+int drive(DriveOptions& options) {
+  const std::string out = options.out, record = options.record;
   for (int number = 1;; ++number) {
-    options.out = numbered(given.out, number);
-    options.record = numbered(given.record, number);
+    options.out = numbered(out, number);
+    options.record = numbered(record, number);
+    options.lamp_notes.clear();
     std::optional<Wish> wish;
     const int exit_code = drive_once(options, wish);
     if (!wish || exit_code != kExitDone) return exit_code;
@@ -461,10 +462,8 @@ void add_drive(CLI::App& app, Command& chosen) {
       "With a window and no drive named, you drive:\n" + key_list_text("  ") +
       "A gamepad that is plugged in drives as well. More: docs/driving.md\n"
       "Examples:\n  phare drive\n  phare drive --headless --lockstep --frames 60 --out out\n"
-      "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap
-"
-      "  phare drive --lamp led_low_beam.ies --lamp-high high_beam.ies --headless --lockstep --frames 60 --out own
-" +
+      "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap\n"
+      "  phare drive --lamp led_low_beam.ies --lamp-high high_beam.ies --headless --lockstep --frames 60 --out own\n" +
       std::string(kLampFlagsHelp));
   command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
   auto* drive_file =

@@ -146,11 +146,11 @@ TEST(CheckPoints, RowsThatHaveTheirPoint) {
   const CheckResult result = judged(
       "Point,cd\nH 4L,200\nH-8L,60\n0.6D-1.3R,12000\n4U 8L,70\n4U 8R,63\n2D 9L,1300\n5D 5L,1000\n1.5D-2R,15000.0\n",
       "fmvss108-lb2v", {}, &unused);
-  EXPECT_EQ(row_of(result, "H 4L").verdict, Verdict::kPass);
+  EXPECT_EQ(row_of(result, "H 4L").verdict, RuleVerdict::kPass);
   EXPECT_EQ(row_of(result, "H 4L").margin, 65.0);
-  EXPECT_EQ(row_of(result, "H 8L").verdict, Verdict::kFail);
-  EXPECT_EQ(row_of(result, "0.6D 1.3R").verdict, Verdict::kPass);
-  EXPECT_EQ(row_of(result, "4U 8L & 8R").verdict, Verdict::kFail);  // the right one
+  EXPECT_EQ(row_of(result, "H 8L").verdict, RuleVerdict::kFail);
+  EXPECT_EQ(row_of(result, "0.6D 1.3R").verdict, RuleVerdict::kPass);
+  EXPECT_EQ(row_of(result, "4U 8L & 8R").verdict, RuleVerdict::kFail);  // the right one
   EXPECT_EQ(row_of(result, "4U 8L & 8R").lowest_at.h_deg, 8.0);
   // One of two points is there and passes: the row is not measured.
   EXPECT_EQ(verdict_name(row_of(result, "2D 9L & 9R")), "not measured");
@@ -158,9 +158,9 @@ TEST(CheckPoints, RowsThatHaveTheirPoint) {
   EXPECT_EQ(verdict_name(row_of(result, "0.86D V")), "not measured");
   EXPECT_EQ(verdict_name(row_of(result, "10U-90U 90L-90R zone")), "not measured");
   EXPECT_EQ(verdict_name(row_of(result, "cut-off sharpness G")), "not measured");
-  EXPECT_EQ(row_of(result, "1.5D 2R").verdict, Verdict::kWithinResolution);  // on the limit, to half a digit
+  EXPECT_EQ(row_of(result, "1.5D 2R").verdict, RuleVerdict::kWithinResolution);  // on the limit, to half a digit
   EXPECT_EQ(unused, std::vector<std::string>{"5D 5L"});
-  EXPECT_EQ(result.verdict, Verdict::kFail);
+  EXPECT_EQ(result.verdict, RuleVerdict::kFail);
   EXPECT_EQ(result.aim_method, "as measured");
 }
 
@@ -187,12 +187,12 @@ TEST(CheckPoints, ZonesFailByAPointAndPassByNone) {
 TEST(CheckPoints, NamesSumsAndPeaksOfUnRules) {
   const CheckResult r112 =
       judged("Point,cd\nB50L,300\n75R,11000\nP1,70\nP2,70\nP3,60\nP4,30\nP7,60\n", "r112-passing-b");
-  EXPECT_EQ(row_of(r112, "B50L").verdict, Verdict::kPass);
-  EXPECT_EQ(row_of(r112, "75R").verdict, Verdict::kPass);
+  EXPECT_EQ(row_of(r112, "B50L").verdict, RuleVerdict::kPass);
+  EXPECT_EQ(row_of(r112, "75R").verdict, RuleVerdict::kPass);
   EXPECT_EQ(row_of(r112, "P1+P2+P3").lowest, 200.0);
-  EXPECT_NE(row_of(r112, "P1+P2+P3").verdict, Verdict::kNoData);
+  EXPECT_NE(row_of(r112, "P1+P2+P3").verdict, RuleVerdict::kNoData);
   EXPECT_EQ(verdict_name(row_of(r112, "P4+P5+P6")), "not measured");
-  EXPECT_NE(row_of(r112, "P7").verdict, Verdict::kNoData);
+  EXPECT_NE(row_of(r112, "P7").verdict, RuleVerdict::kNoData);
   EXPECT_EQ(verdict_name(row_of(r112, "Zone III")), "not measured");
   // 0.8 of the highest intensity: unknown without it, but no more than a measured point allows.
   const auto hv = [](const std::string& text) {

@@ -98,7 +98,7 @@ Function function_of(const PointList& list, std::span<const Rulebook> rules) {
   for (const Rulebook& rule : rules) {
     const CheckResult result = check_points(list, rule, {});
     const auto measured = static_cast<std::size_t>(std::count_if(
-        result.rows.begin(), result.rows.end(), [](const CheckRow& row) { return row.verdict != Verdict::kNoData; }));
+        result.rows.begin(), result.rows.end(), [](const CheckRow& row) { return row.verdict != RuleVerdict::kNoData; }));
     if (measured > most) most = measured, best = {rule.function, "most of its points are of " + rule.id};
   }
   return best;
@@ -185,7 +185,7 @@ Result<PageHead> judge_by_all(const LampCheckOptions& options, const Inputs& inp
 
 int exit_code(const std::vector<Judged>& all) {
   const bool failed =
-      std::any_of(all.begin(), all.end(), [](const Judged& j) { return j.result.verdict >= Verdict::kNoData; });
+      std::any_of(all.begin(), all.end(), [](const Judged& j) { return j.result.verdict >= RuleVerdict::kNoData; });
   return failed ? kExitCheckFailed : kExitDone;
 }
 

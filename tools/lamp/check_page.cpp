@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t kTightestPasses = 10;  // of the passing rows so many are printed; the page has all
 
 int badness(const CheckRow& row) {
-  if (row.verdict == Verdict::kFail) return 0;
-  if (row.verdict == Verdict::kNoData) return row.not_measured ? 5 : 1;
-  if (row.verdict == Verdict::kWithinResolution) return 2;
+  if (row.verdict == RuleVerdict::kFail) return 0;
+  if (row.verdict == RuleVerdict::kNoData) return row.not_measured ? 5 : 1;
+  if (row.verdict == RuleVerdict::kWithinResolution) return 2;
   return row.passes_by ? 3 : 4;
 }
 
@@ -96,11 +96,11 @@ void print_page(const PageHead& head, std::span<const Judged> all) {
               "margin", "verdict");
   std::size_t passed = 0, not_measured = 0;
   for (const auto& [judged, row] : rows) {
-    if (row->verdict == Verdict::kNoData && row->not_measured) {
+    if (row->verdict == RuleVerdict::kNoData && row->not_measured) {
       ++not_measured;
       continue;
     }
-    if (row->verdict == Verdict::kPass && !row->passes_by && ++passed > kTightestPasses) continue;
+    if (row->verdict == RuleVerdict::kPass && !row->passes_by && ++passed > kTightestPasses) continue;
     std::printf("  %-18s %-30s %17s %12s %15s %10s  %s%s\n", judged->result.rule_id.c_str(), row->id.c_str(),
                 limits_text(*row).c_str(), row->has_value ? value_text(row->unit, row->value(), 3).c_str() : "-",
                 place_of(*row).c_str(), number_of_percent(*row).c_str(), verdict_text(*row).c_str(),
@@ -124,7 +124,7 @@ std::string html_page(const PageHead& head, std::span<const Judged> all) {
   page += "<h2>Rules</h2>\n<table><tr><th>verdict</th><th>rule</th><th>document</th><th>rows</th><th>aim</th></tr>\n";
   for (const Judged& judged : all) {
     const CheckResult& r = judged.result;
-    const char* shade = r.verdict == Verdict::kPass ? "pass" : r.verdict == Verdict::kFail ? "fail" : "within";
+    const char* shade = r.verdict == RuleVerdict::kPass ? "pass" : r.verdict == RuleVerdict::kFail ? "fail" : "within";
     page += std::string("<tr class=\"") + shade + "\"><td>" + conclusion(r.verdict) + "</td><td>" +
             escaped(r.rule_name + (all.front().beam != judged.beam ? ", " + judged.beam : "")) + "</td><td>" +
             escaped(r.document) + "</td><td>" + escaped(summary_of(judged)) + "</td><td>" + escaped(aim_of(r)) +

@@ -102,16 +102,16 @@ std::string turn_text(HV turn) {
 
 std::string verdict_text(const CheckRow& row) {
   switch (row.verdict) {
-    case Verdict::kFail:
+    case RuleVerdict::kFail:
       return "FAIL";
-    case Verdict::kPass:
+    case RuleVerdict::kPass:
       return row.passes_by ? "pass only by re-aim " + turn_text(*row.passes_by) : "pass";
-    case Verdict::kWithinResolution: {
+    case RuleVerdict::kWithinResolution: {
       const bool whole = is_whole_unit(row.unit);
       return "within resolution, +- " + number_of(whole ? "%.3g" : "%.3f", row.resolution) +
              (row.unit.empty() ? "" : " " + row.unit);
     }
-    case Verdict::kNoData:
+    case RuleVerdict::kNoData:
       break;
   }
   return verdict_name(row);
@@ -134,8 +134,8 @@ std::string traffic_text(const Judged& judged) {
   return text + ")";
 }
 
-const char* conclusion(Verdict verdict) {
-  return verdict == Verdict::kPass ? "PASS" : verdict == Verdict::kFail ? "FAIL" : "UNDECIDED";
+const char* conclusion(RuleVerdict verdict) {
+  return verdict == RuleVerdict::kPass ? "PASS" : verdict == RuleVerdict::kFail ? "FAIL" : "UNDECIDED";
 }
 
 nlohmann::json judged_json(const Judged& judged) {
@@ -170,7 +170,7 @@ nlohmann::json judged_json(const Judged& judged) {
                       {"unconfirmed_rows", result.unconfirmed},
                       {"rows", rows}};
   if (judged.of_points) {
-    if (result.verdict == Verdict::kNoData) json["verdict"] = "not measured";
+    if (result.verdict == RuleVerdict::kNoData) json["verdict"] = "not measured";
     json["beam"] = judged.key;
     json["unused_points"] = judged.unused;
   } else {

@@ -30,7 +30,7 @@ std::string traffic_text(const Judged& judged);
 /// "by the cut-off", "by its points", "given", "assumed".
 std::string traffic_source_text(const Judged& judged);
 /// "PASS", "FAIL", "UNDECIDED".
-const char* conclusion(Verdict verdict);
+const char* conclusion(RuleVerdict verdict);
 
 nlohmann::json judged_json(const Judged& judged);
 

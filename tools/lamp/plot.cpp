@@ -77,10 +77,10 @@ std::string aim_text(const AimedLamp& lamp) {
 
 std::string verdict_text(const CheckResult& check) {
   std::string text = check.rule_name + (check.left_hand ? ", rows mirrored: " : ": ");
-  if (check.verdict == Verdict::kFail) {
+  if (check.verdict == RuleVerdict::kFail) {
     text += "FAIL, " + std::to_string(check.failed) + " of " + std::to_string(check.rows.size()) + " rows";
   } else {
-    text += check.verdict == Verdict::kPass ? "pass" : "undecided";
+    text += check.verdict == RuleVerdict::kPass ? "pass" : "undecided";
   }
   if (check.within_resolution > 0)
     text += ", " + std::to_string(check.within_resolution) + " within the file's resolution";

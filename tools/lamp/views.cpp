@@ -25,15 +25,15 @@ double log_cd(double cd) {
   return std::log10(std::max(cd, 1e-3));
 }
 
-Rgb verdict_colour(Verdict verdict) {
+Rgb verdict_colour(RuleVerdict verdict) {
   switch (verdict) {
-    case Verdict::kPass:
+    case RuleVerdict::kPass:
       return kPass;
-    case Verdict::kFail:
+    case RuleVerdict::kFail:
       return kFailed;
-    case Verdict::kWithinResolution:
+    case RuleVerdict::kWithinResolution:
       return kWithin;
-    case Verdict::kNoData:
+    case RuleVerdict::kNoData:
       break;
   }
   return kGrey;
@@ -55,9 +55,9 @@ void draw_cross(Chart& chart, const Axes& axes, Rgb colour) {
   chart.line({{axes.left, axes.y(0)}, {axes.left + axes.width, axes.y(0)}}, colour, 1.1);
 }
 
-void draw_mark(Chart& chart, double x, double y, Verdict verdict) {
+void draw_mark(Chart& chart, double x, double y, RuleVerdict verdict) {
   const Rgb colour = verdict_colour(verdict);
-  if (verdict == Verdict::kFail) {
+  if (verdict == RuleVerdict::kFail) {
     for (const auto& [rim, width] : {std::pair{kWhite, 3.4}, {colour, 2.0}}) {
       chart.line({{x - 4, y - 4}, {x + 4, y + 4}}, rim, width);
       chart.line({{x - 4, y + 4}, {x + 4, y - 4}}, rim, width);
@@ -108,7 +108,7 @@ void draw_rows(Chart& chart, const Axes& axes, const CheckResult& check) {
   for (const bool failed : {true, false}) {
     for (const bool points : {true, false}) {
       for (const CheckRow& row : check.rows) {
-        if (row.at.empty() || (row.verdict == Verdict::kFail) != failed || is_point(row) != points) continue;
+        if (row.at.empty() || (row.verdict == RuleVerdict::kFail) != failed || is_point(row) != points) continue;
         const Rgb colour = failed ? kFailed : kBlack;
         if (!points && is_outline(row)) {
           chart.label(places_along(axes, outline(row), row.shape != RowShape::kLine), row.id, 7, colour);
@@ -160,12 +160,12 @@ void draw_cutoff_line(Chart& chart, const Axes& axes, const IntensityHv& intensi
 void draw_row_legend(Chart& chart, const CheckResult& check) {
   constexpr double y = 466.0;
   double x = 70.0;
-  for (const auto& [verdict, name, wide] : {std::tuple{Verdict::kPass, "pass", 45.0},
-                                            {Verdict::kFail, "fail", 45.0},
-                                            {Verdict::kWithinResolution, "within the file's resolution", 150.0},
-                                            {Verdict::kNoData, "no data", 65.0}}) {
+  for (const auto& [verdict, name, wide] : {std::tuple{RuleVerdict::kPass, "pass", 45.0},
+                                            {RuleVerdict::kFail, "fail", 45.0},
+                                            {RuleVerdict::kWithinResolution, "within the file's resolution", 150.0},
+                                            {RuleVerdict::kNoData, "no data", 65.0}}) {
     draw_mark(chart, x, y, verdict);
-    const bool points = verdict == Verdict::kNoData && std::any_of(check.rows.begin(), check.rows.end(),
+    const bool points = verdict == RuleVerdict::kNoData && std::any_of(check.rows.begin(), check.rows.end(),
                                                                    [](const CheckRow& r) { return r.not_measured; });
     chart.text(x + 8, y, points ? "not measured" : name, 8.5, -1, kBlack);
     x += points ? wide + 30.0 : wide;
@@ -186,7 +186,7 @@ void draw_row_legend(Chart& chart, const CheckResult& check) {
     const auto row =
         std::find_if(check.rows.begin(), check.rows.end(), [&](const CheckRow& r) { return r.id == beyond[i]; });
     text +=
-        (i > 0 ? ", " : "") + beyond[i] + " (" + (row->verdict == Verdict::kFail ? "FAIL" : verdict_name(*row)) + ")";
+        (i > 0 ? ", " : "") + beyond[i] + " (" + (row->verdict == RuleVerdict::kFail ? "FAIL" : verdict_name(*row)) + ")";
   }
   chart.text(66, 481, text, 8.5, -1, kText);
 }
@@ -200,7 +200,7 @@ std::vector<std::string> rows_beyond_wall(const CheckResult& check) {
     const bool out = std::any_of(row.at.begin(), row.at.end(), [](HV p) {
       return p.h_deg < kWall.x_min || p.h_deg > kWall.x_max || p.v_deg < kWall.y_min || p.v_deg > kWall.y_max;
     });
-    if (out) ids.insert(row.verdict == Verdict::kFail ? ids.begin() + failed++ : ids.end(), row.id);
+    if (out) ids.insert(row.verdict == RuleVerdict::kFail ? ids.begin() + failed++ : ids.end(), row.id);
   }
   return ids;
 }

@@ -32,12 +32,12 @@ CheckRow measured(std::string id, std::string clause, std::string unit, double v
   row.min = min;
   row.max = max;
   row.lowest = row.highest = value;
-  row.verdict = lowest >= min && highest <= max ? Verdict::kPass
-                : highest < min || lowest > max ? Verdict::kFail
-                                                : Verdict::kWithinResolution;
+  row.verdict = lowest >= min && highest <= max ? RuleVerdict::kPass
+                : highest < min || lowest > max ? RuleVerdict::kFail
+                                                : RuleVerdict::kWithinResolution;
   row.by_min = min > kNoMinimum && (max >= kNoMaximum || value - min < max - value);
   // Inside both limits the one that it may yet miss is told.
-  if (row.verdict == Verdict::kWithinResolution && value >= min && value <= max && (lowest < min) != (highest > max))
+  if (row.verdict == RuleVerdict::kWithinResolution && value >= min && value <= max && (lowest < min) != (highest > max))
     row.by_min = lowest < min;
   row.margin = row.by_min ? value - min : max - value;
   row.resolution = row.by_min == (row.margin >= 0.0) ? value - lowest : highest - value;
@@ -46,10 +46,10 @@ CheckRow measured(std::string id, std::string clause, std::string unit, double v
 }
 
 /// A row that there is nothing to measure for.
-CheckRow nothing(CheckRow row, Verdict verdict) {
+CheckRow nothing(CheckRow row, RuleVerdict verdict) {
   row.has_value = false;
   row.lowest = row.highest = row.margin = row.resolution = 0.0;
-  row.no_data = verdict == Verdict::kNoData;
+  row.no_data = verdict == RuleVerdict::kNoData;
   row.verdict = verdict;
   return row;
 }
@@ -78,7 +78,7 @@ void judge_cutoff(const RuleBeam& lamp, const CutoffAim& aim, const std::string&
                   std::vector<CheckRow>& rows) {
   result.cutoff = find_cutoff(lamp.intensity(), aim.scan_h_deg);
   const Cutoff& cutoff = result.cutoff;
-  const Verdict none = cutoff.at_edge ? Verdict::kNoData : Verdict::kFail;
+  const RuleVerdict none = cutoff.at_edge ? RuleVerdict::kNoData : RuleVerdict::kFail;
   RuleBeam::SharpnessRange range{cutoff.sharpness_g, cutoff.sharpness_g, 0.0};
   if (cutoff.found) range = lamp.sharpness_range(0, aim.scan_h_deg, cutoff);
   result.row_step_deg = range.row_step_deg;
@@ -89,11 +89,11 @@ void judge_cutoff(const RuleBeam& lamp, const CutoffAim& aim, const std::string&
   }
   if (aim.linearity_h_deg.empty()) return;
   double low = 90.0, high = -90.0, step = 0.0;
-  Verdict missing = Verdict::kPass;
+  RuleVerdict missing = RuleVerdict::kPass;
   for (const double h : aim.linearity_h_deg) {
     const Cutoff at = find_cutoff(lamp.intensity(), h);
     if (!at.found) {
-      missing = std::max(missing, at.at_edge ? Verdict::kNoData : Verdict::kFail);
+      missing = std::max(missing, at.at_edge ? RuleVerdict::kNoData : RuleVerdict::kFail);
       continue;
     }
     low = std::min(low, at.elevation_deg);
@@ -103,7 +103,7 @@ void judge_cutoff(const RuleBeam& lamp, const CutoffAim& aim, const std::string&
   const double spread = high - low;
   CheckRow row = measured("cut-off linearity" + whose, aim.clause, "deg", spread, std::max(0.0, spread - step),
                           spread + step, 0.0, aim.linearity_max_deg);
-  rows.push_back(missing != Verdict::kPass ? nothing(std::move(row), missing) : std::move(row));
+  rows.push_back(missing != RuleVerdict::kPass ? nothing(std::move(row), missing) : std::move(row));
 }
 
 /// Rows that fail or are not known, and by how much.
@@ -152,7 +152,7 @@ HV best_reaim(RuleBeam& beam, const Rulebook& rule) {
 
 bool passes(const RuleBeam& beam, const RuleRow& row, CheckRow result) {
   conclude_row(beam, row, result);
-  return result.verdict == Verdict::kPass;
+  return result.verdict == RuleVerdict::kPass;
 }
 
 /// FMVSS 108: a test point that fails may be looked at with the beam turned by up to a quarter degree. As far as it
@@ -245,22 +245,22 @@ const CutoffAim* choose_aim(const RuleBeam& beam, const Rulebook& rule, const st
 
 }  // namespace
 
-std::string verdict_name(Verdict verdict) {
+std::string verdict_name(RuleVerdict verdict) {
   switch (verdict) {
-    case Verdict::kPass:
+    case RuleVerdict::kPass:
       return "pass";
-    case Verdict::kWithinResolution:
+    case RuleVerdict::kWithinResolution:
       return "within resolution";
-    case Verdict::kNoData:
+    case RuleVerdict::kNoData:
       return "no data";
-    case Verdict::kFail:
+    case RuleVerdict::kFail:
       break;
   }
   return "fail";
 }
 
 std::string verdict_name(const CheckRow& row) {
-  return row.not_measured && row.verdict == Verdict::kNoData ? "not measured" : verdict_name(row.verdict);
+  return row.not_measured && row.verdict == RuleVerdict::kNoData ? "not measured" : verdict_name(row.verdict);
 }
 
 std::string traffic_source_name(TrafficSource source) {
@@ -345,7 +345,7 @@ void check_side(std::span<const IntensityTable* const> tables, const Rulebook& r
       rows[i].passes_by = farthest_reaim(rows[i]);
     }
     conclude_row(beam, rule.rows[i], rows[i]);
-    if (rows[i].verdict != Verdict::kPass) rows[i].passes_by.reset();
+    if (rows[i].verdict != RuleVerdict::kPass) rows[i].passes_by.reset();
     rows[i].at = rule.rows[i].at;
   }
 
@@ -362,8 +362,8 @@ void check_side(std::span<const IntensityTable* const> tables, const Rulebook& r
         measured("luminous flux", rule.clause, "lm", flux_lm, flux_lm, flux_lm, rule.flux_min_lm, kNoMaximum);
     row.unconfirmed = rule.rows.front().unconfirmed;
     // What lies outside the table can only add.
-    row.no_data = row.verdict == Verdict::kFail && !beam.covers_the_front();
-    if (row.no_data) row.verdict = Verdict::kNoData;
+    row.no_data = row.verdict == RuleVerdict::kFail && !beam.covers_the_front();
+    if (row.no_data) row.verdict = RuleVerdict::kNoData;
     rows.push_back(std::move(row));
   }
   if (result.left_hand) mirror_rows(rows);

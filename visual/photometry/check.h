@@ -17,10 +17,10 @@ namespace phare {
 
 /// kWithinResolution: the margin, for or against, is smaller than what the file can tell; kNoData: the table does not
 /// reach all of the row's place, and what it has does not fail. From good to bad.
-enum class Verdict { kPass, kWithinResolution, kNoData, kFail };
+enum class RuleVerdict { kPass, kWithinResolution, kNoData, kFail };
 
 /// "pass", "within resolution", "no data", "fail".
-std::string verdict_name(Verdict verdict);
+std::string verdict_name(RuleVerdict verdict);
 
 struct CheckRow {
   std::string id;
@@ -41,7 +41,7 @@ struct CheckRow {
   HV reaim;                       ///< FMVSS: the quarter degree that the deciding point used (right, up)
   std::vector<HV> reaims;         ///< of each point, where the row has several and was re-aimed
   std::optional<HV> passes_by{};  ///< the re-aim without which the row does not pass (right, up); empty: none needed
-  Verdict verdict = Verdict::kPass;
+  RuleVerdict verdict = RuleVerdict::kPass;
   std::string unconfirmed;  ///< from the rulebook
   RowShape shape = RowShape::kPoints;
   std::vector<HV> at;  ///< the row's place, mirrored where the check was
@@ -87,7 +87,7 @@ struct CheckResult {
   std::vector<CheckRow> rows;
   std::size_t failed = 0, within_resolution = 0, no_data = 0, unconfirmed = 0;
   double shortfall = 0.0;  ///< of the failed rows, in parts of their limits: which of two verdicts is the worse
-  Verdict verdict = Verdict::kPass;
+  RuleVerdict verdict = RuleVerdict::kPass;
 };
 
 enum class Traffic { kFind, kRight, kLeft };

@@ -159,19 +159,19 @@ CheckRow PointJudge::judge(const Rulebook& rule, const RuleRow& row) {
     result.by_min = result.min > kNoMinimum && (result.max >= kNoMaximum || above < below);
     result.margin = result.by_min ? above : below;
   }
-  result.verdict = !result.has_value                             ? Verdict::kNoData
-                   : std::abs(result.margin) < result.resolution ? Verdict::kWithinResolution
-                   : result.margin >= 0.0                        ? Verdict::kPass
-                                                                 : Verdict::kFail;
+  result.verdict = !result.has_value                             ? RuleVerdict::kNoData
+                   : std::abs(result.margin) < result.resolution ? RuleVerdict::kWithinResolution
+                   : result.margin >= 0.0                        ? RuleVerdict::kPass
+                                                                 : RuleVerdict::kFail;
   if (!result.no_data) return result;
   result.not_measured = true;
-  const bool enough = result.has_value && result.by_min && result.verdict == Verdict::kPass && limit_known &&
+  const bool enough = result.has_value && result.by_min && result.verdict == RuleVerdict::kPass && limit_known &&
                       result.max >= kNoMaximum && (sum_of_all || row.shape == RowShape::kPeak);
   // Part of a sum, or a peak that may yet be higher, misses no least.
   const bool open_least = (sum_of_all || row.shape == RowShape::kPeak) && result.by_min;
-  const bool failed = result.has_value && result.verdict == Verdict::kFail && !open_least;
+  const bool failed = result.has_value && result.verdict == RuleVerdict::kFail && !open_least;
   if (enough || failed) return result;
-  result.verdict = Verdict::kNoData;
+  result.verdict = RuleVerdict::kNoData;
   if (!limit_known && row.max_factor > 0.0 && result.max >= kNoMaximum) result.has_value = false;
   return result;
 }
@@ -215,7 +215,7 @@ CheckResult check_points(const PointList& list, const Rulebook& rulebook, const 
     row.shape = RowShape::kPeak;
     row.has_value = false;
     row.no_data = row.not_measured = true;
-    row.verdict = Verdict::kNoData;
+    row.verdict = RuleVerdict::kNoData;
     result.rows.push_back(std::move(row));
   };
   if (!rule.cutoff_aims.empty()) {

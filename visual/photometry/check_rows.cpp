@@ -179,13 +179,13 @@ void conclude_row(const RuleBeam& beam, const RuleRow& row, CheckRow& result) {
     result.resolution += beam.resolution_cd({tightest.h_deg - result.reaim.h_deg, tightest.v_deg - result.reaim.v_deg});
   }
   const bool close = std::abs(result.margin) < result.resolution;
-  result.verdict = close ? Verdict::kWithinResolution : result.margin >= 0.0 ? Verdict::kPass : Verdict::kFail;
+  result.verdict = close ? RuleVerdict::kWithinResolution : result.margin >= 0.0 ? RuleVerdict::kPass : RuleVerdict::kFail;
   if (!result.no_data) return;
   // Light is never negative: a sum that is enough without a point stays so. Any other row fails by what is there, or
   // is not known.
-  const bool sum = row.shape == RowShape::kSum, failed = result.has_value && result.verdict == Verdict::kFail;
-  const bool sum_decided = sum && (result.by_min ? result.verdict == Verdict::kPass : failed);
-  if (sum ? !sum_decided : !failed) result.verdict = Verdict::kNoData;
+  const bool sum = row.shape == RowShape::kSum, failed = result.has_value && result.verdict == RuleVerdict::kFail;
+  const bool sum_decided = sum && (result.by_min ? result.verdict == RuleVerdict::kPass : failed);
+  if (sum ? !sum_decided : !failed) result.verdict = RuleVerdict::kNoData;
 }
 
 bool lies_in(const RuleRow& row, HV p) {
@@ -215,11 +215,11 @@ void mirror_rows(std::vector<CheckRow>& rows) {
 
 void count_rows(CheckResult& result) {
   for (const CheckRow& row : result.rows) {
-    if (row.verdict == Verdict::kFail) ++result.failed;
-    if (row.verdict == Verdict::kFail && row.has_value)
+    if (row.verdict == RuleVerdict::kFail) ++result.failed;
+    if (row.verdict == RuleVerdict::kFail && row.has_value)
       result.shortfall += std::abs(row.margin) / std::max(1.0, row.max < kNoMaximum ? row.max : row.min);
-    if (row.verdict == Verdict::kNoData) ++result.no_data;
-    if (row.verdict == Verdict::kWithinResolution) ++result.within_resolution;
+    if (row.verdict == RuleVerdict::kNoData) ++result.no_data;
+    if (row.verdict == RuleVerdict::kWithinResolution) ++result.within_resolution;
     if (!row.unconfirmed.empty()) ++result.unconfirmed;
     result.verdict = std::max(result.verdict, row.verdict);
   }
