@@ -39,6 +39,7 @@ class Cockpit : public ControlSink {
 
   CockpitState state(std::int64_t frame_index, bool drive_ended) const;
   Telltales telltales(SimTime now) const { return phare::telltales(switches_, now); }
+  std::uint32_t design_index() const { return switches_.lights.design_index; }
   std::uint64_t light_changes() const { return switches_.light_changes; }
   bool fail_safe() const { return switches_.fail_safe; }
 

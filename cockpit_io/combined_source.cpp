@@ -84,6 +84,9 @@ std::array<bool, kControlGroups> groups_of(const CockpitConfig& config) {
     }
   }
   for (const ControlMapping& mapping : config.controls) has[static_cast<std::size_t>(group_of(mapping.control))] = true;
+  // Recorded changes of design are left out; those of a hand beside the log are not.
+  if (config.keep_design && config.source == SourceKind::kLog)
+    has[static_cast<std::size_t>(ControlGroup::kDesign)] = false;
   return has;
 }
 
@@ -137,6 +140,7 @@ DriverInput CombinedSource::merged() const {
   from(ControlGroup::kParkingBrake, [&](const DriverInput& in) { all.parking_brake_01 = in.parking_brake_01; });
   s.design_next = s.design_previous = false;
   for (const Child& child : children_) {
+    if (!child.has[static_cast<std::size_t>(ControlGroup::kDesign)]) continue;
     s.design_next |= child.input.switches.design_next;
     s.design_previous |= child.input.switches.design_previous;
   }
@@ -178,6 +182,10 @@ bool CombinedSource::sends_back() const {
 
 void CombinedSource::send_back(const FeedbackValues& values, WallTime now) {
   for (Child& child : children_) child.source->send_back(values, now);
+}
+
+void CombinedSource::take_keys(std::uint32_t channel, std::uint64_t start_id, const KeyInput& keys, WallTime received) {
+  for (Child& child : children_) child.source->take_keys(channel, start_id, keys, received);
 }
 
 std::vector<int> CombinedSource::wait_fds() const {

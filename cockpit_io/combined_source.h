@@ -48,6 +48,8 @@ class CombinedSource : public Source {
   bool sends_back() const override;
   void send_back(const FeedbackValues& values, WallTime now) override;
   std::vector<int> wait_fds() const override;
+  std::string driver() const override { return children_.front().source->driver(); }
+  void take_keys(std::uint32_t channel, std::uint64_t start_id, const KeyInput& keys, WallTime received) override;
 
  private:
   struct Child {

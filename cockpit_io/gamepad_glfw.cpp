@@ -39,7 +39,35 @@ std::optional<GamepadReading> read(const std::string& name) {
   return std::nullopt;
 }
 
+std::optional<PadReading> read_any() {
+  glfwPollEvents();
+  GLFWgamepadstate state{};
+  for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
+    // Only what GLFW knows: axes of anything else (a wheel, a keyboard that calls itself a joystick) could mean
+    // anything.
+    if (glfwJoystickIsGamepad(id) == GLFW_FALSE || glfwGetGamepadState(id, &state) == GLFW_FALSE) continue;
+    PadReading reading;
+    const auto pedal = [&](int axis) { return 0.5 * (static_cast<double>(state.axes[axis]) + 1.0); };
+    reading.left_m1_1 = -static_cast<double>(state.axes[GLFW_GAMEPAD_AXIS_LEFT_X]);
+    reading.accelerator_01 = pedal(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER);
+    reading.brake_01 = pedal(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER);
+    for (const PadBinding& binding : pad_bindings()) {
+      const bool pressed = state.buttons[binding.button] == GLFW_PRESS;
+      bool& held = reading.pressed[static_cast<std::size_t>(binding.action)];
+      held = held || pressed;
+    }
+    return reading;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+std::function<std::optional<PadReading>()> open_any_gamepad() {
+  auto glfw = std::make_shared<Glfw>();
+  if (!glfw->started) return {};
+  return [glfw] { return read_any(); };
+}
 
 Result<GamepadSource::Reader> open_glfw_gamepad(const std::string& name) {
   glfwInitHint(GLFW_JOYSTICK_HAT_BUTTONS, GLFW_FALSE);
@@ -54,6 +82,10 @@ Result<GamepadSource::Reader> open_glfw_gamepad(const std::string& name) {
 }
 
 #else
+
+std::function<std::optional<PadReading>()> open_any_gamepad() {
+  return {};
+}
 
 Result<GamepadSource::Reader> open_glfw_gamepad(const std::string&) {
   return Error{"gamepad", "this build has no GLFW (PHARE_GRAPHICS is off)"};

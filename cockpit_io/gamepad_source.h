@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cockpit_io/control_reader.h"
+#include "cockpit_io/keyboard_driver.h"
 #include "cockpit_io/source.h"
 
 namespace phare {
@@ -46,5 +47,8 @@ std::optional<double> gamepad_value(const GamepadReading& reading, const std::st
 
 /// A device by part of its name (empty: the first), through GLFW. Error when GLFW was not built in or does not start.
 Result<GamepadSource::Reader> open_glfw_gamepad(const std::string& name);
+
+/// The first device that GLFW knows as a gamepad, whichever is plugged in at the time; empty where GLFW does not start.
+std::function<std::optional<PadReading>()> open_any_gamepad();
 
 }  // namespace phare

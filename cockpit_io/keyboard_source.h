@@ -1,53 +1,64 @@
-// The driver's controls from the keys of a terminal.
-//   l L  light switch up, down        f  flash        g  fog        n p  design next, previous
-//   b  rear fog      , .  turn left, right      h  hazard      a  automatic high beam      r  reverse and back
-//   k  parking brake
-//   arrows  accelerate, brake, steer  space  wheel straight, pedals released
+// The driver's controls from keys: of the terminal phare was started from, and of the window; besides, a gamepad that
+// is plugged in, and a demo driver who takes the wheel at a key. What the keys are: config/key_bindings.h.
 #pragma once
 
 #include <termios.h>
 
+#include <functional>
 #include <optional>
-#include <string_view>
+#include <string>
+#include <vector>
 
+#include "cockpit_io/driver_source.h"
+#include "cockpit_io/keyboard_driver.h"
 #include "cockpit_io/source.h"
+#include "net/window_keys.h"
 
 namespace phare {
 
-/// What keys mean, apart from the terminal. A terminal tells presses only, so a pedal or the flash counts as held for a
-/// while after the newest press; the repeat of a held key keeps it down.
-class KeyboardDriver {
- public:
-  /// Bytes as the terminal sends them; unknown ones and unknown escape sequences are passed over.
-  void press(std::string_view bytes, Moment now, ControlSink& cockpit);
-  /// Lets go of what has been held long enough.
-  void advance(Moment now, ControlSink& cockpit);
-
-  const DriverInput& input() const { return input_; }
-
- private:
-  void key(char key, Moment now, ControlSink& cockpit);
-  void arrow(char direction, Moment now);
-
-  DriverInput input_{.switches = {.stalk = LightSwitch::kLow}};
-  std::int64_t flash_until_ns_ = 0, accelerator_until_ns_ = 0, brake_until_ns_ = 0, steering_until_ns_ = 0;
-  std::int64_t newest_ns_ = 0;
+/// What a keyboard stands beside.
+struct KeyboardCompany {
+  struct Demo {
+    DriverScript script;
+    std::vector<LanePoint> lane;
+  };
+  std::optional<Demo> demo;
+  bool demo_at_once = false;
+  std::function<std::optional<PadReading>()> pad;  ///< nullopt: none is plugged in; may be empty
 };
 
 class KeyboardSource : public Source {
  public:
-  /// Puts standard input into raw mode if it is a terminal in the foreground; else there are no keys and low beam is
-  /// on.
-  KeyboardSource();
+  /// Puts standard input into raw mode if it is a terminal in the foreground; else there are only the keys of windows.
+  explicit KeyboardSource(KeyboardCompany company = {});
   ~KeyboardSource() override;  ///< gives the terminal back as it was
 
   void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
+  void take_keys(std::uint32_t channel, std::uint64_t start_id, const KeyInput& keys, WallTime received) override;
+  /// As if the terminal had sent this; handled with the next advance().
+  void take_terminal(std::string_view bytes) { typed_ += bytes; }
+  std::string driver() const override;
+  std::string fault() const override { return fault_; }
   std::vector<int> wait_fds() const override;
   std::string status() const override { return terminal_ ? "up" : "no terminal"; }
 
  private:
+  void read_terminal(Moment now, ControlSink& cockpit);
+  void read_window(Moment now, ControlSink& cockpit);
+  void read_pad(Moment now, ControlSink& cockpit);
+  void change_hands(Moment now, const VehicleState* vehicle);
+  void begin_demo(Moment now, const VehicleState* vehicle);
+  void drive_demo(Moment now, const VehicleState* vehicle, ControlSink& cockpit);
+
+  std::string typed_;                // by the terminal, not handled yet
   std::optional<termios> terminal_;  // as it was; nullopt: no terminal
-  KeyboardDriver driver_;
+  KeyboardCompany company_;
+  KeyboardDriver keys_;
+  WindowKeys window_;
+  std::optional<DriverSource> demo_;  // has the wheel
+  bool persons_lights_ = false;       // the person has moved a light switch since the demo driver took the wheel
+  std::string fault_;
+  std::int64_t fault_until_ns_ = 0, pad_read_ns_ = -1;
 };
 
 }  // namespace phare

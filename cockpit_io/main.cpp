@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -26,6 +27,9 @@ struct Options {
       log_level = "info";
   std::optional<std::uint16_t> port_base;
   bool lockstep = false;
+  std::string demo_file;
+  bool demo_at_once = false, any_gamepad = false;
+  double picture_within_s = 0.0;
   bool learn = false, gamepad = false;
   std::string interface;
   double rest_s = 5.0, seconds = 0.0, log_speed = 0.0;
@@ -36,6 +40,7 @@ Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
   Result<CockpitConfig> config =
       read_cockpit(options.cockpit_file.empty() ? rig.cockpit_file : std::filesystem::path(options.cockpit_file));
   if (!config) return config.error();
+  config->keep_design = rig.keep_design;
   const auto choose = [&](SourceKind kind, const std::string& file) {
     config->source = kind;
     config->input_file = file;
@@ -53,6 +58,9 @@ Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
                  "names no CAN interface: it needs [source] kind = \"can\" and interface = \"can0\""};
   }
   if (!options.dbc_file.empty()) config->dbc_file = options.dbc_file;
+  config->demo_file = options.demo_file;
+  config->demo_at_once = options.demo_at_once;
+  config->any_gamepad = options.any_gamepad && config->also.empty();
   if (options.log_speed > 0.0) config->log_speed = options.log_speed;
   return config;
 }
@@ -74,6 +82,14 @@ int run(int argc, char** argv) {
   auto* script = app.add_option("--script", options.script_file, "Script of a driver who follows the lane");
   log->excludes(drive)->excludes(script);
   drive->excludes(script);
+  auto* demo = app.add_option("--demo", options.demo_file,
+                              "With the keyboard: script of the demo driver, who takes the wheel at the key D");
+  app.add_flag("--demo-at-once", options.demo_at_once, "The demo driver begins")->needs(demo);
+  app.add_flag("--any-gamepad", options.any_gamepad,
+               "With the keyboard: a gamepad that is plugged in drives as well (needs a display)");
+  app.add_option("--wait-for-picture", options.picture_within_s,
+                 "In real time: wait at most so many seconds for the picture, with the car")
+      ->check(CLI::Range(0.0, 3600.0));
   app.add_flag("--lockstep", options.lockstep, "Advance frame by frame with the picture, reproducibly");
   app.add_option("--stats", options.stats_file, "Write counters and latencies to this JSON file every second");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off");
@@ -119,7 +135,7 @@ int run(int argc, char** argv) {
   if (options.lockstep) {
     process.run_lockstep();
   } else {
-    process.run_real_time();
+    process.run_real_time(std::chrono::nanoseconds(static_cast<std::int64_t>(options.picture_within_s * 1e9)));
   }
   return kExitDone;
 }

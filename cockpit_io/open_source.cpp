@@ -45,6 +45,21 @@ Result<std::unique_ptr<Source>> open_log(const CockpitConfig& config) {
   return std::unique_ptr<Source>(std::make_unique<LogSource>(std::move(*log), std::move(*map)));
 }
 
+/// Keys, with whom they stand beside. Only the demo's script can be wrong; without a gamepad there are the keys.
+Result<std::unique_ptr<Source>> open_keyboard(const CockpitConfig& config) {
+  KeyboardCompany company;
+  if (!config.demo_file.empty()) {
+    Result<DriverScript> script = read_driver_script(config.demo_file);
+    if (!script) return script.error();
+    Result<std::vector<LanePoint>> lane = read_lane(script->lane_file);
+    if (!lane) return lane.error();
+    company.demo = {std::move(*script), std::move(*lane)};
+  }
+  company.demo_at_once = config.demo_at_once;
+  if (config.any_gamepad) company.pad = open_any_gamepad();
+  return std::unique_ptr<Source>(std::make_unique<KeyboardSource>(std::move(company)));
+}
+
 Result<std::unique_ptr<Source>> open_one(const CockpitConfig& config) {
   switch (config.source) {
     case SourceKind::kCan: {
@@ -57,7 +72,7 @@ Result<std::unique_ptr<Source>> open_one(const CockpitConfig& config) {
     case SourceKind::kLog:
       return open_log(config);
     case SourceKind::kKeyboard:
-      return std::unique_ptr<Source>(std::make_unique<KeyboardSource>());
+      return open_keyboard(config);
     case SourceKind::kGamepad: {
       Result<GamepadSource::Reader> reader = open_glfw_gamepad(config.device);
       if (!reader) return reader.error();

@@ -23,7 +23,7 @@ constexpr std::chrono::milliseconds kSendEvery(10);
 constexpr std::chrono::microseconds kRest(400);     // between two wake-ups by the source
 constexpr std::chrono::milliseconds kLookEvery(2);  // at the source, between two datagrams
 constexpr std::chrono::milliseconds kCoast(200);    // of simulated time when the car is silent, as long as the picture
-constexpr std::chrono::seconds kWaitForCar(2);      // then simulated time runs by the wall clock alone
+constexpr std::chrono::seconds kWaitForCar(2);      // after the picture
 constexpr std::size_t kMostUnsentStamps = 20'000;
 
 std::string source_name(const CockpitConfig& config) {
@@ -69,7 +69,12 @@ CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Ri
       cockpit_(new_cockpit()),
       processor_before_s_(processor_s()) {
   take_source(std::move(source));
+  const bool recorded = config_.source == SourceKind::kDrive || config_.source == SourceKind::kDriver ||
+                        (config_.source == SourceKind::kLog && config_.also.empty());
+  if (config_.keep_design && recorded) kept_design_.emplace(cockpit_);
   bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
+    if (const auto* keys = std::get_if<KeyInput>(&datagram.payload))
+      source_->take_keys(datagram.sender_channel, datagram.start_id, *keys, wall_now());
     desk_.serve(bus_, datagram, [this](const RigControl& control) { return obey(control); });
   };
 }
@@ -132,8 +137,8 @@ Moment CockpitProcess::now_in_real_time() {
     const std::int64_t age_ns =
         std::clamp<std::int64_t>(wall.ns - vehicle->received.ns, 0, std::chrono::nanoseconds(kCoast).count());
     sim.ns = vehicle->sim_time.ns + age_ns;
-  } else if (const auto waited = Clock::now() - start_; waited > kWaitForCar) {
-    sim.ns = std::chrono::nanoseconds(waited - kWaitForCar).count();
+  } else if (const auto waited = Clock::now() - start_; waited > wait_for_car_) {
+    sim.ns = std::chrono::nanoseconds(waited - wait_for_car_).count();
   }
   newest_ = std::max(newest_, sim);
   return {newest_, wall};
@@ -141,12 +146,18 @@ Moment CockpitProcess::now_in_real_time() {
 
 void CockpitProcess::evaluate(Moment now, const VehicleState* vehicle) {
   if (vehicle != nullptr) cockpit_.set_speed(vehicle->speed_mps);
-  source_->advance(now, vehicle, cockpit_);
+  source_->advance(now, vehicle, kept_design_ ? static_cast<ControlSink&>(*kept_design_) : cockpit_);
+  if (kept_design_ && kept_design_->left_out() > 0 && !said_design_left_out_) {
+    said_design_left_out_ = true;
+    spdlog::info("a recorded change of design is left out: the rig keeps \"{}\" (keep_design)",
+                 rig_.designs[cockpit_.design_index()].name);
+  }
   if (wanted_design_) cockpit_.choose_design(*std::exchange(wanted_design_, std::nullopt), now);
 }
 
 void CockpitProcess::send(SimTime time, std::int64_t frame) {
   CockpitState state = cockpit_.state(frame, source_->ended());
+  if (std::string driver = source_->driver(); !driver.empty()) state.source = std::move(driver);
   if (real_time_) {  // in lockstep two runs must be equal, whatever the wall clock says
     state.source_stamp = newest_stamp_;
     state.source_fault = source_->fault();
@@ -191,8 +202,9 @@ void CockpitProcess::send_back(Moment now, const VehicleState* vehicle) {
   source_->send_back(values, now.wall);
 }
 
-void CockpitProcess::run_real_time() {
+void CockpitProcess::run_real_time(std::chrono::nanoseconds picture_within) {
   real_time_ = true;
+  wait_for_car_ = picture_within + kWaitForCar;
   scheduling_ = run_before_others(rig_.real_time_priority);
   spdlog::debug("scheduling: {}", scheduling_.text);
   start_ = Clock::now();
@@ -206,7 +218,8 @@ void CockpitProcess::run_real_time() {
     const auto* vehicle = bus_.newest<VehicleState>();
     evaluate(now, vehicle != nullptr ? &vehicle->value : nullptr);
     send_back(now, vehicle != nullptr ? &vehicle->value : nullptr);
-    if (pacer.due() || cockpit_.light_changes() != light_changes_sent_) send(now.sim, -1);
+    const bool begun = picture_within.count() == 0 || vehicle != nullptr || Clock::now() - start_ > wait_for_car_;
+    if (begun && (pacer.due() || cockpit_.light_changes() != light_changes_sent_)) send(now.sim, -1);
   }
   write_stats();
 }
@@ -298,6 +311,7 @@ void CockpitProcess::write_stats() const {
   json["wall_s"] = std::chrono::duration<double>(Clock::now() - start_).count();
   json["light_changes"] = cockpit_.light_changes();
   json["fail_safe"] = cockpit_.fail_safe();
+  if (kept_design_) json["design_changes_left_out"] = kept_design_->left_out();
   json["frame_to_datagram"] = latency_json(latency_);
   json["light_change_to_datagram"] = latency_json(light_latency_);
   if (!write_json(stats_file_, json)) spdlog::warn("{}: cannot be written", stats_file_.string());

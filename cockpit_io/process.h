@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cockpit_io/cockpit.h"
+#include "cockpit_io/kept_design.h"
 #include "cockpit_io/latency.h"
 #include "cockpit_io/source.h"
 #include "config/cockpit.h"
@@ -28,8 +29,9 @@ class CockpitProcess {
   CockpitProcess(const CockpitProcess&) = delete;
   CockpitProcess& operator=(const CockpitProcess&) = delete;
 
-  /// Sends 100 times a second, and at once when a light changes, until told to stop.
-  void run_real_time();
+  /// Sends 100 times a second, and at once when a light changes, until told to stop. With `picture_within` it waits
+  /// that long for a car, which waits for the picture, before it says anything.
+  void run_real_time(std::chrono::nanoseconds picture_within = {});
 
   /// Answers FrameReport(j) of all channels with CockpitState(j + 1), until told to stop.
   void run_lockstep();
@@ -62,12 +64,16 @@ class CockpitProcess {
   StopFlag stop_;
   std::unique_ptr<Source> source_;
   Cockpit cockpit_;
+  std::optional<KeptDesign>
+      kept_design_;  // in front of cockpit_, where what plays by itself must not change the design
+  bool said_design_left_out_ = false;
 
   ControlDesk desk_;
   bool paused_ = false;
   bool seek_ = false;
   std::optional<std::uint32_t> wanted_design_;
   Clock::time_point start_ = Clock::now();
+  std::chrono::nanoseconds wait_for_car_{};  ///< then simulated time runs by the wall clock alone
   Clock::time_point next_stats_{};
   Clock::time_point woken_{};  // by the source
   SimTime newest_;

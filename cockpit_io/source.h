@@ -60,6 +60,13 @@ class Source {
   /// Tells the source's car what its telltales show. `now`: the wall clock.
   virtual void send_back(const FeedbackValues&, WallTime /*now*/) {}
 
+  /// What came of the keyboard of a window; `start_id` and `channel`: of the visual process it belongs to.
+  virtual void take_keys(std::uint32_t /*channel*/, std::uint64_t /*start_id*/, const KeyInput&,
+                         WallTime /*received*/) {}
+
+  /// Who drives, where it is not the source itself: "demo"; empty: the source.
+  virtual std::string driver() const { return {}; }
+
   /// File descriptors that become readable when the source has something.
   virtual std::vector<int> wait_fds() const { return {}; }
 

@@ -164,6 +164,9 @@ struct CockpitConfig {
   std::string device;                ///< gamepad: part of its name; empty: the first there is
   std::filesystem::path dbc_file;    ///< can, log; may be empty: then --dbc must give it
   std::filesystem::path input_file;  ///< log, drive, driver: their file; may be empty: then a flag must give it
+  std::filesystem::path demo_file;   ///< keyboard: script of the demo driver; not of the file, a flag gives it
+  bool demo_at_once = false;         ///< keyboard: the demo driver begins; not of the file
+  bool any_gamepad = false;          ///< keyboard: a gamepad that is plugged in drives as well; not of the file
   double log_speed = 1.0;            ///< log: so many times as fast as it was recorded
   double timeout_s = 0.5;            ///< silence that means fail-safe, unless a control says otherwise
   double debounce_s = 0.02;
@@ -174,6 +177,7 @@ struct CockpitConfig {
   std::vector<MessageCheck> checks;
   std::vector<SendMessage> sends;
   std::vector<std::filesystem::path> also;  ///< cockpit files of further sources, in falling priority
+  bool keep_design = false;                 ///< of the rig, not of this file: recorded changes of design are left out
 
   const ControlMapping* find(Control control) const;
 };

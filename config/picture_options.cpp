@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 
+#include "config/eye.h"
 #include "config/rig.h"
 
 namespace phare {
@@ -57,6 +58,15 @@ void PictureOptions::add_to(CLI::App& app) {
   declare(app.add_option("--exposure", exposure_per_cdm2, "Exposure, 1/(cd/m2)"))
       ->check(CLI::Range(1e-6, 1e6))
       ->capture_default_str();
+  declare(app.add_option("--adaptation", adaptation,
+                         "Light of this colour temperature in K looks white, or auto: the eye follows the lamps [the "
+                         "rig's]"))
+      ->check(
+          [](const std::string& text) {
+            const auto setting = parse_adaptation(text);
+            return setting ? std::string() : setting.error().reason;
+          },
+          "", "adaptation");
   declare(app.add_flag("--false-colour", false_colour, "Begin with illuminance in false colour"));
   declare(app.add_option("--beam-image", beam_image,
                          "How beam images are stored and looked up, instead of the rig's: what accuracy costs in time"))

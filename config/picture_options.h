@@ -32,6 +32,7 @@ class PictureOptions {
   std::string camera{kCameraNames[0]};
   double still_at_s = -1.0;  ///< simulated time of the stills; negative: chosen
   double exposure_per_cdm2 = 0.8;
+  std::string adaptation;  ///< "auto" or a colour temperature (config/eye.h); empty: the rig's
   bool false_colour = false;
   std::string beam_image;          ///< one of kImageLevelNames; empty: the rig's
   std::int64_t audit_every = 300;  ///< frames; 0: never

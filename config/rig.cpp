@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <string_view>
 
+#include "config/eye.h"
+#include "config/input_files.h"
 #include "config/paths.h"
 #include "config/toml_table.h"
 
@@ -18,10 +23,7 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr std::size_t kMaxChannels = 16;
-constexpr std::size_t kMaxLampsOfDesign = 8;  // positions the renderer sums per pixel (visual/renderer.h)
 
-constexpr std::array<std::string_view, 6> kFunctionNames{"position", "low", "high", "fog", "daytime", "cornering"};
-constexpr std::array<std::string_view, 2> kAxisNames{"gamma0", "gamma90"};
 constexpr std::array<std::string_view, 5> kDynamicsLevels{"pose", "kinematic", "single-track", "full", "auto"};
 
 glm::dvec3 vector3(const std::vector<double>& xyz) {
@@ -46,13 +48,14 @@ ChannelConfig read_channel(TomlTable table, std::size_t index) {
 
 SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file) {
   SourceConfig source;
-  source.function = static_cast<LampFunction>(table.choice("function", kFunctionNames));
+  source.function = static_cast<LampFunction>(table.choice("function", kLampFunctionNames));
   source.file = resolve_path(table.text("file"), rig_file);
-  source.axis = static_cast<GammaAxis>(table.choice_or("axis", 0, kAxisNames));
+  source.axis = static_cast<GammaAxis>(table.choice_or("axis", 0, kGammaAxisNames));
   source.c0_turn_deg = table.number_or("c0_deg", 0.0, -360.0, 360.0);
   source.mirror = table.flag_or("mirror", false);
   source.lamp_set = static_cast<std::size_t>(table.integer_or("lamp_set", 1, 1, 1000));
   source.emitter = static_cast<std::size_t>(table.integer_or("emitter", 1, 1, 1000));
+  source.distance_m = table.number_or("distance_m", 0.0, 0.0, 1e6);
   source.scale = table.number_or("scale", 1.0, 0.0, 1e6);
   source.yaw_rad = degrees(table, "yaw_deg", -180.0, 180.0);
   source.pitch_rad = degrees(table, "pitch_deg", -90.0, 90.0);
@@ -70,20 +73,31 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
   return source;
 }
 
-/// The lamp across the car: the same photometry on the other side, its aim mirrored about the car's middle plane.
-LampConfig across(LampConfig lamp) {
-  lamp.position_m.y = -lamp.position_m.y;
-  for (SourceConfig& source : lamp.sources) {
-    source.yaw_rad = -source.yaw_rad;
-    source.roll_rad = -source.roll_rad;
+/// "as-filed", "cut-off", or degrees up.
+AimConfig read_aim(TomlTable& table) {
+  AimConfig aim;
+  const auto values = table.values_or_empty("aim");
+  if (values.empty()) return aim;
+  const auto wrong = [&] {
+    table.fail("aim", "\"as-filed\", \"cut-off\", or the degrees (-90 to 90) by which the lamp is turned up");
+    return AimConfig{};
+  };
+  if (values.size() != 1) return wrong();
+  if (const auto* word = std::get_if<std::string>(&values.front())) {
+    if (*word != "as-filed" && *word != "cut-off") return wrong();
+    if (*word == "cut-off") aim.kind = AimConfig::Kind::kCutoff;
+    return aim;
   }
-  return lamp;
+  const double up_deg = std::get<double>(values.front());
+  if (!(std::abs(up_deg) <= 90.0)) return wrong();
+  return {AimConfig::Kind::kTurned, up_deg * kRadPerDeg};
 }
 
 void read_lamp(TomlTable table, const std::filesystem::path& rig_file, DesignConfig& design) {
   LampConfig lamp;
   lamp.name = table.text("name");
   lamp.position_m = vector3(table.numbers("position_m", 3));
+  lamp.aim = read_aim(table);
   for (TomlTable source : table.tables("source")) lamp.sources.push_back(read_source(source, rig_file));
   if (lamp.sources.empty()) table.fail("source", "a lamp needs at least one [[design.lamp.source]]");
   if (!table.flag_or("pair", false)) {
@@ -91,7 +105,7 @@ void read_lamp(TomlTable table, const std::filesystem::path& rig_file, DesignCon
     return;
   }
   if (!(lamp.position_m.y > 0.0)) table.fail("position_m", "a pair is given by its left lamp, y > 0");
-  LampConfig right = across(lamp);
+  LampConfig right = lamp_across(lamp);
   lamp.name += " left";
   right.name += " right";
   design.lamps.push_back(std::move(lamp));
@@ -103,9 +117,9 @@ DesignConfig read_design(TomlTable table, const std::filesystem::path& rig_file)
   design.name = table.text("name");
   for (TomlTable lamp : table.tables("lamp")) read_lamp(lamp, rig_file, design);
   if (design.lamps.empty()) table.fail("lamp", "a design needs at least one [[design.lamp]]");
-  if (design.lamps.size() > kMaxLampsOfDesign) {
+  if (design.lamps.size() > kMostLampsOfDesign) {
     table.fail("lamp", std::to_string(design.lamps.size()) + " lamp positions; at most " +
-                           std::to_string(kMaxLampsOfDesign) + " are drawn");
+                           std::to_string(kMostLampsOfDesign) + " are drawn");
   }
   return design;
 }
@@ -143,15 +157,33 @@ std::filesystem::path resolve_path(const std::filesystem::path& named, const std
   return std::filesystem::absolute(naming_file.parent_path() / named).lexically_normal();
 }
 
+LampConfig lamp_across(LampConfig lamp) {
+  lamp.position_m.y = -lamp.position_m.y;
+  for (SourceConfig& source : lamp.sources) {
+    source.yaw_rad = -source.yaw_rad;
+    source.roll_rad = -source.roll_rad;
+  }
+  return lamp;
+}
+
 Result<Rig> read_rig(const std::filesystem::path& file) {
+  auto reading = read_rig_whole(file);
+  if (!reading) return reading.error();
+  if (!reading->problems.empty()) return reading->problems.front();
+  return std::move(reading->rig);
+}
+
+Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
   auto read = TomlTable::read(file);
   if (!read) return read.error();
   TomlTable root = *read;
   const std::filesystem::path rig_file = std::filesystem::absolute(file).lexically_normal();
 
-  Rig rig;
+  RigReading reading;
+  Rig& rig = reading.rig;
   rig.file = rig_file;
   rig.name = root.text_or("name", rig_file.stem().string());
+  rig.keep_design = root.flag_or("keep_design", rig.keep_design);
   rig.scene_file = resolve_path(root.text("scene"), rig_file);
   rig.vehicle_file = resolve_path(root.text("vehicle"), rig_file);
   rig.cockpit_file = resolve_path(root.text("cockpit"), rig_file);
@@ -160,9 +192,12 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
     rig.port_base = static_cast<std::uint16_t>(bus->integer_or("port_base", rig.port_base, 1024, 65500));
     const std::string key_file = bus->text_or("key_file", "");
     if (!key_file.empty()) {
-      const Result<BusKey> key = read_key(resolve_path(key_file, rig_file));
-      if (!key) return key.error();
-      rig.bus_key = *key;
+      rig.key_file = resolve_path(key_file, rig_file);
+      const Result<BusKey> key = read_key(rig.key_file);
+      if (key)
+        rig.bus_key = *key;
+      else
+        reading.problems.push_back(key.error());
     } else if (!rig.bind_address.starts_with("127.")) {
       bus->fail("address",
                 "off loopback (127.…) a key_file is required: 64 hexadecimal digits, as of openssl rand -hex 32");
@@ -181,6 +216,9 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
     rig.beam_image =
         static_cast<ImageLevel>(beams->choice_or("image", static_cast<std::size_t>(rig.beam_image), kImageLevelNames));
   }
+  if (auto eye = root.table_if("eye")) {
+    eye->number_or("adaptation_k", 4000.0, kCoolestWhite_k, kHottestWhite_k);  // read by read_eye (config/eye.h)
+  }
   for (TomlTable channel : root.tables("channel")) rig.channels.push_back(read_channel(channel, rig.channels.size()));
   for (TomlTable design : root.tables("design")) rig.designs.push_back(read_design(design, rig_file));
 
@@ -189,8 +227,10 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
   if (rig.designs.empty()) root.fail("design", "a rig needs at least one [[design]]");
   check_names_differ(root, "channel", rig.channels);
   check_names_differ(root, "design", rig.designs);
-  if (Status status = root.finish(); !status) return status.error();
-  return rig;
+  const std::vector<Error> of_file = root.problems();
+  reading.problems.insert(reading.problems.begin(), of_file.begin(), of_file.end());
+  reading.known_keys = root.known_keys();
+  return reading;
 }
 
 Status check_rig_files(const Rig& rig) {
@@ -213,18 +253,74 @@ Status check_rig_files(const Rig& rig) {
   return Done{};
 }
 
+namespace {
+
+// The first key of a lamp argument: a comma, a word of letters, digits and '_', and '='. The comma, or npos.
+std::size_t first_key(const std::string& text) {
+  for (std::size_t comma = text.find(','); comma != std::string::npos; comma = text.find(',', comma + 1)) {
+    std::size_t end = comma + 1;
+    while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) != 0 || text[end] == '_')) ++end;
+    if (end > comma + 1 && end < text.size() && text[end] == '=') return comma;
+  }
+  return std::string::npos;
+}
+
+std::string short_text(double number) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%g", number);
+  return digits;
+}
+
+struct LampArgumentFile {
+  std::string name;
+  std::size_t end = std::string::npos;  ///< where the keys begin: a comma, or npos
+};
+
+// The file at the head of a lamp argument. A name may hold commas; one that holds ",word=" stands in double quotes, a
+// quote in it doubled.
+Result<LampArgumentFile> lamp_argument_file(const std::string& text, const Error& unfinished) {
+  LampArgumentFile file;
+  if (!text.starts_with('"')) {
+    file.end = first_key(text);
+    file.name = text.substr(0, file.end);
+    return file;
+  }
+  for (std::size_t at = 1; at < text.size(); ++at) {
+    if (text[at] != '"') {
+      file.name += text[at];
+    } else if (at + 1 < text.size() && text[at + 1] == '"') {
+      file.name += text[at++];
+    } else if (at + 1 < text.size() && text[at + 1] != ',') {
+      return unfinished;
+    } else {
+      file.end = at + 1 < text.size() ? at + 1 : std::string::npos;
+      return file;
+    }
+  }
+  return unfinished;
+}
+
+}  // namespace
+
 Result<LampConfig> parse_lamp_argument(const std::string& text) {
-  static const std::vector<std::string> known{"x",    "y",      "z",      "yaw_deg",  "pitch_deg", "roll_deg",
-                                              "axis", "c0_deg", "mirror", "lamp_set", "emitter",   "scale"};
+  static const std::vector<std::string> known{"x",        "y",          "z",      "yaw_deg", "pitch_deg",
+                                              "roll_deg", "axis",       "c0_deg", "mirror",  "lamp_set",
+                                              "emitter",  "distance_m", "scale"};
   const auto wrong = [&](const std::string& reason) { return Error{"--lamp " + text, reason}; };
   LampConfig lamp;
   SourceConfig source;
 
-  std::size_t start = text.find(',');
-  const std::string file = text.substr(0, start);
+  const auto named =
+      lamp_argument_file(text, wrong("a file name in double quotes ends with a quote, and a comma or nothing follows"));
+  if (!named) return named.error();
+  const std::string& file = named->name;
+  std::size_t start = named->end;
   if (file.empty()) return wrong("expected FILE,x=…,y=…,z=…");
-  if (file.find('=') != std::string::npos) return wrong("the photometry file comes first: FILE,x=…,y=…,z=…");
-  source.file = std::filesystem::absolute(file).lexically_normal();
+  if (!text.starts_with('"') && known.end() != std::find(known.begin(), known.end(), file.substr(0, file.find('='))) &&
+      file.find('=') != std::string::npos)
+    return wrong("the photometry file comes first: FILE,x=…,y=…,z=…");
+  source.file =
+      is_standard_input(file) ? std::filesystem::path(file) : std::filesystem::absolute(file).lexically_normal();
   std::set<std::string> given;
   while (start != std::string::npos) {
     const std::size_t end = text.find(',', start + 1);
@@ -246,6 +342,13 @@ Result<LampConfig> parse_lamp_argument(const std::string& text) {
     if (failed != std::errc() || stop != value.data() + value.size() || !std::isfinite(number)) {
       return wrong("\"" + key + "\": expected a finite number, got \"" + value + "\"");
     }
+    static const std::map<std::string, std::pair<double, double>> limits{
+        {"yaw_deg", {-180.0, 180.0}}, {"pitch_deg", {-90.0, 90.0}}, {"roll_deg", {-180.0, 180.0}},
+        {"c0_deg", {-360.0, 360.0}},  {"distance_m", {0.01, 1e6}},  {"scale", {0.0, 1e6}}};
+    if (const auto limit = limits.find(key);
+        limit != limits.end() && !(number >= limit->second.first && number <= limit->second.second))
+      return wrong("\"" + key + "\": " + value + " is outside " + short_text(limit->second.first) + " to " +
+                   short_text(limit->second.second));
     if (key == "x") lamp.position_m.x = number;
     if (key == "y") lamp.position_m.y = number;
     if (key == "z") lamp.position_m.z = number;
@@ -254,6 +357,7 @@ Result<LampConfig> parse_lamp_argument(const std::string& text) {
     if (key == "roll_deg") source.roll_rad = number * kRadPerDeg;
     if (key == "scale") source.scale = number;
     if (key == "c0_deg") source.c0_turn_deg = number;
+    if (key == "distance_m") source.distance_m = number;
     if (key == "mirror") {
       if (number != 0.0 && number != 1.0) return wrong("\"mirror\" is 0 or 1");
       source.mirror = number == 1.0;
@@ -267,8 +371,7 @@ Result<LampConfig> parse_lamp_argument(const std::string& text) {
   for (const char* key : {"x", "y", "z"}) {
     if (!given.contains(key)) return wrong(std::string("\"") + key + "\" is missing (position in m)");
   }
-  if (source.scale < 0.0) return wrong("\"scale\" is negative");
-  lamp.name = source.file.stem().string();
+  lamp.name = is_standard_input(source.file) ? input_name(source.file) : source.file.stem().string();
   lamp.sources.push_back(std::move(source));
   return lamp;
 }

@@ -36,12 +36,28 @@ struct SourceConfig {
   bool mirror = false;       ///< left and right turned round: for the other side of the road, or a clockwise file
   std::size_t lamp_set = 1;  ///< EULUMDAT: which of the file's lamp sets, from 1
   std::size_t emitter = 1;   ///< TM-33: which of the file's emitters, from 1
+  double distance_m = 0.0;   ///< CSV in lux that states no distance of its own; 0: none given
   double scale = 1.0;        ///< multiplies candela
   double yaw_rad = 0.0;      ///< > 0 left
   double pitch_rad = 0.0;    ///< > 0 up, as lighting engineers aim
   double roll_rad = 0.0;     ///< > 0 right side down
   double colour_temperature_k = 5000.0;
   std::optional<glm::dvec2> chromaticity_xy{};  ///< CIE 1931; in place of the colour temperature
+
+  bool operator==(const SourceConfig&) const = default;
+};
+
+/// How the adjuster of a lamp stands, which turns all of its sources up or down together, on top of their own angles.
+struct AimConfig {
+  enum class Kind {
+    kAsFiled,  ///< not turned
+    kCutoff,   ///< the cut-off of its passing (else fog) beam on the line of the rule (visual/photometry/lamp_aim.h)
+    kTurned    ///< by up_rad
+  };
+  Kind kind = Kind::kAsFiled;
+  double up_rad = 0.0;  ///< kTurned: > 0 up
+
+  bool operator==(const AimConfig&) const = default;
 };
 
 /// Sources at one position. Everything that shines from here becomes one beam image.
@@ -49,12 +65,17 @@ struct LampConfig {
   std::string name;
   glm::dvec3 position_m{0.0};  ///< car frame
   std::vector<SourceConfig> sources;
+  AimConfig aim{};
+
+  bool operator==(const LampConfig&) const = default;
 };
 
 /// A named set of lamps; designs are swapped while driving.
 struct DesignConfig {
   std::string name;
   std::vector<LampConfig> lamps;
+
+  bool operator==(const DesignConfig&) const = default;
 };
 
 /// One visual process: its window and its eye.
@@ -66,6 +87,8 @@ struct ChannelConfig {
   glm::dvec3 eye_m{1.6, 0.37, 1.22};  ///< car frame
   double yaw_rad = 0.0;               ///< > 0 left
   double pitch_rad = 0.0;             ///< > 0 up
+
+  bool operator==(const ChannelConfig&) const = default;
 };
 
 /// Shared by the processes of a bus that is not on loopback.
@@ -77,6 +100,7 @@ struct Rig {
   std::string bind_address = "127.0.0.1";
   std::uint16_t port_base = 47000;
   std::optional<BusKey> bus_key{};     ///< of [bus] key_file: 64 hexadecimal digits; required off loopback
+  std::filesystem::path key_file{};    ///< resolved; empty: none
   std::int64_t frame_rate_hz = 60;     ///< of lockstep frames
   bool real_time_priority = true;      ///< in real time, of cockpit and dynamics, where the kernel allows it
   std::filesystem::path scene_file;    ///< glTF; resolved
@@ -85,13 +109,34 @@ struct Rig {
   std::string dynamics_level = "kinematic";
   double dynamics_step_s = 0.002;
   bool high_keeps_low = true;  ///< low beam stays lit under high beam
+  bool keep_design = false;    ///< a change of design that was recorded is left out; by hand it is not
   ImageLevel beam_image = ImageLevel::kFloatNodes;
   std::vector<ChannelConfig> channels;
   std::vector<DesignConfig> designs;
+
+  bool operator==(const Rig&) const = default;
 };
 
 /// Reads and checks a rig file. Every key is checked; an unknown one is an error that names the nearest known key.
 Result<Rig> read_rig(const std::filesystem::path& file);
+
+/// A rig file with everything that is wrong in it. What could not be read stands as if it were not there.
+struct RigReading {
+  Rig rig;
+  std::vector<Error> problems;
+  std::vector<std::string> known_keys;  ///< that its tables may hold: "name", "bus.address", "design.lamp.source.file"
+};
+/// Error: no such file, or no TOML.
+Result<RigReading> read_rig_whole(const std::filesystem::path& file);
+
+/// The lamp across the car: the same photometry on the other side, its aim mirrored about the car's middle plane.
+LampConfig lamp_across(LampConfig lamp);
+
+/// What the words of the format mean, in the order of their enumerations.
+inline constexpr std::array<std::string_view, 6> kLampFunctionNames{"position", "low",     "high",
+                                                                    "fog",      "daytime", "cornering"};
+inline constexpr std::array<std::string_view, 2> kGammaAxisNames{"gamma0", "gamma90"};
+inline constexpr std::size_t kMostLampsOfDesign = 8;  ///< positions the renderer sums per pixel (visual/renderer.h)
 
 /// Checks that the files a rig names are there: scene, vehicle, cockpit, every photometry file. The error names the
 /// first that is not, and where the rig file names it.
@@ -104,7 +149,8 @@ std::filesystem::path resolve_path(const std::filesystem::path& named, const std
 
 /// A lamp given on the command line:
 /// FILE,x=1.5,y=0.6,z=0.65,yaw_deg=0,pitch_deg=-0.5729,roll_deg=0[,axis=gamma0|gamma90][,c0_deg=0][,mirror=0|1]
-/// [,lamp_set=1][,emitter=1][,scale=1]
+/// [,lamp_set=1][,emitter=1][,distance_m=25][,scale=1]
+/// FILE may be "-", standard input. It ends at the first ",word="; a name that holds such a thing stands in double quotes, a quote in it doubled.
 Result<LampConfig> parse_lamp_argument(const std::string& text);
 
 }  // namespace phare

@@ -366,8 +366,7 @@ const std::filesystem::path& TomlTable::file() const {
   return document_->file;
 }
 
-Status TomlTable::finish() {
-  const Error* first = nullptr;
+std::vector<Error> TomlTable::problems() const {
   std::vector<std::pair<std::uint32_t, Error>> unknown;
   for (const Node& node : document_->nodes) {
     if (node.table == nullptr) continue;
@@ -381,15 +380,25 @@ Status TomlTable::finish() {
       unknown.emplace_back(line, Error{document_->at(line), std::move(reason)});
     }
   }
-  const auto earliest =
-      std::min_element(unknown.begin(), unknown.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  if (earliest != unknown.end()) {
-    first = &earliest->second;
-  } else if (!document_->errors.empty()) {
-    first = &document_->errors.front();
-  }
-  if (first != nullptr) return *first;
+  std::stable_sort(unknown.begin(), unknown.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Error> all;
+  for (auto& [line, error] : unknown) all.push_back(std::move(error));
+  all.insert(all.end(), document_->errors.begin(), document_->errors.end());
+  return all;
+}
+
+Status TomlTable::finish() {
+  const std::vector<Error> all = problems();
+  if (!all.empty()) return all.front();
   return Done{};
+}
+
+std::vector<std::string> TomlTable::known_keys() const {
+  std::set<std::string> keys;
+  for (const Node& node : document_->nodes) {
+    for (const std::string& key : node.asked) keys.insert(node.prefix + key);
+  }
+  return {keys.begin(), keys.end()};
 }
 
 }  // namespace phare

@@ -61,9 +61,13 @@ class TomlTable {
   void fail(std::string_view key, std::string reason);
   const std::filesystem::path& file() const;
 
-  /// First error of the whole document: unknown keys come first (with the nearest known one), because a mistyped key is
-  /// also why another is missing.
+  /// Everything that was wrong in the whole document: unknown keys come first (with the nearest known one), because a
+  /// mistyped key is also why another is missing.
+  std::vector<Error> problems() const;
+  /// The first of them.
   Status finish();
+  /// Every key that was asked for, with the tables it stands in ("design.lamp.name"), sorted.
+  std::vector<std::string> known_keys() const;
 
  private:
   struct Document;

@@ -95,6 +95,7 @@ Bus::Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel)
   std::get<std::vector<Inbox<RigControl>>>(inboxes_).resize(1);
   std::get<std::vector<Inbox<ProbeRequest>>>(inboxes_).resize(1);
   std::get<std::vector<Inbox<ProbeReply>>>(inboxes_).resize(channels_);
+  std::get<std::vector<Inbox<KeyInput>>>(inboxes_).resize(channels_);
   std::get<std::vector<Inbox<ControlReply>>>(inboxes_).resize(channels_);
 }
 

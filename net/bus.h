@@ -64,8 +64,8 @@ class Bus {
   /// Sleeps until something waits (true), or time is up or a signal came (false).
   bool wait(std::chrono::nanoseconds at_most);
 
-  /// The newest valid message, nullptr before the first. `channel`: of which visual process, for FrameReport and
-  /// ProbeReply.
+  /// The newest valid message, nullptr before the first. `channel`: of which visual process, for FrameReport,
+  /// ProbeReply and KeyInput.
   template <class T>
   const Newest<T>* newest(std::uint32_t channel = 0) const {
     const auto& inboxes = std::get<std::vector<Inbox<T>>>(inboxes_);
@@ -115,6 +115,7 @@ class Bus {
 
   std::tuple<std::vector<Inbox<CockpitState>>, std::vector<Inbox<VehicleState>>, std::vector<Inbox<FrameReport>>,
              std::vector<Inbox<RigControl>>, std::vector<Inbox<ProbeRequest>>, std::vector<Inbox<ProbeReply>>,
+             std::vector<Inbox<KeyInput>>,
              std::vector<Inbox<ControlReply>>>
       inboxes_;                                           // one per sender channel
   std::array<std::string, kChannels.size()> last_bytes_;  // sealed

@@ -163,6 +163,17 @@ struct ProbeReply {
   friend bool operator==(const ProbeReply&, const ProbeReply&) = default;
 };
 
+/// Most keys held, and most newest events, that one KeyInput names.
+inline constexpr std::size_t kMostKeys = 16;
+
+struct KeyInput {
+  std::vector<std::uint32_t> held;
+  std::vector<std::int32_t> event;
+  std::uint64_t events = 0;
+
+  friend bool operator==(const KeyInput&, const KeyInput&) = default;
+};
+
 enum class Verdict { kAccepted = 0, kRefused = 1, kPending = 2, kNotMine = 3 };
 
 struct ControlReply {
@@ -176,7 +187,7 @@ struct ControlReply {
 };
 
 using Payload =
-    std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply, ControlReply>;
+    std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply, KeyInput, ControlReply>;
 
 /// The envelope every payload travels in.
 struct Datagram {

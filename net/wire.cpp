@@ -184,6 +184,12 @@ void fill(wire::ProbeReply& to, const ProbeReply& from) {
   to.set_error(from.error);
 }
 
+void fill(wire::KeyInput& to, const KeyInput& from) {
+  to.mutable_held()->Add(from.held.begin(), from.held.end());
+  to.mutable_event()->Add(from.event.begin(), from.event.end());
+  to.set_events(from.events);
+}
+
 void fill(wire::ControlReply& to, const ControlReply& from) {
   to.set_to_start_id(from.to_start_id);
   to.set_request_id(from.request_id);
@@ -200,6 +206,7 @@ struct PayloadFiller {
   void operator()(const RigControl& from) const { fill(*to.mutable_rig_control(), from); }
   void operator()(const ProbeRequest& from) const { fill(*to.mutable_probe_request(), from); }
   void operator()(const ProbeReply& from) const { fill(*to.mutable_probe_reply(), from); }
+  void operator()(const KeyInput& from) const { fill(*to.mutable_key_input(), from); }
   void operator()(const ControlReply& from) const { fill(*to.mutable_control_reply(), from); }
 };
 
@@ -328,6 +335,12 @@ void read(ProbeReply& to, const wire::ProbeReply& from) {
   to.error = from.error();
 }
 
+void read(KeyInput& to, const wire::KeyInput& from) {
+  to.held.assign(from.held().begin(), from.held().end());
+  to.event.assign(from.event().begin(), from.event().end());
+  to.events = from.events();
+}
+
 void read(ControlReply& to, const wire::ControlReply& from) {
   to.to_start_id = from.to_start_id();
   to.request_id = from.request_id();
@@ -368,6 +381,8 @@ bool any_unknown(const wire::Datagram& message) {
       return unknown_in(message.probe_request());
     case wire::Datagram::kProbeReply:
       return unknown_in(message.probe_reply());
+    case wire::Datagram::kKeyInput:
+      return unknown_in(message.key_input());
     case wire::Datagram::kControlReply:
       return unknown_in(message.control_reply());
     case wire::Datagram::PAYLOAD_NOT_SET:
@@ -459,6 +474,9 @@ Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
       break;
     case wire::Datagram::kProbeReply:
       read(reused<ProbeReply>(datagram.payload), message.probe_reply());
+      break;
+    case wire::Datagram::kKeyInput:
+      read(reused<KeyInput>(datagram.payload), message.key_input());
       break;
     case wire::Datagram::kControlReply:
       read(reused<ControlReply>(datagram.payload), message.control_reply());

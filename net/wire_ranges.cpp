@@ -31,6 +31,7 @@ constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::uint32_t kMaxSources = 10000;  // of a lamp
 constexpr double kMaxMounting_m = 50.0;       // of a lamp from the car's origin: long lorries too
 constexpr std::size_t kMaxErrorBytes = 4096;
+constexpr std::uint32_t kMaxKey = 0x1ff;  // characters of Latin-1, then GLFW's numbers
 
 /// Collects the first thing wrong.
 class Checker {
@@ -146,6 +147,18 @@ void check(Checker& c, const ProbeReply& r) {
   c.require(r.illuminance_lx.size() <= kMaxProbePoints, Refusal::kArrays);
   c.numbers(r.illuminance_lx, 0.0, kMaxIlluminance_lx);
   c.require(r.error.size() <= kMaxErrorBytes);
+}
+
+void check(Checker& c, const KeyInput& keys) {
+  c.require(keys.held.size() <= kMostKeys && keys.event.size() <= kMostKeys, Refusal::kArrays);
+  std::uint32_t before = 0;
+  for (const std::uint32_t key : keys.held) {
+    c.require(key > before && key <= kMaxKey);
+    before = key;
+  }
+  constexpr auto kMost = static_cast<std::int32_t>(kMaxKey);
+  for (const std::int32_t event : keys.event) c.require(event != 0 && event >= -kMost && event <= kMost);
+  c.require(keys.events >= keys.event.size() && keys.events <= kMaxSequence);
 }
 
 void check(Checker& c, const ControlReply& r) {

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/beam.glsl"
 #include "lib/grain.glsl"
+#include "lib/retro.h"
 #include "lib/tone.h"
 
 layout(constant_id = 1) const uint surface = 0;
@@ -37,12 +38,17 @@ vec3 surface_reflectance(vec3 rho) {
   return rho;
 }
 
-// Share of R_A left at an observation angle (eye - point - lamp). Falls to half at 0.5°, a tenth at 1.5°: between the
-// figures of ASTM D4956 type III at 0.2°, 0.5° and 1°; chosen by eye, one curve for all sheeting.
-float retro_share(vec3 toward_lamp, vec3 toward_eye) {
-  float sin_half = length(cross(toward_lamp, toward_eye));
-  float ratio = sin_half / 0.0087;
-  return 1.0 / (1.0 + ratio * ratio);
+// Luminance over illuminance facing the lamp, as rho/pi has it; n looks to the side that is seen. Retroreflected light keeps the
+// tint of the material and not its darkness.
+float sent_back(vec3 toward_lamp, float cos_incidence, vec3 n, float level) {
+  if (cos_incidence <= 0.0) return 0.0;
+  float observation_deg = between_deg(toward_lamp, -point);
+  if (retro == kRetroMarking) return reflectance.w * marking_share(observation_deg) * marking_reached(cos_incidence);
+  // R_A is per area of the sheeting: luminance is R_A·E over the cosine of the eye's angle. At grazing angles nothing is left of R_A.
+  float cos_seen = max(-level * inversesqrt(dot(point, point)), 0.1);
+  SheetingRow at = sheeting_row(observation_deg);
+  uint index = uint(reflectance.w);
+  return sheeting_between(sheetings[index].row[at.before], sheetings[index].row[at.before + 1], at.part, between_deg(toward_lamp, n)) / cos_seen;
 }
 
 void main() {
@@ -67,13 +73,13 @@ void main() {
 #define LIGHT(I)                                                                                           \
   if (lamp_count > I) {                                                                                    \
     LampLight light = PHARE_LAMP_LIGHT(I);                                                                 \
-    vec3 colour = colours != 0 ? frame.lamps[I].colour.rgb : light_colour;                             \
+    vec3 colour = light_colour;                                                                            \
+    if (colours != 0) colour = frame.lamps[I].colour.rgb;                                                  \
+    if ((colours >> (8 + I) & 1) != 0) colour = PHARE_LAMP_TINT(I, light);                                 \
     total_lx += light.illuminance_lx;                                                                      \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
-    if (retro != 0) {                                                                                      \
-      float share = retro_share(normalize(PHARE_LAMP_POSITION(I).xyz - point), -normalize(point)) * smoothstep(0.1, 0.7, light.cos_incidence); \
-      retro_lx += colour * (light.normal_lx * reflectance.w * share);                                    \
-    }                                                                                                      \
+    if (retro != 0)                                                                                        \
+      retro_lx += colour * (light.normal_lx * sent_back(PHARE_LAMP_POSITION(I).xyz - point, light.cos_incidence, n, level)); \
   }
   PHARE_EACH_LAMP(LIGHT)
   if (colours == 0) coloured_lx = total_lx * light_colour;

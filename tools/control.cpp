@@ -117,10 +117,12 @@ Result<RigControl> parse(const std::vector<std::string>& words) {
 
 using Outcome = ControlClient::Outcome;
 
-/// Of an answer in a stream: "ok: headlamp left: source 17 at 0 %".
+/// Of an answer in a stream, on one line: "ok: headlamp left: source 17 at 0 %".
 void print_line(const ControlClient::Answer& answer) {
-  const char* said = answer.outcome == Outcome::kRefused ? "refused" : "ok";
-  std::printf(answer.text.empty() ? "%s\n" : "%s: %s\n", said, answer.text.c_str());
+  std::string text = answer.text;
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) text.replace(at, 1, ";");
+  std::printf("%s%s%s\n", answer.outcome == Outcome::kRefused ? "refused" : "ok", text.empty() ? "" : ": ",
+              text.c_str());
   std::fflush(stdout);
 }
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <thread>
 
+#include "config/key_bindings.h"
 #include "config/picture_options.h"
 #include "config/remedies.h"
 #include "config/vehicle.h"
@@ -21,9 +22,12 @@
 #include "net/stats.h"
 #include "tools/child_process.h"
 #include "tools/commands.h"
+#include "tools/derived_rig.h"
+#include "tools/lamp_design.h"
 #include "tools/recorder.h"
 #include "tools/report.h"
 #include "tools/supervisor.h"
+#include "tools/wish.h"
 
 namespace phare {
 namespace {
@@ -31,18 +35,37 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+// In real time the drive begins when every picture is ready; a busy machine without a GPU took a minute.
+constexpr const char* kPictureWithin_s = "180";
+
 struct DriveOptions {
   std::string rig_file = config_path("rigs/country_road.toml");
   std::string drive, script, log, dbc, cockpit, out, record, log_level = "info";
   bool headless = false, lockstep = false, closed_loop = false, json = false;
   PictureOptions picture;
   std::uint16_t port_base = 0;
+  LampFlags lamps;
+  std::string lamp_notes;  ///< what became of them
   std::vector<std::string> command;
+  std::string guide;          ///< somebody sits at the window and drives (live) or looks on (replay); empty: nobody
+  bool demo_at_once = false;  ///< live: the demo driver begins
 };
 
 bool set_in_environment(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr && *value != '\0';
+}
+
+/// Lamps of one's own, and what every adjuster of the rig was turned by.
+Status aim_and_tell(Rig& rig, DriveOptions& options) {
+  auto notes = options.lamps.any() ? put_lamp_design(rig, options.lamps) : aim_notes(rig);
+  if (!notes) return notes.error();
+  for (const std::string& line : notes->lines) {
+    spdlog::info("{}", line);
+    options.lamp_notes += line + "\n";
+  }
+  for (const std::string& line : notes->warnings) spdlog::warn("{}", line);
+  return Done{};
 }
 
 /// Everything that can be wrong before a process is started: files, ports, flags.
@@ -54,19 +77,24 @@ Result<Rig> prepare(DriveOptions& options) {
   if (const Status status = check_rig_files(*rig); !status) return status.error();
 
   if (const auto vehicle = read_vehicle(rig->vehicle_file); !vehicle) return vehicle.error();
+  if (!options.lamps.any() && !options.lamps.aim.empty())
+    return Error{"--aim " + options.lamps.aim, "aims a lamp of one's own: give --lamp, --lamp-high or --lamp-fog"};
+  if (const Status status = aim_and_tell(*rig, options); !status) return status.error();
 
+  if (!options.headless && !set_in_environment("DISPLAY") && !set_in_environment("WAYLAND_DISPLAY")) {
+    spdlog::info("no display: driving headless");
+    options.headless = true;
+  }
+  // Whoever sits at a window drives, unless a drive is named; automation (--frames, --lockstep) waits for nobody's key.
+  const bool person = !options.headless && !options.lockstep && options.picture.frames == 0;
+  const bool any_drive = !options.drive.empty() || !options.script.empty() || !options.log.empty();
+  if (person) options.guide = any_drive ? "replay" : "live";
   const std::string demo = config_path("drives/country_road.pcap");
-  const bool any_source =
-      !options.drive.empty() || !options.script.empty() || !options.log.empty() || !options.cockpit.empty();
-  if (!any_source && fs::exists(demo)) options.drive = demo;
+  if (!person && !any_drive && options.cockpit.empty() && fs::exists(demo)) options.drive = demo;
   for (std::string* file : {&options.drive, &options.script, &options.log, &options.dbc}) {
     if (file->empty()) continue;
     if (!fs::is_regular_file(*file)) return Error{*file, "no such file"};
     *file = fs::absolute(*file).string();
-  }
-  if (!options.headless && !set_in_environment("DISPLAY") && !set_in_environment("WAYLAND_DISPLAY")) {
-    spdlog::info("no display: driving headless");
-    options.headless = true;
   }
   if (options.headless && options.out.empty()) options.out = "out";
   if (!options.out.empty()) options.out = fs::absolute(options.out).lexically_normal().string();
@@ -75,6 +103,31 @@ Result<Rig> prepare(DriveOptions& options) {
       return Error{program_beside_us(name).string(), "is not there; build everything"};
   }
   return rig;
+}
+
+/// The demo driver knows one road.
+bool has_demo_driver(const Rig& rig) {
+  const auto demo = read_rig(config_path("rigs/country_road.toml"));
+  return demo && demo->scene_file == rig.scene_file;
+}
+
+/// What the processes are told where somebody sits at the window, and when to begin.
+void add_person(const Rig& rig, const DriveOptions& options, std::vector<ProcessSpec>& specs) {
+  const bool live = options.guide == "live", demo = has_demo_driver(rig);
+  for (ProcessSpec& spec : specs) {
+    const auto add = [&](std::initializer_list<std::string> words) {
+      spec.arguments.insert(spec.arguments.end(), words);
+    };
+    const bool picture = spec.name.starts_with("visual-");
+    if (!picture && !options.lockstep) add({"--wait-for-picture", kPictureWithin_s});
+    if (spec.name == "cockpit" && live) add({"--any-gamepad"});
+    if (spec.name == "cockpit" && live && demo) add({"--demo", config_path("drives/country_road_script.toml")});
+    if (spec.name == "cockpit" && live && demo && options.demo_at_once) add({"--demo-at-once"});
+    if (spec.name != "visual-0" || options.guide.empty()) continue;
+    add({"--guide", options.guide});
+    if (demo) add({"--demo"});
+    if (!options.out.empty()) add({"--report", (fs::path(options.out) / "index.html").string()});
+  }
 }
 
 /// A process that is killed while it writes its counts leaves <name>.json.tmp<process id>.
@@ -92,7 +145,7 @@ void remove_half_written(const fs::path& out, const std::vector<std::string>& pr
 void remove_earlier_output(const fs::path& out, const std::vector<std::string>& process_names) {
   std::error_code ignored;
   for (const char* file : {"report.json", "index.html", "drive.mp4", "contact_sheet.png", "drivers_view.png",
-                           "birds_eye.png", "wall_25m.png", "hdr.exr"}) {
+                           "birds_eye.png", "wall_25m.png", "hdr.exr", "eye.json"}) {
     fs::remove(out / file, ignored);
   }
   for (const std::string& name : process_names) fs::remove(out / (name + ".json"), ignored);
@@ -160,6 +213,7 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
     }
     specs.push_back(std::move(visual));
   }
+  add_person(rig, options, specs);
   return specs;
 }
 
@@ -253,7 +307,8 @@ void print_summary(const nlohmann::json& report, const std::string& out) {
   std::printf("%s\n", (fs::path(out) / "index.html").c_str());
 }
 
-int drive(DriveOptions& options) {
+/// `wish`: what the person at the window wants next, when that is how the drive came to its end.
+int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
   auto rig = prepare(options);
   if (!rig) return bad_input(rig.error());
   SimTime duration;
@@ -264,6 +319,14 @@ int drive(DriveOptions& options) {
     if (read->cut) spdlog::warn("{}: cut off, driving up to its last whole record", options.drive);
     duration = read->duration;
   }
+  std::optional<DerivedRig> derived;
+  if (options.lamps.any()) {
+    auto made_of_it = DerivedRig::for_drive(options.out);
+    if (!made_of_it) return bad_input(made_of_it.error());
+    derived.emplace(std::move(*made_of_it));
+  }
+  const fs::path given_rig = rig->file;
+  if (derived) rig->file = derived->file();
   const std::vector<ProcessSpec> specs = processes_of(*rig, options);
   DriveFacts facts;
   for (const ProcessSpec& spec : specs) facts.process_names.push_back(spec.name);
@@ -286,8 +349,18 @@ int drive(DriveOptions& options) {
     fs::create_directories(options.out, failed);
     if (failed) return bad_input({options.out, failed.message()});
     remove_earlier_output(options.out, facts.process_names);
+    remove_earlier_rig(options.out, given_rig);
+  }
+  if (derived) {
+    if (const Status status = derived->write(*rig, options.lamp_notes); !status) return bad_input(status.error());
   }
 
+  if (options.guide == "live")
+    spdlog::info(
+        "you drive, with the keys of the window or of this terminal: arrows, H high beam, F1 in the window for all");
+  WishReader wishes(*bus, options.guide == "replay");
+  std::optional<Clock::time_point> over_at;
+  bool after = false;  // a window that stays open after the end of a drive is not part of it
   Supervisor supervisor(specs);
   const auto begin = Clock::now();
   if (const Status status = supervisor.start(); !status) return bad_input(status.error());
@@ -295,9 +368,10 @@ int drive(DriveOptions& options) {
   std::size_t restarts_seen = 0;
   {
     Progress progress(frames_expected(options, *rig, duration));
-    while (!stop && supervisor.step()) {
+    while (!stop && !wish && supervisor.step()) {
       bus->wait(std::chrono::milliseconds(10));
       bus->poll();
+      if (!options.guide.empty()) wish = wishes.take();
       if (const auto report = bus->take<FrameReport>()) {
         const std::int64_t frame =
             report->value.frame_index >= 0
@@ -305,7 +379,9 @@ int drive(DriveOptions& options) {
                 : static_cast<std::int64_t>(report->sim_time.seconds() * static_cast<double>(rig->frame_rate_hz));
         progress.show(report->value, frame);
       }
-      if (recorder && recorded.ok()) recorded = recorder->poll();
+      if (wishes.drive_over() && !over_at) over_at = Clock::now();
+      after = !options.guide.empty() && over_at && Clock::now() - *over_at > std::chrono::milliseconds(500);
+      if (recorder && recorded.ok() && !after) recorded = recorder->poll();
       // What a process last said of itself, before the one that takes its place writes over it.
       for (; restarts_seen < supervisor.restarts().size(); ++restarts_seen) {
         const std::string& name = supervisor.restarts()[restarts_seen].process;
@@ -315,12 +391,13 @@ int drive(DriveOptions& options) {
   }
   // A visual process writes its pictures when it is told to end; give it the time.
   supervisor.end_all(std::chrono::seconds(stop ? 30 : 10));
-  if (recorder && recorded.ok()) recorded = recorder->poll();
+  if (recorder && recorded.ok() && !after) recorded = recorder->poll();
   facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   facts.exit_code = supervisor.exit_code();
   facts.why = supervisor.why();
   if (!recorded) return bad_input(recorded.error());
   if (recorder) spdlog::info("{} datagrams recorded in {}", recorder->written(), options.record);
+  if (facts.exit_code == kExitBadInput && derived && derived->file() != given_rig) derived->remove();
   if (facts.exit_code == kExitBadInput && !options.out.empty()) remove_traces(options.out, made, facts.process_names);
   // What was wrong with its input the process has said itself.
   if (facts.exit_code != kExitDone && facts.exit_code != kExitBadInput)
@@ -352,22 +429,51 @@ int drive(DriveOptions& options) {
   return facts.exit_code;
 }
 
+/// "out" and "evening.pcap" of the second drive in one window are "out-2" and "evening-2.pcap".
+std::string numbered(const std::string& path, int number) {
+  if (path.empty() || number == 1) return path;
+  const fs::path first(path);
+  return (first.parent_path() / (first.stem().string() + "-" + std::to_string(number) + first.extension().string()))
+      .string();
+}
+
+/// One drive, and those that the person at the window wants after it.
+int drive(DriveOptions& options) {
+  const std::string out = options.out, record = options.record;
+  for (int number = 1;; ++number) {
+    options.out = numbered(out, number);
+    options.record = numbered(record, number);
+    options.lamp_notes.clear();
+    std::optional<Wish> wish;
+    const int exit_code = drive_once(options, wish);
+    if (!wish || exit_code != kExitDone) return exit_code;
+    if (*wish == Wish::kAgain) continue;
+    options.drive.clear(), options.script.clear(), options.log.clear();
+    options.demo_at_once = *wish == Wish::kDemo;
+  }
+}
+
 }  // namespace
 
 void add_drive(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<DriveOptions>();
   CLI::App* command = app.add_subcommand("drive", "Drive a rig: in a window, or headless into a folder");
   command->footer(
+      "With a window and no drive named, you drive:\n" + key_list_text("  ") +
+      "A gamepad that is plugged in drives as well. More: docs/driving.md\n"
       "Examples:\n  phare drive\n  phare drive --headless --lockstep --frames 60 --out out\n"
-      "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap");
+      "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap\n"
+      "  phare drive --lamp led_low_beam.ies --lamp-high high_beam.ies --headless --lockstep --frames 60 --out own\n" +
+      std::string(kLampFlagsHelp));
   command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
   auto* drive_file =
-      command->add_option("--drive", options->drive, "Drive file to replay [the demo drive, when it is there]");
+      command->add_option("--drive", options->drive, "Drive file to replay [without a window: the demo drive]");
   auto* script = command->add_option("--script", options->script, "Script for the driver model")->excludes(drive_file);
   command->add_option("--log", options->log, "candump log that moves the controls")
       ->excludes(drive_file)
       ->excludes(script);
   command->add_option("--dbc", options->dbc, "DBC file for --log [the cockpit file's]");
+  add_lamp_flags(command, options->lamps);
   command->add_option("--cockpit", options->cockpit,
                       "Cockpit file, instead of the rig's: which signals move the controls");
   command->add_flag("--headless", options->headless, "No window (also when there is no display)");

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "config/input_files.h"
 #include "config/rig.h"
 #include "net/drive_file.h"
 #include "net/wire.h"
@@ -43,6 +44,11 @@ Status write_drive(const std::vector<Datagram>& datagrams, const std::filesystem
 
 int import_drive(ImportArguments& arguments) {
   ImportOptions& options = arguments.import;
+  if (const Status apart = check_inputs(
+          {options.can_log.string(), options.dbc.string(), options.pose.string(), arguments.rig_file, arguments.onto},
+          {arguments.out});
+      !apart)
+    return bad_input(apart.error());
   const auto rig = read_rig(arguments.rig_file);
   if (!rig) return bad_input(rig.error());
   auto vehicle = read_vehicle(rig->vehicle_file);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "config/input_files.h"
 #include "config/remedies.h"
 #include "config/rig.h"
 #include "tools/commands.h"
@@ -14,6 +15,7 @@
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/illuminance.h"
 #include "visual/photometry/image_levels.h"
+#include "visual/photometry/lamp_aim.h"
 #include "visual/photometry/lamp_tables.h"
 #include "visual/photometry/points_file.h"
 #ifdef PHARE_WITH_GRAPHICS
@@ -48,6 +50,16 @@ double limit_of(const MeasureOptions& options) {
 
 constexpr std::array<const char*, 6> kFunctionNames{"position", "low", "high", "fog", "daytime", "cornering"};
 
+Result<LampTables> read_tables(const std::vector<LampConfig>& lamps) {
+  LampTables tables;
+  for (const LampConfig& lamp : lamps) {
+    for (const SourceConfig& source : lamp.sources) {
+      if (const Status read = tables.add(source); !read) return read.error();
+    }
+  }
+  return tables;
+}
+
 /// Lamps of a design with only the sources that are lit.
 Result<std::vector<LampConfig>> lamps_of_rig(const MeasureOptions& options) {
   const auto rig = read_rig(options.rig_file);
@@ -67,6 +79,12 @@ Result<std::vector<LampConfig>> lamps_of_rig(const MeasureOptions& options) {
   if (design == nullptr) return Error{"--design " + options.design, "the rig has " + names};
   std::vector<LampConfig> lamps;
   for (LampConfig lamp : design->lamps) {
+    // All of a lamp's sources turn by what its low beam calls for, whichever are lit.
+    if (lamp.aim.kind != AimConfig::Kind::kAsFiled) {
+      const auto tables = read_tables({lamp});
+      if (!tables) return tables.error();
+      aim_lamp(lamp, *tables);
+    }
     std::erase_if(lamp.sources, [&](const SourceConfig& source) { return !lit.contains(source.function); });
     if (!lamp.sources.empty()) lamps.push_back(std::move(lamp));
   }
@@ -84,16 +102,6 @@ Result<std::vector<LampConfig>> chosen_lamps(const MeasureOptions& options) {
     lamps.push_back(std::move(*lamp));
   }
   return lamps;
-}
-
-Result<LampTables> read_tables(const std::vector<LampConfig>& lamps) {
-  LampTables tables;
-  for (const LampConfig& lamp : lamps) {
-    for (const SourceConfig& source : lamp.sources) {
-      if (const Status read = tables.add(source); !read) return read.error();
-    }
-  }
-  return tables;
 }
 
 /// float64 from the tables themselves. The car stands at the world's origin.
@@ -171,7 +179,7 @@ Result<std::vector<Illuminance>> measure_points(const MeasureOptions& options, c
 #endif
 }
 
-/// Every column of a reference table that an LM-63 file answers for.
+/// Every column of a reference table that a photometry file answers for.
 int measure_table(const MeasureOptions& options) {
   const auto cases = read_reference_table(options.table);
   if (!cases) return bad_input(cases.error());
@@ -217,6 +225,15 @@ int measure_table(const MeasureOptions& options) {
 }
 
 int measure(const MeasureOptions& options) {
+  std::vector<std::string> inputs{options.points, options.rig_file};
+  for (const std::string& text : options.lamps) {
+    auto lamp = parse_lamp_argument(text);
+    if (!lamp) return bad_input(lamp.error());
+    // Two lamps may share one file, standard input too: it is read once.
+    const std::string file = lamp->sources.front().file.string();
+    if (std::find(inputs.begin() + 2, inputs.end(), file) == inputs.end()) inputs.push_back(file);
+  }
+  if (const Status apart = check_inputs(inputs, {options.out}); !apart) return bad_input(apart.error());
   if (!options.table.empty()) return measure_table(options);
   if (options.points.empty() || options.out.empty())
     return bad_input({"", "give --points FILE and --out FILE, or --table FILE of a reference set"});
@@ -268,8 +285,11 @@ void add_measure(CLI::App& app, Command& chosen) {
   command->add_option("--rig", options->rig_file, "Rig file whose lamps are measured; the car stands at the origin");
   command
       ->add_option("--lamp", options->lamps,
-                   "FILE,x=1.5,y=0.6,z=0.65[,yaw_deg=0][,pitch_deg=-0.573][,roll_deg=0][,axis=gamma0|gamma90][,scale=1]"
-                   "; repeat for more")
+                   "FILE,x=1.5,y=0.6,z=0.65[,KEY=VALUE…]; repeat for more. Position in m; yaw_deg (left positive), "
+                   "pitch_deg (up positive), roll_deg [0]; scale [1]; mirror=1 turns left and right round; for type C "
+                   "and EULUMDAT axis=gamma0|gamma90 and c0_deg [0], where the file's plane C 0 lies; lamp_set "
+                   "(EULUMDAT) and emitter (TM-33) count from 1; distance_m for a CSV in lx that states none. A file "
+                   "name may hold commas; one that holds \",word=\" stands in double quotes, a quote in it doubled")
       ->allow_extra_args(false);
   command->add_option("--design", options->design, "Design of the rig [its first]");
   command
@@ -278,12 +298,12 @@ void add_measure(CLI::App& app, Command& chosen) {
       ->delimiter(',')
       ->check(CLI::IsMember({"position", "low", "high", "fog", "daytime", "cornering"}))
       ->capture_default_str();
-  auto* points = command->add_option("--points", options->points, "Points file");
+  auto* points = command->add_option("--points", options->points, "Points file; \"-\" is standard input");
   command->add_option("--out", options->out, "File to write");
   command
       ->add_option("--table", options->table,
                    "Instead of points: a table of a photometry reference set (manifest.json beside it), held against "
-                   "every LM-63 file it knows; exit 1 when one is further off than --max-error")
+                   "every photometry file it knows; exit 1 when one is further off than --max-error")
       ->excludes(points);
   command
       ->add_option("--max-error", options->max_error,

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 
+#include "config/input_files.h"
 #include "net/clock.h"
 #include "net/stats.h"
 #include "tools/commands.h"
@@ -19,6 +20,7 @@ struct RecordOptions {
 };
 
 int record(const RecordOptions& options) {
+  if (const Status apart = check_inputs({options.rig_file}, {options.out}); !apart) return bad_input(apart.error());
   auto rig = read_rig(options.rig_file);
   if (!rig) return bad_input(rig.error());
   if (options.port_base != 0) rig->port_base = options.port_base;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 
 #include "tools/csv_columns.h"
 
@@ -19,18 +21,25 @@ glm::dvec3 vector_of(const json& xyz) {
   return {xyz.at(0).get<double>(), xyz.at(1).get<double>(), xyz.at(2).get<double>()};
 }
 
-/// A file of the set. A type C table whose C 0 is not where ours is by default is mounted turned about its axis.
+/// How a file of the set is read. A type C table is read with its axis and with its plane C 0 where the frame has it;
+/// one that counts C clockwise is read as the mirror image that it is. A frame that no setting reaches is an error.
 SourceConfig source_of(const json& file, const std::filesystem::path& folder) {
   SourceConfig source;
   source.file = folder / file.at("file").get<std::string>();
   if (!file.contains("frame_in_lamp_axes")) return source;
   const json& frame = file.at("frame_in_lamp_axes");
   const glm::dvec3 c0 = vector_of(frame.at("c0")), g0 = vector_of(frame.at("g0"));
-  if (g0.z < -0.5) {
-    source.axis = GammaAxis::kGamma90;
-  } else {
-    source.roll_rad = std::atan2(-c0.z, -c0.y);  // our own reading has C 0 to the right, (0, -1, 0)
-  }
+  const glm::dvec3 c90 = frame.contains("c90") ? vector_of(frame.at("c90")) : glm::cross(c0, g0);
+  const auto along = [](const glm::dvec3& a, const glm::dvec3& b) { return glm::dot(a, b) > 1.0 - 1e-9; };
+  const bool down = along(g0, {0, 0, -1});
+  source.mirror = along(c90, -glm::cross(c0, g0));
+  if ((!down && !along(g0, {1, 0, 0})) || (!source.mirror && !along(c90, glm::cross(c0, g0))))
+    throw std::invalid_argument(source.file.filename().string() + ": no axis and c0 give this frame");
+  source.axis = down ? GammaAxis::kGamma90 : GammaAxis::kGamma0;
+  // C 0 as an angle of ours: gamma 0 ahead has 0 right and 90 up; gamma 90 ahead has 0 ahead and 90 left.
+  const double c0_deg = (down ? std::atan2(c0.y, c0.x) : std::atan2(c0.z, -c0.y)) / kRadPerDeg;
+  // The reader turns first and mirrors then: gamma0 C to 180 - C, gamma90 C to -C.
+  source.c0_turn_deg = !source.mirror ? c0_deg : down ? -c0_deg : 180.0 - c0_deg;
   return source;
 }
 
@@ -45,15 +54,11 @@ std::vector<LampConfig> mounted(const json& manifest, const std::string& beam, c
     SourceConfig source = source_of(manifest.at("files").at(key), folder);
     source.yaw_rad = mount.at("yaw_deg").get<double>() * kRadPerDeg;
     source.pitch_rad = mount.at("pitch_deg").get<double>() * kRadPerDeg;
-    source.roll_rad += mount.at("roll_deg").get<double>() * kRadPerDeg;
+    source.roll_rad = mount.at("roll_deg").get<double>() * kRadPerDeg;
     lamp.sources.push_back(source);
     lamps.push_back(std::move(lamp));
   }
   return lamps;
-}
-
-bool is_lm63(const json& files, const std::string& key) {
-  return files.contains(key) && files.at(key).at("file").get<std::string>().ends_with(".ies");
 }
 
 std::vector<PointRow> points_of(const std::vector<std::vector<double>>& xyz, const glm::dvec3& normal) {
@@ -79,7 +84,7 @@ Result<std::vector<ReferenceCase>> plane_cases(const std::filesystem::path& tabl
   std::vector<ReferenceCase> cases;
   for (const auto& [key, file] : manifest.at("files").items()) {
     const std::string column = key == primary ? "E" : "E[" + key + "]";
-    if (file.value("beam", "") != beam || !is_lm63(manifest.at("files"), key)) continue;
+    if (file.value("beam", "") != beam) continue;
     const auto expected = read_csv_columns(table, std::vector<std::string>{column});
     if (!expected) return expected.error();
     cases.push_back({column, mounted(manifest, beam, key, table.parent_path()), points, expected->front()});
@@ -110,7 +115,6 @@ Result<std::vector<ReferenceCase>> intensity_cases(const std::filesystem::path& 
   std::vector<ReferenceCase> cases;
   for (std::size_t i = 0; i < columns->front().size() && std::getline(stream, line); ++i) {
     const std::string key = line.substr(0, line.find(','));
-    if (!is_lm63(manifest.at("files"), key)) continue;
     if (cases.empty() || cases.back().column != key) {
       LampConfig lamp;
       lamp.name = key;
@@ -150,6 +154,8 @@ Result<std::vector<ReferenceCase>> read_reference_table(const std::filesystem::p
     if (const auto beam = after(name, "a_road_flat_")) return plane_cases(table, manifest, *beam, false);
     if (const auto beam = after(name, "b_wall25_")) return plane_cases(table, manifest, *beam, true);
   } catch (const json::exception& wrong) {
+    return Error{manifest_file.string(), wrong.what()};
+  } catch (const std::invalid_argument& wrong) {
     return Error{manifest_file.string(), wrong.what()};
   }
   return Error{table.string(), "is none of 0_intensity, a_road_flat_<beam>, b_wall25_<beam>, c_plates"};

@@ -1,5 +1,5 @@
 // Tables of a photometry reference set (manifest.json beside them): which lamps shine, where the points lie, what each
-// of the set's LM-63 files must give there. For phare measure --table.
+// of the set's photometry files must give there. For phare measure --table.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +21,8 @@ struct ReferenceCase {
   std::vector<double> expected_lx;
 };
 
-/// Knows 0_intensity (candela as lux at 1 m), a_road_flat_<beam>, b_wall25_<beam> and c_plates. Columns of formats
-/// other than LM-63 are passed over. Error with file:line when a table or the manifest is malformed.
+/// Knows 0_intensity (candela as lux at 1 m), a_road_flat_<beam>, b_wall25_<beam> and c_plates, with a case
+/// for every file of the beam in whatever format. Error with file:line when a table or the manifest is malformed.
 Result<std::vector<ReferenceCase>> read_reference_table(const std::filesystem::path& table);
 
 /// How far measured values are from a case.

@@ -4,11 +4,10 @@
 #include <chrono>
 #include <ctime>
 #include <fstream>
-#include <map>
 
 #include "config/commit.h"
 #include "config/content_hash.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/lamp_tables.h"
 
 namespace phare {
 namespace {
@@ -34,26 +33,32 @@ const char* function_name(LampFunction function) {
   return kNames[static_cast<std::size_t>(function)];
 }
 
+/// Each source as it shines: flux and peak with its scale, of the table that its settings choose from the file.
 json lamps_of(const Rig& rig) {
   json lamps = json::array();
-  std::map<std::string, json> known;  // a file in several lamps is read once
+  LampTables tables;
   for (const DesignConfig& design : rig.designs) {
     for (const LampConfig& lamp : design.lamps) {
       for (const SourceConfig& source : lamp.sources) {
-        auto [at, fresh] = known.try_emplace(source.file.string());
-        if (fresh) {
-          at->second = {{"file", source.file.filename().string()}};
-          if (const auto table = read_lamp(source.file, {.axis = source.axis, .folder = {}})) {
-            at->second["content_hash"] = table->content_hash;
-            at->second["flux_lm"] = table->flux_lm();
-            at->second["peak_cd"] = table->peak_cd();
-          }
+        json row{{"file", source.file.filename().string()}};
+        if (const Status read = tables.add(source); !read) {
+          row["error"] = read.error().text();
+        } else {
+          const IntensityTable& table = tables.of(source);
+          row["content_hash"] = table.content_hash;
+          row["flux_lm"] = source.scale * table.flux_lm();
+          row["peak_cd"] = source.scale * table.peak_cd();
         }
-        json row = at->second;
         row["design"] = design.name;
         row["lamp"] = lamp.name;
         row["function"] = function_name(source.function);
         row["scale"] = source.scale;
+        // What else the source says about its file, where that is not what a file has by itself.
+        if (source.lamp_set != 1) row["lamp_set"] = source.lamp_set;
+        if (source.emitter != 1) row["emitter"] = source.emitter;
+        if (source.mirror) row["mirror"] = true;
+        if (source.c0_turn_deg != 0.0) row["c0_deg"] = source.c0_turn_deg;
+        if (source.axis == GammaAxis::kGamma90) row["axis"] = "gamma90";
         lamps.push_back(std::move(row));
       }
     }

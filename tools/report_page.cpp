@@ -247,6 +247,13 @@ class Page {
             << short_hash(lamp.value("content_hash", "")) << "</code></td></tr>";
     }
     page_ << "</table></div>";
+    const json visual = report_["processes"].value("visual-0", json::object());
+    for (const json& aim : visual.value("aims", json::array()))
+      page_ << "<p>" << value_text(aim, "design") << ", " << value_text(aim, "lamp") << ": " << value_text(aim, "text")
+            << ".</p>";
+    for (const json& end : visual.value("table_ends", json::array()))
+      page_ << "<p class=\"bad\">" << value_text(end, "design") << ", " << value_text(end, "text")
+            << "; it is drawn dark, as the file says nothing there.</p>";
   }
 
   void inputs() {

@@ -33,6 +33,7 @@ struct Options {
   std::string rig_file, drive_file, stats_file, level, log_level = "info";
   std::optional<std::uint16_t> port_base;
   bool lockstep = false;
+  double picture_within_s = 0.0;  // real time: begin when every picture is ready, after so long at the latest
 };
 
 // What the run starts from: the setup, and the car at simulated time 0.
@@ -259,18 +260,26 @@ class Process {
     return true;
   }
 
-  // A visual that has drawn the car before us shows where to go on; without one it starts anew.
+  // A visual that has drawn the car before us shows where to go on; without one it starts anew, once every visual has
+  // said that its picture is ready. One that never does so does not hold the drive up for ever.
   void begin_in_real_time(Begin begin) {
-    const auto until = Clock::now() + std::chrono::milliseconds(200);
+    const auto look_for = std::chrono::milliseconds(200);
+    const auto picture_within = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(std::max(options_.picture_within_s, 0.0)));
+    const auto start = Clock::now(), until = start + std::max<Clock::duration>(look_for, picture_within);
     while (!stop_ && Clock::now() < until) {
       bus_.wait(std::chrono::milliseconds(10));
       bus_.poll();
+      stats_once_a_second();
       for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
         const auto* report = bus_.newest<FrameReport>(channel);
         if (report && !report->value.drawn.level.empty())
           return begin_at(std::move(begin), report->sim_time, report->value.drawn);
       }
+      if (picture_within.count() > 0 && everyones_newest_frame()) break;
     }
+    if (picture_within.count() > 0 && !stop_ && !everyones_newest_frame())
+      spdlog::warn("no picture within {:.0f} s: the drive begins without it", options_.picture_within_s);
     loop_.emplace(std::move(begin.setup), begin.state);
   }
 
@@ -324,7 +333,7 @@ class Process {
   std::string time_text() const {
     if (!loop_) return {};
     char text[40];
-    std::snprintf(text, sizeof text, " at %.3f s", loop_->time().seconds());
+    std::snprintf(text, sizeof text, " at %.3f s", requests_.seek_s.value_or(loop_->time().seconds()));
     return text;
   }
 
@@ -420,6 +429,9 @@ int run(int argc, char** argv) {
                  "Drive file to replay (pose) or to take the first pose from (kinematic)");
   app.add_option("--level", options.level,
                  "Model: pose, kinematic, single-track, full, auto (default: the rig's; batch: full)");
+  app.add_option("--wait-for-picture", options.picture_within_s,
+                 "In real time: begin when every picture is ready, after so many seconds at the latest")
+      ->check(CLI::Range(0.0, 3600.0));
   app.add_option("--stats", options.stats_file, "Write counters and times to this JSON file every second");
   app.add_option("--log-level", options.log_level, "How much to tell")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));

@@ -1,6 +1,7 @@
 #include "visual/beam_packing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -37,7 +38,8 @@ struct EvenAxis {
   }
 };
 
-// Angles as written, in millionths of a degree; nothing if one is not whole.
+// Angles as written, in millionths of a degree (of a screen: places in millionths of a metre); nothing if one is not
+// whole.
 std::optional<std::vector<std::int64_t>> in_millionths(const std::vector<double>& nodes_deg) {
   std::vector<std::int64_t> nodes;
   for (double node : nodes_deg) {
@@ -111,33 +113,45 @@ bool dark_at_its_edge(const std::vector<float>& candela, std::size_t columns) {
   return true;
 }
 
-// Candela of texels, from the nodes about each.
-void fill(PackedBeam& packed, const BeamImage& image, const TexelRect& part) {
+// Values of texels, from the nodes about each. Wide: what float32 values are weighed in.
+template <typename Wide, typename Value>
+void fill_values(const PackedBeam& packed, const BeamImage& image, const std::vector<Value>& nodes,
+                 std::vector<Value>& texels, const TexelRect& part) {
   const std::size_t columns = image.first_deg.size();
   const std::size_t across = packed.transposed ? columns : 1,
                     along = packed.transposed ? 1 : columns;  // steps to the next column and row of the packed image
+  // What is bilinear: candela, and on a screen candela over its factor.
+  const bool screen = !packed.column_tangents.empty();
+  const auto value = [&](std::size_t column, std::size_t row) {
+    const auto cd = static_cast<Wide>(nodes[row * along + column * across]);
+    return screen ? cd / screen_factor(packed.column_tangents[column], packed.row_tangents[row]) : cd;
+  };
   for (std::size_t j = part.row; j < part.end_row; ++j) {
     const auto [row, t] = packed.row_places[j];
     for (std::size_t i = part.column; i < part.end_column; ++i) {
       const auto [column, s] = packed.column_places[i];
-      const float* node = &image.candela[row * along + column * across];
-      float& texel = packed.candela[j * packed.columns + i];
+      Value& texel = texels[j * packed.columns + i];
       if (s == 0.0 && t == 0.0) {
-        texel = *node;
+        texel = static_cast<Value>(value(column, row));
         continue;
       }
-      const std::size_t right = s > 0.0 ? across : 0, up = t > 0.0 ? along : 0;
-      const double low = (1.0 - s) * static_cast<double>(node[0]) + s * static_cast<double>(node[right]);
-      const double high = (1.0 - s) * static_cast<double>(node[up]) + s * static_cast<double>(node[up + right]);
-      texel = static_cast<float>((1.0 - t) * low + t * high);
+      const std::size_t right = s > 0.0 ? column + 1 : column, up = t > 0.0 ? row + 1 : row;
+      const Wide low = (1.0 - s) * value(column, row) + s * value(right, row);
+      const Wide high = (1.0 - s) * value(column, up) + s * value(right, up);
+      texel = static_cast<Value>((1.0 - t) * low + t * high);
     }
   }
 }
+void fill(PackedBeam& packed, const BeamImage& image, const TexelRect& part) {
+  fill_values<double>(packed, image, image.candela, packed.candela, part);
+  if (packed.tinted()) fill_values<glm::dvec2>(packed, image, image.tints, packed.tints, part);
+}
 
-void describe_even(PackedBeam& packed, const EvenAxis& first, const EvenAxis& second, bool turn) {
-  const auto per_rad = [](const EvenAxis& axis) { return 180e6 / std::numbers::pi / static_cast<double>(axis.step); };
-  packed.nodes = turn ? glm::vec4(per_rad(first), per_rad(second), kOctant / first.step, kOctant / second.step)
-                      : glm::vec4(per_rad(first), per_rad(second), first.fine, second.fine);
+// `per_unit`: millionths in what the shader counts in, a radian or a screen's tangent.
+void describe_even(PackedBeam& packed, const EvenAxis& first, const EvenAxis& second, bool turn, double per_unit) {
+  const double a = per_unit / static_cast<double>(first.step), b = per_unit / static_cast<double>(second.step);
+  packed.nodes =
+      turn ? glm::vec4(a, b, kOctant / first.step, kOctant / second.step) : glm::vec4(a, b, first.fine, second.fine);
   packed.inverse_coarse = 1.0f / static_cast<float>(first.coarse);
   // A gather midway between node i and the next finds both: at (i - first + 1) texels.
   const double width = static_cast<double>(first.count + 1), height = static_cast<double>(second.count + 1);
@@ -146,9 +160,9 @@ void describe_even(PackedBeam& packed, const EvenAxis& first, const EvenAxis& se
   packed.within = {first.first, first.first + first.count - 1, second.first, second.first + second.count - 1};
 }
 
-// A texture coordinate for each radian of the table's range: texel centres at its ends.
-void describe_filter(PackedBeam& packed) {
-  packed.nodes = packed.range * static_cast<float>(std::numbers::pi / 180.0);
+// A texture coordinate for each radian (of a screen: tangent) of the table's range: texel centres at its ends.
+void describe_filter(PackedBeam& packed, double units_of_range) {
+  packed.nodes = packed.range * static_cast<float>(units_of_range);
   const double width = kFilterColumns, height = kFilterRows;
   const double u = (width - 1) / width / static_cast<double>(packed.nodes.y - packed.nodes.x),
                v = (height - 1) / height / static_cast<double>(packed.nodes.w - packed.nodes.z);
@@ -190,6 +204,12 @@ Guide make_guide(const std::vector<double>& nodes_deg) {
   return guide;
 }
 
+// Texels are the table's own nodes.
+void keep_nodes(PackedBeam& packed, std::size_t columns, std::size_t rows) {
+  for (std::size_t i = 0; i < columns; ++i) packed.column_places.push_back({i, 0.0});
+  for (std::size_t j = 0; j < rows; ++j) packed.row_places.push_back({j, 0.0});
+}
+
 void make_guides(PackedBeam& packed, const std::vector<double>& first_deg, const std::vector<double>& second_deg) {
   Guide first = make_guide(first_deg);
   const Guide second = make_guide(second_deg);
@@ -198,6 +218,45 @@ void make_guides(PackedBeam& packed, const std::vector<double>& first_deg, const
   packed.guide = std::move(first.bins);
   packed.guide.insert(packed.guide.end(), second.bins.begin(), second.bins.end());
   packed.guide.resize((packed.guide.size() + shader::kGuideRow - 1) / shader::kGuideRow * shader::kGuideRow);
+}
+
+// A flat screen: evenly in metres where its nodes lie so, else through a guide. Guides are made for angles, so tangents
+// are scaled into the 45° about 0.
+void place_screen(PackedBeam& packed, double distance_m, bool filtered) {
+  const std::vector<double>&first = packed.column_tangents, &second = packed.row_tangents;
+  packed.range = {first.front(), first.back(), second.front(), second.back()};
+  if (filtered) {
+    packed.lookup = shader::kLookupFilterScreen;
+    packed.column_places = places_between_ends(first, kFilterColumns);
+    packed.row_places = places_between_ends(second, kFilterRows);
+    describe_filter(packed, 1.0);
+    return;
+  }
+  const auto scaled = [](std::vector<double> nodes, double factor) {
+    for (double& node : nodes) node *= factor;
+    return nodes;
+  };
+  const std::vector<double> y_m = scaled(first, distance_m), z_m = scaled(second, distance_m);
+  const auto y_millionths = in_millionths(y_m), z_millionths = in_millionths(z_m);
+  if (y_millionths && z_millionths) {
+    const auto y = even_axis(*y_millionths, 1, false), z = even_axis(*z_millionths, 1, false);
+    if (y && z && y->count * z->count <= kMaxEvenImage) {
+      packed.lookup = shader::kLookupScreen;
+      packed.column_places = places_on(y_m, *y);
+      packed.row_places = places_on(z_m, *z);
+      describe_even(packed, *y, *z, false, 1e6 * distance_m);
+      return;
+    }
+  }
+  packed.lookup = shader::kLookupScreenGuide;
+  const auto scale = [](const std::vector<double>& nodes) {
+    return 22.4 / std::max(std::abs(nodes.front()), std::abs(nodes.back()));
+  };
+  const double a = scale(first), b = scale(second);
+  keep_nodes(packed, first.size(), second.size());
+  packed.nodes = {a, b, 0.0, 0.0};
+  packed.range = {first.front() * a, first.back() * a, second.front() * b, second.back() * b};
+  make_guides(packed, scaled(first, a), scaled(second, b));
 }
 
 // Candela of 1.0 in the texture. The largest half float is 65,504.
@@ -245,26 +304,34 @@ PackedBeam pack_beam(const BeamImage& image, ImageLevel level) {
     for (double& gamma_deg : second) gamma_deg -= 90.0;  // second = gamma - 90
   packed.range = {first.front(), first.back(), second.front(), second.back()};
 
-  if (filtered) {
+  if (image.screen_distance_m > 0.0) {
+    const auto tangents = [](std::vector<double> nodes) {
+      for (double& node : nodes) node = std::tan(node * std::numbers::pi / 180.0);
+      return nodes;
+    };
+    packed.column_tangents = tangents(first);
+    packed.row_tangents = tangents(second);
+    place_screen(packed, image.screen_distance_m, filtered);
+  } else if (filtered) {
     packed.lookup = ahead ? shader::kLookupFilterAhead : shader::kLookupFilter;
     packed.column_places = places_between_ends(first, kFilterColumns);
     packed.row_places = places_between_ends(second, kFilterRows);
-    describe_filter(packed);
+    describe_filter(packed, std::numbers::pi / 180.0);
   } else if (even) {
     packed.lookup = turn ? shader::kLookupTurn : shader::kLookupAhead;
     packed.column_places = places_on(first, even->first);
     packed.row_places = places_on(second, even->second);
-    describe_even(packed, even->first, even->second, turn);
+    describe_even(packed, even->first, even->second, turn, 180e6 / std::numbers::pi);
   } else {
     packed.lookup = shader::kLookupGuide;
-    for (std::size_t i = 0; i < first.size(); ++i) packed.column_places.push_back({i, 0.0});
-    for (std::size_t j = 0; j < second.size(); ++j) packed.row_places.push_back({j, 0.0});
+    keep_nodes(packed, first.size(), second.size());
     make_guides(packed, first, second);
   }
   const std::uint32_t zeros = filtered ? 0 : 1;
   packed.columns = static_cast<std::uint32_t>(packed.column_places.size()) + zeros;
   packed.rows_of_candela = static_cast<std::uint32_t>(packed.row_places.size()) + zeros;
   packed.candela.assign(std::size_t{packed.columns} * packed.rows_of_candela, 0.0f);
+  if (!image.tints.empty()) packed.tints.assign(packed.candela.size(), glm::vec2(0.0f));
   packed.scale_cd = scale_for(level, image);
   fill(packed, image, {0, 0, packed.column_places.size(), packed.row_places.size()});
   if (packed.lookup == shader::kLookupAhead && dark_at_its_edge(image.candela, image.first_deg.size()))
@@ -278,7 +345,8 @@ TexelRect pack_again(PackedBeam& packed, const BeamImage& image, const TexelRect
   const bool edge_lit =
       packed.lookup == shader::kLookupDark && !dark_at_its_edge(image.candela, image.first_deg.size());
   const bool too_bright = !packed.candela.empty() && scale_for(packed.level, image) > packed.scale_cd;
-  if (packed.candela.empty() || edge_lit || too_bright) {
+  const bool recoloured = packed.tinted() == image.tints.empty();
+  if (packed.candela.empty() || edge_lit || too_bright || recoloured) {
     packed = pack_beam(image, packed.level);
     return {0, 0, packed.columns, packed.rows_of_candela};
   }
@@ -325,6 +393,21 @@ std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& part
     case ImageLevel::kFloatNodes:
       put_rows([](float cd) { return cd; });
       break;
+  }
+  return bytes;
+}
+
+std::vector<std::byte> tint_texels_of(const PackedBeam& packed, const TexelRect& part) {
+  const bool whole = packed.level == ImageLevel::kFloatNodes;
+  std::vector<std::byte> bytes(part.texels() * (whole ? 8 : 4));
+  std::byte* out = bytes.data();
+  for (std::size_t j = part.row; j < part.end_row; ++j) {
+    for (std::size_t i = part.column; i < part.end_column; ++i) {
+      const glm::vec2 tint = packed.tints[j * packed.columns + i] / packed.tint_scale();
+      const std::array half{half_from_float(tint.x), half_from_float(tint.y)};
+      std::memcpy(out, whole ? static_cast<const void*>(&tint) : half.data(), whole ? sizeof tint : sizeof half);
+      out += whole ? sizeof tint : sizeof half;
+    }
   }
   return bytes;
 }

@@ -1,11 +1,13 @@
 // A beam image as the shaders read it. Where the nodes of both axes are multiples of a fine step near 0° and of a
 // coarse one beyond, on that even grid: every node of the table is one of it, so bilinear interpolation on it is that
-// of the table. Else on the native nodes, with a guide that finds the node of an angle in one fetch. Cheaper levels lie
-// on a fixed even grid and leave the weights to the texture filter.
+// of the table. Else on the native nodes, with a guide that finds the node of an angle in one fetch. A flat screen
+// keeps its nodes too, by their tangents: evenly in metres, or through a guide. Cheaper levels lie on a fixed even grid
+// and leave the weights to the texture filter.
 #pragma once
 
 #include <cstdint>
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
@@ -37,14 +39,21 @@ struct PackedBeam {
   glm::dmat3 rows{1.0};  ///< the axes of the image that the shader's rows a, b, c are: columns in the image frame
                          ///< (forward, left, up)
   glm::vec3 colour{1.0f};
+  std::vector<glm::vec2> tints;  ///< candela times red and times blue, as `candela`; empty: all light has `colour`
   bool dark = true;
   // Where the texels come from, to pack a part again.
   bool transposed = false;
   std::vector<NodePlace> column_places, row_places;
+  std::vector<double> column_tangents, row_tangents;  ///< of a flat screen's nodes; else empty
 
   bool filtered() const { return lookup >= shader::kLookupFilter; }
+  bool tinted() const { return !tints.empty(); }
+  /// What a texel of colour is multiplied by. Half floats leave room for the bluest light there is: 1/0.0722 of its
+  /// luminance.
+  float tint_scale() const { return level == ImageLevel::kFloatNodes ? 1.0f : 16.0f * scale_cd; }
   /// The four bits of this lamp in the shader's `lookups`: kind, and whether candela have to be scaled.
-  std::uint32_t lookup_bits() const { return lookup | (scale_cd != 1.0f ? shader::kLookupScaled : 0u); }
+  std::uint32_t lookup_bits() const { return lookup | (scale_cd != 1.0f && !filtered() ? shader::kLookupScaled : 0u); }
+  bool guided() const { return lookup == shader::kLookupGuide || lookup == shader::kLookupScreenGuide; }
   /// What the texture takes.
   std::size_t bytes_per_texel() const {
     return level == ImageLevel::kFloatNodes ? 4 : level == ImageLevel::kNormalised8 ? 1 : 2;
@@ -64,5 +73,7 @@ TexelRect pack_again(PackedBeam& packed, const BeamImage& image, const TexelRect
 
 /// The texels of a part as the texture holds them, row by row.
 std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& part);
+/// The same of its colour: two float32 a texel, two half floats at the cheaper levels.
+std::vector<std::byte> tint_texels_of(const PackedBeam& packed, const TexelRect& part);
 
 }  // namespace phare

@@ -52,6 +52,17 @@ bool BeamStore::fit(gpu::Image& image, vk::Format format, std::uint32_t width, s
   return true;
 }
 
+void BeamStore::upload_tints(Beam& beam) {
+  for (const TexelRect& part : beam.changed) {
+    const vk::BufferImageCopy copy{
+        .imageSubresource = {beam.tint.aspect, 0, 0, 1},
+        .imageOffset = {static_cast<std::int32_t>(part.column), static_cast<std::int32_t>(part.row), 0},
+        .imageExtent = {static_cast<std::uint32_t>(part.end_column - part.column),
+                        static_cast<std::uint32_t>(part.end_row - part.row), 1}};
+    gpu::fill_image(device_, beam.tint, tint_texels_of(beam.packed, part), std::span(&copy, 1));
+  }
+}
+
 void BeamStore::upload_parts(Beam& beam) {
   std::vector<std::byte> texels;
   std::vector<vk::BufferImageCopy> copies;
@@ -78,8 +89,15 @@ bool BeamStore::upload() {
     if (all) beam.changed = {{0, 0, beam.packed.columns, beam.packed.rows_of_candela}};
     new_images |= fit(beam.candela, format_of(beam.packed.level), beam.packed.columns, beam.packed.rows_of_candela,
                       "beam candela");
+    if (beam.packed.tinted()) {
+      const auto format =
+          beam.packed.level == ImageLevel::kFloatNodes ? vk::Format::eR32G32Sfloat : vk::Format::eR16G16Sfloat;
+      new_images |= fit(beam.tint, format, beam.packed.columns, beam.packed.rows_of_candela, "beam colour");
+      upload_tints(beam);
+    }
+    new_images |= beam.packed.tinted() != std::exchange(beam.tint_shown, beam.packed.tinted());
     upload_parts(beam);
-    if (!all || beam.packed.lookup != shader::kLookupGuide) continue;
+    if (!all || !beam.packed.guided()) continue;
     const auto guide_rows = static_cast<std::uint32_t>(beam.packed.guide.size() / shader::kGuideRow);
     new_images |= fit(beam.guide, vk::Format::eR32G32B32A32Sfloat, shader::kGuideRow, guide_rows, "beam guide");
     gpu::fill_image(device_, beam.guide, std::as_bytes(std::span(beam.packed.guide)));
@@ -89,7 +107,7 @@ bool BeamStore::upload() {
 
 void BeamStore::describe(std::size_t index, shader::GpuLamp& lamp) const {
   const PackedBeam& beam = beams_.at(index).packed;
-  lamp.colour = {beam.colour.x, beam.colour.y, beam.colour.z, beam.scale_cd};
+  lamp.colour = glm::vec4(beam.tinted() ? glm::vec3(beam.tint_scale()) : beam.colour, beam.scale_cd);
   lamp.position.w = beam.filtered() ? beam.scale_cd : beam.inverse_coarse;
   lamp.nodes = beam.nodes;
   lamp.coordinates = beam.coordinates;

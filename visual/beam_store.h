@@ -29,6 +29,10 @@ class BeamStore {
   const gpu::Image& guide(std::size_t index) const {
     return *beams_[index].guide.image ? beams_[index].guide : nothing_;
   }
+  /// Of its colour; a lamp whose light has one colour has none.
+  const gpu::Image& tint(std::size_t index) const {
+    return beams_[index].packed.tinted() && *beams_[index].tint.image ? beams_[index].tint : nothing_;
+  }
   /// Since the start.
   std::uint64_t uploads() const { return uploads_; }
   std::uint64_t uploaded_texels() const { return uploaded_texels_; }
@@ -38,11 +42,14 @@ class BeamStore {
     PackedBeam packed;
     gpu::Image candela;  ///< R32F, R16F or R8, by level
     gpu::Image guide;    ///< RGBA32F
+    gpu::Image tint;     ///< RG32F, RG16F; made when first called for
     std::vector<TexelRect> changed;
+    bool tint_shown = false;
     bool fresh = false;  ///< all of it changed, the guide too
   };
   bool fit(gpu::Image& image, vk::Format format, std::uint32_t width, std::uint32_t height, const char* name);
   void upload_parts(Beam& beam);
+  void upload_tints(Beam& beam);
 
   gpu::Device& device_;
   std::array<Beam, shader::kMaxLamps> beams_;

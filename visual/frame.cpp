@@ -8,7 +8,8 @@ EffectFacts facts_of(const FrameParts& parts, const FrameInput& input) {
           .software_device = parts.software_device,
           .hdr_wanted = input.want_hdr,
           .false_colour = input.view == View::kFalseColour,
-          .overlay_lines = input.overlay.size()};
+          .overlay_lines = input.overlay.size() + input.instruments.size() + input.panel.rows.size() +
+                           (input.panel.title.empty() ? 0u : 1u)};
 }
 
 using Usage = vk::ImageUsageFlagBits;
@@ -60,14 +61,15 @@ DrawnFrame draw_frame(FrameParts& parts, const FrameInput& input) {
 
   // What the driver is told besides.
   if (drawn.effects.on(Effect::kOverlay)) {
-    if (!parts.overlay) parts.overlay = std::make_unique<OverlayPass>(parts.device, target.display_format);
-    parts.overlay->draw(parts.graph, *drawn.display, input.overlay);
+    if (!parts.overlay)
+      parts.overlay = std::make_unique<OverlayPass>(parts.device, target.display_format, target.extent.height);
+    parts.overlay->draw(parts.graph, *drawn.display, input.overlay, input.instruments, input.panel);
   }
   return drawn;
 }
 
 glm::vec3 exposure_of(const FrameInput& input) {
-  return static_cast<float>(input.exposure_per_cdm2) / black_body_colour(input.adaptation_k);
+  return static_cast<float>(input.exposure_per_cdm2) / input.white.value_or(black_body_colour(input.adaptation_k));
 }
 
 }  // namespace phare

@@ -19,7 +19,7 @@ struct FrameTarget {
   double aspect() const { return static_cast<double>(extent.width) / static_cast<double>(extent.height); }
 };
 
-/// Factors that take luminance to the tone curve: exposure, and the balance that makes light of `adaptation_k` white.
+/// Factors that take luminance to the tone curve: exposure, and the balance that makes the eye's white white.
 glm::vec3 exposure_of(const FrameInput& input);
 
 struct FrameParts {

@@ -14,6 +14,7 @@
 
 #include "config/result.h"
 #include "visual/effects.h"
+#include "visual/overlay_content.h"
 #include "visual/photometry/beam_composer.h"
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/image_levels.h"
@@ -51,14 +52,17 @@ struct FrameInput {
   Camera camera;
   std::vector<PlacedLamp> lamps;   ///< at most 8; positions whose beam is dark are left out by the caller or by us
   double exposure_per_cdm2 = 0.8;  ///< multiplies luminance before the tone curve; fixed, so that beams compare
-  double adaptation_k = 4000.0;  ///< light of this colour temperature looks white: the eye half adapts to its own lamps
+  double adaptation_k = 4000.0;    ///< light of this colour temperature looks white
+  std::optional<glm::vec3> white;  ///< linear sRGB of the light that does, in place of it (visual/process/adaptation.h)
   double sky_luminance_cdm2 = 0.004;
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;
   bool want_hdr = false;               ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;             ///< read the finished picture back
-  std::vector<std::string> overlay{};  ///< lines of text over the picture; none: no overlay pass
-  EffectChoices effects{};             ///< levels that the user has set; else the facts of the frame decide
+  std::vector<std::string> overlay{};  ///< lines of text over the picture
+  std::vector<OverlayInstrument> instruments{};
+  OverlayPanel panel{};     ///< nothing in these three: no overlay pass
+  EffectChoices effects{};  ///< levels that the user has set; else the facts of the frame decide
 };
 
 struct PassTime {

@@ -21,14 +21,51 @@ vec2 node_before(sampler2D guide, uint first_bin, uint bins_in_octant, vec2 angl
   return past_deg < 0.0 ? vec2(g.y - 1.0, 1.0 + past_deg * g.z) : vec2(g.y, past_deg * g.w);
 }
 
+// Where a lamp's table was last looked up, and what its value was multiplied by since: its table of colour lies on the same nodes.
+vec2 looked_up_at, looked_up_part;
+float looked_up_factor;
+
 // Bilinear between the four nodes that a gather at `coordinate` finds, weights in float32.
 float between(sampler2D table, vec2 coordinate, vec2 part) {
+  looked_up_at = coordinate;
+  looked_up_part = part;
   vec4 cd = textureGather(table, coordinate);
   return mix(mix(cd.w, cd.z, part.x), mix(cd.x, cd.y, part.x), part.y);
 }
 
+// The same for a flat screen: a projection in place of angles. E on the screen is bilinear there, and I = E·D²·(1 + t²)^1.5.
+float screen_intensity(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, vec4 nodes, vec4 coordinates) {
+  vec2 at = p.yz * (1.0 / p.x);
+  float s = 1.0 + dot(at, at);
+  float value;
+  bool lit = p.x > 0.0;
+  // The screen's rim belongs to it, and float32 misses it by a little: what is nearer than that counts as within.
+  if (lookup == kLookupFilterScreen) {
+    lit = lit && all(lessThan(abs(at - clamp(at, nodes.xz, nodes.yw)), vec2(1e-6)));
+    looked_up_at = at * coordinates.xy + coordinates.zw;
+    value = textureLod(table, looked_up_at, 0.0).r;
+  } else if (lookup == kLookupScreenGuide) {
+    at *= nodes.xy;
+    vec2 within = clamp(at, lamp.range.xz, lamp.range.yw);
+    lit = lit && all(lessThan(abs(at - within), vec2(2e-5)));
+    vec2 u = node_before(guide, 0, lamp.guide.y, vec2(0.0, within.x), 0.0, lamp.bins.x);
+    vec2 v = node_before(guide, lamp.guide.x, lamp.guide.z, vec2(0.0, within.y), 0.0, lamp.bins.y);
+    value = between(table, (vec2(u.x, v.x) + 1.0) / vec2(textureSize(table, 0)), vec2(u.y, v.y));
+  } else {
+    at *= nodes.xy;
+    vec2 within = clamp(at, lamp.within.xz, lamp.within.yw);
+    lit = lit && all(lessThan(abs(at - within), vec2(1e-3)));
+    vec2 node = floor(within);
+    value = between(table, node * coordinates.xy + coordinates.zw, within - node);
+  }
+  looked_up_factor = s * sqrt(s);
+  return lit ? value * looked_up_factor : 0.0;
+}
+
 // In what the texture holds (candela, unless scaled) toward p, given in the lamp's frame; bilinear on the table's nodes, dark outside. `h`: length of p without its third component.
 float intensity(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, float h, float inverse_coarse, vec4 nodes, vec4 coordinates) {
+  if (lookup == kLookupScreen || lookup == kLookupScreenGuide || lookup == kLookupFilterScreen)
+    return screen_intensity(table, guide, lamp, lookup, p, nodes, coordinates);
   if (lookup == kLookupGuide) {
     vec2 first = table_angle(p.y, p.x, lamp.range.y), second = table_angle(p.z, h, lamp.range.w);
     vec2 angles = vec2(first.x, second.x) * 45.0 + vec2(first.y, second.y);
@@ -46,7 +83,8 @@ float intensity(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec
     }
     bool lit = all(greaterThanEqual(angles, nodes.xz)) && all(lessThanEqual(angles, nodes.yw));
     if (lookup == kLookupFilterAhead) lit = lit && p.x > 0.0;
-    float filtered = textureLod(table, angles * coordinates.xy + coordinates.zw, 0.0).r;
+    looked_up_at = angles * coordinates.xy + coordinates.zw;
+    float filtered = textureLod(table, looked_up_at, 0.0).r;
     return lit ? filtered : 0.0;
   }
   vec2 node, part;
@@ -80,6 +118,7 @@ struct LampLight {
   float illuminance_lx;  // on the surface
   float normal_lx;       // on a plane facing the lamp
   float cos_incidence;
+  float cd;
 };
 
 layout(constant_id = 5) const uint lookups = 0;
@@ -88,16 +127,37 @@ layout(constant_id = 5) const uint lookups = 0;
 LampLight lamp_light(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, vec4 place, vec4 nodes, vec4 coordinates, vec3 n, float level) {
   float h2 = p.x * p.x + p.y * p.y;
   float r2 = h2 + p.z * p.z;
-  float cd = intensity(table, guide, lamp, lookup & kLookupKind, p, sqrt(h2), place.w, nodes, coordinates);
-  if ((lookup & kLookupKind) >= kLookupFilter) cd *= place.w;
+  bool filtered = (lookup & kLookupKind) >= kLookupFilter;
+  looked_up_factor = 1.0;
+  float cd = intensity(table, guide, lamp, filtered ? lookup : lookup & kLookupKind, p, sqrt(h2), place.w, nodes, coordinates);
+  if (filtered) cd *= place.w;
   else if ((lookup & kLookupScaled) != 0) cd *= lamp.colour.w;
   float inverse_r = r2 > 0.0 ? inversesqrt(r2) : 0.0;
   LampLight light;
+  light.cd = cd;
   light.cos_incidence = max(dot(place.xyz, n) - level, 0.0) * inverse_r;
   light.normal_lx = r2 > 0.0 ? cd * (inverse_r * inverse_r) : 0.0;
   light.illuminance_lx = light.normal_lx * light.cos_incidence;
   return light;
 }
+
+// Linear Rec. 709 of the light that was looked up last, luminance 1: red and blue from their own table, green is what luminance leaves.
+vec3 lamp_tint(sampler2D tint, uint kind, vec4 scale, float cd) {
+  vec2 red_blue;
+  if (kind >= kLookupFilter) {
+    red_blue = textureLod(tint, looked_up_at, 0.0).rg;
+  } else {
+    vec4 red = textureGather(tint, looked_up_at, 0), blue = textureGather(tint, looked_up_at, 1);
+    vec4 low = mix(vec4(red.w, blue.w, red.x, blue.x), vec4(red.z, blue.z, red.y, blue.y), looked_up_part.x);
+    red_blue = mix(low.xy, low.zw, looked_up_part.y);
+  }
+  if (cd <= 0.0) return vec3(1.0);
+  red_blue *= scale.xz * (looked_up_factor / cd);
+  return max(vec3(red_blue.x, (1.0 - 0.2126 * red_blue.x - 0.0722 * red_blue.y) / 0.7152, red_blue.y), 0.0);
+}
+
+// Right after PHARE_LAMP_LIGHT(I).
+#define PHARE_LAMP_TINT(I, LIGHT) lamp_tint(tints[I], (lookups >> (4 * I)) & kLookupKind, frame.lamps[I].colour, LIGHT.cd)
 
 #define PHARE_LAMP_LIGHT(I)                                                                                                    \
   lamp_light(candela[I], guides[I], frame.lamps[I], (lookups >> (4 * I)) & 15, in_lamp[I], PHARE_LAMP_POSITION(I), PHARE_LAMP_NODES(I), \

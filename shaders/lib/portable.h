@@ -12,6 +12,8 @@ using glm::cross;
 using glm::dot;
 using glm::exp;
 using glm::floor;
+using glm::length;
+using glm::log;
 using glm::log2;
 using glm::max;
 using glm::min;

@@ -23,7 +23,7 @@
 layout(location = 0) PHARE_VARYING vec3 point;            // relative to the eye, m
 layout(location = 1) PHARE_VARYING vec3 point_normal;
 layout(location = 2) flat PHARE_VARYING vec3 detail_from_point;  // to the world position modulo 1024 m, for surface detail
-layout(location = 3) flat PHARE_VARYING vec4 reflectance; // rho/pi, exposed where the display is written; R_A·pi over the greatest rho
+layout(location = 3) flat PHARE_VARYING vec4 reflectance; // rho/pi, exposed where the display is written; w as in GpuMaterial
 layout(location = 4) flat PHARE_VARYING vec3 light_colour;  // of the lamps, where all have one
 layout(location = 5) flat PHARE_VARYING vec3 ambient_lx;  // half of what the whole sky gives a level surface
 layout(location = 6) PHARE_VARYING vec3 in_lamp[PHARE_LAMPS];  // the point in each lamp's frame, rows a, b, c
@@ -46,9 +46,7 @@ layout(constant_id = 3) const uint output_kind = 0;
 
 void pass_light(vec4 material) {
   const float pi = 3.14159265;
-  // Retroreflected light keeps the tint of the material and not its darkness.
-  float whitest = max(max(material.r, material.g), max(material.b, 1e-3));
-  reflectance = vec4(material.rgb / pi, material.w * pi / whitest);
+  reflectance = vec4(material.rgb / pi, material.w);
   if (output_kind == kOutputDisplay) reflectance.rgb *= frame.exposure.rgb;
   light_colour = frame.lamps[0].colour.rgb;
   ambient_lx = frame.sky.rgb * (0.5 * pi);

@@ -1,4 +1,4 @@
-// Sources: the log's timing and fail-safe, real CAN numbers, keys, a socket on a kernel without CAN.
+// Sources: the log's timing and fail-safe, real CAN numbers, a socket on a kernel without CAN.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,7 +15,6 @@
 #include "cockpit_io/can_socket.h"
 #include "cockpit_io/candump.h"
 #include "cockpit_io/drive_source.h"
-#include "cockpit_io/keyboard_source.h"
 #include "cockpit_io/latency.h"
 #include "cockpit_io/log_source.h"
 #include "cockpit_io/text_scanner.h"
@@ -283,38 +282,6 @@ TEST(DriveSource, PlaysTheRecordedControlsToTheEndOfTheDrive) {
   (*source)->advance(at_ms(300), nullptr, cockpit);
   EXPECT_TRUE((*source)->ended());
   std::filesystem::remove(file);
-}
-
-TEST(Keyboard, KeysMoveTheControls) {
-  KeyboardDriver driver;
-  Cockpit cockpit({20'000'000, 2}, "keyboard");
-  driver.advance(at_ms(0), cockpit);
-  EXPECT_EQ(cockpit.state(-1, false).light_switch, LightSwitch::kLow);
-  driver.press("l", at_ms(100), cockpit);
-  EXPECT_EQ(cockpit.state(-1, false).light_switch, LightSwitch::kHigh);
-  driver.press("LLl", at_ms(200), cockpit);
-  driver.advance(at_ms(250), cockpit);
-  EXPECT_EQ(cockpit.state(-1, false).light_switch, LightSwitch::kLow);
-  driver.press("gnf", at_ms(300), cockpit);
-  EXPECT_TRUE(cockpit.state(-1, false).fog_front);
-  EXPECT_TRUE(cockpit.state(-1, false).flash);
-  EXPECT_EQ(cockpit.state(-1, false).design_index, 1u);
-  driver.advance(at_ms(2000), cockpit);
-  EXPECT_FALSE(cockpit.state(-1, false).flash);
-  driver.press("b,hr", at_ms(2005), cockpit);
-  EXPECT_TRUE(cockpit.state(-1, false).fog_rear && cockpit.state(-1, false).hazard);
-  EXPECT_EQ(cockpit.state(-1, false).turn, TurnSignal::kLeft);
-  EXPECT_EQ(cockpit.state(-1, false).gear, Gear::kReverse);
-  driver.press(".hr", at_ms(2008), cockpit);
-  driver.advance(at_ms(2009), cockpit);
-  EXPECT_EQ(cockpit.state(-1, false).gear, Gear::kDrive);
-  driver.press("\x1b[A\x1b[D\x1b[1;5C\x1b[200~\x1bx", at_ms(2010), cockpit);
-  driver.advance(at_ms(2020), cockpit);
-  EXPECT_GT(cockpit.state(-1, false).accelerator_01, 0.0);
-  EXPECT_GT(cockpit.state(-1, false).steering_wheel_rad, 0.0);
-  driver.advance(at_ms(9000), cockpit);
-  EXPECT_EQ(cockpit.state(-1, false).accelerator_01, 0.0);
-  EXPECT_NEAR(cockpit.state(-1, false).steering_wheel_rad, 0.0, 1e-6);
 }
 
 TEST(CanSocket, AKernelWithoutCanIsNamed) {

@@ -122,8 +122,8 @@ TEST(Bus, SendsToEveryReceiverOfTheTableAndToNobodyElse) {
   all.push_back({Role::kVisual, 1, open_bus(rig, Role::kVisual, 1)});
 
   // A ControlReply goes to who asked, not to the receivers of a table: see AnAnswerGoesToWhoAsked.
-  const std::array<Payload, 6> payloads = {CockpitState{}, VehicleState{}, report(3, 1, 2),
-                                           RigControl{},   ProbeRequest{}, ProbeReply{}};
+  const std::array<Payload, 7> payloads = {CockpitState{}, VehicleState{}, report(3, 1, 2), RigControl{},
+                                           ProbeRequest{}, ProbeReply{},   KeyInput{}};
   for (Endpoint& sender : all) {
     for (std::size_t i = 0; i < payloads.size(); ++i) {
       const bool may = kChannels[i].sender == sender_of(sender.role);

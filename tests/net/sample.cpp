@@ -139,6 +139,17 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       r.nz = v.numbers(n, -1, 1);
       return r;
     }
+    case kPayloadIndex<KeyInput>: {
+      KeyInput k;
+      for (std::uint32_t key = 1; k.held.size() < kMostKeys && v.flag();)
+        k.held.push_back(key += 1 + static_cast<std::uint32_t>(v.whole(29)));
+      for (std::uint64_t n = v.whole(kMostKeys); n > 0; --n) {
+        const auto key = static_cast<std::int32_t>(1 + v.whole(0x1fe));
+        k.event.push_back(v.flag() ? key : -key);
+      }
+      k.events = k.event.size() + v.whole(1'000'000);
+      return k;
+    }
     case kPayloadIndex<ProbeReply>: {
       ProbeReply r;
       r.request_id = v.bits();

@@ -309,6 +309,30 @@ TEST(WireRefuses, ProbeArraysOfDifferentOrExcessiveLength) {
   EXPECT_EQ(refusal_of(encode(d)), Refusal::kArrays);
 }
 
+TEST(WireRefuses, KeysThatNoKeyboardHas) {
+  constexpr std::size_t kKeys = kPayloadIndex<KeyInput>;
+  const auto refusal_with = [&](const std::function<void(wire::KeyInput&)>& change) {
+    return refusal_after(kKeys, [&](wire::Datagram& m) {
+      m.mutable_key_input()->Clear();
+      m.mutable_key_input()->set_events(5);
+      change(*m.mutable_key_input());
+    });
+  };
+  EXPECT_EQ(refusal_with([](auto& k) { k.add_held(265), k.add_event(265), k.add_event(-265); }), Refusal::kNone);
+  EXPECT_EQ(refusal_with([](auto& k) { k.add_held(0); }), Refusal::kRange);
+  EXPECT_EQ(refusal_with([](auto& k) { k.add_held(512); }), Refusal::kRange);
+  EXPECT_EQ(refusal_with([](auto& k) { k.add_held(265), k.add_held(264); }), Refusal::kRange) << "not ascending";
+  EXPECT_EQ(refusal_with([](auto& k) { k.add_held(265), k.add_held(265); }), Refusal::kRange) << "twice";
+  EXPECT_EQ(refusal_with([](auto& k) { k.add_event(0); }), Refusal::kRange);
+  EXPECT_EQ(refusal_with([](auto& k) { k.add_event(512); }), Refusal::kRange);
+  EXPECT_EQ(refusal_with([](auto& k) { k.add_event(-512); }), Refusal::kRange);
+  EXPECT_EQ(refusal_with([](auto& k) { k.set_events(0), k.add_event(1); }), Refusal::kRange) << "more than there were";
+  EXPECT_EQ(refusal_with([](auto& k) {
+              for (int i = 1; i <= 17; ++i) k.add_held(static_cast<unsigned>(i));
+            }),
+            Refusal::kArrays);
+}
+
 TEST(WireRefuses, MoreHashesThanStepsFitAMessage) {
   constexpr std::size_t kVehicle = kPayloadIndex<VehicleState>;
   const auto with = [](int count) {

@@ -20,6 +20,7 @@ class ImageReader {
   explicit ImageReader(const BeamImage& image) : car_from_image_(image.car_from_image) {
     table_.type = image.type;
     table_.axis = image.axis;
+    table_.screen_distance_m = image.screen_distance_m;
     table_.first_deg = image.first_deg;
     table_.second_deg = image.second_deg;
     table_.candela.assign(image.candela.begin(), image.candela.end());
@@ -119,8 +120,9 @@ TEST(BeamImage, ResampledErrorIsSmall) {
   }
 }
 
-// Lux on a flat screen is bilinear on the screen, not in degrees: such a table is resampled, and the error stated.
-TEST(BeamImage, AFlatScreenIsResampled) {
+// Lux on a flat screen is bilinear on the screen, not in degrees: its image keeps the screen's nodes, and is exact.
+// Beside a table in degrees it has to be resampled, and the error is stated.
+TEST(BeamImage, AFlatScreenKeepsItsNodes) {
   IntensityTable screen;
   screen.screen_distance_m = 25.0;
   for (double y = -8.0; y <= 8.0; y += 0.5) screen.first_deg.push_back(glm::degrees(std::atan(y / 25.0)));
@@ -129,18 +131,30 @@ TEST(BeamImage, AFlatScreenIsResampled) {
     for (const double h : screen.first_deg) screen.candela.push_back(20000.0 * std::exp(-h * h / 60.0 - v * v / 8.0));
   }
   const std::vector<AimedSource> source{{&screen, glm::dmat3{1.0}, 1.0, 5000.0}};
-  const BeamImage image = compose_beam_image(source);
+  const BeamImage native = compose_beam_image(source);
+  EXPECT_FALSE(native.resampled);
+  EXPECT_EQ(native.first_deg, screen.first_deg);
+  const ImageReader native_reader(native);
+  IntensityTable dim;  // in degrees, and next to nothing
+  dim.first_deg = {-20.0, 20.0};
+  dim.second_deg = {-8.0, 8.0};
+  dim.candela = {1e-3, 1e-3, 1e-3, 1e-3};
+  const std::vector<AimedSource> mixed{source[0], {&dim, glm::dmat3{1.0}, 1.0, 5000.0}};
+  const BeamImage image = compose_beam_image(mixed);
   EXPECT_TRUE(image.resampled);
+  EXPECT_EQ(image.screen_distance_m, 0.0);
   const ImageReader reader(image);
-  double worst_of_local = 0.0, worst_of_peak = 0.0;
+  double worst_of_local = 0.0, worst_of_peak = 0.0, worst_native = 0.0;
   for (double h = -15.0; h <= 15.0; h += 0.37) {
     for (double v = -5.5; v <= 4.0; v += 0.19) {
       const double expected = screen.intensity_cd(direction_hv(h, v));
       const double difference = std::abs(reader.candela(direction_hv(h, v)) - expected);
       worst_of_peak = std::max(worst_of_peak, difference / screen.peak_cd());
       worst_of_local = std::max(worst_of_local, difference / expected);
+      worst_native = std::max(worst_native, std::abs(native_reader.candela(direction_hv(h, v)) - expected) / expected);
     }
   }
+  EXPECT_LT(worst_native, 1.3e-7);  // float32 candela
   std::printf("flat screen resampled: worst difference %.2g of the peak, %.2g of the local intensity\n", worst_of_peak,
               worst_of_local);
   EXPECT_LT(worst_of_peak, 2e-3);  // as two aims that differ, above

@@ -78,28 +78,28 @@ TEST(CheckEvidence, NothingPassesWhereTheTableHasNoData) {
   const IntensityTable part = cropped(sample_table("low_rht.ies"), 9.6, -4.8, 0.8);
   const CheckResult r112 = check_by(part, "r112-passing-b");
   for (const char* id : {"B50L", "BR", "Zone III", "P1+P2+P3", "P4+P5+P6"}) {
-    EXPECT_EQ(row_of(r112, id).verdict, Verdict::kNoData) << id;
+    EXPECT_EQ(row_of(r112, id).verdict, RuleVerdict::kNoData) << id;
     EXPECT_FALSE(id == std::string("B50L") && row_of(r112, id).has_value);
   }
-  EXPECT_EQ(row_of(r112, "75R").verdict, Verdict::kPass);
-  EXPECT_EQ(r112.verdict, Verdict::kNoData);
+  EXPECT_EQ(row_of(r112, "75R").verdict, RuleVerdict::kPass);
+  EXPECT_EQ(r112.verdict, RuleVerdict::kNoData);
   EXPECT_EQ(r112.no_data, 5u);
   const CheckResult r149 = check_by(part, "r149-passing-c");
   for (const char* id : {"Segment BLL", "B50L", "Segment 15", "Segment 25L"})
-    EXPECT_EQ(row_of(r149, id).verdict, Verdict::kNoData) << id;
+    EXPECT_EQ(row_of(r149, id).verdict, RuleVerdict::kNoData) << id;
   // Without a printed end: as far as there are data, which have to hold where it begins.
-  EXPECT_EQ(row_of(r149, "Segment 10 and below").verdict, Verdict::kPass);
+  EXPECT_EQ(row_of(r149, "Segment 10 and below").verdict, RuleVerdict::kPass);
   const IntensityTable shallow = cropped(sample_table("low_rht.ies"), 9.6, -3.0, 0.8);
-  EXPECT_EQ(row_of(check_by(shallow, "r149-passing-c"), "Segment 10 and below").verdict, Verdict::kNoData);
-  EXPECT_EQ(row_of(r149, "luminous flux").verdict, Verdict::kNoData);  // light outside can only add
+  EXPECT_EQ(row_of(check_by(shallow, "r149-passing-c"), "Segment 10 and below").verdict, RuleVerdict::kNoData);
+  EXPECT_EQ(row_of(r149, "luminous flux").verdict, RuleVerdict::kNoData);  // light outside can only add
   EXPECT_EQ(check_by(part, "fmvss108-lb2v").failed, 0u);
   for (const char* id : {"Points 1, 2", "Points 8, 9"})
     EXPECT_EQ(row_of(check_by(cropped(sample_table("fog.ies"), 20.0, -10.0, 10.0), "r19-f3"), id).verdict,
-              Verdict::kNoData);
+              RuleVerdict::kNoData);
   // What is there and too bright fails, whatever is missing beside it.
   IntensityTable bright = part;
   for (double& cd : bright.candela) cd *= 20.0;
-  EXPECT_EQ(row_of(check_by(bright, "r149-passing-c"), "Zone III").verdict, Verdict::kFail);
+  EXPECT_EQ(row_of(check_by(bright, "r149-passing-c"), "Zone III").verdict, RuleVerdict::kFail);
 }
 
 // A table to ±90° knows all that a lamp can throw ahead, turned or not.
@@ -131,8 +131,8 @@ TEST(CheckEvidence, TheEndOfATableIsNoCutoff) {
   EXPECT_EQ(open.aim_method, "no cut-off found, as filed");
   EXPECT_EQ(open.aim_up_deg, 0.0);
   EXPECT_TRUE(open.cutoff.at_edge);
-  EXPECT_EQ(row_of(open, "cut-off sharpness G").verdict, Verdict::kNoData);
-  EXPECT_EQ(row_of(open, "cut-off linearity").verdict, Verdict::kNoData);
+  EXPECT_EQ(row_of(open, "cut-off sharpness G").verdict, RuleVerdict::kNoData);
+  EXPECT_EQ(row_of(open, "cut-off linearity").verdict, RuleVerdict::kNoData);
 }
 
 // A ray-traced beam whose light ends in true zeros from one row to the next has its cut-off there.
@@ -152,19 +152,19 @@ TEST(CheckEvidence, SharpnessIsToldNoFinerThanTheRows) {
   // G 0.573 on rows of 0.05°: fails for certain. On 0.5°: cannot be told. G 0.2: on 0.05° passes for certain.
   const CheckRow sharp = row_of(check_by(logistic_beam(0.573, 0.05), "r112-passing-b"), "cut-off sharpness G");
   EXPECT_NEAR(sharp.lowest, 0.573, sharp.resolution + 0.01);
-  EXPECT_EQ(sharp.verdict, Verdict::kFail);
+  EXPECT_EQ(sharp.verdict, RuleVerdict::kFail);
   const CheckResult coarse = check_by(logistic_beam(0.573, 0.5), "r112-passing-b");
   const CheckRow blurred = row_of(coarse, "cut-off sharpness G");
-  EXPECT_EQ(blurred.verdict, Verdict::kWithinResolution) << blurred.lowest;
+  EXPECT_EQ(blurred.verdict, RuleVerdict::kWithinResolution) << blurred.lowest;
   EXPECT_GE(blurred.lowest + blurred.resolution, 0.55);  // the true G, less what 0.1° of finite span costs it
-  EXPECT_EQ(row_of(coarse, "cut-off linearity").verdict, Verdict::kWithinResolution);
+  EXPECT_EQ(row_of(coarse, "cut-off linearity").verdict, RuleVerdict::kWithinResolution);
   EXPECT_NEAR(coarse.lamps.front().row_step_deg, 0.5, 0.01);
   const CheckResult fine = check_by(logistic_beam(0.2, 0.05), "r112-passing-b");
-  EXPECT_EQ(row_of(fine, "cut-off sharpness G").verdict, Verdict::kPass);
+  EXPECT_EQ(row_of(fine, "cut-off sharpness G").verdict, RuleVerdict::kPass);
   EXPECT_LT(row_of(fine, "cut-off sharpness G").resolution, 0.03);
-  EXPECT_EQ(row_of(fine, "cut-off linearity").verdict, Verdict::kPass);
+  EXPECT_EQ(row_of(fine, "cut-off linearity").verdict, RuleVerdict::kPass);
   // FMVSS 108 asks for no upper limit: rows of 0.25° are enough to say that G is above 0.13.
-  EXPECT_EQ(row_of(check_by(logistic_beam(0.4, 0.25), "fmvss108-lb2v"), "cut-off sharpness G").verdict, Verdict::kPass);
+  EXPECT_EQ(row_of(check_by(logistic_beam(0.4, 0.25), "fmvss108-lb2v"), "cut-off sharpness G").verdict, RuleVerdict::kPass);
 }
 
 // The range told of a coarse table holds the G of the beam it was made of.
@@ -257,9 +257,9 @@ TEST(CheckEvidence, CoarseRowsNeverPassOrFailAgainstTheTruth) {
             EXPECT_LE(std::abs(row.value() - true_row.value()), row.resolution + true_row.resolution) << what.str();
           }
           ++all;
-          if (row.verdict != Verdict::kPass && row.verdict != Verdict::kFail) continue;
+          if (row.verdict != RuleVerdict::kPass && row.verdict != RuleVerdict::kFail) continue;
           ++told;
-          EXPECT_TRUE(true_row.verdict == row.verdict || true_row.verdict == Verdict::kWithinResolution) << what.str();
+          EXPECT_TRUE(true_row.verdict == row.verdict || true_row.verdict == RuleVerdict::kWithinResolution) << what.str();
         }
       }
     }
@@ -272,8 +272,8 @@ TEST(CheckEvidence, WithoutACutoffTheAimAndTheLinearitySaySo) {
   const CheckResult result = check_by(sample_table("high.ies"), "r112-passing-b");
   EXPECT_EQ(result.aim_method, "no cut-off found, as filed");
   EXPECT_EQ(result.aim_up_deg, 0.0);
-  EXPECT_EQ(row_of(result, "cut-off sharpness G").verdict, Verdict::kFail);
-  EXPECT_EQ(row_of(result, "cut-off linearity").verdict, Verdict::kFail);
+  EXPECT_EQ(row_of(result, "cut-off sharpness G").verdict, RuleVerdict::kFail);
+  EXPECT_EQ(row_of(result, "cut-off linearity").verdict, RuleVerdict::kFail);
   EXPECT_FALSE(row_of(result, "cut-off linearity").has_value);
 }
 
@@ -291,7 +291,7 @@ TEST(CheckEvidence, EachLampOfAPairIsAimedByItself) {
     EXPECT_NEAR(row_of(both, row.id).value(), row.value(), 0.01 * row.value() + 1.0) << row.id;
     EXPECT_EQ(row_of(both, row.id).verdict, row.verdict) << row.id;
   }
-  EXPECT_EQ(row_of(both, "cut-off sharpness G, right lamp").verdict, Verdict::kPass);
+  EXPECT_EQ(row_of(both, "cut-off sharpness G, right lamp").verdict, RuleVerdict::kPass);
   const IntensityTable* mixed[] = {&left, &sample_table("low_lht.ies")};
   EXPECT_FALSE(same_traffic(mixed).ok());
   EXPECT_TRUE(same_traffic(pair).ok());
@@ -317,7 +317,7 @@ TEST(CheckEvidence, PointsOfOneRowAreReaimedOneByOne) {
   Rulebook ub2 = rule("fmvss108-ub2");
   std::erase_if(ub2.rows, [](const RuleRow& r) { return r.id != "H 12L & 12R"; });
   const CheckRow row = check_lamp(tables, ub2).rows.front();
-  EXPECT_EQ(row.verdict, Verdict::kPass) << row.lowest;
+  EXPECT_EQ(row.verdict, RuleVerdict::kPass) << row.lowest;
   ASSERT_EQ(row.reaims.size(), 2u);
   EXPECT_LT(row.reaims[0].h_deg, 0.0);  // beam turned left: the left point sees what lies right of it
   EXPECT_GT(row.reaims[1].h_deg, 0.0);
@@ -325,7 +325,7 @@ TEST(CheckEvidence, PointsOfOneRowAreReaimedOneByOne) {
   EXPECT_LT(std::abs(row.reaims[0].h_deg), 0.1);
   table.header.smallest_step_cd = 40.0;
   const CheckRow rounded = check_lamp(tables, ub2).rows.front();
-  EXPECT_EQ(rounded.verdict, Verdict::kPass) << rounded.lowest;
+  EXPECT_EQ(rounded.verdict, RuleVerdict::kPass) << rounded.lowest;
   EXPECT_GE(rounded.lowest, 1520.0);
   CheckOptions fixed;
   fixed.reaim = false;

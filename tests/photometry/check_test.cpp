@@ -190,7 +190,7 @@ TEST(Check, AFlatTable) {
     const bool expected = row.id == "Zone III" || row.id == "BR" || row.id == "Segment BLL" || row.id == "P" ||
                           row.id == "Segment 15" || row.id == "Segment 10" || row.id.starts_with("S50+") ||
                           row.id.starts_with("S100+") || row.id == "luminous flux";
-    EXPECT_EQ(row.verdict == Verdict::kPass, expected) << row.id;
+    EXPECT_EQ(row.verdict == RuleVerdict::kPass, expected) << row.id;
     if (row.id.starts_with("S50+")) {
       EXPECT_NEAR(row.lowest, 1536.0, 1e-9);
       EXPECT_NEAR(row.margin, 1346.0, 1e-9);
@@ -199,7 +199,7 @@ TEST(Check, AFlatTable) {
       EXPECT_NEAR(row.max, 0.8 * 512.0, 1e-9);
     }
   }
-  EXPECT_EQ(result.verdict, Verdict::kFail);
+  EXPECT_EQ(result.verdict, RuleVerdict::kFail);
 }
 
 // A single bright node inside zone III must be found, however fine.
@@ -224,7 +224,7 @@ TEST(Check, WithinResolutionIsNeitherPassNorFail) {
   CheckOptions as_filed;
   as_filed.aim = HV{0.0, 0.0};
   const CheckRow row = row_of(check(table, rule("r149-passing-c"), as_filed), "B50L");
-  EXPECT_EQ(row.verdict, Verdict::kWithinResolution);
+  EXPECT_EQ(row.verdict, RuleVerdict::kWithinResolution);
   EXPECT_NEAR(row.margin, -0.5, 1e-9);
   EXPECT_NEAR(row.resolution, 5.0, 1e-9);
 }
@@ -250,7 +250,7 @@ TEST(Check, HalfTheSumOfBothSides) {
   as_filed.aim = HV{0.0, 0.0};
   const CheckResult result = check_lamp(both, rule("r123-passing-c"), as_filed);
   EXPECT_NEAR(row_of(result, "B50L").highest, 250.0, 1e-9);
-  EXPECT_EQ(row_of(result, "B50L").verdict, Verdict::kPass);
+  EXPECT_EQ(row_of(result, "B50L").verdict, RuleVerdict::kPass);
 }
 
 // A beam filed half a degree to the right passes only with R112's horizontal allowance.
@@ -259,10 +259,10 @@ TEST(Check, ReaimAllowanceIsUsedAndReported) {
   Rulebook small = rule("r112-passing-b");
   small.rows = {{.id = "a", .clause = "", .at = {{0.6, -0.25}}, .min_cd = 2000.0, .max_of = "", .unconfirmed = ""}};
   const CheckResult fixed = check(table, small, {.traffic = Traffic::kRight, .aim = {}, .reaim = false});
-  EXPECT_EQ(row_of(fixed, "a").verdict, Verdict::kFail) << row_of(fixed, "a").lowest;
+  EXPECT_EQ(row_of(fixed, "a").verdict, RuleVerdict::kFail) << row_of(fixed, "a").lowest;
   const CheckResult turned = check(table, small, {.traffic = Traffic::kRight, .aim = {}, .reaim = true});
   EXPECT_TRUE(turned.reaimed);
-  EXPECT_NE(row_of(turned, "a").verdict, Verdict::kFail) << row_of(turned, "a").lowest;
+  EXPECT_NE(row_of(turned, "a").verdict, RuleVerdict::kFail) << row_of(turned, "a").lowest;
   EXPECT_LE(std::abs(turned.aim_right_deg), 0.75 + 1e-9);
 }
 
@@ -278,9 +278,9 @@ TEST(Check, QuarterDegreeForEachPoint) {
   small.rows = {{.id = "in reach", .clause = "", .at = {{0.0, 0.0}}, .min_cd = 1020.0, .max_of = "", .unconfirmed = ""},
                 {.id = "too far", .clause = "", .at = {{0.0, 0.0}}, .min_cd = 1030.0, .max_of = "", .unconfirmed = ""}};
   const CheckResult result = check(table, small);
-  EXPECT_EQ(row_of(result, "in reach").verdict, Verdict::kPass);
+  EXPECT_EQ(row_of(result, "in reach").verdict, RuleVerdict::kPass);
   EXPECT_NEAR(row_of(result, "in reach").reaim.h_deg, -0.25, 0.1);
-  EXPECT_EQ(row_of(result, "too far").verdict, Verdict::kFail);
+  EXPECT_EQ(row_of(result, "too far").verdict, RuleVerdict::kFail);
 }
 
 }  // namespace

@@ -207,7 +207,8 @@ TEST(ReadLamp, FindsTheFormat) {
   EXPECT_EQ(find_format("maker\n", "x.LDT"), LampFormat::kEulumdat);
   EXPECT_EQ(find_format("# unit: cd\n", "x"), LampFormat::kCsv);
   EXPECT_EQ(find_format("hello", "x.txt"), LampFormat::kFind);
-  EXPECT_EQ(refusal("hello", "x.txt"), "x.txt: looks like none of LM-63 (.ies), EULUMDAT (.ldt), TM-33 (.xml) and CSV");
+  EXPECT_EQ(refusal("hello", "x.txt"),
+            "x.txt: looks like none of LM-63 (.ies), EULUMDAT (.ldt), TM-33 (.xml) and CSV; --format says which");
 }
 
 TEST(ReadLamp, MirrorTurnsLeftAndRightRoundInEveryConvention) {

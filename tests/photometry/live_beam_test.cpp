@@ -142,6 +142,46 @@ TEST(LiveBeam, ColourIsTheFluxWeightedMean) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(beam.image().colour[i], mean[i], 1e-6f);
 }
 
+// Tables of colour are there exactly while colours differ, follow every dimming by its rectangle, and equal bit for bit
+// what a fresh beam and, to float32, what a composed image has.
+TEST(LiveBeam, TintsAreKeptWhileColoursDifferAndFollowDimming) {
+  const IntensityTable left = bump(1000.0, -6.0, 0.0, 4.0), right = bump(3000.0, 5.0, 1.0, 4.0);
+  const std::vector<AimedSource> sources{{.table = &left, .colour_temperature_k = 5500.0},
+                                         {.table = &right, .colour_temperature_k = 3200.0},
+                                         {.table = &left, .colour_temperature_k = 5500.0}};
+  LiveBeam beam(sources);
+  beam.set_dimming(0, 1.0);
+  beam.set_dimming(2, 0.5);
+  beam.update();
+  EXPECT_TRUE(beam.image().tints.empty());
+  beam.set_dimming(1, 1.0);
+  EXPECT_EQ(beam.update(), LiveBeam::Change::kWhole);
+  EXPECT_EQ(beam.image().tints.size(), beam.image().candela.size());
+  std::mt19937 random(5);
+  for (int change = 0; change < 200; ++change) {
+    std::vector<double> dimming(3);
+    for (std::size_t k = 0; k < 3; ++k)
+      beam.set_dimming(k, dimming[k] = 0.01 + static_cast<double>(random() % 100) / 100.0);
+    ASSERT_NE(beam.update(), LiveBeam::Change::kWhole);
+    LiveBeam fresh(sources);
+    for (std::size_t k = 0; k < 3; ++k) fresh.set_dimming(k, dimming[k]);
+    fresh.update();
+    ASSERT_EQ(beam.image().candela, fresh.image().candela);
+    ASSERT_EQ(beam.image().tints, fresh.image().tints);
+    std::vector<AimedSource> dimmed = sources;
+    for (std::size_t k = 0; k < 3; ++k) dimmed[k].scale = dimming[k];
+    const BeamImage composed = compose_beam_image(dimmed);
+    for (std::size_t i = 0; i < composed.tints.size(); ++i) {
+      // Three products and two sums of float32: 5 · 2^-24.
+      ASSERT_NEAR(beam.image().tints[i].x, composed.tints[i].x, 3e-7f * composed.tints[i].x);
+      ASSERT_NEAR(beam.image().tints[i].y, composed.tints[i].y, 3e-7f * composed.tints[i].y);
+    }
+  }
+  beam.set_dimming(1, 0.0);
+  EXPECT_EQ(beam.update(), LiveBeam::Change::kWhole);
+  EXPECT_TRUE(beam.image().tints.empty());
+}
+
 // sRGB's own white and red come back as (1, 1, 1) and (R, 0, 0), by the coordinates that IEC 61966-2-1 gives them.
 TEST(LightColour, OfAChromaticityIsInLinearSrgb) {
   const glm::vec3 white = chromaticity_colour({0.3127, 0.3290});

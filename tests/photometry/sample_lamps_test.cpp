@@ -56,7 +56,7 @@ TEST(SampleLamps, PassTheirRules) {
       const CheckResult result = check_lamp(table, *rule, options);
       EXPECT_EQ(result.left_hand, l.kind == SampleKind::kLowLeft) << l.file;
       for (const CheckRow& row : result.rows)
-        EXPECT_NE(row.verdict, Verdict::kFail)
+        EXPECT_NE(row.verdict, RuleVerdict::kFail)
             << l.file << " " << id << " " << row.id << ": " << row.lowest << " to " << row.highest;
     }
     if (l.kind == SampleKind::kHigh) {
@@ -154,7 +154,7 @@ TEST(MatrixSegments, TogetherPassADrivingBeam) {
   ASSERT_TRUE(rule.ok()) << rule.error().text();
   const IntensityTable* whole[] = {&sum};
   for (const CheckRow& row : check_lamp(whole, *rule).rows)
-    EXPECT_EQ(row.verdict, Verdict::kPass) << row.id << " " << row.lowest;
+    EXPECT_EQ(row.verdict, RuleVerdict::kPass) << row.id << " " << row.lowest;
   // Smooth where segments meet: no ripple along H at V = 0 between the centres.
   for (double h = 0.0; h < 12.0; h += 0.05)
     EXPECT_GE(sum.intensity_at_cd({h, 0.0}), sum.intensity_at_cd({h + 0.05, 0.0}) * (1.0 - 1e-3)) << h;

@@ -59,6 +59,10 @@ class BadInput : public testing::Test {
     write("bad.key", "00ff\n");
     write("rig_syntax.toml", "name = \"x\"\nscene = \n");
     write("bad.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6 oops\n1 2 3\n");
+    write("good.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6 7\n1 2 3\n");
+    write("dark.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n0 0 0\n0 0 0\n");
+    fs::create_directories(folder_ / "own");
+    write("own/rig.toml", "name = \"mine\"\n");
     write("short.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6\n");
     write("bad.glb", std::string("glTF\2\0\0\0\377\0\0\0junk", 16));
     write("bad.gltf", "{\"asset\": {\"version\": \"2.0\"},\n oops");
@@ -150,6 +154,21 @@ TEST_F(BadInput, OfADrive) {
       {"two sources", drive + "--drive bad.pcap --script bad_script.toml", "--script"},
       {"out is a file", "phare drive --headless --out file --port-base " + std::to_string(port_base()), "file"},
       {"record nowhere", drive + "--record /nonexistent/x.pcap", "/nonexistent/x.pcap: cannot be written"},
+      {"lamp: no file", drive + "--lamp absent.ies", "absent.ies: no such file"},
+      {"lamp: not readable", drive + "--lamp bad.ies", "bad.ies:7: a candela value is not a number: \"oops\""},
+      {"lamp: dark ahead", drive + "--lamp dark.ies", "dark.ies: sends no light ahead"},
+      {"lamp: left alone", drive + "--lamp left=good.ies", "left= without right="},
+      {"lamp: right alone", drive + "--lamp right=good.ies", "right= without left="},
+      {"lamp: twice the same", drive + "--lamp left=good.ies,right=good.ies", "the same file is given twice"},
+      {"lamp: low and high", drive + "--lamp good.ies --lamp-high good.ies", "good.ies is given twice"},
+      {"lamp: given twice", drive + "--lamp good.ies --lamp dark.ies", "--lamp: given twice"},
+      {"lamp: unknown key", drive + "--lamp good.ies,pitch=1", "did you mean \"pitch_deg\"?"},
+      {"lamp: aim", drive + "--lamp good.ies --aim up", "--aim up: expected as-filed, cut-off, or degrees up"},
+      {"aim without lamp", drive + "--aim -1", "--aim -1: aims a lamp of one's own"},
+      {"rig.toml of others",
+       "phare drive --headless --lockstep --frames 3 --out own --lamp good.ies --port-base " +
+           std::to_string(port_base()),
+       "rig.toml: is there, and no drive has written it"},
   });
 }
 
@@ -181,6 +200,17 @@ TEST_F(BadInput, OfTheOtherCommands) {
        "place: a lamp more than 50 m from its car"},
       {"control: no number", "phare control aim nan", "aim: expected a number, got \"nan\""},
       {"control: too far", "phare control aim -91", "aim: an angle beyond 90 degrees"},
+      {"rig: no file", "phare rig check absent.toml", "absent.toml: no such file"},
+      {"rig: not TOML", "phare rig check rig_syntax.toml", "rig_syntax.toml:2: "},
+      {"rig: unknown key", "phare rig check rig_unknown_key.toml", "no key \"scnee\"; did you mean \"scene\"?"},
+      {"rig: bad lamp", "phare rig check rig_bad_ies.toml", "bad.ies:7: "},
+      {"rig: no lamp", "phare rig check rig_no_ies.toml", "absent.ies: no such file"},
+      {"rig: written over", "phare rig new --lamp good.ies --out rig.toml", "rig.toml: is there already"},
+      {"rig: bad lamp of one's own", "phare rig new --lamp bad.ies --out new.toml", "bad.ies:7: "},
+      {"rig: portable nowhere", "phare rig new --lamp good.ies --portable", "--portable: "},
+      {"rig: nowhere to write", "phare rig new --lamp good.ies --out /nonexistent/r.toml", "/nonexistent/r.toml"},
+      {"rig: portable, nowhere", "phare rig new --lamp good.ies --portable --out /nonexistent/r.toml",
+       "/nonexistent/r"},
       {"replay: no drive", "phare replay absent.pcap", "absent.pcap: "},
       {"replay: not pcap", "phare replay bad.pcap", "bad.pcap: is no drive file"},
       {"record nowhere", "phare record --out /nonexistent/x.pcap --port-base " + std::to_string(port_base()),

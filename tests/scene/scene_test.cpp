@@ -177,14 +177,16 @@ TEST(CountryRoad, HasEverythingThatStandsBesideARoad) {
   EXPECT_GE(nodes["sign"].size(), 10u);
   EXPECT_GE(nodes["tree"].size(), 40u);
   EXPECT_LE(country_road().materials.size(), 40u);
-  float sheeting = 0.0f;
+  double sheeting = 0.0, marking = 0.0;
   bool asphalt = false, paint = false, foliage = false;
   for (const SceneMaterial& m : country_road().materials) {
-    sheeting = std::max(sheeting, m.retroreflection_cd_per_lx_m2);
+    if (m.retro.kind == RetroKind::kSheeting) sheeting = std::max(sheeting, sheeting_r_a(m.retro, 0.33, 5.0));
+    marking = std::max(marking, m.retro.marking_mcd_per_lx_m2);
     asphalt |= m.surface == Surface::kAsphalt, paint |= m.surface == Surface::kPaint,
         foliage |= m.surface == Surface::kFoliage;
   }
-  EXPECT_EQ(sheeting, 180.0f);
+  EXPECT_NEAR(sheeting, 180.0, 0.01);  // EN 12899-1 RA2 white
+  EXPECT_EQ(marking, 200.0);           // EN 1436 R4
   EXPECT_TRUE(asphalt && paint && foliage);
 }
 
@@ -280,7 +282,8 @@ TEST(ReadScene, AppliesNodesAxesAndMaterials) {
   ASSERT_EQ(scene->materials.size(), 1u);
   EXPECT_EQ(scene->materials[0].reflectance, glm::vec3(0.1f, 0.2f, 0.3f));
   EXPECT_EQ(scene->materials[0].surface, Surface::kGrass);
-  EXPECT_EQ(scene->materials[0].retroreflection_cd_per_lx_m2, 7.0f);
+  EXPECT_EQ(scene->materials[0].retro.kind, RetroKind::kSheeting);
+  EXPECT_NEAR(sheeting_r_a(scene->materials[0].retro, 0.33, 5.0), 7.0, 1e-4);
   EXPECT_TRUE(scene->materials[0].double_sided);
 }
 
@@ -300,6 +303,13 @@ TEST(ReadScene, RefusesWhatIsWrongWithAReason) {
   EXPECT_NE(reason(node, R"({"extras":{"phare":{"surface":"gras"}}})").find("unknown surface 'gras'"),
             std::string::npos);
   EXPECT_NE(reason(node, R"({"extras":{"phare":{"retroreflection_cd_per_lx_m2":-1}}})").find("retroreflection"),
+            std::string::npos);
+  EXPECT_NE(reason(node, R"({"extras":{"phare":{"retro":"EN 1436 R9"}}})").find("EN 1436 R"), std::string::npos);
+  EXPECT_NE(reason(node, R"({"extras":{"phare":{"retro":4}}})").find("retro"), std::string::npos);
+  EXPECT_NE(
+      reason(node, R"({"extras":{"phare":{"retro":"EN 1436 R3","retroreflection_cd_per_lx_m2":4}}})").find("marking"),
+      std::string::npos);
+  EXPECT_NE(reason(node, R"({"extras":{"phare":{"retroreflection_mcd_per_lx_m2":-4}}})").find("mcd"),
             std::string::npos);
   EXPECT_NE(reason(node, R"({"extras":{"phare":3}})").find("phare"), std::string::npos);
   EXPECT_NE(reason(node, R"({"pbrMetallicRoughness":{"baseColorFactor":[2,0,0,1]}})").find("0 … 1"), std::string::npos);

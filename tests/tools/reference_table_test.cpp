@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <fstream>
+#include <glm/geometric.hpp>
 
 #include "tests/paths.h"
+#include "visual/photometry/lamp_tables.h"
 
 namespace phare {
 namespace {
@@ -33,10 +35,10 @@ class ReferenceTable : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(ReferenceTable, WallHasAColumnForEachLm63File) {
+TEST_F(ReferenceTable, WallHasAColumnForEachFile) {
   const auto cases = read_reference_table(folder_ / "b_wall25_low.csv");
   ASSERT_TRUE(cases.ok()) << cases.error().text();
-  ASSERT_EQ(cases->size(), 2u);
+  ASSERT_EQ(cases->size(), 3u);
   EXPECT_EQ((*cases)[0].column, "E");
   EXPECT_EQ((*cases)[1].column, "E[low_C]");
   EXPECT_EQ((*cases)[1].expected_lx, (std::vector<double>{4.0, 0.25}));
@@ -45,7 +47,58 @@ TEST_F(ReferenceTable, WallHasAColumnForEachLm63File) {
   EXPECT_EQ((*cases)[0].points[0].normal, (glm::dvec3{-1.0, 0.0, 0.0}));
   EXPECT_EQ((*cases)[0].points[1].line, 3u);
   EXPECT_EQ((*cases)[0].lamps[0].sources[0].roll_rad, 0.0);
-  EXPECT_NEAR((*cases)[1].lamps[0].sources[0].roll_rad, -std::acos(0.0), 1e-15);  // C 0 up: ours, to the right, turned
+  EXPECT_EQ((*cases)[1].lamps[0].sources[0].c0_turn_deg, 90.0);  // C 0 up
+  EXPECT_EQ((*cases)[2].column, "E[low_ldt]");
+  EXPECT_EQ((*cases)[2].expected_lx, (std::vector<double>{5.0, 0.0}));
+}
+
+// A frame of the manifest becomes the settings of the reader: whatever way C 0 points and C is counted, the direction
+// that the frame gives to a plane is the one that the table read with them gives it.
+TEST_F(ReferenceTable, AFrameIsReadAsItStands) {
+  // Type C with a different value in every plane of 45°, at gamma 90 alone; candela of plane C: 1000 + C.
+  std::string ies = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 9 1 2 0 0 0 1 1 0\n45 90 135\n";
+  for (int c = 0; c <= 360; c += 45) ies += std::to_string(c) + " ";
+  ies += "\n";
+  for (int c = 0; c <= 360; c += 45) ies += "100 " + std::to_string(1000 + c % 360) + " 200\n";
+  fs::create_directories(folder_ / "photometry");
+  std::ofstream(folder_ / "photometry" / "turned.ies") << ies;
+  const glm::dvec3 ahead{1, 0, 0}, left{0, 1, 0}, up{0, 0, 1};
+  struct Frame {
+    glm::dvec3 c0, c90, g0;
+  };
+  std::vector<Frame> frames;
+  for (const double sign : {1.0, -1.0}) {  // counted as the format says, and clockwise
+    for (const glm::dvec3& c0 : {ahead, left, -ahead, -left}) frames.push_back({c0, sign * glm::cross(c0, -up), -up});
+    for (const glm::dvec3& c0 : {up, left, -up, -left}) frames.push_back({c0, sign * glm::cross(c0, ahead), ahead});
+  }
+  const auto text = [](const glm::dvec3& v) {
+    return "[" + std::to_string(v.x) + "," + std::to_string(v.y) + "," + std::to_string(v.z) + "]";
+  };
+  const auto read_with = [&](const Frame& frame) {
+    std::ofstream(folder_ / "manifest.json")
+        << R"({"files": {"t": {"file": "photometry/turned.ies", "beam": "low", "frame_in_lamp_axes": {"c0": )"
+        << text(frame.c0) << R"(, "c90": )" << text(frame.c90) << R"(, "g0": )" << text(frame.g0)
+        << R"(}}}, "primary_file_per_beam": {"low": "t"}, "wall_x_m": 25, "mounting": {"low": [{"name": "left",)"
+        << R"("position_m": [0, 0, 0], "yaw_deg": 0, "pitch_deg": 0, "roll_deg": 0}]}})";
+    return read_reference_table(folder_ / "a_road_flat_low.csv");
+  };
+  for (const Frame& frame : frames) {
+    const auto cases = read_with(frame);
+    ASSERT_TRUE(cases.ok()) << cases.error().text();
+    LampTables tables;
+    const SourceConfig& source = cases->front().lamps.front().sources.front();
+    ASSERT_TRUE(tables.add(source).ok());
+    EXPECT_EQ(source.roll_rad, 0.0);
+    for (int c = 0; c < 360; c += 45) {
+      const double rad = c * std::acos(0.0) / 90.0;
+      const glm::dvec3 direction = std::cos(rad) * frame.c0 + std::sin(rad) * frame.c90;
+      EXPECT_NEAR(tables.of(source).intensity_cd(direction), 1000.0 + c, 1e-9)
+          << "C " << c << ", c0 " << text(frame.c0) << " c90 " << text(frame.c90) << " g0 " << text(frame.g0);
+    }
+  }
+  const auto odd = read_with({ahead, left, up});  // gamma 0 straight up: no setting of ours
+  ASSERT_FALSE(odd.ok());
+  EXPECT_NE(odd.error().reason.find("no axis and c0 give this frame"), std::string::npos);
 }
 
 TEST_F(ReferenceTable, SaysWhatIsWrong) {
@@ -86,7 +139,8 @@ TEST_F(ReferenceTable, ReadsTheSharedSet) {
     columns += cases->size();
     for (const ReferenceCase& asked : *cases) EXPECT_EQ(asked.points.size(), asked.expected_lx.size());
   }
-  EXPECT_EQ(columns, 25u);
+  // LM-63, EULUMDAT, goniometer and screen: intensities of 14 files; road and wall with 7, 4 and 3 columns; plates.
+  EXPECT_EQ(columns, 14u + 2u * (7u + 4u + 3u) + 1u);
 }
 
 }  // namespace

@@ -2,8 +2,12 @@
 #include "tools/report.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
+#include <set>
+
+#include "visual/photometry/lamp_tables.h"
 
 namespace phare {
 namespace {
@@ -48,6 +52,64 @@ TEST(Report, MergesWhatThereIs) {
             std::string::npos);
   EXPECT_EQ(page.find("wall_25m.png"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos);  // self-contained
+}
+
+// A TM-33 file of two emitters, an EULUMDAT file with two lamp sets, a mirrored and a scaled lamp: the report, the
+// picture's process and `measure` read them alike, with all that the rig says of them.
+TEST(Report, FluxAndPeakAreOfTheSourceAsTheRigReadsIt) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / ("phare_report_lamps_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  const auto emitter = [](int cd) {
+    std::string text = "<Emitter><LuminousData><PhotometryType>CIE-A</PhotometryType><SymmType>Symm _ None</SymmType>";
+    for (const int h : {-10, 10})
+      for (const int v : {-5, 5})
+        text += "<IntensityData horz=\"" + std::to_string(h) + "\" vert=\"" + std::to_string(v) + "\">" +
+                std::to_string(h > 0 ? cd : cd / 2) + "</IntensityData>";
+    return text + "</LuminousData></Emitter>";
+  };
+  std::ofstream(folder / "two.xml") << "<?xml version=\"1.0\"?>\n<t:IESTM33-22 xmlns:t=\"http://www.ies.org/tm-33\">"
+                                    << "<Version>1.1</Version>" << emitter(1000) << emitter(400) << "</t:IESTM33-22>\n";
+  std::ofstream ldt(folder / "sets.ldt");
+  ldt << "Maker\n1\n1\n1\n0\n2\n0\nreport\nname\nnumber\nfile\n2024\n";
+  for (int i = 13; i <= 21; ++i) ldt << "0\n";
+  ldt << "100\n80\n1\n0\n2\n1\nLED\n1000\nwhite\n80\n10\n1\nLED\n2500\nwhite\n80\n10\n";
+  for (int i = 0; i < 10; ++i) ldt << "0.5\n";
+  ldt << "0\n0\n90\n100\n40\n";  // C 0; gamma 0 and 90; cd per klm
+  ldt.close();
+
+  SourceConfig first{.function = LampFunction::kLow, .file = folder / "two.xml"},
+      second = first, halved = first, turned = first,
+      small{.function = LampFunction::kHigh, .file = folder / "sets.ldt"}, large = small;
+  second.emitter = 2;
+  halved.scale = 0.5;
+  turned.mirror = true;
+  large.lamp_set = 2;
+  Rig rig;
+  rig.designs = {{.name = "d", .lamps = {{.name = "lamp", .sources = {first, second, halved, turned, small, large}}}}};
+  const nlohmann::json lamps = make_report(rig, DriveFacts{}, "/nowhere")["lamps"];
+  ASSERT_EQ(lamps.size(), 6u);
+  EXPECT_DOUBLE_EQ(lamps[0]["peak_cd"].get<double>(), 1000.0);
+  EXPECT_DOUBLE_EQ(lamps[1]["peak_cd"].get<double>(), 400.0);
+  EXPECT_DOUBLE_EQ(lamps[1]["flux_lm"].get<double>(), 0.4 * lamps[0]["flux_lm"].get<double>());
+  EXPECT_EQ(lamps[1]["emitter"], 2);
+  EXPECT_FALSE(lamps[0].contains("emitter"));
+  EXPECT_DOUBLE_EQ(lamps[2]["peak_cd"].get<double>(), 500.0);
+  EXPECT_DOUBLE_EQ(lamps[2]["flux_lm"].get<double>(), 0.5 * lamps[0]["flux_lm"].get<double>());
+  EXPECT_DOUBLE_EQ(lamps[3]["peak_cd"].get<double>(), 1000.0);
+  EXPECT_EQ(lamps[3]["mirror"], true);
+  EXPECT_DOUBLE_EQ(lamps[4]["peak_cd"].get<double>(), 100.0);
+  EXPECT_DOUBLE_EQ(lamps[5]["peak_cd"].get<double>(), 250.0);
+  // The same numbers as whoever lights the road with them.
+  LampTables tables;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const SourceConfig& source = rig.designs[0].lamps[0].sources[i];
+    ASSERT_TRUE(tables.add(source).ok());
+    EXPECT_DOUBLE_EQ(lamps[i]["flux_lm"].get<double>(), source.scale * tables.of(source).flux_lm()) << i;
+  }
+  std::set<std::string> readings;
+  for (const auto& [key, table] : tables) readings.insert(LampTables::reading(key));
+  EXPECT_EQ(readings, (std::set<std::string>{"", "emitter 2", "lamp set 2", "mirrored"}));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Report, NoProcessLeftAFile) {

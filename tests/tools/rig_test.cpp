@@ -129,6 +129,39 @@ TEST(LampArgument, GoodAndBad) {
   EXPECT_EQ(reason("a.ies,x=1,x=2"), "\"x\" is given twice");
   EXPECT_EQ(reason("x=1,y=2,z=3"), "the photometry file comes first: FILE,x=…,y=…,z=…");
   EXPECT_EQ(reason("a.ies,x=1,y=2,z=3,axis=up"), "\"axis\": \"up\" is none of gamma0, gamma90");
+  EXPECT_EQ(reason("a.ies,x=1,y=2,z=3,pitch_deg=91"), "\"pitch_deg\": 91 is outside -90 to 90");
+  EXPECT_EQ(reason("a.ies,x=1,y=2,z=3,scale=-1"), "\"scale\": -1 is outside 0 to 1e+06");
+  EXPECT_EQ(reason("a.ies,x=1,y=2,z=3,lamp_set=1.5"), "\"lamp_set\" counts from 1");
+}
+
+// The same keys as a source in a rig, each of them kept.
+TEST(LampArgument, EveryKeyOfASource) {
+  const auto lamp = parse_lamp_argument(
+      "/d/a.ldt,x=1,y=2,z=3,axis=gamma90,c0_deg=90,mirror=1,lamp_set=2,emitter=3,distance_m=25,scale=0.5");
+  ASSERT_TRUE(lamp) << lamp.error().text();
+  const SourceConfig& source = lamp->sources.front();
+  EXPECT_EQ(source.c0_turn_deg, 90.0);
+  EXPECT_TRUE(source.mirror);
+  EXPECT_EQ(source.lamp_set, 2u);
+  EXPECT_EQ(source.emitter, 3u);
+  EXPECT_EQ(source.distance_m, 25.0);
+  EXPECT_EQ(source.scale, 0.5);
+}
+
+TEST(LampArgument, FileNamesWithCommasQuotesAndEqualsSigns) {
+  const auto file = [](const std::string& text) {
+    const auto lamp = parse_lamp_argument(text);
+    return lamp ? lamp->sources.front().file.string() : lamp.error().reason;
+  };
+  EXPECT_EQ(file("/d/low, left.ies,x=1,y=2,z=3"), "/d/low, left.ies");
+  EXPECT_EQ(file("/d/a=b, c d.ies,x=1,y=2,z=3"), "/d/a=b, c d.ies");
+  EXPECT_EQ(file("/d/5,5 k=lm.ies,x=1,y=2,z=3"), "/d/5,5 k=lm.ies") << "a space is in no key";
+  EXPECT_EQ(file("\"/d/a,x=1.ies\",x=1,y=2,z=3"), "/d/a,x=1.ies");
+  EXPECT_EQ(file("\"/d/7\"\" lamp.ies\",x=1,y=2,z=3"), "/d/7\" lamp.ies");
+  const std::string unfinished = "a file name in double quotes ends with a quote, and a comma or nothing follows";
+  EXPECT_EQ(file("\"/d/a.ies,x=1,y=2,z=3"), unfinished);
+  EXPECT_EQ(file("\"/d/a\".ies,x=1,y=2,z=3"), unfinished);
+  EXPECT_EQ(file("\"\",x=1,y=2,z=3"), "expected FILE,x=…,y=…,z=…");
 }
 
 }  // namespace

@@ -264,6 +264,37 @@ TEST_F(DynamicsProcess, ReplaysADriveToItsEnd) {
   EXPECT_EQ(child.end(SIGINT), 0);
 }
 
+// Simulated time begins with the picture; one that never becomes ready is not waited for without end.
+TEST_F(DynamicsProcess, RealTimeBeginsWithThePicture) {
+  for (const bool comes : {true, false}) {
+    auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+    ASSERT_TRUE(cockpit.ok() && visual.ok());
+    const auto begin = SteadyClock::now();
+    Child child(arguments({"--level", "kinematic", "--wait-for-picture", comes ? "60" : "1.5"}));
+    std::optional<SteadyClock::time_point> ready, first;
+    SimTime first_time{-1};
+    while (SteadyClock::now() < begin + 20s && !first) {
+      if (comes && !ready && SteadyClock::now() > begin + 1s) {
+        FrameReport up;
+        up.channels = 1;
+        visual->send({}, up);
+        ready = SteadyClock::now();
+      }
+      visual->wait(10ms);
+      visual->poll();
+      const auto* car = visual->newest<VehicleState>();
+      if (car == nullptr) continue;
+      first = SteadyClock::now();
+      first_time = car->sim_time;
+    }
+    ASSERT_TRUE(first);
+    ASSERT_TRUE(ready || !comes) << "it began before the picture was ready";
+    EXPECT_GE(*first - begin, comes ? 1000ms : 1500ms);
+    EXPECT_LT(first_time.ns, (*first - begin - (comes ? 1000ms : 1500ms) + 1ms) / 1ns) << "time began when it did";
+    EXPECT_EQ(child.end(SIGTERM), 0);
+  }
+}
+
 TEST_F(DynamicsProcess, RealTimeSendsAndFadesInSilence) {
   auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
   ASSERT_TRUE(cockpit.ok() && visual.ok());

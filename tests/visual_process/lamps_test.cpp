@@ -213,6 +213,41 @@ TEST(Lamps, IlluminanceIsIntensityOverDistanceSquared) {
   EXPECT_EQ(lamps->illuminance_lx(pose, {wall.position_m, {1.0, 0.0, 0.0}}), 0.0);  // lit from behind
 }
 
+// An adjuster stands in the lux and in the picture's image, on the CPU and on the device alike.
+TEST(Lamps, AnAimTurnsTheWholeLamp) {
+  Rig straight = two_lamp_rig(), turned = two_lamp_rig();
+  for (LampConfig& lamp : turned.designs[0].lamps) lamp.aim = {AimConfig::Kind::kTurned, -0.05};
+  for (LampConfig& lamp : straight.designs[0].lamps)
+    for (SourceConfig& each : lamp.sources) each.pitch_rad -= 0.05;
+  Result<Lamps> by_hand = Lamps::load(straight), by_aim = Lamps::load(turned);
+  ASSERT_TRUE(by_hand.ok() && by_aim.ok());
+  ASSERT_EQ(by_aim->aimings().size(), 2u);
+  const VehicleState pose;
+  for (Lamps* lamps : {&*by_hand, &*by_aim}) lamps->set_controls(controls(LightSwitch::kLow));
+  const MeasurePoint road{{20.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+  EXPECT_GT(by_aim->illuminance_lx(pose, road), 0.0);
+  EXPECT_DOUBLE_EQ(by_aim->illuminance_lx(pose, road), by_hand->illuminance_lx(pose, road));
+  EXPECT_EQ(by_aim->placed(pose).at(0).world_from_image, by_hand->placed(pose).at(0).world_from_image);
+}
+
+// These tables end at V -20° and H ±30°; the window sees the road up to 21° below its eye.
+TEST(Lamps, TheOverlayTellsOfTablesThatEndWhereTheyAreLit) {
+  Rig rig = two_lamp_rig();
+  rig.channels = {{"front", 1280, 720, 1.2, {1.4, 0.4, 1.2}, 0.0, 0.0}};
+  Result<Lamps> lamps = Lamps::load(rig);
+  ASSERT_TRUE(lamps.ok());
+  lamps->set_controls(controls(LightSwitch::kOff));
+  EXPECT_TRUE(lamps->lit_table_ends().empty());
+  lamps->set_controls(controls(LightSwitch::kLow));
+  ASSERT_EQ(lamps->lit_table_ends().size(), 1u) << "a pair says it once";
+  // 0.7 m / tan 20°
+  EXPECT_TRUE(lamps->lit_table_ends().front().starts_with(
+      "low beam even_low.ies: table ends at V -20.0°: the road nearer than 1.9 m ahead is outside it"))
+      << lamps->lit_table_ends().front();
+  lamps->set_controls(controls(LightSwitch::kHigh));
+  EXPECT_EQ(lamps->lit_table_ends().size(), 2u);
+}
+
 TEST(Lamps, BadRigsAreErrors) {
   Rig none;
   EXPECT_FALSE(Lamps::load(none).ok());

@@ -1,133 +1,23 @@
-// phare lamp check: a beam against the rulebooks. Exit code 1 when a row fails or the file has no data for it.
-#include <cmath>
+// phare lamp check: a beam, or a laboratory's list of points, against the rulebooks. Exit code 1 when a row fails or
+// the file has no data for it.
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "config/toml_table.h"
+#include "config/whole_file.h"
 #include "tools/commands.h"
+#include "tools/lamp/check_page.h"
+#include "tools/lamp/check_text.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/point_lists.h"
 #include "tools/lamp/print_json.h"
+#include "visual/photometry/check_points.h"
+#include "visual/photometry/file_text.h"
 
 namespace phare {
 namespace {
-
-nlohmann::json as_json(const CheckResult& result) {
-  nlohmann::json rows = nlohmann::json::array();
-  for (const CheckRow& row : result.rows) {
-    nlohmann::json one{
-        {"id", row.id}, {"clause", row.clause}, {"unit", row.unit}, {"verdict", verdict_name(row.verdict)}};
-    // Null: there is nothing to measure.
-    const auto number = [&](double value) { return row.has_value ? nlohmann::json(value) : nlohmann::json(); };
-    one["value"] = number(row.value());
-    one["lowest"] = number(row.lowest);
-    one["highest"] = number(row.highest);
-    one["margin"] = number(row.margin);
-    one["resolution"] = number(row.resolution);
-    if (row.min > kNoMinimum) one["min"] = row.min;
-    if (row.max < kNoMaximum) one["max"] = row.max;
-    if (row.unit == "cd" && row.shape != RowShape::kSum && row.has_value) {
-      one["lowest_at_deg"] = {row.lowest_at.h_deg, row.lowest_at.v_deg};
-      one["highest_at_deg"] = {row.highest_at.h_deg, row.highest_at.v_deg};
-    }
-    if (row.reaim.h_deg != 0.0 || row.reaim.v_deg != 0.0) one["reaim_deg"] = {row.reaim.h_deg, row.reaim.v_deg};
-    if (!row.reaims.empty()) {
-      for (const HV& reaim : row.reaims) one["reaims_deg"].push_back({reaim.h_deg, reaim.v_deg});
-    }
-    if (row.no_data && row.unit == "cd") one["no_data_at_deg"] = {row.no_data_at.h_deg, row.no_data_at.v_deg};
-    if (!row.unconfirmed.empty()) one["unconfirmed"] = row.unconfirmed;
-    rows.push_back(std::move(one));
-  }
-  nlohmann::json lamps = nlohmann::json::array();
-  for (const LampAim& lamp : result.lamps) {
-    nlohmann::json one{{"up_deg", lamp.up_deg}, {"right_deg", lamp.right_deg}, {"found", lamp.found}};
-    if (lamp.cutoff.found) {
-      one["sharpness_g"] = lamp.cutoff.sharpness_g;
-      one["elevation_deg"] = lamp.cutoff.elevation_deg;
-      one["resolution_deg"] = lamp.resolution_deg;
-      one["row_step_deg"] = lamp.row_step_deg;
-    }
-    lamps.push_back(std::move(one));
-  }
-  nlohmann::json json{{"rule", result.rule_id},
-                      {"name", result.rule_name},
-                      {"document", result.document},
-                      {"traffic", result.left_hand ? "left" : "right"},
-                      {"aim",
-                       {{"method", result.aim_method},
-                        {"up_deg", result.aim_up_deg},
-                        {"right_deg", result.aim_right_deg},
-                        {"reaimed", result.reaimed},
-                        {"lamps", lamps}}},
-                      {"verdict", verdict_name(result.verdict)},
-                      {"failed", result.failed},
-                      {"within_resolution", result.within_resolution},
-                      {"no_data", result.no_data},
-                      {"unconfirmed_rows", result.unconfirmed},
-                      {"rows", rows}};
-  if (!result.aim_unconfirmed.empty()) json["aim"]["unconfirmed"] = result.aim_unconfirmed;
-  if (result.cutoff.found)
-    json["cutoff"] = {{"sharpness_g", result.cutoff.sharpness_g}, {"elevation_deg", result.cutoff.elevation_deg}};
-  return json;
-}
-
-std::string limits_text(const CheckRow& row) {
-  char text[64];
-  const auto number = [&](double value) {
-    std::snprintf(text, sizeof text, row.unit == "cd" || row.unit == "lm" ? "%.0f" : "%.2f", value);
-    return std::string(text);
-  };
-  if (row.min > kNoMinimum && row.max < kNoMaximum) return number(row.min) + " - " + number(row.max);
-  return row.min > kNoMinimum ? ">= " + number(row.min) : "<= " + number(row.max);
-}
-
-void print_aim(const CheckResult& result) {
-  for (std::size_t k = 0; k < result.lamps.size(); ++k) {
-    const LampAim& lamp = result.lamps[k];
-    const char* whose = result.lamps.size() < 2 ? "" : k == 0 ? " of the left lamp" : " of the right lamp";
-    const char* method =
-        result.lamps.size() > 1 && !lamp.found ? "no cut-off found, as filed" : result.aim_method.c_str();
-    std::printf("aim%s: %s%s, turned %+.2f deg up, %+.2f deg right%s", whose, method,
-                result.aim_unconfirmed.empty() ? "" : " *", lamp.up_deg, lamp.right_deg,
-                result.reaimed ? " (within the rule's re-aim allowance)" : "");
-    if (lamp.cutoff.found)
-      std::printf("; cut-off at %+.3f +- %.2f deg, G %.3f, rows %.2g deg apart", lamp.cutoff.elevation_deg,
-                  lamp.resolution_deg, lamp.cutoff.sharpness_g, lamp.row_step_deg);
-    std::printf("\n");
-  }
-}
-
-void print_row(const CheckRow& row) {
-  char place[32] = "", value[32] = "-", margin[32] = "-";
-  if (row.has_value) {
-    const char* format = row.unit == "cd" || row.unit == "lm" ? "%.0f" : "%.3f";
-    std::snprintf(value, sizeof value, format, row.value());
-    std::snprintf(margin, sizeof margin, row.unit == "cd" || row.unit == "lm" ? "%+.0f" : "%+.3f", row.margin);
-    const HV at = row.by_min ? row.lowest_at : row.highest_at;
-    if (row.unit == "cd" && row.shape != RowShape::kSum)
-      std::snprintf(place, sizeof place, "%+.2f, %+.2f", at.h_deg, at.v_deg);
-  }
-  std::printf("  %-30s %-16s %17s %12s %15s %12s %-2s %s", row.id.c_str(), row.clause.substr(0, 16).c_str(),
-              limits_text(row).c_str(), value, place, margin, row.unit.c_str(),
-              row.verdict == Verdict::kFail ? "FAIL" : verdict_name(row.verdict).c_str());
-  if (row.no_data && row.unit == "cd") std::printf(" at %+.2f, %+.2f", row.no_data_at.h_deg, row.no_data_at.v_deg);
-  std::printf("%s\n", row.unconfirmed.empty() ? "" : " *");
-}
-
-void print(const CheckResult& result, const std::string& file) {
-  std::printf("%s by %s (%s), %s-hand traffic\n", file.c_str(), result.rule_name.c_str(), result.document.c_str(),
-              result.left_hand ? "left" : "right");
-  print_aim(result);
-  std::printf("  %-30s %-16s %17s %12s %15s %12s\n", "row", "clause", "limit", "value", "at H, V", "margin");
-  for (const CheckRow& row : result.rows) print_row(row);
-  std::printf("%s: %zu rows, %zu failed, %zu without data, %zu within the file's resolution",
-              result.verdict == Verdict::kPass   ? "PASS"
-              : result.verdict == Verdict::kFail ? "FAIL"
-                                                 : "UNDECIDED",
-              result.rows.size(), result.failed, result.no_data, result.within_resolution);
-  if (result.unconfirmed > 0) std::printf("; * %zu limits rest on one source", result.unconfirmed);
-  if (!result.aim_unconfirmed.empty()) std::printf("; * aim: %s", result.aim_unconfirmed.c_str());
-  std::printf("\n");
-}
 
 int list_rules(bool as_json) {
   const auto rules = read_rulebooks(rules_folder());
@@ -141,6 +31,7 @@ int list_rules(bool as_json) {
                      {"document", rule.document},
                      {"clause", rule.clause},
                      {"function", rule.function},
+                     {"market", rule.market},
                      {"half_sum", rule.half_sum},
                      {"sources", rule.sources},
                      {"rows", rule.rows.size()}});
@@ -149,8 +40,153 @@ int list_rules(bool as_json) {
     return kExitDone;
   }
   for (const Rulebook& rule : *rules)
-    std::printf("%-18s %s, %zu rows\n", rule.id.c_str(), rule.name.c_str(), rule.rows.size());
+    std::printf("%-18s %-4s %-5s %s, %zu rows\n", rule.id.c_str(), rule.market.c_str(), rule.function.c_str(),
+                rule.name.c_str(), rule.rows.size());
   return kExitDone;
+}
+
+/// What is judged: one or two tables, or the beams of a list of points.
+struct Inputs {
+  std::vector<IntensityTable> tables;
+  std::vector<PointList> lists;
+  std::string names;
+
+  std::vector<const IntensityTable*> pointers() const {
+    std::vector<const IntensityTable*> all;
+    for (const IntensityTable& table : tables) all.push_back(&table);
+    return all;
+  }
+};
+
+Result<Inputs> read_inputs(const LampCheckOptions& options) {
+  Inputs inputs;
+  for (const std::string& file : options.files) {
+    auto points = read_as_points(file, options.settings);
+    if (!points) return points.error();
+    inputs.names += (inputs.names.empty() ? "" : " and ") + base_name(file);
+    if (*points) {
+      if (options.files.size() > 1) return Error{file, "is a list of points: judged by itself, not as one of a pair"};
+      auto lists = beams_named(**points, options.beam);
+      if (!lists) return lists.error();
+      inputs.lists = std::move(*lists);
+      continue;
+    }
+    if (!options.beam.empty()) return Error{"--beam", "is for lists of points; " + file + " is none"};
+    auto table = read_lamp(file, options.settings);
+    if (!table) return table.error();
+    inputs.tables.push_back(std::move(*table));
+  }
+  return inputs;
+}
+
+/// Which function a beam has, and why.
+struct Function {
+  std::string name, why;
+};
+
+Function function_of(const CutoffShape& shape) {
+  if (shape.tells_side()) return {"low", "its cut-off rises: " + form_name(shape.form)};
+  if (shape.side == CutoffSide::kFlat) return {"fog", "its cut-off is " + form_name(shape.form)};
+  return {"high", "it has no cut-off"};
+}
+
+/// By its name, else by whose rules' points it has most of.
+Function function_of(const PointList& list, std::span<const Rulebook> rules) {
+  if (const std::string named = function_of_beam(list.beam); !named.empty()) return {named, "by its name"};
+  Function best{"", ""};
+  std::size_t most = 0;
+  for (const Rulebook& rule : rules) {
+    const CheckResult result = check_points(list, rule, {});
+    const auto measured = static_cast<std::size_t>(std::count_if(
+        result.rows.begin(), result.rows.end(), [](const CheckRow& row) { return row.verdict != RuleVerdict::kNoData; }));
+    if (measured > most) most = measured, best = {rule.function, "most of its points are of " + rule.id};
+  }
+  return best;
+}
+
+/// "EU" is ECE, "USA" is US.
+std::string market_of(const std::string& asked) {
+  const std::string name = upper_case(asked);
+  return name == "EU" || name == "UN" || name == "UNECE" ? "ECE" : name == "USA" || name == "FMVSS" ? "US" : name;
+}
+
+Status judge(const LampCheckOptions& options, const Inputs& inputs, const Rulebook& rule, bool every,
+             std::vector<Judged>& all) {
+  CheckOptions check;
+  check.traffic = options.traffic == "left"    ? Traffic::kLeft
+                  : options.traffic == "right" ? Traffic::kRight
+                                               : Traffic::kFind;
+  check.reaim = options.reaim;
+  check.aim_name = options.aim;
+  check.led_module = options.led_module && (!every || rule.has_led_module_limits());
+  if (options.aim_up_deg || options.aim_right_deg)
+    check.aim = HV{options.aim_right_deg.value_or(0.0), options.aim_up_deg.value_or(0.0)};
+  for (const PointList& list : inputs.lists) {
+    Judged judged{list_title(options.files.front(), list), list.beam, {}, {}, true};
+    judged.result = check_points(list, rule, check, &judged.unused);
+    all.push_back(std::move(judged));
+  }
+  if (inputs.tables.empty()) return Done{};
+  const std::vector<const IntensityTable*> pointers = inputs.pointers();
+  if (pointers.size() == 2 && !rule.half_sum) {
+    if (!every) return Error{rule.id, "judges each lamp by itself; check the two files one by one"};
+    for (std::size_t k = 0; k < 2; ++k)
+      all.push_back({base_name(options.files[k]),
+                     options.files[k],
+                     check_lamp(std::span(pointers).subspan(k, 1), rule, check),
+                     {},
+                     false});
+    return Done{};
+  }
+  if (!options.aim.empty() && rule.aim(options.aim) == nullptr && !every) {
+    std::vector<std::string> known;
+    for (const CutoffAim& aim : rule.cutoff_aims) known.push_back(aim.name);
+    return Error{"--aim", known.empty() ? rule.id + " has no aim by the cut-off"
+                                        : rule.id + ": " + unknown_name_reason("aim", options.aim, known)};
+  }
+  if (options.led_module && !rule.has_led_module_limits() && !every)
+    return Error{"--led-module", rule.id + " has no limits of its own for LED modules"};
+  all.push_back({inputs.names, inputs.names, check_lamp(pointers, rule, check), {}, false});
+  return Done{};
+}
+
+/// Every rule for this function and market.
+Result<PageHead> judge_by_all(const LampCheckOptions& options, const Inputs& inputs, std::vector<Judged>& all) {
+  const auto rules = read_rulebooks(rules_folder());
+  if (!rules) return rules.error();
+  const std::string market = market_of(options.market);
+  PageHead head{inputs.names, "", market.empty() ? ", rules of every market" : ", rules of " + market};
+  const auto judge_one = [&](const Inputs& one, const Function& function) -> Status {
+    std::size_t found = 0;
+    for (const Rulebook& rule : *rules) {
+      if (rule.function != function.name || (!market.empty() && rule.market != market)) continue;
+      ++found;
+      if (const Status status = judge(options, one, rule, true, all); !status) return status.error();
+    }
+    head.function += (head.function.empty() ? "" : "; ") + function.name + " beam (" + function.why + ")";
+    if (found == 0) return Error{"--market", "no rulebook of " + market + " is for a " + function.name + " beam"};
+    return Done{};
+  };
+  const Function given{options.function, "as asked"};
+  if (!inputs.tables.empty()) {
+    const Function function = options.function.empty()
+                                  ? function_of(cutoff_shape(mounted_intensity(inputs.tables.front(), glm::dmat3{1.0})))
+                                  : given;
+    if (const Status status = judge_one(inputs, function); !status) return status.error();
+  }
+  for (const PointList& list : inputs.lists) {
+    const Function function = options.function.empty() ? function_of(list, *rules) : given;
+    if (function.name.empty())
+      return Error{list_title(options.files.front(), list), "has no point of any rule; name its beam with --function"};
+    if (const Status status = judge_one({{}, {list}, ""}, function); !status) return status.error();
+  }
+  return head;
+}
+
+int exit_code(const std::vector<Judged>& all) {
+  const bool failed =
+      std::any_of(all.begin(), all.end(), [](const Judged& j) { return j.result.verdict >= RuleVerdict::kNoData; });
+  return failed ? kExitCheckFailed : kExitDone;
 }
 
 }  // namespace
@@ -158,55 +194,53 @@ int list_rules(bool as_json) {
 int lamp_check(const LampCheckOptions& options) {
   if (options.list) return list_rules(options.json);
   if (options.files.empty()) return bad_input({"", "give a photometry file, or --list"});
-  if (options.rules.empty()) return bad_input({"--rule", "name a rulebook; --list shows them"});
+  const bool every = std::find(options.rules.begin(), options.rules.end(), "all") != options.rules.end() ||
+                     (options.rules.empty() && !options.market.empty());
+  if (every && options.rules.size() > 1) return bad_input({"--rule", "all stands alone"});
+  if (options.rules.empty() && !every) return bad_input({"--rule", "name a rulebook, or all; --list shows them"});
+  if (!every && !options.market.empty()) return bad_input({"--market", "goes with --rule all, not with one rule"});
+  if (!every && !options.function.empty()) return bad_input({"--function", "goes with --rule all or --market"});
   if (options.files.size() > 2) return bad_input({"", "one file, or the left and the right lamp's"});
-  std::vector<IntensityTable> tables;
-  std::string names;
-  for (const std::string& file : options.files) {
-    auto table = read_lamp(file, options.settings);
-    if (!table) return bad_input(table.error());
-    tables.push_back(std::move(*table));
-    names += (names.empty() ? "" : " and ") + base_name(file);
-  }
-  std::vector<const IntensityTable*> pointers;
-  for (const IntensityTable& table : tables) pointers.push_back(&table);
-  CheckOptions check;
-  check.traffic = options.traffic == "left"    ? Traffic::kLeft
-                  : options.traffic == "right" ? Traffic::kRight
-                                               : Traffic::kFind;
-  check.reaim = options.reaim;
-  check.aim_name = options.aim;
-  check.led_module = options.led_module;
-  if (const Status pair = same_traffic(pointers); !pair) return bad_input(pair.error());
-  if (options.aim_up_deg || options.aim_right_deg)
-    check.aim = HV{options.aim_right_deg.value_or(0.0), options.aim_up_deg.value_or(0.0)};
+  const auto inputs = read_inputs(options);
+  if (!inputs) return bad_input(inputs.error());
+  if (const Status pair = same_traffic(inputs->pointers()); !pair) return bad_input(pair.error());
 
-  nlohmann::json all = nlohmann::json::array();
-  bool failed = false;
-  for (const std::string& name : options.rules) {
-    const auto rule = find_rulebook(rules_folder(), name);
-    if (!rule) return bad_input(rule.error());
-    if (pointers.size() == 2 && !rule->half_sum)
-      return bad_input({rule->id, "judges each lamp by itself; check the two files one by one"});
-    if (!options.aim.empty() && rule->aim(options.aim) == nullptr) {
-      std::vector<std::string> known;
-      for (const CutoffAim& aim : rule->cutoff_aims) known.push_back(aim.name);
-      return bad_input({"--aim", known.empty() ? rule->id + " has no aim by the cut-off"
-                                               : rule->id + ": " + unknown_name_reason("aim", options.aim, known)});
-    }
-    if (options.led_module && !rule->has_led_module_limits())
-      return bad_input({"--led-module", rule->id + " has no limits of its own for LED modules"});
-    const CheckResult result = check_lamp(pointers, *rule, check);
-    failed = failed || result.verdict >= Verdict::kNoData;
-    if (options.json) {
-      all.push_back(as_json(result));
-      all.back()["files"] = options.files;
-    } else {
-      print(result, names);
+  std::vector<Judged> all;
+  PageHead head{inputs->names, "", ""};
+  if (every) {
+    auto judged = judge_by_all(options, *inputs, all);
+    if (!judged) return bad_input(judged.error());
+    head = std::move(*judged);
+  } else {
+    for (const std::string& name : options.rules) {
+      const auto rule = find_rulebook(rules_folder(), name);
+      if (!rule) return bad_input(rule.error());
+      if (const Status status = judge(options, *inputs, *rule, false, all); !status) return bad_input(status.error());
+      head.function += (head.function.empty() ? "" : ", ") + rule->name;
     }
   }
-  if (options.json) print_json(all.size() == 1 ? all.front() : all);
-  return failed ? kExitCheckFailed : kExitDone;
+  if (!options.out.empty()) {
+    std::error_code code;  // a folder that cannot be made shows when the page is written
+    const std::filesystem::path folder = std::filesystem::path(options.out).parent_path();
+    if (!folder.empty()) std::filesystem::create_directories(folder, code);
+    if (const Status written = write_whole_file(options.out, html_page(head, all)); !written)
+      return bad_input(written.error());
+  }
+  if (options.out == "-") return exit_code(all);  // the page is what was asked for
+  if (options.json) {
+    nlohmann::json results = nlohmann::json::array();
+    for (const Judged& judged : all) {
+      results.push_back(judged_json(judged));
+      results.back()["files"] = options.files;
+      if (every) results.back()["function"] = judged.result.function;
+    }
+    print_json(results.size() == 1 && !every ? results.front() : results);
+  } else if (every) {
+    print_page(head, all);
+  } else {
+    for (const Judged& judged : all) print_judged(judged);
+  }
+  return exit_code(all);
 }
 
 }  // namespace phare

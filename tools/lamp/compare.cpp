@@ -163,6 +163,12 @@ int lamp_compare(const LampCompareOptions& options) {
   const std::vector<RoadLamp> road_b = pair(b, laid.pitch_b_deg, laid.yaw_b_deg);
 
   const std::string alignment = alignment_text(a, b, laid, options.align);
+  // Places and lanes lie as the side of traffic has them: A's, else B's, else it is assumed.
+  const CutoffShape& telling = a.shape.tells_side() || !b.shape.tells_side() ? a.shape : b.shape;
+  const bool left_hand = telling.side == CutoffSide::kRisesLeft;
+  const double side = left_hand ? -1.0 : 1.0;
+  const std::string traffic =
+      std::string(left_hand ? "left" : "right") + "-hand traffic (" + side_source(telling) + ")";
   IntensityTable turned_b = b.table;
   mirror_left_right(turned_b);
   const Lamp mirrored_b(std::move(turned_b));
@@ -189,6 +195,9 @@ int lamp_compare(const LampCompareOptions& options) {
     nlohmann::json json{{"a", options.a},
                         {"b", options.b},
                         {"alignment", alignment},
+                        {"traffic", left_hand ? "left" : "right"},
+                        {"traffic_source", telling.tells_side() ? "by the cut-off" : "assumed"},
+                        {"cutoff_forms", {form_name(a.shape.form), form_name(b.shape.form)}},
                         {"aligned_by_cutoff", laid.turn.aligned},
                         {"b_turned_up_deg", laid.turn.up_deg},
                         {"b_turned_right_deg", laid.turn.right_deg},
@@ -210,7 +219,8 @@ int lamp_compare(const LampCompareOptions& options) {
                         {"peak_a_cd", a.table.peak_cd()},
                         {"peak_b_cd", b.table.peak_cd()},
                         {"files", written}};
-    for (const Place& p : kPlaces) {
+    for (const Place& printed : kPlaces) {
+      const Place p{printed.name, side * printed.h_deg, printed.v_deg};
       const auto x = at_place(in_a, p), y = at_place(in_b, p);
       nlohmann::json one{{"name", p.name}, {"h_deg", p.h_deg}, {"v_deg", p.v_deg}};
       one["a_cd"] = x ? nlohmann::json(*x) : nlohmann::json(nullptr);
@@ -219,7 +229,8 @@ int lamp_compare(const LampCompareOptions& options) {
       one["ratio"] = x && y ? ratio_of(*x, *y) : nlohmann::json(nullptr);
       json["points"].push_back(std::move(one));
     }
-    for (const RoadPlace& p : kRoad) {
+    for (const RoadPlace& printed : kRoad) {
+      const RoadPlace p{printed.name, printed.x_m, side * printed.y_m};
       const double x = road_lux(road_a, p.x_m, p.y_m, 0.25, true), y = road_lux(road_b, p.x_m, p.y_m, 0.25, true);
       json["road"].push_back({{"name", p.name},
                               {"x_m", p.x_m},
@@ -245,8 +256,11 @@ int lamp_compare(const LampCompareOptions& options) {
     std::printf("B turned left to right fits A better: worst %.0f cd, correlation %.5f (--mirror-b compares so)\n",
                 mirrored.worst_cd, mirrored.correlation);
   }
+  std::printf("places for %s%s\n", traffic.c_str(),
+              left_hand ? "; named as for right-hand traffic, and looked at on the other side" : "");
   std::printf("  %-18s %10s %10s %10s %8s\n", "cut-off at 0.57 D", "A cd", "B cd", "B - A", "B / A");
-  for (const Place& p : kPlaces) {
+  for (const Place& printed : kPlaces) {
+    const Place p{printed.name, side * printed.h_deg, printed.v_deg};
     const auto x = at_place(in_a, p), y = at_place(in_b, p);
     if (x && y) {
       std::printf("  %-18s %10.0f %10.0f %+10.0f %8s\n", p.name, *x, *y, *y - *x, ratio_text(*x, *y).c_str());
@@ -255,7 +269,8 @@ int lamp_compare(const LampCompareOptions& options) {
     }
   }
   std::printf("  %-18s %10s %10s %10s %8s\n", "pair, 0.25 m high", "A lx", "B lx", "B - A", "B / A");
-  for (const RoadPlace& p : kRoad) {
+  for (const RoadPlace& printed : kRoad) {
+    const RoadPlace p{printed.name, printed.x_m, side * printed.y_m};
     const double x = road_lux(road_a, p.x_m, p.y_m, 0.25, true), y = road_lux(road_b, p.x_m, p.y_m, 0.25, true);
     std::printf("  %-18s %10.2f %10.2f %+10.2f %8s\n", p.name, x, y, y - x, ratio_text(x, y).c_str());
   }

@@ -1,13 +1,19 @@
 // phare lamp info, phare lamp table: what a photometry file is, and what it says in a direction.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "config/input_files.h"
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/point_lists.h"
 #include "tools/lamp/print_json.h"
+#include "visual/photometry/lamp_aim.h"
 #include "visual/photometry/lint.h"
 #include "visual/photometry/points_file.h"
+#include "visual/photometry/table_end.h"
 
 namespace phare {
 namespace {
@@ -24,6 +30,19 @@ const char* side_name(CutoffSide side) {
       break;
   }
   return "rises left";
+}
+
+constexpr double kInfoHeight_m = 0.65;  // as `plot` and `hspr` mount it
+
+/// Where the table would end on the road in the driver's picture of a usual car, its cut-off on the line.
+std::optional<TableEnd> road_end(const IntensityTable& table, const LampReport& report) {
+  const CutoffShape& shape = report.cutoff;
+  const double up_deg =
+      shape.side == CutoffSide::kNone
+          ? 0.0
+          : degrees_of_percent(aim_line(LampFunction::kLow, kInfoHeight_m).line_percent) - shape.flat_v_deg;
+  const ChannelConfig window;
+  return table_end(table, aim_rotation(0.0, glm::radians(up_deg), 0.0), 1.0, {3.45, 0.62, kInfoHeight_m}, {&window, 1});
 }
 
 nlohmann::json as_json(const std::string& file, const IntensityTable& table, const LampReport& report) {
@@ -59,19 +78,27 @@ nlohmann::json as_json(const std::string& file, const IntensityTable& table, con
                         {"first_step_at_peak_deg", report.step_h_deg},
                         {"second_step_at_peak_deg", report.step_v_deg},
                         {"smallest_step_cd", header.smallest_step_cd}}},
-                      {"cutoff", {{"shape", side_name(side)}}},
-                      {"traffic", side == CutoffSide::kRisesRight  ? "right"
-                                  : side == CutoffSide::kRisesLeft ? "left"
-                                                                   : "unknown"},
+                      {"cutoff", {{"shape", side_name(side)}, {"form", form_name(report.cutoff.form)}}},
+                      {"traffic", side == CutoffSide::kRisesLeft ? "left" : "right"},
+                      {"traffic_source", report.cutoff.tells_side() ? "by the cut-off" : "assumed"},
                       {"content_hash", table.content_hash},
                       {"keywords", keywords},
                       {"findings", findings}};
+  if (const auto end = road_end(table, report)) {
+    json["table_end"] = {{"text", end->text()}, {"height_m", kInfoHeight_m}};
+    if (end->below) json["table_end"]["v_deg"] = end->v_deg;
+    if (end->below) json["table_end"]["nearest_road_m"] = end->nearest_road_m;
+  }
   if (side != CutoffSide::kNone) {
     json["cutoff"]["flat_v_deg"] = report.cutoff.flat_v_deg;
     json["cutoff"]["sharpness_g"] = report.cutoff.sharpness_g;
     if (side != CutoffSide::kFlat) {
       json["cutoff"]["kink_h_deg"] = report.cutoff.kink_h_deg;
       json["cutoff"]["rise_deg"] = report.cutoff.rise_deg;
+      json["cutoff"]["upper_v_deg"] = report.cutoff.upper_v_deg;
+      for (const CutoffStep& step : report.cutoff.steps)
+        json["cutoff"]["steps"].push_back(
+            {{"foot_h_deg", step.foot_h_deg}, {"head_h_deg", step.head_h_deg}, {"height_deg", step.height_deg}});
     }
   }
   return json;
@@ -90,22 +117,78 @@ void print(const std::string& file, const IntensityTable& table, const LampRepor
   std::printf("  peak      %.6g cd at H %+.2f, V %+.2f deg\n", report.peak_cd, report.peak.first_deg,
               report.peak.second_deg);
   std::printf("  flux      %.1f lm\n", report.flux_lm);
+  std::printf("  traffic   %s-hand (%s)\n", report.cutoff.side == CutoffSide::kRisesLeft ? "left" : "right",
+              side_source(report.cutoff).c_str());
   std::printf("  hash      %s\n", table.content_hash.c_str());
+  if (const auto end = road_end(table, report))
+    std::printf("  road      mounted %.2f m high%s: %s\n", kInfoHeight_m,
+                report.cutoff.side == CutoffSide::kNone ? "" : ", its cut-off 1 % down", end->text().c_str());
   for (const Finding& f : report.findings)
     std::printf("  %-8s  %s%s%s\n", grade_name(f.grade).c_str(), f.place.c_str(), f.place.empty() ? "" : ": ",
                 f.text.c_str());
 }
 
+nlohmann::json points_json(const std::string& file, const PointLists& lists) {
+  nlohmann::json json{{"file", file}, {"format", "list of points"}, {"beams", nlohmann::json::array()}};
+  for (const PointList& list : lists.beams) {
+    nlohmann::json points = nlohmann::json::array();
+    for (const MeasuredPoint& point : list.points) {
+      nlohmann::json one{{"name", point.name}, {"line", point.line}};
+      one["at_deg"] = point.at ? nlohmann::json({point.at->h_deg, point.at->v_deg}) : nlohmann::json();
+      one["cd"] = point.cd ? nlohmann::json(*point.cd) : nlohmann::json();
+      points.push_back(std::move(one));
+    }
+    json["beams"].push_back({{"beam", list.beam}, {"measured", list.measured()}, {"points", points}});
+  }
+  return json;
+}
+
+void print_points(const std::string& file, const PointLists& lists) {
+  std::printf("%s\n  list of measured points, no beam: judged by check, drawn by plot; nothing lies between them\n",
+              file.c_str());
+  if (lists.distance_m > 0.0) std::printf("  distance  %g m\n", lists.distance_m);
+  for (const PointList& list : lists.beams) {
+    std::size_t named = 0;
+    double most = 0.0;
+    const MeasuredPoint* brightest = nullptr;
+    for (const MeasuredPoint& point : list.points) {
+      named += point.at ? 0 : 1;
+      if (point.cd && *point.cd >= most) most = *point.cd, brightest = &point;
+    }
+    std::printf("  %s%s%zu points, %zu measured, %zu by a rule's name alone", list.beam.c_str(),
+                list.beam.empty() ? "" : ": ", list.points.size(), list.measured(), named);
+    if (brightest != nullptr) std::printf("; brightest %.6g cd at %s", most, brightest->name.c_str());
+    std::printf("\n");
+  }
+  for (const std::string& note : lists.notes) std::printf("  info      %s\n", note.c_str());
+}
+
 }  // namespace
 
 std::string base_name(const std::string& file) {
-  return std::filesystem::path(file).filename().string();
+  return is_standard_input(file) ? input_name(file) : std::filesystem::path(file).filename().string();
 }
 
 int lamp_info(const LampInfoOptions& options) {
   nlohmann::json all = nlohmann::json::array();
-  bool bad = false;
+  bool bad = false, wrong = false;
   for (const std::string& file : options.files) {
+    // A list of points is no beam; what cannot be read at all is told by read_lamp.
+    if (const auto points = read_as_points(file, options.settings); points && *points) {
+      if (options.json) {
+        all.push_back(points_json(file, **points));
+      } else {
+        print_points(file, **points);
+      }
+      continue;
+    } else if (!points && points.error().place != file) {
+      bad_input(points.error());
+      bad = true;
+      if (options.json)
+        all.push_back(
+            {{"file", file}, {"error", {{"place", points.error().place}, {"reason", points.error().reason}}}});
+      continue;
+    }
     const auto table = read_lamp(file, options.settings);
     if (!table) {  // the others are still worth knowing
       bad_input(table.error());
@@ -115,6 +198,8 @@ int lamp_info(const LampInfoOptions& options) {
       continue;
     }
     const LampReport report = lint_lamp(*table);
+    wrong = wrong || std::any_of(report.findings.begin(), report.findings.end(),
+                                 [](const Finding& finding) { return finding.grade == Grade::kError; });
     if (options.json) {
       all.push_back(as_json(file, *table, report));
     } else {
@@ -122,7 +207,7 @@ int lamp_info(const LampInfoOptions& options) {
     }
   }
   if (options.json) print_json(all.size() == 1 ? all.front() : all);
-  return bad ? kExitBadInput : kExitDone;
+  return bad ? kExitBadInput : options.strict && wrong ? kExitCheckFailed : kExitDone;
 }
 
 int lamp_table(const LampTableOptions& options) {

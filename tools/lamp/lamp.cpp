@@ -1,4 +1,5 @@
 // phare lamp: the photometry bench on the command line.
+#include "config/input_files.h"
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 #include "visual/photometry/file_text.h"
@@ -46,9 +47,31 @@ void add_reading(CLI::App* command, LampReadSettings& settings) {
       ->check(CLI::IsMember({"lm63", "eulumdat", "tm33", "csv"}));
 }
 
+/// What a command reads, and the files it may write.
+struct Touched {
+  std::vector<std::string> inputs, results = {};
+};
+
+/// Runs a command unless two of its inputs are standard input or a result would be written over an input.
 template <typename Options>
-void run_with(CLI::App* command, const std::shared_ptr<Options>& options, Command& chosen, int (*run)(const Options&)) {
-  command->callback([options, &chosen, run] { chosen = [options, run] { return run(*options); }; });
+void run_with(CLI::App* command, const std::shared_ptr<Options>& options, Command& chosen, int (*run)(const Options&),
+              Touched (*touched)(const Options&)) {
+  command->callback([options, &chosen, run, touched] {
+    chosen = [options, run, touched] {
+      const Touched files = touched(*options);
+      if (const Status apart = check_inputs(files.inputs, files.results); !apart) return bad_input(apart.error());
+      return run(*options);
+    };
+  });
+}
+
+/// The pictures of a folder, by their stems.
+std::vector<std::string> pictures(const std::string& folder, const std::vector<std::string>& stems) {
+  std::vector<std::string> files;
+  for (const std::string& stem : stems) {
+    for (const char* ending : {".svg", ".png"}) files.push_back(folder + "/" + stem + ending);
+  }
+  return files;
 }
 
 void add_info(CLI::App* lamp, Command& chosen) {
@@ -57,8 +80,10 @@ void add_info(CLI::App* lamp, Command& chosen) {
   command->footer("Example:\n  phare lamp info low_beam.ies --json");
   command->add_option("files", options->files, "Photometry files")->required();
   command->add_flag("--json", options->json, "For machines");
+  command->add_flag("--strict", options->strict, "Exit code 1 when a finding is an error");
   add_reading(command, options->settings);
-  run_with(command, options, chosen, lamp_info);
+  run_with(
+      command, options, chosen, lamp_info, +[](const LampInfoOptions& o) { return Touched{o.files}; });
 }
 
 void add_table(CLI::App* lamp, Command& chosen) {
@@ -70,17 +95,31 @@ void add_table(CLI::App* lamp, Command& chosen) {
   command->add_option("--out", options->out, "CSV to write; adds intensity_cd [standard output]");
   command->add_flag("--json", options->json, "For machines; --out names the CSV to write as well");
   add_reading(command, options->settings);
-  run_with(command, options, chosen, lamp_table);
+  run_with(
+      command, options, chosen, lamp_table, +[](const LampTableOptions& o) {
+        return Touched{{o.file, o.at}, {o.out}};
+      });
 }
 
 void add_check(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampCheckOptions>();
   CLI::App* command =
       lamp->add_subcommand("check", "Judge a beam by a rulebook; exit code 1 when a row fails or the file lacks data");
-  command->footer("Example:\n  phare lamp check low_beam.ies --rule r112-passing-b --json\n  phare lamp check --list");
-  command->add_option("files", options->files, "One file, or left and right (rules of half the sum)");
-  command->add_option("--rule", options->rules, "Rulebook of config/rules, or a .toml file; repeat for more")
+  command->footer(
+      "Example:\n  phare lamp check low_beam.ies --rule r112-passing-b --json\n  phare lamp check low_beam.ies "
+      "--rule r112-passing-b --rule r149-passing-c --out out/check.html\n  phare lamp check --list");
+  command->add_option("files", options->files,
+                      "One file, or left and right (rules of half the sum); or a laboratory's list of points");
+  command
+      ->add_option("--rule", options->rules,
+                   "Rulebook of config/rules, or a .toml file; repeat for more. all: every one for this kind of beam")
       ->allow_extra_args(false);
+  command->add_option("--market", options->market, "Every rule of this market for this kind of beam: ECE or US")
+      ->check(CLI::IsMember({"ECE", "EU", "UN", "US", "USA"}, CLI::ignore_case));
+  command->add_option("--function", options->function, "Kind of beam for --rule all and --market [by the beam]")
+      ->check(CLI::IsMember({"low", "high", "fog"}));
+  command->add_option("--beam", options->beam, "Of a list of points with several beams, this one [all]");
+  command->add_option("--out", options->out, "HTML page to write: rules, then all rows, the worst first");
   command->add_option("--traffic", options->traffic, "Side of the road [by the cut-off]")
       ->check(CLI::IsMember({"find", "right", "left"}))
       ->capture_default_str();
@@ -96,7 +135,8 @@ void add_check(CLI::App* lamp, Command& chosen) {
   command->add_flag("--list", options->list, "List the rulebooks");
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
-  run_with(command, options, chosen, lamp_check);
+  run_with(
+      command, options, chosen, lamp_check, +[](const LampCheckOptions& o) { return Touched{o.files}; });
 }
 
 void add_convert(CLI::App* lamp, Command& chosen) {
@@ -104,7 +144,8 @@ void add_convert(CLI::App* lamp, Command& chosen) {
   CLI::App* command =
       lamp->add_subcommand("convert", "Write a lamp as LM-63-2019, EULUMDAT or CSV; several files are summed");
   command->footer(
-      "Example:\n  phare lamp convert low_beam.ies --out low_beam.ldt\n  phare lamp convert low_beam.ies --mirror --out "
+      "Example:\n  phare lamp convert low_beam.ies --out low_beam.ldt\n  phare lamp convert low_beam.ies --mirror "
+      "--out "
       "low_beam_lht.ies");
   command->add_option("files", options->files, "Photometry files")->required();
   command->add_option("--out", options->out, "File to write: .ies, .ldt or .csv")->required();
@@ -122,7 +163,10 @@ void add_convert(CLI::App* lamp, Command& chosen) {
       ->default_str("gamma0");
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
-  run_with(command, options, chosen, lamp_convert);
+  run_with(
+      command, options, chosen, lamp_convert, +[](const LampConvertOptions& o) {
+        return Touched{o.files, {o.out}};
+      });
 }
 
 void add_mounting(CLI::App* command, double& height_m, double& spacing_m, double& pitch_deg, bool& given) {
@@ -161,7 +205,10 @@ void add_compare(CLI::App* lamp, Command& chosen) {
       ->capture_default_str();
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
-  run_with(command, options, chosen, lamp_compare);
+  run_with(
+      command, options, chosen, lamp_compare, +[](const LampCompareOptions& o) {
+        return Touched{{o.a, o.b}, pictures(o.out, {"ratio", "difference"})};
+      });
 }
 
 void add_plot(CLI::App* lamp, Command& chosen) {
@@ -172,28 +219,58 @@ void add_plot(CLI::App* lamp, Command& chosen) {
   command->add_option("files", options->files, "One file, or left and right")->required();
   command->add_option("--out", options->out, "Folder to write into")->required();
   command->add_option("--rule", options->rule, "Rulebook whose rows are drawn with pass and fail");
+  command->add_option("--beam", options->beam, "Of a list of points with several beams, this one [all]");
   command->add_option("--view", options->views, "Draw this view alone; repeat for more [all]")
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(kPlotViews), std::end(kPlotViews))))
       ->allow_extra_args(false);
   add_mounting(command, options->height_m, options->spacing_m, options->pitch_deg, options->pitch_given);
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
-  run_with(command, options, chosen, lamp_plot);
+  run_with(
+      command, options, chosen, lamp_plot, +[](const LampPlotOptions& o) {
+        std::vector<std::string> stems;
+        for (const char* view : kPlotViews) {
+          for (const char* lamp : {"", "_left", "_right"}) stems.push_back(std::string(view) + lamp);
+        }
+        return Touched{o.files, pictures(o.out, stems)};
+      });
 }
 
 void add_hspr(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampHsprOptions>();
-  CLI::App* command = lamp->add_subcommand("hspr", "HSPR of a pair (GTB CE-5815): ranges, widths, flux, glare, points");
-  command->footer("Example:\n  phare lamp hspr low_beam.ies low_beam.ies");
+  CLI::App* command = lamp->add_subcommand(
+      "hspr", "HSPR of a pair (GTB CE-5815): ranges, widths, flux, glare, points, score and class");
+  command->footer(
+      "Each row has the method's figure and the physical one; points, score and class are the method's.\n"
+      "Example:\n  phare lamp hspr low_beam.ies low_beam.ies\n  phare lamp hspr low_beam.ies low_beam.ies --high "
+      "high_beam.ies high_beam.ies");
   command->add_option("left", options->left, "Photometry file of the left lamp")->required();
   command->add_option("right", options->right, "Photometry file of the right lamp")->required();
   command->add_option("--beam", options->beam, "Which method [low where there is a kinked cut-off]")
       ->check(CLI::IsMember({"find", "low", "high"}))
       ->capture_default_str();
+  command->add_option("--high", options->high, "Driving beam beside the passing beam, left and right: rates the system")
+      ->expected(2);
+  command
+      ->add_option(
+          "--adb", options->adb,
+          "With --high: SITUATION LEFT RIGHT of an adaptive driving beam, as filed; six times, for oncoming-50, "
+          "-100, -200 and preceding-50, -100, -200")
+      ->type_size(3)
+      ->expected(1, 6)
+      ->allow_extra_args(false);
   add_mounting(command, options->height_m, options->spacing_m, options->pitch_deg, options->pitch_given);
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
-  run_with(command, options, chosen, lamp_hspr);
+  run_with(
+      command, options, chosen, lamp_hspr, +[](const LampHsprOptions& o) {
+        Touched files{{o.left, o.right}};
+        files.inputs.insert(files.inputs.end(), o.high.begin(), o.high.end());
+        for (std::size_t i = 0; i < o.adb.size(); ++i) {
+          if (i % 3 != 0) files.inputs.push_back(o.adb[i]);
+        }
+        return files;
+      });
 }
 
 void add_levels(CLI::App* lamp, Command& chosen) {
@@ -205,7 +282,8 @@ void add_levels(CLI::App* lamp, Command& chosen) {
   command->add_flag("--bench", options->bench, "Also time the recomposition of 1801 x 601 texels from 36 sources");
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
-  run_with(command, options, chosen, lamp_levels);
+  run_with(
+      command, options, chosen, lamp_levels, +[](const LampLevelsOptions& o) { return Touched{{o.file}}; });
 }
 
 }  // namespace
@@ -218,6 +296,7 @@ void add_lamp(CLI::App& app, Command& chosen) {
   CLI::App* lamp =
       app.add_subcommand("lamp", "The photometry bench: info, table, check, plot, compare, convert, hspr, levels");
   lamp->footer(
+      "A file named \"-\" is standard input.\n"
       "Example:\n  phare lamp info low_beam.ies\n  phare lamp plot low_beam.ies --rule r149-passing-c --out out/plots");
   lamp->require_subcommand(1);
   add_info(lamp, chosen);

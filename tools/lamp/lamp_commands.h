@@ -14,7 +14,7 @@ namespace phare {
 struct LampInfoOptions {
   std::vector<std::string> files;
   LampReadSettings settings;
-  bool json = false;
+  bool json = false, strict = false;
 };
 int lamp_info(const LampInfoOptions& options);
 
@@ -31,7 +31,10 @@ struct LampCheckOptions {
   LampReadSettings settings;
   std::string traffic = "find";
   std::optional<double> aim_up_deg, aim_right_deg;
-  std::string aim;  ///< one of the rule's: "VOL", "VOR"; empty: by the beam
+  std::string aim;               ///< one of the rule's: "VOL", "VOR"; empty: by the beam
+  std::string market, function;  ///< of --rule all: "ECE", "US"; "low", "high", "fog"; empty: every, by the beam
+  std::string beam;              ///< of a list of points; empty: all of them
+  std::string out;               ///< HTML page; empty: none
   bool reaim = true, led_module = false, json = false, list = false;
 };
 int lamp_check(const LampCheckOptions& options);
@@ -58,6 +61,7 @@ inline constexpr const char* kPlotViews[] = {"wall_25m", "isocandela", "vertical
 struct LampPlotOptions {
   std::vector<std::string> files;  ///< one, or left and right
   std::string out, rule;
+  std::string beam;                ///< of a list of points; empty: all of them
   std::vector<std::string> views;  ///< stems of kPlotViews; empty: all
   LampReadSettings settings;
   double height_m = 0.65, spacing_m = 1.2;
@@ -68,8 +72,10 @@ int lamp_plot(const LampPlotOptions& options);
 
 struct LampHsprOptions {
   std::string left, right, beam = "find";
+  std::vector<std::string> high;  ///< left and right of the driving beam; empty: one beam alone
+  std::vector<std::string> adb;   ///< situation, left, right; all six or none
   LampReadSettings settings;
-  double height_m = 0.65, spacing_m = 1.2;
+  double height_m = 0.75, spacing_m = 1.5;  ///< of the method
   double pitch_deg = 0.0;
   bool pitch_given = false, json = false;
 };

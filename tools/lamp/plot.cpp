@@ -7,6 +7,8 @@
 
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
+#include "tools/lamp/plot_points.h"
+#include "tools/lamp/point_lists.h"
 #include "tools/lamp/print_json.h"
 #include "tools/lamp/views.h"
 #include "visual/photometry/beam_image.h"
@@ -75,10 +77,10 @@ std::string aim_text(const AimedLamp& lamp) {
 
 std::string verdict_text(const CheckResult& check) {
   std::string text = check.rule_name + (check.left_hand ? ", rows mirrored: " : ": ");
-  if (check.verdict == Verdict::kFail) {
+  if (check.verdict == RuleVerdict::kFail) {
     text += "FAIL, " + std::to_string(check.failed) + " of " + std::to_string(check.rows.size()) + " rows";
   } else {
-    text += check.verdict == Verdict::kPass ? "pass" : "undecided";
+    text += check.verdict == RuleVerdict::kPass ? "pass" : "undecided";
   }
   if (check.within_resolution > 0)
     text += ", " + std::to_string(check.within_resolution) + " within the file's resolution";
@@ -93,18 +95,22 @@ struct WallBeam {
   IntensityHv intensity;
   const CheckResult* check = nullptr;
   bool left_hand = false;
+  std::string traffic;  ///< how the side of traffic is known: "by the cut-off", "assumed: …"
 };
 
 WallBeam wall_beam(const AimedLamp& lamp, std::string suffix) {
   char facts[80];
   std::snprintf(facts, sizeof facts, "; peak %.0f cd, %.0f lm", lamp.table->peak_cd(), lamp.table->flux_lm());
-  WallBeam beam{std::move(suffix), lamp.table->name, aim_text(lamp) + facts,
-                lamp.intensity(),  nullptr,          lamp.shape.side == CutoffSide::kRisesLeft};
+  WallBeam beam{std::move(suffix),      lamp.table->name, aim_text(lamp) + facts,
+                lamp.intensity(),       nullptr,          lamp.shape.side == CutoffSide::kRisesLeft,
+                side_source(lamp.shape)};
   if (lamp.check) {
     beam.check = &*lamp.check;
     beam.subtitle += "; " + verdict_text(*lamp.check);
     beam.left_hand = lamp.check->left_hand;
   }
+  if (!lamp.shape.tells_side())
+    beam.subtitle += std::string("; ") + (beam.left_hand ? "left" : "right") + "-hand traffic assumed";
   return beam;
 }
 
@@ -125,6 +131,12 @@ int lamp_plot(const LampPlotOptions& options) {
     return bad_input({"", "one file, or the left and the right lamp's"});
   std::vector<IntensityTable> tables;
   for (const std::string& file : options.files) {
+    auto points = read_as_points(file, options.settings);
+    if (!points) return bad_input(points.error());
+    if (*points && options.files.size() > 1)
+      return bad_input({file, "is a list of points: drawn by itself, not as one of a pair"});
+    if (*points) return plot_points(options, **points);
+    if (!options.beam.empty()) return bad_input({"--beam", "is for lists of points; " + file + " is none"});
     auto table = read_lamp(file, options.settings);
     if (!table) return bad_input(table.error());
     tables.push_back(std::move(*table));
@@ -164,7 +176,7 @@ int lamp_plot(const LampPlotOptions& options) {
     };
     walls.push_back({"", "half the sum of " + left.table->name + " and " + right.table->name,
                      "left " + aim_text(left) + "; right " + aim_text(right) + "; " + verdict_text(*both),
-                     std::move(half), &*both, both->left_hand});
+                     std::move(half), &*both, both->left_hand, side_source(both->shape)});
   } else {
     walls.push_back(wall_beam(left, "_left"));
     walls.push_back(wall_beam(right, "_right"));
@@ -179,6 +191,10 @@ int lamp_plot(const LampPlotOptions& options) {
   const bool left_hand = walls.front().left_hand || walls.back().left_hand;
   const std::string mounted =
       facts + (lamps.size() == 1 ? aim_text(left) : "left " + aim_text(left) + "; right " + aim_text(right));
+  // Lanes lie as the side of traffic has them.
+  const std::string on_road = mounted + (left.shape.tells_side() || right.shape.tells_side() ? ""
+                                         : left_hand ? "; left-hand traffic assumed"
+                                                     : "; right-hand traffic assumed");
   const std::string names =
       lamps.size() == 1 ? left.table->name : left.table->name + " (left), " + right.table->name + " (right)";
   const SharpnessLimits limits = sharpness_limits(judged_by, left.shape);
@@ -205,16 +221,18 @@ int lamp_plot(const LampPlotOptions& options) {
     add("false_colour", beam.suffix,
         [&beam](Chart& c) { draw_bands(c, beam.intensity, beam.name + ": false colour", beam.subtitle); });
   }
-  add("birds_eye", "", [&](Chart& c) { draw_road(c, on_car, left_hand, names + ": isolux of the road", mounted); });
+  add("birds_eye", "", [&](Chart& c) { draw_road(c, on_car, left_hand, names + ": isolux of the road", on_road); });
 
   const RoadExtent extent = road_extent(on_car, true);
-  nlohmann::json json{{"traffic", left_hand ? "left" : "right"},
-                      {"lane_lines_m", lane_lines_m(left_hand)},
-                      {"road_ahead_m", extent.ahead_m},
-                      {"road_aside_m", extent.aside_m},
-                      {"road_goes_on", extent.clipped}};
+  const bool told = left.shape.tells_side() || right.shape.tells_side();
+  const std::string traffic = told ? "by the cut-off" : side_source(left.shape);
+  nlohmann::json json{
+      {"traffic", left_hand ? "left" : "right"}, {"traffic_source", told ? "by the cut-off" : "assumed"},
+      {"lane_lines_m", lane_lines_m(left_hand)}, {"road_ahead_m", extent.ahead_m},
+      {"road_aside_m", extent.aside_m},          {"road_goes_on", extent.clipped}};
   for (const AimedLamp& lamp : lamps) {
     json["lamps"].push_back({{"file", lamp.file},
+                             {"cutoff_form", form_name(lamp.shape.form)},
                              {"aim", lamp.aim},
                              {"turned_up_deg", lamp.up_deg},
                              {"turned_right_deg", lamp.right_deg},
@@ -226,6 +244,8 @@ int lamp_plot(const LampPlotOptions& options) {
     json["checks"].push_back({{"beam", beam.name},
                               {"rule", beam.check->rule_id},
                               {"verdict", verdict_name(beam.check->verdict)},
+                              {"traffic", beam.left_hand ? "left" : "right"},
+                              {"traffic_source", traffic_source_name(beam.check->traffic_source)},
                               {"failed", beam.check->failed},
                               {"within_resolution", beam.check->within_resolution},
                               {"no_data", beam.check->no_data},
@@ -238,7 +258,11 @@ int lamp_plot(const LampPlotOptions& options) {
     for (const char* ending : {".svg", ".png"}) json["files"].push_back(path + ending);
     if (!options.json) std::printf("%s.svg, .png\n", path.c_str());
   }
-  if (options.json) print_json(json);
+  if (options.json) {
+    print_json(json);
+  } else {
+    std::printf("%s-hand traffic (%s)\n", left_hand ? "left" : "right", traffic.c_str());
+  }
   return kExitDone;
 }
 

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "visual/photometry/cutoff_line.h"
+
 namespace phare {
 namespace {
 
@@ -23,15 +25,15 @@ double log_cd(double cd) {
   return std::log10(std::max(cd, 1e-3));
 }
 
-Rgb verdict_colour(Verdict verdict) {
+Rgb verdict_colour(RuleVerdict verdict) {
   switch (verdict) {
-    case Verdict::kPass:
+    case RuleVerdict::kPass:
       return kPass;
-    case Verdict::kFail:
+    case RuleVerdict::kFail:
       return kFailed;
-    case Verdict::kWithinResolution:
+    case RuleVerdict::kWithinResolution:
       return kWithin;
-    case Verdict::kNoData:
+    case RuleVerdict::kNoData:
       break;
   }
   return kGrey;
@@ -53,9 +55,9 @@ void draw_cross(Chart& chart, const Axes& axes, Rgb colour) {
   chart.line({{axes.left, axes.y(0)}, {axes.left + axes.width, axes.y(0)}}, colour, 1.1);
 }
 
-void draw_mark(Chart& chart, double x, double y, Verdict verdict) {
+void draw_mark(Chart& chart, double x, double y, RuleVerdict verdict) {
   const Rgb colour = verdict_colour(verdict);
-  if (verdict == Verdict::kFail) {
+  if (verdict == RuleVerdict::kFail) {
     for (const auto& [rim, width] : {std::pair{kWhite, 3.4}, {colour, 2.0}}) {
       chart.line({{x - 4, y - 4}, {x + 4, y + 4}}, rim, width);
       chart.line({{x - 4, y + 4}, {x + 4, y - 4}}, rim, width);
@@ -106,7 +108,7 @@ void draw_rows(Chart& chart, const Axes& axes, const CheckResult& check) {
   for (const bool failed : {true, false}) {
     for (const bool points : {true, false}) {
       for (const CheckRow& row : check.rows) {
-        if (row.at.empty() || (row.verdict == Verdict::kFail) != failed || is_point(row) != points) continue;
+        if (row.at.empty() || (row.verdict == RuleVerdict::kFail) != failed || is_point(row) != points) continue;
         const Rgb colour = failed ? kFailed : kBlack;
         if (!points && is_outline(row)) {
           chart.label(places_along(axes, outline(row), row.shape != RowShape::kLine), row.id, 7, colour);
@@ -130,16 +132,43 @@ void draw_rows(Chart& chart, const Axes& axes, const CheckResult& check) {
   }
 }
 
+/// The cut-off as scans in 0.25° find it, as far as it hangs together, and the kink.
+void draw_cutoff_line(Chart& chart, const Axes& axes, const IntensityHv& intensity) {
+  constexpr Rgb kColour{0.85, 0.1, 0.75};
+  const CutoffLine line = cutoff_line(intensity, -12.0, 12.0, 0.25);
+  std::vector<std::array<double, 2>> piece;
+  const auto flush = [&] {
+    if (piece.size() > 1) chart.line(piece, kColour, 1.3, false, true);
+    piece.clear();
+  };
+  for (std::size_t i = 0; i < line.h_deg.size(); ++i) {
+    const bool gap =
+        i > 0 && (line.h_deg[i] - line.h_deg[i - 1] > 0.3 || std::abs(line.v_deg[i] - line.v_deg[i - 1]) > 1.0);
+    if (gap) flush();
+    piece.push_back({axes.x(line.h_deg[i]), axes.y(line.v_deg[i])});
+  }
+  flush();
+  const CutoffShape shape = cutoff_shape(intensity);
+  if (!shape.tells_side()) return;
+  const double side = shape.side == CutoffSide::kRisesRight ? -1.0 : 1.0;
+  const double x = axes.x(shape.kink_h_deg), y = axes.y(shape.flat_v_deg);
+  chart.circle(x, y, 3.2, kColour, 1.4);
+  chart.label({{x + 12.0 * side, y + 12, side < 0 ? 1 : -1}, {x + 12.0 * side, y + 22, side < 0 ? 1 : -1}},
+              "kink, " + form_name(shape.form), 8, kColour, false);
+}
+
 void draw_row_legend(Chart& chart, const CheckResult& check) {
   constexpr double y = 466.0;
   double x = 70.0;
-  for (const auto& [verdict, name, wide] : {std::tuple{Verdict::kPass, "pass", 45.0},
-                                            {Verdict::kFail, "fail", 45.0},
-                                            {Verdict::kWithinResolution, "within the file's resolution", 150.0},
-                                            {Verdict::kNoData, "no data", 65.0}}) {
+  for (const auto& [verdict, name, wide] : {std::tuple{RuleVerdict::kPass, "pass", 45.0},
+                                            {RuleVerdict::kFail, "fail", 45.0},
+                                            {RuleVerdict::kWithinResolution, "within the file's resolution", 150.0},
+                                            {RuleVerdict::kNoData, "no data", 65.0}}) {
     draw_mark(chart, x, y, verdict);
-    chart.text(x + 8, y, name, 8.5, -1, kBlack);
-    x += wide;
+    const bool points = verdict == RuleVerdict::kNoData && std::any_of(check.rows.begin(), check.rows.end(),
+                                                                   [](const CheckRow& r) { return r.not_measured; });
+    chart.text(x + 8, y, points ? "not measured" : name, 8.5, -1, kBlack);
+    x += points ? wide + 30.0 : wide;
   }
   chart.line({{x, y}, {x + 24, y}}, kBlack, 1.5);
   chart.text(x + 29, y, "light at most", 8.5, -1, kBlack);
@@ -156,8 +185,8 @@ void draw_row_legend(Chart& chart, const CheckResult& check) {
     }
     const auto row =
         std::find_if(check.rows.begin(), check.rows.end(), [&](const CheckRow& r) { return r.id == beyond[i]; });
-    text += (i > 0 ? ", " : "") + beyond[i] + " (" +
-            (row->verdict == Verdict::kFail ? "FAIL" : verdict_name(row->verdict)) + ")";
+    text +=
+        (i > 0 ? ", " : "") + beyond[i] + " (" + (row->verdict == RuleVerdict::kFail ? "FAIL" : verdict_name(*row)) + ")";
   }
   chart.text(66, 481, text, 8.5, -1, kText);
 }
@@ -171,7 +200,7 @@ std::vector<std::string> rows_beyond_wall(const CheckResult& check) {
     const bool out = std::any_of(row.at.begin(), row.at.end(), [](HV p) {
       return p.h_deg < kWall.x_min || p.h_deg > kWall.x_max || p.v_deg < kWall.y_min || p.v_deg > kWall.y_max;
     });
-    if (out) ids.insert(row.verdict == Verdict::kFail ? ids.begin() + failed++ : ids.end(), row.id);
+    if (out) ids.insert(row.verdict == RuleVerdict::kFail ? ids.begin() + failed++ : ids.end(), row.id);
   }
   return ids;
 }
@@ -202,6 +231,7 @@ void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& ti
   const Rgb cross_name = coloured ? kWhite : kBlack;
   chart.label({{axes.x(0) + 3, axes.top + 8, -1}}, "V", 9, cross_name);
   chart.label({{axes.left + axes.width - 4, axes.y(0) - 8, 1}}, "H", 9, cross_name);
+  if (!coloured) draw_cutoff_line(chart, axes, intensity);
   if (check != nullptr) draw_rows(chart, axes, *check);
   draw_labels(chart, labels);
   chart.end_clip();
@@ -217,6 +247,44 @@ void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& ti
   colour_bar(chart, 790, 72, 340, kLow, kHigh, colour, marks);
   if (check != nullptr) draw_row_legend(chart, *check);
   draw_no_data_note(chart, 640, 466, grid);
+}
+
+void draw_point_wall(Chart& chart, const std::vector<PointMark>& points, const std::string& title,
+                     const std::string& subtitle, const CheckResult* check) {
+  const Axes axes = kWall;
+  chart.rectangle(axes.left, axes.top, axes.width, axes.height, kWhite);
+  chart.axes(axes, 2, 1, "H in deg, right positive, seen from the lamp (25 m: 1 deg = 0.436 m)",
+             "V in deg, up positive", {0.8, 0.8, 0.8}, 0.4);
+  chart.begin_clip(axes);
+  draw_cross(chart, axes, kBlack);
+  for (const PointMark& point : points) chart.keep_free(axes.x(point.at.h_deg) - 5, axes.y(point.at.v_deg) - 5, 10, 10);
+  if (check != nullptr) draw_rows(chart, axes, *check);
+  std::size_t beyond = 0;
+  for (const PointMark& point : points) {
+    const double x = axes.x(point.at.h_deg), y = axes.y(point.at.v_deg);
+    if (point.at.h_deg < axes.x_min || point.at.h_deg > axes.x_max || point.at.v_deg < axes.y_min ||
+        point.at.v_deg > axes.y_max) {
+      ++beyond;
+      continue;
+    }
+    chart.circle(x, y, 4.6, kBlack, 1.0);
+    std::vector<LabelPlace> places;
+    for (const double away : {11.0, 18.0, 26.0}) {
+      for (const double up : {away, -away}) {
+        for (const int align : {0, -1, 1}) places.push_back({x - 4.0 * align, y + up, align});
+      }
+    }
+    char value[32];
+    std::snprintf(value, sizeof value, "%.4g cd", point.cd);
+    if (point.cd >= 1000.0) std::snprintf(value, sizeof value, "%.0f cd", point.cd);
+    chart.label(places, value, 7.5, {0.1, 0.25, 0.75}, false);
+  }
+  chart.end_clip();
+  heading(chart, title, subtitle);
+  if (check != nullptr) draw_row_legend(chart, *check);
+  chart.circle(640, 466, 4.0, kBlack, 1.0);
+  chart.text(650, 466, beyond == 0 ? "measured" : "measured; " + std::to_string(beyond) + " beyond this page", 8.5, -1,
+             kBlack);
 }
 
 void draw_cut(Chart& chart, const IntensityHv& intensity, double h_deg, const SharpnessLimits& limits,

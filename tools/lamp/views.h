@@ -34,8 +34,19 @@ constexpr std::array<double, 3> lane_lines_m(bool left_hand) {
 std::vector<std::string> rows_beyond_wall(const CheckResult& check);
 
 /// 25 m wall: log candela in false colour or on white, isocandela lines, HV cross, rows of a check with their verdict.
+/// On white the cut-off too, as scans find it, and its kink.
 void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& title, const std::string& subtitle,
                const CheckResult* check, bool coloured);
+
+/// A measured value of a list of points.
+struct PointMark {
+  HV at;
+  double cd = 0.0;
+};
+
+/// The same wall with measured points and their candela in place of a beam; rows of a check as above.
+void draw_point_wall(Chart& chart, const std::vector<PointMark>& points, const std::string& title,
+                     const std::string& subtitle, const CheckResult* check);
 
 /// How far a view of the road reaches: to where 1 lx ends, at most 400 m ahead and 60 m aside.
 struct RoadExtent {

@@ -51,8 +51,9 @@ class Writer {
           {"metallicFactor", 0.0},
           {"roughnessFactor", 0.95}};
       if (m.double_sided) material["doubleSided"] = true;
-      material["extras"]["phare"] = {{"surface", m.surface},
-                                     {"retroreflection_cd_per_lx_m2", m.retroreflection_cd_per_lx_m2}};
+      Json& own = material["extras"]["phare"] = {{"surface", m.surface}};
+      if (*m.retro != '\0') own["retro"] = m.retro;
+      if (m.retroreflection_cd_per_lx_m2 > 0.0) own["retroreflection_cd_per_lx_m2"] = m.retroreflection_cd_per_lx_m2;
       root_["materials"].push_back(material);
     }
     for (const Node& node : model.nodes) add(node);

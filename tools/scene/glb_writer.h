@@ -9,7 +9,7 @@ namespace phare::scene {
 
 /// The whole file. One glTF node and mesh per Node, one primitive per material; vertices float32 about the node's
 /// middle, in glTF's y-up axes (x = world x, y = world z, z = -world y); indices 16 bit where they fit. Material extras
-/// as read by visual/scene: {"phare": {"surface": …, "retroreflection_cd_per_lx_m2": …}}.
+/// as read by visual/scene: {"phare": {"surface": …, "retro": …, "retroreflection_cd_per_lx_m2": …}}.
 std::string glb_bytes(const Model& model);
 
 }  // namespace phare::scene

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
 
+#include "visual/photometry/beam_image.h"
 #include "visual/scene/far_mesh.h"
 
 namespace phare {
@@ -46,9 +48,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
   std::map<std::pair<MaterialKind, Cell>, std::vector<const SceneChunk*>> groups;
   for (const SceneChunk* chunk : chunks) {
     const SceneMaterial& material = scene.materials[chunk->material];
-    groups[{{material.surface, material.retroreflection_cd_per_lx_m2 > 0.0f, material.double_sided},
-            cell_of(*chunk, side_m)}]
-        .push_back(chunk);
+    groups[{{material.surface, material.retro.kind, material.double_sided}, cell_of(*chunk, side_m)}].push_back(chunk);
   }
   std::vector<SceneBatch> batches;
   for (const auto& [key, group] : groups) {
@@ -93,15 +93,39 @@ std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all) {
   return blocks;
 }
 
+// Coefficients are of luminance under illuminant A, as R_A is measured; the shader multiplies by rho/pi, which gives
+// the tint, so what rho takes is given back. Product of colours in Rec. 709: not spectral.
+shader::GpuMaterial pack_material(const SceneMaterial& material, std::vector<shader::GpuSheeting>& sheetings) {
+  constexpr double kPi = std::numbers::pi;
+  shader::GpuMaterial packed{glm::vec4(material.reflectance, 0.0f)};
+  const glm::dvec3 seen = glm::dvec3(material.reflectance) * glm::dvec3(black_body_colour(2856.0));
+  const double rho = std::max(glm::dot(seen, glm::dvec3(0.2126, 0.7152, 0.0722)), 1e-3);
+  if (material.retro.kind == RetroKind::kMarking) {
+    const double diffuse = rho / kPi * std::cos(88.76 * kPi / 180.0);  // in the 30 m geometry
+    packed.reflectance.w =
+        static_cast<float>(std::max(1e-3 * material.retro.marking_mcd_per_lx_m2 - diffuse, 0.0) * kPi / rho);
+  } else if (material.retro.kind == RetroKind::kSheeting) {
+    packed.reflectance.w = static_cast<float>(sheetings.size());
+    shader::GpuSheeting& sheeting = sheetings.emplace_back();
+    for (std::size_t i = 0; i < material.retro.ln_r_a.size(); ++i)
+      sheeting.row[i] = material.retro.ln_r_a[i] + static_cast<float>(std::log(kPi / rho));
+  }
+  return packed;
+}
+
 }  // namespace
 
 SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene) {
   std::vector<shader::GpuMaterial> packed;
-  for (const SceneMaterial& material : scene.materials)
-    packed.push_back({glm::vec4(material.reflectance, material.retroreflection_cd_per_lx_m2)});
+  std::vector<shader::GpuSheeting> sheetings;
+  for (const SceneMaterial& material : scene.materials) packed.push_back(pack_material(material, sheetings));
   if (packed.size() > shader::kMaxMaterials)
     throw std::runtime_error(std::to_string(packed.size()) + " materials, at most " +
                              std::to_string(shader::kMaxMaterials) + " are drawn");
+  if (sheetings.size() > shader::kMaxSheetings)
+    throw std::runtime_error(std::to_string(sheetings.size()) + " retroreflective sheetings, at most " +
+                             std::to_string(shader::kMaxSheetings) + " are drawn");
+  sheetings.resize(shader::kMaxSheetings);
   packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
   Gathered all;
   blocks = make_blocks(scene, all);
@@ -109,6 +133,7 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene) {
   vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.vertices)), Usage::eVertexBuffer, "scene vertices");
   indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)), Usage::eIndexBuffer, "scene indices");
   material_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(packed)), Usage::eUniformBuffer, "materials");
+  sheeting_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(sheetings)), Usage::eUniformBuffer, "sheetings");
 }
 
 std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far_from_m) const {

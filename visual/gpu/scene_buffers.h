@@ -15,7 +15,7 @@ namespace phare {
 /// What makes a pipeline: materials of one kind are drawn together.
 struct MaterialKind {
   Surface surface = Surface::kPlain;
-  bool retro = false;
+  RetroKind retro = RetroKind::kNone;
   bool double_sided = false;
 
   friend auto operator<=>(const MaterialKind&, const MaterialKind&) = default;
@@ -54,7 +54,7 @@ struct DrawItem {
 
 struct SceneBuffers {
   std::vector<SceneBlock> blocks;
-  gpu::DeviceBuffer vertices, indices, material_buffer;
+  gpu::DeviceBuffer vertices, indices, material_buffer, sheeting_buffer;
 
   SceneBuffers() = default;
   SceneBuffers(gpu::Device& device, const Scene& scene);

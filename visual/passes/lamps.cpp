@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "shaders/depth_vert.h"
@@ -25,6 +26,9 @@ static_assert(sizeof(shader::GpuLamp) == 176 && offsetof(shader::GpuLamp, guide)
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 96);
 static_assert(sizeof(shader::GpuFrame) == 96 + shader::kMaxLamps * 176);
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
+static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
+static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
+              static_cast<std::uint32_t>(RetroKind::kMarking) == shader::kRetroMarking);
 static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
 
 constexpr std::array kVertexAttributes{
@@ -68,7 +72,8 @@ LampPass::LampPass(gpu::Device& device)
   for (const auto& [binding, type, count] :
        {std::tuple(0u, Type::eUniformBuffer, 1u), std::tuple(1u, Type::eCombinedImageSampler, shader::kMaxLamps),
         std::tuple(2u, Type::eCombinedImageSampler, shader::kMaxLamps), std::tuple(3u, Type::eUniformBuffer, 1u),
-        std::tuple(4u, Type::eUniformTexelBuffer, 1u)})
+        std::tuple(4u, Type::eUniformTexelBuffer, 1u), std::tuple(5u, Type::eUniformBuffer, 1u),
+        std::tuple(6u, Type::eCombinedImageSampler, shader::kMaxLamps)})
     bindings.push_back({.binding = binding, .descriptorType = type, .descriptorCount = count, .stageFlags = kStages});
   set_layout_ = vk::raii::DescriptorSetLayout(
       device.device, vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()),
@@ -78,8 +83,8 @@ LampPass::LampPass(gpu::Device& device)
                                                                                  .pSetLayouts = &*set_layout_,
                                                                                  .pushConstantRangeCount = 1,
                                                                                  .pPushConstantRanges = &push});
-  const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, 2},
-                         vk::DescriptorPoolSize{Type::eCombinedImageSampler, 2 * shader::kMaxLamps},
+  const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, 3},
+                         vk::DescriptorPoolSize{Type::eCombinedImageSampler, 3 * shader::kMaxLamps},
                          vk::DescriptorPoolSize{Type::eUniformTexelBuffer, 1}};
   pool_ = vk::raii::DescriptorPool(
       device.device, vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
@@ -102,14 +107,18 @@ LampPass::LampPass(gpu::Device& device)
 void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
   using Type = vk::DescriptorType;
   const std::array buffers{std::pair(0u, vk::DescriptorBufferInfo{*frame_.buffer, 0, VK_WHOLE_SIZE}),
-                           std::pair(3u, vk::DescriptorBufferInfo{*scene.material_buffer.buffer, 0, VK_WHOLE_SIZE})};
+                           std::pair(3u, vk::DescriptorBufferInfo{*scene.material_buffer.buffer, 0, VK_WHOLE_SIZE}),
+                           std::pair(5u, vk::DescriptorBufferInfo{*scene.sheeting_buffer.buffer, 0, VK_WHOLE_SIZE})};
   const auto layout = vk::ImageLayout::eShaderReadOnlyOptimal;
-  std::array<vk::DescriptorImageInfo, shader::kMaxLamps> guides, candela;
+  std::array<vk::DescriptorImageInfo, shader::kMaxLamps> guides, candela, tints;
   for (std::size_t i = 0; i < beam_of_lamp_.size(); ++i) {
     guides[i] = {*table_sampler_, *beams.guide(beam_of_lamp_[i]).view, layout};
     const gpu::Image& table = beams.candela(beam_of_lamp_[i]);  // "no beam" is float32, which not every device filters
     const bool filtered = beams.beam(beam_of_lamp_[i]).filtered() && table.format != vk::Format::eR32Sfloat;
     candela[i] = {filtered ? *filter_sampler_ : *table_sampler_, *table.view, layout};
+    const gpu::Image& tint = beams.tint(beam_of_lamp_[i]);
+    tints[i] = {filtered && tint.format != vk::Format::eR32Sfloat ? *filter_sampler_ : *table_sampler_, *tint.view,
+                layout};
   }
   std::vector<vk::WriteDescriptorSet> writes;
   for (const auto& [binding, info] : buffers)
@@ -119,7 +128,8 @@ void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
                       .descriptorType = Type::eUniformBuffer,
                       .pBufferInfo = &info});
   for (const auto& [binding, infos] : {std::pair(1u, std::span<const vk::DescriptorImageInfo>(guides)),
-                                       std::pair(2u, std::span<const vk::DescriptorImageInfo>(candela))})
+                                       std::pair(2u, std::span<const vk::DescriptorImageInfo>(candela)),
+                                       std::pair(6u, std::span<const vk::DescriptorImageInfo>(tints))})
     writes.push_back({.dstSet = *set_,
                       .dstBinding = binding,
                       .descriptorCount = static_cast<std::uint32_t>(infos.size()),
@@ -144,14 +154,16 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const View
   for (int i = 0; i < 4; ++i) frame.clip_from_eye[i] = clip[i];
   frame.exposure = glm::vec4(sky.exposure_per_cdm2, 0.0f);
   frame.sky = sky.zenith();
-  lamp_count_ = lookups_ = 0;
-  colours_differ_ = false;
+  lamp_count_ = lookups_ = colours_ = 0;
+  std::optional<glm::vec3> first_colour;
   for (const PlacedLamp& lamp : lamps) {
     const PackedBeam& beam = beams.beam(lamp.beam);
     if (beam.dark || lamp_count_ == shader::kMaxLamps) continue;
     rebind |= std::exchange(beam_of_lamp_[lamp_count_], lamp.beam) != lamp.beam;
     lookups_ |= beam.lookup_bits() << (4 * lamp_count_);
-    colours_differ_ |= lamp_count_ > 0 && glm::vec3(frame.lamps[0].colour) != beam.colour;
+    if (first_colour && *first_colour != beam.colour) colours_ |= 1u;
+    if (beam.tinted()) colours_ |= 1u << (8 + lamp_count_);
+    first_colour = beam.colour;
     shader::GpuLamp& out = frame.lamps[lamp_count_++];
     out.position = glm::vec4(glm::vec3(lamp.position_m - view.camera().eye_m), 1.0f);
     const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
@@ -168,11 +180,11 @@ vk::Pipeline LampPass::lit_pipeline(const Variant& variant) {
   if (const auto found = lit_.find(variant); found != lit_.end()) return *found->second;
   const std::array<std::uint32_t, 9> values{variant.lamp_count,
                                             static_cast<std::uint32_t>(variant.kind.surface),
-                                            variant.kind.retro ? 1u : 0u,
+                                            static_cast<std::uint32_t>(variant.kind.retro),
                                             static_cast<std::uint32_t>(variant.output),
                                             variant.lamp_base,
                                             variant.lookups,
-                                            variant.colours_differ ? 1u : 0u,
+                                            variant.colours,
                                             variant.kind.double_sided ? 2u : 1u,
                                             grain_.first_level};
   std::array<vk::SpecializationMapEntry, 9> entries;
@@ -278,7 +290,7 @@ void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* res
                {.output = output,
                 .lamp_count = lamp_count_,
                 .lookups = lookups_,
-                .colours_differ = colours_differ_,
+                .colours = colours_,
                 .samples = colour.samples,
                 .format = colour.format,
                 .depth_done = depth_done});

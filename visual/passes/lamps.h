@@ -47,8 +47,7 @@ class LampPass {
   struct Variant {
     MaterialKind kind{};
     LampOutput output = LampOutput::kDisplay;
-    std::uint32_t lamp_count = 0, lamp_base = 0, lookups = 0;
-    bool colours_differ = false;
+    std::uint32_t lamp_count = 0, lamp_base = 0, lookups = 0, colours = 0;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     vk::Format format = vk::Format::eUndefined;
     bool depth_done = false;
@@ -72,7 +71,7 @@ class LampPass {
   Grain grain_;
   gpu::HostBuffer frame_;
   std::uint32_t lamp_count_ = 0, lookups_ = 0;
-  bool colours_differ_ = false;
+  std::uint32_t colours_ = 0;  ///< as kSpecColours
   std::array<std::size_t, shader::kMaxLamps> beam_of_lamp_{};
   std::map<Variant, vk::raii::Pipeline> lit_;
   std::map<vk::SampleCountFlagBits, vk::raii::Pipeline> depth_;

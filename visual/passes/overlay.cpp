@@ -4,6 +4,8 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 namespace phare {
@@ -30,9 +32,109 @@ vk::raii::RenderPass make_render_pass(gpu::Device& device, vk::Format format) {
               .attachmentCount = 1, .pAttachments = &picture, .subpassCount = 1, .pSubpasses = &subpass}};
 }
 
+// Of a picture 720 pixels high.
+constexpr float kText_px = 19.0f, kTitle_px = 30.0f, kReferenceHeight_px = 720.0f;
+constexpr float kLeastText_px = 11.0f;  // smaller letters are not read
+constexpr float kLine = 1.32f;          // from line to line, in letters
+
+/// fonts-dejavu-core of packages.txt; without it Dear ImGui's own letters do.
+ImFont* load_font(const char* file, float size_px) {
+  const std::string path = std::string("/usr/share/fonts/truetype/dejavu/") + file;
+  std::error_code ignored;
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  if (!std::filesystem::exists(path, ignored)) return atlas.AddFontDefault();
+  return atlas.AddFontFromFileTTF(path.c_str(), size_px);
+}
+
+/// Colours are blended as light, so sRGB is turned into it.
+ImU32 light_of(OverlayColour colour, int alpha = 255) {
+  const auto linear = [](unsigned char value) {
+    const double c = value / 255.0;
+    return static_cast<int>(std::lround(255.0 * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4))));
+  };
+  return IM_COL32(linear(colour.red), linear(colour.green), linear(colour.blue), alpha);
+}
+
+const ImU32 kPaper = IM_COL32(2, 3, 4, 205);  // dark enough that text is read over a lit road
+constexpr OverlayColour kInk{235, 235, 225}, kKeyInk{255, 214, 120};
+
+/// Letters of one size.
+struct Pen {
+  ImDrawList& list;
+  ImFont* font;
+  float size_px;
+
+  float width(const std::string& text) const { return font->CalcTextSizeA(size_px, 1e9f, 0.0f, text.c_str()).x; }
+  void write(float x, float y, OverlayColour colour, const std::string& text) const {
+    list.AddText(font, size_px, {x, y}, light_of(colour), text.c_str());
+  }
+};
+
+void draw_lines(const Pen& pen, const std::vector<std::string>& lines) {
+  if (lines.empty()) return;
+  const float height = pen.size_px * kLine, edge = 0.5f * pen.size_px;
+  float width = 0.0f;
+  for (const std::string& line : lines) width = std::max(width, pen.width(line));
+  pen.list.AddRectFilled({edge, edge}, {3.0f * edge + width, 2.0f * edge + height * static_cast<float>(lines.size())},
+                         IM_COL32(0, 0, 0, 110), 4.0f);
+  float y = 1.5f * edge;
+  for (const std::string& line : lines) {
+    pen.write(2.0f * edge, y, kInk, line);
+    y += height;
+  }
+}
+
+/// In the middle of the lower edge, or at its right end.
+void draw_instruments(const Pen& small, const Pen& large, const ImVec2& picture,
+                      const std::vector<OverlayInstrument>& instruments, bool to_the_right) {
+  if (instruments.empty()) return;
+  const float gap = 1.1f * small.size_px;
+  float width = gap;
+  for (const OverlayInstrument& each : instruments) width += (each.large ? large : small).width(each.text) + gap;
+  const float height = 1.3f * large.size_px, top = picture.y - height - 0.5f * small.size_px;
+  float x = std::max((picture.x - width) * (to_the_right ? 1.0f : 0.5f), 0.0f);
+  small.list.AddRectFilled({x, top}, {x + width, top + height}, IM_COL32(0, 0, 0, 150), 6.0f);
+  x += gap;
+  for (const OverlayInstrument& each : instruments) {
+    const Pen& pen = each.large ? large : small;
+    pen.write(x, top + 0.5f * (height - pen.size_px * 1.15f), each.colour, each.text);
+    x += pen.width(each.text) + gap;
+  }
+}
+
+void draw_panel(Pen small, const Pen& large, const ImVec2& picture, const OverlayPanel& panel) {
+  if (panel.empty()) return;
+  const float edge = small.size_px;
+  const float title_height = panel.title.empty() ? 0.0f : large.size_px * 1.5f;
+  // All of it is to be seen: more rows than fit are written smaller.
+  const float rows = static_cast<float>(panel.rows.size());
+  const float room = picture.y - 3.0f * edge - title_height;
+  const float line = std::min(small.size_px * kLine, room / std::max(rows, 1.0f));
+  small.size_px = std::min(small.size_px, line / kLine * 1.1f);
+
+  float key_width = 0.0f, width = large.width(panel.title);
+  for (const OverlayPanel::Row& row : panel.rows)
+    if (!row.key.empty()) key_width = std::max(key_width, small.width(row.key) + 1.5f * small.size_px);
+  for (const OverlayPanel::Row& row : panel.rows)
+    width = std::max(width, small.width(row.words) + (row.key.empty() ? 0.0f : key_width));
+  const ImVec2 size{width + 2.0f * edge, title_height + line * rows + 1.5f * edge};
+  const bool left = panel.place == OverlayPanel::Place::kLeft;
+  const ImVec2 at{left ? edge : std::max(0.5f * (picture.x - size.x), 0.0f), left ? edge : 0.07f * picture.y};
+  small.list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, kPaper, 8.0f);
+  const float x = at.x + edge;
+  float y = at.y + 0.7f * edge;
+  large.write(x, y, kInk, panel.title);
+  y += title_height;
+  for (const OverlayPanel::Row& row : panel.rows) {
+    if (!row.key.empty()) small.write(x, y, kKeyInk, row.key);
+    small.write(row.key.empty() ? x : x + key_width, y, kInk, row.words);
+    y += line;
+  }
+}
+
 }  // namespace
 
-OverlayPass::OverlayPass(gpu::Device& device, vk::Format format)
+OverlayPass::OverlayPass(gpu::Device& device, vk::Format format, std::uint32_t height_px)
     : device_(device), render_pass_(make_render_pass(device, format)) {
   const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, 1};
   pool_ = vk::raii::DescriptorPool(
@@ -42,7 +144,9 @@ OverlayPass::OverlayPass(gpu::Device& device, vk::Format format)
                                                   .pPoolSizes = &size});
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // nothing is kept between runs
-  ImGui::GetIO().FontGlobalScale = 1.25f;
+  const float scale = static_cast<float>(height_px) / kReferenceHeight_px;
+  text_ = load_font("DejaVuSans.ttf", std::max(kText_px * scale, kLeastText_px));
+  title_ = load_font("DejaVuSans-Bold.ttf", std::max(kTitle_px * scale, kLeastText_px));
   ImGui_ImplVulkan_InitInfo info{};
   info.Instance = static_cast<VkInstance>(*device.instance);
   info.PhysicalDevice = static_cast<VkPhysicalDevice>(*device.physical);
@@ -65,23 +169,21 @@ OverlayPass::~OverlayPass() {
   ImGui::DestroyContext();
 }
 
-void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::vector<std::string>& lines) {
+void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::vector<std::string>& lines,
+                       const std::vector<OverlayInstrument>& instruments, const OverlayPanel& panel) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(display.extent.width), static_cast<float>(display.extent.height)};
   io.DeltaTime = 1.0f / 60.0f;  // nothing here moves by itself
   ImGui_ImplVulkan_NewFrame();
   ImGui::NewFrame();
   ImDrawList& list = *ImGui::GetForegroundDrawList();
-  const float height = ImGui::GetTextLineHeight() + 4.0f;
-  float width = 0.0f;
-  for (const std::string& line : lines) width = std::max(width, ImGui::CalcTextSize(line.c_str()).x);
-  list.AddRectFilled({8.0f, 8.0f}, {24.0f + width, 16.0f + height * static_cast<float>(lines.size())},
-                     IM_COL32(0, 0, 0, 110), 4.0f);
-  float y = 12.0f;
-  for (const std::string& line : lines) {
-    list.AddText({16.0f, y}, IM_COL32(235, 235, 225, 255), line.c_str());
-    y += height;
-  }
+  const float scale = io.DisplaySize.y / kReferenceHeight_px;
+  const Pen small{list, text_, std::max(kText_px * scale, kLeastText_px)};
+  const Pen large{list, title_, std::max(kTitle_px * scale, kLeastText_px)};
+  const bool left = !panel.empty() && panel.place == OverlayPanel::Place::kLeft;
+  if (!left) draw_lines(small, lines);  // the panel takes their place
+  draw_instruments(small, large, io.DisplaySize, instruments, left);
+  draw_panel(small, large, io.DisplaySize, panel);
   ImGui::Render();
 
   const vk::ImageView view = *display.view;

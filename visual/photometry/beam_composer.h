@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -31,22 +33,28 @@ struct TexelRect {
 /// image is at every moment the same, bit for bit, as one made from nothing: no drift from adding differences.
 class BeamComposer {
  public:
-  /// A grid in the angles of a type. Nodes strictly ascending, at least 2 each.
+  /// A grid in the angles of a type, or on a flat screen. Nodes strictly ascending, at least 2 each.
   BeamComposer(std::vector<double> first_deg, std::vector<double> second_deg,
-               PhotometricType type = PhotometricType::kA, GammaAxis axis = GammaAxis::kGamma0);
+               PhotometricType type = PhotometricType::kA, GammaAxis axis = GammaAxis::kGamma0, bool screen = false);
 
   /// Adds a source, undimmed; returns its index. The table must outlive the composer. Columns of `image_from_lamp`: the
   /// lamp's forward, left, up in the image's frame. Sources of the grid's own type that are not turned keep their
-  /// nodes.
-  std::size_t add(const IntensityTable& table, const glm::dmat3& image_from_lamp = glm::dmat3{1.0});
+  /// nodes. `colour`: linear sRGB of its light, luminance 1.
+  std::size_t add(const IntensityTable& table, const glm::dmat3& image_from_lamp = glm::dmat3{1.0},
+                  const glm::vec3& colour = glm::vec3{1.0f});
   void set_dimming(std::size_t source, double scale);                     ///< 0 = off; same value: nothing to do
   void set_swivel(std::size_t source, double yaw_rad, double pitch_rad);  ///< left and up positive
   void set_table(std::size_t source, const IntensityTable& table);
 
+  /// Whether candela weighted by red and by blue are summed beside candela. Off at first, and costs nothing then;
+  /// turned on, the next update sums them for the whole image.
+  void keep_tints(bool wanted);
+
   /// Brings the image up to date. Returns the rectangles that changed (for the upload); none when nothing did.
   std::vector<TexelRect> update();
 
-  std::span<const float> candela() const { return image_; }  ///< [second][first]
+  std::span<const float> candela() const { return image_; }    ///< [second][first]
+  std::span<const glm::vec2> tints() const { return tints_; }  ///< candela times red, times blue; empty unless kept
   std::size_t columns() const { return first_deg_.size(); }
   std::size_t rows() const { return second_deg_.size(); }
   const ComposeCount& count() const { return count_; }
@@ -55,19 +63,26 @@ class BeamComposer {
   struct Source {
     const IntensityTable* table = nullptr;
     glm::dmat3 image_from_lamp{1.0};
+    glm::vec2 red_blue{1.0f};  ///< of its light
     float scale = 1.0f;
     TexelRect rect;              ///< where it shines
     std::vector<float> candela;  ///< of the rectangle, undimmed
     bool dirty = true;
   };
   void sample(Source& source);
+  template <typename Row>
+  void each_row(const TexelRect& rect, std::size_t j, Row&& row) const;
   void sum(const TexelRect& rect);
+  void sum_tints(const TexelRect& rect);
 
   std::vector<double> first_deg_, second_deg_;
   PhotometricType type_;
   GammaAxis axis_;
+  bool screen_;
   std::vector<Source> sources_;
   std::vector<float> image_;
+  std::vector<glm::vec2> tints_;
+  bool tinted_ = false;
   std::vector<TexelRect> stale_;  ///< rectangles that sources have left
   ComposeCount count_;
 };

@@ -3,7 +3,7 @@
 // exact (each table is bilinear in every cell of the union); tables that do not share them are sampled by direction.
 // Sources: Kim et al. 2002 (US patent 7024034) for the Planckian locus, IEC 61966-2-1 for the sRGB primaries.
 // Frame: angles of the image in the first lit source's lamp frame; `car_from_image` turns it into the car.
-// Leaves out: colour over direction (one colour per lamp position, weighted by flux).
+// Leaves out: colour over direction within one source (files have none).
 // Checked by tests/photometry/beam_image_test.cpp.
 #include "visual/photometry/beam_image.h"
 
@@ -131,7 +131,7 @@ glm::dmat3 aim_rotation(double yaw_rad, double pitch_rad, double roll_rad) {
 }
 
 bool same_angles(const AimedSource& a, const AimedSource& b) {
-  return a.table->screen_distance_m <= 0.0 && b.table->screen_distance_m <= 0.0 && a.table->type == b.table->type &&
+  return (a.table->screen_distance_m > 0.0) == (b.table->screen_distance_m > 0.0) && a.table->type == b.table->type &&
          (a.table->type != PhotometricType::kC || a.table->axis == b.table->axis) &&
          same_aim(a.car_from_lamp, b.car_from_lamp);
 }
@@ -148,6 +148,7 @@ BeamGrid beam_grid(std::span<const AimedSource> sources) {
   } else {
     grid.type = sources.front().table->type;
     grid.axis = sources.front().table->axis;
+    grid.screen_distance_m = sources.front().table->screen_distance_m;
     grid.first_deg = union_nodes(sources, true);
     grid.second_deg = union_nodes(sources, false);
   }
@@ -186,6 +187,22 @@ BeamImage compose_beam_image(std::span<const AimedSource> sources) {
       }
     }
   }
+  const bool mixed = std::ranges::any_of(
+      lit, [&](const AimedSource& source) { return light_colour(source) != light_colour(lit.front()); });
+  std::vector<glm::dvec2> tints(mixed ? sum.size() : 0);
+  for (std::size_t k = 0; k < lit.size() && mixed; ++k) {
+    const glm::dvec3 colour = light_colour(lit[k]);
+    const glm::dmat3 lamp_from_image = glm::transpose(lit[k].car_from_lamp) * image.car_from_image;
+    for (std::size_t at = 0; at < sum.size(); ++at) {
+      const TableAngles angles{image.first_deg[at % columns], image.second_deg[at / columns]};
+      const double cd =
+          image.resampled
+              ? lit[k].table->intensity_cd(lamp_from_image * direction_hv(angles.first_deg, angles.second_deg))
+              : lit[k].table->intensity_at_cd(angles);
+      tints[at] += lit[k].scale * cd * glm::dvec2(colour.x, colour.z);
+    }
+  }
+  image.tints.assign(tints.begin(), tints.end());
   image.candela.reserve(sum.size());
   std::transform(sum.begin(), sum.end(), std::back_inserter(image.candela),
                  [](double cd) { return static_cast<float>(cd); });

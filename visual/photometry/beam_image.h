@@ -23,14 +23,15 @@ struct AimedSource {
 /// R = Rz(yaw)·Ry(-pitch)·Rx(roll), columns forward, left, up of the lamp in the car. Angles as in SourceConfig.
 glm::dmat3 aim_rotation(double yaw_rad, double pitch_rad, double roll_rad);
 
-/// Do two sources have the angles of their tables in common: type, axis and aim? A flat screen's nodes are not bilinear
-/// in degrees and share with nobody.
+/// Do two sources have the angles of their tables in common: type, axis and aim? Flat screens share with one another,
+/// at whatever distance: lux times the distance squared is bilinear in the tangents on each.
 bool same_angles(const AimedSource& a, const AimedSource& b);
 
 /// The grid of a beam image, and the frame of its angles in the car.
 struct BeamGrid {
   PhotometricType type = PhotometricType::kA;
   GammaAxis axis = GammaAxis::kGamma0;
+  double screen_distance_m = 0.0;  ///< > 0: the nodes lie on a flat screen, as those of IntensityTable (the first's)
   glm::dmat3 car_from_image{1.0};
   std::vector<double> first_deg;   ///< strictly ascending, at least 2
   std::vector<double> second_deg;  ///< strictly ascending, at least 2
@@ -41,11 +42,15 @@ struct BeamGrid {
 /// Others are resampled by direction onto a type A grid in the first source's aim. At least one source.
 BeamGrid beam_grid(std::span<const AimedSource> sources);
 
-/// Candela on such a grid, float32, with own bilinear weights in the nodes' angles.
+/// Candela on such a grid, float32, with own bilinear weights in the nodes' angles (a flat screen: of
+/// candela / screen_factor, in the nodes' tangents).
 struct BeamImage : BeamGrid {
   std::vector<float> candela;  ///< [second][first]
-  glm::vec3 colour{1.0f};      ///< linear sRGB of the light, luminance (Rec. 709) exactly 1
-  bool dark = true;            ///< nothing lit: no need to draw
+  glm::vec3 colour{1.0f};      ///< linear sRGB of the light, luminance (Rec. 709) exactly 1; the mean where it differs
+  /// Where lit sources differ in colour: candela times red and times blue of each light, summed, on the same nodes.
+  /// Green follows from luminance. Empty while all light has `colour`.
+  std::vector<glm::vec2> tints;
+  bool dark = true;  ///< nothing lit: no need to draw
 };
 
 /// Composes the image of one lamp position. Sources may be empty (a dark image).

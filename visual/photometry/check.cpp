@@ -32,12 +32,12 @@ CheckRow measured(std::string id, std::string clause, std::string unit, double v
   row.min = min;
   row.max = max;
   row.lowest = row.highest = value;
-  row.verdict = lowest >= min && highest <= max ? Verdict::kPass
-                : highest < min || lowest > max ? Verdict::kFail
-                                                : Verdict::kWithinResolution;
+  row.verdict = lowest >= min && highest <= max ? RuleVerdict::kPass
+                : highest < min || lowest > max ? RuleVerdict::kFail
+                                                : RuleVerdict::kWithinResolution;
   row.by_min = min > kNoMinimum && (max >= kNoMaximum || value - min < max - value);
   // Inside both limits the one that it may yet miss is told.
-  if (row.verdict == Verdict::kWithinResolution && value >= min && value <= max && (lowest < min) != (highest > max))
+  if (row.verdict == RuleVerdict::kWithinResolution && value >= min && value <= max && (lowest < min) != (highest > max))
     row.by_min = lowest < min;
   row.margin = row.by_min ? value - min : max - value;
   row.resolution = row.by_min == (row.margin >= 0.0) ? value - lowest : highest - value;
@@ -46,10 +46,10 @@ CheckRow measured(std::string id, std::string clause, std::string unit, double v
 }
 
 /// A row that there is nothing to measure for.
-CheckRow nothing(CheckRow row, Verdict verdict) {
+CheckRow nothing(CheckRow row, RuleVerdict verdict) {
   row.has_value = false;
   row.lowest = row.highest = row.margin = row.resolution = 0.0;
-  row.no_data = verdict == Verdict::kNoData;
+  row.no_data = verdict == RuleVerdict::kNoData;
   row.verdict = verdict;
   return row;
 }
@@ -78,7 +78,7 @@ void judge_cutoff(const RuleBeam& lamp, const CutoffAim& aim, const std::string&
                   std::vector<CheckRow>& rows) {
   result.cutoff = find_cutoff(lamp.intensity(), aim.scan_h_deg);
   const Cutoff& cutoff = result.cutoff;
-  const Verdict none = cutoff.at_edge ? Verdict::kNoData : Verdict::kFail;
+  const RuleVerdict none = cutoff.at_edge ? RuleVerdict::kNoData : RuleVerdict::kFail;
   RuleBeam::SharpnessRange range{cutoff.sharpness_g, cutoff.sharpness_g, 0.0};
   if (cutoff.found) range = lamp.sharpness_range(0, aim.scan_h_deg, cutoff);
   result.row_step_deg = range.row_step_deg;
@@ -89,11 +89,11 @@ void judge_cutoff(const RuleBeam& lamp, const CutoffAim& aim, const std::string&
   }
   if (aim.linearity_h_deg.empty()) return;
   double low = 90.0, high = -90.0, step = 0.0;
-  Verdict missing = Verdict::kPass;
+  RuleVerdict missing = RuleVerdict::kPass;
   for (const double h : aim.linearity_h_deg) {
     const Cutoff at = find_cutoff(lamp.intensity(), h);
     if (!at.found) {
-      missing = std::max(missing, at.at_edge ? Verdict::kNoData : Verdict::kFail);
+      missing = std::max(missing, at.at_edge ? RuleVerdict::kNoData : RuleVerdict::kFail);
       continue;
     }
     low = std::min(low, at.elevation_deg);
@@ -103,7 +103,7 @@ void judge_cutoff(const RuleBeam& lamp, const CutoffAim& aim, const std::string&
   const double spread = high - low;
   CheckRow row = measured("cut-off linearity" + whose, aim.clause, "deg", spread, std::max(0.0, spread - step),
                           spread + step, 0.0, aim.linearity_max_deg);
-  rows.push_back(missing != Verdict::kPass ? nothing(std::move(row), missing) : std::move(row));
+  rows.push_back(missing != RuleVerdict::kPass ? nothing(std::move(row), missing) : std::move(row));
 }
 
 /// Rows that fail or are not known, and by how much.
@@ -152,20 +152,27 @@ HV best_reaim(RuleBeam& beam, const Rulebook& rule) {
 
 bool passes(const RuleBeam& beam, const RuleRow& row, CheckRow result) {
   conclude_row(beam, row, result);
-  return result.verdict == Verdict::kPass;
+  return result.verdict == RuleVerdict::kPass;
 }
 
 /// FMVSS 108: a test point that fails may be looked at with the beam turned by up to a quarter degree. As far as it
-/// takes to pass for certain.
+/// takes to pass for certain: on the smallest of four circles, in the best of 16 directions, which lie alike to both
+/// sides.
 void reaim_one(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, CheckRow& result) {
+  const double a = std::cos(glm::radians(22.5)), b = std::sin(glm::radians(22.5)), c = std::sqrt(0.5);
+  const HV quarter[] = {{1.0, 0.0}, {a, b}, {c, c}, {b, a}, {0.0, 1.0}};
   for (const double part : {0.25, 0.5, 0.75, 1.0}) {
-    for (int k = 0; k < 16; ++k) {
-      if (result.margin >= 0.0 && passes(beam, row, result)) return;
-      const double angle = k * glm::radians(22.5), radius = part * rule.point_reaim_deg;
-      const auto snap = [](double x) { return std::abs(x) < 1e-12 ? 0.0 : x; };
-      const HV shift{snap(radius * std::cos(angle)), snap(radius * std::sin(angle))};
-      const CheckRow turned = judge_row(beam, rule, row, shift, false);
-      if (turned.margin > result.margin && turned.has_value && turned.no_data <= result.no_data) result = turned;
+    if (result.margin >= 0.0 && passes(beam, row, result)) return;
+    const double radius = part * rule.point_reaim_deg;
+    for (const HV to : quarter) {
+      for (const double right : {1.0, -1.0}) {
+        for (const double up : {1.0, -1.0}) {
+          if ((to.h_deg == 0.0 && right < 0.0) || (to.v_deg == 0.0 && up < 0.0)) continue;
+          const HV shift{right * radius * to.h_deg, up * radius * to.v_deg};
+          const CheckRow turned = judge_row(beam, rule, row, shift, false);
+          if (turned.margin > result.margin && turned.has_value && turned.no_data <= result.no_data) result = turned;
+        }
+      }
     }
   }
 }
@@ -197,6 +204,16 @@ void reaim_row(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, CheckRo
   result = std::move(worst);
 }
 
+/// The largest turn among a row's points; none where no point was turned.
+std::optional<HV> farthest_reaim(const CheckRow& row) {
+  HV farthest = row.reaim;
+  for (const HV reaim : row.reaims) {
+    if (std::hypot(reaim.h_deg, reaim.v_deg) > std::hypot(farthest.h_deg, farthest.v_deg)) farthest = reaim;
+  }
+  if (farthest.h_deg == 0.0 && farthest.v_deg == 0.0) return std::nullopt;
+  return farthest;
+}
+
 /// What the deciding value changes by when the beam is turned up or down by this.
 double change_by_aim(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, const CheckRow& at, double aim_deg) {
   double most = 0.0;
@@ -209,11 +226,11 @@ double change_by_aim(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, c
 }
 
 /// Of several aims (VOL, VOR) the one asked for, or that on the flat side of the kink; without a kink the sharper.
-const CutoffAim* choose_aim(const RuleBeam& beam, const Rulebook& rule, const std::string& name) {
+/// `side`: where the beam rises, in the frame of the rule.
+const CutoffAim* choose_aim(const RuleBeam& beam, const Rulebook& rule, const std::string& name, CutoffSide side) {
   if (const CutoffAim* asked = rule.aim(name); asked != nullptr) return asked;
   const CutoffAim* best = nullptr;
   double sharpest = 0.0;
-  const CutoffSide side = rule.cutoff_aims.size() > 1 ? cutoff_shape(beam.intensity()).side : CutoffSide::kNone;
   for (const CutoffAim& candidate : rule.cutoff_aims) {
     double g = find_cutoff(beam.intensity(), candidate.scan_h_deg).sharpness_g;
     if (side == CutoffSide::kRisesRight && candidate.scan_h_deg > 0.0) g = 0.0;
@@ -226,39 +243,28 @@ const CutoffAim* choose_aim(const RuleBeam& beam, const Rulebook& rule, const st
   return best;
 }
 
-/// Back to the lamps' own left and right.
-void mirror_rows(std::vector<CheckRow>& rows) {
-  for (CheckRow& row : rows) {
-    for (HV* p : {&row.lowest_at, &row.highest_at, &row.reaim, &row.no_data_at}) p->h_deg = 0.0 - p->h_deg;
-    for (HV& p : row.at) p.h_deg = 0.0 - p.h_deg;
-    for (HV& p : row.reaims) p.h_deg = 0.0 - p.h_deg;
-  }
-}
-
-void count(CheckResult& result) {
-  for (const CheckRow& row : result.rows) {
-    if (row.verdict == Verdict::kFail) ++result.failed;
-    if (row.verdict == Verdict::kNoData) ++result.no_data;
-    if (row.verdict == Verdict::kWithinResolution) ++result.within_resolution;
-    if (!row.unconfirmed.empty()) ++result.unconfirmed;
-    result.verdict = std::max(result.verdict, row.verdict);
-  }
-}
-
 }  // namespace
 
-std::string verdict_name(Verdict verdict) {
+std::string verdict_name(RuleVerdict verdict) {
   switch (verdict) {
-    case Verdict::kPass:
+    case RuleVerdict::kPass:
       return "pass";
-    case Verdict::kWithinResolution:
+    case RuleVerdict::kWithinResolution:
       return "within resolution";
-    case Verdict::kNoData:
+    case RuleVerdict::kNoData:
       return "no data";
-    case Verdict::kFail:
+    case RuleVerdict::kFail:
       break;
   }
   return "fail";
+}
+
+std::string verdict_name(const CheckRow& row) {
+  return row.not_measured && row.verdict == RuleVerdict::kNoData ? "not measured" : verdict_name(row.verdict);
+}
+
+std::string traffic_source_name(TrafficSource source) {
+  return source == TrafficSource::kGiven ? "given" : source == TrafficSource::kFound ? "by the cut-off" : "assumed";
 }
 
 Status same_traffic(std::span<const IntensityTable* const> tables) {
@@ -272,31 +278,25 @@ Status same_traffic(std::span<const IntensityTable* const> tables) {
   return Error{left->name, "is for left-hand traffic, " + right->name + " for right-hand traffic: no pair"};
 }
 
-CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rulebook& rulebook,
-                       const CheckOptions& options) {
-  const Rulebook rule = options.led_module ? rulebook.for_led_modules() : rulebook;
-  CheckResult result;
-  result.rule_id = rule.id;
-  result.rule_name = rule.name;
-  result.document = rule.document;
-  result.left_hand = options.traffic == Traffic::kLeft;
-  for (const IntensityTable* table : tables) {
-    if (options.traffic != Traffic::kFind || rule.function != "low") break;
-    const bool left = cutoff_shape(mounted_intensity(*table, glm::dmat3{1.0})).side == CutoffSide::kRisesLeft;
-    result.left_hand = result.left_hand || left;
-  }
+namespace {
 
+/// For the side that `result` names.
+void check_side(std::span<const IntensityTable* const> tables, const Rulebook& rule, const CheckOptions& options,
+                CheckResult& result) {
   // Each lamp by itself is aimed, and its cut-off judged; the rows are of half the sum.
   RuleBeam beam(tables, result.left_hand);
   std::vector<RuleBeam> each;
   for (std::size_t k = 0; k < tables.size(); ++k) each.emplace_back(tables.subspan(k, 1), result.left_hand);
   result.lamps.resize(tables.size());
-  const CutoffAim* aim = rule.cutoff_aims.empty() ? nullptr : choose_aim(each.front(), rule, options.aim_name);
+  const CutoffSide side = !result.shape.tells_side() || !result.left_hand ? result.shape.side
+                          : result.shape.side == CutoffSide::kRisesLeft   ? CutoffSide::kRisesRight
+                                                                          : CutoffSide::kRisesLeft;
+  const CutoffAim* aim = rule.cutoff_aims.empty() ? nullptr : choose_aim(each.front(), rule, options.aim_name, side);
   result.aim_method = "as filed";
   bool aimed = true;
   for (std::size_t k = 0; k < each.size(); ++k) {
     if (options.aim) {
-      each[k].turn(*options.aim);
+      each[k].turn({result.left_hand ? 0.0 - options.aim->h_deg : options.aim->h_deg, options.aim->v_deg});
       result.aim_method = "given";
     } else if (aim != nullptr) {
       result.lamps[k] = aim_by_cutoff(each[k], *aim);
@@ -319,7 +319,13 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
     std::size_t still_failed = 0;
     const double still = total_shortfall(turned, still_failed);
     result.reaimed = still_failed < failed || (still_failed == failed && still < shortfall);
-    if (result.reaimed) rows = std::move(turned);
+    if (result.reaimed) {
+      result.reaim = {result.left_hand ? 0.0 - turn.h_deg : turn.h_deg, turn.v_deg};
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows[i].margin < 0.0 && turned[i].margin >= 0.0) turned[i].passes_by = turn;
+      }
+      rows = std::move(turned);
+    }
     for (std::size_t k = 0; k < each.size(); ++k) {
       if (result.reaimed) each[k].turn(turn);
       beam.set_aim(k, each[k].aim());
@@ -334,9 +340,12 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
     if (aim_open_deg > 0.0 && rows[i].has_value)
       rows[i].resolution = change_by_aim(beam, rule, rule.rows[i], rows[i], aim_open_deg);
     const bool open = rows[i].margin < 0.0 || (!rows[i].no_data && !passes(beam, rule.rows[i], rows[i]));
-    if (rule.point_reaim_deg > 0.0 && options.reaim && rows[i].has_value && open)
+    if (rule.point_reaim_deg > 0.0 && options.reaim && rows[i].has_value && open) {
       reaim_row(beam, rule, rule.rows[i], rows[i]);
+      rows[i].passes_by = farthest_reaim(rows[i]);
+    }
     conclude_row(beam, rule.rows[i], rows[i]);
+    if (rows[i].verdict != RuleVerdict::kPass) rows[i].passes_by.reset();
     rows[i].at = rule.rows[i].at;
   }
 
@@ -353,8 +362,8 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
         measured("luminous flux", rule.clause, "lm", flux_lm, flux_lm, flux_lm, rule.flux_min_lm, kNoMaximum);
     row.unconfirmed = rule.rows.front().unconfirmed;
     // What lies outside the table can only add.
-    row.no_data = row.verdict == Verdict::kFail && !beam.covers_the_front();
-    if (row.no_data) row.verdict = Verdict::kNoData;
+    row.no_data = row.verdict == RuleVerdict::kFail && !beam.covers_the_front();
+    if (row.no_data) row.verdict = RuleVerdict::kNoData;
     rows.push_back(std::move(row));
   }
   if (result.left_hand) mirror_rows(rows);
@@ -362,7 +371,50 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
   result.aim_right_deg = result.lamps.front().right_deg;
   result.cutoff = result.lamps.front().cutoff;
   result.rows = std::move(rows);
-  count(result);
+  count_rows(result);
+}
+
+/// Is `a` the better verdict? Equal ones: neither.
+bool better(const CheckResult& a, const CheckResult& b) {
+  if (a.failed != b.failed) return a.failed < b.failed;
+  if (a.no_data != b.no_data) return a.no_data < b.no_data;
+  if (a.within_resolution != b.within_resolution) return a.within_resolution < b.within_resolution;
+  return a.shortfall < b.shortfall;
+}
+
+}  // namespace
+
+CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rulebook& rulebook,
+                       const CheckOptions& options) {
+  const Rulebook rule = options.led_module ? rulebook.for_led_modules() : rulebook;
+  CheckResult result;
+  result.rule_id = rule.id;
+  result.rule_name = rule.name;
+  result.document = rule.document;
+  result.function = rule.function;
+  for (const IntensityTable* table : tables) {
+    CutoffShape shape = cutoff_shape(mounted_intensity(*table, glm::dmat3{1.0}));
+    if (table == tables.front() || shape.tells_side()) result.shape = std::move(shape);
+    if (result.shape.tells_side()) break;
+  }
+  if (options.traffic != Traffic::kFind) {
+    result.left_hand = options.traffic == Traffic::kLeft;
+    result.traffic_source = TrafficSource::kGiven;
+  } else if (result.shape.tells_side()) {
+    // Rules of other beams are the same for both sides; their rows stay as printed.
+    result.left_hand = rule.function == "low" && result.shape.side == CutoffSide::kRisesLeft;
+    result.traffic_source = rule.function == "low" ? TrafficSource::kFound : TrafficSource::kAssumed;
+  }
+  if (result.traffic_source != TrafficSource::kAssumed || rule.function != "low") {
+    check_side(tables, rule, options, result);
+    return result;
+  }
+  CheckResult left = result;
+  left.left_hand = true;
+  check_side(tables, rule, options, result);
+  check_side(tables, rule, options, left);
+  if (better(left, result)) std::swap(left, result);
+  result.other_side = verdict_name(left.verdict) + ", " + std::to_string(left.failed) + " rows failed";
   return result;
 }
 

@@ -179,13 +179,50 @@ void conclude_row(const RuleBeam& beam, const RuleRow& row, CheckRow& result) {
     result.resolution += beam.resolution_cd({tightest.h_deg - result.reaim.h_deg, tightest.v_deg - result.reaim.v_deg});
   }
   const bool close = std::abs(result.margin) < result.resolution;
-  result.verdict = close ? Verdict::kWithinResolution : result.margin >= 0.0 ? Verdict::kPass : Verdict::kFail;
+  result.verdict = close ? RuleVerdict::kWithinResolution : result.margin >= 0.0 ? RuleVerdict::kPass : RuleVerdict::kFail;
   if (!result.no_data) return;
   // Light is never negative: a sum that is enough without a point stays so. Any other row fails by what is there, or
   // is not known.
-  const bool sum = row.shape == RowShape::kSum, failed = result.has_value && result.verdict == Verdict::kFail;
-  const bool sum_decided = sum && (result.by_min ? result.verdict == Verdict::kPass : failed);
-  if (sum ? !sum_decided : !failed) result.verdict = Verdict::kNoData;
+  const bool sum = row.shape == RowShape::kSum, failed = result.has_value && result.verdict == RuleVerdict::kFail;
+  const bool sum_decided = sum && (result.by_min ? result.verdict == RuleVerdict::kPass : failed);
+  if (sum ? !sum_decided : !failed) result.verdict = RuleVerdict::kNoData;
+}
+
+bool lies_in(const RuleRow& row, HV p) {
+  constexpr double kOnEdge_deg = 0.015;  // laboratories print 0.01°
+  if (row.shape == RowShape::kPoints || row.shape == RowShape::kSum || row.shape == RowShape::kPeak) return false;
+  const std::vector<HV> edge = outline(row);
+  const bool closed = row.shape != RowShape::kLine;
+  if (closed && inside(edge, p)) return true;
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < edge.size(); ++i) {
+    const HV a = edge[i], b = edge[(i + 1) % edge.size()];
+    const double x = b.h_deg - a.h_deg, y = b.v_deg - a.v_deg, length2 = x * x + y * y;
+    const double along =
+        length2 > 0.0 ? std::clamp(((p.h_deg - a.h_deg) * x + (p.v_deg - a.v_deg) * y) / length2, 0.0, 1.0) : 0.0;
+    if (std::hypot(p.h_deg - a.h_deg - along * x, p.v_deg - a.v_deg - along * y) <= kOnEdge_deg) return true;
+  }
+  return false;
+}
+
+void mirror_rows(std::vector<CheckRow>& rows) {
+  for (CheckRow& row : rows) {
+    for (HV* p : {&row.lowest_at, &row.highest_at, &row.reaim, &row.no_data_at}) p->h_deg = 0.0 - p->h_deg;
+    for (HV& p : row.at) p.h_deg = 0.0 - p.h_deg;
+    for (HV& p : row.reaims) p.h_deg = 0.0 - p.h_deg;
+    if (row.passes_by) row.passes_by->h_deg = 0.0 - row.passes_by->h_deg;
+  }
+}
+
+void count_rows(CheckResult& result) {
+  for (const CheckRow& row : result.rows) {
+    if (row.verdict == RuleVerdict::kFail) ++result.failed;
+    if (row.verdict == RuleVerdict::kFail && row.has_value)
+      result.shortfall += std::abs(row.margin) / std::max(1.0, row.max < kNoMaximum ? row.max : row.min);
+    if (row.verdict == RuleVerdict::kNoData) ++result.no_data;
+    if (row.verdict == RuleVerdict::kWithinResolution) ++result.within_resolution;
+    if (!row.unconfirmed.empty()) ++result.unconfirmed;
+    result.verdict = std::max(result.verdict, row.verdict);
+  }
 }
 
 }  // namespace phare

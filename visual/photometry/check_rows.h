@@ -14,4 +14,13 @@ CheckRow judge_row(RuleBeam& beam, const Rulebook& rule, const RuleRow& row, HV 
 /// Adds to the resolution what interpolation and digits leave open, and tells the verdict.
 void conclude_row(const RuleBeam& beam, const RuleRow& row, CheckRow& result);
 
+/// Is a place in a row's line, area or polygon, edges included?
+bool lies_in(const RuleRow& row, HV p);
+
+/// Back to the lamps' own left and right.
+void mirror_rows(std::vector<CheckRow>& rows);
+
+/// Counts the rows' verdicts into the result's.
+void count_rows(CheckResult& result);
+
 }  // namespace phare

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "visual/photometry/cutoff_line.h"
 
 namespace phare {
 namespace {
@@ -17,34 +14,6 @@ constexpr double kFaintShare = 0.02;
 constexpr double kLeastG = 0.05;
 constexpr double kWidestRow_deg = 2.0;
 constexpr double kLeastRuleG = 0.13;  // UN R112 annex 9, FMVSS 108: what the rules accept as a cut-off
-
-/// A straight line through points by least squares.
-struct Line {
-  double slope = 0.0, offset = 0.0;
-  double spread = 0.0;  ///< worst distance of a point
-};
-
-Line fit(const std::vector<std::pair<double, double>>& points) {
-  const double n = static_cast<double>(points.size());
-  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-  for (const auto& [a, b] : points) {
-    x += a / n;
-    y += b / n;
-  }
-  for (const auto& [a, b] : points) {
-    xx += (a - x) * (a - x);
-    xy += (a - x) * (b - y);
-  }
-  Line line;
-  line.slope = xx > 0.0 ? xy / xx : 0.0;
-  line.offset = y - line.slope * x;
-  for (const auto& [a, b] : points) line.spread = std::max(line.spread, std::abs(b - line.offset - line.slope * a));
-  return line;
-}
-
-}  // namespace
-
-namespace {
 
 /// A vertical scan in kFineStep_deg.
 struct Scan {
@@ -177,9 +146,12 @@ Evidence evidence_of(const IntensityTable& table, const glm::dvec3& direction) {
             : table.axis == GammaAxis::kGamma0 && !table.second_deg.empty() && table.second_deg.back() >= 90.0;
     return direction.x <= 1e-9 && to_both_sides && table.screen_distance_m <= 0.0 ? Evidence::kDark : Evidence::kNone;
   }
+  // On a column the cells to its left and right have no say: so a mirrored table says the same.
+  const std::size_t left = angles.first_deg == table.first_deg[i + 1] ? 1 : 0;
+  const std::size_t right = angles.first_deg == table.first_deg[i] ? 0 : 1;
   const double* row = table.candela.data() + j * table.first_deg.size() + i;
   const double* next_row = row + table.first_deg.size();
-  return std::min({row[0], row[1], next_row[0], next_row[1]}) > 0.0 ? Evidence::kLit : Evidence::kDark;
+  return std::min({row[left], row[right], next_row[left], next_row[right]}) > 0.0 ? Evidence::kLit : Evidence::kDark;
 }
 
 std::size_t row_of(const IntensityTable& table, const glm::dvec3& direction) {
@@ -230,55 +202,12 @@ Cutoff find_cutoff(const IntensityHv& intensity, double h_deg, double from_v_deg
   return cutoff;
 }
 
-CutoffShape cutoff_shape(const IntensityHv& intensity) {
-  CutoffShape shape;
-  const Kink kink = find_kink(intensity);  // flat and rising part are looked at beside it, wherever it lies
-  const double at[2] = {kink.h_deg - 2.5, kink.h_deg + 2.5};
-  std::vector<std::pair<double, double>> sides[2];  // left, right
-  for (double from_kink = 1.5; from_kink <= 4.01; from_kink += 0.5) {
-    for (const int side : {0, 1}) {
-      const double h = kink.h_deg + (side == 0 ? -from_kink : from_kink);
-      const Cutoff cutoff = find_cutoff(intensity, h);
-      if (cutoff.found) sides[side].emplace_back(h, cutoff.elevation_deg);
-    }
-  }
-  const auto slope_deg = [](const Line& line) { return std::atan(line.slope) * 180.0 / std::numbers::pi; };
-  Line lines[2];
-  bool straight[2];
-  for (const int side : {0, 1}) {
-    lines[side] = fit(sides[side]);
-    straight[side] = sides[side].size() >= 4 && lines[side].spread < 0.25;
-  }
-  if (!straight[0] && !straight[1]) return shape;
-  constexpr double kFlat_deg = 4.0, kRising_deg = 8.0;                 // halfway to the 15° of UN beams
-  const double rise[2] = {-slope_deg(lines[0]), slope_deg(lines[1])};  // outward and up is positive
-  const bool flat[2] = {straight[0] && std::abs(rise[0]) < kFlat_deg, straight[1] && std::abs(rise[1]) < kFlat_deg};
-  if (!flat[0] && !flat[1]) return shape;
-  const int flat_side = flat[0] ? 0 : 1;
-  const auto elevation = [&](int side) { return lines[side].offset + lines[side].slope * at[side]; };
-  shape.side = CutoffSide::kFlat;
-  shape.flat_v_deg = elevation(flat_side);
-  shape.sharpness_g = find_cutoff(intensity, at[flat_side]).sharpness_g;
-  for (const int side : {0, 1}) {
-    const int other = 1 - side;
-    if (!flat[other]) continue;
-    // A 45° shoulder is at its top within 1.5°: then the other side is flat again, but higher.
-    const bool rises = sides[side].size() >= 3 && rise[side] > kRising_deg;
-    const bool step = flat[side] && elevation(side) - elevation(other) > 0.25;
-    if (!rises && !step) continue;
-    shape.side = side == 1 ? CutoffSide::kRisesRight : CutoffSide::kRisesLeft;
-    shape.flat_v_deg = elevation(other);
-    shape.sharpness_g = find_cutoff(intensity, at[other]).sharpness_g;
-    if (kink.found) {
-      shape.rise_deg = kink.rise_deg;
-      shape.kink_h_deg = kink.h_deg;
-    } else if (rises) {
-      shape.rise_deg = rise[side];
-      shape.kink_h_deg = (lines[other].offset - lines[side].offset) / (lines[side].slope - lines[other].slope);
-    }
-    break;
-  }
-  return shape;
+IntensityHv mirrored_intensity(const IntensityHv& intensity) {
+  IntensityHv mirrored = [intensity](double h_deg, double v_deg) { return intensity(-h_deg, v_deg); };
+  if (intensity.evidence)
+    mirrored.evidence = [evidence = intensity.evidence](double h_deg, double v_deg) { return evidence(-h_deg, v_deg); };
+  if (intensity.row) mirrored.row = [row = intensity.row](double h_deg, double v_deg) { return row(-h_deg, v_deg); };
+  return mirrored;
 }
 
 }  // namespace phare

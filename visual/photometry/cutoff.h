@@ -42,16 +42,44 @@ struct Cutoff {
 /// the end of the table. The step to nodes of exactly 0 counts only where the lit ones show no cut-off.
 Cutoff find_cutoff(const IntensityHv& intensity, double h_deg, double from_v_deg = -4.0, double to_v_deg = 3.0);
 
-/// What the cut-off says about the lamp.
+/// The same beam with left and right turned round.
+IntensityHv mirrored_intensity(const IntensityHv& intensity);
+
+/// What the cut-off says about the lamp. Only a side that rises tells the side of traffic; any other is an assumption.
 enum class CutoffSide { kNone, kFlat, kRisesRight, kRisesLeft };
+
+/// How the cut-off runs. kFlat: level to both sides; kSymmetric: its ends fall to both sides, as fog lamps' do;
+/// kElbow: flat, then rising all the way (15° of UN beams); kZ: a slant of about 45° to a shoulder; kStep: steeper
+/// than that, as of projectors and SAE beams; kDoubleStep: two such steps with a level part between.
+enum class CutoffForm { kNone, kFlat, kSymmetric, kElbow, kZ, kStep, kDoubleStep };
+
+/// "none", "flat", "symmetric", "elbow", "Z", "step", "double step".
+std::string form_name(CutoffForm form);
+
+/// One rise of the cut-off, from its foot to its head.
+struct CutoffStep {
+  double foot_h_deg = 0.0, head_h_deg = 0.0;  ///< head farther to the rising side
+  double height_deg = 0.0;
+};
 
 struct CutoffShape {
   CutoffSide side = CutoffSide::kNone;  ///< rises right: for right-hand traffic
-  double flat_v_deg = 0.0;              ///< elevation of the flat part
-  double rise_deg = 0.0;                ///< angle of the rising part against the horizontal, about 15 or 45
+  double flat_v_deg = 0.0;              ///< elevation of the flat part, at 2.5° from the kink
+  double rise_deg = 0.0;                ///< angle of the rising part against the horizontal
   double kink_h_deg = 0.0;              ///< where flat and rising part meet, by find_kink; 0 where there is no kink
-  double sharpness_g = 0.0;             ///< on the flat side at 2.5° from the kink's side of V-V
+  double sharpness_g = 0.0;             ///< on the flat side at 2.5° from the kink
+  CutoffForm form = CutoffForm::kNone;
+  double upper_v_deg = 0.0;       ///< elevation 2.5° beyond the kink, on the rising side; without a kink flat_v_deg
+  std::vector<CutoffStep> steps;  ///< steep rises, from the flat part outward; none of an elbow
+
+  /// Does the beam itself say for which side of the road it is? If not, whoever names a side assumes it.
+  bool tells_side() const { return side == CutoffSide::kRisesRight || side == CutoffSide::kRisesLeft; }
 };
+
+/// For which side of the road a beam is: "by the cut-off", or "assumed: …" with the reason (flat, symmetric, none).
+std::string side_source(const CutoffShape& shape);
+
+/// A mirrored beam has the mirrored shape, to the bit where the table's own nodes are mirrored to the bit.
 CutoffShape cutoff_shape(const IntensityHv& intensity);
 
 }  // namespace phare

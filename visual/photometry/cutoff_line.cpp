@@ -32,11 +32,11 @@ struct RampFit {
   double gain() const { return std::log((line_ms + kScan_deg * kScan_deg) / (ramp_ms + kScan_deg * kScan_deg)); }
 };
 
-/// Points of a line within the window about a foot; x grows to the rising side.
-std::vector<std::array<double, 2>> window(const CutoffLine& line, double foot_deg, double side) {
+/// Points of a line within the window about a foot; x grows to the right.
+std::vector<std::array<double, 2>> window(const CutoffLine& line, double foot_deg) {
   std::vector<std::array<double, 2>> points;
   for (std::size_t i = 0; i < line.h_deg.size(); ++i) {
-    const double x = side * (line.h_deg[i] - foot_deg);
+    const double x = line.h_deg[i] - foot_deg;
     if (std::abs(x) <= kWindow_deg + 1e-9) points.push_back({x, line.v_deg[i]});
   }
   return points;
@@ -67,19 +67,19 @@ RampFit fit_ramp(const std::vector<std::array<double, 2>>& points, double length
 }
 
 struct Found {
-  double foot_deg = 0.0, side = 1.0;
+  double foot_deg = 0.0;
   RampFit fit;
 };
 
-/// Best foot of a line. `fixed_window`: all feet are judged by the points about this place, else each by its own.
-Found search(const CutoffLine& line, double side, double from_deg, double to_deg, double step_deg,
-             const double* fixed_window) {
-  Found best{0.0, side, {}};
-  const auto fixed = fixed_window != nullptr ? window(line, *fixed_window, side) : std::vector<std::array<double, 2>>{};
+/// Best foot of a rise to the right. `fixed_window`: all feet are judged by the points about this place, else each by
+/// its own.
+Found search(const CutoffLine& line, double from_deg, double to_deg, double step_deg, const double* fixed_window) {
+  Found best;
+  const auto fixed = fixed_window != nullptr ? window(line, *fixed_window) : std::vector<std::array<double, 2>>{};
   for (double foot = from_deg; foot <= to_deg + 1e-9; foot += step_deg) {
-    auto points = fixed_window != nullptr ? fixed : window(line, foot, side);
+    auto points = fixed_window != nullptr ? fixed : window(line, foot);
     if (fixed_window != nullptr) {
-      for (auto& p : points) p[0] -= side * (foot - *fixed_window);
+      for (auto& p : points) p[0] -= foot - *fixed_window;
     }
     const auto beyond = std::count_if(points.begin(), points.end(), [](const auto& p) { return p[0] > 0.0; });
     if (beyond < 5 || static_cast<std::ptrdiff_t>(points.size()) - beyond < 5) continue;
@@ -87,10 +87,19 @@ Found search(const CutoffLine& line, double side, double from_deg, double to_deg
       const RampFit fit = fit_ramp(points, length);
       // The rising side is the steep one; the other way round the same bend would be a fall that ends.
       if (fit.rise < kLeastRise || fit.slope + fit.rise < std::abs(fit.slope)) continue;
-      if (fit.gain() > best.fit.gain()) best = {foot, side, fit};
+      if (fit.gain() > best.fit.gain()) best = {foot, fit};
     }
   }
   return best;
+}
+
+CutoffLine mirrored_line(const CutoffLine& line) {
+  CutoffLine mirrored;
+  for (std::size_t i = line.h_deg.size(); i-- > 0;) {
+    mirrored.h_deg.push_back(0.0 - line.h_deg[i]);
+    mirrored.v_deg.push_back(line.v_deg[i]);
+  }
+  return mirrored;
 }
 
 double value_at(const CutoffLine& line, double h_deg) {
@@ -189,27 +198,32 @@ CutoffLine cutoff_line(const IntensityHv& intensity, double from_h_deg, double t
 }
 
 Kink find_kink(const IntensityHv& intensity) {
-  const CutoffLine coarse = cutoff_line(intensity, -7.0, 7.0, 0.25);
-  Found best;
-  for (const double side : {1.0, -1.0}) {
-    const Found found = search(coarse, side, -4.0, 4.0, 0.125, nullptr);
-    if (found.fit.gain() > best.fit.gain()) best = found;
-  }
+  return find_kink(intensity, cutoff_line(intensity, -kKinkScan_deg, kKinkScan_deg, kKinkScanStep_deg));
+}
+
+Kink find_kink(const IntensityHv& intensity, const CutoffLine& coarse) {
+  // Everything is worked out for a rise to the right; a rise to the left is that of the mirrored beam. So the two are
+  // alike to the bit, and a beam that is its own mirror image has no kink.
+  const Found right = search(coarse, -4.0, 4.0, 0.125, nullptr);
+  const Found left = search(mirrored_line(coarse), -4.0, 4.0, 0.125, nullptr);
   Kink kink;
+  if (right.fit.gain() == left.fit.gain()) return kink;
+  kink.to_right = right.fit.gain() > left.fit.gain();
+  Found best = kink.to_right ? right : left;
   const double least = kLeastKink_deg * kLeastKink_deg;
   if (best.fit.ramp_ms > 0.5 * best.fit.line_ms || best.fit.line_ms - best.fit.ramp_ms < least) return kink;
   // Closer: the place is now the one whose ramp its own surroundings lie on best.
-  const CutoffLine fine = cutoff_line(intensity, best.foot_deg - 3.5, best.foot_deg + 3.5, 0.1);
+  const IntensityHv rising = kink.to_right ? intensity : mirrored_intensity(intensity);
+  const CutoffLine fine = cutoff_line(rising, best.foot_deg - 3.5, best.foot_deg + 3.5, 0.1);
   for (const double step : {0.05, 0.01}) {
     const double centre = best.foot_deg;
     const double reach = step > 0.02 ? 0.5 : 0.06;
-    const Found closer = search(fine, best.side, centre - reach, centre + reach, step, &centre);
+    const Found closer = search(fine, centre - reach, centre + reach, step, &centre);
     if (closer.fit.ramp_ms > 1e300) return kink;
     best = closer;
   }
   kink.found = true;
-  kink.to_right = best.side > 0.0;
-  kink.h_deg = best.foot_deg;
+  kink.h_deg = kink.to_right ? best.foot_deg : 0.0 - best.foot_deg;
   kink.rise_deg = glm::degrees(std::atan(best.fit.slope + best.fit.rise));
   return kink;
 }

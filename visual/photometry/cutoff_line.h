@@ -24,6 +24,10 @@ struct Kink {
 /// The kink within ±4° of H = 0. Judged in windows that go with the place looked at, so a beam turned sideways has its
 /// kink turned by the same, to about 0.01° where the table's rows are 0.05° apart.
 Kink find_kink(const IntensityHv& intensity);
+/// The same where the scans from -kKinkScan_deg to +kKinkScan_deg in steps of kKinkScanStep_deg (or more of them) are
+/// at hand already.
+inline constexpr double kKinkScan_deg = 7.0, kKinkScanStep_deg = 0.25;
+Kink find_kink(const IntensityHv& intensity, const CutoffLine& coarse);
 
 /// What is added to B's H and V to lay its line on A's.
 struct LineShift {

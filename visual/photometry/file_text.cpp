@@ -1,11 +1,11 @@
 #include "visual/photometry/file_text.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
+#include <utility>
+
+#include "config/input_files.h"
 
 namespace phare {
 namespace {
@@ -17,17 +17,11 @@ bool is_blank(char c) {
 }  // namespace
 
 Result<std::string> read_photometry_bytes(const std::filesystem::path& file, const std::string& name) {
-  if (name.empty()) return Error{"\"\"", "names no file"};
-  std::error_code code;
-  if (std::filesystem::is_directory(file, code)) return Error{name, "is a directory"};
-  const std::uintmax_t size = std::filesystem::file_size(file, code);
-  if (code) return Error{name, "cannot be read: " + code.message()};
-  if (size > kMaxPhotometryBytes) return Error{name, "is larger than 64 MiB, no photometry file"};
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!stream) return Error{name, std::string("cannot be read: ") + std::strerror(errno)};
-  return bytes;
+  auto bytes = read_input_bytes(file, kMaxPhotometryBytes);
+  if (bytes) return std::move(*bytes);
+  const bool too_large = bytes.error().reason.starts_with("is larger");
+  return Error{name.empty() ? bytes.error().place : name,
+               bytes.error().reason + (too_large ? ", no photometry file" : "")};
 }
 
 std::string_view trimmed(std::string_view text) {

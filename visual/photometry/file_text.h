@@ -15,7 +15,7 @@ namespace phare {
 /// Larger files are refused unread: a 0.01° grid of a headlamp stays below.
 inline constexpr std::uintmax_t kMaxPhotometryBytes = 64u << 20;
 
-/// The bytes of a photometry file. The error's place is `name`.
+/// The bytes of a photometry file, a pipe, or ("-") standard input. The error's place is `name`.
 Result<std::string> read_photometry_bytes(const std::filesystem::path& file, const std::string& name);
 
 std::string_view trimmed(std::string_view text);

@@ -9,9 +9,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace phare {
 namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;
 
 float to_eighth_bits(float weight) {
   return std::round(weight * 256.0f) / 256.0f;
@@ -54,7 +57,13 @@ float float_from_half(std::uint16_t half) {
 }
 
 LevelImage::LevelImage(const IntensityTable& table, ImageLevel level, std::size_t columns, std::size_t rows)
-    : level_(level) {
+    : level_(level), screen_(table.screen_distance_m > 0.0) {
+  // On a screen what is bilinear is candela over the factor of its tangents.
+  std::vector<double> own_first = table.first_deg, own_second = table.second_deg;
+  for (std::vector<double>* nodes : {&own_first, &own_second})
+    for (double& node : *nodes) node = screen_ ? std::tan(node * kRadians) : node;
+  const auto degrees = [&](double node) { return screen_ ? std::atan(node) / kRadians : node; };
+  const auto factor = [&](double t, double u) { return screen_ ? screen_factor(t, u) : 1.0; };
   const bool even = level == ImageLevel::kNormalised8 || level == ImageLevel::kHalfEven;
   // A 16-bit float ends at 65,504: brighter tables are stored in units of more than one candela.
   const double peak = table.peak_cd();
@@ -75,20 +84,22 @@ LevelImage::LevelImage(const IntensityTable& table, ImageLevel level, std::size_
                                                               static_cast<double>(count - 1)));
       return result;
     };
-    first_ = nodes(table.first_deg, columns);
-    second_ = nodes(table.second_deg, rows);
+    first_ = nodes(own_first, columns);
+    second_ = nodes(own_second, rows);
     for (const float s : second_) {
       for (const float f : first_) {
-        const TableAngles at{std::clamp(static_cast<double>(f), table.first_deg.front(), table.first_deg.back()),
-                             std::clamp(static_cast<double>(s), table.second_deg.front(), table.second_deg.back())};
-        values_.push_back(stored(table.intensity_at_cd(at)));
+        const TableAngles at{
+            std::clamp(degrees(static_cast<double>(f)), table.first_deg.front(), table.first_deg.back()),
+            std::clamp(degrees(static_cast<double>(s)), table.second_deg.front(), table.second_deg.back())};
+        values_.push_back(stored(table.intensity_at_cd(at) / factor(f, s)));
       }
     }
     bytes_ = values_.size() * texel;
   } else {
-    first_.assign(table.first_deg.begin(), table.first_deg.end());
-    second_.assign(table.second_deg.begin(), table.second_deg.end());
-    for (const double cd : table.candela) values_.push_back(stored(cd));
+    first_.assign(own_first.begin(), own_first.end());
+    second_.assign(own_second.begin(), own_second.end());
+    for (std::size_t k = 0; k < table.candela.size(); ++k)
+      values_.push_back(stored(table.candela[k] / factor(own_first[k % first_.size()], own_second[k / first_.size()])));
     bytes_ = values_.size() * texel + (first_.size() + second_.size()) * 4;
   }
 }
@@ -129,11 +140,22 @@ float LevelImage::own_weights(float first_deg, float second_deg) const {
 }
 
 float LevelImage::intensity_cd(float first_deg, float second_deg) const {
-  if (!(first_deg >= first_.front() && first_deg <= first_.back() && second_deg >= second_.front() &&
-        second_deg <= second_.back()))
+  const auto coordinate = [&](float deg, const std::vector<float>& nodes) {
+    if (!screen_) return deg;
+    // A screen's rim is no round angle: what misses it by a rounding is on it, as on the device.
+    const auto tangent = static_cast<float>(std::tan(static_cast<double>(deg) * kRadians));
+    const float within = std::clamp(tangent, nodes.front(), nodes.back());
+    return std::abs(tangent - within) < 1e-6f ? within : tangent;
+  };
+  const float first = coordinate(first_deg, first_), second = coordinate(second_deg, second_);
+  if (!(first >= first_.front() && first <= first_.back() && second >= second_.front() && second <= second_.back()))
     return 0.0f;
-  return level_ == ImageLevel::kNormalised8 || level_ == ImageLevel::kHalfEven ? filtered(first_deg, second_deg)
-                                                                               : own_weights(first_deg, second_deg);
+  const float value = level_ == ImageLevel::kNormalised8 || level_ == ImageLevel::kHalfEven
+                          ? filtered(first, second)
+                          : own_weights(first, second);
+  if (!screen_) return value;
+  const float s = 1.0f + first * first + second * second;
+  return value * (s * std::sqrt(s));
 }
 
 LevelError level_error(const IntensityTable& table, const LevelImage& image, double floor_cd) {
@@ -151,7 +173,9 @@ LevelError level_error(const IntensityTable& table, const LevelImage& image, dou
       // The angles a float32 renderer has; the truth at these very angles.
       const float first = static_cast<float>(at(table.first_deg, i)),
                   second = static_cast<float>(at(table.second_deg, j));
-      const double truth = table.intensity_at_cd({first, second});
+      const double truth =
+          table.intensity_at_cd({std::clamp<double>(first, table.first_deg.front(), table.first_deg.back()),
+                                 std::clamp<double>(second, table.second_deg.front(), table.second_deg.back())});
       const double off = std::abs(static_cast<double>(image.intensity_cd(first, second)) - truth);
       ++error.looked_at;
       if (off > error.worst_cd) {

@@ -27,8 +27,9 @@ class LevelImage {
  public:
   LevelImage(const IntensityTable& table, ImageLevel level, std::size_t columns = 1024, std::size_t rows = 512);
 
-  /// Candela at the table's own angles, computed as the level computes it: texture filters weigh in 1/256 (Vulkan
-  /// asks for 8 bits at least, and lavapipe and GPUs have that), own weights are float32.
+  /// Candela at the table's own angles (a flat screen: looked up by their tangents), computed as the level computes it:
+  /// texture filters weigh in 1/256 (Vulkan asks for 8 bits at least, and lavapipe and GPUs have that), own weights are
+  /// float32.
   float intensity_cd(float first_deg, float second_deg) const;
   std::size_t bytes() const { return bytes_; }
 
@@ -37,7 +38,8 @@ class LevelImage {
   float own_weights(float first_deg, float second_deg) const;
 
   ImageLevel level_;
-  std::vector<float> first_, second_;  ///< nodes; of an even grid only the ends count
+  bool screen_ = false;
+  std::vector<float> first_, second_;  ///< nodes, of a screen tangents; of an even grid only the ends count
   std::vector<float> values_;          ///< as they come out of the store: 8-bit and 16-bit values widened again
   float scale_ = 1.0f;
   std::size_t bytes_ = 0;

@@ -15,9 +15,11 @@ namespace {
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
-/// Cell of `x` on ascending nodes and the share of its upper node; index + 1 is a node, too. False outside the range.
+/// Cell of `x` on ascending nodes and the shares of its two nodes; index + 1 is a node, too. False outside the range.
+/// Each share is worked out by itself, so that a mirrored table gives the mirrored values to the bit.
 struct Cell {
   std::size_t index = 0;
+  double lower_share_01 = 1.0;
   double upper_share_01 = 0.0;
 };
 
@@ -26,8 +28,9 @@ bool find_cell(const std::vector<double>& nodes, double x, Cell& cell) {
   if (nodes.size() < 2 || !(x >= nodes.front() && x <= nodes.back())) return false;
   const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x);
   cell.index = static_cast<std::size_t>(above - nodes.begin()) - 1;
-  const double low = nodes[cell.index];
-  cell.upper_share_01 = (x - low) / (nodes[cell.index + 1] - low);
+  const double low = nodes[cell.index], high = nodes[cell.index + 1];
+  cell.lower_share_01 = (high - x) / (high - low);
+  cell.upper_share_01 = (x - low) / (high - low);
   return true;
 }
 
@@ -129,23 +132,36 @@ TableAngles IntensityTable::angles_of(const glm::dvec3& direction) const {
 }
 
 glm::dvec3 IntensityTable::direction_of(TableAngles angles) const {
-  if (screen_distance_m <= 0.0) return table_direction(type, axis, angles);
+  return screen_distance_m > 0.0 ? screen_direction(angles) : table_direction(type, axis, angles);
+}
+
+// The distance to a point over its distance along the axis, cubed: two for 1/r², one for the cosine.
+double screen_factor(double t, double u) {
+  const double s = 1.0 + t * t + u * u;
+  return s * std::sqrt(s);
+}
+
+glm::dvec3 screen_direction(TableAngles angles) {
   return glm::normalize(glm::dvec3{1.0, -std::tan(angles.first_deg / kDegreesPerRadian),
                                    std::tan(angles.second_deg / kDegreesPerRadian)});
 }
 
 double IntensityTable::intensity_cd(const glm::dvec3& direction) const {
   if (direction == glm::dvec3{0.0}) return 0.0;
-  return intensity_at_cd(angles_of(direction));
+  TableAngles angles = angles_of(direction);
+  if (screen_distance_m > 0.0 && direction.x > 0.0 && !candela.empty()) {
+    // A point on the screen's rim may miss it by a rounding of its tangent: it is on it.
+    constexpr double kRounding_deg = 1e-12;
+    const auto onto_rim = [](const std::vector<double>& nodes, double deg) {
+      const double within = std::clamp(deg, nodes.front(), nodes.back());
+      return std::abs(deg - within) < kRounding_deg ? within : deg;
+    };
+    angles = {onto_rim(first_deg, angles.first_deg), onto_rim(second_deg, angles.second_deg)};
+  }
+  return intensity_at_cd(angles);
 }
 
 namespace {
-
-/// (1 + t² + u²)^1.5 = (distance / distance along the axis)³ of a point with tangents t and u on a flat screen.
-double screen_factor(double t, double u) {
-  const double s = 1.0 + t * t + u * u;
-  return s * std::sqrt(s);
-}
 
 /// E on the screen is bilinear in the tangents: I = (1 + t² + u²)^1.5 · Σ w·I_node / (1 + t_node² + u_node²)^1.5.
 double screen_intensity_cd(const IntensityTable& table, const Cell& first, const Cell& second, TableAngles angles) {
@@ -153,14 +169,15 @@ double screen_intensity_cd(const IntensityTable& table, const Cell& first, const
   const double t[2] = {tangent(table.first_deg[first.index]), tangent(table.first_deg[first.index + 1])};
   const double u[2] = {tangent(table.second_deg[second.index]), tangent(table.second_deg[second.index + 1])};
   const double at_t = tangent(angles.first_deg), at_u = tangent(angles.second_deg);
-  const double share_t = (at_t - t[0]) / (t[1] - t[0]), share_u = (at_u - u[0]) / (u[1] - u[0]);
+  const double share_t[2] = {(t[1] - at_t) / (t[1] - t[0]), (at_t - t[0]) / (t[1] - t[0])};
+  const double share_u = (at_u - u[0]) / (u[1] - u[0]);
   const double* row = table.candela.data() + second.index * table.first_deg.size() + first.index;
   double sum = 0.0;
   for (std::size_t j = 0; j < 2; ++j) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      const double weight = (i == 0 ? 1.0 - share_t : share_t) * (j == 0 ? 1.0 - share_u : share_u);
-      sum += weight * row[j * table.first_deg.size() + i] / screen_factor(t[i], u[j]);
-    }
+    double of_row = 0.0;
+    for (std::size_t i = 0; i < 2; ++i)
+      of_row += share_t[i] * row[j * table.first_deg.size() + i] / screen_factor(t[i], u[j]);
+    sum += (j == 0 ? 1.0 - share_u : share_u) * of_row;
   }
   return sum * screen_factor(at_t, at_u);
 }
@@ -174,10 +191,9 @@ double IntensityTable::intensity_at_cd(TableAngles angles) const {
   if (screen_distance_m > 0.0) return screen_intensity_cd(*this, first, second, angles);
   const double* row = candela.data() + second.index * first_deg.size() + first.index;
   const double* next_row = row + first_deg.size();
-  const double u = first.upper_share_01;
   const double v = second.upper_share_01;
-  const double low = row[0] * (1.0 - u) + row[1] * u;
-  const double high = next_row[0] * (1.0 - u) + next_row[1] * u;
+  const double low = row[0] * first.lower_share_01 + row[1] * first.upper_share_01;
+  const double high = next_row[0] * first.lower_share_01 + next_row[1] * first.upper_share_01;
   return low * (1.0 - v) + high * v;
 }
 

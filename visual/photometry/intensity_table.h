@@ -44,6 +44,8 @@ struct LampHeader {
   double width_m = 0.0;     ///< luminous opening as the format has it; negative: round (LM-63)
   double length_m = 0.0;
   double height_m = 0.0;
+  double read_c0_deg = 0.0;  ///< --c0 and --mirror that the file was read with (visual/photometry/read_lamp.h)
+  bool read_mirrored = false;
   double smallest_step_cd = 0.0;  ///< one unit of the last digit written, in candela of the table
   std::vector<std::pair<std::string, std::string>> keywords;  ///< [KEY] value, in the file's order
 };
@@ -89,6 +91,12 @@ glm::dvec3 table_direction(PhotometricType type, GammaAxis axis, TableAngles ang
 
 /// Unit direction of azimuth H and elevation V in degrees: type A, and what the rules of headlamps mean by H and V.
 glm::dvec3 direction_hv(double h_deg, double v_deg);
+
+/// On a flat screen at distance 1 in a lamp frame: (1 + t² + u²)^1.5, candela of 1 lx at the tangents t and u, right
+/// and up.
+double screen_factor(double t, double u);
+/// Unit direction of angles as a screen's table has them: first = atan(t), second = atan(u), degrees.
+glm::dvec3 screen_direction(TableAngles angles);
 
 /// Reads LM-63 alone (1986, 1991, 1995, 2002, 2019; types A, B, C); read_lamp.h finds the format by itself. The error
 /// has file:line and reason.

@@ -11,6 +11,7 @@
 
 #include "visual/photometry/file_text.h"
 #include "visual/photometry/grid_build.h"
+#include "visual/photometry/point_list.h"
 #include "visual/photometry/read_lamp.h"
 
 namespace phare {
@@ -33,7 +34,11 @@ Axis axis_named(std::string_view name) {
 class LampCsv {
  public:
   LampCsv(std::string_view bytes, const std::string& name, const LampReadSettings& settings)
-      : text_(bytes, name, false), name_(name), settings_(settings), byte_count_(bytes.size()) {
+      : text_(bytes, name, false),
+        name_(name),
+        settings_(settings),
+        byte_count_(bytes.size()),
+        list_of_points_(names_points(bytes, name)) {
     table_.name = name;
     table_.axis = settings.axis;
   }
@@ -53,6 +58,7 @@ class LampCsv {
   std::string name_;
   const LampReadSettings& settings_;
   std::size_t byte_count_;
+  bool list_of_points_;
   IntensityTable table_;
   std::string head_;  ///< the line after the remarks
   char separator_ = ',';
@@ -350,6 +356,8 @@ Result<IntensityTable> LampCsv::read() {
   distance_m_ = 0.0;
   if (const Status status = read_remarks(); !status) return status.error();
   const std::vector<std::string_view> head = fields(head_);
+  if (list_of_points_)
+    return text_.error("a list of test points is no beam: phare lamp check judges it, plot draws it, info tells of it");
   const bool matrix = head[0].find_first_of("\\/") != std::string_view::npos;
   if (const Status status = matrix ? read_matrix(head) : read_list(head); !status) return status.error();
   if (const Status status = to_candela(); !status) return status.error();

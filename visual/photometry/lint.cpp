@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/trigonometric.hpp>
+#include <optional>
 
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/file_text.h"
@@ -112,17 +113,44 @@ class Linter {
     const TableAngles hv = table_angles(PhotometricType::kA, GammaAxis::kGamma0, d);
     if (table_.type == PhotometricType::kC) report_.peak = {hv.first_deg + 0.0, hv.second_deg + 0.0};  // no -0
     const double off = std::acos(std::clamp(d.x, -1.0, 1.0)) * 57.29577951308232;
-    if (table_.type == PhotometricType::kC && off > kAhead_deg) {
-      add(Grade::kWarning, "axis",
-          format("the peak lies %.0f deg off the lamp's axis: the file may have its optical axis at gamma ", off) +
-              (table_.axis == GammaAxis::kGamma0 ? "90 (--axis gamma90)" : "0 (--axis gamma0)"));
-    }
+    if (table_.type == PhotometricType::kC && off > kAhead_deg)
+      add(Grade::kWarning, "axis", format("the peak lies %.0f deg off the lamp's axis: ", off) + axis_hint());
     if (report_.peak_cd > 430000.0)  // all driving beams of a car together (UN R48)
       add(Grade::kWarning, "too-bright",
           format("a peak of %.0f cd is more than all driving beams of a car may have", report_.peak_cd));
     if (report_.peak_cd < 50.0)
       add(Grade::kWarning, "too-dim", format("a peak of %.3g cd is no headlamp", report_.peak_cd));
   }
+
+  /// The axis and plane C 0 under which the peak lies ahead, and how to read the file so.
+  std::string axis_hint() const {
+    const TableAngles peak = table_.peak_at();
+    double least = std::cos(glm::radians(kAhead_deg));
+    std::optional<std::pair<GammaAxis, double>> best;
+    const GammaAxis other = table_.axis == GammaAxis::kGamma0 ? GammaAxis::kGamma90 : GammaAxis::kGamma0;
+    for (const auto& [axis, turn_deg] : {std::pair{other, 0.0},
+                                         {GammaAxis::kGamma90, 90.0},
+                                         {GammaAxis::kGamma90, -90.0},
+                                         {GammaAxis::kGamma90, 180.0}}) {
+      const double ahead = table_direction(PhotometricType::kC, axis, {peak.first_deg + turn_deg, peak.second_deg}).x;
+      if (ahead <= least) continue;
+      least = ahead;
+      best.emplace(axis, turn_deg);
+    }
+    if (!best) return "no axis and no place of plane C 0 bring it ahead";
+    const double c0 = c0_turned_by(best->second);
+    return std::string("the file may have its optical axis at gamma ") +
+           (best->first == GammaAxis::kGamma90 ? "90 (--axis gamma90" : "0 (--axis gamma0") +
+           (c0 != 0.0 || table_.header.read_c0_deg != 0.0 ? c0_text(c0) : "") + ")";
+  }
+
+  /// --c0 that turns the file's planes further than it does now; a mirror image turns the other way.
+  double c0_turned_by(double turn_deg) const {
+    const double c0 = table_.header.read_c0_deg + (table_.header.read_mirrored ? -turn_deg : turn_deg);
+    return std::remainder(c0, 360.0) + 0.0;
+  }
+  static std::string c0_text(double c0_deg) { return " --c0 " + number_text(c0_deg); }
+  std::string mirror_text() const { return table_.header.read_mirrored ? "without --mirror" : "with --mirror"; }
 
   void flux() {
     const LampHeader& header = table_.header;
@@ -154,13 +182,15 @@ class Linter {
     const bool left = shape.side == CutoffSide::kRisesLeft;
     if (shape.side == CutoffSide::kFlat) {
       add(Grade::kInfo, "cut-off",
-          format("flat cut-off at V %+.2f deg, G %.3f", shape.flat_v_deg, shape.sharpness_g) + cut_side());
+          form_name(shape.form) + format(" cut-off at V %+.2f deg, G %.3f", shape.flat_v_deg, shape.sharpness_g) +
+              cut_side());
       return;
     }
     add(Grade::kInfo, "cut-off",
-        format("cut-off at V %+.2f deg, kink at H %+.2f deg, G %.3f, rising by %.0f deg", shape.flat_v_deg,
-               shape.kink_h_deg, shape.sharpness_g, shape.rise_deg) +
-            (left ? " to the left" : " to the right"));
+        form_name(shape.form) +
+            format(" cut-off at V %+.2f deg, kink at H %+.2f deg, G %.3f, rising by %.0f deg", shape.flat_v_deg,
+                   shape.kink_h_deg, shape.sharpness_g, shape.rise_deg) +
+            (left ? " to the left" : " to the right") + format(", to V %+.2f deg", shape.upper_v_deg));
     std::string words;
     for (const auto& [key, value] : table_.header.keywords) words += upper_case(value) + " ";
     std::replace(words.begin(), words.end(), '-', ' ');
@@ -170,17 +200,18 @@ class Linter {
       add(Grade::kWarning, "mirrored",
           std::string("the keywords say ") + (says_right ? "right" : "left") +
               "-hand traffic, but the cut-off rises to the " + (left ? "left" : "right") +
-              (table_.type == PhotometricType::kB ? ": stored clockwise" : ": mirrored") +
-              "; read with --mirror to turn it");
+              (table_.type == PhotometricType::kB ? ": stored clockwise" : ": mirrored") + "; read " + mirror_text() +
+              " to turn it");
     } else if (left && table_.type == PhotometricType::kB && !says_left) {
       add(Grade::kWarning, "left-hand-traffic",
           "the cut-off rises to the left: a lamp for left-hand traffic, or type B stored clockwise, as about 30 % of "
           "these "
-          "files are; if it is for right-hand traffic, read with --mirror");
+          "files are; if it is for right-hand traffic, read " +
+              mirror_text());
     } else if (left) {
       add(Grade::kInfo, "left-hand-traffic",
           "the cut-off rises to the left: for left-hand traffic" +
-              std::string(says_left ? "" : "; if the lamp is not, the file is mirrored (--mirror)"));
+              (says_left ? "" : "; if the lamp is not, read " + mirror_text()));
     }
   }
 
@@ -202,6 +233,7 @@ class Linter {
     const CutoffShape& as_read = report_.cutoff;
     if (as_read.side == CutoffSide::kRisesRight || as_read.side == CutoffSide::kRisesLeft) return;
     const bool c = table_.type == PhotometricType::kC;
+    const bool gamma0 = table_.axis == GammaAxis::kGamma0;  // else C turns about the upright, not about the beam
     for (const double roll_deg : {180.0, 90.0, -90.0}) {
       const IntensityHv rolled = mounted_intensity(table_, aim_rotation(0.0, 0.0, glm::radians(roll_deg)));
       const double g = std::max(find_cutoff(rolled, -2.5).sharpness_g, find_cutoff(rolled, 2.5).sharpness_g);
@@ -214,15 +246,18 @@ class Linter {
       add(Grade::kWarning, "turned",
           std::string(roll_deg == 180.0 ? "the beam stands upside down" : "the beam lies on its side") +
               ": its cut-off shows when it is turned by " + (roll_deg == 180.0 ? "180" : "90") + " deg about its axis" +
-              (c ? format("; plane C 0 may lie elsewhere (--c0 turned by %+.0f deg)",
-                          roll_deg == 180.0 ? 180.0 : -roll_deg)
-                 : ""));
+              (c && gamma0 ? "; plane C 0 may lie elsewhere (read with" +
+                                 c0_text(c0_turned_by(roll_deg == 180.0 ? 180.0 : -roll_deg)) + ")"
+                           : ""));
       return;
     }
     const double tall = height_to_width();
     if (c && tall > kTall) {
       add(Grade::kWarning, "turned",
-          format("the beam is %.1f times as tall as wide: plane C 0 may lie elsewhere (--c0)", tall));
+          format("the beam is %.1f times as tall as wide", tall) +
+              (gamma0 ? ": plane C 0 may lie elsewhere (read with" + c0_text(c0_turned_by(90.0)) + " or" +
+                            c0_text(c0_turned_by(-90.0)) + ")"
+                      : ""));
     }
   }
 

@@ -1,6 +1,7 @@
 // The image of a lamp position kept up to date.
-// Computes: which sums are needed, through BeamComposer; colour as the flux-weighted mean. Source: design §4. Frame:
-// angles of the image. Leaves out: colour over direction. Checked by tests/photometry/live_beam_test.cpp.
+// Computes: which sums are needed, through BeamComposer; colour as one while all lit sources share it, else as tables
+// beside candela. Source: design §4. Frame: angles of the image. Leaves out: colour over direction within one source.
+// Checked by tests/photometry/live_beam_test.cpp.
 #include "visual/photometry/live_beam.h"
 
 #include <algorithm>
@@ -51,11 +52,28 @@ LiveBeam::Sum LiveBeam::make_sum(std::size_t which) const {
     source_of.push_back(k);
   }
   BeamGrid grid = beam_grid(lights);
-  BeamComposer composer(grid.first_deg, grid.second_deg, grid.type, grid.axis);
+  BeamComposer composer(grid.first_deg, grid.second_deg, grid.type, grid.axis, grid.screen_distance_m > 0.0);
   for (const AimedSource& light : lights)
     composer.add(*light.table,
-                 grid.resampled ? glm::transpose(grid.car_from_image) * light.car_from_lamp : glm::dmat3{1.0});
+                 grid.resampled ? glm::transpose(grid.car_from_image) * light.car_from_lamp : glm::dmat3{1.0},
+                 light_colour(light));
   return {std::move(grid), std::move(composer), std::move(source_of)};
+}
+
+bool LiveBeam::colours_differ() const {
+  const Source* first = nullptr;
+  for (const Source& source : sources_) {
+    if (source.dimming_01 <= 0.0 || source.lumens <= 0.0) continue;
+    if (first != nullptr && source.colour != first->colour) return true;
+    first = &source;
+  }
+  return false;
+}
+
+double LiveBeam::lumens() const {
+  double sum = 0.0;
+  for (const Source& source : sources_) sum += source.dimming_01 * source.lumens;
+  return sum;
 }
 
 glm::vec3 LiveBeam::mean_colour() const {
@@ -82,14 +100,18 @@ LiveBeam::Change LiveBeam::update() {
     const Source& source = sources_[sum->source_of[k]];
     sum->composer.set_dimming(k, source.dimming_01 * source.light.scale);
   }
+  const bool mixed = colours_differ(), was_mixed = !image_.tints.empty();
+  sum->composer.keep_tints(mixed);
   changed_ = sum->composer.update();
   image_.colour = mean_colour();
   const bool was_dark = std::exchange(image_.dark, false);
   const std::span<const float> candela = sum->composer.candela();
-  if (shown_ != wanted) {
+  const std::span<const glm::vec2> tints = sum->composer.tints();
+  if (shown_ != wanted || mixed != was_mixed) {
     shown_ = wanted;
     static_cast<BeamGrid&>(image_) = sum->grid;
     image_.candela.assign(candela.begin(), candela.end());
+    image_.tints.assign(tints.begin(), tints.end());
     changed_ = {{0, 0, image_.first_deg.size(), image_.second_deg.size()}};
     return Change::kWhole;
   }
@@ -100,6 +122,10 @@ LiveBeam::Change LiveBeam::update() {
       std::copy(candela.begin() + row + static_cast<std::ptrdiff_t>(rect.column),
                 candela.begin() + row + static_cast<std::ptrdiff_t>(rect.end_column),
                 image_.candela.begin() + row + static_cast<std::ptrdiff_t>(rect.column));
+      if (mixed)
+        std::copy(tints.begin() + row + static_cast<std::ptrdiff_t>(rect.column),
+                  tints.begin() + row + static_cast<std::ptrdiff_t>(rect.end_column),
+                  image_.tints.begin() + row + static_cast<std::ptrdiff_t>(rect.column));
     }
   }
   return changed_.empty() && !was_dark ? Change::kNone : Change::kPart;

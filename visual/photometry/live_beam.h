@@ -29,6 +29,7 @@ class LiveBeam {
   const BeamImage& image() const { return image_; }
   /// Rectangles that the last update changed, of the image's nodes.
   std::span<const TexelRect> changed() const { return changed_; }
+  double lumens() const;  ///< of all sources as they are dimmed
   std::size_t sources() const { return sources_.size(); }
   /// Nodes summed since the start.
   std::uint64_t summed_texels() const;
@@ -49,6 +50,7 @@ class LiveBeam {
   };
   std::optional<std::size_t> wanted_sum() const;
   Sum make_sum(std::size_t which) const;
+  bool colours_differ() const;  ///< of the sources that shine
   glm::vec3 mean_colour() const;
 
   std::vector<Source> sources_;

@@ -43,10 +43,10 @@ std::size_t report(const std::string& lamp, const IntensityTable& table, const R
   const IntensityTable* tables[] = {&table};
   const CheckResult result = check_lamp(tables, rule, options);
   for (const CheckRow& row : result.rows) {
-    if (row.verdict != Verdict::kFail && !verbose) continue;
+    if (row.verdict != RuleVerdict::kFail && !verbose) continue;
     std::printf("%-20s %-18s %-24s %9.1f … %9.1f %s, allowed %.1f … %.5g  %s\n", lamp.c_str(), rule.id.c_str(),
                 row.id.c_str(), row.lowest, row.highest, row.unit.c_str(), row.min, row.max,
-                row.verdict == Verdict::kFail ? "FAILED" : "passed");
+                row.verdict == RuleVerdict::kFail ? "FAILED" : "passed");
   }
   if (result.cutoff.found) {
     entry["sharpness_g"] = result.cutoff.sharpness_g;

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <sstream>
 #include <string_view>
+#include <utility>
 
+#include "config/input_files.h"
 #include "config/whole_file.h"
 
 namespace phare {
@@ -56,12 +56,11 @@ template <std::size_t n>
 Result<std::string> read_rows(
     const std::filesystem::path& path, const std::array<const char*, n>& columns, const char* taken_prefix,
     const std::function<Status(const std::string&, std::size_t, const std::array<double, n>&)>& row) {
-  const std::string name = path.string();
-  std::ifstream stream(path, std::ios::binary);
-  std::error_code code;
-  if (!stream || std::filesystem::is_directory(path, code)) {
-    return Error{name, std::string("cannot be read: ") + (stream ? "is a directory" : std::strerror(errno))};
-  }
+  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
+  const std::string name = input_name(path);
+  auto bytes = read_input_bytes(path, kMaxBytes);
+  if (!bytes) return bytes.error();
+  std::istringstream stream(std::move(*bytes));
   std::string header;
   std::string line;
   std::array<std::size_t, n> index{};
@@ -103,7 +102,6 @@ Result<std::string> read_rows(
     }
     if (const auto taken = row(line, line_number, values); !taken) return taken.error();
   }
-  if (stream.bad()) return Error{name, "cannot be read to its end"};
   if (header.empty())
     return Error{name, "is empty: expected a header line with " + std::string(columns.front()) + " …"};
   return header;
@@ -120,18 +118,18 @@ std::string digits_17(double value) {
 Result<PointsFile> read_points(const std::filesystem::path& path) {
   PointsFile points;
   const std::array<const char*, 6> columns{"x_m", "y_m", "z_m", "nx", "ny", "nz"};
-  auto header =
-      read_rows<6>(path, columns, "illuminance_lx",
-                   [&](const std::string& line, std::size_t line_number, const std::array<double, 6>& v) -> Status {
-                     PointRow row{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, line, line_number};
-                     // Scaled first, so that no length over- or underflows on the way.
-                     const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
-                     if (!(largest > 0.0))
-                       return Error{path.string() + ":" + std::to_string(line_number), "the normal nx, ny, nz is zero"};
-                     row.normal = glm::normalize(row.normal / largest);
-                     points.rows.push_back(std::move(row));
-                     return Done{};
-                   });
+  auto header = read_rows<6>(
+      path, columns, "illuminance_lx",
+      [&](const std::string& line, std::size_t line_number, const std::array<double, 6>& v) -> Status {
+        PointRow row{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, line, line_number};
+        // Scaled first, so that no length over- or underflows on the way.
+        const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
+        if (!(largest > 0.0))
+          return Error{input_name(path) + ":" + std::to_string(line_number), "the normal nx, ny, nz is zero"};
+        row.normal = glm::normalize(row.normal / largest);
+        points.rows.push_back(std::move(row));
+        return Done{};
+      });
   if (!header) return header.error();
   points.header = std::move(*header);
   return points;

@@ -5,6 +5,7 @@
 #include <future>
 
 #include "config/content_hash.h"
+#include "config/input_files.h"
 #include "visual/photometry/file_text.h"
 
 namespace phare {
@@ -55,7 +56,7 @@ Result<IntensityTable> parse_lamp(std::string_view bytes, const std::string& nam
       case LampFormat::kFind:
         break;
     }
-    return Error{name, "looks like none of LM-63 (.ies), EULUMDAT (.ldt), TM-33 (.xml) and CSV"};
+    return Error{name, "looks like none of LM-63 (.ies), EULUMDAT (.ldt), TM-33 (.xml) and CSV; --format says which"};
   };
   // Hashing a large file takes as long as reading its numbers; it goes beside it. (The default policy falls back to
   // hashing in get() when no thread can be had.)
@@ -66,6 +67,8 @@ Result<IntensityTable> parse_lamp(std::string_view bytes, const std::string& nam
   auto table = read();
   if (!table) return table.error();
   table->content_hash = hash.valid() ? hash.get() : hash_bytes();
+  if (table->type == PhotometricType::kC) table->header.read_c0_deg = settings.c0_turn_deg;
+  table->header.read_mirrored = settings.mirror_h;
   if (!note.empty()) table->notes.insert(table->notes.begin(), note);
   if (settings.mirror_h) {
     mirror_left_right(*table);
@@ -75,12 +78,13 @@ Result<IntensityTable> parse_lamp(std::string_view bytes, const std::string& nam
 }
 
 Result<IntensityTable> read_lamp(const std::filesystem::path& file, const LampReadSettings& settings) {
-  const auto bytes = read_photometry_bytes(file, file.string());
+  const std::string name = input_name(file);
+  const auto bytes = read_photometry_bytes(file, name);
   if (!bytes) return bytes.error();
   LampReadSettings here = settings;
   here.folder = file.parent_path();
-  auto table = parse_lamp(*bytes, file.string(), here);
-  if (table) table->name = file.filename().string();
+  auto table = parse_lamp(*bytes, name, here);
+  if (table) table->name = is_standard_input(file) ? name : file.filename().string();
   return table;
 }
 

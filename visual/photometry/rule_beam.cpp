@@ -30,15 +30,23 @@ TableAngles onto_limits(const IntensityTable& table, TableAngles angles) {
   return {snap(table.first_deg, angles.first_deg), snap(table.second_deg, angles.second_deg)};
 }
 
-bool place_in(const std::vector<double>& nodes, double at, std::size_t& i, double& share_01) {
+/// A cell and the shares of its lower and upper node, each worked out by itself: a mirrored table gives them swapped.
+struct PlaceInCell {
+  std::size_t i = 0;
+  double lower_01 = 0.0, upper_01 = 0.0;
+};
+
+bool place_in(const std::vector<double>& nodes, double at, PlaceInCell& place) {
   if (nodes.size() < 2 || !(at >= nodes.front() && at <= nodes.back())) return false;
-  i = static_cast<std::size_t>(std::upper_bound(nodes.begin() + 1, nodes.end() - 1, at) - nodes.begin()) - 1;
-  share_01 = (at - nodes[i]) / (nodes[i + 1] - nodes[i]);
+  place.i = static_cast<std::size_t>(std::upper_bound(nodes.begin() + 1, nodes.end() - 1, at) - nodes.begin()) - 1;
+  const double low = nodes[place.i], high = nodes[place.i + 1];
+  place.lower_01 = (high - at) / (high - low);
+  place.upper_01 = (at - low) / (high - low);
   return true;
 }
 
-/// Curvature of the values at four nodes i-1 … i+2 (ends clamped) as the largest error of a linear piece, at share u.
-double piece_error(const double (&x)[4], const double (&f)[4], double u) {
+/// Curvature of the values at four nodes i-1 … i+2 (ends clamped) as the largest error of a linear piece, there.
+double piece_error(const double (&x)[4], const double (&f)[4], const PlaceInCell& place) {
   double curvature = 0.0;  // |f''|·h² of the middle interval
   const double h = x[2] - x[1];
   for (const int i : {0, 1}) {
@@ -47,17 +55,17 @@ double piece_error(const double (&x)[4], const double (&f)[4], double u) {
     const double second = 2.0 * ((f[i + 2] - f[i + 1]) / b - (f[i + 1] - f[i]) / a) / (a + b);
     curvature = std::max(curvature, std::abs(second) * h * h);
   }
-  return curvature * 0.5 * u * (1.0 - u);  // = curvature / 8 in the middle
+  return curvature * 0.5 * (place.lower_01 * place.upper_01);  // = curvature / 8 in the middle
 }
 
 }  // namespace
 
 double interpolation_error_cd(const IntensityTable& table, TableAngles angles) {
-  std::size_t i = 0, j = 0;
-  double u = 0.0, v = 0.0;
+  PlaceInCell first, second;
   angles = onto_limits(table, angles);
-  if (!place_in(table.first_deg, angles.first_deg, i, u) || !place_in(table.second_deg, angles.second_deg, j, v))
+  if (!place_in(table.first_deg, angles.first_deg, first) || !place_in(table.second_deg, angles.second_deg, second))
     return std::numeric_limits<double>::infinity();
+  const std::size_t i = first.i, j = second.i;
   const std::size_t columns = table.first_deg.size(), rows = table.second_deg.size();
   double along_first = 0.0, along_second = 0.0;
   for (const std::size_t other : {std::size_t{0}, std::size_t{1}}) {
@@ -70,8 +78,11 @@ double interpolation_error_cd(const IntensityTable& table, TableAngles angles) {
       y[k] = table.second_deg[row];
       g[k] = table.candela[row * columns + i + other];
     }
-    along_first = std::max(along_first, piece_error(x, f, u));
-    along_second = std::max(along_second, piece_error(y, g, v));
+    // What lies on a node has nothing of the cell's other side.
+    if ((other == 0 ? second.lower_01 : second.upper_01) > 0.0)
+      along_first = std::max(along_first, piece_error(x, f, first));
+    if ((other == 0 ? first.lower_01 : first.upper_01) > 0.0)
+      along_second = std::max(along_second, piece_error(y, g, second));
   }
   return along_first + along_second + 0.5 * table.header.smallest_step_cd;
 }
@@ -145,8 +156,10 @@ double RuleBeam::peak_resolution_cd(HV node) const {
 const std::vector<RuleBeam::Node>& RuleBeam::nodes() {
   if (!nodes_.empty()) return nodes_;
   for (std::size_t k = 0; k < lamps(); ++k) {
+    const std::vector<double>& first_deg = tables_[k]->first_deg;
     for (const double second : tables_[k]->second_deg) {
-      for (const double first : tables_[k]->first_deg) {
+      for (std::size_t i = 0; i < first_deg.size(); ++i) {  // in the order of the rule's H: the first of equals is told
+        const double first = first_deg[mirrored_ ? first_deg.size() - 1 - i : i];
         const glm::dvec3 d = car_from_lamp_[k] * tables_[k]->direction_of({first, second});
         TableAngles hv = table_angles(PhotometricType::kA, GammaAxis::kGamma0, d);
         if (mirrored_) hv.first_deg = -hv.first_deg;

@@ -125,6 +125,7 @@ Result<Rulebook> read_rulebook(const std::filesystem::path& file) {
   rule.sources = table.texts_or_empty("sources");
   if (rule.sources.empty()) table.fail("sources", "a rulebook names where its numbers were read");
   rule.function = table.text("function");
+  rule.market = table.text_or("market", "");
   rule.half_sum = table.flag_or("half_sum", false);
   rule.flux_min_lm = table.number_or("flux_min_lm", 0.0, 0.0, 1e6);
   const std::string unconfirmed = table.text_or("unconfirmed", "");

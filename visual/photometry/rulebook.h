@@ -61,6 +61,7 @@ struct Rulebook {
   std::string clause;
   std::vector<std::string> sources;  ///< where the numbers were read
   std::string function;              ///< "low", "high", "fog"
+  std::string market;                ///< where it holds: "ECE", "US"; empty: not said
   bool half_sum = false;             ///< limits hold for half the sum of both sides' lamps
   double flux_min_lm = 0.0;
   std::vector<CutoffAim> cutoff_aims;  ///< empty: as filed; several: the one with the sharpest cut-off is used

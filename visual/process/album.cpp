@@ -3,7 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <fstream>
 
+#include "net/stats.h"
 #include "visual/image/image.h"
 #include "visual/process/stills.h"
 
@@ -13,6 +15,8 @@ namespace {
 constexpr int kThumbnailWidth_px = 320;
 constexpr std::size_t kSheetPictures = 16;
 constexpr const char* kLastStill = "wall_25m.png";  // written last: where it is, the others are whole
+
+constexpr const char* kEyeState = "eye.json";
 
 /// A picture that cannot be written is told once each; the drive goes on.
 void tell(const Status& status) {
@@ -30,6 +34,10 @@ Result<Album> Album::open(const std::filesystem::path& folder, bool going_on) {
   if (!going_on) return album;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", failed))
     album.frames_found_ += entry.path().extension() == ".png" ? 1 : 0;
+  if (std::ifstream stream(folder / kEyeState); stream) {
+    nlohmann::json state = nlohmann::json::parse(stream, nullptr, false);
+    if (!state.is_discarded()) album.eye_ = std::move(state);
+  }
   album.has_stills_ = std::filesystem::exists(folder / kLastStill, failed);
   return album;
 }
@@ -51,6 +59,8 @@ void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleStat
   has_stills_ = true;
   driver.want_image = true;
   driver.overlay.clear();
+  driver.instruments.clear();
+  driver.panel = {};
 
   constexpr int kFiner = 2;
   renderer.resize(kFiner * width_px, kFiner * height_px);
@@ -73,8 +83,14 @@ void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleStat
   save(kLastStill, wall_picture(lamps, lamps.design_index()));
 }
 
+void Album::keep_eye(const nlohmann::json& state) {
+  if (wanted() && !write_json(folder_ / kEyeState, state)) spdlog::debug("{} cannot be written", kEyeState);
+}
+
 void Album::finish() {
   if (!wanted()) return;
+  std::error_code ignored;
+  std::filesystem::remove(folder_ / kEyeState, ignored);
   const std::vector<LabelledImage> pictures = thumbnails_.pick(kSheetPictures);
   if (!pictures.empty()) save("contact_sheet.png", contact_sheet(pictures));
 }

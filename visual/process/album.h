@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "config/result.h"
@@ -28,7 +30,11 @@ class Album {
   void keep_stills(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps, int width_px,
                    int height_px, const std::string& label);
   bool has_stills() const { return has_stills_; }
-  /// contact_sheet.png
+  /// eye.json: what the eye is adapted to after this frame, for a process that takes the place of this one.
+  void keep_eye(const nlohmann::json& state);
+  /// What the process before left of it, when going on.
+  const std::optional<nlohmann::json>& eye() const { return eye_; }
+  /// contact_sheet.png; takes eye.json away
   void finish();
 
   /// One number over the bytes of every kept frame in order (FNV-1a, 64 bit): equal drives give equal numbers.
@@ -42,6 +48,7 @@ class Album {
 
   std::filesystem::path folder_;
   Thumbnails thumbnails_;
+  std::optional<nlohmann::json> eye_;
   bool has_stills_ = false;
   std::uint64_t frames_hash_ = 0xcbf29ce484222325ull;
   std::uint64_t kept_frames_ = 0;

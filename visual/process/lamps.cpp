@@ -66,7 +66,9 @@ Result<Lamps> Lamps::load(const Rig& rig) {
       }
     }
   }
-  for (const DesignConfig& design : rig.designs) {
+  lamps.aimings_ = aim_lamps(lamps.designs_, lamps.tables_);
+  lamps.table_ends_ = phare::table_ends(lamps.designs_, lamps.tables_, rig.channels);
+  for (const DesignConfig& design : lamps.designs_) {
     std::vector<Position>& positions = lamps.positions_.emplace_back();
     for (const LampConfig& lamp : design.lamps) {
       std::vector<AimedSource> sources;
@@ -183,6 +185,17 @@ double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunct
   return total_lx;
 }
 
+std::optional<glm::vec3> Lamps::light() const {
+  glm::dvec3 sum{0.0};
+  double lumens = 0.0;
+  for (const Position& position : positions_[design_]) {
+    if (position.beam.image().dark) continue;
+    sum += position.beam.lumens() * glm::dvec3(position.beam.image().colour);
+    lumens += position.beam.lumens();
+  }
+  return lumens > 0.0 ? std::optional(glm::vec3(sum / lumens)) : std::nullopt;
+}
+
 /// Only functions that a lamp of the design has.
 std::string Lamps::text_of_lit() const {
   std::string text;
@@ -193,6 +206,14 @@ std::string Lamps::text_of_lit() const {
     if (present) text += (text.empty() ? "" : " ") + std::string(name_of(function));
   }
   return text.empty() ? "off" : text;
+}
+
+std::vector<std::string> Lamps::lit_table_ends() const {
+  std::vector<std::string> lines;
+  for (const SourceEnd& end : table_ends_) {
+    if (end.design == design().name && lit_.contains(end.function)) lines.push_back(end.text());
+  }
+  return lines;
 }
 
 std::uint64_t Lamps::resampled_images() const {
@@ -213,7 +234,8 @@ std::uint64_t Lamps::summed_texels() const {
 std::vector<Lamps::TableInfo> Lamps::tables() const {
   std::vector<TableInfo> infos;
   for (const auto& [key, table] : tables_) {
-    infos.push_back({table.name, table.content_hash, table.peak_cd(), table.flux_lm(), table.notes});
+    infos.push_back(
+        {table.name, table.content_hash, table.peak_cd(), table.flux_lm(), table.notes, LampTables::reading(key)});
   }
   return infos;
 }

@@ -11,8 +11,10 @@
 #include "config/result.h"
 #include "config/rig.h"
 #include "net/messages.h"
+#include "visual/photometry/lamp_aim.h"
 #include "visual/photometry/lamp_tables.h"
 #include "visual/photometry/live_beam.h"
+#include "visual/photometry/table_end.h"
 #include "visual/renderer.h"
 
 namespace phare {
@@ -25,8 +27,8 @@ class Lamps {
  public:
   static constexpr std::size_t kMostPositions = 8;  ///< what a renderer holds
 
-  /// Reads every table of every design. A file named twice is read once. Error: of the first bad file, or a design with
-  /// more than kMostPositions lamps, or a rig without designs.
+  /// Reads every table of every design, and turns every lamp as its `aim` says. A file named twice is read once. Error:
+  /// of the first bad file, or a design with more than kMostPositions lamps, or a rig without designs.
   static Result<Lamps> load(const Rig& rig);
 
   /// A beam image that has to go to the renderer's slot `position` now.
@@ -74,6 +76,10 @@ class Lamps {
   double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
                                double tilt_rad = 0.0) const;
 
+  /// Mean colour of the light of all sources that shine, weighted by flux, linear sRGB of luminance 1; nothing when all
+  /// are dark.
+  std::optional<glm::vec3> light() const;
+
   const std::vector<DesignConfig>& designs() const { return designs_; }
   const DesignConfig& design() const { return designs_[design_]; }
   std::size_t design_index() const { return design_; }
@@ -87,8 +93,15 @@ class Lamps {
     std::string name, content_hash;
     double peak_cd = 0.0, flux_lm = 0.0;
     std::vector<std::string> notes;
+    std::string reading;  ///< how the file was read, where a rig says more than its name: "emitter 2, mirrored"
   };
   std::vector<TableInfo> tables() const;
+  /// What came of every `aim` of the rig.
+  const std::vector<LampAiming>& aimings() const { return aimings_; }
+  /// Where the tables end on the road, in the rig's pictures.
+  const std::vector<SourceEnd>& table_ends() const { return table_ends_; }
+  /// The same for the overlay: one line for each that is lit now.
+  std::vector<std::string> lit_table_ends() const;
 
  private:
   /// One lamp of a design as it is now.
@@ -105,6 +118,8 @@ class Lamps {
   std::vector<DesignConfig> designs_;
   bool high_keeps_low_ = true;
   LampTables tables_;
+  std::vector<LampAiming> aimings_;
+  std::vector<SourceEnd> table_ends_;
   std::vector<std::vector<Position>> positions_;   ///< [design][lamp]
   std::vector<std::optional<std::size_t>> shown_;  ///< per slot, the design whose image it holds
   std::set<LampFunction> lit_;

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <memory>
 
 #include "config/remedies.h"
 #include "net/drive_file.h"
@@ -25,8 +26,17 @@ nlohmann::json describe(const Lamps& lamps) {
                       {"peak_cd", table.peak_cd},
                       {"flux_lm", table.flux_lm},
                       {"notes", table.notes}});
+    if (!table.reading.empty()) tables.back()["reading"] = table.reading;
   }
   return tables;
+}
+
+/// Adapted as the process was that this one takes the place of, if it does.
+EyeAdaptation eye_of(const Session& session, std::optional<double> fixed_k) {
+  EyeAdaptation eye = fixed_k ? EyeAdaptation(*fixed_k) : EyeAdaptation();
+  if (session.options.going_on && session.album.eye() && !eye.restore(*session.album.eye()))
+    spdlog::warn("the eye's state of the process before is not whole; the eye begins adapted");
+  return eye;
 }
 
 /// Nothing is written before everything that can be wrong has been read.
@@ -40,6 +50,8 @@ int draw_channel(VisualOptions options) {
   const ChannelConfig& channel = rig->channels[options.channel];
   if (options.width_px == 0) options.width_px = channel.width_px, options.height_px = channel.height_px;
 
+  const Result<EyeSetting> eye = options.adaptation ? *options.adaptation : read_eye(options.rig_file);
+  if (!eye) return refuse(eye.error());
   Result<Lamps> lamps = Lamps::load(*rig);
   if (!lamps) return refuse(lamps.error());
   Result<Scene> scene = read_scene(rig->scene_file);
@@ -75,19 +87,10 @@ int draw_channel(VisualOptions options) {
   if (!album) return refuse(album.error());
 
   nlohmann::json lamps_json = describe(*lamps);
-  Session session{std::move(options),
-                  std::move(*rig),
-                  std::move(*scene),
-                  std::move(*lamps),
-                  std::move(window),
-                  std::move(*renderer),
-                  std::move(*bus),
-                  std::move(*album),
-                  install_stop_signals(),
-                  {},
-                  {},
-                  {},
-                  std::move(lamps_json)};
+  Session session(std::move(options), std::move(*rig), std::move(*scene), std::move(*lamps), std::move(window),
+                  std::move(*renderer), std::move(*bus), std::move(*album), install_stop_signals(),
+                  std::move(lamps_json));
+  session.eye = eye_of(session, eye->fixed_k);
   spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
   run_loop(session);
   if (session.renderer.validation_messages() > 0) {

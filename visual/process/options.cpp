@@ -26,6 +26,13 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                "Take the place of one that was killed: keep the pictures it left in --out");
   app.add_option("--out", options.out, "Folder for pictures (headless: out)");
   app.add_option("--stats", options.stats_file, "Statistics file (JSON); visual-<channel>.json in --out");
+  app.add_option(
+         "--guide", options.guide,
+         "Somebody sits at the window and drives (live) or looks on (replay): tell how to begin and what can be "
+         "done at the end, and wait there")
+      ->check(CLI::IsMember({"live", "replay"}));
+  app.add_flag("--demo", options.demo, "With --guide: the demo driver waits for his key");
+  app.add_option("--report", options.report, "With --guide: where the end screen says that the report will lie");
   picture.add_to(app);
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
@@ -51,6 +58,14 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   options.beam_image = level_named(picture.beam_image);
   options.validation = picture.validation;
   options.device_name = picture.device_name;
+  if (!picture.adaptation.empty()) {
+    const auto setting = parse_adaptation(picture.adaptation);
+    if (!setting) {
+      std::fprintf(stderr, "phare-visual: %s\n", setting.error().text().c_str());
+      return {std::nullopt, kExitBadInput};
+    }
+    options.adaptation = *setting;
+  }
   if (port_base != 0) options.port_base = port_base;
   if (options.headless && options.out.empty()) options.out = "out";
   if (options.stats_file.empty() && !options.out.empty()) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "config/eye.h"
 #include "config/result.h"
 #include "config/rig.h"
 #include "visual/process/cameras.h"
@@ -27,8 +28,12 @@ struct VisualOptions {
   CameraKind camera = CameraKind::kDriver;  ///< a window begins with it
   double still_at_s = -1.0;                 ///< simulated time of the stills; negative: chosen
   double exposure_per_cdm2 = 0.8;
-  std::int64_t audit_every = 300;  ///< frames; 0: never
+  std::optional<EyeSetting> adaptation;  ///< instead of the rig's
+  std::int64_t audit_every = 300;               ///< frames; 0: never
   bool false_colour = false;
+  std::string guide;                     ///< live, replay: somebody sits at the window; empty: nobody
+  bool demo = false;                     ///< a demo driver waits for his key
+  std::string report;                    ///< what the end screen says of the report
   std::optional<ImageLevel> beam_image;  ///< instead of the rig's
   bool validation = false;
   std::string device_name;

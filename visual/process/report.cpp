@@ -6,6 +6,33 @@
 
 namespace phare {
 
+namespace {
+
+nlohmann::json aims_json(const Lamps& lamps) {
+  nlohmann::json aims = nlohmann::json::array();
+  for (const LampAiming& aiming : lamps.aimings()) {
+    aims.push_back({{"design", aiming.design},
+                    {"lamp", aiming.lamp},
+                    {"cutoff_found", aiming.found},
+                    {"turned_deg", aiming.turned_deg},
+                    {"text", aiming.text()}});
+    if (aiming.found) aims.back()["cutoff_v_deg"] = aiming.after_deg;
+  }
+  return aims;
+}
+
+nlohmann::json table_ends_json(const Lamps& lamps) {
+  nlohmann::json ends = nlohmann::json::array();
+  for (const SourceEnd& end : lamps.table_ends()) {
+    ends.push_back({{"design", end.design}, {"lamp", end.lamp}, {"file", end.file}, {"text", end.text()}});
+    if (end.end.below) ends.back()["v_deg"] = end.end.v_deg;
+    if (end.end.below) ends.back()["nearest_road_m"] = end.end.nearest_road_m;
+  }
+  return ends;
+}
+
+}  // namespace
+
 nlohmann::json report_json(const Session& session, SimTime now) {
   nlohmann::json report = stats_json("visual", session.bus);
   const FrameStats& stats = session.stats;
@@ -50,12 +77,15 @@ nlohmann::json report_json(const Session& session, SimTime now) {
                      {"uploaded_texels", session.renderer.uploaded_texels()},
                      {"uploads", session.lamps.uploads()},
                      {"resampled", session.lamps.resampled_images()}};
+  report["eye"] = {{"adaptation", session.eye.fixed() ? "fixed" : "auto"}, {"adapted_k", session.eye.adapted_k()}};
   report["self_audit"] = session.audit.json();
   report["switch_to_photon"] = session.switches.json();
   report["scene"] = {{"file", session.scene.file.filename().string()},
                      {"content_hash", session.scene.content_hash},
                      {"triangles", session.scene.indices.size() / 3}};
   report["lamps"] = session.lamps_json;
+  report["aims"] = aims_json(session.lamps);
+  report["table_ends"] = table_ends_json(session.lamps);
   report["kept_frames"] = {{"count", session.album.kept_frames()},
                            {"hash", fmt::format("{:016x}", session.album.frames_hash())}};
   return report;

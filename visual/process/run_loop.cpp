@@ -11,6 +11,7 @@
 #include "visual/process/pick.h"
 #include "visual/process/pose_buffer.h"
 #include "visual/process/report.h"
+#include "visual/process/screens.h"
 
 namespace phare {
 namespace {
@@ -20,6 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kRepeatAfter = 100ms;  // of no progress the last FrameReport is sent again
 constexpr auto kStatsEvery = 1s;
+constexpr auto kFreshWithin = 1s;  // the first picture waits so long for a pose that is not held
 
 /// What one frame shows.
 struct Moment {
@@ -29,15 +31,30 @@ struct Moment {
   PoseBuffer::Drawn car;
 };
 
+ScreensSetup screens_of(const VisualOptions& options, const Rig& rig) {
+  using Kind = ScreensSetup::Kind;
+  const bool live = options.guide == "live";
+  const std::string drive = options.drive_file.filename().string();
+  return {.kind = options.guide.empty() ? Kind::kNone
+                  : live                ? Kind::kLive
+                                        : Kind::kReplay,
+          .shown = live || drive.empty() ? rig.name : drive,
+          .demo = options.demo,
+          .report = options.report};
+}
+
 class Loop {
  public:
   explicit Loop(Session& session)
-      : s_(session), pacer_(std::chrono::nanoseconds(1'000'000'000 / session.rig.frame_rate_hz)) {
+      : s_(session),
+        pacer_(std::chrono::nanoseconds(1'000'000'000 / session.rig.frame_rate_hz)),
+        screens_(screens_of(session.options, session.rig)) {
     s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
     controls_.light_switch = LightSwitch::kLow;  // until the cockpit speaks, low beam: the safe state
     if (!session.options.lockstep) drawn_frames_ = session.album.frames_found();
     warm_up();
     announce();
+    ready_ = Clock::now();
   }
 
   bool over();
@@ -51,6 +68,7 @@ class Loop {
 
  private:
   void take(const Datagram& datagram);
+  void mind_the_keys();
   void answer(const ProbeRequest& request, SimTime now);
   void light_up(const CockpitState& controls);
   void warm_up();
@@ -75,7 +93,10 @@ class Loop {
   std::int64_t drawn_frames_ = 0;
   std::int64_t next_picture_ns_ = 0;
   Clock::time_point progress_ = Clock::now(), stats_written_ = Clock::now(), frame_end_{};
+  Screens screens_;
+  Clock::time_point ready_;
   bool ended_ = false;
+  bool over_ = false;      // the drive is, and the window stays
   bool captured_ = false;  // the picture of this frame is read back
   FrameInput input_;
   std::optional<Moment> newest_;
@@ -83,7 +104,15 @@ class Loop {
 
 bool Loop::over() {
   if (s_.window && !s_.window->poll()) ended_ = true;
+  if (s_.window) mind_the_keys();
   return ended_ || s_.stop.requested();
+}
+
+/// What the picture has to do with keys, and what the cockpit and the launcher are to know of them.
+void Loop::mind_the_keys() {
+  WindowKeyboard& keyboard = s_.window->keyboard();
+  if (screens_.press(s_.window->take_presses(), keyboard.take_any())) ended_ = true;
+  if (const auto keys = keyboard.message(Clock::now())) s_.bus.send(newest_ ? newest_->time : SimTime{}, *keys);
 }
 
 /// Every accepted datagram, in order.
@@ -130,6 +159,7 @@ void Loop::warm_up() {
   const Clock::time_point begin = Clock::now();
   const VehicleState pose;
   FrameInput input;
+  if (s_.window) input.panel = getting_ready_panel();
   input.camera = overview_camera(s_.scene);
   const auto draw = [&](const CockpitState& controls) {
     light_up(controls);
@@ -202,10 +232,13 @@ std::optional<Moment> Loop::display_moment() {
     s_.bus.wait(pacer_.left());
     return std::nullopt;
   }
+  if (over_) return newest_;  // the last picture stays
   const WallTime now = wall_now();
   const std::optional<SimTime> time = clock_.at(now);
   const std::optional<PoseBuffer::Drawn> car = time ? poses_.at(*time) : std::nullopt;
-  if (!car) {
+  // What had piled up before the picture was ready is old: the first one shows the car as it is now.
+  const bool old = car && car->stale && !newest_ && Clock::now() - ready_ < kFreshWithin;
+  if (!car || old) {
     repeat_when_stalled();
     return std::nullopt;
   }
@@ -236,12 +269,21 @@ void Loop::draw(const Moment& moment) {
   if (s_.options.false_colour) input_.view = input_.view == View::kPhoto ? View::kFalseColour : View::kPhoto;
   input_.lamps = s_.lamps.placed(moment.car.pose);
   input_.exposure_per_cdm2 = s_.options.exposure_per_cdm2;
+  s_.eye.see(moment.time, s_.lamps.light());
+  input_.white = s_.eye.white();
+  if (s_.window) {
+    input_.panel = screens_.panel(moment.controls, moment.time.seconds());
+    const bool one = s_.lamps.designs().size() < 2;
+    input_.instruments =
+        instruments(moment.controls, moment.car.pose, one ? std::string() : s_.lamps.design().name, moment.time);
+  }
   if (s_.window && drawn_frames_ % 6 == 0)
     input_.overlay = overlay(moment);  // ten times a second: the lux under the mouse takes a ray through the scene
   captured_ = wants_picture(moment);
   input_.want_image = captured_;
 
   const FrameResult result = s_.renderer.draw(input_);
+  if (over_) return;  // what is counted is the drive
   s_.stats.add(result, captured_);
   if (moment.car.stale) ++s_.stats.stale_frames;
   const Clock::time_point now = Clock::now();
@@ -253,7 +295,11 @@ void Loop::draw(const Moment& moment) {
   ++drawn_frames_;
   newest_ = moment;
   const bool enough = s_.options.frames > 0 && number_of(moment) + 1 >= s_.options.frames;
-  if (enough || moment.controls.drive_ended || moment.car.pose.drive_ended) ended_ = true;
+  if (enough || moment.controls.drive_ended || moment.car.pose.drive_ended) {
+    over_ = s_.window && screens_.stays() && !enough;
+    ended_ = !over_;
+    if (over_) screens_.drive_over();
+  }
   s_.switches.frame_finished(moment.controls, moment.time, wall_now(), s_.options.lockstep ? s_.rig.frame_rate_hz : 0);
 }
 
@@ -267,6 +313,7 @@ void Loop::report(const Moment& moment) {
 }
 
 void Loop::keep(const Moment& moment) {
+  if (!s_.eye.fixed()) s_.album.keep_eye(s_.eye.json());
   if (captured_) {
     Image8 image = s_.renderer.read_image();
     if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);
@@ -287,7 +334,7 @@ void Loop::keep(const Moment& moment) {
 void Loop::audit(const Moment& moment) {
   constexpr std::size_t kPixels = 32;
   const std::int64_t number = number_of(moment);
-  if (s_.options.audit_every > 0 && number % s_.options.audit_every == 0 && !input_.lamps.empty()) {
+  if (!over_ && s_.options.audit_every > 0 && number % s_.options.audit_every == 0 && !input_.lamps.empty()) {
     const auto samples = s_.renderer.audit(input_, kPixels, static_cast<std::uint64_t>(number) + 1);
     s_.audit.add(s_.lamps, moment.car.pose, samples);
   }
@@ -308,7 +355,7 @@ std::int64_t Loop::number_of(const Moment& moment) const {
 
 /// With --frames every one, else the first frame of each second of simulated time.
 bool Loop::wants_picture(const Moment& moment) {
-  if (!s_.album.wanted()) return false;
+  if (!s_.album.wanted() || over_) return false;
   if (s_.options.frames > 0) return (s_.options.lockstep ? moment.frame_index : drawn_frames_) < s_.options.frames;
   if (moment.time.ns < next_picture_ns_) return false;
   next_picture_ns_ = (moment.time.ns / 1'000'000'000 + 1) * 1'000'000'000;
@@ -319,7 +366,7 @@ bool Loop::wants_picture(const Moment& moment) {
 bool Loop::wants_stills(const Moment& moment) const {
   constexpr double kTellingSpeed_mps = 8.0;
   if (!s_.album.wanted() || s_.album.has_stills()) return false;
-  if (ended_) return true;
+  if (ended_ || over_) return true;
   if (moment.time.seconds() < s_.options.still_at_s) return false;
   return moment.controls.light_switch == LightSwitch::kLow && !moment.controls.flash &&
          moment.car.pose.speed_mps > kTellingSpeed_mps;
@@ -333,12 +380,14 @@ std::string Loop::label(const Moment& moment) const {
   return text;
 }
 
-/// What the driver is told over the picture: telltales, the lux under the mouse, and everything that is not as it
-/// should be.
+/// What the driver is told over the picture besides the instruments: the lux under the mouse, and everything that is
+/// not as it should be.
 std::vector<std::string> Loop::overlay(const Moment& moment) const {
   char text[160];
-  std::vector<std::string> lines{label(moment)};
-  std::snprintf(text, sizeof text, "frame %.1f ms   C camera   F false colour", s_.stats.newest.wall_ms);
+  std::snprintf(text, sizeof text, "%.1f s   frame %.1f ms   %s keys", moment.time.seconds(), s_.stats.newest.wall_ms,
+                std::string(binding_of(KeyAction::kHelp)->name).c_str());
+  std::vector<std::string> lines{text};
+  std::snprintf(text, sizeof text, "eye adapted to %.0f K%s", s_.eye.adapted_k(), s_.eye.fixed() ? ", fixed" : "");
   lines.emplace_back(text);
   if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside) {
     if (const auto point =
@@ -350,6 +399,7 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
       lines.emplace_back(text);
     }
   }
+  for (std::string& end : s_.lamps.lit_table_ends()) lines.push_back(std::move(end));
   if (moment.car.stale) lines.emplace_back("POSE HELD: no VehicleState");
   if (moment.controls.fail_safe) lines.emplace_back("FAIL-SAFE low beam: the light switch is silent");
   if (!moment.controls.source_fault.empty()) lines.push_back(moment.controls.source_fault);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "net/bus.h"
 #include "net/clock.h"
+#include "visual/process/adaptation.h"
 #include "visual/process/album.h"
 #include "visual/process/audit.h"
 #include "visual/process/frame_stats.h"
@@ -17,6 +19,19 @@
 namespace phare {
 
 struct Session {
+  Session(VisualOptions options_, Rig rig_, Scene scene_, Lamps lamps_, std::optional<Window> window_,
+          Renderer renderer_, Bus bus_, Album album_, StopFlag stop_, nlohmann::json lamps_json_)
+      : options(std::move(options_)),
+        rig(std::move(rig_)),
+        scene(std::move(scene_)),
+        lamps(std::move(lamps_)),
+        window(std::move(window_)),
+        renderer(std::move(renderer_)),
+        bus(std::move(bus_)),
+        album(std::move(album_)),
+        stop(stop_),
+        lamps_json(std::move(lamps_json_)) {}
+
   VisualOptions options;
   Rig rig;
   Scene scene;
@@ -29,6 +44,7 @@ struct Session {
   FrameStats stats;
   AuditStats audit;
   SwitchToPhoton switches;
+  EyeAdaptation eye;
   nlohmann::json lamps_json;  ///< tables with hashes, peak and flux: does not change
 
   const ChannelConfig& channel() const { return rig.channels[options.channel]; }

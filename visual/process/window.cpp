@@ -3,14 +3,39 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "config/remedies.h"
 
 namespace phare {
 
+namespace {
+
+// The table speaks of keys by GLFW's numbers without knowing GLFW.
+static_assert(key::kEscape == GLFW_KEY_ESCAPE && key::kBackspace == GLFW_KEY_BACKSPACE && key::kF1 == GLFW_KEY_F1 &&
+              key::kF2 == GLFW_KEY_F2);
+static_assert(key::kUp == GLFW_KEY_UP && key::kDown == GLFW_KEY_DOWN && key::kLeft == GLFW_KEY_LEFT &&
+              key::kRight == GLFW_KEY_RIGHT);
+
+/// Letters and signs by what is printed on this keyboard, so that a key is the same here and in the terminal; where
+/// that is no Latin letter, by its place on an American one.
+KeyCode code_of(int glfw_key, int scancode, int mods) {
+  const char* printed = glfwGetKeyName(glfw_key, scancode);
+  const bool latin = printed != nullptr && printed[0] > ' ' && printed[1] == '\0';
+  KeyCode code = latin ? static_cast<KeyCode>(printed[0]) : static_cast<KeyCode>(std::max(glfw_key, 0));
+  const bool shift = (mods & GLFW_MOD_SHIFT) != 0;
+  if (code >= 'A' && code <= 'Z' && !shift) code = code - 'A' + 'a';
+  if (code >= 'a' && code <= 'z' && shift) code = code - 'a' + 'A';
+  return code;
+}
+
+}  // namespace
+
 struct Window::State {
   GLFWwindow* window = nullptr;
+  WindowKeyboard keyboard;
+  std::vector<KeyAction> presses;
   CameraKind camera = CameraKind::kDriver;
   View view = View::kPhoto;
 
@@ -22,12 +47,19 @@ struct Window::State {
     glfwTerminate();
   }
 
-  static void on_key(GLFWwindow* window, int key, int, int action, int) {
-    if (action != GLFW_PRESS) return;
-    State& state = *static_cast<State*>(glfwGetWindowUserPointer(window));
-    if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window, GLFW_TRUE);
-    if (key == GLFW_KEY_F) state.view = state.view == View::kPhoto ? View::kFalseColour : View::kPhoto;
-    if (key == GLFW_KEY_C) state.camera = static_cast<CameraKind>((static_cast<int>(state.camera) + 1) % 3);
+  static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
+  static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
+    if (action == GLFW_REPEAT) return;
+    const int physical = key == GLFW_KEY_UNKNOWN ? GLFW_KEY_LAST + 1 + scancode : key;
+    of(window).keyboard.key(physical, code_of(key, scancode, mods), action == GLFW_PRESS,
+                            WindowKeyboard::Time::clock::now());
+  }
+  static void on_character(GLFWwindow* window, unsigned character) {
+    // On every keyboard another key with Shift.
+    if (character == '?') of(window).keyboard.character('?', WindowKeyboard::Time::clock::now());
+  }
+  static void on_focus(GLFWwindow* window, int focused) {
+    if (focused == GLFW_FALSE) of(window).keyboard.focus_lost(WindowKeyboard::Time::clock::now());
   }
 };
 
@@ -47,6 +79,8 @@ Result<Window> Window::open(const std::string& title, int width_px, int height_p
   }
   glfwSetWindowUserPointer(state->window, state.get());
   glfwSetKeyCallback(state->window, State::on_key);
+  glfwSetCharCallback(state->window, State::on_character);
+  glfwSetWindowFocusCallback(state->window, State::on_focus);
   return Window(std::move(state));
 }
 
@@ -57,7 +91,20 @@ Window::~Window() = default;
 
 bool Window::poll() {
   glfwPollEvents();
+  for (const KeyAction action : state_->keyboard.take_presses()) {
+    State& s = *state_;
+    if (action == KeyAction::kFalseColour) s.view = s.view == View::kPhoto ? View::kFalseColour : View::kPhoto;
+    if (action == KeyAction::kCamera) s.camera = static_cast<CameraKind>((static_cast<int>(s.camera) + 1) % 3);
+    s.presses.push_back(action);
+  }
   return glfwWindowShouldClose(state_->window) == GLFW_FALSE;
+}
+
+std::vector<KeyAction> Window::take_presses() {
+  return std::exchange(state_->presses, {});
+}
+WindowKeyboard& Window::keyboard() {
+  return state_->keyboard;
 }
 
 CameraKind Window::camera() const {

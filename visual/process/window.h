@@ -3,9 +3,11 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "config/result.h"
 #include "visual/process/cameras.h"
+#include "visual/process/window_keyboard.h"
 
 struct GLFWwindow;
 
@@ -19,8 +21,12 @@ class Window {
   Window& operator=(Window&&) noexcept;
   ~Window();
 
-  /// Handles what keys and mouse did: Esc closes, c next camera, f false colour. False once closed.
+  /// Handles what keys and mouse did, camera and view by itself. False once closed.
   bool poll();
+  /// The bound keys pressed since the last call; what they do: config/key_bindings.h.
+  std::vector<KeyAction> take_presses();
+  /// Whether any key was pressed, and what the other processes are to know.
+  WindowKeyboard& keyboard();
 
   CameraKind camera() const;
   void set_camera(CameraKind camera);

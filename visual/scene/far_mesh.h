@@ -24,8 +24,8 @@ struct FarMesh {
 };
 
 /// Ground and things are simplified by quadric error (Garland and Heckbert 1997) by meshoptimizer; foliage is thinned;
-/// retroreflectors stay whole, and paint but at the last level, for what is seen of them far away is their exact place.
-/// `from_m`: the nearest distance this mesh is drawn at.
+/// retroreflectors and markings stay whole, and paint but at the last level, for what is seen of them far away is their
+/// exact place. `from_m`: the nearest distance this mesh is drawn at.
 FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level, double from_m);
 
 }  // namespace phare

@@ -11,6 +11,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -67,11 +68,30 @@ Result<SceneMaterial> read_material(const tinygltf::Material& source) {
     if (!surface) return bad(surface.error().reason);
     material.surface = *surface;
   }
-  if (extras.Has("retroreflection_cd_per_lx_m2")) {
-    const tinygltf::Value& value = extras.Get("retroreflection_cd_per_lx_m2");
-    const double r = value.IsNumber() ? value.GetNumberAsDouble() : -1.0;
-    if (!(r >= 0.0 && r <= 1e4)) return bad("retroreflection_cd_per_lx_m2 is not a number from 0 to 10000");
-    material.retroreflection_cd_per_lx_m2 = static_cast<float>(r);
+  std::string class_name;
+  if (extras.Has("retro")) {
+    const tinygltf::Value& name = extras.Get("retro");
+    if (!name.IsString()) return bad("extras.phare.retro is not a text");
+    class_name = name.Get<std::string>();
+  }
+  const auto figure = [&](const char* key, double most, std::optional<double>& value) -> std::string {
+    if (!extras.Has(key)) return "";
+    const tinygltf::Value& given = extras.Get(key);
+    const double r = given.IsNumber() ? given.GetNumberAsDouble() : -1.0;
+    if (!(r >= 0.0 && r <= most))
+      return std::string(key) + " is not a number from 0 to " + std::to_string(std::lround(most));
+    if (r > 0.0) value = r;
+    return "";
+  };
+  std::optional<double> r_a, r_l;
+  for (const std::string& wrong :
+       {figure("retroreflection_cd_per_lx_m2", 1e4, r_a), figure("retroreflection_mcd_per_lx_m2", 1e5, r_l)})
+    if (!wrong.empty()) return bad(wrong);
+  if (r_a && r_l) return bad("a material has an R_A or an R_L, not both");
+  if (!class_name.empty() || r_a || r_l) {
+    auto retro = retroreflection(class_name, r_a, r_l);
+    if (!retro) return bad(retro.error().reason);
+    material.retro = std::move(*retro);
   }
   return material;
 }

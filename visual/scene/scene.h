@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config/result.h"
+#include "visual/scene/retro.h"
 
 namespace phare {
 
@@ -17,9 +18,9 @@ enum class Surface : std::uint32_t { kPlain = 0, kAsphalt = 1, kGrass = 2, kPain
 
 struct SceneMaterial {
   std::string name;
-  glm::vec3 reflectance{0.5f};                ///< diffuse rho, linear Rec. 709
-  Surface surface = Surface::kPlain;          ///< which procedural detail
-  float retroreflection_cd_per_lx_m2 = 0.0f;  ///< R_A, at small observation angles; 0: none
+  glm::vec3 reflectance{0.5f};        ///< diffuse rho, linear Rec. 709
+  Surface surface = Surface::kPlain;  ///< which procedural detail
+  Retroreflection retro{};            ///< sheeting, markings; most materials have none
   bool double_sided = false;
 };
 

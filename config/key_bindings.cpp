@@ -1,0 +1,156 @@
+#include "config/key_bindings.h"
+
+#include <algorithm>
+#include <array>
+
+namespace phare {
+
+namespace {
+
+using enum KeyAction;
+using enum KeyActor;
+
+// Terminals send arrows in two ways (ECMA-48 cursor keys, and the "application" form of the VT100); F1 and F2 as the
+// VT220 and as the VT100 do (xterm, "ctlseqs"), but what they show is in the window, so a terminal has no use for them.
+constexpr KeyBinding kBindings[] = {
+    {kAccelerate, kCar, key::kUp, "Up", {"\x1b[A", "\x1bOA"}, "accelerate"},
+    {kBrake, kCar, key::kDown, "Down", {"\x1b[B", "\x1bOB"}, "brake"},
+    {kSteerLeft, kCar, key::kLeft, "Left", {"\x1b[D", "\x1bOD"}, "steer left; the wheel comes back by itself"},
+    {kSteerRight, kCar, key::kRight, "Right", {"\x1b[C", "\x1bOC"}, "steer right"},
+    {kBrakeHard, kCar, ' ', "Space", {" "}, "brake as hard as the car can"},
+    {kReverse, kCar, 'r', "R", {"r"}, "reverse gear, and back to drive"},
+    {kParkingBrake, kCar, 'k', "K", {"k"}, "parking brake on or off"},
+    {kHighBeam, kCar, 'h', "H", {"h"}, "high beam on or off"},
+    {kFlash, kCar, 'f', "F", {"f"}, "flash, while held"},
+    {kLightUp, kCar, 'l', "L", {"l"}, "light switch up: off, position, low, high"},
+    {kLightDown, kCar, 'L', "Shift+L", {"L"}, "light switch down"},
+    {kFogFront, kCar, 'g', "G", {"g"}, "front fog lamps on or off"},
+    {kFogRear, kCar, 'b', "B", {"b"}, "rear fog lamp on or off"},
+    {kTurnLeft, kCar, ',', ",", {","}, "turn signal left, and off"},
+    {kTurnRight, kCar, '.', ".", {"."}, "turn signal right, and off"},
+    {kHazard, kCar, 'w', "W", {"w"}, "hazard warning on or off"},
+    {kAutomaticHigh, kCar, 'a', "A", {"a"}, "automatic high beam, where the cockpit file has it"},
+    {kDesignNext, kCar, 'n', "N", {"n"}, "next design of the lamps"},
+    {kDesignPrevious, kCar, 'p', "P", {"p"}, "previous design"},
+    {kDemo, kCar, 'd', "D", {"d"}, "the demo driver takes the wheel; any driving key gives it back"},
+    {kBeginAgain, kDrive, key::kBackspace, "Backspace", {}, "begin again from the start"},
+    {kHelp, kPicture, key::kF1, "F1", {}, "show or hide these keys"},
+    {kHelp, kPicture, '?', "?", {}, "the same"},
+    {kCamera, kPicture, 'c', "C", {}, "camera: driver, from above, behind the car"},
+    {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour"},
+    {kLeave, kPicture, key::kEscape, "Esc", {}, "hide these keys, or leave the drive"},
+};
+
+constexpr PadBinding kPadBindings[] = {
+    {3, "Y (triangle)", kHighBeam},
+    {1, "B (circle)", kFlash},
+    {2, "X (square)", kFogFront},
+    {4, "left bumper", kTurnLeft},
+    {5, "right bumper", kTurnRight},
+    {11, "D-pad up", kLightUp},
+    {13, "D-pad down", kLightDown},
+    {12, "D-pad right", kDesignNext},
+    {14, "D-pad left", kDesignPrevious},
+    {6, "Back", kReverse},
+    {7, "Start", kDemo},
+};
+
+}  // namespace
+
+std::span<const KeyBinding> key_bindings() {
+  return kBindings;
+}
+
+const KeyBinding* binding_of(KeyCode code) {
+  const auto* found = std::ranges::find(kBindings, code, &KeyBinding::code);
+  return found == std::end(kBindings) ? nullptr : found;
+}
+
+const KeyBinding* binding_of(KeyAction action) {
+  return std::ranges::find(kBindings, action, &KeyBinding::action);
+}
+
+std::optional<KeyCode> bound_code(KeyCode code) {
+  if (binding_of(code) != nullptr) return code;
+  if (code < 'A' || code > 'Z') return std::nullopt;
+  const KeyCode lower = code - 'A' + 'a';
+  return binding_of(lower) != nullptr ? std::optional(lower) : std::nullopt;
+}
+
+std::span<const PadBinding> pad_bindings() {
+  return kPadBindings;
+}
+
+bool is_driving(KeyAction action) {
+  switch (action) {
+    case kAccelerate:
+    case kBrake:
+    case kSteerLeft:
+    case kSteerRight:
+    case kBrakeHard:
+    case kReverse:
+    case kParkingBrake:
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::optional<KeyCode> take_terminal_key(std::string_view& bytes) {
+  for (const KeyBinding& binding : kBindings) {
+    for (const std::string_view sent : binding.terminal) {
+      if (sent.empty() || !bytes.starts_with(sent)) continue;
+      bytes.remove_prefix(sent.size());
+      return binding.code;
+    }
+  }
+  // Not bound: one byte, or a whole escape sequence: ESC, [ or O, parameters, then one final byte.
+  std::size_t size = 1;
+  if (bytes.size() >= 3 && bytes[0] == '\x1b' && (bytes[1] == '[' || bytes[1] == 'O')) {
+    size = 2;
+    while (size < bytes.size() && (bytes[size] < '@' || bytes[size] > '~')) ++size;
+    size = std::min(size + 1, bytes.size());
+  }
+  const auto first = static_cast<unsigned char>(bytes.empty() ? 0 : bytes.front());
+  bytes.remove_prefix(std::min(size, bytes.size()));
+  const auto letter = bound_code(first);  // Caps Lock
+  return letter && !binding_of(*letter)->terminal[0].empty() ? letter : std::nullopt;
+}
+
+std::string key_list_text(std::string_view indent) {
+  std::size_t width = 0;
+  for (const KeyBinding& binding : kBindings) width = std::max(width, binding.name.size());
+  std::string text;
+  for (const KeyBinding& binding : kBindings) {
+    text += indent;
+    text += binding.name;
+    text.append(width + 2 - binding.name.size(), ' ');
+    text += binding.what;
+    text += '\n';
+  }
+  return text;
+}
+
+std::string key_list_markdown() {
+  std::string text = "| key | what it does | in a terminal too |\n| --- | --- | --- |\n";
+  for (const KeyBinding& binding : kBindings) {
+    text += "| ";
+    text += binding.name;
+    text += " | ";
+    text += binding.what;
+    text += binding.terminal[0].empty() ? " | no |\n" : " | yes |\n";
+  }
+  text +=
+      "\n| gamepad | what it does |\n| --- | --- |\n| left stick, right and left trigger | steer, accelerate, brake "
+      "|\n";
+  for (const PadBinding& binding : kPadBindings) {
+    text += "| ";
+    text += binding.name;
+    text += " | ";
+    text += binding_of(binding.action)->what;
+    text += " |\n";
+  }
+  return text;
+}
+
+}  // namespace phare

@@ -1,0 +1,59 @@
+// Light sent back to where it came from: R_A of sheeting over observation and entrance angle, R_L of markings over
+// observation angle. Tables, classes and their sources: visual/scene/retro.h, docs/light.md.
+#ifndef PHARE_SHADERS_LIB_RETRO_H
+#define PHARE_SHADERS_LIB_RETRO_H
+#include "lib/angles.h"
+
+PHARE_SHADER_BEGIN
+
+/// Between two directions of any length, degrees.
+PHARE_INLINE float between_deg(vec3 a, vec3 b) {
+  return atan2_deg(length(cross(a, b)), dot(a, b));
+}
+
+/// R_L of a marking at an observation angle (eye, marking, lamp), as a multiple of that in the 30 m geometry of EN 1436
+/// (1.05°): exp(-(angle - 1.05°)/1.6°). The standard says nothing about other angles; this fall of glass beads is one
+/// that another night road renderer assumes, and no measurement of ours: chosen. 15, 50, 100 m: 0.52, 1.30, 1.58.
+PHARE_INLINE float marking_share(float observation_deg) {
+  return exp((1.05f - observation_deg) / 1.6f);
+}
+
+/// Beads that light only grazes hide behind each other: all of R_L down to 0.002 (0.65 m high, 325 m away), then less. Chosen.
+PHARE_INLINE float marking_reached(float cos_incidence) {
+  return min(cos_incidence * 500.0f, 1.0f);
+}
+
+/// Rows of a sheeting's table: observation angles 0.2°, 0.33°, 0.5°, 1°, 1.5°, 2°.
+const uint kSheetingRows = 6u;
+
+/// The row before an observation angle, and the way to the next in the angle's logarithm. Below 0.2° as at 0.2°; beyond
+/// 2° the last slope goes on (way above 1). Both chosen: classes end there.
+struct SheetingRow {
+  uint before;
+  float part;
+};
+PHARE_INLINE SheetingRow sheeting_row(float observation_deg) {
+  float x = log(max(observation_deg, 0.2f));
+  SheetingRow row;
+  row.before = 0u;
+  row.part = (x + 1.6094379f) * 1.9969036f;
+  if (x >= -1.1086626f) { row.before = 1u; row.part = (x + 1.1086626f) * 2.4066494f; }
+  if (x >= -0.6931472f) { row.before = 2u; row.part = (x + 0.6931472f) * 1.4426950f; }
+  if (x >= 0.0f) { row.before = 3u; row.part = x * 2.4663035f; }
+  if (x >= 0.4054651f) { row.before = 4u; row.part = (x - 0.4054651f) * 3.4760595f; }
+  return row;
+}
+
+/// R_A between two rows of logarithms; x to w: at entrance angles 5°, 20°, 30°, 40°. Logarithm over logarithm of the
+/// observation angle, linear over the entrance angle. Head-on as at 5°; from 40° on falling to nothing at 75°: chosen.
+PHARE_INLINE float sheeting_between(vec4 ln_before, vec4 ln_after, float part, float entrance_deg) {
+  vec4 at = exp(ln_before + (ln_after - ln_before) * part);
+  float b = entrance_deg;
+  if (b >= 40.0f) return at.w * max(75.0f - b, 0.0f) / 35.0f;
+  if (b >= 30.0f) return mix(at.z, at.w, (b - 30.0f) / 10.0f);
+  if (b >= 20.0f) return mix(at.y, at.z, (b - 20.0f) / 10.0f);
+  return mix(at.x, at.y, max(b - 5.0f, 0.0f) / 15.0f);
+}
+
+PHARE_SHADER_END
+#endif

@@ -1,0 +1,196 @@
+// process: a drive in a window on a virtual display, with keys pressed in it. What came of them stands in the
+// recording.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include "net/drive_file.h"
+#include "net/wire.h"
+#include "tests/paths.h"
+#include "tests/process/drive_run.h"
+
+namespace phare::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+bool wait_until(const std::function<bool()>& true_at_last) {
+  for (const auto until = Clock::now() + kPatience; Clock::now() < until; std::this_thread::sleep_for(50ms))
+    if (true_at_last()) return true;
+  return false;
+}
+
+/// Xvfb on a display of its own; gone when this goes.
+class VirtualDisplay {
+ public:
+  static bool possible() { return find_in_path("Xvfb") && find_in_path("xdotool"); }
+  VirtualDisplay() : number_(200 + getpid() % 300) {
+    auto server =
+        ChildProcess::start(*find_in_path("Xvfb"), {name(), "-screen", "0", "640x480x24", "-nolisten", "tcp"});
+    if (server) server_ = *server;
+    wait_until([&] { return fs::exists("/tmp/.X11-unix/X" + std::to_string(number_)); });
+  }
+  ~VirtualDisplay() {
+    if (!server_) return;
+    server_->send_signal(SIGTERM);
+    while (!server_->ended()) std::this_thread::sleep_for(5ms);
+  }
+  VirtualDisplay(const VirtualDisplay&) = delete;
+  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+  std::string name() const { return ":" + std::to_string(number_); }
+
+  /// Words of xdotool, the window of Phare having the focus.
+  void keys(const std::string& words) const {
+    const std::string line = "DISPLAY=" + name() +
+                             " timeout 60 xdotool search --sync --onlyvisible --name '^Phare$' windowfocus " + words +
+                             " >/dev/null 2>&1";
+    EXPECT_EQ(std::system(line.c_str()), 0) << line;
+  }
+
+ private:
+  int number_;
+  std::optional<ChildProcess> server_;
+};
+
+class WindowTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!VirtualDisplay::possible()) GTEST_SKIP() << "no Xvfb, or no xdotool";
+    display_.emplace();
+  }
+  void TearDown() override {
+    if (!drive_ || drive_->ended()) return;
+    drive_->send_signal(SIGKILL);
+    while (!drive_->ended()) std::this_thread::sleep_for(5ms);
+  }
+
+  void start(std::vector<std::string> arguments) {
+    std::vector<std::string> words{"-u",
+                                   "WAYLAND_DISPLAY",
+                                   "DISPLAY=" + display_->name(),
+                                   program("phare"),
+                                   "drive",
+                                   "--size",
+                                   "320x180",
+                                   "--out",
+                                   (folder_ / "out").string(),
+                                   "--record",
+                                   (folder_ / "d.pcap").string(),
+                                   "--port-base",
+                                   std::to_string(port_base()),
+                                   "--log-level",
+                                   "error"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    auto child = ChildProcess::start("/usr/bin/env", words);
+    ASSERT_TRUE(child.ok());
+    drive_ = *child;
+  }
+  int end() {
+    EXPECT_TRUE(wait_until([&] { return drive_->ended().has_value(); }));
+    const auto end = drive_->ended();
+    return end && end->signal == 0 ? end->exit_code : -1;
+  }
+
+  std::vector<Datagram> recorded(const char* file = "d.pcap") const {
+    const auto drive = read_drive(folder_ / file);
+    return drive ? drive->datagrams : std::vector<Datagram>{};
+  }
+  /// Waits until a message of this type says so.
+  template <class T>
+  bool comes(const std::function<bool(const T&)>& said, const char* file = "d.pcap") {
+    return wait_until([&] {
+             for (const Datagram& datagram : recorded(file)) {
+               const T* message = std::get_if<T>(&datagram.payload);
+               if (message != nullptr && said(*message)) return true;
+             }
+             return drive_->ended().has_value();
+           }) &&
+           !drive_->ended();
+  }
+
+  TemporaryFolder folder_;
+  std::optional<VirtualDisplay> display_;
+  std::optional<ChildProcess> drive_;
+};
+
+TEST_F(WindowTest, APersonDrivesWithTheKeysOfTheWindow) {
+  start({});
+  ASSERT_TRUE(comes<VehicleState>([](const VehicleState&) { return true; }));
+  display_->keys("keydown Up");
+  EXPECT_TRUE(comes<VehicleState>([](const VehicleState& car) { return car.speed_mps > 3.0; })) << "it moves";
+  display_->keys("keyup Up key h");
+  EXPECT_TRUE(comes<CockpitState>([](const CockpitState& c) { return c.light_switch == LightSwitch::kHigh; }));
+  display_->keys("keydown Left");
+  EXPECT_TRUE(comes<CockpitState>([](const CockpitState& c) { return c.steering_wheel_rad > 0.1; }));
+  display_->keys("keyup Left key d");
+  EXPECT_TRUE(comes<CockpitState>([](const CockpitState& c) { return c.source == "demo"; }));
+  display_->keys("key F1 key Escape key Escape");  // help, away with it, leave
+  EXPECT_EQ(end(), 0);
+
+  // A live drive begins with the picture: nothing moved before every visual said that it is ready, the car stood at
+  // simulated time 0, and the first picture shows it as it was then.
+  bool ready = false, moved = false, drawn = false;
+  for (const Datagram& datagram : recorded()) {
+    const auto* report = std::get_if<FrameReport>(&datagram.payload);
+    if (report != nullptr && report->drawn.level.empty()) ready = true;
+    if (std::holds_alternative<VehicleState>(datagram.payload) && !moved) {
+      moved = true;
+      EXPECT_TRUE(ready) << "the car began before the picture";
+    }
+    EXPECT_TRUE(ready || !std::holds_alternative<CockpitState>(datagram.payload));
+    if (report != nullptr && !report->drawn.level.empty() && !drawn) {
+      drawn = true;
+      EXPECT_FALSE(report->pose_stale);
+    }
+  }
+  EXPECT_TRUE(drawn);
+  const nlohmann::json report = report_of(folder_ / "out");
+  EXPECT_GE(report["summary"]["switch_to_photon"]["changes"].get<int>(), 1);
+  EXPECT_EQ(report["processes"]["cockpit"]["source"]["name"], "keyboard");
+}
+
+TEST_F(WindowTest, AtTheEndOfADriveTheWindowStaysAndTheDriveCanBeHadAgain) {
+  // The first second and a half of the demo.
+  const auto demo = read_drive(source_dir() + "/config/drives/country_road.pcap");
+  ASSERT_TRUE(demo.ok());
+  {
+    auto writer = DriveWriter::create(folder_ / "short.pcap", 47000);
+    ASSERT_TRUE(writer.ok());
+    for (const Datagram& datagram : demo->datagrams) {
+      if (datagram.sim_time.ns > 1'500'000'000) continue;
+      const std::string bytes = encode(datagram);
+      ASSERT_TRUE(writer->write(datagram, std::as_bytes(std::span(bytes))).ok());
+    }
+  }
+  start({"--drive", (folder_ / "short.pcap").string()});
+  const auto over = [](const FrameReport& report) { return report.drawn.drive_ended; };
+  ASSERT_TRUE(comes<FrameReport>(over));
+  std::this_thread::sleep_for(1s);
+  ASSERT_FALSE(drive_->ended()) << "the window closed without a word";
+  display_->keys("key BackSpace");
+  ASSERT_TRUE(wait_until([&] { return fs::exists(folder_ / "d-2.pcap"); }));
+  ASSERT_TRUE(comes<FrameReport>(over, "d-2.pcap")) << "the same drive again";
+  display_->keys("key Up");
+  ASSERT_TRUE(wait_until([&] { return fs::exists(folder_ / "d-3.pcap"); }));
+  ASSERT_TRUE(comes<CockpitState>([](const CockpitState& c) { return c.source == "keyboard"; }, "d-3.pcap"))
+      << "and then the person's own";
+  display_->keys("key Escape");
+  EXPECT_EQ(end(), 0);
+  for (const char* out : {"out", "out-2", "out-3"}) EXPECT_FALSE(report_of(folder_ / out).empty()) << out;
+  EXPECT_EQ(report_of(folder_ / "out")["processes"]["visual-0"]["frames_stale_pose"], 0);
+}
+
+TEST_F(WindowTest, WhatIsCountedInFramesWaitsForNobody) {
+  start({"--frames", "3"});
+  EXPECT_EQ(end(), 0);
+  EXPECT_EQ(report_of(folder_ / "out")["processes"]["cockpit"]["source"]["name"], "drive") << "the demo, as ever";
+}
+
+}  // namespace
+}  // namespace phare::test

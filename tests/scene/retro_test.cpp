@@ -1,0 +1,136 @@
+// unit, reference: retroreflection classes at the standards' geometries, and between and beyond them.
+#include "visual/scene/retro.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "shaders/lib/retro.h"
+
+namespace phare {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+// float32 logarithms to about 10: 10 · 2^-24 each, three of them, and an exponential; the angle nodes carry 8 digits.
+constexpr double kTableRounding = 3e-6;
+
+double r_a(const std::string& name, double observation_deg, double entrance_deg) {
+  const auto made = retroreflection(name, std::nullopt, std::nullopt);
+  EXPECT_TRUE(made) << name << ": " << (made ? "" : made.error().text());
+  return made ? sheeting_r_a(*made, observation_deg, entrance_deg) : -1.0;
+}
+
+TEST(Retro, SheetingHasTheStandardsFiguresAtTheStandardsGeometries) {
+  struct At {
+    const char* name;
+    double observation_deg, entrance_deg, cd;
+  };
+  // Typed once more from the tables, not taken from the code under test.
+  for (const At& at : {At{"EN 12899-1 RA1 white", 0.2, 5, 70},    At{"EN 12899-1 RA1 white", 0.33, 5, 50},
+                       At{"EN 12899-1 RA1 white", 0.33, 30, 24},  At{"EN 12899-1 RA1 white", 0.33, 40, 9},
+                       At{"EN 12899-1 RA1 white", 2, 5, 5},       At{"EN 12899-1 RA1 yellow", 0.33, 5, 35},
+                       At{"EN 12899-1 RA2 white", 0.2, 5, 250},   At{"EN 12899-1 RA2 white", 0.2, 30, 150},
+                       At{"EN 12899-1 RA2 white", 0.2, 40, 110},  At{"EN 12899-1 RA2 white", 0.33, 5, 180},
+                       At{"EN 12899-1 RA2 white", 0.33, 30, 100}, At{"EN 12899-1 RA2 white", 0.33, 40, 95},
+                       At{"EN 12899-1 RA2 white", 2, 5, 5},       At{"EN 12899-1 RA2 white", 2, 30, 2.5},
+                       At{"EN 12899-1 RA2 white", 2, 40, 1.5},    At{"EN 12899-1 RA2 yellow", 0.33, 5, 120},
+                       At{"EN 12899-1 RA2 red", 0.33, 5, 25},     At{"EN 12899-1 RA2 green", 0.33, 30, 12},
+                       At{"EN 12899-1 RA2 blue", 0.33, 5, 14},    At{"ASTM D4956 III white", 0.2, 5, 250},
+                       At{"ASTM D4956 III white", 0.5, 30, 65},   At{"ASTM D4956 III red", 0.2, 5, 45},
+                       At{"ASTM D4956 XI white", 1, 5, 120},      At{"EN ISO 20471 tape", 0.2, 5, 330},
+                       At{"EN ISO 20471 tape", 0.2, 20, 290},     At{"EN ISO 20471 tape", 0.33, 40, 60},
+                       At{"EN ISO 20471 tape", 1.5, 30, 5},       At{"number plate white", 0.33, 30, 24},
+                       At{"number plate white", 1.5, 5, 5}})
+    EXPECT_NEAR(r_a(at.name, at.observation_deg, at.entrance_deg) / at.cd, 1.0, kTableRounding)
+        << at.name << " at " << at.observation_deg << "°, " << at.entrance_deg << "°";
+}
+
+TEST(Retro, EveryClassFallsWithBothAnglesAndEndsSomewhere) {
+  std::size_t sheetings = 0;
+  for (const RetroClass& one : retro_classes()) {
+    if (one.kind != RetroKind::kSheeting || one.whole_device) continue;
+    ++sheetings;
+    for (double entrance = 0.0; entrance < 80.0; entrance += 2.5) {
+      double before = 1e9;
+      for (double observation = 0.05; observation < 90.0; observation *= 1.15) {
+        const double now = r_a(one.name, observation, entrance);
+        EXPECT_LE(now, before * (1.0 + kTableRounding))
+            << one.name << " at " << observation << "°, " << entrance << "°";
+        before = now;
+      }
+    }
+    EXPECT_LT(r_a(one.name, 20.0, 5.0), 0.02 * r_a(one.name, 0.2, 5.0)) << one.name;
+    EXPECT_EQ(r_a(one.name, 0.2, 75.0), 0.0) << one.name;
+    EXPECT_FALSE(one.source.empty()) << one.name;
+  }
+  EXPECT_GE(sheetings, 25u);
+}
+
+TEST(Retro, MiddleOfTwoObservationAnglesIsTheGeometricMean) {
+  const double middle = std::sqrt(0.2 * 0.33);
+  EXPECT_NEAR(r_a("EN 12899-1 RA2 white", middle, 5) / std::sqrt(250.0 * 180.0), 1.0, kTableRounding);
+  EXPECT_NEAR(r_a("EN 12899-1 RA2 white", 0.33, 35), 97.5, 97.5 * kTableRounding);
+  // 0.33° to 2° have no rows in EN 12899-1: those between lie on one line of the logarithms.
+  const double at_1 = 180.0 * std::pow(5.0 / 180.0, std::log(1.0 / 0.33) / std::log(2.0 / 0.33));
+  EXPECT_NEAR(r_a("EN 12899-1 RA2 white", 1.0, 5) / at_1, 1.0, kTableRounding);
+}
+
+TEST(Retro, AFigureReplacesTheClassesOwnAndKeepsItsShape) {
+  const auto made = retroreflection("EN 12899-1 RA2 white", 300.0, std::nullopt);
+  ASSERT_TRUE(made);
+  EXPECT_NEAR(sheeting_r_a(*made, 0.33, 5), 300.0, 300.0 * kTableRounding);
+  EXPECT_NEAR(sheeting_r_a(*made, 0.2, 30), 250.0, 250.0 * kTableRounding);
+  const auto bare = retroreflection("", 90.0, std::nullopt);
+  ASSERT_TRUE(bare);
+  EXPECT_NEAR(sheeting_r_a(*bare, 0.33, 30), 50.0, 50.0 * kTableRounding);
+  // A bicycle's reflector: 300 mcd/lx over 80 cm².
+  const auto reflector = retroreflection("UN R3 IA red", 0.3 / 0.008, std::nullopt);
+  ASSERT_TRUE(reflector);
+  EXPECT_NEAR(sheeting_r_a(*reflector, 0.33, 0) * 0.008, 0.300, 0.3 * kTableRounding);
+  EXPECT_NEAR(sheeting_r_a(*reflector, 1.5, 0) * 0.008, 0.005, 0.005 * kTableRounding);
+}
+
+TEST(Retro, MarkingsOfEachClass) {
+  for (const auto& [name, mcd] :
+       {std::pair{"EN 1436 R2", 100.0}, {"EN 1436 R3", 150.0}, {"EN 1436 R4", 200.0}, {"EN 1436 R5", 300.0}}) {
+    const auto made = retroreflection(name, std::nullopt, std::nullopt);
+    ASSERT_TRUE(made) << name;
+    EXPECT_EQ(made->kind, RetroKind::kMarking);
+    EXPECT_EQ(made->marking_mcd_per_lx_m2, mcd);
+  }
+}
+
+// The 30 m geometry of EN 1436: lamp 0.65 m, eye 1.2 m above the road, above each other.
+TEST(Retro, TheThirtyMetreGeometryIsWhereAMarkingHasItsClass) {
+  const glm::vec3 lamp(0, 0, 0.65f), eye(0, 0, 1.2f), marking(30, 0, 0);
+  const float observation_deg = shader::between_deg(lamp - marking, eye - marking);
+  EXPECT_NEAR(observation_deg, 1.05, 0.005);  // the standard's two digits
+  EXPECT_NEAR(shader::between_deg(lamp - marking, {0, 0, 1}), 88.76, 0.005);
+  EXPECT_NEAR(shader::marking_share(1.05f), 1.0, 1e-6);
+  EXPECT_NEAR(shader::marking_share(observation_deg), 1.0, 0.005 / 1.6);
+  EXPECT_EQ(shader::marking_reached(static_cast<float>(std::cos(88.76 * kRadPerDeg))), 1.0f);
+  // Heights as above at 15, 50, 100 m: what the assumed fall gives.
+  for (const auto& [distance_m, share] : {std::pair{15.0f, 0.52}, {50.0f, 1.30}, {100.0f, 1.58}}) {
+    const glm::vec3 there(distance_m, 0, 0);
+    EXPECT_NEAR(shader::marking_share(shader::between_deg(lamp - there, eye - there)), share, 0.01) << distance_m;
+  }
+  EXPECT_LT(shader::marking_share(10.0f), 0.01f);
+  EXPECT_LT(shader::marking_share(170.0f), 1e-6f) << "an oncoming lamp";
+}
+
+TEST(Retro, RefusesWithAReason) {
+  const auto why = [](const char* name, std::optional<double> r_a, std::optional<double> r_l) {
+    const auto made = retroreflection(name, r_a, r_l);
+    return made ? std::string("was taken") : made.error().text();
+  };
+  EXPECT_NE(why("EN 1436 R44", {}, {}).find("EN 1436 R4"), std::string::npos) << why("EN 1436 R44", {}, {});
+  EXPECT_NE(why("EN 1436 R4", 3.0, {}).find("marking"), std::string::npos);
+  EXPECT_NE(why("EN 12899-1 RA2 white", {}, 150.0).find("sheeting"), std::string::npos);
+  EXPECT_NE(why("UN R3 IA red", {}, {}).find("area"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace phare

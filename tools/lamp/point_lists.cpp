@@ -1,0 +1,42 @@
+#include "tools/lamp/point_lists.h"
+
+#include "config/toml_table.h"
+#include "tools/lamp/lamp_commands.h"
+#include "visual/photometry/file_text.h"
+
+namespace phare {
+
+Result<std::optional<PointLists>> read_as_points(const std::string& file, const LampReadSettings& settings) {
+  const bool may_be = settings.format == LampFormat::kFind || settings.format == LampFormat::kCsv;
+  if (!may_be) return std::optional<PointLists>{};
+  const auto bytes = read_photometry_bytes(file, file);
+  if (!bytes) return bytes.error();
+  if (!is_point_list(*bytes, file)) return std::optional<PointLists>{};
+  const auto rules = read_rulebooks(rules_folder());
+  if (!rules) return rules.error();
+  PointListSettings how;
+  how.distance_m = settings.distance_m;
+  how.mirror_h = settings.mirror_h;
+  how.known_names = names_of_rows(*rules);
+  auto lists = parse_point_lists(*bytes, file, how);
+  if (!lists) return lists.error();
+  return std::optional<PointLists>(std::move(*lists));
+}
+
+Result<std::vector<PointList>> beams_named(const PointLists& lists, const std::string& beam) {
+  if (beam.empty()) return lists.beams;
+  std::vector<PointList> found;
+  std::vector<std::string> known;
+  for (const PointList& list : lists.beams) {
+    known.push_back(list.beam);
+    if (upper_case(list.beam) == upper_case(beam)) found.push_back(list);
+  }
+  if (found.empty()) return Error{"--beam", unknown_name_reason("beam", beam, known)};
+  return found;
+}
+
+std::string list_title(const std::string& file, const PointList& list) {
+  return base_name(file) + (list.beam.empty() ? "" : ", " + list.beam);
+}
+
+}  // namespace phare

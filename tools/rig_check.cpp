@@ -1,0 +1,187 @@
+#include "tools/rig_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "cockpit_io/dbc.h"
+#include "config/cockpit.h"
+#include "config/vehicle.h"
+#include "tools/lamp_design.h"
+#include "visual/photometry/lamp_aim.h"
+#include "visual/photometry/lint.h"
+#include "visual/photometry/table_end.h"
+#include "visual/scene/scene.h"
+
+namespace phare {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Checker {
+ public:
+  RigFindings check(const fs::path& file) {
+    auto reading = read_rig_whole(file);
+    if (!reading) {
+      found_.problems.push_back(reading.error());
+      return std::move(found_);
+    }
+    found_.problems = reading->problems;
+    const Rig& rig = reading->rig;
+    scene(rig.scene_file);
+    if (is_there(rig.vehicle_file, "the vehicle")) {
+      if (const auto vehicle = read_vehicle(rig.vehicle_file); !vehicle) problem(vehicle.error());
+    }
+    if (is_there(rig.cockpit_file, "the cockpit")) cockpit(rig.cockpit_file);
+    lamps(rig);
+    return std::move(found_);
+  }
+
+ private:
+  void problem(const Error& error) { found_.problems.push_back(error); }
+
+  /// False where nothing is named: that is told already.
+  bool is_there(const fs::path& file, const std::string& what) {
+    if (file.empty()) return false;
+    std::error_code ignored;
+    if (fs::is_regular_file(file, ignored)) return true;
+    problem({file.string(), "no such file; it is " + what});
+    return false;
+  }
+
+  void scene(const fs::path& file) {
+    if (!is_there(file, "the scene")) return;
+    const auto scene = read_scene(file);
+    if (!scene) return problem(scene.error());
+    std::error_code ignored;
+    const fs::path lane = file.parent_path() / (file.stem().string() + "_lane.csv");
+    if (!fs::exists(lane, ignored))
+      found_.warnings.push_back(lane.string() + ": no such file: the car starts at the scene's origin");
+    const bool road = std::ranges::any_of(scene->chunks, [](const SceneChunk& chunk) {
+      return chunk.node.starts_with("road") || chunk.node.starts_with("ground");
+    });
+    if (!road)
+      found_.warnings.push_back(file.string() +
+                                ": no node whose name begins with road or ground: the car drives on a "
+                                "plane");
+  }
+
+  void cockpit(const fs::path& file) {
+    if (!cockpits_.insert(file).second) return;
+    const auto config = read_cockpit(file);
+    if (!config) return problem(config.error());
+    if (is_there(config->dbc_file, "the DBC of " + file.string())) {
+      if (const auto dbc = read_dbc(config->dbc_file); !dbc) problem(dbc.error());
+    }
+    is_there(config->input_file, "what " + file.string() + " plays");
+    for (const fs::path& also : config->also) {
+      if (is_there(also, "a further source of " + file.string())) cockpit(also);
+    }
+  }
+
+  void lamps(const Rig& rig) {
+    std::set<std::string> told;
+    const auto once = [&](std::vector<std::string>& list, const std::string& text) {
+      if (told.insert(text).second) list.push_back(text);
+    };
+    std::vector<DesignConfig> designs = rig.designs;
+    for (DesignConfig& design : designs) {
+      std::set<std::string> names;
+      for (const LampConfig& lamp : design.lamps) {
+        if (!names.insert(lamp.name).second)
+          once(found_.warnings,
+               fmt::format("design \"{}\": two lamps are named \"{}\"; `phare control` finds the first", design.name,
+                           lamp.name));
+      }
+      std::erase_if(design.lamps, [&](LampConfig& lamp) {
+        std::erase_if(lamp.sources, [&](const SourceConfig& source) { return !readable(source, design, lamp); });
+        return lamp.sources.empty();
+      });
+      bool low = false;
+      for (LampConfig& lamp : design.lamps) {
+        low = low || std::ranges::any_of(lamp.sources, [](const SourceConfig& source) {
+                return source.function == LampFunction::kLow;
+              });
+        aimed(design, lamp, once);
+      }
+      if (!low) once(found_.warnings, fmt::format("design \"{}\" has no low beam: the car drives dark", design.name));
+    }
+    for (const SourceEnd& end : table_ends(designs, tables_, rig.channels))
+      once(found_.warnings, fmt::format("design \"{}\", {}", end.design, end.text()));
+  }
+
+  bool readable(const SourceConfig& source, const DesignConfig& design, const LampConfig& lamp) {
+    if (source.file.empty()) return false;
+    std::error_code ignored;
+    if (!fs::is_regular_file(source.file, ignored)) {
+      if (bad_files_.insert(source.file).second)
+        problem({source.file.string(),
+                 fmt::format("no such file; it is lamp \"{}\", design \"{}\"", lamp.name, design.name)});
+      return false;
+    }
+    if (const Status read = tables_.add(source); !read) {
+      if (bad_files_.insert(source.file).second) problem(read.error());
+      return false;
+    }
+    const IntensityTable& table = tables_.of(source);
+    const bool ahead = source.function == LampFunction::kCornering || lights_ahead(source, table);
+    if (!ahead && bad_files_.insert(source.file).second)
+      problem({source.file.string(), "sends no light ahead: look at axis, c0_deg, yaw_deg, pitch_deg and roll_deg"});
+    if (looked_at_.insert(source.file).second) {
+      for (const Finding& finding : lint_lamp(table).findings) {
+        const std::string text = (finding.place.empty() ? source.file.string() : finding.place) + ": " + finding.text;
+        if (finding.grade == Grade::kError) problem({source.file.string(), finding.text});
+        if (finding.grade == Grade::kWarning && ahead) found_.warnings.push_back(text);
+      }
+    }
+    return true;
+  }
+
+  template <typename Once>
+  void aimed(const DesignConfig& design, LampConfig& lamp, const Once& once) {
+    const LampAiming aiming = aim_lamp(lamp, tables_);
+    const std::string who = fmt::format("design \"{}\", {}", design.name, lamp.name);
+    const bool has_function = std::ranges::any_of(
+        lamp.sources, [&](const SourceConfig& source) { return source.function == aiming.function; });
+    if (aiming.asked != AimConfig::Kind::kAsFiled) once(found_.notes, who + ": " + aiming.text());
+    if (!has_function) return;
+    if (aiming.asked == AimConfig::Kind::kCutoff && !aiming.found) once(found_.warnings, who + ": " + aiming.text());
+    if (aiming.found && !aiming.within()) {
+      once(found_.warnings,
+           fmt::format("{}: the cut-off stands at {:+.2f}° ({:+.1f} %); {} asks {:.1f} to {:.1f} % of a "
+                       "new {} {:.2f} m high",
+                       who, aiming.after_deg, percent_of_degrees(aiming.after_deg), aiming.line.clause,
+                       aiming.line.highest_percent, aiming.line.lowest_percent, beam_name(aiming.function),
+                       aiming.height_m));
+    }
+    // UN R48 6.2.4.2: 500 to 1,200 mm.
+    if (aiming.function == LampFunction::kLow && (lamp.position_m.z < 0.5 || lamp.position_m.z > 1.2))
+      once(found_.warnings, fmt::format("{}: {:.2f} m above the road; UN R48 6.2.4.2 has low beams at 0.5 to 1.2 m",
+                                        who, lamp.position_m.z));
+  }
+
+  RigFindings found_;
+  LampTables tables_;
+  std::set<fs::path> cockpits_, bad_files_, looked_at_;
+};
+
+}  // namespace
+
+RigFindings check_rig(const fs::path& file) {
+  return Checker().check(file);
+}
+
+nlohmann::json as_json(const RigFindings& findings, const fs::path& file) {
+  nlohmann::json json{{"file", file.string()},
+                      {"good", findings.problems.empty()},
+                      {"problems", nlohmann::json::array()},
+                      {"warnings", findings.warnings},
+                      {"notes", findings.notes}};
+  for (const Error& error : findings.problems)
+    json["problems"].push_back({{"place", error.place}, {"reason", error.reason}});
+  return json;
+}
+
+}  // namespace phare

@@ -1,0 +1,208 @@
+#include "visual/scene/retro.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/toml_table.h"
+#include "shaders/lib/retro.h"
+
+namespace phare {
+namespace {
+
+static_assert(kObservations_deg.size() == shader::kSheetingRows);
+
+constexpr double kNotGiven = -1.0;
+constexpr double kDarkest = 1e-3;  ///< cd/(lx·m²): what counts as nothing, for the logarithm
+
+constexpr const char* kEn12899 = "EN 12899-1, from memory";
+constexpr const char* kPlateLaw = "French order of 15 April 1996 on number plates, equal to EN 12899-1 RA1 at 0.33°";
+constexpr const char* kD4956 = "ASTM D4956-01, from a transcription; entrance -4° taken as 5°";
+constexpr const char* kD4956Unread = "ASTM D4956, from memory; entrance -4° taken as 5°";
+
+RetroClass marking(const char* name, double mcd, const char* source, bool confirmed = true) {
+  return {.name = name,
+          .kind = RetroKind::kMarking,
+          .marking_mcd_per_lx_m2 = mcd,
+          .source = source,
+          .confirmed = confirmed};
+}
+
+/// Rows of entrance angles 5°, 30°, 40°.
+struct Row3 {
+  double observation_deg;
+  std::array<double, 3> r_a;
+};
+RetroClass sheeting(const char* name, std::initializer_list<Row3> rows, const char* source, bool confirmed) {
+  RetroClass made{.name = name, .kind = RetroKind::kSheeting, .source = source, .confirmed = confirmed};
+  for (const Row3& row : rows)
+    made.rows.push_back({row.observation_deg, {row.r_a[0], kNotGiven, row.r_a[1], row.r_a[2]}});
+  return made;
+}
+
+/// A colour of a D4956 type: white's rows times the ratio of its figure at 0.2° to white's.
+RetroClass tinted(const char* name, RetroClass white, double ratio) {
+  white.name = name;
+  for (RetroClass::Row& row : white.rows)
+    for (double& r_a : row.r_a_cd_per_lx_m2)
+      if (r_a > 0.0) r_a *= ratio;
+  return white;
+}
+
+std::vector<RetroClass> make_classes() {
+  constexpr const char* kDry = "EN 1436, dry, least R_L in use, as two texts have it";
+  constexpr const char* kDryOne = "EN 1436, dry, as one text has it";
+  constexpr const char* kWet = "EN 1436, wet, as one text has it";
+  std::vector<RetroClass> all{
+      marking("EN 1436 R1", 80.0, "EN 1436, from memory", false),
+      marking("EN 1436 R2", 100.0, kDryOne),
+      marking("EN 1436 R3", 150.0, kDry),
+      marking("EN 1436 R4", 200.0, kDry),
+      marking("EN 1436 R5", 300.0, kDry),
+      marking("EN 1436 RW1", 25.0, kWet),
+      marking("EN 1436 RW2", 35.0, kWet),
+      marking("EN 1436 RR1", 25.0, "EN 1436, in rain, as one text has it"),
+      sheeting("EN 12899-1 RA1 white", {{0.2, {70, 30, 10}}, {0.33, {50, 24, 9}}, {2.0, {5, 2.5, 1.5}}}, kEn12899,
+               false),
+      sheeting("EN 12899-1 RA1 yellow", {{0.2, {50, 22, 7}}, {0.33, {35, 16, 6}}, {2.0, {3, 1.5, 1}}}, kEn12899, false),
+      sheeting("EN 12899-1 RA1 red", {{0.2, {14.5, 6, 2}}, {0.33, {10, 4, 1.8}}, {2.0, {1, 0.5, 0.5}}}, kEn12899,
+               false),
+      sheeting("EN 12899-1 RA1 green", {{0.2, {9, 3.5, 1.5}}, {0.33, {7, 3, 1.2}}, {2.0, {0.5, 0.3, 0.2}}}, kEn12899,
+               false),
+      sheeting("EN 12899-1 RA1 blue", {{0.2, {4, 1.7, 0.5}}, {0.33, {2, 1, kNotGiven}}}, kEn12899, false),
+      sheeting("EN 12899-1 RA2 white", {{0.2, {250, 150, 110}}, {0.33, {180, 100, 95}}, {2.0, {5, 2.5, 1.5}}}, kEn12899,
+               false),
+      sheeting("EN 12899-1 RA2 yellow", {{0.2, {170, 100, 70}}, {0.33, {120, 70, 60}}, {2.0, {3, 1.5, 1}}}, kEn12899,
+               false),
+      sheeting("EN 12899-1 RA2 red", {{0.2, {45, 25, 15}}, {0.33, {25, 14, 13}}, {2.0, {1, 0.4, 0.3}}}, kEn12899,
+               false),
+      sheeting("EN 12899-1 RA2 green", {{0.2, {45, 25, 12}}, {0.33, {21, 12, 11}}, {2.0, {0.5, 0.3, 0.2}}}, kEn12899,
+               false),
+      sheeting("EN 12899-1 RA2 blue", {{0.2, {20, 11, 8}}, {0.33, {14, 8, 7}}, {2.0, {0.2, kNotGiven, kNotGiven}}},
+               kEn12899, false),
+      sheeting("number plate white", {{0.33, {50, 24, 9}}, {1.5, {5, 2.5, 1.5}}}, kPlateLaw, true),
+      sheeting("number plate yellow", {{0.33, {35, 16, 6}}, {1.5, {3, 1.5, 1}}}, kPlateLaw, true),
+  };
+  const RetroClass one =
+      sheeting("ASTM D4956 I white", {{0.2, {70, 30, kNotGiven}}, {0.5, {30, 15, kNotGiven}}}, kD4956, true);
+  const RetroClass three =
+      sheeting("ASTM D4956 III white", {{0.2, {250, 150, kNotGiven}}, {0.5, {95, 65, kNotGiven}}}, kD4956, true);
+  for (const RetroClass& made :
+       {one, tinted("ASTM D4956 I yellow", one, 50.0 / 70.0), tinted("ASTM D4956 I red", one, 14.0 / 70.0),
+        tinted("ASTM D4956 I green", one, 9.0 / 70.0), tinted("ASTM D4956 I blue", one, 4.0 / 70.0), three,
+        tinted("ASTM D4956 III yellow", three, 170.0 / 250.0), tinted("ASTM D4956 III red", three, 45.0 / 250.0),
+        tinted("ASTM D4956 III green", three, 45.0 / 250.0), tinted("ASTM D4956 III blue", three, 20.0 / 250.0),
+        sheeting("ASTM D4956 IV white", {{0.2, {360, 170, kNotGiven}}, {0.5, {150, 72, kNotGiven}}}, kD4956Unread,
+                 false),
+        sheeting("ASTM D4956 VIII white", {{0.2, {700, 325, kNotGiven}}, {0.5, {250, 115, kNotGiven}}}, kD4956Unread,
+                 false),
+        sheeting("ASTM D4956 IX white",
+                 {{0.2, {380, 215, kNotGiven}}, {0.5, {240, 135, kNotGiven}}, {1.0, {80, 45, kNotGiven}}}, kD4956Unread,
+                 false),
+        sheeting("ASTM D4956 XI white",
+                 {{0.2, {580, 220, kNotGiven}}, {0.5, {420, 150, kNotGiven}}, {1.0, {120, 45, kNotGiven}}},
+                 kD4956Unread, false)})
+    all.push_back(made);
+  all.push_back(
+      {.name = "EN ISO 20471 tape",
+       .kind = RetroKind::kSheeting,
+       .rows = {{0.2, {330, 290, 180, 65}}, {0.33, {250, 200, 170, 60}}, {1.0, {25, 15, 12, 10}}, {1.5, {10, 7, 5, 4}}},
+       .source = "EN ISO 20471, as one text has it"});
+  // 300/200/100 mcd/lx head-on, at ±10° and at (±5°, ±20°); 1.5°: 5/2.8/2.5. Beyond 20° it asks for nothing: half and a
+  // quarter of that at 20°, chosen.
+  all.push_back({.name = "UN R3 IA red",
+                 .kind = RetroKind::kSheeting,
+                 .rows = {{0.33, {300, 100, 50, 25}}, {1.5, {5, 2.5, 1.25, 0.625}}},
+                 .source = "UN R3, class IA, official text",
+                 .whole_device = true});
+  return all;
+}
+
+/// The table on all angles, R_A: lines through what is given, logarithm over logarithm in observation, straight in
+/// entrance.
+std::array<std::array<double, 4>, kObservations_deg.size()> whole_table(const RetroClass& sheeting) {
+  std::vector<RetroClass::Row> rows = sheeting.rows;
+  const bool to_40 =
+      std::ranges::any_of(rows, [](const RetroClass::Row& row) { return row.r_a_cd_per_lx_m2[3] >= 0.0; });
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    auto& r = rows[i].r_a_cd_per_lx_m2;
+    // Entrances that a class leaves out lie on the straight line through 5° and 30°.
+    if (r[2] >= 0.0 && r[1] < 0.0) r[1] = r[0] + (r[2] - r[0]) * 0.6;
+    if (r[2] >= 0.0 && r[3] < 0.0 && !to_40) r[3] = std::max(r[2] + (r[2] - r[0]) * 0.4, 0.0);
+    // A single figure that is missing: as much less than at the observation angle before as head-on.
+    for (double& figure : r) {
+      const std::size_t e = static_cast<std::size_t>(&figure - r.data());
+      if (figure < 0.0) figure = rows[i - 1].r_a_cd_per_lx_m2[e] * r[0] / rows[i - 1].r_a_cd_per_lx_m2[0];
+    }
+  }
+  std::array<std::array<double, 4>, kObservations_deg.size()> table{};
+  for (std::size_t e = 0; e < 4; ++e) {
+    std::vector<std::pair<double, double>> known;  // ln angle, ln R_A
+    for (const RetroClass::Row& row : rows)
+      known.emplace_back(std::log(row.observation_deg), std::log(std::max(row.r_a_cd_per_lx_m2[e], kDarkest)));
+    for (std::size_t o = 0; o < kObservations_deg.size(); ++o) {
+      const double x = std::log(kObservations_deg[o]);
+      std::size_t before = 0;
+      while (before + 2 < known.size() && known[before + 1].first <= x) ++before;
+      const auto& [x0, y0] = known[before];
+      const auto& [x1, y1] = known[before + 1];
+      // Nearer than the first angle a class gives, no more than there.
+      const double at = std::max(x, known.front().first);
+      table[o][e] = std::exp(y0 + (y1 - y0) * (at - x0) / (x1 - x0));
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+std::span<const RetroClass> retro_classes() {
+  static const std::vector<RetroClass> all = make_classes();
+  return all;
+}
+
+Result<Retroreflection> retroreflection(const std::string& class_name, std::optional<double> r_a,
+                                        std::optional<double> r_l) {
+  std::string name = class_name;
+  if (name.empty() && r_a) name = "EN 12899-1 RA2 white";
+  const RetroClass* found = nullptr;
+  std::vector<std::string> known;
+  for (const RetroClass& one : retro_classes()) {
+    known.push_back(one.name);
+    if (one.name == name) found = &one;
+  }
+  Retroreflection made;
+  if (name.empty() && r_l) {
+    made.kind = RetroKind::kMarking;
+    made.marking_mcd_per_lx_m2 = *r_l;
+    return made;
+  }
+  if (found == nullptr) return Error{"", unknown_name_reason("retro", name, known)};
+  made.kind = found->kind;
+  made.class_name = class_name;
+  if (found->kind == RetroKind::kMarking) {
+    if (r_a)
+      return Error{"", "'" + name + "' is a marking: retroreflection_mcd_per_lx_m2 goes with it, not …_cd_per_lx_m2"};
+    made.marking_mcd_per_lx_m2 = r_l.value_or(found->marking_mcd_per_lx_m2);
+    return made;
+  }
+  if (r_l)
+    return Error{"", "'" + name + "' is sheeting: retroreflection_cd_per_lx_m2 goes with it, not …_mcd_per_lx_m2"};
+  if (found->whole_device && !r_a)
+    return Error{"",
+                 "'" + name + "' is of a whole reflector: retroreflection_cd_per_lx_m2 is needed, cd/lx over its area"};
+  const auto table = whole_table(*found);
+  const double scale = r_a ? *r_a / table[1][0] : 1.0;
+  for (std::size_t o = 0; o < table.size(); ++o)
+    for (int e = 0; e < 4; ++e)
+      made.ln_r_a[o][e] =
+          static_cast<float>(std::log(std::max(table[o][static_cast<std::size_t>(e)] * scale, kDarkest)));
+  return made;
+}
+
+double sheeting_r_a(const Retroreflection& sheeting, double observation_deg, double entrance_deg) {
+  const shader::SheetingRow at = shader::sheeting_row(static_cast<float>(observation_deg));
+  return static_cast<double>(shader::sheeting_between(sheeting.ln_r_a[at.before], sheeting.ln_r_a[at.before + 1],
+                                                      at.part, static_cast<float>(entrance_deg)));
+}
+
+}  // namespace phare

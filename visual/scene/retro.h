@@ -1,0 +1,64 @@
+// Retroreflection: what markings, sheeting and reflectors send back to where it came from.
+// Computes: R_A of a sheeting over observation and entrance angle, R_L of a marking over observation angle.
+//   R_A = L·cos(nu)/E_perp in cd/(lx·m²) (EN 12899-1, ASTM E808), R_L = L/E_perp in mcd/(lx·m²) (EN 1436): L is the
+//   luminance toward the eye, E_perp the illuminance on a plane facing the lamp, nu the eye's angle from the normal.
+//   Observation angle: lamp, surface, eye. Entrance angle: between the normal and the way to the lamp.
+// Source: each class names its own. No standard was read here in its own text; what other texts did not confirm either
+//   says so (`confirmed`), and docs/light.md lists it.
+// Leaves out: rotation of the sheeting, orientation of the two planes, rain, dirt, colour over angle.
+// Checked by tests/scene/retro_test.cpp, tests/visual/retro_on_device_test.cpp.
+#pragma once
+
+#include <array>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "config/result.h"
+
+namespace phare {
+
+enum class RetroKind : std::uint32_t { kNone = 0, kSheeting = 1, kMarking = 2 };  ///< as in shaders/lamps.h
+
+/// What a class prescribes: the least R_L of a marking in the 30 m geometry (observation 1.05°, entrance 88.76°), or
+/// the least R_A of a sheeting at some observation angles.
+struct RetroClass {
+  std::string name;
+  RetroKind kind = RetroKind::kNone;
+  double marking_mcd_per_lx_m2 = 0.0;
+  struct Row {
+    double observation_deg = 0.0;              ///< one of kObservations_deg
+    std::array<double, 4> r_a_cd_per_lx_m2{};  ///< at kEntrances_deg
+  };
+  std::vector<Row> rows{};
+  std::string source;
+  bool confirmed = true;      ///< found in at least one text that could be read
+  bool whole_device = false;  ///< stated in mcd/lx of a whole reflector: R_A has to be given, the rows are its shape
+};
+inline constexpr std::array<double, 6> kObservations_deg{0.2, 0.33, 0.5, 1.0, 1.5, 2.0};
+inline constexpr std::array<double, 4> kEntrances_deg{5.0, 20.0, 30.0, 40.0};
+
+/// All classes that a material may name.
+std::span<const RetroClass> retro_classes();
+
+/// How a material sends light back.
+struct Retroreflection {
+  RetroKind kind = RetroKind::kNone;
+  std::string class_name{};
+  double marking_mcd_per_lx_m2 = 0.0;  ///< R_L in the 30 m geometry, all light together
+  std::array<glm::vec4, kObservations_deg.size()>
+      ln_r_a{};  ///< of sheeting: ln of cd/(lx·m²), [observation], xyzw entrance
+};
+
+/// By its class, or by a measured figure, or both: a class gives the shape over the angles, the figure then replaces
+/// its own. R_A is that at (0.33°, 5°), R_L that in the 30 m geometry. A figure alone has the shape of EN 12899-1 RA2
+/// white. Error: no such class (naming the nearest), or a figure of the other kind.
+Result<Retroreflection> retroreflection(const std::string& class_name, std::optional<double> r_a_cd_per_lx_m2,
+                                        std::optional<double> r_l_mcd_per_lx_m2);
+
+/// R_A of a sheeting in cd/(lx·m²), as the shader computes it.
+double sheeting_r_a(const Retroreflection& sheeting, double observation_deg, double entrance_deg);
+
+}  // namespace phare
