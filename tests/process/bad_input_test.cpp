@@ -209,8 +209,8 @@ TEST_F(BadInput, OfTheOtherCommands) {
       {"rig: bad lamp of one's own", "phare rig new --lamp bad.ies --out new.toml", "bad.ies:7: "},
       {"rig: portable nowhere", "phare rig new --lamp good.ies --portable", "--portable: "},
       {"rig: nowhere to write", "phare rig new --lamp good.ies --out /nonexistent/r.toml", "/nonexistent/r.toml"},
-      {"rig: portable, nowhere", "phare rig new --lamp good.ies --portable --out /nonexistent/r.toml",
-       "/nonexistent/r"},
+      {"rig: portable, nowhere", "phare rig new --lamp good.ies --portable --out good.ies/r.toml",
+       "good.ies/r"},
       {"replay: no drive", "phare replay absent.pcap", "absent.pcap: "},
       {"replay: not pcap", "phare replay bad.pcap", "bad.pcap: is no drive file"},
       {"record nowhere", "phare record --out /nonexistent/x.pcap --port-base " + std::to_string(port_base()),
@@ -251,7 +251,7 @@ TEST_F(BadInput, OfAMachineWithoutThePackagesOfTheTests) {
   const std::string says{std::istreambuf_iterator<char>(stream), {}};
   const std::size_t tests = says.find("Only for Phare's own tests");
   ASSERT_NE(tests, std::string::npos) << says;
-  for (const char* only_tests : {"tshark", "xvfb-run", "mmdebstrap", "Vulkan validation layer"}) {
+  for (const char* only_tests : {"tshark  ", "xvfb-run  ", "mmdebstrap  ", "Vulkan validation layer  "}) {
     const std::size_t at = says.find(only_tests);
     EXPECT_TRUE(at != std::string::npos && at > tests) << only_tests << '\n' << says;
   }
