@@ -11,6 +11,7 @@
 #include <fstream>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "config/key_bindings.h"
 #include "config/picture_options.h"
@@ -361,9 +362,7 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
     if (const Status status = derived->write(*rig, options.lamp_notes); !status) return bad_input(status.error());
   }
 
-  if (options.guide == "live")
-    spdlog::info(
-        "you drive, with the keys of the window or of this terminal: arrows, H high beam, F1 in the window for all");
+  bool told = options.guide != "live";  // how to drive, when there is a picture to drive in
   WishReader wishes(*bus, options.guide == "replay");
   std::optional<Clock::time_point> over_at;
   bool after = false;  // a window that stays open after the end of a drive is not part of it
@@ -379,6 +378,10 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
       bus->poll();
       if (!options.guide.empty()) wish = wishes.take();
       if (const auto report = bus->take<FrameReport>()) {
+        if (!std::exchange(told, true))
+          spdlog::info(
+              "you drive, with the keys of the window or of this terminal: arrows, H high beam, F1 in the window for "
+              "all");
         const std::int64_t frame =
             report->value.frame_index >= 0
                 ? report->value.frame_index
