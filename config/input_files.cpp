@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 namespace phare {
 
@@ -17,6 +18,9 @@ std::string input_name(const std::filesystem::path& name) {
 }
 
 Result<std::string> read_input_bytes(const std::filesystem::path& name, std::uintmax_t limit) {
+  // One reader looks what kind of file it is, another reads it: what came in stays for both.
+  static std::optional<std::string> came_in;
+  if (is_standard_input(name) && came_in && came_in->size() <= limit) return *came_in;
   const std::string place = input_name(name);
   if (place.empty()) return Error{"\"\"", "names no file"};
   const auto failed = [&](const std::string& why) { return Error{place, "cannot be read: " + why}; };
@@ -43,6 +47,7 @@ Result<std::string> read_input_bytes(const std::filesystem::path& name, std::uin
   if (!standard) ::close(descriptor);
   if (cause != 0) return failed(std::strerror(cause));
   if (bytes.size() > limit) return Error{place, "is larger than " + std::to_string(limit >> 20) + " MiB"};
+  if (standard) came_in = bytes;
   return bytes;
 }
 

@@ -15,8 +15,8 @@ at_second() { find "$1/frames" -name '*.png' | sort | sed -n "$(($2 + 1))p"; }
 
 "$phare" drive --headless --samples 4 --still-at 20 --out "$out/low" --port-base "$ports"
 for name in drivers_view birds_eye wall_25m; do picture "$out/low/$name.png" $name; done
-"$phare" drive --headless --samples 4 --camera chase --out "$out/chase" --port-base "$ports"
-picture "$(at_second "$out/chase" 20)" chase
+"$phare" drive --headless --lockstep --frames 60 --samples 4 --camera chase --out "$out/chase" --port-base "$ports"
+picture "$out/chase/frames/000059.png" chase
 "$phare" drive --headless --samples 4 --false-colour --out "$out/false" --port-base "$ports"
 picture "$(at_second "$out/false" 20)" false_colour
 ls -l docs/pictures

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "config/key_bindings.h"
 #include "config/picture_options.h"
@@ -45,7 +46,8 @@ struct DriveOptions {
   PictureOptions picture;
   std::uint16_t port_base = 0;
   LampFlags lamps;
-  std::string lamp_notes;  ///< what became of them
+  LampDesignNotes lamp_told;  ///< what became of them
+  std::string lamp_notes;     ///< the same, as the derived rig says it
   std::vector<std::string> command;
   std::string guide;          ///< somebody sits at the window and drives (live) or looks on (replay); empty: nobody
   bool demo_at_once = false;  ///< live: the demo driver begins
@@ -57,15 +59,19 @@ bool set_in_environment(const char* name) {
 }
 
 /// Lamps of one's own, and what every adjuster of the rig was turned by.
-Status aim_and_tell(Rig& rig, DriveOptions& options) {
+Status aim_lamps(Rig& rig, DriveOptions& options) {
   auto notes = options.lamps.any() ? put_lamp_design(rig, options.lamps) : aim_notes(rig);
   if (!notes) return notes.error();
-  for (const std::string& line : notes->lines) {
-    spdlog::info("{}", line);
-    options.lamp_notes += line + "\n";
-  }
-  for (const std::string& line : notes->warnings) spdlog::warn("{}", line);
+  options.lamp_told = std::move(*notes);
+  options.lamp_notes.clear();
+  for (const std::string& line : options.lamp_told.lines) options.lamp_notes += line + "\n";
   return Done{};
+}
+
+/// Once nothing more can be refused: a refusal is one line.
+void tell_of_lamps(const LampDesignNotes& notes) {
+  for (const std::string& line : notes.lines) spdlog::info("{}", line);
+  for (const std::string& line : notes.warnings) spdlog::warn("{}", line);
 }
 
 /// Everything that can be wrong before a process is started: files, ports, flags.
@@ -79,7 +85,7 @@ Result<Rig> prepare(DriveOptions& options) {
   if (const auto vehicle = read_vehicle(rig->vehicle_file); !vehicle) return vehicle.error();
   if (!options.lamps.any() && !options.lamps.aim.empty())
     return Error{"--aim " + options.lamps.aim, "aims a lamp of one's own: give --lamp, --lamp-high or --lamp-fog"};
-  if (const Status status = aim_and_tell(*rig, options); !status) return status.error();
+  if (const Status status = aim_lamps(*rig, options); !status) return status.error();
 
   if (!options.headless && !set_in_environment("DISPLAY") && !set_in_environment("WAYLAND_DISPLAY")) {
     spdlog::info("no display: driving headless");
@@ -341,6 +347,7 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
     if (!opened) return bad_input(opened.error());
     recorder = std::move(*opened);
   }
+  tell_of_lamps(options.lamp_told);
   fs::path made;
   // The folder is touched last: whatever was wrong up to here leaves an earlier drive as it lay.
   if (!options.out.empty()) {
@@ -355,9 +362,7 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
     if (const Status status = derived->write(*rig, options.lamp_notes); !status) return bad_input(status.error());
   }
 
-  if (options.guide == "live")
-    spdlog::info(
-        "you drive, with the keys of the window or of this terminal: arrows, H high beam, F1 in the window for all");
+  bool told = options.guide != "live";  // how to drive, when there is a picture to drive in
   WishReader wishes(*bus, options.guide == "replay");
   std::optional<Clock::time_point> over_at;
   bool after = false;  // a window that stays open after the end of a drive is not part of it
@@ -373,6 +378,10 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
       bus->poll();
       if (!options.guide.empty()) wish = wishes.take();
       if (const auto report = bus->take<FrameReport>()) {
+        if (!std::exchange(told, true))
+          spdlog::info(
+              "you drive, with the keys of the window or of this terminal: arrows, H high beam, F1 in the window for "
+              "all");
         const std::int64_t frame =
             report->value.frame_index >= 0
                 ? report->value.frame_index
@@ -443,7 +452,6 @@ int drive(DriveOptions& options) {
   for (int number = 1;; ++number) {
     options.out = numbered(out, number);
     options.record = numbered(record, number);
-    options.lamp_notes.clear();
     std::optional<Wish> wish;
     const int exit_code = drive_once(options, wish);
     if (!wish || exit_code != kExitDone) return exit_code;

@@ -1,4 +1,5 @@
 // The manual page, roff with the man macros, made from the declarations of the command line.
+#include <cstdio>
 #include <sstream>
 
 #include "tools/help_data.h"
@@ -7,20 +8,30 @@ namespace phare {
 namespace {
 
 /// Text as roff shows it: a backslash is one, a dash can be copied, no line is taken for a request; a long word of an
-/// option may end its line at a comma.
+/// option may end its line at a comma or plus.
 std::string for_roff(const std::string& text) {
   std::string safe;
   bool line_begins = true;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     if (line_begins && (c == '.' || c == '\'')) safe += "\\&";
     line_begins = c == '\n';
-    if (c == '\\') {
+    if (const auto letter = static_cast<unsigned char>(c);
+        letter >= 0xC0) {  // UTF-8: roff takes the number of a letter
+      const int more = letter >= 0xF0 ? 3 : letter >= 0xE0 ? 2 : 1;
+      unsigned code = letter & (0x3Fu >> more);
+      for (int k = 0; k < more && i + 1 < text.size(); ++k)
+        code = code << 6 | (static_cast<unsigned char>(text[++i]) & 0x3Fu);
+      char number[16];
+      std::snprintf(number, sizeof number, "\\[u%04X]", code);
+      safe += number;
+    } else if (c == '\\') {
       safe += "\\e";
     } else if (c == '-') {
       safe += "\\-";
     } else {
       safe += c;
-      if (c == ',') safe += "\\:";
+      if (c == ',' || c == '+') safe += "\\:";
     }
   }
   return safe;

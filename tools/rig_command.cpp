@@ -58,16 +58,17 @@ int rig_new(const RigNewOptions& options) {
     return bad_input({out.string(), "is there already; a rig is not written over"});
 
   RigWords words;
+  std::string told;  // of the lamps, when the rig is written: a refusal is one line
   if (options.lamps.any()) {
     const auto notes = put_lamp_design(*rig, options.lamps);
     if (!notes) return bad_input(notes.error());
     std::string says;
     for (const std::string& line : notes->lines) {
-      std::fprintf(stderr, "%s\n", printable(line).c_str());
       says += line + "\n";
+      told += printable(line) + "\n";
     }
-    for (const std::string& line : notes->warnings) std::fprintf(stderr, "warning: %s\n", printable(line).c_str());
     words.of_designs = {says};
+    for (const std::string& line : notes->warnings) told += "warning: " + printable(line) + "\n";
     rig->name += ", " + rig->designs.front().name;
   }
   words.heading = "A rig of Phare: which car, road, lamps and windows belong together. Drive it: phare drive --rig " +
@@ -85,6 +86,7 @@ int rig_new(const RigNewOptions& options) {
   const std::string text = rig_text(*rig, words);
   if (out.empty()) {
     std::fputs(text.c_str(), stdout);
+    std::fputs(told.c_str(), stderr);
     return kExitDone;
   }
   std::ofstream stream(out, std::ios::binary);
@@ -93,6 +95,7 @@ int rig_new(const RigNewOptions& options) {
     if (options.portable) fs::remove_all(out.parent_path() / (out.stem().string() + "_files"), ignored);
     return bad_input({out.string(), "cannot be written"});
   }
+  std::fputs(told.c_str(), stderr);
   std::printf("%s", out.string().c_str());
   if (files) std::printf(" and %zu files in %s_files", files->count(), out.stem().string().c_str());
   std::printf("\n");
@@ -103,7 +106,9 @@ int rig_new(const RigNewOptions& options) {
 
 void add_rig(CLI::App& app, Command& chosen) {
   CLI::App* rig = app.add_subcommand("rig", "Rig files: check one, write one");
-  rig->footer("Example:\n  phare rig check config/rigs/country_road.toml\n  phare rig new --lamp led_low_beam.ies --out my.toml");
+  rig->footer(
+      "Example:\n  phare rig check config/rigs/country_road.toml\n  phare rig new --lamp led_low_beam.ies --out "
+      "my.toml");
   rig->require_subcommand(1);
 
   auto check = std::make_shared<RigCheckOptions>();
@@ -117,9 +122,10 @@ void add_rig(CLI::App& app, Command& chosen) {
   auto made = std::make_shared<RigNewOptions>();
   CLI::App* new_command =
       rig->add_subcommand("new", "Writes a commented rig: another one with lamps of one's own as its first design");
-  new_command->footer(std::string("Examples:\n  phare rig new --lamp led_low_beam.ies --out my.toml\n  phare rig new --rig "
-                                  "config/rigs/matrix.toml --out night/matrix.toml --portable\n") +
-                      kLampFlagsHelp);
+  new_command->footer(
+      std::string("Examples:\n  phare rig new --lamp led_low_beam.ies --out my.toml\n  phare rig new --rig "
+                  "config/rigs/matrix.toml --out night/matrix.toml --portable\n") +
+      kLampFlagsHelp);
   new_command->add_option("--rig", made->rig_file, "Rig to begin with")->capture_default_str();
   add_lamp_flags(new_command, made->lamps);
   new_command->add_option("--out", made->out, "File to write [standard output]");

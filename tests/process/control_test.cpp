@@ -91,7 +91,7 @@ TEST_F(Control, ARunningRigAnswers) {
   EXPECT_EQ(lines[1], "ok: headlamp left: source 1 at 0 %");
   EXPECT_TRUE(lines[2].starts_with("refused: lamp \"nobody\": ")) << lines[2];
   EXPECT_TRUE(lines[3].starts_with("refused: design 7: ")) << lines[3];
-  EXPECT_TRUE(lines[4].starts_with("refused: line 7: aim: ")) << lines[4];
+  EXPECT_TRUE(lines[4].starts_with("refused: line 6: aim: ")) << lines[4];
   EXPECT_EQ(lines[5], "ok: headlamp left: source 1 at 100 %");
   EXPECT_TRUE(lines[6].starts_with("ok: design 0 of 2, ")) << lines[6];
   EXPECT_EQ(heard.err, "phare: standard input: 3 of 7 commands refused\n");
