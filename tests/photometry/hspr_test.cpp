@@ -245,7 +245,8 @@ TEST(Hspr, ThresholdsNeverReached) {
       broken = broken || !walk;
       if (!broken) sum += *walk, ++count;
     }
-    const HsprRow& r = row(hspr_low_beam(pair_of(table, table, 0.75, 1.5)), "A");
+    const HsprResult lit = hspr_low_beam(pair_of(table, table, 0.75, 1.5));
+    const HsprRow& r = row(lit, "A");
     EXPECT_EQ(r.value.has_value(), count > 0) << cd;
     if (r.value) {
       EXPECT_NEAR(*r.value, sum / static_cast<double>(count), 5.1e-4) << cd;
