@@ -1,7 +1,7 @@
-// The beam images on the device: one a lamp position, uploaded when they change, and then only the part that did.
+// The beam images on the device, of any number of lamps and designs: uploaded when they change, and then only the part
+// that did.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -17,21 +17,18 @@ class BeamStore {
   void set(std::size_t index, const BeamImage& image, ImageLevel level);
   /// The image set last, changed in these rectangles of its nodes only.
   void change(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed);
-  const PackedBeam& beam(std::size_t index) const { return beams_[index].packed; }
+  /// One that was never set is dark.
+  const PackedBeam& beam(std::size_t index) const { return at(index).packed; }
   /// Uploads what changed. True when images are new ones and descriptors have to follow.
   bool upload();
   /// Fills the table fields of a lamp with beam `index`.
   void describe(std::size_t index, shader::GpuLamp& lamp) const;
 
-  const gpu::Image& candela(std::size_t index) const {
-    return *beams_[index].candela.image ? beams_[index].candela : nothing_;
-  }
-  const gpu::Image& guide(std::size_t index) const {
-    return *beams_[index].guide.image ? beams_[index].guide : nothing_;
-  }
+  const gpu::Image& candela(std::size_t index) const { return *at(index).candela.image ? at(index).candela : nothing_; }
+  const gpu::Image& guide(std::size_t index) const { return *at(index).guide.image ? at(index).guide : nothing_; }
   /// Of its colour; a lamp whose light has one colour has none.
   const gpu::Image& tint(std::size_t index) const {
-    return beams_[index].packed.tinted() && *beams_[index].tint.image ? beams_[index].tint : nothing_;
+    return at(index).packed.tinted() && *at(index).tint.image ? at(index).tint : nothing_;
   }
   /// Since the start.
   std::uint64_t uploads() const { return uploads_; }
@@ -47,12 +44,14 @@ class BeamStore {
     bool tint_shown = false;
     bool fresh = false;  ///< all of it changed, the guide too
   };
+  const Beam& at(std::size_t index) const { return index < beams_.size() ? beams_[index] : never_set_; }
   bool fit(gpu::Image& image, vk::Format format, std::uint32_t width, std::uint32_t height, const char* name);
   void upload_parts(Beam& beam);
   void upload_tints(Beam& beam);
 
   gpu::Device& device_;
-  std::array<Beam, shader::kMaxLamps> beams_;
+  std::vector<Beam> beams_;
+  Beam never_set_;
   gpu::Image nothing_;  ///< what descriptors of lamps that are not there name
   std::uint64_t uploads_ = 0, uploaded_texels_ = 0;
 };
