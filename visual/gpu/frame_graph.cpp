@@ -101,10 +101,11 @@ Image& FrameGraph::image(const std::string& name, const ImageNeed& need) {
   held.asked = held.slot->taken = true;
   held.slot->released = false;
   if (const Held* last = std::exchange(held.slot->last, &held); last != nullptr && last != &held) {
-    // What is in the memory is another image's, and its passes come first.
+    // What is in the memory is another image's, and its passes come first. Our own last use comes before those, but
+    // synchronization validation does not see that.
     held.image.layout = vk::ImageLayout::eUndefined;
-    held.image.stage = last->image.stage;
-    held.image.access = last->image.access;
+    held.image.stage |= last->image.stage;
+    held.image.access |= last->image.access;
   }
   return held.image;
 }
