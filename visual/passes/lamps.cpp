@@ -1,6 +1,8 @@
 #include "visual/passes/lamps.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <optional>
@@ -22,9 +24,10 @@ namespace phare {
 namespace {
 
 // std140 and std430 agree for these: all members are 16 bytes.
-static_assert(sizeof(shader::GpuLamp) == 176 && offsetof(shader::GpuLamp, guide) == 160);
+static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour) == 64);
+static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, cells) == 64);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 96);
-static_assert(sizeof(shader::GpuFrame) == 96 + shader::kMaxLamps * 176);
+static_assert(sizeof(shader::GpuFrame) == 96 + shader::kMaxLamps * 80);
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
@@ -70,10 +73,12 @@ LampPass::LampPass(gpu::Device& device)
   using Type = vk::DescriptorType;
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   for (const auto& [binding, type, count] :
-       {std::tuple(0u, Type::eUniformBuffer, 1u), std::tuple(1u, Type::eCombinedImageSampler, shader::kMaxLamps),
-        std::tuple(2u, Type::eCombinedImageSampler, shader::kMaxLamps), std::tuple(3u, Type::eUniformBuffer, 1u),
+       {std::tuple(0u, Type::eUniformBuffer, 1u), std::tuple(1u, Type::eUniformTexelBuffer, shader::kMaxLamps),
+        std::tuple(2u, Type::eUniformTexelBuffer, shader::kMaxLamps), std::tuple(3u, Type::eUniformBuffer, 1u),
         std::tuple(4u, Type::eUniformTexelBuffer, 1u), std::tuple(5u, Type::eUniformBuffer, 1u),
-        std::tuple(6u, Type::eCombinedImageSampler, shader::kMaxLamps)})
+        std::tuple(6u, Type::eUniformTexelBuffer, shader::kMaxLamps),
+        std::tuple(7u, Type::eCombinedImageSampler, shader::kMaxLamps),
+        std::tuple(8u, Type::eCombinedImageSampler, shader::kMaxLamps)})
     bindings.push_back({.binding = binding, .descriptorType = type, .descriptorCount = count, .stageFlags = kStages});
   set_layout_ = vk::raii::DescriptorSetLayout(
       device.device, vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()),
@@ -84,8 +89,8 @@ LampPass::LampPass(gpu::Device& device)
                                                                                  .pushConstantRangeCount = 1,
                                                                                  .pPushConstantRanges = &push});
   const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, 3},
-                         vk::DescriptorPoolSize{Type::eCombinedImageSampler, 3 * shader::kMaxLamps},
-                         vk::DescriptorPoolSize{Type::eUniformTexelBuffer, 1}};
+                         vk::DescriptorPoolSize{Type::eCombinedImageSampler, 2 * shader::kMaxLamps},
+                         vk::DescriptorPoolSize{Type::eUniformTexelBuffer, 1 + 3 * shader::kMaxLamps}};
   pool_ = vk::raii::DescriptorPool(
       device.device, vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                                   .maxSets = 1,
@@ -95,11 +100,11 @@ LampPass::LampPass(gpu::Device& device)
       device.device,
       vk::DescriptorSetAllocateInfo{.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &*set_layout_});
   set_ = std::move(sets.front());
-  vk::SamplerCreateInfo table{.addressModeU = vk::SamplerAddressMode::eClampToEdge,
-                              .addressModeV = vk::SamplerAddressMode::eClampToEdge};
-  table_sampler_ = vk::raii::Sampler(device.device, table);  // nodes are fetched, and weighed in float32
-  table.magFilter = table.minFilter = vk::Filter::eLinear;
-  filter_sampler_ = vk::raii::Sampler(device.device, table);
+  filter_sampler_ =
+      vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
+                                                             .minFilter = vk::Filter::eLinear,
+                                                             .addressModeU = vk::SamplerAddressMode::eClampToEdge,
+                                                             .addressModeV = vk::SamplerAddressMode::eClampToEdge});
   grain_ = make_grain(device);
   frame_ = gpu::HostBuffer(device, sizeof(shader::GpuFrame), vk::BufferUsageFlagBits::eUniformBuffer, "frame");
 }
@@ -110,15 +115,15 @@ void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
                            std::pair(3u, vk::DescriptorBufferInfo{*scene.material_buffer.buffer, 0, VK_WHOLE_SIZE}),
                            std::pair(5u, vk::DescriptorBufferInfo{*scene.sheeting_buffer.buffer, 0, VK_WHOLE_SIZE})};
   const auto layout = vk::ImageLayout::eShaderReadOnlyOptimal;
-  std::array<vk::DescriptorImageInfo, shader::kMaxLamps> guides, candela, tints;
+  std::array<vk::BufferView, shader::kMaxLamps> guides, cells, tints;
+  std::array<vk::DescriptorImageInfo, shader::kMaxLamps> filtered, filtered_tints;
   for (std::size_t i = 0; i < beam_of_lamp_.size(); ++i) {
-    guides[i] = {*table_sampler_, *beams.guide(beam_of_lamp_[i]).view, layout};
-    const gpu::Image& table = beams.candela(beam_of_lamp_[i]);  // "no beam" is float32, which not every device filters
-    const bool filtered = beams.beam(beam_of_lamp_[i]).filtered() && table.format != vk::Format::eR32Sfloat;
-    candela[i] = {filtered ? *filter_sampler_ : *table_sampler_, *table.view, layout};
-    const gpu::Image& tint = beams.tint(beam_of_lamp_[i]);
-    tints[i] = {filtered && tint.format != vk::Format::eR32Sfloat ? *filter_sampler_ : *table_sampler_, *tint.view,
-                layout};
+    const std::size_t beam = beam_of_lamp_[i];
+    guides[i] = beams.guide(beam);
+    cells[i] = beams.cells(beam);
+    tints[i] = beams.tint(beam);
+    filtered[i] = {*filter_sampler_, *beams.filtered(beam).view, layout};
+    filtered_tints[i] = {*filter_sampler_, *beams.filtered_tint(beam).view, layout};
   }
   std::vector<vk::WriteDescriptorSet> writes;
   for (const auto& [binding, info] : buffers)
@@ -127,20 +132,23 @@ void LampPass::bind(const SceneBuffers& scene, const BeamStore& beams) {
                       .descriptorCount = 1,
                       .descriptorType = Type::eUniformBuffer,
                       .pBufferInfo = &info});
-  for (const auto& [binding, infos] : {std::pair(1u, std::span<const vk::DescriptorImageInfo>(guides)),
-                                       std::pair(2u, std::span<const vk::DescriptorImageInfo>(candela)),
-                                       std::pair(6u, std::span<const vk::DescriptorImageInfo>(tints))})
+  for (const auto& [binding, infos] : {std::pair(7u, std::span<const vk::DescriptorImageInfo>(filtered)),
+                                       std::pair(8u, std::span<const vk::DescriptorImageInfo>(filtered_tints))})
     writes.push_back({.dstSet = *set_,
                       .dstBinding = binding,
                       .descriptorCount = static_cast<std::uint32_t>(infos.size()),
                       .descriptorType = Type::eCombinedImageSampler,
                       .pImageInfo = infos.data()});
   const vk::BufferView grain = *grain_.view;
-  writes.push_back({.dstSet = *set_,
-                    .dstBinding = 4,
-                    .descriptorCount = 1,
-                    .descriptorType = Type::eUniformTexelBuffer,
-                    .pTexelBufferView = &grain});
+  for (const auto& [binding, views] :
+       {std::pair(1u, std::span<const vk::BufferView>(guides)), std::pair(2u, std::span<const vk::BufferView>(cells)),
+        std::pair(4u, std::span<const vk::BufferView>(&grain, 1)),
+        std::pair(6u, std::span<const vk::BufferView>(tints))})
+    writes.push_back({.dstSet = *set_,
+                      .dstBinding = binding,
+                      .descriptorCount = static_cast<std::uint32_t>(views.size()),
+                      .descriptorType = Type::eUniformTexelBuffer,
+                      .pTexelBufferView = views.data()});
   device_.device.updateDescriptorSets(writes, nullptr);
 }
 
@@ -154,13 +162,14 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const View
   for (int i = 0; i < 4; ++i) frame.clip_from_eye[i] = clip[i];
   frame.exposure = glm::vec4(sky.exposure_per_cdm2, 0.0f);
   frame.sky = sky.zenith();
-  lamp_count_ = lookups_ = colours_ = 0;
+  lamp_count_ = colours_ = 0;
+  std::vector<shader::TableShape> shapes;
   std::optional<glm::vec3> first_colour;
   for (const PlacedLamp& lamp : lamps) {
     const PackedBeam& beam = beams.beam(lamp.beam);
     if (beam.dark || lamp_count_ == shader::kMaxLamps) continue;
     rebind |= std::exchange(beam_of_lamp_[lamp_count_], lamp.beam) != lamp.beam;
-    lookups_ |= beam.lookup_bits() << (4 * lamp_count_);
+    shapes.push_back(beam.shape);
     if (first_colour && *first_colour != beam.colour) colours_ |= 1u;
     if (beam.tinted()) colours_ |= 1u << (8 + lamp_count_);
     first_colour = beam.colour;
@@ -172,27 +181,37 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const View
     out.row_c = glm::vec4(glm::vec3(rows[2]), 0.0f);
     beams.describe(lamp.beam, out);
   }
+  const auto same = [&](const std::vector<shader::TableShape>& known) {
+    return std::ranges::equal(std::as_bytes(std::span(known)), std::as_bytes(std::span(shapes)));
+  };
+  tables_ =
+      static_cast<std::size_t>(std::find_if(table_shapes_.begin(), table_shapes_.end(), same) - table_shapes_.begin());
+  if (tables_ == table_shapes_.size()) table_shapes_.push_back(std::move(shapes));
   std::memcpy(frame_.data, &frame, sizeof frame);
   if (rebind) bind(scene, beams);
 }
 
 vk::Pipeline LampPass::lit_pipeline(const Variant& variant) {
   if (const auto found = lit_.find(variant); found != lit_.end()) return *found->second;
-  const std::array<std::uint32_t, 9> values{variant.lamp_count,
-                                            static_cast<std::uint32_t>(variant.kind.surface),
-                                            static_cast<std::uint32_t>(variant.kind.retro),
-                                            static_cast<std::uint32_t>(variant.output),
-                                            variant.lamp_base,
-                                            variant.lookups,
-                                            variant.colours,
-                                            variant.kind.double_sided ? 2u : 1u,
-                                            grain_.first_level};
-  std::array<vk::SpecializationMapEntry, 9> entries;
-  for (std::uint32_t i = 0; i < entries.size(); ++i)
-    entries[i] = vk::SpecializationMapEntry{.constantID = i, .offset = 4 * i, .size = 4};
-  const vk::SpecializationInfo constants{.mapEntryCount = entries.size(),
+  std::vector<std::uint32_t> values{variant.lamp_count,
+                                    static_cast<std::uint32_t>(variant.kind.surface),
+                                    static_cast<std::uint32_t>(variant.kind.retro),
+                                    static_cast<std::uint32_t>(variant.output),
+                                    variant.lamp_base,
+                                    0,
+                                    variant.colours,
+                                    variant.kind.double_sided ? 2u : 1u,
+                                    grain_.first_level};
+  values.resize(shader::kSpecTables);
+  for (const shader::TableShape& shape : table_shapes_[variant.tables]) {
+    const auto words = std::bit_cast<std::array<std::uint32_t, shader::kSpecPerTable>>(shape);
+    values.insert(values.end(), words.begin(), words.end());
+  }
+  std::vector<vk::SpecializationMapEntry> entries;
+  for (std::uint32_t i = 0; i < values.size(); ++i) entries.push_back({.constantID = i, .offset = 4 * i, .size = 4});
+  const vk::SpecializationInfo constants{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
                                          .pMapEntries = entries.data(),
-                                         .dataSize = sizeof values,
+                                         .dataSize = 4 * values.size(),
                                          .pData = values.data()};
   const bool measure = variant.output == LampOutput::kMeasure;
   const std::size_t size = variant.lamp_count <= 2 ? 0 : variant.lamp_count <= 4 ? 1 : 2;
@@ -289,7 +308,7 @@ void LampPass::light(gpu::FrameGraph& graph, gpu::Image& colour, gpu::Image* res
     draw_items(commands, scene, items,
                {.output = output,
                 .lamp_count = lamp_count_,
-                .lookups = lookups_,
+                .tables = tables_,
                 .colours = colours_,
                 .samples = colour.samples,
                 .format = colour.format,
@@ -309,7 +328,7 @@ void LampPass::measure(gpu::FrameGraph& graph, gpu::Image& lx, vk::Buffer points
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, lit_pipeline({.output = LampOutput::kMeasure,
                                                                           .lamp_count = lamp_count_,
                                                                           .lamp_base = lamp_base,
-                                                                          .lookups = lookups_,
+                                                                          .tables = tables_,
                                                                           .format = lx.format}));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, *set_, nullptr);
     const shader::GpuDraw push{
@@ -345,7 +364,7 @@ void LampPass::audit(gpu::FrameGraph& graph, gpu::Image& position, gpu::Image& n
         set_area(commands, position.extent);
         draw_items(
             commands, scene, items,
-            {.output = LampOutput::kAudit, .lamp_count = lamp_count_, .lookups = lookups_, .format = position.format});
+            {.output = LampOutput::kAudit, .lamp_count = lamp_count_, .tables = tables_, .format = position.format});
         commands.endRendering();
       });
 }

@@ -47,7 +47,9 @@ class LampPass {
   struct Variant {
     MaterialKind kind{};
     LampOutput output = LampOutput::kDisplay;
-    std::uint32_t lamp_count = 0, lamp_base = 0, lookups = 0, colours = 0;
+    std::uint32_t lamp_count = 0, lamp_base = 0;
+    std::size_t tables = 0;  ///< index of table_shapes_
+    std::uint32_t colours = 0;
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     vk::Format format = vk::Format::eUndefined;
     bool depth_done = false;
@@ -67,12 +69,14 @@ class LampPass {
   vk::raii::PipelineLayout layout_{nullptr};
   vk::raii::DescriptorPool pool_{nullptr};
   vk::raii::DescriptorSet set_{nullptr};
-  vk::raii::Sampler table_sampler_{nullptr}, filter_sampler_{nullptr};
+  vk::raii::Sampler filter_sampler_{nullptr};
   Grain grain_;
   gpu::HostBuffer frame_;
-  std::uint32_t lamp_count_ = 0, lookups_ = 0;
+  std::uint32_t lamp_count_ = 0;
   std::uint32_t colours_ = 0;  ///< as kSpecColours
   std::array<std::size_t, shader::kMaxLamps> beam_of_lamp_{};
+  std::size_t tables_ = 0;
+  std::vector<std::vector<shader::TableShape>> table_shapes_;  ///< of the lamps of a frame, each set that came up
   std::map<Variant, vk::raii::Pipeline> lit_;
   std::map<vk::SampleCountFlagBits, vk::raii::Pipeline> depth_;
   std::array<vk::raii::ShaderModule, 3> scene_vert_, measure_vert_, lamps_frag_;  ///< for up to 2, 4, 8 lamps
