@@ -52,8 +52,9 @@ float sent_back(vec3 toward_lamp, float cos_incidence, vec3 n, float level) {
 }
 
 void main() {
-  vec3 n = normalize(point_normal);
-  if (sides == 2) n = gl_FrontFacing ? n : -n;
+  float unit = inversesqrt(dot(point_normal, point_normal));
+  if (sides == 2) unit = gl_FrontFacing ? unit : -unit;
+  vec3 n = point_normal * unit;
   float level = dot(n, point);
 
   if (output_kind == kOutputMeasure) {
@@ -79,7 +80,7 @@ void main() {
     total_lx += light.illuminance_lx;                                                                      \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
     if (retro != 0)                                                                                        \
-      retro_lx += colour * (light.normal_lx * sent_back(PHARE_LAMP_POSITION(I).xyz - point, light.cos_incidence, n, level)); \
+      retro_lx += colour * (light.normal_lx * sent_back(frame.lamps[I].position.xyz - point, light.cos_incidence, n, level)); \
   }
   PHARE_EACH_LAMP(LIGHT)
   if (colours == 0) coloured_lx = total_lx * light_colour;

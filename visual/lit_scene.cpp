@@ -1,6 +1,7 @@
 #include "visual/lit_scene.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <optional>
@@ -29,9 +30,10 @@ const std::array<vk::VertexInputAttributeDescription, 3> kVertexAttributes{
 namespace {
 
 // std140 and std430 agree for these: all members are 16 bytes.
-static_assert(sizeof(shader::GpuLamp) == 176 && offsetof(shader::GpuLamp, guide) == 160);
+static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour) == 64);
+static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, cells) == 64);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 96);
-static_assert(sizeof(shader::GpuFrame) == 96 + shader::kMaxLamps * 176);
+static_assert(sizeof(shader::GpuFrame) == 96 + shader::kMaxLamps * 80);
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
@@ -45,10 +47,12 @@ std::vector<vk::DescriptorSetLayoutBinding> bindings() {
   using Type = vk::DescriptorType;
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   for (const auto& [binding, type, count] :
-       {std::tuple(0u, Type::eUniformBufferDynamic, 1u), std::tuple(1u, Type::eCombinedImageSampler, shader::kMaxLamps),
-        std::tuple(2u, Type::eCombinedImageSampler, shader::kMaxLamps), std::tuple(3u, Type::eUniformBuffer, 1u),
+       {std::tuple(0u, Type::eUniformBufferDynamic, 1u), std::tuple(1u, Type::eUniformTexelBuffer, shader::kMaxLamps),
+        std::tuple(2u, Type::eUniformTexelBuffer, shader::kMaxLamps), std::tuple(3u, Type::eUniformBuffer, 1u),
         std::tuple(4u, Type::eUniformTexelBuffer, 1u), std::tuple(5u, Type::eUniformBuffer, 1u),
-        std::tuple(6u, Type::eCombinedImageSampler, shader::kMaxLamps)})
+        std::tuple(6u, Type::eUniformTexelBuffer, shader::kMaxLamps),
+        std::tuple(7u, Type::eCombinedImageSampler, shader::kMaxLamps),
+        std::tuple(8u, Type::eCombinedImageSampler, shader::kMaxLamps)})
     bindings.push_back(
         {.binding = binding, .descriptorType = type, .descriptorCount = count, .stageFlags = kLitStages});
   return bindings;
@@ -73,11 +77,11 @@ LitScene::LitScene(gpu::Device& device)
       device.device,
       vk::PipelineLayoutCreateInfo{
           .setLayoutCount = 1, .pSetLayouts = &set_layout, .pushConstantRangeCount = 1, .pPushConstantRanges = &push});
-  vk::SamplerCreateInfo table{.addressModeU = vk::SamplerAddressMode::eClampToEdge,
-                              .addressModeV = vk::SamplerAddressMode::eClampToEdge};
-  table_sampler_ = vk::raii::Sampler(device.device, table);  // nodes are fetched, and weighed in float32
-  table.magFilter = table.minFilter = vk::Filter::eLinear;
-  filter_sampler_ = vk::raii::Sampler(device.device, table);
+  filter_sampler_ =
+      vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
+                                                             .minFilter = vk::Filter::eLinear,
+                                                             .addressModeU = vk::SamplerAddressMode::eClampToEdge,
+                                                             .addressModeV = vk::SamplerAddressMode::eClampToEdge});
   const vk::DeviceSize step = std::max<vk::DeviceSize>(device.properties.limits.minUniformBufferOffsetAlignment, 1);
   stride_ = (sizeof(shader::GpuFrame) + step - 1) / step * step;
 }
@@ -143,11 +147,12 @@ void LitScene::fill(LitView& view, std::span<const PlacedLamp> lamps) {
   frame.sky = view.sky.zenith();
   Beams bound;
   bound.fill(kNoBeam);
+  std::vector<shader::TableShape> shapes;
   std::optional<glm::vec3> first_colour;
   for (const PlacedLamp& lamp : lamps) {
     const PackedBeam& beam = beams_.beam(lamp.beam);
     bound[view.lamps] = lamp.beam;
-    view.lookups |= beam.lookup_bits() << (4 * view.lamps);
+    shapes.push_back(beam.shape);
     if (first_colour && *first_colour != beam.colour) view.colours |= 1u;
     if (beam.tinted()) view.colours |= 1u << (8 + view.lamps);
     first_colour = beam.colour;
@@ -159,6 +164,7 @@ void LitScene::fill(LitView& view, std::span<const PlacedLamp> lamps) {
     out.row_c = glm::vec4(glm::vec3(rows[2]), 0.0f);
     beams_.describe(lamp.beam, out);
   }
+  view.tables = tables_of(std::move(shapes));
   const std::size_t page = views_ / kViewsInPage, place = views_ % kViewsInPage;
   ++views_;
   if (page == pages_.size())
@@ -167,6 +173,16 @@ void LitScene::fill(LitView& view, std::span<const PlacedLamp> lamps) {
   view.data_at = static_cast<std::uint32_t>(place * stride_);
   std::memcpy(static_cast<std::byte*>(pages_[page]->data) + view.data_at, &frame, sizeof frame);
   view.set = set_of(page, bound);
+}
+
+std::size_t LitScene::tables_of(std::vector<shader::TableShape> shapes) {
+  const auto same = [&](const std::vector<shader::TableShape>& known) {
+    return std::ranges::equal(std::as_bytes(std::span(known)), std::as_bytes(std::span(shapes)));
+  };
+  const auto found = std::ranges::find_if(table_shapes_, same);
+  const auto index = static_cast<std::size_t>(found - table_shapes_.begin());
+  if (found == table_shapes_.end()) table_shapes_.push_back(std::move(shapes));
+  return index;
 }
 
 vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
@@ -181,56 +197,61 @@ vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
                            std::tuple(5u, Type::eUniformBuffer,
                                       vk::DescriptorBufferInfo{*geometry_.sheeting_buffer.buffer, 0, VK_WHOLE_SIZE})};
   const auto layout = vk::ImageLayout::eShaderReadOnlyOptimal;
-  std::array<vk::DescriptorImageInfo, shader::kMaxLamps> guides, candela, tints;
+  std::array<vk::BufferView, shader::kMaxLamps> guides, cells, tints;
+  std::array<vk::DescriptorImageInfo, shader::kMaxLamps> filtered, filtered_tints;
   for (std::size_t i = 0; i < beams.size(); ++i) {
-    const std::size_t beam = beams[i];
-    guides[i] = {*table_sampler_, *beams_.guide(beam).view, layout};
-    const gpu::Image& table = beams_.candela(beam);  // "no beam" is float32, which not every device filters
-    const bool filtered = beams_.beam(beam).filtered() && table.format != vk::Format::eR32Sfloat;
-    candela[i] = {filtered ? *filter_sampler_ : *table_sampler_, *table.view, layout};
-    const gpu::Image& tint = beams_.tint(beam);
-    tints[i] = {filtered && tint.format != vk::Format::eR32Sfloat ? *filter_sampler_ : *table_sampler_, *tint.view,
-                layout};
+    guides[i] = beams_.guide(beams[i]);
+    cells[i] = beams_.cells(beams[i]);
+    tints[i] = beams_.tint(beams[i]);
+    filtered[i] = {*filter_sampler_, *beams_.filtered(beams[i]).view, layout};
+    filtered_tints[i] = {*filter_sampler_, *beams_.filtered_tint(beams[i]).view, layout};
   }
   std::vector<vk::WriteDescriptorSet> writes;
   for (const auto& [binding, type, info] : buffers)
     writes.push_back(
         {.dstSet = set, .dstBinding = binding, .descriptorCount = 1, .descriptorType = type, .pBufferInfo = &info});
-  for (const auto& [binding, infos] : {std::pair(1u, std::span<const vk::DescriptorImageInfo>(guides)),
-                                       std::pair(2u, std::span<const vk::DescriptorImageInfo>(candela)),
-                                       std::pair(6u, std::span<const vk::DescriptorImageInfo>(tints))})
+  for (const auto& [binding, infos] : {std::pair(7u, std::span<const vk::DescriptorImageInfo>(filtered)),
+                                       std::pair(8u, std::span<const vk::DescriptorImageInfo>(filtered_tints))})
     writes.push_back({.dstSet = set,
                       .dstBinding = binding,
                       .descriptorCount = static_cast<std::uint32_t>(infos.size()),
                       .descriptorType = Type::eCombinedImageSampler,
                       .pImageInfo = infos.data()});
   const vk::BufferView grain = *grain_.view;
-  writes.push_back({.dstSet = set,
-                    .dstBinding = 4,
-                    .descriptorCount = 1,
-                    .descriptorType = Type::eUniformTexelBuffer,
-                    .pTexelBufferView = &grain});
+  for (const auto& [binding, views] :
+       {std::pair(1u, std::span<const vk::BufferView>(guides)), std::pair(2u, std::span<const vk::BufferView>(cells)),
+        std::pair(4u, std::span<const vk::BufferView>(&grain, 1)),
+        std::pair(6u, std::span<const vk::BufferView>(tints))})
+    writes.push_back({.dstSet = set,
+                      .dstBinding = binding,
+                      .descriptorCount = static_cast<std::uint32_t>(views.size()),
+                      .descriptorType = Type::eUniformTexelBuffer,
+                      .pTexelBufferView = views.data()});
   device_.device.updateDescriptorSets(writes, nullptr);
   return set;
 }
 
 vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   if (const auto found = pipelines_.find(variant); found != pipelines_.end()) return *found->second;
-  const std::array<std::uint32_t, 9> values{variant.lamp_count,
-                                            static_cast<std::uint32_t>(variant.kind.surface),
-                                            static_cast<std::uint32_t>(variant.kind.retro),
-                                            static_cast<std::uint32_t>(variant.output),
-                                            variant.lamp_base,
-                                            variant.lookups,
-                                            variant.colours,
-                                            variant.kind.double_sided ? 2u : 1u,
-                                            grain_.first_level};
-  std::array<vk::SpecializationMapEntry, 9> entries;
-  for (std::uint32_t i = 0; i < entries.size(); ++i)
-    entries[i] = vk::SpecializationMapEntry{.constantID = i, .offset = 4 * i, .size = 4};
-  const vk::SpecializationInfo constants{.mapEntryCount = entries.size(),
+  std::vector<std::uint32_t> values{variant.lamp_count,
+                                    static_cast<std::uint32_t>(variant.kind.surface),
+                                    static_cast<std::uint32_t>(variant.kind.retro),
+                                    static_cast<std::uint32_t>(variant.output),
+                                    variant.lamp_base,
+                                    0,
+                                    variant.colours,
+                                    variant.kind.double_sided ? 2u : 1u,
+                                    grain_.first_level};
+  values.resize(shader::kSpecTables);
+  for (const shader::TableShape& shape : table_shapes_[variant.tables]) {
+    const auto words = std::bit_cast<std::array<std::uint32_t, shader::kSpecPerTable>>(shape);
+    values.insert(values.end(), words.begin(), words.end());
+  }
+  std::vector<vk::SpecializationMapEntry> entries;
+  for (std::uint32_t i = 0; i < values.size(); ++i) entries.push_back({.constantID = i, .offset = 4 * i, .size = 4});
+  const vk::SpecializationInfo constants{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
                                          .pMapEntries = entries.data(),
-                                         .dataSize = sizeof values,
+                                         .dataSize = 4 * values.size(),
                                          .pData = values.data()};
   const bool measure = variant.output == LampOutput::kMeasure;
   const std::size_t size = variant.lamp_count <= 2 ? 0 : variant.lamp_count <= 4 ? 1 : 2;
@@ -264,7 +285,7 @@ void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) con
 
 void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant common) {
   common.lamp_count = view.lamps;
-  common.lookups = view.lookups;
+  common.tables = view.tables;
   common.colours = common.output == LampOutput::kAudit ? 0 : view.colours;
   bind(commands, view);
   vk::Pipeline bound;

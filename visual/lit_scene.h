@@ -27,10 +27,11 @@ struct LitView {
   ViewGeometry geometry;
   Sky sky;
   std::vector<DrawItem> items{};
-  std::uint32_t lamps = 0;                 ///< that light it
-  std::uint32_t unreached = 0;             ///< left out: they light nothing of what it sees
-  std::uint32_t over_limit = 0;            ///< left out: kMaxLamps light it already
-  std::uint32_t lookups = 0, colours = 0;  ///< as kSpecLookups, kSpecColours
+  std::uint32_t lamps = 0;       ///< that light it
+  std::uint32_t unreached = 0;   ///< left out: they light nothing of what it sees
+  std::uint32_t over_limit = 0;  ///< left out: kMaxLamps light it already
+  std::size_t tables = 0;        ///< which of the scene's sets of table shapes
+  std::uint32_t colours = 0;     ///< as kSpecColours
   vk::DescriptorSet set{};
   std::uint32_t data_at = 0;  ///< of its GpuFrame in the buffer, bytes
 };
@@ -39,7 +40,9 @@ struct LitView {
 struct LitVariant {
   MaterialKind kind{};
   LampOutput output = LampOutput::kDisplay;
-  std::uint32_t lamp_count = 0, lamp_base = 0, lookups = 0, colours = 0;
+  std::uint32_t lamp_count = 0, lamp_base = 0;
+  std::size_t tables = 0;  ///< as LitView
+  std::uint32_t colours = 0;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Format format = vk::Format::eUndefined;
   bool depth_done = false;
@@ -80,6 +83,7 @@ class LitScene {
 
   /// Lamps of a view, by their places, into its data.
   void fill(LitView& view, std::span<const PlacedLamp> lamps);
+  std::size_t tables_of(std::vector<shader::TableShape> shapes);
   vk::DescriptorSet set_of(std::size_t page, const Beams& beams);
   void forget_sets();
 
@@ -91,10 +95,11 @@ class LitScene {
   gpu::DescriptorSets sets_;
   std::map<std::pair<std::size_t, Beams>, vk::DescriptorSet> set_of_;
   vk::raii::PipelineLayout layout_{nullptr};
-  vk::raii::Sampler table_sampler_{nullptr}, filter_sampler_{nullptr};
+  vk::raii::Sampler filter_sampler_{nullptr};
   vk::DeviceSize stride_ = 0;                            ///< of the data of one view
   std::vector<std::unique_ptr<gpu::HostBuffer>> pages_;  ///< data of views; more are made when a frame has more views
   std::size_t views_ = 0;                                ///< of this frame
+  std::vector<std::vector<shader::TableShape>> table_shapes_;  ///< of the lamps of a view, each set that came up
   std::map<LitVariant, vk::raii::Pipeline> pipelines_;
   std::array<vk::raii::ShaderModule, 3> scene_vert_, measure_vert_, lamps_frag_;  ///< for up to 2, 4, 8 lamps
 };

@@ -169,14 +169,18 @@ HostBuffer::HostBuffer(Device& device, vk::DeviceSize size, vk::BufferUsageFlags
   device.name(vk::ObjectType::eBuffer, reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer)), name);
 }
 
-DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage,
-                           const std::string& name)
-    : buffer(device.device, vk::BufferCreateInfo{.size = std::max<vk::DeviceSize>(content.size(), 16),
-                                                 .usage = usage | vk::BufferUsageFlagBits::eTransferDst}),
-      bytes(std::max<vk::DeviceSize>(content.size(), 16)) {
+DeviceBuffer::DeviceBuffer(Device& device, vk::DeviceSize bytes_, vk::BufferUsageFlags usage, const std::string& name)
+    : buffer(device.device,
+             vk::BufferCreateInfo{.size = bytes_, .usage = usage | vk::BufferUsageFlagBits::eTransferDst}),
+      bytes(bytes_) {
   memory = device.allocate(buffer.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal);
   buffer.bindMemory(*memory, 0);
   device.name(vk::ObjectType::eBuffer, reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer)), name);
+}
+
+DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage,
+                           const std::string& name)
+    : DeviceBuffer(device, std::max<vk::DeviceSize>(content.size(), 16), usage, name) {
   if (content.empty()) return;
   HostBuffer staging(device, content.size(), vk::BufferUsageFlagBits::eTransferSrc, name + " staging");
   std::memcpy(staging.data, content.data(), content.size());

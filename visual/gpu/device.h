@@ -89,13 +89,15 @@ struct HostBuffer {
              bool read_back = false);
 };
 
-/// A buffer in device memory, filled once.
+/// A buffer in device memory, filled by copies.
 struct DeviceBuffer {
   Memory memory;
   vk::raii::Buffer buffer{nullptr};
   vk::DeviceSize bytes = 0;
 
   DeviceBuffer() = default;
+  DeviceBuffer(Device& device, vk::DeviceSize bytes, vk::BufferUsageFlags usage, const std::string& name);
+  /// Filled, waits.
   DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage, const std::string& name);
 };
 

@@ -13,7 +13,7 @@ void measure_points(gpu::FrameGraph& graph, LitScene& scene, const LitView& view
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, scene.pipeline({.output = LampOutput::kMeasure,
                                                                             .lamp_count = view.lamps,
                                                                             .lamp_base = lamp_base,
-                                                                            .lookups = view.lookups,
+                                                                            .tables = view.tables,
                                                                             .format = lx.format}));
     scene.bind(commands, view);
     scene.push(commands,
