@@ -1,6 +1,7 @@
 #include "visual/beam_store.h"
 
-#include <cstring>
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,36 +12,41 @@ namespace {
 
 constexpr std::size_t kGuideEntry = sizeof(glm::vec4);
 
-// Writes rows of texels of a part into a buffer of `row` texels a row. Waits.
-void fill_texels(gpu::Device& device, const gpu::DeviceBuffer& buffer, std::span<const std::byte> bytes,
-                 const TexelRect& part, std::size_t row, std::size_t bytes_each) {
-  const gpu::HostBuffer staging(device, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, "beam staging");
-  std::memcpy(staging.data, bytes.data(), bytes.size());
-  const std::size_t row_bytes = (part.end_column - part.column) * bytes_each;
-  std::vector<vk::BufferCopy> copies;
-  for (std::size_t j = part.row; j < part.end_row; ++j)
-    copies.push_back({.srcOffset = (j - part.row) * row_bytes,
-                      .dstOffset = (j * row + part.column) * bytes_each,
-                      .size = row_bytes});
-  device.run_once([&](vk::CommandBuffer commands) {
-    commands.copyBuffer(*staging.buffer, *buffer.buffer, copies);
-    const vk::MemoryBarrier2 read{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
-                                  .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
-                                  .dstStageMask = vk::PipelineStageFlagBits2::eFragmentShader,
-                                  .dstAccessMask = vk::AccessFlagBits2::eShaderSampledRead};
-    commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &read});
-  });
+// Rectangles that touch become one, so that no texel is copied twice: copies of one pass have no order.
+std::vector<TexelRect> apart(std::vector<TexelRect> rects) {
+  for (bool joined = true; joined;) {
+    joined = false;
+    for (std::size_t i = 0; i < rects.size() && !joined; ++i)
+      for (std::size_t j = i + 1; j < rects.size() && !joined; ++j) {
+        TexelRect &a = rects[i], &b = rects[j];
+        joined = a.column < b.end_column && b.column < a.end_column && a.row < b.end_row && b.row < a.end_row;
+        if (!joined) continue;
+        a = {std::min(a.column, b.column), std::min(a.row, b.row), std::max(a.end_column, b.end_column),
+             std::max(a.end_row, b.end_row)};
+        rects.erase(rects.begin() + static_cast<std::ptrdiff_t>(j));
+      }
+  }
+  return rects;
+}
+
+void order(vk::CommandBuffer commands, vk::PipelineStageFlags2 before, vk::AccessFlags2 did,
+           vk::PipelineStageFlags2 after, vk::AccessFlags2 will) {
+  const vk::MemoryBarrier2 barrier{
+      .srcStageMask = before, .srcAccessMask = did, .dstStageMask = after, .dstAccessMask = will};
+  commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &barrier});
 }
 
 }  // namespace
 
 BeamStore::BeamStore(gpu::Device& device) : device_(device) {
   fit(nothing_, vk::Format::eR32G32B32A32Sfloat, 1, kGuideEntry, "no beam");
-  const std::array<std::byte, kGuideEntry> dark{};
-  fill_texels(device, nothing_.buffer, dark, {0, 0, 1, 1}, 1, dark.size());
   no_image_ = gpu::Image(device, vk::Format::eR16Sfloat, {1, 1},
                          vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst, "no beam");
-  gpu::fill_image(device, no_image_, std::span(dark).first(2));
+  const std::array<std::byte, kGuideEntry> dark{};
+  device.run_once([&](vk::CommandBuffer commands) {
+    fill(commands, nothing_.buffer, dark, {0, 0, 1, 1}, 1, dark.size());
+    fill(commands, no_image_, std::span(dark).first(2), {0, 0, 1, 1});
+  });
 }
 
 void BeamStore::set(std::size_t index, const BeamImage& image, ImageLevel level) {
@@ -102,47 +108,77 @@ bool BeamStore::fit_all(Beam& beam) {
   return made;
 }
 
-void BeamStore::upload_parts(Beam& beam, std::span<const TexelRect> parts) {
+// Rows of texels of a part, in a buffer of `row` texels a row.
+void BeamStore::fill(vk::CommandBuffer commands, const gpu::DeviceBuffer& buffer, std::span<const std::byte> bytes,
+                     const TexelRect& part, std::size_t row, std::size_t bytes_each) {
+  const gpu::Staging::Place from = staging_.put(bytes);
+  const std::size_t row_bytes = (part.end_column - part.column) * bytes_each;
+  std::vector<vk::BufferCopy> copies;
+  for (std::size_t j = part.row; j < part.end_row; ++j)
+    copies.push_back({.srcOffset = from.offset + (j - part.row) * row_bytes,
+                      .dstOffset = (j * row + part.column) * bytes_each,
+                      .size = row_bytes});
+  commands.copyBuffer(from.buffer, *buffer.buffer, copies);
+}
+
+void BeamStore::fill(vk::CommandBuffer commands, gpu::Image& image, std::span<const std::byte> bytes,
+                     const TexelRect& part) {
+  const gpu::Staging::Place from = staging_.put(bytes);
+  const vk::BufferImageCopy copy{
+      .bufferOffset = from.offset,
+      .imageSubresource = {image.aspect, 0, 0, 1},
+      .imageOffset = {static_cast<std::int32_t>(part.column), static_cast<std::int32_t>(part.row), 0},
+      .imageExtent = {static_cast<std::uint32_t>(part.end_column - part.column),
+                      static_cast<std::uint32_t>(part.end_row - part.row), 1}};
+  gpu::record_fill(commands, image, from.buffer, std::span(&copy, 1));
+}
+
+void BeamStore::upload_parts(vk::CommandBuffer commands, Beam& beam, const std::vector<TexelRect>& parts) {
   const PackedBeam& packed = beam.packed;
-  const auto fill_filtered = [&](gpu::Image& image, const TexelRect& part, std::span<const std::byte> bytes) {
-    const vk::BufferImageCopy copy{
-        .imageSubresource = {image.aspect, 0, 0, 1},
-        .imageOffset = {static_cast<std::int32_t>(part.column), static_cast<std::int32_t>(part.row), 0},
-        .imageExtent = {static_cast<std::uint32_t>(part.end_column - part.column),
-                        static_cast<std::uint32_t>(part.end_row - part.row), 1}};
-    gpu::fill_image(device_, image, bytes, std::span(&copy, 1));
-  };
-  for (const TexelRect& nodes : parts) {
-    const TexelRect part = texels_about(packed, nodes);
+  std::vector<TexelRect> texels;
+  for (const TexelRect& nodes : parts) texels.push_back(texels_about(packed, nodes));
+  for (const TexelRect& part : apart(std::move(texels))) {
     uploaded_texels_ += part.texels();
     if (packed.filtered()) {
-      fill_filtered(beam.filtered, part, texels_of(packed, part));
-      if (packed.tinted()) fill_filtered(beam.filtered_tint, part, tint_texels_of(packed, part));
+      fill(commands, beam.filtered, texels_of(packed, part), part);
+      if (packed.tinted()) fill(commands, beam.filtered_tint, tint_texels_of(packed, part), part);
       continue;
     }
     const std::size_t row = packed.columns + 1, bytes_each = packed.bytes_per_texel();
-    fill_texels(device_, beam.cells.buffer, texels_of(packed, part), part, row, bytes_each);
-    if (packed.tinted())
-      fill_texels(device_, beam.tint.buffer, tint_texels_of(packed, part), part, row, 2 * bytes_each);
+    fill(commands, beam.cells.buffer, texels_of(packed, part), part, row, bytes_each);
+    if (packed.tinted()) fill(commands, beam.tint.buffer, tint_texels_of(packed, part), part, row, 2 * bytes_each);
   }
 }
 
-bool BeamStore::upload() {
+void BeamStore::upload(vk::CommandBuffer commands, Beam& beam, bool whole) {
+  const PackedBeam& packed = beam.packed;
+  std::vector<TexelRect> parts = std::exchange(beam.changed, {});
+  if (whole) parts = {{0, 0, packed.columns, packed.rows_of_candela}};
+  if (whole && packed.guided())
+    fill(commands, beam.guide.buffer, std::as_bytes(std::span(packed.guide)), {0, 0, packed.guide.size(), 1},
+         packed.guide.size(), kGuideEntry);
+  upload_parts(commands, beam, parts);
+}
+
+bool BeamStore::upload(gpu::FrameGraph& graph) {
+  staging_.begin_frame();
   bool made = false;
+  std::vector<std::pair<Beam*, bool>> changed;  // with whether all of it did
   for (Beam& beam : beams_) {
     if (beam.packed.dark || (!beam.fresh && beam.changed.empty())) continue;
-    ++uploads_;
-    std::vector<TexelRect> parts = std::exchange(beam.changed, {});
     const bool made_now = fit_all(beam);
     made |= made_now;
-    if (std::exchange(beam.fresh, false) || made_now) {
-      parts = {{0, 0, beam.packed.columns, beam.packed.rows_of_candela}};
-      if (beam.packed.guided())
-        fill_texels(device_, beam.guide.buffer, std::as_bytes(std::span(beam.packed.guide)),
-                    {0, 0, beam.packed.guide.size(), 1}, beam.packed.guide.size(), kGuideEntry);
-    }
-    upload_parts(beam, parts);
+    changed.emplace_back(&beam, std::exchange(beam.fresh, false) || made_now);
   }
+  if (changed.empty()) return false;
+  uploads_ += changed.size();
+  graph.copy("beams", {}, [&](gpu::Recorder& commands) {
+    using Stage = vk::PipelineStageFlagBits2;
+    using Access = vk::AccessFlagBits2;
+    order(commands, Stage::eFragmentShader, Access::eNone, Stage::eCopy, Access::eNone);
+    for (const auto& [beam, whole] : changed) upload(commands, *beam, whole);
+    order(commands, Stage::eCopy, Access::eTransferWrite, Stage::eFragmentShader, Access::eShaderSampledRead);
+  });
   return made;
 }
 

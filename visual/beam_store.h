@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "visual/beam_packing.h"
-#include "visual/gpu/device.h"
+#include "visual/gpu/frame_graph.h"
+#include "visual/gpu/staging.h"
 
 namespace phare {
 
@@ -19,8 +20,9 @@ class BeamStore {
   void change(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed);
   /// One that was never set is dark.
   const PackedBeam& beam(std::size_t index) const { return at(index).packed; }
-  /// Uploads what changed. True when images are new ones and descriptors have to follow.
-  bool upload();
+  /// Uploads what changed, in a pass of the frame that is being recorded; the frame before is done. True when buffers
+  /// or images are new ones and descriptors have to follow.
+  bool upload(gpu::FrameGraph& graph);
   /// Fills the table fields of a lamp with beam `index`.
   void describe(std::size_t index, shader::GpuLamp& lamp) const;
 
@@ -55,9 +57,14 @@ class BeamStore {
   bool fit(Texels& texels, vk::Format format, std::size_t count, std::size_t bytes_each, const char* name);
   bool fit(gpu::Image& image, vk::Format format, const PackedBeam& packed, const char* name);
   bool fit_all(Beam& beam);
-  void upload_parts(Beam& beam, std::span<const TexelRect> parts);
+  void fill(vk::CommandBuffer commands, const gpu::DeviceBuffer& buffer, std::span<const std::byte> bytes,
+            const TexelRect& part, std::size_t row, std::size_t bytes_each);
+  void fill(vk::CommandBuffer commands, gpu::Image& image, std::span<const std::byte> bytes, const TexelRect& part);
+  void upload_parts(vk::CommandBuffer commands, Beam& beam, const std::vector<TexelRect>& parts);
+  void upload(vk::CommandBuffer commands, Beam& beam, bool whole);
 
   gpu::Device& device_;
+  gpu::Staging staging_{device_};
   std::vector<Beam> beams_;
   Beam never_set_;
   Texels nothing_;  ///< what descriptors name that nobody reads

@@ -128,7 +128,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
                                                          Usage::eColorAttachment | Usage::eTransferSrc})};
   };
   const std::size_t lines = overlay_lines(input);
-  parts.scene.begin_frame();
+  parts.scene.begin_frame(parts.graph);
   parts.tone_mapping.begin_frame();
   Picture seen = picture("", parts.target.extent);
   display = seen.display;

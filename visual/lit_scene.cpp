@@ -9,8 +9,11 @@
 #include <utility>
 
 #include "shaders/lamps_frag_2.h"
+#include "shaders/lamps_frag_2_filtered.h"
 #include "shaders/lamps_frag_4.h"
+#include "shaders/lamps_frag_4_filtered.h"
 #include "shaders/lamps_frag_8.h"
+#include "shaders/lamps_frag_8_filtered.h"
 #include "shaders/measure_vert_2.h"
 #include "shaders/measure_vert_4.h"
 #include "shaders/measure_vert_8.h"
@@ -43,16 +46,21 @@ static_assert(shader::kMaxLamps == kLampsPerView);
 
 constexpr std::size_t kNoBeam = SIZE_MAX;
 
-std::vector<vk::DescriptorSetLayoutBinding> bindings() {
+bool is_filtered(ImageLevel level) {
+  return level == ImageLevel::kNormalised8 || level == ImageLevel::kHalfEven;
+}
+
+/// As shaders/lib/lamp_bindings.glsl has them.
+std::vector<vk::DescriptorSetLayoutBinding> bindings(bool filtered) {
   using Type = vk::DescriptorType;
+  const std::uint32_t tables = filtered ? 1u : shader::kMaxLamps, filters = filtered ? shader::kMaxLamps : 1u;
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   for (const auto& [binding, type, count] :
-       {std::tuple(0u, Type::eUniformBufferDynamic, 1u), std::tuple(1u, Type::eUniformTexelBuffer, shader::kMaxLamps),
-        std::tuple(2u, Type::eUniformTexelBuffer, shader::kMaxLamps), std::tuple(3u, Type::eUniformBuffer, 1u),
+       {std::tuple(0u, Type::eUniformBufferDynamic, 1u), std::tuple(1u, Type::eUniformTexelBuffer, tables),
+        std::tuple(2u, Type::eUniformTexelBuffer, tables), std::tuple(3u, Type::eUniformBuffer, 1u),
         std::tuple(4u, Type::eUniformTexelBuffer, 1u), std::tuple(5u, Type::eUniformBuffer, 1u),
-        std::tuple(6u, Type::eUniformTexelBuffer, shader::kMaxLamps),
-        std::tuple(7u, Type::eCombinedImageSampler, shader::kMaxLamps),
-        std::tuple(8u, Type::eCombinedImageSampler, shader::kMaxLamps)})
+        std::tuple(6u, Type::eUniformTexelBuffer, tables), std::tuple(7u, Type::eCombinedImageSampler, filters),
+        std::tuple(8u, Type::eCombinedImageSampler, filters)})
     bindings.push_back(
         {.binding = binding, .descriptorType = type, .descriptorCount = count, .stageFlags = kLitStages});
   return bindings;
@@ -60,17 +68,22 @@ std::vector<vk::DescriptorSetLayoutBinding> bindings() {
 
 }  // namespace
 
-LitScene::LitScene(gpu::Device& device)
+LitScene::LitScene(gpu::Device& device, ImageLevel level)
     : device_(device),
+      level_(level),
       beams_(device),
       grain_(make_grain(device)),
-      sets_(device, bindings()),
+      sets_(device, bindings(is_filtered(level))),
       scene_vert_{gpu::make_shader(device, k_scene_vert_2), gpu::make_shader(device, k_scene_vert_4),
                   gpu::make_shader(device, k_scene_vert_8)},
       measure_vert_{gpu::make_shader(device, k_measure_vert_2), gpu::make_shader(device, k_measure_vert_4),
                     gpu::make_shader(device, k_measure_vert_8)},
-      lamps_frag_{gpu::make_shader(device, k_lamps_frag_2), gpu::make_shader(device, k_lamps_frag_4),
-                  gpu::make_shader(device, k_lamps_frag_8)} {
+      lamps_frag_{is_filtered(level)
+                      ? std::array{gpu::make_shader(device, k_lamps_frag_2_filtered),
+                                   gpu::make_shader(device, k_lamps_frag_4_filtered),
+                                   gpu::make_shader(device, k_lamps_frag_8_filtered)}
+                      : std::array{gpu::make_shader(device, k_lamps_frag_2), gpu::make_shader(device, k_lamps_frag_4),
+                                   gpu::make_shader(device, k_lamps_frag_8)}} {
   const vk::PushConstantRange push{.stageFlags = kLitStages, .offset = 0, .size = sizeof(shader::GpuDraw)};
   const vk::DescriptorSetLayout set_layout = sets_.layout();
   layout_ = vk::raii::PipelineLayout(
@@ -91,8 +104,8 @@ void LitScene::set_geometry(SceneBuffers geometry) {
   forget_sets();
 }
 
-void LitScene::set_beam(std::size_t beam, const BeamImage& image, ImageLevel level) {
-  beams_.set(beam, image, level);
+void LitScene::set_beam(std::size_t beam, const BeamImage& image) {
+  beams_.set(beam, image, level_);
   if (cones_.size() <= beam) cones_.resize(beam + 1, LightCone{.half_angle_rad = -1.0});
   cones_[beam] = light_cone(image);
 }
@@ -102,9 +115,9 @@ void LitScene::change_beam(std::size_t beam, const BeamImage& image, std::span<c
   cones_[beam] = light_cone_after(cones_[beam], image, changed);
 }
 
-void LitScene::begin_frame() {
+void LitScene::begin_frame(gpu::FrameGraph& graph) {
   views_ = 0;
-  if (beams_.upload() || set_of_.size() > kMostSets) forget_sets();  // a set may name an image that is no more
+  if (beams_.upload(graph) || set_of_.size() > kMostSets) forget_sets();  // a set may name an image that is no more
 }
 
 void LitScene::forget_sets() {
@@ -206,22 +219,25 @@ vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
     filtered[i] = {*filter_sampler_, *beams_.filtered(beams[i]).view, layout};
     filtered_tints[i] = {*filter_sampler_, *beams_.filtered_tint(beams[i]).view, layout};
   }
+  // Of what this level does not read, one.
+  const std::size_t tables = is_filtered(level_) ? 1 : beams.size(), filters = is_filtered(level_) ? beams.size() : 1;
   std::vector<vk::WriteDescriptorSet> writes;
   for (const auto& [binding, type, info] : buffers)
     writes.push_back(
         {.dstSet = set, .dstBinding = binding, .descriptorCount = 1, .descriptorType = type, .pBufferInfo = &info});
-  for (const auto& [binding, infos] : {std::pair(7u, std::span<const vk::DescriptorImageInfo>(filtered)),
-                                       std::pair(8u, std::span<const vk::DescriptorImageInfo>(filtered_tints))})
+  for (const auto& [binding, infos] :
+       {std::pair(7u, std::span<const vk::DescriptorImageInfo>(filtered).first(filters)),
+        std::pair(8u, std::span<const vk::DescriptorImageInfo>(filtered_tints).first(filters))})
     writes.push_back({.dstSet = set,
                       .dstBinding = binding,
                       .descriptorCount = static_cast<std::uint32_t>(infos.size()),
                       .descriptorType = Type::eCombinedImageSampler,
                       .pImageInfo = infos.data()});
   const vk::BufferView grain = *grain_.view;
-  for (const auto& [binding, views] :
-       {std::pair(1u, std::span<const vk::BufferView>(guides)), std::pair(2u, std::span<const vk::BufferView>(cells)),
-        std::pair(4u, std::span<const vk::BufferView>(&grain, 1)),
-        std::pair(6u, std::span<const vk::BufferView>(tints))})
+  for (const auto& [binding, views] : {std::pair(1u, std::span<const vk::BufferView>(guides).first(tables)),
+                                       std::pair(2u, std::span<const vk::BufferView>(cells).first(tables)),
+                                       std::pair(4u, std::span<const vk::BufferView>(&grain, 1)),
+                                       std::pair(6u, std::span<const vk::BufferView>(tints).first(tables))})
     writes.push_back({.dstSet = set,
                       .dstBinding = binding,
                       .descriptorCount = static_cast<std::uint32_t>(views.size()),

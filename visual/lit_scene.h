@@ -52,17 +52,18 @@ struct LitVariant {
 
 class LitScene {
  public:
-  explicit LitScene(gpu::Device& device);
+  /// `level`: of all beam images.
+  LitScene(gpu::Device& device, ImageLevel level);
 
   /// Nothing is being drawn.
   void set_geometry(SceneBuffers geometry);
-  void set_beam(std::size_t beam, const BeamImage& image, ImageLevel level);
+  void set_beam(std::size_t beam, const BeamImage& image);
   void change_beam(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed);
   bool is_dark(std::size_t beam) const { return beams_.beam(beam).dark; }
   std::uint64_t uploaded_texels() const { return beams_.uploaded_texels(); }
 
-  /// Before the views of a frame; the frame before is done. Uploads the beams that changed.
-  void begin_frame();
+  /// Before the views of a frame; the frame before is done. Uploads the beams that changed, in a pass.
+  void begin_frame(gpu::FrameGraph& graph);
   /// A view of the scene with those of the lamps that reach something in it.
   LitView view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps, double far_mesh_from_m);
   /// An eye with lamps and no surface, for points that are given.
@@ -88,6 +89,7 @@ class LitScene {
   void forget_sets();
 
   gpu::Device& device_;
+  ImageLevel level_;
   SceneBuffers geometry_;
   BeamStore beams_;
   std::vector<LightCone> cones_;  ///< of each beam

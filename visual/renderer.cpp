@@ -48,7 +48,7 @@ struct Renderer::Impl {
   gpu::Device device;
   gpu::FrameGraph graph{device};
   std::unique_ptr<gpu::WindowSurface> surface;
-  LitScene scene{device};
+  LitScene scene{device, options.beam_level};
   DepthPass depth{device};
   LitPass lit{device};
   ToneMappingPass tone_mapping{device};
@@ -177,7 +177,7 @@ Status Renderer::load_scene(const Scene& scene) {
 }
 
 void Renderer::set_beam(std::size_t index, const BeamImage& image) {
-  impl_->scene.set_beam(index, image, impl_->options.beam_level);
+  impl_->scene.set_beam(index, image);
 }
 
 void Renderer::change_beam(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed) {
@@ -260,7 +260,7 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
       if (impl_->scene.is_dark(lamps[lamp].beam)) continue;
       impl_->submit([&] {
-        impl_->scene.begin_frame();
+        impl_->scene.begin_frame(impl_->graph);
         const LitView view = impl_->scene.view_of_points(ViewGeometry(camera, 1.0), lamps.subspan(lamp, 1));
         measure_points(impl_->graph, impl_->scene, view, lx, *buffer.buffer, static_cast<std::uint32_t>(count), 0);
         impl_->copy_out(lx, copy, 16);
@@ -283,7 +283,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   Copy position_copy, normal_copy;
   const ViewGeometry geometry(input.camera, static_cast<double>(extent.width) / extent.height);
   impl_->submit([&] {
-    impl_->scene.begin_frame();
+    impl_->scene.begin_frame(impl_->graph);
     const LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.far_mesh_from_m);
     draw_audit(impl_->graph, impl_->scene, view, {position, normal, depth});
     impl_->copy_out(position, position_copy, 16);

@@ -203,8 +203,8 @@ vec3 lamp_tint(samplerBuffer tint, sampler2D image, TableShape shape, vec4 scale
 }
 
 // Right after PHARE_LAMP_LIGHT(I).
-#define PHARE_LAMP_TINT(I, LIGHT) lamp_tint(tints[I], filtered_tints[I], PHARE_SHAPE(I), frame.lamps[I].colour, LIGHT.cd)
+#define PHARE_LAMP_TINT(I, LIGHT) lamp_tint(tints[I % kTables], filtered_tints[I % kFilters], PHARE_SHAPE(I), frame.lamps[I].colour, LIGHT.cd)
 
 #define PHARE_LAMP_LIGHT(I) \
-  lamp_light(cells[I], guides[I], filtered[I], PHARE_SHAPE(I), in_lamp[I], PHARE_FACING(I) * unit - level, frame.lamps[I].colour.w)
+  lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I), in_lamp[I], PHARE_FACING(I) * unit - level, frame.lamps[I].colour.w)
 #endif

@@ -1,6 +1,8 @@
 // Many views in one frame: each is what it is alone, costs what it calls for, and leaves the others as they are.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -125,6 +127,7 @@ TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
   input.want_hdr = true;
   renderer.draw(input);  // the buffer for reading back is there now
   input.want_hdr = false;
+  renderer.draw(input);  // and the room for the beam's upload is not used any more
   const FrameResult one = renderer.draw(input);
   const std::uint64_t bytes = renderer.device_memory_bytes();
   EXPECT_EQ(one.pass_count, 1u);
@@ -256,6 +259,37 @@ TEST(ViewLamps, MoreThanAViewHoldsAreCountedAndThoseThatReachNothingDoNotCount) 
   EXPECT_EQ(view.lamps, kLampsPerView);
   EXPECT_EQ(view.lamps_unreached, 5u);
   EXPECT_EQ(view.lamps_over_limit, 3u);
+  EXPECT_EQ(renderer.validation_messages(), 0u);
+}
+
+// A beam that changes is copied by a pass of the frame itself, one that does not by none.
+TEST(ViewLamps, AChangedBeamIsAPassOfTheFrame) {
+  Renderer renderer = made(kWidth, kHeight);
+  const auto uploads = [](const FrameResult& result) {
+    return std::ranges::count_if(result.passes, [](const PassTime& pass) { return pass.name == "beams"; });
+  };
+  FrameInput input = driver_view();
+  input.more_views = {side_view()};
+  EXPECT_EQ(uploads(renderer.draw(input)), 1) << "one for all views";
+  EXPECT_EQ(uploads(renderer.draw(input)), 0);
+  BeamImage image = image_of(cut_off_table(PhotometricType::kA, GammaAxis::kGamma0));
+  const TexelRect all{0, 0, image.first_deg.size(), image.second_deg.size()};
+  const TexelRect some{2, 3, 20, 30}, across{10, 20, 40, 60}, apart{60, 100, 70, 110};
+  const std::uint64_t before = renderer.uploaded_texels();
+  for (float& cd : image.candela) cd *= 1.5f;
+  const std::array<TexelRect, 3> parts{some, across, apart};
+  renderer.change_beam(0, image, parts);
+  EXPECT_EQ(uploads(renderer.draw(input)), 1);
+  EXPECT_LT(renderer.uploaded_texels() - before, all.texels() / 2);
+  renderer.change_beam(0, image, std::span(&all, 1));
+  renderer.set_beam(20, image);
+  input.want_image = true;
+  input.more_views.clear();
+  EXPECT_EQ(uploads(renderer.draw(input)), 1);
+  const Image8 changed = renderer.read_image();
+  for (PlacedLamp& lamp : input.lamps) lamp.beam = 20;
+  renderer.draw(input);
+  EXPECT_EQ(different(renderer.read_image(), changed), 0u) << "changed in place, or set anew";
   EXPECT_EQ(renderer.validation_messages(), 0u);
 }
 

@@ -229,41 +229,32 @@ Image::Image(Device& device, vk::Format format_, vk::Extent2D extent_, vk::Image
   bind(device, *memory);
 }
 
-void fill_image(Device& device, Image& image, std::span<const std::byte> bytes,
-                std::span<const vk::BufferImageCopy> copies) {
-  const vk::BufferImageCopy whole{.imageSubresource = {image.aspect, 0, 0, 1},
-                                  .imageExtent = {image.extent.width, image.extent.height, 1}};
-  if (copies.empty()) copies = std::span(&whole, 1);
-  HostBuffer staging(device, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, image.name + " staging");
-  std::memcpy(staging.data, bytes.data(), bytes.size());
-  device.run_once([&](vk::CommandBuffer commands) {
-    using Stage = vk::PipelineStageFlagBits2;
-    using Access = vk::AccessFlagBits2;
-    using Layout = vk::ImageLayout;
-    auto turn = [&](Layout from, Layout to, vk::PipelineStageFlags2 after, vk::AccessFlags2 wrote,
-                    vk::PipelineStageFlags2 before, vk::AccessFlags2 reads) {
-      const vk::ImageMemoryBarrier2 barrier{.srcStageMask = after,
-                                            .srcAccessMask = wrote,
-                                            .dstStageMask = before,
-                                            .dstAccessMask = reads,
-                                            .oldLayout = from,
-                                            .newLayout = to,
-                                            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                            .image = *image.image,
-                                            .subresourceRange = {image.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, 1}};
-      commands.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
-    };
-    // What the copies leave out stays as it was, if something was.
-    turn(image.layout, Layout::eTransferDstOptimal, image.stage, image.access, Stage::eCopy, Access::eTransferWrite);
-    commands.copyBufferToImage(*staging.buffer, *image.image, Layout::eTransferDstOptimal,
-                               {static_cast<std::uint32_t>(copies.size()), copies.data()});
-    turn(Layout::eTransferDstOptimal, Layout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite,
-         Stage::eFragmentShader, Access::eShaderSampledRead);
-  });
-  image.layout = vk::ImageLayout::eShaderReadOnlyOptimal;
-  image.stage = vk::PipelineStageFlagBits2::eFragmentShader;
-  image.access = vk::AccessFlagBits2::eShaderSampledRead;
+void record_fill(vk::CommandBuffer commands, Image& image, vk::Buffer from,
+                 std::span<const vk::BufferImageCopy> copies) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  const auto turn = [&](vk::ImageLayout layout, vk::PipelineStageFlags2 stage, vk::AccessFlags2 access) {
+    const vk::ImageMemoryBarrier2 barrier{
+        .srcStageMask = image.stage,
+        .srcAccessMask = image.access,
+        .dstStageMask = stage,
+        .dstAccessMask = access,
+        .oldLayout = image.layout,
+        .newLayout = layout,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = *image.image,
+        .subresourceRange = {image.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
+    commands.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+    image.layout = layout;
+    image.stage = stage;
+    image.access = access;
+  };
+  // What the copies leave out stays as it was, if something was.
+  turn(vk::ImageLayout::eTransferDstOptimal, Stage::eCopy, Access::eTransferWrite);
+  commands.copyBufferToImage(from, *image.image, vk::ImageLayout::eTransferDstOptimal,
+                             {static_cast<std::uint32_t>(copies.size()), copies.data()});
+  turn(vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
 }
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv) {

@@ -144,9 +144,9 @@ struct Image {
   }
 };
 
-/// Fills a sampled image (usage eTransferDst) and waits. `copies` is for more or less than the first mip level.
-void fill_image(Device& device, Image& image, std::span<const std::byte> bytes,
-                std::span<const vk::BufferImageCopy> copies = {});
+/// Copies into a sampled image (usage eTransferDst), which fragments may read afterwards.
+void record_fill(vk::CommandBuffer commands, Image& image, vk::Buffer from,
+                 std::span<const vk::BufferImageCopy> copies);
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv);
 
