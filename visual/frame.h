@@ -14,7 +14,7 @@ namespace phare {
 struct FrameTarget {
   vk::Extent2D extent{};
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
-  vk::Format display_format = vk::Format::eR8G8B8A8Srgb;
+  vk::Format display_format = vk::Format::eR8G8B8A8Unorm;
 
   double aspect() const { return static_cast<double>(extent.width) / static_cast<double>(extent.height); }
 };
