@@ -1,5 +1,5 @@
 // Contract of the lamp pass (and of the depth and measure passes, which share its layout): bindings, constants, structs.
-// Compiled by the shaders and by visual/passes/lamps.cpp, which asserts sizes and offsets.
+// Compiled by the shaders and by visual/lit_scene.cpp, which asserts sizes and offsets.
 #ifndef PHARE_SHADERS_LAMPS_H
 #define PHARE_SHADERS_LAMPS_H
 #include "lib/portable.h"

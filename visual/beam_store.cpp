@@ -44,7 +44,8 @@ BeamStore::BeamStore(gpu::Device& device) : device_(device) {
 }
 
 void BeamStore::set(std::size_t index, const BeamImage& image, ImageLevel level) {
-  Beam& beam = beams_.at(index);
+  if (index >= beams_.size()) beams_.resize(index + 1);
+  Beam& beam = beams_[index];
   beam.packed = pack_beam(image, level);
   beam.changed.clear();
   beam.fresh = true;
@@ -146,7 +147,7 @@ bool BeamStore::upload() {
 }
 
 void BeamStore::describe(std::size_t index, shader::GpuLamp& lamp) const {
-  const PackedBeam& beam = beams_.at(index).packed;
+  const PackedBeam& beam = at(index).packed;
   lamp.colour = glm::vec4(beam.tinted() ? glm::vec3(beam.tint_scale()) : beam.colour, beam.scale_cd);
 }
 

@@ -1,7 +1,7 @@
-// The beam images on the device: one a lamp position, uploaded when they change, and then only the part that did.
+// The beam images on the device, of any number of lamps and designs: uploaded when they change, and then only the part
+// that did.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -17,7 +17,8 @@ class BeamStore {
   void set(std::size_t index, const BeamImage& image, ImageLevel level);
   /// The image set last, changed in these rectangles of its nodes only.
   void change(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed);
-  const PackedBeam& beam(std::size_t index) const { return beams_[index].packed; }
+  /// One that was never set is dark.
+  const PackedBeam& beam(std::size_t index) const { return at(index).packed; }
   /// Uploads what changed. True when images are new ones and descriptors have to follow.
   bool upload();
   /// Fills the table fields of a lamp with beam `index`.
@@ -25,12 +26,12 @@ class BeamStore {
 
   /// Texel buffers: cells of the table, its guide, the cells of its colour; each a single dark texel where there is
   /// none.
-  vk::BufferView cells(std::size_t index) const { return view_of(beams_[index].cells); }
-  vk::BufferView guide(std::size_t index) const { return view_of(beams_[index].guide); }
-  vk::BufferView tint(std::size_t index) const { return view_of(beams_[index].tint); }
+  vk::BufferView cells(std::size_t index) const { return view_of(at(index).cells); }
+  vk::BufferView guide(std::size_t index) const { return view_of(at(index).guide); }
+  vk::BufferView tint(std::size_t index) const { return view_of(at(index).tint); }
   /// Images of the levels that the texture filter weighs.
-  const gpu::Image& filtered(std::size_t index) const { return image_of(beams_[index].filtered); }
-  const gpu::Image& filtered_tint(std::size_t index) const { return image_of(beams_[index].filtered_tint); }
+  const gpu::Image& filtered(std::size_t index) const { return image_of(at(index).filtered); }
+  const gpu::Image& filtered_tint(std::size_t index) const { return image_of(at(index).filtered_tint); }
   /// Since the start.
   std::uint64_t uploads() const { return uploads_; }
   std::uint64_t uploaded_texels() const { return uploaded_texels_; }
@@ -48,6 +49,7 @@ class BeamStore {
     std::vector<TexelRect> changed;  ///< nodes
     bool fresh = false;              ///< all of it changed, the guide too
   };
+  const Beam& at(std::size_t index) const { return index < beams_.size() ? beams_[index] : never_set_; }
   vk::BufferView view_of(const Texels& texels) const { return *texels.view ? *texels.view : *nothing_.view; }
   const gpu::Image& image_of(const gpu::Image& image) const { return *image.image ? image : no_image_; }
   bool fit(Texels& texels, vk::Format format, std::size_t count, std::size_t bytes_each, const char* name);
@@ -56,7 +58,8 @@ class BeamStore {
   void upload_parts(Beam& beam, std::span<const TexelRect> parts);
 
   gpu::Device& device_;
-  std::array<Beam, shader::kMaxLamps> beams_;
+  std::vector<Beam> beams_;
+  Beam never_set_;
   Texels nothing_;  ///< what descriptors name that nobody reads
   gpu::Image no_image_;
   std::uint64_t uploads_ = 0, uploaded_texels_ = 0;

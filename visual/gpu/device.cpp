@@ -189,29 +189,44 @@ DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, v
   });
 }
 
+Image::Image(Device& device, const ImageNeed& need, const std::string& name_)
+    : image(device.device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
+                                               .format = need.format,
+                                               .extent = {need.extent.width, need.extent.height, 1},
+                                               .mipLevels = need.mips,
+                                               .arrayLayers = need.layers,
+                                               .samples = need.samples,
+                                               .usage = need.usage}),
+      format(need.format),
+      extent(need.extent),
+      layers(need.layers),
+      mips(need.mips),
+      bytes(image.getMemoryRequirements().size),
+      aspect(need.format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor),
+      samples(need.samples),
+      name(name_) {
+  device.name(vk::ObjectType::eImage, reinterpret_cast<std::uint64_t>(static_cast<VkImage>(*image)), name);
+}
+
+void Image::bind(Device& device, vk::DeviceMemory at) {
+  image.bindMemory(at, 0);
+  const auto view_of = [&](vk::ImageViewType type, const vk::ImageSubresourceRange& range) {
+    return vk::raii::ImageView(
+        device.device,
+        vk::ImageViewCreateInfo{.image = *image, .viewType = type, .format = format, .subresourceRange = range});
+  };
+  view = view_of(layers > 1 ? vk::ImageViewType::e2DArray : vk::ImageViewType::e2D, {aspect, 0, mips, 0, layers});
+  if (layers * mips == 1) return;
+  for (std::uint32_t mip = 0; mip < mips; ++mip)
+    for (std::uint32_t layer = 0; layer < layers; ++layer)
+      parts.push_back(view_of(vk::ImageViewType::e2D, {aspect, mip, 1, layer, 1}));
+}
+
 Image::Image(Device& device, vk::Format format_, vk::Extent2D extent_, vk::ImageUsageFlags usage,
              const std::string& name_, vk::SampleCountFlagBits samples_, std::uint32_t mip_levels)
-    : image(device.device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
-                                               .format = format_,
-                                               .extent = {extent_.width, extent_.height, 1},
-                                               .mipLevels = mip_levels,
-                                               .arrayLayers = 1,
-                                               .samples = samples_,
-                                               .usage = usage}),
-      format(format_),
-      extent(extent_),
-      aspect(format_ == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor),
-      samples(samples_),
-      name(name_) {
-  const vk::MemoryRequirements need = image.getMemoryRequirements();
-  memory = device.allocate(need, vk::MemoryPropertyFlagBits::eDeviceLocal);
-  bytes = need.size;
-  image.bindMemory(*memory, 0);
-  view = vk::raii::ImageView(device.device, vk::ImageViewCreateInfo{.image = *image,
-                                                                    .viewType = vk::ImageViewType::e2D,
-                                                                    .format = format,
-                                                                    .subresourceRange = {aspect, 0, mip_levels, 0, 1}});
-  device.name(vk::ObjectType::eImage, reinterpret_cast<std::uint64_t>(static_cast<VkImage>(*image)), name);
+    : Image(device, {format_, extent_, usage, samples_, 1, mip_levels}, name_) {
+  memory = device.allocate(image.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal);
+  bind(device, *memory);
 }
 
 void fill_image(Device& device, Image& image, std::span<const std::byte> bytes,

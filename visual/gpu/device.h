@@ -101,13 +101,27 @@ struct DeviceBuffer {
   DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage, const std::string& name);
 };
 
-/// A 2D image with one view. The frame graph keeps its layout.
-struct Image {
-  Memory memory;
-  vk::raii::Image image{nullptr};
-  vk::raii::ImageView view{nullptr};
+/// What an image has to be.
+struct ImageNeed {
   vk::Format format = vk::Format::eUndefined;
   vk::Extent2D extent{};
+  vk::ImageUsageFlags usage{};
+  vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+  std::uint32_t layers = 1;  ///< more than one: shaders see an array
+  std::uint32_t mips = 1;
+
+  friend bool operator==(const ImageNeed&, const ImageNeed&) = default;
+};
+
+/// A 2D image, or an array of them, with a view of all of it. The frame graph keeps its layout.
+struct Image {
+  Memory memory;  ///< none where the image lies in memory that the graph shares out
+  vk::raii::Image image{nullptr};
+  vk::raii::ImageView view{nullptr};
+  std::vector<vk::raii::ImageView> parts;  ///< of each layer of each mip level, [mip][layer]; none where there is one
+  vk::Format format = vk::Format::eUndefined;
+  vk::Extent2D extent{};
+  std::uint32_t layers = 1, mips = 1;
   vk::DeviceSize bytes = 0;
   vk::ImageAspectFlags aspect{};
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
@@ -120,6 +134,14 @@ struct Image {
   Image() = default;
   Image(Device& device, vk::Format format, vk::Extent2D extent, vk::ImageUsageFlags usage, const std::string& name,
         vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1, std::uint32_t mip_levels = 1);
+  /// Without memory: it and the views come with `bind`.
+  Image(Device& device, const ImageNeed& need, const std::string& name);
+  void bind(Device& device, vk::DeviceMemory at);
+
+  /// One layer of one mip level, to draw into.
+  vk::ImageView part(std::uint32_t layer, std::uint32_t mip) const {
+    return parts.empty() ? *view : *parts[mip * layers + layer];
+  }
 };
 
 /// Fills a sampled image (usage eTransferDst) and waits. `copies` is for more or less than the first mip level.

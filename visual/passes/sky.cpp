@@ -4,7 +4,7 @@
 #include "shaders/sky.h"
 #include "shaders/sky_frag.h"
 #include "shaders/sky_vert.h"
-#include "visual/passes/lamps.h"
+#include "visual/lit_scene.h"
 
 namespace phare {
 
