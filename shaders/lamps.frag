@@ -97,12 +97,12 @@ void main() {
     float width = max(fwidth(total_lx), 1e-6);
     float line = 0.0;
     for (int i = 0; i < 7; ++i) line = max(line, 1.0 - smoothstep(0.6, 1.4, abs(total_lx - level[i]) / width));
-    result = vec4(mix(colour, vec3(1.0), 0.7 * line), 1.0);
+    result = vec4(srgb_encoded(mix(colour, vec3(1.0), 0.7 * line)), 1.0);
     return;
   }
 
   vec3 rho = surface_reflectance(reflectance.rgb);
   vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + n.z));  // the sky's half dome, unoccluded
   if (retro != 0) light += retro_lx * rho;
-  result = output_kind == kOutputHdr ? vec4(light, total_lx) : vec4(tone_curve(light), 1.0);
+  result = output_kind == kOutputHdr ? vec4(light, total_lx) : vec4(srgb_encoded(tone_curve(light)), 1.0);
 }

@@ -42,7 +42,7 @@ const uint kLookupScaled = 16u;       // the table is not in candela
 const uint kLookupEdge = 32u;         // light at the table's edge: directions have to be compared with it; else dark nodes end it
 const uint kLookupNarrow = 64u;       // of first, and twice that of second: no node beyond kNarrowReach_deg
 
-const uint kOutputDisplay = 0u;      // display-linear colour, tone curve applied here
+const uint kOutputDisplay = 0u;      // the display's signal (sRGB), tone curve applied here
 const uint kOutputHdr = 1u;          // cd/m² and illuminance in alpha
 const uint kOutputFalseColour = 2u;  // illuminance by colour with isolux lines
 const uint kOutputMeasure = 3u;      // lx of lamps base..base+3

@@ -18,7 +18,7 @@ namespace phare {
 struct FrameTarget {
   vk::Extent2D extent{};
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
-  vk::Format display_format = vk::Format::eR8G8B8A8Srgb;
+  vk::Format display_format = vk::Format::eR8G8B8A8Unorm;
 };
 
 /// Factors that take luminance to the tone curve: exposure, and the balance that makes the eye's white white.

@@ -76,7 +76,7 @@ struct Renderer::Impl {
     if (surface) extent = surface->extent();
     device.device.waitIdle();
     target = {extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
-              surface ? surface->format() : vk::Format::eR8G8B8A8Srgb};
+              surface ? surface->format() : vk::Format::eR8G8B8A8Unorm};
     images.clear();
     hdrs.clear();
   }
@@ -220,7 +220,7 @@ Image8 Renderer::read_image(std::size_t view) const {
   Image8 image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
   image.rgba.resize(copy.buffer.bytes);
   std::memcpy(image.rgba.data(), copy.buffer.data, image.rgba.size());
-  if (impl_->target.display_format == vk::Format::eB8G8R8A8Srgb)
+  if (impl_->target.display_format == vk::Format::eB8G8R8A8Unorm)
     for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) std::swap(image.rgba[i], image.rgba[i + 2]);
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
   return image;
