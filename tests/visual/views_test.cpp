@@ -12,7 +12,7 @@
 namespace phare {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 180;
+constexpr int kFrameWidth = 320, kFrameHeight = 180;
 
 struct Pixels {
   int left = 0, top = 0, width = 0, height = 0;
@@ -67,7 +67,7 @@ class Views : public testing::TestWithParam<int> {};
 // Whatever a view calls for: what it draws into a part of the picture, or into one of its own, is bit for bit what a
 // frame of that view alone draws there, and what lies around it is the frame's own view.
 TEST_P(Views, EachIsWhatItIsAlone) {
-  Renderer renderer = made(kWidth, kHeight, GetParam());
+  Renderer renderer = made(kFrameWidth, kFrameHeight, GetParam());
   Renderer small = made(kInsetPixels.width, kInsetPixels.height, GetParam());
   for (const bool depth_first : {false, true})
     for (const bool hdr : {false, true}) {
@@ -103,7 +103,7 @@ TEST_P(Views, EachIsWhatItIsAlone) {
       for (int y = 0; y < kInsetPixels.height; ++y)
         std::copy_n(
             &inset_alone.rgba[static_cast<std::size_t>(4 * y * kInsetPixels.width)], 4 * kInsetPixels.width,
-            &expected.rgba[static_cast<std::size_t>(4 * ((kInsetPixels.top + y) * kWidth + kInsetPixels.left))]);
+            &expected.rgba[static_cast<std::size_t>(4 * ((kInsetPixels.top + y) * kFrameWidth + kInsetPixels.left))]);
       EXPECT_EQ(different(seen, expected), 0u) << "depth first " << depth_first << ", hdr " << hdr;
       EXPECT_EQ(different(in_part, inset_alone), 0u);
 
@@ -122,7 +122,7 @@ TEST_P(Views, EachIsWhatItIsAlone) {
 INSTANTIATE_TEST_SUITE_P(Samples, Views, testing::Values(1, 4));
 
 TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
-  Renderer renderer = made(kWidth, kHeight);
+  Renderer renderer = made(kFrameWidth, kFrameHeight);
   FrameInput input = driver_view();
   input.want_hdr = true;
   renderer.draw(input);  // the buffer for reading back is there now
@@ -157,7 +157,7 @@ TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
   EXPECT_EQ(renderer.device_memory_bytes(), bytes);
 
   // Pictures of their own take memory for themselves, but not for what they need besides.
-  for (ViewInput& view : three.more_views) view.own_picture = {kWidth, kHeight};
+  for (ViewInput& view : three.more_views) view.own_picture = {kFrameWidth, kFrameHeight};
   const FrameResult apart = renderer.draw(three);
   EXPECT_EQ(apart.pass_count, 3u);
   EXPECT_EQ(apart.images, 6u);
@@ -176,7 +176,7 @@ TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
 }
 
 TEST(ViewCounts, ThereIsNoLimitToTheNumberOfViews) {
-  Renderer renderer = made(kWidth, kHeight);
+  Renderer renderer = made(kFrameWidth, kFrameHeight);
   FrameInput input = driver_view();
   input.want_image = true;
   renderer.draw(input);
@@ -192,7 +192,7 @@ TEST(ViewCounts, ThereIsNoLimitToTheNumberOfViews) {
 }
 
 TEST(ViewLamps, TwoDesignsSideBySideDifferAsTheirLampsDo) {
-  Renderer renderer = made(kWidth, kHeight);
+  Renderer renderer = made(kFrameWidth, kFrameHeight);
   IntensityTable doubled = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
   for (double& cd : doubled.candela) cd *= 2.0;
   renderer.set_beam(12, image_of(doubled));  // of another design, beyond what one view has
@@ -205,7 +205,7 @@ TEST(ViewLamps, TwoDesignsSideBySideDifferAsTheirLampsDo) {
   input.more_views = {beside};
   renderer.draw(input);
   const ImageF a = renderer.read_hdr(0), b = renderer.read_hdr(1);
-  ASSERT_EQ(a.width_px, kWidth / 2);
+  ASSERT_EQ(a.width_px, kFrameWidth / 2);
   ASSERT_EQ(a.rgba.size(), b.rgba.size());
   std::size_t lit = 0;
   for (std::size_t i = 3; i < a.rgba.size(); i += 4) {
@@ -222,7 +222,7 @@ TEST(ViewLamps, TwoDesignsSideBySideDifferAsTheirLampsDo) {
 
 // What is left out by bound changes no pixel, and the view costs what it costs without lamps.
 TEST(ViewLamps, AViewThatSeesNothingLitCostsItsFixedPartOnly) {
-  Renderer renderer = made(kWidth, kHeight);
+  Renderer renderer = made(kFrameWidth, kFrameHeight);
   FrameInput back;
   static_cast<ViewInput&>(back) = looking_back();
   back.want_image = true;
@@ -247,7 +247,7 @@ TEST(ViewLamps, AViewThatSeesNothingLitCostsItsFixedPartOnly) {
 }
 
 TEST(ViewLamps, MoreThanAViewHoldsAreCountedAndThoseThatReachNothingDoNotCount) {
-  Renderer renderer = made(kWidth, kHeight);
+  Renderer renderer = made(kFrameWidth, kFrameHeight);
   FrameInput input = driver_view();
   const PlacedLamp lamp = input.lamps.front();
   PlacedLamp behind = lamp;
@@ -264,7 +264,7 @@ TEST(ViewLamps, MoreThanAViewHoldsAreCountedAndThoseThatReachNothingDoNotCount) 
 
 // A beam that changes is copied by a pass of the frame itself, one that does not by none.
 TEST(ViewLamps, AChangedBeamIsAPassOfTheFrame) {
-  Renderer renderer = made(kWidth, kHeight);
+  Renderer renderer = made(kFrameWidth, kFrameHeight);
   const auto uploads = [](const FrameResult& result) {
     return std::ranges::count_if(result.passes, [](const PassTime& pass) { return pass.name == "beams"; });
   };
@@ -294,7 +294,7 @@ TEST(ViewLamps, AChangedBeamIsAPassOfTheFrame) {
 }
 
 TEST(ViewMirror, IsThePictureTurnedLeftForRight) {
-  Renderer renderer = made(kWidth, kHeight);
+  Renderer renderer = made(kFrameWidth, kFrameHeight);
   FrameInput input;
   static_cast<ViewInput&>(input) = side_view();
   input.want_image = true;
@@ -304,10 +304,10 @@ TEST(ViewMirror, IsThePictureTurnedLeftForRight) {
   renderer.draw(input);
   const Image8 mirrored = renderer.read_image();
   Image8 turned = plain;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
-      std::copy_n(&plain.rgba[static_cast<std::size_t>(4 * (y * kWidth + x))], 4,
-                  &turned.rgba[static_cast<std::size_t>(4 * (y * kWidth + kWidth - 1 - x))]);
+  for (int y = 0; y < kFrameHeight; ++y)
+    for (int x = 0; x < kFrameWidth; ++x)
+      std::copy_n(&plain.rgba[static_cast<std::size_t>(4 * (y * kFrameWidth + x))], 4,
+                  &turned.rgba[static_cast<std::size_t>(4 * (y * kFrameWidth + kFrameWidth - 1 - x))]);
   EXPECT_LT(different(mirrored, turned, 2), turned.rgba.size() / 200) << "edges may fall on the other pixel";
   EXPECT_GT(different(mirrored, plain, 2), turned.rgba.size() / 20);
   EXPECT_EQ(renderer.validation_messages(), 0u);
