@@ -76,9 +76,8 @@ double half_angle_about(const glm::dvec3& axis, const Samples& samples) {
   return std::min(farthest + samples.between_rad, kPi);
 }
 
-/// Unit normals of planes through the tip that have the whole cone on their other side. Empty for cones beyond 90°.
+/// Unit normals of planes through the tip that have the whole cone, below 90°, on their other side.
 std::vector<glm::dvec3> planes_behind(const LightCone& cone) {
-  if (cone.half_angle_rad >= 0.5 * kPi) return {};
   constexpr int kAround = 16;
   const glm::dvec3 any = std::abs(cone.axis.z) < 0.7 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   const glm::dvec3 aside = glm::normalize(glm::cross(cone.axis, any)), across = glm::cross(cone.axis, aside);
@@ -127,8 +126,16 @@ bool LampReach::meets(const ViewGeometry& view) const {
     const double tip = glm::dot(normal, tip_m - view.camera().eye_m) + plane.w;
     if (tip < 0.0 && angle_between(normal, cone.axis) - cone.half_angle_rad >= 0.5 * kPi) return false;
   }
-  // … or one that touches the cone at its tip.
   const std::array<Ray, 4> edges = view.edges();
+  // A cone beyond 90° leaves one of darkness, which is convex: it holds the view if it holds its edges.
+  if (cone.half_angle_rad >= 0.5 * kPi) {
+    const double dark_rad = kPi - cone.half_angle_rad;
+    return !std::ranges::all_of(edges, [&](const Ray& edge) {
+      return angle_between(edge.origin_m - tip_m, -cone.axis) < dark_rad &&
+             angle_between(edge.direction, -cone.axis) < dark_rad;
+    });
+  }
+  // … or one that touches the cone at its tip.
   for (const glm::dvec3& normal : planes_behind(cone)) {
     const bool apart = std::ranges::all_of(edges, [&](const Ray& edge) {
       return glm::dot(normal, edge.origin_m - tip_m) >= 0.0 && glm::dot(normal, edge.direction) >= 0.0;

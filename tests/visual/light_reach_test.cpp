@@ -87,6 +87,23 @@ TEST(LightReach, NothingThatIsLitAndSeenIsLeftOut) {
   EXPECT_GT(boxes_left_out, boxes_lit / 4);
 }
 
+// The mirror: lamps whose tables reach 90° to all sides light nothing of what lies behind the car.
+TEST(LightReach, AViewBackwardFromBehindTheLampsIsDarkHoweverWideTheTable) {
+  const IntensityTable table = window_table(PhotometricType::kA, GammaAxis::kGamma0, 0.0, 0.0, 200.0);
+  const AimedSource source{.table = &table};
+  const LightCone cone = light_cone(compose_beam_image(std::span(&source, 1)));
+  EXPECT_GT(cone.half_angle_rad, 0.5 * std::numbers::pi);
+  Camera camera;
+  camera.eye_m = {-1.9, 0.37, 1.22};
+  for (const double y_m : {0.6, -0.6}) {
+    const LampReach reach({0.0, y_m, 0.65}, aim_rotation(0.0, -0.01, 0.0), cone);
+    camera.world_from_eye = aim_rotation(std::numbers::pi, 0.0, 0.0);
+    EXPECT_FALSE(reach.meets(ViewGeometry(camera, 3.0)));
+    camera.world_from_eye = aim_rotation(0.55 * std::numbers::pi, 0.0, 0.0);
+    EXPECT_TRUE(reach.meets(ViewGeometry(camera, 3.0))) << "aside it may";
+  }
+}
+
 TEST(LightReach, TheConeIsHardlyWiderThanTheLight) {
   const IntensityTable table = window_table(PhotometricType::kA, GammaAxis::kGamma0, 0.0, 0.0, 10.0);
   const AimedSource source{.table = &table};
