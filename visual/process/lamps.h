@@ -25,7 +25,7 @@ std::set<LampFunction> lit_functions(const CockpitState& controls, bool high_kee
 
 class Lamps {
  public:
-  static constexpr std::size_t kMostPositions = kLampsPerView;
+  static constexpr std::size_t kMostPositions = kLampsPerDraw;
 
   /// Reads every table of every design, and turns every lamp as its `aim` says. A file named twice is read once. Error:
   /// of the first bad file, or a design with more than kMostPositions lamps, or a rig without designs.
