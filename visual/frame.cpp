@@ -1,16 +1,9 @@
 #include "visual/frame.h"
 
+#include "visual/frame_facts.h"
+
 namespace phare {
 namespace {
-
-EffectFacts facts_of(const FrameParts& parts, const FrameInput& input) {
-  return {.lit_lamps = parts.lamps.lamp_count(),
-          .software_device = parts.software_device,
-          .hdr_wanted = input.want_hdr,
-          .false_colour = input.view == View::kFalseColour,
-          .overlay_lines = input.overlay.size() + input.instruments.size() + input.panel.rows.size() +
-                           (input.panel.title.empty() ? 0u : 1u)};
-}
 
 using Usage = vk::ImageUsageFlagBits;
 
@@ -30,10 +23,12 @@ DrawnFrame draw_frame(FrameParts& parts, const FrameInput& input) {
   // What is seen, by which lamps.
   const ViewGeometry view(input.camera, target.aspect());
   const std::vector<DrawItem> items = parts.scene.visible(view, input.far_mesh_from_m);
+  parts.lamps.set_isolux(input.isolux_lx);
   parts.lamps.set_frame(parts.scene, parts.beams, view, {exposure_of(input), input.sky_luminance_cdm2}, input.lamps);
 
   // What this frame calls for, and the images that takes.
-  DrawnFrame drawn{.effects = plan_effects(facts_of(parts, input), input.effects)};
+  DrawnFrame drawn{.effects =
+                       plan_effects(facts_of(input, parts.lamps.lamp_count(), parts.software_device), input.effects)};
   drawn.display = image("display", target.display_format, Usage::eColorAttachment | Usage::eTransferSrc);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, target.samples);
   gpu::Image* light = drawn.display;

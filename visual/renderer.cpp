@@ -282,6 +282,18 @@ std::uint64_t Renderer::validation_messages() const {
   return impl_->device.validation_messages->load();
 }
 
+Result<VulkanDevice> vulkan_device(const std::string& name_part) {
+  try {
+    const vk::raii::Context context;
+    const vk::ApplicationInfo application{.pApplicationName = "phare", .apiVersion = VK_API_VERSION_1_3};
+    const vk::raii::Instance instance(context, vk::InstanceCreateInfo{.pApplicationInfo = &application});
+    const vk::PhysicalDeviceProperties properties = gpu::pick_device(instance, name_part).getProperties();
+    return VulkanDevice{properties.deviceName.data(), properties.deviceType == vk::PhysicalDeviceType::eCpu};
+  } catch (const std::exception& error) {
+    return Error{"vulkan", error.what()};
+  }
+}
+
 Result<std::vector<std::string>> list_vulkan_devices() {
   try {
     const vk::raii::Context context;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "config/desk.h"
 #include "config/result.h"
 #include "visual/effects.h"
 #include "visual/overlay_content.h"
@@ -43,20 +44,21 @@ struct PlacedLamp {
   std::size_t beam = 0;              ///< index of the beam image set with set_beam
 };
 
-enum class View { kPhoto, kFalseColour };  ///< as the eye sees it, or illuminance by colour with isolux lines
-
 /// Blocks of the scene farther than this are drawn with fewer triangles: their errors are made for this distance.
 constexpr double kFarMeshFrom_m = 150.0;
 
 struct FrameInput {
   Camera camera;
-  std::vector<PlacedLamp> lamps;   ///< at most 8; positions whose beam is dark are left out by the caller or by us
+  std::vector<PlacedLamp> lamps;   ///< at most kMaxLamps (shaders/sizes.h); positions whose beam is dark are left out
+                                   ///< by the caller or by us
   double exposure_per_cdm2 = 0.8;  ///< multiplies luminance before the tone curve; fixed, so that beams compare
   double adaptation_k = 4000.0;    ///< light of this colour temperature looks white
   std::optional<glm::vec3> white;  ///< linear sRGB of the light that does, in place of it (visual/process/adaptation.h)
   double sky_luminance_cdm2 = 0.004;
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;
+  std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(),
+                                kIsoluxLevels_lx.end()};  ///< of false colour, kMostIsoluxLevels
   bool want_hdr = false;               ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;             ///< read the finished picture back
   std::vector<std::string> overlay{};  ///< lines of text over the picture
@@ -111,7 +113,7 @@ class Renderer {
   ~Renderer();
 
   Status load_scene(const Scene& scene);
-  /// A new beam image; `index` < 8. Uploaded with the next frame.
+  /// A new beam image; `index` < kMaxLamps. Uploaded with the next frame.
   void set_beam(std::size_t index, const BeamImage& image);
   /// The image set last, changed in these rectangles of its nodes only; nodes, type and aim are the same.
   void change_beam(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed);
@@ -140,6 +142,14 @@ class Renderer {
   explicit Renderer(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
+
+/// A device as it would be taken by Renderer::create.
+struct VulkanDevice {
+  std::string name;
+  bool software = false;  ///< it computes on the processor: vertices cost as much as pixels
+};
+/// `name_part`: as RendererOptions::device_name. Error: there is none; no device is opened.
+Result<VulkanDevice> vulkan_device(const std::string& name_part);
 
 /// Names of the Vulkan devices of this machine, or why there are none (for `phare doctor`).
 Result<std::vector<std::string>> list_vulkan_devices();

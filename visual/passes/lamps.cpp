@@ -23,8 +23,9 @@ namespace {
 
 // std140 and std430 agree for these: all members are 16 bytes.
 static_assert(sizeof(shader::GpuLamp) == 176 && offsetof(shader::GpuLamp, guide) == 160);
-static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 96);
-static_assert(sizeof(shader::GpuFrame) == 96 + shader::kMaxLamps * 176);
+static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
+static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * 176);
+static_assert(shader::kMaxIsoluxLevels % 4 == 0);
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
@@ -154,6 +155,10 @@ void LampPass::set_frame(const SceneBuffers& scene, BeamStore& beams, const View
   for (int i = 0; i < 4; ++i) frame.clip_from_eye[i] = clip[i];
   frame.exposure = glm::vec4(sky.exposure_per_cdm2, 0.0f);
   frame.sky = sky.zenith();
+  constexpr float kNowhere_lx = 1e30f;
+  for (std::size_t i = 0; i < kMostIsoluxLevels; ++i)
+    frame.isolux_lx[i / 4][static_cast<int>(i % 4)] =
+        i < isolux_lx_.size() ? static_cast<float>(isolux_lx_[i]) : kNowhere_lx;
   lamp_count_ = lookups_ = colours_ = 0;
   std::optional<glm::vec3> first_colour;
   for (const PlacedLamp& lamp : lamps) {

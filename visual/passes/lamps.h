@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 #include <tuple>
+#include <vector>
 
 #include "visual/beam_store.h"
 #include "visual/gpu/frame_graph.h"
@@ -29,6 +30,8 @@ class LampPass {
   /// This frame's view and lamps; uploads the beams that changed.
   void set_frame(const SceneBuffers& scene, BeamStore& beams, const ViewGeometry& view, const Sky& sky,
                  std::span<const PlacedLamp> lamps);
+  /// Isolux lines of false colour, lx, from the next set_frame on.
+  void set_isolux(std::span<const double> levels_lx) { isolux_lx_.assign(levels_lx.begin(), levels_lx.end()); }
   std::uint32_t lamp_count() const { return lamp_count_; }
 
   /// Depth of everything, no colour.
@@ -70,6 +73,7 @@ class LampPass {
   vk::raii::Sampler table_sampler_{nullptr}, filter_sampler_{nullptr};
   Grain grain_;
   gpu::HostBuffer frame_;
+  std::vector<double> isolux_lx_;
   std::uint32_t lamp_count_ = 0, lookups_ = 0;
   std::uint32_t colours_ = 0;  ///< as kSpecColours
   std::array<std::size_t, shader::kMaxLamps> beam_of_lamp_{};
