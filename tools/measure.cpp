@@ -136,25 +136,20 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
   for (const PointRow& row : points.rows) at.push_back({row.position_m, row.normal});
   std::vector<Illuminance> result(at.size(), Illuminance{0.0, std::vector<double>(lamps.size(), 0.0)});
 
-  constexpr std::size_t kSlots = kMostLampsOfDesign;  // beam images a renderer holds
-  for (std::size_t first = 0; first < lamps.size(); first += kSlots) {
-    const std::size_t count = std::min(kSlots, lamps.size() - first);
-    std::vector<PlacedLamp> placed;
-    for (std::size_t i = 0; i < count; ++i) {
-      const LampConfig& lamp = lamps[first + i];
-      std::vector<AimedSource> aimed;
-      for (const SourceConfig& source : lamp.sources) aimed.push_back(tables.aimed(source));
-      const BeamImage image = compose_beam_image(aimed);
-      renderer->set_beam(i, image);
-      placed.push_back({lamp.position_m, image.car_from_image, i});
-    }
-    const auto lux = renderer->measure(placed, at);
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t point = 0; point < at.size(); ++point) {
-        const double lx = static_cast<double>(lux[i][point]);
-        result[point].lamps_lx[first + i] = lx;
-        result[point].total_lx += lx;
-      }
+  std::vector<PlacedLamp> placed;
+  for (const LampConfig& lamp : lamps) {
+    std::vector<AimedSource> aimed;
+    for (const SourceConfig& source : lamp.sources) aimed.push_back(tables.aimed(source));
+    const BeamImage image = compose_beam_image(aimed);
+    renderer->set_beam(placed.size(), image);
+    placed.push_back({lamp.position_m, image.car_from_image, placed.size()});
+  }
+  const auto lux = renderer->measure(placed, at);
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    for (std::size_t point = 0; point < at.size(); ++point) {
+      const double lx = static_cast<double>(lux[i][point]);
+      result[point].lamps_lx[i] = lx;
+      result[point].total_lx += lx;
     }
   }
   if (renderer->validation_messages() > 0) return Error{"validation", "the layer has complained (see above)"};

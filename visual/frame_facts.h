@@ -1,4 +1,4 @@
-// What the effects are decided by (visual/effects.h), of a frame that is asked for. Pure: `--explain` has it without a
+// What the effects are decided by (visual/effects.h), of a view that is asked for. Pure: `--explain` has it without a
 // device.
 #pragma once
 
@@ -7,7 +7,11 @@
 
 namespace phare {
 
-/// `lit_lamps`: positions that give light in this view; `software_device`: it computes on the processor.
-EffectFacts facts_of(const FrameInput& input, std::size_t lit_lamps, bool software_device);
+/// `lit_lamps`: that light something in the view; `lines`: of text that will lie over it; `software_device`: it
+/// computes on the processor.
+EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::size_t lines, bool software_device);
+
+/// Lines of text over the frame's picture.
+std::size_t text_lines(const FrameInput& input);
 
 }  // namespace phare

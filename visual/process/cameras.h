@@ -13,6 +13,8 @@ namespace phare {
 inline constexpr double kBirdsEyeLength_m = 100.0;
 inline constexpr double kBirdsEyeWidth_m = 40.0;
 inline constexpr double kBirdsEyeStart_m = 0.0;
+/// The picture of it: 100 : 40.
+inline constexpr PictureSize kBirdsEyePicture{1200, 480};
 
 /// The eye of a channel, fixed to the body.
 Camera driver_camera(const ChannelConfig& channel, const VehicleState& pose);

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "visual/frame_facts.h"
+#include "visual/light_reach.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/screens.h"
 
@@ -44,11 +45,18 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
     if (desk.instruments) input.instruments = instruments(controls, moment.pose, lamps.design().name, moment.time);
     input.panel = Screens({}).panel(controls, moment.time.seconds(), desk.help);
   }
+  // Those whose light the view can see; what of the scene it falls on is not asked.
+  const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
+  std::size_t lit = 0;
+  for (const PlacedLamp& lamp : input.lamps) {
+    const LightCone cone = light_cone(lamps.image(lamp.beam));
+    lit += LampReach(lamp.position_m, lamp.world_from_image, cone).meets(view) ? 1 : 0;
+  }
   char heading[240];
   std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
                 lamps.lit_text().c_str(), lamps.design().name.c_str(), moment.time.seconds(),
                 moment.pose.speed_mps * 3.6, device.name.c_str());
-  return heading + explain(plan_effects(facts_of(input, input.lamps.size(), device.software), input.effects));
+  return heading + explain(plan_effects(facts_of(input, lit, text_lines(input), device.software), input.effects));
 }
 
 }  // namespace phare

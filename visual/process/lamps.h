@@ -60,6 +60,8 @@ class Lamps {
     const Position& position = positions_[design_][slot];
     return {position.dimming_01, position.yaw_rad, position.pitch_rad};
   }
+  /// Of a lamp of the design that shines, as it shines now.
+  const BeamImage& image(std::size_t slot) const { return positions_[design_][slot].beam.image(); }
   double aim_rad() const { return aim_pitch_rad_; }
 
   /// The positions that shine, in the world. The body's rotation is that of `pose`: Rz(yaw)·Ry(pitch)·Rx(roll); what
