@@ -91,12 +91,12 @@ void main() {
     return;
   }
   if (output_kind == kOutputFalseColour) {
-    // Isolux lines of the field: 1, 3, 5, 10, 30, 50, 100 lx, one pixel wide by the screen gradient of log E.
+    // Isolux lines, one pixel wide by the screen gradient of E.
     vec3 colour = false_colour(total_lx);
-    float level[7] = float[](1.0, 3.0, 5.0, 10.0, 30.0, 50.0, 100.0);
     float width = max(fwidth(total_lx), 1e-6);
     float line = 0.0;
-    for (int i = 0; i < 7; ++i) line = max(line, 1.0 - smoothstep(0.6, 1.4, abs(total_lx - level[i]) / width));
+    for (uint i = 0u; i < kMaxIsoluxLevels; ++i)
+      line = max(line, 1.0 - smoothstep(0.6, 1.4, abs(total_lx - frame.isolux_lx[i / 4u][i % 4u]) / width));
     result = vec4(srgb_encoded(mix(colour, vec3(1.0), 0.7 * line)), 1.0);
     return;
   }

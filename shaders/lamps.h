@@ -3,10 +3,10 @@
 #ifndef PHARE_SHADERS_LAMPS_H
 #define PHARE_SHADERS_LAMPS_H
 #include "lib/portable.h"
+#include "sizes.h"
 
 PHARE_SHADER_BEGIN
 
-const uint kMaxLamps = 8u;
 const uint kMaxMaterials = 1024u;  // 16 KiB, the uniform buffer that every device has
 const uint kMaxSheetings = 128u;   // 12 KiB
 
@@ -81,6 +81,7 @@ struct GpuFrame {
   vec4 clip_from_eye[4];    // columns; "eye" is the world turned to the eye's place, not its direction
   vec4 exposure;            // rgb: 1/(cd/m²), with the balance of the eye's adaptation
   vec4 sky;                 // rgb zenith cd/m², w: factor at the horizon
+  vec4 isolux_lx[kMaxIsoluxLevels / 4u];  // of false colour; beyond the last level one that nothing reaches
   GpuLamp lamps[kMaxLamps];
 };
 

@@ -48,8 +48,6 @@ double limit_of(const MeasureOptions& options) {
   }
 }
 
-constexpr std::array<const char*, 6> kFunctionNames{"position", "low", "high", "fog", "daytime", "cornering"};
-
 Result<LampTables> read_tables(const std::vector<LampConfig>& lamps) {
   LampTables tables;
   for (const LampConfig& lamp : lamps) {
@@ -65,9 +63,9 @@ Result<std::vector<LampConfig>> lamps_of_rig(const MeasureOptions& options) {
   const auto rig = read_rig(options.rig_file);
   if (!rig) return rig.error();
   std::set<LampFunction> lit;
-  for (std::size_t i = 0; i < kFunctionNames.size(); ++i) {
+  for (std::size_t i = 0; i < kLampFunctionNames.size(); ++i) {
     for (const std::string& beam : options.beams) {
-      if (beam == kFunctionNames[i]) lit.insert(static_cast<LampFunction>(i));
+      if (beam == kLampFunctionNames[i]) lit.insert(static_cast<LampFunction>(i));
     }
   }
   const DesignConfig* design = options.design.empty() ? &rig->designs.front() : nullptr;
@@ -287,11 +285,9 @@ void add_measure(CLI::App& app, Command& chosen) {
                    "name may hold commas; one that holds \",word=\" stands in double quotes, a quote in it doubled")
       ->allow_extra_args(false);
   command->add_option("--design", options->design, "Design of the rig [its first]");
-  command
-      ->add_option("--beams", options->beams,
-                   "Lit functions of the rig: position low high fog daytime cornering, joined by commas")
+  command->add_option("--beams", options->beams, "Lit functions of the rig, joined by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember({"position", "low", "high", "fog", "daytime", "cornering"}))
+      ->check(CLI::IsMember(std::vector<std::string>(kLampFunctionNames.begin(), kLampFunctionNames.end())))
       ->capture_default_str();
   auto* points = command->add_option("--points", options->points, "Points file; \"-\" is standard input");
   command->add_option("--out", options->out, "File to write");

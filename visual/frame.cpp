@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "visual/frame_facts.h"
+
 namespace phare {
 namespace {
 
@@ -41,18 +43,6 @@ vk::Rect2D area_of(const PicturePart& part, vk::Extent2D extent) {
   return {{left, top}, {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}};
 }
 
-EffectFacts facts_of(const FrameParts& parts, const ViewInput& view, const LitView& lit) {
-  return {.lit_lamps = lit.lamps,
-          .software_device = parts.software_device,
-          .hdr_wanted = view.want_hdr,
-          .false_colour = view.view == View::kFalseColour};
-}
-
-std::size_t overlay_lines(const FrameInput& input) {
-  return input.overlay.size() + input.instruments.size() + input.panel.rows.size() +
-         (input.panel.title.empty() ? 0u : 1u);
-}
-
 /// What one view calls for, and no more. `lines`: of text that will lie over it.
 ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t lines) {
   gpu::FrameGraph& graph = parts.graph;
@@ -66,12 +56,11 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   // What is seen, by which lamps.
   const double aspect = static_cast<double>(view.area.extent.width) / static_cast<double>(view.area.extent.height);
   const LitView lit = parts.scene.view(ViewGeometry(view.input.camera, aspect), sky_of(view.input), view.input.lamps,
-                                       view.input.far_mesh_from_m);
+                                       view.input.far_mesh_from_m, view.input.isolux_lx);
 
   // What that calls for, and the images it takes.
-  EffectFacts facts = facts_of(parts, view.input, lit);
-  facts.overlay_lines = lines;
-  const EffectPlan effects = plan_effects(facts, view.input.effects);
+  const EffectPlan effects =
+      plan_effects(facts_of(view.input, lit.lamps, lines, parts.software_device), view.input.effects);
   const bool hdr = effects.on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
   gpu::Image* light = view.picture.display;
@@ -127,7 +116,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
                    &parts.graph.image(name + "display", {parts.target.display_format, extent,
                                                          Usage::eColorAttachment | Usage::eTransferSrc})};
   };
-  const std::size_t lines = overlay_lines(input);
+  const std::size_t lines = text_lines(input);
   parts.scene.begin_frame(parts.graph);
   parts.tone_mapping.begin_frame();
   Picture seen = picture("", parts.target.extent);

@@ -36,14 +36,14 @@ namespace {
 // std140 and std430 agree for these: all members are 16 bytes.
 static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour) == 64);
 static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, cells) == 64);
-static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 96);
-static_assert(sizeof(shader::GpuFrame) == 96 + shader::kMaxLamps * 80);
+static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
+static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * 80);
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
               static_cast<std::uint32_t>(RetroKind::kMarking) == shader::kRetroMarking);
 static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
-static_assert(shader::kMaxLamps == kLampsPerDraw);
+static_assert(shader::kMaxIsoluxLevels % 4 == 0);
 
 constexpr std::size_t kNoBeam = SIZE_MAX;
 
@@ -133,8 +133,9 @@ void LitScene::forget_sets() {
 }
 
 LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps,
-                       double far_mesh_from_m) {
-  LitView view{.geometry = geometry, .sky = sky, .items = geometry_.visible(geometry, far_mesh_from_m)};
+                       double far_mesh_from_m, std::span<const double> isolux_lx) {
+  LitView view{
+      .geometry = geometry, .sky = sky, .isolux_lx = isolux_lx, .items = geometry_.visible(geometry, far_mesh_from_m)};
   std::vector<PlacedLamp> reaching;
   for (const PlacedLamp& lamp : lamps) {
     if (is_dark(lamp.beam)) continue;
@@ -203,6 +204,10 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
   for (int i = 0; i < 4; ++i) frame.clip_from_eye[i] = clip[i];
   frame.exposure = glm::vec4(view.sky.exposure_per_cdm2, 0.0f);
   frame.sky = view.sky.zenith();
+  constexpr float kNowhere_lx = 1e30f;
+  for (std::size_t i = 0; i < kMostIsoluxLevels; ++i)
+    frame.isolux_lx[i / 4][static_cast<int>(i % 4)] =
+        i < view.isolux_lx.size() ? static_cast<float>(view.isolux_lx[i]) : kNowhere_lx;
   Beams bound;
   bound.fill(kNoBeam);
   std::vector<shader::TableShape> shapes;

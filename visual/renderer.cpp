@@ -284,7 +284,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   const ViewGeometry geometry(input.camera, static_cast<double>(extent.width) / extent.height);
   impl_->submit([&] {
     impl_->scene.begin_frame(impl_->graph);
-    const LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.far_mesh_from_m);
+    const LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.far_mesh_from_m, {});
     draw_audit(impl_->graph, impl_->scene, view, {position, normal, depth});
     impl_->copy_out(position, position_copy, 16);
     impl_->copy_out(normal, normal_copy, 16);
@@ -316,6 +316,18 @@ std::uint64_t Renderer::uploaded_texels() const {
 }
 std::uint64_t Renderer::validation_messages() const {
   return impl_->device.validation_messages->load();
+}
+
+Result<VulkanDevice> vulkan_device(const std::string& name_part) {
+  try {
+    const vk::raii::Context context;
+    const vk::ApplicationInfo application{.pApplicationName = "phare", .apiVersion = VK_API_VERSION_1_3};
+    const vk::raii::Instance instance(context, vk::InstanceCreateInfo{.pApplicationInfo = &application});
+    const vk::PhysicalDeviceProperties properties = gpu::pick_device(instance, name_part).getProperties();
+    return VulkanDevice{properties.deviceName.data(), properties.deviceType == vk::PhysicalDeviceType::eCpu};
+  } catch (const std::exception& error) {
+    return Error{"vulkan", error.what()};
+  }
 }
 
 Result<std::vector<std::string>> list_vulkan_devices() {

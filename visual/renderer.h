@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "config/desk.h"
 #include "config/result.h"
 #include "visual/effects.h"
 #include "visual/overlay_content.h"
@@ -45,9 +46,7 @@ struct PlacedLamp {
 
 /// So many lamps light one draw at most, which is a block of the scene where a view has many. Those that reach nothing of
 /// it do not count.
-inline constexpr std::size_t kLampsPerDraw = 8;
-
-enum class View { kPhoto, kFalseColour };  ///< as the eye sees it, or illuminance by colour with isolux lines
+inline constexpr std::size_t kLampsPerDraw = shader::kMaxLamps;
 
 /// Blocks of the scene farther than this are drawn with fewer triangles: their errors are made for this distance.
 constexpr double kFarMeshFrom_m = 150.0;
@@ -74,6 +73,7 @@ struct ViewInput {
   double sky_luminance_cdm2 = 0.004;
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;
+  std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< at most kMostIsoluxLevels
   bool want_hdr = false;    ///< the view's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;  ///< read what is seen back
   PicturePart part{};
@@ -179,6 +179,14 @@ class Renderer {
   explicit Renderer(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
+
+/// A device as it would be taken by Renderer::create.
+struct VulkanDevice {
+  std::string name;
+  bool software = false;  ///< it computes on the processor: vertices cost as much as pixels
+};
+/// `name_part`: as RendererOptions::device_name. Error: there is none; no device is opened.
+Result<VulkanDevice> vulkan_device(const std::string& name_part);
 
 /// Names of the Vulkan devices of this machine, or why there are none (for `phare doctor`).
 Result<std::vector<std::string>> list_vulkan_devices();

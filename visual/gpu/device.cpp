@@ -47,6 +47,8 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, const DeviceO
   return vk::raii::Instance(context, info);
 }
 
+}  // namespace
+
 vk::raii::PhysicalDevice pick_device(const vk::raii::Instance& instance, const std::string& wanted) {
   std::vector<vk::raii::PhysicalDevice> devices = vk::raii::PhysicalDevices(instance);
   if (devices.empty())
@@ -74,8 +76,6 @@ vk::raii::PhysicalDevice pick_device(const vk::raii::Instance& instance, const s
                                             : "no Vulkan 1.3 device whose name contains \"" + wanted + "\"");
   return std::move(*best);
 }
-
-}  // namespace
 
 Device::Device(const DeviceOptions& options) {
   instance = make_instance(context, options);

@@ -15,6 +15,9 @@
 
 namespace phare::gpu {
 
+/// The device whose name contains `wanted`; empty: a discrete GPU before others. Throws when there is none.
+vk::raii::PhysicalDevice pick_device(const vk::raii::Instance& instance, const std::string& wanted);
+
 /// Bytes of device memory that live now; every allocation counts itself in and out.
 using MemoryCount = std::shared_ptr<std::uint64_t>;
 

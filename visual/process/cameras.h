@@ -1,14 +1,13 @@
 // The eyes: the driver's, one from above, one behind the car.
 #pragma once
 
+#include "config/desk.h"
 #include "config/rig.h"
 #include "net/messages.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
-
-enum class CameraKind { kDriver, kBirdsEye, kChase };  ///< in the order of kCameraNames (config/picture_options.h)
 
 /// Length and width of the road seen by the bird's eye, and where its near edge lies ahead of the car's origin.
 inline constexpr double kBirdsEyeLength_m = 100.0;
