@@ -70,6 +70,7 @@ fresh() {
   local root=$work/$1 node
   mkdir -p "$root" "$work/archives/partial"
   tar -C "$root" -xpf "$work/bare.tar"
+  mkdir -p "$root/proc" "$root/dev"  # mmdebstrap leaves out the folder too, or keeps it, by its version and by who runs it
   mount -t proc proc "$root/proc"
   mount -t tmpfs tmpfs "$root/dev"
   for node in null zero full random urandom; do
