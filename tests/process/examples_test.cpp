@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -65,16 +66,21 @@ std::string subcommand_of(const std::string& line) {
   return "";
 }
 
+/// Others than those of the test of whole drives, beside which this one runs.
+std::uint16_t ports() {
+  return static_cast<std::uint16_t>(30000 + getpid() % 65 * 40);
+}
+
 /// The same line on ports of our own, small and not for minutes.
 std::string on_our_ports(std::string line) {
-  const std::string ports = " --port-base " + std::to_string(port_base());
+  const std::string our_ports = " --port-base " + std::to_string(ports());
   for (const char* command : {"phare drive", "phare control", "phare record", "phare replay", "phare-cockpit",
                               "phare-dynamics", "phare-visual"}) {
     const std::string words = command;
     for (std::size_t at = 0; (at = line.find(words, at)) != std::string::npos;) {
       at += words.size();
       if (at < line.size() && line[at] != ' ') continue;
-      std::string more = ports;
+      std::string more = our_ports;
       const auto lacks = [&](const char* option) { return line.find(option) == std::string::npos; };
       if (words == "phare drive" && lacks("--size")) more += " --size 320x180";
       // A whole drive of 75 s in lockstep takes minutes; that one comes to its end is another test's matter.
@@ -106,7 +112,7 @@ class RunningRig {
                                    "--size",
                                    "160x90",
                                    "--port-base",
-                                   std::to_string(port_base()),
+                                   std::to_string(ports()),
                                    "--rig",
                                    rig};
     child_ = std::make_unique<ChildProcess>(std::move(*ChildProcess::start("/usr/bin/env", words)));

@@ -46,6 +46,12 @@ TEST(Screens, HelpListsEveryKeyOfTheTable) {
   EXPECT_TRUE(press(screens, KeyAction::kLeave));
 }
 
+TEST(Screens, WhileThePictureIsMadeReadyNothingElseIsSeen) {
+  const OverlayPanel panel = getting_ready_panel(3, 11);
+  EXPECT_TRUE(says(panel, "step 3 of 11"));
+  EXPECT_EQ(panel.place, OverlayPanel::Place::kAlone);
+}
+
 TEST(Screens, TheStartSaysHowToDriveUntilAKeyIsPressed) {
   Screens screens({.kind = Kind::kLive, .shown = "rig", .demo = true});
   const OverlayPanel start = screens.panel({}, 100.0);
