@@ -189,4 +189,5 @@ if [ "${1:-}" = --shell ]; then
 fi
 try_clone
 try_package "$work"/phare-*.deb
-took "$begin" "in all; processor time of all: $(times | tail -n 1)"
+times >"$work/times"  # not in $(…), which has no children yet
+took "$begin" "in all; processor time (user, system): $(tail -n 1 "$work/times")"
