@@ -35,8 +35,16 @@ void Cockpit::take_recorded(const CockpitState& recorded, Moment now) {
   switches_.signals = {recorded.fog_rear, recorded.turn, recorded.hazard, recorded.high_beam_automatic};
   switches_.contacts[static_cast<std::size_t>(Contact::kIgnition)].value = !recorded.ignition_off;
   switches_.fail_safe = recorded.fail_safe;
-  Lights lights{recorded.light_switch, recorded.flash, recorded.fog_front,
-                recorded.design_index % std::max(params_.design_count, 1u)};
+  // Every frame is recorded with its design; what a hand chooses stays until the recorded one changes.
+  std::uint32_t design_index = switches_.lights.design_index;
+  if (recorded_design_ != recorded.design_index) {
+    recorded_design_ = recorded.design_index;
+    if (recorded.design_index < std::max(params_.design_count, 1u))
+      design_index = recorded.design_index;
+    else
+      unknown_design_ = recorded.design_index;
+  }
+  Lights lights{recorded.light_switch, recorded.flash, recorded.fog_front, design_index};
   if (lights == switches_.lights) return;
   switches_.lights = lights;
   ++switches_.light_changes;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "cockpit_io/driver_input.h"
@@ -31,7 +32,7 @@ class Cockpit : public ControlSink {
   void take(const DriverInput& input, bool silent, Moment now) override;
   void take_recorded(const CockpitState& recorded, Moment now) override;
 
-  /// RigControl::Design.
+  /// RigControl::Design. Of a recorded drive it stays until the recorded design changes.
   void choose_design(std::uint32_t design_index, Moment now);
 
   /// The car's speed, for the automatic high beam; counts from the next take() on.
@@ -40,6 +41,8 @@ class Cockpit : public ControlSink {
   CockpitState state(std::int64_t frame_index, bool drive_ended) const;
   Telltales telltales(SimTime now) const { return phare::telltales(switches_, now); }
   std::uint32_t design_index() const { return switches_.lights.design_index; }
+  /// The newest recorded design that the rig does not have: left out, the one before it stays.
+  std::optional<std::uint32_t> unknown_design() const { return unknown_design_; }
   std::uint64_t light_changes() const { return switches_.light_changes; }
   bool fail_safe() const { return switches_.fail_safe; }
 
@@ -51,6 +54,7 @@ class Cockpit : public ControlSink {
   double speed_mps_ = 0.0;
   SimTime newest_;
   SimTime silent_since_;
+  std::optional<std::uint32_t> recorded_design_, unknown_design_;
 };
 
 }  // namespace phare

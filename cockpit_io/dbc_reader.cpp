@@ -7,6 +7,8 @@
 
 #include "cockpit_io/can_frame.h"
 #include "cockpit_io/dbc.h"
+#include "cockpit_io/dbc_lines.h"
+#include "cockpit_io/dbc_multiplexors.h"
 #include "cockpit_io/text_scanner.h"
 
 namespace phare {
@@ -24,31 +26,20 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Reads a DBC file statement by statement. BO_ and SG_ are one line; every other statement runs to its semicolon, and
-/// to the next line that begins with a keyword when that was forgotten.
+/// Reads a DBC file statement by statement.
 class Parser {
  public:
-  Parser(std::string_view text, Dbc& dbc) : rest_(text), dbc_(dbc) {}
+  Parser(std::string_view text, Dbc& dbc) : lines_(text), dbc_(dbc) {}
 
   void run() {
-    while (next_line()) statement();
-    find_multiplexors();
+    while (lines_.next()) statement();
+    hang_multiplexors(dbc_);
     lengthen_names();
   }
 
  private:
-  bool next_line() {
-    if (rest_.empty()) return false;
-    const std::size_t end = rest_.find('\n');
-    line_text_ = rest_.substr(0, end);
-    rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
-    ++lines_read_;
-    line_ = lines_read_;
-    return true;
-  }
-
   void statement() {
-    TextScanner scan(line_text_);
+    TextScanner scan(lines_.text());
     const std::string_view keyword = scan.word();
     if (in_name_list_) {  // NS_ lists keywords, one a line
       if (scan.at_end()) return;
@@ -67,8 +58,9 @@ class Parser {
     const bool known = std::any_of(std::begin(kKeywords), std::end(kKeywords),
                                    [&](std::string_view known) { return keyword.starts_with(known); });
     if (!known) return problem({}, "unknown keyword \"" + std::string(keyword) + "\"");
-    const std::string whole = to_its_end(keyword);
-    TextScanner words(whole);
+    const DbcLines::Statement whole = lines_.to_its_end(keyword);
+    if (!whole.flaw.empty()) dbc_.problems.push_back({lines_.number(), {}, {}, std::string(whole.flaw)});
+    TextScanner words(whole.text);
     words.word();  // the keyword
     if (keyword == "VAL_") return value_names(words);
     if (keyword == "VAL_TABLE_") return value_table(words);
@@ -78,52 +70,8 @@ class Parser {
     if (keyword == "BA_") return attribute(words);
   }
 
-  /// The whole statement this line begins. A quoted text may run over lines; a line in it that looks like a new message
-  /// or signal ends it all the same: the closing quote was forgotten.
-  std::string to_its_end(std::string_view keyword) {
-    std::string whole(line_text_);
-    const auto quotes = [](std::string_view text) { return std::count(text.begin(), text.end(), '"'); };
-    bool in_text = quotes(line_text_) % 2 == 1;
-    const bool ends_by_line = keyword == "VERSION" || keyword == "BU_" || keyword == "BS_";
-    const auto ended = [](std::string_view text) {
-      const std::size_t last = text.find_last_not_of(" \t\r");
-      return last != std::string_view::npos && text[last] == ';';
-    };
-    std::string_view newest = line_text_;
-    while (in_text || (!ends_by_line && !ended(newest))) {
-      const std::size_t end = rest_.find('\n');
-      if (rest_.empty()) break;
-      const std::string_view next = rest_.substr(0, end);
-      TextScanner scan(next);
-      const std::string_view word = scan.word();
-      if (in_text) {
-        const bool new_block =
-            (word == "BO_" && scan.number<std::uint64_t>()) || (word == "SG_" && looks_like_signal(scan));
-        if (new_block) break;
-      } else if (!word.empty() || scan.at_end()) {
-        break;  // a keyword or an empty line: the semicolon was forgotten
-      }
-      in_text = in_text != (quotes(next) % 2 == 1);
-      whole += '\n';
-      whole += next;
-      newest = next;
-      rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
-      ++lines_read_;
-    }
-    if (in_text) {
-      dbc_.problems.push_back({line_, {}, {}, "a text in quotes does not end"});
-    } else if (!ends_by_line && !ended(newest)) {
-      dbc_.problems.push_back({line_, {}, {}, "the semicolon at its end is missing"});
-    }
-    return whole;
-  }
-
-  static bool looks_like_signal(TextScanner scan) {
-    return !scan.loose_word().empty() && scan.rest().find('@') != std::string_view::npos;
-  }
-
   void problem(std::string_view signal, std::string reason) {
-    dbc_.problems.push_back({line_, message_name_, std::string(signal), std::move(reason)});
+    dbc_.problems.push_back({lines_.number(), message_name_, std::string(signal), std::move(reason)});
   }
 
   void message(TextScanner& scan) {
@@ -160,7 +108,7 @@ class Parser {
     message.name = name;
     message.length_bytes = *length;
     message.fd = *length > 8;
-    message.line = line_;
+    message.line = lines_.number();
     dbc_.messages.push_back(std::move(message));
     in_message_ = true;
     skip_signals_ = false;
@@ -171,7 +119,7 @@ class Parser {
     if (!in_message_) return problem({}, "a signal before the first message");
     DbcMessage& message = dbc_.messages.back();
     DbcSignal s;
-    s.line = line_;
+    s.line = lines_.number();
     s.name = scan.loose_word();
     if (s.name.empty()) return problem({}, "expected a signal's name");
     if (is_digit(s.name.front())) problem(s.name, "a name must not begin with a digit; kept");
@@ -197,15 +145,12 @@ class Parser {
     if (const DbcSignal* known = message.find(s.name)) {
       return problem(s.name, "is already in this message, line " + std::to_string(known->line));
     }
-    const auto root = std::find_if(message.signals.begin(), message.signals.end(), is_root);
-    if (is_root(s) && root != message.signals.end()) {
+    const auto root = std::find_if(message.signals.begin(), message.signals.end(), is_root_multiplexor);
+    if (is_root_multiplexor(s) && root != message.signals.end()) {
       return problem(s.name, "is a second multiplexor beside " + root->name);
     }
     message.signals.push_back(std::move(s));
   }
-
-  /// A multiplexor that is always present.
-  static bool is_root(const DbcSignal& s) { return s.is_multiplexor && s.multiplex_values.empty(); }
 
   /// The mark after the name: none, M, m and a number, or m and a number and M.
   bool multiplexing(TextScanner& scan, DbcSignal& s) {
@@ -412,58 +357,13 @@ class Parser {
     }
   }
 
-  /// A signal with m and a number and without SG_MUL_VAL_ hangs on the one multiplexor that is always present.
-  void find_multiplexors() {
-    for (DbcMessage& message : dbc_.messages) {
-      message_name_ = message.name;
-      const auto root = std::find_if(message.signals.begin(), message.signals.end(), is_root);
-      for (DbcSignal& s : message.signals) {
-        if (s.multiplex_values.empty() || !s.multiplexor.empty()) continue;
-        if (root != message.signals.end()) {
-          s.multiplexor = root->name;
-          continue;
-        }
-        line_ = s.line;
-        problem(s.name, "is multiplexed, but its message has no multiplexor (M); left out");
-      }
-      std::erase_if(message.signals,
-                    [](const DbcSignal& s) { return !s.multiplex_values.empty() && s.multiplexor.empty(); });
-      drop_circles(message);
-    }
-  }
-
-  /// SG_MUL_VAL_ can make two multiplexors hang on each other.
-  void drop_circles(DbcMessage& message) {
-    const auto ends = [&](const DbcSignal& s) {
-      const DbcSignal* at = &s;
-      for (std::size_t steps = 0; at != nullptr && steps <= message.signals.size(); ++steps) {
-        if (at->multiplexor.empty()) return true;
-        at = std::as_const(message).find(at->multiplexor);
-      }
-      return false;
-    };
-    std::vector<std::string> circular;
-    for (const DbcSignal& s : message.signals) {
-      if (ends(s)) continue;
-      line_ = s.line;
-      problem(s.name, "hangs on multiplexors that hang on each other or were left out; left out");
-      circular.push_back(s.name);
-    }
-    std::erase_if(message.signals, [&](const DbcSignal& s) {
-      return std::find(circular.begin(), circular.end(), s.name) != circular.end();
-    });
-  }
-
   struct LongName {
     std::uint32_t id;
     bool extended;
     std::string name, symbol;
   };
 
-  std::string_view rest_;
-  std::string_view line_text_;
-  int lines_read_ = 0;
-  int line_ = 0;  // where the statement begins
+  DbcLines lines_;
   bool in_name_list_ = false;
   bool in_message_ = false;
   bool skip_signals_ = false;

@@ -158,6 +158,10 @@ void CockpitProcess::evaluate(Moment now, const VehicleState* vehicle) {
     spdlog::info("a recorded change of design is left out: the rig keeps \"{}\" (keep_design)",
                  rig_.designs[cockpit_.design_index()].name);
   }
+  if (cockpit_.unknown_design() && !said_unknown_design_) {
+    said_unknown_design_ = true;
+    spdlog::warn("a recorded design is left out: {}", no_such_design(rig_, *cockpit_.unknown_design()));
+  }
   if (wanted_design_) cockpit_.choose_design(*std::exchange(wanted_design_, std::nullopt), now);
 }
 

@@ -65,6 +65,7 @@ class CockpitProcess {
   std::optional<KeptDesign>
       kept_design_;  // in front of cockpit_, where what plays by itself must not change the design
   bool said_design_left_out_ = false;
+  bool said_unknown_design_ = false;
 
   Verbs verbs_;
   ControlDesk desk_;

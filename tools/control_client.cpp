@@ -10,7 +10,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kRepeatEvery = 100ms;
-constexpr auto kPendingFor = 1s;  // a design that is accepted and does not shine: a paused rig
 
 std::string process_name(const Datagram& datagram) {
   switch (datagram.sender) {
@@ -103,7 +102,7 @@ void ControlClient::settle(Open& open) const {
     if (waited > wait_) open.answer = Answer{Outcome::kSilent, silence(open)};
   } else if (waits.empty()) {
     open.answer = Answer{Outcome::kDone, now};
-  } else if (waited > kPendingFor) {
+  } else if (waited > wait_) {  // a paused rig
     open.answer = Answer{Outcome::kDone, "accepted; " + waits};
   }
 }

@@ -27,7 +27,7 @@ class ControlClient {
     std::string text;  ///< what holds now, or the reason
   };
 
-  /// `wait`: how long a command that was sent may stay without an answer.
+  /// `wait`: how long a command that was sent may stay without an answer, and a design that is accepted without light.
   ControlClient(Bus bus, const Rig& rig, std::chrono::nanoseconds wait);
   ControlClient(const ControlClient&) = delete;
   ControlClient& operator=(const ControlClient&) = delete;

@@ -2,8 +2,6 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -17,15 +15,15 @@
 #include "config/key_bindings.h"
 #include "config/log_levels.h"
 #include "config/picture_options.h"
-#include "config/remedies.h"
 #include "config/vehicle.h"
 #include "net/bus.h"
 #include "net/clock.h"
 #include "net/drive_file.h"
 #include "net/stats.h"
-#include "tools/child_process.h"
 #include "tools/commands.h"
 #include "tools/derived_rig.h"
+#include "tools/drive_folder.h"
+#include "tools/drive_progress.h"
 #include "tools/lamp_design.h"
 #include "tools/recorder.h"
 #include "tools/report.h"
@@ -145,52 +143,6 @@ void add_person(const Rig& rig, const DriveOptions& options, std::vector<Process
   }
 }
 
-/// A process that is killed while it writes its counts leaves <name>.json.tmp<process id>.
-void remove_half_written(const fs::path& out, const std::vector<std::string>& process_names) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(out, ignored)) {
-    const std::string file = entry.path().filename().string();
-    for (const std::string& name : process_names) {
-      if (file.starts_with(name + ".json.tmp")) fs::remove(entry.path(), ignored);
-    }
-  }
-}
-
-/// What an earlier drive left in the folder; nothing else in it is touched.
-void remove_earlier_output(const fs::path& out, const std::vector<std::string>& process_names) {
-  std::error_code ignored;
-  for (const char* file : {"report.json", "index.html", "drive.mp4", "contact_sheet.png", "drivers_view.png",
-                           "birds_eye.png", "wall_25m.png", "hdr.exr", "eye.json"}) {
-    fs::remove(out / file, ignored);
-  }
-  for (const std::string& name : process_names) fs::remove(out / (name + ".json"), ignored);
-  remove_half_written(out, process_names);
-  for (const auto& entry : fs::directory_iterator(out / "frames", ignored)) {
-    const std::string stem = entry.path().stem().string();
-    const bool ours = entry.path().extension() == ".png" &&
-                      std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c); });
-    if (ours) fs::remove(entry.path(), ignored);
-  }
-}
-
-/// The topmost folder that has to be made for `out`; empty when it is there.
-fs::path first_missing(fs::path out) {
-  fs::path missing;
-  for (; !out.empty() && !fs::exists(out); out = out.parent_path()) missing = out;
-  return missing;
-}
-
-/// After bad input: no count, no picture, and no folder from `made` down, which was not there before.
-void remove_traces(const fs::path& out, const fs::path& made, const std::vector<std::string>& process_names) {
-  remove_earlier_output(out, process_names);
-  std::error_code ignored;
-  fs::remove(out / "frames", ignored);  // only when empty, as those below
-  for (fs::path folder = out; !made.empty(); folder = folder.parent_path()) {
-    fs::remove(folder, ignored);
-    if (folder == made) break;
-  }
-}
-
 std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& options) {
   const auto common = [&](const std::string& name) {
     std::vector<std::string> arguments{"--rig",       rig.file.string(), "--port-base", std::to_string(rig.port_base),
@@ -232,67 +184,10 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
   return specs;
 }
 
-/// One line that is written over while the drive goes on; silent when nobody looks at it.
-class Progress {
- public:
-  explicit Progress(std::int64_t frames_expected) : expected_(frames_expected), shown_(isatty(STDERR_FILENO) != 0) {}
-  ~Progress() {
-    if (written_) std::fputc('\n', stderr);
-  }
-  void show(const FrameReport& report, std::int64_t frame) {
-    if (!shown_ || Clock::now() < next_) return;
-    next_ = Clock::now() + std::chrono::milliseconds(200);
-    written_ = true;
-    const double percent = expected_ > 0 ? 100.0 * static_cast<double>(frame) / static_cast<double>(expected_) : 0.0;
-    std::fprintf(stderr, "\r  frame %lld", static_cast<long long>(frame));
-    if (expected_ > 0)
-      std::fprintf(stderr, " of %lld  %3.0f %%", static_cast<long long>(expected_), std::min(percent, 100.0));
-    std::fprintf(stderr, "  %6.2f ms a frame  %5.1f km/h   ", report.frame_ms, report.drawn.speed_mps * 3.6);
-    std::fflush(stderr);
-  }
-
- private:
-  std::int64_t expected_;
-  bool shown_, written_ = false;
-  Clock::time_point next_;
-};
-
 /// Frames there will be, as far as that is known.
 std::int64_t frames_expected(const DriveOptions& options, const Rig& rig, SimTime duration) {
   if (options.picture.frames > 0) return options.picture.frames;
   return static_cast<std::int64_t>(duration.seconds() * static_cast<double>(rig.frame_rate_hz));
-}
-
-/// frames/*.png to drive.mp4; says so when there is no ffmpeg.
-void make_video(const fs::path& out, std::int64_t frame_rate_hz) {
-  std::error_code ignored;
-  std::int64_t count = 0, last = -1;
-  for (const auto& entry : fs::directory_iterator(out / "frames", ignored)) {
-    if (entry.path().extension() != ".png") continue;
-    ++count;
-    last = std::max<std::int64_t>(last, std::atoll(entry.path().stem().c_str()));
-  }
-  if (count < 2) return;
-  const auto ffmpeg = find_in_path("ffmpeg");
-  if (!ffmpeg) {
-    spdlog::info("no ffmpeg in PATH, so no drive.mp4 ({})", kVideoRemedy);
-    return;
-  }
-  // Every frame kept: at the frame rate. One kept a second: eight a second, a time lapse.
-  const std::int64_t rate = last + 1 <= count + 1 ? frame_rate_hz : 8;
-  auto child =
-      ChildProcess::start(*ffmpeg, {"-y", "-nostdin", "-loglevel", "error", "-framerate", std::to_string(rate),
-                                    "-pattern_type", "glob", "-i", (out / "frames" / "*.png").string(), "-pix_fmt",
-                                    "yuv420p", "-crf", "18", "-movflags", "+faststart", (out / "drive.mp4").string()});
-  if (!child) return;
-  const auto deadline = Clock::now() + std::chrono::minutes(5);
-  std::optional<ProcessEnd> end;
-  while (!(end = child->ended()) && Clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  if (!end) child->send_signal(9);
-  if (!end || end->exit_code != 0 || end->signal != 0) {
-    spdlog::warn("ffmpeg made no video ({})", end ? end->text() : "took more than 5 minutes");
-    fs::remove(out / "drive.mp4", ignored);
-  }
 }
 
 void print_summary(const nlohmann::json& report, const std::string& out) {
@@ -416,7 +311,7 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
   Status recorded = Done{};
   std::size_t restarts_seen = 0;
   {
-    Progress progress(frames_expected(options, *rig, duration));
+    DriveProgress progress(frames_expected(options, *rig, duration));
     while (!stop && !wish && supervisor.step()) {
       bus->wait(std::chrono::milliseconds(10));
       bus->poll();

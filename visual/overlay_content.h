@@ -24,8 +24,9 @@ struct OverlayInstrument {
 
 /// A box with a heading and two columns.
 struct OverlayPanel {
-  /// Above the middle, where the sky is, or along the left edge from top to bottom.
-  enum class Place { kTop, kLeft };
+  /// Above the middle, where the sky is; along the left edge from top to bottom; above the middle of a window that
+  /// shows nothing else.
+  enum class Place { kTop, kLeft, kAlone };
   struct Row {
     std::string key, words;  ///< no key: the words alone, from the left edge
 

@@ -44,6 +44,17 @@ TEST(KeptDesign, ByHandItChangesAndStays) {
   EXPECT_EQ(cockpit.state(-1, false).design_index, 2u);
 }
 
+TEST(Cockpit, AChosenDesignStaysUntilTheRecordedOneChanges) {
+  Cockpit cockpit({0, 3}, "drive");
+  cockpit.take_recorded(recorded(0), at_ms(0));
+  cockpit.choose_design(2, at_ms(5));
+  for (int ms = 10; ms < 50; ms += 10) cockpit.take_recorded(recorded(0), at_ms(ms));
+  EXPECT_EQ(cockpit.design_index(), 2u) << "every frame is recorded with its design";
+  cockpit.take_recorded(recorded(1), at_ms(50));
+  EXPECT_EQ(cockpit.design_index(), 1u);
+  EXPECT_EQ(cockpit.unknown_design(), std::nullopt);
+}
+
 TEST(KeptDesign, AScriptsPressIsLeftOutToo) {
   Cockpit cockpit({0, 3}, "driver");
   KeptDesign kept(cockpit);

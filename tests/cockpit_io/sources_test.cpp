@@ -275,7 +275,8 @@ TEST(DriveSource, PlaysTheRecordedControlsToTheEndOfTheDrive) {
   EXPECT_DOUBLE_EQ(cockpit.state(-1, false).steering_wheel_rad, 0.5);
   (*source)->advance(at_ms(120), nullptr, cockpit);
   EXPECT_EQ(cockpit.state(-1, false).light_switch, LightSwitch::kHigh);
-  EXPECT_EQ(cockpit.state(-1, false).design_index, 1u) << "wraps where the rig has fewer designs";
+  EXPECT_EQ(cockpit.state(-1, false).design_index, 0u) << "the rig has no design 7, and none is taken in its place";
+  EXPECT_EQ(cockpit.unknown_design(), 7u);
   EXPECT_EQ(cockpit.state(-1, false).light_change_sim, at_ms(105).sim);
   EXPECT_EQ(cockpit.state(-1, false).light_changes, 2u);
   EXPECT_FALSE((*source)->ended());

@@ -75,6 +75,12 @@ TEST_F(Control, ARunningRigAnswers) {
   expect_refused("aim 91", "aim: an angle beyond 90 degrees");
   EXPECT_NE(control("status").out.find("visual-0: design "), std::string::npos);
 
+  // A design that is chosen stays, though the replayed drive is recorded frame by frame with another.
+  EXPECT_TRUE(control("design 1").out.starts_with("design 1 of 2, "));
+  EXPECT_NE(control("status").out.find("visual-0: design 1 of 2, "), std::string::npos);
+  EXPECT_NE(control("status").out.find("visual-0: design 1 of 2, "), std::string::npos);
+  EXPECT_TRUE(control("design 0").out.starts_with("design 0 of 2, "));
+
   // A design that is chosen shines when the answer comes, so a lamp of it can be named at once. In between other
   // senders speak, and the stream goes on.
   const std::string one = "timeout 100 '" + program("phare") + "' control --port-base " + std::to_string(port_base()) +

@@ -161,7 +161,7 @@ TEST(ControlClient, ADesignThatNeverShinesIsToldAsSuch) {
   played.act = [](Role role, const RigControl&) {
     return role == Role::kVisual ? pending("still design 0") : accepted("");
   };
-  ControlClient client(std::move(*Bus::open_to_send(rig, Role::kControl)), rig, 60s);
+  ControlClient client(std::move(*Bus::open_to_send(rig, Role::kControl)), rig, 1s);
   client.put(RigControl{RigControl::Design{1}});
   const ControlClient::Answer answer = answer_of(client, &played);
   EXPECT_EQ(answer.outcome, Outcome::kDone);

@@ -32,20 +32,23 @@ TEST(EyeAdaptation, FirstLightFindsTheEyeAdapted) {
   EXPECT_NEAR(eye.adapted_k(), 3200.0, 30.0);
 }
 
-// 50 % after 4 s and 90 % after 70 s (Fairchild and Reniff 1995), to which the two time constants were fitted by three
-// digits: a third of a percent.
+// Rinner and Gegenfurtner 2000: more than half within some 40 to 70 ms, the rest with a half-life of 20 s. Exponentials
+// are exact: the tolerance is of the float of the white.
 TEST(EyeAdaptation, FollowsAnotherLightInTheTimesThatWereMeasured) {
   const glm::vec3 halogen = black_body_colour(3200.0), led = black_body_colour(5500.0);
   EyeAdaptation eye;
   eye.see(at_s(0.0), halogen);
   eye.see(at_s(0.0), led);
   EXPECT_NEAR(done(eye, halogen, led), 0.0, 1e-5);
-  eye.see(at_s(4.0), led);
-  EXPECT_NEAR(done(eye, halogen, led), 0.5, 0.005);
-  eye.see(at_s(70.0), led);
-  EXPECT_NEAR(done(eye, halogen, led), 0.9, 0.005);
-  eye.see(at_s(600.0), led);
-  EXPECT_NEAR(done(eye, halogen, led), 1.0, 0.001);
+  eye.see(at_s(0.055), led);
+  const double slow_there = 1.0 - std::exp2(-0.055 / 20.0);
+  EXPECT_NEAR(done(eye, halogen, led), 0.55 * 0.5 + 0.45 * slow_there, 1e-5);
+  eye.see(at_s(0.5), led);
+  EXPECT_GT(done(eye, halogen, led), 0.5) << "the picture right after a switch is not blue";
+  eye.see(at_s(20.0), led);
+  EXPECT_NEAR(done(eye, halogen, led), 1.0 - 0.45 * 0.5, 1e-5);
+  eye.see(at_s(400.0), led);
+  EXPECT_NEAR(done(eye, halogen, led), 1.0, 1e-5);
 }
 
 // Each frame's step is exact, so what the frames are does not matter: only rounding of 6000 products, 6000 · 2^-52.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "visual/process/window.h"
 #include "visual/process/window_keyboard.h"
 
 namespace phare {
@@ -45,6 +46,19 @@ TEST(Screens, HelpListsEveryKeyOfTheTable) {
   EXPECT_FALSE(press(screens, desk, KeyAction::kLeave));
   EXPECT_TRUE(screens.panel({}, 0.0, desk.help).empty());
   EXPECT_TRUE(press(screens, desk, KeyAction::kLeave));
+}
+
+TEST(Screens, WhileThePictureIsMadeReadyNothingElseIsSeen) {
+  const OverlayPanel panel = getting_ready_panel(3, 11);
+  EXPECT_TRUE(says(panel, "step 3 of 11"));
+  EXPECT_EQ(panel.place, OverlayPanel::Place::kAlone);
+}
+
+TEST(Window, IsNoLargerThanTheScreen) {
+  EXPECT_EQ(fitted(1280, 720, 1920, 1080), std::pair(1280, 720));
+  EXPECT_EQ(fitted(1280, 720, 640, 480), std::pair(640, 360));
+  EXPECT_EQ(fitted(1280, 720, 1366, 360), std::pair(640, 360));
+  EXPECT_EQ(fitted(1280, 720, 0, 0), std::pair(1280, 720)) << "a screen that does not say";
 }
 
 TEST(Screens, TheStartSaysHowToDriveUntilAKeyIsPressed) {

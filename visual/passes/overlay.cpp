@@ -51,6 +51,7 @@ ImU32 packed(OverlayColour colour, int alpha = 255) {
 }
 
 const ImU32 kPaper = IM_COL32(30, 36, 42, 155);  // dark enough that text is read over a lit road
+const ImU32 kBlank = IM_COL32(28, 33, 42, 255);
 constexpr OverlayColour kInk{235, 235, 225}, kKeyInk{255, 214, 120};
 
 /// Letters of one size.
@@ -115,6 +116,7 @@ void draw_panel(Pen small, const Pen& large, const ImVec2& picture, const Overla
   const ImVec2 size{width + 2.0f * edge, title_height + line * rows + 1.5f * edge};
   const bool left = panel.place == OverlayPanel::Place::kLeft;
   const ImVec2 at{left ? edge : std::max(0.5f * (picture.x - size.x), 0.0f), left ? edge : 0.07f * picture.y};
+  if (panel.place == OverlayPanel::Place::kAlone) small.list.AddRectFilled({0.0f, 0.0f}, picture, kBlank);
   small.list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, kPaper, 8.0f);
   const float x = at.x + edge;
   float y = at.y + 0.7f * edge;

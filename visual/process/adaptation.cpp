@@ -11,9 +11,9 @@
 namespace phare {
 namespace {
 
-constexpr double kFastShare = 0.664;
-constexpr double kFast_s = 3.15;
-constexpr double kSlow_s = 40.0 / std::numbers::ln2;
+constexpr double kFastShare = 0.55;
+constexpr double kFast_s = 0.055 / std::numbers::ln2;
+constexpr double kSlow_s = 20.0 / std::numbers::ln2;
 constexpr double kSceneLuminance_cdm2 = 0.3;
 constexpr double kLeast = 0.1;  ///< of a component of the colour; a bulb of 2400 K has 0.13 in blue
 

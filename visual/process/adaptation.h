@@ -2,11 +2,11 @@
 // Computes: the colour of the light it is adapted to, following the mean light of the lamps that shine, weighted by
 //   flux; and from it the balance of the picture: gain = D/colour + (1 - D) in linear Rec. 709, the form of CIECAM02's
 //   (CIE 159:2004) adaptation, with D65, to which the viewer of the display is adapted, as where none leads to.
-// Source: time course: two exponentials through the 50 % after 4 s and 90 % after 70 s that Fairchild and Reniff 1995
-//   found for steady luminance (figures from memory, unconfirmed; Rinner and Gegenfurtner 2000, abstract read, found
-//   20 s half-life for the slow part and more than half of the whole at once). Slow part: half-life 40 s, a third of
-//   the whole; the fast part then follows: 3.15 s. Degree: D = F(1 - exp(-(L_A + 42)/92)/3.6) of CIECAM02, F 0.8 (dark
-//   surround), L_A 0.3 cd/m² (chosen; from 0 to 5 cd/m² D changes from 0.659 to 0.667): 0.66.
+// Source: time course: Rinner and Gegenfurtner 2000 (Vision Research 40, 1813; abstract): "more than 50 %" of what a
+//   colour looks like follows faster than 10 ms, a part with a half-life of 40 to 70 ms, the rest with 20 s. Here 0.55
+//   (chosen) for both fast parts together, which frames of 17 ms hardly tell apart, with 55 ms; 0.45 with 20 s. Degree:
+//   D = F(1 - exp(-(L_A + 42)/92)/3.6) of CIECAM02, F 0.8 (dark surround), L_A 0.3 cd/m² (chosen; from 0 to 5 cd/m² D
+//   changes from 0.659 to 0.667): 0.66.
 // Frame: linear sRGB of luminance 1. Leaves out: what the scene reflects, where one looks, glare, rods; von Kries is
 //   done on Rec. 709 and not on cones. All dark: nothing changes. Checked by tests/visual_process/adaptation_test.cpp.
 #pragma once

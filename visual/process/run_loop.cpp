@@ -175,14 +175,16 @@ void Loop::warm_up() {
   const Clock::time_point begin = Clock::now();
   const VehicleState pose;
   FrameInput input;
-  if (s_.window) input.panel = getting_ready_panel();
   input.camera = overview_camera(s_.scene);
+  const bool thorough = !s_.options.lockstep && !s_.options.going_on;
+  const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 1 : 1;
+  int step = 0;
   const auto draw = [&](const CockpitState& controls) {
+    if (s_.window) input.panel = getting_ready_panel(++step, steps);
     light_up(controls);
     input.lamps = s_.lamps.placed(pose);
     s_.renderer.draw(input);
   };
-  const bool thorough = !s_.options.lockstep && !s_.options.going_on;
   for (std::uint32_t design = 0; thorough && design < s_.lamps.designs().size(); ++design) {
     for (const LightSwitch light : {LightSwitch::kOff, LightSwitch::kLow, LightSwitch::kHigh}) {
       for (const bool fog : {false, true}) {

@@ -91,8 +91,10 @@ OverlayPanel Screens::help_panel() const {
   return panel;
 }
 
-OverlayPanel getting_ready_panel() {
-  return {.title = "Phare: the picture is being made ready ..."};
+OverlayPanel getting_ready_panel(int step, int steps) {
+  return {.title = "Phare: the picture is being made ready ...",
+          .rows = {{"", "step " + std::to_string(step) + " of " + std::to_string(steps)}},
+          .place = OverlayPanel::Place::kAlone};
 }
 
 std::vector<OverlayInstrument> instruments(const CockpitState& controls, const VehicleState& car,

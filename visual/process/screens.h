@@ -46,8 +46,8 @@ class Screens {
   bool start_, over_ = false, begin_again_ = false;
 };
 
-/// While the picture is being made ready.
-OverlayPanel getting_ready_panel();
+/// While the picture is being made ready, from the first step on.
+OverlayPanel getting_ready_panel(int step, int steps);
 
 /// Speed, gear, lights, design: what a driver looks for below the road. `now`: simulated, for what flashes.
 std::vector<OverlayInstrument> instruments(const CockpitState& controls, const VehicleState& car,

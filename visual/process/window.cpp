@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "config/remedies.h"
@@ -69,6 +70,10 @@ Result<Window> Window::open(const std::string& title, int width_px, int height_p
   }
   auto state = std::make_unique<State>();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  int x = 0, y = 0, room_width_px = 0, room_height_px = 0;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor())
+    glfwGetMonitorWorkarea(monitor, &x, &y, &room_width_px, &room_height_px);
+  std::tie(width_px, height_px) = fitted(width_px, height_px, room_width_px, room_height_px);
   state->window = glfwCreateWindow(width_px, height_px, title.c_str(), nullptr, nullptr);
   if (state->window == nullptr) {
     glfwGetError(&reason);

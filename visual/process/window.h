@@ -1,8 +1,11 @@
 // The window: keys, mouse, title line. GLFW; the renderer presents into it.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "config/result.h"
 #include "visual/process/window_keyboard.h"
@@ -11,9 +14,17 @@ struct GLFWwindow;
 
 namespace phare {
 
+/// Width and height of a window of this size, smaller in both where it does not fit the room; no room known: 0.
+inline std::pair<int, int> fitted(int width_px, int height_px, int room_width_px, int room_height_px) {
+  if (room_width_px <= 0 || room_height_px <= 0) return {width_px, height_px};
+  const double scale =
+      std::min({1.0, static_cast<double>(room_width_px) / width_px, static_cast<double>(room_height_px) / height_px});
+  return {static_cast<int>(width_px * scale), static_cast<int>(height_px * scale)};
+}
+
 class Window {
  public:
-  /// Error when there is no display.
+  /// As large as the screen has room for, at most as given. Error when there is no display.
   static Result<Window> open(const std::string& title, int width_px, int height_px);
   Window(Window&&) noexcept;
   Window& operator=(Window&&) noexcept;

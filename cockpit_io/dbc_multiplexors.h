@@ -1,0 +1,15 @@
+// Which multiplexor switches which signal of a DBC file, once all statements are read.
+#pragma once
+
+#include "cockpit_io/dbc.h"
+
+namespace phare {
+
+/// A multiplexor that is always present.
+bool is_root_multiplexor(const DbcSignal& signal);
+
+/// A signal with m and a number and without SG_MUL_VAL_ hangs on the one multiplexor that is always present. Signals
+/// without one, and those whose multiplexors hang on each other, become problems and are left out.
+void hang_multiplexors(Dbc& dbc);
+
+}  // namespace phare
