@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -108,11 +109,17 @@ void LitScene::set_beam(std::size_t beam, const BeamImage& image) {
   beams_.set(beam, image, level_);
   if (cones_.size() <= beam) cones_.resize(beam + 1, LightCone{.half_angle_rad = -1.0});
   cones_[beam] = light_cone(image);
+  peaks_cd_.resize(cones_.size());
+  peaks_cd_[beam] = image.candela.empty() ? 0.0f : *std::ranges::max_element(image.candela);
 }
 
 void LitScene::change_beam(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed) {
   beams_.change(beam, image, changed);
   cones_[beam] = light_cone_after(cones_[beam], image, changed);
+  for (const TexelRect& rect : changed)
+    for (std::size_t row = rect.row; row < rect.end_row; ++row)
+      for (std::size_t column = rect.column; column < rect.end_column; ++column)
+        peaks_cd_[beam] = std::max(peaks_cd_[beam], image.candela[row * image.first_deg.size() + column]);
 }
 
 void LitScene::begin_frame(gpu::FrameGraph& graph) {
@@ -127,32 +134,71 @@ void LitScene::forget_sets() {
 
 LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps,
                        double far_mesh_from_m, std::span<const double> isolux_lx) {
-  LitView view{.geometry = geometry, .sky = sky, .items = geometry_.visible(geometry, far_mesh_from_m)};
+  LitView view{
+      .geometry = geometry, .sky = sky, .isolux_lx = isolux_lx, .items = geometry_.visible(geometry, far_mesh_from_m)};
   std::vector<PlacedLamp> reaching;
   for (const PlacedLamp& lamp : lamps) {
     if (is_dark(lamp.beam)) continue;
-    const LampReach reach(lamp.position_m, lamp.world_from_image, cones_[lamp.beam]);
+    const LampReach reach = reach_of(lamp);
     const bool reaches = reach.meets(geometry) && std::ranges::any_of(view.items, [&](const DrawItem& item) {
                            return reach.meets(item.batch->low_m, item.batch->high_m);
                          });
-    if (!reaches)
-      ++view.unreached;
-    else if (reaching.size() == shader::kMaxLamps)
-      ++view.over_limit;
-    else
+    if (reaches)
       reaching.push_back(lamp);
+    else
+      ++view.unreached;
   }
-  fill(view, reaching, isolux_lx);
+  view.lamps = static_cast<std::uint32_t>(reaching.size());
+  if (reaching.size() <= kLampsForAll)
+    view.lit_by.push_back(fill(view, reaching));
+  else
+    light_by_block(view, reaching);
   return view;
+}
+
+void LitScene::light_by_block(LitView& view, std::span<const PlacedLamp> lamps) {
+  std::vector<LampReach> reaches;
+  for (const PlacedLamp& lamp : lamps) reaches.push_back(reach_of(lamp));
+  std::map<std::vector<std::size_t>, std::size_t> sets;
+  std::vector<bool> left_out(lamps.size());
+  for (DrawItem& item : view.items) {
+    const SceneBatch& batch = *item.batch;
+    std::vector<std::size_t> here;
+    for (std::size_t i = 0; i < lamps.size(); ++i)
+      if (reaches[i].meets(batch.low_m, batch.high_m)) here.push_back(i);
+    if (here.size() > shader::kMaxLamps) {
+      // The brightest stay: peak over the square of the least distance.
+      const auto at_most_lx = [&](std::size_t i) {
+        const glm::dvec3 to = lamps[i].position_m - glm::clamp(lamps[i].position_m, batch.low_m, batch.high_m);
+        return static_cast<double>(peaks_cd_[lamps[i].beam]) / std::max(glm::dot(to, to), 1.0);
+      };
+      std::ranges::stable_sort(here, std::greater(), at_most_lx);
+      for (std::size_t i = shader::kMaxLamps; i < here.size(); ++i) left_out[here[i]] = true;
+      here.resize(shader::kMaxLamps);
+      std::ranges::sort(here);
+    }
+    const auto [set, fresh] = sets.try_emplace(here, view.lit_by.size());
+    if (fresh) {
+      std::vector<PlacedLamp> set_lamps;
+      for (const std::size_t i : here) set_lamps.push_back(lamps[i]);
+      view.lit_by.push_back(fill(view, set_lamps));
+    }
+    item.lit_by = set->second;
+  }
+  view.over_limit = static_cast<std::uint32_t>(std::ranges::count(left_out, true));
+  std::ranges::stable_sort(view.items, {},
+                           [](const DrawItem& item) { return std::pair(item.batch->kind, item.lit_by); });
 }
 
 LitView LitScene::view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps) {
   LitView view{.geometry = geometry, .sky = {}};
-  fill(view, lamps, {});
+  view.lamps = static_cast<std::uint32_t>(lamps.size());
+  view.lit_by.push_back(fill(view, lamps));
   return view;
 }
 
-void LitScene::fill(LitView& view, std::span<const PlacedLamp> lamps, std::span<const double> isolux_lx) {
+LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
+  LitBy lit;
   shader::GpuFrame frame{};
   const glm::mat4 clip = glm::mat4(view.geometry.clip_from_eye());
   for (int i = 0; i < 4; ++i) frame.clip_from_eye[i] = clip[i];
@@ -161,19 +207,19 @@ void LitScene::fill(LitView& view, std::span<const PlacedLamp> lamps, std::span<
   constexpr float kNowhere_lx = 1e30f;
   for (std::size_t i = 0; i < kMostIsoluxLevels; ++i)
     frame.isolux_lx[i / 4][static_cast<int>(i % 4)] =
-        i < isolux_lx.size() ? static_cast<float>(isolux_lx[i]) : kNowhere_lx;
+        i < view.isolux_lx.size() ? static_cast<float>(view.isolux_lx[i]) : kNowhere_lx;
   Beams bound;
   bound.fill(kNoBeam);
   std::vector<shader::TableShape> shapes;
   std::optional<glm::vec3> first_colour;
   for (const PlacedLamp& lamp : lamps) {
     const PackedBeam& beam = beams_.beam(lamp.beam);
-    bound[view.lamps] = lamp.beam;
+    bound[lit.lamps] = lamp.beam;
     shapes.push_back(beam.shape);
-    if (first_colour && *first_colour != beam.colour) view.colours |= 1u;
-    if (beam.tinted()) view.colours |= 1u << (8 + view.lamps);
+    if (first_colour && *first_colour != beam.colour) lit.colours |= 1u;
+    if (beam.tinted()) lit.colours |= 1u << (8 + lit.lamps);
     first_colour = beam.colour;
-    shader::GpuLamp& out = frame.lamps[view.lamps++];
+    shader::GpuLamp& out = frame.lamps[lit.lamps++];
     out.position = glm::vec4(glm::vec3(lamp.position_m - view.geometry.camera().eye_m), 1.0f);
     const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
     out.row_a = glm::vec4(glm::vec3(rows[0]), 0.0f);
@@ -181,15 +227,16 @@ void LitScene::fill(LitView& view, std::span<const PlacedLamp> lamps, std::span<
     out.row_c = glm::vec4(glm::vec3(rows[2]), 0.0f);
     beams_.describe(lamp.beam, out);
   }
-  view.tables = tables_of(std::move(shapes));
+  lit.tables = tables_of(std::move(shapes));
   const std::size_t page = views_ / kViewsInPage, place = views_ % kViewsInPage;
   ++views_;
   if (page == pages_.size())
     pages_.push_back(std::make_unique<gpu::HostBuffer>(device_, kViewsInPage * stride_,
                                                        vk::BufferUsageFlagBits::eUniformBuffer, "views"));
-  view.data_at = static_cast<std::uint32_t>(place * stride_);
-  std::memcpy(static_cast<std::byte*>(pages_[page]->data) + view.data_at, &frame, sizeof frame);
-  view.set = set_of(page, bound);
+  lit.data_at = static_cast<std::uint32_t>(place * stride_);
+  std::memcpy(static_cast<std::byte*>(pages_[page]->data) + lit.data_at, &frame, sizeof frame);
+  lit.set = set_of(page, bound);
+  return lit;
 }
 
 std::size_t LitScene::tables_of(std::vector<shader::TableShape> shapes) {
@@ -293,8 +340,12 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   return *pipelines_.emplace(variant, make_pipeline(device_, recipe)).first->second;
 }
 
+void LitScene::bind(vk::CommandBuffer commands, const LitBy& lit_by) const {
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, lit_by.set, lit_by.data_at);
+}
+
 void LitScene::bind(vk::CommandBuffer commands, const LitView& view) const {
-  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, view.set, view.data_at);
+  bind(commands, view.lit_by.front());
   commands.bindVertexBuffers(0, *geometry_.vertices.buffer, vk::DeviceSize{0});
   commands.bindIndexBuffer(*geometry_.indices.buffer, 0, vk::IndexType::eUint32);
 }
@@ -304,13 +355,16 @@ void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) con
 }
 
 void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant common) {
-  common.lamp_count = view.lamps;
-  common.tables = view.tables;
-  common.colours = common.output == LampOutput::kAudit ? 0 : view.colours;
   bind(commands, view);
+  std::size_t lit_by = 0;
   vk::Pipeline bound;
   for (const DrawItem& item : view.items) {
+    if (item.lit_by != std::exchange(lit_by, item.lit_by)) bind(commands, view.lit_by[lit_by]);
+    const LitBy& lit = view.lit_by[lit_by];
     LitVariant variant = common;
+    variant.lamp_count = lit.lamps;
+    variant.tables = lit.tables;
+    variant.colours = common.output == LampOutput::kAudit ? 0 : lit.colours;
     variant.kind = item.batch->kind;
     if (variant.output == LampOutput::kAudit) variant.kind = {.double_sided = variant.kind.double_sided};
     const vk::Pipeline wanted = pipeline(variant);

@@ -22,18 +22,25 @@ namespace phare {
 /// What lamps.frag writes.
 enum class LampOutput : std::uint32_t { kDisplay = 0, kHdr = 1, kFalseColour = 2, kMeasure = 3, kAudit = 4 };
 
+/// Lamps that light some of what a view sees, kLampsPerDraw at most.
+struct LitBy {
+  std::uint32_t lamps = 0;
+  std::size_t tables = 0;     ///< which of the scene's sets of table shapes
+  std::uint32_t colours = 0;  ///< as kSpecColours
+  vk::DescriptorSet set{};
+  std::uint32_t data_at = 0;  ///< of their GpuFrame in the buffer, bytes
+};
+
 /// One view of a frame, ready for its passes.
 struct LitView {
   ViewGeometry geometry;
   Sky sky;
+  std::span<const double> isolux_lx{};  ///< lines of false colour; of the caller, while the view is made
   std::vector<DrawItem> items{};
-  std::uint32_t lamps = 0;       ///< that light it
+  std::vector<LitBy> lit_by{};   ///< one at least
+  std::uint32_t lamps = 0;       ///< that light something in it
   std::uint32_t unreached = 0;   ///< left out: they light nothing of what it sees
-  std::uint32_t over_limit = 0;  ///< left out: kMaxLamps light it already
-  std::size_t tables = 0;        ///< which of the scene's sets of table shapes
-  std::uint32_t colours = 0;     ///< as kSpecColours
-  vk::DescriptorSet set{};
-  std::uint32_t data_at = 0;  ///< of its GpuFrame in the buffer, bytes
+  std::uint32_t over_limit = 0;  ///< left out somewhere: kLampsPerDraw that are brighter there light it already
 };
 
 /// What makes a pipeline of lamps.frag.
@@ -64,8 +71,8 @@ class LitScene {
 
   /// Before the views of a frame; the frame before is done. Uploads the beams that changed, in a pass.
   void begin_frame(gpu::FrameGraph& graph);
-  /// A view of the scene with those of the lamps that reach something in it.
-  /// `isolux_lx`: lines of false colour.
+  /// A view of the scene with those of the lamps that reach something in it. Up to kLampsForAll light all that it sees;
+  /// of more, each block is lit by those that reach it: fewer to sum, at the price of a pipeline for every number.
   LitView view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps, double far_mesh_from_m,
                std::span<const double> isolux_lx);
   /// An eye with lamps and no surface, for points that are given.
@@ -75,6 +82,7 @@ class LitScene {
   vk::Pipeline pipeline(const LitVariant& variant);
   /// The view's data, and the vertices of the scene.
   void bind(vk::CommandBuffer commands, const LitView& view) const;
+  void bind(vk::CommandBuffer commands, const LitBy& lit_by) const;
   void push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const;
   /// All that the view sees; of `common` all counts but the material and the lamps.
   void draw(gpu::Recorder& commands, const LitView& view, LitVariant common);
@@ -82,10 +90,15 @@ class LitScene {
  private:
   static constexpr std::uint32_t kViewsInPage = 16;
   static constexpr std::size_t kMostSets = 256;  ///< kept from frame to frame
+  static constexpr std::size_t kLampsForAll = 4;
   using Beams = std::array<std::size_t, shader::kMaxLamps>;
 
-  /// Lamps of a view, by their places, into its data.
-  void fill(LitView& view, std::span<const PlacedLamp> lamps, std::span<const double> isolux_lx);
+  /// Lamps of a view, by their places, into data of their own.
+  LitBy fill(const LitView& view, std::span<const PlacedLamp> lamps);
+  void light_by_block(LitView& view, std::span<const PlacedLamp> lamps);
+  LampReach reach_of(const PlacedLamp& lamp) const {
+    return {lamp.position_m, lamp.world_from_image, cones_[lamp.beam]};
+  }
   std::size_t tables_of(std::vector<shader::TableShape> shapes);
   vk::DescriptorSet set_of(std::size_t page, const Beams& beams);
   void forget_sets();
@@ -95,6 +108,7 @@ class LitScene {
   SceneBuffers geometry_;
   BeamStore beams_;
   std::vector<LightCone> cones_;  ///< of each beam
+  std::vector<float> peaks_cd_;   ///< of each beam; of one that was changed, at most
   Grain grain_;
   gpu::DescriptorSets sets_;
   std::map<std::pair<std::size_t, Beams>, vk::DescriptorSet> set_of_;

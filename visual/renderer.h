@@ -44,8 +44,9 @@ struct PlacedLamp {
   std::size_t beam = 0;              ///< index of the beam image set with set_beam
 };
 
-/// So many lamps light one view at most. Those that reach nothing in it do not count.
-inline constexpr std::size_t kLampsPerView = shader::kMaxLamps;
+/// So many lamps light one draw at most, which is a block of the scene where a view has many. Those that reach nothing
+/// of it do not count.
+inline constexpr std::size_t kLampsPerDraw = shader::kMaxLamps;
 
 /// Blocks of the scene farther than this are drawn with fewer triangles: their errors are made for this distance.
 constexpr double kFarMeshFrom_m = 150.0;
@@ -63,8 +64,8 @@ struct PictureSize {
 struct ViewInput {
   std::string name{};  ///< in FrameResult; empty: "view 2" and so on
   Camera camera;
-  /// In order of importance. Left out and counted are those that reach nothing in the view, and what is more than
-  /// kLampsPerView.
+  /// Any number. Left out and counted are those that reach nothing in the view, and where more than kLampsPerDraw reach
+  /// one draw the weakest there.
   std::vector<PlacedLamp> lamps;
   double exposure_per_cdm2 = 0.8;  ///< multiplies luminance before the tone curve; fixed, so that beams compare
   double adaptation_k = 4000.0;    ///< light of this colour temperature looks white
@@ -99,7 +100,7 @@ struct ViewResult {
   EffectPlan effects;                  ///< what was on, and why
   std::uint32_t lamps = 0;             ///< that light it
   std::uint32_t lamps_unreached = 0;   ///< left out: nothing that it sees is within their light
-  std::uint32_t lamps_over_limit = 0;  ///< left out: it has kLampsPerView already
+  std::uint32_t lamps_over_limit = 0;  ///< left out somewhere: kLampsPerDraw that are brighter there light it already
   std::uint32_t passes = 0, draws = 0;
   std::uint64_t triangles = 0;
 };

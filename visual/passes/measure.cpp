@@ -11,9 +11,9 @@ void measure_points(gpu::FrameGraph& graph, LitScene& scene, const LitView& view
         .renderArea = {{0, 0}, lx.extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &target});
     set_area(commands, lx.extent);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, scene.pipeline({.output = LampOutput::kMeasure,
-                                                                            .lamp_count = view.lamps,
+                                                                            .lamp_count = view.lit_by.front().lamps,
                                                                             .lamp_base = lamp_base,
-                                                                            .tables = view.tables,
+                                                                            .tables = view.lit_by.front().tables,
                                                                             .format = lx.format}));
     scene.bind(commands, view);
     scene.push(commands,
