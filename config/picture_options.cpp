@@ -65,21 +65,20 @@ void PictureOptions::add_to(CLI::App& app) {
       ->capture_default_str();
   // Short names of settings of the desk; --set reaches them all.
   const auto setting = [&](const char* option, const char* name, const char* says) {
-    declare(app.add_option_function<std::string>(
-                option,
-                [this, name](const std::string& value) {
-                  desk.push_back({name, value});
-                },
-                says))
-        ->check(
-            [name](const std::string& value) {
-              return why_not({name, value});
-            },
-            "", name);
+    return declare(app.add_option_function<std::string>(
+        option,
+        [this, name](const std::string& value) {
+          desk.push_back({name, value});
+        },
+        says));
   };
-  setting("--camera", "camera", "Eye of the picture: driver, birds-eye, chase [driver]");
-  setting("--exposure", "exposure_per_cdm2", "Exposure, 1/(cd/m2) [0.8]");
-  setting("--adaptation", "adaptation_k",
+  const auto checked = [&](const char* option, const char* name, const char* says) {
+    setting(option, name, says)->check([name](const std::string& value) { return why_not({name, value}); }, "", name);
+  };
+  setting("--camera", "camera", "Eye of the picture: the driver's, one above the road, one behind the car [driver]")
+      ->check(one_of(kCameraNames));
+  checked("--exposure", "exposure_per_cdm2", "Exposure, 1/(cd/m2) [0.8]");
+  checked("--adaptation", "adaptation_k",
           "Light of this colour temperature in K looks white, or auto: the eye follows the lamps [the rig's]");
   declare(app.add_flag_callback(
       "--false-colour",

@@ -35,7 +35,7 @@ struct LitBy {
 struct LitView {
   ViewGeometry geometry;
   Sky sky;
-  std::span<const double> isolux_lx{};  ///< lines of false colour; of the caller
+  std::span<const double> isolux_lx{};  ///< lines of false colour; of the caller, while the view is made
   std::vector<DrawItem> items{};
   std::vector<LitBy> lit_by{};   ///< one at least
   std::uint32_t lamps = 0;       ///< that light something in it
@@ -73,7 +73,6 @@ class LitScene {
   void begin_frame(gpu::FrameGraph& graph);
   /// A view of the scene with those of the lamps that reach something in it. Up to kLampsForAll light all that it sees;
   /// of more, each block is lit by those that reach it: fewer to sum, at the price of a pipeline for every number.
-  /// `isolux_lx`: lines of false colour.
   LitView view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps, double far_mesh_from_m,
                std::span<const double> isolux_lx);
   /// An eye with lamps and no surface, for points that are given.

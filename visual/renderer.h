@@ -44,8 +44,8 @@ struct PlacedLamp {
   std::size_t beam = 0;              ///< index of the beam image set with set_beam
 };
 
-/// So many lamps light one draw at most, which is a block of the scene where a view has many. Those that reach nothing of
-/// it do not count.
+/// So many lamps light one draw at most, which is a block of the scene where a view has many. Those that reach nothing
+/// of it do not count.
 inline constexpr std::size_t kLampsPerDraw = shader::kMaxLamps;
 
 /// Blocks of the scene farther than this are drawn with fewer triangles: their errors are made for this distance.
