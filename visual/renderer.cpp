@@ -29,21 +29,20 @@ gpu::DeviceOptions device_options(const RendererOptions& options) {
   return result;
 }
 
-/// Texels of a part of an image, for the processor.
-struct Copy {
-  gpu::HostBuffer buffer;
-  vk::Extent2D extent{};
-};
-
-const Copy& copy_of(const std::map<std::size_t, Copy>& copies, std::size_t view) {
-  const auto found = copies.find(view);
-  if (found == copies.end()) throw std::logic_error("the newest frame has kept no picture of this view");
-  return found->second;
-}
-
 }  // namespace
 
 struct Renderer::Impl {
+  /// Texels of a part of an image, for the processor.
+  struct Copy {
+    gpu::HostBuffer buffer;
+    vk::Extent2D extent{};
+  };
+  static const Copy& copy_of(const std::map<std::size_t, Copy>& copies, std::size_t view) {
+    const auto found = copies.find(view);
+    if (found == copies.end()) throw std::logic_error("the newest frame has kept no picture of this view");
+    return found->second;
+  }
+
   RendererOptions options;
   gpu::Device device;
   gpu::FrameGraph graph{device};
@@ -216,7 +215,7 @@ FrameResult Renderer::draw(const FrameInput& input) {
 }
 
 Image8 Renderer::read_image(std::size_t view) const {
-  const Copy& copy = copy_of(impl_->images, view);
+  const Impl::Copy& copy = Impl::copy_of(impl_->images, view);
   Image8 image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
   image.rgba.resize(copy.buffer.bytes);
   std::memcpy(image.rgba.data(), copy.buffer.data, image.rgba.size());
@@ -227,7 +226,7 @@ Image8 Renderer::read_image(std::size_t view) const {
 }
 
 ImageF Renderer::read_hdr(std::size_t view) const {
-  const Copy& copy = copy_of(impl_->hdrs, view);
+  const Impl::Copy& copy = Impl::copy_of(impl_->hdrs, view);
   ImageF image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
   const auto* half = static_cast<const std::uint16_t*>(copy.buffer.data);
   const std::size_t count = copy.buffer.bytes / 2;
