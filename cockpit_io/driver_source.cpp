@@ -1,12 +1,9 @@
 #include "cockpit_io/driver_source.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
-#include <limits>
 
-#include "cockpit_io/text_scanner.h"
+#include "config/cockpit.h"
 #include "config/rig.h"
 #include "config/toml_table.h"
 
@@ -15,7 +12,6 @@ namespace phare {
 namespace {
 
 constexpr double kKmh = 1.0 / 3.6;
-constexpr std::string_view kLaneHeader = "s_m,x_m,y_m,z_m,heading_rad,curvature_1pm";
 
 // Chosen so that the car settles on the line without swaying at 80 km/h.
 constexpr double kLookAhead_s = 0.9;
@@ -24,8 +20,6 @@ constexpr double kSpeedGain_1ps = 0.9;
 constexpr double kSpeedIntegral_1ps2 = 0.15;
 constexpr double kIntegralMost_m = 6.0;
 constexpr double kLeastSpeed_mps = 1.0;  // of the profile: a car that stands has no progress to read a speed from
-
-constexpr std::array<std::string_view, 4> kLights{"off", "position", "low", "high"};
 
 double squared(double value) {
   return value * value;
@@ -37,7 +31,7 @@ LightEvent read_event(TomlTable table) {
   if (table.has("at_t_s")) event.at_t_s = table.number("at_t_s", 0.0, 1e6);
   if (event.at_s_m.has_value() == event.at_t_s.has_value())
     table.fail("at_s_m", "an event needs at_s_m or at_t_s, and not both");
-  if (table.has("light")) event.light = static_cast<LightSwitch>(table.choice("light", kLights));
+  if (table.has("light")) event.light = static_cast<LightSwitch>(table.choice("light", kLightSwitchNames));
   event.flash_s = table.number_or("flash_s", 0.0, 0.0, 60.0);
   if (table.has("fog")) event.fog_front = table.flag_or("fog", false);
   event.design_steps = static_cast<int>(table.integer_or("design_steps", 0, -100, 100));
@@ -61,7 +55,7 @@ Result<DriverScript> read(TomlTable root) {
   script.end_s_m = root.number_or("end_s_m", 1e9, 1.0, 1e9);
   script.end_t_s = root.number_or("end_t_s", 1e9, 0.1, 1e9);
   script.light =
-      static_cast<LightSwitch>(root.choice_or("light", static_cast<std::size_t>(LightSwitch::kLow), kLights));
+      static_cast<LightSwitch>(root.choice_or("light", static_cast<std::size_t>(LightSwitch::kLow), kLightSwitchNames));
 
   TomlTable car = root.table("car");
   script.wheelbase_m = car.number("wheelbase_m", 0.5, 10.0);
@@ -94,38 +88,6 @@ Result<DriverScript> parse_driver_script(std::string_view text, const std::strin
   Result<TomlTable> root = TomlTable::parse(text, name);
   if (!root) return root.error();
   return read(*root);
-}
-
-Result<std::vector<LanePoint>> read_lane(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::error_code ignored;
-  if (!stream || !std::filesystem::is_regular_file(file, ignored)) return Error{file.string(), "no such file"};
-  std::vector<LanePoint> lane;
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    const std::string place = file.string() + ":" + std::to_string(number);
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (number == 1) {
-      if (line != kLaneHeader) return Error{place, "expected the header " + std::string(kLaneHeader)};
-      continue;
-    }
-    TextScanner scan(line);
-    if (scan.at_end()) continue;
-    LanePoint point;
-    double* const fields[]{&point.s_m, &point.x_m, &point.y_m, &point.z_m, &point.heading_rad, &point.curvature_1pm};
-    for (double* field : fields) {
-      const bool first = field == fields[0];
-      const auto value = first || scan.take(',') ? scan.number<double>() : std::nullopt;
-      if (!value || !std::isfinite(*value))
-        return Error{place, "expected six finite numbers, " + std::string(kLaneHeader)};
-      *field = *value;
-    }
-    if (!scan.at_end()) return Error{place, "more than six numbers"};
-    if (!lane.empty() && point.s_m <= lane.back().s_m) return Error{place, "s_m does not rise"};
-    lane.push_back(point);
-  }
-  if (lane.size() < 2) return Error{file.string(), "a lane has at least two points"};
-  return lane;
 }
 
 std::vector<double> speed_profile(const std::vector<LanePoint>& lane, const DriverScript& script) {

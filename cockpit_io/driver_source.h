@@ -13,16 +13,10 @@
 #include <vector>
 
 #include "cockpit_io/source.h"
+#include "config/lane.h"
 #include "config/result.h"
 
 namespace phare {
-
-struct LanePoint {
-  double s_m = 0.0, x_m = 0.0, y_m = 0.0, z_m = 0.0, heading_rad = 0.0, curvature_1pm = 0.0;
-};
-
-/// Reads `s_m,x_m,y_m,z_m,heading_rad,curvature_1pm`; s must rise. Errors with file:line.
-Result<std::vector<LanePoint>> read_lane(const std::filesystem::path& file);
 
 /// A stretch of the lane where the driver keeps below a speed: taken from the script's [[slow]].
 struct SlowStretch {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <thread>
@@ -13,6 +14,7 @@
 #include <variant>
 
 #include "cockpit_io/control_reader.h"
+#include "net/lockstep.h"
 #include "net/stats.h"
 
 namespace phare {
@@ -40,10 +42,9 @@ nlohmann::json latency_json(const LatencyHistogram& histogram) {
 
 /// "drive: light low, steering wheel 3 deg, accelerator 20 %"
 std::string text_of(const CockpitState& state, const std::string& source) {
-  constexpr const char* kLights[] = {"off", "position", "low", "high"};
   char text[200];
   std::snprintf(text, sizeof text, ": light switch %s%s%s, steering wheel %.0f deg, accelerator %.0f %%, brake %.0f %%",
-                kLights[static_cast<std::size_t>(state.light_switch)], state.flash ? ", flash" : "",
+                kLightSwitchNames[static_cast<std::size_t>(state.light_switch)].data(), state.flash ? ", flash" : "",
                 state.fog_front ? ", fog" : "", state.steering_wheel_rad * 180.0 / std::numbers::pi,
                 state.accelerator_01 * 100.0, state.brake_01 * 100.0);
   return source + text;
@@ -67,6 +68,7 @@ CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Ri
       stats_file_(std::move(stats_file)),
       stop_(stop),
       cockpit_(new_cockpit()),
+      verbs_(verbs()),
       processor_before_s_(processor_s()) {
   take_source(std::move(source));
   const bool recorded = config_.source == SourceKind::kDrive || config_.source == SourceKind::kDriver ||
@@ -75,32 +77,36 @@ CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Ri
   bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
     if (const auto* keys = std::get_if<KeyInput>(&datagram.payload))
       source_->take_keys(datagram.sender_channel, datagram.start_id, *keys, wall_now());
-    desk_.serve(bus_, datagram, [this](const RigControl& control) { return obey(control); });
+    desk_.serve(bus_, datagram, std::cref(verbs_));
   };
 }
 
-ControlReply CockpitProcess::obey(const RigControl& control) {
-  if (std::holds_alternative<RigControl::Quit>(control.command)) {
+Verbs CockpitProcess::verbs() {
+  Verbs verbs;
+  verbs.on<RigControl::Quit>([this](const auto&) {
     stop_.request();
     return accepted("leaves");
-  }
-  if (const auto* pause = std::get_if<RigControl::Pause>(&control.command)) {
-    paused_ = pause->on;
-    return accepted(real_time_ ? "" : pause->on ? "paused" : "goes on");
-  }
-  if (std::holds_alternative<RigControl::Seek>(control.command)) {
+  });
+  verbs.on<RigControl::Pause>([this](const RigControl::Pause& pause) {
+    paused_ = pause.on;
+    return accepted(real_time_ ? "" : pause.on ? "paused" : "goes on");
+  });
+  verbs.on<RigControl::Seek>([this](const auto&) {
     if (!real_time_) return refused("seek: not in lockstep, where every frame follows the one before");
     seek_ = true;
     return accepted("");
-  }
-  if (const auto* design = std::get_if<RigControl::Design>(&control.command)) {
-    if (design->index >= std::max<std::size_t>(rig_.designs.size(), 1))
-      return refused(no_such_design(rig_, design->index));
-    wanted_design_ = design->index;
+  });
+  verbs.on<RigControl::Design>([this](const RigControl::Design& design) {
+    if (design.index >= std::max<std::size_t>(rig_.designs.size(), 1))
+      return refused(no_such_design(rig_, design.index));
+    wanted_design_ = design.index;
     return accepted("");  // visual says when it shines
-  }
-  return accepted(text_of(cockpit_.state(-1, source_->ended()),
-                          real_time_ && !source_->fault().empty() ? source_->fault() : source_name(config_)));
+  });
+  verbs.on<RigControl::Tell>([this](const auto&) {
+    return accepted(text_of(cockpit_.state(-1, source_->ended()),
+                            real_time_ && !source_->fault().empty() ? source_->fault() : source_name(config_)));
+  });
+  return verbs;
 }
 
 Cockpit CockpitProcess::new_cockpit() const {
@@ -230,33 +236,10 @@ void CockpitProcess::run_real_time(std::chrono::nanoseconds picture_within) {
 
 // ---- lockstep
 
-/// The newest frame any channel has drawn, once all have reported.
-std::optional<std::int64_t> CockpitProcess::newest_frame_of_all() const {
-  std::int64_t newest = -1;
-  for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
-    const auto* report = bus_.newest<FrameReport>(channel);
-    if (report == nullptr) return std::nullopt;
-    newest = std::max(newest, report->value.frame_index);
-  }
-  return newest;
-}
-
-bool CockpitProcess::all_channels_at(std::int64_t frame) const {
-  for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
-    const auto* report = bus_.newest<FrameReport>(channel);
-    if (report == nullptr || report->value.frame_index != frame) return false;
-  }
-  return true;
-}
-
 /// The car in the picture of a frame. Not the newest VehicleState, which may or may not have arrived: this one has.
 const VehicleState* CockpitProcess::drawn_at(std::int64_t frame) const {
-  for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
-    const auto* report = bus_.newest<FrameReport>(channel);
-    if (report == nullptr || report->value.frame_index != frame) continue;
-    return report->value.drawn.level.empty() ? nullptr : &report->value.drawn;
-  }
-  return nullptr;
+  const auto* report = report_of_frame(bus_, frame);
+  return report == nullptr || report->value.drawn.level.empty() ? nullptr : &report->value.drawn;
 }
 
 void CockpitProcess::evaluate_frame(std::int64_t frame) {
@@ -271,18 +254,14 @@ void CockpitProcess::run_lockstep() {
     stats_once_a_second();
     if (!sent) {
       // A cockpit that was restarted goes through every frame again, so that it stands where its predecessor stood.
-      sent = newest_frame_of_all();
+      sent = newest_frame_of_all(bus_);
       if (!sent) continue;
       for (std::int64_t frame = 0; frame <= *sent; ++frame) evaluate_frame(frame);
-      if (*sent >= 0 && !all_channels_at(*sent)) send(frame_time(*sent, rig_.frame_rate_hz), *sent);
+      if (*sent >= 0 && !all_channels_at(bus_, *sent)) send(frame_time(*sent, rig_.frame_rate_hz), *sent);
       if (*sent >= 0) spdlog::info("going on after frame {}", *sent);
     }
-    // A channel that asks for what went out already has lost it, or is new.
-    for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
-      const auto report = bus_.take<FrameReport>(channel);
-      if (report && report->value.frame_index < *sent) bus_.send_again(kPayloadIndex<CockpitState>);
-    }
-    if (paused_ || !all_channels_at(*sent)) continue;
+    send_again_to_late(bus_, *sent, kPayloadIndex<CockpitState>);
+    if (paused_ || !all_channels_at(bus_, *sent)) continue;
     ++*sent;
     evaluate_frame(*sent);
     send(frame_time(*sent, rig_.frame_rate_hz), *sent);

@@ -40,7 +40,7 @@ class CockpitProcess {
   using Clock = std::chrono::steady_clock;
 
   Cockpit new_cockpit() const;
-  ControlReply obey(const RigControl& control);
+  Verbs verbs();
   void take_source(std::unique_ptr<Source> source);
   void begin_anew();
   Moment now_in_real_time();
@@ -49,8 +49,6 @@ class CockpitProcess {
   void send_back(Moment now, const VehicleState* vehicle);
   void wait(std::chrono::nanoseconds at_most);
 
-  std::optional<std::int64_t> newest_frame_of_all() const;
-  bool all_channels_at(std::int64_t frame) const;
   const VehicleState* drawn_at(std::int64_t frame) const;
   void evaluate_frame(std::int64_t frame);
 
@@ -69,6 +67,7 @@ class CockpitProcess {
   bool said_design_left_out_ = false;
   bool said_unknown_design_ = false;
 
+  Verbs verbs_;
   ControlDesk desk_;
   bool paused_ = false;
   bool seek_ = false;

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kE2eProfile2Ids = 16;
 constexpr std::size_t kMostSources = 8;
-constexpr std::array<std::string_view, 4> kLightNames{"off", "position", "low", "high"};  // LightSwitch
 
 std::filesystem::path named_file(TomlTable& table, std::string_view key) {
   const std::string named = table.text_or(key, "");
@@ -100,7 +99,7 @@ void read_source(TomlTable source, CockpitConfig& config) {
   if (config.source == SourceKind::kGamepad) config.device = source.text_or("device", "");
   config.timeout_s = source.number_or("timeout_s", config.timeout_s, 0.001, kMostTimeout_s);
   config.debounce_s = source.number_or("debounce_s", config.debounce_s, 0.0, 1.0);
-  config.default_light = static_cast<int>(source.choice_or("lights", 0, kLightNames));
+  config.default_light = static_cast<int>(source.choice_or("lights", 0, kLightSwitchNames));
   for (const std::string& file : source.texts_or_empty("also")) {
     config.also.push_back(resolve_path(file, source.file()));
   }

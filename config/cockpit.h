@@ -44,6 +44,9 @@ enum class Control {
   kGear,          ///< levels drive, neutral, reverse, park
   kParkingBrake,  ///< 0 … 1
 };
+/// Places of the light switch, in the order of LightSwitch (net/messages.h).
+inline constexpr std::array<std::string_view, 4> kLightSwitchNames{"off", "position", "low", "high"};
+
 inline constexpr std::array<std::string_view, 24> kControlNames{
     "light_switch", "position",        "low",      "high",           "beam_lever",    "flash",
     "fog_front",    "fog_rear",        "turn",     "turn_left",      "turn_right",    "hazard",

@@ -22,10 +22,10 @@ struct NamedLevel {
 };
 using Levels = std::span<const NamedLevel>;
 
-constexpr NamedLevel kLightLevels[]{{"off", static_cast<int>(LightSwitch::kOff)},
-                                    {"position", static_cast<int>(LightSwitch::kPosition)},
-                                    {"low", static_cast<int>(LightSwitch::kLow)},
-                                    {"high", static_cast<int>(LightSwitch::kHigh)},
+constexpr NamedLevel kLightLevels[]{{kLightSwitchNames[0], static_cast<int>(LightSwitch::kOff)},
+                                    {kLightSwitchNames[1], static_cast<int>(LightSwitch::kPosition)},
+                                    {kLightSwitchNames[2], static_cast<int>(LightSwitch::kLow)},
+                                    {kLightSwitchNames[3], static_cast<int>(LightSwitch::kHigh)},
                                     {"auto", static_cast<int>(LightSwitch::kLow)}};
 constexpr NamedLevel kGearLevels[]{{"drive", static_cast<int>(Gear::kDrive)},
                                    {"neutral", static_cast<int>(Gear::kNeutral)},

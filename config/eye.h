@@ -1,7 +1,6 @@
 // What the eye of a rig takes for white: [eye] of a rig file, --adaptation of a command line.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -14,12 +13,11 @@ constexpr double kCoolestWhite_k = 2000.0, kHottestWhite_k = 25000.0;  ///< of l
 /// The eye follows the light that is lit, or light of this colour temperature looks white whatever is lit.
 struct EyeSetting {
   std::optional<double> fixed_k;
+
+  friend bool operator==(const EyeSetting&, const EyeSetting&) = default;
 };
 
 /// "auto", or a colour temperature in K.
 Result<EyeSetting> parse_adaptation(const std::string& text);
-
-/// `adaptation_k` under [eye] of a rig file; without it the eye follows. Of a file that read_rig has read.
-Result<EyeSetting> read_eye(const std::filesystem::path& rig_file);
 
 }  // namespace phare

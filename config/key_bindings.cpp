@@ -34,10 +34,11 @@ constexpr KeyBinding kBindings[] = {
     {kDesignPrevious, kCar, 'p', "P", {"p"}, "previous design"},
     {kDemo, kCar, 'd', "D", {"d"}, "the demo driver takes the wheel; any driving key gives it back"},
     {kBeginAgain, kDrive, key::kBackspace, "Backspace", {}, "begin again from the start"},
-    {kHelp, kPicture, key::kF1, "F1", {}, "show or hide these keys"},
-    {kHelp, kPicture, '?', "?", {}, "the same"},
-    {kCamera, kPicture, 'c', "C", {}, "camera: driver, from above, behind the car"},
-    {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour"},
+    {kHelp, kPicture, key::kF1, "F1", {}, "show or hide these keys", "help toggle"},
+    {kHelp, kPicture, '?', "?", {}, "the same", "help toggle"},
+    {kCamera, kPicture, 'c', "C", {}, "camera: driver, from above, behind the car", "camera next"},
+    {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour", "view next"},
+    {kEffects, kPicture, key::kF3, "F3", {}, "which effects are on, and why", "effects toggle"},
     {kLeave, kPicture, key::kEscape, "Esc", {}, "hide these keys, or leave the drive"},
 };
 

@@ -17,7 +17,7 @@ namespace phare {
 using KeyCode = std::uint32_t;
 namespace key {
 inline constexpr KeyCode kEscape = 256, kBackspace = 259, kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kF1 = 290,
-                         kF2 = 291;
+                         kF2 = 291, kF3 = 292;
 }  // namespace key
 
 enum class KeyAction {
@@ -45,9 +45,10 @@ enum class KeyAction {
   kHelp,
   kCamera,
   kFalseColour,
+  kEffects,
   kLeave,
 };
-inline constexpr std::size_t kKeyActions = 25;
+inline constexpr std::size_t kKeyActions = 26;
 
 /// Who acts on a key: the car (phare-cockpit), the picture (phare-visual), or the drive as a whole (phare drive).
 enum class KeyActor { kCar, kPicture, kDrive };
@@ -59,6 +60,7 @@ struct KeyBinding {
   std::string_view name;                     ///< as it is printed on the key: "Up", "L", "Shift+L"
   std::array<std::string_view, 2> terminal;  ///< what terminals send for it; empty: only the window has this key
   std::string_view what;                     ///< what it does, in a few words
+  std::string_view desk{};                   ///< a setting of the picture that it changes (config/desk.h)
 };
 
 /// In the order of the help.

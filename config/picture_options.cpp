@@ -1,9 +1,10 @@
 #include "config/picture_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
+#include <limits>
 
-#include "config/eye.h"
 #include "config/rig.h"
 
 namespace phare {
@@ -22,6 +23,20 @@ bool parse_size(const std::string& text, int& width_px, int& height_px) {
 template <std::size_t count>
 CLI::IsMember one_of(const std::array<std::string_view, count>& names) {
   return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
+/// "isolux_lx=1 3 5"
+DeskCommand setting_of(const std::string& words) {
+  const std::size_t equals = std::min(words.find('='), words.size());
+  return {words.substr(0, equals), words.substr(std::min(equals + 1, words.size()))};
+}
+
+/// Why a desk would not take it, empty where it would; whether a rig has such a design is seen when it is read.
+std::string why_not(const DeskCommand& command) {
+  Desk desk;
+  if (command.value.empty()) return "expected SETTING=VALUE";
+  const auto done = apply(desk, command, {.designs = std::numeric_limits<std::size_t>::max()});
+  return done ? std::string() : done.error().text();
 }
 
 }  // namespace
@@ -48,26 +63,40 @@ void PictureOptions::add_to(CLI::App& app) {
   declare(app.add_option("--samples", samples, "Samples a pixel: 1 or 4"))
       ->check(CLI::IsMember({1, 4}))
       ->capture_default_str();
-  declare(
-      app.add_option("--camera", camera, "Eye of the picture: the driver's, one above the road, one behind the car"))
-      ->check(one_of(kCameraNames))
-      ->capture_default_str();
+  // Short names of settings of the desk; --set reaches them all.
+  const auto setting = [&](const char* option, const char* name, const char* says) {
+    return declare(app.add_option_function<std::string>(
+        option,
+        [this, name](const std::string& value) {
+          desk.push_back({name, value});
+        },
+        says));
+  };
+  const auto checked = [&](const char* option, const char* name, const char* says) {
+    setting(option, name, says)->check([name](const std::string& value) { return why_not({name, value}); }, "", name);
+  };
+  setting("--camera", "camera", "Eye of the picture: the driver's, one above the road, one behind the car [driver]")
+      ->check(one_of(kCameraNames));
+  checked("--exposure", "exposure_per_cdm2", "Exposure, 1/(cd/m2) [0.8]");
+  checked("--adaptation", "adaptation_k",
+          "Light of this colour temperature in K looks white, or auto: the eye follows the lamps [the rig's]");
+  declare(app.add_flag_callback(
+      "--false-colour",
+      [this] {
+        desk.push_back({"view", "false-colour"});
+      },
+      "Begin with illuminance in false colour"));
+  declare(app.add_option_function<std::vector<std::string>>(
+              "--set",
+              [this](const std::vector<std::string>& settings) {
+                for (const std::string& words : settings) desk.push_back(setting_of(words));
+              },
+              "SETTING=VALUE of the picture, as phare control set has them (docs/control.md); repeat for more"))
+      ->allow_extra_args(false)
+      ->check([](const std::string& words) { return why_not(setting_of(words)); }, "", "setting");
   declare(app.add_option("--still-at", still_at_s,
                          "Simulated time of the stills, s [a fifth of the drive, on low beam, moving]"))
       ->check(CLI::NonNegativeNumber);
-  declare(app.add_option("--exposure", exposure_per_cdm2, "Exposure, 1/(cd/m2)"))
-      ->check(CLI::Range(1e-6, 1e6))
-      ->capture_default_str();
-  declare(app.add_option("--adaptation", adaptation,
-                         "Light of this colour temperature in K looks white, or auto: the eye follows the lamps [the "
-                         "rig's]"))
-      ->check(
-          [](const std::string& text) {
-            const auto setting = parse_adaptation(text);
-            return setting ? std::string() : setting.error().reason;
-          },
-          "", "adaptation");
-  declare(app.add_flag("--false-colour", false_colour, "Begin with illuminance in false colour"));
   declare(app.add_option("--beam-image", beam_image,
                          "How beam images are stored and looked up, instead of the rig's: what accuracy costs in time"))
       ->check(one_of(kImageLevelNames));
@@ -82,9 +111,11 @@ std::vector<std::string> PictureOptions::arguments() const {
   std::vector<std::string> words;
   for (const CLI::Option* option : declared_) {
     if (option->count() == 0) continue;
-    words.push_back(option->get_name());
-    if (option->get_expected_max() > 0)
-      for (const std::string& value : option->results()) words.push_back(value);
+    if (option->get_expected_max() == 0) words.push_back(option->get_name());
+    for (const std::string& value : option->get_expected_max() > 0 ? option->results() : CLI::results_t{}) {
+      words.push_back(option->get_name());
+      words.push_back(value);
+    }
   }
   return words;
 }

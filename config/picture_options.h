@@ -3,16 +3,13 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
-namespace phare {
+#include "config/desk.h"
 
-/// Eyes a picture can be drawn from, in the order of CameraKind (visual/process/cameras.h).
-inline constexpr std::array<std::string_view, 3> kCameraNames{"driver", "birds-eye", "chase"};
+namespace phare {
 
 class PictureOptions {
  public:
@@ -29,12 +26,10 @@ class PictureOptions {
   std::int64_t frames = 0;          ///< > 0: save every one of this many frames, then leave
   int width_px = 0, height_px = 0;  ///< 0: the channel's
   int samples = 1;
-  std::string camera{kCameraNames[0]};
   double still_at_s = -1.0;  ///< simulated time of the stills; negative: chosen
-  double exposure_per_cdm2 = 0.8;
-  std::string adaptation;  ///< "auto" or a colour temperature (config/eye.h); empty: the rig's
-  bool false_colour = false;
-  std::string beam_image;          ///< one of kImageLevelNames; empty: the rig's
+  std::vector<DeskCommand>
+      desk;                ///< what was set of the picture, in the order given; of the value --set none is checked
+  std::string beam_image;  ///< one of kImageLevelNames; empty: the rig's
   std::int64_t audit_every = 300;  ///< frames; 0: never
   std::string device_name;
   bool validation = false;

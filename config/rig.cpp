@@ -12,8 +12,9 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <variant>
 
-#include "config/eye.h"
+#include "config/desk.h"
 #include "config/input_files.h"
 #include "config/paths.h"
 #include "config/toml_table.h"
@@ -24,14 +25,32 @@ namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr std::size_t kMaxChannels = 16;
 
-constexpr std::array<std::string_view, 5> kDynamicsLevels{"pose", "kinematic", "single-track", "full", "auto"};
-
 glm::dvec3 vector3(const std::vector<double>& xyz) {
   return {xyz[0], xyz[1], xyz[2]};
 }
 
 double degrees(TomlTable& table, std::string_view key, double min_deg, double max_deg) {
   return table.number_or(key, 0.0, min_deg, max_deg) * kRadPerDeg;
+}
+
+/// How the picture begins, in the words of config/desk.h; several numbers are an array.
+void read_desk(TomlTable table, std::size_t designs, Desk& desk) {
+  for (const DeskSetting& setting : desk_settings()) {
+    if (!setting.in_rig) continue;
+    std::string words;
+    for (const auto& value : table.values_or_empty(setting.name)) {
+      if (const auto* number = std::get_if<double>(&value)) {
+        char digits[40];
+        words += (words.empty() ? "" : " ") +
+                 std::string(digits, std::to_chars(digits, digits + sizeof digits, *number).ptr);
+      } else {
+        words += (words.empty() ? "" : "; ") + std::get<std::string>(value);
+      }
+    }
+    if (words.empty()) continue;
+    if (const auto done = apply(desk, {std::string(setting.name), words}, {.designs = designs}); !done)
+      table.fail(setting.name, done.error().reason);
+  }
 }
 
 ChannelConfig read_channel(TomlTable table, std::size_t index) {
@@ -208,7 +227,7 @@ Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
     rig.real_time_priority = clock->flag_or("real_time_priority", rig.real_time_priority);
   }
   if (auto dynamics = root.table_if("dynamics")) {
-    rig.dynamics_level = kDynamicsLevels[dynamics->choice_or("level", 1, kDynamicsLevels)];
+    rig.dynamics_level = kDynamicsLevelNames[dynamics->choice_or("level", 1, kDynamicsLevelNames)];
     rig.dynamics_step_s = dynamics->number_or("step_s", rig.dynamics_step_s, 1e-5, 0.05);
   }
   if (auto beams = root.table_if("beams")) {
@@ -217,10 +236,13 @@ Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
         static_cast<ImageLevel>(beams->choice_or("image", static_cast<std::size_t>(rig.beam_image), kImageLevelNames));
   }
   if (auto eye = root.table_if("eye")) {
-    eye->number_or("adaptation_k", 4000.0, kCoolestWhite_k, kHottestWhite_k);  // read by read_eye (config/eye.h)
+    const double white_k = eye->number_or("adaptation_k", 4000.0, kCoolestWhite_k, kHottestWhite_k);
+    if (eye->has("adaptation_k")) rig.desk.eye.fixed_k = white_k;
   }
   for (TomlTable channel : root.tables("channel")) rig.channels.push_back(read_channel(channel, rig.channels.size()));
   for (TomlTable design : root.tables("design")) rig.designs.push_back(read_design(design, rig_file));
+
+  if (auto desk = root.table_if("desk")) read_desk(*desk, rig.designs.size(), rig.desk);
 
   if (rig.channels.empty()) root.fail("channel", "a rig needs at least one [[channel]]");
   if (rig.channels.size() > kMaxChannels) root.fail("channel", "at most 16 channels");

@@ -12,7 +12,9 @@
 #include <string_view>
 #include <vector>
 
+#include "config/desk.h"
 #include "config/result.h"
+#include "shaders/sizes.h"
 
 namespace phare {
 
@@ -111,6 +113,7 @@ struct Rig {
   bool high_keeps_low = true;  ///< low beam stays lit under high beam
   bool keep_design = false;    ///< a change of design that was recorded is left out; by hand it is not
   ImageLevel beam_image = ImageLevel::kFloatNodes;
+  Desk desk{};  ///< the picture as it begins: [desk] and [eye]
   std::vector<ChannelConfig> channels;
   std::vector<DesignConfig> designs;
 
@@ -136,7 +139,9 @@ LampConfig lamp_across(LampConfig lamp);
 inline constexpr std::array<std::string_view, 6> kLampFunctionNames{"position", "low",     "high",
                                                                     "fog",      "daytime", "cornering"};
 inline constexpr std::array<std::string_view, 2> kGammaAxisNames{"gamma0", "gamma90"};
-inline constexpr std::size_t kMostLampsOfDesign = 8;  ///< positions the renderer sums per pixel (visual/renderer.h)
+inline constexpr std::size_t kMostLampsOfDesign = shader::kMaxLamps;  ///< positions the renderer sums per pixel
+inline constexpr std::array<std::string_view, 5> kDynamicsLevelNames{"pose", "kinematic", "single-track", "full",
+                                                                     "auto"};
 
 /// Checks that the files a rig names are there: scene, vehicle, cockpit, every photometry file. The error names the
 /// first that is not, and where the rig file names it.
@@ -150,7 +155,8 @@ std::filesystem::path resolve_path(const std::filesystem::path& named, const std
 /// A lamp given on the command line:
 /// FILE,x=1.5,y=0.6,z=0.65,yaw_deg=0,pitch_deg=-0.5729,roll_deg=0[,axis=gamma0|gamma90][,c0_deg=0][,mirror=0|1]
 /// [,lamp_set=1][,emitter=1][,distance_m=25][,scale=1]
-/// FILE may be "-", standard input. It ends at the first ",word="; a name that holds such a thing stands in double quotes, a quote in it doubled.
+/// FILE may be "-", standard input. It ends at the first ",word="; a name that holds such a thing stands in double
+/// quotes, a quote in it doubled.
 Result<LampConfig> parse_lamp_argument(const std::string& text);
 
 }  // namespace phare

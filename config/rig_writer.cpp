@@ -1,9 +1,11 @@
 #include "config/rig_writer.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "config/paths.h"
 
@@ -11,7 +13,6 @@ namespace phare {
 namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr std::array<std::string_view, 4> kBeamImageWords = kImageLevelNames;
 
 /// Shortest decimal that reads back as the same number, and as TOML's float or integer.
 std::string number_word(double value) {
@@ -83,8 +84,13 @@ class RigText {
     key("step_s", number_word(rig_.dynamics_step_s));
     out_ << "\n[beams]\n";
     key("high_keeps_low", rig_.high_keeps_low ? "true" : "false", "low beam stays lit under high beam");
-    key("image", toml_quoted(std::string(kBeamImageWords[static_cast<std::size_t>(rig_.beam_image)])),
+    key("image", toml_quoted(std::string(kImageLevelNames[static_cast<std::size_t>(rig_.beam_image)])),
         "how beams are stored on the device; this one keeps the file's own nodes");
+    if (rig_.desk.eye.fixed_k) {
+      out_ << "\n[eye]\n";
+      key("adaptation_k", number_word(*rig_.desk.eye.fixed_k), "light of this colour temperature looks white");
+    }
+    write(rig_.desk);
     for (const ChannelConfig& channel : rig_.channels) write(channel);
     if (words_.comments)
       comment(
@@ -113,6 +119,16 @@ class RigText {
       for (char& c : line)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
       out_ << "# " << line << '\n';
+    }
+  }
+
+  void write(const Desk& desk) {
+    bool begun = false;
+    for (const DeskCommand& command : difference(desk)) {
+      const DeskSetting& setting = *std::ranges::find(desk_settings(), command.setting, &DeskSetting::name);
+      if (!setting.in_rig) continue;
+      if (!std::exchange(begun, true)) out_ << "\n[desk]" << note("the picture as it begins");
+      key(command.setting, toml_quoted(command.value), std::string(setting.what));
     }
   }
 

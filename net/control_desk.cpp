@@ -27,19 +27,29 @@ std::string no_such_design(const Rig& rig, std::uint32_t index) {
   return text;
 }
 
+namespace {
+
+const Roles kVisual(Role::kVisual), kClock(Role::kCockpit, Role::kDynamics),
+    kEveryone(Role::kCockpit, Role::kDynamics, Role::kVisual);
+
+/// In the order of the alternatives of RigControl::command.
+const std::array<Roles, Verbs::kKinds> kConcerned{
+    kClock,                                // Pause
+    kClock,                                // Seek
+    Roles(Role::kCockpit, Role::kVisual),  // Design
+    kVisual,                               // Aim
+    kEveryone,                             // Quit
+    kVisual,                               // Dim
+    kVisual,                               // Swivel
+    kVisual,                               // Place
+    kEveryone,                             // Tell
+    kVisual,                               // Set
+};
+
+}  // namespace
+
 Roles concerned(const RigControl& control) {
-  struct Whom {
-    Roles operator()(const RigControl::Pause&) const { return Roles(Role::kCockpit, Role::kDynamics); }
-    Roles operator()(const RigControl::Seek&) const { return Roles(Role::kCockpit, Role::kDynamics); }
-    Roles operator()(const RigControl::Design&) const { return Roles(Role::kCockpit, Role::kVisual); }
-    Roles operator()(const RigControl::Aim&) const { return Roles(Role::kVisual); }
-    Roles operator()(const RigControl::Quit&) const { return Roles(Role::kCockpit, Role::kDynamics, Role::kVisual); }
-    Roles operator()(const RigControl::Dim&) const { return Roles(Role::kVisual); }
-    Roles operator()(const RigControl::Swivel&) const { return Roles(Role::kVisual); }
-    Roles operator()(const RigControl::Place&) const { return Roles(Role::kVisual); }
-    Roles operator()(const RigControl::Tell&) const { return Roles(Role::kCockpit, Role::kDynamics, Role::kVisual); }
-  };
-  return std::visit(Whom{}, control.command);
+  return kConcerned[control.command.index()];
 }
 
 ControlDesk::Sender& ControlDesk::sender(std::uint64_t start_id, std::uint64_t first_open) {

@@ -8,12 +8,15 @@
 // (ManyStarts).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "net/bus.h"
@@ -31,6 +34,30 @@ std::string no_such_design(const Rig& rig, std::uint32_t index);
 
 /// The processes that do a command. All others answer that it is not theirs.
 Roles concerned(const RigControl& control);
+
+/// What a process does with each kind of command: a handler a kind. A kind without one is another process's.
+class Verbs {
+ public:
+  using Command = decltype(RigControl::command);
+  static constexpr std::size_t kKinds = std::variant_size_v<Command>;
+
+  /// `handle(const Kind&) -> ControlReply`
+  template <typename Kind, typename Handle>
+  Verbs& on(Handle handle) {
+    handlers_[Command(Kind{}).index()] = [handle = std::move(handle)](const Command& command) {
+      return handle(std::get<Kind>(command));
+    };
+    return *this;
+  }
+
+  ControlReply operator()(const RigControl& control) const {
+    const auto& handler = handlers_[control.command.index()];
+    return handler ? handler(control.command) : not_mine();
+  }
+
+ private:
+  std::array<std::function<ControlReply(const Command&)>, kKinds> handlers_{};
+};
 
 class ControlDesk {
  public:

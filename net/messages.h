@@ -125,6 +125,12 @@ struct Place {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
   friend bool operator==(const Place&, const Place&) = default;
 };
+/// A setting of the picture (config/desk.h); no value: it is only asked for.
+struct Set {
+  std::string setting;
+  std::string value;
+  friend bool operator==(const Set&, const Set&) = default;
+};
 /// Changes nothing; the answers say what holds now.
 struct Tell {
   friend bool operator==(const Tell&, const Tell&) = default;
@@ -141,7 +147,8 @@ struct RigControl {
   using Swivel = rig_command::Swivel;
   using Place = rig_command::Place;
   using Tell = rig_command::Tell;
-  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel, Place, Tell> command;
+  using Set = rig_command::Set;
+  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel, Place, Tell, Set> command;
   std::uint64_t request_id = 0;
   std::uint64_t first_open = 0;
 

@@ -160,6 +160,10 @@ struct CommandFiller {
     to.mutable_place()->set_z_m(place.z_m);
   }
   void operator()(const RigControl::Tell&) const { to.set_tell(true); }
+  void operator()(const RigControl::Set& set) const {
+    to.mutable_set()->set_setting(set.setting);
+    to.mutable_set()->set_value(set.value);
+  }
 };
 
 void fill(wire::RigControl& to, const RigControl& from) {
@@ -313,6 +317,9 @@ bool read(RigControl& to, const wire::RigControl& from) {
     case wire::RigControl::kTell:
       to.command = RigControl::Tell{};
       return from.tell();
+    case wire::RigControl::kSet:
+      to.command = RigControl::Set{from.set().setting(), from.set().value()};
+      return true;
     case wire::RigControl::COMMAND_NOT_SET:
       break;
   }
@@ -375,7 +382,7 @@ bool any_unknown(const wire::Datagram& message) {
       const wire::RigControl& control = message.rig_control();
       return unknown_in(control) || (control.has_dim() && unknown_in(control.dim())) ||
              (control.has_swivel() && unknown_in(control.swivel())) ||
-             (control.has_place() && unknown_in(control.place()));
+             (control.has_place() && unknown_in(control.place())) || (control.has_set() && unknown_in(control.set()));
     }
     case wire::Datagram::kProbeRequest:
       return unknown_in(message.probe_request());

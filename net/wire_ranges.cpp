@@ -28,6 +28,7 @@ constexpr std::int64_t kMaxFrameIndex = 1'000'000'000'000;
 constexpr std::uint64_t kMaxSequence = std::uint64_t{1} << 62;
 constexpr std::uint32_t kMaxDesigns = 10000;
 constexpr std::size_t kMaxNameBytes = 64;
+constexpr std::size_t kMaxValueBytes = 1024;  // of a setting
 constexpr std::uint32_t kMaxSources = 10000;  // of a lamp
 constexpr double kMaxMounting_m = 50.0;       // of a lamp from the car's origin: long lorries too
 constexpr std::size_t kMaxErrorBytes = 4096;
@@ -127,6 +128,9 @@ struct CommandChecker {
     for (const double at_m : {place.x_m, place.y_m, place.z_m}) c.within(at_m, kMaxMounting_m);
   }
   void operator()(const RigControl::Tell&) const {}
+  void operator()(const RigControl::Set& set) const {
+    c.require(!set.setting.empty() && set.setting.size() <= kMaxNameBytes && set.value.size() <= kMaxValueBytes);
+  }
 };
 
 void check(Checker& c, const RigControl& control) {

@@ -52,8 +52,9 @@ float sent_back(vec3 toward_lamp, float cos_incidence, vec3 n, float level) {
 }
 
 void main() {
-  vec3 n = normalize(point_normal);
-  if (sides == 2) n = gl_FrontFacing ? n : -n;
+  float unit = inversesqrt(dot(point_normal, point_normal));
+  if (sides == 2) unit = gl_FrontFacing ? unit : -unit;
+  vec3 n = point_normal * unit;
   float level = dot(n, point);
 
   if (output_kind == kOutputMeasure) {
@@ -79,7 +80,7 @@ void main() {
     total_lx += light.illuminance_lx;                                                                      \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
     if (retro != 0)                                                                                        \
-      retro_lx += colour * (light.normal_lx * sent_back(PHARE_LAMP_POSITION(I).xyz - point, light.cos_incidence, n, level)); \
+      retro_lx += colour * (light.normal_lx * sent_back(frame.lamps[I].position.xyz - point, light.cos_incidence, n, level)); \
   }
   PHARE_EACH_LAMP(LIGHT)
   if (colours == 0) coloured_lx = total_lx * light_colour;
@@ -90,18 +91,18 @@ void main() {
     return;
   }
   if (output_kind == kOutputFalseColour) {
-    // Isolux lines of the field: 1, 3, 5, 10, 30, 50, 100 lx, one pixel wide by the screen gradient of log E.
+    // Isolux lines, one pixel wide by the screen gradient of E.
     vec3 colour = false_colour(total_lx);
-    float level[7] = float[](1.0, 3.0, 5.0, 10.0, 30.0, 50.0, 100.0);
     float width = max(fwidth(total_lx), 1e-6);
     float line = 0.0;
-    for (int i = 0; i < 7; ++i) line = max(line, 1.0 - smoothstep(0.6, 1.4, abs(total_lx - level[i]) / width));
-    result = vec4(mix(colour, vec3(1.0), 0.7 * line), 1.0);
+    for (uint i = 0u; i < kMaxIsoluxLevels; ++i)
+      line = max(line, 1.0 - smoothstep(0.6, 1.4, abs(total_lx - frame.isolux_lx[i / 4u][i % 4u]) / width));
+    result = vec4(srgb_encoded(mix(colour, vec3(1.0), 0.7 * line)), 1.0);
     return;
   }
 
   vec3 rho = surface_reflectance(reflectance.rgb);
   vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + n.z));  // the sky's half dome, unoccluded
   if (retro != 0) light += retro_lx * rho;
-  result = output_kind == kOutputHdr ? vec4(light, total_lx) : vec4(tone_curve(light), 1.0);
+  result = output_kind == kOutputHdr ? vec4(light, total_lx) : vec4(srgb_encoded(tone_curve(light)), 1.0);
 }

@@ -1,15 +1,14 @@
 // Contract of the lamp pass (and of the depth and measure passes, which share its layout): bindings, constants, structs.
-// Compiled by the shaders and by visual/passes/lamps.cpp, which asserts sizes and offsets.
+// Compiled by the shaders and by visual/lit_scene.cpp, which asserts sizes and offsets.
 #ifndef PHARE_SHADERS_LAMPS_H
 #define PHARE_SHADERS_LAMPS_H
 #include "lib/portable.h"
+#include "sizes.h"
 
 PHARE_SHADER_BEGIN
 
-const uint kMaxLamps = 8u;
 const uint kMaxMaterials = 1024u;  // 16 KiB, the uniform buffer that every device has
 const uint kMaxSheetings = 128u;   // 12 KiB
-const uint kGuideRow = 1024u;      // bins in a row of the guide image
 
 // Specialization constants of lamps.frag
 const uint kSpecLampCount = 0u;
@@ -17,57 +16,72 @@ const uint kSpecSurface = 1u;   // procedural detail: 0 plain, 1 asphalt, 2 gras
 const uint kSpecRetro = 2u;     // how the material sends light back to where it came from, below
 const uint kSpecOutput = 3u;    // what a texel means, below
 const uint kSpecLampBase = 4u;  // measure: first of four lamps
-const uint kSpecLookups = 5u;   // how each lamp's table is looked up, four bits a lamp, below
 const uint kSpecColours = 6u;   // 0: all light has one colour; bit 0: lamps differ in colour; bit 8 + i: lamp i has a table of colour
 const uint kSpecSides = 7u;     // 2: both sides of a surface are seen
 const uint kSpecGrain = 8u;     // first level of the grain that is there
+const uint kSpecTables = 16u;   // kSpecPerTable constants a lamp: the members of its TableShape, below
+const uint kSpecPerTable = 18u;
 
 const uint kRetroNone = 0u;
 const uint kRetroSheeting = 1u;  // R_A by a table of its own
 const uint kRetroMarking = 2u;   // R_L by its class
 
-// Even: nodes at multiples of a fine step about 0°, of a coarse one beyond. The first two are for tables that look ahead: no first
-// angle beyond 90°, and what lies at 90° or behind counts as dark.
-const uint kLookupDark = 0u;   // even, ahead, and dark at the table's edge: no need to look whether a direction is within
-const uint kLookupAhead = 1u;  // even, ahead
-const uint kLookupTurn = 2u;   // even, first angle 0° to 360°, second from its pole (type C: C and gamma), no coarse step
-const uint kLookupGuide = 3u;  // any nodes, found through the guide image
-const uint kLookupScreen = 4u; // nodes evenly on a flat screen, found by projection: no angle is computed
-const uint kLookupScreenGuide = 5u;  // any nodes on a flat screen, found through the guide image
-const uint kLookupFilter = 6u; // texels evenly over the range, weights by the texture filter
-const uint kLookupFilterAhead = 7u;  // the same for tables that look ahead
-const uint kLookupKind = 7u;   // mask of these
-const uint kLookupScaled = 8u; // the texture is not in candela; what a filter weighs always is scaled, so there this bit says
-const uint kLookupFilterScreen = 14u;  // the same on a flat screen
+// How the node before a direction is found. Even: nodes a step apart, from a phase; where wanted a fine step about 0° and a coarse one
+// beyond. "Ahead" is for tables with no first angle beyond 90°; what lies at 90° or behind counts as dark.
+const uint kLookupAhead = 0u;   // even
+const uint kLookupRounded = 1u; // even but for rounding: where a node really lies stands in the guide, an entry a node
+const uint kLookupTurn = 2u;    // even, first angle 0° to 360°, second from its pole (type C: C and gamma), no coarse step
+const uint kLookupGuide = 3u;   // any nodes, found through the guide
+const uint kLookupScreen = 4u;  // nodes evenly on a flat screen, found by projection: no angle is computed
+const uint kLookupScreenGuide = 5u;   // any nodes on a flat screen, found through the guide
+const uint kLookupFilter = 6u;        // texels evenly over the range, weights by the texture filter
+const uint kLookupFilterAhead = 7u;   // the same for tables that look ahead
+const uint kLookupFilterScreen = 8u;  // the same on a flat screen
+const uint kLookupKind = 15u;         // mask of these
+const uint kLookupScaled = 16u;       // the table is not in candela
+const uint kLookupEdge = 32u;         // light at the table's edge: directions have to be compared with it; else dark nodes end it
+const uint kLookupNarrow = 64u;       // of first, and twice that of second: no node beyond kNarrowReach_deg
 
-const uint kOutputDisplay = 0u;      // display-linear colour, tone curve applied here
+const uint kOutputDisplay = 0u;      // the display's signal (sRGB), tone curve applied here
 const uint kOutputHdr = 1u;          // cd/m² and illuminance in alpha
 const uint kOutputFalseColour = 2u;  // illuminance by colour with isolux lines
 const uint kOutputMeasure = 3u;      // lx of lamps base..base+3
 const uint kOutputAudit = 4u;        // position and illuminance; normal and illuminance
 
-// One lamp position, or what a frame's shaders need of it. Directions are rows: dot(row, d) is a component in the frame of the lamp's table,
+// The shape of a lamp's table, constants of the pipeline: on a software device a uniform read costs a pixel as much as ten
+// multiplications, and a varying costs each vertex. Of first in x, of second in y.
+struct TableShape {
+  uint lookup;   // kind and bits, above
+  vec2 per;      // even: nodes per radian (screen: per tangent); guide: bins per degree; filter: texture coordinates per radian (tangent)
+  vec2 phase;    // even: node k lies k + phase steps from 0°; guide: lowest multiple of 45°; filter: offset of the coordinate
+  vec2 fine;     // even: fine nodes on either side of 0° (turn: nodes in 45°); guide: bins in 45°
+  float coarse;  // even: fine steps in a coarse one, inverted; guide, rounded: entry where the guide of second begins
+  vec4 range;    // first and last, of first, then of second; even: nodes from 0°; guide: degrees; filter: radians (tangents)
+  vec4 reach;    // ahead: tangents of half the angles beyond which there is only darkness, as range; screen guide: x, y degrees per tangent
+  vec2 cells;    // cells in a row, and the index of the cell of node (0, 0)
+};
+// A cell is one texel, the four nodes (k, j), (k + 1, j), (k, j + 1), (k + 1, j + 1), row by row: as many cells as nodes and one row and
+// column before them; beyond the table's edge the nodes are dark. The guide: shaders/lib/beam.glsl.
+
+const float kNarrowReach_deg = 46.0;  // half angles of narrow tables take a short polynomial (lib/angles.h)
+
+// One lamp position. Directions are rows: dot(row, d) is a component in the frame of the lamp's table,
 // first angle = atan2(b, a), second angle = atan2(c, hypot(a, b)):
 //   type A: a forward, b right, c up;  type B: a forward, b up, c right (first is V);  type C: a c0, b c90, c -g0 (second is gamma - 90; kLookupTurn: gamma).
-// A flat screen: a forward, b right, c up; first = b/a, second = c/a, tangents; its texture holds what is bilinear there, candela / (1 + first² + second²)^1.5.
+// A flat screen: a forward, b right, c up; first = b/a, second = c/a, tangents; its table holds what is bilinear there, candela / (1 + first² + second²)^1.5.
 struct GpuLamp {
-  vec4 position;     // xyz relative to the eye, m; w even: fine steps in a coarse one, inverted; filter: candela of 1.0 in the texture
+  vec4 position;     // xyz relative to the eye, m
   vec4 row_a;
   vec4 row_b;
   vec4 row_c;
-  vec4 colour;       // rgb, luminance 1 (with a table of colour: r and b what its texels are multiplied by); w: candela of 1.0 in the texture (again, where position has no room for it)
-  vec4 nodes;        // filter: as range, in radians or tangents; screen: nodes per unit of tangent (guide: a scale), of first, of second; even: fine nodes per radian of first, of second; fine nodes on either side of 0° (turn: in 45°), of first, of second
-  vec4 coordinates;  // even: image coordinate of the gather about a node (filter: of an angle in radians, or a tangent): factors, then offsets, of first and of second
-  vec4 within;       // even: first and last node from 0°, of first; of second
-  vec4 range;        // guide: first min, max; second min, max; degrees (screen: tangents times their scale)
-  vec4 bins;         // guide: bins per degree, of first and of second; lowest multiple of 45°, of first and of second
-  uvec4 guide;       // bin where the guide of second begins; bins in 45°, of first and of second
+  vec4 colour;       // rgb, luminance 1 (with a table of colour: r and b what its texels are multiplied by); w: candela of 1.0 in the table
 };
 
 struct GpuFrame {
   vec4 clip_from_eye[4];    // columns; "eye" is the world turned to the eye's place, not its direction
   vec4 exposure;            // rgb: 1/(cd/m²), with the balance of the eye's adaptation
   vec4 sky;                 // rgb zenith cd/m², w: factor at the horizon
+  vec4 isolux_lx[kMaxIsoluxLevels / 4u];  // of false colour; beyond the last level one that nothing reaches
   GpuLamp lamps[kMaxLamps];
 };
 

@@ -16,7 +16,7 @@ void main() {
   float sine = sky_ring_sine(ring), azimuth = radians(360.0) * float(sector % kSkySectors) / float(kSkySectors);
   float cosine = sqrt(max(1.0 - sine * sine, 0.0));
   vec3 luminance = sky_luminance(sky.zenith, sine);
-  colour = output_kind == kOutputHdr ? luminance : tone_curve(luminance * sky.exposure.rgb);
+  colour = output_kind == kOutputHdr ? luminance : srgb_encoded(tone_curve(luminance * sky.exposure.rgb));
   mat4 clip = mat4(sky.clip_from_eye[0], sky.clip_from_eye[1], sky.clip_from_eye[2], sky.clip_from_eye[3]);
   gl_Position = clip * vec4(cosine * cos(azimuth), cosine * sin(azimuth), sine, 0.0);
 }

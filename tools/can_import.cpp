@@ -9,6 +9,7 @@
 #include "cockpit_io/candump.h"
 #include "cockpit_io/dbc.h"
 #include "config/conventions.h"
+#include "config/lane.h"
 #include "tools/csv_columns.h"
 #include "tools/local_fit.h"
 #include "vehicle_dynamics/models/kinematic.h"
@@ -137,13 +138,18 @@ Status check_ascending(const std::vector<double>& values, const std::filesystem:
   return Done{};
 }
 
-Result<Lane> read_lane(const std::filesystem::path& file) {
-  const std::array<std::string, 6> names{"s_m", "x_m", "y_m", "z_m", "heading_rad", "curvature_1pm"};
-  auto columns = read_csv_columns(file, names);
-  if (!columns) return columns.error();
-  auto& c = *columns;
-  Lane lane{std::move(c[0]), std::move(c[1]), std::move(c[2]), std::move(c[3]), std::move(c[4]), std::move(c[5])};
-  if (const Status status = check_ascending(lane.s_m, file, "s_m"); !status) return status.error();
+Result<Lane> import_lane(const std::filesystem::path& file) {
+  const auto points = read_lane(file);
+  if (!points) return points.error();
+  Lane lane;
+  for (const LanePoint& point : *points) {
+    lane.s_m.push_back(point.s_m);
+    lane.x_m.push_back(point.x_m);
+    lane.y_m.push_back(point.y_m);
+    lane.z_m.push_back(point.z_m);
+    lane.heading_rad.push_back(point.heading_rad);
+    lane.curvature_1pm.push_back(point.curvature_1pm);
+  }
   unwrap(lane.heading_rad);
   return lane;
 }
@@ -197,7 +203,7 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   if (!pose) return pose.error();
   std::optional<Lane> lane;
   if (options.lane) {
-    auto read = read_lane(*options.lane);
+    auto read = import_lane(*options.lane);
     if (!read) return read.error();
     lane = std::move(*read);
   }

@@ -1,7 +1,8 @@
-// phare control: commands to a running rig - dim, swivel, place, aim, design, pause, quit - and its answers.
+// phare control: commands to a running rig - dim, swivel, place, aim, design, set, pause, quit - and its answers.
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -11,6 +12,7 @@
 #include <sstream>
 #include <utility>
 
+#include "config/desk.h"
 #include "config/toml_table.h"
 #include "tools/commands.h"
 #include "tools/control_client.h"
@@ -25,29 +27,92 @@ struct ControlOptions {
   std::vector<std::string> words;
 };
 
-struct Usage {
-  const char* verb;
+/// The words of a command after its verb.
+struct Words {
+  std::string lamp;             ///< of verbs that name one
+  std::vector<double> numbers;  ///< of all others, but for `text`
+  std::string text;             ///< of verbs that take words: all of them
+};
+enum class Takes { kNumbers, kLampAndNumbers, kText };
+
+/// One verb: what it takes, and the command it makes of that or why not.
+struct Verb {
+  const char* name;
   const char* words;
   const char* meaning;
+  Takes takes;
+  std::size_t least, most;  ///< numbers, or words of a text
+  Result<RigControl> (*make)(const Words& words);
 };
-constexpr Usage kCommands[] = {
-    {"dim", "LAMP SOURCE LIGHT", "LIGHT 0 to 1 for a source of the lamp, counted from 1 (0: all)"},
-    {"swivel", "LAMP YAW_DEG [PITCH_DEG]", "a whole lamp, left and up positive"},
-    {"place", "LAMP X_M Y_M Z_M", "a lamp elsewhere on the car: from below the rear axle's middle forward, left, up"},
-    {"aim", "PITCH_DEG", "all lamps, up positive"},
-    {"design", "INDEX", "counted from 0"},
-    {"pause", "", ""},
-    {"resume", "", ""},
-    {"seek", "SECONDS", "to this time of a replayed drive"},
-    {"status", "", "what is lit, the design, each lamp's place, turn and light"},
-    {"quit", "", ""}};
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+bool is_count(double value, double most) {
+  return value >= 0.0 && value <= most && value == std::floor(value);
+}
+
+Result<RigControl> dim(const Words& w) {
+  if (!is_count(w.numbers[0], 1e4)) return Error{"", "sources are counted from 1, 0 means all"};
+  if (w.numbers[1] < 0.0 || w.numbers[1] > 1.0) return Error{"", "light is 0 to 1"};
+  return RigControl{RigControl::Dim{w.lamp, static_cast<std::uint32_t>(w.numbers[0]), w.numbers[1]}};
+}
+Result<RigControl> swivel(const Words& w) {
+  for (const double deg : w.numbers)
+    if (std::abs(deg) > 90.0) return Error{"", "an angle beyond 90 degrees"};
+  const double pitch_deg = w.numbers.size() == 2 ? w.numbers[1] : 0.0;
+  return RigControl{RigControl::Swivel{w.lamp, w.numbers[0] * kRadPerDeg, pitch_deg * kRadPerDeg}};
+}
+Result<RigControl> place(const Words& w) {
+  for (const double at_m : w.numbers)
+    if (std::abs(at_m) > 50.0) return Error{"", "a lamp more than 50 m from its car"};
+  return RigControl{RigControl::Place{w.lamp, w.numbers[0], w.numbers[1], w.numbers[2]}};
+}
+Result<RigControl> aim(const Words& w) {
+  if (std::abs(w.numbers[0]) > 90.0) return Error{"", "an angle beyond 90 degrees"};
+  return RigControl{RigControl::Aim{w.numbers[0] * kRadPerDeg}};
+}
+Result<RigControl> design(const Words& w) {
+  if (!is_count(w.numbers[0], 9999.0)) return Error{"", "designs are counted from 0"};
+  return RigControl{RigControl::Design{static_cast<std::uint32_t>(w.numbers[0])}};
+}
+Result<RigControl> seek(const Words& w) {
+  if (w.numbers[0] < 0.0 || w.numbers[0] > 1e9) return Error{"", "seconds from the beginning of the drive"};
+  return RigControl{RigControl::Seek{w.numbers[0]}};
+}
+Result<RigControl> set(const Words& w) {
+  const DeskCommand command = desk_command(w.text);
+  // Whether there is such a setting the picture says; what no message can hold is told here.
+  if (command.setting.size() > 64 || command.value.size() > 1024) return Error{"", "more than a message holds"};
+  return RigControl{RigControl::Set{command.setting, command.value}};
+}
+template <typename Kind, bool... on>
+Result<RigControl> plain(const Words&) {
+  return RigControl{Kind{on...}};
+}
+
+constexpr std::size_t kAny = 1000;
+constexpr Verb kVerbs[] = {
+    {"dim", "LAMP SOURCE LIGHT", "LIGHT 0 to 1 for a source of the lamp, counted from 1 (0: all)",
+     Takes::kLampAndNumbers, 2, 2, dim},
+    {"swivel", "LAMP YAW_DEG [PITCH_DEG]", "a whole lamp, left and up positive", Takes::kLampAndNumbers, 1, 2, swivel},
+    {"place", "LAMP X_M Y_M Z_M", "a lamp elsewhere on the car: from below the rear axle's middle forward, left, up",
+     Takes::kLampAndNumbers, 3, 3, place},
+    {"aim", "PITCH_DEG", "all lamps, up positive", Takes::kNumbers, 1, 1, aim},
+    {"design", "INDEX", "counted from 0", Takes::kNumbers, 1, 1, design},
+    {"set", "SETTING [VALUE]", "a setting of the picture, below; without a value: what it is", Takes::kText, 1, kAny,
+     set},
+    {"pause", "", "", Takes::kNumbers, 0, 0, plain<RigControl::Pause, true>},
+    {"resume", "", "", Takes::kNumbers, 0, 0, plain<RigControl::Pause, false>},
+    {"seek", "SECONDS", "to this time of a replayed drive", Takes::kNumbers, 1, 1, seek},
+    {"status", "", "what is lit, the design, each lamp's place, turn and light, and what is set of the picture",
+     Takes::kNumbers, 0, 0, plain<RigControl::Tell>},
+    {"quit", "", "", Takes::kNumbers, 0, 0, plain<RigControl::Quit>}};
 
 std::string all_commands() {
   std::string text;
-  for (const Usage& usage : kCommands)
-    text +=
-        std::string("  ") + usage.verb + " " + usage.words + (*usage.meaning != 0 ? "   " : "") + usage.meaning + "\n";
-  return text;
+  for (const Verb& verb : kVerbs)
+    text += std::string("  ") + verb.name + " " + verb.words + (*verb.meaning != 0 ? "   " : "") + verb.meaning + "\n";
+  return text + "Settings of the picture:\n" + desk_settings_text("  ");
 }
 
 Result<double> number(const std::string& word) {
@@ -64,55 +129,34 @@ Result<double> number(const std::string& word) {
 /// One command in words, as on the command line.
 Result<RigControl> parse(const std::vector<std::string>& words) {
   if (words.empty()) return Error{"", "no command"};
-  const std::string& verb = words.front();
-  std::vector<double> numbers;
-  const bool names_a_lamp = verb == "dim" || verb == "swivel" || verb == "place";
-  for (std::size_t i = names_a_lamp ? 2 : 1; i < words.size(); ++i) {
-    const auto value = number(words[i]);
-    if (!value) return Error{verb, value.error().reason};
-    numbers.push_back(*value);
+  const auto verb = std::ranges::find(kVerbs, words.front(), [](const Verb& each) { return std::string(each.name); });
+  if (verb == std::end(kVerbs)) {
+    std::vector<std::string> names;
+    for (const Verb& each : kVerbs) names.emplace_back(each.name);
+    return Error{"", unknown_name_reason("command", words.front(), names)};
   }
-  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-  const auto whole = [&](double value) { return value >= 0.0 && value <= 1e4 && value == std::floor(value); };
-  if (verb == "dim" && numbers.size() == 2) {
-    if (!whole(numbers[0])) return Error{verb, "sources are counted from 1, 0 means all"};
-    if (numbers[1] < 0.0 || numbers[1] > 1.0) return Error{verb, "light is 0 to 1"};
-    return RigControl{RigControl::Dim{words[1], static_cast<std::uint32_t>(numbers[0]), numbers[1]}};
+  Words taken;
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (verb->takes == Takes::kText) {
+      taken.text += (i == 1 ? "" : " ") + words[i];
+      ++count;
+    } else if (verb->takes == Takes::kLampAndNumbers && i == 1) {
+      taken.lamp = words[i];
+    } else {
+      const auto value = number(words[i]);
+      if (!value) return Error{verb->name, value.error().reason};
+      taken.numbers.push_back(*value);
+      ++count;
+    }
   }
-  if (verb == "swivel" && (numbers.size() == 1 || numbers.size() == 2)) {
-    for (const double deg : numbers)
-      if (std::abs(deg) > 90.0) return Error{verb, "an angle beyond 90 degrees"};
-    return RigControl{
-        RigControl::Swivel{words[1], numbers[0] * kRadPerDeg, numbers.size() == 2 ? numbers[1] * kRadPerDeg : 0.0}};
-  }
-  if (verb == "place" && numbers.size() == 3) {
-    for (const double at_m : numbers)
-      if (std::abs(at_m) > 50.0) return Error{verb, "a lamp more than 50 m from its car"};
-    return RigControl{RigControl::Place{words[1], numbers[0], numbers[1], numbers[2]}};
-  }
-  if (verb == "aim" && numbers.size() == 1) {
-    if (std::abs(numbers[0]) > 90.0) return Error{verb, "an angle beyond 90 degrees"};
-    return RigControl{RigControl::Aim{numbers[0] * kRadPerDeg}};
-  }
-  if (verb == "design" && numbers.size() == 1) {
-    if (!whole(numbers[0]) || numbers[0] > 9999.0) return Error{verb, "designs are counted from 0"};
-    return RigControl{RigControl::Design{static_cast<std::uint32_t>(numbers[0])}};
-  }
-  if ((verb == "pause" || verb == "resume") && words.size() == 1) return RigControl{RigControl::Pause{verb == "pause"}};
-  if (verb == "seek" && numbers.size() == 1) {
-    if (numbers[0] < 0.0 || numbers[0] > 1e9) return Error{verb, "seconds from the beginning of the drive"};
-    return RigControl{RigControl::Seek{numbers[0]}};
-  }
-  if (verb == "status" && words.size() == 1) return RigControl{RigControl::Tell{}};
-  if (verb == "quit" && words.size() == 1) return RigControl{RigControl::Quit{}};
-  std::vector<std::string> verbs;
-  for (const Usage& usage : kCommands) {
-    if (verb == usage.verb)
-      return Error{verb,
-                   *usage.words != 0 ? std::string("expected ") + verb + " " + usage.words : "takes nothing more"};
-    verbs.emplace_back(usage.verb);
-  }
-  return Error{"", unknown_name_reason("command", verb, verbs)};
+  const bool lamp_missing = verb->takes == Takes::kLampAndNumbers && words.size() < 2;
+  if (count < verb->least || count > verb->most || lamp_missing)
+    return Error{verb->name,
+                 *verb->words != 0 ? std::string("expected ") + verb->name + " " + verb->words : "takes nothing more"};
+  auto made = verb->make(taken);
+  if (!made) return Error{verb->name, made.error().reason};
+  return made;
 }
 
 using Outcome = ControlClient::Outcome;
@@ -220,14 +264,16 @@ int control(const ControlOptions& options) {
 
 void add_control(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ControlOptions>();
-  CLI::App* command = app.add_subcommand(
-      "control", "Command a running rig, and hear what it says: dim, swivel, move and aim lamps, swap designs, pause");
+  CLI::App* command = app.add_subcommand("control",
+                                         "Command a running rig, and hear what it says: dim, swivel, move and aim "
+                                         "lamps, swap designs, set the picture, pause");
   command->footer(
       "Commands:\n" + all_commands() +
       "The answer is what holds now. Exit code 2: the rig refuses, and says why; 1: nobody answers.\n"
       "With -, one command a line comes from standard input and one answer a line goes out, \"ok: ...\" or "
       "\"refused: ...\";\nwhat is refused does not end the stream, and makes its exit code 2.\n"
       "Examples, while phare drive runs:\n  phare control status\n  phare control dim \"headlamp left\" 1 0.5\n"
+      "  phare control set camera chase\n"
       "  phare control - < commands.txt");
   command->add_option("--rig", options->rig_file, "Rig file: address, ports, channels and key")->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")

@@ -11,7 +11,9 @@
 #include <thread>
 #include <utility>
 
+#include "config/cockpit.h"
 #include "config/key_bindings.h"
+#include "config/log_levels.h"
 #include "config/picture_options.h"
 #include "config/vehicle.h"
 #include "net/bus.h"
@@ -41,6 +43,9 @@ struct DriveOptions {
   std::string rig_file = config_path("rigs/country_road.toml");
   std::string drive, script, log, dbc, cockpit, out, record, log_level = "info";
   bool headless = false, lockstep = false, closed_loop = false, json = false;
+  bool explain = false;       ///< which effects a moment calls for, instead of a drive
+  std::string explain_light;  ///< that moment is not of a drive: the light switch, and
+  bool explain_fog = false;   ///< the front fog lamps
   PictureOptions picture;
   std::uint16_t port_base = 0;
   LampFlags lamps;
@@ -84,6 +89,10 @@ Result<Rig> prepare(DriveOptions& options) {
   if (!options.lamps.any() && !options.lamps.aim.empty())
     return Error{"--aim " + options.lamps.aim, "aims a lamp of one's own: give --lamp, --lamp-high or --lamp-fog"};
   if (const Status status = aim_lamps(*rig, options); !status) return status.error();
+
+  Desk desk = rig->desk;
+  for (const DeskCommand& command : options.picture.desk)
+    if (const auto done = apply(desk, command, {.designs = rig->designs.size()}); !done) return done.error();
 
   if (!options.headless && !set_in_environment("DISPLAY") && !set_in_environment("WAYLAND_DISPLAY")) {
     spdlog::info("no display: driving headless");
@@ -206,6 +215,41 @@ void print_summary(const nlohmann::json& report, const std::string& out) {
                 t.value("median", 0.0), t.value("p99", 0.0));
   }
   std::printf("%s\n", (fs::path(out) / "index.html").c_str());
+}
+
+/// Which effects a moment calls for, by the picture of every channel; no drive.
+int explain_drive(DriveOptions& options) {
+  auto rig = prepare(options);
+  if (!rig) return bad_input(rig.error());
+  std::optional<DerivedRig> derived;
+  if (options.lamps.any()) {
+    auto made_of_it = DerivedRig::for_drive({});
+    if (!made_of_it) return bad_input(made_of_it.error());
+    derived.emplace(std::move(*made_of_it));
+    if (const Status status = derived->write(*rig, options.lamp_notes); !status) return bad_input(status.error());
+    rig->file = derived->file();
+  }
+  int exit_code = kExitDone;
+  for (std::size_t channel = 0; channel < rig->channels.size() && exit_code == kExitDone; ++channel) {
+    std::vector<std::string> arguments{"--rig", rig->file.string(), "--channel", std::to_string(channel), "--explain"};
+    if (options.headless) arguments.push_back("--headless");
+    if (!options.explain_light.empty()) {
+      arguments.insert(arguments.end(), {"--light", options.explain_light});
+    } else if (!options.drive.empty() && !options.explain_fog) {
+      arguments.insert(arguments.end(), {"--drive", options.drive});
+    }
+    if (options.explain_fog) arguments.push_back("--fog");
+    const std::vector<std::string> picture = options.picture.arguments();
+    arguments.insert(arguments.end(), picture.begin(), picture.end());
+    if (rig->channels.size() > 1) std::printf("# %s\n", rig->channels[channel].name.c_str());
+    std::fflush(stdout);
+    auto child = ChildProcess::start(program_beside_us("phare-visual"), arguments);
+    if (!child) return bad_input(child.error());
+    std::optional<ProcessEnd> end;
+    while (!(end = child->ended())) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    exit_code = end->signal != 0 ? kExitCheckFailed : end->exit_code;
+  }
+  return exit_code;
 }
 
 /// `wish`: what the person at the window wants next, when that is how the drive came to its end.
@@ -343,6 +387,7 @@ std::string numbered(const std::string& path, int number) {
 
 /// One drive, and those that the person at the window wants after it.
 int drive(DriveOptions& options) {
+  if (options.explain) return explain_drive(options);
   const std::string out = options.out, record = options.record;
   for (int number = 1;; ++number) {
     options.out = numbered(out, number);
@@ -366,6 +411,7 @@ void add_drive(CLI::App& app, Command& chosen) {
       "A gamepad that is plugged in drives as well. More: docs/driving.md\n"
       "Examples:\n  phare drive\n  phare drive --headless --lockstep --frames 60 --out out\n"
       "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap\n"
+      "  phare drive --explain --light high\n"
       "  phare drive --lamp led_low_beam.ies --lamp-high high_beam.ies --headless --lockstep --frames 60 --out own\n" +
       std::string(kLampFlagsHelp));
   command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
@@ -386,11 +432,21 @@ void add_drive(CLI::App& app, Command& chosen) {
   command->add_flag("--closed-loop", options->closed_loop,
                     "With --drive: replay the controls and let the car answer, instead of the poses");
   command->add_option("--log-level", options->log_level, "trace, debug, info, warn, error, off")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+      ->check(CLI::IsMember(kLogLevelNames))
       ->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
   command->add_flag("--json", options->json, "Print the report as JSON");
+  auto* explain = command->add_flag("--explain", options->explain,
+                                    "No drive: print each effect with its level and the reason, for the moment "
+                                    "--still-at of the drive, or for --light and --fog");
+  command->add_option("--light", options->explain_light, "With --explain: the light switch [low]")
+      ->check(CLI::IsMember(std::vector<std::string>(kLightSwitchNames.begin(), kLightSwitchNames.end())))
+      ->excludes(drive_file)
+      ->needs(explain);
+  command->add_flag("--fog", options->explain_fog, "With --explain: the front fog lamps too")
+      ->excludes(drive_file)
+      ->needs(explain);
   options->picture.add_to(*command);
   command->callback([options, &app, &chosen] {
     spdlog::set_level(spdlog::level::from_str(options->log_level));

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "config/input_files.h"
+#include "config/lane.h"
 #include "config/rig.h"
 #include "net/drive_file.h"
 #include "net/wire.h"
@@ -58,8 +59,7 @@ int import_drive(ImportArguments& arguments) {
                   : arguments.light == "low" ? ImportLight::kLow
                                              : ImportLight::kAsRecorded;
   if (arguments.onto.empty()) {
-    std::filesystem::path lane = rig->scene_file;
-    lane.replace_filename(rig->scene_file.stem().string() + "_lane.csv");
+    const std::filesystem::path lane = lane_file_of(rig->scene_file);
     if (std::filesystem::exists(lane)) {
       options.lane = lane;
     } else {

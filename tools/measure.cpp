@@ -48,8 +48,6 @@ double limit_of(const MeasureOptions& options) {
   }
 }
 
-constexpr std::array<const char*, 6> kFunctionNames{"position", "low", "high", "fog", "daytime", "cornering"};
-
 Result<LampTables> read_tables(const std::vector<LampConfig>& lamps) {
   LampTables tables;
   for (const LampConfig& lamp : lamps) {
@@ -65,9 +63,9 @@ Result<std::vector<LampConfig>> lamps_of_rig(const MeasureOptions& options) {
   const auto rig = read_rig(options.rig_file);
   if (!rig) return rig.error();
   std::set<LampFunction> lit;
-  for (std::size_t i = 0; i < kFunctionNames.size(); ++i) {
+  for (std::size_t i = 0; i < kLampFunctionNames.size(); ++i) {
     for (const std::string& beam : options.beams) {
-      if (beam == kFunctionNames[i]) lit.insert(static_cast<LampFunction>(i));
+      if (beam == kLampFunctionNames[i]) lit.insert(static_cast<LampFunction>(i));
     }
   }
   const DesignConfig* design = options.design.empty() ? &rig->designs.front() : nullptr;
@@ -138,25 +136,20 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
   for (const PointRow& row : points.rows) at.push_back({row.position_m, row.normal});
   std::vector<Illuminance> result(at.size(), Illuminance{0.0, std::vector<double>(lamps.size(), 0.0)});
 
-  constexpr std::size_t kSlots = 8;  // beam images a renderer holds
-  for (std::size_t first = 0; first < lamps.size(); first += kSlots) {
-    const std::size_t count = std::min(kSlots, lamps.size() - first);
-    std::vector<PlacedLamp> placed;
-    for (std::size_t i = 0; i < count; ++i) {
-      const LampConfig& lamp = lamps[first + i];
-      std::vector<AimedSource> aimed;
-      for (const SourceConfig& source : lamp.sources) aimed.push_back(tables.aimed(source));
-      const BeamImage image = compose_beam_image(aimed);
-      renderer->set_beam(i, image);
-      placed.push_back({lamp.position_m, image.car_from_image, i});
-    }
-    const auto lux = renderer->measure(placed, at);
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t point = 0; point < at.size(); ++point) {
-        const double lx = static_cast<double>(lux[i][point]);
-        result[point].lamps_lx[first + i] = lx;
-        result[point].total_lx += lx;
-      }
+  std::vector<PlacedLamp> placed;
+  for (const LampConfig& lamp : lamps) {
+    std::vector<AimedSource> aimed;
+    for (const SourceConfig& source : lamp.sources) aimed.push_back(tables.aimed(source));
+    const BeamImage image = compose_beam_image(aimed);
+    renderer->set_beam(placed.size(), image);
+    placed.push_back({lamp.position_m, image.car_from_image, placed.size()});
+  }
+  const auto lux = renderer->measure(placed, at);
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    for (std::size_t point = 0; point < at.size(); ++point) {
+      const double lx = static_cast<double>(lux[i][point]);
+      result[point].lamps_lx[i] = lx;
+      result[point].total_lx += lx;
     }
   }
   if (renderer->validation_messages() > 0) return Error{"validation", "the layer has complained (see above)"};
@@ -292,11 +285,9 @@ void add_measure(CLI::App& app, Command& chosen) {
                    "name may hold commas; one that holds \",word=\" stands in double quotes, a quote in it doubled")
       ->allow_extra_args(false);
   command->add_option("--design", options->design, "Design of the rig [its first]");
-  command
-      ->add_option("--beams", options->beams,
-                   "Lit functions of the rig: position low high fog daytime cornering, joined by commas")
+  command->add_option("--beams", options->beams, "Lit functions of the rig, joined by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember({"position", "low", "high", "fog", "daytime", "cornering"}))
+      ->check(CLI::IsMember(std::vector<std::string>(kLampFunctionNames.begin(), kLampFunctionNames.end())))
       ->capture_default_str();
   auto* points = command->add_option("--points", options->points, "Points file; \"-\" is standard input");
   command->add_option("--out", options->out, "File to write");

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "config/lane.h"
 #include "config/rig_writer.h"
 #include "visual/photometry/lamp_tables.h"
 
@@ -119,7 +120,7 @@ Status PortableFiles::add_named(const fs::path& toml, const std::string& below) 
 /// glTF may keep its buffers in files beside it; the lane lies beside it too. They keep their names.
 Status PortableFiles::add_scene(const fs::path& scene) {
   if (const Status done = add(scene, "scene"); !done) return done;
-  std::set<fs::path> beside{scene.stem().string() + "_lane.csv"};
+  std::set<fs::path> beside{lane_file_of(scene).filename()};
   if (scene.extension() == ".gltf") {
     std::ifstream stream(scene);
     const nlohmann::json gltf = nlohmann::json::parse(stream, nullptr, false);

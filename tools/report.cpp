@@ -28,11 +28,6 @@ json named_by_content(const std::filesystem::path& file) {
   return {{"file", file.filename().string()}, {"content_hash", hash ? *hash : ""}};
 }
 
-const char* function_name(LampFunction function) {
-  constexpr std::array<const char*, 6> kNames{"position", "low", "high", "fog", "daytime", "cornering"};
-  return kNames[static_cast<std::size_t>(function)];
-}
-
 /// Each source as it shines: flux and peak with its scale, of the table that its settings choose from the file.
 json lamps_of(const Rig& rig) {
   json lamps = json::array();
@@ -51,7 +46,7 @@ json lamps_of(const Rig& rig) {
         }
         row["design"] = design.name;
         row["lamp"] = lamp.name;
-        row["function"] = function_name(source.function);
+        row["function"] = kLampFunctionNames[static_cast<std::size_t>(source.function)];
         row["scale"] = source.scale;
         // What else the source says about its file, where that is not what a file has by itself.
         if (source.lamp_set != 1) row["lamp_set"] = source.lamp_set;

@@ -87,6 +87,7 @@ class Page {
     facts();
     pictures();
     timings();
+    effects();
     light_switch();
     messages();
     lamps();
@@ -187,6 +188,21 @@ class Page {
     }
     page_ << "</table></div><p>" << value_text(summary_, "passes") << " passes, " << value_text(summary_, "draws")
           << " draws, " << value_text(summary_, "triangles") << " triangles a frame.</p>";
+  }
+
+  /// What the newest frame called for, and why.
+  void effects() {
+    const json rows = report_["processes"].value("visual-0", json::object()).value("effects", json::array());
+    if (rows.empty()) return;
+    page_ << "<h2>Effects</h2><div class=\"scroll\"><table><tr><th></th><th class=\"text\">level</th><th "
+             "class=\"text\">because</th><th class=\"text\">needs</th></tr>";
+    for (const json& row : rows) {
+      page_ << "<tr><td>" << value_text(row, "name") << "</td>";
+      for (const char* key : {"level", "because", "needs"})
+        page_ << "<td class=\"text\">" << value_text(row, key) << "</td>";
+      page_ << "</tr>";
+    }
+    page_ << "</table></div><p>Of the last frame. Any other moment: phare drive … --explain.</p>";
   }
 
   /// How many frames it took, as bars: 1 is the first frame that could show the new beam.

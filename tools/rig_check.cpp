@@ -8,6 +8,7 @@
 
 #include "cockpit_io/dbc.h"
 #include "config/cockpit.h"
+#include "config/lane.h"
 #include "config/vehicle.h"
 #include "tools/lamp_design.h"
 #include "visual/photometry/lamp_aim.h"
@@ -56,7 +57,7 @@ class Checker {
     const auto scene = read_scene(file);
     if (!scene) return problem(scene.error());
     std::error_code ignored;
-    const fs::path lane = file.parent_path() / (file.stem().string() + "_lane.csv");
+    const fs::path lane = lane_file_of(file);
     if (!fs::exists(lane, ignored))
       found_.warnings.push_back(lane.string() + ": no such file: the car starts at the scene's origin");
     const bool road = std::ranges::any_of(scene->chunks, [](const SceneChunk& chunk) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "config/conventions.h"
+#include "vehicle_dynamics/models/air.h"
 #include "vehicle_dynamics/models/kinematic.h"
 #include "vehicle_dynamics/models/powertrain.h"
 
@@ -295,7 +296,6 @@ class Car {
   // What the motion needs of wheels that this level does not have: weight and inertia at the centre of gravity, borne
   // by four contacts; side force by its share of the axles, all else as the loads.
   void kinematic_forces(Row& row) const {
-    constexpr double kAirDensity_kgpm3 = 1.2041;  // as the models have it
     const VehicleParams& p = o_.vehicle;
     const CarState& s = flat_;
     const double b = p.wheelbase_m - p.cg_to_front_m, weight = p.mass_kg * kGravity_mps2 * std::cos(s.road_pitch_rad);

@@ -13,11 +13,13 @@
 #include <variant>
 
 #include "config/fail.h"
+#include "config/log_levels.h"
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"
 #include "net/control_desk.h"
 #include "net/drive_file.h"
+#include "net/lockstep.h"
 #include "net/scheduling.h"
 #include "net/stats.h"
 #include "vehicle_dynamics/batch_command.h"
@@ -119,7 +121,7 @@ class Process {
   Process(Bus bus, const Rig& rig, const Options& options, StopFlag stop)
       : bus_(std::move(bus)), rig_(rig), options_(options), stop_(stop) {
     bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
-      desk_.serve(bus_, datagram, [this](const RigControl& control) { return obey(control); });
+      desk_.serve(bus_, datagram, std::cref(verbs_));
     };
   }
   Process(const Process&) = delete;
@@ -143,19 +145,14 @@ class Process {
       bus_.poll();
       stats_once_a_second();
       if (!loop_) {
-        const auto newest_frame = everyones_newest_frame();
+        const auto newest_frame = newest_frame_of_all(bus_);
         if (!newest_frame) continue;
         sent = begin_at_frame(std::move(begin), *newest_frame);
       }
 
-      // A channel that asks for what was sent already has lost it, or is new.
-      for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
-        const auto report = bus_.take<FrameReport>(channel);
-        if (report && report->value.frame_index < sent) bus_.send_again(kPayloadIndex<VehicleState>);
-      }
-
+      send_again_to_late(bus_, sent, kPayloadIndex<VehicleState>);
       const auto* cockpit = bus_.newest<CockpitState>();
-      if (!cockpit || cockpit->value.frame_index != sent + 1 || !all_channels_at(sent)) continue;
+      if (!cockpit || cockpit->value.frame_index != sent + 1 || !all_channels_at(bus_, sent)) continue;
       const SimTime time = frame_time(sent + 1, rig_.frame_rate_hz);
       loop_->set_controls(controls_of(cockpit->value));
       loop_->run_to(time);
@@ -221,43 +218,19 @@ class Process {
     loop_.emplace(std::move(begin.setup), state, time, drawn.step);
   }
 
-  // The newest frame any channel has drawn, once all have reported.
-  std::optional<std::int64_t> everyones_newest_frame() const {
-    std::int64_t newest = -1;
-    for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
-      const auto* report = bus_.newest<FrameReport>(channel);
-      if (!report) return std::nullopt;
-      newest = std::max(newest, report->value.frame_index);
-    }
-    return newest;
-  }
-
   // Returns the frame that counts as answered.
   std::int64_t begin_at_frame(Begin begin, std::int64_t frame) {
     if (frame < 0) {
       loop_.emplace(std::move(begin.setup), begin.state);
       return -1;
     }
-    for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
-      const auto* report = bus_.newest<FrameReport>(channel);
-      if (report->value.frame_index != frame) continue;
-      const SimTime time = frame_time(frame, rig_.frame_rate_hz);
-      begin_at(std::move(begin), time, report->value.drawn);
-      // Channels that have not drawn this frame yet still need it; our predecessor may have been killed before it sent
-      // it.
-      const auto* cockpit = bus_.newest<CockpitState>();
-      if (!all_channels_at(frame)) send_state(time, frame, cockpit ? &cockpit->value : nullptr);
-      break;
-    }
+    const SimTime time = frame_time(frame, rig_.frame_rate_hz);
+    begin_at(std::move(begin), time, report_of_frame(bus_, frame)->value.drawn);
+    // Channels that have not drawn this frame yet still need it; our predecessor may have been killed before it sent
+    // it.
+    const auto* cockpit = bus_.newest<CockpitState>();
+    if (!all_channels_at(bus_, frame)) send_state(time, frame, cockpit ? &cockpit->value : nullptr);
     return frame;
-  }
-
-  bool all_channels_at(std::int64_t frame) const {
-    for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
-      const auto* report = bus_.newest<FrameReport>(channel);
-      if (!report || report->value.frame_index != frame) return false;
-    }
-    return true;
   }
 
   // A visual that has drawn the car before us shows where to go on; without one it starts anew, once every visual has
@@ -276,14 +249,14 @@ class Process {
         if (report && !report->value.drawn.level.empty())
           return begin_at(std::move(begin), report->sim_time, report->value.drawn);
       }
-      if (picture_within.count() > 0 && everyones_newest_frame()) break;
+      if (picture_within.count() > 0 && newest_frame_of_all(bus_)) break;
     }
-    if (picture_within.count() > 0 && !stop_ && !everyones_newest_frame())
+    if (picture_within.count() > 0 && !stop_ && !newest_frame_of_all(bus_))
       spdlog::warn("no picture within {:.0f} s: the drive begins without it", options_.picture_within_s);
     loop_.emplace(std::move(begin.setup), begin.state);
   }
 
-  // A request that obey() has let through.
+  // A request that verbs() has let through.
   bool seek() {
     const SimTime time{static_cast<std::int64_t>(*requests_.seek_s * 1e9)};
     requests_.seek_s.reset();
@@ -293,24 +266,29 @@ class Process {
 
   // ---- commands
 
-  ControlReply obey(const RigControl& control) {
-    if (std::holds_alternative<RigControl::Quit>(control.command)) {
+  Verbs verbs() {
+    Verbs verbs;
+    verbs.on<RigControl::Quit>([this](const auto&) {
       stop_.request();
       return accepted("leaves");
-    }
-    if (const auto* pause = std::get_if<RigControl::Pause>(&control.command)) {
-      requests_.paused = pause->on;
-      return accepted((pause->on ? "paused" : "goes on") + time_text());
-    }
-    if (const auto* seek = std::get_if<RigControl::Seek>(&control.command)) return may_seek(seek->to_s);
-    if (!loop_) return accepted("has not begun");
+    });
+    verbs.on<RigControl::Pause>([this](const RigControl::Pause& pause) {
+      requests_.paused = pause.on;
+      return accepted((pause.on ? "paused" : "goes on") + time_text());
+    });
+    verbs.on<RigControl::Seek>([this](const RigControl::Seek& seek) { return may_seek(seek.to_s); });
+    verbs.on<RigControl::Tell>([this](const auto&) { return accepted(loop_ ? state_text() : "has not begun"); });
+    return verbs;
+  }
+
+  std::string state_text() const {
     const VehicleState car = loop_->at(loop_->time());
     char text[160];
     std::snprintf(text, sizeof text, "%s%.1f km/h, x %.2f, y %.2f, z %.2f m, yaw %.2f, pitch %.3f deg, level %s",
                   requests_.paused ? "paused, " : "", car.speed_mps * 3.6, car.x_m, car.y_m, car.z_m,
                   car.yaw_rad * 180.0 / std::numbers::pi, car.pitch_rad * 180.0 / std::numbers::pi,
                   name(loop_->level_now()));
-    return accepted(text + time_text());
+    return text + time_text();
   }
 
   // Level pose only: a simulated car has no past to go back to.
@@ -375,9 +353,9 @@ class Process {
                         {"reason", name(choice.now().reason)},
                         {"switches", choice.switches()},
                         {"seconds",
-                         {{"kinematic", choice.seconds()[0]},
-                          {"single-track", choice.seconds()[1]},
-                          {"full", choice.seconds()[2]}}}};
+                         {{name(Level::kKinematic), choice.seconds()[0]},
+                          {name(Level::kSingleTrack), choice.seconds()[1]},
+                          {name(Level::kFull), choice.seconds()[2]}}}};
       }
       json["sim_time_s"] = loop_->time().seconds();
       json["steps"] = loop_->steps();
@@ -406,6 +384,7 @@ class Process {
   const Options& options_;
   StopFlag stop_;
   Requests requests_;
+  const Verbs verbs_ = verbs();
   ControlDesk desk_;
   std::optional<StepLoop> loop_;
   std::uint64_t sent_step_ = 0;  ///< the newest step whose hash has been sent
@@ -433,8 +412,7 @@ int run(int argc, char** argv) {
                  "In real time: begin when every picture is ready, after so many seconds at the latest")
       ->check(CLI::Range(0.0, 3600.0));
   app.add_option("--stats", options.stats_file, "Write counters and times to this JSON file every second");
-  app.add_option("--log-level", options.log_level, "How much to tell")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
+  app.add_option("--log-level", options.log_level, "How much to tell")->check(CLI::IsMember(kLogLevelNames));
   app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
   BatchCommand batch;
   batch.add_to(app);

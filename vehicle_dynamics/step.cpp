@@ -1,19 +1,15 @@
 #include "vehicle_dynamics/step.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "config/rig.h"
 #include "vehicle_dynamics/models/kinematic.h"
 
 namespace phare {
-namespace {
-constexpr std::array<const char*, 5> kLevelNames{"pose", "kinematic", "single-track", "full", "auto"};
-}  // namespace
-
 // The car, one step further. Who decides what is due, and what the outside sees of it, follows below.
 void StepLoop::step_once() {
   const auto begin = std::chrono::steady_clock::now();
@@ -213,13 +209,16 @@ int StepLoop::max_catch_up() const {
 }
 
 const char* name(Level level) {
-  return kLevelNames[static_cast<std::size_t>(level)];
+  return kDynamicsLevelNames[static_cast<std::size_t>(level)].data();
 }
 
 Result<Level> parse_level(const std::string& text, const std::string& place) {
-  for (std::size_t i = 0; i < kLevelNames.size(); ++i)
-    if (text == kLevelNames[i]) return static_cast<Level>(i);
-  return Error{place, "level \"" + text + "\" is unknown; there are pose, kinematic, single-track, full, auto"};
+  std::string all;
+  for (std::size_t i = 0; i < kDynamicsLevelNames.size(); ++i) {
+    if (text == kDynamicsLevelNames[i]) return static_cast<Level>(i);
+    all += (i == 0 ? "" : ", ") + std::string(kDynamicsLevelNames[i]);
+  }
+  return Error{place, "level \"" + text + "\" is unknown; there are " + all};
 }
 
 }  // namespace phare

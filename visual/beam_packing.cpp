@@ -15,26 +15,27 @@ namespace {
 
 constexpr std::size_t kMaxBins = 8192;                           // in 45°
 constexpr std::int64_t kMaxEvenNodes = 4096;                     // of one axis
-constexpr std::int64_t kMaxEvenImage = 4 << 20;                  // nodes: 16 MiB
+constexpr std::int64_t kMaxEvenCells = 1 << 20;                  // 16 MiB
+constexpr std::int64_t kSmallCells = 1 << 16;                    // 1 MiB, which the processor's caches hold
 constexpr std::int64_t kOctant = 45'000'000;                     // millionths of a degree
 constexpr std::size_t kFilterColumns = 1024, kFilterRows = 512;  // of the levels that the texture filter weighs
 
-/// Nodes at multiples of a fine step within ±fine·step, beyond that at multiples of a coarse one from there.
+/// Nodes a step apart from a phase; or multiples of a fine step within ±fine·step, beyond that of a coarse one from
+/// there.
 struct EvenAxis {
-  std::int64_t step = 0;    ///< millionths of a degree
+  double step = 0.0;        ///< degrees (of a screen: metres)
+  double phase = 0.0;       ///< steps from 0 to node 0, below 1; 0 where there is a coarse step
   std::int64_t fine = 0;    ///< fine nodes on either side of 0
   std::int64_t coarse = 1;  ///< fine steps in a coarse one
-  std::int64_t first = 0;   ///< node, from the one at 0
+  std::int64_t first = 0;   ///< node
   std::int64_t count = 0;
+  std::vector<double> beside{};  ///< of nodes rounded in the file: how many steps beside it each lies; else empty
 
-  double angle_deg(std::int64_t node) const {
-    const std::int64_t inner = std::clamp(node, -fine, fine);
-    return static_cast<double>((inner + (node - inner) * coarse) * step) * 1e-6;
-  }
-  /// Whole nodes from 0 to an angle in millionths.
-  std::int64_t node_of(std::int64_t angle) const {
-    const std::int64_t inner = std::clamp(angle, -fine * step, fine * step);
-    return inner / step + (angle - inner) / (step * coarse);
+  std::int64_t last() const { return first + count - 1; }
+  double angle(double node) const {
+    if (coarse == 1) return (node + phase) * step;
+    const double inner = std::clamp(node, -static_cast<double>(fine), static_cast<double>(fine));
+    return (inner + (node - inner) * static_cast<double>(coarse)) * step;
   }
 };
 
@@ -49,37 +50,83 @@ std::optional<std::vector<std::int64_t>> in_millionths(const std::vector<double>
   return nodes;
 }
 
-// The even axis of this coarse step with the fewest nodes that has all of these.
+// The even axis of this coarse step with the fewest nodes that has all of these, in millionths.
 std::optional<EvenAxis> even_axis(const std::vector<std::int64_t>& nodes, std::int64_t coarse, bool turn) {
-  std::int64_t step = turn ? kOctant : 0;  // the shader counts the nodes of a whole turn from multiples of 45°
-  for (std::int64_t node : nodes) step = std::gcd(step, node);
   std::optional<EvenAxis> best;
-  auto propose = [&](std::int64_t border) {
-    EvenAxis axis{.step = step, .fine = border / step, .coarse = coarse};
-    for (std::int64_t node : nodes)
-      if (std::abs(node) > border && (std::abs(node) - border) % (step * coarse) != 0) return;
-    axis.first = axis.node_of(nodes.front());
-    axis.count = axis.node_of(nodes.back()) - axis.first + 1;
-    if (!best || axis.count < best->count) best = axis;
-  };
-  if (coarse == 1)
-    propose(std::max(std::abs(nodes.front()), std::abs(nodes.back())));  // one border is like another
-  else
-    for (std::int64_t border : nodes) propose(std::abs(border));
+  if (coarse == 1 && !turn) {
+    std::int64_t step = 0;
+    for (std::int64_t node : nodes) step = std::gcd(step, node - nodes.front());
+    const std::int64_t before = nodes.front() - (nodes.front() % step + step) % step;
+    best = {.step = static_cast<double>(step) * 1e-6,
+            .phase = static_cast<double>(nodes.front() - before) / static_cast<double>(step),
+            .first = before / step,
+            .count = (nodes.back() - nodes.front()) / step + 1};
+  } else {
+    std::int64_t step = turn ? kOctant : 0;  // the shader counts the nodes of a whole turn from multiples of 45°
+    for (std::int64_t node : nodes) step = std::gcd(step, node);
+    const auto propose = [&](std::int64_t border) {
+      for (std::int64_t node : nodes)
+        if (std::abs(node) > border && (std::abs(node) - border) % (step * coarse) != 0) return;
+      const auto node_of = [&](std::int64_t angle) {
+        const std::int64_t inner = std::clamp(angle, -border, border);
+        return inner / step + (angle - inner) / (step * coarse);
+      };
+      const EvenAxis axis{.step = static_cast<double>(step) * 1e-6,
+                          .fine = border / step,
+                          .coarse = coarse,
+                          .first = node_of(nodes.front()),
+                          .count = node_of(nodes.back()) - node_of(nodes.front()) + 1};
+      if (!best || axis.count < best->count) best = axis;
+    };
+    if (turn)
+      propose(std::max(std::abs(nodes.front()), std::abs(nodes.back())));
+    else
+      for (std::int64_t border : nodes) propose(std::abs(border));
+  }
   return best && best->count < kMaxEvenNodes ? best : std::nullopt;
 }
 
-// Both axes with one coarse step, for the shader has room for one; the smallest image wins.
+// Nodes as evenly as their ends say, but for rounding; nothing if one lies more than a fifth of a step beside.
+std::optional<EvenAxis> rounded_axis(const std::vector<double>& nodes) {
+  const auto count = static_cast<std::int64_t>(nodes.size());
+  if (count >= kMaxEvenNodes) return std::nullopt;
+  EvenAxis axis{.step = (nodes.back() - nodes.front()) / static_cast<double>(count - 1), .count = count};
+  const double first = nodes.front() / axis.step;
+  axis.first = static_cast<std::int64_t>(std::floor(first + 1e-9));
+  axis.phase = std::max(first - static_cast<double>(axis.first), 0.0);
+  double most = 0.0;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const double even = axis.angle(static_cast<double>(axis.first + i));
+    axis.beside.push_back((nodes[static_cast<std::size_t>(i)] - even) / axis.step);
+    most = std::max(most, std::abs(axis.beside.back()));
+  }
+  if (most > 0.2) return std::nullopt;
+  if (most * axis.step < 1e-9) axis.beside.clear();  // computed, not read: as even as double is
+  return axis;
+}
+
+// Both axes with one coarse step, for the shader has room for one; the fewest cells win, rounded nodes where exact ones
+// would take too many.
 std::optional<std::pair<EvenAxis, EvenAxis>> even_axes(const std::vector<double>& first_deg,
                                                        const std::vector<double>& second_deg, bool turn) {
+  const auto cells = [](const EvenAxis& a, const EvenAxis& b) { return (a.count + 1) * (b.count + 1); };
   const auto first = in_millionths(first_deg), second = in_millionths(second_deg);
-  if (!first || !second) return std::nullopt;
   std::optional<std::pair<EvenAxis, EvenAxis>> best;
-  for (std::int64_t coarse = 1; coarse <= (turn ? 1 : 100); ++coarse) {
-    const auto a = even_axis(*first, coarse, turn), b = even_axis(*second, coarse, turn);
-    if (!a || !b || a->count * b->count > kMaxEvenImage) continue;
-    if (!best || a->count * b->count < best->first.count * best->second.count) best.emplace(*a, *b);
+  if (first && second) {
+    for (std::int64_t coarse = 1; coarse <= (turn ? 1 : 100); ++coarse) {
+      const auto a = even_axis(*first, coarse, turn), b = even_axis(*second, coarse, turn);
+      if (a && b && cells(*a, *b) <= (best ? cells(best->first, best->second) - 1 : kMaxEvenCells))
+        best.emplace(*a, *b);
+    }
   }
+  const auto own = static_cast<std::int64_t>(first_deg.size() * second_deg.size());
+  if (turn || (best && cells(best->first, best->second) <= std::max(8 * own, kSmallCells))) return best;
+  const auto either = [](const auto& whole, const std::vector<double>& nodes) {
+    const auto even = whole ? even_axis(*whole, 1, false) : std::nullopt;
+    return even && even->count <= static_cast<std::int64_t>(2 * nodes.size()) ? even : rounded_axis(nodes);
+  };
+  const auto a = either(first, first_deg), b = either(second, second_deg);
+  if (a && b && cells(*a, *b) <= kMaxEvenCells) return std::pair(*a, *b);
   return best;
 }
 
@@ -95,9 +142,16 @@ std::vector<NodePlace> places_of(const std::vector<double>& nodes_deg, std::size
   }
   return places;
 }
+std::vector<NodePlace> own_places(std::size_t count) {
+  std::vector<NodePlace> places;
+  for (std::size_t i = 0; i < count; ++i) places.push_back({i, 0.0});
+  return places;
+}
 std::vector<NodePlace> places_on(const std::vector<double>& nodes_deg, const EvenAxis& axis) {
-  return places_of(nodes_deg, static_cast<std::size_t>(axis.count),
-                   [&](std::size_t i) { return axis.angle_deg(axis.first + static_cast<std::int64_t>(i)); });
+  if (axis.count == static_cast<std::int64_t>(nodes_deg.size())) return own_places(nodes_deg.size());
+  return places_of(nodes_deg, static_cast<std::size_t>(axis.count), [&](std::size_t i) {
+    return axis.angle(static_cast<double>(axis.first + static_cast<std::int64_t>(i)));
+  });
 }
 std::vector<NodePlace> places_between_ends(const std::vector<double>& nodes_deg, std::size_t count) {
   const double step = (nodes_deg.back() - nodes_deg.front()) / static_cast<double>(count - 1);
@@ -147,27 +201,71 @@ void fill(PackedBeam& packed, const BeamImage& image, const TexelRect& part) {
   if (packed.tinted()) fill_values<glm::dvec2>(packed, image, image.tints, packed.tints, part);
 }
 
-// `per_unit`: millionths in what the shader counts in, a radian or a screen's tangent.
-void describe_even(PackedBeam& packed, const EvenAxis& first, const EvenAxis& second, bool turn, double per_unit) {
-  const double a = per_unit / static_cast<double>(first.step), b = per_unit / static_cast<double>(second.step);
-  packed.nodes =
-      turn ? glm::vec4(a, b, kOctant / first.step, kOctant / second.step) : glm::vec4(a, b, first.fine, second.fine);
-  packed.inverse_coarse = 1.0f / static_cast<float>(first.coarse);
-  // A gather midway between node i and the next finds both: at (i - first + 1) texels.
-  const double width = static_cast<double>(first.count + 1), height = static_cast<double>(second.count + 1);
-  packed.coordinates = {1.0 / width, 1.0 / height, static_cast<double>(1 - first.first) / width,
-                        static_cast<double>(1 - second.first) / height};
-  packed.within = {first.first, first.first + first.count - 1, second.first, second.first + second.count - 1};
+// Where the cells of the nodes lie, counted from node (first, second).
+void count_cells(PackedBeam& packed, std::int64_t first, std::int64_t second) {
+  packed.columns = static_cast<std::uint32_t>(packed.column_places.size());
+  packed.rows_of_candela = static_cast<std::uint32_t>(packed.row_places.size());
+  const std::int64_t row = packed.columns + 1;
+  packed.shape.cells = {static_cast<float>(row), static_cast<float>((1 - second) * row + 1 - first)};
+}
+
+// `units`: of an axis in what the shader counts in, a radian or a screen's tangent.
+void describe_even(PackedBeam& packed, const EvenAxis& first, const EvenAxis& second, bool turn, double units) {
+  shader::TableShape& shape = packed.shape;
+  shape.per = {units / first.step, units / second.step};
+  shape.phase = {first.phase, second.phase};
+  shape.fine = turn ? glm::vec2(45.0 / first.step, 45.0 / second.step) : glm::vec2(first.fine, second.fine);
+  shape.coarse = 1.0f / static_cast<float>(first.coarse);
+  shape.range = {first.first, first.last(), second.first, second.last()};
+  count_cells(packed, first.first, second.first);
+}
+
+// Half a step beyond the table at most, so that what is looked up there is one of its outer cells.
+glm::vec2 reach_of(const EvenAxis& axis, bool narrow) {
+  const double most_deg = narrow ? 46.4 : 90.2;
+  const auto half_tangent = [&](double node) {
+    return std::tan(std::clamp(axis.angle(node), -most_deg, most_deg) * std::numbers::pi / 360.0);
+  };
+  return {half_tangent(static_cast<double>(axis.first) - 0.49), half_tangent(static_cast<double>(axis.last()) + 0.49)};
+}
+
+// Tables of angles that look ahead: by half angles, rounded nodes through a guide of one entry a node.
+void describe_ahead(PackedBeam& packed, const EvenAxis& first, const EvenAxis& second) {
+  shader::TableShape& shape = packed.shape;
+  shape.lookup = shader::kLookupAhead;
+  const auto narrow = [](const EvenAxis& axis) {
+    return std::max(-axis.angle(static_cast<double>(axis.first)), axis.angle(static_cast<double>(axis.last()))) <=
+           static_cast<double>(shader::kNarrowReach_deg);
+  };
+  const glm::vec2 x = reach_of(first, narrow(first)), y = reach_of(second, narrow(second));
+  shape.reach = {x.x, x.y, y.x, y.y};
+  if (narrow(first)) shape.lookup |= shader::kLookupNarrow;
+  if (narrow(second)) shape.lookup |= 2u * shader::kLookupNarrow;
+  if (first.beside.empty() && second.beside.empty()) return;
+  shape.lookup |= shader::kLookupRounded;
+  for (const EvenAxis* axis : {&first, &second}) {
+    const auto beside = [&](std::int64_t i) {
+      return axis->beside.empty() ? 0.0 : axis->beside[static_cast<std::size_t>(i)];
+    };
+    const auto slope_after = [&](std::int64_t i) {
+      i = std::clamp<std::int64_t>(i, 0, axis->count - 2);
+      return 1.0 / (1.0 + beside(i + 1) - beside(i));
+    };
+    if (axis == &second) shape.coarse = static_cast<float>(packed.guide.size());
+    for (std::int64_t i = 0; i < axis->count; ++i)
+      packed.guide.emplace_back(beside(i), 0.0, slope_after(i - 1), slope_after(i));
+  }
 }
 
 // A texture coordinate for each radian (of a screen: tangent) of the table's range: texel centres at its ends.
-void describe_filter(PackedBeam& packed, double units_of_range) {
-  packed.nodes = packed.range * static_cast<float>(units_of_range);
+void describe_filter(PackedBeam& packed, const glm::dvec4& range) {
+  packed.columns = kFilterColumns;
+  packed.rows_of_candela = kFilterRows;
   const double width = kFilterColumns, height = kFilterRows;
-  const double u = (width - 1) / width / static_cast<double>(packed.nodes.y - packed.nodes.x),
-               v = (height - 1) / height / static_cast<double>(packed.nodes.w - packed.nodes.z);
-  packed.coordinates = {u, v, 0.5 / width - static_cast<double>(packed.nodes.x) * u,
-                        0.5 / height - static_cast<double>(packed.nodes.z) * v};
+  const double u = (width - 1) / width / (range.y - range.x), v = (height - 1) / height / (range.w - range.z);
+  packed.shape.range = range;
+  packed.shape.per = {u, v};
+  packed.shape.phase = {0.5 / width - range.x * u, 0.5 / height - range.z * v};
 }
 
 // The guide of one axis: bins of equal width in each 45° about a multiple of 45° (shaders/lib/beam.glsl).
@@ -204,32 +302,31 @@ Guide make_guide(const std::vector<double>& nodes_deg) {
   return guide;
 }
 
-// Texels are the table's own nodes.
-void keep_nodes(PackedBeam& packed, std::size_t columns, std::size_t rows) {
-  for (std::size_t i = 0; i < columns; ++i) packed.column_places.push_back({i, 0.0});
-  for (std::size_t j = 0; j < rows; ++j) packed.row_places.push_back({j, 0.0});
-}
-
 void make_guides(PackedBeam& packed, const std::vector<double>& first_deg, const std::vector<double>& second_deg) {
+  packed.column_places = own_places(first_deg.size());
+  packed.row_places = own_places(second_deg.size());
   Guide first = make_guide(first_deg);
   const Guide second = make_guide(second_deg);
-  packed.guide_bins = {first.bins.size(), first.bins_in_octant, second.bins_in_octant, 0};
-  packed.bins = {first.bins_per_deg, second.bins_per_deg, first.first_octant, second.first_octant};
+  shader::TableShape& shape = packed.shape;
+  shape.per = {first.bins_per_deg, second.bins_per_deg};
+  shape.phase = {first.first_octant, second.first_octant};
+  shape.fine = {first.bins_in_octant, second.bins_in_octant};
+  shape.coarse = static_cast<float>(first.bins.size());
+  shape.range = {first_deg.front(), first_deg.back(), second_deg.front(), second_deg.back()};
   packed.guide = std::move(first.bins);
   packed.guide.insert(packed.guide.end(), second.bins.begin(), second.bins.end());
-  packed.guide.resize((packed.guide.size() + shader::kGuideRow - 1) / shader::kGuideRow * shader::kGuideRow);
+  count_cells(packed, 0, 0);
 }
 
 // A flat screen: evenly in metres where its nodes lie so, else through a guide. Guides are made for angles, so tangents
 // are scaled into the 45° about 0.
 void place_screen(PackedBeam& packed, double distance_m, bool filtered) {
   const std::vector<double>&first = packed.column_tangents, &second = packed.row_tangents;
-  packed.range = {first.front(), first.back(), second.front(), second.back()};
   if (filtered) {
-    packed.lookup = shader::kLookupFilterScreen;
+    packed.shape.lookup = shader::kLookupFilterScreen;
     packed.column_places = places_between_ends(first, kFilterColumns);
     packed.row_places = places_between_ends(second, kFilterRows);
-    describe_filter(packed, 1.0);
+    describe_filter(packed, {first.front(), first.back(), second.front(), second.back()});
     return;
   }
   const auto scaled = [](std::vector<double> nodes, double factor) {
@@ -240,23 +337,21 @@ void place_screen(PackedBeam& packed, double distance_m, bool filtered) {
   const auto y_millionths = in_millionths(y_m), z_millionths = in_millionths(z_m);
   if (y_millionths && z_millionths) {
     const auto y = even_axis(*y_millionths, 1, false), z = even_axis(*z_millionths, 1, false);
-    if (y && z && y->count * z->count <= kMaxEvenImage) {
-      packed.lookup = shader::kLookupScreen;
+    if (y && z && (y->count + 1) * (z->count + 1) <= kMaxEvenCells) {
+      packed.shape.lookup = shader::kLookupScreen;
       packed.column_places = places_on(y_m, *y);
       packed.row_places = places_on(z_m, *z);
-      describe_even(packed, *y, *z, false, 1e6 * distance_m);
+      describe_even(packed, *y, *z, false, distance_m);
       return;
     }
   }
-  packed.lookup = shader::kLookupScreenGuide;
+  packed.shape.lookup = shader::kLookupScreenGuide;
   const auto scale = [](const std::vector<double>& nodes) {
     return 22.4 / std::max(std::abs(nodes.front()), std::abs(nodes.back()));
   };
   const double a = scale(first), b = scale(second);
-  keep_nodes(packed, first.size(), second.size());
-  packed.nodes = {a, b, 0.0, 0.0};
-  packed.range = {first.front() * a, first.back() * a, second.front() * b, second.back() * b};
   make_guides(packed, scaled(first, a), scaled(second, b));
+  packed.shape.reach = {a, b, 0.0, 0.0};
 }
 
 // Candela of 1.0 in the texture. The largest half float is 65,504.
@@ -302,7 +397,6 @@ PackedBeam pack_beam(const BeamImage& image, ImageLevel level) {
   const auto even = !filtered && (turn || ahead) ? even_axes(first, second, turn) : std::nullopt;
   if (image.type == PhotometricType::kC && !(even && turn))
     for (double& gamma_deg : second) gamma_deg -= 90.0;  // second = gamma - 90
-  packed.range = {first.front(), first.back(), second.front(), second.back()};
 
   if (image.screen_distance_m > 0.0) {
     const auto tangents = [](std::vector<double> nodes) {
@@ -313,37 +407,36 @@ PackedBeam pack_beam(const BeamImage& image, ImageLevel level) {
     packed.row_tangents = tangents(second);
     place_screen(packed, image.screen_distance_m, filtered);
   } else if (filtered) {
-    packed.lookup = ahead ? shader::kLookupFilterAhead : shader::kLookupFilter;
+    packed.shape.lookup = ahead ? shader::kLookupFilterAhead : shader::kLookupFilter;
     packed.column_places = places_between_ends(first, kFilterColumns);
     packed.row_places = places_between_ends(second, kFilterRows);
-    describe_filter(packed, std::numbers::pi / 180.0);
+    describe_filter(packed,
+                    std::numbers::pi / 180.0 * glm::dvec4(first.front(), first.back(), second.front(), second.back()));
   } else if (even) {
-    packed.lookup = turn ? shader::kLookupTurn : shader::kLookupAhead;
     packed.column_places = places_on(first, even->first);
     packed.row_places = places_on(second, even->second);
-    describe_even(packed, even->first, even->second, turn, 180e6 / std::numbers::pi);
+    describe_even(packed, even->first, even->second, turn, 180.0 / std::numbers::pi);
+    packed.shape.lookup = shader::kLookupTurn;
+    if (!turn) describe_ahead(packed, even->first, even->second);
   } else {
-    packed.lookup = shader::kLookupGuide;
-    keep_nodes(packed, first.size(), second.size());
+    packed.shape.lookup = shader::kLookupGuide;
     make_guides(packed, first, second);
   }
-  const std::uint32_t zeros = filtered ? 0 : 1;
-  packed.columns = static_cast<std::uint32_t>(packed.column_places.size()) + zeros;
-  packed.rows_of_candela = static_cast<std::uint32_t>(packed.row_places.size()) + zeros;
   packed.candela.assign(std::size_t{packed.columns} * packed.rows_of_candela, 0.0f);
   if (!image.tints.empty()) packed.tints.assign(packed.candela.size(), glm::vec2(0.0f));
   packed.scale_cd = scale_for(level, image);
-  fill(packed, image, {0, 0, packed.column_places.size(), packed.row_places.size()});
-  if (packed.lookup == shader::kLookupAhead && dark_at_its_edge(image.candela, image.first_deg.size()))
-    packed.lookup = shader::kLookupDark;
+  if (packed.scale_cd != 1.0f) packed.shape.lookup |= shader::kLookupScaled;
+  fill(packed, image, {0, 0, packed.columns, packed.rows_of_candela});
+  if (packed.lookup() <= shader::kLookupRounded && !dark_at_its_edge(image.candela, image.first_deg.size()))
+    packed.shape.lookup |= shader::kLookupEdge;
   return packed;
 }
 
 TexelRect pack_again(PackedBeam& packed, const BeamImage& image, const TexelRect& changed) {
   packed.colour = image.colour;
   packed.dark = image.dark;
-  const bool edge_lit =
-      packed.lookup == shader::kLookupDark && !dark_at_its_edge(image.candela, image.first_deg.size());
+  const bool edge_lit = packed.lookup() <= shader::kLookupRounded && (packed.shape.lookup & shader::kLookupEdge) == 0 &&
+                        !dark_at_its_edge(image.candela, image.first_deg.size());
   const bool too_bright = !packed.candela.empty() && scale_for(packed.level, image) > packed.scale_cd;
   const bool recoloured = packed.tinted() == image.tints.empty();
   if (packed.candela.empty() || edge_lit || too_bright || recoloured) {
@@ -370,46 +463,84 @@ TexelRect pack_again(PackedBeam& packed, const BeamImage& image, const TexelRect
   return part;
 }
 
-std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& part) {
-  std::vector<std::byte> bytes(part.texels() * packed.bytes_per_texel());
-  std::byte* out = bytes.data();
-  const auto put_rows = [&](const auto& texel_of) {
-    for (std::size_t j = part.row; j < part.end_row; ++j) {
-      for (std::size_t i = part.column; i < part.end_column; ++i) {
-        const auto texel = texel_of(packed.candela[j * packed.columns + i]);
-        std::memcpy(out, &texel, sizeof texel);
-        out += sizeof texel;
-      }
-    }
+TexelRect texels_about(const PackedBeam& packed, const TexelRect& nodes) {
+  if (packed.filtered() || nodes.empty()) return nodes;
+  return {nodes.column, nodes.row, nodes.end_column + 1, nodes.end_row + 1};
+}
+
+namespace {
+
+// Each texel of `rect` as `put(bytes, texel)` writes it; `texel`: four nodes of a cell, or a value.
+template <typename Value>
+std::array<Value, 4> nodes_of_cell(const PackedBeam& packed, const std::vector<Value>& nodes, std::size_t column,
+                                   std::size_t row) {
+  const auto at = [&](std::size_t i, std::size_t j) {  // counted from the node before the first
+    const bool there = i > 0 && j > 0 && i <= packed.columns && j <= packed.rows_of_candela;
+    return there ? nodes[(j - 1) * packed.columns + i - 1] : Value{};
   };
-  switch (packed.level) {
-    case ImageLevel::kNormalised8:
-      put_rows([&](float cd) { return static_cast<std::uint8_t>(std::lround(255.0f * cd / packed.scale_cd)); });
-      break;
-    case ImageLevel::kHalfEven:
-    case ImageLevel::kHalfNodes:
-      put_rows([&](float cd) { return half_from_float(cd / packed.scale_cd); });
-      break;
-    case ImageLevel::kFloatNodes:
-      put_rows([](float cd) { return cd; });
-      break;
+  return {at(column, row), at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)};
+}
+
+template <typename Texel>
+std::vector<std::byte> bytes_of(const TexelRect& rect, Texel&& texel) {
+  std::vector<std::byte> bytes(rect.texels() * sizeof texel(rect.column, rect.row));
+  std::byte* out = bytes.data();
+  for (std::size_t j = rect.row; j < rect.end_row; ++j) {
+    for (std::size_t i = rect.column; i < rect.end_column; ++i) {
+      const auto value = texel(i, j);
+      std::memcpy(out, &value, sizeof value);
+      out += sizeof value;
+    }
   }
   return bytes;
 }
 
-std::vector<std::byte> tint_texels_of(const PackedBeam& packed, const TexelRect& part) {
-  const bool whole = packed.level == ImageLevel::kFloatNodes;
-  std::vector<std::byte> bytes(part.texels() * (whole ? 8 : 4));
-  std::byte* out = bytes.data();
-  for (std::size_t j = part.row; j < part.end_row; ++j) {
-    for (std::size_t i = part.column; i < part.end_column; ++i) {
-      const glm::vec2 tint = packed.tints[j * packed.columns + i] / packed.tint_scale();
-      const std::array half{half_from_float(tint.x), half_from_float(tint.y)};
-      std::memcpy(out, whole ? static_cast<const void*>(&tint) : half.data(), whole ? sizeof tint : sizeof half);
-      out += whole ? sizeof tint : sizeof half;
-    }
+}  // namespace
+
+std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& texels) {
+  const auto filtered = [&](std::size_t i, std::size_t j) {
+    return packed.candela[j * packed.columns + i] / packed.scale_cd;
+  };
+  switch (packed.level) {
+    case ImageLevel::kNormalised8:
+      return bytes_of(texels, [&](std::size_t i, std::size_t j) {
+        return static_cast<std::uint8_t>(std::lround(255.0f * filtered(i, j)));
+      });
+    case ImageLevel::kHalfEven:
+      return bytes_of(texels, [&](std::size_t i, std::size_t j) { return half_from_float(filtered(i, j)); });
+    case ImageLevel::kHalfNodes:
+      return bytes_of(texels, [&](std::size_t i, std::size_t j) {
+        const auto cd = nodes_of_cell(packed, packed.candela, i, j);
+        std::array<std::uint16_t, 4> halves;
+        std::transform(cd.begin(), cd.end(), halves.begin(),
+                       [&](float value) { return half_from_float(value / packed.scale_cd); });
+        return halves;
+      });
+    case ImageLevel::kFloatNodes:
+      break;
   }
-  return bytes;
+  return bytes_of(texels, [&](std::size_t i, std::size_t j) { return nodes_of_cell(packed, packed.candela, i, j); });
+}
+
+std::vector<std::byte> tint_texels_of(const PackedBeam& packed, const TexelRect& texels) {
+  const float scale = packed.tint_scale();
+  if (packed.filtered())
+    return bytes_of(texels, [&](std::size_t i, std::size_t j) {
+      const glm::vec2 tint = packed.tints[j * packed.columns + i] / scale;
+      return std::array{half_from_float(tint.x), half_from_float(tint.y)};
+    });
+  const auto reds_and_blues = [&](std::size_t i, std::size_t j) {
+    const auto tint = nodes_of_cell(packed, packed.tints, i, j);
+    return std::array{tint[0].x, tint[1].x, tint[2].x, tint[3].x, tint[0].y, tint[1].y, tint[2].y, tint[3].y};
+  };
+  if (packed.level == ImageLevel::kFloatNodes) return bytes_of(texels, reds_and_blues);
+  return bytes_of(texels, [&](std::size_t i, std::size_t j) {
+    const auto tint = reds_and_blues(i, j);
+    std::array<std::uint16_t, 8> halves;
+    std::transform(tint.begin(), tint.end(), halves.begin(),
+                   [&](float value) { return half_from_float(value / scale); });
+    return halves;
+  });
 }
 
 }  // namespace phare

@@ -1,8 +1,9 @@
-// A beam image as the shaders read it. Where the nodes of both axes are multiples of a fine step near 0° and of a
-// coarse one beyond, on that even grid: every node of the table is one of it, so bilinear interpolation on it is that
-// of the table. Else on the native nodes, with a guide that finds the node of an angle in one fetch. A flat screen
-// keeps its nodes too, by their tangents: evenly in metres, or through a guide. Cheaper levels lie on a fixed even grid
-// and leave the weights to the texture filter.
+// A beam image as the shaders read it: cells of four nodes each, one fetch a look-up. Where the nodes of both axes are
+// multiples of a step (a fine one near 0° and a coarse one beyond; or from a phase), on that even grid: every node of
+// the table is one of it, so bilinear interpolation on it is that of the table. Nodes that are even but for the
+// rounding of a file keep their true places in a guide, an entry a node; any others are found through a guide of bins.
+// A flat screen keeps its nodes too, by their tangents: evenly in metres, or through a guide. Cheaper levels lie on a
+// fixed even grid and leave the weights to the texture filter.
 #pragma once
 
 #include <cstdint>
@@ -27,15 +28,11 @@ struct NodePlace {
 /// One beam image packed for the GPU.
 struct PackedBeam {
   ImageLevel level = ImageLevel::kFloatNodes;
-  std::uint32_t lookup = shader::kLookupGuide;
-  std::vector<float>
-      candela;  ///< [second][first] of the shader's angles; on nodes one column and one row of zeros follow the last
-  std::uint32_t columns = 0, rows_of_candela = 0;  ///< with the zeros
-  float scale_cd = 1.0f;                           ///< candela of 1.0 in the texture
-  std::vector<glm::vec4> guide;                    ///< of first, then of second; whole rows of kGuideRow
-  glm::uvec4 guide_bins{0};  ///< bin where that of second begins; bins in 45° of first, of second
-  float inverse_coarse = 1.0f;
-  glm::vec4 nodes{0.0f}, coordinates{0.0f}, within{0.0f}, range{0.0f}, bins{0.0f};  ///< as in shaders/lamps.h
+  shader::TableShape shape{};
+  std::vector<float> candela;  ///< of nodes, [second][first] of the shader's angles
+  std::uint32_t columns = 0, rows_of_candela = 0;
+  float scale_cd = 1.0f;         ///< candela of 1.0 in the texture
+  std::vector<glm::vec4> guide;  ///< of first, then of second; as shaders/lib/beam.glsl reads it
   glm::dmat3 rows{1.0};  ///< the axes of the image that the shader's rows a, b, c are: columns in the image frame
                          ///< (forward, left, up)
   glm::vec3 colour{1.0f};
@@ -46,24 +43,30 @@ struct PackedBeam {
   std::vector<NodePlace> column_places, row_places;
   std::vector<double> column_tangents, row_tangents;  ///< of a flat screen's nodes; else empty
 
-  bool filtered() const { return lookup >= shader::kLookupFilter; }
+  std::uint32_t lookup() const { return shape.lookup & shader::kLookupKind; }
+  bool filtered() const { return lookup() >= shader::kLookupFilter; }
   bool tinted() const { return !tints.empty(); }
   /// What a texel of colour is multiplied by. Half floats leave room for the bluest light there is: 1/0.0722 of its
   /// luminance.
   float tint_scale() const { return level == ImageLevel::kFloatNodes ? 1.0f : 16.0f * scale_cd; }
-  /// The four bits of this lamp in the shader's `lookups`: kind, and whether candela have to be scaled.
-  std::uint32_t lookup_bits() const { return lookup | (scale_cd != 1.0f && !filtered() ? shader::kLookupScaled : 0u); }
-  bool guided() const { return lookup == shader::kLookupGuide || lookup == shader::kLookupScreenGuide; }
-  /// What the texture takes.
+  bool guided() const { return !guide.empty(); }
+  /// Texels of the table on the device: cells, or of a filter's image what it has nodes.
+  std::size_t texels() const {
+    return filtered() ? std::size_t{columns} * rows_of_candela : std::size_t{columns + 1} * (rows_of_candela + 1);
+  }
+  /// What one of them takes.
   std::size_t bytes_per_texel() const {
-    return level == ImageLevel::kFloatNodes ? 4 : level == ImageLevel::kNormalised8 ? 1 : 2;
+    return level == ImageLevel::kFloatNodes  ? 16
+           : level == ImageLevel::kHalfNodes ? 8
+           : level == ImageLevel::kHalfEven  ? 2
+                                             : 1;
   }
 };
 
-/// An even grid has at most 4096 nodes a side and 4 M in all. Guides hold at most one node a bin, so bins are as narrow
-/// as the closest nodes; at most 8192 in 45°: nodes closer than 0.0055° make the guide inexact there by less than one
-/// such bin. kNormalised8 is scaled by the image's peak, half floats by a thousandth of it where it lies above 60,000
-/// cd.
+/// An even grid has at most 1 M cells, and 8 for each node of the table unless it is small. Guides of bins hold at most
+/// one node a bin, so bins are as narrow as the closest nodes; at most 8192 in 45°: nodes closer than 0.0055° make the
+/// guide inexact there by less than one such bin. kNormalised8 is scaled by the image's peak, half floats by a
+/// thousandth of it where it lies above 60,000 cd.
 PackedBeam pack_beam(const BeamImage& image, ImageLevel level = ImageLevel::kFloatNodes);
 
 /// Packs again the part that `changed` (columns and rows of the image) reaches; the image has the nodes it had. Returns
@@ -71,9 +74,12 @@ PackedBeam pack_beam(const BeamImage& image, ImageLevel level = ImageLevel::kFlo
 /// the whole image is returned, packed anew.
 TexelRect pack_again(PackedBeam& packed, const BeamImage& image, const TexelRect& changed);
 
-/// The texels of a part as the texture holds them, row by row.
-std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& part);
-/// The same of its colour: two float32 a texel, two half floats at the cheaper levels.
-std::vector<std::byte> tint_texels_of(const PackedBeam& packed, const TexelRect& part);
+/// The texels that a part of the nodes stands in: of a filter's image that part, else the cells about it, one more to
+/// the left and below (cells are counted from the one before node 0).
+TexelRect texels_about(const PackedBeam& packed, const TexelRect& nodes);
+/// Texels as the device holds them, row by row.
+std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& texels);
+/// The same of its colour: red and blue, of a cell as two texels (four reds, four blues).
+std::vector<std::byte> tint_texels_of(const PackedBeam& packed, const TexelRect& texels);
 
 }  // namespace phare

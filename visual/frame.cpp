@@ -1,16 +1,13 @@
 #include "visual/frame.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "visual/frame_facts.h"
+
 namespace phare {
 namespace {
-
-EffectFacts facts_of(const FrameParts& parts, const FrameInput& input) {
-  return {.lit_lamps = parts.lamps.lamp_count(),
-          .software_device = parts.software_device,
-          .hdr_wanted = input.want_hdr,
-          .false_colour = input.view == View::kFalseColour,
-          .overlay_lines = input.overlay.size() + input.instruments.size() + input.panel.rows.size() +
-                           (input.panel.title.empty() ? 0u : 1u)};
-}
 
 using Usage = vk::ImageUsageFlagBits;
 
@@ -18,58 +15,155 @@ using Usage = vk::ImageUsageFlagBits;
 // else fits.
 constexpr vk::Format kHdrFormat = vk::Format::eR16G16B16A16Sfloat;
 
-}  // namespace
+/// A picture that views are drawn into: the frame's, or a view's own.
+struct Picture {
+  std::string name;  ///< before the names of its images
+  vk::Extent2D extent{};
+  gpu::Image* display = nullptr;
+  bool begun = false;  ///< a view has been drawn
+};
 
-DrawnFrame draw_frame(FrameParts& parts, const FrameInput& input) {
-  const FrameTarget& target = parts.target;
+/// A view and where it is drawn.
+struct PlacedView {
+  const ViewInput& input;
+  std::size_t number;  ///< 0: the frame's own
+  std::string name;
+  Picture& picture;
+  vk::Rect2D area{};
+};
+
+vk::Rect2D area_of(const PicturePart& part, vk::Extent2D extent) {
+  const auto edge = [](double at_01, std::uint32_t side) {
+    return static_cast<std::int32_t>(std::lround(std::clamp(at_01, 0.0, 1.0) * side));
+  };
+  const std::int32_t left = std::min(edge(part.left_01, extent.width), static_cast<std::int32_t>(extent.width) - 1);
+  const std::int32_t top = std::min(edge(part.top_01, extent.height), static_cast<std::int32_t>(extent.height) - 1);
+  const std::int32_t right = std::max(edge(part.left_01 + part.width_01, extent.width), left + 1);
+  const std::int32_t bottom = std::max(edge(part.top_01 + part.height_01, extent.height), top + 1);
+  return {{left, top}, {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}};
+}
+
+/// What one view calls for, and no more. `lines`: of text that will lie over it.
+ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t lines) {
+  gpu::FrameGraph& graph = parts.graph;
+  const gpu::Counts before = graph.counts();
   const auto image = [&](const char* name, vk::Format format, vk::ImageUsageFlags usage,
                          vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1) {
-    return &parts.graph.image(name, {format, target.extent, usage, samples});
+    return &graph.image(view.picture.name + name, {format, view.picture.extent, usage, samples});
   };
+  graph.set_prefix(view.number == 0 ? "" : view.name + ": ");
 
   // What is seen, by which lamps.
-  const ViewGeometry view(input.camera, target.aspect());
-  const std::vector<DrawItem> items = parts.scene.visible(view, input.far_mesh_from_m);
-  parts.lamps.set_frame(parts.scene, parts.beams, view, {exposure_of(input), input.sky_luminance_cdm2}, input.lamps);
+  const double aspect = static_cast<double>(view.area.extent.width) / static_cast<double>(view.area.extent.height);
+  const LitView lit = parts.scene.view(ViewGeometry(view.input.camera, aspect), sky_of(view.input), view.input.lamps,
+                                       view.input.far_mesh_from_m, view.input.isolux_lx);
 
-  // What this frame calls for, and the images that takes.
-  DrawnFrame drawn{.effects = plan_effects(facts_of(parts, input), input.effects)};
-  drawn.display = image("display", target.display_format, Usage::eColorAttachment | Usage::eTransferSrc);
-  gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, target.samples);
-  gpu::Image* light = drawn.display;
-  LampOutput output = input.view == View::kFalseColour ? LampOutput::kFalseColour : LampOutput::kDisplay;
-  if (drawn.effects.on(Effect::kHdrImage)) {
-    light = drawn.hdr_cdm2 =
-        image("hdr_cdm2", kHdrFormat, Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc);
+  // What that calls for, and the images it takes.
+  const EffectPlan effects =
+      plan_effects(facts_of(view.input, lit.lamps, lines, parts.software_device), view.input.effects);
+  const bool hdr = effects.on(Effect::kHdrImage);
+  gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
+  gpu::Image* light = view.picture.display;
+  LampOutput output = view.input.view == View::kFalseColour ? LampOutput::kFalseColour : LampOutput::kDisplay;
+  if (hdr) {
+    light = image("hdr_cdm2", kHdrFormat, Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc);
     output = LampOutput::kHdr;
   }
   gpu::Image* samples = nullptr;
-  if (target.samples != vk::SampleCountFlagBits::e1)
-    samples = image("samples", light->format, Usage::eColorAttachment, target.samples);
+  if (parts.target.samples != vk::SampleCountFlagBits::e1)
+    samples = image(hdr ? "hdr samples" : "samples", light->format, Usage::eColorAttachment, parts.target.samples);
+  const bool first = !std::exchange(view.picture.begun, true);
 
   // Depth of everything, so that each pixel is lit once.
-  const bool depth_done = drawn.effects.on(Effect::kDepthFirst);
-  if (depth_done) parts.lamps.depth(parts.graph, *depth, parts.scene, items);
+  const bool depth_done = effects.on(Effect::kDepthFirst);
+  if (depth_done) parts.depth.draw(graph, parts.scene, lit, *depth, view.area);
 
   // Every surface under every lamp; the sky behind.
-  parts.lamps.light(parts.graph, samples != nullptr ? *samples : *light, samples != nullptr ? light : nullptr, *depth,
-                    depth_done, output, parts.scene, items);
+  parts.lit.draw(graph, parts.scene, lit,
+                 {.colour = samples != nullptr ? *samples : *light,
+                  .resolved = samples != nullptr ? light : nullptr,
+                  .depth = *depth,
+                  .area = view.area,
+                  .depth_done = depth_done,
+                  .keep = !first && !hdr,
+                  .black_around = first && !hdr},
+                 output);
 
-  // From cd/m² to the display. Without an HDR image the lamp pass has done it.
-  if (drawn.effects.on(Effect::kHdrImage))
-    parts.tone_mapping.draw(parts.graph, *drawn.hdr_cdm2, *drawn.display, exposure_of(input));
+  // From cd/m² to the display. Without an HDR image the lit pass has done it.
+  if (hdr) parts.tone_mapping.draw(graph, *light, *view.picture.display, view.area, first, lit.sky.exposure_per_cdm2);
+  if (hdr && view.input.want_hdr) parts.read_hdr(view.number, *light, view.area);
 
-  // What the driver is told besides.
-  if (drawn.effects.on(Effect::kOverlay)) {
-    if (!parts.overlay)
-      parts.overlay = std::make_unique<OverlayPass>(parts.device, target.display_format, target.extent.height);
-    parts.overlay->draw(parts.graph, *drawn.display, input.overlay, input.instruments, input.panel);
-  }
-  return drawn;
+  // What the next view may use.
+  graph.release(*depth);
+  if (hdr) graph.release(*light);
+  if (samples != nullptr) graph.release(*samples);
+  const gpu::Counts counts = graph.counts().since(before);
+  return {.name = view.name,
+          .effects = effects,
+          .lamps = lit.lamps,
+          .lamps_unreached = lit.unreached,
+          .lamps_over_limit = lit.over_limit,
+          .passes = counts.passes,
+          .draws = counts.draws,
+          .triangles = counts.triangles};
 }
 
-glm::vec3 exposure_of(const FrameInput& input) {
+}  // namespace
+
+std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, gpu::Image*& display) {
+  const auto picture = [&](const std::string& name, vk::Extent2D extent) {
+    return Picture{name, extent,
+                   &parts.graph.image(name + "display", {parts.target.display_format, extent,
+                                                         Usage::eColorAttachment | Usage::eTransferSrc})};
+  };
+  const std::size_t lines = text_lines(input);
+  parts.scene.begin_frame(parts.graph);
+  parts.tone_mapping.begin_frame();
+  Picture seen = picture("", parts.target.extent);
+  display = seen.display;
+
+  // The frame's own view, then the others, each into its part of the picture or into one of its own.
+  std::vector<ViewResult> views;
+  views.push_back(draw_view(
+      parts, {input, 0, input.name.empty() ? "view 1" : input.name, seen, area_of(input.part, seen.extent)}, lines));
+  for (const ViewInput& view : input.more_views) {
+    const std::size_t number = views.size();
+    const std::string name = view.name.empty() ? "view " + std::to_string(number + 1) : view.name;
+    if (!view.own_picture) {
+      views.push_back(draw_view(parts, {view, number, name, seen, area_of(view.part, seen.extent)}, 0));
+      continue;
+    }
+    Picture own = picture(std::to_string(number + 1) + ": ", {static_cast<std::uint32_t>(view.own_picture->width_px),
+                                                              static_cast<std::uint32_t>(view.own_picture->height_px)});
+    const vk::Rect2D area = area_of(view.part, own.extent);
+    views.push_back(draw_view(parts, {view, number, name, own, area}, 0));
+    if (view.want_image) parts.read_image(number, *own.display, area);
+    parts.graph.release(*own.display);
+  }
+  parts.graph.set_prefix("");
+
+  // What the driver is told besides.
+  if (views.front().effects.on(Effect::kOverlay)) {
+    if (!parts.overlay)
+      parts.overlay =
+          std::make_unique<OverlayPass>(parts.device, parts.target.display_format, parts.target.extent.height);
+    parts.overlay->draw(parts.graph, *seen.display, input.overlay, input.instruments, input.panel);
+  }
+
+  // What is kept of the finished picture.
+  if (input.want_image) parts.read_image(0, *seen.display, {{0, 0}, seen.extent});
+  for (std::size_t i = 0; i < input.more_views.size(); ++i)
+    if (const ViewInput& view = input.more_views[i]; view.want_image && !view.own_picture)
+      parts.read_image(i + 1, *seen.display, area_of(view.part, seen.extent));
+  return views;
+}
+
+glm::vec3 exposure_of(const ViewInput& input) {
   return static_cast<float>(input.exposure_per_cdm2) / input.white.value_or(black_body_colour(input.adaptation_k));
+}
+
+Sky sky_of(const ViewInput& input) {
+  return {exposure_of(input), input.sky_luminance_cdm2};
 }
 
 }  // namespace phare

@@ -1,9 +1,13 @@
 // One frame, top to bottom. See frame.cpp.
 #pragma once
 
+#include <functional>
+
 #include "visual/effects.h"
 #include "visual/gpu/frame_graph.h"
-#include "visual/passes/lamps.h"
+#include "visual/lit_scene.h"
+#include "visual/passes/depth.h"
+#include "visual/passes/lit.h"
 #include "visual/passes/overlay.h"
 #include "visual/passes/tone_mapping.h"
 #include "visual/renderer.h"
@@ -14,33 +18,28 @@ namespace phare {
 struct FrameTarget {
   vk::Extent2D extent{};
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
-  vk::Format display_format = vk::Format::eR8G8B8A8Srgb;
-
-  double aspect() const { return static_cast<double>(extent.width) / static_cast<double>(extent.height); }
+  vk::Format display_format = vk::Format::eR8G8B8A8Unorm;
 };
 
 /// Factors that take luminance to the tone curve: exposure, and the balance that makes the eye's white white.
-glm::vec3 exposure_of(const FrameInput& input);
+glm::vec3 exposure_of(const ViewInput& input);
+Sky sky_of(const ViewInput& input);
 
 struct FrameParts {
   gpu::Device& device;
   gpu::FrameGraph& graph;
   const FrameTarget& target;
-  const SceneBuffers& scene;
-  BeamStore& beams;
-  LampPass& lamps;
+  LitScene& scene;
+  DepthPass& depth;
+  LitPass& lit;
   ToneMappingPass& tone_mapping;
   std::unique_ptr<OverlayPass>& overlay;  ///< made by the first frame that calls for it
+  /// Copies a part of an image out, for view `view` of the frame.
+  std::function<void(std::size_t view, gpu::Image&image, const vk::Rect2D&part)> read_image, read_hdr;
   bool software_device = false;
 };
 
-struct DrawnFrame {
-  EffectPlan effects;
-  gpu::Image* display = nullptr;   ///< what is seen
-  gpu::Image* hdr_cdm2 = nullptr;  ///< only if called for
-};
-
-/// Records the frame into the graph.
-DrawnFrame draw_frame(FrameParts& parts, const FrameInput& input);
+/// Records the frame into the graph, and says what each view took. `display`: what is seen.
+std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, gpu::Image*& display);
 
 }  // namespace phare

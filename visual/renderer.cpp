@@ -11,6 +11,8 @@
 
 #include "visual/frame.h"
 #include "visual/gpu/window_surface.h"
+#include "visual/passes/audit.h"
+#include "visual/passes/measure.h"
 
 namespace phare {
 
@@ -27,6 +29,18 @@ gpu::DeviceOptions device_options(const RendererOptions& options) {
   return result;
 }
 
+/// Texels of a part of an image, for the processor.
+struct Copy {
+  gpu::HostBuffer buffer;
+  vk::Extent2D extent{};
+};
+
+const Copy& copy_of(const std::map<std::size_t, Copy>& copies, std::size_t view) {
+  const auto found = copies.find(view);
+  if (found == copies.end()) throw std::logic_error("the newest frame has kept no picture of this view");
+  return found->second;
+}
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -34,13 +48,13 @@ struct Renderer::Impl {
   gpu::Device device;
   gpu::FrameGraph graph{device};
   std::unique_ptr<gpu::WindowSurface> surface;
-  BeamStore beams{device};
-  LampPass lamps{device};
+  LitScene scene{device, options.beam_level};
+  DepthPass depth{device};
+  LitPass lit{device};
   ToneMappingPass tone_mapping{device};
   std::unique_ptr<OverlayPass> overlay;
-  SceneBuffers scene;
   FrameTarget target;
-  gpu::HostBuffer display_copy, hdr_copy;
+  std::map<std::size_t, Copy> images, hdrs;  ///< read back, by view
   vk::raii::CommandBuffers commands{nullptr};
   vk::raii::Fence fence{nullptr};
 
@@ -62,15 +76,14 @@ struct Renderer::Impl {
     if (surface) extent = surface->extent();
     device.device.waitIdle();
     target = {extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
-              surface ? surface->format() : vk::Format::eR8G8B8A8Srgb};
-    display_copy = {};
-    hdr_copy = {};
+              surface ? surface->format() : vk::Format::eR8G8B8A8Unorm};
+    images.clear();
+    hdrs.clear();
   }
 
   void set_scene(const Scene& new_scene) {
     device.device.waitIdle();
-    scene = SceneBuffers(device, new_scene);
-    lamps.bind(scene, beams);
+    scene.set_geometry(SceneBuffers(device, new_scene));
   }
 
   /// Submits what `record` puts into the graph and waits for it.
@@ -89,14 +102,16 @@ struct Renderer::Impl {
       throw std::runtime_error("waiting for the GPU failed");
   }
 
-  void copy_out(gpu::Image& image, gpu::HostBuffer& buffer, vk::DeviceSize bytes_per_texel) {
-    const vk::DeviceSize bytes = bytes_per_texel * image.extent.width * image.extent.height;
-    if (buffer.bytes != bytes)
-      buffer = gpu::HostBuffer(device, bytes, vk::BufferUsageFlagBits::eTransferDst, image.name + " copy", true);
+  void copy_out(gpu::Image& image, const vk::Rect2D& part, Copy& copy, vk::DeviceSize bytes_per_texel) {
+    copy.extent = part.extent;
+    const vk::DeviceSize bytes = bytes_per_texel * part.extent.width * part.extent.height;
+    if (copy.buffer.bytes != bytes)
+      copy.buffer = gpu::HostBuffer(device, bytes, vk::BufferUsageFlagBits::eTransferDst, image.name + " copy", true);
     graph.copy("read back " + image.name, {{&image, gpu::Use::kCopySource, false}}, [&](gpu::Recorder& c) {
-      c.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *buffer.buffer,
+      c.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *copy.buffer.buffer,
                           vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                                              .imageExtent = {image.extent.width, image.extent.height, 1}});
+                                              .imageOffset = {part.offset.x, part.offset.y, 0},
+                                              .imageExtent = {part.extent.width, part.extent.height, 1}});
       const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
                                        .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
                                        .dstStageMask = vk::PipelineStageFlagBits2::eHost,
@@ -104,11 +119,33 @@ struct Renderer::Impl {
       c.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
     });
   }
+  void copy_out(gpu::Image& image, Copy& copy, vk::DeviceSize bytes_per_texel) {
+    copy_out(image, {{0, 0}, image.extent}, copy, bytes_per_texel);
+  }
+
+  /// Copies of further views go when a frame does not ask for them; those of the frame's own view are used again.
+  void forget_copies(const FrameInput& input) {
+    const auto unasked = [&](std::size_t view, bool ViewInput::*wanted) {
+      return view > 0 && (view > input.more_views.size() || !(input.more_views[view - 1].*wanted));
+    };
+    std::erase_if(images, [&](const auto& copy) { return unasked(copy.first, &ViewInput::want_image); });
+    std::erase_if(hdrs, [&](const auto& copy) { return unasked(copy.first, &ViewInput::want_hdr); });
+  }
 
   FrameParts parts() {
-    return {device,       graph,   target,
-            scene,        beams,   lamps,
-            tone_mapping, overlay, device.properties.deviceType == vk::PhysicalDeviceType::eCpu};
+    return {.device = device,
+            .graph = graph,
+            .target = target,
+            .scene = scene,
+            .depth = depth,
+            .lit = lit,
+            .tone_mapping = tone_mapping,
+            .overlay = overlay,
+            .read_image = [this](std::size_t view, gpu::Image& image,
+                                 const vk::Rect2D& part) { copy_out(image, part, images[view], 4); },
+            .read_hdr = [this](std::size_t view, gpu::Image& image,
+                               const vk::Rect2D& part) { copy_out(image, part, hdrs[view], 8); },
+            .software_device = device.properties.deviceType == vk::PhysicalDeviceType::eCpu};
   }
 };
 
@@ -140,11 +177,11 @@ Status Renderer::load_scene(const Scene& scene) {
 }
 
 void Renderer::set_beam(std::size_t index, const BeamImage& image) {
-  impl_->beams.set(index, image, impl_->options.beam_level);
+  impl_->scene.set_beam(index, image);
 }
 
 void Renderer::change_beam(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed) {
-  impl_->beams.change(index, image, changed);
+  impl_->scene.change_beam(index, image, changed);
 }
 
 void Renderer::resize(int width_px, int height_px) {
@@ -155,47 +192,45 @@ void Renderer::resize(int width_px, int height_px) {
 FrameResult Renderer::draw(const FrameInput& input) {
   const auto start = std::chrono::steady_clock::now();
   FrameParts parts = impl_->parts();
-  DrawnFrame drawn;
-  impl_->submit([&] {
-    drawn = draw_frame(parts, input);
-    if (input.want_image) impl_->copy_out(*drawn.display, impl_->display_copy, 4);
-    if (input.want_hdr && drawn.hdr_cdm2 != nullptr) impl_->copy_out(*drawn.hdr_cdm2, impl_->hdr_copy, 8);
-  });
-  const bool presented = !impl_->surface || impl_->surface->present(*drawn.display);
+  FrameResult result;
+  gpu::Image* display = nullptr;
+  impl_->forget_copies(input);
+  impl_->submit([&] { result.views = draw_frame(parts, input, display); });
+  const bool presented = !impl_->surface || impl_->surface->present(*display);
   impl_->graph.free_unused();
   if (!presented) resize(0, 0);
 
-  FrameResult result;
   for (const gpu::FrameGraph::Timing& timing : impl_->graph.timings())
     result.passes.push_back({timing.name, timing.ms});
   result.gpu_ms = impl_->graph.total_ms();
   const gpu::Counts& counts = impl_->graph.counts();
-  result.effects = drawn.effects;
+  result.effects = result.views.front().effects;
   result.draws = counts.draws;
   result.pass_count = counts.passes;
   result.triangles = counts.triangles;
   result.images = counts.images;
   result.image_bytes = counts.image_bytes;
+  result.shared_image_bytes = counts.shared_bytes;
   result.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
 
-Image8 Renderer::read_image() const {
-  const FrameTarget& target = impl_->target;
-  Image8 image{static_cast<int>(target.extent.width), static_cast<int>(target.extent.height), {}};
-  image.rgba.resize(impl_->display_copy.bytes);
-  std::memcpy(image.rgba.data(), impl_->display_copy.data, image.rgba.size());
-  if (target.display_format == vk::Format::eB8G8R8A8Srgb)
+Image8 Renderer::read_image(std::size_t view) const {
+  const Copy& copy = copy_of(impl_->images, view);
+  Image8 image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
+  image.rgba.resize(copy.buffer.bytes);
+  std::memcpy(image.rgba.data(), copy.buffer.data, image.rgba.size());
+  if (impl_->target.display_format == vk::Format::eB8G8R8A8Unorm)
     for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) std::swap(image.rgba[i], image.rgba[i + 2]);
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
   return image;
 }
 
-ImageF Renderer::read_hdr() const {
-  const FrameTarget& target = impl_->target;
-  ImageF image{static_cast<int>(target.extent.width), static_cast<int>(target.extent.height), {}};
-  const auto* half = static_cast<const std::uint16_t*>(impl_->hdr_copy.data);
-  const std::size_t count = impl_->hdr_copy.bytes / 2;
+ImageF Renderer::read_hdr(std::size_t view) const {
+  const Copy& copy = copy_of(impl_->hdrs, view);
+  ImageF image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
+  const auto* half = static_cast<const std::uint16_t*>(copy.buffer.data);
+  const std::size_t count = copy.buffer.bytes / 2;
   image.rgba.resize(count);
   std::transform(half, half + count, image.rgba.begin(), float_from_half);
   return image;
@@ -220,16 +255,17 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
     const vk::Extent2D extent{kWidth, static_cast<std::uint32_t>((count + kWidth - 1) / kWidth)};
     gpu::Image lx(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
                   vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc, "lx");
-    gpu::HostBuffer copy;
+    Copy copy;
     // One lamp at a time: what each gives is asked for, dark ones included.
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
-      impl_->lamps.set_frame(impl_->scene, impl_->beams, ViewGeometry(camera, 1.0), Sky{}, lamps.subspan(lamp, 1));
-      if (impl_->lamps.lamp_count() == 0) continue;
+      if (impl_->scene.is_dark(lamps[lamp].beam)) continue;
       impl_->submit([&] {
-        impl_->lamps.measure(impl_->graph, lx, *buffer.buffer, static_cast<std::uint32_t>(count), 0);
+        impl_->scene.begin_frame(impl_->graph);
+        const LitView view = impl_->scene.view_of_points(ViewGeometry(camera, 1.0), lamps.subspan(lamp, 1));
+        measure_points(impl_->graph, impl_->scene, view, lx, *buffer.buffer, static_cast<std::uint32_t>(count), 0);
         impl_->copy_out(lx, copy, 16);
       });
-      const auto* values = static_cast<const float*>(copy.data);
+      const auto* values = static_cast<const float*>(copy.buffer.data);
       for (std::size_t i = 0; i < count; ++i) result[lamp][begin + i] = values[4 * i];
     }
   }
@@ -244,17 +280,17 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   gpu::Image normal(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
                     Usage::eColorAttachment | Usage::eTransferSrc, "audit normal");
   gpu::Image depth(impl_->device, vk::Format::eD32Sfloat, extent, Usage::eDepthStencilAttachment, "audit depth");
-  gpu::HostBuffer position_copy, normal_copy;
-  const ViewGeometry view(input.camera, static_cast<double>(extent.width) / extent.height);
-  const std::vector<DrawItem> items = impl_->scene.visible(view, input.far_mesh_from_m);
-  impl_->lamps.set_frame(impl_->scene, impl_->beams, view, {exposure_of(input), input.sky_luminance_cdm2}, input.lamps);
+  Copy position_copy, normal_copy;
+  const ViewGeometry geometry(input.camera, static_cast<double>(extent.width) / extent.height);
   impl_->submit([&] {
-    impl_->lamps.audit(impl_->graph, position, normal, depth, impl_->scene, items);
+    impl_->scene.begin_frame(impl_->graph);
+    const LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.far_mesh_from_m, {});
+    draw_audit(impl_->graph, impl_->scene, view, {position, normal, depth});
     impl_->copy_out(position, position_copy, 16);
     impl_->copy_out(normal, normal_copy, 16);
   });
-  const auto* p = static_cast<const float*>(position_copy.data);
-  const auto* n = static_cast<const float*>(normal_copy.data);
+  const auto* p = static_cast<const float*>(position_copy.buffer.data);
+  const auto* n = static_cast<const float*>(normal_copy.buffer.data);
   std::vector<std::size_t> lit;
   for (std::size_t i = 0; i < std::size_t{extent.width} * extent.height; ++i)
     if (n[4 * i + 3] > 0.0f && p[4 * i + 3] > 0.0f) lit.push_back(i);
@@ -276,10 +312,22 @@ std::uint64_t Renderer::device_memory_bytes() const {
   return *impl_->device.allocated_bytes;
 }
 std::uint64_t Renderer::uploaded_texels() const {
-  return impl_->beams.uploaded_texels();
+  return impl_->scene.uploaded_texels();
 }
 std::uint64_t Renderer::validation_messages() const {
   return impl_->device.validation_messages->load();
+}
+
+Result<VulkanDevice> vulkan_device(const std::string& name_part) {
+  try {
+    const vk::raii::Context context;
+    const vk::ApplicationInfo application{.pApplicationName = "phare", .apiVersion = VK_API_VERSION_1_3};
+    const vk::raii::Instance instance(context, vk::InstanceCreateInfo{.pApplicationInfo = &application});
+    const vk::PhysicalDeviceProperties properties = gpu::pick_device(instance, name_part).getProperties();
+    return VulkanDevice{properties.deviceName.data(), properties.deviceType == vk::PhysicalDeviceType::eCpu};
+  } catch (const std::exception& error) {
+    return Error{"vulkan", error.what()};
+  }
 }
 
 Result<std::vector<std::string>> list_vulkan_devices() {

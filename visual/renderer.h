@@ -1,5 +1,5 @@
-// What draws: one Vulkan device, one scene, some lamps, one view at a time. Used by the visual process and by `phare
-// measure`.
+// What draws: one Vulkan device, one scene, any number of lamps, any number of views a frame. Used by the visual
+// process and by `phare measure`.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "config/desk.h"
 #include "config/result.h"
 #include "visual/effects.h"
 #include "visual/overlay_content.h"
@@ -43,26 +44,49 @@ struct PlacedLamp {
   std::size_t beam = 0;              ///< index of the beam image set with set_beam
 };
 
-enum class View { kPhoto, kFalseColour };  ///< as the eye sees it, or illuminance by colour with isolux lines
+/// So many lamps light one draw at most, which is a block of the scene where a view has many. Those that reach nothing
+/// of it do not count.
+inline constexpr std::size_t kLampsPerDraw = shader::kMaxLamps;
 
 /// Blocks of the scene farther than this are drawn with fewer triangles: their errors are made for this distance.
 constexpr double kFarMeshFrom_m = 150.0;
 
-struct FrameInput {
+/// A part of a picture, in shares of its width and height from the upper left corner.
+struct PicturePart {
+  double left_01 = 0.0, top_01 = 0.0, width_01 = 1.0, height_01 = 1.0;
+};
+
+struct PictureSize {
+  int width_px = 0, height_px = 0;
+};
+
+/// One eye, what it sees by, and where that is drawn.
+struct ViewInput {
+  std::string name{};  ///< in FrameResult; empty: "view 2" and so on
   Camera camera;
-  std::vector<PlacedLamp> lamps;   ///< at most 8; positions whose beam is dark are left out by the caller or by us
+  /// Any number. Left out and counted are those that reach nothing in the view, and where more than kLampsPerDraw reach
+  /// one draw the weakest there.
+  std::vector<PlacedLamp> lamps;
   double exposure_per_cdm2 = 0.8;  ///< multiplies luminance before the tone curve; fixed, so that beams compare
   double adaptation_k = 4000.0;    ///< light of this colour temperature looks white
   std::optional<glm::vec3> white;  ///< linear sRGB of the light that does, in place of it (visual/process/adaptation.h)
   double sky_luminance_cdm2 = 0.004;
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;
-  bool want_hdr = false;               ///< the frame's HDR image is called for (EXR): adds the tone-mapping pass
-  bool want_image = false;             ///< read the finished picture back
-  std::vector<std::string> overlay{};  ///< lines of text over the picture
+  std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< at most kMostIsoluxLevels
+  bool want_hdr = false;    ///< the view's HDR image is called for (EXR): adds the tone-mapping pass
+  bool want_image = false;  ///< read what is seen back
+  PicturePart part{};
+  std::optional<PictureSize> own_picture{};  ///< 1 to 16384 pixels a side; else it is drawn into the frame's picture
+  EffectChoices effects{};                   ///< levels that the user has set; else the facts of the view decide
+};
+
+/// A frame: its own view, and what is drawn over it.
+struct FrameInput : ViewInput {
+  std::vector<ViewInput> more_views{};  ///< drawn after it, in order: mirrors, insets, another design beside it
+  std::vector<std::string> overlay{};   ///< lines of text over the picture
   std::vector<OverlayInstrument> instruments{};
-  OverlayPanel panel{};     ///< nothing in these three: no overlay pass
-  EffectChoices effects{};  ///< levels that the user has set; else the facts of the frame decide
+  OverlayPanel panel{};  ///< nothing in these three: no overlay pass
 };
 
 struct PassTime {
@@ -70,16 +94,29 @@ struct PassTime {
   double ms = 0.0;
 };
 
+/// What one view took.
+struct ViewResult {
+  std::string name;
+  EffectPlan effects;                  ///< what was on, and why
+  std::uint32_t lamps = 0;             ///< that light it
+  std::uint32_t lamps_unreached = 0;   ///< left out: nothing that it sees is within their light
+  std::uint32_t lamps_over_limit = 0;  ///< left out somewhere: kLampsPerDraw that are brighter there light it already
+  std::uint32_t passes = 0, draws = 0;
+  std::uint64_t triangles = 0;
+};
+
 struct FrameResult {
   double wall_ms = 0.0;  ///< from the call until the GPU was done
   double gpu_ms = 0.0;   ///< first to last time stamp
   std::vector<PassTime> passes;
-  EffectPlan effects;            ///< what was on, and why
-  std::uint32_t draws = 0;       ///< those of the overlay left out
-  std::uint32_t pass_count = 0;  ///< passes that draw; reading back draws nothing
+  EffectPlan effects;             ///< of the frame's own view: what was on, and why
+  std::vector<ViewResult> views;  ///< its own, then the others
+  std::uint32_t draws = 0;        ///< those of the overlay left out
+  std::uint32_t pass_count = 0;   ///< passes that draw; reading back draws nothing
   std::uint64_t triangles = 0;
   std::uint32_t images = 0;  ///< images of the frame that live, and their bytes
   std::uint64_t image_bytes = 0;
+  std::uint64_t shared_image_bytes = 0;  ///< what they would take besides, if none used the memory of another
 };
 
 struct Image8 {
@@ -111,17 +148,19 @@ class Renderer {
   ~Renderer();
 
   Status load_scene(const Scene& scene);
-  /// A new beam image; `index` < 8. Uploaded with the next frame.
+  /// A new beam image, at any index. Uploaded with the next frame.
   void set_beam(std::size_t index, const BeamImage& image);
   /// The image set last, changed in these rectangles of its nodes only; nodes, type and aim are the same.
   void change_beam(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed);
-  /// Another size of picture (stills, window resize).
+  /// Another size of picture.
   void resize(int width_px, int height_px);
 
   /// Draws one frame and waits for it. In a window it is also presented.
   FrameResult draw(const FrameInput& input);
-  Image8 read_image() const;  ///< after draw with want_image
-  ImageF read_hdr() const;    ///< after draw with want_hdr
+  /// After draw with want_image: the picture of the frame's own view with all that lies over it, or what another view
+  /// drew (`view` counts from 1).
+  Image8 read_image(std::size_t view = 0) const;
+  ImageF read_hdr(std::size_t view = 0) const;  ///< after draw with want_hdr: the part of that view
 
   /// Illuminance in lx at points, per lamp, through the same fragment shader: result[lamp][point].
   std::vector<std::vector<float>> measure(std::span<const PlacedLamp> lamps, std::span<const MeasurePoint> points);
@@ -140,6 +179,14 @@ class Renderer {
   explicit Renderer(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
+
+/// A device as it would be taken by Renderer::create.
+struct VulkanDevice {
+  std::string name;
+  bool software = false;  ///< it computes on the processor: vertices cost as much as pixels
+};
+/// `name_part`: as RendererOptions::device_name. Error: there is none; no device is opened.
+Result<VulkanDevice> vulkan_device(const std::string& name_part);
 
 /// Names of the Vulkan devices of this machine, or why there are none (for `phare doctor`).
 Result<std::vector<std::string>> list_vulkan_devices();

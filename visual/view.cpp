@@ -61,6 +61,23 @@ bool ViewGeometry::sees_ball(const glm::dvec3& centre_m, double radius_m) const 
   return glm::length(centre) - radius_m <= camera_.far_m;
 }
 
+std::array<Ray, 4> ViewGeometry::edges() const {
+  std::array<Ray, 4> edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const glm::dvec3 aside(0.0, i % 2 == 0 ? half_right_ : -half_right_, i < 2 ? half_up_ : -half_up_);
+    const glm::dmat3& eye = camera_.world_from_eye;
+    if (camera_.orthographic_width_m > 0.0)
+      edges[i] = {camera_.eye_m + eye * aside, eye[0]};
+    else
+      edges[i] = {camera_.eye_m, glm::normalize(eye * (glm::dvec3(1.0, 0.0, 0.0) + aside))};
+  }
+  return edges;
+}
+
+bool ViewGeometry::mirrored() const {
+  return glm::determinant(camera_.world_from_eye) < 0.0;
+}
+
 Ray ViewGeometry::ray_through(double x_px, double y_px, int width_px, int height_px) const {
   // Right and up of the picture, -1 to 1 across its width.
   const double right = (2.0 * (x_px + 0.5) - width_px) / width_px;

@@ -49,6 +49,13 @@ class ViewGeometry {
   /// The same for a ball.
   bool sees_ball(const glm::dvec3& centre_m, double radius_m) const;
 
+  /// Sides of the view and the plane behind which it ends, relative to the eye: unit normal inward, and offset in m.
+  const std::array<glm::dvec4, 5>& inward() const { return inward_; }
+  /// Along its four edges.
+  std::array<Ray, 4> edges() const;
+  /// Left and right are swapped, as in a mirror: `world_from_eye` has its third column for a left hand.
+  bool mirrored() const;
+
   /// Through the middle of a pixel, counted from the top left of a picture of this size.
   Ray ray_through(double x_px, double y_px, int width_px, int height_px) const;
 

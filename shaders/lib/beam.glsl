@@ -3,6 +3,7 @@
 #define PHARE_BEAM
 #include "lib/angles.h"
 #include "lib/surface_varyings.glsl"
+#include "lib/table_shapes.glsl"
 
 // An angle as the table has it: the multiple of 45° that is nearest, and the rest in degrees. What lies beyond the table's last angle is a turn less.
 vec2 table_angle(float y, float x, float last_deg) {
@@ -13,105 +14,138 @@ vec2 table_angle(float y, float x, float last_deg) {
 
 // Node before an angle (x) and the way to the next one, 0..1 (y). A guide bin holds at most one node: its angle from the same multiple of 45°, its
 // index, and nodes per degree on either side. Index and fraction stay apart: their sum would keep only 1e-4 of a node's width in float32.
-vec2 node_before(sampler2D guide, uint first_bin, uint bins_in_octant, vec2 angle, float first_octant, float bins_per_deg) {
-  uint bin = uint(clamp((angle.y + 22.5) * bins_per_deg, 0.0, float(bins_in_octant - 1)));
-  uint at = first_bin + uint(max(angle.x - first_octant, 0.0)) * bins_in_octant + bin;
-  vec4 g = texelFetch(guide, ivec2(at & (kGuideRow - 1), at / kGuideRow), 0);
+vec2 node_before(samplerBuffer guide, float first_bin, float bins_in_octant, vec2 angle, float first_octant, float last_octant, float bins_per_deg) {
+  float octant = min(max(angle.x, first_octant), last_octant) - first_octant;
+  float bin = floor(min(max((angle.y + 22.5) * bins_per_deg, 0.0), bins_in_octant - 1.0));
+  vec4 g = texelFetch(guide, int(first_bin + octant * bins_in_octant + bin));
   float past_deg = angle.y - g.x;
   return past_deg < 0.0 ? vec2(g.y - 1.0, 1.0 + past_deg * g.z) : vec2(g.y, past_deg * g.w);
 }
 
-// Where a lamp's table was last looked up, and what its value was multiplied by since: its table of colour lies on the same nodes.
-vec2 looked_up_at, looked_up_part;
-float looked_up_factor;
-
-// Bilinear between the four nodes that a gather at `coordinate` finds, weights in float32.
-float between(sampler2D table, vec2 coordinate, vec2 part) {
-  looked_up_at = coordinate;
-  looked_up_part = part;
-  vec4 cd = textureGather(table, coordinate);
-  return mix(mix(cd.w, cd.z, part.x), mix(cd.x, cd.y, part.x), part.y);
+// The same for nodes that are even but for rounding: an entry a node, in steps. The nearest node by count is never more than one beside the true one.
+vec2 rounded_before(samplerBuffer guide, float entry_of_0, float at) {
+  float nearest = floor(at + 0.5);
+  vec4 g = texelFetch(guide, int(entry_of_0 + nearest));
+  float past = at - nearest - g.x;
+  return past < 0.0 ? vec2(nearest - 1.0, 1.0 + past * g.z) : vec2(nearest, past * g.w);
 }
 
-// The same for a flat screen: a projection in place of angles. E on the screen is bilinear there, and I = E·D²·(1 + t²)^1.5.
-float screen_intensity(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, vec4 nodes, vec4 coordinates) {
+// A table's value and where it was found: its table of colour lies on the same nodes.
+struct Found {
+  float value;   // as the table has it
+  float factor;  // candela are this times the value (without the table's scale)
+  vec2 part;     // between the nodes of the cell; filter: the texture coordinate
+  int cell;
+};
+
+float in_cell(vec4 nodes, vec2 part) {
+  vec2 low_high = mix(nodes.xz, nodes.yw, part.x);
+  return mix(low_high.x, low_high.y, part.y);
+}
+
+Found found_in_cell(samplerBuffer table, TableShape shape, vec2 node, vec2 part, bool lit) {
+  int cell = int(node.y * shape.cells.x + (node.x + shape.cells.y));
+  float value = in_cell(texelFetch(table, cell), part);
+  return Found(lit ? value : 0.0, 1.0, part, cell);
+}
+
+Found found_by_filter(sampler2D table, TableShape shape, vec2 at, bool lit) {
+  vec2 coordinate = at * shape.per + shape.phase;
+  float value = textureLod(table, coordinate, 0.0).r;
+  return Found(lit ? value : 0.0, 1.0, coordinate, 0);
+}
+
+bool within(vec2 at, vec4 range) {
+  return all(greaterThanEqual(at, range.xz)) && all(lessThanEqual(at, range.yw));
+}
+
+// A flat screen: a projection in place of angles. E on the screen is bilinear there, and I = E·D²·(1 + t²)^1.5.
+Found on_screen(samplerBuffer table, samplerBuffer guide, sampler2D image, TableShape shape, uint kind, vec3 p) {
   vec2 at = p.yz * (1.0 / p.x);
   float s = 1.0 + dot(at, at);
-  float value;
   bool lit = p.x > 0.0;
   // The screen's rim belongs to it, and float32 misses it by a little: what is nearer than that counts as within.
-  if (lookup == kLookupFilterScreen) {
-    lit = lit && all(lessThan(abs(at - clamp(at, nodes.xz, nodes.yw)), vec2(1e-6)));
-    looked_up_at = at * coordinates.xy + coordinates.zw;
-    value = textureLod(table, looked_up_at, 0.0).r;
-  } else if (lookup == kLookupScreenGuide) {
-    at *= nodes.xy;
-    vec2 within = clamp(at, lamp.range.xz, lamp.range.yw);
-    lit = lit && all(lessThan(abs(at - within), vec2(2e-5)));
-    vec2 u = node_before(guide, 0, lamp.guide.y, vec2(0.0, within.x), 0.0, lamp.bins.x);
-    vec2 v = node_before(guide, lamp.guide.x, lamp.guide.z, vec2(0.0, within.y), 0.0, lamp.bins.y);
-    value = between(table, (vec2(u.x, v.x) + 1.0) / vec2(textureSize(table, 0)), vec2(u.y, v.y));
+  if (kind == kLookupScreen) at = at * shape.per - shape.phase;
+  if (kind == kLookupScreenGuide) at *= shape.reach.xy;
+  vec2 inside = min(max(at, shape.range.xz), shape.range.yw);
+  lit = lit && all(lessThan(abs(at - inside), vec2(kind == kLookupScreen ? 1e-3 : kind == kLookupScreenGuide ? 2e-5 : 1e-6)));
+  Found found;
+  if (kind == kLookupFilterScreen) {
+    found = found_by_filter(image, shape, inside, lit);
+  } else if (kind == kLookupScreenGuide) {
+    vec2 u = node_before(guide, 0.0, shape.fine.x, vec2(0.0, inside.x), 0.0, 0.0, shape.per.x);
+    vec2 v = node_before(guide, shape.coarse, shape.fine.y, vec2(0.0, inside.y), 0.0, 0.0, shape.per.y);
+    found = found_in_cell(table, shape, vec2(u.x, v.x), vec2(u.y, v.y), lit);
   } else {
-    at *= nodes.xy;
-    vec2 within = clamp(at, lamp.within.xz, lamp.within.yw);
-    lit = lit && all(lessThan(abs(at - within), vec2(1e-3)));
-    vec2 node = floor(within);
-    value = between(table, node * coordinates.xy + coordinates.zw, within - node);
+    vec2 node = floor(inside);
+    found = found_in_cell(table, shape, node, inside - node, lit);
   }
-  looked_up_factor = s * sqrt(s);
-  return lit ? value * looked_up_factor : 0.0;
+  found.factor = s * sqrt(s);
+  return found;
 }
 
-// In what the texture holds (candela, unless scaled) toward p, given in the lamp's frame; bilinear on the table's nodes, dark outside. `h`: length of p without its third component.
-float intensity(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, float h, float inverse_coarse, vec4 nodes, vec4 coordinates) {
-  if (lookup == kLookupScreen || lookup == kLookupScreenGuide || lookup == kLookupFilterScreen)
-    return screen_intensity(table, guide, lamp, lookup, p, nodes, coordinates);
-  if (lookup == kLookupGuide) {
-    vec2 first = table_angle(p.y, p.x, lamp.range.y), second = table_angle(p.z, h, lamp.range.w);
-    vec2 angles = vec2(first.x, second.x) * 45.0 + vec2(first.y, second.y);
-    bool lit = all(greaterThanEqual(angles, lamp.range.xz)) && all(lessThanEqual(angles, lamp.range.yw));
-    vec2 u = node_before(guide, 0, lamp.guide.y, first, lamp.bins.z, lamp.bins.x);
-    vec2 v = node_before(guide, lamp.guide.x, lamp.guide.z, second, lamp.bins.w, lamp.bins.y);
-    return lit ? between(table, (vec2(u.x, v.x) + 1.0) / vec2(textureSize(table, 0)), vec2(u.y, v.y)) : 0.0;
+// What lies ahead, by tangents of half the angles: two square roots and one division for both angles and 1/r.
+Found ahead(samplerBuffer table, samplerBuffer guide, TableShape shape, uint kind, vec2 half_tangent) {
+  // Beyond its reach the table is dark; held there, every cell that is read is one of it.
+  vec2 t = min(max(half_tangent, shape.reach.xz), shape.reach.yw);
+  vec2 t2 = t * t;
+  vec2 angle = 2.0 * t * vec2((shape.lookup & kLookupNarrow) != 0 ? atan_over_t(t2.x) : atan_over_t_wide(t2.x),
+                              (shape.lookup & 2 * kLookupNarrow) != 0 ? atan_over_t(t2.y) : atan_over_t_wide(t2.y));
+  // In nodes from one next to 0°: beside the cut-off the numbers are small and the parts exact.
+  vec2 at = angle * shape.per - shape.phase;
+  bool lit = true;
+  if (kind == kLookupRounded) {
+    vec2 u = rounded_before(guide, -shape.range.x, at.x);
+    vec2 v = rounded_before(guide, shape.coarse - shape.range.z, at.y);
+    vec2 node = vec2(u.x, v.x), part = vec2(u.y, v.y);
+    if ((shape.lookup & kLookupEdge) != 0) lit = within(node + part, shape.range);
+    return found_in_cell(table, shape, node, part, lit);
   }
-  if (lookup == kLookupFilter || lookup == kLookupFilterAhead) {
-    vec2 angles;
-    if (lookup == kLookupFilterAhead) angles = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h));
-    else {
-      angles = radians(vec2(atan2_deg(p.y, p.x), atan2_deg(p.z, h)));
-      angles.x += angles.x < nodes.x ? radians(360.0) : 0.0;
-    }
-    bool lit = all(greaterThanEqual(angles, nodes.xz)) && all(lessThanEqual(angles, nodes.yw));
-    if (lookup == kLookupFilterAhead) lit = lit && p.x > 0.0;
-    looked_up_at = angles * coordinates.xy + coordinates.zw;
-    float filtered = textureLod(table, looked_up_at, 0.0).r;
-    return lit ? filtered : 0.0;
+  if (shape.coarse != 1.0) {
+    vec2 fine = min(max(at, -shape.fine), shape.fine);
+    at = fine + (at - fine) * shape.coarse;
   }
-  vec2 node, part;
-  bool lit;
-  if (lookup == kLookupTurn) {
-    vec2 first = atan2_octants(p.y, p.x), second = atan2_octants(h, -p.z);
-    vec2 past = vec2(first.y, second.y) * nodes.xy;
-    node = vec2(first.x, second.x) * nodes.zw + floor(past);
-    part = past - floor(past);
-    // The limits belong to the table, and float32 misses them by up to 1e-4 of a node: what is nearer than that counts as within.
-    vec2 beyond = node + part - clamp(node + part, lamp.within.xz, lamp.within.yw);
-    lit = all(lessThan(abs(beyond), vec2(1e-3)));
-    if (beyond.x != 0.0) part.x = 0.0;
-    if (beyond.y != 0.0) part.y = 0.0;
-    node = clamp(node, lamp.within.xz, lamp.within.yw);
-  } else {
-    // In nodes from the one at 0°: next to the cut-off the numbers are small and the parts exact.
-    vec2 at = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h)) * nodes.xy;
-    vec2 fine = clamp(at, -nodes.zw, nodes.zw);
-    at = fine + (at - fine) * inverse_coarse;
+  if ((shape.lookup & kLookupEdge) != 0) lit = within(at, shape.range);
+  vec2 node = floor(at);
+  return found_in_cell(table, shape, node, at - node, lit);
+}
+
+// All round: type C.
+Found around(samplerBuffer table, TableShape shape, vec3 p, float h) {
+  vec2 first = atan2_octants(p.y, p.x), second = atan2_octants(h, -p.z);
+  vec2 past = vec2(first.y, second.y) * shape.per;
+  vec2 node = vec2(first.x, second.x) * shape.fine + floor(past);
+  vec2 part = past - floor(past);
+  // The limits belong to the table, and float32 misses them by up to 1e-4 of a node: what is nearer than that counts as within.
+  vec2 beyond = node + part - min(max(node + part, shape.range.xz), shape.range.yw);
+  bool lit = all(lessThan(abs(beyond), vec2(1e-3)));
+  if (beyond.x != 0.0) part.x = 0.0;
+  if (beyond.y != 0.0) part.y = 0.0;
+  node = min(max(node, shape.range.xz), shape.range.yw);
+  return found_in_cell(table, shape, node, part, lit);
+}
+
+Found guided(samplerBuffer table, samplerBuffer guide, TableShape shape, vec3 p, float h) {
+  vec2 first = table_angle(p.y, p.x, shape.range.y), second = table_angle(p.z, h, shape.range.w);
+  bool lit = within(vec2(first.x, second.x) * 45.0 + vec2(first.y, second.y), shape.range);
+  vec2 u = node_before(guide, 0.0, shape.fine.x, first, shape.phase.x, floor((shape.range.y + 22.5) / 45.0), shape.per.x);
+  vec2 v = node_before(guide, shape.coarse, shape.fine.y, second, shape.phase.y, floor((shape.range.w + 22.5) / 45.0), shape.per.y);
+  // Directions outside the table may have any bin: they read its first cell.
+  if (!lit) u.x = v.x = -1.0;
+  return found_in_cell(table, shape, vec2(u.x, v.x), vec2(u.y, v.y), lit);
+}
+
+Found by_filter(sampler2D image, TableShape shape, uint kind, vec3 p, float h) {
+  vec2 angles;
+  bool lit = true;
+  if (kind == kLookupFilterAhead) {
+    angles = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h));
     lit = p.x > 0.0;
-    if (lookup == kLookupAhead) lit = lit && at.x >= lamp.within.x && at.x <= lamp.within.y && at.y >= lamp.within.z && at.y <= lamp.within.w;
-    node = floor(at);
-    part = at - node;
+  } else {
+    angles = radians(vec2(atan2_deg(p.y, p.x), atan2_deg(p.z, h)));
+    angles.x += angles.x < shape.range.x ? radians(360.0) : 0.0;
   }
-  float cd = between(table, node * coordinates.xy + coordinates.zw, part);
-  return lit ? cd : 0.0;
+  return found_by_filter(image, shape, angles, lit && within(angles, shape.range));
 }
 
 struct LampLight {
@@ -121,45 +155,56 @@ struct LampLight {
   float cd;
 };
 
-layout(constant_id = 5) const uint lookups = 0;
+// Where the lamp before was found in its table.
+Found last_found;
 
-// By a lamp at `place` (w: inverse of its coarse step); `level`: n·point. The rows of a lamp's frame are orthonormal, so p is as long as the way.
-LampLight lamp_light(sampler2D table, sampler2D guide, GpuLamp lamp, uint lookup, vec3 p, vec4 place, vec4 nodes, vec4 coordinates, vec3 n, float level) {
+// By a lamp from which the point is at `p`, in the frame of its table; `toward`: the part of the way to the lamp along the surface's normal. The rows of
+// a lamp's frame are orthonormal, so p is as long as the way.
+LampLight lamp_light(samplerBuffer table, samplerBuffer guide, sampler2D image, TableShape shape, vec3 p, float toward, float scale_cd) {
+  uint kind = shape.lookup & kLookupKind;
   float h2 = p.x * p.x + p.y * p.y;
   float r2 = h2 + p.z * p.z;
-  bool filtered = (lookup & kLookupKind) >= kLookupFilter;
-  looked_up_factor = 1.0;
-  float cd = intensity(table, guide, lamp, filtered ? lookup : lookup & kLookupKind, p, sqrt(h2), place.w, nodes, coordinates);
-  if (filtered) cd *= place.w;
-  else if ((lookup & kLookupScaled) != 0) cd *= lamp.colour.w;
-  float inverse_r = r2 > 0.0 ? inversesqrt(r2) : 0.0;
+  float h = sqrt(h2), inverse_r;
+  Found found;
+  if (kind <= kLookupRounded) {
+    float r = sqrt(r2), f = h + p.x, s = r + h;
+    float inverse = 1.0 / max(f * s * r, 1e-30);  // at the lamp and behind it f is 0: no light
+    inverse_r = f * s * inverse;
+    found = ahead(table, guide, shape, kind, vec2(p.y * s, p.z * f) * (r * inverse));
+  } else {
+    inverse_r = r2 > 0.0 ? inversesqrt(r2) : 0.0;
+    if (kind == kLookupTurn) found = around(table, shape, p, h);
+    else if (kind == kLookupGuide) found = guided(table, guide, shape, p, h);
+    else if (kind == kLookupFilter || kind == kLookupFilterAhead) found = by_filter(image, shape, kind, p, h);
+    else found = on_screen(table, guide, image, shape, kind, p);
+  }
+  float cd = found.value;
+  if (kind == kLookupScreen || kind == kLookupScreenGuide || kind == kLookupFilterScreen) cd = cd > 0.0 ? cd * found.factor : 0.0;
+  if ((shape.lookup & kLookupScaled) != 0) cd *= scale_cd;
+  last_found = found;
   LampLight light;
   light.cd = cd;
-  light.cos_incidence = max(dot(place.xyz, n) - level, 0.0) * inverse_r;
-  light.normal_lx = r2 > 0.0 ? cd * (inverse_r * inverse_r) : 0.0;
+  light.cos_incidence = max(toward, 0.0) * inverse_r;
+  light.normal_lx = cd * (inverse_r * inverse_r);
   light.illuminance_lx = light.normal_lx * light.cos_incidence;
   return light;
 }
 
 // Linear Rec. 709 of the light that was looked up last, luminance 1: red and blue from their own table, green is what luminance leaves.
-vec3 lamp_tint(sampler2D tint, uint kind, vec4 scale, float cd) {
+vec3 lamp_tint(samplerBuffer tint, sampler2D image, TableShape shape, vec4 scale, float cd) {
   vec2 red_blue;
-  if (kind >= kLookupFilter) {
-    red_blue = textureLod(tint, looked_up_at, 0.0).rg;
-  } else {
-    vec4 red = textureGather(tint, looked_up_at, 0), blue = textureGather(tint, looked_up_at, 1);
-    vec4 low = mix(vec4(red.w, blue.w, red.x, blue.x), vec4(red.z, blue.z, red.y, blue.y), looked_up_part.x);
-    red_blue = mix(low.xy, low.zw, looked_up_part.y);
-  }
+  if ((shape.lookup & kLookupKind) >= kLookupFilter) red_blue = textureLod(image, last_found.part, 0.0).rg;
+  else
+    red_blue = vec2(in_cell(texelFetch(tint, 2 * last_found.cell), last_found.part),
+                    in_cell(texelFetch(tint, 2 * last_found.cell + 1), last_found.part));
   if (cd <= 0.0) return vec3(1.0);
-  red_blue *= scale.xz * (looked_up_factor / cd);
+  red_blue *= scale.xz * (last_found.factor / cd);
   return max(vec3(red_blue.x, (1.0 - 0.2126 * red_blue.x - 0.0722 * red_blue.y) / 0.7152, red_blue.y), 0.0);
 }
 
 // Right after PHARE_LAMP_LIGHT(I).
-#define PHARE_LAMP_TINT(I, LIGHT) lamp_tint(tints[I], (lookups >> (4 * I)) & kLookupKind, frame.lamps[I].colour, LIGHT.cd)
+#define PHARE_LAMP_TINT(I, LIGHT) lamp_tint(tints[I % kTables], filtered_tints[I % kFilters], PHARE_SHAPE(I), frame.lamps[I].colour, LIGHT.cd)
 
-#define PHARE_LAMP_LIGHT(I)                                                                                                    \
-  lamp_light(candela[I], guides[I], frame.lamps[I], (lookups >> (4 * I)) & 15, in_lamp[I], PHARE_LAMP_POSITION(I), PHARE_LAMP_NODES(I), \
-             PHARE_LAMP_COORDINATES(I), n, level)
+#define PHARE_LAMP_LIGHT(I) \
+  lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I), in_lamp[I], PHARE_FACING(I) * unit - level, frame.lamps[I].colour.w)
 #endif

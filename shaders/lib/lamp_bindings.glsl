@@ -4,12 +4,24 @@
 layout(constant_id = 0) const uint lamp_count = 0;
 
 layout(std140, set = 0, binding = 0) uniform Frame { GpuFrame frame; };
-// Tables are images and not storage buffers: a software device gathers texels for eight pixels at once, buffer words one by one.
-layout(set = 0, binding = 1) uniform sampler2D guides[kMaxLamps];
-layout(set = 0, binding = 2) uniform sampler2D candela[kMaxLamps];
+// Compiled for beams that the texture filter weighs (PHARE_FILTERED) or for tables: of what the other needs one descriptor stays. All of
+// both would be 41 sampled images and texel buffers; lavapipe of Mesa 22.3 keeps room for 32 when it resolves samples, and writes beyond.
+#ifdef PHARE_FILTERED
+const uint kTables = 1u, kFilters = kMaxLamps;
+#else
+const uint kTables = kMaxLamps, kFilters = 1u;
+#endif
+// Tables are texel buffers, a cell of four nodes a texel: a software device reads that for eight pixels in one go, words of a storage
+// buffer one by one, and an image takes a level of detail for each.
+layout(set = 0, binding = 1) uniform samplerBuffer guides[kTables];
+layout(set = 0, binding = 2) uniform samplerBuffer cells[kTables];
 layout(std140, set = 0, binding = 3) uniform Materials { GpuMaterial materials[kMaxMaterials]; };
 layout(std140, set = 0, binding = 5) uniform Sheetings { GpuSheeting sheetings[kMaxSheetings]; };
-layout(set = 0, binding = 6) uniform sampler2D tints[kMaxLamps];  // candela weighted by red and by blue, of lamps with light of several colours
+// Candela weighted by red and by blue, of lamps with light of several colours: two texels a cell.
+layout(set = 0, binding = 6) uniform samplerBuffer tints[kTables];
+// The same for levels that the texture filter weighs.
+layout(set = 0, binding = 7) uniform sampler2D filtered[kFilters];
+layout(set = 0, binding = 8) uniform sampler2D filtered_tints[kFilters];
 layout(push_constant) uniform Draw { GpuDraw draw; };
 
 mat4 clip_from_eye() {

@@ -28,17 +28,13 @@ layout(location = 4) flat PHARE_VARYING vec3 light_colour;  // of the lamps, whe
 layout(location = 5) flat PHARE_VARYING vec3 ambient_lx;  // half of what the whole sky gives a level surface
 layout(location = 6) PHARE_VARYING vec3 in_lamp[PHARE_LAMPS];  // the point in each lamp's frame, rows a, b, c
 
-#if PHARE_LAMPS <= 4
-layout(location = 6 + PHARE_LAMPS) flat PHARE_VARYING vec4 lamp_position[PHARE_LAMPS];
-layout(location = 6 + 2 * PHARE_LAMPS) flat PHARE_VARYING vec4 lamp_nodes[PHARE_LAMPS];
-layout(location = 6 + 3 * PHARE_LAMPS) flat PHARE_VARYING vec4 lamp_coordinates[PHARE_LAMPS];
-#define PHARE_LAMP_POSITION(I) lamp_position[I]
-#define PHARE_LAMP_NODES(I) lamp_nodes[I]
-#define PHARE_LAMP_COORDINATES(I) lamp_coordinates[I]
-#else  // a device passes 32 varyings
-#define PHARE_LAMP_POSITION(I) frame.lamps[I].position
-#define PHARE_LAMP_NODES(I) frame.lamps[I].nodes
-#define PHARE_LAMP_COORDINATES(I) frame.lamps[I].coordinates
+// n times the way from the eye to each lamp, n being point_normal.
+#if PHARE_LAMPS == 2
+layout(location = 8) PHARE_VARYING vec2 facing[1];
+#define PHARE_FACING(I) facing[0][I]
+#else
+layout(location = 6 + PHARE_LAMPS) PHARE_VARYING vec4 facing[PHARE_LAMPS / 4];
+#define PHARE_FACING(I) facing[I / 4][I % 4]
 #endif
 
 #ifdef PHARE_VERTEX
@@ -54,17 +50,9 @@ void pass_light(vec4 material) {
   if (lamp_count > I) {                                                                                         \
     vec3 d = point - frame.lamps[I].position.xyz;                                                               \
     in_lamp[I] = vec3(dot(frame.lamps[I].row_a.xyz, d), dot(frame.lamps[I].row_b.xyz, d), dot(frame.lamps[I].row_c.xyz, d)); \
+    PHARE_FACING(I) = dot(frame.lamps[I].position.xyz, point_normal);                                           \
   }
   PHARE_EACH_LAMP(PHARE_POINT_IN)
-#if PHARE_LAMPS <= 4
-#define PHARE_PASS(I)                                         \
-  if (lamp_count > I) {                                       \
-    lamp_position[I] = frame.lamps[I].position;               \
-    lamp_nodes[I] = frame.lamps[I].nodes;                     \
-    lamp_coordinates[I] = frame.lamps[I].coordinates;         \
-  }
-  PHARE_EACH_LAMP(PHARE_PASS)
-#endif
 }
 #endif
 #endif

@@ -24,5 +24,15 @@ PHARE_INLINE vec3 false_colour(float illuminance_lx) {
   return mix(colour, vec3(0.8f, 0.05f, 0.02f), clamp(t - 4.0f, 0.0f, 1.0f));
 }
 
+/// Display-linear to the sRGB signal (IEC 61966-2-1), 0 to 1 each, by a polynomial in the square root: within 0.2 steps of 8 bits. In the
+/// shader, because a target that encodes has a software device decode, blend and encode every block that is drawn.
+PHARE_INLINE vec3 srgb_encoded(vec3 linear) {
+  vec3 x = min(linear, vec3(1.0f));
+  vec3 s = sqrt(x);
+  vec3 curve = -0.0370046662f + s * (1.44789933f + s * (-0.944860861f + s * (0.842791033f + s * -0.309571806f)));
+  return vec3(x.x < 0.0031308f ? 12.92f * x.x : curve.x, x.y < 0.0031308f ? 12.92f * x.y : curve.y,
+              x.z < 0.0031308f ? 12.92f * x.z : curve.z);
+}
+
 PHARE_SHADER_END
 #endif

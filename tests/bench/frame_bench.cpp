@@ -8,12 +8,14 @@
 #include <ctime>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "config/paths.h"
 #include "tests/bench/floor.h"
+#include "tests/bench/growth.h"
 #include "tests/bench/straight_road.h"
 #include "visual/photometry/beam_composer.h"
 #include "visual/photometry/read_lamp.h"
@@ -49,6 +51,8 @@ struct Case {
   std::vector<double> cpu_ms{}, wall_ms{}, cpu_floors{}, wall_floors{};
   std::map<std::string, std::vector<double>> pass_ms{};
   FrameResult newest{};
+  std::string unit{};  ///< of what grows in the group; empty: nothing does
+  double amount = 0.0;
 };
 
 /// Renderers live as long as the cases that draw with them.
@@ -73,6 +77,16 @@ class Bench {
   void add(const std::string& group, const std::string& name, Renderer& renderer,
            const std::function<FrameInput(int)>& view) {
     cases_.push_back({group, name, [&renderer, view](int round) { return renderer.draw(view(round)); }});
+  }
+
+  /// A point of a group's curve.
+  void grow(const std::string& group, const std::string& unit, double amount, Renderer& renderer,
+            const std::function<FrameInput(int)>& view) {
+    char name[48];
+    std::snprintf(name, sizeof name, "%.0f %s", amount, unit.c_str());
+    add(group, name, renderer, view);
+    cases_.back().unit = unit;
+    cases_.back().amount = amount;
   }
 
   /// Turn by turn: each round times the floor and then every case.
@@ -121,6 +135,20 @@ class Bench {
     for (const Case& one : cases_)
       for (const auto& [pass, ms] : one.pass_ms)
         std::printf("  %-52s %-14s %8.2f\n", (one.group + ": " + one.name).c_str(), pass.c_str(), median(ms));
+  }
+
+  void print_curves() const {
+    std::vector<std::string> order;
+    std::map<std::string, std::vector<GrowthPoint>> curves;
+    std::map<std::string, std::string> units;
+    for (const Case& one : cases_) {
+      if (one.unit.empty()) continue;
+      if (!curves.contains(one.group)) order.push_back(one.group);
+      curves[one.group].push_back({one.amount, median(one.cpu_ms), median(one.cpu_floors)});
+      units[one.group] = one.unit;
+    }
+    for (const std::string& group : order)
+      std::fputs(growth_curve(group + ", processor time", units[group], curves[group]).c_str(), stdout);
   }
 
   double cpu_floors(const std::string& group, const std::string& name) const {
@@ -178,6 +206,86 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
   bench.add(group, "two lamps", renderer, view);
 }
 
+/// The straight road with more of one thing: triangles, draws, lamps, pixels, views.
+void add_growth(Bench& bench, const Scene& straight, const IntensityTable& beam, const Options& options) {
+  const auto view = [](int round) { return straight_road_view(0.1 * (round % 64)); };
+  for (const int times : {0, 1, 2, 3}) {
+    const Scene scene = with_more_triangles(straight, times);
+    bench.grow("growth with triangles", "triangles", static_cast<double>(scene.indices.size() / 3),
+               bench.renderer(scene, beam), [view](int round) {
+                 FrameInput input = view(round);
+                 input.far_mesh_from_m = std::numeric_limits<double>::infinity();
+                 return input;
+               });
+  }
+  for (const std::size_t count : {0u, 50u, 100u, 200u})
+    bench.grow("growth with draws", "more draws", static_cast<double>(count),
+               bench.renderer(with_more_draws(straight, count), beam), view);
+
+  Renderer& renderer = bench.renderer(straight, beam);
+  const auto with_lamps = [view](int round, std::size_t count) {
+    FrameInput input = view(round);
+    const PlacedLamp first = input.lamps.front();
+    input.lamps.assign(count, first);
+    for (std::size_t i = 0; i < count; ++i) input.lamps[i].position_m.y = -2.6 + 0.3 * static_cast<double>(i);
+    return input;
+  };
+  for (const std::size_t count : {0u, 1u, 2u, 4u, 8u})
+    bench.grow("growth with lamps", "lamps", static_cast<double>(count), renderer,
+               [=](int round) { return with_lamps(round, count); });
+  bench.add("lamps that reach nothing here", "2 lamps, and 8 of cars behind", renderer, [=](int round) {
+    FrameInput input = with_lamps(round, 10);
+    for (std::size_t i = 2; i < 10; ++i) {
+      input.lamps[i].position_m.x -= 20.0;
+      input.lamps[i].world_from_image = aim_rotation(3.14159265, 0.0, 0.0);
+    }
+    return input;
+  });
+
+  for (const auto& [w, h] : {std::pair(640, 360), std::pair(1280, 720), std::pair(1920, 1080)})
+    bench.grow("growth with pixels", "pixels", double{1} * w * h, bench.renderer(straight, beam, w, h), view);
+
+  // Views: of the same road a quarter as wide and high; a mirror that sees nothing lit; two halves.
+  const auto inset = [view](int round, std::size_t place) {
+    ViewInput more = view(round);
+    more.part = {0.25 * static_cast<double>(place % 4), 0.25 * static_cast<double>(place / 4), 0.25, 0.25};
+    return more;
+  };
+  for (const std::size_t count : {0u, 1u, 2u, 4u, 8u})
+    bench.grow("growth with views", "insets", static_cast<double>(count), renderer, [=](int round) {
+      FrameInput input = view(round);
+      for (std::size_t i = 0; i < count; ++i) input.more_views.push_back(inset(round, i));
+      return input;
+    });
+  bench.add("a second view", "none", renderer, view);
+  bench.add("a second view", "inset, 1/16 of the picture", renderer, [=](int round) {
+    FrameInput input = view(round);
+    input.more_views = {inset(round, 0)};
+    return input;
+  });
+  bench.add("a second view", "inset that sees nothing lit", renderer, [=](int round) {
+    FrameInput input = view(round);
+    input.more_views = {inset(round, 0)};
+    input.more_views[0].camera.world_from_eye = aim_rotation(3.14159265, 0.0, 0.0);
+    return input;
+  });
+  bench.add("a second view", "two designs, half of the picture each", renderer, [=](int round) {
+    FrameInput input = view(round);
+    input.part.width_01 = 0.5;
+    ViewInput beside = input;
+    beside.part.left_01 = 0.5;
+    input.more_views = {beside};
+    return input;
+  });
+  bench.add("a second view", "as large, its own picture", renderer, [=, &options](int round) {
+    FrameInput input = view(round);
+    ViewInput other = view(round);
+    other.own_picture = {options.width_px, options.height_px};
+    input.more_views = {other};
+    return input;
+  });
+}
+
 int run(const Options& options) {
   if (!Floor::possible()) {
     std::fprintf(stderr, "phare_frame_bench: this processor has no AVX2 and FMA, so no floor to compare with\n");
@@ -197,22 +305,12 @@ int run(const Options& options) {
   add_parts(bench, "straight road, even nodes", bench.renderer(straight, even), straight_view);
   bench.add("straight road, rounded nodes", "two lamps", bench.renderer(straight, rounded), straight_view);
   add_parts(bench, "country road", bench.renderer(*country, *lamp), country_view);
-  Renderer& lamps = bench.renderer(straight, even);
-  for (const std::size_t count : {1u, 2u, 4u, 8u})
-    bench.add("growth with lamps", std::to_string(count) + " lamps", lamps, [=](int round) {
-      FrameInput input = straight_view(round);
-      const PlacedLamp first = input.lamps.front();
-      input.lamps.assign(count, first);
-      for (std::size_t i = 0; i < count; ++i) input.lamps[i].position_m.y = -2.6 + 0.3 * static_cast<double>(i);
-      return input;
-    });
-  for (const auto& [w, h] : {std::pair(640, 360), std::pair(1920, 1080)})
-    bench.add("growth with pixels", std::to_string(w) + "x" + std::to_string(h), bench.renderer(straight, even, w, h),
-              straight_view);
+  add_growth(bench, straight, even, options);
 
   Floor floor(even, options.width_px, options.height_px);
   bench.run(floor);
   bench.print();
+  bench.print_curves();
   for (const std::string group : {"straight road, even nodes", "country road"}) {
     const double fixed = bench.cpu_floors(group, "fixed: nothing in view");
     const double unlit = bench.cpu_floors(group, "unlit: geometry and surfaces");

@@ -102,7 +102,7 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       return r;
     }
     case kPayloadIndex<RigControl>: {
-      switch (v.whole(8)) {
+      switch (v.whole(9)) {
         case 0:
           return RigControl{RigControl::Pause{v.flag()}};
         case 1:
@@ -123,6 +123,8 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
           tell.first_open = 1 + v.whole(tell.request_id - 1);
           return tell;
         }
+        case 8:
+          return RigControl{RigControl::Set{"isolux_lx", std::string(v.whole(1024), '1')}};
         default:
           return RigControl{RigControl::Quit{}};
       }
@@ -200,6 +202,8 @@ std::vector<Datagram> samples(std::uint64_t seed) {
                                  {RigControl::Dim{"headlamp right", 36, 0.25}},
                                  {RigControl::Swivel{"headlamp left", 0.1, 0.0}},
                                  {RigControl::Place{"headlamp left", 3.4, 0.7, 0.9}},
+                                 {RigControl::Set{"camera", "chase"}},
+                                 {RigControl::Set{"help", ""}},
                                  {RigControl::Tell{}, 12, 3}};
   for (const RigControl& command : commands) {
     Datagram d = sample(kPayloadIndex<RigControl>, random);

@@ -189,13 +189,15 @@ TEST(PictureOptions, AreTurnedBackIntoTheArgumentsTheyWere) {
                                        "4",
                                        "--camera",
                                        "chase",
-                                       "--still-at",
-                                       "2.5",
                                        "--exposure",
                                        "1.5",
                                        "--adaptation",
                                        "4300",
                                        "--false-colour",
+                                       "--set",
+                                       "lines=off",
+                                       "--still-at",
+                                       "2.5",
                                        "--beam-image",
                                        "half-float-native-nodes",
                                        "--audit-every",
@@ -212,7 +214,8 @@ TEST(PictureOptions, AreTurnedBackIntoTheArgumentsTheyWere) {
     EXPECT_TRUE(option->get_group() != "Picture" || named.contains(option->get_name())) << option->get_name();
   app.parse(std::vector<std::string>(given.rbegin(), given.rend()));
   EXPECT_EQ(options.width_px, 320);
-  EXPECT_EQ(options.camera, "chase");
+  const DeskCommand camera{"camera", "chase"};
+  EXPECT_NE(std::ranges::find(options.desk, camera), options.desk.end());
   EXPECT_EQ(options.arguments(), given);
 
   PictureOptions none;

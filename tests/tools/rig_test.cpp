@@ -72,6 +72,30 @@ TEST(Rig, ReadsGoodRig) {
   EXPECT_EQ(left.sources.at(0).function, LampFunction::kLow);
 }
 
+/// The same words as keys, command line and bus have.
+TEST(Rig, SetsTheDesk) {
+  const std::string desk =
+      "[eye]\nadaptation_k = 4500\n[desk]\ncamera = \"chase\"\nisolux_lx = [1, 2.5]\nexposure_per_cdm2 = 0.25\n"
+      "design = 0\nprobes = [\"car 25 0 0\", \"world 1 2 3\"]\nlines = \"off\"\n";
+  const auto rig = read_rig(write_rig(kGoodRig + desk));
+  ASSERT_TRUE(rig) << rig.error().text();
+  Desk expected;
+  for (const char* words : {"adaptation_k 4500", "camera chase", "isolux_lx 1 2.5", "exposure_per_cdm2 0.25",
+                            "design 0", "probes car 25 0 0; world 1 2 3", "lines off"})
+    ASSERT_TRUE(apply(expected, desk_command(words))) << words;
+  EXPECT_EQ(rig->desk, expected);
+  EXPECT_EQ(read_rig(write_rig(kGoodRig))->desk, Desk{});
+
+  const auto wrong = [](const std::string& line) {
+    const auto bad = read_rig(write_rig(std::string(kGoodRig) + "[desk]\n" + line + "\n"));
+    return bad ? std::string() : bad.error().text().substr(testing::TempDir().size());
+  };
+  EXPECT_EQ(wrong("camera = \"roof\""),
+            "phare_rig_test.toml:18: \"desk.camera\": \"roof\" is none of driver, birds-eye, chase, next");
+  EXPECT_EQ(wrong("design = 1"), "phare_rig_test.toml:18: \"desk.design\": 1: the rig has 1, counted from 0");
+  EXPECT_NE(wrong("isolux = 3").find("did you mean \"isolux_lx\"?"), std::string::npos) << wrong("isolux = 3");
+}
+
 TEST(Rig, BadRigsSayWhere) {
   EXPECT_EQ(rig_error("fov_horizontal_deg", "fov_deg"),
             "phare_rig_test.toml:5: no key \"fov_deg\"; did you mean \"fov_horizontal_deg\"? (in channel)");

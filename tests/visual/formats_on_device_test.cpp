@@ -87,17 +87,37 @@ std::vector<Format> formats() {
   const IntensityTable b = on(PhotometricType::kB, GammaAxis::kGamma0, b_h, b_v);
   const IntensityTable c0 = on(PhotometricType::kC, GammaAxis::kGamma0, steps(0, 360, 2.5), steps(0, 60, 0.25));
   const IntensityTable c90 = on(PhotometricType::kC, GammaAxis::kGamma90, steps(0, 360, 0.5), steps(60, 120, 0.25));
-  std::vector<double> uneven_h, uneven_v;  // multiples of nothing
-  for (int i = -60; i <= 60; ++i) uneven_h.push_back(0.7 * i + 0.0123456789 * std::sin(i));
-  for (int j = -40; j <= 30; ++j) uneven_v.push_back(0.3 * j + 0.0023456789 * std::cos(j));
+  // Multiples of nothing: bent a little, so that every node is where counting says or next to it; and freely.
+  std::vector<double> bent_h, bent_v, uneven_h, uneven_v;
+  for (int i = -60; i <= 60; ++i) bent_h.push_back(0.7 * i + 0.0723456789 * std::sin(i));
+  for (int j = -40; j <= 30; ++j) bent_v.push_back(0.3 * j + 0.0223456789 * std::cos(j));
+  for (int i = -60; i <= 60; ++i) uneven_h.push_back(0.7 * i + 0.3123456789 * std::sin(i));
+  for (int j = -40; j <= 30; ++j) uneven_v.push_back(0.3 * j + 0.1323456789 * std::cos(j));
+  const IntensityTable bent = on(PhotometricType::kA, GammaAxis::kGamma0, bent_h, bent_v);
   const IntensityTable uneven = on(PhotometricType::kA, GammaAxis::kGamma0, uneven_h, uneven_v);
+  // Evenly about 0°, which is no node; and 256 × 128 nodes as a program writes them, rounded to 1e-4°.
+  const IntensityTable half =
+      on(PhotometricType::kA, GammaAxis::kGamma0, steps(-39.75, 39.75, 0.5), steps(-13.9, 9.9, 0.2));
+  const auto written = [](double from, double to, int count) {
+    std::vector<double> nodes;
+    for (int i = 0; i < count; ++i) nodes.push_back(std::round((from + (to - from) * i / (count - 1)) * 1e4) * 1e-4);
+    return nodes;
+  };
+  const IntensityTable rounded =
+      on(PhotometricType::kA, GammaAxis::kGamma0, written(-45, 45, 256), written(-20, 10, 128));
+  const IntensityTable b_rounded =
+      on(PhotometricType::kB, GammaAxis::kGamma0, written(-45, 45, 256), written(-20, 10, 128));
   LampReadSettings gamma90;
   gamma90.axis = GammaAxis::kGamma90;
   // Wide, near screens show the projection's factor: at their corners 1/cos³ is 12 and 3.4.
   std::vector<double> far_out;  // multiples of nothing
   for (int i = -40; i <= 40; ++i) far_out.push_back(10.0 * std::sinh(0.05 * i) / std::sinh(2.0));
   using namespace shader;
-  return {{"a.ies", lm63_text(low), kLookupDark},
+  return {{"a.ies", lm63_text(low), kLookupAhead},
+          {"a_half.ies", lm63_text(half), kLookupAhead},
+          {"a_rounded.ies", lm63_text(rounded), kLookupRounded},
+          {"b_rounded.ies", lm63_text(b_rounded), kLookupRounded},
+          {"a_bent.ies", lm63_text(bent), kLookupRounded},
           {"a_uneven.ies", lm63_text(uneven), kLookupGuide},
           {"b.ies", lm63_text(b), kLookupAhead},
           {"c_gamma0.ies", lm63_text(c0), kLookupTurn},
@@ -189,7 +209,7 @@ TEST(FormatsOnDevice, EveryFormatIsItsTable) {
     ASSERT_TRUE(table.ok()) << table.error().text();
     const std::vector<AimedSource> source{{.table = &*table, .car_from_lamp = mounted().world_from_image}};
     const BeamImage image = compose_beam_image(source);
-    EXPECT_EQ(pack_beam(image).lookup, format.lookup) << format.name;
+    EXPECT_EQ(pack_beam(image).lookup(), format.lookup) << format.name;
     EXPECT_FALSE(image.resampled) << format.name;
     renderer->set_beam(0, image);
     const auto lx = renderer->measure(std::span(&mounted(), 1), points);

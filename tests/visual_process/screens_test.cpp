@@ -26,25 +26,26 @@ bool says(const OverlayPanel& panel, const std::string& words) {
   return std::ranges::any_of(panel.rows, [&](const auto& row) { return row.words.find(words) != std::string::npos; });
 }
 
-bool press(Screens& screens, KeyAction action) {
+bool press(Screens& screens, Desk& desk, KeyAction action) {
   const KeyAction presses[] = {action};
-  return screens.press(presses, true);
+  return screens.press(presses, true, desk);
 }
 
 TEST(Screens, HelpListsEveryKeyOfTheTable) {
   Screens screens({});
-  EXPECT_TRUE(screens.panel({}, 0.0).empty());
-  EXPECT_FALSE(press(screens, KeyAction::kHelp));
-  const OverlayPanel help = screens.panel({}, 0.0);
+  Desk desk;
+  EXPECT_TRUE(screens.panel({}, 0.0, desk.help).empty());
+  EXPECT_FALSE(press(screens, desk, KeyAction::kHelp));
+  const OverlayPanel help = screens.panel({}, 0.0, desk.help);
   ASSERT_EQ(help.rows.size(), key_bindings().size());
   for (std::size_t i = 0; i < help.rows.size(); ++i) {
     EXPECT_EQ(help.rows[i].key, key_bindings()[i].name);
     EXPECT_EQ(help.rows[i].words, key_bindings()[i].what);
   }
   // Esc takes the help away first, then it leaves.
-  EXPECT_FALSE(press(screens, KeyAction::kLeave));
-  EXPECT_TRUE(screens.panel({}, 0.0).empty());
-  EXPECT_TRUE(press(screens, KeyAction::kLeave));
+  EXPECT_FALSE(press(screens, desk, KeyAction::kLeave));
+  EXPECT_TRUE(screens.panel({}, 0.0, desk.help).empty());
+  EXPECT_TRUE(press(screens, desk, KeyAction::kLeave));
 }
 
 TEST(Screens, WhileThePictureIsMadeReadyNothingElseIsSeen) {
@@ -62,38 +63,40 @@ TEST(Window, IsNoLargerThanTheScreen) {
 
 TEST(Screens, TheStartSaysHowToDriveUntilAKeyIsPressed) {
   Screens screens({.kind = Kind::kLive, .shown = "rig", .demo = true});
-  const OverlayPanel start = screens.panel({}, 100.0);
+  const OverlayPanel start = screens.panel({}, 100.0, false);
   for (const KeyAction action : {KeyAction::kAccelerate, KeyAction::kBrake, KeyAction::kSteerLeft,
                                  KeyAction::kSteerRight, KeyAction::kHighBeam, KeyAction::kHelp, KeyAction::kDemo})
     EXPECT_TRUE(lists(start, action)) << binding_of(action)->name;
-  EXPECT_FALSE(lists(Screens({.kind = Kind::kLive}).panel({}, 0.0), KeyAction::kDemo)) << "there is none";
-  screens.press({}, true);  // any key
-  EXPECT_TRUE(screens.panel({}, 100.0).empty());
+  EXPECT_FALSE(lists(Screens({.kind = Kind::kLive}).panel({}, 0.0, false), KeyAction::kDemo)) << "there is none";
+  Desk desk;
+  screens.press({}, true, desk);  // any key
+  EXPECT_TRUE(screens.panel({}, 100.0, false).empty());
 }
 
 TEST(Screens, AReplayGoesOnWithoutAKey) {
   const Screens screens({.kind = Kind::kReplay, .shown = "evening.pcap"});
-  EXPECT_NE(screens.panel({}, 1.0).title.find("evening.pcap"), std::string::npos);
-  EXPECT_TRUE(screens.panel({}, 7.0).empty());
+  EXPECT_NE(screens.panel({}, 1.0, false).title.find("evening.pcap"), std::string::npos);
+  EXPECT_TRUE(screens.panel({}, 7.0, false).empty());
 }
 
 TEST(Screens, TheEndSaysWhatCanBeDoneNext) {
   Screens screens({.kind = Kind::kReplay, .shown = "evening.pcap", .demo = true, .report = "/x/out/index.html"});
   screens.drive_over();
-  const OverlayPanel end = screens.panel({}, 75.0);
+  const OverlayPanel end = screens.panel({}, 75.0, false);
   for (const KeyAction action : {KeyAction::kBeginAgain, KeyAction::kAccelerate, KeyAction::kDemo, KeyAction::kLeave})
     EXPECT_TRUE(lists(end, action)) << binding_of(action)->name;
   EXPECT_TRUE(says(end, "/x/out/index.html"));
   Screens without({.kind = Kind::kReplay});
   without.drive_over();
-  EXPECT_TRUE(says(without.panel({}, 75.0), "--out"));
+  EXPECT_TRUE(says(without.panel({}, 75.0, false), "--out"));
 
   Screens live({.kind = Kind::kLive, .demo = true});
-  live.press({}, true);
+  Desk desk;
+  live.press({}, true, desk);
   CockpitState controls;
   controls.source = "demo ended";
-  EXPECT_TRUE(lists(live.panel(controls, 75.0), KeyAction::kAccelerate));
-  EXPECT_TRUE(lists(live.panel(controls, 75.0), KeyAction::kBeginAgain));
+  EXPECT_TRUE(lists(live.panel(controls, 75.0, false), KeyAction::kAccelerate));
+  EXPECT_TRUE(lists(live.panel(controls, 75.0, false), KeyAction::kBeginAgain));
 }
 
 TEST(Screens, OnlyWhereSomebodySitsTheWindowStays) {

@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "config/isolux.h"
 #include "tools/lamp/views.h"
 #include "visual/photometry/beam_image.h"
 
@@ -133,7 +134,7 @@ void draw_road(Chart& chart, const std::vector<RoadLamp>& lamps, bool left_hand,
       chart.line({{axes.x(lane), axes.top}, {axes.x(lane), axes.top + axes.height}}, {0.75, 0.75, 0.75}, 0.8, false,
                  true);
     std::vector<PendingLabel> labels;
-    for (const double lx : {1.0, 3.0, 5.0, 10.0, 30.0, 50.0, 100.0}) {
+    for (const double lx : kIsoluxLevels_lx) {
       const bool main = lx <= 5.0;
       draw_contours(chart, axes, contours(grid.values, grid.x, grid.y, std::log10(lx)),
                     main ? Rgb{0.4, 1.0, 0.55} : kWhite, main ? 1.4 : 0.8, short_number(lx) + " lx", labels);
@@ -150,16 +151,18 @@ void draw_road(Chart& chart, const std::vector<RoadLamp>& lamps, bool left_hand,
                10, -1, kBlack, true);
   }
   std::vector<BarMark> marks;
-  for (const double lx : {0.1, 0.3, 1.0, 3.0, 5.0, 10.0, 30.0, 50.0, 100.0})
+  std::string levels;
+  for (const double lx : {0.1, 0.3}) marks.push_back({std::log10(lx), "", short_number(lx)});
+  for (const double lx : kIsoluxLevels_lx) {
     marks.push_back({std::log10(lx), "", short_number(lx)});
+    levels += (levels.empty() ? "" : ", ") + short_number(lx) + (lx == 5.0 ? " (green)" : "");
+  }
   colour_bar(chart, 790, 88, 336, kLow, kHigh, colour, marks);
   chart.text(797, 76, "lx", 9, 0, kBlack, true);
-  chart.text(
-      430, 472,
-      std::string("isolux 1, 3, 5 (green), 10, 30, 50, 100 lx; dashed: two lanes of 3.5 m, the car in the middle "
-                  "of the ") +
-          (left_hand ? "left" : "right") + " one" + (clipped ? "; 1 lx reaches beyond this page" : ""),
-      8.5, 0, kText);
+  chart.text(430, 472,
+             "isolux " + levels + " lx; dashed: two lanes of 3.5 m, the car in the middle of the " +
+                 (left_hand ? "left" : "right") + " one" + (clipped ? "; 1 lx reaches beyond this page" : ""),
+             8.5, 0, kText);
 }
 
 void draw_difference(Chart& chart, const IntensityHv& a, const IntensityHv& b, const std::vector<RoadLamp>& road_a,

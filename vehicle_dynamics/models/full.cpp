@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "config/conventions.h"
+#include "vehicle_dynamics/models/air.h"
 #include "vehicle_dynamics/models/full_parts.h"
 
 namespace phare::full {
@@ -125,10 +126,9 @@ void kinematics(const Params& p, const Held& held, const Geometry& g, const Stee
 
 void dynamics(const Params& p, const Input& input, const Held& held, const Geometry& g, const Contact& c,
               const State& s, State& d, TyreForces& tyres) {
-  constexpr double kAirDensity_kgpm3 = 1.2041;  // dry air, 20 degrees C, 101325 Pa
-  constexpr double kFullDamping_n = 2700.0;     // load at which carcass_damping_nspm is given
-  constexpr double kDampedBelow_mps = 2.0;      // faded out there: a rolling or sliding tyre carries it away
-  constexpr double kRollingKnee_mps = 0.05;     // rolling resistance turns its sign smoothly
+  constexpr double kFullDamping_n = 2700.0;  // load at which carcass_damping_nspm is given
+  constexpr double kDampedBelow_mps = 2.0;   // faded out there: a rolling or sliding tyre carries it away
+  constexpr double kRollingKnee_mps = 0.05;  // rolling resistance turns its sign smoothly
   const auto& m = g.world_from_body;
 
   for (std::size_t i = 0; i < 4; ++i) {

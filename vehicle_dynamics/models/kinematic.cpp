@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "config/conventions.h"
+#include "vehicle_dynamics/models/air.h"
 
 namespace phare::kinematic {
 namespace {
 
-constexpr double kAirDensity_kgpm3 = 1.2041;  // dry air, 20 degrees C, 101325 Pa
 // A driver turns the wheel at 1000 degrees a second at most; faster input is a fault or a joystick.
 constexpr double kMaxSteeringWheelRate_radps = 1000.0 * std::numbers::pi / 180.0;
 constexpr double kParkLockSpeed_mps = 0.5;  // below it the pawl of the parking lock falls in; chosen

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "config/conventions.h"
+#include "vehicle_dynamics/models/air.h"
 #include "vehicle_dynamics/models/single_track_parts.h"
 
 namespace phare::single_track {
 namespace {
 
-constexpr double kAirDensity_kgpm3 = 1.2041;  // dry air, 20 degrees C, 101325 Pa
-constexpr double kRollingKnee_mps = 0.05;     // rolling resistance turns its sign smoothly
+constexpr double kRollingKnee_mps = 0.05;  // rolling resistance turns its sign smoothly
 
 double sign(double value) {
   return value > 0.0 ? 1.0 : (value < 0.0 ? -1.0 : 0.0);

@@ -47,6 +47,8 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, const DeviceO
   return vk::raii::Instance(context, info);
 }
 
+}  // namespace
+
 vk::raii::PhysicalDevice pick_device(const vk::raii::Instance& instance, const std::string& wanted) {
   std::vector<vk::raii::PhysicalDevice> devices = vk::raii::PhysicalDevices(instance);
   if (devices.empty())
@@ -74,8 +76,6 @@ vk::raii::PhysicalDevice pick_device(const vk::raii::Instance& instance, const s
                                             : "no Vulkan 1.3 device whose name contains \"" + wanted + "\"");
   return std::move(*best);
 }
-
-}  // namespace
 
 Device::Device(const DeviceOptions& options) {
   instance = make_instance(context, options);
@@ -169,14 +169,18 @@ HostBuffer::HostBuffer(Device& device, vk::DeviceSize size, vk::BufferUsageFlags
   device.name(vk::ObjectType::eBuffer, reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer)), name);
 }
 
-DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage,
-                           const std::string& name)
-    : buffer(device.device, vk::BufferCreateInfo{.size = std::max<vk::DeviceSize>(content.size(), 16),
-                                                 .usage = usage | vk::BufferUsageFlagBits::eTransferDst}),
-      bytes(std::max<vk::DeviceSize>(content.size(), 16)) {
+DeviceBuffer::DeviceBuffer(Device& device, vk::DeviceSize bytes_, vk::BufferUsageFlags usage, const std::string& name)
+    : buffer(device.device,
+             vk::BufferCreateInfo{.size = bytes_, .usage = usage | vk::BufferUsageFlagBits::eTransferDst}),
+      bytes(bytes_) {
   memory = device.allocate(buffer.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal);
   buffer.bindMemory(*memory, 0);
   device.name(vk::ObjectType::eBuffer, reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer)), name);
+}
+
+DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage,
+                           const std::string& name)
+    : DeviceBuffer(device, std::max<vk::DeviceSize>(content.size(), 16), usage, name) {
   if (content.empty()) return;
   HostBuffer staging(device, content.size(), vk::BufferUsageFlagBits::eTransferSrc, name + " staging");
   std::memcpy(staging.data, content.data(), content.size());
@@ -185,66 +189,72 @@ DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, v
   });
 }
 
-Image::Image(Device& device, vk::Format format_, vk::Extent2D extent_, vk::ImageUsageFlags usage,
-             const std::string& name_, vk::SampleCountFlagBits samples_, std::uint32_t mip_levels)
+Image::Image(Device& device, const ImageNeed& need, const std::string& name_)
     : image(device.device, vk::ImageCreateInfo{.imageType = vk::ImageType::e2D,
-                                               .format = format_,
-                                               .extent = {extent_.width, extent_.height, 1},
-                                               .mipLevels = mip_levels,
-                                               .arrayLayers = 1,
-                                               .samples = samples_,
-                                               .usage = usage}),
-      format(format_),
-      extent(extent_),
-      aspect(format_ == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor),
-      samples(samples_),
+                                               .format = need.format,
+                                               .extent = {need.extent.width, need.extent.height, 1},
+                                               .mipLevels = need.mips,
+                                               .arrayLayers = need.layers,
+                                               .samples = need.samples,
+                                               .usage = need.usage}),
+      format(need.format),
+      extent(need.extent),
+      layers(need.layers),
+      mips(need.mips),
+      bytes(image.getMemoryRequirements().size),
+      aspect(need.format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor),
+      samples(need.samples),
       name(name_) {
-  const vk::MemoryRequirements need = image.getMemoryRequirements();
-  memory = device.allocate(need, vk::MemoryPropertyFlagBits::eDeviceLocal);
-  bytes = need.size;
-  image.bindMemory(*memory, 0);
-  view = vk::raii::ImageView(device.device, vk::ImageViewCreateInfo{.image = *image,
-                                                                    .viewType = vk::ImageViewType::e2D,
-                                                                    .format = format,
-                                                                    .subresourceRange = {aspect, 0, mip_levels, 0, 1}});
   device.name(vk::ObjectType::eImage, reinterpret_cast<std::uint64_t>(static_cast<VkImage>(*image)), name);
 }
 
-void fill_image(Device& device, Image& image, std::span<const std::byte> bytes,
-                std::span<const vk::BufferImageCopy> copies) {
-  const vk::BufferImageCopy whole{.imageSubresource = {image.aspect, 0, 0, 1},
-                                  .imageExtent = {image.extent.width, image.extent.height, 1}};
-  if (copies.empty()) copies = std::span(&whole, 1);
-  HostBuffer staging(device, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, image.name + " staging");
-  std::memcpy(staging.data, bytes.data(), bytes.size());
-  device.run_once([&](vk::CommandBuffer commands) {
-    using Stage = vk::PipelineStageFlagBits2;
-    using Access = vk::AccessFlagBits2;
-    using Layout = vk::ImageLayout;
-    auto turn = [&](Layout from, Layout to, vk::PipelineStageFlags2 after, vk::AccessFlags2 wrote,
-                    vk::PipelineStageFlags2 before, vk::AccessFlags2 reads) {
-      const vk::ImageMemoryBarrier2 barrier{.srcStageMask = after,
-                                            .srcAccessMask = wrote,
-                                            .dstStageMask = before,
-                                            .dstAccessMask = reads,
-                                            .oldLayout = from,
-                                            .newLayout = to,
-                                            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                            .image = *image.image,
-                                            .subresourceRange = {image.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, 1}};
-      commands.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
-    };
-    // What the copies leave out stays as it was, if something was.
-    turn(image.layout, Layout::eTransferDstOptimal, image.stage, image.access, Stage::eCopy, Access::eTransferWrite);
-    commands.copyBufferToImage(*staging.buffer, *image.image, Layout::eTransferDstOptimal,
-                               {static_cast<std::uint32_t>(copies.size()), copies.data()});
-    turn(Layout::eTransferDstOptimal, Layout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite,
-         Stage::eFragmentShader, Access::eShaderSampledRead);
-  });
-  image.layout = vk::ImageLayout::eShaderReadOnlyOptimal;
-  image.stage = vk::PipelineStageFlagBits2::eFragmentShader;
-  image.access = vk::AccessFlagBits2::eShaderSampledRead;
+void Image::bind(Device& device, vk::DeviceMemory at) {
+  image.bindMemory(at, 0);
+  const auto view_of = [&](vk::ImageViewType type, const vk::ImageSubresourceRange& range) {
+    return vk::raii::ImageView(
+        device.device,
+        vk::ImageViewCreateInfo{.image = *image, .viewType = type, .format = format, .subresourceRange = range});
+  };
+  view = view_of(layers > 1 ? vk::ImageViewType::e2DArray : vk::ImageViewType::e2D, {aspect, 0, mips, 0, layers});
+  if (layers * mips == 1) return;
+  for (std::uint32_t mip = 0; mip < mips; ++mip)
+    for (std::uint32_t layer = 0; layer < layers; ++layer)
+      parts.push_back(view_of(vk::ImageViewType::e2D, {aspect, mip, 1, layer, 1}));
+}
+
+Image::Image(Device& device, vk::Format format_, vk::Extent2D extent_, vk::ImageUsageFlags usage,
+             const std::string& name_, vk::SampleCountFlagBits samples_, std::uint32_t mip_levels)
+    : Image(device, {format_, extent_, usage, samples_, 1, mip_levels}, name_) {
+  memory = device.allocate(image.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal);
+  bind(device, *memory);
+}
+
+void record_fill(vk::CommandBuffer commands, Image& image, vk::Buffer from,
+                 std::span<const vk::BufferImageCopy> copies) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  const auto turn = [&](vk::ImageLayout layout, vk::PipelineStageFlags2 stage, vk::AccessFlags2 access) {
+    const vk::ImageMemoryBarrier2 barrier{
+        .srcStageMask = image.stage,
+        .srcAccessMask = image.access,
+        .dstStageMask = stage,
+        .dstAccessMask = access,
+        .oldLayout = image.layout,
+        .newLayout = layout,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = *image.image,
+        .subresourceRange = {image.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
+    commands.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+    image.layout = layout;
+    image.stage = stage;
+    image.access = access;
+  };
+  // What the copies leave out stays as it was, if something was.
+  turn(vk::ImageLayout::eTransferDstOptimal, Stage::eCopy, Access::eTransferWrite);
+  commands.copyBufferToImage(from, *image.image, vk::ImageLayout::eTransferDstOptimal,
+                             {static_cast<std::uint32_t>(copies.size()), copies.data()});
+  turn(vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
 }
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv) {

@@ -15,6 +15,9 @@
 
 namespace phare::gpu {
 
+/// The device whose name contains `wanted`; empty: a discrete GPU before others. Throws when there is none.
+vk::raii::PhysicalDevice pick_device(const vk::raii::Instance& instance, const std::string& wanted);
+
 /// Bytes of device memory that live now; every allocation counts itself in and out.
 using MemoryCount = std::shared_ptr<std::uint64_t>;
 
@@ -89,23 +92,39 @@ struct HostBuffer {
              bool read_back = false);
 };
 
-/// A buffer in device memory, filled once.
+/// A buffer in device memory, filled by copies.
 struct DeviceBuffer {
   Memory memory;
   vk::raii::Buffer buffer{nullptr};
   vk::DeviceSize bytes = 0;
 
   DeviceBuffer() = default;
+  DeviceBuffer(Device& device, vk::DeviceSize bytes, vk::BufferUsageFlags usage, const std::string& name);
+  /// Filled, waits.
   DeviceBuffer(Device& device, std::span<const std::byte> content, vk::BufferUsageFlags usage, const std::string& name);
 };
 
-/// A 2D image with one view. The frame graph keeps its layout.
-struct Image {
-  Memory memory;
-  vk::raii::Image image{nullptr};
-  vk::raii::ImageView view{nullptr};
+/// What an image has to be.
+struct ImageNeed {
   vk::Format format = vk::Format::eUndefined;
   vk::Extent2D extent{};
+  vk::ImageUsageFlags usage{};
+  vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+  std::uint32_t layers = 1;  ///< more than one: shaders see an array
+  std::uint32_t mips = 1;
+
+  friend bool operator==(const ImageNeed&, const ImageNeed&) = default;
+};
+
+/// A 2D image, or an array of them, with a view of all of it. The frame graph keeps its layout.
+struct Image {
+  Memory memory;  ///< none where the image lies in memory that the graph shares out
+  vk::raii::Image image{nullptr};
+  vk::raii::ImageView view{nullptr};
+  std::vector<vk::raii::ImageView> parts;  ///< of each layer of each mip level, [mip][layer]; none where there is one
+  vk::Format format = vk::Format::eUndefined;
+  vk::Extent2D extent{};
+  std::uint32_t layers = 1, mips = 1;
   vk::DeviceSize bytes = 0;
   vk::ImageAspectFlags aspect{};
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
@@ -118,11 +137,19 @@ struct Image {
   Image() = default;
   Image(Device& device, vk::Format format, vk::Extent2D extent, vk::ImageUsageFlags usage, const std::string& name,
         vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1, std::uint32_t mip_levels = 1);
+  /// Without memory: it and the views come with `bind`.
+  Image(Device& device, const ImageNeed& need, const std::string& name);
+  void bind(Device& device, vk::DeviceMemory at);
+
+  /// One layer of one mip level, to draw into.
+  vk::ImageView part(std::uint32_t layer, std::uint32_t mip) const {
+    return parts.empty() ? *view : *parts[mip * layers + layer];
+  }
 };
 
-/// Fills a sampled image (usage eTransferDst) and waits. `copies` is for more or less than the first mip level.
-void fill_image(Device& device, Image& image, std::span<const std::byte> bytes,
-                std::span<const vk::BufferImageCopy> copies = {});
+/// Copies into a sampled image (usage eTransferDst), which fragments may read afterwards.
+void record_fill(vk::CommandBuffer commands, Image& image, vk::Buffer from,
+                 std::span<const vk::BufferImageCopy> copies);
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv);
 

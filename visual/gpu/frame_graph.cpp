@@ -1,12 +1,15 @@
 #include "visual/gpu/frame_graph.h"
 
+#include <algorithm>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace phare::gpu {
 
 namespace {
 
-constexpr std::uint32_t kMaxPasses = 16;
+constexpr std::uint32_t kPassesInPool = 16;
 
 struct State {
   vk::ImageLayout layout;
@@ -30,6 +33,14 @@ State state_of(Use use) {
       return {Layout::eDepthStencilReadOnlyOptimal, tests, Access::eDepthStencilAttachmentRead};
     case Use::kSampled:
       return {Layout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead};
+    case Use::kSampledByVertices:
+      return {Layout::eShaderReadOnlyOptimal, Stage::eVertexShader, Access::eShaderSampledRead};
+    case Use::kSampledByCompute:
+      return {Layout::eShaderReadOnlyOptimal, Stage::eComputeShader, Access::eShaderSampledRead};
+    case Use::kStorageRead:
+      return {Layout::eGeneral, Stage::eComputeShader, Access::eShaderStorageRead};
+    case Use::kStorageWrite:
+      return {Layout::eGeneral, Stage::eComputeShader, Access::eShaderStorageWrite | Access::eShaderStorageRead};
     case Use::kCopySource:
       return {Layout::eTransferSrcOptimal, Stage::eCopy, Access::eTransferRead};
     case Use::kCopyTarget:
@@ -42,35 +53,89 @@ State state_of(Use use) {
 
 }  // namespace
 
-FrameGraph::FrameGraph(Device& device)
-    : device_(device),
-      stamps_(device.device,
-              vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = 2 * kMaxPasses}) {}
+FrameGraph::FrameGraph(Device& device) : device_(device) {}
 
 void FrameGraph::begin(vk::CommandBuffer commands) {
   commands_ = commands;
+  prefix_.clear();
   names_.clear();
   counts_ = {};
-  for (auto& [name, held] : images_) held.asked = false;
-  commands_.resetQueryPool(*stamps_, 0, 2 * kMaxPasses);
+  std::erase_if(images_, [](const auto& named) { return !named.second.slot; });  // making them failed
+  for (auto& [name, held] : images_) held.asked = held.slot->taken = held.slot->released = false;
+  for (const vk::raii::QueryPool& pool : stamps_) commands_.resetQueryPool(*pool, 0, 2 * kPassesInPool);
+}
+
+// The smallest that an image of this frame has left behind and that is large enough; else new memory.
+std::shared_ptr<FrameGraph::Slot> FrameGraph::slot_for(const vk::MemoryRequirements& need) {
+  std::shared_ptr<Slot> best;
+  for (const auto& [name, held] : images_) {
+    if (!held.slot || !held.slot->released || held.slot->bytes < need.size) continue;
+    if ((held.slot->types & ~need.memoryTypeBits) != 0) continue;
+    if (!best || held.slot->bytes < best->bytes) best = held.slot;
+  }
+  if (best) return best;
+  best = std::make_shared<Slot>();
+  best->memory = device_.allocate(need, vk::MemoryPropertyFlagBits::eDeviceLocal);
+  best->bytes = need.size;
+  best->types = need.memoryTypeBits;
+  return best;
 }
 
 Image& FrameGraph::image(const std::string& name, const ImageNeed& need) {
   Held& held = images_[name];
-  held.asked = true;
-  if (!*held.image.image || held.need != need) {
+  const bool there = held.slot && held.need == need;
+  const bool in_use = held.slot && held.slot->taken && held.slot->last == &held;
+  const bool free = held.slot && !held.slot->taken;
+  if (there && in_use) return held.image;
+  // Commands of this frame use the image of this name: another takes its part.
+  if (held.asked && !(there && free)) return image(name + " again", need);
+  if (!there || !free) {
+    if (held.slot && held.slot->last == &held) held.slot->last = nullptr;
     held.image = {};  // first, so that both never take memory at once
-    held.image = Image(device_, need.format, need.extent, need.usage, name, need.samples);
+    held.slot = nullptr;
+    held.image = Image(device_, need, name);
+    held.slot = slot_for(held.image.image.getMemoryRequirements());
+    held.image.bind(device_, *held.slot->memory);
     held.need = need;
+  }
+  held.asked = held.slot->taken = true;
+  held.slot->released = false;
+  if (const Held* last = std::exchange(held.slot->last, &held); last != nullptr && last != &held) {
+    // What is in the memory is another image's, and its passes come first. Our own last use comes before those, but
+    // synchronization validation does not see that.
+    held.image.layout = vk::ImageLayout::eUndefined;
+    held.image.stage |= last->image.stage;
+    held.image.access |= last->image.access;
   }
   return held.image;
 }
 
+void FrameGraph::release(const Image& image) {
+  for (auto& [name, held] : images_) {
+    if (&held.image != &image) continue;
+    held.slot->taken = false;
+    held.slot->released = true;
+  }
+}
+
 void FrameGraph::free_unused() {
-  std::erase_if(images_, [](const auto& named) { return !named.second.asked; });
+  std::erase_if(images_, [](const auto& named) {
+    const Held& held = named.second;
+    if (!held.asked && held.slot && held.slot->last == &held) held.slot->last = nullptr;
+    return !held.asked;
+  });
+  count_images();
+}
+
+void FrameGraph::count_images() {
   counts_.images = static_cast<std::uint32_t>(images_.size());
-  counts_.image_bytes = 0;
-  for (const auto& [name, held] : images_) counts_.image_bytes += held.image.bytes;
+  counts_.image_bytes = counts_.shared_bytes = 0;
+  std::set<const Slot*> slots;
+  for (const auto& [name, held] : images_) {
+    if (slots.insert(held.slot.get()).second) counts_.image_bytes += held.slot->bytes;
+    counts_.shared_bytes += held.image.bytes;
+  }
+  counts_.shared_bytes -= std::min(counts_.shared_bytes, counts_.image_bytes);
 }
 
 void FrameGraph::pass(const std::string& name, const std::vector<ImageUse>& uses,
@@ -87,21 +152,27 @@ void FrameGraph::copy(const std::string& name, const std::vector<ImageUse>& uses
 
 void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse>& uses,
                              const std::function<void(Recorder&)>& record) {
-  if (names_.size() == kMaxPasses) throw std::logic_error("more passes than time stamps");
+  const auto at = static_cast<std::uint32_t>(names_.size());
+  if (at / kPassesInPool == stamps_.size()) {
+    stamps_.emplace_back(device_.device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp,
+                                                                 .queryCount = 2 * kPassesInPool});
+    commands_.resetQueryPool(*stamps_.back(), 0, 2 * kPassesInPool);
+  }
   std::vector<vk::ImageMemoryBarrier2> barriers;
   for (const ImageUse& use : uses) {
     Image& image = *use.image;
     const State next = state_of(use.use);
-    barriers.push_back(vk::ImageMemoryBarrier2{.srcStageMask = image.stage,
-                                               .srcAccessMask = image.access,
-                                               .dstStageMask = next.stage,
-                                               .dstAccessMask = next.access,
-                                               .oldLayout = use.discard ? vk::ImageLayout::eUndefined : image.layout,
-                                               .newLayout = next.layout,
-                                               .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                               .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                               .image = *image.image,
-                                               .subresourceRange = {image.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, 1}});
+    barriers.push_back(vk::ImageMemoryBarrier2{
+        .srcStageMask = image.stage,
+        .srcAccessMask = image.access,
+        .dstStageMask = next.stage,
+        .dstAccessMask = next.access,
+        .oldLayout = use.discard ? vk::ImageLayout::eUndefined : image.layout,
+        .newLayout = next.layout,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = *image.image,
+        .subresourceRange = {image.aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}});
     image.layout = next.layout;
     image.stage = next.stage;
     image.access = next.access;
@@ -110,37 +181,44 @@ void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse
     commands_.pipelineBarrier2(
         vk::DependencyInfo{.imageMemoryBarrierCount = static_cast<std::uint32_t>(barriers.size()),
                            .pImageMemoryBarriers = barriers.data()});
-  const auto first = static_cast<std::uint32_t>(2 * names_.size());
-  commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *stamps_, first);
+  const vk::QueryPool pool = *stamps_[at / kPassesInPool];
+  const std::uint32_t first = 2 * (at % kPassesInPool);
+  commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first);
   Recorder recorder(commands_, counts_);
   record(recorder);
-  commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *stamps_, first + 1);
-  names_.push_back(name);
+  commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first + 1);
+  names_.push_back(prefix_ + name);
 }
 
 void FrameGraph::end() {
   commands_ = nullptr;
 }
 
+// Two a pass; none if the device has not written them all.
+std::vector<std::uint64_t> FrameGraph::read_stamps() const {
+  std::vector<std::uint64_t> all;
+  for (std::size_t begin = 0; begin < names_.size(); begin += kPassesInPool) {
+    const auto count = 2 * static_cast<std::uint32_t>(std::min<std::size_t>(names_.size() - begin, kPassesInPool));
+    const auto [status, stamps] = stamps_[begin / kPassesInPool].getResults<std::uint64_t>(
+        0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
+    if (status != vk::Result::eSuccess) return {};
+    all.insert(all.end(), stamps.begin(), stamps.end());
+  }
+  return all;
+}
+
 std::vector<FrameGraph::Timing> FrameGraph::timings() const {
   std::vector<Timing> result;
-  if (names_.empty()) return result;
-  const auto count = static_cast<std::uint32_t>(2 * names_.size());
-  const auto [status, stamps] = stamps_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t),
-                                                                  sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
-  if (status != vk::Result::eSuccess) return result;
+  const std::vector<std::uint64_t> stamps = read_stamps();
   const double ms_per_tick = static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
-  for (std::size_t i = 0; i < names_.size(); ++i)
+  for (std::size_t i = 0; 2 * i < stamps.size(); ++i)
     result.push_back({names_[i], static_cast<double>(stamps[2 * i + 1] - stamps[2 * i]) * ms_per_tick});
   return result;
 }
 
 double FrameGraph::total_ms() const {
-  if (names_.empty()) return 0.0;
-  const auto count = static_cast<std::uint32_t>(2 * names_.size());
-  const auto [status, stamps] = stamps_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t),
-                                                                  sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
-  if (status != vk::Result::eSuccess) return 0.0;
+  const std::vector<std::uint64_t> stamps = read_stamps();
+  if (stamps.empty()) return 0.0;
   return static_cast<double>(stamps.back() - stamps.front()) *
          static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
 }

@@ -1,9 +1,11 @@
 // The passes of one frame, in order. A pass says which images it reads and writes; barriers, time stamps and counts
-// follow from that. The images of a frame are the graph's: made when a frame asks for them, freed when one does not.
+// follow from that. The images of a frame are the graph's: made when a frame asks for them, freed when one does not;
+// those whose lives do not overlap share memory.
 #pragma once
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,7 +13,20 @@
 
 namespace phare::gpu {
 
-enum class Use { kColourTarget, kDepthTarget, kDepthRead, kSampled, kCopySource, kCopyTarget, kPresent };
+/// Sampled and storage uses name the stage that reads or writes; a storage image is in the general layout.
+enum class Use {
+  kColourTarget,
+  kDepthTarget,
+  kDepthRead,
+  kSampled,  ///< by fragments
+  kSampledByVertices,
+  kSampledByCompute,
+  kStorageRead,   ///< by compute
+  kStorageWrite,  ///< by compute, which may read it too
+  kCopySource,
+  kCopyTarget,
+  kPresent
+};
 
 struct ImageUse {
   Image* image = nullptr;
@@ -19,24 +34,23 @@ struct ImageUse {
   bool discard = false;  ///< what was in it is not needed
 };
 
-/// What an image of a frame has to be.
-struct ImageNeed {
-  vk::Format format = vk::Format::eUndefined;
-  vk::Extent2D extent{};
-  vk::ImageUsageFlags usage{};
-  vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
-
-  friend bool operator==(const ImageNeed&, const ImageNeed&) = default;
-};
-
 /// What a frame did, counted where it is recorded.
 struct Counts {
-  std::uint32_t passes = 0;     ///< that draw
-  std::uint32_t copies = 0;     ///< passes that only copy
-  std::uint32_t draws = 0;      ///< draw commands, those of the overlay's library left out
-  std::uint64_t triangles = 0;  ///< of them
-  std::uint32_t images = 0;     ///< images of the frame that live
-  std::uint64_t image_bytes = 0;
+  std::uint32_t passes = 0;        ///< that draw
+  std::uint32_t copies = 0;        ///< passes that only copy
+  std::uint32_t draws = 0;         ///< draw commands, those of the overlay's library left out
+  std::uint64_t triangles = 0;     ///< of them
+  std::uint32_t images = 0;        ///< images of the frame that live
+  std::uint64_t image_bytes = 0;   ///< memory they take
+  std::uint64_t shared_bytes = 0;  ///< memory they would take besides, if none used that of another after it
+
+  /// What was recorded since `before`, of the same frame.
+  Counts since(const Counts& before) const {
+    return {.passes = passes - before.passes,
+            .copies = copies - before.copies,
+            .draws = draws - before.draws,
+            .triangles = triangles - before.triangles};
+  }
 };
 
 /// The commands of one pass; what it draws is counted.
@@ -67,9 +81,14 @@ class FrameGraph {
 
   /// Starts a frame: records into `commands` from here on. The frame before is done.
   void begin(vk::CommandBuffer commands);
+  /// Goes before the names of the passes that follow, to tell views apart.
+  void set_prefix(const std::string& prefix) { prefix_ = prefix; }
   /// An image of this frame by its name; what is in it is left from an earlier frame at best. The reference holds until
-  /// the end of the frame. An image of another need takes the place of one of the same name.
+  /// the end of the frame. An image of another need takes the place of one of the same name. Asked for twice in a frame
+  /// it is the same image, unless its need changed or its memory went to another.
   Image& image(const std::string& name, const ImageNeed& need);
+  /// No pass after this one reads the image: its memory may serve images asked for later in this frame.
+  void release(const Image& image);
   /// One pass: barriers for its images, then `record`, between two time stamps.
   void pass(const std::string& name, const std::vector<ImageUse>& uses, const std::function<void(Recorder&)>& record);
   /// The same for one that only copies.
@@ -91,17 +110,32 @@ class FrameGraph {
   double total_ms() const;
 
  private:
+  struct Held;
+  /// Memory that images use one after the other.
+  struct Slot {
+    Memory memory;
+    vk::DeviceSize bytes = 0;
+    std::uint32_t types = 0;     ///< memory types of the image it was made for, as Vulkan's bits
+    const Held* last = nullptr;  ///< what used it last
+    bool taken = false;          ///< by an image of this frame, until that is released
+    bool released = false;       ///< in this frame
+  };
   struct Held {
     ImageNeed need;
     Image image;
+    std::shared_ptr<Slot> slot;
     bool asked = false;
   };
+  std::shared_ptr<Slot> slot_for(const vk::MemoryRequirements& need);
+  void count_images();
   void record_pass(const std::string& name, const std::vector<ImageUse>& uses,
                    const std::function<void(Recorder&)>& record);
+  std::vector<std::uint64_t> read_stamps() const;
 
   Device& device_;
-  vk::raii::QueryPool stamps_{nullptr};
+  std::vector<vk::raii::QueryPool> stamps_;  ///< each of kPassesInPool passes; more are made when a frame needs them
   vk::CommandBuffer commands_;
+  std::string prefix_;
   std::vector<std::string> names_;
   std::map<std::string, Held> images_;
   Counts counts_;

@@ -50,6 +50,7 @@ struct DrawItem {
   const SceneBatch* batch = nullptr;
   shader::GpuDraw push{};
   float distance_m = 0.0f;
+  std::size_t lit_by = 0;  ///< which of the view's sets of lamps (visual/lit_scene.h)
 };
 
 struct SceneBuffers {

@@ -22,10 +22,12 @@ WindowSurface::WindowSurface(Device& device, GLFWwindow* window)
   if (!device.physical.getSurfaceSupportKHR(device.queue_family, *surface_))
     throw std::runtime_error("the Vulkan device cannot present to this window");
   const std::vector<vk::SurfaceFormatKHR> formats = device.physical.getSurfaceFormatsKHR(*surface_);
+  // The shaders write the sRGB signal themselves, so the format must not encode.
   const auto srgb = std::find_if(formats.begin(), formats.end(), [](const vk::SurfaceFormatKHR& f) {
-    return f.format == vk::Format::eB8G8R8A8Srgb || f.format == vk::Format::eR8G8B8A8Srgb;
+    return f.colorSpace == vk::ColorSpaceKHR::eSrgbNonlinear &&
+           (f.format == vk::Format::eB8G8R8A8Unorm || f.format == vk::Format::eR8G8B8A8Unorm);
   });
-  if (srgb == formats.end()) throw std::runtime_error("the window has no sRGB format");
+  if (srgb == formats.end()) throw std::runtime_error("the window has no 8-bit sRGB format");
   format_ = srgb->format;
   rebuild();
 }

@@ -24,7 +24,7 @@ class WindowSurface {
   GLFWwindow* window_;
   vk::raii::SurfaceKHR surface_{nullptr};
   vk::raii::SwapchainKHR swapchain_{nullptr};
-  vk::Format format_ = vk::Format::eB8G8R8A8Srgb;
+  vk::Format format_ = vk::Format::eB8G8R8A8Unorm;
   vk::Extent2D extent_{};
   vk::raii::Semaphore acquired_{nullptr}, copied_{nullptr};
 };

@@ -1,14 +1,10 @@
 // Illuminance as colour, the same for the wall, the bird's eye and its legend.
 #pragma once
 
-#include <array>
-
+#include "config/isolux.h"
 #include "visual/image/canvas.h"
 
 namespace phare {
-
-/// Isolux lines, lx.
-inline constexpr std::array<double, 7> kIsoluxLevels_lx{1.0, 3.0, 5.0, 10.0, 30.0, 50.0, 100.0};
 
 /// False colour of an illuminance: the very function of the shaders (shaders/lib/tone.h), to sRGB.
 Colour false_colour(double illuminance_lx);

@@ -46,17 +46,12 @@ ImFont* load_font(const char* file, float size_px) {
   return atlas.AddFontFromFileTTF(path.c_str(), size_px);
 }
 
-/// Colours are blended as light, so sRGB is turned into it.
-ImU32 light_of(OverlayColour colour, int alpha = 255) {
-  const auto linear = [](unsigned char value) {
-    const double c = value / 255.0;
-    return static_cast<int>(std::lround(255.0 * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4))));
-  };
-  return IM_COL32(linear(colour.red), linear(colour.green), linear(colour.blue), alpha);
+ImU32 packed(OverlayColour colour, int alpha = 255) {
+  return IM_COL32(colour.red, colour.green, colour.blue, alpha);
 }
 
-const ImU32 kPaper = IM_COL32(2, 3, 4, 205);  // dark enough that text is read over a lit road
-const ImU32 kBlank = IM_COL32(3, 4, 6, 255);
+const ImU32 kPaper = IM_COL32(30, 36, 42, 155);  // dark enough that text is read over a lit road
+const ImU32 kBlank = IM_COL32(28, 33, 42, 255);
 constexpr OverlayColour kInk{235, 235, 225}, kKeyInk{255, 214, 120};
 
 /// Letters of one size.
@@ -67,7 +62,7 @@ struct Pen {
 
   float width(const std::string& text) const { return font->CalcTextSizeA(size_px, 1e9f, 0.0f, text.c_str()).x; }
   void write(float x, float y, OverlayColour colour, const std::string& text) const {
-    list.AddText(font, size_px, {x, y}, light_of(colour), text.c_str());
+    list.AddText(font, size_px, {x, y}, packed(colour), text.c_str());
   }
 };
 
@@ -91,7 +86,7 @@ float draw_lines(const Pen& pen, float picture_width_px, const std::vector<std::
   float width = 0.0f;
   for (const std::string& line : lines) width = std::max(width, pen.width(line));
   pen.list.AddRectFilled({edge, edge}, {3.0f * edge + width, 2.0f * edge + height * static_cast<float>(lines.size())},
-                         IM_COL32(0, 0, 0, 110), 4.0f);
+                         IM_COL32(0, 0, 0, 60), 4.0f);
   float y = 1.5f * edge;
   for (const std::string& line : lines) {
     pen.write(2.0f * edge, y, kInk, line);
@@ -109,7 +104,7 @@ void draw_instruments(const Pen& small, const Pen& large, const ImVec2& picture,
   for (const OverlayInstrument& each : instruments) width += (each.large ? large : small).width(each.text) + gap;
   const float height = 1.3f * large.size_px, top = picture.y - height - 0.5f * small.size_px;
   float x = std::max((picture.x - width) * (to_the_right ? 1.0f : 0.5f), 0.0f);
-  small.list.AddRectFilled({x, top}, {x + width, top + height}, IM_COL32(0, 0, 0, 150), 6.0f);
+  small.list.AddRectFilled({x, top}, {x + width, top + height}, IM_COL32(0, 0, 0, 85), 6.0f);
   x += gap;
   for (const OverlayInstrument& each : instruments) {
     const Pen& pen = each.large ? large : small;

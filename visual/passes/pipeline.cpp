@@ -35,7 +35,7 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
       recipe.colour.size(), {.colorWriteMask = Mask::eR | Mask::eG | Mask::eB | Mask::eA});
   const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = static_cast<std::uint32_t>(blends.size()),
                                                     .pAttachments = blends.data()};
-  const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+  const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor, vk::DynamicState::eFrontFace};
   const vk::PipelineDynamicStateCreateInfo dynamics{.dynamicStateCount = static_cast<std::uint32_t>(dynamic.size()),
                                                     .pDynamicStates = dynamic.data()};
   const vk::PipelineRenderingCreateInfo rendering{
@@ -57,14 +57,35 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
                                                            .layout = recipe.layout});
 }
 
-void set_area(vk::CommandBuffer commands, vk::Extent2D extent) {
-  commands.setViewport(0, vk::Viewport{.x = 0,
-                                       .y = 0,
-                                       .width = static_cast<float>(extent.width),
-                                       .height = static_cast<float>(extent.height),
+void set_area(vk::CommandBuffer commands, const vk::Rect2D& area, bool mirrored) {
+  commands.setViewport(0, vk::Viewport{.x = static_cast<float>(area.offset.x),
+                                       .y = static_cast<float>(area.offset.y),
+                                       .width = static_cast<float>(area.extent.width),
+                                       .height = static_cast<float>(area.extent.height),
                                        .minDepth = 0.0f,
                                        .maxDepth = 1.0f});
-  commands.setScissor(0, vk::Rect2D{{0, 0}, extent});
+  commands.setScissor(0, area);
+  commands.setFrontFace(mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+}
+
+void set_area(vk::CommandBuffer commands, vk::Extent2D extent) {
+  set_area(commands, vk::Rect2D{{0, 0}, extent});
+}
+
+vk::RenderingAttachmentInfo attachment(const gpu::Image& image, vk::ImageLayout layout, vk::AttachmentLoadOp load,
+                                       vk::ClearValue clear, const gpu::Image* resolved) {
+  vk::RenderingAttachmentInfo info{
+      .imageView = *image.view,
+      .imageLayout = layout,
+      .loadOp = load,
+      .storeOp = resolved != nullptr ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore,
+      .clearValue = clear};
+  if (resolved != nullptr) {
+    info.resolveMode = vk::ResolveModeFlagBits::eAverage;
+    info.resolveImageView = *resolved->view;
+    info.resolveImageLayout = vk::ImageLayout::eColorAttachmentOptimal;
+  }
+  return info;
 }
 
 }  // namespace phare

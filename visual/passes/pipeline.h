@@ -25,7 +25,14 @@ struct PipelineRecipe {
 
 vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe& recipe);
 
-/// Viewport and scissor over the whole of `extent`, y down as Vulkan has it.
+/// Viewport and scissor over a part of the target, y down as Vulkan has it. `mirrored`: left and right are swapped, as
+/// in a mirror, so front faces turn the other way round.
+void set_area(vk::CommandBuffer commands, const vk::Rect2D& area, bool mirrored = false);
+/// Over the whole of `extent`.
 void set_area(vk::CommandBuffer commands, vk::Extent2D extent);
+
+/// A target of a pass; `resolved`: where its samples are averaged into.
+vk::RenderingAttachmentInfo attachment(const gpu::Image& image, vk::ImageLayout layout, vk::AttachmentLoadOp load,
+                                       vk::ClearValue clear, const gpu::Image* resolved = nullptr);
 
 }  // namespace phare

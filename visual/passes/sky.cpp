@@ -4,7 +4,7 @@
 #include "shaders/sky.h"
 #include "shaders/sky_frag.h"
 #include "shaders/sky_vert.h"
-#include "visual/passes/lamps.h"
+#include "visual/lit_scene.h"
 
 namespace phare {
 
@@ -42,12 +42,12 @@ SkyPass::SkyPass(gpu::Device& device)
 }
 
 vk::ClearValue SkyPass::clear_value(const Sky& sky, LampOutput output, const ViewGeometry& view) {
-  if (output == LampOutput::kFalseColour) return vk::ClearColorValue(std::array{0.0f, 0.0f, 0.01f, 1.0f});
+  if (output == LampOutput::kFalseColour) return vk::ClearColorValue(std::array{0.0f, 0.0f, 0.1f, 1.0f});
   // Parallel rays have one direction, so one colour of sky.
   const double sine = is_parallel(view) ? view.camera().world_from_eye[0].z : 0.0;
   glm::vec3 colour = shader::sky_luminance(sky.zenith(), static_cast<float>(sine));
   const bool hdr = output == LampOutput::kHdr;
-  if (!hdr) colour = shader::tone_curve(colour * sky.exposure_per_cdm2);
+  if (!hdr) colour = shader::srgb_encoded(shader::tone_curve(colour * sky.exposure_per_cdm2));
   return vk::ClearColorValue(std::array{colour.x, colour.y, colour.z, hdr ? 0.0f : 1.0f});
 }
 

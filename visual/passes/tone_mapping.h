@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 
+#include "visual/gpu/descriptor_sets.h"
 #include "visual/gpu/frame_graph.h"
 
 namespace phare {
@@ -13,14 +14,16 @@ class ToneMappingPass {
  public:
   explicit ToneMappingPass(gpu::Device& device);
 
-  void draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, const glm::vec3& exposure_per_cdm2);
+  /// Before the views of a frame; the frame before is done.
+  void begin_frame();
+  /// One part of the picture. `first`: nothing else in the picture is to stay; outside the part it becomes black.
+  void draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, const vk::Rect2D& area, bool first,
+            const glm::vec3& exposure_per_cdm2);
 
  private:
   gpu::Device& device_;
-  vk::raii::DescriptorSetLayout set_layout_{nullptr};
+  gpu::DescriptorSets sets_;  ///< one a view
   vk::raii::PipelineLayout layout_{nullptr};
-  vk::raii::DescriptorPool pool_{nullptr};
-  vk::raii::DescriptorSet set_{nullptr};
   vk::raii::Sampler sampler_{nullptr};
   std::map<vk::Format, vk::raii::Pipeline> pipelines_;
   vk::raii::ShaderModule vertex_{nullptr}, fragment_{nullptr};

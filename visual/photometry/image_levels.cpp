@@ -100,7 +100,7 @@ LevelImage::LevelImage(const IntensityTable& table, ImageLevel level, std::size_
     second_.assign(own_second.begin(), own_second.end());
     for (std::size_t k = 0; k < table.candela.size(); ++k)
       values_.push_back(stored(table.candela[k] / factor(own_first[k % first_.size()], own_second[k / first_.size()])));
-    bytes_ = values_.size() * texel + (first_.size() + second_.size()) * 4;
+    bytes_ = (first_.size() + 1) * (second_.size() + 1) * 4 * texel;  // a cell of four nodes about each (beam_packing.h)
   }
 }
 

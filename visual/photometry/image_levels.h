@@ -31,7 +31,7 @@ class LevelImage {
   /// texture filters weigh in 1/256 (Vulkan asks for 8 bits at least, and lavapipe and GPUs have that), own weights are
   /// float32.
   float intensity_cd(float first_deg, float second_deg) const;
-  std::size_t bytes() const { return bytes_; }
+  std::size_t bytes() const { return bytes_; }  ///< on the device, where nodes are spaced evenly
 
  private:
   float filtered(float first_deg, float second_deg) const;

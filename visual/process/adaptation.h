@@ -15,6 +15,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
+#include "config/eye.h"
 #include "net/sim_time.h"
 
 namespace phare {
@@ -52,5 +53,10 @@ class EyeAdaptation {
   SimTime seen_;
   glm::dvec3 fast_{1.0}, slow_{1.0};
 };
+
+/// An eye as it is set: fixed, or one that follows from here on.
+inline EyeAdaptation eye_set(const EyeSetting& setting) {
+  return setting.fixed_k ? EyeAdaptation(*setting.fixed_k) : EyeAdaptation();
+}
 
 }  // namespace phare

@@ -57,27 +57,25 @@ void Album::keep_frame(std::int64_t frame_index, const Image8& image, const std:
 void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps,
                         int width_px, int height_px, const std::string& label) {
   has_stills_ = true;
-  driver.want_image = true;
+  driver.want_image = false;
   driver.overlay.clear();
   driver.instruments.clear();
   driver.panel = {};
 
+  // The driver's view as it is, finer, and from above, in one frame.
   constexpr int kFiner = 2;
-  renderer.resize(kFiner * width_px, kFiner * height_px);
-  renderer.draw(driver);
-  const Image8 fine = renderer.read_image();
-  save("drivers_view.png", box_downscale(fine, fine.width_px / width_px));  // a window keeps its size
-
-  FrameInput above = driver;
+  ViewInput fine = driver;
+  fine.own_picture = {kFiner * width_px, kFiner * height_px};
+  fine.want_image = true;
+  ViewInput above = driver;
   above.camera = birds_eye_camera(pose);
+  above.own_picture = kBirdsEyePicture;
   above.want_hdr = true;  // its alpha is the illuminance
-  renderer.resize(1200, 480);
-  renderer.draw(above);
-  save("birds_eye.png", birds_eye_picture(renderer.read_hdr(), "Illuminance on what lies below, lux; " + label));
-
-  renderer.resize(width_px, height_px);
   driver.want_hdr = true;
+  driver.more_views = {std::move(fine), std::move(above)};
   renderer.draw(driver);
+  save("drivers_view.png", box_downscale(renderer.read_image(1), kFiner));
+  save("birds_eye.png", birds_eye_picture(renderer.read_hdr(2), "Illuminance on what lies below, lux; " + label));
   tell(write_exr(folder_ / "hdr.exr", renderer.read_hdr()));
 
   save(kLastStill, wall_picture(lamps, lamps.design_index()));

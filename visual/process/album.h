@@ -25,8 +25,8 @@ class Album {
   /// frames/NNNNNN.png, and a thumbnail for the contact sheet.
   void keep_frame(std::int64_t frame_index, const Image8& image, const std::string& label);
   /// drivers_view.png (drawn at twice the size and averaged), hdr.exr, birds_eye.png, wall_25m.png. `driver` is the
-  /// driver's frame; the map below the bird's eye is made of it with another camera. Leaves the renderer at `width_px`
-  /// x `height_px`.
+  /// driver's frame; the map below the bird's eye is made of it with another camera. drivers_view.png is `width_px` x
+  /// `height_px`; hdr.exr has the size of the renderer's picture.
   void keep_stills(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps, int width_px,
                    int height_px, const std::string& label);
   bool has_stills() const { return has_stills_; }

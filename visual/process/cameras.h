@@ -1,6 +1,7 @@
 // The eyes: the driver's, one from above, one behind the car.
 #pragma once
 
+#include "config/desk.h"
 #include "config/rig.h"
 #include "net/messages.h"
 #include "visual/renderer.h"
@@ -8,12 +9,12 @@
 
 namespace phare {
 
-enum class CameraKind { kDriver, kBirdsEye, kChase };  ///< in the order of kCameraNames (config/picture_options.h)
-
 /// Length and width of the road seen by the bird's eye, and where its near edge lies ahead of the car's origin.
 inline constexpr double kBirdsEyeLength_m = 100.0;
 inline constexpr double kBirdsEyeWidth_m = 40.0;
 inline constexpr double kBirdsEyeStart_m = 0.0;
+/// The picture of it: 100 : 40.
+inline constexpr PictureSize kBirdsEyePicture{1200, 480};
 
 /// The eye of a channel, fixed to the body.
 Camera driver_camera(const ChannelConfig& channel, const VehicleState& pose);

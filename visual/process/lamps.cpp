@@ -9,24 +9,6 @@
 namespace phare {
 namespace {
 
-const char* name_of(LampFunction function) {
-  switch (function) {
-    case LampFunction::kPosition:
-      return "position";
-    case LampFunction::kLow:
-      return "low";
-    case LampFunction::kHigh:
-      return "high";
-    case LampFunction::kFog:
-      return "fog";
-    case LampFunction::kDaytime:
-      return "daytime";
-    case LampFunction::kCornering:
-      return "cornering";
-  }
-  return "?";
-}
-
 glm::dvec3 position_of(const VehicleState& pose) {
   return {pose.x_m, pose.y_m, pose.z_m};
 }
@@ -55,9 +37,10 @@ Result<Lamps> Lamps::load(const Rig& rig) {
   if (rig.designs.empty()) return Error{rig.file.string(), "the rig has no lamp design"};
   std::size_t most_positions = 0;
   for (const DesignConfig& design : rig.designs) {
-    if (design.lamps.size() > kMostPositions) {
+    if (design.lamps.size() > kMostLampsOfDesign) {
       return Error{rig.file.string(), "design '" + design.name + "' has " + std::to_string(design.lamps.size()) +
-                                          " lamp positions, at most " + std::to_string(kMostPositions) + " are drawn"};
+                                          " lamp positions, at most " + std::to_string(kMostLampsOfDesign) +
+                                          " are drawn"};
     }
     most_positions = std::max(most_positions, design.lamps.size());
     for (const LampConfig& lamp : design.lamps) {
@@ -203,7 +186,8 @@ std::string Lamps::text_of_lit() const {
     const bool present = std::ranges::any_of(designs_[design_].lamps, [&](const LampConfig& lamp) {
       return std::ranges::any_of(lamp.sources, [&](const SourceConfig& source) { return source.function == function; });
     });
-    if (present) text += (text.empty() ? "" : " ") + std::string(name_of(function));
+    if (present)
+      text += (text.empty() ? "" : " ") + std::string(kLampFunctionNames[static_cast<std::size_t>(function)]);
   }
   return text.empty() ? "off" : text;
 }

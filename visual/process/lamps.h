@@ -25,10 +25,8 @@ std::set<LampFunction> lit_functions(const CockpitState& controls, bool high_kee
 
 class Lamps {
  public:
-  static constexpr std::size_t kMostPositions = 8;  ///< what a renderer holds
-
   /// Reads every table of every design, and turns every lamp as its `aim` says. A file named twice is read once. Error:
-  /// of the first bad file, or a design with more than kMostPositions lamps, or a rig without designs.
+  /// of the first bad file, or a design with more than kMostLampsOfDesign lamps, or a rig without designs.
   static Result<Lamps> load(const Rig& rig);
 
   /// A beam image that has to go to the renderer's slot `position` now.
@@ -62,6 +60,8 @@ class Lamps {
     const Position& position = positions_[design_][slot];
     return {position.dimming_01, position.yaw_rad, position.pitch_rad};
   }
+  /// Of a lamp of the design that shines, as it shines now.
+  const BeamImage& image(std::size_t slot) const { return positions_[design_][slot].beam.image(); }
   double aim_rad() const { return aim_pitch_rad_; }
 
   /// The positions that shine, in the world. The body's rotation is that of `pose`: Rz(yaw)·Ry(pitch)·Rx(roll); what

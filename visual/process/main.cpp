@@ -7,6 +7,7 @@
 
 #include "config/remedies.h"
 #include "net/drive_file.h"
+#include "visual/process/explain.h"
 #include "visual/process/run_loop.h"
 
 namespace {
@@ -32,11 +33,33 @@ nlohmann::json describe(const Lamps& lamps) {
 }
 
 /// Adapted as the process was that this one takes the place of, if it does.
-EyeAdaptation eye_of(const Session& session, std::optional<double> fixed_k) {
-  EyeAdaptation eye = fixed_k ? EyeAdaptation(*fixed_k) : EyeAdaptation();
+EyeAdaptation eye_of(const Session& session) {
+  EyeAdaptation eye = eye_set(session.desk.eye);
   if (session.options.going_on && session.album.eye() && !eye.restore(*session.album.eye()))
     spdlog::warn("the eye's state of the process before is not whole; the eye begins adapted");
   return eye;
+}
+
+/// The device that would draw, and the moment of the options; a line for each effect.
+int explain_and_leave(const VisualOptions& options, Lamps& lamps, const Desk& desk, const ChannelConfig& channel) {
+  AskedMoment moment;
+  if (options.drive_file.empty()) {
+    moment.controls.light_switch = options.explain_light;
+    moment.controls.fog_front = options.explain_fog;
+  } else {
+    const Result<Drive> drive = read_drive(options.drive_file);
+    if (!drive) return refuse(drive.error());
+    const double at_s = options.still_at_s < 0.0 ? 0.2 * drive->duration.seconds() : options.still_at_s;
+    Result<AskedMoment> asked = moment_of_drive(*drive, at_s);
+    if (!asked) return refuse(asked.error());
+    moment = std::move(*asked);
+  }
+  const Result<VulkanDevice> device = vulkan_device(options.device_name);
+  if (!device && !options.device_name.empty()) return refuse(with_remedy(device.error()));
+  const AskedDevice asked = device ? AskedDevice{device->name, device->software}
+                                   : AskedDevice{"no device (" + device.error().reason + "), as on a software one"};
+  std::fputs(explain_moment(lamps, desk, channel, moment, asked, !options.headless).c_str(), stdout);
+  return kExitDone;
 }
 
 /// Nothing is written before everything that can be wrong has been read.
@@ -50,10 +73,14 @@ int draw_channel(VisualOptions options) {
   const ChannelConfig& channel = rig->channels[options.channel];
   if (options.width_px == 0) options.width_px = channel.width_px, options.height_px = channel.height_px;
 
-  const Result<EyeSetting> eye = options.adaptation ? *options.adaptation : read_eye(options.rig_file);
-  if (!eye) return refuse(eye.error());
+  // The desk: as the rig has it, then as the command line says.
+  Desk desk = rig->desk;
+  for (const DeskCommand& command : options.desk) {
+    if (const auto done = apply(desk, command, {.designs = rig->designs.size()}); !done) return refuse(done.error());
+  }
   Result<Lamps> lamps = Lamps::load(*rig);
   if (!lamps) return refuse(lamps.error());
+  if (options.explain) return explain_and_leave(options, *lamps, desk, channel);
   Result<Scene> scene = read_scene(rig->scene_file);
   if (!scene) return refuse(scene.error());
   if (options.still_at_s < 0.0 && !options.drive_file.empty()) {
@@ -67,7 +94,6 @@ int draw_channel(VisualOptions options) {
     Result<Window> opened = Window::open("Phare", options.width_px, options.height_px);
     if (!opened) return refuse(opened.error());
     window = std::move(*opened);
-    window->set_camera(options.camera);
   }
   RendererOptions drawing;
   drawing.width_px = options.width_px;
@@ -87,10 +113,10 @@ int draw_channel(VisualOptions options) {
   if (!album) return refuse(album.error());
 
   nlohmann::json lamps_json = describe(*lamps);
-  Session session(std::move(options), std::move(*rig), std::move(*scene), std::move(*lamps), std::move(window),
-                  std::move(*renderer), std::move(*bus), std::move(*album), install_stop_signals(),
+  Session session(std::move(options), std::move(*rig), std::move(desk), std::move(*scene), std::move(*lamps),
+                  std::move(window), std::move(*renderer), std::move(*bus), std::move(*album), install_stop_signals(),
                   std::move(lamps_json));
-  session.eye = eye_of(session, eye->fixed_k);
+  session.eye = eye_of(session);
   spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
   run_loop(session);
   if (session.renderer.validation_messages() > 0) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "config/cockpit.h"
+#include "config/log_levels.h"
 #include "config/picture_options.h"
 #include "visual/photometry/image_levels.h"
 
@@ -18,7 +20,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       "Example:\n  phare-visual --rig config/rigs/country_road.toml --headless --lockstep --frames 60 --out out");
   app.set_version_flag("--version", PHARE_VERSION);
   app.add_option("--rig", options.rig_file, "Rig file")->required();
-  app.add_option("--drive", options.drive_file, "Drive file being replayed; tells how long the drive is");
+  auto* drive = app.add_option("--drive", options.drive_file, "Drive file being replayed; tells how long the drive is");
   app.add_option("--channel", options.channel, "Which visual channel of the rig")->capture_default_str();
   app.add_flag("--lockstep", options.lockstep, "One frame per simulated frame time, reproducible bit for bit");
   app.add_flag("--headless", options.headless, "No window");
@@ -33,9 +35,20 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       ->check(CLI::IsMember({"live", "replay"}));
   app.add_flag("--demo", options.demo, "With --guide: the demo driver waits for his key");
   app.add_option("--report", options.report, "With --guide: where the end screen says that the report will lie");
+  auto* explain = app.add_flag("--explain", options.explain,
+                               "Print each effect with its level and the reason, for the moment --still-at of --drive "
+                               "or for --light and --fog; nothing is drawn");
+  std::string light;
+  app.add_option("--light", light, "With --explain: the light switch [low]")
+      ->check(CLI::IsMember(std::vector<std::string>(kLightSwitchNames.begin(), kLightSwitchNames.end())))
+      ->excludes(drive)
+      ->needs(explain);
+  app.add_flag("--fog", options.explain_fog, "With --explain: the front fog lamps too")
+      ->excludes(drive)
+      ->needs(explain);
   picture.add_to(app);
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+      ->check(CLI::IsMember(kLogLevelNames))
       ->capture_default_str();
   app.add_option("--port-base", port_base, "First UDP port, instead of the rig's")->check(CLI::Range(1024, 65000));
   try {
@@ -46,26 +59,19 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     std::fprintf(stderr, "phare-visual: %s (see --help)\n", wrong.what());
     return {std::nullopt, kExitBadInput};
   }
+  if (!light.empty())
+    options.explain_light =
+        static_cast<LightSwitch>(std::ranges::find(kLightSwitchNames, light) - kLightSwitchNames.begin());
   options.frames = picture.frames;
   options.width_px = picture.width_px;
   options.height_px = picture.height_px;
   options.samples = picture.samples;
-  options.camera = static_cast<CameraKind>(std::ranges::find(kCameraNames, picture.camera) - kCameraNames.begin());
   options.still_at_s = picture.still_at_s;
-  options.exposure_per_cdm2 = picture.exposure_per_cdm2;
+  options.desk = picture.desk;
   options.audit_every = picture.audit_every;
-  options.false_colour = picture.false_colour;
   options.beam_image = level_named(picture.beam_image);
   options.validation = picture.validation;
   options.device_name = picture.device_name;
-  if (!picture.adaptation.empty()) {
-    const auto setting = parse_adaptation(picture.adaptation);
-    if (!setting) {
-      std::fprintf(stderr, "phare-visual: %s\n", setting.error().text().c_str());
-      return {std::nullopt, kExitBadInput};
-    }
-    options.adaptation = *setting;
-  }
   if (port_base != 0) options.port_base = port_base;
   if (options.headless && options.out.empty()) options.out = "out";
   if (options.stats_file.empty() && !options.out.empty()) {

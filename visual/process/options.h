@@ -5,11 +5,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "config/eye.h"
+#include "config/desk.h"
 #include "config/result.h"
 #include "config/rig.h"
-#include "visual/process/cameras.h"
+#include "net/messages.h"
 
 namespace phare {
 
@@ -21,16 +22,16 @@ struct VisualOptions {
   std::uint32_t channel = 0;
   bool lockstep = false;
   bool headless = false;
+  bool explain = false;                           ///< tell which effects a moment calls for, and leave
+  LightSwitch explain_light = LightSwitch::kLow;  ///< of that moment, where no drive says it
+  bool explain_fog = false;
   bool going_on = false;    ///< takes the place of a process that was killed in this drive: what it left in `out` stays
   std::int64_t frames = 0;  ///< > 0: save every one of this many frames, then leave
   int width_px = 0, height_px = 0;  ///< 0: the channel's
   int samples = 1;
-  CameraKind camera = CameraKind::kDriver;  ///< a window begins with it
-  double still_at_s = -1.0;                 ///< simulated time of the stills; negative: chosen
-  double exposure_per_cdm2 = 0.8;
-  std::optional<EyeSetting> adaptation;  ///< instead of the rig's
-  std::int64_t audit_every = 300;               ///< frames; 0: never
-  bool false_colour = false;
+  std::vector<DeskCommand> desk;         ///< what the command line sets of the picture, after the rig
+  double still_at_s = -1.0;              ///< simulated time of the stills; negative: chosen
+  std::int64_t audit_every = 300;        ///< frames; 0: never
   std::string guide;                     ///< live, replay: somebody sits at the window; empty: nobody
   bool demo = false;                     ///< a demo driver waits for his key
   std::string report;                    ///< what the end screen says of the report

@@ -62,6 +62,16 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["passes"] = stats.newest.pass_count;
   report["triangles"] = stats.newest.triangles;
   report["images"] = {{"count", stats.newest.images}, {"bytes", stats.newest.image_bytes}};
+  report["views"] = nlohmann::json::array();
+  for (const ViewResult& view : stats.newest.views) {
+    report["views"].push_back({{"name", view.name},
+                               {"passes", view.passes},
+                               {"draws", view.draws},
+                               {"triangles", view.triangles},
+                               {"lamps", view.lamps},
+                               {"lamps_that_reach_nothing", view.lamps_unreached},
+                               {"lamps_over_the_limit", view.lamps_over_limit}});
+  }
   report["effects"] = nlohmann::json::array();
   for (const EffectRow& row : effect_table()) {
     const EffectDecision& decision = stats.newest.effects[row.effect];

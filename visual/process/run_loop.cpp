@@ -3,15 +3,19 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <deque>
+#include <functional>
+#include <utility>
 
 #include "net/control_desk.h"
 #include "net/stats.h"
 #include "visual/image/canvas.h"
-#include "visual/process/obey.h"
+#include "visual/process/overlay_lines.h"
 #include "visual/process/pick.h"
 #include "visual/process/pose_buffer.h"
 #include "visual/process/report.h"
 #include "visual/process/screens.h"
+#include "visual/process/verbs.h"
 
 namespace phare {
 namespace {
@@ -21,7 +25,8 @@ using namespace std::chrono_literals;
 
 constexpr auto kRepeatAfter = 100ms;  // of no progress the last FrameReport is sent again
 constexpr auto kStatsEvery = 1s;
-constexpr auto kFreshWithin = 1s;  // the first picture waits so long for a pose that is not held
+constexpr std::size_t kMostAsked = 64;  // probes of one frame; who sends more asks again
+constexpr auto kFreshWithin = 1s;       // the first picture waits so long for a pose that is not held
 
 /// What one frame shows.
 struct Moment {
@@ -49,6 +54,10 @@ class Loop {
       : s_(session),
         pacer_(std::chrono::nanoseconds(1'000'000'000 / session.rig.frame_rate_hz)),
         screens_(screens_of(session.options, session.rig)) {
+    verbs_.on<RigControl::Quit>([this](const auto&) {
+      s_.stop.request();
+      return accepted("leaves");
+    });
     s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
     controls_.light_switch = LightSwitch::kLow;  // until the cockpit speaks, low beam: the safe state
     if (!session.options.lockstep) drawn_frames_ = session.album.frames_found();
@@ -59,6 +68,7 @@ class Loop {
 
   bool over();
   void receive() { s_.bus.poll(); }
+  void answer_probes();
   std::optional<Moment> next_moment() { return s_.options.lockstep ? lockstep_moment() : display_moment(); }
   void draw(const Moment& moment);
   void report(const Moment& moment);
@@ -69,7 +79,6 @@ class Loop {
  private:
   void take(const Datagram& datagram);
   void mind_the_keys();
-  void answer(const ProbeRequest& request, SimTime now);
   void light_up(const CockpitState& controls);
   void warm_up();
   void announce();
@@ -84,7 +93,14 @@ class Loop {
   void write_stats(SimTime now);
 
   Session& s_;
-  ControlDesk desk_;
+  Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk);
+  ControlDesk commands_;
+  EyeSetting eye_set_ = s_.desk.eye;
+  struct Asked {
+    ProbeRequest request;
+    SimTime time;
+  };
+  std::deque<Asked> asked_;  // probes that wait for the next frame
   Pacer pacer_;
   PoseBuffer poses_;
   DisplayClock clock_;
@@ -111,7 +127,7 @@ bool Loop::over() {
 /// What the picture has to do with keys, and what the cockpit and the launcher are to know of them.
 void Loop::mind_the_keys() {
   WindowKeyboard& keyboard = s_.window->keyboard();
-  if (screens_.press(s_.window->take_presses(), keyboard.take_any())) ended_ = true;
+  if (screens_.press(keyboard.take_presses(), keyboard.take_any(), s_.desk)) ended_ = true;
   if (const auto keys = keyboard.message(Clock::now())) s_.bus.send(newest_ ? newest_->time : SimTime{}, *keys);
 }
 
@@ -123,32 +139,32 @@ void Loop::take(const Datagram& datagram) {
   } else if (const auto* controls = std::get_if<CockpitState>(&datagram.payload)) {
     controls_ = *controls;
   } else if (const auto* request = std::get_if<ProbeRequest>(&datagram.payload)) {
-    answer(*request, datagram.sim_time);
+    if (asked_.size() < kMostAsked) asked_.push_back({*request, datagram.sim_time});
   } else {
-    desk_.serve(s_.bus, datagram, [this](const RigControl& control) {
-      if (std::holds_alternative<RigControl::Quit>(control.command)) s_.stop.request();
-      return obey(s_.lamps, s_.rig, control);
-    });
+    commands_.serve(s_.bus, datagram, std::cref(verbs_));
   }
 }
 
 /// Lux at points of the world under the lamps of the newest frame, through the shader that draws it.
-void Loop::answer(const ProbeRequest& request, SimTime now) {
-  ProbeReply reply{request.request_id, {}, {}};
-  std::vector<MeasurePoint> points;
-  for (std::size_t i = 0; i < request.x_m.size(); ++i) {
-    points.push_back({{request.x_m[i], request.y_m[i], request.z_m[i]}, {request.nx[i], request.ny[i], request.nz[i]}});
-  }
-  reply.illuminance_lx.assign(points.size(), 0.0);
-  if (!newest_) {
-    reply.illuminance_lx.clear();
-    reply.error = "no frame has been drawn yet";
-  } else {
-    for (const std::vector<float>& lamp_lx : s_.renderer.measure(input_.lamps, points)) {
-      for (std::size_t i = 0; i < points.size(); ++i) reply.illuminance_lx[i] += static_cast<double>(lamp_lx[i]);
+void Loop::answer_probes() {
+  for (; !asked_.empty(); asked_.pop_front()) {
+    const ProbeRequest& request = asked_.front().request;
+    ProbeReply reply{request.request_id, {}, {}};
+    std::vector<MeasurePoint> points;
+    for (std::size_t i = 0; i < request.x_m.size(); ++i) {
+      points.push_back(
+          {{request.x_m[i], request.y_m[i], request.z_m[i]}, {request.nx[i], request.ny[i], request.nz[i]}});
     }
+    if (newest_) {
+      reply.illuminance_lx.assign(points.size(), 0.0);
+      for (const std::vector<float>& lamp_lx : s_.renderer.measure(input_.lamps, points)) {
+        for (std::size_t i = 0; i < points.size(); ++i) reply.illuminance_lx[i] += static_cast<double>(lamp_lx[i]);
+      }
+    } else {
+      reply.error = "no frame has been drawn yet";
+    }
+    s_.bus.send(asked_.front().time, reply);
   }
-  s_.bus.send(now, reply);
 }
 
 /// The first picture of each kind makes the device's machine code, which may take a second: before the drive, not in
@@ -264,20 +280,19 @@ void Loop::light_up(const CockpitState& controls) {
 }
 
 void Loop::draw(const Moment& moment) {
-  light_up(moment.controls);
-  const CameraKind camera = s_.window ? s_.window->camera() : s_.options.camera;
-  input_.camera = camera_of(camera, s_.channel(), moment.car.pose);
-  input_.view = s_.window ? s_.window->view() : View::kPhoto;
-  if (s_.options.false_colour) input_.view = input_.view == View::kPhoto ? View::kFalseColour : View::kPhoto;
+  light_up(shown_by_desk(s_.desk, moment.controls));
+  set_by_desk(input_, s_.desk, s_.channel(), moment.car.pose);
   input_.lamps = s_.lamps.placed(moment.car.pose);
-  input_.exposure_per_cdm2 = s_.options.exposure_per_cdm2;
+  if (std::exchange(eye_set_, s_.desk.eye) != s_.desk.eye) s_.eye = eye_set(s_.desk.eye);
   s_.eye.see(moment.time, s_.lamps.light());
   input_.white = s_.eye.white();
   if (s_.window) {
-    input_.panel = screens_.panel(moment.controls, moment.time.seconds());
+    input_.panel = screens_.panel(moment.controls, moment.time.seconds(), s_.desk.help);
     const bool one = s_.lamps.designs().size() < 2;
-    input_.instruments =
-        instruments(moment.controls, moment.car.pose, one ? std::string() : s_.lamps.design().name, moment.time);
+    input_.instruments.clear();
+    if (s_.desk.instruments)
+      input_.instruments =
+          instruments(moment.controls, moment.car.pose, one ? std::string() : s_.lamps.design().name, moment.time);
   }
   if (s_.window && drawn_frames_ % 6 == 0)
     input_.overlay = overlay(moment);  // ten times a second: the lux under the mouse takes a ray through the scene
@@ -382,30 +397,21 @@ std::string Loop::label(const Moment& moment) const {
   return text;
 }
 
-/// What the driver is told over the picture besides the instruments: the lux under the mouse, and everything that is
-/// not as it should be.
 std::vector<std::string> Loop::overlay(const Moment& moment) const {
-  char text[160];
-  std::snprintf(text, sizeof text, "%.1f s   frame %.1f ms   %s keys", moment.time.seconds(), s_.stats.newest.wall_ms,
-                std::string(binding_of(KeyAction::kHelp)->name).c_str());
-  std::vector<std::string> lines{text};
-  std::snprintf(text, sizeof text, "eye adapted to %.0f K%s", s_.eye.adapted_k(), s_.eye.fixed() ? ", fixed" : "");
-  lines.emplace_back(text);
-  if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside) {
-    if (const auto point =
-            pick(s_.scene, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
-                               .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px))) {
-      std::snprintf(text, sizeof text, "%.3g lx at (%.2f, %.2f, %.2f) m",
-                    s_.lamps.illuminance_lx(moment.car.pose, *point), point->position_m.x, point->position_m.y,
-                    point->position_m.z);
-      lines.emplace_back(text);
-    }
+  std::optional<MeasurePoint> under_mouse;
+  if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside && s_.desk.lines) {
+    under_mouse = pick(s_.scene, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
+                                     .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px));
   }
-  for (std::string& end : s_.lamps.lit_table_ends()) lines.push_back(std::move(end));
-  if (moment.car.stale) lines.emplace_back("POSE HELD: no VehicleState");
-  if (moment.controls.fail_safe) lines.emplace_back("FAIL-SAFE low beam: the light switch is silent");
-  if (!moment.controls.source_fault.empty()) lines.push_back(moment.controls.source_fault);
-  return lines;
+  return overlay_lines(s_.desk, s_.lamps,
+                       {.time = moment.time,
+                        .controls = moment.controls,
+                        .pose = moment.car.pose,
+                        .pose_held = moment.car.stale,
+                        .frame_ms = s_.stats.newest.wall_ms,
+                        .eye = s_.eye,
+                        .effects = &s_.stats.newest.effects,
+                        .under_mouse = under_mouse});
 }
 
 void Loop::write_stats(SimTime now) {
@@ -422,6 +428,7 @@ void run_loop(Session& session) {
   while (!loop.over()) {
     loop.receive();
     const std::optional<Moment> moment = loop.next_moment();
+    loop.answer_probes();
     if (!moment) continue;
     loop.draw(*moment);
     // Reported when its picture is on the disk: a visual killed in between is given the same frame again, and no

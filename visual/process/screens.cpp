@@ -28,23 +28,20 @@ OverlayPanel::Row row(KeyAction action, std::string words) {
 
 Screens::Screens(ScreensSetup setup) : setup_(std::move(setup)), start_(setup_.kind != ScreensSetup::Kind::kNone) {}
 
-bool Screens::press(std::span<const KeyAction> presses, bool any) {
+bool Screens::press(std::span<const KeyAction> presses, bool any, Desk& desk) {
   if (any) start_ = false;
   for (const KeyAction action : presses) {
-    if (action == KeyAction::kHelp) help_ = !help_;
+    if (const std::string_view set = binding_of(action)->desk; !set.empty()) (void)apply(desk, desk_command(set));
     if (action == KeyAction::kBeginAgain) begin_again_ = setup_.kind != ScreensSetup::Kind::kNone;
-    if (action == KeyAction::kLeave) {
-      if (!help_) return true;
-      help_ = false;
-    }
+    if (action == KeyAction::kLeave && !std::exchange(desk.help, false)) return true;
   }
   return false;
 }
 
-OverlayPanel Screens::panel(const CockpitState& controls, double drive_s) const {
+OverlayPanel Screens::panel(const CockpitState& controls, double drive_s, bool help) const {
   const bool demo_ended = controls.source == "demo ended";
   const bool replay = setup_.kind == ScreensSetup::Kind::kReplay;
-  if (help_) return help_panel();
+  if (help) return help_panel();
   if (begin_again_) return {.title = "Beginning again ..."};
   if (over_ || demo_ended) return end_panel(demo_ended && !over_);
   if (start_ && !(replay && drive_s > kReplayStart_s)) return start_panel();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "config/desk.h"
 #include "config/key_bindings.h"
 #include "net/messages.h"
 #include "visual/overlay_content.h"
@@ -25,15 +26,16 @@ class Screens {
  public:
   explicit Screens(ScreensSetup setup);
 
-  /// The bound keys that were pressed, and whether any was. True: the person leaves.
-  bool press(std::span<const KeyAction> presses, bool any);
+  /// The bound keys that were pressed, and whether any was: those of the picture change `desk`. True: the person
+  /// leaves.
+  bool press(std::span<const KeyAction> presses, bool any, Desk& desk);
   /// The drive has come to its end.
   void drive_over() { over_ = true; }
   /// Whether the window stays when the drive is over, because somebody sits there.
   bool stays() const { return setup_.kind != ScreensSetup::Kind::kNone; }
 
-  /// The panel of now; empty: none. `drive_s`: simulated time.
-  OverlayPanel panel(const CockpitState& controls, double drive_s) const;
+  /// The panel of now; empty: none. `drive_s`: simulated time; `help`: of the desk.
+  OverlayPanel panel(const CockpitState& controls, double drive_s, bool help) const;
 
  private:
   OverlayPanel start_panel() const;
@@ -41,7 +43,7 @@ class Screens {
   OverlayPanel help_panel() const;
 
   ScreensSetup setup_;
-  bool start_, help_ = false, over_ = false, begin_again_ = false;
+  bool start_, over_ = false, begin_again_ = false;
 };
 
 /// While the picture is being made ready, from the first step on.

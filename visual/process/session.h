@@ -19,10 +19,11 @@
 namespace phare {
 
 struct Session {
-  Session(VisualOptions options_, Rig rig_, Scene scene_, Lamps lamps_, std::optional<Window> window_,
+  Session(VisualOptions options_, Rig rig_, Desk desk_, Scene scene_, Lamps lamps_, std::optional<Window> window_,
           Renderer renderer_, Bus bus_, Album album_, StopFlag stop_, nlohmann::json lamps_json_)
       : options(std::move(options_)),
         rig(std::move(rig_)),
+        desk(std::move(desk_)),
         scene(std::move(scene_)),
         lamps(std::move(lamps_)),
         window(std::move(window_)),
@@ -34,6 +35,7 @@ struct Session {
 
   VisualOptions options;
   Rig rig;
+  Desk desk;  ///< what the user sets of the picture
   Scene scene;
   Lamps lamps;
   std::optional<Window> window;

@@ -116,16 +116,11 @@ Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
 }
 
 Image8 birds_eye_picture(const ImageF& seen, const std::string& caption) {
-  // The middle rows that show kBirdsEyeWidth_m: a window may be higher than the map.
-  const int map_height_px =
-      std::min(seen.height_px, static_cast<int>(seen.width_px * kBirdsEyeWidth_m / kBirdsEyeLength_m));
-  const int first_row = (seen.height_px - map_height_px) / 2;
-  const Image8 map = isolux_map(seen.width_px, map_height_px, [&](int x, int y) {
-    return static_cast<double>(
-        seen.rgba[(static_cast<std::size_t>(first_row + y) * static_cast<std::size_t>(seen.width_px) +
-                   static_cast<std::size_t>(x)) *
-                      4 +
-                  3]);
+  const Image8 map = isolux_map(seen.width_px, seen.height_px, [&](int x, int y) {
+    return static_cast<double>(seen.rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width_px) +
+                                          static_cast<std::size_t>(x)) *
+                                             4 +
+                                         3]);
   });
   const double px_per_m = map.width_px / kBirdsEyeLength_m;
   Image8 page = page_around(map.width_px, map.height_px);

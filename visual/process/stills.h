@@ -11,7 +11,7 @@ namespace phare {
 /// on the CPU.
 Image8 wall_picture(const Lamps& lamps, std::size_t design);
 
-/// Illuminance (alpha of `seen`, lx, seen by birds_eye_camera) in false colour with isolux lines, cut to 100 m x 40 m,
+/// Illuminance (alpha of `seen`, lx, kBirdsEyePicture seen by birds_eye_camera) in false colour with isolux lines,
 /// with axes in metres, legend and `caption`.
 Image8 birds_eye_picture(const ImageF& seen, const std::string& caption);
 

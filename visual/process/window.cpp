@@ -15,7 +15,7 @@ namespace {
 
 // The table speaks of keys by GLFW's numbers without knowing GLFW.
 static_assert(key::kEscape == GLFW_KEY_ESCAPE && key::kBackspace == GLFW_KEY_BACKSPACE && key::kF1 == GLFW_KEY_F1 &&
-              key::kF2 == GLFW_KEY_F2);
+              key::kF2 == GLFW_KEY_F2 && key::kF3 == GLFW_KEY_F3);
 static_assert(key::kUp == GLFW_KEY_UP && key::kDown == GLFW_KEY_DOWN && key::kLeft == GLFW_KEY_LEFT &&
               key::kRight == GLFW_KEY_RIGHT);
 
@@ -36,9 +36,6 @@ KeyCode code_of(int glfw_key, int scancode, int mods) {
 struct Window::State {
   GLFWwindow* window = nullptr;
   WindowKeyboard keyboard;
-  std::vector<KeyAction> presses;
-  CameraKind camera = CameraKind::kDriver;
-  View view = View::kPhoto;
 
   State() = default;
   State(const State&) = delete;
@@ -96,31 +93,13 @@ Window::~Window() = default;
 
 bool Window::poll() {
   glfwPollEvents();
-  for (const KeyAction action : state_->keyboard.take_presses()) {
-    State& s = *state_;
-    if (action == KeyAction::kFalseColour) s.view = s.view == View::kPhoto ? View::kFalseColour : View::kPhoto;
-    if (action == KeyAction::kCamera) s.camera = static_cast<CameraKind>((static_cast<int>(s.camera) + 1) % 3);
-    s.presses.push_back(action);
-  }
   return glfwWindowShouldClose(state_->window) == GLFW_FALSE;
 }
 
-std::vector<KeyAction> Window::take_presses() {
-  return std::exchange(state_->presses, {});
-}
 WindowKeyboard& Window::keyboard() {
   return state_->keyboard;
 }
 
-CameraKind Window::camera() const {
-  return state_->camera;
-}
-void Window::set_camera(CameraKind camera) {
-  state_->camera = camera;
-}
-View Window::view() const {
-  return state_->view;
-}
 GLFWwindow* Window::handle() const {
   return state_->window;
 }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "config/result.h"
-#include "visual/process/cameras.h"
 #include "visual/process/window_keyboard.h"
 
 struct GLFWwindow;
@@ -31,16 +30,11 @@ class Window {
   Window& operator=(Window&&) noexcept;
   ~Window();
 
-  /// Handles what keys and mouse did, camera and view by itself. False once closed.
+  /// Handles what keys and mouse did. False once closed.
   bool poll();
-  /// The bound keys pressed since the last call; what they do: config/key_bindings.h.
-  std::vector<KeyAction> take_presses();
-  /// Whether any key was pressed, and what the other processes are to know.
+  /// The keys that were pressed, and what the other processes are to know of them.
   WindowKeyboard& keyboard();
 
-  CameraKind camera() const;
-  void set_camera(CameraKind camera);
-  View view() const;
   struct Mouse {
     double x_px = 0.0, y_px = 0.0;  ///< picture pixels from the top left
     int width_px = 1, height_px = 1;

@@ -1,9 +1,9 @@
-#include "visual/process/obey.h"
+#include "visual/process/verbs.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <numbers>
-#include <variant>
+#include <utility>
 
 #include "net/control_desk.h"
 
@@ -37,45 +37,54 @@ std::string dimmed_text(std::span<const double> dimming_01) {
   return text;
 }
 
-struct Obedience {
-  Lamps& lamps;
-  const Rig& rig;
+/// "camera chase, view false-colour": what is not as it was at first.
+std::string desk_text(const Desk& desk) {
+  std::string text;
+  for (const DeskCommand& command : difference(desk))
+    text += (text.empty() ? "" : ", ") + command.setting + " " + command.value;
+  return text;
+}
 
-  ControlReply operator()(const RigControl::Dim& dim) const {
-    if (const Status done = lamps.dim(dim); !done) return refused(done.error().text());
-    const std::string which = dim.source == 0 ? "all sources" : "source " + std::to_string(dim.source);
-    return accepted(dim.lamp + ": " + which + print(" at %.4g %%", dim.dimming_01 * 100.0));
-  }
-  ControlReply operator()(const RigControl::Swivel& swivel) const {
-    if (const Status done = lamps.swivel(swivel); !done) return refused(done.error().text());
-    return accepted(swivel.lamp + print(": turned %.3f deg left, %.3f deg up", swivel.yaw_rad * kDegPerRad,
-                                        swivel.pitch_rad * kDegPerRad));
-  }
-  ControlReply operator()(const RigControl::Place& place) const {
-    if (const Status done = lamps.place(place); !done) return refused(done.error().text());
-    return accepted(place.lamp + print(": at x %.3f, y %.3f, z %.3f m", place.x_m, place.y_m, place.z_m));
-  }
-  ControlReply operator()(const RigControl::Aim& aim) const {
-    lamps.set_aim(aim.pitch_rad);
-    return accepted(print("all lamps turned %.3f deg up", aim.pitch_rad * kDegPerRad));
-  }
-  ControlReply operator()(const RigControl::Design& design) const {
-    if (design.index >= lamps.designs().size()) return refused(no_such_design(rig, design.index));
-    return design.index == lamps.design_index() ? accepted(design_text(lamps)) : pending("still " + design_text(lamps));
-  }
-  ControlReply operator()(const RigControl::Tell&) const { return accepted(text_of(lamps)); }
-  ControlReply operator()(const RigControl::Quit&) const { return accepted("leaves"); }
-  ControlReply operator()(const RigControl::Pause&) const { return not_mine(); }
-  ControlReply operator()(const RigControl::Seek&) const { return not_mine(); }
-};
+ControlReply answer(const Status& done, std::string now) {
+  return done ? accepted(std::move(now)) : refused(done.error().text());
+}
 
 }  // namespace
 
-ControlReply obey(Lamps& lamps, const Rig& rig, const RigControl& control) {
-  return std::visit(Obedience{lamps, rig}, control.command);
+Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk) {
+  Verbs verbs;
+  verbs.on<RigControl::Dim>([&lamps](const RigControl::Dim& dim) {
+    const std::string which = dim.source == 0 ? "all sources" : "source " + std::to_string(dim.source);
+    return answer(lamps.dim(dim), dim.lamp + ": " + which + print(" at %.4g %%", dim.dimming_01 * 100.0));
+  });
+  verbs.on<RigControl::Swivel>([&lamps](const RigControl::Swivel& swivel) {
+    return answer(lamps.swivel(swivel),
+                  swivel.lamp + print(": turned %.3f deg left, %.3f deg up", swivel.yaw_rad * kDegPerRad,
+                                      swivel.pitch_rad * kDegPerRad));
+  });
+  verbs.on<RigControl::Place>([&lamps](const RigControl::Place& place) {
+    return answer(lamps.place(place),
+                  place.lamp + print(": at x %.3f, y %.3f, z %.3f m", place.x_m, place.y_m, place.z_m));
+  });
+  verbs.on<RigControl::Aim>([&lamps](const RigControl::Aim& aim) {
+    lamps.set_aim(aim.pitch_rad);
+    return accepted(print("all lamps turned %.3f deg up", aim.pitch_rad * kDegPerRad));
+  });
+  verbs.on<RigControl::Design>([&lamps, &rig, &desk](const RigControl::Design& design) {
+    if (design.index >= lamps.designs().size()) return refused(no_such_design(rig, design.index));
+    if (design.index == lamps.design_index()) return accepted(design_text(lamps));
+    if (desk.design) return accepted("the picture shows " + design_text(lamps) + ", as set on the desk");
+    return pending("still " + design_text(lamps));
+  });
+  verbs.on<RigControl::Set>([&lamps, &desk](const RigControl::Set& set) {
+    auto done = apply(desk, {set.setting, set.value}, {.designs = lamps.designs().size()});
+    return done ? accepted(std::move(*done)) : refused(done.error().text());
+  });
+  verbs.on<RigControl::Tell>([&lamps, &desk](const auto&) { return accepted(text_of(lamps, desk)); });
+  return verbs;
 }
 
-std::string text_of(const Lamps& lamps) {
+std::string text_of(const Lamps& lamps, const Desk& desk) {
   std::string text = design_text(lamps) + ", lit: " + lamps.lit_text() +
                      print(", all lamps turned %.3f deg up", lamps.aim_rad() * kDegPerRad);
   for (std::size_t slot = 0; slot < lamps.design().lamps.size(); ++slot) {
@@ -90,6 +99,7 @@ std::string text_of(const Lamps& lamps) {
     text += ", " + std::to_string(sources) + (sources == 1 ? " source" : " sources") + " at " +
             (dimmed.empty() ? "full light" : "full light but " + dimmed);
   }
+  if (const std::string set = desk_text(desk); !set.empty()) text += "\n  desk: " + set;
   constexpr std::size_t kMost = 4000;  // of a reply
   return text.size() <= kMost ? text : text.substr(0, kMost) + "…";
 }

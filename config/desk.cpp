@@ -1,0 +1,291 @@
+#include "config/desk.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "config/toml_table.h"
+
+namespace phare {
+namespace {
+
+/// Shortest decimal that reads back as the same number.
+std::string word_of(double value) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  while (true) {
+    const std::size_t begin = text.find_first_not_of(" ,\t");
+    if (begin == std::string_view::npos) return words;
+    text.remove_prefix(begin);
+    const std::size_t end = std::min(text.find_first_of(" ,\t"), text.size());
+    words.emplace_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+}
+
+Result<double> number_of(std::string_view word, double least, double most) {
+  double value = 0.0;
+  const auto [stop, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (failed != std::errc() || stop != word.data() + word.size() || !std::isfinite(value))
+    return Error{"", "expected a number, got \"" + std::string(word) + "\""};
+  if (!(value >= least && value <= most))
+    return Error{"", std::string(word) + " is outside " + word_of(least) + " to " + word_of(most)};
+  return value;
+}
+
+Error none_of(std::string_view value, std::span<const std::string_view> choices, std::string_view more = {}) {
+  std::string all;
+  for (const std::string_view choice : choices) all += (all.empty() ? "" : ", ") + std::string(choice);
+  return {"", "\"" + std::string(value) + "\" is none of " + all + (more.empty() ? "" : ", ") + std::string(more)};
+}
+
+/// One of the names, or "next".
+template <std::size_t count, typename Enum>
+Status choose(const std::array<std::string_view, count>& names, Enum& chosen, std::string_view value) {
+  if (value == "next") {
+    chosen = static_cast<Enum>((static_cast<std::size_t>(chosen) + 1) % count);
+    return Done{};
+  }
+  const auto found = std::ranges::find(names, value);
+  if (found == names.end()) return none_of(value, names, "next");
+  chosen = static_cast<Enum>(found - names.begin());
+  return Done{};
+}
+
+constexpr std::array<std::string_view, 2> kOffOn{"off", "on"};
+
+Status turn(bool& flag, std::string_view value) {
+  if (value == "toggle") {
+    flag = !flag;
+    return Done{};
+  }
+  if (value != kOffOn[0] && value != kOffOn[1]) return none_of(value, kOffOn, "toggle");
+  flag = value == kOffOn[1];
+  return Done{};
+}
+
+template <bool Desk::*flag>
+Status set_flag(Desk& desk, std::string_view value, const DeskContext&) {
+  return turn(desk.*flag, value);
+}
+template <bool Desk::*flag>
+std::string get_flag(const Desk& desk) {
+  return std::string(kOffOn[desk.*flag ? 1 : 0]);
+}
+
+Status set_camera(Desk& desk, std::string_view value, const DeskContext&) {
+  return choose(kCameraNames, desk.camera, value);
+}
+std::string get_camera(const Desk& desk) {
+  return std::string(kCameraNames[static_cast<std::size_t>(desk.camera)]);
+}
+
+Status set_view(Desk& desk, std::string_view value, const DeskContext&) {
+  return choose(kViewNames, desk.view, value);
+}
+std::string get_view(const Desk& desk) {
+  return std::string(kViewNames[static_cast<std::size_t>(desk.view)]);
+}
+
+Status set_isolux(Desk& desk, std::string_view value, const DeskContext&) {
+  std::vector<double> levels_lx;
+  for (const std::string& word : words_of(value)) {
+    if (word == "default") {
+      levels_lx.insert(levels_lx.end(), kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end());
+      continue;
+    }
+    const auto level_lx = number_of(word, 1e-3, 1e6);
+    if (!level_lx) return level_lx.error();
+    levels_lx.push_back(*level_lx);
+  }
+  if (levels_lx.empty()) return Error{"", "expected at least one level"};
+  if (levels_lx.size() > kMostIsoluxLevels)
+    return Error{"",
+                 "at most " + std::to_string(kMostIsoluxLevels) + " levels, not " + std::to_string(levels_lx.size())};
+  if (std::ranges::adjacent_find(levels_lx, std::greater_equal<>()) != levels_lx.end())
+    return Error{"", "the levels have to rise"};
+  desk.isolux_lx = std::move(levels_lx);
+  return Done{};
+}
+std::string get_isolux(const Desk& desk) {
+  std::string text;
+  for (const double level_lx : desk.isolux_lx) text += (text.empty() ? "" : " ") + word_of(level_lx);
+  return text;
+}
+
+Status set_exposure(Desk& desk, std::string_view value, const DeskContext&) {
+  const auto exposure = number_of(value, 1e-6, 1e6);
+  if (!exposure) return exposure.error();
+  desk.exposure_per_cdm2 = *exposure;
+  return Done{};
+}
+std::string get_exposure(const Desk& desk) {
+  return word_of(desk.exposure_per_cdm2);
+}
+
+Status set_adaptation(Desk& desk, std::string_view value, const DeskContext&) {
+  const auto setting = parse_adaptation(std::string(value));
+  if (!setting) return Error{"", setting.error().reason};
+  desk.eye = *setting;
+  return Done{};
+}
+std::string get_adaptation(const Desk& desk) {
+  return desk.eye.fixed_k ? word_of(*desk.eye.fixed_k) : "auto";
+}
+
+Status set_design(Desk& desk, std::string_view value, const DeskContext& context) {
+  if (value == "cockpit") {
+    desk.design.reset();
+    return Done{};
+  }
+  std::size_t index = 0;
+  const auto [stop, failed] = std::from_chars(value.data(), value.data() + value.size(), index);
+  if (failed != std::errc() || stop != value.data() + value.size())
+    return Error{"", "expected cockpit or a design's number, got \"" + std::string(value) + "\""};
+  if (index >= context.designs)
+    return Error{"", std::string(value) + ": the rig has " + std::to_string(context.designs) + ", counted from 0"};
+  desk.design = index;
+  return Done{};
+}
+std::string get_design(const Desk& desk) {
+  return desk.design ? std::to_string(*desk.design) : "cockpit";
+}
+
+/// "car X Y Z" with the normal up, or "car X Y Z NX NY NZ".
+Result<Probe> probe_of(std::span<const std::string> words) {
+  Probe probe;
+  const auto frame = std::ranges::find(kProbeFrameNames, words.empty() ? "" : words.front());
+  if (frame == kProbeFrameNames.end()) return none_of(words.empty() ? "" : words.front(), kProbeFrameNames);
+  probe.frame = static_cast<Probe::Frame>(frame - kProbeFrameNames.begin());
+  if (words.size() != 4 && words.size() != 7)
+    return Error{"", "a probe is car or world, x, y, z in m, and a normal of three numbers unless it is up"};
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const auto value = number_of(words[i], -1e7, 1e7);
+    if (!value) return value.error();
+    (i < 4 ? probe.position_m : probe.normal)[static_cast<int>((i - 1) % 3)] = *value;
+  }
+  const double length = glm::length(probe.normal);
+  if (!(length > 1e-6)) return Error{"", "a normal of no length"};
+  // What is a unit already stays as it is, so that a value read back is the same.
+  if (std::abs(length - 1.0) > 1e-12) probe.normal /= length;
+  return probe;
+}
+
+/// "none", or one probe after the other, a semicolon between them; "add …" keeps those there are.
+Status set_probes(Desk& desk, std::string_view value, const DeskContext&) {
+  const bool add = value.starts_with("add ");
+  std::vector<Probe> probes = add ? desk.probes : std::vector<Probe>{};
+  if (add) value.remove_prefix(4);
+  for (bool more = value != "none"; more;) {
+    const std::size_t end = std::min(value.find(';'), value.size());
+    more = end < value.size();
+    const std::vector<std::string> words = words_of(value.substr(0, end));
+    value.remove_prefix(std::min(end + 1, value.size()));
+    const auto probe = probe_of(words);
+    if (!probe) return probe.error();
+    probes.push_back(*probe);
+  }
+  if (probes.size() > kMostProbes) return Error{"", "at most " + std::to_string(kMostProbes) + " probes"};
+  desk.probes = std::move(probes);
+  return Done{};
+}
+std::string get_probes(const Desk& desk) {
+  std::string text;
+  for (const Probe& probe : desk.probes) {
+    text += (text.empty() ? "" : "; ") + std::string(kProbeFrameNames[static_cast<std::size_t>(probe.frame)]);
+    for (int i = 0; i < 3; ++i) text += " " + word_of(probe.position_m[i]);
+    if (probe.normal != Probe{}.normal)
+      for (int i = 0; i < 3; ++i) text += " " + word_of(probe.normal[i]);
+  }
+  return text.empty() ? "none" : text;
+}
+
+Status set_depth_first(Desk& desk, std::string_view value, const DeskContext&) {
+  constexpr std::array<std::string_view, 3> kLevels{"auto", "off", "on"};
+  const auto found = std::ranges::find(kLevels, value);
+  if (found == kLevels.end()) return none_of(value, kLevels);
+  desk.depth_first.reset();
+  if (value != kLevels[0]) desk.depth_first = static_cast<std::size_t>(found - kLevels.begin()) - 1;
+  return Done{};
+}
+std::string get_depth_first(const Desk& desk) {
+  return !desk.depth_first ? "auto" : std::string(kOffOn[*desk.depth_first]);
+}
+
+constexpr DeskSetting kSettings[] = {
+    {"camera", "driver, birds-eye, chase, next", "the eye: the driver's, one above the road, one behind the car", true,
+     set_camera, get_camera},
+    {"view", "photo, false-colour, next", "as the eye sees it, or illuminance by colour", true, set_view, get_view},
+    {"isolux_lx", "up to 8 rising numbers, default", "lines of equal illuminance in false colour", true, set_isolux,
+     get_isolux},
+    {"exposure_per_cdm2", "0.000001 to 1000000", "multiplies luminance before the tone curve", true, set_exposure,
+     get_exposure},
+    {"adaptation_k", "auto, 2000 to 25000", "light of this colour temperature looks white; auto: as the lamps shine",
+     false, set_adaptation, get_adaptation},
+    {"design", "cockpit, 0, 1, ...", "the picture shows this design, whatever the cockpit has chosen", true, set_design,
+     get_design},
+    {"probes", "none, [add] car|world X Y Z [NX NY NZ]; ...", "points whose lux the overlay tells", true, set_probes,
+     get_probes},
+    {"lines", "off, on, toggle", "text at the top: time, lux under the mouse, warnings", true, set_flag<&Desk::lines>,
+     get_flag<&Desk::lines>},
+    {"instruments", "off, on, toggle", "speed, gear and lights at the lower edge", true, set_flag<&Desk::instruments>,
+     get_flag<&Desk::instruments>},
+    {"effects", "off, on, toggle", "in the picture: each effect with its level and the reason", true,
+     set_flag<&Desk::effects>, get_flag<&Desk::effects>},
+    {"help", "off, on, toggle", "every key", false, set_flag<&Desk::help>, get_flag<&Desk::help>},
+    {"depth_first", "auto, off, on", "a depth pass before the lit one; auto: as the scene calls for", true,
+     set_depth_first, get_depth_first},
+};
+
+}  // namespace
+
+std::span<const DeskSetting> desk_settings() {
+  return kSettings;
+}
+
+Result<std::string> apply(Desk& desk, const DeskCommand& command, const DeskContext& context) {
+  const auto setting = std::ranges::find(kSettings, command.setting, &DeskSetting::name);
+  if (setting == std::end(kSettings)) {
+    std::vector<std::string> names;
+    for (const DeskSetting& known : kSettings) names.emplace_back(known.name);
+    return Error{"", unknown_name_reason("setting", command.setting, names)};
+  }
+  if (!command.value.empty()) {
+    if (const Status done = setting->set(desk, command.value, context); !done)
+      return Error{command.setting, done.error().reason};
+  }
+  return std::string(setting->name) + " " + setting->get(desk);
+}
+
+DeskCommand desk_command(std::string_view words) {
+  const std::size_t blank = std::min(words.find(' '), words.size());
+  return {std::string(words.substr(0, blank)), std::string(words.substr(std::min(blank + 1, words.size())))};
+}
+
+std::vector<DeskCommand> difference(const Desk& desk, const Desk& other) {
+  std::vector<DeskCommand> commands;
+  for (const DeskSetting& setting : kSettings) {
+    std::string value = setting.get(desk);
+    if (value != setting.get(other)) commands.push_back({std::string(setting.name), std::move(value)});
+  }
+  return commands;
+}
+
+std::string desk_settings_text(std::string_view indent) {
+  std::string text;
+  for (const DeskSetting& setting : kSettings) {
+    text += indent;
+    text += setting.name;
+    text.append(19 - std::min<std::size_t>(setting.name.size(), 18), ' ');
+    text += std::string(setting.values) + "   " + std::string(setting.what) + "\n";
+  }
+  return text;
+}
+
+}  // namespace phare

@@ -1,0 +1,97 @@
+// The desk: what the user sets of the picture, as one value, and the one function that changes it.
+//
+// Keys (config/key_bindings.h), command line (config/picture_options.h), rig file ([desk]) and bus (RigControl.set) all
+// say the same: the name of a setting and a value in words, "camera chase". desk_settings() is the table of them.
+// Pure: no file, no socket, no device. Checked by tests/visual_process/desk_test.cpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/eye.h"
+#include "config/isolux.h"
+#include "config/result.h"
+
+namespace phare {
+
+/// Eyes that a picture can be drawn from (visual/process/cameras.h).
+enum class CameraKind { kDriver, kBirdsEye, kChase };
+inline constexpr std::array<std::string_view, 3> kCameraNames{"driver", "birds-eye", "chase"};
+
+/// As the eye sees it, or illuminance by colour with isolux lines.
+enum class View { kPhoto, kFalseColour };
+inline constexpr std::array<std::string_view, 2> kViewNames{"photo", "false-colour"};
+
+/// A point whose illuminance the overlay tells.
+struct Probe {
+  enum class Frame { kCar, kWorld };
+  Frame frame = Frame::kCar;         ///< what it is pinned to
+  glm::dvec3 position_m{0.0};        ///< in that frame (docs/design.md)
+  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit, of the lit side
+
+  friend bool operator==(const Probe&, const Probe&) = default;
+};
+inline constexpr std::array<std::string_view, 2> kProbeFrameNames{"car", "world"};
+inline constexpr std::size_t kMostProbes = 16;
+
+struct Desk {
+  CameraKind camera = CameraKind::kDriver;
+  View view = View::kPhoto;
+  std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< rising, 1 to kMostIsoluxLevels
+  double exposure_per_cdm2 = 0.8;          ///< multiplies luminance before the tone curve; fixed, so that beams compare
+  EyeSetting eye;                          ///< what the eye takes for white
+  std::optional<std::size_t> design;       ///< shown instead of the one that the cockpit has chosen, from 0
+  std::vector<Probe> probes;               ///< at most kMostProbes
+  bool lines = true;                       ///< lines of text at the top: time, lux under the mouse, warnings
+  bool instruments = true;                 ///< speed, gear, lights at the lower edge
+  bool effects = false;                    ///< among the lines each effect with its level and the reason
+  bool help = false;                       ///< every key
+  std::optional<std::size_t> depth_first;  ///< level of that effect (visual/effects.h); without: the scene decides
+
+  friend bool operator==(const Desk&, const Desk&) = default;
+};
+
+/// What a setting is and what it is set to, in the words of desk_settings(). No value: it is only asked for.
+struct DeskCommand {
+  std::string setting;
+  std::string value{};
+
+  friend bool operator==(const DeskCommand&, const DeskCommand&) = default;
+};
+
+/// What the desk cannot know of itself.
+struct DeskContext {
+  std::size_t designs = 1;  ///< of the rig
+};
+
+struct DeskSetting {
+  std::string_view name;    ///< ends with the unit where there is one
+  std::string_view values;  ///< what may be said
+  std::string_view what;    ///< in a few words
+  bool in_rig = true;       ///< may stand under [desk] of a rig file
+  Status (*set)(Desk& desk, std::string_view value, const DeskContext& context);
+  std::string (*get)(const Desk& desk);  ///< a value that set() takes
+};
+
+/// Every setting there is.
+std::span<const DeskSetting> desk_settings();
+
+/// Does the command. What holds then ("camera chase"), or why not; then nothing has changed.
+Result<std::string> apply(Desk& desk, const DeskCommand& command, const DeskContext& context = {});
+
+/// "camera chase", as keys and command lines have it: the first word is the setting.
+DeskCommand desk_command(std::string_view words);
+
+/// The settings that are not as in `other`, as commands that make them so.
+std::vector<DeskCommand> difference(const Desk& desk, const Desk& other = {});
+
+/// Lines of "  NAME VALUES   what it is", for help.
+std::string desk_settings_text(std::string_view indent);
+
+}  // namespace phare

@@ -1,0 +1,89 @@
+// unit: what the frame reports of several channels say together, over loopback.
+#include "net/lockstep.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+
+namespace phare {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Lockstep : public testing::Test {
+ protected:
+  Lockstep() {
+    rig_.file = "test.toml";
+    rig_.channels.resize(2);
+    for (int attempt = 0; attempt < 200 && !cockpit_; ++attempt) {
+      rig_.port_base = static_cast<std::uint16_t>(20000 + (getpid() * 7 + attempt) % 1300 * 30);
+      auto cockpit = Bus::open(rig_, Role::kCockpit);
+      auto left = Bus::open(rig_, Role::kVisual, 0), right = Bus::open(rig_, Role::kVisual, 1);
+      if (!cockpit || !left || !right) continue;
+      cockpit_.emplace(std::move(*cockpit));
+      visual_[0].emplace(std::move(*left));
+      visual_[1].emplace(std::move(*right));
+    }
+  }
+  void report(std::uint32_t channel, std::int64_t frame) {
+    FrameReport drawn;
+    drawn.channel = channel;
+    drawn.channels = 2;
+    drawn.frame_index = frame;
+    visual_[channel]->send(SimTime{}, drawn);
+    cockpit_->wait(1s);
+    cockpit_->poll();
+  }
+  /// How many CockpitStates have come to a channel since the last look.
+  int heard(std::uint32_t channel) {
+    int count = 0;
+    visual_[channel]->on_datagram = [&](const Datagram&, std::span<const std::byte>) { ++count; };
+    visual_[channel]->on_repeat = [&](const Datagram&) { ++count; };
+    visual_[channel]->wait(200ms);
+    visual_[channel]->poll();
+    return count;
+  }
+
+  Rig rig_;
+  std::optional<Bus> cockpit_, visual_[2];
+};
+
+TEST_F(Lockstep, WaitsForEveryChannel) {
+  ASSERT_TRUE(cockpit_);
+  EXPECT_FALSE(newest_frame_of_all(*cockpit_));
+  report(0, -1);
+  EXPECT_FALSE(newest_frame_of_all(*cockpit_)) << "the other is not up";
+  EXPECT_EQ(report_of_frame(*cockpit_, 3), nullptr);
+  report(1, -1);
+  EXPECT_EQ(newest_frame_of_all(*cockpit_), -1);
+  EXPECT_TRUE(all_channels_at(*cockpit_, -1));
+  report(1, 0);
+  EXPECT_EQ(newest_frame_of_all(*cockpit_), 0);
+  EXPECT_FALSE(all_channels_at(*cockpit_, 0)) << "one is a frame behind";
+  ASSERT_NE(report_of_frame(*cockpit_, 0), nullptr);
+  EXPECT_EQ(report_of_frame(*cockpit_, 0)->value.channel, 1u);
+  report(0, 0);
+  EXPECT_TRUE(all_channels_at(*cockpit_, 0));
+}
+
+TEST_F(Lockstep, SendsAgainToWhoIsLate) {
+  ASSERT_TRUE(cockpit_);
+  report(0, 0);
+  report(1, 0);
+  CockpitState state;
+  state.frame_index = 1;
+  cockpit_->send(SimTime{}, state);
+  EXPECT_EQ(heard(0), 1);
+  EXPECT_EQ(heard(1), 1);
+  send_again_to_late(*cockpit_, 1, kPayloadIndex<CockpitState>);  // both are at 0: twice
+  EXPECT_EQ(heard(0), 2);
+  send_again_to_late(*cockpit_, 1, kPayloadIndex<CockpitState>);
+  EXPECT_EQ(heard(0), 0) << "each report asks once";
+  report(0, 1);
+  send_again_to_late(*cockpit_, 1, kPayloadIndex<CockpitState>);
+  EXPECT_EQ(heard(0), 0) << "it has it";
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,190 @@
+// unit: what is set of the picture: every setting, every refusal, and the same command from every side.
+#include "config/desk.h"
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "config/key_bindings.h"
+#include "config/picture_options.h"
+#include "visual/process/screens.h"
+#include "visual/process/verbs.h"
+
+namespace phare {
+namespace {
+
+TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
+  struct Case {
+    const char* setting;
+    const char* value;
+    const char* now;
+  };
+  const Case cases[] = {
+      {"camera", "chase", "camera chase"},
+      {"camera", "next", "camera driver"},
+      {"view", "false-colour", "view false-colour"},
+      {"view", "next", "view photo"},
+      {"isolux_lx", "0.5, 2 8", "isolux_lx 0.5 2 8"},
+      {"isolux_lx", "default", "isolux_lx 1 3 5 10 30 50 100"},
+      {"exposure_per_cdm2", "0.25", "exposure_per_cdm2 0.25"},
+      {"adaptation_k", "4000", "adaptation_k 4000"},
+      {"adaptation_k", "auto", "adaptation_k auto"},
+      {"design", "1", "design 1"},
+      {"design", "cockpit", "design cockpit"},
+      {"probes", "car 25 0 0.01; world 1 2 3 0 0 2", "probes car 25 0 0.01; world 1 2 3"},
+      {"probes", "add car 50 -1.5 0 -1 0 0", "probes car 25 0 0.01; world 1 2 3; car 50 -1.5 0 -1 0 0"},
+      {"probes", "none", "probes none"},
+      {"lines", "off", "lines off"},
+      {"instruments", "toggle", "instruments off"},
+      {"effects", "on", "effects on"},
+      {"help", "toggle", "help on"},
+      {"depth_first", "off", "depth_first off"},
+      {"depth_first", "auto", "depth_first auto"}};
+  Desk desk;
+  std::set<std::string_view> tried;
+  for (const Case& c : cases) {
+    const auto done = apply(desk, {c.setting, c.value}, {.designs = 2});
+    ASSERT_TRUE(done) << c.setting << ": " << done.error().text();
+    EXPECT_EQ(*done, c.now);
+    EXPECT_EQ(*apply(desk, {c.setting}), c.now) << "asked";
+    tried.insert(c.setting);
+  }
+  for (const DeskSetting& setting : desk_settings()) EXPECT_TRUE(tried.contains(setting.name)) << setting.name;
+}
+
+TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
+  const std::map<std::string, std::string> cases{
+      {"camera roof", "camera: \"roof\" is none of driver, birds-eye, chase, next"},
+      {"view lux", "view: \"lux\" is none of photo, false-colour, next"},
+      {"isolux_lx 3 1", "isolux_lx: the levels have to rise"},
+      {"isolux_lx 1 2 3 4 5 6 7 8 9", "isolux_lx: at most 8 levels, not 9"},
+      {"isolux_lx ,", "isolux_lx: expected at least one level"},
+      {"isolux_lx 1 x", "isolux_lx: expected a number, got \"x\""},
+      {"isolux_lx 0", "isolux_lx: 0 is outside 0.001 to 1e+06"},
+      {"exposure_per_cdm2 nan", "exposure_per_cdm2: expected a number, got \"nan\""},
+      {"exposure_per_cdm2 0", "exposure_per_cdm2: 0 is outside 1e-06 to 1e+06"},
+      {"adaptation_k 1000", "adaptation_k: expected auto or a colour temperature of 2000 to 25000 K, got \"1000\""},
+      {"design 2", "design: 2: the rig has 2, counted from 0"},
+      {"design -1", "design: expected cockpit or a design's number, got \"-1\""},
+      {"probes car 1 2",
+       "probes: a probe is car or world, x, y, z in m, and a normal of three numbers unless it is up"},
+      {"probes sky 1 2 3", "probes: \"sky\" is none of car, world"},
+      {"probes car 1 2 3 0 0 0", "probes: a normal of no length"},
+      {"probes add", "probes: \"add\" is none of car, world"},
+      {"lines maybe", "lines: \"maybe\" is none of off, on, toggle"},
+      {"instruments 1", "instruments: \"1\" is none of off, on, toggle"},
+      {"effects yes", "effects: \"yes\" is none of off, on, toggle"},
+      {"help me", "help: \"me\" is none of off, on, toggle"},
+      {"depth_first 2", "depth_first: \"2\" is none of auto, off, on"},
+  };
+  std::set<std::string> tried;
+  Desk desk;
+  for (const auto& [words, reason] : cases) {
+    const auto done = apply(desk, desk_command(words), {.designs = 2});
+    ASSERT_FALSE(done) << words;
+    EXPECT_EQ(done.error().text(), reason);
+    tried.insert(desk_command(words).setting);
+  }
+  EXPECT_EQ(desk, Desk{});
+  EXPECT_EQ(tried.size(), desk_settings().size()) << "every setting refuses something";
+  std::string many = "none";
+  for (std::size_t i = 0; i <= kMostProbes; ++i) many = i == 0 ? "car 1 0 0" : many + "; car 1 0 0";
+  EXPECT_EQ(apply(desk, {"probes", many}).error().text(), "probes: at most 16 probes");
+  EXPECT_NE(apply(desk, {"kamera", "chase"}).error().text().find("\"camera\""), std::string::npos);
+}
+
+/// What was written of a desk makes the same desk again: the rig file, the status.
+TEST(Desk, ItsDifferenceMakesItAgain) {
+  Desk desk;
+  for (const char* words :
+       {"camera birds-eye", "view false-colour", "isolux_lx 0.1 0.30000000000000004", "exposure_per_cdm2 0.7",
+        "adaptation_k 5500", "design 1", "lines off", "depth_first on", "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
+    ASSERT_TRUE(apply(desk, desk_command(words), {.designs = 2})) << words;
+  Desk again;
+  for (const DeskCommand& command : difference(desk)) ASSERT_TRUE(apply(again, command, {.designs = 2}));
+  EXPECT_EQ(again, desk);
+  EXPECT_TRUE(difference(Desk{}).empty());
+}
+
+// ---- from every side
+
+Desk by_key(KeyAction action) {
+  Desk desk;
+  Screens screens({});
+  const KeyAction presses[] = {action};
+  EXPECT_FALSE(screens.press(presses, true, desk));
+  return desk;
+}
+
+Desk by_command_line(std::vector<std::string> words) {
+  CLI::App app;
+  PictureOptions options;
+  options.add_to(app);
+  std::ranges::reverse(words);
+  app.parse(words);
+  Desk desk;
+  for (const DeskCommand& command : options.desk) EXPECT_TRUE(apply(desk, command, {.designs = 2}));
+  return desk;
+}
+
+TEST(Desk, IsTheSameByKeyCommandLineAndBus) {
+  Rig rig;
+  rig.designs = {{"one", {}}, {"two", {}}};
+  Lamps none = std::move(*Lamps::load(rig));
+  const auto by_bus = [&](const char* words) {
+    Desk desk;
+    const DeskCommand command = desk_command(words);
+    const ControlReply reply =
+        visual_verbs(none, rig, desk)(RigControl{RigControl::Set{command.setting, command.value}});
+    EXPECT_EQ(reply.verdict, Verdict::kAccepted) << reply.reason;
+    return desk;
+  };
+  EXPECT_EQ(by_key(KeyAction::kCamera).camera, CameraKind::kBirdsEye);
+  EXPECT_EQ(by_key(KeyAction::kCamera), by_command_line({"--camera", "birds-eye"}));
+  EXPECT_EQ(by_key(KeyAction::kCamera), by_bus("camera next"));
+  EXPECT_EQ(by_key(KeyAction::kFalseColour).view, View::kFalseColour);
+  EXPECT_EQ(by_key(KeyAction::kFalseColour), by_command_line({"--false-colour"}));
+  EXPECT_EQ(by_key(KeyAction::kFalseColour), by_bus("view false-colour"));
+  EXPECT_EQ(by_key(KeyAction::kEffects), by_command_line({"--set", "effects=on"}));
+  EXPECT_EQ(by_key(KeyAction::kEffects), by_bus("effects on"));
+  EXPECT_EQ(
+      by_command_line({"--exposure", "0.5", "--adaptation", "5000", "--set", "isolux_lx=1 2", "--set", "design=1"}),
+      by_command_line({"--set", "exposure_per_cdm2=0.5", "--set", "adaptation_k=5000", "--set", "isolux_lx=1,2",
+                       "--set", "design=1"}));
+  EXPECT_THROW(by_command_line({"--camera", "roof"}), CLI::ParseError);
+  EXPECT_THROW(by_command_line({"--set", "camera"}), CLI::ParseError);
+  EXPECT_THROW(by_command_line({"--set", "kamera=chase"}), CLI::ParseError);
+}
+
+/// What `phare drive` was given reaches phare-visual whole.
+TEST(Desk, IsHandedOnAsItWasGiven) {
+  const auto parse = [](std::vector<std::string> words, PictureOptions& options) {
+    CLI::App app;
+    options.add_to(app);
+    std::ranges::reverse(words);
+    app.parse(words);
+    return options.arguments();
+  };
+  PictureOptions first, second;
+  const auto handed =
+      parse({"--set", "probes=car 1 2 3", "--camera", "chase", "--set", "lines=off", "--false-colour"}, first);
+  parse(handed, second);
+  EXPECT_EQ(first.desk.size(), 4u);
+  EXPECT_EQ(first.desk, second.desk);
+}
+
+TEST(Desk, EveryKeyOfThePictureSetsSomethingThereIs) {
+  for (const KeyBinding& binding : key_bindings()) {
+    Desk desk;
+    if (binding.desk.empty()) continue;
+    EXPECT_EQ(binding.actor, KeyActor::kPicture) << binding.name;
+    EXPECT_TRUE(apply(desk, desk_command(binding.desk))) << binding.name;
+    EXPECT_NE(desk, Desk{}) << binding.name;
+  }
+}
+
+}  // namespace
+}  // namespace phare

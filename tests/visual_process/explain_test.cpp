@@ -1,0 +1,131 @@
+// unit: what --explain says of a lit and of an unlit moment, and the lines that the desk lets be shown.
+#include "visual/process/explain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "visual/process/overlay_lines.h"
+
+namespace phare {
+namespace {
+
+Rig rig_of_two_lamps() {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explain_even.ies";
+  std::ofstream(file) << "IESNA:LM-63-2002\n[TEST] even\n[MANUFAC] Phare\nTILT=NONE\n1 -1 1 2 2 3 2 0 0 0\n1 1 0\n"
+                         "-20 20\n-30 30\n900 900\n900 900\n";
+  Rig rig;
+  SourceConfig low;
+  low.file = file;
+  LampConfig left{.name = "left", .position_m = {3.0, 0.6, 0.7}, .sources = {low}}, right = left;
+  right.name = "right";
+  right.position_m.y = -0.6;
+  rig.designs = {{"pair", {left, right}}, {"one", {left}}};
+  rig.channels.push_back({});
+  return rig;
+}
+
+class Explain : public testing::Test {
+ protected:
+  std::vector<std::string> lines(const AskedMoment& moment, const AskedDevice& device, bool window = false) {
+    std::istringstream text(explain_moment(lamps_, desk_, rig_.channels[0], moment, device, window));
+    std::vector<std::string> all;
+    for (std::string line; std::getline(text, line);) all.push_back(line);
+    return all;
+  }
+  static AskedMoment moment(LightSwitch light) {
+    AskedMoment asked;
+    asked.controls.light_switch = light;
+    return asked;
+  }
+
+  Rig rig_ = rig_of_two_lamps();
+  Lamps lamps_ = std::move(*Lamps::load(rig_));
+  Desk desk_;
+  const AskedDevice gpu_{"a card", false}, software_{"llvmpipe", true};
+};
+
+TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
+  const auto lit = lines(moment(LightSwitch::kLow), gpu_);
+  ASSERT_EQ(lit.size(), 1 + kEffectCount);
+  EXPECT_EQ(lit[0], "# lit: low, design \"pair\", 0.0 s, 0 km/h, on a card");
+  EXPECT_EQ(lit[1], "depth first     on      2 lamps are lit, and vertices are cheap on this device");
+  EXPECT_EQ(lit[2],
+            "hdr image       off     nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself");
+  EXPECT_EQ(lit[3], "overlay         off     no line of text to show");
+
+  const auto dark = lines(moment(LightSwitch::kOff), gpu_);
+  EXPECT_EQ(dark[0], "# lit: off, design \"pair\", 0.0 s, 0 km/h, on a card");
+  EXPECT_EQ(dark[1], "depth first     off     no lamp is lit: a pixel drawn twice costs nothing");
+}
+
+TEST_F(Explain, DeviceDeskAndWindowCount) {
+  EXPECT_NE(lines(moment(LightSwitch::kLow), software_)[1].find("on a software device"), std::string::npos);
+  desk_.design = 1;
+  EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_)[1].find("1 lamps are lit"), std::string::npos);
+  desk_.depth_first = 0;
+  EXPECT_EQ(lines(moment(LightSwitch::kLow), gpu_)[1].substr(0, 41), "depth first     off     set by the user; ");
+  desk_.view = View::kFalseColour;
+  EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_)[2].find("false colour"), std::string::npos);
+  EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_, true)[3].find("on "), std::string::npos);
+}
+
+TEST_F(Explain, AMomentOfADriveIsTheNewestUntilThen) {
+  Drive drive;
+  const auto add = [&](double at_s, Payload payload) {
+    Datagram datagram;
+    datagram.sim_time.ns = static_cast<std::int64_t>(at_s * 1e9);
+    datagram.payload = std::move(payload);
+    drive.datagrams.push_back(datagram);
+  };
+  CockpitState low, high;
+  low.light_switch = LightSwitch::kLow;
+  high.light_switch = LightSwitch::kHigh;
+  VehicleState car;
+  car.speed_mps = 10.0;
+  add(1.0, low);
+  add(2.0, car);
+  add(3.0, high);
+  EXPECT_EQ(moment_of_drive(drive, 0.5).error().text(), "--drive: has no CockpitState until 0.5 s");
+  EXPECT_EQ(moment_of_drive(drive, 1.5).error().text(), "--drive: has no VehicleState until 1.5 s");
+  EXPECT_EQ(moment_of_drive(drive, 2.5)->controls.light_switch, LightSwitch::kLow);
+  EXPECT_EQ(moment_of_drive(drive, 3.0)->controls.light_switch, LightSwitch::kHigh);
+  EXPECT_EQ(moment_of_drive(drive, 3.0)->pose.speed_mps, 10.0);
+}
+
+TEST_F(Explain, TheLinesShowWhatTheDeskSays) {
+  CockpitState controls;
+  controls.light_switch = LightSwitch::kLow;
+  lamps_.set_controls(controls);
+  VehicleState pose;
+  pose.x_m = 100.0;
+  const EyeAdaptation eye;
+  const EffectPlan effects = plan_effects({.lit_lamps = 2});
+  OverlayMoment moment{.controls = controls, .pose = pose, .eye = eye, .effects = &effects};
+  EXPECT_EQ(overlay_lines(desk_, lamps_, moment).size(), 2u + lamps_.lit_table_ends().size());
+  desk_.lines = false;
+  moment.pose_held = true;
+  const auto only = overlay_lines(desk_, lamps_, moment);
+  ASSERT_EQ(only.size(), 1u + lamps_.lit_table_ends().size());
+  EXPECT_EQ(only.back(), "POSE HELD: no VehicleState") << "what is wrong is told in any case";
+  desk_.effects = true;
+  EXPECT_EQ(overlay_lines(desk_, lamps_, moment).size(), only.size() + kEffectCount);
+  // A probe of the car goes with it; one of the world stays. Facing the lamps, 900 cd each from 22 m: 900/22² lx.
+  ASSERT_TRUE(apply(desk_, {"probes", "car 25 0.6 0.7 -1 0 0; world 125 0.6 0.7 -1 0 0"}));
+  desk_.effects = false;
+  const auto probed = overlay_lines(desk_, lamps_, moment);
+  ASSERT_EQ(probed.size(), only.size() + 2);
+  const double left = 900.0 / (22.0 * 22.0), r2 = 22.0 * 22.0 + 1.2 * 1.2;
+  char lux[40];
+  std::snprintf(lux, sizeof lux, "%.3g lx", left + 900.0 * 22.0 / (r2 * std::sqrt(r2)));
+  EXPECT_EQ(probed[0], "probe 1, car: " + std::string(lux) + " at (25.00, 0.60, 0.70) m");
+  EXPECT_EQ(probed[1], "probe 2, world: " + std::string(lux) + " at (125.00, 0.60, 0.70) m");
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,377 @@
+#include "visual/lit_scene.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "shaders/lamps_frag_2.h"
+#include "shaders/lamps_frag_2_filtered.h"
+#include "shaders/lamps_frag_4.h"
+#include "shaders/lamps_frag_4_filtered.h"
+#include "shaders/lamps_frag_8.h"
+#include "shaders/lamps_frag_8_filtered.h"
+#include "shaders/measure_vert_2.h"
+#include "shaders/measure_vert_4.h"
+#include "shaders/measure_vert_8.h"
+#include "shaders/scene_vert_2.h"
+#include "shaders/scene_vert_4.h"
+#include "shaders/scene_vert_8.h"
+
+namespace phare {
+
+const std::array<vk::VertexInputAttributeDescription, 3> kVertexAttributes{
+    vk::VertexInputAttributeDescription{
+        .location = 0, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 0},
+    vk::VertexInputAttributeDescription{
+        .location = 1, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 12},
+    vk::VertexInputAttributeDescription{.location = 2, .binding = 0, .format = vk::Format::eR32Uint, .offset = 24}};
+
+namespace {
+
+// std140 and std430 agree for these: all members are 16 bytes.
+static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour) == 64);
+static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, cells) == 64);
+static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
+static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * 80);
+static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
+static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
+static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
+              static_cast<std::uint32_t>(RetroKind::kMarking) == shader::kRetroMarking);
+static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
+static_assert(shader::kMaxIsoluxLevels % 4 == 0);
+
+constexpr std::size_t kNoBeam = SIZE_MAX;
+
+bool is_filtered(ImageLevel level) {
+  return level == ImageLevel::kNormalised8 || level == ImageLevel::kHalfEven;
+}
+
+/// As shaders/lib/lamp_bindings.glsl has them.
+std::vector<vk::DescriptorSetLayoutBinding> bindings(bool filtered) {
+  using Type = vk::DescriptorType;
+  const std::uint32_t tables = filtered ? 1u : shader::kMaxLamps, filters = filtered ? shader::kMaxLamps : 1u;
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  for (const auto& [binding, type, count] :
+       {std::tuple(0u, Type::eUniformBufferDynamic, 1u), std::tuple(1u, Type::eUniformTexelBuffer, tables),
+        std::tuple(2u, Type::eUniformTexelBuffer, tables), std::tuple(3u, Type::eUniformBuffer, 1u),
+        std::tuple(4u, Type::eUniformTexelBuffer, 1u), std::tuple(5u, Type::eUniformBuffer, 1u),
+        std::tuple(6u, Type::eUniformTexelBuffer, tables), std::tuple(7u, Type::eCombinedImageSampler, filters),
+        std::tuple(8u, Type::eCombinedImageSampler, filters)})
+    bindings.push_back(
+        {.binding = binding, .descriptorType = type, .descriptorCount = count, .stageFlags = kLitStages});
+  return bindings;
+}
+
+}  // namespace
+
+LitScene::LitScene(gpu::Device& device, ImageLevel level)
+    : device_(device),
+      level_(level),
+      beams_(device),
+      grain_(make_grain(device)),
+      sets_(device, bindings(is_filtered(level))),
+      scene_vert_{gpu::make_shader(device, k_scene_vert_2), gpu::make_shader(device, k_scene_vert_4),
+                  gpu::make_shader(device, k_scene_vert_8)},
+      measure_vert_{gpu::make_shader(device, k_measure_vert_2), gpu::make_shader(device, k_measure_vert_4),
+                    gpu::make_shader(device, k_measure_vert_8)},
+      lamps_frag_{is_filtered(level)
+                      ? std::array{gpu::make_shader(device, k_lamps_frag_2_filtered),
+                                   gpu::make_shader(device, k_lamps_frag_4_filtered),
+                                   gpu::make_shader(device, k_lamps_frag_8_filtered)}
+                      : std::array{gpu::make_shader(device, k_lamps_frag_2), gpu::make_shader(device, k_lamps_frag_4),
+                                   gpu::make_shader(device, k_lamps_frag_8)}} {
+  const vk::PushConstantRange push{.stageFlags = kLitStages, .offset = 0, .size = sizeof(shader::GpuDraw)};
+  const vk::DescriptorSetLayout set_layout = sets_.layout();
+  layout_ = vk::raii::PipelineLayout(
+      device.device,
+      vk::PipelineLayoutCreateInfo{
+          .setLayoutCount = 1, .pSetLayouts = &set_layout, .pushConstantRangeCount = 1, .pPushConstantRanges = &push});
+  filter_sampler_ =
+      vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
+                                                             .minFilter = vk::Filter::eLinear,
+                                                             .addressModeU = vk::SamplerAddressMode::eClampToEdge,
+                                                             .addressModeV = vk::SamplerAddressMode::eClampToEdge});
+  const vk::DeviceSize step = std::max<vk::DeviceSize>(device.properties.limits.minUniformBufferOffsetAlignment, 1);
+  stride_ = (sizeof(shader::GpuFrame) + step - 1) / step * step;
+}
+
+void LitScene::set_geometry(SceneBuffers geometry) {
+  geometry_ = std::move(geometry);
+  forget_sets();
+}
+
+void LitScene::set_beam(std::size_t beam, const BeamImage& image) {
+  beams_.set(beam, image, level_);
+  if (cones_.size() <= beam) cones_.resize(beam + 1, LightCone{.half_angle_rad = -1.0});
+  cones_[beam] = light_cone(image);
+  peaks_cd_.resize(cones_.size());
+  peaks_cd_[beam] = image.candela.empty() ? 0.0f : *std::ranges::max_element(image.candela);
+}
+
+void LitScene::change_beam(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed) {
+  beams_.change(beam, image, changed);
+  cones_[beam] = light_cone_after(cones_[beam], image, changed);
+  for (const TexelRect& rect : changed)
+    for (std::size_t row = rect.row; row < rect.end_row; ++row)
+      for (std::size_t column = rect.column; column < rect.end_column; ++column)
+        peaks_cd_[beam] = std::max(peaks_cd_[beam], image.candela[row * image.first_deg.size() + column]);
+}
+
+void LitScene::begin_frame(gpu::FrameGraph& graph) {
+  views_ = 0;
+  if (beams_.upload(graph) || set_of_.size() > kMostSets) forget_sets();  // a set may name an image that is no more
+}
+
+void LitScene::forget_sets() {
+  set_of_.clear();
+  sets_.clear();
+}
+
+LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps,
+                       double far_mesh_from_m, std::span<const double> isolux_lx) {
+  LitView view{
+      .geometry = geometry, .sky = sky, .isolux_lx = isolux_lx, .items = geometry_.visible(geometry, far_mesh_from_m)};
+  std::vector<PlacedLamp> reaching;
+  for (const PlacedLamp& lamp : lamps) {
+    if (is_dark(lamp.beam)) continue;
+    const LampReach reach = reach_of(lamp);
+    const bool reaches = reach.meets(geometry) && std::ranges::any_of(view.items, [&](const DrawItem& item) {
+                           return reach.meets(item.batch->low_m, item.batch->high_m);
+                         });
+    if (reaches)
+      reaching.push_back(lamp);
+    else
+      ++view.unreached;
+  }
+  view.lamps = static_cast<std::uint32_t>(reaching.size());
+  if (reaching.size() <= kLampsForAll)
+    view.lit_by.push_back(fill(view, reaching));
+  else
+    light_by_block(view, reaching);
+  return view;
+}
+
+void LitScene::light_by_block(LitView& view, std::span<const PlacedLamp> lamps) {
+  std::vector<LampReach> reaches;
+  for (const PlacedLamp& lamp : lamps) reaches.push_back(reach_of(lamp));
+  std::map<std::vector<std::size_t>, std::size_t> sets;
+  std::vector<bool> left_out(lamps.size());
+  for (DrawItem& item : view.items) {
+    const SceneBatch& batch = *item.batch;
+    std::vector<std::size_t> here;
+    for (std::size_t i = 0; i < lamps.size(); ++i)
+      if (reaches[i].meets(batch.low_m, batch.high_m)) here.push_back(i);
+    if (here.size() > shader::kMaxLamps) {
+      // The brightest stay: peak over the square of the least distance.
+      const auto at_most_lx = [&](std::size_t i) {
+        const glm::dvec3 to = lamps[i].position_m - glm::clamp(lamps[i].position_m, batch.low_m, batch.high_m);
+        return static_cast<double>(peaks_cd_[lamps[i].beam]) / std::max(glm::dot(to, to), 1.0);
+      };
+      std::ranges::stable_sort(here, std::greater(), at_most_lx);
+      for (std::size_t i = shader::kMaxLamps; i < here.size(); ++i) left_out[here[i]] = true;
+      here.resize(shader::kMaxLamps);
+      std::ranges::sort(here);
+    }
+    const auto [set, fresh] = sets.try_emplace(here, view.lit_by.size());
+    if (fresh) {
+      std::vector<PlacedLamp> set_lamps;
+      for (const std::size_t i : here) set_lamps.push_back(lamps[i]);
+      view.lit_by.push_back(fill(view, set_lamps));
+    }
+    item.lit_by = set->second;
+  }
+  view.over_limit = static_cast<std::uint32_t>(std::ranges::count(left_out, true));
+  std::ranges::stable_sort(view.items, {},
+                           [](const DrawItem& item) { return std::pair(item.batch->kind, item.lit_by); });
+}
+
+LitView LitScene::view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps) {
+  LitView view{.geometry = geometry, .sky = {}};
+  view.lamps = static_cast<std::uint32_t>(lamps.size());
+  view.lit_by.push_back(fill(view, lamps));
+  return view;
+}
+
+LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
+  LitBy lit;
+  shader::GpuFrame frame{};
+  const glm::mat4 clip = glm::mat4(view.geometry.clip_from_eye());
+  for (int i = 0; i < 4; ++i) frame.clip_from_eye[i] = clip[i];
+  frame.exposure = glm::vec4(view.sky.exposure_per_cdm2, 0.0f);
+  frame.sky = view.sky.zenith();
+  constexpr float kNowhere_lx = 1e30f;
+  for (std::size_t i = 0; i < kMostIsoluxLevels; ++i)
+    frame.isolux_lx[i / 4][static_cast<int>(i % 4)] =
+        i < view.isolux_lx.size() ? static_cast<float>(view.isolux_lx[i]) : kNowhere_lx;
+  Beams bound;
+  bound.fill(kNoBeam);
+  std::vector<shader::TableShape> shapes;
+  std::optional<glm::vec3> first_colour;
+  for (const PlacedLamp& lamp : lamps) {
+    const PackedBeam& beam = beams_.beam(lamp.beam);
+    bound[lit.lamps] = lamp.beam;
+    shapes.push_back(beam.shape);
+    if (first_colour && *first_colour != beam.colour) lit.colours |= 1u;
+    if (beam.tinted()) lit.colours |= 1u << (8 + lit.lamps);
+    first_colour = beam.colour;
+    shader::GpuLamp& out = frame.lamps[lit.lamps++];
+    out.position = glm::vec4(glm::vec3(lamp.position_m - view.geometry.camera().eye_m), 1.0f);
+    const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
+    out.row_a = glm::vec4(glm::vec3(rows[0]), 0.0f);
+    out.row_b = glm::vec4(glm::vec3(rows[1]), 0.0f);
+    out.row_c = glm::vec4(glm::vec3(rows[2]), 0.0f);
+    beams_.describe(lamp.beam, out);
+  }
+  lit.tables = tables_of(std::move(shapes));
+  const std::size_t page = views_ / kViewsInPage, place = views_ % kViewsInPage;
+  ++views_;
+  if (page == pages_.size())
+    pages_.push_back(std::make_unique<gpu::HostBuffer>(device_, kViewsInPage * stride_,
+                                                       vk::BufferUsageFlagBits::eUniformBuffer, "views"));
+  lit.data_at = static_cast<std::uint32_t>(place * stride_);
+  std::memcpy(static_cast<std::byte*>(pages_[page]->data) + lit.data_at, &frame, sizeof frame);
+  lit.set = set_of(page, bound);
+  return lit;
+}
+
+std::size_t LitScene::tables_of(std::vector<shader::TableShape> shapes) {
+  const auto same = [&](const std::vector<shader::TableShape>& known) {
+    return std::ranges::equal(std::as_bytes(std::span(known)), std::as_bytes(std::span(shapes)));
+  };
+  const auto found = std::ranges::find_if(table_shapes_, same);
+  const auto index = static_cast<std::size_t>(found - table_shapes_.begin());
+  if (found == table_shapes_.end()) table_shapes_.push_back(std::move(shapes));
+  return index;
+}
+
+vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
+  const auto [found, fresh] = set_of_.try_emplace({page, beams});
+  if (!fresh) return found->second;
+  const vk::DescriptorSet set = found->second = sets_.make();
+  using Type = vk::DescriptorType;
+  const std::array buffers{std::tuple(0u, Type::eUniformBufferDynamic,
+                                      vk::DescriptorBufferInfo{*pages_[page]->buffer, 0, sizeof(shader::GpuFrame)}),
+                           std::tuple(3u, Type::eUniformBuffer,
+                                      vk::DescriptorBufferInfo{*geometry_.material_buffer.buffer, 0, VK_WHOLE_SIZE}),
+                           std::tuple(5u, Type::eUniformBuffer,
+                                      vk::DescriptorBufferInfo{*geometry_.sheeting_buffer.buffer, 0, VK_WHOLE_SIZE})};
+  const auto layout = vk::ImageLayout::eShaderReadOnlyOptimal;
+  std::array<vk::BufferView, shader::kMaxLamps> guides, cells, tints;
+  std::array<vk::DescriptorImageInfo, shader::kMaxLamps> filtered, filtered_tints;
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    guides[i] = beams_.guide(beams[i]);
+    cells[i] = beams_.cells(beams[i]);
+    tints[i] = beams_.tint(beams[i]);
+    filtered[i] = {*filter_sampler_, *beams_.filtered(beams[i]).view, layout};
+    filtered_tints[i] = {*filter_sampler_, *beams_.filtered_tint(beams[i]).view, layout};
+  }
+  // Of what this level does not read, one.
+  const std::size_t tables = is_filtered(level_) ? 1 : beams.size(), filters = is_filtered(level_) ? beams.size() : 1;
+  std::vector<vk::WriteDescriptorSet> writes;
+  for (const auto& [binding, type, info] : buffers)
+    writes.push_back(
+        {.dstSet = set, .dstBinding = binding, .descriptorCount = 1, .descriptorType = type, .pBufferInfo = &info});
+  for (const auto& [binding, infos] :
+       {std::pair(7u, std::span<const vk::DescriptorImageInfo>(filtered).first(filters)),
+        std::pair(8u, std::span<const vk::DescriptorImageInfo>(filtered_tints).first(filters))})
+    writes.push_back({.dstSet = set,
+                      .dstBinding = binding,
+                      .descriptorCount = static_cast<std::uint32_t>(infos.size()),
+                      .descriptorType = Type::eCombinedImageSampler,
+                      .pImageInfo = infos.data()});
+  const vk::BufferView grain = *grain_.view;
+  for (const auto& [binding, views] : {std::pair(1u, std::span<const vk::BufferView>(guides).first(tables)),
+                                       std::pair(2u, std::span<const vk::BufferView>(cells).first(tables)),
+                                       std::pair(4u, std::span<const vk::BufferView>(&grain, 1)),
+                                       std::pair(6u, std::span<const vk::BufferView>(tints).first(tables))})
+    writes.push_back({.dstSet = set,
+                      .dstBinding = binding,
+                      .descriptorCount = static_cast<std::uint32_t>(views.size()),
+                      .descriptorType = Type::eUniformTexelBuffer,
+                      .pTexelBufferView = views.data()});
+  device_.device.updateDescriptorSets(writes, nullptr);
+  return set;
+}
+
+vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
+  if (const auto found = pipelines_.find(variant); found != pipelines_.end()) return *found->second;
+  std::vector<std::uint32_t> values{variant.lamp_count,
+                                    static_cast<std::uint32_t>(variant.kind.surface),
+                                    static_cast<std::uint32_t>(variant.kind.retro),
+                                    static_cast<std::uint32_t>(variant.output),
+                                    variant.lamp_base,
+                                    0,
+                                    variant.colours,
+                                    variant.kind.double_sided ? 2u : 1u,
+                                    grain_.first_level};
+  values.resize(shader::kSpecTables);
+  for (const shader::TableShape& shape : table_shapes_[variant.tables]) {
+    const auto words = std::bit_cast<std::array<std::uint32_t, shader::kSpecPerTable>>(shape);
+    values.insert(values.end(), words.begin(), words.end());
+  }
+  std::vector<vk::SpecializationMapEntry> entries;
+  for (std::uint32_t i = 0; i < values.size(); ++i) entries.push_back({.constantID = i, .offset = 4 * i, .size = 4});
+  const vk::SpecializationInfo constants{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
+                                         .pMapEntries = entries.data(),
+                                         .dataSize = 4 * values.size(),
+                                         .pData = values.data()};
+  const bool measure = variant.output == LampOutput::kMeasure;
+  const std::size_t size = variant.lamp_count <= 2 ? 0 : variant.lamp_count <= 4 ? 1 : 2;
+  PipelineRecipe recipe{
+      .vertex = measure ? *measure_vert_[size] : *scene_vert_[size],
+      .fragment = *lamps_frag_[size],
+      .constants = &constants,
+      .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
+      .stride = sizeof(GpuVertex),
+      .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
+      .cull = variant.kind.double_sided || measure ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack,
+      .colour = {variant.format},
+      .depth = !measure,
+      .depth_write = !measure && !variant.depth_done,
+      .compare = variant.depth_done ? vk::CompareOp::eEqual : vk::CompareOp::eGreater,
+      .samples = variant.samples,
+      .layout = *layout_};
+  if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
+  return *pipelines_.emplace(variant, make_pipeline(device_, recipe)).first->second;
+}
+
+void LitScene::bind(vk::CommandBuffer commands, const LitBy& lit_by) const {
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, lit_by.set, lit_by.data_at);
+}
+
+void LitScene::bind(vk::CommandBuffer commands, const LitView& view) const {
+  bind(commands, view.lit_by.front());
+  commands.bindVertexBuffers(0, *geometry_.vertices.buffer, vk::DeviceSize{0});
+  commands.bindIndexBuffer(*geometry_.indices.buffer, 0, vk::IndexType::eUint32);
+}
+
+void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const {
+  commands.pushConstants<shader::GpuDraw>(*layout_, kLitStages, 0, draw);
+}
+
+void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant common) {
+  bind(commands, view);
+  std::size_t lit_by = 0;
+  vk::Pipeline bound;
+  for (const DrawItem& item : view.items) {
+    if (item.lit_by != std::exchange(lit_by, item.lit_by)) bind(commands, view.lit_by[lit_by]);
+    const LitBy& lit = view.lit_by[lit_by];
+    LitVariant variant = common;
+    variant.lamp_count = lit.lamps;
+    variant.tables = lit.tables;
+    variant.colours = common.output == LampOutput::kAudit ? 0 : lit.colours;
+    variant.kind = item.batch->kind;
+    if (variant.output == LampOutput::kAudit) variant.kind = {.double_sided = variant.kind.double_sided};
+    const vk::Pipeline wanted = pipeline(variant);
+    if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);
+    push(commands, item.push);
+    commands.drawIndexed(item.batch->index_count, 1, item.batch->first_index, item.batch->first_vertex, 0);
+  }
+}
+
+}  // namespace phare

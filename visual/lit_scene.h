@@ -1,0 +1,129 @@
+// The lit scene: what every pass shares that draws surfaces under lamps. Geometry, materials, lamps, beam images, the
+// descriptor set that shaders see them through (shaders/lamps.h), and the pipelines.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "visual/beam_store.h"
+#include "visual/gpu/descriptor_sets.h"
+#include "visual/gpu/frame_graph.h"
+#include "visual/gpu/scene_buffers.h"
+#include "visual/light_reach.h"
+#include "visual/passes/grain.h"
+#include "visual/passes/pipeline.h"
+#include "visual/passes/sky.h"
+
+namespace phare {
+
+/// What lamps.frag writes.
+enum class LampOutput : std::uint32_t { kDisplay = 0, kHdr = 1, kFalseColour = 2, kMeasure = 3, kAudit = 4 };
+
+/// Lamps that light some of what a view sees, kLampsPerDraw at most.
+struct LitBy {
+  std::uint32_t lamps = 0;
+  std::size_t tables = 0;     ///< which of the scene's sets of table shapes
+  std::uint32_t colours = 0;  ///< as kSpecColours
+  vk::DescriptorSet set{};
+  std::uint32_t data_at = 0;  ///< of their GpuFrame in the buffer, bytes
+};
+
+/// One view of a frame, ready for its passes.
+struct LitView {
+  ViewGeometry geometry;
+  Sky sky;
+  std::span<const double> isolux_lx{};  ///< lines of false colour; of the caller, while the view is made
+  std::vector<DrawItem> items{};
+  std::vector<LitBy> lit_by{};   ///< one at least
+  std::uint32_t lamps = 0;       ///< that light something in it
+  std::uint32_t unreached = 0;   ///< left out: they light nothing of what it sees
+  std::uint32_t over_limit = 0;  ///< left out somewhere: kLampsPerDraw that are brighter there light it already
+};
+
+/// What makes a pipeline of lamps.frag.
+struct LitVariant {
+  MaterialKind kind{};
+  LampOutput output = LampOutput::kDisplay;
+  std::uint32_t lamp_count = 0, lamp_base = 0;
+  std::size_t tables = 0;  ///< as LitView
+  std::uint32_t colours = 0;
+  vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
+  vk::Format format = vk::Format::eUndefined;
+  bool depth_done = false;
+
+  friend auto operator<=>(const LitVariant&, const LitVariant&) = default;
+};
+
+class LitScene {
+ public:
+  /// `level`: of all beam images.
+  LitScene(gpu::Device& device, ImageLevel level);
+
+  /// Nothing is being drawn.
+  void set_geometry(SceneBuffers geometry);
+  void set_beam(std::size_t beam, const BeamImage& image);
+  void change_beam(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed);
+  bool is_dark(std::size_t beam) const { return beams_.beam(beam).dark; }
+  std::uint64_t uploaded_texels() const { return beams_.uploaded_texels(); }
+
+  /// Before the views of a frame; the frame before is done. Uploads the beams that changed, in a pass.
+  void begin_frame(gpu::FrameGraph& graph);
+  /// A view of the scene with those of the lamps that reach something in it. Up to kLampsForAll light all that it sees;
+  /// of more, each block is lit by those that reach it: fewer to sum, at the price of a pipeline for every number.
+  LitView view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps, double far_mesh_from_m,
+               std::span<const double> isolux_lx);
+  /// An eye with lamps and no surface, for points that are given.
+  LitView view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps);
+
+  vk::PipelineLayout layout() const { return *layout_; }
+  vk::Pipeline pipeline(const LitVariant& variant);
+  /// The view's data, and the vertices of the scene.
+  void bind(vk::CommandBuffer commands, const LitView& view) const;
+  void bind(vk::CommandBuffer commands, const LitBy& lit_by) const;
+  void push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const;
+  /// All that the view sees; of `common` all counts but the material and the lamps.
+  void draw(gpu::Recorder& commands, const LitView& view, LitVariant common);
+
+ private:
+  static constexpr std::uint32_t kViewsInPage = 16;
+  static constexpr std::size_t kMostSets = 256;  ///< kept from frame to frame
+  static constexpr std::size_t kLampsForAll = 4;
+  using Beams = std::array<std::size_t, shader::kMaxLamps>;
+
+  /// Lamps of a view, by their places, into data of their own.
+  LitBy fill(const LitView& view, std::span<const PlacedLamp> lamps);
+  void light_by_block(LitView& view, std::span<const PlacedLamp> lamps);
+  LampReach reach_of(const PlacedLamp& lamp) const {
+    return {lamp.position_m, lamp.world_from_image, cones_[lamp.beam]};
+  }
+  std::size_t tables_of(std::vector<shader::TableShape> shapes);
+  vk::DescriptorSet set_of(std::size_t page, const Beams& beams);
+  void forget_sets();
+
+  gpu::Device& device_;
+  ImageLevel level_;
+  SceneBuffers geometry_;
+  BeamStore beams_;
+  std::vector<LightCone> cones_;  ///< of each beam
+  std::vector<float> peaks_cd_;   ///< of each beam; of one that was changed, at most
+  Grain grain_;
+  gpu::DescriptorSets sets_;
+  std::map<std::pair<std::size_t, Beams>, vk::DescriptorSet> set_of_;
+  vk::raii::PipelineLayout layout_{nullptr};
+  vk::raii::Sampler filter_sampler_{nullptr};
+  vk::DeviceSize stride_ = 0;                            ///< of the data of one view
+  std::vector<std::unique_ptr<gpu::HostBuffer>> pages_;  ///< data of views; more are made when a frame has more views
+  std::size_t views_ = 0;                                ///< of this frame
+  std::vector<std::vector<shader::TableShape>> table_shapes_;  ///< of the lamps of a view, each set that came up
+  std::map<LitVariant, vk::raii::Pipeline> pipelines_;
+  std::array<vk::raii::ShaderModule, 3> scene_vert_, measure_vert_, lamps_frag_;  ///< for up to 2, 4, 8 lamps
+};
+
+inline constexpr auto kLitStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+/// Of GpuVertex.
+extern const std::array<vk::VertexInputAttributeDescription, 3> kVertexAttributes;
+
+}  // namespace phare

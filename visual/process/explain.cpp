@@ -1,0 +1,62 @@
+#include "visual/process/explain.h"
+
+#include <cstdio>
+
+#include "visual/frame_facts.h"
+#include "visual/light_reach.h"
+#include "visual/process/overlay_lines.h"
+#include "visual/process/screens.h"
+
+namespace phare {
+
+Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s) {
+  AskedMoment moment;
+  const CockpitState* controls = nullptr;
+  const VehicleState* pose = nullptr;
+  for (const Datagram& datagram : drive.datagrams) {
+    if (datagram.sim_time.seconds() > at_s) continue;
+    if (const auto* state = std::get_if<CockpitState>(&datagram.payload)) controls = state;
+    if (const auto* state = std::get_if<VehicleState>(&datagram.payload)) pose = state;
+  }
+  if (controls == nullptr || pose == nullptr) {
+    char text[80];
+    std::snprintf(text, sizeof text, "has no %s until %g s", controls == nullptr ? "CockpitState" : "VehicleState",
+                  at_s);
+    return Error{"--drive", text};
+  }
+  moment.time.ns = static_cast<std::int64_t>(at_s * 1e9);
+  moment.controls = *controls;
+  moment.pose = *pose;
+  return moment;
+}
+
+std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
+                           const AskedDevice& device, bool window) {
+  const CockpitState controls = shown_by_desk(desk, moment.controls);
+  lamps.set_controls(controls);
+  FrameInput input;
+  set_by_desk(input, desk, channel, moment.pose);
+  input.lamps = lamps.placed(moment.pose);
+  if (window) {
+    EyeAdaptation eye = eye_set(desk.eye);
+    eye.see(moment.time, lamps.light());
+    input.overlay =
+        overlay_lines(desk, lamps, {.time = moment.time, .controls = controls, .pose = moment.pose, .eye = eye});
+    if (desk.instruments) input.instruments = instruments(controls, moment.pose, lamps.design().name, moment.time);
+    input.panel = Screens({}).panel(controls, moment.time.seconds(), desk.help);
+  }
+  // Those whose light the view can see; what of the scene it falls on is not asked.
+  const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
+  std::size_t lit = 0;
+  for (const PlacedLamp& lamp : input.lamps) {
+    const LightCone cone = light_cone(lamps.image(lamp.beam));
+    lit += LampReach(lamp.position_m, lamp.world_from_image, cone).meets(view) ? 1 : 0;
+  }
+  char heading[240];
+  std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
+                lamps.lit_text().c_str(), lamps.design().name.c_str(), moment.time.seconds(),
+                moment.pose.speed_mps * 3.6, device.name.c_str());
+  return heading + explain(plan_effects(facts_of(input, lit, text_lines(input), device.software), input.effects));
+}
+
+}  // namespace phare

@@ -1,0 +1,34 @@
+// phare-visual --explain: which effects a moment of a rig calls for, and why, without a window, a picture or a device.
+#pragma once
+
+#include <string>
+
+#include "config/result.h"
+#include "net/drive_file.h"
+#include "visual/process/lamps.h"
+#include "visual/process/options.h"
+
+namespace phare {
+
+/// The moment that is asked about.
+struct AskedMoment {
+  SimTime time{};
+  CockpitState controls{};
+  VehicleState pose{};
+};
+
+/// A drive at `at_s` of simulated time: the newest controls and the newest pose until then. Error: it has neither.
+Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s);
+
+/// What computes: of the device that would be taken.
+struct AskedDevice {
+  std::string name;
+  bool software = true;
+};
+
+/// "# low, design "reflector", 12.0 s, on llvmpipe": the moment; then a line for each effect: name, level, reason.
+/// `window`: there is one, so that there is an overlay. Switches `lamps` to the moment.
+std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
+                           const AskedDevice& device, bool window);
+
+}  // namespace phare

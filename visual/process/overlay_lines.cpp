@@ -1,0 +1,73 @@
+#include "visual/process/overlay_lines.h"
+
+#include <cstdio>
+#include <glm/vec3.hpp>
+#include <sstream>
+
+#include "config/conventions.h"
+#include "config/key_bindings.h"
+#include "visual/process/cameras.h"
+
+namespace phare {
+namespace {
+
+/// A probe in the world.
+MeasurePoint placed(const Probe& probe, const VehicleState& pose) {
+  if (probe.frame == Probe::Frame::kWorld) return {probe.position_m, probe.normal};
+  const glm::dmat3 body = world_from_car(pose.roll_rad, pose.pitch_rad, pose.yaw_rad);
+  return {glm::dvec3(pose.x_m, pose.y_m, pose.z_m) + body * probe.position_m, body * probe.normal};
+}
+
+std::string lux_line(const char* what, double illuminance_lx, const glm::dvec3& at_m) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%s%.3g lx at (%.2f, %.2f, %.2f) m", what, illuminance_lx, at_m.x, at_m.y, at_m.z);
+  return text;
+}
+
+}  // namespace
+
+void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& channel, const VehicleState& pose) {
+  input.camera = camera_of(desk.camera, channel, pose);
+  input.view = desk.view;
+  input.isolux_lx = desk.isolux_lx;
+  input.exposure_per_cdm2 = desk.exposure_per_cdm2;
+  input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = desk.depth_first;
+}
+
+CockpitState shown_by_desk(const Desk& desk, CockpitState controls) {
+  if (desk.design) controls.design_index = static_cast<std::uint32_t>(*desk.design);
+  return controls;
+}
+
+std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, const OverlayMoment& moment) {
+  std::vector<std::string> lines;
+  char text[160];
+  if (desk.lines) {
+    std::snprintf(text, sizeof text, "%.1f s   frame %.1f ms   %s keys", moment.time.seconds(), moment.frame_ms,
+                  std::string(binding_of(KeyAction::kHelp)->name).c_str());
+    lines.emplace_back(text);
+    std::snprintf(text, sizeof text, "eye adapted to %.0f K%s", moment.eye.adapted_k(),
+                  moment.eye.fixed() ? ", fixed" : "");
+    lines.emplace_back(text);
+    if (moment.under_mouse)
+      lines.push_back(
+          lux_line("", lamps.illuminance_lx(moment.pose, *moment.under_mouse), moment.under_mouse->position_m));
+  }
+  for (std::size_t i = 0; i < desk.probes.size(); ++i) {
+    const Probe& probe = desk.probes[i];
+    std::snprintf(text, sizeof text, "probe %zu, %s: ", i + 1,
+                  kProbeFrameNames[static_cast<std::size_t>(probe.frame)].data());
+    lines.push_back(lux_line(text, lamps.illuminance_lx(moment.pose, placed(probe, moment.pose)), probe.position_m));
+  }
+  if (desk.effects && moment.effects != nullptr) {
+    std::istringstream effects(explain(*moment.effects));
+    for (std::string line; std::getline(effects, line);) lines.push_back(line);
+  }
+  for (std::string& end : lamps.lit_table_ends()) lines.push_back(std::move(end));
+  if (moment.pose_held) lines.emplace_back("POSE HELD: no VehicleState");
+  if (moment.controls.fail_safe) lines.emplace_back("FAIL-SAFE low beam: the light switch is silent");
+  if (!moment.controls.source_fault.empty()) lines.push_back(moment.controls.source_fault);
+  return lines;
+}
+
+}  // namespace phare

@@ -1,0 +1,39 @@
+// The desk in a frame: what it sets of the picture, and the lines of text that it lets be shown. Pure:
+// tests/visual_process/explain_test.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/desk.h"
+#include "net/messages.h"
+#include "visual/process/adaptation.h"
+#include "visual/process/lamps.h"
+#include "visual/renderer.h"
+
+namespace phare {
+
+/// Camera, view, levels, exposure and chosen effects of a frame.
+void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& channel, const VehicleState& pose);
+
+/// The controls with the design that the picture shows, whichever the cockpit has chosen.
+CockpitState shown_by_desk(const Desk& desk, CockpitState controls);
+
+/// What the lines tell of.
+struct OverlayMoment {
+  SimTime time{};
+  const CockpitState& controls;
+  const VehicleState& pose;
+  bool pose_held = false;
+  double frame_ms = 0.0;  ///< of the frame before
+  const EyeAdaptation& eye;
+  const EffectPlan* effects = nullptr;        ///< of the frame before
+  std::optional<MeasurePoint> under_mouse{};  ///< of the world
+};
+
+/// What the driver is told over the picture besides the instruments: time, lux at probes and under the mouse, and
+/// everything that is not as it should be, which shows whatever the desk says.
+std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, const OverlayMoment& moment);
+
+}  // namespace phare

@@ -1,0 +1,21 @@
+// What a visual process does with each command (net/control_desk.h), and the words it answers with.
+#pragma once
+
+#include <string>
+
+#include "config/desk.h"
+#include "config/rig.h"
+#include "net/control_desk.h"
+#include "visual/process/lamps.h"
+
+namespace phare {
+
+/// Dims, turns, moves and aims lamps, sets the desk; refuses, with the reason, what this rig does not have. A design is
+/// the cockpit's to choose: the answer is pending until it shines. Quit is left to who runs the process. All three
+/// have to live as long as the verbs.
+Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk);
+
+/// What is lit, which design, every lamp of it (place, turn, dimmed sources), and what is set on the desk; a line each.
+std::string text_of(const Lamps& lamps, const Desk& desk);
+
+}  // namespace phare
