@@ -386,6 +386,26 @@ TEST_F(RendererTest, OverlayComesWhenThereAreLinesAndLeavesTheRestAlone) {
   EXPECT_EQ(changed_below, 0u);
 }
 
+TEST_F(RendererTest, ALineWiderThanThePictureGoesOnBelow) {
+  FrameInput input = driver_view();
+  input.want_image = true;
+  const auto letters = [&](int from_y, int to_y) {
+    renderer->draw(input);
+    const Image8 told = renderer->read_image();
+    std::size_t bright = 0;
+    for (int y = from_y; y < to_y; ++y)
+      for (int x = 0; x < told.width_px; ++x)
+        bright += told.rgba[static_cast<std::size_t>((y * told.width_px + x) * 4)] > 200;
+    return bright;
+  };
+  // Letters of 11 px: lines begin 8 and 22.5 px from the top.
+  input.overlay = {"low beam my.ies"};
+  EXPECT_GT(letters(8, 22), 50u);
+  EXPECT_EQ(letters(25, 36), 0u);
+  input.overlay = {"low beam my.ies: table ends at V -9.1: the road nearer than 3.8 m ahead is outside it"};
+  EXPECT_GT(letters(25, 36), 50u);
+}
+
 TEST_F(RendererTest, AuditedPixelsAgreeWithDouble) {
   const IntensityTable table = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
   renderer->set_beam(0, image_of(table));

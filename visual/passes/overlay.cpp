@@ -66,9 +66,23 @@ struct Pen {
   }
 };
 
-void draw_lines(const Pen& pen, const std::vector<std::string>& lines) {
-  if (lines.empty()) return;
+/// Words of a line that go into the width; the rest on lines below.
+void wrap(const Pen& pen, const std::string& line, float width_px, std::vector<std::string>& out) {
+  const char *at = line.c_str(), *const end = at + line.size();
+  do {
+    const char* stop = pen.font->CalcWordWrapPositionA(pen.size_px / pen.font->FontSize, at, end, width_px);
+    if (stop == at) stop = end;
+    out.emplace_back(at, stop);
+    for (at = stop; at != end && *at == ' ';) ++at;
+  } while (at != end);
+}
+
+/// Along the upper left edge. Returns where they end, 0 without any.
+float draw_lines(const Pen& pen, float picture_width_px, const std::vector<std::string>& unwrapped) {
+  if (unwrapped.empty()) return 0.0f;
   const float height = pen.size_px * kLine, edge = 0.5f * pen.size_px;
+  std::vector<std::string> lines;
+  for (const std::string& line : unwrapped) wrap(pen, line, picture_width_px - 4.0f * edge, lines);
   float width = 0.0f;
   for (const std::string& line : lines) width = std::max(width, pen.width(line));
   pen.list.AddRectFilled({edge, edge}, {3.0f * edge + width, 2.0f * edge + height * static_cast<float>(lines.size())},
@@ -78,6 +92,7 @@ void draw_lines(const Pen& pen, const std::vector<std::string>& lines) {
     pen.write(2.0f * edge, y, kInk, line);
     y += height;
   }
+  return y + edge;
 }
 
 /// In the middle of the lower edge, or at its right end.
@@ -98,7 +113,8 @@ void draw_instruments(const Pen& small, const Pen& large, const ImVec2& picture,
   }
 }
 
-void draw_panel(Pen small, const Pen& large, const ImVec2& picture, const OverlayPanel& panel) {
+/// `top_px`: what is above it is taken.
+void draw_panel(Pen small, const Pen& large, const ImVec2& picture, float top_px, const OverlayPanel& panel) {
   if (panel.empty()) return;
   const float edge = small.size_px;
   const float title_height = panel.title.empty() ? 0.0f : large.size_px * 1.5f;
@@ -115,7 +131,8 @@ void draw_panel(Pen small, const Pen& large, const ImVec2& picture, const Overla
     width = std::max(width, small.width(row.words) + (row.key.empty() ? 0.0f : key_width));
   const ImVec2 size{width + 2.0f * edge, title_height + line * rows + 1.5f * edge};
   const bool left = panel.place == OverlayPanel::Place::kLeft;
-  const ImVec2 at{left ? edge : std::max(0.5f * (picture.x - size.x), 0.0f), left ? edge : 0.07f * picture.y};
+  const ImVec2 at{left ? edge : std::max(0.5f * (picture.x - size.x), 0.0f),
+                  left ? edge : std::max(0.07f * picture.y, top_px)};
   if (panel.place == OverlayPanel::Place::kAlone) small.list.AddRectFilled({0.0f, 0.0f}, picture, kBlank);
   small.list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, kPaper, 8.0f);
   const float x = at.x + edge;
@@ -178,9 +195,10 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
   const Pen small{list, text_, std::max(kText_px * scale, kLeastText_px)};
   const Pen large{list, title_, std::max(kTitle_px * scale, kLeastText_px)};
   const bool left = !panel.empty() && panel.place == OverlayPanel::Place::kLeft;
-  if (!left) draw_lines(small, lines);  // the panel takes their place
+  // A panel on the left takes the place of the lines.
+  const float top_px = left ? 0.0f : draw_lines(small, io.DisplaySize.x, lines);
   draw_instruments(small, large, io.DisplaySize, instruments, left);
-  draw_panel(small, large, io.DisplaySize, panel);
+  draw_panel(small, large, io.DisplaySize, top_px, panel);
   ImGui::Render();
 
   const vk::ImageView view = *display.view;

@@ -253,7 +253,10 @@ Status LampCsv::read_list(const std::vector<std::string_view>& head) {
     }
   }
   if (first == head.size() || second == head.size() || value == head.size())
-    return text_.error("columns h_deg, v_deg and intensity_cd or illuminance_lx are expected");
+    return text_.error(
+        "expected \"# unit: cd\" or lx, a grid's corner (V\\H, gamma\\C, z\\y), or columns h_deg, v_deg and "
+        "intensity_cd "
+        "or illuminance_lx");
   std::map<double, std::map<double, double>> rows;
   std::size_t count = 0;
   double& smallest = table_.header.smallest_step_cd;
