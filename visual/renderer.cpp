@@ -254,7 +254,7 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
     const vk::Extent2D extent{kWidth, static_cast<std::uint32_t>((count + kWidth - 1) / kWidth)};
     gpu::Image lx(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
                   vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc, "lx");
-    Copy copy;
+    Impl::Copy copy;
     // One lamp at a time: what each gives is asked for, dark ones included.
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
       if (impl_->scene.is_dark(lamps[lamp].beam)) continue;
@@ -279,7 +279,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   gpu::Image normal(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
                     Usage::eColorAttachment | Usage::eTransferSrc, "audit normal");
   gpu::Image depth(impl_->device, vk::Format::eD32Sfloat, extent, Usage::eDepthStencilAttachment, "audit depth");
-  Copy position_copy, normal_copy;
+  Impl::Copy position_copy, normal_copy;
   const ViewGeometry geometry(input.camera, static_cast<double>(extent.width) / extent.height);
   impl_->submit([&] {
     impl_->scene.begin_frame(impl_->graph);
