@@ -1,5 +1,7 @@
 #include "visual/process/overlay_lines.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <glm/vec3.hpp>
 #include <sstream>
@@ -19,9 +21,7 @@ MeasurePoint placed(const Probe& probe, const VehicleState& pose) {
 }
 
 std::string lux_line(const char* what, double illuminance_lx, const glm::dvec3& at_m) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%s%.3g lx at (%.2f, %.2f, %.2f) m", what, illuminance_lx, at_m.x, at_m.y, at_m.z);
-  return text;
+  return fmt::format("{}{:.3g} lx at ({:.2f}, {:.2f}, {:.2f}) m", what, illuminance_lx, at_m.x, at_m.y, at_m.z);
 }
 
 }  // namespace
