@@ -395,7 +395,7 @@ TEST_F(RendererTest, ALineWiderThanThePictureGoesOnBelow) {
     std::size_t bright = 0;
     for (int y = from_y; y < to_y; ++y)
       for (int x = 0; x < told.width_px; ++x)
-        bright += told.rgba[static_cast<std::size_t>((y * told.width_px + x) * 4)] > 200;
+        bright += told.rgba[static_cast<std::size_t>((y * told.width_px + x) * 4)] > 150;  // more than half letter
     return bright;
   };
   // Letters of 11 px: lines begin 8 and 22.5 px from the top.
