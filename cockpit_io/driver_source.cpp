@@ -48,7 +48,7 @@ SlowStretch read_slow(TomlTable table) {
   return slow;
 }
 
-Result<DriverScript> read(TomlTable root) {
+Result<DriverScript> read_script(TomlTable root) {
   DriverScript script;
   script.file = root.file();
   script.lane_file = resolve_path(root.text("lane"), root.file());
@@ -81,13 +81,13 @@ Result<DriverScript> read(TomlTable root) {
 Result<DriverScript> read_driver_script(const std::filesystem::path& file) {
   Result<TomlTable> root = TomlTable::read(file);
   if (!root) return root.error();
-  return read(*root);
+  return read_script(*root);
 }
 
 Result<DriverScript> parse_driver_script(std::string_view text, const std::string& name) {
   Result<TomlTable> root = TomlTable::parse(text, name);
   if (!root) return root.error();
-  return read(*root);
+  return read_script(*root);
 }
 
 std::vector<double> speed_profile(const std::vector<LanePoint>& lane, const DriverScript& script) {

@@ -106,7 +106,7 @@ void read_source(TomlTable source, CockpitConfig& config) {
   if (config.also.size() >= kMostSources) source.fail("also", "at most 7 further sources");
 }
 
-Result<CockpitConfig> read(TomlTable root) {
+Result<CockpitConfig> read_cockpit_table(TomlTable root) {
   CockpitConfig config;
   config.file = root.file();
   read_source(root.table("source"), config);
@@ -143,13 +143,13 @@ const ControlMapping* CockpitConfig::find(Control control) const {
 Result<CockpitConfig> read_cockpit(const std::filesystem::path& file) {
   Result<TomlTable> root = TomlTable::read(file);
   if (!root) return root.error();
-  return read(*root);
+  return read_cockpit_table(*root);
 }
 
 Result<CockpitConfig> parse_cockpit(std::string_view text, const std::string& name) {
   Result<TomlTable> root = TomlTable::parse(text, name);
   if (!root) return root.error();
-  return read(*root);
+  return read_cockpit_table(*root);
 }
 
 }  // namespace phare

@@ -9,8 +9,8 @@ layout(constant_id = 1) const uint surface = 0;
 layout(constant_id = 2) const uint retro = 0;
 layout(constant_id = 3) const uint output_kind = 0;
 layout(constant_id = 4) const uint lamp_base = 0;
-layout(constant_id = 6) const uint colours = 0;
-layout(constant_id = 7) const uint sides = 1;
+layout(constant_id = kSpecColours) const uint colours = 0;
+layout(constant_id = kSpecSides) const uint sides = 1;
 
 layout(location = 0) out vec4 result;
 layout(location = 1) out vec4 result_normal;

@@ -16,9 +16,9 @@ const uint kSpecSurface = 1u;   // procedural detail: 0 plain, 1 asphalt, 2 gras
 const uint kSpecRetro = 2u;     // how the material sends light back to where it came from, below
 const uint kSpecOutput = 3u;    // what a texel means, below
 const uint kSpecLampBase = 4u;  // measure: first of four lamps
-const uint kSpecColours = 6u;   // 0: all light has one colour; bit 0: lamps differ in colour; bit 8 + i: lamp i has a table of colour
-const uint kSpecSides = 7u;     // 2: both sides of a surface are seen
-const uint kSpecGrain = 8u;     // first level of the grain that is there
+const uint kSpecColours = 5u;   // 0: all light has one colour; bit 0: lamps differ in colour; bit 8 + i: lamp i has a table of colour
+const uint kSpecSides = 6u;     // 2: both sides of a surface are seen
+const uint kSpecGrain = 7u;     // first level of the grain that is there
 const uint kSpecTables = 16u;   // kSpecPerTable constants a lamp: the members of its TableShape, below
 const uint kSpecPerTable = 18u;
 

@@ -1,134 +1,19 @@
 #include "visual/beam_packing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
+
+#include "visual/even_axis.h"
 
 namespace phare {
 
 namespace {
 
 constexpr std::size_t kMaxBins = 8192;                           // in 45°
-constexpr std::int64_t kMaxEvenNodes = 4096;                     // of one axis
-constexpr std::int64_t kMaxEvenCells = 1 << 20;                  // 16 MiB
-constexpr std::int64_t kSmallCells = 1 << 16;                    // 1 MiB, which the processor's caches hold
-constexpr std::int64_t kOctant = 45'000'000;                     // millionths of a degree
 constexpr std::size_t kFilterColumns = 1024, kFilterRows = 512;  // of the levels that the texture filter weighs
-
-/// Nodes a step apart from a phase; or multiples of a fine step within ±fine·step, beyond that of a coarse one from
-/// there.
-struct EvenAxis {
-  double step = 0.0;        ///< degrees (of a screen: metres)
-  double phase = 0.0;       ///< steps from 0 to node 0, below 1; 0 where there is a coarse step
-  std::int64_t fine = 0;    ///< fine nodes on either side of 0
-  std::int64_t coarse = 1;  ///< fine steps in a coarse one
-  std::int64_t first = 0;   ///< node
-  std::int64_t count = 0;
-  std::vector<double> beside{};  ///< of nodes rounded in the file: how many steps beside it each lies; else empty
-
-  std::int64_t last() const { return first + count - 1; }
-  double angle(double node) const {
-    if (coarse == 1) return (node + phase) * step;
-    const double inner = std::clamp(node, -static_cast<double>(fine), static_cast<double>(fine));
-    return (inner + (node - inner) * static_cast<double>(coarse)) * step;
-  }
-};
-
-// Angles as written, in millionths of a degree (of a screen: places in millionths of a metre); nothing if one is not
-// whole.
-std::optional<std::vector<std::int64_t>> in_millionths(const std::vector<double>& nodes_deg) {
-  std::vector<std::int64_t> nodes;
-  for (double node : nodes_deg) {
-    if (std::abs(node * 1e6 - std::round(node * 1e6)) > 1e-3) return std::nullopt;
-    nodes.push_back(std::llround(node * 1e6));
-  }
-  return nodes;
-}
-
-// The even axis of this coarse step with the fewest nodes that has all of these, in millionths.
-std::optional<EvenAxis> even_axis(const std::vector<std::int64_t>& nodes, std::int64_t coarse, bool turn) {
-  std::optional<EvenAxis> best;
-  if (coarse == 1 && !turn) {
-    std::int64_t step = 0;
-    for (std::int64_t node : nodes) step = std::gcd(step, node - nodes.front());
-    const std::int64_t before = nodes.front() - (nodes.front() % step + step) % step;
-    best = {.step = static_cast<double>(step) * 1e-6,
-            .phase = static_cast<double>(nodes.front() - before) / static_cast<double>(step),
-            .first = before / step,
-            .count = (nodes.back() - nodes.front()) / step + 1};
-  } else {
-    std::int64_t step = turn ? kOctant : 0;  // the shader counts the nodes of a whole turn from multiples of 45°
-    for (std::int64_t node : nodes) step = std::gcd(step, node);
-    const auto propose = [&](std::int64_t border) {
-      for (std::int64_t node : nodes)
-        if (std::abs(node) > border && (std::abs(node) - border) % (step * coarse) != 0) return;
-      const auto node_of = [&](std::int64_t angle) {
-        const std::int64_t inner = std::clamp(angle, -border, border);
-        return inner / step + (angle - inner) / (step * coarse);
-      };
-      const EvenAxis axis{.step = static_cast<double>(step) * 1e-6,
-                          .fine = border / step,
-                          .coarse = coarse,
-                          .first = node_of(nodes.front()),
-                          .count = node_of(nodes.back()) - node_of(nodes.front()) + 1};
-      if (!best || axis.count < best->count) best = axis;
-    };
-    if (turn)
-      propose(std::max(std::abs(nodes.front()), std::abs(nodes.back())));
-    else
-      for (std::int64_t border : nodes) propose(std::abs(border));
-  }
-  return best && best->count < kMaxEvenNodes ? best : std::nullopt;
-}
-
-// Nodes as evenly as their ends say, but for rounding; nothing if one lies more than a fifth of a step beside.
-std::optional<EvenAxis> rounded_axis(const std::vector<double>& nodes) {
-  const auto count = static_cast<std::int64_t>(nodes.size());
-  if (count >= kMaxEvenNodes) return std::nullopt;
-  EvenAxis axis{.step = (nodes.back() - nodes.front()) / static_cast<double>(count - 1), .count = count};
-  const double first = nodes.front() / axis.step;
-  axis.first = static_cast<std::int64_t>(std::floor(first + 1e-9));
-  axis.phase = std::max(first - static_cast<double>(axis.first), 0.0);
-  double most = 0.0;
-  for (std::int64_t i = 0; i < count; ++i) {
-    const double even = axis.angle(static_cast<double>(axis.first + i));
-    axis.beside.push_back((nodes[static_cast<std::size_t>(i)] - even) / axis.step);
-    most = std::max(most, std::abs(axis.beside.back()));
-  }
-  if (most > 0.2) return std::nullopt;
-  if (most * axis.step < 1e-9) axis.beside.clear();  // computed, not read: as even as double is
-  return axis;
-}
-
-// Both axes with one coarse step, for the shader has room for one; the fewest cells win, rounded nodes where exact ones
-// would take too many.
-std::optional<std::pair<EvenAxis, EvenAxis>> even_axes(const std::vector<double>& first_deg,
-                                                       const std::vector<double>& second_deg, bool turn) {
-  const auto cells = [](const EvenAxis& a, const EvenAxis& b) { return (a.count + 1) * (b.count + 1); };
-  const auto first = in_millionths(first_deg), second = in_millionths(second_deg);
-  std::optional<std::pair<EvenAxis, EvenAxis>> best;
-  if (first && second) {
-    for (std::int64_t coarse = 1; coarse <= (turn ? 1 : 100); ++coarse) {
-      const auto a = even_axis(*first, coarse, turn), b = even_axis(*second, coarse, turn);
-      if (a && b && cells(*a, *b) <= (best ? cells(best->first, best->second) - 1 : kMaxEvenCells))
-        best.emplace(*a, *b);
-    }
-  }
-  const auto own = static_cast<std::int64_t>(first_deg.size() * second_deg.size());
-  if (turn || (best && cells(best->first, best->second) <= std::max(8 * own, kSmallCells))) return best;
-  const auto either = [](const auto& whole, const std::vector<double>& nodes) {
-    const auto even = whole ? even_axis(*whole, 1, false) : std::nullopt;
-    return even && even->count <= static_cast<std::int64_t>(2 * nodes.size()) ? even : rounded_axis(nodes);
-  };
-  const auto a = either(first, first_deg), b = either(second, second_deg);
-  if (a && b && cells(*a, *b) <= kMaxEvenCells) return std::pair(*a, *b);
-  return best;
-}
 
 // For each of these angles: the table's node before it, and the way to the next.
 std::vector<NodePlace> places_of(const std::vector<double>& nodes_deg, std::size_t count, const auto& angle_of) {
@@ -461,86 +346,6 @@ TexelRect pack_again(PackedBeam& packed, const BeamImage& image, const TexelRect
   const TexelRect part{column, row, end_column, end_row};
   if (!part.empty()) fill(packed, image, part);
   return part;
-}
-
-TexelRect texels_about(const PackedBeam& packed, const TexelRect& nodes) {
-  if (packed.filtered() || nodes.empty()) return nodes;
-  return {nodes.column, nodes.row, nodes.end_column + 1, nodes.end_row + 1};
-}
-
-namespace {
-
-// Each texel of `rect` as `put(bytes, texel)` writes it; `texel`: four nodes of a cell, or a value.
-template <typename Value>
-std::array<Value, 4> nodes_of_cell(const PackedBeam& packed, const std::vector<Value>& nodes, std::size_t column,
-                                   std::size_t row) {
-  const auto at = [&](std::size_t i, std::size_t j) {  // counted from the node before the first
-    const bool there = i > 0 && j > 0 && i <= packed.columns && j <= packed.rows_of_candela;
-    return there ? nodes[(j - 1) * packed.columns + i - 1] : Value{};
-  };
-  return {at(column, row), at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)};
-}
-
-template <typename Texel>
-std::vector<std::byte> bytes_of(const TexelRect& rect, Texel&& texel) {
-  std::vector<std::byte> bytes(rect.texels() * sizeof texel(rect.column, rect.row));
-  std::byte* out = bytes.data();
-  for (std::size_t j = rect.row; j < rect.end_row; ++j) {
-    for (std::size_t i = rect.column; i < rect.end_column; ++i) {
-      const auto value = texel(i, j);
-      std::memcpy(out, &value, sizeof value);
-      out += sizeof value;
-    }
-  }
-  return bytes;
-}
-
-}  // namespace
-
-std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& texels) {
-  const auto filtered = [&](std::size_t i, std::size_t j) {
-    return packed.candela[j * packed.columns + i] / packed.scale_cd;
-  };
-  switch (packed.level) {
-    case ImageLevel::kNormalised8:
-      return bytes_of(texels, [&](std::size_t i, std::size_t j) {
-        return static_cast<std::uint8_t>(std::lround(255.0f * filtered(i, j)));
-      });
-    case ImageLevel::kHalfEven:
-      return bytes_of(texels, [&](std::size_t i, std::size_t j) { return half_from_float(filtered(i, j)); });
-    case ImageLevel::kHalfNodes:
-      return bytes_of(texels, [&](std::size_t i, std::size_t j) {
-        const auto cd = nodes_of_cell(packed, packed.candela, i, j);
-        std::array<std::uint16_t, 4> halves;
-        std::transform(cd.begin(), cd.end(), halves.begin(),
-                       [&](float value) { return half_from_float(value / packed.scale_cd); });
-        return halves;
-      });
-    case ImageLevel::kFloatNodes:
-      break;
-  }
-  return bytes_of(texels, [&](std::size_t i, std::size_t j) { return nodes_of_cell(packed, packed.candela, i, j); });
-}
-
-std::vector<std::byte> tint_texels_of(const PackedBeam& packed, const TexelRect& texels) {
-  const float scale = packed.tint_scale();
-  if (packed.filtered())
-    return bytes_of(texels, [&](std::size_t i, std::size_t j) {
-      const glm::vec2 tint = packed.tints[j * packed.columns + i] / scale;
-      return std::array{half_from_float(tint.x), half_from_float(tint.y)};
-    });
-  const auto reds_and_blues = [&](std::size_t i, std::size_t j) {
-    const auto tint = nodes_of_cell(packed, packed.tints, i, j);
-    return std::array{tint[0].x, tint[1].x, tint[2].x, tint[3].x, tint[0].y, tint[1].y, tint[2].y, tint[3].y};
-  };
-  if (packed.level == ImageLevel::kFloatNodes) return bytes_of(texels, reds_and_blues);
-  return bytes_of(texels, [&](std::size_t i, std::size_t j) {
-    const auto tint = reds_and_blues(i, j);
-    std::array<std::uint16_t, 8> halves;
-    std::transform(tint.begin(), tint.end(), halves.begin(),
-                   [&](float value) { return half_from_float(value / scale); });
-    return halves;
-  });
 }
 
 }  // namespace phare

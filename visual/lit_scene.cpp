@@ -305,7 +305,6 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
                                     static_cast<std::uint32_t>(variant.kind.retro),
                                     static_cast<std::uint32_t>(variant.output),
                                     variant.lamp_base,
-                                    0,
                                     variant.colours,
                                     variant.kind.double_sided ? 2u : 1u,
                                     grain_.first_level};

@@ -3,7 +3,7 @@
 #ifndef PHARE_GRAIN
 #define PHARE_GRAIN
 layout(set = 0, binding = 4) uniform samplerBuffer grain;
-layout(constant_id = 8) const uint grain_first_level = 0;
+layout(constant_id = 7) const uint grain_first_level = 0;
 
 const int kGrainSize = 512;
 const uint kGrainFine = 0, kGrainSoft = 1;  // chippings; patches

@@ -1,0 +1,103 @@
+#include "visual/even_axis.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace phare {
+
+namespace {
+
+constexpr std::int64_t kMaxEvenNodes = 4096;   // of one axis
+constexpr std::int64_t kSmallCells = 1 << 16;  // 1 MiB, which the processor's caches hold
+constexpr std::int64_t kOctant = 45'000'000;   // millionths of a degree
+
+// Nodes as evenly as their ends say, but for rounding; nothing if one lies more than a fifth of a step beside.
+std::optional<EvenAxis> rounded_axis(const std::vector<double>& nodes) {
+  const auto count = static_cast<std::int64_t>(nodes.size());
+  if (count >= kMaxEvenNodes) return std::nullopt;
+  EvenAxis axis{.step = (nodes.back() - nodes.front()) / static_cast<double>(count - 1), .count = count};
+  const double first = nodes.front() / axis.step;
+  axis.first = static_cast<std::int64_t>(std::floor(first + 1e-9));
+  axis.phase = std::max(first - static_cast<double>(axis.first), 0.0);
+  double most = 0.0;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const double even = axis.angle(static_cast<double>(axis.first + i));
+    axis.beside.push_back((nodes[static_cast<std::size_t>(i)] - even) / axis.step);
+    most = std::max(most, std::abs(axis.beside.back()));
+  }
+  if (most > 0.2) return std::nullopt;
+  if (most * axis.step < 1e-9) axis.beside.clear();  // computed, not read: as even as double is
+  return axis;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::int64_t>> in_millionths(const std::vector<double>& nodes_written) {
+  std::vector<std::int64_t> nodes;
+  for (double node : nodes_written) {
+    if (std::abs(node * 1e6 - std::round(node * 1e6)) > 1e-3) return std::nullopt;
+    nodes.push_back(std::llround(node * 1e6));
+  }
+  return nodes;
+}
+
+std::optional<EvenAxis> even_axis(const std::vector<std::int64_t>& nodes, std::int64_t coarse, bool turn) {
+  std::optional<EvenAxis> best;
+  if (coarse == 1 && !turn) {
+    std::int64_t step = 0;
+    for (std::int64_t node : nodes) step = std::gcd(step, node - nodes.front());
+    const std::int64_t before = nodes.front() - (nodes.front() % step + step) % step;
+    best = {.step = static_cast<double>(step) * 1e-6,
+            .phase = static_cast<double>(nodes.front() - before) / static_cast<double>(step),
+            .first = before / step,
+            .count = (nodes.back() - nodes.front()) / step + 1};
+  } else {
+    std::int64_t step = turn ? kOctant : 0;  // the shader counts the nodes of a whole turn from multiples of 45°
+    for (std::int64_t node : nodes) step = std::gcd(step, node);
+    const auto propose = [&](std::int64_t border) {
+      for (std::int64_t node : nodes)
+        if (std::abs(node) > border && (std::abs(node) - border) % (step * coarse) != 0) return;
+      const auto node_of = [&](std::int64_t angle) {
+        const std::int64_t inner = std::clamp(angle, -border, border);
+        return inner / step + (angle - inner) / (step * coarse);
+      };
+      const EvenAxis axis{.step = static_cast<double>(step) * 1e-6,
+                          .fine = border / step,
+                          .coarse = coarse,
+                          .first = node_of(nodes.front()),
+                          .count = node_of(nodes.back()) - node_of(nodes.front()) + 1};
+      if (!best || axis.count < best->count) best = axis;
+    };
+    if (turn)
+      propose(std::max(std::abs(nodes.front()), std::abs(nodes.back())));
+    else
+      for (std::int64_t border : nodes) propose(std::abs(border));
+  }
+  return best && best->count < kMaxEvenNodes ? best : std::nullopt;
+}
+
+std::optional<std::pair<EvenAxis, EvenAxis>> even_axes(const std::vector<double>& first_deg,
+                                                       const std::vector<double>& second_deg, bool turn) {
+  const auto cells = [](const EvenAxis& a, const EvenAxis& b) { return (a.count + 1) * (b.count + 1); };
+  const auto first = in_millionths(first_deg), second = in_millionths(second_deg);
+  std::optional<std::pair<EvenAxis, EvenAxis>> best;
+  if (first && second) {
+    for (std::int64_t coarse = 1; coarse <= (turn ? 1 : 100); ++coarse) {
+      const auto a = even_axis(*first, coarse, turn), b = even_axis(*second, coarse, turn);
+      if (a && b && cells(*a, *b) <= (best ? cells(best->first, best->second) - 1 : kMaxEvenCells))
+        best.emplace(*a, *b);
+    }
+  }
+  const auto own = static_cast<std::int64_t>(first_deg.size() * second_deg.size());
+  if (turn || (best && cells(best->first, best->second) <= std::max(8 * own, kSmallCells))) return best;
+  const auto either = [](const auto& whole, const std::vector<double>& nodes) {
+    const auto even = whole ? even_axis(*whole, 1, false) : std::nullopt;
+    return even && even->count <= static_cast<std::int64_t>(2 * nodes.size()) ? even : rounded_axis(nodes);
+  };
+  const auto a = either(first, first_deg), b = either(second, second_deg);
+  if (a && b && cells(*a, *b) <= kMaxEvenCells) return std::pair(*a, *b);
+  return best;
+}
+
+}  // namespace phare
