@@ -58,15 +58,13 @@ Status choose(const std::array<std::string_view, count>& names, Enum& chosen, st
   return Done{};
 }
 
-constexpr std::array<std::string_view, 2> kOffOn{"off", "on"};
-
 Status turn(bool& flag, std::string_view value) {
   if (value == "toggle") {
     flag = !flag;
     return Done{};
   }
-  if (value != kOffOn[0] && value != kOffOn[1]) return none_of(value, kOffOn, "toggle");
-  flag = value == kOffOn[1];
+  if (value != kOffOnNames[0] && value != kOffOnNames[1]) return none_of(value, kOffOnNames, "toggle");
+  flag = value == kOffOnNames[1];
   return Done{};
 }
 
@@ -76,7 +74,7 @@ Status set_flag(Desk& desk, std::string_view value, const DeskContext&) {
 }
 template <bool Desk::*flag>
 std::string get_flag(const Desk& desk) {
-  return std::string(kOffOn[desk.*flag ? 1 : 0]);
+  return std::string(kOffOnNames[desk.*flag ? 1 : 0]);
 }
 
 Status set_camera(Desk& desk, std::string_view value, const DeskContext&) {
@@ -206,16 +204,20 @@ std::string get_probes(const Desk& desk) {
   return text.empty() ? "none" : text;
 }
 
-Status set_depth_first(Desk& desk, std::string_view value, const DeskContext&) {
-  constexpr std::array<std::string_view, 3> kLevels{"auto", "off", "on"};
-  const auto found = std::ranges::find(kLevels, value);
-  if (found == kLevels.end()) return none_of(value, kLevels);
-  desk.depth_first.reset();
-  if (value != kLevels[0]) desk.depth_first = static_cast<std::size_t>(found - kLevels.begin()) - 1;
+/// "auto", or a level of an effect by its name.
+template <std::optional<std::size_t> Desk::*level, const auto& names>
+Status set_level(Desk& desk, std::string_view value, const DeskContext&) {
+  std::array<std::string_view, names.size() + 1> known{"auto"};
+  std::ranges::copy(names, known.begin() + 1);
+  const auto found = std::ranges::find(known, value);
+  if (found == known.end()) return none_of(value, known);
+  (desk.*level).reset();
+  if (found != known.begin()) desk.*level = static_cast<std::size_t>(found - known.begin()) - 1;
   return Done{};
 }
-std::string get_depth_first(const Desk& desk) {
-  return !desk.depth_first ? "auto" : std::string(kOffOn[*desk.depth_first]);
+template <std::optional<std::size_t> Desk::*level, const auto& names>
+std::string get_level(const Desk& desk) {
+  return !(desk.*level) ? "auto" : std::string(names[*(desk.*level)]);
 }
 
 constexpr DeskSetting kSettings[] = {
@@ -240,7 +242,9 @@ constexpr DeskSetting kSettings[] = {
      set_flag<&Desk::effects>, get_flag<&Desk::effects>},
     {"help", "off, on, toggle", "every key", false, set_flag<&Desk::help>, get_flag<&Desk::help>},
     {"depth_first", "auto, off, on", "a depth pass before the lit one; auto: as the scene calls for", true,
-     set_depth_first, get_depth_first},
+     set_level<&Desk::depth_first, kOffOnNames>, get_level<&Desk::depth_first, kOffOnNames>},
+    {"shadows", "auto, off, hard, soft, fine", "of what stands in the beams; auto: as the scene calls for", true,
+     set_level<&Desk::shadows, kShadowNames>, get_level<&Desk::shadows, kShadowNames>},
 };
 
 }  // namespace

@@ -40,19 +40,24 @@ struct Probe {
 inline constexpr std::array<std::string_view, 2> kProbeFrameNames{"car", "world"};
 inline constexpr std::size_t kMostProbes = 16;
 
+/// Levels of effects that the desk may set, from off to the finest.
+inline constexpr std::array<std::string_view, 2> kOffOnNames{"off", "on"};
+inline constexpr std::array<std::string_view, 4> kShadowNames{"off", "hard", "soft", "fine"};
+
 struct Desk {
   CameraKind camera = CameraKind::kDriver;
   View view = View::kPhoto;
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< rising, 1 to kMostIsoluxLevels
-  double exposure_per_cdm2 = 0.8;          ///< multiplies luminance before the tone curve; fixed, so that beams compare
-  EyeSetting eye;                          ///< what the eye takes for white
-  std::optional<std::size_t> design;       ///< shown instead of the one that the cockpit has chosen, from 0
-  std::vector<Probe> probes;               ///< at most kMostProbes
-  bool lines = true;                       ///< lines of text at the top: time, lux under the mouse, warnings
-  bool instruments = true;                 ///< speed, gear, lights at the lower edge
-  bool effects = false;                    ///< among the lines each effect with its level and the reason
-  bool help = false;                       ///< every key
-  std::optional<std::size_t> depth_first;  ///< level of that effect (visual/effects.h); without: the scene decides
+  double exposure_per_cdm2 = 0.8;     ///< multiplies luminance before the tone curve; fixed, so that beams compare
+  EyeSetting eye;                     ///< what the eye takes for white
+  std::optional<std::size_t> design;  ///< shown instead of the one that the cockpit has chosen, from 0
+  std::vector<Probe> probes;          ///< at most kMostProbes
+  bool lines = true;                  ///< lines of text at the top: time, lux under the mouse, warnings
+  bool instruments = true;            ///< speed, gear, lights at the lower edge
+  bool effects = false;               ///< among the lines each effect with its level and the reason
+  bool help = false;                  ///< every key
+  /// Levels of these effects (visual/effects.h); without one the scene decides.
+  std::optional<std::size_t> shadows, depth_first;
 
   friend bool operator==(const Desk&, const Desk&) = default;
 };

@@ -3,6 +3,11 @@
 #include "lib/beam.glsl"
 #include "lib/grain.glsl"
 #include "lib/retro.h"
+#ifdef PHARE_SHADOWS
+#include "lib/shadow.glsl"
+#else
+#define PHARE_REACHING(I) 1.0
+#endif
 #include "lib/tone.h"
 
 layout(constant_id = 1) const uint surface = 0;
@@ -61,7 +66,7 @@ void main() {
     vec4 lx = vec4(0.0);
 #define MEASURE(I) \
   if (I / 4 == lamp_base / 4) {                  \
-    if (lamp_count > I) lx[I % 4] = PHARE_LAMP_LIGHT(I).illuminance_lx; \
+    if (lamp_count > I) lx[I % 4] = PHARE_LAMP_LIGHT(I).illuminance_lx * PHARE_REACHING(I); \
   }
     PHARE_EACH_LAMP(MEASURE)
     result = lx;
@@ -75,6 +80,9 @@ void main() {
   if (lamp_count > I) {                                                                                    \
     LampLight light = PHARE_LAMP_LIGHT(I);                                                                 \
     vec3 colour = light_colour;                                                                            \
+    float reach = PHARE_REACHING(I);                                                                       \
+    light.illuminance_lx *= reach;                                                                         \
+    light.normal_lx *= reach;                                                                              \
     if (colours != 0) colour = frame.lamps[I].colour.rgb;                                                  \
     if ((colours >> (8 + I) & 1) != 0) colour = PHARE_LAMP_TINT(I, light);                                 \
     total_lx += light.illuminance_lx;                                                                      \

@@ -19,6 +19,11 @@ const uint kSpecLampBase = 4u;  // measure: first of four lamps
 const uint kSpecColours = 5u;   // 0: all light has one colour; bit 0: lamps differ in colour; bit 8 + i: lamp i has a table of colour
 const uint kSpecSides = 6u;     // 2: both sides of a surface are seen
 const uint kSpecGrain = 7u;     // first level of the grain that is there
+// Shadows (lib/shadow.glsl): four bits a lamp, 0 none, else one more than its map; size of a map in texels; texels read for one point.
+const uint kSpecShadowMaps = 8u;
+const uint kSpecShadowWidth = 9u;
+const uint kSpecShadowHeight = 10u;
+const uint kSpecShadowTaps = 11u;
 const uint kSpecTables = 16u;   // kSpecPerTable constants a lamp: the members of its TableShape, below
 const uint kSpecPerTable = 18u;
 
@@ -77,13 +82,27 @@ struct GpuLamp {
   vec4 colour;       // rgb, luminance 1 (with a table of colour: r and b what its texels are multiplied by); w: candela of 1.0 in the table
 };
 
+// How a point relative to the eye falls on a lamp's shadow map: (dot(u, p), dot(v, p)) / dot(w, p) in texels to the right of the middle and
+// below it, dot(w, p) the distance along the lamp's axis in m; p as (x, y, z, 1). A map is two pictures of one size, one after the other:
+// all that casts shadows, then the middle kShadowZoom times as large, where the beam is bright and the road far away.
+struct GpuShadow {
+  vec4 u;
+  vec4 v;
+  vec4 w;
+};
+
 struct GpuFrame {
   vec4 clip_from_eye[4];    // columns; "eye" is the world turned to the eye's place, not its direction
   vec4 exposure;            // rgb: 1/(cd/m²), with the balance of the eye's adaptation
   vec4 sky;                 // rgb zenith cd/m², w: factor at the horizon
   vec4 isolux_lx[kMaxIsoluxLevels / 4u];  // of false colour; beyond the last level one that nothing reaches
   GpuLamp lamps[kMaxLamps];
+  GpuShadow shadows[kMaxLamps];  // of each lamp; read where kSpecShadowMaps has one
 };
+
+// Depth of a map is this over the distance along the axis: what is nearer than it casts no shadow.
+const float kShadowNear_m = 0.05f;
+const float kShadowZoom = 4.0f;
 
 struct GpuMaterial {
   // rgb rho; w, sheeting: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there, in cd/(lx·m²), by

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 
+#include "config/desk.h"
+
 namespace phare {
 namespace {
 
-constexpr std::array<std::string_view, 2> kOffOn{"off", "on"};
+EffectDecision shadows(const EffectFacts& facts) {
+  if (facts.lit_lamps == 0) return {0, "no lamp is lit"};
+  if (facts.casters == 0) return {0, "nothing stands in the light of the lamps"};
+  return {2, std::to_string(facts.casters) + " pieces of the scene stand in the light of the lamps"};
+}
 
 EffectDecision depth_first(const EffectFacts& facts) {
   if (facts.lit_lamps == 0) return {0, "no lamp is lit: a pixel drawn twice costs nothing"};
@@ -27,9 +33,10 @@ EffectDecision overlay(const EffectFacts& facts) {
 }
 
 constexpr std::array<EffectRow, kEffectCount> kTable{
-    {{Effect::kDepthFirst, "depth first", kOffOn, "a depth pass before the lit pass", depth_first},
-     {Effect::kHdrImage, "hdr image", kOffOn, "an image of 8 bytes a pixel and the tone-mapping pass", hdr_image},
-     {Effect::kOverlay, "overlay", kOffOn, "a pass of text over the picture", overlay}}};
+    {{Effect::kShadows, "shadows", kShadowNames, "depth maps of 2 x 1024 x 512 texels a lamp, and their copy", shadows},
+     {Effect::kDepthFirst, "depth first", kOffOnNames, "a depth pass before the lit pass", depth_first},
+     {Effect::kHdrImage, "hdr image", kOffOnNames, "an image of 8 bytes a pixel and the tone-mapping pass", hdr_image},
+     {Effect::kOverlay, "overlay", kOffOnNames, "a pass of text over the picture", overlay}}};
 
 constexpr bool in_order() {
   for (std::size_t i = 0; i < kTable.size(); ++i)

@@ -11,12 +11,13 @@
 
 namespace phare {
 
-enum class Effect : std::size_t { kDepthFirst, kHdrImage, kOverlay };
-inline constexpr std::size_t kEffectCount = 3;
+enum class Effect : std::size_t { kShadows, kDepthFirst, kHdrImage, kOverlay };
+inline constexpr std::size_t kEffectCount = 4;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
   std::size_t lit_lamps = 0;      ///< positions that give light in this view
+  std::size_t casters = 0;        ///< pieces of the scene that stand in the light of these lamps
   bool software_device = false;   ///< vertices cost as much as pixels
   bool hdr_wanted = false;        ///< something reads luminance in cd/m² (EXR, bird's eye)
   bool false_colour = false;      ///< the view shows illuminance, not luminance
@@ -47,6 +48,7 @@ struct EffectPlan {
   std::array<EffectDecision, kEffectCount> decisions{};
 
   const EffectDecision& operator[](Effect effect) const { return decisions[static_cast<std::size_t>(effect)]; }
+  std::size_t level(Effect effect) const { return (*this)[effect].level; }
   bool on(Effect effect) const { return (*this)[effect].level > 0; }
 };
 

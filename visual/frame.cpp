@@ -55,12 +55,12 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
 
   // What is seen, by which lamps.
   const double aspect = static_cast<double>(view.area.extent.width) / static_cast<double>(view.area.extent.height);
-  const LitView lit = parts.scene.view(ViewGeometry(view.input.camera, aspect), sky_of(view.input), view.input.lamps,
-                                       view.input.far_mesh_from_m, view.input.isolux_lx);
+  LitView lit = parts.scene.view(ViewGeometry(view.input.camera, aspect), sky_of(view.input), view.input.lamps,
+                                 view.input.far_mesh_from_m, view.input.isolux_lx);
 
   // What that calls for, and the images it takes.
-  const EffectPlan effects =
-      plan_effects(facts_of(view.input, lit.lamps, lines, parts.software_device), view.input.effects);
+  const EffectPlan effects = plan_effects(
+      facts_of(view.input, lit.lamps, parts.scene.find_casters(lit), lines, parts.software_device), view.input.effects);
   const bool hdr = effects.on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
   gpu::Image* light = view.picture.display;
@@ -73,6 +73,9 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   if (parts.target.samples != vk::SampleCountFlagBits::e1)
     samples = image(hdr ? "hdr samples" : "samples", light->format, Usage::eColorAttachment, parts.target.samples);
   const bool first = !std::exchange(view.picture.begun, true);
+
+  // What each lamp sees, where something stands in its light.
+  if (effects.on(Effect::kShadows)) parts.shadows.draw(graph, parts.scene, lit, effects.level(Effect::kShadows));
 
   // Depth of everything, so that each pixel is lit once.
   const bool depth_done = effects.on(Effect::kDepthFirst);
@@ -118,6 +121,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   };
   const std::size_t lines = text_lines(input);
   parts.scene.begin_frame(parts.graph);
+  parts.shadows.begin_frame();
   parts.tone_mapping.begin_frame();
   Picture seen = picture("", parts.target.extent);
   display = seen.display;

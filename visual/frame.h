@@ -9,6 +9,7 @@
 #include "visual/passes/depth.h"
 #include "visual/passes/lit.h"
 #include "visual/passes/overlay.h"
+#include "visual/passes/shadows.h"
 #include "visual/passes/tone_mapping.h"
 #include "visual/renderer.h"
 
@@ -30,6 +31,7 @@ struct FrameParts {
   gpu::FrameGraph& graph;
   const FrameTarget& target;
   LitScene& scene;
+  ShadowPass& shadows;
   DepthPass& depth;
   LitPass& lit;
   ToneMappingPass& tone_mapping;

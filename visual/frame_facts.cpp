@@ -2,8 +2,10 @@
 
 namespace phare {
 
-EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::size_t lines, bool software_device) {
+EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::size_t casters, std::size_t lines,
+                     bool software_device) {
   return {.lit_lamps = lit_lamps,
+          .casters = casters,
           .software_device = software_device,
           .hdr_wanted = view.want_hdr,
           .false_colour = view.view == View::kFalseColour,

@@ -11,16 +11,28 @@
 
 #include "shaders/lamps_frag_2.h"
 #include "shaders/lamps_frag_2_filtered.h"
+#include "shaders/lamps_frag_2_filtered_shadows.h"
+#include "shaders/lamps_frag_2_shadows.h"
 #include "shaders/lamps_frag_4.h"
 #include "shaders/lamps_frag_4_filtered.h"
+#include "shaders/lamps_frag_4_filtered_shadows.h"
+#include "shaders/lamps_frag_4_shadows.h"
 #include "shaders/lamps_frag_8.h"
 #include "shaders/lamps_frag_8_filtered.h"
+#include "shaders/lamps_frag_8_filtered_shadows.h"
+#include "shaders/lamps_frag_8_shadows.h"
 #include "shaders/measure_vert_2.h"
+#include "shaders/measure_vert_2_shadows.h"
 #include "shaders/measure_vert_4.h"
+#include "shaders/measure_vert_4_shadows.h"
 #include "shaders/measure_vert_8.h"
+#include "shaders/measure_vert_8_shadows.h"
 #include "shaders/scene_vert_2.h"
+#include "shaders/scene_vert_2_shadows.h"
 #include "shaders/scene_vert_4.h"
+#include "shaders/scene_vert_4_shadows.h"
 #include "shaders/scene_vert_8.h"
+#include "shaders/scene_vert_8_shadows.h"
 
 namespace phare {
 
@@ -31,13 +43,19 @@ const std::array<vk::VertexInputAttributeDescription, 3> kVertexAttributes{
         .location = 1, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 12},
     vk::VertexInputAttributeDescription{.location = 2, .binding = 0, .format = vk::Format::eR32Uint, .offset = 24}};
 
+const std::array<vk::DescriptorSetLayoutBinding, 1> kShadowBindings{
+    vk::DescriptorSetLayoutBinding{.binding = 0,
+                                   .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                                   .descriptorCount = 1,
+                                   .stageFlags = kLitStages}};
+
 namespace {
 
 // std140 and std430 agree for these: all members are 16 bytes.
 static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour) == 64);
 static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, cells) == 64);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
-static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * 80);
+static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 48));
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
@@ -75,22 +93,32 @@ LitScene::LitScene(gpu::Device& device, ImageLevel level)
       beams_(device),
       grain_(make_grain(device)),
       sets_(device, bindings(is_filtered(level))),
-      scene_vert_{gpu::make_shader(device, k_scene_vert_2), gpu::make_shader(device, k_scene_vert_4),
-                  gpu::make_shader(device, k_scene_vert_8)},
-      measure_vert_{gpu::make_shader(device, k_measure_vert_2), gpu::make_shader(device, k_measure_vert_4),
-                    gpu::make_shader(device, k_measure_vert_8)},
+      shadow_sets_(device, kShadowBindings),
+      scene_vert_{gpu::make_shader(device, k_scene_vert_2),         gpu::make_shader(device, k_scene_vert_4),
+                  gpu::make_shader(device, k_scene_vert_8),         gpu::make_shader(device, k_scene_vert_2_shadows),
+                  gpu::make_shader(device, k_scene_vert_4_shadows), gpu::make_shader(device, k_scene_vert_8_shadows)},
+      measure_vert_{
+          gpu::make_shader(device, k_measure_vert_2),         gpu::make_shader(device, k_measure_vert_4),
+          gpu::make_shader(device, k_measure_vert_8),         gpu::make_shader(device, k_measure_vert_2_shadows),
+          gpu::make_shader(device, k_measure_vert_4_shadows), gpu::make_shader(device, k_measure_vert_8_shadows)},
       lamps_frag_{is_filtered(level)
-                      ? std::array{gpu::make_shader(device, k_lamps_frag_2_filtered),
-                                   gpu::make_shader(device, k_lamps_frag_4_filtered),
-                                   gpu::make_shader(device, k_lamps_frag_8_filtered)}
-                      : std::array{gpu::make_shader(device, k_lamps_frag_2), gpu::make_shader(device, k_lamps_frag_4),
-                                   gpu::make_shader(device, k_lamps_frag_8)}} {
+                      ? Modules{gpu::make_shader(device, k_lamps_frag_2_filtered),
+                                gpu::make_shader(device, k_lamps_frag_4_filtered),
+                                gpu::make_shader(device, k_lamps_frag_8_filtered),
+                                gpu::make_shader(device, k_lamps_frag_2_filtered_shadows),
+                                gpu::make_shader(device, k_lamps_frag_4_filtered_shadows),
+                                gpu::make_shader(device, k_lamps_frag_8_filtered_shadows)}
+                      : Modules{gpu::make_shader(device, k_lamps_frag_2), gpu::make_shader(device, k_lamps_frag_4),
+                                gpu::make_shader(device, k_lamps_frag_8),
+                                gpu::make_shader(device, k_lamps_frag_2_shadows),
+                                gpu::make_shader(device, k_lamps_frag_4_shadows),
+                                gpu::make_shader(device, k_lamps_frag_8_shadows)}} {
   const vk::PushConstantRange push{.stageFlags = kLitStages, .offset = 0, .size = sizeof(shader::GpuDraw)};
-  const vk::DescriptorSetLayout set_layout = sets_.layout();
-  layout_ = vk::raii::PipelineLayout(
-      device.device,
-      vk::PipelineLayoutCreateInfo{
-          .setLayoutCount = 1, .pSetLayouts = &set_layout, .pushConstantRangeCount = 1, .pPushConstantRanges = &push});
+  const std::array set_layouts{sets_.layout(), shadow_sets_.layout()};
+  layout_ = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = set_layouts.size(),
+                                                                                 .pSetLayouts = set_layouts.data(),
+                                                                                 .pushConstantRangeCount = 1,
+                                                                                 .pPushConstantRanges = &push});
   filter_sampler_ =
       vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                                              .minFilter = vk::Filter::eLinear,
@@ -100,8 +128,9 @@ LitScene::LitScene(gpu::Device& device, ImageLevel level)
   stride_ = (sizeof(shader::GpuFrame) + step - 1) / step * step;
 }
 
-void LitScene::set_geometry(SceneBuffers geometry) {
+void LitScene::set_geometry(SceneBuffers geometry, ShadowCasters casters) {
   geometry_ = std::move(geometry);
+  casters_ = std::move(casters);
   forget_sets();
 }
 
@@ -136,7 +165,6 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
                        double far_mesh_from_m, std::span<const double> isolux_lx) {
   LitView view{
       .geometry = geometry, .sky = sky, .isolux_lx = isolux_lx, .items = geometry_.visible(geometry, far_mesh_from_m)};
-  std::vector<PlacedLamp> reaching;
   for (const PlacedLamp& lamp : lamps) {
     if (is_dark(lamp.beam)) continue;
     const LampReach reach = reach_of(lamp);
@@ -144,19 +172,28 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
                            return reach.meets(item.batch->low_m, item.batch->high_m);
                          });
     if (reaches)
-      reaching.push_back(lamp);
+      view.lit_lamps.push_back(lamp);
     else
       ++view.unreached;
   }
-  view.lamps = static_cast<std::uint32_t>(reaching.size());
-  if (reaching.size() <= kLampsForAll)
-    view.lit_by.push_back(fill(view, reaching));
-  else
-    light_by_block(view, reaching);
+  view.lamps = static_cast<std::uint32_t>(view.lit_lamps.size());
+  if (view.lamps > kLampsForAll) {
+    light_by_block(view);
+    return view;
+  }
+  view.lit_by.push_back(fill(view, view.lit_lamps));
+  for (std::size_t i = 0; i < view.lamps; ++i) view.lit_by[0].lamp_at[i] = i;
   return view;
 }
 
-void LitScene::light_by_block(LitView& view, std::span<const PlacedLamp> lamps) {
+std::size_t LitScene::find_casters(LitView& view) const {
+  for (const PlacedLamp& lamp : view.lit_lamps)
+    view.casts.push_back(casters_.by(reach_of(lamp), lamp.world_from_image));
+  return casters_of_all(view.casts);
+}
+
+void LitScene::light_by_block(LitView& view) {
+  const std::span<const PlacedLamp> lamps = view.lit_lamps;
   std::vector<LampReach> reaches;
   for (const PlacedLamp& lamp : lamps) reaches.push_back(reach_of(lamp));
   std::map<std::vector<std::size_t>, std::size_t> sets;
@@ -182,6 +219,7 @@ void LitScene::light_by_block(LitView& view, std::span<const PlacedLamp> lamps) 
       std::vector<PlacedLamp> set_lamps;
       for (const std::size_t i : here) set_lamps.push_back(lamps[i]);
       view.lit_by.push_back(fill(view, set_lamps));
+      std::ranges::copy(here, view.lit_by.back().lamp_at.begin());
     }
     item.lit_by = set->second;
   }
@@ -193,7 +231,9 @@ void LitScene::light_by_block(LitView& view, std::span<const PlacedLamp> lamps) 
 LitView LitScene::view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps) {
   LitView view{.geometry = geometry, .sky = {}};
   view.lamps = static_cast<std::uint32_t>(lamps.size());
+  view.lit_lamps.assign(lamps.begin(), lamps.end());
   view.lit_by.push_back(fill(view, lamps));
+  for (std::size_t i = 0; i < view.lamps; ++i) view.lit_by[0].lamp_at[i] = i;
   return view;
 }
 
@@ -234,7 +274,8 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
     pages_.push_back(std::make_unique<gpu::HostBuffer>(device_, kViewsInPage * stride_,
                                                        vk::BufferUsageFlagBits::eUniformBuffer, "views"));
   lit.data_at = static_cast<std::uint32_t>(place * stride_);
-  std::memcpy(static_cast<std::byte*>(pages_[page]->data) + lit.data_at, &frame, sizeof frame);
+  lit.data = reinterpret_cast<shader::GpuFrame*>(static_cast<std::byte*>(pages_[page]->data) + lit.data_at);
+  std::memcpy(lit.data, &frame, sizeof frame);
   lit.set = set_of(page, bound);
   return lit;
 }
@@ -307,7 +348,11 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
                                     variant.lamp_base,
                                     variant.colours,
                                     variant.kind.double_sided ? 2u : 1u,
-                                    grain_.first_level};
+                                    grain_.first_level,
+                                    variant.shadow_maps,
+                                    variant.shadows.width,
+                                    variant.shadows.height,
+                                    variant.shadows.taps};
   values.resize(shader::kSpecTables);
   for (const shader::TableShape& shape : table_shapes_[variant.tables]) {
     const auto words = std::bit_cast<std::array<std::uint32_t, shader::kSpecPerTable>>(shape);
@@ -320,7 +365,10 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
                                          .dataSize = 4 * values.size(),
                                          .pData = values.data()};
   const bool measure = variant.output == LampOutput::kMeasure;
-  const std::size_t size = variant.lamp_count <= 2 ? 0 : variant.lamp_count <= 4 ? 1 : 2;
+  const std::size_t size = (variant.lamp_count <= 2   ? 0u
+                            : variant.lamp_count <= 4 ? 1u
+                                                      : 2u) +
+                           (variant.shadow_maps != 0 ? 3u : 0u);
   PipelineRecipe recipe{
       .vertex = measure ? *measure_vert_[size] : *scene_vert_[size],
       .fragment = *lamps_frag_[size],
@@ -349,12 +397,18 @@ void LitScene::bind(vk::CommandBuffer commands, const LitView& view) const {
   commands.bindIndexBuffer(*geometry_.indices.buffer, 0, vk::IndexType::eUint32);
 }
 
+void LitScene::bind_shadows(vk::CommandBuffer commands, const LitView& view) const {
+  if (view.depths != nullptr)
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 1, view.depths->set, nullptr);
+}
+
 void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const {
   commands.pushConstants<shader::GpuDraw>(*layout_, kLitStages, 0, draw);
 }
 
 void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant common) {
   bind(commands, view);
+  bind_shadows(commands, view);
   std::size_t lit_by = 0;
   vk::Pipeline bound;
   for (const DrawItem& item : view.items) {
@@ -365,6 +419,8 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     variant.tables = lit.tables;
     variant.colours = common.output == LampOutput::kAudit ? 0 : lit.colours;
     variant.kind = item.batch->kind;
+    variant.shadow_maps = item.shadowed && common.output != LampOutput::kAudit ? lit.shadow_maps : 0;
+    variant.shadows = variant.shadow_maps != 0 ? view.shadows : ShadowLevel{};
     if (variant.output == LampOutput::kAudit) variant.kind = {.double_sided = variant.kind.double_sided};
     const vk::Pipeline wanted = pipeline(variant);
     if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);

@@ -16,6 +16,7 @@
 #include "visual/passes/grain.h"
 #include "visual/passes/pipeline.h"
 #include "visual/passes/sky.h"
+#include "visual/shadow_casters.h"
 
 namespace phare {
 
@@ -29,6 +30,25 @@ struct LitBy {
   std::uint32_t colours = 0;  ///< as kSpecColours
   vk::DescriptorSet set{};
   std::uint32_t data_at = 0;  ///< of their GpuFrame in the buffer, bytes
+  shader::GpuFrame* data = nullptr;
+  std::array<std::size_t, shader::kMaxLamps> lamp_at{};  ///< among those of the view
+  std::uint32_t shadow_maps = 0;                         ///< as kSpecShadowMaps
+};
+
+/// Size of a shadow map in texels, and how many of them are read for one point. None: no shadows.
+struct ShadowLevel {
+  std::uint32_t width = 0, height = 0, taps = 0;
+
+  friend auto operator<=>(const ShadowLevel&, const ShadowLevel&) = default;
+};
+
+/// The maps of a view, as texels one after the other.
+struct ShadowDepths {
+  gpu::HostBuffer triangles;  ///< that cast them, corner by corner
+  gpu::DeviceBuffer texels;
+  vk::raii::BufferView view{nullptr};
+  gpu::DescriptorSets sets{};
+  vk::DescriptorSet set{};
 };
 
 /// One view of a frame, ready for its passes.
@@ -37,7 +57,11 @@ struct LitView {
   Sky sky;
   std::span<const double> isolux_lx{};  ///< lines of false colour; of the caller, while the view is made
   std::vector<DrawItem> items{};
-  std::vector<LitBy> lit_by{};   ///< one at least
+  std::vector<LitBy> lit_by{};          ///< one at least
+  std::vector<PlacedLamp> lit_lamps{};  ///< that light something in it
+  std::vector<CastBy> casts{};          ///< what stands in the light of each
+  ShadowLevel shadows{};                ///< of the maps that are read
+  const ShadowDepths* depths = nullptr;
   std::uint32_t lamps = 0;       ///< that light something in it
   std::uint32_t unreached = 0;   ///< left out: they light nothing of what it sees
   std::uint32_t over_limit = 0;  ///< left out somewhere: kLampsPerDraw that are brighter there light it already
@@ -50,6 +74,8 @@ struct LitVariant {
   std::uint32_t lamp_count = 0, lamp_base = 0;
   std::size_t tables = 0;  ///< as LitView
   std::uint32_t colours = 0;
+  std::uint32_t shadow_maps = 0;
+  ShadowLevel shadows{};
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Format format = vk::Format::eUndefined;
   bool depth_done = false;
@@ -63,7 +89,7 @@ class LitScene {
   LitScene(gpu::Device& device, ImageLevel level);
 
   /// Nothing is being drawn.
-  void set_geometry(SceneBuffers geometry);
+  void set_geometry(SceneBuffers geometry, ShadowCasters casters);
   void set_beam(std::size_t beam, const BeamImage& image);
   void change_beam(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed);
   bool is_dark(std::size_t beam) const { return beams_.beam(beam).dark; }
@@ -77,12 +103,15 @@ class LitScene {
                std::span<const double> isolux_lx);
   /// An eye with lamps and no surface, for points that are given.
   LitView view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps);
+  /// Finds what stands in the light of the view's lamps; returns how many pieces of the scene.
+  std::size_t find_casters(LitView& view) const;
 
   vk::PipelineLayout layout() const { return *layout_; }
   vk::Pipeline pipeline(const LitVariant& variant);
   /// The view's data, and the vertices of the scene.
   void bind(vk::CommandBuffer commands, const LitView& view) const;
   void bind(vk::CommandBuffer commands, const LitBy& lit_by) const;
+  void bind_shadows(vk::CommandBuffer commands, const LitView& view) const;
   void push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const;
   /// All that the view sees; of `common` all counts but the material and the lamps.
   void draw(gpu::Recorder& commands, const LitView& view, LitVariant common);
@@ -95,7 +124,7 @@ class LitScene {
 
   /// Lamps of a view, by their places, into data of their own.
   LitBy fill(const LitView& view, std::span<const PlacedLamp> lamps);
-  void light_by_block(LitView& view, std::span<const PlacedLamp> lamps);
+  void light_by_block(LitView& view);
   LampReach reach_of(const PlacedLamp& lamp) const {
     return {lamp.position_m, lamp.world_from_image, cones_[lamp.beam]};
   }
@@ -106,11 +135,12 @@ class LitScene {
   gpu::Device& device_;
   ImageLevel level_;
   SceneBuffers geometry_;
+  ShadowCasters casters_;
   BeamStore beams_;
   std::vector<LightCone> cones_;  ///< of each beam
   std::vector<float> peaks_cd_;   ///< of each beam; of one that was changed, at most
   Grain grain_;
-  gpu::DescriptorSets sets_;
+  gpu::DescriptorSets sets_, shadow_sets_;  ///< of the second only the layout
   std::map<std::pair<std::size_t, Beams>, vk::DescriptorSet> set_of_;
   vk::raii::PipelineLayout layout_{nullptr};
   vk::raii::Sampler filter_sampler_{nullptr};
@@ -119,8 +149,12 @@ class LitScene {
   std::size_t views_ = 0;                                ///< of this frame
   std::vector<std::vector<shader::TableShape>> table_shapes_;  ///< of the lamps of a view, each set that came up
   std::map<LitVariant, vk::raii::Pipeline> pipelines_;
-  std::array<vk::raii::ShaderModule, 3> scene_vert_, measure_vert_, lamps_frag_;  ///< for up to 2, 4, 8 lamps
+  using Modules = std::array<vk::raii::ShaderModule, 6>;  ///< for up to 2, 4, 8 lamps; the same with shadows
+  Modules scene_vert_, measure_vert_, lamps_frag_;
 };
+
+/// Of a set of ShadowDepths.
+extern const std::array<vk::DescriptorSetLayoutBinding, 1> kShadowBindings;
 
 inline constexpr auto kLitStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 /// Of GpuVertex.

@@ -48,6 +48,7 @@ struct Renderer::Impl {
   gpu::FrameGraph graph{device};
   std::unique_ptr<gpu::WindowSurface> surface;
   LitScene scene{device, options.beam_level};
+  ShadowPass shadows{device};
   DepthPass depth{device};
   LitPass lit{device};
   ToneMappingPass tone_mapping{device};
@@ -82,7 +83,7 @@ struct Renderer::Impl {
 
   void set_scene(const Scene& new_scene) {
     device.device.waitIdle();
-    scene.set_geometry(SceneBuffers(device, new_scene));
+    scene.set_geometry(SceneBuffers(device, new_scene), ShadowCasters(new_scene));
   }
 
   /// Submits what `record` puts into the graph and waits for it.
@@ -136,6 +137,7 @@ struct Renderer::Impl {
             .graph = graph,
             .target = target,
             .scene = scene,
+            .shadows = shadows,
             .depth = depth,
             .lit = lit,
             .tone_mapping = tone_mapping,
@@ -236,7 +238,7 @@ ImageF Renderer::read_hdr(std::size_t view) const {
 }
 
 std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> lamps,
-                                                  std::span<const MeasurePoint> points) {
+                                                  std::span<const MeasurePoint> points, std::size_t shadows) {
   std::vector<std::vector<float>> result(lamps.size(), std::vector<float>(points.size(), 0.0f));
   if (lamps.empty() || points.empty()) return result;
   constexpr std::size_t kWidth = 1024, kBatch = 1024 * 256;
@@ -260,7 +262,10 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
       if (impl_->scene.is_dark(lamps[lamp].beam)) continue;
       impl_->submit([&] {
         impl_->scene.begin_frame(impl_->graph);
-        const LitView view = impl_->scene.view_of_points(ViewGeometry(camera, 1.0), lamps.subspan(lamp, 1));
+        LitView view = impl_->scene.view_of_points(ViewGeometry(camera, 1.0), lamps.subspan(lamp, 1));
+        impl_->shadows.begin_frame();
+        if (shadows > 0 && impl_->scene.find_casters(view) > 0)
+          impl_->shadows.draw(impl_->graph, impl_->scene, view, shadows);
         measure_points(impl_->graph, impl_->scene, view, lx, *buffer.buffer, static_cast<std::uint32_t>(count), 0);
         impl_->copy_out(lx, copy, 16);
       });

@@ -162,8 +162,10 @@ class Renderer {
   Image8 read_image(std::size_t view = 0) const;
   ImageF read_hdr(std::size_t view = 0) const;  ///< after draw with want_hdr: the part of that view
 
-  /// Illuminance in lx at points, per lamp, through the same fragment shader: result[lamp][point].
-  std::vector<std::vector<float>> measure(std::span<const PlacedLamp> lamps, std::span<const MeasurePoint> points);
+  /// Illuminance in lx at points, per lamp, through the same fragment shader: result[lamp][point]. `shadows`: level of
+  /// that effect, 0 for what falls there if nothing stands in the way (occluder() of visual/scene/ray_hit.h tells exactly).
+  std::vector<std::vector<float>> measure(std::span<const PlacedLamp> lamps, std::span<const MeasurePoint> points,
+                                          std::size_t shadows = 0);
 
   /// Draws the frame again at `width` x `height` with position and normal out, and returns `count` lit pixels chosen by
   /// `seed`.

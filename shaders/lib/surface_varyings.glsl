@@ -37,6 +37,19 @@ layout(location = 6 + PHARE_LAMPS) PHARE_VARYING vec4 facing[PHARE_LAMPS / 4];
 #define PHARE_FACING(I) facing[I / 4][I % 4]
 #endif
 
+#ifdef PHARE_SHADOWS
+layout(constant_id = kSpecShadowMaps) const uint shadow_maps = 0;
+
+// As GpuShadow has it, not divided yet.
+vec3 shadow_place(uint lamp, vec3 from_eye) {
+  vec4 p = vec4(from_eye, 1.0);
+  return vec3(dot(frame.shadows[lamp].u, p), dot(frame.shadows[lamp].v, p), dot(frame.shadows[lamp].w, p));
+}
+#if PHARE_LAMPS != 8
+layout(location = 7 + PHARE_LAMPS) PHARE_VARYING vec3 in_shadow[PHARE_LAMPS];
+#endif
+#endif
+
 #ifdef PHARE_VERTEX
 layout(constant_id = 3) const uint output_kind = 0;
 
@@ -53,6 +66,11 @@ void pass_light(vec4 material) {
     PHARE_FACING(I) = dot(frame.lamps[I].position.xyz, point_normal);                                           \
   }
   PHARE_EACH_LAMP(PHARE_POINT_IN)
+#if defined(PHARE_SHADOWS) && PHARE_LAMPS != 8
+#define PHARE_SHADOW_OF(I) \
+  if ((shadow_maps >> (4 * I) & 15u) != 0u) in_shadow[I] = shadow_place(I, point);
+  PHARE_EACH_LAMP(PHARE_SHADOW_OF)
+#endif
 }
 #endif
 #endif

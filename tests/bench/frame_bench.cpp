@@ -32,6 +32,7 @@ struct Options {
   std::string lamp = (generated_dir() / "lamps/low_rht.ies").string();
   int width_px = 1280, height_px = 720, rounds = 40;
   std::string csv;
+  bool growth = true;
 };
 
 double clock_ms(clockid_t clock) {
@@ -191,6 +192,11 @@ FrameInput country_view(int round) {
   return input;
 }
 
+FrameInput without_shadows(FrameInput input) {
+  input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
+  return input;
+}
+
 /// What a frame costs with nothing in it, with its surfaces unlit, and lit; differences tell where time goes.
 void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const std::function<FrameInput(int)>& view) {
   bench.add(group, "fixed: nothing in view", renderer, [view](int round) {
@@ -206,12 +212,21 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
     return input;
   });
   bench.add(group, "unlit: geometry and surfaces", renderer, [view](int round) { return without_lamps(view(round)); });
-  bench.add(group, "two lamps", renderer, view);
+  const auto with_shadows = [view](std::size_t level) {
+    return [view, level](int round) {
+      FrameInput input = view(round);
+      input.effects[static_cast<std::size_t>(Effect::kShadows)] = level;
+      return input;
+    };
+  };
+  bench.add(group, "two lamps", renderer, with_shadows(0));
+  for (std::size_t level = 1; level < kShadowNames.size(); ++level)
+    bench.add(group, "two lamps, shadows " + std::string(kShadowNames[level]), renderer, with_shadows(level));
 }
 
 /// The straight road with more of one thing: triangles, draws, lamps, pixels, views.
 void add_growth(Bench& bench, const Scene& straight, const IntensityTable& beam, const Options& options) {
-  const auto view = [](int round) { return straight_road_view(0.1 * (round % 64)); };
+  const auto view = [](int round) { return without_shadows(straight_road_view(0.1 * (round % 64))); };
   for (const int times : {0, 1, 2, 3}) {
     const Scene scene = with_more_triangles(straight, times);
     bench.grow("growth with triangles", "triangles", static_cast<double>(scene.indices.size() / 3),
@@ -302,13 +317,13 @@ int run(const Options& options) {
   }
   const Scene straight = straight_road();
   const IntensityTable even = straight_road_beam(Nodes::kEven), rounded = straight_road_beam(Nodes::kRounded);
-  const auto straight_view = [](int round) { return straight_road_view(0.1 * (round % 64)); };
+  const auto straight_view = [](int round) { return without_shadows(straight_road_view(0.1 * (round % 64))); };
 
   Bench bench(options);
   add_parts(bench, "straight road, even nodes", bench.renderer(straight, even), straight_view);
   bench.add("straight road, rounded nodes", "two lamps", bench.renderer(straight, rounded), straight_view);
   add_parts(bench, "country road", bench.renderer(*country, *lamp), country_view);
-  add_growth(bench, straight, even, options);
+  if (options.growth) add_growth(bench, straight, even, options);
 
   Floor floor(even, options.width_px, options.height_px);
   bench.run(floor);
@@ -343,6 +358,7 @@ int main(int argc, char** argv) {
   app.add_option("--lamp", options.lamp, "Its low beam")->capture_default_str();
   app.add_option("--size", size, "WIDTHxHEIGHT, the width a multiple of 8")->capture_default_str();
   app.add_option("--rounds", options.rounds, "Frames of each case")->check(CLI::Range(1, 10000))->capture_default_str();
+  app.add_flag("!--no-growth", options.growth, "Only the roads, not how time grows");
   app.add_option("--csv", options.csv, "Write the table there");
   CLI11_PARSE(app, argc, argv);
   if (std::sscanf(size.c_str(), "%dx%d", &options.width_px, &options.height_px) != 2 || options.width_px % 8 != 0 ||

@@ -21,7 +21,8 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
   const struct {
     EffectFacts facts;
     Effect effect;
-  } cases[] = {{{.lit_lamps = 2}, Effect::kDepthFirst},
+  } cases[] = {{{.lit_lamps = 2, .casters = 3, .software_device = true}, Effect::kShadows},
+               {{.lit_lamps = 2}, Effect::kDepthFirst},
                {{.hdr_wanted = true}, Effect::kHdrImage},
                {{.overlay_lines = 3}, Effect::kOverlay}};
   std::set<Effect> tried;

@@ -42,7 +42,9 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"effects", "on", "effects on"},
       {"help", "toggle", "help on"},
       {"depth_first", "off", "depth_first off"},
-      {"depth_first", "auto", "depth_first auto"}};
+      {"depth_first", "auto", "depth_first auto"},
+      {"shadows", "fine", "shadows fine"},
+      {"shadows", "auto", "shadows auto"}};
   Desk desk;
   std::set<std::string_view> tried;
   for (const Case& c : cases) {
@@ -79,6 +81,7 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"effects yes", "effects: \"yes\" is none of off, on, toggle"},
       {"help me", "help: \"me\" is none of off, on, toggle"},
       {"depth_first 2", "depth_first: \"2\" is none of auto, off, on"},
+      {"shadows on", "shadows: \"on\" is none of auto, off, hard, soft, fine"},
   };
   std::set<std::string> tried;
   Desk desk;
@@ -101,7 +104,7 @@ TEST(Desk, ItsDifferenceMakesItAgain) {
   Desk desk;
   for (const char* words :
        {"camera birds-eye", "view false-colour", "isolux_lx 0.1 0.30000000000000004", "exposure_per_cdm2 0.7",
-        "adaptation_k 5500", "design 1", "lines off", "depth_first on", "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
+        "adaptation_k 5500", "design 1", "lines off", "depth_first on", "shadows hard", "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
     ASSERT_TRUE(apply(desk, desk_command(words), {.designs = 2})) << words;
   Desk again;
   for (const DeskCommand& command : difference(desk)) ASSERT_TRUE(apply(again, command, {.designs = 2}));

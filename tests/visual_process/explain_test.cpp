@@ -33,7 +33,8 @@ Rig rig_of_two_lamps() {
 class Explain : public testing::Test {
  protected:
   std::vector<std::string> lines(const AskedMoment& moment, const AskedDevice& device, bool window = false) {
-    std::istringstream text(explain_moment(lamps_, desk_, rig_.channels[0], moment, device, window));
+    std::istringstream text(
+        explain_moment(lamps_, desk_, rig_.channels[0], moment, device, ShadowCasters(scene_), window));
     std::vector<std::string> all;
     for (std::string line; std::getline(text, line);) all.push_back(line);
     return all;
@@ -47,6 +48,7 @@ class Explain : public testing::Test {
   Rig rig_ = rig_of_two_lamps();
   Lamps lamps_ = std::move(*Lamps::load(rig_));
   Desk desk_;
+  Scene scene_;
   const AskedDevice gpu_{"a card", false}, software_{"llvmpipe", true};
 };
 
@@ -54,25 +56,26 @@ TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
   const auto lit = lines(moment(LightSwitch::kLow), gpu_);
   ASSERT_EQ(lit.size(), 1 + kEffectCount);
   EXPECT_EQ(lit[0], "# lit: low, design \"pair\", 0.0 s, 0 km/h, on a card");
-  EXPECT_EQ(lit[1], "depth first     on      2 lamps are lit, and vertices are cheap on this device");
-  EXPECT_EQ(lit[2],
+  EXPECT_EQ(lit[1], "shadows         off     nothing stands in the light of the lamps");
+  EXPECT_EQ(lit[2], "depth first     on      2 lamps are lit, and vertices are cheap on this device");
+  EXPECT_EQ(lit[3],
             "hdr image       off     nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself");
-  EXPECT_EQ(lit[3], "overlay         off     no line of text to show");
+  EXPECT_EQ(lit[4], "overlay         off     no line of text to show");
 
   const auto dark = lines(moment(LightSwitch::kOff), gpu_);
   EXPECT_EQ(dark[0], "# lit: off, design \"pair\", 0.0 s, 0 km/h, on a card");
-  EXPECT_EQ(dark[1], "depth first     off     no lamp is lit: a pixel drawn twice costs nothing");
+  EXPECT_EQ(dark[2], "depth first     off     no lamp is lit: a pixel drawn twice costs nothing");
 }
 
 TEST_F(Explain, DeviceDeskAndWindowCount) {
-  EXPECT_NE(lines(moment(LightSwitch::kLow), software_)[1].find("on a software device"), std::string::npos);
+  EXPECT_NE(lines(moment(LightSwitch::kLow), software_)[2].find("on a software device"), std::string::npos);
   desk_.design = 1;
-  EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_)[1].find("1 lamps are lit"), std::string::npos);
+  EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_)[2].find("1 lamps are lit"), std::string::npos);
   desk_.depth_first = 0;
-  EXPECT_EQ(lines(moment(LightSwitch::kLow), gpu_)[1].substr(0, 41), "depth first     off     set by the user; ");
+  EXPECT_EQ(lines(moment(LightSwitch::kLow), gpu_)[2].substr(0, 41), "depth first     off     set by the user; ");
   desk_.view = View::kFalseColour;
-  EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_)[2].find("false colour"), std::string::npos);
-  EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_, true)[3].find("on "), std::string::npos);
+  EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_)[3].find("false colour"), std::string::npos);
+  EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_, true)[4].find("on "), std::string::npos);
 }
 
 TEST_F(Explain, AMomentOfADriveIsTheNewestUntilThen) {
@@ -125,6 +128,35 @@ TEST_F(Explain, TheLinesShowWhatTheDeskSays) {
   std::snprintf(lux, sizeof lux, "%.3g lx", left + 900.0 * 22.0 / (r2 * std::sqrt(r2)));
   EXPECT_EQ(probed[0], "probe 1, car: " + std::string(lux) + " at (25.00, 0.60, 0.70) m");
   EXPECT_EQ(probed[1], "probe 2, world: " + std::string(lux) + " at (125.00, 0.60, 0.70) m");
+}
+
+// A wall between the lamps and a point: the probe says what it takes away.
+TEST_F(Explain, AProbeBehindAWallTellsWhatHidesTheLight) {
+  scene_.materials = {{}};
+  scene_.vertices = {{{10, -5, 0}, {-1, 0, 0}}, {{10, 5, 0}, {-1, 0, 0}}, {{10, 0, 9}, {-1, 0, 0}}};
+  scene_.indices = {0, 1, 2};
+  scene_.chunks = {{.node = "barn", .low_m = {10, -5, 0}, .high_m = {10, 5, 9}, .index_count = 3, .vertex_count = 3}};
+  AskedMoment asked = moment(LightSwitch::kLow);
+  lamps_.set_controls(asked.controls);
+  ASSERT_TRUE(apply(desk_, {"probes", "world 20 0 0.7 -1 0 0; world 9 0 0.7 -1 0 0"}).ok());
+  const EyeAdaptation eye;
+  const auto told = [&](const Scene* scene, std::size_t from_end) {
+    const auto all =
+        overlay_lines(desk_, lamps_, {.controls = asked.controls, .pose = asked.pose, .eye = eye, .scene = scene});
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].starts_with("probe 1")) return all[i + from_end];
+    return std::string();
+  };
+  const MeasurePoint behind{{20, 0, 0.7}, {-1, 0, 0}};
+  const double open_lx = lamps_.illuminance_lx(asked.pose, behind);
+  char hidden[60];
+  std::snprintf(hidden, sizeof hidden, ", %.3g lx hidden by barn", open_lx);
+  EXPECT_TRUE(told(&scene_, 0).starts_with("probe 1, world: 0 lx")) << told(&scene_, 0);
+  EXPECT_TRUE(told(&scene_, 0).ends_with(hidden)) << told(&scene_, 0);
+  EXPECT_EQ(told(&scene_, 1), told(nullptr, 1)) << "before the wall nothing hides it";
+  EXPECT_EQ(told(nullptr, 0).find("hidden"), std::string::npos);
+  EXPECT_NE(lines(asked, software_)[1].find("1 pieces of the scene stand in the light"), std::string::npos)
+      << lines(asked, software_)[1];
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ struct DrawItem {
   shader::GpuDraw push{};
   float distance_m = 0.0f;
   std::size_t lit_by = 0;  ///< which of the view's sets of lamps (visual/lit_scene.h)
+  bool shadowed = false;   ///< a shadow may fall on it (visual/passes/shadows.h)
 };
 
 struct SceneBuffers {

@@ -10,12 +10,16 @@ void measure_points(gpu::FrameGraph& graph, LitScene& scene, const LitView& view
     commands.beginRendering(vk::RenderingInfo{
         .renderArea = {{0, 0}, lx.extent}, .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &target});
     set_area(commands, lx.extent);
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, scene.pipeline({.output = LampOutput::kMeasure,
-                                                                            .lamp_count = view.lit_by.front().lamps,
-                                                                            .lamp_base = lamp_base,
-                                                                            .tables = view.lit_by.front().tables,
-                                                                            .format = lx.format}));
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
+                          scene.pipeline({.output = LampOutput::kMeasure,
+                                          .lamp_count = view.lit_by.front().lamps,
+                                          .lamp_base = lamp_base,
+                                          .tables = view.lit_by.front().tables,
+                                          .shadow_maps = view.lit_by.front().shadow_maps,
+                                          .shadows = view.shadows,
+                                          .format = lx.format}));
     scene.bind(commands, view);
+    scene.bind_shadows(commands, view);
     scene.push(commands,
                {.origin = glm::vec4(static_cast<float>(lx.extent.width), static_cast<float>(lx.extent.height), 0, 0),
                 .detail_origin = glm::vec4(0.0f)});

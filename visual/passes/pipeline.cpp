@@ -26,6 +26,8 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
   const vk::PipelineRasterizationStateCreateInfo raster{.polygonMode = vk::PolygonMode::eFill,
                                                         .cullMode = recipe.cull,
                                                         .frontFace = vk::FrontFace::eCounterClockwise,
+                                                        .depthBiasEnable = recipe.depth_slope != 0.0f,
+                                                        .depthBiasSlopeFactor = recipe.depth_slope,
                                                         .lineWidth = 1.0f};
   const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = recipe.samples};
   const vk::PipelineDepthStencilStateCreateInfo depth{

@@ -19,6 +19,7 @@ struct PipelineRecipe {
   std::vector<vk::Format> colour{};
   bool depth = false, depth_write = false;
   vk::CompareOp compare = vk::CompareOp::eGreater;  ///< reversed depth: 1 near, 0 far
+  float depth_slope = 0.0f;  ///< added to depth, times how much depth changes from pixel to pixel
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::PipelineLayout layout{};
 };

@@ -31,7 +31,7 @@ Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s) {
 }
 
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
-                           const AskedDevice& device, bool window) {
+                           const AskedDevice& device, const ShadowCasters& casters, bool window) {
   const CockpitState controls = shown_by_desk(desk, moment.controls);
   lamps.set_controls(controls);
   FrameInput input;
@@ -48,15 +48,19 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   // Those whose light the view can see; what of the scene it falls on is not asked.
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
   std::size_t lit = 0;
+  std::vector<CastBy> casts;
   for (const PlacedLamp& lamp : input.lamps) {
-    const LightCone cone = light_cone(lamps.image(lamp.beam));
-    lit += LampReach(lamp.position_m, lamp.world_from_image, cone).meets(view) ? 1 : 0;
+    const LampReach reach(lamp.position_m, lamp.world_from_image, light_cone(lamps.image(lamp.beam)));
+    if (!reach.meets(view)) continue;
+    ++lit;
+    casts.push_back(casters.by(reach, lamp.world_from_image));
   }
   char heading[240];
   std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
                 lamps.lit_text().c_str(), lamps.design().name.c_str(), moment.time.seconds(),
                 moment.pose.speed_mps * 3.6, device.name.c_str());
-  return heading + explain(plan_effects(facts_of(input, lit, text_lines(input), device.software), input.effects));
+  return heading + explain(plan_effects(facts_of(input, lit, casters_of_all(casts), text_lines(input), device.software),
+                                        input.effects));
 }
 
 }  // namespace phare

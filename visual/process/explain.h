@@ -7,6 +7,7 @@
 #include "net/drive_file.h"
 #include "visual/process/lamps.h"
 #include "visual/process/options.h"
+#include "visual/shadow_casters.h"
 
 namespace phare {
 
@@ -27,8 +28,8 @@ struct AskedDevice {
 };
 
 /// "# low, design "reflector", 12.0 s, on llvmpipe": the moment; then a line for each effect: name, level, reason.
-/// `window`: there is one, so that there is an overlay. Switches `lamps` to the moment.
+/// `casters`: of the scene. `window`: there is one, so that there is an overlay. Switches `lamps` to the moment.
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
-                           const AskedDevice& device, bool window);
+                           const AskedDevice& device, const ShadowCasters& casters, bool window);
 
 }  // namespace phare

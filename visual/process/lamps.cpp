@@ -5,6 +5,7 @@
 
 #include "config/conventions.h"
 #include "visual/photometry/illuminance.h"
+#include "visual/scene/ray_hit.h"
 
 namespace phare {
 namespace {
@@ -154,18 +155,42 @@ double Lamps::illuminance_lx(const VehicleState& pose, const MeasurePoint& at) c
 double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
                                     double tilt_rad) const {
   double total_lx = 0.0;
-  for (std::size_t slot = 0; slot < designs_[design].lamps.size(); ++slot) {
-    const LampConfig& lamp = designs_[design].lamps[slot];
-    const Position& position = positions_[design][slot];
-    const glm::dmat3 turn = turned(position, tilt_rad);
-    for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
-      if (!lit.contains(lamp.sources[k].function)) continue;
-      const AimedSource light = tables_.aimed(lamp.sources[k]);
-      total_lx += phare::illuminance_lx(lamp.position_m, turn * light.car_from_lamp, *light.table,
-                                        light.scale * position.dimming_01[k], at.position_m, at.normal);
-    }
-  }
+  for (std::size_t slot = 0; slot < designs_[design].lamps.size(); ++slot)
+    total_lx += lamp_lx(design, slot, lit, at, tilt_rad);
   return total_lx;
+}
+
+double Lamps::lamp_lx(std::size_t design, std::size_t slot, const std::set<LampFunction>& lit, const MeasurePoint& at,
+                      double tilt_rad) const {
+  double sum_lx = 0.0;
+  const LampConfig& lamp = designs_[design].lamps[slot];
+  const Position& position = positions_[design][slot];
+  const glm::dmat3 turn = turned(position, tilt_rad);
+  for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
+    if (!lit.contains(lamp.sources[k].function)) continue;
+    const AimedSource light = tables_.aimed(lamp.sources[k]);
+    sum_lx += phare::illuminance_lx(lamp.position_m, turn * light.car_from_lamp, *light.table,
+                                    light.scale * position.dimming_01[k], at.position_m, at.normal);
+  }
+  return sum_lx;
+}
+
+Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at, const Scene& scene) const {
+  const glm::dmat3 world_from_car = rotation_of(pose), car_from_world = glm::transpose(world_from_car);
+  const MeasurePoint in_car{car_from_world * (at.position_m - position_of(pose)), car_from_world * at.normal};
+  LightAt light;
+  double most_lx = 0.0;
+  for (std::size_t slot = 0; slot < designs_[design_].lamps.size(); ++slot) {
+    const double lx = lamp_lx(design_, slot, lit_, in_car, pose.lamp_tilt_rad);
+    if (lx <= 0.0) continue;
+    const glm::dvec3 lamp_m = position_of(pose) + world_from_car * designs_[design_].lamps[slot].position_m;
+    const std::optional<std::size_t> by = occluder(scene, lamp_m, at.position_m);
+    (by ? light.hidden_lx : light.lx) += lx;
+    if (!by || lx <= most_lx) continue;
+    most_lx = lx;
+    light.hidden_by = scene.chunks[*by].node.empty() ? "something without a name" : scene.chunks[*by].node;
+  }
+  return light;
 }
 
 std::optional<glm::vec3> Lamps::light() const {

@@ -16,6 +16,7 @@
 #include "visual/photometry/live_beam.h"
 #include "visual/photometry/table_end.h"
 #include "visual/renderer.h"
+#include "visual/scene/scene.h"
 
 namespace phare {
 
@@ -71,6 +72,12 @@ class Lamps {
   /// E in lx at a point of the world: float64 from the native tables, no beam image in between. The truth the GPU is
   /// held to.
   double illuminance_lx(const VehicleState& pose, const MeasurePoint& at) const;
+  /// The same behind what stands in the scene, and what would be there besides without it.
+  struct LightAt {
+    double lx = 0.0, hidden_lx = 0.0;
+    std::string hidden_by{};  ///< what hides most, by its node; empty: nothing does
+  };
+  LightAt light_at(const VehicleState& pose, const MeasurePoint& at, const Scene& scene) const;
   /// The same in the car frame for one set of lit functions of one design: the wall.
   /// `tilt_rad`: of automatic levelling, positive up.
   double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
@@ -104,6 +111,9 @@ class Lamps {
   std::vector<std::string> lit_table_ends() const;
 
  private:
+  /// Of one lamp; the point in the car's frame.
+  double lamp_lx(std::size_t design, std::size_t slot, const std::set<LampFunction>& lit, const MeasurePoint& at,
+                 double tilt_rad) const;
   /// One lamp of a design as it is now.
   struct Position {
     LiveBeam beam;

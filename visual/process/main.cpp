@@ -41,7 +41,8 @@ EyeAdaptation eye_of(const Session& session) {
 }
 
 /// The device that would draw, and the moment of the options; a line for each effect.
-int explain_and_leave(const VisualOptions& options, Lamps& lamps, const Desk& desk, const ChannelConfig& channel) {
+int explain_and_leave(const VisualOptions& options, const Scene& scene, Lamps& lamps, const Desk& desk,
+                      const ChannelConfig& channel) {
   AskedMoment moment;
   if (options.drive_file.empty()) {
     moment.controls.light_switch = options.explain_light;
@@ -58,7 +59,8 @@ int explain_and_leave(const VisualOptions& options, Lamps& lamps, const Desk& de
   if (!device && !options.device_name.empty()) return refuse(with_remedy(device.error()));
   const AskedDevice asked = device ? AskedDevice{device->name, device->software}
                                    : AskedDevice{"no device (" + device.error().reason + "), as on a software one"};
-  std::fputs(explain_moment(lamps, desk, channel, moment, asked, !options.headless).c_str(), stdout);
+  std::fputs(explain_moment(lamps, desk, channel, moment, asked, ShadowCasters(scene), !options.headless).c_str(),
+             stdout);
   return kExitDone;
 }
 
@@ -80,9 +82,9 @@ int draw_channel(VisualOptions options) {
   }
   Result<Lamps> lamps = Lamps::load(*rig);
   if (!lamps) return refuse(lamps.error());
-  if (options.explain) return explain_and_leave(options, *lamps, desk, channel);
   Result<Scene> scene = read_scene(rig->scene_file);
   if (!scene) return refuse(scene.error());
+  if (options.explain) return explain_and_leave(options, *scene, *lamps, desk, channel);
   if (options.still_at_s < 0.0 && !options.drive_file.empty()) {
     const Result<Drive> drive = read_drive(options.drive_file);
     if (!drive) return refuse(drive.error());

@@ -20,8 +20,14 @@ MeasurePoint placed(const Probe& probe, const VehicleState& pose) {
   return {glm::dvec3(pose.x_m, pose.y_m, pose.z_m) + body * probe.position_m, body * probe.normal};
 }
 
-std::string lux_line(const char* what, double illuminance_lx, const glm::dvec3& at_m) {
-  return fmt::format("{}{:.3g} lx at ({:.2f}, {:.2f}, {:.2f}) m", what, illuminance_lx, at_m.x, at_m.y, at_m.z);
+/// `at_m`: as it is told, in the frame of the point.
+std::string lux_line(const char* what, const Lamps& lamps, const OverlayMoment& moment, const MeasurePoint& point,
+                     const glm::dvec3& at_m) {
+  const Lamps::LightAt light = moment.scene != nullptr ? lamps.light_at(moment.pose, point, *moment.scene)
+                                                       : Lamps::LightAt{.lx = lamps.illuminance_lx(moment.pose, point)};
+  std::string line = fmt::format("{}{:.3g} lx at ({:.2f}, {:.2f}, {:.2f}) m", what, light.lx, at_m.x, at_m.y, at_m.z);
+  if (!light.hidden_by.empty()) line += fmt::format(", {:.3g} lx hidden by {}", light.hidden_lx, light.hidden_by);
+  return line;
 }
 
 }  // namespace
@@ -32,6 +38,7 @@ void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& chann
   input.isolux_lx = desk.isolux_lx;
   input.exposure_per_cdm2 = desk.exposure_per_cdm2;
   input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = desk.depth_first;
+  input.effects[static_cast<std::size_t>(Effect::kShadows)] = desk.shadows;
 }
 
 CockpitState shown_by_desk(const Desk& desk, CockpitState controls) {
@@ -50,14 +57,13 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
                   moment.eye.fixed() ? ", fixed" : "");
     lines.emplace_back(text);
     if (moment.under_mouse)
-      lines.push_back(
-          lux_line("", lamps.illuminance_lx(moment.pose, *moment.under_mouse), moment.under_mouse->position_m));
+      lines.push_back(lux_line("", lamps, moment, *moment.under_mouse, moment.under_mouse->position_m));
   }
   for (std::size_t i = 0; i < desk.probes.size(); ++i) {
     const Probe& probe = desk.probes[i];
     std::snprintf(text, sizeof text, "probe %zu, %s: ", i + 1,
                   kProbeFrameNames[static_cast<std::size_t>(probe.frame)].data());
-    lines.push_back(lux_line(text, lamps.illuminance_lx(moment.pose, placed(probe, moment.pose)), probe.position_m));
+    lines.push_back(lux_line(text, lamps, moment, placed(probe, moment.pose), probe.position_m));
   }
   if (desk.effects && moment.effects != nullptr) {
     std::istringstream effects(explain(*moment.effects));

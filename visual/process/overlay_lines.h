@@ -11,6 +11,7 @@
 #include "visual/process/adaptation.h"
 #include "visual/process/lamps.h"
 #include "visual/renderer.h"
+#include "visual/scene/scene.h"
 
 namespace phare {
 
@@ -30,6 +31,7 @@ struct OverlayMoment {
   const EyeAdaptation& eye;
   const EffectPlan* effects = nullptr;        ///< of the frame before
   std::optional<MeasurePoint> under_mouse{};  ///< of the world
+  const Scene* scene = nullptr;               ///< what stands in it hides light; none: nothing does
 };
 
 /// What the driver is told over the picture besides the instruments: time, lux at probes and under the mouse, and

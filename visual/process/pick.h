@@ -8,8 +8,8 @@
 
 namespace phare {
 
-/// The nearest triangle hit within `most_m`, with its flat unit normal turned toward the ray's origin. Tests every
-/// triangle of every chunk whose box the ray meets: well below a millisecond for our scenes, so it needs no tree.
+/// The nearest triangle hit within `most_m`, with its flat unit normal turned toward the ray's origin
+/// (visual/scene/ray_hit.h).
 std::optional<MeasurePoint> pick(const Scene& scene, const Ray& ray, double most_m = 1000.0);
 
 }  // namespace phare

@@ -16,6 +16,7 @@
 #include "visual/process/report.h"
 #include "visual/process/screens.h"
 #include "visual/process/verbs.h"
+#include "visual/scene/ray_hit.h"
 
 namespace phare {
 namespace {
@@ -145,7 +146,8 @@ void Loop::take(const Datagram& datagram) {
   }
 }
 
-/// Lux at points of the world under the lamps of the newest frame, through the shader that draws it.
+/// Lux at points of the world under the lamps of the newest frame, through the shader that draws it, and behind what
+/// stands between.
 void Loop::answer_probes() {
   for (; !asked_.empty(); asked_.pop_front()) {
     const ProbeRequest& request = asked_.front().request;
@@ -157,9 +159,13 @@ void Loop::answer_probes() {
     }
     if (newest_) {
       reply.illuminance_lx.assign(points.size(), 0.0);
-      for (const std::vector<float>& lamp_lx : s_.renderer.measure(input_.lamps, points)) {
-        for (std::size_t i = 0; i < points.size(); ++i) reply.illuminance_lx[i] += static_cast<double>(lamp_lx[i]);
-      }
+      const std::vector<std::vector<float>> lx = s_.renderer.measure(input_.lamps, points);
+      const bool shadows = s_.desk.shadows != 0;
+      for (std::size_t lamp = 0; lamp < lx.size(); ++lamp)
+        for (std::size_t i = 0; i < points.size(); ++i)
+          if (lx[lamp][i] > 0.0f &&
+              !(shadows && occluder(s_.scene, input_.lamps[lamp].position_m, points[i].position_m)))
+            reply.illuminance_lx[i] += static_cast<double>(lx[lamp][i]);
     } else {
       reply.error = "no frame has been drawn yet";
     }
@@ -183,7 +189,12 @@ void Loop::warm_up() {
     if (s_.window) input.panel = getting_ready_panel(++step, steps);
     light_up(controls);
     input.lamps = s_.lamps.placed(pose);
-    s_.renderer.draw(input);
+    // Without shadows and with them: the drive goes from one to the other as things come into the beams.
+    std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
+    for (const bool off : {true, false}) {
+      shadows = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
+      s_.renderer.draw(input);
+    }
   };
   for (std::uint32_t design = 0; thorough && design < s_.lamps.designs().size(); ++design) {
     for (const LightSwitch light : {LightSwitch::kOff, LightSwitch::kLow, LightSwitch::kHigh}) {
@@ -411,7 +422,8 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
                         .frame_ms = s_.stats.newest.wall_ms,
                         .eye = s_.eye,
                         .effects = &s_.stats.newest.effects,
-                        .under_mouse = under_mouse});
+                        .under_mouse = under_mouse,
+                        .scene = s_.desk.shadows == 0 ? nullptr : &s_.scene});
 }
 
 void Loop::write_stats(SimTime now) {

@@ -1,0 +1,49 @@
+// How much of a lamp's light reaches a point past what stands in its beam: 0 none, 1 all. Shadow maps (Williams 1978) hold the far sides of
+// things, so what faces the lamp never shadows itself, road at grazing light included (visual/passes/shadows.h).
+#ifndef PHARE_SHADOW
+#define PHARE_SHADOW
+#include "lib/surface_varyings.glsl"
+
+layout(set = 1, binding = 0) uniform samplerBuffer shadow_depths;  // all maps, one after the other, rows from the top
+layout(constant_id = kSpecShadowWidth) const uint shadow_width = 1;
+layout(constant_id = kSpecShadowHeight) const uint shadow_height = 1;
+layout(constant_id = kSpecShadowTaps) const uint shadow_taps = 1;
+
+// A thing that is this much nearer than the point, relatively, shadows it: what is thinner is no thicker than its own texel at 50 m.
+const float kShadowBias = 1.0005;
+
+// `at`: as GpuShadow has it, not divided yet. The outermost texels hold nothing, so beyond the map all is lit.
+float reaching(vec3 at, uint map) {
+  float inverse_w = 1.0 / max(at.z, 1e-3);
+  float nearer = kShadowNear_m * inverse_w * kShadowBias;
+  vec2 middle = 0.5 * vec2(float(shadow_width), float(shadow_height));
+  vec2 from_middle = at.xy * inverse_w, large = from_middle * kShadowZoom;
+  bool close = all(lessThan(abs(large), middle - 1.0));
+  // Half a texel up: below the line where a slope meets the valley behind it a lamp looks into the ground, where there is no far side.
+  vec2 texel = middle + (close ? large : from_middle) - vec2(0.0, 0.5);
+  int row = int(shadow_width), first = int((2 * map + (close ? 1 : 0)) * shadow_width * shadow_height);
+  if (shadow_taps == 1) {
+    ivec2 nearest = ivec2(min(max(texel, vec2(0.0)), 2.0 * middle - 1.0));
+    return texelFetch(shadow_depths, first + nearest.y * row + nearest.x).r > nearer ? 0.0 : 1.0;
+  }
+  // The four texels around the point, each lit or not, weighted by how near it is.
+  texel = min(max(texel - 0.5, vec2(0.0)), 2.0 * middle - 2.0);
+  vec2 corner = floor(texel), part = texel - corner;
+  int index = first + int(corner.y) * row + int(corner.x);
+  vec4 depths = vec4(texelFetch(shadow_depths, index).r, texelFetch(shadow_depths, index + 1).r, texelFetch(shadow_depths, index + row).r,
+                     texelFetch(shadow_depths, index + row + 1).r);
+  vec4 lit = vec4(lessThanEqual(depths, vec4(nearer)));
+  vec2 rows = mix(lit.xz, lit.yw, part.x);
+  return mix(rows.x, rows.y, part.y);
+}
+
+#if PHARE_LAMPS == 8
+// Eight more varyings are more than every device has.
+#define PHARE_SHADOW_AT(I) shadow_place(I, point)
+#else
+#define PHARE_SHADOW_AT(I) in_shadow[I]
+#endif
+
+#define PHARE_REACHING(I) \
+  ((shadow_maps >> (4 * I) & 15u) == 0u ? 1.0 : reaching(PHARE_SHADOW_AT(I), (shadow_maps >> (4 * I) & 15u) - 1u))
+#endif

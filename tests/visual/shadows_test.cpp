@@ -1,0 +1,309 @@
+// Shadows: decisions lit or dark against the reference tables, maps only where something stands in the light.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/paths.h"
+#include "tests/visual/yard.h"
+#include "visual/photometry/illuminance.h"
+#include "visual/renderer.h"
+#include "visual/scene/ray_hit.h"
+
+namespace phare {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Table {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> rows;
+  double number(std::size_t row, const std::string& name) const {
+    return std::stod(rows[row][static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())]);
+  }
+  const std::string& text(std::size_t row, const std::string& name) const {
+    return rows[row][static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
+  }
+};
+
+Table read_table(const fs::path& file) {
+  Table table;
+  std::ifstream in(file);
+  std::string line, cell;
+  std::getline(in, line);
+  for (std::istringstream cells(line); std::getline(cells, cell, ',');) table.names.push_back(cell);
+  while (std::getline(in, line)) {
+    table.rows.emplace_back();
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');) table.rows.back().push_back(cell);
+  }
+  return table;
+}
+
+std::vector<PlacedLamp> mounted(const nlohmann::json& manifest, const char* beam) {
+  std::vector<PlacedLamp> lamps;
+  for (const nlohmann::json& mounting : manifest["mounting"][beam]) {
+    const auto vec = [&](const char* key) { return glm::dvec3(mounting[key][0], mounting[key][1], mounting[key][2]); };
+    lamps.push_back(
+        {.position_m = vec("position_m"), .world_from_image = glm::dmat3(vec("forward"), vec("left"), vec("up"))});
+  }
+  return lamps;
+}
+
+/// Triangles of one material, as a scene.
+class Shape {
+ public:
+  void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
+    const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    const auto first = static_cast<std::uint32_t>(scene_.vertices.size());
+    for (const glm::dvec3& corner : {a, b, c, d}) scene_.vertices.push_back({glm::vec3(corner), glm::vec3(normal)});
+    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) scene_.indices.push_back(first + i);
+  }
+  void box(const glm::dvec3& low, const glm::dvec3& high) {
+    const auto at = [&](int i) {
+      return glm::dvec3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+    };
+    quad(at(0), at(4), at(6), at(2));
+    quad(at(1), at(3), at(7), at(5));
+    quad(at(0), at(1), at(5), at(4));
+    quad(at(2), at(6), at(7), at(3));
+    quad(at(0), at(2), at(3), at(1));
+    quad(at(4), at(5), at(7), at(6));
+  }
+  Scene scene(bool double_sided = false) {
+    scene_.materials = {{.name = "grey", .double_sided = double_sided}};
+    SceneChunk chunk{.node = "shape", .low_m = glm::dvec3(1e9), .high_m = glm::dvec3(-1e9)};
+    for (const SceneVertex& vertex : scene_.vertices) {
+      chunk.low_m = glm::min(chunk.low_m, glm::dvec3(vertex.position_m));
+      chunk.high_m = glm::max(chunk.high_m, glm::dvec3(vertex.position_m));
+    }
+    chunk.index_count = static_cast<std::uint32_t>(scene_.indices.size());
+    chunk.vertex_count = static_cast<std::uint32_t>(scene_.vertices.size());
+    scene_.chunks = {chunk};
+    return scene_;
+  }
+
+ private:
+  Scene scene_;
+};
+
+class Shadows : public testing::Test {
+ protected:
+  static std::unique_ptr<Renderer>& shared() {
+    static std::unique_ptr<Renderer> renderer;
+    return renderer;
+  }
+  static void SetUpTestSuite() {
+    Result<Renderer> made = Renderer::create({.width_px = 320, .height_px = 180, .validation = true});
+    ASSERT_TRUE(made.ok()) << made.error().text();
+    shared() = std::make_unique<Renderer>(std::move(*made));
+  }
+  static void TearDownTestSuite() { shared().reset(); }
+  void SetUp() override {
+    ASSERT_NE(shared(), nullptr);
+    even_ = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
+    shared()->set_beam(0, image_of(even_));
+  }
+  void TearDown() override {
+    if (shared() == nullptr) return;
+    EXPECT_EQ(shared()->validation_messages(), 0u);
+  }
+
+  /// Points where the map's answer (more than half lit) is not that of the table, of those that `counts` names.
+  std::size_t wrong(const Table& table, const std::vector<PlacedLamp>& lamps, const std::vector<MeasurePoint>& points,
+                    std::size_t level, const std::function<bool(std::size_t)>& counts) {
+    const auto open = shared()->measure(lamps, points), shadowed = shared()->measure(lamps, points, level);
+    std::size_t judged = 0, bad = 0;
+    const char* sides[] = {"left", "right"};
+    for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp)
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!counts(i) || !(open[lamp][i] > 0.0f)) continue;
+        const std::string side = sides[lamp];
+        const bool lit = table.text(i, "visible_" + side) == "1";
+        ++judged;
+        const bool wrong = (shadowed[lamp][i] > 0.5f * open[lamp][i]) != lit;
+        bad += wrong;
+        if (wrong && bad <= 3)
+          std::printf("  wrong: %g %g %g, %s lamp, %g of %g lx, has to be %s\n", points[i].position_m.x,
+                      points[i].position_m.y, points[i].position_m.z, sides[lamp],
+                      static_cast<double>(shadowed[lamp][i]), static_cast<double>(open[lamp][i]), lit ? "lit" : "dark");
+      }
+    std::printf("level %zu: %zu of %zu decisions wrong\n", level, bad, judged);
+    EXPECT_GT(judged, 500u);
+    return bad;
+  }
+
+  /// The same of the ray against the scene.
+  std::size_t wrong_rays(const Table& table, const Scene& scene, const std::vector<PlacedLamp>& lamps,
+                         const std::vector<MeasurePoint>& points, const std::function<bool(std::size_t)>& counts) {
+    const auto open = shared()->measure(lamps, points);
+    std::size_t judged = 0, bad = 0;
+    const char* sides[] = {"left", "right"};
+    for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!counts(i) || !(open[lamp][i] > 0.0f)) continue;
+        const bool lit = !occluder(scene, lamps[lamp].position_m, points[i].position_m);
+        ++judged;
+        if (lit != (table.text(i, std::string("visible_") + sides[lamp]) == "1")) ++bad;
+      }
+    }
+    std::printf("rays: %zu of %zu decisions wrong\n", bad, judged);
+    return bad;
+  }
+
+  IntensityTable even_;
+};
+
+TEST_F(Shadows, OfBoxesFallWhereTheReferenceHasThem) {
+  const fs::path data = fs::path(shared_data_dir()) / "photometry-reference";
+  if (!fs::exists(data)) GTEST_SKIP() << "no reference tables at " << data;
+  const nlohmann::json manifest = nlohmann::json::parse(std::ifstream(data / "manifest.json"));
+  Shape shape;
+  const auto corner = [](const nlohmann::json& at) { return glm::dvec3(at[0], at[1], at[2]); };
+  for (const nlohmann::json& box : manifest["occluder_boxes"]) shape.box(corner(box["min"]), corner(box["max"]));
+  shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
+  ASSERT_TRUE(shared()->load_scene(shape.scene()).ok());
+  const Table table = read_table(data / "d_shadow.csv");
+  std::vector<MeasurePoint> points;
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    points.push_back({{table.number(i, "x"), table.number(i, "y"), table.number(i, "z")},
+                      {table.number(i, "nx"), table.number(i, "ny"), table.number(i, "nz")}});
+  const std::vector<PlacedLamp> lamps = mounted(manifest, "low");
+  const auto clear = [&](std::size_t i) { return table.number(i, "edge_clearance_m") >= 0.01; };
+  EXPECT_EQ(wrong_rays(table, shape.scene(), lamps, points, clear), 0u);
+  for (std::size_t level = 1; level <= 3; ++level)
+    for (const double clear_m : {0.05, 0.02, 0.01}) {
+      const auto counts = [&](std::size_t i) { return table.number(i, "edge_clearance_m") >= clear_m; };
+      std::printf("edge clearance %g m, ", clear_m);
+      const std::size_t bad = wrong(table, lamps, points, level, counts);
+      if (clear_m == 0.05) {
+        EXPECT_EQ(bad, 0u) << "level " << level;
+      }
+    }
+}
+
+TEST_F(Shadows, OfAHillFallWhereTheReferenceHasThem) {
+  const fs::path data = fs::path(shared_data_dir()) / "photometry-reference";
+  if (!fs::exists(data)) GTEST_SKIP() << "no reference tables at " << data;
+  const nlohmann::json manifest = nlohmann::json::parse(std::ifstream(data / "manifest.json"));
+  const nlohmann::json& hill = manifest["hill"];
+  const double x0 = hill["x0"], x1 = hill["x1"], height = hill["height"], crossfall = hill["crossfall"];
+  const auto ground = [&](double x, double y) {
+    const double u = (x - x0) / (x1 - x0);
+    const double bump = u < 0.0 || u > 1.0 ? 0.0 : 0.5 * height * (1.0 - std::cos(6.283185307179586 * u));
+    return glm::dvec3(x, y, bump + crossfall * y);
+  };
+  Shape shape;
+  // Strips of 2 cm: a ray that leaves the back slope at 1 mrad, where it ends, leaves the strips within 2 cm of there,
+  // less than the bias of the maps at that distance.
+  for (int i = 0; i < 3500; ++i) {
+    const double x = 0.02 * i;
+    shape.quad(ground(x, -12), ground(x + 0.02, -12), ground(x + 0.02, 12), ground(x, 12));
+  }
+  ASSERT_TRUE(shared()->load_scene(shape.scene()).ok());
+  const Table table = read_table(data / "e_hill.csv");
+  std::vector<MeasurePoint> points;
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    points.push_back({{table.number(i, "x"), table.number(i, "y"), table.number(i, "z")},
+                      {table.number(i, "nx"), table.number(i, "ny"), table.number(i, "nz")}});
+  const std::vector<PlacedLamp> lamps = mounted(manifest, "high");
+  const auto robust = [&](std::size_t i) {
+    return table.text(i, "robust_2cm") == "1" && points[i].position_m.x < 70.0;
+  };
+  EXPECT_EQ(wrong_rays(table, shape.scene(), lamps, points, robust), 0u);
+  for (std::size_t level = 1; level <= 3; ++level) {
+    const std::size_t bad = wrong(table, lamps, points, level, robust);
+    EXPECT_EQ(bad, 0u) << "level " << level;
+  }
+}
+
+FrameInput view_of_the_road() {
+  FrameInput input;
+  input.camera.eye_m = {-1.9, 0.3, 1.22};
+  for (const double y_m : {0.6, -0.6})
+    input.lamps.push_back({.position_m = {0.0, y_m, 0.65}, .world_from_image = aim_rotation(0.0, -0.01, 0.0)});
+  return input;
+}
+
+// What is not called for costs nothing: no pass, no image, no draw.
+TEST_F(Shadows, AreMadeWhereSomethingStandsInTheLightAndNowhereElse) {
+  Shape road;
+  road.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
+  ASSERT_TRUE(shared()->load_scene(road.scene()).ok());
+  FrameInput input = view_of_the_road();
+  const FrameResult flat = shared()->draw(input);
+  EXPECT_EQ(flat.effects.level(Effect::kShadows), 0u);
+  EXPECT_EQ(flat.pass_count, 1u);
+
+  Shape with_box = road;
+  with_box.box({20, -1, 0}, {21, 1, 2});
+  ASSERT_TRUE(shared()->load_scene(with_box.scene()).ok());
+  const FrameResult shadowed = shared()->draw(input);
+  EXPECT_EQ(kShadowNames[shadowed.effects.level(Effect::kShadows)], "soft");
+  EXPECT_EQ(shadowed.pass_count, 2u);
+  EXPECT_GT(shadowed.image_bytes, flat.image_bytes);
+
+  input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
+  const FrameResult off = shared()->draw(input);
+  EXPECT_EQ(off.pass_count, flat.pass_count);
+  EXPECT_EQ(off.images, flat.images);
+  EXPECT_EQ(off.image_bytes, flat.image_bytes);
+  EXPECT_EQ(off.draws, flat.draws);
+
+  // The box behind the lamps casts nothing.
+  input.effects = {};
+  for (PlacedLamp& lamp : input.lamps) lamp.position_m.x = 22.0;
+  input.camera.eye_m.x = 20.1;
+  EXPECT_EQ(shared()->draw(input).effects.level(Effect::kShadows), 0u);
+}
+
+TEST_F(Shadows, ALampSeenInManyViewsAndAmongManyLampsCastsTheSameShadow) {
+  Shape shape;
+  shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
+  shape.box({20, -1, 0}, {21, 1, 2});
+  ASSERT_TRUE(shared()->load_scene(shape.scene()).ok());
+  FrameInput input = view_of_the_road();
+  input.want_image = true;
+  shared()->draw(input);
+  const Image8 alone = shared()->read_image();
+  // Twelve more lamps that look away: drawn by blocks, and by other pipelines.
+  FrameInput many = input;
+  for (int i = 0; i < 12; ++i)
+    many.lamps.push_back({.position_m = {-5.0, 0.1 * i, 0.65}, .world_from_image = aim_rotation(3.1415926, 0.0, 0.0)});
+  ViewInput other = many;
+  other.own_picture = {320, 180};
+  many.more_views = {other};
+  shared()->draw(many);
+  EXPECT_EQ(shared()->read_image().rgba, alone.rgba);
+  EXPECT_EQ(shared()->read_image(1).rgba, alone.rgba);
+}
+
+// A sheet that is seen from both sides casts with the side that faces the lamp, and must not shadow itself.
+TEST_F(Shadows, ASheetIsLitAndWhatIsBehindItIsDark) {
+  Shape shape;
+  shape.quad({30, -2, 0}, {30, 2, 0}, {36, 2, 3}, {36, -2, 3});  // leans back by 63 degrees
+  ASSERT_TRUE(shared()->load_scene(shape.scene(true)).ok());
+  const PlacedLamp lamp{.position_m = {0.0, 0.3, 1.5}};
+  std::vector<MeasurePoint> points;
+  for (int i = 1; i < 60; ++i)
+    for (int k = 1; k < 40; ++k)
+      points.push_back({{30 + 0.1 * i, -2 + 0.1 * k, 0.05 * i}, glm::normalize(glm::dvec3(-3, 0, 6))});
+  const std::size_t on_sheet = points.size();
+  for (int k = 1; k < 40; ++k) points.push_back({{45, -2 + 0.1 * k, 1.2}, {-1, 0, 0}});
+  for (std::size_t level = 1; level <= 3; ++level) {
+    const auto open = shared()->measure(std::span(&lamp, 1), points);
+    const auto lx = shared()->measure(std::span(&lamp, 1), points, level);
+    for (std::size_t i = 0; i < on_sheet; ++i) {
+      if (open[0][i] > 0.0f) {
+        ASSERT_EQ(lx[0][i], open[0][i]) << i << " at level " << level;
+      }
+    }
+    for (std::size_t i = on_sheet; i < points.size(); ++i) EXPECT_EQ(lx[0][i], 0.0f) << i << " at level " << level;
+  }
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,219 @@
+#include "visual/passes/shadows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "shaders/shadow_vert.h"
+
+namespace phare {
+namespace {
+
+/// How the map takes points relative to the eye. Its outermost texels stay empty: beyond it all is lit.
+shader::GpuShadow place_of(const PlacedLamp& lamp, const glm::dvec3& eye_m, const glm::dvec2& texels) {
+  const glm::dvec3 from_lamp = eye_m - lamp.position_m;
+  const auto row = [&](const glm::dvec3& direction) {
+    return glm::vec4(glm::vec3(direction), static_cast<float>(glm::dot(direction, from_lamp)));
+  };
+  return {row(lamp.world_from_image[1] * -texels.x), row(lamp.world_from_image[2] * -texels.y),
+          row(lamp.world_from_image[0])};
+}
+
+/// Whether a shadow of the lamp's map may fall on the box: some of it is behind the nearest thing that casts one, and
+/// on the map.
+bool may_fall_on(const SceneBatch& batch, const PlacedLamp& lamp, const CastBy& cast) {
+  const glm::dmat3 image_from_world = glm::transpose(lamp.world_from_image);
+  TangentRect seen{1e30, -1e30, 1e30, -1e30};
+  double farthest_m = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 at{corner & 1 ? batch.low_m.x : batch.high_m.x, corner & 2 ? batch.low_m.y : batch.high_m.y,
+                        corner & 4 ? batch.low_m.z : batch.high_m.z};
+    const glm::dvec3 d = image_from_world * (at - lamp.position_m);
+    farthest_m = std::max(farthest_m, d.x);
+    const double ahead = std::max(d.x, 1e-3);
+    seen = {std::min(seen.right, d.y / ahead), std::max(seen.left, d.y / ahead), std::min(seen.low, d.z / ahead),
+            std::max(seen.high, d.z / ahead)};
+  }
+  return farthest_m > cast.nearest_m && seen.left > cast.part.right && seen.right < cast.part.left &&
+         seen.high > cast.part.low && seen.low < cast.part.high;
+}
+
+/// Triangles of `corners` that hold the middle of a texel, of a picture of so many texels either way from the axis to a
+/// tangent of 1.
+void append_seen(std::vector<glm::vec3>& seen, const std::vector<glm::vec3>& corners, const glm::dvec2& texels,
+                 const ShadowLevel& level) {
+  const glm::vec2 scale(texels), half(0.5f * static_cast<float>(level.width), 0.5f * static_cast<float>(level.height));
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    glm::vec2 low(1e30f), high(-1e30f);
+    bool beside = false;  // reaches past the lamp: kept
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec3& corner = corners[i + k];
+      beside = beside || corner.x < shader::kShadowNear_m;
+      const glm::vec2 at = half - glm::vec2(corner.y, corner.z) * scale / corner.x;
+      low = glm::min(low, at);
+      high = glm::max(high, at);
+    }
+    const glm::vec2 first = glm::ceil(low - 0.5f), last = glm::floor(high - 0.5f);
+    const bool holds_one = first.x <= last.x && first.y <= last.y && last.x >= 0.0f && last.y >= 0.0f &&
+                           first.x < 2.0f * half.x && first.y < 2.0f * half.y;
+    if (beside || holds_one) seen.insert(seen.end(), &corners[i], &corners[i] + 3);
+  }
+}
+
+/// Corners from `first` on, drawn as one side or both are seen.
+struct Range {
+  std::uint32_t first = 0, count = 0;
+};
+
+/// Of one picture: far sides of what is seen from one side, then what is seen from both.
+using Ranges = std::array<Range, 2>;
+
+struct Map {
+  std::size_t lamp = 0;    ///< of the view
+  glm::dvec2 texels{0.0};  ///< of its first picture, to a tangent of 1
+};
+
+/// A map for each lamp that something stands before, as many as four bits tell apart; the view's data say where points
+/// fall on it.
+std::vector<Map> place_maps(LitView& view, const ShadowLevel& level) {
+  std::vector<Map> maps;
+  for (std::size_t lamp = 0; lamp < view.casts.size() && maps.size() < shader::kMaxLamps; ++lamp) {
+    if (view.casts[lamp].count == 0) continue;
+    const glm::dvec2 half = half_sides(view.casts[lamp].part);
+    maps.push_back({lamp, {(0.5 * level.width - 1.0) / half.x, (0.5 * level.height - 1.0) / half.y}});
+    const shader::GpuShadow place = place_of(view.lit_lamps[lamp], view.geometry.camera().eye_m, maps.back().texels);
+    for (LitBy& lit : view.lit_by)
+      for (std::size_t k = 0; k < lit.lamps; ++k) {
+        if (lit.lamp_at[k] != lamp) continue;
+        lit.data->shadows[k] = place;
+        lit.shadow_maps |= static_cast<std::uint32_t>(maps.size()) << (4 * k);
+      }
+  }
+  return maps;
+}
+
+/// The triangles of each picture into the buffer that they are drawn from.
+std::vector<Ranges> fill_triangles(gpu::Device& device, ShadowDepths& depths, const LitView& view,
+                                   std::span<const Map> maps, const ShadowLevel& level) {
+  std::vector<glm::vec3> corners;
+  std::vector<Ranges> ranges;
+  for (const Map& map : maps) {
+    for (const double zoom : {1.0, double{shader::kShadowZoom}}) {
+      Ranges& picture = ranges.emplace_back();
+      for (std::size_t side = 0; side < 2; ++side) {
+        const CastBy& cast = view.casts[map.lamp];
+        const auto first = static_cast<std::uint32_t>(corners.size());
+        append_seen(corners, side == 0 ? cast.far_sides : cast.both_sides, map.texels * zoom, level);
+        picture[side] = {first, static_cast<std::uint32_t>(corners.size()) - first};
+      }
+    }
+  }
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(corners));
+  if (depths.triangles.bytes < bytes.size() || depths.triangles.bytes == 0)
+    depths.triangles = gpu::HostBuffer(device, std::max<vk::DeviceSize>(2 * bytes.size(), 4096),
+                                       vk::BufferUsageFlagBits::eVertexBuffer, "shadow casters");
+  std::memcpy(depths.triangles.data, bytes.data(), bytes.size());
+  return ranges;
+}
+
+}  // namespace
+
+void ShadowPass::begin_frame() {
+  depths_.resize(std::min(depths_.size(), used_));
+  used_ = 0;
+}
+
+ShadowDepths& ShadowPass::depths_of(std::size_t texels) {
+  if (used_ == depths_.size()) depths_.push_back(std::make_unique<ShadowDepths>());
+  ShadowDepths& depths = *depths_[used_++];
+  if (depths.texels.bytes == 4 * texels) return depths;
+  depths = {};
+  depths.texels = gpu::DeviceBuffer(device_, 4 * texels, vk::BufferUsageFlagBits::eUniformTexelBuffer, "shadow depths");
+  depths.view = vk::raii::BufferView(
+      device_.device, vk::BufferViewCreateInfo{
+                          .buffer = *depths.texels.buffer, .format = vk::Format::eR32Sfloat, .range = VK_WHOLE_SIZE});
+  depths.sets = gpu::DescriptorSets(device_, kShadowBindings);
+  depths.set = depths.sets.make();
+  const vk::BufferView view = *depths.view;
+  device_.device.updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = depths.set,
+                                                             .dstBinding = 0,
+                                                             .descriptorCount = 1,
+                                                             .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                                                             .pTexelBufferView = &view},
+                                      nullptr);
+  return depths;
+}
+
+vk::Pipeline ShadowPass::pipeline(const LitScene& scene, bool both_sides) {
+  vk::raii::Pipeline& pipeline = pipelines_[both_sides ? 1 : 0];
+  if (*pipeline) return *pipeline;
+  if (!*vertex_) vertex_ = gpu::make_shader(device_, k_shadow_vert);
+  // What is seen from both sides casts with the one that faces the lamp too, moved back by as much as depth changes
+  // over one and a half texels, so that it does not shadow itself.
+  pipeline = make_pipeline(device_, {.vertex = *vertex_,
+                                     .attributes = std::span(kVertexAttributes).first(1),
+                                     .stride = sizeof(glm::vec3),
+                                     .depth = true,
+                                     .depth_write = true,
+                                     .depth_slope = both_sides ? -1.5f : 0.0f,
+                                     .layout = scene.layout()});
+  return *pipeline;
+}
+
+void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level_number) {
+  const ShadowLevel& level = kShadowLevels[level_number];
+  const std::vector<Map> maps = place_maps(view, level);
+  if (maps.empty()) return;
+  for (DrawItem& item : view.items)
+    item.shadowed = std::ranges::any_of(
+        maps, [&](const Map& map) { return may_fall_on(*item.batch, view.lit_lamps[map.lamp], view.casts[map.lamp]); });
+  const vk::Extent2D extent{level.width, 2 * level.height * static_cast<std::uint32_t>(maps.size())};
+  ShadowDepths& depths = depths_of(std::size_t{extent.width} * extent.height);
+  const std::vector<Ranges> ranges = fill_triangles(device_, depths, view, maps, level);
+
+  gpu::Image& image = graph.image(
+      "shadow maps", {vk::Format::eD32Sfloat, extent,
+                      vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eTransferSrc});
+  graph.pass("shadows", {{&image, gpu::Use::kDepthTarget, true}}, [&](gpu::Recorder& commands) {
+    const vk::RenderingAttachmentInfo target =
+        attachment(image, vk::ImageLayout::eDepthStencilAttachmentOptimal, vk::AttachmentLoadOp::eClear,
+                   vk::ClearDepthStencilValue{0.0f, 0});
+    commands.beginRendering(
+        vk::RenderingInfo{.renderArea = {{0, 0}, extent}, .layerCount = 1, .pDepthAttachment = &target});
+    commands.bindVertexBuffers(0, *depths.triangles.buffer, vk::DeviceSize{0});
+    for (std::size_t picture = 0; picture < 2 * maps.size(); ++picture) {
+      const auto top = static_cast<std::int32_t>(picture * level.height);
+      const bool close = picture % 2 == 1;
+      set_area(commands, {{0, top}, {level.width, level.height}});
+      if (!close) commands.setScissor(0, vk::Rect2D{{1, top + 1}, {level.width - 2, level.height - 2}});
+      const glm::dvec2 scale = maps[picture / 2].texels * (close ? double{shader::kShadowZoom} : 1.0) /
+                               glm::dvec2(0.5 * level.width, 0.5 * level.height);
+      for (const bool both_sides : {false, true}) {
+        const Range& range = ranges[picture][both_sides ? 1 : 0];
+        if (range.count == 0) continue;
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline(scene, both_sides));
+        scene.push(commands, {.origin = glm::vec4(glm::vec2(scale), 0.0f, 0.0f), .detail_origin = glm::vec4(0.0f)});
+        commands.draw(range.count, 1, range.first, 0);
+      }
+    }
+    commands.endRendering();
+  });
+  graph.copy("shadow depths", {{&image, gpu::Use::kCopySource, false}}, [&](gpu::Recorder& commands) {
+    commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *depths.texels.buffer,
+                               vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eDepth, 0, 0, 1},
+                                                   .imageExtent = {extent.width, extent.height, 1}});
+    const vk::MemoryBarrier2 to_shader{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
+                                       .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
+                                       .dstStageMask = vk::PipelineStageFlagBits2::eFragmentShader,
+                                       .dstAccessMask = vk::AccessFlagBits2::eShaderSampledRead};
+    commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &to_shader});
+  });
+  graph.release(image);
+  view.shadows = level;
+  view.depths = &depths;
+}
+
+}  // namespace phare

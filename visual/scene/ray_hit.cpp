@@ -1,0 +1,76 @@
+#include "visual/scene/ray_hit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace phare {
+namespace {
+
+/// Slab test; the box is [low, high], the answer whether the ray meets it before `most_m`.
+bool meets_box(const glm::dvec3& origin_m, const glm::dvec3& direction, const glm::dvec3& low_m,
+               const glm::dvec3& high_m, double most_m) {
+  double enter_m = 0.0, leave_m = most_m;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(direction[axis]) < 1e-15) {
+      if (origin_m[axis] < low_m[axis] || origin_m[axis] > high_m[axis]) return false;
+      continue;
+    }
+    double a = (low_m[axis] - origin_m[axis]) / direction[axis];
+    double b = (high_m[axis] - origin_m[axis]) / direction[axis];
+    if (a > b) std::swap(a, b);
+    enter_m = std::max(enter_m, a);
+    leave_m = std::min(leave_m, b);
+  }
+  return enter_m <= leave_m;
+}
+
+std::optional<double> meets_triangle(const glm::dvec3& origin_m, const glm::dvec3& direction, const glm::dvec3& a,
+                                     const glm::dvec3& ab, const glm::dvec3& ac) {
+  const glm::dvec3 p = glm::cross(direction, ac);
+  const double determinant = glm::dot(ab, p);
+  if (std::abs(determinant) < 1e-14) return std::nullopt;
+  const glm::dvec3 t = origin_m - a;
+  const double u = glm::dot(t, p) / determinant;
+  const glm::dvec3 q = glm::cross(t, ab);
+  const double v = glm::dot(direction, q) / determinant;
+  if (u < 0.0 || v < 0.0 || u + v > 1.0) return std::nullopt;
+  return glm::dot(ac, q) / determinant;
+}
+
+}  // namespace
+
+std::optional<RayHit> ray_hit(const Scene& scene, const glm::dvec3& origin_m, const glm::dvec3& direction,
+                              double least_m, double most_m) {
+  std::optional<RayHit> nearest;
+  for (const SceneChunk& chunk : scene.chunks) {
+    if (!meets_box(origin_m, direction, chunk.low_m, chunk.high_m, most_m)) continue;
+    const glm::dvec3 local_m = origin_m - chunk.origin_m;
+    for (std::uint32_t i = 0; i + 2 < chunk.index_count; i += 3) {
+      const auto corner = [&](std::uint32_t k) {
+        return glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i + k]].position_m);
+      };
+      const glm::dvec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
+      const std::optional<double> distance_m = meets_triangle(local_m, direction, a, ab, ac);
+      if (!distance_m || *distance_m <= least_m || *distance_m >= most_m) continue;
+      most_m = *distance_m;
+      const glm::dvec3 normal = glm::normalize(glm::cross(ab, ac));
+      nearest = RayHit{most_m, glm::dot(normal, direction) > 0.0 ? -normal : normal,
+                       static_cast<std::size_t>(&chunk - scene.chunks.data())};
+    }
+  }
+  return nearest;
+}
+
+std::optional<std::size_t> occluder(const Scene& scene, const glm::dvec3& lamp_m, const glm::dvec3& point_m) {
+  constexpr double kOwnSurface_m = 1e-3;
+  const glm::dvec3 way = lamp_m - point_m;
+  const double distance_m = glm::length(way);
+  if (distance_m <= 2.0 * kOwnSurface_m) return std::nullopt;
+  const std::optional<RayHit> hit =
+      ray_hit(scene, point_m, way / distance_m, kOwnSurface_m, distance_m - kOwnSurface_m);
+  return hit ? std::optional(hit->chunk) : std::nullopt;
+}
+
+}  // namespace phare

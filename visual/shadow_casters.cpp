@@ -1,0 +1,114 @@
+#include "visual/shadow_casters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace phare {
+namespace {
+
+constexpr double kNearest_m = 0.05;  // along the axis, as kShadowNear_m of shaders/lamps.h
+
+void widen(TangentRect& part, const TangentRect& by) {
+  part = {std::min(part.right, by.right), std::max(part.left, by.left), std::min(part.low, by.low),
+          std::max(part.high, by.high)};
+}
+
+TangentRect common(const TangentRect& a, const TangentRect& b) {
+  return {std::max(a.right, b.right), std::min(a.left, b.left), std::max(a.low, b.low), std::min(a.high, b.high)};
+}
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr TangentRect kNothing{kFar, -kFar, kFar, -kFar};
+
+/// Tangents that a cone of light about the axis reaches.
+TangentRect widest(const LampReach& reach, const glm::dmat3& world_from_image) {
+  const double off_axis = std::acos(std::clamp(glm::dot(reach.cone.axis, world_from_image[0]), -1.0, 1.0));
+  const double angle = off_axis + reach.cone.half_angle_rad;
+  const double most = angle < std::atan(kWidestShadow) ? std::tan(angle) : kWidestShadow;
+  return {-most, most, -most, most};
+}
+
+/// A corner in the lamp's frame: forward, left, up. What lies beside the lamp or behind it counts as just ahead, so
+/// that a triangle that reaches past the lamp fills its view to the edge.
+TangentRect at_corner(const glm::vec3& corner) {
+  const double ahead = std::max(static_cast<double>(corner.x), kNearest_m);
+  const double left = static_cast<double>(corner.y) / ahead, up = static_cast<double>(corner.z) / ahead;
+  return {left, left, up, up};
+}
+
+bool shows_its_far_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::vec3 normal = glm::cross(b - a, c - a);
+  constexpr float kBehind_m = 1e-4f;  // of the plane of the triangle, the lamp being at the origin
+  return glm::dot(normal, a) > kBehind_m * glm::length(normal);
+}
+
+}  // namespace
+
+ShadowCasters::ShadowCasters(const Scene& scene) {
+  for (const SceneChunk& from : scene.chunks) {
+    Chunk& chunk = chunks_.emplace_back();
+    chunk.origin_m = from.origin_m;
+    chunk.low_m = from.low_m;
+    chunk.high_m = from.high_m;
+    chunk.double_sided = scene.materials[from.material].double_sided;
+    for (std::uint32_t i = 0; i < from.vertex_count; ++i)
+      chunk.corners_m.push_back(scene.vertices[from.first_vertex + i].position_m);
+    chunk.indices.assign(scene.indices.begin() + from.first_index,
+                         scene.indices.begin() + from.first_index + from.index_count);
+  }
+}
+
+CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_image) const {
+  CastBy cast{.chunks = std::vector<bool>(chunks_.size()), .part = kNothing, .nearest_m = kFar};
+  const TangentRect light = widest(reach, world_from_image);
+  const glm::dmat3 image_from_world = glm::transpose(world_from_image);
+  std::vector<glm::vec3> seen;
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    const Chunk& chunk = chunks_[i];
+    const glm::dvec3 to = reach.tip_m - glm::clamp(reach.tip_m, chunk.low_m, chunk.high_m);
+    if (glm::dot(to, to) > kShadowsTo_m * kShadowsTo_m || !reach.meets(chunk.low_m, chunk.high_m)) continue;
+    const glm::mat3 turn(image_from_world);
+    const glm::vec3 shift(image_from_world * (chunk.origin_m - reach.tip_m));
+    seen.clear();
+    for (const glm::vec3& corner : chunk.corners_m) seen.push_back(turn * corner + shift);
+    for (std::size_t k = 0; k + 2 < chunk.indices.size(); k += 3) {
+      const glm::vec3 &a = seen[chunk.indices[k]], &b = seen[chunk.indices[k + 1]], &c = seen[chunk.indices[k + 2]];
+      const double nearest = static_cast<double>(std::min({a.x, b.x, c.x}));
+      if (static_cast<double>(std::max({a.x, b.x, c.x})) <= kNearest_m || nearest > kShadowsTo_m) continue;
+      if (!chunk.double_sided && !shows_its_far_side(a, b, c)) continue;
+      TangentRect part = at_corner(a);
+      widen(part, at_corner(b));
+      widen(part, at_corner(c));
+      part = common(part, light);
+      if (part.left < part.right || part.high < part.low) continue;
+      std::vector<glm::vec3>& triangles = chunk.double_sided ? cast.both_sides : cast.far_sides;
+      triangles.insert(triangles.end(), {a, b, c});
+      widen(cast.part, part);
+      cast.nearest_m = std::min(cast.nearest_m, std::max(nearest, kNearest_m));
+      cast.chunks[i] = true;
+    }
+    cast.count += cast.chunks[i] ? 1u : 0u;
+  }
+  if (cast.count == 0) return {};
+  return cast;
+}
+
+std::size_t casters_of_all(std::span<const CastBy> casts) {
+  std::vector<bool> any;
+  for (const CastBy& cast : casts) {
+    any.resize(std::max(any.size(), cast.chunks.size()));
+    for (std::size_t i = 0; i < cast.chunks.size(); ++i) any[i] = any[i] || cast.chunks[i];
+  }
+  return static_cast<std::size_t>(std::ranges::count(any, true));
+}
+
+glm::dvec2 half_sides(const TangentRect& part) {
+  const auto step_above = [](double half) {
+    return std::exp2(std::ceil(std::log2(std::max(half, 1.0 / 64.0)) * 2.0) / 2.0);
+  };
+  return {step_above(std::max(-part.right, part.left)), step_above(std::max(-part.low, part.high))};
+}
+
+}  // namespace phare

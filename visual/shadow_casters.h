@@ -1,0 +1,69 @@
+// What stands in the light of a lamp: which pieces of a scene, and the part of the lamp's view that they fill, for its
+// shadow map. Pure: no device.
+//
+// A triangle casts where its far side looks at the lamp, or both of its sides are seen: what faces the lamp is lit
+// itself, and what it hides is hidden by the far side behind it too. So a road casts nothing until it falls away behind
+// a crest.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "visual/light_reach.h"
+#include "visual/scene/scene.h"
+
+namespace phare {
+
+/// Nothing farther from a lamp than this casts a shadow.
+inline constexpr double kShadowsTo_m = 300.0;
+/// Tangent, along either axis of the lamp, beyond which nothing casts a shadow: 75° off its axis.
+inline constexpr double kWidestShadow = 3.73;
+
+/// A part of what a lamp sees: tangents to the left and up, over the way forward.
+struct TangentRect {
+  double right = 0.0, left = 0.0, low = 0.0, high = 0.0;
+  bool empty() const { return left <= right || high <= low; }
+};
+
+/// What casts shadows in the light of one lamp.
+struct CastBy {
+  std::vector<bool> chunks{};  ///< of the scene, which of them cast; empty: none does
+  std::size_t count = 0;       ///< of those
+  TangentRect part{};          ///< that they fill
+  double nearest_m = 0.0;      ///< along the axis
+  /// Corners of the triangles that cast, three each: forward, left, up from the lamp, m. Far sides of what is seen from
+  /// one side, and all of what is seen from both.
+  std::vector<glm::vec3> far_sides{}, both_sides{};
+};
+
+class ShadowCasters {
+ public:
+  ShadowCasters() = default;
+  explicit ShadowCasters(const Scene& scene);
+
+  /// `world_from_image`: forward, left and up of the lamp at the tip of `reach`. Reads the triangles of every chunk
+  /// that is near and in the light; about 20 ns each.
+  CastBy by(const LampReach& reach, const glm::dmat3& world_from_image) const;
+
+ private:
+  struct Chunk {
+    glm::dvec3 origin_m{0.0}, low_m{0.0}, high_m{0.0};
+    bool double_sided = false;
+    std::vector<glm::vec3> corners_m;  ///< relative to the origin
+    std::vector<std::uint32_t> indices;
+  };
+  std::vector<Chunk> chunks_;
+};
+
+/// How many pieces of the scene cast in the light of any of them.
+std::size_t casters_of_all(std::span<const CastBy> casts);
+
+/// Half the sides of a part about the axis that holds `part`: tangents across and up. In steps, so that the texels of a
+/// map stay where they are while what it shows changes a little.
+glm::dvec2 half_sides(const TangentRect& part);
+
+}  // namespace phare
