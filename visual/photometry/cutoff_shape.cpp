@@ -300,10 +300,13 @@ std::string form_name(CutoffForm form) {
 }
 
 std::string side_source(const CutoffShape& shape) {
-  if (shape.tells_side()) return "by the cut-off";
-  return shape.side == CutoffSide::kNone        ? "assumed: no cut-off tells the side"
-         : shape.form == CutoffForm::kSymmetric ? "assumed: the cut-off is symmetric"
-                                                : "assumed: the cut-off is flat";
+  return shape.tells_side() ? "by the cut-off" : "assumed: " + why_no_side(shape);
+}
+
+std::string why_no_side(const CutoffShape& shape) {
+  return shape.side == CutoffSide::kNone        ? "no cut-off tells the side"
+         : shape.form == CutoffForm::kSymmetric ? "the cut-off is symmetric"
+                                                : "the cut-off is flat";
 }
 
 CutoffShape cutoff_shape(const IntensityHv& intensity) {
