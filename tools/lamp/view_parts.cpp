@@ -37,9 +37,11 @@ void draw_no_data_note(Chart& chart, double x, double y, const Grid& grid) {
   chart.text(x + 19, y, "no data in the file", 8.5, -1, kBlack);
 }
 
+namespace {
+
 /// Where the second line of a text begins that is too wide: after the last semicolon that fits, else the last blank;
 /// its size where there is neither.
-static std::size_t line_break(const Chart& chart, const std::string& text, double size, double room) {
+std::size_t line_break(const Chart& chart, const std::string& text, double size, double room) {
   for (const std::string_view mark : {"; ", " "}) {
     std::size_t part = 0;
     for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
@@ -50,6 +52,8 @@ static std::size_t line_break(const Chart& chart, const std::string& text, doubl
   }
   return text.size();
 }
+
+}  // namespace
 
 void heading(Chart& chart, const std::string& title, const std::string& subtitle) {
   constexpr double kLeft = 62.0, kRoom = kPageWidth - kLeft - 10.0;
