@@ -259,8 +259,8 @@ int measure(const MeasureOptions& options) {
     }
     std::printf("%s\n", report.dump(2).c_str());
   } else {
-    std::printf("%s: %zu points, %zu lamps, at most %.6g lx, by %s (%s)\n", options.out.c_str(), illuminance.size(),
-                lamps->size(), highest, options.method.c_str(), device.c_str());
+    std::printf("%s: %zu points, %zu lamp%s, at most %.6g lx, by %s (%s)\n", options.out.c_str(), illuminance.size(),
+                lamps->size(), lamps->size() == 1 ? "" : "s", highest, options.method.c_str(), device.c_str());
   }
   return kExitDone;
 }

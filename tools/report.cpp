@@ -129,6 +129,7 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
                             "device_memory_bytes", "size_px", "sim_time_s", "validation", "validation_messages"}) {
       if (visual.contains(key)) summary[key] = visual[key];
     }
+    if (summary.value("frames_per_s", 0.0) <= 0.0) summary.erase("frames_per_s");  // one frame has no rate
     if (visual.contains("interval_ms")) {
       summary["interval_ms"] = visual["interval_ms"];
       const double median_ms = visual["interval_ms"].value("median", 0.0);

@@ -101,12 +101,19 @@ class Checker {
         return lamp.sources.empty();
       });
       bool low = false;
+      std::string right, left;  // a lamp whose low beam is for that traffic
       for (LampConfig& lamp : design.lamps) {
         low = low || std::ranges::any_of(lamp.sources, [](const SourceConfig& source) {
                 return source.function == LampFunction::kLow;
               });
-        aimed(design, lamp, once);
+        const CutoffSide side = aimed(design, lamp, once);
+        if (side == CutoffSide::kRisesRight) right = lamp.name;
+        if (side == CutoffSide::kRisesLeft) left = lamp.name;
       }
+      if (!right.empty() && !left.empty())
+        once(found_.warnings, fmt::format("design \"{}\": the low beam of {} is for right-hand traffic, that of {} for "
+                                          "left-hand traffic",
+                                          design.name, right, left));
       if (!low) once(found_.warnings, fmt::format("design \"{}\" has no low beam: the car drives dark", design.name));
     }
     for (const SourceEnd& end : table_ends(designs, tables_, rig.channels))
@@ -140,14 +147,17 @@ class Checker {
     return true;
   }
 
+  /// Gives the side of traffic that the lamp's low beam tells.
   template <typename Once>
-  void aimed(const DesignConfig& design, LampConfig& lamp, const Once& once) {
+  CutoffSide aimed(const DesignConfig& design, LampConfig& lamp, const Once& once) {
     const LampAiming aiming = aim_lamp(lamp, tables_);
     const std::string who = fmt::format("design \"{}\", {}", design.name, lamp.name);
     const bool has_function = std::ranges::any_of(
         lamp.sources, [&](const SourceConfig& source) { return source.function == aiming.function; });
     if (aiming.asked != AimConfig::Kind::kAsFiled) once(found_.notes, who + ": " + aiming.text());
-    if (!has_function) return;
+    const bool low = has_function && aiming.function == LampFunction::kLow;
+    const CutoffSide side = low && aiming.found ? aiming.shape.side : CutoffSide::kNone;
+    if (!has_function) return side;
     if (aiming.asked == AimConfig::Kind::kCutoff && !aiming.found) once(found_.warnings, who + ": " + aiming.text());
     if (aiming.found && !aiming.within()) {
       once(found_.warnings,
@@ -161,6 +171,7 @@ class Checker {
     if (aiming.function == LampFunction::kLow && (lamp.position_m.z < 0.5 || lamp.position_m.z > 1.2))
       once(found_.warnings, fmt::format("{}: {:.2f} m above the road; UN R48 6.2.4.2 has low beams at 0.5 to 1.2 m",
                                         who, lamp.position_m.z));
+    return side;
   }
 
   RigFindings found_;

@@ -55,6 +55,7 @@ struct EffectPlan {
 EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices = {});
 
 /// "tone mapping   off   nothing reads the HDR image …", a line an effect.
-std::string explain(const EffectPlan& plan);
+/// Without `columns` as a sentence, for letters that are not all equally wide: "tone mapping off: nothing reads …".
+std::string explain(const EffectPlan& plan, bool columns = true);
 
 }  // namespace phare

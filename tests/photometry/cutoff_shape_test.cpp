@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <functional>
+#include <glm/trigonometric.hpp>
 #include <string>
 #include <vector>
 
 #include "made_beams.h"
+#include "visual/photometry/beam_image.h"
 #include "visual/photometry/cutoff.h"
 #include "visual/photometry/cutoff_line.h"
 #include "visual/photometry/sample_lamps.h"
@@ -189,6 +191,41 @@ TEST(CutoffShape, OfOurLamps) {
     }
     if (lamp.file == "fog.ies") {
       EXPECT_EQ(shape.side, CutoffSide::kFlat);
+    }
+  }
+}
+
+/// On planes C 2.5° apart, as laboratories of luminaires file a lamp: 0.1° in gamma to 10°, then wider.
+IntensityTable on_planes(const IntensityTable& lamp) {
+  IntensityTable planes;
+  planes.type = PhotometricType::kC;
+  for (int i = 0; i <= 144; ++i) planes.first_deg.push_back(2.5 * i);
+  for (int i = 0; i <= 100; ++i) planes.second_deg.push_back(0.1 * i);
+  for (int i = 11; i <= 90; ++i) planes.second_deg.push_back(1.0 * i);
+  for (const double gamma : planes.second_deg) {
+    for (const double c : planes.first_deg)
+      planes.candela.push_back(lamp.intensity_cd(table_direction(PhotometricType::kC, GammaAxis::kGamma0, {c, gamma})));
+  }
+  return planes;
+}
+
+// A slant across the planes is a stair of theirs, and no step of the beam: aimed or not, it is the elbow that it is.
+TEST(CutoffShape, AnElbowOnPlanesIsAnElbow) {
+  for (const SampleLamp& lamp : sample_lamps()) {
+    if (lamp.file.find("low") == std::string::npos) continue;
+    const IntensityTable planes = on_planes(lamp.table);
+    for (const double up_deg : {0.0, -0.4, -0.82}) {
+      const glm::dmat3 turned = aim_rotation(0.0, glm::radians(up_deg), 0.0);
+      const CutoffShape shape = cutoff_shape(mounted_intensity(planes, turned)),
+                        known = cutoff_shape(mounted_intensity(lamp.table, turned));
+      EXPECT_EQ(form_name(shape.form), form_name(known.form))
+          << lamp.file << " " << up_deg << ", rise " << shape.rise_deg << ", "
+          << (shape.steps.empty() ? std::string("no step")
+                                  : "a step of " + std::to_string(shape.steps.front().height_deg) + " at H " +
+                                        std::to_string(shape.steps.front().foot_h_deg) + " to " +
+                                        std::to_string(shape.steps.front().head_h_deg));
+      EXPECT_EQ(shape.side, known.side) << lamp.file << " " << up_deg;
+      EXPECT_NEAR(shape.kink_h_deg, known.kink_h_deg, 0.3) << lamp.file << " " << up_deg;
     }
   }
 }

@@ -79,6 +79,23 @@ TEST(Eulumdat, LampSetsAndFactorsScale) {
   EXPECT_DOUBLE_EQ(parse(text, "a.ldt")->header.output_ratio, 0.8);
 }
 
+TEST(ReadLamp, WhatIsAskedAndNotThereIsRefusedAndWhatIsNotUsedIsTold) {
+  const std::string grid = "# unit: cd\n# angles: A\nH\\V,0,1\n0,1,2\n5,3,4\n";
+  LampReadSettings asked;
+  asked.lamp_set = 3;
+  EXPECT_EQ(parse(grid, "a.csv", asked).error().text(), "a.csv: has no lamp set 3: only EULUMDAT files have several");
+  asked = {};
+  asked.emitter = 2;
+  EXPECT_EQ(parse(ldt(1, {0}, {0, 90}, {"7", "10"}), "a.ldt", asked).error().text(),
+            "a.ldt: has no emitter 2: only TM-33 files have several");
+  asked = {};
+  asked.c0_turn_deg = 90.0;
+  const auto turned = parse(grid, "a.csv", asked);
+  ASSERT_TRUE(turned.ok()) << turned.error().text();
+  EXPECT_EQ(turned->notes.back(), "a.csv: axis and C 0 are of type C and EULUMDAT; not used here");
+  EXPECT_TRUE(parse(ldt(1, {0}, {0, 90}, {"7", "10"}), "a.ldt", asked)->notes.empty());
+}
+
 TEST(Eulumdat, DecimalCommasAreReadAndReported) {
   const auto table = parse(ldt(1, {0}, {0, 90}, {"7,25", "10,5"}), "a.ldt");
   ASSERT_TRUE(table.ok()) << table.error().text();

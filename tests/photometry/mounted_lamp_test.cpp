@@ -169,5 +169,25 @@ TEST(TableEnd, SidewaysToo) {
   EXPECT_EQ(narrow->text(), "table ends at H -20° and +20°: the road beside that is outside it");
 }
 
+/// The lower edge of a flat screen, and of a type B table, rises to the sides: its end there is none to the side.
+TEST(TableEnd, TheLowerEdgeIsNoSide) {
+  const double aside_deg = std::atan(12.0 / 25.0) / kRadPerDeg;
+  IntensityTable screen = even_table(aside_deg, std::atan(-5.0 / 25.0) / kRadPerDeg, 1e4);
+  screen.screen_distance_m = 25.0;
+  IntensityTable type_b = even_table(40.0, -14.0, 1e4);
+  type_b.type = PhotometricType::kB;
+  for (const double pitch_deg : {0.0, -0.8}) {
+    const auto of_screen = end_of(screen, pitch_deg);
+    ASSERT_TRUE(of_screen);
+    EXPECT_TRUE(of_screen->below);
+    EXPECT_NEAR(of_screen->right_deg, aside_deg, 0.02);
+    EXPECT_NEAR(of_screen->left_deg, -aside_deg, 0.02);
+    const auto of_b = end_of(type_b, pitch_deg);
+    ASSERT_TRUE(of_b);
+    EXPECT_TRUE(of_b->below);
+    EXPECT_FALSE(of_b->sideways && of_b->right_deg < 40.0) << "told at H " << of_b->right_deg;
+  }
+}
+
 }  // namespace
 }  // namespace phare

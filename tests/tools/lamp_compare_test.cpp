@@ -70,6 +70,14 @@ TEST_F(LampCompare, AMirroredCopyIsRecognised) {
   EXPECT_FALSE(compare(ours("high.ies") + " " + ours("led_high.ies"))["mirrored"]["likely"]);
 }
 
+TEST_F(LampCompare, AnEvenFileTellsNothingOfAnother) {
+  const std::string dark = file("dark.ies",
+                                "IESNA:LM-63-2002\n[TEST] dark\nTILT=NONE\n1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-20 20\n"
+                                "-30 30\n0 0\n0 0\n");
+  EXPECT_EQ(compare(dark + " " + ours("low_rht.ies"))["correlation"], 0.0);
+  EXPECT_EQ(compare(dark + " " + dark)["correlation"], 1.0);
+}
+
 // What a file lacks is not a difference.
 TEST_F(LampCompare, OnlyWhereBothHaveData) {
   const auto table = read_lamp(ours("low_rht.ies"));

@@ -141,5 +141,23 @@ TEST_F(LampPlot, AnyFileNameIsDrawn) {
   EXPECT_NE(svg("wall_25m").find("b? &lt;&amp;&gt;.ies"), std::string::npos);
 }
 
+/// Texts above a chart that are wider than the page would be cut off: the title gets smaller, what stands below it
+/// takes two lines.
+TEST_F(LampPlot, NoTextLeavesThePage) {
+  const std::string name(120, 'n');
+  std::filesystem::copy_file(ours("fog.ies"), in(name + ".ies"));
+  const std::string lamps = in(name + ".ies") + " " + in(name + ".ies");
+  const Said said = lamp("plot " + lamps + " --rule r112-passing-b --view isocandela --out " + in("p"));
+  ASSERT_EQ(said.code, 0) << said.err;
+  std::string svg = test::content_of(in("p") + "/isocandela.svg");
+  const auto has = [&](const char* part) { return svg.find(part) != std::string::npos; };
+  EXPECT_FALSE(has("font-size=\"13\"")) << "a title of 120 letters at its usual size is 1,100 wide, the page 860";
+  // The side of traffic of a list that does not tell it takes many words.
+  const Said list = lamp("plot " + file("one.csv", "Point,cd\nH-V,500\n") + " --rule lb2v --out " + in("p"));
+  ASSERT_EQ(list.code, 0) << list.err;
+  svg = test::content_of(in("p") + "/wall_25m.svg");
+  EXPECT_TRUE(has("<text x=\"62.00\" y=\"35.24\"") && has("<text x=\"62.00\" y=\"46.24\"")) << "two lines";
+}
+
 }  // namespace
 }  // namespace phare

@@ -112,6 +112,19 @@ TEST(Report, FluxAndPeakAreOfTheSourceAsTheRigReadsIt) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Report, OneFrameHasNoRate) {
+  const auto out = std::filesystem::path(testing::TempDir()) / ("phare_report_one_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(out);
+  std::ofstream(out / "visual-0.json") << R"({"process":"visual","frames":1,"frames_per_s":0.0,"drawn_s":0.0})";
+  DriveFacts facts;
+  facts.process_names = {"visual-0"};
+  const nlohmann::json report = make_report(Rig{}, facts, out);
+  EXPECT_EQ(report["summary"]["frames"], 1);
+  EXPECT_FALSE(report["summary"].contains("frames_per_s"));
+  EXPECT_EQ(report_page(report, out).find("frames a second"), std::string::npos);
+  std::filesystem::remove_all(out);
+}
+
 TEST(Report, NoProcessLeftAFile) {
   const nlohmann::json report = make_report(Rig{}, DriveFacts{}, "/nowhere");
   EXPECT_TRUE(report["processes"].empty());

@@ -209,6 +209,29 @@ TEST_F(RigCheck, OurRigsAreGood) {
   }
 }
 
+TEST_F(RigCheck, LampsForBothSidesOfTheRoadAreNoPair) {
+  const auto design = [](const std::string& name, const std::string& left, const std::string& right) {
+    const auto lamp = [](const std::string& side, const char* y, const std::string& file) {
+      return "[[design.lamp]]\nname = \"" + side + "\"\nposition_m = [3, " + y +
+             ", 0.66]\naim = \"cut-off\"\nsource = [ { function = \"low\", file = \"" + lamps_dir() + "/" + file +
+             "\" } ]\n";
+    };
+    return "[[design]]\nname = \"" + name + "\"\n" + lamp("left", "0.6", left) + lamp("right", "-0.6", right);
+  };
+  const fs::path rig =
+      write("sides.toml", design("mixed", "low_lht.ies", "low_rht.ies") + design("pair", "low_rht.ies", "low_rht.ies") +
+                              design("fog", "low_rht.ies", "fog.ies"));
+  std::string warnings;
+  for (const std::string& warning : check_rig(rig).warnings) warnings += warning + "\n";
+  EXPECT_NE(warnings.find("design \"mixed\": the low beam of right is for right-hand traffic, that of left for "
+                          "left-hand traffic"),
+            std::string::npos)
+      << warnings;
+  EXPECT_EQ(warnings.find("design \"pair\": the low beam"), std::string::npos) << warnings;
+  EXPECT_EQ(warnings.find("design \"fog\": the low beam"), std::string::npos)
+      << "a flat one tells no side: " << warnings;
+}
+
 TEST_F(RigCheck, TellsEveryProblemAtOnce) {
   write("car.toml", "mass_kg = -1\n");
   write("bad.ies", "nonsense\n");

@@ -117,7 +117,13 @@ TEST_F(Explain, TheLinesShowWhatTheDeskSays) {
   ASSERT_EQ(only.size(), 1u + lamps_.lit_table_ends().size());
   EXPECT_EQ(only.back(), "POSE HELD: no VehicleState") << "what is wrong is told in any case";
   desk_.effects = true;
-  EXPECT_EQ(overlay_lines(desk_, lamps_, moment).size(), only.size() + kEffectCount);
+  const auto with_effects = overlay_lines(desk_, lamps_, moment);
+  EXPECT_EQ(with_effects.size(), only.size() + kEffectCount);
+  for (const std::string& line : with_effects)
+    EXPECT_EQ(line.find("  "), std::string::npos) << "no columns in letters of many widths: " << line;
+  moment.road = RoadPlace::kPastEnd;
+  EXPECT_EQ(overlay_lines(desk_, lamps_, moment).size(), with_effects.size() + 1) << "the road's end is told";
+  moment.road = RoadPlace::kThere;
   // A probe of the car goes with it; one of the world stays. Facing the lamps, 900 cd each from 22 m: 900/22² lx.
   ASSERT_TRUE(apply(desk_, {"probes", "car 25 0.6 0.7 -1 0 0; world 125 0.6 0.7 -1 0 0"}));
   desk_.effects = false;

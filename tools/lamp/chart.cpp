@@ -168,6 +168,13 @@ void Chart::text(double x, double y, const std::string& text, double size, int a
   texts_.push_back({x, y, size, align, colour, bold, halo, 0.0, printable(text)});
 }
 
+double Chart::width_of(const std::string& text, double size, bool bold) const {
+  select_font(cairo_, size, bold);
+  cairo_text_extents_t extents;
+  cairo_text_extents(cairo_, printable(text).c_str(), &extents);
+  return extents.width;
+}
+
 void Chart::vertical_text(double x, double y, const std::string& text, double size, Rgb colour) {
   texts_.push_back({x, y, size, 0, colour, false, false, -90.0, printable(text)});
 }
@@ -178,12 +185,10 @@ void Chart::keep_free(double left, double top, double width, double height) {
 
 bool Chart::label(const std::vector<LabelPlace>& places, const std::string& what, double size, Rgb colour, bool bold,
                   bool halo) {
-  select_font(cairo_, size, bold);
-  cairo_text_extents_t extents;
-  cairo_text_extents(cairo_, printable(what).c_str(), &extents);
+  const double width = width_of(what, size, bold);
   for (const LabelPlace& place : places) {
-    const double left = place.x - (place.align < 0 ? 0.0 : place.align == 0 ? 0.5 : 1.0) * extents.width;
-    const Box box{left - 1.0, place.y - 0.5 * size, left + extents.width + 1.0, place.y + 0.5 * size};
+    const double left = place.x - (place.align < 0 ? 0.0 : place.align == 0 ? 0.5 : 1.0) * width;
+    const Box box{left - 1.0, place.y - 0.5 * size, left + width + 1.0, place.y + 0.5 * size};
     if (clip_ && (box.left < clip_->left || box.right > clip_->left + clip_->width || box.top < clip_->top ||
                   box.bottom > clip_->top + clip_->height))
       continue;

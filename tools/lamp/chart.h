@@ -58,6 +58,8 @@ class Chart {
   /// align: -1 left, 0 middle, 1 right of the point, at its height. `halo`: a rim that stands out from pictures.
   void text(double x, double y, const std::string& text, double size, int align, Rgb colour, bool bold = false,
             bool halo = false);
+  /// How wide a text is drawn.
+  double width_of(const std::string& text, double size, bool bold = false) const;
   /// A text at the first of the places where it is inside the clip and on no other label. False: nowhere.
   bool label(const std::vector<LabelPlace>& places, const std::string& text, double size, Rgb colour, bool bold = true,
              bool halo = true);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "config/toml_table.h"
 #include "config/whole_file.h"
@@ -97,8 +98,10 @@ Function function_of(const PointList& list, std::span<const Rulebook> rules) {
   std::size_t most = 0;
   for (const Rulebook& rule : rules) {
     const CheckResult result = check_points(list, rule, {});
-    const auto measured = static_cast<std::size_t>(std::count_if(
-        result.rows.begin(), result.rows.end(), [](const CheckRow& row) { return row.verdict != RuleVerdict::kNoData; }));
+    const auto measured =
+        static_cast<std::size_t>(std::count_if(result.rows.begin(), result.rows.end(), [](const CheckRow& row) {
+          return row.verdict != RuleVerdict::kNoData;
+        }));
     if (measured > most) most = measured, best = {rule.function, "most of its points are of " + rule.id};
   }
   return best;
@@ -110,8 +113,9 @@ std::string market_of(const std::string& asked) {
   return name == "EU" || name == "UN" || name == "UNECE" ? "ECE" : name == "USA" || name == "FMVSS" ? "US" : name;
 }
 
-Status judge(const LampCheckOptions& options, const Inputs& inputs, const Rulebook& rule, bool every,
-             std::vector<Judged>& all) {
+/// `every`: one of many rules, of which some may not fit. `rules`: all there are.
+Status judge(const LampCheckOptions& options, const Inputs& inputs, const Rulebook& rule,
+             std::span<const Rulebook> rules, bool every, std::vector<Judged>& all) {
   CheckOptions check;
   check.traffic = options.traffic == "left"    ? Traffic::kLeft
                   : options.traffic == "right" ? Traffic::kRight
@@ -121,9 +125,9 @@ Status judge(const LampCheckOptions& options, const Inputs& inputs, const Rulebo
   check.led_module = options.led_module && (!every || rule.has_led_module_limits());
   if (options.aim_up_deg || options.aim_right_deg)
     check.aim = HV{options.aim_right_deg.value_or(0.0), options.aim_up_deg.value_or(0.0)};
-  for (const PointList& list : inputs.lists) {
+  for (const PointList& list : beams_for(inputs.lists, rule)) {
     Judged judged{list_title(options.files.front(), list), list.beam, {}, {}, true};
-    judged.result = check_points(list, rule, check, &judged.unused);
+    judged.result = check_list(list, rule, rules, check, judged.unused);
     all.push_back(std::move(judged));
   }
   if (inputs.tables.empty()) return Done{};
@@ -150,6 +154,16 @@ Status judge(const LampCheckOptions& options, const Inputs& inputs, const Rulebo
   return Done{};
 }
 
+/// The beams of a list that the rule is not for.
+void say_left_out(const Inputs& inputs, const Rulebook& rule) {
+  const std::vector<PointList> judged = beams_for(inputs.lists, rule);
+  for (const PointList& list : inputs.lists) {
+    if (std::ranges::any_of(judged, [&](const PointList& one) { return one.beam == list.beam; })) continue;
+    std::fprintf(stderr, "phare: %s is a %s beam by its name and left out; %s is for %s beams\n", list.beam.c_str(),
+                 function_of_beam(list.beam).c_str(), rule.id.c_str(), rule.function.c_str());
+  }
+}
+
 /// Every rule for this function and market.
 Result<PageHead> judge_by_all(const LampCheckOptions& options, const Inputs& inputs, std::vector<Judged>& all) {
   const auto rules = read_rulebooks(rules_folder());
@@ -161,7 +175,7 @@ Result<PageHead> judge_by_all(const LampCheckOptions& options, const Inputs& inp
     for (const Rulebook& rule : *rules) {
       if (rule.function != function.name || (!market.empty() && rule.market != market)) continue;
       ++found;
-      if (const Status status = judge(options, one, rule, true, all); !status) return status.error();
+      if (const Status status = judge(options, one, rule, *rules, true, all); !status) return status.error();
     }
     head.function += (head.function.empty() ? "" : "; ") + function.name + " beam (" + function.why + ")";
     if (found == 0) return Error{"--market", "no rulebook of " + market + " is for a " + function.name + " beam"};
@@ -212,10 +226,14 @@ int lamp_check(const LampCheckOptions& options) {
     if (!judged) return bad_input(judged.error());
     head = std::move(*judged);
   } else {
+    const auto rules = read_rulebooks(rules_folder());
+    if (!rules) return bad_input(rules.error());
     for (const std::string& name : options.rules) {
       const auto rule = find_rulebook(rules_folder(), name);
       if (!rule) return bad_input(rule.error());
-      if (const Status status = judge(options, *inputs, *rule, false, all); !status) return bad_input(status.error());
+      if (const Status status = judge(options, *inputs, *rule, *rules, false, all); !status)
+        return bad_input(status.error());
+      say_left_out(*inputs, *rule);
       head.function += (head.function.empty() ? "" : ", ") + rule->name;
     }
   }

@@ -64,6 +64,12 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+/// All rules judge for one side of traffic, known in one way: said once. Else every rule says its own.
+bool one_traffic(std::span<const Judged> all) {
+  return std::all_of(all.begin(), all.end(),
+                     [&](const Judged& judged) { return traffic_text(judged) == traffic_text(all.front()); });
+}
+
 }  // namespace
 
 double margin_percent(const CheckRow& row) {
@@ -85,11 +91,13 @@ std::vector<PageRow> worst_first(std::span<const Judged> all) {
 
 void print_page(const PageHead& head, std::span<const Judged> all) {
   std::printf("%s: %s%s\n", head.beams.c_str(), head.function.c_str(), head.market.c_str());
-  if (!all.empty()) std::printf("%s\n", traffic_text(all.front()).c_str());
+  const bool one = one_traffic(all);
+  if (!all.empty() && one) std::printf("%s\n", traffic_text(all.front()).c_str());
   for (const Judged& judged : all) {
-    std::printf("  %-9s %-18s %s; aim: %s%s\n", conclusion(judged.result.verdict), judged.result.rule_id.c_str(),
+    std::printf("  %-9s %-18s %s; aim: %s%s%s\n", conclusion(judged.result.verdict), judged.result.rule_id.c_str(),
                 summary_of(judged).c_str(), aim_of(judged.result).c_str(),
-                all.front().beam != judged.beam ? ("; " + judged.beam).c_str() : "");
+                all.front().beam != judged.beam ? ("; " + judged.beam).c_str() : "",
+                one ? "" : ("; " + traffic_text(judged)).c_str());
   }
   const std::vector<PageRow> rows = worst_first(all);
   std::printf("worst rows first:\n  %-18s %-30s %17s %12s %15s %10s  %s\n", "rule", "row", "limit", "value", "at H, V",
@@ -120,23 +128,25 @@ std::string html_page(const PageHead& head, std::span<const Judged> all) {
       "fdeac0}"
       ".reaim{background:#e3f0fb}.pass{background:#dff3df}</style></head>\n<body><h1>" +
       escaped(head.beams) + "</h1>\n<p>" + escaped(head.function + head.market) + "</p>\n";
-  if (!all.empty()) page += "<p>" + escaped(traffic_text(all.front())) + "</p>\n";
-  page += "<h2>Rules</h2>\n<table><tr><th>verdict</th><th>rule</th><th>document</th><th>rows</th><th>aim</th></tr>\n";
+  const bool one = one_traffic(all);
+  if (!all.empty() && one) page += "<p>" + escaped(traffic_text(all.front())) + "</p>\n";
+  page += std::string("<h2>Rules</h2>\n<table><tr><th>verdict</th><th>rule</th><th>document</th><th>rows</th>") +
+          "<th>aim</th>" + (one ? "" : "<th>side of traffic</th>") + "</tr>\n";
   for (const Judged& judged : all) {
     const CheckResult& r = judged.result;
     const char* shade = r.verdict == RuleVerdict::kPass ? "pass" : r.verdict == RuleVerdict::kFail ? "fail" : "within";
     page += std::string("<tr class=\"") + shade + "\"><td>" + conclusion(r.verdict) + "</td><td>" +
             escaped(r.rule_name + (all.front().beam != judged.beam ? ", " + judged.beam : "")) + "</td><td>" +
             escaped(r.document) + "</td><td>" + escaped(summary_of(judged)) + "</td><td>" + escaped(aim_of(r)) +
-            (r.aim_unconfirmed.empty() ? "" : " *") + "</td></tr>\n";
+            (r.aim_unconfirmed.empty() ? "" : " *") + (one ? "" : "</td><td>" + escaped(traffic_text(judged))) +
+            "</td></tr>\n";
   }
   page +=
       "</table>\n<h2>Rows, the worst first</h2>\n<table><tr><th>rule</th><th>row</th><th>clause</th><th>limit</th>"
       "<th>value</th><th>unit</th><th>at H, V in deg</th><th>margin</th><th>verdict</th></tr>\n";
   for (const auto& [judged, row] : worst_first(all)) {
     std::string value = row->has_value ? value_text(row->unit, row->value(), 3) : "-";
-    if (row->has_value && row->resolution > 0.0)
-      value += " ± " + value_text(row->unit, std::ceil(row->resolution * 1000.0) / 1000.0, 3);
+    if (row->has_value && row->resolution > 0.0) value += " ± " + resolution_text(*row);
     page += std::string("<tr class=\"") + colour_of(*row) + "\"><td>" + escaped(judged->result.rule_id) + "</td><td>" +
             escaped(row->id) + "</td><td>" + escaped(row->clause) + "</td><td class=\"n\">" +
             escaped(limits_text(*row)) + "</td><td class=\"n\">" + escaped(value) + "</td><td>" + escaped(row->unit) +

@@ -82,6 +82,11 @@ std::string value_text(const std::string& unit, double value, int digits) {
   return text;
 }
 
+std::string resolution_text(const CheckRow& row) {
+  const double unit = is_whole_unit(row.unit) ? 1.0 : 0.001;
+  return value_text(row.unit, unit * std::ceil(row.resolution / unit), 3);
+}
+
 std::string limits_text(const CheckRow& row) {
   const auto number = [&](double value) { return value_text(row.unit, value); };
   if (row.min > kNoMinimum && row.max < kNoMaximum) return number(row.min) + " - " + number(row.max);
@@ -107,9 +112,7 @@ std::string verdict_text(const CheckRow& row) {
     case RuleVerdict::kPass:
       return row.passes_by ? "pass only by re-aim " + turn_text(*row.passes_by) : "pass";
     case RuleVerdict::kWithinResolution: {
-      const bool whole = is_whole_unit(row.unit);
-      return "within resolution, +- " + number_of(whole ? "%.3g" : "%.3f", row.resolution) +
-             (row.unit.empty() ? "" : " " + row.unit);
+      return "within resolution, +- " + resolution_text(row) + (row.unit.empty() ? "" : " " + row.unit);
     }
     case RuleVerdict::kNoData:
       break;

@@ -19,6 +19,8 @@ struct Judged {
 
 /// "1000", "0.13": candela and lumens whole, others in so many digits.
 std::string value_text(const std::string& unit, double value, int digits = 2);
+/// What the file leaves open of a value, rounded up to the digits that `value_text` prints: "12", "0.081".
+std::string resolution_text(const CheckRow& row);
 /// ">= 1000", "350 - 700".
 std::string limits_text(const CheckRow& row);
 /// "FAIL", "pass", "pass only by re-aim 0.25 deg left, 0.10 deg up", "within resolution, +- 12 cd", "not measured".

@@ -46,7 +46,8 @@ Difference differ(const IntensityHv& a, const IntensityHv& b) {
   n = std::max(n, 1.0);
   d.mean_abs_cd /= n;
   const double spread = (saa - sa * sa / n) * (sbb - sb * sb / n);
-  d.correlation = spread > 0.0 ? (sab - sa * sb / n) / std::sqrt(spread) : 1.0;
+  const double same = d.mean_abs_cd == 0.0 ? 1.0 : 0.0;  // one of them is even: it tells nothing of the other
+  d.correlation = spread > 0.0 ? (sab - sa * sb / n) / std::sqrt(spread) : same;
   return d;
 }
 

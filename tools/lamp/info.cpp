@@ -32,6 +32,14 @@ const char* side_name(CutoffSide side) {
   return "rises left";
 }
 
+/// Nothing here hangs on the side, so none is assumed; who assumes one is named.
+std::string traffic_told(const CutoffShape& shape) {
+  if (shape.tells_side())
+    return std::string(shape.side == CutoffSide::kRisesLeft ? "left" : "right") + "-hand (by the cut-off)";
+  return "not told: " + why_no_side(shape) +
+         "; assumed where a side is needed: by check the one that the beam does better on, else right-hand";
+}
+
 constexpr double kInfoHeight_m = 0.65;  // as `plot` and `hspr` mount it
 
 /// Where the table would end on the road in the driver's picture of a usual car, its cut-off on the line.
@@ -79,11 +87,12 @@ nlohmann::json as_json(const std::string& file, const IntensityTable& table, con
                         {"second_step_at_peak_deg", report.step_v_deg},
                         {"smallest_step_cd", header.smallest_step_cd}}},
                       {"cutoff", {{"shape", side_name(side)}, {"form", form_name(report.cutoff.form)}}},
-                      {"traffic", side == CutoffSide::kRisesLeft ? "left" : "right"},
-                      {"traffic_source", report.cutoff.tells_side() ? "by the cut-off" : "assumed"},
+                      {"traffic_source", report.cutoff.tells_side() ? "by the cut-off" : "not told"},
                       {"content_hash", table.content_hash},
                       {"keywords", keywords},
                       {"findings", findings}};
+  json["traffic"] =
+      report.cutoff.tells_side() ? nlohmann::json(side == CutoffSide::kRisesLeft ? "left" : "right") : nlohmann::json();
   if (const auto end = road_end(table, report)) {
     json["table_end"] = {{"text", end->text()}, {"height_m", kInfoHeight_m}};
     if (end->below) json["table_end"]["v_deg"] = end->v_deg;
@@ -107,7 +116,7 @@ nlohmann::json as_json(const std::string& file, const IntensityTable& table, con
 void print(const std::string& file, const IntensityTable& table, const LampReport& report) {
   const LampHeader& header = table.header;
   const bool c = table.type == PhotometricType::kC;
-  std::printf("%s\n", file.c_str());
+  std::printf("%s\n", input_name(file).c_str());
   std::printf("  version   %s, type %s%s%s\n", table.version.c_str(), type_name(table).c_str(),
               header.absolute ? ", absolute" : ", relative", header.units.empty() ? "" : (", " + header.units).c_str());
   std::printf("  grid      %zu × %zu values, %s %g to %g, %s %g to %g deg; %.3g × %.3g deg at the peak\n",
@@ -117,8 +126,7 @@ void print(const std::string& file, const IntensityTable& table, const LampRepor
   std::printf("  peak      %.6g cd at H %+.2f, V %+.2f deg\n", report.peak_cd, report.peak.first_deg,
               report.peak.second_deg);
   std::printf("  flux      %.1f lm\n", report.flux_lm);
-  std::printf("  traffic   %s-hand (%s)\n", report.cutoff.side == CutoffSide::kRisesLeft ? "left" : "right",
-              side_source(report.cutoff).c_str());
+  std::printf("  traffic   %s\n", traffic_told(report.cutoff).c_str());
   std::printf("  hash      %s\n", table.content_hash.c_str());
   if (const auto end = road_end(table, report))
     std::printf("  road      mounted %.2f m high%s: %s\n", kInfoHeight_m,
@@ -145,7 +153,7 @@ nlohmann::json points_json(const std::string& file, const PointLists& lists) {
 
 void print_points(const std::string& file, const PointLists& lists) {
   std::printf("%s\n  list of measured points, no beam: judged by check, drawn by plot; nothing lies between them\n",
-              file.c_str());
+              input_name(file).c_str());
   if (lists.distance_m > 0.0) std::printf("  distance  %g m\n", lists.distance_m);
   for (const PointList& list : lists.beams) {
     std::size_t named = 0;

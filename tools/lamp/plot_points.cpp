@@ -11,7 +11,6 @@
 #include "tools/lamp/point_lists.h"
 #include "tools/lamp/print_json.h"
 #include "tools/lamp/views.h"
-#include "visual/photometry/check_points.h"
 
 namespace phare {
 namespace {
@@ -41,14 +40,16 @@ int plot_points(const LampPlotOptions& options, const PointLists& lists) {
     if (!found) return bad_input(found.error());
     rule = std::move(*found);
   }
+  const auto rules = read_rulebooks(rules_folder());
+  if (!rules) return bad_input(rules.error());
   std::error_code code;
   std::filesystem::create_directories(options.out, code);
   if (code) return bad_input({options.out, code.message()});
 
   nlohmann::json json{{"file", options.files.front()}, {"beams", nlohmann::json::array()}};
-  for (const PointList& list : *beams) {
+  for (const PointList& list : rule ? beams_for(*beams, *rule) : *beams) {
     Judged judged{list_title(options.files.front(), list), list.beam, {}, {}, true};
-    if (rule) judged.result = check_points(list, *rule, {}, &judged.unused);
+    if (rule) judged.result = check_list(list, *rule, *rules, {}, judged.unused);
     std::vector<PointMark> marks;
     std::size_t unplaced = 0;
     for (const MeasuredPoint& point : list.points) {

@@ -2,6 +2,7 @@
 
 #include "config/toml_table.h"
 #include "tools/lamp/lamp_commands.h"
+#include "visual/photometry/check_points.h"
 #include "visual/photometry/file_text.h"
 
 namespace phare {
@@ -33,6 +34,26 @@ Result<std::vector<PointList>> beams_named(const PointLists& lists, const std::s
   }
   if (found.empty()) return Error{"--beam", unknown_name_reason("beam", beam, known)};
   return found;
+}
+
+std::vector<PointList> beams_for(const std::vector<PointList>& lists, const Rulebook& rule) {
+  std::vector<PointList> fitting;
+  for (const PointList& list : lists) {
+    const std::string function = function_of_beam(list.beam);
+    if (function.empty() || function == rule.function) fitting.push_back(list);
+  }
+  return fitting.empty() ? lists : fitting;
+}
+
+CheckResult check_list(const PointList& list, const Rulebook& rule, std::span<const Rulebook> rules,
+                       CheckOptions options, std::vector<std::string>& unused) {
+  int for_right = 0;
+  for (const Rulebook& other : rules) for_right += other.function == rule.function ? points_for_right(list, other) : 0;
+  const bool find = options.traffic == Traffic::kFind;
+  if (find) options.traffic = for_right < 0 ? Traffic::kLeft : Traffic::kRight;
+  CheckResult result = check_points(list, rule, options, &unused);
+  if (find) result.traffic_source = for_right != 0 ? TrafficSource::kFound : TrafficSource::kAssumed;
+  return result;
 }
 
 std::string list_title(const std::string& file, const PointList& list) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "config/result.h"
+#include "visual/photometry/check.h"
 #include "visual/photometry/point_list.h"
 #include "visual/photometry/read_lamp.h"
 
@@ -15,6 +18,15 @@ Result<std::optional<PointLists>> read_as_points(const std::string& file, const 
 
 /// The beams of a list that are called `beam` in any case; all where it is empty. The error names those there are.
 Result<std::vector<PointList>> beams_named(const PointLists& lists, const std::string& beam);
+
+/// Of several beams those that a rule can be for: a beam that by its name has another function than the rule is left
+/// out. All where none would be left.
+std::vector<PointList> beams_for(const std::vector<PointList>& lists, const Rulebook& rule);
+
+/// As check_points, but for the side of traffic that all rulebooks of the rule's function tell together, so that a list
+/// is not taken for one side by one rule and for the other by the next.
+CheckResult check_list(const PointList& list, const Rulebook& rule, std::span<const Rulebook> rules,
+                       CheckOptions options, std::vector<std::string>& unused);
 
 /// "led.csv", "led.csv, low beam".
 std::string list_title(const std::string& file, const PointList& list);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
 namespace phare {
 
@@ -36,9 +37,38 @@ void draw_no_data_note(Chart& chart, double x, double y, const Grid& grid) {
   chart.text(x + 19, y, "no data in the file", 8.5, -1, kBlack);
 }
 
+namespace {
+
+/// Where the second line of a text begins that is too wide: after the last semicolon that fits, else the last blank;
+/// its size where there is neither.
+std::size_t line_break(const Chart& chart, const std::string& text, double size, double room) {
+  for (const std::string_view mark : {"; ", " "}) {
+    std::size_t part = 0;
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+      if (chart.width_of(text.substr(0, at + 1), size) > room) break;
+      part = at + mark.size();
+    }
+    if (part > 0) return part;
+  }
+  return text.size();
+}
+
+}  // namespace
+
 void heading(Chart& chart, const std::string& title, const std::string& subtitle) {
-  chart.text(62, 20, title, 13, -1, kBlack, true);
-  chart.text(62, 38, subtitle, 9, -1, {0.3, 0.3, 0.3});
+  constexpr double kLeft = 62.0, kRoom = kPageWidth - kLeft - 10.0;
+  constexpr Rgb kDark{0.3, 0.3, 0.3};
+  // No text leaves the page: what is too long gets smaller.
+  const auto fitting = [&](const std::string& text, double size, bool bold) {
+    return size * std::min(1.0, kRoom / std::max(chart.width_of(text, size, bold), 1.0));
+  };
+  const bool two = chart.width_of(subtitle, 9) > kRoom;
+  chart.text(kLeft, two ? 16 : 20, title, fitting(title, 13, true), -1, kBlack, true);
+  if (!two) return chart.text(kLeft, 38, subtitle, 9, -1, kDark);
+  const std::size_t part = line_break(chart, subtitle, 9, kRoom);
+  const std::string first = subtitle.substr(0, part), rest = subtitle.substr(part);
+  chart.text(kLeft, 32, first, fitting(first, 9, false), -1, kDark);
+  chart.text(kLeft, 43, rest, fitting(rest, 9, false), -1, kDark);
 }
 
 void colour_bar(Chart& chart, double left, double top, double height, double low, double high,

@@ -189,6 +189,11 @@ std::string function_of_beam(const std::string& beam) {
   return "";
 }
 
+int points_for_right(const PointList& list, const Rulebook& rule) {
+  return static_cast<int>(PointJudge(list, false).matches(rule)) -
+         static_cast<int>(PointJudge(list, true).matches(rule));
+}
+
 CheckResult check_points(const PointList& list, const Rulebook& rulebook, const CheckOptions& options,
                          std::vector<std::string>* unused) {
   const Rulebook rule = options.led_module ? rulebook.for_led_modules() : rulebook;
@@ -198,10 +203,10 @@ CheckResult check_points(const PointList& list, const Rulebook& rulebook, const 
   result.document = rule.document;
   result.function = rule.function;
   result.aim_method = "as measured";
-  const std::size_t right = PointJudge(list, false).matches(rule), left = PointJudge(list, true).matches(rule);
-  result.left_hand = options.traffic == Traffic::kFind ? left > right : options.traffic == Traffic::kLeft;
+  const int for_right = points_for_right(list, rule);
+  result.left_hand = options.traffic == Traffic::kFind ? for_right < 0 : options.traffic == Traffic::kLeft;
   result.traffic_source = options.traffic != Traffic::kFind ? TrafficSource::kGiven
-                          : left != right                   ? TrafficSource::kFound
+                          : for_right != 0                  ? TrafficSource::kFound
                                                             : TrafficSource::kAssumed;
   PointJudge judge(list, result.left_hand);
   for (const RuleRow& row : rule.rows) result.rows.push_back(judge.judge(rule, row));

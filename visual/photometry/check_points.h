@@ -20,6 +20,9 @@ namespace phare {
 CheckResult check_points(const PointList& list, const Rulebook& rule, const CheckOptions& options,
                          std::vector<std::string>* unused = nullptr);
 
+/// How many more of the rule's points the list has for right-hand traffic than for left-hand traffic.
+int points_for_right(const PointList& list, const Rulebook& rule);
+
 /// Where a list's point is taken for a rule's: laboratories print 0.01°.
 inline constexpr double kSamePoint_deg = 0.015;
 

@@ -79,6 +79,9 @@ struct CutoffShape {
 /// For which side of the road a beam is: "by the cut-off", or "assumed: …" with the reason (flat, symmetric, none).
 std::string side_source(const CutoffShape& shape);
 
+/// That reason alone, of a shape that does not tell its side.
+std::string why_no_side(const CutoffShape& shape);
+
 /// A mirrored beam has the mirrored shape, to the bit where the table's own nodes are mirrored to the bit.
 CutoffShape cutoff_shape(const IntensityHv& intensity);
 

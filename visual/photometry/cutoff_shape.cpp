@@ -25,7 +25,9 @@ constexpr double kBlur_deg = 8.0;         // what columns and noise take from a 
 constexpr double kSteep = 0.4;            // 22°: halfway from an elbow's 15° to a shoulder's 45°, less the blur
 constexpr double kLeastStep_deg = 0.15;   // three rows of the rules' scan
 constexpr double kRowsOfStep = 1.5;       // … and so many of the table's
-constexpr double kLeastBeyond_deg = 1.5;  // so far beyond the kink the upper part has to be seen
+constexpr double kPlanesOfStep = 2.5;     // … and of planes that are so much wider there than beside the kink:
+constexpr double kWiderRow = 1.2, kLeastSlant = 0.58;  // 30°: less steep is no slant to a shoulder
+constexpr double kLeastBeyond_deg = 1.5;               // so far beyond the kink the upper part has to be seen
 constexpr double kMainStep = 1.5;
 constexpr double kUprightStep_deg = 55.0;  // halfway from 45° to what 0.1° columns leave of an upright step (65°)
 constexpr double kSlopeReach_deg = 0.3;    // a slope is told from this to both sides
@@ -143,6 +145,18 @@ std::vector<CutoffStep> steep_rises(const CutoffLine& line, double least_deg) {
   return steps;
 }
 
+/// Planes C lie the farther apart the farther they are from the axis: a slant across them shows as steps from plane to
+/// plane, where the rows beside the kink are narrow yet.
+bool is_of_planes(const IntensityHv& intensity, const CutoffLine& line, const CutoffStep& step, double kink_row_deg) {
+  double row_deg = 0.0;
+  for (const double h : {step.foot_h_deg, step.head_h_deg}) {
+    if (const auto v = level_at(line, h - 0.5 * kShapeScan_deg, h + 0.5 * kShapeScan_deg))
+      row_deg = std::max(row_deg, row_height_deg(intensity, h, *v));
+  }
+  const double slope = 0.8 * step.height_deg / std::max(1e-3, step.head_h_deg - step.foot_h_deg);
+  return row_deg > kWiderRow * kink_row_deg && (step.height_deg < kPlanesOfStep * row_deg || slope < kLeastSlant);
+}
+
 /// Does the light fall upwards only as it falls downwards too? So does a spot, whose log E has its inflection nowhere
 /// or where stray light takes over.
 bool falls_like_a_spot(const IntensityHv& intensity, double h_deg) {
@@ -214,6 +228,7 @@ std::optional<CutoffShape> rising_shape(const IntensityHv& intensity, double kin
   const auto foot_v_deg = level_at(line, kink_h_deg - 2.0, kink_h_deg - 0.5);
   const double row_deg = foot_v_deg ? row_height_deg(intensity, kink_h_deg - 1.0, *foot_v_deg) : 0.0;
   shape.steps = steep_rises(line, std::max(kLeastStep_deg, kRowsOfStep * row_deg));
+  std::erase_if(shape.steps, [&](const CutoffStep& s) { return is_of_planes(intensity, line, s, row_deg); });
   // What lies beyond the shoulder is no step of the kink's.
   std::erase_if(shape.steps, [&](const CutoffStep& s) { return std::abs(s.foot_h_deg - kink_h_deg) > 4.0; });
   double foot = kink_h_deg, head = kink_h_deg;
@@ -300,10 +315,13 @@ std::string form_name(CutoffForm form) {
 }
 
 std::string side_source(const CutoffShape& shape) {
-  if (shape.tells_side()) return "by the cut-off";
-  return shape.side == CutoffSide::kNone        ? "assumed: no cut-off tells the side"
-         : shape.form == CutoffForm::kSymmetric ? "assumed: the cut-off is symmetric"
-                                                : "assumed: the cut-off is flat";
+  return shape.tells_side() ? "by the cut-off" : "assumed: " + why_no_side(shape);
+}
+
+std::string why_no_side(const CutoffShape& shape) {
+  return shape.side == CutoffSide::kNone        ? "no cut-off tells the side"
+         : shape.form == CutoffForm::kSymmetric ? "the cut-off is symmetric"
+                                                : "the cut-off is flat";
 }
 
 CutoffShape cutoff_shape(const IntensityHv& intensity) {

@@ -254,9 +254,8 @@ Status LampCsv::read_list(const std::vector<std::string_view>& head) {
   }
   if (first == head.size() || second == head.size() || value == head.size())
     return text_.error(
-        "expected \"# unit: cd\" or lx, a grid's corner (V\\H, gamma\\C, z\\y), or columns h_deg, v_deg and "
-        "intensity_cd "
-        "or illuminance_lx");
+        "expected \"# unit: cd\" or lx, a grid's corner (V\\H, gamma\\C, z\\y), columns h_deg, v_deg and "
+        "intensity_cd or illuminance_lx, or of a list a column \"point\" and one of values, \"low beam (cd)\"");
   std::map<double, std::map<double, double>> rows;
   std::size_t count = 0;
   double& smallest = table_.header.smallest_step_cd;

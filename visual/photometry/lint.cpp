@@ -46,6 +46,7 @@ Finding repaired(const std::string& note, const std::string& name) {
   for (const char* chosen : {"lamp sets;", "emitters;", "as asked", "conversion factor"}) {
     if (note.find(chosen) != std::string::npos) finding.grade = Grade::kInfo, finding.id = "chosen";
   }
+  if (note.find("not used here") != std::string::npos) finding.id = "unused";
   return finding;
 }
 

@@ -20,6 +20,25 @@ bool has_tilt_line(std::string_view text) {
   return false;
 }
 
+/// A file of another format has one set of values: asked for another, there is none.
+Status has_what_is_asked(LampFormat format, const std::string& name, const LampReadSettings& settings) {
+  if (format == LampFormat::kFind) return Done{};  // no file of any kind: that is told
+  if (settings.lamp_set > 1 && format != LampFormat::kEulumdat)
+    return Error{name, "has no lamp set " + std::to_string(settings.lamp_set) + ": only EULUMDAT files have several"};
+  if (settings.emitter > 1 && format != LampFormat::kTm33)
+    return Error{name, "has no emitter " + std::to_string(settings.emitter) + ": only TM-33 files have several"};
+  return Done{};
+}
+
+/// Settings that change nothing in a table like this are told, so that nobody takes them for used.
+void note_unused(IntensityTable& table, LampFormat format, const std::string& name, const LampReadSettings& settings) {
+  const bool turned = settings.axis != GammaAxis::kGamma0 || settings.c0_turn_deg != 0.0;
+  if (turned && table.type != PhotometricType::kC)
+    table.notes.push_back(name + ": axis and C 0 are of type C and EULUMDAT; not used here");
+  if (settings.distance_m > 0.0 && format != LampFormat::kCsv)
+    table.notes.push_back(name + ": the distance is for CSV in lux; not used here");
+}
+
 }  // namespace
 
 LampFormat find_format(std::string_view bytes, std::string_view name) {
@@ -41,6 +60,7 @@ LampFormat find_format(std::string_view bytes, std::string_view name) {
 Result<IntensityTable> parse_lamp(std::string_view bytes, const std::string& name, const LampReadSettings& settings) {
   if (bytes.empty()) return Error{name, "is empty"};
   const LampFormat format = settings.format == LampFormat::kFind ? find_format(bytes, name) : settings.format;
+  if (const Status has = has_what_is_asked(format, name, settings); !has) return has.error();
   std::string storage, note;
   const std::string_view text = without_marks(bytes, name, storage, note);
   const auto read = [&]() -> Result<IntensityTable> {
@@ -69,6 +89,7 @@ Result<IntensityTable> parse_lamp(std::string_view bytes, const std::string& nam
   table->content_hash = hash.valid() ? hash.get() : hash_bytes();
   if (table->type == PhotometricType::kC) table->header.read_c0_deg = settings.c0_turn_deg;
   table->header.read_mirrored = settings.mirror_h;
+  note_unused(*table, format, name, settings);
   if (!note.empty()) table->notes.insert(table->notes.begin(), note);
   if (settings.mirror_h) {
     mirror_left_right(*table);

@@ -18,8 +18,8 @@ struct LampReadSettings {
   /// Type C, EULUMDAT: direction of the file's plane C 0 as an angle of ours (gamma 0: 0 right, 90 up; gamma 90: 0
   /// ahead, 90 left), degrees. fog lamps are found with C 0 up.
   double c0_turn_deg = 0.0;
-  std::size_t lamp_set = 1;      ///< EULUMDAT: which of the file's lamp sets, from 1
-  std::size_t emitter = 1;       ///< TM-33: which of the file's emitters with luminous data, from 1
+  std::size_t lamp_set = 1;      ///< EULUMDAT: which of the file's lamp sets, from 1; others have only the first
+  std::size_t emitter = 1;       ///< TM-33: which of the file's emitters with luminous data, from 1; the same
   bool mirror_h = false;         ///< the file is clockwise or mirrored: turn left and right round
   double distance_m = 0.0;       ///< CSV in lux without a distance
   std::filesystem::path folder;  ///< where a TILT file is looked for; read_lamp sets it

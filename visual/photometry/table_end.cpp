@@ -16,7 +16,7 @@ namespace phare {
 namespace {
 
 constexpr double kVisible_lx = 0.1;
-constexpr double kWidest_deg = 70.0, kStep_deg = 2.0, kFine_deg = 0.01;
+constexpr double kWidest_deg = 70.0, kStep_deg = 2.0, kFine_deg = 0.01, kAbove_deg = 0.5;
 constexpr double kHighest_deg = -0.3, kLowest_deg = -85.0;  // where the road is looked for
 
 class Rim {
@@ -50,6 +50,13 @@ class Rim {
   /// The direction in the lamp's own H and V.
   TableAngles own(double h_deg, double v_deg) const {
     return table_angles(PhotometricType::kA, GammaAxis::kGamma0, direction_hv(h_deg, v_deg) * car_from_lamp_);
+  }
+  /// Just outside the rim at (h, v): is the side's end there, and not the lower one's? Above a lower end the table goes
+  /// on. The upright edges of every kind of table keep their H in the lamp's frame, or lean outwards below.
+  bool ends_aside(double h_deg, double v_deg) const {
+    const TableAngles rim = own(h_deg, v_deg);
+    const double outside_deg = rim.first_deg + std::copysign(3.0 * kFine_deg, rim.first_deg);
+    return evidence_of(table_, direction_hv(outside_deg, rim.second_deg + kAbove_deg)) == Evidence::kNone;
   }
   /// Between a known and an unknown place, the last known one.
   double last_known(double inside, double outside, const auto& is_known) const {
@@ -131,7 +138,7 @@ std::optional<TableEnd> table_end(const IntensityTable& table, const glm::dmat3&
       if (std::abs(h) >= kWidest_deg) continue;
       h = rim.last_known(h, h + side, is_known);
       const double lx = rim.seen_lx(h, v);
-      if (lx < kVisible_lx) continue;
+      if (lx < kVisible_lx || !rim.ends_aside(h, v)) continue;
       end.sideways = true;
       end.brightest_lx = std::max(end.brightest_lx, lx);
       const double own_deg = rim.own(h, v).first_deg;

@@ -40,6 +40,12 @@ EyeAdaptation eye_of(const Session& session) {
   return eye;
 }
 
+/// The lane beside the scene; what is wrong with it is told by those who drive on it.
+std::vector<LanePoint> lane_of(const std::filesystem::path& scene_file) {
+  Result<std::vector<LanePoint>> lane = read_lane(lane_file_of(scene_file));
+  return lane ? std::move(*lane) : std::vector<LanePoint>{};
+}
+
 /// The device that would draw, and the moment of the options; a line for each effect.
 int explain_and_leave(const VisualOptions& options, const Scene& scene, Lamps& lamps, const Desk& desk,
                       const ChannelConfig& channel) {
@@ -119,6 +125,7 @@ int draw_channel(VisualOptions options) {
                   std::move(window), std::move(*renderer), std::move(*bus), std::move(*album), install_stop_signals(),
                   std::move(lamps_json));
   session.eye = eye_of(session);
+  session.lane = lane_of(session.rig.scene_file);
   spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
   run_loop(session);
   if (session.renderer.validation_messages() > 0) {

@@ -66,10 +66,11 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
     lines.push_back(lux_line(text, lamps, moment, placed(probe, moment.pose), probe.position_m));
   }
   if (desk.effects && moment.effects != nullptr) {
-    std::istringstream effects(explain(*moment.effects));
+    std::istringstream effects(explain(*moment.effects, false));
     for (std::string line; std::getline(effects, line);) lines.push_back(line);
   }
   for (std::string& end : lamps.lit_table_ends()) lines.push_back(std::move(end));
+  if (moment.road != RoadPlace::kThere) lines.push_back(road_end_line(moment.road));
   if (moment.pose_held) lines.emplace_back("POSE HELD: no VehicleState");
   if (moment.controls.fail_safe) lines.emplace_back("FAIL-SAFE low beam: the light switch is silent");
   if (!moment.controls.source_fault.empty()) lines.push_back(moment.controls.source_fault);

@@ -10,6 +10,7 @@
 #include "net/messages.h"
 #include "visual/process/adaptation.h"
 #include "visual/process/lamps.h"
+#include "visual/process/road_end.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 
@@ -32,6 +33,7 @@ struct OverlayMoment {
   const EffectPlan* effects = nullptr;        ///< of the frame before
   std::optional<MeasurePoint> under_mouse{};  ///< of the world
   const Scene* scene = nullptr;               ///< what stands in it hides light; none: nothing does
+  RoadPlace road = RoadPlace::kThere;
 };
 
 /// What the driver is told over the picture besides the instruments: time, lux at probes and under the mouse, and

@@ -90,6 +90,7 @@ class Loop {
   bool wants_picture(const Moment& moment);
   bool wants_stills(const Moment& moment) const;
   std::string label(const Moment& moment) const;
+  void mind_the_road(const Moment& moment);
   std::vector<std::string> overlay(const Moment& moment) const;
   void write_stats(SimTime now);
 
@@ -111,6 +112,8 @@ class Loop {
   std::int64_t next_picture_ns_ = 0;
   Clock::time_point progress_ = Clock::now(), stats_written_ = Clock::now(), frame_end_{};
   Screens screens_;
+  RoadEnd road_end_{s_.scene, s_.lane};
+  RoadPlace road_ = RoadPlace::kThere;
   Clock::time_point ready_;
   bool ended_ = false;
   bool over_ = false;      // the drive is, and the window stays
@@ -176,7 +179,7 @@ void Loop::answer_probes() {
 /// The first picture of each kind makes the device's machine code, which may take a second: before the drive, not in
 /// it. Kinds differ by how many lamps shine and how their beams are looked up, so every design is switched through its
 /// lights over the whole scene; in lockstep, where a slow frame harms nobody, and in place of one that was killed,
-/// which is missed, the first picture must do.
+/// which is missed, the first picture must do. Between the pictures the window is minded: a person may leave.
 void Loop::warm_up() {
   const Clock::time_point begin = Clock::now();
   const VehicleState pose;
@@ -186,6 +189,7 @@ void Loop::warm_up() {
   const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 1 : 1;
   int step = 0;
   const auto draw = [&](const CockpitState& controls) {
+    if (over()) return;  // who does not want to wait leaves
     if (s_.window) input.panel = getting_ready_panel(++step, steps);
     light_up(controls);
     input.lamps = s_.lamps.placed(pose);
@@ -211,7 +215,7 @@ void Loop::warm_up() {
   input.want_image = s_.album.wanted();
   draw(controls_);
   s_.lamps.begin_counting();
-  spdlog::info("ready after {:.1f} s", std::chrono::duration<double>(Clock::now() - begin).count());
+  if (!ended_) spdlog::info("ready after {:.1f} s", std::chrono::duration<double>(Clock::now() - begin).count());
 }
 
 /// "Up, and waiting for the first pose."
@@ -305,8 +309,10 @@ void Loop::draw(const Moment& moment) {
       input_.instruments =
           instruments(moment.controls, moment.car.pose, one ? std::string() : s_.lamps.design().name, moment.time);
   }
-  if (s_.window && drawn_frames_ % 6 == 0)
-    input_.overlay = overlay(moment);  // ten times a second: the lux under the mouse takes a ray through the scene
+  if (drawn_frames_ % 6 == 0) {  // ten times a second: they take rays through the scene
+    mind_the_road(moment);
+    if (s_.window) input_.overlay = overlay(moment);
+  }
   captured_ = wants_picture(moment);
   input_.want_image = captured_;
 
@@ -408,6 +414,15 @@ std::string Loop::label(const Moment& moment) const {
   return text;
 }
 
+/// Said once when the car leaves the road's end behind, by the first channel.
+void Loop::mind_the_road(const Moment& moment) {
+  const RoadPlace place = road_end_.of(moment.car.pose);
+  screens_.set_road(place);
+  if (std::exchange(road_, place) == place || place == RoadPlace::kThere || s_.options.channel != 0) return;
+  spdlog::warn("{:.1f} s: {}, at x {:.0f} m, y {:.0f} m", moment.time.seconds(), road_end_line(place),
+               moment.car.pose.x_m, moment.car.pose.y_m);
+}
+
 std::vector<std::string> Loop::overlay(const Moment& moment) const {
   std::optional<MeasurePoint> under_mouse;
   if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside && s_.desk.lines) {
@@ -423,7 +438,8 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
                         .eye = s_.eye,
                         .effects = &s_.stats.newest.effects,
                         .under_mouse = under_mouse,
-                        .scene = s_.desk.shadows == 0 ? nullptr : &s_.scene});
+                        .scene = s_.desk.shadows == 0 ? nullptr : &s_.scene,
+                        .road = road_});
 }
 
 void Loop::write_stats(SimTime now) {

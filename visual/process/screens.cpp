@@ -44,6 +44,7 @@ OverlayPanel Screens::panel(const CockpitState& controls, double drive_s, bool h
   if (help) return help_panel();
   if (begin_again_) return {.title = "Beginning again ..."};
   if (over_ || demo_ended) return end_panel(demo_ended && !over_);
+  if (road_ == RoadPlace::kNoGround && setup_.kind == ScreensSetup::Kind::kLive) return road_end_panel();
   if (start_ && !(replay && drive_s > kReplayStart_s)) return start_panel();
   return {};
 }
@@ -82,6 +83,12 @@ OverlayPanel Screens::end_panel(bool demo_ended) const {
   panel.rows.push_back({"", setup_.report.empty() ? "There is no report; for one: phare drive --out FOLDER"
                                                   : "On leaving, the report is written: " + setup_.report});
   return panel;
+}
+
+OverlayPanel Screens::road_end_panel() const {
+  return {.title = "The road has ended",
+          .rows = {row(KeyAction::kBeginAgain, "begin again from the start"),
+                   row(KeyAction::kReverse, "reverse gear, to go back"), row(KeyAction::kLeave, "leave")}};
 }
 
 OverlayPanel Screens::help_panel() const {

@@ -10,6 +10,7 @@
 #include "config/key_bindings.h"
 #include "net/messages.h"
 #include "visual/overlay_content.h"
+#include "visual/process/road_end.h"
 
 namespace phare {
 
@@ -31,6 +32,8 @@ class Screens {
   bool press(std::span<const KeyAction> presses, bool any, Desk& desk);
   /// The drive has come to its end.
   void drive_over() { over_ = true; }
+  /// Where the car is.
+  void set_road(RoadPlace place) { road_ = place; }
   /// Whether the window stays when the drive is over, because somebody sits there.
   bool stays() const { return setup_.kind != ScreensSetup::Kind::kNone; }
 
@@ -40,10 +43,12 @@ class Screens {
  private:
   OverlayPanel start_panel() const;
   OverlayPanel end_panel(bool demo_ended) const;
+  OverlayPanel road_end_panel() const;
   OverlayPanel help_panel() const;
 
   ScreensSetup setup_;
   bool start_, over_ = false, begin_again_ = false;
+  RoadPlace road_ = RoadPlace::kThere;
 };
 
 /// While the picture is being made ready, from the first step on.

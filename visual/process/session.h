@@ -3,7 +3,9 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "config/lane.h"
 #include "net/bus.h"
 #include "net/clock.h"
 #include "visual/process/adaptation.h"
@@ -47,7 +49,8 @@ struct Session {
   AuditStats audit;
   SwitchToPhoton switches;
   EyeAdaptation eye;
-  nlohmann::json lamps_json;  ///< tables with hashes, peak and flux: does not change
+  std::vector<LanePoint> lane;  ///< of the scene; empty where it has none
+  nlohmann::json lamps_json;    ///< tables with hashes, peak and flux: does not change
 
   const ChannelConfig& channel() const { return rig.channels[options.channel]; }
 };
