@@ -169,6 +169,7 @@ TEST(ClosedForm, FrictionEllipseInEveryStep) {
         const Road smooth;
         double most = 0.0;
         for (double t = 0.0; t < m.seconds; t += 0.002) {
+          if (std::max(std::abs(full.roll_rad()), std::abs(full.pitch_rad())) > kRolledOver_rad) break;  // no motion
           m.drive(full.input, t);
           full.step(0.002);
           const full::Params& p = full.params;

@@ -39,7 +39,6 @@ struct Params {
   std::array<double, 4> load_n{}, spring_n{};                                   ///< at rest: of the tyre, of the spring
   std::array<double, 4> unsprung_couple{};  ///< vertical force per N of lateral force, from the axle's own height
   std::array<double, 4> brake_jack{}, drive_jack{};  ///< anti-dive, anti-squat: vertical over longitudinal force
-  std::array<double, 4> lever_share{};               ///< of each corner in the height of the centre of gravity
   std::array<double, 4> rest_m{};                    ///< what spring and tyre give under the weight at rest
   double spin_answer_mps2 = 0.0;                     ///< of a loaded wheel's tread to a slip of one: k Fz R^2 / I
   double spin_kg = 0.0;                              ///< a wheel's inertia at its tread: I / R^2

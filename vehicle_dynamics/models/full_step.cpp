@@ -38,7 +38,6 @@ Result<Params> params_of(const VehicleParams& vehicle, const std::string& place)
     p.damper_nspm[i] = front ? c.front_damping_nspm : c.rear_damping_nspm;
     p.bar_npm[i] = (front ? c.front_anti_roll_nmprad : c.rear_anti_roll_nmprad) / (track * track);
     const double share = (front ? to_rear : vehicle.cg_to_front_m) / vehicle.wheelbase_m;
-    p.lever_share[i] = 0.5 * share;
     p.spring_n[i] = 0.5 * share * p.sprung_kg * kGravity_mps2;
     p.load_n[i] = p.spring_n[i] + p.unsprung_kg[i] * kGravity_mps2;
     p.rest_m[i] = p.spring_n[i] / p.spring_npm[i] + p.load_n[i] / p.tyre_rate_npm;
