@@ -12,8 +12,8 @@ using test::Drive;
 using test::full_car;
 
 struct Transfer {
-  double loads_nm = 0.0;     ///< moment of the tyres' loads about the centre of gravity
-  double balance_nm = 0.0;   ///< what holds it
+  double loads_nm = 0.0;    ///< moment of the tyres' loads about the centre of gravity
+  double balance_nm = 0.0;  ///< what holds it
   double share() const { return loads_nm / balance_nm - 1.0; }
 };
 
