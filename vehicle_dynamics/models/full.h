@@ -21,6 +21,7 @@
 #include <string>
 
 #include "vehicle_dynamics/models/fixed_step.h"
+#include "vehicle_dynamics/models/powertrain.h"
 #include "vehicle_dynamics/models/tyre.h"
 #include "vehicle_dynamics/road.h"
 
@@ -120,6 +121,9 @@ void finish_step(const Held& held, const State& before, State& state);
 
 /// One step of dt seconds.
 void advance(const Params& params, const Input& input, State& state, double dt);
+
+/// How the wheels turn, for pedals and ABS.
+powertrain::Wheels wheels(const Params& params, const Input& input, const State& state);
 
 /// At the state, for output.
 Forces forces(const Params& params, const Input& input, const State& state, double t_s = 0.0);

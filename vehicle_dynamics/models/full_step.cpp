@@ -225,6 +225,21 @@ void advance(const Params& p, const Input& input, State& state, double dt) {
   finish_step(during, before, state);
 }
 
+powertrain::Wheels wheels(const Params& p, const Input& input, const State& s) {
+  powertrain::Wheels w;
+  w.spin_radps = s.spin_radps;
+  Two friction[2] = {both(1.0), both(1.0)};
+  if (input.road)
+    for (std::size_t k = 0; k < 2; ++k)
+      friction[k] = input.heights_given ? both(input.road->friction_everywhere)
+                                        : input.road->laid(s.path_m + p.x_m[2 * k]).friction;
+  for (std::size_t i = 0; i < 4; ++i) {
+    w.ahead_mps[i] = s.u_mps - s.r_radps * p.y_m[i];
+    w.peak_slip[i] = p.tyre.peak_kappa * friction[i / 2][static_cast<int>(i % 2)];
+  }
+  return w;
+}
+
 Forces forces(const Params& p, const Input& input, const State& s, double t_s) {
   Held turning;
   turning.steer = steer_angles(p, input.steer_rad);
