@@ -198,6 +198,9 @@ Result<VehicleParams> read_vehicle(const std::filesystem::path& file) {
   p.max_drive_force_n = drive.number("max_force_n", 100.0, 1e5);
   p.max_power_w = drive.number("max_power_kw", 1.0, 2000.0) * 1e3;
   p.max_brake_force_n = drive.number("max_brake_n", 100.0, 1e6);
+  p.creep_force_n = drive.number_or("creep_n", 0.0, 0.0, 1e4);
+  p.creep_speed_mps = drive.number_or("creep_kmh", 6.0, 0.5, 20.0) / 3.6;
+  p.hill_hold_s = drive.number_or("hill_hold_s", 0.0, 0.0, 600.0);
   p.drag_area_m2 = drive.number("drag_area_m2", 0.0, 20.0);
   p.rolling_coefficient = drive.number("rolling_coefficient", 0.0, 0.1);
 

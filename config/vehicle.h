@@ -93,6 +93,9 @@ struct VehicleParams {
   double max_drive_force_n = 0.0;    ///< at the wheels, accelerator 1, low speed
   double max_power_w = 0.0;          ///< at the wheels
   double max_brake_force_n = 0.0;    ///< brake 1
+  double creep_force_n = 0.0;        ///< at the wheels in D and R, accelerator 0, standing; 0: it does not creep
+  double creep_speed_mps = 0.0;      ///< where it has faded to nothing, evenly
+  double hill_hold_s = 0.0;          ///< how long brakes stay on when the pedal is let go standing, 0: not at all
   double drag_area_m2 = 0.0;         ///< drag coefficient times frontal area
   double rolling_coefficient = 0.0;  ///< rolling resistance over weight
 

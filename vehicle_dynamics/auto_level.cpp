@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "config/conventions.h"
 #include "vehicle_dynamics/models/kinematic.h"
@@ -20,35 +21,50 @@ const char* name(Reason reason) {
   return kNames[static_cast<std::size_t>(reason)];
 }
 
+std::string text(const LevelSwitch& change) {
+  constexpr std::array<const char*, 3> kRungs{"kinematic", "single-track", "full"};
+  char number[40];
+  std::snprintf(number, sizeof number, " (%.3g)", change.fact);
+  return std::string(kRungs[static_cast<std::size_t>(change.from)]) + " to " +
+         kRungs[static_cast<std::size_t>(change.to)] + ": " + name(change.reason) + number;
+}
+
 Choice choose(const Scene& s, double scale) {
-  if (s.least_load_share < 1.0 - 0.8 * scale) return {2, Reason::kLoad};
-  if (s.unevenness_m > 0.03 * scale) return {2, Reason::kUnevenness};
-  if (s.friction < 0.5 / scale) return {2, Reason::kFriction};
-  if (s.utilisation_01 > 0.5 * scale) return {2, Reason::kUtilisation};
-  if (std::abs(s.speed_mps) < 1.5 / scale && s.brake_or_grade) return {2, Reason::kStandstill};
-  if (s.unevenness_m > 0.002 * scale) return {1, Reason::kRoughness};
-  if (std::max(std::abs(s.ax_mps2), std::abs(s.ay_mps2)) > 0.5 * scale) return {1, Reason::kAcceleration};
-  return {};
+  const double accelerated = std::max(std::abs(s.ax_mps2), std::abs(s.ay_mps2));
+  if (s.least_load_share < 1.0 - 0.8 * scale) return {2, Reason::kLoad, s.least_load_share};
+  if (s.unevenness_m > 0.03 * scale) return {2, Reason::kUnevenness, s.unevenness_m};
+  if (s.friction < 0.5 / scale) return {2, Reason::kFriction, s.friction};
+  if (s.utilisation_01 > 0.5 * scale) return {2, Reason::kUtilisation, s.utilisation_01};
+  if (std::abs(s.speed_mps) < 1.5 / scale && s.brake_or_grade) return {2, Reason::kStandstill, s.speed_mps};
+  if (s.unevenness_m > 0.002 * scale) return {1, Reason::kRoughness, s.unevenness_m};
+  if (accelerated > 0.5 * scale) return {1, Reason::kAcceleration, accelerated};
+  return {0, Reason::kSmooth, accelerated};
+}
+
+void AutoLevel::go(const Choice& choice) {
+  changes_[switches_ % kKept] = {time_s_, now_.rung, choice.rung, choice.reason, choice.fact};
+  ++switches_;
+  now_ = choice;
+  quiet_s_ = 0.0;
 }
 
 Choice AutoLevel::next(const Scene& scene, double dt) {
-  constexpr double kCalmer = 0.7, kQuiet_s = 2.0;
+  constexpr double kCalmer = 0.7, kQuiet_s = 2.0, kLongest_s = 30.0;
   const Choice wanted = choose(scene);
   if (wanted.rung > now_.rung) {
-    now_ = wanted;
-    ++switches_;
-    quiet_s_ = 0.0;
+    wait_s_ = time_s_ - went_down_s_ < wait_s_ ? std::min(2.0 * wait_s_, kLongest_s) : kQuiet_s;
+    go(wanted);
   } else if (const Choice strict = choose(scene, kCalmer); strict.rung < now_.rung) {
     quiet_s_ += dt;
-    if (quiet_s_ >= kQuiet_s) {
-      now_ = strict;
-      ++switches_;
-      quiet_s_ = 0.0;
+    if (quiet_s_ >= wait_s_) {
+      go(strict);
+      went_down_s_ = time_s_;
     }
   } else {
     quiet_s_ = 0.0;
-    if (wanted.rung == now_.rung) now_.reason = wanted.reason;
+    if (wanted.rung == now_.rung) now_ = wanted;
   }
+  time_s_ += dt;
   seconds_[static_cast<std::size_t>(now_.rung)] += dt;
   return now_;
 }

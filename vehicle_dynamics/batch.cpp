@@ -58,7 +58,7 @@ bool finite(const double* values, std::size_t count) {
 // A car of any level behind one face, for this loop only.
 class Car {
  public:
-  Car(const Options& o, bool resistance) : o_(o) {
+  Car(const Options& o, bool resistance, bool given_torques) : o_(o), given_torques_(given_torques) {
     if (!resistance) o_.vehicle.drag_area_m2 = o_.vehicle.rolling_coefficient = 0.0;
     input_.air_and_rolling = resistance;
     input_.road = o.road;
@@ -93,9 +93,9 @@ class Car {
     const double b = o_.vehicle.wheelbase_m - o_.vehicle.cg_to_front_m;
     std::array<double, 4> height{};
     if (given) {
-      height = *given;
       input_.heights_given = true;
-      input_.height_m = height;
+      height = on_the_map(*given);
+      input_.height_m = o_.level == Level::kFull ? *given : height;
     } else if (o_.road) {
       for (std::size_t i = 0; i < 4; ++i) {
         const double x = o_.start_x_m + (i < 2 ? o_.vehicle.cg_to_front_m : -b),
@@ -120,41 +120,19 @@ class Car {
   // False: the reference integrator gave up, see gave_up().
   bool step(Playhead& in, const Inputs& inputs, double time_s, double dt) {
     if (!inputs.road_m[0].empty()) {
-      in.go(time_s);
-      for (std::size_t i = 0; i < 4; ++i) input_.height_m[i] = in.linear(inputs.road_m[i]);
-      in.go(time_s + dt);
-      for (std::size_t i = 0; i < 4; ++i)
-        input_.height_rate_mps[i] = (in.linear(inputs.road_m[i]) - input_.height_m[i]) / dt;
+      input_.height_m = heights(in, inputs, time_s);
+      const std::array<double, 4> next = heights(in, inputs, time_s + dt);
+      for (std::size_t i = 0; i < 4; ++i) input_.height_rate_mps[i] = (next[i] - input_.height_m[i]) / dt;
     } else {
       input_.height_m = beside_;
     }
     in.go(time_s + 0.5 * dt);
     input_.steer_rad = in.linear(inputs.steer_rad);
-    Controls controls;
-    controls.steering_wheel_rad = input_.steer_rad * o_.vehicle.steering_ratio;
-    const bool pedals = !inputs.accelerator_01.empty();
-    if (pedals) {
-      controls.gear = static_cast<Gear>(static_cast<int>(in.held(inputs.gear)));
-      controls.accelerator_01 = in.linear(inputs.accelerator_01);
-      controls.brake_01 = in.linear(inputs.brake_01);
-    }
-    controls.parking_brake_01 = in.linear(inputs.parking_01);
+    const powertrain::Torques torques = torques_of(in, inputs, dt);
+    input_.drive_nm = torques.drive_nm, input_.brake_nm = torques.brake_nm;
     if (o_.level == Level::kKinematic) {
-      kinematic_step(in, inputs, controls, pedals, dt);
+      kinematic_step(torques, dt);
       return true;
-    }
-    if (pedals) {
-      const auto torque =
-          powertrain::advance(o_.vehicle, controls, speed(), spins(), o_.level == Level::kFull, power_, dt);
-      input_.drive_nm = torque.drive_nm, input_.brake_nm = torque.brake_nm;
-    } else {
-      for (std::size_t i = 0; i < 4; ++i) {
-        const double torque = in.linear(inputs.torque_nm[i]);
-        input_.drive_nm[i] = std::max(torque, 0.0), input_.brake_nm[i] = std::max(-torque, 0.0);
-        if (i >= 2)
-          input_.brake_nm[i] += 0.5 * kParkingShare_01 * controls.parking_brake_01 * o_.vehicle.max_brake_force_n *
-                                o_.vehicle.tyre_radius_m;
-      }
     }
     if (o_.integrator == Integrator::kReference) {
       gave_up_ = o_.level == Level::kFull ? reference_.advance(full_params_, input_, full_, dt)
@@ -219,6 +197,10 @@ class Car {
     if (!rolled_over_s_ &&
         std::max(std::abs(f.roll_rad - f.road_roll_rad), std::abs(f.pitch_rad - f.road_pitch_rad)) > kRolledOver_rad)
       rolled_over_s_ = time_s;
+    // No car comes over that fast: a step too long for the method does.
+    constexpr double kTumbles_mps = 150.0;
+    if (rolled_over_s_ && std::hypot(row_speed(whole), whole ? full_.w_mps : single_.z_rate_mps) > kTumbles_mps)
+      burst_ = true;
     row.yaw_rad = yaw_ += std::remainder(f.yaw_rad - yaw_, 2.0 * std::numbers::pi);
     row.roll_rate_radps = f.roll_rate_radps, row.pitch_rate_radps = f.pitch_rate_radps,
     row.yaw_rate_radps = f.yaw_rate_radps;
@@ -258,25 +240,77 @@ class Car {
   }
   bool off_road() const { return off_road_; }
   const std::optional<double>& rolled_over_s() const { return rolled_over_s_; }
+  bool burst() const { return burst_; }
   const Status& gave_up() const { return gave_up_; }
 
  private:
-  // Torques are forces at the wheels, whatever the gear; this level has them by way of the pedals, so no more than the
-  // car's own drive and brakes can give.
-  void kinematic_step(const Playhead& in, const Inputs& inputs, Controls controls, bool pedals, double dt) {
-    if (!pedals) {
-      double drive = 0.0, brake = 0.0;
-      for (const auto& column : inputs.torque_nm) {
-        const double force = in.linear(column) / o_.vehicle.tyre_radius_m;
-        drive += std::max(force, 0.0), brake += std::max(-force, 0.0);
+  double row_speed(bool whole) const {
+    return whole ? std::hypot(full_.u_mps, full_.v_mps) : std::hypot(single_.u_mps, single_.v_mps);
+  }
+
+  // Heights that the inputs give, as the model takes them: full where its wheels are, the others a wheelbase and a
+  // track apart on the map.
+  std::array<double, 4> heights(Playhead& in, const Inputs& inputs, double time_s) const {
+    in.go(time_s);
+    std::array<double, 4> given{};
+    for (std::size_t i = 0; i < 4; ++i) given[i] = in.linear(inputs.road_m[i]);
+    return o_.level == Level::kFull ? given : on_the_map(given);
+  }
+  std::array<double, 4> on_the_map(const std::array<double, 4>& h) const {
+    constexpr double kSteepest = 0.99;  // of a sine: what stands upright is no road
+    const VehicleParams& v = o_.vehicle;
+    const double front = 0.5 * (h[0] + h[1]), rear = 0.5 * (h[2] + h[3]);
+    const double up = std::clamp((front - rear) / v.wheelbase_m, -kSteepest, kSteepest);
+    const double level = std::sqrt(1.0 - up * up), rise = up / level * v.wheelbase_m;
+    const double centre = rear + (front - rear) * (v.wheelbase_m - v.cg_to_front_m) / v.wheelbase_m;
+    std::array<double, 4> out{};
+    for (std::size_t i = 0; i < 4; i += 2) {
+      const double track = v.chassis ? (i == 0 ? v.chassis->front_track_m : v.chassis->rear_track_m) : v.track_m;
+      const double aside = std::clamp((h[i] - h[i + 1]) / (track * level), -kSteepest, kSteepest);
+      const double half = 0.5 * track * aside / std::sqrt(1.0 - aside * aside) / level;
+      const double mean = centre + rise * (i == 0 ? v.cg_to_front_m : v.cg_to_front_m - v.wheelbase_m) / v.wheelbase_m;
+      out[i] = mean + half, out[i + 1] = mean - half;
+    }
+    return out;
+  }
+
+  // What the inputs turn and brake the wheels with: pedals through the powertrain, torques as they are.
+  powertrain::Torques torques_of(const Playhead& in, const Inputs& inputs, double dt) {
+    const double parking_01 = in.linear(inputs.parking_01);
+    if (!inputs.accelerator_01.empty()) {
+      const Controls controls{.accelerator_01 = in.linear(inputs.accelerator_01),
+                              .brake_01 = in.linear(inputs.brake_01),
+                              .gear = static_cast<Gear>(static_cast<int>(in.held(inputs.gear))),
+                              .parking_brake_01 = parking_01};
+      const powertrain::Wheels wheels = o_.level == Level::kFull
+                                            ? full::wheels(full_params_, input_, full_)
+                                            : powertrain::rolling(speed(), o_.vehicle.tyre_radius_m);
+      return powertrain::advance(o_.vehicle, controls, speed(), wheels, power_, dt);
+    }
+    powertrain::Torques out;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double torque = in.linear(inputs.torque_nm[i]);
+      if (!inputs.brake_nm[i].empty()) {
+        out.drive_nm[i] = torque, out.brake_nm[i] = in.linear(inputs.brake_nm[i]);
+      } else {
+        out.drive_nm[i] = std::max(torque, 0.0), out.brake_nm[i] = std::max(-torque, 0.0);
       }
-      const double most =
-          std::min(o_.vehicle.max_drive_force_n, o_.vehicle.max_power_w / std::max(std::abs(flat_.speed_mps), 0.1));
-      controls.accelerator_01 = std::min(drive / most, 1.0);
-      controls.brake_01 = std::min(brake / o_.vehicle.max_brake_force_n, 1.0);
+      if (i >= 2) out.brake_nm[i] += powertrain::parking_nm(o_.vehicle, parking_01);
+    }
+    return out;
+  }
+
+  // This level has no tyres: torques that are given count up to what the car's own drive and brakes can give.
+  void kinematic_step(const powertrain::Torques& torques, double dt) {
+    kinematic::Push push = kinematic::push_of(o_.vehicle, torques);
+    const double most =
+        std::min(o_.vehicle.max_drive_force_n, o_.vehicle.max_power_w / std::max(std::abs(flat_.speed_mps), 0.1));
+    if (given_torques_) {
+      push.drive_n = std::clamp(push.drive_n, -most, most);
+      push.brake_n = std::min(push.brake_n, o_.vehicle.max_brake_force_n);
     }
     const double before_mps = flat_.speed_mps;
-    kinematic::advance(o_.vehicle, controls, flat_, dt);
+    kinematic::advance(o_.vehicle, input_.steer_rad * o_.vehicle.steering_ratio, push, flat_, dt);
     path_m_ += 0.5 * (before_mps + flat_.speed_mps) * std::cos(flat_.road_pitch_rad) * dt;
     std::array<double, 4> height = beside_;
     if (input_.heights_given) {
@@ -328,7 +362,7 @@ class Car {
   std::array<double, 4> beside_{};
   double path_m_ = 0.0;  // level kinematic: travelled by the rear axle
   double yaw_ = 0.0, road_pitch_ = 0.0, origin_z_ = 0.0, plane_z_ = 0.0;
-  bool off_road_ = false;
+  bool off_road_ = false, given_torques_ = false, burst_ = false;
   std::optional<double> rolled_over_s_;
   Status gave_up_ = Done{};
 };
@@ -395,7 +429,7 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
   if (Status sane = check(options, inputs); !sane) return sane.error();
   Summary summary;
   summary.resistance = options.resistance == Resistance::kOn || (options.resistance == Resistance::kAuto && !torques);
-  Car car(options, summary.resistance);
+  Car car(options, summary.resistance, torques);
   if (Status ready = car.prepare(); !ready) return ready.error();
   Playhead in(inputs);
   std::array<double, 4> first{};
@@ -433,6 +467,7 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
   constexpr const char* kUnsound =
       "the motion is not finite or no car's; a shorter step may help, or inputs that a car can follow";
   const auto begin = std::chrono::steady_clock::now();
+  std::uint64_t done = 0;
   for (std::uint64_t n = 0; n < steps; ++n) {
     const double from = start + static_cast<double>(n) * dt, to = start + static_cast<double>(n + 1) * dt;
     const auto due = [&] { return start + static_cast<double>(summary.rows) * every; };
@@ -445,9 +480,11 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
     if (!car.sound()) return failed(to, kUnsound);
     if (options.stop && (n % 64 == 0 || options.integrator == Integrator::kReference) && options.stop())
       return failed(to, "stopped from outside");
+    done = n + 1;
     if (!reached && !every_step) continue;
     Row now = car.row(to, dt);
     car.lamps(lamps, in.held(inputs.levelling_step), dt, now);
+    if (car.burst()) return failed(to, kUnsound);
     for (; due() <= to + 1e-9 * every && due() <= end + 1e-6 * every; ++summary.rows) {
       const double time = due();
       Row out = std::abs(time - to) < 1e-9 ? now : between(before, now, (time - from) / dt);
@@ -457,11 +494,12 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
       if (waiting.size() == waiting.capacity()) hand_on();
     }
     before = now;
+    if (car.rolled_over_s()) break;
   }
   hand_on();
   summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin - elsewhere).count();
-  summary.steps = steps;
-  summary.simulated_s = static_cast<double>(steps) * dt;
+  summary.steps = done;
+  summary.simulated_s = static_cast<double>(done) * dt;
   summary.state_hash = car.hash();
   summary.off_road = car.off_road();
   summary.rolled_over_s = car.rolled_over_s();

@@ -19,9 +19,12 @@ namespace phare::batch {
 /// What drives the car, at times that rise. Between rows numbers are linear, gear and steps of the wheel are held.
 struct Inputs {
   std::vector<double> time_s, steer_rad;
-  std::vector<double> accelerator_01, brake_01;          ///< empty when torques are given
-  std::array<std::vector<double>, 4> torque_nm;          ///< < 0 brakes: it never turns a wheel backwards
-  std::array<std::vector<double>, 4> road_m;             ///< empty unless given
+  std::vector<double> accelerator_01, brake_01;  ///< empty when torques are given
+  /// < 0 brakes and never turns a wheel backwards; with brake_nm (>= 0) beside it either sign drives.
+  std::array<std::vector<double>, 4> torque_nm, brake_nm;
+  /// Under the wheels as they stand, a wheelbase and a track apart along the road: on a grade their differences over
+  /// those are sines. Empty unless given.
+  std::array<std::vector<double>, 4> road_m;
   std::vector<double> gear, parking_01, levelling_step;  ///< optional columns
   std::string file;                                      ///< where they were read, empty: nowhere
   std::vector<std::size_t> line;                         ///< of each row in it
@@ -31,8 +34,9 @@ struct Inputs {
 };
 
 /// Columns time_s, steer_rad and either accelerator_01, brake_01 or torque_fl_nm … torque_rr_nm; optional road_fl_m …
-/// road_rr_m, gear (0 D, 1 N, 2 R, 3 P), parking_brake_01, levelling_step. Numbers out of range, other columns, time
-/// that does not rise or goes on for more than kMostSimulated_s: an Error with file and line.
+/// road_rr_m, brake_fl_nm … brake_rr_nm (with torques), gear (0 D, 1 N, 2 R, 3 P), parking_brake_01, levelling_step.
+/// Numbers out of range, other columns, time that does not rise or goes on for more than kMostSimulated_s: an Error
+/// with file and line.
 Result<Inputs> read_inputs(const std::filesystem::path& csv_file);
 
 /// A wrong time cell shall not fill the disk.
@@ -82,7 +86,7 @@ struct Summary {
   double simulated_s = 0.0, wall_s = 0.0;  ///< wall: of the car and its rows, not of what is done with them
   std::uint64_t state_hash = 0;
   bool off_road = false;
-  std::optional<double> rolled_over_s;  ///< when a row first showed it; what follows is no car's motion
+  std::optional<double> rolled_over_s;  ///< when a row first showed it: the last row, no car moves on like that
   bool resistance = false;
 };
 

@@ -336,7 +336,7 @@ int BatchCommand::run(const std::string& level_name) const {
   if (written) written = file->finish();
   if (!written) return fail("phare-dynamics", written.error());
   if (summary->rolled_over_s)
-    std::fprintf(stderr, "phare-dynamics: the car has rolled over at %.9g s; what follows is no car's motion\n",
+    std::fprintf(stderr, "phare-dynamics: the car has rolled over at %.9g s; the run ends there\n",
                  *summary->rolled_over_s);
   if (!lamps)
     std::fprintf(stderr, "phare-dynamics: %s has no table [levelling]: no columns for cut-off and lamps\n",
@@ -347,7 +347,7 @@ int BatchCommand::run(const std::string& level_name) const {
       static_cast<unsigned long long>(summary->steps), o.step_s, summary->wall_s,
       summary->simulated_s / std::max(summary->wall_s, 1e-9), static_cast<unsigned long long>(summary->state_hash),
       summary->resistance ? "" : "; no air and rolling resistance", summary->off_road ? "; a wheel left the road" : "");
-  return kExitDone;
+  return summary->rolled_over_s ? kExitCheckFailed : kExitDone;
 }
 
 }  // namespace phare

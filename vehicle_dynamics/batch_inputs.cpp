@@ -43,6 +43,9 @@ Result<Inputs> read_inputs(const std::filesystem::path& csv_file) {
   if (torques && pedals) return Error{header_place, "gives both pedals and wheel torques; one of them drives the car"};
   if (!torques && !pedals)
     return Error{header_place, "has neither accelerator_01, brake_01 nor torque_fl_nm to torque_rr_nm"};
+  const bool brakes = has("brake_fl_nm");
+  if (brakes && !torques)
+    return Error{header_place, "brake_fl_nm goes with torque_fl_nm to torque_rr_nm; pedals have brake_01"};
   const bool road =
       std::any_of(kWheels.begin(), kWheels.end(), [&](const char* w) { return has("road_" + std::string(w) + "_m"); });
 
@@ -53,6 +56,7 @@ Result<Inputs> read_inputs(const std::filesystem::path& csv_file) {
   }
   for (std::size_t i = 0; i < 4; ++i) {
     if (torques) columns.push_back({"torque_" + std::string(kWheels[i]) + "_nm", &in.torque_nm[i], -1e5, 1e5, true});
+    if (brakes) columns.push_back({"brake_" + std::string(kWheels[i]) + "_nm", &in.brake_nm[i], 0.0, 1e5, true});
     if (road) columns.push_back({"road_" + std::string(kWheels[i]) + "_m", &in.road_m[i], -1e4, 1e4, true});
   }
   columns.push_back({"gear", &in.gear, 0.0, 3.0, false});

@@ -202,11 +202,33 @@ class Process {
       spdlog::error("{} at {:.3f} s, level {}: it stays where it is", loop_->out_of_play(), loop_->time().seconds(),
                     name(loop_->level_now()));
     }
+    tell_switches();
     const bool has_road = loop_->setup().road.triangle_count() > 0;  // without one it has been said already
     if (has_road && loop_->off_road() && !off_road_logged_) {
       off_road_logged_ = true;
       spdlog::warn("no road under a wheel at x {:.1f} m, y {:.1f} m: its last height is held", state.x_m, state.y_m);
     }
+  }
+
+  // Level auto says why, once for each switch; in the stats the newest stay.
+  void tell_switches() {
+    const AutoLevel& choice = loop_->choice();
+    for (; switches_told_ < choice.switches(); ++switches_told_) {
+      const LevelSwitch& change = choice.change(switches_told_);
+      if (choice.switches() - switches_told_ > AutoLevel::kKept) continue;  // more than are kept between two messages
+      spdlog::info("level auto at {:.3f} s: {}", began_s_ + change.time_s, text(change));
+    }
+  }
+
+  nlohmann::json switch_history() const {
+    const AutoLevel& choice = loop_->choice();
+    nlohmann::json history = nlohmann::json::array();
+    const std::uint64_t count = choice.switches();
+    for (std::uint64_t n = count > AutoLevel::kKept ? count - AutoLevel::kKept : 0; n < count; ++n) {
+      const LevelSwitch& change = choice.change(n);
+      history.push_back({{"time_s", began_s_ + change.time_s}, {"what", text(change)}, {"fact", change.fact}});
+    }
+    return history;
   }
 
   // ---- beginning, or going on for a predecessor
@@ -216,6 +238,7 @@ class Process {
     const CarState state = from_message(drawn, std::max(car.wheelbase_m, 1.0), std::max(car.track_m, 1.0));
     spdlog::info("going on at {:.3f} s, step {}", time.seconds(), drawn.step);
     loop_.emplace(std::move(begin.setup), state, time, drawn.step);
+    began_s_ = time.seconds();
   }
 
   // Returns the frame that counts as answered.
@@ -352,6 +375,7 @@ class Process {
         json["auto"] = {{"level", name(loop_->level_now())},
                         {"reason", name(choice.now().reason)},
                         {"switches", choice.switches()},
+                        {"history", switch_history()},
                         {"seconds",
                          {{name(Level::kKinematic), choice.seconds()[0]},
                           {name(Level::kSingleTrack), choice.seconds()[1]},
@@ -387,6 +411,8 @@ class Process {
   const Verbs verbs_ = verbs();
   ControlDesk desk_;
   std::optional<StepLoop> loop_;
+  double began_s_ = 0.0;  ///< simulated time at which the loop began
+  std::uint64_t switches_told_ = 0;
   std::uint64_t sent_step_ = 0;  ///< the newest step whose hash has been sent
   Scheduling scheduling_;
   StepTimes wake_late_;  ///< real time: how long after its time a wake-up came

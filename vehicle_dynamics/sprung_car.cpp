@@ -28,8 +28,7 @@ void SprungCar::set_integrator(Integrator integrator) {
 }
 
 std::uint64_t SprungCar::hash() const {
-  const std::uint64_t model = model_ == Model::kFull ? state_hash(full_) : state_hash(single_);
-  return model * 31 + state_hash(power_);
+  return model_ == Model::kFull ? state_hash(full_) : state_hash(single_);
 }
 
 void SprungCar::take_over(Model model, const CarState& s, double path_m, double side_mps) {
@@ -87,9 +86,10 @@ void SprungCar::take_over(Model model, const CarState& s, double path_m, double 
     single_track::State t;
     t.x_m = centre.x, t.y_m = centre.y, t.yaw_rad = s.yaw_rad, t.path_m = path_m;
     t.u_mps = s.speed_mps, t.v_mps = side_mps_ + s.yaw_rate_radps * b, t.r_radps = s.yaw_rate_radps;
-    t.pitch = std::tan(pitch), t.roll = std::tan(roll);
+    t.pitch = std::tan(pitch), t.roll = std::tan(roll) / std::cos(pitch);
     t.z_m = centre.z - h;
-    t.pitch_rate_ps = pitch_rate * (1.0 + t.pitch * t.pitch), t.roll_rate_ps = roll_rate * (1.0 + t.roll * t.roll);
+    t.pitch_rate_ps = pitch_rate * (1.0 + t.pitch * t.pitch),
+    t.roll_rate_ps = roll_rate / (std::cos(roll) * std::cos(roll) * std::cos(pitch));
     t.z_rate_mps = moving.z - q_rate * b;
     if (std::abs(t.u_mps) > 0.5) {
       const double carried = std::abs(t.u_mps);
@@ -100,18 +100,20 @@ void SprungCar::take_over(Model model, const CarState& s, double path_m, double 
   }
 }
 
-void SprungCar::advance(const Controls& input, const Road& road, double dt) {
+powertrain::Wheels SprungCar::wheels(const Road& road) {
+  input_.road = &road;
+  return model_ == Model::kFull ? full::wheels(full_params_, input_, full_)
+                                : powertrain::rolling(single_.u_mps, vehicle_.tyre_radius_m);
+}
+
+void SprungCar::advance(double steering_wheel_rad, const powertrain::Torques& torques, const Road& road, double dt) {
   const double wheel =
-      std::clamp(input.steering_wheel_rad, -vehicle_.max_steering_wheel_rad, vehicle_.max_steering_wheel_rad);
+      std::clamp(steering_wheel_rad, -vehicle_.max_steering_wheel_rad, vehicle_.max_steering_wheel_rad);
   const double most = kMaxSteeringWheelRate_radps / vehicle_.steering_ratio * dt;
   input_.steer_rad += std::clamp(wheel / vehicle_.steering_ratio - input_.steer_rad, -most, most);
   input_.road = &road;
+  input_.drive_nm = torques.drive_nm, input_.brake_nm = torques.brake_nm;
   const bool whole = model_ == Model::kFull;
-  std::array<double, 4> spin = full_.spin_radps;
-  if (!whole) spin.fill(single_.u_mps / vehicle_.tyre_radius_m);
-  const auto torque =
-      powertrain::advance(vehicle_, input, whole ? full_.u_mps : single_.u_mps, spin, whole, power_, dt);
-  input_.drive_nm = torque.drive_nm, input_.brake_nm = torque.brake_nm;
   if (whole) {
     full::advance(full_params_, input_, full_, dt);
   } else {

@@ -1,4 +1,5 @@
-// The levels single-track and full behind one face for the loop: pedals in, CarState out, and hand-over between levels.
+// The levels single-track and full behind one face for the loop: torques in, CarState out, and hand-over between
+// levels.
 #pragma once
 
 #include <array>
@@ -22,8 +23,11 @@ class SprungCar {
   /// `side_mps`: of the origin, to the left.
   void take_over(Model model, const CarState& state, double path_m, double side_mps);
 
-  /// One step. `input` must come from accepted().
-  void advance(const Controls& input, const Road& road, double dt);
+  /// One step. `steering_wheel_rad` must be finite.
+  void advance(double steering_wheel_rad, const powertrain::Torques& torques, const Road& road, double dt);
+
+  /// How its wheels turn, for the coming step's torques.
+  powertrain::Wheels wheels(const Road& road);
 
   /// As the other levels show it: angles split into road and springs, origin under the rear axle. The lamps are not the
   /// car's.
@@ -44,7 +48,6 @@ class SprungCar {
   Model model_ = Model::kFull;
   full::State full_;
   single_track::State single_;
-  powertrain::State power_;
   full::Input input_;
   CarState shown_;
   double side_mps_ = 0.0, least_load_share_ = 1.0;

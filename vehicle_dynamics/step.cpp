@@ -34,18 +34,22 @@ void StepLoop::step_once() {
 
 void StepLoop::move(double dt) {
   if (setup_.level == Level::kAuto) choose_level(dt);
+  const auto torques = [&] {
+    return powertrain::advance(setup_.vehicle, controls_, now_.speed_mps, wheels(), power_, dt);
+  };
   switch (running_) {
     case Level::kPose:
       now_ = from_message(setup_.track.at(time_of(steps_ + 1)), 1.0, 1.0);
       break;
     case Level::kKinematic:
-      kinematic::advance(setup_.vehicle, controls_, now_, dt);
+      kinematic::advance(setup_.vehicle, controls_.steering_wheel_rad, kinematic::push_of(setup_.vehicle, torques()),
+                         now_, dt);
       place_on_road(dt);
       break;
     case Level::kSingleTrack:
     case Level::kFull:
     case Level::kAuto:  // never runs itself
-      setup_.sprung->advance(controls_, road(), dt);
+      setup_.sprung->advance(controls_.steering_wheel_rad, torques(), road(), dt);
       now_ = setup_.sprung->state();
       off_road_ |= setup_.sprung->off_road();
       break;
@@ -113,7 +117,8 @@ VehicleState StepLoop::at(SimTime time) const {
 }
 
 std::uint64_t StepLoop::hash() const {
-  return (sprung() && !out_of_play_ ? setup_.sprung->hash() : state_hash(now_)) * 31 + state_hash(lamps_);
+  const std::uint64_t model = sprung() && !out_of_play_ ? setup_.sprung->hash() : state_hash(now_);
+  return (model * 31 + state_hash(power_)) * 31 + state_hash(lamps_);
 }
 
 std::vector<std::uint64_t> StepLoop::hashes_after(std::uint64_t step) const {
@@ -154,6 +159,10 @@ void StepLoop::place_on_road(double dt) {
   kinematic::stand_on(setup_.vehicle, height, now_, dt);
 }
 
+powertrain::Wheels StepLoop::wheels() {
+  return sprung() ? setup_.sprung->wheels(road()) : powertrain::rolling(now_.speed_mps, setup_.vehicle.tyre_radius_m);
+}
+
 const Road& StepLoop::road() {
   road_.mesh = setup_.road.triangle_count() > 0 ? &setup_.road : nullptr;  // a loop may have been moved
   return road_;
@@ -171,6 +180,8 @@ StepLoop::StepLoop(RunSetup setup, const CarState& state, SimTime start, std::ui
     place_on_road(0.0);
     run_as(running_);
   }
+  if (state.ax_mps2 != 0.0 && running_ != Level::kPose)  // goes on from a drive
+    power_ = powertrain::under_way(setup_.vehicle, state.speed_mps, kinematic::pushed_n(setup_.vehicle, state));
   lamps_.tilt_rad = lamps_.measured_rad = state.lamp_tilt_rad;
   now_.lamp_tilt_rad = state.lamp_tilt_rad;
   before_ = now_;

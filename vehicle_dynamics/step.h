@@ -99,6 +99,7 @@ class StepLoop {
   void choose_level(double dt);
   void run_as(Level level);
   const Road& road();
+  powertrain::Wheels wheels();
   std::uint64_t hash() const;
   bool sprung() const { return running_ == Level::kSingleTrack || running_ == Level::kFull; }
 
@@ -107,6 +108,7 @@ class StepLoop {
   Level running_ = Level::kKinematic;
   Road road_;
   AutoLevel auto_;
+  powertrain::State power_;
   double path_m_ = 0.0;
   levelling::State lamps_;
   std::array<std::uint64_t, kMaxStepHashes> hashes_{};  ///< of the newest steps, step n at n modulo size

@@ -148,13 +148,11 @@ void add_kinematic(const VehicleParams& vehicle, const Road& road, const std::ve
     const double begin_s = thread_s();
     for (std::size_t k = 0; k < kGridPoints; ++k) {
       const double time_s = static_cast<double>(k) * kGrid_s;
-      const Controls controls{
-          .steering_wheel_rad = time_s < 1.0 ? 0.0 : 0.010 * vehicle.steering_ratio,
-          .brake_01 = time_s >= 4.0 && time_s < 7.0 ? 5.5 * vehicle.mass_kg / vehicle.max_brake_force_n : 0.0,
-          .gear = Gear::kNeutral};
+      const double wheel_rad = time_s < 1.0 ? 0.0 : 0.010 * vehicle.steering_ratio;
+      const kinematic::Push push{.brake_n = time_s >= 4.0 && time_s < 7.0 ? 5.5 * vehicle.mass_kg : 0.0};
       for (long i = 0; i < per_grid; ++i) {
         const double before = s.speed_mps;
-        kinematic::advance(vehicle, controls, s, dt);
+        kinematic::advance(vehicle, wheel_rad, push, s, dt);
         path += 0.5 * (before + s.speed_mps) * dt;
         stand(dt);
       }

@@ -193,8 +193,7 @@ TEST(Batch, UnsoundMotionEndsTheRun) {
   const batch::Inputs cliff = inputs(
       "time_s,steer_rad,accelerator_01,brake_01,road_fl_m,road_fr_m,road_rl_m,road_rr_m\n0,0,0,0,0,0,0,0\n"
       "0.1,0,0,0,10000,-10000,10000,-10000\n1,0,0,0,0,0,0,0\n");
-  for (const Level level : {Level::kSingleTrack, Level::kFull})
-    EXPECT_NE(refusal(options(level), cliff).find("no car's"), std::string::npos) << name(level);
+  EXPECT_NE(refusal(options(Level::kFull), cliff).find("no car's"), std::string::npos);
   o.step_s = 0.002;
   o.stop = [] { return true; };
   EXPECT_NE(refusal(o, inputs(kBraking)).find("stopped"), std::string::npos);
@@ -361,6 +360,50 @@ TEST(Batch, ProfilesAreTravelledInTurns) {
   }
 }
 
+// Torques and brakes apart: then negative torque drives backwards. At every level.
+TEST(Batch, NegativeTorqueDrivesBackwardsBesideBrakes) {
+  const char* columns =
+      "time_s,steer_rad,torque_fl_nm,torque_fr_nm,torque_rl_nm,torque_rr_nm,brake_fl_nm,brake_fr_nm,brake_rl_nm,"
+      "brake_rr_nm\n";
+  for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull}) {
+    batch::Options o = options(level);
+    o.speed_mps = 0.0;
+    const auto end_mps = [&](const char* brake) {
+      std::string text = columns;
+      for (const char* time : {"0", "2"})
+        text += std::string(time) + ",0,0,0,-200,-200," + brake + "," + brake + "," + brake + "," + brake + "\n";
+      return rows_of(o, inputs(text)).back().vx_mps;
+    };
+    EXPECT_NEAR(end_mps("0"), -2.0 * 400.0 / 0.344 / 1150.76, 0.03) << name(level);
+    EXPECT_NEAR(end_mps("300"), 0.0, 0.01) << name(level);
+  }
+  const auto alone = batch::read_inputs(written("in.csv", "time_s,steer_rad,accelerator_01,brake_01,brake_fl_nm\n"));
+  ASSERT_FALSE(alone.ok());
+  EXPECT_NE(alone.error().text().find("brake_fl_nm goes with torque_fl_nm"), std::string::npos);
+}
+
+// Heights under the wheels, a wheelbase and a track apart along the road: the same grade and bank at every level.
+TEST(Batch, HeightColumnsAreTheSameGradeAtEveryLevel) {
+  const VehicleParams car = test::car("bmw_320i.toml");
+  const double grade = std::atan(0.25), bank = std::atan(0.1);
+  const double up = car.wheelbase_m * std::sin(grade);
+  const auto aside = [&](double track) { return track * std::sin(bank) * std::cos(grade); };
+  const double f = 0.5 * aside(car.chassis->front_track_m), r = 0.5 * aside(car.chassis->rear_track_m);
+  char line[200];
+  std::snprintf(line, sizeof line, ",0,0,1,%.15g,%.15g,%.15g,%.15g,1\n", up + f, up - f, r, -r);
+  const batch::Inputs in = inputs(
+      std::string(
+          "time_s,steer_rad,accelerator_01,brake_01,road_fl_m,road_fr_m,road_rl_m,road_rr_m,parking_brake_01\n0") +
+      line + "10" + line);
+  for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull}) {
+    batch::Options o = options(level);
+    o.speed_mps = 0.0;
+    const std::vector<batch::Row> rows = rows_of(o, in);
+    EXPECT_NEAR(rows.front().pitch_rad, -grade, 1e-6) << name(level);
+    EXPECT_NEAR(rows.front().roll_rad, bank, 1e-4) << name(level);  // the two axles' tracks are not the same
+  }
+}
+
 TEST(Batch, RollingOverIsSaid) {
   const batch::Inputs cliff = inputs(
       "time_s,steer_rad,accelerator_01,brake_01,road_fl_m,road_fr_m,road_rl_m,road_rr_m\n0,0,0,0,0,0,0,0\n"
@@ -369,6 +412,11 @@ TEST(Batch, RollingOverIsSaid) {
   ASSERT_TRUE(over.ok()) << over.error().text();
   ASSERT_TRUE(over->rolled_over_s.has_value());
   EXPECT_GT(*over->rolled_over_s, 0.5);
+  // It ends the run: the rows go up to it.
+  const std::vector<batch::Row> rows = rows_of(options(Level::kFull), cliff);
+  EXPECT_EQ(rows.size(), over->rows);
+  EXPECT_NEAR(rows.back().time_s, *over->rolled_over_s, 1e-9);
+  EXPECT_LT(over->simulated_s, 2.9);
   const auto upright = batch::run(options(Level::kFull), inputs(kBraking), [](const batch::Row&) {});
   EXPECT_FALSE(upright->rolled_over_s.has_value());
 }

@@ -245,7 +245,7 @@ TEST(ClosedForm, YawOfTheNeutralCar) {
     // Kinematic turns by V/L at any speed.
     CarState turning;
     turning.speed_mps = speed, turning.steer_rad = 1e-3;
-    kinematic::advance(v, {.steering_wheel_rad = 1e-3 * v.steering_ratio}, turning, 1e-3);
+    kinematic::advance(v, 1e-3 * v.steering_ratio, {}, turning, 1e-3);
     expect_share(turning.yaw_rate_radps / turning.steer_rad / turning.speed_mps * speed, c.gain, kForm, "kinematic");
   }
   const std::vector<std::complex<double>> expected{-9.677, -9.713};

@@ -133,7 +133,9 @@ TEST(HardCase, C16LevelSwitchesOnRoughRoads) {
     Road road;
     road.profiles.push_back(HeightProfile::iso8608(roughness, 3, 200.0));
     for (const double dt : {0.001, 0.002, 0.005}) {
-      SprungCar car = *SprungCar::of(test::car("hatchback.toml"), "");
+      const VehicleParams vehicle = test::car("hatchback.toml");
+      SprungCar car = *SprungCar::of(vehicle, "");
+      powertrain::State power;
       CarState start;
       start.speed_mps = 50.0 / 3.6;
       car.take_over(SprungCar::Model::kSingleTrack, start, 0.0, 0.0);
@@ -150,10 +152,11 @@ TEST(HardCase, C16LevelSwitchesOnRoughRoads) {
                         car.side_speed_mps());
           jump = std::max(jump, std::abs(pitch_of(car.state()) - pitch_of(before)));
         }
-        car.advance({.steering_wheel_rad = 0.25 * std::sin(1.2 * t),
-                     .accelerator_01 = std::max(0.0, 0.4 * std::sin(0.5 * t)),
-                     .brake_01 = std::max(0.0, -0.2 * std::sin(0.5 * t))},
-                    road, dt);
+        const auto torques = powertrain::advance(vehicle,
+                                                 {.accelerator_01 = std::max(0.0, 0.4 * std::sin(0.5 * t)),
+                                                  .brake_01 = std::max(0.0, -0.2 * std::sin(0.5 * t))},
+                                                 before.speed_mps, car.wheels(road), power, dt);
+        car.advance(0.25 * std::sin(1.2 * t), torques, road, dt);
         // The body's rate has the road's in it at these levels.
         const double bend = std::abs(pitch_of(car.state()) - pitch_of(before) - dt * before.pitch_rate_radps);
         if (i > 5) (switches ? after_switch : any_step) = std::max(switches ? after_switch : any_step, bend);

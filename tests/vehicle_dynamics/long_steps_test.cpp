@@ -33,7 +33,8 @@ double stopping_m(const char* file, double brake_01, Integrator integrator, doub
   const Controls controls{.brake_01 = brake_01, .gear = Gear::kDrive};
   const auto steps = static_cast<int>(15.0 / dt);
   for (int i = 0; i < steps; ++i) {
-    const auto torque = powertrain::advance(vehicle, controls, d.state.u_mps, d.state.spin_radps, true, power, dt);
+    const auto torque =
+        powertrain::advance(vehicle, controls, d.state.u_mps, full::wheels(d.params, d.input, d.state), power, dt);
     d.input.drive_nm = torque.drive_nm, d.input.brake_nm = torque.brake_nm;
     d.step(dt);
     if (!test::finite(d.state)) return std::nan("");
@@ -46,7 +47,8 @@ double stopping_m(const char* file, double brake_01, Integrator integrator, doub
 // patch that the step has lengthened builds its force up and down over so much more way, at the same two edges; that
 // counts with full braking only, where the tyre is at its peak, and is never let pass for more than 3 %. The rest is
 // the method's own, 1 %. With steps of 10 ms ABS cannot follow a wheel that locks within two of them, so full braking
-// is held against steps up to 5 ms.
+// is held against steps up to 5 ms; and with etd2 so is gentle braking: there the swing of spin and slip grows by
+// (w dt)^4 / 8 = 3 % a step where nothing damps it, until ABS takes it for a wheel that locks.
 TEST(LongSteps, EmergencyStopIsAsLong) {
   for (const char* file : kCars)
     for (const double brake : {0.3, 1.0}) {
@@ -54,6 +56,7 @@ TEST(LongSteps, EmergencyStopIsAsLong) {
       ASSERT_GT(exact, 9.0) << file;
       for (const auto& [integrator, dt] : ways()) {
         if ((dt < 1e-3 && !test::long_run()) || (brake == 1.0 && dt > 5e-3)) continue;
+        if (integrator == Integrator::kEtd2 && dt > 5e-3) continue;
         const double way = stopping_m(file, brake, integrator, dt);
         const full::Params p = test::full_car(file);
         const double bears = integrator == Integrator::kRk4 ? 6.0 : integrator == Integrator::kEtd2 ? 0.5 : 2.0;
@@ -148,7 +151,8 @@ TEST(LongSteps, BrakedSpinLosesItsEnergySingleTrack) {
   }
 }
 
-// The second-order method gains 1 % of the energy at most, and the way is 5 % longer with the longest step.
+// The second-order method gains 1 % of the energy at most. Its way is 0.6 % longer with 5 ms and six with 10 ms, where
+// rk4 has 0.03 and 0.1: the cars stand where they stop, and do not make up for it by creeping back.
 TEST(LongSteps, BrakedSpinLosesItsEnergyFull) {
   Road slippery;
   slippery.friction_everywhere = 0.3;
@@ -167,7 +171,11 @@ TEST(LongSteps, BrakedSpinLosesItsEnergyFull) {
       EXPECT_GE(s.turns, 1) << where;
       const bool rk4 = integrator == Integrator::kRk4, etd2 = integrator == Integrator::kEtd2;
       const double euler = 1.1 * 16.0 * 8.5 / 3.0 * dt;
-      EXPECT_NEAR(s.way_m, exact_m, 20.0 * dt + exact_m * (rk4 ? 1e-3 : etd2 ? 0.05 : 1e-3 + euler)) << where;
+      EXPECT_NEAR(s.way_m, exact_m,
+                  20.0 * dt + exact_m * (rk4    ? 1.5e-3
+                                         : etd2 ? (dt > 5e-3 ? 0.065 : 0.01)
+                                                : 1e-3 + euler))
+          << where;
       EXPECT_LE(s.rise_j, s.stored_j + (rk4 ? 0.0 : etd2 ? 0.01 : 16.0 * dt) * start_j) << where;
       std::printf("%s: %.2f m, rise %.2f of %.2f J, %d turns\n", where.c_str(), s.way_m, s.rise_j, s.stored_j, s.turns);
     }

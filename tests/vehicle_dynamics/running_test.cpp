@@ -262,6 +262,30 @@ TEST(AutoLevel, UpAtOnceDownAfterTwoSeconds) {
   EXPECT_EQ(level.switches(), 2u);
 }
 
+// Every switch tells when, from where to where, and the number that decided.
+TEST(AutoLevel, SaysWhy) {
+  AutoLevel level;
+  Scene calm{.speed_mps = 20.0}, hard = calm;
+  hard.utilisation_01 = 0.62;
+  for (int i = 0; i < 100; ++i) level.next(calm, 0.01);
+  level.next(hard, 0.01);
+  ASSERT_EQ(level.switches(), 1u);
+  EXPECT_NEAR(level.change(0).time_s, 1.0, 1e-9);
+  EXPECT_EQ(text(level.change(0)), "kinematic to full: tyres used by more than half (0.62)");
+  for (int i = 0; i < 300; ++i) level.next(calm, 0.01);
+  ASSERT_EQ(level.switches(), 2u);
+  EXPECT_EQ(text(level.change(1)), "full to kinematic: smooth road, gentle driving (0)");
+}
+
+// A scene on the edge: every two seconds calm, then not. It comes down ever more rarely.
+TEST(AutoLevel, DoesNotHuntOnTheEdge) {
+  AutoLevel level;
+  Scene calm{.speed_mps = 20.0}, hard = calm;
+  hard.utilisation_01 = 0.6;
+  for (int i = 0; i < 60'000; ++i) level.next(i % 250 < 230 ? calm : hard, 0.01);  // ten minutes
+  EXPECT_LE(level.switches(), 6u);                                                 // 480 with the same wait each time
+}
+
 // On a smooth road it goes through all three levels, on a rough one between the two with springs; beside what the pitch
 // did in the step before, a switch adds next to nothing.
 TEST(AutoLevel, SwitchesWithoutABump) {

@@ -44,6 +44,31 @@ TEST(HardCase, C08SlidingSidewaysOnTurnedWheels) {
           }
 }
 
+// After a spin the car comes to a stand where it is: what the carcasses give back, 15 mm, and no creeping on.
+TEST(HardCase, C08StandsAfterASpin) {
+  for (const double friction : {0.1, 0.3, 0.6})
+    for (const bool hard : {true, false})
+      for (const double dt : {0.002, 0.005}) {
+        Road wet;
+        wet.friction_everywhere = friction;
+        Drive d(hard ? test::hard_car() : test::full_car("hatchback.toml"), 20.0, &wet);
+        d.state.r_radps = 4.0;
+        d.state.spin_radps = {};
+        d.input.brake_nm.fill(1e5);
+        const auto slow = [&] {
+          return std::hypot(d.state.u_mps, d.state.v_mps) < 0.05 && std::abs(d.state.r_radps) < 0.05;
+        };
+        while (!slow() && d.time_s < 40.0) d.step(dt);
+        ASSERT_LT(d.time_s, 40.0);
+        const double x = d.state.x_m, y = d.state.y_m;
+        d.run(1.5, dt);
+        EXPECT_LT(std::hypot(d.state.u_mps, d.state.v_mps), 1e-3) << friction << ' ' << hard << ' ' << dt;
+        d.run(10.0, dt);
+        EXPECT_LT(std::hypot(d.state.x_m - x, d.state.y_m - y), 0.016) << friction << ' ' << hard << ' ' << dt;
+        EXPECT_LT(std::hypot(d.state.u_mps, d.state.v_mps), 1e-6);
+      }
+}
+
 // Class E at the limit of grip turns the 320i over; then its wheels face any way, and its state stays finite.
 TEST(HardCase, C14TurnedOver) {
   Road rough;

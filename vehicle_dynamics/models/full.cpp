@@ -139,7 +139,9 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
   tyre::steady_forces(p.tyre, s.kappa.data(), s.tan_alpha.data(), tyres.load_n.data(), g.friction.data(),
                       tyres.fx_n.data(), tyres.fy_n.data());
 
-  double fx = 0.0, fy = 0.0, road_fx = 0.0, yaw = 0.0;
+  const double gx = -kGravity_mps2 * m[6], gy = -kGravity_mps2 * m[7], gz = -kGravity_mps2 * m[8];
+  const double lighter = 1.0 + gz / kGravity_mps2;
+  double fx = 0.0, fy = 0.0, roll = 0.0, pitch = 0.0, yaw = 0.0;
   std::array<double, 4> up{};
   for (std::size_t i = 0; i < 4; ++i) {
     if (c.moving_mps[i] < kDampedBelow_mps && tyres.load_n[i] > 0.0) {
@@ -155,11 +157,16 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
     const double along = tyres.fx_n[i], left = tyres.fy_n[i], load = tyres.load_n[i];
     const double rx = along * c.along[i][0] + left * c.left[i][0];
     const double bx = rx + load * g.normal[0];
-    const double by = along * c.along[i][1] + left * c.left[i][1] + load * g.normal[1];
+    const double ry = along * c.along[i][1] + left * c.left[i][1];
+    const double by = ry + load * g.normal[1];
     up[i] = along * c.along[i][2] + left * c.left[i][2] + load * g.normal[2];
-    road_fx += rx;
     fx += bx, fy += by;
     yaw += p.x_m[i] * by - p.y_m[i] * bx;
+    // A leaning body has a lever for each wheel: the height of the centre of gravity less what this corner has sunk
+    // from rest on this grade. Their part along the body's z is in `up`, at the same contact.
+    const double sunk = s.travel_m[i] + (load - p.load_n[i]) / p.tyre_rate_npm + lighter * p.rest_m[i];
+    pitch -= (p.cg_height_m - sunk) * rx;
+    roll -= sunk * ry;
 
     const double rolling =
         input.air_and_rolling && !held.locked[i]
@@ -173,15 +180,7 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
   }
 
   // Suspension: springs, dampers, bars, stops, and what the linkage carries past them.
-  const double gx = -kGravity_mps2 * m[6], gy = -kGravity_mps2 * m[7], gz = -kGravity_mps2 * m[8];
-  double lift = 0.0, roll = 0.0, pitch = 0.0;
-  // The lever of the tyres' forces: height of the centre of gravity, less what the body has sunk from rest on this
-  // grade.
-  double sink = 0.0;
-  const double lighter = 1.0 + gz / kGravity_mps2;
-  for (std::size_t i = 0; i < 4; ++i)
-    sink -=
-        p.lever_share[i] * (s.travel_m[i] + (tyres.load_n[i] - p.load_n[i]) / p.tyre_rate_npm + lighter * p.rest_m[i]);
+  double lift = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     yaw += p.unsprung_kg[i] * (p.x_m[i] * gy - p.y_m[i] * gx);  // weight of the wheels, at the wheels
     const double other = s.travel_m[i ^ 1u], travel = s.travel_m[i];
@@ -198,7 +197,6 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
     d.rise_mps[i] = (up[i] - force + p.unsprung_couple[i] * fy) / p.unsprung_kg[i] + gz - s.p_radps * v + s.q_radps * u;
   }
   roll += p.sprung_kg / p.mass_kg * p.cg_height_m * fy;
-  pitch -= (p.cg_height_m + sink) * road_fx;
 
   const double drag =
       input.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * s.u_mps * std::abs(s.u_mps) : 0.0;

@@ -21,6 +21,7 @@
 #include <string>
 
 #include "vehicle_dynamics/models/fixed_step.h"
+#include "vehicle_dynamics/models/powertrain.h"
 #include "vehicle_dynamics/models/tyre.h"
 #include "vehicle_dynamics/road.h"
 
@@ -39,7 +40,6 @@ struct Params {
   std::array<double, 4> load_n{}, spring_n{};                                   ///< at rest: of the tyre, of the spring
   std::array<double, 4> unsprung_couple{};  ///< vertical force per N of lateral force, from the axle's own height
   std::array<double, 4> brake_jack{}, drive_jack{};  ///< anti-dive, anti-squat: vertical over longitudinal force
-  std::array<double, 4> lever_share{};               ///< of each corner in the height of the centre of gravity
   std::array<double, 4> rest_m{};                    ///< what spring and tyre give under the weight at rest
   double spin_answer_mps2 = 0.0;                     ///< of a loaded wheel's tread to a slip of one: k Fz R^2 / I
   double spin_kg = 0.0;                              ///< a wheel's inertia at its tread: I / R^2
@@ -121,6 +121,9 @@ void finish_step(const Held& held, const State& before, State& state);
 
 /// One step of dt seconds.
 void advance(const Params& params, const Input& input, State& state, double dt);
+
+/// How the wheels turn, for pedals and ABS.
+powertrain::Wheels wheels(const Params& params, const Input& input, const State& state);
 
 /// At the state, for output.
 Forces forces(const Params& params, const Input& input, const State& state, double t_s = 0.0);

@@ -38,7 +38,6 @@ Result<Params> params_of(const VehicleParams& vehicle, const std::string& place)
     p.damper_nspm[i] = front ? c.front_damping_nspm : c.rear_damping_nspm;
     p.bar_npm[i] = (front ? c.front_anti_roll_nmprad : c.rear_anti_roll_nmprad) / (track * track);
     const double share = (front ? to_rear : vehicle.cg_to_front_m) / vehicle.wheelbase_m;
-    p.lever_share[i] = 0.5 * share;
     p.spring_n[i] = 0.5 * share * p.sprung_kg * kGravity_mps2;
     p.load_n[i] = p.spring_n[i] + p.unsprung_kg[i] * kGravity_mps2;
     p.rest_m[i] = p.spring_n[i] / p.spring_npm[i] + p.load_n[i] / p.tyre_rate_npm;
@@ -159,6 +158,29 @@ Held held(const Params& p, const Input& input, const State& s, double dt) {
   return h;
 }
 
+namespace {
+
+// A patch that has slid and is dragged back sticks: its carcass then holds what the highest force stretches it by,
+// however far it slid. The slip of the slide would have to be unwound first, a decimetre and more at centimetres a
+// second. Half the slip of the peak gives nine tenths of its force, about what a far slide gives.
+void let_stick(const Params& p, const Input& input, const Held& held, State& s) {
+  constexpr double kSlow_mps = 0.1, kSticks = 0.5;
+  if (std::abs(s.u_mps) + std::abs(s.v_mps) > kSlow_mps) return;
+  const powertrain::Wheels w = wheels(p, input, s);
+  const double alike = 1.0 / (p.tyre.per_tan_alpha_bend * 1.5 * p.tyre.peak_kappa);  // peaks: across over along
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double x = w.ahead_mps[i], y = s.v_mps + s.r_radps * p.x_m[i];
+    const double c = held.steer.cosine[i], sn = held.steer.sine[i];
+    const double slides_x = s.spin_radps[i] * p.radius_m - (x * c + y * sn), slides_y = x * sn - y * c;
+    if (std::hypot(slides_x, slides_y) > kSlow_mps || slides_x * s.kappa[i] + slides_y * s.tan_alpha[i] >= 0.0)
+      continue;
+    const double over = std::hypot(s.kappa[i], s.tan_alpha[i] / alike) / (kSticks * w.peak_slip[i]);
+    if (over > 1.0) s.kappa[i] /= over, s.tan_alpha[i] /= over;
+  }
+}
+
+}  // namespace
+
 void finish_step(const Held& held, const State& before, State& s) {
   for (std::size_t i = 0; i < 4; ++i)
     if (held.locked[i] || (held.brake_nm[i] != 0.0 && before.spin_radps[i] * s.spin_radps[i] < 0.0))
@@ -224,6 +246,22 @@ void advance(const Params& p, const Input& input, State& state, double dt) {
       break;
   }
   finish_step(during, before, state);
+  let_stick(p, input, during, state);
+}
+
+powertrain::Wheels wheels(const Params& p, const Input& input, const State& s) {
+  powertrain::Wheels w;
+  w.spin_radps = s.spin_radps;
+  Two friction[2] = {both(1.0), both(1.0)};
+  if (input.road)
+    for (std::size_t k = 0; k < 2; ++k)
+      friction[k] = input.heights_given ? both(input.road->friction_everywhere)
+                                        : input.road->laid(s.path_m + p.x_m[2 * k]).friction;
+  for (std::size_t i = 0; i < 4; ++i) {
+    w.ahead_mps[i] = s.u_mps - s.r_radps * p.y_m[i];
+    w.peak_slip[i] = p.tyre.peak_kappa * friction[i / 2][static_cast<int>(i % 2)];
+  }
+  return w;
 }
 
 Forces forces(const Params& p, const Input& input, const State& s, double t_s) {

@@ -12,29 +12,18 @@ namespace {
 
 // A driver turns the wheel at 1000 degrees a second at most; faster input is a fault or a joystick.
 constexpr double kMaxSteeringWheelRate_radps = 1000.0 * std::numbers::pi / 180.0;
-constexpr double kParkLockSpeed_mps = 0.5;  // below it the pawl of the parking lock falls in; chosen
 
 double sign(double value) {
   return value > 0.0 ? 1.0 : (value < 0.0 ? -1.0 : 0.0);
 }
 
-double drive_force_n(const VehicleParams& p, const Controls& input, double speed_mps) {
-  if (input.gear == Gear::kNeutral || input.gear == Gear::kPark) return 0.0;
-  const double speed = std::abs(speed_mps);
-  const double force = input.accelerator_01 * std::min(p.max_drive_force_n, p.max_power_w / std::max(speed, 0.1));
-  return input.gear == Gear::kReverse ? -force : force;
-}
-
 // Speed after dt. Brakes and rolling resistance only ever oppose the motion: they stop the car at exactly 0 and hold it
 // there.
-double next_speed_mps(const VehicleParams& p, const Controls& input, const CarState& s, double dt) {
+double next_speed_mps(const VehicleParams& p, const Push& wheels, const CarState& s, double dt) {
   const double v = s.speed_mps;
   const double drag = 0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * v * std::abs(v);
-  const double push = drive_force_n(p, input, v) + p.mass_kg * kGravity_mps2 * std::sin(s.road_pitch_rad) - drag;
-  const bool locked = input.gear == Gear::kPark && std::abs(v) < kParkLockSpeed_mps;
-  const double brake =
-      (locked ? 1.0 : std::min(1.0, input.brake_01 + kParkingShare_01 * input.parking_brake_01)) * p.max_brake_force_n;
-  const double hold = brake + p.rolling_coefficient * p.mass_kg * kGravity_mps2 * std::cos(s.road_pitch_rad);
+  const double push = wheels.drive_n + p.mass_kg * kGravity_mps2 * std::sin(s.road_pitch_rad) - drag;
+  const double hold = wheels.brake_n + p.rolling_coefficient * p.mass_kg * kGravity_mps2 * std::cos(s.road_pitch_rad);
   const double inertia = p.mass_kg + 4.0 * p.wheel_inertia_kgm2 / (p.tyre_radius_m * p.tyre_radius_m);
 
   if (v == 0.0) return std::abs(push) <= hold ? 0.0 : (push - sign(push) * hold) / inertia * dt;
@@ -82,15 +71,28 @@ Attitude quasi_static_attitude(const VehicleParams& p, double fx_mps2, double fy
           .heave_m = rear_m};
 }
 
-void advance(const VehicleParams& p, const Controls& input, CarState& s, double dt) {
+Push push_of(const VehicleParams& p, const powertrain::Torques& t) {
+  return {.drive_n = (t.drive_nm[0] + t.drive_nm[1] + t.drive_nm[2] + t.drive_nm[3]) / p.tyre_radius_m,
+          .brake_n = (t.brake_nm[0] + t.brake_nm[1] + t.brake_nm[2] + t.brake_nm[3]) / p.tyre_radius_m};
+}
+
+double pushed_n(const VehicleParams& p, const CarState& s) {
+  const double v = s.speed_mps, weight = p.mass_kg * kGravity_mps2;
+  const double inertia = p.mass_kg + 4.0 * p.wheel_inertia_kgm2 / (p.tyre_radius_m * p.tyre_radius_m);
+  return inertia * s.ax_mps2 - weight * std::sin(s.road_pitch_rad) +
+         0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * v * std::abs(v) +
+         sign(v) * p.rolling_coefficient * weight * std::cos(s.road_pitch_rad);
+}
+
+void advance(const VehicleParams& p, double steering_wheel_rad, const Push& push, CarState& s, double dt) {
   // steer: lock and rate are those of the steering wheel
-  const double wheel = std::clamp(input.steering_wheel_rad, -p.max_steering_wheel_rad, p.max_steering_wheel_rad);
+  const double wheel = std::clamp(steering_wheel_rad, -p.max_steering_wheel_rad, p.max_steering_wheel_rad);
   const double most = kMaxSteeringWheelRate_radps / p.steering_ratio * dt;
   s.steer_rad += std::clamp(wheel / p.steering_ratio - s.steer_rad, -most, most);
 
   // speed
   const double before = s.speed_mps;
-  s.speed_mps = next_speed_mps(p, input, s, dt);
+  s.speed_mps = next_speed_mps(p, push, s, dt);
   s.ax_mps2 = (s.speed_mps - before) / dt;
   const double v = 0.5 * (before + s.speed_mps);
 

@@ -8,7 +8,7 @@
 //   the ride frequency and damping of the car, exact for a step, so that it neither jumps nor stops dead.
 // Frame: ISO 8855, origin on the ground under the middle of the rear axle; pitch > 0 nose down.
 // Leaves out: tyre slip (a turn beyond the car's grip is widened), wheel hop and bumps (the body follows the plane
-//   of its four contacts), gearbox and engine inertia, idle creep, locked wheels.
+//   of its four contacts), engine inertia, locked wheels.
 // Tests: tests/vehicle_dynamics/kinematic_test.cpp (closed forms), step_test.cpp (repeatability, standing still).
 #pragma once
 
@@ -16,6 +16,7 @@
 #include <glm/vec2.hpp>
 
 #include "config/vehicle.h"
+#include "vehicle_dynamics/models/powertrain.h"
 #include "vehicle_dynamics/state.h"
 
 namespace phare::kinematic {
@@ -29,9 +30,19 @@ struct Attitude {
 };
 Attitude quasi_static_attitude(const VehicleParams& params, double fx_mps2, double fy_mps2);
 
-/// One step of dt seconds, dt > 0. `input` must come from accepted(). Moves the car over the plane it stands on; the
+/// At the treads of all wheels together.
+struct Push {
+  double drive_n = 0.0;  ///< > 0 forwards
+  double brake_n = 0.0;  ///< >= 0, against the motion
+};
+Push push_of(const VehicleParams& params, const powertrain::Torques& torques);
+
+/// What pushes a car that moves as the state says, N, > 0 forwards: drive less brakes.
+double pushed_n(const VehicleParams& params, const CarState& state);
+
+/// One step of dt seconds, dt > 0. `steering_wheel_rad` must be finite. Moves the car over the plane it stands on; the
 /// road under its new place is put there by stand_on().
-void advance(const VehicleParams& params, const Controls& input, CarState& state, double dt);
+void advance(const VehicleParams& params, double steering_wheel_rad, const Push& push, CarState& state, double dt);
 
 /// World x, y of the wheel contacts: front left, front right, rear left, rear right.
 std::array<glm::dvec2, 4> contact_points(const VehicleParams& params, const CarState& state);

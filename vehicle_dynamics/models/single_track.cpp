@@ -36,7 +36,7 @@ namespace {
 
 // A wheel pair of the body: what its springs and dampers carry, and what the road under it adds.
 struct Corners {
-  Two load_n;       // of the tyres, left and right
+  Two load_n;       // of the tyres, left and right; below 0 they would hang on the road
   Two from_road_n;  // on the body, beside what answers to the body's own place
 };
 [[gnu::always_inline]] inline Corners corners(const Params& p, const Axle& axle, const Under& road, double rest_n,
@@ -49,7 +49,18 @@ struct Corners {
   const Two from_body = axle.spring_npm * (s.z_m - axle.x_m * s.pitch + y * s.roll) +
                         damper * (s.z_rate_mps - axle.x_m * s.pitch_rate_ps + y * s.roll_rate_ps);
   const double bar = axle.bar_n * leaning;
-  return {largest(rest_n + from_road - from_body - Two{bar, -bar}, Two{}), from_road};
+  return {rest_n + from_road - from_body - Two{bar, -bar}, from_road};
+}
+
+// No tyre hangs on the road; what those that would do not give, the others do not have: together they carry what the
+// body's motion says.
+[[gnu::always_inline]] inline void lift(Corners& front, Corners& rear) {
+  const Two held_front = largest(front.load_n, Two{}), held_rear = largest(rear.load_n, Two{});
+  const Two all = front.load_n + rear.load_n, held = held_front + held_rear;
+  const double hangs = (held[0] + held[1]) - (all[0] + all[1]);
+  if (hangs <= 0.0) return;
+  const double share = std::max(all[0] + all[1], 0.0) / (held[0] + held[1] + 1e-9);
+  front.load_n = share * held_front, rear.load_n = share * held_rear;
 }
 
 }  // namespace
@@ -60,8 +71,9 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
 
   // body over its contacts
   const double across = held.across + held.across_rate_ps * t_s, leaning = s.roll - across;
-  const Corners front = corners(p, p.axles[0], held.front, car.load_n[0] * held.level, leaning, held.dt_s, s, t_s);
-  const Corners rear = corners(p, p.axles[1], held.rear, car.load_n[2] * held.level, leaning, held.dt_s, s, t_s);
+  Corners front = corners(p, p.axles[0], held.front, car.load_n[0] * held.level, leaning, held.dt_s, s, t_s);
+  Corners rear = corners(p, p.axles[1], held.rear, car.load_n[2] * held.level, leaning, held.dt_s, s, t_s);
+  lift(front, rear);
   const Two load{front.load_n[0] + front.load_n[1], rear.load_n[0] + rear.load_n[1]};
 
   // along: torque over radius up to the limit of friction
@@ -91,8 +103,10 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
   // the car in the plane: what torque leaves for it after spinning up its own wheels
   const double downhill_n = -car.mass_kg * kGravity_mps2 * held.along * held.level;
   const double pull = ahead[0] * held.cosine - front_y * held.sine + ahead[1] - resisted + downhill_n;
-  const double ax = held.stopped ? 0.0 : pull * p.per_effective_kg;
-  const Two pulls = least(largest(ahead - both(0.5 * (p.effective_kg - car.mass_kg) * ax), -grip), grip);
+  // The wheels' spin answers to the speed's own change alone, not to what the car's turning makes of it.
+  const double spin_kg = p.effective_kg - car.mass_kg, turning = s.r_radps * s.v_mps;
+  const double ax = held.stopped ? 0.0 : (pull - spin_kg * turning) * p.per_effective_kg;
+  const Two pulls = least(largest(ahead - both(0.5 * spin_kg * (ax + turning)), -grip), grip);
   const double front_x = pulls[0], rear_x = pulls[1];
   const double front_side = held.stopped ? front_y * held.cosine : front_x * held.sine + front_y * held.cosine;
   const double fx = held.stopped ? -downhill_n : front_x * held.cosine - front_y * held.sine + rear_x;
@@ -119,7 +133,7 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
           .fy_n = fy,
           .ax_mps2 = ax,
           .ay_mps2 = ay,
-          .u_mps2 = held.stopped ? 0.0 : ax + s.r_radps * s.v_mps,
+          .u_mps2 = held.stopped ? 0.0 : ax + turning,
           .v_mps2 = ay - s.r_radps * s.u_mps,
           .r_ps2 = (car.x_m[0] * front_side + car.x_m[2] * rear_y) * p.per_yaw_kgm2,
           .slip_rate_ps = slip.tan_alpha_ps,
@@ -300,8 +314,15 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
   if (brake > 0.0 && std::max(std::abs(s.u_mps), aside_mps) * p.effective_kg <= dt * brake) {
     // They can stop the car within the step: do they hold it against drive and grade?
     const double push = front_drive * cosine + rear_drive - p.car.mass_kg * kGravity_mps2 * along * level;
-    const double limit = friction * p.car.tyre.p.long_peak * p.car.mass_kg * kGravity_mps2;
-    stopped = std::abs(push) <= std::min(brake, limit);
+    // Each axle holds with its brakes up to the friction under what its springs now put on it.
+    const double grip = friction * p.car.tyre.p.long_peak;
+    const auto load_n = [&](const Axle& axle, const Under& road, double rest_n) {
+      const double sunk = road.height_m[0] + road.height_m[1] - 2.0 * (s.z_m - axle.x_m * s.pitch);
+      return std::max(2.0 * rest_n * level + axle.spring_npm * sunk, 0.0);
+    };
+    const double front_n = load_n(p.axles[0], front, p.car.load_n[0]),
+                 rear_n = load_n(p.axles[1], rear, p.car.load_n[2]);
+    stopped = std::abs(push) <= std::min(front_brake, grip * front_n) + std::min(rear_brake, grip * rear_n);
     if (!stopped && s.u_mps == 0.0) against = sign(push);
   }
   const double u = s.u_mps;
@@ -347,10 +368,12 @@ full::Forces forces(const Params& p, const full::Input& in, const State& s) {
   }
   const Two along = h.front.height_m - h.rear.height_m;
   out.road_pitch_rad = -std::atan(0.5 * (along[0] + along[1]) * p.per_wheelbase_m);
-  out.road_roll_rad = std::atan(h.across);
+  // Roll turns about the pitched x axis (R = Rz Ry Rx), a slope aside does not.
+  const double pitched = 1.0 / std::sqrt(1.0 + s.pitch * s.pitch);
+  out.road_roll_rad = std::atan(h.across * std::cos(out.road_pitch_rad));
   out.ax_mps2 = a.ax_mps2, out.ay_mps2 = a.ay_mps2;
-  out.roll_rad = std::atan(s.roll), out.pitch_rad = std::atan(s.pitch), out.yaw_rad = s.yaw_rad;
-  out.roll_rate_radps = s.roll_rate_ps / steep(s.roll);
+  out.roll_rad = std::atan(s.roll * pitched), out.pitch_rad = std::atan(s.pitch), out.yaw_rad = s.yaw_rad;
+  out.roll_rate_radps = s.roll_rate_ps * pitched / steep(s.roll * pitched);
   out.pitch_rate_radps = s.pitch_rate_ps / steep(s.pitch);
   out.yaw_rate_radps = s.r_radps;
   out.off_road = h.off_road;

@@ -41,7 +41,7 @@ struct Params {
   double effective_kg = 0.0;                             ///< mass with the wheels' spin inertia
   double front_brake_jack = 0.0, rear_drive_jack = 0.0;  ///< anti-dive, anti-squat: vertical over longitudinal force
   ride::Springs springs;                                 ///< of the body, all the above together
-  ride::Step ride;                                       ///< for steps of one length, see set_step()
+  ride::Step ride, short_ride;                           ///< for steps of one length, see set_step(); and their parts
   // One over what is divided by in every step.
   double per_effective_kg = 0.0, per_mass_kg = 0.0, per_sprung_kg = 0.0, per_wheelbase_m = 0.0, per_tracks_m = 0.0;
   double per_roll_kgm2 = 0.0, per_pitch_kgm2 = 0.0, per_yaw_kgm2 = 0.0, per_radius_m = 0.0;

@@ -44,7 +44,8 @@ Constants constants(const TyreParams& p) {
   c.p = p;
   c.bx = p.long_stiffness / (p.long_shape * p.long_peak);
   c.by = p.lat_stiffness / (p.lat_shape * p.lat_peak);
-  c.per_kappa_bend = 1.0 / (1.5 * peak_slip(c.bx, p.long_shape, p.long_curvature));
+  c.peak_kappa = peak_slip(c.bx, p.long_shape, p.long_curvature);
+  c.per_kappa_bend = 1.0 / (1.5 * c.peak_kappa);
   c.per_tan_alpha_bend = 1.0 / (1.5 * peak_slip(c.by, p.lat_shape, p.lat_curvature));
   c.per_long_m = 1.0 / p.long_relaxation_m;
   c.per_lat_m = 1.0 / p.lat_relaxation_m;

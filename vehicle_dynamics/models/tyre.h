@@ -30,6 +30,7 @@ struct Constants {
   TyreParams p;
   double per_kappa_bend = 0.0,
          per_tan_alpha_bend = 0.0;           ///< one over 1.5 times the slip at the peak: relaxation halves
+  double peak_kappa = 0.0;                   ///< longitudinal slip at the highest force, friction 1; falls with it
   double per_long_m = 0.0, per_lat_m = 0.0;  ///< one over the relaxation lengths
   double bx = 0.0, by = 0.0;                 ///< B = K / (C D) at mu 1
   std::vector<Two> side_curve;  ///< side force over peak at B tan_alpha, see side_force(): value, rise per node
