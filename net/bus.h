@@ -54,7 +54,8 @@ class Bus {
   /// Sends to the port alone that the datagram in hand came from: within on_datagram.
   void answer(SimTime now, const Payload& payload);
 
-  /// The last datagram of a payload type (kPayloadIndex<T>) again, byte for byte; nothing when there was none.
+  /// The last datagram of a payload type (kPayloadIndex<T>) again, under its number and with the time of now as when
+  /// it was sent; nothing when there was none.
   void send_again(std::size_t payload_index);
 
   /// Drains the socket into the inboxes: at most 4096 datagrams and two milliseconds of processor time per call,
@@ -119,10 +120,16 @@ class Bus {
              std::vector<Inbox<ControlReply>>>
       inboxes_;                                           // one per sender channel
   std::array<std::string, kChannels.size()> last_bytes_;  // sealed
+  std::array<std::optional<Datagram>, kChannels.size()> last_sent_;
   BusCounters counters_;
   Datagram incoming_;  // reused
+  struct Second {
+    std::size_t payload_index = 0;
+    Endpoint from;
+  };
+  Second second_;  // who was refused last because another speaks
   std::chrono::steady_clock::time_point next_log_;
-  std::uint64_t refused_logged_ = 0;
+  std::uint64_t refused_logged_ = 0, seconds_logged_ = 0;
 };
 
 }  // namespace phare

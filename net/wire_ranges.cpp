@@ -214,7 +214,9 @@ const char* refusal_text(Refusal refusal) {
     case Refusal::kKey:
       return "not sealed with the key of this bus";
     case Refusal::kReplay:
-      return "of an earlier start of its sender";
+      return "sent earlier and played again, or the clocks of two machines are far apart";
+    case Refusal::kSecond:
+      return "another sender of this message is heard";
   }
   return "unknown";
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "config/rig.h"
@@ -44,6 +45,29 @@ std::vector<std::uint16_t> receiver_ports(const Datagram& datagram, const Rig& r
   return ports;
 }
 
+/// Whoever takes the place of the cockpit and the car speaks from their ports: beside those of a rig that runs it is
+/// told so at once, where receivers would only refuse it as a second sender.
+struct ReplayPorts {
+  UdpSocket cockpit, dynamics, others;
+
+  UdpSocket& of(Sender sender) {
+    return sender == Sender::kCockpit ? cockpit : sender == Sender::kDynamics ? dynamics : others;
+  }
+
+  static Result<ReplayPorts> open(const Rig& rig) {
+    const auto held = [&](Role role) {
+      return UdpSocket::open(rig.bind_address, static_cast<std::uint16_t>(rig.port_base + port_offset(role)));
+    };
+    auto cockpit = held(Role::kCockpit), dynamics = held(Role::kDynamics);
+    for (const auto* taken : {&cockpit, &dynamics})
+      if (!*taken)
+        return Error{taken->error().place, taken->error().reason + "; a replay takes the place of cockpit and car"};
+    auto others = UdpSocket::open(rig.bind_address, 0);
+    if (!others) return others.error();
+    return ReplayPorts{std::move(*cockpit), std::move(*dynamics), std::move(*others)};
+  }
+};
+
 int replay(const ReplayOptions& options) {
   auto rig = read_rig(options.rig_file);
   if (!rig) return bad_input(rig.error());
@@ -52,8 +76,8 @@ int replay(const ReplayOptions& options) {
   if (!drive) return bad_input(drive.error());
   if (drive->datagrams.empty()) return bad_input({options.file, "holds no valid datagram"});
   if (drive->cut) spdlog::warn("{}: cut off, read up to its last whole record", options.file);
-  auto socket = UdpSocket::open(rig->bind_address, 0);
-  if (!socket) return bad_input(socket.error());
+  auto ports = ReplayPorts::open(*rig);
+  if (!ports) return bad_input(ports.error());
   const StopFlag stop = install_stop_signals();
   const Seal seal(rig->bus_key);
 
@@ -79,7 +103,7 @@ int replay(const ReplayOptions& options) {
     seal.close(bytes);
     for (const std::uint16_t port : receiver_ports(datagram, *rig)) {
       // A port nobody listens on is no failure of the replay.
-      ++(socket->send_to(port, std::as_bytes(std::span(bytes))) ? sent : refused);
+      ++(ports->of(datagram.sender).send_to(port, std::as_bytes(std::span(bytes))) ? sent : refused);
     }
   }
   std::printf("%llu datagrams sent, %llu not taken, %.3f s of drive\n", static_cast<unsigned long long>(sent),

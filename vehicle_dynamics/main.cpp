@@ -140,8 +140,9 @@ class Process {
   // Frame by frame, as fast as the slowest process: the run is the same however long a frame takes.
   void run_lockstep(Begin begin) {
     std::int64_t sent = -1;  // newest frame answered
+    StaysHeard stays_heard(kPayloadIndex<VehicleState>);
     while (!stop_) {
-      bus_.wait(std::chrono::milliseconds(50));
+      bus_.wait(std::chrono::milliseconds(20));
       bus_.poll();
       stats_once_a_second();
       if (!loop_) {
@@ -151,6 +152,7 @@ class Process {
       }
 
       send_again_to_late(bus_, sent, kPayloadIndex<VehicleState>);
+      stays_heard.step(bus_);
       const auto* cockpit = bus_.newest<CockpitState>();
       if (!cockpit || cockpit->value.frame_index != sent + 1 || !all_channels_at(bus_, sent)) continue;
       const SimTime time = frame_time(sent + 1, rig_.frame_rate_hz);
