@@ -21,6 +21,7 @@
 #include "net/drive_file.h"
 #include "net/lockstep.h"
 #include "net/scheduling.h"
+#include "net/silence.h"
 #include "net/stats.h"
 #include "vehicle_dynamics/batch_command.h"
 #include "vehicle_dynamics/start_pose.h"
@@ -196,7 +197,7 @@ class Process {
     state.frame_index = frame;
     state.step_hash = loop_->hashes_after(sent_step_);
     sent_step_ = state.step;
-    state.high_beam_telltale = cockpit && high_beam_on(*cockpit);
+    state.high_beam_telltale = cockpit && !silent_ && high_beam_on(*cockpit);
     if (cockpit && cockpit->drive_ended) state.drive_ended = true;
     bus_.send(time, state);
     if (loop_->out_of_play() && !lost_logged_) {
@@ -320,9 +321,9 @@ class Process {
   // ---- controls, reports
 
   Controls controls_now(const Bus::Newest<CockpitState>& cockpit) {
-    const std::chrono::nanoseconds silence(wall_now().ns - cockpit.received.ns);
-    const bool silent = silence > kSilentAfter;
-    if (silent && !silent_) spdlog::warn("no cockpit for {} ms: pedals fade", kSilentAfter.count() / 1'000'000);
+    const std::chrono::nanoseconds silence = Clock::now() - cockpit.heard;
+    const bool silent = is_silent(silence);
+    if (silent && !silent_) spdlog::warn("the cockpit is silent: low beam, and from 500 ms on the pedals fade");
     if (!silent && silent_) spdlog::info("the cockpit is back");
     silent_ = silent;
     return faded(controls_of(cockpit.value), silence);
