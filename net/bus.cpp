@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ctime>
 #include <random>
+#include <thread>
 #include <utility>
 
 namespace phare {
@@ -156,6 +157,7 @@ void Bus::transmit(std::size_t payload_index) {
 }
 
 std::size_t Bus::poll() {
+  if (alive_) alive_->beat();
   std::size_t news = 0;
   const std::int64_t give_up_ns = cpu_now_ns() + kMaxPollCpu_ns;
   for (std::size_t count = 1; count <= kMaxDatagramsPerPoll; ++count) {
@@ -251,6 +253,16 @@ void Bus::log_refusals() {
                  kChannels[second_.payload_index].message, text_of(second_.from), seconds - seconds_logged_,
                  taken_over_after(kChannels[second_.payload_index]).count() / 1'000'000);
   seconds_logged_ = seconds;
+}
+
+Status Bus::ready_with_the_others(const std::filesystem::path& alive_file, const std::function<bool()>& stop) {
+  if (alive_file.empty()) return Done{};
+  Result<AliveFile> alive = AliveFile::open(alive_file);
+  if (!alive) return alive.error();
+  alive_.emplace(std::move(*alive));
+  for (alive_->beat(); !alive_->is_let_go() && !stop(); alive_->beat())
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  return Done{};
 }
 
 bool Bus::wait(std::chrono::nanoseconds at_most) {

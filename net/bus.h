@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 
 #include "config/result.h"
 #include "config/rig.h"
+#include "net/alive.h"
 #include "net/channels.h"
 #include "net/inbox.h"
 #include "net/messages.h"
@@ -62,6 +64,10 @@ class Bus {
   /// that a flood cannot hold up the caller. Returns how many are new to take().
   std::size_t poll();
 
+  /// From now on every poll() leaves a sign of life in this file (net/alive.h). Returns when it says that all others are
+  /// ready too, or `stop` does. Empty: at once, and none is left.
+  Status ready_with_the_others(const std::filesystem::path& alive_file, const std::function<bool()>& stop);
+
   /// Sleeps until something waits (true), or time is up or a signal came (false).
   bool wait(std::chrono::nanoseconds at_most);
 
@@ -106,6 +112,7 @@ class Bus {
   void log_refusals();
 
   UdpSocket socket_;
+  std::optional<AliveFile> alive_;
   Seal seal_;
   std::optional<Replays> replays_;  // where there is a key
   Role role_;

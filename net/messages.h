@@ -84,6 +84,7 @@ struct FrameReport {
   LightSwitch light_drawn = LightSwitch::kOff;
   bool flash_drawn = false;
   bool fail_safe_drawn = false;
+  std::uint64_t pictures_not_kept = 0;
 
   friend bool operator==(const FrameReport&, const FrameReport&) = default;
 };

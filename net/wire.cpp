@@ -137,6 +137,7 @@ void fill(wire::FrameReport& to, const FrameReport& from) {
   to.set_light_drawn(to_wire_enum<wire::LightSwitch>(static_cast<int>(from.light_drawn)));
   to.set_flash_drawn(from.flash_drawn);
   to.set_fail_safe_drawn(from.fail_safe_drawn);
+  to.set_pictures_not_kept(from.pictures_not_kept);
 }
 
 struct CommandFiller {
@@ -290,6 +291,7 @@ void read(FrameReport& to, const wire::FrameReport& from) {
   to.light_drawn = static_cast<LightSwitch>(static_cast<int>(from.light_drawn()));
   to.flash_drawn = from.flash_drawn();
   to.fail_safe_drawn = from.fail_safe_drawn();
+  to.pictures_not_kept = from.pictures_not_kept();
 }
 
 bool read(RigControl& to, const wire::RigControl& from) {

@@ -13,6 +13,7 @@
 #include "net/channels.h"
 #include "net/clock.h"
 #include "net/drive_file.h"
+#include "net/run_key.h"
 #include "net/seal.h"
 #include "net/udp.h"
 #include "net/wire.h"
@@ -25,6 +26,7 @@ struct ReplayOptions {
   std::string file, rig_file = config_path("rigs/country_road.toml");
   double speed = 1.0;
   std::uint16_t port_base = 0;
+  bool open_bus = false;
 };
 
 /// Ports that take this datagram.
@@ -72,6 +74,8 @@ int replay(const ReplayOptions& options) {
   auto rig = read_rig(options.rig_file);
   if (!rig) return bad_input(rig.error());
   if (options.port_base != 0) rig->port_base = options.port_base;
+  if (options.open_bus) rig->run_key = false;
+  if (const Status key = take_run_key(*rig); !key) return bad_input(key.error());
   auto drive = read_drive(options.file);
   if (!drive) return bad_input(drive.error());
   if (drive->datagrams.empty()) return bad_input({options.file, "holds no valid datagram"});
@@ -126,6 +130,7 @@ void add_replay(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
+  command->add_flag("--open-bus", options->open_bus, "Of a rig that runs with --open-bus: no key");
   command->callback([options, &chosen] { chosen = [options] { return replay(*options); }; });
 }
 

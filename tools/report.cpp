@@ -85,6 +85,7 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
   json report{{"version", PHARE_VERSION},    {"commit", build_commit()},   {"made_at", utc_now()},
               {"command", facts.command},    {"lockstep", facts.lockstep}, {"wall_s", facts.wall_s},
               {"exit_code", facts.exit_code}};
+  report["cut_short"] = facts.interrupted;
   if (!facts.why.empty()) report["why"] = facts.why;
   report["rig"] = named_by_content(rig.file);
   report["rig"]["name"] = rig.name;

@@ -102,6 +102,7 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       r.light_drawn = LightSwitch::kHigh;
       r.flash_drawn = v.flag();
       r.fail_safe_drawn = v.flag();
+      r.pictures_not_kept = r.channel;
       return r;
     }
     case kPayloadIndex<RigControl>: {

@@ -219,8 +219,7 @@ void Loop::repeat_when_stalled() {
     drawn_index_ = car->value.frame_index;
     FrameReport report{
         drawn_index_, s_.options.channel, static_cast<std::uint32_t>(s_.rig.channels.size()), 0.0, 0.0, 0, car->value,
-        true,         LightSwitch::kOff,  false,
-        false};
+        true,         LightSwitch::kOff,  false, false, s_.album.not_kept()};
     s_.bus.send(car->sim_time, report);
     return;
   }
@@ -258,7 +257,10 @@ std::optional<Moment> Loop::display_moment() {
     repeat_when_stalled();
     return std::nullopt;
   }
-  return Moment{-1, *time, controls_to_show(s_.bus, Clock::now()), *car};
+  const SimTime shown = poses_.time_to_show(*time, newest_ ? std::optional(newest_->time) : std::nullopt);
+  Moment moment{-1, shown, controls_to_show(s_.bus, Clock::now()), *poses_.at(shown)};
+  moment.car.stale = car->stale;
+  return moment;
 }
 
 /// Beam images follow the controls; what did not change stays as it is.
@@ -318,7 +320,7 @@ void Loop::report(const Moment& moment) {
       moment.frame_index,      s_.options.channel,     static_cast<std::uint32_t>(s_.rig.channels.size()),
       s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms, moment.controls.light_changes,
       moment.car.pose,         moment.car.stale,       moment.controls.light_switch,
-      moment.controls.flash,   moment.controls.fail_safe};
+      moment.controls.flash,   moment.controls.fail_safe, s_.album.not_kept()};
   s_.bus.send(moment.time, report);
   progress_ = Clock::now();  // keeping the picture may have taken longer than a stall
 }
@@ -356,6 +358,7 @@ void Loop::audit(const Moment& moment) {
 void Loop::finish() {
   s_.bus.on_datagram = nullptr;
   s_.album.finish();
+  if (newest_ && s_.album.not_kept() > 0) report(*newest_);  // the stills too: the statistics may find no room either
   write_stats(newest_ ? newest_->time : SimTime{});
 }
 
