@@ -7,7 +7,7 @@
 namespace phare {
 
 struct CrcParams {
-  int width = 8;  ///< 8 … 32 bits
+  int width = 8;  ///< 3 … 32 bits
   std::uint32_t polynomial = 0;
   std::uint32_t init = 0;
   bool reflected = false;  ///< input and output
@@ -25,7 +25,7 @@ inline constexpr CrcParams kCrc32P4{32, 0xF4ACFB13, 0xFFFFFFFF, true, 0xFFFFFFFF
 
 class Crc {
  public:
-  explicit Crc(const CrcParams& params) : params_(params), register_(params.init) {}  // every init used is symmetric
+  explicit Crc(const CrcParams& params) : params_(params), register_(params.init) {}
 
   void add(std::uint8_t byte) {
     const std::uint32_t top = std::uint32_t{1} << (params_.width - 1);

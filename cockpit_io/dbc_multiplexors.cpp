@@ -42,13 +42,19 @@ bool is_root_multiplexor(const DbcSignal& signal) {
 void hang_multiplexors(Dbc& dbc) {
   for (DbcMessage& message : dbc.messages) {
     const auto root = std::find_if(message.signals.begin(), message.signals.end(), is_root_multiplexor);
+    const auto second =
+        root == message.signals.end() ? root : std::find_if(root + 1, message.signals.end(), is_root_multiplexor);
     for (DbcSignal& s : message.signals) {
       if (s.multiplex_values.empty() || !s.multiplexor.empty()) continue;
-      if (root != message.signals.end()) {
+      if (root == message.signals.end()) {
+        problem(dbc, message, s, "is multiplexed, but its message has no multiplexor (M); left out");
+      } else if (second != message.signals.end()) {
+        problem(dbc, message, s,
+                "is multiplexed, but its message has two multiplexors, " + root->name + " and " + second->name +
+                    ", and no SG_MUL_VAL_ says by which; left out");
+      } else {
         s.multiplexor = root->name;
-        continue;
       }
-      problem(dbc, message, s, "is multiplexed, but its message has no multiplexor (M); left out");
     }
     std::erase_if(message.signals,
                   [](const DbcSignal& s) { return !s.multiplex_values.empty() && s.multiplexor.empty(); });

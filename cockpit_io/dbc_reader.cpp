@@ -145,10 +145,6 @@ class Parser {
     if (const DbcSignal* known = message.find(s.name)) {
       return problem(s.name, "is already in this message, line " + std::to_string(known->line));
     }
-    const auto root = std::find_if(message.signals.begin(), message.signals.end(), is_root_multiplexor);
-    if (is_root_multiplexor(s) && root != message.signals.end()) {
-      return problem(s.name, "is a second multiplexor beside " + root->name);
-    }
     message.signals.push_back(std::move(s));
   }
 

@@ -18,6 +18,7 @@
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"
+#include "net/run_key.h"
 
 namespace phare {
 namespace {
@@ -26,8 +27,8 @@ struct Options {
   std::string rig_file, cockpit_file, source, dbc_file, log_file, drive_file, script_file, stats_file,
       log_level = "info";
   std::optional<std::uint16_t> port_base;
-  bool lockstep = false;
-  std::string demo_file;
+  bool lockstep = false, open_bus = false;
+  std::string demo_file, alive_file;
   bool demo_at_once = false, any_gamepad = false;
   double picture_within_s = 0.0;
   bool learn = false, gamepad = false;
@@ -105,6 +106,8 @@ int run(int argc, char** argv) {
       ->needs(learn_flag);
   app.add_option("--seconds", options.seconds, "With --learn: end after so long")->needs(learn_flag);
   app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
+  app.add_flag("--open-bus", options.open_bus, "No key of the run: anyone on this machine may speak on the bus");
+  app.add_option("--alive", options.alive_file, "File that says, ten times a second and more, that this process is not hung");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -123,13 +126,18 @@ int run(int argc, char** argv) {
   Result<Rig> rig = read_rig(options.rig_file);
   if (!rig) return fail("phare-cockpit", rig.error());
   if (options.port_base) rig->port_base = *options.port_base;
+  if (options.open_bus) rig->run_key = false;
   Result<CockpitConfig> config = configure(*rig, options);
   if (!config) return fail("phare-cockpit", config.error());
   const StopFlag stop = install_stop_signals();
+  if (const Status key = take_run_key(*rig); !key) return fail("phare-cockpit", key.error());
   Result<Bus> bus = Bus::open(*rig, Role::kCockpit);
   if (!bus) return fail("phare-cockpit", bus.error());
   Result<std::unique_ptr<Source>> source = open_source(*config);
   if (!source) return fail("phare-cockpit", source.error());
+  const Status ready = bus->ready_with_the_others(options.alive_file, [&] { return stop.requested(); });
+  if (!ready) return fail("phare-cockpit", ready.error());
+  if (stop) return kExitDone;  // before the drive has begun: nothing is written
 
   CockpitProcess process(std::move(*bus), std::move(*source), *rig, std::move(*config), options.stats_file, stop);
   if (options.lockstep) {

@@ -11,8 +11,10 @@ namespace phare {
 namespace {
 
 /// Bits that a kind of check gives.
-std::uint32_t bits_of(CrcKind kind) {
-  switch (kind) {
+std::uint32_t bits_of(const MessageCheck& check) {
+  switch (check.crc_kind) {
+    case CrcKind::kPolynomial:
+      return static_cast<std::uint32_t>(check.polynomial.width);
     case CrcKind::kCrc16CcittFalse:
     case CrcKind::kCrc16Arc:
       return 16;
@@ -26,8 +28,11 @@ std::uint32_t bits_of(CrcKind kind) {
   }
 }
 
-CrcParams params_of(CrcKind kind) {
-  switch (kind) {
+CrcParams params_of(const MessageCheck& check) {
+  const CrcPolynomial& p = check.polynomial;
+  switch (check.crc_kind) {
+    case CrcKind::kPolynomial:
+      return {p.width, p.poly, p.init, p.reflect, p.xor_out};
     case CrcKind::kE2eProfile1:
       return kCrc8E2eProfile1;
     case CrcKind::kE2eProfile2:
@@ -49,13 +54,16 @@ CrcParams params_of(CrcKind kind) {
 }
 
 /// The frame's bytes without those the check lies in.
-std::vector<std::uint8_t> checked_bytes(const DbcSignal& crc, const CanFrame& frame) {
+std::vector<std::uint8_t> checked_bytes(const MessageCheck& check, const DbcSignal& crc, const CanFrame& frame) {
+  const bool some = check.crc_kind == CrcKind::kPolynomial;
+  const std::size_t first = some ? static_cast<std::size_t>(check.polynomial.first_byte) : 0;
+  const std::size_t last = some ? static_cast<std::size_t>(check.polynomial.last_byte) : CanFrame::kMaxLength;
   CanFrame where;  // ones where the check lies
   where.length = frame.length;
   DbcMessage alone;
   encode_raw(alone, crc, ~std::uint64_t{0}, where);
   std::vector<std::uint8_t> bytes;
-  for (std::size_t i = 0; i < frame.length; ++i) {
+  for (std::size_t i = first; i < frame.length && i <= last; ++i) {
     if (where.data[i] == 0) bytes.push_back(frame.data[i]);
   }
   return bytes;
@@ -123,10 +131,10 @@ Result<MessageChecker> MessageChecker::bind(const MessageCheck& check, const Dbc
     const auto found = find_signal(dbc, message, check.crc, check.crc_place);
     if (!found) return found.error();
     const DbcSignal& s = message.signals[*found];
-    if (s.length_bits != bits_of(check.crc_kind)) {
+    if (s.length_bits != bits_of(check)) {
       return Error{check.crc_place, "\"" + s.name + "\" has " + std::to_string(s.length_bits) + " bits, " +
                                         std::string(kCrcNames[static_cast<std::size_t>(check.crc_kind)]) + " gives " +
-                                        std::to_string(bits_of(check.crc_kind))};
+                                        std::to_string(bits_of(check))};
     }
     checker.crc_ = s;
     checker.crc_->multiplexor.clear();
@@ -140,7 +148,7 @@ std::uint64_t MessageChecker::counter_of(const CanFrame& frame) const {
 }
 
 std::uint64_t MessageChecker::crc_of(const CanFrame& frame) const {
-  const std::vector<std::uint8_t> bytes = checked_bytes(*crc_, frame);
+  const std::vector<std::uint8_t> bytes = checked_bytes(check_, *crc_, frame);
   std::uint64_t sum = 0;
   switch (check_.crc_kind) {
     case CrcKind::kXor8:
@@ -164,13 +172,23 @@ std::uint64_t MessageChecker::crc_of(const CanFrame& frame) const {
     default:
       break;
   }
-  Crc crc(params_of(check_.crc_kind));
+  Crc crc(params_of(check_));
   const auto id = check_.data_ids.empty() ? std::int64_t{0} : check_.data_ids.front();
   if (check_.crc_kind == CrcKind::kE2eProfile1) {
     const bool low = check_.data_id_mode != DataIdMode::kAlternating || counter_of(frame) % 2 == 0;
     if (low) crc.add(static_cast<std::uint8_t>(id & 0xFF));
     if (!low || check_.data_id_mode == DataIdMode::kBoth) crc.add(static_cast<std::uint8_t>(id >> 8 & 0xFF));
     crc.add(bytes);
+    return crc.value();
+  }
+  if (check_.crc_kind == CrcKind::kPolynomial) {
+    const auto add_id = [&] {
+      if (!check_.data_ids.empty())
+        crc.add(static_cast<std::uint8_t>(check_.data_ids[counter_of(frame) % check_.data_ids.size()]));
+    };
+    if (check_.polynomial.data_id_first) add_id();
+    crc.add(bytes);
+    if (!check_.polynomial.data_id_first) add_id();
     return crc.value();
   }
   crc.add(bytes);

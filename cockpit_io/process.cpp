@@ -248,8 +248,9 @@ void CockpitProcess::evaluate_frame(std::int64_t frame) {
 
 void CockpitProcess::run_lockstep() {
   std::optional<std::int64_t> sent;  // newest frame the controls went out for
+  StaysHeard stays_heard(kPayloadIndex<CockpitState>);
   while (!stop_) {
-    bus_.wait(std::chrono::milliseconds(50));
+    bus_.wait(std::chrono::milliseconds(20));
     bus_.poll();
     stats_once_a_second();
     if (!sent) {
@@ -261,6 +262,7 @@ void CockpitProcess::run_lockstep() {
       if (*sent >= 0) spdlog::info("going on after frame {}", *sent);
     }
     send_again_to_late(bus_, *sent, kPayloadIndex<CockpitState>);
+    stays_heard.step(bus_);
     if (paused_ || !all_channels_at(bus_, *sent)) continue;
     ++*sent;
     evaluate_frame(*sent);

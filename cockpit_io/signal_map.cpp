@@ -1,9 +1,12 @@
 #include "cockpit_io/signal_map.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <limits>
 #include <string>
 
+#include "cockpit_io/text_scanner.h"
 #include "config/toml_table.h"
 
 namespace phare {
@@ -26,6 +29,32 @@ Status look_up(const Dbc& dbc, const DbcSignal& signal, const std::string& place
                             "; write the number that means \"" + value.name + "\""};
   }
   return Error{place, unknown_name_reason("value", value.name, names) + " (of signal " + signal.name + ")"};
+}
+
+/// Where the car has the signal elsewhere than the DBC file says: "16|4@1+".
+Status lay_out(const ControlMapping& mapping, const DbcMessage& message, DbcSignal& signal) {
+  if (mapping.bits.empty()) return Done{};
+  TextScanner scan(mapping.bits);
+  const auto start = scan.number<std::uint32_t>();
+  const auto length = start && scan.take('|') ? scan.number<std::uint32_t>() : std::nullopt;
+  const bool at = length && scan.take('@');
+  const bool motorola = at && scan.take('0');
+  const bool order = motorola || (at && scan.take('1'));
+  const bool is_signed = order && scan.take('-');
+  if (!order || (!is_signed && !scan.take('+')) || !scan.at_end())
+    return Error{mapping.place, "bits \"" + mapping.bits + "\": expected start|length@order and sign, such as \"16|4@1+\""};
+  DbcSignal laid = signal;
+  laid.start_bit = *start;
+  laid.length_bits = *length;
+  laid.motorola = motorola;
+  laid.type = is_signed ? DbcSignal::Type::kSigned : DbcSignal::Type::kUnsigned;
+  const bool fits = *length >= 1 && *length <= 64 && *start < 8 * message.length_bytes &&
+                    bytes_needed(laid) <= message.length_bytes;
+  if (!fits)
+    return Error{mapping.place, "bits \"" + mapping.bits + "\" do not fit message " + message.name + " of " +
+                                    std::to_string(message.length_bytes) + " bytes"};
+  signal = std::move(laid);
+  return Done{};
 }
 
 Status look_up_all(const Dbc& dbc, const DbcSignal& signal, ControlMapping& mapping) {
@@ -58,6 +87,8 @@ Result<SignalMap> SignalMap::bind(const CockpitConfig& config, Dbc dbc, std::int
       if (!found) return found.error();
       others[i] = *found;
     }
+    DbcMessage& laid_out = map.dbc_.messages[*message];
+    if (const Status status = lay_out(mapping, laid_out, laid_out.signals[*signal]); !status) return status.error();
     if (const Status status = look_up_all(map.dbc_, dbc_message.signals[*signal], mapping); !status)
       return status.error();
 
@@ -69,7 +100,7 @@ Result<SignalMap> SignalMap::bind(const CockpitConfig& config, Dbc dbc, std::int
     bound->timeout_ns = std::max(bound->timeout_ns, static_cast<std::int64_t>(mapping.timeout_s * 1e9));
     const double debounce_s = mapping.debounce_s.value_or(config.debounce_s);
     bound->controls.push_back({ControlReader(std::move(mapping), static_cast<std::int64_t>(debounce_s * 1e9)), *signal,
-                               others[0], others[1]});
+                               others[0], others[1], {}});
   }
   for (const MessageCheck& check : config.checks) {
     const auto message = find_message(map.dbc_, check.message, check.message_place);
@@ -103,14 +134,21 @@ SignalMap::Taken SignalMap::take(const CanFrame& frame, std::int64_t at_ns, Driv
     if (verdict == MessageChecker::Verdict::kBadCrc) return Taken::kBadCrc;
     if (verdict == MessageChecker::Verdict::kBadCounter) return Taken::kBadCounter;
   }
-  bool complete = true;
+  bool complete = true, life = true;
   for (BoundControl& control : bound->controls) {
-    complete = read(control, dbc_.messages[bound->message], frame, at_ns, bits_, input) != Read::kUnfit && complete;
+    const Read how = read(control, dbc_.messages[bound->message], frame, at_ns, bits_, input);
+    complete = complete && how != Read::kUnfit && how != Read::kUnknown;
+    // A frame too short to read does not prove that the stalk is there, nor does one whose beam switch says nothing
+    // that means something; that the turn lever stands where nobody knows takes no beam away.
+    life = life && how != Read::kUnfit && !(how == Read::kUnknown && control.decides_beam());
   }
   settle_bits(config_, bits_, input);
-  // A frame too short to read does not prove that the stalk is there.
-  if (complete) bound->last_ns = std::max(bound->last_ns, at_ns);
+  if (life) bound->last_ns = std::max(bound->last_ns, at_ns);
   return complete ? Taken::kDecoded : Taken::kIncomplete;
+}
+
+bool SignalMap::BoundControl::decides_beam() const {
+  return reader.mapping().control == Control::kLightSwitch || reader.mapping().control == Control::kBeamLever;
 }
 
 SignalMap::Read SignalMap::read(BoundControl& control, const DbcMessage& message, const CanFrame& frame,
@@ -131,7 +169,15 @@ SignalMap::Read SignalMap::read(BoundControl& control, const DbcMessage& message
     if (!sign) return Read::kUnfit;
     if (*sign != 0.0) value = -value;
   }
-  return control.reader.take(value, at_ns, bits, input) ? Read::kRead : Read::kUnfit;
+  if (control.reader.take(value, at_ns, bits, input)) return Read::kRead;
+  constexpr std::size_t kMostTold = 16;
+  auto& told = control.unknown;
+  if (told.size() < kMostTold && std::find(told.begin(), told.end(), value) == told.end()) {
+    told.push_back(value);
+    spdlog::warn("{}: {} is {}, which none of its levels in the cockpit file means; the control stays as it was",
+                 message.name, signal.name, value);
+  }
+  return Read::kUnknown;
 }
 
 const SignalMap::BoundMessage* SignalMap::first_silent() const {

@@ -51,6 +51,9 @@ class SignalMap {
     ControlReader reader;
     std::size_t signal = 0;  ///< index in its message
     std::optional<std::size_t> fine_signal, sign_signal;
+    std::vector<double> unknown;  ///< values without a meaning that have been told
+    /// A value without a meaning leaves the beam open: as if it had not come.
+    bool decides_beam() const;
   };
   struct BoundMessage {
     std::size_t message = 0;  ///< index in the DBC
@@ -59,7 +62,7 @@ class SignalMap {
     std::int64_t timeout_ns = 0;
     std::int64_t last_ns = 0;
   };
-  enum class Read { kRead, kAbsent, kUnfit };
+  enum class Read { kRead, kAbsent, kUnknown, kUnfit };
 
   static Read read(BoundControl& control, const DbcMessage& message, const CanFrame& frame, std::int64_t at_ns,
                    BeamBits& bits, DriverInput& input);

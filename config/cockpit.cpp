@@ -31,9 +31,36 @@ std::vector<std::int64_t> data_ids(TomlTable& table, CrcKind kind) {
     }
     return ids;
   }
+  if (kind == CrcKind::kPolynomial && table.has("data_ids")) {
+    std::vector<std::int64_t> ids;
+    for (const auto& value : table.values_or_empty("data_ids")) {
+      const double* id = std::get_if<double>(&value);
+      const bool byte = id != nullptr && *id >= 0.0 && *id <= 255.0;
+      if (!byte) table.fail("data_ids", "expected bytes, one for each value of the counter in turn");
+      ids.push_back(byte ? static_cast<std::int64_t>(*id) : 0);
+    }
+    return ids;
+  }
   if (kind == CrcKind::kE2eProfile1) return {table.integer("data_id", 0, 0xFFFF)};
   if (table.has("data_id")) return {table.integer("data_id", 0, 0xFF)};
   return {};
+}
+
+CrcPolynomial read_polynomial(TomlTable& table) {
+  CrcPolynomial p;
+  p.width = static_cast<int>(table.integer("width", 3, 32));
+  const std::int64_t most = (std::int64_t{1} << p.width) - 1;
+  p.poly = static_cast<std::uint32_t>(table.integer("poly", 1, most));
+  p.init = static_cast<std::uint32_t>(table.integer_or("init", 0, 0, most));
+  p.xor_out = static_cast<std::uint32_t>(table.integer_or("xor_out", 0, 0, most));
+  p.reflect = table.flag_or("reflect", false);
+  constexpr double kAll[]{0.0, 63.0};
+  const auto range = table.numbers_or("bytes", kAll);
+  p.first_byte = static_cast<int>(std::clamp(range[0], 0.0, 63.0));
+  p.last_byte = static_cast<int>(std::clamp(range[1], 0.0, 63.0));
+  if (p.first_byte > p.last_byte) table.fail("bytes", "expected [first, last], counted from 0");
+  p.data_id_first = table.flag_or("data_id_first", false);
+  return p;
 }
 
 MessageCheck read_check(const std::string& message, TomlTable table) {
@@ -52,7 +79,9 @@ MessageCheck read_check(const std::string& message, TomlTable table) {
   if (!check.crc.empty()) {
     check.crc_kind = static_cast<CrcKind>(table.choice("crc_kind", kCrcNames));
     if (check.crc_kind == CrcKind::kNone) table.fail("crc_kind", "a crc needs its kind");
+    if (check.crc_kind == CrcKind::kPolynomial) check.polynomial = read_polynomial(table);
     check.data_ids = data_ids(table, check.crc_kind);
+    if (check.data_ids.size() > 1 && check.counter.empty()) table.fail("data_ids", "several need a counter");
     if (check.crc_kind == CrcKind::kE2eProfile1)
       check.data_id_mode = static_cast<DataIdMode>(table.choice_or("data_id_mode", 0, kDataIdModeNames));
     if (is_e2e(check.crc_kind) && check.counter.empty()) table.fail("crc_kind", "this profile needs a counter");

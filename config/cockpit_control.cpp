@@ -122,6 +122,7 @@ ControlMapping read_control(Control control, TomlTable table, double timeout_s, 
   } else {
     mapping.message = table.text("message");
     mapping.signal = table.text("signal");
+    mapping.bits = table.text_or("bits", "");
     mapping.timeout_s = table.number_or("timeout_s", timeout_s, 0.001, kMostTimeout_s);
   }
   mapping.message_place = table.place("message");

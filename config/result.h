@@ -56,5 +56,6 @@ using Status = Result<Done>;
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitCheckFailed = 1;
 inline constexpr int kExitBadInput = 2;
+inline constexpr int kExitInterrupted = 130;  ///< a drive that was ended by Ctrl-C or SIGTERM: it is cut short
 
 }  // namespace phare

@@ -151,22 +151,6 @@ void check_names_differ(TomlTable& table, std::string_view key, const std::vecto
   }
 }
 
-/// Never tells what stands in the file.
-Result<BusKey> read_key(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string digits, more;
-  if (!(stream >> digits))
-    return Error{file.string(), "no such file, or it is empty; openssl rand -hex 32 makes a key"};
-  BusKey key{};
-  bool good = digits.size() == 2 * key.size() && !(stream >> more);
-  for (std::size_t i = 0; good && i < key.size(); ++i) {
-    const char* byte = digits.data() + 2 * i;
-    good = std::from_chars(byte, byte + 2, key[i], 16).ptr == byte + 2;
-  }
-  if (!good) return Error{file.string() + ":1", "expected " + std::to_string(2 * key.size()) + " hexadecimal digits"};
-  return key;
-}
-
 }  // namespace
 
 std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file) {
@@ -209,10 +193,11 @@ Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
   if (auto bus = root.table_if("bus")) {
     rig.bind_address = bus->text_or("address", rig.bind_address);
     rig.port_base = static_cast<std::uint16_t>(bus->integer_or("port_base", rig.port_base, 1024, 65500));
+    rig.run_key = bus->flag_or("run_key", rig.run_key);
     const std::string key_file = bus->text_or("key_file", "");
     if (!key_file.empty()) {
       rig.key_file = resolve_path(key_file, rig_file);
-      const Result<BusKey> key = read_key(rig.key_file);
+      const Result<BusKey> key = read_bus_key(rig.key_file);
       if (key)
         rig.bus_key = *key;
       else

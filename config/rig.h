@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "config/bus_key.h"
 #include "config/desk.h"
 #include "config/result.h"
 #include "shaders/sizes.h"
@@ -93,9 +94,6 @@ struct ChannelConfig {
   bool operator==(const ChannelConfig&) const = default;
 };
 
-/// Shared by the processes of a bus that is not on loopback.
-using BusKey = std::array<std::uint8_t, 32>;
-
 struct Rig {
   std::filesystem::path file;
   std::string name;
@@ -103,6 +101,7 @@ struct Rig {
   std::uint16_t port_base = 47000;
   std::optional<BusKey> bus_key{};     ///< of [bus] key_file: 64 hexadecimal digits; required off loopback
   std::filesystem::path key_file{};    ///< resolved; empty: none
+  bool run_key = true;                 ///< on loopback, without a key_file: a key of its own for each run (net/run_key.h)
   std::int64_t frame_rate_hz = 60;     ///< of lockstep frames
   bool real_time_priority = true;      ///< in real time, of cockpit and dynamics, where the kernel allows it
   std::filesystem::path scene_file;    ///< glTF; resolved

@@ -76,6 +76,7 @@ class RigText {
     key("address", toml_quoted(rig_.bind_address));
     key("port_base", std::to_string(rig_.port_base), "first UDP port");
     if (!rig_.key_file.empty()) key("key_file", path(rig_.key_file));
+    if (!rig_.run_key) key("run_key", "false", "anyone on this machine may speak on the bus");
     out_ << "\n[clock]\n";
     key("frame_rate_hz", std::to_string(rig_.frame_rate_hz));
     key("real_time_priority", rig_.real_time_priority ? "true" : "false", "of cockpit and dynamics, in real time");

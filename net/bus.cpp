@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ctime>
 #include <random>
+#include <thread>
 #include <utility>
 
 namespace phare {
@@ -88,7 +89,10 @@ Bus::Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel)
       port_base_(rig.port_base),
       start_id_(draw_start_id()),
       next_log_(std::chrono::steady_clock::now()) {
-  if (rig.bus_key) replays_.emplace();
+  if (rig.bus_key) {
+    const bool one_machine = rig.bind_address.starts_with("127.");
+    replays_.emplace(one_machine ? Replays::kOneClock : Replays::kClocksApart);
+  }
   std::get<std::vector<Inbox<CockpitState>>>(inboxes_).resize(1);
   std::get<std::vector<Inbox<VehicleState>>>(inboxes_).resize(1);
   std::get<std::vector<Inbox<FrameReport>>>(inboxes_).resize(channels_);
@@ -105,7 +109,7 @@ void Bus::send(SimTime now, const Payload& payload) {
 
 void Bus::answer(SimTime now, const Payload& payload) {
   if (!encode_next(now, payload)) return;
-  if (!socket_.send_to(socket_.from_port(), bytes_of(last_bytes_[payload.index()]))) ++counters_.send_failures;
+  if (!socket_.send_to(socket_.from().port, bytes_of(last_bytes_[payload.index()]))) ++counters_.send_failures;
 }
 
 /// Numbers, stamps and encodes into last_bytes_; false, counted and logged, when no receiver would take it.
@@ -124,11 +128,17 @@ bool Bus::encode_next(SimTime now, const Payload& payload) {
   ++counters_.sent[index];
   encode_into(datagram, last_bytes_[index]);
   seal_.close(last_bytes_[index]);
+  last_sent_[index] = std::move(datagram);
   return true;
 }
 
 void Bus::send_again(std::size_t payload_index) {
-  if (payload_index < last_bytes_.size() && !last_bytes_[payload_index].empty()) transmit(payload_index);
+  if (payload_index >= last_sent_.size() || !last_sent_[payload_index]) return;
+  Datagram& datagram = *last_sent_[payload_index];
+  datagram.sent = wall_now();
+  encode_into(datagram, last_bytes_[payload_index]);
+  seal_.close(last_bytes_[payload_index]);
+  transmit(payload_index);
 }
 
 void Bus::transmit(std::size_t payload_index) {
@@ -147,6 +157,7 @@ void Bus::transmit(std::size_t payload_index) {
 }
 
 std::size_t Bus::poll() {
+  if (alive_) alive_->beat();
   std::size_t news = 0;
   const std::int64_t give_up_ns = cpu_now_ns() + kMaxPollCpu_ns;
   for (std::size_t count = 1; count <= kMaxDatagramsPerPoll; ++count) {
@@ -184,7 +195,8 @@ bool Bus::accept(std::span<const std::byte> sealed) {
     refuse(Refusal::kNotForUs);
     return false;
   }
-  if (replays_ && replays_->is_replay(incoming_)) {
+  const ArrivalTime arrived = socket_.arrived();
+  if (replays_ && replays_->is_replay(incoming_, arrived.wall)) {
     refuse(Refusal::kReplay);
     return false;
   }
@@ -195,12 +207,18 @@ bool Bus::accept(std::span<const std::byte> sealed) {
         auto& inbox = std::get<std::vector<Inbox<T>>>(inboxes_)[incoming_.sender_channel];
         InboxCounters& sum = counters_.received[index];
         const InboxCounters before = inbox.counters();
-        const Arrival judged = inbox.deliver(incoming_, payload, wall_now(), row.repeat_is_news);
+        const Arrival judged = inbox.deliver(incoming_, payload, arrived, socket_.from(), row.repeat_is_news);
         sum += inbox.counters();
         sum -= before;
         return judged;
       },
       incoming_.payload);
+  if (arrival == Arrival::kSecond) {
+    second_ = {index, socket_.from()};
+    refuse(Refusal::kSecond);
+    return false;
+  }
+  if (replays_) replays_->taken(incoming_);
   if (arrival == Arrival::kNewest) {
     if (on_datagram) on_datagram(incoming_, bytes);
     return true;
@@ -229,6 +247,22 @@ void Bus::log_refusals() {
                counters_.refused - refused_logged_, counters_.refused, counters_.refused_in_kernel,
                main_reason == 0 ? "none" : refusal_text(static_cast<Refusal>(main_reason)));
   refused_logged_ = counters_.refused;
+  const std::uint64_t seconds = counters_.refused_because[static_cast<std::size_t>(Refusal::kSecond)];
+  if (seconds != seconds_logged_)
+    spdlog::warn("a second sender of {} speaks from {}: {} datagrams refused, until the first has been silent for {} ms",
+                 kChannels[second_.payload_index].message, text_of(second_.from), seconds - seconds_logged_,
+                 taken_over_after(kChannels[second_.payload_index]).count() / 1'000'000);
+  seconds_logged_ = seconds;
+}
+
+Status Bus::ready_with_the_others(const std::filesystem::path& alive_file, const std::function<bool()>& stop) {
+  if (alive_file.empty()) return Done{};
+  Result<AliveFile> alive = AliveFile::open(alive_file);
+  if (!alive) return alive.error();
+  alive_.emplace(std::move(*alive));
+  for (alive_->beat(); !alive_->is_let_go() && !stop(); alive_->beat())
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  return Done{};
 }
 
 bool Bus::wait(std::chrono::nanoseconds at_most) {

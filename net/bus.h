@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 
 #include "config/result.h"
 #include "config/rig.h"
+#include "net/alive.h"
 #include "net/channels.h"
 #include "net/inbox.h"
 #include "net/messages.h"
@@ -54,12 +56,17 @@ class Bus {
   /// Sends to the port alone that the datagram in hand came from: within on_datagram.
   void answer(SimTime now, const Payload& payload);
 
-  /// The last datagram of a payload type (kPayloadIndex<T>) again, byte for byte; nothing when there was none.
+  /// The last datagram of a payload type (kPayloadIndex<T>) again, under its number and with the time of now as when
+  /// it was sent; nothing when there was none.
   void send_again(std::size_t payload_index);
 
   /// Drains the socket into the inboxes: at most 4096 datagrams and two milliseconds of processor time per call,
   /// that a flood cannot hold up the caller. Returns how many are new to take().
   std::size_t poll();
+
+  /// From now on every poll() leaves a sign of life in this file (net/alive.h). Returns when it says that all others are
+  /// ready too, or `stop` does. Empty: at once, and none is left.
+  Status ready_with_the_others(const std::filesystem::path& alive_file, const std::function<bool()>& stop);
 
   /// Sleeps until something waits (true), or time is up or a signal came (false).
   bool wait(std::chrono::nanoseconds at_most);
@@ -105,6 +112,7 @@ class Bus {
   void log_refusals();
 
   UdpSocket socket_;
+  std::optional<AliveFile> alive_;
   Seal seal_;
   std::optional<Replays> replays_;  // where there is a key
   Role role_;
@@ -119,10 +127,16 @@ class Bus {
              std::vector<Inbox<ControlReply>>>
       inboxes_;                                           // one per sender channel
   std::array<std::string, kChannels.size()> last_bytes_;  // sealed
+  std::array<std::optional<Datagram>, kChannels.size()> last_sent_;
   BusCounters counters_;
   Datagram incoming_;  // reused
+  struct Second {
+    std::size_t payload_index = 0;
+    Endpoint from;
+  };
+  Second second_;  // who was refused last because another speaks
   std::chrono::steady_clock::time_point next_log_;
-  std::uint64_t refused_logged_ = 0;
+  std::uint64_t refused_logged_ = 0, seconds_logged_ = 0;
 };
 
 }  // namespace phare

@@ -79,7 +79,7 @@ inline constexpr std::array<Channel, 8> kChannels{{
     {"vehicle_state",   Sender::kDynamics, Roles(Role::kCockpit, Role::kVisual, Role::kRecorder),                    false, 250, std::chrono::milliseconds(200), false},
     {"frame_report",    Sender::kVisual,   Roles(Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl),  false, 60,  std::chrono::seconds(1),        true},
     {"rig_control",     Sender::kControl,  Roles(Role::kCockpit, Role::kDynamics, Role::kVisual, Role::kRecorder),   false, 0,   std::chrono::seconds(0),        false, true},
-    {"probe_request",   Sender::kControl,  Roles(Role::kVisual),                                                     true,  0,   std::chrono::seconds(0),        false},
+    {"probe_request",   Sender::kControl,  Roles(Role::kVisual),                                                     true,  0,   std::chrono::seconds(0),        false, true},
     {"probe_reply",     Sender::kVisual,   Roles(Role::kControl, Role::kRecorder),                                   false, 0,   std::chrono::seconds(0),        false},
     {"key_input",       Sender::kVisual,   Roles(Role::kCockpit, Role::kControl),                                    false, 0,   std::chrono::seconds(1),        false},
     {"control_reply",   Sender::kCockpit,  Roles(Role::kControl),                                                    false, 0,   std::chrono::seconds(0),        false, true, true},

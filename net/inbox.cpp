@@ -33,25 +33,46 @@ void SequenceTracker::mark(std::uint64_t sequence, bool seen) {
   seen_[bit / 64] = seen ? seen_[bit / 64] | mask : seen_[bit / 64] & ~mask;
 }
 
-bool SequenceTracker::retired(std::uint64_t start_id) const {
-  return std::find(retired_.begin(), retired_.end(), start_id) != retired_.end();
+bool LiveSender::admits(std::uint64_t start_id, const Endpoint& from, Time heard) {
+  heard = std::max(heard, heard_);
+  if (start_id != start_id_ && start_id_ != 0) {
+    const bool silent = heard - heard_ >= silent_after_;
+    // What the network held back of a start that gave way is no new start.
+    const bool started_again = from == from_ && std::ranges::find(gave_way_, start_id) == gave_way_.end();
+    if (!silent && !started_again) return false;
+    gave_way_[next_gave_way_] = start_id_;
+    next_gave_way_ = (next_gave_way_ + 1) % gave_way_.size();
+  }
+  start_id_ = start_id;
+  from_ = from;
+  heard_ = heard;
+  return true;
 }
 
 Arrival SequenceTracker::arrived(std::uint64_t start_id, std::uint64_t sequence) {
   if (start_id != start_id_) {
-    if (retired(start_id)) {
+    const auto known = std::ranges::find(retired_, start_id, &Retired::start_id);
+    const bool comes_back = known != retired_.end();
+    if (comes_back && sequence <= known->newest) {
       ++counters_.late;
       return Arrival::kLate;
     }
     if (start_id_ == 0) {
       first_ = sequence;
     } else {
-      // We listened when it started, so whatever it numbered before this one is lost.
-      retired_[next_retired_] = start_id_;
-      next_retired_ = (next_retired_ + 1) % retired_.size();
+      // We listened when it started, so whatever it numbered before this one is lost; what it said while another spoke
+      // was refused.
+      const Retired gives_way{start_id_, newest_};
+      if (comes_back) {
+        *known = gives_way;
+        first_ = sequence;
+      } else {
+        retired_[next_retired_] = gives_way;
+        next_retired_ = (next_retired_ + 1) % retired_.size();
+        counters_.lost += sequence - 1;
+        first_ = 1;
+      }
       ++counters_.restarted;
-      counters_.lost += sequence - 1;
-      first_ = 1;
     }
     start_id_ = start_id;
     newest_ = sequence;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -10,6 +11,7 @@
 #include "net/channels.h"
 #include "net/messages.h"
 #include "net/sim_time.h"
+#include "net/udp.h"
 
 namespace phare {
 
@@ -32,9 +34,32 @@ enum class Arrival {
   kLate,         ///< older than the newest
   kDuplicate,    ///< seen before
   kNewestAgain,  ///< the newest once more
+  kSecond,       ///< of another start than the one that speaks here: refused, and not counted by the tracker
 };
 
-/// Judges start ids and sequences.
+/// Who may speak in a stream that has one sender at a time: who was heard first, as long as it is heard. A start from
+/// elsewhere is a second sender until the first has been silent for its time; one from the same address and port is the
+/// first started again, for a port has one holder. Who had to give way may come back the same way: nobody is mute for
+/// good.
+class LiveSender {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  explicit LiveSender(std::chrono::nanoseconds silent_after) : silent_after_(silent_after) {}
+
+  /// Whether this start speaks from now on, `heard` when it arrived. Times that go back count as the newest.
+  bool admits(std::uint64_t start_id, const Endpoint& from, Time heard);
+
+ private:
+  std::chrono::nanoseconds silent_after_;
+  std::uint64_t start_id_ = 0;  // 0: nobody yet
+  Endpoint from_;
+  Time heard_{};
+  std::array<std::uint64_t, 8> gave_way_{};  // start ids before this one, a ring
+  std::size_t next_gave_way_ = 0;
+};
+
+/// Judges sequences, of one start after the other. A start that comes back after another goes on with its own numbers.
 class SequenceTracker {
  public:
   /// How far behind the newest a straggler is still told from a duplicate; further behind all count as late.
@@ -48,14 +73,16 @@ class SequenceTracker {
  private:
   bool seen(std::uint64_t sequence) const;
   void mark(std::uint64_t sequence, bool seen);
-  bool retired(std::uint64_t start_id) const;
 
   InboxCounters counters_;
   std::uint64_t start_id_ = 0;  // 0: nothing has arrived
   std::uint64_t first_ = 0;     // sequences before it were sent before this receiver listened: not lost
   std::uint64_t newest_ = 0;
   std::array<std::uint64_t, kWindow / 64> seen_{};  // bit sequence % kWindow, for the kWindow newest sequences
-  std::array<std::uint64_t, 8> retired_{};          // start ids of earlier starts, a ring
+  struct Retired {
+    std::uint64_t start_id = 0, newest = 0;
+  };
+  std::array<Retired, 8> retired_{};  // earlier starts, a ring
   std::size_t next_retired_ = 0;
 };
 
@@ -84,21 +111,30 @@ struct Newest {
   T value;
   SimTime sim_time;  ///< simulated time the value is valid for
   WallTime sent;
-  WallTime received;
+  WallTime received;                            ///< when it reached this machine
+  std::chrono::steady_clock::time_point heard;  ///< the same, by the clock that nobody sets
   std::uint32_t sender_channel = 0;
 };
+
+/// Silence of a channel's sender after which another may take its place.
+constexpr std::chrono::nanoseconds taken_over_after(const Channel& row) {
+  return row.stale_after.count() > 0 ? row.stale_after : std::chrono::seconds(1);
+}
 
 template <class T>
 class Inbox {
  public:
   /// Keeps the payload when it is the newest. `repeat_is_news`: a repeat of the newest can be taken again.
-  Arrival deliver(const Datagram& datagram, const T& payload, WallTime received, bool repeat_is_news) {
+  Arrival deliver(const Datagram& datagram, const T& payload, const ArrivalTime& arrived, const Endpoint& from,
+                  bool repeat_is_news) {
+    if (!channel_of<T>().many_starts && !live_.admits(datagram.start_id, from, arrived.steady)) return Arrival::kSecond;
     const Arrival arrival = tracker_.arrived(datagram.start_id, datagram.sequence);
     if (arrival == Arrival::kNewest) {
       newest_.value = payload;
       newest_.sim_time = datagram.sim_time;
       newest_.sent = datagram.sent;
-      newest_.received = received;
+      newest_.received = arrived.wall;
+      newest_.heard = arrived.steady;
       newest_.sender_channel = datagram.sender_channel;
       present_ = true;
       untaken_ = true;
@@ -122,6 +158,7 @@ class Inbox {
 
  private:
   std::conditional_t<channel_of<T>().many_starts, ManyStarts, SequenceTracker> tracker_;
+  LiveSender live_{taken_over_after(channel_of<T>())};
   Newest<T> newest_;
   bool present_ = false;
   bool untaken_ = false;

@@ -81,6 +81,10 @@ struct FrameReport {
   std::uint64_t light_changes_drawn = 0;
   VehicleState drawn;
   bool pose_stale = false;
+  LightSwitch light_drawn = LightSwitch::kOff;
+  bool flash_drawn = false;
+  bool fail_safe_drawn = false;
+  std::uint64_t pictures_not_kept = 0;
 
   friend bool operator==(const FrameReport&, const FrameReport&) = default;
 };

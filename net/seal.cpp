@@ -3,6 +3,7 @@
 #include <sodium.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "net/inbox.h"
 
@@ -27,22 +28,25 @@ std::optional<std::span<const std::byte>> Seal::open(std::span<const std::byte> 
   return datagram;
 }
 
-bool Replays::is_replay(const Datagram& datagram) {
+bool Replays::is_replay(const Datagram& datagram, WallTime arrived) {
+  if (std::abs(arrived.ns - datagram.sent.ns) > apart_.count()) return true;
   if (kChannels[datagram.payload.index()].many_starts) return is_replay_of_many(datagram);
+  const Seen& seen = streams_[{datagram.payload.index(), datagram.sender_channel}];
+  return seen.start_id != 0 && seen.start_id != datagram.start_id && datagram.sent <= seen.newest;
+}
+
+void Replays::taken(const Datagram& datagram) {
+  if (kChannels[datagram.payload.index()].many_starts) return;  // is_replay_of_many has noted it
   Seen& seen = streams_[{datagram.payload.index(), datagram.sender_channel}];
-  const bool another_start = seen.start_id != datagram.start_id;
-  if (seen.start_id != 0 && another_start && datagram.sent <= seen.newest) return true;
-  seen.newest = another_start ? datagram.sent : std::max(seen.newest, datagram.sent);
+  seen.newest = seen.start_id == datagram.start_id ? std::max(seen.newest, datagram.sent) : datagram.sent;
   seen.start_id = datagram.start_id;
-  return false;
 }
 
 bool Replays::is_replay_of_many(const Datagram& datagram) {
   Many& many = shared_streams_[{datagram.payload.index(), datagram.sender_channel}];
   const auto known = std::ranges::find(many.starts, datagram.start_id, &Seen::start_id);
   if (known == many.starts.end()) {
-    const bool long_ago = datagram.sent.ns + std::chrono::nanoseconds(kClocksApart).count() < many.newest.ns;
-    if (long_ago || (many.newest_forgotten.ns != 0 && datagram.sent <= many.newest_forgotten)) return true;
+    if (many.newest_forgotten.ns != 0 && datagram.sent <= many.newest_forgotten) return true;
     if (many.starts.size() == ManyStarts::kMost) {
       many.newest_forgotten = std::max(many.newest_forgotten, many.starts.front().newest);
       many.starts.erase(many.starts.begin());
@@ -52,7 +56,6 @@ bool Replays::is_replay_of_many(const Datagram& datagram) {
     known->newest = std::max(known->newest, datagram.sent);
     std::rotate(known, known + 1, many.starts.end());
   }
-  many.newest = std::max(many.newest, datagram.sent);
   return false;
 }
 

@@ -1,8 +1,8 @@
 // The key of a bus that leaves this machine: every datagram carries a tag that only holders of the key can make.
 //
 // The tag is libsodium's crypto_auth (HMAC-SHA-512-256, RFC 4231) over the datagram's bytes, and follows them. It says
-// who may speak, it hides nothing. A datagram sent again falls to the sequence numbers; one of an earlier start of its
-// sender to Replays. Without a key bytes travel as they are, which is allowed on loopback only.
+// who may speak, it hides nothing. A datagram sent again falls to the sequence numbers; one played again later to
+// Replays. Without a key bytes travel as they are, which is allowed on loopback only.
 #pragma once
 
 #include <array>
@@ -37,16 +37,22 @@ class Seal {
   std::optional<BusKey> key_;
 };
 
-/// Tells an old start of a sender, recorded and played again by a stranger, from a new one: a new start has been sent
-/// later than anything of the start before it, by the sender's own clock. A receiver that has just begun knows no
-/// earlier start and takes what it hears first; the true sender then replaces it.
+/// Tells what was recorded and is played again by a stranger from what its sender says now.
+/// What was sent long before it arrived, by the sender's own clock, is old, also to a receiver that has just begun and
+/// knows nobody. A new start has been sent later than anything of the start before it.
 /// Where many starts speak at once (Channel::many_starts), a start that is not known must have been sent after all that
-/// was heard of the forgotten ones, and not more than kClocksApart before the newest of the known.
+/// was heard of the forgotten ones.
 class Replays {
  public:
   static constexpr std::chrono::seconds kClocksApart{10};  ///< of the machines of one rig, chosen by us
+  static constexpr std::chrono::seconds kOneClock{1};      ///< on one machine: a send() that waits for a processor
 
-  bool is_replay(const Datagram& datagram);
+  /// `apart`: most that may lie between sending and arriving, either way.
+  explicit Replays(std::chrono::nanoseconds apart) : apart_(apart) {}
+
+  bool is_replay(const Datagram& datagram, WallTime arrived);
+  /// It was no replay, and is of the sender that speaks.
+  void taken(const Datagram& datagram);
 
  private:
   struct Seen {
@@ -55,10 +61,11 @@ class Replays {
   };
   bool is_replay_of_many(const Datagram& datagram);
 
+  std::chrono::nanoseconds apart_;
   std::map<std::pair<std::size_t, std::uint32_t>, Seen> streams_;  // by payload index and sender channel
   struct Many {
     std::vector<Seen> starts;  // at most ManyStarts::kMost, in the order they were heard
-    WallTime newest{}, newest_forgotten{};
+    WallTime newest_forgotten{};
   };
   std::map<std::pair<std::size_t, std::uint32_t>, Many> shared_streams_;
 };

@@ -56,6 +56,8 @@ const char* refusal_key(Refusal refusal) {
       return "key";
     case Refusal::kReplay:
       return "replay";
+    case Refusal::kSecond:
+      return "second_sender";
   }
   return "none";
 }

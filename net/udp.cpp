@@ -23,6 +23,20 @@ constexpr int kReceiveBufferBytes = 4 << 20;  // some seconds of the whole bus w
 // Offsets in a UDP socket's filter count from the UDP header.
 constexpr std::uint32_t kUdpHeaderBytes = 8;
 
+/// From the kernel's stamp in `message`, read at `read`, of a socket that was empty at `seen_empty`.
+ArrivalTime arrival_of(msghdr& message, const ArrivalTime& read, std::chrono::steady_clock::time_point seen_empty) {
+  for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
+    if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SCM_TIMESTAMPNS) continue;
+    timespec stamp{};
+    std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
+    const std::int64_t waited_ns =
+        std::clamp<std::int64_t>(read.wall.ns - (stamp.tv_sec * kNsPerSecond + stamp.tv_nsec), 0,
+                                 std::chrono::nanoseconds(read.steady - seen_empty).count());
+    return {read.steady - std::chrono::nanoseconds(waited_ns), WallTime{read.wall.ns - waited_ns}};
+  }
+  return read;
+}
+
 }  // namespace
 
 struct UdpSocket::State {
@@ -35,9 +49,15 @@ struct UdpSocket::State {
   std::array<iovec, kBatch> pieces{};
   std::array<mmsghdr, kBatch> messages{};
   std::array<sockaddr_in, kBatch> senders{};
+  struct alignas(cmsghdr) Control {
+    std::array<char, CMSG_SPACE(sizeof(timespec))> bytes;
+  };
+  std::array<Control, kBatch> controls{};
   std::size_t filled = 0;
   std::size_t next = 0;
-  std::uint16_t from_port = 0;
+  Endpoint from;
+  ArrivalTime arrived, read;                                                        // of the one, and of its batch
+  std::chrono::steady_clock::time_point seen_empty = std::chrono::steady_clock::now();  // nothing in it came earlier
 
   State() {
     for (std::size_t i = 0; i < kBatch; ++i) {
@@ -45,6 +65,7 @@ struct UdpSocket::State {
       messages[i].msg_hdr.msg_iov = &pieces[i];
       messages[i].msg_hdr.msg_iovlen = 1;
       messages[i].msg_hdr.msg_name = &senders[i];
+      messages[i].msg_hdr.msg_control = controls[i].bytes.data();
     }
   }
   State(const State&) = delete;
@@ -53,6 +74,13 @@ struct UdpSocket::State {
     if (fd >= 0) close(fd);
   }
 };
+
+std::string text_of(const Endpoint& endpoint) {
+  const in_addr address{htonl(endpoint.address)};
+  char text[INET_ADDRSTRLEN] = "?";
+  inet_ntop(AF_INET, &address, text, sizeof text);
+  return std::string(text) + ":" + std::to_string(endpoint.port);
+}
 
 UdpSocket::UdpSocket(std::unique_ptr<State> state) : state_(std::move(state)) {}
 UdpSocket::UdpSocket(UdpSocket&&) noexcept = default;
@@ -74,6 +102,10 @@ Result<UdpSocket> UdpSocket::open(const std::string& address, std::uint16_t port
   if (setsockopt(state->fd, SOL_SOCKET, SO_RCVBUFFORCE, &kReceiveBufferBytes, sizeof kReceiveBufferBytes) != 0) {
     setsockopt(state->fd, SOL_SOCKET, SO_RCVBUF, &kReceiveBufferBytes, sizeof kReceiveBufferBytes);
   }
+
+  // Where the kernel has no stamps, a datagram counts as arrived when it is read.
+  const int on = 1;
+  setsockopt(state->fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
 
   if (bind(state->fd, reinterpret_cast<const sockaddr*>(&state->address), sizeof state->address) != 0) {
     return Error{place, errno == EADDRINUSE ? std::string("UDP port is taken; is another rig running? (--port-base)")
@@ -98,13 +130,22 @@ std::optional<std::span<const std::byte>> UdpSocket::receive() {
   State& s = *state_;
   if (s.next == s.filled) {
     s.next = s.filled = 0;
-    for (mmsghdr& message : s.messages) message.msg_hdr.msg_namelen = sizeof(sockaddr_in);  // the kernel writes over it
+    for (mmsghdr& message : s.messages) {  // the kernel writes over it
+      message.msg_hdr.msg_namelen = sizeof(sockaddr_in);
+      message.msg_hdr.msg_controllen = sizeof(State::Control);
+    }
+    const auto before = std::chrono::steady_clock::now();
     const int count = recvmmsg(s.fd, s.messages.data(), kBatch, MSG_DONTWAIT, nullptr);
-    if (count <= 0) return std::nullopt;
+    if (count <= 0) {
+      s.seen_empty = before;
+      return std::nullopt;
+    }
     s.filled = static_cast<std::size_t>(count);
+    s.read = {std::chrono::steady_clock::now(), wall_now()};
   }
   const std::size_t i = s.next++;
-  s.from_port = ntohs(s.senders[i].sin_port);
+  s.from = {ntohl(s.senders[i].sin_addr.s_addr), ntohs(s.senders[i].sin_port)};
+  s.arrived = arrival_of(s.messages[i].msg_hdr, s.read, s.seen_empty);
   return std::span<const std::byte>(s.slots.get() + i * kSlotBytes, s.messages[i].msg_len);
 }
 
@@ -145,8 +186,11 @@ std::uint64_t UdpSocket::dropped_in_kernel() const {
   return info[SK_MEMINFO_DROPS];  // 32 bits: Bus adds up the differences
 }
 
-std::uint16_t UdpSocket::from_port() const {
-  return state_->from_port;
+Endpoint UdpSocket::from() const {
+  return state_->from;
+}
+ArrivalTime UdpSocket::arrived() const {
+  return state_->arrived;
 }
 int UdpSocket::fd() const {
   return state_->fd;

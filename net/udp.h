@@ -10,11 +10,28 @@
 #include <string>
 
 #include "config/result.h"
+#include "net/sim_time.h"
 
 namespace phare {
 
 /// Largest payload of a UDP datagram over IPv4, bytes.
 inline constexpr std::size_t kMaxDatagramBytes = 65507;
+
+/// Where a datagram came from: IPv4 address and port, both in the machine's byte order.
+struct Endpoint {
+  std::uint32_t address = 0;
+  std::uint16_t port = 0;
+  friend bool operator==(const Endpoint&, const Endpoint&) = default;
+};
+
+/// "127.0.0.1:47000"
+std::string text_of(const Endpoint& endpoint);
+
+/// When a datagram reached this machine, by the kernel's stamp, however long it waited for this process since.
+struct ArrivalTime {
+  std::chrono::steady_clock::time_point steady;
+  WallTime wall;
+};
 
 class UdpSocket {
  public:
@@ -32,8 +49,11 @@ class UdpSocket {
   /// The next datagram, nullopt when none waits. The view is valid until the next call.
   std::optional<std::span<const std::byte>> receive();
 
-  /// The port that sent the datagram receive() gave last; 0 before the first.
-  std::uint16_t from_port() const;
+  /// Who sent the datagram that receive() gave last; port 0 before the first.
+  Endpoint from() const;
+
+  /// When it arrived. A step of the wall clock moves it by no more than the time since the socket was last found empty.
+  ArrivalTime arrived() const;
 
   /// Sleeps until a datagram waits (true), or time is up or a signal came (false).
   bool wait(std::chrono::nanoseconds at_most);

@@ -134,6 +134,10 @@ void fill(wire::FrameReport& to, const FrameReport& from) {
   to.set_light_changes_drawn(from.light_changes_drawn);
   fill(*to.mutable_drawn(), from.drawn);
   to.set_pose_stale(from.pose_stale);
+  to.set_light_drawn(to_wire_enum<wire::LightSwitch>(static_cast<int>(from.light_drawn)));
+  to.set_flash_drawn(from.flash_drawn);
+  to.set_fail_safe_drawn(from.fail_safe_drawn);
+  to.set_pictures_not_kept(from.pictures_not_kept);
 }
 
 struct CommandFiller {
@@ -284,6 +288,10 @@ void read(FrameReport& to, const wire::FrameReport& from) {
   to.light_changes_drawn = from.light_changes_drawn();
   read(to.drawn, from.drawn());
   to.pose_stale = from.pose_stale();
+  to.light_drawn = static_cast<LightSwitch>(static_cast<int>(from.light_drawn()));
+  to.flash_drawn = from.flash_drawn();
+  to.fail_safe_drawn = from.fail_safe_drawn();
+  to.pictures_not_kept = from.pictures_not_kept();
 }
 
 bool read(RigControl& to, const wire::RigControl& from) {

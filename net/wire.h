@@ -34,9 +34,10 @@ enum class Refusal {
   kArrays,     ///< probe arrays of different or excessive length
   kNotForUs,   ///< valid, but this process is no receiver of it (told by Bus)
   kKey,        ///< not sealed with the key of this bus (told by Bus)
-  kReplay,     ///< of an earlier start of its sender, played again (told by Bus, where there is a key)
+  kReplay,     ///< sent earlier and played again (told by Bus, where there is a key)
+  kSecond,     ///< another sender of this message is heard (told by Bus)
 };
-inline constexpr std::size_t kRefusals = 13;
+inline constexpr std::size_t kRefusals = 14;
 
 /// One short sentence, static.
 const char* refusal_text(Refusal refusal);

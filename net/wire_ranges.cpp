@@ -105,6 +105,7 @@ void check(Checker& c, const FrameReport& r) {
   c.require(r.channels >= 1 && r.channels <= kMaxChannels && r.channel < r.channels);
   c.number(r.frame_ms, 0.0, kMaxFrame_ms);
   c.number(r.gpu_ms, 0.0, kMaxFrame_ms);
+  c.require(enum_within(r.light_drawn, LightSwitch::kHigh));
   check(c, r.drawn);
 }
 
@@ -214,7 +215,9 @@ const char* refusal_text(Refusal refusal) {
     case Refusal::kKey:
       return "not sealed with the key of this bus";
     case Refusal::kReplay:
-      return "of an earlier start of its sender";
+      return "sent earlier and played again, or the clocks of two machines are far apart";
+    case Refusal::kSecond:
+      return "another sender of this message is heard";
   }
   return "unknown";
 }

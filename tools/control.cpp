@@ -14,6 +14,7 @@
 
 #include "config/desk.h"
 #include "config/toml_table.h"
+#include "net/run_key.h"
 #include "tools/commands.h"
 #include "tools/control_client.h"
 
@@ -23,6 +24,7 @@ namespace {
 struct ControlOptions {
   std::string rig_file = config_path("rigs/country_road.toml");
   std::uint16_t port_base = 0;
+  bool open_bus = false;
   double wait_s = 3.0;
   std::vector<std::string> words;
 };
@@ -253,6 +255,8 @@ int control(const ControlOptions& options) {
   const bool stream = options.words == std::vector<std::string>{"-"};
   const auto command = stream ? Result<RigControl>(RigControl{}) : parse(options.words);
   if (!command) return bad_input(command.error());
+  if (options.open_bus) rig->run_key = false;
+  if (const Status key = take_run_key(*rig); !key) return bad_input(key.error());
   auto bus = Bus::open_to_send(*rig, Role::kControl);
   if (!bus) return bad_input(bus.error());
   ControlClient client(std::move(*bus), *rig,
@@ -278,6 +282,7 @@ void add_control(CLI::App& app, Command& chosen) {
   command->add_option("--rig", options->rig_file, "Rig file: address, ports, channels and key")->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
+  command->add_flag("--open-bus", options->open_bus, "Of a rig that runs with --open-bus: no key");
   command->add_option("--wait", options->wait_s, "Seconds to wait for an answer")
       ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str();

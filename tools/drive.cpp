@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -16,9 +17,11 @@
 #include "config/log_levels.h"
 #include "config/picture_options.h"
 #include "config/vehicle.h"
+#include "config/whole_file.h"
 #include "net/bus.h"
 #include "net/clock.h"
 #include "net/drive_file.h"
+#include "net/run_key.h"
 #include "net/stats.h"
 #include "tools/commands.h"
 #include "tools/derived_rig.h"
@@ -27,6 +30,7 @@
 #include "tools/lamp_design.h"
 #include "tools/recorder.h"
 #include "tools/report.h"
+#include "tools/run_files.h"
 #include "tools/supervisor.h"
 #include "tools/wish.h"
 
@@ -39,10 +43,14 @@ using Clock = std::chrono::steady_clock;
 // In real time the drive begins when every picture is ready; a busy machine without a GPU took a minute.
 constexpr const char* kPictureWithin_s = "180";
 
+// A visual process writes its pictures when it is told to end; give it the time, unless somebody is in a hurry.
+constexpr std::chrono::seconds kEndGrace{10};
+
 struct DriveOptions {
   std::string rig_file = config_path("rigs/country_road.toml");
   std::string drive, script, log, dbc, cockpit, out, record, log_level = "info";
   bool headless = false, lockstep = false, closed_loop = false, json = false;
+  bool overwrite = false, open_bus = false;
   bool explain = false;       ///< which effects a moment calls for, instead of a drive
   std::string explain_light;  ///< that moment is not of a drive: the light switch, and
   bool explain_fog = false;   ///< the front fog lamps
@@ -75,6 +83,18 @@ Status aim_lamps(Rig& rig, DriveOptions& options) {
 void tell_of_lamps(const LampDesignNotes& notes) {
   for (const std::string& line : notes.lines) spdlog::info("{}", line);
   for (const std::string& line : notes.warnings) spdlog::warn("{}", line);
+}
+
+/// A folder that holds a drive of another command line stays as it is: this one goes beside it.
+void settle_out(DriveOptions& options) {
+  if (options.out.empty() || options.overwrite || options.explain) return;
+  const std::string there = another_drive_in(options.out, options.command);
+  if (there.empty()) return;
+  const std::string first = options.out;
+  for (int number = 2; !another_drive_in(options.out, options.command).empty(); ++number)
+    options.out = numbered(first, number);
+  spdlog::warn("{} holds {} and stays: this one goes to {}; --overwrite puts it in its place", first, there,
+               options.out);
 }
 
 /// Everything that can be wrong before a process is started: files, ports, flags.
@@ -111,6 +131,8 @@ Result<Rig> prepare(DriveOptions& options) {
   }
   if (options.headless && options.out.empty()) options.out = "out";
   if (!options.out.empty()) options.out = fs::absolute(options.out).lexically_normal().string();
+  settle_out(options);
+  if (options.open_bus) rig->run_key = false;
   for (const char* name : {"phare-cockpit", "phare-dynamics", "phare-visual"}) {
     if (access(program_beside_us(name).c_str(), X_OK) != 0)
       return Error{program_beside_us(name).string(), "is not there; build everything"};
@@ -143,10 +165,11 @@ void add_person(const Rig& rig, const DriveOptions& options, std::vector<Process
   }
 }
 
-std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& options) {
+std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& options, const RunFiles& files) {
   const auto common = [&](const std::string& name) {
     std::vector<std::string> arguments{"--rig",       rig.file.string(), "--port-base", std::to_string(rig.port_base),
-                                       "--log-level", options.log_level};
+                                       "--log-level", options.log_level, "--alive",     files.alive(name).string()};
+    if (options.open_bus) arguments.push_back("--open-bus");
     if (options.lockstep) arguments.push_back("--lockstep");
     if (!options.drive.empty()) arguments.insert(arguments.end(), {"--drive", options.drive});
     if (!options.out.empty())
@@ -160,6 +183,7 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
   if (!options.dbc.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--dbc", options.dbc});
 
   ProcessSpec dynamics{"dynamics", program_beside_us("phare-dynamics"), common("dynamics")};
+  dynamics.arguments.insert(dynamics.arguments.end(), {"--state", files.state("dynamics").string()});
   // Open loop shows the recorded poses; closed loop lets the car answer the recorded controls.
   if (!options.drive.empty() && !options.closed_loop)
     dynamics.arguments.insert(dynamics.arguments.end(), {"--level", "pose"});
@@ -178,8 +202,14 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
       arguments.insert(arguments.end(), {"--out", out.string()});
       visual.restart_arguments = {"--go-on"};
     }
+    // A picture may take long, and a covered window is shown none.
+    visual.hung_after = {.idle = std::chrono::seconds(10),
+                         .beginning = std::chrono::seconds(60),
+                         .busy = std::chrono::minutes(10),
+                         .may_be_covered = !options.headless};
     specs.push_back(std::move(visual));
   }
+  for (ProcessSpec& spec : specs) spec.alive_file = files.alive(spec.name);
   add_person(rig, options, specs);
   return specs;
 }
@@ -188,6 +218,29 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
 std::int64_t frames_expected(const DriveOptions& options, const Rig& rig, SimTime duration) {
   if (options.picture.frames > 0) return options.picture.frames;
   return static_cast<std::int64_t>(duration.seconds() * static_cast<double>(rig.frame_rate_hz));
+}
+
+/// What the channels say of pictures that their disk did not take; of one that was started again, all of them.
+struct PicturesNotKept {
+  std::map<std::pair<std::uint32_t, std::uint64_t>, std::uint64_t> by_start;  // channel, start id
+
+  void take(const Datagram& datagram) {
+    if (const auto* report = std::get_if<FrameReport>(&datagram.payload))
+      by_start[{datagram.sender_channel, datagram.start_id}] = report->pictures_not_kept;
+  }
+  std::uint64_t count() const {
+    std::uint64_t all = 0;
+    for (const auto& [start, count] : by_start) all += count;
+    return all;
+  }
+};
+
+/// Empty when everything that was asked for is kept.
+std::string what_is_missing(const PicturesNotKept& pictures, const Status& recorded) {
+  std::string missing;
+  if (pictures.count() > 0) missing = std::to_string(pictures.count()) + " pictures could not be kept";
+  if (!recorded) missing += (missing.empty() ? "" : "; ") + ("the record ends early: " + recorded.error().text());
+  return missing;
 }
 
 void print_summary(const nlohmann::json& report, const std::string& out) {
@@ -264,31 +317,54 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
     if (read->cut) spdlog::warn("{}: cut off, driving up to its last whole record", options.drive);
     duration = read->duration;
   }
-  std::optional<DerivedRig> derived;
-  if (options.lamps.any()) {
-    auto made_of_it = DerivedRig::for_drive(options.out);
-    if (!made_of_it) return bad_input(made_of_it.error());
-    derived.emplace(std::move(*made_of_it));
-  }
+  // A rig of lamps of one's own: what the processes read, and what stays in the folder.
+  std::optional<DerivedRig> derived, kept_rig;
   const fs::path given_rig = rig->file;
-  if (derived) rig->file = derived->file();
-  const std::vector<ProcessSpec> specs = processes_of(*rig, options);
+  if (options.lamps.any()) {
+    for (auto* each : {&derived, &kept_rig}) {
+      if (each == &kept_rig && options.out.empty()) continue;
+      auto made_of_it = DerivedRig::for_drive(each == &derived ? "" : options.out);
+      if (!made_of_it) return bad_input(made_of_it.error());
+      each->emplace(std::move(*made_of_it));
+    }
+    if (const Status status = derived->write(*rig, options.lamp_notes); !status) return bad_input(status.error());
+    rig->file = derived->file();
+  }
+  const StopFlag stop = install_stop_signals();
+  if (const Status key = take_run_key(*rig, RunKey::kMake); !key) return bad_input(key.error());
+  const auto files = RunFiles::make(*rig);
+  if (!files) return bad_input(files.error());
+  const std::vector<ProcessSpec> specs = processes_of(*rig, options, *files);
   DriveFacts facts;
   for (const ProcessSpec& spec : specs) facts.process_names.push_back(spec.name);
-
-  const StopFlag stop = install_stop_signals();
   auto bus = Bus::open(*rig, Role::kControl);
   if (!bus) return bad_input(bus.error());
   // The recorder listens before anyone speaks, so that the first message is in the file.
   std::unique_ptr<Recorder> recorder;
   if (!options.record.empty()) {
-    auto opened = Recorder::open(*rig, options.record);
+    auto opened = Recorder::open(*rig);
     if (!opened) return bad_input(opened.error());
     recorder = std::move(*opened);
   }
+  Supervisor supervisor(specs);
+  if (const Status status = supervisor.start(); !status) return bad_input(status.error());
+  bool goes_on = true;
+  while (goes_on && !stop && !supervisor.all_ready()) {
+    goes_on = supervisor.step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  if (!goes_on || stop) {
+    supervisor.end_all(kEndGrace, [&] { return stop.requested(); });
+    if (stop) return kExitInterrupted;
+    if (supervisor.exit_code() != kExitBadInput) std::fprintf(stderr, "phare: %s\n", supervisor.why().c_str());
+    return supervisor.exit_code();
+  }
+  // All that was named has been read, and nobody has written anything: an earlier drive lies as it lay.
   tell_of_lamps(options.lamp_told);
   fs::path made;
-  // The folder is touched last: whatever was wrong up to here leaves an earlier drive as it lay.
+  if (recorder) {
+    if (const Status created = recorder->create(options.record); !created) return bad_input(created.error());
+  }
   if (!options.out.empty()) {
     std::error_code failed;
     made = first_missing(options.out);
@@ -297,18 +373,23 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
     remove_earlier_output(options.out, facts.process_names);
     remove_earlier_rig(options.out, given_rig);
   }
-  if (derived) {
-    if (const Status status = derived->write(*rig, options.lamp_notes); !status) return bad_input(status.error());
+  if (kept_rig) {
+    if (const Status status = kept_rig->write(*rig, options.lamp_notes); !status) return bad_input(status.error());
+    rig->file = kept_rig->file();
   }
 
   bool told = options.guide != "live";  // how to drive, when there is a picture to drive in
   WishReader wishes(*bus, options.guide == "replay");
   std::optional<Clock::time_point> over_at;
   bool after = false;  // a window that stays open after the end of a drive is not part of it
-  Supervisor supervisor(specs);
   const auto begin = Clock::now();
-  if (const Status status = supervisor.start(); !status) return bad_input(status.error());
+  supervisor.let_go();
   Status recorded = Done{};
+  PicturesNotKept not_kept;
+  bus->on_datagram = [&not_kept, wishes_too = bus->on_datagram](const Datagram& datagram, std::span<const std::byte> b) {
+    if (wishes_too) wishes_too(datagram, b);
+    not_kept.take(datagram);
+  };
   std::size_t restarts_seen = 0;
   {
     DriveProgress progress(frames_expected(options, *rig, duration));
@@ -337,15 +418,24 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
       }
     }
   }
-  // A visual process writes its pictures when it is told to end; give it the time.
-  supervisor.end_all(std::chrono::seconds(stop ? 30 : 10));
+  facts.interrupted = stop.requested();
+  supervisor.end_all(kEndGrace, [&] { return stop.requested(); });
+  facts.interrupted |= stop.requested();
   if (recorder && recorded.ok() && !after) recorded = recorder->poll();
   facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   facts.exit_code = supervisor.exit_code();
   facts.why = supervisor.why();
-  if (!recorded) return bad_input(recorded.error());
+  if (facts.interrupted && facts.exit_code == kExitDone) {
+    facts.exit_code = kExitInterrupted;
+    facts.why = "cut short: interrupted after " + std::to_string(static_cast<int>(facts.wall_s + 0.5)) + " s";
+  }
+  bus->poll();
+  if (facts.exit_code == kExitDone) {
+    facts.why = what_is_missing(not_kept, recorded);
+    if (!facts.why.empty()) facts.exit_code = kExitCheckFailed;
+  }
   if (recorder) spdlog::info("{} datagrams recorded in {}", recorder->written(), options.record);
-  if (facts.exit_code == kExitBadInput && derived && derived->file() != given_rig) derived->remove();
+  if (facts.exit_code == kExitBadInput && kept_rig && kept_rig->file() != given_rig) kept_rig->remove();
   if (facts.exit_code == kExitBadInput && !options.out.empty()) remove_traces(options.out, made, facts.process_names);
   // What was wrong with its input the process has said itself.
   if (facts.exit_code != kExitDone && facts.exit_code != kExitBadInput)
@@ -363,11 +453,15 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
     for (const std::string* file : {&options.drive, &options.script, &options.log}) {
       if (!file->empty()) facts.source_file = *file;
     }
-    make_video(options.out, rig->frame_rate_hz);
+    make_video(options.out, rig->frame_rate_hz, [&] { return stop.requested(); });
     const nlohmann::json report = make_report(*rig, facts, options.out);
-    if (!write_json(fs::path(options.out) / "report.json", report))
-      return bad_input({options.out, "report.json cannot be written"});
-    std::ofstream(fs::path(options.out) / "index.html") << report_page(report, options.out);
+    const bool told_in_json = write_json(fs::path(options.out) / "report.json", report);
+    const Status page = write_whole_file(fs::path(options.out) / "index.html", report_page(report, options.out));
+    if (!told_in_json || !page) {
+      std::fprintf(stderr, "phare: %s: the report cannot be written%s\n", options.out.c_str(),
+                   page ? "" : (", " + page.error().reason).c_str());
+      if (facts.exit_code == kExitDone) facts.exit_code = kExitCheckFailed;
+    }
     if (options.json) {
       std::printf("%s\n", report.dump(2).c_str());
     } else {
@@ -375,14 +469,6 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
     }
   }
   return facts.exit_code;
-}
-
-/// "out" and "evening.pcap" of the second drive in one window are "out-2" and "evening-2.pcap".
-std::string numbered(const std::string& path, int number) {
-  if (path.empty() || number == 1) return path;
-  const fs::path first(path);
-  return (first.parent_path() / (first.stem().string() + "-" + std::to_string(number) + first.extension().string()))
-      .string();
 }
 
 /// One drive, and those that the person at the window wants after it.
@@ -436,6 +522,9 @@ void add_drive(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
+  command->add_flag("--overwrite", options->overwrite, "Put this drive in the place of another one in --out");
+  command->add_flag("--open-bus", options->open_bus,
+                    "No key of the run: anyone on this machine may speak on the bus (docs/send.md)");
   command->add_flag("--json", options->json, "Print the report as JSON");
   auto* explain = command->add_flag("--explain", options->explain,
                                     "No drive: print each effect with its level and the reason, for the moment "

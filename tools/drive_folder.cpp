@@ -6,6 +6,8 @@
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <thread>
 
@@ -43,6 +45,37 @@ void remove_earlier_output(const fs::path& out, const std::vector<std::string>& 
   }
 }
 
+namespace {
+/// Without the one that says nothing of what was driven.
+nlohmann::json words_of(nlohmann::json command) {
+  std::erase(command.get_ref<nlohmann::json::array_t&>(), "--overwrite");
+  return command;
+}
+}  // namespace
+
+std::string another_drive_in(const fs::path& out, const std::vector<std::string>& command) {
+  std::error_code ignored;
+  if (std::ifstream stream(out / "report.json"); stream) {
+    const nlohmann::json report = nlohmann::json::parse(stream, nullptr, false);
+    const nlohmann::json there = report.is_object() ? report.value("command", nlohmann::json()) : nlohmann::json();
+    if (there.is_array() && words_of(there) == words_of(command)) return {};
+    const std::string made_at = report.is_object() ? report.value("made_at", std::string()) : std::string();
+    return made_at.empty() ? "the report of another drive" : "the drive of " + made_at;
+  }
+  const fs::directory_iterator frames(out / "frames", ignored);
+  const bool any = std::any_of(begin(frames), end(frames), [](const fs::directory_entry& entry) {
+    return entry.path().extension() == ".png";
+  });
+  return any ? "the pictures of another drive" : "";
+}
+
+std::string numbered(const std::string& path, int number) {
+  if (path.empty() || number == 1) return path;
+  const fs::path first(path);
+  return (first.parent_path() / (first.stem().string() + "-" + std::to_string(number) + first.extension().string()))
+      .string();
+}
+
 fs::path first_missing(fs::path out) {
   fs::path missing;
   for (; !out.empty() && !fs::exists(out); out = out.parent_path()) missing = out;
@@ -59,7 +92,8 @@ void remove_traces(const fs::path& out, const fs::path& made, const std::vector<
   }
 }
 
-void make_video(const fs::path& out, std::int64_t frame_rate_hz) {
+void make_video(const fs::path& out, std::int64_t frame_rate_hz, const std::function<bool()>& stop) {
+  if (stop()) return;
   std::error_code ignored;
   std::int64_t count = 0, last = -1;
   for (const auto& entry : fs::directory_iterator(out / "frames", ignored)) {
@@ -82,10 +116,10 @@ void make_video(const fs::path& out, std::int64_t frame_rate_hz) {
   if (!child) return;
   const auto deadline = Clock::now() + std::chrono::minutes(5);
   std::optional<ProcessEnd> end;
-  while (!(end = child->ended()) && Clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  while (!(end = child->ended()) && Clock::now() < deadline && !stop()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   if (!end) child->send_signal(9);
   if (!end || end->exit_code != 0 || end->signal != 0) {
-    spdlog::warn("ffmpeg made no video ({})", end ? end->text() : "took more than 5 minutes");
+    spdlog::warn("ffmpeg made no video ({})", end ? end->text() : stop() ? "interrupted" : "took more than 5 minutes");
     fs::remove(out / "drive.mp4", ignored);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,12 @@ void remove_half_written(const std::filesystem::path& out, const std::vector<std
 /// What an earlier drive left in the folder; nothing else in it is touched.
 void remove_earlier_output(const std::filesystem::path& out, const std::vector<std::string>& process_names);
 
+/// What an earlier drive of another command line has left in the folder, in words; empty: nothing.
+std::string another_drive_in(const std::filesystem::path& out, const std::vector<std::string>& command);
+
+/// "out" and "evening.pcap" of the second drive are "out-2" and "evening-2.pcap".
+std::string numbered(const std::string& path, int number);
+
 /// The topmost folder that has to be made for `out`; empty when it is there.
 std::filesystem::path first_missing(std::filesystem::path out);
 
@@ -21,7 +28,7 @@ std::filesystem::path first_missing(std::filesystem::path out);
 void remove_traces(const std::filesystem::path& out, const std::filesystem::path& made,
                    const std::vector<std::string>& process_names);
 
-/// frames/*.png to drive.mp4; says so when there is no ffmpeg.
-void make_video(const std::filesystem::path& out, std::int64_t frame_rate_hz);
+/// frames/*.png to drive.mp4; says so when there is no ffmpeg. `stop`: asked often; none is made then.
+void make_video(const std::filesystem::path& out, std::int64_t frame_rate_hz, const std::function<bool()>& stop);
 
 }  // namespace phare

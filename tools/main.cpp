@@ -70,6 +70,7 @@ int run(int argc, char** argv) {
   add_control(app, chosen);
   add_replay(app, chosen);
   add_import(app, chosen);
+  add_can(app, chosen);
   add_lamp(app, chosen);
   add_measure(app, chosen);
   add_rig(app, chosen);

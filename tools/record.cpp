@@ -6,6 +6,7 @@
 
 #include "config/input_files.h"
 #include "net/clock.h"
+#include "net/run_key.h"
 #include "net/stats.h"
 #include "tools/commands.h"
 #include "tools/recorder.h"
@@ -16,6 +17,7 @@ namespace {
 struct RecordOptions {
   std::string rig_file = config_path("rigs/country_road.toml"), out;
   std::uint16_t port_base = 0;
+  bool open_bus = false;
   bool json = false;
 };
 
@@ -24,9 +26,12 @@ int record(const RecordOptions& options) {
   auto rig = read_rig(options.rig_file);
   if (!rig) return bad_input(rig.error());
   if (options.port_base != 0) rig->port_base = options.port_base;
+  if (options.open_bus) rig->run_key = false;
+  if (const Status key = take_run_key(*rig); !key) return bad_input(key.error());
   const StopFlag stop = install_stop_signals();
-  auto recorder = Recorder::open(*rig, options.out);
+  auto recorder = Recorder::open(*rig);
   if (!recorder) return bad_input(recorder.error());
+  if (const Status created = (*recorder)->create(options.out); !created) return bad_input(created.error());
   spdlog::info("recording port {} into {} until Ctrl-C or the end of the drive", rig->port_base + 2, options.out);
 
   // After the last pose the frame that shows it is still being reported: stay until it is quiet.
@@ -56,6 +61,7 @@ void add_record(CLI::App& app, Command& chosen) {
   command->add_option("--out", options->out, "Drive file to write")->required();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
+  command->add_flag("--open-bus", options->open_bus, "Of a rig that runs with --open-bus: no key");
   command->add_flag("--json", options->json, "Print the counts as JSON");
   command->callback([options, &chosen] { chosen = [options] { return record(*options); }; });
 }

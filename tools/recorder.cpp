@@ -2,18 +2,23 @@
 
 namespace phare {
 
-Result<std::unique_ptr<Recorder>> Recorder::open(const Rig& rig, const std::filesystem::path& out) {
+Result<std::unique_ptr<Recorder>> Recorder::open(const Rig& rig) {
   auto bus = Bus::open(rig, Role::kRecorder);
   if (!bus) return bus.error();
-  auto writer = DriveWriter::create(out, rig.port_base);
-  if (!writer) return writer.error();
-  return std::unique_ptr<Recorder>(new Recorder(std::move(*bus), std::move(*writer)));
+  return std::unique_ptr<Recorder>(new Recorder(std::move(*bus), rig.port_base));
 }
 
-Recorder::Recorder(Bus bus, DriveWriter writer) : bus_(std::move(bus)), writer_(std::move(writer)) {
+Status Recorder::create(const std::filesystem::path& out) {
+  auto writer = DriveWriter::create(out, port_base_);
+  if (!writer) return writer.error();
+  writer_.emplace(std::move(*writer));
+  return Done{};
+}
+
+Recorder::Recorder(Bus bus, std::uint16_t port_base) : bus_(std::move(bus)), port_base_(port_base) {
   bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte> bytes) {
-    if (failed_) return;
-    if (const Status status = writer_.write(datagram, bytes); !status) {
+    if (failed_ || !writer_) return;
+    if (const Status status = writer_->write(datagram, bytes); !status) {
       failed_ = status.error();
       return;
     }
@@ -23,6 +28,7 @@ Recorder::Recorder(Bus bus, DriveWriter writer) : bus_(std::move(bus)), writer_(
 }
 
 Status Recorder::poll() {
+  if (!writer_) return Done{};
   bus_.poll();
   if (failed_) return *failed_;
   return Done{};

@@ -15,8 +15,10 @@ namespace phare {
 
 class Recorder {
  public:
-  /// Binds the recorder's port and creates the file.
-  static Result<std::unique_ptr<Recorder>> open(const Rig& rig, const std::filesystem::path& out);
+  /// Binds the recorder's port: what comes from now on waits there.
+  static Result<std::unique_ptr<Recorder>> open(const Rig& rig);
+  /// Creates the file, over one that is there.
+  Status create(const std::filesystem::path& out);
 
   /// Takes what has come. Error once the disk does not take it.
   Status poll();
@@ -27,10 +29,11 @@ class Recorder {
   const Bus& bus() const { return bus_; }
 
  private:
-  Recorder(Bus bus, DriveWriter writer);
+  Recorder(Bus bus, std::uint16_t port_base);
 
   Bus bus_;
-  DriveWriter writer_;
+  std::uint16_t port_base_;
+  std::optional<DriveWriter> writer_;
   std::uint64_t written_ = 0;
   bool drive_ended_ = false;
   std::optional<Error> failed_;

@@ -6,12 +6,14 @@
 #include <memory>
 #include <span>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "config/rig.h"
 #include "net/channels.h"
 #include "net/clock.h"
 #include "net/drive_file.h"
+#include "net/run_key.h"
 #include "net/seal.h"
 #include "net/udp.h"
 #include "net/wire.h"
@@ -24,6 +26,7 @@ struct ReplayOptions {
   std::string file, rig_file = config_path("rigs/country_road.toml");
   double speed = 1.0;
   std::uint16_t port_base = 0;
+  bool open_bus = false;
 };
 
 /// Ports that take this datagram.
@@ -44,16 +47,41 @@ std::vector<std::uint16_t> receiver_ports(const Datagram& datagram, const Rig& r
   return ports;
 }
 
+/// Whoever takes the place of the cockpit and the car speaks from their ports: beside those of a rig that runs it is
+/// told so at once, where receivers would only refuse it as a second sender.
+struct ReplayPorts {
+  UdpSocket cockpit, dynamics, others;
+
+  UdpSocket& of(Sender sender) {
+    return sender == Sender::kCockpit ? cockpit : sender == Sender::kDynamics ? dynamics : others;
+  }
+
+  static Result<ReplayPorts> open(const Rig& rig) {
+    const auto held = [&](Role role) {
+      return UdpSocket::open(rig.bind_address, static_cast<std::uint16_t>(rig.port_base + port_offset(role)));
+    };
+    auto cockpit = held(Role::kCockpit), dynamics = held(Role::kDynamics);
+    for (const auto* taken : {&cockpit, &dynamics})
+      if (!*taken)
+        return Error{taken->error().place, taken->error().reason + "; a replay takes the place of cockpit and car"};
+    auto others = UdpSocket::open(rig.bind_address, 0);
+    if (!others) return others.error();
+    return ReplayPorts{std::move(*cockpit), std::move(*dynamics), std::move(*others)};
+  }
+};
+
 int replay(const ReplayOptions& options) {
   auto rig = read_rig(options.rig_file);
   if (!rig) return bad_input(rig.error());
   if (options.port_base != 0) rig->port_base = options.port_base;
+  if (options.open_bus) rig->run_key = false;
+  if (const Status key = take_run_key(*rig); !key) return bad_input(key.error());
   auto drive = read_drive(options.file);
   if (!drive) return bad_input(drive.error());
   if (drive->datagrams.empty()) return bad_input({options.file, "holds no valid datagram"});
   if (drive->cut) spdlog::warn("{}: cut off, read up to its last whole record", options.file);
-  auto socket = UdpSocket::open(rig->bind_address, 0);
-  if (!socket) return bad_input(socket.error());
+  auto ports = ReplayPorts::open(*rig);
+  if (!ports) return bad_input(ports.error());
   const StopFlag stop = install_stop_signals();
   const Seal seal(rig->bus_key);
 
@@ -79,7 +107,7 @@ int replay(const ReplayOptions& options) {
     seal.close(bytes);
     for (const std::uint16_t port : receiver_ports(datagram, *rig)) {
       // A port nobody listens on is no failure of the replay.
-      ++(socket->send_to(port, std::as_bytes(std::span(bytes))) ? sent : refused);
+      ++(ports->of(datagram.sender).send_to(port, std::as_bytes(std::span(bytes))) ? sent : refused);
     }
   }
   std::printf("%llu datagrams sent, %llu not taken, %.3f s of drive\n", static_cast<unsigned long long>(sent),
@@ -102,6 +130,7 @@ void add_replay(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
+  command->add_flag("--open-bus", options->open_bus, "Of a rig that runs with --open-bus: no key");
   command->callback([options, &chosen] { chosen = [options] { return replay(*options); }; });
 }
 

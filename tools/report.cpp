@@ -85,6 +85,7 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
   json report{{"version", PHARE_VERSION},    {"commit", build_commit()},   {"made_at", utc_now()},
               {"command", facts.command},    {"lockstep", facts.lockstep}, {"wall_s", facts.wall_s},
               {"exit_code", facts.exit_code}};
+  report["cut_short"] = facts.interrupted;
   if (!facts.why.empty()) report["why"] = facts.why;
   report["rig"] = named_by_content(rig.file);
   report["rig"]["name"] = rig.name;
@@ -126,7 +127,8 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
     const json& visual = report["processes"]["visual-0"];
     for (const char* key : {"frames", "frames_per_s", "drawn_s", "frame_ms", "frame_ms_without_capture", "gpu_ms",
                             "pass_ms", "draws", "passes", "triangles", "self_audit", "switch_to_photon", "device",
-                            "device_memory_bytes", "size_px", "sim_time_s", "validation", "validation_messages"}) {
+                            "device_memory_bytes", "size_px", "sim_time_s", "validation", "validation_messages", "fail_safe",
+                            "frames_stale_pose"}) {
       if (visual.contains(key)) summary[key] = visual[key];
     }
     if (summary.value("frames_per_s", 0.0) <= 0.0) summary.erase("frames_per_s");  // one frame has no rate

@@ -89,6 +89,7 @@ class Page {
     timings();
     effects();
     light_switch();
+    fail_safe();
     messages();
     lamps();
     inputs();
@@ -228,6 +229,22 @@ class Page {
           << " ms at most";
     if (report_.value("lockstep", false)) page_ << " of wall time; frames are counted in simulated time";
     page_ << ".</p>";
+  }
+
+  /// Pictures that did not show what the stalk asked for, and why.
+  void fail_safe() {
+    const json fail_safe = summary_.value("fail_safe", json::object());
+    const auto held = summary_.value("frames_stale_pose", std::uint64_t{0});
+    const auto frames = fail_safe.value("frames", std::uint64_t{0});
+    if (frames == 0 && held == 0) return;
+    page_ << "<h2>What was missing</h2>";
+    if (frames > 0)
+      page_ << "<p class=\"bad\">" << frames << " pictures with the low beam of the fail-safe, "
+            << value_text(fail_safe, "count") << " times:</p>";
+    for (const json& once : fail_safe.value("times", json::array()))
+      page_ << "<p>" << value_text(once, "from_s", "%.3f") << " to " << value_text(once, "to_s", "%.3f") << " s: "
+            << value_text(once, "because") << "</p>";
+    if (held > 0) page_ << "<p class=\"bad\">" << held << " pictures with a pose that was held: no VehicleState.</p>";
   }
 
   void messages() {

@@ -10,7 +10,13 @@ namespace phare {
 
 Supervisor::Supervisor(std::vector<ProcessSpec> specs) {
   for (ProcessSpec& spec : specs)
-    processes_.push_back(Watched{.spec = std::move(spec), .child = {}, .due = {}, .restarted = {}});
+    processes_.push_back(Watched{.spec = std::move(spec),
+                                 .child = {},
+                                 .due = {},
+                                 .restarted = {},
+                                 .alive = {},
+                                 .watchdog = {},
+                                 .ended_because = {}});
 }
 
 Supervisor::~Supervisor() {
@@ -20,16 +26,48 @@ Supervisor::~Supervisor() {
 Status Supervisor::start() {
   started_ = Clock::now();
   for (Watched& process : processes_) {
-    auto child = ChildProcess::start(process.spec.program, process.spec.arguments);
-    if (!child) {
+    if (const Status begun = begin(process, process.spec.arguments); !begun) {
       end_all(std::chrono::seconds(2));
-      return child.error();
+      return begun.error();
     }
-    process.child = *child;
-    process.last_end = "running";
-    spdlog::debug("started {} (pid {})", process.spec.name, child->pid());
   }
   return Done{};
+}
+
+Status Supervisor::begin(Watched& process, const std::vector<std::string>& arguments) {
+  if (!process.spec.alive_file.empty()) {
+    auto alive = AliveFile::open(process.spec.alive_file);
+    if (!alive) return alive.error();
+    process.alive.emplace(std::move(*alive));
+    process.watchdog.emplace(process.spec.hung_after);
+  }
+  auto child = ChildProcess::start(process.spec.program, arguments);
+  if (!child) return child.error();
+  process.child = *child;
+  process.last_end = "running";
+  process.ended_because.clear();
+  spdlog::debug("started {} (pid {})", process.spec.name, child->pid());
+  return Done{};
+}
+
+bool Supervisor::all_ready() const {
+  return std::all_of(processes_.begin(), processes_.end(),
+                     [](const Watched& process) { return !process.alive || process.alive->newest(); });
+}
+
+void Supervisor::let_go() {
+  for (Watched& process : processes_)
+    if (process.alive) process.alive->let_go();
+}
+
+/// One that hangs cannot be asked to end.
+void Supervisor::end_if_hung(Watched& process) {
+  if (!process.watchdog || !process.ended_because.empty()) return;
+  const auto why = process.watchdog->hung(Clock::now(), process.alive->newest(), use_of(process.child->pid()));
+  if (!why) return;
+  process.ended_because = *why;
+  spdlog::error("{} is {}; ending it", process.spec.name, *why);
+  process.child->send_signal(SIGKILL);
 }
 
 bool Supervisor::step() {
@@ -47,17 +85,19 @@ bool Supervisor::look_after(Watched& process) {
     process.due.reset();
     std::vector<std::string> arguments = process.spec.arguments;
     arguments.insert(arguments.end(), process.spec.restart_arguments.begin(), process.spec.restart_arguments.end());
-    auto child = ChildProcess::start(process.spec.program, arguments);
-    if (!child) return give_up(kExitCheckFailed, child.error().text());
-    process.child = *child;
-    process.last_end = "running";
+    if (const Status begun = begin(process, arguments); !begun)
+      return give_up(kExitCheckFailed, begun.error().text());
     return true;
   }
   if (!process.child) return true;
   const auto end = process.child->ended();
-  if (!end) return true;
+  if (!end) {
+    end_if_hung(process);
+    return true;
+  }
   process.child.reset();
   process.last_end = end->text();
+  const std::string because = process.ended_because.empty() ? end->text() : process.ended_because;
   if (end->signal == 0 && end->exit_code == kExitDone) {
     process.done = true;
     return true;
@@ -68,7 +108,7 @@ bool Supervisor::look_after(Watched& process) {
   }
   while (!process.restarted.empty() && now - process.restarted.front() > kRestartWindow) process.restarted.pop_front();
   if (process.restarted.size() >= kMaxRestarts) {
-    return give_up(kExitCheckFailed, process.spec.name + " ended with " + end->text() + " after " +
+    return give_up(kExitCheckFailed, process.spec.name + " ended with " + because + " after " +
                                          std::to_string(kMaxRestarts) + " restarts within " +
                                          std::to_string(kRestartWindow.count()) + " s");
   }
@@ -76,8 +116,8 @@ bool Supervisor::look_after(Watched& process) {
   process.restarted.push_back(now);
   process.due = now + backoff;
   const double at_s = std::chrono::duration<double>(now - started_).count();
-  restarts_.push_back({process.spec.name, at_s, end->text()});
-  spdlog::warn("{} ended with {}; restarting it", process.spec.name, end->text());
+  restarts_.push_back({process.spec.name, at_s, because});
+  spdlog::warn("{} ended with {}; restarting it", process.spec.name, because);
   return true;
 }
 
@@ -87,14 +127,18 @@ bool Supervisor::give_up(int exit_code, std::string why) {
   return false;
 }
 
-void Supervisor::end_all(std::chrono::milliseconds grace) {
-  const auto deadline = Clock::now() + grace;
+void Supervisor::end_all(std::chrono::milliseconds grace, const std::function<bool()>& hurry) {
+  constexpr std::chrono::milliseconds kReaped(500);
+  auto deadline = Clock::now() + grace;
   for (Watched& process : processes_) {
     process.due.reset();
-    if (process.child) process.child->send_signal(SIGTERM);
+    if (!process.child) continue;
+    process.child->send_signal(SIGTERM);
+    process.child->send_signal(SIGCONT);  // a stopped one would keep the signal for later
   }
   bool killed = false;
   for (;;) {
+    if (hurry && hurry()) deadline = std::min(deadline, Clock::now() + kHurried);
     bool any = false;
     for (Watched& process : processes_) {
       if (!process.child) continue;
@@ -106,14 +150,19 @@ void Supervisor::end_all(std::chrono::milliseconds grace) {
       }
     }
     if (!any) return;
-    if (!killed && Clock::now() >= deadline) {
-      killed = true;
-      for (Watched& process : processes_) {
-        if (!process.child) continue;
+    for (Watched& process : processes_) {
+      if (Clock::now() < deadline || !process.child) continue;
+      if (!killed) {
         spdlog::warn("{} does not end; killing it", process.spec.name);
         process.child->send_signal(SIGKILL);
+      } else if (Clock::now() >= deadline + kReaped) {
+        spdlog::error("{} (pid {}) does not go though it was killed; it is left behind", process.spec.name,
+                      process.child->pid());
+        process.last_end = "left behind";
+        process.child.reset();
       }
     }
+    killed = Clock::now() >= deadline;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }

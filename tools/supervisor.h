@@ -1,15 +1,18 @@
-// Keeps the processes of a rig running: starts them, restarts one that dies, ends them all in order.
+// Keeps the processes of a rig running: starts them, restarts one that dies or hangs, ends them all in order.
 #pragma once
 
 #include <chrono>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "config/result.h"
+#include "net/alive.h"
 #include "tools/child_process.h"
+#include "tools/watchdog.h"
 
 namespace phare {
 
@@ -19,12 +22,14 @@ struct ProcessSpec {
   std::vector<std::string> arguments;
   bool ends_the_drive = false;                   ///< the drive is over when every such process has ended with exit 0
   std::vector<std::string> restart_arguments{};  ///< given as well when it is started again
+  std::filesystem::path alive_file{};            ///< where it leaves its signs of life; empty: it is not watched
+  HungAfter hung_after{};
 };
 
 struct Restart {
   std::string process;
   double at_s = 0.0;    ///< wall time since the start, of its end
-  std::string because;  ///< how it ended: "SIGKILL", "exit 1"
+  std::string because;  ///< how it ended: "SIGKILL", "exit 1"; why we ended it: "stopped: no sign of life for 3.0 s"
 };
 
 /// Not thread safe: one loop calls step().
@@ -44,11 +49,18 @@ class Supervisor {
   /// Starts every process; on an error those already started are ended.
   Status start();
 
+  /// Every process that is watched has read what it needs, and waits to be let go.
+  bool all_ready() const;
+  void let_go();
+
   /// Looks after the processes once. False when the drive is over: outcome() is then set and end_all() is due.
   bool step();
 
-  /// SIGTERM to all, SIGKILL to those still there after `grace`; returns when none runs.
-  void end_all(std::chrono::milliseconds grace);
+  /// SIGTERM to all, who are also set going again should they be stopped, SIGKILL to those still there after `grace`.
+  /// Returns when none runs, or half a second after that at the latest: what the kernel itself does not let go of is
+  /// left behind, and told. `hurry`: asked often; from then on `grace` is kHurried.
+  void end_all(std::chrono::milliseconds grace, const std::function<bool()>& hurry = {});
+  static constexpr std::chrono::milliseconds kHurried{1200};  ///< of the two seconds that Ctrl-C may take
 
   /// Exit code for the launcher, and why when it is not 0.
   int exit_code() const { return exit_code_; }
@@ -69,7 +81,12 @@ class Supervisor {
     bool done = false;                        ///< ended with exit 0, stays ended
     std::optional<Clock::time_point> due;     ///< next start
     std::deque<Clock::time_point> restarted;  ///< within the window
+    std::optional<AliveFile> alive;
+    std::optional<Watchdog> watchdog;  ///< of the child that runs
+    std::string ended_because;         ///< we have ended it: why
   };
+  Status begin(Watched& process, const std::vector<std::string>& arguments);
+  void end_if_hung(Watched& process);
   bool look_after(Watched& process);
   bool give_up(int exit_code, std::string why);
 

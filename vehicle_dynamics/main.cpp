@@ -20,7 +20,10 @@
 #include "net/control_desk.h"
 #include "net/drive_file.h"
 #include "net/lockstep.h"
+#include "net/run_key.h"
 #include "net/scheduling.h"
+#include "net/silence.h"
+#include "net/state_file.h"
 #include "net/stats.h"
 #include "vehicle_dynamics/batch_command.h"
 #include "vehicle_dynamics/start_pose.h"
@@ -32,9 +35,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-  std::string rig_file, drive_file, stats_file, level, log_level = "info";
+  std::string rig_file, drive_file, stats_file, state_file, alive_file, level, log_level = "info";
   std::optional<std::uint16_t> port_base;
-  bool lockstep = false;
+  bool lockstep = false, open_bus = false;
   double picture_within_s = 0.0;  // real time: begin when every picture is ready, after so long at the latest
 };
 
@@ -42,6 +45,12 @@ struct Options {
 struct Begin {
   RunSetup setup;
   CarState state;
+};
+
+// What a process leaves behind for the one that takes its place.
+struct Left {
+  StepLoop::Memory car;
+  std::uint64_t sent_step = 0;  // the newest whose hash had been sent before this state was
 };
 
 // What a rig control asked for since the last look.
@@ -118,8 +127,8 @@ Result<Begin> prepare(const Rig& rig, const Options& options, std::optional<leve
 
 class Process {
  public:
-  Process(Bus bus, const Rig& rig, const Options& options, StopFlag stop)
-      : bus_(std::move(bus)), rig_(rig), options_(options), stop_(stop) {
+  Process(Bus bus, const Rig& rig, const Options& options, std::optional<StateFile> kept, StopFlag stop)
+      : bus_(std::move(bus)), rig_(rig), options_(options), kept_(std::move(kept)), stop_(stop) {
     bus_.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) {
       desk_.serve(bus_, datagram, std::cref(verbs_));
     };
@@ -140,8 +149,9 @@ class Process {
   // Frame by frame, as fast as the slowest process: the run is the same however long a frame takes.
   void run_lockstep(Begin begin) {
     std::int64_t sent = -1;  // newest frame answered
+    StaysHeard stays_heard(kPayloadIndex<VehicleState>);
     while (!stop_) {
-      bus_.wait(std::chrono::milliseconds(50));
+      bus_.wait(std::chrono::milliseconds(20));
       bus_.poll();
       stats_once_a_second();
       if (!loop_) {
@@ -151,12 +161,14 @@ class Process {
       }
 
       send_again_to_late(bus_, sent, kPayloadIndex<VehicleState>);
+      stays_heard.step(bus_);
       const auto* cockpit = bus_.newest<CockpitState>();
       if (!cockpit || cockpit->value.frame_index != sent + 1 || !all_channels_at(bus_, sent)) continue;
       const SimTime time = frame_time(sent + 1, rig_.frame_rate_hz);
       loop_->set_controls(controls_of(cockpit->value));
       loop_->run_to(time);
-      send_state(time, ++sent, &cockpit->value);
+      keep_state(++sent);
+      send_state(time, sent, &cockpit->value);
     }
   }
 
@@ -185,6 +197,7 @@ class Process {
       report_lag();
       if (now + step / 2 < next_send) continue;  // half a step early is this wake-up, not the next
       next_send = std::max(next_send + kSendEvery, now);
+      keep_state(kept_next_++);
       send_state(loop_->time(), -1, cockpit ? &cockpit->value : nullptr);
     }
   }
@@ -194,7 +207,7 @@ class Process {
     state.frame_index = frame;
     state.step_hash = loop_->hashes_after(sent_step_);
     sent_step_ = state.step;
-    state.high_beam_telltale = cockpit && high_beam_on(*cockpit);
+    state.high_beam_telltale = cockpit && !silent_ && high_beam_on(*cockpit);
     if (cockpit && cockpit->drive_ended) state.drive_ended = true;
     bus_.send(time, state);
     if (loop_->out_of_play() && !lost_logged_) {
@@ -241,6 +254,21 @@ class Process {
     began_s_ = time.seconds();
   }
 
+  // Before it is sent: whoever takes our place is never behind what others have seen.
+  void keep_state(std::int64_t key) {
+    if (kept_) kept_->save(key, Left{loop_->memory(), sent_step_});
+  }
+
+  // Whole: every state of the models, bit for bit.
+  void recall(Begin begin, const StateFile::Saved& saved) {
+    const Left left = state_of<Left>(saved);
+    loop_.emplace(std::move(begin.setup), begin.state);
+    loop_->recall(left.car);
+    sent_step_ = left.sent_step;
+    spdlog::info("going on at {:.3f} s, step {}, with the state that was left", loop_->time().seconds(),
+                 loop_->steps());
+  }
+
   // Returns the frame that counts as answered.
   std::int64_t begin_at_frame(Begin begin, std::int64_t frame) {
     if (frame < 0) {
@@ -248,21 +276,62 @@ class Process {
       return -1;
     }
     const SimTime time = frame_time(frame, rig_.frame_rate_hz);
-    begin_at(std::move(begin), time, report_of_frame(bus_, frame)->value.drawn);
+    if (const auto saved = kept_ ? kept_->at(frame) : std::nullopt) {
+      recall(std::move(begin), *saved);
+    } else {
+      begin_at(std::move(begin), time, report_of_frame(bus_, frame)->value.drawn);
+    }
     // Channels that have not drawn this frame yet still need it; our predecessor may have been killed before it sent
     // it.
     const auto* cockpit = bus_.newest<CockpitState>();
     if (!all_channels_at(bus_, frame)) send_state(time, frame, cockpit ? &cockpit->value : nullptr);
+    sent_step_ = loop_->steps();
     return frame;
   }
 
-  // A visual that has drawn the car before us shows where to go on; without one it starts anew, once every visual has
-  // said that its picture is ready. One that never does so does not hold the drive up for ever.
+  // The newest simulated time that anyone speaks of: a drive is under way. The picture and the cockpit carry time on
+  // by themselves for a while, and it does not go back.
+  std::optional<SimTime> time_of_others() const {
+    std::optional<SimTime> newest;
+    const auto take = [&](SimTime time) {
+      if (time.ns > 0) newest = std::max(newest.value_or(time), time);
+    };
+    if (const auto* cockpit = bus_.newest<CockpitState>()) take(cockpit->sim_time);
+    for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
+      const auto* report = bus_.newest<FrameReport>(channel);
+      if (report && !report->value.drawn.level.empty()) take(report->sim_time);
+    }
+    return newest;
+  }
+
+  // With the state that was left, and then as far as others have carried time on meanwhile.
+  void go_on_in_real_time(Begin begin, const StateFile::Saved& saved) {
+    constexpr std::int64_t kMostCarriedOn_ns = 300'000'000;  // 200 ms of coasting, and a frame
+    kept_next_ = saved.key + 1;
+    recall(std::move(begin), saved);
+    for (const auto until = Clock::now() + std::chrono::milliseconds(30); Clock::now() < until;) {
+      bus_.wait(std::chrono::milliseconds(5));
+      bus_.poll();
+    }
+    if (const auto others = time_of_others())
+      loop_->run_to(std::min(*others, SimTime{loop_->time().ns + kMostCarriedOn_ns}));
+    loop_->begin_clock();
+  }
+
+  // Goes on for a predecessor: with the state it left, else from the picture that shows its car, however long that one
+  // takes. Where there was none it starts anew, once every visual has said that its picture is ready; one that never
+  // does so does not hold the drive up for ever.
   void begin_in_real_time(Begin begin) {
+    if (const auto saved = kept_ ? kept_->newest() : std::nullopt)
+      return go_on_in_real_time(std::move(begin), *saved);
     const auto look_for = std::chrono::milliseconds(200);
+    const auto slow_picture = std::chrono::seconds(20);
+    const bool first = kept_.has_value();  // an empty file of this run: nobody was here before
     const auto picture_within = std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(std::max(options_.picture_within_s, 0.0)));
-    const auto start = Clock::now(), until = start + std::max<Clock::duration>(look_for, picture_within);
+    const auto start = Clock::now();
+    auto until = start + std::max<Clock::duration>(look_for, picture_within);
+    bool told = false;
     while (!stop_ && Clock::now() < until) {
       bus_.wait(std::chrono::milliseconds(10));
       bus_.poll();
@@ -270,13 +339,21 @@ class Process {
       for (std::uint32_t channel = 0; channel < bus_.channels(); ++channel) {
         const auto* report = bus_.newest<FrameReport>(channel);
         if (report && !report->value.drawn.level.empty())
-          return begin_at(std::move(begin), report->sim_time, report->value.drawn);
+          return begin_at(std::move(begin), std::max(report->sim_time, time_of_others().value_or(report->sim_time)),
+                          report->value.drawn);
       }
-      if (picture_within.count() > 0 && newest_frame_of_all(bus_)) break;
+      const bool all_up = newest_frame_of_all(bus_).has_value();  // and none has drawn a car
+      if (all_up && (picture_within.count() > 0 || time_of_others())) break;
+      if (!first && time_of_others()) {  // a cockpit speaks of a drive: its picture may take long, and shows the car then
+        until = std::max(until, start + slow_picture);
+        if (!std::exchange(told, true)) spdlog::info("a drive is under way: waiting for the picture that shows its car");
+      }
     }
     if (picture_within.count() > 0 && !stop_ && !newest_frame_of_all(bus_))
       spdlog::warn("no picture within {:.0f} s: the drive begins without it", options_.picture_within_s);
-    loop_.emplace(std::move(begin.setup), begin.state);
+    const SimTime time = first ? SimTime{} : time_of_others().value_or(SimTime{});
+    if (time.ns > 0) spdlog::error("no picture tells where the car was: it begins anew, at {:.3f} s", time.seconds());
+    loop_.emplace(std::move(begin.setup), begin.state, time);
   }
 
   // A request that verbs() has let through.
@@ -341,9 +418,9 @@ class Process {
   // ---- controls, reports
 
   Controls controls_now(const Bus::Newest<CockpitState>& cockpit) {
-    const std::chrono::nanoseconds silence(wall_now().ns - cockpit.received.ns);
-    const bool silent = silence > kSilentAfter;
-    if (silent && !silent_) spdlog::warn("no cockpit for {} ms: pedals fade", kSilentAfter.count() / 1'000'000);
+    const std::chrono::nanoseconds silence = Clock::now() - cockpit.heard;
+    const bool silent = is_silent(silence);
+    if (silent && !silent_) spdlog::warn("the cockpit is silent: low beam, and from 500 ms on the pedals fade");
     if (!silent && silent_) spdlog::info("the cockpit is back");
     silent_ = silent;
     return faded(controls_of(cockpit.value), silence);
@@ -406,6 +483,8 @@ class Process {
   Bus bus_;
   const Rig& rig_;
   const Options& options_;
+  std::optional<StateFile> kept_;
+  std::int64_t kept_next_ = 0;
   StopFlag stop_;
   Requests requests_;
   const Verbs verbs_ = verbs();
@@ -438,8 +517,12 @@ int run(int argc, char** argv) {
                  "In real time: begin when every picture is ready, after so many seconds at the latest")
       ->check(CLI::Range(0.0, 3600.0));
   app.add_option("--stats", options.stats_file, "Write counters and times to this JSON file every second");
+  app.add_option("--state", options.state_file,
+                 "File of this run in which the car's state is kept, for a process that takes this one's place");
   app.add_option("--log-level", options.log_level, "How much to tell")->check(CLI::IsMember(kLogLevelNames));
   app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
+  app.add_flag("--open-bus", options.open_bus, "No key of the run: anyone on this machine may speak on the bus");
+  app.add_option("--alive", options.alive_file, "File that says, ten times a second and more, that this process is not hung");
   BatchCommand batch;
   batch.add_to(app);
   try {
@@ -458,12 +541,23 @@ int run(int argc, char** argv) {
   Result<Rig> rig = read_rig(options.rig_file);
   if (!rig) return fail("phare-dynamics", rig.error());
   if (options.port_base) rig->port_base = *options.port_base;
+  if (options.open_bus) rig->run_key = false;
   StopFlag stop = install_stop_signals();
   Result<Begin> begin = prepare(*rig, options, batch.levelling());
   if (!begin) return fail("phare-dynamics", begin.error());
+  if (const Status key = take_run_key(*rig); !key) return fail("phare-dynamics", key.error());
   Result<Bus> bus = Bus::open(*rig, Role::kDynamics);
   if (!bus) return fail("phare-dynamics", bus.error());
-  Process(std::move(*bus), *rig, options, stop).run(std::move(*begin));
+  std::optional<StateFile> kept;
+  if (!options.state_file.empty()) {
+    Result<StateFile> opened = StateFile::open(options.state_file, sizeof(Left));
+    if (!opened) return fail("phare-dynamics", opened.error());
+    kept.emplace(std::move(*opened));
+  }
+  const Status ready = bus->ready_with_the_others(options.alive_file, [&] { return stop.requested(); });
+  if (!ready) return fail("phare-dynamics", ready.error());
+  if (stop) return kExitDone;  // before the drive has begun: nothing is written
+  Process(std::move(*bus), *rig, options, std::move(kept), stop).run(std::move(*begin));
   return kExitDone;
 }
 

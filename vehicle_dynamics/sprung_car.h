@@ -37,6 +37,20 @@ class SprungCar {
   bool off_road() const { return off_road_; }
   double least_load_share() const { return least_load_share_; }  ///< lowest tyre load over its load at rest
   std::uint64_t hash() const;
+
+  /// All that a step changes, in plain numbers: what a process that takes this one's place goes on from.
+  struct Memory {
+    Model model = Model::kFull;
+    full::State full;
+    single_track::State single;
+    powertrain::State power;
+    full::Input input;  ///< without the road
+    CarState shown;
+    double side_mps = 0.0, least_load_share = 1.0;
+    bool off_road = false;
+  };
+  Memory memory() const;
+  void recall(const Memory& memory);
   void set_integrator(Integrator integrator);
 
  private:

@@ -10,6 +10,10 @@
 #include "vehicle_dynamics/models/kinematic.h"
 
 namespace phare {
+namespace {
+constexpr std::array<const char*, 3> kOutOfPlay{nullptr, "the motion has no numbers any more", "the car has rolled over"};
+}  // namespace
+
 // The car, one step further. Who decides what is due, and what the outside sees of it, follows below.
 void StepLoop::step_once() {
   const auto begin = std::chrono::steady_clock::now();
@@ -60,9 +64,9 @@ void StepLoop::move(double dt) {
 void StepLoop::stay_if_lost() {
   const auto fields = fields_of(now_);
   if (!std::all_of(fields.begin(), fields.end(), [](double value) { return std::isfinite(value); }))
-    out_of_play_ = "the motion has no numbers any more";
+    out_of_play_ = kOutOfPlay[1];
   else if (std::max(std::abs(now_.roll_rad), std::abs(now_.pitch_rad)) > kRolledOver_rad)
-    out_of_play_ = "the car has rolled over";
+    out_of_play_ = kOutOfPlay[2];
   if (!out_of_play_) return;
   now_ = before_;
   now_.speed_mps = now_.ax_mps2 = now_.ay_mps2 = now_.heave_rate_mps = 0.0;
@@ -88,7 +92,7 @@ void StepLoop::run_to(SimTime time) {
 }
 
 int StepLoop::catch_up(SimTime elapsed) {
-  const std::int64_t due_until = start_.ns + elapsed.ns - dropped_.ns - paused_.ns;
+  const std::int64_t due_until = clock_from_.ns + elapsed.ns - dropped_.ns - paused_.ns;
   std::int64_t due = std::max<std::int64_t>(0, (due_until - time().ns) / setup_.step.ns);
   if (due > max_catch_up()) {
     dropped_.ns += (due - max_catch_up()) * setup_.step.ns;
@@ -169,7 +173,7 @@ const Road& StepLoop::road() {
 }
 
 StepLoop::StepLoop(RunSetup setup, const CarState& state, SimTime start, std::uint64_t steps_before)
-    : setup_(std::move(setup)), before_(state), now_(state), start_(start), steps_before_(steps_before) {
+    : setup_(std::move(setup)), before_(state), now_(state), start_(start), clock_from_(start), steps_before_(steps_before) {
   assert(setup_.step.ns > 0);
   road_ = setup_.on_top;
   running_ = setup_.level == Level::kAuto ? Level::kKinematic : setup_.level;
@@ -212,6 +216,44 @@ void StepLoop::set_controls(const Controls& controls) {
 
 void StepLoop::skip(SimTime paused) {
   paused_.ns += paused.ns;
+}
+
+StepLoop::Memory StepLoop::memory() const {
+  Memory m;
+  m.before = before_, m.now = now_;
+  m.running = running_;
+  m.choice = auto_;
+  m.plane_z_m = road_.z_m, m.path_m = path_m_;
+  m.lamps = lamps_;
+  m.hashes = hashes_;
+  m.controls = controls_;
+  m.start = start_, m.dropped = dropped_, m.paused = paused_;
+  m.steps_before = steps_before_, m.steps = steps_, m.drops = drops_, m.controls_refused = controls_refused_;
+  m.off_road = off_road_;
+  m.out_of_play = static_cast<int>(std::find(kOutOfPlay.begin(), kOutOfPlay.end(), out_of_play_) - kOutOfPlay.begin());
+  m.still_s = still_s_, m.slept_s = slept_s_;
+  if (setup_.sprung) m.sprung = setup_.sprung->memory();
+  return m;
+}
+
+void StepLoop::recall(const Memory& m) {
+  before_ = m.before, now_ = m.now;
+  running_ = m.running;
+  auto_ = m.choice;
+  road_.z_m = m.plane_z_m, path_m_ = m.path_m;
+  lamps_ = m.lamps;
+  hashes_ = m.hashes;
+  controls_ = m.controls;
+  start_ = m.start, dropped_ = m.dropped, paused_ = m.paused;
+  steps_before_ = m.steps_before, steps_ = m.steps, drops_ = m.drops, controls_refused_ = m.controls_refused;
+  off_road_ = m.off_road;
+  out_of_play_ = kOutOfPlay[static_cast<std::size_t>(m.out_of_play) % kOutOfPlay.size()];
+  still_s_ = m.still_s, slept_s_ = m.slept_s;
+  if (setup_.sprung) setup_.sprung->recall(m.sprung);
+}
+
+void StepLoop::begin_clock() {
+  clock_from_.ns = time().ns + dropped_.ns + paused_.ns;
 }
 
 int StepLoop::max_catch_up() const {

@@ -47,6 +47,29 @@ class StepLoop {
   /// From `state` at `start` on. `steps_before`: steps a predecessor had done, when this one goes on for it.
   StepLoop(RunSetup setup, const CarState& state, SimTime start = {}, std::uint64_t steps_before = 0);
 
+  /// All that a step changes, whole: a loop of the same setup that recalls it goes on bit for bit as this one would.
+  /// Counts of times and of steps that cost nothing are not in it: they are of the process.
+  struct Memory {
+    CarState before, now;
+    Level running = Level::kKinematic;
+    AutoLevel choice;
+    double plane_z_m = 0.0, path_m = 0.0;
+    levelling::State lamps;
+    std::array<std::uint64_t, kMaxStepHashes> hashes{};
+    Controls controls;
+    SimTime start, dropped, paused;
+    std::uint64_t steps_before = 0, steps = 0, drops = 0, controls_refused = 0;
+    bool off_road = false;
+    int out_of_play = 0;  ///< 0: it drives; else the number of the reason
+    double still_s = 0.0, slept_s = 0.0;
+    SprungCar::Memory sprung;
+  };
+  Memory memory() const;
+  void recall(const Memory& memory);
+
+  /// Real time: the wall clock counts from now on, and not from the start (after recall()).
+  void begin_clock();
+
   /// Controls for the coming steps, held until the next call. Not finite: refused and counted, the last ones stay.
   void set_controls(const Controls& controls);
 
@@ -114,6 +137,7 @@ class StepLoop {
   std::array<std::uint64_t, kMaxStepHashes> hashes_{};  ///< of the newest steps, step n at n modulo size
   Controls controls_;
   SimTime start_;
+  SimTime clock_from_;  // when the wall clock of catch_up() began to count, had nothing been dropped
   std::uint64_t steps_before_ = 0;
   std::uint64_t steps_ = 0;
   SimTime dropped_;

@@ -128,5 +128,80 @@ TEST(SignalMap, ReadsOurOwnStalk) {
   EXPECT_EQ(map.take(frame, 40, input), SignalMap::Taken::kNotMapped);
 }
 
+// Half detents too, and what the DBC file has no bit for; a turn lever that says something new takes no beam away.
+TEST(SignalMap, ReadsTheLeverOfATeslaInAllItsPositions) {
+  const auto file = std::filesystem::path(shared_data_dir()) / "dbc/opendbc/tesla_model3_vehicle.dbc";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  const auto config = read_cockpit(kCockpits / "tesla_model3.toml");
+  ASSERT_TRUE(config) << config.error().text();
+  SignalMap map = *SignalMap::bind(*config, *read_dbc(file), 0);
+  DriverInput input;
+  std::int64_t at_ns = 1'000'000;
+  int counter = 0;
+  const auto stalk = [&](int beam, int turn) {
+    CanFrame frame;
+    frame.id = 585;
+    frame.length = 3;
+    frame.data[1] = static_cast<std::uint8_t>((counter++ & 15) | beam << 4);
+    frame.data[2] = static_cast<std::uint8_t>(turn);
+    at_ns += 10'000'000;
+    return map.take(frame, at_ns, input);
+  };
+  constexpr int kPush = 2;
+  for (int turn = 0; turn <= 8; ++turn) {
+    EXPECT_EQ(stalk(kPush, turn), SignalMap::Taken::kDecoded) << turn;
+    const TurnSignal meant = turn == 0 ? TurnSignal::kNone : turn <= 4 ? TurnSignal::kRight : TurnSignal::kLeft;
+    EXPECT_EQ(input.switches.turn, meant) << turn;
+    EXPECT_EQ(input.switches.lever, Lever::kPush) << turn;
+  }
+  EXPECT_EQ(stalk(0, 13), SignalMap::Taken::kIncomplete) << "told, and";
+  EXPECT_EQ(input.switches.turn, TurnSignal::kLeft) << "it stays";
+  EXPECT_EQ(input.switches.lever, Lever::kNeutral) << "the beam lever is read all the same";
+}
+
+TEST(SignalMap, AnUnknownLevelIsASignOfLifeUnlessTheBeamHangsOnIt) {
+  const auto config = parse_cockpit(
+      "[source]\nkind = \"log\"\ntimeout_s = 0.5\n[control.turn]\nmessage = \"M\"\nsignal = \"TURN\"\n"
+      "levels = { none = 0, left = 1, right = 2 }\n[control.light_switch]\nmessage = \"M\"\nsignal = \"BEAM\"\n"
+      "levels = { off = 0, low = 1, high = 2 }\n", "c.toml");
+  ASSERT_TRUE(config) << config.error().text();
+  const auto dbc = parse_dbc("BO_ 1 M: 1 X\n SG_ TURN : 0|4@1+ (1,0) [0|0] \"\" X\n SG_ BEAM : 4|4@1+ (1,0) [0|0] \"\" X\n",
+                             "m.dbc");
+  SignalMap map = *SignalMap::bind(*config, *dbc, 0);
+  DriverInput input;
+  CanFrame frame;
+  frame.id = 1;
+  frame.length = 1;
+  const auto send = [&](std::uint8_t byte, std::int64_t ms) {
+    frame.data[0] = byte;
+    return map.take(frame, ms * 1'000'000, input);
+  };
+  EXPECT_EQ(send(0x21, 100), SignalMap::Taken::kDecoded);
+  EXPECT_EQ(map.silent_at_ns(), 600'000'000);
+  EXPECT_EQ(send(0x2F, 200), SignalMap::Taken::kIncomplete);
+  EXPECT_EQ(map.silent_at_ns(), 700'000'000) << "the turn lever alone";
+  EXPECT_EQ(input.switches.turn, TurnSignal::kLeft);
+  EXPECT_EQ(send(0xF0, 300), SignalMap::Taken::kIncomplete);
+  EXPECT_EQ(map.silent_at_ns(), 700'000'000) << "the beam switch: nobody knows what it wants";
+  EXPECT_EQ(input.switches.stalk, LightSwitch::kHigh);
+  EXPECT_EQ(input.switches.turn, TurnSignal::kNone);
+}
+
+TEST(CockpitFile, BitsThatTheCarHasElsewhereAreChecked) {
+  const auto bound = [](const std::string& bits) {
+    const auto config = parse_cockpit("[source]\nkind = \"log\"\n[control.flash]\nmessage = \"M\"\nsignal = \"S\"\n"
+                                      "bits = \"" + bits + "\"\n", "c.toml");
+    EXPECT_TRUE(config) << config.error().text();
+    return SignalMap::bind(*config, *parse_dbc("BO_ 1 M: 2 X\n SG_ S : 0|1@1+ (1,0) [0|0] \"\" X\n", "m.dbc"), 0);
+  };
+  EXPECT_TRUE(bound("12|4@1+"));
+  EXPECT_TRUE(bound("7|8@0-"));
+  for (const char* wrong : {"12|5@1+", "16|1@1+", "0|0@1+", "0|65@1+", "4|4", "4|4@2+", "4|4@1", "4|4@1+ 3", "x"}) {
+    const auto map = bound(wrong);
+    ASSERT_FALSE(map) << wrong;
+    EXPECT_NE(map.error().text().find("c.toml:"), std::string::npos) << map.error().text();
+  }
+}
+
 }  // namespace
 }  // namespace phare

@@ -110,16 +110,37 @@ TEST(Dbc, ExtendedMultiplexingIsFollowedThroughItsLevels) {
   EXPECT_EQ(made.data[1], 200);
 }
 
+// Two switches in one message, each with signals of its own: SG_MUL_VAL_ says whose is whose.
+TEST(Dbc, TwoIndependentMultiplexorsOfOneMessage) {
+  const Dbc dbc = parsed(
+      "BO_ 1 A: 4 X\n SG_ LEFT M : 0|4@1+ (1,0) [0|0] \"\" X\n SG_ RIGHT M : 4|4@1+ (1,0) [0|0] \"\" X\n"
+      " SG_ L1 m1 : 8|8@1+ (1,0) [0|0] \"\" X\n SG_ R1 m1 : 16|8@1+ (1,0) [0|0] \"\" X\n"
+      " SG_ R2 m2 : 16|8@1+ (1,0) [0|0] \"\" X\n SG_ WHOSE m2 : 24|8@1+ (1,0) [0|0] \"\" X\n"
+      "SG_MUL_VAL_ 1 L1 LEFT 1-1;\nSG_MUL_VAL_ 1 R1 RIGHT 1-1;\nSG_MUL_VAL_ 1 R2 RIGHT 2-3;\n");
+  const DbcMessage& message = dbc.messages.front();
+  EXPECT_EQ(value(dbc, "L1", frame_of(message, {0x21, 7, 9, 0})), 7);
+  EXPECT_EQ(value(dbc, "R2", frame_of(message, {0x21, 7, 9, 0})), 9);
+  EXPECT_TRUE(std::isnan(value(dbc, "R1", frame_of(message, {0x21, 7, 9, 0})))) << "RIGHT is 2";
+  EXPECT_EQ(value(dbc, "R1", frame_of(message, {0x12, 7, 9, 0})), 9);
+  EXPECT_TRUE(std::isnan(value(dbc, "L1", frame_of(message, {0x12, 7, 9, 0})))) << "LEFT is 2";
+  EXPECT_EQ(value(dbc, "LEFT", frame_of(message, {0x12, 7, 9, 0})), 2);
+  EXPECT_EQ(value(dbc, "RIGHT", frame_of(message, {0x12, 7, 9, 0})), 1);
+  EXPECT_EQ(message.find("WHOSE"), nullptr);
+  ASSERT_EQ(dbc.problems.size(), 1u);
+  EXPECT_EQ(dbc.problems[0].signal, "WHOSE");
+  EXPECT_NE(dbc.problems[0].reason.find("LEFT and RIGHT"), std::string::npos) << dbc.problems[0].reason;
+}
+
 TEST(Dbc, MultiplexingThatCannotBeIsReported) {
   const Dbc dbc = parsed(
       "BO_ 1 A: 2 X\n SG_ LOST m1 : 8|8@1+ (1,0) [0|0] \"\" X\n"                                      // 2: no M
       "BO_ 2 B: 2 X\n SG_ W M : 0|4@1+ (1,0) [0|0] \"\" X\n SG_ P m1M : 8|4@1+ (1,0) [0|0] \"\" X\n"  // 5: circle
       " SG_ Q m1M : 12|4@1+ (1,0) [0|0] \"\" X\n SG_ V M : 4|4@1+ (1,0) [0|0] \"\" X\n"  // 6: circle, 7: second M
       "SG_MUL_VAL_ 2 P Q 1-1;\nSG_MUL_VAL_ 2 Q P 1-1;\nSG_MUL_VAL_ 2 Q W 5-1;\nSG_MUL_VAL_ 2 Q NONE 1-1;\n");
-  EXPECT_EQ(dbc.signal_count(), 1u);
+  EXPECT_EQ(dbc.signal_count(), 2u);
   std::vector<int> lines;
   for (const DbcProblem& problem : dbc.problems) lines.push_back(problem.line);
-  EXPECT_EQ(lines, (std::vector<int>{7, 10, 11, 2, 5, 6}));
+  EXPECT_EQ(lines, (std::vector<int>{10, 11, 2, 5, 6}));
 }
 
 // The values that the README of cantools prints for the frames of its motohawk.dbc; the encoded frame by cantools 45.1.

@@ -33,6 +33,20 @@ TEST(Crc, GivesTheCheckValuesOfTheCatalogue) {
   EXPECT_EQ(check(kCrc32P4), 0x1697D06Au);
 }
 
+TEST(Crc, OfAnyWidthAndInitGivesTheCheckValuesOfTheCatalogue) {
+  const std::string digits = "123456789";
+  const auto check = [&](const CrcParams& params) {
+    Crc crc(params);
+    for (const char c : digits) crc.add(static_cast<std::uint8_t>(c));
+    return crc.value();
+  };
+  EXPECT_EQ(check({4, 0x3, 0x0, true, 0x0}), 0x7u);          // CRC-4/G-704
+  EXPECT_EQ(check({5, 0x05, 0x1F, true, 0x1F}), 0x19u);      // CRC-5/USB
+  EXPECT_EQ(check({8, 0x31, 0x00, true, 0x00}), 0xA1u);      // CRC-8/MAXIM-DOW
+  EXPECT_EQ(check({15, 0x4599, 0x0, false, 0x0}), 0x059Eu);  // CRC-15/CAN
+  EXPECT_EQ(check({16, 0x1021, 0xB2AA, true, 0x0}), 0x63D0u);  // CRC-16/RIELLO: an init that is not symmetric
+}
+
 const char* const kDbc =
     "BO_ 1 P1: 8 X\n SG_ CRC : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ COUNT : 8|4@1+ (1,0) [0|0] \"\" X\n"
     " SG_ WIDE : 16|16@1+ (1,0) [0|0] \"\" X\n SG_ LONG : 32|32@1+ (1,0) [0|0] \"\" X\n";
@@ -191,6 +205,25 @@ TEST(MessageCheck, ARealCarsChecksumsAreGood) {
     }
     EXPECT_GT(all, 900u) << name;
     EXPECT_EQ(good, all) << name;
+  }
+}
+
+// A scheme that nobody has given a name: what is signed is good, another byte or counter is not.
+TEST(MessageCheck, APolynomialByItsParameters) {
+  MessageCheck check = check_of(CrcKind::kPolynomial, {10, 20, 30});
+  check.polynomial = {.width = 8, .poly = 0x2F, .init = 0x55, .xor_out = 0x0F, .reflect = true, .first_byte = 1,
+                      .last_byte = 4};
+  MessageChecker sender = checker_of(check), receiver = checker_of(check);
+  for (int round = 0; round < 20; ++round) {
+    CanFrame frame = frame_of({0, 0, round, 7, 9, 11, 200, 3});
+    sender.sign(frame);
+    ASSERT_EQ(receiver.take(frame), MessageChecker::Verdict::kGood) << round;
+    CanFrame outside = frame, inside = frame;
+    outside.data[5] ^= 1u;  // the check does not cover it
+    inside.data[4] ^= 1u;
+    MessageChecker fresh = checker_of(check);
+    EXPECT_EQ(fresh.take(outside), MessageChecker::Verdict::kGood);
+    EXPECT_EQ(fresh.take(inside), MessageChecker::Verdict::kBadCrc);
   }
 }
 

@@ -18,6 +18,7 @@
 #include "cockpit_io/can_socket.h"
 #include "config/rig.h"
 #include "net/bus.h"
+#include "net/run_key.h"
 #include "tests/cockpit_io/program.h"
 #include "tests/paths.h"
 
@@ -47,6 +48,8 @@ class CockpitProcessTest : public testing::Test {
     ASSERT_TRUE(rig.ok()) << rig.error().text();
     rig_ = *rig;
     rig_.port_base = static_cast<std::uint16_t>(20000 + getpid() % 1500 * 20);
+    setenv("PHARE_RUN_DIR", (folder_ / "run").c_str(), 1);
+    ASSERT_TRUE(take_run_key(rig_));
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 

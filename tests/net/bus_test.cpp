@@ -182,6 +182,60 @@ TEST(Bus, ARestartedSenderIsTakenAndCounted) {
   EXPECT_EQ(dynamics.counters().received[kPayloadIndex<CockpitState>], (InboxCounters{12, 0, 0, 0, 2}));
 }
 
+// One datagram with a new start id, from anywhere, mutes nobody: neither the true cockpit nor for good whoever hung.
+TEST(Bus, AStrangerDoesNotMuteTheCockpitThatSpeaks) {
+  const Rig rig = test_rig();
+  Bus visual = open_bus(rig, Role::kVisual), cockpit = open_bus(rig, Role::kCockpit);
+  auto stranger = UdpSocket::open("127.0.0.1", 0);
+  ASSERT_TRUE(stranger);
+  const auto port = static_cast<std::uint16_t>(rig.port_base + port_offset(Role::kVisual));
+  CockpitState high;
+  high.light_switch = LightSwitch::kHigh;
+  std::uint64_t stranger_sent = 0;
+  const auto stray = [&] {
+    Datagram datagram{Sender::kCockpit, 0, 99, ++stranger_sent, SimTime{}, wall_now(), high};
+    stranger->send_to(port, test::view(encode(datagram)));
+  };
+  CockpitState low;
+  low.light_switch = LightSwitch::kLow;
+  const auto level = spdlog::get_level();
+  spdlog::set_level(spdlog::level::off);
+  for (int i = 0; i < 50; ++i) {
+    cockpit.send(SimTime{}, low);
+    stray();
+    visual.poll();
+    ASSERT_EQ(visual.newest<CockpitState>()->value.light_switch, LightSwitch::kLow) << i;
+  }
+  EXPECT_EQ(visual.counters().refused_because[static_cast<std::size_t>(Refusal::kSecond)], 50u);
+  EXPECT_EQ(visual.counters().received[kPayloadIndex<CockpitState>], (InboxCounters{50, 0, 0, 0, 0}));
+  EXPECT_EQ(stats_json("visual", visual)["bus"]["refused_because"]["second_sender"], 50);
+
+  // The cockpit is silent for its time: who speaks then is taken, and gives way again.
+  std::this_thread::sleep_for(taken_over_after(channel_of<CockpitState>()));
+  stray();
+  visual.poll();
+  EXPECT_EQ(visual.newest<CockpitState>()->value.light_switch, LightSwitch::kHigh);
+  std::this_thread::sleep_for(taken_over_after(channel_of<CockpitState>()));
+  cockpit.send(SimTime{}, low);
+  visual.poll();
+  EXPECT_EQ(visual.newest<CockpitState>()->value.light_switch, LightSwitch::kLow);
+  spdlog::set_level(level);
+}
+
+// A receiver that was busy for a while judges silence by when datagrams came, not by when it got round to them.
+TEST(Bus, ADatagramArrivesWhenItComesAndNotWhenItIsRead) {
+  const Rig rig = test_rig();
+  Bus visual = open_bus(rig, Role::kVisual), cockpit = open_bus(rig, Role::kCockpit);
+  visual.poll();
+  cockpit.send(SimTime{}, CockpitState{});
+  const auto sent = std::chrono::steady_clock::now();
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  visual.poll();
+  ASSERT_NE(visual.newest<CockpitState>(), nullptr);
+  EXPECT_LE(visual.newest<CockpitState>()->heard, sent);
+  EXPECT_GE(std::chrono::steady_clock::now() - visual.newest<CockpitState>()->heard, std::chrono::milliseconds(60));
+}
+
 TEST(Bus, NeverSendsWhatNobodyWouldTake) {
   const Rig rig = test_rig();
   Bus cockpit = open_bus(rig, Role::kCockpit);

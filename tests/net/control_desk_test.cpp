@@ -2,8 +2,10 @@
 #include "net/control_desk.h"
 
 #include <gtest/gtest.h>
+
 #include <unistd.h>
 
+#include <algorithm>
 #include <random>
 
 namespace phare {
@@ -179,16 +181,21 @@ Datagram command_of(std::uint64_t start_id, std::int64_t sent_s) {
 }
 
 TEST(Replays, OfSendersThatSpeakAtTheSameTime) {
-  Replays replays;
-  EXPECT_FALSE(replays.is_replay(command_of(1, 1000)));
-  EXPECT_FALSE(replays.is_replay(command_of(2, 1005)));
-  EXPECT_FALSE(replays.is_replay(command_of(1, 1006)));  // the first goes on
-  EXPECT_FALSE(replays.is_replay(command_of(3, 998)));   // a clock that is some seconds behind
-  EXPECT_TRUE(replays.is_replay(command_of(4, 900)));    // of an earlier evening
-  for (std::uint64_t id = 100; id < 100 + ManyStarts::kMost; ++id)
-    EXPECT_FALSE(replays.is_replay(command_of(id, 1007)));
-  EXPECT_TRUE(replays.is_replay(command_of(2, 1005)));   // forgotten, and so is not taken for new
-  EXPECT_FALSE(replays.is_replay(command_of(2, 1008)));  // it speaks itself
+  Replays replays(Replays::kClocksApart);
+  std::int64_t now_s = 1000;
+  const auto is_replay = [&](std::uint64_t start_id, std::int64_t sent_s) {
+    now_s = std::max(now_s, sent_s);
+    return replays.is_replay(command_of(start_id, sent_s), WallTime{now_s * 1'000'000'000});
+  };
+  EXPECT_FALSE(is_replay(1, 1000));
+  EXPECT_FALSE(is_replay(2, 1005));
+  EXPECT_FALSE(is_replay(1, 1006));  // the first goes on
+  EXPECT_FALSE(is_replay(3, 998));   // a clock that is some seconds behind
+  EXPECT_TRUE(is_replay(4, 900));    // of an earlier evening
+  EXPECT_TRUE(is_replay(1, 990));    // of this evening, and of one who is known
+  for (std::uint64_t id = 100; id < 100 + ManyStarts::kMost; ++id) EXPECT_FALSE(is_replay(id, 1007));
+  EXPECT_TRUE(is_replay(2, 1005));   // forgotten, and so is not taken for new
+  EXPECT_FALSE(is_replay(2, 1008));  // it speaks itself
 }
 
 }  // namespace

@@ -59,14 +59,64 @@ TEST(Sequences, ARestartedSenderIsTakenAndItsOldStragglersAreLate) {
   SequenceTracker tracker;
   for (std::uint64_t sequence = 1; sequence <= 100; ++sequence) tracker.arrived(1, sequence);
   EXPECT_EQ(tracker.arrived(2, 1), Arrival::kNewest);
-  EXPECT_EQ(tracker.arrived(1, 101), Arrival::kLate);
+  EXPECT_EQ(tracker.arrived(1, 100), Arrival::kLate);
   EXPECT_EQ(tracker.arrived(2, 2), Arrival::kNewest);
   EXPECT_EQ(tracker.counters(), (InboxCounters{102, 0, 1, 0, 1}));
   EXPECT_EQ(tracker.arrived(3, 4), Arrival::kNewest);  // its first three got lost
   EXPECT_EQ(tracker.arrived(3, 1), Arrival::kLate);    // no, one comes late
-  EXPECT_EQ(tracker.arrived(2, 3), Arrival::kLate);
-  EXPECT_EQ(tracker.arrived(1, 102), Arrival::kLate);
+  EXPECT_EQ(tracker.arrived(2, 2), Arrival::kLate);
+  EXPECT_EQ(tracker.arrived(1, 99), Arrival::kLate);
   EXPECT_EQ(tracker.counters(), (InboxCounters{103, 2, 4, 0, 2}));
+}
+
+TEST(Sequences, AStartThatComesBackGoesOnWithItsNumbers) {
+  SequenceTracker tracker;
+  for (std::uint64_t sequence = 1; sequence <= 100; ++sequence) tracker.arrived(1, sequence);
+  EXPECT_EQ(tracker.arrived(2, 1), Arrival::kNewest);
+  EXPECT_EQ(tracker.arrived(1, 180), Arrival::kNewest);
+  EXPECT_EQ(tracker.arrived(1, 181), Arrival::kNewest);
+  EXPECT_EQ(tracker.arrived(2, 1), Arrival::kLate);
+  EXPECT_EQ(tracker.counters(), (InboxCounters{103, 0, 1, 0, 2}));
+}
+
+constexpr Endpoint kHere{0x7f000001, 47000}, kElsewhere{0x7f000001, 50000};
+
+LiveSender::Time at_ms(int ms) {
+  return LiveSender::Time{} + std::chrono::hours(1) + std::chrono::milliseconds(ms);
+}
+
+TEST(LiveSender, AStrangerWaitsUntilTheFirstIsSilent) {
+  LiveSender live(std::chrono::milliseconds(200));
+  EXPECT_TRUE(live.admits(1, kHere, at_ms(0)));
+  EXPECT_FALSE(live.admits(2, kElsewhere, at_ms(100)));
+  EXPECT_TRUE(live.admits(1, kHere, at_ms(150)));
+  EXPECT_FALSE(live.admits(2, kElsewhere, at_ms(349)));  // what is refused does not count as heard
+  EXPECT_TRUE(live.admits(2, kElsewhere, at_ms(350)));
+}
+
+TEST(LiveSender, NobodyIsMuteForGood) {
+  LiveSender live(std::chrono::milliseconds(200));
+  EXPECT_TRUE(live.admits(1, kHere, at_ms(0)));
+  EXPECT_TRUE(live.admits(2, kElsewhere, at_ms(300)));  // one stray datagram while the first hung
+  EXPECT_FALSE(live.admits(1, kHere, at_ms(310)));
+  EXPECT_TRUE(live.admits(1, kHere, at_ms(500)));
+  EXPECT_TRUE(live.admits(1, kHere, at_ms(510)));
+}
+
+TEST(LiveSender, WhoHoldsThePortOfTheFirstIsTheFirstStartedAgain) {
+  LiveSender live(std::chrono::milliseconds(200));
+  EXPECT_TRUE(live.admits(1, kHere, at_ms(0)));
+  EXPECT_TRUE(live.admits(2, kHere, at_ms(1)));
+  EXPECT_FALSE(live.admits(1, kHere, at_ms(2)));  // a straggler of the start before
+  EXPECT_TRUE(live.admits(2, kHere, at_ms(3)));
+}
+
+TEST(LiveSender, TimeThatGoesBackDoesNotMakeAnyoneSilent) {
+  LiveSender live(std::chrono::milliseconds(200));
+  EXPECT_TRUE(live.admits(1, kHere, at_ms(1000)));
+  EXPECT_FALSE(live.admits(2, kElsewhere, at_ms(0)));
+  EXPECT_TRUE(live.admits(1, kHere, at_ms(10)));
+  EXPECT_TRUE(live.admits(2, kElsewhere, at_ms(1200)));
 }
 
 TEST(Sequences, CountsAddUpUnderLossReorderingAndDuplication) {
@@ -113,7 +163,7 @@ TEST(Inbox, KeepsTheNewestAndGivesItOnce) {
   d.start_id = 7;
   const auto deliver = [&](std::uint64_t sequence, std::uint32_t design, bool repeat_is_news) {
     d.sequence = sequence;
-    inbox.deliver(d, RigControl{RigControl::Design{design}}, WallTime{}, repeat_is_news);
+    inbox.deliver(d, RigControl{RigControl::Design{design}}, ArrivalTime{}, Endpoint{}, repeat_is_news);
   };
   EXPECT_EQ(inbox.newest(), nullptr);
   EXPECT_EQ(inbox.take(), nullptr);

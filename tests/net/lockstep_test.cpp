@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <thread>
 
 namespace phare {
 namespace {
@@ -83,6 +84,29 @@ TEST_F(Lockstep, SendsAgainToWhoIsLate) {
   report(0, 1);
   send_again_to_late(*cockpit_, 1, kPayloadIndex<CockpitState>);
   EXPECT_EQ(heard(0), 0) << "it has it";
+}
+
+// Who waits for a picture that takes long is not replaced by a stranger as if it had gone.
+TEST_F(Lockstep, WhoWaitsForASlowPictureStaysTheOneThatSpeaks) {
+  ASSERT_TRUE(cockpit_);
+  StaysHeard stays_heard(kPayloadIndex<CockpitState>);
+  CockpitState state;
+  state.frame_index = 1;
+  stays_heard.step(*cockpit_);
+  cockpit_->send(SimTime{}, state);
+  const auto until = std::chrono::steady_clock::now() + 2 * taken_over_after(channel_of<CockpitState>());
+  while (std::chrono::steady_clock::now() < until) {
+    stays_heard.step(*cockpit_);
+    std::this_thread::sleep_for(5ms);
+  }
+  auto stranger = Bus::open_to_send(rig_, Role::kCockpit);
+  ASSERT_TRUE(stranger);
+  stranger->send(SimTime{}, state);
+  visual_[0]->poll();  // only now: it was drawing
+  const auto& counters = visual_[0]->counters();
+  EXPECT_EQ(counters.refused_because[static_cast<std::size_t>(Refusal::kSecond)], 1u);
+  EXPECT_EQ(counters.received[kPayloadIndex<CockpitState>].received, 1u);
+  EXPECT_GE(counters.received[kPayloadIndex<CockpitState>].duplicate, 3u);
 }
 
 }  // namespace

@@ -99,6 +99,10 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       r.light_changes_drawn = v.bits();
       r.drawn = vehicle(v);
       r.pose_stale = v.flag();
+      r.light_drawn = LightSwitch::kHigh;
+      r.flash_drawn = v.flag();
+      r.fail_safe_drawn = v.flag();
+      r.pictures_not_kept = r.channel;
       return r;
     }
     case kPayloadIndex<RigControl>: {

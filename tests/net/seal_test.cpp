@@ -95,14 +95,24 @@ TEST(Seal, WhatWasRecordedEarlierCannotBePlayedAgain) {
     dynamics->wait(std::chrono::seconds(5));
     return dynamics->poll();
   };
-  EXPECT_EQ(send(10, 1, 1000), 1u);
-  EXPECT_EQ(send(10, 2, 2000), 1u);
-  EXPECT_EQ(send(20, 1, 3000), 1u);  // the cockpit was started again
-  EXPECT_EQ(send(10, 3, 2500), 0u);  // of the earlier start, never heard before
-  EXPECT_EQ(send(20, 1, 3000), 0u);  // again
-  EXPECT_EQ(send(20, 2, 4000), 1u);
+  const std::int64_t now_ns = wall_now().ns - 5000;  // all within what one machine's clock may be late
+  EXPECT_EQ(send(10, 1, now_ns + 1000), 1u);
+  EXPECT_EQ(send(10, 2, now_ns + 2000), 1u);
+  EXPECT_EQ(send(20, 1, now_ns + 3000), 1u);  // the cockpit was started again
+  EXPECT_EQ(send(10, 3, now_ns + 2500), 0u);  // of the earlier start, never heard before
+  EXPECT_EQ(send(20, 1, now_ns + 3000), 0u);  // again
+  EXPECT_EQ(send(20, 2, now_ns + 4000), 1u);
   EXPECT_EQ(dynamics->counters().refused_because[static_cast<std::size_t>(Refusal::kReplay)], 1u);
   EXPECT_EQ(dynamics->counters().received[kPayloadIndex<CockpitState>].duplicate, 1u);
+
+  // A receiver that was started again knows nobody, and takes nothing old for all that.
+  { Bus gone = std::move(*dynamics); }
+  dynamics = Bus::open(rig, Role::kDynamics);
+  ASSERT_TRUE(dynamics);
+  const std::int64_t old_ns = wall_now().ns - std::chrono::nanoseconds(Replays::kOneClock).count() - 1;
+  EXPECT_EQ(send(20, 3, old_ns), 0u);
+  EXPECT_EQ(dynamics->counters().refused_because[static_cast<std::size_t>(Refusal::kReplay)], 1u);
+  EXPECT_EQ(send(20, 3, wall_now().ns), 1u);
 }
 
 }  // namespace

@@ -58,6 +58,11 @@ class BadInput : public testing::Test {
     write_rig("rig_no_key.toml", text, "address = ", "key_file = \"absent.key\"\naddress = ");
     write_rig("rig_bad_key.toml", text, "address = ", "key_file = \"bad.key\"\naddress = ");
     write("bad.key", "00ff\n");
+    write_rig("rig_open_key.toml", text, "address = ", "key_file = \"open.key\"\naddress = ");
+    write("open.key", std::string(64, 'a') + "\n");
+    write_rig("rig_zero_key.toml", text, "address = ", "key_file = \"zero.key\"\naddress = ");
+    write("zero.key", std::string(64, '0') + "\n");
+    fs::permissions(folder_ / "zero.key", fs::perms::owner_read | fs::perms::owner_write);
     write("rig_syntax.toml", "name = \"x\"\nscene = \n");
     write("bad.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6 oops\n1 2 3\n");
     write("good.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6 7\n1 2 3\n");
@@ -133,6 +138,8 @@ TEST_F(BadInput, OfADrive) {
       {"rig off loopback", drive + "--rig rig_off_loopback.toml", "rig_off_loopback.toml:"},
       {"no key", drive + "--rig rig_no_key.toml", "absent.key: no such file"},
       {"key too short", drive + "--rig rig_bad_key.toml", "bad.key:1: expected 64 hexadecimal digits"},
+      {"key for all", drive + "--rig rig_open_key.toml", "open.key: others may read or change it; chmod 600"},
+      {"key of zeros", drive + "--rig rig_zero_key.toml", "zero.key:1: all zero is no key"},
       {"no IES", drive + "--rig rig_no_ies.toml", "absent.ies: no such file"},
       {"IES with a word", drive + "--rig rig_bad_ies.toml", "bad.ies:7: a candela value is not a number: \"oops\""},
       {"no glTF", drive + "--rig rig_no_glb.toml", "absent.glb: no such file"},

@@ -24,12 +24,13 @@ std::string bytes_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-ChildProcess start_drive(const fs::path& out, const fs::path& from, const std::vector<std::string>& arguments) {
+ChildProcess start_drive(const fs::path& out, const fs::path& from, const std::vector<std::string>& arguments,
+                         bool lockstep) {
   // env -C is the working directory; the program that runs is phare itself.
   std::vector<std::string> words{
-      "-C",          from.string(), program("phare"), "drive",       "--headless",
-      "--lockstep",  "--out",       out.string(),     "--port-base", std::to_string(port_base()),
-      "--log-level", "error"};
+      "-C",           from.string(), program("phare"), "drive",     "--headless", "--overwrite",
+      "--port-base", std::to_string(port_base()), "--log-level", "error", "--out",  out.string()};
+  if (lockstep) words.push_back("--lockstep");
   words.insert(words.end(), arguments.begin(), arguments.end());
   if (std::find(arguments.begin(), arguments.end(), "--size") == arguments.end()) {
     words.insert(words.end(), {"--size", "160x90"});
@@ -58,8 +59,8 @@ std::uint16_t port_base() {
   return static_cast<std::uint16_t>(10000 + getpid() % 240 * 40);
 }
 
-DriveRun::DriveRun(const fs::path& out, const fs::path& from, const std::vector<std::string>& arguments)
-    : child_(start_drive(out, from, arguments)), out_(out) {}
+DriveRun::DriveRun(const fs::path& out, const fs::path& from, const std::vector<std::string>& arguments, bool lockstep)
+    : child_(start_drive(out, from, arguments, lockstep)), out_(out) {}
 
 DriveRun::~DriveRun() {
   if (!running()) return;

@@ -40,7 +40,7 @@ class DriveRun {
  public:
   /// `phare drive --headless --lockstep --size 160x90 --out OUT … arguments`, with `from` as working directory.
   DriveRun(const std::filesystem::path& out, const std::filesystem::path& from,
-           const std::vector<std::string>& arguments);
+           const std::vector<std::string>& arguments, bool lockstep = true);
   ~DriveRun();  ///< kills a drive that still runs; its processes go with it
   DriveRun(const DriveRun&) = delete;
   DriveRun& operator=(const DriveRun&) = delete;

@@ -23,7 +23,8 @@ TEST(Report, MergesWhatThereIs) {
   std::ofstream(out / "dynamics.json") << "{ broken";
   std::ofstream(out / "visual-0.json")
       << R"({"process":"visual","frames":10,"frames_per_s":62.5,"drawn_s":0.144,"frame_ms":{"count":10,"min":1.0,"median":2.0,"p95":3.0,"p99":4.0,"max":5.0},)"
-         R"("interval_ms":{"count":9,"min":1.0,"median":10.0,"p95":3.0,"p99":4.0,"max":5.0},"pass_ms":{"lamps":{"median":1.0}},"device":"<lavapipe>"})";
+         R"("interval_ms":{"count":9,"min":1.0,"median":10.0,"p95":3.0,"p99":4.0,"max":5.0},"pass_ms":{"lamps":{"median":1.0}},"device":"<lavapipe>",)"
+         R"("frames_stale_pose":2,"fail_safe":{"frames":3,"count":1,"times":[{"from_s":1.5,"to_s":1.75,"because":"no cockpit for 0.3 s: low beam"}]}})";
   std::ofstream(out / "birds_eye.png") << "x";
 
   Rig rig;
@@ -50,6 +51,9 @@ TEST(Report, MergesWhatThereIs) {
   EXPECT_NE(page.find("birds_eye.png"), std::string::npos);
   EXPECT_NE(page.find("<b>62.5</b><i>frames a second: all frames by all seconds; 100 by the median interval</i>"),
             std::string::npos);
+  EXPECT_NE(page.find("3 pictures with the low beam of the fail-safe, 1 times"), std::string::npos);
+  EXPECT_NE(page.find("1.500 to 1.750 s: no cockpit for 0.3 s: low beam"), std::string::npos);
+  EXPECT_NE(page.find("2 pictures with a pose that was held"), std::string::npos);
   EXPECT_EQ(page.find("wall_25m.png"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos);  // self-contained
 }

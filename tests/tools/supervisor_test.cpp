@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <thread>
 
 namespace phare {
@@ -68,6 +70,106 @@ TEST(ChildProcess, SaysHowItEnded) {
   for (int i = 0; i < 5000 && !end; ++i, std::this_thread::sleep_for(1ms)) end = child->ended();
   ASSERT_TRUE(end);
   EXPECT_EQ(end->text(), "SIGKILL");
+}
+
+TEST(Watchdog, TellsAHungProcessFromASlowOneAndFromOneThatHasJustBegun) {
+  using Time = Watchdog::Clock::time_point;
+  const Time begin = Watchdog::Clock::now();
+  // In steps of 10 ms: when it counts as hung, s; negative: not within 100 s.
+  struct Case {
+    const char* what;
+    double beats_until_s, computes_until_s;
+    bool stopped, window;
+    double hung_s;
+    const char* text;
+  };
+  for (const Case& c : {Case{"all well", 1e9, 1e9, false, false, -1.0, ""},
+                        Case{"a loop that waits", 1e9, 0.0, false, false, -1.0, ""},
+                        Case{"stands still", 5.0, 5.0, false, false, 8.0, "hung: no sign of life for 3.0 s"},
+                        Case{"stopped", 5.0, 5.0, true, false, 8.0, "stopped: no sign of life for 3.0 s"},
+                        Case{"a picture of 20 s", 5.0, 25.0, false, false, 28.0, "hung: no sign of life for 23.0 s"},
+                        Case{"an endless loop", 5.0, 1e9, false, false, 65.0, "hung, computing: no sign of life for 60.0 s"},
+                        Case{"never begins", -1.0, 0.0, false, false, 30.0, "hung: no sign of life for 30.0 s"},
+                        Case{"a covered window", 5.0, 5.0, false, true, -1.0, ""},
+                        Case{"a window, stopped", 5.0, 5.0, true, true, 8.0, "stopped: no sign of life for 3.0 s"}}) {
+    Watchdog watchdog{HungAfter{.may_be_covered = c.window}};
+    double hung_s = -1.0, computed_s = 0.0;
+    std::string text;
+    for (int step = 0; step < 10'000 && hung_s < 0.0; ++step) {
+      const double t = step * 0.01;
+      const std::optional<Time> beat =
+          c.beats_until_s < 0.0 ? std::nullopt
+                                : std::optional(begin + std::chrono::nanoseconds(static_cast<std::int64_t>(
+                                                            std::min(t, c.beats_until_s) * 1e9)));
+      if (t < c.computes_until_s) computed_s += 0.01;
+      const auto why = watchdog.hung(begin + std::chrono::milliseconds(10 * step), beat,
+                                     ProcessUse{computed_s, c.stopped && t > c.beats_until_s});
+      if (why) hung_s = t, text = *why;
+    }
+    EXPECT_NEAR(hung_s, c.hung_s, 0.03) << c.what;
+    EXPECT_EQ(text, c.text) << c.what;
+  }
+}
+
+// Ctrl-Z of the whole rig and fg an hour later: nobody hung, we all slept.
+TEST(Watchdog, DoesNotCountTimeInWhichItSleptItself) {
+  Watchdog watchdog{HungAfter{}};
+  const auto begin = Watchdog::Clock::now();
+  const ProcessUse use{1.0, false};
+  EXPECT_FALSE(watchdog.hung(begin, begin, use));
+  EXPECT_FALSE(watchdog.hung(begin + 10ms, begin, use));
+  EXPECT_FALSE(watchdog.hung(begin + 1h, begin, use));
+  EXPECT_FALSE(watchdog.hung(begin + 1h + 100ms, begin, use));
+}
+
+TEST(Watchdog, ReadsWhatTheSystemSaysOfAProcess) {
+  auto child = ChildProcess::start("/bin/sleep", {"60"});
+  ASSERT_TRUE(child);
+  ASSERT_TRUE(use_of(child->pid()));
+  EXPECT_FALSE(use_of(child->pid())->stopped);
+  child->send_signal(SIGSTOP);
+  for (int i = 0; i < 1000 && !use_of(child->pid())->stopped; ++i) std::this_thread::sleep_for(1ms);
+  EXPECT_TRUE(use_of(child->pid())->stopped);
+  child->send_signal(SIGKILL);
+  while (!child->ended()) std::this_thread::sleep_for(1ms);
+  EXPECT_FALSE(use_of(child->pid()));
+}
+
+TEST(Supervisor, EndsAndRestartsOneThatHangs) {
+  const auto alive = std::filesystem::path(testing::TempDir()) / ("phare_alive_" + std::to_string(getpid()));
+  HungAfter soon;
+  soon.beginning = soon.idle = 200ms;
+  Supervisor supervisor({{"dynamics", "/bin/sleep", {"60"}, false, {}, alive, soon},
+                         {"visual-0", "/bin/sleep", {"60"}, true}});
+  ASSERT_TRUE(supervisor.start());
+  const auto until = std::chrono::steady_clock::now() + 10s;
+  while (supervisor.restarts().empty() && std::chrono::steady_clock::now() < until) {
+    ASSERT_TRUE(supervisor.step());
+    std::this_thread::sleep_for(5ms);
+  }
+  ASSERT_FALSE(supervisor.restarts().empty());
+  EXPECT_EQ(supervisor.restarts()[0].process, "dynamics");
+  EXPECT_TRUE(supervisor.restarts()[0].because.starts_with("hung: no sign of life for 0.2"))
+      << supervisor.restarts()[0].because;
+  supervisor.end_all(2s);
+  std::filesystem::remove(alive);
+}
+
+// Whatever they do: stopped, deaf to SIGTERM, or both.
+TEST(Supervisor, EndsAllInTheTimeOfAHurry) {
+  Supervisor supervisor({{"cockpit", "/bin/sleep", {"60"}},
+                         {"dynamics", "/bin/sh", {"-c", "trap '' TERM; while :; do sleep 1; done"}},
+                         {"visual-0", "/bin/sh", {"-c", "trap '' TERM; kill -STOP $$; while :; do sleep 1; done"}, true}});
+  ASSERT_TRUE(supervisor.start());
+  for (int i = 0; i < 20; ++i) {
+    supervisor.step();
+    std::this_thread::sleep_for(10ms);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  supervisor.end_all(60s, [] { return true; });
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 10s);  // the machine may be busy: not the 60 s of the grace
+  EXPECT_EQ(supervisor.ends()[1].how, "SIGKILL");
+  EXPECT_EQ(supervisor.ends()[2].how, "SIGKILL");
 }
 
 }  // namespace

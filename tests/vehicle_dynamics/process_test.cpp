@@ -16,6 +16,7 @@
 
 #include "net/bus.h"
 #include "net/drive_file.h"
+#include "net/run_key.h"
 #include "tests/paths.h"
 
 extern char** environ;
@@ -72,6 +73,8 @@ class DynamicsProcess : public testing::Test {
                "[[design.lamp.source]]\nfunction = \"low\"\nfile = \"l.ies\"\n";
     rig_.port_base = static_cast<std::uint16_t>(20000 + (::getpid() % 500) * 20);
     rig_.channels.resize(1);
+    setenv("PHARE_RUN_DIR", (folder_ / "run").c_str(), 1);
+    ASSERT_TRUE(take_run_key(rig_));
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -175,6 +178,75 @@ TEST_F(DynamicsProcess, LockstepRepeatsAndSurvivesAKill) {
     }
   }
   for (std::size_t k = 0; k < run[0].size(); ++k) EXPECT_EQ(run[0][k], run[1][k]) << "frame " << k;
+}
+
+// With the state file of the run every kill, wherever it falls, leaves the drive as it would have been, bit for bit.
+TEST_F(DynamicsProcess, LockstepIsTheSameToTheBitWithKillsAtEveryLevel) {
+  for (const char* level : {"kinematic", "single-track", "full", "auto"}) {
+    std::vector<VehicleState> run[2];
+    for (const bool kills : {false, true}) {
+      auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+      ASSERT_TRUE(cockpit.ok() && visual.ok());
+      const std::string state = (folder_ / (std::string("car.state") + level)).string();
+      const auto start = [&] {
+        return std::make_unique<Child>(arguments({"--lockstep", "--level", level, "--state", state}));
+      };
+      auto child = start();
+      for (std::int64_t first = 0; first < 120; first += 40) {
+        const auto poses = play(*cockpit, *visual, first, first + 39, first == 0 ? VehicleState{} : run[kills].back());
+        ASSERT_EQ(poses.size(), 40u) << level << " from " << first;
+        run[kills].insert(run[kills].end(), poses.begin(), poses.end());
+        if (!kills || first == 80) continue;
+        EXPECT_EQ(child->end(SIGKILL), -SIGKILL);
+        child = start();
+      }
+      EXPECT_EQ(child->end(SIGTERM), 0);
+      std::filesystem::remove(state);
+    }
+    for (std::size_t k = 0; k < run[0].size(); ++k) ASSERT_EQ(run[0][k], run[1][k]) << level << ", frame " << k;
+  }
+}
+
+// In real time, and with no picture that could tell where the car was: it goes on from where it was, and time does not
+// go back.
+TEST_F(DynamicsProcess, RealTimeGoesOnAfterAKillThoughNoPictureTellsOfTheCar) {
+  auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+  ASSERT_TRUE(cockpit.ok() && visual.ok());
+  const auto all = arguments({"--level", "full", "--state", (folder_ / "car.state").string()});
+  auto child = std::make_unique<Child>(all);
+  SimTime newest{-1};
+  VehicleState before;
+  const auto drive_on = [&](std::chrono::milliseconds for_long) {
+    for (const auto until = SteadyClock::now() + for_long; SteadyClock::now() < until;) {
+      CockpitState controls;
+      controls.accelerator_01 = 0.8;
+      cockpit->send(SimTime{std::max<std::int64_t>(newest.ns, 0)}, controls);
+      visual->wait(10ms);
+      visual->poll();
+    }
+  };
+  visual->on_datagram = [&](const Datagram& datagram, std::span<const std::byte>) {
+    if (const auto* state = std::get_if<VehicleState>(&datagram.payload)) {
+      EXPECT_GE(datagram.sim_time, newest);
+      EXPECT_GE(state->x_m * std::cos(0.5) + state->y_m * std::sin(0.5),
+                before.x_m * std::cos(0.5) + before.y_m * std::sin(0.5) - 1e-3);
+      EXPECT_GE(state->step, before.step);
+      newest = datagram.sim_time;
+      before = *state;
+    }
+  };
+  drive_on(1500ms);
+  ASSERT_GT(before.speed_mps, 1.0);
+  for (int kill_count = 0; kill_count < 3; ++kill_count) {
+    const double speed_mps = before.speed_mps;
+    const SimTime time = newest;
+    EXPECT_EQ(child->end(SIGKILL), -SIGKILL);
+    child = std::make_unique<Child>(all);
+    drive_on(700ms);
+    EXPECT_GT(before.speed_mps, speed_mps);
+    EXPECT_GT(newest, time);
+  }
+  EXPECT_EQ(child->end(SIGTERM), 0);
 }
 
 // The picture gets what levelling does: the nose rises under power, the sensors see it, the lamps are turned down.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "test_car.h"
@@ -36,6 +37,54 @@ TEST(StepLoop, SixtySecondsGiveTheSameHashTwice) {
     EXPECT_GT(std::hypot(loop.state().x_m, loop.state().y_m), 10.0);
   }
   EXPECT_EQ(hash[0], hash[1]);
+}
+
+// What a killed process left is whole: its successor goes on bit for bit, at every level, wherever the kill fell.
+TEST(StepLoop, GoesOnBitForBitFromWhatAnotherLeft) {
+  for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull, Level::kAuto}) {
+    RunSetup setup = kinematic_setup();
+    setup.level = level;
+    setup.levelling = levelling::Kind::kDynamic;
+    setup.road = test::tilted_plane(0.02, -0.01, 3000.0);
+    Result<SprungCar> sprung = SprungCar::of(setup.vehicle, "test");
+    ASSERT_TRUE(sprung) << sprung.error().text();
+    setup.sprung = *sprung;
+    StepLoop loop(setup, CarState{});
+    std::optional<StepLoop> successor;
+    std::mt19937 random(11);
+    for (std::int64_t frame = 1; frame <= 900; ++frame) {
+      const SimTime time = frame_time(frame, 60);
+      for (StepLoop* each : {&loop, successor ? &*successor : nullptr}) {
+        if (each == nullptr) continue;
+        each->set_controls(controls_at(time.seconds()));
+        each->run_to(time);
+      }
+      if (successor) {
+        ASSERT_EQ(successor->at(time), loop.at(time)) << name(level) << ", frame " << frame;
+        ASSERT_EQ(successor->hashes_after(loop.steps() - 8), loop.hashes_after(loop.steps() - 8));
+      }
+      if (random() % 50 != 0) continue;
+      const StepLoop::Memory memory = loop.memory();
+      successor.emplace(RunSetup(setup), CarState{});
+      successor->recall(memory);
+      ASSERT_EQ(successor->at(time), loop.at(time));
+    }
+    ASSERT_TRUE(successor);
+    EXPECT_GT(std::hypot(loop.state().x_m, loop.state().y_m), 10.0);
+  }
+}
+
+TEST(StepLoop, TheClockOfASuccessorGoesOnFromTheTimeThatWasLeft) {
+  StepLoop loop(kinematic_setup(), CarState{}), successor(kinematic_setup(), CarState{});
+  loop.catch_up(SimTime{40'000'000});
+  loop.catch_up(SimTime{400'000'000});  // of which some is dropped
+  ASSERT_GT(loop.dropped().ns, 0);
+  successor.recall(loop.memory());
+  successor.begin_clock();
+  EXPECT_EQ(successor.catch_up(SimTime{}), 0);
+  EXPECT_EQ(successor.time(), loop.time());
+  EXPECT_EQ(successor.catch_up(SimTime{20'000'000}), 10);
+  EXPECT_EQ(successor.dropped(), loop.dropped());
 }
 
 TEST(StepLoop, JitterOfTheClockChangesNothing) {

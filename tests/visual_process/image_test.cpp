@@ -1,6 +1,10 @@
 #include "visual/image/image.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -27,6 +31,23 @@ Image8 pattern(int width_px, int height_px) {
   for (std::size_t i = 0; i < image.rgba.size(); ++i)
     image.rgba[i] = i % 4 == 3 ? 255 : static_cast<std::uint8_t>(i * 31 % 251);
   return image;
+}
+
+// A disk that takes no more, here the limit of a file's size: an error, and no picture that cannot be opened.
+TEST(Png, ThatTheDiskDoesNotTakeIsAnErrorAndLeavesNothing) {
+  const std::filesystem::path file = temporary("full.png");
+  std::filesystem::remove(file);
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit most{1000, 1000};
+    setrlimit(RLIMIT_FSIZE, &most);
+    _exit(write_png(file, pattern(200, 200)).ok() ? 0 : 7);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST(Png, ReadsBackAndIsTheSameBytesTwice) {

@@ -69,6 +69,22 @@ TEST(PoseBuffer, CoastsFor200MillisecondsThenHoldsAndSaysSo) {
   EXPECT_NEAR(distance_m(held->pose, on_circle(1.0)), 5.0, 0.1);  // 200 ms at 25 m/s
 }
 
+// The time of the picture stands with a car that is silent for longer than the coast, and does not go back when the car
+// comes back where it was left.
+TEST(PoseBuffer, TimeToShowStandsWithTheCarAndDoesNotGoBack) {
+  const auto at_ms = [](std::int64_t ms) { return SimTime{ms * 1'000'000}; };
+  PoseBuffer poses;
+  EXPECT_EQ(poses.time_to_show(at_ms(70), std::nullopt), at_ms(70));
+  poses.push(at_ms(1000), VehicleState{});
+  EXPECT_EQ(poses.time_to_show(at_ms(1150), at_ms(1140)), at_ms(1150));
+  EXPECT_EQ(poses.time_to_show(at_ms(9000), at_ms(1190)), at_ms(1200));
+  poses.push(at_ms(1004), VehicleState{});  // it goes on where it was
+  EXPECT_EQ(poses.time_to_show(at_ms(1004), at_ms(1200)), at_ms(1200));
+  EXPECT_EQ(poses.time_to_show(at_ms(1210), at_ms(1200)), at_ms(1204));
+  poses.push(at_ms(300), VehicleState{});  // a seek
+  EXPECT_EQ(poses.time_to_show(at_ms(300), at_ms(1204)), at_ms(300));
+}
+
 TEST(PoseBuffer, ASeekBackBeginsAnew) {
   PoseBuffer poses;
   poses.push(at_s(5.0), on_circle(5.0));

@@ -13,7 +13,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <memory>
+#include <string>
 
 namespace phare {
 namespace {
@@ -76,9 +78,17 @@ Status write_png(const std::filesystem::path& file, const Image8& image) {
     for (std::size_t c = 0; c < 3; ++c) rgb[i * 3 + c] = image.rgba[i * 4 + c];
   }
   return write_beside(file, [&](const std::string& name) -> std::string {
-    const int written =
-        stbi_write_png(name.c_str(), image.width_px, image.height_px, 3, rgb.data(), image.width_px * 3);
-    return written != 0 ? "" : "the picture cannot be written here";
+    // Not by stb's own file writer, which does not look whether the disk took it.
+    std::string png;
+    const auto append = [](void* to, void* data, int size) {
+      static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+    };
+    if (stbi_write_png_to_func(append, &png, image.width_px, image.height_px, 3, rgb.data(), image.width_px * 3) == 0)
+      return "the picture cannot be encoded";
+    std::ofstream stream(name, std::ios::binary);
+    stream.write(png.data(), static_cast<std::streamsize>(png.size()));
+    stream.close();
+    return stream ? "" : "the picture cannot be written here";
   });
 }
 

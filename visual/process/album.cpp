@@ -18,11 +18,6 @@ constexpr const char* kLastStill = "wall_25m.png";  // written last: where it is
 
 constexpr const char* kEyeState = "eye.json";
 
-/// A picture that cannot be written is told once each; the drive goes on.
-void tell(const Status& status) {
-  if (!status) spdlog::error("{}", status.error().text());
-}
-
 }  // namespace
 
 Result<Album> Album::open(const std::filesystem::path& folder, bool going_on) {
@@ -45,7 +40,7 @@ Result<Album> Album::open(const std::filesystem::path& folder, bool going_on) {
 void Album::keep_frame(std::int64_t frame_index, const Image8& image, const std::string& label) {
   char name[40];
   std::snprintf(name, sizeof name, "frames/%06lld.png", static_cast<long long>(frame_index));
-  save(name, image);
+  if (!save(name, image)) return;
   for (const std::uint8_t byte : image.rgba) frames_hash_ = (frames_hash_ ^ byte) * 0x100000001b3ull;
   ++kept_frames_;
   if (thumbnails_.wants_next())
@@ -76,7 +71,7 @@ void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleStat
   renderer.draw(driver);
   save("drivers_view.png", box_downscale(renderer.read_image(1), kFiner));
   save("birds_eye.png", birds_eye_picture(renderer.read_hdr(2), "Illuminance on what lies below, lux; " + label));
-  tell(write_exr(folder_ / "hdr.exr", renderer.read_hdr()));
+  keep(write_exr(folder_ / "hdr.exr", renderer.read_hdr()));
 
   save(kLastStill, wall_picture(lamps, lamps.design_index()));
 }
@@ -93,8 +88,17 @@ void Album::finish() {
   if (!pictures.empty()) save("contact_sheet.png", contact_sheet(pictures));
 }
 
-void Album::save(const char* name, const Image8& image) {
-  tell(write_png(folder_ / name, image));
+bool Album::save(const char* name, const Image8& image) {
+  return keep(write_png(folder_ / name, image));
+}
+
+/// A picture that the disk does not take is counted, and told ten times; the drive goes on.
+bool Album::keep(const Status& written) {
+  if (written) return true;
+  constexpr std::uint64_t kTold = 10;
+  if (not_kept_ == 0) first_not_kept_ = written.error().text();
+  if (++not_kept_ <= kTold) spdlog::error("{}", written.error().text());
+  return false;
 }
 
 }  // namespace phare

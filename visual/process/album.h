@@ -40,11 +40,15 @@ class Album {
   /// One number over the bytes of every kept frame in order (FNV-1a, 64 bit): equal drives give equal numbers.
   std::uint64_t frames_hash() const { return frames_hash_; }
   std::uint64_t kept_frames() const { return kept_frames_; }
+  /// Pictures that the disk did not take, and the first of them with its reason.
+  std::uint64_t not_kept() const { return not_kept_; }
+  const std::string& first_not_kept() const { return first_not_kept_; }
   /// Frames that lay in frames/ when going on; 0 otherwise.
   std::int64_t frames_found() const { return frames_found_; }
 
  private:
-  void save(const char* name, const Image8& image);
+  bool save(const char* name, const Image8& image);
+  bool keep(const Status& written);
 
   std::filesystem::path folder_;
   Thumbnails thumbnails_;
@@ -53,6 +57,8 @@ class Album {
   std::uint64_t frames_hash_ = 0xcbf29ce484222325ull;
   std::uint64_t kept_frames_ = 0;
   std::int64_t frames_found_ = 0;
+  std::uint64_t not_kept_ = 0;
+  std::string first_not_kept_;
 };
 
 }  // namespace phare

@@ -7,6 +7,7 @@
 
 #include "config/remedies.h"
 #include "net/drive_file.h"
+#include "net/run_key.h"
 #include "visual/process/explain.h"
 #include "visual/process/run_loop.h"
 
@@ -75,6 +76,7 @@ int draw_channel(VisualOptions options) {
   Result<Rig> rig = read_rig(options.rig_file);
   if (!rig) return refuse(rig.error());
   if (options.port_base) rig->port_base = *options.port_base;
+  if (options.open_bus) rig->run_key = false;
   if (options.channel >= rig->channels.size()) {
     return refuse({"--channel", "the rig has " + std::to_string(rig->channels.size()) + " channel(s), counted from 0"});
   }
@@ -115,19 +117,29 @@ int draw_channel(VisualOptions options) {
   if (!renderer) return refuse(with_remedy(renderer.error()));
   if (const Status loaded = renderer->load_scene(*scene); !loaded) return refuse(loaded.error());
 
+  if (const Status key = take_run_key(*rig); !key) return refuse(key.error());
   Result<Bus> bus = Bus::open(*rig, Role::kVisual, options.channel);
   if (!bus) return refuse(bus.error());
+  const StopFlag stop = install_stop_signals();
+  const Status ready = bus->ready_with_the_others(options.alive_file, [&] { return stop.requested(); });
+  if (!ready) return refuse(ready.error());
+  if (stop) return kExitDone;  // before the drive has begun: nothing is written
   Result<Album> album = options.out.empty() ? Result<Album>(Album{}) : Album::open(options.out, options.going_on);
   if (!album) return refuse(album.error());
 
   nlohmann::json lamps_json = describe(*lamps);
   Session session(std::move(options), std::move(*rig), std::move(desk), std::move(*scene), std::move(*lamps),
-                  std::move(window), std::move(*renderer), std::move(*bus), std::move(*album), install_stop_signals(),
+                  std::move(window), std::move(*renderer), std::move(*bus), std::move(*album), stop,
                   std::move(lamps_json));
   session.eye = eye_of(session);
   session.lane = lane_of(session.rig.scene_file);
   spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
   run_loop(session);
+  // Under a launcher it is the launcher that ends with 1: one that ended so itself would be started again.
+  if (session.album.not_kept() > 0 && session.options.alive_file.empty()) {
+    spdlog::error("{} pictures could not be kept, first {}", session.album.not_kept(), session.album.first_not_kept());
+    return kExitCheckFailed;
+  }
   if (session.renderer.validation_messages() > 0) {
     spdlog::error("{} Vulkan validation messages", session.renderer.validation_messages());
     return kExitCheckFailed;

@@ -51,6 +51,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       ->check(CLI::IsMember(kLogLevelNames))
       ->capture_default_str();
   app.add_option("--port-base", port_base, "First UDP port, instead of the rig's")->check(CLI::Range(1024, 65000));
+  app.add_flag("--open-bus", options.open_bus, "No key of the run: anyone on this machine may speak on the bus");
+  app.add_option("--alive", options.alive_file, "File that says, with every frame, that this process is not hung");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -20,6 +20,8 @@ struct VisualOptions {
   std::filesystem::path out;         ///< folder of the pictures; empty: none are written
   std::filesystem::path stats_file;  ///< empty: visual-<channel>.json in `out`
   std::uint32_t channel = 0;
+  std::filesystem::path alive_file;  ///< says that the process is not hung; empty: none
+  bool open_bus = false;             ///< no key of the run
   bool lockstep = false;
   bool headless = false;
   bool explain = false;                           ///< tell which effects a moment calls for, and leave

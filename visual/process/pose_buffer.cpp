@@ -62,6 +62,14 @@ void PoseBuffer::push(SimTime time, const VehicleState& state) {
   count_ = std::min(count_ + 1, ring_.size());
 }
 
+SimTime PoseBuffer::time_to_show(SimTime wanted, std::optional<SimTime> shown) const {
+  constexpr auto kCoast_ns = static_cast<std::int64_t>(kCoast_s * 1e9);
+  if (count_ == 0) return wanted;
+  const SimTime time{std::min(wanted.ns, ring_[newest_].time.ns + kCoast_ns)};
+  const bool a_little_behind = shown && time < *shown && shown->ns - time.ns <= kCoast_ns;
+  return a_little_behind ? *shown : time;
+}
+
 std::optional<PoseBuffer::Drawn> PoseBuffer::at(SimTime time) const {
   if (count_ == 0) return std::nullopt;
   const Entry& newest = ring_[newest_];

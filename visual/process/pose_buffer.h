@@ -27,6 +27,11 @@ class PoseBuffer {
     bool stale = false;  ///< older than the coast: the pose is held
   };
 
+  /// Simulated time that the picture may show at `wanted`: no further than the coast past the newest pose, for the car
+  /// is nowhere yet; and not before `shown`, which others have been told, when the car comes back a little behind it. A
+  /// seek goes back for good.
+  SimTime time_to_show(SimTime wanted, std::optional<SimTime> shown) const;
+
   /// Poses that go back in time (a seek, a new start) clear the buffer.
   void push(SimTime time, const VehicleState& state);
   std::optional<Drawn> at(SimTime time) const;

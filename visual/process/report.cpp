@@ -52,6 +52,7 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["drawn_s"] = stats.seconds();
   report["frames_captured"] = stats.captured_frames;
   report["frames_stale_pose"] = stats.stale_frames;
+  report["fail_safe"] = session.fail_safes.json();
   report["frame_ms"] = to_json(stats.wall_ms);
   report["frame_ms_without_capture"] = to_json(stats.wall_no_capture_ms);
   report["gpu_ms"] = to_json(stats.gpu_ms);
@@ -97,7 +98,9 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["aims"] = aims_json(session.lamps);
   report["table_ends"] = table_ends_json(session.lamps);
   report["kept_frames"] = {{"count", session.album.kept_frames()},
-                           {"hash", fmt::format("{:016x}", session.album.frames_hash())}};
+                           {"hash", fmt::format("{:016x}", session.album.frames_hash())},
+                           {"not_kept", session.album.not_kept()},
+                           {"first_not_kept", session.album.first_not_kept()}};
   return report;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "net/control_desk.h"
+#include "net/silence.h"
 #include "net/stats.h"
 #include "visual/image/canvas.h"
 #include "visual/process/overlay_lines.h"
@@ -60,7 +61,6 @@ class Loop {
       return accepted("leaves");
     });
     s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
-    controls_.light_switch = LightSwitch::kLow;  // until the cockpit speaks, low beam: the safe state
     if (!session.options.lockstep) drawn_frames_ = session.album.frames_found();
     warm_up();
     announce();
@@ -106,7 +106,6 @@ class Loop {
   Pacer pacer_;
   PoseBuffer poses_;
   DisplayClock clock_;
-  CockpitState controls_;
   std::int64_t drawn_index_ = -1;  // lockstep
   std::int64_t drawn_frames_ = 0;
   std::int64_t next_picture_ns_ = 0;
@@ -140,8 +139,6 @@ void Loop::take(const Datagram& datagram) {
   if (const auto* state = std::get_if<VehicleState>(&datagram.payload)) {
     poses_.push(datagram.sim_time, *state);
     clock_.observe(datagram.sim_time, datagram.sent);
-  } else if (const auto* controls = std::get_if<CockpitState>(&datagram.payload)) {
-    controls_ = *controls;
   } else if (const auto* request = std::get_if<ProbeRequest>(&datagram.payload)) {
     if (asked_.size() < kMostAsked) asked_.push_back({*request, datagram.sim_time});
   } else {
@@ -203,7 +200,7 @@ void Loop::warm_up() {
   for (std::uint32_t design = 0; thorough && design < s_.lamps.designs().size(); ++design) {
     for (const LightSwitch light : {LightSwitch::kOff, LightSwitch::kLow, LightSwitch::kHigh}) {
       for (const bool fog : {false, true}) {
-        CockpitState controls = controls_;
+        CockpitState controls;
         controls.design_index = design;
         controls.light_switch = light;
         controls.fog_front = fog;
@@ -213,7 +210,7 @@ void Loop::warm_up() {
   }
   input.camera = driver_camera(s_.channel(), pose);
   input.want_image = s_.album.wanted();
-  draw(controls_);
+  draw(controls_to_show(s_.bus, Clock::now()));  // low beam
   s_.lamps.begin_counting();
   if (!ended_) spdlog::info("ready after {:.1f} s", std::chrono::duration<double>(Clock::now() - begin).count());
 }
@@ -237,7 +234,7 @@ void Loop::repeat_when_stalled() {
     drawn_index_ = car->value.frame_index;
     FrameReport report{
         drawn_index_, s_.options.channel, static_cast<std::uint32_t>(s_.rig.channels.size()), 0.0, 0.0, 0, car->value,
-        true};
+        true,         LightSwitch::kOff,  false, false, s_.album.not_kept()};
     s_.bus.send(car->sim_time, report);
     return;
   }
@@ -275,12 +272,9 @@ std::optional<Moment> Loop::display_moment() {
     repeat_when_stalled();
     return std::nullopt;
   }
-  Moment moment{-1, *time, controls_, *car};
-  const auto* newest = s_.bus.newest<CockpitState>();
-  const bool silent = newest == nullptr ||
-                      std::chrono::nanoseconds(now.ns - newest->received.ns) > channel_of<CockpitState>().stale_after;
-  if (silent && moment.controls.light_switch < LightSwitch::kLow) moment.controls.light_switch = LightSwitch::kLow;
-  if (silent) moment.controls.flash = false;
+  const SimTime shown = poses_.time_to_show(*time, newest_ ? std::optional(newest_->time) : std::nullopt);
+  Moment moment{-1, shown, controls_to_show(s_.bus, Clock::now()), *poses_.at(shown)};
+  moment.car.stale = car->stale;
   return moment;
 }
 
@@ -320,6 +314,7 @@ void Loop::draw(const Moment& moment) {
   if (over_) return;  // what is counted is the drive
   s_.stats.add(result, captured_);
   if (moment.car.stale) ++s_.stats.stale_frames;
+  s_.fail_safes.add(moment.time, moment.controls);
   const Clock::time_point now = Clock::now();
   s_.stats.frame_ended(now);
   if (frame_end_ != Clock::time_point{})
@@ -341,7 +336,8 @@ void Loop::report(const Moment& moment) {
   FrameReport report{
       moment.frame_index,      s_.options.channel,     static_cast<std::uint32_t>(s_.rig.channels.size()),
       s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms, moment.controls.light_changes,
-      moment.car.pose,         moment.car.stale};
+      moment.car.pose,         moment.car.stale,       moment.controls.light_switch,
+      moment.controls.flash,   moment.controls.fail_safe, s_.album.not_kept()};
   s_.bus.send(moment.time, report);
   progress_ = Clock::now();  // keeping the picture may have taken longer than a stall
 }
@@ -351,6 +347,7 @@ void Loop::keep(const Moment& moment) {
   if (captured_) {
     Image8 image = s_.renderer.read_image();
     if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);
+    if (moment.controls.fail_safe) draw_text(image, 12, 60, "FAIL-SAFE low beam", {255, 90, 60}, 2);
     if (!moment.controls.source_fault.empty()) draw_text(image, 12, 36, moment.controls.source_fault, {255, 90, 60}, 2);
     s_.album.keep_frame(number_of(moment), image, label(moment));
   }
@@ -378,6 +375,7 @@ void Loop::audit(const Moment& moment) {
 void Loop::finish() {
   s_.bus.on_datagram = nullptr;
   s_.album.finish();
+  if (newest_ && s_.album.not_kept() > 0) report(*newest_);  // the stills too: the statistics may find no room either
   write_stats(newest_ ? newest_->time : SimTime{});
 }
 

@@ -11,6 +11,7 @@
 #include "visual/process/adaptation.h"
 #include "visual/process/album.h"
 #include "visual/process/audit.h"
+#include "visual/process/fail_safe_log.h"
 #include "visual/process/frame_stats.h"
 #include "visual/process/lamps.h"
 #include "visual/process/options.h"
@@ -48,6 +49,7 @@ struct Session {
   FrameStats stats;
   AuditStats audit;
   SwitchToPhoton switches;
+  FailSafeLog fail_safes;
   EyeAdaptation eye;
   std::vector<LanePoint> lane;  ///< of the scene; empty where it has none
   nlohmann::json lamps_json;    ///< tables with hashes, peak and flux: does not change

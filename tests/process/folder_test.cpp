@@ -1,0 +1,178 @@
+// process: what a drive does to the folders of others, what it says when it could not keep what it was to keep, and how
+// it ends when it is cut short.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <thread>
+
+#include "tests/paths.h"
+#include "tests/process/drive_run.h"
+
+namespace phare::test {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+struct Said {
+  int code = -1;
+  std::string err;
+};
+
+std::string contents_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class Folder : public testing::Test {
+ protected:
+  /// `phare drive --headless --lockstep --size 96x54 … words` in the folder.
+  Said drive_here(const std::string& words) const {
+    const std::string command = "cd '" + folder_.path().string() + "' && timeout 110 '" + program("phare") +
+                                "' drive --headless --lockstep --size 96x54 --log-level warn --port-base " +
+                                std::to_string(port_base()) + " " + words + " 2>err.txt >/dev/null </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents_of(folder_ / "err.txt")};
+  }
+  std::map<std::string, std::string> everything_in(const std::string& name) const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / name))
+      if (entry.is_regular_file()) files[entry.path().string()] = contents_of(entry.path());
+    return files;
+  }
+  TemporaryFolder folder_;
+};
+
+// A word wrong in a file that only one process reads costs the evening's drive nothing, and the recording neither.
+TEST_F(Folder, WhatAnyProcessCannotReadLeavesTheDriveBeforeAsItLay) {
+  ASSERT_EQ(drive_here("--frames 3 --out out --record evening.pcap").code, 0);
+  const auto before = everything_in("out");
+  const std::string recorded = contents_of(folder_ / "evening.pcap");
+  ASSERT_GT(before.size(), 8u);
+  std::ofstream(folder_ / "typo.toml") << "[source]\nkind = \"keybord\"\n";
+  std::ofstream(folder_ / "typo_script.toml") << "lane = 3\n";
+  for (const char* wrong : {"--cockpit typo.toml", "--script typo_script.toml"}) {
+    const Said said = drive_here("--frames 3 --out out --record evening.pcap --overwrite " + std::string(wrong));
+    EXPECT_EQ(said.code, 2) << said.err;
+    EXPECT_NE(said.err.find("typo"), std::string::npos) << said.err;
+    EXPECT_TRUE(everything_in("out") == before) << wrong;
+    EXPECT_TRUE(contents_of(folder_ / "evening.pcap") == recorded) << wrong;
+  }
+}
+
+TEST_F(Folder, AnotherDriveGoesBesideUnlessItMayOverwrite) {
+  ASSERT_EQ(drive_here("--frames 2 --out out").code, 0);
+  const auto before = everything_in("out");
+  const Said beside = drive_here("--frames 3 --out out");
+  EXPECT_EQ(beside.code, 0) << beside.err;
+  EXPECT_TRUE(everything_in("out") == before);
+  EXPECT_TRUE(fs::exists(folder_ / "out-2" / "frames" / "000002.png"));
+  EXPECT_NE(beside.err.find("out-2"), std::string::npos) << beside.err;
+  // The same again is no other drive; nor is one that may.
+  EXPECT_EQ(drive_here("--frames 2 --out out").code, 0);
+  EXPECT_EQ(drive_here("--frames 4 --out out --overwrite").code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "frames" / "000003.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "out-3"));
+}
+
+// A disk that takes no more, here a folder that is gone: the drive goes on, and says at its end what is missing.
+TEST_F(Folder, PicturesThatCouldNotBeKeptAreCountedAndEndWithOne) {
+  const fs::path out = folder_ / "out";
+  DriveRun run(out, folder_.path(), {"--frames", "40"});
+  ASSERT_TRUE(run.wait_for_frame(5));
+  fs::rename(out / "frames", out / "gone");
+  EXPECT_EQ(run.wait(), 1);
+  const auto report = report_of(out);
+  ASSERT_TRUE(report.is_object());
+  const auto& kept = report["processes"]["visual-0"]["kept_frames"];
+  EXPECT_GT(kept["not_kept"].get<int>(), 0);
+  EXPECT_EQ(kept["count"].get<int>() + kept["not_kept"].get<int>(), 40);
+  EXPECT_NE(report["why"].get<std::string>().find("pictures could not be kept"), std::string::npos) << report["why"];
+  EXPECT_EQ(report["exit_code"], 1);
+  EXPECT_NE(contents_of(out / "index.html").find("pictures could not be kept"), std::string::npos);
+}
+
+TEST_F(Folder, ADriveThatIsCutShortSaysSoAndEndsWith130) {
+  for (const bool hung : {false, true}) {
+    const fs::path out = folder_ / (hung ? "hung" : "cut");
+    DriveRun run(out, folder_.path(), {});
+    ASSERT_TRUE(run.wait_for_frame(0));
+    const auto processes = run.processes();
+    ASSERT_EQ(processes.size(), 3u);
+    // Processes that cannot answer any more do not hold up the end.
+    for (const auto& [name, process] : processes)
+      if (hung && name != "phare-dynamics") kill(process, SIGSTOP);
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_EQ(run.end(SIGINT), 130);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    std::printf("ended %.2f s after Ctrl-C%s\n", took.count(), hung ? ", two of three stopped" : "");
+    for (const auto& [name, process] : processes)
+      EXPECT_FALSE(fs::exists("/proc/" + std::to_string(process) + "/exe")) << name;
+    const auto report = report_of(out);
+    ASSERT_TRUE(report.is_object());
+    EXPECT_EQ(report["cut_short"], true);
+    EXPECT_EQ(report["exit_code"], 130);
+    EXPECT_NE(contents_of(out / "index.html").find("cut short"), std::string::npos);
+  }
+}
+
+// One that hangs is told, ended and started again; the picture waits with low beam, not with what was.
+TEST_F(Folder, AProcessThatHangsIsEndedAndStartedAgain) {
+  const fs::path out = folder_ / "out";
+  DriveRun run(out, folder_.path(), {"--frames", "200"});
+  ASSERT_TRUE(run.wait_for_frame(20));
+  kill(run.processes().at("phare-cockpit"), SIGSTOP);
+  EXPECT_EQ(run.wait(), 0);
+  const auto report = report_of(out);
+  ASSERT_EQ(report["restarts"].size(), 1u);
+  EXPECT_EQ(report["restarts"][0]["process"], "cockpit");
+  EXPECT_TRUE(report["restarts"][0]["because"].get<std::string>().starts_with("stopped: no sign of life for 3"))
+      << report["restarts"][0]["because"];
+}
+
+// The page on sending from a program of one's own, as it stands there: it has the key and is answered; without it,
+// nobody listens.
+TEST_F(Folder, TheProgramOfThePageOnSendingIsAnswered) {
+  if (std::system("which python3 protoc > /dev/null 2>&1") != 0) GTEST_SKIP() << "no python3 or no protoc";
+  std::ifstream page(source_dir() + "/docs/send.md");
+  std::ofstream code(folder_ / "send.py");
+  bool inside = false;
+  int lines = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("```")) {
+      inside = line == "```python";
+    } else if (inside) {
+      code << line << "\n";
+      ++lines;
+    }
+  }
+  code.close();
+  ASSERT_GT(lines, 10);
+  EXPECT_LE(lines, 22);
+  DriveRun run(folder_ / "out", folder_.path(), {});
+  ASSERT_TRUE(run.wait_for_frame(0));
+  const std::string send = "timeout 60 python3 '" + (folder_ / "send.py").string() + "' " +
+                           std::to_string(port_base()) + " '" + source_dir() + "/net/phare.proto'";
+  FILE* pipe = popen((send + " 2>&1").c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  std::string said;
+  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) said.push_back(static_cast<char>(c));
+  EXPECT_EQ(pclose(pipe), 0) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 3) << said;
+  EXPECT_NE(said.find("bytes of answer"), std::string::npos) << said;
+
+  const std::string status = "'" + std::string(program("phare")) + "' control --wait 1 --port-base " +
+                             std::to_string(port_base()) + " ";
+  EXPECT_EQ(std::system((status + "status > /dev/null").c_str()), 0);
+  EXPECT_NE(std::system((status + "--open-bus status > /dev/null 2>&1").c_str()), 0) << "without the key";
+  EXPECT_EQ(run.end(SIGINT), 130);
+}
+
+}  // namespace
+}  // namespace phare::test
