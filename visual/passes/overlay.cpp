@@ -86,7 +86,7 @@ float draw_lines(const Pen& pen, float picture_width_px, const std::vector<std::
   float width = 0.0f;
   for (const std::string& line : lines) width = std::max(width, pen.width(line));
   pen.list.AddRectFilled({edge, edge}, {3.0f * edge + width, 2.0f * edge + height * static_cast<float>(lines.size())},
-                         IM_COL32(0, 0, 0, 60), 4.0f);
+                         kPaper, 4.0f);
   float y = 1.5f * edge;
   for (const std::string& line : lines) {
     pen.write(2.0f * edge, y, kInk, line);
@@ -104,7 +104,7 @@ void draw_instruments(const Pen& small, const Pen& large, const ImVec2& picture,
   for (const OverlayInstrument& each : instruments) width += (each.large ? large : small).width(each.text) + gap;
   const float height = 1.3f * large.size_px, top = picture.y - height - 0.5f * small.size_px;
   float x = std::max((picture.x - width) * (to_the_right ? 1.0f : 0.5f), 0.0f);
-  small.list.AddRectFilled({x, top}, {x + width, top + height}, IM_COL32(0, 0, 0, 85), 6.0f);
+  small.list.AddRectFilled({x, top}, {x + width, top + height}, kPaper, 6.0f);
   x += gap;
   for (const OverlayInstrument& each : instruments) {
     const Pen& pen = each.large ? large : small;
