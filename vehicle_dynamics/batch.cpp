@@ -8,6 +8,7 @@
 
 #include "config/conventions.h"
 #include "vehicle_dynamics/models/air.h"
+#include "vehicle_dynamics/models/energy.h"
 #include "vehicle_dynamics/models/kinematic.h"
 #include "vehicle_dynamics/models/powertrain.h"
 
@@ -58,7 +59,7 @@ bool finite(const double* values, std::size_t count) {
 // A car of any level behind one face, for this loop only.
 class Car {
  public:
-  Car(const Options& o, bool resistance, bool given_torques) : o_(o), given_torques_(given_torques) {
+  Car(const Options& o, bool resistance, bool given_torques) : o_(o), driver_(o.driver), given_torques_(given_torques) {
     if (!resistance) o_.vehicle.drag_area_m2 = o_.vehicle.rolling_coefficient = 0.0;
     input_.air_and_rolling = resistance;
     input_.road = o.road;
@@ -91,6 +92,7 @@ class Car {
   // Error: there is no road there.
   Status place(const std::array<double, 4>* given) {
     const double b = o_.vehicle.wheelbase_m - o_.vehicle.cg_to_front_m;
+    const double c = std::cos(o_.start_yaw_rad), sn = std::sin(o_.start_yaw_rad);
     std::array<double, 4> height{};
     if (given) {
       input_.heights_given = true;
@@ -98,21 +100,27 @@ class Car {
       input_.height_m = o_.level == Level::kFull ? *given : height;
     } else if (o_.road) {
       for (std::size_t i = 0; i < 4; ++i) {
-        const double x = o_.start_x_m + (i < 2 ? o_.vehicle.cg_to_front_m : -b),
-                     y = (i % 2 == 0 ? 0.5 : -0.5) * o_.vehicle.track_m;
+        const double along = i < 2 ? o_.vehicle.cg_to_front_m : -b,
+                     aside = (i % 2 == 0 ? 0.5 : -0.5) * o_.vehicle.track_m;
+        const double x = o_.start_x_m + c * along - sn * aside, y = o_.start_y_m + sn * along + c * aside;
         bool off = false;
-        height[i] = o_.road->at(x, y, x, i % 2 == 0, 0.0, &off).z_m;
+        height[i] = o_.road->at(x, y, o_.start_x_m + along, i % 2 == 0, 0.0, &off).z_m;
         if (off)
           return Error{"--start-x-m", "there is no road under the car: none of its triangles is at x " + text_of(x) +
                                           " m, y " + text_of(y) + " m"};
       }
     }
-    full_ = full::at_rest(full_params_, o_.start_x_m, 0.0, 0.0, o_.speed_mps, height);
-    single_ = single_track::at_rest(single_params_, o_.start_x_m, 0.0, 0.0, o_.speed_mps, height);
-    flat_.x_m = path_m_ = o_.start_x_m - b;
+    full_ = full::at_rest(full_params_, o_.start_x_m, o_.start_y_m, o_.start_yaw_rad, o_.speed_mps, height);
+    single_ = single_track::at_rest(single_params_, o_.start_x_m, o_.start_y_m, o_.start_yaw_rad, o_.speed_mps, height);
+    path_m_ = o_.start_x_m - b;
+    flat_.x_m = o_.start_x_m - b * c, flat_.y_m = o_.start_y_m - b * sn, flat_.yaw_rad = yaw_ = o_.start_yaw_rad;
     flat_.speed_mps = o_.speed_mps;
     kinematic::stand_on(o_.vehicle, height, flat_, 0.0);
     beside_ = height;
+    if (o_.columns & kEnergy)
+      account_ = o_.level == Level::kFull          ? energy::open(full_params_, input_, full_)
+                 : o_.level == Level::kSingleTrack ? energy::open(single_params_, input_, single_)
+                                                   : energy::open(o_.vehicle, flat_);
     return Done{};
   }
 
@@ -127,7 +135,10 @@ class Car {
       input_.height_m = beside_;
     }
     in.go(time_s + 0.5 * dt);
-    input_.steer_rad = in.linear(inputs.steer_rad);
+    if (o_.driver.path.empty())
+      input_.steer_rad = in.linear(inputs.steer_rad);
+    else
+      input_.steer_rad = steered(dt);
     const powertrain::Torques torques = torques_of(in, inputs, dt);
     input_.drive_nm = torques.drive_nm, input_.brake_nm = torques.brake_nm;
     if (o_.level == Level::kKinematic) {
@@ -139,11 +150,24 @@ class Car {
                                           : reference_.advance(single_params_, input_, single_, dt);
       return gave_up_.ok();
     }
+    const full::State full_before = full_;
+    const single_track::State single_before = single_;
     if (o_.level == Level::kFull)
       full::advance(full_params_, input_, full_, dt);
     else
       single_track::advance(single_params_, input_, single_, dt);
+    if (o_.columns & kEnergy) {
+      if (o_.level == Level::kFull)
+        energy::add(full_params_, input_, full_before, full_, dt, account_);
+      else
+        energy::add(single_params_, input_, single_before, single_, dt, account_);
+    }
     return true;
+  }
+
+  // Braked to a stand, or at the end of the way.
+  bool at_rest() const {
+    return (std::abs(speed()) < 1e-3 && controls_.brake_01 > 0.0) || (!o_.driver.path.empty() && driver_.arrived());
   }
 
   // Numbers that a car can have, by far: a step that is too long for the method, or a road that rises by kilometres,
@@ -183,6 +207,7 @@ class Car {
       row.ax_mps2 = s.ax_mps2, row.ay_mps2 = s.ay_mps2;
       row.spin_radps.fill(s.speed_mps / o_.vehicle.tyre_radius_m);
       kinematic_forces(row);
+      if (o_.columns) on_demand(nullptr, row);
       road_pitch_ = s.road_pitch_rad, origin_z_ = s.z_m + s.heave_m, plane_z_ = s.z_m;
       return row;
     }
@@ -208,6 +233,7 @@ class Car {
     row.ax_mps2 = f.ax_mps2, row.ay_mps2 = f.ay_mps2;
     row.spin_radps = spins();
     row.fz_n = f.load_n, row.fx_n = f.fx_n, row.fy_n = f.fy_n;
+    if (o_.columns) on_demand(&f, row);
     road_pitch_ = f.road_pitch_rad;
     origin_z_ = row.z_m + h + b * std::sin(f.pitch_rad) - h * std::cos(f.pitch_rad) * std::cos(f.roll_rad);
     plane_z_ = 0.5 * (f.ground_m[2] + f.ground_m[3]);
@@ -248,6 +274,59 @@ class Car {
     return whole ? std::hypot(full_.u_mps, full_.v_mps) : std::hypot(single_.u_mps, single_.v_mps);
   }
 
+  // The centre of gravity's place on the map, and the heading.
+  LanePoint place_now() const {
+    if (o_.level == Level::kFull) {
+      const full::State& s = full_;
+      return {.x_m = s.x_m,
+              .y_m = s.y_m,
+              .heading_rad = std::atan2(2.0 * (s.qx * s.qy + s.qw * s.qz), 1.0 - 2.0 * (s.qy * s.qy + s.qz * s.qz))};
+    }
+    if (o_.level == Level::kSingleTrack)
+      return {.x_m = single_.x_m, .y_m = single_.y_m, .heading_rad = single_.yaw_rad};
+    const double b = o_.vehicle.wheelbase_m - o_.vehicle.cg_to_front_m;
+    return {.x_m = flat_.x_m + b * std::cos(flat_.yaw_rad),
+            .y_m = flat_.y_m + b * std::sin(flat_.yaw_rad),
+            .heading_rad = flat_.yaw_rad};
+  }
+  // The path is that of the car's origin, as lanes are.
+  double steered(double dt) {
+    const LanePoint now = place_now();
+    const double b = o_.vehicle.wheelbase_m - o_.vehicle.cg_to_front_m;
+    return driver_.steer_rad(now.x_m - b * std::cos(now.heading_rad), now.y_m - b * std::sin(now.heading_rad),
+                             now.heading_rad, speed(), o_.vehicle.wheelbase_m,
+                             o_.vehicle.max_steering_wheel_rad / o_.vehicle.steering_ratio, input_.steer_rad, dt);
+  }
+
+  // What was asked for beside the motion. `f`: nullptr at level kinematic.
+  void on_demand(const full::Forces* f, Row& row) const {
+    const bool whole = o_.level == Level::kFull;
+    row.drive_nm = input_.drive_nm, row.brake_nm = input_.brake_nm;
+    row.gear = given_torques_ || !o_.vehicle.engine ? 0.0 : power_.gear + 1.0;
+    row.engine_rpm = power_.engine_radps * 30.0 / std::numbers::pi;
+    row.steer_rad = input_.steer_rad, row.accelerator_01 = controls_.accelerator_01, row.brake_01 = controls_.brake_01;
+    row.car_j = account_.car_j, row.engine_j = account_.engine_j, row.brakes_j = account_.brakes_j;
+    row.tyres_j = account_.tyres_j, row.dampers_j = account_.dampers_j, row.air_j = account_.air_j;
+    row.road_j = account_.road_j;
+    if (!f) return;
+    const full::Params& p = whole ? full_params_ : single_params_.car;
+    const powertrain::Wheels wheels = whole ? full::wheels(full_params_, input_, full_) : powertrain::Wheels{};
+    const double friction = whole ? 1.0 : single_track::held(single_params_, input_, single_, o_.step_s).friction;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double share = p.tyre_rate_npm / (p.tyre_rate_npm + p.spring_npm[i]);
+      row.slip[i] = whole ? full_.kappa[i] : 0.0;
+      row.slip_angle_rad[i] = std::atan(whole ? full_.tan_alpha[i] : (i < 2 ? single_.front_slip : single_.rear_slip));
+      row.travel_m[i] =
+          whole ? full_.travel_m[i]
+                : share * (f->ground_m[i] - (single_.z_m - p.x_m[i] * single_.pitch + p.y_m[i] * single_.roll));
+      row.camber_rad[i] = f->roll_rad - f->road_roll_rad;
+      const double most = (whole ? wheels.peak_slip[i] / p.tyre.peak_kappa : friction) * f->load_n[i];
+      if (most > 0.0)
+        row.friction_used_01[i] =
+            std::hypot(f->fx_n[i] / (most * p.tyre.p.long_peak), f->fy_n[i] / (most * p.tyre.p.lat_peak));
+    }
+  }
+
   // Heights that the inputs give, as the model takes them: full where its wheels are, the others a wheelbase and a
   // track apart on the map.
   std::array<double, 4> heights(Playhead& in, const Inputs& inputs, double time_s) const {
@@ -278,14 +357,19 @@ class Car {
   powertrain::Torques torques_of(const Playhead& in, const Inputs& inputs, double dt) {
     const double parking_01 = in.linear(inputs.parking_01);
     if (!inputs.accelerator_01.empty()) {
-      const Controls controls{.accelerator_01 = in.linear(inputs.accelerator_01),
-                              .brake_01 = in.linear(inputs.brake_01),
-                              .gear = static_cast<Gear>(static_cast<int>(in.held(inputs.gear))),
-                              .parking_brake_01 = parking_01};
+      controls_ = {.accelerator_01 = in.linear(inputs.accelerator_01),
+                   .brake_01 = in.linear(inputs.brake_01),
+                   .gear = static_cast<Gear>(static_cast<int>(in.held(inputs.gear))),
+                   .parking_brake_01 = parking_01};
+      if (o_.driver.hold_speed_mps) {
+        const Driver::Pedals pedals = driver_.pedals(place_now().x_m, speed(), dt);
+        controls_.accelerator_01 = controls_.brake_01 > 0.0 ? 0.0 : pedals.accelerator_01;
+        controls_.brake_01 = std::max(controls_.brake_01, pedals.brake_01);  // the inputs' foot comes first
+      }
       const powertrain::Wheels wheels = o_.level == Level::kFull
                                             ? full::wheels(full_params_, input_, full_)
                                             : powertrain::rolling(speed(), o_.vehicle.tyre_radius_m);
-      return powertrain::advance(o_.vehicle, controls, speed(), wheels, power_, dt);
+      return powertrain::advance(o_.vehicle, controls_, speed(), wheels, power_, dt);
     }
     powertrain::Torques out;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -310,7 +394,9 @@ class Car {
       push.brake_n = std::min(push.brake_n, o_.vehicle.max_brake_force_n);
     }
     const double before_mps = flat_.speed_mps;
+    const CarState before = flat_;
     kinematic::advance(o_.vehicle, input_.steer_rad * o_.vehicle.steering_ratio, push, flat_, dt);
+    if (o_.columns & kEnergy) energy::add(o_.vehicle, push, before, flat_, dt, account_);
     path_m_ += 0.5 * (before_mps + flat_.speed_mps) * std::cos(flat_.road_pitch_rad) * dt;
     std::array<double, 4> height = beside_;
     if (input_.heights_given) {
@@ -357,6 +443,9 @@ class Car {
   single_track::State single_;
   CarState flat_;
   powertrain::State power_;
+  Controls controls_;
+  Driver driver_;
+  energy::Account account_;
   levelling::State lamps_;
   ReferenceIntegrator reference_;
   std::array<double, 4> beside_{};
@@ -368,7 +457,7 @@ class Car {
 };
 
 Row between(const Row& a, const Row& b, double u) {
-  static_assert(sizeof(Row) == 33 * sizeof(double), "a row is doubles only");
+  static_assert(sizeof(Row) == 73 * sizeof(double), "a row is doubles only");
   Row out;
   const auto *pa = &a.time_s, *pb = &b.time_s;
   auto* po = &out.time_s;
@@ -494,7 +583,7 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
       if (waiting.size() == waiting.capacity()) hand_on();
     }
     before = now;
-    if (car.rolled_over_s()) break;
+    if (car.rolled_over_s() || (options.ends_at_rest && car.at_rest())) break;
   }
   hand_on();
   summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin - elsewhere).count();

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "config/fail.h"
+#include "config/lane.h"
 #include "config/log_levels.h"
 #include "config/rig.h"
 #include "net/bus.h"
@@ -23,6 +24,7 @@
 #include "net/scheduling.h"
 #include "net/stats.h"
 #include "vehicle_dynamics/batch_command.h"
+#include "vehicle_dynamics/road_laid.h"
 #include "vehicle_dynamics/start_pose.h"
 #include "vehicle_dynamics/step.h"
 
@@ -58,7 +60,8 @@ bool high_beam_on(const CockpitState& state) {
   return state.flash || state.light_switch == LightSwitch::kHigh;
 }
 
-Result<Begin> prepare(const Rig& rig, const Options& options, std::optional<levelling::Kind> levelling) {
+Result<Begin> prepare(const Rig& rig, const Options& options, std::optional<levelling::Kind> levelling,
+                      const Conditions& conditions) {
   const std::string named = options.level.empty() ? rig.dynamics_level : options.level;
   const Result<Level> level = parse_level(named, options.level.empty() ? rig.file.string() : "--level");
   if (!level) return level.error();
@@ -100,6 +103,13 @@ Result<Begin> prepare(const Rig& rig, const Options& options, std::optional<leve
       spdlog::warn("{}: no node whose name begins with road or ground; the car drives on a plane",
                    rig.scene_file.string());
   }
+
+  if (const Status laid = lay(conditions, rig.scene_file, begin.setup.on_top); !laid) return laid.error();
+  const std::string said = text(begin.setup.on_top);
+  if (!said.empty()) spdlog::info("road: {}", said);
+  if (!said.empty() && *level == Level::kKinematic)
+    spdlog::warn(
+        "level kinematic has no tyres: friction changes nothing, and roughness its plane only; --level auto does");
 
   if (!begin.setup.track.empty()) {
     begin.state = from_message(begin.setup.track.at(begin.setup.track.begin()), begin.setup.vehicle.wheelbase_m,
@@ -459,7 +469,8 @@ int run(int argc, char** argv) {
   if (!rig) return fail("phare-dynamics", rig.error());
   if (options.port_base) rig->port_base = *options.port_base;
   StopFlag stop = install_stop_signals();
-  Result<Begin> begin = prepare(*rig, options, batch.levelling());
+  if (!batch.vehicle().empty()) rig->vehicle_file = batch.vehicle();
+  Result<Begin> begin = prepare(*rig, options, batch.levelling(), batch.conditions());
   if (!begin) return fail("phare-dynamics", begin.error());
   Result<Bus> bus = Bus::open(*rig, Role::kDynamics);
   if (!bus) return fail("phare-dynamics", bus.error());
