@@ -430,6 +430,8 @@ int BatchCommand::run(const std::string& level_name) const {
   const StopFlag stop = install_stop_signals();
   std::string text = batch::header(lamps, options.columns);
   std::vector<batch::Row> rows;  // of a manoeuvre, for its figures
+  std::uint64_t below = 0;       // rows in which the beam does not reach the wall
+  double lowest_m = 0.0;
   Status written = Done{};
   const auto pass_on = [&](std::size_t from_size) {
     if (text.size() < from_size) return;
@@ -439,6 +441,7 @@ int BatchCommand::run(const std::string& level_name) const {
   options.stop = [&] { return !written || stop; };
   const Result<batch::Summary> summary = batch::run(options, *inputs, [&](const batch::Row& row) {
     if (standard) rows.push_back(row);
+    if (lamps && row.cutoff_25m_m < 0.0) ++below, lowest_m = std::min(lowest_m, row.cutoff_25m_m);
     if (!file) return;
     batch::append(row, lamps, text, options.columns);
     pass_on(1 << 18);
@@ -457,6 +460,14 @@ int BatchCommand::run(const std::string& level_name) const {
                  options.vehicle.name.c_str());
     for (const batch::Figure& figure : batch::figures(*standard, rows))
       std::fprintf(told, "  %-48s %9.3f %s\n", figure.what.c_str(), figure.value, figure.unit);
+  }
+  if (below > 0) {
+    const double lamp_m = options.vehicle.levelling.lamp_height_m;
+    std::fprintf(
+        stderr,
+        "phare-dynamics: cutoff_25m_m is below 0 in %llu rows: below the ground, as the beam meets the road before "
+        "the wall, at the nearest %.1f m ahead of the lamps\n",
+        static_cast<unsigned long long>(below), levelling::kWall_m * lamp_m / (lamp_m - lowest_m));
   }
   if (!lamps && file)
     std::fprintf(stderr, "phare-dynamics: %s has no table [levelling]: no columns for cut-off and lamps\n",

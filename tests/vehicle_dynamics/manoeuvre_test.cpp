@@ -159,6 +159,19 @@ TEST(Batch, ColumnsOnDemand) {
   EXPECT_TRUE(header.ends_with(",gear,engine_rpm,car_j,engine_j,brakes_j,tyres_j,dampers_j,air_j,road_j\n")) << header;
 }
 
+// Full braking puts the cut-off below the ground on the wall: said once, with where the beam meets the road. With 50
+// mrad of dive and 10 of aim a lamp that has come down to 0.55 m reaches 9.2 m.
+TEST(BatchProgram, CutOffBelowTheGroundIsExplained) {
+  const std::string car = " --vehicle " + std::string(vehicles_dir()) + "/bmw_320i.toml ";
+  std::string said;
+  EXPECT_EQ(program("--manoeuvre iso21994" + car, &said), 0) << said;
+  EXPECT_NE(said.find("below the ground, as the beam meets the road before the wall, at the nearest 9."),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(program("--manoeuvre iso7401" + car, &said), 0);
+  EXPECT_EQ(said.find("below the ground"), std::string::npos) << said;
+}
+
 TEST(BatchProgram, DriverAndManoeuvreOptionsFit) {
   const std::string car = " --vehicle " + std::string(vehicles_dir()) + "/hatchback.toml ";
   std::string said;
