@@ -256,10 +256,10 @@ powertrain::Wheels wheels(const Params& p, const Input& input, const State& s) {
   if (input.road && input.heights_given) friction.fill(input.road->friction_everywhere);
   if (input.road && !input.heights_given) {
     const double cosine = 1.0 - 2.0 * (s.qy * s.qy + s.qz * s.qz), sine = 2.0 * (s.qx * s.qy + s.qw * s.qz);
+    const Road::Laid laid[2] = {input.road->laid(s.path_m + p.x_m[0]), input.road->laid(s.path_m + p.x_m[2])};
     for (std::size_t i = 0; i < 4; ++i) {
       const double x = s.x_m + cosine * p.x_m[i] - sine * p.y_m[i], y = s.y_m + sine * p.x_m[i] + cosine * p.y_m[i];
-      friction[i] =
-          input.road->laid(s.path_m + p.x_m[i]).friction[static_cast<int>(i % 2)] * input.road->base_friction(x, y);
+      friction[i] = laid[i / 2].friction[static_cast<int>(i % 2)] * input.road->base_friction(x, y);
     }
   }
   for (std::size_t i = 0; i < 4; ++i) {
