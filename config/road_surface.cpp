@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "config/gltf_file.h"
+#include "config/road_friction.h"
 
 namespace phare {
 namespace {
@@ -22,6 +23,17 @@ using Box = std::array<double, 4>;
 // facet is missing from a cell that holds a point of it.
 std::int64_t interval(double place, std::int64_t count) {
   return std::clamp(static_cast<std::int64_t>(place), std::int64_t{0}, count - 1);
+}
+
+// What the material of a primitive says, 1 if nothing.
+Result<double> friction_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+  if (primitive.material < 0 || static_cast<std::size_t>(primitive.material) >= model.materials.size()) return 1.0;
+  const tinygltf::Material& material = model.materials[static_cast<std::size_t>(primitive.material)];
+  if (!material.extras.IsObject() || !material.extras.Has("friction")) return 1.0;
+  const tinygltf::Value& value = material.extras.Get("friction");
+  const double friction = value.IsNumber() ? value.GetNumberAsDouble() : 0.0;
+  if (friction >= kLeastFriction && friction <= kMostFriction) return friction;
+  return Error{"material \"" + material.name + "\"", "extras.friction is no number from 0.01 to 2"};
 }
 
 }  // namespace
@@ -44,8 +56,10 @@ Result<RoadSurface> RoadSurface::read(const std::filesystem::path& gltf_file) {
       if (!vertices) return in_file(vertices.error());
       const Result<std::vector<std::uint32_t>> indices = read_triangles(*model, primitive, vertices->size());
       if (!indices) return in_file(indices.error());
+      const Result<double> friction = friction_of(*model, primitive);
+      if (!friction) return in_file(friction.error());
       for (std::size_t i = 0; i + 2 < indices->size(); i += 3) {
-        Triangle triangle{.corner_m = {}, .road = road};
+        Triangle triangle{.corner_m = {}, .road = road, .friction = *friction};
         for (std::size_t corner = 0; corner < 3; ++corner)
           triangle.corner_m[corner] =
               glm::dvec3(instance.world_from_mesh * glm::dvec4((*vertices)[(*indices)[i + corner]], 1.0));
@@ -75,6 +89,8 @@ RoadSurface RoadSurface::from_triangles(const std::vector<Triangle>& triangles) 
     f.slope_x = p.z * f.ux + q.z * f.vx;
     f.slope_y = p.z * f.uy + q.z * f.vy;
     f.road = triangle.road;
+    f.friction = static_cast<float>(triangle.friction);
+    surface.has_friction_ |= triangle.friction != 1.0;
     surface.facets_.push_back(f);
     const auto [low_x, high_x] = std::minmax({0.0, p.x, q.x});
     const auto [low_y, high_y] = std::minmax({0.0, p.y, q.y});
@@ -211,6 +227,11 @@ std::optional<double> RoadSurface::height_m(double x_m, double y_m) const {
   const Found found = find(x_m, y_m);
   if (!found.facet) return std::nullopt;
   return found.z_m;
+}
+
+double RoadSurface::friction(double x_m, double y_m) const {
+  const Found found = find(x_m, y_m);
+  return found.facet ? static_cast<double>(found.facet->friction) : 1.0;
 }
 
 std::optional<RoadPoint> RoadSurface::at(double x_m, double y_m) const {

@@ -32,6 +32,7 @@ class RoadSurface {
   struct Triangle {
     std::array<glm::dvec3, 3> corner_m;
     bool road = true;
+    double friction = 1.0;  ///< of its material
   };
   static RoadSurface from_triangles(const std::vector<Triangle>& triangles);
 
@@ -44,6 +45,11 @@ class RoadSurface {
   /// Its height alone: what a wheel asks for, a few dozen times a step.
   std::optional<double> height_m(double x_m, double y_m) const;
 
+  /// Friction of the material there: its glTF `extras` may have a number "friction", 1 as the tyre was measured. 1
+  /// beside the surface.
+  double friction(double x_m, double y_m) const;
+  bool has_friction() const { return has_friction_; }  ///< whether any material says one
+
   std::size_t triangle_count() const { return facets_.size(); }
 
  private:
@@ -52,6 +58,7 @@ class RoadSurface {
     double x0, y0, z0;
     double ux, uy, vx, vy;  // u = ux dx + uy dy, v = vx dx + vy dy
     double slope_x, slope_y;
+    float friction;
     bool road;
   };
 
@@ -73,6 +80,7 @@ class RoadSurface {
   std::vector<std::uint32_t> part_facets_;
   double min_x_ = 0.0, min_y_ = 0.0, cells_pm_ = 1.0;
   std::int64_t columns_ = 0, rows_ = 0;
+  bool has_friction_ = false;
 };
 
 }  // namespace phare

@@ -60,6 +60,8 @@ struct DriveOptions {
   LampDesignNotes lamp_told;  ///< what became of them
   std::string lamp_notes;     ///< the same, as the derived rig says it
   std::vector<std::string> command;
+  std::string level, vehicle;             ///< of the car, instead of the rig's
+  std::vector<std::string> car_and_road;  ///< what phare-dynamics is told besides
   std::string guide;          ///< somebody sits at the window and drives (live) or looks on (replay); empty: nobody
   bool demo_at_once = false;  ///< live: the demo driver begins
 };
@@ -105,7 +107,15 @@ Result<Rig> prepare(DriveOptions& options) {
   if (!options.cockpit.empty()) rig->cockpit_file = fs::absolute(options.cockpit).lexically_normal();
   if (const Status status = check_rig_files(*rig); !status) return status.error();
 
+  if (!options.vehicle.empty()) rig->vehicle_file = fs::absolute(options.vehicle).lexically_normal();
   if (const auto vehicle = read_vehicle(rig->vehicle_file); !vehicle) return vehicle.error();
+  if (!options.drive.empty() && !options.level.empty() && options.level != "pose") {
+    options.closed_loop = true;
+    spdlog::warn(
+        "the controls of {} are replayed to a car of level {}, open loop: it need not stay on its lane; a driver "
+        "model does (--script)",
+        options.drive, options.level);
+  }
   if (!options.lamps.any() && !options.lamps.aim.empty())
     return Error{"--aim " + options.lamps.aim, "aims a lamp of one's own: give --lamp, --lamp-high or --lamp-fog"};
   if (const Status status = aim_lamps(*rig, options); !status) return status.error();
@@ -187,6 +197,11 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
   // Open loop shows the recorded poses; closed loop lets the car answer the recorded controls.
   if (!options.drive.empty() && !options.closed_loop)
     dynamics.arguments.insert(dynamics.arguments.end(), {"--level", "pose"});
+  else if (!options.level.empty())
+    dynamics.arguments.insert(dynamics.arguments.end(), {"--level", options.level});
+  if (!options.vehicle.empty())
+    dynamics.arguments.insert(dynamics.arguments.end(), {"--vehicle", rig.vehicle_file.string()});
+  dynamics.arguments.insert(dynamics.arguments.end(), options.car_and_road.begin(), options.car_and_road.end());
 
   std::vector<ProcessSpec> specs{dynamics, cockpit};
   for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
@@ -517,6 +532,20 @@ void add_drive(CLI::App& app, Command& chosen) {
   command->add_option("--record", options->record, "Record the drive into this file (pcap)");
   command->add_flag("--closed-loop", options->closed_loop,
                     "With --drive: replay the controls and let the car answer, instead of the poses");
+  command->add_option("--level", options->level, "Model of the car, instead of the rig's")
+      ->check(CLI::IsMember(std::vector<std::string>(kDynamicsLevelNames.begin(), kDynamicsLevelNames.end())));
+  command->add_option("--vehicle", options->vehicle, "Vehicle file, instead of the rig's");
+  const auto pass_on = [&](const char* flag, const char* says) {
+    return command->add_option_function<std::string>(
+        flag,
+        [options, flag](const std::string& word) {
+          options->car_and_road.insert(options->car_and_road.end(), {flag, word});
+        },
+        says);
+  };
+  pass_on("--friction", "Of the whole road: 1 dry, 0.6 wet, 0.3 snow, 0.1 ice")->check(CLI::Range(0.01, 2.0));
+  pass_on("--roughness", "Of the road: ISO 8608 class A to E")->check(CLI::IsMember({"A", "B", "C", "D", "E"}));
+  pass_on("--road", "Heights and friction along the way (CSV, see docs/dynamics.md)")->check(CLI::ExistingFile);
   command->add_option("--log-level", options->log_level, "trace, debug, info, warn, error, off")
       ->check(CLI::IsMember(kLogLevelNames))
       ->capture_default_str();

@@ -7,9 +7,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/csv_table.h"
+#include "vehicle_dynamics/driver.h"
 #include "vehicle_dynamics/levelling.h"
 #include "vehicle_dynamics/reference.h"
 #include "vehicle_dynamics/step.h"
@@ -48,6 +50,21 @@ constexpr Integrator integrator_of(Level level) {
 }
 const char* name(Integrator integrator);
 
+/// What a row shows on demand, by group: bits of Options::columns.
+enum RowColumn : unsigned {
+  kSlip = 1,           ///< transient longitudinal slip of the wheels
+  kSlipAngle = 2,      ///< of the wheels, > 0 pushes to the left
+  kTravel = 4,         ///< of the wheels towards the body
+  kCamber = 8,         ///< of the wheels against the road: the body's lean, as they have no linkage of their own
+  kTorque = 16,        ///< drive and brake torque of the wheels
+  kFrictionUsed = 32,  ///< share of the friction ellipse, 0 to 1
+  kGear = 64,          ///< gear (1 the first) and engine speed; 0 where torques drive or there is no engine
+  kDriver = 128,       ///< road-wheel angle, accelerator and brake
+  kEnergy = 256        ///< see models/energy.h
+};
+/// "slip", "slip-angle", "travel", "camber", "torque", "friction-used", "gear", "driver", "energy".
+std::optional<unsigned> column_named(std::string_view name);
+
 enum class Resistance { kAuto, kOn, kOff };  ///< kAuto: off when torques are given, they stand for all that pulls
 
 struct Options {
@@ -59,10 +76,13 @@ struct Options {
   double step_s = 0.002;
   double output_hz = 100.0;
   double speed_mps = 0.0;
-  double start_x_m = 0.0;
+  double start_x_m = 0.0, start_y_m = 0.0, start_yaw_rad = 0.0;  ///< of the centre of gravity
+  DriverOptions driver;                                          ///< instead of the inputs' pedals, steering, or both
+  bool ends_at_rest = false;  ///< once braked to a stand, or the driver's path is at its end
   const Road* road = nullptr;
   Resistance resistance = Resistance::kAuto;
   levelling::Kind levelling = levelling::Kind::kNone;
+  unsigned columns = 0;                    ///< of RowColumn, on demand
   std::optional<double> relaxation_scale;  ///< multiplies the tyre's relaxation lengths
   std::function<bool()> stop;              ///< asked now and then; true ends the run with an Error
 };
@@ -79,6 +99,10 @@ struct Row {
   double cutoff_25m_m = 0.0;    ///< height of the cut-off on a wall 25 m ahead, above the plane the car stands on
   double cutoff_25m_z_m = 0.0;  ///< the same above z = 0 of the world
   double lamp_tilt_rad = 0.0;   ///< of the lamps by levelling, > 0 up
+  // On demand, in the order of RowColumn.
+  std::array<double, 4> slip{}, slip_angle_rad{}, travel_m{}, camber_rad{}, drive_nm{}, brake_nm{}, friction_used_01{};
+  double gear = 0.0, engine_rpm = 0.0, steer_rad = 0.0, accelerator_01 = 0.0, brake_01 = 0.0;
+  double car_j = 0.0, engine_j = 0.0, brakes_j = 0.0, tyres_j = 0.0, dampers_j = 0.0, air_j = 0.0, road_j = 0.0;
 };
 
 struct Summary {
@@ -102,8 +126,8 @@ inline bool has_lamps(const VehicleParams& vehicle) {
 Result<Summary> run(const Options& options, const Inputs& inputs, const std::function<void(const Row&)>& each);
 
 /// Column names of a row, and a row as text: the fewest digits that read back as the same numbers. Without `lamps` its
-/// last three columns are left out.
-std::string header(bool lamps);
-void append(const Row& row, bool lamps, std::string& text);
+/// last three columns are left out; of those on demand only what `columns` names is there.
+std::string header(bool lamps, unsigned columns = 0);
+void append(const Row& row, bool lamps, std::string& text, unsigned columns = 0);
 
 }  // namespace phare::batch

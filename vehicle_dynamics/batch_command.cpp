@@ -14,6 +14,7 @@
 #include "net/clock.h"
 #include "vehicle_dynamics/batch.h"
 #include "vehicle_dynamics/compare.h"
+#include "vehicle_dynamics/manoeuvre.h"
 #include "vehicle_dynamics/reference.h"
 #include "vehicle_dynamics/work_precision.h"
 
@@ -27,6 +28,12 @@ std::size_t index_of(const std::string& text, std::initializer_list<const char*>
     ++i;
   }
   return 0;
+}
+
+bool is_csv(const std::string& file) {
+  std::string kind = std::filesystem::path(file).extension().string();
+  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+  return kind == ".csv";
 }
 
 // CLI::Range lets NaN pass.
@@ -53,6 +60,9 @@ struct BatchCommand::Options {
          relaxation_scale = 1.0;
   std::uint64_t seed = 1;
   bool work_precision = false;
+  std::string manoeuvre, follow;
+  std::vector<std::string> columns;
+  double speed_kmh = 0.0, hold_speed_kmh = 0.0, seconds = 0.0, scale = 5.0;
 };
 
 BatchCommand::BatchCommand() : options_(std::make_unique<Options>()) {}
@@ -66,7 +76,7 @@ void BatchCommand::add_to(CLI::App& app) {
   app.add_option("--out", o.out,
                  "Batch: motion (CSV, at most 50 million rows); there whole or, after an error, not at all")
       ->group(group);
-  app.add_option("--vehicle", o.vehicle, "Batch: vehicle file (TOML)")->group(group);
+  app.add_option("--vehicle", o.vehicle, "Vehicle file (TOML); live: instead of the rig's")->group(group);
   app.add_option("--integrator", o.integrator,
                  "Batch: semi-implicit-euler, etd2, rk4 or reference (default: as in real time, "
                  "rk4 for full and etd2 for single-track)")
@@ -74,14 +84,39 @@ void BatchCommand::add_to(CLI::App& app) {
       ->group(group);
   app.add_option("--step-s", o.step_s, "Batch: fixed step, s (default 0.002)")->check(within(1e-6, 0.1))->group(group);
   app.add_option("--output-hz", o.output_hz, "Batch: rows a second")->check(within(0.01, 1e5))->group(group);
+  app.add_option("--manoeuvre", o.manoeuvre,
+                 "Batch without inputs: iso4138, iso7401, iso3888-2, iso19365 or iso21994, and its figures")
+      ->check(CLI::IsMember(std::vector<std::string>(batch::kManoeuvreNames.begin(), batch::kManoeuvreNames.end())))
+      ->group(group);
+  app.add_option("--scale", o.scale, "iso19365: steering over that of 0.3 g")->check(within(0.1, 10.0))->group(group);
+  app.add_option("--seconds", o.seconds, "Batch without inputs: drive for so long, with --hold-speed-kmh or --follow")
+      ->check(within(0.01, 360000.0))
+      ->group(group);
+  app.add_option("--hold-speed-kmh", o.hold_speed_kmh, "Batch: a driver holds this speed with the pedals")
+      ->check(within(0.0, 400.0))
+      ->group(group);
+  app.add_option(
+         "--follow", o.follow,
+         "Batch: a driver steers along a path (CSV as a scene's lane), or \"lane\": that of --road; begins there")
+      ->group(group);
+  app.add_option("--columns", o.columns,
+                 "Batch: also slip, slip-angle, travel, camber, torque, friction-used, gear, driver, energy")
+      ->delimiter(',')
+      ->group(group);
+  app.add_option("--speed-kmh", o.speed_kmh, "Batch: speed at the start (default of a manoeuvre: its own)")
+      ->check(within(-200.0, 430.0))
+      ->group(group);
   app.add_option("--speed-mps", o.speed_mps, "Batch: speed at the start")->check(within(-60.0, 120.0))->group(group);
   app.add_option("--start-x-m", o.start_x_m, "Batch: x of the centre of gravity at the start")
       ->check(within(-1e8, 1e8))
       ->group(group);
-  app.add_option("--road", o.road, "Batch: glTF with a road, or height profile (CSV: x_m, z_m or z_left_m, z_right_m)")
+  app.add_option(
+         "--road", o.road,
+         "Batch: glTF with a road; batch and live: heights and friction along the way (CSV: x_m and z_m or z_left_m, "
+         "z_right_m; friction or friction_left, friction_right)")
       ->group(group);
-  app.add_option("--roughness", o.roughness, "Batch: ISO 8608 class A to E on top of the road")->group(group);
-  app.add_option("--seed", o.seed, "Batch: of the roughness, 0 to 2^64 - 1")
+  app.add_option("--roughness", o.roughness, "ISO 8608 class A to E on top of the road")->group(group);
+  app.add_option("--seed", o.seed, "Of the roughness, 0 to 2^64 - 1")
       ->check(CLI::Validator(
           [](const std::string& given) -> std::string {
             std::uint64_t value = 0;
@@ -91,10 +126,10 @@ void BatchCommand::add_to(CLI::App& app) {
           },
           "UINT"))
       ->group(group);
-  app.add_option("--envelope-m", o.envelope_m, "Batch: length over which a tyre averages a profile; 0: point contact")
+  app.add_option("--envelope-m", o.envelope_m, "Length over which a tyre averages a profile; 0: point contact")
       ->check(within(0.0, 1.0))
       ->group(group);
-  app.add_option("--friction", o.friction, "Batch: of the whole road, 1 as the tyre was measured")
+  app.add_option("--friction", o.friction, "Of the whole road, 1 as the tyre was measured")
       ->check(within(0.01, 2.0))
       ->group(group);
   app.add_option("--tyre", o.tyre, "Batch, single-track: magic or linear")
@@ -123,12 +158,26 @@ void BatchCommand::add_to(CLI::App& app) {
 }
 
 bool BatchCommand::asked() const {
-  return !options_->in.empty() || !options_->compare_with.empty() || options_->work_precision;
+  const Options& o = *options_;
+  return !o.in.empty() || !o.compare_with.empty() || o.work_precision || !o.manoeuvre.empty() || o.seconds > 0.0;
 }
 
 std::optional<levelling::Kind> BatchCommand::levelling() const {
   if (options_->levelling.empty()) return std::nullopt;
   return static_cast<levelling::Kind>(index_of(options_->levelling, {"none", "manual", "static", "dynamic"}));
+}
+
+Conditions BatchCommand::conditions() const {
+  const Options& o = *options_;
+  Conditions c;
+  c.roughness = o.roughness, c.seed = o.seed, c.envelope_m = o.envelope_m;
+  if (o.app->count("--friction") > 0) c.friction = o.friction;
+  if (is_csv(o.road)) c.csv_file = o.road;
+  return c;
+}
+
+const std::string& BatchCommand::vehicle() const {
+  return options_->vehicle;
 }
 
 namespace {
@@ -147,18 +196,23 @@ const Use kUses[] = {{"--rig", {Run::kLive}},
                      {"--port-base", {Run::kLive}},
                      {"--level", {Run::kLive, Run::kBatch}},
                      {"--levelling", {Run::kLive, Run::kBatch}},
-                     {"--vehicle", {Run::kBatch, Run::kCompare, Run::kWorkPrecision}},
+                     {"--vehicle", {Run::kLive, Run::kBatch, Run::kCompare, Run::kWorkPrecision}},
                      {"--integrator", {Run::kBatch, Run::kCompare}},
                      {"--step-s", {Run::kBatch, Run::kCompare}},
                      {"--out", {Run::kBatch}},
                      {"--output-hz", {Run::kBatch}},
                      {"--speed-mps", {Run::kBatch}},
+                     {"--speed-kmh", {Run::kBatch}},
+                     {"--scale", {Run::kBatch}},
+                     {"--hold-speed-kmh", {Run::kBatch}},
+                     {"--follow", {Run::kBatch}},
+                     {"--columns", {Run::kBatch}},
                      {"--start-x-m", {Run::kBatch}},
-                     {"--road", {Run::kBatch}},
-                     {"--roughness", {Run::kBatch}},
-                     {"--seed", {Run::kBatch}},
-                     {"--envelope-m", {Run::kBatch}},
-                     {"--friction", {Run::kBatch}},
+                     {"--road", {Run::kLive, Run::kBatch}},
+                     {"--roughness", {Run::kLive, Run::kBatch}},
+                     {"--seed", {Run::kLive, Run::kBatch}},
+                     {"--envelope-m", {Run::kLive, Run::kBatch}},
+                     {"--friction", {Run::kLive, Run::kBatch}},
                      {"--tyre", {Run::kBatch}},
                      {"--attitude", {Run::kBatch}},
                      {"--resistance", {Run::kBatch}},
@@ -170,12 +224,17 @@ Status BatchCommand::options_fit() const {
   const CLI::App& app = *options_->app;
   Run run = Run::kLive;
   const char* named = nullptr;
-  for (const auto& [option, kind] :
-       {std::pair{"--batch", Run::kBatch}, {"--compare", Run::kCompare}, {"--work-precision", Run::kWorkPrecision}}) {
+  for (const auto& [option, kind] : {std::pair{"--batch", Run::kBatch},
+                                     {"--manoeuvre", Run::kBatch},
+                                     {"--seconds", Run::kBatch},
+                                     {"--compare", Run::kCompare},
+                                     {"--work-precision", Run::kWorkPrecision}}) {
     if (app.count(option) == 0) continue;
     if (named) return Error{option, std::string("does not go with ") + named};
     named = option, run = kind;
   }
+  if (run == Run::kLive && app.count("--road") > 0 && !is_csv(options_->road))
+    return Error{"--road", "live the scene is the rig's; heights and friction along the way are a CSV"};
   for (const Use& use : kUses)
     if (app.count(use.option) > 0 && std::find(use.runs.begin(), use.runs.end(), run) == use.runs.end())
       return Error{use.option,
@@ -227,25 +286,20 @@ int run_compare(const std::string& directory, const std::string& vehicle, std::o
   return within ? kExitDone : kExitCheckFailed;
 }
 
-// The road that the options name, into `road` and what it points at.
-Status read_road(const std::string& file, double envelope_m, RoadSurface& surface, Road& road) {
-  std::string kind = std::filesystem::path(file).extension().string();
-  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (kind == ".csv") {
-    Result<HeightProfile> profile = HeightProfile::read(file);
-    if (!profile) return profile.error();
-    profile->smooth(envelope_m);
-    road.profiles.push_back(std::move(*profile));
-  } else if (kind == ".glb" || kind == ".gltf") {
+// The road of a batch run, into `road` and what it points at.
+Status read_road(const std::string& file, const Conditions& conditions, RoadSurface& surface, Road& road) {
+  const std::string kind = std::filesystem::path(file).extension().string();
+  const bool scene = kind == ".glb" || kind == ".gltf" || kind == ".GLB" || kind == ".GLTF";
+  if (scene) {
     Result<RoadSurface> mesh = RoadSurface::read(file);
     if (!mesh) return mesh.error();
     if (mesh->triangle_count() == 0) return Error{file, "no node whose name begins with road or ground"};
     surface = std::move(*mesh);
     road.mesh = &surface;
-  } else {
+  } else if (!file.empty() && !is_csv(file)) {
     return Error{file, "is no road that --road reads: a scene (.glb, .gltf) or a height profile (.csv)"};
   }
-  return Done{};
+  return lay(conditions, scene ? file : std::string{}, road);
 }
 
 int run_work_precision(const std::string& vehicle_file) {
@@ -260,14 +314,48 @@ int run_work_precision(const std::string& vehicle_file) {
 
 }  // namespace
 
+// What a driver of ours goes with.
+Status BatchCommand::driver_fits() const {
+  const Options& o = *options_;
+  const auto given = [&](const char* option) { return o.app->count(option) > 0; };
+  if (given("--speed-kmh") && given("--speed-mps")) return Error{"--speed-kmh", "does not go with --speed-mps"};
+  if (given("--scale") && o.manoeuvre != "iso19365")
+    return Error{"--scale", "is that of --manoeuvre iso19365, which is not given"};
+  if (!o.manoeuvre.empty())
+    for (const char* option : {"--hold-speed-kmh", "--follow", "--start-x-m"})
+      if (given(option)) return Error{option, "a manoeuvre has a driver and a place of its own"};
+  if (!o.manoeuvre.empty() && o.levelling == "manual") return Error{"--levelling", "manual needs inputs"};
+  if (given("--seconds") && !given("--hold-speed-kmh") && o.follow.empty())
+    return Error{"--seconds", "goes with a driver: --hold-speed-kmh or --follow"};
+  if (!o.follow.empty() && given("--start-x-m")) return Error{"--start-x-m", "a path is begun at its beginning"};
+  if (o.follow == "lane" && o.road.empty()) return Error{"--follow lane", "is that of --road, which is not given"};
+  return Done{};
+}
+
+// The path to follow: the car begins on its first point.
+Status BatchCommand::read_path(batch::Options& to) const {
+  const std::string file = options_->follow == "lane" ? lane_file_of(options_->road).string() : options_->follow;
+  Result<std::vector<LanePoint>> path = read_lane(file);
+  if (!path) return path.error();
+  to.driver.path = std::move(*path);
+  const LanePoint& first = to.driver.path.front();
+  const double b = to.vehicle.wheelbase_m - to.vehicle.cg_to_front_m;
+  to.start_x_m = first.x_m + b * std::cos(first.heading_rad),
+  to.start_y_m = first.y_m + b * std::sin(first.heading_rad);
+  to.start_yaw_rad = first.heading_rad;
+  return Done{};
+}
+
 int BatchCommand::run(const std::string& level_name) const {
   const Options& o = *options_;
   const auto given = [&](const char* option) { return o.app->count(option) > 0; };
   const std::optional<Integrator> integrator = integrator_named(o.integrator);
   if (!o.compare_with.empty()) return run_compare(o.compare_with, o.vehicle, integrator, o.step_s);
   if (o.work_precision) return run_work_precision(o.vehicle);
-  if (o.out.empty()) return fail("phare-dynamics", {"--out", "--batch needs a file to write the motion to"});
+  if (o.out.empty() && o.manoeuvre.empty())
+    return fail("phare-dynamics", {"--out", "--batch needs a file to write the motion to"});
   if (o.vehicle.empty()) return fail("phare-dynamics", {"--vehicle", "--batch needs a vehicle file"});
+  if (const Status fit = driver_fits(); !fit) return fail("phare-dynamics", fit.error());
   for (const auto& [option, file] : {std::pair{"--batch", o.in}, {"--vehicle", o.vehicle}, {"--road", o.road}})
     if (same_file(o.out, file))
       return fail("phare-dynamics", {"--out", o.out + " is the file of " + option + "; it would be overwritten"});
@@ -291,59 +379,101 @@ int BatchCommand::run(const std::string& level_name) const {
   options.integrator = integrator.value_or(batch::integrator_of(*level));
   options.single_track = {.magic_formula = o.tyre == "magic", .dynamic_attitude = o.attitude == "dynamic"};
   options.step_s = o.step_s, options.output_hz = o.output_hz;
-  options.speed_mps = o.speed_mps, options.start_x_m = o.start_x_m;
+  options.speed_mps = given("--speed-kmh") ? o.speed_kmh / 3.6 : o.speed_mps, options.start_x_m = o.start_x_m;
+  for (const std::string& name : o.columns) {
+    const std::optional<unsigned> column = batch::column_named(name);
+    if (!column) return fail("phare-dynamics", {"--columns", "\"" + printable(name) + "\" is none, see --help"});
+    options.columns |= *column;
+  }
+  if (given("--hold-speed-kmh")) {
+    options.driver.hold_speed_mps = o.hold_speed_kmh / 3.6;
+    if (!given("--speed-kmh") && !given("--speed-mps")) options.speed_mps = o.hold_speed_kmh / 3.6;
+  }
+  if (!o.follow.empty())
+    if (const Status read = read_path(options); !read) return fail("phare-dynamics", read.error());
   options.resistance = static_cast<batch::Resistance>(index_of(o.resistance, {"auto", "on", "off"}));
   options.levelling = levelling().value_or(levelling::Kind::kNone);
   if (o.relaxation_scale != 1.0) options.relaxation_scale = o.relaxation_scale;
-  Result<batch::Inputs> inputs = batch::read_inputs(o.in);
-  if (!inputs) return fail("phare-dynamics", inputs.error());
+  Result<batch::Inputs> inputs = batch::Inputs{};
+  std::optional<batch::Manoeuvre> standard;
+  if (!o.manoeuvre.empty()) {
+    Result<batch::Manoeuvre> made = batch::manoeuvre(o.manoeuvre, options.speed_mps, o.scale, options);
+    if (!made) return fail("phare-dynamics", made.error());
+    standard = std::move(*made);
+    options = standard->options, inputs = standard->inputs;
+  } else if (o.seconds > 0.0) {
+    inputs->time_s = {0.0, o.seconds}, inputs->steer_rad = inputs->accelerator_01 = inputs->brake_01 = {0.0, 0.0};
+    options.ends_at_rest = !o.follow.empty();
+  } else {
+    inputs = batch::read_inputs(o.in);
+    if (!inputs) return fail("phare-dynamics", inputs.error());
+    if (options.driver.hold_speed_mps && inputs->accelerator_01.empty())
+      return fail("phare-dynamics", {"--hold-speed-kmh", "the inputs drive by torques, which no foot holds"});
+  }
 
   Road road;
   RoadSurface surface;
-  road.friction_everywhere = o.friction;
   if (!inputs->road_m[0].empty())
     for (const char* option : {"--road", "--roughness"})
       if (given(option)) return fail("phare-dynamics", {option, "the inputs give the road's heights already"});
-  if (!o.road.empty())
-    if (const Status read = read_road(o.road, o.envelope_m, surface, road); !read)
-      return fail("phare-dynamics", read.error());
-  if (!o.roughness.empty()) {
-    const Result<RoughnessClass> roughness = parse_roughness(o.roughness, "--roughness");
-    if (!roughness) return fail("phare-dynamics", roughness.error());
-    road.profiles.push_back(HeightProfile::iso8608(*roughness, o.seed));
-  }
+  if (const Status read = read_road(o.road, conditions(), surface, road); !read)
+    return fail("phare-dynamics", read.error());
   options.road = &road;
 
   const bool lamps = batch::has_lamps(options.vehicle);
-  Result<WholeFile> file = WholeFile::create(o.out);
-  if (!file) return fail("phare-dynamics", file.error());
+  std::optional<WholeFile> file;
+  if (!o.out.empty()) {
+    Result<WholeFile> created = WholeFile::create(o.out);
+    if (!created) return fail("phare-dynamics", created.error());
+    file.emplace(std::move(*created));
+  }
   const StopFlag stop = install_stop_signals();
-  std::string text = batch::header(lamps);
+  std::string text = batch::header(lamps, options.columns);
+  std::vector<batch::Row> rows;  // of a manoeuvre, for its figures
+  std::uint64_t below = 0;       // rows in which the beam does not reach the wall
+  double lowest_m = 0.0;
   Status written = Done{};
   const auto pass_on = [&](std::size_t from_size) {
     if (text.size() < from_size) return;
-    if (written) written = file->write(text);
+    if (written && file) written = file->write(text);
     text.clear();
   };
   options.stop = [&] { return !written || stop; };
   const Result<batch::Summary> summary = batch::run(options, *inputs, [&](const batch::Row& row) {
-    batch::append(row, lamps, text);
+    if (standard) rows.push_back(row);
+    if (lamps && row.cutoff_25m_m < 0.0) ++below, lowest_m = std::min(lowest_m, row.cutoff_25m_m);
+    if (!file) return;
+    batch::append(row, lamps, text, options.columns);
     pass_on(1 << 18);
   });
   if (!written) return fail("phare-dynamics", written.error());
   if (!summary) return fail("phare-dynamics", summary.error());
   pass_on(0);
-  if (written) written = file->finish();
+  if (written && file) written = file->finish();
   if (!written) return fail("phare-dynamics", written.error());
   if (summary->rolled_over_s)
     std::fprintf(stderr, "phare-dynamics: the car has rolled over at %.9g s; the run ends there\n",
                  *summary->rolled_over_s);
-  if (!lamps)
+  FILE* const told = is_standard_output(o.out) ? stderr : stdout;
+  if (standard) {
+    std::fprintf(told, "%s at %.1f km/h, level %s, %s\n", standard->name.c_str(), options.speed_mps * 3.6, name(*level),
+                 options.vehicle.name.c_str());
+    for (const batch::Figure& figure : batch::figures(*standard, rows))
+      std::fprintf(told, "  %-48s %9.3f %s\n", figure.what.c_str(), figure.value, figure.unit);
+  }
+  if (below > 0) {
+    const double lamp_m = options.vehicle.levelling.lamp_height_m;
+    std::fprintf(
+        stderr,
+        "phare-dynamics: cutoff_25m_m is below 0 in %llu rows: below the ground, as the beam meets the road before "
+        "the wall, at the nearest %.1f m ahead of the lamps\n",
+        static_cast<unsigned long long>(below), levelling::kWall_m * lamp_m / (lamp_m - lowest_m));
+  }
+  if (!lamps && file)
     std::fprintf(stderr, "phare-dynamics: %s has no table [levelling]: no columns for cut-off and lamps\n",
                  printable(o.vehicle).c_str());
   std::fprintf(
-      is_standard_output(o.out) ? stderr : stdout,
-      "%llu steps of %g s in %.3f s: %.0f times real time; state hash %016llx%s%s\n",
+      told, "%llu steps of %g s in %.3f s: %.0f times real time; state hash %016llx%s%s\n",
       static_cast<unsigned long long>(summary->steps), o.step_s, summary->wall_s,
       summary->simulated_s / std::max(summary->wall_s, 1e-9), static_cast<unsigned long long>(summary->state_hash),
       summary->resistance ? "" : "; no air and rolling resistance", summary->off_road ? "; a wheel left the road" : "");

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "config/fail.h"
+#include "config/lane.h"
 #include "config/log_levels.h"
 #include "config/rig.h"
 #include "net/bus.h"
@@ -26,6 +27,7 @@
 #include "net/state_file.h"
 #include "net/stats.h"
 #include "vehicle_dynamics/batch_command.h"
+#include "vehicle_dynamics/road_laid.h"
 #include "vehicle_dynamics/start_pose.h"
 #include "vehicle_dynamics/step.h"
 
@@ -67,7 +69,8 @@ bool high_beam_on(const CockpitState& state) {
   return state.flash || state.light_switch == LightSwitch::kHigh;
 }
 
-Result<Begin> prepare(const Rig& rig, const Options& options, std::optional<levelling::Kind> levelling) {
+Result<Begin> prepare(const Rig& rig, const Options& options, std::optional<levelling::Kind> levelling,
+                      const Conditions& conditions) {
   const std::string named = options.level.empty() ? rig.dynamics_level : options.level;
   const Result<Level> level = parse_level(named, options.level.empty() ? rig.file.string() : "--level");
   if (!level) return level.error();
@@ -109,6 +112,13 @@ Result<Begin> prepare(const Rig& rig, const Options& options, std::optional<leve
       spdlog::warn("{}: no node whose name begins with road or ground; the car drives on a plane",
                    rig.scene_file.string());
   }
+
+  if (const Status laid = lay(conditions, rig.scene_file, begin.setup.on_top); !laid) return laid.error();
+  const std::string said = text(begin.setup.on_top);
+  if (!said.empty()) spdlog::info("road: {}", said);
+  if (!said.empty() && *level == Level::kKinematic)
+    spdlog::warn(
+        "level kinematic has no tyres: friction changes nothing, and roughness its plane only; --level auto does");
 
   if (!begin.setup.track.empty()) {
     begin.state = from_message(begin.setup.track.at(begin.setup.track.begin()), begin.setup.vehicle.wheelbase_m,
@@ -543,7 +553,8 @@ int run(int argc, char** argv) {
   if (options.port_base) rig->port_base = *options.port_base;
   if (options.open_bus) rig->run_key = false;
   StopFlag stop = install_stop_signals();
-  Result<Begin> begin = prepare(*rig, options, batch.levelling());
+  if (!batch.vehicle().empty()) rig->vehicle_file = batch.vehicle();
+  Result<Begin> begin = prepare(*rig, options, batch.levelling(), batch.conditions());
   if (!begin) return fail("phare-dynamics", begin.error());
   if (const Status key = take_run_key(*rig); !key) return fail("phare-dynamics", key.error());
   Result<Bus> bus = Bus::open(*rig, Role::kDynamics);

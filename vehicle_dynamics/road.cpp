@@ -14,6 +14,7 @@ Ground Road::at(double x_m, double y_m, double path_m, bool left, double beside_
   for (const HeightProfile& profile : profiles) ground.z_m += profile.at(path_m, left).z_m;
   for (const FrictionZone& zone : friction)
     if (path_m >= zone.from_m && path_m < zone.to_m) ground.friction = left ? zone.left : zone.right;
+  ground.friction *= base_friction(x_m, y_m);
   return ground;
 }
 

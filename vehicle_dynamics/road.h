@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "config/road_friction.h"
 #include "config/road_surface.h"
 #include "config/road_surface_profile.h"
 
@@ -12,12 +13,6 @@ namespace phare {
 struct Ground {
   double z_m = 0.0;
   double friction = 1.0;  ///< 1: as the tyre was measured
-};
-
-/// A piece of path with its own friction, for either track.
-struct FrictionZone {
-  double from_m = 0.0, to_m = 0.0;
-  double left = 1.0, right = 1.0;
 };
 
 /// Heights only: grade and bank are those of the plane through the four contacts, which the models work out. Plane or
@@ -41,6 +36,10 @@ struct Road {
     Two z_m{}, slope{}, friction{};
   };
   Laid laid(double path_m) const;
+  /// Of the mesh's material there, 1 where it says nothing: times what lies along the path.
+  double base_friction(double x_m, double y_m) const {
+    return mesh && mesh->has_friction() ? mesh->friction(x_m, y_m) : 1.0;
+  }
   /// Whether base_m() asks where in the world it is; otherwise it is z_m everywhere.
   bool placed() const { return mesh || slope_x != 0.0 || slope_y != 0.0; }
 };

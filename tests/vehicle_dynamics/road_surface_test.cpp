@@ -114,7 +114,9 @@ std::vector<RoadSurface::Triangle> winding_road() {
 std::optional<RoadPoint> looked_for_everywhere(const std::vector<RoadSurface::Triangle>& triangles, double x,
                                                double y) {
   std::optional<RoadPoint> best;
-  for (const auto& [corner, road] : triangles) {
+  for (const RoadSurface::Triangle& triangle : triangles) {
+    const auto& corner = triangle.corner_m;
+    const bool road = triangle.road;
     const glm::dvec3 p = corner[1] - corner[0], q = corner[2] - corner[0];
     const double area = p.x * q.y - p.y * q.x, dx = x - corner[0].x, dy = y - corner[0].y;
     const double u = (q.y * dx - q.x * dy) / area, v = (p.x * dy - p.y * dx) / area;

@@ -58,7 +58,7 @@ Geometry geometry(const Params& p, const Input& input, const State& s, double t_
       const Road::Laid& on_it = laid[i / 2];
       base_m[i] = input.road->base_m(s.x_m + x[i], s.y_m + y[i], input.height_m[i], &g.off_road);
       g.ground_m[i] = base_m[i] + on_it.z_m[i % 2];
-      g.friction[i] = on_it.friction[i % 2];
+      g.friction[i] = on_it.friction[i % 2] * input.road->base_friction(s.x_m + x[i], s.y_m + y[i]);
     }
   }
 

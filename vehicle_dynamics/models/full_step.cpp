@@ -252,14 +252,19 @@ void advance(const Params& p, const Input& input, State& state, double dt) {
 powertrain::Wheels wheels(const Params& p, const Input& input, const State& s) {
   powertrain::Wheels w;
   w.spin_radps = s.spin_radps;
-  Two friction[2] = {both(1.0), both(1.0)};
-  if (input.road)
-    for (std::size_t k = 0; k < 2; ++k)
-      friction[k] = input.heights_given ? both(input.road->friction_everywhere)
-                                        : input.road->laid(s.path_m + p.x_m[2 * k]).friction;
+  std::array<double, 4> friction{1.0, 1.0, 1.0, 1.0};
+  if (input.road && input.heights_given) friction.fill(input.road->friction_everywhere);
+  if (input.road && !input.heights_given) {
+    const double cosine = 1.0 - 2.0 * (s.qy * s.qy + s.qz * s.qz), sine = 2.0 * (s.qx * s.qy + s.qw * s.qz);
+    const Road::Laid laid[2] = {input.road->laid(s.path_m + p.x_m[0]), input.road->laid(s.path_m + p.x_m[2])};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double x = s.x_m + cosine * p.x_m[i] - sine * p.y_m[i], y = s.y_m + sine * p.x_m[i] + cosine * p.y_m[i];
+      friction[i] = laid[i / 2].friction[static_cast<int>(i % 2)] * input.road->base_friction(x, y);
+    }
+  }
   for (std::size_t i = 0; i < 4; ++i) {
     w.ahead_mps[i] = s.u_mps - s.r_radps * p.y_m[i];
-    w.peak_slip[i] = p.tyre.peak_kappa * friction[i / 2][static_cast<int>(i % 2)];
+    w.peak_slip[i] = p.tyre.peak_kappa * friction[i];
   }
   return w;
 }

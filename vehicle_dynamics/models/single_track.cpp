@@ -239,7 +239,7 @@ Asked ask_road(const Params& p, const full::Input& in, const State& s, double dt
   const auto axle = [&](std::size_t left) __attribute__((always_inline)) {  // twice in every step
     const double path = s.path_m + p.car.x_m[left];
     const Road::Laid here = in.road->laid(path), there = in.road->laid(path + travelled);
-    Two from = here.z_m, to = there.z_m;
+    Two from = here.z_m, to = there.z_m, here_friction = here.friction;
     if (in.road->placed()) {
       const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
       const double dx = (s.u_mps * c - s.v_mps * sn) * dt, dy = (s.u_mps * sn + s.v_mps * c) * dt;
@@ -250,11 +250,12 @@ Asked ask_road(const Params& p, const full::Input& in, const State& s, double dt
                      next = in.road->base_m(x + dx, y + dy, in.height_m[i], &off);
         from[side] += base, to[side] += next;
         bank += (side == 0 ? 0.5 : -0.5) * (base + next);
+        here_friction[static_cast<int>(side)] *= in.road->base_friction(x, y);
       }
     } else {  // along a road of profiles only, where the car is in the world does not matter
       from += in.road->z_m, to += in.road->z_m;
     }
-    friction += here.friction;
+    friction += here_friction;
     const Two bend = (there.slope - here.slope) * (0.5 * s.u_mps * per_s);
     // The exponential step looks at its two ends and takes a straight line between: shifted by what the parabola's mean
     // lies beside theirs, the road pushes as much.

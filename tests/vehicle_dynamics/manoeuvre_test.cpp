@@ -1,0 +1,195 @@
+// Batch runs with a driver, the standard manoeuvres and their figures, columns on demand.
+#include "vehicle_dynamics/manoeuvre.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "batch_files.h"
+#include "config/conventions.h"
+#include "full_car.h"
+
+namespace phare {
+namespace {
+
+using test::program;
+using test::written;
+
+batch::Options car_options(const char* file, Level level) {
+  batch::Options o;
+  o.vehicle = test::car(file);
+  o.vehicle_place = file;
+  o.level = level, o.integrator = batch::integrator_of(level);
+  return o;
+}
+
+struct Ran {
+  std::vector<batch::Row> rows;
+  std::vector<batch::Figure> figures;
+  double of(const char* what) const {
+    for (const batch::Figure& f : figures)
+      if (f.what == what) return f.value;
+    ADD_FAILURE() << "no figure " << what;
+    return std::nan("");
+  }
+};
+
+Ran ran(const char* name, const char* file, Level level, double speed_mps = 0.0, double scale = 5.0,
+        const Road* road = nullptr) {
+  batch::Options o = car_options(file, level);
+  o.road = road;
+  const auto m = batch::manoeuvre(name, speed_mps, scale, o);
+  if (!m) throw std::runtime_error(m.error().text());
+  Ran out;
+  const auto done = batch::run(m->options, m->inputs, [&](const batch::Row& row) { out.rows.push_back(row); });
+  if (!done) throw std::runtime_error(done.error().text());
+  out.figures = batch::figures(*m, out.rows);
+  return out;
+}
+
+// Each figure against the closed form of the car, as closed_forms_turn_test.cpp has it.
+TEST(Manoeuvre, Iso4138GivesTheGradientsOfTheCar) {
+  for (const Level level : {Level::kSingleTrack, Level::kFull}) {
+    const Ran r = ran("iso4138", "bmw_320i.toml", level);
+    EXPECT_NEAR(r.of("roll gradient"), 8.85, 0.25) << name(level);      // 8.80 to 8.91 deg/g
+    EXPECT_NEAR(r.of("understeer gradient"), 0.0, 0.4) << name(level);  // nearly neutral
+    EXPECT_GT(r.of("largest lateral acceleration"), 6.0);
+  }
+}
+
+TEST(Manoeuvre, Iso7401GivesTheStepResponse) {
+  const Ran r = ran("iso7401", "bmw_320i.toml", Level::kFull);
+  EXPECT_NEAR(r.of("steady lateral acceleration"), 3.9, 0.2);
+  EXPECT_NEAR(r.of("steady yaw rate over road-wheel angle"), 8.434, 0.05 * 8.434);  // of small angles; slip grows
+  EXPECT_NEAR(r.of("yaw rate reaches 90 % after"), 0.24, 0.04);
+  EXPECT_LT(r.of("overshoot of the yaw rate"), 5.0);
+}
+
+// v^2 / 2a with the lag of the brakes; on ice ABS needs so much more.
+TEST(Manoeuvre, Iso21994StopsAsFarAsItsDecelerationSays) {
+  Road ice;
+  ice.friction_everywhere = 0.1;
+  const Ran dry = ran("iso21994", "hatchback.toml", Level::kFull),
+            slippery = ran("iso21994", "hatchback.toml", Level::kFull, 50.0 / 3.6, 5.0, &ice);
+  for (const Ran* r : {&dry, &slippery}) {
+    const double v = r->of("speed when the brake is applied") / 3.6, a = r->of("mean fully developed deceleration");
+    // On ice the first wheels lock before ABS has found their slip: up to a tenth more.
+    const double least = v * v / 2.0 / a + 0.11 * v;
+    EXPECT_GT(r->of("stopping distance"), 0.97 * least);
+    EXPECT_LT(r->of("stopping distance"), 1.10 * least);
+    EXPECT_LT(r->of("largest yaw angle"), 0.1);
+  }
+  EXPECT_GT(dry.of("mean fully developed deceleration"), 8.0);
+  EXPECT_GT(slippery.of("mean fully developed deceleration"), 0.85 * 0.1 * 1.1739 * kGravity_mps2);
+}
+
+TEST(Manoeuvre, Iso19365IsQuietWithLittleSteeringAndSpinsWithMuch) {
+  const Ran little = ran("iso19365", "hatchback.toml", Level::kFull, 0.0, 1.5);
+  EXPECT_LT(std::abs(little.of("yaw rate 1.75 s after the steering, of that peak")), 20.0);
+  EXPECT_GT(little.of("lateral displacement 1.07 s after it began"), 0.5);
+  const Ran much = ran("iso19365", "hatchback.toml", Level::kFull, 0.0, 6.5);
+  EXPECT_GT(much.of("amplitude at the road wheels"), 4.0 * little.of("amplitude at the road wheels"));
+  EXPECT_GT(much.of("lateral displacement 1.07 s after it began"), 1.83);
+}
+
+TEST(Manoeuvre, Iso3888PassesSlowlyAndTakesConesFast) {
+  const Ran slow = ran("iso3888-2", "hatchback.toml", Level::kFull, 40.0 / 3.6);
+  EXPECT_NEAR(slow.of("speed into the first lane"), 40.0, 1.0);
+  EXPECT_EQ(slow.of("cones stand"), 1.0) << slow.of("least distance to the cones, second lane");
+  EXPECT_EQ(ran("iso3888-2", "hatchback.toml", Level::kFull, 110.0 / 3.6).of("cones stand"), 0.0);
+}
+
+// A driver on a lane: a bend and a straight, at every level, within half a metre of it and at its speed.
+TEST(BatchDriver, FollowsAPathAndHoldsItsSpeed) {
+  std::vector<LanePoint> path;
+  double x = 5.0, y = 3.0, heading = 0.4;
+  for (double s = 0.0; s < 300.0; s += 1.0) {
+    const double curvature = s > 50.0 && s < 150.0 ? 0.02 : 0.0;
+    path.push_back({.s_m = s, .x_m = x, .y_m = y, .heading_rad = heading, .curvature_1pm = curvature});
+    x += std::cos(heading), y += std::sin(heading), heading += curvature;
+  }
+  batch::Inputs in;
+  in.time_s = {0.0, 60.0}, in.steer_rad = in.accelerator_01 = in.brake_01 = {0.0, 0.0};
+  for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull}) {
+    batch::Options o = car_options("hatchback.toml", level);
+    const double b = o.vehicle.wheelbase_m - o.vehicle.cg_to_front_m;
+    o.speed_mps = 10.0, o.driver.hold_speed_mps = 10.0, o.driver.path = path, o.ends_at_rest = true;
+    o.start_x_m = 5.0 + b * std::cos(0.4), o.start_y_m = 3.0 + b * std::sin(0.4), o.start_yaw_rad = 0.4;
+    std::vector<batch::Row> rows;
+    ASSERT_TRUE(batch::run(o, in, [&](const batch::Row& row) { rows.push_back(row); }).ok());
+    EXPECT_LT(rows.back().time_s, 32.0) << name(level);  // it ends where the path does
+    double most = 0.0;
+    for (const batch::Row& row : rows) {
+      const double ox = row.x_m - b * std::cos(row.yaw_rad), oy = row.y_m - b * std::sin(row.yaw_rad);
+      double aside = 1e9;
+      for (const LanePoint& p : path) aside = std::min(aside, std::hypot(p.x_m - ox, p.y_m - oy));
+      most = std::max(most, aside);
+      if (row.time_s > 10.0) {
+        EXPECT_NEAR(row.vx_mps, 10.0, 0.3) << name(level) << ' ' << row.time_s;
+      }
+    }
+    EXPECT_LT(most, 1.0) << name(level);  // of which half a metre lies between the path's points
+  }
+}
+
+TEST(Batch, ColumnsOnDemand) {
+  batch::Options o = car_options("hatchback.toml", Level::kFull);
+  o.speed_mps = 20.0;
+  o.columns = batch::kSlip | batch::kGear | batch::kEnergy | batch::kFrictionUsed | batch::kTorque;
+  const auto in = batch::read_inputs(written("in.csv", test::kBraking));
+  ASSERT_TRUE(in.ok());
+  std::vector<batch::Row> rows;
+  ASSERT_TRUE(batch::run(o, *in, [&](const batch::Row& row) { rows.push_back(row); }).ok());
+  const batch::Row& last = rows.back();
+  EXPECT_LT(last.slip[0], -0.005);
+  EXPECT_GE(last.gear, 1.0);
+  EXPECT_GT(last.engine_rpm, 700.0);
+  EXPECT_GT(last.brake_nm[0], 300.0);
+  EXPECT_GT(last.friction_used_01[0], 0.2);
+  EXPECT_LT(last.friction_used_01[0], 0.6);
+  const batch::Row& first = rows.front();
+  const double missing = last.engine_j + last.road_j - (last.car_j - first.car_j) - last.brakes_j - last.tyres_j -
+                         last.dampers_j - last.air_j;
+  EXPECT_LT(std::abs(missing), 0.005 * first.car_j);
+  const std::string header = batch::header(false, o.columns);
+  std::string line;
+  batch::append(last, false, line, o.columns);
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(line.begin(), line.end(), ','));
+  EXPECT_NE(header.find(",slip_fl,slip_fr,slip_rl,slip_rr,drive_fl_nm"), std::string::npos) << header;
+  EXPECT_TRUE(header.ends_with(",gear,engine_rpm,car_j,engine_j,brakes_j,tyres_j,dampers_j,air_j,road_j\n")) << header;
+}
+
+// Full braking puts the cut-off below the ground on the wall: said once, with where the beam meets the road. With 50
+// mrad of dive and 10 of aim a lamp that has come down to 0.55 m reaches 9.2 m.
+TEST(BatchProgram, CutOffBelowTheGroundIsExplained) {
+  const std::string car = " --vehicle " + std::string(vehicles_dir()) + "/bmw_320i.toml ";
+  std::string said;
+  EXPECT_EQ(program("--manoeuvre iso21994" + car, &said), 0) << said;
+  EXPECT_NE(said.find("below the ground, as the beam meets the road before the wall, at the nearest 9."),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(program("--manoeuvre iso7401" + car, &said), 0);
+  EXPECT_EQ(said.find("below the ground"), std::string::npos) << said;
+}
+
+TEST(BatchProgram, DriverAndManoeuvreOptionsFit) {
+  const std::string car = " --vehicle " + std::string(vehicles_dir()) + "/hatchback.toml ";
+  std::string said;
+  EXPECT_EQ(program("--manoeuvre iso7401 --speed-kmh 60" + car, &said), 0) << said;
+  EXPECT_EQ(program("--manoeuvre iso3888" + car, &said), 2);
+  EXPECT_EQ(program("--manoeuvre iso7401 --batch in.csv" + car, &said), 2);
+  EXPECT_NE(said.find("does not go with"), std::string::npos) << said;
+  EXPECT_EQ(program("--manoeuvre iso7401 --scale 3" + car, &said), 2);
+  EXPECT_EQ(program("--seconds 5 --out " + testing::TempDir() + "d.csv" + car, &said), 2);
+  EXPECT_NE(said.find("goes with a driver"), std::string::npos) << said;
+  EXPECT_EQ(program("--seconds 5 --hold-speed-kmh 50 --columns slip,energy --out " + testing::TempDir() + "d.csv" + car,
+                    &said),
+            0)
+      << said;
+  EXPECT_EQ(
+      program("--seconds 5 --hold-speed-kmh 50 --columns slap --out " + testing::TempDir() + "d.csv" + car, &said), 2);
+  EXPECT_NE(said.find("\"slap\" is none"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace phare
