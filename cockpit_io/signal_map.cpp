@@ -42,7 +42,8 @@ Status lay_out(const ControlMapping& mapping, const DbcMessage& message, DbcSign
   const bool order = motorola || (at && scan.take('1'));
   const bool is_signed = order && scan.take('-');
   if (!order || (!is_signed && !scan.take('+')) || !scan.at_end())
-    return Error{mapping.place, "bits \"" + mapping.bits + "\": expected start|length@order and sign, such as \"16|4@1+\""};
+    return Error{mapping.place,
+                 "bits \"" + mapping.bits + "\": expected start|length@order and sign, such as \"16|4@1+\""};
   DbcSignal laid = signal;
   laid.start_bit = *start;
   laid.length_bits = *length;

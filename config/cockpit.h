@@ -74,7 +74,7 @@ struct ControlMapping {
   std::string message, signal;  ///< CAN; of a gamepad `signal` is axisN, buttonN or hatN.up, .down, .left, .right
   std::string fine_signal;      ///< of the same message, added to the signal; empty: none
   std::string sign_signal;      ///< of the same message: anything but 0 makes the value negative
-  std::string bits;             ///< "start|length@order sign" as a DBC writes it, where the car differs from the file; or empty
+  std::string bits;             ///< where the car differs from the DBC file: "start|length@order sign"; or empty
   double timeout_s = 0.0;       ///< silence of the message after which the source counts as silent
   std::optional<double> debounce_s;
   std::vector<Level> levels;             ///< light_switch, beam_lever, turn, gear
@@ -131,7 +131,7 @@ struct MessageCheck {
   std::optional<std::int64_t> counter_values;  ///< it counts 0 … so many less one; else as many as fit its bits
   CrcKind crc_kind = CrcKind::kNone;
   CrcPolynomial polynomial;            ///< of kPolynomial
-  std::vector<std::int64_t> data_ids;  ///< e2e-p1: one; e2e-p2: sixteen; other CRCs: one byte, or none; polynomial: one for each value of the counter
+  std::vector<std::int64_t> data_ids;  ///< e2e-p1: one; e2e-p2: sixteen; other CRCs: a byte, or none; polynomial: by the counter
   DataIdMode data_id_mode = DataIdMode::kBoth;
   std::string place, message_place, counter_place, crc_place;
 };

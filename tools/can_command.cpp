@@ -27,7 +27,7 @@ Result<CandumpLog> log_of(const std::string& file) {
   return log;
 }
 
-int written() {
+int all_written() {
   std::cout.flush();
   return std::cout ? kExitDone : kExitCheckFailed;
 }
@@ -36,7 +36,7 @@ int can_list(const CanOptions& options) {
   const auto dbc = dbc_of(options.dbc_file);
   if (!dbc) return bad_input(dbc.error());
   list_dbc(*dbc, std::cout);
-  return written();
+  return all_written();
 }
 
 int can_decode(const CanOptions& options) {
@@ -45,7 +45,7 @@ int can_decode(const CanOptions& options) {
   const auto log = log_of(options.log_file);
   if (!log) return bad_input(log.error());
   if (const Status done = decode_log(*dbc, *log, options.decode, std::cout); !done) return bad_input(done.error());
-  return written();
+  return all_written();
 }
 
 int can_check(const CanOptions& options) {
@@ -58,7 +58,7 @@ int can_check(const CanOptions& options) {
   const auto log = log_of(options.log_file);
   if (!log) return bad_input(log.error());
   if (const Status done = check_cockpit(*config, *dbc, *log, std::cout); !done) return bad_input(done.error());
-  return written();
+  return all_written();
 }
 
 int can_crc(const CanOptions& options) {
@@ -71,7 +71,7 @@ int can_crc(const CanOptions& options) {
     std::cout << id << "  " << one.where << "  " << one.scheme << "  # " << one.frames << " different frames\n";
   }
   if (found.empty()) std::cout << "no known check fits any message of this log\n";
-  return written();
+  return all_written();
 }
 
 }  // namespace

@@ -116,7 +116,8 @@ void make_video(const fs::path& out, std::int64_t frame_rate_hz, const std::func
   if (!child) return;
   const auto deadline = Clock::now() + std::chrono::minutes(5);
   std::optional<ProcessEnd> end;
-  while (!(end = child->ended()) && Clock::now() < deadline && !stop()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  while (!(end = child->ended()) && Clock::now() < deadline && !stop())
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   if (!end) child->send_signal(9);
   if (!end || end->exit_code != 0 || end->signal != 0) {
     spdlog::warn("ffmpeg made no video ({})", end ? end->text() : stop() ? "interrupted" : "took more than 5 minutes");

@@ -11,7 +11,8 @@
 
 namespace phare {
 namespace {
-constexpr std::array<const char*, 3> kOutOfPlay{nullptr, "the motion has no numbers any more", "the car has rolled over"};
+constexpr std::array<const char*, 3> kOutOfPlay{nullptr, "the motion has no numbers any more",
+                                                "the car has rolled over"};
 }  // namespace
 
 // The car, one step further. Who decides what is due, and what the outside sees of it, follows below.
@@ -164,7 +165,12 @@ const Road& StepLoop::road() {
 }
 
 StepLoop::StepLoop(RunSetup setup, const CarState& state, SimTime start, std::uint64_t steps_before)
-    : setup_(std::move(setup)), before_(state), now_(state), start_(start), clock_from_(start), steps_before_(steps_before) {
+    : setup_(std::move(setup)),
+      before_(state),
+      now_(state),
+      start_(start),
+      clock_from_(start),
+      steps_before_(steps_before) {
   assert(setup_.step.ns > 0);
   road_ = setup_.on_top;
   running_ = setup_.level == Level::kAuto ? Level::kKinematic : setup_.level;

@@ -165,8 +165,8 @@ TEST(SignalMap, AnUnknownLevelIsASignOfLifeUnlessTheBeamHangsOnIt) {
       "levels = { none = 0, left = 1, right = 2 }\n[control.light_switch]\nmessage = \"M\"\nsignal = \"BEAM\"\n"
       "levels = { off = 0, low = 1, high = 2 }\n", "c.toml");
   ASSERT_TRUE(config) << config.error().text();
-  const auto dbc = parse_dbc("BO_ 1 M: 1 X\n SG_ TURN : 0|4@1+ (1,0) [0|0] \"\" X\n SG_ BEAM : 4|4@1+ (1,0) [0|0] \"\" X\n",
-                             "m.dbc");
+  const auto dbc = parse_dbc(
+      "BO_ 1 M: 1 X\n SG_ TURN : 0|4@1+ (1,0) [0|0] \"\" X\n SG_ BEAM : 4|4@1+ (1,0) [0|0] \"\" X\n", "m.dbc");
   SignalMap map = *SignalMap::bind(*config, *dbc, 0);
   DriverInput input;
   CanFrame frame;

@@ -13,12 +13,12 @@
 namespace phare {
 namespace {
 
-struct State {
+struct Numbers {
   std::array<std::uint64_t, 200> numbers{};
 };
 
-State of(std::int64_t key) {
-  State state;
+Numbers of(std::int64_t key) {
+  Numbers state;
   state.numbers.fill(static_cast<std::uint64_t>(key));
   return state;
 }
@@ -27,7 +27,7 @@ class StateFileTest : public testing::Test {
  protected:
   ~StateFileTest() override { std::filesystem::remove(file_); }
   StateFile open() const {
-    auto opened = StateFile::open(file_, sizeof(State));
+    auto opened = StateFile::open(file_, sizeof(Numbers));
     EXPECT_TRUE(opened) << opened.error().text();
     return std::move(*opened);
   }
@@ -42,9 +42,9 @@ TEST_F(StateFileTest, HoldsTheTwoNewestStates) {
   StateFile again = open();
   ASSERT_TRUE(again.newest());
   EXPECT_EQ(again.newest()->key, 6);
-  EXPECT_EQ(state_of<State>(*again.newest()).numbers, of(6).numbers);
+  EXPECT_EQ(state_of<Numbers>(*again.newest()).numbers, of(6).numbers);
   ASSERT_TRUE(again.at(5));
-  EXPECT_EQ(state_of<State>(*again.at(5)).numbers, of(5).numbers);
+  EXPECT_EQ(state_of<Numbers>(*again.at(5)).numbers, of(5).numbers);
   EXPECT_FALSE(again.at(4));
   struct stat found {};
   ASSERT_EQ(::stat(file_.c_str(), &found), 0);
@@ -75,7 +75,7 @@ TEST_F(StateFileTest, AKillLeavesAWholeState) {
     ASSERT_EQ(pipe(begun), 0);
     const pid_t child = fork();
     if (child == 0) {
-      auto file = StateFile::open(file_, sizeof(State));
+      auto file = StateFile::open(file_, sizeof(Numbers));
       if (!file || !file->newest()) _exit(1);
       for (std::int64_t key = file->newest()->key + 1;; ++key) {
         file->save(key, of(key));
@@ -92,7 +92,7 @@ TEST_F(StateFileTest, AKillLeavesAWholeState) {
     const auto newest = file.newest();
     ASSERT_TRUE(newest);
     ASSERT_GT(newest->key, before);
-    ASSERT_EQ(state_of<State>(*newest).numbers, of(newest->key).numbers);
+    ASSERT_EQ(state_of<Numbers>(*newest).numbers, of(newest->key).numbers);
     before = newest->key;
   }
 }

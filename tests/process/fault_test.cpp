@@ -1,5 +1,5 @@
-// process: a rig that is killed, stopped and both: no picture shows a beam that neither the stalk nor the fail-safe asked
-// for, and no drive is lost. A slice of phare-fault-sweep, with its seed.
+// process: a rig that is killed, stopped and both: no picture shows a beam that neither the stalk nor the fail-safe
+// asked for, and no drive is lost. A slice of phare-fault-sweep, with its seed.
 #include <gtest/gtest.h>
 
 #include "tests/process/drive_run.h"

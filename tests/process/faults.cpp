@@ -86,7 +86,8 @@ void judge(const fs::path& record, std::uint64_t seed, FaultResult& result) {
   for (const Datagram& datagram : drive->datagrams) {
     const auto* report = std::get_if<FrameReport>(&datagram.payload);
     if (report == nullptr || report->drawn.level.empty()) continue;
-    if (report->light_drawn == LightSwitch::kOff && report->pose_stale && report->frame_ms == 0.0) continue;  // none drawn
+    const bool none_drawn = report->light_drawn == LightSwitch::kOff && report->pose_stale && report->frame_ms == 0.0;
+    if (none_drawn) continue;
     ++result.pictures;
     const double t_s = datagram.sim_time.seconds();
     if (datagram.sim_time < before) ++result.time_back;

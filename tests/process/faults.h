@@ -1,4 +1,4 @@
-// Drives with faults at random times: processes killed, stopped, both together; and what every picture showed meanwhile.
+// Drives with faults at random times: processes killed, stopped, both; and what every picture showed meanwhile.
 #pragma once
 
 #include <chrono>

@@ -88,7 +88,8 @@ TEST(Watchdog, TellsAHungProcessFromASlowOneAndFromOneThatHasJustBegun) {
                         Case{"stands still", 5.0, 5.0, false, false, 8.0, "hung: no sign of life for 3.0 s"},
                         Case{"stopped", 5.0, 5.0, true, false, 8.0, "stopped: no sign of life for 3.0 s"},
                         Case{"a picture of 20 s", 5.0, 25.0, false, false, 28.0, "hung: no sign of life for 23.0 s"},
-                        Case{"an endless loop", 5.0, 1e9, false, false, 65.0, "hung, computing: no sign of life for 60.0 s"},
+                        Case{"an endless loop", 5.0, 1e9, false, false, 65.0,
+                             "hung, computing: no sign of life for 60.0 s"},
                         Case{"never begins", -1.0, 0.0, false, false, 30.0, "hung: no sign of life for 30.0 s"},
                         Case{"a covered window", 5.0, 5.0, false, true, -1.0, ""},
                         Case{"a window, stopped", 5.0, 5.0, true, true, 8.0, "stopped: no sign of life for 3.0 s"}}) {
@@ -159,7 +160,10 @@ TEST(Supervisor, EndsAndRestartsOneThatHangs) {
 TEST(Supervisor, EndsAllInTheTimeOfAHurry) {
   Supervisor supervisor({{"cockpit", "/bin/sleep", {"60"}},
                          {"dynamics", "/bin/sh", {"-c", "trap '' TERM; while :; do sleep 1; done"}},
-                         {"visual-0", "/bin/sh", {"-c", "trap '' TERM; kill -STOP $$; while :; do sleep 1; done"}, true}});
+                         {"visual-0",
+                          "/bin/sh",
+                          {"-c", "trap '' TERM; kill -STOP $$; while :; do sleep 1; done"},
+                          true}});
   ASSERT_TRUE(supervisor.start());
   for (int i = 0; i < 20; ++i) {
     supervisor.step();

@@ -134,7 +134,8 @@ void Loop::mind_the_keys() {
 void Loop::take(const Datagram& datagram) {
   if (const auto* state = std::get_if<VehicleState>(&datagram.payload)) {
     poses_.push(datagram.sim_time, *state);
-    clock_.observe(datagram.sim_time, datagram.sent);
+    // By when it came, on our own clock: that of another machine may be set differently.
+    clock_.observe(datagram.sim_time, s_.bus.newest<VehicleState>()->received);
   } else if (const auto* request = std::get_if<ProbeRequest>(&datagram.payload)) {
     if (asked_.size() < kMostAsked) asked_.push_back({*request, datagram.sim_time});
   } else {
