@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 namespace phare {
 
@@ -101,6 +102,41 @@ std::vector<std::string> Learner::take(const CanFrame& frame, std::int64_t at_ns
   return lines;
 }
 
+namespace {
+
+/// A value as a cockpit file writes it: its name in the DBC file, else the number after factor and offset.
+std::string level_value(const DbcSignal& signal, std::uint64_t raw) {
+  const auto named = signal.value_names.find(static_cast<std::int64_t>(raw));
+  if (named != signal.value_names.end()) return "\"" + named->second + "\"";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.10g", static_cast<double>(raw) * signal.factor + signal.offset);
+  return text;
+}
+
+/// What moved between more than two values is a lever or a switch with levels. Where it stood most is where it rests.
+std::string levels_text(const DbcSignal& signal, const std::map<std::uint64_t, int>& values) {
+  const auto rest =
+      std::max_element(values.begin(), values.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::string text = "levels = { neutral = " + level_value(signal, rest->first);
+  const bool lever = values.size() == 3;
+  int number = 0;
+  for (const auto& [raw, count] : values) {
+    if (raw == rest->first) continue;
+    ++number;
+    std::string level = lever ? (number == 1 ? "push" : "pull") : "LEVEL_" + std::to_string(number);
+    // The DBC file may say itself which is which.
+    const auto named = signal.value_names.find(static_cast<std::int64_t>(raw));
+    if (lever && named != signal.value_names.end()) {
+      if (named->second.find("PULL") != std::string::npos) level = "pull";
+      if (named->second.find("PUSH") != std::string::npos) level = "push";
+    }
+    text += ", " + level + " = " + level_value(signal, raw);
+  }
+  return text + " }   # it rests at the first; put the levels of the control in place of the others\n";
+}
+
+}  // namespace
+
 std::vector<std::string> Learner::summary() const {
   std::vector<std::pair<const Key*, const Watched*>> moved;
   std::size_t restless = 0;
@@ -129,12 +165,13 @@ std::vector<std::string> Learner::summary() const {
   bool drafted = false;
   for (const auto& [key, w] : moved) {
     const DbcMessage* message = dbc_.find(key->id, key->extended);
-    if (message == nullptr || w->values.size() > 2) continue;
+    if (message == nullptr || w->values.size() > kMostValues) continue;
     if (!drafted)
       lines.push_back("\n# For the cockpit file; put the control's name in place of NAME (docs/cockpit-file.md):");
     drafted = true;
-    lines.push_back("[control.NAME]\nmessage = \"" + message->name + "\"\nsignal = \"" +
-                    message->signals[key->index].name + "\"\n");
+    const DbcSignal& signal = message->signals[key->index];
+    lines.push_back("[control.NAME]\nmessage = \"" + message->name + "\"\nsignal = \"" + signal.name + "\"\n" +
+                    (w->values.size() > 2 ? levels_text(signal, w->values) : ""));
   }
   return lines;
 }

@@ -107,7 +107,8 @@ int run(int argc, char** argv) {
   app.add_option("--seconds", options.seconds, "With --learn: end after so long")->needs(learn_flag);
   app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
   app.add_flag("--open-bus", options.open_bus, "No key of the run: anyone on this machine may speak on the bus");
-  app.add_option("--alive", options.alive_file, "File that says, ten times a second and more, that this process is not hung");
+  app.add_option("--alive", options.alive_file,
+                 "File that says, ten times a second and more, that this process is not hung");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

@@ -42,14 +42,15 @@ Status lay_out(const ControlMapping& mapping, const DbcMessage& message, DbcSign
   const bool order = motorola || (at && scan.take('1'));
   const bool is_signed = order && scan.take('-');
   if (!order || (!is_signed && !scan.take('+')) || !scan.at_end())
-    return Error{mapping.place, "bits \"" + mapping.bits + "\": expected start|length@order and sign, such as \"16|4@1+\""};
+    return Error{mapping.place,
+                 "bits \"" + mapping.bits + "\": expected start|length@order and sign, such as \"16|4@1+\""};
   DbcSignal laid = signal;
   laid.start_bit = *start;
   laid.length_bits = *length;
   laid.motorola = motorola;
   laid.type = is_signed ? DbcSignal::Type::kSigned : DbcSignal::Type::kUnsigned;
-  const bool fits = *length >= 1 && *length <= 64 && *start < 8 * message.length_bytes &&
-                    bytes_needed(laid) <= message.length_bytes;
+  const bool fits =
+      *length >= 1 && *length <= 64 && *start < 8 * message.length_bytes && bytes_needed(laid) <= message.length_bytes;
   if (!fits)
     return Error{mapping.place, "bits \"" + mapping.bits + "\" do not fit message " + message.name + " of " +
                                     std::to_string(message.length_bytes) + " bytes"};
@@ -99,8 +100,11 @@ Result<SignalMap> SignalMap::bind(const CockpitConfig& config, Dbc dbc, std::int
     }
     bound->timeout_ns = std::max(bound->timeout_ns, static_cast<std::int64_t>(mapping.timeout_s * 1e9));
     const double debounce_s = mapping.debounce_s.value_or(config.debounce_s);
-    bound->controls.push_back({ControlReader(std::move(mapping), static_cast<std::int64_t>(debounce_s * 1e9)), *signal,
-                               others[0], others[1], {}});
+    bound->controls.push_back({ControlReader(std::move(mapping), static_cast<std::int64_t>(debounce_s * 1e9)),
+                               *signal,
+                               others[0],
+                               others[1],
+                               {}});
   }
   for (const MessageCheck& check : config.checks) {
     const auto message = find_message(map.dbc_, check.message, check.message_place);

@@ -74,7 +74,7 @@ struct ControlMapping {
   std::string message, signal;  ///< CAN; of a gamepad `signal` is axisN, buttonN or hatN.up, .down, .left, .right
   std::string fine_signal;      ///< of the same message, added to the signal; empty: none
   std::string sign_signal;      ///< of the same message: anything but 0 makes the value negative
-  std::string bits;             ///< "start|length@order sign" as a DBC writes it, where the car differs from the file; or empty
+  std::string bits;             ///< where the car differs from the DBC file: "start|length@order sign"; or empty
   double timeout_s = 0.0;       ///< silence of the message after which the source counts as silent
   std::optional<double> debounce_s;
   std::vector<Level> levels;             ///< light_switch, beam_lever, turn, gear
@@ -107,17 +107,16 @@ enum class CrcKind {
   kPolynomial,
 };
 inline constexpr std::array<std::string_view, 15> kCrcNames{
-    "none",      "e2e-p1", "e2e-p2",   "crc8", "crc8-sae-j1850", "crc8-h2f", "crc16-ccitt-false",
-    "crc16-arc", "crc32",  "crc32-p4", "xor8", "sum8",           "toyota",   "honda",
-    "polynomial"};
+    "none",  "e2e-p1",   "e2e-p2", "crc8", "crc8-sae-j1850", "crc8-h2f", "crc16-ccitt-false", "crc16-arc",
+    "crc32", "crc32-p4", "xor8",   "sum8", "toyota",         "honda",    "polynomial"};
 
 /// A cyclic redundancy check by its parameters, as G. Cook's catalogue lists them.
 struct CrcPolynomial {
-  int width = 8;                        ///< bits, 3 to 32
+  int width = 8;  ///< bits, 3 to 32
   std::uint32_t poly = 0, init = 0, xor_out = 0;
-  bool reflect = false;                 ///< input and output
-  int first_byte = 0, last_byte = 63;   ///< of the frame, both included, without those the check lies in
-  bool data_id_first = false;           ///< before the bytes instead of behind them
+  bool reflect = false;                ///< input and output
+  int first_byte = 0, last_byte = 63;  ///< of the frame, both included, without those the check lies in
+  bool data_id_first = false;          ///< before the bytes instead of behind them
 };
 
 enum class DataIdMode { kBoth, kAlternating, kLow };
@@ -130,8 +129,9 @@ struct MessageCheck {
   std::int64_t counter_most_lost = 5;          ///< frames that may be missing between two; beyond, one frame is refused
   std::optional<std::int64_t> counter_values;  ///< it counts 0 … so many less one; else as many as fit its bits
   CrcKind crc_kind = CrcKind::kNone;
-  CrcPolynomial polynomial;            ///< of kPolynomial
-  std::vector<std::int64_t> data_ids;  ///< e2e-p1: one; e2e-p2: sixteen; other CRCs: one byte, or none; polynomial: one for each value of the counter
+  CrcPolynomial polynomial;  ///< of kPolynomial
+  std::vector<std::int64_t>
+      data_ids;  ///< e2e-p1: one; e2e-p2: sixteen; other CRCs: a byte, or none; polynomial: by the counter
   DataIdMode data_id_mode = DataIdMode::kBoth;
   std::string place, message_place, counter_place, crc_place;
 };

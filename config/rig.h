@@ -101,7 +101,7 @@ struct Rig {
   std::uint16_t port_base = 47000;
   std::optional<BusKey> bus_key{};     ///< of [bus] key_file: 64 hexadecimal digits; required off loopback
   std::filesystem::path key_file{};    ///< resolved; empty: none
-  bool run_key = true;                 ///< on loopback, without a key_file: a key of its own for each run (net/run_key.h)
+  bool run_key = true;                 ///< on loopback, without a key_file: a key for each run (net/run_key.h)
   std::int64_t frame_rate_hz = 60;     ///< of lockstep frames
   bool real_time_priority = true;      ///< in real time, of cockpit and dynamics, where the kernel allows it
   std::filesystem::path scene_file;    ///< glTF; resolved

@@ -17,8 +17,7 @@ Result<AliveFile> AliveFile::open(const std::filesystem::path& file) {
   if (fd < 0) return Error{file.string(), std::strerror(errno)};
   int error = ftruncate(fd, sizeof(Words)) != 0 ? errno : 0;
   if (error == 0) error = posix_fallocate(fd, 0, sizeof(Words));  // no room is an error now, not a signal later
-  void* memory =
-      error == 0 ? mmap(nullptr, sizeof(Words), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0) : MAP_FAILED;
+  void* memory = error == 0 ? mmap(nullptr, sizeof(Words), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0) : MAP_FAILED;
   if (error == 0 && memory == MAP_FAILED) error = errno;
   ::close(fd);
   if (error != 0) return Error{file.string(), std::strerror(error)};

@@ -1,7 +1,7 @@
-// A sign of life that costs nothing: the monotonic time of a process's newest look at the bus, in eight bytes of a file.
-// Memory mapped by the process, read by who watches over it. It says that the loop goes round, not what it does.
-// Eight more bytes are the answer: a process that has read all it needs leaves its first sign, and writes nothing before
-// it is let go, which it is when all others have come as far.
+// A sign of life that costs nothing: the monotonic time of a process's newest look at the bus, in eight bytes of a
+// file. Memory mapped by the process, read by who watches over it. It says that the loop goes round, not what it does.
+// Eight more bytes are the answer: a process that has read all it needs leaves its first sign, and writes nothing
+// before it is let go, which it is when all others have come as far.
 #pragma once
 
 #include <atomic>

@@ -249,7 +249,7 @@ void Bus::log_refusals() {
   refused_logged_ = counters_.refused;
   const std::uint64_t seconds = counters_.refused_because[static_cast<std::size_t>(Refusal::kSecond)];
   if (seconds != seconds_logged_)
-    spdlog::warn("a second sender of {} speaks from {}: {} datagrams refused, until the first has been silent for {} ms",
+    spdlog::warn("a second sender of {} speaks from {}: {} datagrams refused until the first is silent for {} ms",
                  kChannels[second_.payload_index].message, text_of(second_.from), seconds - seconds_logged_,
                  taken_over_after(kChannels[second_.payload_index]).count() / 1'000'000);
   seconds_logged_ = seconds;

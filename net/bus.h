@@ -64,8 +64,8 @@ class Bus {
   /// that a flood cannot hold up the caller. Returns how many are new to take().
   std::size_t poll();
 
-  /// From now on every poll() leaves a sign of life in this file (net/alive.h). Returns when it says that all others are
-  /// ready too, or `stop` does. Empty: at once, and none is left.
+  /// From now on every poll() leaves a sign of life in this file (net/alive.h). Returns when it says that all others
+  /// are ready too, or `stop` does. Empty: at once, and none is left.
   Status ready_with_the_others(const std::filesystem::path& alive_file, const std::function<bool()>& stop);
 
   /// Sleeps until something waits (true), or time is up or a signal came (false).

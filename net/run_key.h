@@ -1,5 +1,5 @@
-// The key of a run on loopback, so that nothing there is trusted by accident: another user's program, or one of ours that
-// belongs to another rig, speaks to nobody.
+// The key of a run on loopback, so that nothing there is trusted by accident: another user's program, or one of ours
+// that belongs to another rig, speaks to nobody.
 //
 // A rig without a key_file has a key of its own for the run, in a file that only its user can read:
 // /run/user/UID/phare/ADDRESS-PORT_BASE.key, or below /tmp/phare-UID where there is no /run/user, or below

@@ -2,8 +2,8 @@
 //
 // The file is mapped memory: what was written stays when the process is killed, in whatever line of code. Two slots are
 // written in turn by the parity of a growing key (a frame, a count); a slot that was being written does not fit its
-// hash, and the other one holds the state before. Read by the same program only, in the same run: the bytes are those of
-// memory, of no agreed format, and a file of another size is taken for none.
+// hash, and the other one holds the state before. Read by the same program only, in the same run: the bytes are those
+// of memory, of no agreed format, and a file of another size is taken for none.
 #pragma once
 
 #include <array>

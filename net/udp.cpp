@@ -56,7 +56,7 @@ struct UdpSocket::State {
   std::size_t filled = 0;
   std::size_t next = 0;
   Endpoint from;
-  ArrivalTime arrived, read;                                                        // of the one, and of its batch
+  ArrivalTime arrived, read;                                                            // of the one, and of its batch
   std::chrono::steady_clock::time_point seen_empty = std::chrono::steady_clock::now();  // nothing in it came earlier
 
   State() {

@@ -27,7 +27,7 @@ Result<CandumpLog> log_of(const std::string& file) {
   return log;
 }
 
-int written() {
+int all_written() {
   std::cout.flush();
   return std::cout ? kExitDone : kExitCheckFailed;
 }
@@ -36,7 +36,7 @@ int can_list(const CanOptions& options) {
   const auto dbc = dbc_of(options.dbc_file);
   if (!dbc) return bad_input(dbc.error());
   list_dbc(*dbc, std::cout);
-  return written();
+  return all_written();
 }
 
 int can_decode(const CanOptions& options) {
@@ -45,7 +45,7 @@ int can_decode(const CanOptions& options) {
   const auto log = log_of(options.log_file);
   if (!log) return bad_input(log.error());
   if (const Status done = decode_log(*dbc, *log, options.decode, std::cout); !done) return bad_input(done.error());
-  return written();
+  return all_written();
 }
 
 int can_check(const CanOptions& options) {
@@ -58,7 +58,7 @@ int can_check(const CanOptions& options) {
   const auto log = log_of(options.log_file);
   if (!log) return bad_input(log.error());
   if (const Status done = check_cockpit(*config, *dbc, *log, std::cout); !done) return bad_input(done.error());
-  return written();
+  return all_written();
 }
 
 int can_crc(const CanOptions& options) {
@@ -71,7 +71,7 @@ int can_crc(const CanOptions& options) {
     std::cout << id << "  " << one.where << "  " << one.scheme << "  # " << one.frames << " different frames\n";
   }
   if (found.empty()) std::cout << "no known check fits any message of this log\n";
-  return written();
+  return all_written();
 }
 
 }  // namespace
@@ -79,9 +79,10 @@ int can_crc(const CanOptions& options) {
 void add_can(CLI::App& app, Command& chosen) {
   CLI::App* can = app.add_subcommand("can", "CAN files: list a DBC file, decode a log, check a cockpit file");
   can->require_subcommand(1);
-  can->footer("Logs are candump's. Others (Vector ASC and BLF, PEAK TRC, MF4) become one with python-can:\n"
-              "  python3 -m can.logconvert drive.blf drive.log\n"
-              "Example:\n  phare can list config/cockpits/phare_stalk.dbc");
+  can->footer(
+      "Logs are candump's. Others (Vector ASC and BLF, PEAK TRC, MF4) become one with python-can:\n"
+      "  python3 -m can.logconvert drive.blf drive.log\n"
+      "Example:\n  phare can list config/cockpits/phare_stalk.dbc");
   auto options = std::make_shared<CanOptions>();
 
   CLI::App* list = can->add_subcommand("list", "Every message and signal of a DBC file, and the lines that are broken");
@@ -98,8 +99,7 @@ void add_can(CLI::App& app, Command& chosen) {
   decode->callback([options, &chosen] { chosen = [options] { return can_decode(*options); }; });
 
   CLI::App* check = can->add_subcommand("check", "Which control of a cockpit file a log moves, and when");
-  check->footer(
-      "Example:\n  phare can check config/cockpits/phare_stalk.toml --log config/examples/stalk.log");
+  check->footer("Example:\n  phare can check config/cockpits/phare_stalk.toml --log config/examples/stalk.log");
   check->add_option("cockpit", options->cockpit_file, "Cockpit file")->required();
   check->add_option("--log", options->log_file, "candump log")->required();
   check->add_option("--dbc", options->dbc_file, "DBC file [the cockpit file's]");

@@ -131,8 +131,8 @@ std::vector<OfOneId> different_frames(const CandumpLog& log) {
 }
 
 /// A message with nothing but a check in `bits` bits from `start_bit` on.
-std::optional<MessageChecker> checker_for(CrcKind kind, std::uint32_t start_bit, std::uint32_t bits, std::uint32_t length,
-                                          std::vector<std::int64_t> data_ids) {
+std::optional<MessageChecker> checker_for(CrcKind kind, std::uint32_t start_bit, std::uint32_t bits,
+                                          std::uint32_t length, std::vector<std::int64_t> data_ids) {
   Dbc dbc;
   DbcMessage message;
   message.name = "M";

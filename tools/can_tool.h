@@ -1,5 +1,5 @@
-// What a CAN engineer asks of a file: which signals it has, what a log says, which control moves when, which check fits.
-// Output is text on a stream; errors carry file, line and reason. The commands are in can_command.cpp.
+// What a CAN engineer asks of a file: which signals it has, what a log says, which control moves when, which check
+// fits. Output is text on a stream; errors carry file, line and reason. The commands are in can_command.cpp.
 #pragma once
 
 #include <cstdint>

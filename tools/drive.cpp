@@ -401,8 +401,8 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
   supervisor.let_go();
   Status recorded = Done{};
   PicturesNotKept not_kept;
-  bus->on_datagram = [&not_kept, wishes_too = bus->on_datagram](const Datagram& datagram, std::span<const std::byte> b) {
-    if (wishes_too) wishes_too(datagram, b);
+  bus->on_datagram = [&not_kept, wishes_too = bus->on_datagram](const Datagram& datagram, auto bytes) {
+    if (wishes_too) wishes_too(datagram, bytes);
     not_kept.take(datagram);
   };
   std::size_t restarts_seen = 0;

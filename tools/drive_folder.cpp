@@ -63,9 +63,8 @@ std::string another_drive_in(const fs::path& out, const std::vector<std::string>
     return made_at.empty() ? "the report of another drive" : "the drive of " + made_at;
   }
   const fs::directory_iterator frames(out / "frames", ignored);
-  const bool any = std::any_of(begin(frames), end(frames), [](const fs::directory_entry& entry) {
-    return entry.path().extension() == ".png";
-  });
+  const bool any = std::any_of(begin(frames), end(frames),
+                               [](const fs::directory_entry& entry) { return entry.path().extension() == ".png"; });
   return any ? "the pictures of another drive" : "";
 }
 
@@ -116,7 +115,8 @@ void make_video(const fs::path& out, std::int64_t frame_rate_hz, const std::func
   if (!child) return;
   const auto deadline = Clock::now() + std::chrono::minutes(5);
   std::optional<ProcessEnd> end;
-  while (!(end = child->ended()) && Clock::now() < deadline && !stop()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  while (!(end = child->ended()) && Clock::now() < deadline && !stop())
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   if (!end) child->send_signal(9);
   if (!end || end->exit_code != 0 || end->signal != 0) {
     spdlog::warn("ffmpeg made no video ({})", end ? end->text() : stop() ? "interrupted" : "took more than 5 minutes");

@@ -125,9 +125,25 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
   json summary{{"messages", messages}, {"memory", memory}, {"restarts", facts.restarts.size()}};
   if (report["processes"].contains("visual-0")) {
     const json& visual = report["processes"]["visual-0"];
-    for (const char* key : {"frames", "frames_per_s", "drawn_s", "frame_ms", "frame_ms_without_capture", "gpu_ms",
-                            "pass_ms", "draws", "passes", "triangles", "self_audit", "switch_to_photon", "device",
-                            "device_memory_bytes", "size_px", "sim_time_s", "validation", "validation_messages", "fail_safe",
+    for (const char* key : {"frames",
+                            "frames_per_s",
+                            "drawn_s",
+                            "frame_ms",
+                            "frame_ms_without_capture",
+                            "gpu_ms",
+                            "pass_ms",
+                            "draws",
+                            "passes",
+                            "triangles",
+                            "self_audit",
+                            "switch_to_photon",
+                            "device",
+                            "device_memory_bytes",
+                            "size_px",
+                            "sim_time_s",
+                            "validation",
+                            "validation_messages",
+                            "fail_safe",
                             "frames_stale_pose"}) {
       if (visual.contains(key)) summary[key] = visual[key];
     }

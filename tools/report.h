@@ -18,7 +18,7 @@ struct DriveFacts {
   bool lockstep = false;
   double wall_s = 0.0;
   int exit_code = 0;
-  std::string why;  ///< when exit_code is not 0
+  std::string why;           ///< when exit_code is not 0
   bool interrupted = false;  ///< by Ctrl-C or SIGTERM
   std::vector<Restart> restarts;
   std::vector<Supervisor::Ended> ends;

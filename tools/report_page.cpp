@@ -242,8 +242,8 @@ class Page {
       page_ << "<p class=\"bad\">" << frames << " pictures with the low beam of the fail-safe, "
             << value_text(fail_safe, "count") << " times:</p>";
     for (const json& once : fail_safe.value("times", json::array()))
-      page_ << "<p>" << value_text(once, "from_s", "%.3f") << " to " << value_text(once, "to_s", "%.3f") << " s: "
-            << value_text(once, "because") << "</p>";
+      page_ << "<p>" << value_text(once, "from_s", "%.3f") << " to " << value_text(once, "to_s", "%.3f")
+            << " s: " << value_text(once, "because") << "</p>";
     if (held > 0) page_ << "<p class=\"bad\">" << held << " pictures with a pose that was held: no VehicleState.</p>";
   }
 

@@ -85,8 +85,7 @@ bool Supervisor::look_after(Watched& process) {
     process.due.reset();
     std::vector<std::string> arguments = process.spec.arguments;
     arguments.insert(arguments.end(), process.spec.restart_arguments.begin(), process.spec.restart_arguments.end());
-    if (const Status begun = begin(process, arguments); !begun)
-      return give_up(kExitCheckFailed, begun.error().text());
+    if (const Status begun = begin(process, arguments); !begun) return give_up(kExitCheckFailed, begun.error().text());
     return true;
   }
   if (!process.child) return true;

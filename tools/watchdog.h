@@ -1,8 +1,8 @@
 // Tells a process that hangs from one that is slow: by its signs of life (net/alive.h) and its processor time.
 //
 // A loop that goes round leaves a sign of life at least ten times a second, but for a picture that takes long, files
-// that are read, a drive that is brought to its end: those cost processor time. Who leaves no sign and uses no processor
-// is stopped, or waits for what will not come.
+// that are read, a drive that is brought to its end: those cost processor time. Who leaves no sign and uses no
+// processor is stopped, or waits for what will not come.
 #pragma once
 
 #include <sys/types.h>
@@ -36,8 +36,8 @@ class Watchdog {
 
   explicit Watchdog(HungAfter limits) : limits_(limits) {}
 
-  /// To be called often. Why the process counts as hung; nullopt: it does not. Time in which we were not called (we were
-  /// stopped ourselves) does not count.
+  /// To be called often. Why the process counts as hung; nullopt: it does not. Time in which we were not called (we
+  /// were stopped ourselves) does not count.
   std::optional<std::string> hung(Clock::time_point now, std::optional<Clock::time_point> beat,
                                   const std::optional<ProcessUse>& use);
 

@@ -332,8 +332,7 @@ class Process {
   // takes. Where there was none it starts anew, once every visual has said that its picture is ready; one that never
   // does so does not hold the drive up for ever.
   void begin_in_real_time(Begin begin) {
-    if (const auto saved = kept_ ? kept_->newest() : std::nullopt)
-      return go_on_in_real_time(std::move(begin), *saved);
+    if (const auto saved = kept_ ? kept_->newest() : std::nullopt) return go_on_in_real_time(std::move(begin), *saved);
     const auto look_for = std::chrono::milliseconds(200);
     const auto slow_picture = std::chrono::seconds(20);
     const bool first = kept_.has_value();  // an empty file of this run: nobody was here before
@@ -354,9 +353,11 @@ class Process {
       }
       const bool all_up = newest_frame_of_all(bus_).has_value();  // and none has drawn a car
       if (all_up && (picture_within.count() > 0 || time_of_others())) break;
-      if (!first && time_of_others()) {  // a cockpit speaks of a drive: its picture may take long, and shows the car then
+      // A cockpit speaks of a drive: its picture may take long, and shows the car then.
+      if (!first && time_of_others()) {
         until = std::max(until, start + slow_picture);
-        if (!std::exchange(told, true)) spdlog::info("a drive is under way: waiting for the picture that shows its car");
+        if (!std::exchange(told, true))
+          spdlog::info("a drive is under way: waiting for the picture that shows its car");
       }
     }
     if (picture_within.count() > 0 && !stop_ && !newest_frame_of_all(bus_))
@@ -532,7 +533,8 @@ int run(int argc, char** argv) {
   app.add_option("--log-level", options.log_level, "How much to tell")->check(CLI::IsMember(kLogLevelNames));
   app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
   app.add_flag("--open-bus", options.open_bus, "No key of the run: anyone on this machine may speak on the bus");
-  app.add_option("--alive", options.alive_file, "File that says, ten times a second and more, that this process is not hung");
+  app.add_option("--alive", options.alive_file,
+                 "File that says, ten times a second and more, that this process is not hung");
   BatchCommand batch;
   batch.add_to(app);
   try {

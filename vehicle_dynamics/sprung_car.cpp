@@ -159,7 +159,7 @@ void SprungCar::show() {
 }
 
 SprungCar::Memory SprungCar::memory() const {
-  Memory memory{model_, full_, single_, power_, input_, shown_, side_mps_, least_load_share_, off_road_};
+  Memory memory{model_, full_, single_, input_, shown_, side_mps_, least_load_share_, off_road_};
   memory.input.road = nullptr;
   return memory;
 }
@@ -168,7 +168,6 @@ void SprungCar::recall(const Memory& memory) {
   model_ = memory.model;
   full_ = memory.full;
   single_ = memory.single;
-  power_ = memory.power;
   input_ = memory.input;
   shown_ = memory.shown;
   side_mps_ = memory.side_mps, least_load_share_ = memory.least_load_share;

@@ -43,7 +43,6 @@ class SprungCar {
     Model model = Model::kFull;
     full::State full;
     single_track::State single;
-    powertrain::State power;
     full::Input input;  ///< without the road
     CarState shown;
     double side_mps = 0.0, least_load_share = 1.0;

@@ -11,7 +11,8 @@
 
 namespace phare {
 namespace {
-constexpr std::array<const char*, 3> kOutOfPlay{nullptr, "the motion has no numbers any more", "the car has rolled over"};
+constexpr std::array<const char*, 3> kOutOfPlay{nullptr, "the motion has no numbers any more",
+                                                "the car has rolled over"};
 }  // namespace
 
 // The car, one step further. Who decides what is due, and what the outside sees of it, follows below.
@@ -173,7 +174,12 @@ const Road& StepLoop::road() {
 }
 
 StepLoop::StepLoop(RunSetup setup, const CarState& state, SimTime start, std::uint64_t steps_before)
-    : setup_(std::move(setup)), before_(state), now_(state), start_(start), clock_from_(start), steps_before_(steps_before) {
+    : setup_(std::move(setup)),
+      before_(state),
+      now_(state),
+      start_(start),
+      clock_from_(start),
+      steps_before_(steps_before) {
   assert(setup_.step.ns > 0);
   road_ = setup_.on_top;
   running_ = setup_.level == Level::kAuto ? Level::kKinematic : setup_.level;
@@ -223,6 +229,7 @@ StepLoop::Memory StepLoop::memory() const {
   m.before = before_, m.now = now_;
   m.running = running_;
   m.choice = auto_;
+  m.power = power_;
   m.plane_z_m = road_.z_m, m.path_m = path_m_;
   m.lamps = lamps_;
   m.hashes = hashes_;
@@ -240,6 +247,7 @@ void StepLoop::recall(const Memory& m) {
   before_ = m.before, now_ = m.now;
   running_ = m.running;
   auto_ = m.choice;
+  power_ = m.power;
   road_.z_m = m.plane_z_m, path_m_ = m.path_m;
   lamps_ = m.lamps;
   hashes_ = m.hashes;

@@ -53,6 +53,7 @@ class StepLoop {
     CarState before, now;
     Level running = Level::kKinematic;
     AutoLevel choice;
+    powertrain::State power;
     double plane_z_m = 0.0, path_m = 0.0;
     levelling::State lamps;
     std::array<std::uint64_t, kMaxStepHashes> hashes{};

@@ -163,7 +163,8 @@ class Renderer {
   ImageF read_hdr(std::size_t view = 0) const;  ///< after draw with want_hdr: the part of that view
 
   /// Illuminance in lx at points, per lamp, through the same fragment shader: result[lamp][point]. `shadows`: level of
-  /// that effect, 0 for what falls there if nothing stands in the way (occluder() of visual/scene/ray_hit.h tells exactly).
+  /// that effect, 0 for what falls there if nothing stands in the way (occluder() of visual/scene/ray_hit.h tells
+  /// exactly).
   std::vector<std::vector<float>> measure(std::span<const PlacedLamp> lamps, std::span<const MeasurePoint> points,
                                           std::size_t shadows = 0);
 

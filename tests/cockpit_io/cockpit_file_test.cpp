@@ -163,10 +163,11 @@ TEST(SignalMap, AnUnknownLevelIsASignOfLifeUnlessTheBeamHangsOnIt) {
   const auto config = parse_cockpit(
       "[source]\nkind = \"log\"\ntimeout_s = 0.5\n[control.turn]\nmessage = \"M\"\nsignal = \"TURN\"\n"
       "levels = { none = 0, left = 1, right = 2 }\n[control.light_switch]\nmessage = \"M\"\nsignal = \"BEAM\"\n"
-      "levels = { off = 0, low = 1, high = 2 }\n", "c.toml");
+      "levels = { off = 0, low = 1, high = 2 }\n",
+      "c.toml");
   ASSERT_TRUE(config) << config.error().text();
-  const auto dbc = parse_dbc("BO_ 1 M: 1 X\n SG_ TURN : 0|4@1+ (1,0) [0|0] \"\" X\n SG_ BEAM : 4|4@1+ (1,0) [0|0] \"\" X\n",
-                             "m.dbc");
+  const auto dbc = parse_dbc(
+      "BO_ 1 M: 1 X\n SG_ TURN : 0|4@1+ (1,0) [0|0] \"\" X\n SG_ BEAM : 4|4@1+ (1,0) [0|0] \"\" X\n", "m.dbc");
   SignalMap map = *SignalMap::bind(*config, *dbc, 0);
   DriverInput input;
   CanFrame frame;
@@ -189,8 +190,11 @@ TEST(SignalMap, AnUnknownLevelIsASignOfLifeUnlessTheBeamHangsOnIt) {
 
 TEST(CockpitFile, BitsThatTheCarHasElsewhereAreChecked) {
   const auto bound = [](const std::string& bits) {
-    const auto config = parse_cockpit("[source]\nkind = \"log\"\n[control.flash]\nmessage = \"M\"\nsignal = \"S\"\n"
-                                      "bits = \"" + bits + "\"\n", "c.toml");
+    const auto config = parse_cockpit(
+        "[source]\nkind = \"log\"\n[control.flash]\nmessage = \"M\"\nsignal = \"S\"\n"
+        "bits = \"" +
+            bits + "\"\n",
+        "c.toml");
     EXPECT_TRUE(config) << config.error().text();
     return SignalMap::bind(*config, *parse_dbc("BO_ 1 M: 2 X\n SG_ S : 0|1@1+ (1,0) [0|0] \"\" X\n", "m.dbc"), 0);
   };

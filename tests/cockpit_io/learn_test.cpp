@@ -45,6 +45,28 @@ TEST(Learn, NamesTheSignalThatMovedAndNotTheCounter) {
   EXPECT_TRUE(any_has(summary, "signal = \"FLASH\""));
 }
 
+// The lever of docs/add-a-car.md: neutral, pulled, pushed.
+TEST(Learn, DraftsALeverWithThreeLevels) {
+  const auto dbc = parse_dbc(
+      "BO_ 585 STALK: 2 X\n SG_ LEVER : 12|2@1+ (1,0) [0|3] \"\" X\n"
+      "VAL_ 585 LEVER 0 \"IDLE\" 1 \"PULL\" 2 \"PUSH\";\n",
+      "lever.dbc");
+  Learner learner(*dbc, kSecond);
+  for (int i = 0; i < 400; ++i) {
+    CanFrame frame;
+    frame.id = 585;
+    frame.length = 2;
+    const int lever = i > 200 && i < 210 ? 1 : i > 300 && i < 310 ? 2 : 0;
+    frame.data[1] = static_cast<std::uint8_t>(lever << 4);
+    learner.take(frame, i * kSecond / 50);
+  }
+  const auto summary = learner.summary();
+  EXPECT_TRUE(any_has(summary,
+                      "[control.NAME]\nmessage = \"STALK\"\nsignal = \"LEVER\"\n"
+                      "levels = { neutral = \"IDLE\", pull = \"PULL\", push = \"PUSH\" }"))
+      << summary.back();
+}
+
 TEST(Learn, WithoutADbcNamesBits) {
   Learner learner({}, 5 * kSecond);
   const auto lines = shown(learner);

@@ -40,10 +40,10 @@ TEST(Crc, OfAnyWidthAndInitGivesTheCheckValuesOfTheCatalogue) {
     for (const char c : digits) crc.add(static_cast<std::uint8_t>(c));
     return crc.value();
   };
-  EXPECT_EQ(check({4, 0x3, 0x0, true, 0x0}), 0x7u);          // CRC-4/G-704
-  EXPECT_EQ(check({5, 0x05, 0x1F, true, 0x1F}), 0x19u);      // CRC-5/USB
-  EXPECT_EQ(check({8, 0x31, 0x00, true, 0x00}), 0xA1u);      // CRC-8/MAXIM-DOW
-  EXPECT_EQ(check({15, 0x4599, 0x0, false, 0x0}), 0x059Eu);  // CRC-15/CAN
+  EXPECT_EQ(check({4, 0x3, 0x0, true, 0x0}), 0x7u);            // CRC-4/G-704
+  EXPECT_EQ(check({5, 0x05, 0x1F, true, 0x1F}), 0x19u);        // CRC-5/USB
+  EXPECT_EQ(check({8, 0x31, 0x00, true, 0x00}), 0xA1u);        // CRC-8/MAXIM-DOW
+  EXPECT_EQ(check({15, 0x4599, 0x0, false, 0x0}), 0x059Eu);    // CRC-15/CAN
   EXPECT_EQ(check({16, 0x1021, 0xB2AA, true, 0x0}), 0x63D0u);  // CRC-16/RIELLO: an init that is not symmetric
 }
 
@@ -211,8 +211,8 @@ TEST(MessageCheck, ARealCarsChecksumsAreGood) {
 // A scheme that nobody has given a name: what is signed is good, another byte or counter is not.
 TEST(MessageCheck, APolynomialByItsParameters) {
   MessageCheck check = check_of(CrcKind::kPolynomial, {10, 20, 30});
-  check.polynomial = {.width = 8, .poly = 0x2F, .init = 0x55, .xor_out = 0x0F, .reflect = true, .first_byte = 1,
-                      .last_byte = 4};
+  check.polynomial = {
+      .width = 8, .poly = 0x2F, .init = 0x55, .xor_out = 0x0F, .reflect = true, .first_byte = 1, .last_byte = 4};
   MessageChecker sender = checker_of(check), receiver = checker_of(check);
   for (int round = 0; round < 20; ++round) {
     CanFrame frame = frame_of({0, 0, round, 7, 9, 11, 200, 3});

@@ -2,7 +2,6 @@
 #include "net/control_desk.h"
 
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <algorithm>

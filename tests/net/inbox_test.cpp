@@ -81,42 +81,42 @@ TEST(Sequences, AStartThatComesBackGoesOnWithItsNumbers) {
 
 constexpr Endpoint kHere{0x7f000001, 47000}, kElsewhere{0x7f000001, 50000};
 
-LiveSender::Time at_ms(int ms) {
+LiveSender::Time heard_at_ms(int ms) {
   return LiveSender::Time{} + std::chrono::hours(1) + std::chrono::milliseconds(ms);
 }
 
 TEST(LiveSender, AStrangerWaitsUntilTheFirstIsSilent) {
   LiveSender live(std::chrono::milliseconds(200));
-  EXPECT_TRUE(live.admits(1, kHere, at_ms(0)));
-  EXPECT_FALSE(live.admits(2, kElsewhere, at_ms(100)));
-  EXPECT_TRUE(live.admits(1, kHere, at_ms(150)));
-  EXPECT_FALSE(live.admits(2, kElsewhere, at_ms(349)));  // what is refused does not count as heard
-  EXPECT_TRUE(live.admits(2, kElsewhere, at_ms(350)));
+  EXPECT_TRUE(live.admits(1, kHere, heard_at_ms(0)));
+  EXPECT_FALSE(live.admits(2, kElsewhere, heard_at_ms(100)));
+  EXPECT_TRUE(live.admits(1, kHere, heard_at_ms(150)));
+  EXPECT_FALSE(live.admits(2, kElsewhere, heard_at_ms(349)));  // what is refused does not count as heard
+  EXPECT_TRUE(live.admits(2, kElsewhere, heard_at_ms(350)));
 }
 
 TEST(LiveSender, NobodyIsMuteForGood) {
   LiveSender live(std::chrono::milliseconds(200));
-  EXPECT_TRUE(live.admits(1, kHere, at_ms(0)));
-  EXPECT_TRUE(live.admits(2, kElsewhere, at_ms(300)));  // one stray datagram while the first hung
-  EXPECT_FALSE(live.admits(1, kHere, at_ms(310)));
-  EXPECT_TRUE(live.admits(1, kHere, at_ms(500)));
-  EXPECT_TRUE(live.admits(1, kHere, at_ms(510)));
+  EXPECT_TRUE(live.admits(1, kHere, heard_at_ms(0)));
+  EXPECT_TRUE(live.admits(2, kElsewhere, heard_at_ms(300)));  // one stray datagram while the first hung
+  EXPECT_FALSE(live.admits(1, kHere, heard_at_ms(310)));
+  EXPECT_TRUE(live.admits(1, kHere, heard_at_ms(500)));
+  EXPECT_TRUE(live.admits(1, kHere, heard_at_ms(510)));
 }
 
 TEST(LiveSender, WhoHoldsThePortOfTheFirstIsTheFirstStartedAgain) {
   LiveSender live(std::chrono::milliseconds(200));
-  EXPECT_TRUE(live.admits(1, kHere, at_ms(0)));
-  EXPECT_TRUE(live.admits(2, kHere, at_ms(1)));
-  EXPECT_FALSE(live.admits(1, kHere, at_ms(2)));  // a straggler of the start before
-  EXPECT_TRUE(live.admits(2, kHere, at_ms(3)));
+  EXPECT_TRUE(live.admits(1, kHere, heard_at_ms(0)));
+  EXPECT_TRUE(live.admits(2, kHere, heard_at_ms(1)));
+  EXPECT_FALSE(live.admits(1, kHere, heard_at_ms(2)));  // a straggler of the start before
+  EXPECT_TRUE(live.admits(2, kHere, heard_at_ms(3)));
 }
 
 TEST(LiveSender, TimeThatGoesBackDoesNotMakeAnyoneSilent) {
   LiveSender live(std::chrono::milliseconds(200));
-  EXPECT_TRUE(live.admits(1, kHere, at_ms(1000)));
-  EXPECT_FALSE(live.admits(2, kElsewhere, at_ms(0)));
-  EXPECT_TRUE(live.admits(1, kHere, at_ms(10)));
-  EXPECT_TRUE(live.admits(2, kElsewhere, at_ms(1200)));
+  EXPECT_TRUE(live.admits(1, kHere, heard_at_ms(1000)));
+  EXPECT_FALSE(live.admits(2, kElsewhere, heard_at_ms(0)));
+  EXPECT_TRUE(live.admits(1, kHere, heard_at_ms(10)));
+  EXPECT_TRUE(live.admits(2, kElsewhere, heard_at_ms(1200)));
 }
 
 TEST(Sequences, CountsAddUpUnderLossReorderingAndDuplication) {

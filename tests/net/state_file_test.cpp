@@ -13,12 +13,12 @@
 namespace phare {
 namespace {
 
-struct State {
+struct Numbers {
   std::array<std::uint64_t, 200> numbers{};
 };
 
-State of(std::int64_t key) {
-  State state;
+Numbers of(std::int64_t key) {
+  Numbers state;
   state.numbers.fill(static_cast<std::uint64_t>(key));
   return state;
 }
@@ -27,7 +27,7 @@ class StateFileTest : public testing::Test {
  protected:
   ~StateFileTest() override { std::filesystem::remove(file_); }
   StateFile open() const {
-    auto opened = StateFile::open(file_, sizeof(State));
+    auto opened = StateFile::open(file_, sizeof(Numbers));
     EXPECT_TRUE(opened) << opened.error().text();
     return std::move(*opened);
   }
@@ -42,9 +42,9 @@ TEST_F(StateFileTest, HoldsTheTwoNewestStates) {
   StateFile again = open();
   ASSERT_TRUE(again.newest());
   EXPECT_EQ(again.newest()->key, 6);
-  EXPECT_EQ(state_of<State>(*again.newest()).numbers, of(6).numbers);
+  EXPECT_EQ(state_of<Numbers>(*again.newest()).numbers, of(6).numbers);
   ASSERT_TRUE(again.at(5));
-  EXPECT_EQ(state_of<State>(*again.at(5)).numbers, of(5).numbers);
+  EXPECT_EQ(state_of<Numbers>(*again.at(5)).numbers, of(5).numbers);
   EXPECT_FALSE(again.at(4));
   struct stat found {};
   ASSERT_EQ(::stat(file_.c_str(), &found), 0);
@@ -68,18 +68,22 @@ TEST_F(StateFileTest, AByteThatIsNotAsWrittenMakesItNone) {
 
 // Killed two hundred times while it writes as fast as it can: one of the two slots is always whole, and of one state.
 TEST_F(StateFileTest, AKillLeavesAWholeState) {
-  { StateFile file = open(); file.save(0, of(0)); }
+  {
+    StateFile file = open();
+    file.save(0, of(0));
+  }
   std::int64_t before = 0;
   for (int kill_count = 0; kill_count < 200; ++kill_count) {
     int begun[2];
     ASSERT_EQ(pipe(begun), 0);
     const pid_t child = fork();
     if (child == 0) {
-      auto file = StateFile::open(file_, sizeof(State));
+      auto file = StateFile::open(file_, sizeof(Numbers));
       if (!file || !file->newest()) _exit(1);
       for (std::int64_t key = file->newest()->key + 1;; ++key) {
         file->save(key, of(key));
-        if (key % 64 == 0) [[maybe_unused]] const ssize_t told = write(begun[1], "x", 1);
+        if (key % 64 == 0) [[maybe_unused]]
+          const ssize_t told = write(begun[1], "x", 1);
       }
     }
     char told = 0;
@@ -92,7 +96,7 @@ TEST_F(StateFileTest, AKillLeavesAWholeState) {
     const auto newest = file.newest();
     ASSERT_TRUE(newest);
     ASSERT_GT(newest->key, before);
-    ASSERT_EQ(state_of<State>(*newest).numbers, of(newest->key).numbers);
+    ASSERT_EQ(state_of<Numbers>(*newest).numbers, of(newest->key).numbers);
     before = newest->key;
   }
 }

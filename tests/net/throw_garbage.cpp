@@ -11,12 +11,15 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "config/result.h"
 #include "net/drive_file.h"
+#include "net/seal.h"
 #include "net/wire.h"
 #include "tests/net/garbage.h"
 #include "tests/net/sample.h"
@@ -43,6 +46,9 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--period", period_s, "s, see --on; 0: all the time")->check(CLI::NonNegativeNumber);
   app.add_flag("--quiet", quiet, "print nothing");
+  bool forge = false;
+  app.add_flag("--forge", forge,
+               "no garbage: datagrams that are right in all but the key, sent now, each by a new start");
   app.add_option("--template", template_file, "drive file whose datagrams are cut and flipped; else made-up ones");
   try {
     app.parse(argc, argv);
@@ -64,6 +70,20 @@ int main(int argc, char** argv) {
   std::vector<std::string> encoded;
   for (const Datagram& datagram : valid) encoded.push_back(encode(datagram));
   test::Garbage garbage(std::move(encoded), seed);
+  std::mt19937_64 random(seed);
+  BusKey wrong_key{};
+  for (auto& byte : wrong_key) byte = static_cast<std::uint8_t>(random());
+  const Seal seal(wrong_key);
+  std::string forged;
+  const auto forge_next = [&] {
+    Datagram& datagram = valid[random() % valid.size()];
+    datagram.start_id = random() | 1u;
+    datagram.sequence = 1 + random() % 1000;
+    datagram.sent = wall_now();
+    encode_into(datagram, forged);
+    seal.close(forged);
+    return std::as_bytes(std::span(forged.data(), forged.size()));
+  };
 
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in to{};
@@ -91,7 +111,7 @@ int main(int argc, char** argv) {
   bool on_target = in_window();
   std::uint64_t thrown = 0;  // decoys too
   for (std::uint64_t i = 0; i < count; ++thrown) {
-    const auto bytes = garbage.next();
+    const auto bytes = forge ? forge_next() : garbage.next();
     const sockaddr_in& at = on_target ? to : decoy;
     const bool sent = sendto(fd, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&at), sizeof at) >= 0;
     if (on_target) {

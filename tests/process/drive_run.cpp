@@ -27,9 +27,9 @@ std::string bytes_of(const fs::path& file) {
 ChildProcess start_drive(const fs::path& out, const fs::path& from, const std::vector<std::string>& arguments,
                          bool lockstep) {
   // env -C is the working directory; the program that runs is phare itself.
-  std::vector<std::string> words{
-      "-C",           from.string(), program("phare"), "drive",     "--headless", "--overwrite",
-      "--port-base", std::to_string(port_base()), "--log-level", "error", "--out",  out.string()};
+  std::vector<std::string> words{"-C",          from.string(), program("phare"), "drive",
+                                 "--headless",  "--overwrite", "--port-base",    std::to_string(port_base()),
+                                 "--log-level", "error",       "--out",          out.string()};
   if (lockstep) words.push_back("--lockstep");
   words.insert(words.end(), arguments.begin(), arguments.end());
   if (std::find(arguments.begin(), arguments.end(), "--size") == arguments.end()) {

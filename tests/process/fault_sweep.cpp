@@ -1,5 +1,6 @@
-// phare-fault-sweep: the long form of tests/process/fault_test.cpp. Kills, stops and both together at random times, in real
-// time and in lockstep, by a seed; says how many pictures showed a beam that neither stalk nor fail-safe asked for.
+// phare-fault-sweep: the long form of tests/process/fault_test.cpp. Kills, stops and both together at random times, in
+// real time and in lockstep, by a seed; says how many pictures showed a beam that neither stalk nor fail-safe asked
+// for.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>

@@ -1,5 +1,5 @@
-// process: a rig that is killed, stopped and both: no picture shows a beam that neither the stalk nor the fail-safe asked
-// for, and no drive is lost. A slice of phare-fault-sweep, with its seed.
+// process: a rig that is killed, stopped and both: no picture shows a beam that neither the stalk nor the fail-safe
+// asked for, and no drive is lost. A slice of phare-fault-sweep, with its seed.
 #include <gtest/gtest.h>
 
 #include "tests/process/drive_run.h"
@@ -24,12 +24,13 @@ TEST_P(Faults, NoPictureShowsAWrongBeamAndNoDriveIsLost) {
 
 INSTANTIATE_TEST_SUITE_P(
     Slice, Faults,
-    testing::Values(FaultSetup{.kind = FaultSetup::Kind::kKill, .faults = 3, .seed = 11},
-                    FaultSetup{.kind = FaultSetup::Kind::kStop, .faults = 3, .seed = 12,
-                               .longest_stop = std::chrono::milliseconds(1500)},
-                    FaultSetup{.kind = FaultSetup::Kind::kBoth, .faults = 2, .seed = 13,
-                               .longest_stop = std::chrono::milliseconds(1500)},
-                    FaultSetup{.kind = FaultSetup::Kind::kKill, .lockstep = true, .faults = 3, .seed = 14}));
+    testing::Values(
+        FaultSetup{.kind = FaultSetup::Kind::kKill, .faults = 3, .seed = 11},
+        FaultSetup{
+            .kind = FaultSetup::Kind::kStop, .faults = 3, .seed = 12, .longest_stop = std::chrono::milliseconds(1500)},
+        FaultSetup{
+            .kind = FaultSetup::Kind::kBoth, .faults = 2, .seed = 13, .longest_stop = std::chrono::milliseconds(1500)},
+        FaultSetup{.kind = FaultSetup::Kind::kKill, .lockstep = true, .faults = 3, .seed = 14}));
 
 }  // namespace
 }  // namespace phare::test

@@ -39,8 +39,11 @@ struct Beam {
 
 /// Of the second that began at `second`, by the seed: never the same twice in turn.
 Beam beam_of(std::uint64_t seed, int second) {
-  constexpr Beam kBeams[]{{LightSwitch::kLow, false}, {LightSwitch::kHigh, false}, {LightSwitch::kLow, true},
-                          {LightSwitch::kPosition, false}, {LightSwitch::kHigh, false}};
+  constexpr Beam kBeams[]{{LightSwitch::kLow, false},
+                          {LightSwitch::kHigh, false},
+                          {LightSwitch::kLow, true},
+                          {LightSwitch::kPosition, false},
+                          {LightSwitch::kHigh, false}};
   return kBeams[(static_cast<std::size_t>(second) + seed) % 5];
 }
 
@@ -67,8 +70,10 @@ void write_cockpit(const fs::path& file) {
 
 const char* text_of(const Beam& beam) {
   if (beam.flash) return "flash";
-  return beam.light == LightSwitch::kHigh ? "high" : beam.light == LightSwitch::kLow ? "low"
-         : beam.light == LightSwitch::kPosition ? "position" : "off";
+  return beam.light == LightSwitch::kHigh       ? "high"
+         : beam.light == LightSwitch::kLow      ? "low"
+         : beam.light == LightSwitch::kPosition ? "position"
+                                                : "off";
 }
 
 /// Whether the stalk stood so within kApart_s of this time; nothing is asked for before its first message.
@@ -86,7 +91,8 @@ void judge(const fs::path& record, std::uint64_t seed, FaultResult& result) {
   for (const Datagram& datagram : drive->datagrams) {
     const auto* report = std::get_if<FrameReport>(&datagram.payload);
     if (report == nullptr || report->drawn.level.empty()) continue;
-    if (report->light_drawn == LightSwitch::kOff && report->pose_stale && report->frame_ms == 0.0) continue;  // none drawn
+    const bool none_drawn = report->light_drawn == LightSwitch::kOff && report->pose_stale && report->frame_ms == 0.0;
+    if (none_drawn) continue;
     ++result.pictures;
     const double t_s = datagram.sim_time.seconds();
     if (datagram.sim_time < before) ++result.time_back;
@@ -116,8 +122,8 @@ FaultResult drive_with_faults(const FaultSetup& setup, const fs::path& folder) {
   write_cockpit(folder / "stalk.toml");
   {
     DriveRun run(out, folder,
-                 {"--log", log.string(), "--cockpit", (folder / "stalk.toml").string(), "--record",
-                  record.string(), "--size", "96x54", "--audit-every", "0"},
+                 {"--log", log.string(), "--cockpit", (folder / "stalk.toml").string(), "--record", record.string(),
+                  "--size", "96x54", "--audit-every", "0"},
                  setup.lockstep);
     const auto name = [&](std::uint64_t number) {
       constexpr const char* kNames[]{"phare-cockpit", "phare-dynamics", "phare-visual"};
@@ -145,17 +151,18 @@ FaultResult drive_with_faults(const FaultSetup& setup, const fs::path& folder) {
         return found != processes.end() && kill(found->second, number) == 0;
       };
       // Stops of all lengths alike by their logarithm.
-      const double stop_s = 1e-3 * static_cast<double>(setup.shortest_stop.count()) *
-                            std::pow(static_cast<double>(setup.longest_stop.count()) /
-                                         static_cast<double>(setup.shortest_stop.count()), share);
+      const double stop_s =
+          1e-3 * static_cast<double>(setup.shortest_stop.count()) *
+          std::pow(static_cast<double>(setup.longest_stop.count()) / static_cast<double>(setup.shortest_stop.count()),
+                   share);
       if (setup.kind != FaultSetup::Kind::kKill && signal(name(which), SIGSTOP)) ++result.stops;
       if (setup.kind == FaultSetup::Kind::kBoth) std::this_thread::sleep_for(std::chrono::duration<double>(stop_s / 2));
       if (setup.kind != FaultSetup::Kind::kStop &&
           signal(name(setup.kind == FaultSetup::Kind::kKill ? which : other), SIGKILL))
         ++result.kills;
       if (setup.kind != FaultSetup::Kind::kKill) {
-        std::this_thread::sleep_for(std::chrono::duration<double>(
-            setup.kind == FaultSetup::Kind::kBoth ? stop_s / 2 : stop_s));
+        std::this_thread::sleep_for(
+            std::chrono::duration<double>(setup.kind == FaultSetup::Kind::kBoth ? stop_s / 2 : stop_s));
         signal(name(which), SIGCONT);
         const double limit_s = name(which) == "phare-visual" ? kMayBeEnded_s + 7.0 : kMayBeEnded_s;
         if (stop_s > limit_s) ++result.stops_to_death;

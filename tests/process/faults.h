@@ -1,4 +1,4 @@
-// Drives with faults at random times: processes killed, stopped, both together; and what every picture showed meanwhile.
+// Drives with faults at random times: processes killed, stopped, both; and what every picture showed meanwhile.
 #pragma once
 
 #include <chrono>
@@ -20,13 +20,13 @@ struct FaultSetup {
 
 struct FaultResult {
   int exit_code = -1;
-  int kills = 0, stops = 0;      ///< done
-  int stops_to_death = 0;        ///< so long that the launcher ends the process
-  int restarts_reported = 0;     ///< in report.json
-  std::uint64_t pictures = 0;    ///< that say which beam they show
-  std::uint64_t fail_safe = 0;   ///< of them with the low beam of the fail-safe
-  std::uint64_t wrong = 0;       ///< that show a beam which neither the stalk nor the fail-safe asked for
-  std::uint64_t time_back = 0;   ///< pictures of a time before that of the picture before
+  int kills = 0, stops = 0;             ///< done
+  int stops_to_death = 0;               ///< so long that the launcher ends the process
+  int restarts_reported = 0;            ///< in report.json
+  std::uint64_t pictures = 0;           ///< that say which beam they show
+  std::uint64_t fail_safe = 0;          ///< of them with the low beam of the fail-safe
+  std::uint64_t wrong = 0;              ///< that show a beam which neither the stalk nor the fail-safe asked for
+  std::uint64_t time_back = 0;          ///< pictures of a time before that of the picture before
   std::vector<std::string> wrong_ones;  ///< the first few, in words
   double driven_s = 0.0, log_s = 0.0;   ///< of simulated time
 };

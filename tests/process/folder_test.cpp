@@ -136,6 +136,21 @@ TEST_F(Folder, AProcessThatHangsIsEndedAndStartedAgain) {
       << report["restarts"][0]["because"];
 }
 
+// Whoever would take the place of a cockpit that speaks is told so at once, and the rig does not care.
+TEST_F(Folder, AReplayBesideARigIsToldSo) {
+  const fs::path out = folder_ / "out";
+  DriveRun run(out, folder_.path(), {"--frames", "60"});
+  ASSERT_TRUE(run.wait_for_frame(5));
+  const std::string command = "timeout 60 '" + std::string(program("phare")) + "' replay --port-base " +
+                              std::to_string(port_base()) + " '" + source_dir() +
+                              "/config/drives/country_road.pcap' 2>'" + (folder_ / "said.txt").string() + "'";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
+  EXPECT_NE(contents_of(folder_ / "said.txt").find("is another rig running?"), std::string::npos);
+  EXPECT_EQ(run.wait(), 0);
+  EXPECT_EQ(report_of(out)["summary"]["messages"]["visual-0"]["refused"], 0);
+}
+
 // The page on sending from a program of one's own, as it stands there: it has the key and is answered; without it,
 // nobody listens.
 TEST_F(Folder, TheProgramOfThePageOnSendingIsAnswered) {
@@ -167,8 +182,8 @@ TEST_F(Folder, TheProgramOfThePageOnSendingIsAnswered) {
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 3) << said;
   EXPECT_NE(said.find("bytes of answer"), std::string::npos) << said;
 
-  const std::string status = "'" + std::string(program("phare")) + "' control --wait 1 --port-base " +
-                             std::to_string(port_base()) + " ";
+  const std::string status =
+      "'" + std::string(program("phare")) + "' control --wait 1 --port-base " + std::to_string(port_base()) + " ";
   EXPECT_EQ(std::system((status + "status > /dev/null").c_str()), 0);
   EXPECT_NE(std::system((status + "--open-bus status > /dev/null 2>&1").c_str()), 0) << "without the key";
   EXPECT_EQ(run.end(SIGINT), 130);

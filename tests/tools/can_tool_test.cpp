@@ -17,9 +17,13 @@ constexpr const char* kDbcOfTwo =
     "BO_ 256 STALK: 3 X\n SG_ BEAM : 0|2@1+ (1,0) [0|3] \"\" X\n SG_ SPEED : 8|8@1- (0.5,-10) [-74|53.5] \"km/h\" X\n"
     "BO_ 257 OTHER: 1 X\n SG_ FLAG : 0|1@1+ (1,0) [0|1] \"\" X\nVAL_ 256 BEAM 2 \"LOW\" 3 \"HIGH\";\n";
 
-Dbc two() { return *parse_dbc(kDbcOfTwo, "two.dbc"); }
+Dbc two() {
+  return *parse_dbc(kDbcOfTwo, "two.dbc");
+}
 
-CandumpLog log_of(const std::string& text) { return *parse_candump(text, "drive.log"); }
+CandumpLog log_of(const std::string& text) {
+  return *parse_candump(text, "drive.log");
+}
 
 TEST(CanTool, ListsEveryMessageAndSignal) {
   std::ostringstream out;
@@ -47,7 +51,8 @@ TEST(CanTool, DecodesALog) {
   const CandumpLog log = log_of("(1.5) can0 100#021400\n(1.6) can0 101#01\n(1.7) can0 7FF#00\n(1.8) can0 100#03\n");
   std::ostringstream out, csv;
   ASSERT_TRUE(decode_log(two(), log, {}, out));
-  EXPECT_EQ(out.str(), "1.500000 STALK  BEAM 2 \"LOW\"  SPEED 0 km/h\n1.600000 OTHER  FLAG 1\n1.800000 STALK  BEAM 3 \"HIGH\"\n");
+  EXPECT_EQ(out.str(),
+            "1.500000 STALK  BEAM 2 \"LOW\"  SPEED 0 km/h\n1.600000 OTHER  FLAG 1\n1.800000 STALK  BEAM 3 \"HIGH\"\n");
   ASSERT_TRUE(decode_log(two(), log, {{"STALK.BEAM"}, true}, csv));
   EXPECT_EQ(csv.str(), "t_s,message,signal,value,unit,name\n1.500000,STALK,BEAM,2,,LOW\n1.800000,STALK,BEAM,3,,HIGH\n");
   const Status unknown = decode_log(two(), log, {{"BEAN", "SPEAD"}, false}, out);
@@ -59,7 +64,8 @@ TEST(CanTool, DecodesALog) {
 TEST(CanTool, TellsWhichControlMovesWhen) {
   const auto config = parse_cockpit(
       "[source]\nkind = \"log\"\ntimeout_s = 0.5\n[control.light_switch]\nmessage = \"STALK\"\nsignal = \"BEAM\"\n"
-      "levels = { off = 0, low = \"LOW\", high = \"HIGH\" }\n[control.hazard]\nmessage = \"OTHER\"\nsignal = \"FLAG\"\n",
+      "levels = { off = 0, low = \"LOW\", high = \"HIGH\" }\n[control.hazard]\n"
+      "message = \"OTHER\"\nsignal = \"FLAG\"\n",
       "c.toml");
   ASSERT_TRUE(config) << config.error().text();
   std::ostringstream out;
@@ -87,7 +93,8 @@ CandumpLog noise(std::uint32_t id, Seal seal) {
     seal(data, i & 15);
     char line[64];
     int at = std::snprintf(line, sizeof line, "(%d.0) can0 %03X#", i + 1, id);
-    for (const auto byte : data) at += std::snprintf(line + at, sizeof line - static_cast<std::size_t>(at), "%02X", byte);
+    for (const auto byte : data)
+      at += std::snprintf(line + at, sizeof line - static_cast<std::size_t>(at), "%02X", byte);
     text += std::string(line) + "\n";
   }
   return log_of(text);

@@ -167,7 +167,7 @@ TEST(Version, SaysVersionCommitAndDevice) {
 // ---- phare drive and phare-visual
 
 /// Options of phare-visual that `phare drive` sets itself or that make no sense there.
-const std::set<std::string> kSetByDrive{"--channel", "--demo", "--go-on", "--guide", "--report", "--stats"};
+const std::set<std::string> kSetByDrive{"--alive", "--channel", "--demo", "--go-on", "--guide", "--report", "--stats"};
 
 TEST(PictureOptions, EveryOptionOfVisualReachesItThroughDrive) {
   const Output visual = output_of(quoted(program("phare-visual")) + " --help");

@@ -61,7 +61,7 @@ TEST_F(RigWriter, WhatIsWrittenReadsBackTheSame) {
           put_lamp_design(rig, {.low = {lamps_dir() + "/led_low_rht.ies,yaw_deg=0.1,roll_deg=-3,scale=0.3"}}).ok());
       rig.name = "quotes \" and \\ and\ttabs, ünïcode";
       rig.key_file = write("bus.key", std::string(64, 'a'));
-      std::filesystem::permissions(rig.key_file, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+      fs::permissions(rig.key_file, fs::perms::owner_read | fs::perms::owner_write);
       rig.bus_key.emplace().fill(0xaa);
       rig.frame_rate_hz = 50;
       rig.real_time_priority = rig.high_keeps_low = false;

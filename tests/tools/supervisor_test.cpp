@@ -83,24 +83,25 @@ TEST(Watchdog, TellsAHungProcessFromASlowOneAndFromOneThatHasJustBegun) {
     double hung_s;
     const char* text;
   };
-  for (const Case& c : {Case{"all well", 1e9, 1e9, false, false, -1.0, ""},
-                        Case{"a loop that waits", 1e9, 0.0, false, false, -1.0, ""},
-                        Case{"stands still", 5.0, 5.0, false, false, 8.0, "hung: no sign of life for 3.0 s"},
-                        Case{"stopped", 5.0, 5.0, true, false, 8.0, "stopped: no sign of life for 3.0 s"},
-                        Case{"a picture of 20 s", 5.0, 25.0, false, false, 28.0, "hung: no sign of life for 23.0 s"},
-                        Case{"an endless loop", 5.0, 1e9, false, false, 65.0, "hung, computing: no sign of life for 60.0 s"},
-                        Case{"never begins", -1.0, 0.0, false, false, 30.0, "hung: no sign of life for 30.0 s"},
-                        Case{"a covered window", 5.0, 5.0, false, true, -1.0, ""},
-                        Case{"a window, stopped", 5.0, 5.0, true, true, 8.0, "stopped: no sign of life for 3.0 s"}}) {
+  for (const Case& c :
+       {Case{"all well", 1e9, 1e9, false, false, -1.0, ""}, Case{"a loop that waits", 1e9, 0.0, false, false, -1.0, ""},
+        Case{"stands still", 5.0, 5.0, false, false, 8.0, "hung: no sign of life for 3.0 s"},
+        Case{"stopped", 5.0, 5.0, true, false, 8.0, "stopped: no sign of life for 3.0 s"},
+        Case{"a picture of 20 s", 5.0, 25.0, false, false, 28.0, "hung: no sign of life for 23.0 s"},
+        Case{"an endless loop", 5.0, 1e9, false, false, 65.0, "hung, computing: no sign of life for 60.0 s"},
+        Case{"never begins", -1.0, 0.0, false, false, 30.0, "hung: no sign of life for 30.0 s"},
+        Case{"a covered window", 5.0, 5.0, false, true, -1.0, ""},
+        Case{"a window, stopped", 5.0, 5.0, true, true, 8.0, "stopped: no sign of life for 3.0 s"}}) {
     Watchdog watchdog{HungAfter{.may_be_covered = c.window}};
     double hung_s = -1.0, computed_s = 0.0;
     std::string text;
     for (int step = 0; step < 10'000 && hung_s < 0.0; ++step) {
       const double t = step * 0.01;
       const std::optional<Time> beat =
-          c.beats_until_s < 0.0 ? std::nullopt
-                                : std::optional(begin + std::chrono::nanoseconds(static_cast<std::int64_t>(
-                                                            std::min(t, c.beats_until_s) * 1e9)));
+          c.beats_until_s < 0.0
+              ? std::nullopt
+              : std::optional(begin +
+                              std::chrono::nanoseconds(static_cast<std::int64_t>(std::min(t, c.beats_until_s) * 1e9)));
       if (t < c.computes_until_s) computed_s += 0.01;
       const auto why = watchdog.hung(begin + std::chrono::milliseconds(10 * step), beat,
                                      ProcessUse{computed_s, c.stopped && t > c.beats_until_s});
@@ -139,8 +140,8 @@ TEST(Supervisor, EndsAndRestartsOneThatHangs) {
   const auto alive = std::filesystem::path(testing::TempDir()) / ("phare_alive_" + std::to_string(getpid()));
   HungAfter soon;
   soon.beginning = soon.idle = 200ms;
-  Supervisor supervisor({{"dynamics", "/bin/sleep", {"60"}, false, {}, alive, soon},
-                         {"visual-0", "/bin/sleep", {"60"}, true}});
+  Supervisor supervisor(
+      {{"dynamics", "/bin/sleep", {"60"}, false, {}, alive, soon}, {"visual-0", "/bin/sleep", {"60"}, true}});
   ASSERT_TRUE(supervisor.start());
   const auto until = std::chrono::steady_clock::now() + 10s;
   while (supervisor.restarts().empty() && std::chrono::steady_clock::now() < until) {
@@ -157,9 +158,10 @@ TEST(Supervisor, EndsAndRestartsOneThatHangs) {
 
 // Whatever they do: stopped, deaf to SIGTERM, or both.
 TEST(Supervisor, EndsAllInTheTimeOfAHurry) {
-  Supervisor supervisor({{"cockpit", "/bin/sleep", {"60"}},
-                         {"dynamics", "/bin/sh", {"-c", "trap '' TERM; while :; do sleep 1; done"}},
-                         {"visual-0", "/bin/sh", {"-c", "trap '' TERM; kill -STOP $$; while :; do sleep 1; done"}, true}});
+  Supervisor supervisor(
+      {{"cockpit", "/bin/sleep", {"60"}},
+       {"dynamics", "/bin/sh", {"-c", "trap '' TERM; while :; do sleep 1; done"}},
+       {"visual-0", "/bin/sh", {"-c", "trap '' TERM; kill -STOP $$; while :; do sleep 1; done"}, true}});
   ASSERT_TRUE(supervisor.start());
   for (int i = 0; i < 20; ++i) {
     supervisor.step();

@@ -102,9 +102,9 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
 /// What was written of a desk makes the same desk again: the rig file, the status.
 TEST(Desk, ItsDifferenceMakesItAgain) {
   Desk desk;
-  for (const char* words :
-       {"camera birds-eye", "view false-colour", "isolux_lx 0.1 0.30000000000000004", "exposure_per_cdm2 0.7",
-        "adaptation_k 5500", "design 1", "lines off", "depth_first on", "shadows hard", "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
+  for (const char* words : {"camera birds-eye", "view false-colour", "isolux_lx 0.1 0.30000000000000004",
+                            "exposure_per_cdm2 0.7", "adaptation_k 5500", "design 1", "lines off", "depth_first on",
+                            "shadows hard", "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
     ASSERT_TRUE(apply(desk, desk_command(words), {.designs = 2})) << words;
   Desk again;
   for (const DeskCommand& command : difference(desk)) ASSERT_TRUE(apply(again, command, {.designs = 2}));

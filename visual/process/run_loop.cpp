@@ -138,7 +138,8 @@ void Loop::mind_the_keys() {
 void Loop::take(const Datagram& datagram) {
   if (const auto* state = std::get_if<VehicleState>(&datagram.payload)) {
     poses_.push(datagram.sim_time, *state);
-    clock_.observe(datagram.sim_time, datagram.sent);
+    // By when it came, on our own clock: that of another machine may be set differently.
+    clock_.observe(datagram.sim_time, s_.bus.newest<VehicleState>()->received);
   } else if (const auto* request = std::get_if<ProbeRequest>(&datagram.payload)) {
     if (asked_.size() < kMostAsked) asked_.push_back({*request, datagram.sim_time});
   } else {
@@ -232,9 +233,18 @@ void Loop::repeat_when_stalled() {
     // Started anew in the middle of a drive where one of the two is a frame behind: the pose we hold sets both going
     // again.
     drawn_index_ = car->value.frame_index;
-    FrameReport report{
-        drawn_index_, s_.options.channel, static_cast<std::uint32_t>(s_.rig.channels.size()), 0.0, 0.0, 0, car->value,
-        true,         LightSwitch::kOff,  false, false, s_.album.not_kept()};
+    FrameReport report{drawn_index_,
+                       s_.options.channel,
+                       static_cast<std::uint32_t>(s_.rig.channels.size()),
+                       0.0,
+                       0.0,
+                       0,
+                       car->value,
+                       true,
+                       LightSwitch::kOff,
+                       false,
+                       false,
+                       s_.album.not_kept()};
     s_.bus.send(car->sim_time, report);
     return;
   }
@@ -334,9 +344,9 @@ void Loop::draw(const Moment& moment) {
 
 void Loop::report(const Moment& moment) {
   FrameReport report{
-      moment.frame_index,      s_.options.channel,     static_cast<std::uint32_t>(s_.rig.channels.size()),
-      s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms, moment.controls.light_changes,
-      moment.car.pose,         moment.car.stale,       moment.controls.light_switch,
+      moment.frame_index,      s_.options.channel,        static_cast<std::uint32_t>(s_.rig.channels.size()),
+      s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms,    moment.controls.light_changes,
+      moment.car.pose,         moment.car.stale,          moment.controls.light_switch,
       moment.controls.flash,   moment.controls.fail_safe, s_.album.not_kept()};
   s_.bus.send(moment.time, report);
   progress_ = Clock::now();  // keeping the picture may have taken longer than a stall
