@@ -28,7 +28,8 @@ class CanProgram : public testing::Test {
     rig_ = *read_rig(rig_file);
     rig_.port_base = static_cast<std::uint16_t>(20000 + getpid() % 1500 * 20);
     vcan_.emplace("phc9");
-    arguments_ = {"--rig",       rig_file,
+    rig_.run_key = false;
+    arguments_ = {"--open-bus",  "--rig",       rig_file,
                   "--port-base", std::to_string(rig_.port_base),
                   "--cockpit",   folder_ / "cockpit.toml",
                   "--stats",     folder_ / "stats.json"};

@@ -9,7 +9,7 @@ printf 'link add phc0 mtu 72 txqueuelen 1000 type vcan\nlink set phc0 up\n' | ip
 "$4" "127.0.0.1:$((base + 1))=10.0.2.2:$((base + 1))" "127.0.0.1:$((base + 2))=10.0.2.2:$((base + 2))" \
   "127.0.0.1:$((base + 10))=10.0.2.2:$((base + 10))" "10.0.2.15:$base=127.0.0.1:$base" &
 relay=$!
-"$3" --rig "$5" --cockpit "$6" --port-base "$base" --stats "$folder/cockpit.json" 2>"$folder/cockpit.log" &
+"$3" --open-bus --rig "$5" --cockpit "$6" --port-base "$base" --stats "$folder/cockpit.json" 2>"$folder/cockpit.log" &
 cockpit=$!
 stalk=02
 while [ ! -e "$folder/stop" ]; do

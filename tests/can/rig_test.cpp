@@ -102,6 +102,7 @@ TEST(WholeRig, TheStalkOnCanMovesTheBeamInThePicture) {
   std::filesystem::create_directories(folder);
   const std::string rig_file = cockpits_dir() + "/../rigs/country_road.toml";
   Rig rig = *read_rig(rig_file);
+  rig.run_key = false;
   rig.port_base = static_cast<std::uint16_t>(20000 + getpid() % 500 * 20);
   const std::string base = std::to_string(rig.port_base);
   // The stalk of phare_stalk.toml, on the machine's interface, patient with a slow one.
@@ -156,8 +157,8 @@ TEST(WholeRig, TheStalkOnCanMovesTheBeamInThePicture) {
 
   ASSERT_TRUE(until([&] { return light_is(LightSwitch::kLow); })) << logs();
   // Only now, because a picture drawn in software leaves no time to boot a machine in.
-  Child car({program("phare-dynamics"), "--rig", rig_file, "--port-base", base}, folder / "dynamics.log");
-  Child picture({program("phare-visual"), "--rig", rig_file, "--port-base", base, "--headless", "--size", "160x90",
+  Child car({program("phare-dynamics"), "--open-bus", "--rig", rig_file, "--port-base", base}, folder / "dynamics.log");
+  Child picture({program("phare-visual"), "--open-bus", "--rig", rig_file, "--port-base", base, "--headless", "--size", "160x90",
                  "--audit-every", "0", "--frames", "100000", "--out", folder / "out"},
                 folder / "visual.log", 10);
 
