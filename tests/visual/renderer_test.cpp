@@ -9,8 +9,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <sstream>
 
+#include "tests/csv_table.h"
 #include "tests/paths.h"
 #include "tests/visual/yard.h"
 #include "visual/image/image.h"
@@ -150,27 +150,6 @@ TEST_F(RendererTest, OutsideTheTableAndBehindIsDark) {
 // --- the reference tables of ../shared/data, where they are
 // -----------------------------------------------------------
 
-struct Csv {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> rows;
-  std::size_t column(const std::string& name) const {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  }
-};
-
-Csv read_csv(const fs::path& file) {
-  Csv csv;
-  std::ifstream in(file);
-  std::string line, cell;
-  std::getline(in, line);
-  for (std::istringstream cells(line); std::getline(cells, cell, ',');) csv.names.push_back(cell);
-  while (std::getline(in, line)) {
-    csv.rows.emplace_back();
-    for (std::istringstream cells(line); std::getline(cells, cell, ',');) csv.rows.back().push_back(std::stod(cell));
-  }
-  return csv;
-}
-
 TEST_F(RendererTest, AgreesWithTheReferenceTables) {
   const fs::path data = fs::path(shared_data_dir()) / "photometry-reference";
   if (!fs::exists(data)) GTEST_SKIP() << "no reference tables at " << data;
@@ -197,7 +176,7 @@ TEST_F(RendererTest, AgreesWithTheReferenceTables) {
                         {"b_wall25_high.csv", "high", "E[high_B]", "high_B"},
                         {"b_wall25_fog.csv", "fog", "E", "fog_A"},
                         {"b_wall25_fog.csv", "fog", "E[fog_C]", "fog_C"}}) {
-    const Csv csv = read_csv(data / c.table);
+    const CsvTable csv = read_csv_table(data / c.table);
     ASSERT_LT(csv.column(c.column), csv.names.size()) << c.table << " " << c.column;
     const nlohmann::json& file = manifest["files"][c.file];
     const bool gamma0_ahead = !file.contains("frame_in_lamp_axes") || file["frame_in_lamp_axes"]["g0"][0] == 1;
@@ -225,19 +204,18 @@ TEST_F(RendererTest, AgreesWithTheReferenceTables) {
     }
     const bool wall = std::string(c.table)[0] == 'b';
     std::vector<MeasurePoint> points;
-    for (const auto& row : csv.rows) {
+    for (std::size_t i = 0; i < csv.rows.size(); ++i) {
       if (wall)
-        points.push_back(
-            {{manifest["wall_x_m"].get<double>(), row[csv.column("y")], row[csv.column("z")]}, {-1, 0, 0}});
+        points.push_back({{manifest["wall_x_m"].get<double>(), csv.number(i, "y"), csv.number(i, "z")}, {-1, 0, 0}});
       else
-        points.push_back({{row[csv.column("x")], row[csv.column("y")], 0.0}, {0, 0, 1}});
+        points.push_back({{csv.number(i, "x"), csv.number(i, "y"), 0.0}, {0, 0, 1}});
     }
     const auto lx = renderer->measure(lamps, points);
     Worst worst;
     for (std::size_t i = 0; i < points.size(); ++i) {
       double sum = 0.0;
       for (const auto& lamp : lx) sum += static_cast<double>(lamp[i]);
-      worst.add(sum, csv.rows[i][csv.column(c.column)]);
+      worst.add(sum, csv.number(i, c.column));
     }
     std::printf("%s %s: %zu points above %g lx, worst %.2e relative, %.2e lx\n", c.table, c.column, worst.judged,
                 kJudgedAbove_lx, worst.relative, worst.absolute_lx);

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "tests/csv_table.h"
 #include "tests/paths.h"
 #include "tests/visual/yard.h"
 #include "visual/photometry/illuminance.h"
@@ -18,30 +18,6 @@ namespace phare {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Table {
-  std::vector<std::string> names;
-  std::vector<std::vector<std::string>> rows;
-  double number(std::size_t row, const std::string& name) const {
-    return std::stod(rows[row][static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())]);
-  }
-  const std::string& text(std::size_t row, const std::string& name) const {
-    return rows[row][static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
-  }
-};
-
-Table read_table(const fs::path& file) {
-  Table table;
-  std::ifstream in(file);
-  std::string line, cell;
-  std::getline(in, line);
-  for (std::istringstream cells(line); std::getline(cells, cell, ',');) table.names.push_back(cell);
-  while (std::getline(in, line)) {
-    table.rows.emplace_back();
-    for (std::istringstream cells(line); std::getline(cells, cell, ',');) table.rows.back().push_back(cell);
-  }
-  return table;
-}
 
 std::vector<PlacedLamp> mounted(const nlohmann::json& manifest, const char* beam) {
   std::vector<PlacedLamp> lamps;
@@ -113,8 +89,9 @@ class Shadows : public testing::Test {
   }
 
   /// Points where the map's answer (more than half lit) is not that of the table, of those that `counts` names.
-  std::size_t wrong(const Table& table, const std::vector<PlacedLamp>& lamps, const std::vector<MeasurePoint>& points,
-                    std::size_t level, const std::function<bool(std::size_t)>& counts) {
+  std::size_t wrong(const CsvTable& table, const std::vector<PlacedLamp>& lamps,
+                    const std::vector<MeasurePoint>& points, std::size_t level,
+                    const std::function<bool(std::size_t)>& counts) {
     const auto open = shared()->measure(lamps, points), shadowed = shared()->measure(lamps, points, level);
     std::size_t judged = 0, bad = 0;
     const char* sides[] = {"left", "right"};
@@ -137,7 +114,7 @@ class Shadows : public testing::Test {
   }
 
   /// The same of the ray against the scene.
-  std::size_t wrong_rays(const Table& table, const Scene& scene, const std::vector<PlacedLamp>& lamps,
+  std::size_t wrong_rays(const CsvTable& table, const Scene& scene, const std::vector<PlacedLamp>& lamps,
                          const std::vector<MeasurePoint>& points, const std::function<bool(std::size_t)>& counts) {
     const auto open = shared()->measure(lamps, points);
     std::size_t judged = 0, bad = 0;
@@ -166,7 +143,7 @@ TEST_F(Shadows, OfBoxesFallWhereTheReferenceHasThem) {
   for (const nlohmann::json& box : manifest["occluder_boxes"]) shape.box(corner(box["min"]), corner(box["max"]));
   shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
   ASSERT_TRUE(shared()->load_scene(shape.scene()).ok());
-  const Table table = read_table(data / "d_shadow.csv");
+  const CsvTable table = read_csv_table(data / "d_shadow.csv");
   std::vector<MeasurePoint> points;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     points.push_back({{table.number(i, "x"), table.number(i, "y"), table.number(i, "z")},
@@ -204,7 +181,7 @@ TEST_F(Shadows, OfAHillFallWhereTheReferenceHasThem) {
     shape.quad(ground(x, -12), ground(x + 0.02, -12), ground(x + 0.02, 12), ground(x, 12));
   }
   ASSERT_TRUE(shared()->load_scene(shape.scene()).ok());
-  const Table table = read_table(data / "e_hill.csv");
+  const CsvTable table = read_csv_table(data / "e_hill.csv");
   std::vector<MeasurePoint> points;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     points.push_back({{table.number(i, "x"), table.number(i, "y"), table.number(i, "z")},
