@@ -66,6 +66,14 @@ TEST_F(Folder, WhatAnyProcessCannotReadLeavesTheDriveBeforeAsItLay) {
   }
 }
 
+// The demo that is driven where none is named is a drive like any other: a car that was asked for drives it.
+TEST_F(Folder, ALevelOfTheCarCountsForTheDemoToo) {
+  const Said said = drive_here("--frames 2 --level kinematic --out out");
+  EXPECT_EQ(said.code, 0) << said.err;
+  EXPECT_NE(said.err.find("open loop"), std::string::npos) << said.err;
+  EXPECT_NE(contents_of(folder_ / "out" / "dynamics.json").find("\"level\": \"kinematic\""), std::string::npos);
+}
+
 TEST_F(Folder, AnotherDriveGoesBesideUnlessItMayOverwrite) {
   ASSERT_EQ(drive_here("--frames 2 --out out").code, 0);
   const auto before = everything_in("out");

@@ -1,0 +1,161 @@
+#include "tools/drive_options.h"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "config/key_bindings.h"
+#include "config/log_levels.h"
+#include "config/vehicle.h"
+#include "tools/commands.h"
+#include "tools/drive_folder.h"
+
+namespace phare {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool set_in_environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr && *value != '\0';
+}
+
+/// Lamps of one's own, and what every adjuster of the rig was turned by.
+Status aim_lamps(Rig& rig, DriveOptions& options) {
+  auto notes = options.lamps.any() ? put_lamp_design(rig, options.lamps) : aim_notes(rig);
+  if (!notes) return notes.error();
+  options.lamp_told = std::move(*notes);
+  options.lamp_notes.clear();
+  for (const std::string& line : options.lamp_told.lines) options.lamp_notes += line + "\n";
+  return Done{};
+}
+
+/// A folder that holds a drive of another command line stays as it is: this one goes beside it.
+void settle_out(DriveOptions& options) {
+  if (options.out.empty() || options.overwrite || options.explain) return;
+  const std::string there = another_drive_in(options.out, options.command);
+  if (there.empty()) return;
+  const std::string first = options.out;
+  for (int number = 2; !another_drive_in(options.out, options.command).empty(); ++number)
+    options.out = numbered(first, number);
+  spdlog::warn("{} holds {} and stays: this one goes to {}; --overwrite puts it in its place", first, there,
+               options.out);
+}
+
+}  // namespace
+
+Result<Rig> prepare_drive(DriveOptions& options) {
+  auto rig = read_rig(options.rig_file);
+  if (!rig) return rig.error();
+  if (options.port_base != 0) rig->port_base = options.port_base;
+  if (!options.cockpit.empty()) rig->cockpit_file = fs::absolute(options.cockpit).lexically_normal();
+  if (const Status status = check_rig_files(*rig); !status) return status.error();
+
+  if (!options.vehicle.empty()) rig->vehicle_file = fs::absolute(options.vehicle).lexically_normal();
+  if (const auto vehicle = read_vehicle(rig->vehicle_file); !vehicle) return vehicle.error();
+  if (!options.lamps.any() && !options.lamps.aim.empty())
+    return Error{"--aim " + options.lamps.aim, "aims a lamp of one's own: give --lamp, --lamp-high or --lamp-fog"};
+  if (const Status status = aim_lamps(*rig, options); !status) return status.error();
+
+  Desk desk = rig->desk;
+  for (const DeskCommand& command : options.picture.desk)
+    if (const auto done = apply(desk, command, {.designs = rig->designs.size()}); !done) return done.error();
+
+  if (!options.headless && !set_in_environment("DISPLAY") && !set_in_environment("WAYLAND_DISPLAY")) {
+    spdlog::info("no display: driving headless");
+    options.headless = true;
+  }
+  // Whoever sits at a window drives, unless a drive is named; automation (--frames, --lockstep) waits for nobody's key.
+  const bool person = !options.headless && !options.lockstep && options.picture.frames == 0;
+  const bool any_drive = !options.drive.empty() || !options.script.empty() || !options.log.empty();
+  if (person) options.guide = any_drive ? "replay" : "live";
+  const std::string demo = config_path("drives/country_road.pcap");
+  if (!person && !any_drive && options.cockpit.empty() && fs::exists(demo)) options.drive = demo;
+  if (!options.drive.empty() && !options.level.empty() && options.level != "pose") {
+    options.closed_loop = true;
+    spdlog::warn(
+        "the controls of {} are replayed to a car of level {}, open loop: it need not stay on its lane; a driver "
+        "model does (--script)",
+        options.drive, options.level);
+  }
+  for (std::string* file : {&options.drive, &options.script, &options.log, &options.dbc}) {
+    if (file->empty()) continue;
+    if (!fs::is_regular_file(*file)) return Error{*file, "no such file"};
+    *file = fs::absolute(*file).string();
+  }
+  if (options.headless && options.out.empty()) options.out = "out";
+  if (!options.out.empty()) options.out = fs::absolute(options.out).lexically_normal().string();
+  settle_out(options);
+  if (options.open_bus) rig->run_key = false;
+  for (const char* name : {"phare-cockpit", "phare-dynamics", "phare-visual"}) {
+    if (access(program_beside_us(name).c_str(), X_OK) != 0)
+      return Error{program_beside_us(name).string(), "is not there; build everything"};
+  }
+  return rig;
+}
+
+void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& options) {
+  command.footer(
+      "With a window and no drive named, you drive:\n" + key_list_text("  ") +
+      "A gamepad that is plugged in drives as well. More: docs/driving.md\n"
+      "Examples:\n  phare drive\n  phare drive --headless --lockstep --frames 60 --out out\n"
+      "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap\n"
+      "  phare drive --explain --light high\n"
+      "  phare drive --lamp led_low_beam.ies --lamp-high high_beam.ies --headless --lockstep --frames 60 --out own\n" +
+      std::string(kLampFlagsHelp));
+  command.add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
+  auto* drive_file =
+      command.add_option("--drive", options->drive, "Drive file to replay [without a window: the demo drive]");
+  auto* script = command.add_option("--script", options->script, "Script for the driver model")->excludes(drive_file);
+  command.add_option("--log", options->log, "candump log that moves the controls")
+      ->excludes(drive_file)
+      ->excludes(script);
+  command.add_option("--dbc", options->dbc, "DBC file for --log [the cockpit file's]");
+  add_lamp_flags(&command, options->lamps);
+  command.add_option("--cockpit", options->cockpit,
+                     "Cockpit file, instead of the rig's: which signals move the controls");
+  command.add_flag("--headless", options->headless, "No window (also when there is no display)");
+  command.add_flag("--lockstep", options->lockstep, "Frame by frame: reproducible bit for bit, however slow");
+  command.add_option("--out", options->out, "Folder for pictures and report [headless: out]");
+  command.add_option("--record", options->record, "Record the drive into this file (pcap)");
+  command.add_flag("--closed-loop", options->closed_loop,
+                   "With --drive: replay the controls and let the car answer, instead of the poses");
+  command.add_option("--level", options->level, "Model of the car, instead of the rig's")
+      ->check(CLI::IsMember(std::vector<std::string>(kDynamicsLevelNames.begin(), kDynamicsLevelNames.end())));
+  command.add_option("--vehicle", options->vehicle, "Vehicle file, instead of the rig's");
+  const auto pass_on = [&](const char* flag, const char* says) {
+    return command.add_option_function<std::string>(
+        flag,
+        [options, flag](const std::string& word) {
+          options->car_and_road.insert(options->car_and_road.end(), {flag, word});
+        },
+        says);
+  };
+  pass_on("--friction", "Of the whole road: 1 dry, 0.6 wet, 0.3 snow, 0.1 ice")->check(CLI::Range(0.01, 2.0));
+  pass_on("--roughness", "Of the road: ISO 8608 class A to E")->check(CLI::IsMember({"A", "B", "C", "D", "E"}));
+  pass_on("--road", "Heights and friction along the way (CSV, see docs/dynamics.md)")->check(CLI::ExistingFile);
+  command.add_option("--log-level", options->log_level, "trace, debug, info, warn, error, off")
+      ->check(CLI::IsMember(kLogLevelNames))
+      ->capture_default_str();
+  command.add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
+      ->check(CLI::Range(1024, 65000));
+  command.add_flag("--overwrite", options->overwrite, "Put this drive in the place of another one in --out");
+  command.add_flag("--open-bus", options->open_bus,
+                   "No key of the run: anyone on this machine may speak on the bus (docs/send.md)");
+  command.add_flag("--json", options->json, "Print the report as JSON");
+  auto* explain = command.add_flag("--explain", options->explain,
+                                   "No drive: print each effect with its level and the reason, for the moment "
+                                   "--still-at of the drive, or for --light and --fog");
+  command.add_option("--light", options->explain_light, "With --explain: the light switch [low]")
+      ->check(CLI::IsMember(std::vector<std::string>(kLightSwitchNames.begin(), kLightSwitchNames.end())))
+      ->excludes(drive_file)
+      ->needs(explain);
+  command.add_flag("--fog", options->explain_fog, "With --explain: the front fog lamps too")
+      ->excludes(drive_file)
+      ->needs(explain);
+  options->picture.add_to(command);
+}
+
+}  // namespace phare

@@ -1,0 +1,15 @@
+// The processes of a drive and what each is told.
+#pragma once
+
+#include <vector>
+
+#include "tools/drive_options.h"
+#include "tools/run_files.h"
+#include "tools/supervisor.h"
+
+namespace phare {
+
+/// Dynamics, cockpit and a picture for each channel, in this order.
+std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& options, const RunFiles& files);
+
+}  // namespace phare
