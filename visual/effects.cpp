@@ -9,8 +9,10 @@ namespace {
 
 EffectDecision shadows(const EffectFacts& facts) {
   if (facts.lit_lamps == 0) return {0, "no lamp is lit"};
-  if (facts.casters == 0) return {0, "nothing stands in the light of the lamps"};
-  return {2, std::to_string(facts.casters) + " pieces of the scene stand in the light of the lamps"};
+  if (!facts.casters) return {0, "what stands in the light of the lamps is not looked for"};
+  if (*facts.casters == 0) return {0, "nothing stands in the light of the lamps"};
+  if (!facts.shadow_maps) return {0, "the device holds no buffer as large as a shadow map"};
+  return {2, std::to_string(*facts.casters) + " pieces of the scene stand in the light of the lamps"};
 }
 
 EffectDecision depth_first(const EffectFacts& facts) {
@@ -33,7 +35,8 @@ EffectDecision overlay(const EffectFacts& facts) {
 }
 
 constexpr std::array<EffectRow, kEffectCount> kTable{
-    {{Effect::kShadows, "shadows", kShadowNames, "depth maps of 2 x 1024 x 512 texels a lamp, and their copy", shadows},
+    {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy",
+      shadows},
      {Effect::kDepthFirst, "depth first", kOffOnNames, "a depth pass before the lit pass", depth_first},
      {Effect::kHdrImage, "hdr image", kOffOnNames, "an image of 8 bytes a pixel and the tone-mapping pass", hdr_image},
      {Effect::kOverlay, "overlay", kOffOnNames, "a pass of text over the picture", overlay}}};

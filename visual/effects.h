@@ -16,12 +16,13 @@ inline constexpr std::size_t kEffectCount = 4;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
-  std::size_t lit_lamps = 0;      ///< positions that give light in this view
-  std::size_t casters = 0;        ///< pieces of the scene that stand in the light of these lamps
-  bool software_device = false;   ///< vertices cost as much as pixels
-  bool hdr_wanted = false;        ///< something reads luminance in cd/m² (EXR, bird's eye)
-  bool false_colour = false;      ///< the view shows illuminance, not luminance
-  std::size_t overlay_lines = 0;  ///< text over the picture
+  std::size_t lit_lamps = 0;               ///< positions that give light in this view
+  std::optional<std::size_t> casters = 0;  ///< pieces of the scene that stand in their light; nothing: not looked for
+  bool shadow_maps = true;                 ///< the device holds one
+  bool software_device = false;            ///< vertices cost as much as pixels
+  bool hdr_wanted = false;                 ///< something reads luminance in cd/m² (EXR, bird's eye)
+  bool false_colour = false;               ///< the view shows illuminance, not luminance
+  std::size_t overlay_lines = 0;           ///< text over the picture
 };
 
 /// Level 0 is off. `reason` says the fact that decided.

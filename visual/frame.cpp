@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "visual/frame_facts.h"
-
 namespace phare {
 namespace {
 
@@ -59,8 +57,10 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
                                  view.input.far_mesh_from_m, view.input.isolux_lx);
 
   // What that calls for, and the images it takes.
-  const EffectPlan effects = plan_effects(
-      facts_of(view.input, lit.lamps, parts.scene.find_casters(lit), lines, parts.software_device), view.input.effects);
+  std::optional<std::size_t> casters;
+  if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
+  const EffectPlan effects =
+      plan_effects(facts_of(view.input, lit.lamps, casters, lines, parts.device_facts), view.input.effects);
   const bool hdr = effects.on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
   gpu::Image* light = view.picture.display;
@@ -106,6 +106,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
           .lamps = lit.lamps,
           .lamps_unreached = lit.unreached,
           .lamps_over_limit = lit.over_limit,
+          .lamps_without_map = lit.without_map,
           .passes = counts.passes,
           .draws = counts.draws,
           .triangles = counts.triangles};

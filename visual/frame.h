@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "visual/effects.h"
+#include "visual/frame_facts.h"
 #include "visual/gpu/frame_graph.h"
 #include "visual/lit_scene.h"
 #include "visual/passes/depth.h"
@@ -38,7 +38,7 @@ struct FrameParts {
   std::unique_ptr<OverlayPass>& overlay;  ///< made by the first frame that calls for it
   /// Copies a part of an image out, for view `view` of the frame.
   std::function<void(std::size_t view, gpu::Image&image, const vk::Rect2D&part)> read_image, read_hdr;
-  bool software_device = false;
+  DeviceFacts device_facts{};
 };
 
 /// Records the frame into the graph, and says what each view took. `display`: what is seen.

@@ -2,14 +2,19 @@
 
 namespace phare {
 
-EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::size_t casters, std::size_t lines,
-                     bool software_device) {
+EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional<std::size_t> casters,
+                     std::size_t lines, const DeviceFacts& device) {
   return {.lit_lamps = lit_lamps,
           .casters = casters,
-          .software_device = software_device,
+          .shadow_maps = device.shadow_maps,
+          .software_device = device.software,
           .hdr_wanted = view.want_hdr,
           .false_colour = view.view == View::kFalseColour,
           .overlay_lines = lines};
+}
+
+bool looks_for_casters(const ViewInput& view) {
+  return view.effects[static_cast<std::size_t>(Effect::kShadows)] != std::size_t{0};
 }
 
 std::size_t text_lines(const FrameInput& input) {

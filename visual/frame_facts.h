@@ -7,10 +7,19 @@
 
 namespace phare {
 
-/// `lit_lamps`: that light something in the view; `casters`: pieces of the scene that stand in their light; `lines`: of
-/// text that will lie over it; `software_device`: it computes on the processor.
-EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::size_t casters, std::size_t lines,
-                     bool software_device);
+/// What a device can do, as the effects ask for it.
+struct DeviceFacts {
+  bool software = false;    ///< it computes on the processor
+  bool shadow_maps = true;  ///< it holds one
+};
+
+/// `lit_lamps`: that light something in the view; `casters`: pieces of the scene that stand in their light, where they
+/// were looked for; `lines`: of text that will lie over it.
+EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional<std::size_t> casters,
+                     std::size_t lines, const DeviceFacts& device);
+
+/// The user has not switched shadows off.
+bool looks_for_casters(const ViewInput& view);
 
 /// Lines of text over the frame's picture.
 std::size_t text_lines(const FrameInput& input);

@@ -62,9 +62,10 @@ struct LitView {
   std::vector<CastBy> casts{};          ///< what stands in the light of each
   ShadowLevel shadows{};                ///< of the maps that are read
   const ShadowDepths* depths = nullptr;
-  std::uint32_t lamps = 0;       ///< that light something in it
-  std::uint32_t unreached = 0;   ///< left out: they light nothing of what it sees
-  std::uint32_t over_limit = 0;  ///< left out somewhere: kLampsPerDraw that are brighter there light it already
+  std::uint32_t lamps = 0;        ///< that light something in it
+  std::uint32_t unreached = 0;    ///< left out: they light nothing of what it sees
+  std::uint32_t over_limit = 0;   ///< left out somewhere: kLampsPerDraw that are brighter there light it already
+  std::uint32_t without_map = 0;  ///< cast no shadow, though something stands in their light: there is no room for it
 };
 
 /// What makes a pipeline of lamps.frag.

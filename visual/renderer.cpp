@@ -146,7 +146,8 @@ struct Renderer::Impl {
                                  const vk::Rect2D& part) { copy_out(image, part, images[view], 4); },
             .read_hdr = [this](std::size_t view, gpu::Image& image,
                                const vk::Rect2D& part) { copy_out(image, part, hdrs[view], 8); },
-            .software_device = device.properties.deviceType == vk::PhysicalDeviceType::eCpu};
+            .device_facts = {.software = device.properties.deviceType == vk::PhysicalDeviceType::eCpu,
+                             .shadow_maps = shadows.possible()}};
   }
 };
 
@@ -263,9 +264,10 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
       impl_->submit([&] {
         impl_->scene.begin_frame(impl_->graph);
         LitView view = impl_->scene.view_of_points(ViewGeometry(camera, 1.0), lamps.subspan(lamp, 1));
-        impl_->shadows.begin_frame();
-        if (shadows > 0 && impl_->scene.find_casters(view) > 0)
-          impl_->shadows.draw(impl_->graph, impl_->scene, view, shadows);
+        if (shadows > 0) {
+          impl_->shadows.begin_frame();
+          if (impl_->scene.find_casters(view) > 0) impl_->shadows.draw(impl_->graph, impl_->scene, view, shadows);
+        }
         measure_points(impl_->graph, impl_->scene, view, lx, *buffer.buffer, static_cast<std::uint32_t>(count), 0);
         impl_->copy_out(lx, copy, 16);
       });

@@ -5,10 +5,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "shaders/lamps.h"
+
 namespace phare {
 namespace {
 
-constexpr double kNearest_m = 0.05;  // along the axis, as kShadowNear_m of shaders/lamps.h
+const double kNearest_m = static_cast<double>(shader::kShadowNear_m);  // along the axis
 
 void widen(TangentRect& part, const TangentRect& by) {
   part = {std::min(part.right, by.right), std::max(part.left, by.left), std::min(part.low, by.low),

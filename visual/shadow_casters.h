@@ -46,7 +46,7 @@ class ShadowCasters {
   explicit ShadowCasters(const Scene& scene);
 
   /// `world_from_image`: forward, left and up of the lamp at the tip of `reach`. Reads the triangles of every chunk
-  /// that is near and in the light; about 20 ns each.
+  /// that is near and in the light.
   CastBy by(const LampReach& reach, const glm::dmat3& world_from_image) const;
 
  private:

@@ -9,7 +9,8 @@ layout(constant_id = kSpecShadowWidth) const uint shadow_width = 1;
 layout(constant_id = kSpecShadowHeight) const uint shadow_height = 1;
 layout(constant_id = kSpecShadowTaps) const uint shadow_taps = 1;
 
-// A thing that is this much nearer than the point, relatively, shadows it: what is thinner is no thicker than its own texel at 50 m.
+// What is nearer than the point by less than this, relatively, does not shadow it (25 mm at 50 m): float32 rounds depths of the map and of
+// the point apart.
 const float kShadowBias = 1.0005;
 
 // `at`: as GpuShadow has it, not divided yet. The outermost texels hold nothing, so beyond the map all is lit.

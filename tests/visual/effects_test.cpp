@@ -35,6 +35,8 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
 }
 
 TEST(Effects, DeviceAndViewCountToo) {
+  EXPECT_FALSE(plan_effects({.lit_lamps = 2, .casters = 3, .shadow_maps = false}).on(Effect::kShadows));
+  EXPECT_FALSE(plan_effects({.lit_lamps = 2, .casters = std::nullopt}).on(Effect::kShadows));
   EXPECT_FALSE(plan_effects({.lit_lamps = 2, .software_device = true}).on(Effect::kDepthFirst));
   EXPECT_FALSE(plan_effects({.hdr_wanted = true, .false_colour = true}).on(Effect::kHdrImage));
 }

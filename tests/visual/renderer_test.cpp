@@ -12,6 +12,7 @@
 
 #include "tests/csv_table.h"
 #include "tests/paths.h"
+#include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
 #include "visual/image/image.h"
 #include "visual/photometry/illuminance.h"
@@ -29,34 +30,7 @@ constexpr double kRelativeLimit = 1e-5;
 // At pixels the point itself is rounded: to about 1e-5 of the distance, across a cut-off.
 constexpr double kPixelLimit = 2e-3;
 
-class RendererTest : public testing::Test {
- protected:
-  static std::unique_ptr<Renderer>& shared() {
-    static std::unique_ptr<Renderer> renderer;
-    return renderer;
-  }
-  static void SetUpTestSuite() {
-    Result<Renderer> made = Renderer::create({.width_px = 320, .height_px = 180, .validation = true});
-    if (made)
-      shared() = std::make_unique<Renderer>(std::move(*made));
-    else
-      why_not() = made.error().text();
-  }
-  static void TearDownTestSuite() { shared().reset(); }
-  static std::string& why_not() {
-    static std::string reason;
-    return reason;
-  }
-  void SetUp() override {
-    ASSERT_NE(shared(), nullptr) << why_not();
-    renderer = shared().get();
-  }
-  void TearDown() override {
-    if (renderer == nullptr) return;
-    EXPECT_EQ(renderer->validation_messages(), 0u) << "messages of Vulkan validation stand above";
-  }
-  Renderer* renderer = nullptr;
-};
+class RendererTest : public SharedRenderer {};
 
 struct Worst {
   double relative = 0.0;

@@ -1,4 +1,6 @@
 // Shadows: decisions lit or dark against the reference tables, maps only where something stands in the light.
+#include "visual/passes/shadows.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +11,7 @@
 
 #include "tests/csv_table.h"
 #include "tests/paths.h"
+#include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
 #include "visual/photometry/illuminance.h"
 #include "visual/renderer.h"
@@ -66,33 +69,20 @@ class Shape {
   Scene scene_;
 };
 
-class Shadows : public testing::Test {
+class Shadows : public SharedRenderer {
  protected:
-  static std::unique_ptr<Renderer>& shared() {
-    static std::unique_ptr<Renderer> renderer;
-    return renderer;
-  }
-  static void SetUpTestSuite() {
-    Result<Renderer> made = Renderer::create({.width_px = 320, .height_px = 180, .validation = true});
-    ASSERT_TRUE(made.ok()) << made.error().text();
-    shared() = std::make_unique<Renderer>(std::move(*made));
-  }
-  static void TearDownTestSuite() { shared().reset(); }
   void SetUp() override {
-    ASSERT_NE(shared(), nullptr);
+    SharedRenderer::SetUp();
+    if (renderer == nullptr) return;
     even_ = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
-    shared()->set_beam(0, image_of(even_));
-  }
-  void TearDown() override {
-    if (shared() == nullptr) return;
-    EXPECT_EQ(shared()->validation_messages(), 0u);
+    renderer->set_beam(0, image_of(even_));
   }
 
   /// Points where the map's answer (more than half lit) is not that of the table, of those that `counts` names.
   std::size_t wrong(const CsvTable& table, const std::vector<PlacedLamp>& lamps,
                     const std::vector<MeasurePoint>& points, std::size_t level,
                     const std::function<bool(std::size_t)>& counts) {
-    const auto open = shared()->measure(lamps, points), shadowed = shared()->measure(lamps, points, level);
+    const auto open = renderer->measure(lamps, points), shadowed = renderer->measure(lamps, points, level);
     std::size_t judged = 0, bad = 0;
     const char* sides[] = {"left", "right"};
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp)
@@ -116,7 +106,7 @@ class Shadows : public testing::Test {
   /// The same of the ray against the scene.
   std::size_t wrong_rays(const CsvTable& table, const Scene& scene, const std::vector<PlacedLamp>& lamps,
                          const std::vector<MeasurePoint>& points, const std::function<bool(std::size_t)>& counts) {
-    const auto open = shared()->measure(lamps, points);
+    const auto open = renderer->measure(lamps, points);
     std::size_t judged = 0, bad = 0;
     const char* sides[] = {"left", "right"};
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
@@ -142,7 +132,7 @@ TEST_F(Shadows, OfBoxesFallWhereTheReferenceHasThem) {
   const auto corner = [](const nlohmann::json& at) { return glm::dvec3(at[0], at[1], at[2]); };
   for (const nlohmann::json& box : manifest["occluder_boxes"]) shape.box(corner(box["min"]), corner(box["max"]));
   shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
-  ASSERT_TRUE(shared()->load_scene(shape.scene()).ok());
+  ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
   const CsvTable table = read_csv_table(data / "d_shadow.csv");
   std::vector<MeasurePoint> points;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
@@ -180,7 +170,7 @@ TEST_F(Shadows, OfAHillFallWhereTheReferenceHasThem) {
     const double x = 0.02 * i;
     shape.quad(ground(x, -12), ground(x + 0.02, -12), ground(x + 0.02, 12), ground(x, 12));
   }
-  ASSERT_TRUE(shared()->load_scene(shape.scene()).ok());
+  ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
   const CsvTable table = read_csv_table(data / "e_hill.csv");
   std::vector<MeasurePoint> points;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
@@ -209,43 +199,44 @@ FrameInput view_of_the_road() {
 TEST_F(Shadows, AreMadeWhereSomethingStandsInTheLightAndNowhereElse) {
   Shape road;
   road.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
-  ASSERT_TRUE(shared()->load_scene(road.scene()).ok());
+  ASSERT_TRUE(renderer->load_scene(road.scene()).ok());
   FrameInput input = view_of_the_road();
-  const FrameResult flat = shared()->draw(input);
+  const FrameResult flat = renderer->draw(input);
   EXPECT_EQ(flat.effects.level(Effect::kShadows), 0u);
   EXPECT_EQ(flat.pass_count, 1u);
 
   Shape with_box = road;
   with_box.box({20, -1, 0}, {21, 1, 2});
-  ASSERT_TRUE(shared()->load_scene(with_box.scene()).ok());
-  const FrameResult shadowed = shared()->draw(input);
+  ASSERT_TRUE(renderer->load_scene(with_box.scene()).ok());
+  const FrameResult shadowed = renderer->draw(input);
   EXPECT_EQ(kShadowNames[shadowed.effects.level(Effect::kShadows)], "soft");
   EXPECT_EQ(shadowed.pass_count, 2u);
   EXPECT_GT(shadowed.image_bytes, flat.image_bytes);
 
   input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
-  const FrameResult off = shared()->draw(input);
+  const FrameResult off = renderer->draw(input);
   EXPECT_EQ(off.pass_count, flat.pass_count);
   EXPECT_EQ(off.images, flat.images);
   EXPECT_EQ(off.image_bytes, flat.image_bytes);
   EXPECT_EQ(off.draws, flat.draws);
+  EXPECT_NE(off.effects[Effect::kShadows].reason.find("not looked for"), std::string::npos);
 
   // The box behind the lamps casts nothing.
   input.effects = {};
   for (PlacedLamp& lamp : input.lamps) lamp.position_m.x = 22.0;
   input.camera.eye_m.x = 20.1;
-  EXPECT_EQ(shared()->draw(input).effects.level(Effect::kShadows), 0u);
+  EXPECT_EQ(renderer->draw(input).effects.level(Effect::kShadows), 0u);
 }
 
 TEST_F(Shadows, ALampSeenInManyViewsAndAmongManyLampsCastsTheSameShadow) {
   Shape shape;
   shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
   shape.box({20, -1, 0}, {21, 1, 2});
-  ASSERT_TRUE(shared()->load_scene(shape.scene()).ok());
+  ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
   FrameInput input = view_of_the_road();
   input.want_image = true;
-  shared()->draw(input);
-  const Image8 alone = shared()->read_image();
+  renderer->draw(input);
+  const Image8 alone = renderer->read_image();
   // Twelve more lamps that look away: drawn by blocks, and by other pipelines.
   FrameInput many = input;
   for (int i = 0; i < 12; ++i)
@@ -253,16 +244,54 @@ TEST_F(Shadows, ALampSeenInManyViewsAndAmongManyLampsCastsTheSameShadow) {
   ViewInput other = many;
   other.own_picture = {320, 180};
   many.more_views = {other};
-  shared()->draw(many);
-  EXPECT_EQ(shared()->read_image().rgba, alone.rgba);
-  EXPECT_EQ(shared()->read_image(1).rgba, alone.rgba);
+  renderer->draw(many);
+  EXPECT_EQ(renderer->read_image().rgba, alone.rgba);
+  EXPECT_EQ(renderer->read_image(1).rgba, alone.rgba);
+}
+
+// As many maps as lamps that something stands before, in as many images as the device's largest takes.
+TEST_F(Shadows, MoreLampsThanADrawSumsCastAllOfThem) {
+  Shape shape;
+  shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
+  shape.box({20, -1, 0}, {21, 1, 2});
+  ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
+  FrameInput eight = view_of_the_road();
+  eight.want_image = true;
+  eight.effects[static_cast<std::size_t>(Effect::kShadows)] = 3;
+  const PlacedLamp lamp = eight.lamps.front();
+  eight.lamps.assign(kLampsPerDraw, lamp);
+  FrameInput more = eight;
+  // Farther ones first: the eight that a draw sums are the last.
+  PlacedLamp behind = lamp;
+  behind.position_m.x = -30.0;
+  more.lamps.insert(more.lamps.begin(), 4, behind);
+  renderer->draw(eight);
+  const Image8 expected = renderer->read_image();
+  const FrameResult result = renderer->draw(more);
+  EXPECT_EQ(result.views.front().lamps, 12u);
+  EXPECT_EQ(result.views.front().lamps_without_map, 0u);
+  EXPECT_EQ(renderer->read_image().rgba, expected.rgba);
+
+  more.lamps.assign(kMostShadowMaps + 2, lamp);
+  EXPECT_EQ(renderer->draw(more).views.front().lamps_without_map, 2u);
+  EXPECT_EQ(renderer->read_image().rgba, expected.rgba);
+}
+
+TEST(ShadowLimits, ADeviceHoldsSoManyMapsAndSaysSo) {
+  const ShadowLevel& soft = kShadowLevels[2];
+  const ShadowLimits promised{.buffer_texels = 65'536, .image_side = 4096};
+  EXPECT_EQ(shadow_maps_in_image(soft, promised), 4u);
+  EXPECT_EQ(most_shadow_maps(soft, promised), 0u);
+  EXPECT_EQ(most_shadow_maps(soft, {.buffer_texels = 3u << 20, .image_side = 4096}), 3u);
+  EXPECT_EQ(most_shadow_maps(soft, {.buffer_texels = 1u << 27, .image_side = 512}), 0u);
+  EXPECT_EQ(most_shadow_maps(kShadowLevels[3], {.buffer_texels = 1u << 27, .image_side = 16'384}), kMostShadowMaps);
 }
 
 // A sheet that is seen from both sides casts with the side that faces the lamp, and must not shadow itself.
 TEST_F(Shadows, ASheetIsLitAndWhatIsBehindItIsDark) {
   Shape shape;
   shape.quad({30, -2, 0}, {30, 2, 0}, {36, 2, 3}, {36, -2, 3});  // leans back by 63 degrees
-  ASSERT_TRUE(shared()->load_scene(shape.scene(true)).ok());
+  ASSERT_TRUE(renderer->load_scene(shape.scene(true)).ok());
   const PlacedLamp lamp{.position_m = {0.0, 0.3, 1.5}};
   std::vector<MeasurePoint> points;
   for (int i = 1; i < 60; ++i)
@@ -271,8 +300,8 @@ TEST_F(Shadows, ASheetIsLitAndWhatIsBehindItIsDark) {
   const std::size_t on_sheet = points.size();
   for (int k = 1; k < 40; ++k) points.push_back({{45, -2 + 0.1 * k, 1.2}, {-1, 0, 0}});
   for (std::size_t level = 1; level <= 3; ++level) {
-    const auto open = shared()->measure(std::span(&lamp, 1), points);
-    const auto lx = shared()->measure(std::span(&lamp, 1), points, level);
+    const auto open = renderer->measure(std::span(&lamp, 1), points);
+    const auto lx = renderer->measure(std::span(&lamp, 1), points, level);
     for (std::size_t i = 0; i < on_sheet; ++i) {
       if (open[0][i] > 0.0f) {
         ASSERT_EQ(lx[0][i], open[0][i]) << i << " at level " << level;

@@ -4,30 +4,14 @@
 
 #include <cmath>
 
+#include "tests/visual_process/ground_square.h"
 #include "visual/process/cameras.h"
 
 namespace phare {
 namespace {
 
-/// One ground square, 200 m wide, about (1000, 0, 2).
-Scene ground() {
-  Scene scene;
-  scene.materials.resize(1);
-  for (const glm::vec3 corner : {glm::vec3{-100, -100, 0}, {100, -100, 0}, {100, 100, 0}, {-100, 100, 0}})
-    scene.vertices.push_back({corner, {0, 0, 1}});
-  scene.indices = {0, 1, 2, 0, 2, 3};
-  SceneChunk chunk;
-  chunk.origin_m = {1000.0, 0.0, 2.0};
-  chunk.low_m = {900.0, -100.0, 2.0};
-  chunk.high_m = {1100.0, 100.0, 2.0};
-  chunk.index_count = 6;
-  chunk.vertex_count = 4;
-  scene.chunks.push_back(chunk);
-  return scene;
-}
-
 TEST(Pick, MeetsTheGroundWhereGeometrySays) {
-  const Scene scene = ground();
+  const Scene scene = ground_square(1000.0);
   const Ray ray{{1000.0, 5.0, 12.0}, glm::dvec3{std::sqrt(0.5), 0.0, -std::sqrt(0.5)}};
   const auto point = pick(scene, ray);
   ASSERT_TRUE(point.has_value());
@@ -57,12 +41,13 @@ TEST(BirdsEye, IsAMapAheadOfTheCar) {
   pose.z_m = 2.0;
   pose.pitch_rad = 0.05;  // does not tilt the map
   const Camera camera = birds_eye_camera(pose);
-  const auto near_left = pick(ground(), ViewGeometry(camera, 1000.0 / 400.0).ray_through(-0.5, -0.5, 1000, 400));
+  const auto near_left =
+      pick(ground_square(1000.0), ViewGeometry(camera, 1000.0 / 400.0).ray_through(-0.5, -0.5, 1000, 400));
   ASSERT_TRUE(near_left.has_value());
   EXPECT_NEAR(near_left->position_m.x, 1000.0 + kBirdsEyeStart_m, 1e-9);
   EXPECT_NEAR(near_left->position_m.y, 20.0, 1e-9);
   const auto far_right =
-      pick(ground(), ViewGeometry(camera, 1000.0 / 400.0).ray_through(999.5 - 1e-6, 399.5, 1000, 400));
+      pick(ground_square(1000.0), ViewGeometry(camera, 1000.0 / 400.0).ray_through(999.5 - 1e-6, 399.5, 1000, 400));
   ASSERT_TRUE(far_right.has_value());
   EXPECT_NEAR(far_right->position_m.x, 1100.0, 1e-6);
   EXPECT_NEAR(far_right->position_m.y, -20.0, 1e-9);

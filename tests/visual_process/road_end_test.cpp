@@ -5,28 +5,11 @@
 
 #include <cmath>
 
+#include "tests/visual_process/ground_square.h"
 #include "visual/process/screens.h"
 
 namespace phare {
 namespace {
-
-/// A ground square, 200 m wide, about (0, 0, 2).
-Scene square(const std::string& node) {
-  Scene scene;
-  scene.materials.resize(1);
-  for (const glm::vec3 corner : {glm::vec3{-100, -100, 0}, {100, -100, 0}, {100, 100, 0}, {-100, 100, 0}})
-    scene.vertices.push_back({corner, {0, 0, 1}});
-  scene.indices = {0, 1, 2, 0, 2, 3};
-  SceneChunk chunk;
-  chunk.node = node;
-  chunk.origin_m = {0.0, 0.0, 2.0};
-  chunk.low_m = {-100.0, -100.0, 2.0};
-  chunk.high_m = {100.0, 100.0, 2.0};
-  chunk.index_count = 6;
-  chunk.vertex_count = 4;
-  scene.chunks.push_back(chunk);
-  return scene;
-}
 
 /// Along x from -80 m to 80 m.
 std::vector<LanePoint> straight_lane() {
@@ -44,7 +27,7 @@ VehicleState car_at(double x_m, double y_m) {
 }
 
 TEST(RoadEnd, IsPastTheLaneAndThenPastTheGround) {
-  const Scene scene = square("ground");
+  const Scene scene = ground_square(0.0, "ground");
   const RoadEnd road(scene, straight_lane());
   EXPECT_EQ(road.of(car_at(-80.0, 0.0)), RoadPlace::kThere) << "where the drive starts";
   EXPECT_EQ(road.of(car_at(0.0, 60.0)), RoadPlace::kThere) << "far beside the road is another matter";
@@ -56,7 +39,7 @@ TEST(RoadEnd, IsPastTheLaneAndThenPastTheGround) {
 }
 
 TEST(RoadEnd, ALaneThatGoesRoundHasNone) {
-  const Scene scene = square("road");
+  const Scene scene = ground_square(0.0, "road");
   std::vector<LanePoint> ring;
   for (int i = 0; i < 360; ++i) {
     const double turn = i * M_PI / 180.0;
@@ -68,10 +51,10 @@ TEST(RoadEnd, ALaneThatGoesRoundHasNone) {
 }
 
 TEST(RoadEnd, WithoutALaneOrAGroundNothingIsInvented) {
-  const Scene scene = square("ground");
+  const Scene scene = ground_square(0.0, "ground");
   EXPECT_EQ(RoadEnd(scene, {}).of(car_at(99.0, 0.0)), RoadPlace::kThere);
   EXPECT_EQ(RoadEnd(scene, {}).of(car_at(101.0, 0.0)), RoadPlace::kNoGround);
-  const Scene trees = square("tree");  // the car drives on a plane
+  const Scene trees = ground_square(0.0, "tree");  // the car drives on a plane
   EXPECT_EQ(RoadEnd(trees, {}).of(car_at(1000.0, 0.0)), RoadPlace::kThere);
 }
 

@@ -63,25 +63,24 @@ void append_seen(std::vector<glm::vec3>& seen, const std::vector<glm::vec3>& cor
   }
 }
 
-/// Corners from `first` on, drawn as one side or both are seen.
-struct Range {
-  std::uint32_t first = 0, count = 0;
-};
-
-/// Of one picture: far sides of what is seen from one side, then what is seen from both.
-using Ranges = std::array<Range, 2>;
+std::size_t texels_of_map(const ShadowLevel& level) {
+  return std::size_t{2} * level.width * level.height;
+}
 
 struct Map {
   std::size_t lamp = 0;    ///< of the view
   glm::dvec2 texels{0.0};  ///< of its first picture, to a tangent of 1
 };
 
-/// A map for each lamp that something stands before, as many as four bits tell apart; the view's data say where points
-/// fall on it.
-std::vector<Map> place_maps(LitView& view, const ShadowLevel& level) {
+/// A map for each lamp that something stands before, `most` of them; the view's data say where points fall on it.
+std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t most) {
   std::vector<Map> maps;
-  for (std::size_t lamp = 0; lamp < view.casts.size() && maps.size() < shader::kMaxLamps; ++lamp) {
+  for (std::size_t lamp = 0; lamp < view.casts.size(); ++lamp) {
     if (view.casts[lamp].count == 0) continue;
+    if (maps.size() == most) {
+      ++view.without_map;
+      continue;
+    }
     const glm::dvec2 half = half_sides(view.casts[lamp].part);
     maps.push_back({lamp, {(0.5 * level.width - 1.0) / half.x, (0.5 * level.height - 1.0) / half.y}});
     const shader::GpuShadow place = place_of(view.lit_lamps[lamp], view.geometry.camera().eye_m, maps.back().texels);
@@ -96,13 +95,13 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level) {
 }
 
 /// The triangles of each picture into the buffer that they are drawn from.
-std::vector<Ranges> fill_triangles(gpu::Device& device, ShadowDepths& depths, const LitView& view,
-                                   std::span<const Map> maps, const ShadowLevel& level) {
+std::vector<ShadowPass::Ranges> fill_triangles(gpu::Device& device, ShadowDepths& depths, const LitView& view,
+                                               std::span<const Map> maps, const ShadowLevel& level) {
   std::vector<glm::vec3> corners;
-  std::vector<Ranges> ranges;
+  std::vector<ShadowPass::Ranges> ranges;
   for (const Map& map : maps) {
     for (const double zoom : {1.0, double{shader::kShadowZoom}}) {
-      Ranges& picture = ranges.emplace_back();
+      ShadowPass::Ranges& picture = ranges.emplace_back();
       for (std::size_t side = 0; side < 2; ++side) {
         const CastBy& cast = view.casts[map.lamp];
         const auto first = static_cast<std::uint32_t>(corners.size());
@@ -120,6 +119,19 @@ std::vector<Ranges> fill_triangles(gpu::Device& device, ShadowDepths& depths, co
 }
 
 }  // namespace
+
+std::size_t shadow_maps_in_image(const ShadowLevel& level, const ShadowLimits& limits) {
+  return level.width > limits.image_side ? 0 : limits.image_side / (2 * level.height);
+}
+
+std::size_t most_shadow_maps(const ShadowLevel& level, const ShadowLimits& limits) {
+  if (shadow_maps_in_image(level, limits) == 0) return 0;
+  return std::min<std::size_t>(kMostShadowMaps, limits.buffer_texels / (std::uint64_t{2} * level.width * level.height));
+}
+
+ShadowPass::ShadowPass(gpu::Device& device)
+    : device_(device),
+      limits_{device.properties.limits.maxTexelBufferElements, device.properties.limits.maxImageDimension2D} {}
 
 void ShadowPass::begin_frame() {
   depths_.resize(std::min(depths_.size(), used_));
@@ -164,16 +176,33 @@ vk::Pipeline ShadowPass::pipeline(const LitScene& scene, bool both_sides) {
 }
 
 void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level_number) {
+  while (level_number > 1 && most_shadow_maps(kShadowLevels[level_number], limits_) == 0) --level_number;
   const ShadowLevel& level = kShadowLevels[level_number];
-  const std::vector<Map> maps = place_maps(view, level);
+  const std::vector<Map> maps = place_maps(view, level, most_shadow_maps(level, limits_));
   if (maps.empty()) return;
   for (DrawItem& item : view.items)
     item.shadowed = std::ranges::any_of(
         maps, [&](const Map& map) { return may_fall_on(*item.batch, view.lit_lamps[map.lamp], view.casts[map.lamp]); });
-  const vk::Extent2D extent{level.width, 2 * level.height * static_cast<std::uint32_t>(maps.size())};
-  ShadowDepths& depths = depths_of(std::size_t{extent.width} * extent.height);
+  ShadowDepths& depths = depths_of(maps.size() * texels_of_map(level));
   const std::vector<Ranges> ranges = fill_triangles(device_, depths, view, maps, level);
+  const std::size_t in_image = shadow_maps_in_image(level, limits_);
+  for (std::size_t first = 0; first < maps.size(); first += in_image) {
+    std::vector<Picture> pictures;
+    for (std::size_t map = first; map < std::min(maps.size(), first + in_image); ++map)
+      for (const bool close : {false, true})
+        pictures.push_back({.close = close,
+                            .scale = maps[map].texels * (close ? double{shader::kShadowZoom} : 1.0) /
+                                     glm::dvec2(0.5 * level.width, 0.5 * level.height),
+                            .ranges = ranges[2 * map + (close ? 1 : 0)]});
+    draw_image(graph, scene, depths, level, pictures, first * texels_of_map(level));
+  }
+  view.shadows = level;
+  view.depths = &depths;
+}
 
+void ShadowPass::draw_image(gpu::FrameGraph& graph, const LitScene& scene, const ShadowDepths& depths,
+                            const ShadowLevel& level, const std::vector<Picture>& pictures, std::size_t first_texel) {
+  const vk::Extent2D extent{level.width, level.height * static_cast<std::uint32_t>(pictures.size())};
   gpu::Image& image = graph.image(
       "shadow maps", {vk::Format::eD32Sfloat, extent,
                       vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eTransferSrc});
@@ -184,18 +213,17 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
     commands.beginRendering(
         vk::RenderingInfo{.renderArea = {{0, 0}, extent}, .layerCount = 1, .pDepthAttachment = &target});
     commands.bindVertexBuffers(0, *depths.triangles.buffer, vk::DeviceSize{0});
-    for (std::size_t picture = 0; picture < 2 * maps.size(); ++picture) {
-      const auto top = static_cast<std::int32_t>(picture * level.height);
-      const bool close = picture % 2 == 1;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      const Picture& picture = pictures[i];
+      const auto top = static_cast<std::int32_t>(i * level.height);
       set_area(commands, {{0, top}, {level.width, level.height}});
-      if (!close) commands.setScissor(0, vk::Rect2D{{1, top + 1}, {level.width - 2, level.height - 2}});
-      const glm::dvec2 scale = maps[picture / 2].texels * (close ? double{shader::kShadowZoom} : 1.0) /
-                               glm::dvec2(0.5 * level.width, 0.5 * level.height);
+      if (!picture.close) commands.setScissor(0, vk::Rect2D{{1, top + 1}, {level.width - 2, level.height - 2}});
       for (const bool both_sides : {false, true}) {
-        const Range& range = ranges[picture][both_sides ? 1 : 0];
+        const Range& range = picture.ranges[both_sides ? 1 : 0];
         if (range.count == 0) continue;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline(scene, both_sides));
-        scene.push(commands, {.origin = glm::vec4(glm::vec2(scale), 0.0f, 0.0f), .detail_origin = glm::vec4(0.0f)});
+        scene.push(commands,
+                   {.origin = glm::vec4(glm::vec2(picture.scale), 0.0f, 0.0f), .detail_origin = glm::vec4(0.0f)});
         commands.draw(range.count, 1, range.first, 0);
       }
     }
@@ -203,7 +231,8 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
   });
   graph.copy("shadow depths", {{&image, gpu::Use::kCopySource, false}}, [&](gpu::Recorder& commands) {
     commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *depths.texels.buffer,
-                               vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eDepth, 0, 0, 1},
+                               vk::BufferImageCopy{.bufferOffset = 4 * first_texel,
+                                                   .imageSubresource = {vk::ImageAspectFlagBits::eDepth, 0, 0, 1},
                                                    .imageExtent = {extent.width, extent.height, 1}});
     const vk::MemoryBarrier2 to_shader{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
                                        .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
@@ -212,8 +241,6 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
     commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &to_shader});
   });
   graph.release(image);
-  view.shadows = level;
-  view.depths = &depths;
 }
 
 }  // namespace phare

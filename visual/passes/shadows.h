@@ -20,20 +20,54 @@ namespace phare {
 /// Of each of the two pictures of a map. In the order of the effect's levels (visual/effects.h), the first being off.
 inline constexpr std::array<ShadowLevel, 4> kShadowLevels{{{}, {1024, 512, 1}, {1024, 512, 4}, {2048, 1024, 4}}};
 
+/// A pixel's pipeline tells so many maps apart: four bits a lamp, 0 being none.
+inline constexpr std::size_t kMostShadowMaps = 15;
+
+struct ShadowLimits {
+  std::uint64_t buffer_texels = 0;  ///< of a texel buffer
+  std::uint32_t image_side = 0;     ///< texels
+};
+
+/// Maps of a level that a device holds; Vulkan promises 65,536 texels of a buffer only.
+std::size_t most_shadow_maps(const ShadowLevel& level, const ShadowLimits& limits);
+/// Of those, in one image; 0: not one.
+std::size_t shadow_maps_in_image(const ShadowLevel& level, const ShadowLimits& limits);
+
 class ShadowPass {
  public:
-  explicit ShadowPass(gpu::Device& device) : device_(device) {}
+  explicit ShadowPass(gpu::Device& device);
+
+  /// It holds a map of the lowest level.
+  bool possible() const { return most_shadow_maps(kShadowLevels[1], limits_) > 0; }
 
   /// Before the views of a frame; the frame before is done. Maps that it did not call for are freed.
   void begin_frame();
   /// Draws the maps of the view's lamps and has the view read them from here on.
   void draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level);
 
+  /// Corners from `first` on, drawn as one side or both are seen.
+  struct Range {
+    std::uint32_t first = 0, count = 0;
+  };
+  /// Of one picture: far sides of what is seen from one side, then what is seen from both.
+  using Ranges = std::array<Range, 2>;
+
  private:
+  /// Of the two of a map.
+  struct Picture {
+    bool close = false;     ///< the middle, kShadowZoom times as large
+    glm::dvec2 scale{1.0};  ///< tangents to the picture's half sides
+    Ranges ranges{};
+  };
+
+  /// Pictures of one image, one below the other, and their depths into the buffer from `first_texel` on.
+  void draw_image(gpu::FrameGraph& graph, const LitScene& scene, const ShadowDepths& depths, const ShadowLevel& level,
+                  const std::vector<Picture>& pictures, std::size_t first_texel);
   vk::Pipeline pipeline(const LitScene& scene, bool both_sides);
   ShadowDepths& depths_of(std::size_t texels);
 
   gpu::Device& device_;
+  ShadowLimits limits_;
   vk::raii::ShaderModule vertex_{nullptr};  ///< made with the first map
   std::array<vk::raii::Pipeline, 2> pipelines_{nullptr, nullptr};
   std::vector<std::unique_ptr<ShadowDepths>> depths_;  ///< of each view with shadows

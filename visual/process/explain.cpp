@@ -48,18 +48,21 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   // Those whose light the view can see; what of the scene it falls on is not asked.
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
   std::size_t lit = 0;
-  std::vector<CastBy> casts;
+  std::optional<std::vector<CastBy>> casts;
+  if (looks_for_casters(input)) casts.emplace();
   for (const PlacedLamp& lamp : input.lamps) {
     const LampReach reach(lamp.position_m, lamp.world_from_image, light_cone(lamps.image(lamp.beam)));
     if (!reach.meets(view)) continue;
     ++lit;
-    casts.push_back(casters.by(reach, lamp.world_from_image));
+    if (casts) casts->push_back(casters.by(reach, lamp.world_from_image));
   }
   char heading[240];
   std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
                 lamps.lit_text().c_str(), lamps.design().name.c_str(), moment.time.seconds(),
                 moment.pose.speed_mps * 3.6, device.name.c_str());
-  return heading + explain(plan_effects(facts_of(input, lit, casters_of_all(casts), text_lines(input), device.software),
+  std::optional<std::size_t> casting;
+  if (casts) casting = casters_of_all(*casts);
+  return heading + explain(plan_effects(facts_of(input, lit, casting, text_lines(input), {.software = device.software}),
                                         input.effects));
 }
 

@@ -71,7 +71,8 @@ nlohmann::json report_json(const Session& session, SimTime now) {
                                {"triangles", view.triangles},
                                {"lamps", view.lamps},
                                {"lamps_that_reach_nothing", view.lamps_unreached},
-                               {"lamps_over_the_limit", view.lamps_over_limit}});
+                               {"lamps_over_the_limit", view.lamps_over_limit},
+                               {"lamps_without_a_shadow_map", view.lamps_without_map}});
   }
   report["effects"] = nlohmann::json::array();
   for (const EffectRow& row : effect_table()) {
