@@ -170,6 +170,7 @@ class DriveRun {
   std::optional<DerivedRig> derived_, kept_rig_;
   std::optional<RunFiles> files_;
   std::optional<Bus> bus_;
+  std::optional<WishReader> wishes_;  ///< listens as long as the bus is polled
   std::unique_ptr<Recorder> recorder_;
   std::optional<Supervisor> supervisor_;
   fs::path made_;  ///< the first folder that was not there before
@@ -250,7 +251,7 @@ Status DriveRun::make_room() {
 }
 
 void DriveRun::run(std::optional<Wish>& wish) {
-  WishReader wishes(*bus_, options_.guide == "replay");
+  wishes_.emplace(*bus_, options_.guide == "replay");
   std::optional<Clock::time_point> over_at;
   bus_->on_datagram = [this, wishes_too = bus_->on_datagram](const Datagram& datagram, auto bytes) {
     if (wishes_too) wishes_too(datagram, bytes);
@@ -262,9 +263,9 @@ void DriveRun::run(std::optional<Wish>& wish) {
   while (!stop_ && !wish && supervisor_->step()) {
     bus_->wait(std::chrono::milliseconds(10));
     bus_->poll();
-    if (!options_.guide.empty()) wish = wishes.take();
+    if (!options_.guide.empty()) wish = wishes_->take();
     if (const auto report = bus_->take<FrameReport>()) show_progress(progress, *report);
-    if (wishes.drive_over() && !over_at) over_at = Clock::now();
+    if (wishes_->drive_over() && !over_at) over_at = Clock::now();
     after_ = !options_.guide.empty() && over_at && Clock::now() - *over_at > std::chrono::milliseconds(500);
     if (recorder_ && recorded_.ok() && !after_) recorded_ = recorder_->poll();
     remember_restarts();
