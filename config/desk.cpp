@@ -91,6 +91,13 @@ std::string get_view(const Desk& desk) {
   return std::string(kViewNames[static_cast<std::size_t>(desk.view)]);
 }
 
+Status set_method(Desk& desk, std::string_view value, const DeskContext&) {
+  return choose(kMethodNames, desk.method, value);
+}
+std::string get_method(const Desk& desk) {
+  return std::string(kMethodNames[static_cast<std::size_t>(desk.method)]);
+}
+
 Status set_isolux(Desk& desk, std::string_view value, const DeskContext&) {
   std::vector<double> levels_lx;
   for (const std::string& word : words_of(value)) {
@@ -224,6 +231,8 @@ constexpr DeskSetting kSettings[] = {
     {"camera", "driver, birds-eye, chase, next", "the eye: the driver's, one above the road, one behind the car", true,
      set_camera, get_camera},
     {"view", "photo, false-colour, next", "as the eye sees it, or illuminance by colour", true, set_view, get_view},
+    {"method", "fragment, vertex, vertex-1998, next", "where illuminance is computed: docs/accuracy.md", true,
+     set_method, get_method},
     {"isolux_lx", "up to 8 rising numbers, default", "lines of equal illuminance in false colour", true, set_isolux,
      get_isolux},
     {"exposure_per_cdm2", "0.000001 to 1000000", "multiplies luminance before the tone curve", true, set_exposure,

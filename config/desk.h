@@ -28,6 +28,11 @@ inline constexpr std::array<std::string_view, 3> kCameraNames{"driver", "birds-e
 enum class View { kPhoto, kFalseColour };
 inline constexpr std::array<std::string_view, 2> kViewNames{"photo", "false-colour"};
 
+/// Where illuminance is computed (docs/accuracy.md, "Illumination methods"): at every pixel; at the vertices, and
+/// interpolated; or as in 1998: cos(q)/r² at the vertices, times the beam as an 8-bit texture (Lecocq et al. 1999).
+enum class Method { kFragment, kVertex, kVertex1998 };
+inline constexpr std::array<std::string_view, 3> kMethodNames{"fragment", "vertex", "vertex-1998"};
+
 /// A point whose illuminance the overlay tells.
 struct Probe {
   enum class Frame { kCar, kWorld };
@@ -47,6 +52,7 @@ inline constexpr std::array<std::string_view, 4> kShadowNames{"off", "hard", "so
 struct Desk {
   CameraKind camera = CameraKind::kDriver;
   View view = View::kPhoto;
+  Method method = Method::kFragment;
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< rising, 1 to kMostIsoluxLevels
   double exposure_per_cdm2 = 0.8;     ///< multiplies luminance before the tone curve; fixed, so that beams compare
   EyeSetting eye;                     ///< what the eye takes for white

@@ -39,6 +39,7 @@ constexpr KeyBinding kBindings[] = {
     {kCamera, kPicture, 'c', "C", {}, "camera: driver, from above, behind the car", "camera next"},
     {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour", "view next"},
     {kEffects, kPicture, key::kF3, "F3", {}, "which effects are on, and why", "effects toggle"},
+    {kMethod, kPicture, key::kF4, "F4", {}, "where light is computed: pixels, vertices, as in 1998", "method next"},
     {kLeave, kPicture, key::kEscape, "Esc", {}, "hide these keys, or leave the drive"},
 };
 

@@ -17,7 +17,7 @@ namespace phare {
 using KeyCode = std::uint32_t;
 namespace key {
 inline constexpr KeyCode kEscape = 256, kBackspace = 259, kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kF1 = 290,
-                         kF2 = 291, kF3 = 292;
+                         kF2 = 291, kF3 = 292, kF4 = 293;
 }  // namespace key
 
 enum class KeyAction {
@@ -46,9 +46,10 @@ enum class KeyAction {
   kCamera,
   kFalseColour,
   kEffects,
+  kMethod,
   kLeave,
 };
-inline constexpr std::size_t kKeyActions = 26;
+inline constexpr std::size_t kKeyActions = 27;
 
 /// Who acts on a key: the car (phare-cockpit), the picture (phare-visual), or the drive as a whole (phare drive).
 enum class KeyActor { kCar, kPicture, kDrive };

@@ -80,6 +80,8 @@ void PictureOptions::add_to(CLI::App& app) {
   checked("--exposure", "exposure_per_cdm2", "Exposure, 1/(cd/m2) [0.8]");
   checked("--adaptation", "adaptation_k",
           "Light of this colour temperature in K looks white, or auto: the eye follows the lamps [the rig's]");
+  setting("--method", "method", "Where illuminance is computed: what accuracy costs in time [fragment]")
+      ->check(one_of(kMethodNames));
   declare(app.add_flag_callback(
       "--false-colour",
       [this] {
@@ -100,6 +102,10 @@ void PictureOptions::add_to(CLI::App& app) {
   declare(app.add_option("--beam-image", beam_image,
                          "How beam images are stored and looked up, instead of the rig's: what accuracy costs in time"))
       ->check(one_of(kImageLevelNames));
+  declare(app.add_option("--road-lod", road_cuts,
+                         "Cut each triangle of the ground in four, so many times: what methods by vertex need"))
+      ->check(CLI::Range(0, 3))
+      ->capture_default_str();
   declare(app.add_option("--audit-every", audit_every, "Frames between self-audits, 0: never"))
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();

@@ -30,6 +30,7 @@ class PictureOptions {
   std::vector<DeskCommand>
       desk;                ///< what was set of the picture, in the order given; of the value --set none is checked
   std::string beam_image;  ///< one of kImageLevelNames; empty: the rig's
+  int road_cuts = 0;       ///< how often each triangle of the ground is cut in four
   std::int64_t audit_every = 300;  ///< frames; 0: never
   std::string device_name;
   bool validation = false;

@@ -16,6 +16,7 @@ layout(constant_id = 3) const uint output_kind = 0;
 layout(constant_id = 4) const uint lamp_base = 0;
 layout(constant_id = kSpecColours) const uint colours = 0;
 layout(constant_id = kSpecSides) const uint sides = 1;
+layout(constant_id = kSpecMethod) const uint method = 0;
 
 layout(location = 0) out vec4 result;
 layout(location = 1) out vec4 result_normal;
@@ -56,6 +57,22 @@ float sent_back(vec3 toward_lamp, float cos_incidence, vec3 n, float level) {
   return sheeting_between(sheetings[index].row[at.before], sheetings[index].row[at.before + 1], at.part, between_deg(toward_lamp, n)) / cos_seen;
 }
 
+// Light of a lamp whose illuminance comes interpolated from the vertices.
+LampLight from_vertices(uint lamp, float lx, float cd, vec3 n, float level) {
+  vec3 to_lamp = frame.lamps[lamp].position.xyz - point;
+  LampLight light;
+  light.cd = cd;
+  light.illuminance_lx = lx;
+  light.cos_incidence = max(dot(frame.lamps[lamp].position.xyz, n) - level, 0.0) * inversesqrt(dot(to_lamp, to_lamp));
+  light.normal_lx = lx / max(light.cos_incidence, 0.01);
+  return light;
+}
+
+// The paper's texture and frame buffer hold F = I/Imax in 8 bits.
+float in_8_bits(float cd, float peak_cd) {
+  return floor(cd * (255.0 / peak_cd) + 0.5) * (peak_cd / 255.0);
+}
+
 void main() {
   float unit = inversesqrt(dot(point_normal, point_normal));
   if (sides == 2) unit = gl_FrontFacing ? unit : -unit;
@@ -78,13 +95,19 @@ void main() {
   vec3 retro_lx = vec3(0.0);  // what a diffuse surface would need to be as bright
 #define LIGHT(I)                                                                                           \
   if (lamp_count > I) {                                                                                    \
-    LampLight light = PHARE_LAMP_LIGHT(I);                                                                 \
+    LampLight light;                                                                                       \
+    if (method != kMethodVertex) light = PHARE_LAMP_LIGHT(I);                                              \
+    if (method == kMethodVertex) light = from_vertices(I, PHARE_FACING(I), 0.0, n, level);                 \
+    if (method == kMethodVertex1998) {                                                                     \
+      float cd = in_8_bits(light.cd, frame.lamps[I].position.w);                                           \
+      light = from_vertices(I, PHARE_FACING(I) * cd, light.cd, n, level);                                  \
+    }                                                                                                      \
     vec3 colour = light_colour;                                                                            \
     float reach = PHARE_REACHING(I);                                                                       \
     light.illuminance_lx *= reach;                                                                         \
     light.normal_lx *= reach;                                                                              \
     if (colours != 0) colour = frame.lamps[I].colour.rgb;                                                  \
-    if ((colours >> (8 + I) & 1) != 0) colour = PHARE_LAMP_TINT(I, light);                                 \
+    if ((colours >> (8 + I) & 1) != 0) colour = method == kMethodVertex ? vec3(1.0) : PHARE_LAMP_TINT(I, light); \
     total_lx += light.illuminance_lx;                                                                      \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
     if (retro != 0)                                                                                        \

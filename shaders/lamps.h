@@ -24,8 +24,14 @@ const uint kSpecShadowMaps = 8u;
 const uint kSpecShadowWidth = 9u;
 const uint kSpecShadowHeight = 10u;
 const uint kSpecShadowTaps = 11u;
+const uint kSpecMethod = 12u;
 const uint kSpecTables = 16u;   // kSpecPerTable constants a lamp: the members of its TableShape, below
 const uint kSpecPerTable = 18u;
+
+// Where illuminance is computed (config/desk.h, Method).
+const uint kMethodFragment = 0u;    // at every pixel
+const uint kMethodVertex = 1u;      // at the vertices, interpolated
+const uint kMethodVertex1998 = 2u;  // cos(q)/r² at the vertices, interpolated; times the beam by pixel, in 255 steps of its peak
 
 const uint kRetroNone = 0u;
 const uint kRetroSheeting = 1u;  // R_A by a table of its own
@@ -75,7 +81,7 @@ const float kNarrowReach_deg = 46.0;  // half angles of narrow tables take a sho
 //   type A: a forward, b right, c up;  type B: a forward, b up, c right (first is V);  type C: a c0, b c90, c -g0 (second is gamma - 90; kLookupTurn: gamma).
 // A flat screen: a forward, b right, c up; first = b/a, second = c/a, tangents; its table holds what is bilinear there, candela / (1 + first² + second²)^1.5.
 struct GpuLamp {
-  vec4 position;     // xyz relative to the eye, m
+  vec4 position;     // xyz relative to the eye, m; w: the beam's peak, cd
   vec4 row_a;
   vec4 row_b;
   vec4 row_c;

@@ -2,6 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #define PHARE_VERTEX
 #include "lib/surface_varyings.glsl"
+#ifdef PHARE_LIT_BY_VERTEX
+#include "lib/by_vertex.glsl"
+#endif
 
 layout(location = 0) in vec3 position_m;  // relative to the batch's origin
 layout(location = 1) in vec3 normal;
@@ -15,4 +18,7 @@ void main() {
   detail_from_point = draw.detail_origin.xyz - draw.origin.xyz;
   gl_Position = clip_from_eye() * vec4(point, 1.0);
   pass_light(materials[material_index].reflectance);
+#ifdef PHARE_LIT_BY_VERTEX
+  light_vertices();
+#endif
 }

@@ -175,9 +175,11 @@ bool BeamStore::upload(gpu::FrameGraph& graph) {
   graph.copy("beams", {}, [&](gpu::Recorder& commands) {
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
-    order(commands, Stage::eFragmentShader, Access::eNone, Stage::eCopy, Access::eNone);
+    // Methods that light vertices read beams there.
+    const auto readers = Stage::eVertexShader | Stage::eFragmentShader;
+    order(commands, readers, Access::eNone, Stage::eCopy, Access::eNone);
     for (const auto& [beam, whole] : changed) upload(commands, *beam, whole);
-    order(commands, Stage::eCopy, Access::eTransferWrite, Stage::eFragmentShader, Access::eShaderSampledRead);
+    order(commands, Stage::eCopy, Access::eTransferWrite, readers, Access::eShaderSampledRead);
   });
   return made;
 }

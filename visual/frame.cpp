@@ -55,6 +55,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   const double aspect = static_cast<double>(view.area.extent.width) / static_cast<double>(view.area.extent.height);
   LitView lit = parts.scene.view(ViewGeometry(view.input.camera, aspect), sky_of(view.input), view.input.lamps,
                                  view.input.far_mesh_from_m, view.input.isolux_lx);
+  lit.method = view.input.method;
 
   // What that calls for, and the images it takes.
   std::optional<std::size_t> casters;

@@ -28,10 +28,22 @@
 #include "shaders/measure_vert_8.h"
 #include "shaders/measure_vert_8_shadows.h"
 #include "shaders/scene_vert_2.h"
+#include "shaders/scene_vert_2_lit.h"
+#include "shaders/scene_vert_2_lit_filtered.h"
+#include "shaders/scene_vert_2_lit_filtered_shadows.h"
+#include "shaders/scene_vert_2_lit_shadows.h"
 #include "shaders/scene_vert_2_shadows.h"
 #include "shaders/scene_vert_4.h"
+#include "shaders/scene_vert_4_lit.h"
+#include "shaders/scene_vert_4_lit_filtered.h"
+#include "shaders/scene_vert_4_lit_filtered_shadows.h"
+#include "shaders/scene_vert_4_lit_shadows.h"
 #include "shaders/scene_vert_4_shadows.h"
 #include "shaders/scene_vert_8.h"
+#include "shaders/scene_vert_8_lit.h"
+#include "shaders/scene_vert_8_lit_filtered.h"
+#include "shaders/scene_vert_8_lit_filtered_shadows.h"
+#include "shaders/scene_vert_8_lit_shadows.h"
 #include "shaders/scene_vert_8_shadows.h"
 
 namespace phare {
@@ -62,6 +74,8 @@ static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetro
               static_cast<std::uint32_t>(RetroKind::kMarking) == shader::kRetroMarking);
 static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
 static_assert(shader::kMaxIsoluxLevels % 4 == 0);
+static_assert(static_cast<std::uint32_t>(Method::kVertex) == shader::kMethodVertex &&
+              static_cast<std::uint32_t>(Method::kVertex1998) == shader::kMethodVertex1998);
 
 constexpr std::size_t kNoBeam = SIZE_MAX;
 
@@ -260,7 +274,7 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
     if (beam.tinted()) lit.colours |= 1u << (8 + lit.lamps);
     first_colour = beam.colour;
     shader::GpuLamp& out = frame.lamps[lit.lamps++];
-    out.position = glm::vec4(glm::vec3(lamp.position_m - view.geometry.camera().eye_m), 1.0f);
+    out.position = glm::vec4(glm::vec3(lamp.position_m - view.geometry.camera().eye_m), peaks_cd_[lamp.beam]);
     const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
     out.row_a = glm::vec4(glm::vec3(rows[0]), 0.0f);
     out.row_b = glm::vec4(glm::vec3(rows[1]), 0.0f);
@@ -352,7 +366,8 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
                                     variant.shadow_maps,
                                     variant.shadows.width,
                                     variant.shadows.height,
-                                    variant.shadows.taps};
+                                    variant.shadows.taps,
+                                    static_cast<std::uint32_t>(variant.method)};
   values.resize(shader::kSpecTables);
   for (const shader::TableShape& shape : table_shapes_[variant.tables]) {
     const auto words = std::bit_cast<std::array<std::uint32_t, shader::kSpecPerTable>>(shape);
@@ -370,7 +385,7 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
                                                       : 2u) +
                            (variant.shadow_maps != 0 ? 3u : 0u);
   PipelineRecipe recipe{
-      .vertex = measure ? *measure_vert_[size] : *scene_vert_[size],
+      .vertex = measure ? *measure_vert_[size] : scene_vert(size, variant.method),
       .fragment = *lamps_frag_[size],
       .constants = &constants,
       .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
@@ -385,6 +400,20 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
       .layout = *layout_};
   if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
   return *pipelines_.emplace(variant, make_pipeline(device_, recipe)).first->second;
+}
+
+vk::ShaderModule LitScene::scene_vert(std::size_t size, Method method) {
+  if (method == Method::kFragment) return *scene_vert_[size];
+  vk::raii::ShaderModule& module = lit_by_vertex_vert_[size];
+  if (*module) return *module;
+  using Code = std::span<const std::uint32_t>;
+  const std::array<Code, 6> tables{k_scene_vert_2_lit,         k_scene_vert_4_lit,         k_scene_vert_8_lit,
+                                   k_scene_vert_2_lit_shadows, k_scene_vert_4_lit_shadows, k_scene_vert_8_lit_shadows};
+  const std::array<Code, 6> filters{k_scene_vert_2_lit_filtered,         k_scene_vert_4_lit_filtered,
+                                    k_scene_vert_8_lit_filtered,         k_scene_vert_2_lit_filtered_shadows,
+                                    k_scene_vert_4_lit_filtered_shadows, k_scene_vert_8_lit_filtered_shadows};
+  module = gpu::make_shader(device_, (is_filtered(level_) ? filters : tables)[size]);
+  return *module;
 }
 
 void LitScene::bind(vk::CommandBuffer commands, const LitBy& lit_by) const {
@@ -419,6 +448,7 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     variant.tables = lit.tables;
     variant.colours = common.output == LampOutput::kAudit ? 0 : lit.colours;
     variant.kind = item.batch->kind;
+    variant.method = view.method;
     variant.shadow_maps = item.shadowed && common.output != LampOutput::kAudit ? lit.shadow_maps : 0;
     variant.shadows = variant.shadow_maps != 0 ? view.shadows : ShadowLevel{};
     if (variant.output == LampOutput::kAudit) variant.kind = {.double_sided = variant.kind.double_sided};

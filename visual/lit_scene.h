@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "config/desk.h"
 #include "visual/beam_store.h"
 #include "visual/gpu/descriptor_sets.h"
 #include "visual/gpu/frame_graph.h"
@@ -55,6 +56,7 @@ struct ShadowDepths {
 struct LitView {
   ViewGeometry geometry;
   Sky sky;
+  Method method = Method::kFragment;
   std::span<const double> isolux_lx{};  ///< lines of false colour; of the caller, while the view is made
   std::vector<DrawItem> items{};
   std::vector<LitBy> lit_by{};          ///< one at least
@@ -77,6 +79,7 @@ struct LitVariant {
   std::uint32_t colours = 0;
   std::uint32_t shadow_maps = 0;
   ShadowLevel shadows{};
+  Method method = Method::kFragment;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Format format = vk::Format::eUndefined;
   bool depth_done = false;
@@ -129,6 +132,7 @@ class LitScene {
   LampReach reach_of(const PlacedLamp& lamp) const {
     return {lamp.position_m, lamp.world_from_image, cones_[lamp.beam]};
   }
+  vk::ShaderModule scene_vert(std::size_t size, Method method);
   std::size_t tables_of(std::vector<shader::TableShape> shapes);
   vk::DescriptorSet set_of(std::size_t page, const Beams& beams);
   void forget_sets();
@@ -152,6 +156,8 @@ class LitScene {
   std::map<LitVariant, vk::raii::Pipeline> pipelines_;
   using Modules = std::array<vk::raii::ShaderModule, 6>;  ///< for up to 2, 4, 8 lamps; the same with shadows
   Modules scene_vert_, measure_vert_, lamps_frag_;
+  Modules lit_by_vertex_vert_{nullptr, nullptr, nullptr,
+                              nullptr, nullptr, nullptr};  ///< each made when it is called for
 };
 
 /// Of a set of ShadowDepths.

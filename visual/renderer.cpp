@@ -290,7 +290,8 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   const ViewGeometry geometry(input.camera, static_cast<double>(extent.width) / extent.height);
   impl_->submit([&] {
     impl_->scene.begin_frame(impl_->graph);
-    const LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.far_mesh_from_m, {});
+    LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.far_mesh_from_m, {});
+    view.method = input.method;
     draw_audit(impl_->graph, impl_->scene, view, {position, normal, depth});
     impl_->copy_out(position, position_copy, 16);
     impl_->copy_out(normal, normal_copy, 16);

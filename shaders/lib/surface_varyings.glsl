@@ -28,7 +28,7 @@ layout(location = 4) flat PHARE_VARYING vec3 light_colour;  // of the lamps, whe
 layout(location = 5) flat PHARE_VARYING vec3 ambient_lx;  // half of what the whole sky gives a level surface
 layout(location = 6) PHARE_VARYING vec3 in_lamp[PHARE_LAMPS];  // the point in each lamp's frame, rows a, b, c
 
-// n times the way from the eye to each lamp, n being point_normal.
+// n times the way from the eye to each lamp, n being point_normal; by vertex (kSpecMethod) what each lamp gives there: lx, or cos(q)/r².
 #if PHARE_LAMPS == 2
 layout(location = 8) PHARE_VARYING vec2 facing[1];
 #define PHARE_FACING(I) facing[0][I]

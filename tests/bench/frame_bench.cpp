@@ -22,6 +22,7 @@
 #include "tests/bench/straight_road.h"
 #include "visual/photometry/beam_composer.h"
 #include "visual/photometry/read_lamp.h"
+#include "visual/scene/refine.h"
 #include "visual/scene/scene.h"
 
 namespace phare::bench {
@@ -220,6 +221,13 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
     };
   };
   bench.add(group, "two lamps", renderer, with_shadows(0));
+  for (const Method method : {Method::kVertex, Method::kVertex1998})
+    bench.add(group, "two lamps by method " + std::string(kMethodNames[static_cast<std::size_t>(method)]), renderer,
+              [view, method](int round) {
+                FrameInput input = without_shadows(view(round));
+                input.method = method;
+                return input;
+              });
   for (std::size_t level = 1; level < kShadowNames.size(); ++level)
     bench.add(group, "two lamps, shadows " + std::string(kShadowNames[level]), renderer, with_shadows(level));
 }
@@ -228,7 +236,7 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
 void add_growth(Bench& bench, const Scene& straight, const IntensityTable& beam, const Options& options) {
   const auto view = [](int round) { return without_shadows(straight_road_view(0.1 * (round % 64))); };
   for (const int times : {0, 1, 2, 3}) {
-    const Scene scene = with_more_triangles(straight, times);
+    const Scene scene = refined(straight, times);
     bench.grow("growth with triangles", "triangles", static_cast<double>(scene.indices.size() / 3),
                bench.renderer(scene, beam), [view](int round) {
                  FrameInput input = view(round);

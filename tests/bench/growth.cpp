@@ -1,50 +1,10 @@
 #include "tests/bench/growth.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <glm/geometric.hpp>
 
 namespace phare::bench {
-namespace {
-
-/// Each triangle of a chunk in four, the new corners in the middle of its sides.
-Scene split(const Scene& scene) {
-  Scene result;
-  result.materials = scene.materials;
-  for (SceneChunk chunk : scene.chunks) {
-    const auto first_index = static_cast<std::uint32_t>(result.indices.size());
-    const auto first_vertex = static_cast<std::uint32_t>(result.vertices.size());
-    const auto middle = [](const SceneVertex& a, const SceneVertex& b) {
-      return SceneVertex{0.5f * (a.position_m + b.position_m), glm::normalize(a.normal + b.normal)};
-    };
-    for (std::uint32_t t = 0; t < chunk.index_count; t += 3) {
-      std::array<SceneVertex, 6> corner;
-      for (std::uint32_t i = 0; i < 3; ++i)
-        corner[i] = scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + t + i]];
-      for (std::uint32_t i = 0; i < 3; ++i) corner[3 + i] = middle(corner[i], corner[(i + 1) % 3]);
-      const auto base = static_cast<std::uint32_t>(result.vertices.size()) - first_vertex;
-      result.vertices.insert(result.vertices.end(), corner.begin(), corner.end());
-      for (const std::uint32_t i : {0u, 3u, 5u, 3u, 1u, 4u, 5u, 4u, 2u, 3u, 4u, 5u}) result.indices.push_back(base + i);
-    }
-    chunk.first_index = first_index;
-    chunk.first_vertex = first_vertex;
-    chunk.index_count = static_cast<std::uint32_t>(result.indices.size()) - first_index;
-    chunk.vertex_count = static_cast<std::uint32_t>(result.vertices.size()) - first_vertex;
-    result.chunks.push_back(chunk);
-  }
-  return result;
-}
-
-}  // namespace
-
-Scene with_more_triangles(const Scene& scene, int times) {
-  Scene result = scene;
-  for (int i = 0; i < times; ++i) result = split(result);
-  return result;
-}
-
 Scene with_more_draws(const Scene& scene, std::size_t count) {
   constexpr double kCell_m = 96.0;  // side of the cells that chunks are gathered in (visual/gpu/scene_buffers.cpp)
   Scene result = scene;

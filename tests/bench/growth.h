@@ -8,9 +8,6 @@
 
 namespace phare::bench {
 
-/// The same surfaces from four times as many triangles, `times` times over.
-Scene with_more_triangles(const Scene& scene, int times);
-
 /// `count` posts more, each in a cell of the ground of its own and so a draw of two triangles, some pixels large:
 /// between 200 and 3000 m ahead of the origin, within 25° of x.
 Scene with_more_draws(const Scene& scene, std::size_t count);

@@ -27,6 +27,8 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"camera", "next", "camera driver"},
       {"view", "false-colour", "view false-colour"},
       {"view", "next", "view photo"},
+      {"method", "vertex-1998", "method vertex-1998"},
+      {"method", "next", "method fragment"},
       {"isolux_lx", "0.5, 2 8", "isolux_lx 0.5 2 8"},
       {"isolux_lx", "default", "isolux_lx 1 3 5 10 30 50 100"},
       {"exposure_per_cdm2", "0.25", "exposure_per_cdm2 0.25"},
@@ -61,6 +63,7 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
   const std::map<std::string, std::string> cases{
       {"camera roof", "camera: \"roof\" is none of driver, birds-eye, chase, next"},
       {"view lux", "view: \"lux\" is none of photo, false-colour, next"},
+      {"method gouraud", "method: \"gouraud\" is none of fragment, vertex, vertex-1998, next"},
       {"isolux_lx 3 1", "isolux_lx: the levels have to rise"},
       {"isolux_lx 1 2 3 4 5 6 7 8 9", "isolux_lx: at most 8 levels, not 9"},
       {"isolux_lx ,", "isolux_lx: expected at least one level"},

@@ -254,7 +254,8 @@ void record_fill(vk::CommandBuffer commands, Image& image, vk::Buffer from,
   turn(vk::ImageLayout::eTransferDstOptimal, Stage::eCopy, Access::eTransferWrite);
   commands.copyBufferToImage(from, *image.image, vk::ImageLayout::eTransferDstOptimal,
                              {static_cast<std::uint32_t>(copies.size()), copies.data()});
-  turn(vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader, Access::eShaderSampledRead);
+  turn(vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eVertexShader | Stage::eFragmentShader,
+       Access::eShaderSampledRead);
 }
 
 vk::raii::ShaderModule make_shader(const Device& device, std::span<const std::uint32_t> spirv) {

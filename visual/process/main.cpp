@@ -10,6 +10,7 @@
 #include "net/run_key.h"
 #include "visual/process/explain.h"
 #include "visual/process/run_loop.h"
+#include "visual/scene/refine.h"
 
 namespace {
 
@@ -115,6 +116,7 @@ int draw_channel(VisualOptions options) {
   drawing.window = window ? window->handle() : nullptr;
   Result<Renderer> renderer = Renderer::create(drawing);
   if (!renderer) return refuse(with_remedy(renderer.error()));
+  if (options.road_cuts > 0) scene = refined(*scene, options.road_cuts, is_ground);
   if (const Status loaded = renderer->load_scene(*scene); !loaded) return refuse(loaded.error());
 
   if (const Status key = take_run_key(*rig); !key) return refuse(key.error());

@@ -70,6 +70,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   options.samples = picture.samples;
   options.still_at_s = picture.still_at_s;
   options.desk = picture.desk;
+  options.road_cuts = picture.road_cuts;
   options.audit_every = picture.audit_every;
   options.beam_image = level_named(picture.beam_image);
   options.validation = picture.validation;

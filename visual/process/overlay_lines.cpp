@@ -35,6 +35,7 @@ std::string lux_line(const char* what, const Lamps& lamps, const OverlayMoment& 
 void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& channel, const VehicleState& pose) {
   input.camera = camera_of(desk.camera, channel, pose);
   input.view = desk.view;
+  input.method = desk.method;
   input.isolux_lx = desk.isolux_lx;
   input.exposure_per_cdm2 = desk.exposure_per_cdm2;
   input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = desk.depth_first;
@@ -69,6 +70,9 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
     std::istringstream effects(explain(*moment.effects, false));
     for (std::string line; std::getline(effects, line);) lines.push_back(line);
   }
+  if (desk.method != Method::kFragment)
+    lines.push_back("light by the method " + std::string(kMethodNames[static_cast<std::size_t>(desk.method)]) +
+                    ": the picture is not exact, lux in figures is");
   for (std::string& end : lamps.lit_table_ends()) lines.push_back(std::move(end));
   if (moment.road != RoadPlace::kThere) lines.push_back(road_end_line(moment.road));
   if (moment.pose_held) lines.emplace_back("POSE HELD: no VehicleState");

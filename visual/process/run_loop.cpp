@@ -183,6 +183,7 @@ void Loop::warm_up() {
   const VehicleState pose;
   FrameInput input;
   input.camera = overview_camera(s_.scene);
+  input.method = s_.desk.method;
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
   const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 1 : 1;
   int step = 0;

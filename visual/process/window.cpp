@@ -15,7 +15,7 @@ namespace {
 
 // The table speaks of keys by GLFW's numbers without knowing GLFW.
 static_assert(key::kEscape == GLFW_KEY_ESCAPE && key::kBackspace == GLFW_KEY_BACKSPACE && key::kF1 == GLFW_KEY_F1 &&
-              key::kF2 == GLFW_KEY_F2 && key::kF3 == GLFW_KEY_F3);
+              key::kF2 == GLFW_KEY_F2 && key::kF3 == GLFW_KEY_F3 && key::kF4 == GLFW_KEY_F4);
 static_assert(key::kUp == GLFW_KEY_UP && key::kDown == GLFW_KEY_DOWN && key::kLeft == GLFW_KEY_LEFT &&
               key::kRight == GLFW_KEY_RIGHT);
 

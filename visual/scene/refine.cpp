@@ -1,0 +1,65 @@
+#include "visual/scene/refine.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace phare {
+namespace {
+
+using Triangles = std::vector<std::uint32_t>;
+
+/// Cuts each triangle of `indices` once; `vertices` gains the middles of the sides.
+Triangles cut(std::span<const std::uint32_t> indices, std::vector<SceneVertex>& vertices) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto [found, fresh] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(vertices.size()));
+    if (fresh)
+      vertices.push_back({0.5f * (vertices[a].position_m + vertices[b].position_m),
+                          glm::normalize(vertices[a].normal + vertices[b].normal)});
+    return found->second;
+  };
+  Triangles finer;
+  finer.reserve(4 * indices.size());
+  for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {
+    const std::uint32_t a = indices[t], b = indices[t + 1], c = indices[t + 2];
+    const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    finer.insert(finer.end(), {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
+  }
+  return finer;
+}
+
+}  // namespace
+
+Scene refined(const Scene& scene, int times, const std::function<bool(const SceneMaterial&)>& which) {
+  Scene result;
+  result.file = scene.file;
+  result.content_hash = scene.content_hash;
+  result.materials = scene.materials;
+  for (SceneChunk chunk : scene.chunks) {
+    const auto index = scene.indices.begin() + chunk.first_index;
+    const auto vertex = scene.vertices.begin() + chunk.first_vertex;
+    Triangles indices(index, index + chunk.index_count);
+    std::vector<SceneVertex> vertices(vertex, vertex + chunk.vertex_count);
+    for (int i = 0; i < (which(scene.materials[chunk.material]) ? times : 0); ++i) indices = cut(indices, vertices);
+    chunk.first_index = static_cast<std::uint32_t>(result.indices.size());
+    chunk.first_vertex = static_cast<std::uint32_t>(result.vertices.size());
+    chunk.index_count = static_cast<std::uint32_t>(indices.size());
+    chunk.vertex_count = static_cast<std::uint32_t>(vertices.size());
+    result.indices.insert(result.indices.end(), indices.begin(), indices.end());
+    result.vertices.insert(result.vertices.end(), vertices.begin(), vertices.end());
+    result.chunks.push_back(chunk);
+  }
+  return result;
+}
+
+bool is_ground(const SceneMaterial& material) {
+  return material.surface == Surface::kAsphalt || material.surface == Surface::kGrass ||
+         material.surface == Surface::kPaint;
+}
+
+}  // namespace phare
