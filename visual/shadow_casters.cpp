@@ -29,7 +29,8 @@ TangentRect widest(const LampReach& reach, const glm::dmat3& world_from_image) {
   const double off_axis = std::acos(std::clamp(glm::dot(reach.cone.axis, world_from_image[0]), -1.0, 1.0));
   const double angle = off_axis + reach.cone.half_angle_rad;
   const double most = angle < std::atan(kWidestShadow) ? std::tan(angle) : kWidestShadow;
-  return {-most, most, -most, most};
+  const double high = std::min(most, kHighestShadow);
+  return {-most, most, -high, high};
 }
 
 /// A corner in the lamp's frame: forward, left, up. What lies beside the lamp or behind it counts as just ahead, so

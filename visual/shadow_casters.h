@@ -20,8 +20,9 @@ namespace phare {
 
 /// Nothing farther from a lamp than this casts a shadow.
 inline constexpr double kShadowsTo_m = 300.0;
-/// Tangent, along either axis of the lamp, beyond which nothing casts a shadow: 75° off its axis.
-inline constexpr double kWidestShadow = 3.73;
+/// Tangents to the left or right of the lamp's axis, and above or below it, beyond which nothing casts a shadow: 75°,
+/// and 45°. What stands higher beside a car is a crown in the last of its light, and would take texels from all else.
+inline constexpr double kWidestShadow = 3.73, kHighestShadow = 1.0;
 
 /// A part of what a lamp sees: tangents to the left and up, over the way forward.
 struct TangentRect {
