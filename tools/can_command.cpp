@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cockpit_io/can_log.h"
 #include "config/cockpit.h"
 #include "tools/can_tool.h"
 #include "tools/commands.h"
@@ -22,9 +23,10 @@ Result<Dbc> dbc_of(const std::string& file) {
 }
 
 Result<CandumpLog> log_of(const std::string& file) {
-  Result<CandumpLog> log = read_candump(file);
-  if (log) tell_problems(*log, std::cerr);
-  return log;
+  Result<CanLog> read = read_can_log(file);
+  if (!read) return read.error();
+  tell_problems(read->log, std::cerr);
+  return std::move(read->log);
 }
 
 int all_written() {
@@ -92,7 +94,7 @@ void add_can(CLI::App& app, Command& chosen) {
 
   CLI::App* decode = can->add_subcommand("decode", "What the frames of a log say, by a DBC file");
   decode->footer("Example:\n  phare can decode config/examples/stalk.log --dbc config/cockpits/phare_stalk.dbc --csv");
-  decode->add_option("log", options->log_file, "candump log")->required();
+  decode->add_option("log", options->log_file, "Log of candump, or ASC, BLF, TRC, MF4")->required();
   decode->add_option("--dbc", options->dbc_file, "DBC file")->required();
   decode->add_option("--signal", options->decode.signals, "Only this signal, or MESSAGE.SIGNAL; again for others");
   decode->add_flag("--csv", options->decode.csv, "t_s,message,signal,value,unit,name");
@@ -101,13 +103,13 @@ void add_can(CLI::App& app, Command& chosen) {
   CLI::App* check = can->add_subcommand("check", "Which control of a cockpit file a log moves, and when");
   check->footer("Example:\n  phare can check config/cockpits/phare_stalk.toml --log config/examples/stalk.log");
   check->add_option("cockpit", options->cockpit_file, "Cockpit file")->required();
-  check->add_option("--log", options->log_file, "candump log")->required();
+  check->add_option("--log", options->log_file, "Log of candump, or ASC, BLF, TRC, MF4")->required();
   check->add_option("--dbc", options->dbc_file, "DBC file [the cockpit file's]");
   check->callback([options, &chosen] { chosen = [options] { return can_check(*options); }; });
 
   CLI::App* crc = can->add_subcommand("crc", "Find which known checksum the messages of a log carry");
   crc->footer("Example:\n  phare can crc config/examples/stalk.log");
-  crc->add_option("log", options->log_file, "candump log")->required();
+  crc->add_option("log", options->log_file, "Log of candump, or ASC, BLF, TRC, MF4")->required();
   crc->callback([options, &chosen] { chosen = [options] { return can_crc(*options); }; });
 }
 
