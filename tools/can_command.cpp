@@ -63,6 +63,14 @@ int can_check(const CanOptions& options) {
   return all_written();
 }
 
+/// The signal that a DBC file needs for it, and the table of a cockpit file; for a check of one byte.
+void tell_check(const CrcFound& found) {
+  int byte = 0, end = 0;
+  if (std::sscanf(found.where.c_str(), "byte %d%n", &byte, &end) != 1) return;
+  std::cout << "     in the DBC file, under its BO_:    SG_ CRC : " << 8 * byte << "|8@1+ (1,0) [0|255] \"\" PHARE\n"
+            << "     in the cockpit file:    [check.MESSAGE], crc = \"CRC\", " << found.scheme << "\n";
+}
+
 int can_crc(const CanOptions& options) {
   const auto log = log_of(options.log_file);
   if (!log) return bad_input(log.error());
@@ -71,6 +79,7 @@ int can_crc(const CanOptions& options) {
     char id[16];
     std::snprintf(id, sizeof id, one.id.extended ? "%08X" : "%03X", one.id.id);
     std::cout << id << "  " << one.where << "  " << one.scheme << "  # " << one.frames << " different frames\n";
+    tell_check(one);
   }
   if (found.empty()) std::cout << "no known check fits any message of this log\n";
   return all_written();
