@@ -79,6 +79,10 @@ std::string remark(const std::string& out, const std::string& word) {
 
 }  // namespace
 
+bool reads_foreign_can_logs() {
+  return std::system((shell_word(python()) + " -c 'import can' >/dev/null 2>&1").c_str()) == 0;
+}
+
 bool is_foreign_can_log(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -25,4 +25,7 @@ Result<CanLog> read_can_log(const std::filesystem::path& file);
 /// Whether the ending of the name is one of those that python-can reads.
 bool is_foreign_can_log(const std::filesystem::path& file);
 
+/// Whether Python and python-can are there.
+bool reads_foreign_can_logs();
+
 }  // namespace phare

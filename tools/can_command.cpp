@@ -91,8 +91,7 @@ void add_can(CLI::App& app, Command& chosen) {
   CLI::App* can = app.add_subcommand("can", "CAN files: list a DBC file, decode a log, check a cockpit file");
   can->require_subcommand(1);
   can->footer(
-      "Logs are candump's. Others (Vector ASC and BLF, PEAK TRC, MF4) become one with python-can:\n"
-      "  python3 -m can.logconvert drive.blf drive.log\n"
+      "Logs are candump's; Vector ASC and BLF, PEAK TRC and MF4 are read through python-can (docs/driving.md).\n"
       "Example:\n  phare can list config/cockpits/phare_stalk.dbc");
   auto options = std::make_shared<CanOptions>();
 
