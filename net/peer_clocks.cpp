@@ -8,6 +8,16 @@
 #include "net/places.h"
 
 namespace phare {
+namespace {
+
+template <class Peers>
+auto* find_peer(Peers& peers, Sender sender, std::uint32_t channel) {
+  const auto found = std::ranges::find_if(
+      peers, [&](const auto& peer) { return sender_of(peer.role) == sender && peer.channel == channel; });
+  return found == peers.end() ? nullptr : &*found;
+}
+
+}  // namespace
 
 PeerClocks::PeerClocks(const Rig& rig, Role role, std::uint32_t channel) {
   const auto add = [&](Role other, std::uint32_t of, std::string name) {
@@ -40,14 +50,12 @@ ClockProbe PeerClocks::question(WallTime now) {
 }
 
 const PeerClocks::Peer* PeerClocks::peer_of(Sender sender, std::uint32_t channel) const {
-  const auto found = std::ranges::find_if(
-      peers_, [&](const Peer& peer) { return sender_of(peer.role) == sender && peer.channel == channel; });
-  return found == peers_.end() ? nullptr : &*found;
+  return find_peer(peers_, sender, channel);
 }
 
 void PeerClocks::answered(const ClockProbe& answer, Sender sender, std::uint32_t channel, WallTime answered_there,
                           WallTime heard, Time now) {
-  auto* peer = const_cast<Peer*>(peer_of(sender, channel));
+  Peer* const peer = find_peer(peers_, sender, channel);
   if (peer == nullptr) return;
   const auto open = std::ranges::find(peer->open, answer.asked);
   if (open == peer->open.end()) return;
