@@ -184,6 +184,11 @@ void CanSource::advance(Moment now, const VehicleState*, ControlSink& cockpit) {
   cockpit.take(input_, is_silent, now);
 }
 
+void CanSource::remember(Memory& memory) {
+  memory.field(input_);
+  map_.remember(memory);
+}
+
 void CanSource::send_back(const FeedbackValues& values, WallTime now) {
   if (!socket_ || !link_up_ || bus_ == BusState::kOff) return;
   for (const CanFrame& frame : feedback_.due(values, now.ns))

@@ -21,6 +21,7 @@ class CanSource : public Source {
   std::string status() const override;
   std::string fault() const override;
   bool sends_back() const override { return !feedback_.empty(); }
+  void remember(Memory& memory) override;
   void send_back(const FeedbackValues& values, WallTime now) override;
   std::vector<int> wait_fds() const override;
 

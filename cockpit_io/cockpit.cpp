@@ -56,6 +56,18 @@ void Cockpit::choose_design(std::uint32_t design_index, Moment now) {
   phare::choose_design(params_, design_index, now, switches_);
 }
 
+void Cockpit::remember(Memory& memory) {
+  memory.field(switches_);
+  memory.field(input_);
+  memory.field(speed_mps_);
+  memory.field(newest_);
+  memory.field(silent_since_);
+}
+
+void Cockpit::count_on_from(std::uint64_t light_changes) {
+  switches_.light_changes = std::max(switches_.light_changes, light_changes);
+}
+
 CockpitState Cockpit::state(std::int64_t frame_index, bool drive_ended) const {
   CockpitState state;
   state.frame_index = frame_index;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cockpit_io/driver_input.h"
+#include "cockpit_io/memory.h"
 #include "cockpit_io/switch_logic.h"
 #include "net/messages.h"
 
@@ -43,6 +44,10 @@ class Cockpit : public ControlSink {
   std::uint32_t design_index() const { return switches_.lights.design_index; }
   /// The newest recorded design that the rig does not have: left out, the one before it stays.
   std::optional<std::uint32_t> unknown_design() const { return unknown_design_; }
+  /// All that the controls have become: every latch of the switch logic, the chosen design, counts and stamps.
+  void remember(Memory& memory);
+  /// Counts on from a predecessor's changes of the lights, where the lights themselves have come by another way.
+  void count_on_from(std::uint64_t light_changes);
   std::uint64_t light_changes() const { return switches_.light_changes; }
   bool fail_safe() const { return switches_.fail_safe; }
 

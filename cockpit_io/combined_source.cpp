@@ -169,6 +169,21 @@ void CombinedSource::advance(Moment now, const VehicleState* vehicle, ControlSin
   for (const Child& child : children_) counts_ += child.source->counts();
 }
 
+/// What one of them plays again moves the switch logic again.
+bool CombinedSource::plays_again() const {
+  return std::any_of(children_.begin(), children_.end(),
+                     [](const Child& child) { return child.source->plays_again(); });
+}
+
+void CombinedSource::remember(Memory& memory) {
+  for (Child& child : children_) {
+    if (child.source->plays_again()) continue;
+    memory.field(child.input);
+    memory.field(child.silent);
+    child.source->remember(memory);
+  }
+}
+
 std::string CombinedSource::fault() const {
   for (const Child& child : children_) {
     if (std::string fault = child.source->fault(); !fault.empty()) return fault;

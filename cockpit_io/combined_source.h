@@ -42,6 +42,8 @@ class CombinedSource : public Source {
   explicit CombinedSource(std::vector<Part> parts);
 
   void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
+  bool plays_again() const override;
+  void remember(Memory& memory) override;
   bool ended() const override { return children_.front().source->ended(); }
   std::string status() const override { return children_.front().source->status(); }
   std::string fault() const override;

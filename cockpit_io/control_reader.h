@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "cockpit_io/driver_input.h"
+#include "cockpit_io/memory.h"
 #include "config/cockpit.h"
 
 namespace phare {
@@ -24,6 +25,12 @@ class ControlReader {
   bool take(double value, std::int64_t at_ns, BeamBits& bits, DriverInput& input);
 
   const ControlMapping& mapping() const { return mapping_; }
+
+  void remember(Memory& memory) {
+    memory.field(contact_);
+    memory.field(latched_);
+    memory.field(quiet_until_ns_);
+  }
 
  private:
   bool pressed(double value, std::int64_t at_ns);

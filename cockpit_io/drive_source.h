@@ -14,6 +14,7 @@ class DriveSource : public Source {
   static Result<std::unique_ptr<Source>> open(const std::filesystem::path& file);
 
   void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
+  bool plays_again() const override { return true; }
   bool ended() const override { return ended_; }
 
  private:

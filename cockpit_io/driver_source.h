@@ -59,6 +59,7 @@ class DriverSource : public Source {
   DriverSource(DriverScript script, std::vector<LanePoint> lane);
 
   void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
+  bool plays_again() const override { return true; }
   bool ended() const override { return ended_; }
 
   double station_m() const { return station_m_; }  ///< progress along the lane

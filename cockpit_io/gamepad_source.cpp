@@ -41,6 +41,13 @@ GamepadSource::GamepadSource(CockpitConfig config, Reader reader)
   }
 }
 
+void GamepadSource::remember(Memory& memory) {
+  memory.field(bits_);
+  memory.field(input_);
+  memory.field(last_ns_);
+  for (ControlReader& control : controls_) control.remember(memory);
+}
+
 void GamepadSource::advance(Moment now, const VehicleState*, ControlSink& cockpit) {
   const auto reading = read_();
   if (reading.has_value() != there_) {

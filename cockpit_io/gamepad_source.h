@@ -28,6 +28,7 @@ class GamepadSource : public Source {
   GamepadSource(CockpitConfig config, Reader reader);
 
   void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
+  void remember(Memory& memory) override;
   std::string status() const override { return there_ ? "up" : "down"; }
   std::string fault() const override { return there_ ? std::string() : "gamepad: not there"; }
 

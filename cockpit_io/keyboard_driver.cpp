@@ -143,6 +143,15 @@ bool KeyboardDriver::held(KeyAction action, Moment now) const {
   return window_held_[index(action)] || pad_.pressed[index(action)] || now.sim.ns < until_ns_[index(action)];
 }
 
+void KeyboardDriver::remember(Memory& memory) {
+  memory.field(input_);
+  memory.field(until_ns_);
+  memory.field(pad_rest_);
+  memory.field(pad_seen_);
+  memory.field(pad_drives_);
+  memory.field(newest_ns_);
+}
+
 void KeyboardDriver::pass(Moment now) {
   newest_ns_ = std::max(newest_ns_, now.sim.ns);
   input_.switches.flash = held(KeyAction::kFlash, now);

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "cockpit_io/cockpit.h"
+#include "cockpit_io/memory.h"
 #include "config/key_bindings.h"
 
 namespace phare {
@@ -42,6 +43,8 @@ class KeyboardDriver {
   void pass(Moment now);
   /// Moves wheel and pedals on.
   void advance(Moment now, ControlSink& cockpit);
+
+  void remember(Memory& memory);
 
   const DriverInput& input() const { return input_; }
   /// Goes on from what somebody else held: the demo driver gives the car back.

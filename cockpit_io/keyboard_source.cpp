@@ -11,6 +11,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "net/channels.h"
+
 namespace phare {
 
 namespace {
@@ -79,6 +81,19 @@ void KeyboardSource::take_keys(std::uint32_t channel, std::uint64_t start_id, co
   window_.take(channel, start_id, keys, received);
 }
 
+void KeyboardSource::remember(Memory& memory) {
+  keys_.remember(memory);
+  bool demo = demo_.has_value() && !demo_->ended();
+  memory.field(demo);
+  memory.field(persons_lights_);
+  if (memory.recalls()) demo_goes_on_ = demo;
+  for (std::uint32_t channel = 0; channel < kMaxChannels; ++channel) {
+    WindowKeys::Handled handled = window_.handled(channel);
+    memory.field(handled);
+    if (memory.recalls()) window_.go_on(channel, handled);
+  }
+}
+
 std::string KeyboardSource::driver() const {
   if (!demo_) return {};
   return demo_->ended() ? "demo ended" : "demo";
@@ -143,6 +158,12 @@ void KeyboardSource::change_hands(Moment now, const VehicleState* vehicle) {
   }
   const bool at_once = company_.demo_at_once && vehicle != nullptr;
   if (at_once) company_.demo_at_once = false;
+  if (demo_goes_on_ && vehicle != nullptr) {
+    const bool persons_lights = persons_lights_;
+    demo_goes_on_ = false;
+    begin_demo(now, vehicle);
+    persons_lights_ = persons_lights;
+  }
   if (pressed[static_cast<std::size_t>(KeyAction::kDemo)] || at_once) begin_demo(now, vehicle);
 }
 

@@ -37,6 +37,7 @@ class KeyboardSource : public Source {
   void take_keys(std::uint32_t channel, std::uint64_t start_id, const KeyInput& keys, WallTime received) override;
   /// As if the terminal had sent this; handled with the next advance().
   void take_terminal(std::string_view bytes) { typed_ += bytes; }
+  void remember(Memory& memory) override;
   std::string driver() const override;
   std::string fault() const override { return fault_; }
   std::vector<int> wait_fds() const override;
@@ -56,6 +57,7 @@ class KeyboardSource : public Source {
   KeyboardDriver keys_;
   WindowKeys window_;
   std::optional<DriverSource> demo_;  // has the wheel
+  bool demo_goes_on_ = false;         // it had the wheel of the cockpit before this one
   bool persons_lights_ = false;       // the person has moved a light switch since the demo driver took the wheel
   std::string fault_;
   std::int64_t fault_until_ns_ = 0, pad_read_ns_ = -1;

@@ -1,8 +1,10 @@
 #include "cockpit_io/learn.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 
 namespace phare {
 
@@ -56,7 +58,7 @@ std::optional<std::string> Learner::watch(Key key, std::uint64_t raw, const DbcS
   const auto [found, first] = watched_.try_emplace(key);
   Watched& w = found->second;
   if (first) {
-    w.raw = raw;
+    w.raw = w.at_rest = raw;
     // A signal that shows up only now is one that is sent when something moves.
     if (at_ns >= rest_ns_) ++w.values[raw];
     return std::nullopt;
@@ -86,7 +88,10 @@ std::vector<std::string> Learner::take(const CanFrame& frame, std::int64_t at_ns
   const auto show = [&](std::optional<std::string> line) {
     if (line) lines.push_back(std::move(*line));
   };
-  ids_.insert({frame.id, frame.extended});
+  const auto [heard, first] = ids_.try_emplace({frame.id, frame.extended}, Heard{frame.length, at_ns, 0});
+  heard->second.length = std::max<std::uint32_t>(heard->second.length, frame.length);
+  if (!first) heard->second.longest_ns = std::max(heard->second.longest_ns, at_ns - heard->second.last_ns);
+  heard->second.last_ns = at_ns;
   if (const DbcMessage* message = dbc_.find(frame.id, frame.extended)) {
     for (std::uint32_t i = 0; i < message->signals.size(); ++i) {
       const DbcSignal& signal = message->signals[i];
@@ -113,15 +118,13 @@ std::string level_value(const DbcSignal& signal, std::uint64_t raw) {
   return text;
 }
 
-/// What moved between more than two values is a lever or a switch with levels. Where it stood most is where it rests.
-std::string levels_text(const DbcSignal& signal, const std::map<std::uint64_t, int>& values) {
-  const auto rest =
-      std::max_element(values.begin(), values.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  std::string text = "levels = { neutral = " + level_value(signal, rest->first);
+/// What moved between more than two values is a lever or a switch with levels.
+std::string levels_text(const DbcSignal& signal, const std::map<std::uint64_t, int>& values, std::uint64_t rest) {
+  std::string text = "levels = { neutral = " + level_value(signal, rest);
   const bool lever = values.size() == 3;
   int number = 0;
   for (const auto& [raw, count] : values) {
-    if (raw == rest->first) continue;
+    if (raw == rest) continue;
     ++number;
     std::string level = lever ? (number == 1 ? "push" : "pull") : "LEVEL_" + std::to_string(number);
     // The DBC file may say itself which is which.
@@ -135,10 +138,20 @@ std::string levels_text(const DbcSignal& signal, const std::map<std::uint64_t, i
   return text + " }   # it rests at the first; put the levels of the control in place of the others\n";
 }
 
+/// The head of a cockpit file, and what may stand in it.
+std::string draft_of_source(const std::string& dbc_name) {
+  return "\n# A draft of the cockpit file; in place of NAME the control's (docs/cockpit-file.md):\n"
+         "#   light_switch: levels off, position, low, high, auto     beam_lever: levels neutral, push, pull, half\n"
+         "#   turn: levels none, left, right     gear: levels drive, neutral, reverse, park\n"
+         "#   flags: position, low, high, flash, fog_front, fog_rear, turn_left, turn_right, hazard, ignition, …\n"
+         "[source]\nkind = \"can\"\ninterface = \"can0\"\ndbc = \"" +
+         dbc_name + "\"\nalso = [\"keyboard.toml\"]   # keys, and a gamepad, for what this one has not\n";
+}
+
 }  // namespace
 
 std::vector<std::string> Learner::summary() const {
-  std::vector<std::pair<const Key*, const Watched*>> moved;
+  Moved moved;
   std::size_t restless = 0;
   for (const auto& [key, w] : watched_) {
     restless += w.restless ? 1 : 0;
@@ -162,16 +175,50 @@ std::vector<std::string> Learner::summary() const {
     }
     lines.push_back(line);
   }
-  bool drafted = false;
+  const auto draft = dbc_.messages.empty() ? draft_dbc(moved) : draft_cockpit(moved);
+  lines.insert(lines.end(), draft.begin(), draft.end());
+  return lines;
+}
+
+std::vector<std::string> Learner::draft_cockpit(const Moved& moved) const {
+  std::vector<std::string> lines;
   for (const auto& [key, w] : moved) {
     const DbcMessage* message = dbc_.find(key->id, key->extended);
     if (message == nullptr || w->values.size() > kMostValues) continue;
-    if (!drafted)
-      lines.push_back("\n# For the cockpit file; put the control's name in place of NAME (docs/cockpit-file.md):");
-    drafted = true;
+    if (lines.empty()) lines.push_back(draft_of_source(dbc_.file.filename().string()));
     const DbcSignal& signal = message->signals[key->index];
+    // Twice the longest pause; less than a fifth of a second a busy computer may miss.
+    const double longest_s = static_cast<double>(ids_.at({key->id, key->extended}).longest_ns) * 1e-9;
+    char timeout[96];
+    std::snprintf(timeout, sizeof timeout, "timeout_s = %.1f   # its longest pause was %.2f s\n",
+                  std::max(0.2, std::ceil(20.0 * longest_s) / 10.0), longest_s);
     lines.push_back("[control.NAME]\nmessage = \"" + message->name + "\"\nsignal = \"" + signal.name + "\"\n" +
-                    (w->values.size() > 2 ? levels_text(signal, w->values) : ""));
+                    (w->values.size() > 2 ? levels_text(signal, w->values, w->at_rest) : "") + timeout);
+  }
+  return lines;
+}
+
+std::vector<std::string> Learner::draft_dbc(const Moved& moved) const {
+  std::map<std::pair<std::uint32_t, bool>, std::set<std::uint32_t>> bits;
+  for (const auto& [key, w] : moved)
+    if (w->moves <= kMostMoves) bits[{key->id, key->extended}].insert(key->index);
+  std::vector<std::string> lines;
+  for (const auto& [id, of_message] : bits) {
+    if (lines.empty())
+      lines.push_back(
+          "\n# A draft of the DBC file: give the signals names of their own, and learn again with --dbc FILE.");
+    const std::uint32_t number = id.second ? id.first | 0x80000000u : id.first;
+    std::string text = "BO_ " + std::to_string(number) + " ID_" + id_text(id.first, id.second) + ": " +
+                       std::to_string(ids_.at(id).length) + " CAR\n";
+    for (auto bit = of_message.begin(); bit != of_message.end();) {
+      const std::uint32_t start = *bit;
+      std::uint32_t length = 0;
+      for (; bit != of_message.end() && *bit == start + length && *bit / 8 == start / 8; ++bit) ++length;
+      text += " SG_ BYTE" + std::to_string(start / 8) + "_BIT" + std::to_string(start % 8) + " : " +
+              std::to_string(start) + "|" + std::to_string(length) + "@1+ (1,0) [0|" +
+              std::to_string((1u << length) - 1u) + "] \"\" PHARE\n";
+    }
+    lines.push_back(text);
   }
   return lines;
 }

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "cockpit_io/can_log.h"
 #include "cockpit_io/can_socket.h"
 #include "cockpit_io/candump.h"
 #include "cockpit_io/gamepad_source.h"
@@ -38,8 +39,9 @@ double seconds_since(Clock::time_point start) {
 }
 
 int learn_from_log(const LearnOptions& options, Learner learner) {
-  const Result<CandumpLog> log = read_candump(options.log_file);
-  if (!log) return fail("phare-cockpit", log.error());
+  const Result<CanLog> read = read_can_log(options.log_file);
+  if (!read) return fail("phare-cockpit", read.error());
+  const CandumpLog* const log = &read->log;
   if (log->broken_lines > 0) {
     std::fprintf(stderr, "%s:%d: %s; %llu broken lines, the rest is used\n", options.log_file.c_str(),
                  log->problems.front().line, log->problems.front().reason.c_str(),

@@ -14,6 +14,7 @@ class LogSource : public Source {
   LogSource(CandumpLog log, SignalMap map);
 
   void advance(Moment now, const VehicleState* vehicle, ControlSink& cockpit) override;
+  bool plays_again() const override { return true; }
   bool ended() const override { return next_ == log_.entries.size(); }
   std::string status() const override;
   std::string fault() const override;

@@ -28,7 +28,7 @@ struct Options {
       log_level = "info";
   std::optional<std::uint16_t> port_base;
   bool lockstep = false, open_bus = false;
-  std::string demo_file, alive_file;
+  std::string demo_file, alive_file, state_file;
   bool demo_at_once = false, any_gamepad = false;
   double picture_within_s = 0.0;
   bool learn = false, gamepad = false;
@@ -107,6 +107,8 @@ int run(int argc, char** argv) {
   app.add_option("--seconds", options.seconds, "With --learn: end after so long")->needs(learn_flag);
   app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
   app.add_flag("--open-bus", options.open_bus, "No key of the run: anyone on this machine may speak on the bus");
+  app.add_option("--state", options.state_file,
+                 "File of this run in which the controls are kept, for a process that takes this one's place");
   app.add_option("--alive", options.alive_file,
                  "File that says, ten times a second and more, that this process is not hung");
   try {
@@ -140,7 +142,9 @@ int run(int argc, char** argv) {
   if (!ready) return fail("phare-cockpit", ready.error());
   if (stop) return kExitDone;  // before the drive has begun: nothing is written
 
-  CockpitProcess process(std::move(*bus), std::move(*source), *rig, std::move(*config), options.stats_file, stop);
+  CockpitProcess process(std::move(*bus), std::move(*source), *rig, std::move(*config), options.stats_file,
+                         options.state_file, stop);
+  if (const Status taken = process.take_up_state(); !taken) return fail("phare-cockpit", taken.error());
   if (options.lockstep) {
     process.run_lockstep();
   } else {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "cockpit_io/can_log.h"
 #include "cockpit_io/can_source.h"
 #include "cockpit_io/combined_source.h"
 #include "cockpit_io/drive_source.h"
@@ -33,8 +34,9 @@ Result<SignalMap> read_signals(const CockpitConfig& config, std::int64_t start_n
 
 Result<std::unique_ptr<Source>> open_log(const CockpitConfig& config) {
   if (config.input_file.empty()) return Error{config.file.string(), "names no log; give one with --log FILE"};
-  Result<CandumpLog> log = read_candump(config.input_file);
-  if (!log) return log.error();
+  Result<CanLog> read = read_can_log(config.input_file);
+  if (!read) return read.error();
+  CandumpLog* const log = &read->log;
   if (log->broken_lines > 0) {
     const CandumpProblem& first = log->problems.front();
     spdlog::warn("{}:{}: {}; {} broken lines, the rest is used", config.input_file.string(), first.line, first.reason,

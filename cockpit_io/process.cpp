@@ -61,7 +61,7 @@ double processor_s() {
 }  // namespace
 
 CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Rig& rig, CockpitConfig config,
-                               std::filesystem::path stats_file, StopFlag stop)
+                               std::filesystem::path stats_file, std::filesystem::path state_file, StopFlag stop)
     : bus_(std::move(bus)),
       rig_(rig),
       config_(std::move(config)),
@@ -69,6 +69,7 @@ CockpitProcess::CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Ri
       stop_(stop),
       cockpit_(new_cockpit()),
       verbs_(verbs()),
+      state_file_(std::move(state_file)),
       processor_before_s_(processor_s()) {
   take_source(std::move(source));
   const bool recorded = config_.source == SourceKind::kDrive || config_.source == SourceKind::kDriver ||
@@ -100,6 +101,7 @@ Verbs CockpitProcess::verbs() {
     if (design.index >= std::max<std::size_t>(rig_.designs.size(), 1))
       return refused(no_such_design(rig_, design.index));
     wanted_design_ = design.index;
+    design_by_hand_ = true;
     return accepted("");  // visual says when it shines
   });
   verbs.on<RigControl::Tell>([this](const auto&) {
@@ -131,6 +133,56 @@ void CockpitProcess::begin_anew() {
   take_source(std::move(*source));
   cockpit_ = new_cockpit();
   newest_ = {};
+}
+
+// ---- what a killed cockpit leaves behind
+
+void CockpitProcess::remember(Memory& memory) {
+  Before now{cockpit_.light_changes(), cockpit_.design_index(), design_by_hand_};
+  memory.field(now);
+  if (memory.recalls()) {
+    before_ = now;
+    design_by_hand_ = now.design_by_hand;
+  }
+  source_->remember(memory);
+  // A source that goes through everything again takes the switch logic with it; latches would turn twice.
+  if (source_->plays_again()) return;
+  memory.field(newest_);
+  memory.field(newest_stamp_);
+  cockpit_.remember(memory);
+}
+
+Status CockpitProcess::take_up_state() {
+  if (state_file_.empty()) return Done{};
+  Memory now;
+  remember(now);
+  Result<StateFile> opened = StateFile::open(state_file_, now.bytes().size());
+  if (!opened) return opened.error();
+  kept_.emplace(std::move(*opened));
+  const auto saved = kept_->newest();
+  if (!saved) return Done{};
+  Memory left(saved->state);
+  remember(left);
+  kept_next_ = saved->key + 1;
+  light_changes_sent_ = source_->plays_again() ? 0 : cockpit_.light_changes();
+  spdlog::info("going on with the controls that were left");
+  return Done{};
+}
+
+/// Before it is sent: whoever takes our place is never behind what others have seen.
+void CockpitProcess::leave_state() {
+  if (!kept_) return;
+  Memory now;
+  remember(now);
+  kept_->save(kept_next_++, std::span<const std::byte>(now.bytes()));
+}
+
+/// After a source has played again: what was chosen by hand beside it, and how often the lights had changed.
+void CockpitProcess::go_on_with_design(Moment now) {
+  if (!before_ || !source_->plays_again()) return;
+  const Before before = *std::exchange(before_, std::nullopt);
+  if (before.design_by_hand && !wanted_design_) cockpit_.choose_design(before.design_index, now);
+  cockpit_.count_on_from(before.light_changes);
 }
 
 // ---- real time
@@ -172,6 +224,7 @@ void CockpitProcess::send(SimTime time, std::int64_t frame) {
     state.source_stamp = newest_stamp_;
     state.source_fault = source_->fault();
   }
+  leave_state();
   bus_.send(time, state);
   if (!real_time_) return;
   const WallTime sent = wall_now();
@@ -227,6 +280,7 @@ void CockpitProcess::run_real_time(std::chrono::nanoseconds picture_within) {
     const Moment now = now_in_real_time();
     const auto* vehicle = bus_.newest<VehicleState>();
     evaluate(now, vehicle != nullptr ? &vehicle->value : nullptr);
+    if (vehicle != nullptr) go_on_with_design(now);
     send_back(now, vehicle != nullptr ? &vehicle->value : nullptr);
     const bool begun = picture_within.count() == 0 || vehicle != nullptr || Clock::now() - start_ > wait_for_car_;
     if (begun && (pacer.due() || cockpit_.light_changes() != light_changes_sent_)) send(now.sim, -1);
@@ -258,6 +312,7 @@ void CockpitProcess::run_lockstep() {
       sent = newest_frame_of_all(bus_);
       if (!sent) continue;
       for (std::int64_t frame = 0; frame <= *sent; ++frame) evaluate_frame(frame);
+      if (*sent >= 0) go_on_with_design({frame_time(*sent, rig_.frame_rate_hz), wall_now()});
       if (*sent >= 0 && !all_channels_at(bus_, *sent)) send(frame_time(*sent, rig_.frame_rate_hz), *sent);
       if (*sent >= 0) spdlog::info("going on after frame {}", *sent);
     }

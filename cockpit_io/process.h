@@ -18,14 +18,18 @@
 #include "net/clock.h"
 #include "net/control_desk.h"
 #include "net/scheduling.h"
+#include "net/state_file.h"
 
 namespace phare {
 
 class CockpitProcess {
  public:
-  /// `stats_file` may be empty: no statistics.
+  /// `stats_file` may be empty: no statistics; `state_file` too: nothing is left for a successor.
   CockpitProcess(Bus bus, std::unique_ptr<Source> source, const Rig& rig, CockpitConfig config,
-                 std::filesystem::path stats_file, StopFlag stop);
+                 std::filesystem::path stats_file, std::filesystem::path state_file, StopFlag stop);
+
+  /// Opens the state file, and takes up what a predecessor has left in it.
+  Status take_up_state();
   CockpitProcess(const CockpitProcess&) = delete;
   CockpitProcess& operator=(const CockpitProcess&) = delete;
 
@@ -43,6 +47,9 @@ class CockpitProcess {
   Verbs verbs();
   void take_source(std::unique_ptr<Source> source);
   void begin_anew();
+  void remember(Memory& memory);
+  void leave_state();
+  void go_on_with_design(Moment now);
   Moment now_in_real_time();
   void evaluate(Moment now, const VehicleState* vehicle);
   void send(SimTime time, std::int64_t frame);
@@ -72,6 +79,16 @@ class CockpitProcess {
   bool paused_ = false;
   bool seek_ = false;
   std::optional<std::uint32_t> wanted_design_;
+  bool design_by_hand_ = false;  // somebody has chosen it, beside the source
+  std::filesystem::path state_file_;
+  std::optional<StateFile> kept_;
+  std::int64_t kept_next_ = 0;
+  struct Before {  // of the cockpit before this one, whose source plays again
+    std::uint64_t light_changes = 0;
+    std::uint32_t design_index = 0;
+    bool design_by_hand = false;
+  };
+  std::optional<Before> before_;
   Clock::time_point start_ = Clock::now();
   std::chrono::nanoseconds wait_for_car_{};  ///< then simulated time runs by the wall clock alone
   Clock::time_point next_stats_{};

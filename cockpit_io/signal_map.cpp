@@ -184,6 +184,14 @@ SignalMap::Read SignalMap::read(BoundControl& control, const DbcMessage& message
   return Read::kUnknown;
 }
 
+void SignalMap::remember(Memory& memory) {
+  memory.field(bits_);
+  for (BoundMessage& message : messages_) {
+    memory.field(message.last_ns);
+    for (BoundControl& control : message.controls) control.reader.remember(memory);
+  }
+}
+
 const SignalMap::BoundMessage* SignalMap::first_silent() const {
   const auto first = std::min_element(messages_.begin(), messages_.end(), [](const auto& a, const auto& b) {
     return a.last_ns + a.timeout_ns < b.last_ns + b.timeout_ns;

@@ -39,6 +39,9 @@ class SignalMap {
   /// The name of that message.
   const std::string& most_silent() const;
 
+  /// Latches, and when each message was heard.
+  void remember(Memory& memory);
+
   bool knows(const CanFrame& frame) const;
   std::vector<CanId> ids() const;
   const Dbc& dbc() const { return dbc_; }

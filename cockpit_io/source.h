@@ -9,6 +9,7 @@
 
 #include "cockpit_io/cockpit.h"
 #include "cockpit_io/feedback.h"
+#include "cockpit_io/memory.h"
 #include "config/cockpit.h"
 #include "config/result.h"
 #include "net/messages.h"
@@ -50,6 +51,14 @@ class Source {
 
   /// One word for the statistics: "up", "down", "silent", "ended".
   virtual std::string status() const { return ended() ? "ended" : "up"; }
+
+  /// Goes through everything again from the start of the drive by itself (a log, a drive, a script): nothing needs to
+  /// be remembered of it.
+  virtual bool plays_again() const { return false; }
+
+  /// What is latched and what was said last, of a source that cannot be asked again: left with every datagram, taken up
+  /// by the cockpit that takes the place of one that was killed. Always of the same size for the same cockpit file.
+  virtual void remember(Memory&) {}
 
   /// What is wrong, for the driver's eye: "can0: link down"; empty when nothing is.
   virtual std::string fault() const { return {}; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "config/cockpit_control.h"
+#include "config/paths.h"
 #include "config/rig.h"
 #include "config/toml_table.h"
 
@@ -130,7 +131,11 @@ void read_source(TomlTable source, CockpitConfig& config) {
   config.debounce_s = source.number_or("debounce_s", config.debounce_s, 0.0, 1.0);
   config.default_light = static_cast<int>(source.choice_or("lights", 0, kLightSwitchNames));
   for (const std::string& file : source.texts_or_empty("also")) {
-    config.also.push_back(resolve_path(file, source.file()));
+    std::filesystem::path beside = resolve_path(file, source.file());
+    // One's own file lies anywhere; what stands beside its stalk is mostly one of ours.
+    const std::filesystem::path shipped = config_dir() / "cockpits" / file;
+    if (!std::filesystem::exists(beside) && std::filesystem::exists(shipped)) beside = shipped;
+    config.also.push_back(std::move(beside));
   }
   if (config.also.size() >= kMostSources) source.fail("also", "at most 7 further sources");
 }

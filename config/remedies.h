@@ -10,6 +10,8 @@ namespace phare {
 inline constexpr const char* kVulkanRemedy = "apt-get install mesa-vulkan-drivers (draws without a GPU)";
 inline constexpr const char* kValidationRemedy = "apt-get install vulkan-validationlayers";
 inline constexpr const char* kVideoRemedy = "apt-get install ffmpeg";
+inline constexpr const char* kCanLogRemedy =
+    "apt-get install python3-can (MF4: pip install python-can asammdf in a venv, and PHARE_PYTHON=VENV/bin/python)";
 inline constexpr const char* kReferenceRemedy =
     "apt-get install libsundials-dev and cmake --preset release before the next ./phare";
 inline constexpr const char* kDisplayRemedy = "apt-get install xvfb xauth, and xvfb-run, for a virtual one";

@@ -62,6 +62,7 @@ ChannelConfig read_channel(TomlTable table, std::size_t index) {
   channel.eye_m = vector3(table.numbers_or("eye_m", std::array{channel.eye_m.x, channel.eye_m.y, channel.eye_m.z}));
   channel.yaw_rad = degrees(table, "yaw_deg", -180.0, 180.0);
   channel.pitch_rad = degrees(table, "pitch_deg", -89.0, 89.0);
+  channel.place = read_bus_place(table);
   return channel;
 }
 
@@ -192,6 +193,9 @@ Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
   rig.cockpit_file = resolve_path(root.text("cockpit"), rig_file);
   if (auto bus = root.table_if("bus")) {
     rig.bind_address = bus->text_or("address", rig.bind_address);
+    if (!is_ipv4(rig.bind_address))
+      bus->fail("address", "\"" + rig.bind_address + "\" is not an IPv4 address such as 10.0.0.2");
+    rig.places = read_bus_places(*bus);
     rig.port_base = static_cast<std::uint16_t>(bus->integer_or("port_base", rig.port_base, 1024, 65500));
     rig.run_key = bus->flag_or("run_key", rig.run_key);
     const std::string key_file = bus->text_or("key_file", "");
@@ -202,9 +206,6 @@ Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
         rig.bus_key = *key;
       else
         reading.problems.push_back(key.error());
-    } else if (!rig.bind_address.starts_with("127.")) {
-      bus->fail("address",
-                "off loopback (127.…) a key_file is required: 64 hexadecimal digits, as of openssl rand -hex 32");
     }
   }
   if (auto clock = root.table_if("clock")) {
@@ -227,6 +228,11 @@ Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
   for (TomlTable channel : root.tables("channel")) rig.channels.push_back(read_channel(channel, rig.channels.size()));
   for (TomlTable design : root.tables("design")) rig.designs.push_back(read_design(design, rig_file));
 
+  if (rig.key_file.empty() && off_loopback(rig)) {
+    TomlTable bus = root.table_if("bus").value_or(root);
+    bus.fail("address",
+             "off loopback (127.…) a key_file is required: 64 hexadecimal digits, as of openssl rand -hex 32");
+  }
   if (auto desk = root.table_if("desk")) read_desk(*desk, rig.designs.size(), rig.desk);
 
   if (rig.channels.empty()) root.fail("channel", "a rig needs at least one [[channel]]");

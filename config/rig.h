@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "config/bus_key.h"
+#include "config/bus_places.h"
 #include "config/desk.h"
 #include "config/result.h"
 #include "shaders/sizes.h"
@@ -90,6 +91,7 @@ struct ChannelConfig {
   glm::dvec3 eye_m{1.6, 0.37, 1.22};  ///< car frame
   double yaw_rad = 0.0;               ///< > 0 left
   double pitch_rad = 0.0;             ///< > 0 up
+  BusPlace place{};                   ///< the machine that draws it
 
   bool operator==(const ChannelConfig&) const = default;
 };
@@ -97,7 +99,8 @@ struct ChannelConfig {
 struct Rig {
   std::filesystem::path file;
   std::string name;
-  std::string bind_address = "127.0.0.1";
+  std::string bind_address = "127.0.0.1";  ///< of every process that has no place of its own below
+  BusPlaces places{};
   std::uint16_t port_base = 47000;
   std::optional<BusKey> bus_key{};     ///< of [bus] key_file: 64 hexadecimal digits; required off loopback
   std::filesystem::path key_file{};    ///< resolved; empty: none
@@ -118,6 +121,11 @@ struct Rig {
 
   bool operator==(const Rig&) const = default;
 };
+
+/// Every address of the rig's bus that is named.
+std::vector<std::string> bus_addresses(const Rig& rig);
+/// Whether any of them lies beyond this machine (not 127.…): a key is required then.
+bool off_loopback(const Rig& rig);
 
 /// Reads and checks a rig file. Every key is checked; an unknown one is an error that names the nearest known key.
 Result<Rig> read_rig(const std::filesystem::path& file);

@@ -77,6 +77,7 @@ class RigText {
     key("port_base", std::to_string(rig_.port_base), "first UDP port");
     if (!rig_.key_file.empty()) key("key_file", path(rig_.key_file));
     if (!rig_.run_key) key("run_key", "false", "anyone on this machine may speak on the bus");
+    write(rig_.places);
     out_ << "\n[clock]\n";
     key("frame_rate_hz", std::to_string(rig_.frame_rate_hz));
     key("real_time_priority", rig_.real_time_priority ? "true" : "false", "of cockpit and dynamics, in real time");
@@ -123,6 +124,23 @@ class RigText {
     }
   }
 
+  void write(const BusPlace& place) {
+    if (!place.bind.empty()) key("bind", toml_quoted(place.bind));
+    if (!place.send_to.empty()) key("send_to", toml_quoted(place.send_to));
+  }
+
+  void write(const BusPlaces& places) {
+    const auto table = [&](const char* name, const BusPlace& place) {
+      if (place == BusPlace{}) return;
+      out_ << "\n[bus." << name << "]\n";
+      write(place);
+    };
+    table("cockpit", places.cockpit);
+    table("dynamics", places.dynamics);
+    table("recorder", places.recorder);
+    table("control", places.control);
+  }
+
   void write(const Desk& desk) {
     bool begun = false;
     for (const DeskCommand& command : difference(desk)) {
@@ -142,6 +160,7 @@ class RigText {
     key("eye_m", vector_word(channel.eye_m), "in the car, as the lamps below");
     if (channel.yaw_rad != 0.0) key("yaw_deg", degrees_word(channel.yaw_rad));
     if (channel.pitch_rad != 0.0) key("pitch_deg", degrees_word(channel.pitch_rad));
+    write(channel.place);
   }
 
   void write(const DesignConfig& design, std::size_t index) {

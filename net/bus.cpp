@@ -8,6 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "net/places.h"
+
 namespace phare {
 namespace {
 
@@ -46,8 +48,10 @@ Status check_rig(const Rig& rig) {
   if (channels > kMaxChannels) {
     return Error{place, std::to_string(channels) + " channels, at most " + std::to_string(kMaxChannels)};
   }
-  if (!rig.bind_address.starts_with("127.") && !rig.bus_key) {
-    return Error{place, "bind address " + rig.bind_address + " lies off loopback: a key is required there"};
+  for (const std::string& address : bus_addresses(rig)) {
+    if (!is_ipv4(address)) return Error{place, address + " is not an IPv4 address such as 127.0.0.1"};
+    if (!address.starts_with("127.") && !rig.bus_key)
+      return Error{place, address + " lies off loopback: a key_file is required there"};
   }
   if (rig.port_base > 65535 - kMaxPortOffset) {
     return Error{place, "port base " + std::to_string(rig.port_base) + " leaves no room for " +
@@ -66,7 +70,7 @@ Result<Bus> Bus::open(const Rig& rig, Role role, std::uint32_t channel) {
   }
   if (const Status fine = check_rig(rig); !fine) return fine.error();
   const auto port = static_cast<std::uint16_t>(rig.port_base + port_offset(role, channel));
-  Result<UdpSocket> socket = UdpSocket::open(rig.bind_address, port);
+  Result<UdpSocket> socket = UdpSocket::open(address_to_bind(rig, role, channel), port);
   if (!socket) return socket.error();
   if (!socket->filter_in_kernel(Seal(rig.bus_key).tag_bytes()))
     spdlog::debug("no socket filter in this kernel: garbage is refused by the process itself");
@@ -75,7 +79,8 @@ Result<Bus> Bus::open(const Rig& rig, Role role, std::uint32_t channel) {
 
 Result<Bus> Bus::open_to_send(const Rig& rig, Role role) {
   if (const Status fine = check_rig(rig); !fine) return fine.error();
-  Result<UdpSocket> socket = UdpSocket::open(rig.bind_address, 0);
+  // Answers go to where the question came from: the kernel chooses the address that leads there.
+  Result<UdpSocket> socket = UdpSocket::open(off_loopback(rig) ? "0.0.0.0" : address_to_bind(rig, role), 0);
   if (!socket) return socket.error();
   return Bus(std::move(*socket), rig, role, 0);
 }
@@ -86,13 +91,13 @@ Bus::Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel)
       role_(role),
       channel_(channel),
       channels_(static_cast<std::uint32_t>(std::max<std::size_t>(rig.channels.size(), 1))),
-      port_base_(rig.port_base),
       start_id_(draw_start_id()),
       next_log_(std::chrono::steady_clock::now()) {
-  if (rig.bus_key) {
-    const bool one_machine = rig.bind_address.starts_with("127.");
-    replays_.emplace(one_machine ? Replays::kOneClock : Replays::kClocksApart);
-  }
+  if (rig.bus_key) replays_.emplace(off_loopback(rig) ? Replays::kClocksApart : Replays::kOneClock);
+  for (const Role each : kAllRoles)
+    for (std::uint32_t of = 0; of < (each == Role::kVisual ? channels_ : 1); ++of)
+      endpoints_[static_cast<std::size_t>(each)].push_back(endpoint_of(rig, each, of));
+  if (has_places(rig) && channel_of<ClockProbe>().receivers.has(role)) clocks_.emplace(rig, role, channel);
   std::get<std::vector<Inbox<CockpitState>>>(inboxes_).resize(1);
   std::get<std::vector<Inbox<VehicleState>>>(inboxes_).resize(1);
   std::get<std::vector<Inbox<FrameReport>>>(inboxes_).resize(channels_);
@@ -109,7 +114,7 @@ void Bus::send(SimTime now, const Payload& payload) {
 
 void Bus::answer(SimTime now, const Payload& payload) {
   if (!encode_next(now, payload)) return;
-  if (!socket_.send_to(socket_.from().port, bytes_of(last_bytes_[payload.index()]))) ++counters_.send_failures;
+  if (!socket_.send_to(socket_.from(), bytes_of(last_bytes_[payload.index()]))) ++counters_.send_failures;
 }
 
 /// Numbers, stamps and encodes into last_bytes_; false, counted and logged, when no receiver would take it.
@@ -144,8 +149,8 @@ void Bus::send_again(std::size_t payload_index) {
 void Bus::transmit(std::size_t payload_index) {
   const Channel& row = kChannels[payload_index];
   const auto send_to = [&](Role role, std::uint32_t channel) {
-    const auto port = static_cast<std::uint16_t>(port_base_ + port_offset(role, channel));
-    if (!socket_.send_to(port, bytes_of(last_bytes_[payload_index]))) ++counters_.send_failures;
+    const Endpoint& to = endpoints_[static_cast<std::size_t>(role)][channel];
+    if (!socket_.send_to(to, bytes_of(last_bytes_[payload_index]))) ++counters_.send_failures;
   };
   for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl}) {
     if (row.receivers.has(role)) send_to(role, 0);
@@ -158,6 +163,7 @@ void Bus::transmit(std::size_t payload_index) {
 
 std::size_t Bus::poll() {
   if (alive_) alive_->beat();
+  if (clocks_) ask_clocks();
   std::size_t news = 0;
   const std::int64_t give_up_ns = cpu_now_ns() + kMaxPollCpu_ns;
   for (std::size_t count = 1; count <= kMaxDatagramsPerPoll; ++count) {
@@ -176,41 +182,72 @@ std::size_t Bus::poll() {
   return news;
 }
 
-bool Bus::accept(std::span<const std::byte> sealed) {
+/// Decodes into incoming_; what it is refused for, if anything.
+Refusal Bus::judge(std::span<const std::byte> sealed, std::span<const std::byte>& bytes) {
   const auto opened = seal_.open(sealed);
-  if (!opened) {
-    refuse(Refusal::kKey);
-    return false;
+  if (!opened) return Refusal::kKey;
+  bytes = *opened;
+  if (const Refusal refusal = decode_into(bytes, incoming_); refusal != Refusal::kNone) return refusal;
+  const Channel& row = kChannels[incoming_.payload.index()];
+  const bool for_us =
+      row.receivers.has(role_) && !(row.first_visual_only && channel_ != 0) && incoming_.sender_channel < channels_;
+  return for_us ? Refusal::kNone : Refusal::kNotForUs;
+}
+
+/// Answers a question; of an answer learns how the sender's clock stands. Of whatever age: a question costs an answer,
+/// and an answer is taken once, to a question of ours.
+void Bus::take_clock(const ClockProbe& probe, const ArrivalTime& arrived) {
+  ++counters_.received[kPayloadIndex<ClockProbe>].received;
+  if (probe.heard.ns == 0) {
+    answer(incoming_.sim_time, ClockProbe{probe.asked, arrived.wall});
+  } else if (clocks_) {
+    clocks_->answered(probe, incoming_.sender, incoming_.sender_channel, incoming_.sent, arrived.wall, arrived.steady);
   }
-  const std::span<const std::byte> bytes = *opened;
-  if (const Refusal refusal = decode_into(bytes, incoming_); refusal != Refusal::kNone) {
+}
+
+void Bus::ask_clocks() {
+  const std::vector<Endpoint> asked = clocks_->due(std::chrono::steady_clock::now());
+  if (asked.empty() || !encode_next(SimTime{}, clocks_->question(wall_now()))) return;
+  for (const Endpoint& endpoint : asked)
+    if (!socket_.send_to(endpoint, bytes_of(last_bytes_[kPayloadIndex<ClockProbe>]))) ++counters_.send_failures;
+}
+
+bool Bus::accept(std::span<const std::byte> sealed) {
+  std::span<const std::byte> bytes;
+  if (const Refusal refusal = judge(sealed, bytes); refusal != Refusal::kNone) {
     refuse(refusal);
     return false;
   }
-  const std::size_t index = incoming_.payload.index();
-  const Channel& row = kChannels[index];
-  const bool for_us =
-      row.receivers.has(role_) && !(row.first_visual_only && channel_ != 0) && incoming_.sender_channel < channels_;
-  if (!for_us) {
-    refuse(Refusal::kNotForUs);
+  const ArrivalTime arrived = socket_.arrived();
+  if (const auto* probe = std::get_if<ClockProbe>(&incoming_.payload)) {
+    take_clock(*probe, arrived);
     return false;
   }
-  const ArrivalTime arrived = socket_.arrived();
-  if (replays_ && replays_->is_replay(incoming_, arrived.wall)) {
+  const std::int64_t ahead_ns =
+      clocks_ ? clocks_->ahead_ns(incoming_.sender, incoming_.sender_channel, arrived.steady) : 0;
+  if (replays_ && replays_->is_replay(incoming_, WallTime{arrived.wall.ns + ahead_ns})) {
     refuse(Refusal::kReplay);
     return false;
   }
+  const WallTime sent_there = incoming_.sent;
+  if (ahead_ns != 0) to_our_clock(incoming_, ahead_ns);
+  const std::size_t index = incoming_.payload.index();
+  const Channel& row = kChannels[index];
 
   const Arrival arrival = std::visit(
       [&](const auto& payload) {
         using T = std::decay_t<decltype(payload)>;
-        auto& inbox = std::get<std::vector<Inbox<T>>>(inboxes_)[incoming_.sender_channel];
-        InboxCounters& sum = counters_.received[index];
-        const InboxCounters before = inbox.counters();
-        const Arrival judged = inbox.deliver(incoming_, payload, arrived, socket_.from(), row.repeat_is_news);
-        sum += inbox.counters();
-        sum -= before;
-        return judged;
+        if constexpr (std::is_same_v<T, ClockProbe>) {
+          return Arrival::kLate;  // never comes here
+        } else {
+          auto& inbox = std::get<std::vector<Inbox<T>>>(inboxes_)[incoming_.sender_channel];
+          InboxCounters& sum = counters_.received[index];
+          const InboxCounters before = inbox.counters();
+          const Arrival judged = inbox.deliver(incoming_, payload, arrived, socket_.from(), row.repeat_is_news);
+          sum += inbox.counters();
+          sum -= before;
+          return judged;
+        }
       },
       incoming_.payload);
   if (arrival == Arrival::kSecond) {
@@ -218,7 +255,7 @@ bool Bus::accept(std::span<const std::byte> sealed) {
     refuse(Refusal::kSecond);
     return false;
   }
-  if (replays_) replays_->taken(incoming_);
+  if (replays_) replays_->taken(incoming_, sent_there);
   if (arrival == Arrival::kNewest) {
     if (on_datagram) on_datagram(incoming_, bytes);
     return true;

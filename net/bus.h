@@ -21,6 +21,7 @@
 #include "net/channels.h"
 #include "net/inbox.h"
 #include "net/messages.h"
+#include "net/peer_clocks.h"
 #include "net/seal.h"
 #include "net/udp.h"
 #include "net/wire.h"
@@ -43,10 +44,11 @@ class Bus {
   using Newest = phare::Newest<T>;
 
   /// Binds the port of `role` (and `channel`, for a visual process). Error when it is taken, when the rig has no such
-  /// channel, or when rig.bind_address lies off loopback and rig has no key.
+  /// channel, or when an address of its bus lies off loopback and it has no key.
   static Result<Bus> open(const Rig& rig, Role role, std::uint32_t channel = 0);
 
-  /// For one who speaks beside whoever holds the port of the role: bound to any free port, it hears only answers.
+  /// For one who speaks beside whoever holds the port of the role: bound to any free port, it hears only answers. Off
+  /// loopback it may do so from any machine that has the key.
   static Result<Bus> open_to_send(const Rig& rig, Role role);
 
   /// Numbers, stamps and encodes the payload and sends it to every receiver of its row in kChannels. A payload that no
@@ -100,12 +102,16 @@ class Bus {
   std::uint64_t start_id() const { return start_id_; }
   Role role() const { return role_; }
   std::uint32_t channel() const { return channel_; }
-  std::uint32_t channels() const { return channels_; }  ///< visual processes of the rig
+  std::uint32_t channels() const { return channels_; }                 ///< visual processes of the rig
+  const std::optional<PeerClocks>& clocks() const { return clocks_; }  ///< where processes have places of their own
 
  private:
   Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel);
 
   bool accept(std::span<const std::byte> bytes);
+  Refusal judge(std::span<const std::byte> sealed, std::span<const std::byte>& bytes);
+  void take_clock(const ClockProbe& probe, const ArrivalTime& arrived);
+  void ask_clocks();
   void refuse(Refusal refusal);
   bool encode_next(SimTime now, const Payload& payload);
   void transmit(std::size_t payload_index);
@@ -118,7 +124,8 @@ class Bus {
   Role role_;
   std::uint32_t channel_;
   std::uint32_t channels_;
-  std::uint16_t port_base_;
+  std::array<std::vector<Endpoint>, kAllRoles.size()> endpoints_;  // by role and channel
+  std::optional<PeerClocks> clocks_;
   std::uint64_t start_id_;
 
   std::tuple<std::vector<Inbox<CockpitState>>, std::vector<Inbox<VehicleState>>, std::vector<Inbox<FrameReport>>,

@@ -17,6 +17,8 @@ namespace phare {
 
 /// The processes of a rig. The recorder listens and never sends.
 enum class Role { kCockpit, kDynamics, kRecorder, kControl, kVisual };
+inline constexpr std::array<Role, 5> kAllRoles{Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl,
+                                               Role::kVisual};
 
 /// Most visual channels a rig may have.
 inline constexpr std::uint32_t kMaxChannels = 16;
@@ -72,7 +74,7 @@ struct Channel {
 /// In the order of the alternatives of Payload.
 /// CockpitState goes stale when 20 are missing: pedals fade, low beam stays on. VehicleState goes stale when 50 are
 /// missing: until then the picture coasts, then it holds and says so.
-inline constexpr std::array<Channel, 8> kChannels{{
+inline constexpr std::array<Channel, 9> kChannels{{
     // clang-format off
     // message          sender             receivers                                                                first  Hz   stale after                    repeat
     {"cockpit_state",   Sender::kCockpit,  Roles(Role::kDynamics, Role::kVisual, Role::kRecorder),                   false, 100, std::chrono::milliseconds(200), false},
@@ -83,6 +85,7 @@ inline constexpr std::array<Channel, 8> kChannels{{
     {"probe_reply",     Sender::kVisual,   Roles(Role::kControl, Role::kRecorder),                                   false, 0,   std::chrono::seconds(0),        false},
     {"key_input",       Sender::kVisual,   Roles(Role::kCockpit, Role::kControl),                                    false, 0,   std::chrono::seconds(1),        false},
     {"control_reply",   Sender::kCockpit,  Roles(Role::kControl),                                                    false, 0,   std::chrono::seconds(0),        false, true, true},
+    {"clock_probe",     Sender::kCockpit,  Roles(Role::kCockpit, Role::kDynamics, Role::kVisual),                    false, 1,   std::chrono::seconds(0),        false, true, true},
     // clang-format on
 }};
 static_assert(kChannels.size() == std::variant_size_v<Payload>);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 
 namespace phare {
@@ -24,8 +26,18 @@ void on_stop_signal(int) {
 
 }  // namespace
 
+std::int64_t wall_shift_ns() {
+  static const std::int64_t shift_ns = [] {
+    const char* text = std::getenv("PHARE_CLOCK_OFFSET_MS");
+    constexpr double kMost_ms = 1e12;  // thirty years: no stamp leaves its range
+    const double ms = text == nullptr ? 0.0 : std::clamp(std::strtod(text, nullptr), -kMost_ms, kMost_ms);
+    return std::isfinite(ms) ? static_cast<std::int64_t>(ms * 1e6) : 0;
+  }();
+  return shift_ns;
+}
+
 WallTime wall_now() {
-  return WallTime{now_of(CLOCK_REALTIME)};
+  return WallTime{now_of(CLOCK_REALTIME) + wall_shift_ns()};
 }
 
 Pacer::Pacer(std::chrono::nanoseconds period)

@@ -197,8 +197,16 @@ struct ControlReply {
   friend bool operator==(const ControlReply&, const ControlReply&) = default;
 };
 
-using Payload =
-    std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply, KeyInput, ControlReply>;
+/// What a clock shows, asked and answered (net/peer_clock.h).
+struct ClockProbe {
+  WallTime asked;  ///< by the clock of who asks
+  WallTime heard;  ///< by the clock of who answers, when the question came; 0: this is the question
+
+  friend bool operator==(const ClockProbe&, const ClockProbe&) = default;
+};
+
+using Payload = std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply, KeyInput,
+                             ControlReply, ClockProbe>;
 
 /// The envelope every payload travels in.
 struct Datagram {

@@ -35,10 +35,10 @@ bool Replays::is_replay(const Datagram& datagram, WallTime arrived) {
   return seen.start_id != 0 && seen.start_id != datagram.start_id && datagram.sent <= seen.newest;
 }
 
-void Replays::taken(const Datagram& datagram) {
+void Replays::taken(const Datagram& datagram, WallTime sent) {
   if (kChannels[datagram.payload.index()].many_starts) return;  // is_replay_of_many has noted it
   Seen& seen = streams_[{datagram.payload.index(), datagram.sender_channel}];
-  seen.newest = seen.start_id == datagram.start_id ? std::max(seen.newest, datagram.sent) : datagram.sent;
+  seen.newest = seen.start_id == datagram.start_id ? std::max(seen.newest, sent) : sent;
   seen.start_id = datagram.start_id;
 }
 

@@ -50,9 +50,10 @@ class Replays {
   /// `apart`: most that may lie between sending and arriving, either way.
   explicit Replays(std::chrono::nanoseconds apart) : apart_(apart) {}
 
+  /// `arrived`: by the sender's clock, as far as it is known.
   bool is_replay(const Datagram& datagram, WallTime arrived);
-  /// It was no replay, and is of the sender that speaks.
-  void taken(const Datagram& datagram);
+  /// It was no replay, and is of the sender that speaks. `sent`: as its sender wrote it.
+  void taken(const Datagram& datagram, WallTime sent);
 
  private:
   struct Seen {

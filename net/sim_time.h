@@ -23,8 +23,10 @@ struct WallTime {
   friend auto operator<=>(WallTime, WallTime) = default;
 };
 
-/// The wall clock now.
+/// The wall clock now, and how far it is put off the machine's own, for trials of a rig whose machines' clocks differ:
+/// PHARE_CLOCK_OFFSET_MS of the environment, else 0.
 WallTime wall_now();
+std::int64_t wall_shift_ns();
 
 /// Simulated time of lockstep frame `frame_index` at `frame_rate_hz` frames a second: floor(k·1e9 / rate), exact in
 /// integers.

@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -62,6 +64,24 @@ const char* refusal_key(Refusal refusal) {
   return "none";
 }
 
+/// By process: how its clock stands against ours.
+nlohmann::json clocks_json(const PeerClocks& clocks) {
+  nlohmann::json all = nlohmann::json::object();
+  const auto now = std::chrono::steady_clock::now();
+  for (const PeerClocks::Peer& peer : clocks.peers()) {
+    nlohmann::json& clock = all[peer.name];
+    clock = {{"asked", peer.asked_count}, {"answered", peer.clock.exchanges()}, {"set", peer.clock.steps()}};
+    const auto estimate = peer.clock.at(now);
+    if (!estimate) continue;
+    clock["ahead_ms"] = static_cast<double>(estimate->ahead_ns) * 1e-6;
+    clock["within_ms"] = static_cast<double>(estimate->within_ns) * 1e-6;
+    if (!std::isfinite(estimate->drift_within_ppm)) continue;
+    clock["drift_ppm"] = estimate->drift_ppm;
+    clock["drift_within_ppm"] = estimate->drift_within_ppm;
+  }
+  return all;
+}
+
 }  // namespace
 
 nlohmann::json stats_json(const char* process, const Bus& bus) {
@@ -84,6 +104,7 @@ nlohmann::json stats_json(const char* process, const Bus& bus) {
   for (std::size_t i = 1; i < kRefusals; ++i) {
     if (counters.refused_because[i] > 0) because[refusal_key(static_cast<Refusal>(i))] = counters.refused_because[i];
   }
+  if (bus.clocks()) on_bus["clocks"] = clocks_json(*bus.clocks());
   on_bus["refused"] = counters.refused;
   on_bus["refused_in_kernel"] = counters.refused_in_kernel;
   on_bus["refused_because"] = because;

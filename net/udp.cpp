@@ -30,7 +30,7 @@ ArrivalTime arrival_of(msghdr& message, const ArrivalTime& read, std::chrono::st
     timespec stamp{};
     std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
     const std::int64_t waited_ns =
-        std::clamp<std::int64_t>(read.wall.ns - (stamp.tv_sec * kNsPerSecond + stamp.tv_nsec), 0,
+        std::clamp<std::int64_t>(read.wall.ns - wall_shift_ns() - (stamp.tv_sec * kNsPerSecond + stamp.tv_nsec), 0,
                                  std::chrono::nanoseconds(read.steady - seen_empty).count());
     return {read.steady - std::chrono::nanoseconds(waited_ns), WallTime{read.wall.ns - waited_ns}};
   }
@@ -75,6 +75,12 @@ struct UdpSocket::State {
   }
 };
 
+std::optional<std::uint32_t> ipv4_address(const std::string& dotted) {
+  in_addr address{};
+  if (inet_pton(AF_INET, dotted.c_str(), &address) != 1) return std::nullopt;
+  return ntohl(address.s_addr);
+}
+
 std::string text_of(const Endpoint& endpoint) {
   const in_addr address{htonl(endpoint.address)};
   char text[INET_ADDRSTRLEN] = "?";
@@ -108,8 +114,9 @@ Result<UdpSocket> UdpSocket::open(const std::string& address, std::uint16_t port
   setsockopt(state->fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
 
   if (bind(state->fd, reinterpret_cast<const sockaddr*>(&state->address), sizeof state->address) != 0) {
-    return Error{place, errno == EADDRINUSE ? std::string("UDP port is taken; is another rig running? (--port-base)")
-                                            : std::string("cannot bind: ") + std::strerror(errno)};
+    if (errno == EADDRINUSE) return Error{place, "UDP port is taken; is another rig running? (--port-base)"};
+    if (errno == EADDRNOTAVAIL) return Error{place, "is no address of this machine; `bind` under [bus] names one"};
+    return Error{place, std::string("cannot bind: ") + std::strerror(errno)};
   }
   sockaddr_in bound{};
   socklen_t bound_size = sizeof bound;
@@ -119,8 +126,14 @@ Result<UdpSocket> UdpSocket::open(const std::string& address, std::uint16_t port
 }
 
 bool UdpSocket::send_to(std::uint16_t port, std::span<const std::byte> bytes) {
-  sockaddr_in to = state_->address;
-  to.sin_port = htons(port);
+  return send_to(Endpoint{ntohl(state_->address.sin_addr.s_addr), port}, bytes);
+}
+
+bool UdpSocket::send_to(const Endpoint& endpoint, std::span<const std::byte> bytes) {
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_addr.s_addr = htonl(endpoint.address);
+  to.sin_port = htons(endpoint.port);
   const ssize_t sent = sendto(state_->fd, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
                               reinterpret_cast<const sockaddr*>(&to), sizeof to);
   return sent == static_cast<ssize_t>(bytes.size());

@@ -24,6 +24,9 @@ struct Endpoint {
   friend bool operator==(const Endpoint&, const Endpoint&) = default;
 };
 
+/// Of dotted IPv4, in the machine's byte order; nullopt: it is none.
+std::optional<std::uint32_t> ipv4_address(const std::string& dotted);
+
 /// "127.0.0.1:47000"
 std::string text_of(const Endpoint& endpoint);
 
@@ -43,7 +46,9 @@ class UdpSocket {
   UdpSocket& operator=(UdpSocket&&) noexcept;
   ~UdpSocket();
 
-  /// Sends to `port` at the socket's own address; false when the kernel refused.
+  /// False when the kernel refused.
+  bool send_to(const Endpoint& to, std::span<const std::byte> bytes);
+  /// To `port` at the socket's own address.
   bool send_to(std::uint16_t port, std::span<const std::byte> bytes);
 
   /// The next datagram, nullopt when none waits. The view is valid until the next call.

@@ -29,6 +29,17 @@ void WindowKeys::take(std::uint32_t channel, std::uint64_t start_id, const KeyIn
   }
 }
 
+WindowKeys::Handled WindowKeys::handled(std::uint32_t channel) const {
+  const auto window = windows_.find(channel);
+  return window == windows_.end() ? Handled{} : Handled{window->second.start_id, window->second.events};
+}
+
+void WindowKeys::go_on(std::uint32_t channel, const Handled& handled) {
+  if (handled.start_id == 0) return;
+  windows_[channel].start_id = handled.start_id;
+  windows_[channel].events = handled.events;
+}
+
 HeldKeys WindowKeys::held(WallTime now) const {
   HeldKeys all;
   for (const auto& [channel, window] : windows_) {

@@ -22,6 +22,14 @@ class WindowKeys {
 
   /// Of all windows; those of a window that has been silent for a second are left out.
   HeldKeys held(WallTime now) const;
+  /// How far the presses of a window have been handled: 0 and 0 of one that has not been heard.
+  struct Handled {
+    std::uint64_t start_id = 0, events = 0;
+  };
+  Handled handled(std::uint32_t channel) const;
+  /// Goes on where another one stood: presses that it has handled do not come again, those since then do.
+  void go_on(std::uint32_t channel, const Handled& handled);
+
   /// Presses since the last call, oldest first.
   std::vector<std::uint32_t> take_presses();
 

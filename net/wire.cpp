@@ -206,6 +206,11 @@ void fill(wire::ControlReply& to, const ControlReply& from) {
   to.set_now(from.now);
 }
 
+void fill(wire::ClockProbe& to, const ClockProbe& from) {
+  to.set_asked_wall_ns(from.asked.ns);
+  to.set_heard_wall_ns(from.heard.ns);
+}
+
 struct PayloadFiller {
   wire::Datagram& to;
   void operator()(const CockpitState& from) const { fill(*to.mutable_cockpit_state(), from); }
@@ -216,6 +221,7 @@ struct PayloadFiller {
   void operator()(const ProbeReply& from) const { fill(*to.mutable_probe_reply(), from); }
   void operator()(const KeyInput& from) const { fill(*to.mutable_key_input(), from); }
   void operator()(const ControlReply& from) const { fill(*to.mutable_control_reply(), from); }
+  void operator()(const ClockProbe& from) const { fill(*to.mutable_clock_probe(), from); }
 };
 
 // ---- protobuf to struct
@@ -364,6 +370,11 @@ void read(ControlReply& to, const wire::ControlReply& from) {
   to.now = from.now();
 }
 
+void read(ClockProbe& to, const wire::ClockProbe& from) {
+  to.asked.ns = from.asked_wall_ns();
+  to.heard.ns = from.heard_wall_ns();
+}
+
 /// The payload to read into: the one of the last datagram where the type fits, so that its memory is used again.
 template <typename T>
 T& reused(Payload& payload) {
@@ -400,6 +411,8 @@ bool any_unknown(const wire::Datagram& message) {
       return unknown_in(message.key_input());
     case wire::Datagram::kControlReply:
       return unknown_in(message.control_reply());
+    case wire::Datagram::kClockProbe:
+      return unknown_in(message.clock_probe());
     case wire::Datagram::PAYLOAD_NOT_SET:
       break;
   }
@@ -495,6 +508,9 @@ Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
       break;
     case wire::Datagram::kControlReply:
       read(reused<ControlReply>(datagram.payload), message.control_reply());
+      break;
+    case wire::Datagram::kClockProbe:
+      read(reused<ClockProbe>(datagram.payload), message.clock_probe());
       break;
     case wire::Datagram::PAYLOAD_NOT_SET:
       return Refusal::kMalformed;

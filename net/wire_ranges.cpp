@@ -21,6 +21,8 @@ constexpr double kMaxRoadWheel_rad = 1.6;
 constexpr double kMaxTime_s = 1e9;  // thirty years; fits the 32 bits of a pcap stamp
 constexpr std::int64_t kMaxTime_ns = 1'000'000'000'000'000'000;
 constexpr double kMaxFrame_ms = 1e9;
+// A hundred and twenty years after 1970: differences of two fit 64 bits.
+constexpr std::int64_t kMaxWall_ns = 4'000'000'000'000'000'000;
 constexpr double kMaxAim_rad = 1.6;
 constexpr double kMaxNormal = 1.001;
 constexpr double kMaxIlluminance_lx = 1e15;
@@ -172,12 +174,18 @@ void check(Checker& c, const ControlReply& r) {
   c.require(r.reason.size() <= kMaxErrorBytes && r.now.size() <= kMaxErrorBytes);
 }
 
+void check(Checker& c, const ClockProbe& probe) {
+  c.require(probe.asked.ns >= 1 && probe.asked.ns <= kMaxWall_ns);
+  c.require(probe.heard.ns >= 0 && probe.heard.ns <= kMaxWall_ns);
+}
+
 }  // namespace
 
 Refusal check(const Datagram& datagram) {
   Checker c;
   c.require(datagram.start_id != 0 && datagram.sequence >= 1 && datagram.sequence <= kMaxSequence, Refusal::kEnvelope);
   c.require(datagram.sim_time.ns >= 0 && datagram.sim_time.ns <= kMaxTime_ns, Refusal::kEnvelope);
+  c.require(datagram.sent.ns >= 0 && datagram.sent.ns <= kMaxWall_ns, Refusal::kEnvelope);
   const bool visual = datagram.sender == Sender::kVisual;
   c.require(datagram.sender_channel < (visual ? kMaxChannels : 1), Refusal::kEnvelope);
   c.require(kChannels[datagram.payload.index()].may_send(datagram.sender), Refusal::kSender);

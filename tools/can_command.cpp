@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cockpit_io/can_log.h"
 #include "config/cockpit.h"
 #include "tools/can_tool.h"
 #include "tools/commands.h"
@@ -22,9 +23,10 @@ Result<Dbc> dbc_of(const std::string& file) {
 }
 
 Result<CandumpLog> log_of(const std::string& file) {
-  Result<CandumpLog> log = read_candump(file);
-  if (log) tell_problems(*log, std::cerr);
-  return log;
+  Result<CanLog> read = read_can_log(file);
+  if (!read) return read.error();
+  tell_problems(read->log, std::cerr);
+  return std::move(read->log);
 }
 
 int all_written() {
@@ -61,6 +63,14 @@ int can_check(const CanOptions& options) {
   return all_written();
 }
 
+/// The signal that a DBC file needs for it, and the table of a cockpit file; for a check of one byte.
+void tell_check(const CrcFound& found) {
+  int byte = 0, end = 0;
+  if (std::sscanf(found.where.c_str(), "byte %d%n", &byte, &end) != 1) return;
+  std::cout << "     in the DBC file, under its BO_:    SG_ CRC : " << 8 * byte << "|8@1+ (1,0) [0|255] \"\" PHARE\n"
+            << "     in the cockpit file:    [check.MESSAGE], crc = \"CRC\", " << found.scheme << "\n";
+}
+
 int can_crc(const CanOptions& options) {
   const auto log = log_of(options.log_file);
   if (!log) return bad_input(log.error());
@@ -69,6 +79,7 @@ int can_crc(const CanOptions& options) {
     char id[16];
     std::snprintf(id, sizeof id, one.id.extended ? "%08X" : "%03X", one.id.id);
     std::cout << id << "  " << one.where << "  " << one.scheme << "  # " << one.frames << " different frames\n";
+    tell_check(one);
   }
   if (found.empty()) std::cout << "no known check fits any message of this log\n";
   return all_written();
@@ -80,8 +91,7 @@ void add_can(CLI::App& app, Command& chosen) {
   CLI::App* can = app.add_subcommand("can", "CAN files: list a DBC file, decode a log, check a cockpit file");
   can->require_subcommand(1);
   can->footer(
-      "Logs are candump's. Others (Vector ASC and BLF, PEAK TRC, MF4) become one with python-can:\n"
-      "  python3 -m can.logconvert drive.blf drive.log\n"
+      "Logs are candump's; Vector ASC and BLF, PEAK TRC and MF4 are read through python-can (docs/driving.md).\n"
       "Example:\n  phare can list config/cockpits/phare_stalk.dbc");
   auto options = std::make_shared<CanOptions>();
 
@@ -92,7 +102,7 @@ void add_can(CLI::App& app, Command& chosen) {
 
   CLI::App* decode = can->add_subcommand("decode", "What the frames of a log say, by a DBC file");
   decode->footer("Example:\n  phare can decode config/examples/stalk.log --dbc config/cockpits/phare_stalk.dbc --csv");
-  decode->add_option("log", options->log_file, "candump log")->required();
+  decode->add_option("log", options->log_file, "Log of candump, or ASC, BLF, TRC, MF4")->required();
   decode->add_option("--dbc", options->dbc_file, "DBC file")->required();
   decode->add_option("--signal", options->decode.signals, "Only this signal, or MESSAGE.SIGNAL; again for others");
   decode->add_flag("--csv", options->decode.csv, "t_s,message,signal,value,unit,name");
@@ -101,13 +111,13 @@ void add_can(CLI::App& app, Command& chosen) {
   CLI::App* check = can->add_subcommand("check", "Which control of a cockpit file a log moves, and when");
   check->footer("Example:\n  phare can check config/cockpits/phare_stalk.toml --log config/examples/stalk.log");
   check->add_option("cockpit", options->cockpit_file, "Cockpit file")->required();
-  check->add_option("--log", options->log_file, "candump log")->required();
+  check->add_option("--log", options->log_file, "Log of candump, or ASC, BLF, TRC, MF4")->required();
   check->add_option("--dbc", options->dbc_file, "DBC file [the cockpit file's]");
   check->callback([options, &chosen] { chosen = [options] { return can_check(*options); }; });
 
   CLI::App* crc = can->add_subcommand("crc", "Find which known checksum the messages of a log carry");
   crc->footer("Example:\n  phare can crc config/examples/stalk.log");
-  crc->add_option("log", options->log_file, "candump log")->required();
+  crc->add_option("log", options->log_file, "Log of candump, or ASC, BLF, TRC, MF4")->required();
   crc->callback([options, &chosen] { chosen = [options] { return can_crc(*options); }; });
 }
 

@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <numbers>
 
-#include "cockpit_io/candump.h"
+#include "cockpit_io/can_log.h"
 #include "cockpit_io/dbc.h"
 #include "config/conventions.h"
-#include "config/lane.h"
-#include "tools/csv_columns.h"
+#include "tools/import_cockpit.h"
+#include "tools/import_track.h"
 #include "tools/local_fit.h"
 #include "vehicle_dynamics/models/kinematic.h"
 #include "vehicle_dynamics/state.h"
@@ -31,7 +31,7 @@ struct Samples {
 };
 
 /// One control: the signals that add up to it and the factor into SI.
-struct Control {
+struct ImportControl {
   std::string what;
   std::vector<const DbcSignal*> signals;
   const DbcMessage* message = nullptr;
@@ -48,8 +48,8 @@ double si_factor(const std::string& unit) {
 }
 
 /// Finds "MESSAGE.SIGNAL+MESSAGE.SIGNAL" in the DBC.
-Result<Control> find_control(const Dbc& dbc, const std::string& what, const std::string& path) {
-  Control control;
+Result<ImportControl> find_control(const Dbc& dbc, const std::string& what, const std::string& path) {
+  ImportControl control;
   control.what = what;
   for (std::size_t start = 0; start <= path.size();) {
     const std::size_t end = std::min(path.find('+', start), path.size());
@@ -74,7 +74,7 @@ Result<Control> find_control(const Dbc& dbc, const std::string& what, const std:
   return control;
 }
 
-std::optional<double> decode_control(const Control& control, const CanFrame& frame) {
+std::optional<double> decode_control(const ImportControl& control, const CanFrame& frame) {
   double sum = 0.0;
   for (const DbcSignal* signal : control.signals) {
     const auto value = decode(*control.message, *signal, frame);
@@ -88,89 +88,6 @@ double held_at(const Samples& samples, double t_s, double before_first) {
   const auto after = std::upper_bound(samples.t_s.begin(), samples.t_s.end(), t_s);
   if (after == samples.t_s.begin()) return before_first;
   return samples.value[static_cast<std::size_t>(after - samples.t_s.begin()) - 1];
-}
-
-/// The lane to drive on, metre by metre.
-struct Lane {
-  std::vector<double> s_m, x_m, y_m, z_m, heading_rad, curvature_1pm;
-
-  struct Point {
-    double x_m, y_m, z_m, heading_rad, curvature_1pm, grade;
-  };
-  /// Cubic Hermite between the rows, with the headings as tangents; straight on past the ends.
-  Point at(double s) const {
-    const auto after = std::upper_bound(s_m.begin() + 1, s_m.end() - 1, s);
-    const auto j = static_cast<std::size_t>(after - s_m.begin()), i = j - 1;
-    const double h = s_m[j] - s_m[i], u = (s - s_m[i]) / h;
-    const double h00 = (1 + 2 * u) * (1 - u) * (1 - u), h10 = u * (1 - u) * (1 - u);
-    const double h01 = u * u * (3 - 2 * u), h11 = u * u * (u - 1);
-    const auto mix = [&](double a, double b) { return a + u * (b - a); };
-    const double grade_i = grade(i), grade_j = grade(j);
-    return {h00 * x_m[i] + h10 * h * std::cos(heading_rad[i]) + h01 * x_m[j] + h11 * h * std::cos(heading_rad[j]),
-            h00 * y_m[i] + h10 * h * std::sin(heading_rad[i]) + h01 * y_m[j] + h11 * h * std::sin(heading_rad[j]),
-            h00 * z_m[i] + h10 * h * grade_i + h01 * z_m[j] + h11 * h * grade_j,
-            mix(heading_rad[i], heading_rad[j]),
-            mix(curvature_1pm[i], curvature_1pm[j]),
-            mix(grade_i, grade_j)};
-  }
-
- private:
-  double grade(std::size_t i) const {
-    const std::size_t a = i == 0 ? 0 : i - 1, b = std::min(i + 1, s_m.size() - 1);
-    return (z_m[b] - z_m[a]) / (s_m[b] - s_m[a]);
-  }
-};
-
-void unwrap(std::vector<double>& angles_rad) {
-  for (std::size_t i = 1; i < angles_rad.size(); ++i) {
-    const double turns = std::round((angles_rad[i] - angles_rad[i - 1]) / (2.0 * std::numbers::pi));
-    angles_rad[i] -= turns * 2.0 * std::numbers::pi;
-  }
-}
-
-Status check_ascending(const std::vector<double>& values, const std::filesystem::path& file, const char* column) {
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    if (!(values[i] > values[i - 1])) {
-      return Error{file.string(), std::string("\"") + column + "\" does not ascend at row " + std::to_string(i + 1)};
-    }
-  }
-  if (values.size() < 2) return Error{file.string(), "needs at least two rows"};
-  return Done{};
-}
-
-Result<Lane> import_lane(const std::filesystem::path& file) {
-  const auto points = read_lane(file);
-  if (!points) return points.error();
-  Lane lane;
-  for (const LanePoint& point : *points) {
-    lane.s_m.push_back(point.s_m);
-    lane.x_m.push_back(point.x_m);
-    lane.y_m.push_back(point.y_m);
-    lane.z_m.push_back(point.z_m);
-    lane.heading_rad.push_back(point.heading_rad);
-    lane.curvature_1pm.push_back(point.curvature_1pm);
-  }
-  unwrap(lane.heading_rad);
-  return lane;
-}
-
-struct Pose {
-  std::vector<double> t_s, east_m, north_m, up_m, yaw_rad, pitch_rad;
-};
-
-Result<Pose> read_pose(const std::filesystem::path& file) {
-  const std::array<std::string, 6> names{"t_s",           "east_m", "north_m", "up_m", "heading_deg_cw_from_north",
-                                         "path_pitch_deg"};
-  auto columns = read_csv_columns(file, names);
-  if (!columns) return columns.error();
-  auto& c = *columns;
-  Pose pose{std::move(c[0]), std::move(c[1]), std::move(c[2]), std::move(c[3]), std::move(c[4]), std::move(c[5])};
-  if (const Status status = check_ascending(pose.t_s, file, "t_s"); !status) return status.error();
-  for (double& angle : pose.yaw_rad) angle = std::numbers::pi / 2.0 - angle * kRadPerDeg;
-  for (double& angle : pose.pitch_rad)
-    angle = -angle * kRadPerDeg;  // the table's is positive uphill, ISO 8855's nose down
-  unwrap(pose.yaw_rad);
-  return pose;
 }
 
 /// Heights under the wheels from the scene's road; where it has none, the plane through the lane's point.
@@ -192,16 +109,60 @@ LightSwitch light_switch(ImportLight light, bool parking, bool low, bool high) {
   return parking ? LightSwitch::kPosition : LightSwitch::kOff;
 }
 
+/// The messages that a cockpit file maps; none without one.
+std::vector<CanId> ids_of(const std::optional<CockpitConfig>& cockpit, const Dbc& dbc) {
+  std::vector<CanId> ids;
+  if (!cockpit) return ids;
+  for (const ControlMapping& control : cockpit->controls) {
+    if (const DbcMessage* message = dbc.find(control.message)) ids.push_back({message->id, message->extended});
+  }
+  return ids;
+}
+
+/// All that the stalk did besides the light switch, which is put where `light` says.
+void take_recorded_switches(const CockpitState& was, ImportLight light, CockpitState& to) {
+  if (light == ImportLight::kAsRecorded) {
+    const bool moved = was.flash != to.flash || was.fog_front != to.fog_front;
+    to.flash = was.flash;
+    to.fog_front = was.fog_front;
+    to.fail_safe = was.fail_safe;
+    if (moved && was.light_switch == to.light_switch) {
+      ++to.light_changes;
+      to.light_change_sim = was.light_change_sim;
+      to.light_change_wall = was.light_change_wall;
+    }
+  }
+  to.fog_rear = was.fog_rear;
+  to.turn = was.turn;
+  to.hazard = was.hazard;
+  to.high_beam_automatic = was.high_beam_automatic;
+  to.gear = was.gear;
+  to.clutch_01 = was.clutch_01;
+  to.parking_brake_01 = was.parking_brake_01;
+  to.lamp_aim_rad = was.lamp_aim_rad;
+}
+
 }  // namespace
 
 Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
-  auto log = read_candump(options.can_log);
-  if (!log) return log.error();
+  auto read_log = read_can_log(options.can_log);
+  if (!read_log) return read_log.error();
+  const CandumpLog* const log = &read_log->log;
   auto dbc = read_dbc(options.dbc);
   if (!dbc) return dbc.error();
-  auto pose = read_pose(options.pose);
-  if (!pose) return pose.error();
-  std::optional<Lane> lane;
+  std::optional<ImportPose> pose;
+  if (!options.pose.empty()) {
+    auto read = read_import_pose(options.pose);
+    if (!read) return read.error();
+    pose = std::move(*read);
+  }
+  std::optional<RecordedControls> recorded;
+  if (options.cockpit) {
+    auto read = recorded_controls(*options.cockpit, *dbc, *log);
+    if (!read) return read.error();
+    recorded = std::move(*read);
+  }
+  std::optional<ImportLane> lane;
   if (options.lane) {
     auto read = import_lane(*options.lane);
     if (!read) return read.error();
@@ -219,23 +180,31 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
        {"low beam", &options.signals.low_beam},
        {"high beam", &options.signals.high_beam}}};
   ImportedDrive drive;
-  std::vector<Control> controls;
+  std::vector<ImportControl> controls;
+  if (!read_log->read_with.empty()) drive.notes.push_back("log: read with " + read_log->read_with);
   for (const auto& [what, path] : wanted) {
+    if (recorded && controls.size() != kSpeed) {  // the cockpit file names it
+      controls.push_back({what, {}, nullptr, 1.0, {}});
+      continue;
+    }
     auto control = find_control(*dbc, what, *path);
     if (!control && controls.size() <= kSpeed) return control.error();
     if (!control) drive.notes.push_back(std::string(what) + ": " + control.error().text());
-    controls.push_back(control ? std::move(*control) : Control{what, {}, nullptr, 1.0, {}});
+    controls.push_back(control ? std::move(*control) : ImportControl{what, {}, nullptr, 1.0, {}});
   }
 
   // Decode every frame within the time that log and pose share.
   ImportCounts& counts = drive.counts;
   const double log_begin_s = static_cast<double>(log->entries.front().stamp_ns) * 1e-9;
   const double log_end_s = static_cast<double>(log->entries.back().stamp_ns) * 1e-9;
-  const double begin_s = std::max(log_begin_s, pose->t_s.front()), end_s = std::min(log_end_s, pose->t_s.back());
+  const double begin_s = pose ? std::max(log_begin_s, pose->t_s.front()) : log_begin_s;
+  const double end_s = pose ? std::min(log_end_s, pose->t_s.back()) : log_end_s;
+  if (!(end_s > begin_s) && !pose) return Error{options.can_log.string(), "all its frames have one stamp"};
   if (!(end_s > begin_s)) return Error{options.pose.string(), "shares no time with " + options.can_log.string()};
   counts.broken_lines = log->broken_lines;
   counts.backward_stamps = log->backward_stamps;
-  counts.pose_rows = pose->t_s.size();
+  counts.pose_rows = pose ? pose->t_s.size() : 0;
+  const std::vector<CanId> by_cockpit = ids_of(options.cockpit, *dbc);
   for (const CandumpEntry& entry : log->entries) {
     ++counts.frames;
     const double t_s = static_cast<double>(entry.stamp_ns) * 1e-9;
@@ -243,8 +212,11 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
       ++counts.outside;
       continue;
     }
-    bool ours = false, decoded = false;
-    for (Control& control : controls) {
+    const CanId id{entry.frame.id, entry.frame.extended};
+    bool ours =
+        std::ranges::any_of(by_cockpit, [&](const CanId& of) { return of.id == id.id && of.extended == id.extended; });
+    bool decoded = ours;
+    for (ImportControl& control : controls) {
       if (control.message == nullptr || control.message->id != entry.frame.id ||
           control.message->extended != entry.frame.extended) {
         continue;
@@ -261,6 +233,13 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
     }
     ++(decoded ? counts.used : ours ? counts.undecodable : counts.other_ids);
   }
+  if (recorded) {
+    controls[kSteering].samples = {recorded->steering_t_s, recorded->steering_rad};
+    counts.refused = recorded->refused;
+    drive.notes.push_back("controls: by " + options.cockpit->file.filename().string() + ", " +
+                          std::to_string(recorded->states.size()) + " frames, " + std::to_string(recorded->refused) +
+                          " of them refused by their checks");
+  }
   const auto sample_count = [&](std::size_t i) { return static_cast<std::uint64_t>(controls[i].samples.t_s.size()); };
   counts.steering_samples = sample_count(kSteering);
   counts.speed_samples = sample_count(kSpeed);
@@ -269,17 +248,19 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   counts.light_samples = sample_count(kLow);
   for (const std::size_t i : {std::size_t{kSteering}, std::size_t{kSpeed}}) {
     if (sample_count(i) < 4) {
-      return Error{options.can_log.string(),
-                   "fewer than four frames of " + controls[i].message->name + " for the " + controls[i].what};
+      const std::string of = controls[i].message != nullptr ? " of " + controls[i].message->name : std::string();
+      return Error{options.can_log.string(), "fewer than four frames" + of + " for the " + controls[i].what};
     }
   }
-  if (counts.accelerator_samples == 0) drive.notes.push_back("accelerator: not in the log, 0");
-  if (counts.brake_samples == 0) {
+  const bool has_accelerator = recorded ? recorded->has_accelerator : counts.accelerator_samples > 0;
+  const bool has_brake = recorded ? recorded->has_brake : counts.brake_samples > 0;
+  if (!has_accelerator) drive.notes.push_back("accelerator: not in the log, 0");
+  if (!has_brake) {
     drive.notes.push_back("brake: not in the log; taken from the deceleration while the accelerator is released");
   }
   if (options.light != ImportLight::kAsRecorded) {
-    const bool dark = std::none_of(controls[kLow].samples.value.begin(), controls[kLow].samples.value.end(),
-                                   [](double on) { return on > 0.5; });
+    const bool dark = !recorded && std::none_of(controls[kLow].samples.value.begin(),
+                                                controls[kLow].samples.value.end(), [](double on) { return on > 0.5; });
     drive.notes.push_back(std::string("light switch: ") + (options.light == ImportLight::kLow ? "low" : "high") +
                           " throughout, " +
                           (dark ? "because the recorded stalk is off" : "instead of the recorded one"));
@@ -287,6 +268,12 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   if (lane) {
     drive.notes.push_back("path: put onto " + options.lane->filename().string() +
                           " by path length; speed and acceleration are the recorded ones, the turns are the lane's");
+  }
+
+  if (!lane && !pose) {
+    drive.notes.push_back("path: driven by CAN speed and steering at level kinematic, with a steering ratio of " +
+                          std::to_string(options.vehicle.steering_ratio).substr(0, 5) +
+                          "; it drifts from where the car was");
   }
 
   // Every 10 ms: controls, motion, attitude.
@@ -297,19 +284,28 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   CockpitState cockpit;
   cockpit.source = ("import " + options.can_log.filename().string()).substr(0, 64);  // longest text on the wire
   CarState car;
+  std::optional<DrivenCar> driven;
+  const auto speed_at = [&](double t_s) {
+    return local_fit(controls[kSpeed].samples.t_s, controls[kSpeed].samples.value, t_s, kSpeedWindow_s);
+  };
+  const auto steering_at = [&](double t_s) {
+    return local_fit(controls[kSteering].samples.t_s, controls[kSteering].samples.value, t_s, kSteerWindow_s);
+  };
   for (std::int64_t k = 0; k <= frames; ++k) {
     const SimTime sim_time{k * kPeriod_ns};
     const double t_s = begin_s + sim_time.seconds();
     const bool last = k == frames;
-    const FittedValue speed =
-        local_fit(controls[kSpeed].samples.t_s, controls[kSpeed].samples.value, t_s, kSpeedWindow_s);
-    const FittedValue steering =
-        local_fit(controls[kSteering].samples.t_s, controls[kSteering].samples.value, t_s, kSteerWindow_s);
-    const double accelerator = std::clamp(held_at(controls[kAccelerator].samples, t_s, 0.0), 0.0, 1.0);
+    const FittedValue speed = speed_at(t_s), steering = steering_at(t_s);
+    const CockpitState* was = recorded ? &recorded->at(t_s) : nullptr;
+    const double accelerator =
+        was != nullptr ? was->accelerator_01 : std::clamp(held_at(controls[kAccelerator].samples, t_s, 0.0), 0.0, 1.0);
 
-    const LightSwitch light =
-        light_switch(options.light, held_at(controls[kParking].samples, t_s, 0.0) > 0.5,
-                     held_at(controls[kLow].samples, t_s, 0.0) > 0.5, held_at(controls[kHigh].samples, t_s, 0.0) > 0.5);
+    const LightSwitch light = was != nullptr && options.light == ImportLight::kAsRecorded
+                                  ? was->light_switch
+                                  : light_switch(options.light, held_at(controls[kParking].samples, t_s, 0.0) > 0.5,
+                                                 held_at(controls[kLow].samples, t_s, 0.0) > 0.5,
+                                                 held_at(controls[kHigh].samples, t_s, 0.0) > 0.5);
+    if (was != nullptr) take_recorded_switches(*was, options.light, cockpit);
     if (light != cockpit.light_switch) {
       cockpit.light_switch = light;
       ++cockpit.light_changes;
@@ -320,9 +316,8 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
     cockpit.accelerator_01 = accelerator;
     const double braking_mps2 = accelerator < 0.01 ? std::max(0.0, -speed.slope - kCoasting_mps2) : 0.0;
     cockpit.brake_01 =
-        counts.brake_samples > 0
-            ? std::clamp(held_at(controls[kBrake].samples, t_s, 0.0), 0.0, 1.0)
-            : std::clamp(braking_mps2 * options.vehicle.mass_kg / options.vehicle.max_brake_force_n, 0.0, 1.0);
+        has_brake ? (was != nullptr ? was->brake_01 : std::clamp(held_at(controls[kBrake].samples, t_s, 0.0), 0.0, 1.0))
+                  : std::clamp(braking_mps2 * options.vehicle.mass_kg / options.vehicle.max_brake_force_n, 0.0, 1.0);
     cockpit.drive_ended = last;
 
     car.speed_mps = speed.value;
@@ -334,13 +329,26 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
         return Error{options.lane->string(), "the lane ends after " + std::to_string(lane->s_m.back()) +
                                                  " m, the drive goes on; choose a smaller --start"};
       }
-      const Lane::Point at = lane->at(path_m);
+      const ImportLane::Point at = lane->at(path_m);
       car.x_m = at.x_m;
       car.y_m = at.y_m;
       car.yaw_rad = at.heading_rad;
       car.yaw_rate_radps = at.curvature_1pm * speed.value;
       car.steer_rad = std::atan(options.vehicle.wheelbase_m * at.curvature_1pm);
       stand_on_road(options, at.z_m, at.grade, car, k == 0 ? 0.0 : dt);
+    } else if (!pose) {
+      if (!driven) {
+        CarState start = options.start;
+        start.speed_mps = speed.value;
+        start.steer_rad = steering.value / options.vehicle.steering_ratio;
+        driven.emplace(options.vehicle, options.road, start);
+      } else {
+        driven->advance(steering.value, speed.value, dt);
+      }
+      const CarState before = car;
+      car = driven->state();
+      car.ax_mps2 = speed.slope;
+      car.pitch_rad = before.pitch_rad, car.roll_rad = before.roll_rad, car.heave_m = before.heave_m;
     } else {
       const FittedValue yaw = local_fit(pose->t_s, pose->yaw_rad, t_s, kPoseWindow_s);
       const FittedValue pitch = local_fit(pose->t_s, pose->pitch_rad, t_s, kPoseWindow_s);
@@ -386,6 +394,18 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   }
   drive.duration_s = static_cast<double>(frames * kPeriod_ns) * 1e-9;
   drive.distance_m = path_m - (lane ? options.lane_start_m : 0.0);
+  if (!pose) return drive;
+  const auto time_of = [&](std::int64_t k) { return begin_s + static_cast<double>(k * kPeriod_ns) * 1e-9; };
+  drive.drift = drift_of(
+      options.vehicle, frames, dt, [&](std::int64_t k) { return steering_at(time_of(k)).value; },
+      [&](std::int64_t k) { return speed_at(time_of(k)).value; },
+      [&](std::int64_t k) {
+        const double t_s = time_of(k);
+        return PlanePose{local_fit(pose->t_s, pose->east_m, t_s, kPoseWindow_s).value,
+                         local_fit(pose->t_s, pose->north_m, t_s, kPoseWindow_s).value,
+                         local_fit(pose->t_s, pose->yaw_rad, t_s, kPoseWindow_s).value};
+      });
+  drive.notes.push_back("steering: " + drive.drift->text());
   for (std::size_t i = 1; i < pose->t_s.size(); ++i) {
     if (pose->t_s[i - 1] < begin_s || pose->t_s[i] > end_s) continue;
     drive.pose_path_m += std::hypot(pose->east_m[i] - pose->east_m[i - 1], pose->north_m[i] - pose->north_m[i - 1],
@@ -403,7 +423,13 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
 
 nlohmann::json to_json(const ImportedDrive& drive) {
   const ImportCounts& c = drive.counts;
+  nlohmann::json drift;
+  if (drive.drift)
+    drift = {{"distance_m", drive.drift->distance_m},
+             {"heading_deg", drive.drift->heading_rad / kRadPerDeg},
+             {"path_m", drive.drift->path_m}};
   return {{"duration_s", drive.duration_s},
+          {"drift", drift},
           {"distance_m", drive.distance_m},
           {"pose_path_m", drive.pose_path_m},
           {"frames",
@@ -412,6 +438,7 @@ nlohmann::json to_json(const ImportedDrive& drive) {
             {"other_ids", c.other_ids},
             {"undecodable", c.undecodable},
             {"outside", c.outside},
+            {"refused", c.refused},
             {"broken_lines", c.broken_lines},
             {"backward_stamps", c.backward_stamps}}},
           {"samples",

@@ -16,6 +16,7 @@ void add_record(CLI::App& app, Command& chosen);
 void add_control(CLI::App& app, Command& chosen);
 void add_replay(CLI::App& app, Command& chosen);
 void add_can(CLI::App& app, Command& chosen);
+void add_bus_relay(CLI::App& app, Command& chosen);
 void add_import(CLI::App& app, Command& chosen);
 void add_lamp(CLI::App& app, Command& chosen);
 void add_measure(CLI::App& app, Command& chosen);

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "cockpit_io/can_log.h"
 #include "config/paths.h"
 #include "config/remedies.h"
 #include "net/scheduling.h"
@@ -142,6 +143,13 @@ Finding program(const char* name, const char* what_for, const char* remedy, bool
           remedy, for_tests};
 }
 
+/// Is there what reads the CAN logs of other makers?
+Finding python_can() {
+  const bool there = reads_foreign_can_logs();
+  return {"python-can", there, false, there ? "reads ASC, BLF and TRC logs" : "ASC, BLF and TRC logs are not read",
+          kCanLogRemedy};
+}
+
 /// What dpkg has installed; empty where there is no dpkg.
 std::set<std::string> installed_packages() {
   std::set<std::string> installed;
@@ -196,7 +204,7 @@ std::vector<Finding> all_findings() {
       // An installed phare has been built; dpkg sees to its libraries.
       is_installed() ? packages("Debian packages", {"run"}, false) : packages("Debian packages", {"", "run"}, false),
       can_sockets(), display(), clock_found(), real_time_priority(),
-      program("ffmpeg", "no drive.mp4 from the frames", kVideoRemedy, false)};
+      program("ffmpeg", "no drive.mp4 from the frames", kVideoRemedy, false), python_can()};
   if (!is_installed()) {  // its tests stay with its sources
     findings.push_back(packages("Debian packages", {"test"}, true));
     findings.push_back(validation_layer());

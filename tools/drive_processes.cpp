@@ -54,6 +54,7 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
   };
   ProcessSpec cockpit{"cockpit", program_beside_us("phare-cockpit"), common("cockpit")};
   cockpit.arguments.insert(cockpit.arguments.end(), {"--cockpit", rig.cockpit_file.string()});
+  cockpit.arguments.insert(cockpit.arguments.end(), {"--state", files.state("cockpit").string()});
   if (!options.script.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--script", options.script});
   if (!options.log.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--log", options.log});
   if (!options.dbc.empty()) cockpit.arguments.insert(cockpit.arguments.end(), {"--dbc", options.dbc});

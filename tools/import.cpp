@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "config/cockpit.h"
 #include "config/input_files.h"
 #include "config/lane.h"
 #include "config/rig.h"
@@ -12,13 +13,14 @@
 #include "net/wire.h"
 #include "tools/can_import.h"
 #include "tools/commands.h"
+#include "vehicle_dynamics/start_pose.h"
 
 namespace phare {
 namespace {
 
 struct ImportArguments {
   ImportOptions import;
-  std::string rig_file = config_path("rigs/country_road.toml"), out, light = "low", onto;
+  std::string rig_file = config_path("rigs/country_road.toml"), out, light, onto, cockpit;
   bool json = false;
 };
 
@@ -45,9 +47,9 @@ Status write_drive(const std::vector<Datagram>& datagrams, const std::filesystem
 
 int import_drive(ImportArguments& arguments) {
   ImportOptions& options = arguments.import;
-  if (const Status apart = check_inputs(
-          {options.can_log.string(), options.dbc.string(), options.pose.string(), arguments.rig_file, arguments.onto},
-          {arguments.out});
+  if (const Status apart = check_inputs({options.can_log.string(), options.dbc.string(), options.pose.string(),
+                                         arguments.rig_file, arguments.onto, arguments.cockpit},
+                                        {arguments.out});
       !apart)
     return bad_input(apart.error());
   const auto rig = read_rig(arguments.rig_file);
@@ -55,9 +57,15 @@ int import_drive(ImportArguments& arguments) {
   auto vehicle = read_vehicle(rig->vehicle_file);
   if (!vehicle) return bad_input(vehicle.error());
   options.vehicle = *vehicle;
-  options.light = arguments.light == "high"  ? ImportLight::kHigh
-                  : arguments.light == "low" ? ImportLight::kLow
-                                             : ImportLight::kAsRecorded;
+  if (!arguments.cockpit.empty()) {
+    auto cockpit = read_cockpit(arguments.cockpit);
+    if (!cockpit) return bad_input(cockpit.error());
+    if (options.dbc.empty()) options.dbc = cockpit->dbc_file;
+    options.cockpit = std::move(*cockpit);
+  }
+  if (options.dbc.empty()) return bad_input({"--dbc", "is required, unless the cockpit file names a DBC file"});
+  const std::string light = !arguments.light.empty() ? arguments.light : options.cockpit ? "as-recorded" : "low";
+  options.light = light == "high" ? ImportLight::kHigh : light == "low" ? ImportLight::kLow : ImportLight::kAsRecorded;
   if (arguments.onto.empty()) {
     const std::filesystem::path lane = lane_file_of(rig->scene_file);
     if (std::filesystem::exists(lane)) {
@@ -68,7 +76,13 @@ int import_drive(ImportArguments& arguments) {
   } else if (arguments.onto != "none") {
     options.lane = arguments.onto;
   }
-  if (options.lane && std::filesystem::exists(rig->scene_file)) {
+  const bool driven = !options.lane && options.pose.empty();
+  if (const auto lane = lane_file_of(rig->scene_file); driven && std::filesystem::exists(lane)) {
+    auto start = start_of_lane(lane);
+    if (!start) return bad_input(start.error());
+    options.start = *start;
+  }
+  if ((options.lane || driven) && std::filesystem::exists(rig->scene_file)) {
     auto road = RoadSurface::read(rig->scene_file);
     if (!road) return bad_input(road.error());
     options.road = std::move(*road);
@@ -105,10 +119,17 @@ void add_import(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("import", "Turn a recorded drive of a real car into a drive file");
   command->footer(
       "Example:\n  phare import --can car.log --dbc car.dbc --pose car_pose.csv --out car.pcap\n"
+      "Without --pose the drive is put onto the lane by its speed alone, or, with --onto none, the car is driven by\n"
+      "its recorded speed and steering.\n"
       "The pose table has columns t_s, east_m, north_m, up_m, heading_deg_cw_from_north, path_pitch_deg.");
-  command->add_option("--can", import.can_log, "CAN log (candump -l)")->required();
-  command->add_option("--dbc", import.dbc, "DBC file that describes its signals")->required();
-  command->add_option("--pose", import.pose, "Pose table (CSV), on the log's clock")->required();
+  command->add_option("--can", import.can_log, "CAN log: candump -l; ASC, BLF, TRC and MF4 with python-can")
+      ->required();
+  command->add_option("--dbc", import.dbc, "DBC file that describes its signals [the cockpit file's]");
+  command->add_option(
+      "--cockpit", arguments->cockpit,
+      "Cockpit file that names the controls, lights among them, in place of the options below; the speed "
+      "is --speed");
+  command->add_option("--pose", import.pose, "Pose table (CSV), on the log's clock");
   command->add_option("--out", arguments->out, "Drive file to write")->required();
   command->add_option("--rig", arguments->rig_file, "Rig file: vehicle and scene")->capture_default_str();
   command->add_option(
@@ -117,9 +138,10 @@ void add_import(CLI::App& app, Command& chosen) {
   command->add_option("--start", import.lane_start_m, "Where on the lane the drive begins, m")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_option("--light", arguments->light, "Light switch: low, high or as-recorded")
-      ->check(CLI::IsMember({"low", "high", "as-recorded"}))
-      ->capture_default_str();
+  command
+      ->add_option("--light", arguments->light,
+                   "Light switch: low, high or as-recorded [low; with --cockpit as-recorded]")
+      ->check(CLI::IsMember({"low", "high", "as-recorded"}));
   command->add_option("--steering", import.signals.steering, "MESSAGE.SIGNAL of the steering wheel, left positive")
       ->capture_default_str();
   command->add_option("--speed", import.signals.speed, "MESSAGE.SIGNAL of the speed")->capture_default_str();

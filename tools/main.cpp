@@ -71,6 +71,7 @@ int run(int argc, char** argv) {
   add_replay(app, chosen);
   add_import(app, chosen);
   add_can(app, chosen);
+  add_bus_relay(app, chosen);
   add_lamp(app, chosen);
   add_measure(app, chosen);
   add_rig(app, chosen);

@@ -13,6 +13,7 @@
 #include "net/channels.h"
 #include "net/clock.h"
 #include "net/drive_file.h"
+#include "net/places.h"
 #include "net/run_key.h"
 #include "net/seal.h"
 #include "net/udp.h"
@@ -29,13 +30,11 @@ struct ReplayOptions {
   bool open_bus = false;
 };
 
-/// Ports that take this datagram.
-std::vector<std::uint16_t> receiver_ports(const Datagram& datagram, const Rig& rig) {
+/// Who takes this datagram.
+std::vector<Endpoint> receivers_of(const Datagram& datagram, const Rig& rig) {
   const Channel& row = kChannels[datagram.payload.index()];
-  std::vector<std::uint16_t> ports;
-  const auto add = [&](Role role, std::uint32_t channel = 0) {
-    ports.push_back(static_cast<std::uint16_t>(rig.port_base + port_offset(role, channel)));
-  };
+  std::vector<Endpoint> all;
+  const auto add = [&](Role role, std::uint32_t channel = 0) { all.push_back(endpoint_of(rig, role, channel)); };
   for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl}) {
     if (row.receivers.has(role)) add(role);
   }
@@ -44,7 +43,7 @@ std::vector<std::uint16_t> receiver_ports(const Datagram& datagram, const Rig& r
       add(Role::kVisual, channel);
     }
   }
-  return ports;
+  return all;
 }
 
 /// Whoever takes the place of the cockpit and the car speaks from their ports: beside those of a rig that runs it is
@@ -58,13 +57,13 @@ struct ReplayPorts {
 
   static Result<ReplayPorts> open(const Rig& rig) {
     const auto held = [&](Role role) {
-      return UdpSocket::open(rig.bind_address, static_cast<std::uint16_t>(rig.port_base + port_offset(role)));
+      return UdpSocket::open(address_to_bind(rig, role), static_cast<std::uint16_t>(rig.port_base + port_offset(role)));
     };
     auto cockpit = held(Role::kCockpit), dynamics = held(Role::kDynamics);
     for (const auto* taken : {&cockpit, &dynamics})
       if (!*taken)
         return Error{taken->error().place, taken->error().reason + "; a replay takes the place of cockpit and car"};
-    auto others = UdpSocket::open(rig.bind_address, 0);
+    auto others = UdpSocket::open(off_loopback(rig) ? "0.0.0.0" : rig.bind_address, 0);
     if (!others) return others.error();
     return ReplayPorts{std::move(*cockpit), std::move(*dynamics), std::move(*others)};
   }
@@ -105,9 +104,9 @@ int replay(const ReplayOptions& options) {
     if (auto* vehicle = std::get_if<VehicleState>(&datagram.payload)) vehicle->frame_index = -1;
     std::string bytes = encode(datagram);
     seal.close(bytes);
-    for (const std::uint16_t port : receiver_ports(datagram, *rig)) {
+    for (const Endpoint& to : receivers_of(datagram, *rig)) {
       // A port nobody listens on is no failure of the replay.
-      ++(ports->of(datagram.sender).send_to(port, std::as_bytes(std::span(bytes))) ? sent : refused);
+      ++(ports->of(datagram.sender).send_to(to, std::as_bytes(std::span(bytes))) ? sent : refused);
     }
   }
   std::printf("%llu datagrams sent, %llu not taken, %.3f s of drive\n", static_cast<unsigned long long>(sent),

@@ -1,15 +1,11 @@
 #!/bin/sh
-# The cockpit's half of the whole rig, in the emulated machine: phare-cockpit on vcan, the bus carried to the host.
-#   rig_guest.sh FOLDER PORT_BASE COCKPIT_PROGRAM RELAY_PROGRAM RIG_FILE COCKPIT_FILE
+# The cockpit's half of the whole rig, in the emulated machine: phare-cockpit on vcan, the others on the host.
+#   rig_guest.sh FOLDER COCKPIT_PROGRAM RIG_FILE COCKPIT_FILE
 # The host asks for high beam by making FOLDER/high, and for the end by FOLDER/stop.
 set -u
 folder=$1
-base=$2
 printf 'link add phc0 mtu 72 txqueuelen 1000 type vcan\nlink set phc0 up\n' | ip -batch - || exit 1
-"$4" "127.0.0.1:$((base + 1))=10.0.2.2:$((base + 1))" "127.0.0.1:$((base + 2))=10.0.2.2:$((base + 2))" \
-  "127.0.0.1:$((base + 10))=10.0.2.2:$((base + 10))" "10.0.2.15:$base=127.0.0.1:$base" &
-relay=$!
-"$3" --open-bus --rig "$5" --cockpit "$6" --port-base "$base" --stats "$folder/cockpit.json" 2>"$folder/cockpit.log" &
+"$2" --rig "$3" --cockpit "$4" --stats "$folder/cockpit.json" 2>"$folder/cockpit.log" &
 cockpit=$!
 stalk=02
 while [ ! -e "$folder/stop" ]; do
@@ -26,5 +22,4 @@ done
 kill -TERM $cockpit
 wait $cockpit
 status=$?
-kill $relay
 exit $status

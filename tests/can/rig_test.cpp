@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "config/rig_writer.h"
 #include "net/bus.h"
 #include "tests/paths.h"
 #include "visual/image/image.h"
@@ -100,10 +101,23 @@ TEST(WholeRig, TheStalkOnCanMovesTheBeamInThePicture) {
   const std::filesystem::path folder = build_dir() + "/can_rig";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
-  const std::string rig_file = cockpits_dir() + "/../rigs/country_road.toml";
-  Rig rig = *read_rig(rig_file);
-  rig.run_key = false;
+  Rig rig = *read_rig(cockpits_dir() + "/../rigs/country_road.toml");
   rig.port_base = static_cast<std::uint16_t>(20000 + getpid() % 500 * 20);
+  // Two machines: the emulated one reaches the host at 10.0.2.2, the host reaches it at a port of its own loopback.
+  rig.key_file = folder / "bus.key";
+  std::ofstream(rig.key_file) << std::string(64, '5') << '\n';
+  std::filesystem::permissions(rig.key_file, std::filesystem::perms::owner_read);
+  rig.bus_key = *read_bus_key(rig.key_file);
+  RigWords words;
+  words.path = [](const std::filesystem::path& file) { return std::filesystem::absolute(file).string(); };
+  Rig guest = rig;
+  guest.places = {{"", "10.0.2.15"}, {"", "10.0.2.2"}, {"", "10.0.2.2"}, {}};
+  guest.channels.front().place.send_to = "10.0.2.2";
+  std::ofstream(folder / "guest.toml") << rig_text(guest, words);
+  rig.places.cockpit.send_to = "127.0.0.1";
+  rig.places.recorder = {"0.0.0.0", "127.0.0.1"};
+  const std::string rig_file = folder / "host.toml";
+  std::ofstream(rig_file) << rig_text(rig, words);
   const std::string base = std::to_string(rig.port_base);
   // The stalk of phare_stalk.toml, on the machine's interface, patient with a slow one.
   std::string stalk = contents(cockpits_dir() + "/phare_stalk.toml");
@@ -122,8 +136,7 @@ TEST(WholeRig, TheStalkOnCanMovesTheBeamInThePicture) {
   Bus& bus = *opened;
   const std::string can = tests_dir("can");
   Child machine({can + "/canvm", "run", "--rw", folder, "--udp", base + ":" + base, "--timeout", "280", cache, "--",
-                 can + "/rig_guest.sh", folder, base, program("phare-cockpit"), program("phare_udp_relay"), rig_file,
-                 folder / "stalk.toml"},
+                 can + "/rig_guest.sh", folder, program("phare-cockpit"), folder / "guest.toml", folder / "stalk.toml"},
                 folder / "machine.log");
   const auto until = [&](const std::function<bool()>& done) {
     const auto limit = Clock::now() + kPatience;
@@ -157,9 +170,9 @@ TEST(WholeRig, TheStalkOnCanMovesTheBeamInThePicture) {
 
   ASSERT_TRUE(until([&] { return light_is(LightSwitch::kLow); })) << logs();
   // Only now, because a picture drawn in software leaves no time to boot a machine in.
-  Child car({program("phare-dynamics"), "--open-bus", "--rig", rig_file, "--port-base", base}, folder / "dynamics.log");
-  Child picture({program("phare-visual"), "--open-bus", "--rig", rig_file, "--port-base", base, "--headless", "--size", "160x90",
-                 "--audit-every", "0", "--frames", "100000", "--out", folder / "out"},
+  Child car({program("phare-dynamics"), "--rig", rig_file}, folder / "dynamics.log");
+  Child picture({program("phare-visual"), "--rig", rig_file, "--headless", "--size", "160x90", "--audit-every", "0",
+                 "--frames", "100000", "--out", folder / "out"},
                 folder / "visual.log", 10);
 
   ASSERT_TRUE(until(drawn) && more_frames(5)) << logs();

@@ -1,6 +1,8 @@
 // The cockpit file, its mapping onto a DBC, and what is said when they do not fit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "cockpit_io/signal_map.h"
@@ -134,16 +136,19 @@ TEST(SignalMap, ReadsTheLeverOfATeslaInAllItsPositions) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   const auto config = read_cockpit(kCockpits / "tesla_model3.toml");
   ASSERT_TRUE(config) << config.error().text();
-  SignalMap map = *SignalMap::bind(*config, *read_dbc(file), 0);
+  const Dbc dbc = *read_dbc(file);
+  SignalMap map = *SignalMap::bind(*config, dbc, 0);
+  auto checker = MessageChecker::bind(config->checks.front(), dbc, *dbc.find("SCCM_leftStalk"));
+  ASSERT_TRUE(checker) << checker.error().text();
   DriverInput input;
   std::int64_t at_ns = 1'000'000;
-  int counter = 0;
   const auto stalk = [&](int beam, int turn) {
     CanFrame frame;
     frame.id = 585;
-    frame.length = 3;
-    frame.data[1] = static_cast<std::uint8_t>((counter++ & 15) | beam << 4);
+    frame.length = 4;
+    frame.data[1] = static_cast<std::uint8_t>(beam << 4);
     frame.data[2] = static_cast<std::uint8_t>(turn);
+    checker->sign(frame);
     at_ns += 10'000'000;
     return map.take(frame, at_ns, input);
   };
@@ -157,6 +162,37 @@ TEST(SignalMap, ReadsTheLeverOfATeslaInAllItsPositions) {
   EXPECT_EQ(stalk(0, 13), SignalMap::Taken::kIncomplete) << "told, and";
   EXPECT_EQ(input.switches.turn, TurnSignal::kLeft) << "it stays";
   EXPECT_EQ(input.switches.lever, Lever::kNeutral) << "the beam lever is read all the same";
+}
+
+// Frames of the left stalk that owners have published from their cars, in the order of their counters: each fits the
+// data id of its counter, and the same with one bit turned fits none.
+TEST(SignalMap, TheChecksumOfATeslasStalkIsTheCars) {
+  const auto file = std::filesystem::path(shared_data_dir()) / "dbc/opendbc/tesla_model3_vehicle.dbc";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  const auto config = read_cockpit(kCockpits / "tesla_model3.toml");
+  const Dbc dbc = *read_dbc(file);
+  constexpr std::array<std::array<std::uint8_t, 4>, 8> kOfCars{{{0xD3, 0x03, 0x00, 0x00},
+                                                                {0xD3, 0x04, 0x00, 0x00},
+                                                                {0x5E, 0x07, 0x00, 0x00},
+                                                                {0x5E, 0x09, 0x00, 0x00},
+                                                                {0xE2, 0x0A, 0x00, 0x00},
+                                                                {0x28, 0x0B, 0x00, 0x00},
+                                                                {0x3A, 0x0C, 0x00, 0x00},
+                                                                {0x63, 0x0D, 0x08, 0x00}}};
+  SignalMap map = *SignalMap::bind(*config, dbc, 0);
+  DriverInput input;
+  std::int64_t at_ns = 0;
+  for (const auto& bytes : kOfCars) {
+    CanFrame frame;
+    frame.id = 585;
+    frame.length = 4;
+    std::ranges::copy(bytes, frame.data.begin());
+    SignalMap another = map;
+    EXPECT_EQ(map.take(frame, at_ns += 50'000'000, input), SignalMap::Taken::kDecoded) << int{bytes[1]};
+    frame.data[2] ^= 0x02;
+    EXPECT_EQ(another.take(frame, at_ns, input), SignalMap::Taken::kBadCrc);
+  }
+  EXPECT_EQ(input.switches.turn, TurnSignal::kLeft) << "the last of them, held down";
 }
 
 TEST(SignalMap, AnUnknownLevelIsASignOfLifeUnlessTheBeamHangsOnIt) {

@@ -281,6 +281,44 @@ TEST(CockpitErrors, AreSaidAtTheirLineAndNameTheNearest) {
   says("[source]\nkind = \"gamepad\"\n", "at least one [control");
 }
 
+// What no frame says again: a push button that latches, and the levelling wheel before its message comes; and a stalk
+// that had been silent does not speak because the cockpit is new.
+TEST(SignalMap, LatchesAndTheTimeOfSilenceAreRemembered) {
+  const auto config = parse_cockpit(can(control("fog_front", "S0", "latch = true\n") +
+                                        control("lamp_aim", "S1", "range = [0, 100]\nlowest_deg = -2.0\n")),
+                                    "c.toml");
+  ASSERT_TRUE(config.ok()) << config.error().text();
+  const auto fresh = [&](std::int64_t start_ns) {
+    return *SignalMap::bind(*config, *parse_dbc(kDbc, "c.dbc"), start_ns);
+  };
+  SignalMap map = fresh(0);
+  DriverInput input;
+  const auto send = [&](SignalMap& to, std::uint8_t button, std::int64_t ms) {
+    CanFrame frame;
+    frame.id = 1;
+    frame.length = 8;
+    frame.data[0] = button;
+    frame.data[1] = 100;
+    return to.take(frame, ms * kMs, input);
+  };
+  send(map, 1, 100);
+  send(map, 0, 200);
+  ASSERT_TRUE(input.switches.fog_front);
+  Memory left;
+  map.remember(left);
+  SignalMap next = fresh(10'000 * kMs);
+  Memory taken_up(left.bytes());
+  next.remember(taken_up);
+  EXPECT_EQ(next.silent_at_ns(), map.silent_at_ns());
+  send(next, 0, 10'100);
+  EXPECT_TRUE(input.switches.fog_front);
+  send(next, 1, 10'200);
+  EXPECT_FALSE(input.switches.fog_front) << "the next press switches it off";
+  SignalMap forgetful = fresh(10'000 * kMs);
+  send(forgetful, 0, 10'100);
+  EXPECT_FALSE(input.switches.fog_front);
+}
+
 TEST(CockpitFile, EveryShippedCarFitsItsDbc) {
   const std::filesystem::path cockpits = cockpits_dir();
   const auto folder = std::filesystem::path(shared_data_dir()) / "dbc/opendbc";

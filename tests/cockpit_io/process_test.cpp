@@ -246,6 +246,92 @@ TEST_F(CockpitProcessTest, KeysOfATerminalReachTheBus) {
               stats["light_change_to_datagram"]["p99_us"].get<double>());
 }
 
+// High beam, fog lamps and hazard by keys that only latch: nobody can ask for them again, and the newest press still
+// travels when the new cockpit begins.
+TEST_F(CockpitProcessTest, LatchesComeBackAfterAKill) {
+  Bus car = bus(Role::kDynamics), window = bus(Role::kVisual);
+  const auto words =
+      arguments({"--cockpit", cockpits_dir() + "/keyboard.toml", "--state", folder_ / "state", "--log-level", "warn"});
+  std::optional<Program> cockpit;
+  cockpit.emplace(words, folder_ / "errors");
+  const auto begin = Clock::now();
+  KeyInput keys;
+  std::vector<CockpitState> heard;
+  car.on_datagram = [&](const Datagram& datagram, std::span<const std::byte>) {
+    if (const auto* state = std::get_if<CockpitState>(&datagram.payload)) heard.push_back(*state);
+  };
+  const auto go_on = [&](const auto& done) {
+    const auto limit = Clock::now() + kPatience;
+    while (Clock::now() < limit) {
+      VehicleState pose;
+      pose.level = "kinematic";
+      car.send(SimTime{std::chrono::nanoseconds(Clock::now() - begin).count()}, pose);
+      window.send(SimTime{}, keys);
+      car.wait(5ms);
+      car.poll();
+      if (!heard.empty() && done(heard.back())) return true;
+    }
+    return false;
+  };
+  const auto lit = [](const CockpitState& state) {
+    return state.light_switch == LightSwitch::kHigh && state.fog_front && state.hazard && !state.fail_safe;
+  };
+  ASSERT_TRUE(go_on([](const CockpitState& state) { return state.light_switch == LightSwitch::kLow; })) << errors();
+  for (const char key : {'h', 'g', 'w'}) {
+    keys.event.push_back(key);
+    keys.event.push_back(-key);
+    keys.events += 2;
+  }
+  ASSERT_TRUE(go_on(lit)) << errors();
+  for (int times = 0; times < 3; ++times) {
+    // The pressing of the third key may be a datagram later than its lamp: let the state settle.
+    heard.clear();
+    ASSERT_TRUE(go_on([&](const CockpitState&) { return heard.size() >= 5; }));
+    const std::uint64_t changes = heard.back().light_changes;
+    EXPECT_EQ(cockpit->end(SIGKILL), 1000 + SIGKILL);
+    car.poll();
+    heard.clear();
+    cockpit.emplace(words, folder_ / "errors");
+    ASSERT_TRUE(go_on([&](const CockpitState&) { return heard.size() >= 60; })) << errors();
+    for (const CockpitState& state : heard) ASSERT_TRUE(lit(state)) << "kill " << times;
+    EXPECT_EQ(heard.back().light_changes, changes);
+  }
+  EXPECT_EQ(car.counters().received[kPayloadIndex<CockpitState>].restarted, 3u);
+  keys.event.push_back('h');
+  ++keys.events;
+  EXPECT_TRUE(go_on([](const CockpitState& state) { return state.light_switch == LightSwitch::kLow; }));
+  EXPECT_EQ(cockpit->end(SIGTERM), 0) << errors();
+}
+
+// A design chosen by hand beside a log, which itself is played again up to now.
+TEST_F(CockpitProcessTest, AChosenDesignComesBackAfterAKill) {
+  auto words = log_arguments();
+  words.insert(words.end(), {"--lockstep", "--state", folder_ / "state"});
+  Bus visual = bus(Role::kVisual), control = bus(Role::kControl);
+  std::optional<Program> cockpit;
+  cockpit.emplace(words, folder_ / "errors");
+  std::optional<CockpitState> before;
+  for (std::int64_t frame = -1; frame < 20; ++frame) {
+    if (frame == 12) {
+      control.send(SimTime{}, RigControl{RigControl::Design{1}});
+      std::this_thread::sleep_for(100ms);
+    }
+    before = next_controls(visual, frame);
+    ASSERT_TRUE(before) << errors();
+  }
+  ASSERT_EQ(before->design_index, 1u);
+  cockpit->end(SIGKILL);
+  cockpit.emplace(words, folder_ / "errors");
+  for (std::int64_t frame = 20; frame < 23; ++frame) {
+    const auto after = next_controls(visual, frame);
+    ASSERT_TRUE(after) << errors();
+    EXPECT_EQ(after->design_index, 1u) << frame;
+    EXPECT_EQ(after->light_switch, before->light_switch);
+    EXPECT_EQ(after->light_changes, before->light_changes);
+  }
+  EXPECT_EQ(cockpit->end(SIGTERM), 0) << errors();
+}
+
 TEST_F(CockpitProcessTest, BadInputIsOneLineAndExitTwo) {
   const std::string cockpits = cockpits_dir();
   std::ofstream(folder_ / "empty.log") << "nothing\n";

@@ -163,6 +163,12 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       r.error = v.flag() ? "" : "no lamp is lit — prüfen";
       return r;
     }
+    case kPayloadIndex<ClockProbe>: {
+      ClockProbe probe;
+      probe.asked.ns = 1 + static_cast<std::int64_t>(v.whole(2'000'000'000'000'000'000));
+      probe.heard.ns = static_cast<std::int64_t>(v.whole(2'000'000'000'000'000'000));
+      return probe;
+    }
     default: {
       ControlReply r;
       r.to_start_id = v.bits();

@@ -232,6 +232,7 @@ TEST(WireRefuses, ValuesOutOfRange) {
   constexpr std::size_t kRequest = kPayloadIndex<ProbeRequest>;
   constexpr std::size_t kReply = kPayloadIndex<ProbeReply>;
   constexpr std::size_t kAnswer = kPayloadIndex<ControlReply>;
+  constexpr std::size_t kClock = kPayloadIndex<ClockProbe>;
   const std::vector<std::pair<std::size_t, std::function<void(D&)>>> wrong = {
       {kCockpit, [](D& m) { m.mutable_cockpit_state()->set_accelerator_01(1.0000001); }},
       {kCockpit, [](D& m) { m.mutable_cockpit_state()->set_brake_01(-1e-9); }},
@@ -280,6 +281,9 @@ TEST(WireRefuses, ValuesOutOfRange) {
       {kAnswer, [](D& m) { m.mutable_control_reply()->set_request_id(0); }},
       {kAnswer, [](D& m) { m.mutable_control_reply()->set_verdict(static_cast<wire::ControlVerdict>(4)); }},
       {kAnswer, [](D& m) { m.mutable_control_reply()->set_now(std::string(5000, 'x')); }},
+      {kClock, [](D& m) { m.mutable_clock_probe()->set_asked_wall_ns(0); }},
+      {kClock, [](D& m) { m.mutable_clock_probe()->set_asked_wall_ns(std::numeric_limits<std::int64_t>::max()); }},
+      {kClock, [](D& m) { m.mutable_clock_probe()->set_heard_wall_ns(-1); }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_nx(0, 1.1); }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_x_m(0, 1e9); }},
       {kReply, [](D& m) { m.mutable_probe_reply()->set_illuminance_lx(0, -1.0); }},

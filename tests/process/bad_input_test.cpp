@@ -63,6 +63,8 @@ class BadInput : public testing::Test {
     write_rig("rig_zero_key.toml", text, "address = ", "key_file = \"zero.key\"\naddress = ");
     write("zero.key", std::string(64, '0') + "\n");
     fs::permissions(folder_ / "zero.key", fs::perms::owner_read | fs::perms::owner_write);
+    write_rig("rig_place.toml", text, "[clock]", "[bus.dynamics]\nsend_to = \"car\"\n\n[clock]");
+    write_rig("rig_far.toml", text, "[clock]", "[bus.dynamics]\nsend_to = \"10.0.0.2\"\n\n[clock]");
     write("rig_syntax.toml", "name = \"x\"\nscene = \n");
     write("bad.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6 oops\n1 2 3\n");
     write("good.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6 7\n1 2 3\n");
@@ -84,6 +86,7 @@ class BadInput : public testing::Test {
     write("good.csv", "x_m,y_m,z_m,nx,ny,nz\n1,2,3,0,0,1\n");
     write("pose.csv", "t_s,east_m,north_m,up_m,heading_deg_cw_from_north,path_pitch_deg\n1,0,0,0,0,0\n2,0,9,0,0,0\n");
     write("file", "");
+    write("binary.blf", "LOGG");
   }
 
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
@@ -140,6 +143,8 @@ TEST_F(BadInput, OfADrive) {
       {"key too short", drive + "--rig rig_bad_key.toml", "bad.key:1: expected 64 hexadecimal digits"},
       {"key for all", drive + "--rig rig_open_key.toml", "open.key: others may read or change it; chmod 600"},
       {"key of zeros", drive + "--rig rig_zero_key.toml", "zero.key:1: all zero is no key"},
+      {"a place that is no address", drive + "--rig rig_place.toml", "\"car\" is not an IPv4 address"},
+      {"another machine, no key", drive + "--rig rig_far.toml", "a key_file is required"},
       {"no IES", drive + "--rig rig_no_ies.toml", "absent.ies: no such file"},
       {"IES with a word", drive + "--rig rig_bad_ies.toml", "bad.ies:7: a candela value is not a number: \"oops\""},
       {"no glTF", drive + "--rig rig_no_glb.toml", "absent.glb: no such file"},
@@ -223,6 +228,17 @@ TEST_F(BadInput, OfTheOtherCommands) {
       {"rig: portable nowhere", "phare rig new --lamp good.ies --portable", "--portable: "},
       {"rig: nowhere to write", "phare rig new --lamp good.ies --out /nonexistent/r.toml", "/nonexistent/r.toml"},
       {"rig: portable, nowhere", "phare rig new --lamp good.ies --portable --out good.ies/r.toml", "good.ies/r"},
+      {"import: no DBC", import + "--can good.log", "--dbc: is required"},
+      {"import: no cockpit file", import + "--can good.log --cockpit absent.toml", "absent.toml: no such file"},
+      {"import: a cockpit file without steering",
+       import + "--can good.log --dbc " + kConfig + "cockpits/phare_stalk.dbc --cockpit " + kConfig +
+           "cockpits/keyboard.toml",
+       "maps no"},
+      {"a log that Python reads, without Python", "PHARE_PYTHON=/nonexistent phare can crc binary.blf", "python3-can"},
+      {"relay: to nowhere", "phare bus-relay --listen 127.0.0.9 --to car --seconds 1", "car: is not an IPv4 address"},
+      {"relay: to itself", "phare bus-relay --listen 127.0.0.9 --to 127.0.0.9 --seconds 1", "passes on to itself"},
+      {"relay: at no address of ours", "phare bus-relay --listen 192.0.2.1 --to 127.0.0.1 --seconds 1",
+       "is no address of this machine"},
       {"can: no DBC", "phare can list absent.dbc", "absent.dbc: no such file"},
       {"can: no log", "phare can decode absent.log --dbc " + kConfig + "cockpits/phare_stalk.dbc", "absent.log: "},
       {"can: no such signals",

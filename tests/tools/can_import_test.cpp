@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <numbers>
 
@@ -187,6 +188,143 @@ TEST_F(CanImport, BadInputIsNamed) {
   options = comma_options();
   options.can_log = "/nowhere.log";
   EXPECT_FALSE(import_can_drive(options).ok());
+}
+
+// What speed and steering alone give for this car, told, not judged: its ratio and the zero of its sensor are not the
+// vehicle file's.
+TEST_F(CanImport, TellsHowFarSpeedAndSteeringDrift) {
+  const auto drive = import_can_drive(comma_options());
+  ASSERT_TRUE(drive) << drive.error().text();
+  ASSERT_TRUE(drive->drift);
+  EXPECT_NEAR(drive->drift->path_m, drive->distance_m, 0.5);
+  EXPECT_GT(drive->drift->distance_m, 0.0);
+  EXPECT_EQ(to_json(*drive)["drift"]["distance_m"], drive->drift->distance_m);
+  std::printf("%s\n", drive->drift->text().c_str());
+}
+
+// ---- a car of no make: config/examples/car.dbc, on a log made here
+
+/// 10 s at 10 m/s with the wheel held at 90 degrees to the left; lights: off, low at 2 s, high from 4 to 6 s.
+class MadeDrive : public testing::Test {
+ protected:
+  MadeDrive() : folder_(std::filesystem::path(testing::TempDir()) / "phare_made_drive") {
+    std::filesystem::create_directories(folder_);
+    std::ofstream log(folder_ / "car.log");
+    for (int k = 0; k <= 1000; ++k) {
+      const double t_s = 0.01 * k;
+      const int light = t_s < 2.0 ? 0 : t_s < 4.0 || t_s >= 6.0 ? 3 : 7;
+      char line[200];
+      std::snprintf(line, sizeof line,
+                    "(%.6f) can0 200#100E000000000000\n(%.6f) can0 201#8403000000000000\n"
+                    "(%.6f) can0 204#%02X00000000000000\n",
+                    1000.0 + t_s, 1000.0 + t_s + 0.001, 1000.0 + t_s + 0.002, light);
+      log << line;
+    }
+    std::ofstream(folder_ / "car.toml") << "[source]\nkind = \"log\"\ndbc = \"" + kDbc.string() +
+                                               "\"\n"
+                                               "[control.position]\nmessage = \"LIGHT_STALK\"\nsignal = "
+                                               "\"PARKING_LIGHT\"\n"
+                                               "[control.low]\nmessage = \"LIGHT_STALK\"\nsignal = \"LOW_BEAM\"\n"
+                                               "[control.high]\nmessage = \"LIGHT_STALK\"\nsignal = \"HIGH_BEAM\"\n"
+                                               "[control.steering]\nmessage = \"STEER_ANGLE_SENSOR\"\n"
+                                               "signal = \"STEER_ANGLE\"\nfine_signal = \"STEER_FRACTION\"\n";
+    options_.can_log = folder_ / "car.log";
+    options_.dbc = kDbc;
+    options_.vehicle = *read_vehicle(source_dir() + "/config/vehicles/hatchback.toml");
+    radius_m_ = options_.vehicle.wheelbase_m / std::tan(std::numbers::pi / 2.0 / options_.vehicle.steering_ratio);
+  }
+  ~MadeDrive() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  static inline const std::filesystem::path kDbc = source_dir() + "/config/examples/car.dbc";
+  std::filesystem::path folder_;
+  ImportOptions options_;
+  double radius_m_ = 0.0;
+};
+
+TEST_F(MadeDrive, WithoutAPoseTheCarIsDrivenByItsSteering) {
+  options_.start.x_m = 100.0;
+  options_.start.y_m = 50.0;
+  options_.start.yaw_rad = 0.5;
+  const auto drive = import_can_drive(options_);
+  ASSERT_TRUE(drive) << drive.error().text();
+  EXPECT_FALSE(drive->drift) << "nothing to compare with";
+  EXPECT_EQ(drive->counts.pose_rows, 0u);
+  // The circle of a wheel that does not slip, to the steps of 0.1 m that its chords are made of: s³/24r² a step of s.
+  const double cx = 100.0 - radius_m_ * std::sin(0.5), cy = 50.0 + radius_m_ * std::cos(0.5);
+  for (const Datagram& datagram : drive->datagrams) {
+    ASSERT_EQ(check(datagram), Refusal::kNone);
+    const auto* vehicle = std::get_if<VehicleState>(&datagram.payload);
+    if (vehicle == nullptr) continue;
+    ASSERT_NEAR(std::hypot(vehicle->x_m - cx, vehicle->y_m - cy), radius_m_, 0.01) << datagram.sim_time.seconds();
+    ASSERT_NEAR(vehicle->speed_mps, 10.0, 1e-6);
+    const double turned_rad = 10.0 * datagram.sim_time.seconds() / radius_m_;
+    ASSERT_NEAR(std::remainder(vehicle->yaw_rad - 0.5 - turned_rad, 2.0 * std::numbers::pi), 0.0, 1e-3);
+  }
+  const auto again = import_can_drive(options_);
+  ASSERT_TRUE(again);
+  for (std::size_t i = 0; i < drive->datagrams.size(); ++i)
+    ASSERT_EQ(encode(drive->datagrams[i]), encode(again->datagrams[i]));
+}
+
+TEST_F(MadeDrive, AgainstAPoseTheDriftIsTold) {
+  options_.pose = folder_ / "pose.csv";
+  const auto write_pose = [&](double radius_m) {
+    std::ofstream csv(options_.pose);
+    csv.precision(12);
+    csv << "t_s,east_m,north_m,up_m,heading_deg_cw_from_north,path_pitch_deg\n";
+    for (int k = 0; k <= 200; ++k) {
+      const double s_m = 10.0 * 0.05 * k, a = s_m / radius_m;
+      csv << 1000.0 + 0.05 * k << ',' << radius_m * std::sin(a) << ',' << radius_m * (1.0 - std::cos(a)) << ",0,"
+          << 90.0 - a * 180.0 / std::numbers::pi << ",0\n";
+    }
+  };
+  write_pose(radius_m_);
+  auto drive = import_can_drive(options_);
+  ASSERT_TRUE(drive) << drive.error().text();
+  // What smoothing over 0.25 s takes off a circle at its end: at most the sagitta of half of it, r(1 - cos(v 0.125/r)).
+  EXPECT_LT(drive->drift->distance_m, 0.1);
+  EXPECT_NEAR(drive->drift->path_m, 100.0, 0.15) << "to a step of 10 ms";
+  // On a way that turns half as much the car that turns whole ends elsewhere: by what geometry says.
+  write_pose(2.0 * radius_m_);
+  drive = import_can_drive(options_);
+  ASSERT_TRUE(drive);
+  const double path_m = drive->drift->path_m, a = path_m / radius_m_, b = a / 2.0;
+  const double apart_m = std::hypot(radius_m_ * std::sin(a) - 2.0 * radius_m_ * std::sin(b),
+                                    radius_m_ * (1.0 - std::cos(a)) - 2.0 * radius_m_ * (1.0 - std::cos(b)));
+  EXPECT_NEAR(drive->drift->distance_m, apart_m, 0.2);
+  EXPECT_NE(drive->notes.back().find("%"), std::string::npos);
+  bool told = false;
+  for (const std::string& note : drive->notes) told = told || note.find("would end") != std::string::npos;
+  EXPECT_TRUE(told);
+}
+
+TEST_F(MadeDrive, ACockpitFileNamesTheControls) {
+  options_.light = ImportLight::kAsRecorded;
+  const auto by_name = import_can_drive(options_);
+  options_.cockpit = *read_cockpit(folder_ / "car.toml");
+  options_.signals.steering = "NOT.THERE";  // the cockpit file's is used
+  const auto drive = import_can_drive(options_);
+  ASSERT_TRUE(drive && by_name) << (drive ? "" : drive.error().text());
+  ASSERT_EQ(drive->datagrams.size(), by_name->datagrams.size());
+  std::vector<LightSwitch> beams;
+  for (std::size_t i = 0; i < drive->datagrams.size(); ++i) {
+    ASSERT_EQ(check(drive->datagrams[i]), Refusal::kNone);
+    const auto* cockpit = std::get_if<CockpitState>(&drive->datagrams[i].payload);
+    if (cockpit == nullptr) continue;
+    EXPECT_NEAR(cockpit->steering_wheel_rad, std::numbers::pi / 2.0, 1e-9);
+    const double t_s = drive->datagrams[i].sim_time.seconds();
+    const LightSwitch beam = t_s < 2.01 ? LightSwitch::kOff : t_s < 4.01 ? LightSwitch::kLow : LightSwitch::kHigh;
+    if (t_s < 6.0) {
+      EXPECT_EQ(cockpit->light_switch, beam) << t_s;
+    }
+    if (beams.empty() || beams.back() != cockpit->light_switch) beams.push_back(cockpit->light_switch);
+  }
+  EXPECT_EQ(beams, (std::vector{LightSwitch::kOff, LightSwitch::kLow, LightSwitch::kHigh, LightSwitch::kLow}));
+  options_.cockpit->controls.clear();
+  EXPECT_NE(import_can_drive(options_).error().text().find("maps no steering"), std::string::npos);
 }
 
 TEST(CsvColumns, ErrorsSayWhere) {

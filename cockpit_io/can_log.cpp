@@ -1,0 +1,117 @@
+#include "cockpit_io/can_log.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "config/remedies.h"
+
+namespace phare {
+namespace {
+
+// Each frame as a line of candump; what went wrong as a comment that we look for.
+constexpr const char* kConverter = R"python(
+import re, sys
+def line_of(m):
+    channel = re.sub(r"\W", "", "can0" if m.channel is None else str(m.channel)) or "can0"
+    if m.is_error_frame:
+        ident, body = "%08X" % (0x20000000 | (m.arbitration_id & 0x1FFFFFFF)), "#" + "00" * 8
+    else:
+        ident, body = ("%08X" if m.is_extended_id else "%03X") % m.arbitration_id, "#" + bytes(m.data).hex().upper()
+        if m.is_remote_frame: body = "#R%d" % m.dlc
+        elif m.is_fd: body = "##%X" % (int(m.bitrate_switch) | 2 * int(m.error_state_indicator)) + body[1:]
+    return "(%.6f) %s %s%s" % (m.timestamp, channel, ident, body)
+try:
+    import can
+except ImportError:
+    print("#missing")
+    sys.exit()
+print("#with python-can " + can.__version__)
+try:
+    reader = can.LogReader(sys.argv[1])
+    print("#with python-can " + can.__version__ + ", " + type(reader).__name__)
+    for message in reader: print(line_of(message))
+except BaseException as problem:
+    print("#failed " + " ".join((str(problem) or type(problem).__name__).split()))
+)python";
+
+/// For the shell: one word, whatever stands in it.
+std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+std::string python() {
+  const char* named = std::getenv("PHARE_PYTHON");
+  return named == nullptr || *named == '\0' ? "python3" : named;
+}
+
+/// Standard output of the converter; nullopt where there is no Python.
+std::optional<std::string> convert(const std::filesystem::path& file) {
+  const std::string command = shell_word(python()) + " -c " + shell_word(kConverter) + " " +
+                              shell_word(std::filesystem::absolute(file).string()) + " 2>/dev/null";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return std::nullopt;
+  std::string out;
+  std::array<char, 65536> part{};
+  for (std::size_t n = 0; (n = fread(part.data(), 1, part.size(), pipe)) > 0;) out.append(part.data(), n);
+  pclose(pipe);
+  if (!out.starts_with('#')) return std::nullopt;
+  return out;
+}
+
+/// What follows the last "#word " at the beginning of a line.
+std::string remark(const std::string& out, const std::string& word) {
+  const std::size_t at = out.rfind("#" + word);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = std::min(at + word.size() + 2, out.size());
+  return out.substr(begin, out.find('\n', begin) - begin);
+}
+
+}  // namespace
+
+bool reads_foreign_can_logs() {
+  return std::system((shell_word(python()) + " -c 'import can' >/dev/null 2>&1").c_str()) == 0;
+}
+
+bool is_foreign_can_log(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array<std::string_view, 4> kForeign{".asc", ".blf", ".trc", ".mf4"};
+  return std::ranges::find(kForeign, ending) != kForeign.end();
+}
+
+Result<CanLog> read_can_log(const std::filesystem::path& file) {
+  if (!is_foreign_can_log(file)) {
+    auto log = read_candump(file);
+    if (!log) return log.error();
+    return CanLog{std::move(*log), {}};
+  }
+  if (!std::ifstream(file)) return Error{file.string(), "no such file, or it cannot be read"};
+  const auto out = convert(file);
+  if (!out)
+    return Error{file.string(),
+                 "a log of this kind is read with Python, which does not start; " + std::string(kCanLogRemedy)};
+  if (out->starts_with("#missing"))
+    return Error{file.string(), "a log of this kind is read with python-can; " + std::string(kCanLogRemedy)};
+  const std::string with = remark(*out, "with"), failed = remark(*out, "failed");
+  auto log = parse_candump(*out, file.string());
+  if (!log) return Error{file.string(), with + ": " + (failed.empty() ? "holds no CAN frame" : failed)};
+  if (!failed.empty()) {
+    ++log->broken_lines;
+    log->problems.push_back({static_cast<int>(log->entries.size()) + 1, with + " breaks off here: " + failed});
+  }
+  spdlog::info("{}: {} frames, read with {}", file.string(), log->entries.size(), with);
+  return CanLog{std::move(*log), with};
+}
+
+}  // namespace phare

@@ -1,0 +1,117 @@
+// reference: logs of other makers than candump, written by python-can itself and read back; what is said where it is
+// missing. Skips where no Python environment can be had.
+#include "cockpit_io/can_log.h"
+
+#include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/cockpit_io/oracle.h"
+#include "tests/paths.h"
+
+namespace phare {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CanLogs : public testing::Test {
+ protected:
+  CanLogs() : folder_(fs::temp_directory_path() / ("phare-can-log-" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+    spdlog::set_level(spdlog::level::off);
+  }
+  ~CanLogs() override {
+    spdlog::set_level(spdlog::level::info);
+    unsetenv("PHARE_PYTHON");
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  /// A program in the place of Python.
+  void python_is(const std::string& script) {
+    std::ofstream(folder_ / "python") << "#!/bin/sh\n" << script;
+    fs::permissions(folder_ / "python", fs::perms::owner_all);
+    setenv("PHARE_PYTHON", (folder_ / "python").c_str(), 1);
+  }
+  fs::path touched(const std::string& name) {
+    std::ofstream(folder_ / name) << "x";
+    return folder_ / name;
+  }
+  fs::path folder_;
+};
+
+TEST_F(CanLogs, CandumpsOwnNeedNothing) {
+  setenv("PHARE_PYTHON", "/nowhere", 1);
+  const auto log = read_can_log(source_dir() + "/config/examples/stalk.log");
+  ASSERT_TRUE(log) << log.error().text();
+  EXPECT_EQ(log->log.entries.size(), 480u);
+  EXPECT_EQ(log->read_with, "");
+}
+
+TEST_F(CanLogs, WhatIsMissingIsNamedWithItsPackage) {
+  setenv("PHARE_PYTHON", "/nowhere", 1);
+  const fs::path blf = touched("it's a drive.blf");
+  EXPECT_NE(read_can_log(blf).error().text().find("apt-get install python3-can"), std::string::npos);
+  python_is("echo '#missing'");
+  EXPECT_NE(read_can_log(blf).error().text().find("is read with python-can; apt-get install python3-can"),
+            std::string::npos);
+  EXPECT_NE(read_can_log(folder_ / "none.asc").error().text().find("no such file"), std::string::npos);
+}
+
+TEST_F(CanLogs, ALogThatBreaksOffIsUsedUpToThere) {
+  python_is("echo '#with python-can 9, BLFReader'; echo '(1.5) can0 123#00'; echo '#failed cut short'");
+  const auto log = read_can_log(touched("a.BLF"));
+  ASSERT_TRUE(log) << log.error().text();
+  EXPECT_EQ(log->log.entries.size(), 1u);
+  EXPECT_EQ(log->log.broken_lines, 1u);
+  EXPECT_EQ(log->log.problems.back().reason, "python-can 9, BLFReader breaks off here: cut short");
+  EXPECT_EQ(log->read_with, "python-can 9, BLFReader");
+  python_is("echo '#with python-can 4.1.0'; echo '#failed no such format'");
+  EXPECT_NE(read_can_log(touched("a.mf4")).error().text().find("python-can 4.1.0: no such format"), std::string::npos);
+}
+
+// The same drive in each format; stamps to the format's own steps.
+TEST_F(CanLogs, VectorAndPeakLogsSayWhatCandumpSays) {
+  const auto [why, status] = make_oracle_venv();
+  if (status != 0) GTEST_SKIP() << "no Python environment: " << why;
+  const std::string python = build_root("oracle") + "/bin/python";
+  setenv("PHARE_PYTHON", python.c_str(), 1);
+  // Classic frames of 11 and 29 bits. A TRC file of python-can begins at its first frame.
+  const fs::path candump = folder_ / "drive.log";
+  std::ofstream(candump) << "(1700000000.000000) can0 123#0102030405060708\n(1700000000.010000) can0 18FEF100#AA\n"
+                            "(1700000000.020500) can0 7FF#\n(1700000003.250000) can0 200#FFFF\n";
+  const auto want = read_can_log(candump);
+  ASSERT_TRUE(want);
+  for (const char* ending : {"asc", "blf", "trc"}) {
+    const fs::path file = folder_ / (std::string("drive.") + ending);
+    const std::string command = "'" + python +
+                                "' -c 'import can,sys\nw = can.Logger(sys.argv[2])\n"
+                                "for m in can.LogReader(sys.argv[1]):\n  m.is_rx = True\n  w(m)\nw.stop()' '" +
+                                candump.string() + "' '" + file.string() + "' 2>&1";
+    const auto [out, failed] = output_of(command);
+    ASSERT_EQ(failed, 0) << ending << ": " << out;
+    const auto got = read_can_log(file);
+    ASSERT_TRUE(got) << ending << ": " << got.error().text();
+    EXPECT_NE(got->read_with.find("Reader"), std::string::npos) << got->read_with;
+    ASSERT_EQ(got->log.entries.size(), want->log.entries.size()) << ending;
+    EXPECT_EQ(got->log.broken_lines, 0u);
+    for (std::size_t i = 0; i < want->log.entries.size(); ++i) {
+      const CandumpEntry &a = want->log.entries[i], &b = got->log.entries[i];
+      EXPECT_EQ(a.frame.id, b.frame.id) << ending << " " << i;
+      EXPECT_EQ(a.frame.extended, b.frame.extended);
+      EXPECT_EQ(a.frame.length, b.frame.length);
+      EXPECT_EQ(a.frame.data, b.frame.data);
+      const std::int64_t since_a = a.stamp_ns - want->log.entries[0].stamp_ns,
+                         since_b = b.stamp_ns - got->log.entries[0].stamp_ns;
+      EXPECT_NEAR(static_cast<double>(since_a), static_cast<double>(since_b), 110'000.0)
+          << ending << ": TRC has 0.1 ms";
+    }
+    std::printf("%s: %s\n", ending, got->read_with.c_str());
+  }
+}
+
+}  // namespace
+}  // namespace phare
