@@ -91,6 +91,7 @@ class StepLoop {
   /// Hashes of the steps after step number `step`, oldest first, the newest kMaxStepHashes at most.
   std::vector<std::uint64_t> hashes_after(std::uint64_t step) const;
 
+  SimTime start() const { return start_; }  ///< where the steps count from, a predecessor's where one is recalled
   SimTime time() const { return time_of(steps_); }  ///< of the newest step
   std::uint64_t steps() const { return steps_before_ + steps_; }
   std::uint64_t steps_done() const { return steps_; }  ///< by this loop itself

@@ -207,6 +207,32 @@ TEST_F(DynamicsProcess, LockstepIsTheSameToTheBitWithKillsAtEveryLevel) {
   }
 }
 
+// Of a process that took over from a picture, and of the one that took over from it: times are those of the drive.
+TEST_F(DynamicsProcess, SwitchesKeepTheirTimesThroughKills) {
+  auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+  ASSERT_TRUE(cockpit.ok() && visual.ok());
+  const std::string state = (folder_ / "car.state").string(), stats = (folder_ / "s.json").string();
+  std::vector<VehicleState> poses{VehicleState{}};
+  std::int64_t next = 0;
+  for (const auto& more :
+       {arguments({"--lockstep", "--level", "auto"}), arguments({"--lockstep", "--level", "auto", "--state", state}),
+        arguments({"--lockstep", "--level", "auto", "--state", state, "--stats", stats})}) {
+    Child child(more);
+    poses = play(*cockpit, *visual, next, next + 39, poses.back());
+    ASSERT_EQ(poses.size(), 40u);
+    next += 40;
+    child.end(next == 120 ? SIGTERM : SIGKILL);
+  }
+  const auto told = nlohmann::json::parse(std::ifstream(stats))["auto"];
+  ASSERT_FALSE(told["history"].empty());
+  for (const auto& change : told["history"]) {
+    EXPECT_GE(change["time_s"].get<double>(), 39.0 / 60.0);  // where the second began
+    EXPECT_LE(change["time_s"].get<double>(), 2.0);
+    EXPECT_NE(change["from"], change["to"]);
+    EXPECT_FALSE(change["because"].get<std::string>().empty());
+  }
+}
+
 // In real time, and with no picture that could tell where the car was: it goes on from where it was, and time does not
 // go back.
 TEST_F(DynamicsProcess, RealTimeGoesOnAfterAKillThoughNoPictureTellsOfTheCar) {
