@@ -63,7 +63,7 @@ Result<Begin> begin_of(const Rig& rig, const BeginOptions& options) {
 
   if (!begin.setup.track.empty()) {
     begin.state = from_message(begin.setup.track.at(begin.setup.track.begin()), begin.setup.vehicle.wheelbase_m,
-                               begin.setup.vehicle.track_m);
+                               begin.setup.vehicle.track_m, begin.setup.vehicle.rest);
     return begin;
   }
   if (const auto lane = lane_file_of(rig.scene_file); std::filesystem::exists(lane)) {

@@ -15,7 +15,7 @@ Result<StateFile> DynamicsProcess::open_state(const std::filesystem::path& file)
 
 void DynamicsProcess::begin_at(Begin begin, SimTime time, const VehicleState& drawn) {
   const VehicleParams& car = begin.setup.vehicle;
-  const CarState state = from_message(drawn, std::max(car.wheelbase_m, 1.0), std::max(car.track_m, 1.0));
+  const CarState state = from_message(drawn, std::max(car.wheelbase_m, 1.0), std::max(car.track_m, 1.0), car.rest);
   spdlog::info("going on at {:.3f} s, step {}", time.seconds(), drawn.step);
   loop_.emplace(std::move(begin.setup), state, time, drawn.step);
 }

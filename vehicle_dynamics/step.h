@@ -118,6 +118,7 @@ class StepLoop {
   }
   void step_once();
   void move(double dt);
+  void begin_standing();
   bool sleeps(double dt);
   void stay_if_lost();
   void place_on_road(double dt);
@@ -148,6 +149,7 @@ class StepLoop {
   std::uint64_t controls_refused_ = 0;
   bool off_road_ = false;
   const char* out_of_play_ = nullptr;
+  bool fresh_ = false;  ///< put on the road at rest, and has not settled there yet
   double still_s_ = 0.0, slept_s_ = 0.0;
   StepTimes times_;
 };

@@ -363,6 +363,23 @@ TEST_F(DynamicsProcess, ReplaysADriveToItsEnd) {
 }
 
 // Simulated time begins with the picture; one that never becomes ready is not waited for without end.
+// With a level of its own a drive gives the first pose, and another vehicle may drive it.
+TEST_F(DynamicsProcess, ADriveAndALevelBeginWhereTheDriveBegins) {
+  const std::string drive = drive_file();
+  for (const char* level : {"kinematic", "full"}) {
+    auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+    ASSERT_TRUE(cockpit.ok() && visual.ok());
+    Child child(
+        arguments({"--lockstep", "--drive", drive, "--level", level, "--vehicle", vehicles_dir() + "/bmw_320i.toml"}));
+    const auto poses = play(*cockpit, *visual, 0, 20);
+    ASSERT_EQ(poses.size(), 21u) << level;
+    EXPECT_NEAR(poses.front().x_m, 0.0, 1e-9) << level;  // the lane would begin at 5
+    EXPECT_EQ(poses.back().level, level);
+    EXPECT_GT(poses.back().speed_mps, 0.1) << level;  // and not the record's 20 m/s times time
+    EXPECT_EQ(child.end(SIGTERM), 0);
+  }
+}
+
 TEST_F(DynamicsProcess, RealTimeBeginsWithThePicture) {
   for (const bool comes : {true, false}) {
     auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
