@@ -15,7 +15,7 @@
 namespace phare {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 1 << 20;
+constexpr std::uintmax_t kLargestYaml = 1 << 20;
 
 std::string place_of(const std::string& file, const YAML::Mark& mark) {
   return mark.line < 0 ? file : file + ":" + std::to_string(mark.line + 1);
@@ -271,7 +271,7 @@ bool is_tir(const std::filesystem::path& file) {
 }  // namespace
 
 Result<CommonRoadFile> CommonRoadFile::read(const std::filesystem::path& file) {
-  const Result<std::string> text = read_input_bytes(file, kMostBytes);
+  const Result<std::string> text = read_input_bytes(file, kLargestYaml);
   if (!text) return text.error();
   CommonRoadFile out;
   out.file_ = input_name(file);

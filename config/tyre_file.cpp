@@ -12,7 +12,7 @@
 namespace phare {
 namespace {
 
-constexpr std::size_t kMostBytes = 1 << 20;  // such files have some 10 KiB
+constexpr std::size_t kLargestTir = 1 << 20;  // such files have some 10 KiB
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
@@ -137,7 +137,7 @@ struct TyreFile::Reader {
 };
 
 Result<TyreFile> TyreFile::read(const std::filesystem::path& file) {
-  const Result<std::string> text = read_input_bytes(file, kMostBytes);
+  const Result<std::string> text = read_input_bytes(file, kLargestTir);
   if (!text) return text.error();
   return parse(*text, input_name(file));
 }

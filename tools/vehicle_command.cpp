@@ -17,7 +17,7 @@ struct VehicleArguments {
   double load_n = 0.0;
 };
 
-int vehicle(const VehicleArguments& a) {
+int make_vehicle(const VehicleArguments& a) {
   const bool tyre_alone = std::filesystem::path(a.in).extension() == ".tir";
   if (tyre_alone && !a.tyre.empty()) return bad_input({"--tyre", "goes with a vehicle; " + a.in + " is a tyre itself"});
   if (!tyre_alone && a.tyre.empty())
@@ -50,7 +50,7 @@ void add_vehicle(CLI::App& app, Command& chosen) {
                    "Load at which the coefficients of a .tir count [a quarter of the car's weight; alone: nominal]")
       ->check(CLI::Range(100.0, 1e5));
   command->add_option("--out", arguments->out, "Vehicle file to write [standard output]");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return vehicle(*arguments); }; });
+  command->callback([arguments, &chosen] { chosen = [arguments] { return make_vehicle(*arguments); }; });
 }
 
 }  // namespace phare

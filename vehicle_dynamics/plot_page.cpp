@@ -224,7 +224,7 @@ std::string difference_table(const Traces& traces) {
   for (const Panel& panel : panels())
     for (const Quantity& line : panel.lines) {
       const Difference* d = traces.shows(panel) ? traces.difference(line) : nullptr;
-      if (!d) continue;
+      if (!d || (d->peak == 0.0 && d->largest == 0.0)) continue;
       const double rms = std::sqrt(d->sum_of_squares / static_cast<double>(d->count));
       rows += "<tr><td>" + escaped_text(panel.title) + (panel.lines.size() > 1 ? std::string(": ") + line.legend : "") +
               "</td><td>" + shown(d->largest * panel.scale, "%.3g") + " " + panel.unit + "</td><td>" +

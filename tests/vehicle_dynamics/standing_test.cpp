@@ -11,17 +11,17 @@
 namespace phare {
 namespace {
 
-constexpr Level kLevels[] = {Level::kKinematic, Level::kSingleTrack, Level::kFull, Level::kAuto};
+constexpr Level kLevelsThatStand[] = {Level::kKinematic, Level::kSingleTrack, Level::kFull, Level::kAuto};
 
-struct Ground {
+struct Standpoint {
   const char* what;
   double up, aside;
 };
-constexpr Ground kGrounds[] = {{"level", 0.0, 0.0},
-                               {"20 % up", 0.2, 0.0},
-                               {"15 % down", -0.15, 0.0},
-                               {"bank of 10 %", 0.0, 0.1},
-                               {"both", 0.12, -0.08}};
+constexpr Standpoint kStandpoints[] = {{"level", 0.0, 0.0},
+                                       {"20 % up", 0.2, 0.0},
+                                       {"15 % down", -0.15, 0.0},
+                                       {"bank of 10 %", 0.0, 0.1},
+                                       {"both", 0.12, -0.08}};
 
 // Rounding: a slope of 0.2 over 500 m of mesh has its heights to 1e-14 m, of which the springs make some 1e-12 m/s2,
 // and two seconds of that are 1e-11 m and less. Brakes are dry friction, so they add nothing.
@@ -29,8 +29,8 @@ constexpr double kStill_m = 2e-9, kStill_rad = 2e-9;
 
 TEST(Standing, NothingMovesLive) {
   for (const char* file : {"hatchback.toml", "bmw_320i.toml"})
-    for (const Ground& ground : kGrounds)
-      for (const Level level : kLevels) {
+    for (const Standpoint& ground : kStandpoints)
+      for (const Level level : kLevelsThatStand) {
         RunSetup setup;
         setup.level = level;
         setup.vehicle = test::car(file);
@@ -59,8 +59,8 @@ TEST(Standing, NothingMovesLive) {
 }
 
 TEST(Standing, NothingMovesInBatch) {
-  for (const Ground& ground : kGrounds)
-    for (const Level level : kLevels)
+  for (const Standpoint& ground : kStandpoints)
+    for (const Level level : kLevelsThatStand)
       for (const bool parked : {false, true}) {
         Road road;
         road.slope_x = ground.up, road.slope_y = ground.aside;

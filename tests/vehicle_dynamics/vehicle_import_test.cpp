@@ -17,13 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path put(const std::string& name, const std::string& text) {
+fs::path put_file(const std::string& name, const std::string& text) {
   const fs::path file = fs::path(testing::TempDir()) / name;
   std::ofstream(file) << text;
   return file;
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string with_replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   if (at == std::string::npos) throw std::runtime_error("no " + from);
   return text.replace(at, from.size(), to);
@@ -131,7 +131,7 @@ QBZ1 = 10
 )";
 
 TEST(VehicleImport, CommonRoadWords) {
-  const auto made = vehicle_of_commonroad(put("car.yaml", kVehicleYaml), put("tyre.yaml", kTyreYaml), {});
+  const auto made = vehicle_of_commonroad(put_file("car.yaml", kVehicleYaml), put_file("tyre.yaml", kTyreYaml), {});
   ASSERT_TRUE(made.ok()) << made.error().text();
   const auto car = parse_vehicle(made->toml, "made");
   ASSERT_TRUE(car.ok()) << car.error().text();
@@ -222,18 +222,20 @@ TEST(VehicleImport, MagicFormula61AtALoadAndPressure) {
 
 // Units of the file, and 5.2 where PTX3 has the other sign.
 TEST(VehicleImport, UnitsAndKinds) {
-  const std::string in_mm = replaced(replaced(replaced(replaced(replaced(kTir61, "'meter'", "'mm'"),
-                                                                "UNLOADED_RADIUS = 0.32", "UNLOADED_RADIUS = 320"),
-                                                       "VERTICAL_STIFFNESS = 2.0D+5", "VERTICAL_STIFFNESS = 200"),
-                                              "LATERAL_STIFFNESS = 150000", "LATERAL_STIFFNESS = 150"),
-                                     "LONGITUDINAL_STIFFNESS = 350000", "LONGITUDINAL_STIFFNESS = 350");
+  const std::string in_mm =
+      with_replaced(with_replaced(with_replaced(with_replaced(with_replaced(kTir61, "'meter'", "'mm'"),
+                                                              "UNLOADED_RADIUS = 0.32", "UNLOADED_RADIUS = 320"),
+                                                "VERTICAL_STIFFNESS = 2.0D+5", "VERTICAL_STIFFNESS = 200"),
+                                  "LATERAL_STIFFNESS = 150000", "LATERAL_STIFFNESS = 150"),
+                    "LONGITUDINAL_STIFFNESS = 350000", "LONGITUDINAL_STIFFNESS = 350");
   const auto a = TyreFile::parse(kTir61, "a")->at_load(3000.0), b = TyreFile::parse(in_mm, "b")->at_load(3000.0);
   ASSERT_TRUE(a.ok() && b.ok());
   EXPECT_NEAR(a->loaded_radius_m, b->loaded_radius_m, 1e-12);
   EXPECT_NEAR(a->tyre.lat_relaxation_m, b->tyre.lat_relaxation_m, 1e-12);
   const std::string lengths = "[LONG2]\nPTX1 = 2\nPTX3 = 0.5\nPTY1 = 2\nPTY2 = 2\n";
-  const auto mf52 = TyreFile::parse(replaced(kTir61, "FITTYP = 61", "FITTYP = 6") + lengths, "c");
-  const auto pac = TyreFile::parse(replaced(kTir61, "FITTYP = 61", "PROPERTY_FILE_FORMAT = 'PAC2002'") + lengths, "d");
+  const auto mf52 = TyreFile::parse(with_replaced(kTir61, "FITTYP = 61", "FITTYP = 6") + lengths, "c");
+  const auto pac =
+      TyreFile::parse(with_replaced(kTir61, "FITTYP = 61", "PROPERTY_FILE_FORMAT = 'PAC2002'") + lengths, "d");
   ASSERT_TRUE(mf52.ok() && pac.ok());
   EXPECT_NEAR(mf52->at_load(3000.0)->tyre.long_relaxation_m, 0.75 * 2.0 * 0.32 * std::exp(0.125), 1e-12);
   EXPECT_NEAR(pac->at_load(3000.0)->tyre.long_relaxation_m, 0.75 * 2.0 * 0.32 * std::exp(-0.125), 1e-12);
@@ -247,21 +249,21 @@ TEST(VehicleImport, BadFilesAreRefusedWithPlaceAndReason) {
                                        {"'radians'", "'degree'", "t.tir:6: ANGLE 'DEGREE'"},
                                        {"FITTYP = 61", "FITTYP = 62", "no Magic Formula that is read here"},
                                        {"[UNITS]", "[UNITS", "t.tir:3: a section"}}) {
-    const auto read = TyreFile::parse(replaced(kTir61, from, to), "t.tir");
+    const auto read = TyreFile::parse(with_replaced(kTir61, from, to), "t.tir");
     ASSERT_FALSE(read.ok()) << to;
     EXPECT_NE(read.error().text().find(says), std::string::npos) << read.error().text();
   }
-  const auto without = TyreFile::parse(replaced(kTir61, "PKY2 = 2.1", "PKY9 = 2.1"), "t.tir")->at_load(3000.0);
+  const auto without = TyreFile::parse(with_replaced(kTir61, "PKY2 = 2.1", "PKY9 = 2.1"), "t.tir")->at_load(3000.0);
   ASSERT_FALSE(without.ok());
   EXPECT_EQ(without.error().text(), "t.tir: has no PKY2");
-  const fs::path tyre = put("tyre.yaml", kTyreYaml);
+  const fs::path tyre = put_file("tyre.yaml", kTyreYaml);
   for (const auto& [from, to, says] : {std::tuple{"m: 1200.0", "m: heavy", "car.yaml:8: \"m\" is no finite number"},
                                        {"m: 1200.0", "m: .nan", "car.yaml:8: \"m\" is no finite number"},
                                        {"a: 1.1", "b: 1.1", "was there already"},
                                        {"h_s: 0.6", "h_x: 0.6", "has no \"h_s\""},
                                        {"h_s: 0.6", "h_s: 6.0", "cg_height_m"},
                                        {"l: 4.4", "l: [4.4", "car.yaml"}}) {
-    const auto made = vehicle_of_commonroad(put("car.yaml", replaced(kVehicleYaml, from, to)), tyre, {});
+    const auto made = vehicle_of_commonroad(put_file("car.yaml", with_replaced(kVehicleYaml, from, to)), tyre, {});
     ASSERT_FALSE(made.ok()) << to;
     EXPECT_NE(made.error().text().find(says), std::string::npos) << made.error().text();
   }
@@ -284,7 +286,7 @@ TEST(VehicleImport, DamagedFiles) {
         EXPECT_EQ(at->load_n, 3000.0);
       }
     }
-    (void)vehicle_of_commonroad(put("damaged.yaml", yaml), put("tyre.yaml", kTyreYaml), {});
+    (void)vehicle_of_commonroad(put_file("damaged.yaml", yaml), put_file("tyre.yaml", kTyreYaml), {});
   }
 }
 
@@ -314,7 +316,7 @@ TEST(Load, SpringsCarryIt) {
 TEST(Load, KeysOfTheVehicleFile) {
   std::stringstream text;
   text << std::ifstream(vehicles_dir() + "/hatchback.toml").rdbuf();
-  const auto car = parse_vehicle(replaced(text.str(), "boot_kg = 0", "boot_kg = 100"), "hatchback");
+  const auto car = parse_vehicle(with_replaced(text.str(), "boot_kg = 0", "boot_kg = 100"), "hatchback");
   ASSERT_TRUE(car.ok()) << car.error().text();
   EXPECT_DOUBLE_EQ(car->rest.pitch_rad, with_boot(100.0).rest.pitch_rad);
   EXPECT_EQ(test::car("hatchback.toml").rest.pitch_rad, 0.0);
@@ -323,7 +325,7 @@ TEST(Load, KeysOfTheVehicleFile) {
         {"boot_kg = 0", "boot_kg = -3", "boot_kg"},
         {"rear_passengers_kg = 0\nrear_seats_x_m = 0.45", "rear_passengers_kg = 150", "rear_seats_x_m"},
         {"boot_kg = 0", "boot_gk = 0", "boot_kg"}}) {
-    const auto bad = parse_vehicle(replaced(text.str(), from, to), "hatchback");
+    const auto bad = parse_vehicle(with_replaced(text.str(), from, to), "hatchback");
     ASSERT_FALSE(bad.ok()) << to;
     EXPECT_NE(bad.error().text().find(says), std::string::npos) << bad.error().text();
   }
