@@ -115,6 +115,22 @@ LevellingParams read_levelling(TomlTable levelling) {
   return p;
 }
 
+// Places are needed with a mass only.
+std::vector<LoadParams> read_load(TomlTable load) {
+  std::vector<LoadParams> loads;
+  const double height_m = load.number_or("height_m", 0.7, 0.1, 3.0);
+  for (const auto& [mass, place] : {std::pair{"front_passenger_kg", "front_seat_x_m"},
+                                    {"rear_passengers_kg", "rear_seats_x_m"},
+                                    {"boot_kg", "boot_x_m"}}) {
+    const double kg = load.number_or(mass, 0.0, 0.0, 5000.0);
+    if (kg > 0.0)
+      loads.push_back({kg, load.number(place, -3.0, 10.0), height_m});
+    else
+      load.number_or(place, 0.0, -3.0, 10.0);
+  }
+  return loads;
+}
+
 // What follows from several keys together, and lies elsewhere for no vehicle on the road: a wrong unit or a slip of the
 // decimal point in any of them shows here.
 void check_together(const VehicleParams& p, TomlTable& root, TomlTable& suspension) {
@@ -161,13 +177,7 @@ void check_together(const VehicleParams& p, TomlTable& root, TomlTable& suspensi
          "the radius of gyration over wheelbase_m", "");
 }
 
-}  // namespace
-
-Result<VehicleParams> read_vehicle(const std::filesystem::path& file) {
-  Result<TomlTable> read = TomlTable::read(file);
-  if (!read) return read.error();
-  TomlTable& root = *read;
-
+Result<VehicleParams> vehicle_of(TomlTable root) {
   // Ranges: from a quadricycle to a heavy truck; they catch a wrong unit, not a strange car.
   VehicleParams p;
   p.name = root.text("name");
@@ -222,8 +232,73 @@ Result<VehicleParams> read_vehicle(const std::filesystem::path& file) {
   check_together(p, root, suspension);
   if (p.steering_ratio > 0.0 && p.max_steering_wheel_rad / p.steering_ratio > 70.0 * kRadPerDeg)
     steering.fail("max_wheel_deg", "turns the road wheels by more than 70 degrees");
+  std::vector<LoadParams> loads;
+  std::string load_place;
+  if (auto load = root.table_if("load")) load_place = load->place(), loads = read_load(*load);
   if (Status done = root.finish(); !done) return done.error();
+  Result<VehicleParams> with = loaded(p, loads);
+  if (!with) return Error{load_place, with.error().reason};
+  return with;
+}
+
+}  // namespace
+
+Result<VehicleParams> loaded(const VehicleParams& vehicle, const std::vector<LoadParams>& loads) {
+  double kg = 0.0, moment = 0.0, height_moment = 0.0;
+  for (const LoadParams& load : loads)
+    kg += load.kg, moment += load.kg * load.x_m, height_moment += load.kg * load.height_m;
+  if (kg == 0.0) return vehicle;
+  VehicleParams p = vehicle;
+  const double before_kg = p.sprung_mass_kg, x = p.wheelbase_m - p.cg_to_front_m, height = p.cg_height_m;
+  p.mass_kg += kg, p.sprung_mass_kg += kg;
+  const double new_x = (before_kg * x + moment) / p.sprung_mass_kg;
+  const double new_height = (before_kg * height + height_moment) / p.sprung_mass_kg;
+  p.cg_to_front_m = p.wheelbase_m - new_x;
+  if (new_x <= 0.0 || new_x >= p.wheelbase_m) return Error{"", "the load tips the car over an axle"};
+
+  // What springs and tyres of an axle give under what it has more to carry.
+  const double front_n = kGravity_mps2 * (p.sprung_mass_kg * new_x - before_kg * x) / p.wheelbase_m;
+  const double rear_n = kGravity_mps2 * kg - front_n;
+  const double front_m = 0.5 * front_n * (1.0 / p.front_rate_npm + 1.0 / p.tyre_rate_npm);
+  const double rear_m = 0.5 * rear_n * (1.0 / p.rear_rate_npm + 1.0 / p.tyre_rate_npm);
+  p.rest.heave_m -= rear_m, p.rest.pitch_rad += (front_m - rear_m) / p.wheelbase_m;
+  p.cg_height_m = new_height - rear_m - (front_m - rear_m) * new_x / p.wheelbase_m;
+  // The body is heavier on the same springs and dampers.
+  p.ride_frequency_hz *= std::sqrt(before_kg / p.sprung_mass_kg),
+      p.ride_damping *= std::sqrt(before_kg / p.sprung_mass_kg);
+  if (p.roll_stiffness_nmprad <= 1.1 * p.sprung_mass_kg * kGravity_mps2 * p.cg_height_m)
+    return Error{"", "the roll stiffness does not hold the loaded body upright"};
+
+  if (!p.chassis) return p;
+  ChassisParams& c = *p.chassis;
+  const auto square = [](double value) { return value * value; };
+  double along = square(x - new_x), up = square(height - new_height);
+  c.pitch_inertia_kgm2 += before_kg * (along + up), c.roll_inertia_kgm2 += before_kg * up;
+  c.yaw_inertia_kgm2 += vehicle.mass_kg * along;
+  for (const LoadParams& load : loads) {
+    along = square(load.x_m - new_x), up = square(load.height_m - new_height);
+    c.pitch_inertia_kgm2 += load.kg * (along + up), c.roll_inertia_kgm2 += load.kg * up,
+        c.yaw_inertia_kgm2 += load.kg * along;
+  }
+  c.front_sunk_m += 0.5 * front_n / p.front_rate_npm, c.rear_sunk_m += 0.5 * rear_n / p.rear_rate_npm;
+  const double most = std::max(c.front_sunk_m, c.rear_sunk_m);
+  if (most >= c.bump_travel_m) {
+    char text[120];
+    std::snprintf(text, sizeof text, "the load rests on the stops: it takes %.0f mm of %.0f mm of bump travel",
+                  1e3 * most, 1e3 * c.bump_travel_m);
+    return Error{"", text};
+  }
   return p;
+}
+
+Result<VehicleParams> read_vehicle(const std::filesystem::path& file) {
+  const Result<TomlTable> read = TomlTable::read(file);
+  return read ? vehicle_of(*read) : Result<VehicleParams>(read.error());
+}
+
+Result<VehicleParams> parse_vehicle(std::string_view text, const std::string& name) {
+  const Result<TomlTable> read = TomlTable::parse(text, name);
+  return read ? vehicle_of(*read) : Result<VehicleParams>(read.error());
 }
 
 }  // namespace phare

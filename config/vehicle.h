@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/result.h"
@@ -35,8 +36,9 @@ struct ChassisParams {
   double front_anti_roll_nmprad = 0.0, rear_anti_roll_nmprad = 0.0;  ///< of the bar, per radian of roll
   double tyre_damping_nspm = 0.0;                                    ///< vertical, one tyre
   double anti_squat_01 = 0.0;  ///< share of the load transfer of driving that the rear linkage carries past the spring
-  double bump_travel_m = 0.0, rebound_travel_m = 0.0;  ///< from rest to the stops
+  double bump_travel_m = 0.0, rebound_travel_m = 0.0;  ///< from rest with the driver alone to the stops
   double stop_rate_npm = 0.0;                          ///< added beyond them
+  double front_sunk_m = 0.0, rear_sunk_m = 0.0;        ///< travel that the load takes at rest
   double brake_front_01 = 0.0, drive_front_01 = 0.0;   ///< front share of brake and drive torque
   double ackermann_01 = 0.0;                           ///< 0: parallel front wheels, 1: all axes meet
   TyreParams tyre;
@@ -65,6 +67,19 @@ struct LevellingParams {
   double range_rad = 0.0;                      ///< of the actuator, either way
   double rate_radps = 0.0;
   double filter_s = 0.0;  ///< time constant of the dynamic system's axle sensors
+};
+
+/// Where the body stands at rest, against the car with its driver alone.
+struct RestAttitude {
+  double pitch_rad = 0.0;  ///< nose down > 0: a full boot is below 0
+  double heave_m = 0.0;    ///< over the rear axle, up > 0
+};
+
+/// Passengers and what lies in the boot: a mass at a place of the body.
+struct LoadParams {
+  double kg = 0.0;
+  double x_m = 0.0;  ///< ahead of the rear axle
+  double height_m = 0.0;
 };
 
 struct VehicleParams {
@@ -102,10 +117,18 @@ struct VehicleParams {
   std::optional<ChassisParams> chassis;  ///< tables [body] and [tyre] of the file
   std::optional<EngineParams> engine;    ///< table [engine]
   LevellingParams levelling;             ///< table [levelling]
+  RestAttitude rest;                     ///< what the table [load] does to the body; its masses are in all the above
 };
+
+/// The car with more in it: masses, centre of gravity, inertias, where its body rests and what travel is left. The
+/// loads are point masses in its middle; springs, tyres and dampers stay. Error's place is empty: a load that leaves no
+/// travel, or whose weight the roll stiffness does not hold.
+Result<VehicleParams> loaded(const VehicleParams& vehicle, const std::vector<LoadParams>& loads);
 
 /// Reads and checks a vehicle file: all keys, their ranges, and that the centre of gravity lies between the axles and
 /// the car does not fall over its roll stiffness.
 Result<VehicleParams> read_vehicle(const std::filesystem::path& file);
+/// The same from text; `name` stands for the file in messages.
+Result<VehicleParams> parse_vehicle(std::string_view text, const std::string& name);
 
 }  // namespace phare

@@ -372,7 +372,7 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
     car.roll_rad = attitude.roll_rad;
     car.heave_m = attitude.heave_m;
 
-    VehicleState vehicle = to_message(car);
+    VehicleState vehicle = to_message(car, options.vehicle.rest);
     vehicle.level = "import";
     vehicle.step = static_cast<std::uint64_t>(k);
     vehicle.state_hash = state_hash(car);

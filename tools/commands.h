@@ -20,6 +20,7 @@ void add_bus_relay(CLI::App& app, Command& chosen);
 void add_import(CLI::App& app, Command& chosen);
 void add_lamp(CLI::App& app, Command& chosen);
 void add_measure(CLI::App& app, Command& chosen);
+void add_vehicle(CLI::App& app, Command& chosen);
 void add_rig(CLI::App& app, Command& chosen);
 void add_doctor(CLI::App& app, Command& chosen);
 void add_help_data(CLI::App& app, Command& chosen);

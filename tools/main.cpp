@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
   add_lamp(app, chosen);
   add_measure(app, chosen);
   add_rig(app, chosen);
+  add_vehicle(app, chosen);
   add_doctor(app, chosen);
   add_help_data(app, chosen);
   show_example_paths(app);

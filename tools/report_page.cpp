@@ -90,6 +90,7 @@ class Page {
     effects();
     light_switch();
     fail_safe();
+    levels();
     messages();
     lamps();
     inputs();
@@ -245,6 +246,28 @@ class Page {
       page_ << "<p>" << value_text(once, "from_s", "%.3f") << " to " << value_text(once, "to_s", "%.3f")
             << " s: " << value_text(once, "because") << "</p>";
     if (held > 0) page_ << "<p class=\"bad\">" << held << " pictures with a pose that was held: no VehicleState.</p>";
+  }
+
+  /// Level auto: which model of the car ran when, and what called for it.
+  void levels() {
+    const json dynamics = report_["processes"].value("dynamics", json::object()).value("auto", json::object());
+    const json history = dynamics.value("history", json::array());
+    if (dynamics.empty()) return;
+    page_ << "<h2>Level of the car</h2><p>";
+    const json seconds = dynamics.value("seconds", json::object());
+    for (const auto& [level, spent] : seconds.items())
+      page_ << escaped(level) << ' ' << value_text(seconds, level.c_str(), "%.1f") << " s, ";
+    page_ << value_text(dynamics, "switches") << " switches.</p>";
+    if (history.empty()) return;
+    page_ << "<div class=\"scroll\"><table><tr><th>at, s</th><th class=\"text\">from</th><th class=\"text\">to</th>"
+             "<th class=\"text\">because</th><th>fact</th></tr>";
+    for (const json& change : history) {
+      page_ << "<tr><td>" << value_text(change, "time_s", "%.3f") << "</td>";
+      for (const char* key : {"from", "to", "because"})
+        page_ << "<td class=\"text\">" << value_text(change, key) << "</td>";
+      page_ << "<td>" << value_text(change, "fact", "%.3g") << "</td></tr>";
+    }
+    page_ << "</table></div>";
   }
 
   void messages() {

@@ -21,12 +21,15 @@ const char* name(Reason reason) {
   return kNames[static_cast<std::size_t>(reason)];
 }
 
-std::string text(const LevelSwitch& change) {
+const char* rung_name(int rung) {
   constexpr std::array<const char*, 3> kRungs{"kinematic", "single-track", "full"};
+  return kRungs[static_cast<std::size_t>(rung)];
+}
+
+std::string text(const LevelSwitch& change) {
   char number[40];
   std::snprintf(number, sizeof number, " (%.3g)", change.fact);
-  return std::string(kRungs[static_cast<std::size_t>(change.from)]) + " to " +
-         kRungs[static_cast<std::size_t>(change.to)] + ": " + name(change.reason) + number;
+  return std::string(rung_name(change.from)) + " to " + rung_name(change.to) + ": " + name(change.reason) + number;
 }
 
 Choice choose(const Scene& s, double scale) {

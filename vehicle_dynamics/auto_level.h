@@ -39,6 +39,8 @@ struct LevelSwitch {
   Reason reason = Reason::kSmooth;
   double fact = 0.0;
 };
+/// Of a rung: "kinematic", "single-track", "full".
+const char* rung_name(int rung);
 /// "kinematic to full: tyres used by more than half (0.62)".
 std::string text(const LevelSwitch& change);
 

@@ -9,7 +9,7 @@ namespace phare::batch {
 namespace {
 
 Row between(const Row& a, const Row& b, double u) {
-  static_assert(sizeof(Row) == 73 * sizeof(double), "a row is doubles only");
+  static_assert(sizeof(Row) == 74 * sizeof(double), "a row is doubles only");
   Row out;
   const auto *pa = &a.time_s, *pb = &b.time_s;
   auto* po = &out.time_s;
@@ -55,6 +55,11 @@ Status check(const Options& o, const Inputs& in) {
                    "steer_rad " + text_of(in.steer_rad[row]) + " is beyond the car's lock of " + text_of(lock_rad)};
   if (o.levelling != levelling::Kind::kNone && !has_lamps(o.vehicle))
     return Error{o.vehicle_place, "has no table [levelling]: there are no lamps to level"};
+  if (o.level == Level::kAuto && (in.accelerator_01.empty() || !in.road_m[0].empty()))
+    return Error{in.file.empty() ? "inputs" : in.file,
+                 "level auto looks at pedals and at the road ahead: not at torques, nor heights under the wheels"};
+  if (o.level == Level::kAuto && o.columns & kEnergy)
+    return Error{"--columns energy", "is kept by one level; auto changes it"};
   if (o.levelling == levelling::Kind::kManual && in.levelling_step.empty())
     return Error{in.file.empty() ? "inputs" : in.file, "levelling by hand needs the column levelling_step"};
   if (o.levelling != levelling::Kind::kManual && !in.levelling_step.empty())
@@ -77,6 +82,7 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
   if (!inputs.road_m[0].empty())
     for (std::size_t i = 0; i < 4; ++i) first[i] = inputs.road_m[i].front();
   if (Status placed = car.place(inputs.road_m[0].empty() ? nullptr : &first); !placed) return placed.error();
+  car.stand(in, inputs, options.step_s);
 
   const double start = inputs.time_s.front(), end = inputs.time_s.back(), dt = options.step_s;
   const auto steps = static_cast<std::uint64_t>(std::llround(std::ceil((end - start) / dt - 1e-6)));
@@ -144,6 +150,10 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
   summary.state_hash = car.hash();
   summary.off_road = car.off_road();
   summary.rolled_over_s = car.rolled_over_s();
+  const AutoLevel& choice = car.choice();
+  summary.switches = choice.switches(), summary.level_s = choice.seconds();
+  for (std::uint64_t n = summary.switches - std::min(summary.switches, AutoLevel::kKept); n < summary.switches; ++n)
+    summary.switched.push_back(choice.change(n));
   return summary;
 }
 

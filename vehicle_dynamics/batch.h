@@ -60,9 +60,10 @@ enum RowColumn : unsigned {
   kFrictionUsed = 32,  ///< share of the friction ellipse, 0 to 1
   kGear = 64,          ///< gear (1 the first) and engine speed; 0 where torques drive or there is no engine
   kDriver = 128,       ///< road-wheel angle, accelerator and brake
-  kEnergy = 256        ///< see models/energy.h
+  kEnergy = 256,       ///< see models/energy.h
+  kLevel = 512         ///< 0 kinematic, 1 single-track, 2 full
 };
-/// "slip", "slip-angle", "travel", "camber", "torque", "friction-used", "gear", "driver", "energy".
+/// "slip", "slip-angle", "travel", "camber", "torque", "friction-used", "gear", "driver", "energy", "level".
 std::optional<unsigned> column_named(std::string_view name);
 
 enum class Resistance { kAuto, kOn, kOff };  ///< kAuto: off when torques are given, they stand for all that pulls
@@ -103,6 +104,7 @@ struct Row {
   std::array<double, 4> slip{}, slip_angle_rad{}, travel_m{}, camber_rad{}, drive_nm{}, brake_nm{}, friction_used_01{};
   double gear = 0.0, engine_rpm = 0.0, steer_rad = 0.0, accelerator_01 = 0.0, brake_01 = 0.0;
   double car_j = 0.0, engine_j = 0.0, brakes_j = 0.0, tyres_j = 0.0, dampers_j = 0.0, air_j = 0.0, road_j = 0.0;
+  double level = 0.0;
 };
 
 struct Summary {
@@ -112,6 +114,9 @@ struct Summary {
   bool off_road = false;
   std::optional<double> rolled_over_s;  ///< when a row first showed it: the last row, no car moves on like that
   bool resistance = false;
+  std::uint64_t switches = 0;         ///< of level auto
+  std::vector<LevelSwitch> switched;  ///< the newest AutoLevel::kKept of them, times since the run's begin
+  std::array<double, 3> level_s{};    ///< level auto: spent on each rung
 };
 
 /// Whether the vehicle file says where its lamps are: else there is no cut-off, and nothing to level.

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 
 #include "config/conventions.h"
+#include "vehicle_dynamics/auto_level.h"
 #include "vehicle_dynamics/batch.h"
+#include "vehicle_dynamics/batch_playhead.h"
 #include "vehicle_dynamics/models/air.h"
 #include "vehicle_dynamics/models/energy.h"
 #include "vehicle_dynamics/models/kinematic.h"
@@ -16,51 +17,14 @@
 
 namespace phare::batch {
 
-// Inputs at any time; rows are walked forwards only.
-class Playhead {
- public:
-  explicit Playhead(const Inputs& in) : in_(in) {}
-
-  void go(double time_s) {
-    while (row_ + 2 < in_.time_s.size() && in_.time_s[row_ + 1] <= time_s) ++row_;
-    const double from = in_.time_s[row_], to = in_.time_s[std::min(row_ + 1, in_.time_s.size() - 1)];
-    share_ = to > from ? std::clamp((time_s - from) / (to - from), 0.0, 1.0) : 0.0;
-  }
-  double linear(const std::vector<double>& column) const {
-    if (column.empty()) return 0.0;
-    return column[row_] + share_ * (column[std::min(row_ + 1, column.size() - 1)] - column[row_]);
-  }
-  std::size_t row() const { return row_; }
-  double held(const std::vector<double>& column) const {
-    return column.empty() ? 0.0 : column[share_ >= 1.0 ? std::min(row_ + 1, column.size() - 1) : row_];
-  }
-
- private:
-  const Inputs& in_;
-  std::size_t row_ = 0;
-  double share_ = 0.0;
-};
-
-inline std::string text_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
-
-// Every number finite: what is not makes its product with 0 not 0. Four sums, which do not wait for one another.
-inline bool finite(const double* values, std::size_t count) {
-  std::array<double, 4> sum{};
-  std::size_t i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (std::size_t k = 0; k < 4; ++k) sum[k] += values[i + k] * 0.0;
-  for (; i < count; ++i) sum[0] += values[i] * 0.0;
-  return sum[0] + sum[1] + sum[2] + sum[3] == 0.0;
-}
-
 // A car of any level behind one face, for this loop only.
 class Car {
  public:
-  Car(const Options& o, bool resistance, bool given_torques) : o_(o), driver_(o.driver), given_torques_(given_torques) {
+  Car(const Options& o, bool resistance, bool given_torques)
+      : o_(o),
+        level_(o.level == Level::kAuto ? Level::kKinematic : o.level),
+        driver_(o.driver),
+        given_torques_(given_torques) {
     if (!resistance) o_.vehicle.drag_area_m2 = o_.vehicle.rolling_coefficient = 0.0;
     input_.air_and_rolling = resistance;
     input_.road = o.road;
@@ -71,12 +35,19 @@ class Car {
       o_.vehicle.chassis->tyre.long_relaxation_m *= *o_.relaxation_scale;
       o_.vehicle.chassis->tyre.lat_relaxation_m *= *o_.relaxation_scale;
     }
-    if (o_.level == Level::kFull) {
+    const bool any = o_.level == Level::kAuto;
+    if (any) {
+      Result<SprungCar> sprung = SprungCar::of(o_.vehicle, o_.vehicle_place);
+      if (!sprung) return sprung.error();
+      hand_over_.emplace(std::move(*sprung));
+    }
+    if (any || level_ == Level::kFull) {
       Result<full::Params> p = full::params_of(o_.vehicle, o_.vehicle_place);
       if (!p) return p.error();
       full_params_ = *p;
-      full_params_.integrator = o_.integrator;
-    } else if (o_.level == Level::kSingleTrack) {
+      full_params_.integrator = any ? integrator_of(Level::kFull) : o_.integrator;
+    }
+    if (any || level_ == Level::kSingleTrack) {
       // Where forces hold the body is worked out after a step, not integrated: SUNDIALS would leave it where it was.
       if (o_.integrator == Integrator::kReference && !o_.single_track.dynamic_attitude)
         return Error{"--attitude quasi-static",
@@ -84,7 +55,7 @@ class Car {
       Result<single_track::Params> p = single_track::params_of(o_.vehicle, o_.single_track, o_.vehicle_place);
       if (!p) return p.error();
       single_params_ = *p;
-      single_params_.integrator = o_.integrator;
+      single_params_.integrator = any ? integrator_of(Level::kSingleTrack) : o_.integrator;
       single_track::set_step(single_params_, o_.step_s);
     }
     return Done{};
@@ -98,7 +69,7 @@ class Car {
     if (given) {
       input_.heights_given = true;
       height = on_the_map(*given);
-      input_.height_m = o_.level == Level::kFull ? *given : height;
+      input_.height_m = level_ == Level::kFull ? *given : height;
     } else if (o_.road) {
       for (std::size_t i = 0; i < 4; ++i) {
         const double along = i < 2 ? o_.vehicle.cg_to_front_m : -b,
@@ -118,11 +89,33 @@ class Car {
     flat_.speed_mps = o_.speed_mps;
     kinematic::stand_on(o_.vehicle, height, flat_, 0.0);
     beside_ = height;
-    if (o_.columns & kEnergy)
-      account_ = o_.level == Level::kFull          ? energy::open(full_params_, input_, full_)
-                 : o_.level == Level::kSingleTrack ? energy::open(single_params_, input_, single_)
-                                                   : energy::open(o_.vehicle, flat_);
+    lamps_ = levelling::settled(o_.vehicle.levelling, o_.levelling, o_.vehicle.rest.pitch_rad);
+    if (o_.columns & kEnergy) open_account();
     return Done{};
+  }
+
+  // Of a car that stands: where the first row's foot and road hold it. After place().
+  void stand(Playhead& in, const Inputs& inputs, double dt) {
+    if (o_.speed_mps != 0.0) return;
+    in.go(inputs.time_s.front());
+    input_.steer_rad = in.linear(inputs.steer_rad);
+    const Driver driver = driver_;  // its memory begins with the first step
+    torques_of(in, inputs, dt);     // for the pedals
+    power_ = powertrain::standing(o_.vehicle, controls_);
+    if (hand_over_) choose_level(0.0);
+    powertrain::Torques torques = torques_of(in, inputs, dt);
+    power_ = powertrain::standing(o_.vehicle, controls_);
+    driver_ = driver;
+    if (!given_torques_) torques.drive_nm.fill(0.0);
+    input_.drive_nm = torques.drive_nm, input_.brake_nm = torques.brake_nm;
+    if (level_ == Level::kFull) {
+      full::stand(full_params_, input_, full_);
+    } else if (level_ == Level::kSingleTrack) {
+      single_track::stand(single_params_, input_, single_);
+    } else {
+      kinematic::stand(o_.vehicle, kinematic::push_of(o_.vehicle, torques), flat_);
+    }
+    if (o_.columns & kEnergy) open_account();
   }
 
   // Inputs over the step [time, time + dt]: heights linear, the rest at its middle.
@@ -136,29 +129,30 @@ class Car {
       input_.height_m = beside_;
     }
     in.go(time_s + 0.5 * dt);
+    if (hand_over_) choose_level(dt);
     if (o_.driver.path.empty())
       input_.steer_rad = in.linear(inputs.steer_rad);
     else
       input_.steer_rad = steered(dt);
     const powertrain::Torques torques = torques_of(in, inputs, dt);
     input_.drive_nm = torques.drive_nm, input_.brake_nm = torques.brake_nm;
-    if (o_.level == Level::kKinematic) {
+    if (level_ == Level::kKinematic) {
       kinematic_step(torques, dt);
       return true;
     }
     if (o_.integrator == Integrator::kReference) {
-      gave_up_ = o_.level == Level::kFull ? reference_.advance(full_params_, input_, full_, dt)
-                                          : reference_.advance(single_params_, input_, single_, dt);
+      gave_up_ = level_ == Level::kFull ? reference_.advance(full_params_, input_, full_, dt)
+                                        : reference_.advance(single_params_, input_, single_, dt);
       return gave_up_.ok();
     }
     const full::State full_before = full_;
     const single_track::State single_before = single_;
-    if (o_.level == Level::kFull)
+    if (level_ == Level::kFull)
       full::advance(full_params_, input_, full_, dt);
     else
       single_track::advance(single_params_, input_, single_, dt);
     if (o_.columns & kEnergy) {
-      if (o_.level == Level::kFull)
+      if (level_ == Level::kFull)
         energy::add(full_params_, input_, full_before, full_, dt, account_);
       else
         energy::add(single_params_, input_, single_before, single_, dt, account_);
@@ -176,9 +170,9 @@ class Car {
   bool sound() const {
     constexpr double kMost_mps = 1e4, kSteepest = 100.0;
     const auto possible = [](double a, double b, double c) { return a * a + b * b + c * c < kMost_mps * kMost_mps; };
-    if (o_.level == Level::kFull)
+    if (level_ == Level::kFull)
       return finite(&full_.x_m, full::kStateSize) && possible(full_.u_mps, full_.v_mps, full_.w_mps);
-    if (o_.level == Level::kSingleTrack)
+    if (level_ == Level::kSingleTrack)
       return finite(&single_.x_m, single_track::kStateSize) &&
              possible(single_.u_mps, single_.v_mps, single_.z_rate_mps) && std::abs(single_.pitch) < kSteepest &&
              std::abs(single_.roll) < kSteepest;
@@ -190,11 +184,12 @@ class Car {
   Row row(double time_s, double dt) {
     Row row;
     row.time_s = time_s;
+    row.level = level_ == Level::kFull ? 2.0 : level_ == Level::kSingleTrack ? 1.0 : 0.0;
     full::Input now = input_;  // heights at the end of the step
     for (std::size_t i = 0; i < 4; ++i)
       if (now.heights_given) now.height_m[i] += now.height_rate_mps[i] * dt;
     const double b = o_.vehicle.wheelbase_m - o_.vehicle.cg_to_front_m, h = o_.vehicle.cg_height_m;
-    if (o_.level == Level::kKinematic) {
+    if (level_ == Level::kKinematic) {
       const CarState& s = flat_;
       const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
       row.x_m = s.x_m + b * c, row.y_m = s.y_m + b * sn;
@@ -210,9 +205,10 @@ class Car {
       kinematic_forces(row);
       if (o_.columns) on_demand(nullptr, row);
       road_pitch_ = s.road_pitch_rad, origin_z_ = s.z_m + s.heave_m, plane_z_ = s.z_m;
+      add_rest(row);
       return row;
     }
-    const bool whole = o_.level == Level::kFull;
+    const bool whole = level_ == Level::kFull;
     const full::Forces f =
         whole ? full::forces(full_params_, now, full_) : single_track::forces(single_params_, now, single_);
     beside_ = f.ground_m;
@@ -238,6 +234,7 @@ class Car {
     road_pitch_ = f.road_pitch_rad;
     origin_z_ = row.z_m + h + b * std::sin(f.pitch_rad) - h * std::cos(f.pitch_rad) * std::cos(f.roll_rad);
     plane_z_ = 0.5 * (f.ground_m[2] + f.ground_m[3]);
+    add_rest(row);
     return row;
   }
 
@@ -252,39 +249,71 @@ class Car {
   }
 
   double speed() const {
-    return o_.level == Level::kFull ? full_.u_mps : o_.level == Level::kSingleTrack ? single_.u_mps : flat_.speed_mps;
+    return level_ == Level::kFull ? full_.u_mps : level_ == Level::kSingleTrack ? single_.u_mps : flat_.speed_mps;
   }
   std::array<double, 4> spins() const {
-    if (o_.level == Level::kFull) return full_.spin_radps;
+    if (level_ == Level::kFull) return full_.spin_radps;
     std::array<double, 4> spin;
     spin.fill(speed() / o_.vehicle.tyre_radius_m);
     return spin;
   }
   std::uint64_t hash() const {
-    return o_.level == Level::kFull          ? state_hash(full_)
-           : o_.level == Level::kSingleTrack ? state_hash(single_)
-                                             : state_hash(flat_);
+    return level_ == Level::kFull          ? state_hash(full_)
+           : level_ == Level::kSingleTrack ? state_hash(single_)
+                                           : state_hash(flat_);
   }
   bool off_road() const { return off_road_; }
+  const AutoLevel& choice() const { return auto_; }
   const std::optional<double>& rolled_over_s() const { return rolled_over_s_; }
   bool burst() const { return burst_; }
   const Status& gave_up() const { return gave_up_; }
 
  private:
+  // Level auto: as the loop of a live run does it, from what the car is seen to do.
+  void choose_level(double dt) {
+    constexpr std::array<Level, 3> kRungs{Level::kKinematic, Level::kSingleTrack, Level::kFull};
+    const double b = o_.vehicle.wheelbase_m - o_.vehicle.cg_to_front_m;
+    const bool sprung = level_ != Level::kKinematic;
+    if (sprung) hand_over_->look(model_of(level_), full_, single_, input_);
+    const CarState seen = sprung ? hand_over_->state() : flat_;
+    const double path = sprung ? hand_over_->path_m() : path_m_ + b;
+    static const Road kLevelRoad;
+    const Scene scene = scene_of(o_.vehicle, seen, controls_, o_.road ? *o_.road : kLevelRoad, path,
+                                 sprung ? hand_over_->least_load_share() : 1.0);
+    const Level level = kRungs[static_cast<std::size_t>(auto_.next(scene, dt).rung)];
+    if (level == level_) return;
+    if (level == Level::kKinematic) {
+      flat_ = seen, path_m_ = path - b, beside_ = seen.contact_z_m;
+    } else {
+      hand_over_->take_over(model_of(level), seen, path, sprung ? hand_over_->side_speed_mps() : 0.0);
+      const SprungCar::Memory begun = hand_over_->memory();
+      full_ = begun.full, single_ = begun.single;
+    }
+    level_ = level;
+  }
+  static SprungCar::Model model_of(Level level) {
+    return level == Level::kFull ? SprungCar::Model::kFull : SprungCar::Model::kSingleTrack;
+  }
+
+  void open_account() {
+    account_ = level_ == Level::kFull          ? energy::open(full_params_, input_, full_)
+               : level_ == Level::kSingleTrack ? energy::open(single_params_, input_, single_)
+                                               : energy::open(o_.vehicle, flat_);
+  }
+
   double row_speed(bool whole) const {
     return whole ? std::hypot(full_.u_mps, full_.v_mps) : std::hypot(single_.u_mps, single_.v_mps);
   }
 
   // The centre of gravity's place on the map, and the heading.
   LanePoint place_now() const {
-    if (o_.level == Level::kFull) {
+    if (level_ == Level::kFull) {
       const full::State& s = full_;
       return {.x_m = s.x_m,
               .y_m = s.y_m,
               .heading_rad = std::atan2(2.0 * (s.qx * s.qy + s.qw * s.qz), 1.0 - 2.0 * (s.qy * s.qy + s.qz * s.qz))};
     }
-    if (o_.level == Level::kSingleTrack)
-      return {.x_m = single_.x_m, .y_m = single_.y_m, .heading_rad = single_.yaw_rad};
+    if (level_ == Level::kSingleTrack) return {.x_m = single_.x_m, .y_m = single_.y_m, .heading_rad = single_.yaw_rad};
     const double b = o_.vehicle.wheelbase_m - o_.vehicle.cg_to_front_m;
     return {.x_m = flat_.x_m + b * std::cos(flat_.yaw_rad),
             .y_m = flat_.y_m + b * std::sin(flat_.yaw_rad),
@@ -299,9 +328,17 @@ class Car {
                              o_.vehicle.max_steering_wheel_rad / o_.vehicle.steering_ratio, input_.steer_rad, dt);
   }
 
+  // The models count from where the car rests with its load.
+  void add_rest(Row& row) {
+    const RestAttitude& rest = o_.vehicle.rest;
+    row.pitch_rad += rest.pitch_rad;
+    row.z_m += rest.heave_m - (o_.vehicle.wheelbase_m - o_.vehicle.cg_to_front_m) * rest.pitch_rad;
+    origin_z_ += rest.heave_m;
+  }
+
   // What was asked for beside the motion. `f`: nullptr at level kinematic.
   void on_demand(const full::Forces* f, Row& row) const {
-    const bool whole = o_.level == Level::kFull;
+    const bool whole = level_ == Level::kFull;
     row.drive_nm = input_.drive_nm, row.brake_nm = input_.brake_nm;
     row.gear = given_torques_ || !o_.vehicle.engine ? 0.0 : power_.gear + 1.0;
     row.engine_rpm = power_.engine_radps * 30.0 / std::numbers::pi;
@@ -334,7 +371,7 @@ class Car {
     in.go(time_s);
     std::array<double, 4> given{};
     for (std::size_t i = 0; i < 4; ++i) given[i] = in.linear(inputs.road_m[i]);
-    return o_.level == Level::kFull ? given : on_the_map(given);
+    return level_ == Level::kFull ? given : on_the_map(given);
   }
   std::array<double, 4> on_the_map(const std::array<double, 4>& h) const {
     constexpr double kSteepest = 0.99;  // of a sine: what stands upright is no road
@@ -367,9 +404,8 @@ class Car {
         controls_.accelerator_01 = controls_.brake_01 > 0.0 ? 0.0 : pedals.accelerator_01;
         controls_.brake_01 = std::max(controls_.brake_01, pedals.brake_01);  // the inputs' foot comes first
       }
-      const powertrain::Wheels wheels = o_.level == Level::kFull
-                                            ? full::wheels(full_params_, input_, full_)
-                                            : powertrain::rolling(speed(), o_.vehicle.tyre_radius_m);
+      const powertrain::Wheels wheels = level_ == Level::kFull ? full::wheels(full_params_, input_, full_)
+                                                               : powertrain::rolling(speed(), o_.vehicle.tyre_radius_m);
       return powertrain::advance(o_.vehicle, controls_, speed(), wheels, power_, dt);
     }
     powertrain::Torques out;
@@ -437,6 +473,9 @@ class Car {
   }
 
   Options o_;
+  Level level_;  ///< that runs: of auto the one chosen
+  AutoLevel auto_;
+  std::optional<SprungCar> hand_over_;  ///< level auto: from one model to the other
   full::Params full_params_;
   single_track::Params single_params_;
   full::Input input_;

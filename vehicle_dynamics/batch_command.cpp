@@ -10,9 +10,9 @@
 #include <string>
 
 #include "config/fail.h"
-#include "config/whole_file.h"
 #include "net/clock.h"
 #include "vehicle_dynamics/batch.h"
+#include "vehicle_dynamics/batch_output.h"
 #include "vehicle_dynamics/compare.h"
 #include "vehicle_dynamics/manoeuvre.h"
 #include "vehicle_dynamics/reference.h"
@@ -60,7 +60,7 @@ struct BatchCommand::Options {
          relaxation_scale = 1.0;
   std::uint64_t seed = 1;
   bool work_precision = false;
-  std::string manoeuvre, follow;
+  std::string manoeuvre, follow, plot, reference;
   std::vector<std::string> columns;
   double speed_kmh = 0.0, hold_speed_kmh = 0.0, seconds = 0.0, scale = 5.0;
 };
@@ -100,8 +100,12 @@ void BatchCommand::add_to(CLI::App& app) {
          "Batch: a driver steers along a path (CSV as a scene's lane), or \"lane\": that of --road; begins there")
       ->group(group);
   app.add_option("--columns", o.columns,
-                 "Batch: also slip, slip-angle, travel, camber, torque, friction-used, gear, driver, energy")
+                 "Batch: also slip, slip-angle, travel, camber, torque, friction-used, gear, driver, energy, level")
       ->delimiter(',')
+      ->group(group);
+  app.add_option("--plot", o.plot, "Batch: a page with the run's traces (HTML without scripts)")->group(group);
+  app.add_option("--reference", o.reference,
+                 "Batch, with --plot: another run beside ours (CSV with time_s or t and columns as in OUT)")
       ->group(group);
   app.add_option("--speed-kmh", o.speed_kmh, "Batch: speed at the start (default of a manoeuvre: its own)")
       ->check(within(-200.0, 430.0))
@@ -207,6 +211,8 @@ const Use kUses[] = {{"--rig", {Run::kLive}},
                      {"--hold-speed-kmh", {Run::kBatch}},
                      {"--follow", {Run::kBatch}},
                      {"--columns", {Run::kBatch}},
+                     {"--plot", {Run::kBatch}},
+                     {"--reference", {Run::kBatch}},
                      {"--start-x-m", {Run::kBatch}},
                      {"--road", {Run::kLive, Run::kBatch}},
                      {"--roughness", {Run::kLive, Run::kBatch}},
@@ -251,6 +257,9 @@ Status level_uses(const CLI::App& app, Level level) {
   if (level != Level::kSingleTrack)
     for (const char* option : {"--tyre", "--attitude"})
       if (app.count(option) > 0) return Error{option, at + "has no such choice, single-track has"};
+  if (level == Level::kAuto)
+    for (const char* option : {"--integrator"})
+      if (app.count(option) > 0) return Error{option, at + "runs each level by the method of real time"};
   if (level == Level::kKinematic)
     for (const auto& [option, why] : {std::pair{"--integrator", "has an exact method of its own"},
                                       {"--friction", "has no tyres, its grip is the vehicle's max_lateral_mps2"},
@@ -352,20 +361,24 @@ int BatchCommand::run(const std::string& level_name) const {
   const std::optional<Integrator> integrator = integrator_named(o.integrator);
   if (!o.compare_with.empty()) return run_compare(o.compare_with, o.vehicle, integrator, o.step_s);
   if (o.work_precision) return run_work_precision(o.vehicle);
-  if (o.out.empty() && o.manoeuvre.empty())
-    return fail("phare-dynamics", {"--out", "--batch needs a file to write the motion to"});
+  if (o.out.empty() && o.manoeuvre.empty() && o.plot.empty())
+    return fail("phare-dynamics", {"--out", "--batch needs a file to write the motion to, or --plot a page"});
+  if (!o.reference.empty() && o.plot.empty())
+    return fail("phare-dynamics", {"--reference", "is drawn on a page: give --plot FILE.html"});
   if (o.vehicle.empty()) return fail("phare-dynamics", {"--vehicle", "--batch needs a vehicle file"});
   if (const Status fit = driver_fits(); !fit) return fail("phare-dynamics", fit.error());
-  for (const auto& [option, file] : {std::pair{"--batch", o.in}, {"--vehicle", o.vehicle}, {"--road", o.road}})
-    if (same_file(o.out, file))
-      return fail("phare-dynamics", {"--out", o.out + " is the file of " + option + "; it would be overwritten"});
+  for (const auto& [result, written] : {std::pair{"--out", o.out}, {"--plot", o.plot}})
+    for (const auto& [option, file] :
+         {std::pair{"--batch", o.in}, {"--vehicle", o.vehicle}, {"--road", o.road}, {"--reference", o.reference}})
+      if (same_file(written, file))
+        return fail("phare-dynamics", {result, written + " is the file of " + option + "; it would be overwritten"});
+  if (!o.out.empty() && (o.out == o.plot || same_file(o.out, o.plot)))
+    return fail("phare-dynamics", {"--plot", o.plot + " is the file of --out; it would be overwritten"});
   batch::Options options;
   const Result<Level> level = parse_level(level_name, "--level");
   if (!level) return fail("phare-dynamics", level.error());
   if (*level == Level::kPose)
     return fail("phare-dynamics", {"--level", "pose replays a drive; a batch run moves a model"});
-  if (*level == Level::kAuto)
-    return fail("phare-dynamics", {"--level", "auto chooses while driving; a batch run names its level"});
   if (const Status used = level_uses(*o.app, *level); !used) return fail("phare-dynamics", used.error());
   if (given("--seed") && o.roughness.empty())
     return fail("phare-dynamics", {"--seed", "is that of --roughness, which is not given"});
@@ -420,63 +433,20 @@ int BatchCommand::run(const std::string& level_name) const {
     return fail("phare-dynamics", read.error());
   options.road = &road;
 
-  const bool lamps = batch::has_lamps(options.vehicle);
-  std::optional<WholeFile> file;
-  if (!o.out.empty()) {
-    Result<WholeFile> created = WholeFile::create(o.out);
-    if (!created) return fail("phare-dynamics", created.error());
-    file.emplace(std::move(*created));
-  }
+  const unsigned columns = options.columns;
+  if (!o.plot.empty() && !inputs->accelerator_01.empty()) options.columns |= batch::kDriver;
+  Result<batch::Output> output = batch::Output::open({o.out, o.plot, o.reference}, options, columns, standard,
+                                                     standard       ? standard->name
+                                                     : o.in.empty() ? "batch run"
+                                                                    : std::filesystem::path(o.in).filename().string());
+  if (!output) return fail("phare-dynamics", output.error());
   const StopFlag stop = install_stop_signals();
-  std::string text = batch::header(lamps, options.columns);
-  std::vector<batch::Row> rows;  // of a manoeuvre, for its figures
-  std::uint64_t below = 0;       // rows in which the beam does not reach the wall
-  double lowest_m = 0.0;
-  Status written = Done{};
-  const auto pass_on = [&](std::size_t from_size) {
-    if (text.size() < from_size) return;
-    if (written && file) written = file->write(text);
-    text.clear();
-  };
-  options.stop = [&] { return !written || stop; };
-  const Result<batch::Summary> summary = batch::run(options, *inputs, [&](const batch::Row& row) {
-    if (standard) rows.push_back(row);
-    if (lamps && row.cutoff_25m_m < 0.0) ++below, lowest_m = std::min(lowest_m, row.cutoff_25m_m);
-    if (!file) return;
-    batch::append(row, lamps, text, options.columns);
-    pass_on(1 << 18);
-  });
+  options.stop = [&] { return output->failed() || stop; };
+  const Result<batch::Summary> summary =
+      batch::run(options, *inputs, [&](const batch::Row& row) { output->take(row); });
+  if (!summary && !output->failed()) return fail("phare-dynamics", summary.error());
+  const Status written = output->finish(summary ? *summary : batch::Summary{}, o.step_s);
   if (!written) return fail("phare-dynamics", written.error());
-  if (!summary) return fail("phare-dynamics", summary.error());
-  pass_on(0);
-  if (written && file) written = file->finish();
-  if (!written) return fail("phare-dynamics", written.error());
-  if (summary->rolled_over_s)
-    std::fprintf(stderr, "phare-dynamics: the car has rolled over at %.9g s; the run ends there\n",
-                 *summary->rolled_over_s);
-  FILE* const told = is_standard_output(o.out) ? stderr : stdout;
-  if (standard) {
-    std::fprintf(told, "%s at %.1f km/h, level %s, %s\n", standard->name.c_str(), options.speed_mps * 3.6, name(*level),
-                 options.vehicle.name.c_str());
-    for (const batch::Figure& figure : batch::figures(*standard, rows))
-      std::fprintf(told, "  %-48s %9.3f %s\n", figure.what.c_str(), figure.value, figure.unit);
-  }
-  if (below > 0) {
-    const double lamp_m = options.vehicle.levelling.lamp_height_m;
-    std::fprintf(
-        stderr,
-        "phare-dynamics: cutoff_25m_m is below 0 in %llu rows: below the ground, as the beam meets the road before "
-        "the wall, at the nearest %.1f m ahead of the lamps\n",
-        static_cast<unsigned long long>(below), levelling::kWall_m * lamp_m / (lamp_m - lowest_m));
-  }
-  if (!lamps && file)
-    std::fprintf(stderr, "phare-dynamics: %s has no table [levelling]: no columns for cut-off and lamps\n",
-                 printable(o.vehicle).c_str());
-  std::fprintf(
-      told, "%llu steps of %g s in %.3f s: %.0f times real time; state hash %016llx%s%s\n",
-      static_cast<unsigned long long>(summary->steps), o.step_s, summary->wall_s,
-      summary->simulated_s / std::max(summary->wall_s, 1e-9), static_cast<unsigned long long>(summary->state_hash),
-      summary->resistance ? "" : "; no air and rolling resistance", summary->off_road ? "; a wheel left the road" : "");
   return summary->rolled_over_s ? kExitCheckFailed : kExitDone;
 }
 

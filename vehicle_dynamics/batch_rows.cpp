@@ -25,6 +25,7 @@ constexpr Group kGroups[] = {
     {"gear", {"gear", "engine_rpm"}, {}, 2},
     {"driver", {"steer_rad", "accelerator_01", "brake_01"}, {}, 3},
     {"energy", {}, {}, 7},
+    {"level", {"level"}, {}, 1},
 };
 constexpr const char* kWheelNames[] = {"fl", "fr", "rl", "rr"};
 constexpr std::size_t kBase = offsetof(Row, slip) / sizeof(double), kOfLamps = 3;

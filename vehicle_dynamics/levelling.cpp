@@ -7,6 +7,11 @@
 
 namespace phare::levelling {
 
+State settled(const LevellingParams& p, Kind kind, double rest_pitch_rad) {
+  if (kind != Kind::kStatic && kind != Kind::kDynamic) return {};
+  return {rest_pitch_rad, std::clamp(rest_pitch_rad, -p.range_rad, p.range_rad)};
+}
+
 void advance(const LevellingParams& p, Kind kind, double wheel_steps, double axle_pitch_rad, double speed_mps, State& s,
              double dt) {
   constexpr double kStanding_mps = 0.05;

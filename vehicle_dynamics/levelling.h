@@ -27,6 +27,9 @@ struct State {
   double tilt_rad = 0.0;      ///< of the lamps against the body, > 0 up
 };
 
+/// Of a car that has stood with its load before the drive: systems that move by themselves have done so.
+State settled(const LevellingParams& params, Kind kind, double rest_pitch_rad);
+
 /// One step. `axle_pitch_rad`: pitch of the body against its axles or the road, nose down > 0, rest 0; `wheel_steps`:
 /// of the manual wheel, 0 upwards. kStatic follows the pitch only while the car stands.
 void advance(const LevellingParams& params, Kind kind, double wheel_steps, double axle_pitch_rad, double speed_mps,

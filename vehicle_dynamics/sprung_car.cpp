@@ -100,6 +100,22 @@ void SprungCar::take_over(Model model, const CarState& s, double path_m, double 
   }
 }
 
+void SprungCar::look(Model model, const full::State& full, const single_track::State& single,
+                     const full::Input& input) {
+  model_ = model, full_ = full, single_ = single, input_ = input;
+  show();
+}
+
+void SprungCar::stand(const powertrain::Torques& torques, const Road& road) {
+  input_.road = &road;
+  input_.drive_nm = torques.drive_nm, input_.brake_nm = torques.brake_nm;
+  if (model_ == Model::kFull)
+    full::stand(full_params_, input_, full_);
+  else
+    single_track::stand(single_params_, input_, single_);
+  show();
+}
+
 powertrain::Wheels SprungCar::wheels(const Road& road) {
   input_.road = &road;
   return model_ == Model::kFull ? full::wheels(full_params_, input_, full_)

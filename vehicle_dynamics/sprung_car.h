@@ -23,6 +23,12 @@ class SprungCar {
   /// `side_mps`: of the origin, to the left.
   void take_over(Model model, const CarState& state, double path_m, double side_mps);
 
+  /// Takes the state of a model that is advanced elsewhere, for state() and for a hand-over.
+  void look(Model model, const full::State& full, const single_track::State& single, const full::Input& input);
+
+  /// A car that stands settles where these torques hold it on that road, see full::stand().
+  void stand(const powertrain::Torques& torques, const Road& road);
+
   /// One step. `steering_wheel_rad` must be finite.
   void advance(double steering_wheel_rad, const powertrain::Torques& torques, const Road& road, double dt);
 

@@ -73,11 +73,11 @@ CarState interpolate(const CarState& from, const CarState& to, double fraction) 
   return between;
 }
 
-VehicleState to_message(const CarState& s) {
+VehicleState to_message(const CarState& s, const RestAttitude& rest) {
   VehicleState m;
-  m.x_m = s.x_m, m.y_m = s.y_m, m.z_m = s.z_m + s.heave_m;
+  m.x_m = s.x_m, m.y_m = s.y_m, m.z_m = s.z_m + s.heave_m + rest.heave_m;
   m.roll_rad = s.road_roll_rad + s.roll_rad;
-  m.pitch_rad = s.road_pitch_rad + s.pitch_rad;
+  m.pitch_rad = s.road_pitch_rad + s.pitch_rad + rest.pitch_rad;
   m.yaw_rad = std::remainder(s.yaw_rad, 2.0 * std::numbers::pi);
   const double level_speed = s.speed_mps * std::cos(s.road_pitch_rad);
   m.vx_mps = level_speed * std::cos(s.yaw_rad);
@@ -89,14 +89,14 @@ VehicleState to_message(const CarState& s) {
   m.ax_mps2 = s.ax_mps2, m.ay_mps2 = s.ay_mps2;
   m.speed_mps = s.speed_mps;
   m.steer_rad = s.steer_rad;
-  m.suspension_pitch_rad = s.pitch_rad;
+  m.suspension_pitch_rad = s.pitch_rad + rest.pitch_rad;
   m.suspension_roll_rad = s.roll_rad;
-  m.suspension_heave_m = s.heave_m;
+  m.suspension_heave_m = s.heave_m + rest.heave_m;
   m.lamp_tilt_rad = s.lamp_tilt_rad;
   return m;
 }
 
-CarState from_message(const VehicleState& m, double wheelbase_m, double track_m) {
+CarState from_message(const VehicleState& m, double wheelbase_m, double track_m, const RestAttitude& rest) {
   CarState s;
   s.x_m = m.x_m, s.y_m = m.y_m, s.z_m = m.z_m - m.suspension_heave_m;
   s.yaw_rad = m.yaw_rad;
@@ -104,9 +104,9 @@ CarState from_message(const VehicleState& m, double wheelbase_m, double track_m)
   s.steer_rad = m.steer_rad;
   s.road_pitch_rad = m.pitch_rad - m.suspension_pitch_rad;
   s.road_roll_rad = m.roll_rad - m.suspension_roll_rad;
-  s.pitch_rad = m.suspension_pitch_rad, s.pitch_rate_radps = m.pitch_rate_radps;
+  s.pitch_rad = m.suspension_pitch_rad - rest.pitch_rad, s.pitch_rate_radps = m.pitch_rate_radps;
   s.roll_rad = m.suspension_roll_rad, s.roll_rate_radps = m.roll_rate_radps;
-  s.heave_m = m.suspension_heave_m;
+  s.heave_m = m.suspension_heave_m - rest.heave_m;
   s.heave_rate_mps = m.vz_mps + m.speed_mps * std::sin(s.road_pitch_rad);
   s.ax_mps2 = m.ax_mps2, s.ay_mps2 = m.ay_mps2;
   s.yaw_rate_radps = m.yaw_rate_radps;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "config/vehicle.h"
 #include "net/messages.h"
 
 namespace phare {
@@ -73,12 +74,13 @@ std::uint64_t state_hash(const State& state) {
 CarState interpolate(const CarState& from, const CarState& to, double fraction);
 
 /// The message: yaw brought into (-pi, pi], world velocity from speed and road. Level, step, hash and flags are the
-/// caller's.
-VehicleState to_message(const CarState& state);
+/// caller's. States count from where the car rests with its load, messages from where it rests without: `rest` is
+/// between.
+VehicleState to_message(const CarState& state, const RestAttitude& rest = {});
 
 /// What a message tells of a state, to go on from after a restart. Rates of the road plane start at 0; contact heights
 /// are those of the road plane through the pose.
-CarState from_message(const VehicleState& message, double wheelbase_m, double track_m);
+CarState from_message(const VehicleState& message, double wheelbase_m, double track_m, const RestAttitude& rest = {});
 
 /// `controls` if every number is finite, limited to their ranges; otherwise `last`. So models see sane numbers only.
 Controls accepted(const Controls& controls, const Controls& last, bool* refused = nullptr);

@@ -27,7 +27,8 @@ void StepLoop::step_once() {
 
   // the lamps against the body
   if (running_ != Level::kPose) {  // a record holds them already
-    levelling::advance(setup_.vehicle.levelling, setup_.levelling, 0.0, now_.pitch_rad, now_.speed_mps, lamps_, dt);
+    levelling::advance(setup_.vehicle.levelling, setup_.levelling, 0.0, now_.pitch_rad + setup_.vehicle.rest.pitch_rad,
+                       now_.speed_mps, lamps_, dt);
     now_.lamp_tilt_rad = lamps_.tilt_rad;
   }
 
@@ -88,11 +89,34 @@ bool StepLoop::sleeps(double dt) {
   return true;
 }
 
+// Before the first step, with the controls of the beginning: springs, tyres and brake pressure are where a car that has
+// stood there has them, on whatever grade and bank, so that nothing moves.
+void StepLoop::begin_standing() {
+  fresh_ = false;
+  power_ = powertrain::standing(setup_.vehicle, controls_);
+  if (setup_.level == Level::kAuto) choose_level(0.0);
+  powertrain::State power = power_;
+  powertrain::Torques torques =
+      powertrain::advance(setup_.vehicle, controls_, 0.0, wheels(), power, setup_.step.seconds());
+  torques.drive_nm.fill(0.0);  // a foot on the accelerator has not yet been felt
+  if (sprung()) {
+    setup_.sprung->stand(torques, road());
+    const double lamp_tilt = now_.lamp_tilt_rad;
+    now_ = setup_.sprung->state();
+    now_.lamp_tilt_rad = lamp_tilt;
+  } else {
+    kinematic::stand(setup_.vehicle, kinematic::push_of(setup_.vehicle, torques), now_);
+  }
+  before_ = now_;
+}
+
 void StepLoop::run_to(SimTime time) {
+  if (fresh_) begin_standing();
   while (this->time() < time) step_once();
 }
 
 int StepLoop::catch_up(SimTime elapsed) {
+  if (fresh_) begin_standing();
   const std::int64_t due_until = clock_from_.ns + elapsed.ns - dropped_.ns - paused_.ns;
   std::int64_t due = std::max<std::int64_t>(0, (due_until - time().ns) / setup_.step.ns);
   if (due > max_catch_up()) {
@@ -106,8 +130,9 @@ int StepLoop::catch_up(SimTime elapsed) {
 
 VehicleState StepLoop::at(SimTime time) const {
   const double ahead = static_cast<double>(this->time().ns - time.ns) / static_cast<double>(setup_.step.ns);
-  VehicleState out =
-      setup_.level == Level::kPose ? setup_.track.at(time) : to_message(interpolate(before_, now_, 1.0 - ahead));
+  VehicleState out = setup_.level == Level::kPose
+                         ? setup_.track.at(time)
+                         : to_message(interpolate(before_, now_, 1.0 - ahead), setup_.vehicle.rest);
   out.frame_index = -1;
   out.level = name(running_);
   out.step = steps();
@@ -193,8 +218,13 @@ StepLoop::StepLoop(RunSetup setup, const CarState& state, SimTime start, std::ui
   if (state.ax_mps2 != 0.0 && running_ != Level::kPose)  // goes on from a drive
     power_ = powertrain::under_way(setup_.vehicle, state.speed_mps, kinematic::pushed_n(setup_.vehicle, state));
   lamps_.tilt_rad = lamps_.measured_rad = state.lamp_tilt_rad;
-  now_.lamp_tilt_rad = state.lamp_tilt_rad;
+  if (state.lamp_tilt_rad == 0.0 && running_ != Level::kPose)
+    lamps_ = levelling::settled(setup_.vehicle.levelling, setup_.levelling, setup_.vehicle.rest.pitch_rad);
+  now_.lamp_tilt_rad = lamps_.tilt_rad;
   before_ = now_;
+  const CarState& s = state;
+  fresh_ = running_ != Level::kPose && steps_before_ == 0 && s.speed_mps == 0.0 && s.pitch_rad == 0.0 &&
+           s.roll_rad == 0.0 && s.heave_m == 0.0 && s.ax_mps2 == 0.0;
 }
 
 void StepLoop::run_as(Level level) {
@@ -244,6 +274,7 @@ StepLoop::Memory StepLoop::memory() const {
 }
 
 void StepLoop::recall(const Memory& m) {
+  fresh_ = false;
   before_ = m.before, now_ = m.now;
   running_ = m.running;
   auto_ = m.choice;

@@ -91,6 +91,7 @@ class StepLoop {
   /// Hashes of the steps after step number `step`, oldest first, the newest kMaxStepHashes at most.
   std::vector<std::uint64_t> hashes_after(std::uint64_t step) const;
 
+  SimTime start() const { return start_; }  ///< where the steps count from, a predecessor's where one is recalled
   SimTime time() const { return time_of(steps_); }  ///< of the newest step
   std::uint64_t steps() const { return steps_before_ + steps_; }
   std::uint64_t steps_done() const { return steps_; }  ///< by this loop itself
@@ -117,6 +118,7 @@ class StepLoop {
   }
   void step_once();
   void move(double dt);
+  void begin_standing();
   bool sleeps(double dt);
   void stay_if_lost();
   void place_on_road(double dt);
@@ -147,6 +149,7 @@ class StepLoop {
   std::uint64_t controls_refused_ = 0;
   bool off_road_ = false;
   const char* out_of_play_ = nullptr;
+  bool fresh_ = false;  ///< put on the road at rest, and has not settled there yet
   double still_s_ = 0.0, slept_s_ = 0.0;
   StepTimes times_;
 };

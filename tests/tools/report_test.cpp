@@ -58,6 +58,25 @@ TEST(Report, MergesWhatThereIs) {
   EXPECT_EQ(page.find("http"), std::string::npos);  // self-contained
 }
 
+// Why level auto switched stands in the report, and on its page.
+TEST(Report, SaysWhyLevelAutoSwitched) {
+  const auto out = std::filesystem::path(testing::TempDir()) / "phare_report_auto_test";
+  std::filesystem::remove_all(out);
+  std::filesystem::create_directories(out);
+  std::ofstream(out / "dynamics.json")
+      << R"({"process":"dynamics","auto":{"level":"full","switches":1,"seconds":{"kinematic":12.34,"full":3.0},"history":[)"
+         R"({"time_s":12.34,"from":"kinematic","to":"full","because":"low friction","fact":0.3}]}})";
+  DriveFacts facts;
+  facts.process_names = {"dynamics"};
+  const nlohmann::json report = make_report(Rig{}, facts, out);
+  EXPECT_EQ(report["processes"]["dynamics"]["auto"]["history"][0]["to"], "full");
+  const std::string page = report_page(report, out);
+  EXPECT_NE(page.find("kinematic 12.3 s, 1 switches."), std::string::npos);
+  EXPECT_NE(page.find("<td>12.340</td><td class=\"text\">kinematic</td><td class=\"text\">full</td><td "
+                      "class=\"text\">low friction</td><td>0.3</td>"),
+            std::string::npos);
+}
+
 // A TM-33 file of two emitters, an EULUMDAT file with two lamp sets, a mirrored and a scaled lamp: the report, the
 // picture's process and `measure` read them alike, with all that the rig says of them.
 TEST(Report, FluxAndPeakAreOfTheSourceAsTheRigReadsIt) {

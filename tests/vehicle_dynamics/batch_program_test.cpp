@@ -92,6 +92,46 @@ TEST(BatchProgram, KeepsWhatWasThere) {
             0);
 }
 
+// A page beside or instead of the rows; a reference is another run, ours too, and then nothing is between them.
+TEST(BatchProgram, DrawsAPage) {
+  const std::string in = written("page_in.csv", kBraking), out = testing::TempDir() + "page_out.csv",
+                    page = testing::TempDir() + "page.html";
+  const std::string base = "--batch " + in + " --vehicle " + vehicles_dir() + "/bmw_320i.toml --speed-mps 20 ";
+  std::filesystem::remove(page);
+  ASSERT_EQ(program(base + "--out " + out + " --columns slip"), 0);
+  ASSERT_EQ(program(base + "--plot " + page + " --reference " + out + " --columns slip"), 0);
+  const std::string html = content(page);
+  for (const char* part : {"Speed, km/h", "Slip along, %", "Pedals, %", "Against page_out.csv", "0.00 %", "BMW 320i"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(html.find("Lamps by levelling"), std::string::npos);  // nothing levels them
+  for (const auto& [options, says] : {std::pair{"--out " + out + " --reference " + in, "--plot FILE.html"},
+                                      {"--out " + out + " --plot " + out, "would be overwritten"},
+                                      {"--plot " + in, "would be overwritten"},
+                                      {"--plot " + page + " --reference " + written("page_bad.csv", "t,other\n0,1\n"), "has no column that a page shows"},
+                                      {"--plot " + page + " --reference /nonexistent.csv", "nonexistent"},
+                                      {"--plot /nonexistent/page.html", "nonexistent"}}) {
+    std::string said;
+    EXPECT_EQ(program(base + options, &said), 2) << options;
+    EXPECT_NE(said.find(says), std::string::npos) << said;
+  }
+  EXPECT_EQ(content(page), html);
+  EXPECT_EQ(content(in), kBraking);
+}
+
+TEST(BatchProgram, AutoWhereItCanLook) {
+  const std::string out = testing::TempDir() + "auto_out.csv";
+  const std::string base =
+      std::string("--level auto --out ") + out + " --vehicle " + vehicles_dir() + "/bmw_320i.toml ";
+  EXPECT_EQ(program(base + "--speed-mps 20 --columns level --batch " + written("auto_in.csv", kBraking)), 0);
+  EXPECT_NE(content(out).find(",level\n"), std::string::npos);
+  const std::string torques =
+      written("auto_torques.csv",
+              "time_s,steer_rad,torque_fl_nm,torque_fr_nm,torque_rl_nm,torque_rr_nm\n0,0,0,0,0,0\n1,0,0,0,0,0\n");
+  EXPECT_EQ(program(base + "--batch " + torques), 2);
+  EXPECT_EQ(program(base + "--integrator rk4 --batch " + written("auto_in.csv", kBraking)), 2);
+  EXPECT_EQ(program(base + "--columns energy --batch " + written("auto_in.csv", kBraking)), 2);
+}
+
 TEST(BatchProgram, RefusesOptionsThatMeanNothing) {
   const std::string in = written("means_in.csv", kBraking), out = testing::TempDir() + "means_out.csv";
   const std::string base =

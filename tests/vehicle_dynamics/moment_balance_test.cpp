@@ -17,19 +17,29 @@ struct Transfer {
   double share() const { return loads_nm / balance_nm - 1.0; }
 };
 
+// What the road gives along and across the car.
+struct RoadForce {
+  double along_n = 0.0, across_n = 0.0;
+};
+
+RoadForce road_force(const Drive& d, const full::Forces& f) {
+  RoadForce sum;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double steer = i < 2 ? d.input.steer_rad : 0.0;
+    sum.along_n += f.fx_n[i] * std::cos(steer) - f.fy_n[i] * std::sin(steer);
+    sum.across_n += f.fx_n[i] * std::sin(steer) + f.fy_n[i] * std::cos(steer);
+  }
+  return sum;
+}
+
 // From front to rear: every kilogram at the height of the body's centre of gravity, as dive has it (docs/dynamics.md).
 // The pitching moment of the weight is left out there, and here.
 Transfer along(const Drive& d) {
   const full::Params& p = d.params;
   const full::Forces f = d.forces();
   Transfer t;
-  double road_n = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double steer = i < 2 ? d.input.steer_rad : 0.0;
-    t.loads_nm -= p.x_m[i] * (f.load_n[i] - p.load_n[i]);
-    road_n += f.fx_n[i] * std::cos(steer) - f.fy_n[i] * std::sin(steer);
-  }
-  t.balance_nm = road_n * (p.cg_height_m + d.state.z_m);
+  for (std::size_t i = 0; i < 4; ++i) t.loads_nm -= p.x_m[i] * (f.load_n[i] - p.load_n[i]);
+  t.balance_nm = road_force(d, f).along_n * (p.cg_height_m + d.state.z_m);
   return t;
 }
 
@@ -38,14 +48,9 @@ Transfer across(const Drive& d) {
   const full::Params& p = d.params;
   const full::Forces f = d.forces();
   Transfer t;
-  double road_n = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double steer = i < 2 ? d.input.steer_rad : 0.0;
-    t.loads_nm -= p.y_m[i] * f.load_n[i];
-    road_n += f.fx_n[i] * std::sin(steer) + f.fy_n[i] * std::cos(steer);
-  }
+  for (std::size_t i = 0; i < 4; ++i) t.loads_nm -= p.y_m[i] * f.load_n[i];
   const double of_body = p.sprung_kg * (p.cg_height_m + d.state.z_m), of_axles = (p.mass_kg - p.sprung_kg) * p.radius_m;
-  t.balance_nm = (of_body + of_axles) * (road_n / p.mass_kg + kGravity_mps2 * std::sin(f.roll_rad));
+  t.balance_nm = (of_body + of_axles) * (road_force(d, f).across_n / p.mass_kg + kGravity_mps2 * std::sin(f.roll_rad));
   return t;
 }
 

@@ -207,6 +207,32 @@ TEST_F(DynamicsProcess, LockstepIsTheSameToTheBitWithKillsAtEveryLevel) {
   }
 }
 
+// Of a process that took over from a picture, and of the one that took over from it: times are those of the drive.
+TEST_F(DynamicsProcess, SwitchesKeepTheirTimesThroughKills) {
+  auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+  ASSERT_TRUE(cockpit.ok() && visual.ok());
+  const std::string state = (folder_ / "car.state").string(), stats = (folder_ / "s.json").string();
+  std::vector<VehicleState> poses{VehicleState{}};
+  std::int64_t next = 0;
+  for (const auto& more :
+       {arguments({"--lockstep", "--level", "auto"}), arguments({"--lockstep", "--level", "auto", "--state", state}),
+        arguments({"--lockstep", "--level", "auto", "--state", state, "--stats", stats})}) {
+    Child child(more);
+    poses = play(*cockpit, *visual, next, next + 39, poses.back());
+    ASSERT_EQ(poses.size(), 40u);
+    next += 40;
+    child.end(next == 120 ? SIGTERM : SIGKILL);
+  }
+  const auto told = nlohmann::json::parse(std::ifstream(stats))["auto"];
+  ASSERT_FALSE(told["history"].empty());
+  for (const auto& change : told["history"]) {
+    EXPECT_GE(change["time_s"].get<double>(), 39.0 / 60.0);  // where the second began
+    EXPECT_LE(change["time_s"].get<double>(), 2.0);
+    EXPECT_NE(change["from"], change["to"]);
+    EXPECT_FALSE(change["because"].get<std::string>().empty());
+  }
+}
+
 // In real time, and with no picture that could tell where the car was: it goes on from where it was, and time does not
 // go back.
 TEST_F(DynamicsProcess, RealTimeGoesOnAfterAKillThoughNoPictureTellsOfTheCar) {
@@ -337,6 +363,23 @@ TEST_F(DynamicsProcess, ReplaysADriveToItsEnd) {
 }
 
 // Simulated time begins with the picture; one that never becomes ready is not waited for without end.
+// With a level of its own a drive gives the first pose, and another vehicle may drive it.
+TEST_F(DynamicsProcess, ADriveAndALevelBeginWhereTheDriveBegins) {
+  const std::string drive = drive_file();
+  for (const char* level : {"kinematic", "full"}) {
+    auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);
+    ASSERT_TRUE(cockpit.ok() && visual.ok());
+    Child child(
+        arguments({"--lockstep", "--drive", drive, "--level", level, "--vehicle", vehicles_dir() + "/bmw_320i.toml"}));
+    const auto poses = play(*cockpit, *visual, 0, 20);
+    ASSERT_EQ(poses.size(), 21u) << level;
+    EXPECT_NEAR(poses.front().x_m, 0.0, 1e-9) << level;  // the lane would begin at 5
+    EXPECT_EQ(poses.back().level, level);
+    EXPECT_GT(poses.back().speed_mps, 0.1) << level;  // and not the record's 20 m/s times time
+    EXPECT_EQ(child.end(SIGTERM), 0);
+  }
+}
+
 TEST_F(DynamicsProcess, RealTimeBeginsWithThePicture) {
   for (const bool comes : {true, false}) {
     auto cockpit = Bus::open(rig_, Role::kCockpit), visual = Bus::open(rig_, Role::kVisual);

@@ -186,8 +186,9 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
     const double other = s.travel_m[i ^ 1u], travel = s.travel_m[i];
     double force =
         p.spring_n[i] + p.spring_npm[i] * travel + p.damper_nspm[i] * d.travel_m[i] + p.bar_npm[i] * (travel - other);
-    if (travel > p.bump_travel_m) force += p.stop_rate_npm * (travel - p.bump_travel_m);
-    if (travel < -p.rebound_travel_m) force += p.stop_rate_npm * (travel + p.rebound_travel_m);
+    const double from_driver = travel + p.sunk_m[i];
+    if (from_driver > p.bump_travel_m) force += p.stop_rate_npm * (from_driver - p.bump_travel_m);
+    if (from_driver < -p.rebound_travel_m) force += p.stop_rate_npm * (from_driver + p.rebound_travel_m);
     force -= std::min(tyres.fx_n[i], 0.0) * p.brake_jack[i];
     force += std::max(tyres.fx_n[i], 0.0) * p.drive_jack[i];
     lift += force;

@@ -35,7 +35,8 @@ struct Params {
   double wheelbase_m = 0.0, ackermann_01 = 0.0;
   double tyre_rate_npm = 0.0, tyre_damping_nspm = 0.0;
   double bump_travel_m = 0.0, rebound_travel_m = 0.0, stop_rate_npm = 0.0;
-  std::array<double, 4> x_m{}, y_m{};                                           ///< from the centre of gravity
+  std::array<double, 4> sunk_m{};      ///< travel that the load has taken at rest
+  std::array<double, 4> x_m{}, y_m{};  ///< from the centre of gravity
   std::array<double, 4> unsprung_kg{}, spring_npm{}, damper_nspm{}, bar_npm{};  ///< bar: per difference of travel
   std::array<double, 4> load_n{}, spring_n{};                                   ///< at rest: of the tyre, of the spring
   std::array<double, 4> unsprung_couple{};  ///< vertical force per N of lateral force, from the axle's own height
@@ -92,6 +93,11 @@ struct Forces {
 /// (x, y).
 State at_rest(const Params& params, double x_m, double y_m, double yaw_rad, double speed_mps,
               const std::array<double, 4>& height_m);
+
+/// Lets a car that stands, at_rest(), settle where `input` holds it: body, springs and carcasses carry the weight on
+/// whatever the road is, and nothing moves. Without brakes all but the car's own rolling off. The steering, brakes and
+/// road are input's. False, and the state as it was: there is no such place (the brakes or the road do not hold it).
+bool stand(const Params& params, const Input& input, State& state);
 
 /// Front wheels turned by a mean angle, each by its share of the Ackermann angle.
 struct Steer {

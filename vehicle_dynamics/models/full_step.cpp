@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "config/conventions.h"
+#include "vehicle_dynamics/models/equilibrium.h"
 #include "vehicle_dynamics/models/full_parts.h"
 #include "vehicle_dynamics/models/rk4_step.h"
 
@@ -34,6 +35,7 @@ Result<Params> params_of(const VehicleParams& vehicle, const std::string& place)
     p.x_m[i] = front ? vehicle.cg_to_front_m : -to_rear;
     p.y_m[i] = (left ? 0.5 : -0.5) * track;
     p.unsprung_kg[i] = 0.5 * (front ? c.front_axle_kg : c.rear_axle_kg);
+    p.sunk_m[i] = front ? c.front_sunk_m : c.rear_sunk_m;
     p.spring_npm[i] = front ? vehicle.front_rate_npm : vehicle.rear_rate_npm;
     p.damper_nspm[i] = front ? c.front_damping_nspm : c.rear_damping_nspm;
     p.bar_npm[i] = (front ? c.front_anti_roll_nmprad : c.rear_anti_roll_nmprad) / (track * track);
@@ -75,6 +77,47 @@ State at_rest(const Params& p, double x_m, double y_m, double yaw_rad, double sp
   s.u_mps = speed_mps;
   s.spin_radps.fill(speed_mps / p.radius_m);
   return s;
+}
+
+bool stand(const Params& p, const Input& input, State& state) {
+  // Roll, pitch, height, travels; the slips that hold it: of the braked wheels along, of the axles across.
+  constexpr std::size_t kUnknowns = 10, kAlong = 7;
+  const bool braked = std::any_of(input.brake_nm.begin(), input.brake_nm.end(), [](double nm) { return nm > 0.0; });
+  Held h;
+  h.steer = steer_angles(p, input.steer_rad);
+  for (std::size_t i = 0; i < 4; ++i) h.locked[i] = input.brake_nm[i] > 0.0;
+  const State from = state;
+  const auto placed = [&](const std::array<double, kUnknowns>& x) {
+    State s = from;
+    const double cr = std::cos(0.5 * x[0]), sr = std::sin(0.5 * x[0]), cp = std::cos(0.5 * x[1]),
+                 sp = std::sin(0.5 * x[1]);
+    // Turned on from where it is: R = R_from Ry Rx, with the small angles that springs give.
+    const State& f = from;
+    const double w = cp * cr, i = cp * sr, j = sp * cr, k = -sp * sr;
+    s.qw = f.qw * w - f.qx * i - f.qy * j - f.qz * k, s.qx = f.qw * i + f.qx * w + f.qy * k - f.qz * j;
+    s.qy = f.qw * j - f.qx * k + f.qy * w + f.qz * i, s.qz = f.qw * k + f.qx * j - f.qy * i + f.qz * w;
+    s.z_m = from.z_m + x[2];
+    for (std::size_t n = 0; n < 4; ++n) {
+      s.travel_m[n] = x[3 + n];
+      s.kappa[n] = h.locked[n] ? x[kAlong] : 0.0;
+      s.tan_alpha[n] = n < 2 ? x[8] : x[9];
+    }
+    return s;
+  };
+  const auto rates = [&](const std::array<double, kUnknowns>& x) {
+    State d;
+    derivative(p, input, h, placed(x), 0.0, d);
+    return std::array<double, kUnknowns>{d.p_radps,     d.q_radps,     d.w_mps,       d.rise_mps[0],
+                                         d.rise_mps[1], d.rise_mps[2], d.rise_mps[3], braked ? d.u_mps : x[kAlong],
+                                         d.v_mps,       d.r_radps};
+  };
+  std::array<double, kUnknowns> x{};
+  if (!find_equilibrium(x, {1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-6, 1e-6, 1e-6}, rates)) return false;
+  const State settled = placed(x);
+  const Held then = held(p, input, settled, 1e-3);
+  if (then.locked != h.locked) return false;  // the brakes give way
+  state = settled;
+  return true;
 }
 
 void derivative(const Params& p, const Input& input, const Held& held, const State& s, double t_s, State& rate,
@@ -312,9 +355,10 @@ double energy_j(const Params& p, const State& s, const Forces& f) {
          0.5 * p.spring_npm[i] * travel * travel +
          0.25 * p.bar_npm[i] * (travel - s.travel_m[i ^ 1u]) * (travel - s.travel_m[i ^ 1u]) +
          0.5 * p.tyre_rate_npm * (squeeze * squeeze - rest * rest);
-    if (travel > p.bump_travel_m) e += 0.5 * p.stop_rate_npm * (travel - p.bump_travel_m) * (travel - p.bump_travel_m);
-    if (travel < -p.rebound_travel_m)
-      e += 0.5 * p.stop_rate_npm * (travel + p.rebound_travel_m) * (travel + p.rebound_travel_m);
+    const double from_driver = travel + p.sunk_m[i];
+    const double beyond = from_driver > 0.0 ? std::max(from_driver - p.bump_travel_m, 0.0)
+                                            : std::min(from_driver + p.rebound_travel_m, 0.0);
+    e += 0.5 * p.stop_rate_npm * beyond * beyond;
     // Height of the wheel itself over its place at rest.
     const double body_z =
         s.z_m + 2.0 * (s.qx * s.qz - s.qw * s.qy) * p.x_m[i] + 2.0 * (s.qy * s.qz + s.qw * s.qx) * p.y_m[i];

@@ -84,6 +84,25 @@ double pushed_n(const VehicleParams& p, const CarState& s) {
          sign(v) * p.rolling_coefficient * weight * std::cos(s.road_pitch_rad);
 }
 
+namespace {
+
+// What is felt in the car: acceleration less gravity along the road plane.
+Attitude attitude_of(const VehicleParams& p, const CarState& s) {
+  const double fx = s.ax_mps2 - kGravity_mps2 * std::sin(s.road_pitch_rad);
+  const double fy = s.ay_mps2 + kGravity_mps2 * std::cos(s.road_pitch_rad) * std::sin(s.road_roll_rad);
+  return quasi_static_attitude(p, fx, fy);
+}
+
+}  // namespace
+
+void stand(const VehicleParams& p, const Push& push, CarState& s) {
+  constexpr double kMoment_s = 1e-3;
+  s.ax_mps2 = next_speed_mps(p, push, s, kMoment_s) / kMoment_s;
+  const Attitude rest = attitude_of(p, s);
+  s.pitch_rad = rest.pitch_rad, s.roll_rad = rest.roll_rad, s.heave_m = rest.heave_m;
+  s.pitch_rate_radps = s.roll_rate_radps = s.heave_rate_mps = 0.0;
+}
+
 void advance(const VehicleParams& p, double steering_wheel_rad, const Push& push, CarState& s, double dt) {
   // steer: lock and rate are those of the steering wheel
   const double wheel = std::clamp(steering_wheel_rad, -p.max_steering_wheel_rad, p.max_steering_wheel_rad);
@@ -109,10 +128,8 @@ void advance(const VehicleParams& p, double steering_wheel_rad, const Push& push
   s.yaw_rate_radps = s.speed_mps * curvature;
   s.ay_mps2 = s.speed_mps * s.yaw_rate_radps;
 
-  // attitude: what is felt in the car is acceleration less gravity along the road plane
-  const double fx = s.ax_mps2 - kGravity_mps2 * std::sin(s.road_pitch_rad);
-  const double fy = s.ay_mps2 + kGravity_mps2 * std::cos(s.road_pitch_rad) * std::sin(s.road_roll_rad);
-  const Attitude target = quasi_static_attitude(p, fx, fy);
+  // attitude
+  const Attitude target = attitude_of(p, s);
   const Approach approach(2.0 * std::numbers::pi * p.ride_frequency_hz, p.ride_damping, dt);
   approach(s.pitch_rad, s.pitch_rate_radps, target.pitch_rad);
   approach(s.roll_rad, s.roll_rate_radps, target.roll_rad);

@@ -44,6 +44,9 @@ double pushed_n(const VehicleParams& params, const CarState& state);
 /// road under its new place is put there by stand_on().
 void advance(const VehicleParams& params, double steering_wheel_rad, const Push& push, CarState& state, double dt);
 
+/// Lets a car that stands take at once the attitude that its springs take under `push` on the road it stands on.
+void stand(const VehicleParams& params, const Push& push, CarState& state);
+
 /// World x, y of the wheel contacts: front left, front right, rear left, rear right.
 std::array<glm::dvec2, 4> contact_points(const VehicleParams& params, const CarState& state);
 

@@ -126,6 +126,13 @@ double engine_torque_nm(const EngineParams& e, double speed_radps) {
   return std::lerp(e.torque_nm[i - 1], e.torque_nm[i], u);
 }
 
+State standing(const VehicleParams& v, const Controls& input) {
+  State s;
+  s.brake_01 = input.brake_01;
+  if (v.hill_hold_s > 0.0) s.held_01 = input.brake_01;
+  return s;
+}
+
 State under_way(const VehicleParams& v, double speed_mps, double force_n) {
   State s;
   const bool pushed = force_n * speed_mps >= 0.0;

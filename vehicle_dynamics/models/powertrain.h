@@ -58,6 +58,9 @@ Torques advance(const VehicleParams& vehicle, const Controls& input, double spee
 /// gear is the highest that it would not shift down from.
 State under_way(const VehicleParams& vehicle, double speed_mps, double force_n);
 
+/// Of a car that has stood with its driver's foot where it is: brake pressure is there, the engine pulls nothing yet.
+State standing(const VehicleParams& vehicle, const Controls& input);
+
 /// What the parking brake asks of one rear wheel.
 inline double parking_nm(const VehicleParams& v, double parking_01) {
   return 0.5 * kParkingShare_01 * parking_01 * v.max_brake_force_n * v.tyre_radius_m;

@@ -68,6 +68,10 @@ static_assert(sizeof(State) == kStateSize * sizeof(double));
 State at_rest(const Params& params, double x_m, double y_m, double yaw_rad, double speed_mps,
               const std::array<double, 4>& height_m);
 
+/// Lets a car that stands, at_rest(), settle where `input` holds it, as full::stand(). False: there is no such place,
+/// or the attitude is quasi-static, which is where forces hold it after a step anyway.
+bool stand(const Params& params, const full::Input& input, State& state);
+
 /// Road under the wheels of an axle (left, right) during one step, asked for once, at the step's start and where it
 /// will end: t into the step its height is height + t (rate + bend (t - dt)), the parabola through both heights that
 /// bends as the slopes there differ.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "config/conventions.h"
+#include "vehicle_dynamics/models/equilibrium.h"
 #include "vehicle_dynamics/models/rk4_step.h"
 #include "vehicle_dynamics/models/single_track_parts.h"
 
@@ -152,6 +153,26 @@ void advance_in_parts(const Params& p, full::Input in, State& s, double dt) {
 }
 
 }  // namespace
+
+bool stand(const Params& p, const full::Input& input, State& state) {
+  if (!p.options.dynamic_attitude) return false;
+  const State from = state;
+  const auto placed = [&](const std::array<double, 5>& x) {
+    State s = from;
+    s.z_m += x[0], s.pitch += x[1], s.roll += x[2], s.front_slip = x[3], s.rear_slip = x[4];
+    return s;
+  };
+  const auto rates = [&](const std::array<double, 5>& x) {
+    const State s = placed(x);
+    State d;
+    derivative(p, held(p, input, s, 1e-3), s, 0.0, d);
+    return std::array<double, 5>{d.z_rate_mps, d.pitch_rate_ps, d.roll_rate_ps, d.v_mps, d.r_radps};
+  };
+  std::array<double, 5> x{};
+  if (!find_equilibrium(x, {1e-7, 1e-7, 1e-7, 1e-6, 1e-6}, rates)) return false;
+  state = placed(x);
+  return true;
+}
 
 void set_step(Params& p, double dt) {
   if (p.ride.dt_s != dt) p.ride = ride::step_of(p.springs, dt);
