@@ -15,7 +15,10 @@ for n in 1 2 3; do
   eval "m$n=$!"
   machines="$machines $!"
 done
-trap 'kill $machines 2>/dev/null' EXIT
+# Nothing outlives this script, whatever ends it.
+relays= cockpit_pid= dynamics_pid= v0= v1= v2=
+trap 'kill -KILL $machines $relays $cockpit_pid $dynamics_pid $v0 $v1 $v2 2>/dev/null' EXIT
+trap 'exit 1' TERM INT HUP
 in_machine() {  # N COMMAND …
   eval "to=\$m$1"
   shift
@@ -42,7 +45,6 @@ for n in 1 2 3; do
   in_machine $n ip link set eth0 up
 done
 
-relays=
 for n in 1 2 3; do
   for other in 1 2 3; do
     [ $other = $n ] && continue
@@ -71,7 +73,7 @@ for picture in $v0 $v1 $v2; do
   wait $picture
   ends="$ends $?"
 done
-kill -TERM $cockpit_pid $dynamics_pid
+kill -TERM $cockpit_pid $dynamics_pid 2>/dev/null
 wait $cockpit_pid
 ends="$ends $?"
 wait $dynamics_pid
