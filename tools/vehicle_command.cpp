@@ -39,8 +39,7 @@ void add_vehicle(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "vehicle", "Turn a CommonRoad vehicle (YAML) and a Magic Formula tyre (.tir) into a vehicle file");
   command->footer(
-      "Examples:\n  phare vehicle parameters_vehicle2.yaml --tyre parameters_tire.yaml --out car.toml\n"
-      "  phare vehicle parameters_vehicle2.yaml --tyre tyre.tir --out car.toml\n  phare vehicle tyre.tir\n"
+      "Examples:\n  phare vehicle vehicle.yaml --tyre tyre.tir --out car.toml\n  phare vehicle tyre.tir\n"
       "What of them is not used is named on standard error. A .tir alone gives the table [tyre].");
   command->add_option("file", arguments->in, "CommonRoad vehicle (YAML), or a tyre (.tir) for its table alone")
       ->required();
