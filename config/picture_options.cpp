@@ -104,7 +104,7 @@ void PictureOptions::add_to(CLI::App& app) {
       ->check(one_of(kImageLevelNames));
   declare(app.add_option("--road-lod", road_cuts,
                          "Cut each triangle of the ground in four, so many times: what methods by vertex need"))
-      ->check(CLI::Range(0, 3))
+      ->check(CLI::Range(0, kMostRoadCuts))
       ->capture_default_str();
   declare(app.add_option("--audit-every", audit_every, "Frames between self-audits, 0: never"))
       ->check(CLI::Range(0, 1'000'000))

@@ -11,6 +11,9 @@
 
 namespace phare {
 
+/// Most cuts of the ground: 64 triangles from one.
+inline constexpr int kMostRoadCuts = 3;
+
 class PictureOptions {
  public:
   PictureOptions() = default;

@@ -98,12 +98,11 @@ struct PassTime {
 /// What one view took.
 struct ViewResult {
   std::string name;
-  EffectPlan effects;                  ///< what was on, and why
-  std::uint32_t lamps = 0;             ///< that light it
-  std::uint32_t lamps_unreached = 0;   ///< left out: nothing that it sees is within their light
-  std::uint32_t lamps_over_limit = 0;  ///< left out somewhere: kLampsPerDraw that are brighter there light it already
-  std::uint32_t lamps_without_map =
-      0;  ///< cast no shadow: so many maps the device does not hold, or a draw not tell apart
+  EffectPlan effects;                   ///< what was on, and why
+  std::uint32_t lamps = 0;              ///< that light it
+  std::uint32_t lamps_unreached = 0;    ///< left out: nothing that it sees is within their light
+  std::uint32_t lamps_over_limit = 0;   ///< left out somewhere: kLampsPerDraw that are brighter there light it already
+  std::uint32_t lamps_without_map = 0;  ///< cast no shadow: the device, or a draw, holds no more maps
   std::uint32_t passes = 0, draws = 0;
   std::uint64_t triangles = 0;
 };

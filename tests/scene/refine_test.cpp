@@ -40,7 +40,7 @@ float area_of(const Scene& scene, const SceneChunk& chunk) {
 
 TEST(Refined, CutsTheGroundInFourAndKeepsItsSurface) {
   const Scene scene = road_and_sign();
-  for (int times = 0; times <= kMostRoadCuts; ++times) {
+  for (int times = 0; times <= 3; ++times) {
     const Scene finer = refined(scene, times, is_ground);
     ASSERT_EQ(finer.chunks.size(), 2u);
     EXPECT_EQ(finer.chunks[0].index_count, 6u << (2 * times));

@@ -7,9 +7,6 @@
 
 namespace phare {
 
-/// Most cuts of a road: 64 triangles from one.
-inline constexpr int kMostRoadCuts = 3;
-
 /// Each triangle in four, the new corners in the middle of its sides, `times` times over; of chunks whose material
 /// `which` names, the others as they are. Corners stay shared within a chunk.
 Scene refined(
