@@ -455,7 +455,7 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     const vk::Pipeline wanted = pipeline(variant);
     if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);
     push(commands, item.push);
-    commands.drawIndexed(item.batch->index_count, 1, item.batch->first_index, item.batch->first_vertex, 0);
+    commands.drawIndexed(item.batch->index_count, 1, item.first_index, item.batch->first_vertex, 0);
   }
 }
 

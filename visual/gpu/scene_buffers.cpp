@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -42,6 +43,35 @@ void append(Gathered& all, const SceneBatch& batch, const SceneChunk& chunk, std
   for (std::uint32_t index : indices) all.indices.push_back(base + index);
 }
 
+glm::dvec2 order_direction(std::uint32_t order) {
+  const double turn = 2.0 * std::numbers::pi * order / SceneBatch::kOrders;
+  return {std::cos(turn), std::sin(turn)};
+}
+
+void add_orders(SceneBatch& batch, Gathered& all) {
+  struct Triangle {
+    std::array<std::uint32_t, 3> corners;
+    float nearest_m;
+  };
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < batch.index_count; i += 3) {
+    const std::uint32_t* corners = &all.indices[batch.first_index + i];
+    triangles.push_back({{corners[0], corners[1], corners[2]}, 0.0f});
+  }
+  all.indices.resize(batch.first_index);
+  for (std::uint32_t order = 0; order < SceneBatch::kOrders; ++order) {
+    const glm::vec3 along(order_direction(order), 0.0);
+    const auto depth_m = [&](std::uint32_t corner) {
+      return glm::dot(along, all.vertices[static_cast<std::size_t>(batch.first_vertex) + corner].position_m);
+    };
+    for (Triangle& t : triangles)
+      t.nearest_m = std::min({depth_m(t.corners[0]), depth_m(t.corners[1]), depth_m(t.corners[2])});
+    std::ranges::stable_sort(triangles, {}, &Triangle::nearest_m);
+    for (const Triangle& t : triangles) all.indices.insert(all.indices.end(), t.corners.begin(), t.corners.end());
+  }
+  batch.ordered = true;
+}
+
 // One batch for each kind and cell of `side_m` among the chunks.
 std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m,
                                std::optional<std::size_t> far_level, Gathered& all) {
@@ -70,6 +100,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
       batch.high_m = glm::max(batch.high_m, chunk->high_m);
     }
     batch.index_count = static_cast<std::uint32_t>(all.indices.size()) - batch.first_index;
+    if (batch.kind.surface == Surface::kFoliage) add_orders(batch, all);
     if (batch.index_count > 0) batches.push_back(batch);
   }
   return batches;
@@ -113,7 +144,21 @@ shader::GpuMaterial pack_material(const SceneMaterial& material, std::vector<sha
   return packed;
 }
 
+// Across the ground, of a view to a batch; within it, straight ahead.
+glm::dvec2 looks_along(const ViewGeometry& view, const SceneBatch& batch) {
+  const glm::dvec3& eye_m = view.camera().eye_m;
+  const bool within = glm::clamp(eye_m, batch.low_m, batch.high_m) == eye_m;
+  return within ? glm::dvec2(view.camera().world_from_eye[0]) : glm::dvec2(0.5 * (batch.low_m + batch.high_m) - eye_m);
+}
+
 }  // namespace
+
+std::uint32_t SceneBatch::first_index_along(const glm::dvec2& direction) const {
+  if (!ordered) return first_index;
+  const double turns = std::atan2(direction.y, direction.x) / (2.0 * std::numbers::pi);
+  const auto order = static_cast<std::uint32_t>(std::lround((turns + 1.0) * kOrders)) % kOrders;
+  return first_index + order * index_count;
+}
 
 SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene) {
   std::vector<shader::GpuMaterial> packed;
@@ -150,6 +195,7 @@ std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far
       const glm::dvec3 origin = batch.origin_m - view.camera().eye_m;
       const glm::dvec3 detail = batch.origin_m - glm::floor(batch.origin_m / 1024.0) * 1024.0;
       items.push_back({&batch,
+                       batch.first_index_along(looks_along(view, batch)),
                        {glm::vec4(glm::vec3(origin), 0.0f), glm::vec4(glm::vec3(detail), 0.0f)},
                        static_cast<float>(*distance)});
     }

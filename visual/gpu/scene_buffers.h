@@ -36,6 +36,13 @@ struct SceneBatch {
   glm::dvec3 low_m{0.0}, high_m{0.0};
   std::uint32_t first_index = 0, index_count = 0;
   std::int32_t first_vertex = 0;
+  /// The same triangles in kOrders orders, one behind the other: near ones first for who looks along x, then turned to
+  /// the left in even steps. Leaves lie behind leaves, and what is drawn first hides the rest before it is lit.
+  bool ordered = false;
+
+  static constexpr std::uint32_t kOrders = 8;
+  /// Of the order for who looks along (x, y).
+  std::uint32_t first_index_along(const glm::dvec2& direction) const;
 };
 
 /// A piece of the ground: its batches in full, and as they are drawn from afar (visual/scene/far_mesh.h).
@@ -48,6 +55,7 @@ struct SceneBlock {
 /// One batch to draw, ready for its push constants.
 struct DrawItem {
   const SceneBatch* batch = nullptr;
+  std::uint32_t first_index = 0;  ///< of the order that is drawn
   shader::GpuDraw push{};
   float distance_m = 0.0f;
   std::size_t lit_by = 0;  ///< which of the view's sets of lamps (visual/lit_scene.h)

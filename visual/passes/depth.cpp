@@ -29,7 +29,7 @@ void DepthPass::draw(gpu::FrameGraph& graph, const LitScene& scene, const LitVie
     scene.bind(commands, view);
     for (const DrawItem& item : view.items) {
       scene.push(commands, item.push);
-      commands.drawIndexed(item.batch->index_count, 1, item.batch->first_index, item.batch->first_vertex, 0);
+      commands.drawIndexed(item.batch->index_count, 1, item.first_index, item.batch->first_vertex, 0);
     }
     commands.endRendering();
   });

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numeric>
 
 namespace phare {
 
@@ -52,6 +56,65 @@ void simplify(FarMesh& mesh, float error_m) {
   drop_unused(mesh);
 }
 
+// Pieces of a mesh that hang together by the places of their corners; a number for each vertex.
+class Pieces {
+ public:
+  explicit Pieces(const FarMesh& mesh) : of_(mesh.vertices.size()) {
+    std::iota(of_.begin(), of_.end(), 0u);
+    std::map<std::array<float, 3>, std::uint32_t> at;
+    for (std::uint32_t i = 0; i < of_.size(); ++i) {
+      const glm::vec3& p = mesh.vertices[i].position_m;
+      join(i, at.try_emplace({p.x, p.y, p.z}, i).first->second);
+    }
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+      for (std::size_t k = 1; k < 3; ++k) join(mesh.indices[i], mesh.indices[i + k]);
+  }
+  std::uint32_t of(std::uint32_t vertex) {
+    while (of_[vertex] != vertex) vertex = of_[vertex] = of_[of_[vertex]];
+    return vertex;
+  }
+
+ private:
+  void join(std::uint32_t a, std::uint32_t b) { of_[of(a)] = of(b); }
+  std::vector<std::uint32_t> of_;
+};
+
+struct PieceSize {
+  glm::vec3 low{1e30f}, high{-1e30f}, area_vector{0.0f};
+  float area_m2 = 0.0f;
+
+  // As it looks on average from all sides: of a closed body a quarter of its surface is seen (Cauchy 1832), of a plate
+  // half.
+  float width_m() const {
+    const bool closed = glm::length(area_vector) < 0.05f * area_m2;
+    return area_m2 / ((closed ? 4.0f : 2.0f) * glm::length(high - low));
+  }
+};
+
+// Leaves out what is narrower than a pixel: it would flicker from pixel to pixel.
+void drop_slivers(FarMesh& mesh, float width_m) {
+  Pieces pieces(mesh);
+  std::map<std::uint32_t, PieceSize> sizes;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    PieceSize& size = sizes[pieces.of(mesh.indices[i])];
+    std::array<glm::vec3, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corner[k] = mesh.vertices[mesh.indices[i + k]].position_m;
+      size.low = glm::min(size.low, corner[k]);
+      size.high = glm::max(size.high, corner[k]);
+    }
+    const glm::vec3 area = 0.5f * glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    size.area_vector += area;
+    size.area_m2 += glm::length(area);
+  }
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    if (sizes[pieces.of(mesh.indices[i])].width_m() >= width_m)
+      kept.insert(kept.end(), &mesh.indices[i], &mesh.indices[i] + 3);
+  mesh.indices = std::move(kept);
+  drop_unused(mesh);
+}
+
 }  // namespace
 
 FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level, double from_m) {
@@ -71,6 +134,8 @@ FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level,
       simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m));
       break;
     case Surface::kPlain:
+      drop_slivers(mesh, static_cast<float>(kFarThingWidth_rad * from_m));
+      if (mesh.indices.empty()) break;
       simplify(mesh, static_cast<float>(kFarThingError_rad * from_m));
       break;
     case Surface::kPaint:

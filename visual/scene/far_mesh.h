@@ -13,10 +13,12 @@ struct FarLevel {
   double from;                    ///< multiple of FrameInput::far_mesh_from_m
   std::uint32_t leaves_per_leaf;  ///< of so many leaf triangles one stays, grown to their area
 };
-inline constexpr std::array<FarLevel, 3> kFarLevels{{{0.4, 1}, {1.0, 3}, {2.5, 9}}};
+inline constexpr std::array<FarLevel, 5> kFarLevels{{{0.4, 1}, {1.0, 3}, {1.7, 5}, {2.5, 9}, {4.5, 16}}};
 /// Errors in the place of corners, as angles from the level's beginning. A pixel of 1280 across 60° is 0.8 mrad.
 constexpr double kFarGroundError_rad = 0.2e-3;  ///< road and ground, which a crest shows edge on
 constexpr double kFarThingError_rad = 0.75e-3;  ///< things beside the road
+/// Of these, what is narrower is left out: less than a pixel wide, it comes and goes from pixel to pixel.
+constexpr double kFarThingWidth_rad = 0.8e-3;
 
 struct FarMesh {
   std::vector<SceneVertex> vertices;  ///< relative to the chunk's origin

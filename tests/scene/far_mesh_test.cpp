@@ -1,0 +1,102 @@
+// unit: what is left out of a mesh that is seen from afar, and what stays.
+#include "visual/scene/far_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace phare {
+namespace {
+
+constexpr double kFrom_m = 375.0;  // where a pixel of 1280 across 60° is 0.3 m
+
+/// A closed box; each face has corners of its own, as a shaded box has.
+void add_box(Scene& scene, const glm::vec3& low, const glm::vec3& high) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool upper : {false, true}) {
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+      for (int corner = 0; corner < 4; ++corner) {
+        glm::vec3 at, normal(0.0f);
+        at[axis] = upper ? high[axis] : low[axis];
+        at[u] = corner == 1 || corner == 2 ? high[u] : low[u];
+        at[v] = corner >= 2 ? high[v] : low[v];
+        normal[axis] = upper ? 1.0f : -1.0f;
+        scene.vertices.push_back({at, normal});
+      }
+      for (const std::uint32_t i : upper ? std::array{0u, 1u, 2u, 0u, 2u, 3u} : std::array{0u, 2u, 1u, 0u, 3u, 2u})
+        scene.indices.push_back(first + i);
+    }
+  }
+}
+
+SceneChunk whole(const Scene& scene) {
+  SceneChunk chunk;
+  chunk.index_count = static_cast<std::uint32_t>(scene.indices.size());
+  chunk.vertex_count = static_cast<std::uint32_t>(scene.vertices.size());
+  return chunk;
+}
+
+FarMesh from_afar(const Scene& scene, double from_m = kFrom_m) {
+  return far_mesh(scene, whole(scene), kFarLevels.size() - 1, from_m);
+}
+
+/// Size of the box about a mesh.
+glm::vec3 extent(const FarMesh& mesh) {
+  glm::vec3 low(1e9f), high(-1e9f);
+  for (const SceneVertex& vertex : mesh.vertices) {
+    low = glm::min(low, vertex.position_m);
+    high = glm::max(high, vertex.position_m);
+  }
+  return high - low;
+}
+
+TEST(FarMesh, LeavesOutWhatIsNarrowerThanAPixelAndKeepsWhatStandsBesideIt) {
+  Scene scene;
+  scene.materials = {{.name = "wood"}};
+  add_box(scene, {0.0f, 0.0f, 0.0f}, {0.12f, 0.12f, 1.1f});  // a post
+  add_box(scene, {5.0f, 0.0f, 0.0f}, {9.0f, 0.3f, 3.0f});    // a wall
+  const FarMesh mesh = from_afar(scene);
+  ASSERT_FALSE(mesh.vertices.empty());
+  for (const SceneVertex& vertex : mesh.vertices) EXPECT_GE(vertex.position_m.x, 4.7f) << "of the post";
+  EXPECT_NEAR(extent(mesh).x, 4.0f, 2 * 0.3f);
+  EXPECT_NEAR(extent(mesh).z, 3.0f, 2 * 0.3f);
+}
+
+TEST(FarMesh, APostAtFortyFiveDegreesIsAsNarrowAsOneThatStandsUpright) {
+  Scene upright, leaning;
+  upright.materials = leaning.materials = {{.name = "wood"}};
+  add_box(upright, {0.0f, 0.0f, 0.0f}, {0.12f, 0.12f, 3.0f});
+  leaning = upright;
+  for (SceneVertex& vertex : leaning.vertices) {
+    const glm::vec3 p = vertex.position_m;
+    vertex.position_m = {0.70710678f * (p.x + p.z), p.y, 0.70710678f * (p.z - p.x)};
+  }
+  for (const double from_m : {60.0, 140.0, 160.0, 375.0})
+    EXPECT_EQ(from_afar(upright, from_m).indices.empty(), from_afar(leaning, from_m).indices.empty()) << from_m;
+  EXPECT_FALSE(from_afar(upright, 140.0).indices.empty()) << "0.117 m wide on average, 0.112 m a pixel";
+  EXPECT_TRUE(from_afar(upright, 160.0).indices.empty());
+}
+
+TEST(FarMesh, APlateThatIsSeenFromOneSideOnlyCountsByItsHalf) {
+  Scene scene;
+  scene.materials = {{.name = "board"}};
+  for (const glm::vec3 corner : {glm::vec3{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}})
+    scene.vertices.push_back({corner, {-1, 0, 0}});
+  scene.indices = {0, 1, 2, 0, 2, 3};
+  // 1 m² over its diagonal, halved: 0.354 m.
+  EXPECT_EQ(from_afar(scene, 0.35 / kFarThingWidth_rad).indices.size(), 6u);
+  EXPECT_TRUE(from_afar(scene, 0.36 / kFarThingWidth_rad).indices.empty());
+}
+
+TEST(FarMesh, KeepsEveryReflectorHoweverSmall) {
+  Scene scene;
+  scene.materials = {{.name = "reflector"}};
+  scene.materials[0].retro.kind = RetroKind::kSheeting;
+  add_box(scene, {0.0f, 0.0f, 0.0f}, {0.01f, 0.05f, 0.18f});
+  EXPECT_EQ(from_afar(scene).indices.size(), scene.indices.size());
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,59 @@
+// A road drawn with far meshes against the same road drawn whole: fewer triangles, and a picture that a person takes
+// for the same.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "config/paths.h"
+#include "tests/bench/straight_road.h"
+#include "visual/photometry/beam_composer.h"
+#include "visual/photometry/read_lamp.h"
+#include "visual/renderer.h"
+#include "visual/scene/scene.h"
+
+namespace phare {
+namespace {
+
+TEST(FarMeshes, ChangeAPictureOfTheCountryRoadLessThanOneSees) {
+  const Result<Scene> scene = read_scene(generated_dir() / "scenes/country_road.glb");
+  const Result<IntensityTable> lamp = read_lamp(generated_dir() / "lamps/low_rht.ies", {});
+  ASSERT_TRUE(scene.ok() && lamp.ok());
+  Result<Renderer> renderer = Renderer::create({.width_px = 1280, .height_px = 720, .validation = true});
+  ASSERT_TRUE(renderer.ok()) << renderer.error().text();
+  ASSERT_TRUE(renderer->load_scene(*scene).ok());
+  const AimedSource source{.table = &*lamp};
+  renderer->set_beam(0, compose_beam_image(std::span(&source, 1)));
+  for (const double x_m : {26.9, 300.0}) {
+    FrameInput input;
+    input.camera.eye_m = {x_m - 1.9, -1.2, 1.22};
+    input.camera.world_from_eye = aim_rotation(0.0, -0.01, 0.0);
+    for (const double y_m : {-1.0, -2.2})
+      input.lamps.push_back({.position_m = {x_m, y_m, 0.65}, .world_from_image = aim_rotation(0.0, -0.01, 0.0)});
+    input.want_image = true;
+    const FrameResult far = renderer->draw(input);
+    const Image8 from_afar = renderer->read_image();
+    input.far_mesh_from_m = std::numeric_limits<double>::infinity();
+    const FrameResult full = renderer->draw(input);
+    const Image8 whole = renderer->read_image();
+    std::size_t more_than_8 = 0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < whole.rgba.size(); i += 4) {
+      const int difference = std::abs(static_cast<int>(whole.rgba[i + 1]) - static_cast<int>(from_afar.rgba[i + 1]));
+      sum += difference;
+      if (difference > 8) ++more_than_8;
+    }
+    const double pixels = static_cast<double>(whole.rgba.size()) / 4.0;
+    std::printf("x = %.0f m: %llu triangles in place of %llu; mean %.4f of 255, %.3f %% of pixels by more than 8\n",
+                x_m, static_cast<unsigned long long>(far.triangles), static_cast<unsigned long long>(full.triangles),
+                sum / pixels, 100.0 * static_cast<double>(more_than_8) / pixels);
+    EXPECT_LT(far.triangles, full.triangles);
+    // Asked for: a tenth of a step of the display on average, and a step that one sees in one pixel of two hundred.
+    EXPECT_LT(sum / pixels, 0.1);
+    EXPECT_LT(static_cast<double>(more_than_8) / pixels, 0.005);
+  }
+  EXPECT_EQ(renderer->validation_messages(), 0u);
+}
+
+}  // namespace
+}  // namespace phare
