@@ -12,7 +12,7 @@ namespace {
 
 std::optional<int> level_of(const ControlMapping& mapping, double value) {
   const auto found = std::find_if(mapping.levels.begin(), mapping.levels.end(),
-                                  [&](const Level& level) { return level.when.value == value; });
+                                  [&](const SignalLevel& level) { return level.when.value == value; });
   return found == mapping.levels.end() ? std::nullopt : std::optional(found->level);
 }
 

@@ -59,7 +59,7 @@ Status lay_out(const ControlMapping& mapping, const DbcMessage& message, DbcSign
 }
 
 Status look_up_all(const Dbc& dbc, const DbcSignal& signal, ControlMapping& mapping) {
-  for (Level& level : mapping.levels) {
+  for (SignalLevel& level : mapping.levels) {
     if (const Status status = look_up(dbc, signal, mapping.place, level.when); !status) return status;
   }
   for (NamedValue& value : mapping.on) {

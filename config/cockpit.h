@@ -59,7 +59,7 @@ struct NamedValue {
   std::string name;  ///< not empty: to be looked up
 };
 
-struct Level {
+struct SignalLevel {
   NamedValue when;
   int level = 0;  ///< of LightSwitch, Gear, TurnSignal or Lever
 };
@@ -77,7 +77,7 @@ struct ControlMapping {
   std::string bits;             ///< where the car differs from the DBC file: "start|length@order sign"; or empty
   double timeout_s = 0.0;       ///< silence of the message after which the source counts as silent
   std::optional<double> debounce_s;
-  std::vector<Level> levels;             ///< light_switch, beam_lever, turn, gear
+  std::vector<SignalLevel> levels;             ///< light_switch, beam_lever, turn, gear
   LatchKind latch = LatchKind::kNone;    ///< beam_lever; of a flag anything but none: each press switches it over
   std::vector<NamedValue> on;            ///< flags: the values that mean pressed; empty: anything but 0
   bool invert = false;                   ///< flags: pressed is released

@@ -76,7 +76,7 @@ void read_levels(TomlTable table, Levels names, ControlMapping& mapping) {
     if (!levels.has(name)) continue;
     ++different;
     for (NamedValue& value : named_values(levels, name)) {
-      const bool twice = std::any_of(mapping.levels.begin(), mapping.levels.end(), [&](const Level& l) {
+      const bool twice = std::any_of(mapping.levels.begin(), mapping.levels.end(), [&](const SignalLevel& l) {
         return l.when.name == value.name && l.when.value == value.value;
       });
       if (twice) levels.fail(name, "another level has this value too");
@@ -176,7 +176,7 @@ void check_conflicts(TomlTable& controls, const CockpitConfig& config) {
   const ControlMapping* levels = config.find(Control::kLightSwitch);
   const bool knows_high =
       levels != nullptr && std::any_of(levels->levels.begin(), levels->levels.end(),
-                                       [](const Level& l) { return l.level == static_cast<int>(LightSwitch::kHigh); });
+                                       [](const SignalLevel& l) { return l.level == static_cast<int>(LightSwitch::kHigh); });
   exclude(Control::kLightSwitch, Control::kHigh, knows_high);
   exclude(Control::kLightSwitch, Control::kBeamLever, knows_high);
   exclude(Control::kHigh, Control::kBeamLever);

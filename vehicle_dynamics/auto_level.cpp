@@ -32,7 +32,7 @@ std::string text(const LevelSwitch& change) {
   return std::string(rung_name(change.from)) + " to " + rung_name(change.to) + ": " + name(change.reason) + number;
 }
 
-Choice choose(const Scene& s, double scale) {
+Choice choose(const Situation& s, double scale) {
   const double accelerated = std::max(std::abs(s.ax_mps2), std::abs(s.ay_mps2));
   if (s.least_load_share < 1.0 - 0.8 * scale) return {2, Reason::kLoad, s.least_load_share};
   if (s.unevenness_m > 0.03 * scale) return {2, Reason::kUnevenness, s.unevenness_m};
@@ -51,13 +51,13 @@ void AutoLevel::go(const Choice& choice) {
   quiet_s_ = 0.0;
 }
 
-Choice AutoLevel::next(const Scene& scene, double dt) {
+Choice AutoLevel::next(const Situation& situation, double dt) {
   constexpr double kCalmer = 0.7, kQuiet_s = 2.0, kLongest_s = 30.0;
-  const Choice wanted = choose(scene);
+  const Choice wanted = choose(situation);
   if (wanted.rung > now_.rung) {
     wait_s_ = time_s_ - went_down_s_ < wait_s_ ? std::min(2.0 * wait_s_, kLongest_s) : kQuiet_s;
     go(wanted);
-  } else if (const Choice strict = choose(scene, kCalmer); strict.rung < now_.rung) {
+  } else if (const Choice strict = choose(situation, kCalmer); strict.rung < now_.rung) {
     quiet_s_ += dt;
     if (quiet_s_ >= wait_s_) {
       go(strict);
@@ -72,9 +72,9 @@ Choice AutoLevel::next(const Scene& scene, double dt) {
   return now_;
 }
 
-Scene scene_of(const VehicleParams& v, const CarState& s, const Controls& controls, const Road& road, double path_m,
-               double least_load_share) {
-  Scene scene;
+Situation situation_of(const VehicleParams& v, const CarState& s, const Controls& controls, const Road& road,
+                       double path_m, double least_load_share) {
+  Situation situation;
   const double peak = v.chassis ? v.chassis->tyre.lat_peak : v.max_lateral_mps2 / kGravity_mps2;
   const auto points = kinematic::contact_points(v, s);
   const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad), way = s.speed_mps < 0.0 ? -1.0 : 1.0;
@@ -87,15 +87,16 @@ Scene scene_of(const VehicleParams& v, const CarState& s, const Controls& contro
       const Ground ground =
           road.at(points[i].x + c * ahead, points[i].y + sn * ahead, here + ahead, i % 2 == 0, s.contact_z_m[i], &off);
       z[k] = ground.z_m;
-      scene.friction = std::min(scene.friction, ground.friction);
+      situation.friction = std::min(situation.friction, ground.friction);
     }
-    if (!off) scene.unevenness_m = std::max(scene.unevenness_m, 2.0 * std::abs(z[1] - 0.5 * (z[0] + z[2])));
+    if (!off) situation.unevenness_m = std::max(situation.unevenness_m, 2.0 * std::abs(z[1] - 0.5 * (z[0] + z[2])));
   }
-  scene.utilisation_01 = std::hypot(s.ax_mps2, s.ay_mps2) / (scene.friction * peak * kGravity_mps2);
-  scene.least_load_share = least_load_share;
-  scene.ax_mps2 = s.ax_mps2, scene.ay_mps2 = s.ay_mps2, scene.speed_mps = s.speed_mps;
-  scene.brake_or_grade = controls.brake_01 > 0.0 || controls.gear == Gear::kPark || std::abs(s.road_pitch_rad) > 0.005;
-  return scene;
+  situation.utilisation_01 = std::hypot(s.ax_mps2, s.ay_mps2) / (situation.friction * peak * kGravity_mps2);
+  situation.least_load_share = least_load_share;
+  situation.ax_mps2 = s.ax_mps2, situation.ay_mps2 = s.ay_mps2, situation.speed_mps = s.speed_mps;
+  situation.brake_or_grade =
+      controls.brake_01 > 0.0 || controls.gear == Gear::kPark || std::abs(s.road_pitch_rad) > 0.005;
+  return situation;
 }
 
 }  // namespace phare

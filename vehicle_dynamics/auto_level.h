@@ -12,7 +12,7 @@
 namespace phare {
 
 /// What the choice looks at.
-struct Scene {
+struct Situation {
   double utilisation_01 = 0.0;  ///< acceleration in the plane over what the tyres can do
   double friction = 1.0;        ///< lowest under a wheel
   double unevenness_m = 0.0;    ///< of the road within 2 m ahead of the wheels, beyond a straight line
@@ -47,14 +47,14 @@ std::string text(const LevelSwitch& change);
 /// The table: full for utilisation > 0.5, friction < 0.5, unevenness > 3 cm, a load below a fifth, standing with brakes
 /// or on a grade below 1.5 m/s; single-track for more than 0.5 m/s2 or unevenness > 2 mm; else kinematic. `scale` < 1
 /// makes it stricter.
-Choice choose(const Scene& scene, double scale = 1.0);
+Choice choose(const Situation& situation, double scale = 1.0);
 
 /// Up at once, down after 2 s below 0.7 of every threshold. Up again within as long as that took, it waits twice as
-/// long the next time, up to half a minute: a scene on the edge does not make it hunt.
+/// long the next time, up to half a minute: a situation on the edge does not make it hunt.
 class AutoLevel {
  public:
   /// The rung for the coming step.
-  Choice next(const Scene& scene, double dt);
+  Choice next(const Situation& situation, double dt);
   Choice now() const { return now_; }
   std::uint64_t switches() const { return switches_; }
   /// Switch number `n`, counted from 0; of the newest kKept.
@@ -73,7 +73,7 @@ class AutoLevel {
 };
 
 /// What the car's state and the road ahead say. `friction_peak`: of the tyre, times g what it can do.
-Scene scene_of(const VehicleParams& vehicle, const CarState& state, const Controls& controls, const Road& road,
-               double path_m, double least_load_share);
+Situation situation_of(const VehicleParams& vehicle, const CarState& state, const Controls& controls, const Road& road,
+                       double path_m, double least_load_share);
 
 }  // namespace phare

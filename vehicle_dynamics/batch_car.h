@@ -278,9 +278,9 @@ class Car {
     const CarState seen = sprung ? hand_over_->state() : flat_;
     const double path = sprung ? hand_over_->path_m() : path_m_ + b;
     static const Road kLevelRoad;
-    const Scene scene = scene_of(o_.vehicle, seen, controls_, o_.road ? *o_.road : kLevelRoad, path,
+    const Situation situation = situation_of(o_.vehicle, seen, controls_, o_.road ? *o_.road : kLevelRoad, path,
                                  sprung ? hand_over_->least_load_share() : 1.0);
-    const Level level = kRungs[static_cast<std::size_t>(auto_.next(scene, dt).rung)];
+    const Level level = kRungs[static_cast<std::size_t>(auto_.next(situation, dt).rung)];
     if (level == level_) return;
     if (level == Level::kKinematic) {
       flat_ = seen, path_m_ = path - b, beside_ = seen.contact_z_m;

@@ -236,9 +236,9 @@ void StepLoop::run_as(Level level) {
 
 void StepLoop::choose_level(double dt) {
   constexpr std::array<Level, 3> kRungs{Level::kKinematic, Level::kSingleTrack, Level::kFull};
-  const Scene scene =
-      scene_of(setup_.vehicle, now_, controls_, road(), path_m_, sprung() ? setup_.sprung->least_load_share() : 1.0);
-  const Level level = kRungs[static_cast<std::size_t>(auto_.next(scene, dt).rung)];
+  const Situation situation =
+      situation_of(setup_.vehicle, now_, controls_, road(), path_m_, sprung() ? setup_.sprung->least_load_share() : 1.0);
+  const Level level = kRungs[static_cast<std::size_t>(auto_.next(situation, dt).rung)];
   if (level != running_) run_as(level);
 }
 

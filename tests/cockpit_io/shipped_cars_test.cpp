@@ -148,7 +148,7 @@ class ShippedCars : public testing::TestWithParam<ShippedCar> {
 TEST_P(ShippedCars, EveryLevelIsReadAsWhatItMeans) {
   SendingCar car(GetParam());
   for (const ControlMapping& control : car.config().controls) {
-    for (const Level& level : control.levels) {
+    for (const SignalLevel& level : control.levels) {
       car.send(control, car.number(control, level.when));
       EXPECT_EQ(stands_at(control, car.input), level.level)
           << control.place << " " << level.when.name << level.when.value;
@@ -156,7 +156,7 @@ TEST_P(ShippedCars, EveryLevelIsReadAsWhatItMeans) {
     // What the DBC file has a name for, the cockpit file has a meaning for.
     if (control.levels.empty()) continue;
     std::set<double> known;
-    for (const Level& level : control.levels) known.insert(car.number(control, level.when));
+    for (const SignalLevel& level : control.levels) known.insert(car.number(control, level.when));
     const DbcSignal& signal = car.signal(control);
     for (const auto& [raw, name] : signal.value_names) {
       if (!control.bits.empty()) break;  // the car's are others than the file's
@@ -237,7 +237,7 @@ TEST_P(ShippedCars, EachBeamIsTheOneTheStalkAsksFor) {
   const ControlMapping* high = config.find(Control::kHigh);
   const ControlMapping* lever = config.find(Control::kBeamLever);
   const auto move_lever = [&](Lever to) {
-    for (const Level& level : lever->levels) {
+    for (const SignalLevel& level : lever->levels) {
       if (level.level != static_cast<int>(to)) continue;
       car.send(*lever, car.number(*lever, level.when));
       return;

@@ -236,9 +236,9 @@ TEST(Running, C12NonsenseIsRefused) {
 }
 
 TEST(AutoLevel, TheTable) {
-  Scene calm{.speed_mps = 20.0};
+  Situation calm{.speed_mps = 20.0};
   EXPECT_EQ(choose(calm).rung, 0);
-  Scene s = calm;
+  Situation s = calm;
   s.ax_mps2 = -0.8;
   EXPECT_EQ(choose(s).rung, 1);
   s = calm, s.unevenness_m = 0.004;
@@ -257,7 +257,7 @@ TEST(AutoLevel, TheTable) {
 
 TEST(AutoLevel, UpAtOnceDownAfterTwoSeconds) {
   AutoLevel level;
-  Scene hard{.utilisation_01 = 0.6, .speed_mps = 20.0}, calm{.speed_mps = 20.0};
+  Situation hard{.utilisation_01 = 0.6, .speed_mps = 20.0}, calm{.speed_mps = 20.0};
   EXPECT_EQ(level.next(calm, 0.01).rung, 0);
   EXPECT_EQ(level.next(hard, 0.01).rung, 2);
   for (int i = 0; i < 198; ++i) EXPECT_EQ(level.next(calm, 0.01).rung, 2);
@@ -269,7 +269,7 @@ TEST(AutoLevel, UpAtOnceDownAfterTwoSeconds) {
 // Every switch tells when, from where to where, and the number that decided.
 TEST(AutoLevel, SaysWhy) {
   AutoLevel level;
-  Scene calm{.speed_mps = 20.0}, hard = calm;
+  Situation calm{.speed_mps = 20.0}, hard = calm;
   hard.utilisation_01 = 0.62;
   for (int i = 0; i < 100; ++i) level.next(calm, 0.01);
   level.next(hard, 0.01);
@@ -284,7 +284,7 @@ TEST(AutoLevel, SaysWhy) {
 // A scene on the edge: every two seconds calm, then not. It comes down ever more rarely.
 TEST(AutoLevel, DoesNotHuntOnTheEdge) {
   AutoLevel level;
-  Scene calm{.speed_mps = 20.0}, hard = calm;
+  Situation calm{.speed_mps = 20.0}, hard = calm;
   hard.utilisation_01 = 0.6;
   for (int i = 0; i < 60'000; ++i) level.next(i % 250 < 230 ? calm : hard, 0.01);  // ten minutes
   EXPECT_LE(level.switches(), 6u);                                                 // 480 with the same wait each time

@@ -115,7 +115,7 @@ std::string tick_text(double value) {
 
 }  // namespace
 
-Rgb false_colour(double t) {
+Rgb chart_colour(double t) {
   constexpr std::array<Rgb, 8> kStops{{{0, 0, 0},
                                        {0.05, 0.05, 0.40},
                                        {0.35, 0.05, 0.62},

@@ -21,7 +21,7 @@ inline constexpr Rgb kBlack{0, 0, 0}, kWhite{1, 1, 1}, kGrey{0.55, 0.55, 0.55}, 
     kFailed{0.85, 0.05, 0.05}, kWithin{0.9, 0.6, 0.0};
 
 /// False colour of t in 0..1: black, blue, violet, red, orange, yellow, white.
-Rgb false_colour(double t_01);
+Rgb chart_colour(double t_01);
 
 /// A rectangle of the page with two linear axes.
 struct Axes {

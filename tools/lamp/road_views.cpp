@@ -116,7 +116,7 @@ void draw_road(Chart& chart, const std::vector<RoadLamp>& lamps, bool left_hand,
                const std::string& subtitle) {
   heading(chart, title, subtitle);
   constexpr double kLow = -1.0, kHigh = 2.2;  // 0.1 to 160 lx
-  const auto colour = [](double log) { return false_colour((log - kLow) / (kHigh - kLow)); };
+  const auto colour = [](double log) { return chart_colour((log - kLow) / (kHigh - kLow)); };
   bool clipped = false;
   for (const int panel : {0, 1}) {
     const bool facing = panel == 1;

@@ -212,7 +212,7 @@ void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& ti
       sample_grid([&](double h, double v) { return has_data(intensity, h, v) ? log_cd(intensity(h, v)) : kNoValue; },
                   axes.x_min, axes.x_max, axes.y_min, axes.y_max, 701, 373);
   constexpr double kLow = 1.5, kHigh = 5.0;  // 30 cd to 100,000 cd
-  const auto colour = [](double log) { return false_colour((log - kLow) / (kHigh - kLow)); };
+  const auto colour = [](double log) { return chart_colour((log - kLow) / (kHigh - kLow)); };
   chart.picture(axes, grid.x.size(), grid.y.size(), [&](std::size_t i, std::size_t j) {
     const double log = grid.at_pixel(i, j);
     return std::isnan(log) ? kNoDataColour : coloured ? colour(log) : kWhite;
@@ -223,7 +223,7 @@ void draw_wall(Chart& chart, const IntensityHv& intensity, const std::string& ti
   std::vector<PendingLabel> labels;
   for (const double cd : {50.0, 100.0, 200.0, 350.0, 625.0, 1000.0, 2000.0, 5000.0, 10000.0, 20000.0, 30000.0, 40000.0,
                           60000.0, 80000.0}) {
-    const Rgb own = false_colour(0.85 * (std::log10(cd) - kLow) / (kHigh - kLow) + 0.05);
+    const Rgb own = chart_colour(0.85 * (std::log10(cd) - kLow) / (kHigh - kLow) + 0.05);
     draw_contours(chart, axes, contours(grid.values, grid.x, grid.y, std::log10(cd)),
                   coloured ? Rgb{0.92, 0.92, 0.92} : own, coloured ? 0.7 : 1.1, short_number(cd), labels);
   }
@@ -345,7 +345,7 @@ void draw_bands(Chart& chart, const IntensityHv& intensity, const std::string& t
   const auto band = [&](double cd) {
     return static_cast<std::size_t>(std::upper_bound(std::begin(edges), std::end(edges), cd) - std::begin(edges));
   };
-  const auto colour = [](std::size_t b) { return false_colour(static_cast<double>(b) / (kBands - 1)); };
+  const auto colour = [](std::size_t b) { return chart_colour(static_cast<double>(b) / (kBands - 1)); };
   const Grid grid =
       sample_grid([&](double h, double v) { return has_data(intensity, h, v) ? intensity(h, v) : kNoValue; },
                   axes.x_min, axes.x_max, axes.y_min, axes.y_max, 701, 373);

@@ -41,10 +41,15 @@ std::optional<double> meets_triangle(const glm::dvec3& origin_m, const glm::dvec
 
 }  // namespace
 
-std::optional<RayHit> ray_hit(const Scene& scene, const glm::dvec3& origin_m, const glm::dvec3& direction,
-                              double least_m, double most_m) {
+namespace {
+
+/// As ray_hit(), among the chunks whose material `which` takes.
+template <typename Which>
+std::optional<RayHit> hit_among(const Scene& scene, const glm::dvec3& origin_m, const glm::dvec3& direction,
+                                double least_m, double most_m, const Which& which) {
   std::optional<RayHit> nearest;
   for (const SceneChunk& chunk : scene.chunks) {
+    if (!which(scene.materials[chunk.material])) continue;
     if (!meets_box(origin_m, direction, chunk.low_m, chunk.high_m, most_m)) continue;
     const glm::dvec3 local_m = origin_m - chunk.origin_m;
     for (std::uint32_t i = 0; i + 2 < chunk.index_count; i += 3) {
@@ -63,13 +68,21 @@ std::optional<RayHit> ray_hit(const Scene& scene, const glm::dvec3& origin_m, co
   return nearest;
 }
 
+}  // namespace
+
+std::optional<RayHit> ray_hit(const Scene& scene, const glm::dvec3& origin_m, const glm::dvec3& direction,
+                              double least_m, double most_m) {
+  return hit_among(scene, origin_m, direction, least_m, most_m, [](const SceneMaterial&) { return true; });
+}
+
 std::optional<std::size_t> occluder(const Scene& scene, const glm::dvec3& lamp_m, const glm::dvec3& point_m) {
   constexpr double kOwnSurface_m = 1e-3;
   const glm::dvec3 way = lamp_m - point_m;
   const double distance_m = glm::length(way);
   if (distance_m <= 2.0 * kOwnSurface_m) return std::nullopt;
   const std::optional<RayHit> hit =
-      ray_hit(scene, point_m, way / distance_m, kOwnSurface_m, distance_m - kOwnSurface_m);
+      hit_among(scene, point_m, way / distance_m, kOwnSurface_m, distance_m - kOwnSurface_m,
+                [](const SceneMaterial& material) { return material.surface != Surface::kPaint; });
   return hit ? std::optional(hit->chunk) : std::nullopt;
 }
 

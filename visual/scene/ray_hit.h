@@ -23,7 +23,8 @@ std::optional<RayHit> ray_hit(const Scene& scene, const glm::dvec3& origin_m, co
                               double least_m, double most_m);
 
 /// What hides the lamp from the point: the chunk that is nearest to the point, or nothing. A surface that the point
-/// lies on, within a millimetre of the way, hides nothing.
+/// lies on, within a millimetre of the way, hides nothing; nor does paint, which a scene lays on a road by its
+/// thickness or more, and whose edge would hide a decimetre of road at grazing light.
 std::optional<std::size_t> occluder(const Scene& scene, const glm::dvec3& lamp_m, const glm::dvec3& point_m);
 
 }  // namespace phare

@@ -1,0 +1,206 @@
+// phare cost: what accuracy costs on this machine.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "config/commit.h"
+#include "config/content_hash.h"
+#include "config/paths.h"
+#include "config/whole_file.h"
+#include "tools/commands.h"
+#include "tools/cost/ladder.h"
+#include "tools/cost/measure_ladders.h"
+#include "tools/cost/page.h"
+#include "tools/cost/plot.h"
+
+namespace phare {
+namespace {
+
+using namespace cost;
+
+struct CostOptions {
+  bool quick = false, json = false;
+  std::string out = "cost", scene, lamp, vehicle, size = "1280x720";
+  std::vector<std::string> ladders;
+  std::uint64_t seed = 1;
+};
+
+const std::vector<std::string> kLadderNames{"light", "shadows", "vehicle", "poses"};
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+std::string now_text() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+/// A line that is written over; silent when nobody looks at it.
+class ProgressLine {
+ public:
+  ~ProgressLine() {
+    if (written_) std::fputs("\r\033[K", stderr);
+  }
+  void show(const std::string& doing, double share_01) {
+    if (isatty(STDERR_FILENO) == 0) return;
+    written_ = true;
+    constexpr int kWide = 24;
+    const int done = static_cast<int>(kWide * share_01);
+    std::fprintf(stderr, "\r\033[K[%.*s%.*s] %3.0f %%  %s", done, "########################", kWide - done,
+                 "........................", 100.0 * share_01, doing.c_str());
+    std::fflush(stderr);
+  }
+
+ private:
+  bool written_ = false;
+};
+
+class CostRun {
+ public:
+  explicit CostRun(const CostOptions& options) : options_(options) {}
+
+  int run() {
+    std::error_code failed;
+    std::filesystem::create_directories(options_.out, failed);
+    if (failed) return bad_input({"--out " + options_.out, failed.message()});
+    Plan plan{.quick = options_.quick,
+              .scene_file = options_.scene,
+              .lamp_file = options_.lamp,
+              .vehicle_file = options_.vehicle,
+              .seed = options_.seed,
+              .progress = {}};
+    int end = 0;
+    if (std::sscanf(options_.size.c_str(), "%dx%d%n", &plan.width_px, &plan.height_px, &end) != 2 ||
+        static_cast<std::size_t>(end) != options_.size.size())
+      return bad_input({"--size " + options_.size, "is not WIDTHxHEIGHT in pixels"});
+    if (const Status measured = measure(plan); !measured) return bad_input(measured.error());
+    for (Ladder& ladder : ladders_) mark_efficient(ladder);
+    if (const Status written = write(); !written) return bad_input(written.error());
+    print();
+    return kExitDone;
+  }
+
+ private:
+  bool wanted(const std::string& name) const {
+    return options_.ladders.empty() ||
+           std::find(options_.ladders.begin(), options_.ladders.end(), name) != options_.ladders.end();
+  }
+
+  Status measure(Plan& plan) {
+    ProgressLine line;
+    plan.progress = [&](const std::string& doing, double share_01) { line.show(doing, share_01); };
+    if (wanted("light") || wanted("shadows")) {
+#ifdef PHARE_WITH_GRAPHICS
+      Result<PictureLadders> pictures = picture_ladders(plan);
+      if (!pictures) return pictures.error();
+      device_ = pictures->device;
+      if (wanted("light")) ladders_.push_back(std::move(pictures->light));
+      if (wanted("shadows")) ladders_.push_back(std::move(pictures->shadows));
+#else
+      left_out_.push_back("light and shadows: this build draws nothing");
+#endif
+    }
+    if (wanted("vehicle")) {
+      Result<std::vector<Ladder>> vehicle = vehicle_ladders(plan);
+      if (!vehicle) return vehicle.error();
+      ladders_.insert(ladders_.end(), vehicle->begin(), vehicle->end());
+    }
+    if (wanted("poses")) {
+      Result<Ladder> poses = pose_ladder(plan);
+      if (!poses) return poses.error();
+      ladders_.push_back(std::move(*poses));
+    }
+    return Done{};
+  }
+
+  Status write() {
+    json_ = {{"date", now_text()},
+             {"version", std::string(PHARE_VERSION) + ", commit " + build_commit()},
+             {"processor", processor() + ", " + std::to_string(std::thread::hardware_concurrency()) + " at once"},
+             {"size", options_.size},
+             {"quick", options_.quick},
+             {"seed", options_.seed},
+             {"left_out", left_out_},
+             {"ladders", nlohmann::json::array()}};
+    if (!device_.empty()) json_["device"] = device_;
+    for (const auto& [key, file] :
+         {std::pair{"scene", options_.scene}, {"lamp", options_.lamp}, {"vehicle", options_.vehicle}}) {
+      const Result<std::string> hash = content_hash_of_file(file);
+      if (hash) json_[key] = file + ", " + *hash;
+    }
+    json_["command"] = "phare cost" + std::string(options_.quick ? " --quick" : "") + " --size " + options_.size +
+                       " --seed " + std::to_string(options_.seed);
+    std::vector<std::string> plots;
+    const std::filesystem::path out(options_.out);
+    for (const Ladder& ladder : ladders_) {
+      json_["ladders"].push_back(json_of(ladder));
+      const std::string stem = (out / ladder.name).string();
+      if (const Status drawn = plot(ladder, stem); !drawn) return drawn.error();
+      std::ifstream svg(stem + ".svg", std::ios::binary);
+      plots.emplace_back(std::istreambuf_iterator<char>(svg), std::istreambuf_iterator<char>());
+    }
+    for (const auto& [name, text] : {std::pair<const char*, std::string>{"cost.json", json_.dump(2) + "\n"},
+                                     {"cost.csv", csv_of(ladders_)},
+                                     {"index.html", page(json_, ladders_, plots)}})
+      if (const Status written = write_whole_file(out / name, text); !written) return written.error();
+    return Done{};
+  }
+
+  void print() const {
+    if (options_.json) {
+      std::printf("%s\n", json_.dump(2).c_str());
+      return;
+    }
+    for (const Ladder& ladder : ladders_) std::printf("%s\n", text_of(ladder).c_str());
+    for (const std::string& line : left_out_) std::printf("left out: %s\n", line.c_str());
+    std::printf("* worth it: no other level is at once as exact and cheaper\n%s/index.html\n", options_.out.c_str());
+  }
+
+  const CostOptions& options_;
+  std::vector<Ladder> ladders_;
+  std::vector<std::string> left_out_;
+  std::string device_;
+  nlohmann::json json_;
+};
+
+}  // namespace
+
+void add_cost(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<CostOptions>();
+  options->scene = (generated_dir() / "scenes/country_road.glb").string();
+  options->lamp = (generated_dir() / "lamps/low_rht.ies").string();
+  options->vehicle = config_path("vehicles/bmw_320i.toml");
+  CLI::App* command = app.add_subcommand(
+      "cost", "What accuracy costs on this machine: error and time of every level of light, shadows, car and messages");
+  command->footer(
+      "Example:\n  phare cost --quick --ladder poses --out cost\n"
+      "Writes index.html (one page, to be mailed), cost.json, cost.csv and a plot of each ladder.");
+  command->add_flag("--quick", options->quick, "Fewer levels, samples and rounds: under a minute");
+  command->add_option("--ladder", options->ladders, "Only this one, more than once for several [all]")
+      ->check(CLI::IsMember(kLadderNames));
+  command->add_option("--out", options->out, "Folder to write")->capture_default_str();
+  command->add_flag("--json", options->json, "Print all figures as JSON");
+  command->add_option("--scene", options->scene, "Scene (.glb, .gltf) with a straight road along x from the origin")
+      ->capture_default_str();
+  command->add_option("--lamp", options->lamp, "Photometry of both low beams")->capture_default_str();
+  command->add_option("--vehicle", options->vehicle, "Vehicle file")->capture_default_str();
+  command->add_option("--size", options->size, "Pictures, WIDTHxHEIGHT in pixels")->capture_default_str();
+  command->add_option("--seed", options->seed, "Of the pixels that errors are taken at")->capture_default_str();
+  command->callback([options, &chosen] { chosen = [options] { return CostRun(*options).run(); }; });
+}
+
+}  // namespace phare

@@ -1,0 +1,38 @@
+// The ladders of this program, measured on this machine.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "config/result.h"
+#include "tools/cost/ladder.h"
+
+namespace phare::cost {
+
+struct Plan {
+  bool quick = false;  ///< fewer levels, samples and rounds
+  std::string scene_file, lamp_file, vehicle_file;
+  int width_px = 1280, height_px = 720;
+  std::uint64_t seed = 1;
+  std::function<void(const std::string& doing, double share_01)> progress;
+};
+
+#ifdef PHARE_WITH_GRAPHICS
+struct PictureLadders {
+  std::string device;
+  Ladder light, shadows;
+};
+/// Light: method × beam image level × cuts of the ground, against float64 at the pixels' own points. Shadows: each
+/// level at points of the scene, against rays in float64. Times turn by turn, so that noise hits all levels alike; a
+/// frame of the same level goes before each that is timed, as in a drive.
+Result<PictureLadders> picture_ladders(const Plan& plan);
+#endif
+
+/// Integrator and step of each vehicle level, against the same level at its finest.
+Result<std::vector<Ladder>> vehicle_ladders(const Plan& plan);
+
+/// Rate of the pose messages, held or carried on until the next, against the pose itself.
+Result<Ladder> pose_ladder(const Plan& plan);
+
+}  // namespace phare::cost

@@ -1,0 +1,236 @@
+// The ladders of light and of shadows.
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "tools/cost/measure_ladders.h"
+#include "visual/photometry/beam_composer.h"
+#include "visual/photometry/illuminance.h"
+#include "visual/photometry/image_levels.h"
+#include "visual/photometry/read_lamp.h"
+#include "visual/renderer.h"
+#include "visual/scene/ray_hit.h"
+#include "visual/scene/refine.h"
+#include "visual/scene/scene.h"
+
+namespace phare::cost {
+namespace {
+
+double processor_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+/// A driver's view on a straight along x, its lamps at `x_m`: lateral places of the shipped country road's right lane.
+FrameInput view_at(double x_m) {
+  FrameInput input;
+  input.camera.eye_m = {x_m - 1.9, -1.2, 1.22};
+  const glm::dmat3 aim = aim_rotation(0.0, -0.01, 0.0);
+  for (const double y_m : {-1.0, -2.2})
+    input.lamps.push_back({.position_m = {x_m, y_m, 0.65}, .world_from_image = aim});
+  input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
+  return input;
+}
+
+constexpr std::array kPlaces_m{26.9, 60.0, 100.0};
+
+double exact_lx(const IntensityTable& table, const PlacedLamp& lamp, const MeasurePoint& point) {
+  return illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, point.position_m, point.normal);
+}
+
+/// A level as it is drawn.
+struct Case {
+  Level level;
+  Renderer* renderer = nullptr;
+  Method method = Method::kFragment;
+  std::size_t shadows = 0;
+  std::vector<double> times_ms{};
+
+  FrameInput view(double x_m) const {
+    FrameInput input = view_at(x_m);
+    input.method = method;
+    input.effects[static_cast<std::size_t>(Effect::kShadows)] = shadows;
+    return input;
+  }
+};
+
+class Pictures {
+ public:
+  Pictures(const Plan& plan, const Scene& scene, const IntensityTable& table)
+      : plan_(plan), scene_(scene), table_(table) {}
+
+  Result<PictureLadders> measure() {
+    std::vector<Case> light, shadows;
+    if (const Status made = make_cases(light, shadows); !made) return made.error();
+    PictureLadders ladders{
+        .device = renderers_.front()->device(),
+        .light = {.name = "light",
+                  .what = "illuminance of a picture by two low beams, method, beam image and cuts of the ground",
+                  .reference = "float64 at the pixels' own points",
+                  .error_unit = "lx",
+                  .time_unit = "ms of processor a frame"},
+        .shadows = {.name = "shadows",
+                    .what = "what stands in the beams: levels of the shadow maps",
+                    .reference = "float64 with a ray to each lamp, at points of the scene",
+                    .error_unit = "lx",
+                    .time_unit = "ms of processor a frame"}};
+    for (Case& one : light) find_light_errors(one);
+    find_shadow_errors(shadows);
+    time_turn_by_turn(light, shadows);
+    for (Case& one : light) ladders.light.levels.push_back(std::move(one.level));
+    for (Case& one : shadows) ladders.shadows.levels.push_back(std::move(one.level));
+    return ladders;
+  }
+
+ private:
+  Result<Renderer*> renderer(const Scene& scene, ImageLevel level) {
+    plan_.progress("making " + level_name(level), 0.05 * static_cast<double>(renderers_.size()) / 6.0);
+    Result<Renderer> made =
+        Renderer::create({.width_px = plan_.width_px, .height_px = plan_.height_px, .beam_level = level});
+    if (!made) return made.error();
+    renderers_.push_back(std::make_unique<Renderer>(std::move(*made)));
+    Renderer& renderer = *renderers_.back();
+    if (const Status loaded = renderer.load_scene(scene); !loaded) return loaded.error();
+    const AimedSource source{.table = &table_};
+    renderer.set_beam(0, compose_beam_image(std::span(&source, 1)));
+    return &renderer;
+  }
+
+  Status make_cases(std::vector<Case>& light, std::vector<Case>& shadows) {
+    const auto add = [&](std::vector<Case>& to, const std::string& name, Renderer* with, Method method,
+                         std::size_t level) {
+      to.push_back({.level = {.name = name}, .renderer = with, .method = method, .shadows = level});
+      with->draw(to.back().view(kPlaces_m[0]));
+      to.back().level.memory_bytes = with->device_memory_bytes();
+    };
+    const auto method_name = [](Method method) { return std::string(kMethodNames[static_cast<std::size_t>(method)]); };
+    Renderer* exact = nullptr;
+    for (const ImageLevel level : kImageLevels) {
+      const Result<Renderer*> made = renderer(scene_, level);
+      if (!made) return made.error();
+      if (level == ImageLevel::kFloatNodes) exact = *made;
+      add(light, "fragment, " + level_name(level), *made, Method::kFragment, 0);
+    }
+    for (int cuts = 0; cuts <= (plan_.quick ? 1 : 2); ++cuts) {
+      Renderer* with = exact;
+      if (cuts > 0) {
+        const Result<Renderer*> made = renderer(refined(scene_, cuts, is_ground), ImageLevel::kFloatNodes);
+        if (!made) return made.error();
+        with = *made;
+      }
+      for (const Method method : {Method::kVertex, Method::kVertex1998})
+        add(light, method_name(method) + ", ground cut " + std::to_string(cuts) + " times", with, method, 0);
+    }
+    for (std::size_t level = 0; level < kShadowNames.size(); ++level)
+      add(shadows, std::string(kShadowNames[level]), exact, Method::kFragment, level);
+    return Done{};
+  }
+
+  std::size_t samples() const { return plan_.quick ? 600 : 6000; }
+
+  void find_light_errors(Case& one) {
+    plan_.progress("errors of " + one.level.name, 0.1);
+    std::vector<double> differences;
+    std::size_t lit = 0, within = 0;
+    for (const double x_m : kPlaces_m) {
+      const FrameInput input = one.view(x_m);
+      for (const AuditSample& sample : one.renderer->audit(input, samples(), plan_.seed)) {
+        double exact = 0.0;
+        for (const PlacedLamp& lamp : input.lamps) exact += exact_lx(table_, lamp, sample.point);
+        differences.push_back(sample.illuminance_lx - exact);
+        if (exact < kDim_lx) continue;
+        ++lit;
+        within += std::abs(differences.back()) <= 0.01 * exact ? 1u : 0u;
+      }
+    }
+    one.level.error = errors_of(std::move(differences));
+    char note[64];
+    std::snprintf(note, sizeof note, "within 1 %%: %.1f %% of lit pixels",
+                  lit == 0 ? 0.0 : 100.0 * static_cast<double>(within) / static_cast<double>(lit));
+    one.level.note = note;
+  }
+
+  void find_shadow_errors(std::vector<Case>& cases) {
+    Renderer& renderer = *cases.front().renderer;
+    std::vector<std::vector<double>> differences(cases.size());
+    std::vector<std::size_t> wrong(cases.size());
+    std::size_t decisions = 0;
+    for (const double x_m : kPlaces_m) {
+      plan_.progress("rays for shadows", 0.2);
+      FrameInput input = view_at(x_m);
+      input.far_mesh_from_m = std::numeric_limits<double>::infinity();
+      std::vector<MeasurePoint> points;
+      for (const AuditSample& sample : renderer.audit(input, samples() / 2, plan_.seed + 1))
+        points.push_back(sample.point);
+      std::vector<std::vector<double>> exact(input.lamps.size());
+      for (std::size_t lamp = 0; lamp < input.lamps.size(); ++lamp)
+        for (const MeasurePoint& point : points) {
+          const double lx = exact_lx(table_, input.lamps[lamp], point);
+          const bool hidden = lx > 0.0 && occluder(scene_, input.lamps[lamp].position_m, point.position_m).has_value();
+          exact[lamp].push_back(hidden ? 0.0 : lx);
+        }
+      for (std::size_t k = 0; k < cases.size(); ++k) {
+        const std::vector<std::vector<float>> found = renderer.measure(input.lamps, points, k);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          double sum = 0.0;
+          for (std::size_t lamp = 0; lamp < input.lamps.size(); ++lamp) {
+            const double unhidden = exact_lx(table_, input.lamps[lamp], points[i]);
+            const double lx = static_cast<double>(found[lamp][i]);
+            sum += lx - exact[lamp][i];
+            if (unhidden < kDim_lx) continue;
+            decisions += k == 0 ? 1u : 0u;
+            wrong[k] += (lx > 0.5 * unhidden) != (exact[lamp][i] > 0.0) ? 1u : 0u;
+          }
+          differences[k].push_back(sum);
+        }
+      }
+    }
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      cases[k].level.error = errors_of(std::move(differences[k]));
+      cases[k].level.note = "lit or dark wrong: " + std::to_string(wrong[k]) + " of " + std::to_string(decisions);
+    }
+  }
+
+  void time_turn_by_turn(std::vector<Case>& light, std::vector<Case>& shadows) {
+    const int rounds = plan_.quick ? 9 : 60;
+    for (int round = 0; round < rounds; ++round) {
+      plan_.progress("frames, round " + std::to_string(round + 1) + " of " + std::to_string(rounds),
+                     0.3 + 0.7 * round / rounds);
+      const double x_m = kPlaces_m[0] + 0.1 * (round % 64);
+      for (std::vector<Case>* cases : {&light, &shadows})
+        for (Case& one : *cases) {
+          const FrameInput input = one.view(x_m);
+          one.renderer->draw(input);
+          const double begin = processor_ms();
+          one.renderer->draw(input);
+          one.times_ms.push_back(processor_ms() - begin);
+        }
+    }
+    for (std::vector<Case>* cases : {&light, &shadows})
+      for (Case& one : *cases) one.level.time = times_of(std::move(one.times_ms));
+  }
+
+  static constexpr double kDim_lx = 0.01;  // below, nothing is called wrong
+
+  const Plan& plan_;
+  const Scene& scene_;
+  const IntensityTable& table_;
+  std::vector<std::unique_ptr<Renderer>> renderers_;
+};
+
+}  // namespace
+
+Result<PictureLadders> picture_ladders(const Plan& plan) {
+  const Result<Scene> scene = read_scene(plan.scene_file);
+  if (!scene) return scene.error();
+  const Result<IntensityTable> table = read_lamp(plan.lamp_file, {});
+  if (!table) return table.error();
+  return Pictures(plan, *scene, *table).measure();
+}
+
+}  // namespace phare::cost
