@@ -194,10 +194,10 @@ void add_cost(CLI::App& app, Command& chosen) {
       ->check(CLI::IsMember(kLadderNames));
   command->add_option("--out", options->out, "Folder to write")->capture_default_str();
   command->add_flag("--json", options->json, "Print all figures as JSON");
-  command->add_option("--scene", options->scene, "Scene (.glb, .gltf) with a straight road along x from the origin")
-      ->capture_default_str();
-  command->add_option("--lamp", options->lamp, "Photometry of both low beams")->capture_default_str();
-  command->add_option("--vehicle", options->vehicle, "Vehicle file")->capture_default_str();
+  command->add_option("--scene", options->scene,
+                      "Scene (.glb, .gltf) with a straight road along x from the origin [the shipped country road]");
+  command->add_option("--lamp", options->lamp, "Photometry of both low beams [a shipped one]");
+  command->add_option("--vehicle", options->vehicle, "Vehicle file [config/vehicles/bmw_320i.toml]");
   command->add_option("--size", options->size, "Pictures, WIDTHxHEIGHT in pixels")->capture_default_str();
   command->add_option("--seed", options->seed, "Of the pixels that errors are taken at")->capture_default_str();
   command->callback([options, &chosen] { chosen = [options] { return CostRun(*options).run(); }; });
