@@ -23,6 +23,7 @@ void add_measure(CLI::App& app, Command& chosen);
 void add_vehicle(CLI::App& app, Command& chosen);
 void add_rig(CLI::App& app, Command& chosen);
 void add_cost(CLI::App& app, Command& chosen);
+void add_hard_cases(CLI::App& app, Command& chosen);
 void add_doctor(CLI::App& app, Command& chosen);
 void add_help_data(CLI::App& app, Command& chosen);
 

@@ -77,6 +77,7 @@ int run(int argc, char** argv) {
   add_rig(app, chosen);
   add_vehicle(app, chosen);
   add_cost(app, chosen);
+  add_hard_cases(app, chosen);
   add_doctor(app, chosen);
   add_help_data(app, chosen);
   show_example_paths(app);
