@@ -1,0 +1,1 @@
+"""Sweeps: many drives from one plan, a table and a ranking."""
