@@ -13,7 +13,7 @@ Everything is done by Phare's programs, which this package starts and listens to
 deg, cd, lm, lx. Car and world: x forward, y left, z up (ISO 8855).
 """
 
-from . import laws
+from . import laws, sweep
 from .control import (
     Answer, Controller, Given, LampLight, LampOfLaw, Program, RoadUser, RoadUserSeen, Sensors, SourceOfLaw, Together,
     read_road_users,
@@ -30,6 +30,6 @@ __all__ = [
     "Answer", "BadInput", "Channel", "Comparison", "Controller", "Design", "Drive", "Failed", "Given", "Hspr", "Lamp",
     "LampLight", "LampOfLaw", "LampPlace", "LawFailed", "Mounted", "NotFound", "PhareError", "Program", "Report", "Rig",
     "RoadUser", "RoadUserSeen", "Sensors", "Source", "SourceOfLaw", "Table", "Together", "Verdict", "drive",
-    "free_ports", "generated_file", "laws", "measure", "poses", "program", "read_drive", "read_road_users", "shipped_file",
+    "free_ports", "generated_file", "laws", "measure", "poses", "program", "read_drive", "read_road_users", "shipped_file", "sweep",
     "version", "write_drive",
 ]

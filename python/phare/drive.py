@@ -9,6 +9,7 @@ import signal
 import socket
 import subprocess
 import tempfile
+import threading
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 
 PathLike = str | os.PathLike[str]
 _PORTS = 30  # of a rig
+_GIVEN: list[int] = []  # the last that were given to drives of this process, which may not hold them yet
+_GIVEN_LOCK = threading.Lock()
 
 
 class Report:
@@ -144,6 +147,11 @@ def free_ports() -> int:
     """The first of 30 UDP ports of this machine that nobody holds now: drives side by side need ports of their own."""
     for _ in range(200):
         base = random.randrange(20000, 32000 - _PORTS, _PORTS)  # below those that the kernel gives out by itself
+        with _GIVEN_LOCK:
+            if base in _GIVEN:
+                continue
+            _GIVEN.append(base)
+            del _GIVEN[:-100]
         if all(_free(base + offset) for offset in range(_PORTS)):
             return base
     raise Failed("no 30 free UDP ports between 20000 and 32000")
