@@ -3,6 +3,7 @@
 import copy
 import math
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -324,6 +325,22 @@ def test_a_law_leads_the_lamps_and_the_drive_repeats(moving, tmp_path):
     bright = phare.drive(rig, drive=moving, controller=Bright(), out=tmp_path / "bright", **LOOP)
     assert bright.picture_hash != hashes[0]
     assert bright.frame(-1).mean() > driven.frame(-1).mean()  # segments were dark there
+
+
+def test_a_frame_waits_for_its_answer_from_the_first_on(moving, tmp_path):
+    class Late(phare.Controller):
+        def __init__(self, wait_s):
+            self.wait_s = wait_s
+
+        def step(self, given):
+            time.sleep(self.wait_s)
+            return phare.Answer(light="low" if given.frame_index % 2 else "high")
+
+    # Longer than the 100 ms after which a picture that makes no progress says again what it has drawn.
+    prompt, late = (
+        phare.drive(drive=moving, controller=Late(wait_s), out=tmp_path / str(wait_s), frames=3, **SMALL) for wait_s in (0.0, 0.3)
+    )
+    assert len(late.frame_files) == 3 and late.picture_hash == prompt.picture_hash
 
 
 def test_a_law_that_raises_ends_the_drive_with_its_words(moving):

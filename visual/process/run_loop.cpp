@@ -230,7 +230,8 @@ void Loop::repeat_when_stalled() {
   progress_ = Clock::now();
   const auto* controls = s_.bus.newest<CockpitState>();
   const auto* car = s_.bus.newest<VehicleState>();
-  if (s_.options.lockstep && drawn_index_ < 0 && controls != nullptr && car != nullptr && car->value.frame_index >= 0) {
+  const bool apart = controls != nullptr && car != nullptr && controls->value.frame_index != car->value.frame_index;
+  if (s_.options.lockstep && drawn_index_ < 0 && apart && car->value.frame_index >= 0) {
     // Started anew in the middle of a drive where one of the two is a frame behind: the pose we hold sets both going
     // again.
     drawn_index_ = car->value.frame_index;
