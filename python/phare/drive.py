@@ -102,12 +102,12 @@ class Report:
     def car(self) -> pd.DataFrame:
         """Time series of the car: sim_time_s as index; x_m, y_m, z_m, yaw_rad, pitch_rad (nose down), speed_mps, … as
         VehicleState of net/phare.proto."""
-        return self.drive.table("vehicle_state")
+        return self._drawn(self.drive.table("vehicle_state"))
 
     @property
     def controls(self) -> pd.DataFrame:
         """Time series of the driver's controls: light_switch (0 off, 1 position, 2 low, 3 high), steering_wheel_rad, …"""
-        return self.drive.table("cockpit_state")
+        return self._drawn(self.drive.table("cockpit_state"))
 
     @property
     def pictures(self) -> pd.DataFrame:
@@ -130,7 +130,13 @@ class Report:
                 for i, dimming in enumerate(light.dimming_01):
                     row[f"{light.lamp}/{i + 1}"] = dimming
             rows.append(row)
-        return pd.concat([table, pd.DataFrame(rows, index=table.index)], axis=1)
+        return self._drawn(pd.concat([table, pd.DataFrame(rows, index=table.index)], axis=1))
+
+    def _drawn(self, table: pd.DataFrame) -> pd.DataFrame:
+        """Lockstep: up to the last frame that was drawn. Whether the processes had begun the next when the drive ended is chance."""
+        if not self.raw.get("lockstep") or table.empty:
+            return table
+        return table[table.frame_index <= self.pictures.frame_index.max()]
 
 
     @property
@@ -140,7 +146,9 @@ class Report:
         file = self.folder / "law.csv"
         if not file.exists():
             raise BadInput(f"{self.folder}: no control law led this drive")
-        return pd.read_csv(file, index_col="frame_index", keep_default_na=False, na_values={"nearest_m": ["nan"]})
+        steps = pd.read_csv(file, index_col="frame_index", keep_default_na=False, na_values={"nearest_m": ["nan"]})
+        lockstep = self.raw.get("lockstep") and (self.folder / "drive.pcap").exists()
+        return steps[steps.index <= self.pictures.frame_index.max()] if lockstep else steps
 
 
 def free_ports() -> int:

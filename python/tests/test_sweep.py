@@ -123,6 +123,7 @@ def test_a_law_is_an_axis(tmp_path):
     text = f'{FIXED}rig = "{rig}"\ntraffic = "{traffic}"\n[vary]\nlaw = ["AutomaticHighBeam", "GlareFree"]\n'
     done = run(plan_of(tmp_path, text), tmp_path / "out", workers=2)
     assert done.failed == [] and list(done.table.high_share) == [0.0, 0.0]  # the car stands at first
+    assert list(done.table.glare_s) == [0.0, 0.0] and (tmp_path / "out" / "jobs" / "00001" / "glare.html").exists()
     assert "phare.sweep" in done.table.command[0] and "--only 1" in done.table.command[0]
     with pytest.raises(phare.BadInput, match="law Bright"):
         sweep.job.law_named("Bright")

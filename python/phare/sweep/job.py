@@ -11,11 +11,13 @@ from typing import Any
 import numpy as np
 
 from ..control.controller import Controller
+from ..control.road_users import read_road_users
 from ..control.sensors import Sensors
 from ..drive import Report, drive
 from ..errors import BadInput
+from ..judge import judge_glare
 from ..measuring import measure
-from ..rig import shipped_file
+from ..rig import Rig, shipped_file
 from .plan import Job, Measure, Plan
 
 _RANGE_TO_M, _RANGE_STEP_M = 300.0, 0.5
@@ -74,6 +76,10 @@ def run_job(job: Job, plan: Plan, folder: Path) -> dict[str, Any]:
     row: dict[str, Any] = {"job": job.number, **job.varied, **figures_of(report)}
     rig = folder / "rig.toml"
     rig_file = rig if rig.exists() else Path(job.settings.get("rig") or shipped_file("rigs/country_road.toml"))
+    if "law" in job.settings and "traffic" in job.settings:
+        glare = judge_glare(report, Rig.read(rig_file), read_road_users(job.settings["traffic"]))
+        row["glare_s"], row["glare_of_s"] = round(glare.above_s, 9), round(glare.judged_s, 9)
+        glare.write_page(folder / "glare.html")
     for wanted in plan.measures:
         row[wanted.name] = figure(wanted, rig_file)
     row["command"] = command_of(job, plan)
