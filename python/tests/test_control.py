@@ -343,6 +343,21 @@ def test_a_frame_waits_for_its_answer_from_the_first_on(moving, tmp_path):
     assert len(late.frame_files) == 3 and late.picture_hash == prompt.picture_hash
 
 
+def test_a_law_knows_lamps_of_ones_own(moving, tmp_path, examples):
+    class Known(phare.Controller):
+        def begin(self, lamps):
+            self.lamps = lamps
+
+        def step(self, given):
+            return phare.Answer(lamps={lamp.lamp: phare.LampLight(yaw_rad=0.05) for lamp in self.lamps})
+
+    law = Known()
+    own = phare.drive(lamp=examples / "led_low_beam.ies", drive=moving, controller=law, frames=2, out=tmp_path / "out", **SMALL)
+    low = [source for lamp in law.lamps for source in lamp.sources if source.function == "low"]
+    assert len(low) == 2 and low[0].peak_cd == phare.Lamp.read(examples / "led_low_beam.ies").peak_cd
+    assert own.figures["law"]["refused"] == 0 and own.figures["law"]["answers"] == 2
+
+
 def test_a_law_that_raises_ends_the_drive_with_its_words(moving):
     class Broken(phare.Controller):
         def step(self, given):

@@ -50,8 +50,9 @@ def drive_words(job: Job) -> dict[str, Any]:
     words["more"] = more
     if "law" in s:
         words["controller"] = law_named(str(s["law"]))
+        seen_m = {**Sensors().range_m, **({"red": float(s["sensor_red_range_m"])} if "sensor_red_range_m" in s else {})}
         words["sensors"] = Sensors(
-            s.get("traffic", ()), delay_s=float(s.get("sensor_delay_s", 0)), noise_angle_deg=float(s.get("sensor_noise_deg", 0)),
+            s.get("traffic", ()), range_m=seen_m, delay_s=float(s.get("sensor_delay_s", 0)), noise_angle_deg=float(s.get("sensor_noise_deg", 0)),
             miss_01=float(s.get("sensor_miss_01", 0)), seed=int(s.get("sensor_seed", 1)),
         )
     return words

@@ -21,7 +21,7 @@ from ..errors import BadInput
 FILES = ("rig", "lamp", "lamp_high", "lamp_fog", "drive", "script", "log", "vehicle", "road", "traffic")
 WORDS = (
     "aim", "level", "friction", "roughness", "frames", "size", "law", "sensor_delay_s", "sensor_noise_deg", "sensor_miss_01",
-    "sensor_seed",
+    "sensor_seed", "sensor_red_range_m",
 )
 _TOP = ("name", "kind", "seed", "samples", "rank_by", "rank", "fixed", "vary", "run", "measure")
 _KINDS = ("grid", "list", "latin-hypercube")
@@ -99,8 +99,8 @@ def read_plan(file: str | os.PathLike[str]) -> Plan:
     jobs = []
     for number, values in enumerate(varied, 1):
         settings = {**fixed, **_settings(values, f"{file}: job {number}", folder)}
-        if settings.get("law") is None and any(key in settings for key in WORDS[7:]):
-            raise BadInput(f"{file}: job {number}: sensor_… is of a control law: give law")
+        if settings.get("law") is None and any(key in settings for key in (*WORDS[7:], "traffic")):
+            raise BadInput(f"{file}: job {number}: traffic and sensor_… are of a control law: give law")
         jobs.append(Job(number, settings, values))
     measures = [_measure(table, f"{file}: measure {n}") for n, table in enumerate(document.get("measure", []), 1)]
     names = [measure.name for measure in measures]
