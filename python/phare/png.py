@@ -46,16 +46,20 @@ def _unfiltered(kind: int, line: np.ndarray, above: np.ndarray) -> np.ndarray:
         return np.cumsum(line, axis=0, dtype=np.uint64).astype(np.uint8)
     if kind == 2:
         return line + above
-    now = np.zeros_like(line)
-    left, corner = np.zeros(line.shape[1], np.int32), np.zeros(line.shape[1], np.int32)
-    for x in range(line.shape[0]):
-        up = above[x].astype(np.int32)
-        if kind == 3:
-            guess = (left + up) >> 1
-        else:
-            near = np.abs(up - corner), np.abs(left - corner), np.abs(left + up - 2 * corner)
-            guess = np.where((near[0] <= near[1]) & (near[0] <= near[2]), left, np.where(near[1] <= near[2], up, corner))
-        left = (line[x] + guess) & 255
-        now[x] = left
-        corner = up
-    return now
+    return np.frombuffer(_by_the_left(kind, line.tobytes(), above.tobytes(), line.shape[1]), np.uint8).reshape(line.shape)
+
+
+def _by_the_left(kind: int, line: bytes, above: bytes, channels: int) -> bytes:
+    """Average and Paeth, where each byte needs the one before it: plain numbers are five times as fast here as arrays."""
+    now = bytearray(channels + len(line))  # with the pixel before the first, which is 0
+    above = bytes(channels) + above
+    if kind == 3:
+        for i, byte in enumerate(line, channels):
+            now[i] = (byte + ((now[i - channels] + above[i]) >> 1)) & 255
+        return bytes(now[channels:])
+    for i, byte in enumerate(line, channels):
+        left, up, corner = now[i - channels], above[i], above[i - channels]
+        to_left, to_up, to_corner = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
+        guess = left if to_left <= to_up and to_left <= to_corner else up if to_up <= to_corner else corner
+        now[i] = (byte + guess) & 255
+    return bytes(now[channels:])

@@ -343,6 +343,14 @@ def test_a_frame_waits_for_its_answer_from_the_first_on(moving, tmp_path):
     assert len(late.frame_files) == 3 and late.picture_hash == prompt.picture_hash
 
 
+def test_in_real_time_the_delay_of_the_answers_is_told(moving):
+    led = phare.drive(drive=moving, controller=AutomaticHighBeam(), lockstep=False, **SMALL)
+    law = led.figures["law"]
+    assert law["answers"] >= 1 and law["refused"] == 0
+    assert 0 < law["delay_ms"]["median"] <= law["delay_ms"]["max"] and law["in_frame"] <= law["answers"]
+    assert len(led.law_steps) >= law["answers"] and led.law.light_switch.isin([2, 3]).all()
+
+
 def test_a_law_knows_lamps_of_ones_own(moving, tmp_path, examples):
     class Known(phare.Controller):
         def begin(self, lamps):
