@@ -106,6 +106,7 @@ Bus::Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel)
   std::get<std::vector<Inbox<ProbeReply>>>(inboxes_).resize(channels_);
   std::get<std::vector<Inbox<KeyInput>>>(inboxes_).resize(channels_);
   std::get<std::vector<Inbox<ControlReply>>>(inboxes_).resize(channels_);
+  std::get<std::vector<Inbox<LawAnswer>>>(inboxes_).resize(1);
 }
 
 void Bus::send(SimTime now, const Payload& payload) {
@@ -152,7 +153,7 @@ void Bus::transmit(std::size_t payload_index) {
     const Endpoint& to = endpoints_[static_cast<std::size_t>(role)][channel];
     if (!socket_.send_to(to, bytes_of(last_bytes_[payload_index]))) ++counters_.send_failures;
   };
-  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl}) {
+  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl, Role::kLaw}) {
     if (row.receivers.has(role)) send_to(role, 0);
   }
   if (row.receivers.has(Role::kVisual)) {

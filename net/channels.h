@@ -15,10 +15,11 @@
 
 namespace phare {
 
-/// The processes of a rig. The recorder listens and never sends.
-enum class Role { kCockpit, kDynamics, kRecorder, kControl, kVisual };
-inline constexpr std::array<Role, 5> kAllRoles{Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl,
-                                               Role::kVisual};
+/// The processes of a rig. The recorder listens and never sends; the law is the control law of the lamps, where there
+/// is one.
+enum class Role { kCockpit, kDynamics, kRecorder, kControl, kLaw, kVisual };
+inline constexpr std::array<Role, 6> kAllRoles{Role::kCockpit, Role::kDynamics, Role::kRecorder,
+                                               Role::kControl, Role::kLaw,      Role::kVisual};
 
 /// Most visual channels a rig may have.
 inline constexpr std::uint32_t kMaxChannels = 16;
@@ -34,6 +35,8 @@ constexpr std::uint16_t port_offset(Role role, std::uint32_t channel = 0) {
       return 2;
     case Role::kControl:
       return 3;
+    case Role::kLaw:
+      return 4;
     case Role::kVisual:
       break;
   }
@@ -74,11 +77,11 @@ struct Channel {
 /// In the order of the alternatives of Payload.
 /// CockpitState goes stale when 20 are missing: pedals fade, low beam stays on. VehicleState goes stale when 50 are
 /// missing: until then the picture coasts, then it holds and says so.
-inline constexpr std::array<Channel, 9> kChannels{{
+inline constexpr std::array<Channel, 10> kChannels{{
     // clang-format off
     // message          sender             receivers                                                                first  Hz   stale after                    repeat
-    {"cockpit_state",   Sender::kCockpit,  Roles(Role::kDynamics, Role::kVisual, Role::kRecorder),                   false, 100, std::chrono::milliseconds(200), false},
-    {"vehicle_state",   Sender::kDynamics, Roles(Role::kCockpit, Role::kVisual, Role::kRecorder),                    false, 250, std::chrono::milliseconds(200), false},
+    {"cockpit_state",   Sender::kCockpit,  Roles(Role::kDynamics, Role::kVisual, Role::kRecorder, Role::kLaw),       false, 100, std::chrono::milliseconds(200), false},
+    {"vehicle_state",   Sender::kDynamics, Roles(Role::kCockpit, Role::kVisual, Role::kRecorder, Role::kLaw),        false, 250, std::chrono::milliseconds(200), false},
     {"frame_report",    Sender::kVisual,   Roles(Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl),  false, 60,  std::chrono::seconds(1),        true},
     {"rig_control",     Sender::kControl,  Roles(Role::kCockpit, Role::kDynamics, Role::kVisual, Role::kRecorder),   false, 0,   std::chrono::seconds(0),        false, true},
     {"probe_request",   Sender::kControl,  Roles(Role::kVisual),                                                     true,  0,   std::chrono::seconds(0),        false, true},
@@ -86,6 +89,7 @@ inline constexpr std::array<Channel, 9> kChannels{{
     {"key_input",       Sender::kVisual,   Roles(Role::kCockpit, Role::kControl),                                    false, 0,   std::chrono::seconds(1),        false},
     {"control_reply",   Sender::kCockpit,  Roles(Role::kControl),                                                    false, 0,   std::chrono::seconds(0),        false, true, true},
     {"clock_probe",     Sender::kCockpit,  Roles(Role::kCockpit, Role::kDynamics, Role::kVisual),                    false, 1,   std::chrono::seconds(0),        false, true, true},
+    {"law_answer",      Sender::kLaw,      Roles(Role::kVisual, Role::kRecorder),                                    false, 60,  std::chrono::milliseconds(200), false},
     // clang-format on
 }};
 static_assert(kChannels.size() == std::variant_size_v<Payload>);
@@ -123,6 +127,8 @@ constexpr Sender sender_of(Role role) {
       return Sender::kControl;
     case Role::kVisual:
       return Sender::kVisual;
+    case Role::kLaw:
+      return Sender::kLaw;
     case Role::kRecorder:
       break;
   }
@@ -138,6 +144,8 @@ constexpr std::uint16_t port_offset_of_sender(Sender sender, std::uint32_t sende
       return port_offset(Role::kDynamics);
     case Sender::kVisual:
       return port_offset(Role::kVisual, sender_channel);
+    case Sender::kLaw:
+      return port_offset(Role::kLaw);
     case Sender::kControl:
     case Sender::kUnknown:
       break;

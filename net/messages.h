@@ -12,7 +12,7 @@
 
 namespace phare {
 
-enum class Sender { kUnknown = 0, kCockpit = 1, kDynamics = 2, kVisual = 3, kControl = 4 };
+enum class Sender { kUnknown = 0, kCockpit = 1, kDynamics = 2, kVisual = 3, kControl = 4, kLaw = 5 };
 enum class LightSwitch { kOff = 0, kPosition = 1, kLow = 2, kHigh = 3 };
 enum class TurnSignal { kNone = 0, kLeft = 1, kRight = 2 };
 enum class Gear { kDrive = 0, kNeutral = 1, kReverse = 2, kPark = 3 };
@@ -205,8 +205,29 @@ struct ClockProbe {
   friend bool operator==(const ClockProbe&, const ClockProbe&) = default;
 };
 
+/// Most lamps that one LawAnswer names.
+inline constexpr std::size_t kMostLawLamps = 16;
+
+struct LampLight {
+  std::string lamp;
+  double yaw_rad = 0.0, pitch_rad = 0.0;
+  std::vector<double> dimming_01;
+
+  friend bool operator==(const LampLight&, const LampLight&) = default;
+};
+
+struct LawAnswer {
+  std::int64_t frame_index = -1;
+  WallTime input;
+  LightSwitch light_switch = LightSwitch::kOff;
+  double levelling_rad = 0.0;
+  std::vector<LampLight> lamps;
+
+  friend bool operator==(const LawAnswer&, const LawAnswer&) = default;
+};
+
 using Payload = std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply, KeyInput,
-                             ControlReply, ClockProbe>;
+                             ControlReply, ClockProbe, LawAnswer>;
 
 /// The envelope every payload travels in.
 struct Datagram {

@@ -14,6 +14,7 @@ BusPlace place_of(const Rig& rig, Role role, std::uint32_t channel) {
     case Role::kRecorder:
       return rig.places.recorder;
     case Role::kControl:
+    case Role::kLaw:  // beside the phare program
       return rig.places.control;
     case Role::kVisual:
       break;

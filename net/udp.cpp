@@ -172,19 +172,17 @@ bool UdpSocket::wait(std::chrono::nanoseconds at_most) {
 
 bool UdpSocket::filter_in_kernel(std::size_t tag_bytes) {
   const auto tag = static_cast<std::uint32_t>(tag_bytes);
-  // Accepts what begins with 08 01 10 {01..04} and has 85 01 six bytes before its end, or before its tag.
-  std::array<sock_filter, 13> program{{
+  // Accepts what begins with 08 01 10 {01..05} and has 85 01 six bytes before its end, or before its tag.
+  std::array<sock_filter, 11> program{{
       BPF_STMT(BPF_LD | BPF_W | BPF_LEN, 0),
-      BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, kUdpHeaderBytes + 16 + tag, 0, 10),
+      BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, kUdpHeaderBytes + 16 + tag, 0, 8),
       BPF_STMT(BPF_ALU | BPF_SUB | BPF_K, 6 + tag),
       BPF_STMT(BPF_MISC | BPF_TAX, 0),
       BPF_STMT(BPF_LD | BPF_H | BPF_IND, 0),
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, 0x8501, 0, 6),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, 0x8501, 0, 4),
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kUdpHeaderBytes),
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, 0x08011001, 3, 0),
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, 0x08011002, 2, 0),
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, 0x08011003, 1, 0),
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, 0x08011004, 0, 1),
+      BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, 0x08011001, 0, 2),
+      BPF_JUMP(BPF_JMP | BPF_JGT | BPF_K, 0x08011005, 1, 0),
       BPF_STMT(BPF_RET | BPF_K, 0xffffffff),
       BPF_STMT(BPF_RET | BPF_K, 0),
   }};

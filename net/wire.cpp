@@ -5,6 +5,7 @@
 #include <google/protobuf/stubs/logging.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <type_traits>
@@ -211,6 +212,20 @@ void fill(wire::ClockProbe& to, const ClockProbe& from) {
   to.set_heard_wall_ns(from.heard.ns);
 }
 
+void fill(wire::LawAnswer& to, const LawAnswer& from) {
+  to.set_frame_index(from.frame_index);
+  to.set_input_wall_ns(from.input.ns);
+  to.set_light_switch(to_wire_enum<wire::LightSwitch>(static_cast<int>(from.light_switch)));
+  to.set_levelling_rad(from.levelling_rad);
+  for (const LampLight& light : from.lamps) {
+    wire::LampLight& lamp = *to.add_lamps();
+    lamp.set_lamp(light.lamp);
+    lamp.set_yaw_rad(light.yaw_rad);
+    lamp.set_pitch_rad(light.pitch_rad);
+    lamp.mutable_dimming_01()->Add(light.dimming_01.begin(), light.dimming_01.end());
+  }
+}
+
 struct PayloadFiller {
   wire::Datagram& to;
   void operator()(const CockpitState& from) const { fill(*to.mutable_cockpit_state(), from); }
@@ -222,6 +237,7 @@ struct PayloadFiller {
   void operator()(const KeyInput& from) const { fill(*to.mutable_key_input(), from); }
   void operator()(const ControlReply& from) const { fill(*to.mutable_control_reply(), from); }
   void operator()(const ClockProbe& from) const { fill(*to.mutable_clock_probe(), from); }
+  void operator()(const LawAnswer& from) const { fill(*to.mutable_law_answer(), from); }
 };
 
 // ---- protobuf to struct
@@ -375,6 +391,22 @@ void read(ClockProbe& to, const wire::ClockProbe& from) {
   to.heard.ns = from.heard_wall_ns();
 }
 
+void read(LawAnswer& to, const wire::LawAnswer& from) {
+  to.frame_index = from.frame_index();
+  to.input.ns = from.input_wall_ns();
+  to.light_switch = static_cast<LightSwitch>(static_cast<int>(from.light_switch()));
+  to.levelling_rad = from.levelling_rad();
+  to.lamps.resize(static_cast<std::size_t>(from.lamps_size()));
+  for (std::size_t i = 0; i < to.lamps.size(); ++i) {
+    const wire::LampLight& light = from.lamps(static_cast<int>(i));
+    LampLight& lamp = to.lamps[i];
+    lamp.lamp = light.lamp();
+    lamp.yaw_rad = light.yaw_rad();
+    lamp.pitch_rad = light.pitch_rad();
+    lamp.dimming_01.assign(light.dimming_01().begin(), light.dimming_01().end());
+  }
+}
+
 /// The payload to read into: the one of the last datagram where the type fits, so that its memory is used again.
 template <typename T>
 T& reused(Payload& payload) {
@@ -413,6 +445,9 @@ bool any_unknown(const wire::Datagram& message) {
       return unknown_in(message.control_reply());
     case wire::Datagram::kClockProbe:
       return unknown_in(message.clock_probe());
+    case wire::Datagram::kLawAnswer:
+      return unknown_in(message.law_answer()) ||
+             std::ranges::any_of(message.law_answer().lamps(), [](const auto& lamp) { return unknown_in(lamp); });
     case wire::Datagram::PAYLOAD_NOT_SET:
       break;
   }
@@ -462,7 +497,7 @@ Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
   // Cheap checks first, so that a flood of garbage costs little: size, first bytes, check tag, CRC.
   if (bytes.size() < kMinDatagramBytes || bytes.size() > kMaxDatagramBytes) return Refusal::kSize;
   const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  if (data[0] != 0x08 || data[1] != kProtocolVersion || data[2] != 0x10 || data[3] < 1 || data[3] > 4) {
+  if (data[0] != 0x08 || data[1] != kProtocolVersion || data[2] != 0x10 || data[3] < 1 || data[3] > 5) {
     return Refusal::kHeader;
   }
   const std::size_t size = bytes.size() - kCheckBytes;
@@ -511,6 +546,9 @@ Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
       break;
     case wire::Datagram::kClockProbe:
       read(reused<ClockProbe>(datagram.payload), message.clock_probe());
+      break;
+    case wire::Datagram::kLawAnswer:
+      read(reused<LawAnswer>(datagram.payload), message.law_answer());
       break;
     case wire::Datagram::PAYLOAD_NOT_SET:
       return Refusal::kMalformed;

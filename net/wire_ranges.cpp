@@ -179,6 +179,20 @@ void check(Checker& c, const ClockProbe& probe) {
   c.require(probe.heard.ns >= 0 && probe.heard.ns <= kMaxWall_ns);
 }
 
+void check(Checker& c, const LawAnswer& a) {
+  c.frame_index(a.frame_index);
+  c.require(a.input.ns >= 0 && a.input.ns <= kMaxWall_ns);
+  c.require(enum_within(a.light_switch, LightSwitch::kHigh));
+  c.within(a.levelling_rad, kMaxAim_rad);
+  c.require(a.lamps.size() <= kMostLawLamps, Refusal::kArrays);
+  for (const LampLight& light : a.lamps) {
+    c.require(!light.lamp.empty() && light.lamp.size() <= kMaxNameBytes);
+    for (const double angle_rad : {light.yaw_rad, light.pitch_rad}) c.within(angle_rad, kMaxAim_rad);
+    c.require(light.dimming_01.size() <= kMaxSources, Refusal::kArrays);
+    c.numbers(light.dimming_01, 0.0, 1.0);
+  }
+}
+
 }  // namespace
 
 Refusal check(const Datagram& datagram) {
@@ -217,7 +231,7 @@ const char* refusal_text(Refusal refusal) {
     case Refusal::kRange:
       return "a value is out of range";
     case Refusal::kArrays:
-      return "probe arrays differ in length or exceed 1000 points";
+      return "arrays differ in length, or are longer than any of ours";
     case Refusal::kNotForUs:
       return "not meant for this process";
     case Refusal::kKey:

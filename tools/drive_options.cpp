@@ -6,9 +6,11 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "config/cockpit.h"
 #include "config/key_bindings.h"
 #include "config/log_levels.h"
 #include "config/vehicle.h"
+#include "tools/child_process.h"
 #include "tools/commands.h"
 #include "tools/drive_folder.h"
 
@@ -118,6 +120,9 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
                      "Cockpit file, instead of the rig's: which signals move the controls");
   command.add_flag("--headless", options->headless, "No window (also when there is no display)");
   command.add_flag("--lockstep", options->lockstep, "Frame by frame: reproducible bit for bit, however slow");
+  command.add_flag(
+      "--law", options->law,
+      "A control law of your own leads the lamps (docs/control-law.md); in lockstep each frame waits for it");
   command.add_option("--out", options->out, "Folder for pictures and report [headless: out]");
   command.add_option("--record", options->record, "Record the drive into this file (pcap)");
   command.add_flag("--closed-loop", options->closed_loop,

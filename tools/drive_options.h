@@ -19,6 +19,7 @@ struct DriveOptions {
   std::string drive, script, log, dbc, cockpit, out, record, log_level = "info";
   bool headless = false, lockstep = false, closed_loop = false, json = false;
   bool overwrite = false, open_bus = false;
+  bool law = false;           ///< a control law leads the lamps
   bool explain = false;       ///< which effects a moment calls for, instead of a drive
   std::string explain_light;  ///< that moment is not of a drive: the light switch, and
   bool explain_fog = false;   ///< the front fog lamps

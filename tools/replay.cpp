@@ -35,7 +35,7 @@ std::vector<Endpoint> receivers_of(const Datagram& datagram, const Rig& rig) {
   const Channel& row = kChannels[datagram.payload.index()];
   std::vector<Endpoint> all;
   const auto add = [&](Role role, std::uint32_t channel = 0) { all.push_back(endpoint_of(rig, role, channel)); };
-  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl}) {
+  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl, Role::kLaw}) {
     if (row.receivers.has(role)) add(role);
   }
   if (row.receivers.has(Role::kVisual)) {

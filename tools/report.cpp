@@ -144,6 +144,7 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
                             "validation",
                             "validation_messages",
                             "fail_safe",
+                            "law",
                             "frames_stale_pose"}) {
       if (visual.contains(key)) summary[key] = visual[key];
     }

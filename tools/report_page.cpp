@@ -89,6 +89,7 @@ class Page {
     timings();
     effects();
     light_switch();
+    law();
     fail_safe();
     levels();
     messages();
@@ -233,6 +234,19 @@ class Page {
   }
 
   /// Pictures that did not show what the stalk asked for, and why.
+  void law() {
+    const json law = summary_.value("law", json::object());
+    if (law.empty()) return;
+    const auto answers = law.value("answers", std::uint64_t{0}), in_frame = law.value("in_frame", std::uint64_t{0});
+    const json delay = law.value("delay_ms", json::object());
+    page_ << "<h2>Control law</h2><p>" << answers << " answers; from the pose to the answer to it "
+          << value_text(delay, "median") << " ms median, " << value_text(delay, "p99") << " ms 99th percentile, "
+          << value_text(delay, "max") << " ms at most; " << in_frame
+          << " within a frame's time. Frames without an answer, on low beam: " << value_text(law, "silent_frames")
+          << "; answers that were not followed: " << value_text(law, "refused") << ".</p>";
+    if (law.contains("why")) page_ << "<p class=\"bad\">" << value_text(law, "why") << "</p>";
+  }
+
   void fail_safe() {
     const json fail_safe = summary_.value("fail_safe", json::object());
     const auto held = summary_.value("frames_stale_pose", std::uint64_t{0});

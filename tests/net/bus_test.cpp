@@ -116,7 +116,7 @@ TEST(Bus, SendsToEveryReceiverOfTheTableAndToNobodyElse) {
     Bus bus;
   };
   std::vector<Endpoint> all;
-  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl})
+  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl, Role::kLaw})
     all.push_back({role, 0, open_bus(rig, role)});
   all.push_back({Role::kVisual, 0, open_bus(rig, Role::kVisual, 0)});
   all.push_back({Role::kVisual, 1, open_bus(rig, Role::kVisual, 1)});

@@ -169,6 +169,17 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       probe.heard.ns = static_cast<std::int64_t>(v.whole(2'000'000'000'000'000'000));
       return probe;
     }
+    case kPayloadIndex<LawAnswer>: {
+      LawAnswer a;
+      a.frame_index = static_cast<std::int64_t>(v.whole(100000)) - 1;
+      a.input.ns = static_cast<std::int64_t>(v.whole(2'000'000'000'000'000'000));
+      a.light_switch = static_cast<LightSwitch>(v.whole(3));
+      a.levelling_rad = v.number(-0.1, 0.1);
+      for (std::uint64_t n = v.whole(4); n > 0; --n)
+        a.lamps.push_back(
+            {"headlamp left", v.number(-0.3, 0.3), v.number(-0.1, 0.1), v.numbers(v.whole(40), 0.0, 1.0)});
+      return a;
+    }
     default: {
       ControlReply r;
       r.to_start_id = v.bits();

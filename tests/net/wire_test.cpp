@@ -157,7 +157,7 @@ TEST(WireRefuses, OtherVersionsAndUnknownSenders) {
   EXPECT_EQ(refusal_after(kVehicle, [](auto& m) { m.set_protocol_version(2); }), Refusal::kHeader);
   EXPECT_EQ(refusal_after(kVehicle, [](auto& m) { m.clear_protocol_version(); }), Refusal::kHeader);
   EXPECT_EQ(refusal_after(kVehicle, [](auto& m) { m.clear_sender(); }), Refusal::kHeader);
-  EXPECT_EQ(refusal_after(kVehicle, [](auto& m) { m.set_sender(static_cast<wire::Sender>(5)); }), Refusal::kHeader);
+  EXPECT_EQ(refusal_after(kVehicle, [](auto& m) { m.set_sender(static_cast<wire::Sender>(6)); }), Refusal::kHeader);
 }
 
 TEST(WireRefuses, BrokenEnvelopes) {
@@ -233,6 +233,7 @@ TEST(WireRefuses, ValuesOutOfRange) {
   constexpr std::size_t kReply = kPayloadIndex<ProbeReply>;
   constexpr std::size_t kAnswer = kPayloadIndex<ControlReply>;
   constexpr std::size_t kClock = kPayloadIndex<ClockProbe>;
+  constexpr std::size_t kLaw = kPayloadIndex<LawAnswer>;
   const std::vector<std::pair<std::size_t, std::function<void(D&)>>> wrong = {
       {kCockpit, [](D& m) { m.mutable_cockpit_state()->set_accelerator_01(1.0000001); }},
       {kCockpit, [](D& m) { m.mutable_cockpit_state()->set_brake_01(-1e-9); }},
@@ -281,6 +282,16 @@ TEST(WireRefuses, ValuesOutOfRange) {
       {kAnswer, [](D& m) { m.mutable_control_reply()->set_request_id(0); }},
       {kAnswer, [](D& m) { m.mutable_control_reply()->set_verdict(static_cast<wire::ControlVerdict>(4)); }},
       {kAnswer, [](D& m) { m.mutable_control_reply()->set_now(std::string(5000, 'x')); }},
+      {kLaw, [](D& m) { m.mutable_law_answer()->set_levelling_rad(1.7); }},
+      {kLaw, [](D& m) { m.mutable_law_answer()->set_frame_index(-2); }},
+      {kLaw, [](D& m) { m.mutable_law_answer()->set_light_switch(static_cast<wire::LightSwitch>(4)); }},
+      {kLaw, [](D& m) { m.mutable_law_answer()->add_lamps(); }},  // without a name
+      {kLaw,
+       [](D& m) {
+         wire::LampLight* lamp = m.mutable_law_answer()->add_lamps();
+         lamp->set_lamp("left");
+         lamp->add_dimming_01(1.0001);
+       }},
       {kClock, [](D& m) { m.mutable_clock_probe()->set_asked_wall_ns(0); }},
       {kClock, [](D& m) { m.mutable_clock_probe()->set_asked_wall_ns(std::numeric_limits<std::int64_t>::max()); }},
       {kClock, [](D& m) { m.mutable_clock_probe()->set_heard_wall_ns(-1); }},

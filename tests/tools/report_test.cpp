@@ -148,6 +148,26 @@ TEST(Report, OneFrameHasNoRate) {
   std::filesystem::remove_all(out);
 }
 
+TEST(Report, SaysHowLateAControlLawAnswered) {
+  const auto out = std::filesystem::path(testing::TempDir()) / ("phare_report_law_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(out);
+  std::ofstream(out / "visual-0.json")
+      << R"({"process":"visual","frames":9,"law":{"answers":7,"in_frame":6,"delay_ms":{"median":1.5,"p99":20.25,"max":21.0},)"
+         R"("silent_frames":2,"refused":1,"why":"lamp \"left\": has 3 sources, not 2"}})";
+  DriveFacts facts;
+  facts.process_names = {"visual-0"};
+  const nlohmann::json report = make_report(Rig{}, facts, out);
+  EXPECT_EQ(report["summary"]["law"]["answers"], 7);
+  const std::string page = report_page(report, out);
+  EXPECT_NE(
+      page.find("7 answers; from the pose to the answer to it 1.50 ms median, 20.25 ms 99th percentile, 21.00 ms at "
+                "most; 6 within a frame's time. Frames without an answer, on low beam: 2; answers that were not "
+                "followed: 1."),
+      std::string::npos);
+  EXPECT_NE(page.find("has 3 sources, not 2"), std::string::npos);
+  std::filesystem::remove_all(out);
+}
+
 TEST(Report, NoProcessLeftAFile) {
   const nlohmann::json report = make_report(Rig{}, DriveFacts{}, "/nowhere");
   EXPECT_TRUE(report["processes"].empty());

@@ -75,7 +75,7 @@ std::vector<Lamps::Change> Lamps::set_controls(const CockpitState& controls) {
     Position& position = positions_[design_][slot];
     const std::vector<SourceConfig>& sources = designs_[design_].lamps[slot].sources;
     for (std::size_t k = 0; k < sources.size(); ++k)
-      position.beam.set_dimming(k, lit_.contains(sources[k].function) ? position.dimming_01[k] : 0.0);
+      position.beam.set_dimming(k, lit_.contains(sources[k].function) ? position.dimmed_01(k) : 0.0);
     const LiveBeam::Change change = position.beam.update();
     const BeamImage& image = position.beam.image();
     if (!position.beam.changed().empty()) ++compositions_;
@@ -89,18 +89,18 @@ std::vector<Lamps::Change> Lamps::set_controls(const CockpitState& controls) {
   return changes;
 }
 
-Result<std::size_t> Lamps::find(const std::string& lamp) const {
+Result<std::size_t> Lamps::find(const std::string& lamp, std::size_t design) const {
   std::string names;
-  for (std::size_t slot = 0; slot < designs_[design_].lamps.size(); ++slot) {
-    const std::string& name = designs_[design_].lamps[slot].name;
+  for (std::size_t slot = 0; slot < designs_[design].lamps.size(); ++slot) {
+    const std::string& name = designs_[design].lamps[slot].name;
     if (name == lamp) return slot;
     names += (names.empty() ? "" : ", ") + name;
   }
-  return Error{"lamp \"" + lamp + "\"", "design \"" + designs_[design_].name + "\" has " + names};
+  return Error{"lamp \"" + lamp + "\"", "design \"" + designs_[design].name + "\" has " + names};
 }
 
 Status Lamps::dim(const RigControl::Dim& command) {
-  const Result<std::size_t> slot = find(command.lamp);
+  const Result<std::size_t> slot = find(command.lamp, design_);
   if (!slot) return slot.error();
   std::vector<double>& dimming_01 = positions_[design_][*slot].dimming_01;
   if (command.source > dimming_01.size())
@@ -114,7 +114,7 @@ Status Lamps::dim(const RigControl::Dim& command) {
 }
 
 Status Lamps::swivel(const RigControl::Swivel& command) {
-  const Result<std::size_t> slot = find(command.lamp);
+  const Result<std::size_t> slot = find(command.lamp, design_);
   if (!slot) return slot.error();
   positions_[design_][*slot].yaw_rad = command.yaw_rad;
   positions_[design_][*slot].pitch_rad = command.pitch_rad;
@@ -122,14 +122,47 @@ Status Lamps::swivel(const RigControl::Swivel& command) {
 }
 
 Status Lamps::place(const RigControl::Place& command) {
-  const Result<std::size_t> slot = find(command.lamp);
+  const Result<std::size_t> slot = find(command.lamp, design_);
   if (!slot) return slot.error();
   designs_[design_].lamps[*slot].position_m = {command.x_m, command.y_m, command.z_m};
   return Done{};
 }
 
+Status Lamps::follow(const LawAnswer& answer, std::uint32_t design_index) {
+  law_pitch_rad_ = 0.0;
+  for (std::vector<Position>& design : positions_) {
+    for (Position& position : design) {
+      position.law_01.clear();
+      position.law_yaw_rad = position.law_pitch_rad = 0.0;
+    }
+  }
+  const std::size_t design = std::min<std::size_t>(design_index, designs_.size() - 1);
+  std::vector<std::size_t> slots;
+  for (const LampLight& light : answer.lamps) {
+    const Result<std::size_t> slot = find(light.lamp, design);
+    if (!slot) return slot.error();
+    const std::size_t given = light.dimming_01.size(), sources = positions_[design][*slot].dimming_01.size();
+    if (given > 1 && given != sources)
+      return Error{"lamp \"" + light.lamp + "\"",
+                   "has " + std::to_string(sources) + " sources, not " + std::to_string(given)};
+    slots.push_back(*slot);
+  }
+  law_pitch_rad_ = answer.levelling_rad;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const LampLight& light = answer.lamps[i];
+    Position& position = positions_[design][slots[i]];
+    position.law_yaw_rad = light.yaw_rad;
+    position.law_pitch_rad = light.pitch_rad;
+    position.law_01 = light.dimming_01;
+    if (light.dimming_01.size() == 1) position.law_01.assign(position.dimming_01.size(), light.dimming_01[0]);
+  }
+  return Done{};
+}
+
 glm::dmat3 Lamps::turned(const Position& position, double tilt_rad) const {
-  return aim_rotation(position.yaw_rad, aim_pitch_rad_ + wheel_pitch_rad_ + tilt_rad + position.pitch_rad, 0.0);
+  const double up_rad =
+      aim_pitch_rad_ + wheel_pitch_rad_ + law_pitch_rad_ + tilt_rad + position.pitch_rad + position.law_pitch_rad;
+  return aim_rotation(position.yaw_rad + position.law_yaw_rad, up_rad, 0.0);
 }
 
 std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
@@ -170,7 +203,7 @@ double Lamps::lamp_lx(std::size_t design, std::size_t slot, const std::set<LampF
     if (!lit.contains(lamp.sources[k].function)) continue;
     const AimedSource light = tables_.aimed(lamp.sources[k]);
     sum_lx += phare::illuminance_lx(lamp.position_m, turn * light.car_from_lamp, *light.table,
-                                    light.scale * position.dimming_01[k], at.position_m, at.normal);
+                                    light.scale * position.dimmed_01(k), at.position_m, at.normal);
   }
   return sum_lx;
 }

@@ -49,6 +49,10 @@ class Lamps {
   /// Turns a whole lamp of the design that shines: no image is summed for it. Error: no such lamp.
   Status swivel(const RigControl::Swivel& command);
 
+  /// What the control law wants of the lamps of this design, until it says otherwise; acts with the next controls, on
+  /// top of commands. Error, and no lamp of the law's is turned or dimmed: no such lamp, another number of sources.
+  Status follow(const LawAnswer& answer, std::uint32_t design_index);
+
   /// All lamps turned up (positive) together, rad.
   void set_aim(double pitch_rad) { aim_pitch_rad_ = pitch_rad; }
 
@@ -119,9 +123,13 @@ class Lamps {
     LiveBeam beam;
     std::vector<double> dimming_01;         ///< of each source, as commanded
     double yaw_rad = 0.0, pitch_rad = 0.0;  ///< as commanded
+    std::vector<double> law_01{};           ///< of each source, as the control law says; empty: full light
+    double law_yaw_rad = 0.0, law_pitch_rad = 0.0;
+
+    double dimmed_01(std::size_t source) const { return dimming_01[source] * (law_01.empty() ? 1.0 : law_01[source]); }
   };
   std::string text_of_lit() const;
-  Result<std::size_t> find(const std::string& lamp) const;
+  Result<std::size_t> find(const std::string& lamp, std::size_t design) const;
   /// All that turns a lamp besides the aim of its sources; `tilt_rad`: of the car's levelling.
   glm::dmat3 turned(const Position& position, double tilt_rad) const;
 
@@ -136,6 +144,7 @@ class Lamps {
   std::size_t design_ = 0;
   double aim_pitch_rad_ = 0.0;    // of the program's aim command
   double wheel_pitch_rad_ = 0.0;  // of the driver's aim wheel
+  double law_pitch_rad_ = 0.0;    // of the control law's levelling
   std::string lit_text_;
   std::uint64_t compositions_ = 0;
   std::uint64_t uploads_ = 0;

@@ -23,6 +23,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   auto* drive = app.add_option("--drive", options.drive_file, "Drive file being replayed; tells how long the drive is");
   app.add_option("--channel", options.channel, "Which visual channel of the rig")->capture_default_str();
   app.add_flag("--lockstep", options.lockstep, "One frame per simulated frame time, reproducible bit for bit");
+  app.add_flag("--law", options.law,
+               "A control law leads the lamps (docs/control-law.md); in lockstep each frame waits for it");
   app.add_flag("--headless", options.headless, "No window");
   app.add_flag("--go-on", options.going_on,
                "Take the place of one that was killed: keep the pictures it left in --out");

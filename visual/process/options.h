@@ -23,6 +23,7 @@ struct VisualOptions {
   std::filesystem::path alive_file;  ///< says that the process is not hung; empty: none
   bool open_bus = false;             ///< no key of the run
   bool lockstep = false;
+  bool law = false;  ///< a control law leads the lamps: visual/process/law.h
   bool headless = false;
   bool explain = false;                           ///< tell which effects a moment calls for, and leave
   LightSwitch explain_light = LightSwitch::kLow;  ///< of that moment, where no drive says it

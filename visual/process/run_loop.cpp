@@ -70,7 +70,7 @@ class Loop {
   bool over();
   void receive() { s_.bus.poll(); }
   void answer_probes();
-  std::optional<Moment> next_moment() { return s_.options.lockstep ? lockstep_moment() : display_moment(); }
+  std::optional<Moment> next_moment();
   void draw(const Moment& moment);
   void report(const Moment& moment);
   void keep(const Moment& moment);
@@ -230,7 +230,8 @@ void Loop::repeat_when_stalled() {
   progress_ = Clock::now();
   const auto* controls = s_.bus.newest<CockpitState>();
   const auto* car = s_.bus.newest<VehicleState>();
-  if (s_.options.lockstep && drawn_index_ < 0 && controls != nullptr && car != nullptr && car->value.frame_index >= 0) {
+  const bool apart = controls != nullptr && car != nullptr && controls->value.frame_index != car->value.frame_index;
+  if (s_.options.lockstep && drawn_index_ < 0 && apart && car->value.frame_index >= 0) {
     // Started anew in the middle of a drive where one of the two is a frame behind: the pose we hold sets both going
     // again.
     drawn_index_ = car->value.frame_index;
@@ -252,16 +253,26 @@ void Loop::repeat_when_stalled() {
   s_.bus.send_again(kPayloadIndex<FrameReport>);
 }
 
-/// Frame k as soon as controls and pose of k are both here.
+std::optional<Moment> Loop::next_moment() {
+  std::optional<Moment> moment = s_.options.lockstep ? lockstep_moment() : display_moment();
+  if (!moment || !s_.options.law || over_) return moment;
+  const std::chrono::nanoseconds period(1'000'000'000 / s_.rig.frame_rate_hz);
+  moment->controls = s_.law.lead(s_.bus, s_.lamps, moment->controls, period, s_.options.lockstep);
+  return moment;
+}
+
+/// Frame k as soon as controls and pose of k are both here, and the answer of the control law where there is one.
 std::optional<Moment> Loop::lockstep_moment() {
   const auto* controls = s_.bus.newest<CockpitState>();
   const auto* car = s_.bus.newest<VehicleState>();
   const bool both = controls != nullptr && car != nullptr && controls->value.frame_index == car->value.frame_index;
-  if (both && car->value.frame_index > drawn_index_) {
+  const bool led = both && (!s_.options.law || LawLink::has_answered(s_.bus, car->value.frame_index));
+  if (led && car->value.frame_index > drawn_index_) {
     drawn_index_ = car->value.frame_index;
     return Moment{
         drawn_index_, frame_time(drawn_index_, s_.rig.frame_rate_hz), controls->value, {car->value, 0.0, false}};
   }
+  if (both && !led) s_.law.waits_for(car->value.frame_index);
   s_.bus.wait(s_.window ? 10ms : 20ms);
   repeat_when_stalled();
   return std::nullopt;

@@ -14,6 +14,7 @@
 #include "visual/process/fail_safe_log.h"
 #include "visual/process/frame_stats.h"
 #include "visual/process/lamps.h"
+#include "visual/process/law.h"
 #include "visual/process/options.h"
 #include "visual/process/switch_to_photon.h"
 #include "visual/process/window.h"
@@ -50,6 +51,7 @@ struct Session {
   AuditStats audit;
   SwitchToPhoton switches;
   FailSafeLog fail_safes;
+  LawLink law;
   EyeAdaptation eye;
   std::vector<LanePoint> lane;  ///< of the scene; empty where it has none
   nlohmann::json lamps_json;    ///< tables with hashes, peak and flux: does not change

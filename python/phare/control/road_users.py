@@ -1,0 +1,141 @@
+"""Other road users on their way along the lane, from a TOML file:
+
+    [[road_user]]
+    class = "car"             # car, lorry, motorcycle, bicycle, pedestrian
+    direction = "oncoming"    # oncoming, same (as we drive) or standing
+    start_s_m = 420           # place of its middle along the lane at time 0
+    speed_kmh = 80
+    offset_m = 3.5            # from the line we drive on, positive left
+    lights = true             # its lamps burn
+    from_s = 0.0              # when it is there, s of simulated time
+    to_s = 1e9
+    width_m, height_m, length_m   # default: by its class, chosen by eye
+
+They are known to the control law's sensors alone: no picture shows them yet, and they hide nothing.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import tomllib
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from ..errors import BadInput
+
+# Width, height, length in m: usual sizes, chosen by eye.
+SIZES_M = {
+    "car": (1.8, 1.5, 4.3),
+    "lorry": (2.5, 3.6, 10.0),
+    "motorcycle": (0.8, 1.4, 2.1),
+    "bicycle": (0.6, 1.7, 1.8),
+    "pedestrian": (0.5, 1.75, 0.4),
+}
+_DIRECTIONS = {"oncoming": -1.0, "same": 1.0, "standing": 0.0}
+
+
+@dataclass(frozen=True)
+class RoadUser:
+    """One road user, whose place is a function of time alone."""
+
+    kind: str = "car"
+    direction: str = "oncoming"
+    start_s_m: float = 0.0
+    speed_mps: float = 0.0
+    offset_m: float = 0.0
+    lights: bool = True
+    from_s: float = 0.0
+    to_s: float = math.inf
+    width_m: float = 1.8
+    height_m: float = 1.5
+    length_m: float = 4.3
+
+    def s_m(self, time_s: float) -> float:
+        """Place of its middle along the lane."""
+        return self.start_s_m + _DIRECTIONS[self.direction] * self.speed_mps * time_s
+
+    @property
+    def heading(self) -> float:
+        """1: as the lane goes, -1: against it."""
+        return -1.0 if self.direction == "oncoming" else 1.0
+
+
+_KEYS = {
+    "class": str, "direction": str, "start_s_m": float, "speed_kmh": float, "offset_m": float, "lights": bool, "from_s": float,
+    "to_s": float, "width_m": float, "height_m": float, "length_m": float,
+}
+
+
+def read_road_users(file: str | os.PathLike[str]) -> list[RoadUser]:
+    """Reads such a file; raises BadInput with file, which road user, and reason."""
+    try:
+        document = tomllib.loads(Path(file).read_text())
+    except OSError as wrong:
+        raise BadInput(f"{file}: {wrong.strerror}") from wrong
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as wrong:
+        raise BadInput(f"{file}: {wrong}") from wrong
+    listed = document.get("road_user")
+    if set(document) != {"road_user"} or not isinstance(listed, list):
+        raise BadInput(f"{file}: expected [[road_user]] and nothing else")
+    return [_road_user(table, f"{file}: road_user {number}") for number, table in enumerate(listed, 1)]
+
+
+def _road_user(table: dict[str, object], place: str) -> RoadUser:
+    given: dict[str, object] = {}
+    for key, value in table.items():
+        if key not in _KEYS:
+            raise BadInput(f"{place}: unknown key {key}; there are {', '.join(_KEYS)}")
+        wanted = _KEYS[key]
+        if wanted is float and isinstance(value, int) and not isinstance(value, bool):
+            value = float(value)
+        if not isinstance(value, wanted) or (isinstance(value, float) and math.isnan(value)):
+            raise BadInput(f"{place}: {key} = {value!r}: expected a {wanted.__name__}")
+        given[key] = value
+    kind, direction = str(given.pop("class", "car")), str(given.pop("direction", "oncoming"))
+    if kind not in SIZES_M:
+        raise BadInput(f"{place}: class {kind}: expected one of {', '.join(SIZES_M)}")
+    if direction not in _DIRECTIONS:
+        raise BadInput(f"{place}: direction {direction}: expected one of {', '.join(_DIRECTIONS)}")
+    size = dict(zip(("width_m", "height_m", "length_m"), SIZES_M[kind]))
+    speed_mps = float(str(given.pop("speed_kmh", 0.0))) / 3.6
+    if speed_mps < 0:
+        raise BadInput(f"{place}: speed_kmh is negative: direction says which way it drives")
+    for key in size:
+        if float(str(given.get(key, 1.0))) <= 0:
+            raise BadInput(f"{place}: {key} must be above 0")
+    known = {each.name for each in fields(RoadUser)}
+    words = {key: value for key, value in {**size, **given}.items() if key in known}
+    if kind == "pedestrian":
+        words["lights"] = False
+    return RoadUser(kind=kind, direction=direction, speed_mps=speed_mps, **words)  # type: ignore[arg-type]
+
+
+class Lane:
+    """The line we drive on: the CSV beside a scene (config/lane.h). World frame, m, rad; curvature positive left."""
+
+    def __init__(self, file: str | os.PathLike[str]):
+        try:
+            table = pd.read_csv(file)
+            self.s_m, self.x_m, self.y_m, self.z_m = (table[name].to_numpy(float) for name in ("s_m", "x_m", "y_m", "z_m"))
+            self.heading_rad = np.unwrap(table["heading_rad"].to_numpy(float))
+            self.curvature_1pm = table["curvature_1pm"].to_numpy(float)
+        except (OSError, KeyError, ValueError) as wrong:
+            raise BadInput(f"{file}: no lane: {wrong}") from wrong
+
+    def at(self, s_m: float, offset_m: float) -> tuple[np.ndarray, float] | None:
+        """Place (x, y, z) beside the line, on the height of the line, and the line's heading; None before and behind it."""
+        if not self.s_m[0] <= s_m <= self.s_m[-1]:
+            return None
+        heading = float(np.interp(s_m, self.s_m, self.heading_rad))
+        place = np.array([np.interp(s_m, self.s_m, line) for line in (self.x_m, self.y_m, self.z_m)])
+        return place + offset_m * np.array([-math.sin(heading), math.cos(heading), 0.0]), heading
+
+    def nearest_s_m(self, x_m: float, y_m: float) -> float | None:
+        """Where along the line a place lies, to the nearest point of the file; None when it is more than 15 m off."""
+        square = (self.x_m - x_m) ** 2 + (self.y_m - y_m) ** 2
+        nearest = int(square.argmin())
+        return float(self.s_m[nearest]) if square[nearest] < 15.0**2 else None

@@ -1,0 +1,54 @@
+"""phare sweep: drives a plan, and leaves a table and a ranking page."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+
+from ..errors import BadInput, PhareError
+from .job import command_of
+from .plan import read_plan
+from .runner import run_plan
+
+
+def main() -> int:
+    """Exit codes: 0 done, 1 a job has no figures, 2 bad input, 130 interrupted."""
+    parser = argparse.ArgumentParser(
+        prog="phare sweep", description="Drives every job of a plan: table, ranking page, each row with the command that repeats it.",
+        epilog="Example:\n  phare sweep config/examples/sweep.toml --out out/sweep",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("plan", help="plan file (TOML, docs/sweep.md)")
+    parser.add_argument("--out", default="out/sweep", help="folder of the sweep; one that was stopped goes on there [out/sweep]")
+    parser.add_argument("--workers", type=int, help="drives at a time [one for each processor]")
+    parser.add_argument("--only", type=int, metavar="NUMBER", help="this job alone, counted from 1")
+    parser.add_argument("--list", action="store_true", help="print the command of each job, drive none")
+    options = parser.parse_args()
+    try:
+        if options.workers is not None and options.workers < 1:
+            raise BadInput("--workers must be 1 or more")
+        plan = read_plan(options.plan)
+        if options.list:
+            for job in plan.jobs:
+                print(command_of(job, plan))
+            return 0
+        done = run_plan(plan, options.out, workers=options.workers, only=options.only)
+    except BadInput as wrong:
+        print(f"phare sweep: {wrong}", file=sys.stderr)
+        return 2
+    except PhareError as wrong:
+        print(f"phare sweep: {wrong}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("phare sweep: interrupted; the same command goes on from here", file=sys.stderr, flush=True)
+        os._exit(130)  # without waiting for the drives, which were interrupted too
+    kind = "" if done.file.suffix == ".parquet" else " (CSV: Parquet needs pyarrow)"
+    print(f"{done.ran} drives, {len(done.table) - done.ran} kept from before\n{done.file}{kind}\n{done.page}")
+    if done.failed:
+        print(f"phare sweep: without figures: job {', '.join(map(str, done.failed))}", file=sys.stderr)
+    return 1 if done.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

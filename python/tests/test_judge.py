@@ -1,0 +1,97 @@
+"""reference: lux at road users against a figure by hand. process: a slower camera is judged worse."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import phare
+from phare.control.road_users import Lane
+from phare.judge import judge_glare, limit_lx
+from phare.laws import GlareFree
+
+from conftest import SMALL
+
+
+def test_the_limits_are_those_of_the_table():
+    assert [limit_lx(r, True) for r in (14.9, 15, 29.9, 30, 60, 119.9, 120, 220, 221)] == [
+        None, 3.1, 3.1, 1.8, 0.6, 0.6, 0.3, 0.3, None
+    ]
+    assert [limit_lx(r, False) for r in (20, 59, 60, 120)] == [18.9, 18.9, 4.0, None]
+
+
+@pytest.fixture(scope="module")
+def approach(tmp_path_factory):
+    """0.5 s at 20 m/s on the straight beginning of the demo's road, and a lamp that shines 1,000 cd everywhere."""
+    folder = tmp_path_factory.mktemp("approach")
+    lane, t = Lane(phare.generated_file("scenes/country_road_lane.csv")), np.arange(0, 0.6, 0.02)
+    place = np.array([lane.at(20 + 20 * time, 0.0)[0] for time in t])
+    phare.write_drive(folder / "straight.pcap", phare.poses(
+        t, x_m=place[:, 0], y_m=place[:, 1], z_m=place[:, 2], yaw_rad=lane.at(20, 0)[1], speed_mps=20.0))
+    lines = ["V\\H,-40,40", "-30,1000,1000", "30,1000,1000"]
+    (folder / "even.csv").write_text("# quantity: luminous intensity\n# unit: cd\n# angles: type A\n" + "\n".join(lines) + "\n")
+    rig = phare.Rig.shipped("matrix")
+    lamp = rig.designs[0].lamps[0]
+    lamp.sources = [phare.Source("low", str(folder / "even.csv")), phare.Source(
+        "high", str(phare.shipped_file("examples/high_beam.ies")), pitch_deg=-0.573)]
+    return folder, rig
+
+
+class Half(phare.Controller):
+    """The high beam of the left lamp at a half, that of the right one dark, both turned and levelled."""
+
+    def step(self, given):
+        left, right = phare.LampLight(0.1, 0.0, [1.0, 0.5]), phare.LampLight(0.0, 0.02, [1.0, 0.0])
+        return phare.Answer("high", levelling_rad=0.01, lamps={"headlamp left": left, "headlamp right": right})
+
+
+def test_lux_is_that_of_each_source_as_the_law_had_it(approach):
+    folder, rig = approach
+    users = [phare.RoadUser(start_s_m=90.0, speed_mps=0.0, offset_m=3.5)]
+    report = phare.drive(rig, drive=folder / "straight.pcap", frames=3, controller=Half(), **SMALL)
+    glare = judge_glare(report, rig, users)
+    assert list(glare.moments.time_s.round(6)) == [0.0, round(1 / 60, 6), round(2 / 60, 6)]
+    # The eye of who sits 0.35 m to the left of the middle, 1.2 m high, in the frame of the car, which stands level at 20 m. 1,000 cd of
+    # each lamp, and of the left one half of what a beam gives there that is turned and aimed so.
+    lane = Lane(phare.generated_file("scenes/country_road_lane.csv"))
+    (car, yaw), (other, heading) = lane.at(20, 0.0), lane.at(90, 3.5)
+    way = other + [0.35 * math.sin(heading), -0.35 * math.cos(heading), 1.2] - car
+    eye = np.array([math.cos(yaw) * way[0] + math.sin(yaw) * way[1], math.cos(yaw) * way[1] - math.sin(yaw) * way[0], way[2]])
+    normal = [-math.cos(heading - yaw), -math.sin(heading - yaw), 0.0]
+    turned = phare.Mounted(
+        phare.shipped_file("examples/high_beam.ies"), 3.45, 0.62, 0.66, yaw_deg=math.degrees(0.1), pitch_deg=math.degrees(0.01) - 0.573)
+    expected = 0.5 * phare.measure(turned, [[*eye, *normal]], reference=True)[0]
+    straight = phare.Mounted(turned.lamp, 3.45, 0.62, 0.66, pitch_deg=-0.573)
+    assert abs(0.5 * phare.measure(straight, [[*eye, *normal]], reference=True)[0] - expected) > 0.1  # a turn forgotten shows
+    for y in (0.62, -0.62):
+        ray = eye - np.array([3.45, y, 0.66])
+        r = np.linalg.norm(ray)
+        expected += 1000.0 * -(ray / r @ normal) / r**2
+    # Both in float64; the drive's poses are written as doubles.
+    assert glare.moments.lx[0] == pytest.approx(expected, rel=1e-6)
+    assert glare.moments.range_m[0] == pytest.approx(math.hypot(eye[0] - 3.45, eye[1]))
+    assert glare.moments.above.all() and glare.judged_s == glare.above_s == pytest.approx(3 / 60)  # 2.7 lx, where 0.6 are the limit
+    row = glare.bins[(glare.bins.receptor == "oncoming") & (glare.bins.from_m == 60)].iloc[0]
+    assert row.most_lx == round(float(glare.moments.lx.max()), 1) and not row.passed
+    glare.write_page(folder / "glare.html")
+    assert "road user 1, oncoming" in (folder / "glare.html").read_text()
+
+
+def test_a_slower_camera_is_judged_worse(approach):
+    folder, _ = approach
+    rig = phare.Rig.shipped("matrix")
+    # It appears at 0.1 s, 60 m ahead, and is dazzled until the camera has answered.
+    users = [phare.RoadUser(start_s_m=85.0, speed_mps=10.0, offset_m=3.5, from_s=0.1)]
+    above = {}
+    for delay_s in (0.0, 0.2):
+        sensors = phare.Sensors(users, delay_s=delay_s)
+        report = phare.drive(rig, drive=folder / "straight.pcap", frames=20, controller=GlareFree(), sensors=sensors, **SMALL)
+        above[delay_s] = judge_glare(report, rig, users).above_s
+    assert above[0.0] == 0.0
+    assert above[0.2] == pytest.approx(0.2, abs=1.5 / 60)
+
+
+def test_nobody_there_is_no_glare(report):
+    glare = judge_glare(report, phare.Rig.shipped(), [])
+    assert glare.above_s == glare.judged_s == 0.0 and glare.moments.empty and isinstance(glare.bins, pd.DataFrame)

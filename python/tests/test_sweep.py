@@ -1,0 +1,145 @@
+"""process: sweeps of short drives, stopped and gone on with. unit: plans."""
+
+import io
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+import phare
+from phare import sweep
+
+FIXED = '[fixed]\nframes = 2\nsize = "64x64"\n'
+EDGE = '[[measure]]\nname = "edge_m"\nrange_lx = 5\ny_m = -1.75\n'
+
+
+def plan_of(tmp_path: Path, text: str, name: str = "plan.toml") -> Path:
+    file = tmp_path / name
+    file.write_text(text)
+    return file
+
+
+def aims(tmp_path, examples, count):
+    lamp = examples / "low_beam.ies"
+    vary = f"[vary]\naim = {[round(-0.3 - 0.2 * i, 2) for i in range(count)]}\n"
+    return plan_of(tmp_path, f'rank_by = "edge_m"\n{FIXED}lamp = "{lamp}"\n{vary}{EDGE}')
+
+
+def run(plan, out, **more):
+    return sweep.run_plan(sweep.read_plan(plan), out, progress=io.StringIO(), **more)
+
+
+# ---- plans
+
+
+def test_a_grid_is_every_pair(tmp_path):
+    plan = sweep.read_plan(plan_of(tmp_path, '[vary]\naim = [-1, -0.5]\nlevel = ["kinematic", "full"]\n'))
+    assert [tuple(job.varied.values()) for job in plan.jobs] == [
+        (-1, "kinematic"), (-1, "full"), (-0.5, "kinematic"), (-0.5, "full")
+    ]
+
+
+def test_a_latin_hypercube_has_one_value_in_each_part_and_repeats(tmp_path):
+    text = 'kind = "latin-hypercube"\nseed = {}\nsamples = 20\n[vary]\nfriction = {{ from = 0.2, to = 1.0 }}\nlevel = ["kinematic", "full"]\n'
+    one, same, other = (
+        [job.varied for job in sweep.read_plan(plan_of(tmp_path, text.format(seed))).jobs] for seed in (3, 3, 4)
+    )
+    assert one == same != other
+    assert sorted(int((values["friction"] - 0.2) / 0.04 + 1e-9) for values in one) == list(range(20))
+    assert [values["level"] for values in one].count("full") == 10
+
+
+def test_a_list_is_as_it_stands(tmp_path):
+    plan = sweep.read_plan(plan_of(tmp_path, 'kind = "list"\n[[run]]\naim = -1\n[[run]]\nlevel = "full"\n'))
+    assert [job.varied for job in plan.jobs] == [{"aim": -1}, {"level": "full"}] and plan.axes() == ["aim", "level"]
+
+
+@pytest.mark.parametrize("text, why", [
+    ("[vary]\nlamb = ['a']\n", "unknown key lamb"), ("kind = 'all'\n", "kind 'all'"), ("[vary]\naim = -1\n", "expected a list"),
+    ("[vary]\nlamp = ['none.ies']\n", "none.ies is no file"), ("fast = true\n", "unknown key fast"), ("", "a list has"),
+    ("kind = 'list'\n[vary]\naim = [1]\n", "a list has"), ("[vary]\naim = [1]\n[[measure]]\nname = 'a'\n", "either at"),
+    ("[vary]\naim = [1]\n[[measure]]\nat = [1, 2, 3]\n", "has no name"), ("rank = 'best'\n[vary]\naim = [1]\n", "rank 'best'"),
+    ("kind = 'latin-hypercube'\n[vary]\naim = [1]\n", "samples"), ("[vary]\nsensor_delay_s = [0.1]\n", "give law"),
+    ("kind = 'latin-hypercube'\nsamples = 2\n[vary]\naim = { from = 2, to = 1 }\n", "expected a list or"), ("[vary\n", "Expected"),
+])
+def test_what_is_wrong_with_a_plan_is_said(tmp_path, text, why):
+    with pytest.raises(phare.BadInput, match=f"plan.toml: .*{why}"):
+        sweep.read_plan(plan_of(tmp_path, text))
+
+
+# ---- runs
+
+
+def test_a_sweep_stopped_and_gone_on_with_gives_the_same_table(tmp_path, examples):
+    plan = aims(tmp_path, examples, 3)
+    whole = run(plan, tmp_path / "whole")
+    assert whole.ran == 3 and whole.failed == []
+    assert whole.table.edge_m.is_monotonic_decreasing  # the further down, the shorter
+    assert whole.table.picture_hash.nunique() == 3
+
+    out = tmp_path / "stopped"
+    environment = {**os.environ, "PYTHONPATH": str(Path(phare.__file__).parents[1])}
+    command = [sys.executable, "-m", "phare.sweep", str(plan), "--out", str(out), "--workers", "1"]
+    running = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    until = time.monotonic() + 120
+    while len(list((out / "rows").glob("*.json"))) < 1 and running.poll() is None and time.monotonic() < until:
+        time.sleep(0.02)
+    running.send_signal(signal.SIGKILL)  # in the middle of the second
+    running.wait()
+    assert not (out / "table.csv").exists()
+    gone_on = run(plan, out)
+    assert 1 <= gone_on.ran <= 2
+    assert gone_on.file.read_bytes() == whole.file.read_bytes()
+    assert not list((out / "jobs").glob("*.making-*"))
+    assert run(plan, out).ran == 0  # nothing is left to do
+    page = gone_on.page.read_text()
+    again = [str(phare.program()), *whole.table.command[1].split()[1:-1], str(tmp_path / "again")]
+    subprocess.run([*again, "--port-base", str(phare.free_ports())], check=True, capture_output=True)
+    assert phare.Report(tmp_path / "again").picture_hash == whole.table.picture_hash[1]
+    assert page.count("phare drive --headless --lockstep") == 3 and "<svg" in page and "http" not in page
+
+
+def test_a_job_that_fails_is_told_tried_again_and_ends_nothing(tmp_path, examples):
+    (tmp_path / "broken.ies").write_text("IESNA:LM-63-2002\nnothing\n")
+    lamps = [str(tmp_path / "broken.ies"), str(examples / "low_beam.ies")]
+    plan, said = sweep.read_plan(plan_of(tmp_path, f"{FIXED}[vary]\nlamp = {lamps}\n{EDGE}")), io.StringIO()
+    done = sweep.run_plan(plan, tmp_path / "out", progress=said)
+    assert done.failed == [1] and "broken.ies" in done.table.error[0]
+    assert said.getvalue().count("job 1: ") == 2 and "once more" in said.getvalue()
+    assert done.table.edge_m[1] > 20 and "1 without figures" in done.page.read_text()
+    (tmp_path / "broken.ies").write_bytes(Path(lamps[1]).read_bytes())  # mended: it alone is driven again
+    again = run(tmp_path / "plan.toml", tmp_path / "out")
+    assert again.ran == 1 and again.failed == [] and again.table.edge_m[0] == again.table.edge_m[1]
+
+
+def test_a_law_is_an_axis(tmp_path):
+    traffic = plan_of(tmp_path, '[[road_user]]\nstart_s_m = 150\nspeed_kmh = 60\noffset_m = 3.5\n', "traffic.toml")
+    rig = phare.shipped_file("rigs/matrix.toml")
+    text = f'{FIXED}rig = "{rig}"\ntraffic = "{traffic}"\n[vary]\nlaw = ["AutomaticHighBeam", "GlareFree"]\n'
+    done = run(plan_of(tmp_path, text), tmp_path / "out", workers=2)
+    assert done.failed == [] and list(done.table.high_share) == [0.0, 0.0]  # the car stands at first
+    assert list(done.table.glare_s) == [0.0, 0.0] and (tmp_path / "out" / "jobs" / "00001" / "glare.html").exists()
+    assert "phare.sweep" in done.table.command[0] and "--only 1" in done.table.command[0]
+    with pytest.raises(phare.BadInput, match="law Bright"):
+        sweep.job.law_named("Bright")
+    assert isinstance(done.table, pd.DataFrame)
+
+
+def test_the_command_line_says_what_is_wrong(tmp_path):
+    environment = {**os.environ, "PYTHONPATH": str(Path(phare.__file__).parents[1])}
+
+    def say(*words):
+        return subprocess.run([sys.executable, "-m", "phare.sweep", *words], env=environment, capture_output=True, text=True)
+
+    said = say(str(tmp_path / "none.toml"))
+    assert said.returncode == 2 and "none.toml: No such file" in said.stderr
+    plan = plan_of(tmp_path, "[vary]\naim = [-1, 1]\n")
+    assert say(str(plan), "--workers", "0").returncode == 2
+    listed = say(str(plan), "--list")
+    assert listed.returncode == 0 and listed.stdout.count("phare drive") == 2
+    assert say(str(plan), "--only", "9", "--out", str(tmp_path / "o")).returncode == 2
