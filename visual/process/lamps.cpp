@@ -57,10 +57,14 @@ Result<Lamps> Lamps::load(const Rig& rig) {
     for (const LampConfig& lamp : design.lamps) {
       std::vector<AimedSource> sources;
       for (const SourceConfig& source : lamp.sources) sources.push_back(lamps.tables_.aimed(source));
-      positions.push_back({LiveBeam(std::move(sources)), std::vector<double>(lamp.sources.size(), 1.0)});
+      positions.push_back({LiveBeam(std::move(sources)),
+                           std::vector<double>(lamp.sources.size(), 1.0),
+                           {.position_m = lamp.position_m}});
     }
   }
   lamps.shown_.resize(most_positions);
+  lamps.before_.resize(lamps.designs_.size());
+  for (std::size_t design = 0; design < lamps.designs_.size(); ++design) lamps.of_rig_.push_back(lamps.mounts(design));
   return lamps;
 }
 
@@ -113,34 +117,19 @@ Status Lamps::dim(const RigControl::Dim& command) {
   return Done{};
 }
 
-Status Lamps::swivel(const RigControl::Swivel& command) {
-  const Result<std::size_t> slot = find(command.lamp);
-  if (!slot) return slot.error();
-  positions_[design_][*slot].yaw_rad = command.yaw_rad;
-  positions_[design_][*slot].pitch_rad = command.pitch_rad;
-  return Done{};
-}
-
-Status Lamps::place(const RigControl::Place& command) {
-  const Result<std::size_t> slot = find(command.lamp);
-  if (!slot) return slot.error();
-  designs_[design_].lamps[*slot].position_m = {command.x_m, command.y_m, command.z_m};
-  return Done{};
-}
-
 glm::dmat3 Lamps::turned(const Position& position, double tilt_rad) const {
-  return aim_rotation(position.yaw_rad, aim_pitch_rad_ + wheel_pitch_rad_ + tilt_rad + position.pitch_rad, 0.0);
+  const LampMount& mount = position.mount;
+  return aim_rotation(mount.yaw_rad, aim_pitch_rad_ + wheel_pitch_rad_ + tilt_rad + mount.pitch_rad, mount.roll_rad);
 }
 
 std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
   const glm::dmat3 rotation = rotation_of(pose);
-  const std::vector<LampConfig>& lamps = designs_[design_].lamps;
   std::vector<PlacedLamp> placed;
-  for (std::size_t slot = 0; slot < lamps.size(); ++slot) {
+  for (std::size_t slot = 0; slot < positions_[design_].size(); ++slot) {
     const Position& position = positions_[design_][slot];
     const BeamImage& image = position.beam.image();
     if (image.dark) continue;
-    placed.push_back({position_of(pose) + rotation * lamps[slot].position_m,
+    placed.push_back({position_of(pose) + rotation * position.mount.position_m,
                       rotation * turned(position, pose.lamp_tilt_rad) * image.car_from_image, slot});
   }
   return placed;
@@ -169,7 +158,7 @@ double Lamps::lamp_lx(std::size_t design, std::size_t slot, const std::set<LampF
   for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
     if (!lit.contains(lamp.sources[k].function)) continue;
     const AimedSource light = tables_.aimed(lamp.sources[k]);
-    sum_lx += phare::illuminance_lx(lamp.position_m, turn * light.car_from_lamp, *light.table,
+    sum_lx += phare::illuminance_lx(position.mount.position_m, turn * light.car_from_lamp, *light.table,
                                     light.scale * position.dimming_01[k], at.position_m, at.normal);
   }
   return sum_lx;
@@ -183,7 +172,7 @@ Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at,
   for (std::size_t slot = 0; slot < designs_[design_].lamps.size(); ++slot) {
     const double lx = lamp_lx(design_, slot, lit_, in_car, pose.lamp_tilt_rad);
     if (lx <= 0.0) continue;
-    const glm::dvec3 lamp_m = position_of(pose) + world_from_car * designs_[design_].lamps[slot].position_m;
+    const glm::dvec3 lamp_m = position_of(pose) + world_from_car * positions_[design_][slot].mount.position_m;
     const std::optional<std::size_t> by = occluder(scene, lamp_m, at.position_m);
     (by ? light.hidden_lx : light.lx) += lx;
     if (!by || lx <= most_lx) continue;

@@ -60,6 +60,7 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
     if (moment.under_mouse)
       lines.push_back(lux_line("", lamps, moment, *moment.under_mouse, moment.under_mouse->position_m));
   }
+  lines.insert(lines.end(), moment.moving.begin(), moment.moving.end());
   for (std::size_t i = 0; i < desk.probes.size(); ++i) {
     const Probe& probe = desk.probes[i];
     std::snprintf(text, sizeof text, "probe %zu, %s: ", i + 1,

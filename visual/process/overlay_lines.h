@@ -33,6 +33,7 @@ struct OverlayMoment {
   const EffectPlan* effects = nullptr;        ///< of the frame before
   std::optional<MeasurePoint> under_mouse{};  ///< of the world
   const Scene* scene = nullptr;               ///< what stands in it hides light; none: nothing does
+  std::vector<std::string> moving{};          ///< of lamps that are being moved (lamp_keys.h)
   RoadPlace road = RoadPlace::kThere;
 };
 

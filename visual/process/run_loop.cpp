@@ -11,6 +11,7 @@
 #include "net/silence.h"
 #include "net/stats.h"
 #include "visual/image/canvas.h"
+#include "visual/process/lamp_keys.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/pick.h"
 #include "visual/process/pose_buffer.h"
@@ -81,6 +82,7 @@ class Loop {
   void take(const Datagram& datagram);
   void mind_the_keys();
   void light_up(const CockpitState& controls);
+  void mind_the_lamps(SimTime now);
   void warm_up();
   void announce();
   void repeat_when_stalled();
@@ -95,7 +97,9 @@ class Loop {
   void write_stats(SimTime now);
 
   Session& s_;
-  Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk);
+  Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk, s_.options.channel);
+  LampKeys lamp_keys_;
+  LampNews lamp_news_{s_.lamps};
   ControlDesk commands_;
   EyeSetting eye_set_ = s_.desk.eye;
   struct Asked {
@@ -130,7 +134,12 @@ bool Loop::over() {
 /// What the picture has to do with keys, and what the cockpit and the launcher are to know of them.
 void Loop::mind_the_keys() {
   WindowKeyboard& keyboard = s_.window->keyboard();
-  if (screens_.press(keyboard.take_presses(), keyboard.take_any(), s_.desk)) ended_ = true;
+  const std::vector<KeyAction> presses = keyboard.take_presses();
+  for (const KeyAction press : presses) {
+    // A refusal shows in the overlay: nothing has moved.
+    if (const auto command = lamp_keys_.press(press, s_.lamps)) (void)verbs_(*command);
+  }
+  if (screens_.press(presses, keyboard.take_any(), s_.desk)) ended_ = true;
   if (const auto keys = keyboard.message(Clock::now())) s_.bus.send(newest_ ? newest_->time : SimTime{}, *keys);
 }
 
@@ -142,6 +151,10 @@ void Loop::take(const Datagram& datagram) {
     clock_.observe(datagram.sim_time, s_.bus.newest<VehicleState>()->received);
   } else if (const auto* request = std::get_if<ProbeRequest>(&datagram.payload)) {
     if (asked_.size() < kMostAsked) asked_.push_back({*request, datagram.sim_time});
+  } else if (const auto* state = std::get_if<LampState>(&datagram.payload)) {
+    if (s_.options.channel != 0)
+      if (const Status set = s_.lamps.set_mounts(state->design_index, mounts_of(*state)); !set)
+        spdlog::warn("{}", set.error().text());
   } else {
     commands_.serve(s_.bus, datagram, std::cref(verbs_));
   }
@@ -299,8 +312,18 @@ void Loop::light_up(const CockpitState& controls) {
   }
 }
 
+/// Places of lamps: those of the drive that is shown, and what the others and the recording are to know of them.
+void Loop::mind_the_lamps(SimTime now) {
+  if (over_) return;
+  if (const Status followed = s_.lamps_then.follow(now, s_.lamps); !followed)
+    spdlog::warn("as recorded, {}; they stay as they are", followed.error().text());
+  if (s_.options.channel != 0) return;
+  if (const auto news = lamp_news_.of(now, s_.lamps)) s_.bus.send(now, *news);
+}
+
 void Loop::draw(const Moment& moment) {
   light_up(shown_by_desk(s_.desk, moment.controls));
+  mind_the_lamps(moment.time);
   set_by_desk(input_, s_.desk, s_.channel(), moment.car.pose);
   input_.lamps = s_.lamps.placed(moment.car.pose);
   if (std::exchange(eye_set_, s_.desk.eye) != s_.desk.eye) s_.eye = eye_set(s_.desk.eye);
@@ -448,6 +471,7 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
                         .effects = &s_.stats.newest.effects,
                         .under_mouse = under_mouse,
                         .scene = s_.desk.shadows == 0 ? nullptr : &s_.scene,
+                        .moving = lamp_keys_.lines(s_.lamps),
                         .road = road_});
 }
 

@@ -13,6 +13,7 @@
 #include "visual/process/audit.h"
 #include "visual/process/fail_safe_log.h"
 #include "visual/process/frame_stats.h"
+#include "visual/process/lamp_replay.h"
 #include "visual/process/lamps.h"
 #include "visual/process/options.h"
 #include "visual/process/switch_to_photon.h"
@@ -51,6 +52,7 @@ struct Session {
   SwitchToPhoton switches;
   FailSafeLog fail_safes;
   EyeAdaptation eye;
+  LampReplay lamps_then;        ///< of the drive that is shown
   std::vector<LanePoint> lane;  ///< of the scene; empty where it has none
   nlohmann::json lamps_json;    ///< tables with hashes, peak and flux: does not change
 

@@ -16,6 +16,8 @@ namespace {
 // The table speaks of keys by GLFW's numbers without knowing GLFW.
 static_assert(key::kEscape == GLFW_KEY_ESCAPE && key::kBackspace == GLFW_KEY_BACKSPACE && key::kF1 == GLFW_KEY_F1 &&
               key::kF2 == GLFW_KEY_F2 && key::kF3 == GLFW_KEY_F3 && key::kF4 == GLFW_KEY_F4);
+static_assert(key::kPageUp == GLFW_KEY_PAGE_UP && key::kPageDown == GLFW_KEY_PAGE_DOWN && key::kHome == GLFW_KEY_HOME &&
+              key::kEnd == GLFW_KEY_END);
 static_assert(key::kUp == GLFW_KEY_UP && key::kDown == GLFW_KEY_DOWN && key::kLeft == GLFW_KEY_LEFT &&
               key::kRight == GLFW_KEY_RIGHT);
 
@@ -47,7 +49,7 @@ struct Window::State {
 
   static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-    if (action == GLFW_REPEAT) return;
+    if (action == GLFW_REPEAT) return of(window).keyboard.repeat(code_of(key, scancode, mods));
     const int physical = key == GLFW_KEY_UNKNOWN ? GLFW_KEY_LAST + 1 + scancode : key;
     of(window).keyboard.key(physical, code_of(key, scancode, mods), action == GLFW_PRESS,
                             WindowKeyboard::Time::clock::now());
