@@ -1,7 +1,10 @@
 #include "visual/process/lamps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "config/conventions.h"
 #include "visual/photometry/illuminance.h"
@@ -180,6 +183,43 @@ Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at,
     light.hidden_by = scene.chunks[*by].node.empty() ? "something without a name" : scene.chunks[*by].node;
   }
   return light;
+}
+
+std::vector<PointLight> Lamps::lights_at(const VehicleState& pose, const MeasurePoint& at) const {
+  const glm::dmat3 world_from_car = rotation_of(pose), car_from_world = glm::transpose(world_from_car);
+  const MeasurePoint in_car{car_from_world * (at.position_m - position_of(pose)), car_from_world * at.normal};
+  std::vector<PointLight> lights;
+  for (std::size_t slot = 0; slot < designs_[design_].lamps.size(); ++slot) {
+    const LampConfig& lamp = designs_[design_].lamps[slot];
+    const Position& position = positions_[design_][slot];
+    const glm::dmat3 turn = turned(position, pose.lamp_tilt_rad);
+    const glm::dvec3 way = in_car.position_m - position.mount.position_m;
+    PointLight light;
+    light.lamp = lamp.name;
+    light.lamp_m = position_of(pose) + world_from_car * position.mount.position_m;
+    light.surface_lx = lamp_lx(design_, slot, lit_, in_car, pose.lamp_tilt_rad);
+    light.behind = light.out_of_table = true;
+    if (!position.beam.image().dark) light.colour = position.beam.image().colour;
+    for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
+      if (!lit_.contains(lamp.sources[k].function) || position.dimming_01[k] <= 0.0) continue;
+      const AimedSource source = tables_.aimed(lamp.sources[k]);
+      const glm::dvec3 direction = glm::transpose(turn * source.car_from_lamp) * way;
+      light.candela += source.scale * position.dimming_01[k] * source.table->intensity_cd(direction);
+      const TableAngles angles = source.table->angles_of(direction);
+      const auto within = [](const std::vector<double>& nodes, double deg) {
+        return deg >= nodes.front() && deg <= nodes.back();
+      };
+      light.behind = light.behind && direction.x <= 0.0;
+      light.out_of_table = light.out_of_table && !(within(source.table->first_deg, angles.first_deg) &&
+                                                   within(source.table->second_deg, angles.second_deg));
+      if (!std::exchange(light.lit, true)) {
+        light.h_deg = glm::degrees(std::atan2(-direction.y, direction.x));
+        light.v_deg = glm::degrees(std::atan2(direction.z, std::hypot(direction.x, direction.y)));
+      }
+    }
+    lights.push_back(std::move(light));
+  }
+  return lights;
 }
 
 std::optional<glm::vec3> Lamps::light() const {

@@ -33,6 +33,19 @@ struct LampMount {
   friend bool operator==(const LampMount&, const LampMount&) = default;
 };
 
+/// A lamp as a point of the car or the world sees it, before anything that stands between them.
+struct PointLight {
+  std::string lamp;
+  glm::dvec3 lamp_m{0.0};  ///< world
+  bool lit = false;        ///< some source of it is
+  double candela = 0.0;    ///< toward the point, all lit sources
+  double surface_lx = 0.0;
+  double h_deg = 0.0, v_deg = 0.0;  ///< right, up, from the axis of the first lit source as it is aimed
+  bool behind = false;              ///< of every lit source
+  bool out_of_table = false;        ///< of every lit source
+  glm::vec3 colour{1.0f};           ///< linear sRGB of luminance 1
+};
+
 class Lamps {
  public:
   /// Reads every table of every design, and turns every lamp as its `aim` says. A file named twice is read once. Error:
@@ -108,6 +121,8 @@ class Lamps {
     std::string hidden_by{};  ///< what hides most, by its node; empty: nothing does
   };
   LightAt light_at(const VehicleState& pose, const MeasurePoint& at, const Scene& scene) const;
+  /// Every lamp of the design at a point of the world: float64 from the native tables.
+  std::vector<PointLight> lights_at(const VehicleState& pose, const MeasurePoint& at) const;
   /// The same in the car frame for one set of lit functions of one design: the wall.
   /// `tilt_rad`: of automatic levelling, positive up.
   double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
