@@ -84,6 +84,41 @@ std::string get_camera(const Desk& desk) {
   return std::string(kCameraNames[static_cast<std::size_t>(desk.camera)]);
 }
 
+/// "car|world X Y Z YAW_DEG PITCH_DEG [FOV_DEG]".
+Status set_free_eye(Desk& desk, std::string_view value, const DeskContext&) {
+  const std::vector<std::string> words = words_of(value);
+  const auto frames = std::span(kProbeFrameNames).first(2);
+  FreeEye eye;
+  const auto frame = std::ranges::find(frames, words.empty() ? "" : words.front());
+  if (frame == frames.end()) return none_of(words.empty() ? "" : words.front(), frames);
+  eye.frame = static_cast<Probe::Frame>(frame - frames.begin());
+  if (words.size() != 6 && words.size() != 7)
+    return Error{"",
+                 "expected car or world, x, y, z in m, degrees to the left and up, and the field in degrees if it is "
+                 "not 60"};
+  const auto read = [&](std::size_t word, double least, double most, double& to) -> Status {
+    const auto number = number_of(words[word], least, most);
+    if (!number) return number.error();
+    to = *number;
+    return Done{};
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    if (const Status done = read(static_cast<std::size_t>(axis) + 1, -1e7, 1e7, eye.position_m[axis]); !done)
+      return done.error();
+  if (const Status done = read(4, -360.0, 360.0, eye.yaw_deg); !done) return done.error();
+  if (const Status done = read(5, -89.0, 89.0, eye.pitch_deg); !done) return done.error();
+  if (words.size() == 7)
+    if (const Status done = read(6, 1.0, 170.0, eye.fov_deg); !done) return done.error();
+  desk.free_eye = eye;
+  return Done{};
+}
+std::string get_free_eye(const Desk& desk) {
+  const FreeEye& eye = desk.free_eye;
+  std::string text(kProbeFrameNames[static_cast<std::size_t>(eye.frame)]);
+  for (int axis = 0; axis < 3; ++axis) text += " " + word_of(eye.position_m[axis]);
+  return text + " " + word_of(eye.yaw_deg) + " " + word_of(eye.pitch_deg) + " " + word_of(eye.fov_deg);
+}
+
 Status set_view(Desk& desk, std::string_view value, const DeskContext&) {
   return choose(kViewNames, desk.view, value);
 }
@@ -162,14 +197,26 @@ std::string get_design(const Desk& desk) {
   return desk.design ? std::to_string(*desk.design) : "cockpit";
 }
 
-/// "car X Y Z" with the normal up, or "car X Y Z NX NY NZ".
-Result<Probe> probe_of(std::span<const std::string> words) {
+/// "car X Y Z" with the normal up, or "car X Y Z NX NY NZ"; "road S LEFT [UP]"; of `frames`.
+Result<Probe> probe_of(std::span<const std::string> words, std::span<const std::string_view> frames) {
   Probe probe;
-  const auto frame = std::ranges::find(kProbeFrameNames, words.empty() ? "" : words.front());
-  if (frame == kProbeFrameNames.end()) return none_of(words.empty() ? "" : words.front(), kProbeFrameNames);
-  probe.frame = static_cast<Probe::Frame>(frame - kProbeFrameNames.begin());
-  if (words.size() != 4 && words.size() != 7)
-    return Error{"", "a probe is car or world, x, y, z in m, and a normal of three numbers unless it is up"};
+  const auto frame = std::ranges::find(frames, words.empty() ? "" : words.front());
+  if (frame == frames.end()) return none_of(words.empty() ? "" : words.front(), frames);
+  probe.frame = static_cast<Probe::Frame>(frame - frames.begin());
+  if (probe.frame == Probe::Frame::kPicture) {
+    if (words.size() != 3) return Error{"", "a point of the picture is its shares of width and height, 0 to 1"};
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto share_01 = number_of(words[static_cast<std::size_t>(axis) + 1], 0.0, 1.0);
+      if (!share_01) return share_01.error();
+      probe.position_m[axis] = *share_01;
+    }
+    return probe;
+  }
+  const bool on_road = probe.frame == Probe::Frame::kRoad && words.size() == 3;
+  if (!on_road && words.size() != 4 && words.size() != 7)
+    return Error{"",
+                 "a probe is car or world, x, y, z in m, and a normal of three numbers unless it is up; or road, s, "
+                 "to the left, and above it unless on it"};
   for (std::size_t i = 1; i < words.size(); ++i) {
     const auto value = number_of(words[i], -1e7, 1e7);
     if (!value) return value.error();
@@ -192,7 +239,7 @@ Status set_probes(Desk& desk, std::string_view value, const DeskContext&) {
     more = end < value.size();
     const std::vector<std::string> words = words_of(value.substr(0, end));
     value.remove_prefix(std::min(end + 1, value.size()));
-    const auto probe = probe_of(words);
+    const auto probe = probe_of(words, std::span(kProbeFrameNames).first(3));
     if (!probe) return probe.error();
     probes.push_back(*probe);
   }
@@ -200,15 +247,52 @@ Status set_probes(Desk& desk, std::string_view value, const DeskContext&) {
   desk.probes = std::move(probes);
   return Done{};
 }
+std::string probe_words(const Probe& probe) {
+  std::string text(kProbeFrameNames[static_cast<std::size_t>(probe.frame)]);
+  const bool turned = probe.normal != Probe{}.normal;
+  const bool two = probe.frame == Probe::Frame::kPicture ||
+                   (probe.frame == Probe::Frame::kRoad && probe.position_m.z == 0.0 && !turned);
+  for (int i = 0; i < (two ? 2 : 3); ++i) text += " " + word_of(probe.position_m[i]);
+  for (int i = 0; turned && i < 3; ++i) text += " " + word_of(probe.normal[i]);
+  return text;
+}
 std::string get_probes(const Desk& desk) {
   std::string text;
-  for (const Probe& probe : desk.probes) {
-    text += (text.empty() ? "" : "; ") + std::string(kProbeFrameNames[static_cast<std::size_t>(probe.frame)]);
-    for (int i = 0; i < 3; ++i) text += " " + word_of(probe.position_m[i]);
-    if (probe.normal != Probe{}.normal)
-      for (int i = 0; i < 3; ++i) text += " " + word_of(probe.normal[i]);
-  }
+  for (const Probe& probe : desk.probes) text += (text.empty() ? "" : "; ") + probe_words(probe);
   return text.empty() ? "none" : text;
+}
+
+Status set_point(Desk& desk, std::string_view value, const DeskContext&) {
+  if (value == "none") {
+    desk.point.reset();
+    return Done{};
+  }
+  const std::vector<std::string> words = words_of(value);
+  const auto point = probe_of(words, kProbeFrameNames);
+  if (!point) return point.error();
+  desk.point = *point;
+  return Done{};
+}
+std::string get_point(const Desk& desk) {
+  return desk.point ? probe_words(*desk.point) : "none";
+}
+
+Status set_grid(Desk& desk, std::string_view value, const DeskContext&) {
+  if (value == "next") {
+    desk.grid_m = desk.grid_m == 0.0 ? 10.0 : desk.grid_m == 10.0 ? 20.0 : 0.0;
+    return Done{};
+  }
+  if (value == "off") {
+    desk.grid_m = 0.0;
+    return Done{};
+  }
+  const auto spacing_m = number_of(value, 1.0, 100.0);
+  if (!spacing_m) return spacing_m.error();
+  desk.grid_m = *spacing_m;
+  return Done{};
+}
+std::string get_grid(const Desk& desk) {
+  return desk.grid_m == 0.0 ? "off" : word_of(desk.grid_m);
 }
 
 /// "auto", or a level of an effect by its name.
@@ -228,8 +312,13 @@ std::string get_level(const Desk& desk) {
 }
 
 constexpr DeskSetting kSettings[] = {
-    {"camera", "driver, birds-eye, chase, next", "the eye: the driver's, one above the road, one behind the car", true,
-     set_camera, get_camera},
+    {"camera", "driver, birds-eye, chase, oncoming, left-mirror, inner-mirror, right-mirror, free, next",
+     "the eye: the driver's, above the road, behind the car, of a driver who meets it, mirrors, free", true, set_camera,
+     get_camera},
+    {"free_eye", "car|world X Y Z YAW_DEG PITCH_DEG [FOV_DEG]",
+     "of the camera free: m, degrees to the left and up; moved by the mouse too", true, set_free_eye, get_free_eye},
+    {"mirrors", "off, on, toggle", "the three mirrors over the picture", true, set_flag<&Desk::mirrors>,
+     get_flag<&Desk::mirrors>},
     {"view", "photo, false-colour, next", "as the eye sees it, or illuminance by colour", true, set_view, get_view},
     {"method", "fragment, vertex, vertex-1998, next", "where illuminance is computed: docs/accuracy.md", true,
      set_method, get_method},
@@ -241,8 +330,17 @@ constexpr DeskSetting kSettings[] = {
      false, set_adaptation, get_adaptation},
     {"design", "cockpit, 0, 1, ...", "the picture shows this design, whatever the cockpit has chosen", true, set_design,
      get_design},
-    {"probes", "none, [add] car|world X Y Z [NX NY NZ]; ...", "points whose lux the overlay tells", true, set_probes,
-     get_probes},
+    {"probes", "none, [add] car|world X Y Z [NX NY NZ]; road S LEFT [UP]; ...",
+     "points whose lux the overlay tells and probes.csv keeps", true, set_probes, get_probes},
+    {"point", "none, picture X_01 Y_01, car|world X Y Z [NX NY NZ], road S LEFT [UP]",
+     "one point read lamp by lamp: what a click in the window chooses", true, set_point, get_point},
+    {"grid_m", "off, 1 to 100, next", "a grid on the road ahead with this spacing", true, set_grid, get_grid},
+    {"isolux", "off, on, toggle", "isolux lines on the road of the photo", true, set_flag<&Desk::isolux>,
+     get_flag<&Desk::isolux>},
+    {"scale", "off, on, toggle", "the scale of the false colours, where they are", true, set_flag<&Desk::scale>,
+     get_flag<&Desk::scale>},
+    {"reach", "off, on, toggle", "how far 1, 3 and 5 lx reach along the lane's edges; kept in probes.csv", true,
+     set_flag<&Desk::reach>, get_flag<&Desk::reach>},
     {"lines", "off, on, toggle", "text at the top: time, lux under the mouse, warnings", true, set_flag<&Desk::lines>,
      get_flag<&Desk::lines>},
     {"instruments", "off, on, toggle", "speed, gear and lights at the lower edge", true, set_flag<&Desk::instruments>,

@@ -20,9 +20,32 @@
 
 namespace phare {
 
+/// A point whose illuminance the overlay tells.
+struct Probe {
+  /// Road: s along the scene's lane, to its left, above the road. Picture: shares of its width and height from the
+  /// upper left corner, and what is seen there.
+  enum class Frame { kCar, kWorld, kRoad, kPicture };
+  Frame frame = Frame::kCar;         ///< what it is pinned to
+  glm::dvec3 position_m{0.0};        ///< in that frame (docs/design.md)
+  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit, of the lit side
+
+  friend bool operator==(const Probe&, const Probe&) = default;
+};
 /// Eyes that a picture can be drawn from (visual/process/cameras.h).
-enum class CameraKind { kDriver, kBirdsEye, kChase };
-inline constexpr std::array<std::string_view, 3> kCameraNames{"driver", "birds-eye", "chase"};
+enum class CameraKind { kDriver, kBirdsEye, kChase, kOncoming, kLeftMirror, kInnerMirror, kRightMirror, kFree };
+inline constexpr std::array<std::string_view, 8> kCameraNames{"driver",      "birds-eye",    "chase",        "oncoming",
+                                                              "left-mirror", "inner-mirror", "right-mirror", "free"};
+
+/// The eye that the user moves: on the car (level, turning with its heading) or in the world.
+struct FreeEye {
+  Probe::Frame frame = Probe::Frame::kCar;  ///< kCar or kWorld
+  glm::dvec3 position_m{-6.0, 2.5, 2.2};
+  double yaw_deg = -12.0;   ///< to the left
+  double pitch_deg = -8.0;  ///< up
+  double fov_deg = 60.0;    ///< horizontal
+
+  friend bool operator==(const FreeEye&, const FreeEye&) = default;
+};
 
 /// As the eye sees it, or illuminance by colour with isolux lines.
 enum class View { kPhoto, kFalseColour };
@@ -33,16 +56,7 @@ inline constexpr std::array<std::string_view, 2> kViewNames{"photo", "false-colo
 enum class Method { kFragment, kVertex, kVertex1998 };
 inline constexpr std::array<std::string_view, 3> kMethodNames{"fragment", "vertex", "vertex-1998"};
 
-/// A point whose illuminance the overlay tells.
-struct Probe {
-  enum class Frame { kCar, kWorld };
-  Frame frame = Frame::kCar;         ///< what it is pinned to
-  glm::dvec3 position_m{0.0};        ///< in that frame (docs/design.md)
-  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit, of the lit side
-
-  friend bool operator==(const Probe&, const Probe&) = default;
-};
-inline constexpr std::array<std::string_view, 2> kProbeFrameNames{"car", "world"};
+inline constexpr std::array<std::string_view, 4> kProbeFrameNames{"car", "world", "road", "picture"};
 inline constexpr std::size_t kMostProbes = 16;
 
 /// Levels of effects that the desk may set, from off to the finest.
@@ -51,13 +65,20 @@ inline constexpr std::array<std::string_view, 4> kShadowNames{"off", "hard", "so
 
 struct Desk {
   CameraKind camera = CameraKind::kDriver;
+  FreeEye free_eye;      ///< of the camera "free"
+  bool mirrors = false;  ///< the three mirrors as insets over the picture of another camera
   View view = View::kPhoto;
   Method method = Method::kFragment;
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< rising, 1 to kMostIsoluxLevels
   double exposure_per_cdm2 = 0.8;     ///< multiplies luminance before the tone curve; fixed, so that beams compare
   EyeSetting eye;                     ///< what the eye takes for white
   std::optional<std::size_t> design;  ///< shown instead of the one that the cockpit has chosen, from 0
-  std::vector<Probe> probes;          ///< at most kMostProbes
+  std::vector<Probe> probes;          ///< at most kMostProbes, none of the picture
+  std::optional<Probe> point;         ///< read lamp by lamp: what a click chooses
+  double grid_m = 0.0;                ///< spacing of the grid on the road ahead; 0: none
+  bool isolux = false;                ///< isolux lines on the road of the photo
+  bool scale = true;                  ///< the scale of the false colours, where they are
+  bool reach = false;                 ///< how far the beam reaches along the lane's edges, told and kept
   bool lines = true;                  ///< lines of text at the top: time, lux under the mouse, warnings
   bool instruments = true;            ///< speed, gear, lights at the lower edge
   bool effects = false;               ///< among the lines each effect with its level and the reason

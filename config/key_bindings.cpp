@@ -36,10 +36,21 @@ constexpr KeyBinding kBindings[] = {
     {kBeginAgain, kDrive, key::kBackspace, "Backspace", {}, "begin again from the start"},
     {kHelp, kPicture, key::kF1, "F1", {}, "show or hide these keys", "help toggle"},
     {kHelp, kPicture, '?', "?", {}, "the same", "help toggle"},
-    {kCamera, kPicture, 'c', "C", {}, "camera: driver, from above, behind the car", "camera next"},
+    {kCamera, kPicture, 'c', "C", {}, "camera: driver, above, behind, oncoming, mirrors, free", "camera next"},
     {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour", "view next"},
     {kEffects, kPicture, key::kF3, "F3", {}, "which effects are on, and why", "effects toggle"},
     {kMethod, kPicture, key::kF4, "F4", {}, "where light is computed: pixels, vertices, as in 1998", "method next"},
+    {kMirrors, kPicture, key::kF7, "F7", {}, "mirrors over the picture", "mirrors toggle"},
+    {kGrid, kPicture, key::kF5, "F5", {}, "grid on the road: 10 m, 20 m, none", "grid_m next"},
+    {kIsolux, kPicture, key::kF6, "F6", {}, "isolux lines on the road", "isolux toggle"},
+    {kLampChoose, kPicture, 'm', "M", {}, "move lamps: which pair or lamp; at the last, none"},
+    {kLampQuantity, kPicture, 'x', "X", {}, "what of it: forward, left, up, spacing, yaw, pitch, roll"},
+    {kLampMore, kPicture, key::kPageUp, "PageUp", {}, "the chosen lamps 1 cm or 0.1 deg further"},
+    {kLampLess, kPicture, key::kPageDown, "PageDown", {}, "the same, back"},
+    {kLampsUp, kPicture, key::kHome, "Home", {}, "all lamps 0.1 deg up"},
+    {kLampsDown, kPicture, key::kEnd, "End", {}, "all lamps 0.1 deg down"},
+    {kLampUndo, kPicture, 'u', "U", {}, "take back what was moved last"},
+    {kLampReset, kPicture, 'U', "Shift+U", {}, "chosen lamps, or all, as in the rig file"},
     {kLeave, kPicture, key::kEscape, "Esc", {}, "hide these keys, or leave the drive"},
 };
 
@@ -96,6 +107,10 @@ bool is_driving(KeyAction action) {
     default:
       return false;
   }
+}
+
+bool repeats(KeyAction action) {
+  return action == kLampMore || action == kLampLess || action == kLampsUp || action == kLampsDown;
 }
 
 std::optional<KeyCode> take_terminal_key(std::string_view& bytes) {

@@ -16,8 +16,9 @@ namespace phare {
 /// number (GLFW 3.3, "Keyboard key tokens"), as the window process asserts.
 using KeyCode = std::uint32_t;
 namespace key {
-inline constexpr KeyCode kEscape = 256, kBackspace = 259, kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kF1 = 290,
-                         kF2 = 291, kF3 = 292, kF4 = 293;
+inline constexpr KeyCode kEscape = 256, kBackspace = 259, kRight = 262, kLeft = 263, kDown = 264, kUp = 265,
+                         kPageUp = 266, kPageDown = 267, kHome = 268, kEnd = 269, kF1 = 290, kF2 = 291, kF3 = 292,
+                         kF4 = 293, kF5 = 294, kF6 = 295, kF7 = 296;
 }  // namespace key
 
 enum class KeyAction {
@@ -47,9 +48,20 @@ enum class KeyAction {
   kFalseColour,
   kEffects,
   kMethod,
+  kMirrors,
+  kGrid,
+  kIsolux,
+  kLampChoose,
+  kLampQuantity,
+  kLampMore,
+  kLampLess,
+  kLampsUp,
+  kLampsDown,
+  kLampUndo,
+  kLampReset,
   kLeave,
 };
-inline constexpr std::size_t kKeyActions = 27;
+inline constexpr std::size_t kKeyActions = 38;
 
 /// Who acts on a key: the car (phare-cockpit), the picture (phare-visual), or the drive as a whole (phare drive).
 enum class KeyActor { kCar, kPicture, kDrive };
@@ -73,6 +85,9 @@ const KeyBinding* binding_of(KeyAction action);  ///< the first of its keys; nev
 
 /// Steering, pedals, gear: whoever presses one wants to drive.
 bool is_driving(KeyAction action);
+
+/// Held, it goes on step by step in the window.
+bool repeats(KeyAction action);
 
 /// A letter with Shift or Caps Lock counts as the letter where the upper case is not bound; nullopt: neither is.
 std::optional<KeyCode> bound_code(KeyCode code);

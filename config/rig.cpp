@@ -177,10 +177,9 @@ Result<Rig> read_rig(const std::filesystem::path& file) {
   return std::move(reading->rig);
 }
 
-Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
-  auto read = TomlTable::read(file);
-  if (!read) return read.error();
-  TomlTable root = *read;
+namespace {
+
+RigReading read_root(TomlTable root, const std::filesystem::path& file) {
   const std::filesystem::path rig_file = std::filesystem::absolute(file).lexically_normal();
 
   RigReading reading;
@@ -244,6 +243,20 @@ Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
   reading.problems.insert(reading.problems.begin(), of_file.begin(), of_file.end());
   reading.known_keys = root.known_keys();
   return reading;
+}
+
+}  // namespace
+
+Result<RigReading> read_rig_whole(const std::filesystem::path& file) {
+  auto root = TomlTable::read(file);
+  if (!root) return root.error();
+  return read_root(std::move(*root), file);
+}
+
+Result<RigReading> read_rig_text(std::string_view text, const std::filesystem::path& file) {
+  auto root = TomlTable::parse(text, file.string());
+  if (!root) return root.error();
+  return read_root(std::move(*root), file);
 }
 
 Status check_rig_files(const Rig& rig) {

@@ -138,6 +138,8 @@ struct RigReading {
 };
 /// Error: no such file, or no TOML.
 Result<RigReading> read_rig_whole(const std::filesystem::path& file);
+/// The same from text, as if it stood in `file`.
+Result<RigReading> read_rig_text(std::string_view text, const std::filesystem::path& file);
 
 /// The lamp across the car: the same photometry on the other side, its aim mirrored about the car's middle plane.
 LampConfig lamp_across(LampConfig lamp);

@@ -10,16 +10,20 @@
 #include "config/paths.h"
 
 namespace phare {
-namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
-/// Shortest decimal that reads back as the same number, and as TOML's float or integer.
 std::string number_word(double value) {
   char text[40];
   const auto end = std::to_chars(text, text + sizeof text, value == 0.0 ? 0.0 : value).ptr;
   return {text, end};
 }
+
+std::string vector_word(const glm::dvec3& v) {
+  return "[" + number_word(v.x) + ", " + number_word(v.y) + ", " + number_word(v.z) + "]";
+}
+
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 /// Shortest decimal in degrees that read_rig turns into the same radians.
 std::string degrees_word(double rad) {
@@ -36,10 +40,6 @@ std::string degrees_word(double rad) {
     if (near * kRadPerDeg == rad) return number_word(near);
   }
   return number_word(deg);
-}
-
-std::string vector_word(const glm::dvec3& v) {
-  return "[" + number_word(v.x) + ", " + number_word(v.y) + ", " + number_word(v.z) + "]";
 }
 
 bool ends_with_side(const std::string& name, const std::string& side, std::string& stem) {

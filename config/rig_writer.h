@@ -26,6 +26,10 @@ struct RigWords {
 /// The text of a rig file. A left lamp and its twin are written as one with pair = true.
 std::string rig_text(const Rig& rig, const RigWords& words);
 
+/// Shortest decimal that reads back as the same number.
+std::string number_word(double value);
+std::string vector_word(const glm::dvec3& v);
+
 /// A text in TOML's quotes.
 std::string toml_quoted(const std::string& text);
 

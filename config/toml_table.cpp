@@ -174,6 +174,14 @@ Result<TomlTable> TomlTable::parse(std::string_view text, const std::string& nam
   return TomlTable(std::move(document), node);
 }
 
+std::optional<TomlTable::Region> TomlTable::region(std::string_view key) const {
+  if (node_->table == nullptr) return std::nullopt;
+  const toml::node* value = key.empty() ? node_->table : node_->table->get(key);
+  if (value == nullptr) return std::nullopt;
+  const toml::source_region& at = value->source();
+  return Region{at.begin.line, at.begin.column, at.end.line, at.end.column};
+}
+
 bool TomlTable::has(std::string_view key) const {
   node_->asked.emplace(key);
   return node_->table != nullptr && node_->table->contains(key);

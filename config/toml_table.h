@@ -57,6 +57,12 @@ class TomlTable {
 
   /// "file:line" of a key, or of the table when it has no such key.
   std::string place(std::string_view key = {}) const;
+  /// Where a value stands in the text, or this table where no key is given ([[header]], or its inline form {…}): lines
+  /// and columns count from 1, columns in Unicode code points; the end is the first place behind. Nothing: no such key.
+  struct Region {
+    std::uint32_t begin_line = 1, begin_column = 1, end_line = 1, end_column = 1;
+  };
+  std::optional<Region> region(std::string_view key = {}) const;
   /// Notes an error of the caller's own check at a key.
   void fail(std::string_view key, std::string reason);
   const std::filesystem::path& file() const;

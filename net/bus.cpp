@@ -107,6 +107,7 @@ Bus::Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel)
   std::get<std::vector<Inbox<KeyInput>>>(inboxes_).resize(channels_);
   std::get<std::vector<Inbox<ControlReply>>>(inboxes_).resize(channels_);
   std::get<std::vector<Inbox<LawAnswer>>>(inboxes_).resize(1);
+  std::get<std::vector<Inbox<LampState>>>(inboxes_).resize(channels_);
 }
 
 void Bus::send(SimTime now, const Payload& payload) {

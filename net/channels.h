@@ -77,7 +77,7 @@ struct Channel {
 /// In the order of the alternatives of Payload.
 /// CockpitState goes stale when 20 are missing: pedals fade, low beam stays on. VehicleState goes stale when 50 are
 /// missing: until then the picture coasts, then it holds and says so.
-inline constexpr std::array<Channel, 10> kChannels{{
+inline constexpr std::array<Channel, 11> kChannels{{
     // clang-format off
     // message          sender             receivers                                                                first  Hz   stale after                    repeat
     {"cockpit_state",   Sender::kCockpit,  Roles(Role::kDynamics, Role::kVisual, Role::kRecorder, Role::kLaw),       false, 100, std::chrono::milliseconds(200), false},
@@ -90,6 +90,7 @@ inline constexpr std::array<Channel, 10> kChannels{{
     {"control_reply",   Sender::kCockpit,  Roles(Role::kControl),                                                    false, 0,   std::chrono::seconds(0),        false, true, true},
     {"clock_probe",     Sender::kCockpit,  Roles(Role::kCockpit, Role::kDynamics, Role::kVisual),                    false, 1,   std::chrono::seconds(0),        false, true, true},
     {"law_answer",      Sender::kLaw,      Roles(Role::kVisual, Role::kRecorder),                                    false, 60,  std::chrono::milliseconds(200), false},
+    {"lamp_state",      Sender::kVisual,   Roles(Role::kVisual, Role::kRecorder),                                    false, 1,   std::chrono::seconds(0),        false},
     // clang-format on
 }};
 static_assert(kChannels.size() == std::variant_size_v<Payload>);

@@ -44,6 +44,10 @@ const std::array<Roles, Verbs::kKinds> kConcerned{
     kVisual,                               // Place
     kEveryone,                             // Tell
     kVisual,                               // Set
+    kVisual,                               // Mount
+    kVisual,                               // Undo
+    kVisual,                               // Reset
+    kVisual,                               // Save
 };
 
 }  // namespace

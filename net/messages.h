@@ -135,6 +135,29 @@ struct Set {
   std::string value;
   friend bool operator==(const Set&, const Set&) = default;
 };
+enum class MountQuantity { kForward, kLeft, kUp, kSpacing, kYaw, kPitch, kRoll };
+/// Of a lamp, a pair ("headlamp"), or all lamps (no name).
+struct Mount {
+  std::string lamp;
+  MountQuantity quantity = MountQuantity::kForward;
+  double value = 0.0;  ///< m, rad
+  bool by = false;     ///< added to what holds now
+  friend bool operator==(const Mount&, const Mount&) = default;
+};
+struct Undo {
+  std::uint32_t steps = 1;
+  friend bool operator==(const Undo&, const Undo&) = default;
+};
+/// No name: all lamps, and their aim.
+struct Reset {
+  std::string lamp;
+  friend bool operator==(const Reset&, const Reset&) = default;
+};
+/// No file: the rig's own.
+struct Save {
+  std::string file;
+  friend bool operator==(const Save&, const Save&) = default;
+};
 /// Changes nothing; the answers say what holds now.
 struct Tell {
   friend bool operator==(const Tell&, const Tell&) = default;
@@ -152,7 +175,11 @@ struct RigControl {
   using Place = rig_command::Place;
   using Tell = rig_command::Tell;
   using Set = rig_command::Set;
-  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel, Place, Tell, Set> command;
+  using Mount = rig_command::Mount;
+  using Undo = rig_command::Undo;
+  using Reset = rig_command::Reset;
+  using Save = rig_command::Save;
+  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel, Place, Tell, Set, Mount, Undo, Reset, Save> command;
   std::uint64_t request_id = 0;
   std::uint64_t first_open = 0;
 
@@ -226,8 +253,20 @@ struct LawAnswer {
   friend bool operator==(const LawAnswer&, const LawAnswer&) = default;
 };
 
+/// Most lamps of a design that a LampState tells of.
+inline constexpr std::size_t kMostLampStates = 16;
+
+/// Arrays in the order of the design's lamps.
+struct LampState {
+  std::uint32_t design_index = 0;
+  double aim_pitch_rad = 0.0;
+  std::vector<double> x_m, y_m, z_m, yaw_rad, pitch_rad, roll_rad;
+
+  friend bool operator==(const LampState&, const LampState&) = default;
+};
+
 using Payload = std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply, KeyInput,
-                             ControlReply, ClockProbe, LawAnswer>;
+                             ControlReply, ClockProbe, LawAnswer, LampState>;
 
 /// The envelope every payload travels in.
 struct Datagram {

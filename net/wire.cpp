@@ -169,6 +169,15 @@ struct CommandFiller {
     to.mutable_set()->set_setting(set.setting);
     to.mutable_set()->set_value(set.value);
   }
+  void operator()(const RigControl::Mount& mount) const {
+    to.mutable_mount()->set_lamp(mount.lamp);
+    to.mutable_mount()->set_quantity(to_wire_enum<wire::MountQuantity>(static_cast<int>(mount.quantity)));
+    to.mutable_mount()->set_value(mount.value);
+    to.mutable_mount()->set_by(mount.by);
+  }
+  void operator()(const RigControl::Undo& undo) const { to.mutable_undo()->set_steps(undo.steps); }
+  void operator()(const RigControl::Reset& reset) const { to.mutable_reset()->set_lamp(reset.lamp); }
+  void operator()(const RigControl::Save& save) const { to.mutable_save()->set_file(save.file); }
 };
 
 void fill(wire::RigControl& to, const RigControl& from) {
@@ -226,6 +235,17 @@ void fill(wire::LawAnswer& to, const LawAnswer& from) {
   }
 }
 
+void fill(wire::LampState& to, const LampState& from) {
+  to.set_design_index(from.design_index);
+  to.set_aim_pitch_rad(from.aim_pitch_rad);
+  to.mutable_x_m()->Add(from.x_m.begin(), from.x_m.end());
+  to.mutable_y_m()->Add(from.y_m.begin(), from.y_m.end());
+  to.mutable_z_m()->Add(from.z_m.begin(), from.z_m.end());
+  to.mutable_yaw_rad()->Add(from.yaw_rad.begin(), from.yaw_rad.end());
+  to.mutable_pitch_rad()->Add(from.pitch_rad.begin(), from.pitch_rad.end());
+  to.mutable_roll_rad()->Add(from.roll_rad.begin(), from.roll_rad.end());
+}
+
 struct PayloadFiller {
   wire::Datagram& to;
   void operator()(const CockpitState& from) const { fill(*to.mutable_cockpit_state(), from); }
@@ -238,6 +258,7 @@ struct PayloadFiller {
   void operator()(const ControlReply& from) const { fill(*to.mutable_control_reply(), from); }
   void operator()(const ClockProbe& from) const { fill(*to.mutable_clock_probe(), from); }
   void operator()(const LawAnswer& from) const { fill(*to.mutable_law_answer(), from); }
+  void operator()(const LampState& from) const { fill(*to.mutable_lamp_state(), from); }
 };
 
 // ---- protobuf to struct
@@ -350,6 +371,20 @@ bool read(RigControl& to, const wire::RigControl& from) {
     case wire::RigControl::kSet:
       to.command = RigControl::Set{from.set().setting(), from.set().value()};
       return true;
+    case wire::RigControl::kMount:
+      to.command = RigControl::Mount{from.mount().lamp(),
+                                     static_cast<rig_command::MountQuantity>(static_cast<int>(from.mount().quantity())),
+                                     from.mount().value(), from.mount().by()};
+      return true;
+    case wire::RigControl::kUndo:
+      to.command = RigControl::Undo{from.undo().steps()};
+      return true;
+    case wire::RigControl::kReset:
+      to.command = RigControl::Reset{from.reset().lamp()};
+      return true;
+    case wire::RigControl::kSave:
+      to.command = RigControl::Save{from.save().file()};
+      return true;
     case wire::RigControl::COMMAND_NOT_SET:
       break;
   }
@@ -407,6 +442,17 @@ void read(LawAnswer& to, const wire::LawAnswer& from) {
   }
 }
 
+void read(LampState& to, const wire::LampState& from) {
+  to.design_index = from.design_index();
+  to.aim_pitch_rad = from.aim_pitch_rad();
+  to.x_m.assign(from.x_m().begin(), from.x_m().end());
+  to.y_m.assign(from.y_m().begin(), from.y_m().end());
+  to.z_m.assign(from.z_m().begin(), from.z_m().end());
+  to.yaw_rad.assign(from.yaw_rad().begin(), from.yaw_rad().end());
+  to.pitch_rad.assign(from.pitch_rad().begin(), from.pitch_rad().end());
+  to.roll_rad.assign(from.roll_rad().begin(), from.roll_rad().end());
+}
+
 /// The payload to read into: the one of the last datagram where the type fits, so that its memory is used again.
 template <typename T>
 T& reused(Payload& payload) {
@@ -433,7 +479,10 @@ bool any_unknown(const wire::Datagram& message) {
       const wire::RigControl& control = message.rig_control();
       return unknown_in(control) || (control.has_dim() && unknown_in(control.dim())) ||
              (control.has_swivel() && unknown_in(control.swivel())) ||
-             (control.has_place() && unknown_in(control.place())) || (control.has_set() && unknown_in(control.set()));
+             (control.has_place() && unknown_in(control.place())) || (control.has_set() && unknown_in(control.set())) ||
+             (control.has_mount() && unknown_in(control.mount())) ||
+             (control.has_undo() && unknown_in(control.undo())) ||
+             (control.has_reset() && unknown_in(control.reset())) || (control.has_save() && unknown_in(control.save()));
     }
     case wire::Datagram::kProbeRequest:
       return unknown_in(message.probe_request());
@@ -448,6 +497,8 @@ bool any_unknown(const wire::Datagram& message) {
     case wire::Datagram::kLawAnswer:
       return unknown_in(message.law_answer()) ||
              std::ranges::any_of(message.law_answer().lamps(), [](const auto& lamp) { return unknown_in(lamp); });
+    case wire::Datagram::kLampState:
+      return unknown_in(message.lamp_state());
     case wire::Datagram::PAYLOAD_NOT_SET:
       break;
   }
@@ -543,6 +594,9 @@ Refusal decode_into(std::span<const std::byte> bytes, Datagram& datagram) {
       break;
     case wire::Datagram::kControlReply:
       read(reused<ControlReply>(datagram.payload), message.control_reply());
+      break;
+    case wire::Datagram::kLampState:
+      read(reused<LampState>(datagram.payload), message.lamp_state());
       break;
     case wire::Datagram::kClockProbe:
       read(reused<ClockProbe>(datagram.payload), message.clock_probe());

@@ -33,6 +33,7 @@ constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kMaxValueBytes = 1024;  // of a setting
 constexpr std::uint32_t kMaxSources = 10000;  // of a lamp
 constexpr double kMaxMounting_m = 50.0;       // of a lamp from the car's origin: long lorries too
+constexpr std::uint32_t kMaxUndoSteps = 1000;
 constexpr std::size_t kMaxErrorBytes = 4096;
 constexpr std::uint32_t kMaxKey = 0x1ff;  // characters of Latin-1, then GLFW's numbers
 
@@ -134,6 +135,14 @@ struct CommandChecker {
   void operator()(const RigControl::Set& set) const {
     c.require(!set.setting.empty() && set.setting.size() <= kMaxNameBytes && set.value.size() <= kMaxValueBytes);
   }
+  void operator()(const RigControl::Mount& mount) const {
+    c.require(mount.lamp.size() <= kMaxNameBytes);
+    c.require(enum_within(mount.quantity, rig_command::MountQuantity::kRoll));
+    c.within(mount.value, mount.quantity <= rig_command::MountQuantity::kSpacing ? 2.0 * kMaxMounting_m : kMaxAim_rad);
+  }
+  void operator()(const RigControl::Undo& undo) const { c.require(undo.steps >= 1 && undo.steps <= kMaxUndoSteps); }
+  void operator()(const RigControl::Reset& reset) const { c.require(reset.lamp.size() <= kMaxNameBytes); }
+  void operator()(const RigControl::Save& save) const { c.require(save.file.size() <= kMaxErrorBytes); }
 };
 
 void check(Checker& c, const RigControl& control) {
@@ -172,6 +181,17 @@ void check(Checker& c, const ControlReply& r) {
   c.require(r.request_id >= 1 && r.request_id <= kMaxSequence);
   c.require(enum_within(r.verdict, Verdict::kNotMine));
   c.require(r.reason.size() <= kMaxErrorBytes && r.now.size() <= kMaxErrorBytes);
+}
+
+void check(Checker& c, const LampState& s) {
+  const std::size_t lamps = s.x_m.size();
+  c.require(s.design_index < kMaxDesigns);
+  c.require(lamps >= 1 && lamps <= kMostLampStates, Refusal::kArrays);
+  for (const auto* array : {&s.y_m, &s.z_m, &s.yaw_rad, &s.pitch_rad, &s.roll_rad})
+    c.require(array->size() == lamps, Refusal::kArrays);
+  for (const auto* array : {&s.x_m, &s.y_m, &s.z_m}) c.numbers(*array, -kMaxMounting_m, kMaxMounting_m);
+  for (const auto* array : {&s.yaw_rad, &s.pitch_rad, &s.roll_rad}) c.numbers(*array, -kMaxAim_rad, kMaxAim_rad);
+  c.within(s.aim_pitch_rad, kMaxAim_rad);
 }
 
 void check(Checker& c, const ClockProbe& probe) {

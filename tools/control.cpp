@@ -1,10 +1,11 @@
-// phare control: commands to a running rig - dim, swivel, place, aim, design, set, pause, quit - and its answers.
+// phare control: commands to a running rig - dim, move lamps, design, set, pause, quit - and its answers.
 #include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <iomanip>
 #include <memory>
@@ -31,9 +32,10 @@ struct ControlOptions {
 
 /// The words of a command after its verb.
 struct Words {
-  std::string lamp;             ///< of verbs that name one
-  std::vector<double> numbers;  ///< of all others, but for `text`
-  std::string text;             ///< of verbs that take words: all of them
+  std::string lamp;              ///< of verbs that name one
+  std::vector<double> numbers;   ///< of all others, but for `text`
+  std::string text;              ///< of verbs that take words: all of them
+  std::vector<std::string> all;  ///< the same, each
 };
 enum class Takes { kNumbers, kLampAndNumbers, kText };
 
@@ -69,9 +71,61 @@ Result<RigControl> place(const Words& w) {
     if (std::abs(at_m) > 50.0) return Error{"", "a lamp more than 50 m from its car"};
   return RigControl{RigControl::Place{w.lamp, w.numbers[0], w.numbers[1], w.numbers[2]}};
 }
+Result<double> number(const std::string& word);
+
+/// "[by] NUMBER" from the word `at` on, and nothing behind.
+Result<RigControl::Mount> mount_of(const Words& w, std::size_t at) {
+  RigControl::Mount mount;
+  mount.by = at < w.all.size() && w.all[at] == "by";
+  if (mount.by) ++at;
+  if (at + 1 != w.all.size()) return Error{"", "expected one number, or by and one"};
+  const auto value = number(w.all[at]);
+  if (!value) return value.error();
+  mount.value = *value;
+  return mount;
+}
 Result<RigControl> aim(const Words& w) {
-  if (std::abs(w.numbers[0]) > 90.0) return Error{"", "an angle beyond 90 degrees"};
-  return RigControl{RigControl::Aim{w.numbers[0] * kRadPerDeg}};
+  auto mount = mount_of(w, 0);
+  if (!mount) return mount.error();
+  if (std::abs(mount->value) > 90.0) return Error{"", "an angle beyond 90 degrees"};
+  if (!mount->by) return RigControl{RigControl::Aim{mount->value * kRadPerDeg}};
+  mount->quantity = rig_command::MountQuantity::kPitch;
+  mount->value *= kRadPerDeg;
+  return RigControl{std::move(*mount)};
+}
+Result<RigControl> move(const Words& w) {
+  using rig_command::MountQuantity;
+  constexpr std::string_view kNames[] = {"forward", "left", "up", "spacing", "yaw", "pitch", "roll"};
+  if (w.all.size() < 3) return Error{"", "expected a lamp or a pair, what of it, and how much"};
+  auto mount = mount_of(w, 2);
+  if (!mount) return mount.error();
+  const auto found = std::ranges::find(kNames, w.all[1]);
+  if (found == std::end(kNames))
+    return Error{
+        "", unknown_name_reason("quantity", w.all[1], std::vector<std::string>(std::begin(kNames), std::end(kNames)))};
+  mount->lamp = w.all[0] == "all" ? "" : w.all[0];
+  mount->quantity = static_cast<MountQuantity>(found - std::begin(kNames));
+  if (mount->quantity > MountQuantity::kSpacing) {
+    if (std::abs(mount->value) > 90.0) return Error{"", "an angle beyond 90 degrees"};
+    mount->value *= kRadPerDeg;
+  } else if (std::abs(mount->value) > 50.0) {
+    return Error{"", "a lamp more than 50 m from its car"};
+  }
+  return RigControl{std::move(*mount)};
+}
+Result<RigControl> undo(const Words& w) {
+  const double steps = w.numbers.empty() ? 1.0 : w.numbers[0];
+  if (!is_count(steps, 1000.0) || steps < 1.0) return Error{"", "1 to 1000 steps"};
+  return RigControl{RigControl::Undo{static_cast<std::uint32_t>(steps)}};
+}
+Result<RigControl> reset(const Words& w) {
+  return RigControl{RigControl::Reset{w.text == "all" ? "" : w.text}};
+}
+Result<RigControl> save(const Words& w) {
+  std::string file;
+  if (!w.text.empty()) file = std::filesystem::absolute(w.text).lexically_normal().string();
+  if (file.size() > 4096) return Error{"", "more than a message holds"};
+  return RigControl{RigControl::Save{std::move(file)}};
 }
 Result<RigControl> design(const Words& w) {
   if (!is_count(w.numbers[0], 9999.0)) return Error{"", "designs are counted from 0"};
@@ -99,7 +153,16 @@ constexpr Verb kVerbs[] = {
     {"swivel", "LAMP YAW_DEG [PITCH_DEG]", "a whole lamp, left and up positive", Takes::kLampAndNumbers, 1, 2, swivel},
     {"place", "LAMP X_M Y_M Z_M", "a lamp elsewhere on the car: from below the rear axle's middle forward, left, up",
      Takes::kLampAndNumbers, 3, 3, place},
-    {"aim", "PITCH_DEG", "all lamps, up positive", Takes::kNumbers, 1, 1, aim},
+    {"aim", "[by] PITCH_DEG", "all lamps, up positive; by: the levelling wheel, on top of what holds", Takes::kText, 1,
+     2, aim},
+    {"move", "LAMP|PAIR QUANTITY [by] VALUE",
+     "forward, left, up, spacing (m) or yaw, pitch, roll (degrees) of a lamp or a pair; by: on top of what holds",
+     Takes::kText, 3, 4, move},
+    {"undo", "[STEPS]", "takes back what was placed, turned or aimed last", Takes::kNumbers, 0, 1, undo},
+    {"reset", "[LAMP|PAIR]", "place and turn as in the rig file; without a lamp: of all, and the aim", Takes::kText, 0,
+     1, reset},
+    {"save", "[FILE]", "places and turns into the rig file, comments kept, or into another beside it", Takes::kText, 0,
+     kAny, save},
     {"design", "INDEX", "counted from 0", Takes::kNumbers, 1, 1, design},
     {"set", "SETTING [VALUE]", "a setting of the picture, below; without a value: what it is", Takes::kText, 1, kAny,
      set},
@@ -142,6 +205,7 @@ Result<RigControl> parse(const std::vector<std::string>& words) {
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (verb->takes == Takes::kText) {
       taken.text += (i == 1 ? "" : " ") + words[i];
+      taken.all.push_back(words[i]);
       ++count;
     } else if (verb->takes == Takes::kLampAndNumbers && i == 1) {
       taken.lamp = words[i];
@@ -277,7 +341,7 @@ void add_control(CLI::App& app, Command& chosen) {
       "With -, one command a line comes from standard input and one answer a line goes out, \"ok: ...\" or "
       "\"refused: ...\";\nwhat is refused does not end the stream, and makes its exit code 2.\n"
       "Examples, while phare drive runs:\n  phare control status\n  phare control dim \"headlamp left\" 1 0.5\n"
-      "  phare control set camera chase\n"
+      "  phare control move headlamp up by 0.05\n  phare control set camera chase\n"
       "  phare control - < commands.txt");
   command->add_option("--rig", options->rig_file, "Rig file: address, ports, channels and key")->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")

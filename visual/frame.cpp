@@ -153,7 +153,8 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
     if (!parts.overlay)
       parts.overlay =
           std::make_unique<OverlayPass>(parts.device, parts.target.display_format, parts.target.extent.height);
-    parts.overlay->draw(parts.graph, *seen.display, input.overlay, input.instruments, input.panel);
+    parts.overlay->draw(parts.graph, *seen.display, input.overlay, input.instruments, input.panel,
+                        input.marks);
   }
 
   // What is kept of the finished picture.

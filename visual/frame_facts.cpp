@@ -19,7 +19,7 @@ bool looks_for_casters(const ViewInput& view) {
 
 std::size_t text_lines(const FrameInput& input) {
   return input.overlay.size() + input.instruments.size() + input.panel.rows.size() +
-         (input.panel.title.empty() ? 0u : 1u);
+         (input.panel.title.empty() ? 0u : 1u) + input.marks.size();
 }
 
 }  // namespace phare

@@ -40,4 +40,28 @@ struct OverlayPanel {
   friend bool operator==(const OverlayPanel&, const OverlayPanel&) = default;
 };
 
+/// Drawn on the picture, under the text; places are shares of its width and height from the upper left corner.
+struct OverlayMarks {
+  struct Box {
+    double left_01 = 0.0, top_01 = 0.0, width_01 = 0.0, height_01 = 0.0;
+    OverlayColour colour{};
+    unsigned char alpha = 255;
+  };
+  struct Line {
+    double x0_01 = 0.0, y0_01 = 0.0, x1_01 = 0.0, y1_01 = 0.0;
+    OverlayColour colour{};
+  };
+  /// Begins at its place, and lies about its height.
+  struct Label {
+    double x_01 = 0.0, y_01 = 0.0;
+    std::string text;
+    OverlayColour colour{};
+  };
+  std::vector<Box> boxes{};  ///< below the lines, in order
+  std::vector<Line> lines{};
+  std::vector<Label> labels{};
+
+  std::size_t size() const { return boxes.size() + lines.size() + labels.size(); }
+};
+
 }  // namespace phare

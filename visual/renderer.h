@@ -87,7 +87,8 @@ struct FrameInput : ViewInput {
   std::vector<ViewInput> more_views{};  ///< drawn after it, in order: mirrors, insets, another design beside it
   std::vector<std::string> overlay{};   ///< lines of text over the picture
   std::vector<OverlayInstrument> instruments{};
-  OverlayPanel panel{};  ///< nothing in these three: no overlay pass
+  OverlayPanel panel{};
+  OverlayMarks marks{};  ///< nothing in these four: no overlay pass
 };
 
 struct PassTime {

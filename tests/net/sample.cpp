@@ -106,7 +106,7 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       return r;
     }
     case kPayloadIndex<RigControl>: {
-      switch (v.whole(9)) {
+      switch (v.whole(13)) {
         case 0:
           return RigControl{RigControl::Pause{v.flag()}};
         case 1:
@@ -129,6 +129,16 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
         }
         case 8:
           return RigControl{RigControl::Set{"isolux_lx", std::string(v.whole(1024), '1')}};
+        case 9:
+          return RigControl{RigControl::Mount{v.flag() ? "" : "headlamp",
+                                              static_cast<rig_command::MountQuantity>(v.whole(6)), v.number(-1.5, 1.5),
+                                              v.flag()}};
+        case 10:
+          return RigControl{RigControl::Undo{1 + static_cast<std::uint32_t>(v.whole(9))}};
+        case 11:
+          return RigControl{RigControl::Reset{v.flag() ? "" : "fog left"}};
+        case 12:
+          return RigControl{RigControl::Save{v.flag() ? "" : "/home/jemand/prüfung.toml"}};
         default:
           return RigControl{RigControl::Quit{}};
       }
@@ -162,6 +172,15 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       r.illuminance_lx = v.numbers(v.whole(50), 0, 1e4);
       r.error = v.flag() ? "" : "no lamp is lit — prüfen";
       return r;
+    }
+    case kPayloadIndex<LampState>: {
+      const std::size_t n = 1 + v.whole(kMostLampStates - 1);
+      LampState s;
+      s.design_index = static_cast<std::uint32_t>(v.whole(9));
+      s.aim_pitch_rad = v.number(-0.1, 0.1);
+      for (auto* array : {&s.x_m, &s.y_m, &s.z_m}) *array = v.numbers(n, -5, 5);
+      for (auto* array : {&s.yaw_rad, &s.pitch_rad, &s.roll_rad}) *array = v.numbers(n, -1.5, 1.5);
+      return s;
     }
     case kPayloadIndex<ClockProbe>: {
       ClockProbe probe;
@@ -225,6 +244,11 @@ std::vector<Datagram> samples(std::uint64_t seed) {
                                  {RigControl::Place{"headlamp left", 3.4, 0.7, 0.9}},
                                  {RigControl::Set{"camera", "chase"}},
                                  {RigControl::Set{"help", ""}},
+                                 {RigControl::Mount{"headlamp", rig_command::MountQuantity::kSpacing, -0.02, true}},
+                                 {RigControl::Mount{"", rig_command::MountQuantity::kPitch, 0.01, false}},
+                                 {RigControl::Undo{3}},
+                                 {RigControl::Reset{""}},
+                                 {RigControl::Save{""}},
                                  {RigControl::Tell{}, 12, 3}};
   for (const RigControl& command : commands) {
     Datagram d = sample(kPayloadIndex<RigControl>, random);

@@ -234,6 +234,7 @@ TEST(WireRefuses, ValuesOutOfRange) {
   constexpr std::size_t kAnswer = kPayloadIndex<ControlReply>;
   constexpr std::size_t kClock = kPayloadIndex<ClockProbe>;
   constexpr std::size_t kLaw = kPayloadIndex<LawAnswer>;
+  constexpr std::size_t kLamps = kPayloadIndex<LampState>;
   const std::vector<std::pair<std::size_t, std::function<void(D&)>>> wrong = {
       {kCockpit, [](D& m) { m.mutable_cockpit_state()->set_accelerator_01(1.0000001); }},
       {kCockpit, [](D& m) { m.mutable_cockpit_state()->set_brake_01(-1e-9); }},
@@ -277,6 +278,20 @@ TEST(WireRefuses, ValuesOutOfRange) {
          m.mutable_rig_control()->mutable_place()->set_lamp("left");
          m.mutable_rig_control()->mutable_place()->set_x_m(51.0);
        }},
+      {kControl, [](D& m) { m.mutable_rig_control()->mutable_mount()->set_value(101.0); }},
+      {kControl, [](D& m) { m.mutable_rig_control()->mutable_mount()->set_lamp(std::string(65, 'x')); }},
+      {kControl,
+       [](D& m) {
+         m.mutable_rig_control()->mutable_mount()->set_quantity(wire::MOUNT_YAW);
+         m.mutable_rig_control()->mutable_mount()->set_value(1.7);
+       }},
+      {kControl,
+       [](D& m) { m.mutable_rig_control()->mutable_mount()->set_quantity(static_cast<wire::MountQuantity>(7)); }},
+      {kControl, [](D& m) { m.mutable_rig_control()->mutable_undo()->set_steps(0); }},
+      {kControl, [](D& m) { m.mutable_rig_control()->mutable_save()->set_file(std::string(5000, 'x')); }},
+      {kLamps, [](D& m) { m.mutable_lamp_state()->set_x_m(0, 51.0); }},
+      {kLamps, [](D& m) { m.mutable_lamp_state()->set_roll_rad(0, 1.7); }},
+      {kLamps, [](D& m) { m.mutable_lamp_state()->set_aim_pitch_rad(1.7); }},
       {kControl, [](D& m) { m.mutable_rig_control()->set_request_id(5), m.mutable_rig_control()->set_first_open(6); }},
       {kControl, [](D& m) { m.mutable_rig_control()->set_request_id(5), m.mutable_rig_control()->set_first_open(0); }},
       {kAnswer, [](D& m) { m.mutable_control_reply()->set_request_id(0); }},
@@ -305,6 +320,24 @@ TEST(WireRefuses, ValuesOutOfRange) {
   EXPECT_EQ(refusal_after(kControl, [](D& m) { m.mutable_rig_control()->clear_command(); }), Refusal::kMalformed);
   EXPECT_EQ(refusal_after(kControl, [](D& m) { m.mutable_rig_control()->set_quit(false); }), Refusal::kMalformed);
   EXPECT_EQ(refusal_after(kReport, [](D& m) { m.mutable_frame_report()->clear_drawn(); }), Refusal::kMalformed);
+}
+
+TEST(WireRefuses, LampStatesOfDifferentLengthOfNoneAndOfTooMany) {
+  constexpr std::size_t kLamps = kPayloadIndex<LampState>;
+  EXPECT_EQ(refusal_after(kLamps, [](auto& m) { m.mutable_lamp_state()->add_roll_rad(0.0); }), Refusal::kArrays);
+  const auto of_length = [](int lamps) {
+    return [lamps](auto& m) {
+      m.mutable_lamp_state()->Clear();
+      for (int i = 0; i < lamps; ++i) {
+        m.mutable_lamp_state()->add_x_m(1.0), m.mutable_lamp_state()->add_y_m(1.0);
+        m.mutable_lamp_state()->add_z_m(1.0), m.mutable_lamp_state()->add_yaw_rad(0.0);
+        m.mutable_lamp_state()->add_pitch_rad(0.0), m.mutable_lamp_state()->add_roll_rad(0.0);
+      }
+    };
+  };
+  EXPECT_EQ(refusal_after(kLamps, of_length(0)), Refusal::kArrays);
+  EXPECT_EQ(refusal_after(kLamps, of_length(16)), Refusal::kNone);
+  EXPECT_EQ(refusal_after(kLamps, of_length(17)), Refusal::kArrays);
 }
 
 TEST(WireRefuses, ProbeArraysOfDifferentOrExcessiveLength) {

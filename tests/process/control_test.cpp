@@ -106,5 +106,58 @@ TEST_F(Control, ARunningRigAnswers) {
   EXPECT_EQ(run.wait(), 0);
 }
 
+std::string whole(const std::filesystem::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+// Lamps are moved in the midst of a drive, saved, and the recording of it shows the same pictures again.
+TEST_F(Control, LampsAreMovedSavedAndReplayedBitForBit) {
+  // A rig of its own, to be saved.
+  std::string text = whole(source_dir() + "/config/rigs/country_road.toml");
+  for (const char* folder : {"\"../vehicles/", "\"../cockpits/"})
+    text.replace(text.find(folder), 3, "\"" + source_dir() + "/config");
+  const std::filesystem::path rig = folder_ / "my.toml";
+  std::ofstream(rig) << text;
+  const std::string with = "--rig '" + rig.string() + "' ";
+  {
+    DriveRun run(folder_ / "out", folder_.path(),
+                 {"--rig", rig.string(), "--frames", "60", "--record", (folder_ / "d.pcap").string()});
+    ASSERT_TRUE(run.wait_for_frame(10));
+    ASSERT_EQ(control(with + "pause").code, 0);  // a fast machine would be through before the last command
+    Heard heard = control(with + "move headlamp up by 0.3");
+    EXPECT_EQ(heard.out,
+              "headlamp left: at x 3.450, y 0.620, z 0.960 m\nheadlamp right: at x 3.450, y -0.620, z 0.960 m\n"
+              "1.240 m apart\n")
+        << heard.err;
+    EXPECT_EQ(control(with + "move 'headlamp left' yaw 4").code, 0);
+    EXPECT_EQ(control(with + "move 'fog left' roll by 1").code, 0);
+    EXPECT_TRUE(control(with + "undo").out.starts_with("1 taken back\n"));
+    EXPECT_EQ(control(with + "aim by -0.5").out, "all lamps turned -0.500 deg up\n");
+    EXPECT_EQ(control(with + "move roof up 1").code, 2);
+    EXPECT_EQ(control(with + "undo 0").code, 2);
+    EXPECT_EQ(control(with + "save /nowhere/rig.toml").code, 2);
+    EXPECT_EQ(whole(rig), text) << "refused, and nothing is written";
+    EXPECT_EQ(control(with + "save").out, rig.string() + ": 8 lamps\n");
+    EXPECT_EQ(control(with + "resume").code, 0);
+    EXPECT_EQ(run.wait(), 0);
+  }
+  EXPECT_NE(whole(rig).find("position_m = [3.45, 0.62, 0.96]"), std::string::npos);
+  EXPECT_NE(whole(rig).find("# the left one; its twin sits at -y"), std::string::npos) << "comments stay";
+
+  // As it was recorded: the rig as it was then, and nobody commands.
+  std::ofstream(rig) << text;
+  ASSERT_EQ(drive(folder_ / "again", folder_.path(),
+                  {"--rig", rig.string(), "--frames", "60", "--drive", (folder_ / "d.pcap").string()}),
+            0);
+  EXPECT_EQ(differences(pictures_of(folder_ / "out"), pictures_of(folder_ / "again")), std::vector<std::string>{});
+  // And the lamps did move in it.
+  ASSERT_EQ(drive(folder_ / "still", folder_.path(), {"--rig", rig.string(), "--frames", "60"}), 0);
+  const auto still = differences(pictures_of(folder_ / "out"), pictures_of(folder_ / "still"));
+  EXPECT_NE(std::ranges::find(still, "frames/000059.png"), still.end());
+  EXPECT_EQ(std::ranges::find(still, "frames/000005.png"), still.end());
+}
+
 }  // namespace
 }  // namespace phare::test

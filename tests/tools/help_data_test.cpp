@@ -127,7 +127,9 @@ TEST(Completion, BashOffersCommandsOptionsAndChoices) {
   EXPECT_TRUE(offered("phare", "").contains("drive"));
   EXPECT_EQ(offered("phare", "dr"), std::set<std::string>{"drive"});
   EXPECT_TRUE(offered("phare lamp", "").contains("check"));
-  EXPECT_EQ(offered("phare drive --camera", ""), (std::set<std::string>{"driver", "birds-eye", "chase"}));
+  EXPECT_EQ(offered("phare drive --camera", ""),
+            (std::set<std::string>{"driver", "birds-eye", "chase", "oncoming", "left-mirror", "inner-mirror",
+                                   "right-mirror", "free"}));
   EXPECT_EQ(offered("phare drive --headless --camera", "c"), (std::set<std::string>{"chase"}));
   EXPECT_EQ(offered("phare lamp check x.ies --traffic", "r"), (std::set<std::string>{"right"}));
   for (const nlohmann::json& command : commands_of_phare()) {

@@ -90,8 +90,10 @@ TEST(Rig, SetsTheDesk) {
     const auto bad = read_rig(write_rig(std::string(kGoodRig) + "[desk]\n" + line + "\n"));
     return bad ? std::string() : bad.error().text().substr(testing::TempDir().size());
   };
-  EXPECT_EQ(wrong("camera = \"roof\""),
-            "phare_rig_test.toml:18: \"desk.camera\": \"roof\" is none of driver, birds-eye, chase, next");
+  EXPECT_EQ(
+      wrong("camera = \"roof\""),
+      "phare_rig_test.toml:18: \"desk.camera\": \"roof\" is none of driver, birds-eye, chase, oncoming, left-mirror, "
+      "inner-mirror, right-mirror, free, next");
   EXPECT_EQ(wrong("design = 1"), "phare_rig_test.toml:18: \"desk.design\": 1: the rig has 1, counted from 0");
   EXPECT_NE(wrong("isolux = 3").find("did you mean \"isolux_lx\"?"), std::string::npos) << wrong("isolux = 3");
 }

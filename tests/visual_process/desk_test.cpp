@@ -24,7 +24,12 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
   };
   const Case cases[] = {
       {"camera", "chase", "camera chase"},
+      {"camera", "next", "camera oncoming"},
+      {"camera", "free", "camera free"},
       {"camera", "next", "camera driver"},
+      {"free_eye", "world 1 2 3 90 -10", "free_eye world 1 2 3 90 -10 60"},
+      {"free_eye", "car -6 2.5 2.2 -12 -8 45", "free_eye car -6 2.5 2.2 -12 -8 45"},
+      {"mirrors", "on", "mirrors on"},
       {"view", "false-colour", "view false-colour"},
       {"view", "next", "view photo"},
       {"method", "vertex-1998", "method vertex-1998"},
@@ -39,6 +44,19 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"probes", "car 25 0 0.01; world 1 2 3 0 0 2", "probes car 25 0 0.01; world 1 2 3"},
       {"probes", "add car 50 -1.5 0 -1 0 0", "probes car 25 0 0.01; world 1 2 3; car 50 -1.5 0 -1 0 0"},
       {"probes", "none", "probes none"},
+      {"probes", "road 120 -1.75; road 50 0 1.5", "probes road 120 -1.75; road 50 0 1.5"},
+      {"point", "picture 0.5 0.6", "point picture 0.5 0.6"},
+      {"point", "road 100 2 0 0 0 2", "point road 100 2"},
+      {"point", "world 1 2 3 -1 0 0", "point world 1 2 3 -1 0 0"},
+      {"point", "none", "point none"},
+      {"grid_m", "5", "grid_m 5"},
+      {"grid_m", "off", "grid_m off"},
+      {"grid_m", "next", "grid_m 10"},
+      {"grid_m", "next", "grid_m 20"},
+      {"grid_m", "next", "grid_m off"},
+      {"isolux", "on", "isolux on"},
+      {"scale", "toggle", "scale off"},
+      {"reach", "on", "reach on"},
       {"lines", "off", "lines off"},
       {"instruments", "toggle", "instruments off"},
       {"effects", "on", "effects on"},
@@ -61,7 +79,15 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
 
 TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
   const std::map<std::string, std::string> cases{
-      {"camera roof", "camera: \"roof\" is none of driver, birds-eye, chase, next"},
+      {"camera roof",
+       "camera: \"roof\" is none of driver, birds-eye, chase, oncoming, left-mirror, inner-mirror, right-mirror, free, "
+       "next"},
+      {"free_eye car 1 2 3",
+       "free_eye: expected car or world, x, y, z in m, degrees to the left and up, and the field in degrees if it is "
+       "not "
+       "60"},
+      {"free_eye car 1 2 3 0 95", "free_eye: 95 is outside -89 to 89"},
+      {"mirrors 3", "mirrors: \"3\" is none of off, on, toggle"},
       {"view lux", "view: \"lux\" is none of photo, false-colour, next"},
       {"method gouraud", "method: \"gouraud\" is none of fragment, vertex, vertex-1998, next"},
       {"isolux_lx 3 1", "isolux_lx: the levels have to rise"},
@@ -75,10 +101,19 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"design 2", "design: 2: the rig has 2, counted from 0"},
       {"design -1", "design: expected cockpit or a design's number, got \"-1\""},
       {"probes car 1 2",
-       "probes: a probe is car or world, x, y, z in m, and a normal of three numbers unless it is up"},
-      {"probes sky 1 2 3", "probes: \"sky\" is none of car, world"},
+       "probes: a probe is car or world, x, y, z in m, and a normal of three numbers unless it is up; or road, s, to "
+       "the "
+       "left, and above it unless on it"},
+      {"probes sky 1 2 3", "probes: \"sky\" is none of car, world, road"},
+      {"probes picture 0.5 0.5", "probes: \"picture\" is none of car, world, road"},
+      {"point picture 0.5 1.5", "point: 1.5 is outside 0 to 1"},
+      {"point picture 0.5", "point: a point of the picture is its shares of width and height, 0 to 1"},
+      {"grid_m 0.5", "grid_m: 0.5 is outside 1 to 100"},
+      {"isolux 1", "isolux: \"1\" is none of off, on, toggle"},
+      {"scale 1", "scale: \"1\" is none of off, on, toggle"},
+      {"reach 1", "reach: \"1\" is none of off, on, toggle"},
       {"probes car 1 2 3 0 0 0", "probes: a normal of no length"},
-      {"probes add", "probes: \"add\" is none of car, world"},
+      {"probes add", "probes: \"add\" is none of car, world, road"},
       {"lines maybe", "lines: \"maybe\" is none of off, on, toggle"},
       {"instruments 1", "instruments: \"1\" is none of off, on, toggle"},
       {"effects yes", "effects: \"yes\" is none of off, on, toggle"},

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "tests/visual_process/ground_square.h"
 #include "visual/process/cameras.h"
@@ -60,6 +63,61 @@ TEST(DriverCamera, MovesWithTheBody) {
   const Camera camera = driver_camera(channel, pose);
   EXPECT_NEAR(camera.world_from_eye[0].z, -std::sin(0.02), 1e-12);  // nose down, the eye looks down
   EXPECT_LT(camera.eye_m.z, channel.eye_m.z);
+}
+
+/// Where a point of the world is seen: shares of the picture to the right and down.
+glm::dvec2 seen_at(const Camera& camera, const glm::dvec3& world_m) {
+  const glm::dvec4 clip = ViewGeometry(camera, 1.5).clip_from_eye() * glm::dvec4(world_m - camera.eye_m, 1.0);
+  EXPECT_GT(clip.w, 0.0) << "behind the eye";
+  return {0.5 + 0.5 * clip.x / clip.w, 0.5 + 0.5 * clip.y / clip.w};
+}
+
+TEST(Cameras, TheOncomingDriverLooksAtTheCar) {
+  VehicleState pose;
+  pose.x_m = 100.0, pose.y_m = 20.0, pose.z_m = 3.0, pose.yaw_rad = 0.5 * M_PI;  // heads along y
+  const Camera camera = oncoming_camera(ChannelConfig{}, pose, 5.0);
+  EXPECT_NEAR(camera.eye_m.y, 70.0, 1e-9);
+  EXPECT_NEAR(camera.eye_m.x, 96.5, 1e-9) << "in the lane on the car's left";
+  EXPECT_NEAR(camera.eye_m.z, 6.12, 1e-9) << "above the ground there";
+  const glm::dvec2 car = seen_at(camera, {100.0, 20.0, 3.7});
+  EXPECT_NEAR(car.x, 0.5, 1e-9);
+  EXPECT_NEAR(car.y, 0.5, 1e-9);
+  EXPECT_GT(seen_at(camera, {97.0, 20.0, 3.0}).x, 0.5) << "the car's left is to the right of who meets it";
+}
+
+TEST(Cameras, MirrorsTurnLeftAndRightRound) {
+  const VehicleState pose;
+  ChannelConfig channel;
+  // Behind the car to its left: on the left of each mirror, as the driver sees it on his left.
+  const glm::dvec3 left_behind_m{-40.0, 4.0, 1.2}, right_behind_m{-40.0, -4.0, 1.2};
+  const Camera inner = mirror_camera(CameraKind::kInnerMirror, channel, pose);
+  EXPECT_LT(seen_at(inner, left_behind_m).x, 0.5);
+  EXPECT_GT(seen_at(inner, right_behind_m).x, 0.5);
+  // What is right behind the flank is at the mirror's inner edge, what is beside at its outer.
+  const Camera left = mirror_camera(CameraKind::kLeftMirror, channel, pose);
+  const double inner_edge = seen_at(left, {-60.0, 0.95, 1.0}).x, outside = seen_at(left, {-40.0, 8.0, 1.0}).x;
+  EXPECT_NEAR(inner_edge, 1.0, 0.02);
+  EXPECT_LT(outside, 0.6);
+  const Camera right = mirror_camera(CameraKind::kRightMirror, channel, pose);
+  EXPECT_NEAR(seen_at(right, {-60.0, -0.95, 1.0}).x, 0.0, 0.02);
+  EXPECT_TRUE(ViewGeometry(right, 1.5).mirrored());
+  EXPECT_EQ(mirror_views(ViewInput{}, channel, pose).size(), 3u);
+}
+
+TEST(Cameras, TheFreeEyeStandsOnTheCarOrInTheWorld) {
+  VehicleState pose;
+  pose.x_m = 10.0, pose.yaw_rad = 0.5 * M_PI, pose.pitch_rad = 0.1;
+  FreeEye eye{Probe::Frame::kCar, {-6.0, 2.0, 2.0}, 0.0, -10.0, 45.0};
+  Camera camera = free_camera(eye, pose);
+  EXPECT_NEAR(camera.eye_m.x, 8.0, 1e-9);
+  EXPECT_NEAR(camera.eye_m.y, -6.0, 1e-9);
+  EXPECT_NEAR(camera.world_from_eye[0].y, std::cos(10.0 * M_PI / 180.0), 1e-9)
+      << "level: the body's pitch is not in it";
+  EXPECT_NEAR(camera.world_from_eye[0].z, -std::sin(10.0 * M_PI / 180.0), 1e-9);
+  eye.frame = Probe::Frame::kWorld;
+  camera = free_camera(eye, pose);
+  EXPECT_EQ(camera.eye_m, eye.position_m);
+  EXPECT_NEAR(camera.world_from_eye[0].x, std::cos(10.0 * M_PI / 180.0), 1e-9);
 }
 
 }  // namespace

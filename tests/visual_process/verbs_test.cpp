@@ -110,7 +110,9 @@ TEST_F(VisualVerbs, ADesignHeldByTheDeskIsNotWaitedFor) {
 TEST_F(VisualVerbs, HasAHandlerForWhatConcernsAPicture) {
   const RigControl all[] = {{RigControl::Pause{}}, {RigControl::Seek{}}, {RigControl::Design{}},
                             {RigControl::Aim{}},   {RigControl::Dim{}},  {RigControl::Swivel{}},
-                            {RigControl::Place{}}, {RigControl::Tell{}}, {RigControl::Set{"camera", ""}}};
+                            {RigControl::Place{}}, {RigControl::Tell{}}, {RigControl::Set{"camera", ""}},
+                            {RigControl::Mount{}}, {RigControl::Undo{}}, {RigControl::Reset{}},
+                            {RigControl::Save{}}};
   for (const RigControl& control : all)
     EXPECT_EQ(tell(control.command).verdict != Verdict::kNotMine, concerned(control).has(Role::kVisual))
         << control.command.index();

@@ -113,6 +113,27 @@ void draw_instruments(const Pen& small, const Pen& large, const ImVec2& picture,
   }
 }
 
+/// Boxes, lines, letters; each label with a shade, so that it is read on any ground.
+void draw_marks_of(const Pen& pen, const ImVec2& picture, const OverlayMarks& marks) {
+  const auto at = [&](double x_01, double y_01) {
+    return ImVec2{static_cast<float>(x_01) * picture.x, static_cast<float>(y_01) * picture.y};
+  };
+  for (const OverlayMarks::Box& box : marks.boxes)
+    pen.list.AddRectFilled(at(box.left_01, box.top_01), at(box.left_01 + box.width_01, box.top_01 + box.height_01),
+                           packed(box.colour, box.alpha));
+  const float width_px = std::max(1.0f, 1.4f * picture.y / kReferenceHeight_px);
+  for (const OverlayMarks::Line& line : marks.lines)
+    pen.list.AddLine(at(line.x0_01, line.y0_01), at(line.x1_01, line.y1_01), packed(line.colour, 200), width_px);
+  Pen letters = pen;
+  letters.size_px *= 0.85f;
+  for (const OverlayMarks::Label& label : marks.labels) {
+    const ImVec2 begin = at(label.x_01, label.y_01);
+    const float x = begin.x + 2.0f, y = begin.y - 0.55f * letters.size_px;
+    letters.write(x + 1.0f, y + 1.0f, {10, 12, 16}, label.text);
+    letters.write(x, y, label.colour, label.text);
+  }
+}
+
 /// `top_px`: what is above it is taken.
 void draw_panel(Pen small, const Pen& large, const ImVec2& picture, float top_px, const OverlayPanel& panel) {
   if (panel.empty()) return;
@@ -184,7 +205,8 @@ OverlayPass::~OverlayPass() {
 }
 
 void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::vector<std::string>& lines,
-                       const std::vector<OverlayInstrument>& instruments, const OverlayPanel& panel) {
+                       const std::vector<OverlayInstrument>& instruments, const OverlayPanel& panel,
+                       const OverlayMarks& marks) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(display.extent.width), static_cast<float>(display.extent.height)};
   io.DeltaTime = 1.0f / 60.0f;  // nothing here moves by itself
@@ -194,6 +216,7 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
   const float scale = io.DisplaySize.y / kReferenceHeight_px;
   const Pen small{list, text_, std::max(kText_px * scale, kLeastText_px)};
   const Pen large{list, title_, std::max(kTitle_px * scale, kLeastText_px)};
+  draw_marks_of(small, io.DisplaySize, marks);
   const bool left = !panel.empty() && panel.place == OverlayPanel::Place::kLeft;
   // A panel on the left takes the place of the lines.
   const float top_px = left ? 0.0f : draw_lines(small, io.DisplaySize.x, lines);

@@ -22,7 +22,7 @@ class OverlayPass {
   OverlayPass& operator=(const OverlayPass&) = delete;
 
   void draw(gpu::FrameGraph& graph, gpu::Image& display, const std::vector<std::string>& lines,
-            const std::vector<OverlayInstrument>& instruments, const OverlayPanel& panel);
+            const std::vector<OverlayInstrument>& instruments, const OverlayPanel& panel, const OverlayMarks& marks);
 
  private:
   gpu::Device& device_;

@@ -1,6 +1,9 @@
 // The eyes: the driver's, one from above, one behind the car.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "config/desk.h"
 #include "config/rig.h"
 #include "net/messages.h"
@@ -32,9 +35,29 @@ Camera birds_eye_camera(const VehicleState& pose);
 /// 9 m behind and 3.2 m above, level: shows the beam move on the road while the body pitches.
 Camera chase_camera(const ChannelConfig& channel, const VehicleState& pose);
 
+/// The eye of a driver who comes toward the car in the lane on its left: 50 m ahead, as of the point B50L of UN R112,
+/// 3.5 m to the left (a lane of ours) and 1.12 m above the ground (chosen: a car like ours), looking at the car.
+/// `ground_z_m`: of the road below that eye, where it is known.
+Camera oncoming_camera(const ChannelConfig& channel, const VehicleState& pose, std::optional<double> ground_z_m = {});
+/// Where the oncoming eye stands, at the car's height.
+glm::dvec3 oncoming_place_m(const VehicleState& pose);
+
+/// What a flat mirror shows, left and right turned round: the eye stands at the mirror, which is as far from the
+/// driver's eye as fits a car like ours (chosen). The inner one sees 20 m at 60 m straight behind (UN R46, class I);
+/// the outer ones 20° from the car's side outwards (class III asks 4 m at 20 m).
+Camera mirror_camera(CameraKind mirror, const ChannelConfig& channel, const VehicleState& pose);
+
+/// The user's.
+Camera free_camera(const FreeEye& eye, const VehicleState& pose);
+
 /// The whole scene from above with parallel rays.
 Camera overview_camera(const Scene& scene);
 
-Camera camera_of(CameraKind kind, const ChannelConfig& channel, const VehicleState& pose);
+/// The desk's camera. `ground_z_m`: of the road below the oncoming eye.
+Camera camera_of(const Desk& desk, const ChannelConfig& channel, const VehicleState& pose,
+                 std::optional<double> ground_z_m = {});
+
+/// Mirrors as insets of the frame, with what else the frame's own view has: inner, left, right.
+std::vector<ViewInput> mirror_views(const ViewInput& frame, const ChannelConfig& channel, const VehicleState& pose);
 
 }  // namespace phare

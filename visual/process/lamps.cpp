@@ -1,7 +1,10 @@
 #include "visual/process/lamps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "config/conventions.h"
 #include "visual/photometry/illuminance.h"
@@ -57,10 +60,14 @@ Result<Lamps> Lamps::load(const Rig& rig) {
     for (const LampConfig& lamp : design.lamps) {
       std::vector<AimedSource> sources;
       for (const SourceConfig& source : lamp.sources) sources.push_back(lamps.tables_.aimed(source));
-      positions.push_back({LiveBeam(std::move(sources)), std::vector<double>(lamp.sources.size(), 1.0)});
+      positions.push_back({LiveBeam(std::move(sources)),
+                           std::vector<double>(lamp.sources.size(), 1.0),
+                           {.position_m = lamp.position_m}});
     }
   }
   lamps.shown_.resize(most_positions);
+  lamps.before_.resize(lamps.designs_.size());
+  for (std::size_t design = 0; design < lamps.designs_.size(); ++design) lamps.of_rig_.push_back(lamps.mounts(design));
   return lamps;
 }
 
@@ -113,21 +120,6 @@ Status Lamps::dim(const RigControl::Dim& command) {
   return Done{};
 }
 
-Status Lamps::swivel(const RigControl::Swivel& command) {
-  const Result<std::size_t> slot = find(command.lamp, design_);
-  if (!slot) return slot.error();
-  positions_[design_][*slot].yaw_rad = command.yaw_rad;
-  positions_[design_][*slot].pitch_rad = command.pitch_rad;
-  return Done{};
-}
-
-Status Lamps::place(const RigControl::Place& command) {
-  const Result<std::size_t> slot = find(command.lamp, design_);
-  if (!slot) return slot.error();
-  designs_[design_].lamps[*slot].position_m = {command.x_m, command.y_m, command.z_m};
-  return Done{};
-}
-
 Status Lamps::follow(const LawAnswer& answer, std::uint32_t design_index) {
   law_pitch_rad_ = 0.0;
   for (std::vector<Position>& design : positions_) {
@@ -160,20 +152,20 @@ Status Lamps::follow(const LawAnswer& answer, std::uint32_t design_index) {
 }
 
 glm::dmat3 Lamps::turned(const Position& position, double tilt_rad) const {
+  const LampMount& mount = position.mount;
   const double up_rad =
-      aim_pitch_rad_ + wheel_pitch_rad_ + law_pitch_rad_ + tilt_rad + position.pitch_rad + position.law_pitch_rad;
-  return aim_rotation(position.yaw_rad + position.law_yaw_rad, up_rad, 0.0);
+      aim_pitch_rad_ + wheel_pitch_rad_ + law_pitch_rad_ + tilt_rad + mount.pitch_rad + position.law_pitch_rad;
+  return aim_rotation(mount.yaw_rad + position.law_yaw_rad, up_rad, mount.roll_rad);
 }
 
 std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
   const glm::dmat3 rotation = rotation_of(pose);
-  const std::vector<LampConfig>& lamps = designs_[design_].lamps;
   std::vector<PlacedLamp> placed;
-  for (std::size_t slot = 0; slot < lamps.size(); ++slot) {
+  for (std::size_t slot = 0; slot < positions_[design_].size(); ++slot) {
     const Position& position = positions_[design_][slot];
     const BeamImage& image = position.beam.image();
     if (image.dark) continue;
-    placed.push_back({position_of(pose) + rotation * lamps[slot].position_m,
+    placed.push_back({position_of(pose) + rotation * position.mount.position_m,
                       rotation * turned(position, pose.lamp_tilt_rad) * image.car_from_image, slot});
   }
   return placed;
@@ -202,7 +194,7 @@ double Lamps::lamp_lx(std::size_t design, std::size_t slot, const std::set<LampF
   for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
     if (!lit.contains(lamp.sources[k].function)) continue;
     const AimedSource light = tables_.aimed(lamp.sources[k]);
-    sum_lx += phare::illuminance_lx(lamp.position_m, turn * light.car_from_lamp, *light.table,
+    sum_lx += phare::illuminance_lx(position.mount.position_m, turn * light.car_from_lamp, *light.table,
                                     light.scale * position.dimmed_01(k), at.position_m, at.normal);
   }
   return sum_lx;
@@ -216,7 +208,7 @@ Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at,
   for (std::size_t slot = 0; slot < designs_[design_].lamps.size(); ++slot) {
     const double lx = lamp_lx(design_, slot, lit_, in_car, pose.lamp_tilt_rad);
     if (lx <= 0.0) continue;
-    const glm::dvec3 lamp_m = position_of(pose) + world_from_car * designs_[design_].lamps[slot].position_m;
+    const glm::dvec3 lamp_m = position_of(pose) + world_from_car * positions_[design_][slot].mount.position_m;
     const std::optional<std::size_t> by = occluder(scene, lamp_m, at.position_m);
     (by ? light.hidden_lx : light.lx) += lx;
     if (!by || lx <= most_lx) continue;
@@ -224,6 +216,43 @@ Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at,
     light.hidden_by = scene.chunks[*by].node.empty() ? "something without a name" : scene.chunks[*by].node;
   }
   return light;
+}
+
+std::vector<PointLight> Lamps::lights_at(const VehicleState& pose, const MeasurePoint& at) const {
+  const glm::dmat3 world_from_car = rotation_of(pose), car_from_world = glm::transpose(world_from_car);
+  const MeasurePoint in_car{car_from_world * (at.position_m - position_of(pose)), car_from_world * at.normal};
+  std::vector<PointLight> lights;
+  for (std::size_t slot = 0; slot < designs_[design_].lamps.size(); ++slot) {
+    const LampConfig& lamp = designs_[design_].lamps[slot];
+    const Position& position = positions_[design_][slot];
+    const glm::dmat3 turn = turned(position, pose.lamp_tilt_rad);
+    const glm::dvec3 way = in_car.position_m - position.mount.position_m;
+    PointLight light;
+    light.lamp = lamp.name;
+    light.lamp_m = position_of(pose) + world_from_car * position.mount.position_m;
+    light.surface_lx = lamp_lx(design_, slot, lit_, in_car, pose.lamp_tilt_rad);
+    light.behind = light.out_of_table = true;
+    if (!position.beam.image().dark) light.colour = position.beam.image().colour;
+    for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
+      if (!lit_.contains(lamp.sources[k].function) || position.dimmed_01(k) <= 0.0) continue;
+      const AimedSource source = tables_.aimed(lamp.sources[k]);
+      const glm::dvec3 direction = glm::transpose(turn * source.car_from_lamp) * way;
+      light.candela += source.scale * position.dimmed_01(k) * source.table->intensity_cd(direction);
+      const TableAngles angles = source.table->angles_of(direction);
+      const auto within = [](const std::vector<double>& nodes, double deg) {
+        return deg >= nodes.front() && deg <= nodes.back();
+      };
+      light.behind = light.behind && direction.x <= 0.0;
+      light.out_of_table = light.out_of_table && !(within(source.table->first_deg, angles.first_deg) &&
+                                                   within(source.table->second_deg, angles.second_deg));
+      if (!std::exchange(light.lit, true)) {
+        light.h_deg = glm::degrees(std::atan2(-direction.y, direction.x));
+        light.v_deg = glm::degrees(std::atan2(direction.z, std::hypot(direction.x, direction.y)));
+      }
+    }
+    lights.push_back(std::move(light));
+  }
+  return lights;
 }
 
 std::optional<glm::vec3> Lamps::light() const {

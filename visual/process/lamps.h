@@ -10,6 +10,7 @@
 
 #include "config/result.h"
 #include "config/rig.h"
+#include "config/rig_edit.h"
 #include "net/messages.h"
 #include "visual/photometry/lamp_aim.h"
 #include "visual/photometry/lamp_tables.h"
@@ -23,6 +24,27 @@ namespace phare {
 /// Functions that the controls light. Off lights nothing; flash adds high beam whatever the switch; high beam keeps low
 /// beam where the rig says so; fog needs the position lights at least.
 std::set<LampFunction> lit_functions(const CockpitState& controls, bool high_keeps_low);
+
+/// Where a lamp stands on the car, and how it is turned there: R = Rz(yaw)·Ry(-pitch)·Rx(roll).
+struct LampMount {
+  glm::dvec3 position_m{0.0};                             ///< car frame
+  double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;  ///< positive left, up, right side down
+
+  friend bool operator==(const LampMount&, const LampMount&) = default;
+};
+
+/// A lamp as a point of the car or the world sees it, before anything that stands between them.
+struct PointLight {
+  std::string lamp;
+  glm::dvec3 lamp_m{0.0};  ///< world
+  bool lit = false;        ///< some source of it is
+  double candela = 0.0;    ///< toward the point, all lit sources
+  double surface_lx = 0.0;
+  double h_deg = 0.0, v_deg = 0.0;  ///< right, up, from the axis of the first lit source as it is aimed
+  bool behind = false;              ///< of every lit source
+  bool out_of_table = false;        ///< of every lit source
+  glm::vec3 colour{1.0f};           ///< linear sRGB of luminance 1
+};
 
 class Lamps {
  public:
@@ -44,6 +66,23 @@ class Lamps {
   /// Dims a source, counted from 1 (0: all), of a lamp of the design that shines; acts with the next controls. Error:
   /// no such lamp or source.
   Status dim(const RigControl::Dim& command);
+
+  // ---- places and turns (lamp_mounts.cpp): each command that changes one can be taken back
+
+  /// Where the lamps of a design stand and how they are turned there, besides the aim of their sources.
+  struct Mounts {
+    std::vector<LampMount> lamps;  ///< in the design's order
+    double aim_rad = 0.0;          ///< of all lamps, positive up
+
+    friend bool operator==(const Mounts&, const Mounts&) = default;
+  };
+  /// Of the design that shines, or of another.
+  Mounts mounts() const { return mounts(design_); }
+  Mounts mounts(std::size_t design) const;
+  /// As the rig file has them.
+  const Mounts& mounts_of_rig(std::size_t design) const { return of_rig_[design]; }
+  /// Takes what another process or an earlier drive had. Error: not so many lamps.
+  Status set_mounts(std::size_t design, const Mounts& mounts);
   /// Moves a lamp of the design that shines to another place of the car. Error: no such lamp.
   Status place(const RigControl::Place& command);
   /// Turns a whole lamp of the design that shines: no image is summed for it. Error: no such lamp.
@@ -54,17 +93,22 @@ class Lamps {
   Status follow(const LawAnswer& answer, std::uint32_t design_index);
 
   /// All lamps turned up (positive) together, rad.
-  void set_aim(double pitch_rad) { aim_pitch_rad_ = pitch_rad; }
+  void set_aim(double pitch_rad);
+  /// One quantity of a lamp, a pair or all lamps. Error: no such lamp or pair, a spacing of one lamp, out of range.
+  Status mount(const RigControl::Mount& command);
+  /// Takes back so many of the latest changes of the design that shines; how many there were.
+  std::size_t undo(std::size_t steps);
+  /// A lamp, a pair, or all lamps with their aim as the rig file has them. Error: no such lamp.
+  Status reset(const std::string& lamp);
+  /// The lamp of this name, or both of a pair, the left one first. Error: neither is there.
+  Result<std::vector<std::size_t>> slots_of(const std::string& lamp) const;
+  /// What the rig file has to say of every lamp that is not as it has it (config/rig_edit.h).
+  std::vector<SavedMount> changed_mounts() const;
+  /// The rig file says now what holds.
+  void mounts_are_saved();
 
-  /// One lamp of the design that shines, as commanded.
-  struct Commanded {
-    std::span<const double> dimming_01;     ///< of each source
-    double yaw_rad = 0.0, pitch_rad = 0.0;  ///< of the lamp alone
-  };
-  Commanded commanded(std::size_t slot) const {
-    const Position& position = positions_[design_][slot];
-    return {position.dimming_01, position.yaw_rad, position.pitch_rad};
-  }
+  /// How the sources of a lamp of the design that shines are dimmed, as commanded.
+  std::span<const double> dimming_01(std::size_t slot) const { return positions_[design_][slot].dimming_01; }
   /// Of a lamp of the design that shines, as it shines now.
   const BeamImage& image(std::size_t slot) const { return positions_[design_][slot].beam.image(); }
   double aim_rad() const { return aim_pitch_rad_; }
@@ -82,6 +126,8 @@ class Lamps {
     std::string hidden_by{};  ///< what hides most, by its node; empty: nothing does
   };
   LightAt light_at(const VehicleState& pose, const MeasurePoint& at, const Scene& scene) const;
+  /// Every lamp of the design at a point of the world: float64 from the native tables.
+  std::vector<PointLight> lights_at(const VehicleState& pose, const MeasurePoint& at) const;
   /// The same in the car frame for one set of lit functions of one design: the wall.
   /// `tilt_rad`: of automatic levelling, positive up.
   double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
@@ -121,15 +167,18 @@ class Lamps {
   /// One lamp of a design as it is now.
   struct Position {
     LiveBeam beam;
-    std::vector<double> dimming_01;         ///< of each source, as commanded
-    double yaw_rad = 0.0, pitch_rad = 0.0;  ///< as commanded
-    std::vector<double> law_01{};           ///< of each source, as the control law says; empty: full light
+    std::vector<double> dimming_01;  ///< of each source, as commanded
+    LampMount mount;
+    std::vector<double> law_01{};  ///< of each source, as the control law says; empty: full light
     double law_yaw_rad = 0.0, law_pitch_rad = 0.0;
 
     double dimmed_01(std::size_t source) const { return dimming_01[source] * (law_01.empty() ? 1.0 : law_01[source]); }
   };
   std::string text_of_lit() const;
+  /// Before a change of mounts: what undo goes back to. `of`: changes of one name in a row are one step; empty: never.
+  void remember(const std::string& of = {});
   Result<std::size_t> find(const std::string& lamp, std::size_t design) const;
+  Result<std::size_t> find(const std::string& lamp) const { return find(lamp, design_); }
   /// All that turns a lamp besides the aim of its sources; `tilt_rad`: of the car's levelling.
   glm::dmat3 turned(const Position& position, double tilt_rad) const;
 
@@ -140,6 +189,9 @@ class Lamps {
   std::vector<SourceEnd> table_ends_;
   std::vector<std::vector<Position>> positions_;   ///< [design][lamp]
   std::vector<std::optional<std::size_t>> shown_;  ///< per slot, the design whose image it holds
+  std::vector<Mounts> of_rig_;                     ///< of each design
+  std::vector<std::vector<Mounts>> before_;        ///< of each design, the latest last
+  std::string remembered_;                         ///< what the latest of them is of
   std::set<LampFunction> lit_;
   std::size_t design_ = 0;
   double aim_pitch_rad_ = 0.0;    // of the program's aim command

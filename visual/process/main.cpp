@@ -94,10 +94,12 @@ int draw_channel(VisualOptions options) {
   Result<Scene> scene = read_scene(rig->scene_file);
   if (!scene) return refuse(scene.error());
   if (options.explain) return explain_and_leave(options, *scene, *lamps, desk, channel);
-  if (options.still_at_s < 0.0 && !options.drive_file.empty()) {
+  LampReplay lamps_then;
+  if (!options.drive_file.empty()) {
     const Result<Drive> drive = read_drive(options.drive_file);
     if (!drive) return refuse(drive.error());
-    options.still_at_s = 0.2 * drive->duration.seconds();
+    if (options.still_at_s < 0.0) options.still_at_s = 0.2 * drive->duration.seconds();
+    lamps_then = LampReplay(*drive);
   }
 
   std::optional<Window> window;
@@ -134,6 +136,7 @@ int draw_channel(VisualOptions options) {
                   std::move(window), std::move(*renderer), std::move(*bus), std::move(*album), stop,
                   std::move(lamps_json));
   session.eye = eye_of(session);
+  session.lamps_then = std::move(lamps_then);
   session.lane = lane_of(session.rig.scene_file);
   spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
   run_loop(session);

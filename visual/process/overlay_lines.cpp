@@ -13,13 +13,6 @@
 namespace phare {
 namespace {
 
-/// A probe in the world.
-MeasurePoint placed(const Probe& probe, const VehicleState& pose) {
-  if (probe.frame == Probe::Frame::kWorld) return {probe.position_m, probe.normal};
-  const glm::dmat3 body = world_from_car(pose.roll_rad, pose.pitch_rad, pose.yaw_rad);
-  return {glm::dvec3(pose.x_m, pose.y_m, pose.z_m) + body * probe.position_m, body * probe.normal};
-}
-
 /// `at_m`: as it is told, in the frame of the point.
 std::string lux_line(const char* what, const Lamps& lamps, const OverlayMoment& moment, const MeasurePoint& point,
                      const glm::dvec3& at_m) {
@@ -32,8 +25,14 @@ std::string lux_line(const char* what, const Lamps& lamps, const OverlayMoment& 
 
 }  // namespace
 
-void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& channel, const VehicleState& pose) {
-  input.camera = camera_of(desk.camera, channel, pose);
+void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& channel, const VehicleState& pose,
+                 const RoadLine* road) {
+  std::optional<double> ground_z_m;
+  if (road != nullptr && desk.camera == CameraKind::kOncoming) {
+    const glm::dvec3 there_m = oncoming_place_m(pose);
+    ground_z_m = road->ground(there_m.x, there_m.y, there_m.z).position_m.z;
+  }
+  input.camera = camera_of(desk, channel, pose, ground_z_m);
   input.view = desk.view;
   input.method = desk.method;
   input.isolux_lx = desk.isolux_lx;
@@ -60,11 +59,16 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
     if (moment.under_mouse)
       lines.push_back(lux_line("", lamps, moment, *moment.under_mouse, moment.under_mouse->position_m));
   }
+  lines.insert(lines.end(), moment.moving.begin(), moment.moving.end());
+  lines.insert(lines.end(), moment.point.begin(), moment.point.end());
   for (std::size_t i = 0; i < desk.probes.size(); ++i) {
     const Probe& probe = desk.probes[i];
     std::snprintf(text, sizeof text, "probe %zu, %s: ", i + 1,
                   kProbeFrameNames[static_cast<std::size_t>(probe.frame)].data());
-    lines.push_back(lux_line(text, lamps, moment, placed(probe, moment.pose), probe.position_m));
+    static const RoadLine kNoRoad;
+    const auto at = placed(probe, moment.pose, moment.road_line != nullptr ? *moment.road_line : kNoRoad);
+    lines.push_back(at ? lux_line(text, lamps, moment, *at, probe.position_m)
+                       : std::string(text) + "the scene has no lane");
   }
   if (desk.effects && moment.effects != nullptr) {
     std::istringstream effects(explain(*moment.effects, false));

@@ -11,13 +11,16 @@
 #include "visual/process/adaptation.h"
 #include "visual/process/lamps.h"
 #include "visual/process/road_end.h"
+#include "visual/process/road_line.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
 
 /// Camera, view, levels, exposure and chosen effects of a frame.
-void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& channel, const VehicleState& pose);
+/// `road`: for the oncoming eye, where it is known.
+void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& channel, const VehicleState& pose,
+                 const RoadLine* road = nullptr);
 
 /// The controls with the design that the picture shows, whichever the cockpit has chosen.
 CockpitState shown_by_desk(const Desk& desk, CockpitState controls);
@@ -32,7 +35,10 @@ struct OverlayMoment {
   const EyeAdaptation& eye;
   const EffectPlan* effects = nullptr;        ///< of the frame before
   std::optional<MeasurePoint> under_mouse{};  ///< of the world
+  const RoadLine* road_line = nullptr;        ///< for probes of the road
+  std::vector<std::string> point{};           ///< the point that is read, and the reach (point_reading.h, road_marks.h)
   const Scene* scene = nullptr;               ///< what stands in it hides light; none: nothing does
+  std::vector<std::string> moving{};          ///< of lamps that are being moved (lamp_keys.h)
   RoadPlace road = RoadPlace::kThere;
 };
 

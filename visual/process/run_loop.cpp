@@ -2,17 +2,22 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <deque>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include "net/control_desk.h"
 #include "net/silence.h"
 #include "net/stats.h"
 #include "visual/image/canvas.h"
+#include "visual/process/lamp_keys.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/pick.h"
+#include "visual/process/picture_instruments.h"
 #include "visual/process/pose_buffer.h"
 #include "visual/process/report.h"
 #include "visual/process/screens.h"
@@ -60,6 +65,14 @@ class Loop {
       s_.stop.request();
       return accepted("leaves");
     });
+    // A point that is set is read at once: the headless twin of a click.
+    const Verbs plain = verbs_;
+    verbs_.on<RigControl::Set>([this, plain](const RigControl::Set& set) {
+      ControlReply reply = plain(RigControl{set});
+      if (set.setting == "point" && reply.verdict == Verdict::kAccepted)
+        reply.now += newest_ ? measuring_.answer() : "\nno frame has been drawn yet";
+      return reply;
+    });
     s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
     if (!session.options.lockstep) drawn_frames_ = session.album.frames_found();
     warm_up();
@@ -80,7 +93,10 @@ class Loop {
  private:
   void take(const Datagram& datagram);
   void mind_the_keys();
+  void mind_the_mouse();
+  void measure(const Moment& moment);
   void light_up(const CockpitState& controls);
+  void mind_the_lamps(SimTime now);
   void warm_up();
   void announce();
   void repeat_when_stalled();
@@ -95,7 +111,11 @@ class Loop {
   void write_stats(SimTime now);
 
   Session& s_;
-  Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk);
+  Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk, s_.options.channel);
+  LampKeys lamp_keys_;
+  LampNews lamp_news_{s_.lamps};
+  PictureInstruments measuring_{s_.desk, s_.lamps, s_.scene, RoadLine(s_.lane, s_.rig.scene_file),
+                                ProbeLog(s_.options.channel == 0 ? s_.options.out : "", s_.options.going_on)};
   ControlDesk commands_;
   EyeSetting eye_set_ = s_.desk.eye;
   struct Asked {
@@ -116,6 +136,7 @@ class Loop {
   Clock::time_point ready_;
   bool ended_ = false;
   bool over_ = false;      // the drive is, and the window stays
+  bool fresh_ = false;     // the lines of the overlay are wanted with the next frame
   bool captured_ = false;  // the picture of this frame is read back
   FrameInput input_;
   std::optional<Moment> newest_;
@@ -123,15 +144,53 @@ class Loop {
 
 bool Loop::over() {
   if (s_.window && !s_.window->poll()) ended_ = true;
-  if (s_.window) mind_the_keys();
+  if (s_.window) mind_the_keys(), mind_the_mouse();
   return ended_ || s_.stop.requested();
 }
 
 /// What the picture has to do with keys, and what the cockpit and the launcher are to know of them.
 void Loop::mind_the_keys() {
   WindowKeyboard& keyboard = s_.window->keyboard();
-  if (screens_.press(keyboard.take_presses(), keyboard.take_any(), s_.desk)) ended_ = true;
+  const std::vector<KeyAction> presses = keyboard.take_presses();
+  for (const KeyAction press : presses) {
+    // A refusal shows in the overlay: nothing has moved.
+    if (const auto command = lamp_keys_.press(press, s_.lamps)) (void)verbs_(*command);
+  }
+  if (screens_.press(presses, keyboard.take_any(), s_.desk)) ended_ = true;
   if (const auto keys = keyboard.message(Clock::now())) s_.bus.send(newest_ ? newest_->time : SimTime{}, *keys);
+}
+
+/// A click chooses the place of the scene under it, which stays where it is in the world; one on the sky lets it go.
+/// The mouse moves the free eye.
+void Loop::mind_the_mouse() {
+  const bool clicked = s_.window->take_click();
+  if (const auto move = s_.window->take_moves(); s_.desk.camera == CameraKind::kFree) {
+    // Right button held: turn, a degree for 8 pixels; middle: shift; wheel: along the way one looks. A turn is felt,
+    // not measured: chosen by hand.
+    FreeEye& eye = s_.desk.free_eye;
+    eye.yaw_deg = std::remainder(eye.yaw_deg + move.turn_x_px / 8.0, 360.0);
+    eye.pitch_deg = std::clamp(eye.pitch_deg + move.turn_y_px / 8.0, -89.0, 89.0);
+    const double yaw = eye.yaw_deg * std::numbers::pi / 180.0, pitch = eye.pitch_deg * std::numbers::pi / 180.0;
+    const glm::dvec3 ahead{std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)};
+    const glm::dvec3 left{-std::sin(yaw), std::cos(yaw), 0.0};
+    eye.position_m +=
+        move.wheel * ahead + 0.02 * (move.shift_x_px * left + move.shift_y_px * glm::dvec3(0.0, 0.0, 1.0));
+  }
+  const Window::Mouse mouse = s_.window->mouse();
+  if (!clicked || !newest_ || !mouse.inside) return;
+  const auto at = pick(s_.scene, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
+                                     .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px));
+  s_.desk.point = at ? std::optional(Probe{Probe::Frame::kWorld, at->position_m, at->normal}) : std::nullopt;
+  fresh_ = true;
+}
+
+/// What measures in the picture, over it and in probes.csv.
+void Loop::measure(const Moment& moment) {
+  measuring_.see({moment.time, moment.car.pose, input_.camera,
+                  static_cast<double>(s_.options.width_px) / static_cast<double>(s_.options.height_px)});
+  input_.marks = measuring_.marks(drawn_frames_ % 6 == 0);
+  for (const ViewInput& inset : input_.more_views) frame_part(input_.marks, inset.part);
+  if (!over_ && !measuring_.log()) spdlog::error("probes.csv: cannot be written");
 }
 
 /// Every accepted datagram, in order.
@@ -142,6 +201,10 @@ void Loop::take(const Datagram& datagram) {
     clock_.observe(datagram.sim_time, s_.bus.newest<VehicleState>()->received);
   } else if (const auto* request = std::get_if<ProbeRequest>(&datagram.payload)) {
     if (asked_.size() < kMostAsked) asked_.push_back({*request, datagram.sim_time});
+  } else if (const auto* state = std::get_if<LampState>(&datagram.payload)) {
+    if (s_.options.channel != 0)
+      if (const Status set = s_.lamps.set_mounts(state->design_index, mounts_of(*state)); !set)
+        spdlog::warn("{}", set.error().text());
   } else {
     commands_.serve(s_.bus, datagram, std::cref(verbs_));
   }
@@ -310,13 +373,25 @@ void Loop::light_up(const CockpitState& controls) {
   }
 }
 
+/// Places of lamps: those of the drive that is shown, and what the others and the recording are to know of them.
+void Loop::mind_the_lamps(SimTime now) {
+  if (over_) return;
+  if (const Status followed = s_.lamps_then.follow(now, s_.lamps); !followed)
+    spdlog::warn("as recorded, {}; they stay as they are", followed.error().text());
+  if (s_.options.channel != 0) return;
+  if (const auto news = lamp_news_.of(now, s_.lamps)) s_.bus.send(now, *news);
+}
+
 void Loop::draw(const Moment& moment) {
   light_up(shown_by_desk(s_.desk, moment.controls));
-  set_by_desk(input_, s_.desk, s_.channel(), moment.car.pose);
+  mind_the_lamps(moment.time);
+  set_by_desk(input_, s_.desk, s_.channel(), moment.car.pose, &measuring_.road());
   input_.lamps = s_.lamps.placed(moment.car.pose);
+  input_.more_views.clear();
   if (std::exchange(eye_set_, s_.desk.eye) != s_.desk.eye) s_.eye = eye_set(s_.desk.eye);
   s_.eye.see(moment.time, s_.lamps.light());
   input_.white = s_.eye.white();
+  if (s_.desk.mirrors) input_.more_views = mirror_views(input_, s_.channel(), moment.car.pose);
   if (s_.window) {
     input_.panel = screens_.panel(moment.controls, moment.time.seconds(), s_.desk.help);
     const bool one = s_.lamps.designs().size() < 2;
@@ -325,7 +400,8 @@ void Loop::draw(const Moment& moment) {
       input_.instruments =
           instruments(moment.controls, moment.car.pose, one ? std::string() : s_.lamps.design().name, moment.time);
   }
-  if (drawn_frames_ % 6 == 0) {  // ten times a second: they take rays through the scene
+  measure(moment);
+  if (drawn_frames_ % 6 == 0 || std::exchange(fresh_, false)) {  // ten times a second: they take rays through the scene
     mind_the_road(moment);
     if (s_.window) input_.overlay = overlay(moment);
   }
@@ -377,6 +453,8 @@ void Loop::keep(const Moment& moment) {
     FrameInput driver = input_;
     driver.camera = driver_camera(s_.channel(), moment.car.pose);
     driver.view = View::kPhoto;
+    driver.marks = {};
+    driver.more_views.clear();
     s_.album.keep_stills(s_.renderer, driver, moment.car.pose, s_.lamps, s_.options.width_px, s_.options.height_px,
                          label(moment));
     progress_ = Clock::now();
@@ -458,7 +536,10 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
                         .eye = s_.eye,
                         .effects = &s_.stats.newest.effects,
                         .under_mouse = under_mouse,
+                        .road_line = &measuring_.road(),
+                        .point = measuring_.lines(),
                         .scene = s_.desk.shadows == 0 ? nullptr : &s_.scene,
+                        .moving = lamp_keys_.lines(s_.lamps),
                         .road = road_});
 }
 

@@ -13,6 +13,7 @@
 #include "visual/process/audit.h"
 #include "visual/process/fail_safe_log.h"
 #include "visual/process/frame_stats.h"
+#include "visual/process/lamp_replay.h"
 #include "visual/process/lamps.h"
 #include "visual/process/law.h"
 #include "visual/process/options.h"
@@ -53,6 +54,7 @@ struct Session {
   FailSafeLog fail_safes;
   LawLink law;
   EyeAdaptation eye;
+  LampReplay lamps_then;        ///< of the drive that is shown
   std::vector<LanePoint> lane;  ///< of the scene; empty where it has none
   nlohmann::json lamps_json;    ///< tables with hashes, peak and flux: does not change
 

@@ -53,13 +53,13 @@ Image8 isolux_map(int width_px, int height_px, Illuminance illuminance_lx) {
 }
 
 /// The middle of the positions that have a low beam.
-glm::dvec3 middle_of_low_beam(const DesignConfig& design) {
+glm::dvec3 middle_of_low_beam(const DesignConfig& design, const Lamps::Mounts& mounts) {
   glm::dvec3 sum{0.0};
   double count = 0.0;
-  for (const LampConfig& lamp : design.lamps) {
-    const bool low =
-        std::ranges::any_of(lamp.sources, [](const SourceConfig& s) { return s.function == LampFunction::kLow; });
-    if (low) sum += lamp.position_m, count += 1.0;
+  for (std::size_t slot = 0; slot < design.lamps.size(); ++slot) {
+    const bool low = std::ranges::any_of(design.lamps[slot].sources,
+                                         [](const SourceConfig& s) { return s.function == LampFunction::kLow; });
+    if (low) sum += mounts.lamps[slot].position_m, count += 1.0;
   }
   return count > 0.0 ? sum / count : sum;
 }
@@ -68,7 +68,7 @@ glm::dvec3 middle_of_low_beam(const DesignConfig& design) {
 
 Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
   const DesignConfig& design = lamps.designs()[design_index];
-  const glm::dvec3 origin_m = middle_of_low_beam(design);
+  const glm::dvec3 origin_m = middle_of_low_beam(design, lamps.mounts(design_index));
   const int width_px = static_cast<int>(2.0 * kHalfWidth_deg) * kPxPerDeg,
             height_px = static_cast<int>(2.0 * kHalfHeight_deg) * kPxPerDeg;
   constexpr double kRadPerDeg = std::numbers::pi / 180.0;

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
+#include "config/rig_edit.h"
 #include "net/control_desk.h"
+#include "visual/process/lamp_keys.h"
 
 namespace phare {
 namespace {
@@ -49,9 +52,57 @@ ControlReply answer(const Status& done, std::string now) {
   return done ? accepted(std::move(now)) : refused(done.error().text());
 }
 
+/// Every lamp of one name, where it stands; the distance of two.
+std::string mounts_text(const Lamps& lamps, const std::string& lamp) {
+  if (lamp.empty()) return print("all lamps turned %.3f deg up", lamps.aim_rad() * kDegPerRad);
+  const auto slots = lamps.slots_of(lamp);
+  if (!slots) return {};
+  std::string text;
+  for (const std::size_t slot : *slots) text += (text.empty() ? "" : "\n") + mount_text(lamps, slot);
+  const Lamps::Mounts mounts = lamps.mounts();
+  if (slots->size() == 2)
+    text +=
+        print("\n%.3f m apart", mounts.lamps[slots->front()].position_m.y - mounts.lamps[slots->back()].position_m.y);
+  return text;
+}
+
+std::string all_mounts_text(const Lamps& lamps) {
+  std::string text;
+  for (std::size_t slot = 0; slot < lamps.design().lamps.size(); ++slot) text += mount_text(lamps, slot) + "\n";
+  return text + mounts_text(lamps, "");
+}
+
+ControlReply save(Lamps& lamps, const Rig& rig, const std::string& file) {
+  const std::vector<SavedMount> changed = lamps.changed_mounts();
+  const bool own = file.empty() || std::filesystem::path(file).lexically_normal() == rig.file;
+  if (changed.empty() && own) return accepted(rig.file.string() + ": says so already");
+  if (const Status saved = save_mounts(rig.file, file, changed); !saved) return refused(saved.error().text());
+  if (own) lamps.mounts_are_saved();
+  return accepted((own ? rig.file.string() : file) + print(": %zu lamps", changed.size()));
+}
+
+/// What changes places and turns of lamps: the first picture's.
+void add_mount_verbs(Verbs& verbs, Lamps& lamps, const Rig& rig) {
+  verbs.on<RigControl::Mount>([&lamps](const RigControl::Mount& mount) {
+    const Status done = lamps.mount(mount);
+    return answer(done, done ? mounts_text(lamps, mount.lamp) : "");
+  });
+  verbs.on<RigControl::Undo>([&lamps](const RigControl::Undo& undo) {
+    const std::size_t steps = lamps.undo(undo.steps);
+    if (steps == 0) return refused("undo: nothing has been moved in design \"" + lamps.design().name + "\"");
+    return accepted(print("%zu taken back\n", steps) + all_mounts_text(lamps));
+  });
+  verbs.on<RigControl::Reset>([&lamps](const RigControl::Reset& reset) {
+    const Status done = lamps.reset(reset.lamp);
+    return answer(done, done ? (reset.lamp.empty() ? all_mounts_text(lamps) : mounts_text(lamps, reset.lamp)) : "");
+  });
+  verbs.on<RigControl::Save>(
+      [&lamps, &rig](const RigControl::Save& command) { return save(lamps, rig, command.file); });
+}
+
 }  // namespace
 
-Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk) {
+Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk, std::uint32_t channel) {
   Verbs verbs;
   verbs.on<RigControl::Dim>([&lamps](const RigControl::Dim& dim) {
     const std::string which = dim.source == 0 ? "all sources" : "source " + std::to_string(dim.source);
@@ -66,6 +117,14 @@ Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk) {
     return answer(lamps.place(place),
                   place.lamp + print(": at x %.3f, y %.3f, z %.3f m", place.x_m, place.y_m, place.z_m));
   });
+  if (channel == 0) {
+    add_mount_verbs(verbs, lamps, rig);
+  } else {
+    verbs.on<RigControl::Mount>([](const auto&) { return not_mine(); });
+    verbs.on<RigControl::Undo>([](const auto&) { return not_mine(); });
+    verbs.on<RigControl::Reset>([](const auto&) { return not_mine(); });
+    verbs.on<RigControl::Save>([](const auto&) { return not_mine(); });
+  }
   verbs.on<RigControl::Aim>([&lamps](const RigControl::Aim& aim) {
     lamps.set_aim(aim.pitch_rad);
     return accepted(print("all lamps turned %.3f deg up", aim.pitch_rad * kDegPerRad));
@@ -88,14 +147,9 @@ std::string text_of(const Lamps& lamps, const Desk& desk) {
   std::string text = design_text(lamps) + ", lit: " + lamps.lit_text() +
                      print(", all lamps turned %.3f deg up", lamps.aim_rad() * kDegPerRad);
   for (std::size_t slot = 0; slot < lamps.design().lamps.size(); ++slot) {
-    const LampConfig& lamp = lamps.design().lamps[slot];
-    const Lamps::Commanded now = lamps.commanded(slot);
-    text += "\n  " + lamp.name +
-            print(": at x %.3f, y %.3f, z %.3f m", lamp.position_m.x, lamp.position_m.y, lamp.position_m.z);
-    if (now.yaw_rad != 0.0 || now.pitch_rad != 0.0)
-      text += print(", turned %.3f deg left, %.3f deg up", now.yaw_rad * kDegPerRad, now.pitch_rad * kDegPerRad);
-    const std::string dimmed = dimmed_text(now.dimming_01);
-    const std::size_t sources = now.dimming_01.size();
+    text += "\n  " + mount_text(lamps, slot);
+    const std::string dimmed = dimmed_text(lamps.dimming_01(slot));
+    const std::size_t sources = lamps.dimming_01(slot).size();
     text += ", " + std::to_string(sources) + (sources == 1 ? " source" : " sources") + " at " +
             (dimmed.empty() ? "full light" : "full light but " + dimmed);
   }

@@ -15,7 +15,10 @@ namespace {
 
 // The table speaks of keys by GLFW's numbers without knowing GLFW.
 static_assert(key::kEscape == GLFW_KEY_ESCAPE && key::kBackspace == GLFW_KEY_BACKSPACE && key::kF1 == GLFW_KEY_F1 &&
-              key::kF2 == GLFW_KEY_F2 && key::kF3 == GLFW_KEY_F3 && key::kF4 == GLFW_KEY_F4);
+              key::kF2 == GLFW_KEY_F2 && key::kF3 == GLFW_KEY_F3 && key::kF4 == GLFW_KEY_F4 &&
+              key::kF5 == GLFW_KEY_F5 && key::kF6 == GLFW_KEY_F6 && key::kF7 == GLFW_KEY_F7);
+static_assert(key::kPageUp == GLFW_KEY_PAGE_UP && key::kPageDown == GLFW_KEY_PAGE_DOWN && key::kHome == GLFW_KEY_HOME &&
+              key::kEnd == GLFW_KEY_END);
 static_assert(key::kUp == GLFW_KEY_UP && key::kDown == GLFW_KEY_DOWN && key::kLeft == GLFW_KEY_LEFT &&
               key::kRight == GLFW_KEY_RIGHT);
 
@@ -36,6 +39,9 @@ KeyCode code_of(int glfw_key, int scancode, int mods) {
 struct Window::State {
   GLFWwindow* window = nullptr;
   WindowKeyboard keyboard;
+  bool clicked = false;
+  Moves moves;
+  double mouse_x = 0.0, mouse_y = 0.0;
 
   State() = default;
   State(const State&) = delete;
@@ -47,10 +53,21 @@ struct Window::State {
 
   static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-    if (action == GLFW_REPEAT) return;
+    if (action == GLFW_REPEAT) return of(window).keyboard.repeat(code_of(key, scancode, mods));
     const int physical = key == GLFW_KEY_UNKNOWN ? GLFW_KEY_LAST + 1 + scancode : key;
     of(window).keyboard.key(physical, code_of(key, scancode, mods), action == GLFW_PRESS,
                             WindowKeyboard::Time::clock::now());
+  }
+  static void on_button(GLFWwindow* window, int button, int action, int) {
+    if (action == GLFW_PRESS && button == GLFW_MOUSE_BUTTON_LEFT) of(window).clicked = true;
+  }
+  static void on_wheel(GLFWwindow* window, double, double lines) { of(window).moves.wheel += lines; }
+  static void on_mouse(GLFWwindow* window, double x, double y) {
+    State& state = of(window);
+    const double right = x - std::exchange(state.mouse_x, x), down = y - std::exchange(state.mouse_y, y);
+    const auto held = [&](int button) { return glfwGetMouseButton(window, button) == GLFW_PRESS; };
+    if (held(GLFW_MOUSE_BUTTON_RIGHT)) state.moves.turn_x_px -= right, state.moves.turn_y_px -= down;
+    if (held(GLFW_MOUSE_BUTTON_MIDDLE)) state.moves.shift_x_px += right, state.moves.shift_y_px += down;
   }
   static void on_character(GLFWwindow* window, unsigned character) {
     // On every keyboard another key with Shift.
@@ -81,6 +98,9 @@ Result<Window> Window::open(const std::string& title, int width_px, int height_p
   }
   glfwSetWindowUserPointer(state->window, state.get());
   glfwSetKeyCallback(state->window, State::on_key);
+  glfwSetScrollCallback(state->window, State::on_wheel);
+  glfwSetCursorPosCallback(state->window, State::on_mouse);
+  glfwSetMouseButtonCallback(state->window, State::on_button);
   glfwSetCharCallback(state->window, State::on_character);
   glfwSetWindowFocusCallback(state->window, State::on_focus);
   return Window(std::move(state));
@@ -94,6 +114,13 @@ Window::~Window() = default;
 bool Window::poll() {
   glfwPollEvents();
   return glfwWindowShouldClose(state_->window) == GLFW_FALSE;
+}
+
+bool Window::take_click() {
+  return std::exchange(state_->clicked, false);
+}
+Window::Moves Window::take_moves() {
+  return std::exchange(state_->moves, {});
 }
 
 WindowKeyboard& Window::keyboard() {

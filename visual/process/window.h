@@ -41,6 +41,13 @@ class Window {
     bool inside = false;
   };
   Mouse mouse() const;
+  bool take_click();  ///< of the left button, since the last call
+  /// What the mouse was moved by since the last call: with the right button held, with the middle one, and its wheel.
+  /// Pixels to the right are negative turns: the picture follows the hand; up is positive.
+  struct Moves {
+    double turn_x_px = 0.0, turn_y_px = 0.0, shift_x_px = 0.0, shift_y_px = 0.0, wheel = 0.0;
+  };
+  Moves take_moves();
   GLFWwindow* handle() const;
 
  private:

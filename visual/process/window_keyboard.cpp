@@ -29,6 +29,11 @@ void WindowKeyboard::key(int physical, KeyCode code, bool down, Time now) {
   tell(static_cast<std::int32_t>(*bound), now);
 }
 
+void WindowKeyboard::repeat(KeyCode code) {
+  const auto bound = bound_code(code);
+  if (bound && repeats(binding_of(*bound)->action)) presses_.push_back(binding_of(*bound)->action);
+}
+
 void WindowKeyboard::character(KeyCode code, Time now) {
   constexpr int kNoKey = -1;
   key(kNoKey, code, true, now);

@@ -25,6 +25,8 @@ class WindowKeyboard {
   /// A key goes down or up. `physical`: the same number both times, whatever Shift does in between; `code`: what it is
   /// bound as (any number where it is bound as nothing). A repeat is no press.
   void key(int physical, KeyCode code, bool down, Time now);
+  /// A key is held and repeats: a press of those that move something step by step (repeats()).
+  void repeat(KeyCode code);
   /// A character was typed that no single key stands for everywhere: a press and its release.
   void character(KeyCode code, Time now);
   /// Nothing is held any more.

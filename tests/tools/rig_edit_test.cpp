@@ -1,0 +1,221 @@
+// unit: places and turns of lamps written into rig files as people write them.
+#include "config/rig_edit.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "config/rig.h"
+#include "config/whole_file.h"
+#include "tests/paths.h"
+
+namespace phare {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kRad = 3.14159265358979323846 / 180.0;
+
+std::string text_of_file(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+constexpr const char* kRig = R"(# Ein Prüfstand
+name = "bench"     # kept
+scene = "s.glb"
+vehicle = "v.toml"
+cockpit = "c.toml"
+
+[[channel]]
+name = "front"
+
+[[design]]
+name = "halogen"
+
+[[design.lamp]]
+name = "headlamp"
+pair = true                      # the left one
+position_m = [3.45, 0.62, 0.66]  # measured
+
+[[design.lamp.source]]
+function = "low"
+file = "é low.ies"   # ours
+pitch_deg = -0.573   # -1 %
+colour_temperature_k = 3200.0
+
+[[design.lamp.source]]
+function = "high"
+file = "high.ies"
+pitch_deg = -0.573
+
+# The fog lamps: both alike.
+[[design.lamp]]
+name = "fog"
+pair = true
+position_m = [
+  3.5, 0.55, 0.35
+]
+source = [ { function = "fog", file = "fog.ies" } ]
+
+[dynamics]  # behind the lamps
+level = "kinematic"
+)";
+
+const SavedMount kLeft{"halogen", "headlamp left", {3.5, 0.7, 0.8}, {{0.0, 0.01, 0.0}, {0.02, 0.0, 0.001}}};
+const SavedMount kRight{"halogen", "headlamp right", {3.5, -0.7, 0.8}, {{0.0, 0.01, 0.0}, {-0.02, 0.0, -0.001}}};
+
+Rig rig_of(const std::string& text) {
+  const auto reading = read_rig_text(text, "/x/rig.toml");
+  EXPECT_TRUE(reading.ok());
+  EXPECT_TRUE(reading->problems.empty()) << reading->problems.front().text() << "\n" << text;
+  return reading->rig;
+}
+
+TEST(RigEdit, APairThatMirrorsStaysOneAndEveryCommentStays) {
+  const SavedMount mounts[] = {kLeft, kRight};
+  const auto edited = with_mounts(kRig, "/x/rig.toml", mounts);
+  ASSERT_TRUE(edited) << edited.error().text();
+  for (const char* kept :
+       {"# Ein Prüfstand\n", "name = \"bench\"     # kept\n", "pair = true                      # the left one\n",
+        "position_m = [3.5, 0.7, 0.8]  # measured\n", "file = \"é low.ies\"   # ours\n",
+        "pitch_deg = 0.572958   # -1 %\n", "# The fog lamps: both alike.\n", "  3.5, 0.55, 0.35\n",
+        "[dynamics]  # behind the lamps\n", "file = \"high.ies\"\n"})
+    EXPECT_NE(edited->find(kept), std::string::npos) << kept << "\n" << *edited;
+  const Rig rig = rig_of(*edited);
+  ASSERT_EQ(rig.designs[0].lamps.size(), 4u);
+  const LampConfig &left = rig.designs[0].lamps[0], &right = rig.designs[0].lamps[1];
+  EXPECT_EQ(left.name, "headlamp left");
+  EXPECT_EQ(right.position_m, glm::dvec3(3.5, -0.7, 0.8));
+  // Rounded to 1e-6 degrees: half of that.
+  EXPECT_NEAR(left.sources[1].yaw_rad, 0.02, 0.51e-6 * kRad);
+  EXPECT_NEAR(right.sources[1].roll_rad, -0.001, 0.51e-6 * kRad);
+  EXPECT_NEAR(left.sources[1].pitch_rad, 0.0, 0.51e-6 * kRad);
+  // What holds is written again as it is.
+  EXPECT_EQ(*with_mounts(*edited, "/x/rig.toml", mounts), *edited);
+}
+
+TEST(RigEdit, ThoseThatNoLongerMirrorBecomeTwo) {
+  SavedMount higher = kRight;
+  higher.position_m.z = 0.9;
+  const SavedMount mounts[] = {higher};  // the left one stays
+  const auto edited = with_mounts(kRig, "/x/rig.toml", mounts);
+  ASSERT_TRUE(edited) << edited.error().text();
+  const Rig rig = rig_of(*edited), before = rig_of(kRig);
+  ASSERT_EQ(rig.designs[0].lamps.size(), 4u);
+  EXPECT_EQ(rig.designs[0].lamps[1].name, "headlamp right");
+  EXPECT_EQ(rig.designs[0].lamps[1].position_m.z, 0.9);
+  EXPECT_EQ(rig.designs[0].lamps[0].position_m, before.designs[0].lamps[0].position_m);
+  EXPECT_EQ(rig.designs[0].lamps[2], before.designs[0].lamps[2]);
+  EXPECT_NE(edited->find("# The fog lamps: both alike.\n[[design.lamp]]"), std::string::npos) << *edited;
+  // And both again, now that they are two.
+  const SavedMount both[] = {kLeft, kRight};
+  const auto again = with_mounts(*edited, "/x/rig.toml", both);
+  ASSERT_TRUE(again) << again.error().text();
+  EXPECT_EQ(rig_of(*again).designs[0].lamps[1].position_m.z, 0.8);
+}
+
+TEST(RigEdit, TablesInBracesAreEditedAndSplit) {
+  std::string text = kRig;
+  const std::size_t begin = text.find("[[design.lamp]]"), end = text.find("[dynamics]");
+  text.replace(
+      begin, end - begin,
+      "lamp = [ { name = \"fog\", pair = true, position_m = [3.5, 0.55, 0.35], source = [ { function = \"fog\", "
+      "file = \"fog.ies\" } ] } ]  # one line\n");
+  const SavedMount left{"halogen", "fog left", {3.5, 0.6, 0.35}, {{0.0, -0.03, 0.0}}};
+  const SavedMount alone[] = {left};
+  const auto split = with_mounts(text, "/x/rig.toml", alone);
+  ASSERT_TRUE(split) << split.error().text();
+  EXPECT_EQ(rig_of(*split).designs[0].lamps[0].position_m.y, 0.6);
+  EXPECT_EQ(rig_of(*split).designs[0].lamps[1].position_m.y, -0.55);
+  SavedMount right = left;
+  right.lamp = "fog right", right.position_m.y = -0.6;
+  const SavedMount pair[] = {left, right};
+  const auto whole = with_mounts(text, "/x/rig.toml", pair);
+  ASSERT_TRUE(whole) << whole.error().text();
+  EXPECT_NE(whole->find("pair = true"), std::string::npos);
+  EXPECT_NE(whole->find("pitch_deg = -1.718873"), std::string::npos) << *whole;
+}
+
+TEST(RigEdit, WhatAimDidIsInTheAnglesThen) {
+  std::string text = kRig;
+  text.replace(text.find("position_m = [3.45"), 0, "aim = \"cut-off\"  # UN R48\n");
+  const SavedMount mounts[] = {kLeft, kRight};
+  const auto edited = with_mounts(text, "/x/rig.toml", mounts);
+  ASSERT_TRUE(edited) << edited.error().text();
+  EXPECT_NE(edited->find("aim = \"as-filed\"  # UN R48\n"), std::string::npos) << *edited;
+}
+
+TEST(RigEdit, TheShippedRigsCanBeEdited) {
+  for (const char* name : {"country_road", "matrix"}) {
+    const fs::path file = phare::source_dir() + "/config/rigs/" + name + ".toml";
+    const auto rig = read_rig(file);
+    ASSERT_TRUE(rig);
+    std::vector<SavedMount> mounts;
+    for (const DesignConfig& design : rig->designs)
+      for (const LampConfig& lamp : design.lamps) {
+        mounts.push_back({design.name, lamp.name, lamp.position_m + glm::dvec3(0.1, 0.0, 0.05), {}});
+        for (const SourceConfig& s : lamp.sources) mounts.back().sources.push_back({s.yaw_rad, s.pitch_rad, 0.01});
+      }
+    const auto edited = with_mounts(text_of_file(file), file, mounts);  // rolled alike, so no pair mirrors
+    ASSERT_TRUE(edited) << edited.error().text();
+  }
+}
+
+TEST(RigEdit, WhatCannotBeEditedIsRefusedAndStays) {
+  const auto reason = [](const std::string& text, const SavedMount& mount) {
+    const SavedMount mounts[] = {mount};
+    const auto edited = with_mounts(text, "/x/rig.toml", mounts);
+    return edited ? "edited" : edited.error().text();
+  };
+  SavedMount other = kLeft;
+  other.lamp = "roof left";
+  EXPECT_NE(reason(kRig, other).find("/x/rig.toml: has not all of the lamps that were moved"), std::string::npos);
+  other = kLeft;
+  other.sources.pop_back();
+  EXPECT_NE(reason(kRig, other).find("nothing is written"), std::string::npos);
+  EXPECT_NE(reason("name = \n", kLeft).find("/x/rig.toml:1"), std::string::npos);
+  EXPECT_NE(reason(std::string(kRig) + "kolour = 1\n", kLeft).find("kolour"), std::string::npos);
+}
+
+class RigSave : public testing::Test {
+ protected:
+  RigSave() : folder_(fs::path(testing::TempDir()) / ("phare_rig_save_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "rig.toml", std::ios::binary) << kRig;
+  }
+  ~RigSave() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  fs::path folder_;
+};
+
+TEST_F(RigSave, GoesToItselfOrBesideWholeOrNotAtAll) {
+  const SavedMount mounts[] = {kLeft, kRight};
+  ASSERT_TRUE(save_mounts(folder_ / "rig.toml", folder_ / "other.toml", mounts));
+  EXPECT_EQ(text_of_file(folder_ / "rig.toml"), kRig) << "it was saved elsewhere";
+  ASSERT_TRUE(save_mounts(folder_ / "rig.toml", "", mounts));
+  EXPECT_EQ(text_of_file(folder_ / "rig.toml"), text_of_file(folder_ / "other.toml"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2) << "nothing else is left";
+
+  const Status elsewhere = save_mounts(folder_ / "rig.toml", "/tmp/phare_no_such_folder/rig.toml", mounts);
+  ASSERT_FALSE(elsewhere);
+  EXPECT_NE(elsewhere.error().text().find("relative to its folder"), std::string::npos);
+  fs::remove(folder_ / "rig.toml");
+  EXPECT_FALSE(save_mounts(folder_ / "rig.toml", "", mounts)) << "gone meanwhile";
+}
+
+TEST_F(RigSave, WhatTheDiskDoesNotTakeIsSaidAndTheFileStays) {
+  const SavedMount mounts[] = {kLeft, kRight};
+  fs::create_directory(folder_ / "other.toml");  // a folder is no file, for root too
+  const Status refused = save_mounts(folder_ / "rig.toml", folder_ / "other.toml", mounts);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().text().find("other.toml"), std::string::npos) << refused.error().text();
+  EXPECT_EQ(text_of_file(folder_ / "rig.toml"), kRig);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2) << "nothing half-written is left";
+}
+
+}  // namespace
+}  // namespace phare

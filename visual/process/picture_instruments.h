@@ -1,0 +1,60 @@
+// The measuring instruments of a picture, in one place for the loop: the point that is read, grid, isolux lines, scale,
+// reach, probes.csv. What the desk has off costs no work and no pass: `work_done` counts.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/desk.h"
+#include "visual/process/lamps.h"
+#include "visual/process/point_reading.h"
+#include "visual/process/probe_log.h"
+#include "visual/process/road_marks.h"
+
+namespace phare {
+
+class PictureInstruments {
+ public:
+  /// All three outlive it.
+  PictureInstruments(const Desk& desk, const Lamps& lamps, const Scene& scene, RoadLine road, ProbeLog log);
+
+  const RoadLine& road() const { return road_; }
+  /// The moment that a picture shows: what the others speak of.
+  struct Moment {
+    SimTime time{};
+    VehicleState car{};
+    Camera camera{};
+    double aspect = 16.0 / 9.0;
+  };
+  void see(const Moment& moment) { moment_ = moment; }
+
+  /// The point of the desk in the world of that moment. Error: there is none, or the picture shows sky there.
+  Result<MeasurePoint> point() const;
+  /// What is read there.
+  Result<PointReading> read() const;
+  /// For the overlay: the point, lamp by lamp, and the reach.
+  std::vector<std::string> lines() const;
+  /// Of the answer to `set point`; empty without one.
+  std::string answer() const;
+  /// What is drawn over the picture. Isolux lines are found again where `anew`, and seen from the new place in any
+  /// case.
+  OverlayMarks marks(bool anew);
+  /// A row of probes.csv, where one is due. False, once: the disk did not take it.
+  bool log();
+
+  std::uint64_t work_done() const { return work_; }
+
+ private:
+  const Desk& desk_;
+  const Lamps& lamps_;
+  const Scene& scene_;
+  RoadLine road_;
+  ProbeLog log_;
+  Moment moment_;
+  RoadMarks isolux_;
+  mutable std::uint64_t work_ = 0;
+};
+
+}  // namespace phare

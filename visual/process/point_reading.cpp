@@ -1,0 +1,126 @@
+#include "visual/process/point_reading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "config/conventions.h"
+#include "visual/photometry/illuminance.h"
+#include "visual/scene/ray_hit.h"
+
+namespace phare {
+namespace {
+
+constexpr double kDegOfRad = 180.0 / std::numbers::pi;
+
+constexpr std::array<const char*, 7> kWhyDarkWords{
+    "lit",   "off", "behind the lamp", "outside its table", "no light in that direction", "the surface faces away",
+    "hidden"};
+
+/// What lies within a millimetre of the point.
+const SceneChunk* chunk_at(const Scene& scene, const MeasurePoint& at) {
+  constexpr double kNear_m = 1e-3;
+  const auto hit = ray_hit(scene, at.position_m + kNear_m * at.normal, -at.normal, 0.0, 2.0 * kNear_m);
+  return hit ? &scene.chunks[hit->chunk] : nullptr;
+}
+
+/// One lamp, as if nothing stood in its light.
+LampReading read_lamp(const PointLight& light, const MeasurePoint& at, const glm::dvec3& back,
+                      const glm::dvec3& to_eye) {
+  LampReading reading;
+  reading.lamp = light.lamp;
+  const glm::dvec3 way = light.lamp_m - at.position_m;
+  reading.distance_m = glm::length(way);
+  reading.h_deg = light.h_deg, reading.v_deg = light.v_deg;
+  reading.candela = light.candela;
+  reading.why = !light.lit                                         ? WhyDark::kOff
+                : light.candela > 0.0 || reading.distance_m <= 0.0 ? WhyDark::kLit
+                : light.behind                                     ? WhyDark::kBehindLamp
+                : light.out_of_table                               ? WhyDark::kOutOfTable
+                                                                   : WhyDark::kNoLightThere;
+  if (reading.why != WhyDark::kLit || reading.distance_m <= 0.0) return reading;
+  reading.facing_lx = light.candela / (reading.distance_m * reading.distance_m);
+  const glm::dvec3 toward = way / reading.distance_m;
+  const auto on = [&](const glm::dvec3& normal) { return reading.facing_lx * std::max(glm::dot(toward, normal), 0.0); };
+  reading.surface_lx = light.surface_lx;
+  reading.horizontal_lx = on({0.0, 0.0, 1.0});
+  reading.vertical_lx = on(back);
+  reading.eye_lx = on(to_eye);
+  if (light.surface_lx <= 0.0) reading.why = WhyDark::kFacesAway;
+  return reading;
+}
+
+}  // namespace
+
+PointReading read_point(const Lamps& lamps, const VehicleState& car, const MeasurePoint& at, const glm::dvec3& eye_m,
+                        const Scene& scene, const RoadLine& road, bool shadows) {
+  PointReading reading;
+  reading.world = at;
+  const glm::dmat3 body = world_from_car(car.roll_rad, car.pitch_rad, car.yaw_rad);
+  reading.car_m = glm::transpose(body) * (at.position_m - glm::dvec3(car.x_m, car.y_m, car.z_m));
+  reading.road = road.place_of(at.position_m);
+  glm::dvec3 rho{0.0};
+  if (const SceneChunk* chunk = chunk_at(scene, at)) {
+    const SceneMaterial& material = scene.materials[chunk->material];
+    reading.node = chunk->node, reading.material = material.name;
+    rho = glm::dvec3(material.reflectance);
+    reading.sends_back = material.retro.kind != RetroKind::kNone;
+  }
+  const glm::dvec3 back{-std::cos(car.yaw_rad), -std::sin(car.yaw_rad), 0.0};
+  const glm::dvec3 away = eye_m - at.position_m;
+  const glm::dvec3 to_eye = glm::length(away) > 0.0 ? glm::normalize(away) : at.normal;
+  for (const PointLight& light : lamps.lights_at(car, at)) {
+    LampReading lamp = read_lamp(light, at, back, to_eye);
+    if (shadows && lamp.why == WhyDark::kLit) {
+      if (const auto by = occluder(scene, light.lamp_m, at.position_m)) {
+        lamp.why = WhyDark::kHidden;
+        lamp.hidden_by = scene.chunks[*by].node.empty() ? "something without a name" : scene.chunks[*by].node;
+      }
+    }
+    // A surface that faces away from the lamp may stand in its light when it is turned.
+    if (lamp.why == WhyDark::kLit || lamp.why == WhyDark::kFacesAway) {
+      reading.surface_lx += lamp.surface_lx;
+      reading.horizontal_lx += lamp.horizontal_lx;
+      reading.vertical_lx += lamp.vertical_lx;
+      reading.eye_lx += lamp.eye_lx;
+      const glm::dvec3 seen = rho * glm::dvec3(light.colour);
+      reading.luminance_cdm2 += lamp.surface_lx * glm::dot(seen, {0.2126, 0.7152, 0.0722}) / std::numbers::pi;
+    }
+    reading.lamps.push_back(std::move(lamp));
+  }
+  return reading;
+}
+
+std::vector<std::string> lines_of(const PointReading& r) {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("{}: {:.6g} lx; level {:.6g}, upright {:.6g}, facing the eye {:.6g} lx; {:.3g} cd/m2{}",
+                              r.node.empty() ? "point" : r.node + (r.material.empty() ? "" : " (" + r.material + ")"),
+                              r.surface_lx, r.horizontal_lx, r.vertical_lx, r.eye_lx, r.luminance_cdm2,
+                              r.sends_back ? " and what it sends back" : ""));
+  const glm::dvec3 w = r.world.position_m;
+  std::string where = fmt::format("  car ({:.2f}, {:.2f}, {:.2f}), world ({:.2f}, {:.2f}, {:.2f}) m", r.car_m.x,
+                                  r.car_m.y, r.car_m.z, w.x, w.y, w.z);
+  if (r.road) where += fmt::format(", road s {:.2f}, {:.2f} m left", r.road->s_m, r.road->lateral_m);
+  lines.push_back(std::move(where));
+  for (const LampReading& lamp : r.lamps) {
+    std::string line = "  " + lamp.lamp + ": ";
+    if (lamp.why == WhyDark::kLit)
+      line += fmt::format("{:.6g} lx, {:.0f} %", lamp.surface_lx,
+                          r.surface_lx > 0.0 ? 100.0 * lamp.surface_lx / r.surface_lx : 0.0);
+    else
+      line += std::string("dark, ") + kWhyDarkWords[static_cast<std::size_t>(lamp.why)] +
+              (lamp.hidden_by.empty() ? "" : " by " + lamp.hidden_by + fmt::format(" ({:.4g} lx)", lamp.surface_lx));
+    if (lamp.why != WhyDark::kOff)
+      line += fmt::format("; {:.5g} cd at H {:.2f}, V {:.2f} deg, {:.2f} m, facing it {:.4g} lx", lamp.candela,
+                          lamp.h_deg, lamp.v_deg, lamp.distance_m, lamp.facing_lx);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace phare

@@ -1,0 +1,233 @@
+#include "visual/process/road_marks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+#include <map>
+#include <utility>
+
+#include "visual/image/lux_scale.h"
+
+namespace phare {
+namespace {
+
+constexpr double kAboveRoad_m = 0.01;  // lines lie on it
+constexpr OverlayColour kGridInk{150, 215, 235}, kGridFaint{95, 150, 175};
+
+double level_lx(const Lamps& lamps, const VehicleState& car, const MeasurePoint& road) {
+  return lamps.illuminance_lx(car, {road.position_m, {0.0, 0.0, 1.0}});
+}
+
+/// The farthest place ahead that has the level on one edge.
+double reach_m(const Lamps& lamps, const VehicleState& car, const RoadLine::Ahead& road, double left_m, double lx) {
+  constexpr double kNearest_m = 4.0, kStep_m = 2.0;
+  const auto at = [&](double ahead_m) { return level_lx(lamps, car, road(ahead_m, left_m)); };
+  double far_m = kFarthestReach_m;
+  while (far_m >= kNearest_m && at(far_m) < lx) far_m -= kStep_m;
+  if (far_m < kNearest_m) return 0.0;
+  if (far_m == kFarthestReach_m) return far_m;
+  double with_m = far_m, without_m = far_m + kStep_m;
+  for (int i = 0; i < 6; ++i) {
+    const double middle_m = 0.5 * (with_m + without_m);
+    (at(middle_m) >= lx ? with_m : without_m) = middle_m;
+  }
+  return with_m;
+}
+
+glm::dvec3 lifted(const MeasurePoint& point) {
+  return point.position_m + glm::dvec3(0.0, 0.0, kAboveRoad_m);
+}
+
+/// Of the colours of the levels' own false colour, light enough over a dark road.
+OverlayColour colour_of(double lx) {
+  const Colour colour = false_colour(lx);
+  const auto light = [](std::uint8_t part) { return static_cast<unsigned char>(90 + part * 165 / 255); };
+  return {light(colour.red), light(colour.green), light(colour.blue)};
+}
+
+/// Where a line of the eye's view cuts its near side; clip space with w the distance ahead.
+struct Seen {
+  double x_01 = 0.0, y_01 = 0.0;
+};
+std::optional<std::pair<Seen, Seen>> seen_line(const glm::dmat4& clip_from_eye, glm::dvec3 a_m, glm::dvec3 b_m) {
+  glm::dvec4 a = clip_from_eye * glm::dvec4(a_m, 1.0), b = clip_from_eye * glm::dvec4(b_m, 1.0);
+  constexpr double kNear = 0.1;
+  if (a.w < kNear && b.w < kNear) return std::nullopt;
+  const auto cut = [&](glm::dvec4& behind, const glm::dvec4& before) {
+    behind = before + (behind - before) * ((before.w - kNear) / (before.w - behind.w));
+  };
+  if (a.w < kNear) cut(a, b);
+  if (b.w < kNear) cut(b, a);
+  const auto on_picture = [](const glm::dvec4& p) { return Seen{0.5 + 0.5 * p.x / p.w, 0.5 + 0.5 * p.y / p.w}; };
+  return std::pair{on_picture(a), on_picture(b)};
+}
+
+bool near_picture(const Seen& at) {
+  return at.x_01 > -1.0 && at.x_01 < 2.0 && at.y_01 > -1.0 && at.y_01 < 2.0;
+}
+
+}  // namespace
+
+std::vector<Reach> reach_of(const Lamps& lamps, const VehicleState& car, const RoadLine& road) {
+  const RoadLine::Ahead ahead = road.ahead_of(car);
+  std::vector<Reach> all;
+  for (const double lx : kReachLevels_lx)
+    all.push_back({lx, reach_m(lamps, car, ahead, kLaneEdge_m, lx), reach_m(lamps, car, ahead, -kLaneEdge_m, lx)});
+  return all;
+}
+
+std::string reach_line(const std::vector<Reach>& reach) {
+  std::string text = "reach left/right:";
+  for (std::size_t i = 0; i < reach.size(); ++i)
+    text += fmt::format("{} {:g} lx {:.0f}/{:.0f} m", i == 0 ? "" : ",", reach[i].level_lx, reach[i].left_m,
+                        reach[i].right_m);
+  return text;
+}
+
+RoadMarks grid_marks(const VehicleState& car, const RoadLine& road, double spacing_m) {
+  constexpr int kAcross = 10, kParts = 5, kSide = 3;
+  constexpr double kApart_m = 2.0;
+  const RoadLine::Ahead ahead = road.ahead_of(car);
+  RoadMarks marks;
+  for (int row = 1; row <= kAcross; ++row) {
+    RoadMarks::Line line{{}, kGridInk};
+    for (int k = -2 * kSide; k <= 2 * kSide; ++k)
+      line.points_m.push_back(lifted(ahead(row * spacing_m, 0.5 * k * kApart_m)));
+    marks.labels.push_back({line.points_m[2 * kSide - 2], fmt::format("{:g} m", row * spacing_m), kGridInk});
+    marks.lines.push_back(std::move(line));
+  }
+  for (int k = -kSide; k <= kSide; ++k) {
+    RoadMarks::Line line{{}, k == 0 ? kGridInk : kGridFaint};
+    for (int part = kParts; part <= kAcross * kParts; ++part)
+      line.points_m.push_back(lifted(ahead(part * spacing_m / kParts, k * kApart_m)));
+    marks.lines.push_back(std::move(line));
+  }
+  return marks;
+}
+
+RoadMarks isolux_marks(const Lamps& lamps, const VehicleState& car, const RoadLine& road,
+                       const std::vector<double>& levels_lx) {
+  // Rows grow with distance, as the picture shrinks: 0.14 m near the car, 6.6 m at 145 m.
+  constexpr double kFrom_m = 3.0, kGrowth = 1.048, kApart_m = 0.5;
+  constexpr int kRows = 84, kColumns = 57;  // to 147 m, 14 m to either side
+  struct Node {
+    glm::dvec3 at_m;
+    double log_lx;  // smoother between nodes than lux
+  };
+  const RoadLine::Ahead ahead = road.ahead_of(car);
+  std::vector<Node> nodes;
+  nodes.reserve(static_cast<std::size_t>(kRows * kColumns));
+  double ahead_m = kFrom_m;
+  for (int row = 0; row < kRows; ++row, ahead_m *= kGrowth)
+    for (int column = 0; column < kColumns; ++column) {
+      const MeasurePoint point = ahead(ahead_m, (column - kColumns / 2) * kApart_m);
+      nodes.push_back({lifted(point), std::log(std::max(level_lx(lamps, car, point), 1e-6))});
+    }
+  const auto node = [&](int row, int column) -> const Node& {
+    return nodes[static_cast<std::size_t>(row * kColumns + column)];
+  };
+  RoadMarks marks;
+  for (const double lx : levels_lx) {
+    const double level = std::log(lx);
+    const OverlayColour ink = colour_of(lx);
+    std::optional<glm::dvec3> farthest;
+    for (int row = 0; row + 1 < kRows; ++row)
+      for (int column = 0; column + 1 < kColumns; ++column) {
+        // Marching triangles: each has a line or none.
+        const Node* corner[4] = {&node(row, column), &node(row, column + 1), &node(row + 1, column + 1),
+                                 &node(row + 1, column)};
+        for (const auto& [i, j, k] : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
+          std::vector<glm::dvec3> cuts;
+          for (const auto& [p, q] : {std::pair{corner[i], corner[j]}, {corner[j], corner[k]}, {corner[k], corner[i]}}) {
+            if ((p->log_lx >= level) == (q->log_lx >= level)) continue;
+            cuts.push_back(p->at_m + (q->at_m - p->at_m) * ((level - p->log_lx) / (q->log_lx - p->log_lx)));
+          }
+          if (cuts.size() != 2) continue;
+          farthest = cuts[0];  // rows rise
+          marks.lines.push_back({std::move(cuts), ink});
+        }
+      }
+    if (farthest) marks.labels.push_back({*farthest, fmt::format("{:g} lx", lx), {}});
+  }
+  return marks;
+}
+
+RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& road) {
+  RoadMarks seen;
+  for (RoadMarks::Line& line : marks.lines) {
+    // A piece of an isolux line is short: one of its ends tells. A long line is cut where it goes out of sight.
+    if (line.points_m.size() == 2) {
+      if (!road.hides(eye_m, line.points_m.front())) seen.lines.push_back(std::move(line));
+      continue;
+    }
+    RoadMarks::Line piece{{}, line.colour};
+    for (const glm::dvec3& point_m : line.points_m) {
+      if (!road.hides(eye_m, point_m)) {
+        piece.points_m.push_back(point_m);
+        continue;
+      }
+      if (piece.points_m.size() > 1) seen.lines.push_back(piece);
+      piece.points_m.clear();
+    }
+    if (piece.points_m.size() > 1) seen.lines.push_back(std::move(piece));
+  }
+  for (RoadMarks::Label& label : marks.labels)
+    if (!road.hides(eye_m, label.at_m)) seen.labels.push_back(std::move(label));
+  return seen;
+}
+
+void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometry& view) {
+  const glm::dmat4 clip_from_eye = view.clip_from_eye();
+  const glm::dvec3 eye_m = view.camera().eye_m;
+  for (const RoadMarks::Line& line : marks.lines)
+    for (std::size_t i = 1; i < line.points_m.size(); ++i) {
+      const auto ends = seen_line(clip_from_eye, line.points_m[i - 1] - eye_m, line.points_m[i] - eye_m);
+      if (ends && (near_picture(ends->first) || near_picture(ends->second)))
+        picture.lines.push_back(
+            {ends->first.x_01, ends->first.y_01, ends->second.x_01, ends->second.y_01, line.colour});
+    }
+  for (const RoadMarks::Label& label : marks.labels) {
+    const auto at = seen_line(clip_from_eye, label.at_m - eye_m, label.at_m - eye_m);
+    if (at && near_picture(at->first))
+      picture.labels.push_back({at->first.x_01, at->first.y_01, label.text, label.colour});
+  }
+}
+
+void draw_scale(OverlayMarks& picture, const std::vector<double>& levels_lx) {
+  constexpr double kLowest_lx = 0.3, kHighest_lx = 200.0;  // where the colours begin and end (shaders/lib/tone.h)
+  constexpr double kLeft_01 = 0.94, kWidth_01 = 0.014, kTop_01 = 0.12, kHeight_01 = 0.5;
+  constexpr int kBoxes = 64;
+  const double decades = std::log(kHighest_lx / kLowest_lx);
+  picture.boxes.push_back({kLeft_01 - 0.008, kTop_01 - 0.055, 0.065, kHeight_01 + 0.075, {30, 36, 42}, 155});
+  for (int i = 0; i < kBoxes; ++i) {
+    const double share = (i + 0.5) / kBoxes;
+    const Colour colour = false_colour(kHighest_lx * std::exp(-decades * share));
+    picture.boxes.push_back({kLeft_01,
+                             kTop_01 + kHeight_01 * i / kBoxes,
+                             kWidth_01,
+                             kHeight_01 / kBoxes + 0.001,
+                             {colour.red, colour.green, colour.blue},
+                             255});
+  }
+  picture.labels.push_back({kLeft_01, kTop_01 - 0.028, "lux", {}});
+  for (const double lx : levels_lx) {
+    if (lx < kLowest_lx || lx > kHighest_lx) continue;
+    const double y = kTop_01 + kHeight_01 * std::log(kHighest_lx / lx) / decades;
+    picture.lines.push_back({kLeft_01, y, kLeft_01 + kWidth_01 + 0.004, y, {255, 255, 255}});
+    picture.labels.push_back({kLeft_01 + kWidth_01 + 0.007, y, fmt::format("{:g}", lx), {}});
+  }
+}
+
+void frame_part(OverlayMarks& picture, const PicturePart& part) {
+  constexpr OverlayColour kInk{120, 125, 130};
+  const double left = part.left_01, top = part.top_01, right = left + part.width_01, bottom = top + part.height_01;
+  picture.lines.push_back({left, top, right, top, kInk});
+  picture.lines.push_back({right, top, right, bottom, kInk});
+  picture.lines.push_back({right, bottom, left, bottom, kInk});
+  picture.lines.push_back({left, bottom, left, top, kInk});
+}
+
+}  // namespace phare
