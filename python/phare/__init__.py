@@ -20,6 +20,7 @@ from .control import (
 )
 from .drive import Report, drive, free_ports
 from .drive_file import Drive, poses, read_drive, write_drive
+from .edges import oncoming_glare, visibility
 from .errors import BadInput, Failed, LawFailed, NotFound, PhareError
 from .judge import Glare, judge_glare
 from .lamp import Comparison, Hspr, Lamp, Table, Verdict
@@ -28,9 +29,9 @@ from .programs import program, version
 from .rig import Channel, Design, LampPlace, Rig, Source, generated_file, shipped_file
 
 __all__ = [
-    "Answer", "BadInput", "Channel", "Comparison", "Controller", "Design", "Drive", "Failed", "Given", "Glare", "Hspr", "Lamp",
-    "LampLight", "LampOfLaw", "LampPlace", "LawFailed", "Mounted", "NotFound", "PhareError", "Program", "Report", "Rig",
-    "RoadUser", "RoadUserSeen", "Sensors", "Source", "SourceOfLaw", "Table", "Together", "Verdict", "drive",
-    "free_ports", "generated_file", "judge_glare", "laws", "measure", "poses", "program", "read_drive", "read_road_users", "shipped_file", "sweep",
-    "version", "write_drive",
+    "Answer", "BadInput", "Channel", "Comparison", "Controller", "Design", "Drive", "Failed", "Given", "Glare", "Hspr",
+    "Lamp", "LampLight", "LampOfLaw", "LampPlace", "LawFailed", "Mounted", "NotFound", "PhareError", "Program",
+    "Report", "Rig", "RoadUser", "RoadUserSeen", "Sensors", "Source", "SourceOfLaw", "Table", "Together", "Verdict",
+    "drive", "free_ports", "generated_file", "judge_glare", "laws", "measure", "oncoming_glare", "poses", "program",
+    "read_drive", "read_road_users", "shipped_file", "sweep", "version", "visibility", "write_drive",
 ]

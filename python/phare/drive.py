@@ -133,7 +133,7 @@ class Report:
         return self._drawn(pd.concat([table, pd.DataFrame(rows, index=table.index)], axis=1))
 
     def _drawn(self, table: pd.DataFrame) -> pd.DataFrame:
-        """Lockstep: up to the last frame that was drawn. Whether the processes had begun the next when the drive ended is chance."""
+        """Lockstep: up to the last frame that was drawn. Whether the processes had begun the next when it ended is chance."""
         if not self.raw.get("lockstep") or table.empty:
             return table
         return table[table.frame_index <= self.pictures.frame_index.max()]

@@ -82,8 +82,8 @@ def _ip_payload(frame: bytes, link: int) -> bytes | None:
 def read_drive(file: str | os.PathLike[str], *, key: bytes | None = None) -> Drive:
     """Reads a drive file (pcap, stamps in micro- or nanoseconds, link type RAW or Ethernet).
 
-    key: of datagrams that were captured with their seal, as by tcpdump. A file cut anywhere is read up to its last whole record. Raises
-    BadInput when it is no such file.
+    key: of datagrams that were captured with their seal, as by tcpdump. A file cut anywhere is read up to its last whole
+    record. Raises BadInput when it is no such file.
     """
     data = Path(file).read_bytes()
     order = next((o for o in "<>" if len(data) >= 24 and struct.unpack_from(o + "I", data)[0] in (_MICRO, _NANO)), None)

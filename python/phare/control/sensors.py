@@ -25,8 +25,8 @@ class Sensors:
 
     road_users: a TOML file or RoadUsers. range_m: how far road users are seen that come towards us with their lamps on (white),
     that drive before us (red), and that have no light (none). The first two are the distances UN R48 is said to ask of a sensor
-    for adaptive driving beams (unconfirmed), the third is chosen by eye. fov_deg: of the camera, to both sides together. delay_s: of the camera,
-    from the light to its answer. noise_angle_deg: standard deviation of the angles of edges; noise_distance_share: of the
+    for adaptive driving beams (unconfirmed), the third is chosen by eye. fov_deg: of the camera, to both sides together.
+    delay_s: of the camera, from the light to its answer. noise_angle_deg: standard deviation of the angles of edges; noise_distance_share: of the
     distance; noise_yaw_rate_radps and noise_speed_share: of the car's own. miss_01: chance that a road user that could be seen is missed in a
     frame. map_ahead_m: how far the lane ahead is known; 0: no map.
     """
