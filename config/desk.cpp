@@ -335,7 +335,7 @@ constexpr DeskSetting kSettings[] = {
     {"point", "none, picture X_01 Y_01, car|world X Y Z [NX NY NZ], road S LEFT [UP]",
      "one point read lamp by lamp: what a click in the window chooses", true, set_point, get_point},
     {"grid_m", "off, 1 to 100, next", "a grid on the road ahead with this spacing", true, set_grid, get_grid},
-    {"isolux", "off, on, toggle", "isolux lines on the road of the photo", true, set_flag<&Desk::isolux>,
+    {"road_isolux", "off, on, toggle", "isolux lines on the road of the photo", true, set_flag<&Desk::isolux>,
      get_flag<&Desk::isolux>},
     {"scale", "off, on, toggle", "the scale of the false colours, where they are", true, set_flag<&Desk::scale>,
      get_flag<&Desk::scale>},

@@ -42,7 +42,7 @@ constexpr KeyBinding kBindings[] = {
     {kMethod, kPicture, key::kF4, "F4", {}, "where light is computed: pixels, vertices, as in 1998", "method next"},
     {kMirrors, kPicture, key::kF7, "F7", {}, "mirrors over the picture", "mirrors toggle"},
     {kGrid, kPicture, key::kF5, "F5", {}, "grid on the road: 10 m, 20 m, none", "grid_m next"},
-    {kIsolux, kPicture, key::kF6, "F6", {}, "isolux lines on the road", "isolux toggle"},
+    {kIsolux, kPicture, key::kF6, "F6", {}, "isolux lines on the road", "road_isolux toggle"},
     {kLampChoose, kPicture, 'm', "M", {}, "move lamps: which pair or lamp; at the last, none"},
     {kLampQuantity, kPicture, 'x', "X", {}, "what of it: forward, left, up, spacing, yaw, pitch, roll"},
     {kLampMore, kPicture, key::kPageUp, "PageUp", {}, "the chosen lamps 1 cm or 0.1 deg further"},

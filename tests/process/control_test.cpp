@@ -159,5 +159,61 @@ TEST_F(Control, LampsAreMovedSavedAndReplayedBitForBit) {
   EXPECT_EQ(std::ranges::find(still, "frames/000005.png"), still.end());
 }
 
+// What a click reads is what `phare measure` says there, to 1e-4; six digits are written.
+TEST_F(Control, APointIsReadAsMeasureHasIt) {
+  std::ofstream(folder_ / "p.csv") << "x_m,y_m,z_m,nx,ny,nz\n30,-1.5,0.3,0,0,1\n20,2,0.3,-1,0,0\n";
+  const std::string measure = "'" + program("phare") + "' measure --rig '" + source_dir() +
+                              "/config/rigs/country_road.toml' --method reference --points '" +
+                              (folder_ / "p.csv").string() + "' --out '" + (folder_ / "lx.csv").string() +
+                              "' >/dev/null";
+  ASSERT_EQ(std::system(measure.c_str()), 0);
+  std::vector<double> measured_lx;
+  std::ifstream table(folder_ / "lx.csv");
+  std::string line;
+  std::getline(table, line);
+  while (std::getline(table, line)) {
+    std::istringstream cells(line);
+    for (int i = 0; i < 7; ++i) std::getline(cells, line, ',');
+    measured_lx.push_back(std::stod(line));
+  }
+  ASSERT_EQ(measured_lx.size(), 2u);
+
+  DriveRun run(folder_ / "out", folder_.path(), {"--rig", source_dir() + "/config/rigs/country_road.toml"});
+  ASSERT_TRUE(run.wait_for_frame(0));
+  ASSERT_EQ(control("pause").code, 0);
+  const char* points[] = {"car 30 -1.5 0.3", "car 20 2 0.3 -1 0 0"};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Heard heard = control(std::string("set point ") + points[i]);
+    ASSERT_EQ(heard.code, 0) << heard.err;
+    EXPECT_TRUE(heard.out.starts_with(std::string("point ") + points[i] + "\n")) << heard.out;
+    const std::string reading = heard.out.substr(heard.out.find('\n') + 1);
+    EXPECT_NEAR(std::stod(reading.substr(reading.find(": ") + 2)), measured_lx[i], 1e-4 * measured_lx[i]) << reading;
+    EXPECT_NE(reading.find("fog left: dark, off"), std::string::npos) << reading;
+  }
+  expect_refused("set point car 1 2", "point: a probe is car or world");
+  EXPECT_EQ(control("quit").code, 0);
+  EXPECT_EQ(run.wait(), 0);
+}
+
+// Each instrument that is off is no pass and no view; those that draw over the picture share the overlay's pass.
+TEST_F(Control, InstrumentsThatAreOffCostNoPass) {
+  const auto visual = [&](const char* out, const std::vector<std::string>& settings) {
+    std::vector<std::string> arguments{"--frames", "4"};
+    for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    EXPECT_EQ(drive(folder_ / out, folder_.path(), arguments), 0);
+    return report_of(folder_ / out)["processes"]["visual-0"];
+  };
+  const nlohmann::json off = visual("off", {});
+  EXPECT_EQ(off["views"].size(), 1u);
+  const nlohmann::json on = visual("on", {"grid_m=10", "road_isolux=on", "reach=on", "probes=road 40 -1.75"});
+  EXPECT_EQ(on["passes"].get<int>(), off["passes"].get<int>() + 1) << "all of them in the overlay's";
+  EXPECT_EQ(on["views"].size(), 1u);
+  const nlohmann::json mirrors = visual("mirrors", {"mirrors=on"});
+  EXPECT_EQ(mirrors["views"].size(), 4u);
+  EXPECT_GE(mirrors["passes"].get<int>(), on["passes"].get<int>() + 3) << "one a mirror at least";
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "on" / "probes.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "off" / "probes.csv"));
+}
+
 }  // namespace
 }  // namespace phare::test

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <sstream>
 #include <thread>
 
 #include "net/drive_file.h"
@@ -153,6 +155,30 @@ TEST_F(WindowTest, APersonDrivesWithTheKeysOfTheWindow) {
   const nlohmann::json report = report_of(folder_ / "out");
   EXPECT_GE(report["summary"]["switch_to_photon"]["changes"].get<int>(), 1);
   EXPECT_EQ(report["processes"]["cockpit"]["source"]["name"], "keyboard");
+}
+
+TEST_F(WindowTest, LampsAreMovedByKeysAndAClickReadsAPoint) {
+  start({});
+  ASSERT_TRUE(comes<VehicleState>([](const VehicleState&) { return true; }));
+  display_->keys("key m key Prior key Prior key End");  // the pair of headlamps, 2 cm up; all lamps down
+  EXPECT_TRUE(comes<LampState>([](const LampState& lamps) {
+    return lamps.z_m.size() == 4 && std::abs(lamps.z_m[0] - 0.68) < 1e-9 && std::abs(lamps.z_m[1] - 0.68) < 1e-9 &&
+           lamps.z_m[2] == 0.35 && lamps.aim_pitch_rad < 0.0;
+  }));
+  display_->keys("key U");  // with Shift: as in the rig file; the headlamps are chosen
+  EXPECT_TRUE(comes<LampState>([](const LampState& lamps) { return lamps.z_m[0] == 0.66; }));
+  display_->keys("mousemove --window %1 160 120 click 1");
+  const std::string answer = (folder_ / "answer.txt").string();
+  const std::string ask = "'" + program("phare") + "' control --port-base " + std::to_string(port_base()) +
+                          " set point >'" + answer + "' 2>&1";
+  EXPECT_TRUE(wait_until([&] {
+    if (std::system(ask.c_str()) != 0) return false;
+    std::stringstream text;
+    text << std::ifstream(answer).rdbuf();
+    return text.str().starts_with("point world ") && text.str().find("headlamp left: ") != std::string::npos;
+  })) << "the click chose a point of the road";
+  display_->keys("key Escape");
+  EXPECT_EQ(end(), 0);
 }
 
 TEST_F(WindowTest, AtTheEndOfADriveTheWindowStaysAndTheDriveCanBeHadAgain) {

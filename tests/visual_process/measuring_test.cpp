@@ -10,6 +10,7 @@
 
 #include "tests/visual_process/ground_square.h"
 #include "visual/process/cameras.h"
+#include "visual/process/overlay_lines.h"
 #include "visual/process/picture_instruments.h"
 
 namespace phare {
@@ -223,6 +224,16 @@ TEST_F(Measuring, WhatIsOffCostsNothing) {
   EXPECT_GT(off.marks(true).size(), 0u);
   EXPECT_EQ(off.lines().size(), 1u);
   EXPECT_EQ(off.work_done(), 3u);
+}
+
+TEST_F(Measuring, TheLinesTellTheExposure) {
+  const CockpitState controls;
+  const EyeAdaptation eye(4000.0);
+  const auto lines = [&] { return overlay_lines(desk_, lamps_, {.controls = controls, .pose = car_, .eye = eye}); };
+  // 1 / 0.8 cd/m² in the middle: log2(8 · 1.25) = 3.3; twice the exposure is one less.
+  EXPECT_NE(lines()[1].find("exposure EV 3.3"), std::string::npos) << lines()[1];
+  desk_.exposure_per_cdm2 = 1.6;
+  EXPECT_NE(lines()[1].find("exposure EV 2.3"), std::string::npos) << lines()[1];
 }
 
 TEST_F(Measuring, APointOfThePictureIsWhatIsSeenThere) {

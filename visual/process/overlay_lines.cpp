@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <glm/vec3.hpp>
 #include <sstream>
@@ -53,8 +54,10 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
     std::snprintf(text, sizeof text, "%.1f s   frame %.1f ms   %s keys", moment.time.seconds(), moment.frame_ms,
                   std::string(binding_of(KeyAction::kHelp)->name).c_str());
     lines.emplace_back(text);
-    std::snprintf(text, sizeof text, "eye adapted to %.0f K%s", moment.eye.adapted_k(),
-                  moment.eye.fixed() ? ", fixed" : "");
+    // The luminance that falls on the middle of the tone curve, as a light meter set to ISO 100 has it (ISO 2720,
+    // K 12.5).
+    std::snprintf(text, sizeof text, "eye adapted to %.0f K%s   exposure EV %.1f", moment.eye.adapted_k(),
+                  moment.eye.fixed() ? ", fixed" : "", std::log2(8.0 / desk.exposure_per_cdm2));
     lines.emplace_back(text);
     if (moment.under_mouse)
       lines.push_back(lux_line("", lamps, moment, *moment.under_mouse, moment.under_mouse->position_m));
