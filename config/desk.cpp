@@ -311,6 +311,21 @@ std::string get_level(const Desk& desk) {
   return !(desk.*level) ? "auto" : std::string(names[*(desk.*level)]);
 }
 
+/// "clear", or metres.
+Status set_visibility(Desk& desk, std::string_view value, const DeskContext&) {
+  if (value == "clear") {
+    desk.visibility_m.reset();
+    return Done{};
+  }
+  const auto visibility_m = number_of(value, kLeastVisibility_m, kMostVisibility_m);
+  if (!visibility_m) return Error{"", visibility_m.error().reason + "; or clear"};
+  desk.visibility_m = *visibility_m;
+  return Done{};
+}
+std::string get_visibility(const Desk& desk) {
+  return desk.visibility_m ? word_of(*desk.visibility_m) : "clear";
+}
+
 constexpr DeskSetting kSettings[] = {
     {"camera", "driver, birds-eye, chase, oncoming, left-mirror, inner-mirror, right-mirror, free, next",
      "the eye: the driver's, above the road, behind the car, of a driver who meets it, mirrors, free", true, set_camera,
@@ -352,6 +367,10 @@ constexpr DeskSetting kSettings[] = {
      set_level<&Desk::depth_first, kOffOnNames>, get_level<&Desk::depth_first, kOffOnNames>},
     {"shadows", "auto, off, hard, soft, fine", "of what stands in the beams; auto: as the scene calls for", true,
      set_level<&Desk::shadows, kShadowNames>, get_level<&Desk::shadows, kShadowNames>},
+    {"fog", "auto, off, coarse, medium, fine", "light scattered in fog; auto: as the visibility calls for", true,
+     set_level<&Desk::fog, kFogNames>, get_level<&Desk::fog, kFogNames>},
+    {"visibility_m", "clear, 1 to 100000", "meteorological visibility: fog from it, with the beams in it", true,
+     set_visibility, get_visibility, "weather"},
 };
 
 }  // namespace

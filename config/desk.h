@@ -62,6 +62,10 @@ inline constexpr std::size_t kMostProbes = 16;
 /// Levels of effects that the desk may set, from off to the finest.
 inline constexpr std::array<std::string_view, 2> kOffOnNames{"off", "on"};
 inline constexpr std::array<std::string_view, 4> kShadowNames{"off", "hard", "soft", "fine"};
+inline constexpr std::array<std::string_view, 4> kFogNames{"off", "coarse", "medium", "fine"};
+
+/// Meteorological visibility that may be set: fog of a steam bath, and air in which nothing near is dimmed.
+inline constexpr double kLeastVisibility_m = 1.0, kMostVisibility_m = 100000.0;
 
 struct Desk {
   CameraKind camera = CameraKind::kDriver;
@@ -84,7 +88,8 @@ struct Desk {
   bool effects = false;               ///< among the lines each effect with its level and the reason
   bool help = false;                  ///< every key
   /// Levels of these effects (visual/effects.h); without one the scene decides.
-  std::optional<std::size_t> shadows, depth_first;
+  std::optional<std::size_t> shadows, depth_first, fog;
+  std::optional<double> visibility_m;  ///< meteorological optical range (visual/photometry/fog.h); nothing: clear air
 
   friend bool operator==(const Desk&, const Desk&) = default;
 };
@@ -106,10 +111,14 @@ struct DeskSetting {
   std::string_view name;    ///< ends with the unit where there is one
   std::string_view values;  ///< what may be said
   std::string_view what;    ///< in a few words
-  bool in_rig = true;       ///< may stand under [desk] of a rig file
+  bool in_rig = true;       ///< may stand in a rig file
   Status (*set)(Desk& desk, std::string_view value, const DeskContext& context);
   std::string (*get)(const Desk& desk);  ///< a value that set() takes
+  std::string_view rig_table = "desk";   ///< of the rig file, where it may stand in one
 };
+
+/// Tables of a rig file that settings stand in.
+inline constexpr std::array<std::string_view, 2> kDeskTables{"desk", "weather"};
 
 /// Every setting there is.
 std::span<const DeskSetting> desk_settings();

@@ -33,10 +33,10 @@ double degrees(TomlTable& table, std::string_view key, double min_deg, double ma
   return table.number_or(key, 0.0, min_deg, max_deg) * kRadPerDeg;
 }
 
-/// How the picture begins, in the words of config/desk.h; several numbers are an array.
-void read_desk(TomlTable table, std::size_t designs, Desk& desk) {
+/// How the picture begins, in the words of config/desk.h; several numbers are an array. `name`: of the table.
+void read_desk(TomlTable table, std::string_view name, std::size_t designs, Desk& desk) {
   for (const DeskSetting& setting : desk_settings()) {
-    if (!setting.in_rig) continue;
+    if (!setting.in_rig || setting.rig_table != name) continue;
     std::string words;
     for (const auto& value : table.values_or_empty(setting.name)) {
       if (const auto* number = std::get_if<double>(&value)) {
@@ -232,7 +232,8 @@ RigReading read_root(TomlTable root, const std::filesystem::path& file) {
     bus.fail("address",
              "off loopback (127.…) a key_file is required: 64 hexadecimal digits, as of openssl rand -hex 32");
   }
-  if (auto desk = root.table_if("desk")) read_desk(*desk, rig.designs.size(), rig.desk);
+  for (const std::string_view name : kDeskTables)
+    if (auto desk = root.table_if(name)) read_desk(*desk, name, rig.designs.size(), rig.desk);
 
   if (rig.channels.empty()) root.fail("channel", "a rig needs at least one [[channel]]");
   if (rig.channels.size() > kMaxChannels) root.fail("channel", "at most 16 channels");

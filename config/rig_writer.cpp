@@ -142,12 +142,14 @@ class RigText {
   }
 
   void write(const Desk& desk) {
-    bool begun = false;
-    for (const DeskCommand& command : difference(desk)) {
-      const DeskSetting& setting = *std::ranges::find(desk_settings(), command.setting, &DeskSetting::name);
-      if (!setting.in_rig) continue;
-      if (!std::exchange(begun, true)) out_ << "\n[desk]" << note("the picture as it begins");
-      key(command.setting, toml_quoted(command.value), std::string(setting.what));
+    for (const std::string_view table : kDeskTables) {
+      bool begun = false;
+      for (const DeskCommand& command : difference(desk)) {
+        const DeskSetting& setting = *std::ranges::find(desk_settings(), command.setting, &DeskSetting::name);
+        if (!setting.in_rig || setting.rig_table != table) continue;
+        if (!std::exchange(begun, true)) out_ << "\n[" << table << "]" << note("the picture as it begins");
+        key(command.setting, toml_quoted(command.value), std::string(setting.what));
+      }
     }
   }
 

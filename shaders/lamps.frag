@@ -1,6 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/beam.glsl"
+#ifdef PHARE_FOG
+#include "lib/fog.glsl"
+#else
+#define PHARE_THROUGH_FOG(I) 1.0
+#endif
 #include "lib/grain.glsl"
 #include "lib/retro.h"
 #ifdef PHARE_SHADOWS
@@ -103,7 +108,7 @@ void main() {
       light = from_vertices(I, PHARE_FACING(I) * cd, light.cd, n, level);                                  \
     }                                                                                                      \
     vec3 colour = light_colour;                                                                            \
-    float reach = PHARE_REACHING(I);                                                                       \
+    float reach = PHARE_REACHING(I) * PHARE_THROUGH_FOG(I);                                                                       \
     light.illuminance_lx *= reach;                                                                         \
     light.normal_lx *= reach;                                                                              \
     if (colours != 0) colour = frame.lamps[I].colour.rgb;                                                  \
@@ -135,5 +140,8 @@ void main() {
   vec3 rho = surface_reflectance(reflectance.rgb);
   vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + n.z));  // the sky's half dome, unoccluded
   if (retro != 0) light += retro_lx * rho;
+#ifdef PHARE_FOG
+  light = through_fog(light, point, gl_FragCoord.xy);
+#endif
   result = output_kind == kOutputHdr ? vec4(light, total_lx) : vec4(srgb_encoded(tone_curve(light)), 1.0);
 }

@@ -2,6 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #define PHARE_VERTEX
 #include "lib/surface_varyings.glsl"
+#ifdef PHARE_FOG_FLAT
+#include "lib/fog_flat.glsl"
+#endif
 #ifdef PHARE_LIT_BY_VERTEX
 #include "lib/by_vertex.glsl"
 #endif
@@ -18,6 +21,9 @@ void main() {
   detail_from_point = draw.detail_origin.xyz - draw.origin.xyz;
   gl_Position = clip_from_eye() * vec4(point, 1.0);
   pass_light(materials[material_index].reflectance);
+#ifdef PHARE_FOG_FLAT
+  pass_fog();
+#endif
 #ifdef PHARE_LIT_BY_VERTEX
   light_vertices();
 #endif

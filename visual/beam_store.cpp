@@ -175,8 +175,8 @@ bool BeamStore::upload(gpu::FrameGraph& graph) {
   graph.copy("beams", {}, [&](gpu::Recorder& commands) {
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
-    // Methods that light vertices read beams there.
-    const auto readers = Stage::eVertexShader | Stage::eFragmentShader;
+    // Methods that light vertices read beams there, fog where it is computed.
+    const auto readers = Stage::eVertexShader | Stage::eFragmentShader | Stage::eComputeShader;
     order(commands, readers, Access::eNone, Stage::eCopy, Access::eNone);
     for (const auto& [beam, whole] : changed) upload(commands, *beam, whole);
     order(commands, Stage::eCopy, Access::eTransferWrite, readers, Access::eShaderSampledRead);

@@ -1,6 +1,7 @@
 #include "visual/effects.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "config/desk.h"
 
@@ -34,12 +35,23 @@ EffectDecision overlay(const EffectFacts& facts) {
   return {1, std::to_string(facts.overlay_lines) + " lines of text to show"};
 }
 
+EffectDecision fog(const EffectFacts& facts) {
+  if (!facts.visibility_m) return {0, "the air is clear"};
+  if (facts.false_colour) return {0, "the view shows illuminance, as in clear air"};
+  if (facts.parallel_rays) return {0, "the view is from above with parallel rays, through no air"};
+  char reason[60];
+  std::snprintf(reason, sizeof reason, "the visibility is %.4g m", *facts.visibility_m);
+  return {2, reason};
+}
+
 constexpr std::array<EffectRow, kEffectCount> kTable{
     {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy",
       shadows},
      {Effect::kDepthFirst, "depth first", kOffOnNames, "a depth pass before the lit pass", depth_first},
      {Effect::kHdrImage, "hdr image", kOffOnNames, "an image of 8 bytes a pixel and the tone-mapping pass", hdr_image},
-     {Effect::kOverlay, "overlay", kOffOnNames, "a pass of text over the picture", overlay}}};
+     {Effect::kOverlay, "overlay", kOffOnNames, "a pass of text over the picture", overlay},
+     {Effect::kFog, "fog", kFogNames, "a pass that computes, a buffer of scattered light, and the sky through fog", fog,
+      true}}};
 
 constexpr bool in_order() {
   for (std::size_t i = 0; i < kTable.size(); ++i)
@@ -60,6 +72,7 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices) 
     const EffectRow& row = kTable[i];
     plan.decisions[i] = row.decide(facts);
     if (!choices[i]) continue;
+    if (row.only_where_called_for && plan.decisions[i].level == 0) continue;
     plan.decisions[i] = {std::min(*choices[i], row.levels.size() - 1),
                          "set by the user; by itself: " + plan.decisions[i].reason};
   }

@@ -11,8 +11,8 @@
 
 namespace phare {
 
-enum class Effect : std::size_t { kShadows, kDepthFirst, kHdrImage, kOverlay };
-inline constexpr std::size_t kEffectCount = 4;
+enum class Effect : std::size_t { kShadows, kDepthFirst, kHdrImage, kOverlay, kFog };
+inline constexpr std::size_t kEffectCount = 5;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -23,6 +23,8 @@ struct EffectFacts {
   bool hdr_wanted = false;                 ///< something reads luminance in cd/m² (EXR, bird's eye)
   bool false_colour = false;               ///< the view shows illuminance, not luminance
   std::size_t overlay_lines = 0;           ///< text over the picture
+  std::optional<double> visibility_m{};    ///< of the air; nothing: it is clear
+  bool parallel_rays = false;              ///< a view from above, through no air
 };
 
 /// Level 0 is off. `reason` says the fact that decided.
@@ -37,6 +39,7 @@ struct EffectRow {
   std::span<const std::string_view> levels;  ///< names, from off to the finest
   std::string_view needs;                    ///< passes and images that it adds
   EffectDecision (*decide)(const EffectFacts& facts);
+  bool only_where_called_for = false;  ///< the user may choose its level, and switch it off, but not make it
 };
 
 /// In the order of Effect.

@@ -78,6 +78,10 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   // What each lamp sees, where something stands in its light.
   if (effects.on(Effect::kShadows)) parts.shadows.draw(graph, parts.scene, lit, effects.level(Effect::kShadows));
 
+  // What fog scatters of the light.
+  if (effects.on(Effect::kFog))
+    parts.fog.draw(graph, parts.scene, lit, effects.level(Effect::kFog), view.input, view.area, hdr);
+
   // Depth of everything, so that each pixel is lit once.
   const bool depth_done = effects.on(Effect::kDepthFirst);
   if (depth_done) parts.depth.draw(graph, parts.scene, lit, *depth, view.area);
@@ -124,6 +128,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   const std::size_t lines = text_lines(input);
   parts.scene.begin_frame(parts.graph);
   parts.shadows.begin_frame();
+  parts.fog.begin_frame();
   parts.tone_mapping.begin_frame();
   Picture seen = picture("", parts.target.extent);
   display = seen.display;

@@ -7,6 +7,7 @@
 #include "visual/gpu/frame_graph.h"
 #include "visual/lit_scene.h"
 #include "visual/passes/depth.h"
+#include "visual/passes/fog.h"
 #include "visual/passes/lit.h"
 #include "visual/passes/overlay.h"
 #include "visual/passes/shadows.h"
@@ -32,6 +33,7 @@ struct FrameParts {
   const FrameTarget& target;
   LitScene& scene;
   ShadowPass& shadows;
+  FogPass& fog;
   DepthPass& depth;
   LitPass& lit;
   ToneMappingPass& tone_mapping;

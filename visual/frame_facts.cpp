@@ -10,7 +10,9 @@ EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional
           .software_device = device.software,
           .hdr_wanted = view.want_hdr,
           .false_colour = view.view == View::kFalseColour,
-          .overlay_lines = lines};
+          .overlay_lines = lines,
+          .visibility_m = view.visibility_m,
+          .parallel_rays = view.camera.orthographic_width_m > 0.0};
 }
 
 bool looks_for_casters(const ViewInput& view) {

@@ -61,13 +61,21 @@ const std::array<vk::DescriptorSetLayoutBinding, 1> kShadowBindings{
                                    .descriptorCount = 1,
                                    .stageFlags = kLitStages}};
 
+const std::array<vk::DescriptorSetLayoutBinding, 1> kFogBindings{
+    vk::DescriptorSetLayoutBinding{.binding = 0,
+                                   .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                                   .descriptorCount = 1,
+                                   .stageFlags = vk::ShaderStageFlagBits::eFragment}};
+
 namespace {
 
 // std140 and std430 agree for these: all members are 16 bytes.
 static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour) == 64);
 static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, cells) == 64);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
-static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 48));
+static_assert(sizeof(shader::GpuFog) == 128 + 16 * shader::kMaxLamps);
+static_assert(sizeof(shader::GpuFrame) ==
+              96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 48) + sizeof(shader::GpuFog));
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
@@ -94,8 +102,10 @@ std::vector<vk::DescriptorSetLayoutBinding> bindings(bool filtered) {
         std::tuple(4u, Type::eUniformTexelBuffer, 1u), std::tuple(5u, Type::eUniformBuffer, 1u),
         std::tuple(6u, Type::eUniformTexelBuffer, tables), std::tuple(7u, Type::eCombinedImageSampler, filters),
         std::tuple(8u, Type::eCombinedImageSampler, filters)})
-    bindings.push_back(
-        {.binding = binding, .descriptorType = type, .descriptorCount = count, .stageFlags = kLitStages});
+    bindings.push_back({.binding = binding,
+                        .descriptorType = type,
+                        .descriptorCount = count,
+                        .stageFlags = kLitStages | vk::ShaderStageFlagBits::eCompute});
   return bindings;
 }
 
@@ -108,6 +118,7 @@ LitScene::LitScene(gpu::Device& device, ImageLevel level)
       grain_(make_grain(device)),
       sets_(device, bindings(is_filtered(level))),
       shadow_sets_(device, kShadowBindings),
+      fog_sets_(device, kFogBindings),
       scene_vert_{gpu::make_shader(device, k_scene_vert_2),         gpu::make_shader(device, k_scene_vert_4),
                   gpu::make_shader(device, k_scene_vert_8),         gpu::make_shader(device, k_scene_vert_2_shadows),
                   gpu::make_shader(device, k_scene_vert_4_shadows), gpu::make_shader(device, k_scene_vert_8_shadows)},
@@ -128,7 +139,7 @@ LitScene::LitScene(gpu::Device& device, ImageLevel level)
                                 gpu::make_shader(device, k_lamps_frag_4_shadows),
                                 gpu::make_shader(device, k_lamps_frag_8_shadows)}} {
   const vk::PushConstantRange push{.stageFlags = kLitStages, .offset = 0, .size = sizeof(shader::GpuDraw)};
-  const std::array set_layouts{sets_.layout(), shadow_sets_.layout()};
+  const std::array set_layouts{sets_.layout(), shadow_sets_.layout(), fog_sets_.layout()};
   layout_ = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = set_layouts.size(),
                                                                                  .pSetLayouts = set_layouts.data(),
                                                                                  .pushConstantRangeCount = 1,
@@ -182,7 +193,9 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
   for (const PlacedLamp& lamp : lamps) {
     if (is_dark(lamp.beam)) continue;
     const LampReach reach = reach_of(lamp);
-    const bool reaches = reach.meets(geometry) && std::ranges::any_of(view.items, [&](const DrawItem& item) {
+    const bool in_air = reach.meets(geometry);
+    if (in_air) view.air_lamps.push_back(lamp);
+    const bool reaches = in_air && std::ranges::any_of(view.items, [&](const DrawItem& item) {
                            return reach.meets(item.batch->low_m, item.batch->high_m);
                          });
     if (reaches)
@@ -294,6 +307,29 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
   return lit;
 }
 
+bool LitScene::filtered() const {
+  return is_filtered(level_);
+}
+
+glm::vec3 LitScene::mean_colour(std::span<const PlacedLamp> lamps) const {
+  glm::vec3 sum(0.0f);
+  float weight = 0.0f;
+  for (const PlacedLamp& lamp : lamps) {
+    sum += beams_.beam(lamp.beam).colour * peaks_cd_[lamp.beam];
+    weight += peaks_cd_[lamp.beam];
+  }
+  return weight > 0.0f ? sum / weight : glm::vec3(1.0f);
+}
+
+std::vector<std::uint32_t> LitScene::table_words(std::size_t tables) const {
+  std::vector<std::uint32_t> all;
+  for (const shader::TableShape& shape : table_shapes_[tables]) {
+    const auto words = std::bit_cast<std::array<std::uint32_t, shader::kSpecPerTable>>(shape);
+    all.insert(all.end(), words.begin(), words.end());
+  }
+  return all;
+}
+
 std::size_t LitScene::tables_of(std::vector<shader::TableShape> shapes) {
   const auto same = [&](const std::vector<shader::TableShape>& known) {
     return std::ranges::equal(std::as_bytes(std::span(known)), std::as_bytes(std::span(shapes)));
@@ -367,12 +403,13 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
                                     variant.shadows.width,
                                     variant.shadows.height,
                                     variant.shadows.taps,
-                                    static_cast<std::uint32_t>(variant.method)};
+                                    static_cast<std::uint32_t>(variant.method),
+                                    variant.fog.lamps,
+                                    variant.fog.columns | variant.fog.rows << 16u,
+                                    variant.fog.slices};
   values.resize(shader::kSpecTables);
-  for (const shader::TableShape& shape : table_shapes_[variant.tables]) {
-    const auto words = std::bit_cast<std::array<std::uint32_t, shader::kSpecPerTable>>(shape);
-    values.insert(values.end(), words.begin(), words.end());
-  }
+  const std::vector<std::uint32_t> tables = table_words(variant.tables);
+  values.insert(values.end(), tables.begin(), tables.end());
   std::vector<vk::SpecializationMapEntry> entries;
   for (std::uint32_t i = 0; i < values.size(); ++i) entries.push_back({.constantID = i, .offset = 4 * i, .size = 4});
   const vk::SpecializationInfo constants{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
@@ -380,13 +417,16 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
                                          .dataSize = 4 * values.size(),
                                          .pData = values.data()};
   const bool measure = variant.output == LampOutput::kMeasure;
-  const std::size_t size = (variant.lamp_count <= 2   ? 0u
-                            : variant.lamp_count <= 4 ? 1u
-                                                      : 2u) +
+  // The smallest shader has fog of two lamps at most.
+  const std::size_t size = (variant.lamp_count <= 2 && variant.fog.lamps <= 2 ? 0u
+                            : variant.lamp_count <= 4                         ? 1u
+                                                                              : 2u) +
                            (variant.shadow_maps != 0 ? 3u : 0u);
+  vk::raii::ShaderModule& fog_frag = lamps_fog_frag_[size];
+  if (variant.fog.slices != 0 && !*fog_frag) fog_frag = gpu::make_shader(device_, lamps_fog_frag(size, filtered()));
   PipelineRecipe recipe{
-      .vertex = measure ? *measure_vert_[size] : scene_vert(size, variant.method),
-      .fragment = *lamps_frag_[size],
+      .vertex = measure ? *measure_vert_[size] : scene_vert(size, variant.method, variant.fog.slices != 0),
+      .fragment = variant.fog.slices != 0 ? *fog_frag : *lamps_frag_[size],
       .constants = &constants,
       .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
       .stride = sizeof(GpuVertex),
@@ -402,7 +442,13 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   return *pipelines_.emplace(variant, make_pipeline(device_, recipe)).first->second;
 }
 
-vk::ShaderModule LitScene::scene_vert(std::size_t size, Method method) {
+vk::ShaderModule LitScene::scene_vert(std::size_t size, Method method, bool fog) {
+  if (fog && size % 3 == 0) {
+    const bool shadows = size != 0, by_vertex = method != Method::kFragment;
+    vk::raii::ShaderModule& module = scene_fog_vert_[(shadows ? 1u : 0u) + (by_vertex ? 2u : 0u)];
+    if (!*module) module = gpu::make_shader(device_, scene_fog_vert(shadows, by_vertex, filtered()));
+    return *module;
+  }
   if (method == Method::kFragment) return *scene_vert_[size];
   vk::raii::ShaderModule& module = lit_by_vertex_vert_[size];
   if (*module) return *module;
@@ -431,6 +477,10 @@ void LitScene::bind_shadows(vk::CommandBuffer commands, const LitView& view) con
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 1, view.depths->set, nullptr);
 }
 
+void LitScene::bind_fog(vk::CommandBuffer commands, const LitView& view) const {
+  if (view.fog_set) commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 2, view.fog_set, nullptr);
+}
+
 void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const {
   commands.pushConstants<shader::GpuDraw>(*layout_, kLitStages, 0, draw);
 }
@@ -438,6 +488,7 @@ void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) con
 void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant common) {
   bind(commands, view);
   bind_shadows(commands, view);
+  bind_fog(commands, view);
   std::size_t lit_by = 0;
   vk::Pipeline bound;
   for (const DrawItem& item : view.items) {
@@ -451,6 +502,7 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     variant.method = view.method;
     variant.shadow_maps = item.shadowed && common.output != LampOutput::kAudit ? lit.shadow_maps : 0;
     variant.shadows = variant.shadow_maps != 0 ? view.shadows : ShadowLevel{};
+    if (common.output == LampOutput::kDisplay || common.output == LampOutput::kHdr) variant.fog = view.fog;
     if (variant.output == LampOutput::kAudit) variant.kind = {.double_sided = variant.kind.double_sided};
     const vk::Pipeline wanted = pipeline(variant);
     if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);

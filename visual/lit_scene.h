@@ -52,6 +52,14 @@ struct ShadowDepths {
   vk::DescriptorSet set{};
 };
 
+/// Shape of the grid of light scattered in fog, as kSpecFogLamps and what follows it. None: clear air.
+struct FogGrid {
+  std::uint32_t columns = 0, rows = 0, slices = 0;
+  std::uint32_t lamps = 0;  ///< that shine in it, kMaxLamps at most
+
+  friend auto operator<=>(const FogGrid&, const FogGrid&) = default;
+};
+
 /// One view of a frame, ready for its passes.
 struct LitView {
   ViewGeometry geometry;
@@ -64,6 +72,9 @@ struct LitView {
   std::vector<CastBy> casts{};          ///< what stands in the light of each
   ShadowLevel shadows{};                ///< of the maps that are read
   const ShadowDepths* depths = nullptr;
+  std::vector<PlacedLamp> air_lamps{};  ///< whose light goes through what the view sees, on a surface or not
+  FogGrid fog{};
+  vk::DescriptorSet fog_set{};
   std::uint32_t lamps = 0;        ///< that light something in it
   std::uint32_t unreached = 0;    ///< left out: they light nothing of what it sees
   std::uint32_t over_limit = 0;   ///< left out somewhere: kLampsPerDraw that are brighter there light it already
@@ -79,6 +90,7 @@ struct LitVariant {
   std::uint32_t colours = 0;
   std::uint32_t shadow_maps = 0;
   ShadowLevel shadows{};
+  FogGrid fog{};
   Method method = Method::kFragment;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Format format = vk::Format::eUndefined;
@@ -110,12 +122,24 @@ class LitScene {
   /// Finds what stands in the light of the view's lamps; returns how many pieces of the scene.
   std::size_t find_casters(LitView& view) const;
 
+  /// Lamps of a view, kMaxLamps at most, into data of their own.
+  LitBy fill(const LitView& view, std::span<const PlacedLamp> lamps);
+  /// Of all their light; of beams with light of several colours that of their first source.
+  glm::vec3 mean_colour(std::span<const PlacedLamp> lamps) const;
+
   vk::PipelineLayout layout() const { return *layout_; }
+  /// Of the set that holds the lamps, for pipelines that compute.
+  vk::DescriptorSetLayout lamps_layout() const { return sets_.layout(); }
+  /// Beams are weighed by the texture filter.
+  bool filtered() const;
+  /// The shapes of the tables of a set of lamps, as specialization constants from kSpecTables on.
+  std::vector<std::uint32_t> table_words(std::size_t tables) const;
   vk::Pipeline pipeline(const LitVariant& variant);
   /// The view's data, and the vertices of the scene.
   void bind(vk::CommandBuffer commands, const LitView& view) const;
   void bind(vk::CommandBuffer commands, const LitBy& lit_by) const;
   void bind_shadows(vk::CommandBuffer commands, const LitView& view) const;
+  void bind_fog(vk::CommandBuffer commands, const LitView& view) const;
   void push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const;
   /// All that the view sees; of `common` all counts but the material and the lamps.
   void draw(gpu::Recorder& commands, const LitView& view, LitVariant common);
@@ -126,13 +150,11 @@ class LitScene {
   static constexpr std::size_t kLampsForAll = 4;
   using Beams = std::array<std::size_t, shader::kMaxLamps>;
 
-  /// Lamps of a view, by their places, into data of their own.
-  LitBy fill(const LitView& view, std::span<const PlacedLamp> lamps);
   void light_by_block(LitView& view);
   LampReach reach_of(const PlacedLamp& lamp) const {
     return {lamp.position_m, lamp.world_from_image, cones_[lamp.beam]};
   }
-  vk::ShaderModule scene_vert(std::size_t size, Method method);
+  vk::ShaderModule scene_vert(std::size_t size, Method method, bool fog);
   std::size_t tables_of(std::vector<shader::TableShape> shapes);
   vk::DescriptorSet set_of(std::size_t page, const Beams& beams);
   void forget_sets();
@@ -145,7 +167,7 @@ class LitScene {
   std::vector<LightCone> cones_;  ///< of each beam
   std::vector<float> peaks_cd_;   ///< of each beam; of one that was changed, at most
   Grain grain_;
-  gpu::DescriptorSets sets_, shadow_sets_;  ///< of the second only the layout
+  gpu::DescriptorSets sets_, shadow_sets_, fog_sets_;  ///< of the last two only the layout
   std::map<std::pair<std::size_t, Beams>, vk::DescriptorSet> set_of_;
   vk::raii::PipelineLayout layout_{nullptr};
   vk::raii::Sampler filter_sampler_{nullptr};
@@ -156,12 +178,21 @@ class LitScene {
   std::map<LitVariant, vk::raii::Pipeline> pipelines_;
   using Modules = std::array<vk::raii::ShaderModule, 6>;  ///< for up to 2, 4, 8 lamps; the same with shadows
   Modules scene_vert_, measure_vert_, lamps_frag_;
+  std::array<vk::raii::ShaderModule, 4> scene_fog_vert_{nullptr, nullptr, nullptr, nullptr};
+  Modules lamps_fog_frag_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};  ///< each made when it is called for
   Modules lit_by_vertex_vert_{nullptr, nullptr, nullptr,
                               nullptr, nullptr, nullptr};  ///< each made when it is called for
 };
 
 /// Of a set of ShadowDepths.
 extern const std::array<vk::DescriptorSetLayoutBinding, 1> kShadowBindings;
+/// Of LitView::fog_set.
+extern const std::array<vk::DescriptorSetLayoutBinding, 1> kFogBindings;
+
+/// lamps.frag for fog, in the order of LitScene's modules.
+std::span<const std::uint32_t> lamps_fog_frag(std::size_t size, bool filtered);
+/// scene.vert for fog and two lamps at most; of more it is that of clear air.
+std::span<const std::uint32_t> scene_fog_vert(bool shadows, bool by_vertex, bool filtered);
 
 inline constexpr auto kLitStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 /// Of GpuVertex.

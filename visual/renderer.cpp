@@ -49,6 +49,7 @@ struct Renderer::Impl {
   std::unique_ptr<gpu::WindowSurface> surface;
   LitScene scene{device, options.beam_level};
   ShadowPass shadows{device};
+  FogPass fog{device};
   DepthPass depth{device};
   LitPass lit{device};
   ToneMappingPass tone_mapping{device};
@@ -138,6 +139,7 @@ struct Renderer::Impl {
             .target = target,
             .scene = scene,
             .shadows = shadows,
+            .fog = fog,
             .depth = depth,
             .lit = lit,
             .tone_mapping = tone_mapping,

@@ -22,7 +22,9 @@ layout(set = 0, binding = 6) uniform samplerBuffer tints[kTables];
 // The same for levels that the texture filter weighs.
 layout(set = 0, binding = 7) uniform sampler2D filtered[kFilters];
 layout(set = 0, binding = 8) uniform sampler2D filtered_tints[kFilters];
+#ifndef PHARE_COMPUTE
 layout(push_constant) uniform Draw { GpuDraw draw; };
+#endif
 
 mat4 clip_from_eye() {
   return mat4(frame.clip_from_eye[0], frame.clip_from_eye[1], frame.clip_from_eye[2], frame.clip_from_eye[3]);

@@ -14,6 +14,7 @@
 #define PHARE_EACH_LAMP(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
 #endif
 
+#ifndef PHARE_COMPUTE
 #ifdef PHARE_VERTEX
 #define PHARE_VARYING out
 #else
@@ -35,6 +36,8 @@ layout(location = 8) PHARE_VARYING vec2 facing[1];
 #else
 layout(location = 6 + PHARE_LAMPS) PHARE_VARYING vec4 facing[PHARE_LAMPS / 4];
 #define PHARE_FACING(I) facing[I / 4][I % 4]
+#endif
+
 #endif
 
 #ifdef PHARE_SHADOWS

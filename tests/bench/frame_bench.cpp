@@ -230,6 +230,13 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
               });
   for (std::size_t level = 1; level < kShadowNames.size(); ++level)
     bench.add(group, "two lamps, shadows " + std::string(kShadowNames[level]), renderer, with_shadows(level));
+  for (std::size_t level = 1; level < kFogNames.size(); ++level)
+    bench.add(group, "two lamps, fog " + std::string(kFogNames[level]), renderer, [view, level](int round) {
+      FrameInput input = without_shadows(view(round));
+      input.visibility_m = 80.0;
+      input.effects[static_cast<std::size_t>(Effect::kFog)] = level;
+      return input;
+    });
 }
 
 /// The straight road with more of one thing: triangles, draws, lamps, pixels, views.

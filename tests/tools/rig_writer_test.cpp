@@ -69,7 +69,7 @@ TEST_F(RigWriter, WhatIsWrittenReadsBackTheSame) {
       rig.dynamics_step_s = 1.0 / 3000.0;
       rig.beam_image = ImageLevel::kHalfNodes;
       for (const char* set : {"adaptation_k 4321.5", "camera chase", "isolux_lx 0.1 2 33", "exposure_per_cdm2 0.7",
-                              "design 1", "lines off", "probes car 25 0 0.01; world 1 2 3 0.6 0 -0.8"})
+                              "design 1", "lines off", "visibility_m 120.5", "probes car 25 0 0.01; world 1 2 3 0.6 0 -0.8"})
         ASSERT_TRUE(apply(rig.desk, desk_command(set), {.designs = rig.designs.size()})) << set;
       rig.channels.push_back({"left", 640, 480, 0.7, {1.0, 2.0, 3.0}, 0.1234567, -0.3, {"0.0.0.0", "10.0.0.3"}});
       rig.places = {{"10.0.0.1", ""}, {"", "10.0.0.2"}, {}, {"0.0.0.0", "10.0.0.1"}};

@@ -24,7 +24,8 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
   } cases[] = {{{.lit_lamps = 2, .casters = 3, .software_device = true}, Effect::kShadows},
                {{.lit_lamps = 2}, Effect::kDepthFirst},
                {{.hdr_wanted = true}, Effect::kHdrImage},
-               {{.overlay_lines = 3}, Effect::kOverlay}};
+               {{.overlay_lines = 3}, Effect::kOverlay},
+               {{.visibility_m = 80.0}, Effect::kFog}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);
@@ -39,6 +40,8 @@ TEST(Effects, DeviceAndViewCountToo) {
   EXPECT_FALSE(plan_effects({.lit_lamps = 2, .casters = std::nullopt}).on(Effect::kShadows));
   EXPECT_FALSE(plan_effects({.lit_lamps = 2, .software_device = true}).on(Effect::kDepthFirst));
   EXPECT_FALSE(plan_effects({.hdr_wanted = true, .false_colour = true}).on(Effect::kHdrImage));
+  EXPECT_FALSE(plan_effects({.false_colour = true, .visibility_m = 80.0}).on(Effect::kFog));
+  EXPECT_FALSE(plan_effects({.visibility_m = 80.0, .parallel_rays = true}).on(Effect::kFog));
 }
 
 TEST(Effects, TheUserDecidesAndThePlanSaysSo) {

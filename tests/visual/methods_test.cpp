@@ -9,6 +9,7 @@
 #include "tests/visual/shared_renderer.h"
 #include "visual/photometry/beam_image.h"
 #include "visual/photometry/illuminance.h"
+#include "visual/scene/scene.h"
 
 namespace phare {
 namespace {

@@ -64,7 +64,11 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"depth_first", "off", "depth_first off"},
       {"depth_first", "auto", "depth_first auto"},
       {"shadows", "fine", "shadows fine"},
-      {"shadows", "auto", "shadows auto"}};
+      {"shadows", "auto", "shadows auto"},
+      {"fog", "fine", "fog fine"},
+      {"fog", "auto", "fog auto"},
+      {"visibility_m", "80", "visibility_m 80"},
+      {"visibility_m", "clear", "visibility_m clear"}};
   Desk desk;
   std::set<std::string_view> tried;
   for (const Case& c : cases) {
@@ -120,6 +124,9 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"help me", "help: \"me\" is none of off, on, toggle"},
       {"depth_first 2", "depth_first: \"2\" is none of auto, off, on"},
       {"shadows on", "shadows: \"on\" is none of auto, off, hard, soft, fine"},
+      {"fog thick", "fog: \"thick\" is none of auto, off, coarse, medium, fine"},
+      {"visibility_m 0.5", "visibility_m: 0.5 is outside 1 to 1e+05; or clear"},
+      {"visibility_m foggy", "visibility_m: expected a number, got \"foggy\"; or clear"},
   };
   std::set<std::string> tried;
   Desk desk;
@@ -140,9 +147,10 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
 /// What was written of a desk makes the same desk again: the rig file, the status.
 TEST(Desk, ItsDifferenceMakesItAgain) {
   Desk desk;
-  for (const char* words : {"camera birds-eye", "view false-colour", "isolux_lx 0.1 0.30000000000000004",
-                            "exposure_per_cdm2 0.7", "adaptation_k 5500", "design 1", "lines off", "depth_first on",
-                            "shadows hard", "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
+  for (const char* words :
+       {"camera birds-eye", "view false-colour", "isolux_lx 0.1 0.30000000000000004", "exposure_per_cdm2 0.7",
+        "adaptation_k 5500", "design 1", "lines off", "depth_first on", "shadows hard", "fog coarse", "visibility_m 80",
+        "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
     ASSERT_TRUE(apply(desk, desk_command(words), {.designs = 2})) << words;
   Desk again;
   for (const DeskCommand& command : difference(desk)) ASSERT_TRUE(apply(again, command, {.designs = 2}));

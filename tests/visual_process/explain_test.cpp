@@ -61,6 +61,7 @@ TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
   EXPECT_EQ(lit[3],
             "hdr image       off     nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself");
   EXPECT_EQ(lit[4], "overlay         off     no line of text to show");
+  EXPECT_EQ(lit[5], "fog             off     the air is clear");
 
   const auto dark = lines(moment(LightSwitch::kOff), gpu_);
   EXPECT_EQ(dark[0], "# lit: off, design \"pair\", 0.0 s, 0 km/h, on a card");
@@ -73,6 +74,11 @@ TEST_F(Explain, DeviceDeskAndWindowCount) {
   EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_)[2].find("1 lamps are lit"), std::string::npos);
   desk_.depth_first = 0;
   EXPECT_EQ(lines(moment(LightSwitch::kLow), gpu_)[2].substr(0, 41), "depth first     off     set by the user; ");
+  desk_.visibility_m = 80.0;
+  EXPECT_EQ(lines(moment(LightSwitch::kLow), gpu_)[5], "fog             medium  the visibility is 80 m");
+  desk_.camera = CameraKind::kBirdsEye;
+  EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_)[5].find("off     the view is from above"), std::string::npos);
+  desk_.camera = CameraKind::kDriver;
   desk_.view = View::kFalseColour;
   EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_)[3].find("false colour"), std::string::npos);
   EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_, true)[4].find("on "), std::string::npos);

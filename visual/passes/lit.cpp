@@ -30,10 +30,12 @@ void LitPass::draw(gpu::FrameGraph& graph, LitScene& scene, const LitView& view,
           vk::ClearAttachment{.aspectMask = vk::ImageAspectFlagBits::eColor, .clearValue = background},
           vk::ClearRect{.rect = target.area, .layerCount = 1});
     set_area(commands, target.area, view.geometry.mirrored());
-    sky_.draw(commands, view.sky, view.geometry, output, target.colour.format, target.colour.samples);
+    const bool foggy = view.fog.slices != 0;
+    if (!foggy) sky_.draw(commands, view.sky, view.geometry, output, target.colour.format, target.colour.samples);
     scene.draw(
         commands, view,
         {.output = output, .samples = target.colour.samples, .format = target.colour.format, .depth_done = done});
+    if (foggy) fog_sky_.draw(commands, scene, view, output, target.colour.format, target.colour.samples);
     commands.endRendering();
   });
 }

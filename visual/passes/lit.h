@@ -2,6 +2,7 @@
 #pragma once
 
 #include "visual/lit_scene.h"
+#include "visual/passes/fog.h"
 
 namespace phare {
 
@@ -18,12 +19,13 @@ struct LitTarget {
 
 class LitPass {
  public:
-  explicit LitPass(gpu::Device& device) : sky_(device) {}
+  explicit LitPass(gpu::Device& device) : sky_(device), fog_sky_(device) {}
 
   void draw(gpu::FrameGraph& graph, LitScene& scene, const LitView& view, const LitTarget& target, LampOutput output);
 
  private:
   SkyPass sky_;
+  FogSky fog_sky_;
 };
 
 }  // namespace phare

@@ -40,6 +40,8 @@ void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& chann
   input.exposure_per_cdm2 = desk.exposure_per_cdm2;
   input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = desk.depth_first;
   input.effects[static_cast<std::size_t>(Effect::kShadows)] = desk.shadows;
+  input.effects[static_cast<std::size_t>(Effect::kFog)] = desk.fog;
+  input.visibility_m = desk.visibility_m;
 }
 
 CockpitState shown_by_desk(const Desk& desk, CockpitState controls) {
@@ -59,6 +61,7 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
     std::snprintf(text, sizeof text, "eye adapted to %.0f K%s   exposure EV %.1f", moment.eye.adapted_k(),
                   moment.eye.fixed() ? ", fixed" : "", std::log2(8.0 / desk.exposure_per_cdm2));
     lines.emplace_back(text);
+    if (desk.visibility_m) lines.push_back(fmt::format("visibility {:.4g} m; lux as in clear air", *desk.visibility_m));
     if (moment.under_mouse)
       lines.push_back(lux_line("", lamps, moment, *moment.under_mouse, moment.under_mouse->position_m));
   }

@@ -66,6 +66,8 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["images"] = {{"count", stats.newest.images}, {"bytes", stats.newest.image_bytes}};
   report["road_cuts"] = session.options.road_cuts;
   report["method"] = kMethodNames[static_cast<std::size_t>(session.desk.method)];
+  report["weather"] = nlohmann::json::object();
+  if (session.desk.visibility_m) report["weather"]["visibility_m"] = *session.desk.visibility_m;
   report["views"] = nlohmann::json::array();
   for (const ViewResult& view : stats.newest.views) {
     report["views"].push_back({{"name", view.name},

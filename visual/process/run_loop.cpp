@@ -250,6 +250,7 @@ void Loop::warm_up() {
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
   const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 1 : 1;
   int step = 0;
+  bool last = false;
   const auto draw = [&](const CockpitState& controls) {
     if (over()) return;  // who does not want to wait leaves
     if (s_.window) input.panel = getting_ready_panel(++step, steps);
@@ -257,9 +258,15 @@ void Loop::warm_up() {
     input.lamps = s_.lamps.placed(pose);
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
-    for (const bool off : {true, false}) {
-      shadows = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
-      s_.renderer.draw(input);
+    // The same for fog, where there is some to begin with, and of the light that the drive begins with.
+    for (const bool clear : {true, false}) {
+      if (!clear && !s_.desk.visibility_m && !(thorough && last)) continue;
+      input.effects[static_cast<std::size_t>(Effect::kFog)] = s_.desk.fog;
+      input.visibility_m = clear ? std::nullopt : std::optional(s_.desk.visibility_m.value_or(100.0));
+      for (const bool off : {true, false}) {
+        shadows = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
+        s_.renderer.draw(input);
+      }
     }
   };
   for (std::uint32_t design = 0; thorough && design < s_.lamps.designs().size(); ++design) {
@@ -275,6 +282,7 @@ void Loop::warm_up() {
   }
   input.camera = driver_camera(s_.channel(), pose);
   input.want_image = s_.album.wanted();
+  last = true;
   draw(controls_to_show(s_.bus, Clock::now()));  // low beam
   s_.lamps.begin_counting();
   if (!ended_) spdlog::info("ready after {:.1f} s", std::chrono::duration<double>(Clock::now() - begin).count());
