@@ -192,13 +192,21 @@ TEST_F(Measuring, MarksAreSeenWhereTheyLie) {
   const ViewGeometry view(camera, 16.0 / 9.0);
   OverlayMarks picture;
   draw_marks(picture, grid_marks(car_, RoadLine(), 10.0), view);
-  const auto label = std::ranges::find(picture.labels, "50 m", &OverlayMarks::Label::text);
+  const auto label = std::ranges::find(picture.labels, "30 m", &OverlayMarks::Label::text);
   ASSERT_NE(label, picture.labels.end());
-  // 50 m ahead, 2 m to the right, 1.2 m below the eye (less the 0.01 m that lines lie above): 60 degrees wide.
+  // 30 m ahead, 2 m to the right, 1.2 m below the eye (less the 0.01 m that lines lie above): 60 degrees wide.
   const double half = std::tan(0.5 * camera.fov_horizontal_rad);
-  EXPECT_NEAR(label->x_01, 0.5 + 0.5 * (2.0 / 50.0) / half, 1e-9);
+  EXPECT_NEAR(label->x_01, 0.5 + 0.5 * (2.0 / 30.0) / half, 1e-9);
   // The ground of a scene that has none lies at the car's height.
-  EXPECT_NEAR(label->y_01, 0.5 + 0.5 * (1.19 / 50.0) / half * 16.0 / 9.0, 1e-9);
+  EXPECT_NEAR(label->y_01, 0.5 + 0.5 * (1.19 / 30.0) / half * 16.0 / 9.0, 1e-9);
+  // Far rows lie close together: no label on another, and the nearest has stayed.
+  EXPECT_EQ(picture.labels.front().text, "10 m");
+  EXPECT_LT(picture.labels.size(), 10u);
+  for (std::size_t i = 0; i < picture.labels.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_TRUE(std::abs(picture.labels[i].x_01 - picture.labels[k].x_01) >= 0.04 ||
+                  std::abs(picture.labels[i].y_01 - picture.labels[k].y_01) >= 0.025)
+          << picture.labels[i].text << " on " << picture.labels[k].text;
   for (const OverlayMarks::Line& line : picture.lines)
     for (const double share : {line.x0_01, line.y0_01, line.x1_01, line.y1_01}) EXPECT_TRUE(std::isfinite(share));
   // What lies behind the eye is not drawn.

@@ -179,6 +179,9 @@ RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& r
   return seen;
 }
 
+/// Of "100 m" in a picture of 1280 × 720.
+constexpr double kLabelWidth_01 = 0.04, kLabelHeight_01 = 0.025;
+
 void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometry& view) {
   const glm::dmat4 clip_from_eye = view.clip_from_eye();
   const glm::dvec3 eye_m = view.camera().eye_m;
@@ -191,8 +194,13 @@ void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometr
     }
   for (const RoadMarks::Label& label : marks.labels) {
     const auto at = seen_line(clip_from_eye, label.at_m - eye_m, label.at_m - eye_m);
-    if (at && near_picture(at->first))
-      picture.labels.push_back({at->first.x_01, at->first.y_01, label.text, label.colour});
+    if (!at || !near_picture(at->first)) continue;
+    // Far rows lie close together: of labels that would lie on one another the nearest stays.
+    const bool taken = std::ranges::any_of(picture.labels, [&](const OverlayMarks::Label& other) {
+      return std::abs(other.x_01 - at->first.x_01) < kLabelWidth_01 &&
+             std::abs(other.y_01 - at->first.y_01) < kLabelHeight_01;
+    });
+    if (!taken) picture.labels.push_back({at->first.x_01, at->first.y_01, label.text, label.colour});
   }
 }
 
