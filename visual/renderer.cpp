@@ -193,6 +193,11 @@ void Renderer::resize(int width_px, int height_px) {
   impl_->set_target(width_px, height_px);
 }
 
+PictureSize Renderer::picture_size() const {
+  const vk::Extent2D extent = impl_->target.extent;
+  return {static_cast<int>(extent.width), static_cast<int>(extent.height)};
+}
+
 FrameResult Renderer::draw(const FrameInput& input) {
   const auto start = std::chrono::steady_clock::now();
   FrameParts parts = impl_->parts();

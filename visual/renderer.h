@@ -160,6 +160,8 @@ class Renderer {
   void change_beam(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed);
   /// Another size of picture.
   void resize(int width_px, int height_px);
+  /// Of the frame's picture: of a window what it has now, not what was asked for.
+  PictureSize picture_size() const;
 
   /// Draws one frame and waits for it. In a window it is also presented.
   FrameResult draw(const FrameInput& input);

@@ -302,6 +302,8 @@ TEST_F(RendererTest, AnotherSizeAndBackTakesTheSameMemory) {
   for (int i = 0; i < 3; ++i) renderer->draw(input);
   const std::uint64_t bytes = renderer->device_memory_bytes();
   renderer->resize(640, 360);
+  EXPECT_EQ(renderer->picture_size().width_px, 640);
+  EXPECT_EQ(renderer->picture_size().height_px, 360);
   EXPECT_GT(renderer->draw(input).image_bytes, 3u * 320u * 180u * 8u);
   renderer->resize(320, 180);
   renderer->draw(input);

@@ -186,6 +186,26 @@ TEST_F(Measuring, EveryPointOfAnIsoluxLineHasItsLevel) {
     }
 }
 
+TEST(PictureMarks, AnInsetIsKeptClearOfLinesAndLabels) {
+  const PicturePart inset{0.25, 0.25, 0.5, 0.5};
+  OverlayMarks picture;
+  picture.lines = {{0.0, 0.5, 1.0, 0.5, {}},   // through it
+                   {0.5, 0.5, 0.5, 1.0, {}},   // out of it
+                   {0.3, 0.3, 0.7, 0.7, {}},   // within
+                   {0.0, 0.1, 1.0, 0.1, {}},   // above
+                   {0.0, 0.8, 0.2, 1.0, {}}};  // past a corner
+  picture.labels = {{0.5, 0.5, "10 m", {}}, {0.1, 0.1, "20 m", {}}, {0.9, 0.5, "30 m", {}}};
+  keep_clear(picture, inset);
+  const auto line = [](double x0, double y0, double x1, double y1) { return std::array{x0, y0, x1, y1}; };
+  std::vector<std::array<double, 4>> left;
+  for (const OverlayMarks::Line& one : picture.lines) left.push_back(line(one.x0_01, one.y0_01, one.x1_01, one.y1_01));
+  EXPECT_EQ(left, (std::vector{line(0.0, 0.5, 0.25, 0.5), line(0.75, 0.5, 1.0, 0.5), line(0.5, 0.75, 0.5, 1.0),
+                               line(0.0, 0.1, 1.0, 0.1), line(0.0, 0.8, 0.2, 1.0)}));
+  ASSERT_EQ(picture.labels.size(), 2u);
+  EXPECT_EQ(picture.labels[0].text, "20 m");
+  EXPECT_EQ(picture.labels[1].text, "30 m");
+}
+
 TEST_F(Measuring, MarksAreSeenWhereTheyLie) {
   Camera camera;
   camera.eye_m = {0.0, 0.0, 3.2};

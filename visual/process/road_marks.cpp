@@ -229,6 +229,41 @@ void draw_scale(OverlayMarks& picture, const std::vector<double>& levels_lx) {
   }
 }
 
+void keep_clear(OverlayMarks& picture, const PicturePart& part) {
+  const double right = part.left_01 + part.width_01, bottom = part.top_01 + part.height_01;
+  std::vector<OverlayMarks::Line> outside;
+  for (const OverlayMarks::Line& line : picture.lines) {
+    // The piece within, from one share of the line to another (Liang and Barsky 1984).
+    const double along_x = line.x1_01 - line.x0_01, along_y = line.y1_01 - line.y0_01;
+    double enters = 0.0, leaves = 1.0;
+    const auto cut = [&](double along, double to_edge) {  // within while share * along <= to_edge
+      if (along == 0.0 && to_edge <= 0.0) leaves = -1.0;
+      if (along > 0.0) leaves = std::min(leaves, to_edge / along);
+      if (along < 0.0) enters = std::max(enters, to_edge / along);
+    };
+    cut(-along_x, line.x0_01 - part.left_01);
+    cut(along_x, right - line.x0_01);
+    cut(-along_y, line.y0_01 - part.top_01);
+    cut(along_y, bottom - line.y0_01);
+    if (enters >= leaves) {
+      outside.push_back(line);
+      continue;
+    }
+    const auto piece = [&](double from, double to) {
+      if (to > from)
+        outside.push_back({line.x0_01 + from * along_x, line.y0_01 + from * along_y, line.x0_01 + to * along_x,
+                           line.y0_01 + to * along_y, line.colour});
+    };
+    piece(0.0, enters);
+    piece(leaves, 1.0);
+  }
+  picture.lines = std::move(outside);
+  std::erase_if(picture.labels, [&](const OverlayMarks::Label& label) {
+    return label.x_01 + kLabelWidth_01 > part.left_01 && label.x_01 < right &&
+           std::abs(label.y_01 - std::clamp(label.y_01, part.top_01, bottom)) < 0.5 * kLabelHeight_01;
+  });
+}
+
 void frame_part(OverlayMarks& picture, const PicturePart& part) {
   constexpr OverlayColour kInk{120, 125, 130};
   const double left = part.left_01, top = part.top_01, right = left + part.width_01, bottom = top + part.height_01;

@@ -61,6 +61,8 @@ void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometr
 /// The scale of the false colours at the right edge, with the levels of the isolux lines.
 void draw_scale(OverlayMarks& picture, const std::vector<double>& levels_lx);
 
+/// Takes lines and labels off an inset, which shows another view.
+void keep_clear(OverlayMarks& picture, const PicturePart& part);
 /// A frame around an inset.
 void frame_part(OverlayMarks& picture, const PicturePart& part);
 

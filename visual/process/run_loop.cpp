@@ -186,10 +186,13 @@ void Loop::mind_the_mouse() {
 
 /// What measures in the picture, over it and in probes.csv.
 void Loop::measure(const Moment& moment) {
-  measuring_.see({moment.time, moment.car.pose, input_.camera,
-                  static_cast<double>(s_.options.width_px) / static_cast<double>(s_.options.height_px)});
+  const PictureSize size = s_.renderer.picture_size();
+  measuring_.see({moment.time, moment.car.pose, input_.camera, static_cast<double>(size.width_px) / size.height_px});
   input_.marks = measuring_.marks(drawn_frames_ % 6 == 0);
-  for (const ViewInput& inset : input_.more_views) frame_part(input_.marks, inset.part);
+  for (const ViewInput& inset : input_.more_views) {
+    keep_clear(input_.marks, inset.part);
+    frame_part(input_.marks, inset.part);
+  }
   if (!over_ && !measuring_.log()) spdlog::error("probes.csv: cannot be written");
 }
 
