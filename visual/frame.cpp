@@ -41,6 +41,13 @@ vk::Rect2D area_of(const PicturePart& part, vk::Extent2D extent) {
   return {{left, top}, {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}};
 }
 
+/// Far meshes are made for pixels of kFarMeshPixel_rad: where a picture's are finer, or its eye looks through a
+/// narrower angle, they begin as much farther away.
+double far_mesh_from_m(const PlacedView& view) {
+  const double pixel_rad = view.input.camera.fov_horizontal_rad / view.area.extent.width;
+  return view.input.far_mesh_from_m * std::max(1.0, kFarMeshPixel_rad / pixel_rad);
+}
+
 /// What one view calls for, and no more. `lines`: of text that will lie over it.
 ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t lines) {
   gpu::FrameGraph& graph = parts.graph;
@@ -54,7 +61,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   // What is seen, by which lamps.
   const double aspect = static_cast<double>(view.area.extent.width) / static_cast<double>(view.area.extent.height);
   LitView lit = parts.scene.view(ViewGeometry(view.input.camera, aspect), sky_of(view.input), view.input.lamps,
-                                 view.input.far_mesh_from_m, view.input.isolux_lx);
+                                 far_mesh_from_m(view), view.input.isolux_lx);
   lit.method = view.input.method;
 
   // What that calls for, and the images it takes.
@@ -158,8 +165,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
     if (!parts.overlay)
       parts.overlay =
           std::make_unique<OverlayPass>(parts.device, parts.target.display_format, parts.target.extent.height);
-    parts.overlay->draw(parts.graph, *seen.display, input.overlay, input.instruments, input.panel,
-                        input.marks);
+    parts.overlay->draw(parts.graph, *seen.display, input.overlay, input.instruments, input.panel, input.marks);
   }
 
   // What is kept of the finished picture.

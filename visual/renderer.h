@@ -51,6 +51,7 @@ inline constexpr std::size_t kLampsPerDraw = shader::kMaxLamps;
 
 /// Blocks of the scene farther than this are drawn with fewer triangles: their errors are made for this distance.
 constexpr double kFarMeshFrom_m = 150.0;
+constexpr double kFarMeshPixel_rad = 1.0471975511965976 / 1280;  ///< 60° over 1280 pixels; finer ones: farther
 
 /// A part of a picture, in shares of its width and height from the upper left corner.
 struct PicturePart {

@@ -55,5 +55,25 @@ TEST(FarMeshes, ChangeAPictureOfTheCountryRoadLessThanOneSees) {
   EXPECT_EQ(renderer->validation_messages(), 0u);
 }
 
+TEST(FarMeshes, BeginFartherAwayWherePixelsAreFiner) {
+  const Result<Scene> scene = read_scene(generated_dir() / "scenes/country_road.glb");
+  ASSERT_TRUE(scene.ok());
+  Result<Renderer> renderer = Renderer::create({.width_px = 1280, .height_px = 720, .validation = true});
+  ASSERT_TRUE(renderer.ok()) << renderer.error().text();
+  ASSERT_TRUE(renderer->load_scene(*scene).ok());
+  FrameInput input;
+  input.camera.eye_m = {25.0, -1.2, 1.22};
+  const auto triangles = [&](int width_px, int height_px, double far_mesh_from_m) {
+    renderer->resize(width_px, height_px);
+    input.far_mesh_from_m = far_mesh_from_m;
+    return renderer->draw(input).triangles;
+  };
+  const std::uint64_t usual = triangles(1280, 720, kFarMeshFrom_m);
+  EXPECT_EQ(triangles(640, 360, kFarMeshFrom_m), usual) << "coarser pixels gain nothing: insets stay as they are";
+  EXPECT_EQ(triangles(2560, 1440, kFarMeshFrom_m), triangles(1280, 720, 2.0 * kFarMeshFrom_m));
+  EXPECT_GT(triangles(2560, 1440, kFarMeshFrom_m), usual);
+  EXPECT_EQ(renderer->validation_messages(), 0u);
+}
+
 }  // namespace
 }  // namespace phare
