@@ -112,24 +112,22 @@ Outcome far_origin(const Bench& bench) {
   const IntensityTable table =
       table_of(30.0, 241, 241, [](double h, double v) { return 9e3 * std::exp(-(h * h + 4 * v * v) / 90); });
   Outcome outcome;
-  std::vector<Point> home;
+  std::vector<Point> home, away;
   std::vector<double> along;
-  for (double r_m = 1.0; r_m < 200.0; r_m *= 1.5) home.push_back({{r_m, 0.1 * r_m, -0.6}}), along.push_back(r_m);
-  const std::vector<double> device = device_lx(bench, {.table = &table}, home),
-                            processor = float64_lx({.table = &table}, home);
-  // A whole multiple of 2^-20 m, so that the shifted places are the same places in float64.
   const glm::dvec3 shift(5e6, -3e6, 1e3);
-  std::vector<Point> away = home;
-  for (Point& point : away)
-    for (glm::dvec3* at : {&point.at_m}) *at = (glm::round(*at * 1048576.0) / 1048576.0) + shift;
-  for (std::size_t i = 0; i < home.size(); ++i) home[i].at_m = away[i].at_m - shift;
-  const std::vector<double> device_home = device_lx(bench, {.table = &table}, home),
-                            processor_home = float64_lx({.table = &table}, home);
-  const std::vector<double> device_away = device_lx(bench, {.table = &table, .at_m = shift}, away),
-                            processor_away = float64_lx({.table = &table, .at_m = shift}, away);
+  for (double r_m = 1.0; r_m < 200.0; r_m *= 1.5) {
+    // To a 2^-20 m, which float64 holds there too: the places are the same, and only the program can tell them apart.
+    const glm::dvec3 at_m = glm::round(glm::dvec3(r_m, 0.1 * r_m, -0.6) * 1048576.0) / 1048576.0;
+    home.push_back({at_m});
+    away.push_back({at_m + shift});
+    along.push_back(r_m);
+  }
+  const Placed lamp{.table = &table}, lamp_away{.table = &table, .at_m = shift};
+  const std::vector<double> device = device_lx(bench, lamp, home), device_away = device_lx(bench, lamp_away, away);
+  const std::vector<double> processor = float64_lx(lamp, home), processor_away = float64_lx(lamp_away, away);
   for (std::size_t i = 0; i < home.size(); ++i) {
-    if (!device.empty()) outcome.device.push_back({along[i], relative(device_away[i], device_home[i])});
-    outcome.float64.push_back({along[i], relative(processor_away[i], processor_home[i])});
+    if (!device.empty()) outcome.device.push_back({along[i], relative(device_away[i], device[i])});
+    outcome.float64.push_back({along[i], relative(processor_away[i], processor[i])});
   }
   return outcome;
 }
@@ -221,6 +219,9 @@ Outcome no_numbers(const Bench&) {
     const std::string text = std::string("V\\H,-10,0,10\n-5,1,2,3\n0,4,") + cell + ",6\n5,7,8,9\n";
     outcome.float64.push_back({at++, parse_lamp(text, "lamp.csv", {}).ok() ? 1.0 : 0.0});
   }
+  // And one that is right, or the refusals would prove nothing.
+  outcome.float64.push_back(
+      {at, parse_lamp("V\\H,-10,0,10\n-5,1,2,3\n0,4,5,6\n5,7,8,9\n", "lamp.csv", {}).ok() ? 0.0 : 1.0});
   return outcome;
 }
 
@@ -262,7 +263,7 @@ std::vector<HardCase> light_cases() {
   cases.push_back(std::move(far));
   HardCase numbers = light("no-numbers", "NaN or infinity in a file reaches the picture as black or white blocks",
                            "a table with nan, inf, 1e400, an empty cell and the like", "file", no_numbers);
-  numbers.unit = "files taken that have to be refused";
+  numbers.unit = "files taken that have to be refused, or the other way";
   numbers.device_bound.reset();
   numbers.float64_bound = 0.0;
   numbers.source = "a file is refused with its line, or read right";

@@ -145,8 +145,10 @@ Outcome exposure(const Bench& bench) {
     const Image8 image = renderer.read_image();
     const double middle = image.rgba[4 * (image.rgba.size() / 8) + 1];
     outcome.device.push_back({per_cdm2, middle < before ? 1.0 : 0.0});
+    if (before < 0.0 && middle > 0.0) outcome.error = "the darkest picture is not black";
     before = middle;
   }
+  if (before < 255.0) outcome.error = "the brightest picture is not white";
   return outcome;
 }
 
