@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "config/result.h"
+#include "config/base/result.h"
 
 namespace phare {
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "config/remedies.h"
+#include "config/base/remedies.h"
 
 namespace phare {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "cockpit_io/candump.h"
-#include "config/result.h"
+#include "config/base/result.h"
 
 namespace phare {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cockpit_io/can_frame.h"
-#include "config/result.h"
+#include "config/base/result.h"
 #include "net/sim_time.h"
 
 namespace phare {

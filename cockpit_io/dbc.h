@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "cockpit_io/can_frame.h"
-#include "config/result.h"
+#include "config/base/result.h"
 
 namespace phare {
 

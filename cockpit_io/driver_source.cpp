@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "config/cockpit.h"
+#include "config/formats/toml_table.h"
 #include "config/rig.h"
-#include "config/toml_table.h"
 
 namespace phare {
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "cockpit_io/source.h"
-#include "config/lane.h"
-#include "config/result.h"
+#include "config/base/result.h"
+#include "config/road/lane.h"
 
 namespace phare {
 

@@ -10,8 +10,8 @@
 #include "cockpit_io/dbc.h"
 #include "cockpit_io/message_check.h"
 #include "cockpit_io/switch_logic.h"
+#include "config/base/result.h"
 #include "config/cockpit.h"
-#include "config/result.h"
 
 namespace phare {
 

@@ -14,8 +14,8 @@
 #include "cockpit_io/candump.h"
 #include "cockpit_io/gamepad_source.h"
 #include "cockpit_io/learn.h"
-#include "config/fail.h"
-#include "config/result.h"
+#include "config/base/fail.h"
+#include "config/base/result.h"
 
 namespace phare {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cockpit_io/crc.h"
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 
 namespace phare {
 

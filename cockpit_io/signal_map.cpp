@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cockpit_io/text_scanner.h"
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 
 namespace phare {
 

@@ -11,8 +11,8 @@
 #include "cockpit_io/dbc.h"
 #include "cockpit_io/driver_input.h"
 #include "cockpit_io/message_check.h"
+#include "config/base/result.h"
 #include "config/cockpit.h"
-#include "config/result.h"
 
 namespace phare {
 

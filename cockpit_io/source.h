@@ -10,8 +10,8 @@
 #include "cockpit_io/cockpit.h"
 #include "cockpit_io/feedback.h"
 #include "cockpit_io/memory.h"
+#include "config/base/result.h"
 #include "config/cockpit.h"
-#include "config/result.h"
 #include "net/messages.h"
 
 namespace phare {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "config/result.h"
+#include "config/base/result.h"
 
 namespace phare {
 

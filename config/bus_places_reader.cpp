@@ -1,7 +1,7 @@
 #include <optional>
 
 #include "config/bus_places.h"
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 
 namespace phare {
 namespace {

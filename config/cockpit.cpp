@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "config/base/paths.h"
 #include "config/cockpit_control.h"
-#include "config/paths.h"
+#include "config/formats/toml_table.h"
 #include "config/rig.h"
-#include "config/toml_table.h"
 
 namespace phare {
 

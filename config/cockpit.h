@@ -10,7 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
+#include "config/control_levels.h"
 
 namespace phare {
 
@@ -44,9 +45,6 @@ enum class Control {
   kGear,          ///< levels drive, neutral, reverse, park
   kParkingBrake,  ///< 0 … 1
 };
-/// Places of the light switch, in the order of LightSwitch (net/messages.h).
-inline constexpr std::array<std::string_view, 4> kLightSwitchNames{"off", "position", "low", "high"};
-
 inline constexpr std::array<std::string_view, 24> kControlNames{
     "light_switch", "position",        "low",      "high",           "beam_lever",    "flash",
     "fog_front",    "fog_rear",        "turn",     "turn_left",      "turn_right",    "hazard",
@@ -77,7 +75,7 @@ struct ControlMapping {
   std::string bits;             ///< where the car differs from the DBC file: "start|length@order sign"; or empty
   double timeout_s = 0.0;       ///< silence of the message after which the source counts as silent
   std::optional<double> debounce_s;
-  std::vector<SignalLevel> levels;             ///< light_switch, beam_lever, turn, gear
+  std::vector<SignalLevel> levels;       ///< light_switch, beam_lever, turn, gear
   LatchKind latch = LatchKind::kNone;    ///< beam_lever; of a flag anything but none: each press switches it over
   std::vector<NamedValue> on;            ///< flags: the values that mean pressed; empty: anything but 0
   bool invert = false;                   ///< flags: pressed is released

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "net/messages.h"
+#include "config/control_levels.h"
 
 namespace phare {
 
@@ -175,8 +175,9 @@ void check_conflicts(TomlTable& controls, const CockpitConfig& config) {
   exclude(Control::kLightSwitch, Control::kLow);
   const ControlMapping* levels = config.find(Control::kLightSwitch);
   const bool knows_high =
-      levels != nullptr && std::any_of(levels->levels.begin(), levels->levels.end(),
-                                       [](const SignalLevel& l) { return l.level == static_cast<int>(LightSwitch::kHigh); });
+      levels != nullptr && std::any_of(levels->levels.begin(), levels->levels.end(), [](const SignalLevel& l) {
+        return l.level == static_cast<int>(LightSwitch::kHigh);
+      });
   exclude(Control::kLightSwitch, Control::kHigh, knows_high);
   exclude(Control::kLightSwitch, Control::kBeamLever, knows_high);
   exclude(Control::kHigh, Control::kBeamLever);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "config/cockpit.h"
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 
 namespace phare {
 

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "config/conventions.h"
-#include "config/input_files.h"
+#include "config/base/conventions.h"
+#include "config/base/input_files.h"
 #include "config/vehicle.h"
 
 namespace phare {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "config/tyre_file.h"
 
 namespace phare {

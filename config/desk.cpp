@@ -6,7 +6,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 
 namespace phare {
 namespace {

@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
+#include "config/base/result.h"
 #include "config/eye.h"
 #include "config/isolux.h"
-#include "config/result.h"
 
 namespace phare {
 
@@ -89,7 +89,7 @@ struct Desk {
   bool help = false;                  ///< every key
   /// Levels of these effects (visual/effects.h); without one the scene decides.
   std::optional<std::size_t> shadows, depth_first, fog;
-  std::optional<double> visibility_m;  ///< meteorological optical range (visual/photometry/fog.h); nothing: clear air
+  std::optional<double> visibility_m;  ///< meteorological optical range (photometry/table/fog.h); none: clear air
 
   friend bool operator==(const Desk&, const Desk&) = default;
 };

@@ -14,10 +14,10 @@
 #include <string_view>
 #include <variant>
 
+#include "config/base/input_files.h"
+#include "config/base/paths.h"
 #include "config/desk.h"
-#include "config/input_files.h"
-#include "config/paths.h"
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 
 namespace phare {
 namespace {

@@ -12,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
+#include "config/base/result.h"
 #include "config/bus_key.h"
 #include "config/bus_places.h"
 #include "config/desk.h"
-#include "config/result.h"
 #include "shaders/sizes.h"
 
 namespace phare {
@@ -26,7 +26,8 @@ enum class LampFunction { kPosition, kLow, kHigh, kFog, kDaytime, kCornering };
 /// it open.
 enum class GammaAxis { kGamma0, kGamma90 };
 
-/// How a beam image is stored and looked up, from the cheapest to the table itself (visual/photometry/image_levels.h).
+/// How a beam image is stored and looked up, from the cheapest to the table itself
+/// (visual/photometry/beam/image_levels.h).
 enum class ImageLevel { kNormalised8, kHalfEven, kHalfNodes, kFloatNodes };
 inline constexpr std::array<std::string_view, 4> kImageLevelNames{"normalised-8bit-1999", "half-float-texture-filter",
                                                                   "half-float-native-nodes", "float32-native-nodes"};
@@ -36,7 +37,7 @@ struct SourceConfig {
   LampFunction function = LampFunction::kLow;
   std::filesystem::path file;  ///< resolved, absolute
   GammaAxis axis = GammaAxis::kGamma0;
-  double c0_turn_deg = 0.0;  ///< type C, EULUMDAT: where the file's plane C 0 lies (visual/photometry/read_lamp.h)
+  double c0_turn_deg = 0.0;  ///< type C, EULUMDAT: where the file's plane C 0 lies (readers/read_lamp.h)
   bool mirror = false;       ///< left and right turned round: for the other side of the road, or a clockwise file
   std::size_t lamp_set = 1;  ///< EULUMDAT: which of the file's lamp sets, from 1
   std::size_t emitter = 1;   ///< TM-33: which of the file's emitters, from 1
@@ -55,7 +56,8 @@ struct SourceConfig {
 struct AimConfig {
   enum class Kind {
     kAsFiled,  ///< not turned
-    kCutoff,   ///< the cut-off of its passing (else fog) beam on the line of the rule (visual/photometry/lamp_aim.h)
+    kCutoff,   ///< the cut-off of its passing (else fog) beam on the line of the rule
+               ///< (visual/photometry/bench/lamp_aim.h)
     kTurned    ///< by up_rad
   };
   Kind kind = Kind::kAsFiled;

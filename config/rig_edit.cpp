@@ -8,10 +8,10 @@
 #include <numbers>
 #include <utility>
 
+#include "config/base/whole_file.h"
+#include "config/formats/toml_table.h"
 #include "config/rig.h"
 #include "config/rig_writer.h"
-#include "config/toml_table.h"
-#include "config/whole_file.h"
 
 namespace phare {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 
 namespace phare {
 

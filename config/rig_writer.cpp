@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "config/paths.h"
+#include "config/base/paths.h"
 
 namespace phare {
 

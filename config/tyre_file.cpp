@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "config/input_files.h"
+#include "config/base/input_files.h"
 
 namespace phare {
 namespace {

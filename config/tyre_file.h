@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "config/vehicle.h"
 
 namespace phare {

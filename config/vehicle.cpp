@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string_view>
 
-#include "config/conventions.h"
-#include "config/toml_table.h"
+#include "config/base/conventions.h"
+#include "config/formats/toml_table.h"
 
 namespace phare {
 namespace {

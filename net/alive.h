@@ -11,7 +11,7 @@
 #include <memory>
 #include <optional>
 
-#include "config/result.h"
+#include "config/base/result.h"
 
 namespace phare {
 

@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "config/rig.h"
 #include "net/alive.h"
 #include "net/channels.h"

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <utility>
 
-#include "config/content_hash.h"
+#include "config/base/content_hash.h"
 #include "net/channels.h"
 #include "net/wire.h"
 

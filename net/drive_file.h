@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "net/messages.h"
 #include "net/sim_time.h"
 
@@ -44,7 +44,7 @@ struct Drive {
   bool cut = false;                 ///< the file ends within a record; what came before is here
   std::size_t refused = 0;          ///< whole records that hold no valid datagram
   SimTime duration;                 ///< newest SimTime of all datagrams
-  std::string content_hash;         ///< of the file's bytes, see config/content_hash.h
+  std::string content_hash;         ///< of the file's bytes, see config/base/content_hash.h
 };
 
 /// Reads pcap and pcapng files with micro- or nanosecond stamps, link type RAW or Ethernet (tcpdump -i lo). A file cut

@@ -8,14 +8,12 @@
 #include <variant>
 #include <vector>
 
+#include "config/control_levels.h"
 #include "net/sim_time.h"
 
 namespace phare {
 
 enum class Sender { kUnknown = 0, kCockpit = 1, kDynamics = 2, kVisual = 3, kControl = 4, kLaw = 5 };
-enum class LightSwitch { kOff = 0, kPosition = 1, kLow = 2, kHigh = 3 };
-enum class TurnSignal { kNone = 0, kLeft = 1, kRight = 2 };
-enum class Gear { kDrive = 0, kNeutral = 1, kReverse = 2, kPark = 3 };
 
 struct CockpitState {
   std::int64_t frame_index = -1;

@@ -10,7 +10,7 @@
 
 #include <filesystem>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "config/rig.h"
 
 namespace phare {

@@ -15,7 +15,7 @@
 #include <span>
 #include <type_traits>
 
-#include "config/result.h"
+#include "config/base/result.h"
 
 namespace phare {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "net/sim_time.h"
 
 namespace phare {

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "net/messages.h"
 
 namespace phare {

@@ -8,7 +8,7 @@
 
 #include "cockpit_io/can_log.h"
 #include "cockpit_io/dbc.h"
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "tools/import_cockpit.h"
 #include "tools/import_track.h"
 #include "tools/local_fit.h"

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
+#include "config/base/result.h"
 #include "config/cockpit.h"
-#include "config/result.h"
-#include "config/road_surface.h"
+#include "config/road/road_surface.h"
 #include "config/vehicle.h"
 #include "net/messages.h"
 #include "tools/import_motion.h"

@@ -13,7 +13,7 @@
 #include "cockpit_io/crc.h"
 #include "cockpit_io/message_check.h"
 #include "cockpit_io/signal_map.h"
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 
 namespace phare {
 namespace {

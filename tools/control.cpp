@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "config/desk.h"
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 #include "net/run_key.h"
 #include "tools/commands.h"
 #include "tools/control_client.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 
 namespace phare {
 namespace {

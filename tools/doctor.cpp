@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "cockpit_io/can_log.h"
-#include "config/paths.h"
-#include "config/remedies.h"
+#include "config/base/paths.h"
+#include "config/base/remedies.h"
 #include "net/scheduling.h"
 #include "tools/child_process.h"
 #include "tools/commands.h"

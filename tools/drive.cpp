@@ -10,8 +10,8 @@
 #include <thread>
 #include <utility>
 
+#include "config/base/whole_file.h"
 #include "config/key_bindings.h"
-#include "config/whole_file.h"
 #include "net/bus.h"
 #include "net/clock.h"
 #include "net/drive_file.h"

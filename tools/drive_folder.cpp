@@ -11,7 +11,7 @@
 #include <system_error>
 #include <thread>
 
-#include "config/remedies.h"
+#include "config/base/remedies.h"
 #include "tools/child_process.h"
 
 namespace phare {

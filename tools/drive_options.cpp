@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "config/base/log_levels.h"
 #include "config/cockpit.h"
 #include "config/key_bindings.h"
-#include "config/log_levels.h"
 #include "config/vehicle.h"
 #include "tools/child_process.h"
 #include "tools/commands.h"

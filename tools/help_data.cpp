@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <sstream>
 
-#include "config/paths.h"
+#include "config/base/paths.h"
 
 namespace phare {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <span>
 
+#include "config/base/input_files.h"
 #include "config/cockpit.h"
-#include "config/input_files.h"
-#include "config/lane.h"
 #include "config/rig.h"
+#include "config/road/lane.h"
 #include "net/drive_file.h"
 #include "net/wire.h"
 #include "tools/can_import.h"

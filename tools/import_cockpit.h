@@ -8,8 +8,8 @@
 
 #include "cockpit_io/candump.h"
 #include "cockpit_io/dbc.h"
+#include "config/base/result.h"
 #include "config/cockpit.h"
-#include "config/result.h"
 #include "net/messages.h"
 
 namespace phare {

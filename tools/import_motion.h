@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "config/road_surface.h"
+#include "config/road/road_surface.h"
 #include "config/vehicle.h"
 #include "vehicle_dynamics/state.h"
 

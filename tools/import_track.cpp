@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "config/lane.h"
+#include "config/road/lane.h"
 #include "tools/csv_columns.h"
 
 namespace phare {

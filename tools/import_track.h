@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 
 namespace phare {
 

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <set>
 
-#include "visual/photometry/lamp_aim.h"
-#include "visual/photometry/lint.h"
-#include "visual/photometry/table_end.h"
+#include "visual/photometry/bench/lamp_aim.h"
+#include "visual/photometry/bench/lint.h"
+#include "visual/photometry/bench/table_end.h"
 
 namespace phare {
 namespace {

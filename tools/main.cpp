@@ -9,8 +9,8 @@
 #include <exception>
 #include <filesystem>
 
-#include "config/paths.h"
-#include "config/toml_table.h"
+#include "config/base/paths.h"
+#include "config/formats/toml_table.h"
 #include "tools/commands.h"
 
 namespace phare {

@@ -7,17 +7,17 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "config/input_files.h"
-#include "config/remedies.h"
+#include "config/base/input_files.h"
+#include "config/base/remedies.h"
 #include "config/rig.h"
 #include "tools/commands.h"
 #include "tools/reference_table.h"
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/illuminance.h"
-#include "visual/photometry/image_levels.h"
-#include "visual/photometry/lamp_aim.h"
-#include "visual/photometry/lamp_tables.h"
-#include "visual/photometry/points_file.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/beam/image_levels.h"
+#include "visual/photometry/beam/lamp_tables.h"
+#include "visual/photometry/bench/lamp_aim.h"
+#include "visual/photometry/readers/points_file.h"
+#include "visual/photometry/table/illuminance.h"
 #ifdef PHARE_WITH_GRAPHICS
 #include "visual/renderer.h"
 #endif

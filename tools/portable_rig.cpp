@@ -4,9 +4,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "config/lane.h"
 #include "config/rig_writer.h"
-#include "visual/photometry/lamp_tables.h"
+#include "config/road/lane.h"
+#include "visual/photometry/beam/lamp_tables.h"
 
 namespace phare {
 namespace {

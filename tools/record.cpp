@@ -4,7 +4,7 @@
 #include <chrono>
 #include <memory>
 
-#include "config/input_files.h"
+#include "config/base/input_files.h"
 #include "net/clock.h"
 #include "net/run_key.h"
 #include "net/stats.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/drive_file.h"

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "config/rig.h"
-#include "visual/photometry/points_file.h"
+#include "visual/photometry/readers/points_file.h"
 
 namespace phare {
 

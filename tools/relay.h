@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "net/udp.h"
 
 namespace phare {

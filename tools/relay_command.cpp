@@ -2,7 +2,7 @@
 #include <chrono>
 #include <memory>
 
-#include "config/paths.h"
+#include "config/base/paths.h"
 #include "config/rig.h"
 #include "net/channels.h"
 #include "net/clock.h"

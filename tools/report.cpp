@@ -5,9 +5,9 @@
 #include <ctime>
 #include <fstream>
 
-#include "config/commit.h"
-#include "config/content_hash.h"
-#include "visual/photometry/lamp_tables.h"
+#include "config/base/commit.h"
+#include "config/base/content_hash.h"
+#include "visual/photometry/beam/lamp_tables.h"
 
 namespace phare {
 namespace {

@@ -8,12 +8,12 @@
 
 #include "cockpit_io/dbc.h"
 #include "config/cockpit.h"
-#include "config/lane.h"
+#include "config/road/lane.h"
 #include "config/vehicle.h"
 #include "tools/lamp_design.h"
-#include "visual/photometry/lamp_aim.h"
-#include "visual/photometry/lint.h"
-#include "visual/photometry/table_end.h"
+#include "visual/photometry/bench/lamp_aim.h"
+#include "visual/photometry/bench/lint.h"
+#include "visual/photometry/bench/table_end.h"
 #include "visual/scene/scene.h"
 
 namespace phare {

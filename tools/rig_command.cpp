@@ -5,7 +5,7 @@
 #include <fstream>
 #include <memory>
 
-#include "config/fail.h"
+#include "config/base/fail.h"
 #include "config/rig_writer.h"
 #include "tools/commands.h"
 #include "tools/lamp/print_json.h"

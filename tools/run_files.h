@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "config/rig.h"
 
 namespace phare {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "net/alive.h"
 #include "tools/child_process.h"
 #include "tools/watchdog.h"

@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
+#include "config/base/fail.h"
+#include "config/base/input_files.h"
+#include "config/base/whole_file.h"
 #include "config/commonroad.h"
-#include "config/fail.h"
-#include "config/input_files.h"
-#include "config/whole_file.h"
 #include "tools/commands.h"
 
 namespace phare {

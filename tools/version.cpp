@@ -1,7 +1,7 @@
 // What `phare --version` says: version, commit, and the device that draws.
 #include <string>
 
-#include "config/commit.h"
+#include "config/base/commit.h"
 #include "tools/commands.h"
 #ifdef PHARE_WITH_GRAPHICS
 #include "visual/renderer.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "vehicle_dynamics/models/kinematic.h"
 
 namespace phare {

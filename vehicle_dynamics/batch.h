@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "config/csv_table.h"
+#include "config/formats/csv_table.h"
 #include "vehicle_dynamics/driver.h"
 #include "vehicle_dynamics/levelling.h"
 #include "vehicle_dynamics/reference.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "vehicle_dynamics/auto_level.h"
 #include "vehicle_dynamics/batch.h"
 #include "vehicle_dynamics/batch_playhead.h"
@@ -279,7 +279,7 @@ class Car {
     const double path = sprung ? hand_over_->path_m() : path_m_ + b;
     static const Road kLevelRoad;
     const Situation situation = situation_of(o_.vehicle, seen, controls_, o_.road ? *o_.road : kLevelRoad, path,
-                                 sprung ? hand_over_->least_load_share() : 1.0);
+                                             sprung ? hand_over_->least_load_share() : 1.0);
     const Level level = kRungs[static_cast<std::size_t>(auto_.next(situation, dt).rung)];
     if (level == level_) return;
     if (level == Level::kKinematic) {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "config/fail.h"
+#include "config/base/fail.h"
 #include "net/clock.h"
 #include "vehicle_dynamics/batch.h"
 #include "vehicle_dynamics/batch_output.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "vehicle_dynamics/levelling.h"
 #include "vehicle_dynamics/road_laid.h"
 

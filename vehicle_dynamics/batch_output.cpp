@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "config/fail.h"
+#include "config/base/fail.h"
 #include "vehicle_dynamics/levelling.h"
 
 namespace phare::batch {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "config/whole_file.h"
+#include "config/base/whole_file.h"
 #include "vehicle_dynamics/batch.h"
 #include "vehicle_dynamics/manoeuvre.h"
 #include "vehicle_dynamics/plot_page.h"

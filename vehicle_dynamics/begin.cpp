@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "config/lane.h"
+#include "config/road/lane.h"
 #include "net/drive_file.h"
 #include "vehicle_dynamics/start_pose.h"
 

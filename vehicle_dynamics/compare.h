@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "vehicle_dynamics/models/fixed_step.h"
 
 namespace phare::compare {

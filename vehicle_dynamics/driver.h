@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "config/lane.h"
+#include "config/road/lane.h"
 
 namespace phare::batch {
 

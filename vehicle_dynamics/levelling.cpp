@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 
 namespace phare::levelling {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "config/fail.h"
-#include "config/log_levels.h"
+#include "config/base/fail.h"
+#include "config/base/log_levels.h"
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"

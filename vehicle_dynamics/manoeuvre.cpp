@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 
 namespace phare::batch {
 namespace {

@@ -1,5 +1,5 @@
 // Stands for reference.cpp where SUNDIALS was not there when Phare was built.
-#include "config/remedies.h"
+#include "config/base/remedies.h"
 #include "vehicle_dynamics/reference.h"
 
 namespace phare {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "vehicle_dynamics/models/full.h"
 #include "vehicle_dynamics/models/single_track.h"
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "config/road_friction.h"
-#include "config/road_surface.h"
-#include "config/road_surface_profile.h"
+#include "config/road/road_friction.h"
+#include "config/road/road_surface.h"
+#include "config/road/road_surface_profile.h"
 
 namespace phare {
 

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "config/csv_table.h"
+#include "config/formats/csv_table.h"
 
 namespace phare {
 namespace {

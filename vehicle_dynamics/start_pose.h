@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "config/lane.h"
+#include "config/road/lane.h"
 #include "vehicle_dynamics/state.h"
 
 namespace phare {

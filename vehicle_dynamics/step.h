@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
-#include "config/road_surface.h"
+#include "config/base/result.h"
+#include "config/road/road_surface.h"
 #include "config/vehicle.h"
 #include "net/messages.h"
 #include "vehicle_dynamics/auto_level.h"

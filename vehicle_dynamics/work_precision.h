@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "config/vehicle.h"
 #include "vehicle_dynamics/models/fixed_step.h"
 

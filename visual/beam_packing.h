@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "shaders/lamps.h"
-#include "visual/photometry/beam_composer.h"
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/image_levels.h"
+#include "visual/photometry/beam/beam_composer.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/beam/image_levels.h"
 
 namespace phare {
 

@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "visual/photometry/beam_composer.h"
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_composer.h"
+#include "visual/photometry/beam/beam_image.h"
 #include "visual/view.h"
 
 namespace phare {

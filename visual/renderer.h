@@ -12,14 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "config/base/result.h"
 #include "config/desk.h"
-#include "config/result.h"
 #include "visual/effects.h"
 #include "visual/overlay_content.h"
-#include "visual/photometry/beam_composer.h"
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/fog.h"
-#include "visual/photometry/image_levels.h"
+#include "visual/photometry/beam/beam_composer.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/beam/image_levels.h"
+#include "visual/photometry/table/fog.h"
 #include "visual/view.h"
 
 struct GLFWwindow;
@@ -73,7 +73,7 @@ struct ViewInput {
   double adaptation_k = 4000.0;    ///< light of this colour temperature looks white
   std::optional<glm::vec3> white;  ///< linear sRGB of the light that does, in place of it (visual/process/adaptation.h)
   double sky_luminance_cdm2 = 0.004;
-  std::optional<double> visibility_m{};     ///< meteorological; nothing: clear air (visual/photometry/fog.h)
+  std::optional<double> visibility_m{};     ///< meteorological; nothing: clear air (visual/photometry/table/fog.h)
   FogDroplets fog_droplets{};               ///< what the fog is made of
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;

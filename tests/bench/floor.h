@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "visual/photometry/intensity_table.h"
+#include "visual/photometry/table/intensity_table.h"
 
 namespace phare::bench {
 

@@ -16,12 +16,12 @@
 #include <memory>
 #include <string>
 
-#include "config/paths.h"
+#include "config/base/paths.h"
 #include "tests/bench/floor.h"
 #include "tests/bench/growth.h"
 #include "tests/bench/straight_road.h"
-#include "visual/photometry/beam_composer.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/beam/beam_composer.h"
+#include "visual/photometry/readers/read_lamp.h"
 #include "visual/scene/refine.h"
 #include "visual/scene/scene.h"
 

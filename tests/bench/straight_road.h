@@ -1,7 +1,7 @@
 // The road that frame times are quoted for: straight, level, little on it, so that light is what costs.
 #pragma once
 
-#include "visual/photometry/intensity_table.h"
+#include "visual/photometry/table/intensity_table.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 

@@ -12,7 +12,7 @@
 #include <random>
 #include <sstream>
 
-#include "config/content_hash.h"
+#include "config/base/content_hash.h"
 #include "net/channels.h"
 #include "net/wire.h"
 #include "tests/net/sample.h"

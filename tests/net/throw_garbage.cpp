@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "net/drive_file.h"
 #include "net/seal.h"
 #include "net/wire.h"

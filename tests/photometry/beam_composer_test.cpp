@@ -1,5 +1,5 @@
 // The composer: bit equality with an image made from nothing, work counted; and the ladder of image levels.
-#include "visual/photometry/beam_composer.h"
+#include "visual/photometry/beam/beam_composer.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/image_levels.h"
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/beam/image_levels.h"
+#include "visual/photometry/bench/sample_lamps.h"
 
 namespace phare {
 namespace {

@@ -1,5 +1,5 @@
 // Beam images: exact on a union of nodes, and how far off where sources have to be resampled.
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_image.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <random>
 
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/bench/sample_lamps.h"
 
 namespace phare {
 namespace {

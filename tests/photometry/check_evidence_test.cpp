@@ -7,11 +7,11 @@
 #include <glm/trigonometric.hpp>
 
 #include "check_helpers.h"
-#include "visual/photometry/check.h"
-#include "visual/photometry/combine.h"
-#include "visual/photometry/lint.h"
-#include "visual/photometry/read_lamp.h"
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/bench/check.h"
+#include "visual/photometry/bench/lint.h"
+#include "visual/photometry/bench/sample_lamps.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/table/combine.h"
 
 namespace phare {
 namespace {
@@ -164,7 +164,8 @@ TEST(CheckEvidence, SharpnessIsToldNoFinerThanTheRows) {
   EXPECT_LT(row_of(fine, "cut-off sharpness G").resolution, 0.03);
   EXPECT_EQ(row_of(fine, "cut-off linearity").verdict, RuleVerdict::kPass);
   // FMVSS 108 asks for no upper limit: rows of 0.25° are enough to say that G is above 0.13.
-  EXPECT_EQ(row_of(check_by(logistic_beam(0.4, 0.25), "fmvss108-lb2v"), "cut-off sharpness G").verdict, RuleVerdict::kPass);
+  EXPECT_EQ(row_of(check_by(logistic_beam(0.4, 0.25), "fmvss108-lb2v"), "cut-off sharpness G").verdict,
+            RuleVerdict::kPass);
 }
 
 // The range told of a coarse table holds the G of the beam it was made of.
@@ -259,7 +260,8 @@ TEST(CheckEvidence, CoarseRowsNeverPassOrFailAgainstTheTruth) {
           ++all;
           if (row.verdict != RuleVerdict::kPass && row.verdict != RuleVerdict::kFail) continue;
           ++told;
-          EXPECT_TRUE(true_row.verdict == row.verdict || true_row.verdict == RuleVerdict::kWithinResolution) << what.str();
+          EXPECT_TRUE(true_row.verdict == row.verdict || true_row.verdict == RuleVerdict::kWithinResolution)
+              << what.str();
         }
       }
     }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/paths.h"
-#include "visual/photometry/check.h"
+#include "visual/photometry/bench/check.h"
 
 namespace phare::test {
 

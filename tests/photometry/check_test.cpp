@@ -1,6 +1,6 @@
 // Rulebooks, aim and check: every number of our rule files against the regulation data set, beams of known cut-off,
 // rows that pass and fail by hand.
-#include "visual/photometry/check.h"
+#include "visual/photometry/bench/check.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "check_helpers.h"
 #include "photometry_test_files.h"
 #include "tests/paths.h"
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_image.h"
 
 namespace phare {
 namespace {

@@ -1,13 +1,13 @@
 // The kink of a cut-off and the alignment of two: beams turned by known angles, every rise, the reference files.
-#include "visual/photometry/cutoff_line.h"
+#include "visual/photometry/bench/cutoff_line.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "photometry_test_files.h"
-#include "visual/photometry/read_lamp.h"
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/bench/sample_lamps.h"
+#include "visual/photometry/readers/read_lamp.h"
 
 namespace phare {
 namespace {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "made_beams.h"
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/cutoff.h"
-#include "visual/photometry/cutoff_line.h"
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/bench/cutoff.h"
+#include "visual/photometry/bench/cutoff_line.h"
+#include "visual/photometry/bench/sample_lamps.h"
 
 namespace phare {
 namespace {

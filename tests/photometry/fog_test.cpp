@@ -1,5 +1,5 @@
 // Reference: light in fog in float64 against the quadratures of another program; unit: its phase functions and limits.
-#include "visual/photometry/fog.h"
+#include "visual/photometry/table/fog.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "photometry_test_files.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/readers/read_lamp.h"
 
 namespace phare {
 namespace {

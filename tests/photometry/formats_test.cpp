@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "photometry_test_files.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/readers/read_lamp.h"
 
 namespace phare {
 namespace {

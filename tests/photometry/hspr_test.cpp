@@ -1,6 +1,6 @@
 // reference: HSPR against figures of the program HSPR 2.1.1, and the physical figures against what can be worked out by
 // hand.
-#include "visual/photometry/hspr.h"
+#include "visual/photometry/bench/hspr.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/bench/sample_lamps.h"
 
 namespace phare {
 namespace {

@@ -1,5 +1,5 @@
 // Illuminance by hand, and the points and angles files of `phare measure`.
-#include "visual/photometry/illuminance.h"
+#include "visual/photometry/table/illuminance.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "photometry_test_files.h"
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/points_file.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/readers/points_file.h"
 
 namespace phare {
 namespace {

@@ -1,15 +1,15 @@
 // The linter: our own lamps are clean, and every kind of oddity is found in a lamp made odd on purpose.
-#include "visual/photometry/lint.h"
+#include "visual/photometry/bench/lint.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "photometry_test_files.h"
-#include "visual/photometry/combine.h"
-#include "visual/photometry/read_lamp.h"
-#include "visual/photometry/sample_lamps.h"
-#include "visual/photometry/write_lamp.h"
+#include "visual/photometry/bench/sample_lamps.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/readers/write_lamp.h"
+#include "visual/photometry/table/combine.h"
 
 namespace phare {
 namespace {

@@ -1,5 +1,5 @@
 // The live beam against an image composed from nothing, and how much it does.
-#include "visual/photometry/live_beam.h"
+#include "visual/photometry/beam/live_beam.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/bench/sample_lamps.h"
 
 namespace phare {
 namespace {

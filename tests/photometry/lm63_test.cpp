@@ -7,7 +7,7 @@
 #include <random>
 
 #include "photometry_test_files.h"
-#include "visual/photometry/intensity_table.h"
+#include "visual/photometry/table/intensity_table.h"
 
 namespace phare {
 namespace {

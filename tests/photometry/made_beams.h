@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "visual/photometry/intensity_table.h"
+#include "visual/photometry/table/intensity_table.h"
 
 namespace phare::test {
 

@@ -7,8 +7,8 @@
 
 #include "check_helpers.h"
 #include "made_beams.h"
-#include "visual/photometry/read_lamp.h"
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/bench/sample_lamps.h"
+#include "visual/photometry/readers/read_lamp.h"
 
 namespace phare {
 namespace {

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <numbers>
 
-#include "visual/photometry/lamp_aim.h"
-#include "visual/photometry/sample_lamps.h"
-#include "visual/photometry/table_end.h"
-#include "visual/photometry/write_lamp.h"
+#include "visual/photometry/bench/lamp_aim.h"
+#include "visual/photometry/bench/sample_lamps.h"
+#include "visual/photometry/bench/table_end.h"
+#include "visual/photometry/readers/write_lamp.h"
 
 namespace phare {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "visual/photometry/lint.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/bench/lint.h"
+#include "visual/photometry/readers/read_lamp.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;

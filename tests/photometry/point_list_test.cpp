@@ -1,13 +1,13 @@
 // unit: lists of test points as laboratories print them: names, cells, beams, errors; judged by hand-made values.
-#include "visual/photometry/point_list.h"
+#include "visual/photometry/readers/point_list.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "check_helpers.h"
-#include "visual/photometry/check_points.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/bench/check_points.h"
+#include "visual/photometry/readers/read_lamp.h"
 
 namespace phare {
 namespace {

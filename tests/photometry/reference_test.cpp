@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "photometry_test_files.h"
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/illuminance.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/table/illuminance.h"
 
 namespace phare {
 namespace {

@@ -1,5 +1,5 @@
 // Our sample lamps: as written and read back, against the regulation rows, and smooth to the eye.
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/bench/sample_lamps.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 
 #include "photometry_test_files.h"
 #include "tests/paths.h"
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/check.h"
-#include "visual/photometry/combine.h"
-#include "visual/photometry/read_lamp.h"
-#include "visual/photometry/write_lamp.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/bench/check.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/readers/write_lamp.h"
+#include "visual/photometry/table/combine.h"
 
 namespace phare {
 namespace {

@@ -1,6 +1,6 @@
 // Reference: luminance of rough surfaces and of a road by its r-table against another program's values; unit: limits,
 // files that are wrong.
-#include "visual/photometry/surface_luminance.h"
+#include "visual/photometry/table/surface_luminance.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "photometry_test_files.h"
-#include "visual/photometry/illuminance.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/table/illuminance.h"
 
 namespace phare {
 namespace {

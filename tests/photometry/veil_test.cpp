@@ -1,5 +1,5 @@
 // Reference: the veil of glare in float64 against the tables of another program; unit: where the equation ends.
-#include "visual/photometry/veil.h"
+#include "visual/photometry/table/veil.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <set>
 
-#include "config/remedies.h"
+#include "config/base/remedies.h"
 #include "tests/paths.h"
 #include "tests/process/drive_run.h"
 

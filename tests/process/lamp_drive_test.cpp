@@ -7,11 +7,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "config/content_hash.h"
-#include "config/result.h"
+#include "config/base/content_hash.h"
+#include "config/base/result.h"
 #include "tests/paths.h"
 #include "tests/process/drive_run.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/readers/read_lamp.h"
 
 namespace phare::test {
 namespace {

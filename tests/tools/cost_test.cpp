@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "config/paths.h"
+#include "config/base/paths.h"
 #include "tools/cost/ladder.h"
 #include "tools/cost/measure_ladders.h"
 #include "tools/cost/page.h"

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "lamp_program.h"
-#include "visual/photometry/read_lamp.h"
-#include "visual/photometry/write_lamp.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/readers/write_lamp.h"
 
 namespace phare {
 namespace {

@@ -3,9 +3,9 @@
 
 #include "lamp_program.h"
 #include "tests/paths.h"
-#include "visual/photometry/combine.h"
-#include "visual/photometry/read_lamp.h"
-#include "visual/photometry/write_lamp.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/readers/write_lamp.h"
+#include "visual/photometry/table/combine.h"
 
 namespace phare {
 namespace {

@@ -5,11 +5,11 @@
 #include <set>
 
 #include "lamp_program.h"
-#include "visual/photometry/combine.h"
-#include "visual/photometry/grid_build.h"
-#include "visual/photometry/lint.h"
-#include "visual/photometry/read_lamp.h"
-#include "visual/photometry/write_lamp.h"
+#include "visual/photometry/bench/lint.h"
+#include "visual/photometry/readers/grid_build.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/readers/write_lamp.h"
+#include "visual/photometry/table/combine.h"
 
 namespace phare {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "lamp_program.h"
 #include "tools/lamp/views.h"
-#include "visual/photometry/read_lamp.h"
-#include "visual/photometry/write_lamp.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/readers/write_lamp.h"
 
 namespace phare {
 namespace {

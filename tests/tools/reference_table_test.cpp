@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/paths.h"
-#include "visual/photometry/lamp_tables.h"
+#include "visual/photometry/beam/lamp_tables.h"
 
 namespace phare {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <set>
 
-#include "visual/photometry/lamp_tables.h"
+#include "visual/photometry/beam/lamp_tables.h"
 
 namespace phare {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "config/base/whole_file.h"
 #include "config/rig.h"
-#include "config/whole_file.h"
 #include "tests/paths.h"
 
 namespace phare {

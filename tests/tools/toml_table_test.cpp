@@ -1,5 +1,5 @@
 // unit: every way a TOML file can be wrong gives one error with file, line and reason.
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "closed_forms.h"
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "vehicle_dynamics/models/kinematic.h"
 
 namespace phare {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "closed_forms.h"
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "vehicle_dynamics/models/kinematic.h"
 
 namespace phare {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "full_car.h"
 
 namespace phare {

@@ -1,5 +1,5 @@
 // glTF files of our own making, those of the shared data, and broken ones.
-#include "config/gltf_file.h"
+#include "config/formats/gltf_file.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <sstream>
 
-#include "config/road_surface.h"
+#include "config/road/road_surface.h"
 #include "tests/paths.h"
 
 namespace phare {

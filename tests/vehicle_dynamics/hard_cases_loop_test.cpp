@@ -4,7 +4,7 @@
 #include <cfenv>
 #include <random>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "full_car.h"
 
 namespace phare {

@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "full_car.h"
 #include "vehicle_dynamics/models/powertrain.h"
 

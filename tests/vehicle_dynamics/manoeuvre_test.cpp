@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "batch_files.h"
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "full_car.h"
 
 namespace phare {

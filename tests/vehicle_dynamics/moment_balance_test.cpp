@@ -2,7 +2,7 @@
 // written from the masses, their heights and what the tyres give together, not from how the model puts wheels together.
 #include <gtest/gtest.h>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "full_car.h"
 
 namespace phare {

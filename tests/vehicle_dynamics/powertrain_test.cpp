@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "full_car.h"
 
 namespace phare {

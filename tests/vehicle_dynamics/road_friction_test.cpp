@@ -1,11 +1,11 @@
 // Friction along the way: from CSV, from the scene's materials, from a flag; what the car makes of it, and what is
 // wrong with bad files.
-#include "config/road_friction.h"
+#include "config/road/road_friction.h"
 
 #include <gtest/gtest.h>
 
 #include "batch_files.h"
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "full_car.h"
 #include "vehicle_dynamics/models/powertrain.h"
 #include "vehicle_dynamics/road_laid.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "config/road_surface_profile.h"
+#include "config/road/road_surface_profile.h"
 #include "vehicle_dynamics/road.h"
 
 namespace phare {

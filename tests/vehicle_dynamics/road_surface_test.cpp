@@ -1,5 +1,5 @@
 // Height and normal of the road against an analytic surface, and what a query costs.
-#include "config/road_surface.h"
+#include "config/road/road_surface.h"
 
 #include <chrono>
 #include <cmath>

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "full_car.h"
 
 namespace phare {

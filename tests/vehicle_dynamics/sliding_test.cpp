@@ -2,7 +2,7 @@
 // bound.
 #include <gtest/gtest.h>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "full_car.h"
 
 namespace phare {

@@ -5,7 +5,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "test_car.h"
 
 namespace phare {

@@ -7,8 +7,8 @@
 #include <random>
 #include <sstream>
 
+#include "config/base/conventions.h"
 #include "config/commonroad.h"
-#include "config/conventions.h"
 #include "full_car.h"
 #include "vehicle_dynamics/batch.h"
 

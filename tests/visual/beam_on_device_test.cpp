@@ -7,10 +7,10 @@
 #include <numbers>
 #include <random>
 
-#include "visual/photometry/cutoff.h"
-#include "visual/photometry/illuminance.h"
-#include "visual/photometry/live_beam.h"
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/beam/live_beam.h"
+#include "visual/photometry/bench/cutoff.h"
+#include "visual/photometry/bench/sample_lamps.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 

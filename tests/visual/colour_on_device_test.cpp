@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "visual/photometry/live_beam.h"
+#include "visual/photometry/beam/live_beam.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "config/paths.h"
+#include "config/base/paths.h"
 #include "tests/bench/straight_road.h"
-#include "visual/photometry/beam_composer.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/beam/beam_composer.h"
+#include "visual/photometry/readers/read_lamp.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 

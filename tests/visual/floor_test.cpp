@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/bench/straight_road.h"
-#include "visual/photometry/illuminance.h"
+#include "visual/photometry/table/illuminance.h"
 
 namespace phare::bench {
 namespace {

@@ -17,8 +17,8 @@
 #include "tests/paths.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
-#include "visual/photometry/fog.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/table/fog.h"
 
 namespace phare {
 namespace {

@@ -8,12 +8,12 @@
 #include <glm/geometric.hpp>
 
 #include "visual/beam_packing.h"
-#include "visual/photometry/combine.h"
-#include "visual/photometry/illuminance.h"
-#include "visual/photometry/live_beam.h"
-#include "visual/photometry/read_lamp.h"
-#include "visual/photometry/sample_lamps.h"
-#include "visual/photometry/write_lamp.h"
+#include "visual/photometry/beam/live_beam.h"
+#include "visual/photometry/bench/sample_lamps.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/readers/write_lamp.h"
+#include "visual/photometry/table/combine.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/renderer.h"
 
 namespace phare {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "tests/visual/shared_renderer.h"
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/illuminance.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/scene/scene.h"
 
 namespace phare {

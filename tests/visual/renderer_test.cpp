@@ -15,7 +15,7 @@
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
 #include "visual/image/image.h"
-#include "visual/photometry/illuminance.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/scene/scene.h"
 
 namespace phare {

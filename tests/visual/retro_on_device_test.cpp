@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "visual/photometry/illuminance.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 

@@ -13,7 +13,7 @@
 #include "tests/paths.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
-#include "visual/photometry/illuminance.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/renderer.h"
 #include "visual/scene/ray_hit.h"
 

@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 #include <random>
 
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_image.h"
 
 namespace phare {
 namespace {

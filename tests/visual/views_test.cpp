@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "tests/visual/yard.h"
-#include "visual/photometry/illuminance.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/renderer.h"
 
 namespace phare {

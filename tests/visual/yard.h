@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_image.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "config/commit.h"
-#include "config/content_hash.h"
-#include "config/paths.h"
-#include "config/whole_file.h"
+#include "config/base/commit.h"
+#include "config/base/content_hash.h"
+#include "config/base/paths.h"
+#include "config/base/whole_file.h"
 #include "tools/commands.h"
 #include "tools/cost/ladder.h"
 #include "tools/cost/measure_ladders.h"

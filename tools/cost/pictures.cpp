@@ -8,10 +8,10 @@
 #include <memory>
 
 #include "tools/cost/measure_ladders.h"
-#include "visual/photometry/beam_composer.h"
-#include "visual/photometry/illuminance.h"
-#include "visual/photometry/image_levels.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/beam/beam_composer.h"
+#include "visual/photometry/beam/image_levels.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/renderer.h"
 #include "visual/scene/ray_hit.h"
 #include "visual/scene/refine.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "tools/cost/ladder.h"
 
 namespace phare::cost {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "config/fail.h"
-#include "config/whole_file.h"
+#include "config/base/fail.h"
+#include "config/base/whole_file.h"
 #include "tools/commands.h"
 #include "tools/hard_cases/hard_case.h"
 #ifdef PHARE_WITH_GRAPHICS

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "visual/photometry/illuminance.h"
+#include "visual/photometry/table/illuminance.h"
 #ifdef PHARE_WITH_GRAPHICS
-#include "visual/photometry/beam_composer.h"
+#include "visual/photometry/beam/beam_composer.h"
 #include "visual/renderer.h"
 #endif
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "tools/hard_cases/hard_case.h"
-#include "visual/photometry/intensity_table.h"
+#include "visual/photometry/table/intensity_table.h"
 
 namespace phare::hard {
 

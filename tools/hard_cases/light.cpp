@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "tools/hard_cases/lamps.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/readers/read_lamp.h"
 
 namespace phare::hard {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "tools/hard_cases/lamps.h"
-#include "visual/photometry/beam_composer.h"
+#include "visual/photometry/beam/beam_composer.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "tools/hard_cases/lamps.h"
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_image.h"
 
 namespace phare::hard {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "config/paths.h"
+#include "config/base/paths.h"
 #include "tools/hard_cases/hard_case.h"
 #include "vehicle_dynamics/batch.h"
 #include "vehicle_dynamics/road.h"

@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "config/whole_file.h"
+#include "config/base/whole_file.h"
 
 namespace phare {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 
 typedef struct _cairo cairo_t;
 

@@ -6,16 +6,16 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "config/toml_table.h"
-#include "config/whole_file.h"
+#include "config/base/whole_file.h"
+#include "config/formats/toml_table.h"
 #include "tools/commands.h"
 #include "tools/lamp/check_page.h"
 #include "tools/lamp/check_text.h"
 #include "tools/lamp/lamp_commands.h"
 #include "tools/lamp/point_lists.h"
 #include "tools/lamp/print_json.h"
-#include "visual/photometry/check_points.h"
-#include "visual/photometry/file_text.h"
+#include "visual/photometry/bench/check_points.h"
+#include "visual/photometry/readers/file_text.h"
 
 namespace phare {
 namespace {

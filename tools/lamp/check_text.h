@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "visual/photometry/check.h"
+#include "visual/photometry/bench/check.h"
 
 namespace phare {
 

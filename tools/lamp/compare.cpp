@@ -12,8 +12,8 @@
 #include "tools/lamp/lamp_commands.h"
 #include "tools/lamp/print_json.h"
 #include "tools/lamp/views.h"
-#include "visual/photometry/beam_image.h"
-#include "visual/photometry/cutoff_line.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/bench/cutoff_line.h"
 
 namespace phare {
 namespace {

@@ -5,15 +5,15 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "config/whole_file.h"
+#include "config/base/whole_file.h"
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 #include "tools/lamp/print_json.h"
-#include "visual/photometry/combine.h"
-#include "visual/photometry/cutoff.h"
-#include "visual/photometry/file_text.h"
-#include "visual/photometry/lint.h"
-#include "visual/photometry/write_lamp.h"
+#include "visual/photometry/bench/cutoff.h"
+#include "visual/photometry/bench/lint.h"
+#include "visual/photometry/readers/file_text.h"
+#include "visual/photometry/readers/write_lamp.h"
+#include "visual/photometry/table/combine.h"
 
 namespace phare {
 namespace {

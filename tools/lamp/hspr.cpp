@@ -1,6 +1,6 @@
 // phare lamp hspr: ranges, widths, flux, glare, points, scores and classes of lamps by the method of HSPR (GTB
 // CE-5815), with the physical figure beside each of the method's.
-#include "visual/photometry/hspr.h"
+#include "visual/photometry/bench/hspr.h"
 
 #include <array>
 #include <cstdio>
@@ -10,7 +10,7 @@
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 #include "tools/lamp/print_json.h"
-#include "visual/photometry/cutoff.h"
+#include "visual/photometry/bench/cutoff.h"
 
 namespace phare {
 namespace {

@@ -5,15 +5,15 @@
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "config/input_files.h"
+#include "config/base/input_files.h"
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 #include "tools/lamp/point_lists.h"
 #include "tools/lamp/print_json.h"
-#include "visual/photometry/lamp_aim.h"
-#include "visual/photometry/lint.h"
-#include "visual/photometry/points_file.h"
-#include "visual/photometry/table_end.h"
+#include "visual/photometry/bench/lamp_aim.h"
+#include "visual/photometry/bench/lint.h"
+#include "visual/photometry/bench/table_end.h"
+#include "visual/photometry/readers/points_file.h"
 
 namespace phare {
 namespace {

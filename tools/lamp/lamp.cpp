@@ -1,8 +1,8 @@
 // phare lamp: the photometry bench on the command line.
-#include "config/input_files.h"
+#include "config/base/input_files.h"
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
-#include "visual/photometry/file_text.h"
+#include "visual/photometry/readers/file_text.h"
 
 namespace phare {
 namespace {

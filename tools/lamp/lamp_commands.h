@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "visual/photometry/check.h"
-#include "visual/photometry/read_lamp.h"
+#include "visual/photometry/bench/check.h"
+#include "visual/photometry/readers/read_lamp.h"
 
 namespace phare {
 

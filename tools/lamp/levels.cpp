@@ -7,9 +7,9 @@
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 #include "tools/lamp/print_json.h"
-#include "visual/photometry/beam_composer.h"
-#include "visual/photometry/image_levels.h"
-#include "visual/photometry/sample_lamps.h"
+#include "visual/photometry/beam/beam_composer.h"
+#include "visual/photometry/beam/image_levels.h"
+#include "visual/photometry/bench/sample_lamps.h"
 #ifdef PHARE_WITH_GRAPHICS
 #include "visual/renderer.h"
 #endif

@@ -11,7 +11,7 @@
 #include "tools/lamp/point_lists.h"
 #include "tools/lamp/print_json.h"
 #include "tools/lamp/views.h"
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_image.h"
 
 namespace phare {
 namespace {

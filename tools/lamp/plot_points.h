@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tools/lamp/lamp_commands.h"
-#include "visual/photometry/point_list.h"
+#include "visual/photometry/readers/point_list.h"
 
 namespace phare {
 

@@ -1,9 +1,9 @@
 #include "tools/lamp/point_lists.h"
 
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 #include "tools/lamp/lamp_commands.h"
-#include "visual/photometry/check_points.h"
-#include "visual/photometry/file_text.h"
+#include "visual/photometry/bench/check_points.h"
+#include "visual/photometry/readers/file_text.h"
 
 namespace phare {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
-#include "visual/photometry/check.h"
-#include "visual/photometry/point_list.h"
-#include "visual/photometry/read_lamp.h"
+#include "config/base/result.h"
+#include "visual/photometry/bench/check.h"
+#include "visual/photometry/readers/point_list.h"
+#include "visual/photometry/readers/read_lamp.h"
 
 namespace phare {
 

@@ -7,7 +7,7 @@
 
 #include "config/isolux.h"
 #include "tools/lamp/views.h"
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_image.h"
 
 namespace phare {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "visual/photometry/cutoff_line.h"
+#include "visual/photometry/bench/cutoff_line.h"
 
 namespace phare {
 namespace {
@@ -165,8 +165,9 @@ void draw_row_legend(Chart& chart, const CheckResult& check) {
                                             {RuleVerdict::kWithinResolution, "within the file's resolution", 150.0},
                                             {RuleVerdict::kNoData, "no data", 65.0}}) {
     draw_mark(chart, x, y, verdict);
-    const bool points = verdict == RuleVerdict::kNoData && std::any_of(check.rows.begin(), check.rows.end(),
-                                                                   [](const CheckRow& r) { return r.not_measured; });
+    const bool points =
+        verdict == RuleVerdict::kNoData &&
+        std::any_of(check.rows.begin(), check.rows.end(), [](const CheckRow& r) { return r.not_measured; });
     chart.text(x + 8, y, points ? "not measured" : name, 8.5, -1, kBlack);
     x += points ? wide + 30.0 : wide;
   }
@@ -185,8 +186,8 @@ void draw_row_legend(Chart& chart, const CheckResult& check) {
     }
     const auto row =
         std::find_if(check.rows.begin(), check.rows.end(), [&](const CheckRow& r) { return r.id == beyond[i]; });
-    text +=
-        (i > 0 ? ", " : "") + beyond[i] + " (" + (row->verdict == RuleVerdict::kFail ? "FAIL" : verdict_name(*row)) + ")";
+    text += (i > 0 ? ", " : "") + beyond[i] + " (" +
+            (row->verdict == RuleVerdict::kFail ? "FAIL" : verdict_name(*row)) + ")";
   }
   chart.text(66, 481, text, 8.5, -1, kText);
 }

@@ -7,9 +7,9 @@
 
 #include "tools/lamp/chart.h"
 #include "tools/lamp/view_parts.h"
-#include "visual/photometry/check.h"
-#include "visual/photometry/cutoff.h"
-#include "visual/photometry/intensity_table.h"
+#include "visual/photometry/bench/check.h"
+#include "visual/photometry/bench/cutoff.h"
+#include "visual/photometry/table/intensity_table.h"
 
 namespace phare {
 

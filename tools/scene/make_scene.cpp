@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "tools/scene/glb_writer.h"
 #include "tools/scene/lane_files.h"
 #include "tools/scene/parts.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "config/two.h"
+#include "config/base/two.h"
 
 namespace phare {
 

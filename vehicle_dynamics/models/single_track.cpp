@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "vehicle_dynamics/models/air.h"
 #include "vehicle_dynamics/models/single_track_parts.h"
 

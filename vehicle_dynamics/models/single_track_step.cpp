@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "vehicle_dynamics/models/equilibrium.h"
 #include "vehicle_dynamics/models/rk4_step.h"
 #include "vehicle_dynamics/models/single_track_parts.h"

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <vector>
 
-#include "config/two.h"
+#include "config/base/two.h"
 #include "config/vehicle.h"
 
 namespace phare::tyre {

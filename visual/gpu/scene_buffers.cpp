@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_image.h"
 #include "visual/scene/far_mesh.h"
 
 namespace phare {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "visual/renderer.h"
 
 namespace phare {

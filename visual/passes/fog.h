@@ -1,6 +1,6 @@
 // Fog with the beams visible in it: the light of every lamp that the air of a view scatters toward the eye, once
-// (visual/photometry/fog.h has the model, in float64), computed for a grid of rays and slices and read where the view
-// is lit (shaders/lib/fog.glsl). Surfaces and sky are dimmed by the way through the fog, and lamps by theirs.
+// (visual/photometry/table/fog.h has the model, in float64), computed for a grid of rays and slices and read where the
+// view is lit (shaders/lib/fog.glsl). Surfaces and sky are dimmed by the way through the fog, and lamps by theirs.
 //
 // Error: of the sums over each slice (one or two points for each lamp, even in the angle at the lamp), and of
 // interpolation between rays and slices; levels differ in both. Left out: shadows in fog, and of lamps of several

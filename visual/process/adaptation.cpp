@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_image.h"
 
 namespace phare {
 namespace {

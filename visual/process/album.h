@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "visual/image/contact_sheet.h"
 #include "visual/process/cameras.h"
 #include "visual/process/lamps.h"

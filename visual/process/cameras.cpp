@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 
 namespace phare {
 namespace {

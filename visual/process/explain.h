@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "net/drive_file.h"
 #include "visual/process/lamps.h"
 #include "visual/process/options.h"

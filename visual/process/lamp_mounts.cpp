@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "visual/photometry/beam_image.h"
+#include "visual/photometry/beam/beam_image.h"
 #include "visual/process/lamps.h"
 
 namespace phare {

@@ -6,8 +6,8 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
-#include "config/conventions.h"
-#include "visual/photometry/illuminance.h"
+#include "config/base/conventions.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/scene/ray_hit.h"
 
 namespace phare {

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "config/rig.h"
 #include "config/rig_edit.h"
 #include "net/messages.h"
-#include "visual/photometry/lamp_aim.h"
-#include "visual/photometry/lamp_tables.h"
-#include "visual/photometry/live_beam.h"
-#include "visual/photometry/table_end.h"
+#include "visual/photometry/beam/lamp_tables.h"
+#include "visual/photometry/beam/live_beam.h"
+#include "visual/photometry/bench/lamp_aim.h"
+#include "visual/photometry/bench/table_end.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 

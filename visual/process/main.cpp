@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "config/remedies.h"
+#include "config/base/remedies.h"
 #include "net/drive_file.h"
 #include "net/run_key.h"
 #include "visual/process/explain.h"

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "config/base/log_levels.h"
 #include "config/cockpit.h"
-#include "config/log_levels.h"
 #include "config/picture_options.h"
-#include "visual/photometry/image_levels.h"
+#include "visual/photometry/beam/image_levels.h"
 
 namespace phare {
 

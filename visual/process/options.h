@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "config/base/result.h"
 #include "config/desk.h"
-#include "config/result.h"
 #include "config/rig.h"
 #include "net/messages.h"
 

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <sstream>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 #include "config/key_bindings.h"
 #include "visual/process/cameras.h"
 

@@ -9,8 +9,8 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "config/conventions.h"
-#include "visual/photometry/illuminance.h"
+#include "config/base/conventions.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/scene/ray_hit.h"
 
 namespace phare {

@@ -1,9 +1,9 @@
 // All that can be told of light at a point, lamp by lamp, in float64 from the tables themselves: for the click in the
 // window and for `phare control set point`.
 //
-// Illuminance is that of `phare measure` (visual/photometry/illuminance.h), behind what stands in the scene. Luminance
-// is that of the material's mean reflectance, L = rho·E/pi; what markings and signs send back comes on top of it in the
-// picture and is not in it. Checked by tests/visual_process/point_reading_test.cpp.
+// Illuminance is that of `phare measure` (visual/photometry/table/illuminance.h), behind what stands in the scene.
+// Luminance is that of the material's mean reflectance, L = rho·E/pi; what markings and signs send back comes on top of
+// it in the picture and is not in it. Checked by tests/visual_process/point_reading_test.cpp.
 #pragma once
 
 #include <optional>

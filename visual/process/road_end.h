@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "config/lane.h"
+#include "config/road/lane.h"
 #include "net/messages.h"
 #include "visual/scene/scene.h"
 

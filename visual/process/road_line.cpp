@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "config/conventions.h"
+#include "config/base/conventions.h"
 
 namespace phare {
 namespace {

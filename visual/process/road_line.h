@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "config/desk.h"
-#include "config/lane.h"
-#include "config/road_surface.h"
+#include "config/road/lane.h"
+#include "config/road/road_surface.h"
 #include "net/messages.h"
 #include "visual/renderer.h"
 

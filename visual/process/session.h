@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/lane.h"
+#include "config/road/lane.h"
 #include "net/bus.h"
 #include "net/clock.h"
 #include "visual/process/adaptation.h"

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "config/remedies.h"
+#include "config/base/remedies.h"
 
 namespace phare {
 

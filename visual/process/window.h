@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/result.h"
+#include "config/base/result.h"
 #include "visual/process/window_keyboard.h"
 
 struct GLFWwindow;

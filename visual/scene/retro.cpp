@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/toml_table.h"
+#include "config/formats/toml_table.h"
 #include "shaders/lib/retro.h"
 
 namespace phare {

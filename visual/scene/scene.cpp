@@ -15,8 +15,8 @@
 #include <string>
 #include <utility>
 
-#include "config/content_hash.h"
-#include "config/gltf_file.h"
+#include "config/base/content_hash.h"
+#include "config/formats/gltf_file.h"
 
 namespace phare {
 

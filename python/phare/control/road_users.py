@@ -115,7 +115,7 @@ def _road_user(table: dict[str, object], place: str) -> RoadUser:
 
 
 class Lane:
-    """The line we drive on: the CSV beside a scene (config/lane.h). World frame, m, rad; curvature positive left."""
+    """The line we drive on: the CSV beside a scene (config/road/lane.h). World frame, m, rad; curvature positive left."""
 
     def __init__(self, file: str | os.PathLike[str]):
         try:

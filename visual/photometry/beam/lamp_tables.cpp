@@ -1,0 +1,57 @@
+#include "visual/photometry/beam/lamp_tables.h"
+
+#include <utility>
+
+#include "config/base/input_files.h"
+
+namespace phare {
+
+LampTables::Key LampTables::key(const SourceConfig& source) {
+  return {source.file.string(), source.axis,    source.c0_turn_deg, source.mirror,
+          source.lamp_set,      source.emitter, source.distance_m};
+}
+
+LampReadSettings read_settings(const SourceConfig& source) {
+  LampReadSettings settings;
+  settings.axis = source.axis;
+  settings.c0_turn_deg = source.c0_turn_deg;
+  settings.mirror_h = source.mirror;
+  settings.lamp_set = source.lamp_set;
+  settings.emitter = source.emitter;
+  settings.distance_m = source.distance_m;
+  return settings;
+}
+
+Status LampTables::add(const SourceConfig& source) {
+  if (tables_.contains(key(source))) return Done{};
+  for (const auto& [other, unused] : tables_) {
+    if (is_standard_input(source.file) && std::get<0>(other) == source.file.string())
+      return Error{input_name(source.file),
+                   "can be read only once: its lamps need the same axis, c0_deg, mirror, "
+                   "lamp_set, emitter and distance_m"};
+  }
+  Result<IntensityTable> table = read_lamp(source.file, read_settings(source));
+  if (!table) return table.error();
+  tables_.emplace(key(source), std::move(*table));
+  return Done{};
+}
+
+std::string LampTables::reading(const Key& key) {
+  const auto& [file, axis, c0_deg, mirror, lamp_set, emitter, distance_m] = key;
+  std::string text;
+  const auto say = [&text](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
+  if (emitter != 1) say("emitter " + std::to_string(emitter));
+  if (lamp_set != 1) say("lamp set " + std::to_string(lamp_set));
+  if (axis == GammaAxis::kGamma90) say("axis gamma90");
+  if (c0_deg != 0.0) say("C 0 turned");
+  if (mirror) say("mirrored");
+  if (distance_m != 0.0) say("measured from " + std::to_string(distance_m) + " m");
+  return text;
+}
+
+AimedSource LampTables::aimed(const SourceConfig& source) const {
+  return {&of(source), aim_rotation(source.yaw_rad, source.pitch_rad, source.roll_rad), source.scale,
+          source.colour_temperature_k, source.chromaticity_xy};
+}
+
+}  // namespace phare

@@ -1,0 +1,41 @@
+// The photometry files of mounted sources, each read once.
+#pragma once
+
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "config/rig.h"
+#include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/readers/read_lamp.h"
+
+namespace phare {
+
+/// How the file of a mounted source is to be read: everything its configuration says about that. Whoever reads a rig's
+/// lamp reads it so.
+LampReadSettings read_settings(const SourceConfig& source);
+
+class LampTables {
+ public:
+  /// File and read_settings.
+  using Key = std::tuple<std::string, GammaAxis, double, bool, std::size_t, std::size_t, double>;
+  /// Reads the file of a source unless it is here already, with the same settings. The error is the file's.
+  Status add(const SourceConfig& source);
+  /// Of a source that was added. Stays where it is, also when this moves.
+  const IntensityTable& of(const SourceConfig& source) const { return tables_.at(key(source)); }
+  /// The source as it shines: its table, aim, scale and colour.
+  AimedSource aimed(const SourceConfig& source) const;
+
+  /// What a key says beside the file: "emitter 2, mirrored"; empty where it is what a file is by itself.
+  static std::string reading(const Key& key);
+
+  auto begin() const { return tables_.begin(); }
+  auto end() const { return tables_.end(); }
+
+ private:
+  static Key key(const SourceConfig& source);
+
+  std::map<Key, IntensityTable> tables_;
+};
+
+}  // namespace phare
