@@ -130,7 +130,7 @@ has_report() {
 
 drive=(drive --headless --lockstep --frames 3 --port-base "$port_base")
 
-# has_window ROOT FOLDER: a person presses W in the window of `./phare drive` until the car moves, then Esc until it ends.
+# has_window ROOT FOLDER: a person presses Up in the window of `./phare drive` until the car moves, then Esc until it ends.
 has_window() {
   local root=$work/$1 number=$((600 + $$ % 300)) display drive status=0 begin=$SECONDS
   command -v Xvfb >/dev/null && command -v xdotool >/dev/null || { echo "        SKIPPED: the window: no Xvfb, or no xdotool"; return; }
@@ -143,9 +143,14 @@ has_window() {
   enter "$1" "$2" env "DISPLAY=$display" ./phare drive --size 320x180 --set reach=on --port-base "$port_base" --out /root/window >"$work/log" 2>&1 </dev/null &
   drive=$!
   pressed() { DISPLAY=$display timeout 60 xdotool search --sync --onlyvisible --name '^Phare$' windowfocus "$@" >/dev/null 2>&1; }
-  pressed keydown w || failed "no window in the bare system"
+  pressed sleep 0 || failed "no window in the bare system"
+  while ! grep -q "ready after" "$work/log"; do
+    kill -0 "$drive" 2>/dev/null || failed "the drive in the window ended before its picture was ready"
+    sleep 1
+  done
+  pressed keydown Up
   sleep 8
-  pressed keyup w
+  pressed keyup Up
   for _ in 1 2 3 4 5 6 7 8 9 10; do
     pressed key Escape || true
     sleep 1
