@@ -4,7 +4,7 @@
 #ifdef PHARE_FOG
 #include "lib/fog.glsl"
 #else
-#define PHARE_THROUGH_FOG(I) 1.0
+#define PHARE_THROUGH_FOG(LIGHT) 1.0
 #endif
 #include "lib/grain.glsl"
 #include "lib/retro.h"
@@ -65,10 +65,12 @@ float sent_back(vec3 toward_lamp, float cos_incidence, vec3 n, float level) {
 // Light of a lamp whose illuminance comes interpolated from the vertices.
 LampLight from_vertices(uint lamp, float lx, float cd, vec3 n, float level) {
   vec3 to_lamp = frame.lamps[lamp].position.xyz - point;
+  float r2 = dot(to_lamp, to_lamp), inverse_r = inversesqrt(r2);
   LampLight light;
   light.cd = cd;
+  light.distance_m = r2 * inverse_r;
   light.illuminance_lx = lx;
-  light.cos_incidence = max(dot(frame.lamps[lamp].position.xyz, n) - level, 0.0) * inversesqrt(dot(to_lamp, to_lamp));
+  light.cos_incidence = max(dot(frame.lamps[lamp].position.xyz, n) - level, 0.0) * inverse_r;
   light.normal_lx = lx / max(light.cos_incidence, 0.01);
   return light;
 }
@@ -108,7 +110,7 @@ void main() {
       light = from_vertices(I, PHARE_FACING(I) * cd, light.cd, n, level);                                  \
     }                                                                                                      \
     vec3 colour = light_colour;                                                                            \
-    float reach = PHARE_REACHING(I) * PHARE_THROUGH_FOG(I);                                                                       \
+    float reach = PHARE_REACHING(I) * PHARE_THROUGH_FOG(light);                                                                   \
     light.illuminance_lx *= reach;                                                                         \
     light.normal_lx *= reach;                                                                              \
     if (colours != 0) colour = frame.lamps[I].colour.rgb;                                                  \

@@ -25,7 +25,7 @@ const uint kSpecShadowWidth = 9u;
 const uint kSpecShadowHeight = 10u;
 const uint kSpecShadowTaps = 11u;
 const uint kSpecMethod = 12u;
-// Fog (lib/fog.glsl): lamps that shine in it; columns and 65536 times the rows of its grid; slices.
+// Fog (lib/fog.glsl): 1 where lamps shine in it; columns and 65536 times the rows of its grid; slices.
 const uint kSpecFogLamps = 13u;
 const uint kSpecFogGrid = 14u;
 const uint kSpecFogSlices = 15u;
@@ -101,18 +101,14 @@ struct GpuShadow {
   vec4 w;
 };
 
-// Light scattered in fog (lib/fog.glsl): of rays through the corners of a grid over the view, to the ends of slices. Slices end where
+// Light scattered in fog (lib/fog.glsl): of rays through the nodes of a grid over the view, to the ends of slices. Slices end where
 // k = slices·s/(s + reach) is whole, s being the way along the ray; the last one never ends.
 struct GpuFog {
-  vec4 air;             // x: extinction in powers of two, 1/m; y: what is scattered, 1/m; z: reach of the slices, m; w: share of the sky that comes through
-  vec4 colour;          // rgb of the scattered light, w the luminance of fog under the sky alone over theirs; exposed where the display is written
-  vec4 to_column;       // x, y: column = pixel·x + y; z, w: pixels between which rows lie close together
-  vec4 to_row;          // row = pixel·x + y + z·(pixel held between those two)
-  vec4 rows;            // the same of the way down the view, 0 to 1: where rows are close together, from x to y; z, w: rows over the way outside of it, and within
-  vec4 ray;             // through the upper left corner, from the eye, any length; its changes across and down the view
+  vec4 air;        // x: extinction in powers of two, 1/m; y: what is scattered, 1/m; z: reach of the slices, m; w: share of the sky that comes through
+  vec4 colour;     // rgb of the scattered light, w the luminance of fog under the sky alone over theirs; exposed where the display is written
+  vec4 ray;        // through the upper left corner, from the eye, any length; its changes across and down the view
   vec4 ray_right;
   vec4 ray_down;
-  vec4 lamps[kMaxLamps];  // that shine in the fog, from the eye, m: near them light changes as one over the ray's distance
 };
 
 struct GpuFrame {

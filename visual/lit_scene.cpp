@@ -61,8 +61,12 @@ const std::array<vk::DescriptorSetLayoutBinding, 1> kShadowBindings{
                                    .descriptorCount = 1,
                                    .stageFlags = kLitStages}};
 
-const std::array<vk::DescriptorSetLayoutBinding, 1> kFogBindings{
+const std::array<vk::DescriptorSetLayoutBinding, 2> kFogBindings{
     vk::DescriptorSetLayoutBinding{.binding = 0,
+                                   .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                                   .descriptorCount = 1,
+                                   .stageFlags = vk::ShaderStageFlagBits::eFragment},
+    vk::DescriptorSetLayoutBinding{.binding = 1,
                                    .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
                                    .descriptorCount = 1,
                                    .stageFlags = vk::ShaderStageFlagBits::eFragment}};
@@ -73,7 +77,7 @@ namespace {
 static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour) == 64);
 static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, cells) == 64);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
-static_assert(sizeof(shader::GpuFog) == 128 + 16 * shader::kMaxLamps);
+static_assert(sizeof(shader::GpuFog) == 80);
 static_assert(sizeof(shader::GpuFrame) ==
               96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 48) + sizeof(shader::GpuFog));
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
@@ -162,6 +166,8 @@ void LitScene::set_geometry(SceneBuffers geometry, ShadowCasters casters) {
 void LitScene::set_beam(std::size_t beam, const BeamImage& image) {
   beams_.set(beam, image, level_);
   if (cones_.size() <= beam) cones_.resize(beam + 1, LightCone{.half_angle_rad = -1.0});
+  beam_versions_.resize(cones_.size());
+  ++beam_versions_[beam];
   cones_[beam] = light_cone(image);
   peaks_cd_.resize(cones_.size());
   peaks_cd_[beam] = image.candela.empty() ? 0.0f : *std::ranges::max_element(image.candela);
@@ -169,6 +175,7 @@ void LitScene::set_beam(std::size_t beam, const BeamImage& image) {
 
 void LitScene::change_beam(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed) {
   beams_.change(beam, image, changed);
+  ++beam_versions_[beam];
   cones_[beam] = light_cone_after(cones_[beam], image, changed);
   for (const TexelRect& rect : changed)
     for (std::size_t row = rect.row; row < rect.end_row; ++row)
@@ -417,10 +424,9 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
                                          .dataSize = 4 * values.size(),
                                          .pData = values.data()};
   const bool measure = variant.output == LampOutput::kMeasure;
-  // The smallest shader has fog of two lamps at most.
-  const std::size_t size = (variant.lamp_count <= 2 && variant.fog.lamps <= 2 ? 0u
-                            : variant.lamp_count <= 4                         ? 1u
-                                                                              : 2u) +
+  const std::size_t size = (variant.lamp_count <= 2   ? 0u
+                            : variant.lamp_count <= 4 ? 1u
+                                                      : 2u) +
                            (variant.shadow_maps != 0 ? 3u : 0u);
   vk::raii::ShaderModule& fog_frag = lamps_fog_frag_[size];
   if (variant.fog.slices != 0 && !*fog_frag) fog_frag = gpu::make_shader(device_, lamps_fog_frag(size, filtered()));

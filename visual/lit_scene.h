@@ -55,7 +55,7 @@ struct ShadowDepths {
 /// Shape of the grid of light scattered in fog, as kSpecFogLamps and what follows it. None: clear air.
 struct FogGrid {
   std::uint32_t columns = 0, rows = 0, slices = 0;
-  std::uint32_t lamps = 0;  ///< that shine in it, kMaxLamps at most
+  std::uint32_t lamps = 0;  ///< 1: some shine in it
 
   friend auto operator<=>(const FogGrid&, const FogGrid&) = default;
 };
@@ -108,6 +108,8 @@ class LitScene {
   void set_geometry(SceneBuffers geometry, ShadowCasters casters);
   void set_beam(std::size_t beam, const BeamImage& image);
   void change_beam(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed);
+  /// Another number with each change.
+  std::uint64_t beam_version(std::size_t beam) const { return beam_versions_[beam]; }
   bool is_dark(std::size_t beam) const { return beams_.beam(beam).dark; }
   std::uint64_t uploaded_texels() const { return beams_.uploaded_texels(); }
 
@@ -165,7 +167,8 @@ class LitScene {
   ShadowCasters casters_;
   BeamStore beams_;
   std::vector<LightCone> cones_;  ///< of each beam
-  std::vector<float> peaks_cd_;   ///< of each beam; of one that was changed, at most
+  std::vector<std::uint64_t> beam_versions_;
+  std::vector<float> peaks_cd_;  ///< of each beam; of one that was changed, at most
   Grain grain_;
   gpu::DescriptorSets sets_, shadow_sets_, fog_sets_;  ///< of the last two only the layout
   std::map<std::pair<std::size_t, Beams>, vk::DescriptorSet> set_of_;
@@ -187,11 +190,11 @@ class LitScene {
 /// Of a set of ShadowDepths.
 extern const std::array<vk::DescriptorSetLayoutBinding, 1> kShadowBindings;
 /// Of LitView::fog_set.
-extern const std::array<vk::DescriptorSetLayoutBinding, 1> kFogBindings;
+extern const std::array<vk::DescriptorSetLayoutBinding, 2> kFogBindings;
 
 /// lamps.frag for fog, in the order of LitScene's modules.
 std::span<const std::uint32_t> lamps_fog_frag(std::size_t size, bool filtered);
-/// scene.vert for fog and two lamps at most; of more it is that of clear air.
+/// scene.vert for fog and two lamps at most on surfaces; of more it is that of clear air.
 std::span<const std::uint32_t> scene_fog_vert(bool shadows, bool by_vertex, bool filtered);
 
 inline constexpr auto kLitStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;

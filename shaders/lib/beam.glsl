@@ -153,6 +153,7 @@ struct LampLight {
   float normal_lx;       // on a plane facing the lamp
   float cos_incidence;
   float cd;
+  float distance_m;
 };
 
 // Where the lamp before was found in its table.
@@ -164,15 +165,17 @@ LampLight lamp_light(samplerBuffer table, samplerBuffer guide, sampler2D image, 
   uint kind = shape.lookup & kLookupKind;
   float h2 = p.x * p.x + p.y * p.y;
   float r2 = h2 + p.z * p.z;
-  float h = sqrt(h2), inverse_r;
+  float h = sqrt(h2), inverse_r, distance_m;
   Found found;
   if (kind <= kLookupRounded) {
     float r = sqrt(r2), f = h + p.x, s = r + h;
     float inverse = 1.0 / max(f * s * r, 1e-30);  // at the lamp and behind it f is 0: no light
     inverse_r = f * s * inverse;
+    distance_m = r;
     found = ahead(table, guide, shape, kind, vec2(p.y * s, p.z * f) * (r * inverse));
   } else {
     inverse_r = r2 > 0.0 ? inversesqrt(r2) : 0.0;
+    distance_m = r2 * inverse_r;
     if (kind == kLookupTurn) found = around(table, shape, p, h);
     else if (kind == kLookupGuide) found = guided(table, guide, shape, p, h);
     else if (kind == kLookupFilter || kind == kLookupFilterAhead) found = by_filter(image, shape, kind, p, h);
@@ -184,6 +187,7 @@ LampLight lamp_light(samplerBuffer table, samplerBuffer guide, sampler2D image, 
   last_found = found;
   LampLight light;
   light.cd = cd;
+  light.distance_m = distance_m;
   light.cos_incidence = max(toward, 0.0) * inverse_r;
   light.normal_lx = cd * (inverse_r * inverse_r);
   light.illuminance_lx = light.normal_lx * light.cos_incidence;

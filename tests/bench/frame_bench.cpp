@@ -238,6 +238,13 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
       input.effects[static_cast<std::size_t>(Effect::kFog)] = level;
       return input;
     });
+  // What is kept while lamps and eye keep their places to one another, computed in each frame.
+  bench.add(group, "two lamps that sway, fog medium", renderer, [view, frame = 0](int round) mutable {
+    FrameInput input = without_shadows(view(round));
+    for (PlacedLamp& lamp : input.lamps) lamp.position_m.z += 1e-4 * (++frame % 16);
+    input.visibility_m = 80.0;
+    return input;
+  });
 }
 
 /// The straight road with more of one thing: triangles, draws, lamps, pixels, views.

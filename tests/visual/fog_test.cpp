@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -17,6 +18,7 @@
 #include "tests/paths.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
+#include "visual/fog_nodes.h"
 #include "visual/photometry/readers/read_lamp.h"
 #include "visual/photometry/table/fog.h"
 
@@ -41,6 +43,9 @@ Scene black_wall(double x_m) {
 std::size_t fog() {
   return static_cast<std::size_t>(Effect::kFog);
 }
+
+/// Half of a headlamp's lens: rays nearer to its middle end at it.
+constexpr double kLens_m = 0.05;
 
 class FogOnDevice : public SharedRenderer {
  protected:
@@ -70,7 +75,7 @@ class FogOnDevice : public SharedRenderer {
 
   /// Of rays through the middle of pixels of a black wall across x, the worst and the 95 % relative difference from
   /// float64. Of rays with less than a hundredth of the brightest nobody sees the difference.
-  std::pair<double, double> off(const FrameInput& input, double wall_x_m) {
+  std::array<double, 3> off(const FrameInput& input, double wall_x_m) {
     EXPECT_TRUE(renderer->load_scene(black_wall(wall_x_m)).ok());
     renderer->draw(input);
     const ImageF image = renderer->read_hdr();
@@ -81,8 +86,8 @@ class FogOnDevice : public SharedRenderer {
       int x, y;
     };
     std::vector<Ray> rays;
-    for (int y = 3; y < image.height_px; y += 17)
-      for (int x = 2; x < image.width_px; x += 23) {
+    for (int y = 3; y < image.height_px; y += 10)
+      for (int x = 2; x < image.width_px; x += 13) {
         const phare::Ray ray = view.ray_through(x, y, image.width_px, image.height_px);
         const double length_m = (wall_x_m - input.camera.eye_m.x) / ray.direction.x;
         const double expected = airlight_cdm2(lamps, extinction_per_m(*input.visibility_m), input.fog_droplets,
@@ -103,12 +108,15 @@ class FogOnDevice : public SharedRenderer {
       return most;
     };
     const double brightest = brightest_of(rays);
-    std::vector<double> offs;
+    std::vector<double> offs, beside;
     const Ray* worst = &rays.front();
     double worst_off = 0.0;
     for (const Ray& ray : rays) {
-      // Light between rays that pass a lamp on one side and on the other is not between theirs.
-      if (ray.expected < 0.01 * brightest || ray.aside_m < 0.5) continue;
+      if (ray.expected < 0.01 * brightest || ray.aside_m < kLens_m) continue;
+      if (ray.aside_m < 0.5) {
+        beside.push_back(std::abs(ray.found / ray.expected - 1.0));
+        continue;
+      }
       offs.push_back(std::abs(ray.found / ray.expected - 1.0));
       if (offs.back() > worst_off) worst_off = offs.back(), worst = &ray;
     }
@@ -117,7 +125,11 @@ class FogOnDevice : public SharedRenderer {
     std::printf(
         "visibility %g m, wall at %g m: %zu rays, worst %.2g (%d, %d: %.3g, not %.3g cd/m²), 95 %% within %.2g\n",
         *input.visibility_m, wall_x_m, offs.size(), worst_off, worst->x, worst->y, worst->found, worst->expected, most);
-    return {worst_off, most};
+    std::ranges::sort(beside);
+    if (!beside.empty())
+      std::printf("  beside lamps: %zu rays, worst %.2g, median %.2g\n", beside.size(), beside.back(),
+                  beside[beside.size() / 2]);
+    return {worst_off, most, beside.empty() ? 0.0 : beside.back()};
   }
 
   IntensityTable table_;
@@ -126,16 +138,101 @@ class FogOnDevice : public SharedRenderer {
 TEST_F(FogOnDevice, RaysAreAsBrightAsInFloat64) {
   for (const std::size_t level : {1u, 2u, 3u}) {
     std::printf("%s\n", std::string(kFogNames[level]).c_str());
-    double worst = 0.0;
-    for (const double visibility_m : {5.0, 80.0, 300.0, 1e5})
+    for (const double visibility_m : {5.0, 80.0, 1e5})
       for (const double wall_x_m : {12.0, 40.0}) {
         FrameInput input = foggy(visibility_m);
         input.effects[fog()] = level;
         if (level == 3 && (visibility_m != 80.0 || wall_x_m != 40.0)) continue;  // takes half a second a frame
-        worst = std::max(worst, off(input, wall_x_m).first);
+        const auto [worst, most, beside] = off(input, wall_x_m);
+        // Measured: coarse 14 % and 27 %, medium 8.2 % and 9.8 % at 5 m, 4.1 % and 6 % else; fine 0.5 %, 0.7 %.
+        const bool steam = visibility_m < 10.0;
+        const std::array<double, 4> most_away{0.0, 0.2, steam ? 0.1 : 0.05, 0.006};
+        const std::array<double, 4> most_beside{0.0, 0.35, steam ? 0.13 : 0.07, 0.01};
+        EXPECT_LE(worst, most_away[level]) << kFogNames[level];
+        EXPECT_LE(beside, most_beside[level]) << kFogNames[level];
       }
-    constexpr std::array<double, 4> kMost{0.0, 0.5, 0.15, 0.005};
-    EXPECT_LE(worst, kMost[level]) << kFogNames[level];
+  }
+}
+
+/// Lamps and eye that move together see the same fog: the grid is kept. It is computed anew once any of what it comes
+/// from is another.
+TEST_F(FogOnDevice, TheGridIsKeptWhileACarsLampsShineAsTheyDid) {
+  ASSERT_TRUE(renderer->load_scene(black_wall(40.0)).ok());
+  FrameInput input = foggy(80.0);
+  const auto passes = [&] { return renderer->draw(input).pass_count; };
+  input.visibility_m.reset();
+  passes();  // uploads the beam
+  input.visibility_m = 80.0;
+  const auto computed = passes(), kept = computed - 1;
+  EXPECT_EQ(passes(), kept) << "the same frame once more";
+  const ImageF before = renderer->read_hdr();
+  // Driven on, into a curve, over a crest.
+  const glm::dmat3 turn = aim_rotation(0.4, 0.02, 0.01);
+  const glm::dvec3 way{1234.5, -67.8, 9.0};
+  const auto moved = [&](const FrameInput& from) {
+    FrameInput to = from;
+    to.camera.eye_m = way + turn * from.camera.eye_m;
+    to.camera.world_from_eye = turn * from.camera.world_from_eye;
+    for (PlacedLamp& lamp : to.lamps) {
+      lamp.position_m = way + turn * lamp.position_m;
+      lamp.world_from_image = turn * lamp.world_from_image;
+    }
+    return to;
+  };
+  input = moved(input);
+  EXPECT_EQ(passes(), kept) << "the car has moved";
+  // The wall is far behind, so rays go on; above the horizon little of their light comes from beyond it.
+  const ImageF after = renderer->read_hdr();
+  const std::size_t texel = 4 * (60 * 320 + 160) + 1;
+  ASSERT_GT(before.rgba[texel], 0.0f);
+  EXPECT_NEAR(after.rgba[texel] / before.rgba[texel], 1.0f, 0.1f);
+
+  input.lamps[1].world_from_image = input.lamps[1].world_from_image * aim_rotation(0.0, 0.0005, 0.0);
+  EXPECT_EQ(passes(), computed) << "a lamp's aim";
+  EXPECT_EQ(passes(), kept);
+  input.lamps[0].position_m.z += 0.001;
+  EXPECT_EQ(passes(), computed) << "a lamp's place";
+  input.visibility_m = 70.0;
+  EXPECT_EQ(passes(), computed) << "visibility";
+  input.fog_droplets.henyey_greenstein_g = 0.8;
+  EXPECT_EQ(passes(), computed) << "droplets";
+  input.effects[fog()] = 1;
+  EXPECT_EQ(passes(), computed) << "level";
+  input.camera.fov_horizontal_rad *= 0.9;
+  EXPECT_EQ(passes(), computed) << "the eye's field";
+  EXPECT_EQ(passes(), kept);
+  renderer->set_beam(0, image_of(table_));
+  renderer->draw(input);  // uploads the beam in a pass of its own
+  input.lamps.pop_back();
+  EXPECT_EQ(passes(), computed) << "a lamp goes out";
+  EXPECT_EQ(passes(), kept);
+  renderer->set_beam(0, image_of(table_));
+  EXPECT_EQ(passes(), computed + 1) << "a beam: uploaded, and the grid";
+  EXPECT_EQ(passes(), kept);
+}
+
+/// Nodes rise from 0 to 1, lie closest about lamps, and pixels find their place among them.
+TEST(FogNodes, LieCloseAboutLamps) {
+  const std::vector<double> even = place_nodes(11, {}, {});
+  for (std::size_t i = 0; i < even.size(); ++i) EXPECT_NEAR(even[i], 0.1 * static_cast<double>(i), 1e-8);
+  const std::vector<double> nodes = place_nodes(72, {}, {{0.3, 1e-3}, {0.3001, 1e-3}, {0.8, 1e-2}});
+  ASSERT_EQ(nodes.front(), 0.0);
+  ASSERT_EQ(nodes.back(), 1.0);
+  ASSERT_TRUE(std::ranges::is_sorted(nodes, std::less_equal<>()));
+  const auto step_at = [&](double at_01) {
+    const auto after = std::ranges::upper_bound(nodes, at_01);
+    return *after - *(after - 1);
+  };
+  EXPECT_LT(step_at(0.3), 1e-3);
+  EXPECT_LT(step_at(0.8), 1e-2);
+  EXPECT_GT(step_at(0.55), 0.01);
+  const std::vector<double> places = places_of_pixels(nodes, 10.0, 300.0);
+  ASSERT_EQ(places.size(), 310u);
+  for (std::size_t px = 10; px < places.size(); ++px) {
+    const auto node = static_cast<std::size_t>(places[px]);
+    const double part = places[px] - static_cast<double>(node);
+    const double at_01 = (static_cast<double>(px) + 0.5 - 10.0) / 300.0;
+    EXPECT_NEAR(nodes[node] + part * (nodes[node + 1] - nodes[node]), at_01, 1e-5);
   }
 }
 
@@ -158,8 +255,7 @@ TEST_F(FogOnDevice, RaysAreThoseOfTheReference) {
   };
   const CsvTable table = read_csv_table(folder / "h_airlight.csv");
   for (const std::size_t level : {1u, 2u, 3u}) {
-    // Of the car's own lamps, and of rays that pass within a metre or so of oncoming ones: there light changes within
-    // less than the way from ray to ray of the grid.
+    // Of the car's own lamps, and of rays that pass oncoming ones at 50 m, from 0.1 m beside them on.
     std::vector<double> own, oncoming;
     std::size_t worst_row = 0;
     for (std::size_t i = 0; i < table.rows.size(); i += level == 2 ? 1 : 3) {
@@ -229,7 +325,7 @@ TEST_F(FogOnDevice, RaysAreThoseOfTheReference) {
         "%s: %zu rays, worst relative difference %.2g (row %zu), median %.2g; %zu beside oncoming lamps %.2g, %.2g\n",
         std::string(kFogNames[level]).c_str(), own.size(), worst, worst_row, median, oncoming.size(), worst_oncoming,
         median_oncoming);
-    constexpr std::array<double, 4> kMost{0.0, 0.25, 0.05, 0.005}, kMostOncoming{0.0, 1.5, 1.0, 0.6};
+    constexpr std::array<double, 4> kMost{0.0, 0.25, 0.05, 0.005}, kMostOncoming{0.0, 1.0, 0.12, 0.02};
     EXPECT_LE(worst, kMost[level]) << kFogNames[level];
     EXPECT_LE(worst_oncoming, kMostOncoming[level]) << kFogNames[level];
   }

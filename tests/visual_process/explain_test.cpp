@@ -52,6 +52,23 @@ class Explain : public testing::Test {
   const AskedDevice gpu_{"a card", false}, software_{"llvmpipe", true};
 };
 
+/// The whole plan of a drive in fog: fog, and nothing that clear air has not.
+TEST_F(Explain, FogCallsForFogAlone) {
+  const auto clear = lines(moment(LightSwitch::kLow), software_);
+  for (const double visibility_m : {80.0, 300.0}) {
+    desk_.visibility_m = visibility_m;
+    const auto foggy = lines(moment(LightSwitch::kLow), software_);
+    ASSERT_EQ(foggy.size(), clear.size());
+    for (std::size_t i = 0; i < clear.size(); ++i) {
+      if (clear[i].starts_with("fog "))
+        EXPECT_EQ(foggy[i], visibility_m == 80.0 ? "fog             medium  the visibility is 80 m"
+                                                 : "fog             medium  the visibility is 300 m");
+      else
+        EXPECT_EQ(foggy[i], clear[i]);
+    }
+  }
+}
+
 TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
   const auto lit = lines(moment(LightSwitch::kLow), gpu_);
   ASSERT_EQ(lit.size(), 1 + kEffectCount);

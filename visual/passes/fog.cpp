@@ -1,15 +1,17 @@
 #include "visual/passes/fog.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <numbers>
 
 #include "shaders/fog.h"
 #include "shaders/fog_sky_frag.h"
-#include "shaders/fog_sky_frag_2.h"
 #include "shaders/fog_sky_vert.h"
-#include "shaders/fog_sky_vert_2.h"
+#include "visual/fog_nodes.h"
 
 namespace phare {
 namespace {
@@ -21,17 +23,22 @@ constexpr double kSkyBehind_m = 3000.0;
 constexpr double kSliceReach_m = 8.0;
 /// In thick fog nothing comes from beyond a few times the way after which 1/e is left.
 constexpr double kSliceReachInThickFog = 2.0;
-/// Elevations between which rows lie closer together, by this factor: cut-offs and what of them is near.
-constexpr double kCloseRowsAbove_rad = 0.044, kCloseRowsBelow_rad = -0.095, kCloser = 5.0;
 /// A sky darker than this, exposed, is not seen.
 constexpr double kLeastOfSky = 1e-3;
+/// Of what the grid is computed from so much may change and it is kept: rounding of places in the world, far below
+/// what is seen.
+constexpr double kSame_m = 1e-6;
 
-const std::array<vk::DescriptorSetLayoutBinding, 2> kComputeBindings{
+const std::array<vk::DescriptorSetLayoutBinding, 3> kComputeBindings{
     vk::DescriptorSetLayoutBinding{.binding = 0,
                                    .descriptorType = vk::DescriptorType::eStorageBuffer,
                                    .descriptorCount = 1,
                                    .stageFlags = vk::ShaderStageFlagBits::eCompute},
     vk::DescriptorSetLayoutBinding{.binding = 1,
+                                   .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                                   .descriptorCount = 1,
+                                   .stageFlags = vk::ShaderStageFlagBits::eCompute},
+    vk::DescriptorSetLayoutBinding{.binding = 2,
                                    .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
                                    .descriptorCount = 1,
                                    .stageFlags = vk::ShaderStageFlagBits::eCompute}};
@@ -58,28 +65,15 @@ struct Constants {
   }
 };
 
-/// Where along the view rows of the grid lie close together: about the horizon, where the cut-offs of headlamps lie and
-/// light changes by the tenth of a degree. As GpuFog::rows.
-glm::dvec4 close_rows(const ViewGeometry& view, std::uint32_t rows) {
-  const glm::dmat3& eye = view.camera().world_from_eye;
-  const double half_up = std::tan(0.5 * view.camera().fov_horizontal_rad) / view.aspect();
-  const auto way_down = [&](double elevation_rad) {
-    // Straight ahead, at this elevation: up over forward of the eye.
-    const double pitch = std::asin(std::clamp(eye[0].z, -1.0, 1.0));
-    const double above = std::clamp(elevation_rad - pitch, -1.4, 1.4);
-    return std::clamp(0.5 - 0.5 * std::tan(above) / half_up, 0.0, 1.0);
-  };
-  const double from = way_down(kCloseRowsAbove_rad), to = way_down(kCloseRowsBelow_rad);
-  const double outside = (rows - 1) / (1.0 + (kCloser - 1.0) * (to - from));
-  return {from, to, outside, kCloser * outside};
-}
-
 float luminance(const glm::vec3& rgb) {
   return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-shader::GpuFog data_of(const LitScene& scene, const LitView& view, const ViewInput& input, const vk::Rect2D& area,
-                       bool hdr) {
+glm::dvec3 ray_of(const ViewGeometry& view, double x, double y) {
+  return glm::dvec3(view.direction_from_clip() * glm::dvec4(x, y, 1.0, 0.0));
+}
+
+shader::GpuFog data_of(const LitScene& scene, const LitView& view, const ViewInput& input, bool hdr) {
   shader::GpuFog fog{};
   const double extinction = extinction_per_m(*input.visibility_m), albedo = input.fog_droplets.albedo;
   fog.air = glm::vec4(glm::dvec4(extinction * std::numbers::log2e, extinction * albedo,
@@ -89,26 +83,28 @@ shader::GpuFog data_of(const LitScene& scene, const LitView& view, const ViewInp
   // Under an even sky over dark ground fog is half as bright as the sky.
   const double under_sky_cdm2 = 0.5 * albedo * static_cast<double>(luminance(glm::vec3(view.sky.zenith())));
   fog.colour = glm::vec4(scene.mean_colour(view.air_lamps) * exposure, static_cast<float>(under_sky_cdm2));
-  // From pixels to the way across and down the view, and on to columns and rows.
-  const glm::dvec2 size(area.extent.width, area.extent.height), corner_px(area.offset.x, area.offset.y);
-  const double columns_per_px = (view.fog.columns - 1) / size.x;
-  const glm::dvec4 rows = close_rows(view.geometry, view.fog.rows);
-  fog.to_column = glm::vec4(glm::dvec4(columns_per_px, -columns_per_px * corner_px.x, corner_px.y + rows.x * size.y,
-                                       corner_px.y + rows.y * size.y));
-  const double closer = (rows.w - rows.z) / size.y;
-  fog.to_row = glm::vec4(glm::dvec4(
-      rows.z / size.y, -rows.z / size.y * corner_px.y - closer * (corner_px.y + rows.x * size.y), closer, 0.0));
-  fog.rows = glm::vec4(rows);
-  const auto ray = [&](double x, double y) {
-    return glm::dvec3(view.geometry.direction_from_clip() * glm::dvec4(x, y, 1.0, 0.0));
-  };
-  const glm::dvec3 corner = ray(-1.0, -1.0);
+  const glm::dvec3 corner = ray_of(view.geometry, -1.0, -1.0);
   fog.ray = glm::vec4(glm::vec3(corner), 0.0f);
-  fog.ray_right = glm::vec4(glm::vec3(ray(1.0, -1.0) - corner), 0.0f);
-  fog.ray_down = glm::vec4(glm::vec3(ray(-1.0, 1.0) - corner), 0.0f);
-  for (std::uint32_t i = 0; i < view.fog.lamps; ++i)
-    fog.lamps[i] = glm::vec4(glm::vec3(view.air_lamps[i].position_m - input.camera.eye_m), 0.0f);
+  fog.ray_right = glm::vec4(glm::vec3(ray_of(view.geometry, 1.0, -1.0) - corner), 0.0f);
+  fog.ray_down = glm::vec4(glm::vec3(ray_of(view.geometry, -1.0, 1.0) - corner), 0.0f);
   return fog;
+}
+
+/// Places of the grid's nodes in the view, and of the picture's pixels among them.
+void fill_places(gpu::HostBuffer& buffer, const LitView& view, const glm::dvec3& eye_m, const vk::Rect2D& area) {
+  std::vector<LampInFog> lamps;
+  for (const PlacedLamp& lamp : view.air_lamps) lamps.push_back({lamp.position_m - eye_m, lamp.world_from_image[0]});
+  const glm::dvec2 size_px(area.extent.width, area.extent.height);
+  const FogNodes nodes = place_nodes(view.geometry, size_px, lamps, view.fog.columns, view.fog.rows);
+  auto* texels = static_cast<glm::vec2*>(buffer.data);
+  const auto put = [&](int axis, std::span<const double> nodes_01, double first_px, double side_px) {
+    const std::vector<double> pixels = places_of_pixels(nodes_01, first_px, side_px);
+    for (std::size_t i = 0; i < nodes_01.size(); ++i) texels[i][axis] = static_cast<float>(nodes_01[i]);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      texels[shader::kFogMostNodes + static_cast<int>(i)][axis] = static_cast<float>(pixels[i]);
+  };
+  put(0, nodes.columns_01, area.offset.x, size_px.x);
+  put(1, nodes.rows_01, area.offset.y, size_px.y);
 }
 
 void wait_for_cells(vk::CommandBuffer commands, vk::PipelineStageFlags2 reader, vk::AccessFlags2 reads) {
@@ -126,46 +122,65 @@ void FogPass::begin_frame() {
   used_ = 0;
 }
 
-FogPass::Grid& FogPass::grid_of(std::uint64_t texels) {
-  if (used_ == grids_.size()) grids_.push_back(std::make_unique<Grid>());
-  Grid& grid = *grids_[used_++];
-  if (grid.texels.bytes != 16 * texels) {
-    grid = {};
-    grid.texels = gpu::DeviceBuffer(
-        device_, 16 * texels, vk::BufferUsageFlagBits::eUniformTexelBuffer | vk::BufferUsageFlagBits::eStorageBuffer,
-        "fog");
-    grid.view = vk::raii::BufferView(device_.device, vk::BufferViewCreateInfo{.buffer = *grid.texels.buffer,
-                                                                              .format = vk::Format::eR32G32B32A32Sfloat,
-                                                                              .range = VK_WHOLE_SIZE});
-    grid.sets = gpu::DescriptorSets(device_, kFogBindings);
-    grid.set = grid.sets.make();
-    const vk::BufferView view = *grid.view;
-    device_.device.updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = grid.set,
-                               .dstBinding = 0,
-                               .descriptorCount = 1,
-                               .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
-                               .pTexelBufferView = &view},
-        nullptr);
-    grid.compute_sets = gpu::DescriptorSets(device_, kComputeBindings);
+bool FogPass::Source::same(const Source& other) const {
+  const auto same_lamp = [](const Lamp& a, const Lamp& b) { return a.beam == b.beam && a.version == b.version; };
+  const auto same_way = [](const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::all(glm::lessThan(glm::abs(a - b), glm::dvec3(kSame_m)));
+  };
+  return extinction_per_m == other.extinction_per_m && droplets == other.droplets && level == other.level &&
+         area == other.area && std::ranges::equal(lamps, other.lamps, same_lamp) &&
+         std::ranges::equal(ways, other.ways, same_way);
+}
+
+FogPass::Source FogPass::source_of(const LitScene& scene, const LitView& view, std::size_t level,
+                                   const ViewInput& input, const vk::Rect2D& area) {
+  Source source{.extinction_per_m = extinction_per_m(*input.visibility_m),
+                .droplets = input.fog_droplets,
+                .level = level,
+                .area = area};
+  const glm::dmat3& eye = input.camera.world_from_eye;  // way * eye: as the eye has it
+  for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1)})
+    source.ways.push_back(ray_of(view.geometry, corner.x, corner.y) * eye);
+  for (const PlacedLamp& lamp : view.air_lamps) {
+    source.lamps.push_back({lamp.beam, scene.beam_version(lamp.beam)});
+    source.ways.push_back((lamp.position_m - input.camera.eye_m) * eye);
+    for (int axis = 0; axis < 3; ++axis) source.ways.push_back(lamp.world_from_image[axis] * eye);
   }
-  if (grid.phase == *phase_view_) return grid;
-  grid.phase = *phase_view_;
-  grid.compute_sets.clear();
+  return source;
+}
+
+void FogPass::make(Grid& grid, std::uint64_t texels, std::uint64_t places) {
+  grid = {};
+  grid.texels =
+      gpu::DeviceBuffer(device_, 16 * texels,
+                        vk::BufferUsageFlagBits::eUniformTexelBuffer | vk::BufferUsageFlagBits::eStorageBuffer, "fog");
+  grid.view = vk::raii::BufferView(device_.device, vk::BufferViewCreateInfo{.buffer = *grid.texels.buffer,
+                                                                            .format = vk::Format::eR32G32B32A32Uint,
+                                                                            .range = VK_WHOLE_SIZE});
+  grid.places = gpu::HostBuffer(device_, 8 * places, vk::BufferUsageFlagBits::eUniformTexelBuffer, "fog places");
+  grid.places_view = vk::raii::BufferView(
+      device_.device, vk::BufferViewCreateInfo{
+                          .buffer = *grid.places.buffer, .format = vk::Format::eR32G32Sfloat, .range = VK_WHOLE_SIZE});
+  grid.sets = gpu::DescriptorSets(device_, kFogBindings);
+  grid.set = grid.sets.make();
+  grid.compute_sets = gpu::DescriptorSets(device_, kComputeBindings);
   grid.compute_set = grid.compute_sets.make();
   const vk::DescriptorBufferInfo cells{*grid.texels.buffer, 0, VK_WHOLE_SIZE};
-  device_.device.updateDescriptorSets({vk::WriteDescriptorSet{.dstSet = grid.compute_set,
-                                                              .dstBinding = 0,
-                                                              .descriptorCount = 1,
-                                                              .descriptorType = vk::DescriptorType::eStorageBuffer,
-                                                              .pBufferInfo = &cells},
-                                       vk::WriteDescriptorSet{.dstSet = grid.compute_set,
-                                                              .dstBinding = 1,
-                                                              .descriptorCount = 1,
-                                                              .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
-                                                              .pTexelBufferView = &grid.phase}},
-                                      nullptr);
-  return grid;
+  std::vector<vk::WriteDescriptorSet> writes{{.dstSet = grid.compute_set,
+                                              .dstBinding = 0,
+                                              .descriptorCount = 1,
+                                              .descriptorType = vk::DescriptorType::eStorageBuffer,
+                                              .pBufferInfo = &cells}};
+  const vk::BufferView cell_view = *grid.view, phase_view = *phase_view_, places_view = *grid.places_view;
+  for (const auto& [set, binding, view] :
+       {std::tuple(grid.set, 0u, &cell_view), std::tuple(grid.set, 1u, &places_view),
+        std::tuple(grid.compute_set, 1u, &phase_view), std::tuple(grid.compute_set, 2u, &places_view)})
+    writes.push_back({.dstSet = set,
+                      .dstBinding = binding,
+                      .descriptorCount = 1,
+                      .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                      .pTexelBufferView = view});
+  device_.device.updateDescriptorSets(writes, nullptr);
 }
 
 void FogPass::fill_phase(const FogDroplets& droplets) {
@@ -187,7 +202,7 @@ void FogPass::fill_phase(const FogDroplets& droplets) {
 
 vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
   if (const auto found = pipelines_.find(key); found != pipelines_.end()) return *found->second;
-  const auto& [tables, lamps, grid, samples, adds] = key;
+  const auto& [tables, lamps, grid, level, adds] = key;
   if (!*layout_) {
     compute_layout_ = gpu::DescriptorSets(device_, kComputeBindings);
     const std::array layouts{scene.lamps_layout(), compute_layout_.layout()};
@@ -198,7 +213,8 @@ vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
   if (!*modules_[size]) modules_[size] = gpu::make_shader(device_, fog_comp(size, scene.filtered()));
   Constants constants;
   constants.put(shader::kSpecLampCount, lamps);
-  constants.put(shader::kSpecFogSamples, samples);
+  constants.put(shader::kSpecFogSteps, kFogLevels[level].steps);
+  constants.put(shader::kSpecFogWidest, std::bit_cast<std::uint32_t>(kFogLevels[level].widest_deg));
   constants.put(shader::kSpecFogAdd, adds ? 1u : 0u);
   constants.put(grid);
   std::uint32_t id = shader::kSpecTables;
@@ -221,13 +237,24 @@ void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::
   while (level_number > 1 && texels_of(kFogLevels[level_number]) > device_.properties.limits.maxTexelBufferElements)
     --level_number;
   const FogLevel& level = kFogLevels[level_number];
-  view.fog = {level.columns, level.rows, level.slices,
-              static_cast<std::uint32_t>(std::min<std::size_t>(view.air_lamps.size(), shader::kMaxLamps))};
+  view.fog = {level.columns, level.rows, level.slices, view.air_lamps.empty() ? 0u : 1u};
   fill_phase(input.fog_droplets);
-  Grid& grid = grid_of(texels_of(level));
+  if (used_ == grids_.size()) grids_.push_back(std::make_unique<Grid>());
+  Grid& grid = *grids_[used_++];
+  const vk::Offset2D end(area.offset.x + static_cast<std::int32_t>(area.extent.width),
+                         area.offset.y + static_cast<std::int32_t>(area.extent.height));
+  const auto places = static_cast<std::uint64_t>(shader::kFogMostNodes + std::max(end.x, end.y));
+  if (grid.texels.bytes != 16 * texels_of(level) || grid.places.bytes != 8 * places)
+    make(grid, texels_of(level), places);
   view.fog_set = grid.set;
-  const shader::GpuFog data = data_of(scene, view, input, area, hdr);
+  const shader::GpuFog data = data_of(scene, view, input, hdr);
   for (const LitBy& lit : view.lit_by) lit.data->fog = data;
+
+  // As it was in the frame before, so it stays.
+  Source source = source_of(scene, view, level_number, input, area);
+  if (grid.source && grid.source->same(source)) return;
+  grid.source = std::move(source);
+  fill_places(grid.places, view, input.camera.eye_m, area);
   if (view.air_lamps.empty()) return;
 
   std::vector<LitBy> groups;
@@ -243,7 +270,7 @@ void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::
       if (i > 0)
         wait_for_cells(commands, Stage::eComputeShader, Access::eShaderStorageRead | Access::eShaderStorageWrite);
       commands.bindPipeline(vk::PipelineBindPoint::eCompute,
-                            pipeline(scene, {groups[i].tables, groups[i].lamps, view.fog, level.samples, i > 0}));
+                            pipeline(scene, {groups[i].tables, groups[i].lamps, view.fog, level_number, i > 0}));
       commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, groups[i].set, groups[i].data_at);
       commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 1, grid.compute_set, nullptr);
       commands.dispatch((level.columns * level.rows + shader::kFogGroup - 1) / shader::kFogGroup, 1, 1);
@@ -260,20 +287,18 @@ void FogSky::draw(gpu::Recorder& commands, const LitScene& scene, const LitView&
   const Key key(output, format, samples, view.fog, sky_seen);
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {
-    const std::size_t size = view.fog.lamps <= 2 ? 0 : 1;
-    using Code = std::span<const std::uint32_t>;
-    if (!*vertex_[size]) {
-      vertex_[size] = gpu::make_shader(device_, size == 0 ? Code(k_fog_sky_vert_2) : Code(k_fog_sky_vert));
-      fragment_[size] = gpu::make_shader(device_, size == 0 ? Code(k_fog_sky_frag_2) : Code(k_fog_sky_frag));
+    if (!*vertex_) {
+      vertex_ = gpu::make_shader(device_, k_fog_sky_vert);
+      fragment_ = gpu::make_shader(device_, k_fog_sky_frag);
     }
     Constants constants;
-    constants.put(3, static_cast<std::uint32_t>(output));
+    constants.put(shader::kSpecOutput, static_cast<std::uint32_t>(output));
     constants.put(shader::kSpecFogSky, sky_seen ? 1u : 0u);
     constants.put(view.fog);
     const vk::SpecializationInfo info = constants.info();
     found = pipelines_
-                .emplace(key, make_pipeline(device_, {.vertex = *vertex_[size],
-                                                      .fragment = *fragment_[size],
+                .emplace(key, make_pipeline(device_, {.vertex = *vertex_,
+                                                      .fragment = *fragment_,
                                                       .constants = &info,
                                                       .colour = {format},
                                                       .depth = true,

@@ -2,36 +2,44 @@
 // (visual/photometry/table/fog.h has the model, in float64), computed for a grid of rays and slices and read where the
 // view is lit (shaders/lib/fog.glsl). Surfaces and sky are dimmed by the way through the fog, and lamps by theirs.
 //
-// Error: of the sums over each slice (one or two points for each lamp, even in the angle at the lamp), and of
-// interpolation between rays and slices; levels differ in both. Left out: shadows in fog, and of lamps of several
-// colours where in the fog each colour is. Checked by tests/visual/fog_test.cpp.
+// The grid depends on lamps and eye, not on what they see: while a car's own lamps shine as they did, it is kept from
+// frame to frame, and a frame costs no more than reading it.
+//
+// Error: of the sums over each slice (points for each lamp, even in the angle at the lamp), and of interpolation
+// between rays and slices; levels differ in both. Left out: shadows in fog, and of lamps of several colours where in
+// the fog each colour is. Checked by tests/visual/fog_test.cpp.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
+#include <vector>
 
 #include "visual/gpu/frame_graph.h"
 #include "visual/lit_scene.h"
 
 namespace phare {
 
-/// Of the grid, and points of a slice for each lamp.
+/// Of the grid; steps of a slice for each lamp, at least, and how wide they are at the lamp, at most.
 struct FogLevel {
-  std::uint32_t columns = 0, rows = 0, slices = 0, samples = 0;
+  std::uint32_t columns = 0, rows = 0, slices = 0, steps = 0;
+  float widest_deg = 0.0f;
 };
 
 /// In the order of the effect's levels (visual/effects.h), the first being off.
-inline constexpr std::array<FogLevel, 4> kFogLevels{{{}, {59, 50, 20, 1}, {85, 70, 30, 2}, {193, 161, 96, 4}}};
+inline constexpr std::array<FogLevel, 4> kFogLevels{
+    {{}, {48, 64, 20, 1, 12.0f}, {72, 112, 24, 1, 4.0f}, {225, 255, 60, 2, 1.0f}}};
 
 static_assert(kFogNames.size() == kFogLevels.size());
 
-/// Texels of a level's grid: cells of four rays, one more each way, at the ends of all slices.
+/// Texels of a level's grid: cells of four rays, one more each way, in each slice.
 constexpr std::uint64_t texels_of(const FogLevel& level) {
-  return std::uint64_t{level.columns + 1} * (level.rows + 1) * (level.slices + 1);
+  return std::uint64_t{level.columns + 1} * (level.rows + 1) * level.slices;
 }
+static_assert(texels_of(kFogLevels[1]) <= 65536, "what every device has room for");
 
 class FogPass {
  public:
@@ -39,24 +47,42 @@ class FogPass {
 
   /// Before the views of a frame; the frame before is done. Grids that it did not call for are freed.
   void begin_frame();
-  /// Computes the grid of a view, and has the view be lit through fog from here on. A level whose grid the device has
-  /// no room for is lowered: 65,536 texels, which every device has, hold the lowest.
+  /// Computes the grid of a view, if it is not as it was, and has the view be lit through fog from here on. A level
+  /// whose grid the device has no room for is lowered: 65,536 texels, which every device has, hold the lowest.
   void draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level, const ViewInput& input,
             const vk::Rect2D& area, bool hdr);
 
  private:
+  /// What the grid is computed from, as the eye sees it.
+  struct Source {
+    double extinction_per_m = 0.0;
+    FogDroplets droplets{};
+    std::size_t level = 0;
+    vk::Rect2D area{};
+    struct Lamp {
+      std::size_t beam = 0;
+      std::uint64_t version = 0;
+    };
+    std::vector<Lamp> lamps{};
+    std::vector<glm::dvec3> ways{};  ///< of rays and lamps, m
+    bool same(const Source& other) const;
+  };
   /// Of one view.
   struct Grid {
     gpu::DeviceBuffer texels;
     vk::raii::BufferView view{nullptr};
+    gpu::HostBuffer places;  ///< as shaders/fog.h has them
+    vk::raii::BufferView places_view{nullptr};
     gpu::DescriptorSets sets{}, compute_sets{};
     vk::DescriptorSet set{}, compute_set{};
-    vk::BufferView phase{};  ///< that compute_set has
+    std::optional<Source> source{};  ///< of what the texels hold
   };
-  /// Tables, lamps, grid, samples, whether it adds.
-  using Key = std::tuple<std::size_t, std::uint32_t, FogGrid, std::uint32_t, bool>;
+  /// Tables, lamps, grid, level, whether it adds.
+  using Key = std::tuple<std::size_t, std::uint32_t, FogGrid, std::size_t, bool>;
 
-  Grid& grid_of(std::uint64_t texels);
+  static Source source_of(const LitScene& scene, const LitView& view, std::size_t level, const ViewInput& input,
+                          const vk::Rect2D& area);
+  void make(Grid& grid, std::uint64_t texels, std::uint64_t places);
   void fill_phase(const FogDroplets& droplets);
   vk::Pipeline pipeline(const LitScene& scene, const Key& key);
 
@@ -83,8 +109,7 @@ class FogSky {
  private:
   using Key = std::tuple<LampOutput, vk::Format, vk::SampleCountFlagBits, FogGrid, bool>;
   gpu::Device& device_;
-  /// For two lamps at most, and for more; made when called for.
-  std::array<vk::raii::ShaderModule, 2> vertex_{nullptr, nullptr}, fragment_{nullptr, nullptr};
+  vk::raii::ShaderModule vertex_{nullptr}, fragment_{nullptr};  ///< made when called for
   std::map<Key, vk::raii::Pipeline> pipelines_;
 };
 
