@@ -62,7 +62,7 @@ struct Constants {
 /// light changes by the tenth of a degree. As GpuFog::rows.
 glm::dvec4 close_rows(const ViewGeometry& view, std::uint32_t rows) {
   const glm::dmat3& eye = view.camera().world_from_eye;
-  const double half_up = std::tan(0.5 * view.camera().fov_horizontal_rad) / view.aspect();
+  const double half_up = view.half_up();
   const auto way_down = [&](double elevation_rad) {
     // Straight ahead, at this elevation: up over forward of the eye.
     const double pitch = std::asin(std::clamp(eye[0].z, -1.0, 1.0));

@@ -152,8 +152,7 @@ void draw_panel(Pen small, const Pen& large, const ImVec2& picture, float top_px
     width = std::max(width, small.width(row.words) + (row.key.empty() ? 0.0f : key_width));
   const ImVec2 size{width + 2.0f * edge, title_height + line * rows + 1.5f * edge};
   const bool left = panel.place == OverlayPanel::Place::kLeft;
-  const ImVec2 at{left ? edge : std::max(0.5f * (picture.x - size.x), 0.0f),
-                  left ? edge : std::max(0.07f * picture.y, top_px)};
+  const ImVec2 at{left ? edge : std::max(0.5f * (picture.x - size.x), 0.0f), left ? edge : top_px};
   if (panel.place == OverlayPanel::Place::kAlone) small.list.AddRectFilled({0.0f, 0.0f}, picture, kBlank);
   small.list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, kPaper, 8.0f);
   const float x = at.x + edge;
@@ -206,7 +205,7 @@ OverlayPass::~OverlayPass() {
 
 void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::vector<std::string>& lines,
                        const std::vector<OverlayInstrument>& instruments, const OverlayPanel& panel,
-                       const OverlayMarks& marks) {
+                       const OverlayMarks& marks, const OverlayRoom& room) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(display.extent.width), static_cast<float>(display.extent.height)};
   io.DeltaTime = 1.0f / 60.0f;  // nothing here moves by itself
@@ -219,7 +218,9 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
   draw_marks_of(small, io.DisplaySize, marks);
   const bool left = !panel.empty() && panel.place == OverlayPanel::Place::kLeft;
   // A panel on the left takes the place of the lines.
-  const float top_px = left ? 0.0f : draw_lines(small, io.DisplaySize.x, lines);
+  const float width_px = static_cast<float>(room.lines_width_01) * io.DisplaySize.x;
+  const float top_px = std::max(left ? 0.0f : draw_lines(small, width_px, lines),
+                                static_cast<float>(room.panel_top_01) * io.DisplaySize.y);
   draw_instruments(small, large, io.DisplaySize, instruments, left);
   draw_panel(small, large, io.DisplaySize, top_px, panel);
   ImGui::Render();
