@@ -138,7 +138,8 @@ class Page {
     if (drove.contains("cutoff_25m_m"))
       fact(value_text(drove["cutoff_25m_m"], "median", "%.2f") + " m",
            "cut-off on a wall at 25 m (median), " + range_text(drove["cutoff_25m_m"], "%.2f"));
-    if (drove.contains("pitch_deg")) fact(range_text(drove["pitch_deg"], "%+.2f") + "°", "pitch, positive nose down");
+    if (drove.contains("pitch_deg"))
+      fact(range_text(drove["pitch_deg"], "%+.2f") + "°", "pitch with the slope of the road, positive nose down");
     if (const json best = first_low_beam(); best.is_object()) {
       if (!best["rules"].empty()) {
         const json& rule = best["rules"].front();
@@ -188,9 +189,9 @@ class Page {
     if (!series_ || series_->rows < 2) return;
     page_ << "<h2>Over time</h2>";
     plot({.title = "Speed", .unit = "km/h", .lines = {series_->speed_kmh}, .from_zero = true});
-    plot({.title = "Pitch, nose down", .unit = "degrees", .lines = {series_->pitch_deg}});
+    plot({.title = "Pitch with the slope of the road, nose down", .unit = "degrees", .lines = {series_->pitch_deg}});
     if (summary_of("cutoff_25m_m"))
-      plot({.title = "Cut-off of the low beam on a wall at 25 m, above the ground",
+      plot({.title = "Cut-off of the low beam on a wall at 25 m, above the road there",
             .unit = "m",
             .lines = {series_->cutoff_m}});
     for (const char* level : {"1lx", "3lx", "5lx"}) {
@@ -257,8 +258,10 @@ class Page {
       if (!there(above) && !there(wall)) continue;
       if (!std::exchange(any, true)) page_ << "<h2>Low beam of every design that was lit</h2>";
       if (design.contains("name"))
-        page_ << "<h3>" << value_text(design, "name") << " <span>lit " << value_text(design, "lit_s", "%.1f")
-              << " s of the drive</span></h3>";
+        page_ << "<h3>" << value_text(design, "name") << " <span>"
+              << (design.value("lit_s", 0.0) > 0.0 ? "lit " + value_text(design, "lit_s", "%.1f") + " s of the drive"
+                                                   : "beside it")
+              << "</span></h3>";
       page_ << "<div class=\"pictures\">";
       picture(above, "Illuminance on the road from above, lx");
       picture(wall, "On a wall 25 m ahead, lx");

@@ -96,7 +96,7 @@ std::string time_plot_svg(const TimePlot& plot) {
     svg += fmt::format(
         "<path class=\"grid\" d=\"M{:.1f} {}V{}\"/><text x=\"{:.1f}\" y=\"{}\" "
         "text-anchor=\"middle\">{:g}</text>",
-        x(at_s), kTop, kHeight - kBottom, x(at_s), kHeight - kBottom + 15, at_s);
+        x(at_s), kTop, kHeight - kBottom, x(at_s), kHeight - kBottom + 15, std::abs(at_s) < 1e-9 ? 0.0 : at_s);
   svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\">s</text>", kWidth - kRight, kHeight - 4);
   svg += fmt::format("<text class=\"name\" x=\"{}\" y=\"16\">{}</text>", kLeft, escaped(plot.title + ", " + plot.unit));
   double name_px = kWidth - kRight;

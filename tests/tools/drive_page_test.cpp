@@ -119,7 +119,7 @@ TEST_F(DrivePage, OpensWithWhatWasDrivenAndHasEveryPicture) {
   // What is referred to is there, and each design has both its pictures.
   const std::vector<std::string> all = references(page);
   for (const std::string& file : all)
-    if (file != "report.json") EXPECT_TRUE(fs::exists(out_ / file)) << file;
+    EXPECT_TRUE(file == "report.json" || fs::exists(out_ / file)) << file;
   for (const char* file : {"drivers_view.png", "drive.mp4", "birds_eye.png", "wall_25m.png", "birds_eye_2.png",
                            "wall_25m_2.png", "contact_sheet.png", "drive.csv"})
     EXPECT_NE(std::ranges::find(all, file), all.end()) << file;
@@ -162,7 +162,7 @@ TEST(TimePlot, LosesNoPeak) {
 }
 
 TEST(LampVerdicts, AreThoseOfCheckAndHspr) {
-  const auto rig = read_rig(test::source_dir() + "/config/rigs/country_road.toml");
+  const auto rig = read_rig(source_dir() + "/config/rigs/country_road.toml");
   ASSERT_TRUE(rig.ok()) << rig.error().text();
   const json rows = lamp_verdicts(*rig);
   std::set<std::string> designs;
@@ -173,7 +173,7 @@ TEST(LampVerdicts, AreThoseOfCheckAndHspr) {
     bool passed = false;
     for (const json& rule : row["rules"]) passed |= rule["verdict"] == "pass" || rule["verdict"] == "within resolution";
     EXPECT_TRUE(passed) << row.dump();
-    if (row["beam"] == "low") EXPECT_TRUE(row.contains("hspr")) << row.dump();
+    EXPECT_TRUE(row["beam"] != "low" || row.contains("hspr")) << row.dump();
   }
   EXPECT_EQ(designs.size(), rig->designs.size());
 

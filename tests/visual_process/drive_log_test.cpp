@@ -82,7 +82,7 @@ TEST(DriveLog, ReachIsDueTenTimesASecond) {
 }
 
 TEST(DriveLog, CutoffOnTheWallFollowsPitchAndLevelling) {
-  const auto rig = read_rig(test::source_dir() + "/config/rigs/country_road.toml");
+  const auto rig = read_rig(source_dir() + "/config/rigs/country_road.toml");
   ASSERT_TRUE(rig.ok());
   auto lamps = Lamps::load(*rig);
   ASSERT_TRUE(lamps.ok()) << lamps.error().text();

@@ -12,7 +12,7 @@ namespace {
 
 class VersusTest : public testing::Test {
  protected:
-  VersusTest() : rig_(*read_rig(test::source_dir() + "/config/rigs/country_road.toml")), lamps_(*Lamps::load(rig_)) {
+  VersusTest() : rig_(*read_rig(source_dir() + "/config/rigs/country_road.toml")), lamps_(*Lamps::load(rig_)) {
     controls_.light_switch = LightSwitch::kLow;
     (void)lamps_.set_controls(controls_);
   }
@@ -54,7 +54,8 @@ TEST_F(VersusTest, TheOtherDesignHasBeamsOfItsOwn) {
   EXPECT_EQ(versus.follow(desk_, lamps_, controls_).size(), 2u);
   // Lamps that are moved move on both sides.
   ASSERT_TRUE(
-      lamps_.mount({.lamp = "headlamp", .quantity = MountQuantity::kPitch, .value = 0.01, .by = true}).ok());
+      lamps_.mount({.lamp = "headlamp", .quantity = rig_command::MountQuantity::kPitch, .value = 0.01, .by = true})
+          .ok());
   (void)versus.follow(desk_, lamps_, controls_);
   EXPECT_EQ(versus.lamps()->mounts(0), lamps_.mounts(0));
 }

@@ -549,6 +549,16 @@ void Loop::log_frame(const Moment& moment, const FrameResult& result) {
                .cutoff_m = s_.lamps.cutoff_height_m(moment.car.pose, kCutoffWall_m),
                .frame_ms = result.wall_ms,
                .gpu_ms = result.gpu_ms};
+  if (row.cutoff_m) {  // above the road at the wall: a slope moves the mark with the road, a crest or a dip does not
+    constexpr double kLamps_m = 3.3;  // ahead of the rear axle, in cars like ours
+    const VehicleState& car = moment.car.pose;
+    const double ahead_m = kLamps_m + kCutoffWall_m;
+    const double ground_z_m =
+        measuring_.road()
+            .ground(car.x_m + ahead_m * std::cos(car.yaw_rad), car.y_m + ahead_m * std::sin(car.yaw_rad), car.z_m)
+            .position_m.z;
+    *row.cutoff_m -= ground_z_m - car.z_m;
+  }
   if (drive_log_.reach_is_due(moment.time) && versus_.lamps() != nullptr)
     row.versus_reach = reach_of(*versus_.lamps(), moment.car.pose, measuring_.road());
   if (drive_log_.reach_is_due(moment.time)) row.reach = reach_of(s_.lamps, moment.car.pose, measuring_.road());
