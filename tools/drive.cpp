@@ -344,7 +344,7 @@ void DriveRun::write_report() {
     thin_frames(options_.out, *driven);
   nlohmann::json report = make_report(rig_, facts_, options_.out);
   if (driven != nullptr) report["drove"] = figures_of(*driven);
-  if (!stop_) report["lamp_verdicts"] = lamp_verdicts(rig_);
+  if (!stop_) report["lamp_verdicts"] = lamp_verdicts(rig_, config_path("rules"));
   const bool told_in_json = write_json(fs::path(options_.out) / "report.json", report);
   const Status page = write_whole_file(
       fs::path(options_.out) / "index.html",

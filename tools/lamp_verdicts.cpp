@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "tools/commands.h"
 #include "visual/photometry/beam/lamp_tables.h"
 #include "visual/photometry/bench/check.h"
 #include "visual/photometry/bench/hspr.h"
@@ -114,9 +113,9 @@ void add_hspr(json& row, const Beam& beam, LampFunction function) {
 
 }  // namespace
 
-json lamp_verdicts(const Rig& rig) {
+json lamp_verdicts(const Rig& rig, const std::filesystem::path& rules_folder) {
   json all = json::array();
-  const auto rules = read_rulebooks(config_path("rules"));
+  const auto rules = read_rulebooks(rules_folder);
   std::map<std::vector<std::string>, json> judged;  // the same files in another design: the same verdict
   for (const DesignConfig& design : rig.designs) {
     for (const Asked& asked : kAsked) {

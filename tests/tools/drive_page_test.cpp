@@ -164,7 +164,7 @@ TEST(TimePlot, LosesNoPeak) {
 TEST(LampVerdicts, AreThoseOfCheckAndHspr) {
   const auto rig = read_rig(source_dir() + "/config/rigs/country_road.toml");
   ASSERT_TRUE(rig.ok()) << rig.error().text();
-  const json rows = lamp_verdicts(*rig);
+  const json rows = lamp_verdicts(*rig, rules_dir());
   std::set<std::string> designs;
   for (const json& row : rows) {
     designs.insert(row["design"].get<std::string>());
@@ -182,7 +182,7 @@ TEST(LampVerdicts, AreThoseOfCheckAndHspr) {
   weak.designs.resize(1);
   for (LampConfig& lamp : weak.designs[0].lamps)
     for (SourceConfig& source : lamp.sources) source.scale *= 0.3;
-  const json low = lamp_verdicts(weak)[0];
+  const json low = lamp_verdicts(weak, rules_dir())[0];
   EXPECT_EQ(low["rules"][0]["verdict"], "fail");
   EXPECT_LT(low["rules"][0]["worst"]["value"], low["rules"][0]["worst"]["limit"]);
 }

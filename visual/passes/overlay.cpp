@@ -77,12 +77,19 @@ void wrap(const Pen& pen, const std::string& line, float width_px, std::vector<s
   } while (at != end);
 }
 
-/// Along the upper left edge. Returns where they end, 0 without any.
-float draw_lines(const Pen& pen, float picture_width_px, const std::vector<std::string>& unwrapped) {
+/// Along the upper left edge, within `room_px` of it. Returns where they end, 0 without any.
+float draw_lines(Pen pen, const ImVec2& room_px, const std::vector<std::string>& unwrapped) {
   if (unwrapped.empty()) return 0.0f;
-  const float height = pen.size_px * kLine, edge = 0.5f * pen.size_px;
+  const float edge = 0.5f * pen.size_px, least_px = 0.5f * pen.size_px;
   std::vector<std::string> lines;
-  for (const std::string& line : unwrapped) wrap(pen, line, picture_width_px - 4.0f * edge, lines);
+  float height = 0.0f;
+  while (true) {
+    lines.clear();
+    height = pen.size_px * kLine;
+    for (const std::string& line : unwrapped) wrap(pen, line, room_px.x - 4.0f * edge, lines);
+    if (2.0f * edge + height * static_cast<float>(lines.size()) <= room_px.y || pen.size_px * 0.95f < least_px) break;
+    pen.size_px *= 0.95f;
+  }
   float width = 0.0f;
   for (const std::string& line : lines) width = std::max(width, pen.width(line));
   pen.list.AddRectFilled({edge, edge}, {3.0f * edge + width, 2.0f * edge + height * static_cast<float>(lines.size())},
@@ -218,8 +225,9 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
   draw_marks_of(small, io.DisplaySize, marks);
   const bool left = !panel.empty() && panel.place == OverlayPanel::Place::kLeft;
   // A panel on the left takes the place of the lines.
-  const float width_px = static_cast<float>(room.lines_width_01) * io.DisplaySize.x;
-  const float top_px = std::max(left ? 0.0f : draw_lines(small, width_px, lines),
+  const ImVec2 lines_px{static_cast<float>(room.lines_width_01) * io.DisplaySize.x,
+                        static_cast<float>(room.lines_height_01) * io.DisplaySize.y};
+  const float top_px = std::max(left ? 0.0f : draw_lines(small, lines_px, lines),
                                 static_cast<float>(room.panel_top_01) * io.DisplaySize.y);
   draw_instruments(small, large, io.DisplaySize, instruments, left);
   draw_panel(small, large, io.DisplaySize, top_px, panel);
