@@ -84,6 +84,13 @@ std::string get_camera(const Desk& desk) {
   return std::string(kCameraNames[static_cast<std::size_t>(desk.camera)]);
 }
 
+Status set_compare(Desk& desk, std::string_view value, const DeskContext&) {
+  return choose(kCompareNames, desk.compare, value);
+}
+std::string get_compare(const Desk& desk) {
+  return std::string(kCompareNames[static_cast<std::size_t>(desk.compare)]);
+}
+
 /// "car|world X Y Z YAW_DEG PITCH_DEG [FOV_DEG]".
 Status set_free_eye(Desk& desk, std::string_view value, const DeskContext&) {
   const std::vector<std::string> words = words_of(value);
@@ -179,23 +186,27 @@ std::string get_adaptation(const Desk& desk) {
   return desk.eye.fixed_k ? word_of(*desk.eye.fixed_k) : "auto";
 }
 
-Status set_design(Desk& desk, std::string_view value, const DeskContext& context) {
-  if (value == "cockpit") {
-    desk.design.reset();
+/// A design's number, or the word for none.
+template <std::optional<std::size_t> Desk::*design, const std::string_view& none>
+Status set_number_of_design(Desk& desk, std::string_view value, const DeskContext& context) {
+  if (value == none) {
+    (desk.*design).reset();
     return Done{};
   }
   std::size_t index = 0;
   const auto [stop, failed] = std::from_chars(value.data(), value.data() + value.size(), index);
   if (failed != std::errc() || stop != value.data() + value.size())
-    return Error{"", "expected cockpit or a design's number, got \"" + std::string(value) + "\""};
+    return Error{"", "expected " + std::string(none) + " or a design's number, got \"" + std::string(value) + "\""};
   if (index >= context.designs)
     return Error{"", std::string(value) + ": the rig has " + std::to_string(context.designs) + ", counted from 0"};
-  desk.design = index;
+  desk.*design = index;
   return Done{};
 }
-std::string get_design(const Desk& desk) {
-  return desk.design ? std::to_string(*desk.design) : "cockpit";
+template <std::optional<std::size_t> Desk::*design, const std::string_view& none>
+std::string get_number_of_design(const Desk& desk) {
+  return desk.*design ? std::to_string(*(desk.*design)) : std::string(none);
 }
+constexpr std::string_view kCockpitName = "cockpit", kNextName = "next";
 
 /// "car X Y Z" with the normal up, or "car X Y Z NX NY NZ"; "road S LEFT [UP]"; of `frames`.
 Result<Probe> probe_of(std::span<const std::string> words, std::span<const std::string_view> frames) {
@@ -334,6 +345,10 @@ constexpr DeskSetting kSettings[] = {
      "of the camera free: m, degrees to the left and up; moved by the mouse too", true, set_free_eye, get_free_eye},
     {"mirrors", "off, on, toggle", "the three mirrors over the picture", true, set_flag<&Desk::mirrors>,
      get_flag<&Desk::mirrors>},
+    {"compare", "off, split, flicker, next", "two designs in one picture: halves, or by turns", true, set_compare,
+     get_compare},
+    {"versus", "next, 0, 1, ...", "the design beside that which shines; next: the one after it", true,
+     set_number_of_design<&Desk::versus, kNextName>, get_number_of_design<&Desk::versus, kNextName>},
     {"view", "photo, false-colour, next", "as the eye sees it, or illuminance by colour", true, set_view, get_view},
     {"method", "fragment, vertex, vertex-1998, next", "where illuminance is computed: docs/accuracy.md", true,
      set_method, get_method},
@@ -343,8 +358,8 @@ constexpr DeskSetting kSettings[] = {
      get_exposure},
     {"adaptation_k", "auto, 2000 to 25000", "light of this colour temperature looks white; auto: as the lamps shine",
      false, set_adaptation, get_adaptation},
-    {"design", "cockpit, 0, 1, ...", "the picture shows this design, whatever the cockpit has chosen", true, set_design,
-     get_design},
+    {"design", "cockpit, 0, 1, ...", "the picture shows this design, whatever the cockpit has chosen", true,
+     set_number_of_design<&Desk::design, kCockpitName>, get_number_of_design<&Desk::design, kCockpitName>},
     {"probes", "none, [add] car|world X Y Z [NX NY NZ]; road S LEFT [UP]; ...",
      "points whose lux the overlay tells and probes.csv keeps", true, set_probes, get_probes},
     {"point", "none, picture X_01 Y_01, car|world X Y Z [NX NY NZ], road S LEFT [UP]",

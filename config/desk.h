@@ -47,6 +47,11 @@ struct FreeEye {
   friend bool operator==(const FreeEye&, const FreeEye&) = default;
 };
 
+/// Two designs in one picture: the one that shines on the left half and the other on the right half of the same view,
+/// or by turns, half a second each.
+enum class Compare { kOff, kSplit, kFlicker };
+inline constexpr std::array<std::string_view, 3> kCompareNames{"off", "split", "flicker"};
+
 /// As the eye sees it, or illuminance by colour with isolux lines.
 enum class View { kPhoto, kFalseColour };
 inline constexpr std::array<std::string_view, 2> kViewNames{"photo", "false-colour"};
@@ -71,6 +76,8 @@ struct Desk {
   CameraKind camera = CameraKind::kDriver;
   FreeEye free_eye;      ///< of the camera "free"
   bool mirrors = false;  ///< the three mirrors as insets over the picture of another camera
+  Compare compare = Compare::kOff;
+  std::optional<std::size_t> versus;  ///< the other design, from 0; none: the one after that which shines
   View view = View::kPhoto;
   Method method = Method::kFragment;
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< rising, 1 to kMostIsoluxLevels

@@ -23,6 +23,9 @@
 #include "tools/drive_options.h"
 #include "tools/drive_processes.h"
 #include "tools/drive_progress.h"
+#include "tools/drive_series.h"
+#include "tools/drive_video.h"
+#include "tools/lamp_verdicts.h"
 #include "tools/recorder.h"
 #include "tools/report.h"
 #include "tools/supervisor.h"
@@ -104,7 +107,7 @@ int explain_drive(DriveOptions& options) {
   auto rig = prepare_drive(options);
   if (!rig) return bad_input(rig.error());
   std::optional<DerivedRig> derived;
-  if (options.lamps.any()) {
+  if (options.made_design) {
     auto made_of_it = DerivedRig::for_drive({});
     if (!made_of_it) return bad_input(made_of_it.error());
     derived.emplace(std::move(*made_of_it));
@@ -191,7 +194,7 @@ Status DriveRun::read() {
     if (read->cut) spdlog::warn("{}: cut off, driving up to its last whole record", options_.drive);
     duration_ = read->duration;
   }
-  if (!options_.lamps.any()) return Done{};
+  if (!options_.made_design) return Done{};
   for (auto* each : {&derived_, &kept_rig_}) {
     if (each == &kept_rig_ && !kept()) continue;
     auto made_of_it = DerivedRig::for_drive(each == &derived_ ? "" : options_.out);
@@ -331,10 +334,21 @@ void DriveRun::write_report() {
   remove_half_written(options_.out, facts_.process_names);
   for (const std::string* file : {&options_.drive, &options_.script, &options_.log})
     if (!file->empty()) facts_.source_file = *file;
-  make_video(options_.out, rig_.frame_rate_hz, in_a_hurry());
-  const nlohmann::json report = make_report(rig_, facts_, options_.out);
+  const PictureOptions& picture = options_.picture;
+  const auto series = read_drive_series(options_.out);
+  if (!series) spdlog::warn("{}; the page is without it", series.error().text());
+  const DriveSeries* driven = series && *series ? &**series : nullptr;
+  if (driven != nullptr &&
+      make_video(options_.out, *driven, rig_.frame_rate_hz, picture.video || picture.frames > 0, in_a_hurry()) &&
+      picture.frames == 0)
+    thin_frames(options_.out, *driven);
+  nlohmann::json report = make_report(rig_, facts_, options_.out);
+  if (driven != nullptr) report["drove"] = figures_of(*driven);
+  if (!stop_) report["lamp_verdicts"] = lamp_verdicts(rig_, config_path("rules"));
   const bool told_in_json = write_json(fs::path(options_.out) / "report.json", report);
-  const Status page = write_whole_file(fs::path(options_.out) / "index.html", report_page(report, options_.out));
+  const Status page = write_whole_file(
+      fs::path(options_.out) / "index.html",
+      report_page(report, options_.out, options_.single_file ? PageFiles::kWithin : PageFiles::kBeside));
   if (!told_in_json || !page) {
     std::fprintf(stderr, "phare: %s: the report cannot be written%s\n", options_.out.c_str(),
                  page ? "" : (", " + page.error().reason).c_str());

@@ -1,23 +1,14 @@
 #include "tools/drive_folder.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cctype>
-#include <chrono>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
-#include <thread>
-
-#include "config/base/remedies.h"
-#include "tools/child_process.h"
 
 namespace phare {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 void remove_half_written(const fs::path& out, const std::vector<std::string>& process_names) {
   std::error_code ignored;
@@ -31,12 +22,22 @@ void remove_half_written(const fs::path& out, const std::vector<std::string>& pr
 
 void remove_earlier_output(const fs::path& out, const std::vector<std::string>& process_names) {
   std::error_code ignored;
-  for (const char* file : {"report.json", "index.html", "drive.mp4", "contact_sheet.png", "drivers_view.png",
-                           "birds_eye.png", "wall_25m.png", "hdr.exr", "eye.json"}) {
+  for (const char* file : {"report.json", "index.html", "drive.csv", "drive.mp4", "contact_sheet.png",
+                           "drivers_view.png", "birds_eye.png", "wall_25m.png", "versus.png", "versus_difference.png",
+                           "versus_birds_eye.png", "versus_ratio.png", "hdr.exr", "eye.json"}) {
     fs::remove(out / file, ignored);
   }
   for (const std::string& name : process_names) fs::remove(out / (name + ".json"), ignored);
   remove_half_written(out, process_names);
+  // Of designs, by their number: birds_eye_1.png.
+  for (const auto& entry : fs::directory_iterator(out, ignored)) {
+    const std::string stem = entry.path().stem().string();
+    const std::size_t number = stem.rfind('_') + 1;
+    const bool ours = (stem.starts_with("birds_eye_") || stem.starts_with("wall_25m_")) && number < stem.size() &&
+                      std::all_of(stem.begin() + static_cast<std::ptrdiff_t>(number), stem.end(),
+                                  [](unsigned char c) { return std::isdigit(c); });
+    if (ours && entry.path().extension() == ".png") fs::remove(entry.path(), ignored);
+  }
   for (const auto& entry : fs::directory_iterator(out / "frames", ignored)) {
     const std::string stem = entry.path().stem().string();
     const bool ours = entry.path().extension() == ".png" &&
@@ -88,39 +89,6 @@ void remove_traces(const fs::path& out, const fs::path& made, const std::vector<
   for (fs::path folder = out; !made.empty(); folder = folder.parent_path()) {
     fs::remove(folder, ignored);
     if (folder == made) break;
-  }
-}
-
-void make_video(const fs::path& out, std::int64_t frame_rate_hz, const std::function<bool()>& stop) {
-  if (stop()) return;
-  std::error_code ignored;
-  std::int64_t count = 0, last = -1;
-  for (const auto& entry : fs::directory_iterator(out / "frames", ignored)) {
-    if (entry.path().extension() != ".png") continue;
-    ++count;
-    last = std::max<std::int64_t>(last, std::atoll(entry.path().stem().c_str()));
-  }
-  if (count < 2) return;
-  const auto ffmpeg = find_in_path("ffmpeg");
-  if (!ffmpeg) {
-    spdlog::info("no ffmpeg in PATH, so no drive.mp4 ({})", kVideoRemedy);
-    return;
-  }
-  // Every frame kept: at the frame rate. One kept a second: eight a second, a time lapse.
-  const std::int64_t rate = last + 1 <= count + 1 ? frame_rate_hz : 8;
-  auto child =
-      ChildProcess::start(*ffmpeg, {"-y", "-nostdin", "-loglevel", "error", "-framerate", std::to_string(rate),
-                                    "-pattern_type", "glob", "-i", (out / "frames" / "*.png").string(), "-pix_fmt",
-                                    "yuv420p", "-crf", "18", "-movflags", "+faststart", (out / "drive.mp4").string()});
-  if (!child) return;
-  const auto deadline = Clock::now() + std::chrono::minutes(5);
-  std::optional<ProcessEnd> end;
-  while (!(end = child->ended()) && Clock::now() < deadline && !stop())
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  if (!end) child->send_signal(9);
-  if (!end || end->exit_code != 0 || end->signal != 0) {
-    spdlog::warn("ffmpeg made no video ({})", end ? end->text() : stop() ? "interrupted" : "took more than 5 minutes");
-    fs::remove(out / "drive.mp4", ignored);
   }
 }
 

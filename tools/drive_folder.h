@@ -1,9 +1,7 @@
-// The folder that a drive fills: what an earlier one left there, what must not stay, the video.
+// The folder that a drive fills: what an earlier one left there, what must not stay.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,8 +25,5 @@ std::filesystem::path first_missing(std::filesystem::path out);
 /// After bad input: no count, no picture, and no folder from `made` down, which was not there before.
 void remove_traces(const std::filesystem::path& out, const std::filesystem::path& made,
                    const std::vector<std::string>& process_names);
-
-/// frames/*.png to drive.mp4; says so when there is no ffmpeg. `stop`: asked often; none is made then.
-void make_video(const std::filesystem::path& out, std::int64_t frame_rate_hz, const std::function<bool()>& stop);
 
 }  // namespace phare

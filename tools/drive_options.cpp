@@ -8,6 +8,7 @@
 
 #include "config/base/log_levels.h"
 #include "config/cockpit.h"
+#include "config/formats/toml_table.h"
 #include "config/key_bindings.h"
 #include "config/vehicle.h"
 #include "tools/child_process.h"
@@ -22,6 +23,54 @@ namespace fs = std::filesystem;
 bool set_in_environment(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr && *value != '\0';
+}
+
+/// The design of the rig that is meant by a name or a number.
+std::optional<std::size_t> design_named(const Rig& rig, const std::string& name) {
+  for (std::size_t i = 0; i < rig.designs.size(); ++i)
+    if (rig.designs[i].name == name || std::to_string(i) == name) return i;
+  return std::nullopt;
+}
+
+/// Which design is shown, and which stands beside it; one made of a lamp comes behind that which is shown.
+/// `as_filed`: the rig before a lamp of one's own was put into it.
+Status choose_designs(Rig& rig, const Rig& as_filed, DriveOptions& options) {
+  options.desk.clear();
+  options.made_design = options.lamps.any();
+  if (!options.design.empty()) {
+    const auto design = design_named(rig, options.design);
+    if (!design) {
+      std::vector<std::string> names;
+      for (const DesignConfig& known : rig.designs) names.push_back(known.name);
+      return Error{"--design", unknown_name_reason("design", options.design, names)};
+    }
+    options.desk.push_back("design=" + std::to_string(*design));
+  }
+  if (options.versus.empty()) return Done{};
+  auto other = design_named(rig, options.versus);
+  if (!other) {
+    Rig made = as_filed;
+    LampFlags flags{.low = {options.versus}, .aim = options.lamps.aim, .others = options.lamps.others};
+    const auto notes = put_lamp_design(made, flags);
+    if (!notes)
+      return Error{"--versus " + options.versus, "is no design of the rig, and as a lamp: " + notes.error().text()};
+    if (!options.design.empty())
+      return Error{"--design", "stands beside another design of the rig; with a lamp of one's own leave it out"};
+    DesignConfig design = made.designs.front();
+    for (const DesignConfig& known : rig.designs)
+      if (known.name == design.name) design.name += " (B)";
+    rig.designs.insert(rig.designs.begin() + 1, std::move(design));
+    rig.keep_design = true;
+    options.made_design = true;
+    options.lamp_told.lines.insert(options.lamp_told.lines.end(), notes->lines.begin(), notes->lines.end());
+    options.lamp_told.warnings.insert(options.lamp_told.warnings.end(), notes->warnings.begin(), notes->warnings.end());
+    options.desk.push_back("design=0");
+    other = 1;
+  } else if (options.design.empty() && options.made_design) {
+    options.desk.push_back("design=0");
+  }
+  options.desk.insert(options.desk.end(), {"compare=split", "versus=" + std::to_string(*other)});
+  return Done{};
 }
 
 /// Lamps of one's own, and what every adjuster of the rig was turned by.
@@ -57,9 +106,11 @@ Result<Rig> prepare_drive(DriveOptions& options) {
 
   if (!options.vehicle.empty()) rig->vehicle_file = fs::absolute(options.vehicle).lexically_normal();
   if (const auto vehicle = read_vehicle(rig->vehicle_file); !vehicle) return vehicle.error();
-  if (!options.lamps.any() && !options.lamps.aim.empty())
+  if (!options.lamps.any() && options.versus.empty() && !options.lamps.aim.empty())
     return Error{"--aim " + options.lamps.aim, "aims a lamp of one's own: give --lamp, --lamp-high or --lamp-fog"};
+  const Rig as_filed = *rig;
   if (const Status status = aim_lamps(*rig, options); !status) return status.error();
+  if (const Status status = choose_designs(*rig, as_filed, options); !status) return status.error();
 
   Desk desk = rig->desk;
   for (const DeskCommand& command : options.picture.desk)
@@ -105,6 +156,7 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
       "Examples:\n  phare drive\n  phare drive --headless --lockstep --frames 60 --out out\n"
       "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap\n"
       "  phare drive --explain --light high\n"
+      "  phare drive --design halogen --versus led --headless --lockstep --frames 60 --out ab\n"
       "  phare drive --lamp led_low_beam.ies --lamp-high high_beam.ies --headless --lockstep --frames 60 --out own\n" +
       std::string(kLampFlagsHelp));
   command.add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
@@ -116,6 +168,10 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
       ->excludes(script);
   command.add_option("--dbc", options->dbc, "DBC file for --log [the cockpit file's]");
   add_lamp_flags(&command, options->lamps);
+  command.add_option("--design", options->design, "Design of the rig that is shown, by its name or number");
+  command.add_option("--versus", options->versus,
+                     "Two designs on the same drive: beside the one that shines another of the rig, or a lamp file as "
+                     "--lamp has them; halves of the picture, differences and reaches on the page");
   command.add_option("--cockpit", options->cockpit,
                      "Cockpit file, instead of the rig's: which signals move the controls");
   command.add_flag("--headless", options->headless, "No window (also when there is no display)");
@@ -146,6 +202,8 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
       ->capture_default_str();
   command.add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
+  command.add_flag("--single-file", options->single_file,
+                   "index.html holds its pictures and its video: one file that can be mailed");
   command.add_flag("--overwrite", options->overwrite, "Put this drive in the place of another one in --out");
   command.add_flag("--open-bus", options->open_bus,
                    "No key of the run: anyone on this machine may speak on the bus (docs/send.md)");

@@ -18,6 +18,7 @@ struct DriveOptions {
   std::string rig_file = config_path("rigs/country_road.toml");
   std::string drive, script, log, dbc, cockpit, out, record, log_level = "info";
   bool headless = false, lockstep = false, closed_loop = false, json = false;
+  bool single_file = false;  ///< the page holds its pictures and its video
   bool overwrite = false, open_bus = false;
   bool law = false;           ///< a control law leads the lamps
   bool explain = false;       ///< which effects a moment calls for, instead of a drive
@@ -26,8 +27,11 @@ struct DriveOptions {
   PictureOptions picture;
   std::uint16_t port_base = 0;
   LampFlags lamps;
-  LampDesignNotes lamp_told;  ///< what became of them
-  std::string lamp_notes;     ///< the same, as the derived rig says it
+  std::string design, versus;     ///< of the rig by name or number; versus may be a lamp as --lamp has them
+  bool made_design = false;       ///< a design is driven that the rig's file does not have
+  std::vector<std::string> desk;  ///< what they set of the picture, as --set has it
+  LampDesignNotes lamp_told;      ///< what became of them
+  std::string lamp_notes;         ///< the same, as the derived rig says it
   std::vector<std::string> command;
   std::string level, vehicle;             ///< of the car, instead of the rig's
   std::vector<std::string> car_and_road;  ///< what phare-dynamics is told besides

@@ -78,6 +78,7 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
     arguments.insert(arguments.end(), {"--channel", std::to_string(channel)});
     if (options.headless) arguments.push_back("--headless");
     if (options.law) arguments.push_back("--law");
+    for (const std::string& setting : options.desk) arguments.insert(arguments.end(), {"--set", setting});
     const std::vector<std::string> picture = options.picture.arguments();
     arguments.insert(arguments.end(), picture.begin(), picture.end());
     if (!options.out.empty()) {

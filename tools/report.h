@@ -36,7 +36,13 @@ nlohmann::json read_stats(const std::filesystem::path& out, const std::string& p
 /// out.
 nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::filesystem::path& out);
 
-/// A self-contained page on a report and the pictures that lie in `out`. Pictures that are not there are left out.
-std::string report_page(const nlohmann::json& report, const std::filesystem::path& out);
+/// kBeside: the page finds pictures and video in its folder. kWithin: it holds them, one file that can be mailed.
+enum class PageFiles { kBeside, kWithin };
+
+/// A page on a report, the series (drive_series.h) and the pictures that lie in `out`. What is not there is left out.
+std::string report_page(const nlohmann::json& report, const std::filesystem::path& out,
+                        PageFiles files = PageFiles::kBeside);
+/// Its lower half: processes, times, effects, hashes.
+std::string report_tables(const nlohmann::json& report);
 
 }  // namespace phare

@@ -1,11 +1,16 @@
-// The page of a drive: static HTML, style within, pictures beside it. No script.
+// The page of a drive: what was driven and how good it was first, processes and hashes folded below. Static HTML, style
+// within, no script; pictures beside it, or within it to be mailed.
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <map>
+#include <fstream>
+#include <iterator>
 #include <sstream>
+#include <utility>
 
+#include "config/base/base64.h"
+#include "tools/drive_series.h"
 #include "tools/report.h"
+#include "tools/report_text.h"
+#include "tools/time_plot.h"
 
 namespace phare {
 namespace {
@@ -13,14 +18,15 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kStyle = R"(
-:root{--bg:#0b0e13;--card:#141922;--line:#242c38;--ink:#e6eaf0;--dim:#8e9aab;--lamp:#ffd48a;--bad:#ff8a7a}
+:root{--bg:#0b0e13;--card:#141922;--line:#242c38;--ink:#e6eaf0;--dim:#8e9aab;--lamp:#ffd48a;--bad:#ff8a7a;--good:#8fd694}
 *{box-sizing:border-box}body{margin:0;background:var(--bg);color:var(--ink);font:15px/1.55 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif}
 header{position:relative}header img{display:block;width:100%;max-height:72vh;object-fit:cover}
 header .title{padding:28px max(24px,calc(50vw - 560px)) 20px;background:linear-gradient(transparent,var(--bg) 85%)}
 header img+.title{position:absolute;left:0;right:0;bottom:0;padding-top:120px}
 h1{margin:0;font-size:34px;font-weight:650;letter-spacing:-.01em}h1 span{color:var(--lamp)}
 h2{margin:44px 0 14px;font-size:13px;font-weight:600;letter-spacing:.09em;text-transform:uppercase;color:var(--lamp)}
-main{max-width:1120px;margin:0 auto;padding:0 24px 72px}p{margin:6px 0;color:var(--dim)}
+h3{margin:26px 0 8px;font-size:16px;font-weight:600}h3 span{color:var(--dim);font-weight:400}
+main{max-width:1120px;margin:0 auto;padding:0 24px 72px}p{margin:6px 0;color:var(--dim)}a{color:inherit}
 .facts{display:grid;grid-template-columns:repeat(auto-fit,minmax(150px,1fr));gap:12px;margin-top:20px}
 .fact{background:var(--card);border:1px solid var(--line);border-radius:10px;padding:14px 16px}
 .fact b{display:block;font-size:24px;font-weight:600;font-variant-numeric:tabular-nums;overflow-wrap:anywhere}.fact i{font-style:normal;color:var(--dim);font-size:13px}
@@ -29,73 +35,42 @@ figure img,video{display:block;width:100%;border-radius:10px;border:1px solid va
 .scroll{overflow-x:auto;border:1px solid var(--line);border-radius:10px;background:var(--card)}
 table{border-collapse:collapse;width:100%;font-size:14px}th,td{padding:8px 14px;text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums;border-top:1px solid var(--line)}
 tr:first-child>*{border-top:0}th{color:var(--dim);font-weight:500}th:first-child,td:first-child,td.text,th.text{text-align:left}
-code{font:12px/1.4 ui-monospace,Menlo,Consolas,monospace;color:var(--dim)}.bad{color:var(--bad)}
+code{font:12px/1.4 ui-monospace,Menlo,Consolas,monospace;color:var(--dim)}.bad{color:var(--bad)}.good{color:var(--good)}
 .bar{display:inline-block;height:.8em;background:var(--lamp);border-radius:2px;margin-right:.4em}
+.plot{display:block;width:100%;margin:0 0 10px;background:var(--card);border:1px solid var(--line);border-radius:10px}
+.plot text{fill:var(--dim);font-size:12px}.plot .name{fill:var(--ink);font-size:13px}.plot .grid{stroke:var(--line);fill:none}
+.plot .line{fill:none;stroke-width:1.6;stroke-linejoin:round}.plot .high{fill:#5b8cff;opacity:.14}.plot .dark{fill:#000;opacity:.45}
+details{margin-top:48px;border-top:1px solid var(--line)}summary{padding:14px 0;cursor:pointer;color:var(--dim)}
+@media print{:root{--bg:#fff;--card:#fff;--line:#ccc;--ink:#111;--dim:#444;--lamp:#7a4b00;--bad:#a01808;--good:#116611}
+body{font-size:11pt}main{max-width:none;padding:0}video,.screen{display:none}.fact,.plot,figure,tr{break-inside:avoid}h2,h3{break-after:avoid}
+header img{max-height:9cm}header img+.title{position:static;padding:8px 0}header .title{background:none;padding:0}.plot .dark{opacity:.12}
+th,td{padding:3px 8px;white-space:normal}.pictures{grid-template-columns:1fr 1fr}*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-std::string number(double value, const char* format = "%.3g") {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-/// A value as short text; "–" when it is not there.
-std::string value_text(const json& object, const char* key, const char* format = "%.2f") {
-  if (!object.is_object() || !object.contains(key)) return "–";
-  const json& value = object[key];
-  if (value.is_number_float()) return number(value.get<double>(), format);
-  if (value.is_number()) return value.dump();
-  if (value.is_string()) return escaped(value.get<std::string>());
-  return "–";
-}
-
-std::string short_hash(const std::string& hash) {
-  const std::size_t colon = hash.find(':');
-  return escaped(colon == std::string::npos ? hash.substr(0, 12) : hash.substr(colon + 1, 12));
-}
 
 class Page {
  public:
-  Page(const json& report, const std::filesystem::path& out)
-      : report_(report), summary_(report["summary"]), out_(out) {}
+  Page(const json& report, const std::filesystem::path& out, PageFiles files)
+      : report_(report),
+        summary_(report["summary"]),
+        visual_(report["processes"].value("visual-0", json::object())),
+        out_(out),
+        within_(files == PageFiles::kWithin) {
+    if (auto read = read_drive_series(out); read && *read) series_ = std::move(**read);
+  }
 
   std::string html() {
     head();
     facts();
-    pictures();
-    timings();
-    effects();
-    light_switch();
-    law();
     fail_safe();
-    levels();
-    messages();
-    lamps();
-    inputs();
-    page_ << "</main></body></html>\n";
+    video();
+    plots();
+    versus();
+    beams();
+    verdicts();
+    pictures();
+    page_ << "<details><summary>Processes, times, effects, files and their hashes</summary>" << report_tables(report_);
+    if (!within_) page_ << "<p>Everything in numbers: <a href=\"report.json\">report.json</a></p>";
+    page_ << "</details></main></body></html>\n";
     return page_.str();
   }
 
@@ -105,16 +80,29 @@ class Page {
     return std::filesystem::exists(out_ / file, ignored);
   }
 
+  /// Where a file of the folder is found from the page: beside it, or in it.
+  std::string url(const std::string& file, const char* type) const {
+    if (!within_) return escaped(file);
+    std::ifstream stream(out_ / file, std::ios::binary);
+    return std::string("data:") + type + ";base64," + base64(std::string(std::istreambuf_iterator<char>(stream), {}));
+  }
+
   void head() {
     const std::string rig = escaped(report_["rig"].value("name", ""));
     page_ << "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
              "content=\"width=device-width\">"
           << "<title>Phare · " << rig << "</title><style>" << kStyle << "</style></head><body><header>";
-    if (there("drivers_view.png")) page_ << "<img src=\"drivers_view.png\" alt=\"The driver's view\">";
-    page_ << "<div class=\"title\"><h1><span>Phare</span> · " << rig << "</h1><p>"
+    if (there("drivers_view.png"))
+      page_ << "<img src=\"" << url("drivers_view.png", "image/png") << "\" alt=\"The driver's view\">";
+    page_ << "<div class=\"title\"><h1><span>Phare</span> · " << rig << "</h1><p>";
+    std::string designs;
+    for (const json& design : visual_.value("designs", json::array()))
+      designs +=
+          (designs.empty() ? "" : ", ") + value_text(design, "name") + " " + value_text(design, "lit_s", "%.0f") + " s";
+    if (!designs.empty()) page_ << designs << "<br>";
+    page_ << (report_.contains("drive") ? value_text(report_["drive"], "file") + " · " : "")
           << escaped(report_.value("made_at", "")) << " · "
           << (report_.value("lockstep", false) ? "lockstep" : "real time");
-    if (summary_.contains("device")) page_ << " · " << value_text(summary_, "device");
     page_ << "</p></div></header><main>";
     if (report_.contains("why")) page_ << "<p class=\"bad\">Ended early: " << value_text(report_, "why") << "</p>";
   }
@@ -123,130 +111,233 @@ class Page {
     page_ << "<div class=\"fact\"><b>" << value << "</b><i>" << what << "</i></div>";
   }
 
+  /// Least to greatest, in the same words wherever it stands.
+  static std::string range_text(const json& spread, const char* format) {
+    return number(spread.value("min", 0.0), format) + " to " + number(spread.value("max", 0.0), format);
+  }
+
+  /// How good it was: of the figures those that a lighting engineer asks for first.
   void facts() {
+    const json drove = report_.value("drove", json::object());
     page_ << "<div class=\"facts\">";
-    if (summary_.contains("sim_time_s")) fact(value_text(summary_, "sim_time_s", "%.1f") + " s", "driven");
-    fact(value_text(summary_, "frames"), "frames drawn");
-    if (summary_.contains("frame_ms")) {
-      fact(value_text(summary_["frame_ms"], "median") + " ms", "a frame, median");
-      fact(value_text(summary_["frame_ms"], "p99") + " ms", "a frame, 99th percentile");
+    if (drove.contains("driven_s"))
+      fact(value_text(drove, "driven_s", "%.1f") + " s",
+           "driven, " + value_text(drove, "distance_m", "%.0f") + " m along the road");
+    else if (summary_.contains("sim_time_s"))
+      fact(value_text(summary_, "sim_time_s", "%.1f") + " s", "driven");
+    if (drove.contains("speed_kmh"))
+      fact(value_text(drove["speed_kmh"], "median", "%.0f") + " km/h",
+           "median speed, " + value_text(drove["speed_kmh"], "max", "%.0f") + " at most");
+    for (const char* side : {"left", "right"}) {
+      const json reach = drove.value("reach_m", json::object()).value(std::string("reach_3lx_") + side + "_m", json());
+      if (reach.is_object())
+        fact(value_text(reach, "median", "%.0f") + " m", std::string("3 lx on the ") + side +
+                                                             " edge of the lane reach so far (median), " +
+                                                             range_text(reach, "%.0f"));
     }
-    if (summary_.contains("frames_per_s")) {
-      const std::string median =
-          summary_.contains("frames_per_s_median")
-              ? "; " + value_text(summary_, "frames_per_s_median", "%.3g") + " by the median interval"
-              : "";
-      fact(value_text(summary_, "frames_per_s", "%.3g"), "frames a second: all frames by all seconds" + median);
+    if (drove.contains("cutoff_25m_m"))
+      fact(value_text(drove["cutoff_25m_m"], "median", "%.2f") + " m",
+           "cut-off on a wall at 25 m (median), " + range_text(drove["cutoff_25m_m"], "%.2f"));
+    if (drove.contains("pitch_deg"))
+      fact(range_text(drove["pitch_deg"], "%+.2f") + "°", "pitch with the slope of the road, positive nose down");
+    if (const json best = first_low_beam(); best.is_object()) {
+      if (!best["rules"].empty()) {
+        const json& rule = best["rules"].front();
+        const std::string verdict = rule.value("verdict", "");
+        fact("<span class=\"" + std::string(verdict == "fail" ? "bad" : "good") + "\">" + escaped(verdict) + "</span>",
+             value_text(rule, "rule") + ", low beam of " + value_text(best, "design"));
+      }
+      if (best.contains("hspr"))
+        fact(value_text(best["hspr"], "score", "%.2f"), "HSPR of that low beam: " + value_text(best["hspr"], "class"));
     }
-    std::uint64_t lost = 0;
-    for (const auto& [process, counts] : summary_["messages"].items()) lost += counts.value("lost", std::uint64_t{0});
-    fact(std::to_string(lost), "messages lost");
-    if (summary_.contains("self_audit") && summary_["self_audit"].contains("residual_percent")) {
-      fact(value_text(summary_["self_audit"]["residual_percent"], "p99", "%.2g") + " %",
-           "self-audit residual, 99th percentile");
-    }
-    fact(value_text(summary_, "restarts"), "restarts");
     page_ << "</div>";
   }
 
+  /// The low beam of the design that shone longest, where it was judged.
+  json first_low_beam() const {
+    std::string longest;
+    double most_s = -1.0;
+    for (const json& design : visual_.value("designs", json::array()))
+      if (design.value("lit_s", 0.0) > most_s) most_s = design.value("lit_s", 0.0), longest = design.value("name", "");
+    for (const json& row : report_.value("lamp_verdicts", json::array()))
+      if (row.value("design", "") == longest && row.value("beam", "") == "low" && row.contains("rules")) return row;
+    return nullptr;
+  }
+
   void picture(const std::string& file, const std::string& caption) {
-    if (there(file))
-      page_ << "<figure><a href=\"" << file << "\"><img loading=\"lazy\" src=\"" << file << "\" alt=\"" << caption
-            << "\"></a><figcaption>" << caption << "</figcaption></figure>";
+    if (!there(file)) return;
+    const std::string at = url(file, "image/png"), image = "<img src=\"" + at + "\" alt=\"" + caption + "\">";
+    page_ << "<figure>" << (within_ ? image : "<a href=\"" + at + "\">" + image + "</a>") << "<figcaption>" << caption
+          << "</figcaption></figure>";
+  }
+
+  void video() {
+    if (!there("drive.mp4")) return;
+    page_ << "<div class=\"screen\"><h2>The drive, at its own speed</h2><video controls muted loop "
+             "preload=\"metadata\" src=\""
+          << url("drive.mp4", "video/mp4") << "\"></video></div>";
+  }
+
+  void plot(TimePlot plot) {
+    if (std::ranges::all_of(plot.lines, [](const TimeSeries& line) { return line.value.empty(); })) return;
+    plot.from_s = series_->speed_kmh.time_s.front(), plot.to_s = series_->speed_kmh.time_s.back();
+    plot.bands = series_->lit;
+    page_ << time_plot_svg(plot);
+  }
+
+  void plots() {
+    if (!series_ || series_->rows < 2) return;
+    page_ << "<h2>Over time</h2>";
+    plot({.title = "Speed", .unit = "km/h", .lines = {series_->speed_kmh}, .from_zero = true});
+    plot({.title = "Pitch with the slope of the road, nose down", .unit = "degrees", .lines = {series_->pitch_deg}});
+    if (summary_of("cutoff_25m_m"))
+      plot({.title = "Cut-off of the low beam on a wall at 25 m, above the road there",
+            .unit = "m",
+            .lines = {series_->cutoff_m}});
+    for (const char* level : {"1lx", "3lx", "5lx"}) {
+      TimePlot reach{
+          .title = "Reach of " + std::string(level, 1) + " lx along the lane's edges", .unit = "m", .from_zero = true};
+      for (TimeSeries line : series_->reach_m) {
+        if (line.name.find(level) == std::string::npos) continue;
+        const bool other = line.name.starts_with("versus_");
+        line.name = line.name.find("left") != std::string::npos ? "left" : "right";
+        if (visual_.contains("versus")) line.name = (other ? "B " : "A ") + line.name;
+        reach.lines.push_back(std::move(line));
+      }
+      plot(std::move(reach));
+    }
+    if (!series_->probes_lx.empty())
+      plot({.title = "At the probes", .unit = "lx", .lines = series_->probes_lx, .from_zero = true});
+    page_ << "<p>Blue: high beam shines; darker: nothing does. Every frame in numbers: "
+          << (within_ ? "<a download=\"drive.csv\" href=\"" + url("drive.csv", "text/csv") + "\">drive.csv</a>"
+                      : "<a href=\"drive.csv\">drive.csv</a>")
+          << "</p>";
+  }
+
+  bool summary_of(const char* key) const { return report_.value("drove", json::object()).contains(key); }
+
+  /// Two designs on the same drive: what differs in the picture, and how far each reached.
+  void versus() {
+    const json two = visual_.value("versus", json::object());
+    if (two.empty()) return;
+    page_ << "<h2>A beside B</h2><p>A: " << value_text(two, "a") << ". B: " << value_text(two, "b")
+          << ". In the video A is on the left, B on the right, unless they take turns.</p><div class=\"pictures\">";
+    picture("versus.png", "The same moment: A on the left, B on the right");
+    picture("versus_difference.png", "Lux on what the driver sees, B less A");
+    picture("versus_birds_eye.png", "Lux from above, B less A");
+    picture("versus_ratio.png", "Lux from above, B over A");
+    page_ << "</div>";
+    const json reach = report_.value("drove", json::object()).value("reach_m", json::object());
+    if (!reach.contains("versus_reach_1lx_left_m")) return;
+    page_ << "<h3>Reach over the drive, m</h3><div class=\"scroll\"><table><tr><th>along the lane's edges</th>";
+    for (const char* of : {"A", "B"})
+      for (const char* what : {"least", "median", "greatest"}) page_ << "<th>" << of << ", " << what << "</th>";
+    page_ << "<th>B less A, median</th></tr>";
+    for (const char* level : {"1", "3", "5"})
+      for (const char* side : {"left", "right"}) {
+        const std::string name = std::string("reach_") + level + "lx_" + side + "_m";
+        page_ << "<tr><td>" << level << " lx, " << side << "</td>";
+        const json a = reach.value(name, json::object()), b = reach.value("versus_" + name, json::object());
+        for (const json& one : {a, b})
+          for (const char* key : {"min", "median", "max"}) page_ << "<td>" << value_text(one, key, "%.0f") << "</td>";
+        page_ << "<td>" << number(b.value("median", 0.0) - a.value("median", 0.0), "%+.0f") << "</td></tr>";
+      }
+    page_ << "</table></div>";
+  }
+
+  /// Wall and bird's eye of every design that was lit; without their list those of the stills.
+  void beams() {
+    json designs = visual_.value("designs", json::array());
+    if (designs.empty()) designs.push_back({{"index", -1}, {"in_the_stills", true}});
+    bool any = false;
+    for (const json& design : designs) {
+      const std::string number = "_" + std::to_string(design.value("index", -1)) + ".png";
+      const bool stills = design.value("in_the_stills", false);
+      const std::string above = stills ? "birds_eye.png" : "birds_eye" + number,
+                        wall = stills ? "wall_25m.png" : "wall_25m" + number;
+      if (!there(above) && !there(wall)) continue;
+      if (!std::exchange(any, true)) page_ << "<h2>Low beam of every design that was lit</h2>";
+      if (design.contains("name"))
+        page_ << "<h3>" << value_text(design, "name") << " <span>"
+              << (design.value("lit_s", 0.0) > 0.0 ? "lit " + value_text(design, "lit_s", "%.1f") + " s of the drive"
+                                                   : "beside it")
+              << "</span></h3>";
+      page_ << "<div class=\"pictures\">";
+      picture(above, "Illuminance on the road from above, lx");
+      picture(wall, "On a wall 25 m ahead, lx");
+      page_ << "</div>";
+    }
+  }
+
+  /// What the rule says of each beam, and how it is rated.
+  void verdicts() {
+    const json rows = report_.value("lamp_verdicts", json::array());
+    if (rows.empty()) return;
+    page_ << "<h2>The lamps by themselves</h2><div class=\"scroll\"><table><tr><th>design</th><th "
+             "class=\"text\">beam</th>"
+             "<th class=\"text\">rule</th><th class=\"text\">verdict</th><th>rows failed</th>"
+             "<th class=\"text\">worst row</th><th>HSPR</th><th class=\"text\">class</th><th "
+             "class=\"text\">file</th></tr>";
+    for (const json& row : rows) {
+      const json rules = row.contains("none") ? json::array() : row.value("rules", json::array());
+      for (std::size_t i = 0; i < std::max<std::size_t>(1, rules.size()); ++i) {
+        page_ << "<tr><td>" << (i == 0 ? value_text(row, "design") : "") << "</td><td class=\"text\">"
+              << (i == 0 ? value_text(row, "beam") : "") << "</td>";
+        if (rules.empty()) {
+          page_ << "<td class=\"text\" colspan=\"6\">not judged: " << value_text(row, "none") << "</td>";
+        } else {
+          verdict(rules[i]);
+          if (i > 0)
+            page_ << "<td></td><td></td>";
+          else if (row.contains("hspr"))
+            page_ << "<td>" << value_text(row["hspr"], "score") << "</td><td class=\"text\">"
+                  << value_text(row["hspr"], "class") << "</td>";
+          else
+            page_ << "<td>–</td><td class=\"text\">" << (row.contains("hspr_none") ? value_text(row, "hspr_none") : "")
+                  << "</td>";
+        }
+        page_ << "<td class=\"text\">" << (i == 0 ? value_text(row, "files") : "") << "</td></tr>";
+      }
+    }
+    page_ << "</table></div><p>Of the photometry files, each aimed as the rule says; phare lamp check and phare lamp "
+             "hspr "
+             "tell every row.</p>";
+  }
+
+  void verdict(const json& rule) {
+    const std::string verdict = rule.value("verdict", "");
+    page_ << "<td class=\"text\">" << value_text(rule, "rule") << "</td><td class=\"text "
+          << (verdict == "fail"   ? "bad"
+              : verdict == "pass" ? "good"
+                                  : "")
+          << "\">" << escaped(verdict) << "</td><td>" << value_text(rule, "failed") << " of "
+          << value_text(rule, "rows") << "</td><td class=\"text\">";
+    if (rule.contains("worst")) {
+      const json& worst = rule["worst"];
+      page_ << value_text(worst, "row") << ": " << value_text(worst, "value", "%.4g") << " of "
+            << value_text(worst, "limit", "%.4g") << ' ' << value_text(worst, "unit");
+    }
+    page_ << "</td>";
   }
 
   void pictures() {
-    if (there("drive.mp4")) page_ << "<h2>The drive</h2><video controls muted loop src=\"drive.mp4\"></video>";
-    if (there("birds_eye.png") || there("wall_25m.png")) {
-      page_ << "<h2>The beam</h2><div class=\"pictures\">";
-      picture("birds_eye.png", "Illuminance on the road from above, lx");
-      picture("wall_25m.png", "On a wall 25 m ahead, lx");
-      page_ << "</div>";
-    }
     if (there("contact_sheet.png")) {
       page_ << "<h2>Along the road</h2>";
       picture("contact_sheet.png", "Frames of the drive in order");
     }
-  }
-
-  void timing_row(const std::string& name, const json& times) {
-    page_ << "<tr><td>" << escaped(name) << "</td>";
-    for (const char* key : {"min", "median", "p95", "p99", "max"})
-      page_ << "<td>" << value_text(times, key, "%.3f") << "</td>";
-    page_ << "<td>" << value_text(times, "count") << "</td></tr>";
-  }
-
-  void timings() {
-    if (!summary_.contains("frame_ms")) return;
-    page_ << "<h2>Time, ms</h2><div "
-             "class=\"scroll\"><table><tr><th></th><th>min</th><th>median</th><th>p95</th><th>p99</th><th>max</"
-             "th><th>frames</th></tr>";
-    timing_row("frame", summary_["frame_ms"]);
-    if (summary_.contains("frame_ms_without_capture"))
-      timing_row("frame, not read back", summary_["frame_ms_without_capture"]);
-    if (summary_.contains("interval_ms")) timing_row("frame to frame", summary_["interval_ms"]);
-    if (summary_.contains("gpu_ms")) timing_row("GPU", summary_["gpu_ms"]);
-    if (summary_.contains("pass_ms")) {
-      for (const auto& [pass, times] : summary_["pass_ms"].items()) timing_row("pass " + pass, times);
+    // Other channels keep theirs in a folder of their own.
+    for (const auto& [process, stats] : report_["processes"].items()) {
+      if (!process.starts_with("visual-") || process == "visual-0") continue;
+      const std::string folder = stats.value("channel", std::string());
+      if (folder.empty() || !there(folder + "/drivers_view.png")) continue;
+      page_ << "<h2>Channel " << escaped(folder) << "</h2><div class=\"pictures\">";
+      picture(folder + "/drivers_view.png", "The same moment");
+      picture(folder + "/contact_sheet.png", "Frames of the drive in order");
+      page_ << "</div>";
     }
-    page_ << "</table></div><p>" << value_text(summary_, "passes") << " passes, " << value_text(summary_, "draws")
-          << " draws, " << value_text(summary_, "triangles") << " triangles a frame.</p>";
-  }
-
-  /// What the newest frame called for, and why.
-  void effects() {
-    const json rows = report_["processes"].value("visual-0", json::object()).value("effects", json::array());
-    if (rows.empty()) return;
-    page_ << "<h2>Effects</h2><div class=\"scroll\"><table><tr><th></th><th class=\"text\">level</th><th "
-             "class=\"text\">because</th><th class=\"text\">needs</th></tr>";
-    for (const json& row : rows) {
-      page_ << "<tr><td>" << value_text(row, "name") << "</td>";
-      for (const char* key : {"level", "because", "needs"})
-        page_ << "<td class=\"text\">" << value_text(row, key) << "</td>";
-      page_ << "</tr>";
-    }
-    page_ << "</table></div><p>Of the last frame. Any other moment: phare drive … --explain.</p>";
-  }
-
-  /// How many frames it took, as bars: 1 is the first frame that could show the new beam.
-  void light_switch() {
-    const json switches = summary_.value("switch_to_photon", json::object());
-    const json frames = switches.value("frames", json::object());
-    if (frames.empty()) return;
-    std::map<int, std::uint64_t> histogram;
-    std::uint64_t most = 1;
-    for (const auto& [count, changes] : frames.items()) {
-      histogram[std::atoi(count.c_str())] = changes.get<std::uint64_t>();
-      most = std::max(most, changes.get<std::uint64_t>());
-    }
-    page_ << "<h2>Light switch to photon</h2><div class=\"scroll\"><table><tr><th>frames</th><th "
-             "class=\"text\">changes of the beam</th></tr>";
-    for (const auto& [count, changes] : histogram) {
-      page_ << "<tr><td>" << count << "</td><td class=\"text\"><span class=\"bar\" style=\"width:"
-            << number(30.0 * static_cast<double>(changes) / static_cast<double>(most), "%.2f") << "em\"></span> "
-            << changes << "</td></tr>";
-    }
-    page_ << "</table></div><p>From the message that moved the stalk to the finished first frame with the new beam: "
-          << value_text(switches["ms"], "median") << " ms median, " << value_text(switches["ms"], "max")
-          << " ms at most";
-    if (report_.value("lockstep", false)) page_ << " of wall time; frames are counted in simulated time";
-    page_ << ".</p>";
   }
 
   /// Pictures that did not show what the stalk asked for, and why.
-  void law() {
-    const json law = summary_.value("law", json::object());
-    if (law.empty()) return;
-    const auto answers = law.value("answers", std::uint64_t{0}), in_frame = law.value("in_frame", std::uint64_t{0});
-    const json delay = law.value("delay_ms", json::object());
-    page_ << "<h2>Control law</h2><p>" << answers << " answers; from the pose to the answer to it "
-          << value_text(delay, "median") << " ms median, " << value_text(delay, "p99") << " ms 99th percentile, "
-          << value_text(delay, "max") << " ms at most; " << in_frame
-          << " within a frame's time. Frames without an answer, on low beam: " << value_text(law, "silent_frames")
-          << "; answers that were not followed: " << value_text(law, "refused") << ".</p>";
-    if (law.contains("why")) page_ << "<p class=\"bad\">" << value_text(law, "why") << "</p>";
-  }
-
   void fail_safe() {
     const json fail_safe = summary_.value("fail_safe", json::object());
     const auto held = summary_.value("frames_stale_pose", std::uint64_t{0});
@@ -262,95 +353,19 @@ class Page {
     if (held > 0) page_ << "<p class=\"bad\">" << held << " pictures with a pose that was held: no VehicleState.</p>";
   }
 
-  /// Level auto: which model of the car ran when, and what called for it.
-  void levels() {
-    const json dynamics = report_["processes"].value("dynamics", json::object()).value("auto", json::object());
-    const json history = dynamics.value("history", json::array());
-    if (dynamics.empty()) return;
-    page_ << "<h2>Level of the car</h2><p>";
-    const json seconds = dynamics.value("seconds", json::object());
-    for (const auto& [level, spent] : seconds.items())
-      page_ << escaped(level) << ' ' << value_text(seconds, level.c_str(), "%.1f") << " s, ";
-    page_ << value_text(dynamics, "switches") << " switches.</p>";
-    if (history.empty()) return;
-    page_ << "<div class=\"scroll\"><table><tr><th>at, s</th><th class=\"text\">from</th><th class=\"text\">to</th>"
-             "<th class=\"text\">because</th><th>fact</th></tr>";
-    for (const json& change : history) {
-      page_ << "<tr><td>" << value_text(change, "time_s", "%.3f") << "</td>";
-      for (const char* key : {"from", "to", "because"})
-        page_ << "<td class=\"text\">" << value_text(change, key) << "</td>";
-      page_ << "<td>" << value_text(change, "fact", "%.3g") << "</td></tr>";
-    }
-    page_ << "</table></div>";
-  }
-
-  void messages() {
-    page_ << "<h2>Processes</h2><div "
-             "class=\"scroll\"><table><tr><th></th><th>received</th><th>lost</th><th>late</th><th>duplicate</th>"
-             "<th>refused</th><th>memory, MiB</th><th>peak, MiB</th><th class=\"text\">ended</th></tr>";
-    for (const auto& [process, counts] : summary_["messages"].items()) {
-      page_ << "<tr><td>" << escaped(process) << "</td>";
-      for (const char* key : {"received", "lost", "late", "duplicate", "refused"})
-        page_ << "<td>" << value_text(counts, key) << "</td>";
-      const json memory = summary_["memory"].value(process, json::object());
-      for (const char* key : {"rss_kib", "peak_kib"}) {
-        page_ << "<td>" << (memory.contains(key) ? number(memory[key].get<double>() / 1024.0, "%.1f") : "–") << "</td>";
-      }
-      page_ << "<td class=\"text\">" << value_text(report_["ends"], process.c_str()) << "</td></tr>";
-    }
-    page_ << "</table></div>";
-    for (const json& restart : report_["restarts"]) {
-      page_ << "<p>" << value_text(restart, "process") << " restarted at " << value_text(restart, "at_s") << " s after "
-            << value_text(restart, "because") << ".</p>";
-    }
-  }
-
-  void lamps() {
-    page_ << "<h2>Lamps</h2><div class=\"scroll\"><table><tr><th>design</th><th class=\"text\">lamp</th><th "
-             "class=\"text\">function</th>"
-             "<th>flux, lm</th><th>peak, cd</th><th class=\"text\">file</th><th class=\"text\">content</th></tr>";
-    for (const json& lamp : report_["lamps"]) {
-      page_ << "<tr><td>" << value_text(lamp, "design") << "</td><td class=\"text\">" << value_text(lamp, "lamp")
-            << "</td><td class=\"text\">" << value_text(lamp, "function") << "</td><td>"
-            << value_text(lamp, "flux_lm", "%.0f") << "</td><td>" << value_text(lamp, "peak_cd", "%.0f")
-            << "</td><td class=\"text\">" << value_text(lamp, "file") << "</td><td class=\"text\"><code>"
-            << short_hash(lamp.value("content_hash", "")) << "</code></td></tr>";
-    }
-    page_ << "</table></div>";
-    const json visual = report_["processes"].value("visual-0", json::object());
-    for (const json& aim : visual.value("aims", json::array()))
-      page_ << "<p>" << value_text(aim, "design") << ", " << value_text(aim, "lamp") << ": " << value_text(aim, "text")
-            << ".</p>";
-    for (const json& end : visual.value("table_ends", json::array()))
-      page_ << "<p class=\"bad\">" << value_text(end, "design") << ", " << value_text(end, "text")
-            << "; it is drawn dark, as the file says nothing there.</p>";
-  }
-
-  void inputs() {
-    page_ << "<h2>Made from</h2><div class=\"scroll\"><table>";
-    for (const char* what : {"rig", "scene", "vehicle", "cockpit", "drive"}) {
-      if (!report_.contains(what)) continue;
-      page_ << "<tr><td>" << what << "</td><td class=\"text\">" << value_text(report_[what], "file")
-            << "</td><td class=\"text\"><code>" << escaped(report_[what].value("content_hash", ""))
-            << "</code></td></tr>";
-    }
-    page_ << "<tr><td>Phare</td><td class=\"text\">" << value_text(report_, "version") << ", commit "
-          << value_text(report_, "commit") << "</td><td class=\"text\"><code>";
-    for (const json& word : report_["command"]) page_ << escaped(word.get<std::string>()) << ' ';
-    page_ << "</code></td></tr></table></div><p>Everything in numbers: <a style=\"color:inherit\" "
-             "href=\"report.json\">report.json</a></p>";
-  }
-
   const json& report_;
   const json& summary_;
+  const json visual_;
   std::filesystem::path out_;
+  bool within_;
+  std::optional<DriveSeries> series_;
   std::ostringstream page_;
 };
 
 }  // namespace
 
-std::string report_page(const nlohmann::json& report, const std::filesystem::path& out) {
-  return Page(report, out).html();
+std::string report_page(const nlohmann::json& report, const std::filesystem::path& out, PageFiles files) {
+  return Page(report, out, files).html();
 }
 
 }  // namespace phare

@@ -44,7 +44,9 @@ vk::Rect2D area_of(const PicturePart& part, vk::Extent2D extent) {
 /// Far meshes are made for pixels of kFarMeshPixel_rad: where a picture's are finer, or its eye looks through a
 /// narrower angle, they begin as much farther away.
 double far_mesh_from_m(const PlacedView& view) {
-  const double pixel_rad = view.input.camera.fov_horizontal_rad / view.area.extent.width;
+  const Camera& camera = view.input.camera;
+  const double pixel_rad =
+      camera.fov_horizontal_rad * (camera.seen_to_01 - camera.seen_from_01) / view.area.extent.width;
   return view.input.far_mesh_from_m * std::max(1.0, kFarMeshPixel_rad / pixel_rad);
 }
 
@@ -165,7 +167,8 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
     if (!parts.overlay)
       parts.overlay =
           std::make_unique<OverlayPass>(parts.device, parts.target.display_format, parts.target.extent.height);
-    parts.overlay->draw(parts.graph, *seen.display, input.overlay, input.instruments, input.panel, input.marks);
+    parts.overlay->draw(parts.graph, *seen.display, input.overlay, input.instruments, input.panel, input.marks,
+                        input.room);
   }
 
   // What is kept of the finished picture.

@@ -40,6 +40,15 @@ struct OverlayPanel {
   friend bool operator==(const OverlayPanel&, const OverlayPanel&) = default;
 };
 
+/// What insets leave to the text.
+struct OverlayRoom {
+  double lines_width_01 = 1.0;   ///< of the picture's, from its left edge
+  double lines_height_01 = 1.0;  ///< of its height; more lines than fit are written smaller, down to half
+  double panel_top_01 = 0.07;    ///< of a panel above the middle
+
+  friend bool operator==(const OverlayRoom&, const OverlayRoom&) = default;
+};
+
 /// Drawn on the picture, under the text; places are shares of its width and height from the upper left corner.
 struct OverlayMarks {
   struct Box {

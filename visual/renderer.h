@@ -93,6 +93,7 @@ struct FrameInput : ViewInput {
   std::vector<OverlayInstrument> instruments{};
   OverlayPanel panel{};
   OverlayMarks marks{};  ///< nothing in these four: no overlay pass
+  OverlayRoom room{};
 };
 
 struct PassTime {

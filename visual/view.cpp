@@ -9,15 +9,17 @@ namespace phare {
 
 ViewGeometry::ViewGeometry(const Camera& camera, double aspect) : camera_(camera), aspect_(aspect) {
   const bool parallel = camera.orthographic_width_m > 0.0;
-  half_right_ = parallel ? 0.5 * camera.orthographic_width_m : std::tan(0.5 * camera.fov_horizontal_rad);
+  const double whole = parallel ? 0.5 * camera.orthographic_width_m : std::tan(0.5 * camera.fov_horizontal_rad);
+  half_right_ = whole * (camera.seen_to_01 - camera.seen_from_01);
+  middle_right_ = whole * (camera.seen_to_01 + camera.seen_from_01 - 1.0);
   half_up_ = half_right_ / aspect;
   const glm::dvec3 forward = camera.world_from_eye[0], left = camera.world_from_eye[1], up = camera.world_from_eye[2];
   if (parallel) {
-    inward_ = {glm::dvec4(left, half_right_), glm::dvec4(-left, half_right_), glm::dvec4(up, half_up_),
-               glm::dvec4(-up, half_up_), glm::dvec4(forward, 0.0)};
+    inward_ = {glm::dvec4(left, half_right_ + middle_right_), glm::dvec4(-left, half_right_ - middle_right_),
+               glm::dvec4(up, half_up_), glm::dvec4(-up, half_up_), glm::dvec4(forward, 0.0)};
   } else {
-    inward_ = {glm::dvec4(glm::normalize(forward * half_right_ + left), 0.0),
-               glm::dvec4(glm::normalize(forward * half_right_ - left), 0.0),
+    inward_ = {glm::dvec4(glm::normalize(forward * (half_right_ + middle_right_) + left), 0.0),
+               glm::dvec4(glm::normalize(forward * (half_right_ - middle_right_) - left), 0.0),
                glm::dvec4(glm::normalize(forward * half_up_ + up), 0.0),
                glm::dvec4(glm::normalize(forward * half_up_ - up), 0.0), glm::dvec4(forward, 0.0)};
   }
@@ -28,7 +30,8 @@ glm::dmat4 ViewGeometry::clip_from_eye() const {
                    up = camera_.world_from_eye[2];
   const bool parallel = camera_.orthographic_width_m > 0.0;
   glm::dmat4 rows(0.0);  // rows[i] is row i; transposed below
-  rows[0] = glm::dvec4(-left / half_right_, 0.0);
+  const double aside = middle_right_ / half_right_;
+  rows[0] = parallel ? glm::dvec4(-left / half_right_, -aside) : glm::dvec4(-left / half_right_ - forward * aside, 0.0);
   rows[1] = glm::dvec4(-up / half_up_, 0.0);
   rows[2] = parallel ? glm::dvec4(-forward / camera_.far_m, 1.0) : glm::dvec4(0, 0, 0, camera_.near_m);
   rows[3] = parallel ? glm::dvec4(0, 0, 0, 1) : glm::dvec4(forward, 0.0);
@@ -40,7 +43,8 @@ glm::dmat4 ViewGeometry::direction_from_clip() const {
                    up = camera_.world_from_eye[2];
   const bool parallel = camera_.orthographic_width_m > 0.0;
   return {glm::dvec4(parallel ? glm::dvec3(0.0) : -left * half_right_, 0.0),
-          glm::dvec4(parallel ? glm::dvec3(0.0) : -up * half_up_, 0.0), glm::dvec4(forward, 0.0), glm::dvec4(0.0)};
+          glm::dvec4(parallel ? glm::dvec3(0.0) : -up * half_up_, 0.0),
+          glm::dvec4(parallel ? forward : forward - left * middle_right_, 0.0), glm::dvec4(0.0)};
 }
 
 std::optional<double> ViewGeometry::sees(const glm::dvec3& low_m, const glm::dvec3& high_m) const {
@@ -64,7 +68,8 @@ bool ViewGeometry::sees_ball(const glm::dvec3& centre_m, double radius_m) const 
 std::array<Ray, 4> ViewGeometry::edges() const {
   std::array<Ray, 4> edges;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const glm::dvec3 aside(0.0, i % 2 == 0 ? half_right_ : -half_right_, i < 2 ? half_up_ : -half_up_);
+    const glm::dvec3 aside(0.0, (i % 2 == 0 ? half_right_ : -half_right_) - middle_right_,
+                           i < 2 ? half_up_ : -half_up_);
     const glm::dmat3& eye = camera_.world_from_eye;
     if (camera_.orthographic_width_m > 0.0)
       edges[i] = {camera_.eye_m + eye * aside, eye[0]};
@@ -83,7 +88,7 @@ Ray ViewGeometry::ray_through(double x_px, double y_px, int width_px, int height
   const double right = (2.0 * (x_px + 0.5) - width_px) / width_px;
   const double up = (height_px - 2.0 * (y_px + 0.5)) / width_px;
   const glm::dmat3& eye = camera_.world_from_eye;
-  const glm::dvec3 aside(0.0, -right * half_right_, up * half_right_);
+  const glm::dvec3 aside(0.0, -right * half_right_ - middle_right_, up * half_right_);
   if (camera_.orthographic_width_m > 0.0) return {camera_.eye_m + eye * aside, eye[0]};
   return {camera_.eye_m, glm::normalize(eye * (glm::dvec3(1.0, 0.0, 0.0) + aside))};
 }

@@ -17,6 +17,8 @@ struct Camera {
   glm::dmat3 world_from_eye{1.0};  ///< columns: forward, left, up
   double fov_horizontal_rad = 1.0471975511965976;
   double orthographic_width_m = 0.0;  ///< > 0: parallel projection of that width
+  /// Of the whole width of the field of view the share from its left edge that is seen: a half of a split picture.
+  double seen_from_01 = 0.0, seen_to_01 = 1.0;
   double near_m = 0.15;
   double far_m = 3000.0;
 };
@@ -34,6 +36,8 @@ class ViewGeometry {
 
   const Camera& camera() const { return camera_; }
   double aspect() const { return aspect_; }
+  /// Half the height of the picture: a tangent, or m where the rays are parallel.
+  double half_up() const { return half_up_; }
 
   /// Clip space of Vulkan (x right, y down, z 1 at the near plane and 0 at infinity: reversed, for float depth) from
   /// the world turned to the eye's place (not its direction), m.
@@ -63,6 +67,7 @@ class ViewGeometry {
   Camera camera_;
   double aspect_;
   double half_right_, half_up_;       // of the picture: tangents, or m where the rays are parallel
+  double middle_right_;               // of the picture, from where the eye looks
   std::array<glm::dvec4, 5> inward_;  // planes of the view, relative to the eye: unit normal and offset in m
 };
 

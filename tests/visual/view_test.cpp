@@ -30,6 +30,13 @@ Camera from_above() {
   return camera;
 }
 
+/// The right half of a split picture.
+Camera right_half() {
+  Camera camera = perspective();
+  camera.seen_from_01 = 0.5;
+  return camera;
+}
+
 /// Pixel of a world point, by the projection.
 glm::dvec2 pixel_of(const ViewGeometry& view, const glm::dvec3& world_m, int width, int height) {
   const glm::dvec4 clip = view.clip_from_eye() * glm::dvec4(world_m - view.camera().eye_m, 1.0);
@@ -37,7 +44,7 @@ glm::dvec2 pixel_of(const ViewGeometry& view, const glm::dvec3& world_m, int wid
 }
 
 TEST(View, ARayThroughAPixelProjectsBackToIt) {
-  for (const Camera& camera : {perspective(), from_above()}) {
+  for (const Camera& camera : {perspective(), from_above(), right_half()}) {
     const ViewGeometry view(camera, 16.0 / 9.0);
     for (const auto& [x, y] :
          {std::pair(0.0, 0.0), std::pair(1279.0, 719.0), std::pair(639.5, 359.5), std::pair(200.25, 50.75)}) {
@@ -46,6 +53,27 @@ TEST(View, ARayThroughAPixelProjectsBackToIt) {
       const glm::dvec2 back = pixel_of(view, ray.origin_m + 50.0 * ray.direction, 1280, 720);
       EXPECT_NEAR(back.x, x, 1e-6);
       EXPECT_NEAR(back.y, y, 1e-6);
+    }
+  }
+}
+
+// Each half of a split picture sees what the whole one sees there.
+TEST(View, HalvesAreThoseOfTheWhole) {
+  for (Camera camera : {perspective(), from_above()}) {
+    const ViewGeometry whole(camera, 16.0 / 9.0);
+    for (const int side : {0, 1}) {
+      camera.seen_from_01 = 0.5 * side, camera.seen_to_01 = 0.5 + 0.5 * side;
+      const ViewGeometry half(camera, 8.0 / 9.0);
+      for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(639.0, 719.0), std::pair(100.25, 500.5)}) {
+        const Ray part = half.ray_through(x, y, 640, 720), all = whole.ray_through(x + 640 * side, y, 1280, 720);
+        EXPECT_LT(glm::length(part.direction - all.direction), 1e-12);
+        EXPECT_LT(glm::length(part.origin_m - all.origin_m), 1e-8);  // of 5e6 m in double
+      }
+      const glm::dvec4 corner = half.direction_from_clip() * glm::dvec4(-1.0, -1.0, 1.0, 0.0),
+                       there = whole.direction_from_clip() * glm::dvec4(-1.0 + side, -1.0, 1.0, 0.0);
+      EXPECT_LT(glm::length(corner - there), 1e-12);
+      for (const std::size_t i : {std::size_t(side), std::size_t(side) + 2})
+        EXPECT_LT(glm::length(half.edges()[i].direction - whole.edges()[i].direction), 1e-12) << i;
     }
   }
 }
@@ -61,7 +89,7 @@ TEST(View, DirectionOfAPixelIsThatOfItsRay) {
 TEST(View, FrustumAndProjectionAgree) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> at(-60.0, 60.0);
-  for (const Camera& camera : {perspective(), from_above()}) {
+  for (const Camera& camera : {perspective(), from_above(), right_half()}) {
     const ViewGeometry view(camera, 16.0 / 9.0);
     int in = 0, out = 0;
     for (int i = 0; i < 20000; ++i) {

@@ -77,12 +77,19 @@ void wrap(const Pen& pen, const std::string& line, float width_px, std::vector<s
   } while (at != end);
 }
 
-/// Along the upper left edge. Returns where they end, 0 without any.
-float draw_lines(const Pen& pen, float picture_width_px, const std::vector<std::string>& unwrapped) {
+/// Along the upper left edge, within `room_px` of it. Returns where they end, 0 without any.
+float draw_lines(Pen pen, const ImVec2& room_px, const std::vector<std::string>& unwrapped) {
   if (unwrapped.empty()) return 0.0f;
-  const float height = pen.size_px * kLine, edge = 0.5f * pen.size_px;
+  const float edge = 0.5f * pen.size_px, least_px = 0.5f * pen.size_px;
   std::vector<std::string> lines;
-  for (const std::string& line : unwrapped) wrap(pen, line, picture_width_px - 4.0f * edge, lines);
+  float height = 0.0f;
+  while (true) {
+    lines.clear();
+    height = pen.size_px * kLine;
+    for (const std::string& line : unwrapped) wrap(pen, line, room_px.x - 4.0f * edge, lines);
+    if (2.0f * edge + height * static_cast<float>(lines.size()) <= room_px.y || pen.size_px * 0.95f < least_px) break;
+    pen.size_px *= 0.95f;
+  }
   float width = 0.0f;
   for (const std::string& line : lines) width = std::max(width, pen.width(line));
   pen.list.AddRectFilled({edge, edge}, {3.0f * edge + width, 2.0f * edge + height * static_cast<float>(lines.size())},
@@ -152,8 +159,7 @@ void draw_panel(Pen small, const Pen& large, const ImVec2& picture, float top_px
     width = std::max(width, small.width(row.words) + (row.key.empty() ? 0.0f : key_width));
   const ImVec2 size{width + 2.0f * edge, title_height + line * rows + 1.5f * edge};
   const bool left = panel.place == OverlayPanel::Place::kLeft;
-  const ImVec2 at{left ? edge : std::max(0.5f * (picture.x - size.x), 0.0f),
-                  left ? edge : std::max(0.07f * picture.y, top_px)};
+  const ImVec2 at{left ? edge : std::max(0.5f * (picture.x - size.x), 0.0f), left ? edge : top_px};
   if (panel.place == OverlayPanel::Place::kAlone) small.list.AddRectFilled({0.0f, 0.0f}, picture, kBlank);
   small.list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, kPaper, 8.0f);
   const float x = at.x + edge;
@@ -206,7 +212,7 @@ OverlayPass::~OverlayPass() {
 
 void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::vector<std::string>& lines,
                        const std::vector<OverlayInstrument>& instruments, const OverlayPanel& panel,
-                       const OverlayMarks& marks) {
+                       const OverlayMarks& marks, const OverlayRoom& room) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(display.extent.width), static_cast<float>(display.extent.height)};
   io.DeltaTime = 1.0f / 60.0f;  // nothing here moves by itself
@@ -219,7 +225,10 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
   draw_marks_of(small, io.DisplaySize, marks);
   const bool left = !panel.empty() && panel.place == OverlayPanel::Place::kLeft;
   // A panel on the left takes the place of the lines.
-  const float top_px = left ? 0.0f : draw_lines(small, io.DisplaySize.x, lines);
+  const ImVec2 lines_px{static_cast<float>(room.lines_width_01) * io.DisplaySize.x,
+                        static_cast<float>(room.lines_height_01) * io.DisplaySize.y};
+  const float top_px = std::max(left ? 0.0f : draw_lines(small, lines_px, lines),
+                                static_cast<float>(room.panel_top_01) * io.DisplaySize.y);
   draw_instruments(small, large, io.DisplaySize, instruments, left);
   draw_panel(small, large, io.DisplaySize, top_px, panel);
   ImGui::Render();

@@ -22,7 +22,8 @@ class OverlayPass {
   OverlayPass& operator=(const OverlayPass&) = delete;
 
   void draw(gpu::FrameGraph& graph, gpu::Image& display, const std::vector<std::string>& lines,
-            const std::vector<OverlayInstrument>& instruments, const OverlayPanel& panel, const OverlayMarks& marks);
+            const std::vector<OverlayInstrument>& instruments, const OverlayPanel& panel, const OverlayMarks& marks,
+            const OverlayRoom& room);
 
  private:
   gpu::Device& device_;

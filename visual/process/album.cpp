@@ -40,7 +40,11 @@ Result<Album> Album::open(const std::filesystem::path& folder, bool going_on) {
 void Album::keep_frame(std::int64_t frame_index, const Image8& image, const std::string& label) {
   char name[40];
   std::snprintf(name, sizeof name, "frames/%06lld.png", static_cast<long long>(frame_index));
-  if (!save(name, image)) return;
+  if (writer_) {
+    for (const Status& written : writer_->take(folder_ / name, image)) keep(written);
+  } else if (!save(name, image)) {
+    return;
+  }
   for (const std::uint8_t byte : image.rgba) frames_hash_ = (frames_hash_ ^ byte) * 0x100000001b3ull;
   ++kept_frames_;
   if (thumbnails_.wants_next())
@@ -76,19 +80,65 @@ void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleStat
   save(kLastStill, wall_picture(lamps, lamps.design_index()));
 }
 
+void Album::keep_design(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps,
+                        std::size_t design, const std::string& label) {
+  driver.camera = birds_eye_camera(pose);
+  driver.own_picture = kBirdsEyePicture;
+  driver.want_image = false;
+  driver.want_hdr = true;  // its alpha is the illuminance
+  FrameInput frame = driver;
+  frame.own_picture.reset();
+  frame.want_hdr = false;
+  frame.more_views = {driver};
+  renderer.draw(frame);
+  const std::string number = "_" + std::to_string(design) + ".png";
+  save("birds_eye" + number, birds_eye_picture(renderer.read_hdr(1), "Illuminance on what lies below, lux; " + label));
+  save("wall_25m" + number, wall_picture(lamps, design));
+}
+
+void Album::keep_versus(Renderer& renderer, FrameInput driver, const Versus& versus, const VehicleState& pose,
+                        const std::string& label) {
+  driver.want_image = false;
+  driver.want_hdr = true;  // its alpha is the illuminance
+  driver.overlay.clear(), driver.instruments.clear(), driver.panel = {}, driver.marks = {};
+  const PictureSize size = renderer.picture_size();
+  const auto view = [&](const Camera& camera, std::vector<PlacedLamp> lamps, PictureSize picture) {
+    ViewInput one = driver;
+    one.camera = camera, one.lamps = std::move(lamps), one.own_picture = picture;
+    return one;
+  };
+  const Camera above = birds_eye_camera(pose);
+  FrameInput frame = driver;
+  frame.more_views = {view(driver.camera, versus.placed(pose), size), view(above, driver.lamps, kBirdsEyePicture),
+                      view(above, versus.placed(pose), kBirdsEyePicture)};
+  renderer.draw(frame);
+  const ImageF here = renderer.read_hdr(), here_b = renderer.read_hdr(1), map = renderer.read_hdr(2),
+               map_b = renderer.read_hdr(3);
+  save("versus_difference.png", versus_picture(here, here_b, VersusScale::kDifference, "B less A, lux; " + label));
+  save("versus_birds_eye.png", versus_picture(map, map_b, VersusScale::kDifference, "B less A, lux; " + label));
+  save("versus_ratio.png", versus_picture(map, map_b, VersusScale::kRatio, "B over A; " + label));
+  FrameInput halves = driver;
+  halves.want_image = true, halves.want_hdr = false;
+  versus.split(halves, pose);
+  renderer.draw(halves);
+  save("versus.png", renderer.read_image());
+}
+
 void Album::keep_eye(const nlohmann::json& state) {
   if (wanted() && !write_json(folder_ / kEyeState, state)) spdlog::debug("{} cannot be written", kEyeState);
 }
 
 void Album::finish() {
   if (!wanted()) return;
+  if (writer_)
+    for (const Status& written : writer_->finish()) keep(written);
   std::error_code ignored;
   std::filesystem::remove(folder_ / kEyeState, ignored);
   const std::vector<LabelledImage> pictures = thumbnails_.pick(kSheetPictures);
   if (!pictures.empty()) save("contact_sheet.png", contact_sheet(pictures));
 }
 
-bool Album::save(const char* name, const Image8& image) {
+bool Album::save(const std::string& name, const Image8& image) {
   return keep(write_png(folder_ / name, image));
 }
 

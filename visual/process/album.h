@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -10,6 +11,8 @@
 #include "visual/image/contact_sheet.h"
 #include "visual/process/cameras.h"
 #include "visual/process/lamps.h"
+#include "visual/process/picture_writer.h"
+#include "visual/process/versus.h"
 
 namespace phare {
 
@@ -22,6 +25,10 @@ class Album {
   static Result<Album> open(const std::filesystem::path& folder, bool going_on = false);
 
   bool wanted() const { return !folder_.empty(); }
+  /// Pictures of frames are written beside the drawing from now on: real time waits for no disk. While busy() the next
+  /// one would have to wait.
+  void write_beside() { writer_ = std::make_unique<PictureWriter>(); }
+  bool busy() const { return writer_ && writer_->busy(); }
   /// frames/NNNNNN.png, and a thumbnail for the contact sheet.
   void keep_frame(std::int64_t frame_index, const Image8& image, const std::string& label);
   /// drivers_view.png (drawn at twice the size and averaged), hdr.exr, birds_eye.png, wall_25m.png. `driver` is the
@@ -29,6 +36,14 @@ class Album {
   /// `height_px`; hdr.exr has the size of the renderer's picture.
   void keep_stills(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps, int width_px,
                    int height_px, const std::string& label);
+  /// Bird's eye and wall of another design than that of the stills: birds_eye_N.png and wall_25m_N.png, by its number
+  /// from 0. Its beams are in the renderer, and its lamps in `driver`.
+  void keep_design(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps,
+                   std::size_t design, const std::string& label);
+  /// Both designs of a comparison in the moment of the stills: versus.png, the driver's view in halves;
+  /// versus_difference.png and versus_birds_eye.png, B's lux less A's; versus_ratio.png, B's over A's from above.
+  void keep_versus(Renderer& renderer, FrameInput driver, const Versus& versus, const VehicleState& pose,
+                   const std::string& label);
   bool has_stills() const { return has_stills_; }
   /// eye.json: what the eye is adapted to after this frame, for a process that takes the place of this one.
   void keep_eye(const nlohmann::json& state);
@@ -47,10 +62,11 @@ class Album {
   std::int64_t frames_found() const { return frames_found_; }
 
  private:
-  bool save(const char* name, const Image8& image);
+  bool save(const std::string& name, const Image8& image);
   bool keep(const Status& written);
 
   std::filesystem::path folder_;
+  std::unique_ptr<PictureWriter> writer_;
   Thumbnails thumbnails_;
   std::optional<nlohmann::json> eye_;
   bool has_stills_ = false;

@@ -57,6 +57,8 @@ Camera overview_camera(const Scene& scene);
 Camera camera_of(const Desk& desk, const ChannelConfig& channel, const VehicleState& pose,
                  std::optional<double> ground_z_m = {});
 
+/// Beside the inner mirror and above the left one; a panel below the inner one.
+inline constexpr OverlayRoom kRoomBesideMirrors{.lines_width_01 = 0.37, .lines_height_01 = 0.61, .panel_top_01 = 0.2};
 /// Mirrors as insets of the frame, with what else the frame's own view has: inner, left, right.
 std::vector<ViewInput> mirror_views(const ViewInput& frame, const ChannelConfig& channel, const VehicleState& pose);
 

@@ -1,7 +1,9 @@
 // The lamps of the rig as they shine now: which sources are lit, their beam images, where they stand in the world.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -62,6 +64,9 @@ class Lamps {
   /// Adopts the controls. Sums a beam image again only where a source was switched or dimmed, and reports only slots
   /// whose image changed. A design index past the last means the last.
   std::vector<Change> set_controls(const CockpitState& controls);
+
+  /// The renderer holds no image of these lamps: all are reported again.
+  void forget_shown() { std::ranges::fill(shown_, std::nullopt); }
 
   /// Dims a source, counted from 1 (0: all), of a lamp of the design that shines; acts with the next controls. Error:
   /// no such lamp or source.
@@ -133,6 +138,11 @@ class Lamps {
   double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
                                double tilt_rad = 0.0) const;
 
+  /// Height of the low beam's cut-off, the mean of its lamps, above the car's ground on an upright wall `wall_m` ahead
+  /// of them: with mounts, levelling and the body's pitch (lamp_cutoff.cpp). Nothing: low beam is dark, or has no
+  /// cut-off.
+  std::optional<double> cutoff_height_m(const VehicleState& pose, double wall_m) const;
+
   /// Mean colour of the light of all sources that shine, weighted by flux, linear sRGB of luminance 1; nothing when all
   /// are dark.
   std::optional<glm::vec3> light() const;
@@ -187,6 +197,8 @@ class Lamps {
   LampTables tables_;
   std::vector<LampAiming> aimings_;
   std::vector<SourceEnd> table_ends_;
+  /// [design][lamp], of the low beam as mounted in the rig; found when first asked for.
+  mutable std::map<std::size_t, std::vector<std::optional<double>>> cutoffs_deg_;
   std::vector<std::vector<Position>> positions_;   ///< [design][lamp]
   std::vector<std::optional<std::size_t>> shown_;  ///< per slot, the design whose image it holds
   std::vector<Mounts> of_rig_;                     ///< of each design

@@ -71,6 +71,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   options.height_px = picture.height_px;
   options.samples = picture.samples;
   options.still_at_s = picture.still_at_s;
+  options.video = picture.video;
   options.desk = picture.desk;
   options.road_cuts = picture.road_cuts;
   options.audit_every = picture.audit_every;

@@ -33,6 +33,7 @@ struct VisualOptions {
   int width_px = 0, height_px = 0;  ///< 0: the channel's
   int samples = 1;
   std::vector<DeskCommand> desk;         ///< what the command line sets of the picture, after the rig
+  bool video = false;                    ///< keep a picture of every frame
   double still_at_s = -1.0;              ///< simulated time of the stills; negative: chosen
   int road_cuts = 0;                     ///< how often each triangle of the ground is cut in four
   std::int64_t audit_every = 300;        ///< frames; 0: never

@@ -103,6 +103,15 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["scene"] = {{"file", session.scene.file.filename().string()},
                      {"content_hash", session.scene.content_hash},
                      {"triangles", session.scene.indices.size() / 3}};
+  report["designs"] = nlohmann::json::array();
+  for (const auto& [design, seconds] : session.designs_lit.seconds)
+    report["designs"].push_back({{"index", design},
+                                 {"name", session.lamps.designs()[design].name},
+                                 {"lit_s", seconds},
+                                 {"in_the_stills", session.stills_design == design}});
+  if (const auto& two = session.designs_lit.compared)
+    report["versus"] = {{"a", session.lamps.designs()[two->first].name},
+                        {"b", session.lamps.designs()[two->second].name}};
   report["lamps"] = session.lamps_json;
   report["aims"] = aims_json(session.lamps);
   report["table_ends"] = table_ends_json(session.lamps);

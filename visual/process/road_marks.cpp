@@ -48,6 +48,9 @@ OverlayColour colour_of(double lx) {
   return {light(colour.red), light(colour.green), light(colour.blue)};
 }
 
+/// Of "100 m" in a picture of 1280 × 720.
+constexpr double kLabelWidth_01 = 0.04, kLabelHeight_01 = 0.025;
+
 /// Where a line of the eye's view cuts its near side; clip space with w the distance ahead.
 struct Seen {
   double x_01 = 0.0, y_01 = 0.0;
@@ -63,6 +66,11 @@ std::optional<std::pair<Seen, Seen>> seen_line(const glm::dmat4& clip_from_eye, 
   if (b.w < kNear) cut(b, a);
   const auto on_picture = [](const glm::dvec4& p) { return Seen{0.5 + 0.5 * p.x / p.w, 0.5 + 0.5 * p.y / p.w}; };
   return std::pair{on_picture(a), on_picture(b)};
+}
+
+/// With room for a label to its right.
+bool in_picture(const Seen& at) {
+  return at.x_01 > 0.0 && at.x_01 < 1.0 - kLabelWidth_01 && at.y_01 > 0.0 && at.y_01 < 1.0;
 }
 
 bool near_picture(const Seen& at) {
@@ -133,7 +141,8 @@ RoadMarks isolux_marks(const Lamps& lamps, const VehicleState& car, const RoadLi
   for (const double lx : levels_lx) {
     const double level = std::log(lx);
     const OverlayColour ink = colour_of(lx);
-    std::optional<glm::dvec3> farthest;
+    int last_row = -1;
+    std::vector<glm::dvec3> places;  // one of each row, from near to far
     for (int row = 0; row + 1 < kRows; ++row)
       for (int column = 0; column + 1 < kColumns; ++column) {
         // Marching triangles: each has a line or none.
@@ -146,11 +155,14 @@ RoadMarks isolux_marks(const Lamps& lamps, const VehicleState& car, const RoadLi
             cuts.push_back(p->at_m + (q->at_m - p->at_m) * ((level - p->log_lx) / (q->log_lx - p->log_lx)));
           }
           if (cuts.size() != 2) continue;
-          farthest = cuts[0];  // rows rise
+          if (places.empty() || row != last_row) places.push_back(cuts[0]);
+          last_row = row;
           marks.lines.push_back({std::move(cuts), ink});
         }
       }
-    if (farthest) marks.labels.push_back({*farthest, fmt::format("{:g} lx", lx), {}});
+    if (places.empty()) continue;
+    std::ranges::reverse(places);
+    marks.labels.push_back({places.front(), fmt::format("{:g} lx", lx), {}, {places.begin() + 1, places.end()}});
   }
   return marks;
 }
@@ -174,13 +186,17 @@ RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& r
     }
     if (piece.points_m.size() > 1) seen.lines.push_back(std::move(piece));
   }
-  for (RoadMarks::Label& label : marks.labels)
-    if (!road.hides(eye_m, label.at_m)) seen.labels.push_back(std::move(label));
+  for (RoadMarks::Label& label : marks.labels) {
+    std::erase_if(label.others_m, [&](const glm::dvec3& at_m) { return road.hides(eye_m, at_m); });
+    if (road.hides(eye_m, label.at_m)) {
+      if (label.others_m.empty()) continue;
+      label.at_m = label.others_m.front();
+      label.others_m.erase(label.others_m.begin());
+    }
+    seen.labels.push_back(std::move(label));
+  }
   return seen;
 }
-
-/// Of "100 m" in a picture of 1280 × 720.
-constexpr double kLabelWidth_01 = 0.04, kLabelHeight_01 = 0.025;
 
 void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometry& view) {
   const glm::dmat4 clip_from_eye = view.clip_from_eye();
@@ -193,14 +209,20 @@ void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometr
             {ends->first.x_01, ends->first.y_01, ends->second.x_01, ends->second.y_01, line.colour});
     }
   for (const RoadMarks::Label& label : marks.labels) {
-    const auto at = seen_line(clip_from_eye, label.at_m - eye_m, label.at_m - eye_m);
-    if (!at || !near_picture(at->first)) continue;
-    // Far rows lie close together: of labels that would lie on one another the nearest stays.
-    const bool taken = std::ranges::any_of(picture.labels, [&](const OverlayMarks::Label& other) {
-      return std::abs(other.x_01 - at->first.x_01) < kLabelWidth_01 &&
-             std::abs(other.y_01 - at->first.y_01) < kLabelHeight_01;
-    });
-    if (!taken) picture.labels.push_back({at->first.x_01, at->first.y_01, label.text, label.colour});
+    // Far rows lie close together: a label that would lie on another, or out of the picture, goes on along its line.
+    std::vector<glm::dvec3> places{label.at_m};
+    places.insert(places.end(), label.others_m.begin(), label.others_m.end());
+    for (const glm::dvec3& place_m : places) {
+      const auto at = seen_line(clip_from_eye, place_m - eye_m, place_m - eye_m);
+      if (!at || !in_picture(at->first)) continue;
+      const bool taken = std::ranges::any_of(picture.labels, [&](const OverlayMarks::Label& other) {
+        return std::abs(other.x_01 - at->first.x_01) < kLabelWidth_01 &&
+               std::abs(other.y_01 - at->first.y_01) < kLabelHeight_01;
+      });
+      if (taken) continue;
+      picture.labels.push_back({at->first.x_01, at->first.y_01, label.text, label.colour});
+      break;
+    }
   }
 }
 

@@ -41,6 +41,7 @@ struct RoadMarks {
     glm::dvec3 at_m{0.0};
     std::string text;
     OverlayColour colour{};
+    std::vector<glm::dvec3> others_m{};  ///< places as good, for where the first is hidden or taken
   };
   std::vector<Line> lines;
   std::vector<Label> labels;
@@ -50,7 +51,7 @@ struct RoadMarks {
 /// is labelled. Ten of them.
 RoadMarks grid_marks(const VehicleState& car, const RoadLine& road, double spacing_m);
 /// Lines of these levels on the road from 3 to 147 m ahead and 14 m to either side; each level labelled where it is
-/// farthest.
+/// farthest, or along it where that place is taken.
 RoadMarks isolux_marks(const Lamps& lamps, const VehicleState& car, const RoadLine& road,
                        const std::vector<double>& levels_lx);
 

@@ -14,6 +14,7 @@
 #include "net/silence.h"
 #include "net/stats.h"
 #include "visual/image/canvas.h"
+#include "visual/process/drive_log.h"
 #include "visual/process/lamp_keys.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/pick.h"
@@ -22,6 +23,7 @@
 #include "visual/process/report.h"
 #include "visual/process/screens.h"
 #include "visual/process/verbs.h"
+#include "visual/process/versus.h"
 #include "visual/scene/ray_hit.h"
 
 namespace phare {
@@ -32,8 +34,9 @@ using namespace std::chrono_literals;
 
 constexpr auto kRepeatAfter = 100ms;  // of no progress the last FrameReport is sent again
 constexpr auto kStatsEvery = 1s;
-constexpr std::size_t kMostAsked = 64;  // probes of one frame; who sends more asks again
-constexpr auto kFreshWithin = 1s;       // the first picture waits so long for a pose that is not held
+constexpr std::size_t kMostAsked = 64;              // probes of one frame; who sends more asks again
+constexpr std::int64_t kKeyframe_ns = 100'000'000;  // of the video
+constexpr auto kFreshWithin = 1s;                   // the first picture waits so long for a pose that is not held
 
 /// What one frame shows.
 struct Moment {
@@ -75,6 +78,7 @@ class Loop {
     });
     s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
     if (!session.options.lockstep) drawn_frames_ = session.album.frames_found();
+    if (!session.options.lockstep && session.album.wanted()) session.album.write_beside();
     warm_up();
     announce();
     ready_ = Clock::now();
@@ -96,6 +100,7 @@ class Loop {
   void mind_the_mouse();
   void measure(const Moment& moment);
   void light_up(const CockpitState& controls);
+  void upload(const std::vector<Lamps::Change>& changes);
   void mind_the_lamps(SimTime now);
   void warm_up();
   void announce();
@@ -108,6 +113,8 @@ class Loop {
   std::string label(const Moment& moment) const;
   void mind_the_road(const Moment& moment);
   std::vector<std::string> overlay(const Moment& moment) const;
+  void log_frame(const Moment& moment, const FrameResult& result);
+  void keep_other_designs();
   void write_stats(SimTime now);
 
   Session& s_;
@@ -116,6 +123,15 @@ class Loop {
   LampNews lamp_news_{s_.lamps};
   PictureInstruments measuring_{s_.desk, s_.lamps, s_.scene, RoadLine(s_.lane, s_.rig.scene_file),
                                 ProbeLog(s_.options.channel == 0 ? s_.options.out : "", s_.options.going_on)};
+  DriveLog drive_log_{s_.options.channel == 0 ? s_.options.out : "", s_.options.going_on,
+                      s_.desk.compare != Compare::kOff};
+  Versus versus_;
+  /// The moment of the stills, to draw the other designs in.
+  struct Still {
+    FrameInput driver;
+    Moment moment;
+  };
+  std::optional<Still> still_;
   ControlDesk commands_;
   EyeSetting eye_set_ = s_.desk.eye;
   struct Asked {
@@ -189,6 +205,7 @@ void Loop::measure(const Moment& moment) {
   const PictureSize size = s_.renderer.picture_size();
   measuring_.see({moment.time, moment.car.pose, input_.camera, static_cast<double>(size.width_px) / size.height_px});
   input_.marks = measuring_.marks(drawn_frames_ % 6 == 0);
+  if (versus_.lamps() != nullptr) mark_versus(input_.marks, s_.desk, s_.lamps, *versus_.lamps(), moment.time);
   for (const ViewInput& inset : input_.more_views) {
     keep_clear(input_.marks, inset.part);
     frame_part(input_.marks, inset.part);
@@ -258,6 +275,7 @@ void Loop::warm_up() {
     if (over()) return;  // who does not want to wait leaves
     if (s_.window) input.panel = getting_ready_panel(++step, steps);
     light_up(controls);
+    if (last) upload(versus_.follow(s_.desk, s_.lamps, controls));
     input.lamps = s_.lamps.placed(pose);
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
@@ -270,6 +288,10 @@ void Loop::warm_up() {
         shadows = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
         if (last && s_.desk.mirrors) input.more_views = mirror_views(input, s_.channel(), pose);
         s_.renderer.draw(input);
+        if (!last || versus_.lamps() == nullptr) continue;
+        FrameInput halves = input;  // the other design's beams may be looked up in another way
+        versus_.split(halves, pose);
+        s_.renderer.draw(halves);
       }
     }
   };
@@ -379,7 +401,11 @@ std::optional<Moment> Loop::display_moment() {
 
 /// Beam images follow the controls; what did not change stays as it is.
 void Loop::light_up(const CockpitState& controls) {
-  for (const Lamps::Change& change : s_.lamps.set_controls(controls)) {
+  upload(s_.lamps.set_controls(controls));
+}
+
+void Loop::upload(const std::vector<Lamps::Change>& changes) {
+  for (const Lamps::Change& change : changes) {
     if (change.part.empty())
       s_.renderer.set_beam(change.position, *change.image);
     else
@@ -399,13 +425,16 @@ void Loop::mind_the_lamps(SimTime now) {
 void Loop::draw(const Moment& moment) {
   light_up(shown_by_desk(s_.desk, moment.controls));
   mind_the_lamps(moment.time);
+  upload(versus_.follow(s_.desk, s_.lamps, moment.controls));
   set_by_desk(input_, s_.desk, s_.channel(), moment.car.pose, &measuring_.road());
-  input_.lamps = s_.lamps.placed(moment.car.pose);
+  const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
+  input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
   input_.more_views.clear();
   if (std::exchange(eye_set_, s_.desk.eye) != s_.desk.eye) s_.eye = eye_set(s_.desk.eye);
   s_.eye.see(moment.time, s_.lamps.light());
   input_.white = s_.eye.white();
   if (s_.desk.mirrors) input_.more_views = mirror_views(input_, s_.channel(), moment.car.pose);
+  input_.room = s_.desk.mirrors ? kRoomBesideMirrors : OverlayRoom{};
   if (s_.window) {
     input_.panel = screens_.panel(moment.controls, moment.time.seconds(), s_.desk.help);
     const bool one = s_.lamps.designs().size() < 2;
@@ -422,9 +451,14 @@ void Loop::draw(const Moment& moment) {
   captured_ = wants_picture(moment);
   input_.want_image = captured_;
 
-  const FrameResult result = s_.renderer.draw(input_);
+  // Picked, measured and audited is the whole view.
+  FrameInput halves;
+  const bool split = versus_.lamps() != nullptr && s_.desk.compare == Compare::kSplit;
+  if (split) halves = input_, versus_.split(halves, moment.car.pose);
+  const FrameResult result = s_.renderer.draw(split ? halves : input_);
   if (over_) return;  // what is counted is the drive
   s_.stats.add(result, captured_);
+  log_frame(moment, result);
   if (result.pipelines_made > 0)
     spdlog::info("a kind of picture not drawn before: {} pipelines made in this frame, {:.0f} ms",
                  result.pipelines_made, result.wall_ms);
@@ -469,11 +503,15 @@ void Loop::keep(const Moment& moment) {
   if (wants_stills(moment)) {
     FrameInput driver = input_;
     driver.camera = driver_camera(s_.channel(), moment.car.pose);
+    driver.lamps = s_.lamps.placed(moment.car.pose);
     driver.view = View::kPhoto;
     driver.marks = {};
     driver.more_views.clear();
+    still_ = Still{driver, moment};
+    s_.stills_design = s_.lamps.design_index();
     s_.album.keep_stills(s_.renderer, driver, moment.car.pose, s_.lamps, s_.options.width_px, s_.options.height_px,
                          label(moment));
+    if (versus_.lamps() != nullptr) s_.album.keep_versus(s_.renderer, driver, versus_, moment.car.pose, label(moment));
     progress_ = Clock::now();
     frame_end_ = {};  // not a frame interval
   }
@@ -482,7 +520,9 @@ void Loop::keep(const Moment& moment) {
 void Loop::audit(const Moment& moment) {
   constexpr std::size_t kPixels = 32;
   const std::int64_t number = number_of(moment);
-  if (!over_ && s_.options.audit_every > 0 && number % s_.options.audit_every == 0 && !input_.lamps.empty()) {
+  const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
+  if (!over_ && !others_turn && s_.options.audit_every > 0 && number % s_.options.audit_every == 0 &&
+      !input_.lamps.empty()) {
     const auto samples = s_.renderer.audit(input_, kPixels, static_cast<std::uint64_t>(number) + 1);
     s_.audit.add(s_.lamps, moment.car.pose, samples);
   }
@@ -491,6 +531,7 @@ void Loop::audit(const Moment& moment) {
 
 void Loop::finish() {
   s_.bus.on_datagram = nullptr;
+  keep_other_designs();
   s_.album.finish();
   if (newest_ && s_.album.not_kept() > 0) report(*newest_);  // the stills too: the statistics may find no room either
   write_stats(newest_ ? newest_->time : SimTime{});
@@ -502,12 +543,74 @@ std::int64_t Loop::number_of(const Moment& moment) const {
   return s_.options.lockstep ? moment.frame_index : drawn_frames_ - 1;
 }
 
-/// With --frames every one, else the first frame of each second of simulated time.
+/// A row of drive.csv, and how long each design has shone.
+void Loop::log_frame(const Moment& moment, const FrameResult& result) {
+  DesignsLit& designs = s_.designs_lit;
+  designs.see(s_.lamps.lit_text().empty() ? std::nullopt : std::optional(s_.lamps.design_index()), moment.time);
+  if (versus_.lamps() != nullptr) designs.see_beside(s_.lamps.design_index(), versus_.lamps()->design_index());
+  if (!drive_log_.wanted()) return;
+  DriveRow row{.frame = s_.options.lockstep ? moment.frame_index : drawn_frames_,
+               .time = moment.time,
+               .car = moment.car.pose,
+               .lit = s_.lamps.lit_text(),
+               .design = s_.lamps.design().name,
+               .fail_safe = moment.controls.fail_safe,
+               .pose_held = moment.car.stale,
+               .picture = captured_,
+               .cutoff_m = s_.lamps.cutoff_height_m(moment.car.pose, kCutoffWall_m),
+               .frame_ms = result.wall_ms,
+               .gpu_ms = result.gpu_ms};
+  if (row.cutoff_m) {  // above the road at the wall: a slope moves the mark with the road, a crest or a dip does not
+    constexpr double kLamps_m = 3.3;  // ahead of the rear axle, in cars like ours
+    const VehicleState& car = moment.car.pose;
+    const double ahead_m = kLamps_m + kCutoffWall_m;
+    const double ground_z_m =
+        measuring_.road()
+            .ground(car.x_m + ahead_m * std::cos(car.yaw_rad), car.y_m + ahead_m * std::sin(car.yaw_rad), car.z_m)
+            .position_m.z;
+    *row.cutoff_m -= ground_z_m - car.z_m;
+  }
+  if (drive_log_.reach_is_due(moment.time) && versus_.lamps() != nullptr)
+    row.versus_reach = reach_of(*versus_.lamps(), moment.car.pose, measuring_.road());
+  if (drive_log_.reach_is_due(moment.time)) row.reach = reach_of(s_.lamps, moment.car.pose, measuring_.road());
+  if (!drive_log_.write(row)) spdlog::error("drive.csv: cannot be written");
+}
+
+/// Every design that has shone is on the page, in the moment of the stills and with low beam. By lamps of their own, so
+/// that the counts are those of the drive.
+void Loop::keep_other_designs() {
+  if (!s_.album.wanted() || s_.stop.requested()) return;
+  if (!still_ && newest_) still_ = Still{input_, *newest_};  // those there are were made by the process before
+  if (!still_) return;
+  still_->driver.more_views.clear(), still_->driver.marks = {}, still_->driver.overlay.clear();
+  still_->driver.instruments.clear(), still_->driver.panel = {}, still_->driver.view = View::kPhoto;
+  for (const auto& [design, seconds] : s_.designs_lit.seconds) {
+    if (s_.stills_design == design) continue;
+    Lamps lamps = s_.lamps;
+    CockpitState controls = still_->moment.controls;
+    controls.design_index = static_cast<std::uint32_t>(design);
+    controls.light_switch = LightSwitch::kLow;
+    controls.flash = false;
+    (void)lamps.set_controls(controls);
+    FrameInput driver = still_->driver;
+    driver.lamps = lamps.placed(still_->moment.car.pose);
+    for (const PlacedLamp& lamp : driver.lamps) s_.renderer.set_beam(lamp.beam, lamps.image(lamp.beam));
+    char label[160];
+    std::snprintf(label, sizeof label, "%.1f s  low  %s", still_->moment.time.seconds(), lamps.design().name.c_str());
+    s_.album.keep_design(s_.renderer, driver, still_->moment.car.pose, lamps, design, label);
+  }
+}
+
+/// With --frames and --video every one; else one each tenth of a second of simulated time for the video, of other
+/// channels one a second. In real time fewer, when they cannot be written as fast.
 bool Loop::wants_picture(const Moment& moment) {
   if (!s_.album.wanted() || over_) return false;
   if (s_.options.frames > 0) return (s_.options.lockstep ? moment.frame_index : drawn_frames_) < s_.options.frames;
+  if (s_.album.busy()) return false;
+  if (s_.options.video) return true;
+  const std::int64_t every_ns = s_.options.channel == 0 ? kKeyframe_ns : 1'000'000'000;
   if (moment.time.ns < next_picture_ns_) return false;
-  next_picture_ns_ = (moment.time.ns / 1'000'000'000 + 1) * 1'000'000'000;
+  next_picture_ns_ = (moment.time.ns / every_ns + 1) * every_ns;
   return true;
 }
 

@@ -1,6 +1,7 @@
 // Everything a visual process holds while it runs; made by main, used by the loop.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,6 +23,25 @@
 #include "visual/scene/scene.h"
 
 namespace phare {
+
+/// How long each design has shone in the drive, s.
+struct DesignsLit {
+  std::map<std::size_t, double> seconds;
+  std::optional<std::size_t> shining;
+  SimTime since{};
+
+  void see(std::optional<std::size_t> design, SimTime now) {
+    if (shining) seconds[*shining] += now.seconds() - since.seconds();
+    if (design) seconds.try_emplace(*design, 0.0);
+    shining = design, since = now;
+  }
+  /// The other of two that are compared is on the page as well.
+  void see_beside(std::size_t design, std::size_t other) {
+    seconds.try_emplace(other, 0.0);
+    compared = std::pair(design, other);
+  }
+  std::optional<std::pair<std::size_t, std::size_t>> compared{};  ///< the last two
+};
 
 struct Session {
   Session(VisualOptions options_, Rig rig_, Desk desk_, Scene scene_, Lamps lamps_, std::optional<Window> window_,
@@ -53,6 +73,8 @@ struct Session {
   SwitchToPhoton switches;
   FailSafeLog fail_safes;
   LawLink law;
+  DesignsLit designs_lit;
+  std::optional<std::size_t> stills_design;  ///< that the stills show; of a process that was killed not known
   EyeAdaptation eye;
   LampReplay lamps_then;        ///< of the drive that is shown
   std::vector<LanePoint> lane;  ///< of the scene; empty where it has none

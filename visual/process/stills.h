@@ -1,6 +1,7 @@
 // Pictures with figures on them: the 25 m wall and the frame of the bird's eye.
 #pragma once
 
+#include "visual/image/canvas.h"
 #include "visual/process/lamps.h"
 
 namespace phare {
@@ -14,5 +15,14 @@ Image8 wall_picture(const Lamps& lamps, std::size_t design);
 /// Illuminance (alpha of `seen`, lx, kBirdsEyePicture seen by birds_eye_camera) in false colour with isolux lines,
 /// with axes in metres, legend and `caption`.
 Image8 birds_eye_picture(const ImageF& seen, const std::string& caption);
+
+/// kDifference: B less A in lux, from -30 to 30, logarithmic beyond 1. kRatio: B over A from 1/8 to 8, logarithmic;
+/// where neither has 0.1 lx it is dark.
+enum class VersusScale { kDifference, kRatio };
+/// Where B is brighter it is red to yellow, where A is, blue to light blue; with the scale beside it. Of two pictures
+/// of the same size whose alpha is the illuminance.
+Image8 versus_picture(const ImageF& a, const ImageF& b, VersusScale scale, const std::string& caption);
+/// Its colour: of lux, or of a ratio.
+Colour versus_colour(double value, VersusScale scale);
 
 }  // namespace phare

@@ -16,7 +16,7 @@ namespace {
 // The table speaks of keys by GLFW's numbers without knowing GLFW.
 static_assert(key::kEscape == GLFW_KEY_ESCAPE && key::kBackspace == GLFW_KEY_BACKSPACE && key::kF1 == GLFW_KEY_F1 &&
               key::kF2 == GLFW_KEY_F2 && key::kF3 == GLFW_KEY_F3 && key::kF4 == GLFW_KEY_F4 &&
-              key::kF5 == GLFW_KEY_F5 && key::kF6 == GLFW_KEY_F6 && key::kF7 == GLFW_KEY_F7);
+              key::kF5 == GLFW_KEY_F5 && key::kF6 == GLFW_KEY_F6 && key::kF7 == GLFW_KEY_F7 && key::kF8 == GLFW_KEY_F8);
 static_assert(key::kPageUp == GLFW_KEY_PAGE_UP && key::kPageDown == GLFW_KEY_PAGE_DOWN && key::kHome == GLFW_KEY_HOME &&
               key::kEnd == GLFW_KEY_END);
 static_assert(key::kUp == GLFW_KEY_UP && key::kDown == GLFW_KEY_DOWN && key::kLeft == GLFW_KEY_LEFT &&

@@ -1,0 +1,116 @@
+// unit: drive.csv has one row a frame, also over a restart; the height of the cut-off follows pitch and levelling.
+#include "visual/process/drive_log.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "tests/paths.h"
+#include "visual/process/lamps.h"
+
+namespace phare {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream stream(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Cells, commas in quotes not counted.
+std::size_t cells_of(const std::string& line) {
+  std::size_t cells = 1;
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == ',' && !quoted) ++cells;
+  }
+  return cells;
+}
+
+DriveRow row_of(std::int64_t frame) {
+  DriveRow row{
+      .frame = frame, .time = SimTime{frame * 16'666'667}, .lit = "low", .design = "a, \"b\"", .cutoff_m = 0.41};
+  if (frame % 6 == 0) row.reach = {{1.0, 80.0, 90.0}, {3.0, 50.0, 60.0}, {5.0, 40.0, 45.5}};
+  return row;
+}
+
+TEST(DriveLog, HasOneRowAFrameAlsoOverARestart) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("phare_drive_log_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  {
+    DriveLog log(folder, false);
+    for (std::int64_t frame = 0; frame < 8; ++frame) ASSERT_TRUE(log.write(row_of(frame)));
+  }
+  std::ofstream(folder / "drive.csv", std::ios::app) << "8,0.13";  // killed in the middle of a row
+  {
+    DriveLog log(folder, true);
+    for (std::int64_t frame = 6; frame < 12; ++frame) ASSERT_TRUE(log.write(row_of(frame)));  // drawn again from 6 on
+  }
+  const std::vector<std::string> lines = lines_of(folder / "drive.csv");
+  ASSERT_EQ(lines.size(), 13u);
+  EXPECT_EQ(lines[0] + "\n", drive_columns());
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    EXPECT_EQ(cells_of(lines[i]), cells_of(lines[0])) << lines[i];
+    EXPECT_EQ(std::atoll(lines[i].c_str()), static_cast<long long>(i) - 1);
+  }
+  EXPECT_NE(lines[1].find(",\"a, \"\"b\"\"\",0,0,0,0.41000,80.0,90.0,50.0,60.0,40.0,45.5,"), std::string::npos)
+      << lines[1];
+  EXPECT_NE(lines[2].find(",0.41000,,,,,,,"), std::string::npos) << lines[2];
+  fs::remove_all(folder);
+}
+
+TEST(DriveLog, ReachIsDueTenTimesASecond) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("phare_drive_log_due_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  DriveLog log(folder, false);
+  int due = 0;
+  for (std::int64_t frame = 0; frame < 120; ++frame) {
+    DriveRow row = row_of(frame);
+    row.reach.clear();
+    if (log.reach_is_due(row.time)) ++due, row.reach = {{1.0, 1.0, 1.0}};
+    log.write(row);
+  }
+  EXPECT_EQ(due, 20);
+  fs::remove_all(folder);
+}
+
+TEST(DriveLog, CutoffOnTheWallFollowsPitchAndLevelling) {
+  const auto rig = read_rig(source_dir() + "/config/rigs/country_road.toml");
+  ASSERT_TRUE(rig.ok());
+  auto lamps = Lamps::load(*rig);
+  ASSERT_TRUE(lamps.ok()) << lamps.error().text();
+  VehicleState car;
+  EXPECT_FALSE(lamps->cutoff_height_m(car, 25.0).has_value());  // dark
+  CockpitState controls;
+  controls.light_switch = LightSwitch::kLow;
+  (void)lamps->set_controls(controls);
+  const auto level = lamps->cutoff_height_m(car, 25.0), at_50 = lamps->cutoff_height_m(car, 50.0);
+  ASSERT_TRUE(level && at_50);
+  // Aimed 1 % down from its own height: 0.25 m lower at 25 m, and as much again at 50 m. The cut-off is found within
+  // 0.01 degrees (tests/photometry/mounted_lamp_test.cpp): 4 mm at 25 m.
+  const double lamp_m = rig->designs[0].lamps[0].position_m.z;
+  EXPECT_NEAR(*level, lamp_m - 0.25, 0.012);
+  EXPECT_NEAR(*level - *at_50, 0.25, 0.012);
+  // Nose down by 1 degree lowers the mark by 25 m * tan 1 degree, and the lamp by its place ahead of the axle.
+  constexpr double kDegree_rad = 3.14159265358979 / 180.0;
+  car.pitch_rad = kDegree_rad;
+  const double x_m = rig->designs[0].lamps[0].position_m.x;
+  const double lower_m = 25.0 * std::tan(kDegree_rad) + x_m * std::sin(kDegree_rad);
+  EXPECT_NEAR(*level - *lamps->cutoff_height_m(car, 25.0), lower_m, 0.001);
+  car.lamp_tilt_rad = kDegree_rad;  // levelled
+  EXPECT_NEAR(*level - *lamps->cutoff_height_m(car, 25.0), x_m * std::sin(kDegree_rad), 0.001);
+  // The wall belongs to the car: turned round and elsewhere it is the same.
+  car = {};
+  car.yaw_rad = 2.0, car.x_m = 500.0, car.z_m = 30.0;
+  EXPECT_NEAR(*lamps->cutoff_height_m(car, 25.0), *level, 1e-9);
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,106 @@
+// unit: two designs in one picture: off it is no work and no view, on it is B's lamps in B's half; the colours of what
+// differs.
+#include "visual/process/versus.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/paths.h"
+#include "visual/process/stills.h"
+
+namespace phare {
+namespace {
+
+class VersusTest : public testing::Test {
+ protected:
+  VersusTest() : rig_(*read_rig(source_dir() + "/config/rigs/country_road.toml")), lamps_(*Lamps::load(rig_)) {
+    controls_.light_switch = LightSwitch::kLow;
+    (void)lamps_.set_controls(controls_);
+  }
+  Rig rig_;
+  Lamps lamps_;
+  CockpitState controls_;
+  Desk desk_;
+};
+
+TEST_F(VersusTest, OffIsNoWork) {
+  Versus versus;
+  for (int frame = 0; frame < 10; ++frame) EXPECT_TRUE(versus.follow(desk_, lamps_, controls_).empty());
+  EXPECT_EQ(versus.work_done(), 0u);
+  EXPECT_EQ(versus.lamps(), nullptr);
+  // A rig of one design has nothing beside it.
+  Rig one = rig_;
+  one.designs.resize(1);
+  const Lamps alone = *Lamps::load(one);
+  desk_.compare = Compare::kSplit;
+  EXPECT_TRUE(versus.follow(desk_, alone, controls_).empty());
+  EXPECT_EQ(versus.work_done(), 0u);
+}
+
+TEST_F(VersusTest, TheOtherDesignHasBeamsOfItsOwn) {
+  Versus versus;
+  desk_.compare = Compare::kSplit;
+  const auto changes = versus.follow(desk_, lamps_, controls_);
+  ASSERT_NE(versus.lamps(), nullptr);
+  EXPECT_EQ(versus.lamps()->design_index(), 1u);  // the next one
+  EXPECT_EQ(lamps_.design_index(), 0u);
+  ASSERT_EQ(changes.size(), 2u);  // low beam of a pair
+  for (const Lamps::Change& change : changes) EXPECT_GE(change.position, Versus::kFirstBeam);
+  EXPECT_TRUE(versus.follow(desk_, lamps_, controls_).empty());  // nothing is uploaded twice
+  const VehicleState car;
+  for (const PlacedLamp& lamp : versus.placed(car)) EXPECT_GE(lamp.beam, Versus::kFirstBeam);
+
+  // Beside itself: it has to be uploaded there though A shows it.
+  desk_.versus = 0;
+  EXPECT_EQ(versus.follow(desk_, lamps_, controls_).size(), 2u);
+  // Lamps that are moved move on both sides.
+  ASSERT_TRUE(
+      lamps_.mount({.lamp = "headlamp", .quantity = rig_command::MountQuantity::kPitch, .value = 0.01, .by = true})
+          .ok());
+  (void)versus.follow(desk_, lamps_, controls_);
+  EXPECT_EQ(versus.lamps()->mounts(0), lamps_.mounts(0));
+}
+
+TEST_F(VersusTest, HalvesAreTwoViewsOfOneEye) {
+  Versus versus;
+  desk_.compare = Compare::kSplit;
+  (void)versus.follow(desk_, lamps_, controls_);
+  const VehicleState car;
+  FrameInput frame;
+  frame.lamps = lamps_.placed(car);
+  frame.more_views.resize(1);  // an inset
+  versus.split(frame, car);
+  ASSERT_EQ(frame.more_views.size(), 2u);
+  const ViewInput& right = frame.more_views.front();  // below the insets
+  EXPECT_DOUBLE_EQ(frame.part.width_01, 0.5);
+  EXPECT_DOUBLE_EQ(right.part.left_01, 0.5);
+  EXPECT_DOUBLE_EQ(frame.camera.seen_to_01, right.camera.seen_from_01);
+  EXPECT_EQ(frame.camera.eye_m, right.camera.eye_m);
+  EXPECT_EQ(right.lamps.size(), frame.lamps.size());
+  EXPECT_NE(right.lamps.front().beam, frame.lamps.front().beam);
+}
+
+TEST_F(VersusTest, ByTurnsHalfASecondEach) {
+  EXPECT_FALSE(Versus::has_turn(desk_, SimTime{700'000'000}));
+  desk_.compare = Compare::kFlicker;
+  EXPECT_FALSE(Versus::has_turn(desk_, SimTime{1'499'000'000}));
+  EXPECT_TRUE(Versus::has_turn(desk_, SimTime{1'500'000'000}));
+}
+
+TEST(VersusPicture, SaysWhichIsBrighter) {
+  const auto colour = [](double value, VersusScale scale) { return versus_colour(value, scale); };
+  const Colour none = colour(0.0, VersusScale::kDifference), more = colour(3.0, VersusScale::kDifference),
+               less = colour(-3.0, VersusScale::kDifference);
+  EXPECT_EQ(none.red + none.green + none.blue, 0);
+  EXPECT_GT(more.red, more.blue);
+  EXPECT_GT(less.blue, less.red);
+  EXPECT_EQ(colour(1.0, VersusScale::kRatio).red, 0);
+  EXPECT_GT(colour(4.0, VersusScale::kRatio).red, colour(2.0, VersusScale::kRatio).red);
+  // Two pixels: 1 and 4 lx more in B, dark in both.
+  ImageF a{2, 1, std::vector<float>(8, 0.0f)}, b = a;
+  a.rgba[3] = 1.0f, b.rgba[3] = 5.0f;
+  const Image8 page = versus_picture(a, b, VersusScale::kRatio, "");
+  EXPECT_GT(page.width_px, 2);
+}
+
+}  // namespace
+}  // namespace phare

@@ -1,0 +1,79 @@
+#include "visual/process/drive_log.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <utility>
+
+namespace phare {
+namespace {
+
+/// A name as a cell of CSV (RFC 4180); a line of the file stays one row.
+std::string cell(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return quoted + "\"";
+}
+
+}  // namespace
+
+std::string drive_columns(bool versus) {
+  std::string text =
+      "frame,time_s,x_m,y_m,z_m,yaw_rad,pitch_rad,roll_rad,speed_mps,lamp_tilt_rad,lit,design,fail_safe,pose_held,"
+      "picture,cutoff_25m_m";
+  for (const double lx : kReachLevels_lx) text += fmt::format(",reach_{:g}lx_left_m,reach_{:g}lx_right_m", lx, lx);
+  text += ",frame_ms,gpu_ms";
+  for (const double lx : kReachLevels_lx)
+    if (versus) text += fmt::format(",versus_reach_{:g}lx_left_m,versus_reach_{:g}lx_right_m", lx, lx);
+  return text + "\n";
+}
+
+std::string drive_row(const DriveRow& row, bool versus) {
+  const VehicleState& car = row.car;
+  std::string text = fmt::format(
+      "{},{:.6f},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.6f},{:.9f},{},{},{:d},{:d},{:d},", row.frame,
+      row.time.seconds(), car.x_m, car.y_m, car.z_m, car.yaw_rad, car.pitch_rad, car.roll_rad, car.speed_mps,
+      car.lamp_tilt_rad, cell(row.lit), cell(row.design), row.fail_safe, row.pose_held, row.picture);
+  if (row.cutoff_m) text += fmt::format("{:.5f}", *row.cutoff_m);
+  const auto put = [&text](const std::vector<Reach>& reach) {
+    for (std::size_t i = 0; i < kReachLevels_lx.size(); ++i)
+      text += i < reach.size() ? fmt::format(",{:.1f},{:.1f}", reach[i].left_m, reach[i].right_m) : ",,";
+  };
+  put(row.reach);
+  text += fmt::format(",{:.3f},{:.3f}", row.frame_ms, row.gpu_ms);
+  if (versus) put(row.versus_reach);
+  return text + "\n";
+}
+
+DriveLog::DriveLog(std::filesystem::path folder, bool going_on, bool versus) : going_on_(going_on), versus_(versus) {
+  if (!folder.empty()) file_ = std::move(folder) / "drive.csv";
+}
+
+/// What the process before left, up to the frame that comes now; its last row may be cut off.
+void DriveLog::begin(SimTime now) {
+  std::string kept = drive_columns(versus_);
+  if (std::ifstream before(file_); going_on_ && before) {
+    std::string line;
+    std::getline(before, line);
+    while (std::getline(before, line) && !before.eof()) {
+      const std::size_t comma = line.find(',');
+      if (comma == std::string::npos || std::atof(line.c_str() + comma + 1) > now.seconds() - 1e-6) break;
+      kept += line + "\n";
+    }
+  }
+  stream_.open(file_, std::ios::trunc);
+  stream_ << kept;
+}
+
+bool DriveLog::write(const DriveRow& row) {
+  if (!stream_.is_open()) begin(row.time);
+  if (!row.reach.empty()) newest_reach_ = row.time.ns / kReachEvery_ns;
+  stream_ << drive_row(row, versus_);
+  stream_.flush();
+  return stream_.good() || std::exchange(failed_, true);
+}
+
+}  // namespace phare

@@ -1,0 +1,47 @@
+// Two designs of the lamps on the same drive: the one that shines (A) and another (B), in halves of one picture or by
+// turns. Off it holds no lamps and adds no view: `work_done` counts. Checked by tests/visual_process/versus_test.cpp.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "config/desk.h"
+#include "visual/process/lamps.h"
+#include "visual/renderer.h"
+
+namespace phare {
+
+class Versus {
+ public:
+  /// Where the beams of B begin among the renderer's.
+  static constexpr std::size_t kFirstBeam = kMostLampsOfDesign;
+
+  /// Adopts desk and controls, after A has. What changed of B's beams, with their places among the renderer's.
+  std::vector<Lamps::Change> follow(const Desk& desk, const Lamps& shown, CockpitState controls);
+
+  /// B as it shines; none: nothing is compared.
+  const Lamps* lamps() const { return lamps_.get(); }
+  /// B's lamps in the world, with the places of their beams.
+  std::vector<PlacedLamp> placed(const VehicleState& pose) const;
+  /// By turns: B has its half of each second.
+  static bool has_turn(const Desk& desk, SimTime now) {
+    return desk.compare == Compare::kFlicker && now.ns % 1'000'000'000 >= 500'000'000;
+  }
+  /// The frame's own view is the left half of what it was, and the right half shows B.
+  void split(FrameInput& frame, const VehicleState& pose) const;
+
+  std::uint64_t work_done() const { return work_; }
+
+ private:
+  std::unique_ptr<Lamps> lamps_;
+  std::uint64_t work_ = 0;
+};
+
+/// Which design stands beside the one that shines; none: the rig has no other.
+std::optional<std::size_t> versus_design(const Desk& desk, const Lamps& shown);
+
+/// The line between the halves and the names of both, or of the one that has its turn.
+void mark_versus(OverlayMarks& marks, const Desk& desk, const Lamps& shown, const Lamps& other, SimTime now);
+
+}  // namespace phare
