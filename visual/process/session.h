@@ -13,6 +13,7 @@
 #include "visual/process/audit.h"
 #include "visual/process/fail_safe_log.h"
 #include "visual/process/frame_stats.h"
+#include "visual/process/governor.h"
 #include "visual/process/lamp_replay.h"
 #include "visual/process/lamps.h"
 #include "visual/process/law.h"
@@ -54,9 +55,11 @@ struct Session {
   FailSafeLog fail_safes;
   LawLink law;
   EyeAdaptation eye;
-  LampReplay lamps_then;        ///< of the drive that is shown
-  std::vector<LanePoint> lane;  ///< of the scene; empty where it has none
-  nlohmann::json lamps_json;    ///< tables with hashes, peak and flux: does not change
+  Governor governor;             ///< in real time, where a budget is given
+  nlohmann::json governor_left;  ///< its report, where it has left the lead to the user
+  LampReplay lamps_then;         ///< of the drive that is shown
+  std::vector<LanePoint> lane;   ///< of the scene; empty where it has none
+  nlohmann::json lamps_json;     ///< tables with hashes, peak and flux: does not change
 
   const ChannelConfig& channel() const { return rig.channels[options.channel]; }
 };
