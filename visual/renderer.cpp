@@ -203,6 +203,7 @@ FrameResult Renderer::draw(const FrameInput& input) {
   FrameParts parts = impl_->parts();
   FrameResult result;
   gpu::Image* display = nullptr;
+  const std::uint64_t pipelines_before = *impl_->device.pipelines_made;
   impl_->forget_copies(input);
   impl_->submit([&] { result.views = draw_frame(parts, input, display); });
   const bool presented = !impl_->surface || impl_->surface->present(*display);
@@ -220,6 +221,7 @@ FrameResult Renderer::draw(const FrameInput& input) {
   result.images = counts.images;
   result.image_bytes = counts.image_bytes;
   result.shared_image_bytes = counts.shared_bytes;
+  result.pipelines_made = *impl_->device.pipelines_made - pipelines_before;
   result.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -125,6 +125,7 @@ struct FrameResult {
   std::uint32_t images = 0;  ///< images of the frame that live, and their bytes
   std::uint64_t image_bytes = 0;
   std::uint64_t shared_image_bytes = 0;  ///< what they would take besides, if none used the memory of another
+  std::uint64_t pipelines_made = 0;      ///< because no frame before needed them: such a frame is late
 };
 
 struct Image8 {

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # process: what happens to someone who has Debian 12 and nothing else. mmdebstrap makes such systems (no sudo, no git,
 # no locale), and in them
-#   1. ./phare drive of these sources installs, builds and leaves a report, with no package that packages.txt marks "test";
+#   1. ./phare drive of these sources installs, builds and leaves a report, with no package that packages.txt marks "test",
+#      and with a display a person drives in its window (Xvfb and xdotool of the host);
 #   2. ./phare package makes a Debian package;
 #   3. ./phare test --only-configure adds the packages of the tests and configures every preset;
 #   4. the package of 2 is installed by apt on a second bare system and drives from /usr, where nothing is written.
@@ -129,12 +130,50 @@ has_report() {
 
 drive=(drive --headless --lockstep --frames 3 --port-base "$port_base")
 
+# has_window ROOT FOLDER: a person presses Up in the window of `./phare drive` until the car moves, then Esc until it ends.
+has_window() {
+  local root=$work/$1 number=$((600 + $$ % 300)) display drive status=0 begin=$SECONDS
+  command -v Xvfb >/dev/null && command -v xdotool >/dev/null || { echo "        SKIPPED: the window: no Xvfb, or no xdotool"; return; }
+  display=:$number
+  Xvfb "$display" -screen 0 1280x720x24 -nolisten tcp >"$work/xvfb" 2>&1 &
+  local server=$!
+  # Its socket, where the bare system looks for it.
+  mkdir -p "$root/tmp/.X11-unix" /tmp/.X11-unix
+  mount --bind /tmp/.X11-unix "$root/tmp/.X11-unix"
+  enter "$1" "$2" env "DISPLAY=$display" ./phare drive --size 320x180 --set reach=on --port-base "$port_base" --out /root/window >"$work/log" 2>&1 </dev/null &
+  drive=$!
+  pressed() { DISPLAY=$display timeout 60 xdotool search --sync --onlyvisible --name '^Phare$' windowfocus "$@" >/dev/null 2>&1; }
+  pressed sleep 0 || failed "no window in the bare system"
+  while ! grep -q "ready after" "$work/log"; do
+    kill -0 "$drive" 2>/dev/null || failed "the drive in the window ended before its picture was ready"
+    sleep 1
+  done
+  pressed keydown Up
+  sleep 8
+  pressed keyup Up
+  for _ in 1 2 3 4 5 6 7 8 9 10; do
+    pressed key Escape || true
+    sleep 1
+    kill -0 "$drive" 2>/dev/null || break
+  done
+  wait "$drive" || status=$?
+  kill "$server" 2>/dev/null || true
+  wait "$server" 2>/dev/null || true
+  umount "$root/tmp/.X11-unix"
+  [ "$status" = 0 ] || failed "the drive in the window ended with $status"
+  # What was driven stands in the rows of its probes.csv, column by the name in the first.
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "speed_mps") column = i } NR > 1 && $column > 1 { moved = 1 } END { exit !moved }' \
+    "$root/root/window/probes.csv" || failed "the car did not move in the window"
+  took "$begin" "a person drives in the window of ./phare drive"
+}
+
 # The clone drives, makes its Debian package (left in $work) and configures its tests.
 try_clone() {
   local mark name preset
   step "./phare ${drive[*]}" first /root/phare ./phare "${drive[@]}"
   grep '^phare: ' "$work/log" | sed 's/^/        /'
   has_report first /root/phare/out
+  has_window first /root/phare
   # What was asked for; xz-utils, say, comes with build-essential.
   enter first / apt-mark showmanual >"$work/asked_for"
   while read -r name mark _; do

@@ -97,6 +97,22 @@ TEST_F(DriveTest, BeamsAreSummedOnlyWhenALightChanges) {
   EXPECT_EQ(visual["beams"]["image"], "float32-native-nodes");
 }
 
+// Whatever the picture begins with, what it takes to draw it is made before the drive, and no frame of it is late for
+// that.
+TEST_F(DriveTest, NoFrameOfADriveMakesAPipeline) {
+  for (const std::vector<std::string>& set :
+       {std::vector<std::string>{"--set", "view=false-colour", "--set", "depth_first=on"},
+        {"--set", "mirrors=on", "--set", "visibility_m=100", "--set", "shadows=fine"}}) {
+    std::vector<std::string> arguments{"--frames", "20", "--rig", source_dir() + "/config/rigs/matrix.toml"};
+    arguments.insert(arguments.end(), set.begin(), set.end());
+    DriveRun run(folder_ / "ahead", folder_ / "home", arguments, /*lockstep=*/false);
+    ASSERT_EQ(run.wait(), 0);
+    const json made = report_of(folder_ / "ahead")["processes"]["visual-0"]["made_in_the_drive"];
+    EXPECT_EQ(made["pipelines"], 0) << set[1] << ": " << made;
+    fs::remove_all(folder_ / "ahead");
+  }
+}
+
 // A control unit beside the rig dims the segments of one matrix lamp: the picture follows, the other processes do not
 // care.
 TEST_F(DriveTest, ALampIsDimmedWhileDriving) {

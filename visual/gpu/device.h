@@ -72,6 +72,7 @@ class Device {
   std::string driver;
   std::shared_ptr<std::atomic<std::uint64_t>> validation_messages = std::make_shared<std::atomic<std::uint64_t>>(0);
   MemoryCount allocated_bytes = std::make_shared<std::uint64_t>(0);
+  std::shared_ptr<std::uint64_t> pipelines_made = std::make_shared<std::uint64_t>(0);
 
   Memory allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags flags);
   /// Records, submits and waits.

@@ -204,6 +204,7 @@ vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
   std::uint32_t id = shader::kSpecTables;
   for (const std::uint32_t word : scene.table_words(tables)) constants.put(id++, word);
   const vk::SpecializationInfo info = constants.info();
+  ++*device_.pipelines_made;
   return *pipelines_
               .emplace(key, vk::raii::Pipeline(
                                 device_.device, nullptr,

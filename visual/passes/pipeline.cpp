@@ -44,6 +44,7 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
       .colorAttachmentCount = static_cast<std::uint32_t>(recipe.colour.size()),
       .pColorAttachmentFormats = recipe.colour.data(),
       .depthAttachmentFormat = recipe.depth ? vk::Format::eD32Sfloat : vk::Format::eUndefined};
+  ++*device.pipelines_made;
   return vk::raii::Pipeline(device.device, nullptr,
                             vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
                                                            .stageCount = static_cast<std::uint32_t>(stages.size()),

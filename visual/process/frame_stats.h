@@ -85,6 +85,9 @@ struct FrameStats {
   std::uint64_t frames = 0;
   std::uint64_t captured_frames = 0;
   std::uint64_t stale_frames = 0;  ///< drawn with a held pose
+  std::uint64_t making_frames = 0;  ///< that had to make a pipeline, which a warm-up should have made
+  std::uint64_t pipelines_made = 0;
+  double longest_making_ms = 0.0;
   FrameResult newest;
   std::optional<std::chrono::steady_clock::time_point> first_end, last_end;  ///< of the first and the newest frame
 
@@ -101,6 +104,11 @@ struct FrameStats {
     ++frames;
     wall_ms.add(result.wall_ms);
     newest = result;
+    if (result.pipelines_made > 0) {
+      ++making_frames;
+      pipelines_made += result.pipelines_made;
+      longest_making_ms = std::max(longest_making_ms, result.wall_ms);
+    }
     if (captured) {
       ++captured_frames;
       return;

@@ -60,6 +60,9 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["interval_ms"] = to_json(stats.interval_ms);
   report["pass_ms"] = nlohmann::json::object();
   for (const auto& [pass, times] : stats.pass_ms) report["pass_ms"][pass] = to_json(times);
+  report["made_in_the_drive"] = {{"pipelines", stats.pipelines_made},
+                                 {"frames", stats.making_frames},
+                                 {"longest_frame_ms", stats.longest_making_ms}};
   report["draws"] = stats.newest.draws;
   report["passes"] = stats.newest.pass_count;
   report["triangles"] = stats.newest.triangles;

@@ -267,10 +267,10 @@ void Loop::warm_up() {
   const Clock::time_point begin = Clock::now();
   const VehicleState pose;
   FrameInput input;
-  input.camera = overview_camera(s_.scene);
-  input.method = s_.desk.method;
+  set_by_desk(input, s_.desk, s_.channel(), pose, nullptr);
+  const Camera first_camera = std::exchange(input.camera, overview_camera(s_.scene));
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
-  const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 1 : 1;
+  const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 2 : 1;
   int step = 0;
   bool last = false;
   const auto draw = [&](const CockpitState& controls) {
@@ -287,10 +287,12 @@ void Loop::warm_up() {
       input.visibility_m = clear ? std::nullopt : std::optional(s_.desk.visibility_m.value_or(100.0));
       for (const bool off : {true, false}) {
         shadows = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
+        if (last && s_.desk.mirrors) input.more_views = mirror_views(input, s_.channel(), pose);
         s_.renderer.draw(input);
       }
       // Where the governor may step to: not in the drive either.
-      for (const GovernorLevel& level : last&& thorough ? s_.governor.levels() : std::vector<GovernorLevel>{}) {
+      if (!last || !thorough || clear == s_.desk.visibility_m.has_value()) continue;
+      for (const GovernorLevel& level : s_.governor.levels()) {
         FrameInput of_level = input;
         of_level.method = level.method;
         of_level.effects[static_cast<std::size_t>(Effect::kShadows)] = level.shadows;
@@ -310,10 +312,12 @@ void Loop::warm_up() {
       }
     }
   }
-  input.camera = driver_camera(s_.channel(), pose);
-  input.want_image = s_.album.wanted();
+  // As the drive begins, over the whole scene where there is time, then as it is seen.
   last = true;
-  draw(controls_to_show(s_.bus, Clock::now()));  // low beam
+  if (thorough) draw(controls_to_show(s_.bus, Clock::now()));  // low beam
+  input.camera = first_camera;
+  input.want_image = s_.album.wanted();
+  draw(controls_to_show(s_.bus, Clock::now()));
   s_.lamps.begin_counting();
   if (!ended_) spdlog::info("ready after {:.1f} s", std::chrono::duration<double>(Clock::now() - begin).count());
 }
@@ -451,7 +455,10 @@ void Loop::draw(const Moment& moment) {
   const FrameResult result = s_.renderer.draw(input_);
   if (over_) return;  // what is counted is the drive
   s_.stats.add(result, captured_);
-  if (!captured_) govern(moment, result.wall_ms);
+  if (result.pipelines_made > 0)
+    spdlog::info("a kind of picture not drawn before: {} pipelines made in this frame, {:.0f} ms",
+                 result.pipelines_made, result.wall_ms);
+  if (!captured_ && result.pipelines_made == 0) govern(moment, result.wall_ms);
   if (moment.car.stale) ++s_.stats.stale_frames;
   s_.fail_safes.add(moment.time, moment.controls);
   const Clock::time_point now = Clock::now();
