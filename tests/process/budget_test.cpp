@@ -74,7 +74,9 @@ TEST_F(Budget, WhatIsPickedIsDrawnAndTold) {
   EXPECT_FALSE(tolerance["summary"]["picked"].contains("governor"));
   EXPECT_EQ(tolerance["processes"]["visual-0"]["beams"]["image"], "float32-native-nodes");
   for (const json& effect : tolerance["processes"]["visual-0"]["effects"])
-    if (effect["name"] == "shadows" && effect["level"] != "off") EXPECT_EQ(effect["level"], "soft");
+    if (effect["name"] == "shadows" && effect["level"] != "off") {
+      EXPECT_EQ(effect["level"], "soft");
+    }
   // Lockstep: what is picked for a budget stays.
   ASSERT_EQ(drive(*folder_ / "lockstep", folder_->path(), {"--frames", "2", "--budget-ms", "9000"}), 0);
   const json lockstep = report_of(*folder_ / "lockstep");
