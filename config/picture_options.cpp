@@ -41,6 +41,16 @@ std::string why_not(const DeskCommand& command) {
 
 }  // namespace
 
+std::optional<double> share_of_percent(const std::string& text) {
+  double percent = 0.0;
+  const char* const end = text.data() + text.size();
+  auto [stop, failed] = std::from_chars(text.data(), end, percent);
+  if (failed != std::errc{}) return std::nullopt;
+  if (stop != end && *stop == ' ') ++stop;
+  if (std::string_view(stop, end) != "%" || !(percent > 0.0 && percent <= 100.0)) return std::nullopt;
+  return 0.01 * percent;
+}
+
 void PictureOptions::add_to(CLI::App& app) {
   const auto declare = [&](CLI::Option* option) {
     option->group("Picture");
@@ -111,6 +121,16 @@ void PictureOptions::add_to(CLI::App& app) {
   declare(app.add_option("--audit-every", audit_every, "Frames between self-audits, 0: never"))
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
+  declare(app.add_option_function<std::string>(
+              "--audit-bound", [this](const std::string& text) { audit_bound = share_of_percent(text); },
+              "Most that an audited pixel may be off by, such as 1%, in place of what its level states; one that is "
+              "off by more fails a lockstep drive"))
+      ->check(
+          [](const std::string& text) {
+            return share_of_percent(text) ? std::string()
+                                          : "expected a share of the light in percent, such as 1%, got '" + text + "'";
+          },
+          "", "percent");
   declare(app.add_option("--device", device_name, "Take the Vulkan device whose name contains this"));
   declare(app.add_flag("--validation", validation, "Vulkan validation with synchronization validation"));
 }

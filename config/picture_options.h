@@ -4,6 +4,7 @@
 
 #include <CLI/App.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace phare {
 
 /// Most cuts of the ground: 64 triangles from one.
 inline constexpr int kMostRoadCuts = 3;
+
+/// A share of "1%" or "0.5 %", above 0; nothing: it is none.
+std::optional<double> share_of_percent(const std::string& text);
 
 class PictureOptions {
  public:
@@ -35,7 +39,8 @@ class PictureOptions {
   bool video = false;      ///< a picture of every frame, for the video
   std::string beam_image;  ///< one of kImageLevelNames; empty: the rig's
   int road_cuts = 0;       ///< how often each triangle of the ground is cut in four
-  std::int64_t audit_every = 300;  ///< frames; 0: never
+  std::int64_t audit_every = 300;     ///< frames; 0: never
+  std::optional<double> audit_bound;  ///< a share of the light, in place of what the level states
   std::string device_name;
   bool validation = false;
 

@@ -83,6 +83,7 @@ struct FrameReport {
   bool flash_drawn = false;
   bool fail_safe_drawn = false;
   std::uint64_t pictures_not_kept = 0;
+  std::string audit_failure{};
 
   friend bool operator==(const FrameReport&, const FrameReport&) = default;
 };

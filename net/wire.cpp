@@ -139,6 +139,7 @@ void fill(wire::FrameReport& to, const FrameReport& from) {
   to.set_flash_drawn(from.flash_drawn);
   to.set_fail_safe_drawn(from.fail_safe_drawn);
   to.set_pictures_not_kept(from.pictures_not_kept);
+  if (!from.audit_failure.empty()) to.set_audit_failure(from.audit_failure);
 }
 
 struct CommandFiller {
@@ -335,6 +336,7 @@ void read(FrameReport& to, const wire::FrameReport& from) {
   to.flash_drawn = from.flash_drawn();
   to.fail_safe_drawn = from.fail_safe_drawn();
   to.pictures_not_kept = from.pictures_not_kept();
+  to.audit_failure = from.audit_failure();
 }
 
 bool read(RigControl& to, const wire::RigControl& from) {

@@ -108,6 +108,7 @@ void check(Checker& c, const FrameReport& r) {
   c.require(r.channels >= 1 && r.channels <= kMaxChannels && r.channel < r.channels);
   c.number(r.frame_ms, 0.0, kMaxFrame_ms);
   c.number(r.gpu_ms, 0.0, kMaxFrame_ms);
+  c.require(r.audit_failure.size() <= kMaxErrorBytes);
   c.require(enum_within(r.light_drawn, LightSwitch::kHigh));
   check(c, r.drawn);
 }

@@ -21,6 +21,7 @@
 #include "tools/derived_rig.h"
 #include "tools/drive_folder.h"
 #include "tools/drive_options.h"
+#include "tools/drive_pick.h"
 #include "tools/drive_processes.h"
 #include "tools/drive_progress.h"
 #include "tools/drive_series.h"
@@ -64,6 +65,17 @@ struct PicturesNotKept {
     std::uint64_t all = 0;
     for (const auto& [start, count] : by_start) all += count;
     return all;
+  }
+};
+
+/// The first pixel that a channel found off by more than its level states.
+struct AuditsFailed {
+  std::string first;
+
+  void take(const Datagram& datagram) {
+    if (const auto* report = std::get_if<FrameReport>(&datagram.payload); report && first.empty())
+      if (!report->audit_failure.empty())
+        first = "self-audit of visual-" + std::to_string(datagram.sender_channel) + ": " + report->audit_failure;
   }
 };
 
@@ -179,6 +191,7 @@ class DriveRun {
   fs::path made_;  ///< the first folder that was not there before
   DriveFacts facts_;
   PicturesNotKept not_kept_;
+  AuditsFailed audits_;
   Status recorded_ = Done{};
   std::size_t restarts_seen_ = 0;
   bool told_ = false;   ///< how to drive
@@ -259,6 +272,7 @@ void DriveRun::run(std::optional<Wish>& wish) {
   bus_->on_datagram = [this, wishes_too = bus_->on_datagram](const Datagram& datagram, auto bytes) {
     if (wishes_too) wishes_too(datagram, bytes);
     not_kept_.take(datagram);
+    audits_.take(datagram);
   };
   begin_ = Clock::now();
   supervisor_->let_go();
@@ -302,6 +316,7 @@ void DriveRun::judge() {
   bus_->poll();
   if (facts_.exit_code != kExitDone) return;
   facts_.why = what_is_missing(not_kept_, recorded_);
+  if (!audits_.first.empty()) facts_.why = audits_.first + (facts_.why.empty() ? "" : "; " + facts_.why);
   if (!facts_.why.empty()) facts_.exit_code = kExitCheckFailed;
 }
 
@@ -365,6 +380,7 @@ void DriveRun::write_report() {
 int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
   auto rig = prepare_drive(options);
   if (!rig) return bad_input(rig.error());
+  if (const Status picked = pick_settings(options, *rig); !picked) return bad_input(picked.error());
   DriveRun drive(options, std::move(*rig));
   if (const Status read = drive.read(); !read) return bad_input(read.error());
   const auto started = drive.start();

@@ -157,6 +157,7 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
       "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap\n"
       "  phare drive --explain --light high\n"
       "  phare drive --design halogen --versus led --headless --lockstep --frames 60 --out ab\n"
+      "  phare drive --budget-ms 40 --headless --frames 60 --size 320x180 --out quick\n"
       "  phare drive --lamp led_low_beam.ies --lamp-high high_beam.ies --headless --lockstep --frames 60 --out own\n" +
       std::string(kLampFlagsHelp));
   command.add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
@@ -218,6 +219,25 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
   command.add_flag("--fog", options->explain_fog, "With --explain: the front fog lamps too")
       ->excludes(drive_file)
       ->needs(explain);
+  auto* budget =
+      command
+          .add_option("--budget-ms", options->budget_ms,
+                      "Pick the most accurate settings of the picture whose frames take at most this, as measured on "
+                      "this machine; in real time a governor keeps it (docs/cost.md)")
+          ->check(CLI::Range(0.1, 10000.0))
+          ->excludes(explain);
+  command
+      .add_option_function<std::string>(
+          "--tolerance", [options](const std::string& text) { options->tolerance = share_of_percent(text); },
+          "Pick the cheapest settings that keep lux within this, such as 1%, as measured on this machine")
+      ->check(
+          [](const std::string& text) {
+            return share_of_percent(text) ? std::string()
+                                          : "expected a share of the light in percent, such as 1%, got '" + text + "'";
+          },
+          "", "percent")
+      ->excludes(budget)
+      ->excludes(explain);
   options->picture.add_to(command);
 }
 

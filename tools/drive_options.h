@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,11 @@ struct DriveOptions {
   LampDesignNotes lamp_told;      ///< what became of them
   std::string lamp_notes;         ///< the same, as the derived rig says it
   std::vector<std::string> command;
-  std::string level, vehicle;             ///< of the car, instead of the rig's
-  std::vector<std::string> car_and_road;  ///< what phare-dynamics is told besides
+  std::string level, vehicle;                 ///< of the car, instead of the rig's
+  std::vector<std::string> car_and_road;      ///< what phare-dynamics is told besides
+  double budget_ms = 0.0;                     ///< of a frame; 0: none is given
+  std::optional<double> tolerance;            ///< a share of the light
+  std::vector<std::string> picked_arguments;  ///< what phare-visual is told of what was picked for them
   std::string guide;          ///< somebody sits at the window and drives (live) or looks on (replay); empty: nobody
   bool demo_at_once = false;  ///< live: the demo driver begins
 };

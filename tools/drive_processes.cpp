@@ -81,6 +81,7 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
     for (const std::string& setting : options.desk) arguments.insert(arguments.end(), {"--set", setting});
     const std::vector<std::string> picture = options.picture.arguments();
     arguments.insert(arguments.end(), picture.begin(), picture.end());
+    arguments.insert(arguments.end(), options.picked_arguments.begin(), options.picked_arguments.end());
     if (!options.out.empty()) {
       const fs::path out = channel == 0 ? fs::path(options.out) : fs::path(options.out) / rig.channels[channel].name;
       arguments.insert(arguments.end(), {"--out", out.string()});

@@ -136,6 +136,7 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
                             "passes",
                             "triangles",
                             "self_audit",
+                            "picked",
                             "switch_to_photon",
                             "device",
                             "device_memory_bytes",

@@ -61,6 +61,7 @@ class Page {
   std::string html() {
     head();
     facts();
+    picked();
     fail_safe();
     video();
     plots();
@@ -69,6 +70,7 @@ class Page {
     verdicts();
     pictures();
     page_ << "<details><summary>Processes, times, effects, files and their hashes</summary>" << report_tables(report_);
+    self_audit();
     if (!within_) page_ << "<p>Everything in numbers: <a href=\"report.json\">report.json</a></p>";
     page_ << "</details></main></body></html>\n";
     return page_.str();
@@ -335,6 +337,48 @@ class Page {
       picture(folder + "/contact_sheet.png", "Frames of the drive in order");
       page_ << "</div>";
     }
+  }
+
+  /// What a budget or a tolerance had picked, and what the governor made of it.
+  void picked() {
+    const json picked = summary_.value("picked", json::object());
+    if (picked.empty()) return;
+    page_ << "<h2>Accuracy and time</h2><p>" << value_text(picked, "level") << ": " << value_text(picked, "why")
+          << ".</p>";
+    const json governor = picked.value("governor", json::object());
+    if (governor.empty()) return;
+    const json steps = governor.value("steps", json::array());
+    page_ << "<p>The governor kept " << value_text(governor, "budget_ms", "%.4g") << " ms in " << steps.size()
+          << " steps; at the end: " << value_text(governor, "now") << ".</p>";
+    if (steps.empty()) return;
+    page_ << "<div class=\"scroll\"><table><tr><th>at, s</th><th class=\"text\">from</th><th class=\"text\">to</th>"
+             "<th>p95 of a window, ms</th></tr>";
+    for (const json& step : steps)
+      page_ << "<tr><td>" << value_text(step, "time_s") << "</td><td class=\"text\">" << value_text(step, "from")
+            << "</td><td class=\"text\">" << value_text(step, "to") << "</td><td>" << value_text(step, "p95_ms", "%.3g")
+            << "</td></tr>";
+    page_ << "</table></div>";
+  }
+
+  /// What pixels computed again in float64 are off by, and whether their level had said so.
+  void self_audit() {
+    const json audit = summary_.value("self_audit", json::object());
+    if (audit.value("pixels", 0) == 0) return;
+    const json percent = audit.value("residual_percent", json::object());
+    page_ << "<h2>Self-audit</h2><p>" << value_text(audit, "pixels") << " lit pixels of " << value_text(audit, "audits")
+          << " frames computed again in float64: off by " << value_text(percent, "median", "%.2g")
+          << " % in the median, " << value_text(percent, "p99", "%.2g") << " % 99th percentile, "
+          << value_text(percent, "max", "%.2g") << " % at most, where there is more than 0.01 lx.</p>";
+    if (!audit.contains("bound"))
+      page_ << "<p>The level states no bound of its own: by vertex the size of the triangles decides.</p>";
+    else if (!audit.contains("worst_of_bound"))
+      page_ << "<p>None was judged: tables of different aims are summed on a grid of their own.</p>";
+    else
+      page_ << "<p>What the level states, " << value_text(audit, "bound") << ": the worst came to "
+            << number(100.0 * audit["worst_of_bound"].get<double>()) << " % of it.</p>";
+    if (audit.contains("first_over"))
+      page_ << "<p class=\"bad\">" << value_text(audit, "over_bound") << " are off by more, first "
+            << value_text(audit["first_over"], "text") << ".</p>";
   }
 
   /// Pictures that did not show what the stalk asked for, and why.

@@ -66,11 +66,14 @@ const std::array<EffectRow, kEffectCount>& effect_table() {
   return kTable;
 }
 
-EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices) {
+EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, const EffectChoices& picked) {
   EffectPlan plan;
   for (std::size_t i = 0; i < kEffectCount; ++i) {
     const EffectRow& row = kTable[i];
     plan.decisions[i] = row.decide(facts);
+    if (!choices[i] && picked[i] && plan.decisions[i].level > 0)
+      plan.decisions[i] = {std::min(*picked[i], row.levels.size() - 1),
+                           "picked for what is asked of time and accuracy; by itself: " + plan.decisions[i].reason};
     if (!choices[i]) continue;
     if (row.only_where_called_for && plan.decisions[i].level == 0) continue;
     plan.decisions[i] = {std::min(*choices[i], row.levels.size() - 1),

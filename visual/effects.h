@@ -56,7 +56,9 @@ struct EffectPlan {
   bool on(Effect effect) const { return (*this)[effect].level > 0; }
 };
 
-EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices = {});
+/// `picked`: the level of an effect where the facts call for it, which a budget or a tolerance has picked; what the
+/// user has set counts before it.
+EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices = {}, const EffectChoices& picked = {});
 
 /// "tone mapping   off   nothing reads the HDR image …", a line an effect.
 /// Without `columns` as a sentence, for letters that are not all equally wide: "tone mapping off: nothing reads …".

@@ -77,7 +77,7 @@ std::vector<double> place_nodes(std::size_t count, std::span<const NodeBand> ban
 FogNodes place_nodes(const ViewGeometry& view, const glm::dvec2& size_px, std::span<const LampInFog> lamps,
                      std::size_t columns, std::size_t rows) {
   const glm::dmat3& eye = view.camera().world_from_eye;
-  const double half_across = std::tan(0.5 * view.camera().fov_horizontal_rad), half_up = half_across / view.aspect();
+  const double half_up = view.half_up(), half_across = half_up * view.aspect();
   std::optional<NodeBand> band;
   std::vector<NodePeak> across, down;
   for (const LampInFog& lamp : lamps) {

@@ -69,8 +69,8 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   // What that calls for, and the images it takes.
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
-  const EffectPlan effects =
-      plan_effects(facts_of(view.input, lit.lamps, casters, lines, parts.device_facts), view.input.effects);
+  const EffectPlan effects = plan_effects(facts_of(view.input, lit.lamps, casters, lines, parts.device_facts),
+                                          view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
   gpu::Image* light = view.picture.display;

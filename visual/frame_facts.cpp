@@ -16,7 +16,8 @@ EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional
 }
 
 bool looks_for_casters(const ViewInput& view) {
-  return view.effects[static_cast<std::size_t>(Effect::kShadows)] != std::size_t{0};
+  constexpr auto kShadows = static_cast<std::size_t>(Effect::kShadows);
+  return (view.effects[kShadows] ? view.effects : view.picked)[kShadows] != std::size_t{0};
 }
 
 std::size_t text_lines(const FrameInput& input) {

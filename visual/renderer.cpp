@@ -288,7 +288,10 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
 }
 
 std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t count, std::uint64_t seed) {
-  const vk::Extent2D extent{320, 180};
+  // As wide a view as the picture's, in fewer pixels.
+  constexpr std::uint32_t kWidth = 320;
+  const vk::Extent2D& whole = impl_->target.extent;
+  const vk::Extent2D extent{kWidth, std::clamp(kWidth * whole.height / std::max(whole.width, 1u), 1u, 4 * kWidth)};
   using Usage = vk::ImageUsageFlagBits;
   gpu::Image position(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
                       Usage::eColorAttachment | Usage::eTransferSrc, "audit position");
@@ -316,7 +319,9 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
     const std::size_t i = lit[random() % lit.size()];
     samples.push_back({{input.camera.eye_m + glm::dvec3(p[4 * i], p[4 * i + 1], p[4 * i + 2]),
                         glm::dvec3(n[4 * i], n[4 * i + 1], n[4 * i + 2])},
-                       static_cast<double>(p[4 * i + 3])});
+                       static_cast<double>(p[4 * i + 3]),
+                       (static_cast<double>(i % extent.width) + 0.5) / extent.width,
+                       (static_cast<double>(i / extent.width) + 0.5) / extent.height});
   }
   return samples;
 }

@@ -84,6 +84,7 @@ struct ViewInput {
   PicturePart part{};
   std::optional<PictureSize> own_picture{};  ///< 1 to 16384 pixels a side; else it is drawn into the frame's picture
   EffectChoices effects{};                   ///< levels that the user has set; else the facts of the view decide
+  EffectChoices picked{};                    ///< levels where the facts call for the effect (plan_effects)
 };
 
 /// A frame: its own view, and what is drawn over it.
@@ -147,6 +148,7 @@ struct MeasurePoint {
 struct AuditSample {
   MeasurePoint point;         ///< world position and normal of the pixel
   double illuminance_lx = 0;  ///< by the GPU
+  double x_01 = 0, y_01 = 0;  ///< where in the picture, from its upper left corner
 };
 
 class Renderer {

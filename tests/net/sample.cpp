@@ -103,6 +103,7 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       r.flash_drawn = v.flag();
       r.fail_safe_drawn = v.flag();
       r.pictures_not_kept = r.channel;
+      r.audit_failure = v.flag() ? "frame 3, pixel (5, 7): 1.2 lx, float64 1 lx" : "";
       return r;
     }
     case kPayloadIndex<RigControl>: {

@@ -74,6 +74,26 @@ TEST_F(Folder, ALevelOfTheCarCountsForTheDemoToo) {
   EXPECT_NE(contents_of(folder_ / "out" / "dynamics.json").find("\"level\": \"kinematic\""), std::string::npos);
 }
 
+// Pixels computed again in float64 fail a drive whose light is not what its level states, and no other.
+TEST_F(Folder, TheSelfAuditFailsADriveThatIsOffByMoreThanItsLevelStates) {
+  const Said good = drive_here("--frames 4 --audit-every 1 --out good");
+  EXPECT_EQ(good.code, 0) << good.err;
+  const std::string report = contents_of(folder_ / "good" / "report.json");
+  EXPECT_NE(report.find("\"over_bound\": 0"), std::string::npos);
+  EXPECT_EQ(report.find("\"judged\": 0"), std::string::npos) << "nothing was held to anything";
+  // The texture of 1999 held to what only the default level gives: each pixel near the cut-off is off by more.
+  const Said planted =
+      drive_here("--frames 4 --audit-every 1 --beam-image normalised-8bit-1999 --audit-bound 0.01% --out bad");
+  EXPECT_EQ(planted.code, 1) << planted.err;
+  EXPECT_EQ(std::ranges::count(planted.err, '\n'), 1) << planted.err;
+  for (const char* word : {"self-audit of visual-0: frame 0", "pixel (", "headlamp", "float64", "allows"})
+    EXPECT_NE(planted.err.find(word), std::string::npos) << planted.err;
+  EXPECT_NE(contents_of(folder_ / "bad" / "report.json").find("first_over"), std::string::npos);
+  // Its own level states what it can: the same texture passes.
+  const Said own = drive_here("--frames 4 --audit-every 1 --beam-image normalised-8bit-1999 --out own");
+  EXPECT_EQ(own.code, 0) << own.err;
+}
+
 TEST_F(Folder, AnotherDriveGoesBesideUnlessItMayOverwrite) {
   ASSERT_EQ(drive_here("--frames 2 --out out").code, 0);
   const auto before = everything_in("out");

@@ -209,6 +209,8 @@ TEST(PictureOptions, AreTurnedBackIntoTheArgumentsTheyWere) {
                                        "2",
                                        "--audit-every",
                                        "0",
+                                       "--audit-bound",
+                                       "1%",
                                        "--device",
                                        "llvm",
                                        "--validation"};

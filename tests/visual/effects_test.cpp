@@ -56,6 +56,21 @@ TEST(Effects, TheUserDecidesAndThePlanSaysSo) {
   EXPECT_EQ(plan_effects({}, choices)[Effect::kDepthFirst].level, 1u) << "the finest there is";
 }
 
+// What a budget has picked holds where the scene calls for the effect, and makes none; the user's word counts before it.
+TEST(Effects, WhatIsPickedHoldsWhereItIsCalledFor) {
+  const auto shadows = static_cast<std::size_t>(Effect::kShadows);
+  EffectChoices picked{}, choices{};
+  picked[shadows] = 1;
+  const EffectFacts called{.lit_lamps = 2, .casters = 3, .software_device = true};
+  EXPECT_EQ(plan_effects(called, {}, picked).level(Effect::kShadows), 1u);
+  EXPECT_NE(plan_effects(called, {}, picked)[Effect::kShadows].reason.find("picked"), std::string::npos);
+  EXPECT_EQ(plan_effects({.lit_lamps = 2, .casters = 0}, {}, picked).level(Effect::kShadows), 0u);
+  choices[shadows] = 3;
+  EXPECT_EQ(plan_effects(called, choices, picked).level(Effect::kShadows), 3u);
+  picked[shadows] = 0;
+  EXPECT_EQ(plan_effects(called, {}, picked).level(Effect::kShadows), 0u);
+}
+
 TEST(Effects, EveryEffectIsExplainedInOneLine) {
   const std::string text = explain(plan_effects({.lit_lamps = 2}));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), static_cast<std::ptrdiff_t>(kEffectCount));

@@ -147,6 +147,18 @@ TEST_F(Explain, TheLinesShowWhatTheDeskSays) {
   moment.road = RoadPlace::kPastEnd;
   EXPECT_EQ(overlay_lines(desk_, lamps_, moment).size(), with_effects.size() + 1) << "the road's end is told";
   moment.road = RoadPlace::kThere;
+  // What was picked stands among the lines, what the audit found with the effects, and a pixel that is off in any case.
+  moment.picked = "budget 16.6 ms: fragment, shadows hard";
+  moment.audit = "self-audit: 32 pixels in float64, at most 0.0004 % off";
+  EXPECT_EQ(overlay_lines(desk_, lamps_, moment).size(), with_effects.size() + 1);
+  desk_.lines = true, desk_.effects = false;
+  const auto with_pick = overlay_lines(desk_, lamps_, moment);
+  EXPECT_NE(std::ranges::find(with_pick, moment.picked), with_pick.end());
+  EXPECT_EQ(std::ranges::find(with_pick, moment.audit), with_pick.end());
+  desk_.lines = false, desk_.effects = true;
+  moment.audit_over = true;
+  EXPECT_EQ(overlay_lines(desk_, lamps_, moment).size(), with_effects.size() + 2);
+  moment.audit_over = false, moment.audit.clear(), moment.picked.clear();
   // A probe of the car goes with it; one of the world stays. Facing the lamps, 900 cd each from 22 m: 900/22² lx.
   ASSERT_TRUE(apply(desk_, {"probes", "car 25 0.6 0.7 -1 0 0; world 125 0.6 0.7 -1 0 0"}));
   desk_.effects = false;

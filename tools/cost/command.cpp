@@ -1,6 +1,4 @@
 // phare cost: what accuracy costs on this machine.
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -16,8 +14,10 @@
 #include "tools/commands.h"
 #include "tools/cost/ladder.h"
 #include "tools/cost/measure_ladders.h"
+#include "tools/cost/measure_settings.h"
 #include "tools/cost/page.h"
 #include "tools/cost/plot.h"
+#include "tools/cost/progress_line.h"
 
 namespace phare {
 namespace {
@@ -26,12 +26,12 @@ using namespace cost;
 
 struct CostOptions {
   bool quick = false, json = false;
-  std::string out = "cost", scene, lamp, vehicle, size = "1280x720";
+  std::string out = "cost", scene, lamp, vehicle, rig, size = "1280x720";
   std::vector<std::string> ladders;
   std::uint64_t seed = 1;
 };
 
-const std::vector<std::string> kLadderNames{"light", "shadows", "vehicle", "poses"};
+const std::vector<std::string> kLadderNames{"light", "shadows", "fog", "exposure", "vehicle", "poses", "settings"};
 
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
@@ -48,26 +48,6 @@ std::string now_text() {
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
   return text;
 }
-
-/// A line that is written over; silent when nobody looks at it.
-class ProgressLine {
- public:
-  ~ProgressLine() {
-    if (written_) std::fputs("\r\033[K", stderr);
-  }
-  void show(const std::string& doing, double share_01) {
-    if (isatty(STDERR_FILENO) == 0) return;
-    written_ = true;
-    constexpr int kWide = 24;
-    const int done = static_cast<int>(kWide * share_01);
-    std::fprintf(stderr, "\r\033[K[%.*s%.*s] %3.0f %%  %s", done, "########################", kWide - done,
-                 "........................", 100.0 * share_01, doing.c_str());
-    std::fflush(stderr);
-  }
-
- private:
-  bool written_ = false;
-};
 
 class CostRun {
  public:
@@ -103,15 +83,15 @@ class CostRun {
   Status measure(Plan& plan) {
     ProgressLine line;
     plan.progress = [&](const std::string& doing, double share_01) { line.show(doing, share_01); };
-    if (wanted("light") || wanted("shadows")) {
+    if (wanted("light") || wanted("shadows") || wanted("fog") || wanted("exposure")) {
 #ifdef PHARE_WITH_GRAPHICS
       Result<PictureLadders> pictures = picture_ladders(plan);
       if (!pictures) return pictures.error();
       device_ = pictures->device;
-      if (wanted("light")) ladders_.push_back(std::move(pictures->light));
-      if (wanted("shadows")) ladders_.push_back(std::move(pictures->shadows));
+      for (Ladder* ladder : {&pictures->light, &pictures->shadows, &pictures->fog, &pictures->exposure})
+        if (wanted(ladder->name)) ladders_.push_back(std::move(*ladder));
 #else
-      left_out_.push_back("light and shadows: this build draws nothing");
+      left_out_.push_back("light, shadows, fog and exposure: this build draws nothing");
 #endif
     }
     if (wanted("vehicle")) {
@@ -124,8 +104,37 @@ class CostRun {
       if (!poses) return poses.error();
       ladders_.push_back(std::move(*poses));
     }
+    if (wanted("settings")) {
+#ifdef PHARE_WITH_GRAPHICS
+      if (const Status done = settings(plan); !done) return done.error();
+#else
+      left_out_.push_back("settings: this build draws nothing");
+#endif
+    }
     return Done{};
   }
+
+#ifdef PHARE_WITH_GRAPHICS
+  /// Whole settings of the picture, and kept for phare drive --budget-ms and --tolerance.
+  Status settings(const Plan& plan) {
+    const Result<Rig> rig = read_rig(options_.rig);
+    if (!rig) return rig.error();
+    const Result<SettingsTable> table = measure_settings({.rig = &*rig,
+                                                          .width_px = plan.width_px,
+                                                          .height_px = plan.height_px,
+                                                          .visibility_m = rig->desk.visibility_m,
+                                                          .quick = plan.quick,
+                                                          .progress = plan.progress});
+    if (!table) return table.error();
+    device_ = table->validity.device;
+    if (const auto file = keep_settings(*table); file)
+      kept_ = "kept for phare drive --budget-ms and --tolerance in " + file->string();
+    else
+      left_out_.push_back("settings are not kept: " + file.error().text());
+    ladders_.push_back(ladder_of(*table));
+    return Done{};
+  }
+#endif
 
   Status write() {
     json_ = {{"date", now_text()},
@@ -166,6 +175,7 @@ class CostRun {
       return;
     }
     for (const Ladder& ladder : ladders_) std::printf("%s\n", text_of(ladder).c_str());
+    if (!kept_.empty()) std::printf("%s\n", kept_.c_str());
     for (const std::string& line : left_out_) std::printf("left out: %s\n", line.c_str());
     std::printf("* worth it: no other level is at once as exact and cheaper\n%s/index.html\n", options_.out.c_str());
   }
@@ -173,7 +183,7 @@ class CostRun {
   const CostOptions& options_;
   std::vector<Ladder> ladders_;
   std::vector<std::string> left_out_;
-  std::string device_;
+  std::string device_, kept_;
   nlohmann::json json_;
 };
 
@@ -184,6 +194,7 @@ void add_cost(CLI::App& app, Command& chosen) {
   options->scene = (generated_dir() / "scenes/country_road.glb").string();
   options->lamp = (generated_dir() / "lamps/low_rht.ies").string();
   options->vehicle = config_path("vehicles/bmw_320i.toml");
+  options->rig = config_path("rigs/country_road.toml");
   CLI::App* command = app.add_subcommand(
       "cost", "What accuracy costs on this machine: error and time of every level of light, shadows, car and messages");
   command->footer(
@@ -198,6 +209,8 @@ void add_cost(CLI::App& app, Command& chosen) {
                       "Scene (.glb, .gltf) with a straight road along x from the origin [the shipped country road]");
   command->add_option("--lamp", options->lamp, "Photometry of both low beams [a shipped one]");
   command->add_option("--vehicle", options->vehicle, "Vehicle file [config/vehicles/bmw_320i.toml]");
+  command->add_option("--rig", options->rig,
+                      "Whose settings are measured, and kept for phare drive [config/rigs/country_road.toml]");
   command->add_option("--size", options->size, "Pictures, WIDTHxHEIGHT in pixels")->capture_default_str();
   command->add_option("--seed", options->seed, "Of the pixels that errors are taken at")->capture_default_str();
   command->callback([options, &chosen] { chosen = [options] { return CostRun(*options).run(); }; });

@@ -21,7 +21,7 @@ struct Plan {
 #ifdef PHARE_WITH_GRAPHICS
 struct PictureLadders {
   std::string device;
-  Ladder light, shadows;
+  Ladder light, shadows, fog, exposure;
 };
 /// Light: method × beam image level × cuts of the ground, against float64 at the pixels' own points. Shadows: each
 /// level at points of the scene, against rays in float64. Times turn by turn, so that noise hits all levels alike; a

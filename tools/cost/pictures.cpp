@@ -1,4 +1,4 @@
-// The ladders of light and of shadows.
+// The ladders of light, shadows, fog and exposure.
 #include <time.h>
 
 #include <algorithm>
@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 
+#include "tools/cost/fog.h"
 #include "tools/cost/measure_ladders.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/beam/image_levels.h"
@@ -37,6 +39,7 @@ FrameInput view_at(double x_m) {
   return input;
 }
 
+constexpr double kVisibility_m = 100.0;  // fog in which the beams are seen, and something of the road
 constexpr std::array kPlaces_m{26.9, 60.0, 100.0};
 
 double exact_lx(const IntensityTable& table, const PlacedLamp& lamp, const MeasurePoint& point) {
@@ -49,12 +52,17 @@ struct Case {
   Renderer* renderer = nullptr;
   Method method = Method::kFragment;
   std::size_t shadows = 0;
+  std::optional<std::size_t> fog{};  ///< with it the air is foggy
+  bool hdr = false;                  ///< by way of the image in cd/m²
   std::vector<double> times_ms{};
 
   FrameInput view(double x_m) const {
     FrameInput input = view_at(x_m);
     input.method = method;
     input.effects[static_cast<std::size_t>(Effect::kShadows)] = shadows;
+    input.effects[static_cast<std::size_t>(Effect::kFog)] = fog;
+    if (fog) input.visibility_m = kVisibility_m;
+    input.effects[static_cast<std::size_t>(Effect::kHdrImage)] = hdr ? 1 : 0;
     return input;
   }
 };
@@ -65,8 +73,8 @@ class Pictures {
       : plan_(plan), scene_(scene), table_(table) {}
 
   Result<PictureLadders> measure() {
-    std::vector<Case> light, shadows;
-    if (const Status made = make_cases(light, shadows); !made) return made.error();
+    std::vector<Case> light, shadows, fog, exposure;
+    if (const Status made = make_cases(light, shadows, fog, exposure); !made) return made.error();
     PictureLadders ladders{
         .device = renderers_.front()->device(),
         .light = {.name = "light",
@@ -78,12 +86,27 @@ class Pictures {
                     .what = "what stands in the beams: levels of the shadow maps",
                     .reference = "float64 with a ray to each lamp, at points of the scene",
                     .error_unit = "lx",
-                    .time_unit = "ms of processor a frame"}};
+                    .time_unit = "ms of processor a frame"},
+        .fog = {.name = "fog",
+                .what = "light that fog of 100 m visibility scatters toward the eye: levels of its grid",
+                .reference = "float64 quadrature along each line of sight, where there is 1 % of the brightest",
+                .error_unit = "%",
+                .time_unit = "ms of processor a frame"},
+        .exposure = {.name = "exposure",
+                     .what = "from luminance to the picture: where exposure and tone curve are applied, and what image "
+                             "holds cd/m² until then; there is one of 16-bit floats, and none of 32",
+                     .reference = "the tone curve in the lit pass, float32 throughout",
+                     .error_unit = "of 255",
+                     .time_unit = "ms of processor a frame"}};
     for (Case& one : light) find_light_errors(one);
     find_shadow_errors(shadows);
-    time_turn_by_turn(light, shadows);
-    for (Case& one : light) ladders.light.levels.push_back(std::move(one.level));
-    for (Case& one : shadows) ladders.shadows.levels.push_back(std::move(one.level));
+    if (const Status found = find_fog_errors(fog); !found) return found.error();
+    find_exposure_errors(exposure);
+    const std::array all{&light, &shadows, &fog, &exposure};
+    const std::array into{&ladders.light, &ladders.shadows, &ladders.fog, &ladders.exposure};
+    time_turn_by_turn(all);
+    for (std::size_t k = 0; k < all.size(); ++k)
+      for (Case& one : *all[k]) into[k]->levels.push_back(std::move(one.level));
     return ladders;
   }
 
@@ -101,12 +124,17 @@ class Pictures {
     return &renderer;
   }
 
-  Status make_cases(std::vector<Case>& light, std::vector<Case>& shadows) {
+  Status make_cases(std::vector<Case>& light, std::vector<Case>& shadows, std::vector<Case>& fog,
+                    std::vector<Case>& exposure) {
+    const auto add_case = [&](std::vector<Case>& to, Case one) {
+      to.push_back(std::move(one));
+      Renderer& with = *to.back().renderer;
+      with.draw(to.back().view(kPlaces_m[0]));
+      to.back().level.memory_bytes = with.device_memory_bytes();
+    };
     const auto add = [&](std::vector<Case>& to, const std::string& name, Renderer* with, Method method,
                          std::size_t level) {
-      to.push_back({.level = {.name = name}, .renderer = with, .method = method, .shadows = level});
-      with->draw(to.back().view(kPlaces_m[0]));
-      to.back().level.memory_bytes = with->device_memory_bytes();
+      add_case(to, {.level = {.name = name}, .renderer = with, .method = method, .shadows = level});
     };
     const auto method_name = [](Method method) { return std::string(kMethodNames[static_cast<std::size_t>(method)]); };
     Renderer* exact = nullptr;
@@ -128,6 +156,14 @@ class Pictures {
     }
     for (std::size_t level = 0; level < kShadowNames.size(); ++level)
       add(shadows, std::string(kShadowNames[level]), exact, Method::kFragment, level);
+    const EffectRow& row = effect_table()[static_cast<std::size_t>(Effect::kFog)];
+    for (std::size_t level = 0; level < row.levels.size(); ++level)
+      add_case(fog, {.level = {.name = std::string(row.levels[level])}, .renderer = exact, .fog = level});
+    for (const bool hdr : {false, true})
+      add_case(exposure,
+               {.level = {.name = hdr ? "16-bit float image, then the tone curve" : "in the lit pass, no image"},
+                .renderer = exact,
+                .hdr = hdr});
     return Done{};
   }
 
@@ -196,13 +232,49 @@ class Pictures {
     }
   }
 
-  void time_turn_by_turn(std::vector<Case>& light, std::vector<Case>& shadows) {
+  /// In a renderer of its own: it loads another scene.
+  Status find_fog_errors(std::vector<Case>& cases) {
+    plan_.progress("fog against float64", 0.22);
+    Result<Renderer> made = Renderer::create({.width_px = plan_.width_px, .height_px = plan_.height_px});
+    if (!made) return made.error();
+    std::vector<FogErrors> errors = fog_errors(*made, table_, kVisibility_m, {plan_.width_px, plan_.height_px},
+                                               plan_.width_px / (plan_.quick ? 24 : 60));
+    for (std::size_t level = 0; level < std::min(errors.size(), cases.size()); ++level) {
+      char note[64];
+      std::snprintf(note, sizeof note, "of the fog's light misplaced: %.2g %%", 100.0 * errors[level].misplaced);
+      for (double& difference : errors[level].differences) difference *= 100.0;
+      cases[level].level.error = errors_of(std::move(errors[level].differences));
+      cases[level].level.note = note;
+    }
+    return Done{};
+  }
+
+  void find_exposure_errors(std::vector<Case>& cases) {
+    plan_.progress("exposure", 0.25);
+    std::vector<std::vector<double>> differences(cases.size());
+    for (const double x_m : kPlaces_m) {
+      Image8 truth;
+      for (std::size_t k = 0; k < cases.size(); ++k) {
+        FrameInput input = cases[k].view(x_m);
+        input.want_image = true;
+        cases[k].renderer->draw(input);
+        const Image8 seen = cases[k].renderer->read_image();
+        if (k == 0) truth = seen;
+        for (std::size_t i = 0; i < seen.rgba.size(); ++i)
+          if (i % 4 != 3)
+            differences[k].push_back(static_cast<double>(seen.rgba[i]) - static_cast<double>(truth.rgba[i]));
+      }
+    }
+    for (std::size_t k = 0; k < cases.size(); ++k) cases[k].level.error = errors_of(std::move(differences[k]));
+  }
+
+  void time_turn_by_turn(std::span<std::vector<Case>* const> all) {
     const int rounds = plan_.quick ? 9 : 60;
     for (int round = 0; round < rounds; ++round) {
       plan_.progress("frames, round " + std::to_string(round + 1) + " of " + std::to_string(rounds),
                      0.3 + 0.7 * round / rounds);
       const double x_m = kPlaces_m[0] + 0.1 * (round % 64);
-      for (std::vector<Case>* cases : {&light, &shadows})
+      for (std::vector<Case>* cases : all)
         for (Case& one : *cases) {
           const FrameInput input = one.view(x_m);
           one.renderer->draw(input);
@@ -211,7 +283,7 @@ class Pictures {
           one.times_ms.push_back(processor_ms() - begin);
         }
     }
-    for (std::vector<Case>* cases : {&light, &shadows})
+    for (std::vector<Case>* cases : all)
       for (Case& one : *cases) one.level.time = times_of(std::move(one.times_ms));
   }
 

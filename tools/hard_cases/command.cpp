@@ -22,6 +22,7 @@ struct HardCaseOptions {
   std::vector<std::string> names;
   std::string out;
   std::uint64_t seed = 1;
+  double tighten = 1.0;
   bool markdown = false;
 };
 
@@ -35,6 +36,7 @@ std::vector<HardCase> all_cases() {
   add(picture_cases());
 #endif
   add(vehicle_cases());
+  add(bus_cases());
   return cases;
 }
 
@@ -46,7 +48,7 @@ std::string cell(const std::vector<Found>& found, const std::optional<double>& b
 }
 
 int run_cases(const HardCaseOptions& options) {
-  const std::vector<HardCase> all = all_cases();
+  std::vector<HardCase> all = all_cases();
   if (options.markdown) {
     std::fputs(markdown(all).c_str(), stdout);
     return kExitDone;
@@ -55,6 +57,9 @@ int run_cases(const HardCaseOptions& options) {
   for (const std::string& name : options.names)
     if (std::none_of(all.begin(), all.end(), [&](const HardCase& one) { return one.name == name; }))
       return bad_input({name, "is no hard case; phare hard-cases --markdown lists them"});
+  for (HardCase& one : all)
+    for (std::optional<double>* bound : {&one.device_bound, &one.float64_bound})
+      if (*bound) **bound /= options.tighten;
   for (const HardCase& one : all)
     if (options.names.empty() || std::find(options.names.begin(), options.names.end(), one.name) != options.names.end())
       cases.push_back(one);
@@ -89,8 +94,10 @@ int run_cases(const HardCaseOptions& options) {
     std::fflush(stdout);
     if (found != Standing::kMissed) continue;
     ++missed;
-    std::printf("  again: phare hard-cases %s --seed %llu\n", one.name.c_str(),
-                static_cast<unsigned long long>(options.seed));
+    char tighten[48] = "";
+    if (options.tighten != 1.0) std::snprintf(tighten, sizeof tighten, " --tighten %.9g", options.tighten);
+    std::printf("  again: phare hard-cases %s --seed %llu%s\n", one.name.c_str(),
+                static_cast<unsigned long long>(options.seed), tighten);
   }
   if (!options.out.empty())
     if (const Status written =
@@ -111,6 +118,9 @@ void add_hard_cases(CLI::App& app, Command& chosen) {
   command->add_option("names", options->names, "Cases [all]");
   command->add_option("--out", options->out, "Folder for a page with a plot of each");
   command->add_option("--seed", options->seed, "Of the random scenes")->capture_default_str();
+  command->add_option("--tighten", options->tighten, "Allow so many times less: how much room a case has")
+      ->check(CLI::Range(1.0, 1e30))
+      ->capture_default_str();
   command->add_flag("--markdown", options->markdown, "Print the list as docs/hard-cases.md has it");
   command->callback([options, &chosen] { chosen = [options] { return run_cases(*options); }; });
 }

@@ -120,7 +120,8 @@ std::string markdown(const std::vector<HardCase>& cases) {
          "\n## Held by tests\n\nThese take processes, sockets or hours, and run in `./phare test`:\n\n"
          "- the car: seventeen cases from standing on a slope to a spin, `HardCase.*` of `phare_dynamics_models_test` "
          "([dynamics.md](dynamics.md)); a day of simulated time with `PHARE_LONG_TESTS=1`\n"
-         "- the bus: loss of 30 %, duplicates, reordering, a sender that starts again, a stop of 60 s, kills "
+         "- the bus with sockets and whole processes: the same storm, a stop of 60 s, kills, a flood, a day in "
+         "lockstep "
          "([robustness.md](robustness.md))\n"
          "- shadows at a centimetre from their edge, and over a crest: `Shadows.*` of `phare_renderer_test`\n";
 }

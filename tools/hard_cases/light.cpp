@@ -216,12 +216,12 @@ Outcome no_numbers(const Bench&) {
   Outcome outcome;
   double at = 0.0;
   for (const char* cell : {"nan", "inf", "-inf", "1e400", "0x1p3", "", "12,5", "--3"}) {
-    const std::string text = std::string("V\\H,-10,0,10\n-5,1,2,3\n0,4,") + cell + ",6\n5,7,8,9\n";
+    const std::string text = std::string("# unit: cd\nV\\H,-10,0,10\n-5,1,2,3\n0,4,") + cell + ",6\n5,7,8,9\n";
     outcome.float64.push_back({at++, parse_lamp(text, "lamp.csv", {}).ok() ? 1.0 : 0.0});
   }
   // And one that is right, or the refusals would prove nothing.
   outcome.float64.push_back(
-      {at, parse_lamp("V\\H,-10,0,10\n-5,1,2,3\n0,4,5,6\n5,7,8,9\n", "lamp.csv", {}).ok() ? 0.0 : 1.0});
+      {at, parse_lamp("# unit: cd\nV\\H,-10,0,10\n-5,1,2,3\n0,4,5,6\n5,7,8,9\n", "lamp.csv", {}).ok() ? 0.0 : 1.0});
   return outcome;
 }
 

@@ -231,12 +231,14 @@ std::vector<PointLight> Lamps::lights_at(const VehicleState& pose, const Measure
     light.lamp = lamp.name;
     light.lamp_m = position_of(pose) + world_from_car * position.mount.position_m;
     light.surface_lx = lamp_lx(design_, slot, lit_, in_car, pose.lamp_tilt_rad);
+    light.resampled = position.beam.image().resampled;
     light.behind = light.out_of_table = true;
     if (!position.beam.image().dark) light.colour = position.beam.image().colour;
     for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
       if (!lit_.contains(lamp.sources[k].function) || position.dimmed_01(k) <= 0.0) continue;
       const AimedSource source = tables_.aimed(lamp.sources[k]);
       const glm::dvec3 direction = glm::transpose(turn * source.car_from_lamp) * way;
+      light.peak_cd += source.scale * position.dimmed_01(k) * source.table->peak_cd();
       light.candela += source.scale * position.dimmed_01(k) * source.table->intensity_cd(direction);
       const TableAngles angles = source.table->angles_of(direction);
       const auto within = [](const std::vector<double>& nodes, double deg) {

@@ -41,6 +41,8 @@ struct PointLight {
   glm::dvec3 lamp_m{0.0};  ///< world
   bool lit = false;        ///< some source of it is
   double candela = 0.0;    ///< toward the point, all lit sources
+  double peak_cd = 0.0;    ///< no more anywhere: of all lit sources, each at its own
+  bool resampled = false;  ///< its beam image does not have its tables' nodes
   double surface_lx = 0.0;
   double h_deg = 0.0, v_deg = 0.0;  ///< right, up, from the axis of the first lit source as it is aimed
   bool behind = false;              ///< of every lit source

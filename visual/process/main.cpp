@@ -89,6 +89,7 @@ int draw_channel(VisualOptions options) {
   for (const DeskCommand& command : options.desk) {
     if (const auto done = apply(desk, command, {.designs = rig->designs.size()}); !done) return refuse(done.error());
   }
+  if (!options.levels.empty()) desk.method = options.levels[options.begin_level].method;
   Result<Lamps> lamps = Lamps::load(*rig);
   if (!lamps) return refuse(lamps.error());
   Result<Scene> scene = read_scene(rig->scene_file);
@@ -138,11 +139,17 @@ int draw_channel(VisualOptions options) {
   session.eye = eye_of(session);
   session.lamps_then = std::move(lamps_then);
   session.lane = lane_of(session.rig.scene_file);
+  if (session.options.budget_ms > 0.0 && !session.options.lockstep && !session.options.levels.empty())
+    session.governor = Governor(session.options.budget_ms, session.options.levels, session.options.begin_level);
   spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
   run_loop(session);
   // Under a launcher it is the launcher that ends with 1: one that ended so itself would be started again.
   if (session.album.not_kept() > 0 && session.options.alive_file.empty()) {
     spdlog::error("{} pictures could not be kept, first {}", session.album.not_kept(), session.album.first_not_kept());
+    return kExitCheckFailed;
+  }
+  if (session.options.lockstep && session.audit.failure() && session.options.alive_file.empty()) {
+    spdlog::error("self-audit: {}", session.audit.failure()->text());
     return kExitCheckFailed;
   }
   if (session.renderer.validation_messages() > 0) {

@@ -48,6 +48,16 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_flag("--fog", options.explain_fog, "With --explain: the front fog lamps too")
       ->excludes(drive)
       ->needs(explain);
+  // From phare drive, which picks them: no words for people.
+  app.add_option("--budget-ms", options.budget_ms)->check(CLI::PositiveNumber)->group("");
+  app.add_option("--picked", options.picked)->group("");
+  app.add_option("--begin-level", options.begin_level)->group("");
+  app.add_option_function<std::string>(
+         "--level", [&](const std::string& words) { options.levels.push_back(*governor_level(words)); })
+      ->check([](const std::string& words) { return governor_level(words) ? "" : "\"" + words + "\" is no level"; })
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->trigger_on_parse()
+      ->group("");
   picture.add_to(app);
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off")
       ->check(CLI::IsMember(kLogLevelNames))
@@ -75,6 +85,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   options.desk = picture.desk;
   options.road_cuts = picture.road_cuts;
   options.audit_every = picture.audit_every;
+  options.audit_bound = picture.audit_bound;
+  if (!options.levels.empty()) options.begin_level = std::min(options.begin_level, options.levels.size() - 1);
   options.beam_image = level_named(picture.beam_image);
   options.validation = picture.validation;
   options.device_name = picture.device_name;

@@ -11,6 +11,7 @@
 #include "config/desk.h"
 #include "config/rig.h"
 #include "net/messages.h"
+#include "visual/process/governor.h"
 
 namespace phare {
 
@@ -37,6 +38,11 @@ struct VisualOptions {
   double still_at_s = -1.0;              ///< simulated time of the stills; negative: chosen
   int road_cuts = 0;                     ///< how often each triangle of the ground is cut in four
   std::int64_t audit_every = 300;        ///< frames; 0: never
+  std::optional<double> audit_bound;     ///< a share of the light, in place of what the level states
+  std::vector<GovernorLevel> levels;     ///< what was picked, and what the governor may step along; empty: nothing
+  std::size_t begin_level = 0;           ///< of these, the one picked
+  double budget_ms = 0.0;                ///< > 0: the governor keeps it, in real time
+  std::string picked;                    ///< what was picked and why, in words
   std::string guide;                     ///< live, replay: somebody sits at the window; empty: nobody
   bool demo = false;                     ///< a demo driver waits for his key
   std::string report;                    ///< what the end screen says of the report

@@ -61,6 +61,7 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
     std::snprintf(text, sizeof text, "eye adapted to %.0f K%s   exposure EV %.1f", moment.eye.adapted_k(),
                   moment.eye.fixed() ? ", fixed" : "", std::log2(8.0 / desk.exposure_per_cdm2));
     lines.emplace_back(text);
+    if (!moment.picked.empty()) lines.push_back(moment.picked);
     if (desk.visibility_m) lines.push_back(fmt::format("visibility {:.4g} m; lux as in clear air", *desk.visibility_m));
     if (moment.under_mouse)
       lines.push_back(lux_line("", lamps, moment, *moment.under_mouse, moment.under_mouse->position_m));
@@ -84,6 +85,8 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
     lines.push_back("light by the method " + std::string(kMethodNames[static_cast<std::size_t>(desk.method)]) +
                     ": the picture is not exact, lux in figures is");
   for (std::string& end : lamps.lit_table_ends()) lines.push_back(std::move(end));
+  if (desk.effects && !moment.audit.empty()) lines.push_back(moment.audit);
+  if (moment.audit_over) lines.push_back("SELF-AUDIT: a pixel is off by more than its level states");
   if (moment.road != RoadPlace::kThere) lines.push_back(road_end_line(moment.road));
   if (moment.pose_held) lines.emplace_back("POSE HELD: no VehicleState");
   if (moment.controls.fail_safe) lines.emplace_back("FAIL-SAFE low beam: the light switch is silent");

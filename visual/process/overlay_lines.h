@@ -40,6 +40,9 @@ struct OverlayMoment {
   const Scene* scene = nullptr;               ///< what stands in it hides light; none: nothing does
   std::vector<std::string> moving{};          ///< of lamps that are being moved (lamp_keys.h)
   RoadPlace road = RoadPlace::kThere;
+  std::string picked{};     ///< for a budget or a tolerance, as it holds now
+  std::string audit{};      ///< what the self-audit has found (audit.h)
+  bool audit_over = false;  ///< a pixel was off by more than its level states
 };
 
 /// What the driver is told over the picture besides the instruments: time, lux at probes and under the mouse, and

@@ -99,6 +99,12 @@ nlohmann::json report_json(const Session& session, SimTime now) {
                      {"resampled", session.lamps.resampled_images()}};
   report["eye"] = {{"adaptation", session.eye.fixed() ? "fixed" : "auto"}, {"adapted_k", session.eye.adapted_k()}};
   report["self_audit"] = session.audit.json();
+  if (!session.options.picked.empty()) {
+    report["picked"] = {{"level", session.options.levels[session.options.begin_level].text()},
+                        {"why", session.options.picked}};
+    if (session.governor.on()) report["picked"]["governor"] = session.governor.json();
+    if (!session.governor_left.is_null()) report["picked"]["governor"] = session.governor_left;
+  }
   report["switch_to_photon"] = session.switches.json();
   report["scene"] = {{"file", session.scene.file.filename().string()},
                      {"content_hash", session.scene.content_hash},

@@ -1,5 +1,6 @@
 #include "visual/process/run_loop.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -101,6 +102,9 @@ class Loop {
   void measure(const Moment& moment);
   void light_up(const CockpitState& controls);
   void upload(const std::vector<Lamps::Change>& changes);
+  EffectChoices picked_effects() const;
+  void govern(const Moment& moment, double frame_ms);
+  std::vector<double> lux_by_lamp(const MeasurePoint& at);
   void mind_the_lamps(SimTime now);
   void warm_up();
   void announce();
@@ -111,6 +115,20 @@ class Loop {
   bool wants_picture(const Moment& moment);
   bool wants_stills(const Moment& moment) const;
   std::string label(const Moment& moment) const;
+  /// What was picked for the budget or the tolerance, as it holds now.
+  std::string picked_line() const {
+    if (s_.options.levels.empty()) return {};
+    if (!s_.governor.on()) return "picked: " + s_.options.levels[level_].text() + ", " + s_.options.picked;
+    const Governor& governor = s_.governor;
+    std::string line =
+        "budget " + fmt::format("{:.4g}", governor.budget_ms()) + " ms: " + governor.levels()[governor.now()].text();
+    if (!governor.steps().empty()) line += ", step " + std::to_string(governor.steps().size()) + " of the governor";
+    return line;
+  }
+  /// What a lockstep drive fails by.
+  std::string audit_failure() const {
+    return s_.options.lockstep && s_.audit.failure() ? s_.audit.failure()->text() : "";
+  }
   void mind_the_road(const Moment& moment);
   std::vector<std::string> overlay(const Moment& moment) const;
   void log_frame(const Moment& moment, const FrameResult& result);
@@ -155,6 +173,7 @@ class Loop {
   bool fresh_ = false;     // the lines of the overlay are wanted with the next frame
   bool captured_ = false;  // the picture of this frame is read back
   FrameInput input_;
+  std::size_t level_ = s_.options.begin_level;  // of options.levels, where the governor does not lead
   std::optional<Moment> newest_;
 };
 
@@ -293,6 +312,15 @@ void Loop::warm_up() {
         versus_.split(halves, pose);
         s_.renderer.draw(halves);
       }
+      // Where the governor may step to: not in the drive either.
+      if (!last || !thorough || clear == s_.desk.visibility_m.has_value()) continue;
+      for (const GovernorLevel& level : s_.governor.levels()) {
+        FrameInput of_level = input;
+        of_level.method = level.method;
+        of_level.effects[static_cast<std::size_t>(Effect::kShadows)] = level.shadows;
+        if (level.fog) of_level.effects[static_cast<std::size_t>(Effect::kFog)] = level.fog;
+        s_.renderer.draw(of_level);
+      }
     }
   };
   for (std::uint32_t design = 0; thorough && design < s_.lamps.designs().size(); ++design) {
@@ -345,7 +373,8 @@ void Loop::repeat_when_stalled() {
                        LightSwitch::kOff,
                        false,
                        false,
-                       s_.album.not_kept()};
+                       s_.album.not_kept(),
+                       audit_failure()};
     s_.bus.send(car->sim_time, report);
     return;
   }
@@ -429,6 +458,7 @@ void Loop::draw(const Moment& moment) {
   set_by_desk(input_, s_.desk, s_.channel(), moment.car.pose, &measuring_.road());
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
   input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
+  input_.picked = picked_effects();
   input_.more_views.clear();
   if (std::exchange(eye_set_, s_.desk.eye) != s_.desk.eye) s_.eye = eye_set(s_.desk.eye);
   s_.eye.see(moment.time, s_.lamps.light());
@@ -462,6 +492,7 @@ void Loop::draw(const Moment& moment) {
   if (result.pipelines_made > 0)
     spdlog::info("a kind of picture not drawn before: {} pipelines made in this frame, {:.0f} ms",
                  result.pipelines_made, result.wall_ms);
+  if (!captured_ && result.pipelines_made == 0) govern(moment, result.wall_ms);
   if (moment.car.stale) ++s_.stats.stale_frames;
   s_.fail_safes.add(moment.time, moment.controls);
   const Clock::time_point now = Clock::now();
@@ -481,12 +512,40 @@ void Loop::draw(const Moment& moment) {
   s_.switches.frame_finished(moment.controls, moment.time, wall_now(), s_.options.lockstep ? s_.rig.frame_rate_hz : 0);
 }
 
+/// Levels of the effects that were picked, as the governor has them now.
+EffectChoices Loop::picked_effects() const {
+  EffectChoices picked{};
+  if (s_.options.levels.empty()) return picked;
+  const GovernorLevel& level = s_.options.levels[s_.governor.on() ? s_.governor.now() : level_];
+  picked[static_cast<std::size_t>(Effect::kShadows)] = level.shadows;
+  picked[static_cast<std::size_t>(Effect::kFog)] = level.fog;
+  return picked;
+}
+
+/// A step along the levels where the budget is missed, or is met with room. Who sets the method by hand leads himself.
+void Loop::govern(const Moment& moment, double frame_ms) {
+  Governor& governor = s_.governor;
+  if (!governor.on()) return;
+  if (s_.desk.method != governor.levels()[governor.now()].method) {
+    level_ = governor.now();
+    s_.governor_left = governor.json();
+    governor = {};
+    spdlog::info("{:.2f} s: the method is set by hand: the governor leaves", moment.time.seconds());
+    return;
+  }
+  const auto step = governor.add(moment.time.seconds(), frame_ms);
+  if (!step) return;
+  s_.desk.method = governor.levels()[step->to].method;
+  spdlog::info("governor: {}", governor.text(*step));
+}
+
 void Loop::report(const Moment& moment) {
   FrameReport report{
       moment.frame_index,      s_.options.channel,        static_cast<std::uint32_t>(s_.rig.channels.size()),
       s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms,    moment.controls.light_changes,
       moment.car.pose,         moment.car.stale,          moment.controls.light_switch,
-      moment.controls.flash,   moment.controls.fail_safe, s_.album.not_kept()};
+      moment.controls.flash,   moment.controls.fail_safe, s_.album.not_kept(),
+      audit_failure()};
   s_.bus.send(moment.time, report);
   progress_ = Clock::now();  // keeping the picture may have taken longer than a stall
 }
@@ -524,9 +583,27 @@ void Loop::audit(const Moment& moment) {
   if (!over_ && !others_turn && s_.options.audit_every > 0 && number % s_.options.audit_every == 0 &&
       !input_.lamps.empty()) {
     const auto samples = s_.renderer.audit(input_, kPixels, static_cast<std::uint64_t>(number) + 1);
-    s_.audit.add(s_.lamps, moment.car.pose, samples);
+    const AuditMoment where{
+        .frame = number,
+        .time_s = moment.time.seconds(),
+        .width_px = s_.renderer.picture_size().width_px,
+        .height_px = s_.renderer.picture_size().height_px,
+        .bound = audit_bound(s_.options.beam_image.value_or(s_.rig.beam_image), input_.method, s_.options.audit_bound),
+        .by_lamp = [this](const MeasurePoint& at) { return lux_by_lamp(at); }};
+    const auto failure = s_.audit.add(s_.lamps, moment.car.pose, samples, where);
+    // A lockstep drive fails by it: its launcher says so, once; without one we do, when we leave.
+    if (failure && !s_.options.lockstep) spdlog::warn("self-audit: {}", failure->text());
   }
   if (Clock::now() - stats_written_ > kStatsEvery) write_stats(moment.time);
+}
+
+/// Of every lamp of the design, as the picture's shader has it.
+std::vector<double> Loop::lux_by_lamp(const MeasurePoint& at) {
+  std::vector<double> lux(s_.lamps.design().lamps.size(), 0.0);
+  const auto measured = s_.renderer.measure(input_.lamps, std::span(&at, 1));
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    lux[input_.lamps[i].beam] = static_cast<double>(measured[i].front());
+  return lux;
 }
 
 void Loop::finish() {
@@ -660,7 +737,10 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
                         .point = measuring_.lines(),
                         .scene = s_.desk.shadows == 0 ? nullptr : &s_.scene,
                         .moving = lamp_keys_.lines(s_.lamps),
-                        .road = road_});
+                        .road = road_,
+                        .picked = picked_line(),
+                        .audit = s_.audit.line(),
+                        .audit_over = s_.audit.failure().has_value()});
 }
 
 void Loop::write_stats(SimTime now) {

@@ -14,6 +14,7 @@
 #include "visual/process/audit.h"
 #include "visual/process/fail_safe_log.h"
 #include "visual/process/frame_stats.h"
+#include "visual/process/governor.h"
 #include "visual/process/lamp_replay.h"
 #include "visual/process/lamps.h"
 #include "visual/process/law.h"
@@ -76,9 +77,11 @@ struct Session {
   DesignsLit designs_lit;
   std::optional<std::size_t> stills_design;  ///< that the stills show; of a process that was killed not known
   EyeAdaptation eye;
-  LampReplay lamps_then;        ///< of the drive that is shown
-  std::vector<LanePoint> lane;  ///< of the scene; empty where it has none
-  nlohmann::json lamps_json;    ///< tables with hashes, peak and flux: does not change
+  Governor governor;             ///< in real time, where a budget is given
+  nlohmann::json governor_left;  ///< its report, where it has left the lead to the user
+  LampReplay lamps_then;         ///< of the drive that is shown
+  std::vector<LanePoint> lane;   ///< of the scene; empty where it has none
+  nlohmann::json lamps_json;     ///< tables with hashes, peak and flux: does not change
 
   const ChannelConfig& channel() const { return rig.channels[options.channel]; }
 };
