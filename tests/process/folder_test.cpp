@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <regex>
+#include <sstream>
 #include <thread>
 
 #include "tests/paths.h"
@@ -142,6 +144,49 @@ TEST_F(Folder, AProcessThatHangsIsEndedAndStartedAgain) {
   EXPECT_EQ(report["restarts"][0]["process"], "cockpit");
   EXPECT_TRUE(report["restarts"][0]["because"].get<std::string>().starts_with("stopped: no sign of life for 3"))
       << report["restarts"][0]["because"];
+}
+
+// Two designs on the same drive: one row a frame, both designs on the page, everything it refers to there; and one file
+// that refers to nothing.
+TEST_F(Folder, ThePageOfTwoDesignsIsWhole) {
+  ASSERT_EQ(drive_here("--frames 20 --still-at 0.2 --design halogen --versus led --out ab").code, 0);
+  const fs::path out = folder_ / "ab";
+  const auto report = report_of(out);
+  EXPECT_EQ(report["drove"]["rows"], 20);
+  EXPECT_EQ(report["processes"]["visual-0"]["versus"]["b"], "led");
+  EXPECT_EQ(report["processes"]["visual-0"]["views"].size(), 2u);
+  const auto& reach = report["drove"]["reach_m"];
+  EXPECT_NE(reach["reach_3lx_left_m"]["median"], reach["versus_reach_3lx_left_m"]["median"]);
+  std::istringstream rows(contents_of(out / "drive.csv"));
+  std::int64_t count = -1;  // the header
+  for (std::string line; std::getline(rows, line);) ++count;
+  EXPECT_EQ(count, 20);
+  const std::string page = contents_of(out / "index.html");
+  const std::regex reference("(?:src|href)=\"([^\"]*)\"");
+  std::size_t found = 0;
+  for (std::sregex_iterator it(page.begin(), page.end(), reference), end; it != end; ++it, ++found)
+    EXPECT_TRUE(fs::exists(out / std::string((*it)[1]))) << (*it)[1];
+  EXPECT_GE(found, 12u);
+  for (const char* file : {"versus.png", "versus_difference.png", "versus_ratio.png", "wall_25m.png", "wall_25m_1.png",
+                           "birds_eye.png", "birds_eye_1.png"})
+    EXPECT_NE(page.find(file), std::string::npos) << file;
+
+  // Off it costs no view, and no pass more than without the word.
+  ASSERT_EQ(drive_here("--frames 3 --out off --set compare=off --single-file").code, 0);
+  const auto off = report_of(folder_ / "off");
+  EXPECT_EQ(off["processes"]["visual-0"]["views"].size(), 1u);
+  ASSERT_EQ(drive_here("--frames 3 --out plain").code, 0);
+  EXPECT_EQ(off["summary"]["passes"], report_of(folder_ / "plain")["summary"]["passes"]);
+  EXPECT_LT(off["summary"]["passes"], report["summary"]["passes"]);
+  const std::string mailed = contents_of(folder_ / "off" / "index.html");
+  for (std::sregex_iterator it(mailed.begin(), mailed.end(), reference), end; it != end; ++it)
+    EXPECT_TRUE((*it)[1].str().starts_with("data:")) << (*it)[1].str().substr(0, 60);
+
+  const Said wrong = drive_here("--frames 3 --out bad --design halogen --versus xenon.ies");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("--versus xenon.ies"), std::string::npos) << wrong.err;
+  EXPECT_EQ(drive_here("--frames 3 --out bad --design xenon").code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "bad"));
 }
 
 // Whoever would take the place of a cockpit that speaks is told so at once, and the rig does not care.
