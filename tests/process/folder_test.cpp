@@ -9,7 +9,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -30,6 +29,15 @@ struct Said {
 std::string contents_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What a page refers to. By hand: a regular expression takes stack by the character, and a video within has millions.
+std::vector<std::string> references_of(const std::string& page) {
+  std::vector<std::string> all;
+  for (const std::string word : {"src=\"", "href=\""})
+    for (std::size_t at = page.find(word); at != std::string::npos; at = page.find(word, at + 1))
+      all.push_back(page.substr(at + word.size(), page.find('"', at + word.size()) - at - word.size()));
+  return all;
 }
 
 class Folder : public testing::Test {
@@ -162,11 +170,9 @@ TEST_F(Folder, ThePageOfTwoDesignsIsWhole) {
   for (std::string line; std::getline(rows, line);) ++count;
   EXPECT_EQ(count, 20);
   const std::string page = contents_of(out / "index.html");
-  const std::regex reference("(?:src|href)=\"([^\"]*)\"");
-  std::size_t found = 0;
-  for (std::sregex_iterator it(page.begin(), page.end(), reference), end; it != end; ++it, ++found)
-    EXPECT_TRUE(fs::exists(out / std::string((*it)[1]))) << (*it)[1];
-  EXPECT_GE(found, 12u);
+  const std::vector<std::string> references = references_of(page);
+  EXPECT_GE(references.size(), 12u);
+  for (const std::string& file : references) EXPECT_TRUE(fs::exists(out / file)) << file;
   for (const char* file : {"versus.png", "versus_difference.png", "versus_ratio.png", "wall_25m.png", "wall_25m_1.png",
                            "birds_eye.png", "birds_eye_1.png"})
     EXPECT_NE(page.find(file), std::string::npos) << file;
@@ -178,9 +184,8 @@ TEST_F(Folder, ThePageOfTwoDesignsIsWhole) {
   ASSERT_EQ(drive_here("--frames 3 --out plain").code, 0);
   EXPECT_EQ(off["summary"]["passes"], report_of(folder_ / "plain")["summary"]["passes"]);
   EXPECT_LT(off["summary"]["passes"], report["summary"]["passes"]);
-  const std::string mailed = contents_of(folder_ / "off" / "index.html");
-  for (std::sregex_iterator it(mailed.begin(), mailed.end(), reference), end; it != end; ++it)
-    EXPECT_TRUE((*it)[1].str().starts_with("data:")) << (*it)[1].str().substr(0, 60);
+  for (const std::string& at : references_of(contents_of(folder_ / "off" / "index.html")))
+    EXPECT_TRUE(at.starts_with("data:")) << at.substr(0, 60);
 
   const Said wrong = drive_here("--frames 3 --out bad --design halogen --versus xenon.ies");
   EXPECT_EQ(wrong.code, 2);
