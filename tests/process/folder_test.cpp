@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <sstream>
 #include <thread>
 
 #include "tests/paths.h"
@@ -28,6 +29,15 @@ struct Said {
 std::string contents_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What a page refers to. By hand: a regular expression takes stack by the character, and a video within has millions.
+std::vector<std::string> references_of(const std::string& page) {
+  std::vector<std::string> all;
+  for (const std::string word : {"src=\"", "href=\""})
+    for (std::size_t at = page.find(word); at != std::string::npos; at = page.find(word, at + 1))
+      all.push_back(page.substr(at + word.size(), page.find('"', at + word.size()) - at - word.size()));
+  return all;
 }
 
 class Folder : public testing::Test {
@@ -162,6 +172,46 @@ TEST_F(Folder, AProcessThatHangsIsEndedAndStartedAgain) {
   EXPECT_EQ(report["restarts"][0]["process"], "cockpit");
   EXPECT_TRUE(report["restarts"][0]["because"].get<std::string>().starts_with("stopped: no sign of life for 3"))
       << report["restarts"][0]["because"];
+}
+
+// Two designs on the same drive: one row a frame, both designs on the page, everything it refers to there; and one file
+// that refers to nothing.
+TEST_F(Folder, ThePageOfTwoDesignsIsWhole) {
+  ASSERT_EQ(drive_here("--frames 20 --still-at 0.2 --design halogen --versus led --out ab").code, 0);
+  const fs::path out = folder_ / "ab";
+  const auto report = report_of(out);
+  EXPECT_EQ(report["drove"]["rows"], 20);
+  EXPECT_EQ(report["processes"]["visual-0"]["versus"]["b"], "led");
+  EXPECT_EQ(report["processes"]["visual-0"]["views"].size(), 2u);
+  const auto& reach = report["drove"]["reach_m"];
+  EXPECT_NE(reach["reach_3lx_left_m"]["median"], reach["versus_reach_3lx_left_m"]["median"]);
+  std::istringstream rows(contents_of(out / "drive.csv"));
+  std::int64_t count = -1;  // the header
+  for (std::string line; std::getline(rows, line);) ++count;
+  EXPECT_EQ(count, 20);
+  const std::string page = contents_of(out / "index.html");
+  const std::vector<std::string> references = references_of(page);
+  EXPECT_GE(references.size(), 12u);
+  for (const std::string& file : references) EXPECT_TRUE(fs::exists(out / file)) << file;
+  for (const char* file : {"versus.png", "versus_difference.png", "versus_ratio.png", "wall_25m.png", "wall_25m_1.png",
+                           "birds_eye.png", "birds_eye_1.png"})
+    EXPECT_NE(page.find(file), std::string::npos) << file;
+
+  // Off it costs no view, and no pass more than without the word.
+  ASSERT_EQ(drive_here("--frames 3 --out off --set compare=off --single-file").code, 0);
+  const auto off = report_of(folder_ / "off");
+  EXPECT_EQ(off["processes"]["visual-0"]["views"].size(), 1u);
+  ASSERT_EQ(drive_here("--frames 3 --out plain").code, 0);
+  EXPECT_EQ(off["summary"]["passes"], report_of(folder_ / "plain")["summary"]["passes"]);
+  EXPECT_LT(off["summary"]["passes"], report["summary"]["passes"]);
+  for (const std::string& at : references_of(contents_of(folder_ / "off" / "index.html")))
+    EXPECT_TRUE(at.starts_with("data:")) << at.substr(0, 60);
+
+  const Said wrong = drive_here("--frames 3 --out bad --design halogen --versus xenon.ies");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("--versus xenon.ies"), std::string::npos) << wrong.err;
+  EXPECT_EQ(drive_here("--frames 3 --out bad --design xenon").code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "bad"));
 }
 
 // Whoever would take the place of a cockpit that speaks is told so at once, and the rig does not care.

@@ -90,9 +90,9 @@ TEST(View, FrustumAndProjectionAgree) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> at(-60.0, 60.0);
   for (const Camera& camera : {perspective(), from_above(), right_half()}) {
-    const ViewGeometry view(camera, 16.0 / 9.0);
+    const ViewGeometry view(camera, 16.0 / 9.0 * (camera.seen_to_01 - camera.seen_from_01));
     int in = 0, out = 0;
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 40000; ++i) {
       const glm::dvec3 point = camera.eye_m + glm::dvec3(at(random), at(random), at(random));
       const glm::dvec4 clip = view.clip_from_eye() * glm::dvec4(point - camera.eye_m, 1.0);
       const bool ahead = glm::dot(point - camera.eye_m, camera.world_from_eye[0]) > 0.0;
