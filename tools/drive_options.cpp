@@ -224,7 +224,14 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
           .add_option("--budget-ms", options->budget_ms,
                       "Pick the most accurate settings of the picture whose frames take at most this, as measured on "
                       "this machine; in real time a governor keeps it (docs/cost.md)")
-          ->check(CLI::Range(0.1, 10000.0))
+          ->check(
+              [](const std::string& text) {
+                double ms = 0.0;  // a comparison that nan fails
+                return CLI::detail::lexical_cast(text, ms) && ms >= 0.1 && ms <= 10000.0
+                           ? std::string()
+                           : "expected 0.1 to 10000 ms, got '" + text + "'";
+              },
+              "", "ms")
           ->excludes(explain);
   command
       .add_option_function<std::string>(
