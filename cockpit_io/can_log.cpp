@@ -11,6 +11,7 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "config/base/remedies.h"
 
@@ -50,23 +51,31 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
-std::string python() {
+/// The Pythons to ask, in turn: the one that is named, or that of PATH and then that of Debian's package, which an
+/// environment's own may hide.
+std::vector<std::string> pythons() {
   const char* named = std::getenv("PHARE_PYTHON");
-  return named == nullptr || *named == '\0' ? "python3" : named;
+  if (named != nullptr && *named != '\0') return {named};
+  return {"python3", "/usr/bin/python3"};
 }
 
 /// Standard output of the converter; nullopt where there is no Python.
 std::optional<std::string> convert(const std::filesystem::path& file) {
-  const std::string command = shell_word(python()) + " -c " + shell_word(kConverter) + " " +
-                              shell_word(std::filesystem::absolute(file).string()) + " 2>/dev/null";
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return std::nullopt;
-  std::string out;
-  std::array<char, 65536> part{};
-  for (std::size_t n = 0; (n = fread(part.data(), 1, part.size(), pipe)) > 0;) out.append(part.data(), n);
-  pclose(pipe);
-  if (!out.starts_with('#')) return std::nullopt;
-  return out;
+  std::optional<std::string> newest;
+  for (const std::string& python : pythons()) {
+    const std::string command = shell_word(python) + " -c " + shell_word(kConverter) + " " +
+                                shell_word(std::filesystem::absolute(file).string()) + " 2>/dev/null";
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) continue;
+    std::string out;
+    std::array<char, 65536> part{};
+    for (std::size_t n = 0; (n = fread(part.data(), 1, part.size(), pipe)) > 0;) out.append(part.data(), n);
+    pclose(pipe);
+    if (!out.starts_with('#')) continue;
+    newest = std::move(out);
+    if (!newest->starts_with("#missing")) break;
+  }
+  return newest;
 }
 
 /// What follows the last "#word " at the beginning of a line.
@@ -80,7 +89,9 @@ std::string remark(const std::string& out, const std::string& word) {
 }  // namespace
 
 bool reads_foreign_can_logs() {
-  return std::system((shell_word(python()) + " -c 'import can' >/dev/null 2>&1").c_str()) == 0;
+  return std::ranges::any_of(pythons(), [](const std::string& python) {
+    return std::system((shell_word(python) + " -c 'import can' >/dev/null 2>&1").c_str()) == 0;
+  });
 }
 
 bool is_foreign_can_log(const std::filesystem::path& file) {

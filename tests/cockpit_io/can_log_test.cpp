@@ -113,5 +113,30 @@ TEST_F(CanLogs, VectorAndPeakLogsSayWhatCandumpSays) {
   }
 }
 
+// An environment's python3 (pyenv, conda) comes first in PATH and has no python-can: the one that the remedy installs
+// is asked then.
+TEST_F(CanLogs, DebiansPythonIsAskedWhereAnotherHidesIt) {
+  if (std::system("/usr/bin/python3 -c 'import can' >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "no python3-can of Debian's";
+  python_is("echo '#missing'");
+  fs::rename(folder_ / "python", folder_ / "python3");
+  unsetenv("PHARE_PYTHON");
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
+  std::ofstream(folder_ / "drive.asc") << "date Mon Nov 23 08:00:00.000 2026\nbase hex  timestamps absolute\n"
+                                          "internal events logged\nBegin Triggerblock Mon Nov 23 08:00:00.000 2026\n"
+                                          "   0.000000 Start of measurement\n"
+                                          "   0.010000 1  123             Rx   d 2 01 02\n"
+                                          "   0.020500 1  18FEF100x       Rx   d 1 AA\nEnd TriggerBlock\n";
+  const auto log = read_can_log(folder_ / "drive.asc");
+  EXPECT_TRUE(reads_foreign_can_logs());
+  setenv("PATH", path.c_str(), 1);
+  ASSERT_TRUE(log) << log.error().text();
+  ASSERT_EQ(log->log.entries.size(), 2u);
+  EXPECT_EQ(log->log.entries[0].frame.id, 0x123u);
+  EXPECT_EQ(log->log.entries[1].frame.id, 0x18FEF100u);
+  EXPECT_TRUE(log->log.entries[1].frame.extended);
+}
+
 }  // namespace
 }  // namespace phare
