@@ -11,7 +11,7 @@ namespace {
 
 /// Elevations above the way a lamp looks between which rows lie closer together, by this factor: cut-offs and what of
 /// them is near.
-constexpr double kCloseAbove_rad = 0.06, kCloseBelow_rad = -0.08, kCloser = 8.0;
+constexpr double kCloseAbove_rad = 0.045, kCloseBelow_rad = -0.065, kCloser = 12.0;
 /// Of the nodes, where lamps are in view, those about them. Chosen so that the error of own beams and beside lamps is
 /// alike.
 constexpr double kShareOfPeaks = 0.55;

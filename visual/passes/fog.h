@@ -31,7 +31,7 @@ struct FogLevel {
 
 /// In the order of the effect's levels (visual/effects.h), the first being off.
 inline constexpr std::array<FogLevel, 4> kFogLevels{
-    {{}, {48, 64, 20, 1, 12.0f}, {72, 112, 24, 1, 4.0f}, {225, 255, 60, 2, 1.0f}}};
+    {{}, {48, 64, 20, 1, 12.0f}, {72, 112, 24, 1, 4.0f}, {161, 253, 96, 4, 1.0f}}};
 
 static_assert(kFogNames.size() == kFogLevels.size());
 
