@@ -1,0 +1,120 @@
+// The loop of the visual process, inside: what one turn of it does, verb by verb. run_loop.cpp has the loop itself and
+// how a frame is chosen and drawn, loop_begin.cpp what comes before the first, loop_judge.cpp what is measured in
+// pictures, loop_keep.cpp what is left of them.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "net/control_desk.h"
+#include "visual/process/drive_log.h"
+#include "visual/process/lamp_keys.h"
+#include "visual/process/picture_instruments.h"
+#include "visual/process/pose_buffer.h"
+#include "visual/process/screens.h"
+#include "visual/process/session.h"
+#include "visual/process/verbs.h"
+#include "visual/process/versus.h"
+
+namespace phare {
+
+/// What one frame shows.
+struct Moment {
+  std::int64_t frame_index = -1;  ///< real time: -1
+  SimTime time;
+  CockpitState controls;
+  PoseBuffer::Drawn car;
+};
+
+class Loop {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit Loop(Session& session);
+
+  bool over();
+  void receive() { s_.bus.poll(); }
+  void answer_probes();
+  std::optional<Moment> next_moment();
+  void draw(const Moment& moment);
+  void report(const Moment& moment);
+  void keep(const Moment& moment);
+  void audit(const Moment& moment);
+  void finish();
+
+ private:
+  void take(const Datagram& datagram);
+  void mind_the_keys();
+  void mind_the_mouse();
+  void measure(const Moment& moment);
+  void light_up(const CockpitState& controls);
+  void upload(const std::vector<Lamps::Change>& changes);
+  EffectChoices picked_effects() const;
+  void govern(const Moment& moment, double frame_ms);
+  std::vector<double> lux_by_lamp(const MeasurePoint& at);
+  void mind_the_lamps(SimTime now);
+  void warm_up();
+  void announce();
+  void repeat_when_stalled();
+  std::optional<Moment> lockstep_moment();
+  std::optional<Moment> display_moment();
+  std::int64_t number_of(const Moment& moment) const;
+  bool wants_picture(const Moment& moment);
+  bool wants_stills(const Moment& moment) const;
+  std::string label(const Moment& moment) const;
+  /// What was picked for the budget or the tolerance, as it holds now.
+  std::string picked_line() const;
+  /// What a lockstep drive fails by.
+  std::string audit_failure() const;
+  void mind_the_road(const Moment& moment);
+  std::vector<std::string> overlay(const Moment& moment) const;
+  void log_frame(const Moment& moment, const FrameResult& result);
+  void keep_other_designs();
+  void write_stats(SimTime now);
+
+  Session& s_;
+  Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk, s_.options.channel);
+  LampKeys lamp_keys_;
+  LampNews lamp_news_{s_.lamps};
+  PictureInstruments measuring_{s_.desk, s_.lamps, s_.scene, RoadLine(s_.lane, s_.rig.scene_file),
+                                ProbeLog(s_.options.channel == 0 ? s_.options.out : "", s_.options.going_on)};
+  DriveLog drive_log_{s_.options.channel == 0 ? s_.options.out : "", s_.options.going_on,
+                      s_.desk.compare != Compare::kOff};
+  Versus versus_;
+  /// The moment of the stills, to draw the other designs in.
+  struct Still {
+    FrameInput driver;
+    Moment moment;
+  };
+  std::optional<Still> still_;
+  ControlDesk commands_;
+  EyeSetting eye_set_ = s_.desk.eye;
+  struct Asked {
+    ProbeRequest request;
+    SimTime time;
+  };
+  std::deque<Asked> asked_;  // probes that wait for the next frame
+  Pacer pacer_;
+  PoseBuffer poses_;
+  DisplayClock clock_;
+  std::int64_t drawn_index_ = -1;  // lockstep
+  std::int64_t drawn_frames_ = 0;
+  std::int64_t next_picture_ns_ = 0;
+  Clock::time_point progress_ = Clock::now(), stats_written_ = Clock::now(), frame_end_{};
+  Screens screens_;
+  RoadEnd road_end_{s_.scene, s_.lane};
+  RoadPlace road_ = RoadPlace::kThere;
+  Clock::time_point ready_;
+  bool ended_ = false;
+  bool over_ = false;      // the drive is, and the window stays
+  bool fresh_ = false;     // the lines of the overlay are wanted with the next frame
+  bool captured_ = false;  // the picture of this frame is read back
+  FrameInput input_;
+  std::size_t level_ = s_.options.begin_level;  // of options.levels, where the governor does not lead
+  std::optional<Moment> newest_;
+};
+
+}  // namespace phare

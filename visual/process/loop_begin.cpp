@@ -1,0 +1,130 @@
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "net/control_desk.h"
+#include "net/silence.h"
+#include "visual/process/loop.h"
+#include "visual/process/overlay_lines.h"
+
+namespace phare {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+ScreensSetup screens_of(const VisualOptions& options, const Rig& rig) {
+  using Kind = ScreensSetup::Kind;
+  const bool live = options.guide == "live";
+  const std::string drive = options.drive_file.filename().string();
+  return {.kind = options.guide.empty() ? Kind::kNone
+                  : live                ? Kind::kLive
+                                        : Kind::kReplay,
+          .shown = live || drive.empty() ? rig.name : drive,
+          .demo = options.demo,
+          .report = options.report};
+}
+
+}  // namespace
+
+Loop::Loop(Session& session)
+    : s_(session),
+      pacer_(std::chrono::nanoseconds(1'000'000'000 / session.rig.frame_rate_hz)),
+      screens_(screens_of(session.options, session.rig)) {
+  verbs_.on<RigControl::Quit>([this](const auto&) {
+    s_.stop.request();
+    return accepted("leaves");
+  });
+  // A point that is set is read at once: the headless twin of a click.
+  const Verbs plain = verbs_;
+  verbs_.on<RigControl::Set>([this, plain](const RigControl::Set& set) {
+    ControlReply reply = plain(RigControl{set});
+    if (set.setting == "point" && reply.verdict == Verdict::kAccepted)
+      reply.now += newest_ ? measuring_.answer() : "\nno frame has been drawn yet";
+    return reply;
+  });
+  s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
+  if (!session.options.lockstep) drawn_frames_ = session.album.frames_found();
+  if (!session.options.lockstep && session.album.wanted()) session.album.write_beside();
+  warm_up();
+  announce();
+  ready_ = Clock::now();
+}
+
+/// The first picture of each kind makes the device's machine code, which may take a second: before the drive, not in
+/// it. Kinds differ by how many lamps shine and how their beams are looked up, so every design is switched through its
+/// lights over the whole scene; in lockstep, where a slow frame harms nobody, and in place of one that was killed,
+/// which is missed, the first picture must do. Between the pictures the window is minded: a person may leave.
+void Loop::warm_up() {
+  const Clock::time_point begin = Clock::now();
+  const VehicleState pose;
+  FrameInput input;
+  set_by_desk(input, s_.desk, s_.channel(), pose, nullptr);
+  const Camera first_camera = std::exchange(input.camera, overview_camera(s_.scene));
+  const bool thorough = !s_.options.lockstep && !s_.options.going_on;
+  const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 2 : 1;
+  int step = 0;
+  bool last = false;
+  const auto draw = [&](const CockpitState& controls) {
+    if (over()) return;  // who does not want to wait leaves
+    if (s_.window) input.panel = getting_ready_panel(++step, steps);
+    light_up(controls);
+    if (last) upload(versus_.follow(s_.desk, s_.lamps, controls));
+    input.lamps = s_.lamps.placed(pose);
+    // Without shadows and with them: the drive goes from one to the other as things come into the beams.
+    std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
+    // The same for fog, where there is some to begin with, and of the light that the drive begins with.
+    for (const bool clear : {true, false}) {
+      if (!clear && !s_.desk.visibility_m && !(thorough && last)) continue;
+      input.effects[static_cast<std::size_t>(Effect::kFog)] = s_.desk.fog;
+      input.visibility_m = clear ? std::nullopt : std::optional(s_.desk.visibility_m.value_or(100.0));
+      for (const bool off : {true, false}) {
+        shadows = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
+        if (last && s_.desk.mirrors) input.more_views = mirror_views(input, s_.channel(), pose);
+        s_.renderer.draw(input);
+        if (!last || versus_.lamps() == nullptr) continue;
+        FrameInput halves = input;  // the other design's beams may be looked up in another way
+        versus_.split(halves, pose);
+        s_.renderer.draw(halves);
+      }
+      // Where the governor may step to: not in the drive either.
+      if (!last || !thorough || clear == s_.desk.visibility_m.has_value()) continue;
+      for (const GovernorLevel& level : s_.governor.levels()) {
+        FrameInput of_level = input;
+        of_level.method = level.method;
+        of_level.effects[static_cast<std::size_t>(Effect::kShadows)] = level.shadows;
+        if (level.fog) of_level.effects[static_cast<std::size_t>(Effect::kFog)] = level.fog;
+        s_.renderer.draw(of_level);
+      }
+    }
+  };
+  for (std::uint32_t design = 0; thorough && design < s_.lamps.designs().size(); ++design) {
+    for (const LightSwitch light : {LightSwitch::kOff, LightSwitch::kLow, LightSwitch::kHigh}) {
+      for (const bool fog : {false, true}) {
+        CockpitState controls;
+        controls.design_index = design;
+        controls.light_switch = light;
+        controls.fog_front = fog;
+        if (!(fog && light == LightSwitch::kOff)) draw(controls);
+      }
+    }
+  }
+  // As the drive begins, over the whole scene where there is time, then as it is seen.
+  last = true;
+  if (thorough) draw(controls_to_show(s_.bus, Clock::now()));  // low beam
+  input.camera = first_camera;
+  input.want_image = s_.album.wanted();
+  draw(controls_to_show(s_.bus, Clock::now()));
+  s_.lamps.begin_counting();
+  if (!ended_) spdlog::info("ready after {:.1f} s", std::chrono::duration<double>(Clock::now() - begin).count());
+}
+
+/// "Up, and waiting for the first pose."
+void Loop::announce() {
+  FrameReport report;
+  report.channel = s_.options.channel;
+  report.channels = static_cast<std::uint32_t>(s_.rig.channels.size());
+  s_.bus.send(SimTime{}, report);
+}
+
+}  // namespace phare

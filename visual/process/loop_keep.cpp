@@ -1,0 +1,151 @@
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "net/stats.h"
+#include "visual/image/canvas.h"
+#include "visual/process/loop.h"
+#include "visual/process/report.h"
+
+namespace phare {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::int64_t kKeyframe_ns = 100'000'000;  // of the video
+
+}  // namespace
+
+void Loop::keep(const Moment& moment) {
+  if (!s_.eye.fixed()) s_.album.keep_eye(s_.eye.json());
+  if (captured_) {
+    Image8 image = s_.renderer.read_image();
+    if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);
+    if (moment.controls.fail_safe) draw_text(image, 12, 60, "FAIL-SAFE low beam", {255, 90, 60}, 2);
+    if (!moment.controls.source_fault.empty()) draw_text(image, 12, 36, moment.controls.source_fault, {255, 90, 60}, 2);
+    s_.album.keep_frame(number_of(moment), image, label(moment));
+  }
+  if (wants_stills(moment)) {
+    FrameInput driver = input_;
+    driver.camera = driver_camera(s_.channel(), moment.car.pose);
+    driver.lamps = s_.lamps.placed(moment.car.pose);
+    driver.view = View::kPhoto;
+    driver.marks = {};
+    driver.more_views.clear();
+    still_ = Still{driver, moment};
+    s_.stills_design = s_.lamps.design_index();
+    s_.album.keep_stills(s_.renderer, driver, moment.car.pose, s_.lamps, s_.options.width_px, s_.options.height_px,
+                         label(moment));
+    if (versus_.lamps() != nullptr) s_.album.keep_versus(s_.renderer, driver, versus_, moment.car.pose, label(moment));
+    progress_ = Clock::now();
+    frame_end_ = {};  // not a frame interval
+  }
+}
+
+void Loop::finish() {
+  s_.bus.on_datagram = nullptr;
+  keep_other_designs();
+  s_.album.finish();
+  if (newest_ && s_.album.not_kept() > 0) report(*newest_);  // the stills too: the statistics may find no room either
+  write_stats(newest_ ? newest_->time : SimTime{});
+}
+
+/// A row of drive.csv, and how long each design has shone.
+void Loop::log_frame(const Moment& moment, const FrameResult& result) {
+  DesignsLit& designs = s_.designs_lit;
+  designs.see(s_.lamps.lit_text().empty() ? std::nullopt : std::optional(s_.lamps.design_index()), moment.time);
+  if (versus_.lamps() != nullptr) designs.see_beside(s_.lamps.design_index(), versus_.lamps()->design_index());
+  if (!drive_log_.wanted()) return;
+  DriveRow row{.frame = s_.options.lockstep ? moment.frame_index : drawn_frames_,
+               .time = moment.time,
+               .car = moment.car.pose,
+               .lit = s_.lamps.lit_text(),
+               .design = s_.lamps.design().name,
+               .fail_safe = moment.controls.fail_safe,
+               .pose_held = moment.car.stale,
+               .picture = captured_,
+               .cutoff_m = s_.lamps.cutoff_height_m(moment.car.pose, kCutoffWall_m),
+               .frame_ms = result.wall_ms,
+               .gpu_ms = result.gpu_ms};
+  if (row.cutoff_m) {  // above the road at the wall: a slope moves the mark with the road, a crest or a dip does not
+    constexpr double kLamps_m = 3.3;  // ahead of the rear axle, in cars like ours
+    const VehicleState& car = moment.car.pose;
+    const double ahead_m = kLamps_m + kCutoffWall_m;
+    const double ground_z_m =
+        measuring_.road()
+            .ground(car.x_m + ahead_m * std::cos(car.yaw_rad), car.y_m + ahead_m * std::sin(car.yaw_rad), car.z_m)
+            .position_m.z;
+    *row.cutoff_m -= ground_z_m - car.z_m;
+  }
+  if (drive_log_.reach_is_due(moment.time) && versus_.lamps() != nullptr)
+    row.versus_reach = reach_of(*versus_.lamps(), moment.car.pose, measuring_.road());
+  if (drive_log_.reach_is_due(moment.time)) row.reach = reach_of(s_.lamps, moment.car.pose, measuring_.road());
+  if (!drive_log_.write(row)) spdlog::error("drive.csv: cannot be written");
+}
+
+/// Every design that has shone is on the page, in the moment of the stills and with low beam. By lamps of their own, so
+/// that the counts are those of the drive.
+void Loop::keep_other_designs() {
+  if (!s_.album.wanted() || s_.stop.requested()) return;
+  if (!still_ && newest_) still_ = Still{input_, *newest_};  // those there are were made by the process before
+  if (!still_) return;
+  still_->driver.more_views.clear(), still_->driver.marks = {}, still_->driver.overlay.clear();
+  still_->driver.instruments.clear(), still_->driver.panel = {}, still_->driver.view = View::kPhoto;
+  for (const auto& [design, seconds] : s_.designs_lit.seconds) {
+    if (s_.stills_design == design) continue;
+    Lamps lamps = s_.lamps;
+    CockpitState controls = still_->moment.controls;
+    controls.design_index = static_cast<std::uint32_t>(design);
+    controls.light_switch = LightSwitch::kLow;
+    controls.flash = false;
+    (void)lamps.set_controls(controls);
+    FrameInput driver = still_->driver;
+    driver.lamps = lamps.placed(still_->moment.car.pose);
+    for (const PlacedLamp& lamp : driver.lamps) s_.renderer.set_beam(lamp.beam, lamps.image(lamp.beam));
+    char label[160];
+    std::snprintf(label, sizeof label, "%.1f s  low  %s", still_->moment.time.seconds(), lamps.design().name.c_str());
+    s_.album.keep_design(s_.renderer, driver, still_->moment.car.pose, lamps, design, label);
+  }
+}
+
+/// With --frames and --video every one; else one each tenth of a second of simulated time for the video, of other
+/// channels one a second. In real time fewer, when they cannot be written as fast.
+bool Loop::wants_picture(const Moment& moment) {
+  if (!s_.album.wanted() || over_) return false;
+  if (s_.options.frames > 0) return (s_.options.lockstep ? moment.frame_index : drawn_frames_) < s_.options.frames;
+  if (s_.album.busy()) return false;
+  if (s_.options.video) return true;
+  const std::int64_t every_ns = s_.options.channel == 0 ? kKeyframe_ns : 1'000'000'000;
+  if (moment.time.ns < next_picture_ns_) return false;
+  next_picture_ns_ = (moment.time.ns / every_ns + 1) * every_ns;
+  return true;
+}
+
+/// Low beam at speed past the wanted time tells most; at the end whatever there is.
+bool Loop::wants_stills(const Moment& moment) const {
+  constexpr double kTellingSpeed_mps = 8.0;
+  if (!s_.album.wanted() || s_.album.has_stills()) return false;
+  if (ended_ || over_) return true;
+  if (moment.time.seconds() < s_.options.still_at_s) return false;
+  return moment.controls.light_switch == LightSwitch::kLow && !moment.controls.flash &&
+         moment.car.pose.speed_mps > kTellingSpeed_mps;
+}
+
+std::string Loop::label(const Moment& moment) const {
+  char text[120];
+  std::snprintf(text, sizeof text, "%.1f s  %.0f km/h  %s%s%s", moment.time.seconds(), moment.car.pose.speed_mps * 3.6,
+                s_.lamps.lit_text().c_str(), s_.lamps.designs().size() > 1 ? "  " : "",
+                s_.lamps.designs().size() > 1 ? s_.lamps.design().name.c_str() : "");
+  return text;
+}
+
+void Loop::write_stats(SimTime now) {
+  stats_written_ = Clock::now();
+  if (s_.options.stats_file.empty()) return;
+  if (!write_json(s_.options.stats_file, report_json(s_, now)))
+    spdlog::warn("{}: cannot be written", s_.options.stats_file.string());
+}
+
+}  // namespace phare
