@@ -4,7 +4,11 @@
 #include "sky.h"
 
 layout(constant_id = kSpecSkyOutput) const uint output_kind = 0;
+#ifdef PHARE_FLAT
+layout(location = 0) flat in vec3 colour;
+#else
 layout(location = 0) in vec3 colour;
+#endif
 layout(location = 0) out vec4 result;
 
 void main() {

@@ -138,6 +138,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   parts.scene.begin_frame(parts.graph);
   parts.shadows.begin_frame();
   parts.fog.begin_frame();
+  parts.lit.begin_frame();
   parts.tone_mapping.begin_frame();
   Picture seen = picture("", parts.target.extent);
   display = seen.display;

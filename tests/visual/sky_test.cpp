@@ -1,5 +1,5 @@
-// Unit: the dome of vertex colours against the formula it stands for.
-#include "shaders/sky.h"
+// Unit: the bands of the sky against the formula they stand for.
+#include "visual/passes/sky.h"
 
 #include <gtest/gtest.h>
 
@@ -7,40 +7,104 @@
 #include <cmath>
 #include <numbers>
 
+#include "shaders/lib/tone.h"
+#include "shaders/sky.h"
+#include "visual/renderer.h"
+
 namespace phare {
 namespace {
 
-// Along the chords between the corners of the dome, where blending departs from the formula most: in elevation within a
-// ring, and in azimuth along a ring's edge.
-TEST(Sky, BlendedCornersAreWithinAStepOfTheDisplay) {
-  const glm::vec4 zenith(1.0f, 1.0f, 1.0f, 3.0f);
-  const auto exact = [&](double sine) {
-    return static_cast<double>(shader::sky_luminance(zenith, static_cast<float>(sine)).x);
-  };
-  const auto point = [](double sine, double azimuth) {
-    const double cosine = std::sqrt(1.0 - sine * sine);
-    return glm::dvec3(cosine * std::cos(azimuth), cosine * std::sin(azimuth), sine);
-  };
-  const double turn = 2.0 * std::numbers::pi / shader::kSkySectors;
-  double worst = 0.0;
-  for (shader::uint ring = 0; ring < shader::kSkyRings; ++ring) {
-    const double low = static_cast<double>(shader::sky_ring_sine(ring));
-    const double high = static_cast<double>(shader::sky_ring_sine(ring + 1));
-    for (double t = 0.0; t <= 1.0; t += 0.05) {
-      const glm::dvec3 rise = point(low, 0.0) * (1.0 - t) + point(high, 0.0) * t;
-      worst =
-          std::max(worst, std::abs((exact(low) * (1.0 - t) + exact(high) * t) / exact(glm::normalize(rise).z) - 1.0));
-      const glm::dvec3 along = point(low, 0.0) * (1.0 - t) + point(low, turn) * t;
-      worst = std::max(worst, std::abs(exact(low) / exact(glm::normalize(along).z) - 1.0));
-      const glm::dvec3 across = point(low, 0.0) * (1.0 - t) + point(high, turn) * t;
-      worst =
-          std::max(worst, std::abs((exact(low) * (1.0 - t) + exact(high) * t) / exact(glm::normalize(across).z) - 1.0));
+glm::vec3 formula(const Sky& sky, double sine) {
+  const glm::vec3 luminance = shader::sky_luminance(sky.zenith(), static_cast<float>(sine));
+  return 255.0f * shader::srgb_encoded(shader::tone_curve(luminance * sky.exposure_per_cdm2));
+}
+
+Sky sky_exposed(float per_cdm2) {
+  return {glm::vec3(1.1f, 1.0f, 0.8f) * per_cdm2, ViewInput{}.sky_luminance_cdm2};
+}
+
+// From black through the exposures that are used to white: no elevation is shown a step of the display off.
+TEST(Sky, EveryElevationIsWithinAStepOfItsColour) {
+  for (const float exposure : {1e-3f, 0.3f, 3.0f, 30.0f, 300.0f, 3e4f}) {
+    const Sky sky = sky_exposed(exposure);
+    const std::vector<SkyBand> bands = sky_bands(sky, false);
+    EXPECT_EQ(bands.front().low, 0.0f);
+    EXPECT_EQ(bands.back().high, 1.0f);
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+      if (i > 0) {
+        EXPECT_EQ(bands[i].low, bands[i - 1].high);
+      }
+      EXPECT_EQ(bands[i].colour_low, bands[i].colour_high);
+      for (double t = 0.0; t <= 1.0; t += 0.125) {
+        const double sine = static_cast<double>(bands[i].low) * (1.0 - t) + static_cast<double>(bands[i].high) * t;
+        const glm::vec3 off = glm::abs(255.0f * bands[i].colour_low - formula(sky, sine));
+        // Half a step by rounding, half by the band, whose middle in sine is not quite its middle in colour.
+        EXPECT_LT(static_cast<double>(std::max({off.x, off.y, off.z})), 1.1) << exposure << " " << sine;
+      }
     }
   }
-  // A step of 8-bit sRGB at the brightness of this sky (10 to 60 of 255) is 2 to 10 % in light; a third of the
-  // smallest.
-  EXPECT_LT(worst, 0.0074);
-  EXPECT_GT(worst, 1e-4);
+  EXPECT_EQ(sky_bands(sky_exposed(1e-3f), false).size(), 1u) << "a black sky is one band";
+  EXPECT_GT(sky_bands(sky_exposed(3.0f), false).size(), 5u);
+}
+
+TEST(Sky, BlendedBandsOfAnHdrImageAreCloseToTheFormula) {
+  const Sky sky = sky_exposed(3.0f);
+  double worst = 0.0;
+  for (const SkyBand& band : sky_bands(sky, true))
+    for (double t = 0.0; t <= 1.0; t += 0.05) {
+      const auto point = [](float sine) {
+        const double s = static_cast<double>(sine);
+        return glm::dvec2(std::sqrt(1.0 - s * s), s);
+      };
+      const double sine = glm::normalize(point(band.low) * (1.0 - t) + point(band.high) * t).y;
+      const double blended =
+          static_cast<double>(band.colour_low.x) * (1.0 - t) + static_cast<double>(band.colour_high.x) * t;
+      const double exact = static_cast<double>(shader::sky_luminance(sky.zenith(), static_cast<float>(sine)).x);
+      worst = std::max(worst, std::abs(blended / exact - 1.0));
+    }
+  EXPECT_LT(worst, 4e-3) << "an eighth of (band's change)^2: 6 * 0.0975 / 2 at the widest, of 0.3 there";
+  EXPECT_GT(worst, 1e-5);
+}
+
+// All that a view sees of the sky lies in its sectors, and their straight edges change no elevation's colour by more
+// than a step.
+TEST(Sky, SectorsCoverTheViewAndAreNarrow) {
+  for (const double yaw : {0.0, 2.0, 3.1, -1.7})
+    for (const double pitch : {-0.3, 0.0, 0.2, 0.7, 1.5})
+      for (const double fov : {0.4, 1.05, 2.0}) {
+        Camera camera;
+        camera.fov_horizontal_rad = fov;
+        const glm::dvec3 ahead(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch));
+        const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0.0, 0.0, 1.0)));
+        camera.world_from_eye = {ahead, -right, glm::cross(right, ahead)};
+        const ViewGeometry view(camera, 16.0 / 9.0);
+        const SkySectors sectors = sky_sectors(view);
+        EXPECT_LE(sectors.step_rad, std::numbers::pi / 8.0 + 1e-9);
+        double highest = -1.0;
+        for (double x = -1.0; x <= 1.0; x += 0.05)
+          for (double y = -1.0; y <= 1.0; y += 0.05) {
+            const glm::dvec3 there =
+                glm::normalize(glm::dvec3(view.direction_from_clip() * glm::dvec4(x, y, 1.0, 0.0)));
+            highest = std::max(highest, there.z);
+            if (there.z <= 1e-6) continue;
+            ASSERT_GT(sectors.count, 0u);
+            const double from_first = std::remainder(
+                std::atan2(there.y, there.x) - sectors.first_rad - 0.5 * sectors.count * sectors.step_rad,
+                2.0 * std::numbers::pi);
+            EXPECT_LE(std::abs(from_first), 0.5 * sectors.count * sectors.step_rad + 1e-9)
+                << yaw << " " << pitch << " " << fov << " at " << x << ", " << y;
+            EXPECT_LE(there.z, sectors.highest_sine + 1e-9);
+          }
+        if (highest < 0.0) {
+          EXPECT_EQ(sectors.count, 0u) << "a view of the ground alone draws no sky";
+        }
+      }
+  const Sky sky = sky_exposed(3.0f);
+  for (double sine = 0.0; sine < 1.0; sine += 0.01) {
+    const double tangent = sine / std::sqrt(1.0 - sine * sine), raised = tangent / std::cos(std::numbers::pi / 16.0);
+    const glm::vec3 off = glm::abs(formula(sky, sine) - formula(sky, raised / std::hypot(1.0, raised)));
+    EXPECT_LT(static_cast<double>(std::max({off.x, off.y, off.z})), 1.0) << sine;
+  }
 }
 
 }  // namespace

@@ -21,6 +21,8 @@ class LitPass {
  public:
   explicit LitPass(gpu::Device& device) : sky_(device), fog_sky_(device) {}
 
+  /// Before the views of a frame; the frame before is done.
+  void begin_frame() { sky_.begin_frame(); }
   void draw(gpu::FrameGraph& graph, LitScene& scene, const LitView& view, const LitTarget& target, LampOutput output);
 
  private:

@@ -1,10 +1,15 @@
-// The sky behind everything: a clear colour below the horizon, a dome of vertex colours above it, drawn first within
-// the lit pass. A view that sees no sky draws none.
+// The sky behind everything: a clear colour below the horizon, bands of elevation above it, drawn first within the lit
+// pass. A view that sees no sky draws none.
+//
+// What is shown at once has a band for each step of 8 bits: all that a display tells apart, and a pixel costs no more
+// than writing it. An HDR image blends from edge to edge of even bands instead.
 #pragma once
 
+#include <array>
 #include <glm/vec4.hpp>
 #include <map>
 #include <tuple>
+#include <vector>
 
 #include "visual/gpu/frame_graph.h"
 #include "visual/passes/pipeline.h"
@@ -22,7 +27,29 @@ struct Sky {
   /// rgb cd/m² at the zenith, bluish; w: factor at the horizon, 3. A clear night far from towns, brightened enough to
   /// be seen on a display; chosen by eye.
   glm::vec4 zenith() const;
+
+  friend bool operator==(const Sky&, const Sky&) = default;
 };
+
+/// From the sine of one elevation to that of another.
+struct SkyBand {
+  float low = 0.0f, high = 0.0f;
+  glm::vec3 colour_low{0.0f}, colour_high{0.0f};
+};
+
+/// From the horizon to the zenith. Display: signals 0 to 1, a band for each of 8 bits in the channel that changes most;
+/// the others are rounded in its middle, so all are within one step. HDR: cd/m², 20 bands, closer to one another at the
+/// horizon, where the sky changes fastest: within 0.4 % of the formula.
+std::vector<SkyBand> sky_bands(const Sky& sky, bool hdr);
+
+/// What of the dome a view sees: sectors of at most 22.5°, whose straight edges rise above their circle by a fiftieth
+/// of the tangent of its elevation at most.
+struct SkySectors {
+  double first_rad = 0.0, step_rad = 0.0;
+  std::uint32_t count = 0;     ///< 0: no sky in view
+  double highest_sine = -1.0;  ///< of the elevations in view
+};
+SkySectors sky_sectors(const ViewGeometry& view);
 
 class SkyPass {
  public:
@@ -31,15 +58,30 @@ class SkyPass {
   /// What the colour target is cleared to: the sky at the horizon (and below it, where no ground is).
   static vk::ClearValue clear_value(const Sky& sky, LampOutput output, const ViewGeometry& view);
 
+  /// Before the views of a frame; the frame before is done.
+  void begin_frame();
   /// The dome, inside a pass that has begun rendering and set its area. Nothing if the view sees no sky.
   void draw(gpu::Recorder& commands, const Sky& sky, const ViewGeometry& view, LampOutput output, vk::Format format,
             vk::SampleCountFlagBits samples);
 
  private:
+  /// Of a view of the frame; its bands stay while the next frame's view has the same sky.
+  struct Dome {
+    Sky sky;
+    bool hdr = false;
+    std::vector<SkyBand> bands;
+  };
+  Dome& dome_of(const Sky& sky, bool hdr);
+
   gpu::Device& device_;
   vk::raii::PipelineLayout layout_{nullptr};
-  vk::raii::ShaderModule vertex_, fragment_;
+  std::array<vk::raii::ShaderModule, 2> vertex_, fragment_;  ///< blended, flat
   std::map<std::tuple<LampOutput, vk::Format, vk::SampleCountFlagBits>, vk::raii::Pipeline> pipelines_;
+  std::vector<Dome> domes_;
+  gpu::HostBuffer vertices_;               ///< of all views, one after the other
+  std::vector<gpu::HostBuffer> outgrown_;  ///< of this frame
+  std::size_t used_bytes_ = 0;
+  std::size_t views_ = 0;  ///< of this frame
 };
 
 }  // namespace phare
