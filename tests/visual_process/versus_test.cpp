@@ -36,6 +36,18 @@ TEST_F(VersusTest, OffIsNoWork) {
   EXPECT_EQ(versus.work_done(), 0u);
 }
 
+// B is a copy of A's lamps, and its beams are summed from tables: they outlive whoever read them.
+TEST_F(VersusTest, CopiedLampsShineWhenThoseTheyWereCopiedFromAreGone) {
+  auto first = std::make_unique<Lamps>(lamps_);
+  const double lx = first->illuminance_in_car_lx(0, {LampFunction::kLow}, {.position_m = {25.0, 0.0, 0.0}});
+  Lamps copy = *first;
+  first.reset();
+  controls_.light_switch = LightSwitch::kHigh;
+  EXPECT_FALSE(copy.set_controls(controls_).empty());
+  EXPECT_GT(lx, 0.0);
+  EXPECT_EQ(copy.illuminance_in_car_lx(0, {LampFunction::kLow}, {.position_m = {25.0, 0.0, 0.0}}), lx);
+}
+
 TEST_F(VersusTest, TheOtherDesignHasBeamsOfItsOwn) {
   Versus versus;
   desk_.compare = Compare::kSplit;
@@ -77,6 +89,21 @@ TEST_F(VersusTest, HalvesAreTwoViewsOfOneEye) {
   EXPECT_EQ(frame.camera.eye_m, right.camera.eye_m);
   EXPECT_EQ(right.lamps.size(), frame.lamps.size());
   EXPECT_NE(right.lamps.front().beam, frame.lamps.front().beam);
+}
+
+TEST_F(VersusTest, TheEyeAdaptsToBoth) {
+  Versus versus;
+  const glm::vec3 a = lamps_.light().value();
+  EXPECT_EQ(versus.light(lamps_), a) << "off: to what shines";
+  desk_.compare = Compare::kSplit;
+  (void)versus.follow(desk_, lamps_, controls_);
+  const glm::vec3 b = versus.lamps()->light().value();
+  EXPECT_GT(b.z, a.z) << "the second design is cooler";
+  EXPECT_EQ(versus.light(lamps_), 0.5f * (a + b));
+  controls_.light_switch = LightSwitch::kOff;
+  (void)lamps_.set_controls(controls_);
+  (void)versus.follow(desk_, lamps_, controls_);
+  EXPECT_EQ(versus.light(lamps_), std::nullopt);
 }
 
 TEST_F(VersusTest, ByTurnsHalfASecondEach) {

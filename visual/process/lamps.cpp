@@ -308,7 +308,7 @@ std::vector<Lamps::TableInfo> Lamps::tables() const {
   std::vector<TableInfo> infos;
   for (const auto& [key, table] : tables_) {
     infos.push_back(
-        {table.name, table.content_hash, table.peak_cd(), table.flux_lm(), table.notes, LampTables::reading(key)});
+        {table->name, table->content_hash, table->peak_cd(), table->flux_lm(), table->notes, LampTables::reading(key)});
   }
   return infos;
 }

@@ -192,7 +192,7 @@ void Loop::draw(const Moment& moment) {
   input_.picked = picked_effects();
   input_.more_views.clear();
   if (std::exchange(eye_set_, s_.desk.eye) != s_.desk.eye) s_.eye = eye_set(s_.desk.eye);
-  s_.eye.see(moment.time, s_.lamps.light());
+  s_.eye.see(moment.time, versus_.light(s_.lamps));
   input_.white = s_.eye.white();
   if (s_.desk.mirrors) input_.more_views = mirror_views(input_, s_.channel(), moment.car.pose);
   input_.room = s_.desk.mirrors ? kRoomBesideMirrors : OverlayRoom{};

@@ -43,6 +43,12 @@ std::vector<PlacedLamp> Versus::placed(const VehicleState& pose) const {
   return lamps;
 }
 
+std::optional<glm::vec3> Versus::light(const Lamps& shown) const {
+  const std::optional<glm::vec3> a = shown.light(), b = lamps_ ? lamps_->light() : std::nullopt;
+  if (a && b) return 0.5f * (*a + *b);
+  return a ? a : b;
+}
+
 void Versus::split(FrameInput& frame, const VehicleState& pose) const {
   ViewInput other = frame;
   other.name = "versus";

@@ -24,6 +24,9 @@ class Versus {
   const Lamps* lamps() const { return lamps_.get(); }
   /// B's lamps in the world, with the places of their beams.
   std::vector<PlacedLamp> placed(const VehicleState& pose) const;
+  /// What the eye adapts to: the light of A, or of both in the same measure where two are compared, or a cooler B would
+  /// look blue in an eye that only A has adapted. None: all dark.
+  std::optional<glm::vec3> light(const Lamps& shown) const;
   /// By turns: B has its half of each second.
   static bool has_turn(const Desk& desk, SimTime now) {
     return desk.compare == Compare::kFlicker && now.ns % 1'000'000'000 >= 500'000'000;

@@ -32,7 +32,7 @@ Status LampTables::add(const SourceConfig& source) {
   }
   Result<IntensityTable> table = read_lamp(source.file, read_settings(source));
   if (!table) return table.error();
-  tables_.emplace(key(source), std::move(*table));
+  tables_.emplace(key(source), std::make_shared<const IntensityTable>(std::move(*table)));
   return Done{};
 }
 

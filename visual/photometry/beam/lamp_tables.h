@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 
@@ -21,8 +22,8 @@ class LampTables {
   using Key = std::tuple<std::string, GammaAxis, double, bool, std::size_t, std::size_t, double>;
   /// Reads the file of a source unless it is here already, with the same settings. The error is the file's.
   Status add(const SourceConfig& source);
-  /// Of a source that was added. Stays where it is, also when this moves.
-  const IntensityTable& of(const SourceConfig& source) const { return tables_.at(key(source)); }
+  /// Of a source that was added. Stays where it is when this is moved or copied, as long as one of them is there.
+  const IntensityTable& of(const SourceConfig& source) const { return *tables_.at(key(source)); }
   /// The source as it shines: its table, aim, scale and colour.
   AimedSource aimed(const SourceConfig& source) const;
 
@@ -35,7 +36,7 @@ class LampTables {
  private:
   static Key key(const SourceConfig& source);
 
-  std::map<Key, IntensityTable> tables_;
+  std::map<Key, std::shared_ptr<const IntensityTable>> tables_;
 };
 
 }  // namespace phare
