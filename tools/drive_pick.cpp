@@ -48,11 +48,11 @@ Result<SettingsTable> table_of_this_machine(const SettingsPlan& plan) {
     spdlog::warn("measured in {:.0f} s, and not kept: {}", took_s, file.error().text());
   return table;
 }
-#endif
 
 GovernorLevel level_of(const Setting& setting) {
   return {setting.method, setting.shadows, setting.fog, std::max(setting.p95_ms, 1e-3)};
 }
+#endif
 
 }  // namespace
 
