@@ -10,8 +10,12 @@ trap 'rm -rf "$out"' EXIT
 mkdir -p docs/pictures
 
 picture() { convert "$1" -resize '1280x1280>' -quality 88 -strip "docs/pictures/$2.jpg"; }
-# One picture is kept of every second of the drive.
-at_second() { find "$1/frames" -name '*.png' | sort | sed -n "$(($2 + 1))p"; }
+# The first picture that is kept of this second or after it.
+at_second() {
+  awk -F, -v second="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
+    NR > 1 && $column["picture"] == 1 && $column["time_s"] >= second { printf "%06d\n", $column["frame"] }' "$1/drive.csv" |
+    while read -r frame; do [ ! -f "$1/frames/$frame.png" ] || { echo "$1/frames/$frame.png"; break; }; done
+}
 
 "$phare" drive --headless --samples 4 --still-at 20 --out "$out/low" --port-base "$ports"
 for name in drivers_view birds_eye wall_25m; do picture "$out/low/$name.png" $name; done
@@ -23,4 +27,6 @@ picture "$(at_second "$out/false" 20)" false_colour
 picture "$out/fog/frames/000059.png" fog
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --set grid_m=10 --set road_isolux=on --out "$out/grid" --port-base "$ports"
 picture "$out/grid/frames/000059.png" grid
+"$phare" drive --design halogen --versus led --headless --lockstep --frames 60 --samples 4 --out "$out/ab" --port-base "$ports"
+picture "$out/ab/frames/000059.png" versus
 ls -l docs/pictures
