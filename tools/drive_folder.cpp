@@ -22,9 +22,10 @@ void remove_half_written(const fs::path& out, const std::vector<std::string>& pr
 
 void remove_earlier_output(const fs::path& out, const std::vector<std::string>& process_names) {
   std::error_code ignored;
-  for (const char* file : {"report.json", "index.html", "drive.csv", "drive.mp4", "contact_sheet.png",
-                           "drivers_view.png", "birds_eye.png", "wall_25m.png", "versus.png", "versus_difference.png",
-                           "versus_birds_eye.png", "versus_ratio.png", "hdr.exr", "eye.json"}) {
+  for (const char* file :
+       {"report.json", "index.html", "drive.csv", "probes.csv", "drive.mp4", "drive.mp4.part", "drive.mp4.txt",
+        "contact_sheet.png", "drivers_view.png", "birds_eye.png", "wall_25m.png", "versus.png", "versus_difference.png",
+        "versus_birds_eye.png", "versus_ratio.png", "hdr.exr", "eye.json"}) {
     fs::remove(out / file, ignored);
   }
   for (const std::string& name : process_names) fs::remove(out / (name + ".json"), ignored);

@@ -47,6 +47,8 @@ Status choose_designs(Rig& rig, const Rig& as_filed, DriveOptions& options) {
     options.desk.push_back("design=" + std::to_string(*design));
   }
   if (options.versus.empty()) return Done{};
+  const bool shown_by_hand =
+      std::ranges::any_of(options.picture.desk, [](const DeskCommand& command) { return command.setting == "design"; });
   auto other = design_named(rig, options.versus);
   if (!other) {
     Rig made = as_filed;
@@ -66,8 +68,13 @@ Status choose_designs(Rig& rig, const Rig& as_filed, DriveOptions& options) {
     options.lamp_told.warnings.insert(options.lamp_told.warnings.end(), notes->warnings.begin(), notes->warnings.end());
     options.desk.push_back("design=0");
     other = 1;
-  } else if (options.design.empty() && options.made_design) {
+  } else if (options.design.empty() && !shown_by_hand) {
+    // A stays A, whatever design a recorded drive goes to: one comparison, one table.
     options.desk.push_back("design=0");
+    if (*other == 0)
+      return Error{"--versus " + options.versus, "is the design that shines; --design says what it stands beside"};
+  } else if (!options.design.empty() && design_named(rig, options.design) == other) {
+    return Error{"--versus " + options.versus, "is the design that --design names"};
   }
   options.desk.insert(options.desk.end(), {"compare=split", "versus=" + std::to_string(*other)});
   return Done{};
@@ -170,9 +177,11 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
   command.add_option("--dbc", options->dbc, "DBC file for --log [the cockpit file's]");
   add_lamp_flags(&command, options->lamps);
   command.add_option("--design", options->design, "Design of the rig that is shown, by its name or number");
-  command.add_option("--versus", options->versus,
-                     "Two designs on the same drive: beside the one that shines another of the rig, or a lamp file as "
-                     "--lamp has them; halves of the picture, differences and reaches on the page");
+  command
+      .add_option("--versus", options->versus,
+                  "Two designs on the same drive: beside the one that shines another of the rig, or a lamp file as "
+                  "--lamp has them; halves of the picture, differences and reaches on the page")
+      ->check([](const std::string& name) { return name.empty() ? "names no design and no lamp file" : ""; });
   command.add_option("--cockpit", options->cockpit,
                      "Cockpit file, instead of the rig's: which signals move the controls");
   command.add_flag("--headless", options->headless, "No window (also when there is no display)");

@@ -22,6 +22,13 @@ std::string picture_file(std::int64_t frame) {
   return fmt::format("frames/{:06}.png", frame);
 }
 
+/// As ffmpeg's list wants it, whatever stands in the name.
+std::string quoted(const std::string& name) {
+  std::string text = "'";
+  for (const char c : name) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 }  // namespace
 
 bool make_video(const fs::path& out, const DriveSeries& series, std::int64_t frame_rate_hz, bool every_frame,
@@ -38,20 +45,46 @@ bool make_video(const fs::path& out, const DriveSeries& series, std::int64_t fra
     return false;
   }
   const double rate_hz = every_frame ? static_cast<double>(frame_rate_hz) : 10.0;
-  const fs::path list = out / "drive.mp4.txt";
+  const fs::path list = out / "drive.mp4.txt", half = out / "drive.mp4.part";
   {
     std::ofstream stream(list);
     stream << "ffconcat version 1.0\n";
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const double lasts_s = i + 1 < pictures.size() ? pictures[i + 1].time_s - pictures[i].time_s : 1.0 / rate_hz;
-      stream << "file " << picture_file(pictures[i].frame) << "\n" << fmt::format("duration {:.6f}\n", lasts_s);
+      stream << "file " << quoted("file:" + fs::absolute(out / picture_file(pictures[i].frame)).string()) << "\n"
+             << fmt::format("duration {:.6f}\n", lasts_s);
+    }
+    stream.close();
+    if (!stream) {
+      spdlog::error("{}: cannot be written, so no drive.mp4", list.string());
+      fs::remove(list, ignored);
+      return false;
     }
   }
   // Sides of an even number of pixels, as players want them.
-  auto child =
-      ChildProcess::start(*ffmpeg, {"-y", "-nostdin", "-loglevel", "error", "-f", "concat", "-i", list.string(), "-vf",
-                                    "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-r", fmt::format("{:g}", rate_hz), "-pix_fmt",
-                                    "yuv420p", "-crf", "20", "-movflags", "+faststart", (out / "drive.mp4").string()});
+  auto child = ChildProcess::start(*ffmpeg, {"-y",
+                                             "-nostdin",
+                                             "-loglevel",
+                                             "error",
+                                             "-f",
+                                             "concat",
+                                             "-safe",
+                                             "0",
+                                             "-i",
+                                             "file:" + list.string(),
+                                             "-vf",
+                                             "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                             "-r",
+                                             fmt::format("{:g}", rate_hz),
+                                             "-pix_fmt",
+                                             "yuv420p",
+                                             "-crf",
+                                             "20",
+                                             "-movflags",
+                                             "+faststart",
+                                             "-f",
+                                             "mp4",
+                                             "file:" + half.string()});
   if (!child) return false;
   const auto deadline = Clock::now() + std::chrono::minutes(10);
   std::optional<ProcessEnd> end;
@@ -59,9 +92,12 @@ bool make_video(const fs::path& out, const DriveSeries& series, std::int64_t fra
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   if (!end) child->send_signal(9);
   fs::remove(list, ignored);
-  if (end && end->exit_code == 0 && end->signal == 0) return true;
+  if (end && end->exit_code == 0 && end->signal == 0) {
+    fs::rename(half, out / "drive.mp4", ignored);
+    if (!ignored) return true;
+  }
   spdlog::warn("ffmpeg made no video ({})", end ? end->text() : stop() ? "interrupted" : "took more than 10 minutes");
-  fs::remove(out / "drive.mp4", ignored);
+  fs::remove(half, ignored);
   return false;
 }
 

@@ -1,6 +1,7 @@
 // Text of a page.
 #pragma once
 
+#include <cctype>
 #include <string>
 
 namespace phare {
@@ -25,6 +26,21 @@ inline std::string escaped(const std::string& text) {
       default:
         result += c;
     }
+  }
+  return result;
+}
+
+/// A file's name as a relative address: what means something else in one is written by its number (RFC 3986, 2.1).
+inline std::string percent_encoded(const std::string& name) {
+  constexpr char kHex[] = "0123456789ABCDEF";
+  std::string result;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = std::isalnum(byte) || c == '/' || c == '-' || c == '.' || c == '_' || c == '~';
+    if (plain)
+      result += c;
+    else
+      result += {'%', kHex[byte / 16], kHex[byte % 16]};
   }
   return result;
 }

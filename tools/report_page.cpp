@@ -84,7 +84,7 @@ class Page {
 
   /// Where a file of the folder is found from the page: beside it, or in it.
   std::string url(const std::string& file, const char* type) const {
-    if (!within_) return escaped(file);
+    if (!within_) return escaped(percent_encoded(file));
     std::ifstream stream(out_ / file, std::ios::binary);
     return std::string("data:") + type + ";base64," + base64(std::string(std::istreambuf_iterator<char>(stream), {}));
   }
@@ -146,7 +146,11 @@ class Page {
       if (!best["rules"].empty()) {
         const json& rule = best["rules"].front();
         const std::string verdict = rule.value("verdict", "");
-        fact("<span class=\"" + std::string(verdict == "fail" ? "bad" : "good") + "\">" + escaped(verdict) + "</span>",
+        fact("<span class=\"" +
+                 std::string(verdict == "fail"                                     ? "bad"
+                             : verdict == "pass" || verdict == "within resolution" ? "good"
+                                                                                   : "") +
+                 "\">" + escaped(verdict) + "</span>",
              value_text(rule, "rule") + ", low beam of " + value_text(best, "design"));
       }
       if (best.contains("hspr"))

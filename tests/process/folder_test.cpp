@@ -114,8 +114,10 @@ TEST_F(Folder, AnotherDriveGoesBesideUnlessItMayOverwrite) {
   EXPECT_NE(beside.err.find("out-2"), std::string::npos) << beside.err;
   // The same again is no other drive; nor is one that may.
   EXPECT_EQ(drive_here("--frames 2 --out out").code, 0);
+  std::ofstream(folder_ / "out" / "probes.csv") << "time_s,probe1_lx\n0,4343\n";  // of the drive before
   EXPECT_EQ(drive_here("--frames 4 --out out --overwrite").code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "out" / "frames" / "000003.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "probes.csv")) << "its page would tell figures of another drive";
   EXPECT_FALSE(fs::exists(folder_ / "out-3"));
 }
 
@@ -134,6 +136,15 @@ TEST_F(Folder, PicturesThatCouldNotBeKeptAreCountedAndEndWithOne) {
   EXPECT_NE(report["why"].get<std::string>().find("pictures could not be kept"), std::string::npos) << report["why"];
   EXPECT_EQ(report["exit_code"], 1);
   EXPECT_NE(contents_of(out / "index.html").find("pictures could not be kept"), std::string::npos);
+}
+
+// Nor are rows that the disk did not take passed over, here because a folder lies where they belong.
+TEST_F(Folder, RowsThatCouldNotBeKeptEndWithOne) {
+  fs::create_directories(folder_ / "out" / "drive.csv" / "full");
+  EXPECT_EQ(drive_here("--frames 3 --out out --overwrite").code, 1);
+  const auto kept = report_of(folder_ / "out")["processes"]["visual-0"]["kept_frames"];
+  EXPECT_EQ(kept["not_kept"], 1);
+  EXPECT_NE(kept["first_not_kept"].get<std::string>().find("drive.csv"), std::string::npos) << kept;
 }
 
 TEST_F(Folder, ADriveThatIsCutShortSaysSoAndEndsWith130) {
@@ -211,6 +222,9 @@ TEST_F(Folder, ThePageOfTwoDesignsIsWhole) {
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.err.find("--versus xenon.ies"), std::string::npos) << wrong.err;
   EXPECT_EQ(drive_here("--frames 3 --out bad --design xenon").code, 2);
+  EXPECT_EQ(drive_here("--frames 3 --out bad --versus halogen").code, 2) << "it stands first: it is A";
+  EXPECT_EQ(drive_here("--frames 3 --out bad --design led --versus led").code, 2);
+  EXPECT_EQ(drive_here("--frames 3 --out bad --versus ''").code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "bad"));
 }
 

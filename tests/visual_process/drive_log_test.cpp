@@ -46,11 +46,13 @@ TEST(DriveLog, HasOneRowAFrameAlsoOverARestart) {
   fs::create_directories(folder);
   {
     DriveLog log(folder, false);
+    EXPECT_EQ(log.frames_before(), 0);
     for (std::int64_t frame = 0; frame < 8; ++frame) ASSERT_TRUE(log.write(row_of(frame)));
   }
   std::ofstream(folder / "drive.csv", std::ios::app) << "8,0.13";  // killed in the middle of a row
   {
     DriveLog log(folder, true);
+    EXPECT_EQ(log.frames_before(), 8) << "a real-time drive goes on counting there";
     for (std::int64_t frame = 6; frame < 12; ++frame) ASSERT_TRUE(log.write(row_of(frame)));  // drawn again from 6 on
   }
   const std::vector<std::string> lines = lines_of(folder / "drive.csv");

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <charconv>
 #include <cstdio>
 #include <fstream>
 
@@ -27,8 +28,13 @@ Result<Album> Album::open(const std::filesystem::path& folder, bool going_on) {
   Album album;
   album.folder_ = folder;
   if (!going_on) return album;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", failed))
-    album.frames_found_ += entry.path().extension() == ".png" ? 1 : 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", failed)) {
+    const std::string stem = entry.path().stem().string();
+    std::int64_t number = -1;
+    const auto read = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+    if (entry.path().extension() == ".png" && read.ec == std::errc{} && read.ptr == stem.data() + stem.size())
+      album.frames_found_ = std::max(album.frames_found_, number + 1);
+  }
   if (std::ifstream stream(folder / kEyeState); stream) {
     nlohmann::json state = nlohmann::json::parse(stream, nullptr, false);
     if (!state.is_discarded()) album.eye_ = std::move(state);

@@ -57,8 +57,10 @@ class Album {
   std::uint64_t kept_frames() const { return kept_frames_; }
   /// Pictures that the disk did not take, and the first of them with its reason.
   std::uint64_t not_kept() const { return not_kept_; }
+  /// Something else that was to be kept and is not: counted as a picture is, and told.
+  void missed(const std::string& file) { keep(Error{file, "cannot be written"}); }
   const std::string& first_not_kept() const { return first_not_kept_; }
-  /// Frames that lay in frames/ when going on; 0 otherwise.
+  /// One more than the highest number in frames/ when going on; 0 otherwise.
   std::int64_t frames_found() const { return frames_found_; }
 
  private:

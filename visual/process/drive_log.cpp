@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -50,6 +51,17 @@ std::string drive_row(const DriveRow& row, bool versus) {
 
 DriveLog::DriveLog(std::filesystem::path folder, bool going_on, bool versus) : going_on_(going_on), versus_(versus) {
   if (!folder.empty()) file_ = std::move(folder) / "drive.csv";
+}
+
+std::int64_t DriveLog::frames_before() const {
+  std::int64_t frames = 0;
+  std::ifstream before(file_);
+  if (!going_on_ || !before) return frames;
+  std::string line;
+  std::getline(before, line);
+  while (std::getline(before, line) && !before.eof())
+    frames = std::max<std::int64_t>(frames, std::atoll(line.c_str()) + 1);
+  return frames;
 }
 
 /// What the process before left, up to the frame that comes now; its last row may be cut off.

@@ -40,6 +40,8 @@ class DriveLog {
   DriveLog(std::filesystem::path folder, bool going_on, bool versus = false);
 
   bool wanted() const { return !file_.empty(); }
+  /// One more than the number of the last frame of the process before; 0: there was none.
+  std::int64_t frames_before() const;
   /// Whether the row of this time tells the reach.
   bool reach_is_due(SimTime now) const { return now.ns / kReachEvery_ns != newest_reach_; }
   /// False, once: the disk did not take it.

@@ -84,7 +84,7 @@ struct FrameStats {
   std::map<std::string, LogHistogram> pass_ms;
   std::uint64_t frames = 0;
   std::uint64_t captured_frames = 0;
-  std::uint64_t stale_frames = 0;  ///< drawn with a held pose
+  std::uint64_t stale_frames = 0;   ///< drawn with a held pose
   std::uint64_t making_frames = 0;  ///< that had to make a pipeline, which a warm-up should have made
   std::uint64_t pipelines_made = 0;
   double longest_making_ms = 0.0;

@@ -1,5 +1,6 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "net/control_desk.h"
@@ -44,7 +45,7 @@ Loop::Loop(Session& session)
     return reply;
   });
   s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
-  if (!session.options.lockstep) drawn_frames_ = session.album.frames_found();
+  if (!session.options.lockstep) drawn_frames_ = std::max(session.album.frames_found(), drive_log_.frames_before());
   if (!session.options.lockstep && session.album.wanted()) session.album.write_beside();
   warm_up();
   announce();

@@ -25,7 +25,7 @@ void Loop::measure(const Moment& moment) {
     keep_clear(input_.marks, inset.part);
     frame_part(input_.marks, inset.part);
   }
-  if (!over_ && !measuring_.log()) spdlog::error("probes.csv: cannot be written");
+  if (!over_ && !measuring_.log()) s_.album.missed("probes.csv");
 }
 
 /// Lux at points of the world under the lamps of the newest frame, through the shader that draws it, and behind what

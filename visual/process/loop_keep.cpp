@@ -36,9 +36,10 @@ void Loop::keep(const Moment& moment) {
     driver.more_views.clear();
     still_ = Still{driver, moment};
     s_.stills_design = s_.lamps.design_index();
+    // Before the stills, whose last picture says that all are there.
+    if (versus_.lamps() != nullptr) s_.album.keep_versus(s_.renderer, driver, versus_, moment.car.pose, label(moment));
     s_.album.keep_stills(s_.renderer, driver, moment.car.pose, s_.lamps, s_.options.width_px, s_.options.height_px,
                          label(moment));
-    if (versus_.lamps() != nullptr) s_.album.keep_versus(s_.renderer, driver, versus_, moment.car.pose, label(moment));
     progress_ = Clock::now();
     frame_end_ = {};  // not a frame interval
   }
@@ -82,7 +83,7 @@ void Loop::log_frame(const Moment& moment, const FrameResult& result) {
   if (drive_log_.reach_is_due(moment.time) && versus_.lamps() != nullptr)
     row.versus_reach = reach_of(*versus_.lamps(), moment.car.pose, measuring_.road());
   if (drive_log_.reach_is_due(moment.time)) row.reach = reach_of(s_.lamps, moment.car.pose, measuring_.road());
-  if (!drive_log_.write(row)) spdlog::error("drive.csv: cannot be written");
+  if (!drive_log_.write(row)) s_.album.missed("drive.csv");
 }
 
 /// Every design that has shone is on the page, in the moment of the stills and with low beam. By lamps of their own, so

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "visual/process/pick.h"
+#include "visual/process/versus.h"
 
 namespace phare {
 
@@ -71,7 +72,11 @@ OverlayMarks PictureInstruments::marks(bool anew) {
   if (desk_.isolux && photo) {
     ++work_;
     if (anew || isolux_.lines.empty()) isolux_ = seen(isolux_marks(lamps_, moment_.car, road_, desk_.isolux_lx));
-    draw_marks(picture, isolux_, view);
+    OverlayMarks lines;
+    draw_marks(lines, isolux_, view);
+    keep_to_a(lines, desk_, lamps_, moment_.time);
+    picture.lines.insert(picture.lines.end(), lines.lines.begin(), lines.lines.end());
+    picture.labels.insert(picture.labels.end(), lines.labels.begin(), lines.labels.end());
   } else {
     isolux_ = {};
   }

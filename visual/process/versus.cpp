@@ -60,6 +60,12 @@ void Versus::split(FrameInput& frame, const VehicleState& pose) const {
   frame.more_views.insert(frame.more_views.begin(), std::move(other));
 }
 
+void keep_to_a(OverlayMarks& marks, const Desk& desk, const Lamps& shown, SimTime now) {
+  if (!versus_design(desk, shown)) return;
+  if (desk.compare == Compare::kSplit) keep_clear(marks, kRight);
+  if (Versus::has_turn(desk, now)) marks = {};
+}
+
 void mark_versus(OverlayMarks& marks, const Desk& desk, const Lamps& shown, const Lamps& other, SimTime now) {
   constexpr double kName_01 = 0.89;  // above the instruments
   constexpr OverlayColour kInk{255, 225, 160};
@@ -68,7 +74,6 @@ void mark_versus(OverlayMarks& marks, const Desk& desk, const Lamps& shown, cons
     marks.labels.push_back({0.015, kName_01, (turn ? "B: " : "A: ") + (turn ? other : shown).design().name, kInk});
     return;
   }
-  if (desk.isolux) keep_clear(marks, kRight);  // they are of the lamps on the left
   marks.lines.push_back({0.5, 0.0, 0.5, 1.0, kInk});
   marks.labels.push_back({0.015, kName_01, "A: " + shown.design().name, kInk});
   marks.labels.push_back({0.508, kName_01, "B: " + other.design().name, kInk});

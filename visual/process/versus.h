@@ -44,6 +44,9 @@ class Versus {
 /// Which design stands beside the one that shines; none: the rig has no other.
 std::optional<std::size_t> versus_design(const Desk& desk, const Lamps& shown);
 
+/// Takes marks that are of A's light off what shows B.
+void keep_to_a(OverlayMarks& marks, const Desk& desk, const Lamps& shown, SimTime now);
+
 /// The line between the halves and the names of both, or of the one that has its turn.
 void mark_versus(OverlayMarks& marks, const Desk& desk, const Lamps& shown, const Lamps& other, SimTime now);
 
