@@ -22,13 +22,6 @@ std::string picture_file(std::int64_t frame) {
   return fmt::format("frames/{:06}.png", frame);
 }
 
-/// As ffmpeg's list wants it, whatever stands in the name.
-std::string quoted(const std::string& name) {
-  std::string text = "'";
-  for (const char c : name) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 }  // namespace
 
 bool make_video(const fs::path& out, const DriveSeries& series, std::int64_t frame_rate_hz, bool every_frame,
@@ -51,8 +44,7 @@ bool make_video(const fs::path& out, const DriveSeries& series, std::int64_t fra
     stream << "ffconcat version 1.0\n";
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const double lasts_s = i + 1 < pictures.size() ? pictures[i + 1].time_s - pictures[i].time_s : 1.0 / rate_hz;
-      stream << "file " << quoted("file:" + fs::absolute(out / picture_file(pictures[i].frame)).string()) << "\n"
-             << fmt::format("duration {:.6f}\n", lasts_s);
+      stream << "file " << picture_file(pictures[i].frame) << "\n" << fmt::format("duration {:.6f}\n", lasts_s);
     }
     stream.close();
     if (!stream) {
@@ -61,30 +53,32 @@ bool make_video(const fs::path& out, const DriveSeries& series, std::int64_t fra
       return false;
     }
   }
-  // Sides of an even number of pixels, as players want them.
-  auto child = ChildProcess::start(*ffmpeg, {"-y",
-                                             "-nostdin",
-                                             "-loglevel",
-                                             "error",
-                                             "-f",
-                                             "concat",
-                                             "-safe",
-                                             "0",
-                                             "-i",
-                                             "file:" + list.string(),
-                                             "-vf",
-                                             "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                                             "-r",
-                                             fmt::format("{:g}", rate_hz),
-                                             "-pix_fmt",
-                                             "yuv420p",
-                                             "-crf",
-                                             "20",
-                                             "-movflags",
-                                             "+faststart",
-                                             "-f",
-                                             "mp4",
-                                             "file:" + half.string()});
+  // Sides of an even number of pixels, as players want them. In the folder, by names of ours: ffmpeg takes #, ? and %
+  // in another's for something else.
+  auto child = ChildProcess::start("/usr/bin/env", {"-C",
+                                                    out.string(),
+                                                    *ffmpeg,
+                                                    "-y",
+                                                    "-nostdin",
+                                                    "-loglevel",
+                                                    "error",
+                                                    "-f",
+                                                    "concat",
+                                                    "-i",
+                                                    "drive.mp4.txt",
+                                                    "-vf",
+                                                    "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                                    "-r",
+                                                    fmt::format("{:g}", rate_hz),
+                                                    "-pix_fmt",
+                                                    "yuv420p",
+                                                    "-crf",
+                                                    "20",
+                                                    "-movflags",
+                                                    "+faststart",
+                                                    "-f",
+                                                    "mp4",
+                                                    "drive.mp4.part"});
   if (!child) return false;
   const auto deadline = Clock::now() + std::chrono::minutes(10);
   std::optional<ProcessEnd> end;
