@@ -283,7 +283,10 @@ void CockpitProcess::run_real_time(std::chrono::nanoseconds picture_within) {
     if (vehicle != nullptr) go_on_with_design(now);
     send_back(now, vehicle != nullptr ? &vehicle->value : nullptr);
     const bool begun = picture_within.count() == 0 || vehicle != nullptr || Clock::now() - start_ > wait_for_car_;
-    if (begun && (pacer.due() || cockpit_.light_changes() != light_changes_sent_)) send(now.sim, -1);
+    // Asked before the picture is ready too: a deadline that stays passed would leave no time to sleep.
+    const bool due = pacer.due();
+    if (begun && (due || cockpit_.light_changes() != light_changes_sent_)) send(now.sim, -1);
+    ++turns_;
   }
   write_stats();
 }
@@ -349,6 +352,7 @@ void CockpitProcess::write_stats() const {
       {"fail_safes", counts.fail_safes}};
   json["cpu_s"] = processor_s() - processor_before_s_;
   json["wall_s"] = std::chrono::duration<double>(Clock::now() - start_).count();
+  json["turns"] = turns_;
   json["light_changes"] = cockpit_.light_changes();
   json["fail_safe"] = cockpit_.fail_safe();
   if (kept_design_) json["design_changes_left_out"] = kept_design_->left_out();

@@ -99,6 +99,7 @@ class CockpitProcess {
   LatencyHistogram latency_;
   LatencyHistogram light_latency_;
   std::uint64_t light_changes_sent_ = 0;
+  std::uint64_t turns_ = 0;  ///< of the loop in real time
   bool real_time_ = false;
   Scheduling scheduling_;
   double processor_before_s_ = 0.0;  // processor time that starting up took

@@ -196,6 +196,20 @@ TEST_F(CockpitProcessTest, RealTimeKeepsItsRateAndFallsSafe) {
       stats["light_change_to_datagram"]["max_us"].get<double>());
 }
 
+// While the picture is made ready nothing is sent, and the cockpit sleeps: the picture wants the processor.
+TEST_F(CockpitProcessTest, SleepsWhileThePictureIsMadeReady) {
+  Program cockpit(arguments({"--cockpit", folder_ / "cockpit.toml", "--log", folder_ / "stalk.log", "--stats",
+                             folder_ / "stats.json", "--wait-for-picture", "60"}),
+                  folder_ / "errors");
+  std::this_thread::sleep_for(1500ms);
+  EXPECT_EQ(cockpit.end(SIGTERM), 0) << errors();
+  std::ifstream stream(folder_ / "stats.json");
+  const auto stats = nlohmann::json::parse(stream);
+  // It looks every 2 ms at the source and every 10 ms sends: 600 turns a second at most; twice that for the bus.
+  EXPECT_GT(stats["turns"].get<double>(), 0.0);
+  EXPECT_LT(stats["turns"].get<double>(), 1200.0 * stats["wall_s"].get<double>());
+}
+
 TEST_F(CockpitProcessTest, KeysOfATerminalReachTheBus) {
   Bus car = bus(Role::kDynamics);
   const auto words = arguments({"--cockpit", cockpits_dir() + "/keyboard.toml", "--stats", folder_ / "stats.json"});
