@@ -59,6 +59,12 @@ GovernorLevel level_of(const Setting& setting) {
 Status pick_settings(DriveOptions& options, const Rig& rig) {
   if (options.budget_ms <= 0.0 && !options.tolerance) return Done{};
 #ifdef PHARE_WITH_GRAPHICS
+  const bool low_beam = std::ranges::any_of(rig.designs.front().lamps, [](const LampConfig& lamp) {
+    return std::ranges::any_of(lamp.sources,
+                               [](const SourceConfig& one) { return one.function == LampFunction::kLow; });
+  });
+  if (!low_beam)
+    return Error{asked_text(options), "settings are measured by low beam, and the rig's first design has none"};
   Desk desk = rig.desk;
   bool method_set = rig.desk.method != Method::kFragment;
   for (const DeskCommand& command : options.picture.desk) {
@@ -96,6 +102,8 @@ Status pick_settings(DriveOptions& options, const Rig& rig) {
     spdlog::info("{}", line);
   else
     spdlog::warn("{}", line);
+  if (options.budget_ms > 0.0 && !options.lockstep && options.picture.frames > 0)
+    spdlog::info("every picture is kept, which takes time of its own: the governor does not judge such frames");
   if (options.budget_ms > 0.0 && options.lockstep) spdlog::info("lockstep: the governor is off, what is picked stays");
 
   options.picked_arguments = {"--picked", pick.why};
