@@ -71,12 +71,15 @@ TEST(Sky, BlendedBandsOfAnHdrImageAreCloseToTheFormula) {
 TEST(Sky, SectorsCoverTheViewAndAreNarrow) {
   for (const double yaw : {0.0, 2.0, 3.1, -1.7})
     for (const double pitch : {-0.3, 0.0, 0.2, 0.7, 1.5})
-      for (const double fov : {0.4, 1.05, 2.0}) {
+      for (const auto& [fov, roll] : {std::pair(0.4, 0.0), std::pair(1.05, 0.0), std::pair(1.05, 0.05),
+                                      std::pair(1.05, -0.1), std::pair(2.0, 0.0)}) {
         Camera camera;
         camera.fov_horizontal_rad = fov;
         const glm::dvec3 ahead(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch));
         const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0.0, 0.0, 1.0)));
-        camera.world_from_eye = {ahead, -right, glm::cross(right, ahead)};
+        const glm::dvec3 up = glm::cross(right, ahead);
+        camera.world_from_eye = {ahead, std::cos(roll) * -right + std::sin(roll) * up,
+                                 std::cos(roll) * up + std::sin(roll) * right};
         const ViewGeometry view(camera, 16.0 / 9.0);
         const SkySectors sectors = sky_sectors(view);
         EXPECT_LE(sectors.step_rad, std::numbers::pi / 8.0 + 1e-9);

@@ -111,6 +111,18 @@ SkySectors sky_sectors(const ViewGeometry& view) {
       left = std::min(left, off), right = std::max(right, off);
       around |= std::hypot(there.x, there.y) < 0.5 || std::abs(off) > 1.4;
     }
+  // Of a view that leans the highest elevation lies within an edge a + t b, not at its ends.
+  const std::array corners{glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto ray = [&](const glm::dvec2& at) {
+      return glm::dvec3(view.direction_from_clip() * glm::dvec4(at, 1.0, 0.0));
+    };
+    const glm::dvec3 a = ray(corners[i]), b = ray(corners[(i + 1) % corners.size()]) - a;
+    const double ab = glm::dot(a, b), bend = b.z * ab - a.z * glm::dot(b, b);
+    if (bend == 0.0) continue;
+    const double t = std::clamp((a.z * ab - b.z * glm::dot(a, a)) / bend, 0.0, 1.0);
+    seen.highest_sine = std::max(seen.highest_sine, glm::normalize(a + t * b).z);
+  }
   if (seen.highest_sine <= 0.0) return seen;
   if (around)
     left = -std::numbers::pi, right = std::numbers::pi, seen.highest_sine = 1.0;
