@@ -48,6 +48,23 @@ TEST(Screens, HelpListsEveryKeyOfTheTable) {
   EXPECT_TRUE(press(screens, desk, KeyAction::kLeave));
 }
 
+TEST(Screens, TheBeginningGoesWhenThePersonDrivesByWhateverTheyDrive) {
+  Screens live({.kind = Kind::kLive, .shown = "Country road"});
+  CockpitState controls;  // of a gamepad: no key of the window is pressed
+  live.see(controls);
+  EXPECT_FALSE(live.panel(controls, 5.0, false).empty());
+  controls.accelerator_01 = 0.3;
+  live.see(controls);
+  controls.accelerator_01 = 0.0;
+  live.see(controls);
+  EXPECT_TRUE(live.panel(controls, 6.0, false).empty());
+  // A drive that is shown accelerates by itself: its panel goes by time or by a key.
+  Screens shown({.kind = Kind::kReplay, .shown = "evening.pcap"});
+  controls.accelerator_01 = 0.3;
+  shown.see(controls);
+  EXPECT_FALSE(shown.panel(controls, 0.1, false).empty());
+}
+
 TEST(Screens, WhileThePictureIsMadeReadyNothingElseIsSeen) {
   const OverlayPanel panel = getting_ready_panel(3, 11);
   EXPECT_TRUE(says(panel, "step 3 of 11"));

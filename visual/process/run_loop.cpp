@@ -197,6 +197,7 @@ void Loop::draw(const Moment& moment) {
   if (s_.desk.mirrors) input_.more_views = mirror_views(input_, s_.channel(), moment.car.pose);
   input_.room = s_.desk.mirrors ? kRoomBesideMirrors : OverlayRoom{};
   if (s_.window) {
+    screens_.see(moment.controls);
     input_.panel = screens_.panel(moment.controls, moment.time.seconds(), s_.desk.help);
     const bool one = s_.lamps.designs().size() < 2;
     input_.instruments.clear();

@@ -38,6 +38,11 @@ bool Screens::press(std::span<const KeyAction> presses, bool any, Desk& desk) {
   return false;
 }
 
+void Screens::see(const CockpitState& controls) {
+  constexpr double kPressed_01 = 0.05;  // beyond what a pedal at rest may tell; chosen
+  if (setup_.kind == ScreensSetup::Kind::kLive && controls.accelerator_01 > kPressed_01) start_ = false;
+}
+
 OverlayPanel Screens::panel(const CockpitState& controls, double drive_s, bool help) const {
   const bool demo_ended = controls.source == "demo ended";
   const bool replay = setup_.kind == ScreensSetup::Kind::kReplay;

@@ -30,6 +30,8 @@ class Screens {
   /// The bound keys that were pressed, and whether any was: those of the picture change `desk`. True: the person
   /// leaves.
   bool press(std::span<const KeyAction> presses, bool any, Desk& desk);
+  /// Who drives with a gamepad, a wheel or a stalk presses no key here: who accelerates has read how to begin.
+  void see(const CockpitState& controls);
   /// The drive has come to its end.
   void drive_over() { over_ = true; }
   /// Where the car is.
