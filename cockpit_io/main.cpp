@@ -15,6 +15,7 @@
 #include "cockpit_io/source.h"
 #include "config/base/fail.h"
 #include "config/cockpit.h"
+#include "config/finite_numbers.h"
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"
@@ -90,19 +91,19 @@ int run(int argc, char** argv) {
                "With the keyboard: a gamepad that is plugged in drives as well (needs a display)");
   app.add_option("--wait-for-picture", options.picture_within_s,
                  "In real time: wait at most so many seconds for the picture, with the car")
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(number_within(0.0, 3600.0));
   app.add_flag("--lockstep", options.lockstep, "Advance frame by frame with the picture, reproducibly");
   app.add_option("--stats", options.stats_file, "Write counters and latencies to this JSON file every second");
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off");
   app.add_option("--log-speed", options.log_speed, "Play the log so many times as fast as it was recorded")
-      ->check(CLI::Range(0.01, 1000.0));
+      ->check(number_within(0.01, 1000.0));
   auto* learn_flag =
       app.add_flag("--learn", options.learn,
                    "Show which signals change while the stalk is moved; with --interface or --log, and --dbc");
   app.add_option("--interface", options.interface, "CAN interface (default: the cockpit file's)");
   app.add_flag("--gamepad", options.gamepad, "With --learn: the axes and buttons of a gamepad")->needs(learn_flag);
   app.add_option("--rest", options.rest_s, "With --learn: seconds in which nobody touches anything")
-      ->check(CLI::Range(0.0, 600.0))
+      ->check(number_within(0.0, 600.0))
       ->needs(learn_flag);
   app.add_option("--seconds", options.seconds, "With --learn: end after so long")->needs(learn_flag);
   app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
@@ -111,10 +112,14 @@ int run(int argc, char** argv) {
                  "File of this run in which the controls are kept, for a process that takes this one's place");
   app.add_option("--alive", options.alive_file,
                  "File that says, ten times a second and more, that this process is not hung");
+  take_finite_numbers_only(app);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? kExitDone : kExitBadInput;
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& wrong) {
+    std::fprintf(stderr, "phare-cockpit: %s (see --help)\n", wrong.what());
+    return kExitBadInput;
   }
   spdlog::set_default_logger(spdlog::stderr_color_mt("cockpit"));
   spdlog::set_level(spdlog::level::from_str(options.log_level));

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "config/desk.h"
+#include "config/finite_numbers.h"
 #include "config/formats/toml_table.h"
 #include "net/run_key.h"
 #include "tools/commands.h"
@@ -348,7 +349,7 @@ void add_control(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(1024, 65000));
   command->add_flag("--open-bus", options->open_bus, "Of a rig that runs with --open-bus: no key");
   command->add_option("--wait", options->wait_s, "Seconds to wait for an answer")
-      ->check(CLI::Range(0.01, 3600.0))
+      ->check(number_within(0.01, 3600.0))
       ->capture_default_str();
   command->add_option("command", options->words, "A command and what it needs; - reads one a line from standard input")
       ->required();

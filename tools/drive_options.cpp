@@ -8,6 +8,7 @@
 
 #include "config/base/log_levels.h"
 #include "config/cockpit.h"
+#include "config/finite_numbers.h"
 #include "config/formats/toml_table.h"
 #include "config/key_bindings.h"
 #include "config/vehicle.h"
@@ -204,7 +205,7 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
         },
         says);
   };
-  pass_on("--friction", "Of the whole road: 1 dry, 0.6 wet, 0.3 snow, 0.1 ice")->check(CLI::Range(0.01, 2.0));
+  pass_on("--friction", "Of the whole road: 1 dry, 0.6 wet, 0.3 snow, 0.1 ice")->check(number_within(0.01, 2.0));
   pass_on("--roughness", "Of the road: ISO 8608 class A to E")->check(CLI::IsMember({"A", "B", "C", "D", "E"}));
   pass_on("--road", "Heights and friction along the way (CSV, see docs/dynamics.md)")->check(CLI::ExistingFile);
   command.add_option("--log-level", options->log_level, "trace, debug, info, warn, error, off")
@@ -233,14 +234,7 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
           .add_option("--budget-ms", options->budget_ms,
                       "Pick the most accurate settings of the picture whose frames take at most this, as measured on "
                       "this machine; in real time a governor keeps it (docs/cost.md)")
-          ->check(
-              [](const std::string& text) {
-                double ms = 0.0;  // a comparison that nan fails
-                return CLI::detail::lexical_cast(text, ms) && ms >= 0.1 && ms <= 10000.0
-                           ? std::string()
-                           : "expected 0.1 to 10000 ms, got '" + text + "'";
-              },
-              "", "ms")
+          ->check(number_within(0.1, 10000.0))
           ->excludes(explain);
   command
       .add_option_function<std::string>(

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "config/base/paths.h"
+#include "config/finite_numbers.h"
 #include "config/formats/toml_table.h"
 #include "tools/commands.h"
 
@@ -95,6 +96,7 @@ int run(int argc, char** argv) {
           {"", unknown_name_reason(i == 1 ? "command" : "command of " + at->get_name(), argv[i], commands)});
     at = *named;
   }
+  take_finite_numbers_only(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "config/base/paths.h"
+#include "config/finite_numbers.h"
 #include "config/rig.h"
 #include "net/channels.h"
 #include "net/clock.h"
@@ -64,15 +65,15 @@ void add_bus_relay(CLI::App& app, Command& chosen) {
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
   const auto share = [&](const char* name, double& value, const char* what) {
-    command->add_option(name, value, what)->check(CLI::Range(0.0, 100.0))->capture_default_str();
+    command->add_option(name, value, what)->check(number_within(0.0, 100.0))->capture_default_str();
   };
   share("--loss", options->loss_percent, "Percent of datagrams that never arrive");
   share("--duplicate", options->duplicate_percent, "Percent that arrive twice");
   share("--reorder", options->reorder_percent, "Percent that are held back until others have passed");
-  command->add_option("--delay-ms", options->delay_ms, "Delay of every datagram")->check(CLI::Range(0.0, 60000.0));
-  command->add_option("--jitter-ms", options->jitter_ms, "Up to so much more")->check(CLI::Range(0.0, 60000.0));
+  command->add_option("--delay-ms", options->delay_ms, "Delay of every datagram")->check(number_within(0.0, 60000.0));
+  command->add_option("--jitter-ms", options->jitter_ms, "Up to so much more")->check(number_within(0.0, 60000.0));
   command->add_option("--seed", options->seed, "Of the faults")->capture_default_str();
-  command->add_option("--seconds", options->seconds, "End after so long [never]")->check(CLI::Range(0.0, 1e6));
+  command->add_option("--seconds", options->seconds, "End after so long [never]")->check(number_within(0.0, 1e6));
   command->callback([options, &chosen] { chosen = [options] { return relay_bus(*options); }; });
 }
 

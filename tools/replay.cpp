@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/finite_numbers.h"
 #include "config/rig.h"
 #include "net/channels.h"
 #include "net/clock.h"
@@ -125,7 +126,7 @@ void add_replay(CLI::App& app, Command& chosen) {
   command->add_option("file", options->file, "Drive file")->required();
   command->add_option("--rig", options->rig_file, "Rig file: address, ports and channels")->capture_default_str();
   command->add_option("--speed", options->speed, "Times real time")
-      ->check(CLI::Range(0.01, 100.0))
+      ->check(number_within(0.01, 100.0))
       ->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));

@@ -7,6 +7,7 @@
 #include "config/base/input_files.h"
 #include "config/base/whole_file.h"
 #include "config/commonroad.h"
+#include "config/finite_numbers.h"
 #include "tools/commands.h"
 
 namespace phare {
@@ -47,7 +48,7 @@ void add_vehicle(CLI::App& app, Command& chosen) {
   command
       ->add_option("--load-n", arguments->load_n,
                    "Load at which the coefficients of a .tir count [a quarter of the car's weight; alone: nominal]")
-      ->check(CLI::Range(100.0, 1e5));
+      ->check(number_within(100.0, 1e5));
   command->add_option("--out", arguments->out, "Vehicle file to write [standard output]");
   command->callback([arguments, &chosen] { chosen = [arguments] { return make_vehicle(*arguments); }; });
 }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "config/base/fail.h"
+#include "config/finite_numbers.h"
 #include "net/clock.h"
 #include "vehicle_dynamics/batch.h"
 #include "vehicle_dynamics/batch_output.h"
@@ -34,20 +35,6 @@ bool is_csv(const std::string& file) {
   std::string kind = std::filesystem::path(file).extension().string();
   std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
   return kind == ".csv";
-}
-
-// CLI::Range lets NaN pass.
-CLI::Validator within(double least, double most) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%g to %g", least, most);
-  const std::string range = text;
-  return CLI::Validator(
-      [=](const std::string& given) -> std::string {
-        double value = 0.0;
-        const bool number = CLI::detail::lexical_cast(given, value);
-        return number && value >= least && value <= most ? "" : given + " is not within " + range;
-      },
-      range);
 }
 
 }  // namespace
@@ -82,18 +69,22 @@ void BatchCommand::add_to(CLI::App& app) {
                  "rk4 for full and etd2 for single-track)")
       ->check(CLI::IsMember({"semi-implicit-euler", "etd2", "rk4", "reference"}))
       ->group(group);
-  app.add_option("--step-s", o.step_s, "Batch: fixed step, s (default 0.002)")->check(within(1e-6, 0.1))->group(group);
-  app.add_option("--output-hz", o.output_hz, "Batch: rows a second")->check(within(0.01, 1e5))->group(group);
+  app.add_option("--step-s", o.step_s, "Batch: fixed step, s (default 0.002)")
+      ->check(number_within(1e-6, 0.1))
+      ->group(group);
+  app.add_option("--output-hz", o.output_hz, "Batch: rows a second")->check(number_within(0.01, 1e5))->group(group);
   app.add_option("--manoeuvre", o.manoeuvre,
                  "Batch without inputs: iso4138, iso7401, iso3888-2, iso19365 or iso21994, and its figures")
       ->check(CLI::IsMember(std::vector<std::string>(batch::kManoeuvreNames.begin(), batch::kManoeuvreNames.end())))
       ->group(group);
-  app.add_option("--scale", o.scale, "iso19365: steering over that of 0.3 g")->check(within(0.1, 10.0))->group(group);
+  app.add_option("--scale", o.scale, "iso19365: steering over that of 0.3 g")
+      ->check(number_within(0.1, 10.0))
+      ->group(group);
   app.add_option("--seconds", o.seconds, "Batch without inputs: drive for so long, with --hold-speed-kmh or --follow")
-      ->check(within(0.01, 360000.0))
+      ->check(number_within(0.01, 360000.0))
       ->group(group);
   app.add_option("--hold-speed-kmh", o.hold_speed_kmh, "Batch: a driver holds this speed with the pedals")
-      ->check(within(0.0, 400.0))
+      ->check(number_within(0.0, 400.0))
       ->group(group);
   app.add_option(
          "--follow", o.follow,
@@ -108,11 +99,13 @@ void BatchCommand::add_to(CLI::App& app) {
                  "Batch, with --plot: another run beside ours (CSV with time_s or t and columns as in OUT)")
       ->group(group);
   app.add_option("--speed-kmh", o.speed_kmh, "Batch: speed at the start (default of a manoeuvre: its own)")
-      ->check(within(-200.0, 430.0))
+      ->check(number_within(-200.0, 430.0))
       ->group(group);
-  app.add_option("--speed-mps", o.speed_mps, "Batch: speed at the start")->check(within(-60.0, 120.0))->group(group);
+  app.add_option("--speed-mps", o.speed_mps, "Batch: speed at the start")
+      ->check(number_within(-60.0, 120.0))
+      ->group(group);
   app.add_option("--start-x-m", o.start_x_m, "Batch: x of the centre of gravity at the start")
-      ->check(within(-1e8, 1e8))
+      ->check(number_within(-1e8, 1e8))
       ->group(group);
   app.add_option(
          "--road", o.road,
@@ -131,10 +124,10 @@ void BatchCommand::add_to(CLI::App& app) {
           "UINT"))
       ->group(group);
   app.add_option("--envelope-m", o.envelope_m, "Length over which a tyre averages a profile; 0: point contact")
-      ->check(within(0.0, 1.0))
+      ->check(number_within(0.0, 1.0))
       ->group(group);
   app.add_option("--friction", o.friction, "Of the whole road, 1 as the tyre was measured")
-      ->check(within(0.01, 2.0))
+      ->check(number_within(0.01, 2.0))
       ->group(group);
   app.add_option("--tyre", o.tyre, "Batch, single-track: magic or linear")
       ->check(CLI::IsMember({"magic", "linear"}))
@@ -147,7 +140,7 @@ void BatchCommand::add_to(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->group(group);
   app.add_option("--relaxation-scale", o.relaxation_scale, "Batch: multiplies the tyre's relaxation lengths")
-      ->check(within(0.01, 100.0))
+      ->check(number_within(0.01, 100.0))
       ->group(group);
   app.add_option("--compare", o.compare_with,
                  "Run the reference manoeuvres of this directory and say how far we are off")

@@ -9,6 +9,7 @@
 
 #include "config/base/fail.h"
 #include "config/base/log_levels.h"
+#include "config/finite_numbers.h"
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"
@@ -41,7 +42,7 @@ int run(int argc, char** argv) {
                  "Model: pose, kinematic, single-track, full, auto (default: the rig's; batch: full)");
   app.add_option("--wait-for-picture", options.picture_within_s,
                  "In real time: begin when every picture is ready, after so many seconds at the latest")
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(number_within(0.0, 3600.0));
   app.add_option("--stats", options.stats_file, "Write counters and times to this JSON file every second");
   app.add_option("--state", options.state_file,
                  "File of this run in which the car's state is kept, for a process that takes this one's place");
@@ -52,6 +53,7 @@ int run(int argc, char** argv) {
                  "File that says, ten times a second and more, that this process is not hung");
   BatchCommand batch;
   batch.add_to(app);
+  take_finite_numbers_only(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

@@ -113,9 +113,11 @@ class BadInput : public testing::Test {
     const std::set<std::string> before = files();
     for (const Case& given : cases) {
       std::string said, command = given.command;
-      const std::size_t phare = command.find("phare ");
-      ASSERT_NE(phare, std::string::npos);
-      command.replace(phare, 5, program("phare"));
+      // The launcher, or the program that begins the line.
+      const std::size_t launcher = command.find("phare ");
+      ASSERT_TRUE(launcher != std::string::npos || command.starts_with("phare-"));
+      const std::size_t at = launcher == std::string::npos ? 0 : launcher, end = command.find(' ', at);
+      command.replace(at, end - at, program(command.substr(at, end - at)));
       EXPECT_EQ(run(folder_.path(), command, said), kExitBadInput) << given.name << ": " << said;
       EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << given.name << ": " << said;
       EXPECT_NE(said.find(given.says), std::string::npos)
@@ -162,9 +164,17 @@ TEST_F(BadInput, OfADrive) {
       {"DBC", drive + "--log good.log --dbc bad.dbc" + stalk, "bad.dbc:1: "},
       {"no DBC", drive + "--log good.log --dbc absent.dbc" + stalk, "absent.dbc: no such file"},
       {"size", drive + "--size 3x3", "--size: expected WIDTHxHEIGHT"},
-      {"a budget of no time", drive + "--budget-ms 0", "expected 0.1 to 10000 ms"},
-      {"a budget in words", drive + "--budget-ms sixteen", "expected 0.1 to 10000 ms"},
-      {"a budget that is no number", drive + "--budget-ms nan", "expected 0.1 to 10000 ms"},
+      {"a budget of no time", drive + "--budget-ms 0", "--budget-ms: 0 is not within 0.1 to 10000"},
+      {"a budget in words", drive + "--budget-ms sixteen", "--budget-ms: sixteen is not within 0.1 to 10000"},
+      {"a budget that is no number", drive + "--budget-ms nan", "--budget-ms: nan is not within 0.1 to 10000"},
+      {"a road of no friction", drive + "--friction nan", "--friction: nan is not"},
+      {"replay: no speed", "phare replay x.pcap --speed nan", "--speed: nan is not"},
+      {"control: no time to wait", "phare control --wait nan status", "--wait: nan is not"},
+      {"relay: no share", "phare bus-relay --listen 127.0.0.9 --to 127.0.0.1 --loss nan", "--loss: nan is not"},
+      {"hard cases: no factor", "phare hard-cases garbage --tighten nan", "--tighten: nan is not"},
+      {"cockpit: no time", "phare-cockpit --wait-for-picture nan", "--wait-for-picture: nan is not"},
+      {"dynamics: no speed", "phare-dynamics --batch x.csv --speed-mps nan", "--speed-mps: nan is not"},
+      {"picture: no moment", "phare-visual --still-at nan", "--still-at: nan is not a finite number"},
       {"a tolerance without its sign", drive + "--tolerance 0.01", "expected a share of the light in percent"},
       {"a tolerance of nothing", drive + "--tolerance 0%", "expected a share of the light in percent"},
       {"a budget and a tolerance", drive + "--tolerance 1% --budget-ms 20", "--budget-ms"},

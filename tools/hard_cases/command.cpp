@@ -7,6 +7,7 @@
 
 #include "config/base/fail.h"
 #include "config/base/whole_file.h"
+#include "config/finite_numbers.h"
 #include "tools/commands.h"
 #include "tools/hard_cases/hard_case.h"
 #ifdef PHARE_WITH_GRAPHICS
@@ -119,7 +120,7 @@ void add_hard_cases(CLI::App& app, Command& chosen) {
   command->add_option("--out", options->out, "Folder for a page with a plot of each");
   command->add_option("--seed", options->seed, "Of the random scenes")->capture_default_str();
   command->add_option("--tighten", options->tighten, "Allow so many times less: how much room a case has")
-      ->check(CLI::Range(1.0, 1e30))
+      ->check(number_within(1.0, 1e30))
       ->capture_default_str();
   command->add_flag("--markdown", options->markdown, "Print the list as docs/hard-cases.md has it");
   command->callback([options, &chosen] { chosen = [options] { return run_cases(*options); }; });

@@ -1,18 +1,12 @@
 // phare lamp: the photometry bench on the command line.
 #include "config/base/input_files.h"
+#include "config/finite_numbers.h"
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 #include "visual/photometry/readers/file_text.h"
 
 namespace phare {
 namespace {
-
-/// A number that is one: "nan" passes every comparison of a range.
-CLI::Validator finite() {
-  return CLI::Validator(
-      [](std::string& text) { return parse_number(text) ? std::string{} : text + " is not a finite number"; }, "",
-      "finite");
-}
 
 /// What every command that reads a lamp file takes.
 void add_reading(CLI::App* command, LampReadSettings& settings) {
@@ -27,12 +21,11 @@ void add_reading(CLI::App* command, LampReadSettings& settings) {
       ->default_str("gamma0");
   command
       ->add_option("--c0", settings.c0_turn_deg, "Type C and EULUMDAT: plane C 0 lies at this angle (0 right, 90 up)")
-      ->check(finite())
-      ->check(CLI::Range(-360.0, 360.0))
+      ->check(number_within(-360.0, 360.0))
       ->capture_default_str();
   command->add_option("--lamp-set", settings.lamp_set, "EULUMDAT: lamp set to use, from 1")->capture_default_str();
   command->add_option("--emitter", settings.emitter, "TM-33: emitter to use, from 1")->capture_default_str();
-  command->add_option("--distance", settings.distance_m, "CSV in lx without a distance_m: metres")->check(finite());
+  command->add_option("--distance", settings.distance_m, "CSV in lx without a distance_m: metres");
   command->add_flag("--mirror", settings.mirror_h, "Turn left and right round while reading (clockwise type B)");
   command
       ->add_option_function<std::string>(
@@ -123,11 +116,9 @@ void add_check(CLI::App* lamp, Command& chosen) {
   command->add_option("--traffic", options->traffic, "Side of the road [by the cut-off]")
       ->check(CLI::IsMember({"find", "right", "left"}))
       ->capture_default_str();
-  command->add_option("--aim-up", options->aim_up_deg, "Turn the lamp up by this, deg, instead of the rule's aim")
-      ->check(finite());
-  command
-      ->add_option("--aim-right", options->aim_right_deg, "Turn the lamp right by this, deg, instead of the rule's aim")
-      ->check(finite());
+  command->add_option("--aim-up", options->aim_up_deg, "Turn the lamp up by this, deg, instead of the rule's aim");
+  command->add_option("--aim-right", options->aim_right_deg,
+                      "Turn the lamp right by this, deg, instead of the rule's aim");
   command->add_flag("!--no-reaim", options->reaim, "Do not use the rule's re-aim allowance");
   command->add_option("--aim", options->aim,
                       "Which of the rule's aims, as marked on the lens: VOL or VOR [by the beam]");
@@ -171,22 +162,18 @@ void add_convert(CLI::App* lamp, Command& chosen) {
 
 void add_mounting(CLI::App* command, double& height_m, double& spacing_m, double& pitch_deg, bool& given) {
   command->add_option("--height", height_m, "Height of the lamps above the road, m")
-      ->check(finite())
-      ->check(CLI::Range(0.1, 5.0))
+      ->check(number_within(0.1, 5.0))
       ->capture_default_str();
   command->add_option("--spacing", spacing_m, "Distance between the lamps, m")
-      ->check(finite())
-      ->check(CLI::Range(0.0, 5.0))
+      ->check(number_within(0.0, 5.0))
       ->capture_default_str();
-  command
-      ->add_option_function<double>(
-          "--pitch-deg",
-          [&pitch_deg, &given](double value) {
-            pitch_deg = value;
-            given = true;
-          },
-          "Aim, deg, up positive [a passing beam: cut-off on 0.57 deg down; others as filed]")
-      ->check(finite());
+  command->add_option_function<double>(
+      "--pitch-deg",
+      [&pitch_deg, &given](double value) {
+        pitch_deg = value;
+        given = true;
+      },
+      "Aim, deg, up positive [a passing beam: cut-off on 0.57 deg down; others as filed]");
 }
 
 void add_compare(CLI::App* lamp, Command& chosen) {
@@ -200,8 +187,7 @@ void add_compare(CLI::App* lamp, Command& chosen) {
   command->add_flag("!--no-align", options->align, "Compare as filed");
   command->add_flag("--mirror-b", options->mirror_b, "Turn B left to right first");
   command->add_option("--height", options->height_m, "Height of the lamps above the road, m")
-      ->check(finite())
-      ->check(CLI::Range(0.1, 5.0))
+      ->check(number_within(0.1, 5.0))
       ->capture_default_str();
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "config/base/result.h"
+#include "config/finite_numbers.h"
 #include "tools/scene/glb_writer.h"
 #include "tools/scene/lane_files.h"
 #include "tools/scene/parts.h"
@@ -60,6 +61,7 @@ int main(int argc, char** argv) {
   std::filesystem::path folder;
   app.add_option("--out", folder, "folder for country_road.glb, country_road_lane.csv, country_road_places.json")
       ->required();
+  phare::take_finite_numbers_only(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

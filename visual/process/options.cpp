@@ -6,6 +6,7 @@
 
 #include "config/base/log_levels.h"
 #include "config/cockpit.h"
+#include "config/finite_numbers.h"
 #include "config/picture_options.h"
 #include "visual/photometry/beam/image_levels.h"
 
@@ -65,6 +66,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--port-base", port_base, "First UDP port, instead of the rig's")->check(CLI::Range(1024, 65000));
   app.add_flag("--open-bus", options.open_bus, "No key of the run: anyone on this machine may speak on the bus");
   app.add_option("--alive", options.alive_file, "File that says, with every frame, that this process is not hung");
+  take_finite_numbers_only(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -1,0 +1,45 @@
+// Numbers of the command line are numbers.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+namespace phare {
+
+/// Like CLI::Range, in a number's own digits.
+inline CLI::Validator number_within(double least, double most) {
+  char range[64];
+  std::snprintf(range, sizeof range, "%g to %g", least, most);
+  return CLI::Validator(
+      [=, words = std::string(range)](const std::string& text) {
+        double value = 0.0;
+        const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+        return within ? std::string() : text + " is not within " + words;
+      },
+      range);
+}
+
+/// Before a program parses: each of its options of type FLOAT, and of its subcommands', refuses nan, inf and 0x10.
+/// CLI11 reads them as numbers, and nan passes every comparison of a range.
+inline void take_finite_numbers_only(CLI::App& app) {
+  for (CLI::Option* option : app.get_options())
+    if (option->get_type_name().starts_with("FLOAT"))
+      option->check(
+          [](const std::string& text) {
+            const char *first = text.data() + (text.starts_with('+') ? 1 : 0), *last = text.data() + text.size();
+            double value = 0.0;
+            const auto read = std::from_chars(first, last, value);
+            const bool number = read.ec == std::errc{} && read.ptr == last && std::isfinite(value);
+            return number ? std::string() : text + " is not a finite number";
+          },
+          "");
+  for (CLI::App* subcommand : app.get_subcommands(nullptr)) take_finite_numbers_only(*subcommand);
+}
+
+}  // namespace phare
