@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "config/base/remedies.h"
+#include "config/base/shell_word.h"
 
 namespace phare {
 namespace {
@@ -43,13 +44,6 @@ try:
 except BaseException as problem:
     print("#failed " + " ".join((str(problem) or type(problem).__name__).split()))
 )python";
-
-/// For the shell: one word, whatever stands in it.
-std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
 
 /// The Pythons to ask, in turn: the one that is named, or that of PATH and then that of Debian's package, which an
 /// environment's own may hide.

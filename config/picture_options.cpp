@@ -25,12 +25,6 @@ CLI::IsMember one_of(const std::array<std::string_view, count>& names) {
   return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
 }
 
-/// "isolux_lx=1 3 5"
-DeskCommand setting_of(const std::string& words) {
-  const std::size_t equals = std::min(words.find('='), words.size());
-  return {words.substr(0, equals), words.substr(std::min(equals + 1, words.size()))};
-}
-
 /// Why a desk would not take it, empty where it would; whether a rig has such a design is seen when it is read.
 std::string why_not(const DeskCommand& command) {
   Desk desk;
@@ -40,6 +34,11 @@ std::string why_not(const DeskCommand& command) {
 }
 
 }  // namespace
+
+DeskCommand setting_of(const std::string& words) {
+  const std::size_t equals = std::min(words.find('='), words.size());
+  return {words.substr(0, equals), words.substr(std::min(equals + 1, words.size()))};
+}
 
 std::optional<double> share_of_percent(const std::string& text) {
   double percent = 0.0;

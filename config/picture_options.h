@@ -15,6 +15,9 @@ namespace phare {
 /// Most cuts of the ground: 64 triangles from one.
 inline constexpr int kMostRoadCuts = 3;
 
+/// "SETTING=VALUE" as --set takes it.
+DeskCommand setting_of(const std::string& words);
+
 /// A share of "1%" or "0.5 %", above 0; nothing: it is none.
 std::optional<double> share_of_percent(const std::string& text);
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "config/picture_options.h"
 #include "tools/cost/measure_settings.h"
 #include "tools/cost/progress_line.h"
 #include "tools/cost/settings.h"
@@ -59,18 +60,22 @@ GovernorLevel level_of(const Setting& setting) {
 Status pick_settings(DriveOptions& options, const Rig& rig) {
   if (options.budget_ms <= 0.0 && !options.tolerance) return Done{};
 #ifdef PHARE_WITH_GRAPHICS
-  const bool low_beam = std::ranges::any_of(rig.designs.front().lamps, [](const LampConfig& lamp) {
-    return std::ranges::any_of(lamp.sources,
-                               [](const SourceConfig& one) { return one.function == LampFunction::kLow; });
-  });
-  if (!low_beam)
-    return Error{asked_text(options), "settings are measured by low beam, and the rig's first design has none"};
   Desk desk = rig.desk;
+  for (const std::string& words : options.desk)
+    if (const auto done = apply(desk, setting_of(words), {.designs = rig.designs.size()}); !done) return done.error();
   bool method_set = rig.desk.method != Method::kFragment;
   for (const DeskCommand& command : options.picture.desk) {
     if (const auto done = apply(desk, command, {.designs = rig.designs.size()}); !done) return done.error();
     method_set = method_set || command.setting == "method";
   }
+  const std::size_t design = desk.design.value_or(0);
+  const bool low_beam = std::ranges::any_of(rig.designs[design].lamps, [](const LampConfig& lamp) {
+    return std::ranges::any_of(lamp.sources,
+                               [](const SourceConfig& one) { return one.function == LampFunction::kLow; });
+  });
+  if (!low_beam)
+    return Error{asked_text(options),
+                 "settings are measured by low beam, and design \"" + rig.designs[design].name + "\" has none"};
   FixedSettings fixed{.shadows = desk.shadows, .fog = desk.fog};
   if (method_set) fixed.method = desk.method;
   if (!options.picture.beam_image.empty()) fixed.image = level_named(options.picture.beam_image);
@@ -80,6 +85,7 @@ Status pick_settings(DriveOptions& options, const Rig& rig) {
                     .height_px = rig.channels.front().height_px,
                     .samples = options.picture.samples,
                     .visibility_m = desk.visibility_m,
+                    .design = design,
                     .device_name = options.picture.device_name,
                     .progress = {}};
   if (options.picture.width_px > 0)

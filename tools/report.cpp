@@ -2,26 +2,17 @@
 
 #include <array>
 #include <chrono>
-#include <ctime>
 #include <fstream>
 
 #include "config/base/commit.h"
 #include "config/base/content_hash.h"
+#include "tools/utc_now.h"
 #include "visual/photometry/beam/lamp_tables.h"
 
 namespace phare {
 namespace {
 
 using nlohmann::json;
-
-std::string utc_now() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
 
 json named_by_content(const std::filesystem::path& file) {
   const auto hash = content_hash_of_file(file);

@@ -61,7 +61,10 @@ TEST(Settings, OfAToleranceTheCheapestThatHolds) {
   EXPECT_EQ(picked(pick_for_tolerance(all, 0.05)).text(), "fragment, float32-native-nodes, shadows hard");
   EXPECT_EQ(picked(pick_for_tolerance(all_settings(a_table(), {.shadows = 0}), 0.05)).text(),
             "fragment, float32-native-nodes, shadows off");
-  EXPECT_EQ(picked(pick_for_tolerance(all, 1.0)).text(), "vertex, float32-native-nodes, shadows off");
+  EXPECT_EQ(picked(pick_for_tolerance(all, 1.0)).text(), "vertex, float32-native-nodes, shadows hard");
+  // What is off by hand is no approximation either: it takes nothing of the tolerance.
+  EXPECT_EQ(picked(pick_for_tolerance(all_settings(a_table(), {.shadows = 0}), 1e-5)).text(),
+            "fragment, float32-native-nodes, shadows off");
   const Pick none = pick_for_tolerance(all, 0.001);
   EXPECT_FALSE(none.holds);
   EXPECT_NE(none.why.find("the best is fragment, float32-native-nodes, shadows fine: 0.4 %"), std::string::npos)
@@ -81,6 +84,8 @@ TEST(Settings, FogCountsWhereThereIsSome) {
   const std::vector<Setting> all = all_settings(table);
   EXPECT_EQ(all.size(), 64u);
   EXPECT_EQ(picked(pick_for_tolerance(all, 0.03)).text(), "fragment, float32-native-nodes, shadows hard, fog medium");
+  EXPECT_EQ(picked(pick_for_tolerance(all_settings(table, {.fog = 0}), 0.01)).text(),
+            "fragment, float32-native-nodes, shadows hard, fog off");
   EXPECT_NEAR(pick_for_tolerance(all, 0.03).setting.p95_ms, 20.0 + 4.0 + 6.0, 1e-12);
 }
 

@@ -94,6 +94,23 @@ TEST(Governor, TriesThatFailGetRare) {
   EXPECT_LE(late, 2u) << "one try a minute at most, when they have failed often";
 }
 
+// The finest level brings a load that lasts, so that each try is taken back by two steps: tries get rarer all the same.
+TEST(Governor, TriesTakenBackByTwoStepsGetRareToo) {
+  const std::vector<GovernorLevel> levels{
+      {Method::kFragment, 2, {}, 10.0}, {Method::kFragment, 1, {}, 9.0}, {Method::kFragment, 0, {}, 8.0}};
+  Governor governor(kBudget_ms, levels, 2);
+  int loaded_for = 0;
+  const auto ms = [&](std::size_t level, int) {
+    loaded_for = level == 0 ? 4 * static_cast<int>(Governor::kWindow) : std::max(loaded_for - 1, 0);
+    return loaded_for > 0 ? 20.0 : levels[level].p95_ms;
+  };
+  const std::size_t first = run(governor, 60 * 60, ms);
+  run(governor, 60 * 600, ms);
+  const std::size_t late = run(governor, 60 * 60, ms);
+  EXPECT_GE(first, 8u);
+  EXPECT_LE(late, 4u) << "one try a minute at most, two steps each way";
+}
+
 TEST(Governor, GoesBackUpWhenTheMachineIsFreeAgain) {
   Governor governor(kBudget_ms, four_levels(), 1);
   run(governor, 600, loaded(1.3));

@@ -10,6 +10,7 @@
 #include "config/base/commit.h"
 #include "config/base/content_hash.h"
 #include "config/base/paths.h"
+#include "config/base/shell_word.h"
 #include "config/base/whole_file.h"
 #include "tools/commands.h"
 #include "tools/cost/ladder.h"
@@ -18,6 +19,7 @@
 #include "tools/cost/page.h"
 #include "tools/cost/plot.h"
 #include "tools/cost/progress_line.h"
+#include "tools/utc_now.h"
 
 namespace phare {
 namespace {
@@ -29,6 +31,7 @@ struct CostOptions {
   std::string out = "cost", scene, lamp, vehicle, rig, size = "1280x720";
   std::vector<std::string> ladders;
   std::uint64_t seed = 1;
+  std::string command;  ///< that repeats the run
 };
 
 const std::vector<std::string> kLadderNames{"light", "shadows", "fog", "exposure", "vehicle", "poses", "settings"};
@@ -40,12 +43,20 @@ std::string processor() {
   return "unknown";
 }
 
-std::string now_text() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+/// The options that were given, as a shell reads them; --seed always.
+std::string command_line(const CLI::App& command) {
+  std::string text = "phare cost";
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (name == "--help" || (option->count() == 0 && name != "--seed")) continue;
+    if (option->get_items_expected_max() == 0) {
+      text += " " + name;
+      continue;
+    }
+    const std::vector<std::string> given =
+        option->count() > 0 ? option->results() : std::vector{option->get_default_str()};
+    for (const std::string& word : given) text += " " + name + " " + shell_word(word);
+  }
   return text;
 }
 
@@ -137,7 +148,7 @@ class CostRun {
 #endif
 
   Status write() {
-    json_ = {{"date", now_text()},
+    json_ = {{"date", utc_now()},
              {"version", std::string(PHARE_VERSION) + ", commit " + build_commit()},
              {"processor", processor() + ", " + std::to_string(std::thread::hardware_concurrency()) + " at once"},
              {"size", options_.size},
@@ -151,8 +162,7 @@ class CostRun {
       const Result<std::string> hash = content_hash_of_file(file);
       if (hash) json_[key] = file + ", " + *hash;
     }
-    json_["command"] = "phare cost" + std::string(options_.quick ? " --quick" : "") + " --size " + options_.size +
-                       " --seed " + std::to_string(options_.seed);
+    json_["command"] = options_.command;
     std::vector<std::string> plots;
     const std::filesystem::path out(options_.out);
     for (const Ladder& ladder : ladders_) {
@@ -213,7 +223,10 @@ void add_cost(CLI::App& app, Command& chosen) {
                       "Whose settings are measured, and kept for phare drive [config/rigs/country_road.toml]");
   command->add_option("--size", options->size, "Pictures, WIDTHxHEIGHT in pixels")->capture_default_str();
   command->add_option("--seed", options->seed, "Of the pixels that errors are taken at")->capture_default_str();
-  command->callback([options, &chosen] { chosen = [options] { return CostRun(*options).run(); }; });
+  command->callback([options, command, &chosen] {
+    options->command = command_line(*command);
+    chosen = [options] { return CostRun(*options).run(); };
+  });
 }
 
 }  // namespace phare

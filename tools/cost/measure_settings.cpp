@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <span>
 #include <thread>
@@ -13,6 +12,7 @@
 #include "config/road/lane.h"
 #include "tools/cost/fog.h"
 #include "tools/cost/ladder.h"
+#include "tools/utc_now.h"
 #include "visual/photometry/beam/image_levels.h"
 #include "visual/process/cameras.h"
 #include "visual/process/lamps.h"
@@ -23,15 +23,6 @@ namespace phare::cost {
 namespace {
 
 constexpr double kDim_lx = 0.01;  // below, no share is taken
-
-std::string now_text() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
 
 /// Where the car stands in turn: places of the lane, but its ends.
 std::vector<VehicleState> places_of(const Rig& rig, std::size_t count) {
@@ -65,12 +56,13 @@ class Measuring {
   Measuring(const SettingsPlan& plan, const Scene& scene, Lamps& lamps) : plan_(plan), scene_(scene), lamps_(lamps) {
     CockpitState controls;
     controls.light_switch = LightSwitch::kLow;
+    controls.design_index = static_cast<std::uint32_t>(plan.design);
     changes_ = lamps_.set_controls(controls);
     places_ = places_of(*plan.rig, plan.quick ? 8 : 30);
   }
 
   Result<SettingsTable> measure(const Validity& validity) {
-    SettingsTable table{.validity = validity, .measured_at = now_text()};
+    SettingsTable table{.validity = validity, .measured_at = utc_now()};
     for (const ImageLevel level : kImageLevels) table.light.push_back({Method::kFragment, level, {}});
     for (const Method method : {Method::kVertex, Method::kVertex1998})
       table.light.push_back({method, ImageLevel::kFloatNodes, {}});
@@ -177,7 +169,7 @@ class Measuring {
   Status find_fog_errors(std::vector<SettingFigures>& levels) {
     plan_.progress("fog against float64", 0.95);
     const SourceConfig* low = nullptr;
-    for (const LampConfig& lamp : plan_.rig->designs.front().lamps)
+    for (const LampConfig& lamp : plan_.rig->designs[plan_.design].lamps)
       for (const SourceConfig& source : lamp.sources)
         if (source.function == LampFunction::kLow && low == nullptr) low = &source;
     if (low == nullptr) return Done{};
@@ -229,17 +221,22 @@ Result<Validity> validity_of(const SettingsPlan& plan) {
   if (!scene) return scene.error();
   std::string of = *scene;
   LampTables tables;
-  for (const DesignConfig& design : plan.rig->designs)
+  of += " design " + std::to_string(plan.design);
+  for (const DesignConfig& design : plan.rig->designs) {
+    of += " design";
     for (const LampConfig& lamp : design.lamps) {
+      of += " lamp";
       for (int axis = 0; axis < 3; ++axis) of += " " + std::to_string(lamp.position_m[axis]);
       for (const SourceConfig& source : lamp.sources) {
         if (const Status read = tables.add(source); !read) return read.error();
         const AimedSource aimed = tables.aimed(source);
-        of += " " + aimed.table->content_hash + " " + std::to_string(aimed.scale);
+        of += " " + std::to_string(static_cast<int>(source.function)) + " " + aimed.table->content_hash + " " +
+              std::to_string(aimed.scale);
         for (int column = 0; column < 3; ++column)
           for (int row = 0; row < 3; ++row) of += " " + std::to_string(aimed.car_from_lamp[column][row]);
       }
     }
+  }
   const ChannelConfig& eye = plan.rig->channels.front();
   for (const double value : {eye.eye_m.x, eye.eye_m.y, eye.eye_m.z, eye.yaw_rad, eye.pitch_rad, eye.fov_horizontal_rad})
     of += " " + std::to_string(value);

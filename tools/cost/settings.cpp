@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -123,6 +124,12 @@ std::vector<Setting> all_settings(const SettingsTable& table, const FixedSetting
   const auto more = [](const std::vector<SettingFigures>& ladder, std::size_t level, double SettingFigures::*figure) {
     return std::max(0.0, ladder[level].*figure - ladder.front().*figure);
   };
+  // Off holds no tolerance, unless the user wants it off: then it is no approximation of anything.
+  const auto worst_of = [](const std::vector<SettingFigures>& ladder, std::size_t level,
+                           const std::optional<std::size_t>& by_hand) {
+    if (level != 0) return ladder[level].misplaced;
+    return by_hand ? 0.0 : std::numeric_limits<double>::infinity();
+  };
   for (const LightSetting& light : table.light) {
     if (fixed.method.value_or(light.method) != light.method || fixed.image.value_or(light.image) != light.image)
       continue;
@@ -132,8 +139,7 @@ std::vector<Setting> all_settings(const SettingsTable& table, const FixedSetting
       setting.p99 = light.figures.p99.value_or(0.0);
       setting.misplaced = light.figures.misplaced + table.shadows[shadows].misplaced;
       // Without shadows a lux behind something is wrong by all of it, however little of the whole light that is.
-      const bool none = shadows == 0 && !fixed.shadows;
-      setting.worst_share = std::max(setting.p99, none ? 1.0 : table.shadows[shadows].misplaced);
+      setting.worst_share = std::max(setting.p99, worst_of(table.shadows, shadows, fixed.shadows));
       setting.median_ms = light.figures.median_ms + more(table.shadows, shadows, &SettingFigures::median_ms);
       setting.p95_ms = light.figures.p95_ms + more(table.shadows, shadows, &SettingFigures::p95_ms);
       if (table.fog.empty()) settings.push_back(setting);
@@ -142,7 +148,7 @@ std::vector<Setting> all_settings(const SettingsTable& table, const FixedSetting
         Setting foggy = setting;
         foggy.fog = fog;
         foggy.misplaced += table.fog[fog].misplaced;
-        foggy.worst_share = std::max(foggy.worst_share, fog == 0 && !fixed.fog ? 1.0 : table.fog[fog].misplaced);
+        foggy.worst_share = std::max(foggy.worst_share, worst_of(table.fog, fog, fixed.fog));
         foggy.median_ms += more(table.fog, fog, &SettingFigures::median_ms);
         foggy.p95_ms += more(table.fog, fog, &SettingFigures::p95_ms);
         settings.push_back(foggy);

@@ -51,7 +51,10 @@ std::optional<GovernorLevel> governor_level(const std::string& words) {
 }
 
 Governor::Governor(double budget_ms, std::vector<GovernorLevel> levels, std::size_t begin_at)
-    : budget_ms_(budget_ms), levels_(std::move(levels)), now_(std::min(begin_at, levels_.size() - 1)) {
+    : budget_ms_(budget_ms),
+      levels_(std::move(levels)),
+      now_(std::min(begin_at, levels_.size() - 1)),
+      waits_(levels_.size(), kUpAfter) {
   window_.reserve(kWindow);
 }
 
@@ -72,19 +75,20 @@ std::optional<Governor::Step> Governor::add(double time_s, double frame_ms) {
   std::nth_element(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(at), window_.end());
   const double p95_ms = window_[at];
   window_.clear();
-  if (since_up_ <= kTakenBackWithin) ++since_up_;
+  // What went up and stayed has earned the short wait again.
+  if (since_up_ <= kTakenBackWithin && ++since_up_ > kTakenBackWithin) waits_[now_] = kUpAfter;
 
   over_ = p95_ms > budget_ms_ ? over_ + 1 : 0;
   if (over_ >= kDownAfter && now_ + 1 < levels_.size()) {
-    // What went up and did not stay waits twice as long; what stayed has earned the short wait again.
-    wait_ = since_up_ <= kTakenBackWithin ? std::min(2 * wait_, kLongestWait) : kUpAfter;
+    // What went up and did not stay waits twice as long, however many steps down it takes.
+    if (since_up_ <= kTakenBackWithin) waits_[now_] = std::min(2 * waits_[now_], kLongestWait);
     since_up_ = kTakenBackWithin + 1;
     return step_to(now_ + 1, time_s, p95_ms);
   }
   if (now_ == 0) return std::nullopt;
   const double finer_ms = p95_ms * levels_[now_ - 1].p95_ms / levels_[now_].p95_ms;
   room_ = finer_ms < kUpBelow * budget_ms_ ? room_ + 1 : 0;
-  if (room_ < wait_) return std::nullopt;
+  if (room_ < waits_[now_ - 1]) return std::nullopt;
   since_up_ = 0;
   return step_to(now_ - 1, time_s, p95_ms);
 }

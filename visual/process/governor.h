@@ -6,7 +6,7 @@
 //   window may be as slow as they like.
 //   Up: for three windows one after the other p95, times what the finer level takes more by the measured table, would
 //   be below 90 % of the budget. A step up that has to be taken back within ten windows doubles the windows that the
-//   next one waits for, up to 96; noise at the edge does not make it hunt.
+//   next one to that level waits for, up to 96; noise at the edge does not make it hunt.
 // Checked by tests/visual_process/governor_test.cpp.
 #pragma once
 
@@ -73,7 +73,7 @@ class Governor {
   std::size_t now_ = 0;
   std::vector<double> window_;
   int over_ = 0, room_ = 0;              ///< windows one after the other
-  int wait_ = kUpAfter;                  ///< windows with room before the next step up
+  std::vector<int> waits_;               ///< of each level: windows with room before a step up to it
   int since_up_ = kTakenBackWithin + 1;  ///< windows since the last step up
   std::vector<Step> steps_;
 };
