@@ -7,10 +7,19 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <system_error>
 
 namespace phare {
+
+/// The number that `text` writes in decimal digits, with a point or an exponent; none for nan, inf, 0x10 and words.
+inline std::optional<double> finite_number(const std::string& text) {
+  const char *first = text.data() + (text.starts_with('+') ? 1 : 0), *last = text.data() + text.size();
+  double value = 0.0;
+  const auto read = std::from_chars(first, last, value);
+  return read.ec == std::errc{} && read.ptr == last && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
 
 /// Like CLI::Range, in a number's own digits.
 inline CLI::Validator number_within(double least, double most) {
@@ -18,9 +27,9 @@ inline CLI::Validator number_within(double least, double most) {
   std::snprintf(range, sizeof range, "%g to %g", least, most);
   return CLI::Validator(
       [=, words = std::string(range)](const std::string& text) {
-        double value = 0.0;
-        const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-        return within ? std::string() : text + " is not within " + words;
+        const std::optional<double> value = finite_number(text);
+        if (!value) return text + " is not a finite number";
+        return *value >= least && *value <= most ? std::string() : text + " is not within " + words;
       },
       range);
 }
@@ -30,15 +39,8 @@ inline CLI::Validator number_within(double least, double most) {
 inline void take_finite_numbers_only(CLI::App& app) {
   for (CLI::Option* option : app.get_options())
     if (option->get_type_name().starts_with("FLOAT"))
-      option->check(
-          [](const std::string& text) {
-            const char *first = text.data() + (text.starts_with('+') ? 1 : 0), *last = text.data() + text.size();
-            double value = 0.0;
-            const auto read = std::from_chars(first, last, value);
-            const bool number = read.ec == std::errc{} && read.ptr == last && std::isfinite(value);
-            return number ? std::string() : text + " is not a finite number";
-          },
-          "");
+      option->check([](const std::string& text) { return finite_number(text) ? "" : text + " is not a finite number"; },
+                    "");
   for (CLI::App* subcommand : app.get_subcommands(nullptr)) take_finite_numbers_only(*subcommand);
 }
 
