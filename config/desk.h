@@ -52,9 +52,10 @@ struct FreeEye {
 enum class Compare { kOff, kSplit, kFlicker };
 inline constexpr std::array<std::string_view, 3> kCompareNames{"off", "split", "flicker"};
 
-/// As the eye sees it, or illuminance by colour with isolux lines.
-enum class View { kPhoto, kFalseColour };
-inline constexpr std::array<std::string_view, 2> kViewNames{"photo", "false-colour"};
+/// As the eye sees it; illuminance by colour with isolux lines; or as the eye sees it with stripes where the display
+/// clips.
+enum class View { kPhoto, kFalseColour, kClipping };
+inline constexpr std::array<std::string_view, 3> kViewNames{"photo", "false-colour", "clipping"};
 
 /// Where illuminance is computed (docs/accuracy.md, "Illumination methods"): at every pixel; at the vertices, and
 /// interpolated; or as in 1998: cos(q)/r² at the vertices, times the beam as an 8-bit texture (Lecocq et al. 1999).
@@ -81,7 +82,7 @@ struct Desk {
   View view = View::kPhoto;
   Method method = Method::kFragment;
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< rising, 1 to kMostIsoluxLevels
-  double exposure_per_cdm2 = 0.8;     ///< multiplies luminance before the tone curve; fixed, so that beams compare
+  double exposure_per_cdm2 = 0.3;     ///< multiplies luminance before the tone curve; fixed, so that beams compare
   EyeSetting eye;                     ///< what the eye takes for white
   std::optional<std::size_t> design;  ///< shown instead of the one that the cockpit has chosen, from 0
   std::vector<Probe> probes;          ///< at most kMostProbes, none of the picture

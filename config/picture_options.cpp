@@ -86,7 +86,7 @@ void PictureOptions::add_to(CLI::App& app) {
   };
   setting("--camera", "camera", "Eye of the picture: the driver's, one above the road, one behind the car [driver]")
       ->check(one_of(kCameraNames));
-  checked("--exposure", "exposure_per_cdm2", "Exposure, 1/(cd/m2) [0.8]");
+  checked("--exposure", "exposure_per_cdm2", "Exposure, 1/(cd/m2) [0.3]");
   checked("--adaptation", "adaptation_k",
           "Light of this colour temperature in K looks white, or auto: the eye follows the lamps [the rig's]");
   setting("--method", "method", "Where illuminance is computed: what accuracy costs in time [fragment]")

@@ -53,13 +53,15 @@ vec3 surface_reflectance(vec3 rho) {
 // tint of the material and not its darkness.
 float sent_back(vec3 toward_lamp, float cos_incidence, vec3 n, float level) {
   if (cos_incidence <= 0.0) return 0.0;
+  float inverse_eye = inversesqrt(dot(point, point)), cos_seen = -level * inverse_eye;
+  float cos_between = -dot(toward_lamp, point) * inverse_eye * inversesqrt(dot(toward_lamp, toward_lamp));
+  if (retro == kRetroFacets) return reflectance.w * facets_share(cos_incidence, cos_seen, cos_between);
   float observation_deg = between_deg(toward_lamp, -point);
-  if (retro == kRetroMarking) return reflectance.w * marking_share(observation_deg) * marking_reached(cos_incidence);
+  if (retro == kRetroMarking) return marking_sent_back(reflectance.w, observation_deg, cos_incidence, cos_seen, cos_between);
   // R_A is per area of the sheeting: luminance is R_A·E over the cosine of the eye's angle. At grazing angles nothing is left of R_A.
-  float cos_seen = max(-level * inversesqrt(dot(point, point)), 0.1);
   SheetingRow at = sheeting_row(observation_deg);
   uint index = uint(reflectance.w);
-  return sheeting_between(sheetings[index].row[at.before], sheetings[index].row[at.before + 1], at.part, between_deg(toward_lamp, n)) / cos_seen;
+  return sheeting_between(sheetings[index].row[at.before], sheetings[index].row[at.before + 1], at.part, between_deg(toward_lamp, n)) / max(cos_seen, 0.1);
 }
 
 // Light of a lamp whose illuminance comes interpolated from the vertices.
@@ -145,5 +147,9 @@ void main() {
 #ifdef PHARE_FOG
   light = through_fog(light, point, gl_FragCoord.xy);
 #endif
+  if (output_kind == kOutputClipping) {
+    result = vec4(srgb_encoded(clipping_marked(tone_curve(light), gl_FragCoord.xy)), 1.0);
+    return;
+  }
   result = output_kind == kOutputHdr ? vec4(light, total_lx) : vec4(srgb_encoded(tone_curve(light)), 1.0);
 }

@@ -40,6 +40,7 @@ const uint kMethodVertex1998 = 2u;  // cos(q)/r² at the vertices, interpolated;
 const uint kRetroNone = 0u;
 const uint kRetroSheeting = 1u;  // R_A by a table of its own
 const uint kRetroMarking = 2u;   // R_L by its class
+const uint kRetroFacets = 3u;    // rough ground
 
 // How the node before a direction is found. Even: nodes a step apart, from a phase; where wanted a fine step about 0° and a coarse one
 // beyond. "Ahead" is for tables with no first angle beyond 90°; what lies at 90° or behind counts as dark.
@@ -59,6 +60,7 @@ const uint kLookupNarrow = 64u;       // of first, and twice that of second: no 
 
 const uint kOutputDisplay = 0u;      // the display's signal (sRGB), tone curve applied here
 const uint kOutputHdr = 1u;          // cd/m² and illuminance in alpha
+const uint kOutputClipping = 5u;     // as the display, with stripes where it clips
 const uint kOutputFalseColour = 2u;  // illuminance by colour with isolux lines
 const uint kOutputMeasure = 3u;      // lx of lamps base..base+3
 const uint kOutputAudit = 4u;        // position and illuminance; normal and illuminance
@@ -126,8 +128,8 @@ const float kShadowNear_m = 0.05f;
 const float kShadowZoom = 4.0f;
 
 struct GpuMaterial {
-  // rgb rho; w, sheeting: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there, in cd/(lx·m²), by
-  // which luminance follows from rho/pi: times pi over rho's luminance under illuminant A
+  // rgb rho; w, sheeting: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there, facets: what they send
+  // back at a share of 1, in cd/(lx·m²), by which luminance follows from rho/pi: times pi over rho's luminance under illuminant A
   vec4 reflectance;
 };
 

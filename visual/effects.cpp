@@ -25,7 +25,8 @@ EffectDecision depth_first(const EffectFacts& facts) {
 }
 
 EffectDecision hdr_image(const EffectFacts& facts) {
-  if (facts.false_colour) return {0, "the view shows illuminance in false colour, which needs no tone curve"};
+  if (facts.false_colour) return {0, "the view shows illuminance in false colour, which needs no tone curve", true};
+  if (facts.clipping) return {0, "the view marks what the display clips, where the lamp pass applies the tone curve", true};
   if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for"};
   return {0, "nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself"};
 }
@@ -74,7 +75,7 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
     if (!choices[i] && picked[i] && plan.decisions[i].level > 0)
       plan.decisions[i] = {std::min(*picked[i], row.levels.size() - 1),
                            "picked for what is asked of time and accuracy; by itself: " + plan.decisions[i].reason};
-    if (!choices[i]) continue;
+    if (!choices[i] || plan.decisions[i].settled) continue;
     if (row.only_where_called_for && plan.decisions[i].level == 0) continue;
     plan.decisions[i] = {std::min(*choices[i], row.levels.size() - 1),
                          "set by the user; by itself: " + plan.decisions[i].reason};

@@ -22,6 +22,7 @@ struct EffectFacts {
   bool software_device = false;            ///< vertices cost as much as pixels
   bool hdr_wanted = false;                 ///< something reads luminance in cd/m² (EXR, bird's eye)
   bool false_colour = false;               ///< the view shows illuminance, not luminance
+  bool clipping = false;                   ///< the view marks what the display clips
   std::size_t overlay_lines = 0;           ///< text over the picture
   std::optional<double> visibility_m{};    ///< of the air; nothing: it is clear
   bool parallel_rays = false;              ///< a view from above, through no air
@@ -31,6 +32,7 @@ struct EffectFacts {
 struct EffectDecision {
   std::size_t level = 0;
   std::string reason{};
+  bool settled = false;  ///< no choice of the user changes it: the picture could not be what it is to be
 };
 
 struct EffectRow {

@@ -41,6 +41,18 @@ vk::Rect2D area_of(const PicturePart& part, vk::Extent2D extent) {
   return {{left, top}, {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}};
 }
 
+LampOutput output_of(View view) {
+  switch (view) {
+    case View::kFalseColour:
+      return LampOutput::kFalseColour;
+    case View::kClipping:
+      return LampOutput::kClipping;
+    case View::kPhoto:
+      break;
+  }
+  return LampOutput::kDisplay;
+}
+
 /// Far meshes are made for pixels of kFarMeshPixel_rad: where a picture's are finer, or its eye looks through a
 /// narrower angle, they begin as much farther away.
 double far_mesh_from_m(const PlacedView& view) {
@@ -74,7 +86,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   const bool hdr = effects.on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
   gpu::Image* light = view.picture.display;
-  LampOutput output = view.input.view == View::kFalseColour ? LampOutput::kFalseColour : LampOutput::kDisplay;
+  LampOutput output = output_of(view.input.view);
   if (hdr) {
     light = image("hdr_cdm2", kHdrFormat, Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc);
     output = LampOutput::kHdr;

@@ -10,6 +10,7 @@ EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional
           .software_device = device.software,
           .hdr_wanted = view.want_hdr,
           .false_colour = view.view == View::kFalseColour,
+          .clipping = view.view == View::kClipping,
           .overlay_lines = lines,
           .visibility_m = view.visibility_m,
           .parallel_rays = view.camera.orthographic_width_m > 0.0};

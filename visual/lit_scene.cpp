@@ -83,7 +83,8 @@ static_assert(sizeof(shader::GpuFrame) ==
 static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
-              static_cast<std::uint32_t>(RetroKind::kMarking) == shader::kRetroMarking);
+              static_cast<std::uint32_t>(RetroKind::kMarking) == shader::kRetroMarking &&
+              static_cast<std::uint32_t>(RetroKind::kFacets) == shader::kRetroFacets);
 static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
 static_assert(shader::kMaxIsoluxLevels % 4 == 0);
 static_assert(static_cast<std::uint32_t>(Method::kVertex) == shader::kMethodVertex &&
@@ -508,7 +509,9 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     variant.method = view.method;
     variant.shadow_maps = item.shadowed && common.output != LampOutput::kAudit ? lit.shadow_maps : 0;
     variant.shadows = variant.shadow_maps != 0 ? view.shadows : ShadowLevel{};
-    if (common.output == LampOutput::kDisplay || common.output == LampOutput::kHdr) variant.fog = view.fog;
+    if (common.output == LampOutput::kDisplay || common.output == LampOutput::kHdr ||
+        common.output == LampOutput::kClipping)
+      variant.fog = view.fog;
     if (variant.output == LampOutput::kAudit) variant.kind = {.double_sided = variant.kind.double_sided};
     const vk::Pipeline wanted = pipeline(variant);
     if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);

@@ -22,7 +22,14 @@
 namespace phare {
 
 /// What lamps.frag writes.
-enum class LampOutput : std::uint32_t { kDisplay = 0, kHdr = 1, kFalseColour = 2, kMeasure = 3, kAudit = 4 };
+enum class LampOutput : std::uint32_t {
+  kDisplay = 0,
+  kHdr = 1,
+  kFalseColour = 2,
+  kMeasure = 3,
+  kAudit = 4,
+  kClipping = 5
+};
 
 /// Lamps that light some of what a view sees, kLampsPerDraw at most.
 struct LitBy {

@@ -18,6 +18,7 @@ using glm::log2;
 using glm::max;
 using glm::min;
 using glm::mix;
+using glm::mod;
 using glm::smoothstep;
 using glm::sqrt;
 using glm::uvec4;

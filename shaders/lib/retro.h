@@ -23,6 +23,28 @@ PHARE_INLINE float marking_reached(float cos_incidence) {
   return min(cos_incidence * 500.0f, 1.0f);
 }
 
+/// Rough ground as upright facets (stones, tufts) of one reflectance, beside the flat surface: what light at a low angle finds in its way
+/// and the eye, looking the same way, sees of it. Luminance over facing illuminance is rho/pi times this:
+///   (l·v - (n·l)(n·v)) · min(1, (n·l)/(n·v)),   l toward the lamp, v toward the eye, n up, unit vectors.
+/// First factor: facets that face the lamp, as the eye's azimuth sees them (nothing against the light). Second: where the lamp is lower
+/// than the eye, each facet shades the foot of the next, and light is on elevation over elevation of what is seen. So along a road the ratio
+/// stays where flat Lambert falls with the lamp's elevation. It is the term B of Oren and Nayar (1994, eq. 30) without their bound on it.
+PHARE_INLINE float facets_share(float cos_incidence, float cos_seen, float cos_between) {
+  return max(cos_between - cos_incidence * cos_seen, 0.0f) * min(cos_incidence / max(cos_seen, 1e-6f), 1.0f);
+}
+
+/// That of the 30 m geometry: light at 1.2412°, eye at 2.2906° above the ground.
+const float kFacetsAt30m = 0.5414125f;
+
+/// What a marking sends back, in units of `whole`: R_L in the 30 m geometry without the diffuse part, over rho/pi. Its paint lies on rough
+/// ground and is as rough, so a part is facets of its own rho, at most half of R_L (chosen); beads send the rest.
+PHARE_INLINE float marking_sent_back(float whole, float observation_deg, float cos_incidence, float cos_seen, float cos_between) {
+  float facets = min(whole * (0.5f / kFacetsAt30m), 1.0f);
+  float beads = whole - facets * kFacetsAt30m;
+  return beads * marking_share(observation_deg) * marking_reached(cos_incidence) +
+         facets * facets_share(cos_incidence, cos_seen, cos_between);
+}
+
 /// Rows of a sheeting's table: observation angles 0.2°, 0.33°, 0.5°, 1°, 1.5°, 2°.
 const uint kSheetingRows = 6u;
 

@@ -59,7 +59,7 @@ layout(constant_id = 3) const uint output_kind = 0;
 void pass_light(vec4 material) {
   const float pi = 3.14159265;
   reflectance = vec4(material.rgb / pi, material.w);
-  if (output_kind == kOutputDisplay) reflectance.rgb *= frame.exposure.rgb;
+  if (output_kind == kOutputDisplay || output_kind == kOutputClipping) reflectance.rgb *= frame.exposure.rgb;
   light_colour = frame.lamps[0].colour.rgb;
   ambient_lx = frame.sky.rgb * (0.5 * pi);
 #define PHARE_POINT_IN(I)                                                                                       \

@@ -14,6 +14,16 @@ PHARE_INLINE vec3 tone_curve(vec3 exposed) {
   return exposed * scale;
 }
 
+/// What the display clips, in stripes of 4 pixels: red where a channel is above 1, blue where all are below half a step of 8 bits.
+PHARE_INLINE vec3 clipping_marked(vec3 linear, vec2 pixel) {
+  const float half_step = 0.5f / 255.0f / 12.92f;
+  float most = max(max(linear.x, linear.y), linear.z);
+  bool stripe = mod(pixel.x + pixel.y, 8.0f) < 4.0f;
+  if (most > 1.0f) return stripe ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f);
+  if (most < half_step) return stripe ? vec3(0.0f, 0.0f, 0.3f) : vec3(0.0f);
+  return linear;
+}
+
 /// Illuminance in lx as colour, display-linear: dark blue below 0.3 lx over cyan, green, yellow, red to white above 200 lx, by log E.
 PHARE_INLINE vec3 false_colour(float illuminance_lx) {
   float t = clamp((log2(max(illuminance_lx, 1e-4f)) - log2(0.3f)) / (log2(200.0f) - log2(0.3f)), 0.0f, 1.0f) * 5.0f;

@@ -90,6 +90,24 @@ TEST(FarMesh, APlateThatIsSeenFromOneSideOnlyCountsByItsHalf) {
   EXPECT_TRUE(from_afar(scene, 0.36 / kFarThingWidth_rad).indices.empty());
 }
 
+// It sends light back too, and is no point of light: a plane of a hundred squares is a few triangles from afar.
+TEST(FarMesh, RoughGroundIsSimplifiedLikeSmoothGround) {
+  Scene scene;
+  scene.materials = {{.name = "meadow", .surface = Surface::kGrass}};
+  for (int x = 0; x <= 10; ++x)
+    for (int y = 0; y <= 10; ++y)
+      scene.vertices.push_back({{4.0f * static_cast<float>(x), 4.0f * static_cast<float>(y), 0.0f}, {0, 0, 1}});
+  for (std::uint32_t x = 0; x < 10; ++x)
+    for (std::uint32_t y = 0; y < 10; ++y) {
+      const std::uint32_t i = 11 * x + y;
+      for (const std::uint32_t corner : {i, i + 11, i + 12, i, i + 12, i + 1}) scene.indices.push_back(corner);
+    }
+  const std::size_t smooth = from_afar(scene).indices.size();
+  EXPECT_LT(smooth, scene.indices.size() / 4);
+  scene.materials[0].retro.kind = RetroKind::kFacets;
+  EXPECT_EQ(from_afar(scene).indices.size(), smooth);
+}
+
 TEST(FarMesh, KeepsEveryReflectorHoweverSmall) {
   Scene scene;
   scene.materials = {{.name = "reflector"}};

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "shaders/lib/retro.h"
@@ -99,7 +100,7 @@ TEST(Retro, MarkingsOfEachClass) {
     const auto made = retroreflection(name, std::nullopt, std::nullopt);
     ASSERT_TRUE(made) << name;
     EXPECT_EQ(made->kind, RetroKind::kMarking);
-    EXPECT_EQ(made->marking_mcd_per_lx_m2, mcd);
+    EXPECT_EQ(made->r_l_mcd_per_lx_m2, mcd);
   }
 }
 
@@ -121,6 +122,73 @@ TEST(Retro, TheThirtyMetreGeometryIsWhereAMarkingHasItsClass) {
   EXPECT_LT(shader::marking_share(170.0f), 1e-6f) << "an oncoming lamp";
 }
 
+// Along a road the lamp's elevation over the eye's stays, and with it R_L; flat Lambert falls with the lamp's
+// elevation.
+TEST(Retro, RoughGroundKeepsItsRlAlongTheRoad) {
+  const auto ground = retroreflection("upright facets", std::nullopt, std::nullopt);
+  ASSERT_TRUE(ground);
+  constexpr double kRho = 0.083;
+  const auto seen = [&](const Retroreflection& retro, const glm::dvec3& lamp, const glm::dvec3& at) {
+    return sent_back_per_lx(retro, kRho, glm::normalize(lamp - at), {0, 0, 1},
+                            glm::normalize(glm::dvec3(0, 0, 1.2) - at));
+  };
+  const glm::dvec3 lamp(0, 0, 0.65), ahead(1, 0, 0);
+  // Small angles: rho/pi times the lamp's height over the eye's. cos² of what is left is 1 - 1.2²/d².
+  for (const double distance_m : {30.0, 60.0, 120.0, 240.0})
+    EXPECT_NEAR(seen(*ground, lamp, distance_m * ahead) / (kRho / std::numbers::pi * 0.65 / 1.2), 1.0,
+                2.0 * 1.44 / (distance_m * distance_m) + 1e-5)
+        << distance_m;
+  // A lamp above the eye lights all that the eye sees, an oncoming one only what the eye does not.
+  EXPECT_NEAR(seen(*ground, {0, 0, 2.0}, 100.0 * ahead) / (kRho / std::numbers::pi), 1.0, 1e-3);
+  EXPECT_EQ(seen(*ground, {60, 0, 0.65}, 30.0 * ahead), 0.0);
+  // A measured R_L takes its place, and holds with the diffuse part in the geometry it is measured in.
+  const auto measured = retroreflection("upright facets", std::nullopt, 22.0);
+  ASSERT_TRUE(measured);
+  const double diffuse = kRho / std::numbers::pi * 0.65 / std::hypot(30.0, 0.65);
+  EXPECT_NEAR(seen(*measured, lamp, 30.0 * ahead) + diffuse, 0.022, 0.022 * 1e-5);
+}
+
+// What facets add to rho of all light from one direction: in the limit of grazing light rho/2 (integral of the share,
+// by hand), less from above, nothing head-on. So ground of rho up to 2/3 never sends back more than it gets.
+TEST(Retro, RoughGroundSendsBackAtMostHalfAsMuchAgain) {
+  constexpr int kAzimuths = 360, kHeights = 400;
+  for (const double incidence_deg : {0.0, 30.0, 60.0, 80.0, 89.0}) {
+    const double ci = std::cos(incidence_deg * kRadPerDeg), si = std::sin(incidence_deg * kRadPerDeg);
+    double sum = 0.0;  // of the share times cos_seen over solid angle
+    for (int h = 0; h < kHeights; ++h)
+      for (int a = 0; a < kAzimuths; ++a) {
+        const double cs = (h + 0.5) / kHeights, ss = std::sqrt(1.0 - cs * cs);
+        const double between = ci * cs + si * ss * std::cos((a + 0.5) * 2.0 * std::numbers::pi / kAzimuths);
+        sum += static_cast<double>(
+                   shader::facets_share(static_cast<float>(ci), static_cast<float>(cs), static_cast<float>(between))) *
+               cs * 2.0 * std::numbers::pi / (kAzimuths * kHeights);
+      }
+    const double more =
+        sum / (std::numbers::pi * ci);  // of rho: L = rho/pi·share·E_facing, over E_facing·cos incidence
+    std::printf("facets add %.3f of rho at %.0f°\n", more, incidence_deg);
+    EXPECT_LE(more, 0.5 + 2e-3) << incidence_deg;  // two thousandths: sums of steps of 1/400
+    if (incidence_deg == 0.0) {
+      EXPECT_NEAR(more, 0.0, 1e-6);
+    }
+    if (incidence_deg == 89.0) {
+      EXPECT_GT(more, 0.45);
+    }
+  }
+}
+
+TEST(Retro, FacetsOfTheThirtyMetreGeometry) {
+  const glm::dvec3 lamp = glm::normalize(glm::dvec3(-30.0, 0.0, 0.65)),
+                   eye = glm::normalize(glm::dvec3(-30.0, 0.0, 1.2));
+  EXPECT_NEAR(shader::kFacetsAt30m, (glm::dot(lamp, eye) - lamp.z * eye.z) * lamp.z / eye.z, 1e-7);
+  // A marking is its class there, whatever its paint, and keeps contrast to the ground where beads send nothing.
+  for (const double mcd : {25.0, 80.0, 200.0, 300.0})
+    for (const double rho : {0.1, 0.5, 0.8}) {
+      const Retroreflection marking{.kind = RetroKind::kMarking, .r_l_mcd_per_lx_m2 = mcd};
+      const double all = rho / std::numbers::pi * lamp.z + sent_back_per_lx(marking, rho, lamp, {0, 0, 1}, eye);
+      EXPECT_NEAR(1e3 * all / mcd, 1.0, 1e-3) << mcd << " with rho " << rho;  // its 1.0497° is stated as 1.05°
+    }
+}
+
 TEST(Retro, RefusesWithAReason) {
   const auto why = [](const char* name, std::optional<double> r_a, std::optional<double> r_l) {
     const auto made = retroreflection(name, r_a, r_l);
@@ -129,6 +197,7 @@ TEST(Retro, RefusesWithAReason) {
   EXPECT_NE(why("EN 1436 R44", {}, {}).find("EN 1436 R4"), std::string::npos) << why("EN 1436 R44", {}, {});
   EXPECT_NE(why("EN 1436 R4", 3.0, {}).find("marking"), std::string::npos);
   EXPECT_NE(why("EN 12899-1 RA2 white", {}, 150.0).find("sheeting"), std::string::npos);
+  EXPECT_NE(why("upright facets", 3.0, {}).find("ground"), std::string::npos);
   EXPECT_NE(why("UN R3 IA red", {}, {}).find("area"), std::string::npos);
 }
 

@@ -181,7 +181,7 @@ TEST(CountryRoad, HasEverythingThatStandsBesideARoad) {
   bool asphalt = false, paint = false, foliage = false;
   for (const SceneMaterial& m : country_road().materials) {
     if (m.retro.kind == RetroKind::kSheeting) sheeting = std::max(sheeting, sheeting_r_a(m.retro, 0.33, 5.0));
-    marking = std::max(marking, m.retro.marking_mcd_per_lx_m2);
+    marking = std::max(marking, m.retro.r_l_mcd_per_lx_m2);
     asphalt |= m.surface == Surface::kAsphalt, paint |= m.surface == Surface::kPaint,
         foliage |= m.surface == Surface::kFoliage;
   }

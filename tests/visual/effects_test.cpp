@@ -40,6 +40,13 @@ TEST(Effects, DeviceAndViewCountToo) {
   EXPECT_FALSE(plan_effects({.lit_lamps = 2, .casters = std::nullopt}).on(Effect::kShadows));
   EXPECT_FALSE(plan_effects({.lit_lamps = 2, .software_device = true}).on(Effect::kDepthFirst));
   EXPECT_FALSE(plan_effects({.hdr_wanted = true, .false_colour = true}).on(Effect::kHdrImage));
+  EXPECT_FALSE(plan_effects({.hdr_wanted = true, .clipping = true}).on(Effect::kHdrImage));
+  // Nor by force: the tone curve would make a photo of them.
+  EffectChoices forced{};
+  forced[static_cast<std::size_t>(Effect::kHdrImage)] = 1;
+  EXPECT_FALSE(plan_effects({.false_colour = true}, forced).on(Effect::kHdrImage));
+  EXPECT_FALSE(plan_effects({.clipping = true}, forced).on(Effect::kHdrImage));
+  EXPECT_TRUE(plan_effects({}, forced).on(Effect::kHdrImage));
   EXPECT_FALSE(plan_effects({.false_colour = true, .visibility_m = 80.0}).on(Effect::kFog));
   EXPECT_FALSE(plan_effects({.visibility_m = 80.0, .parallel_rays = true}).on(Effect::kFog));
 }
@@ -56,7 +63,8 @@ TEST(Effects, TheUserDecidesAndThePlanSaysSo) {
   EXPECT_EQ(plan_effects({}, choices)[Effect::kDepthFirst].level, 1u) << "the finest there is";
 }
 
-// What a budget has picked holds where the scene calls for the effect, and makes none; the user's word counts before it.
+// What a budget has picked holds where the scene calls for the effect, and makes none; the user's word counts before
+// it.
 TEST(Effects, WhatIsPickedHoldsWhereItIsCalledFor) {
   const auto shadows = static_cast<std::size_t>(Effect::kShadows);
   EffectChoices picked{}, choices{};

@@ -14,6 +14,7 @@
 #include "tests/paths.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
+#include "visual/frame.h"
 #include "visual/image/image.h"
 #include "visual/photometry/table/illuminance.h"
 #include "visual/scene/scene.h"
@@ -262,6 +263,60 @@ TEST_F(RendererTest, HdrPassComesWhenCalledForAndHoldsIlluminance) {
 }
 
 // Nothing lit, HDR on and off again: an image that a frame does not call for is freed, and memory accounts for itself.
+// Against the luminance image and the tone curve in float64: marked is what is above 1 or below half a step of 8 bits,
+// all else is the photo.
+TEST_F(RendererTest, ClippingIsMarkedWhereTheDisplayClipsAndNowhereElse) {
+  const IntensityTable table = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
+  renderer->set_beam(0, image_of(table));
+  ASSERT_TRUE(renderer->load_scene(yard()).ok());
+  FrameInput input = driver_view();
+  input.sky_luminance_cdm2 = 0.0;  // what no lamp reaches is black
+  input.want_image = true;
+  const struct {
+    double exposure_per_cdm2;
+    bool bright;
+  } cases[]{{4.0, true}, {1e-3, false}};
+  for (const auto& [exposure_per_cdm2, bright] : cases) {
+    input.exposure_per_cdm2 = exposure_per_cdm2;
+    input.view = View::kPhoto;
+    input.want_hdr = true;
+    renderer->draw(input);
+    const ImageF hdr = renderer->read_hdr();
+    input.want_hdr = false;
+    const std::uint32_t passes = renderer->draw(input).pass_count;
+    const Image8 photo = renderer->read_image();
+    input.view = View::kClipping;
+    EXPECT_EQ(renderer->draw(input).pass_count, passes) << "marks cost no pass";
+    const Image8 marked = renderer->read_image();
+    const glm::dvec3 exposure(exposure_of(input));
+    std::size_t above = 0, below = 0, same = 0, stripes = 0;
+    for (std::size_t i = 0; i < photo.rgba.size(); i += 4) {
+      if (hdr.rgba[i + 3] <= 0.0f) continue;  // sky
+      const glm::dvec3 exposed =
+          exposure * glm::dvec3(static_cast<double>(hdr.rgba[i]), static_cast<double>(hdr.rgba[i + 1]),
+                                static_cast<double>(hdr.rgba[i + 2]));
+      const double y = glm::dot(exposed, glm::dvec3(0.2126, 0.7152, 0.0722));
+      const glm::dvec3 shown = exposed * ((1.0 + y / 144.0) / (1.0 + y));
+      const double most = std::max({shown.x, shown.y, shown.z}), half_step = 0.5 / 255.0 / 12.92;
+      // 16-bit float of the image: a thousandth.
+      if (most > 1.001) {
+        EXPECT_TRUE(marked.rgba[i + 1] == 0 && marked.rgba[i + 2] == 0) << i << ": neither red nor black";
+        ++above, stripes += marked.rgba[i] == 255;
+      } else if (most < 0.999 * half_step) {
+        EXPECT_TRUE(marked.rgba[i] == 0 && marked.rgba[i + 1] == 0) << i << ": neither blue nor black";
+        ++below, stripes += marked.rgba[i + 2] > 0;
+      } else if (most < 0.999 && most > 1.001 * half_step) {
+        for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(marked.rgba[i + c], photo.rgba[i + c]) << i;
+        ++same;
+      }
+    }
+    std::printf("%zu pixels above white, %zu below black, %zu as they are\n", above, below, same);
+    EXPECT_GT(bright ? above : below, 100u);
+    EXPECT_GT(same, 1000u);
+    EXPECT_NEAR(static_cast<double>(stripes) / static_cast<double>(above + below), 0.5, 0.1);
+  }
+}
+
 TEST_F(RendererTest, WhatNoFrameCallsForIsFreed) {
   renderer->set_beam(0, image_of(cut_off_table(PhotometricType::kA, GammaAxis::kGamma0)));
   ASSERT_TRUE(renderer->load_scene(yard()).ok());

@@ -94,11 +94,35 @@ class RetroOnDevice : public testing::Test {
 
 constexpr glm::dvec3 kLamp{0, 0, 0.65}, kEye{0, 0, 1.2}, kUp{0, 0, 1};
 const glm::vec3 kPaint(0.5f, 0.5f, 0.48f);
+const double kPaintRho =
+    glm::dot(glm::dvec3(kPaint) * glm::dvec3(black_body_colour(2856.0)), glm::dvec3(0.2126, 0.7152, 0.0722));
 
 // R_L in mcd/(lx·m²) of a marking so far ahead.
 double seen_r_l(const SceneMaterial& material, double distance_m) {
   const glm::dvec3 at(distance_m, 0, 0);
   return 1e3 * Patch::shared().luminance_cdm2(material, at, kUp, kEye, kLamp) / Patch::facing_lx(at, kLamp);
+}
+
+// Upright facets under lamp and eye above each other, in float64.
+double facets_share_at(double distance_m) {
+  const glm::dvec3 lamp = glm::normalize(glm::dvec3(-distance_m, 0, 0.65)),
+                   eye = glm::normalize(glm::dvec3(-distance_m, 0, 1.2));
+  return (glm::dot(lamp, eye) - lamp.z * eye.z) * std::min(lamp.z / eye.z, 1.0);
+}
+
+TEST_F(RetroOnDevice, RoughGroundSendsBackItsFacets) {
+  const SceneMaterial ground = of_class("upright facets", kPaint), flat{.name = "flat", .reflectance = kPaint};
+  SceneMaterial measured = ground;
+  measured.retro.r_l_mcd_per_lx_m2 = 15.0;
+  for (const double distance_m : {7.0, 30.0, 100.0}) {
+    const double facets = seen_r_l(ground, distance_m) - seen_r_l(flat, distance_m);
+    std::printf("rough ground of rho %.3f at %.0f m: %.2f mcd/(lx·m²) more\n", kPaintRho, distance_m, facets);
+    EXPECT_NEAR(facets / (1e3 * kPaintRho / std::numbers::pi * facets_share_at(distance_m)), 1.0, 3e-3) << distance_m;
+  }
+  EXPECT_NEAR(seen_r_l(measured, 30.0) / 15.0, 1.0, kHalfFloat);
+  const glm::dvec3 at(30, 0, 0), oncoming(60, 0, 0.65);
+  EXPECT_EQ(Patch::shared().luminance_cdm2(ground, at, kUp, kEye, oncoming),
+            Patch::shared().luminance_cdm2(flat, at, kUp, kEye, oncoming));
 }
 
 TEST_F(RetroOnDevice, AMarkingHasItsClassInTheThirtyMetreGeometry) {
@@ -120,7 +144,11 @@ TEST_F(RetroOnDevice, AMarkingChangesSensiblyNearerAndFarther) {
   for (const double distance_m : {7.0, 15.0, 50.0, 100.0}) {
     const double observation_deg = (std::atan(1.2 / distance_m) - std::atan(0.65 / distance_m)) / kRadPerDeg;
     const double diffuse = seen_r_l({.name = "bare", .reflectance = kPaint}, distance_m);
-    const double expected = (200.0 - diffuse_30) * std::exp(-(observation_deg - 1.05) / 1.6) + diffuse;
+    // Paint as rough as the ground: at 30 m rho/pi·0.5414 of R_L, the rest is beads.
+    const double facets_30 = 1e3 * kPaintRho / std::numbers::pi * 0.5414125;
+    const double facets = facets_30 / 0.5414125 * facets_share_at(distance_m);
+    const double expected =
+        (200.0 - diffuse_30 - facets_30) * std::exp(-(observation_deg - 1.05) / 1.6) + facets + diffuse;
     const double seen = seen_r_l(r4, distance_m);
     std::printf("R4 at %.0f m: %.0f mcd/(lx·m²)\n", distance_m, seen);
     EXPECT_NEAR(seen / expected, 1.0, 2e-3) << distance_m;  // two such readings in it

@@ -60,13 +60,14 @@ struct MaterialData {
 };
 
 /// Reflectances by eye within published ranges: asphalt 0.07–0.10, grass 0.08–0.15, plaster 0.6–0.7, dark cloth
-/// 0.03–0.05 (CIE 66, road photometry handbooks). Markings as a road in use has them, signs and delineators as RA2: of
-/// delineators (EN 12899-3) no figures were found. The red reflectors of cycle and car: 0.3 cd/lx over their 80 cm².
+/// 0.03–0.05 (CIE 66, road photometry handbooks). Ground is rough: stones and tufts send light back (docs/light.md).
+/// Markings as a road in use has them, signs and delineators as RA2: of delineators (EN 12899-3) no figures were found.
+/// The red reflectors of cycle and car: 0.3 cd/lx over their 80 cm².
 inline constexpr std::array<MaterialData, static_cast<std::size_t>(Material::kCount)> kMaterials{{
-    {"asphalt", {0.085, 0.083, 0.080}, "asphalt", "", false},
+    {"asphalt", {0.085, 0.083, 0.080}, "asphalt", "upright facets", false},
     {"road paint", {0.50, 0.50, 0.48}, "paint", "EN 1436 R4", false},
-    {"verge", {0.135, 0.125, 0.075}, "grass", "", false},
-    {"meadow", {0.075, 0.115, 0.035}, "grass", "", false},
+    {"verge", {0.135, 0.125, 0.075}, "grass", "upright facets", false},
+    {"meadow", {0.075, 0.115, 0.035}, "grass", "upright facets", false},
     {"bark", {0.085, 0.070, 0.055}, "plain", "", false},
     {"leaves", {0.050, 0.090, 0.025}, "foliage", "", true},
     {"spruce", {0.030, 0.055, 0.025}, "foliage", "", true},
@@ -84,7 +85,7 @@ inline constexpr std::array<MaterialData, static_cast<std::size_t>(Material::kCo
     {"roof tiles", {0.145, 0.060, 0.042}, "plain", "", false},
     {"stone", {0.22, 0.21, 0.19}, "plain", "", false},
     {"door", {0.050, 0.095, 0.060}, "plain", "", false},
-    {"hay", {0.32, 0.25, 0.12}, "grass", "", false},
+    {"hay", {0.32, 0.25, 0.12}, "grass", "upright facets", false},
     {"car paint", {0.070, 0.095, 0.150}, "plain", "", false},
     {"glass", {0.020, 0.022, 0.024}, "plain", "", false},
     {"rubber", {0.028, 0.028, 0.028}, "plain", "", false},

@@ -131,10 +131,8 @@ shader::GpuMaterial pack_material(const SceneMaterial& material, std::vector<sha
   shader::GpuMaterial packed{glm::vec4(material.reflectance, 0.0f)};
   const glm::dvec3 seen = glm::dvec3(material.reflectance) * glm::dvec3(black_body_colour(2856.0));
   const double rho = std::max(glm::dot(seen, glm::dvec3(0.2126, 0.7152, 0.0722)), 1e-3);
-  if (material.retro.kind == RetroKind::kMarking) {
-    const double diffuse = rho / kPi * std::cos(88.76 * kPi / 180.0);  // in the 30 m geometry
-    packed.reflectance.w =
-        static_cast<float>(std::max(1e-3 * material.retro.marking_mcd_per_lx_m2 - diffuse, 0.0) * kPi / rho);
+  if (material.retro.kind == RetroKind::kMarking || material.retro.kind == RetroKind::kFacets) {
+    packed.reflectance.w = static_cast<float>(sent_back_strength(material.retro, rho) * kPi / rho);
   } else if (material.retro.kind == RetroKind::kSheeting) {
     packed.reflectance.w = static_cast<float>(sheetings.size());
     shader::GpuSheeting& sheeting = sheetings.emplace_back();

@@ -59,7 +59,7 @@ std::string PictureInstruments::answer() const {
 
 OverlayMarks PictureInstruments::marks(bool anew) {
   OverlayMarks picture;
-  const bool photo = desk_.view == View::kPhoto;
+  const bool photo = desk_.view != View::kFalseColour;
   const ViewGeometry view(moment_.camera, moment_.aspect);
   const auto seen = [&](RoadMarks marks) {
     const bool from_above = moment_.camera.orthographic_width_m > 0.0;

@@ -17,6 +17,7 @@ namespace phare {
 namespace {
 
 constexpr double kDegOfRad = 180.0 / std::numbers::pi;
+constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};  // of linear Rec. 709
 
 constexpr std::array<const char*, 7> kWhyDarkWords{
     "lit",   "off", "behind the lamp", "outside its table", "no light in that direction", "the surface faces away",
@@ -65,11 +66,12 @@ PointReading read_point(const Lamps& lamps, const VehicleState& car, const Measu
   reading.car_m = glm::transpose(body) * (at.position_m - glm::dvec3(car.x_m, car.y_m, car.z_m));
   reading.road = road.place_of(at.position_m);
   glm::dvec3 rho{0.0};
+  const Retroreflection* retro = nullptr;
   if (const SceneChunk* chunk = chunk_at(scene, at)) {
     const SceneMaterial& material = scene.materials[chunk->material];
     reading.node = chunk->node, reading.material = material.name;
     rho = glm::dvec3(material.reflectance);
-    reading.sends_back = material.retro.kind != RetroKind::kNone;
+    retro = &material.retro;
   }
   const glm::dvec3 back{-std::cos(car.yaw_rad), -std::sin(car.yaw_rad), 0.0};
   const glm::dvec3 away = eye_m - at.position_m;
@@ -88,8 +90,16 @@ PointReading read_point(const Lamps& lamps, const VehicleState& car, const Measu
       reading.horizontal_lx += lamp.horizontal_lx;
       reading.vertical_lx += lamp.vertical_lx;
       reading.eye_lx += lamp.eye_lx;
-      const glm::dvec3 seen = rho * glm::dvec3(light.colour);
-      reading.luminance_cdm2 += lamp.surface_lx * glm::dot(seen, {0.2126, 0.7152, 0.0722}) / std::numbers::pi;
+      const double seen = glm::dot(rho * glm::dvec3(light.colour), kLuminance);
+      reading.luminance_cdm2 += lamp.surface_lx * seen / std::numbers::pi;
+      if (retro != nullptr && lamp.surface_lx > 0.0) {
+        const double rho_a = std::max(glm::dot(rho * glm::dvec3(black_body_colour(2856.0)), kLuminance), 1e-3);
+        const double back_cdm2 =
+            lamp.facing_lx * seen / rho_a *
+            sent_back_per_lx(*retro, rho_a, glm::normalize(light.lamp_m - at.position_m), at.normal, to_eye);
+        reading.sent_back_cdm2 += back_cdm2;
+        reading.luminance_cdm2 += back_cdm2;
+      }
     }
     reading.lamps.push_back(std::move(lamp));
   }
@@ -101,7 +111,7 @@ std::vector<std::string> lines_of(const PointReading& r) {
   lines.push_back(fmt::format("{}: {:.6g} lx; level {:.6g}, upright {:.6g}, facing the eye {:.6g} lx; {:.3g} cd/m2{}",
                               r.node.empty() ? "point" : r.node + (r.material.empty() ? "" : " (" + r.material + ")"),
                               r.surface_lx, r.horizontal_lx, r.vertical_lx, r.eye_lx, r.luminance_cdm2,
-                              r.sends_back ? " and what it sends back" : ""));
+                              r.sent_back_cdm2 > 0.0 ? fmt::format(", {:.3g} of it sent back", r.sent_back_cdm2) : ""));
   const glm::dvec3 w = r.world.position_m;
   std::string where = fmt::format("  car ({:.2f}, {:.2f}, {:.2f}), world ({:.2f}, {:.2f}, {:.2f}) m", r.car_m.x,
                                   r.car_m.y, r.car_m.z, w.x, w.y, w.z);

@@ -2,8 +2,8 @@
 // window and for `phare control set point`.
 //
 // Illuminance is that of `phare measure` (visual/photometry/table/illuminance.h), behind what stands in the scene.
-// Luminance is that of the material's mean reflectance, L = rho·E/pi; what markings and signs send back comes on top of
-// it in the picture and is not in it. Checked by tests/visual_process/point_reading_test.cpp.
+// Luminance is that of the material's mean reflectance, L = rho·E/pi, and what markings, signs and rough ground send
+// back to the eye (visual/scene/retro.h). Checked by tests/visual_process/point_reading_test.cpp.
 #pragma once
 
 #include <optional>
@@ -35,12 +35,12 @@ struct PointReading {
   MeasurePoint world;
   glm::dvec3 car_m{0.0};
   std::optional<RoadLine::Place> road;
-  double surface_lx = 0.0;     ///< on the surface itself
-  double horizontal_lx = 0.0;  ///< on a level surface that looks up
-  double vertical_lx = 0.0;    ///< on an upright one that looks back along the car's heading
-  double eye_lx = 0.0;         ///< on one that faces the eye
-  double luminance_cdm2 = 0.0;
-  bool sends_back = false;  ///< the material is retroreflective besides
+  double surface_lx = 0.0;      ///< on the surface itself
+  double horizontal_lx = 0.0;   ///< on a level surface that looks up
+  double vertical_lx = 0.0;     ///< on an upright one that looks back along the car's heading
+  double eye_lx = 0.0;          ///< on one that faces the eye
+  double luminance_cdm2 = 0.0;  ///< toward the eye
+  double sent_back_cdm2 = 0.0;  ///< of it: what is sent back to where it came from
   std::vector<LampReading> lamps;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
 
 #include "config/formats/toml_table.h"
 #include "shaders/lib/retro.h"
@@ -20,11 +22,8 @@ constexpr const char* kD4956 = "ASTM D4956-01, from a transcription; entrance -4
 constexpr const char* kD4956Unread = "ASTM D4956, from memory; entrance -4° taken as 5°";
 
 RetroClass marking(const char* name, double mcd, const char* source, bool confirmed = true) {
-  return {.name = name,
-          .kind = RetroKind::kMarking,
-          .marking_mcd_per_lx_m2 = mcd,
-          .source = source,
-          .confirmed = confirmed};
+  return {
+      .name = name, .kind = RetroKind::kMarking, .r_l_mcd_per_lx_m2 = mcd, .source = source, .confirmed = confirmed};
 }
 
 /// Rows of entrance angles 5°, 30°, 40°.
@@ -114,6 +113,10 @@ std::vector<RetroClass> make_classes() {
                  .rows = {{0.33, {300, 100, 50, 25}}, {1.5, {5, 2.5, 1.25, 0.625}}},
                  .source = "UN R3, class IA, official text",
                  .whole_device = true});
+  all.push_back({.name = "upright facets",
+                 .kind = RetroKind::kFacets,
+                 .source = "own derivation; R_L of 10 to 30 mcd/(lx·m²) on dry asphalt is from memory",
+                 .confirmed = false});
   return all;
 }
 
@@ -173,16 +176,17 @@ Result<Retroreflection> retroreflection(const std::string& class_name, std::opti
   Retroreflection made;
   if (name.empty() && r_l) {
     made.kind = RetroKind::kMarking;
-    made.marking_mcd_per_lx_m2 = *r_l;
+    made.r_l_mcd_per_lx_m2 = *r_l;
     return made;
   }
   if (found == nullptr) return Error{"", unknown_name_reason("retro", name, known)};
   made.kind = found->kind;
   made.class_name = class_name;
-  if (found->kind == RetroKind::kMarking) {
+  if (found->kind != RetroKind::kSheeting) {
     if (r_a)
-      return Error{"", "'" + name + "' is a marking: retroreflection_mcd_per_lx_m2 goes with it, not …_cd_per_lx_m2"};
-    made.marking_mcd_per_lx_m2 = r_l.value_or(found->marking_mcd_per_lx_m2);
+      return Error{"", "'" + name + "' is " + (found->kind == RetroKind::kMarking ? "a marking" : "ground") +
+                           ": retroreflection_mcd_per_lx_m2 goes with it, not …_cd_per_lx_m2"};
+    made.r_l_mcd_per_lx_m2 = r_l.value_or(found->r_l_mcd_per_lx_m2);
     return made;
   }
   if (r_l)
@@ -197,6 +201,33 @@ Result<Retroreflection> retroreflection(const std::string& class_name, std::opti
       made.ln_r_a[o][e] =
           static_cast<float>(std::log(std::max(table[o][static_cast<std::size_t>(e)] * scale, kDarkest)));
   return made;
+}
+
+double sent_back_strength(const Retroreflection& retro, double rho) {
+  if (retro.kind == RetroKind::kFacets && retro.r_l_mcd_per_lx_m2 == 0.0) return rho / std::numbers::pi;
+  const double cos_incidence = 0.65 / std::hypot(30.0, 0.65);  // EN 1436: lamp 0.65 m high, 30 m away
+  const double beside = std::max(1e-3 * retro.r_l_mcd_per_lx_m2 - rho / std::numbers::pi * cos_incidence, 0.0);
+  return retro.kind == RetroKind::kFacets ? beside / static_cast<double>(shader::kFacetsAt30m) : beside;
+}
+
+double sent_back_per_lx(const Retroreflection& retro, double rho, const glm::dvec3& to_lamp, const glm::dvec3& normal,
+                        const glm::dvec3& to_eye) {
+  const auto cos_incidence = static_cast<float>(glm::dot(to_lamp, normal));
+  const auto cos_seen = static_cast<float>(glm::dot(to_eye, normal));
+  if (retro.kind == RetroKind::kNone || cos_incidence <= 0.0f || cos_seen <= 0.0f) return 0.0;
+  const auto cos_between = static_cast<float>(glm::dot(to_lamp, to_eye));
+  const float observation_deg = shader::between_deg(glm::vec3(to_lamp), glm::vec3(to_eye));
+  if (retro.kind == RetroKind::kSheeting) {
+    const float entrance_deg = shader::between_deg(glm::vec3(to_lamp), glm::vec3(normal));
+    return sheeting_r_a(retro, static_cast<double>(observation_deg), static_cast<double>(entrance_deg)) /
+           static_cast<double>(std::max(cos_seen, 0.1f));
+  }
+  const double per_unit = rho / std::numbers::pi;
+  const auto whole = static_cast<float>(sent_back_strength(retro, rho) / per_unit);
+  return per_unit * static_cast<double>(
+                        retro.kind == RetroKind::kFacets
+                            ? whole * shader::facets_share(cos_incidence, cos_seen, cos_between)
+                            : shader::marking_sent_back(whole, observation_deg, cos_incidence, cos_seen, cos_between));
 }
 
 double sheeting_r_a(const Retroreflection& sheeting, double observation_deg, double entrance_deg) {

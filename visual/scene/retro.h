@@ -1,4 +1,4 @@
-// Retroreflection: what markings, sheeting and reflectors send back to where it came from.
+// Retroreflection: what markings, sheeting, reflectors and rough ground send back to where it came from.
 // Computes: R_A of a sheeting over observation and entrance angle, R_L of a marking over observation angle.
 //   R_A = L·cos(nu)/E_perp in cd/(lx·m²) (EN 12899-1, ASTM E808), R_L = L/E_perp in mcd/(lx·m²) (EN 1436): L is the
 //   luminance toward the eye, E_perp the illuminance on a plane facing the lamp, nu the eye's angle from the normal.
@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
 #include <span>
@@ -20,14 +21,19 @@
 
 namespace phare {
 
-enum class RetroKind : std::uint32_t { kNone = 0, kSheeting = 1, kMarking = 2 };  ///< as in shaders/lamps.h
+enum class RetroKind : std::uint32_t {
+  kNone = 0,
+  kSheeting = 1,
+  kMarking = 2,
+  kFacets = 3
+};  ///< as in shaders/lamps.h
 
 /// What a class prescribes: the least R_L of a marking in the 30 m geometry (observation 1.05°, entrance 88.76°), or
 /// the least R_A of a sheeting at some observation angles.
 struct RetroClass {
   std::string name;
   RetroKind kind = RetroKind::kNone;
-  double marking_mcd_per_lx_m2 = 0.0;
+  double r_l_mcd_per_lx_m2 = 0.0;  ///< of a marking
   struct Row {
     double observation_deg = 0.0;              ///< one of kObservations_deg
     std::array<double, 4> r_a_cd_per_lx_m2{};  ///< at kEntrances_deg
@@ -47,16 +53,26 @@ std::span<const RetroClass> retro_classes();
 struct Retroreflection {
   RetroKind kind = RetroKind::kNone;
   std::string class_name{};
-  double marking_mcd_per_lx_m2 = 0.0;  ///< R_L in the 30 m geometry, all light together
+  double r_l_mcd_per_lx_m2 = 0.0;  ///< in the 30 m geometry, all light together; facets: 0 as rho gives
   std::array<glm::vec4, kObservations_deg.size()>
       ln_r_a{};  ///< of sheeting: ln of cd/(lx·m²), [observation], xyzw entrance
 };
 
 /// By its class, or by a measured figure, or both: a class gives the shape over the angles, the figure then replaces
-/// its own. R_A is that at (0.33°, 5°), R_L that in the 30 m geometry. A figure alone has the shape of EN 12899-1 RA2
-/// white. Error: no such class (naming the nearest), or a figure of the other kind.
+/// its own. R_A is that at (0.33°, 5°), R_L that in the 30 m geometry (of markings and facets). A figure alone has the
+/// shape of EN 12899-1 RA2 white. Error: no such class (naming the nearest), or a figure of the other kind.
 Result<Retroreflection> retroreflection(const std::string& class_name, std::optional<double> r_a_cd_per_lx_m2,
                                         std::optional<double> r_l_mcd_per_lx_m2);
+
+/// What is sent back beside diffuse rho/pi, luminance over the illuminance on a plane facing the lamp in cd/(lx·m²): of
+/// a marking in the 30 m geometry, of facets at a share of 1 (shaders/lib/retro.h). `rho`: of the light, see below.
+double sent_back_strength(const Retroreflection& retro, double rho);
+
+/// Luminance toward the eye over the illuminance on a plane facing the lamp, cd/(lx·m²), of what is sent back beside
+/// diffuse rho/pi, as the shader computes it. `rho`: of the material under illuminant A, Y. Unit vectors, of one frame;
+/// the surface is seen from where `normal` points.
+double sent_back_per_lx(const Retroreflection& retro, double rho, const glm::dvec3& to_lamp, const glm::dvec3& normal,
+                        const glm::dvec3& to_eye);
 
 /// R_A of a sheeting in cd/(lx·m²), as the shader computes it.
 double sheeting_r_a(const Retroreflection& sheeting, double observation_deg, double entrance_deg);
