@@ -136,14 +136,24 @@ has_window() {
   command -v Xvfb >/dev/null && command -v xdotool >/dev/null || { echo "        SKIPPED: the window: no Xvfb, or no xdotool"; return; }
   display=:$number
   Xvfb "$display" -screen 0 1280x720x24 -nolisten tcp >"$work/xvfb" 2>&1 &
-  local server=$!
+  local server=$! tries
+  # A server that does not listen yet refuses at once; a busy machine takes its time to start one.
+  for ((tries = 0; tries < 600; ++tries)); do
+    [ ! -S "/tmp/.X11-unix/X$number" ] || break
+    sleep 0.1
+  done
+  DISPLAY=$display timeout 60 xdotool getdisplaygeometry >/dev/null 2>"$work/log" || failed "no display for the window"
   # Its socket, where the bare system looks for it.
   mkdir -p "$root/tmp/.X11-unix" /tmp/.X11-unix
   mount --bind /tmp/.X11-unix "$root/tmp/.X11-unix"
   enter "$1" "$2" env "DISPLAY=$display" ./phare drive --size 320x180 --set reach=on --port-base "$port_base" --out /root/window >"$work/log" 2>&1 </dev/null &
   drive=$!
   pressed() { DISPLAY=$display timeout 60 xdotool search --sync --onlyvisible --name '^Phare$' windowfocus "$@" >/dev/null 2>&1; }
-  pressed sleep 0 || failed "no window in the bare system"
+  for ((tries = 0; ; ++tries)); do  # a window that is just being mapped takes no focus yet
+    ! pressed sleep 0 || break
+    [ "$tries" -lt 30 ] || failed "no window in the bare system"
+    sleep 1
+  done
   while ! grep -q "ready after" "$work/log"; do
     kill -0 "$drive" 2>/dev/null || failed "the drive in the window ended before its picture was ready"
     sleep 1
