@@ -132,17 +132,19 @@ drive=(drive --headless --lockstep --frames 3 --port-base "$port_base")
 
 # has_window ROOT FOLDER: a person presses Up in the window of `./phare drive` until the car moves, then Esc until it ends.
 has_window() {
-  local root=$work/$1 number=$((600 + $$ % 300)) display drive status=0 begin=$SECONDS
+  local root=$work/$1 display drive status=0 begin=$SECONDS
   command -v Xvfb >/dev/null && command -v xdotool >/dev/null || { echo "        SKIPPED: the window: no Xvfb, or no xdotool"; return; }
-  display=:$number
-  Xvfb "$display" -screen 0 1280x720x24 -nolisten tcp >"$work/xvfb" 2>&1 &
+  # It takes a free number and tells it when it listens: one of a run that was killed may have left its lock behind.
+  mkdir -p /tmp/.X11-unix
+  : >"$work/display"
+  Xvfb -displayfd 5 -screen 0 1280x720x24 -nolisten tcp >"$work/xvfb" 2>&1 5>"$work/display" &
   local server=$! tries
-  # A server that does not listen yet refuses at once; a busy machine takes its time to start one.
   for ((tries = 0; tries < 600; ++tries)); do
-    [ ! -S "/tmp/.X11-unix/X$number" ] || break
+    [ ! -s "$work/display" ] || break
     sleep 0.1
   done
-  DISPLAY=$display timeout 60 xdotool getdisplaygeometry >/dev/null 2>"$work/log" || failed "no display for the window"
+  display=:$(tr -d '\n' <"$work/display")
+  [ "$display" != : ] || failed "no display for the window"
   # Its socket, where the bare system looks for it.
   mkdir -p "$root/tmp/.X11-unix" /tmp/.X11-unix
   mount --bind /tmp/.X11-unix "$root/tmp/.X11-unix"
