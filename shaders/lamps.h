@@ -60,10 +60,10 @@ const uint kLookupNarrow = 64u;       // of first, and twice that of second: no 
 
 const uint kOutputDisplay = 0u;      // the display's signal (sRGB), tone curve applied here
 const uint kOutputHdr = 1u;          // cd/m² and illuminance in alpha
-const uint kOutputClipping = 5u;     // as the display, with stripes where it clips
 const uint kOutputFalseColour = 2u;  // illuminance by colour with isolux lines
 const uint kOutputMeasure = 3u;      // lx of lamps base..base+3
 const uint kOutputAudit = 4u;        // position and illuminance; normal and illuminance
+const uint kOutputClipping = 5u;     // as the display, with stripes where it clips
 
 // The shape of a lamp's table, constants of the pipeline: on a software device a uniform read costs a pixel as much as ten
 // multiplications, and a varying costs each vertex. Of first in x, of second in y.

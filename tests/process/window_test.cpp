@@ -32,11 +32,13 @@ bool wait_until(const std::function<bool()>& true_at_last) {
 class VirtualDisplay {
  public:
   static bool possible() { return find_in_path("Xvfb") && find_in_path("xdotool"); }
-  VirtualDisplay() : number_(200 + getpid() % 300) {
-    auto server =
-        ChildProcess::start(*find_in_path("Xvfb"), {name(), "-screen", "0", "640x480x24", "-nolisten", "tcp"});
+  /// On a free number, which it tells when it listens: a server that was killed leaves its lock and its socket.
+  VirtualDisplay() {
+    const fs::path told = folder_ / "display";
+    auto server = ChildProcess::start(
+        "/bin/sh", {"-c", "exec Xvfb -displayfd 5 -screen 0 640x480x24 -nolisten tcp 5>'" + told.string() + "'"});
     if (server) server_ = *server;
-    wait_until([&] { return fs::exists("/tmp/.X11-unix/X" + std::to_string(number_)); });
+    wait_until([&] { return std::ifstream(told) >> number_ ? true : false; });
   }
   ~VirtualDisplay() {
     if (!server_) return;
@@ -56,7 +58,8 @@ class VirtualDisplay {
   }
 
  private:
-  int number_;
+  TemporaryFolder folder_;
+  int number_ = -1;  ///< none, until the server listens
   std::optional<ChildProcess> server_;
 };
 

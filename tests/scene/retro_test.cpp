@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "shaders/lib/retro.h"
@@ -180,12 +179,32 @@ TEST(Retro, FacetsOfTheThirtyMetreGeometry) {
   const glm::dvec3 lamp = glm::normalize(glm::dvec3(-30.0, 0.0, 0.65)),
                    eye = glm::normalize(glm::dvec3(-30.0, 0.0, 1.2));
   EXPECT_NEAR(shader::kFacetsAt30m, (glm::dot(lamp, eye) - lamp.z * eye.z) * lamp.z / eye.z, 1e-7);
-  // A marking is its class there, whatever its paint, and keeps contrast to the ground where beads send nothing.
+  // A marking is its class there, whatever its paint.
   for (const double mcd : {25.0, 80.0, 200.0, 300.0})
     for (const double rho : {0.1, 0.5, 0.8}) {
       const Retroreflection marking{.kind = RetroKind::kMarking, .r_l_mcd_per_lx_m2 = mcd};
       const double all = rho / std::numbers::pi * lamp.z + sent_back_per_lx(marking, rho, lamp, {0, 0, 1}, eye);
-      EXPECT_NEAR(1e3 * all / mcd, 1.0, 1e-3) << mcd << " with rho " << rho;  // its 1.0497° is stated as 1.05°
+      EXPECT_NEAR(1e3 * all / mcd, 1.0, 4e-4)
+          << mcd << " with rho " << rho;  // its 1.0494° is stated as 1.05°: exp(0.0006/1.6)
+    }
+}
+
+// Beside the car, where lamp and eye see a line from different sides, beads send nothing: paint is brighter by its
+// reflectance still.
+TEST(Retro, PaintBesideTheCarStandsOutFromTheGroundItLiesOn) {
+  const auto ground = retroreflection("upright facets", std::nullopt, std::nullopt);
+  const auto paint = retroreflection("EN 1436 R4", std::nullopt, std::nullopt);
+  ASSERT_TRUE(ground && paint);
+  constexpr double kGroundRho = 0.083, kPaintRho = 0.5;
+  const glm::dvec3 eye(-2.0, 0.4, 1.2), up(0, 0, 1);
+  for (const double y_lamp : {0.6, -0.6})
+    for (const glm::dvec3& at : {glm::dvec3(3, 3.5, 0), glm::dvec3(5, 3.5, 0), glm::dvec3(8, -3.5, 0)}) {
+      const glm::dvec3 to_lamp = glm::normalize(glm::dvec3(0, y_lamp, 0.65) - at), to_eye = glm::normalize(eye - at);
+      const auto seen = [&](const Retroreflection& retro, double rho) {
+        return rho / std::numbers::pi * to_lamp.z + sent_back_per_lx(retro, rho, to_lamp, up, to_eye);
+      };
+      EXPECT_GT(seen(*paint, kPaintRho) / seen(*ground, kGroundRho), 0.999 * kPaintRho / kGroundRho)
+          << at.x << " " << at.y;
     }
 }
 

@@ -37,7 +37,8 @@ TEST(Project, NoticesNameEveryLibraryThatIsNotForTests) {
   for (std::string line; std::getline(packages, line);) {
     std::istringstream words(line.substr(0, line.find('#')));
     std::string package, kind;
-    if (!(words >> package) || (words >> kind && kind != "run")) continue;  // what is neither built with nor driven with
+    if (!(words >> package) || (words >> kind && kind != "run"))
+      continue;  // what is neither built with nor driven with
     ++named;
     EXPECT_NE(notices.find(package), std::string::npos) << package << " of packages.txt is not in THIRD-PARTY.md";
   }
@@ -59,6 +60,23 @@ TEST(Project, LinksLeadSomewhere) {
     }
   }
   EXPECT_GT(links, 30);
+}
+
+// "Checked by tests/…" of a source or a page is a file that is there.
+TEST(Project, EveryTestThatIsNamedIsThere) {
+  const std::regex test(R"((?:python/)?tests/[A-Za-z0-9_/]+\.(?:cpp|sh|py))");
+  std::vector<fs::path> files = pages();
+  for (const char* folder : {"cockpit_io", "config", "net", "shaders", "tools", "vehicle_dynamics", "visual"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(source_dir()) / folder))
+      if (const auto kind = entry.path().extension(); kind == ".h" || kind == ".cpp" || kind == ".glsl")
+        files.push_back(entry.path());
+  int named = 0;
+  for (const fs::path& file : files) {
+    const std::string text = text_of_file(file);
+    for (std::sregex_iterator at(text.begin(), text.end(), test), end; at != end; ++at, ++named)
+      EXPECT_TRUE(fs::exists(fs::path(source_dir()) / at->str())) << file << " names " << at->str();
+  }
+  EXPECT_GT(named, 50) << "the pattern finds them";
 }
 
 TEST(Project, EveryPageIsInTheIndexAndBeginsWithWhatCanBeDoneAfterIt) {

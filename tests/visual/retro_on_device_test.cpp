@@ -117,7 +117,8 @@ TEST_F(RetroOnDevice, RoughGroundSendsBackItsFacets) {
   for (const double distance_m : {7.0, 30.0, 100.0}) {
     const double facets = seen_r_l(ground, distance_m) - seen_r_l(flat, distance_m);
     std::printf("rough ground of rho %.3f at %.0f m: %.2f mcd/(lx·m²) more\n", kPaintRho, distance_m, facets);
-    EXPECT_NEAR(facets / (1e3 * kPaintRho / std::numbers::pi * facets_share_at(distance_m)), 1.0, 3e-3) << distance_m;
+    EXPECT_NEAR(facets / (1e3 * kPaintRho / std::numbers::pi * facets_share_at(distance_m)), 1.0, 3 * kHalfFloat)
+        << distance_m << " m: two readings, of which one holds a sixth more than the difference";
   }
   EXPECT_NEAR(seen_r_l(measured, 30.0) / 15.0, 1.0, kHalfFloat);
   const glm::dvec3 at(30, 0, 0), oncoming(60, 0, 0.65);
@@ -130,8 +131,8 @@ TEST_F(RetroOnDevice, AMarkingHasItsClassInTheThirtyMetreGeometry) {
        {std::pair{"EN 1436 R2", 100.0}, {"EN 1436 R3", 150.0}, {"EN 1436 R4", 200.0}, {"EN 1436 R5", 300.0}}) {
     const double seen = seen_r_l(of_class(name, kPaint), 30.0);
     std::printf("%s: %.1f mcd/(lx·m²) at 30 m\n", name, seen);
-    // 30 m with these heights is 1.0497°, which the standard rounds to 1.05°: 2e-4 of the coefficient.
-    EXPECT_NEAR(seen / mcd, 1.0, kHalfFloat + 2e-4) << name;
+    // 30 m with these heights is 1.0494°, which the standard rounds to 1.05°: 4e-4 of the coefficient.
+    EXPECT_NEAR(seen / mcd, 1.0, kHalfFloat + 4e-4) << name;
   }
   // Paint without beads is a diffuse surface: a marking for the day.
   const double bare = seen_r_l({.name = "bare", .reflectance = kPaint}, 30.0);

@@ -129,8 +129,7 @@ std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all) {
 shader::GpuMaterial pack_material(const SceneMaterial& material, std::vector<shader::GpuSheeting>& sheetings) {
   constexpr double kPi = std::numbers::pi;
   shader::GpuMaterial packed{glm::vec4(material.reflectance, 0.0f)};
-  const glm::dvec3 seen = glm::dvec3(material.reflectance) * glm::dvec3(black_body_colour(2856.0));
-  const double rho = std::max(glm::dot(seen, glm::dvec3(0.2126, 0.7152, 0.0722)), 1e-3);
+  const double rho = reflectance_under_a(material.reflectance);
   if (material.retro.kind == RetroKind::kMarking || material.retro.kind == RetroKind::kFacets) {
     packed.reflectance.w = static_cast<float>(sent_back_strength(material.retro, rho) * kPi / rho);
   } else if (material.retro.kind == RetroKind::kSheeting) {

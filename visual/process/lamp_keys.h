@@ -1,5 +1,5 @@
 // Lamps moved by the keys of the window: which lamp or pair is chosen, which of its quantities, and what a key does.
-// Knows no window: tests/visual_process/lamp_keys_test.cpp.
+// Knows no window: tests/visual_process/lamp_mounts_test.cpp.
 #pragma once
 
 #include <optional>

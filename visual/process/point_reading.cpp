@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "config/base/conventions.h"
+#include "visual/photometry/beam/beam_image.h"
 #include "visual/photometry/table/illuminance.h"
 #include "visual/scene/ray_hit.h"
 
@@ -17,7 +18,6 @@ namespace phare {
 namespace {
 
 constexpr double kDegOfRad = 180.0 / std::numbers::pi;
-constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};  // of linear Rec. 709
 
 constexpr std::array<const char*, 7> kWhyDarkWords{
     "lit",   "off", "behind the lamp", "outside its table", "no light in that direction", "the surface faces away",
@@ -90,10 +90,10 @@ PointReading read_point(const Lamps& lamps, const VehicleState& car, const Measu
       reading.horizontal_lx += lamp.horizontal_lx;
       reading.vertical_lx += lamp.vertical_lx;
       reading.eye_lx += lamp.eye_lx;
-      const double seen = glm::dot(rho * glm::dvec3(light.colour), kLuminance);
+      const double seen = glm::dot(rho * glm::dvec3(light.colour), {0.2126, 0.7152, 0.0722});
       reading.luminance_cdm2 += lamp.surface_lx * seen / std::numbers::pi;
       if (retro != nullptr && lamp.surface_lx > 0.0) {
-        const double rho_a = std::max(glm::dot(rho * glm::dvec3(black_body_colour(2856.0)), kLuminance), 1e-3);
+        const double rho_a = reflectance_under_a(glm::vec3(rho));
         const double back_cdm2 =
             lamp.facing_lx * seen / rho_a *
             sent_back_per_lx(*retro, rho_a, glm::normalize(light.lamp_m - at.position_m), at.normal, to_eye);

@@ -3,7 +3,7 @@
 //
 // Illuminance is that of `phare measure` (visual/photometry/table/illuminance.h), behind what stands in the scene.
 // Luminance is that of the material's mean reflectance, L = rho·E/pi, and what markings, signs and rough ground send
-// back to the eye (visual/scene/retro.h). Checked by tests/visual_process/point_reading_test.cpp.
+// back to the eye (visual/scene/retro.h). Checked by tests/visual_process/measuring_test.cpp.
 #pragma once
 
 #include <optional>

@@ -3,7 +3,7 @@
 //
 // All of it is computed on the processor, in float64, and drawn by the overlay's pass: what is off costs nothing.
 // Isolux lines and reach are of the horizontal illuminance on the road as if nothing stood in the light; lines follow
-// the road's height, and what a crest hides is not drawn. Checked by tests/visual_process/road_marks_test.cpp.
+// the road's height, and what a crest hides is not drawn. Checked by tests/visual_process/measuring_test.cpp.
 #pragma once
 
 #include <optional>

@@ -21,12 +21,8 @@
 
 namespace phare {
 
-enum class RetroKind : std::uint32_t {
-  kNone = 0,
-  kSheeting = 1,
-  kMarking = 2,
-  kFacets = 3
-};  ///< as in shaders/lamps.h
+/// As in shaders/lamps.h.
+enum class RetroKind : std::uint32_t { kNone = 0, kSheeting = 1, kMarking = 2, kFacets = 3 };
 
 /// What a class prescribes: the least R_L of a marking in the 30 m geometry (observation 1.05°, entrance 88.76°), or
 /// the least R_A of a sheeting at some observation angles.
@@ -64,12 +60,12 @@ struct Retroreflection {
 Result<Retroreflection> retroreflection(const std::string& class_name, std::optional<double> r_a_cd_per_lx_m2,
                                         std::optional<double> r_l_mcd_per_lx_m2);
 
-/// What is sent back beside diffuse rho/pi, luminance over the illuminance on a plane facing the lamp in cd/(lx·m²): of
-/// a marking in the 30 m geometry, of facets at a share of 1 (shaders/lib/retro.h). `rho`: of the light, see below.
+/// What is sent back beside diffuse rho/pi, luminance toward the eye over the illuminance on a plane facing the lamp in
+/// cd/(lx·m²): of a marking in the 30 m geometry, of facets at a share of 1 (shaders/lib/retro.h). `rho`: as below.
 double sent_back_strength(const Retroreflection& retro, double rho);
 
 /// Luminance toward the eye over the illuminance on a plane facing the lamp, cd/(lx·m²), of what is sent back beside
-/// diffuse rho/pi, as the shader computes it. `rho`: of the material under illuminant A, Y. Unit vectors, of one frame;
+/// diffuse rho/pi, as the shader computes it. `rho`: reflectance_under_a() of the material. Unit vectors, of one frame;
 /// the surface is seen from where `normal` points.
 double sent_back_per_lx(const Retroreflection& retro, double rho, const glm::dvec3& to_lamp, const glm::dvec3& normal,
                         const glm::dvec3& to_eye);

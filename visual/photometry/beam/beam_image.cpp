@@ -224,6 +224,11 @@ glm::vec3 black_body_colour(double temperature_k) {
   return chromaticity_colour({x, y});
 }
 
+double reflectance_under_a(const glm::vec3& reflectance) {
+  const glm::dvec3 seen = glm::dvec3(reflectance) * glm::dvec3(black_body_colour(2856.0));
+  return std::max(0.2126 * seen.x + 0.7152 * seen.y + 0.0722 * seen.z, 1e-3);
+}
+
 glm::vec3 chromaticity_colour(glm::dvec2 xy) {
   const double big_x = xy.x / xy.y;  // of luminance Y = 1
   const double big_z = (1.0 - xy.x - xy.y) / xy.y;

@@ -60,6 +60,10 @@ BeamImage compose_beam_image(std::span<const AimedSource> sources);
 /// spline of the Planckian locus.
 glm::vec3 black_body_colour(double temperature_k);
 
+/// Share of illuminant A (2856 K) that a surface of linear sRGB reflectance sends back, by luminance: product of the
+/// colours, not spectral. At least 1e-3, since figures are stated over it.
+double reflectance_under_a(const glm::vec3& reflectance);
+
 /// Linear sRGB of a CIE 1931 chromaticity, luminance 1. What lies outside sRGB loses its negative parts.
 glm::vec3 chromaticity_colour(glm::dvec2 xy);
 
