@@ -51,13 +51,15 @@ vec3 surface_reflectance(vec3 rho) {
 
 // Luminance over illuminance facing the lamp, as rho/pi has it; n looks to the side that is seen. Retroreflected light keeps the
 // tint of the material and not its darkness.
-float sent_back(vec3 toward_lamp, float cos_incidence, vec3 n, float level) {
-  if (cos_incidence <= 0.0) return 0.0;
-  float inverse_eye = inversesqrt(dot(point, point)), cos_seen = -level * inverse_eye;
-  float cos_between = -dot(toward_lamp, point) * inverse_eye * inversesqrt(dot(toward_lamp, toward_lamp));
-  if (retro == kRetroFacets) return reflectance.w * facets_share(cos_incidence, cos_seen, cos_between);
+float sent_back(uint lamp, LampLight light, vec3 n, float level) {
+  if (light.cos_incidence <= 0.0) return 0.0;
+  float eye2 = dot(point, point), inverse_eye = inversesqrt(eye2), cos_seen = -level * inverse_eye;
+  // By the law of cosines: how far the lamp is from the eye is one number for the lamp.
+  float cos_between = (eye2 + light.distance_m * light.distance_m - frame.lamps[lamp].row_a.w) * (0.5 * inverse_eye) * light.per_m;
+  if (retro == kRetroFacets) return reflectance.w * facets_share(light.cos_incidence, cos_seen, cos_between);
+  vec3 toward_lamp = frame.lamps[lamp].position.xyz - point;
   float observation_deg = between_deg(toward_lamp, -point);
-  if (retro == kRetroMarking) return marking_sent_back(reflectance.w, observation_deg, cos_incidence, cos_seen, cos_between);
+  if (retro == kRetroMarking) return marking_sent_back(reflectance.w, observation_deg, light.cos_incidence, cos_seen, cos_between);
   // R_A is per area of the sheeting: luminance is R_A·E over the cosine of the eye's angle. At grazing angles nothing is left of R_A.
   SheetingRow at = sheeting_row(observation_deg);
   uint index = uint(reflectance.w);
@@ -71,6 +73,7 @@ LampLight from_vertices(uint lamp, float lx, float cd, vec3 n, float level) {
   LampLight light;
   light.cd = cd;
   light.distance_m = r2 * inverse_r;
+  light.per_m = inverse_r;
   light.illuminance_lx = lx;
   light.cos_incidence = max(dot(frame.lamps[lamp].position.xyz, n) - level, 0.0) * inverse_r;
   light.normal_lx = lx / max(light.cos_incidence, 0.01);
@@ -120,7 +123,7 @@ void main() {
     total_lx += light.illuminance_lx;                                                                      \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
     if (retro != 0)                                                                                        \
-      retro_lx += colour * (light.normal_lx * sent_back(frame.lamps[I].position.xyz - point, light.cos_incidence, n, level)); \
+      retro_lx += colour * (light.normal_lx * sent_back(I, light, n, level)); \
   }
   PHARE_EACH_LAMP(LIGHT)
   if (colours == 0) coloured_lx = total_lx * light_colour;

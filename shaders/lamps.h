@@ -88,7 +88,7 @@ const float kNarrowReach_deg = 46.0;  // half angles of narrow tables take a sho
 // A flat screen: a forward, b right, c up; first = b/a, second = c/a, tangents; its table holds what is bilinear there, candela / (1 + first² + second²)^1.5.
 struct GpuLamp {
   vec4 position;     // xyz relative to the eye, m; w: the beam's peak, cd
-  vec4 row_a;
+  vec4 row_a;        // w: the square of the way from the eye, m²
   vec4 row_b;
   vec4 row_c;
   vec4 colour;       // rgb, luminance 1 (with a table of colour: r and b what its texels are multiplied by); w: candela of 1.0 in the table

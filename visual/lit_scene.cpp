@@ -295,9 +295,10 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
     if (beam.tinted()) lit.colours |= 1u << (8 + lit.lamps);
     first_colour = beam.colour;
     shader::GpuLamp& out = frame.lamps[lit.lamps++];
-    out.position = glm::vec4(glm::vec3(lamp.position_m - view.geometry.camera().eye_m), peaks_cd_[lamp.beam]);
+    const glm::dvec3 from_eye_m = lamp.position_m - view.geometry.camera().eye_m;
+    out.position = glm::vec4(glm::vec3(from_eye_m), peaks_cd_[lamp.beam]);
     const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
-    out.row_a = glm::vec4(glm::vec3(rows[0]), 0.0f);
+    out.row_a = glm::vec4(glm::vec3(rows[0]), static_cast<float>(glm::dot(from_eye_m, from_eye_m)));
     out.row_b = glm::vec4(glm::vec3(rows[1]), 0.0f);
     out.row_c = glm::vec4(glm::vec3(rows[2]), 0.0f);
     beams_.describe(lamp.beam, out);

@@ -154,6 +154,7 @@ struct LampLight {
   float cos_incidence;
   float cd;
   float distance_m;
+  float per_m;  // its inverse
 };
 
 // Where the lamp before was found in its table.
@@ -188,6 +189,7 @@ LampLight lamp_light(samplerBuffer table, samplerBuffer guide, sampler2D image, 
   LampLight light;
   light.cd = cd;
   light.distance_m = distance_m;
+  light.per_m = inverse_r;
   light.cos_incidence = max(toward, 0.0) * inverse_r;
   light.normal_lx = cd * (inverse_r * inverse_r);
   light.illuminance_lx = light.normal_lx * light.cos_incidence;

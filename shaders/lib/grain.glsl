@@ -5,25 +5,34 @@
 layout(set = 0, binding = 4) uniform samplerBuffer grain;
 layout(constant_id = 7) const uint grain_first_level = 0;
 
-const int kGrainSize = 512;
+const int kGrainSize = 512, kGrainLevels = 10;
 const uint kGrainFine = 0, kGrainSoft = 1;  // chippings; patches
 
-// log2 of the metres that a pixel covers across its longer side.
-float grain_footprint(vec3 p) {
-  vec3 across = dFdx(p), down = dFdy(p);
-  return 0.5 * log2(max(max(dot(across, across), dot(down, down)), 1e-12));
+// Room for a level of a layer and all after it, in texels: a quarter for each next, and half of it unused, so that it takes a shift to find one.
+int grain_layer(int level) {
+  return 2 * kGrainSize * kGrainSize >> 2 * level;
 }
 
-// Mean 0.5. `at` in tiles; `tiles_per_m` says how many of them lie in a metre.
-float grain_at(uint layer, vec2 at, float tiles_per_m, float footprint) {
-  int level = int(clamp(footprint + log2(tiles_per_m * float(kGrainSize)) + 0.5, float(grain_first_level), 9.0));
-  int size = kGrainSize >> level, first = kGrainSize >> grain_first_level;
-  // Levels before this one have (4/3)(first² - size²) texels in each layer.
-  int begin = (first * first - size * size) / 3 * 8 + int(layer) * size * size;
-  vec2 texel = at * float(size) - 0.5;
+// What a pixel covers across its longer side, m².
+float grain_footprint(vec3 p) {
+  vec3 across = dFdx(p), down = dFdy(p);
+  return max(dot(across, across), dot(down, down));
+}
+
+// Mean 0.5. `at` in tiles; `tiles_per_m` says how many of them lie in a metre. Whole powers of two are exponents: to shift them is a tenth of the
+// work of logarithm, product and quotient.
+float grain_at(uint layer, vec2 at, float tiles_per_m, float footprint_m2) {
+  // The level whose texel is nearest to the pixel, by ratio: floor(log2(texels across the pixel) + 0.5).
+  float texels = tiles_per_m * float(kGrainSize);
+  int level = (floatBitsToInt(footprint_m2 * (2.0 * texels * texels)) >> 23) - 127 >> 1;
+  level = min(max(level, int(grain_first_level)), kGrainLevels - 1);
+  int log2_size = kGrainLevels - 1 - level;
+  int begin = int(layer) * grain_layer(int(grain_first_level)) + grain_layer(int(grain_first_level)) - grain_layer(level);
+  int last = (1 << log2_size) - 1;
+  vec2 texel = at * intBitsToFloat(127 + log2_size << 23) - 0.5;
   vec2 whole = floor(texel), part = texel - whole;
-  ivec2 cell = ivec2(whole) & (size - 1);
-  vec4 corners = texelFetch(grain, begin + cell.y * size + cell.x);
+  ivec2 cell = ivec2(whole) & last;
+  vec4 corners = texelFetch(grain, begin + (cell.y << log2_size) + cell.x);
   vec2 rows = mix(corners.xz, corners.yw, part.x);
   return mix(rows.x, rows.y, part.y);
 }

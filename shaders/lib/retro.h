@@ -30,7 +30,7 @@ PHARE_INLINE float marking_reached(float cos_incidence) {
 /// than the eye, each facet shades the foot of the next, and light is on elevation over elevation of what is seen. So along a road the ratio
 /// stays where flat Lambert falls with the lamp's elevation. It is the term B of Oren and Nayar (1994, eq. 30) without their bound on it.
 PHARE_INLINE float facets_share(float cos_incidence, float cos_seen, float cos_between) {
-  return max(cos_between - cos_incidence * cos_seen, 0.0f) * min(cos_incidence / max(cos_seen, 1e-6f), 1.0f);
+  return max(cos_between - cos_incidence * cos_seen, 0.0f) * min(cos_incidence * (1.0f / max(cos_seen, 1e-6f)), 1.0f);
 }
 
 /// That of the 30 m geometry: light at 1.2412°, eye at 2.2906° above the ground.

@@ -8,9 +8,9 @@ PHARE_SHADER_BEGIN
 /// Exposed luminance (1 = middle of the curve) to display-linear; above 1 the display clips. Reinhard et al. 2002, eq. 4, with white at 12,
 /// applied to luminance so that colours keep their hue.
 PHARE_INLINE vec3 tone_curve(vec3 exposed) {
-  const float white = 12.0f;
+  const float per_white_squared = 1.0f / (12.0f * 12.0f);
   float y = dot(exposed, vec3(0.2126f, 0.7152f, 0.0722f));
-  float scale = (1.0f + y / (white * white)) / (1.0f + y);
+  float scale = (1.0f + y * per_white_squared) / (1.0f + y);
   return exposed * scale;
 }
 

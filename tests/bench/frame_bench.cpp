@@ -1,7 +1,7 @@
 // How long a frame takes, where the time goes and how it grows, as ratios to the floor: the bare light integral of two
 // headlamps by hand (tests/bench/floor.h), taken in the same run and turn by turn, so that the ratios stay when the
 // machine is slower or busy.
-//   phare_frame_bench [--scene SCENE.glb --lamp LAMP.ies] [--size 1280x720] [--rounds 40] [--csv FILE]
+//   phare_frame_bench [--scene SCENE.glb --lamp LAMP.ies] [--size 1280x720] [--rounds 40] [--only CASE] [--csv FILE]
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +14,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <regex>
 #include <string>
 
 #include "config/base/paths.h"
@@ -33,6 +34,7 @@ struct Options {
   std::string lamp = (generated_dir() / "lamps/low_rht.ies").string();
   int width_px = 1280, height_px = 720, rounds = 40;
   std::string csv;
+  std::string only;  ///< pattern of "group: case"; empty: all
   bool growth = true;
 };
 
@@ -63,7 +65,7 @@ struct Case {
 /// Renderers live as long as the cases that draw with them.
 class Bench {
  public:
-  explicit Bench(const Options& options) : options_(options) {}
+  explicit Bench(const Options& options) : options_(options), only_(options.only) {}
 
   Renderer& renderer(const Scene& scene, const IntensityTable& table, int width_px, int height_px) {
     Result<Renderer> made = Renderer::create({.width_px = width_px, .height_px = height_px});
@@ -81,6 +83,7 @@ class Bench {
 
   void add(const std::string& group, const std::string& name, Renderer& renderer,
            const std::function<FrameInput(int)>& view) {
+    if (!std::regex_search(group + ": " + name, only_)) return;
     cases_.push_back({group, name, [&renderer, view](int round) { return renderer.draw(view(round)); }});
   }
 
@@ -89,7 +92,9 @@ class Bench {
             const std::function<FrameInput(int)>& view) {
     char name[48];
     std::snprintf(name, sizeof name, "%.0f %s", amount, unit.c_str());
+    const std::size_t before = cases_.size();
     add(group, name, renderer, view);
+    if (cases_.size() == before) return;
     cases_.back().unit = unit;
     cases_.back().amount = amount;
   }
@@ -174,6 +179,7 @@ class Bench {
 
  private:
   const Options& options_;
+  std::regex only_;
   std::vector<std::unique_ptr<Renderer>> renderers_;
   std::vector<Case> cases_;
 };
@@ -356,6 +362,7 @@ int run(const Options& options) {
     const double fixed = bench.cpu_floors(group, "fixed: nothing in view");
     const double unlit = bench.cpu_floors(group, "unlit: geometry and surfaces");
     const double lit = bench.cpu_floors(group, "two lamps");
+    if (fixed == 0.0 || unlit == 0.0 || lit == 0.0) continue;  // not all were asked for
     std::printf("\n%s, floors: %.2f = fixed %.2f + geometry and surfaces %.2f + lamps %.2f", group.c_str(), lit, fixed,
                 unlit - fixed, lit - unlit);
   }
@@ -382,6 +389,8 @@ int main(int argc, char** argv) {
   app.add_option("--size", size, "WIDTHxHEIGHT, the width a multiple of 8")->capture_default_str();
   app.add_option("--rounds", options.rounds, "Frames of each case")->check(CLI::Range(1, 10000))->capture_default_str();
   app.add_flag("!--no-growth", options.growth, "Only the roads, not how time grows");
+  app.add_option("--only", options.only,
+                 "Only cases whose \"group: case\" has this regular expression, as \"two lamps$\"");
   app.add_option("--csv", options.csv, "Write the table there");
   CLI11_PARSE(app, argc, argv);
   if (std::sscanf(size.c_str(), "%dx%d", &options.width_px, &options.height_px) != 2 || options.width_px % 8 != 0 ||

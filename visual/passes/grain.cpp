@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 
 namespace phare {
 
@@ -58,13 +59,19 @@ std::vector<float> halved(const std::vector<float>& image, std::uint32_t size) {
 }
 
 /// A texel a cell: its corners, eight bits each.
-void append_cells(std::vector<std::uint8_t>& texels, const std::vector<float>& image, std::uint32_t size) {
+void write_cells(std::span<std::uint8_t> texels, const std::vector<float>& image, std::uint32_t size) {
+  auto texel = texels.begin();
   for (std::uint32_t y = 0; y < size; ++y)
     for (std::uint32_t x = 0; x < size; ++x) {
       const std::uint32_t right = (x + 1) % size, below = (y + 1) % size;
       for (const std::uint32_t at : {y * size + x, y * size + right, below * size + x, below * size + right})
-        texels.push_back(static_cast<std::uint8_t>(std::lround(image[at] * 255.0f)));
+        *texel++ = static_cast<std::uint8_t>(std::lround(image[at] * 255.0f));
     }
+}
+
+/// Texels that a layer has room for from a level on: grain_layer() of shaders/lib/grain.glsl.
+constexpr std::uint32_t layer_texels(std::uint32_t level) {
+  return 2 * kSize * kSize >> 2 * level;
 }
 
 }  // namespace
@@ -72,22 +79,20 @@ void append_cells(std::vector<std::uint8_t>& texels, const std::vector<float>& i
 Grain make_grain(gpu::Device& device) {
   std::vector<float> fine = sum_of({{256, 0.9f}, {128, 0.4f}, {64, 0.2f}}, 1998);
   std::vector<float> soft = sum_of({{6, 0.8f}, {13, 0.5f}, {31, 0.3f}, {70, 0.2f}}, 1999);
-  const auto texels_from = [](std::uint32_t level) {
-    std::uint32_t count = 0;
-    for (std::uint32_t size = kSize >> level; size > 0; size /= 2) count += 2 * size * size;
-    return count;
-  };
   Grain grain;
-  while (texels_from(grain.first_level) > device.properties.limits.maxTexelBufferElements) ++grain.first_level;
-  std::vector<std::uint8_t> texels;
-  for (std::uint32_t size = kSize; size > 0; size /= 2) {
-    if (size <= kSize >> grain.first_level) {
-      append_cells(texels, fine, size);
-      append_cells(texels, soft, size);
+  while (2 * layer_texels(grain.first_level) > device.properties.limits.maxTexelBufferElements) ++grain.first_level;
+  const std::uint32_t layer = layer_texels(grain.first_level);
+  std::vector<std::uint8_t> texels(2 * 4 * layer);
+  for (std::uint32_t level = 0; kSize >> level > 0; ++level) {
+    const std::uint32_t size = kSize >> level;
+    if (level > 0) {
+      fine = halved(fine, 2 * size);
+      soft = halved(soft, 2 * size);
     }
-    if (size == 1) break;
-    fine = halved(fine, size);
-    soft = halved(soft, size);
+    if (level < grain.first_level) continue;
+    const std::uint32_t begin = layer - layer_texels(level);
+    write_cells(std::span(texels).subspan(4 * begin), fine, size);
+    write_cells(std::span(texels).subspan(4 * (layer + begin)), soft, size);
   }
   grain.texels = gpu::DeviceBuffer(device, std::as_bytes(std::span(texels)),
                                    vk::BufferUsageFlagBits::eUniformTexelBuffer, "grain");

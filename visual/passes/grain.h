@@ -6,9 +6,9 @@
 
 namespace phare {
 
-/// The tile in a texel buffer as shaders/lib/grain.glsl reads it: levels of 512×512, 256×256 … 1×1 texels (from the
-/// first that the device's texel buffers have room for), each first all chippings, then all patches; a texel is the
-/// four corners of a cell. Mean 0.5 in both.
+/// The tile in a texel buffer as shaders/lib/grain.glsl reads it: first all chippings, then all patches, each in levels
+/// of 512×512, 256×256 … 1×1 texels from the first that the device's texel buffers have room for; a texel is the four
+/// corners of a cell. Mean 0.5 in both.
 struct Grain {
   gpu::DeviceBuffer texels;
   vk::raii::BufferView view{nullptr};
