@@ -166,6 +166,18 @@ std::string get_isolux(const Desk& desk) {
   return text;
 }
 
+template <double Desk::*number, int least, int most_tenths>
+Status set_number(Desk& desk, std::string_view value, const DeskContext&) {
+  const auto read = number_of(value, least, most_tenths / 10.0);
+  if (!read) return read.error();
+  desk.*number = *read;
+  return Done{};
+}
+template <double Desk::*number>
+std::string get_number(const Desk& desk) {
+  return word_of(desk.*number);
+}
+
 Status set_exposure(Desk& desk, std::string_view value, const DeskContext&) {
   const auto exposure = number_of(value, 1e-6, 1e6);
   if (!exposure) return exposure.error();
@@ -385,6 +397,12 @@ constexpr DeskSetting kSettings[] = {
      set_level<&Desk::shadows, kShadowNames>, get_level<&Desk::shadows, kShadowNames>},
     {"fog", "auto, off, coarse, medium, fine", "light scattered in fog; auto: as the visibility calls for", true,
      set_level<&Desk::fog, kFogNames>, get_level<&Desk::fog, kFogNames>},
+    {"glare", "auto, off", "light that lamps scatter in the eye; auto: as they shine into it", true,
+     set_level<&Desk::glare, kOffNames>, get_level<&Desk::glare, kOffNames>},
+    {"age_years", "1 to 120", "of who looks: how much light the eye scatters", true,
+     set_number<&Desk::age_years, 1, 1200>, get_number<&Desk::age_years>},
+    {"iris_pigment", "0 to 1.2", "of who looks: 0 black, 0.5 brown, 1 light, 1.2 blue", true,
+     set_number<&Desk::iris_pigment, 0, 12>, get_number<&Desk::iris_pigment>},
     {"visibility_m", "clear, 1 to 100000", "meteorological visibility: fog from it, with the beams in it", true,
      set_visibility, get_visibility, "weather"},
 };

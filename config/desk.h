@@ -66,6 +66,7 @@ inline constexpr std::array<std::string_view, 4> kProbeFrameNames{"car", "world"
 inline constexpr std::size_t kMostProbes = 16;
 
 /// Levels of effects that the desk may set, from off to the finest.
+inline constexpr std::array<std::string_view, 1> kOffNames{"off"};
 inline constexpr std::array<std::string_view, 2> kOffOnNames{"off", "on"};
 inline constexpr std::array<std::string_view, 4> kShadowNames{"off", "hard", "soft", "fine"};
 inline constexpr std::array<std::string_view, 4> kFogNames{"off", "coarse", "medium", "fine"};
@@ -96,8 +97,11 @@ struct Desk {
   bool effects = false;               ///< among the lines each effect with its level and the reason
   bool help = false;                  ///< every key
   /// Levels of these effects (visual/effects.h); without one the scene decides.
-  std::optional<std::size_t> shadows, depth_first, fog;
+  std::optional<std::size_t> shadows, depth_first, fog, glare;
   std::optional<double> visibility_m;  ///< meteorological optical range (photometry/table/fog.h); none: clear air
+
+  double age_years = 40.0;    ///< of who looks: light scattered in the eye (photometry/table/veil.h)
+  double iris_pigment = 0.5;  ///< 0 black, 0.5 brown, 1 light, 1.2 very light and blue
 
   friend bool operator==(const Desk&, const Desk&) = default;
 };

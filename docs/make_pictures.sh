@@ -25,6 +25,8 @@ picture "$out/chase/frames/000059.png" chase
 picture "$(at_second "$out/false" 20)" false_colour
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --set visibility_m=80 --out "$out/fog" --port-base "$ports"
 picture "$out/fog/frames/000059.png" fog
+"$phare" drive --headless --lockstep --frames 60 --samples 4 --camera oncoming --out "$out/oncoming" --port-base "$ports"
+picture "$out/oncoming/frames/000059.png" oncoming
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --set grid_m=10 --set road_isolux=on --out "$out/grid" --port-base "$ports"
 picture "$out/grid/frames/000059.png" grid
 "$phare" drive --design halogen --versus led --headless --lockstep --frames 60 --samples 4 --out "$out/ab" --port-base "$ports"

@@ -26,7 +26,9 @@ EffectDecision depth_first(const EffectFacts& facts) {
 
 EffectDecision hdr_image(const EffectFacts& facts) {
   if (facts.false_colour) return {0, "the view shows illuminance in false colour, which needs no tone curve", true};
-  if (facts.clipping) return {0, "the view marks what the display clips, where the lamp pass applies the tone curve", true};
+  if (facts.clipping)
+    return {0, "the view marks what the display clips, where the lamp pass applies the tone curve", true};
+  if (facts.glare_drawn) return {1, "light scattered in the eye is added to luminance in cd/m²", true};
   if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for"};
   return {0, "nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself"};
 }
@@ -45,6 +47,16 @@ EffectDecision fog(const EffectFacts& facts) {
   return {2, reason};
 }
 
+EffectDecision glare(const EffectFacts& facts) {
+  if (facts.glare_lamps == 0) return {0, "no lamp shines into the eye"};
+  if (facts.false_colour) return {0, "the view shows illuminance, which no eye scatters"};
+  if (facts.clipping) return {0, "the view marks what the display clips of the scene itself"};
+  char reason[80];
+  std::snprintf(reason, sizeof reason, "%zu lamp%s into the eye, %.3g lx", facts.glare_lamps,
+                facts.glare_lamps == 1 ? " shines" : "s shine", facts.glare_lx);
+  return {1, reason};
+}
+
 constexpr std::array<EffectRow, kEffectCount> kTable{
     {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy",
       shadows},
@@ -52,6 +64,8 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
      {Effect::kHdrImage, "hdr image", kOffOnNames, "an image of 8 bytes a pixel and the tone-mapping pass", hdr_image},
      {Effect::kOverlay, "overlay", kOffOnNames, "a pass of text over the picture", overlay},
      {Effect::kFog, "fog", kFogNames, "a pass that computes, a buffer of scattered light, and the sky through fog", fog,
+      true},
+     {Effect::kGlare, "glare", kOffOnNames, "the HDR image; its pass to the display adds what the eye scatters", glare,
       true}}};
 
 constexpr bool in_order() {
@@ -68,18 +82,22 @@ const std::array<EffectRow, kEffectCount>& effect_table() {
 }
 
 EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, const EffectChoices& picked) {
+  const auto decided = [&](const EffectRow& row, const EffectFacts& by) {
+    const auto i = static_cast<std::size_t>(row.effect);
+    EffectDecision decision = row.decide(by);
+    if (!choices[i] && picked[i] && decision.level > 0)
+      decision = {std::min(*picked[i], row.levels.size() - 1),
+                  "picked for what is asked of time and accuracy; by itself: " + decision.reason};
+    if (!choices[i] || decision.settled) return decision;
+    if (row.only_where_called_for && decision.level == 0) return decision;
+    return EffectDecision{std::min(*choices[i], row.levels.size() - 1),
+                          "set by the user; by itself: " + decision.reason};
+  };
+  // What one effect needs of another is a fact for that.
+  EffectFacts known = facts;
+  known.glare_drawn = decided(kTable[static_cast<std::size_t>(Effect::kGlare)], facts).level > 0;
   EffectPlan plan;
-  for (std::size_t i = 0; i < kEffectCount; ++i) {
-    const EffectRow& row = kTable[i];
-    plan.decisions[i] = row.decide(facts);
-    if (!choices[i] && picked[i] && plan.decisions[i].level > 0)
-      plan.decisions[i] = {std::min(*picked[i], row.levels.size() - 1),
-                           "picked for what is asked of time and accuracy; by itself: " + plan.decisions[i].reason};
-    if (!choices[i] || plan.decisions[i].settled) continue;
-    if (row.only_where_called_for && plan.decisions[i].level == 0) continue;
-    plan.decisions[i] = {std::min(*choices[i], row.levels.size() - 1),
-                         "set by the user; by itself: " + plan.decisions[i].reason};
-  }
+  for (const EffectRow& row : kTable) plan.decisions[static_cast<std::size_t>(row.effect)] = decided(row, known);
   return plan;
 }
 

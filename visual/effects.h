@@ -11,8 +11,8 @@
 
 namespace phare {
 
-enum class Effect : std::size_t { kShadows, kDepthFirst, kHdrImage, kOverlay, kFog };
-inline constexpr std::size_t kEffectCount = 5;
+enum class Effect : std::size_t { kShadows, kDepthFirst, kHdrImage, kOverlay, kFog, kGlare };
+inline constexpr std::size_t kEffectCount = 6;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -26,6 +26,9 @@ struct EffectFacts {
   std::size_t overlay_lines = 0;           ///< text over the picture
   std::optional<double> visibility_m{};    ///< of the air; nothing: it is clear
   bool parallel_rays = false;              ///< a view from above, through no air
+  std::size_t glare_lamps = 0;             ///< that shine into the eye, as far as the display shows it
+  double glare_lx = 0.0;                   ///< of them, at the eye
+  bool glare_drawn = false;                ///< decided before: the luminance image is read for it
 };
 
 /// Level 0 is off. `reason` says the fact that decided.

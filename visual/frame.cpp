@@ -81,7 +81,8 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   // What that calls for, and the images it takes.
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
-  const EffectPlan effects = plan_effects(facts_of(view.input, lit.lamps, casters, lines, parts.device_facts),
+  const std::vector<GlareSource> glare = glare_of(view.input, lit.geometry);
+  const EffectPlan effects = plan_effects(facts_of(view.input, lit.lamps, casters, lines, glare, parts.device_facts),
                                           view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
@@ -118,8 +119,12 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
                   .black_around = first && !hdr},
                  output);
 
-  // From cd/m² to the display. Without an HDR image the lit pass has done it.
-  if (hdr) parts.tone_mapping.draw(graph, *light, *view.picture.display, view.area, first, lit.sky.exposure_per_cdm2);
+  // From cd/m² to the display, with what lamps scatter in the eye. Without an HDR image the lit pass has done it.
+  if (effects.on(Effect::kGlare))
+    parts.glare.draw(graph, *light, *view.picture.display, view.area, first, lit.sky.exposure_per_cdm2, lit.geometry,
+                     glare, view.input.viewer);
+  else if (hdr)
+    parts.tone_mapping.draw(graph, *light, *view.picture.display, view.area, first, lit.sky.exposure_per_cdm2);
   if (hdr && view.input.want_hdr) parts.read_hdr(view.number, *light, view.area);
 
   // What the next view may use.
@@ -151,6 +156,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   parts.shadows.begin_frame();
   parts.fog.begin_frame();
   parts.lit.begin_frame();
+  parts.glare.begin_frame();
   parts.tone_mapping.begin_frame();
   Picture seen = picture("", parts.target.extent);
   display = seen.display;

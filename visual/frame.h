@@ -8,6 +8,7 @@
 #include "visual/lit_scene.h"
 #include "visual/passes/depth.h"
 #include "visual/passes/fog.h"
+#include "visual/passes/glare.h"
 #include "visual/passes/lit.h"
 #include "visual/passes/overlay.h"
 #include "visual/passes/shadows.h"
@@ -36,6 +37,7 @@ struct FrameParts {
   FogPass& fog;
   DepthPass& depth;
   LitPass& lit;
+  GlarePass& glare;
   ToneMappingPass& tone_mapping;
   std::unique_ptr<OverlayPass>& overlay;  ///< made by the first frame that calls for it
   /// Copies a part of an image out, for view `view` of the frame.

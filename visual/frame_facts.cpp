@@ -3,7 +3,9 @@
 namespace phare {
 
 EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional<std::size_t> casters,
-                     std::size_t lines, const DeviceFacts& device) {
+                     std::size_t lines, std::span<const GlareSource> glare, const DeviceFacts& device) {
+  double glare_lx = 0.0;
+  for (const GlareSource& source : glare) glare_lx += source.eye_lx;
   return {.lit_lamps = lit_lamps,
           .casters = casters,
           .shadow_maps = device.shadow_maps,
@@ -13,7 +15,13 @@ EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional
           .clipping = view.view == View::kClipping,
           .overlay_lines = lines,
           .visibility_m = view.visibility_m,
-          .parallel_rays = view.camera.orthographic_width_m > 0.0};
+          .parallel_rays = view.camera.orthographic_width_m > 0.0,
+          .glare_lamps = glare.size(),
+          .glare_lx = glare_lx};
+}
+
+std::vector<GlareSource> glare_of(const ViewInput& view, const ViewGeometry& geometry) {
+  return glare_seen(geometry, view.glare, view.viewer, view.exposure_per_cdm2);
 }
 
 bool looks_for_casters(const ViewInput& view) {

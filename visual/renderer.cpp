@@ -52,6 +52,7 @@ struct Renderer::Impl {
   FogPass fog{device};
   DepthPass depth{device};
   LitPass lit{device};
+  GlarePass glare{device};
   ToneMappingPass tone_mapping{device};
   std::unique_ptr<OverlayPass> overlay;
   FrameTarget target;
@@ -142,6 +143,7 @@ struct Renderer::Impl {
             .fog = fog,
             .depth = depth,
             .lit = lit,
+            .glare = glare,
             .tone_mapping = tone_mapping,
             .overlay = overlay,
             .read_image = [this](std::size_t view, gpu::Image& image,

@@ -15,6 +15,7 @@
 #include "config/base/result.h"
 #include "config/desk.h"
 #include "visual/effects.h"
+#include "visual/glare.h"
 #include "visual/overlay_content.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/beam/beam_image.h"
@@ -79,6 +80,8 @@ struct ViewInput {
   View view = View::kPhoto;
   Method method = Method::kFragment;
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< at most kMostIsoluxLevels
+  std::vector<GlareSource> glare{};                                                 ///< lamps that shine into this eye
+  Viewer viewer{};                                                                  ///< whose eye it is
   bool want_hdr = false;    ///< the view's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;  ///< read what is seen back
   PicturePart part{};

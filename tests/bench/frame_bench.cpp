@@ -244,6 +244,18 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
       input.effects[static_cast<std::size_t>(Effect::kFog)] = level;
       return input;
     });
+  bench.add(group, "two lamps, luminance image", renderer, [view](int round) {
+    FrameInput input = without_shadows(view(round));
+    input.effects[static_cast<std::size_t>(Effect::kHdrImage)] = 1;
+    return input;
+  });
+  for (const std::size_t count : {2u, 12u})
+    bench.add(group, "two lamps, glare of " + std::to_string(count), renderer, [view, count](int round) {
+      FrameInput input = without_shadows(view(round));
+      for (std::size_t i = 0; i < count; ++i)
+        input.glare.push_back({input.camera.eye_m + glm::dvec3(50.0, 2.0 + 0.1 * static_cast<double>(i), -0.5), 0.2});
+      return input;
+    });
   // What is kept while lamps and eye keep their places to one another, computed in each frame.
   bench.add(group, "two lamps that sway, fog medium", renderer, [view, frame = 0](int round) mutable {
     FrameInput input = without_shadows(view(round));

@@ -25,11 +25,15 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
                {{.lit_lamps = 2}, Effect::kDepthFirst},
                {{.hdr_wanted = true}, Effect::kHdrImage},
                {{.overlay_lines = 3}, Effect::kOverlay},
-               {{.visibility_m = 80.0}, Effect::kFog}};
+               {{.visibility_m = 80.0}, Effect::kFog},
+               {{.glare_lamps = 1, .glare_lx = 0.5}, Effect::kGlare}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);
-    for (const EffectRow& row : effect_table()) EXPECT_EQ(plan.on(row.effect), row.effect == effect) << row.name;
+    for (const EffectRow& row : effect_table()) {
+      const bool needed = effect == Effect::kGlare && row.effect == Effect::kHdrImage;
+      EXPECT_EQ(plan.on(row.effect), row.effect == effect || needed) << row.name;
+    }
     tried.insert(effect);
   }
   EXPECT_EQ(tried.size(), kEffectCount) << "every row has its case here";
@@ -49,6 +53,27 @@ TEST(Effects, DeviceAndViewCountToo) {
   EXPECT_TRUE(plan_effects({}, forced).on(Effect::kHdrImage));
   EXPECT_FALSE(plan_effects({.false_colour = true, .visibility_m = 80.0}).on(Effect::kFog));
   EXPECT_FALSE(plan_effects({.visibility_m = 80.0, .parallel_rays = true}).on(Effect::kFog));
+}
+
+// The eye scatters light in cd/m², so glare has the luminance image made, even against the user's word; without glare
+// nothing asks for it, and in views that show no luminance there is neither.
+TEST(Effects, GlareHasTheLuminanceImageMade) {
+  const EffectFacts facts{.glare_lamps = 2, .glare_lx = 0.3};
+  EffectChoices choices{};
+  choices[static_cast<std::size_t>(Effect::kHdrImage)] = 0;
+  EXPECT_TRUE(plan_effects(facts, choices).on(Effect::kHdrImage));
+  choices = {};
+  choices[static_cast<std::size_t>(Effect::kGlare)] = 0;
+  EXPECT_FALSE(plan_effects(facts, choices).on(Effect::kGlare));
+  EXPECT_FALSE(plan_effects(facts, choices).on(Effect::kHdrImage));
+  choices[static_cast<std::size_t>(Effect::kGlare)] = 1;
+  EXPECT_FALSE(plan_effects({}, choices).on(Effect::kGlare)) << "there is nothing that it could be made of";
+  for (const bool clipping : {false, true}) {
+    EffectFacts other = facts;
+    (clipping ? other.clipping : other.false_colour) = true;
+    EXPECT_FALSE(plan_effects(other).on(Effect::kGlare));
+    EXPECT_FALSE(plan_effects(other).on(Effect::kHdrImage));
+  }
 }
 
 TEST(Effects, TheUserDecidesAndThePlanSaysSo) {

@@ -73,6 +73,10 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"shadows", "auto", "shadows auto"},
       {"fog", "fine", "fog fine"},
       {"fog", "auto", "fog auto"},
+      {"glare", "off", "glare off"},
+      {"glare", "auto", "glare auto"},
+      {"age_years", "65", "age_years 65"},
+      {"iris_pigment", "1.2", "iris_pigment 1.2"},
       {"visibility_m", "80", "visibility_m 80"},
       {"visibility_m", "clear", "visibility_m clear"}};
   Desk desk;
@@ -134,6 +138,9 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"shadows on", "shadows: \"on\" is none of auto, off, hard, soft, fine"},
       {"fog thick", "fog: \"thick\" is none of auto, off, coarse, medium, fine"},
       {"visibility_m 0.5", "visibility_m: 0.5 is outside 1 to 1e+05; or clear"},
+      {"glare on", "glare: \"on\" is none of auto, off"},
+      {"age_years 0", "age_years: 0 is outside 1 to 120"},
+      {"iris_pigment 1.3", "iris_pigment: 1.3 is outside 0 to 1.2"},
       {"visibility_m foggy", "visibility_m: expected a number, got \"foggy\"; or clear"},
   };
   std::set<std::string> tried;
@@ -157,8 +164,8 @@ TEST(Desk, ItsDifferenceMakesItAgain) {
   Desk desk;
   for (const char* words :
        {"camera birds-eye", "view false-colour", "isolux_lx 0.1 0.30000000000000004", "exposure_per_cdm2 0.7",
-        "adaptation_k 5500", "design 1", "lines off", "depth_first on", "shadows hard", "fog coarse", "visibility_m 80",
-        "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
+        "adaptation_k 5500", "design 1", "lines off", "depth_first on", "shadows hard", "fog coarse", "glare off",
+        "age_years 70", "visibility_m 80", "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
     ASSERT_TRUE(apply(desk, desk_command(words), {.designs = 2})) << words;
   Desk again;
   for (const DeskCommand& command : difference(desk)) ASSERT_TRUE(apply(again, command, {.designs = 2}));

@@ -56,9 +56,19 @@ void ToneMappingPass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Im
                              .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                              .pImageInfo = &input},
       nullptr);
+  map_to_display(graph, "tone mapping", hdr_cdm2, display, area, first, [&](vk::CommandBuffer commands) {
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_.at(display.format));
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, set, nullptr);
+    commands.pushConstants<shader::ToneConstants>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
+                                                  shader::ToneConstants{glm::vec4(exposure_per_cdm2, 0.0f)});
+  });
+}
+
+void map_to_display(gpu::FrameGraph& graph, const char* name, gpu::Image& hdr_cdm2, gpu::Image& display,
+                    const vk::Rect2D& area, bool first, const std::function<void(vk::CommandBuffer)>& bind) {
   const vk::Rect2D whole{{0, 0}, display.extent};
   const bool black_around = first && area != whole;
-  graph.pass("tone mapping", {{&hdr_cdm2, gpu::Use::kSampled, false}, {&display, gpu::Use::kColourTarget, first}},
+  graph.pass(name, {{&hdr_cdm2, gpu::Use::kSampled, false}, {&display, gpu::Use::kColourTarget, first}},
              [&](gpu::Recorder& commands) {
                const vk::RenderingAttachmentInfo target =
                    attachment(display, vk::ImageLayout::eColorAttachmentOptimal,
@@ -69,10 +79,7 @@ void ToneMappingPass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Im
                                                          .colorAttachmentCount = 1,
                                                          .pColorAttachments = &target});
                set_area(commands, area);
-               commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_.at(display.format));
-               commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, set, nullptr);
-               commands.pushConstants<shader::ToneConstants>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
-                                                             shader::ToneConstants{glm::vec4(exposure_per_cdm2, 0.0f)});
+               bind(commands);
                commands.draw(3, 1, 0, 0);
                commands.endRendering();
              });

@@ -2,6 +2,7 @@
 // lamp pass applies the curve.
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <map>
 
@@ -10,13 +11,18 @@
 
 namespace phare {
 
+/// A pass that reads the HDR image and writes a part of the picture. `first`: nothing else in the picture is to stay;
+/// outside the part it becomes black. `bind`: the pipeline, and what it reads.
+void map_to_display(gpu::FrameGraph& graph, const char* name, gpu::Image& hdr_cdm2, gpu::Image& display,
+                    const vk::Rect2D& area, bool first, const std::function<void(vk::CommandBuffer)>& bind);
+
 class ToneMappingPass {
  public:
   explicit ToneMappingPass(gpu::Device& device);
 
   /// Before the views of a frame; the frame before is done.
   void begin_frame();
-  /// One part of the picture. `first`: nothing else in the picture is to stay; outside the part it becomes black.
+  /// One part of the picture, as map_to_display().
   void draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, const vk::Rect2D& area, bool first,
             const glm::vec3& exposure_per_cdm2);
 

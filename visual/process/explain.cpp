@@ -31,7 +31,7 @@ Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s) {
 }
 
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
-                           const AskedDevice& device, const ShadowCasters& casters, bool window) {
+                           const AskedDevice& device, const Scene& scene, bool window) {
   const CockpitState controls = shown_by_desk(desk, moment.controls);
   lamps.set_controls(controls);
   FrameInput input;
@@ -49,6 +49,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
   std::size_t lit = 0;
   std::optional<std::vector<CastBy>> casts;
+  const ShadowCasters casters(scene);
   if (looks_for_casters(input)) casts.emplace();
   for (const PlacedLamp& lamp : input.lamps) {
     const LampReach reach(lamp.position_m, lamp.world_from_image, light_cone(lamps.image(lamp.beam)));
@@ -62,7 +63,9 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
                 moment.pose.speed_mps * 3.6, device.name.c_str());
   std::optional<std::size_t> casting;
   if (casts) casting = casters_of_all(*casts);
-  return heading + explain(plan_effects(facts_of(input, lit, casting, text_lines(input), {.software = device.software}),
+  input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, scene, input.visibility_m);
+  return heading + explain(plan_effects(facts_of(input, lit, casting, text_lines(input), glare_of(input, view),
+                                                 {.software = device.software}),
                                         input.effects));
 }
 

@@ -28,8 +28,8 @@ struct AskedDevice {
 };
 
 /// "# low, design "reflector", 12.0 s, on llvmpipe": the moment; then a line for each effect: name, level, reason.
-/// `casters`: of the scene. `window`: there is one, so that there is an overlay. Switches `lamps` to the moment.
+/// `window`: there is one, so that there is an overlay. Switches `lamps` to the moment.
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
-                           const AskedDevice& device, const ShadowCasters& casters, bool window);
+                           const AskedDevice& device, const Scene& scene, bool window);
 
 }  // namespace phare

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "config/base/conventions.h"
+#include "visual/photometry/table/fog.h"
 #include "visual/photometry/table/illuminance.h"
 #include "visual/scene/ray_hit.h"
 
@@ -216,6 +217,18 @@ Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at,
     light.hidden_by = scene.chunks[*by].node.empty() ? "something without a name" : scene.chunks[*by].node;
   }
   return light;
+}
+
+std::vector<GlareSource> Lamps::glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const Scene& scene,
+                                         std::optional<double> visibility_m) const {
+  std::vector<GlareSource> sources;
+  for (const PointLight& light : lights_at(pose, {.position_m = eye_m})) {
+    const double distance_m = glm::distance(light.lamp_m, eye_m);
+    if (light.candela <= 0.0 || distance_m <= 0.0 || occluder(scene, light.lamp_m, eye_m)) continue;
+    const double through_air = visibility_m ? transmittance(extinction_per_m(*visibility_m), distance_m) : 1.0;
+    sources.push_back({light.lamp_m, light.candela / (distance_m * distance_m) * through_air, light.colour});
+  }
+  return sources;
 }
 
 std::vector<PointLight> Lamps::lights_at(const VehicleState& pose, const MeasurePoint& at) const {

@@ -55,6 +55,7 @@ class Loop {
   EffectChoices picked_effects() const;
   void govern(const Moment& moment, double frame_ms);
   std::vector<double> lux_by_lamp(const MeasurePoint& at);
+  void mind_the_glare(const VehicleState& pose, const Lamps& lamps);
   void mind_the_lamps(SimTime now);
   void warm_up();
   void announce();

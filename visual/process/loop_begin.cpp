@@ -72,6 +72,8 @@ void Loop::warm_up() {
     light_up(controls);
     if (last) upload(versus_.follow(s_.desk, s_.lamps, controls));
     input.lamps = s_.lamps.placed(pose);
+    const bool glaring =
+        s_.desk.glare != std::size_t{0} && !s_.lamps.glare_at(pose, first_camera.eye_m, {}, {}).empty();
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
     // The same for fog, where there is some to begin with, and of the light that the drive begins with.
@@ -83,6 +85,11 @@ void Loop::warm_up() {
         shadows = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
         if (last && s_.desk.mirrors) input.more_views = mirror_views(input, s_.channel(), pose);
         s_.renderer.draw(input);
+        if (glaring) {  // a lamp ahead shines into this eye, as one will into that of the drive
+          FrameInput blinded = input;
+          blinded.glare = {{input.camera.eye_m + 10.0 * input.camera.world_from_eye[0], 1.0}};
+          s_.renderer.draw(blinded);
+        }
         if (!last || versus_.lamps() == nullptr) continue;
         FrameInput halves = input;  // the other design's beams may be looked up in another way
         versus_.split(halves, pose);

@@ -67,8 +67,7 @@ int explain_and_leave(const VisualOptions& options, const Scene& scene, Lamps& l
   if (!device && !options.device_name.empty()) return refuse(with_remedy(device.error()));
   const AskedDevice asked = device ? AskedDevice{device->name, device->software}
                                    : AskedDevice{"no device (" + device.error().reason + "), as on a software one"};
-  std::fputs(explain_moment(lamps, desk, channel, moment, asked, ShadowCasters(scene), !options.headless).c_str(),
-             stdout);
+  std::fputs(explain_moment(lamps, desk, channel, moment, asked, scene, !options.headless).c_str(), stdout);
   return kExitDone;
 }
 

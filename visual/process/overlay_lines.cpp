@@ -41,7 +41,9 @@ void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& chann
   input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = desk.depth_first;
   input.effects[static_cast<std::size_t>(Effect::kShadows)] = desk.shadows;
   input.effects[static_cast<std::size_t>(Effect::kFog)] = desk.fog;
+  input.effects[static_cast<std::size_t>(Effect::kGlare)] = desk.glare;
   input.visibility_m = desk.visibility_m;
+  input.viewer = {desk.age_years, desk.iris_pigment};
 }
 
 CockpitState shown_by_desk(const Desk& desk, CockpitState controls) {

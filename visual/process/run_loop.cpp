@@ -182,6 +182,17 @@ void Loop::mind_the_lamps(SimTime now) {
   if (const auto news = lamp_news_.of(now, s_.lamps)) s_.bus.send(now, *news);
 }
 
+/// What shines into the eye of each view.
+void Loop::mind_the_glare(const VehicleState& pose, const Lamps& lamps) {
+  const auto see = [&](ViewInput& view) {
+    view.glare.clear();
+    if (view.camera.orthographic_width_m > 0.0) return;  // no eye
+    view.glare = lamps.glare_at(pose, view.camera.eye_m, s_.scene, view.visibility_m);
+  };
+  see(input_);
+  for (ViewInput& view : input_.more_views) see(view);
+}
+
 void Loop::draw(const Moment& moment) {
   light_up(shown_by_desk(s_.desk, moment.controls));
   mind_the_lamps(moment.time);
@@ -195,6 +206,7 @@ void Loop::draw(const Moment& moment) {
   s_.eye.see(moment.time, versus_.light(s_.lamps));
   input_.white = s_.eye.white();
   if (s_.desk.mirrors) input_.more_views = mirror_views(input_, s_.channel(), moment.car.pose);
+  mind_the_glare(moment.car.pose, others_turn ? *versus_.lamps() : s_.lamps);
   input_.room = s_.desk.mirrors ? kRoomBesideMirrors : OverlayRoom{};
   if (s_.window) {
     screens_.see(moment.controls);

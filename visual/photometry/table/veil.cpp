@@ -17,10 +17,15 @@ double within_equation(double angle_deg) {
 
 }  // namespace
 
+glm::dvec3 veil_terms(const Viewer& viewer) {
+  const double age = 1.0 + fourth_power(viewer.age_years / 62.5);
+  return {5.0 * age, 0.1 * viewer.pigment * age, 0.0025 * viewer.pigment};
+}
+
 double veil_general_per_sr(const Viewer& viewer, double angle_deg) {
-  const double t = within_equation(angle_deg), p = viewer.pigment;
-  return 10.0 / (t * t * t) + (5.0 / (t * t) + 0.1 * p / t) * (1.0 + fourth_power(viewer.age_years / 62.5)) +
-         0.0025 * p;
+  const double t = within_equation(angle_deg);
+  const glm::dvec3 terms = veil_terms(viewer);
+  return 10.0 / (t * t * t) + terms.x / (t * t) + terms.y / t + terms.z;
 }
 
 double veil_small_angle_per_sr(const Viewer& viewer, double angle_deg) {

@@ -6,6 +6,8 @@
 // Stiles–Holladay form, 1° to 30°: 10/θ²·(1 + (A/70)⁴). Checked by tests/photometry/veil_test.cpp.
 #pragma once
 
+#include <glm/vec3.hpp>
+
 namespace phare {
 
 /// Who looks.
@@ -21,6 +23,9 @@ struct Viewer {
 double veil_general_per_sr(const Viewer& viewer, double angle_deg);
 double veil_small_angle_per_sr(const Viewer& viewer, double angle_deg);
 double veil_age_adjusted_per_sr(const Viewer& viewer, double angle_deg);
+
+/// Factors of 1/θ², 1/θ and 1 in the general equation; that of 1/θ³ is 10 for every eye.
+glm::dvec3 veil_terms(const Viewer& viewer);
 
 /// Share of the light of a point that leaves it for angles beyond `angle_deg` (to 90°), by the general equation.
 double veil_beyond(const Viewer& viewer, double angle_deg);

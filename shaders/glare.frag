@@ -1,0 +1,18 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/glare_varyings.glsl"
+#include "lib/tone.h"
+#include "lib/veil.h"
+
+layout(set = 0, binding = 0) uniform sampler2D hdr_cdm2;
+layout(location = 0) out vec4 result;
+
+void main() {
+  vec3 luminance = texelFetch(hdr_cdm2, ivec2(gl_FragCoord.xy), 0).rgb;
+  vec3 toward_pixel = way * inversesqrt(dot(way, way));
+  for (uint i = 0u; i < lamps; ++i) {
+    vec3 apart = toward[i] - toward_pixel;
+    luminance += eye_lx[i] * veil_per_sr(terms, dot(apart, apart));
+  }
+  result = vec4(srgb_encoded(tone_curve(luminance * exposure)), 1.0);
+}

@@ -1,0 +1,43 @@
+#include "visual/glare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace phare {
+namespace {
+
+constexpr double kHalfStep = 0.5 / 255.0 / 12.92;  // of 8 bits in sRGB, next to black
+
+double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / std::numbers::pi;
+}
+
+}  // namespace
+
+double least_angle_deg(const ViewGeometry& view, const glm::dvec3& place_m) {
+  const glm::dvec3 way_m = place_m - view.camera().eye_m;
+  if (view.sees_ball(place_m, 0.0)) return 0.0;
+  // The cone about the view through its corners.
+  glm::dvec3 middle(0.0);
+  for (const Ray& edge : view.edges()) middle += edge.direction;
+  double half_deg = 0.0;
+  for (const Ray& edge : view.edges()) half_deg = std::max(half_deg, angle_deg(middle, edge.direction));
+  return std::max(angle_deg(middle, way_m) - half_deg, 0.0);
+}
+
+std::vector<GlareSource> glare_seen(const ViewGeometry& view, std::span<const GlareSource> sources,
+                                    const Viewer& viewer, double display_per_cdm2) {
+  std::vector<GlareSource> seen;
+  if (view.camera().orthographic_width_m > 0.0) return seen;  // from everywhere at once, by no eye
+  for (const GlareSource& source : sources) {
+    if (!(source.eye_lx > 0.0)) continue;
+    const double most_cdm2 = source.eye_lx * veil_general_per_sr(viewer, least_angle_deg(view, source.place_m));
+    if (most_cdm2 * display_per_cdm2 >= kHalfStep) seen.push_back(source);
+  }
+  std::ranges::sort(seen, std::greater{}, &GlareSource::eye_lx);
+  if (seen.size() > kMostGlareSources) seen.resize(kMostGlareSources);
+  return seen;
+}
+
+}  // namespace phare
