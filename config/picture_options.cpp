@@ -108,6 +108,8 @@ void PictureOptions::add_to(CLI::App& app) {
   declare(app.add_option("--still-at", still_at_s,
                          "Simulated time of the stills, s [a fifth of the drive, on low beam, moving]"))
       ->check(CLI::NonNegativeNumber);
+  declare(app.add_option("--traffic", traffic, "Other road users, a TOML file (docs/traffic.md) [the rig's]"))
+      ->check(CLI::ExistingFile);
   declare(app.add_flag("--video", video,
                        "The video of the drive has every frame [one each tenth of a second]; its pictures take room"));
   declare(app.add_option("--beam-image", beam_image,

@@ -39,6 +39,7 @@ class PictureOptions {
   double still_at_s = -1.0;  ///< simulated time of the stills; negative: chosen
   std::vector<DeskCommand>
       desk;                ///< what was set of the picture, in the order given; of the value --set none is checked
+  std::string traffic;     ///< a file of road users, in place of the rig's
   bool video = false;      ///< a picture of every frame, for the video
   std::string beam_image;  ///< one of kImageLevelNames; empty: the rig's
   int road_cuts = 0;       ///< how often each triangle of the ground is cut in four

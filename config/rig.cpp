@@ -188,6 +188,8 @@ RigReading read_root(TomlTable root, const std::filesystem::path& file) {
   rig.name = root.text_or("name", rig_file.stem().string());
   rig.keep_design = root.flag_or("keep_design", rig.keep_design);
   rig.scene_file = resolve_path(root.text("scene"), rig_file);
+  if (const std::string traffic = root.text_or("traffic", ""); !traffic.empty())
+    rig.traffic_file = resolve_path(traffic, rig_file);
   rig.vehicle_file = resolve_path(root.text("vehicle"), rig_file);
   rig.cockpit_file = resolve_path(root.text("cockpit"), rig_file);
   if (auto bus = root.table_if("bus")) {
@@ -267,6 +269,8 @@ Status check_rig_files(const Rig& rig) {
     return Error{path.string(), "no such file; it is " + what + " of " + rig.file.string()};
   };
   if (auto error = missing(rig.scene_file, "the scene")) return *error;
+  if (!rig.traffic_file.empty())
+    if (auto error = missing(rig.traffic_file, "the traffic")) return *error;
   if (auto error = missing(rig.vehicle_file, "the vehicle")) return *error;
   if (auto error = missing(rig.cockpit_file, "the cockpit")) return *error;
   for (const DesignConfig& design : rig.designs) {

@@ -70,6 +70,7 @@ class RigText {
       key("keep_design", "true", "changes of design in a recorded drive, script or log are left out; by hand they act");
     out_ << '\n';
     key("scene", path(rig_.scene_file), "glTF; <its name>_lane.csv beside it is where the car starts");
+    if (!rig_.traffic_file.empty()) key("traffic", path(rig_.traffic_file), "other road users");
     key("vehicle", path(rig_.vehicle_file));
     key("cockpit", path(rig_.cockpit_file), "where the driver's controls come from");
     out_ << "\n[bus]" << note("off loopback also key_file = a file of 64 hexadecimal digits, openssl rand -hex 32");

@@ -142,6 +142,7 @@ struct GpuSheeting {
 struct GpuDraw {
   vec4 origin;         // of the batch, relative to the eye, m
   vec4 detail_origin;  // of the batch modulo 1024 m, so that detail stays put in float32
+  vec4 turn[3];        // rows that turn what moves into the world; of what stands those of no turn
 };
 
 PHARE_SHADER_END

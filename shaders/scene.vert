@@ -16,8 +16,8 @@ layout(location = 2) in uint material_index;
 invariant gl_Position;  // the depth pass and the lamp pass must agree to the bit
 
 void main() {
-  point = position_m + draw.origin.xyz;
-  point_normal = normal;
+  point = turned(position_m) + draw.origin.xyz;
+  point_normal = turned(normal);
   detail_from_point = draw.detail_origin.xyz - draw.origin.xyz;
   gl_Position = clip_from_eye() * vec4(point, 1.0);
   pass_light(materials[material_index].reflectance);

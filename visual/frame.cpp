@@ -75,7 +75,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   // What is seen, by which lamps.
   const double aspect = static_cast<double>(view.area.extent.width) / static_cast<double>(view.area.extent.height);
   LitView lit = parts.scene.view(ViewGeometry(view.input.camera, aspect), sky_of(view.input), view.input.lamps,
-                                 far_mesh_from_m(view), view.input.isolux_lx);
+                                 view.input.moving, far_mesh_from_m(view), view.input.isolux_lx);
   lit.method = view.input.method;
 
   // What that calls for, and the images it takes.

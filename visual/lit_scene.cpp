@@ -80,7 +80,7 @@ static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::Gpu
 static_assert(sizeof(shader::GpuFog) == 80);
 static_assert(sizeof(shader::GpuFrame) ==
               96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 48) + sizeof(shader::GpuFog));
-static_assert(sizeof(shader::GpuDraw) == 32 && sizeof(shader::GpuMaterial) == 16);
+static_assert(sizeof(shader::GpuDraw) == 80 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
               static_cast<std::uint32_t>(RetroKind::kMarking) == shader::kRetroMarking &&
@@ -195,9 +195,10 @@ void LitScene::forget_sets() {
 }
 
 LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps,
-                       double far_mesh_from_m, std::span<const double> isolux_lx) {
+                       std::span<const PlacedMesh> moving, double far_mesh_from_m, std::span<const double> isolux_lx) {
   LitView view{
       .geometry = geometry, .sky = sky, .isolux_lx = isolux_lx, .items = geometry_.visible(geometry, far_mesh_from_m)};
+  if (!moving.empty()) geometry_.add_visible(view.items, view.moved, geometry, moving);
   for (const PlacedLamp& lamp : lamps) {
     if (is_dark(lamp.beam)) continue;
     const LampReach reach = reach_of(lamp);

@@ -74,6 +74,7 @@ struct LitView {
   Method method = Method::kFragment;
   std::span<const double> isolux_lx{};  ///< lines of false colour; of the caller, while the view is made
   std::vector<DrawItem> items{};
+  std::vector<SceneBatch> moved{};      ///< of what moves, where it is now; items point to them
   std::vector<LitBy> lit_by{};          ///< one at least
   std::vector<PlacedLamp> lit_lamps{};  ///< that light something in it
   std::vector<CastBy> casts{};          ///< what stands in the light of each
@@ -124,8 +125,8 @@ class LitScene {
   void begin_frame(gpu::FrameGraph& graph);
   /// A view of the scene with those of the lamps that reach something in it. Up to kLampsForAll light all that it sees;
   /// of more, each block is lit by those that reach it: fewer to sum, at the price of a pipeline for every number.
-  LitView view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps, double far_mesh_from_m,
-               std::span<const double> isolux_lx);
+  LitView view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps,
+               std::span<const PlacedMesh> moving, double far_mesh_from_m, std::span<const double> isolux_lx);
   /// An eye with lamps and no surface, for points that are given.
   LitView view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps);
   /// Finds what stands in the light of the view's lamps; returns how many pieces of the scene.

@@ -66,7 +66,7 @@ struct Renderer::Impl {
         device.device, vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
     fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
     set_target(options.width_px, options.height_px);
-    set_scene(Scene{});
+    set_scene(Scene{}, Scene{});
   }
 
   ~Impl() {
@@ -83,9 +83,9 @@ struct Renderer::Impl {
     hdrs.clear();
   }
 
-  void set_scene(const Scene& new_scene) {
+  void set_scene(const Scene& new_scene, const Scene& moving) {
     device.device.waitIdle();
-    scene.set_geometry(SceneBuffers(device, new_scene), ShadowCasters(new_scene));
+    scene.set_geometry(SceneBuffers(device, new_scene, moving), ShadowCasters(new_scene));
   }
 
   /// Submits what `record` puts into the graph and waits for it.
@@ -174,8 +174,12 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
 Status Renderer::load_scene(const Scene& scene) {
+  return load_scene(scene, Scene{});
+}
+
+Status Renderer::load_scene(const Scene& scene, const Scene& moving) {
   try {
-    impl_->set_scene(scene);
+    impl_->set_scene(scene, moving);
     return Done{};
   } catch (const std::exception& error) {
     return Error{scene.file.string(), error.what()};
@@ -304,7 +308,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   const ViewGeometry geometry(input.camera, static_cast<double>(extent.width) / extent.height);
   impl_->submit([&] {
     impl_->scene.begin_frame(impl_->graph);
-    LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.far_mesh_from_m, {});
+    LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.moving, input.far_mesh_from_m, {});
     view.method = input.method;
     draw_audit(impl_->graph, impl_->scene, view, {position, normal, depth});
     impl_->copy_out(position, position_copy, 16);

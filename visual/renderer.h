@@ -46,6 +46,13 @@ struct PlacedLamp {
   std::size_t beam = 0;              ///< index of the beam image set with set_beam
 };
 
+/// Something that moves, this frame.
+struct PlacedMesh {
+  std::size_t mesh = 0;  ///< which node of the scene of what moves (Renderer::load_scene)
+  glm::dvec3 position_m{0.0};
+  glm::dmat3 world_from_mesh{1.0};
+};
+
 /// So many lamps light one draw at most, which is a block of the scene where a view has many. Those that reach nothing
 /// of it do not count.
 inline constexpr std::size_t kLampsPerDraw = shader::kMaxLamps;
@@ -70,8 +77,9 @@ struct ViewInput {
   /// Any number. Left out and counted are those that reach nothing in the view, and where more than kLampsPerDraw reach
   /// one draw the weakest there.
   std::vector<PlacedLamp> lamps;
-  double exposure_per_cdm2 = 0.8;  ///< multiplies luminance before the tone curve; fixed, so that beams compare
-  double adaptation_k = 4000.0;    ///< light of this colour temperature looks white
+  std::vector<PlacedMesh> moving{};  ///< beside the scene; it casts no shadow
+  double exposure_per_cdm2 = 0.8;    ///< multiplies luminance before the tone curve; fixed, so that beams compare
+  double adaptation_k = 4000.0;      ///< light of this colour temperature looks white
   std::optional<glm::vec3> white;  ///< linear sRGB of the light that does, in place of it (visual/process/adaptation.h)
   double sky_luminance_cdm2 = 0.004;
   std::optional<double> visibility_m{};     ///< meteorological; nothing: clear air (visual/photometry/table/fog.h)
@@ -161,7 +169,9 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
+  /// `moving`: meshes for what moves, one a node, each about its own origin.
   Status load_scene(const Scene& scene);
+  Status load_scene(const Scene& scene, const Scene& moving);
   /// A new beam image, at any index. Uploaded with the next frame.
   void set_beam(std::size_t index, const BeamImage& image);
   /// The image set last, changed in these rectangles of its nodes only; nodes, type and aim are the same.

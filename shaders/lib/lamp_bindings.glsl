@@ -24,6 +24,9 @@ layout(set = 0, binding = 7) uniform sampler2D filtered[kFilters];
 layout(set = 0, binding = 8) uniform sampler2D filtered_tints[kFilters];
 #ifndef PHARE_COMPUTE
 layout(push_constant) uniform Draw { GpuDraw draw; };
+vec3 turned(vec3 v) {
+  return vec3(dot(draw.turn[0].xyz, v), dot(draw.turn[1].xyz, v), dot(draw.turn[2].xyz, v));
+}
 #endif
 
 mat4 clip_from_eye() {

@@ -202,6 +202,7 @@ TEST(PictureOptions, AreTurnedBackIntoTheArgumentsTheyWere) {
                                        "lines=off",
                                        "--still-at",
                                        "2.5",
+                                       "--traffic",
                                        "--video",
                                        "--beam-image",
                                        "half-float-native-nodes",

@@ -1,4 +1,4 @@
-// phare-make-scene: writes the country road, its lane and the list of places. Same bytes each run.
+// phare-make-scene: writes the country road, its lane and the list of places, and road users. Same bytes each run.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -47,6 +47,10 @@ Status write_scene(const std::filesystem::path& folder) {
   phare::scene::add_things(model, road);
   phare::scene::add_people(model, road);
 
+  phare::scene::Model users;
+  phare::scene::add_road_users(users);
+
+  if (auto s = write_file(folder / "road_users.glb", phare::scene::glb_bytes(users)); !s) return s;
   if (auto s = write_file(folder / "country_road.glb", phare::scene::glb_bytes(model)); !s) return s;
   if (auto s = write_file(folder / "country_road_lane.csv", phare::scene::lane_csv(road)); !s) return s;
   return write_file(folder / "country_road_places.json", phare::scene::places_json(road));
@@ -59,7 +63,7 @@ int main(int argc, char** argv) {
       "Makes the scene country_road: a two-lane road of 1.8 km with bends, crest, dip and what stands beside it."};
   app.footer("Example:\n  phare-make-scene --out build/scenes");
   std::filesystem::path folder;
-  app.add_option("--out", folder, "folder for country_road.glb, country_road_lane.csv, country_road_places.json")
+  app.add_option("--out", folder, "folder for country_road.glb, country_road_lane.csv, country_road_places.json, road_users.glb")
       ->required();
   phare::take_finite_numbers_only(app);
   try {

@@ -19,6 +19,19 @@ void add_things(Model& model, const Alignment& road);
 /// "pedestrian_1", "pedestrian_2", "cyclist".
 void add_people(Model& model, const Alignment& road);
 
+/// "car", "lorry", "bicycle", "pedestrian": those that move, each about the origin, x forward.
+void add_road_users(Model& model);
+
+struct Clothes {
+  Material legs, torso, sleeves;
+};
+/// Walks along x. `stride` is how far the left foot is ahead of the right, m.
+void draw_walker(Pen pen, const Clothes& clothes, double stride, bool coat, bool bag);
+/// x forward from the middle of the rear wheel, on the ground.
+void draw_cyclist(Pen pen);
+/// A saloon of 4.5 m; x forward from the rear axle's middle, on the ground.
+void draw_car(Pen pen);
+
 /// Object frame on the ground at station and offset: x along the road turned left by turn_rad, z straight up.
 glm::dmat4 placed(const Alignment& road, double s_m, double t_m, double turn_rad = 0.0, double raise_m = 0.0);
 /// Object frame at a point of the world.

@@ -13,10 +13,6 @@ namespace {
 
 using glm::dvec3;
 
-struct Clothes {
-  Material legs, torso, sleeves;
-};
-
 void limb(Pen& pen, Material m, dvec3 a, double radius_a, dvec3 b, double radius_b) {
   pen.cone(m, a, radius_a, b, radius_b, 9, false);
   pen.ellipsoid(m, a, dvec3(radius_a), 4, 9);
@@ -61,7 +57,8 @@ void torso(Pen& pen, Material m, dvec3 hips, dvec3 lean, double coat) {
   pen.loft(m, rings);
 }
 
-/// Walks along x. `stride` is how far the left foot is ahead of the right, m.
+}  // namespace
+
 void draw_walker(Pen pen, const Clothes& clothes, double stride, bool coat, bool bag) {
   const dvec3 hips(0.0, 0.0, 0.93);
   for (const double side : {-1.0, 1.0}) {
@@ -143,7 +140,6 @@ void draw_cyclist(Pen pen) {
   pen.ellipsoid(Material::kClothLight, crown + dvec3(-0.01, 0.0, 0.055), {0.135, 0.10, 0.10}, 6, 12);  // helmet
 }
 
-}  // namespace
 
 void add_people(Model& model, const Alignment& road) {
   const double across = std::numbers::pi / 2.0;

@@ -76,7 +76,8 @@ std::vector<dvec3> body_ring(double x, double half_width, double sill, double sh
   return ring;
 }
 
-/// A saloon of 4.5 m; x forward from the rear axle's middle, on the ground.
+}  // namespace
+
 void draw_car(Pen pen) {
   struct Section {
     double x, half_width, sill, shoulder, deck;
@@ -131,6 +132,8 @@ void draw_car(Pen pen) {
   pen.box(Material::kDarkPlastic, {-0.985, -0.28, 0.555}, {-0.93, 0.28, 0.685});
   pen.quad(Material::kPlate, {-0.99, 0.26, 0.565}, {-0.99, -0.26, 0.565}, {-0.99, -0.26, 0.675}, {-0.99, 0.26, 0.675});
 }
+
+namespace {
 
 void add_fence(Model& model, const Alignment& road, double begin, double end, double t, int& number) {
   constexpr double kSpan_m = 3.0;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -124,6 +126,25 @@ std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all) {
   return blocks;
 }
 
+// `first_material`: theirs stand behind those of the scene.
+std::vector<MovingMesh> make_moving(const Scene& scene, std::uint32_t first_material, Gathered& all) {
+  std::vector<MovingMesh> meshes;
+  std::vector<std::vector<const SceneChunk*>> chunks;
+  for (const SceneChunk& chunk : scene.chunks) {
+    auto mesh = std::ranges::find(meshes, chunk.node, &MovingMesh::node);
+    if (mesh == meshes.end()) {
+      mesh = meshes.insert(meshes.end(), {chunk.node});
+      chunks.emplace_back();
+    }
+    chunks[static_cast<std::size_t>(mesh - meshes.begin())].push_back(&chunk);
+  }
+  const std::size_t first_vertex = all.vertices.size();
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    meshes[i].batches = gather(scene, chunks[i], kBlock_m, std::nullopt, all);
+  for (GpuVertex& vertex : std::span(all.vertices).subspan(first_vertex)) vertex.material += first_material;
+  return meshes;
+}
+
 // Coefficients are of luminance under illuminant A, as R_A is measured; the shader multiplies by rho/pi, which gives
 // the tint, so what rho takes is given back. Product of colours in Rec. 709: not spectral.
 shader::GpuMaterial pack_material(const SceneMaterial& material, std::vector<shader::GpuSheeting>& sheetings) {
@@ -148,6 +169,21 @@ glm::dvec2 looks_along(const ViewGeometry& view, const SceneBatch& batch) {
   return within ? glm::dvec2(view.camera().world_from_eye[0]) : glm::dvec2(0.5 * (batch.low_m + batch.high_m) - eye_m);
 }
 
+shader::GpuDraw draw_at(const glm::dvec3& from_eye_m, const glm::dvec3& detail_m, const glm::dmat3& turn) {
+  shader::GpuDraw draw{glm::vec4(glm::vec3(from_eye_m), 0.0f), glm::vec4(glm::vec3(detail_m), 0.0f), {}};
+  const glm::dmat3 rows = glm::transpose(turn);
+  for (int i = 0; i < 3; ++i) draw.turn[i] = glm::vec4(glm::vec3(rows[i]), 0.0f);
+  return draw;
+}
+
+// Those of one kind together.
+void near_first(std::vector<DrawItem>& items) {
+  std::sort(items.begin(), items.end(), [](const DrawItem& a, const DrawItem& b) {
+    return std::tuple(a.batch->kind, a.distance_m, a.batch->first_index) <
+           std::tuple(b.batch->kind, b.distance_m, b.batch->first_index);
+  });
+}
+
 }  // namespace
 
 std::uint32_t SceneBatch::first_index_along(const glm::dvec2& direction) const {
@@ -157,10 +193,11 @@ std::uint32_t SceneBatch::first_index_along(const glm::dvec2& direction) const {
   return first_index + order * index_count;
 }
 
-SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene) {
+SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving_scene) {
   std::vector<shader::GpuMaterial> packed;
   std::vector<shader::GpuSheeting> sheetings;
   for (const SceneMaterial& material : scene.materials) packed.push_back(pack_material(material, sheetings));
+  for (const SceneMaterial& material : moving_scene.materials) packed.push_back(pack_material(material, sheetings));
   if (packed.size() > shader::kMaxMaterials)
     throw std::runtime_error(std::to_string(packed.size()) + " materials, at most " +
                              std::to_string(shader::kMaxMaterials) + " are drawn");
@@ -171,6 +208,7 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene) {
   packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
   Gathered all;
   blocks = make_blocks(scene, all);
+  moving = make_moving(moving_scene, static_cast<std::uint32_t>(scene.materials.size()), all);
   using Usage = vk::BufferUsageFlagBits;
   vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.vertices)), Usage::eVertexBuffer, "scene vertices");
   indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)), Usage::eIndexBuffer, "scene indices");
@@ -189,19 +227,40 @@ std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far
     for (const SceneBatch& batch : *batches) {
       const std::optional<double> distance = view.sees(batch.low_m, batch.high_m);
       if (!distance) continue;
-      const glm::dvec3 origin = batch.origin_m - view.camera().eye_m;
       const glm::dvec3 detail = batch.origin_m - glm::floor(batch.origin_m / 1024.0) * 1024.0;
-      items.push_back({&batch,
-                       batch.first_index_along(looks_along(view, batch)),
-                       {glm::vec4(glm::vec3(origin), 0.0f), glm::vec4(glm::vec3(detail), 0.0f)},
+      items.push_back({&batch, batch.first_index_along(looks_along(view, batch)),
+                       draw_at(batch.origin_m - view.camera().eye_m, detail, glm::dmat3(1.0)),
                        static_cast<float>(*distance)});
     }
   }
-  std::sort(items.begin(), items.end(), [](const DrawItem& a, const DrawItem& b) {
-    return std::tuple(a.batch->kind, a.distance_m, a.batch->first_index) <
-           std::tuple(b.batch->kind, b.distance_m, b.batch->first_index);
-  });
+  near_first(items);
   return items;
+}
+
+void SceneBuffers::add_visible(std::vector<DrawItem>& items, std::vector<SceneBatch>& placed, const ViewGeometry& view,
+                               std::span<const PlacedMesh> meshes) const {
+  std::size_t count = 0;
+  for (const PlacedMesh& mesh : meshes) count += mesh.mesh < moving.size() ? moving[mesh.mesh].batches.size() : 0;
+  placed.reserve(count);  // items point to them
+  for (const PlacedMesh& mesh : meshes) {
+    if (mesh.mesh >= moving.size()) continue;
+    const glm::dmat3& turn = mesh.world_from_mesh;
+    const glm::dmat3 extent(glm::abs(turn[0]), glm::abs(turn[1]), glm::abs(turn[2]));
+    for (const SceneBatch& batch : moving[mesh.mesh].batches) {
+      SceneBatch there = batch;
+      const glm::dvec3 middle_m = mesh.position_m + turn * (0.5 * (batch.low_m + batch.high_m));
+      const glm::dvec3 half_m = extent * (0.5 * (batch.high_m - batch.low_m));
+      there.low_m = middle_m - half_m, there.high_m = middle_m + half_m;
+      there.origin_m = mesh.position_m + turn * batch.origin_m;
+      const std::optional<double> distance = view.sees(there.low_m, there.high_m);
+      if (!distance) continue;
+      placed.push_back(there);
+      items.push_back({&placed.back(), batch.first_index,
+                       draw_at(there.origin_m - view.camera().eye_m, batch.origin_m, turn),
+                       static_cast<float>(*distance)});
+    }
+  }
+  near_first(items);
 }
 
 }  // namespace phare

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "shaders/lamps.h"
@@ -62,16 +64,26 @@ struct DrawItem {
   bool shadowed = false;   ///< a shadow may fall on it (visual/passes/shadows.h)
 };
 
+/// What moves, about its own origin.
+struct MovingMesh {
+  std::string node;
+  std::vector<SceneBatch> batches{};
+};
+
 struct SceneBuffers {
   std::vector<SceneBlock> blocks;
+  std::vector<MovingMesh> moving;  ///< one for each node of the scene of what moves, in its order
   gpu::DeviceBuffer vertices, indices, material_buffer, sheeting_buffer;
 
   SceneBuffers() = default;
-  SceneBuffers(gpu::Device& device, const Scene& scene);
+  SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving);
 
   /// Batches whose bounds touch the view, those of one kind together, near ones first.
   /// Blocks that begin at the multiples kFarLevels of `far_from_m` or beyond are drawn with their far meshes.
   std::vector<DrawItem> visible(const ViewGeometry& view, double far_from_m) const;
+  /// The same for what moves. `placed`: keeps the batches where they are now, for the items.
+  void add_visible(std::vector<DrawItem>& items, std::vector<SceneBatch>& placed, const ViewGeometry& view,
+                   std::span<const PlacedMesh> meshes) const;
 };
 
 }  // namespace phare

@@ -22,7 +22,8 @@ void measure_points(gpu::FrameGraph& graph, LitScene& scene, const LitView& view
     scene.bind_shadows(commands, view);
     scene.push(commands,
                {.origin = glm::vec4(static_cast<float>(lx.extent.width), static_cast<float>(lx.extent.height), 0, 0),
-                .detail_origin = glm::vec4(0.0f)});
+                .detail_origin = glm::vec4(0.0f),
+                .turn = {}});
     commands.bindVertexBuffers(0, points, vk::DeviceSize{0});
     commands.draw(count, 1, 0, 0);
     commands.endRendering();

@@ -222,8 +222,9 @@ void ShadowPass::draw_image(gpu::FrameGraph& graph, const LitScene& scene, const
         const Range& range = picture.ranges[both_sides ? 1 : 0];
         if (range.count == 0) continue;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline(scene, both_sides));
-        scene.push(commands,
-                   {.origin = glm::vec4(glm::vec2(picture.scale), 0.0f, 0.0f), .detail_origin = glm::vec4(0.0f)});
+        scene.push(
+            commands,
+            {.origin = glm::vec4(glm::vec2(picture.scale), 0.0f, 0.0f), .detail_origin = glm::vec4(0.0f), .turn = {}});
         commands.draw(range.count, 1, range.first, 0);
       }
     }

@@ -54,8 +54,8 @@ class Loop {
   void upload(const std::vector<Lamps::Change>& changes);
   EffectChoices picked_effects() const;
   void govern(const Moment& moment, double frame_ms);
-  std::vector<double> lux_by_lamp(const MeasurePoint& at);
-  void mind_the_glare(const VehicleState& pose, const Lamps& lamps);
+  std::vector<double> lux_by_lamp(std::span<const PlacedLamp> lamps, const MeasurePoint& at);
+  void mind_the_glare(const VehicleState& pose, const Lamps& lamps, std::span<const Traffic::There> users);
   void mind_the_lamps(SimTime now);
   void warm_up();
   void announce();

@@ -72,8 +72,8 @@ void Loop::warm_up() {
     light_up(controls);
     if (last) upload(versus_.follow(s_.desk, s_.lamps, controls));
     input.lamps = s_.lamps.placed(pose);
-    const bool glaring =
-        s_.desk.glare != std::size_t{0} && !s_.lamps.glare_at(pose, first_camera.eye_m, {}, {}).empty();
+    const bool glaring = s_.desk.glare != std::size_t{0} &&
+                         (!s_.traffic.empty() || !s_.lamps.glare_at(pose, first_camera.eye_m, {}, {}).empty());
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
     // The same for fog, where there is some to begin with, and of the light that the drive begins with.

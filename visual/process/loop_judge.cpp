@@ -88,14 +88,17 @@ void Loop::audit(const Moment& moment) {
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
   if (!over_ && !others_turn && s_.options.audit_every > 0 && number % s_.options.audit_every == 0 &&
       !input_.lamps.empty()) {
-    const auto samples = s_.renderer.audit(input_, kPixels, static_cast<std::uint64_t>(number) + 1);
+    FrameInput own = input_;  // the car's own light, which is known in float64
+    own.lamps = s_.lamps.placed(moment.car.pose);
+    own.moving.clear();
+    const auto samples = s_.renderer.audit(own, kPixels, static_cast<std::uint64_t>(number) + 1);
     const AuditMoment where{
         .frame = number,
         .time_s = moment.time.seconds(),
         .width_px = s_.renderer.picture_size().width_px,
         .height_px = s_.renderer.picture_size().height_px,
         .bound = audit_bound(s_.options.beam_image.value_or(s_.rig.beam_image), input_.method, s_.options.audit_bound),
-        .by_lamp = [this](const MeasurePoint& at) { return lux_by_lamp(at); }};
+        .by_lamp = [&](const MeasurePoint& at) { return lux_by_lamp(own.lamps, at); }};
     const auto failure = s_.audit.add(s_.lamps, moment.car.pose, samples, where);
     // A lockstep drive fails by it: its launcher says so, once; without one we do, when we leave.
     if (failure && !s_.options.lockstep) spdlog::warn("self-audit: {}", failure->text());
@@ -104,11 +107,11 @@ void Loop::audit(const Moment& moment) {
 }
 
 /// Of every lamp of the design, as the picture's shader has it.
-std::vector<double> Loop::lux_by_lamp(const MeasurePoint& at) {
+std::vector<double> Loop::lux_by_lamp(std::span<const PlacedLamp> lamps, const MeasurePoint& at) {
   std::vector<double> lux(s_.lamps.design().lamps.size(), 0.0);
-  const auto measured = s_.renderer.measure(input_.lamps, std::span(&at, 1));
+  const auto measured = s_.renderer.measure(lamps, std::span(&at, 1));
   for (std::size_t i = 0; i < measured.size(); ++i)
-    lux[input_.lamps[i].beam] = static_cast<double>(measured[i].front());
+    lux[lamps[i].beam] = static_cast<double>(measured[i].front());
   return lux;
 }
 

@@ -93,6 +93,10 @@ int draw_channel(VisualOptions options) {
   if (!lamps) return refuse(lamps.error());
   Result<Scene> scene = read_scene(rig->scene_file);
   if (!scene) return refuse(scene.error());
+  Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file));
+  if (!traffic) return refuse(traffic.error());
+  if (!traffic->empty() && lane_of(rig->scene_file).empty())
+    return refuse({rig->scene_file.string(), "has no lane beside it, which traffic would drive along"});
   if (options.explain) return explain_and_leave(options, *scene, *lamps, desk, channel);
   LampReplay lamps_then;
   if (!options.drive_file.empty()) {
@@ -119,7 +123,8 @@ int draw_channel(VisualOptions options) {
   Result<Renderer> renderer = Renderer::create(drawing);
   if (!renderer) return refuse(with_remedy(renderer.error()));
   if (options.road_cuts > 0) scene = refined(*scene, options.road_cuts, is_ground);
-  if (const Status loaded = renderer->load_scene(*scene); !loaded) return refuse(loaded.error());
+  if (const Status loaded = renderer->load_scene(*scene, traffic->meshes()); !loaded) return refuse(loaded.error());
+  if (!traffic->empty()) renderer->set_beam(Traffic::kBeam, traffic->beam());
 
   if (const Status key = take_run_key(*rig); !key) return refuse(key.error());
   Result<Bus> bus = Bus::open(*rig, Role::kVisual, options.channel);
@@ -137,6 +142,7 @@ int draw_channel(VisualOptions options) {
                   std::move(lamps_json));
   session.eye = eye_of(session);
   session.lamps_then = std::move(lamps_then);
+  session.traffic = std::move(*traffic);
   session.lane = lane_of(session.rig.scene_file);
   if (session.options.budget_ms > 0.0 && !session.options.lockstep && !session.options.levels.empty())
     session.governor = Governor(session.options.budget_ms, session.options.levels, session.options.begin_level);

@@ -84,6 +84,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   options.samples = picture.samples;
   options.still_at_s = picture.still_at_s;
   options.video = picture.video;
+  if (!picture.traffic.empty()) options.traffic_file = picture.traffic;
   options.desk = picture.desk;
   options.road_cuts = picture.road_cuts;
   options.audit_every = picture.audit_every;

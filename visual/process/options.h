@@ -33,12 +33,13 @@ struct VisualOptions {
   std::int64_t frames = 0;  ///< > 0: save every one of this many frames, then leave
   int width_px = 0, height_px = 0;  ///< 0: the channel's
   int samples = 1;
-  std::vector<DeskCommand> desk;         ///< what the command line sets of the picture, after the rig
-  bool video = false;                    ///< keep a picture of every frame
-  double still_at_s = -1.0;              ///< simulated time of the stills; negative: chosen
-  int road_cuts = 0;                     ///< how often each triangle of the ground is cut in four
-  std::int64_t audit_every = 300;        ///< frames; 0: never
-  std::optional<double> audit_bound;     ///< a share of the light, in place of what the level states
+  std::vector<DeskCommand> desk;                        ///< what the command line sets of the picture, after the rig
+  std::optional<std::filesystem::path> traffic_file{};  ///< in place of the rig's
+  bool video = false;                                   ///< keep a picture of every frame
+  double still_at_s = -1.0;                             ///< simulated time of the stills; negative: chosen
+  int road_cuts = 0;                                    ///< how often each triangle of the ground is cut in four
+  std::int64_t audit_every = 300;                       ///< frames; 0: never
+  std::optional<double> audit_bound;                    ///< a share of the light, in place of what the level states
   std::vector<GovernorLevel> levels;     ///< what was picked, and what the governor may step along; empty: nothing
   std::size_t begin_level = 0;           ///< of these, the one picked
   double budget_ms = 0.0;                ///< > 0: the governor keeps it, in real time

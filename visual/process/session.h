@@ -20,6 +20,7 @@
 #include "visual/process/law.h"
 #include "visual/process/options.h"
 #include "visual/process/switch_to_photon.h"
+#include "visual/process/traffic.h"
 #include "visual/process/window.h"
 #include "visual/scene/scene.h"
 
@@ -79,9 +80,10 @@ struct Session {
   EyeAdaptation eye;
   Governor governor;             ///< in real time, where a budget is given
   nlohmann::json governor_left;  ///< its report, where it has left the lead to the user
-  LampReplay lamps_then;         ///< of the drive that is shown
-  std::vector<LanePoint> lane;   ///< of the scene; empty where it has none
-  nlohmann::json lamps_json;     ///< tables with hashes, peak and flux: does not change
+  Traffic traffic;
+  LampReplay lamps_then;        ///< of the drive that is shown
+  std::vector<LanePoint> lane;  ///< of the scene; empty where it has none
+  nlohmann::json lamps_json;    ///< tables with hashes, peak and flux: does not change
 
   const ChannelConfig& channel() const { return rig.channels[options.channel]; }
 };

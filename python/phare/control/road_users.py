@@ -11,7 +11,7 @@
     to_s = 1e9
     width_m, height_m, length_m   # default: by its class, chosen by eye
 
-They are known to the control law's sensors alone: no picture shows them yet, and they hide nothing.
+The picture shows the same file's road users where a drive is given it (docs/traffic.md); they hide nothing.
 """
 
 from __future__ import annotations

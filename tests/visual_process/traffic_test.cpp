@@ -1,0 +1,116 @@
+// Other road users in the picture: where they are, their lamps, and what these throw into the driver's eye.
+#include "visual/process/traffic.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "config/base/paths.h"
+#include "visual/photometry/readers/read_lamp.h"
+
+namespace phare {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TrafficTest : public testing::Test {
+ protected:
+  fs::path file(const std::string& text) {
+    const fs::path path = fs::path(testing::TempDir()) / "traffic_test.toml";
+    std::ofstream(path) << text;
+    return path;
+  }
+  Traffic traffic(const std::string& text) {
+    auto read = Traffic::read(file(text));
+    EXPECT_TRUE(read) << read.error().text();
+    return read ? std::move(*read) : Traffic{};
+  }
+  /// Straight along x on the plane z = 0, 1 km.
+  static RoadLine straight() { return RoadLine({{0, 0, 0, 0, 0, 0}, {1000, 1000, 0, 0, 0, 0}}, {}); }
+};
+
+TEST_F(TrafficTest, IsWhereTheFileSaysAndNowhereElse) {
+  const Traffic cars = traffic(R"([[road_user]]
+class = "car"
+direction = "oncoming"
+start_s_m = 480
+speed_kmh = 72
+offset_m = 3.5
+from_s = 2
+to_s = 20
+[[road_user]]
+class = "lorry"
+direction = "same"
+start_s_m = 990
+speed_kmh = 36
+)");
+  const RoadLine road = straight();
+  EXPECT_TRUE(cars.at(1.99, road).empty()) << "the car is not there yet, the lorry past the end";
+  const auto lorry = cars.at(0.5, road);
+  ASSERT_EQ(lorry.size(), 1u);
+  EXPECT_NEAR(lorry[0].position_m.x, 995.0, 1e-9);
+  const auto then = cars.at(10.0, road);
+  ASSERT_EQ(then.size(), 1u) << "the lorry is past the lane's end";
+  EXPECT_NEAR(glm::distance(then[0].position_m, glm::dvec3(280.0, 3.5, 0.0)), 0.0, 1e-9);
+  EXPECT_NEAR(glm::distance(then[0].world_from_user[0], glm::dvec3(-1.0, 0.0, 0.0)), 0.0, 1e-9) << "toward us";
+  EXPECT_NEAR(glm::distance(then[0].world_from_user[1], glm::dvec3(0.0, -1.0, 0.0)), 0.0, 1e-9);
+  EXPECT_TRUE(cars.at(20.0, road).empty());
+  EXPECT_TRUE(cars.at(10.0, RoadLine()).empty()) << "a scene without a lane has no traffic";
+}
+
+// Two low beams look along its way; each throws into an eye what its table has in that direction over the distance
+// squared, and a car that leads shows its tail lamps alone.
+TEST_F(TrafficTest, ItsLampsGlareAsTheirTablesHaveIt) {
+  const Traffic cars = traffic("[[road_user]]\nstart_s_m = 50\noffset_m = 3.5\n");
+  const auto users = cars.at(0.0, straight());
+  const auto lamps = Traffic::placed_lamps(users);
+  ASSERT_EQ(lamps.size(), 2u);
+  const glm::dvec3 eye_m(0.0, 0.3, 1.2);
+  const auto glare = cars.glare_at(users, eye_m, {}, std::nullopt);
+  ASSERT_EQ(glare.size(), 2u) << "tail lamps shine the other way";
+  const auto table = read_lamp(generated_dir() / "lamps/low_rht.ies", {});
+  ASSERT_TRUE(table);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(glare[i].place_m, lamps[i].position_m);
+    const glm::dvec3 way_m = eye_m - lamps[i].position_m;
+    const double cd = table->intensity_cd(glm::transpose(lamps[i].world_from_image) * way_m);
+    EXPECT_GT(cd, 0.0);
+    EXPECT_NEAR(glare[i].eye_lx, cd / glm::dot(way_m, way_m), 1e-12);
+  }
+  const auto in_fog = cars.glare_at(users, eye_m, {}, 50.0);
+  EXPECT_NEAR(in_fog[0].eye_lx / glare[0].eye_lx, std::pow(0.05, glm::distance(eye_m, glare[0].place_m) / 50.0), 1e-6);
+
+  const Traffic leading = traffic("[[road_user]]\nstart_s_m = 30\ndirection = \"same\"\n");
+  const auto ahead = leading.at(0.0, straight());
+  const auto tail = leading.glare_at(ahead, eye_m, {}, std::nullopt);
+  ASSERT_EQ(tail.size(), 2u);
+  const glm::dvec3 way_m = eye_m - tail[0].place_m;
+  EXPECT_NEAR(tail[0].eye_lx, kTailLamp_cd * std::abs(way_m.x) / std::pow(glm::length(way_m), 3), 1e-12);
+  EXPECT_GT(tail[0].colour.x, 10.0f * tail[0].colour.y) << "red";
+
+  const Traffic dark =
+      traffic("[[road_user]]\nstart_s_m = 50\nlights = false\n[[road_user]]\nclass = \"pedestrian\"\n");
+  EXPECT_TRUE(Traffic::placed_lamps(dark.at(0.0, straight())).empty());
+  EXPECT_TRUE(dark.glare_at(dark.at(0.0, straight()), eye_m, {}, std::nullopt).empty());
+}
+
+TEST_F(TrafficTest, WhatIsWrongInTheFileIsNamed) {
+  const auto reason = [&](const std::string& text) {
+    const auto read = Traffic::read(file(text));
+    return read ? std::string() : read.error().text();
+  };
+  EXPECT_NE(reason("[[road_user]]\nclass = \"tank\"\n").find("traffic_test.toml:2"), std::string::npos);
+  EXPECT_NE(reason("[[road_user]]\nspeed_kmh = -3\n").find("speed_kmh"), std::string::npos);
+  EXPECT_NE(reason("[[road_user]]\nspead_kmh = 3\n").find("spead_kmh"), std::string::npos);
+  EXPECT_NE(reason("\n").find("at least one [[road_user]]"), std::string::npos);
+  EXPECT_FALSE(Traffic::read("no_such_file.toml"));
+  const auto none = Traffic::read({});
+  ASSERT_TRUE(none);
+  EXPECT_TRUE(none->empty());
+  EXPECT_TRUE(none->meshes().chunks.empty()) << "without traffic nothing is read";
+}
+
+}  // namespace
+}  // namespace phare

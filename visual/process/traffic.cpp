@@ -1,0 +1,150 @@
+#include "visual/process/traffic.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "config/base/paths.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/table/fog.h"
+#include "visual/scene/ray_hit.h"
+
+namespace phare {
+namespace {
+
+constexpr const char* kMeshes = "scenes/road_users.glb";
+constexpr const char* kHeadlamp = "lamps/low_rht.ies";
+constexpr double kHalogen_k = 3200.0;
+constexpr double kDown_rad = 0.01;  // UN R48 6.2.6.1.2: -1 % for lamps below 0.8 m
+
+const glm::vec3 kTailColour = glm::vec3(1.0f, 0.02f, 0.01f) / (0.2126f + 0.7152f * 0.02f + 0.0722f * 0.01f);
+
+/// Of a kind of road user, in its frame, m. The mesh says where (tools/scene/road_users.cpp, things.cpp).
+struct LampPlaces {
+  std::string_view node;
+  double front_m = 0.0, back_m = 0.0;  ///< before and behind its middle
+  double front_up_m = 0.0, back_up_m = 0.0;
+  std::array<double, 2> aside_m{};  ///< of two of them; one lamp: only the first counts
+  int headlamps = 0, tail_lamps = 0;
+};
+/// No mesh of a motorcycle is made: a cycle's stands for it.
+constexpr std::array<LampPlaces, kRoadUserNames.size()> kPlaces{
+    {{"car", 2.18, -2.2, 0.61, 0.8, {-0.6, 0.6}, 2, 2},
+     {"lorry", 5.03, -5.03, 0.62, 0.82, {-0.95, 0.95}, 2, 2},
+     {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 1, 1},
+     {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 0, 1},
+     {"pedestrian"}}};
+
+const LampPlaces& places_of(RoadUserKind kind) {
+  return kPlaces[static_cast<std::size_t>(kind)];
+}
+
+glm::dvec3 front_lamp_m(const Traffic::There& user, int lamp) {
+  const LampPlaces& places = places_of(user.kind);
+  return user.position_m + user.world_from_user * glm::dvec3(places.front_m,
+                                                             places.aside_m[static_cast<std::size_t>(lamp)],
+                                                             places.front_up_m);
+}
+glm::dvec3 tail_lamp_m(const Traffic::There& user, int lamp) {
+  const LampPlaces& places = places_of(user.kind);
+  return user.position_m + user.world_from_user * glm::dvec3(places.back_m,
+                                                             places.aside_m[static_cast<std::size_t>(lamp)],
+                                                             places.back_up_m);
+}
+
+glm::dmat3 headlamp_turn(const Traffic::There& user) {
+  return user.world_from_user * aim_rotation(0.0, -kDown_rad, 0.0);
+}
+
+}  // namespace
+
+Result<Traffic> Traffic::read(const std::filesystem::path& file) {
+  Traffic traffic;
+  if (file.empty()) return traffic;
+  auto users = read_traffic(file);
+  if (!users) return users.error();
+  auto meshes = read_scene(generated_dir() / kMeshes);
+  if (!meshes) return meshes.error();
+  auto lamp = read_lamp(generated_dir() / kHeadlamp, {});
+  if (!lamp) return lamp.error();
+  traffic.users_ = std::move(*users);
+  traffic.meshes_ = std::move(*meshes);
+  traffic.headlamp_ = std::move(*lamp);
+  // In the order of the scene's nodes, as the renderer counts them.
+  std::vector<std::string> nodes;
+  for (const SceneChunk& chunk : traffic.meshes_.chunks)
+    if (std::ranges::find(nodes, chunk.node) == nodes.end()) nodes.push_back(chunk.node);
+  for (const LampPlaces& places : kPlaces) {
+    const auto node = std::ranges::find(nodes, places.node);
+    if (node == nodes.end())
+      return Error{(generated_dir() / kMeshes).string(), "has no node \"" + std::string(places.node) + "\""};
+    traffic.mesh_of_kind_.push_back(static_cast<std::size_t>(node - nodes.begin()));
+  }
+  return traffic;
+}
+
+BeamImage Traffic::beam() const {
+  const AimedSource source{.table = &headlamp_, .colour_temperature_k = kHalogen_k};
+  return compose_beam_image(std::span(&source, 1));
+}
+
+std::vector<Traffic::There> Traffic::at(double time_s, const RoadLine& road) const {
+  std::vector<There> there;
+  for (const RoadUser& user : users_) {
+    const double s_m = user.s_m(time_s);
+    if (!user.is_there(time_s) || !road.has_lane_at(s_m)) continue;
+    const MeasurePoint on_road = road.at({s_m, user.offset_m});
+    glm::dvec3 forward =
+        road.at({s_m + 0.5, user.offset_m}).position_m - road.at({s_m - 0.5, user.offset_m}).position_m;
+    if (user.faces_back()) forward = -forward;
+    const glm::dvec3 left = glm::normalize(glm::cross(on_road.normal, forward));
+    forward = glm::normalize(glm::cross(left, on_road.normal));
+    there.push_back({user.kind, on_road.position_m, {forward, left, on_road.normal}, user.lights});
+  }
+  return there;
+}
+
+std::vector<PlacedMesh> Traffic::placed_meshes(std::span<const There> users) const {
+  std::vector<PlacedMesh> meshes;
+  for (const There& user : users)
+    meshes.push_back({mesh_of_kind_[static_cast<std::size_t>(user.kind)], user.position_m, user.world_from_user});
+  return meshes;
+}
+
+std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users) {
+  std::vector<PlacedLamp> lamps;
+  for (const There& user : users)
+    for (int lamp = 0; user.lights && lamp < places_of(user.kind).headlamps; ++lamp)
+      lamps.push_back({front_lamp_m(user, lamp), headlamp_turn(user), kBeam});
+  return lamps;
+}
+
+std::vector<GlareSource> Traffic::glare_at(std::span<const There> users, const glm::dvec3& eye_m, const Scene& scene,
+                                           std::optional<double> visibility_m) const {
+  std::vector<GlareSource> sources;
+  const auto add = [&](const glm::dvec3& lamp_m, double cd, const glm::vec3& colour) {
+    const double distance_m = glm::distance(lamp_m, eye_m);
+    if (!(cd > 0.0) || !(distance_m > 0.0) || occluder(scene, lamp_m, eye_m)) return;
+    const double through_air = visibility_m ? transmittance(extinction_per_m(*visibility_m), distance_m) : 1.0;
+    sources.push_back({lamp_m, cd / (distance_m * distance_m) * through_air, colour});
+  };
+  const glm::vec3 headlamp_colour = light_colour({.table = &headlamp_, .colour_temperature_k = kHalogen_k});
+  for (const There& user : users) {
+    if (!user.lights) continue;
+    const LampPlaces& places = places_of(user.kind);
+    for (int lamp = 0; lamp < places.headlamps; ++lamp) {
+      const glm::dvec3 lamp_m = front_lamp_m(user, lamp);
+      add(lamp_m, headlamp_.intensity_cd(glm::transpose(headlamp_turn(user)) * (eye_m - lamp_m)), headlamp_colour);
+    }
+    for (int lamp = 0; lamp < places.tail_lamps; ++lamp) {
+      const glm::dvec3 lamp_m = tail_lamp_m(user, lamp);
+      const double behind = -glm::dot(glm::normalize(eye_m - lamp_m), user.world_from_user[0]);
+      add(lamp_m, kTailLamp_cd * std::max(behind, 0.0), kTailColour);
+    }
+  }
+  return sources;
+}
+
+}  // namespace phare

@@ -1,0 +1,60 @@
+// Other road users in the picture: their bodies, their lamps and what these throw into the driver's eye. Where they are
+// is a function of simulated time (config/traffic.h) on the road that is drawn.
+//
+// A car's, lorry's or motorcycle's headlamps are two (of a motorcycle one) low beams with the table that the scene's
+// own sample car has, aimed 1 % down; tail lamps are points of kTailLamp_cd that light nothing. What they do not do:
+// cast shadows, hide lamps from each other, hide what a click or a probe reads. Checked by
+// tests/visual_process/traffic_test.cpp.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "config/traffic.h"
+#include "visual/photometry/table/intensity_table.h"
+#include "visual/process/road_line.h"
+#include "visual/renderer.h"
+#include "visual/scene/scene.h"
+
+namespace phare {
+
+/// Rear position lamps: 4 to 17 cd along the axis (UN R148, R1); chosen in the middle.
+inline constexpr double kTailLamp_cd = 8.0;
+
+class Traffic {
+ public:
+  /// Where the beam of all their headlamps lies among the renderer's: behind those of two designs.
+  static constexpr std::size_t kBeam = 2 * kMostLampsOfDesign;
+
+  Traffic() = default;
+  /// Reads road users, their meshes and their lamp. Empty file name: no traffic, and nothing is read.
+  static Result<Traffic> read(const std::filesystem::path& file);
+
+  bool empty() const { return users_.empty(); }
+  const Scene& meshes() const { return meshes_; }  ///< for Renderer::load_scene
+  BeamImage beam() const;                          ///< for Renderer::set_beam(kBeam)
+
+  /// One of them where it is now.
+  struct There {
+    RoadUserKind kind = RoadUserKind::kCar;
+    glm::dvec3 position_m{0.0};       ///< of its middle, on the road
+    glm::dmat3 world_from_user{1.0};  ///< columns: forward, left, up of the road there
+    bool lights = true;
+  };
+  std::vector<There> at(double time_s, const RoadLine& road) const;
+
+  std::vector<PlacedMesh> placed_meshes(std::span<const There> users) const;
+  static std::vector<PlacedLamp> placed_lamps(std::span<const There> users);
+  /// Lamps that shine into an eye, the scene and the air between them.
+  std::vector<GlareSource> glare_at(std::span<const There> users, const glm::dvec3& eye_m, const Scene& scene,
+                                    std::optional<double> visibility_m) const;
+
+ private:
+  std::vector<RoadUser> users_;
+  Scene meshes_;
+  std::vector<std::size_t> mesh_of_kind_;
+  IntensityTable headlamp_;
+};
+
+}  // namespace phare
