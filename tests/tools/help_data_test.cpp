@@ -203,6 +203,7 @@ TEST(PictureOptions, AreTurnedBackIntoTheArgumentsTheyWere) {
                                        "--still-at",
                                        "2.5",
                                        "--traffic",
+                                       "/dev/null",
                                        "--video",
                                        "--beam-image",
                                        "half-float-native-nodes",

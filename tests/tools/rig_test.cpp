@@ -98,7 +98,7 @@ TEST(Rig, SetsTheDesk) {
   EXPECT_EQ(wrong("design = 1"), "phare_rig_test.toml:18: \"desk.design\": 1: the rig has 1, counted from 0");
   EXPECT_EQ(wrong("[weather]\nvisibility_m = 0.2"),
             "phare_rig_test.toml:19: \"weather.visibility_m\": 0.2 is outside 1 to 1e+05; or clear");
-  EXPECT_NE(wrong("visibility_m = 3").find("no key \"visibility_m\"; there is camera"), std::string::npos)
+  EXPECT_NE(wrong("visibility_m = 3").find("no key \"visibility_m\"; there is age_years, camera"), std::string::npos)
       << wrong("visibility_m = 3");
   EXPECT_NE(wrong("isolux = 3").find("did you mean \"isolux_lx\"?"), std::string::npos) << wrong("isolux = 3");
 }
