@@ -110,7 +110,7 @@ struct Rig {
   std::int64_t frame_rate_hz = 60;     ///< of lockstep frames
   bool real_time_priority = true;      ///< in real time, of cockpit and dynamics, where the kernel allows it
   std::filesystem::path scene_file;    ///< glTF; resolved
-  std::filesystem::path traffic_file;  ///< other road users (config/traffic.h), resolved; empty: none
+  std::filesystem::path traffic_file;  ///< other road users (config/traffic/), resolved; empty: none
   std::filesystem::path vehicle_file;  ///< resolved
   std::filesystem::path cockpit_file;  ///< resolved
   std::string dynamics_level = "kinematic";

@@ -81,7 +81,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   // What that calls for, and the images it takes.
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
-  const std::vector<GlareSource> glare = glare_of(view.input, lit.geometry);
+  const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
   const EffectPlan effects = plan_effects(facts_of(view.input, lit.lamps, casters, lines, glare, parts.device_facts),
                                           view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);

@@ -3,9 +3,9 @@
 namespace phare {
 
 EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional<std::size_t> casters,
-                     std::size_t lines, std::span<const GlareSource> glare, const DeviceFacts& device) {
+                     std::size_t lines, std::span<const GlaringLamp> glare, const DeviceFacts& device) {
   double glare_lx = 0.0;
-  for (const GlareSource& source : glare) glare_lx += source.eye_lx;
+  for (const GlaringLamp& source : glare) glare_lx += source.eye_lx;
   return {.lit_lamps = lit_lamps,
           .casters = casters,
           .shadow_maps = device.shadow_maps,
@@ -20,7 +20,7 @@ EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional
           .glare_lx = glare_lx};
 }
 
-std::vector<GlareSource> glare_of(const ViewInput& view, const ViewGeometry& geometry) {
+std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geometry) {
   return glare_seen(geometry, view.glare, view.viewer, view.exposure_per_cdm2);
 }
 

@@ -16,10 +16,10 @@ struct DeviceFacts {
 /// `lit_lamps`: that light something in the view; `casters`: pieces of the scene that stand in their light, where they
 /// were looked for; `lines`: of text that will lie over it; `glare`: glare_of() it.
 EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional<std::size_t> casters,
-                     std::size_t lines, std::span<const GlareSource> glare, const DeviceFacts& device);
+                     std::size_t lines, std::span<const GlaringLamp> glare, const DeviceFacts& device);
 
 /// Lamps whose light the eye of the view scatters over its picture (glare_seen).
-std::vector<GlareSource> glare_of(const ViewInput& view, const ViewGeometry& geometry);
+std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geometry);
 
 /// The user has not switched shadows off.
 bool looks_for_casters(const ViewInput& view);

@@ -26,17 +26,17 @@ double least_angle_deg(const ViewGeometry& view, const glm::dvec3& place_m) {
   return std::max(angle_deg(middle, way_m) - half_deg, 0.0);
 }
 
-std::vector<GlareSource> glare_seen(const ViewGeometry& view, std::span<const GlareSource> sources,
+std::vector<GlaringLamp> glare_seen(const ViewGeometry& view, std::span<const GlaringLamp> sources,
                                     const Viewer& viewer, double display_per_cdm2) {
-  std::vector<GlareSource> seen;
+  std::vector<GlaringLamp> seen;
   if (view.camera().orthographic_width_m > 0.0) return seen;  // from everywhere at once, by no eye
-  for (const GlareSource& source : sources) {
+  for (const GlaringLamp& source : sources) {
     if (!(source.eye_lx > 0.0)) continue;
     const double most_cdm2 = source.eye_lx * veil_general_per_sr(viewer, least_angle_deg(view, source.place_m));
     if (most_cdm2 * display_per_cdm2 >= kHalfStep) seen.push_back(source);
   }
-  std::ranges::sort(seen, std::greater{}, &GlareSource::eye_lx);
-  if (seen.size() > kMostGlareSources) seen.resize(kMostGlareSources);
+  std::ranges::sort(seen, std::greater{}, &GlaringLamp::eye_lx);
+  if (seen.size() > kMostGlaringLamps) seen.resize(kMostGlaringLamps);
   return seen;
 }
 

@@ -11,21 +11,21 @@
 namespace phare {
 
 /// A lamp as the eye has it; what stands between them has been looked for.
-struct GlareSource {
+struct GlaringLamp {
   glm::dvec3 place_m{0.0};  ///< of the lamp in the world
   double eye_lx = 0.0;      ///< at the eye, on a plane that faces the lamp
   glm::vec3 colour{1.0f};   ///< linear sRGB, luminance 1
 };
 
 /// More are left out, the weakest first.
-inline constexpr std::size_t kMostGlareSources = 12;
+inline constexpr std::size_t kMostGlaringLamps = 12;
 
 /// Least angle between a source and what a view sees, degrees: 0 where it is in view. Never more than it is.
 double least_angle_deg(const ViewGeometry& view, const glm::dvec3& place_m);
 
 /// Those whose veil changes the view's picture somewhere by half a step of the display's 8 bits or more, strongest
 /// first. `display_per_cdm2`: exposure; near black it is what the display shows.
-std::vector<GlareSource> glare_seen(const ViewGeometry& view, std::span<const GlareSource> sources,
+std::vector<GlaringLamp> glare_seen(const ViewGeometry& view, std::span<const GlaringLamp> sources,
                                     const Viewer& viewer, double display_per_cdm2);
 
 }  // namespace phare

@@ -88,7 +88,7 @@ struct ViewInput {
   View view = View::kPhoto;
   Method method = Method::kFragment;
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< at most kMostIsoluxLevels
-  std::vector<GlareSource> glare{};                                                 ///< lamps that shine into this eye
+  std::vector<GlaringLamp> glare{};                                                 ///< lamps that shine into this eye
   Viewer viewer{};                                                                  ///< whose eye it is
   bool want_hdr = false;    ///< the view's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;  ///< read what is seen back

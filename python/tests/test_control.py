@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import phare
@@ -64,13 +65,29 @@ def test_a_file_of_road_users_is_read(tmp_path):
 
 @pytest.mark.parametrize("line, why", [
     ("speeed_kmh = 3", "unknown key speeed_kmh"), ('class = "tram"', "class tram"), ("start_s_m = '3'", "expected a float"),
-    ("speed_kmh = -3", "negative"), ("width_m = 0", "above 0"), ('direction = "up"', "direction up"), ("start_s_m = nan", "nan"),
+    ("speed_kmh = -3", "expected 0 to 1000: direction"), ("width_m = 0", "expected 0.01 to 100"), ("to_s = inf", "expected -1e"),
+    ('direction = "up"', "direction up"), ("start_s_m = nan", "nan"),
 ])
 def test_what_is_wrong_with_road_users_is_said(tmp_path, line, why):
     file = tmp_path / "users.toml"
     file.write_text(f"[[road_user]]\n{line}\n")
     with pytest.raises(phare.BadInput, match=f"users.toml: road_user 1: .*{why}"):
         phare.read_road_users(file)
+
+
+def test_road_users_are_where_the_drives_own_reader_has_them():
+    """tests/traffic/poses.csv, which tests/traffic/road_users_test.cpp is held to as well."""
+    folder = Path(__file__).parents[2] / "tests/traffic"
+    lane, users = Lane(folder / "bend_lane.csv"), phare.read_road_users(folder / "users.toml")
+    table = pd.read_csv(folder / "poses.csv")
+    assert set(table.user) == set(range(1, len(users) + 1)) and set(table.there) == {0, 1}
+    for row in table.itertuples():
+        user = users[row.user - 1]
+        found = lane.at(user.s_m(row.time_s), user.offset_m) if user.from_s <= row.time_s <= user.to_s else None
+        assert (found is not None) == bool(row.there)
+        if found is not None:
+            assert found[0] == pytest.approx([row.x_m, row.y_m, row.z_m], rel=0, abs=1e-10)
+            assert found[1] == pytest.approx(row.lane_heading_rad, rel=0, abs=1e-13)
 
 
 # ---- sensors

@@ -47,7 +47,7 @@ TEST(Glare, NoLampIsNearerToTheViewThanItIs) {
 TEST(Glare, WhatTheDisplayCannotShowIsLeftOut) {
   const ViewGeometry view({}, 16.0 / 9.0);
   const Viewer viewer;
-  const std::vector<GlareSource> in_view{{{50, 0, 0}, 1e-3}}, behind{{{-50, 0, 0}, 1e-3}}, none{{{50, 0, 0}, 0.0}};
+  const std::vector<GlaringLamp> in_view{{{50, 0, 0}, 1e-3}}, behind{{{-50, 0, 0}, 1e-3}}, none{{{50, 0, 0}, 0.0}};
   EXPECT_EQ(glare_seen(view, in_view, viewer, 0.3).size(), 1u);
   EXPECT_EQ(glare_seen(view, behind, viewer, 0.3).size(), 0u);
   EXPECT_EQ(glare_seen(view, none, viewer, 0.3).size(), 0u);
@@ -55,16 +55,16 @@ TEST(Glare, WhatTheDisplayCannotShowIsLeftOut) {
   // The bound is where the veil of the nearest point of the view is half a step of 8 bits.
   const double beside_deg = least_angle_deg(view, aside({}, 60.0));
   const double edge_lx = 0.5 / 255.0 / 12.92 / 0.3 / veil_general_per_sr(viewer, beside_deg);
-  const std::vector<GlareSource> more{{aside({}, 60.0), 1.01 * edge_lx}}, less{{aside({}, 60.0), 0.99 * edge_lx}};
+  const std::vector<GlaringLamp> more{{aside({}, 60.0), 1.01 * edge_lx}}, less{{aside({}, 60.0), 0.99 * edge_lx}};
   EXPECT_EQ(glare_seen(view, more, viewer, 0.3).size(), 1u);
   EXPECT_EQ(glare_seen(view, less, viewer, 0.3).size(), 0u);
 }
 
 TEST(Glare, OfTooManyTheWeakestAreLeftOutAndParallelRaysHaveNoEye) {
-  std::vector<GlareSource> many;
+  std::vector<GlaringLamp> many;
   for (int i = 0; i < 20; ++i) many.push_back({{50.0, 0.1 * i, 0.0}, 0.1 + 0.01 * i});
-  const std::vector<GlareSource> seen = glare_seen(ViewGeometry({}, 1.0), many, {}, 0.3);
-  ASSERT_EQ(seen.size(), kMostGlareSources);
+  const std::vector<GlaringLamp> seen = glare_seen(ViewGeometry({}, 1.0), many, {}, 0.3);
+  ASSERT_EQ(seen.size(), kMostGlaringLamps);
   EXPECT_DOUBLE_EQ(seen.front().eye_lx, 0.29);
   EXPECT_DOUBLE_EQ(seen.back().eye_lx, 0.18);
   EXPECT_TRUE(glare_seen(ViewGeometry({.orthographic_width_m = 80.0}, 1.0), many, {}, 0.3).empty());
@@ -113,7 +113,7 @@ TEST_F(GlareOnDevice, PixelsAreTheEquation) {
       for (int x = 0; x < image.width_px; ++x) {
         const glm::dvec3 way = view.ray_through(x, y, image.width_px, image.height_px).direction;
         glm::dvec3 veil_cdm2(0.0);
-        for (const GlareSource& source : input.glare)
+        for (const GlaringLamp& source : input.glare)
           veil_cdm2 += glm::dvec3(source.colour) * source.eye_lx *
                        veil_general_per_sr(viewer, angle_deg(way, source.place_m - input.camera.eye_m));
         const glm::vec3 shown = shader::srgb_encoded(shader::tone_curve(glm::vec3(veil_cdm2 * 0.3)));

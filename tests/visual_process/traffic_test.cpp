@@ -23,12 +23,13 @@ class TrafficTest : public testing::Test {
     return path;
   }
   Traffic traffic(const std::string& text) {
-    auto read = Traffic::read(file(text));
+    auto read = Traffic::read(file(text), straight_lane());
     EXPECT_TRUE(read) << read.error().text();
     return read ? std::move(*read) : Traffic{};
   }
   /// Straight along x on the plane z = 0, 1 km.
-  static RoadLine straight() { return RoadLine({{0, 0, 0, 0, 0, 0}, {1000, 1000, 0, 0, 0, 0}}, {}); }
+  static std::vector<LanePoint> straight_lane() { return {{0, 0, 0, 0, 0, 0}, {1000, 1000, 0, 0, 0, 0}}; }
+  static RoadLine straight() { return RoadLine(straight_lane(), {}); }
 };
 
 TEST_F(TrafficTest, IsWhereTheFileSaysAndNowhereElse) {
@@ -56,8 +57,7 @@ speed_kmh = 36
   EXPECT_NEAR(glm::distance(then[0].position_m, glm::dvec3(280.0, 3.5, 0.0)), 0.0, 1e-9);
   EXPECT_NEAR(glm::distance(then[0].world_from_user[0], glm::dvec3(-1.0, 0.0, 0.0)), 0.0, 1e-9) << "toward us";
   EXPECT_NEAR(glm::distance(then[0].world_from_user[1], glm::dvec3(0.0, -1.0, 0.0)), 0.0, 1e-9);
-  EXPECT_TRUE(cars.at(20.0, road).empty());
-  EXPECT_TRUE(cars.at(10.0, RoadLine()).empty()) << "a scene without a lane has no traffic";
+  EXPECT_TRUE(cars.at(20.1, road).empty());
 }
 
 // Two low beams look along its way; each throws into an eye what its table has in that direction over the distance
@@ -98,15 +98,16 @@ TEST_F(TrafficTest, ItsLampsGlareAsTheirTablesHaveIt) {
 
 TEST_F(TrafficTest, WhatIsWrongInTheFileIsNamed) {
   const auto reason = [&](const std::string& text) {
-    const auto read = Traffic::read(file(text));
+    const auto read = Traffic::read(file(text), straight_lane());
     return read ? std::string() : read.error().text();
   };
   EXPECT_NE(reason("[[road_user]]\nclass = \"tank\"\n").find("traffic_test.toml:2"), std::string::npos);
   EXPECT_NE(reason("[[road_user]]\nspeed_kmh = -3\n").find("speed_kmh"), std::string::npos);
   EXPECT_NE(reason("[[road_user]]\nspead_kmh = 3\n").find("spead_kmh"), std::string::npos);
-  EXPECT_NE(reason("\n").find("at least one [[road_user]]"), std::string::npos);
-  EXPECT_FALSE(Traffic::read("no_such_file.toml"));
-  const auto none = Traffic::read({});
+  EXPECT_NE(reason("\n").find("expected [[road_user]]"), std::string::npos);
+  EXPECT_FALSE(Traffic::read(file("[[road_user]]\n"), {})) << "there is no lane to drive along";
+  EXPECT_FALSE(Traffic::read("no_such_file.toml", straight_lane()));
+  const auto none = Traffic::read({}, {});
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->empty());
   EXPECT_TRUE(none->meshes().chunks.empty()) << "without traffic nothing is read";

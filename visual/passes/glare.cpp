@@ -13,8 +13,8 @@
 
 namespace phare {
 
-static_assert(sizeof(shader::GpuGlare) == 80 + 32 * kMostGlareSources);
-static_assert(shader::kMostGlareLamps == kMostGlareSources);
+static_assert(sizeof(shader::GpuGlare) == 80 + 32 * kMostGlaringLamps);
+static_assert(shader::kMostGlareLamps == kMostGlaringLamps);
 
 namespace {
 
@@ -33,7 +33,7 @@ glm::vec4 wide(const glm::dvec3& v) {
 }
 
 shader::GpuGlare data_of(const glm::vec3& exposure_per_cdm2, const ViewGeometry& view,
-                         std::span<const GlareSource> sources, const Viewer& viewer) {
+                         std::span<const GlaringLamp> sources, const Viewer& viewer) {
   shader::GpuGlare data{};
   data.exposure = glm::vec4(exposure_per_cdm2, 0.0f);
   data.terms = wide(veil_terms(viewer));
@@ -77,7 +77,7 @@ vk::Pipeline GlarePass::pipeline(vk::Format format, std::uint32_t lamps) {
 
 void GlarePass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, const vk::Rect2D& area,
                      bool first, const glm::vec3& exposure_per_cdm2, const ViewGeometry& view,
-                     std::span<const GlareSource> sources, const Viewer& viewer) {
+                     std::span<const GlaringLamp> sources, const Viewer& viewer) {
   if (!*layout_) make();
   const auto lamps_summed =
       std::clamp(std::bit_ceil(static_cast<std::uint32_t>(sources.size())), 2u, shader::kMostGlareLamps);

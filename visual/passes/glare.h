@@ -20,9 +20,9 @@ class GlarePass {
 
   /// Before the views of a frame; the frame before is done.
   void begin_frame();
-  /// One part of the picture, as ToneMappingPass::draw. `sources`: kMostGlareSources at most.
+  /// One part of the picture, as ToneMappingPass::draw. `sources`: kMostGlaringLamps at most.
   void draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, const vk::Rect2D& area, bool first,
-            const glm::vec3& exposure_per_cdm2, const ViewGeometry& view, std::span<const GlareSource> sources,
+            const glm::vec3& exposure_per_cdm2, const ViewGeometry& view, std::span<const GlaringLamp> sources,
             const Viewer& viewer);
 
  private:

@@ -219,9 +219,9 @@ Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at,
   return light;
 }
 
-std::vector<GlareSource> Lamps::glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const Scene& scene,
+std::vector<GlaringLamp> Lamps::glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const Scene& scene,
                                          std::optional<double> visibility_m) const {
-  std::vector<GlareSource> sources;
+  std::vector<GlaringLamp> sources;
   for (const PointLight& light : lights_at(pose, {.position_m = eye_m})) {
     const double distance_m = glm::distance(light.lamp_m, eye_m);
     if (light.candela <= 0.0 || distance_m <= 0.0 || occluder(scene, light.lamp_m, eye_m)) continue;

@@ -136,7 +136,7 @@ class Lamps {
   /// Every lamp of the design at a point of the world: float64 from the native tables.
   std::vector<PointLight> lights_at(const VehicleState& pose, const MeasurePoint& at) const;
   /// The lamps that shine into an eye, the scene and the air between them (nothing: clear).
-  std::vector<GlareSource> glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const Scene& scene,
+  std::vector<GlaringLamp> glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const Scene& scene,
                                     std::optional<double> visibility_m) const;
   /// The same in the car frame for one set of lit functions of one design: the wall.
   /// `tilt_rad`: of automatic levelling, positive up.

@@ -110,8 +110,7 @@ void Loop::audit(const Moment& moment) {
 std::vector<double> Loop::lux_by_lamp(std::span<const PlacedLamp> lamps, const MeasurePoint& at) {
   std::vector<double> lux(s_.lamps.design().lamps.size(), 0.0);
   const auto measured = s_.renderer.measure(lamps, std::span(&at, 1));
-  for (std::size_t i = 0; i < measured.size(); ++i)
-    lux[lamps[i].beam] = static_cast<double>(measured[i].front());
+  for (std::size_t i = 0; i < measured.size(); ++i) lux[lamps[i].beam] = static_cast<double>(measured[i].front());
   return lux;
 }
 

@@ -93,10 +93,8 @@ int draw_channel(VisualOptions options) {
   if (!lamps) return refuse(lamps.error());
   Result<Scene> scene = read_scene(rig->scene_file);
   if (!scene) return refuse(scene.error());
-  Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file));
+  Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file), lane_of(rig->scene_file));
   if (!traffic) return refuse(traffic.error());
-  if (!traffic->empty() && lane_of(rig->scene_file).empty())
-    return refuse({rig->scene_file.string(), "has no lane beside it, which traffic would drive along"});
   if (options.explain) return explain_and_leave(options, *scene, *lamps, desk, channel);
   LampReplay lamps_then;
   if (!options.drive_file.empty()) {

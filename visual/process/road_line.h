@@ -26,8 +26,6 @@ class RoadLine {
     double s_m = 0.0, lateral_m = 0.0;  ///< lateral: to the left
   };
   bool has_lane() const { return lane_.size() >= 2; }
-  /// The lane begins and ends there.
-  bool has_lane_at(double s_m) const { return has_lane() && s_m >= lane_.front().s_m && s_m <= lane_.back().s_m; }
   /// Nearest point of the lane, by its segments; nothing without one.
   std::optional<Place> place_of(const glm::dvec3& world_m) const;
   /// On the road there, with its normal; before the first and behind the last point straight on. Where nothing is

@@ -30,14 +30,13 @@ struct LampPlaces {
   int headlamps = 0, tail_lamps = 0;
 };
 /// No mesh of a motorcycle is made: a cycle's stands for it.
-constexpr std::array<LampPlaces, kRoadUserNames.size()> kPlaces{
-    {{"car", 2.18, -2.2, 0.61, 0.8, {-0.6, 0.6}, 2, 2},
-     {"lorry", 5.03, -5.03, 0.62, 0.82, {-0.95, 0.95}, 2, 2},
-     {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 1, 1},
-     {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 0, 1},
-     {"pedestrian"}}};
+constexpr std::array<LampPlaces, 5> kPlaces{{{"car", 2.18, -2.2, 0.61, 0.8, {-0.6, 0.6}, 2, 2},
+                                             {"lorry", 5.03, -5.03, 0.62, 0.82, {-0.95, 0.95}, 2, 2},
+                                             {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 1, 1},
+                                             {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 0, 1},
+                                             {"pedestrian"}}};
 
-const LampPlaces& places_of(RoadUserKind kind) {
+const LampPlaces& places_of(RoadUserClass kind) {
   return kPlaces[static_cast<std::size_t>(kind)];
 }
 
@@ -60,16 +59,18 @@ glm::dmat3 headlamp_turn(const Traffic::There& user) {
 
 }  // namespace
 
-Result<Traffic> Traffic::read(const std::filesystem::path& file) {
+Result<Traffic> Traffic::read(const std::filesystem::path& file, const std::vector<LanePoint>& lane) {
   Traffic traffic;
   if (file.empty()) return traffic;
-  auto users = read_traffic(file);
+  auto users = read_road_users(file);
   if (!users) return users.error();
+  if (lane.size() < 2) return Error{file.string(), "the scene has no lane beside it that road users would drive along"};
   auto meshes = read_scene(generated_dir() / kMeshes);
   if (!meshes) return meshes.error();
   auto lamp = read_lamp(generated_dir() / kHeadlamp, {});
   if (!lamp) return lamp.error();
   traffic.users_ = std::move(*users);
+  traffic.lane_.emplace(lane);
   traffic.meshes_ = std::move(*meshes);
   traffic.headlamp_ = std::move(*lamp);
   // In the order of the scene's nodes, as the renderer counts them.
@@ -93,14 +94,12 @@ BeamImage Traffic::beam() const {
 std::vector<Traffic::There> Traffic::at(double time_s, const RoadLine& road) const {
   std::vector<There> there;
   for (const RoadUser& user : users_) {
-    const double s_m = user.s_m(time_s);
-    if (!user.is_there(time_s) || !road.has_lane_at(s_m)) continue;
-    const MeasurePoint on_road = road.at({s_m, user.offset_m});
-    glm::dvec3 forward =
-        road.at({s_m + 0.5, user.offset_m}).position_m - road.at({s_m - 0.5, user.offset_m}).position_m;
-    if (user.faces_back()) forward = -forward;
-    const glm::dvec3 left = glm::normalize(glm::cross(on_road.normal, forward));
-    forward = glm::normalize(glm::cross(left, on_road.normal));
+    const std::optional<RoadUserPose> pose = pose_of(user, *lane_, time_s);
+    if (!pose) continue;
+    const MeasurePoint on_road = road.ground(pose->x_m, pose->y_m, pose->z_m);
+    const glm::dvec3 heading(std::cos(pose->heading_rad), std::sin(pose->heading_rad), 0.0);
+    const glm::dvec3 left = glm::normalize(glm::cross(on_road.normal, heading));
+    const glm::dvec3 forward = glm::cross(left, on_road.normal);
     there.push_back({user.kind, on_road.position_m, {forward, left, on_road.normal}, user.lights});
   }
   return there;
@@ -121,9 +120,9 @@ std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users) {
   return lamps;
 }
 
-std::vector<GlareSource> Traffic::glare_at(std::span<const There> users, const glm::dvec3& eye_m, const Scene& scene,
+std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const glm::dvec3& eye_m, const Scene& scene,
                                            std::optional<double> visibility_m) const {
-  std::vector<GlareSource> sources;
+  std::vector<GlaringLamp> sources;
   const auto add = [&](const glm::dvec3& lamp_m, double cd, const glm::vec3& colour) {
     const double distance_m = glm::distance(lamp_m, eye_m);
     if (!(cd > 0.0) || !(distance_m > 0.0) || occluder(scene, lamp_m, eye_m)) return;

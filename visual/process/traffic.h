@@ -1,5 +1,5 @@
 // Other road users in the picture: their bodies, their lamps and what these throw into the driver's eye. Where they are
-// is a function of simulated time (config/traffic.h) on the road that is drawn.
+// is a function of simulated time (config/traffic/road_users.h), on the road that is drawn.
 //
 // A car's, lorry's or motorcycle's headlamps are two (of a motorcycle one) low beams with the table that the scene's
 // own sample car has, aimed 1 % down; tail lamps are points of kTailLamp_cd that light nothing. What they do not do:
@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "config/traffic.h"
+#include "config/traffic/road_users.h"
 #include "visual/photometry/table/intensity_table.h"
 #include "visual/process/road_line.h"
 #include "visual/renderer.h"
@@ -28,8 +28,9 @@ class Traffic {
   static constexpr std::size_t kBeam = 2 * kMostLampsOfDesign;
 
   Traffic() = default;
-  /// Reads road users, their meshes and their lamp. Empty file name: no traffic, and nothing is read.
-  static Result<Traffic> read(const std::filesystem::path& file);
+  /// Reads road users, their meshes and their lamp. Empty file name: no traffic, and nothing is read. Error, too: no
+  /// lane.
+  static Result<Traffic> read(const std::filesystem::path& file, const std::vector<LanePoint>& lane);
 
   bool empty() const { return users_.empty(); }
   const Scene& meshes() const { return meshes_; }  ///< for Renderer::load_scene
@@ -37,7 +38,7 @@ class Traffic {
 
   /// One of them where it is now.
   struct There {
-    RoadUserKind kind = RoadUserKind::kCar;
+    RoadUserClass kind = RoadUserClass::car;
     glm::dvec3 position_m{0.0};       ///< of its middle, on the road
     glm::dmat3 world_from_user{1.0};  ///< columns: forward, left, up of the road there
     bool lights = true;
@@ -47,11 +48,12 @@ class Traffic {
   std::vector<PlacedMesh> placed_meshes(std::span<const There> users) const;
   static std::vector<PlacedLamp> placed_lamps(std::span<const There> users);
   /// Lamps that shine into an eye, the scene and the air between them.
-  std::vector<GlareSource> glare_at(std::span<const There> users, const glm::dvec3& eye_m, const Scene& scene,
+  std::vector<GlaringLamp> glare_at(std::span<const There> users, const glm::dvec3& eye_m, const Scene& scene,
                                     std::optional<double> visibility_m) const;
 
  private:
   std::vector<RoadUser> users_;
+  std::optional<LaneLine> lane_;
   Scene meshes_;
   std::vector<std::size_t> mesh_of_kind_;
   IntensityTable headlamp_;

@@ -11,7 +11,8 @@
     to_s = 1e9
     width_m, height_m, length_m   # default: by its class, chosen by eye
 
-The picture shows the same file's road users where a drive is given it (docs/traffic.md); they hide nothing.
+The picture shows them where a drive is given the file (docs/traffic.md); they hide nothing. config/traffic/road_users.h reads the same file
+with the same meaning; both are held to the figures of tests/traffic/.
 """
 
 from __future__ import annotations
@@ -69,6 +70,12 @@ _KEYS = {
     "to_s": float, "width_m": float, "height_m": float, "length_m": float,
 }
 
+# Bounds that no road reaches, as in config/traffic/road_users.cpp: they catch a mistyped exponent.
+_RANGES = {
+    "start_s_m": (-1e6, 1e6), "speed_kmh": (0.0, 1000.0), "offset_m": (-1e6, 1e6), "from_s": (-1e9, 1e9), "to_s": (-1e9, 1e9),
+    "width_m": (0.01, 100.0), "height_m": (0.01, 100.0), "length_m": (0.01, 100.0),
+}
+
 
 def read_road_users(file: str | os.PathLike[str]) -> list[RoadUser]:
     """Reads such a file; raises BadInput with file, which road user, and reason."""
@@ -79,7 +86,7 @@ def read_road_users(file: str | os.PathLike[str]) -> list[RoadUser]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as wrong:
         raise BadInput(f"{file}: {wrong}") from wrong
     listed = document.get("road_user")
-    if set(document) != {"road_user"} or not isinstance(listed, list):
+    if set(document) != {"road_user"} or not isinstance(listed, list) or not all(isinstance(table, dict) for table in listed):
         raise BadInput(f"{file}: expected [[road_user]] and nothing else")
     return [_road_user(table, f"{file}: road_user {number}") for number, table in enumerate(listed, 1)]
 
@@ -100,13 +107,12 @@ def _road_user(table: dict[str, object], place: str) -> RoadUser:
         raise BadInput(f"{place}: class {kind}: expected one of {', '.join(SIZES_M)}")
     if direction not in _DIRECTIONS:
         raise BadInput(f"{place}: direction {direction}: expected one of {', '.join(_DIRECTIONS)}")
+    for key, (least, most) in _RANGES.items():
+        if key in table and not least <= float(str(table[key])) <= most:
+            why = ": direction says which way it drives" if key == "speed_kmh" else ""
+            raise BadInput(f"{place}: {key} = {table[key]}: expected {least:g} to {most:g}{why}")
     size = dict(zip(("width_m", "height_m", "length_m"), SIZES_M[kind]))
     speed_mps = float(str(given.pop("speed_kmh", 0.0))) / 3.6
-    if speed_mps < 0:
-        raise BadInput(f"{place}: speed_kmh is negative: direction says which way it drives")
-    for key in size:
-        if float(str(given.get(key, 1.0))) <= 0:
-            raise BadInput(f"{place}: {key} must be above 0")
     known = {each.name for each in fields(RoadUser)}
     words = {key: value for key, value in {**size, **given}.items() if key in known}
     if kind == "pedestrian":

@@ -1,0 +1,131 @@
+// unit: road users read from their file and followed along a lane. reference: poses.csv, which the Python package wrote
+// and is held to as well.
+#include "config/traffic/road_users.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "tests/csv_table.h"
+#include "tests/paths.h"
+
+namespace phare {
+namespace {
+
+constexpr double kRadius_m = 150.0;  // of tests/traffic/bend_lane.csv, to the left, from the origin along x
+
+LaneLine bend() {
+  auto points = read_lane(tests_dir("traffic/bend_lane.csv"));
+  EXPECT_TRUE(points.ok()) << (points ? "" : points.error().text());
+  return LaneLine(*points);
+}
+
+std::string users_written(const std::string& lines) {
+  const std::string file = testing::TempDir() + "road_users.toml";
+  std::ofstream(file) << lines;
+  return file;
+}
+
+TEST(RoadUsers, AreWhereThePythonPackageHasThem) {
+  const auto users = read_road_users(tests_dir("traffic/users.toml"));
+  ASSERT_TRUE(users.ok()) << users.error().text();
+  const LaneLine lane = bend();
+  const CsvTable wanted = read_csv_table(tests_dir("traffic/poses.csv"));
+  ASSERT_GT(wanted.rows.size(), 0u);
+  std::set<std::size_t> seen;
+  int there = 0, away = 0;
+  for (std::size_t row = 0; row < wanted.rows.size(); ++row) {
+    SCOPED_TRACE("row " + std::to_string(row + 2));
+    const auto number = static_cast<std::size_t>(wanted.number(row, "user"));
+    seen.insert(number);
+    const RoadUser& user = users->at(number - 1);
+    const auto pose = pose_of(user, lane, wanted.number(row, "time_s"));
+    ASSERT_EQ(pose.has_value(), wanted.number(row, "there") != 0.0);
+    ++(pose ? there : away);
+    if (!pose) continue;
+    // A few roundings of 2^-53 of some 300 m, and of some 2π over 80 points of an unwrapped heading (times 150 m).
+    EXPECT_NEAR(pose->x_m, wanted.number(row, "x_m"), 1e-10);
+    EXPECT_NEAR(pose->y_m, wanted.number(row, "y_m"), 1e-10);
+    EXPECT_NEAR(pose->z_m, wanted.number(row, "z_m"), 1e-10);
+    const double turned = user.direction == RoadUserDirection::oncoming ? std::numbers::pi : 0.0;
+    EXPECT_NEAR(pose->heading_rad - turned, wanted.number(row, "lane_heading_rad"), 1e-13);
+  }
+  EXPECT_EQ(seen.size(), users->size());
+  EXPECT_GT(there, 0);
+  EXPECT_GT(away, 0);
+}
+
+TEST(RoadUsers, FollowTheCircleThatTheLaneIs) {
+  const LaneLine lane = bend();
+  const RoadUser user{.start_s_m = 700.0, .speed_mps = 20.0, .offset_m = 3.5};
+  for (const double time_s : {0.0, 3.3, 11.0, 29.9}) {
+    const auto pose = pose_of(user, lane, time_s);
+    ASSERT_TRUE(pose.has_value());
+    const double turn = (700.0 - 20.0 * time_s) / kRadius_m;
+    // A chord of 10 m stands 10²/(8·150) = 0.083 m inside its arc, and nowhere farther.
+    EXPECT_NEAR(pose->x_m, (kRadius_m - 3.5) * std::sin(turn), 0.084);
+    EXPECT_NEAR(pose->y_m, kRadius_m - (kRadius_m - 3.5) * std::cos(turn), 0.084);
+    EXPECT_NEAR(pose->heading_rad, turn + std::numbers::pi, 1e-10);  // twelve decimals in the file, past a whole turn
+    EXPECT_EQ(pose->speed_mps, 20.0);
+  }
+}
+
+TEST(RoadUsers, AreThereFromAndUntilAndOnTheLaneOnly) {
+  const LaneLine lane = bend();
+  RoadUser user{.direction = RoadUserDirection::same, .start_s_m = 0.0, .speed_mps = 10.0, .from_s = 2.0, .to_s = 4.0};
+  EXPECT_FALSE(pose_of(user, lane, std::nextafter(2.0, 0.0)));
+  ASSERT_TRUE(pose_of(user, lane, 2.0));
+  EXPECT_TRUE(pose_of(user, lane, 4.0));
+  EXPECT_FALSE(pose_of(user, lane, std::nextafter(4.0, 5.0)));
+  EXPECT_EQ(pose_of(user, lane, 2.0)->s_m, 20.0);  // start_s_m is its place at time 0, not at from_s
+  user.from_s = -1.0, user.to_s = 1e9;
+  EXPECT_FALSE(pose_of(user, lane, -0.1));  // before the lane's first point
+  EXPECT_TRUE(pose_of(user, lane, 80.0));   // on its last
+  EXPECT_FALSE(pose_of(user, lane, 80.1));
+}
+
+TEST(RoadUsers, HaveTheSizeOfTheirClassUnlessSaid) {
+  const auto users =
+      read_road_users(users_written("[[road_user]]\n[[road_user]]\nclass = \"lorry\"\nheight_m = 4\nspeed_kmh = "
+                                    "72\n[[road_user]]\nclass = \"pedestrian\"\nlights = true\n"));
+  ASSERT_TRUE(users.ok()) << users.error().text();
+  ASSERT_EQ(users->size(), 3u);
+  EXPECT_EQ((*users)[0].width_m, 1.8);
+  EXPECT_TRUE((*users)[0].lights);
+  EXPECT_EQ((*users)[1].height_m, 4.0);
+  EXPECT_EQ((*users)[1].length_m, 10.0);
+  EXPECT_EQ((*users)[1].speed_mps, 20.0);
+  EXPECT_FALSE((*users)[2].lights);  // a pedestrian has none
+}
+
+TEST(RoadUsers, OfTheShippedExampleAreRead) {
+  const auto users = read_road_users(source_dir() + "/config/examples/traffic.toml");
+  ASSERT_TRUE(users.ok()) << users.error().text();
+  EXPECT_EQ(users->size(), 3u);
+}
+
+TEST(RoadUsers, WhatIsWrongIsSaidWithItsLine) {
+  const struct {
+    const char *line, *why;
+  } cases[] = {{"speeed_kmh = 3", "speed_kmh"},  {"class = \"tram\"", "tram"}, {"start_s_m = '3'", "start_s_m"},
+               {"speed_kmh = -3", "speed_kmh"},  {"width_m = 0", "width_m"},   {"direction = \"up\"", "up"},
+               {"start_s_m = nan", "start_s_m"}, {"to_s = inf", "to_s"},       {"lights = 1", "lights"}};
+  for (const auto& wrong : cases) {
+    SCOPED_TRACE(wrong.line);
+    const auto users = read_road_users(users_written(std::string("[[road_user]]\n") + wrong.line + "\n"));
+    ASSERT_FALSE(users.ok());
+    EXPECT_NE(users.error().text().find("road_users.toml:2"), std::string::npos) << users.error().text();
+    EXPECT_NE(users.error().reason.find(wrong.why), std::string::npos) << users.error().text();
+  }
+  EXPECT_FALSE(read_road_users(users_written("")).ok());
+  EXPECT_FALSE(read_road_users(users_written("road_user = 3\n")).ok());
+  EXPECT_FALSE(read_road_users(users_written("[road_user]\n")).ok());
+  EXPECT_FALSE(read_road_users(testing::TempDir() + "nowhere.toml").ok());
+}
+
+}  // namespace
+}  // namespace phare
