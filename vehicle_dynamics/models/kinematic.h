@@ -14,12 +14,16 @@
 
 #include <array>
 #include <glm/vec2.hpp>
+#include <numbers>
 
 #include "config/vehicle.h"
 #include "vehicle_dynamics/models/powertrain.h"
 #include "vehicle_dynamics/state.h"
 
 namespace phare::kinematic {
+
+/// A driver turns the wheel at 1000 degrees a second at most; faster input is a fault or a joystick.
+inline constexpr double kMaxSteeringWheelRate_radps = 1000.0 * std::numbers::pi / 180.0;
 
 /// Body attitude under constant forces. `fx`, `fy`: acceleration felt in the car (without gravity's part: standing
 /// uphill is felt as forward acceleration), car frame.
