@@ -138,7 +138,7 @@ class DrivenCar {
     watch_for_roll_over(m, time_s);
     Row row;
     row.time_s = time_s;
-    row.level = static_cast<double>(car_.level()) - static_cast<double>(Level::kKinematic);
+    row.level = rung_of(car_.level());
     row.x_m = m.x_m, row.y_m = m.y_m, row.z_m = m.z_m;
     row.roll_rad = f.roll_rad, row.pitch_rad = f.pitch_rad;
     row.yaw_rad = m.turns_wrapped ? yaw_ += std::remainder(f.yaw_rad - yaw_, 2.0 * std::numbers::pi) : f.yaw_rad;

@@ -1,7 +1,6 @@
 #include "vehicle_dynamics/car.h"
 
 #include <algorithm>
-#include <array>
 
 namespace phare {
 namespace {
@@ -21,10 +20,9 @@ Car::AnyLevel Car::of(Level level) {
 }
 
 bool Car::choose(AutoLevel& choice, const CarParams& p, const Controls& controls, const Road& road, double dt) {
-  constexpr std::array<Level, 3> kRungs{Level::kKinematic, Level::kSingleTrack, Level::kFull};
   const Situation situation =
       situation_of(p.vehicle, shown.state, controls, road, shown.path_m, shown.least_load_share);
-  const Level wanted = kRungs[static_cast<std::size_t>(choice.next(situation, dt).rung)];
+  const Level wanted = level_of_rung(choice.next(situation, dt).rung);
   if (wanted == level()) return false;
   take_over(wanted, p);
   return true;

@@ -47,7 +47,7 @@ Ahead ahead_of(const CarParams& p) {
 // Torques that are given count up to what the car's own drive and brakes can give, as this level has no tyres.
 kinematic::Push push_of(const CarParams& p, const chassis::Input& in, double speed_mps) {
   const VehicleParams& v = p.vehicle;
-  kinematic::Push push = kinematic::push_of(v, {in.drive_nm, in.brake_nm});
+  kinematic::Push push = kinematic::push_of(v, in.drive_nm, in.brake_nm);
   if (!p.torques_given) return push;
   const double most = std::min(v.max_drive_force_n, v.max_power_w / std::max(std::abs(speed_mps), 0.1));
   push.drive_n = std::clamp(push.drive_n, -most, most);
@@ -72,7 +72,7 @@ void KinematicLevel::take_over(const CarParams& p, const Seen& seen) {
 }
 
 bool KinematicLevel::stand(const CarParams& p, const chassis::Input& in) {
-  kinematic::stand(p.vehicle, kinematic::push_of(p.vehicle, {in.drive_nm, in.brake_nm}), state);
+  kinematic::stand(p.vehicle, kinematic::push_of(p.vehicle, in.drive_nm, in.brake_nm), state);
   return true;
 }
 
@@ -84,33 +84,51 @@ void KinematicLevel::advance(const CarParams& p, const chassis::Input& in, doubl
   if (p.footing == Footing::kLive) way_m += state.speed_mps * std::cos(state.road_pitch_rad) * dt;
 }
 
+namespace {
+
+// Under the wheels: front left, front right, rear left, rear right; the way is that of the axles.
+using Heights = std::array<double, 4>;
+using Points = std::array<glm::dvec2, 4>;
+
+// Beside the surface a wheel keeps its last height, raised or lowered with the wheels that do stand on something. A
+// plane without anything on it is where the car began: its wheels are beside the road.
+void live_heights(const Road& road, const Points& points, double front_m, double rear_m, Heights& height,
+                  bool& off_road) {
+  const bool nowhere = !road.mesh && road.profiles.empty();
+  std::array<bool, 4> beside{nowhere, nowhere, nowhere, nowhere};
+  double moved = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < 4 && !nowhere; ++i) {
+    const double z =
+        road.height_m(points[i].x, points[i].y, i < 2 ? front_m : rear_m, i % 2 == 0, height[i], &beside[i]);
+    if (beside[i]) continue;
+    moved += z - height[i];
+    height[i] = z;
+    ++count;
+  }
+  off_road |= count < 4;
+  for (std::size_t i = 0; i < 4 && count > 0; ++i)
+    if (beside[i]) height[i] += moved / count;
+}
+
+void batch_heights(const Road& road, const Points& points, double front_m, double rear_m, Heights& height,
+                   bool& off_road) {
+  for (std::size_t i = 0; i < 4; ++i)
+    height[i] = road.height_m(points[i].x, points[i].y, i < 2 ? front_m : rear_m, i % 2 == 0, height[i], &off_road);
+}
+
+}  // namespace
+
 void KinematicLevel::place_on_road(const CarParams& p, const chassis::Input& in, double dt) {
-  std::array<double, 4> height = state.contact_z_m;
+  Heights height = state.contact_z_m;
   if (in.heights_given) {
     for (std::size_t i = 0; i < 4; ++i) height[i] = in.height_m[i] + in.height_rate_mps[i] * dt;
   } else if (in.road) {
-    const bool live = p.footing == Footing::kLive;
-    const auto points = kinematic::contact_points(p.vehicle, state);
+    const Points points = kinematic::contact_points(p.vehicle, state);
     const Ahead ahead = ahead_of(p);
-    std::array<bool, 4> beside{};
-    double moved = 0.0;
-    int count = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      // Live, a plane without anything on it is where the car began.
-      if (live && !in.road->mesh && in.road->profiles.empty()) beside[i] = true;
-      const double before = height[i], way = way_m + (i < 2 ? ahead.front_m : ahead.rear_m);
-      if (!beside[i]) height[i] = in.road->height_m(points[i].x, points[i].y, way, i % 2 == 0, before, &beside[i]);
-      if (beside[i]) {
-        off_road = true;
-        if (live) height[i] = before;
-      } else {
-        moved += height[i] - before;
-        ++count;
-      }
-    }
-    // Beside the surface a wheel keeps its last height, raised or lowered with the wheels that do stand on something.
-    for (std::size_t i = 0; i < 4 && live && count > 0; ++i)
-      if (beside[i]) height[i] += moved / count;
+    const double front = way_m + ahead.front_m, rear = way_m + ahead.rear_m;
+    const auto put = p.footing == Footing::kLive ? live_heights : batch_heights;
+    put(*in.road, points, front, rear, height, off_road);
   }
   kinematic::stand_on(p.vehicle, height, state, dt);
 }

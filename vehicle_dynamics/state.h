@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -74,14 +73,19 @@ std::uint64_t state_hash(const State& state) {
 /// Every number of a state that is doubles only is finite.
 template <class State>
 bool all_finite(const State& state) {
+  static_assert(sizeof(State) % sizeof(double) == 0 && std::is_trivially_copyable_v<State>);
   constexpr std::size_t kCount = sizeof(State) / sizeof(double);
-  const auto values = std::bit_cast<std::array<double, kCount>>(state);
+  const auto value = [bytes = reinterpret_cast<const char*>(&state)](std::size_t i) {
+    double number = 0.0;
+    std::memcpy(&number, bytes + i * sizeof number, sizeof number);  // a plain load
+    return number;
+  };
   // What is not finite makes its product with 0 not 0. Four sums, which do not wait for one another.
   std::array<double, 4> sum{};
-  std::size_t i = 0;
-  for (; i + 4 <= kCount; i += 4)
-    for (std::size_t k = 0; k < 4; ++k) sum[k] += values[i + k] * 0.0;
-  for (; i < kCount; ++i) sum[0] += values[i] * 0.0;
+  for (std::size_t i = 0; i + 4 <= kCount; i += 4)
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += value(i + k) * 0.0;
+  if constexpr (kCount % 4 != 0)
+    for (std::size_t i = kCount / 4 * 4; i < kCount; ++i) sum[0] += value(i) * 0.0;
   return sum[0] + sum[1] + sum[2] + sum[3] == 0.0;
 }
 

@@ -68,9 +68,9 @@ Attitude quasi_static_attitude(const VehicleParams& p, double fx_mps2, double fy
           .heave_m = rear_m};
 }
 
-Push push_of(const VehicleParams& p, const powertrain::Torques& t) {
-  return {.drive_n = (t.drive_nm[0] + t.drive_nm[1] + t.drive_nm[2] + t.drive_nm[3]) / p.tyre_radius_m,
-          .brake_n = (t.brake_nm[0] + t.brake_nm[1] + t.brake_nm[2] + t.brake_nm[3]) / p.tyre_radius_m};
+Push push_of(const VehicleParams& p, const std::array<double, 4>& drive_nm, const std::array<double, 4>& brake_nm) {
+  return {.drive_n = (drive_nm[0] + drive_nm[1] + drive_nm[2] + drive_nm[3]) / p.tyre_radius_m,
+          .brake_n = (brake_nm[0] + brake_nm[1] + brake_nm[2] + brake_nm[3]) / p.tyre_radius_m};
 }
 
 double pushed_n(const VehicleParams& p, const CarState& s) {

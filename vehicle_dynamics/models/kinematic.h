@@ -39,7 +39,10 @@ struct Push {
   double drive_n = 0.0;  ///< > 0 forwards
   double brake_n = 0.0;  ///< >= 0, against the motion
 };
-Push push_of(const VehicleParams& params, const powertrain::Torques& torques);
+Push push_of(const VehicleParams& params, const std::array<double, 4>& drive_nm, const std::array<double, 4>& brake_nm);
+inline Push push_of(const VehicleParams& params, const powertrain::Torques& torques) {
+  return push_of(params, torques.drive_nm, torques.brake_nm);
+}
 
 /// What pushes a car that moves as the state says, N, > 0 forwards: drive less brakes.
 double pushed_n(const VehicleParams& params, const CarState& state);
