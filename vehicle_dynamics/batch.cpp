@@ -75,7 +75,7 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
   if (Status sane = check(options, inputs); !sane) return sane.error();
   Summary summary;
   summary.resistance = options.resistance == Resistance::kOn || (options.resistance == Resistance::kAuto && !torques);
-  Car car(options, summary.resistance, torques);
+  DrivenCar car(options, summary.resistance, torques);
   if (Status ready = car.prepare(); !ready) return ready.error();
   Playhead in(inputs);
   std::array<double, 4> first{};
@@ -136,7 +136,7 @@ Result<Summary> run(const Options& options, const Inputs& inputs, const std::fun
       const double time = due();
       Row out = std::abs(time - to) < 1e-9 ? now : between(before, now, (time - from) / dt);
       out.time_s = time;
-      if (!finite(&out.time_s, sizeof(Row) / sizeof(double))) return failed(time, kUnsound);
+      if (!all_finite(out)) return failed(time, kUnsound);
       waiting.push_back(out);
       if (waiting.size() == waiting.capacity()) hand_on();
     }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <string>
 
@@ -39,16 +38,6 @@ inline std::string text_of(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;
-}
-
-// Every number finite: what is not makes its product with 0 not 0. Four sums, which do not wait for one another.
-inline bool finite(const double* values, std::size_t count) {
-  std::array<double, 4> sum{};
-  std::size_t i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (std::size_t k = 0; k < 4; ++k) sum[k] += values[i + k] * 0.0;
-  for (; i < count; ++i) sum[0] += values[i] * 0.0;
-  return sum[0] + sum[1] + sum[2] + sum[3] == 0.0;
 }
 
 }  // namespace phare::batch

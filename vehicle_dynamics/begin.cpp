@@ -41,7 +41,7 @@ Result<Begin> begin_of(const Rig& rig, const BeginOptions& options) {
   if (begin.setup.levelling != levelling::Kind::kNone && begin.setup.vehicle.levelling.lamp_height_m <= 0.0)
     return Error{rig.vehicle_file.string(), "has no table [levelling]: there are no lamps to level"};
   if (*level != Level::kKinematic) {
-    Result<SprungCar> sprung = SprungCar::of(begin.setup.vehicle, rig.vehicle_file.string());
+    Result<SprungParams> sprung = SprungParams::of(begin.setup.vehicle, rig.vehicle_file.string());
     if (!sprung) return sprung.error();
     begin.setup.sprung = std::move(*sprung);
   }

@@ -13,11 +13,11 @@ Status ReferenceIntegrator::there() {
   return Error{"reference integrator", std::string("this build has none; ") + kReferenceRemedy};
 }
 
-Status ReferenceIntegrator::advance(const full::Params&, const full::Input&, full::State&, double) {
+Status ReferenceIntegrator::advance(const full::Params&, const chassis::Input&, full::State&, double) {
   return there();
 }
 
-Status ReferenceIntegrator::advance(const single_track::Params&, const full::Input&, single_track::State&, double) {
+Status ReferenceIntegrator::advance(const single_track::Params&, const chassis::Input&, single_track::State&, double) {
   return there();
 }
 

@@ -110,7 +110,7 @@ void to_array(const State& state, double* values) {
 
 }  // namespace
 
-Status ReferenceIntegrator::advance(const full::Params& p, const full::Input& in, full::State& state, double dt) {
+Status ReferenceIntegrator::advance(const full::Params& p, const chassis::Input& in, full::State& state, double dt) {
   full::Held during = full::held(p, in, state, dt);
   during.most_along_pm = during.most_across_pm = during.most_damping_nspm =
       std::numeric_limits<double>::infinity();  // what fixed steps do not bear
@@ -127,7 +127,7 @@ Status ReferenceIntegrator::advance(const full::Params& p, const full::Input& in
   return done;
 }
 
-Status ReferenceIntegrator::advance(const single_track::Params& p, const full::Input& in, single_track::State& state,
+Status ReferenceIntegrator::advance(const single_track::Params& p, const chassis::Input& in, single_track::State& state,
                                     double dt) {
   single_track::Held during = single_track::held(p, in, state, dt);
   during.most_slip_pm = std::numeric_limits<double>::infinity();

@@ -26,9 +26,10 @@ class ReferenceIntegrator {
 
   /// One step of the model, as its advance() does it but exact between decisions that are taken once a step. Error: the
   /// solver gave up, and why; the state is then as far as it came.
-  Status advance(const full::Params& params, const full::Input& input, full::State& state, double dt);
+  Status advance(const full::Params& params, const chassis::Input& input, full::State& state, double dt);
   /// The same; the attitude must be dynamic: the quasi-static one is none of the model's rates.
-  Status advance(const single_track::Params& params, const full::Input& input, single_track::State& state, double dt);
+  Status advance(const single_track::Params& params, const chassis::Input& input, single_track::State& state,
+                 double dt);
 
  private:
   struct Solver;

@@ -29,6 +29,9 @@ struct Road {
   /// *off becomes true. No allocation; below a microsecond (road_profile_test.cpp).
   Ground at(double x_m, double y_m, double path_m, bool left, double beside_m, bool* off) const;
 
+  /// Of it the height alone.
+  double height_m(double x_m, double y_m, double path_m, bool left, double beside_m, bool* off) const;
+
   /// The two parts of at(): the mesh or plane there,
   double base_m(double x_m, double y_m, double beside_m, bool* off) const;
   /// and what lies on it along the path, for the left and the right wheel of an axle at once.

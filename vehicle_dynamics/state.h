@@ -13,10 +13,10 @@
 
 namespace phare {
 
-/// What the driver does, as the models take it.
 /// What the parking brake can do, on the rear wheels: its share of max_brake_force_n. Chosen.
 inline constexpr double kParkingShare_01 = 0.5;
 
+/// What the driver does, as the models take it.
 struct Controls {
   double steering_wheel_rad = 0.0;  ///< left positive
   double accelerator_01 = 0.0;
@@ -68,6 +68,32 @@ std::uint64_t state_hash(const State& state) {
   std::array<double, sizeof(State) / sizeof(double)> values;
   std::memcpy(values.data(), &state, sizeof(State));
   return hash_of(values.data(), values.size());
+}
+
+/// Every number of a state that is doubles only is finite.
+template <class State>
+bool all_finite(const State& state) {
+  static_assert(sizeof(State) % sizeof(double) == 0 && std::is_trivially_copyable_v<State>);
+  constexpr std::size_t kCount = sizeof(State) / sizeof(double);
+  const auto value = [bytes = reinterpret_cast<const char*>(&state)](std::size_t i) {
+    double number = 0.0;
+    std::memcpy(&number, bytes + i * sizeof number, sizeof number);  // a plain load
+    return number;
+  };
+  // What is not finite makes its product with 0 not 0. Four sums, which do not wait for one another.
+  std::array<double, 4> sum{};
+  for (std::size_t i = 0; i + 4 <= kCount; i += 4)
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += value(i + k) * 0.0;
+  if constexpr (kCount % 4 != 0)
+    for (std::size_t i = kCount / 4 * 4; i < kCount; ++i) sum[0] += value(i) * 0.0;
+  return sum[0] + sum[1] + sum[2] + sum[3] == 0.0;
+}
+
+/// Numbers that a car can have, by far: a step that is too long for the method, or a road that rises by kilometres,
+/// leaves them.
+inline bool a_car_could(double u_mps, double v_mps, double w_mps) {
+  constexpr double kMost_mps = 1e4;
+  return u_mps * u_mps + v_mps * v_mps + w_mps * w_mps < kMost_mps * kMost_mps;
 }
 
 /// Linear between two states, 0 gives `from` and 1 gives `to` exactly.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "config/rig.h"
 #include "vehicle_dynamics/models/kinematic.h"
 
 namespace phare {
@@ -23,10 +22,10 @@ void StepLoop::step_once() {
 
   // the car over the road, by the model that the scene calls for; parked and settled it calls for none
   if (!out_of_play_ && !sleeps(dt)) move(dt);
-  if (sprung()) stay_if_lost();
+  if (car_.sprung()) stay_if_lost();
 
   // the lamps against the body
-  if (running_ != Level::kPose) {  // a record holds them already
+  if (!car_.recorded()) {  // a record holds them already
     levelling::advance(setup_.vehicle.levelling, setup_.levelling, 0.0, now_.pitch_rad + setup_.vehicle.rest.pitch_rad,
                        now_.speed_mps, lamps_, dt);
     now_.lamp_tilt_rad = lamps_.tilt_rad;
@@ -39,28 +38,30 @@ void StepLoop::step_once() {
 }
 
 void StepLoop::move(double dt) {
-  if (setup_.level == Level::kAuto) choose_level(dt);
-  const auto torques = [&] {
-    return powertrain::advance(setup_.vehicle, controls_, now_.speed_mps, wheels(), power_, dt);
-  };
-  switch (running_) {
-    case Level::kPose:
-      now_ = from_message(setup_.track.at(time_of(steps_ + 1)), 1.0, 1.0);
-      break;
-    case Level::kKinematic:
-      kinematic::advance(setup_.vehicle, controls_.steering_wheel_rad, kinematic::push_of(setup_.vehicle, torques()),
-                         now_, dt);
-      place_on_road(dt);
-      break;
-    case Level::kSingleTrack:
-    case Level::kFull:
-    case Level::kAuto:  // never runs itself
-      setup_.sprung->advance(controls_.steering_wheel_rad, torques(), road(), dt);
-      now_ = setup_.sprung->state();
-      off_road_ |= setup_.sprung->off_road();
-      break;
+  chassis::Input& in = car_.input;
+  in.road = &road();
+  choose_level(dt);
+
+  // pedals to torques, the driver's wheel to the front wheels
+  if (!car_.recorded()) {
+    const powertrain::Torques torques =
+        powertrain::advance(setup_.vehicle, controls_, now_.speed_mps, car_.wheels(setup_), power_, dt);
+    in.drive_nm = torques.drive_nm, in.brake_nm = torques.brake_nm;
+    in.steering_wheel_rad = controls_.steering_wheel_rad;
+    in.steer_rad = turned_rad(setup_.vehicle, controls_.steering_wheel_rad, in.steer_rad, dt);
   }
-  path_m_ = sprung() ? setup_.sprung->path_m() : path_m_ + now_.speed_mps * std::cos(now_.road_pitch_rad) * dt;
+
+  car_.advance(setup_, dt);
+  take_shown();
+}
+
+// What the level shows is the car, and where its wheels now stand the next step begins.
+void StepLoop::take_shown() {
+  const double lamp_tilt = now_.lamp_tilt_rad;
+  now_ = car_.show(setup_).state;
+  if (!car_.recorded()) now_.lamp_tilt_rad = lamp_tilt;
+  car_.input.height_m = now_.contact_z_m;  // beside the road a wheel keeps its last height
+  off_road_ |= car_.shown.off_road;
 }
 
 void StepLoop::stay_if_lost() {
@@ -83,7 +84,7 @@ bool StepLoop::sleeps(double dt) {
   const bool still = std::abs(now_.speed_mps) < kStill_mps && std::abs(now_.heave_rate_mps) < kStill_mps &&
                      std::abs(now_.pitch_rate_radps) < kStill_radps && std::abs(now_.roll_rate_radps) < kStill_radps &&
                      std::abs(now_.yaw_rate_radps) < kStill_radps;
-  still_s_ = sprung() && held && still ? still_s_ + dt : 0.0;
+  still_s_ = car_.sprung() && held && still ? still_s_ + dt : 0.0;
   if (still_s_ <= kAfter_s) return false;
   slept_s_ += dt;
   return true;
@@ -94,19 +95,15 @@ bool StepLoop::sleeps(double dt) {
 void StepLoop::begin_standing() {
   fresh_ = false;
   power_ = powertrain::standing(setup_.vehicle, controls_);
-  if (setup_.level == Level::kAuto) choose_level(0.0);
+  chassis::Input& in = car_.input;
+  in.road = &road();
+  choose_level(0.0);
   powertrain::State power = power_;
-  powertrain::Torques torques =
-      powertrain::advance(setup_.vehicle, controls_, 0.0, wheels(), power, setup_.step.seconds());
-  torques.drive_nm.fill(0.0);  // a foot on the accelerator has not yet been felt
-  if (sprung()) {
-    setup_.sprung->stand(torques, road());
-    const double lamp_tilt = now_.lamp_tilt_rad;
-    now_ = setup_.sprung->state();
-    now_.lamp_tilt_rad = lamp_tilt;
-  } else {
-    kinematic::stand(setup_.vehicle, kinematic::push_of(setup_.vehicle, torques), now_);
-  }
+  in.brake_nm =
+      powertrain::advance(setup_.vehicle, controls_, 0.0, car_.wheels(setup_), power, setup_.step.seconds()).brake_nm;
+  in.drive_nm.fill(0.0);  // a foot on the accelerator has not yet been felt
+  car_.stand(setup_);
+  take_shown();
   before_ = now_;
 }
 
@@ -130,16 +127,15 @@ int StepLoop::catch_up(SimTime elapsed) {
 
 VehicleState StepLoop::at(SimTime time) const {
   const double ahead = static_cast<double>(this->time().ns - time.ns) / static_cast<double>(setup_.step.ns);
-  VehicleState out = setup_.level == Level::kPose
-                         ? setup_.track.at(time)
-                         : to_message(interpolate(before_, now_, 1.0 - ahead), setup_.vehicle.rest);
+  VehicleState out = car_.recorded() ? setup_.track.at(time)
+                                     : to_message(interpolate(before_, now_, 1.0 - ahead), setup_.vehicle.rest);
   out.frame_index = -1;
-  out.level = name(running_);
+  out.level = name(car_.level());
   out.step = steps();
   out.state_hash = hash();
-  if (sprung() && !out_of_play_) {
-    out.vx_mps -= setup_.sprung->side_speed_mps() * std::sin(out.yaw_rad);
-    out.vy_mps += setup_.sprung->side_speed_mps() * std::cos(out.yaw_rad);
+  if (car_.sprung() && !out_of_play_) {
+    out.vx_mps -= car_.shown.side_mps * std::sin(out.yaw_rad);
+    out.vy_mps += car_.shown.side_mps * std::cos(out.yaw_rad);
   }
   out.lag_s = dropped_.seconds();
   out.high_beam_telltale = false;
@@ -147,7 +143,7 @@ VehicleState StepLoop::at(SimTime time) const {
 }
 
 std::uint64_t StepLoop::hash() const {
-  const std::uint64_t model = sprung() && !out_of_play_ ? setup_.sprung->hash() : state_hash(now_);
+  const std::uint64_t model = out_of_play_ ? state_hash(now_) : car_.hash(now_);
   return (model * 31 + state_hash(power_)) * 31 + state_hash(lamps_);
 }
 
@@ -157,40 +153,6 @@ std::vector<std::uint64_t> StepLoop::hashes_after(std::uint64_t step) const {
   std::vector<std::uint64_t> hashes;
   for (std::uint64_t n = steps_ - new_ones + 1; n <= steps_; ++n) hashes.push_back(hashes_[n % hashes_.size()]);
   return hashes;
-}
-
-void StepLoop::place_on_road(double dt) {
-  const auto points = kinematic::contact_points(setup_.vehicle, now_);
-  std::array<double, 4> height = now_.contact_z_m;
-  std::array<bool, 4> found{};
-  double moved = 0.0;
-  int count = 0;
-  for (std::size_t wheel = 0; wheel < 4; ++wheel) {
-    auto point = setup_.road.at(points[wheel].x, points[wheel].y);
-    if (!setup_.on_top.profiles.empty()) {
-      bool off = false;
-      const double path = path_m_ + (wheel < 2 ? setup_.vehicle.cg_to_front_m
-                                               : setup_.vehicle.cg_to_front_m - setup_.vehicle.wheelbase_m);
-      const double z = road().at(points[wheel].x, points[wheel].y, path, wheel % 2 == 0, height[wheel], &off).z_m;
-      if (!off) point = RoadPoint{.z_m = z};
-    }
-    if (!point) continue;
-    moved += point->z_m - height[wheel];
-    height[wheel] = point->z_m;
-    found[wheel] = true;
-    ++count;
-  }
-  // Beside the surface a wheel keeps its last height, raised or lowered with the wheels that do stand on something.
-  if (count < 4) {
-    off_road_ = true;
-    for (std::size_t wheel = 0; wheel < 4 && count > 0; ++wheel)
-      if (!found[wheel]) height[wheel] += moved / count;
-  }
-  kinematic::stand_on(setup_.vehicle, height, now_, dt);
-}
-
-powertrain::Wheels StepLoop::wheels() {
-  return sprung() ? setup_.sprung->wheels(road()) : powertrain::rolling(now_.speed_mps, setup_.vehicle.tyre_radius_m);
 }
 
 const Road& StepLoop::road() {
@@ -207,39 +169,47 @@ StepLoop::StepLoop(RunSetup setup, const CarState& state, SimTime start, std::ui
       steps_before_(steps_before) {
   assert(setup_.step.ns > 0);
   road_ = setup_.on_top;
-  running_ = setup_.level == Level::kAuto ? Level::kKinematic : setup_.level;
   road_.z_m = 0.25 * (state.contact_z_m[0] + state.contact_z_m[1] + state.contact_z_m[2] + state.contact_z_m[3]);
-  if (running_ == Level::kPose) now_ = from_message(setup_.track.at(start), 1.0, 1.0);
-  if (running_ == Level::kKinematic) place_on_road(0.0);
-  if (running_ == Level::kSingleTrack || running_ == Level::kFull) {
-    place_on_road(0.0);
-    run_as(running_);
-  }
-  if (state.ax_mps2 != 0.0 && running_ != Level::kPose)  // goes on from a drive
+  if (setup_.sprung) single_track::set_step(setup_.sprung->single_track, setup_.step.seconds());
+  begin_at(state);
+  if (state.ax_mps2 != 0.0 && !car_.recorded())  // goes on from a drive
     power_ = powertrain::under_way(setup_.vehicle, state.speed_mps, kinematic::pushed_n(setup_.vehicle, state));
   lamps_.tilt_rad = lamps_.measured_rad = state.lamp_tilt_rad;
-  if (state.lamp_tilt_rad == 0.0 && running_ != Level::kPose)
+  if (state.lamp_tilt_rad == 0.0 && !car_.recorded())
     lamps_ = levelling::settled(setup_.vehicle.levelling, setup_.levelling, setup_.vehicle.rest.pitch_rad);
   now_.lamp_tilt_rad = lamps_.tilt_rad;
   before_ = now_;
   const CarState& s = state;
-  fresh_ = running_ != Level::kPose && steps_before_ == 0 && s.speed_mps == 0.0 && s.pitch_rad == 0.0 &&
-           s.roll_rad == 0.0 && s.heave_m == 0.0 && s.ax_mps2 == 0.0;
+  fresh_ = !car_.recorded() && steps_before_ == 0 && s.speed_mps == 0.0 && s.pitch_rad == 0.0 && s.roll_rad == 0.0 &&
+           s.heave_m == 0.0 && s.ax_mps2 == 0.0;
 }
 
-void StepLoop::run_as(Level level) {
-  const double side = sprung() ? setup_.sprung->side_speed_mps() : 0.0;
-  if (level == Level::kSingleTrack) setup_.sprung->take_over(SprungCar::Model::kSingleTrack, now_, path_m_, side);
-  if (level == Level::kFull) setup_.sprung->take_over(SprungCar::Model::kFull, now_, path_m_, side);
-  running_ = level;
+// Every car begins on its wheels, as level kinematic stands on the road; a record where it is.
+void StepLoop::begin_at(const CarState& state) {
+  car_.now = Car::of(setup_.level);
+  if (car_.recorded()) {
+    car_.shown.time = start_;
+    car_.take_over(setup_.level, setup_);
+    now_ = car_.show(setup_).state;
+    return;
+  }
+  KinematicLevel placed{.state = state};
+  car_.input.road = &road();
+  placed.place_on_road(setup_, car_.input, 0.0);
+  car_.shown = placed.seen(setup_, car_.input, 0.0);
+  now_ = car_.shown.state, off_road_ = car_.shown.off_road;
+  car_.take_over(setup_.level, setup_);
+  take_input_from_shown();
+}
+
+void StepLoop::take_input_from_shown() {
+  car_.input.height_m = car_.shown.state.contact_z_m;
+  car_.input.steer_rad = car_.shown.state.steer_rad;
 }
 
 void StepLoop::choose_level(double dt) {
-  constexpr std::array<Level, 3> kRungs{Level::kKinematic, Level::kSingleTrack, Level::kFull};
-  const Situation situation =
-      situation_of(setup_.vehicle, now_, controls_, road(), path_m_, sprung() ? setup_.sprung->least_load_share() : 1.0);
-  const Level level = kRungs[static_cast<std::size_t>(auto_.next(situation, dt).rung)];
-  if (level != running_) run_as(level);
+  if (setup_.level != Level::kAuto) return;
+  if (car_.choose(auto_, setup_, controls_, road(), dt)) take_input_from_shown();
 }
 
 void StepLoop::set_controls(const Controls& controls) {
@@ -257,10 +227,10 @@ void StepLoop::skip(SimTime paused) {
 StepLoop::Memory StepLoop::memory() const {
   Memory m;
   m.before = before_, m.now = now_;
-  m.running = running_;
+  m.car = car_, m.car.input.road = nullptr;
   m.choice = auto_;
   m.power = power_;
-  m.plane_z_m = road_.z_m, m.path_m = path_m_;
+  m.plane_z_m = road_.z_m;
   m.lamps = lamps_;
   m.hashes = hashes_;
   m.controls = controls_;
@@ -269,17 +239,16 @@ StepLoop::Memory StepLoop::memory() const {
   m.off_road = off_road_;
   m.out_of_play = static_cast<int>(std::find(kOutOfPlay.begin(), kOutOfPlay.end(), out_of_play_) - kOutOfPlay.begin());
   m.still_s = still_s_, m.slept_s = slept_s_;
-  if (setup_.sprung) m.sprung = setup_.sprung->memory();
   return m;
 }
 
 void StepLoop::recall(const Memory& m) {
   fresh_ = false;
   before_ = m.before, now_ = m.now;
-  running_ = m.running;
+  car_ = m.car;
   auto_ = m.choice;
   power_ = m.power;
-  road_.z_m = m.plane_z_m, path_m_ = m.path_m;
+  road_.z_m = m.plane_z_m;
   lamps_ = m.lamps;
   hashes_ = m.hashes;
   controls_ = m.controls;
@@ -288,7 +257,6 @@ void StepLoop::recall(const Memory& m) {
   off_road_ = m.off_road;
   out_of_play_ = kOutOfPlay[static_cast<std::size_t>(m.out_of_play) % kOutOfPlay.size()];
   still_s_ = m.still_s, slept_s_ = m.slept_s;
-  if (setup_.sprung) setup_.sprung->recall(m.sprung);
 }
 
 void StepLoop::begin_clock() {
@@ -298,19 +266,6 @@ void StepLoop::begin_clock() {
 int StepLoop::max_catch_up() const {
   constexpr std::int64_t kMaxSteps = 25, kMaxTime_ns = 50'000'000;
   return static_cast<int>(std::clamp<std::int64_t>(kMaxTime_ns / setup_.step.ns, 1, kMaxSteps));
-}
-
-const char* name(Level level) {
-  return kDynamicsLevelNames[static_cast<std::size_t>(level)].data();
-}
-
-Result<Level> parse_level(const std::string& text, const std::string& place) {
-  std::string all;
-  for (std::size_t i = 0; i < kDynamicsLevelNames.size(); ++i) {
-    if (text == kDynamicsLevelNames[i]) return static_cast<Level>(i);
-    all += (i == 0 ? "" : ", ") + std::string(kDynamicsLevelNames[i]);
-  }
-  return Error{place, "level \"" + text + "\" is unknown; there are " + all};
 }
 
 }  // namespace phare

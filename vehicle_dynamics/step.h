@@ -3,8 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "config/base/result.h"
@@ -12,33 +10,19 @@
 #include "config/vehicle.h"
 #include "net/messages.h"
 #include "vehicle_dynamics/auto_level.h"
+#include "vehicle_dynamics/car.h"
 #include "vehicle_dynamics/levelling.h"
-#include "vehicle_dynamics/models/pose.h"
-#include "vehicle_dynamics/sprung_car.h"
 #include "vehicle_dynamics/state.h"
 #include "vehicle_dynamics/step_times.h"
 
 namespace phare {
 
-/// The ladder of models; those not yet there are refused by name.
-/// kAuto: kinematic, single-track or full, by what the scene calls for.
-enum class Level { kPose, kKinematic, kSingleTrack, kFull, kAuto };
-
-const char* name(Level level);
-
-/// The level of that name, or an Error that names those there are. `place`: flag or file the name came from.
-Result<Level> parse_level(const std::string& text, const std::string& place);
-
 /// What a run is made of; does not change while it runs.
-struct RunSetup {
+struct RunSetup : CarParams {
   Level level = Level::kKinematic;
-  VehicleParams vehicle;            ///< not needed by level pose
-  RoadSurface road;                 ///< empty: the plane at the start's height
-  Road on_top;                      ///< profiles and friction laid on it; its mesh and plane are not looked at
-  std::optional<SprungCar> sprung;  ///< needed by single-track, full and auto
-  PoseTrack track;                  ///< needed by level pose only
+  RoadSurface road;  ///< empty: the plane at the start's height
+  Road on_top;       ///< profiles and friction laid on it; its mesh and plane are not looked at
   levelling::Kind levelling = levelling::Kind::kNone;
-  SimTime step{2'000'000};
 };
 
 /// Fixed steps, counted: step n ends at start + n·h, exact in integers, so no rounding adds up over a day.
@@ -51,10 +35,10 @@ class StepLoop {
   /// Counts of times and of steps that cost nothing are not in it: they are of the process.
   struct Memory {
     CarState before, now;
-    Level running = Level::kKinematic;
+    Car car;  ///< without the road
     AutoLevel choice;
     powertrain::State power;
-    double plane_z_m = 0.0, path_m = 0.0;
+    double plane_z_m = 0.0;
     levelling::State lamps;
     std::array<std::uint64_t, kMaxStepHashes> hashes{};
     Controls controls;
@@ -63,7 +47,6 @@ class StepLoop {
     bool off_road = false;
     int out_of_play = 0;  ///< 0: it drives; else the number of the reason
     double still_s = 0.0, slept_s = 0.0;
-    SprungCar::Memory sprung;
   };
   Memory memory() const;
   void recall(const Memory& memory);
@@ -106,7 +89,7 @@ class StepLoop {
   const char* out_of_play() const { return out_of_play_; }
   const StepTimes& times() const { return times_; }
   const RunSetup& setup() const { return setup_; }
-  Level level_now() const { return running_; }  ///< of level auto the one that runs
+  Level level_now() const { return car_.level(); }  ///< of level auto the one that runs
   const AutoLevel& choice() const { return auto_; }
 
   /// 25 steps, and no more than 50 ms of simulated time; at least one.
@@ -118,24 +101,22 @@ class StepLoop {
   }
   void step_once();
   void move(double dt);
+  void begin_at(const CarState& state);
   void begin_standing();
   bool sleeps(double dt);
   void stay_if_lost();
-  void place_on_road(double dt);
   void choose_level(double dt);
-  void run_as(Level level);
+  void take_input_from_shown();
+  void take_shown();
   const Road& road();
-  powertrain::Wheels wheels();
   std::uint64_t hash() const;
-  bool sprung() const { return running_ == Level::kSingleTrack || running_ == Level::kFull; }
 
   RunSetup setup_;
   CarState before_, now_;
-  Level running_ = Level::kKinematic;
+  Car car_;
   Road road_;
   AutoLevel auto_;
   powertrain::State power_;
-  double path_m_ = 0.0;
   levelling::State lamps_;
   std::array<std::uint64_t, kMaxStepHashes> hashes_{};  ///< of the newest steps, step n at n modulo size
   Controls controls_;

@@ -26,8 +26,8 @@ double thread_s() {
 constexpr double kEnd_s = 10.0, kGrid_s = 0.01;
 constexpr std::size_t kGridPoints = 1000;
 
-full::Input input_at(double time_s, const full::Params& p, const Road& road) {
-  full::Input in;
+chassis::Input input_at(double time_s, const chassis::Params& p, const Road& road) {
+  chassis::Input in;
   in.road = &road;
   in.air_and_rolling = true;
   in.steer_rad = time_s < 1.0 ? 0.0 : 0.010;
@@ -45,11 +45,12 @@ struct Trace {
 
 // Runs the ten seconds; after each grid interval notes where the car is. `advance(input, state, dt)`.
 template <class State, class Advance, class Note>
-double run(State state, const full::Params& p, const Road& road, double dt, const Advance& advance, const Note& note) {
+double run(State state, const chassis::Params& p, const Road& road, double dt, const Advance& advance,
+           const Note& note) {
   const auto per_grid = std::max<long>(1, std::lround(kGrid_s / dt));
   const double begin_s = thread_s();
   for (std::size_t k = 0; k < kGridPoints; ++k) {
-    const full::Input in = input_at(static_cast<double>(k) * kGrid_s, p, road);
+    const chassis::Input in = input_at(static_cast<double>(k) * kGrid_s, p, road);
     for (long i = 0; i < per_grid; ++i) advance(in, state, dt);
     note(in, state);
   }
@@ -62,12 +63,12 @@ void note_worst(double& most, double error) {
 }
 
 template <class Params, class State, class ForcesOf, class Fixed>
-Status add_lines(const std::string& level, Params params, const full::Params& car, const State& start, const Road& road,
-                 const std::vector<double>& steps, bool short_run, const ForcesOf& forces_of, const Fixed& fixed,
-                 std::vector<Line>& lines) {
+Status add_lines(const std::string& level, Params params, const chassis::Params& car, const State& start,
+                 const Road& road, const std::vector<double>& steps, bool short_run, const ForcesOf& forces_of,
+                 const Fixed& fixed, std::vector<Line>& lines) {
   const auto noted = [&](Trace& trace) {
-    return [&](const full::Input& in, const State& s) {
-      const full::Forces f = forces_of(params, in, s);
+    return [&](const chassis::Input& in, const State& s) {
+      const chassis::Forces f = forces_of(params, in, s);
       trace.pitch.push_back(f.pitch_rad), trace.yaw_rate.push_back(f.yaw_rate_radps);
       trace.x.push_back(s.x_m), trace.y.push_back(s.y_m);
     };
@@ -81,7 +82,7 @@ Status add_lines(const std::string& level, Params params, const full::Params& ca
   std::optional<Error> gave_up;
   run(
       start, car, road, exact_step_s,
-      [&](const full::Input& in, State& s, double dt) {
+      [&](const chassis::Input& in, State& s, double dt) {
         if (gave_up) return;
         if (short_run) return fixed(params, in, s, dt);
         if (const Status done = reference.advance(params, in, s, dt); !done) gave_up = done.error();
@@ -95,7 +96,7 @@ Status add_lines(const std::string& level, Params params, const full::Params& ca
       params.integrator = integrator;
       if constexpr (std::is_same_v<Params, single_track::Params>) single_track::set_step(params, dt);
       Line line{.level = level, .integrator = name, .step_s = dt};
-      const auto advance = [&](const full::Input& in, State& s, double h) { fixed(params, in, s, h); };
+      const auto advance = [&](const chassis::Input& in, State& s, double h) { fixed(params, in, s, h); };
       Trace trace;
       run(start, car, road, dt, advance, noted(trace));
       for (std::size_t i = 0; i < exact.pitch.size(); ++i) {
@@ -106,7 +107,7 @@ Status add_lines(const std::string& level, Params params, const full::Params& ca
       // The least of runs that take a tenth of a second together: what a neighbour slows down does not count.
       double least_s = 1e9, spent_s = 0.0;
       for (int repeat = 0; repeat < (short_run ? 1 : 3) || (!short_run && spent_s < 0.1); ++repeat) {
-        const double run_s = run(start, car, road, dt, advance, [](const full::Input&, const State&) {});
+        const double run_s = run(start, car, road, dt, advance, [](const chassis::Input&, const State&) {});
         least_s = std::min(least_s, run_s), spent_s += run_s;
       }
       line.real_time = kEnd_s / least_s;
@@ -114,12 +115,12 @@ Status add_lines(const std::string& level, Params params, const full::Params& ca
       StepTimes times;
       run(
           start, car, road, dt,
-          [&](const full::Input& in, State& s, double h) {
+          [&](const chassis::Input& in, State& s, double h) {
             const auto begin = Clock::now();
             fixed(params, in, s, h);
             times.add(Clock::now() - begin);
           },
-          [](const full::Input&, const State&) {});
+          [](const chassis::Input&, const State&) {});
       line.p99_9_ns = times.quantile_ns(0.999);
       lines.push_back(line);
     }
@@ -194,16 +195,16 @@ Result<std::vector<Line>> table(const VehicleParams& vehicle, const std::string&
   const double speed = 80.0 / 3.6;
   Status done = add_lines<full::Params, full::State>(
       "full", *car, *car, full::at_rest(*car, 0.0, 0.0, 0.0, speed, {}), road, steps, short_run,
-      [](const full::Params& p, const full::Input& in, const full::State& s) { return full::forces(p, in, s); },
-      [](const full::Params& p, const full::Input& in, full::State& s, double dt) { full::advance(p, in, s, dt); },
+      [](const full::Params& p, const chassis::Input& in, const full::State& s) { return full::forces(p, in, s); },
+      [](const full::Params& p, const chassis::Input& in, full::State& s, double dt) { full::advance(p, in, s, dt); },
       lines);
   if (!done) return done.error();
   done = add_lines<single_track::Params, single_track::State>(
       "single-track", *single, *car, single_track::at_rest(*single, 0.0, 0.0, 0.0, speed, {}), road, steps, short_run,
-      [](const single_track::Params& p, const full::Input& in, const single_track::State& s) {
+      [](const single_track::Params& p, const chassis::Input& in, const single_track::State& s) {
         return single_track::forces(p, in, s);
       },
-      [](const single_track::Params& p, const full::Input& in, single_track::State& s, double dt) {
+      [](const single_track::Params& p, const chassis::Input& in, single_track::State& s, double dt) {
         single_track::advance(p, in, s, dt);
       },
       lines);

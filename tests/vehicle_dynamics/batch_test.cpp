@@ -395,7 +395,7 @@ TEST(Batch, AutoIsThatOfALiveRun) {
 
   RunSetup setup;
   setup.level = Level::kAuto, setup.vehicle = o.vehicle;
-  setup.sprung = *SprungCar::of(o.vehicle, "hatchback");
+  setup.sprung = *SprungParams::of(o.vehicle, "hatchback");
   CarState start;
   start.speed_mps = 10.0;
   StepLoop loop(std::move(setup), start);

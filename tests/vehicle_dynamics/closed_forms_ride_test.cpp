@@ -250,7 +250,7 @@ constexpr std::array<double, 4> kAt_s{0.1, 0.2, 0.3, 0.5}, kDive_mrad{1.7306, 4.
 
 // Braked by 0.1 m/s2, so small that the car is linear; given for 1 m/s2 of force.
 template <class Car>
-Dive dive(Car car, const full::Params& p, double dt) {
+Dive dive(Car car, const chassis::Params& p, double dt) {
   const double lighter = 1.0 + 4.0 * p.spin_inertia_kgm2 / (p.radius_m * p.radius_m) / p.mass_kg;
   Dive d;
   car.brake(0.1 * lighter);

@@ -125,13 +125,13 @@ struct Bicycle {
 };
 
 // Of a car as it stands: stiffness proportional to load, so the loads at rest decide.
-Bicycle bicycle(const full::Params& p) {
+Bicycle bicycle(const chassis::Params& p) {
   const double c = 2.0 * p.tyre.p.lat_stiffness;
   return {p.mass_kg, p.yaw_inertia_kgm2, p.x_m[0], -p.x_m[2], c * p.load_n[0], c * p.load_n[2]};
 }
 
 // Wheels on the left and right turn unlike in a bend: their spin adds to what a yaw acceleration has to turn.
-double spun_up(const full::Params& p) {
+double spun_up(const chassis::Params& p) {
   double inertia = p.yaw_inertia_kgm2;
   for (const double y : p.y_m) inertia += y * y * p.spin_inertia_kgm2 / (p.radius_m * p.radius_m);
   return inertia;

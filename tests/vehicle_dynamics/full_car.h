@@ -112,7 +112,7 @@ struct Track {
 };
 
 /// Most of the friction ellipse that a wheel uses: at most 1. `friction`: under each wheel.
-inline double friction_use(const full::Params& p, const full::Forces& f, const std::array<double, 4>& friction) {
+inline double friction_use(const chassis::Params& p, const full::Forces& f, const std::array<double, 4>& friction) {
   double most = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     if (f.load_n[i] <= 0.0) {

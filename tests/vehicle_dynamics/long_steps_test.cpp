@@ -98,7 +98,7 @@ struct Spin {
 };
 
 template <class Params, class State, class Advance>
-Spin spin(const Params& p, const full::Params& car, State s, const Road& road, double dt, const Advance& advance) {
+Spin spin(const Params& p, const chassis::Params& car, State s, const Road& road, double dt, const Advance& advance) {
   full::Input in;
   in.road = &road;
   in.air_and_rolling = false;

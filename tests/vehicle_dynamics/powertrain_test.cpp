@@ -14,7 +14,7 @@ constexpr std::array<Level, 3> kLevels{Level::kKinematic, Level::kSingleTrack, L
 RunSetup level_setup(const char* file, Level level) {
   RunSetup setup = test::kinematic_setup(file);
   setup.level = level;
-  setup.sprung = *SprungCar::of(setup.vehicle, file);
+  setup.sprung = *SprungParams::of(setup.vehicle, file);
   return setup;
 }
 

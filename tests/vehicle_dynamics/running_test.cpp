@@ -48,7 +48,7 @@ namespace {
 RunSetup setup_of(Level level, const char* file = "hatchback.toml") {
   RunSetup setup = test::kinematic_setup(file);
   setup.level = level;
-  setup.sprung = *SprungCar::of(setup.vehicle, file);
+  setup.sprung = *SprungParams::of(setup.vehicle, file);
   setup.on_top.profiles.push_back(HeightProfile::iso8608(RoughnessClass::kB, 3, 200.0));
   return setup;
 }

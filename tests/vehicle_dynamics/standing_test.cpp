@@ -34,7 +34,7 @@ TEST(Standing, NothingMovesLive) {
         RunSetup setup;
         setup.level = level;
         setup.vehicle = test::car(file);
-        setup.sprung = *SprungCar::of(setup.vehicle, file);
+        setup.sprung = *SprungParams::of(setup.vehicle, file);
         setup.road = test::tilted_plane(ground.up, ground.aside);
         CarState start;
         start.yaw_rad = 0.3;

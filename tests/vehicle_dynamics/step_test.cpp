@@ -46,7 +46,7 @@ TEST(StepLoop, GoesOnBitForBitFromWhatAnotherLeft) {
     setup.level = level;
     setup.levelling = levelling::Kind::kDynamic;
     setup.road = test::tilted_plane(0.02, -0.01, 3000.0);
-    Result<SprungCar> sprung = SprungCar::of(setup.vehicle, "test");
+    Result<SprungParams> sprung = SprungParams::of(setup.vehicle, "test");
     ASSERT_TRUE(sprung) << sprung.error().text();
     setup.sprung = *sprung;
     StepLoop loop(setup, CarState{});
@@ -216,7 +216,7 @@ TEST(StepLoop, ParkingBrakeHoldsOnAGrade) {
     RunSetup setup = kinematic_setup("hatchback.toml");
     setup.level = level;
     setup.road = test::tilted_plane(0.12, 0.0);
-    setup.sprung = *SprungCar::of(setup.vehicle, "");
+    setup.sprung = *SprungParams::of(setup.vehicle, "");
     StepLoop loop(std::move(setup), CarState{});
     loop.set_controls({.gear = Gear::kNeutral, .parking_brake_01 = 1.0});
     loop.run_to(seconds(5.0));
@@ -237,7 +237,7 @@ TEST(StepLoop, LostCarStaysWhereItWas) {
     for (const double height_m : {3.0, 1e3, 1e9}) {
       RunSetup setup = kinematic_setup("vw_vanagon.toml");
       setup.level = level;
-      setup.sprung = *SprungCar::of(setup.vehicle, "");
+      setup.sprung = *SprungParams::of(setup.vehicle, "");
       setup.on_top.profiles.push_back(
           HeightProfile::bumps({{.shape = Bump::Shape::kStep, .start_m = 20.0, .height_m = height_m, .right = false}}));
       CarState start;

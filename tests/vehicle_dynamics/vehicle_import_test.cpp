@@ -339,7 +339,7 @@ TEST(Load, StandsStillAtEveryLevelAndIsLevelled) {
     setup.level = level;
     setup.vehicle = car;
     setup.levelling = levelling::Kind::kStatic;
-    setup.sprung = *SprungCar::of(car, "loaded");
+    setup.sprung = *SprungParams::of(car, "loaded");
     StepLoop loop(setup, CarState{});
     Controls held;
     held.brake_01 = 1.0;

@@ -36,11 +36,11 @@ void add_means(const Flow& a, const Flow& b, double dt, Account& to) {
 
 constexpr double kKnee_mps = 0.05;  // of rolling resistance, as in the models
 
-double air_w(const full::Params& p, const full::Input& in, double u) {
-  return in.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * std::abs(u) * u * u : 0.0;
+double air_w(const chassis::Params& p, const chassis::Input& in, double u) {
+  return in.air_and_rolling ? drag_n(p.drag_area_m2, u) * u : 0.0;
 }
 
-Flow flow(const full::Params& p, const full::Input& in, const full::Held& held, const full::State& s, double t_s) {
+Flow flow(const full::Params& p, const chassis::Input& in, const full::Held& held, const full::State& s, double t_s) {
   const full::Geometry g = full::geometry(p, in, s, t_s);
   full::Contact c;
   full::TyreForces tyres;
@@ -74,8 +74,8 @@ Flow flow(const full::Params& p, const full::Input& in, const full::Held& held, 
 
 // The other levels know no wheels of their own; the body hangs on springs over the road as it was asked for.
 Flow flow(const single_track::Params& p, const single_track::Held& h, const single_track::State& s, double t_s,
-          const full::Input& in) {
-  const full::Params& car = p.car;
+          const chassis::Input& in) {
+  const chassis::Params& car = p.car;
   const single_track::Acting a = single_track::acting(p, h, single_track::grip(p, h, s).share, s, t_s);
   Flow out;
   const double vf = s.v_mps + car.x_m[0] * s.r_radps, vr = s.v_mps + car.x_m[2] * s.r_radps;
@@ -124,12 +124,12 @@ double kinetic_j(const VehicleParams& v, const CarState& s) {
 
 }  // namespace
 
-Account open(const full::Params& p, const full::Input& in, const full::State& s) {
+Account open(const full::Params& p, const chassis::Input& in, const full::State& s) {
   return {.car_j = flow(p, in, full::held(p, in, s, 1e-6), s, 0.0).car_j};
 }
 
-void add(const full::Params& p, const full::Input& in, const full::State& before, const full::State& after, double dt,
-         Account& account) {
+void add(const full::Params& p, const chassis::Input& in, const full::State& before, const full::State& after,
+         double dt, Account& account) {
   const full::Held held = full::held(p, in, before, dt);
   const Flow a = flow(p, in, held, before, 0.0), b = flow(p, in, held, after, dt);
   add_means(a, b, dt, account);
@@ -140,11 +140,11 @@ void add(const full::Params& p, const full::Input& in, const full::State& before
   }
 }
 
-Account open(const single_track::Params& p, const full::Input& in, const single_track::State& s) {
+Account open(const single_track::Params& p, const chassis::Input& in, const single_track::State& s) {
   return {.car_j = flow(p, single_track::held(p, in, s, 1e-6), s, 0.0, in).car_j};
 }
 
-void add(const single_track::Params& p, const full::Input& in, const single_track::State& before,
+void add(const single_track::Params& p, const chassis::Input& in, const single_track::State& before,
          const single_track::State& after, double dt, Account& account) {
   const single_track::Held held = single_track::held(p, in, before, dt);
   const Flow a = flow(p, held, before, 0.0, in), b = flow(p, held, after, dt, in);
@@ -167,7 +167,7 @@ void add(const VehicleParams& v, const kinematic::Push& push, const CarState& be
          Account& account) {
   const double way = 0.5 * (before.speed_mps + after.speed_mps) * dt, u = before.speed_mps;
   const double climbed_j = -v.mass_kg * kGravity_mps2 * std::sin(before.road_pitch_rad) * way;
-  const double drag_j = 0.5 * kAirDensity_kgpm3 * v.drag_area_m2 * u * std::abs(u) * way;
+  const double drag_j = drag_n(v.drag_area_m2, u) * way;
   const double rolling_n = v.rolling_coefficient * v.mass_kg * kGravity_mps2 * std::cos(before.road_pitch_rad);
   const double held_n = push.brake_n + rolling_n;
   const double change_j = kinetic_j(v, after) - kinetic_j(v, before) + climbed_j;

@@ -34,14 +34,14 @@ inline double missing_j(const Account& start, const Account& now) {
 }
 
 /// Of a car at rest in its springs or in any state; flows are 0.
-Account open(const full::Params& params, const full::Input& input, const full::State& state);
-Account open(const single_track::Params& params, const full::Input& input, const single_track::State& state);
+Account open(const full::Params& params, const chassis::Input& input, const full::State& state);
+Account open(const single_track::Params& params, const chassis::Input& input, const single_track::State& state);
 Account open(const VehicleParams& vehicle, const CarState& state);
 
 /// Adds one step that was made from `before` to `after` with that input.
-void add(const full::Params& params, const full::Input& input, const full::State& before, const full::State& after,
+void add(const full::Params& params, const chassis::Input& input, const full::State& before, const full::State& after,
          double dt, Account& account);
-void add(const single_track::Params& params, const full::Input& input, const single_track::State& before,
+void add(const single_track::Params& params, const chassis::Input& input, const single_track::State& before,
          const single_track::State& after, double dt, Account& account);
 void add(const VehicleParams& vehicle, const kinematic::Push& push, const CarState& before, const CarState& after,
          double dt, Account& account);

@@ -199,8 +199,7 @@ void dynamics(const Params& p, const Input& input, const Held& held, const Geome
   }
   roll += p.sprung_kg / p.mass_kg * p.cg_height_m * fy;
 
-  const double drag =
-      input.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * s.u_mps * std::abs(s.u_mps) : 0.0;
+  const double drag = input.air_and_rolling ? drag_n(p.drag_area_m2, s.u_mps) : 0.0;
   tyres.ax_mps2 = (fx - drag) / p.mass_kg + gx;
   tyres.ay_mps2 = fy / p.mass_kg + gy;
   d.u_mps = tyres.ax_mps2 - s.q_radps * s.w_mps + s.r_radps * s.v_mps;

@@ -10,9 +10,6 @@
 namespace phare::kinematic {
 namespace {
 
-// A driver turns the wheel at 1000 degrees a second at most; faster input is a fault or a joystick.
-constexpr double kMaxSteeringWheelRate_radps = 1000.0 * std::numbers::pi / 180.0;
-
 double sign(double value) {
   return value > 0.0 ? 1.0 : (value < 0.0 ? -1.0 : 0.0);
 }
@@ -21,7 +18,7 @@ double sign(double value) {
 // there.
 double next_speed_mps(const VehicleParams& p, const Push& wheels, const CarState& s, double dt) {
   const double v = s.speed_mps;
-  const double drag = 0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * v * std::abs(v);
+  const double drag = drag_n(p.drag_area_m2, v);
   const double push = wheels.drive_n + p.mass_kg * kGravity_mps2 * std::sin(s.road_pitch_rad) - drag;
   const double hold = wheels.brake_n + p.rolling_coefficient * p.mass_kg * kGravity_mps2 * std::cos(s.road_pitch_rad);
   const double inertia = p.mass_kg + 4.0 * p.wheel_inertia_kgm2 / (p.tyre_radius_m * p.tyre_radius_m);
@@ -71,16 +68,15 @@ Attitude quasi_static_attitude(const VehicleParams& p, double fx_mps2, double fy
           .heave_m = rear_m};
 }
 
-Push push_of(const VehicleParams& p, const powertrain::Torques& t) {
-  return {.drive_n = (t.drive_nm[0] + t.drive_nm[1] + t.drive_nm[2] + t.drive_nm[3]) / p.tyre_radius_m,
-          .brake_n = (t.brake_nm[0] + t.brake_nm[1] + t.brake_nm[2] + t.brake_nm[3]) / p.tyre_radius_m};
+Push push_of(const VehicleParams& p, const std::array<double, 4>& drive_nm, const std::array<double, 4>& brake_nm) {
+  return {.drive_n = (drive_nm[0] + drive_nm[1] + drive_nm[2] + drive_nm[3]) / p.tyre_radius_m,
+          .brake_n = (brake_nm[0] + brake_nm[1] + brake_nm[2] + brake_nm[3]) / p.tyre_radius_m};
 }
 
 double pushed_n(const VehicleParams& p, const CarState& s) {
   const double v = s.speed_mps, weight = p.mass_kg * kGravity_mps2;
   const double inertia = p.mass_kg + 4.0 * p.wheel_inertia_kgm2 / (p.tyre_radius_m * p.tyre_radius_m);
-  return inertia * s.ax_mps2 - weight * std::sin(s.road_pitch_rad) +
-         0.5 * kAirDensity_kgpm3 * p.drag_area_m2 * v * std::abs(v) +
+  return inertia * s.ax_mps2 - weight * std::sin(s.road_pitch_rad) + drag_n(p.drag_area_m2, v) +
          sign(v) * p.rolling_coefficient * weight * std::cos(s.road_pitch_rad);
 }
 

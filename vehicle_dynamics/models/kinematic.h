@@ -14,12 +14,16 @@
 
 #include <array>
 #include <glm/vec2.hpp>
+#include <numbers>
 
 #include "config/vehicle.h"
 #include "vehicle_dynamics/models/powertrain.h"
 #include "vehicle_dynamics/state.h"
 
 namespace phare::kinematic {
+
+/// A driver turns the wheel at 1000 degrees a second at most; faster input is a fault or a joystick.
+inline constexpr double kMaxSteeringWheelRate_radps = 1000.0 * std::numbers::pi / 180.0;
 
 /// Body attitude under constant forces. `fx`, `fy`: acceleration felt in the car (without gravity's part: standing
 /// uphill is felt as forward acceleration), car frame.
@@ -35,7 +39,10 @@ struct Push {
   double drive_n = 0.0;  ///< > 0 forwards
   double brake_n = 0.0;  ///< >= 0, against the motion
 };
-Push push_of(const VehicleParams& params, const powertrain::Torques& torques);
+Push push_of(const VehicleParams& params, const std::array<double, 4>& drive_nm, const std::array<double, 4>& brake_nm);
+inline Push push_of(const VehicleParams& params, const powertrain::Torques& torques) {
+  return push_of(params, torques.drive_nm, torques.brake_nm);
+}
 
 /// What pushes a car that moves as the state says, N, > 0 forwards: drive less brakes.
 double pushed_n(const VehicleParams& params, const CarState& state);

@@ -67,7 +67,7 @@ struct Corners {
 
 Acting acting(const Params& p, const Held& held, Two share, const State& s, double t_s) {
   constexpr double kDampedBelow_mps = 2.0, kPerFullDamping_n = 1.0 / 2700.0;  // carcass damping, as in level full
-  const full::Params& car = p.car;
+  const chassis::Params& car = p.car;
 
   // body over its contacts
   const double across = held.across + held.across_rate_ps * t_s, leaning = s.roll - across;
@@ -161,8 +161,8 @@ void derivative(const Params& p, const Held& h, const State& s, double t_s, Stat
 }
 
 Result<Params> params_of(const VehicleParams& vehicle, const Options& options, const std::string& place) {
-  Result<full::Params> car = full::params_of(vehicle, place);
-  if (!car) return Error{place, "level single-track needs the tables [body] and [tyre] in the vehicle file"};
+  Result<chassis::Params> car = chassis::params_of(vehicle, place);
+  if (!car) return car.error();
   Params p;
   p.car = *car;
   p.options = options;
@@ -222,7 +222,7 @@ struct Asked {
   bool off_road;
 };
 
-Asked ask_road(const Params& p, const full::Input& in, const State& s, double dt) {
+Asked ask_road(const Params& p, const chassis::Input& in, const State& s, double dt) {
   if (in.heights_given) {
     const auto &z = in.height_m, &rate = in.height_rate_mps;
     return {{Two{z[0], z[1]}, Two{rate[0], rate[1]}, Two{}},
@@ -268,7 +268,7 @@ Asked ask_road(const Params& p, const full::Input& in, const State& s, double dt
 
 }  // namespace
 
-Held held(const Params& p, const full::Input& in, const State& s, double dt) {
+Held held(const Params& p, const chassis::Input& in, const State& s, double dt) {
   const auto [front, rear, bank_m, friction, off_road] = ask_road(p, in, s, dt);
   // The plane through the contacts: > 0 rises forwards, to the left.
   const Two all = front.height_m + rear.height_m, all_rate = front.rate_mps + rear.rate_mps;
@@ -344,7 +344,7 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
           .rear_push_n = rear_drive - against * rear_brake,
           .reach = reach,
           .sticks_mps = dt * sticks_n * p.per_effective_kg,
-          .drag_kgpm = in.air_and_rolling ? 0.5 * kAirDensity_kgpm3 * p.car.drag_area_m2 : 0.0,
+          .drag_kgpm = in.air_and_rolling ? phare::drag_kgpm(p.car.drag_area_m2) : 0.0,
           .rolling = in.air_and_rolling
                          ? p.car.rolling_coefficient * u / std::sqrt(u * u + kRollingKnee_mps * kRollingKnee_mps)
                          : 0.0,
@@ -353,10 +353,10 @@ Held held(const Params& p, const full::Input& in, const State& s, double dt) {
           .most_slip_pm = most_slip_pm};
 }
 
-full::Forces forces(const Params& p, const full::Input& in, const State& s) {
+chassis::Forces forces(const Params& p, const chassis::Input& in, const State& s) {
   const Held h = held(p, in, s, 1e-3);
   const Acting a = acting(p, h, grip(p, h, s).share, s, 0.0);
-  full::Forces out;
+  chassis::Forces out;
   const double brakes_nm = in.brake_nm[0] + in.brake_nm[1] + in.brake_nm[2] + in.brake_nm[3];
   for (std::size_t i = 0; i < 4; ++i) {
     const Two load = i < 2 ? a.front_load_n : a.rear_load_n;

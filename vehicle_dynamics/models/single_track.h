@@ -15,7 +15,8 @@
 
 #include <array>
 
-#include "vehicle_dynamics/models/full.h"
+#include "vehicle_dynamics/models/chassis.h"
+#include "vehicle_dynamics/models/fixed_step.h"
 #include "vehicle_dynamics/models/ride.h"
 
 namespace phare::single_track {
@@ -34,7 +35,7 @@ struct Axle {
 };
 
 struct Params {
-  full::Params car;
+  chassis::Params car;
   Options options;
   Integrator integrator = Integrator::kEtd2;
   std::array<Axle, 2> axles;                             ///< front, rear
@@ -70,7 +71,7 @@ State at_rest(const Params& params, double x_m, double y_m, double yaw_rad, doub
 
 /// Lets a car that stands, at_rest(), settle where `input` holds it, as full::stand(). False: there is no such place,
 /// or the attitude is quasi-static, which is where forces hold it after a step anyway.
-bool stand(const Params& params, const full::Input& input, State& state);
+bool stand(const Params& params, const chassis::Input& input, State& state);
 
 /// Road under the wheels of an axle (left, right) during one step, asked for once, at the step's start and where it
 /// will end: t into the step its height is height + t (rate + bend (t - dt)), the parabola through both heights that
@@ -98,14 +99,14 @@ struct Held {
   bool off_road = false;
   double most_slip_pm = std::numeric_limits<double>::infinity();
 };
-Held held(const Params& params, const full::Input& input, const State& state, double dt);
-void finish_step(const full::Input& input, const Held& held, const State& before, State& state);
+Held held(const Params& params, const chassis::Input& input, const State& state, double dt);
+void finish_step(const chassis::Input& input, const Held& held, const State& before, State& state);
 
 void derivative(const Params& params, const Held& held, const State& state, double t_s, State& rate);
 
 /// One step of dt seconds.
-void advance(const Params& params, const full::Input& input, State& state, double dt);
+void advance(const Params& params, const chassis::Input& input, State& state, double dt);
 
-full::Forces forces(const Params& params, const full::Input& input, const State& state);
+chassis::Forces forces(const Params& params, const chassis::Input& input, const State& state);
 
 }  // namespace phare::single_track

@@ -87,7 +87,7 @@ void step_semi_implicit(const Params& p, const Held& h, State& s, double dt) {
   s.z_rate_mps += dt * d.z_rate_mps, s.pitch_rate_ps += dt * d.pitch_rate_ps, s.roll_rate_ps += dt * d.roll_rate_ps;
   travel(h, before, s, dt);
   s.z_m += dt * s.z_rate_mps, s.pitch += dt * s.pitch_rate_ps, s.roll += dt * s.roll_rate_ps;
-  const full::Params& car = p.car;
+  const chassis::Params& car = p.car;
   const double vf = s.v_mps + car.x_m[0] * s.r_radps, vr = s.v_mps + car.x_m[2] * s.r_radps;
   const double ahead = s.u_mps * h.cosine + vf * h.sine, aside = vf * h.cosine - s.u_mps * h.sine;
   const Two slip{s.front_slip, s.rear_slip};
@@ -100,7 +100,7 @@ void step_semi_implicit(const Params& p, const Held& h, State& s, double dt) {
 // stiffness the side force.
 void settle(const Params& p, const Held& h, const State& before, State& s, double dt) {
   const Acting a = acting(p, h, grip(p, h, s).share, s, dt);
-  const full::Params& car = p.car;
+  const chassis::Params& car = p.car;
   const Two front_m = h.front.height_m + dt * h.front.rate_mps, rear_m = h.rear.height_m + dt * h.rear.rate_mps;
   const double front_road = 0.5 * (front_m[0] + front_m[1]), rear_road = 0.5 * (rear_m[0] + rear_m[1]);
   const double along = (front_road - rear_road) * p.per_wheelbase_m, across = h.across + h.across_rate_ps * dt;
@@ -138,7 +138,7 @@ bool at_limit(const Params& p, double friction, const State& s) {
   return p.options.magic_formula && 1.5 * slip * p.car.tyre.per_tan_alpha_bend > 0.4 * friction;
 }
 
-void advance_in_parts(const Params& p, full::Input in, State& s, double dt) {
+void advance_in_parts(const Params& p, chassis::Input in, State& s, double dt) {
   const int parts = parts_of(dt);
   const double part = dt / parts;
   const ride::Step ride = p.short_ride.dt_s == part ? p.short_ride : ride::step_of(p.springs, part);
@@ -154,7 +154,7 @@ void advance_in_parts(const Params& p, full::Input in, State& s, double dt) {
 
 }  // namespace
 
-bool stand(const Params& p, const full::Input& input, State& state) {
+bool stand(const Params& p, const chassis::Input& input, State& state) {
   if (!p.options.dynamic_attitude) return false;
   const State from = state;
   const auto placed = [&](const std::array<double, 5>& x) {
@@ -180,7 +180,7 @@ void set_step(Params& p, double dt) {
   if (p.short_ride.dt_s != part) p.short_ride = ride::step_of(p.springs, part);
 }
 
-void finish_step(const full::Input& in, const Held& h, const State& before, State& s) {
+void finish_step(const chassis::Input& in, const Held& h, const State& before, State& s) {
   const bool braked = in.brake_nm[0] + in.brake_nm[1] + in.brake_nm[2] + in.brake_nm[3] > 0.0;
   // Brakes end a motion and begin none; a car that slides aside may well turn from forwards to backwards.
   const bool turned = before.u_mps * s.u_mps < 0.0 && std::abs(before.u_mps) <= h.sticks_mps;
@@ -193,7 +193,7 @@ void finish_step(const full::Input& in, const Held& h, const State& before, Stat
     if (std::abs(*value) < kNothing) *value = 0.0;
 }
 
-void advance(const Params& p, const full::Input& in, State& s, double dt) {
+void advance(const Params& p, const chassis::Input& in, State& s, double dt) {
   const Held during = held(p, in, s, dt);
   const State before = s;
   switch (p.integrator) {
