@@ -26,12 +26,13 @@ from .judge import Glare, judge_glare
 from .lamp import Comparison, Hspr, Lamp, Table, Verdict
 from .measuring import Mounted, measure
 from .programs import program, version
+from .rating import Iihs, rate_iihs
 from .rig import Channel, Design, LampPlace, Rig, Source, generated_file, shipped_file
 
 __all__ = [
-    "Answer", "BadInput", "Channel", "Comparison", "Controller", "Design", "Drive", "Failed", "Given", "Glare", "Hspr",
+    "Answer", "BadInput", "Channel", "Comparison", "Controller", "Design", "Drive", "Failed", "Given", "Glare", "Hspr", "Iihs",
     "Lamp", "LampLight", "LampOfLaw", "LampPlace", "LawFailed", "Mounted", "NotFound", "PhareError", "Program",
     "Report", "Rig", "RoadUser", "RoadUserSeen", "Sensors", "Source", "SourceOfLaw", "Table", "Together", "Verdict",
-    "drive", "free_ports", "generated_file", "judge_glare", "laws", "measure", "oncoming_glare", "poses", "program",
+    "drive", "free_ports", "generated_file", "judge_glare", "laws", "measure", "oncoming_glare", "poses", "program", "rate_iihs",
     "read_drive", "read_road_users", "shipped_file", "sweep", "version", "visibility", "write_drive",
 ]

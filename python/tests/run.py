@@ -29,7 +29,7 @@ def main() -> int:
         os.environ["PHARE_BIN"] = sys.argv[1]
     sys.dont_write_bytecode = True
     here = Path(__file__).resolve().parent
-    return int(pytest.main(["-q", "-p", "no:cacheprovider", "--durations=5", "--rootdir", str(here.parent), str(here)]))
+    return int(pytest.main(["-q", "-rs", "-p", "no:cacheprovider", "--durations=5", "--rootdir", str(here.parent), str(here)]))
 
 
 if __name__ == "__main__":

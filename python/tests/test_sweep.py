@@ -143,3 +143,15 @@ def test_the_command_line_says_what_is_wrong(tmp_path):
     listed = say(str(plan), "--list")
     assert listed.returncode == 0 and listed.stdout.count("phare drive") == 2
     assert say(str(plan), "--only", "9", "--out", str(tmp_path / "o")).returncode == 2
+
+
+def test_a_parquet_table_reads_back_as_it_was(tmp_path):
+    pytest.importorskip("pyarrow", reason="table.parquet is not tried: needs pip install pyarrow")
+    # As jobs leave them: words and numbers in one column, a whole number missing, an error in one row alone.
+    rows = [{"job": 1, "aim": "cut-off", "edge_m": 0.1, "frames": 2}, {"job": 2, "aim": -0.3, "error": "lamp.ies:2: odd"}]
+    file = sweep.runner._write_table(pd.DataFrame(rows), tmp_path)
+    assert file == tmp_path / "table.parquet" and not (tmp_path / "table.csv").exists()
+    back = pd.read_parquet(file)
+    assert list(back.columns) == ["job", "aim", "edge_m", "frames", "error"] and list(back.aim) == ["cut-off", "-0.3"]
+    assert list(back.job) == [1, 2] and back.edge_m[0] == 0.1 and back.edge_m.isna()[1] and back.error.isna()[0]
+    assert back.error[1] == "lamp.ies:2: odd"

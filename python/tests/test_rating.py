@@ -1,0 +1,87 @@
+"""reference: reach and demerits of a lamp that shines evenly, by hand."""
+
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import phare
+from phare.rating import rating_of, read_limits
+
+LIMITS = """[[visibility]]
+approach = "straight"
+beam = "low"
+edge = "right"
+target_m = 100
+demerits_per_m = 0.5
+[[visibility]]
+approach = "straight"
+beam = "high"
+edge = "right"
+target_m = 50
+demerits_per_m = 9
+[[glare]]
+approach = "straight"
+curve = [[40, 9], [60, 9]]
+demerits = 4
+[[glare]]
+approach = "sharp left"
+curve = [[40, 30], [60, 30]]
+demerits = 8
+"""
+
+
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory):
+    """One lamp in the middle, 0.66 m high, 3.45 m ahead of the origin: low 20,000 cd everywhere, high 60,000 cd besides."""
+    folder = tmp_path_factory.mktemp("rated")
+    for name, cd in (("low", 20000), ("high", 60000)):
+        lines = ["# quantity: luminous intensity", "# unit: cd", "# angles: type A", "V\\H,-60,60", f"-30,{cd},{cd}", f"30,{cd},{cd}"]
+        (folder / f"{name}.csv").write_text("\n".join(lines) + "\n")
+    made = phare.Rig.shipped()
+    sources = [phare.Source(name, str(folder / f"{name}.csv")) for name in ("low", "high")]
+    made.designs = [phare.Design("even", [phare.LampPlace("headlamp", [3.45, 0.0, 0.66], sources=sources)])]
+    return made.write(folder / "rig.toml")
+
+
+def test_reach_of_both_beams_and_no_rating_of_our_own(rig):
+    done = phare.rate_iihs(rig)
+    assert len(done.visibility) == 20 and done.rating is done.total is done.demerits is None
+    for beam, cd in (("low", 20000), ("high", 80000)):
+        at = done.visibility[(done.visibility.beam == beam) & (done.visibility.approach == "straight")].distance_m.iloc[0]
+        # sqrt(I / 5); the step is 0.5 m, and the edge 1.8 m aside shortens it by less than 0.1 m.
+        assert 0 <= 3.45 + math.sqrt(cd / 5) - at < 0.6
+
+
+def test_demerits_by_hand(rig, tmp_path):
+    (tmp_path / "limits.toml").write_text(LIMITS)
+    done = phare.rate_iihs(rig, limits=tmp_path / "limits.toml")
+    # Low: 66.5 m of 100 m. High: beyond 50 m. Glare at 40 m: 14.8 lx, above 9 and below 30.
+    assert list(done.demerits.demerits) == [pytest.approx(0.5 * 33.5), 0.0, 4.0, 0.0]
+    assert done.total == pytest.approx(20.75) and done.rating == "Marginal"
+    assert [rating_of(n) for n in (0, 10, 10.1, 20, 30, 30.1)] == ["Good", "Good", "Acceptable", "Acceptable", "Marginal", "Poor"]
+
+
+@pytest.mark.parametrize("old, new, said", [
+    ('"low"', '"fog"', "beam is low or high"), ('"straight"', '"bent"', "approach 'bent'"), ("= 100", "= nan", "not finite"),
+    ("= 100", "= 251", "beyond the 250 m"), ("[60, 9]", "[121, 9]", "10 to 120 m"),
+    ("[60, 9]", "[40, 9]", "do not grow"), ("target_m", "goal_m", "expected the keys"), ("[[glare]]", "[[glow]]", "nothing else"),
+])
+def test_limits_that_cannot_be_used_are_refused(tmp_path, old, new, said):
+    (tmp_path / "limits.toml").write_text(LIMITS.replace(old, new))
+    with pytest.raises(phare.BadInput, match=said):
+        read_limits(tmp_path / "limits.toml")
+
+
+def test_the_command_says_what_it_is_not(rig, tmp_path):
+    environment = {**os.environ, "PYTHONPATH": str(Path(phare.__file__).parents[1])}
+
+    def say(*words):
+        return subprocess.run([sys.executable, "-m", "phare.rate", *words], env=environment, capture_output=True, text=True)
+
+    said = say("iihs", "--rig", str(rig))
+    assert said.returncode == 0 and said.stdout.rstrip().endswith("are not public") and "sharp left" in said.stdout
+    assert say("iihs", "--rig", str(tmp_path / "none.toml")).returncode == 2
