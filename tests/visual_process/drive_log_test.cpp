@@ -41,6 +41,20 @@ DriveRow row_of(std::int64_t frame) {
   return row;
 }
 
+TEST(DriveLog, TrafficHasColumnsOfItsOwn) {
+  DriveRow row = row_of(0);
+  row.glare = {.illuminance_lx = 0.25, .veil_cdm2 = 0.0625, .threshold_increment_percent = 4.0625, .de_boer = 5.5};
+  row.others_eye_lx = 0.125;
+  const DriveColumns columns{.traffic = true};
+  EXPECT_EQ(cells_of(drive_row(row, columns)), cells_of(drive_columns(columns)));
+  EXPECT_NE(drive_columns(columns).find(",glare_lx,veil_cdm2,threshold_increment_percent,de_boer,others_eye_lx\n"),
+            std::string::npos);
+  EXPECT_NE(drive_row(row, columns).find(",0.25,0.0625,4.062,5.500,0.125\n"), std::string::npos)
+      << drive_row(row, columns);
+  row.glare = {};
+  EXPECT_NE(drive_row(row, columns).find(",0,0,0,,0.125\n"), std::string::npos) << "no light, no figure of discomfort";
+}
+
 TEST(DriveLog, HasOneRowAFrameAlsoOverARestart) {
   const fs::path folder = fs::path(testing::TempDir()) / ("phare_drive_log_" + std::to_string(::getpid()));
   fs::create_directories(folder);

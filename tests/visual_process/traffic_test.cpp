@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <glm/trigonometric.hpp>
 
 #include "config/base/paths.h"
 #include "visual/photometry/readers/read_lamp.h"
@@ -94,6 +95,28 @@ TEST_F(TrafficTest, ItsLampsGlareAsTheirTablesHaveIt) {
       traffic("[[road_user]]\nstart_s_m = 50\nlights = false\n[[road_user]]\nclass = \"pedestrian\"\n");
   EXPECT_TRUE(Traffic::placed_lamps(dark.at(0.0, straight())).empty());
   EXPECT_TRUE(dark.glare_at(dark.at(0.0, straight()), eye_m, {}, std::nullopt).empty());
+}
+
+// The figures are those of the equations by hand: one lamp 10° beside the line of sight; and eyes that come toward us.
+TEST_F(TrafficTest, GlareFiguresAreThoseOfTheEquations) {
+  const glm::dvec3 eye_m(1.0, 2.0, 1.2), ahead(1.0, 0.0, 0.0);
+  const double angle = glm::radians(10.0);
+  const std::vector<GlaringLamp> lamps{{eye_m + 40.0 * glm::dvec3(std::cos(angle), std::sin(angle), 0.0), 0.5},
+                                       {eye_m - 10.0 * ahead, 100.0}};
+  const Viewer viewer{40.0, 0.5};
+  const Glare glare = glare_figures(lamps, eye_m, ahead, viewer);
+  const double lx = 0.5 * std::cos(angle);
+  EXPECT_NEAR(glare.illuminance_lx, lx, 1e-12) << "the lamp behind does not count";
+  EXPECT_NEAR(glare.veil_cdm2, lx * veil_general_per_sr(viewer, 10.0), 1e-12);
+  EXPECT_NEAR(glare.threshold_increment_percent, 65.0 * glare.veil_cdm2, 1e-12) << "adapted to 1 cd/m²";
+
+  const Traffic both = traffic(
+      "[[road_user]]\nstart_s_m = 50\noffset_m = 3.5\n[[road_user]]\nstart_s_m = 30\n"
+      "direction = \"same\"\n[[road_user]]\nclass = \"pedestrian\"\nstart_s_m = 20\n");
+  const auto eyes = Traffic::oncoming_eyes(both.at(0.0, straight()), ahead);
+  ASSERT_EQ(eyes.size(), 1u) << "who drives ahead looks away, who walks does not drive";
+  EXPECT_NEAR(glm::distance(eyes[0].position_m, glm::dvec3(50.0 - 0.35, 3.5 - 0.37, 1.2)), 0.0, 1e-9);
+  EXPECT_NEAR(eyes[0].normal.x, -1.0, 1e-9);
 }
 
 TEST_F(TrafficTest, WhatIsWrongInTheFileIsNamed) {

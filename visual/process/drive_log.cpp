@@ -21,18 +21,19 @@ std::string cell(const std::string& text) {
 
 }  // namespace
 
-std::string drive_columns(bool versus) {
+std::string drive_columns(DriveColumns columns) {
   std::string text =
       "frame,time_s,x_m,y_m,z_m,yaw_rad,pitch_rad,roll_rad,speed_mps,lamp_tilt_rad,lit,design,fail_safe,pose_held,"
       "picture,cutoff_25m_m";
   for (const double lx : kReachLevels_lx) text += fmt::format(",reach_{:g}lx_left_m,reach_{:g}lx_right_m", lx, lx);
   text += ",frame_ms,gpu_ms";
   for (const double lx : kReachLevels_lx)
-    if (versus) text += fmt::format(",versus_reach_{:g}lx_left_m,versus_reach_{:g}lx_right_m", lx, lx);
+    if (columns.versus) text += fmt::format(",versus_reach_{:g}lx_left_m,versus_reach_{:g}lx_right_m", lx, lx);
+  if (columns.traffic) text += ",glare_lx,veil_cdm2,threshold_increment_percent,de_boer,others_eye_lx";
   return text + "\n";
 }
 
-std::string drive_row(const DriveRow& row, bool versus) {
+std::string drive_row(const DriveRow& row, DriveColumns columns) {
   const VehicleState& car = row.car;
   std::string text = fmt::format(
       "{},{:.6f},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.6f},{:.9f},{},{},{:d},{:d},{:d},", row.frame,
@@ -45,11 +46,18 @@ std::string drive_row(const DriveRow& row, bool versus) {
   };
   put(row.reach);
   text += fmt::format(",{:.3f},{:.3f}", row.frame_ms, row.gpu_ms);
-  if (versus) put(row.versus_reach);
+  if (columns.versus) put(row.versus_reach);
+  if (columns.traffic) {
+    text += fmt::format(",{:.5g},{:.5g},{:.4g},", row.glare.illuminance_lx, row.glare.veil_cdm2,
+                        row.glare.threshold_increment_percent);
+    if (row.glare.de_boer) text += fmt::format("{:.3f}", *row.glare.de_boer);
+    text += fmt::format(",{:.5g}", row.others_eye_lx);
+  }
   return text + "\n";
 }
 
-DriveLog::DriveLog(std::filesystem::path folder, bool going_on, bool versus) : going_on_(going_on), versus_(versus) {
+DriveLog::DriveLog(std::filesystem::path folder, bool going_on, DriveColumns columns)
+    : going_on_(going_on), columns_(columns) {
   if (!folder.empty()) file_ = std::move(folder) / "drive.csv";
 }
 
@@ -66,7 +74,7 @@ std::int64_t DriveLog::frames_before() const {
 
 /// What the process before left, up to the frame that comes now; its last row may be cut off.
 void DriveLog::begin(SimTime now) {
-  std::string kept = drive_columns(versus_);
+  std::string kept = drive_columns(columns_);
   if (std::ifstream before(file_); going_on_ && before) {
     std::string line;
     std::getline(before, line);
@@ -83,7 +91,7 @@ void DriveLog::begin(SimTime now) {
 bool DriveLog::write(const DriveRow& row) {
   if (!stream_.is_open()) begin(row.time);
   if (!row.reach.empty()) newest_reach_ = row.time.ns / kReachEvery_ns;
-  stream_ << drive_row(row, versus_);
+  stream_ << drive_row(row, columns_);
   stream_.flush();
   return stream_.good() || std::exchange(failed_, true);
 }

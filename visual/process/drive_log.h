@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "visual/photometry/table/glare.h"
 #include "visual/process/lamps.h"
 #include "visual/process/road_marks.h"
 
@@ -27,17 +28,23 @@ struct DriveRow {
   std::vector<Reach> reach{};         ///< ten times a second; empty in between
   std::vector<Reach> versus_reach{};  ///< of the other design, where two are compared
   double frame_ms = 0.0, gpu_ms = 0.0;
+  Glare glare{};               ///< of the lamps of others, at the driver's eyes
+  double others_eye_lx = 0.0;  ///< by our lamps at the eyes of who comes toward us, the most
 };
 
-/// `versus`: with the reach of the design beside.
-std::string drive_columns(bool versus = false);
-std::string drive_row(const DriveRow& row, bool versus = false);
+/// What stands in a row besides what every drive has.
+struct DriveColumns {
+  bool versus = false;   ///< the reach of the design beside
+  bool traffic = false;  ///< glare, ours and of others
+};
+std::string drive_columns(DriveColumns columns = {});
+std::string drive_row(const DriveRow& row, DriveColumns columns = {});
 
 class DriveLog {
  public:
   /// `folder`: empty keeps nothing. `going_on`: rows there are of this drive; those of frames that are drawn again go.
   DriveLog() = default;
-  DriveLog(std::filesystem::path folder, bool going_on, bool versus = false);
+  DriveLog(std::filesystem::path folder, bool going_on, DriveColumns columns = {});
 
   bool wanted() const { return !file_.empty(); }
   /// One more than the number of the last frame of the process before; 0: there was none.
@@ -54,7 +61,8 @@ class DriveLog {
   std::filesystem::path file_;
   std::ofstream stream_;
   std::int64_t newest_reach_ = -1;
-  bool going_on_ = false, versus_ = false, failed_ = false;
+  bool going_on_ = false, failed_ = false;
+  DriveColumns columns_;
 };
 
 }  // namespace phare

@@ -72,6 +72,7 @@ class Loop {
   std::string audit_failure() const;
   void mind_the_road(const Moment& moment);
   std::vector<std::string> overlay(const Moment& moment) const;
+  void mind_who_is_glared_at(DriveRow& row, const Moment& moment);
   void log_frame(const Moment& moment, const FrameResult& result);
   void keep_other_designs();
   void write_stats(SimTime now);
@@ -82,8 +83,9 @@ class Loop {
   LampNews lamp_news_{s_.lamps};
   PictureInstruments measuring_{s_.desk, s_.lamps, s_.scene, RoadLine(s_.lane, s_.rig.scene_file),
                                 ProbeLog(s_.options.channel == 0 ? s_.options.out : "", s_.options.going_on)};
-  DriveLog drive_log_{s_.options.channel == 0 ? s_.options.out : "", s_.options.going_on,
-                      s_.desk.compare != Compare::kOff};
+  DriveLog drive_log_{s_.options.channel == 0 ? s_.options.out : "",
+                      s_.options.going_on,
+                      {.versus = s_.desk.compare != Compare::kOff, .traffic = !s_.traffic.empty()}};
   Versus versus_;
   /// The moment of the stills, to draw the other designs in.
   struct Still {

@@ -54,6 +54,19 @@ void Loop::finish() {
 }
 
 /// A row of drive.csv, and how long each design has shone.
+/// Glare of others at our driver's eyes, whatever camera is shown, and ours at theirs.
+void Loop::mind_who_is_glared_at(DriveRow& row, const Moment& moment) {
+  const VehicleState& car = moment.car.pose;
+  const std::vector<Traffic::There> users = s_.traffic.at(moment.time.seconds(), measuring_.road());
+  const Camera driver = driver_camera(s_.channel(), car);
+  const glm::dvec3 ahead = driver.world_from_eye[0];
+  const Viewer viewer{s_.desk.age_years, s_.desk.iris_pigment};
+  row.glare = glare_figures(s_.traffic.glare_at(users, driver.eye_m, s_.scene, s_.desk.visibility_m), driver.eye_m,
+                            ahead, viewer);
+  for (const MeasurePoint& eye : Traffic::oncoming_eyes(users, ahead))
+    row.others_eye_lx = std::max(row.others_eye_lx, s_.lamps.light_at(car, eye, s_.scene).lx);
+}
+
 void Loop::log_frame(const Moment& moment, const FrameResult& result) {
   DesignsLit& designs = s_.designs_lit;
   designs.see(s_.lamps.lit_text().empty() ? std::nullopt : std::optional(s_.lamps.design_index()), moment.time);
@@ -80,6 +93,7 @@ void Loop::log_frame(const Moment& moment, const FrameResult& result) {
             .position_m.z;
     *row.cutoff_m -= ground_z_m - car.z_m;
   }
+  if (!s_.traffic.empty()) mind_who_is_glared_at(row, moment);
   if (drive_log_.reach_is_due(moment.time) && versus_.lamps() != nullptr)
     row.versus_reach = reach_of(*versus_.lamps(), moment.car.pose, measuring_.road());
   if (drive_log_.reach_is_due(moment.time)) row.reach = reach_of(s_.lamps, moment.car.pose, measuring_.road());

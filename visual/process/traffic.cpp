@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "config/base/paths.h"
 #include "visual/photometry/readers/read_lamp.h"
@@ -144,6 +145,31 @@ std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const g
     }
   }
   return sources;
+}
+
+std::vector<MeasurePoint> Traffic::oncoming_eyes(std::span<const There> users, const glm::dvec3& heading) {
+  // Eye behind the front and above the road; chosen by eye, as the bodies are. A pedestrian does not drive.
+  constexpr std::array<glm::dvec3, 5> kEyes_m{
+      {{0.35, 0.37, 1.2}, {4.2, 0.6, 2.4}, {-0.1, 0.0, 1.5}, {-0.1, 0.0, 1.6}, {0.0, 0.0, 1.65}}};
+  std::vector<MeasurePoint> eyes;
+  for (const There& user : users)
+    if (user.kind != RoadUserClass::pedestrian && glm::dot(user.world_from_user[0], heading) < 0.0)
+      eyes.push_back({user.position_m + user.world_from_user * kEyes_m[static_cast<std::size_t>(user.kind)],
+                      user.world_from_user[0]});
+  return eyes;
+}
+
+Glare glare_figures(std::span<const GlaringLamp> lamps, const glm::dvec3& eye_m, const glm::dvec3& ahead,
+                    const Viewer& viewer) {
+  std::vector<GlareSource> sources;
+  for (const GlaringLamp& lamp : lamps) {
+    const glm::dvec3 way = glm::normalize(lamp.place_m - eye_m);
+    const double cos_angle = glm::dot(way, ahead);
+    if (cos_angle <= 0.0) continue;
+    const double angle_deg = glm::degrees(std::atan2(glm::length(glm::cross(way, ahead)), cos_angle));
+    sources.push_back({lamp.eye_lx * cos_angle, angle_deg});
+  }
+  return glare_at_eye(viewer, sources, kAdaptation_cdm2);
 }
 
 }  // namespace phare

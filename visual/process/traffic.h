@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "config/traffic/road_users.h"
+#include "visual/photometry/table/glare.h"
 #include "visual/photometry/table/intensity_table.h"
 #include "visual/process/road_line.h"
 #include "visual/renderer.h"
@@ -19,6 +20,9 @@
 
 namespace phare {
 
+/// What a driver's eye is adapted to, for threshold increment and de Boer's figure: chosen, about what the road 30 m
+/// ahead has under a low beam (0.8 cd/m², docs/light.md).
+inline constexpr double kAdaptation_cdm2 = 1.0;
 /// Rear position lamps: 4 to 17 cd along the axis (UN R148, R1); chosen in the middle.
 inline constexpr double kTailLamp_cd = 8.0;
 
@@ -47,6 +51,9 @@ class Traffic {
 
   std::vector<PlacedMesh> placed_meshes(std::span<const There> users) const;
   static std::vector<PlacedLamp> placed_lamps(std::span<const There> users);
+  /// Where their drivers' eyes are, looking along their way; of those with lights that come toward us: nothing else
+  /// counts as glared at.
+  static std::vector<MeasurePoint> oncoming_eyes(std::span<const There> users, const glm::dvec3& heading);
   /// Lamps that shine into an eye, the scene and the air between them.
   std::vector<GlaringLamp> glare_at(std::span<const There> users, const glm::dvec3& eye_m, const Scene& scene,
                                     std::optional<double> visibility_m) const;
@@ -58,5 +65,10 @@ class Traffic {
   std::vector<std::size_t> mesh_of_kind_;
   IntensityTable headlamp_;
 };
+
+/// What lamps do to the eyes of a driver who looks along `ahead` (unit): lux across that line, veil, threshold
+/// increment, de Boer (visual/photometry/table/glare.h).
+Glare glare_figures(std::span<const GlaringLamp> lamps, const glm::dvec3& eye_m, const glm::dvec3& ahead,
+                    const Viewer& viewer);
 
 }  // namespace phare
