@@ -33,7 +33,8 @@ Rig rig_of_two_lamps() {
 class Explain : public testing::Test {
  protected:
   std::vector<std::string> lines(const AskedMoment& moment, const AskedDevice& device, bool window = false) {
-    std::istringstream text(explain_moment(lamps_, desk_, rig_.channels[0], moment, device, scene_, window));
+    std::istringstream text(
+        explain_moment(lamps_, desk_, rig_.channels[0], moment, device, scene_, traffic_, road_, window));
     std::vector<std::string> all;
     for (std::string line; std::getline(text, line);) all.push_back(line);
     return all;
@@ -48,6 +49,9 @@ class Explain : public testing::Test {
   Lamps lamps_ = std::move(*Lamps::load(rig_));
   Desk desk_;
   Scene scene_;
+  Traffic traffic_;
+  std::vector<LanePoint> lane_{{0, 0, 0, 0, 0, 0}, {1000, 1000, 0, 0, 0, 0}};
+  RoadLine road_{lane_, {}};
   const AskedDevice gpu_{"a card", false}, software_{"llvmpipe", true};
 };
 
@@ -68,6 +72,24 @@ TEST_F(Explain, FogCallsForFogAlone) {
   }
 }
 
+/// The whole plan of a drive that meets a car: its lamps glare, for which the luminance image is made.
+TEST_F(Explain, AnOncomingCarCallsForGlareAndItsImage) {
+  const auto alone = lines(moment(LightSwitch::kLow), software_);
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explain_traffic.toml";
+  std::ofstream(file) << "[[road_user]]\nstart_s_m = 60\noffset_m = 3.5\n";
+  traffic_ = std::move(*Traffic::read(file, lane_));
+  const auto met = lines(moment(LightSwitch::kLow), software_);
+  ASSERT_EQ(met.size(), alone.size());
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    if (met[i].starts_with("glare "))
+      EXPECT_TRUE(met[i].starts_with("glare           on      2 lamps shine into the eye, 0.")) << met[i];
+    else if (met[i].starts_with("hdr image"))
+      EXPECT_EQ(met[i], "hdr image       on      light scattered in the eye is added to luminance in cd/m²");
+    else
+      EXPECT_EQ(met[i], alone[i]);
+  }
+}
+
 TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
   const auto lit = lines(moment(LightSwitch::kLow), gpu_);
   ASSERT_EQ(lit.size(), 1 + kEffectCount);
@@ -78,6 +100,7 @@ TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
             "hdr image       off     nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself");
   EXPECT_EQ(lit[4], "overlay         off     no line of text to show");
   EXPECT_EQ(lit[5], "fog             off     the air is clear");
+  EXPECT_EQ(lit[6], "glare           off     no lamp shines into the eye");
 
   const auto dark = lines(moment(LightSwitch::kOff), gpu_);
   EXPECT_EQ(dark[0], "# lit: off, design \"pair\", 0.0 s, 0 km/h, on a card");

@@ -31,12 +31,14 @@ Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s) {
 }
 
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
-                           const AskedDevice& device, const Scene& scene, bool window) {
+                           const AskedDevice& device, const Scene& scene, const Traffic& traffic, const RoadLine& road,
+                           bool window) {
   const CockpitState controls = shown_by_desk(desk, moment.controls);
   lamps.set_controls(controls);
   FrameInput input;
   set_by_desk(input, desk, channel, moment.pose);
   input.lamps = lamps.placed(moment.pose);
+  const std::vector<Traffic::There> users = traffic.at(moment.time.seconds(), road);
   if (window) {
     EyeAdaptation eye = eye_set(desk.eye);
     eye.see(moment.time, lamps.light());
@@ -57,6 +59,13 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
     ++lit;
     if (casts) casts->push_back(casters.by(reach, lamp.world_from_image));
   }
+  const LightCone of_others = users.empty() ? LightCone{} : light_cone(traffic.beam());
+  for (const PlacedLamp& lamp : Traffic::placed_lamps(users)) {
+    const LampReach reach(lamp.position_m, lamp.world_from_image, of_others);
+    if (!reach.meets(view)) continue;
+    ++lit;
+    if (casts) casts->push_back(casters.by(reach, lamp.world_from_image));
+  }
   char heading[240];
   std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
                 lamps.lit_text().c_str(), lamps.design().name.c_str(), moment.time.seconds(),
@@ -64,6 +73,8 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   std::optional<std::size_t> casting;
   if (casts) casting = casters_of_all(*casts);
   input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, scene, input.visibility_m);
+  const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, scene, input.visibility_m);
+  input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
   return heading + explain(plan_effects(facts_of(input, lit, casting, text_lines(input), glare_of(input, view),
                                                  {.software = device.software}),
                                         input.effects));

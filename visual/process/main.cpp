@@ -50,7 +50,7 @@ std::vector<LanePoint> lane_of(const std::filesystem::path& scene_file) {
 
 /// The device that would draw, and the moment of the options; a line for each effect.
 int explain_and_leave(const VisualOptions& options, const Scene& scene, Lamps& lamps, const Desk& desk,
-                      const ChannelConfig& channel) {
+                      const ChannelConfig& channel, const Traffic& traffic, const RoadLine& road) {
   AskedMoment moment;
   if (options.drive_file.empty()) {
     moment.controls.light_switch = options.explain_light;
@@ -67,7 +67,8 @@ int explain_and_leave(const VisualOptions& options, const Scene& scene, Lamps& l
   if (!device && !options.device_name.empty()) return refuse(with_remedy(device.error()));
   const AskedDevice asked = device ? AskedDevice{device->name, device->software}
                                    : AskedDevice{"no device (" + device.error().reason + "), as on a software one"};
-  std::fputs(explain_moment(lamps, desk, channel, moment, asked, scene, !options.headless).c_str(), stdout);
+  std::fputs(explain_moment(lamps, desk, channel, moment, asked, scene, traffic, road, !options.headless).c_str(),
+             stdout);
   return kExitDone;
 }
 
@@ -95,7 +96,9 @@ int draw_channel(VisualOptions options) {
   if (!scene) return refuse(scene.error());
   Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file), lane_of(rig->scene_file));
   if (!traffic) return refuse(traffic.error());
-  if (options.explain) return explain_and_leave(options, *scene, *lamps, desk, channel);
+  if (options.explain)
+    return explain_and_leave(options, *scene, *lamps, desk, channel, *traffic,
+                             RoadLine(lane_of(rig->scene_file), rig->scene_file));
   LampReplay lamps_then;
   if (!options.drive_file.empty()) {
     const Result<Drive> drive = read_drive(options.drive_file);
