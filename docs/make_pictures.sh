@@ -27,6 +27,8 @@ picture "$(at_second "$out/false" 20)" false_colour
 picture "$out/fog/frames/000059.png" fog
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --camera oncoming --out "$out/oncoming" --port-base "$ports"
 picture "$out/oncoming/frames/000059.png" oncoming
+"$phare" drive --headless --lockstep --frames 60 --samples 4 --traffic config/examples/column.toml --out "$out/traffic" --port-base "$ports"
+picture "$out/traffic/frames/000059.png" traffic
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --set grid_m=10 --set road_isolux=on --out "$out/grid" --port-base "$ports"
 picture "$out/grid/frames/000059.png" grid
 "$phare" drive --design halogen --versus led --headless --lockstep --frames 60 --samples 4 --out "$out/ab" --port-base "$ports"

@@ -66,7 +66,7 @@ speed_kmh = 36
 TEST_F(TrafficTest, ItsLampsGlareAsTheirTablesHaveIt) {
   const Traffic cars = traffic("[[road_user]]\nstart_s_m = 50\noffset_m = 3.5\n");
   const auto users = cars.at(0.0, straight());
-  const auto lamps = Traffic::placed_lamps(users);
+  const auto lamps = Traffic::placed_lamps(users, {0.0, 0.3, 1.2}, {1.0, 0.0, 0.0});
   ASSERT_EQ(lamps.size(), 2u);
   const glm::dvec3 eye_m(0.0, 0.3, 1.2);
   const auto glare = cars.glare_at(users, eye_m, {}, std::nullopt);
@@ -93,7 +93,7 @@ TEST_F(TrafficTest, ItsLampsGlareAsTheirTablesHaveIt) {
 
   const Traffic dark =
       traffic("[[road_user]]\nstart_s_m = 50\nlights = false\n[[road_user]]\nclass = \"pedestrian\"\n");
-  EXPECT_TRUE(Traffic::placed_lamps(dark.at(0.0, straight())).empty());
+  EXPECT_TRUE(Traffic::placed_lamps(dark.at(0.0, straight()), eye_m, {1.0, 0.0, 0.0}).empty());
   EXPECT_TRUE(dark.glare_at(dark.at(0.0, straight()), eye_m, {}, std::nullopt).empty());
 }
 
@@ -117,6 +117,20 @@ TEST_F(TrafficTest, GlareFiguresAreThoseOfTheEquations) {
   ASSERT_EQ(eyes.size(), 1u) << "who drives ahead looks away, who walks does not drive";
   EXPECT_NEAR(glm::distance(eyes[0].position_m, glm::dvec3(50.0 - 0.35, 3.5 - 0.37, 1.2)), 0.0, 1e-9);
   EXPECT_NEAR(eyes[0].normal.x, -1.0, 1e-9);
+}
+
+// The nearest that has not passed lights the scene; all glare.
+TEST_F(TrafficTest, TheNearestLightsTheScene) {
+  const Traffic column = traffic(
+      "[[road_user]]\nstart_s_m = 100\n[[road_user]]\nstart_s_m = 60\n[[road_user]]\n"
+      "start_s_m = 10\n[[road_user]]\nclass = \"motorcycle\"\nstart_s_m = 40\n");
+  const auto users = column.at(0.0, straight());
+  const glm::dvec3 eye_m(20.0, 0.0, 1.2), ahead(1.0, 0.0, 0.0);
+  const auto lamps = Traffic::placed_lamps(users, eye_m, ahead);
+  ASSERT_EQ(lamps.size(), Traffic::kMostLamps);
+  EXPECT_NEAR(lamps[0].position_m.x, 40.0 - 0.6, 1e-9) << "the motorcycle, with one";
+  EXPECT_NEAR(lamps[1].position_m.x, 60.0 - 2.18, 1e-9) << "then the car behind it";
+  EXPECT_EQ(column.glare_at(users, eye_m, {}, std::nullopt).size(), 5u + 2u) << "tail lamps of who has passed, too";
 }
 
 TEST_F(TrafficTest, WhatIsWrongInTheFileIsNamed) {

@@ -60,7 +60,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
     if (casts) casts->push_back(casters.by(reach, lamp.world_from_image));
   }
   const LightCone of_others = users.empty() ? LightCone{} : light_cone(traffic.beam());
-  for (const PlacedLamp& lamp : Traffic::placed_lamps(users)) {
+  for (const PlacedLamp& lamp : Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0])) {
     const LampReach reach(lamp.position_m, lamp.world_from_image, of_others);
     if (!reach.meets(view)) continue;
     ++lit;

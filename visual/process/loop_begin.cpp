@@ -89,6 +89,18 @@ void Loop::warm_up() {
           FrameInput blinded = input;
           blinded.glare = {{input.camera.eye_m + 10.0 * input.camera.world_from_eye[0], 1.0}};
           s_.renderer.draw(blinded);
+          // The pass sums two, four, eight or twelve.
+          while (!s_.traffic.empty() && last && blinded.glare.size() < kMostGlaringLamps) {
+            const std::size_t more =
+                std::min(blinded.glare.size() < 2 ? 3 : 2 * blinded.glare.size() - 1, kMostGlaringLamps);
+            blinded.glare.resize(more, blinded.glare.front());
+            s_.renderer.draw(blinded);
+          }
+          // Of others one lamp lights the scene, or two.
+          for (std::size_t lamp = 0; !s_.traffic.empty() && lamp < Traffic::kMostLamps; ++lamp) {
+            blinded.lamps.push_back({input.camera.eye_m, input.camera.world_from_eye, Traffic::kBeam});
+            s_.renderer.draw(blinded);
+          }
         }
         if (!last || versus_.lamps() == nullptr) continue;
         FrameInput halves = input;  // the other design's beams may be looked up in another way

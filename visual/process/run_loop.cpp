@@ -203,7 +203,8 @@ void Loop::draw(const Moment& moment) {
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
   input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
   const std::vector<Traffic::There> users = s_.traffic.at(moment.time.seconds(), measuring_.road());
-  const std::vector<PlacedLamp> their_lamps = Traffic::placed_lamps(users);
+  const std::vector<PlacedLamp> their_lamps =
+      Traffic::placed_lamps(users, input_.camera.eye_m, input_.camera.world_from_eye[0]);
   input_.lamps.insert(input_.lamps.end(), their_lamps.begin(), their_lamps.end());
   input_.moving = s_.traffic.placed_meshes(users);
   input_.picked = picked_effects();

@@ -113,11 +113,19 @@ std::vector<PlacedMesh> Traffic::placed_meshes(std::span<const There> users) con
   return meshes;
 }
 
-std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users) {
+std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users, const glm::dvec3& eye_m,
+                                              const glm::dvec3& ahead) {
+  std::vector<const There*> near;
+  for (const There& user : users) {
+    const bool passed =
+        glm::dot(user.position_m - eye_m, ahead) < 0.0 && glm::dot(user.world_from_user[0], ahead) < 0.0;
+    if (user.lights && !passed) near.push_back(&user);
+  }
+  std::ranges::stable_sort(near, {}, [&](const There* user) { return glm::distance(user->position_m, eye_m); });
   std::vector<PlacedLamp> lamps;
-  for (const There& user : users)
-    for (int lamp = 0; user.lights && lamp < places_of(user.kind).headlamps; ++lamp)
-      lamps.push_back({front_lamp_m(user, lamp), headlamp_turn(user), kBeam});
+  for (const There* user : near)
+    for (int lamp = 0; lamp < places_of(user->kind).headlamps && lamps.size() < kMostLamps; ++lamp)
+      lamps.push_back({front_lamp_m(*user, lamp), headlamp_turn(*user), kBeam});
   return lamps;
 }
 

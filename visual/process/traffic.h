@@ -50,7 +50,12 @@ class Traffic {
   std::vector<There> at(double time_s, const RoadLine& road) const;
 
   std::vector<PlacedMesh> placed_meshes(std::span<const There> users) const;
-  static std::vector<PlacedLamp> placed_lamps(std::span<const There> users);
+  /// Headlamps that light the scene: those of the nearest, kMostLamps in all, so that with a car's own two none is
+  /// lit by block (visual/lit_scene.h) and every pipeline is made before the drive. Who has passed `eye_m` lights
+  /// nothing that is seen along `ahead`. All others only glare.
+  static constexpr std::size_t kMostLamps = 2;
+  static std::vector<PlacedLamp> placed_lamps(std::span<const There> users, const glm::dvec3& eye_m,
+                                              const glm::dvec3& ahead);
   /// Where their drivers' eyes are, looking along their way; of those with lights that come toward us: nothing else
   /// counts as glared at.
   static std::vector<MeasurePoint> oncoming_eyes(std::span<const There> users, const glm::dvec3& heading);
