@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
+
+#include "visual/photometry/table/fog.h"
 
 namespace phare {
 namespace {
@@ -14,6 +17,13 @@ double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 }  // namespace
+
+GlaringLamp glaring_lamp(const glm::dvec3& lamp_m, double candela, const glm::vec3& colour, const glm::dvec3& eye_m,
+                         std::optional<double> visibility_m) {
+  const double distance_m = glm::distance(lamp_m, eye_m);
+  const double through_air = visibility_m ? transmittance(extinction_per_m(*visibility_m), distance_m) : 1.0;
+  return {lamp_m, candela / (distance_m * distance_m) * through_air, colour};
+}
 
 double least_angle_deg(const ViewGeometry& view, const glm::dvec3& place_m) {
   const glm::dvec3 way_m = place_m - view.camera().eye_m;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct GlaringLamp {
   double eye_lx = 0.0;      ///< at the eye, on a plane that faces the lamp
   glm::vec3 colour{1.0f};   ///< linear sRGB, luminance 1
 };
+
+/// A lamp of so many candela toward an eye elsewhere. `visibility_m`: of the air between them; nothing: it is clear.
+GlaringLamp glaring_lamp(const glm::dvec3& lamp_m, double candela, const glm::vec3& colour, const glm::dvec3& eye_m,
+                         std::optional<double> visibility_m);
 
 /// More are left out, the weakest first.
 inline constexpr std::size_t kMostGlaringLamps = 12;

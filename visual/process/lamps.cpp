@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "config/base/conventions.h"
-#include "visual/photometry/table/fog.h"
 #include "visual/photometry/table/illuminance.h"
 #include "visual/scene/ray_hit.h"
 
@@ -223,10 +222,8 @@ std::vector<GlaringLamp> Lamps::glare_at(const VehicleState& pose, const glm::dv
                                          std::optional<double> visibility_m) const {
   std::vector<GlaringLamp> sources;
   for (const PointLight& light : lights_at(pose, {.position_m = eye_m})) {
-    const double distance_m = glm::distance(light.lamp_m, eye_m);
-    if (light.candela <= 0.0 || distance_m <= 0.0 || occluder(scene, light.lamp_m, eye_m)) continue;
-    const double through_air = visibility_m ? transmittance(extinction_per_m(*visibility_m), distance_m) : 1.0;
-    sources.push_back({light.lamp_m, light.candela / (distance_m * distance_m) * through_air, light.colour});
+    if (light.candela <= 0.0 || light.lamp_m == eye_m || occluder(scene, light.lamp_m, eye_m)) continue;
+    sources.push_back(glaring_lamp(light.lamp_m, light.candela, light.colour, eye_m, visibility_m));
   }
   return sources;
 }

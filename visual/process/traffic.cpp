@@ -9,7 +9,6 @@
 
 #include "config/base/paths.h"
 #include "visual/photometry/readers/read_lamp.h"
-#include "visual/photometry/table/fog.h"
 #include "visual/scene/ray_hit.h"
 
 namespace phare {
@@ -133,10 +132,8 @@ std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const g
                                            std::optional<double> visibility_m) const {
   std::vector<GlaringLamp> sources;
   const auto add = [&](const glm::dvec3& lamp_m, double cd, const glm::vec3& colour) {
-    const double distance_m = glm::distance(lamp_m, eye_m);
-    if (!(cd > 0.0) || !(distance_m > 0.0) || occluder(scene, lamp_m, eye_m)) return;
-    const double through_air = visibility_m ? transmittance(extinction_per_m(*visibility_m), distance_m) : 1.0;
-    sources.push_back({lamp_m, cd / (distance_m * distance_m) * through_air, colour});
+    if (cd <= 0.0 || lamp_m == eye_m || occluder(scene, lamp_m, eye_m)) return;
+    sources.push_back(glaring_lamp(lamp_m, cd, colour, eye_m, visibility_m));
   };
   const glm::vec3 headlamp_colour = light_colour({.table = &headlamp_, .colour_temperature_k = kHalogen_k});
   for (const There& user : users) {
