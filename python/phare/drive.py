@@ -184,6 +184,7 @@ def drive(
     drive: PathLike | None = None,
     script: PathLike | None = None,
     log: PathLike | None = None,
+    traffic: PathLike | None = None,
     out: PathLike | None = None,
     frames: int | None = None,
     size: str | tuple[int, int] | None = None,
@@ -202,6 +203,7 @@ def drive(
 
     rig: a Rig, or a rig file; None: the demo. lamp, lamp_high, lamp_fog, aim: a lamp of one's own in the words of
     `phare drive --lamp`. drive: a drive file to replay; script: of the driver model; log: a candump log; none: the demo drive.
+    traffic: other road users in the picture, a TOML file; None: the rig's (docs/traffic.md).
     out: folder for pictures and report; None: a folder that goes with the Report. frames: keep each of the first so many
     and end then; None: to the end of the drive. size: pixels, "320x180" or (320, 180). level: of the car's model. lockstep:
     reproducible bit for bit; else in real time. record: keep every message (the time series of the Report). overwrite: put this
@@ -229,7 +231,7 @@ def drive(
     words = ["drive", "--headless", "--overwrite", "--out", str(folder), "--port-base", str(base)]
     given: dict[str, Any] = {
         "--rig": rig_file, "--lamp-high": lamp_high, "--lamp-fog": lamp_fog, "--aim": aim, "--drive": drive,
-        "--script": script, "--log": log, "--frames": frames, "--level": level,
+        "--script": script, "--log": log, "--traffic": traffic, "--frames": frames, "--level": level,
         "--size": "x".join(map(str, size)) if isinstance(size, tuple) else size,
         "--record": folder / "drive.pcap" if record else None,
     }

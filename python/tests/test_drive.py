@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import phare
@@ -37,6 +38,19 @@ def test_the_same_drive_has_the_same_pictures(report, tmp_path):
     with pytest.raises(phare.BadInput, match="not recorded"):
         again.car
     assert phare.Report(tmp_path / "out").picture_hash == report.picture_hash
+
+
+def test_other_road_users_are_drawn_and_their_glare_is_told(report, tmp_path):
+    file = tmp_path / "traffic.toml"
+    file.write_text("[[road_user]]\nstart_s_m = 70\noffset_m = 3.4\n")
+    met = phare.drive(phare.Rig.shipped(), traffic=file, frames=4, out=tmp_path / "out", record=False, **SMALL)
+    assert met.picture_hash != report.picture_hash
+    rows = pd.read_csv(met.folder / "drive.csv")
+    assert (rows.veil_cdm2 > 0).all() and (rows.others_eye_lx > 0).all() and rows.de_boer.between(1, 9).all()
+    assert "glare_lx" not in pd.read_csv(report.folder / "drive.csv").columns
+    with pytest.raises(phare.BadInput, match="road_user"):
+        file.write_text("[[car]]\n")
+        phare.drive(traffic=file, frames=1, out=tmp_path / "bad")
 
 
 def test_a_folder_that_holds_a_drive_is_not_written_over(report):
