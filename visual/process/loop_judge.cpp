@@ -41,12 +41,13 @@ void Loop::answer_probes() {
     }
     if (newest_) {
       reply.illuminance_lx.assign(points.size(), 0.0);
-      const std::vector<std::vector<float>> lx = s_.renderer.measure(input_.lamps, points);
+      std::vector<PlacedLamp> own = input_.lamps;
+      std::erase_if(own, [](const PlacedLamp& lamp) { return lamp.beam == Traffic::kBeam; });
+      const std::vector<std::vector<float>> lx = s_.renderer.measure(own, points);
       const bool shadows = s_.desk.shadows != 0;
       for (std::size_t lamp = 0; lamp < lx.size(); ++lamp)
         for (std::size_t i = 0; i < points.size(); ++i)
-          if (lx[lamp][i] > 0.0f &&
-              !(shadows && occluder(s_.scene, input_.lamps[lamp].position_m, points[i].position_m)))
+          if (lx[lamp][i] > 0.0f && !(shadows && occluder(s_.scene, own[lamp].position_m, points[i].position_m)))
             reply.illuminance_lx[i] += static_cast<double>(lx[lamp][i]);
     } else {
       reply.error = "no frame has been drawn yet";

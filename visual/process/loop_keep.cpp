@@ -31,6 +31,7 @@ void Loop::keep(const Moment& moment) {
     FrameInput driver = input_;
     driver.camera = driver_camera(s_.channel(), moment.car.pose);
     driver.lamps = s_.lamps.placed(moment.car.pose);
+    driver.moving.clear(), driver.glare.clear();  // stills are of the car's own light
     driver.view = View::kPhoto;
     driver.marks = {};
     driver.more_views.clear();
@@ -108,6 +109,7 @@ void Loop::keep_other_designs() {
   if (!still_) return;
   still_->driver.more_views.clear(), still_->driver.marks = {}, still_->driver.overlay.clear();
   still_->driver.instruments.clear(), still_->driver.panel = {}, still_->driver.view = View::kPhoto;
+  still_->driver.moving.clear(), still_->driver.glare.clear();
   for (const auto& [design, seconds] : s_.designs_lit.seconds) {
     if (s_.stills_design == design) continue;
     Lamps lamps = s_.lamps;

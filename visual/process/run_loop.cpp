@@ -235,7 +235,11 @@ void Loop::draw(const Moment& moment) {
   // Picked, measured and audited is the whole view.
   FrameInput halves;
   const bool split = versus_.lamps() != nullptr && s_.desk.compare == Compare::kSplit;
-  if (split) halves = input_, versus_.split(halves, moment.car.pose);
+  if (split) {
+    halves = input_, versus_.split(halves, moment.car.pose);
+    std::vector<PlacedLamp>& beside = halves.more_views.front().lamps;
+    beside.insert(beside.end(), their_lamps.begin(), their_lamps.end());
+  }
   const FrameResult result = s_.renderer.draw(split ? halves : input_);
   if (over_) return;  // what is counted is the drive
   s_.stats.add(result, captured_);
