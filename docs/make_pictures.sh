@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the pictures of docs/gallery.md and README.md anew, by the commands that stand there: docs/make_pictures.sh [phare]
-# Needs ImageMagick's convert (apt-get install imagemagick) to make JPEGs of them. Two drives of 75 s and three short ones.
+# Needs ImageMagick's convert (apt-get install imagemagick) to make JPEGs of them. Two drives of 75 s and some short ones.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 phare=${1:-./phare}
