@@ -64,6 +64,7 @@ void Loop::warm_up() {
   const Camera first_camera = std::exchange(input.camera, overview_camera(s_.scene));
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
   const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 2 : 1;
+  const std::uint32_t first_design = controls_to_show(s_.bus, Clock::now()).design_index;
   int step = 0;
   bool last = false;
   const auto draw = [&](const CockpitState& controls) {
@@ -72,8 +73,12 @@ void Loop::warm_up() {
     light_up(controls);
     if (last) upload(versus_.follow(s_.desk, s_.lamps, controls));
     input.lamps = s_.lamps.placed(pose);
-    const bool glaring = s_.desk.glare != std::size_t{0} &&
-                         (!s_.traffic.empty() || !s_.lamps.glare_at(pose, first_camera.eye_m, {}, {}).empty());
+    // Others are met with the design and the beams that a drive mostly has; each more would take seconds.
+    const bool met =
+        !s_.traffic.empty() && (last || (controls.design_index == first_design &&
+                                         controls.light_switch >= LightSwitch::kLow && !controls.fog_front));
+    const bool glaring =
+        s_.desk.glare != std::size_t{0} && (met || !s_.lamps.glare_at(pose, first_camera.eye_m, {}, {}).empty());
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
     // The same for fog, where there is some to begin with, and of the light that the drive begins with.
@@ -90,16 +95,16 @@ void Loop::warm_up() {
           blinded.glare = {{input.camera.eye_m + 10.0 * input.camera.world_from_eye[0], 1.0}};
           s_.renderer.draw(blinded);
           // The pass sums two, four, eight or twelve.
-          while (!s_.traffic.empty() && last && blinded.glare.size() < kMostGlaringLamps) {
+          while (met && last && blinded.glare.size() < kMostGlaringLamps) {
             const std::size_t more =
                 std::min(blinded.glare.size() < 2 ? 3 : 2 * blinded.glare.size() - 1, kMostGlaringLamps);
             blinded.glare.resize(more, blinded.glare.front());
             s_.renderer.draw(blinded);
           }
           // Of others one lamp lights the scene, or two.
-          for (std::size_t lamp = 0; !s_.traffic.empty() && lamp < Traffic::kMostLamps; ++lamp) {
+          for (std::size_t lamp = 1; met && lamp <= Traffic::kMostLamps; ++lamp) {
             blinded.lamps.push_back({input.camera.eye_m, input.camera.world_from_eye, Traffic::kBeam});
-            s_.renderer.draw(blinded);
+            if (last || lamp == Traffic::kMostLamps) s_.renderer.draw(blinded);
           }
         }
         if (!last || versus_.lamps() == nullptr) continue;

@@ -116,9 +116,8 @@ std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users, cons
                                               const glm::dvec3& ahead) {
   std::vector<const There*> near;
   for (const There& user : users) {
-    const bool passed =
-        glm::dot(user.position_m - eye_m, ahead) < 0.0 && glm::dot(user.world_from_user[0], ahead) < 0.0;
-    if (user.lights && !passed) near.push_back(&user);
+    const bool behind = glm::dot(user.position_m - eye_m, ahead) < 0.0;
+    if (user.lights && !behind) near.push_back(&user);
   }
   std::ranges::stable_sort(near, {}, [&](const There* user) { return glm::distance(user->position_m, eye_m); });
   std::vector<PlacedLamp> lamps;

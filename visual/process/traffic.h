@@ -51,8 +51,9 @@ class Traffic {
 
   std::vector<PlacedMesh> placed_meshes(std::span<const There> users) const;
   /// Headlamps that light the scene: those of the nearest, kMostLamps in all, so that with a car's own two none is
-  /// lit by block (visual/lit_scene.h) and every pipeline is made before the drive. Who has passed `eye_m` lights
-  /// nothing that is seen along `ahead`. All others only glare.
+  /// lit by block (visual/lit_scene.h) and every pipeline is made before the drive. Who is behind
+  /// `eye_m` lights nothing that is seen along `ahead`: most of a follower's light falls on the car, which has no body.
+  /// All others only glare.
   static constexpr std::size_t kMostLamps = 2;
   static std::vector<PlacedLamp> placed_lamps(std::span<const There> users, const glm::dvec3& eye_m,
                                               const glm::dvec3& ahead);
