@@ -350,6 +350,8 @@ void DriveRun::write_report() {
   for (const std::string* file : {&options_.drive, &options_.script, &options_.log})
     if (!file->empty()) facts_.source_file = *file;
   const PictureOptions& picture = options_.picture;
+  if (!picture.traffic.empty()) facts_.traffic_file = picture.traffic;
+  if (picture.traffic.empty() && !rig_.traffic_file.empty()) facts_.traffic_file = rig_.traffic_file;
   const auto series = read_drive_series(options_.out);
   if (!series) spdlog::warn("{}; the page is without it", series.error().text());
   const DriveSeries* driven = series && *series ? &**series : nullptr;

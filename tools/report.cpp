@@ -83,6 +83,7 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
   report["scene"] = named_by_content(rig.scene_file);
   report["vehicle"] = named_by_content(rig.vehicle_file);
   report["cockpit"] = named_by_content(rig.cockpit_file);
+  if (facts.traffic_file) report["traffic"] = named_by_content(*facts.traffic_file);
   if (facts.source_file) report["drive"] = named_by_content(*facts.source_file);
   report["lamps"] = lamps_of(rig);
 

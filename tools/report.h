@@ -22,8 +22,9 @@ struct DriveFacts {
   bool interrupted = false;  ///< by Ctrl-C or SIGTERM
   std::vector<Restart> restarts;
   std::vector<Supervisor::Ended> ends;
-  std::optional<std::filesystem::path> source_file;  ///< drive, script or log that was driven
-  std::vector<std::string> process_names;            ///< "cockpit", "dynamics", "visual-0": OUT/<name>.json
+  std::optional<std::filesystem::path> source_file;   ///< drive, script or log that was driven
+  std::optional<std::filesystem::path> traffic_file;  ///< other road users, of the rig or in place of it
+  std::vector<std::string> process_names;             ///< "cockpit", "dynamics", "visual-0": OUT/<name>.json
   std::map<std::string, nlohmann::json>
       own_counts{};                               ///< stats_json of the launcher's own sockets: "phare", "recorder"
   std::vector<nlohmann::json> before_restarts{};  ///< per restart: the last OUT/<name>.json of the process that died

@@ -191,7 +191,7 @@ class Tables {
 
   void inputs() {
     page_ << "<h2>Made from</h2><div class=\"scroll\"><table>";
-    for (const char* what : {"rig", "scene", "vehicle", "cockpit", "drive"}) {
+    for (const char* what : {"rig", "scene", "vehicle", "cockpit", "traffic", "drive"}) {
       if (!report_.contains(what)) continue;
       page_ << "<tr><td>" << what << "</td><td class=\"text\">" << value_text(report_[what], "file")
             << "</td><td class=\"text\"><code>" << escaped(report_[what].value("content_hash", ""))

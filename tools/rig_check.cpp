@@ -9,6 +9,7 @@
 #include "cockpit_io/dbc.h"
 #include "config/cockpit.h"
 #include "config/road/lane.h"
+#include "config/traffic/road_users.h"
 #include "config/vehicle.h"
 #include "tools/lamp_design.h"
 #include "visual/photometry/bench/lamp_aim.h"
@@ -36,6 +37,7 @@ class Checker {
       if (const auto vehicle = read_vehicle(rig.vehicle_file); !vehicle) problem(vehicle.error());
     }
     if (is_there(rig.cockpit_file, "the cockpit")) cockpit(rig.cockpit_file);
+    traffic(rig);
     lamps(rig);
     return std::move(found_);
   }
@@ -67,6 +69,15 @@ class Checker {
       found_.warnings.push_back(file.string() +
                                 ": no node whose name begins with road or ground: the car drives on a "
                                 "plane");
+  }
+
+  void traffic(const Rig& rig) {
+    if (!is_there(rig.traffic_file, "the traffic")) return;
+    if (const auto users = read_road_users(rig.traffic_file); !users) problem(users.error());
+    std::error_code ignored;
+    if (const fs::path lane = lane_file_of(rig.scene_file); !rig.scene_file.empty() && !fs::exists(lane, ignored))
+      problem({rig.traffic_file.string(),
+               "the scene has no lane beside it that road users would drive along: no " + lane.string()});
   }
 
   void cockpit(const fs::path& file) {

@@ -90,8 +90,6 @@ static_assert(shader::kMaxIsoluxLevels % 4 == 0);
 static_assert(static_cast<std::uint32_t>(Method::kVertex) == shader::kMethodVertex &&
               static_cast<std::uint32_t>(Method::kVertex1998) == shader::kMethodVertex1998);
 
-constexpr std::size_t kNoBeam = SIZE_MAX;
-
 bool is_filtered(ImageLevel level) {
   return level == ImageLevel::kNormalised8 || level == ImageLevel::kHalfEven;
 }
@@ -194,141 +192,8 @@ void LitScene::forget_sets() {
   sets_.clear();
 }
 
-LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps,
-                       std::span<const PlacedMesh> moving, double far_mesh_from_m, std::span<const double> isolux_lx) {
-  LitView view{
-      .geometry = geometry, .sky = sky, .isolux_lx = isolux_lx, .items = geometry_.visible(geometry, far_mesh_from_m)};
-  if (!moving.empty()) geometry_.add_visible(view.items, view.moved, geometry, moving);
-  for (const PlacedLamp& lamp : lamps) {
-    if (is_dark(lamp.beam)) continue;
-    const LampReach reach = reach_of(lamp);
-    const bool in_air = reach.meets(geometry);
-    if (in_air) view.air_lamps.push_back(lamp);
-    const bool reaches = in_air && std::ranges::any_of(view.items, [&](const DrawItem& item) {
-                           return reach.meets(item.batch->low_m, item.batch->high_m);
-                         });
-    if (reaches)
-      view.lit_lamps.push_back(lamp);
-    else
-      ++view.unreached;
-  }
-  view.lamps = static_cast<std::uint32_t>(view.lit_lamps.size());
-  if (view.lamps > kLampsForAll) {
-    light_by_block(view);
-    return view;
-  }
-  view.lit_by.push_back(fill(view, view.lit_lamps));
-  for (std::size_t i = 0; i < view.lamps; ++i) view.lit_by[0].lamp_at[i] = i;
-  return view;
-}
-
-std::size_t LitScene::find_casters(LitView& view) const {
-  for (const PlacedLamp& lamp : view.lit_lamps)
-    view.casts.push_back(casters_.by(reach_of(lamp), lamp.world_from_image));
-  return casters_of_all(view.casts);
-}
-
-void LitScene::light_by_block(LitView& view) {
-  const std::span<const PlacedLamp> lamps = view.lit_lamps;
-  std::vector<LampReach> reaches;
-  for (const PlacedLamp& lamp : lamps) reaches.push_back(reach_of(lamp));
-  std::map<std::vector<std::size_t>, std::size_t> sets;
-  std::vector<bool> left_out(lamps.size());
-  for (DrawItem& item : view.items) {
-    const SceneBatch& batch = *item.batch;
-    std::vector<std::size_t> here;
-    for (std::size_t i = 0; i < lamps.size(); ++i)
-      if (reaches[i].meets(batch.low_m, batch.high_m)) here.push_back(i);
-    if (here.size() > shader::kMaxLamps) {
-      // The brightest stay: peak over the square of the least distance.
-      const auto at_most_lx = [&](std::size_t i) {
-        const glm::dvec3 to = lamps[i].position_m - glm::clamp(lamps[i].position_m, batch.low_m, batch.high_m);
-        return static_cast<double>(peaks_cd_[lamps[i].beam]) / std::max(glm::dot(to, to), 1.0);
-      };
-      std::ranges::stable_sort(here, std::greater(), at_most_lx);
-      for (std::size_t i = shader::kMaxLamps; i < here.size(); ++i) left_out[here[i]] = true;
-      here.resize(shader::kMaxLamps);
-      std::ranges::sort(here);
-    }
-    const auto [set, fresh] = sets.try_emplace(here, view.lit_by.size());
-    if (fresh) {
-      std::vector<PlacedLamp> set_lamps;
-      for (const std::size_t i : here) set_lamps.push_back(lamps[i]);
-      view.lit_by.push_back(fill(view, set_lamps));
-      std::ranges::copy(here, view.lit_by.back().lamp_at.begin());
-    }
-    item.lit_by = set->second;
-  }
-  view.over_limit = static_cast<std::uint32_t>(std::ranges::count(left_out, true));
-  std::ranges::stable_sort(view.items, {},
-                           [](const DrawItem& item) { return std::pair(item.batch->kind, item.lit_by); });
-}
-
-LitView LitScene::view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps) {
-  LitView view{.geometry = geometry, .sky = {}};
-  view.lamps = static_cast<std::uint32_t>(lamps.size());
-  view.lit_lamps.assign(lamps.begin(), lamps.end());
-  view.lit_by.push_back(fill(view, lamps));
-  for (std::size_t i = 0; i < view.lamps; ++i) view.lit_by[0].lamp_at[i] = i;
-  return view;
-}
-
-LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
-  LitBy lit;
-  shader::GpuFrame frame{};
-  const glm::mat4 clip = glm::mat4(view.geometry.clip_from_eye());
-  for (int i = 0; i < 4; ++i) frame.clip_from_eye[i] = clip[i];
-  frame.exposure = glm::vec4(view.sky.exposure_per_cdm2, 0.0f);
-  frame.sky = view.sky.zenith();
-  constexpr float kNowhere_lx = 1e30f;
-  for (std::size_t i = 0; i < kMostIsoluxLevels; ++i)
-    frame.isolux_lx[i / 4][static_cast<int>(i % 4)] =
-        i < view.isolux_lx.size() ? static_cast<float>(view.isolux_lx[i]) : kNowhere_lx;
-  Beams bound;
-  bound.fill(kNoBeam);
-  std::vector<shader::TableShape> shapes;
-  std::optional<glm::vec3> first_colour;
-  for (const PlacedLamp& lamp : lamps) {
-    const PackedBeam& beam = beams_.beam(lamp.beam);
-    bound[lit.lamps] = lamp.beam;
-    shapes.push_back(beam.shape);
-    if (first_colour && *first_colour != beam.colour) lit.colours |= 1u;
-    if (beam.tinted()) lit.colours |= 1u << (8 + lit.lamps);
-    first_colour = beam.colour;
-    shader::GpuLamp& out = frame.lamps[lit.lamps++];
-    const glm::dvec3 from_eye_m = lamp.position_m - view.geometry.camera().eye_m;
-    out.position = glm::vec4(glm::vec3(from_eye_m), peaks_cd_[lamp.beam]);
-    const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
-    out.row_a = glm::vec4(glm::vec3(rows[0]), static_cast<float>(glm::dot(from_eye_m, from_eye_m)));
-    out.row_b = glm::vec4(glm::vec3(rows[1]), 0.0f);
-    out.row_c = glm::vec4(glm::vec3(rows[2]), 0.0f);
-    beams_.describe(lamp.beam, out);
-  }
-  lit.tables = tables_of(std::move(shapes));
-  const std::size_t page = views_ / kViewsInPage, place = views_ % kViewsInPage;
-  ++views_;
-  if (page == pages_.size())
-    pages_.push_back(std::make_unique<gpu::HostBuffer>(device_, kViewsInPage * stride_,
-                                                       vk::BufferUsageFlagBits::eUniformBuffer, "views"));
-  lit.data_at = static_cast<std::uint32_t>(place * stride_);
-  lit.data = reinterpret_cast<shader::GpuFrame*>(static_cast<std::byte*>(pages_[page]->data) + lit.data_at);
-  std::memcpy(lit.data, &frame, sizeof frame);
-  lit.set = set_of(page, bound);
-  return lit;
-}
-
 bool LitScene::filtered() const {
   return is_filtered(level_);
-}
-
-glm::vec3 LitScene::mean_colour(std::span<const PlacedLamp> lamps) const {
-  glm::vec3 sum(0.0f);
-  float weight = 0.0f;
-  for (const PlacedLamp& lamp : lamps) {
-    sum += beams_.beam(lamp.beam).colour * peaks_cd_[lamp.beam];
-    weight += peaks_cd_[lamp.beam];
-  }
-  return weight > 0.0f ? sum / weight : glm::vec3(1.0f);
 }
 
 std::vector<std::uint32_t> LitScene::table_words(std::size_t tables) const {

@@ -1,5 +1,6 @@
 // The lit scene: what every pass shares that draws surfaces under lamps. Geometry, materials, lamps, beam images, the
-// descriptor set that shaders see them through (shaders/lamps.h), and the pipelines.
+// descriptor set that shaders see them through (shaders/lamps.h), and the pipelines. Views of it are made in
+// lit_view.cpp.
 #pragma once
 
 #include <array>
@@ -158,6 +159,7 @@ class LitScene {
   static constexpr std::uint32_t kViewsInPage = 16;
   static constexpr std::size_t kMostSets = 256;  ///< kept from frame to frame
   static constexpr std::size_t kLampsForAll = 4;
+  static constexpr std::size_t kNoBeam = SIZE_MAX;
   using Beams = std::array<std::size_t, shader::kMaxLamps>;
 
   void light_by_block(LitView& view);

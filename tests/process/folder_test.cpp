@@ -67,7 +67,8 @@ TEST_F(Folder, WhatAnyProcessCannotReadLeavesTheDriveBeforeAsItLay) {
   ASSERT_GT(before.size(), 8u);
   std::ofstream(folder_ / "typo.toml") << "[source]\nkind = \"keybord\"\n";
   std::ofstream(folder_ / "typo_script.toml") << "lane = 3\n";
-  for (const char* wrong : {"--cockpit typo.toml", "--script typo_script.toml"}) {
+  std::ofstream(folder_ / "typo_traffic.toml") << "[[road_user]]\nclass = \"kar\"\n";
+  for (const char* wrong : {"--cockpit typo.toml", "--script typo_script.toml", "--traffic typo_traffic.toml"}) {
     const Said said = drive_here("--frames 3 --out out --record evening.pcap --overwrite " + std::string(wrong));
     EXPECT_EQ(said.code, 2) << said.err;
     EXPECT_NE(said.err.find("typo"), std::string::npos) << said.err;

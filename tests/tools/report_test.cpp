@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 
+#include "config/base/content_hash.h"
 #include "visual/photometry/beam/lamp_tables.h"
 
 namespace phare {
@@ -34,7 +35,11 @@ TEST(Report, MergesWhatThereIs) {
   facts.restarts = {{"dynamics", 1.5, "SIGKILL"}};
   facts.ends = {{"cockpit", "exit 0"}, {"dynamics", "SIGKILL"}, {"visual-0", "exit 0"}};
   facts.command = {"phare", "drive"};
+  std::ofstream(out / "others.toml") << "x";
+  facts.traffic_file = out / "others.toml";
   const nlohmann::json report = make_report(rig, facts, out);
+  EXPECT_EQ(report["traffic"]["file"], "others.toml");
+  EXPECT_EQ(report["traffic"]["content_hash"].get<std::string>(), *content_hash_of_file(out / "others.toml"));
   EXPECT_EQ(report["summary"]["messages"]["cockpit"]["received"], 10);
   EXPECT_EQ(report["summary"]["messages"]["cockpit"]["lost"], 1);
   EXPECT_EQ(report["summary"]["messages"]["cockpit"]["duplicate"], 2);
@@ -49,6 +54,7 @@ TEST(Report, MergesWhatThereIs) {
   EXPECT_NE(page.find("&lt;test&gt; &amp; road"), std::string::npos);
   EXPECT_NE(page.find("&lt;lavapipe&gt;"), std::string::npos);
   EXPECT_NE(page.find("birds_eye.png"), std::string::npos);
+  EXPECT_NE(page.find("<td>traffic</td><td class=\"text\">others.toml"), std::string::npos);
   EXPECT_NE(page.find("62.5 frames a second: all frames by all seconds; 100 by the median interval"),
             std::string::npos);
   EXPECT_NE(page.find("3 pictures with the low beam of the fail-safe, 1 times"), std::string::npos);

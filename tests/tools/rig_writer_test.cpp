@@ -68,8 +68,9 @@ TEST_F(RigWriter, WhatIsWrittenReadsBackTheSame) {
       rig.dynamics_level = "full";
       rig.dynamics_step_s = 1.0 / 3000.0;
       rig.beam_image = ImageLevel::kHalfNodes;
-      for (const char* set : {"adaptation_k 4321.5", "camera chase", "isolux_lx 0.1 2 33", "exposure_per_cdm2 0.7",
-                              "design 1", "lines off", "visibility_m 120.5", "probes car 25 0 0.01; world 1 2 3 0.6 0 -0.8"})
+      for (const char* set :
+           {"adaptation_k 4321.5", "camera chase", "isolux_lx 0.1 2 33", "exposure_per_cdm2 0.7", "design 1",
+            "lines off", "visibility_m 120.5", "probes car 25 0 0.01; world 1 2 3 0.6 0 -0.8"})
         ASSERT_TRUE(apply(rig.desk, desk_command(set), {.designs = rig.designs.size()})) << set;
       rig.channels.push_back({"left", 640, 480, 0.7, {1.0, 2.0, 3.0}, 0.1234567, -0.3, {"0.0.0.0", "10.0.0.3"}});
       rig.places = {{"10.0.0.1", ""}, {"", "10.0.0.2"}, {}, {"0.0.0.0", "10.0.0.1"}};
@@ -237,9 +238,11 @@ TEST_F(RigCheck, LampsForBothSidesOfTheRoadAreNoPair) {
 TEST_F(RigCheck, TellsEveryProblemAtOnce) {
   write("car.toml", "mass_kg = -1\n");
   write("bad.ies", "nonsense\n");
+  write("others.toml", "[[road_user]]\nclass = \"kar\"\n");
   const fs::path rig = write("rig.toml", R"(scene = "no.glb"
 vehicle = "car.toml"
 cockpit = "no.toml"
+traffic = "others.toml"
 speed = 3
 [[channel]]
 fov_horizontal_deg = 400
@@ -270,9 +273,10 @@ source = [ { function = "high", file = "absent.ies" } ]
   std::string problems, warnings;
   for (const Error& error : found.problems) problems += error.text() + "\n";
   for (const std::string& warning : found.warnings) warnings += warning + "\n";
-  for (const char* part : {"rig.toml:4: no key \"speed\"", "400 is outside 1 … 170", "\"lwo\" is none of",
-                           "no.glb: no such file; it is the scene", "no.toml: no such file; it is the cockpit",
-                           "car.toml:", "bad.ies", "absent.ies: no such file; it is lamp \"h\", design \"no low\""})
+  for (const char* part :
+       {"rig.toml:5: no key \"speed\"", "400 is outside 1 … 170", "\"lwo\" is none of",
+        "no.glb: no such file; it is the scene", "no.toml: no such file; it is the cockpit", "car.toml:", "bad.ies",
+        "others.toml:", "absent.ies: no such file; it is lamp \"h\", design \"no low\""})
     EXPECT_NE(problems.find(part), std::string::npos) << part << " is missing in\n" << problems;
   EXPECT_NE(warnings.find("design \"steep\", h: the cut-off stands at -3.0"), std::string::npos) << warnings;
   EXPECT_NE(warnings.find("design \"no low\" has no low beam"), std::string::npos) << warnings;

@@ -83,14 +83,20 @@ TEST_F(VersusTest, HalvesAreTwoViewsOfOneEye) {
   FrameInput frame;
   frame.lamps = lamps_.placed(car);
   frame.more_views.resize(1);  // an inset
-  versus.split(frame, car);
+  frame.glare = {{{5.0, 0.0, 1.0}, 1.0}};
+  const PlacedLamp of_another{.position_m = {50.0, 3.0, 0.6}, .world_from_image = glm::dmat3(1.0), .beam = 40};
+  versus.split(frame, car, std::span(&of_another, 1), {{{5.0, 0.0, 1.0}, 2.0}});
   ASSERT_EQ(frame.more_views.size(), 2u);
   const ViewInput& right = frame.more_views.front();  // below the insets
   EXPECT_DOUBLE_EQ(frame.part.width_01, 0.5);
   EXPECT_DOUBLE_EQ(right.part.left_01, 0.5);
   EXPECT_DOUBLE_EQ(frame.camera.seen_to_01, right.camera.seen_from_01);
   EXPECT_EQ(frame.camera.eye_m, right.camera.eye_m);
-  EXPECT_EQ(right.lamps.size(), frame.lamps.size());
+  EXPECT_EQ(right.lamps.size(), frame.lamps.size() + 1);
+  EXPECT_EQ(right.lamps.back().beam, 40u);
+  ASSERT_EQ(right.glare.size(), 1u);
+  EXPECT_EQ(right.glare.front().eye_lx, 2.0) << "B's own glare";
+  EXPECT_EQ(frame.glare.front().eye_lx, 1.0);
   EXPECT_NE(right.lamps.front().beam, frame.lamps.front().beam);
 }
 

@@ -125,7 +125,7 @@ void Album::keep_versus(Renderer& renderer, FrameInput driver, const Versus& ver
   save("versus_ratio.png", versus_picture(map, map_b, VersusScale::kRatio, "B over A; " + label));
   FrameInput halves = driver;
   halves.want_image = true, halves.want_hdr = false;
-  versus.split(halves, pose);
+  versus.split(halves, pose, {}, {});
   renderer.draw(halves);
   save("versus.png", renderer.read_image());
 }

@@ -49,22 +49,19 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   }
   // Those whose light the view can see; what of the scene it falls on is not asked.
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
+  const std::vector<PlacedLamp> of_others =
+      Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0]);
+  input.lamps.insert(input.lamps.end(), of_others.begin(), of_others.end());
   std::size_t lit = 0;
   std::optional<std::vector<CastBy>> casts;
-  const ShadowCasters casters(scene);
-  if (looks_for_casters(input)) casts.emplace();
+  std::optional<ShadowCasters> casters;
+  if (looks_for_casters(input)) casts.emplace(), casters.emplace(scene);
   for (const PlacedLamp& lamp : input.lamps) {
-    const LampReach reach(lamp.position_m, lamp.world_from_image, light_cone(lamps.image(lamp.beam)));
+    const LightCone cone = light_cone(lamp.beam == Traffic::kBeam ? traffic.beam() : lamps.image(lamp.beam));
+    const LampReach reach(lamp.position_m, lamp.world_from_image, cone);
     if (!reach.meets(view)) continue;
     ++lit;
-    if (casts) casts->push_back(casters.by(reach, lamp.world_from_image));
-  }
-  const LightCone of_others = users.empty() ? LightCone{} : light_cone(traffic.beam());
-  for (const PlacedLamp& lamp : Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0])) {
-    const LampReach reach(lamp.position_m, lamp.world_from_image, of_others);
-    if (!reach.meets(view)) continue;
-    ++lit;
-    if (casts) casts->push_back(casters.by(reach, lamp.world_from_image));
+    if (casts) casts->push_back(casters->by(reach, lamp.world_from_image));
   }
   char heading[240];
   std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",

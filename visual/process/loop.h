@@ -55,7 +55,7 @@ class Loop {
   EffectChoices picked_effects() const;
   void govern(const Moment& moment, double frame_ms);
   std::vector<double> lux_by_lamp(std::span<const PlacedLamp> lamps, const MeasurePoint& at);
-  void mind_the_glare(const VehicleState& pose, const Lamps& lamps, std::span<const Traffic::There> users);
+  std::vector<GlaringLamp> glare_in(const ViewInput& view, const VehicleState& pose, const Lamps& lamps) const;
   void mind_the_lamps(SimTime now);
   void warm_up();
   void announce();
@@ -116,6 +116,7 @@ class Loop {
   bool fresh_ = false;     // the lines of the overlay are wanted with the next frame
   bool captured_ = false;  // the picture of this frame is read back
   FrameInput input_;
+  std::vector<Traffic::There> users_;           // other road users in this frame
   std::size_t level_ = s_.options.begin_level;  // of options.levels, where the governor does not lead
   std::optional<Moment> newest_;
 };

@@ -77,6 +77,9 @@ void Loop::warm_up() {
     const bool met =
         !s_.traffic.empty() && (last || (controls.design_index == first_design &&
                                          controls.light_switch >= LightSwitch::kLow && !controls.fog_front));
+    // Their bodies may be of a kind of surface that the scene lacks.
+    input.moving.clear();
+    if (met) input.moving = s_.traffic.one_of_each(input.camera.eye_m + 20.0 * input.camera.world_from_eye[0]);
     const bool glaring =
         s_.desk.glare != std::size_t{0} && (met || !s_.lamps.glare_at(pose, first_camera.eye_m, {}, {}).empty());
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
@@ -109,7 +112,7 @@ void Loop::warm_up() {
         }
         if (!last || versus_.lamps() == nullptr) continue;
         FrameInput halves = input;  // the other design's beams may be looked up in another way
-        versus_.split(halves, pose);
+        versus_.split(halves, pose, {}, {});
         s_.renderer.draw(halves);
       }
       // Where the governor may step to: not in the drive either.

@@ -54,20 +54,19 @@ void Loop::finish() {
   write_stats(newest_ ? newest_->time : SimTime{});
 }
 
-/// A row of drive.csv, and how long each design has shone.
 /// Glare of others at our driver's eyes, whatever camera is shown, and ours at theirs.
 void Loop::mind_who_is_glared_at(DriveRow& row, const Moment& moment) {
   const VehicleState& car = moment.car.pose;
-  const std::vector<Traffic::There> users = s_.traffic.at(moment.time.seconds(), measuring_.road());
   const Camera driver = driver_camera(s_.channel(), car);
   const glm::dvec3 ahead = driver.world_from_eye[0];
   const Viewer viewer{s_.desk.age_years, s_.desk.iris_pigment};
-  row.glare = glare_figures(s_.traffic.glare_at(users, driver.eye_m, s_.scene, s_.desk.visibility_m), driver.eye_m,
+  row.glare = glare_figures(s_.traffic.glare_at(users_, driver.eye_m, s_.scene, s_.desk.visibility_m), driver.eye_m,
                             ahead, viewer);
-  for (const MeasurePoint& eye : Traffic::oncoming_eyes(users, ahead))
+  for (const MeasurePoint& eye : Traffic::oncoming_eyes(users_, ahead))
     row.others_eye_lx = std::max(row.others_eye_lx, s_.lamps.light_at(car, eye, s_.scene).lx);
 }
 
+/// A row of drive.csv, and how long each design has shone.
 void Loop::log_frame(const Moment& moment, const FrameResult& result) {
   DesignsLit& designs = s_.designs_lit;
   designs.see(s_.lamps.lit_text().empty() ? std::nullopt : std::optional(s_.lamps.design_index()), moment.time);

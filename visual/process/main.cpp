@@ -94,11 +94,11 @@ int draw_channel(VisualOptions options) {
   if (!lamps) return refuse(lamps.error());
   Result<Scene> scene = read_scene(rig->scene_file);
   if (!scene) return refuse(scene.error());
-  Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file), lane_of(rig->scene_file));
+  std::vector<LanePoint> lane = lane_of(rig->scene_file);
+  Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file), lane);
   if (!traffic) return refuse(traffic.error());
   if (options.explain)
-    return explain_and_leave(options, *scene, *lamps, desk, channel, *traffic,
-                             RoadLine(lane_of(rig->scene_file), rig->scene_file));
+    return explain_and_leave(options, *scene, *lamps, desk, channel, *traffic, RoadLine(lane, rig->scene_file));
   LampReplay lamps_then;
   if (!options.drive_file.empty()) {
     const Result<Drive> drive = read_drive(options.drive_file);
@@ -144,7 +144,7 @@ int draw_channel(VisualOptions options) {
   session.eye = eye_of(session);
   session.lamps_then = std::move(lamps_then);
   session.traffic = std::move(*traffic);
-  session.lane = lane_of(session.rig.scene_file);
+  session.lane = std::move(lane);
   if (session.options.budget_ms > 0.0 && !session.options.lockstep && !session.options.levels.empty())
     session.governor = Governor(session.options.budget_ms, session.options.levels, session.options.begin_level);
   spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());

@@ -182,17 +182,13 @@ void Loop::mind_the_lamps(SimTime now) {
   if (const auto news = lamp_news_.of(now, s_.lamps)) s_.bus.send(now, *news);
 }
 
-/// What shines into the eye of each view.
-void Loop::mind_the_glare(const VehicleState& pose, const Lamps& lamps, std::span<const Traffic::There> users) {
-  const auto see = [&](ViewInput& view) {
-    view.glare.clear();
-    if (view.camera.orthographic_width_m > 0.0) return;  // no eye
-    view.glare = lamps.glare_at(pose, view.camera.eye_m, s_.scene, view.visibility_m);
-    const auto others = s_.traffic.glare_at(users, view.camera.eye_m, s_.scene, view.visibility_m);
-    view.glare.insert(view.glare.end(), others.begin(), others.end());
-  };
-  see(input_);
-  for (ViewInput& view : input_.more_views) see(view);
+/// What shines into the eye of a view: the car's own lamps as given, and those of others.
+std::vector<GlaringLamp> Loop::glare_in(const ViewInput& view, const VehicleState& pose, const Lamps& lamps) const {
+  if (view.camera.orthographic_width_m > 0.0) return {};  // no eye
+  std::vector<GlaringLamp> glare = lamps.glare_at(pose, view.camera.eye_m, s_.scene, view.visibility_m);
+  const auto others = s_.traffic.glare_at(users_, view.camera.eye_m, s_.scene, view.visibility_m);
+  glare.insert(glare.end(), others.begin(), others.end());
+  return glare;
 }
 
 void Loop::draw(const Moment& moment) {
@@ -202,18 +198,20 @@ void Loop::draw(const Moment& moment) {
   set_by_desk(input_, s_.desk, s_.channel(), moment.car.pose, &measuring_.road());
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
   input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
-  const std::vector<Traffic::There> users = s_.traffic.at(moment.time.seconds(), measuring_.road());
+  users_ = s_.traffic.at(moment.time.seconds(), measuring_.road());
   const std::vector<PlacedLamp> their_lamps =
-      Traffic::placed_lamps(users, input_.camera.eye_m, input_.camera.world_from_eye[0]);
+      Traffic::placed_lamps(users_, input_.camera.eye_m, input_.camera.world_from_eye[0]);
   input_.lamps.insert(input_.lamps.end(), their_lamps.begin(), their_lamps.end());
-  input_.moving = s_.traffic.placed_meshes(users);
+  input_.moving = s_.traffic.placed_meshes(users_);
   input_.picked = picked_effects();
   input_.more_views.clear();
   if (std::exchange(eye_set_, s_.desk.eye) != s_.desk.eye) s_.eye = eye_set(s_.desk.eye);
   s_.eye.see(moment.time, versus_.light(s_.lamps));
   input_.white = s_.eye.white();
   if (s_.desk.mirrors) input_.more_views = mirror_views(input_, s_.channel(), moment.car.pose);
-  mind_the_glare(moment.car.pose, others_turn ? *versus_.lamps() : s_.lamps, users);
+  const Lamps& shining = others_turn ? *versus_.lamps() : s_.lamps;
+  input_.glare = glare_in(input_, moment.car.pose, shining);
+  for (ViewInput& view : input_.more_views) view.glare = glare_in(view, moment.car.pose, shining);
   input_.room = s_.desk.mirrors ? kRoomBesideMirrors : OverlayRoom{};
   if (s_.window) {
     screens_.see(moment.controls);
@@ -236,9 +234,8 @@ void Loop::draw(const Moment& moment) {
   FrameInput halves;
   const bool split = versus_.lamps() != nullptr && s_.desk.compare == Compare::kSplit;
   if (split) {
-    halves = input_, versus_.split(halves, moment.car.pose);
-    std::vector<PlacedLamp>& beside = halves.more_views.front().lamps;
-    beside.insert(beside.end(), their_lamps.begin(), their_lamps.end());
+    halves = input_;
+    versus_.split(halves, moment.car.pose, their_lamps, glare_in(input_, moment.car.pose, *versus_.lamps()));
   }
   const FrameResult result = s_.renderer.draw(split ? halves : input_);
   if (over_) return;  // what is counted is the drive

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+#include <set>
 
 #include "config/base/paths.h"
 #include "visual/photometry/readers/read_lamp.h"
@@ -110,6 +111,14 @@ std::vector<PlacedMesh> Traffic::placed_meshes(std::span<const There> users) con
   for (const There& user : users)
     meshes.push_back({mesh_of_kind_[static_cast<std::size_t>(user.kind)], user.position_m, user.world_from_user});
   return meshes;
+}
+
+std::vector<PlacedMesh> Traffic::one_of_each(const glm::dvec3& place_m) const {
+  std::set<std::size_t> meshes;
+  for (const RoadUser& user : users_) meshes.insert(mesh_of_kind_[static_cast<std::size_t>(user.kind)]);
+  std::vector<PlacedMesh> placed;
+  for (const std::size_t mesh : meshes) placed.push_back({mesh, place_m, glm::dmat3(1.0)});
+  return placed;
 }
 
 std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users, const glm::dvec3& eye_m,

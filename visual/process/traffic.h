@@ -50,6 +50,8 @@ class Traffic {
   std::vector<There> at(double time_s, const RoadLine& road) const;
 
   std::vector<PlacedMesh> placed_meshes(std::span<const There> users) const;
+  /// One of each kind that the file has, all at one place: what a warm-up draws.
+  std::vector<PlacedMesh> one_of_each(const glm::dvec3& place_m) const;
   /// Headlamps that light the scene: those of the nearest, kMostLamps in all, so that with a car's own two none is
   /// lit by block (visual/lit_scene.h) and every pipeline is made before the drive. Who is behind
   /// `eye_m` lights nothing that is seen along `ahead`: most of a follower's light falls on the car, which has no body.
@@ -57,8 +59,8 @@ class Traffic {
   static constexpr std::size_t kMostLamps = 2;
   static std::vector<PlacedLamp> placed_lamps(std::span<const There> users, const glm::dvec3& eye_m,
                                               const glm::dvec3& ahead);
-  /// Where their drivers' eyes are, looking along their way; of those with lights that come toward us: nothing else
-  /// counts as glared at.
+  /// Where their drivers' eyes are, looking along their way; of those who come toward us, lit or not: nobody
+  /// else counts as glared at.
   static std::vector<MeasurePoint> oncoming_eyes(std::span<const There> users, const glm::dvec3& heading);
   /// Lamps that shine into an eye, the scene and the air between them.
   std::vector<GlaringLamp> glare_at(std::span<const There> users, const glm::dvec3& eye_m, const Scene& scene,

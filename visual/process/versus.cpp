@@ -49,10 +49,13 @@ std::optional<glm::vec3> Versus::light(const Lamps& shown) const {
   return a ? a : b;
 }
 
-void Versus::split(FrameInput& frame, const VehicleState& pose) const {
+void Versus::split(FrameInput& frame, const VehicleState& pose, std::span<const PlacedLamp> also,
+                   std::vector<GlaringLamp> glare) const {
   ViewInput other = frame;
   other.name = "versus";
   other.lamps = placed(pose);
+  other.lamps.insert(other.lamps.end(), also.begin(), also.end());
+  other.glare = std::move(glare);
   other.part = kRight;
   other.camera.seen_from_01 = 0.5;
   frame.part = kLeft;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "config/desk.h"
@@ -31,8 +32,10 @@ class Versus {
   static bool has_turn(const Desk& desk, SimTime now) {
     return desk.compare == Compare::kFlicker && now.ns % 1'000'000'000 >= 500'000'000;
   }
-  /// The frame's own view is the left half of what it was, and the right half shows B.
-  void split(FrameInput& frame, const VehicleState& pose) const;
+  /// The frame's own view is the left half of what it was, and the right half shows B. `also`: lamps of others that
+  /// light both; `glare`: into B's eye.
+  void split(FrameInput& frame, const VehicleState& pose, std::span<const PlacedLamp> also,
+             std::vector<GlaringLamp> glare) const;
 
   std::uint64_t work_done() const { return work_; }
 
