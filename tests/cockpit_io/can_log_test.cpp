@@ -73,44 +73,52 @@ TEST_F(CanLogs, ALogThatBreaksOffIsUsedUpToThere) {
   EXPECT_NE(read_can_log(touched("a.mf4")).error().text().find("python-can 4.1.0: no such format"), std::string::npos);
 }
 
-// The same drive in each format; stamps to the format's own steps.
-TEST_F(CanLogs, VectorAndPeakLogsSayWhatCandumpSays) {
-  const auto [why, status] = make_oracle_venv();
-  if (status != 0) GTEST_SKIP() << "no Python environment: " << why;
-  const std::string python = build_root("oracle") + "/bin/python";
+// A drive that the format's own writer has written, as candump's log has it; stamps to the format's own steps.
+void says_what_candump_says(const fs::path& folder, const std::string& python, const std::string& ending) {
   setenv("PHARE_PYTHON", python.c_str(), 1);
   // Classic frames of 11 and 29 bits. A TRC file of python-can begins at its first frame.
-  const fs::path candump = folder_ / "drive.log";
+  const fs::path candump = folder / "drive.log", file = folder / ("drive." + ending);
   std::ofstream(candump) << "(1700000000.000000) can0 123#0102030405060708\n(1700000000.010000) can0 18FEF100#AA\n"
                             "(1700000000.020500) can0 7FF#\n(1700000003.250000) can0 200#FFFF\n";
   const auto want = read_can_log(candump);
   ASSERT_TRUE(want);
-  for (const char* ending : {"asc", "blf", "trc"}) {
-    const fs::path file = folder_ / (std::string("drive.") + ending);
-    const std::string command = "'" + python +
-                                "' -c 'import can,sys\nw = can.Logger(sys.argv[2])\n"
-                                "for m in can.LogReader(sys.argv[1]):\n  m.is_rx = True\n  w(m)\nw.stop()' '" +
-                                candump.string() + "' '" + file.string() + "' 2>&1";
-    const auto [out, failed] = output_of(command);
-    ASSERT_EQ(failed, 0) << ending << ": " << out;
-    const auto got = read_can_log(file);
-    ASSERT_TRUE(got) << ending << ": " << got.error().text();
-    EXPECT_NE(got->read_with.find("Reader"), std::string::npos) << got->read_with;
-    ASSERT_EQ(got->log.entries.size(), want->log.entries.size()) << ending;
-    EXPECT_EQ(got->log.broken_lines, 0u);
-    for (std::size_t i = 0; i < want->log.entries.size(); ++i) {
-      const CandumpEntry &a = want->log.entries[i], &b = got->log.entries[i];
-      EXPECT_EQ(a.frame.id, b.frame.id) << ending << " " << i;
-      EXPECT_EQ(a.frame.extended, b.frame.extended);
-      EXPECT_EQ(a.frame.length, b.frame.length);
-      EXPECT_EQ(a.frame.data, b.frame.data);
-      const std::int64_t since_a = a.stamp_ns - want->log.entries[0].stamp_ns,
-                         since_b = b.stamp_ns - got->log.entries[0].stamp_ns;
-      EXPECT_NEAR(static_cast<double>(since_a), static_cast<double>(since_b), 110'000.0)
-          << ending << ": TRC has 0.1 ms";
-    }
-    std::printf("%s: %s\n", ending, got->read_with.c_str());
+  const std::string command = "'" + python +
+                              "' -c 'import can,sys\nw = can.Logger(sys.argv[2])\n"
+                              "for m in can.LogReader(sys.argv[1]):\n  m.is_rx = True\n  w(m)\nw.stop()' '" +
+                              candump.string() + "' '" + file.string() + "' 2>&1";
+  const auto [out, failed] = output_of(command);
+  ASSERT_EQ(failed, 0) << out;
+  const auto got = read_can_log(file);
+  ASSERT_TRUE(got) << got.error().text();
+  EXPECT_NE(got->read_with.find("Reader"), std::string::npos) << got->read_with;
+  ASSERT_EQ(got->log.entries.size(), want->log.entries.size());
+  EXPECT_EQ(got->log.broken_lines, 0u);
+  for (std::size_t i = 0; i < want->log.entries.size(); ++i) {
+    const CandumpEntry &a = want->log.entries[i], &b = got->log.entries[i];
+    EXPECT_EQ(a.frame.id, b.frame.id) << i;
+    EXPECT_EQ(a.frame.extended, b.frame.extended);
+    EXPECT_EQ(a.frame.length, b.frame.length);
+    EXPECT_EQ(a.frame.data, b.frame.data);
+    const std::int64_t since_a = a.stamp_ns - want->log.entries[0].stamp_ns,
+                       since_b = b.stamp_ns - got->log.entries[0].stamp_ns;
+    EXPECT_NEAR(static_cast<double>(since_a), static_cast<double>(since_b), 110'000.0) << "TRC has 0.1 ms";
   }
+  std::printf("%s: %s\n", ending.c_str(), got->read_with.c_str());
+}
+
+TEST_F(CanLogs, VectorAndPeakLogsSayWhatCandumpSays) {
+  const auto [why, status] = make_oracle_venv();
+  if (status != 0) GTEST_SKIP() << "no Python environment: " << why;
+  for (const char* ending : {"asc", "blf", "trc"}) {
+    SCOPED_TRACE(ending);
+    says_what_candump_says(folder_, build_root("oracle") + "/bin/python", ending);
+  }
+}
+
+TEST_F(CanLogs, Mf4SaysWhatCandumpSays) {
+  const auto [why, status] = make_mf4_venv();
+  if (status != 0) GTEST_SKIP() << "no Python environment with asammdf: " << why;
+  says_what_candump_says(folder_, build_root("oracle_mf4") + "/bin/python", "mf4");
 }
 
 // An environment's python3 (pyenv, conda) comes first in PATH and has no python-can: the one that the remedy installs

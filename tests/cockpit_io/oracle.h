@@ -29,6 +29,11 @@ inline std::pair<std::string, int> output_of(const std::string& command) {
 inline std::pair<std::string, int> make_oracle_venv() {
   return output_of(tests_dir("cockpit_io") + "/oracle_venv.sh " + build_root("oracle"));
 }
+/// The same for build_root("oracle_mf4"), whose python-can reads and writes MF4.
+inline std::pair<std::string, int> make_mf4_venv() {
+  return output_of(tests_dir("cockpit_io") + "/oracle_venv.sh " + build_root("oracle_mf4") +
+                   " 'python-can==4.6.1 asammdf==8.8.28'");
+}
 
 /// "-" is none.
 inline std::vector<std::uint8_t> bytes_of(const std::string& hex) {

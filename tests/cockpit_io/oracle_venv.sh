@@ -1,9 +1,10 @@
 #!/bin/sh
-# oracle_venv.sh DIR: a Python environment with the packages that tests compare with, made once and then found again.
+# oracle_venv.sh DIR [PACKAGES]: a Python environment with the packages that tests compare with, or with those named,
+# made once and then found again.
 # Exit 77 and one line where it cannot be had (no python3, no network).
 set -u
 dir=$1
-packages='cantools==45.1.0 autosar-e2e==1.0.0'
+packages=${2:-cantools==45.1.0 autosar-e2e==1.0.0}
 mkdir -p "$(dirname "$dir")" || exit 77
 exec 9>"$dir.lock"
 command -v flock >/dev/null && flock 9  # tests of several builds may come at once
