@@ -31,6 +31,9 @@ picture "$out/oncoming/frames/000059.png" oncoming
 picture "$out/traffic/frames/000059.png" traffic
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --set grid_m=10 --set road_isolux=on --out "$out/grid" --port-base "$ports"
 picture "$out/grid/frames/000059.png" grid
+"$phare" drive --rig config/rigs/three_channels.toml --headless --lockstep --frames 60 --size 640x360 --samples 4 --out "$out/three" --port-base "$ports"
+convert "$out"/three/{left,.,right}/frames/000059.png +append "$out/three.png"
+picture "$out/three.png" three
 "$phare" drive --design halogen --versus led --headless --lockstep --frames 60 --samples 4 --out "$out/ab" --port-base "$ports"
 picture "$out/ab/frames/000059.png" versus
 ls -l docs/pictures

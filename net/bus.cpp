@@ -108,6 +108,7 @@ Bus::Bus(UdpSocket socket, const Rig& rig, Role role, std::uint32_t channel)
   std::get<std::vector<Inbox<ControlReply>>>(inboxes_).resize(channels_);
   std::get<std::vector<Inbox<LawAnswer>>>(inboxes_).resize(1);
   std::get<std::vector<Inbox<LampState>>>(inboxes_).resize(channels_);
+  std::get<std::vector<Inbox<FrameStart>>>(inboxes_).resize(channels_);
 }
 
 void Bus::send(SimTime now, const Payload& payload) {
@@ -159,7 +160,8 @@ void Bus::transmit(std::size_t payload_index) {
   }
   if (row.receivers.has(Role::kVisual)) {
     const std::uint32_t count = row.first_visual_only ? 1 : channels_;
-    for (std::uint32_t channel = 0; channel < count; ++channel) send_to(Role::kVisual, channel);
+    for (std::uint32_t channel = 0; channel < count; ++channel)
+      if (role_ != Role::kVisual || channel != channel_) send_to(Role::kVisual, channel);
   }
 }
 

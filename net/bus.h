@@ -131,7 +131,7 @@ class Bus {
   std::tuple<std::vector<Inbox<CockpitState>>, std::vector<Inbox<VehicleState>>, std::vector<Inbox<FrameReport>>,
              std::vector<Inbox<RigControl>>, std::vector<Inbox<ProbeRequest>>, std::vector<Inbox<ProbeReply>>,
              std::vector<Inbox<KeyInput>>, std::vector<Inbox<ControlReply>>, std::vector<Inbox<LawAnswer>>,
-             std::vector<Inbox<LampState>>>
+             std::vector<Inbox<LampState>>, std::vector<Inbox<FrameStart>>>
       inboxes_;                                           // one per sender channel
   std::array<std::string, kChannels.size()> last_bytes_;  // sealed
   std::array<std::optional<Datagram>, kChannels.size()> last_sent_;

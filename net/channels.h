@@ -61,7 +61,7 @@ struct Channel {
   std::string_view message;  ///< name of the oneof field in phare.proto
   Sender sender;             ///< the only process that may send it
   Roles receivers;
-  bool first_visual_only;                ///< of the visual processes only channel 0 receives it
+  bool first_visual_only;                ///< of the visual processes only channel 0 receives it; nobody hears himself
   double rate_hz;                        ///< in real time; 0: when there is a reason
   std::chrono::nanoseconds stale_after;  ///< older than this the receiver acts on silence; 0: never stale
   bool repeat_is_news;       ///< a repeat of the newest datagram asks for an answer, so take() gives it again
@@ -77,12 +77,12 @@ struct Channel {
 /// In the order of the alternatives of Payload.
 /// CockpitState goes stale when 20 are missing: pedals fade, low beam stays on. VehicleState goes stale when 50 are
 /// missing: until then the picture coasts, then it holds and says so.
-inline constexpr std::array<Channel, 11> kChannels{{
+inline constexpr std::array<Channel, 12> kChannels{{
     // clang-format off
     // message          sender             receivers                                                                first  Hz   stale after                    repeat
     {"cockpit_state",   Sender::kCockpit,  Roles(Role::kDynamics, Role::kVisual, Role::kRecorder, Role::kLaw),       false, 100, std::chrono::milliseconds(200), false},
     {"vehicle_state",   Sender::kDynamics, Roles(Role::kCockpit, Role::kVisual, Role::kRecorder, Role::kLaw),        false, 250, std::chrono::milliseconds(200), false},
-    {"frame_report",    Sender::kVisual,   Roles(Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl),  false, 60,  std::chrono::seconds(1),        true},
+    {"frame_report",    Sender::kVisual,   Roles(Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl, Role::kVisual), true, 60, std::chrono::seconds(1), true},
     {"rig_control",     Sender::kControl,  Roles(Role::kCockpit, Role::kDynamics, Role::kVisual, Role::kRecorder),   false, 0,   std::chrono::seconds(0),        false, true},
     {"probe_request",   Sender::kControl,  Roles(Role::kVisual),                                                     true,  0,   std::chrono::seconds(0),        false, true},
     {"probe_reply",     Sender::kVisual,   Roles(Role::kControl, Role::kRecorder),                                   false, 0,   std::chrono::seconds(0),        false},
@@ -91,6 +91,7 @@ inline constexpr std::array<Channel, 11> kChannels{{
     {"clock_probe",     Sender::kCockpit,  Roles(Role::kCockpit, Role::kDynamics, Role::kVisual),                    false, 1,   std::chrono::seconds(0),        false, true, true},
     {"law_answer",      Sender::kLaw,      Roles(Role::kVisual, Role::kRecorder),                                    false, 60,  std::chrono::milliseconds(200), false},
     {"lamp_state",      Sender::kVisual,   Roles(Role::kVisual, Role::kRecorder),                                    false, 1,   std::chrono::seconds(0),        false},
+    {"frame_start",     Sender::kVisual,   Roles(Role::kVisual),                                                     false, 60,  std::chrono::milliseconds(250), true},
     // clang-format on
 }};
 static_assert(kChannels.size() == std::variant_size_v<Payload>);

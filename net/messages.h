@@ -84,6 +84,7 @@ struct FrameReport {
   bool fail_safe_drawn = false;
   std::uint64_t pictures_not_kept = 0;
   std::string audit_failure{};
+  std::uint64_t start = 0;
 
   friend bool operator==(const FrameReport&, const FrameReport&) = default;
 };
@@ -264,8 +265,17 @@ struct LampState {
   friend bool operator==(const LampState&, const LampState&) = default;
 };
 
+struct FrameStart {
+  std::uint64_t number = 1;
+  CockpitState controls;
+  VehicleState pose;
+  bool pose_stale = false;
+
+  friend bool operator==(const FrameStart&, const FrameStart&) = default;
+};
+
 using Payload = std::variant<CockpitState, VehicleState, FrameReport, RigControl, ProbeRequest, ProbeReply, KeyInput,
-                             ControlReply, ClockProbe, LawAnswer, LampState>;
+                             ControlReply, ClockProbe, LawAnswer, LampState, FrameStart>;
 
 /// The envelope every payload travels in.
 struct Datagram {

@@ -195,6 +195,12 @@ void check(Checker& c, const LampState& s) {
   c.within(s.aim_pitch_rad, kMaxAim_rad);
 }
 
+void check(Checker& c, const FrameStart& s) {
+  c.require(s.number >= 1 && s.number <= kMaxSequence);
+  check(c, s.controls);
+  check(c, s.pose);
+}
+
 void check(Checker& c, const ClockProbe& probe) {
   c.require(probe.asked.ns >= 1 && probe.asked.ns <= kMaxWall_ns);
   c.require(probe.heard.ns >= 0 && probe.heard.ns <= kMaxWall_ns);

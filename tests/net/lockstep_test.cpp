@@ -39,8 +39,11 @@ class Lockstep : public testing::Test {
   /// How many CockpitStates have come to a channel since the last look.
   int heard(std::uint32_t channel) {
     int count = 0;
-    visual_[channel]->on_datagram = [&](const Datagram&, std::span<const std::byte>) { ++count; };
-    visual_[channel]->on_repeat = [&](const Datagram&) { ++count; };
+    const auto see = [&](const Datagram& datagram) {
+      if (std::holds_alternative<CockpitState>(datagram.payload)) ++count;
+    };
+    visual_[channel]->on_datagram = [=](const Datagram& datagram, std::span<const std::byte>) { see(datagram); };
+    visual_[channel]->on_repeat = see;
     visual_[channel]->wait(200ms);
     visual_[channel]->poll();
     return count;

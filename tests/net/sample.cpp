@@ -103,6 +103,7 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       r.flash_drawn = v.flag();
       r.fail_safe_drawn = v.flag();
       r.pictures_not_kept = r.channel;
+      r.start = v.whole(1'000'000);
       r.audit_failure = v.flag() ? "frame 3, pixel (5, 7): 1.2 lx, float64 1 lx" : "";
       return r;
     }
@@ -181,6 +182,14 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       s.aim_pitch_rad = v.number(-0.1, 0.1);
       for (auto* array : {&s.x_m, &s.y_m, &s.z_m}) *array = v.numbers(n, -5, 5);
       for (auto* array : {&s.yaw_rad, &s.pitch_rad, &s.roll_rad}) *array = v.numbers(n, -1.5, 1.5);
+      return s;
+    }
+    case kPayloadIndex<FrameStart>: {
+      FrameStart s;
+      s.number = 1 + v.whole(1'000'000);
+      s.controls = std::get<CockpitState>(payload_of(kPayloadIndex<CockpitState>, 0, v));
+      s.pose = vehicle(v);
+      s.pose_stale = v.flag();
       return s;
     }
     case kPayloadIndex<ClockProbe>: {

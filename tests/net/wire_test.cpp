@@ -235,6 +235,7 @@ TEST(WireRefuses, ValuesOutOfRange) {
   constexpr std::size_t kClock = kPayloadIndex<ClockProbe>;
   constexpr std::size_t kLaw = kPayloadIndex<LawAnswer>;
   constexpr std::size_t kLamps = kPayloadIndex<LampState>;
+  constexpr std::size_t kStart = kPayloadIndex<FrameStart>;
   const std::vector<std::pair<std::size_t, std::function<void(D&)>>> wrong = {
       {kCockpit, [](D& m) { m.mutable_cockpit_state()->set_accelerator_01(1.0000001); }},
       {kCockpit, [](D& m) { m.mutable_cockpit_state()->set_brake_01(-1e-9); }},
@@ -290,6 +291,9 @@ TEST(WireRefuses, ValuesOutOfRange) {
       {kControl, [](D& m) { m.mutable_rig_control()->mutable_undo()->set_steps(0); }},
       {kControl, [](D& m) { m.mutable_rig_control()->mutable_save()->set_file(std::string(5000, 'x')); }},
       {kLamps, [](D& m) { m.mutable_lamp_state()->set_x_m(0, 51.0); }},
+      {kStart, [](D& m) { m.mutable_frame_start()->set_number(0); }},
+      {kStart, [](D& m) { m.mutable_frame_start()->mutable_controls()->set_brake_01(1.5); }},
+      {kStart, [](D& m) { m.mutable_frame_start()->mutable_pose()->set_x_m(1e9); }},
       {kLamps, [](D& m) { m.mutable_lamp_state()->set_roll_rad(0, 1.7); }},
       {kLamps, [](D& m) { m.mutable_lamp_state()->set_aim_pitch_rad(1.7); }},
       {kControl, [](D& m) { m.mutable_rig_control()->set_request_id(5), m.mutable_rig_control()->set_first_open(6); }},
@@ -320,6 +324,8 @@ TEST(WireRefuses, ValuesOutOfRange) {
   EXPECT_EQ(refusal_after(kControl, [](D& m) { m.mutable_rig_control()->clear_command(); }), Refusal::kMalformed);
   EXPECT_EQ(refusal_after(kControl, [](D& m) { m.mutable_rig_control()->set_quit(false); }), Refusal::kMalformed);
   EXPECT_EQ(refusal_after(kReport, [](D& m) { m.mutable_frame_report()->clear_drawn(); }), Refusal::kMalformed);
+  EXPECT_EQ(refusal_after(kStart, [](D& m) { m.mutable_frame_start()->clear_pose(); }), Refusal::kMalformed);
+  EXPECT_EQ(refusal_after(kStart, [](D& m) { m.mutable_frame_start()->clear_controls(); }), Refusal::kMalformed);
 }
 
 TEST(WireRefuses, LampStatesOfDifferentLengthOfNoneAndOfTooMany) {

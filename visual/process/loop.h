@@ -62,6 +62,8 @@ class Loop {
   void repeat_when_stalled();
   std::optional<Moment> lockstep_moment();
   std::optional<Moment> display_moment();
+  bool follows_another();
+  std::optional<Moment> begun_moment();
   std::int64_t number_of(const Moment& moment) const;
   bool wants_picture(const Moment& moment);
   bool wants_stills(const Moment& moment) const;

@@ -53,6 +53,7 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["frames_captured"] = stats.captured_frames;
   report["frames_stale_pose"] = stats.stale_frames;
   if (session.options.law) report["law"] = session.law.json();
+  if (const auto lock = session.lock.json(); !lock.is_null()) report["frame_lock"] = lock;
   report["fail_safe"] = session.fail_safes.json();
   report["frame_ms"] = to_json(stats.wall_ms);
   report["frame_ms_without_capture"] = to_json(stats.wall_no_capture_ms);

@@ -137,8 +137,13 @@ std::optional<Moment> Loop::lockstep_moment() {
   return std::nullopt;
 }
 
-/// The pose of now, at the frame rate of the rig.
+/// The pose of now, at the frame rate of the rig; of several channels the first says for all which moment that is.
 std::optional<Moment> Loop::display_moment() {
+  if (!over_ && follows_another()) return begun_moment();
+  if (!over_ && !s_.lock.may_begin(s_.bus, Clock::now())) {
+    s_.bus.wait(5ms);
+    return std::nullopt;
+  }
   if (!pacer_.due()) {
     s_.bus.wait(pacer_.left());
     return std::nullopt;
@@ -156,7 +161,24 @@ std::optional<Moment> Loop::display_moment() {
   const SimTime shown = poses_.time_to_show(*time, newest_ ? std::optional(newest_->time) : std::nullopt);
   Moment moment{-1, shown, controls_to_show(s_.bus, Clock::now()), *poses_.at(shown)};
   moment.car.stale = car->stale;
+  if (s_.lock.leads())
+    s_.lock.begin(s_.bus, shown, {0, moment.controls, moment.car.pose, moment.car.stale}, Clock::now());
+  else
+    s_.lock.drew_alone();
   return moment;
+}
+
+bool Loop::follows_another() {
+  const Clock::time_point now = Clock::now();
+  const auto beam = [](const CockpitState& controls) { return std::pair(controls.light_switch, controls.flash); };
+  return s_.lock.follows(s_.bus, newest_ && beam(controls_to_show(s_.bus, now)) != beam(newest_->controls), now);
+}
+
+std::optional<Moment> Loop::begun_moment() {
+  if (const auto begun = s_.lock.next(s_.bus))
+    return Moment{-1, begun->time, begun->start.controls, {begun->start.pose, 0.0, begun->start.pose_stale}};
+  s_.bus.wait(5ms);
+  return std::nullopt;
 }
 
 /// Beam images follow the controls; what did not change stays as it is.
@@ -270,7 +292,7 @@ void Loop::report(const Moment& moment) {
       s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms,    moment.controls.light_changes,
       moment.car.pose,         moment.car.stale,          moment.controls.light_switch,
       moment.controls.flash,   moment.controls.fail_safe, s_.album.not_kept(),
-      audit_failure()};
+      audit_failure(),         s_.lock.number()};
   s_.bus.send(moment.time, report);
   progress_ = Clock::now();  // keeping the picture may have taken longer than a stall
 }

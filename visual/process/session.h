@@ -13,6 +13,7 @@
 #include "visual/process/album.h"
 #include "visual/process/audit.h"
 #include "visual/process/fail_safe_log.h"
+#include "visual/process/frame_lock.h"
 #include "visual/process/frame_stats.h"
 #include "visual/process/governor.h"
 #include "visual/process/lamp_replay.h"
@@ -75,6 +76,7 @@ struct Session {
   SwitchToPhoton switches;
   FailSafeLog fail_safes;
   LawLink law;
+  FrameLock lock{options.channel, static_cast<std::uint32_t>(rig.channels.size()), options.lockstep};
   DesignsLit designs_lit;
   std::optional<std::size_t> stills_design;  ///< that the stills show; of a process that was killed not known
   EyeAdaptation eye;
