@@ -1,9 +1,10 @@
 """How far a rig lights the edges of the road, and what it sends to the oncoming lane: on a straight and in four curves.
 
-After the drive test of the IIHS, as far as its text is public: receptors 0.25 m above the road for visibility, 1.10 m for glare (two
-sources), 5 lx, the right edge on every approach (one source). Unconfirmed: the second edge (left edge of the lane in curves, of
-the road on the straight), the curves' radii of 150 and 250 m, glare from 10 to 120 m. By eye: lanes of 3.6 m on a level road, the car in the
-middle of its own. Demerits and weights are not public, so this gives distances and lux, and no rating.
+After the drive test of the IIHS, as far as its text is public: receptors 0.25 m above the road for visibility, 1.10 m for glare, curves of
+150 and 250 m (two sources each: summary of the protocol, version II of November 2016, and Brumbelow's slides of 2 November 2016); 5 lx, the
+right edge on every approach (the institute's page); glare over the middle of the oncoming lane, and speeds (the slides). Unconfirmed: the
+second edge (left edge of the lane in curves, of the road on the straight), glare from 10 to 120 m. By eye: lanes of 3.6 m on a level road,
+the car in the middle of its own. Demerits and weights are not public, so this gives distances and lux, and no rating.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from .measuring import measure
 APPROACHES: dict[str, float] = {
     "straight": 0.0, "gradual left": 250.0, "gradual right": -250.0, "sharp left": 150.0, "sharp right": -150.0,
 }
+_MPH_MPS = 0.44704
+SPEEDS_MPS: dict[str, float] = {name: (50 if abs(radius_m) == 250.0 else 40) * _MPH_MPS for name, radius_m in APPROACHES.items()}
 LANE_M, EDGE_HEIGHT_M, GLARE_HEIGHT_M = 3.6, 0.25, 1.10
 _STEP_M, _TO_M = 0.5, 250.0
 

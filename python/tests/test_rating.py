@@ -27,10 +27,14 @@ demerits_per_m = 9
 approach = "straight"
 curve = [[40, 9], [60, 9]]
 demerits = 4
+allowed_s = 0
 [[glare]]
 approach = "sharp left"
 curve = [[40, 30], [60, 30]]
 demerits = 8
+allowed_s = 0
+[assist]
+credit_share_01 = 0.5
 """
 
 
@@ -62,13 +66,50 @@ def test_demerits_by_hand(rig, tmp_path):
     # Low: 66.5 m of 100 m. High: beyond 50 m. Glare at 40 m: 14.8 lx, above 9 and below 30.
     assert list(done.demerits.demerits) == [pytest.approx(0.5 * 33.5), 0.0, 4.0, 0.0]
     assert done.total == pytest.approx(20.75) and done.rating == "Marginal"
+    # 20000 x / (x^2 + 3.6^2 + 0.44^2)^1.5 = 9 lx; the trace is linear between half metres: some mm of 10 m.
+    low, high = 40.0, 60.0
+    for _ in range(60):
+        x = (low + high) / 2
+        low, high = (x, high) if 20000 * x / (x * x + 3.6**2 + 0.44**2) ** 1.5 > 9 else (low, x)
+    assert list(done.above.above_m) == [pytest.approx(low + 3.45 - 40, abs=0.01), 0.0] and list(done.above.excess) == [True, False]
+    assert done.above.above_s[0] == pytest.approx((low + 3.45 - 40) / (40 * 1609.344 / 3600), abs=0.001)
     assert [rating_of(n) for n in (0, 10, 10.1, 20, 30, 30.1)] == ["Good", "Good", "Acceptable", "Acceptable", "Marginal", "Poor"]
+
+
+def test_glare_that_is_allowed_so_long_is_no_excess(rig, tmp_path):
+    (tmp_path / "limits.toml").write_text(LIMITS.replace("demerits = 4\nallowed_s = 0", "demerits = 4\nallowed_s = 0.6"))  # 0.580 s are above
+    done = phare.rate_iihs(rig, limits=tmp_path / "limits.toml")
+    assert done.total == pytest.approx(16.75) and done.rating == "Acceptable" and not done.above.excess.any()
+
+
+def test_assist_gives_back_what_the_high_beam_regains_where_glare_is_not_in_excess(rig, tmp_path):
+    limits = tmp_path / "limits.toml"
+    limits.write_text(LIMITS)
+    assert phare.rate_iihs(rig, limits=limits, assist=True).total == pytest.approx(20.75)  # the straight has excess glare
+    limits.write_text(LIMITS.replace("demerits = 4\nallowed_s = 0", "demerits = 4\nallowed_s = 0.6"))
+    done = phare.rate_iihs(rig, limits=limits, assist=True)
+    assert done.total == pytest.approx(16.75 / 2) and done.rating == "Good"  # the high beam reaches the 100 m: half of 16.75 comes back
+    # Of a target of 140 m, 73.5 m are short; the high beam (129.5 m) is 10.5 m short itself: half of 63 m at 0.5 a metre.
+    limits.write_text(limits.read_text().replace("target_m = 100", "target_m = 140"))
+    assert phare.rate_iihs(rig, limits=limits, assist=True).total == pytest.approx(73.5 * 0.5 - 0.5 * 63 * 0.5)
+    limits.write_text(limits.read_text().replace('approach = "straight"\ncurve', 'approach = "gradual left"\ncurve'))
+    assert phare.rate_iihs(rig, limits=limits, assist=True).total == pytest.approx(73.5 * 0.5)  # no curve there, so no credit
+    for words in ({}, {"limits": limits}):
+        limits.write_text(LIMITS.partition("[assist]")[0])
+        with pytest.raises(phare.BadInput, match="not public: give limits with"):
+            phare.rate_iihs(rig, assist=True, **words)
+
+
+def test_excess_glare_is_marginal_at_best():
+    assert [rating_of(n, excess_glare=True) for n in (0, 30, 30.1)] == ["Marginal", "Marginal", "Poor"]
 
 
 @pytest.mark.parametrize("old, new, said", [
     ('"low"', '"fog"', "beam is low or high"), ('"straight"', '"bent"', "approach 'bent'"), ("= 100", "= nan", "not finite"),
     ("= 100", "= 251", "beyond the 250 m"), ("[60, 9]", "[121, 9]", "10 to 120 m"),
-    ("[60, 9]", "[40, 9]", "do not grow"), ("target_m", "goal_m", "expected the keys"), ("[[glare]]", "[[glow]]", "nothing else"),
+    ("[60, 9]", "[40, 9]", "do not grow"), ("= 0.5\n[[", "= -1\n[[", "below 0"), ("allowed_s = 0\n", "", "expected the keys"),
+    ("01 = 0.5", "01 = 1.5", "0 to 1"), ("credit_share", "credit", "0 to 1"), ("sharp left", "straight", "straight stands there twice"),
+    ("target_m = 50", "target_m = inf", "not finite"), ("target_m", "goal_m", "expected the keys"), ("[[glare]]", "[[glow]]", "nothing else"),
 ])
 def test_limits_that_cannot_be_used_are_refused(tmp_path, old, new, said):
     (tmp_path / "limits.toml").write_text(LIMITS.replace(old, new))
@@ -84,4 +125,13 @@ def test_the_command_says_what_it_is_not(rig, tmp_path):
 
     said = say("iihs", "--rig", str(rig))
     assert said.returncode == 0 and said.stdout.rstrip().endswith("are not public") and "sharp left" in said.stdout
+    assert "a good one reaches 99.1 m" in said.stdout and "unconfirmed" in said.stdout
+    (tmp_path / "limits.toml").write_text(LIMITS)
+    said = say("iihs", "--rig", str(rig), "--limits", str(tmp_path / "limits.toml"), "--high-beam-assist")
+    assert said.returncode == 0 and "20.75 demerits" in said.stdout and "Marginal (bands unconfirmed" in said.stdout
     assert say("iihs", "--rig", str(tmp_path / "none.toml")).returncode == 2
+    assert say("iihs", "--rig", str(rig), "--high-beam-assist").returncode == 2
+    only_low = phare.Rig.read(rig)
+    only_low.designs[0].lamps[0].sources.pop()
+    missing = say("iihs", "--rig", str(only_low.write(tmp_path / "low.toml")))
+    assert missing.returncode == 2 and "design even has no high beam" in missing.stderr

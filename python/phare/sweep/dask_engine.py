@@ -1,0 +1,94 @@
+"""Runs a sweep's jobs on workers of Dask: those of a scheduler, or of a cluster of its own on this machine.
+
+A worker that is lost in the middle of a job has it driven by another; Dask gives a job up after its workers died four times. Workers
+see the folder of the sweep, the plan's files and Phare's programs under the same names as here, and have this package.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+from typing import Any, Iterator
+
+from ..errors import BadInput, Failed
+from ..programs import program
+from .engine import Engine, Work
+from .plan import Job, Plan
+from .task import drive_job
+
+_TELL_AFTER_S = 10.0
+_POLL_S = 0.1
+
+
+def _on_worker(job: Job, plan: Plan, folder: str, programs: str) -> bool:
+    """False where the folder of the sweep is not there."""
+    os.environ.setdefault("PHARE_BIN", programs)
+    if not (Path(folder) / "rows").is_dir():
+        return False
+    drive_job(job, plan, Path(folder))
+    return True
+
+
+class Dask(Engine):
+    """address: of a scheduler, tcp://HOST:PORT; "local": a cluster on this machine with so many workers (None: one for each
+    processor), which ends with the sweep."""
+
+    def __init__(self, address: str, workers: int | None = None):
+        try:
+            import distributed
+        except ImportError as wrong:
+            raise BadInput("--dask: needs Dask's distributed: apt-get install python3-distributed, or pip install distributed") from wrong
+        self._distributed: Any = distributed
+        self._address, self._workers = address, workers
+
+    def run(self, work: Work) -> Iterator[tuple[Job, str]]:
+        d = self._distributed
+        cluster: Any = None
+        try:
+            if self._address == "local":
+                count = self._workers or os.cpu_count() or 1
+                cluster = d.LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None, silence_logs=50)
+            client = d.Client(cluster or self._address, timeout="5s", set_as_default=False)
+        except (OSError, ValueError, TypeError) as wrong:
+            raise BadInput(f"--dask {self._address}: no scheduler answers there ({wrong})") from wrong
+        try:
+            yield from self._gather(client, work)
+        finally:
+            client.close(timeout=2)  # jobs that nobody waits for any more are given up
+            if cluster is not None:
+                cluster.close()
+
+    def _gather(self, client: Any, work: Work) -> Iterator[tuple[Job, str]]:
+        run, programs = f"phare-{os.getpid()}-{time.time_ns()}", str(program().parent)
+        jobs = {  # named anew: no result of an earlier run is taken for theirs
+            client.submit(_on_worker, job, work.plan, str(work.folder), programs, key=f"{run}-{job.number}", pure=False): job
+            for job in work.jobs
+        }
+        last_s, told = time.monotonic(), False
+        while jobs:
+            time.sleep(_POLL_S)
+            done = [future for future in jobs if future.status != "pending"]
+            for future in done:
+                last_s, told = time.monotonic(), False
+                job, why = jobs.pop(future), self._why(future, work)
+                future.release()  # a result that nobody holds is not made anew when its worker is lost later
+                yield job, why
+            if client.status != "running":
+                raise Failed(self._gone())
+            if not told and time.monotonic() - last_s > _TELL_AFTER_S and not client.scheduler_info()["workers"]:
+                told = True
+                work.tell(f"waiting: {self._address} has no worker")
+
+    def _gone(self) -> str:
+        return f"--dask {self._address}: the scheduler is gone; the same command goes on from here"
+
+    def _why(self, future: Any, work: Work) -> str:
+        if future.status in ("cancelled", "lost"):
+            raise Failed(self._gone())
+        if future.status == "error":
+            wrong = future.exception()
+            if isinstance(wrong, self._distributed.scheduler.KilledWorker):
+                return "its workers were lost, again and again"
+            return f"{type(wrong).__name__}: {wrong}"
+        return "" if future.result() else f"a worker does not see {work.folder}"
