@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from .command_line import leave
 from .errors import BadInput, PhareError
 from .rating import GOOD_M, POOR_M, UNOFFICIAL, Iihs, rate_iihs
 
@@ -49,4 +50,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    leave(main)

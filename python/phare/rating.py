@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 import os
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +22,7 @@ import pandas as pd
 from .edges import APPROACHES, SPEEDS_MPS, oncoming_glare, visibility
 from .errors import BadInput
 from .rig import Rig
+from .toml_in import read_toml
 
 PathLike = str | os.PathLike[str]
 _SIDES = {"right": "right edge", "left": "left edge"}
@@ -109,12 +109,7 @@ def _no_twice(file: Path, kind: str, rows: list[dict[str, Any]]) -> list[dict[st
 
 def read_limits(file: PathLike) -> Limits:
     """A TOML file of [[visibility]], [[glare]] and [assist] (docs/python.md); raises BadInput."""
-    try:
-        document = tomllib.loads(Path(file).read_text())
-    except OSError as wrong:
-        raise BadInput(f"{file}: {wrong.strerror}") from wrong
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as wrong:
-        raise BadInput(f"{file}: {wrong}") from wrong
+    document = read_toml(file)
     assist = document.pop("assist", None)
     if set(document) - set(_KEYS) or not document or not all(isinstance(rows, list) for rows in document.values()):
         raise BadInput(f"{file}: expected [[visibility]], [[glare]], [assist] and nothing else")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 import os
 import tempfile
-import tomllib
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any, Mapping, Sequence
@@ -13,6 +12,7 @@ from typing import Any, Mapping, Sequence
 from . import toml_out
 from .errors import BadInput
 from .programs import program, run_json
+from .toml_in import read_toml
 
 PathLike = str | os.PathLike[str]
 
@@ -109,12 +109,7 @@ class Rig:
     def read(cls, file: PathLike) -> Rig:
         """Reads a rig file. Paths in it become absolute, but those under "generated/". Raises BadInput."""
         here = Path(file)
-        try:
-            document = tomllib.loads(here.read_text())
-        except OSError as wrong:
-            raise BadInput(f"{file}: {wrong.strerror}") from wrong
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as wrong:
-            raise BadInput(f"{file}: {wrong}") from wrong
+        document = read_toml(file)
         try:
             return cls._of(document, here.resolve().parent)
         except (KeyError, TypeError, AttributeError) as wrong:
@@ -128,6 +123,8 @@ class Rig:
         document = copy.deepcopy(document)
         for key in ("scene", "vehicle", "cockpit"):
             document[key] = absolute(document[key])
+        if "traffic" in document:
+            document["traffic"] = absolute(document["traffic"])
         if document.get("bus", {}).get("key_file"):
             document["bus"]["key_file"] = absolute(document["bus"]["key_file"])
         designs = []
@@ -142,7 +139,7 @@ class Rig:
 
     @classmethod
     def shipped(cls, name: str = "country_road") -> Rig:
-        """A rig that comes with Phare: "country_road" or "matrix"."""
+        """A rig that comes with Phare: "country_road", "matrix" or "three_channels"."""
         return cls.read(shipped_file(f"rigs/{name}.toml"))
 
     def design(self, name: str) -> Design:

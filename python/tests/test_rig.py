@@ -58,3 +58,14 @@ def test_toml_keeps_every_kind_of_value():
     assert toml_out.dumps({"none": None}) == ""
     with pytest.raises(phare.BadInput):
         toml_out.dumps({"bad": float("nan")})
+
+
+def test_the_road_users_of_a_rig_are_found_from_elsewhere(tmp_path):
+    (tmp_path / "far").mkdir()
+    (tmp_path / "far" / "others.toml").write_text('[[road_user]]\nclass = "car"\ndirection = "oncoming"\nstart_s_m = 300\nspeed_kmh = 50\n')
+    rig = phare.Rig.shipped()
+    rig.more["traffic"] = "others.toml"
+    rig.write(tmp_path / "far" / "rig.toml")
+    again = phare.Rig.read(tmp_path / "far" / "rig.toml")
+    assert again.more["traffic"] == str(tmp_path / "far" / "others.toml")
+    assert phare.Rig.read(again.write(tmp_path / "rig.toml")).problems() == []

@@ -155,3 +155,13 @@ def test_a_parquet_table_reads_back_as_it_was(tmp_path):
     assert list(back.columns) == ["job", "aim", "edge_m", "frames", "error"] and list(back.aim) == ["cut-off", "-0.3"]
     assert list(back.job) == [1, 2] and back.edge_m[0] == 0.1 and back.edge_m.isna()[1] and back.error.isna()[0]
     assert back.error[1] == "lamp.ies:2: odd"
+
+
+def test_a_reader_that_leaves_is_no_error(tmp_path):
+    plan = plan_of(tmp_path, "[vary]\naim = [" + ", ".join(f"{-n / 1000}" for n in range(1500)) + "]\n")  # more than a pipe holds
+    environment = {**os.environ, "PYTHONPATH": str(Path(phare.__file__).parents[1])}
+    command = [sys.executable, "-m", "phare.sweep", str(plan), "--list"]
+    listing = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    assert b"phare" in listing.stdout.readline()
+    listing.stdout.close()
+    assert (listing.wait(timeout=60), listing.stderr.read()) == (141, b"")

@@ -19,14 +19,13 @@ from __future__ import annotations
 
 import math
 import os
-import tomllib
 from dataclasses import dataclass, fields
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from ..errors import BadInput
+from ..toml_in import read_toml
 
 # Width, height, length in m: usual sizes, chosen by eye.
 SIZES_M = {
@@ -79,12 +78,7 @@ _RANGES = {
 
 def read_road_users(file: str | os.PathLike[str]) -> list[RoadUser]:
     """Reads such a file; raises BadInput with file, which road user, and reason."""
-    try:
-        document = tomllib.loads(Path(file).read_text())
-    except OSError as wrong:
-        raise BadInput(f"{file}: {wrong.strerror}") from wrong
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as wrong:
-        raise BadInput(f"{file}: {wrong}") from wrong
+    document = read_toml(file)
     listed = document.get("road_user")
     if set(document) != {"road_user"} or not isinstance(listed, list) or not all(isinstance(table, dict) for table in listed):
         raise BadInput(f"{file}: expected [[road_user]] and nothing else")

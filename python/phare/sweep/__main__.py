@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 
+from ..command_line import leave
 from ..errors import BadInput, PhareError
 from .dask_engine import Dask
 from .job import command_of
@@ -60,4 +61,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    leave(main)

@@ -10,12 +10,12 @@ import itertools
 import json
 import math
 import os
-import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from ..errors import BadInput
+from ..toml_in import read_toml
 
 # What a drive can be told. Of these the values are paths, relative to the plan.
 FILES = ("rig", "lamp", "lamp_high", "lamp_fog", "drive", "script", "log", "vehicle", "road", "traffic")
@@ -83,12 +83,7 @@ def job_hash(job: Job, plan: Plan) -> str:
 def read_plan(file: str | os.PathLike[str]) -> Plan:
     """Reads a plan; raises BadInput with file and reason."""
     here = Path(file)
-    try:
-        document = tomllib.loads(here.read_text())
-    except OSError as wrong:
-        raise BadInput(f"{file}: {wrong.strerror}") from wrong
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as wrong:
-        raise BadInput(f"{file}: {wrong}") from wrong
+    document = read_toml(file)
     _only(document, _TOP, str(file))
     kind = document.get("kind", "grid")
     if kind not in _KINDS:

@@ -1,0 +1,22 @@
+"""What the commands have in common: how they end."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from typing import NoReturn
+
+_SIGPIPE = 141
+"""As a shell tells the end of who wrote into a pipe that nobody reads any more."""
+
+
+def leave(main: Callable[[], int]) -> NoReturn:
+    """Runs a command and ends with its exit code; silently where the reader of its output has left (`| head`)."""
+    try:
+        code = main()
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what Python flushes at its end goes there
+        code = _SIGPIPE
+    sys.exit(code)
