@@ -75,11 +75,12 @@ struct LitView {
   Method method = Method::kFragment;
   std::span<const double> isolux_lx{};  ///< lines of false colour; of the caller, while the view is made
   std::vector<DrawItem> items{};
-  std::vector<SceneBatch> moved{};      ///< of what moves, where it is now; items point to them
-  std::vector<LitBy> lit_by{};          ///< one at least
-  std::vector<PlacedLamp> lit_lamps{};  ///< that light something in it
-  std::vector<CastBy> casts{};          ///< what stands in the light of each
-  ShadowLevel shadows{};                ///< of the maps that are read
+  std::vector<SceneBatch> moved{};       ///< of what moves, where it is now; items point to them
+  std::span<const PlacedMesh> moving{};  ///< of the caller, while the frame is recorded
+  std::vector<LitBy> lit_by{};           ///< one at least
+  std::vector<PlacedLamp> lit_lamps{};   ///< that light something in it
+  std::vector<CastBy> casts{};           ///< what stands in the light of each
+  ShadowLevel shadows{};                 ///< of the maps that are read
   const ShadowDepths* depths = nullptr;
   std::vector<PlacedLamp> air_lamps{};  ///< whose light goes through what the view sees, on a surface or not
   FogGrid fog{};

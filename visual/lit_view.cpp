@@ -14,6 +14,7 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
                        std::span<const PlacedMesh> moving, double far_mesh_from_m, std::span<const double> isolux_lx) {
   LitView view{
       .geometry = geometry, .sky = sky, .isolux_lx = isolux_lx, .items = geometry_.visible(geometry, far_mesh_from_m)};
+  view.moving = moving;
   if (!moving.empty()) geometry_.add_visible(view.items, view.moved, geometry, moving);
   for (const PlacedLamp& lamp : lamps) {
     if (is_dark(lamp.beam)) continue;
@@ -40,7 +41,7 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
 
 std::size_t LitScene::find_casters(LitView& view) const {
   for (const PlacedLamp& lamp : view.lit_lamps)
-    view.casts.push_back(casters_.by(reach_of(lamp), lamp.world_from_image));
+    view.casts.push_back(casters_.by(reach_of(lamp), lamp.world_from_image, view.moving, lamp.carried_by));
   return casters_of_all(view.casts);
 }
 

@@ -85,7 +85,7 @@ struct Renderer::Impl {
 
   void set_scene(const Scene& new_scene, const Scene& moving) {
     device.device.waitIdle();
-    scene.set_geometry(SceneBuffers(device, new_scene, moving), ShadowCasters(new_scene));
+    scene.set_geometry(SceneBuffers(device, new_scene, moving), ShadowCasters(new_scene, moving));
   }
 
   /// Submits what `record` puts into the graph and waits for it.

@@ -21,6 +21,7 @@
 #include "visual/photometry/beam/beam_image.h"
 #include "visual/photometry/beam/image_levels.h"
 #include "visual/photometry/table/fog.h"
+#include "visual/scene/world.h"
 #include "visual/view.h"
 
 struct GLFWwindow;
@@ -44,13 +45,8 @@ struct PlacedLamp {
   glm::dvec3 position_m{0.0};
   glm::dmat3 world_from_image{1.0};  ///< columns: forward, left, up of the beam image
   std::size_t beam = 0;              ///< index of the beam image set with set_beam
-};
-
-/// Something that moves, this frame.
-struct PlacedMesh {
-  std::size_t mesh = 0;  ///< which node of the scene of what moves (Renderer::load_scene)
-  glm::dvec3 position_m{0.0};
-  glm::dmat3 world_from_mesh{1.0};
+  /// Which of FrameInput::moving carries it, and casts no shadow in its light.
+  std::size_t carried_by = SIZE_MAX;
 };
 
 /// So many lamps light one draw at most, which is a block of the scene where a view has many. Those that reach nothing
@@ -77,7 +73,7 @@ struct ViewInput {
   /// Any number. Left out and counted are those that reach nothing in the view, and where more than kLampsPerDraw reach
   /// one draw the weakest there.
   std::vector<PlacedLamp> lamps;
-  std::vector<PlacedMesh> moving{};  ///< beside the scene; it casts no shadow
+  std::vector<PlacedMesh> moving{};  ///< beside the scene
   double exposure_per_cdm2 = 0.8;    ///< multiplies luminance before the tone curve; fixed, so that beams compare
   double adaptation_k = 4000.0;      ///< light of this colour temperature looks white
   std::optional<glm::vec3> white;  ///< linear sRGB of the light that does, in place of it (visual/process/adaptation.h)

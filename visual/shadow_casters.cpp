@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 
 #include "shaders/lamps.h"
@@ -49,51 +51,78 @@ bool shows_its_far_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3&
 
 }  // namespace
 
-ShadowCasters::ShadowCasters(const Scene& scene) {
-  for (const SceneChunk& from : scene.chunks) {
-    Chunk& chunk = chunks_.emplace_back();
-    chunk.origin_m = from.origin_m;
-    chunk.low_m = from.low_m;
-    chunk.high_m = from.high_m;
-    chunk.double_sided = scene.materials[from.material].double_sided;
+ShadowCasters::ShadowCasters(const Scene& scene, const Scene& moving) {
+  const auto chunk_of = [](const Scene& of, const SceneChunk& from) {
+    Chunk chunk{from.origin_m, from.low_m, from.high_m, of.materials[from.material].double_sided, {}, {}};
     for (std::uint32_t i = 0; i < from.vertex_count; ++i)
-      chunk.corners_m.push_back(scene.vertices[from.first_vertex + i].position_m);
-    chunk.indices.assign(scene.indices.begin() + from.first_index,
-                         scene.indices.begin() + from.first_index + from.index_count);
+      chunk.corners_m.push_back(of.vertices[from.first_vertex + i].position_m);
+    chunk.indices.assign(of.indices.begin() + from.first_index,
+                         of.indices.begin() + from.first_index + from.index_count);
+    return chunk;
+  };
+  for (const SceneChunk& from : scene.chunks) chunks_.push_back(chunk_of(scene, from));
+  for (const std::vector<std::size_t>& of_node : chunks_by_node(moving)) {
+    std::vector<Chunk>& mesh = moving_.emplace_back();
+    for (const std::size_t from : of_node) mesh.push_back(chunk_of(moving, moving.chunks[from]));
   }
 }
 
-CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_image) const {
-  CastBy cast{.chunks = std::vector<bool>(chunks_.size()), .part = kNothing, .nearest_m = kFar};
+bool ShadowCasters::cast_chunk(const Chunk& chunk, const glm::mat3& turn, const glm::vec3& shift,
+                               const TangentRect& light, CastBy& cast) {
+  std::vector<glm::vec3> seen;
+  seen.reserve(chunk.corners_m.size());
+  for (const glm::vec3& corner : chunk.corners_m) seen.push_back(turn * corner + shift);
+  bool casts = false;
+  for (std::size_t k = 0; k + 2 < chunk.indices.size(); k += 3) {
+    const glm::vec3 &a = seen[chunk.indices[k]], &b = seen[chunk.indices[k + 1]], &c = seen[chunk.indices[k + 2]];
+    const double nearest = static_cast<double>(std::min({a.x, b.x, c.x}));
+    if (static_cast<double>(std::max({a.x, b.x, c.x})) <= kNearest_m || nearest > kShadowsTo_m) continue;
+    if (!chunk.double_sided && !shows_its_far_side(a, b, c)) continue;
+    TangentRect part = at_corner(a);
+    widen(part, at_corner(b));
+    widen(part, at_corner(c));
+    part = common(part, light);
+    if (part.left < part.right || part.high < part.low) continue;
+    std::vector<glm::vec3>& triangles = chunk.double_sided ? cast.both_sides : cast.far_sides;
+    triangles.insert(triangles.end(), {a, b, c});
+    widen(cast.part, part);
+    cast.nearest_m = std::min(cast.nearest_m, std::max(nearest, kNearest_m));
+    casts = true;
+  }
+  return casts;
+}
+
+CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving,
+                         std::size_t carried_by) const {
+  CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing, .nearest_m = kFar};
   const TangentRect light = widest(reach, world_from_image);
   const glm::dmat3 image_from_world = glm::transpose(world_from_image);
-  std::vector<glm::vec3> seen;
+  const auto near = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
+    const glm::dvec3 to = reach.tip_m - glm::clamp(reach.tip_m, low_m, high_m);
+    return glm::dot(to, to) <= kShadowsTo_m * kShadowsTo_m && reach.meets(low_m, high_m);
+  };
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     const Chunk& chunk = chunks_[i];
-    const glm::dvec3 to = reach.tip_m - glm::clamp(reach.tip_m, chunk.low_m, chunk.high_m);
-    if (glm::dot(to, to) > kShadowsTo_m * kShadowsTo_m || !reach.meets(chunk.low_m, chunk.high_m)) continue;
-    const glm::mat3 turn(image_from_world);
+    if (!near(chunk.low_m, chunk.high_m)) continue;
     const glm::vec3 shift(image_from_world * (chunk.origin_m - reach.tip_m));
-    seen.clear();
-    for (const glm::vec3& corner : chunk.corners_m) seen.push_back(turn * corner + shift);
-    for (std::size_t k = 0; k + 2 < chunk.indices.size(); k += 3) {
-      const glm::vec3 &a = seen[chunk.indices[k]], &b = seen[chunk.indices[k + 1]], &c = seen[chunk.indices[k + 2]];
-      const double nearest = static_cast<double>(std::min({a.x, b.x, c.x}));
-      if (static_cast<double>(std::max({a.x, b.x, c.x})) <= kNearest_m || nearest > kShadowsTo_m) continue;
-      if (!chunk.double_sided && !shows_its_far_side(a, b, c)) continue;
-      TangentRect part = at_corner(a);
-      widen(part, at_corner(b));
-      widen(part, at_corner(c));
-      part = common(part, light);
-      if (part.left < part.right || part.high < part.low) continue;
-      std::vector<glm::vec3>& triangles = chunk.double_sided ? cast.both_sides : cast.far_sides;
-      triangles.insert(triangles.end(), {a, b, c});
-      widen(cast.part, part);
-      cast.nearest_m = std::min(cast.nearest_m, std::max(nearest, kNearest_m));
-      cast.chunks[i] = true;
-    }
-    cast.count += cast.chunks[i] ? 1u : 0u;
+    cast.chunks[i] = cast_chunk(chunk, glm::mat3(image_from_world), shift, light, cast);
   }
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const PlacedMesh& placed = moving[i];
+    if (i == carried_by || placed.mesh >= moving_.size()) continue;
+    const glm::dmat3 extent(glm::abs(placed.world_from_mesh[0]), glm::abs(placed.world_from_mesh[1]),
+                            glm::abs(placed.world_from_mesh[2]));
+    const glm::mat3 turn(image_from_world * placed.world_from_mesh);
+    for (const Chunk& chunk : moving_[placed.mesh]) {
+      const glm::dvec3 middle_m = placed.position_m + placed.world_from_mesh * (0.5 * (chunk.low_m + chunk.high_m));
+      const glm::dvec3 half_m = extent * (0.5 * (chunk.high_m - chunk.low_m));
+      if (!near(middle_m - half_m, middle_m + half_m)) continue;
+      const glm::dvec3 origin_m = placed.position_m + placed.world_from_mesh * chunk.origin_m;
+      const glm::vec3 shift(image_from_world * (origin_m - reach.tip_m));
+      if (cast_chunk(chunk, turn, shift, light, cast)) cast.chunks[chunks_.size() + i] = true;
+    }
+  }
+  cast.count = static_cast<std::size_t>(std::ranges::count(cast.chunks, true));
   if (cast.count == 0) return {};
   return cast;
 }

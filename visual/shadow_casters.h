@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "visual/light_reach.h"
-#include "visual/scene/scene.h"
+#include "visual/scene/world.h"
 
 namespace phare {
 
@@ -32,7 +32,7 @@ struct TangentRect {
 
 /// What casts shadows in the light of one lamp.
 struct CastBy {
-  std::vector<bool> chunks{};  ///< of the scene, which of them cast; empty: none does
+  std::vector<bool> chunks{};  ///< of the scene and then of what moves, which of them cast; empty: none does
   std::size_t count = 0;       ///< of those
   TangentRect part{};          ///< that they fill
   double nearest_m = 0.0;      ///< along the axis
@@ -44,11 +44,13 @@ struct CastBy {
 class ShadowCasters {
  public:
   ShadowCasters() = default;
-  explicit ShadowCasters(const Scene& scene);
+  /// `moving`: meshes of what moves.
+  explicit ShadowCasters(const Scene& scene, const Scene& moving = {});
 
   /// `world_from_image`: forward, left and up of the lamp at the tip of `reach`. Reads the triangles of every chunk
-  /// that is near and in the light.
-  CastBy by(const LampReach& reach, const glm::dmat3& world_from_image) const;
+  /// that is near and in the light. `moving`: where the meshes are now, all but the one that carries the lamp.
+  CastBy by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving = {},
+            std::size_t carried_by = SIZE_MAX) const;
 
  private:
   struct Chunk {
@@ -57,7 +59,13 @@ class ShadowCasters {
     std::vector<glm::vec3> corners_m;  ///< relative to the origin
     std::vector<std::uint32_t> indices;
   };
+  /// Adds the triangles of a chunk that cast; false: none does. `turn`, `shift`: from its corners into the lamp's
+  /// frame.
+  static bool cast_chunk(const Chunk& chunk, const glm::mat3& turn, const glm::vec3& shift, const TangentRect& light,
+                         CastBy& cast);
+
   std::vector<Chunk> chunks_;
+  std::vector<std::vector<Chunk>> moving_;  ///< by mesh
 };
 
 /// How many pieces of the scene cast in the light of any of them.

@@ -45,22 +45,52 @@ constexpr glm::dvec3 kLamp_m{0.0, 0.0, 0.65};
 
 TEST(Occluder, TheEdgeOfAMarkingHidesNoLight) {
   // At 10 m a lamp at 0.65 m sees over 7 mm of paint at 3.7°: 0.11 m behind it would be dark.
-  EXPECT_FALSE(occluder(marked_road(), kLamp_m, {10.05, 0.0, 0.0}).has_value());
+  EXPECT_FALSE(occluder(marked_road(), kLamp_m, {10.05, 0.0, 0.0}));
 }
 
 TEST(Occluder, AKerbHidesTheRoadBehindItAndIsNamed) {
   const Scene scene = marked_road();
-  const auto by = occluder(scene, kLamp_m, {20.5, 0.0, 0.0});
-  ASSERT_TRUE(by.has_value());
-  EXPECT_EQ(scene.chunks[*by].node, "kerb");
-  EXPECT_FALSE(occluder(scene, kLamp_m, {19.9, 0.0, 0.0}).has_value());
+  const SceneChunk* by = occluder(scene, kLamp_m, {20.5, 0.0, 0.0});
+  ASSERT_TRUE(by);
+  EXPECT_EQ(name_of(*by), "kerb");
+  EXPECT_FALSE(occluder(scene, kLamp_m, {19.9, 0.0, 0.0}));
 }
 
 TEST(RayHit, StillMeetsAMarking) {
   const Scene scene = marked_road();
   const auto hit = ray_hit(scene, {9.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, 0.0, 10.0);
   ASSERT_TRUE(hit.has_value());
-  EXPECT_EQ(scene.chunks[hit->chunk].node, "marking");
+  EXPECT_EQ(hit->chunk->node, "marking");
+}
+
+// A plate of 2 by 2 m that looks along its own x, turned and placed as an upright plate of the scene would stand.
+TEST(RayHit, MeetsWhatMovesWhereItIsNow) {
+  Scene meshes;
+  meshes.materials.resize(1);
+  for (const glm::vec3 at : {glm::vec3{0, -1, 0}, {0, 1, 0}, {0, 1, 2}, {0, -1, 2}})
+    meshes.vertices.push_back({at, {1, 0, 0}});
+  meshes.indices = {0, 1, 2, 0, 2, 3};
+  SceneChunk plate{.node = "plate", .low_m = {0, -1, 0}, .high_m = {0, 1, 2}};
+  plate.vertex_count = 4, plate.index_count = 6;
+  meshes.chunks = {plate};
+  const Scene road = marked_road();
+  World world(road, meshes);
+  const double turn = 0.5;
+  const glm::dmat3 turned{{std::cos(turn), std::sin(turn), 0}, {-std::sin(turn), std::cos(turn), 0}, {0, 0, 1}};
+  world.move({{0, {12.0, 0.5, 0.0}, turned}});
+  const auto hit = ray_hit(world, {2.0, 0.5, 1.0}, {1.0, 0.0, 0.0}, 0.0, 100.0);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->distance_m, 10.0, 1e-12);
+  EXPECT_NEAR(glm::distance(hit->normal, -turned[0]), 0.0, 1e-12) << "toward the ray's origin";
+  EXPECT_EQ(hit->chunk->node, "plate");
+  EXPECT_EQ(hit->scene, &meshes);
+  // It hides the lamp from the road behind it, and no more once it has gone.
+  const SceneChunk* by = occluder(world, kLamp_m, {14.0, 0.3, 0.0});
+  ASSERT_TRUE(by);
+  EXPECT_EQ(name_of(*by), "plate");
+  EXPECT_FALSE(occluder(world.without(0), kLamp_m, {14.0, 0.3, 0.0}));
+  world.move({{0, {12.0, 4.0, 0.0}, turned}});
+  EXPECT_FALSE(occluder(world, kLamp_m, {14.0, 0.3, 0.0}));
 }
 
 }  // namespace

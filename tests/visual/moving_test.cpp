@@ -53,7 +53,7 @@ FrameInput lit_view() {
   FrameInput input = driver_view();
   input.exposure_per_cdm2 = 0.3;
   input.want_image = true;
-  input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;  // what moves casts none
+  input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
   return input;
 }
 
@@ -62,6 +62,7 @@ TEST_F(MovingOnDevice, LooksAsIfItStoodThere) {
   renderer->set_beam(0, image_of(cut_off_table(PhotometricType::kA, GammaAxis::kGamma0)));
   ASSERT_TRUE(renderer->load_scene(with_wedge_standing(yard(), at)).ok());
   FrameInput input = lit_view();
+  input.effects = {};  // with shadows
   renderer->draw(input);
   const Image8 standing = renderer->read_image();
 
@@ -71,7 +72,10 @@ TEST_F(MovingOnDevice, LooksAsIfItStoodThere) {
   input.moving = {at};
   renderer->draw(input);
   const Image8 moving = renderer->read_image();
-  int wedge_px = 0, other = 0;
+  input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
+  renderer->draw(input);
+  const Image8 unshadowed = renderer->read_image();
+  int wedge_px = 0, other = 0, in_shadow = 0;
   for (std::size_t i = 0; i < moving.rgba.size(); i += 4) {
     const auto differs = [&](const Image8& a, const Image8& b, int by) {
       int most = 0;
@@ -79,9 +83,11 @@ TEST_F(MovingOnDevice, LooksAsIfItStoodThere) {
       return most > by;
     };
     wedge_px += differs(moving, without, 0) ? 1 : 0;
+    in_shadow += differs(moving, unshadowed, 8) ? 1 : 0;
     other += differs(moving, standing, 1) ? 1 : 0;
   }
   EXPECT_GT(wedge_px, 500);
+  EXPECT_GT(in_shadow, 300) << "its shadow is seen";
   // Turned in float32 once more than in the vertices: an edge moves by 1e-6 m where a pixel covers 0.03 m, so that of
   // its 200 pixels less than one takes the other side.
   EXPECT_LE(other, 1);

@@ -72,7 +72,8 @@ TEST_F(Explain, FogCallsForFogAlone) {
   }
 }
 
-/// The whole plan of a drive that meets a car: its lamps glare, for which the luminance image is made.
+/// The whole plan of a drive that meets a car: its lamps glare, for which the luminance image is made, and its body
+/// casts a shadow.
 TEST_F(Explain, AnOncomingCarCallsForGlareAndItsImage) {
   const auto alone = lines(moment(LightSwitch::kLow), software_);
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explain_traffic.toml";
@@ -85,6 +86,8 @@ TEST_F(Explain, AnOncomingCarCallsForGlareAndItsImage) {
       EXPECT_TRUE(met[i].starts_with("glare           on      2 lamps shine into the eye, 0.")) << met[i];
     else if (met[i].starts_with("hdr image"))
       EXPECT_EQ(met[i], "hdr image       on      light scattered in the eye is added to luminance in cd/m²");
+    else if (met[i].starts_with("shadows"))
+      EXPECT_EQ(met[i], "shadows         soft    1 pieces of the scene stand in the light of the lamps");
     else
       EXPECT_EQ(met[i], alone[i]);
   }
@@ -203,9 +206,10 @@ TEST_F(Explain, AProbeBehindAWallTellsWhatHidesTheLight) {
   lamps_.set_controls(asked.controls);
   ASSERT_TRUE(apply(desk_, {"probes", "world 20 0 0.7 -1 0 0; world 9 0 0.7 -1 0 0"}).ok());
   const EyeAdaptation eye;
-  const auto told = [&](const Scene* scene, std::size_t from_end) {
+  const World world(scene_);
+  const auto told = [&](const World* world, std::size_t from_end) {
     const auto all =
-        overlay_lines(desk_, lamps_, {.controls = asked.controls, .pose = asked.pose, .eye = eye, .scene = scene});
+        overlay_lines(desk_, lamps_, {.controls = asked.controls, .pose = asked.pose, .eye = eye, .world = world});
     for (std::size_t i = 0; i < all.size(); ++i)
       if (all[i].starts_with("probe 1")) return all[i + from_end];
     return std::string();
@@ -214,9 +218,9 @@ TEST_F(Explain, AProbeBehindAWallTellsWhatHidesTheLight) {
   const double open_lx = lamps_.illuminance_lx(asked.pose, behind);
   char hidden[60];
   std::snprintf(hidden, sizeof hidden, ", %.3g lx hidden by barn", open_lx);
-  EXPECT_TRUE(told(&scene_, 0).starts_with("probe 1, world: 0 lx")) << told(&scene_, 0);
-  EXPECT_TRUE(told(&scene_, 0).ends_with(hidden)) << told(&scene_, 0);
-  EXPECT_EQ(told(&scene_, 1), told(nullptr, 1)) << "before the wall nothing hides it";
+  EXPECT_TRUE(told(&world, 0).starts_with("probe 1, world: 0 lx")) << told(&world, 0);
+  EXPECT_TRUE(told(&world, 0).ends_with(hidden)) << told(&world, 0);
+  EXPECT_EQ(told(&world, 1), told(nullptr, 1)) << "before the wall nothing hides it";
   EXPECT_EQ(told(nullptr, 0).find("hidden"), std::string::npos);
   EXPECT_NE(lines(asked, software_)[1].find("1 pieces of the scene stand in the light"), std::string::npos)
       << lines(asked, software_)[1];

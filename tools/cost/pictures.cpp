@@ -207,7 +207,7 @@ class Pictures {
       for (std::size_t lamp = 0; lamp < input.lamps.size(); ++lamp)
         for (const MeasurePoint& point : points) {
           const double lx = exact_lx(table_, input.lamps[lamp], point);
-          const bool hidden = lx > 0.0 && occluder(scene_, input.lamps[lamp].position_m, point.position_m).has_value();
+          const bool hidden = lx > 0.0 && occluder(scene_, input.lamps[lamp].position_m, point.position_m) != nullptr;
           exact[lamp].push_back(hidden ? 0.0 : lx);
         }
       for (std::size_t k = 0; k < cases.size(); ++k) {

@@ -49,19 +49,22 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   }
   // Those whose light the view can see; what of the scene it falls on is not asked.
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
+  input.moving = traffic.placed_meshes(users);
+  World world(scene, traffic.meshes());
+  world.move(input.moving);
   const std::vector<PlacedLamp> of_others =
       Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0]);
   input.lamps.insert(input.lamps.end(), of_others.begin(), of_others.end());
   std::size_t lit = 0;
   std::optional<std::vector<CastBy>> casts;
   std::optional<ShadowCasters> casters;
-  if (looks_for_casters(input)) casts.emplace(), casters.emplace(scene);
+  if (looks_for_casters(input)) casts.emplace(), casters.emplace(scene, traffic.meshes());
   for (const PlacedLamp& lamp : input.lamps) {
     const LightCone cone = light_cone(lamp.beam == Traffic::kBeam ? traffic.beam() : lamps.image(lamp.beam));
     const LampReach reach(lamp.position_m, lamp.world_from_image, cone);
     if (!reach.meets(view)) continue;
     ++lit;
-    if (casts) casts->push_back(casters->by(reach, lamp.world_from_image));
+    if (casts) casts->push_back(casters->by(reach, lamp.world_from_image, input.moving, lamp.carried_by));
   }
   char heading[240];
   std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
@@ -69,8 +72,8 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
                 moment.pose.speed_mps * 3.6, device.name.c_str());
   std::optional<std::size_t> casting;
   if (casts) casting = casters_of_all(*casts);
-  input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, scene, input.visibility_m);
-  const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, scene, input.visibility_m);
+  input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.visibility_m);
+  const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.visibility_m);
   input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
   return heading + explain(plan_effects(facts_of(input, lit, casting, text_lines(input), glare_of(input, view),
                                                  {.software = device.software}),

@@ -200,7 +200,7 @@ double Lamps::lamp_lx(std::size_t design, std::size_t slot, const std::set<LampF
   return sum_lx;
 }
 
-Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at, const Scene& scene) const {
+Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at, const World& world) const {
   const glm::dmat3 world_from_car = rotation_of(pose), car_from_world = glm::transpose(world_from_car);
   const MeasurePoint in_car{car_from_world * (at.position_m - position_of(pose)), car_from_world * at.normal};
   LightAt light;
@@ -209,20 +209,20 @@ Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at,
     const double lx = lamp_lx(design_, slot, lit_, in_car, pose.lamp_tilt_rad);
     if (lx <= 0.0) continue;
     const glm::dvec3 lamp_m = position_of(pose) + world_from_car * positions_[design_][slot].mount.position_m;
-    const std::optional<std::size_t> by = occluder(scene, lamp_m, at.position_m);
+    const SceneChunk* by = occluder(world, lamp_m, at.position_m);
     (by ? light.hidden_lx : light.lx) += lx;
     if (!by || lx <= most_lx) continue;
     most_lx = lx;
-    light.hidden_by = scene.chunks[*by].node.empty() ? "something without a name" : scene.chunks[*by].node;
+    light.hidden_by = name_of(*by);
   }
   return light;
 }
 
-std::vector<GlaringLamp> Lamps::glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const Scene& scene,
+std::vector<GlaringLamp> Lamps::glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const World& world,
                                          std::optional<double> visibility_m) const {
   std::vector<GlaringLamp> sources;
   for (const PointLight& light : lights_at(pose, {.position_m = eye_m})) {
-    if (light.candela <= 0.0 || light.lamp_m == eye_m || occluder(scene, light.lamp_m, eye_m)) continue;
+    if (light.candela <= 0.0 || light.lamp_m == eye_m || occluder(world, light.lamp_m, eye_m)) continue;
     sources.push_back(glaring_lamp(light.lamp_m, light.candela, light.colour, eye_m, visibility_m));
   }
   return sources;

@@ -127,16 +127,16 @@ class Lamps {
   /// E in lx at a point of the world: float64 from the native tables, no beam image in between. The truth the GPU is
   /// held to.
   double illuminance_lx(const VehicleState& pose, const MeasurePoint& at) const;
-  /// The same behind what stands in the scene, and what would be there besides without it.
+  /// The same behind what stands or moves in the world, and what would be there besides without it.
   struct LightAt {
     double lx = 0.0, hidden_lx = 0.0;
     std::string hidden_by{};  ///< what hides most, by its node; empty: nothing does
   };
-  LightAt light_at(const VehicleState& pose, const MeasurePoint& at, const Scene& scene) const;
+  LightAt light_at(const VehicleState& pose, const MeasurePoint& at, const World& world) const;
   /// Every lamp of the design at a point of the world: float64 from the native tables.
   std::vector<PointLight> lights_at(const VehicleState& pose, const MeasurePoint& at) const;
-  /// The lamps that shine into an eye, the scene and the air between them (nothing: clear).
-  std::vector<GlaringLamp> glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const Scene& scene,
+  /// The lamps that shine into an eye, the world and the air between them (nothing: clear).
+  std::vector<GlaringLamp> glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const World& world,
                                     std::optional<double> visibility_m) const;
   /// The same in the car frame for one set of lit functions of one design: the wall.
   /// `tilt_rad`: of automatic levelling, positive up.

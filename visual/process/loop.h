@@ -83,7 +83,8 @@ class Loop {
   Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk, s_.options.channel);
   LampKeys lamp_keys_;
   LampNews lamp_news_{s_.lamps};
-  PictureInstruments measuring_{s_.desk, s_.lamps, s_.scene, RoadLine(s_.lane, s_.rig.scene_file),
+  World world_{s_.scene, s_.traffic.meshes()};  // as it is in this frame
+  PictureInstruments measuring_{s_.desk, s_.lamps, world_, RoadLine(s_.lane, s_.rig.scene_file),
                                 ProbeLog(s_.options.channel == 0 ? s_.options.out : "", s_.options.going_on)};
   DriveLog drive_log_{s_.options.channel == 0 ? s_.options.out : "",
                       s_.options.going_on,

@@ -81,7 +81,7 @@ void Loop::warm_up() {
     input.moving.clear();
     if (met) input.moving = s_.traffic.one_of_each(input.camera.eye_m + 20.0 * input.camera.world_from_eye[0]);
     const bool glaring =
-        s_.desk.glare != std::size_t{0} && (met || !s_.lamps.glare_at(pose, first_camera.eye_m, {}, {}).empty());
+        s_.desk.glare != std::size_t{0} && (met || !s_.lamps.glare_at(pose, first_camera.eye_m, Scene{}, {}).empty());
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
     // The same for fog, where there is some to begin with, and of the light that the drive begins with.

@@ -47,7 +47,7 @@ void Loop::answer_probes() {
       const bool shadows = s_.desk.shadows != 0;
       for (std::size_t lamp = 0; lamp < lx.size(); ++lamp)
         for (std::size_t i = 0; i < points.size(); ++i)
-          if (lx[lamp][i] > 0.0f && !(shadows && occluder(s_.scene, own[lamp].position_m, points[i].position_m)))
+          if (lx[lamp][i] > 0.0f && !(shadows && occluder(world_, own[lamp].position_m, points[i].position_m)))
             reply.illuminance_lx[i] += static_cast<double>(lx[lamp][i]);
     } else {
       reply.error = "no frame has been drawn yet";

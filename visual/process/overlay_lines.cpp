@@ -17,7 +17,7 @@ namespace {
 /// `at_m`: as it is told, in the frame of the point.
 std::string lux_line(const char* what, const Lamps& lamps, const OverlayMoment& moment, const MeasurePoint& point,
                      const glm::dvec3& at_m) {
-  const Lamps::LightAt light = moment.scene != nullptr ? lamps.light_at(moment.pose, point, *moment.scene)
+  const Lamps::LightAt light = moment.world != nullptr ? lamps.light_at(moment.pose, point, *moment.world)
                                                        : Lamps::LightAt{.lx = lamps.illuminance_lx(moment.pose, point)};
   std::string line = fmt::format("{}{:.3g} lx at ({:.2f}, {:.2f}, {:.2f}) m", what, light.lx, at_m.x, at_m.y, at_m.z);
   if (!light.hidden_by.empty()) line += fmt::format(", {:.3g} lx hidden by {}", light.hidden_lx, light.hidden_by);

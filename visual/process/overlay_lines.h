@@ -37,7 +37,7 @@ struct OverlayMoment {
   std::optional<MeasurePoint> under_mouse{};  ///< of the world
   const RoadLine* road_line = nullptr;        ///< for probes of the road
   std::vector<std::string> point{};           ///< the point that is read, and the reach (point_reading.h, road_marks.h)
-  const Scene* scene = nullptr;               ///< what stands in it hides light; none: nothing does
+  const World* world = nullptr;               ///< what is in it hides light; none: nothing does
   std::vector<std::string> moving{};          ///< of lamps that are being moved (lamp_keys.h)
   RoadPlace road = RoadPlace::kThere;
   std::string picked{};     ///< for a budget or a tolerance, as it holds now

@@ -4,8 +4,8 @@
 
 namespace phare {
 
-std::optional<MeasurePoint> pick(const Scene& scene, const Ray& ray, double most_m) {
-  const std::optional<RayHit> hit = ray_hit(scene, ray.origin_m, ray.direction, 0.0, most_m);
+std::optional<MeasurePoint> pick(const World& world, const Ray& ray, double most_m) {
+  const std::optional<RayHit> hit = ray_hit(world, ray.origin_m, ray.direction, 0.0, most_m);
   if (!hit) return std::nullopt;
   return MeasurePoint{ray.origin_m + ray.direction * hit->distance_m, hit->normal};
 }

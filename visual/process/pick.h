@@ -1,15 +1,15 @@
-// The point of the scene under a pixel, on the CPU in float64: for the lux probe under the mouse.
+// The point of the world under a pixel, on the CPU in float64: for the lux probe under the mouse.
 #pragma once
 
 #include <optional>
 
 #include "visual/renderer.h"
-#include "visual/scene/scene.h"
+#include "visual/scene/world.h"
 
 namespace phare {
 
 /// The nearest triangle hit within `most_m`, with its flat unit normal turned toward the ray's origin
 /// (visual/scene/ray_hit.h).
-std::optional<MeasurePoint> pick(const Scene& scene, const Ray& ray, double most_m = 1000.0);
+std::optional<MeasurePoint> pick(const World& world, const Ray& ray, double most_m = 1000.0);
 
 }  // namespace phare

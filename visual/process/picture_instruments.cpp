@@ -9,9 +9,9 @@
 
 namespace phare {
 
-PictureInstruments::PictureInstruments(const Desk& desk, const Lamps& lamps, const Scene& scene, RoadLine road,
+PictureInstruments::PictureInstruments(const Desk& desk, const Lamps& lamps, const World& world, RoadLine road,
                                        ProbeLog log)
-    : desk_(desk), lamps_(lamps), scene_(scene), road_(std::move(road)), log_(std::move(log)) {}
+    : desk_(desk), lamps_(lamps), world_(world), road_(std::move(road)), log_(std::move(log)) {}
 
 Result<MeasurePoint> PictureInstruments::point() const {
   if (!desk_.point) return Error{"point", "none is chosen"};
@@ -23,7 +23,7 @@ Result<MeasurePoint> PictureInstruments::point() const {
   constexpr int kWide_px = 1'000'000;
   const int high_px = static_cast<int>(kWide_px / moment_.aspect);
   const ViewGeometry view(moment_.camera, moment_.aspect);
-  const auto hit = pick(scene_, view.ray_through(desk_.point->position_m.x * kWide_px - 0.5,
+  const auto hit = pick(world_, view.ray_through(desk_.point->position_m.x * kWide_px - 0.5,
                                                  desk_.point->position_m.y * high_px - 0.5, kWide_px, high_px));
   return hit ? Result<MeasurePoint>(*hit) : Error{"point", "the picture shows nothing of the scene there"};
 }
@@ -32,7 +32,7 @@ Result<PointReading> PictureInstruments::read() const {
   const auto at = point();
   if (!at) return at.error();
   ++work_;
-  return read_point(lamps_, moment_.car, *at, moment_.camera.eye_m, scene_, road_, desk_.shadows != 0);
+  return read_point(lamps_, moment_.car, *at, moment_.camera.eye_m, world_, road_, desk_.shadows != 0);
 }
 
 std::vector<std::string> PictureInstruments::lines() const {
@@ -108,7 +108,7 @@ bool PictureInstruments::log() {
     const auto at = placed(probe, moment_.car, road_);
     std::optional<double>& lx = row.probes_lx.emplace_back();
     if (at)
-      lx = desk_.shadows != 0 ? lamps_.light_at(moment_.car, *at, scene_).lx : lamps_.illuminance_lx(moment_.car, *at);
+      lx = desk_.shadows != 0 ? lamps_.light_at(moment_.car, *at, world_).lx : lamps_.illuminance_lx(moment_.car, *at);
   }
   row.reach = reach_of(lamps_, moment_.car, road_);
   return log_.write(row);

@@ -18,7 +18,7 @@ namespace phare {
 class PictureInstruments {
  public:
   /// All three outlive it.
-  PictureInstruments(const Desk& desk, const Lamps& lamps, const Scene& scene, RoadLine road, ProbeLog log);
+  PictureInstruments(const Desk& desk, const Lamps& lamps, const World& world, RoadLine road, ProbeLog log);
 
   const RoadLine& road() const { return road_; }
   /// The moment that a picture shows: what the others speak of.
@@ -49,7 +49,7 @@ class PictureInstruments {
  private:
   const Desk& desk_;
   const Lamps& lamps_;
-  const Scene& scene_;
+  const World& world_;
   RoadLine road_;
   ProbeLog log_;
   Moment moment_;

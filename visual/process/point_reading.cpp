@@ -24,10 +24,9 @@ constexpr std::array<const char*, 7> kWhyDarkWords{
     "hidden"};
 
 /// What lies within a millimetre of the point.
-const SceneChunk* chunk_at(const Scene& scene, const MeasurePoint& at) {
+std::optional<RayHit> surface_at(const World& world, const MeasurePoint& at) {
   constexpr double kNear_m = 1e-3;
-  const auto hit = ray_hit(scene, at.position_m + kNear_m * at.normal, -at.normal, 0.0, 2.0 * kNear_m);
-  return hit ? &scene.chunks[hit->chunk] : nullptr;
+  return ray_hit(world, at.position_m + kNear_m * at.normal, -at.normal, 0.0, 2.0 * kNear_m);
 }
 
 /// One lamp, as if nothing stood in its light.
@@ -59,7 +58,7 @@ LampReading read_lamp(const PointLight& light, const MeasurePoint& at, const glm
 }  // namespace
 
 PointReading read_point(const Lamps& lamps, const VehicleState& car, const MeasurePoint& at, const glm::dvec3& eye_m,
-                        const Scene& scene, const RoadLine& road, bool shadows) {
+                        const World& world, const RoadLine& road, bool shadows) {
   PointReading reading;
   reading.world = at;
   const glm::dmat3 body = world_from_car(car.roll_rad, car.pitch_rad, car.yaw_rad);
@@ -67,9 +66,9 @@ PointReading read_point(const Lamps& lamps, const VehicleState& car, const Measu
   reading.road = road.place_of(at.position_m);
   glm::dvec3 rho{0.0};
   const Retroreflection* retro = nullptr;
-  if (const SceneChunk* chunk = chunk_at(scene, at)) {
-    const SceneMaterial& material = scene.materials[chunk->material];
-    reading.node = chunk->node, reading.material = material.name;
+  if (const auto hit = surface_at(world, at)) {
+    const SceneMaterial& material = hit->scene->materials[hit->chunk->material];
+    reading.node = hit->chunk->node, reading.material = material.name;
     rho = glm::dvec3(material.reflectance);
     retro = &material.retro;
   }
@@ -79,9 +78,9 @@ PointReading read_point(const Lamps& lamps, const VehicleState& car, const Measu
   for (const PointLight& light : lamps.lights_at(car, at)) {
     LampReading lamp = read_lamp(light, at, back, to_eye);
     if (shadows && lamp.why == WhyDark::kLit) {
-      if (const auto by = occluder(scene, light.lamp_m, at.position_m)) {
+      if (const SceneChunk* by = occluder(world, light.lamp_m, at.position_m)) {
         lamp.why = WhyDark::kHidden;
-        lamp.hidden_by = scene.chunks[*by].node.empty() ? "something without a name" : scene.chunks[*by].node;
+        lamp.hidden_by = name_of(*by);
       }
     }
     // A surface that faces away from the lamp may stand in its light when it is turned.

@@ -46,7 +46,7 @@ struct PointReading {
 
 /// `eye_m`: world. `shadows`: false as if nothing stood in the light.
 PointReading read_point(const Lamps& lamps, const VehicleState& car, const MeasurePoint& at, const glm::dvec3& eye_m,
-                        const Scene& scene, const RoadLine& road, bool shadows);
+                        const World& world, const RoadLine& road, bool shadows);
 
 /// The reading as lines: the sums, where it is, then each lamp.
 std::vector<std::string> lines_of(const PointReading& reading);

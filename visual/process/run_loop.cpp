@@ -60,8 +60,8 @@ void Loop::mind_the_mouse() {
   }
   const Window::Mouse mouse = s_.window->mouse();
   if (!clicked || !newest_ || !mouse.inside) return;
-  const auto at = pick(s_.scene, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
-                                     .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px));
+  const auto at = pick(world_, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
+                                   .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px));
   s_.desk.point = at ? std::optional(Probe{Probe::Frame::kWorld, at->position_m, at->normal}) : std::nullopt;
   fresh_ = true;
 }
@@ -207,8 +207,8 @@ void Loop::mind_the_lamps(SimTime now) {
 /// What shines into the eye of a view: the car's own lamps as given, and those of others.
 std::vector<GlaringLamp> Loop::glare_in(const ViewInput& view, const VehicleState& pose, const Lamps& lamps) const {
   if (view.camera.orthographic_width_m > 0.0) return {};  // no eye
-  std::vector<GlaringLamp> glare = lamps.glare_at(pose, view.camera.eye_m, s_.scene, view.visibility_m);
-  const auto others = s_.traffic.glare_at(users_, view.camera.eye_m, s_.scene, view.visibility_m);
+  std::vector<GlaringLamp> glare = lamps.glare_at(pose, view.camera.eye_m, world_, view.visibility_m);
+  const auto others = s_.traffic.glare_at(users_, view.camera.eye_m, world_, view.visibility_m);
   glare.insert(glare.end(), others.begin(), others.end());
   return glare;
 }
@@ -225,6 +225,7 @@ void Loop::draw(const Moment& moment) {
       Traffic::placed_lamps(users_, input_.camera.eye_m, input_.camera.world_from_eye[0]);
   input_.lamps.insert(input_.lamps.end(), their_lamps.begin(), their_lamps.end());
   input_.moving = s_.traffic.placed_meshes(users_);
+  world_.move(input_.moving);
   input_.picked = picked_effects();
   input_.more_views.clear();
   if (std::exchange(eye_set_, s_.desk.eye) != s_.desk.eye) s_.eye = eye_set(s_.desk.eye);
@@ -315,8 +316,8 @@ void Loop::mind_the_road(const Moment& moment) {
 std::vector<std::string> Loop::overlay(const Moment& moment) const {
   std::optional<MeasurePoint> under_mouse;
   if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside && s_.desk.lines) {
-    under_mouse = pick(s_.scene, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
-                                     .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px));
+    under_mouse = pick(world_, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
+                                   .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px));
   }
   return overlay_lines(s_.desk, s_.lamps,
                        {.time = moment.time,
@@ -329,7 +330,7 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
                         .under_mouse = under_mouse,
                         .road_line = &measuring_.road(),
                         .point = measuring_.lines(),
-                        .scene = s_.desk.shadows == 0 ? nullptr : &s_.scene,
+                        .world = s_.desk.shadows == 0 ? nullptr : &world_,
                         .moving = lamp_keys_.lines(s_.lamps),
                         .road = road_,
                         .picked = picked_line(),

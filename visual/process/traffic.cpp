@@ -74,10 +74,9 @@ Result<Traffic> Traffic::read(const std::filesystem::path& file, const std::vect
   traffic.lane_.emplace(lane);
   traffic.meshes_ = std::move(*meshes);
   traffic.headlamp_ = std::move(*lamp);
-  // In the order of the scene's nodes, as the renderer counts them.
-  std::vector<std::string> nodes;
-  for (const SceneChunk& chunk : traffic.meshes_.chunks)
-    if (std::ranges::find(nodes, chunk.node) == nodes.end()) nodes.push_back(chunk.node);
+  std::vector<std::string> nodes;  // as they are counted
+  for (const auto& chunks : chunks_by_node(traffic.meshes_))
+    nodes.push_back(traffic.meshes_.chunks[chunks.front()].node);
   for (const LampPlaces& places : kPlaces) {
     const auto node = std::ranges::find(nodes, places.node);
     if (node == nodes.end())
@@ -123,52 +122,57 @@ std::vector<PlacedMesh> Traffic::one_of_each(const glm::dvec3& place_m) const {
 
 std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users, const glm::dvec3& eye_m,
                                               const glm::dvec3& ahead) {
-  std::vector<const There*> near;
-  for (const There& user : users) {
-    const bool behind = glm::dot(user.position_m - eye_m, ahead) < 0.0;
-    if (user.lights && !behind) near.push_back(&user);
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < users.size(); ++i) {
+    const bool behind = glm::dot(users[i].position_m - eye_m, ahead) < 0.0;
+    if (users[i].lights && !behind) near.push_back(i);
   }
-  std::ranges::stable_sort(near, {}, [&](const There* user) { return glm::distance(user->position_m, eye_m); });
+  std::ranges::stable_sort(near, {}, [&](std::size_t i) { return glm::distance(users[i].position_m, eye_m); });
   std::vector<PlacedLamp> lamps;
-  for (const There* user : near)
-    for (int lamp = 0; lamp < places_of(user->kind).headlamps && lamps.size() < kMostLamps; ++lamp)
-      lamps.push_back({front_lamp_m(*user, lamp), headlamp_turn(*user), kBeam});
+  for (const std::size_t i : near)
+    for (int lamp = 0; lamp < places_of(users[i].kind).headlamps && lamps.size() < kMostLamps; ++lamp)
+      lamps.push_back({front_lamp_m(users[i], lamp), headlamp_turn(users[i]), kBeam, i});
   return lamps;
 }
 
-std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const glm::dvec3& eye_m, const Scene& scene,
+std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const glm::dvec3& eye_m, const World& world,
                                            std::optional<double> visibility_m) const {
   std::vector<GlaringLamp> sources;
-  const auto add = [&](const glm::dvec3& lamp_m, double cd, const glm::vec3& colour) {
-    if (cd <= 0.0 || lamp_m == eye_m || occluder(scene, lamp_m, eye_m)) return;
+  const auto add = [&](const World& around, const glm::dvec3& lamp_m, double cd, const glm::vec3& colour) {
+    if (cd <= 0.0 || lamp_m == eye_m || occluder(around, lamp_m, eye_m)) return;
     sources.push_back(glaring_lamp(lamp_m, cd, colour, eye_m, visibility_m));
   };
   const glm::vec3 headlamp_colour = light_colour({.table = &headlamp_, .colour_temperature_k = kHalogen_k});
-  for (const There& user : users) {
+  for (std::size_t i = 0; i < users.size(); ++i) {
+    const There& user = users[i];
     if (!user.lights) continue;
+    const World around = world.without(i);
     const LampPlaces& places = places_of(user.kind);
     for (int lamp = 0; lamp < places.headlamps; ++lamp) {
       const glm::dvec3 lamp_m = front_lamp_m(user, lamp);
-      add(lamp_m, headlamp_.intensity_cd(glm::transpose(headlamp_turn(user)) * (eye_m - lamp_m)), headlamp_colour);
+      add(around, lamp_m, headlamp_.intensity_cd(glm::transpose(headlamp_turn(user)) * (eye_m - lamp_m)),
+          headlamp_colour);
     }
     for (int lamp = 0; lamp < places.tail_lamps; ++lamp) {
       const glm::dvec3 lamp_m = tail_lamp_m(user, lamp);
       const double behind = -glm::dot(glm::normalize(eye_m - lamp_m), user.world_from_user[0]);
-      add(lamp_m, kTailLamp_cd * std::max(behind, 0.0), kTailColour);
+      add(around, lamp_m, kTailLamp_cd * std::max(behind, 0.0), kTailColour);
     }
   }
   return sources;
 }
 
-std::vector<MeasurePoint> Traffic::oncoming_eyes(std::span<const There> users, const glm::dvec3& heading) {
+std::vector<Traffic::Eye> Traffic::oncoming_eyes(std::span<const There> users, const glm::dvec3& heading) {
   // Eye behind the front and above the road; chosen by eye, as the bodies are. A pedestrian does not drive.
   constexpr std::array<glm::dvec3, 5> kEyes_m{
       {{0.35, 0.37, 1.2}, {4.2, 0.6, 2.4}, {-0.1, 0.0, 1.5}, {-0.1, 0.0, 1.6}, {0.0, 0.0, 1.65}}};
-  std::vector<MeasurePoint> eyes;
-  for (const There& user : users)
-    if (user.kind != RoadUserClass::pedestrian && glm::dot(user.world_from_user[0], heading) < 0.0)
-      eyes.push_back({user.position_m + user.world_from_user * kEyes_m[static_cast<std::size_t>(user.kind)],
-                      user.world_from_user[0]});
+  std::vector<Eye> eyes;
+  for (std::size_t i = 0; i < users.size(); ++i) {
+    const There& user = users[i];
+    if (user.kind == RoadUserClass::pedestrian || glm::dot(user.world_from_user[0], heading) >= 0.0) continue;
+    const glm::dvec3 eye_m = user.position_m + user.world_from_user * kEyes_m[static_cast<std::size_t>(user.kind)];
+    eyes.push_back({i, {eye_m, user.world_from_user[0]}});
+  }
   return eyes;
 }
 

@@ -2,9 +2,8 @@
 // is a function of simulated time (config/traffic/road_users.h), on the road that is drawn.
 //
 // A car's, lorry's or motorcycle's headlamps are two (of a motorcycle one) low beams with the table that the scene's
-// own sample car has, aimed 1 % down; tail lamps are points of kTailLamp_cd that light nothing. What they do not do:
-// cast shadows, hide lamps from each other, hide what a click or a probe reads. Checked by
-// tests/visual_process/traffic_test.cpp.
+// own sample car has, aimed 1 % down; tail lamps are points of kTailLamp_cd that light nothing. Bodies cast shadows and
+// hide lamps, but not those that they carry. Checked by tests/visual_process/traffic_test.cpp.
 #pragma once
 
 #include <filesystem>
@@ -61,9 +60,14 @@ class Traffic {
                                               const glm::dvec3& ahead);
   /// Where their drivers' eyes are, looking along their way; of those who come toward us, lit or not: nobody
   /// else counts as glared at.
-  static std::vector<MeasurePoint> oncoming_eyes(std::span<const There> users, const glm::dvec3& heading);
-  /// Lamps that shine into an eye, the scene and the air between them.
-  std::vector<GlaringLamp> glare_at(std::span<const There> users, const glm::dvec3& eye_m, const Scene& scene,
+  struct Eye {
+    std::size_t user = 0;  ///< whose it is
+    MeasurePoint at{};
+  };
+  static std::vector<Eye> oncoming_eyes(std::span<const There> users, const glm::dvec3& heading);
+  /// Lamps that shine into an eye, the world and the air between them. `world`: with all of them in it, as
+  /// placed_meshes() has them; the body that carries a lamp does not hide it.
+  std::vector<GlaringLamp> glare_at(std::span<const There> users, const glm::dvec3& eye_m, const World& world,
                                     std::optional<double> visibility_m) const;
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <utility>
 
 namespace phare {
@@ -39,51 +40,66 @@ std::optional<double> meets_triangle(const glm::dvec3& origin_m, const glm::dvec
   return glm::dot(ac, q) / determinant;
 }
 
-}  // namespace
-
-namespace {
+/// Of one chunk, nearer than `most_m`, which comes down to where it is met.
+template <typename Which>
+void meet_chunk(std::optional<RayHit>& nearest, const Scene& scene, const SceneChunk& chunk, const glm::dvec3& origin_m,
+                const glm::dvec3& direction, double least_m, double& most_m, const Which& which) {
+  if (!which(scene.materials[chunk.material])) return;
+  if (!meets_box(origin_m, direction, chunk.low_m, chunk.high_m, most_m)) return;
+  const glm::dvec3 local_m = origin_m - chunk.origin_m;
+  for (std::uint32_t i = 0; i + 2 < chunk.index_count; i += 3) {
+    const auto corner = [&](std::uint32_t k) {
+      return glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i + k]].position_m);
+    };
+    const glm::dvec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
+    const std::optional<double> distance_m = meets_triangle(local_m, direction, a, ab, ac);
+    if (!distance_m || *distance_m <= least_m || *distance_m >= most_m) continue;
+    most_m = *distance_m;
+    const glm::dvec3 normal = glm::normalize(glm::cross(ab, ac));
+    nearest = RayHit{most_m, glm::dot(normal, direction) > 0.0 ? -normal : normal, &chunk, &scene};
+  }
+}
 
 /// As ray_hit(), among the chunks whose material `which` takes.
 template <typename Which>
-std::optional<RayHit> hit_among(const Scene& scene, const glm::dvec3& origin_m, const glm::dvec3& direction,
+std::optional<RayHit> hit_among(const World& world, const glm::dvec3& origin_m, const glm::dvec3& direction,
                                 double least_m, double most_m, const Which& which) {
   std::optional<RayHit> nearest;
-  for (const SceneChunk& chunk : scene.chunks) {
-    if (!which(scene.materials[chunk.material])) continue;
-    if (!meets_box(origin_m, direction, chunk.low_m, chunk.high_m, most_m)) continue;
-    const glm::dvec3 local_m = origin_m - chunk.origin_m;
-    for (std::uint32_t i = 0; i + 2 < chunk.index_count; i += 3) {
-      const auto corner = [&](std::uint32_t k) {
-        return glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i + k]].position_m);
-      };
-      const glm::dvec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
-      const std::optional<double> distance_m = meets_triangle(local_m, direction, a, ab, ac);
-      if (!distance_m || *distance_m <= least_m || *distance_m >= most_m) continue;
-      most_m = *distance_m;
-      const glm::dvec3 normal = glm::normalize(glm::cross(ab, ac));
-      nearest = RayHit{most_m, glm::dot(normal, direction) > 0.0 ? -normal : normal,
-                       static_cast<std::size_t>(&chunk - scene.chunks.data())};
-    }
+  for (const SceneChunk& chunk : world.standing().chunks)
+    meet_chunk(nearest, world.standing(), chunk, origin_m, direction, least_m, most_m, which);
+  for (const PlacedMesh& placed : world.moving()) {
+    // Turned to where the mesh was made: distances stay.
+    const glm::dmat3 mesh_from_world = glm::transpose(placed.world_from_mesh);
+    const glm::dvec3 from_m = mesh_from_world * (origin_m - placed.position_m), along = mesh_from_world * direction;
+    const double before_m = most_m;
+    for (const std::size_t chunk : world.chunks_of(placed))
+      meet_chunk(nearest, *world.meshes(), world.meshes()->chunks[chunk], from_m, along, least_m, most_m, which);
+    if (most_m < before_m) nearest->normal = placed.world_from_mesh * nearest->normal;
   }
   return nearest;
 }
 
 }  // namespace
 
-std::optional<RayHit> ray_hit(const Scene& scene, const glm::dvec3& origin_m, const glm::dvec3& direction,
+std::optional<RayHit> ray_hit(const World& world, const glm::dvec3& origin_m, const glm::dvec3& direction,
                               double least_m, double most_m) {
-  return hit_among(scene, origin_m, direction, least_m, most_m, [](const SceneMaterial&) { return true; });
+  return hit_among(world, origin_m, direction, least_m, most_m, [](const SceneMaterial&) { return true; });
 }
 
-std::optional<std::size_t> occluder(const Scene& scene, const glm::dvec3& lamp_m, const glm::dvec3& point_m) {
+const SceneChunk* occluder(const World& world, const glm::dvec3& lamp_m, const glm::dvec3& point_m) {
   constexpr double kOwnSurface_m = 1e-3;
   const glm::dvec3 way = lamp_m - point_m;
   const double distance_m = glm::length(way);
-  if (distance_m <= 2.0 * kOwnSurface_m) return std::nullopt;
+  if (distance_m <= 2.0 * kOwnSurface_m) return nullptr;
   const std::optional<RayHit> hit =
-      hit_among(scene, point_m, way / distance_m, kOwnSurface_m, distance_m - kOwnSurface_m,
+      hit_among(world, point_m, way / distance_m, kOwnSurface_m, distance_m - kOwnSurface_m,
                 [](const SceneMaterial& material) { return material.surface != Surface::kPaint; });
-  return hit ? std::optional(hit->chunk) : std::nullopt;
+  return hit ? hit->chunk : nullptr;
+}
+
+const std::string& name_of(const SceneChunk& chunk) {
+  static const std::string nameless = "something without a name";
+  return chunk.node.empty() ? nameless : chunk.node;
 }
 
 }  // namespace phare
