@@ -29,6 +29,8 @@ picture "$out/fog/frames/000059.png" fog
 picture "$out/oncoming/frames/000059.png" oncoming
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --traffic config/examples/column.toml --out "$out/traffic" --port-base "$ports"
 picture "$out/traffic/frames/000059.png" traffic
+"$phare" drive --headless --samples 4 --traffic config/examples/crossing.toml --out "$out/crossing" --port-base "$ports"
+picture "$(at_second "$out/crossing" 21.2)" crossing
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --set grid_m=10 --set road_isolux=on --out "$out/grid" --port-base "$ports"
 picture "$out/grid/frames/000059.png" grid
 "$phare" drive --rig config/rigs/three_channels.toml --headless --lockstep --frames 60 --size 640x360 --samples 4 --out "$out/three" --port-base "$ports"

@@ -36,6 +36,9 @@ RoadUser road_user_of(TomlTable table) {
   user.start_s_m = table.number_or("start_s_m", 0.0, -kFarthest_m, kFarthest_m);
   user.speed_mps = table.number_or("speed_kmh", 0.0, 0.0, kFastest_kmh) / 3.6;
   user.offset_m = table.number_or("offset_m", 0.0, -kFarthest_m, kFarthest_m);
+  user.across_mps = table.number_or("across_kmh", 0.0, -kFastest_kmh, kFastest_kmh) / 3.6;
+  user.across_from_s = table.number_or("across_from_s", 0.0, -kLongest_s, kLongest_s);
+  if (table.has("across_to_s")) user.across_to_s = table.number("across_to_s", user.across_from_s, kLongest_s);
   user.lights = table.flag_or("lights", true) && user.kind != RoadUserClass::pedestrian;
   user.from_s = table.number_or("from_s", 0.0, -kLongest_s, kLongest_s);
   if (table.has("to_s")) user.to_s = table.number("to_s", -kLongest_s, kLongest_s);
@@ -86,15 +89,22 @@ std::optional<LanePoint> LaneLine::at(double s_m, double offset_m) const {
 std::optional<RoadUserPose> pose_of(const RoadUser& user, const LaneLine& lane, double time_s) {
   if (!(time_s >= user.from_s && time_s <= user.to_s)) return std::nullopt;
   const double along = kAlongLane[static_cast<std::size_t>(user.direction)];
-  const auto place = lane.at(user.start_s_m + along * user.speed_mps * time_s, user.offset_m);
+  const double going_across_s = std::clamp(time_s, user.across_from_s, user.across_to_s) - user.across_from_s;
+  const auto place =
+      lane.at(user.start_s_m + along * user.speed_mps * time_s, user.offset_m + user.across_mps * going_across_s);
   if (!place) return std::nullopt;
   const bool against = user.direction == RoadUserDirection::oncoming;
+  const bool goes_across = user.across_mps != 0.0 && time_s >= user.across_from_s && time_s < user.across_to_s;
+  // Looks along its way; who stands until it goes across looks across before and after it too.
+  double turn = against ? std::numbers::pi : 0.0;
+  const double along_mps = along * user.speed_mps;
+  if (goes_across || (user.across_mps != 0.0 && along_mps == 0.0)) turn = std::atan2(user.across_mps, along_mps);
   return RoadUserPose{.s_m = place->s_m,
                       .x_m = place->x_m,
                       .y_m = place->y_m,
                       .z_m = place->z_m,
-                      .heading_rad = place->heading_rad + (against ? std::numbers::pi : 0.0),
-                      .speed_mps = user.direction == RoadUserDirection::standing ? 0.0 : user.speed_mps};
+                      .heading_rad = place->heading_rad + turn,
+                      .speed_mps = std::hypot(along_mps, goes_across ? user.across_mps : 0.0)};
 }
 
 }  // namespace phare

@@ -22,9 +22,11 @@ enum class RoadUserDirection { oncoming, same, standing };
 struct RoadUser {
   RoadUserClass kind = RoadUserClass::car;
   RoadUserDirection direction = RoadUserDirection::oncoming;
-  double start_s_m = 0.0;                                               ///< of its middle along the lane at time 0
-  double speed_mps = 0.0;                                               ///< 0 or more: `direction` says which way
-  double offset_m = 0.0;                                                ///< from the lane's line, positive left
+  double start_s_m = 0.0;  ///< of its middle along the lane at time 0
+  double speed_mps = 0.0;  ///< 0 or more: `direction` says which way
+  double offset_m = 0.0;   ///< from the lane's line, positive left; until it goes across
+  /// Goes across the road from `across_from_s` until `across_to_s`, positive to the left of the lane.
+  double across_mps = 0.0, across_from_s = 0.0, across_to_s = std::numeric_limits<double>::infinity();
   bool lights = true;                                                   ///< its lamps burn; a pedestrian has none
   double from_s = 0.0, to_s = std::numeric_limits<double>::infinity();  ///< there from and until, both included
   double width_m = 1.8, height_m = 1.5, length_m = 4.3;

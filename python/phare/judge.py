@@ -101,7 +101,7 @@ def _receptors(car: pd.DataFrame, lane: Lane, users: Sequence[RoadUser]) -> pd.D
         origin, turn = np.array([state.x_m, state.y_m, state.z_m]), pose.car_from_world()
         ego_s_m = lane.nearest_s_m(state.x_m, state.y_m)
         for number, user in enumerate(users, 1):
-            there = lane.at(user.s_m(float(time_s)), user.offset_m)
+            there = lane.at(user.s_m(float(time_s)), user.aside_m(float(time_s)))
             if user.direction == "standing" or there is None or not user.from_s <= float(time_s) <= user.to_s:
                 continue
             place, lane_heading = there

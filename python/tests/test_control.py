@@ -66,6 +66,7 @@ def test_a_file_of_road_users_is_read(tmp_path):
 @pytest.mark.parametrize("line, why", [
     ("speeed_kmh = 3", "unknown key speeed_kmh"), ('class = "tram"', "class tram"), ("start_s_m = '3'", "expected a float"),
     ("speed_kmh = -3", "expected 0 to 1000: direction"), ("width_m = 0", "expected 0.01 to 100"), ("to_s = inf", "expected -1e"),
+    ("across_to_s = -1", "expected across_from_s or more"),
     ('direction = "up"', "direction up"), ("start_s_m = nan", "nan"),
 ])
 def test_what_is_wrong_with_road_users_is_said(tmp_path, line, why):
@@ -83,7 +84,7 @@ def test_road_users_are_where_the_drives_own_reader_has_them():
     assert set(table.user) == set(range(1, len(users) + 1)) and set(table.there) == {0, 1}
     for row in table.itertuples():
         user = users[row.user - 1]
-        found = lane.at(user.s_m(row.time_s), user.offset_m) if user.from_s <= row.time_s <= user.to_s else None
+        found = lane.at(user.s_m(row.time_s), user.aside_m(row.time_s)) if user.from_s <= row.time_s <= user.to_s else None
         assert (found is not None) == bool(row.there)
         if found is not None:
             assert found[0] == pytest.approx([row.x_m, row.y_m, row.z_m], rel=0, abs=1e-10)

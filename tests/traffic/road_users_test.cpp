@@ -51,6 +51,7 @@ TEST(RoadUsers, AreWhereThePythonPackageHasThem) {
     EXPECT_NEAR(pose->x_m, wanted.number(row, "x_m"), 1e-10);
     EXPECT_NEAR(pose->y_m, wanted.number(row, "y_m"), 1e-10);
     EXPECT_NEAR(pose->z_m, wanted.number(row, "z_m"), 1e-10);
+    if (user.across_mps != 0.0) continue;  // LookAlongTheirWayAcross
     const double turned = user.direction == RoadUserDirection::oncoming ? std::numbers::pi : 0.0;
     EXPECT_NEAR(pose->heading_rad - turned, wanted.number(row, "lane_heading_rad"), 1e-13);
   }
@@ -88,6 +89,38 @@ TEST(RoadUsers, AreThereFromAndUntilAndOnTheLaneOnly) {
   EXPECT_FALSE(pose_of(user, lane, 80.1));
 }
 
+TEST(RoadUsers, LookAlongTheirWayAcross) {
+  const LaneLine lane({{0, 0, 0, 0, 0, 0}, {100, 100, 0, 0, 0, 0}});  // along x
+  RoadUser user{.kind = RoadUserClass::pedestrian,
+                .direction = RoadUserDirection::standing,
+                .start_s_m = 50.0,
+                .offset_m = -4.0,
+                .across_mps = 1.5,
+                .across_from_s = 2.0,
+                .across_to_s = 6.0};
+  const struct {
+    double time_s, y_m, speed_mps;
+  } wanted[] = {{0.0, -4.0, 0.0}, {2.0, -4.0, 1.5}, {4.0, -1.0, 1.5}, {6.0, 2.0, 0.0}, {9.0, 2.0, 0.0}};
+  for (const auto& then : wanted) {
+    const auto pose = pose_of(user, lane, then.time_s);
+    ASSERT_TRUE(pose);
+    EXPECT_EQ(pose->y_m, then.y_m);
+    EXPECT_EQ(pose->speed_mps, then.speed_mps) << then.time_s;
+    EXPECT_NEAR(pose->heading_rad, 0.5 * std::numbers::pi, 1e-15);
+  }
+  // On wheels only while it moves over: 3 m/s against the lane and 4 m/s to its left.
+  user = {.direction = RoadUserDirection::oncoming,
+          .start_s_m = 80.0,
+          .speed_mps = 3.0,
+          .across_mps = 4.0,
+          .across_from_s = 1.0,
+          .across_to_s = 2.0};
+  EXPECT_NEAR(pose_of(user, lane, 0.5)->heading_rad, std::numbers::pi, 1e-15);
+  EXPECT_NEAR(pose_of(user, lane, 1.5)->heading_rad, std::atan2(4.0, -3.0), 1e-15);
+  EXPECT_NEAR(pose_of(user, lane, 1.5)->speed_mps, 5.0, 1e-15);
+  EXPECT_NEAR(pose_of(user, lane, 2.5)->heading_rad, std::numbers::pi, 1e-15);
+}
+
 TEST(RoadUsers, HaveTheSizeOfTheirClassUnlessSaid) {
   const auto users =
       read_road_users(users_written("[[road_user]]\n[[road_user]]\nclass = \"lorry\"\nheight_m = 4\nspeed_kmh = "
@@ -111,9 +144,10 @@ TEST(RoadUsers, OfTheShippedExampleAreRead) {
 TEST(RoadUsers, WhatIsWrongIsSaidWithItsLine) {
   const struct {
     const char *line, *why;
-  } cases[] = {{"speeed_kmh = 3", "speed_kmh"},  {"class = \"tram\"", "tram"}, {"start_s_m = '3'", "start_s_m"},
-               {"speed_kmh = -3", "speed_kmh"},  {"width_m = 0", "width_m"},   {"direction = \"up\"", "up"},
-               {"start_s_m = nan", "start_s_m"}, {"to_s = inf", "to_s"},       {"lights = 1", "lights"}};
+  } cases[] = {{"speeed_kmh = 3", "speed_kmh"},    {"class = \"tram\"", "tram"}, {"start_s_m = '3'", "start_s_m"},
+               {"speed_kmh = -3", "speed_kmh"},    {"width_m = 0", "width_m"},   {"direction = \"up\"", "up"},
+               {"start_s_m = nan", "start_s_m"},   {"to_s = inf", "to_s"},       {"lights = 1", "lights"},
+               {"across_to_s = -1", "across_to_s"}};
   for (const auto& wrong : cases) {
     SCOPED_TRACE(wrong.line);
     const auto users = read_road_users(users_written(std::string("[[road_user]]\n") + wrong.line + "\n"));

@@ -6,6 +6,7 @@
     start_s_m = 420           # place of its middle along the lane at time 0
     speed_kmh = 80
     offset_m = 3.5            # from the line we drive on, positive left
+    across_kmh = 0            # goes across the road, positive to the left, from across_from_s [0] until across_to_s [for ever]
     lights = true             # its lamps burn
     from_s = 0.0              # when it is there, s of simulated time
     to_s = 1e9
@@ -47,6 +48,9 @@ class RoadUser:
     start_s_m: float = 0.0
     speed_mps: float = 0.0
     offset_m: float = 0.0
+    across_mps: float = 0.0
+    across_from_s: float = 0.0
+    across_to_s: float = math.inf
     lights: bool = True
     from_s: float = 0.0
     to_s: float = math.inf
@@ -58,6 +62,10 @@ class RoadUser:
         """Place of its middle along the lane."""
         return self.start_s_m + _DIRECTIONS[self.direction] * self.speed_mps * time_s
 
+    def aside_m(self, time_s: float) -> float:
+        """Place beside the lane's line, positive left: its offset, and how far it has gone across."""
+        return self.offset_m + self.across_mps * (min(max(time_s, self.across_from_s), self.across_to_s) - self.across_from_s)
+
     @property
     def heading(self) -> float:
         """1: as the lane goes, -1: against it."""
@@ -65,13 +73,15 @@ class RoadUser:
 
 
 _KEYS = {
-    "class": str, "direction": str, "start_s_m": float, "speed_kmh": float, "offset_m": float, "lights": bool, "from_s": float,
+    "class": str, "direction": str, "start_s_m": float, "speed_kmh": float, "offset_m": float, "across_kmh": float,
+    "across_from_s": float, "across_to_s": float, "lights": bool, "from_s": float,
     "to_s": float, "width_m": float, "height_m": float, "length_m": float,
 }
 
 # Bounds that no road reaches, as in config/traffic/road_users.cpp: they catch a mistyped exponent.
 _RANGES = {
-    "start_s_m": (-1e6, 1e6), "speed_kmh": (0.0, 1000.0), "offset_m": (-1e6, 1e6), "from_s": (-1e9, 1e9), "to_s": (-1e9, 1e9),
+    "start_s_m": (-1e6, 1e6), "speed_kmh": (0.0, 1000.0), "offset_m": (-1e6, 1e6), "across_kmh": (-1000.0, 1000.0),
+    "across_from_s": (-1e9, 1e9), "across_to_s": (-1e9, 1e9), "from_s": (-1e9, 1e9), "to_s": (-1e9, 1e9),
     "width_m": (0.01, 100.0), "height_m": (0.01, 100.0), "length_m": (0.01, 100.0),
 }
 
@@ -106,12 +116,14 @@ def _road_user(table: dict[str, object], place: str) -> RoadUser:
             why = ": direction says which way it drives" if key == "speed_kmh" else ""
             raise BadInput(f"{place}: {key} = {table[key]}: expected {least:g} to {most:g}{why}")
     size = dict(zip(("width_m", "height_m", "length_m"), SIZES_M[kind]))
-    speed_mps = float(str(given.pop("speed_kmh", 0.0))) / 3.6
+    if float(str(table.get("across_to_s", math.inf))) < float(str(table.get("across_from_s", 0.0))):
+        raise BadInput(f"{place}: across_to_s = {table['across_to_s']}: expected across_from_s or more")
+    speed_mps, across_mps = (float(str(given.pop(key, 0.0))) / 3.6 for key in ("speed_kmh", "across_kmh"))
     known = {each.name for each in fields(RoadUser)}
     words = {key: value for key, value in {**size, **given}.items() if key in known}
     if kind == "pedestrian":
         words["lights"] = False
-    return RoadUser(kind=kind, direction=direction, speed_mps=speed_mps, **words)  # type: ignore[arg-type]
+    return RoadUser(kind=kind, direction=direction, speed_mps=speed_mps, across_mps=across_mps, **words)  # type: ignore[arg-type]
 
 
 class Lane:

@@ -124,7 +124,7 @@ class Eyes:
         """As it is, without noise; None where it cannot be seen."""
         if self.lane is None or not user.from_s <= time_s <= user.to_s:
             return None
-        found = self.lane.at(user.s_m(time_s), user.offset_m)
+        found = self.lane.at(user.s_m(time_s), user.aside_m(time_s))
         if found is None:
             return None
         place, lane_heading = found
