@@ -273,7 +273,7 @@ TEST_F(WindowTest, APanelMovesLampsByTheMouse) {
   })) << "the pair of headlamps is higher";
   display_->keys("mousemove --window %1 " + panel.at("design 1", 0.1) + " click 1");
   EXPECT_TRUE(comes<CockpitState>([](const CockpitState& c) { return c.design_index == 1; }));
-  display_->keys("mousemove --window %1 " + panel.at("high", 0.5) + " click 1");
+  display_->keys("mousemove --window %1 " + panel.at("high beam", 0.5) + " click 1");
   EXPECT_TRUE(comes<CockpitState>([](const CockpitState& c) { return c.light_switch == LightSwitch::kHigh; }));
 
   const std::string answer = (folder_ / "answer.txt").string();

@@ -158,7 +158,7 @@ TEST_F(PanelTest, WhereNobodyDrivesTheDeskShowsTheDesign) {
 }
 
 TEST_F(PanelTest, KeysOfTheCarAreKeys) {
-  EXPECT_EQ(click("high"), std::vector<PanelCommand>{KeyAction::kHighBeam});
+  EXPECT_EQ(click("high beam"), std::vector<PanelCommand>{KeyAction::kHighBeam});
   EXPECT_EQ(click("light down"), std::vector<PanelCommand>{KeyAction::kLightDown});
 }
 
@@ -222,7 +222,7 @@ TEST_F(PanelTest, ALampIsChosenFromTheListOfThoseThereAre) {
   EXPECT_GT(lamps_.mounts().lamps[2].position_m.y, 0.05);
   EXPECT_DOUBLE_EQ(lamps_.mounts().lamps[0].position_m.y, 0.6);
   EXPECT_EQ(click("as in the rig"), std::vector{control(RigControl::Reset{"fog"})});
-  EXPECT_EQ(click("all"), std::vector{control(RigControl::Reset{""})});
+  EXPECT_EQ(click("all as in the rig"), std::vector{control(RigControl::Reset{""})});
 }
 
 TEST_F(PanelTest, OtherWindowsMoveNoLamps) {

@@ -52,6 +52,7 @@ class Loop {
   void take(const Datagram& datagram);
   void mind_the_keys();
   void mind_the_mouse();
+  bool on_panel(double x_px, double y_px) const;
   void mind_the_panel();
   void show_panel(const Moment& moment);
   PanelFacts panel_facts(const Moment& moment) const;

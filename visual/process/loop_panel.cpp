@@ -35,7 +35,7 @@ void Loop::mind_the_mouse() {
   std::optional<PointerEvent> click;
   double wheel = 0.0;
   for (const PointerEvent& event : events) {
-    const bool on_road = !(panel_ && s_.desk.panel && panel_->covers(event.x_px, event.y_px));
+    const bool on_road = !on_panel(event.x_px, event.y_px);
     if (event.kind == Kind::kPress && event.button == Button::kLeft && on_road) click = event;
     if (event.kind == Kind::kPress && event.button != Button::kLeft) eye_held_ = on_road;
     if (event.kind == Kind::kWheel && on_road) wheel += event.wheel;
@@ -49,6 +49,10 @@ void Loop::mind_the_mouse() {
                                      .ray_through(click->x_px, click->y_px, mouse.width_px, mouse.height_px));
   s_.desk.point = at ? std::optional(Probe{Probe::Frame::kWorld, at->position_m, at->normal}) : std::nullopt;
   fresh_ = true;
+}
+
+bool Loop::on_panel(double x_px, double y_px) const {
+  return panel_ && s_.desk.panel && panel_->covers(x_px, y_px);
 }
 
 /// What the panel asked for in the newest frame, done as if it had come by key or bus.

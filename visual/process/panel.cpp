@@ -35,6 +35,7 @@ void set_style(float text_px) {
   style.Colors[ImGuiCol_TextDisabled] = grey(0.58f);
   style.Colors[ImGuiCol_Header] = {0.16f, 0.26f, 0.38f, 0.75f};
   style.Colors[ImGuiCol_FrameBg] = {0.17f, 0.21f, 0.27f, 0.85f};
+  style.Colors[ImGuiCol_SliderGrab] = {0.30f, 0.46f, 0.66f, 0.70f};  // the value is read over it
   style.Colors[ImGuiCol_Button] = {0.19f, 0.28f, 0.39f, 0.90f};
 }
 
@@ -130,16 +131,18 @@ std::vector<PanelCommand> Panel::lay_out(const PanelFacts& facts, int width_px, 
   const float edge = 0.5f * ImGui::GetFontSize();
   const float width = std::min(kPanelWidth * ImGui::GetFontSize(), io.DisplaySize.x - 2.0f * edge);
   ImGui::SetNextWindowPos({edge, edge});
-  ImGui::SetNextWindowSize({width, io.DisplaySize.y - 2.0f * edge});
+  // As high as its content, at most as the picture.
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, io.DisplaySize.y - 2.0f * edge});
   ImGui::Begin("panel", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
   state_.places.clear();
   std::vector<PanelCommand> commands = panel_sections(facts, state_);
+  const ImVec2 size = ImGui::GetWindowSize();
   ImGui::End();
   holds_mouse_ =
       ImGui::IsAnyItemActive() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-  rect_ = {edge, edge, edge + width, io.DisplaySize.y - edge};
+  rect_ = {edge, edge, edge + size.x, edge + size.y};
   ImGui::Render();
   copy_out(*ImGui::GetDrawData(), content_);
   return commands;

@@ -38,7 +38,11 @@ class Sheet {
     state_.places[name] = {from.x, from.y, to.x, to.y};
   }
   static void tip(const std::string& text) {
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
+    if (!ImGui::IsItemHovered()) return;
+    // Right of the panel, so that it hides no control.
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth() + 0.5f * ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({right, ImGui::GetItemRectMin().y});
+    ImGui::SetTooltip("%s", text.c_str());
   }
   static std::string control_words(const std::string& setting, const std::string& value) {
     return "phare control set " + setting + " " + value;
@@ -110,7 +114,7 @@ void Sheet::flag(const std::string& setting, const char* label, bool on, const s
 void Sheet::beam() {
   ImGui::Text("%.0f km/h   lit: %s", facts_.speed_kmh, facts_.lit.empty() ? "none" : facts_.lit.c_str());
   if (!section("Beam and design", true)) return;
-  key_button("high", KeyAction::kHighBeam);
+  key_button("high beam", KeyAction::kHighBeam);
   ImGui::SameLine();
   key_button("light up", KeyAction::kLightUp);
   ImGui::SameLine();
@@ -159,6 +163,15 @@ void Sheet::mount(const RigControl::Mount& command) {
   commands_.push_back(RigControl{command});
 }
 
+/// The same by key and by command.
+std::string mount_words(const PanelLamp& lamp, MountQuantity quantity) {
+  const auto i = static_cast<std::size_t>(quantity);
+  return fmt::format("in the rig file {:.3f}\n{} {} {} {}: by keys\nphare control mount \"{}\" {} {:.3f}",
+                     lamp.of_rig[i], binding_of(KeyAction::kLampChoose)->name,
+                     binding_of(KeyAction::kLampQuantity)->name, binding_of(KeyAction::kLampMore)->name,
+                     binding_of(KeyAction::kLampLess)->name, lamp.name, kMountQuantityNames[i], lamp.now[i]);
+}
+
 void Sheet::slider(const PanelLamp& lamp, MountQuantity quantity, const char* label) {
   const auto i = static_cast<std::size_t>(quantity);
   const bool angle = quantity > MountQuantity::kSpacing;
@@ -176,9 +189,7 @@ void Sheet::slider(const PanelLamp& lamp, MountQuantity quantity, const char* la
   ImGui::SetNextItemWidth(-2.2f * ImGui::GetFontSize());
   const double least =
       quantity == MountQuantity::kSpacing ? std::max(lamp.of_rig[i] - reach, 0.0) : lamp.of_rig[i] - reach;
-  if (slide(control, value, least, lamp.of_rig[i] + reach, angle ? "%.2f deg" : "%.3f m",
-            fmt::format("in the rig file {:.3f}\nphare control mount \"{}\" {} {:.3f}", lamp.of_rig[i], lamp.name,
-                        quantity_name, lamp.now[i])))
+  if (slide(control, value, least, lamp.of_rig[i] + reach, angle ? "%.2f deg" : "%.3f m", mount_words(lamp, quantity)))
     mount({lamp.name, quantity, value * unit, false});
   if (ImGui::IsItemDeactivated()) state_.drag = {};
   ImGui::SameLine();
@@ -224,7 +235,7 @@ void Sheet::lamps() {
   if (button("as in the rig", "these lamps as the rig file has them\nphare control reset \"" + lamp.name + "\""))
     commands_.push_back(RigControl{RigControl::Reset{lamp.name}});
   ImGui::SameLine();
-  if (button("all", "all lamps as the rig file has them\nphare control reset"))
+  if (button("all as in the rig", "all lamps as the rig file has them\nphare control reset"))
     commands_.push_back(RigControl{RigControl::Reset{}});
   ImGui::SameLine();
   if (button("save", "writes the places into the rig file\nphare control save"))
@@ -319,8 +330,9 @@ void Sheet::times() {
 
 void Sheet::messages() {
   if (!section("Messages", false)) return;
-  if (!ImGui::BeginTable("messages", 5)) return;
-  for (const char* heading : {"", "sent", "received", "lost", "late"}) ImGui::TableSetupColumn(heading);
+  if (!ImGui::BeginTable("messages", 5, ImGuiTableFlags_SizingFixedFit)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+  for (const char* heading : {"sent", "received", "lost", "late"}) ImGui::TableSetupColumn(heading);
   ImGui::TableHeadersRow();
   for (const PanelMessages& kind : facts_.messages) {
     ImGui::TableNextColumn();

@@ -272,7 +272,8 @@ void Loop::mind_the_road(const Moment& moment) {
 
 std::vector<std::string> Loop::overlay(const Moment& moment) const {
   std::optional<MeasurePoint> under_mouse;
-  if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside && s_.desk.lines) {
+  if (const Window::Mouse mouse = s_.window->mouse();
+      mouse.inside && s_.desk.lines && !on_panel(mouse.x_px, mouse.y_px)) {
     under_mouse = pick(s_.scene, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
                                      .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px));
   }
