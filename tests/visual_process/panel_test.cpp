@@ -56,6 +56,7 @@ class PanelTest : public testing::Test {
                      .lamps = panel_lamps(lamps_),
                      .aim_deg = lamps_.aim_rad() * kDeg,
                      .undo_steps = lamps_.undo_steps(),
+                     .rig_file = "road.toml",
                      .desk = desk_,
                      .answer = answer_.reason};
     facts.driven = driven_;
@@ -223,6 +224,21 @@ TEST_F(PanelTest, ALampIsChosenFromTheListOfThoseThereAre) {
   EXPECT_DOUBLE_EQ(lamps_.mounts().lamps[0].position_m.y, 0.6);
   EXPECT_EQ(click("as in the rig"), std::vector{control(RigControl::Reset{"fog"})});
   EXPECT_EQ(click("all as in the rig"), std::vector{control(RigControl::Reset{""})});
+}
+
+TEST_F(PanelTest, SavingAsksFirst) {
+  EXPECT_TRUE(click("save").empty());
+  ASSERT_NE(panel_.place("write road.toml"), nullptr);
+  EXPECT_EQ(click("write road.toml"), std::vector{control(RigControl::Save{})});
+  EXPECT_EQ(panel_.place("write road.toml"), nullptr) << "once";
+}
+
+// An answer moves no control: what is clicked next lies where it lay.
+TEST_F(PanelTest, AnAnswerHasItsPlace) {
+  const PanelRect before = *panel_.place("lamp up");
+  answer_.reason = "lamp \"fog\": more than 50 m from its car, or turned beyond 91 degrees";
+  frames(2);
+  EXPECT_EQ(panel_.place("lamp up")->top_px, before.top_px);
 }
 
 TEST_F(PanelTest, OtherWindowsMoveNoLamps) {

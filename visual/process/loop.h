@@ -55,7 +55,7 @@ class Loop {
   bool on_panel(double x_px, double y_px) const;
   void mind_the_panel();
   void show_panel(const Moment& moment);
-  PanelFacts panel_facts(const Moment& moment) const;
+  PanelFacts panel_facts(const Moment& moment, double since_s) const;
   void measure(const Moment& moment);
   void light_up(const CockpitState& controls);
   void upload(const std::vector<Lamps::Change>& changes);

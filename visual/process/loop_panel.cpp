@@ -65,7 +65,7 @@ void Loop::mind_the_panel() {
   }
 }
 
-PanelFacts Loop::panel_facts(const Moment& moment) const {
+PanelFacts Loop::panel_facts(const Moment& moment, double since_s) const {
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   PanelFacts facts{.lit = s_.lamps.lit_text(),
                    .design = s_.lamps.design_index(),
@@ -75,9 +75,10 @@ PanelFacts Loop::panel_facts(const Moment& moment) const {
                    .lamps = panel_lamps(s_.lamps),
                    .aim_deg = s_.lamps.aim_rad() * kDegPerRad,
                    .undo_steps = s_.lamps.undo_steps(),
+                   .rig_file = s_.rig.file.filename().string(),
                    .desk = s_.desk,
                    .frame = s_.stats.newest,
-                   .frames_per_s = s_.stats.frames_per_s(),
+                   .frames_per_s = since_s > 0.0 ? 1.0 / since_s : 0.0,
                    .messages = panel_messages(s_.bus.counters()),
                    .refused = s_.bus.counters().refused,
                    .answer_refused = panel_answer_.verdict == Verdict::kRefused};
@@ -97,7 +98,7 @@ void Loop::show_panel(const Moment& moment) {
   if (!panel_) panel_ = std::make_unique<Panel>(size.height_px);
   const Clock::time_point now = Clock::now();
   const double since_s = std::chrono::duration<double>(now - std::exchange(panel_laid_out_, now)).count();
-  panel_asked_ = panel_->lay_out(panel_facts(moment), size.width_px, size.height_px, since_s);
+  panel_asked_ = panel_->lay_out(panel_facts(moment, since_s), size.width_px, size.height_px, since_s);
   input_.gui = &panel_->content();
   // Text and instruments stand beside it, over the mirrors if need be.
   input_.room = {.left_01 = panel_->right_px() / size.width_px};

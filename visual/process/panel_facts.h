@@ -39,6 +39,7 @@ struct PanelFacts {
   std::vector<PanelLamp> lamps{};
   double aim_deg = 0.0;        ///< of all lamps, up
   std::size_t undo_steps = 0;  ///< to take back
+  std::string rig_file{};      ///< that the places may be saved in
   // View, effects, times: none before the first frame.
   Desk desk{};
   FrameResult frame{};

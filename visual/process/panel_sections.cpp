@@ -23,6 +23,7 @@ class Sheet {
  public:
   Sheet(const PanelFacts& facts, PanelState& state) : facts_(facts), state_(state) {}
 
+  void answer();
   void beam();
   void lamps();
   void view();
@@ -79,6 +80,7 @@ class Sheet {
   bool slide(const std::string& control, double& value, double least, double most, const char* format,
              const std::string& tooltip);
   void mount(const RigControl::Mount& command);
+  void save();
   void exposure();
 
   const PanelFacts& facts_;
@@ -109,6 +111,17 @@ void Sheet::flag(const std::string& setting, const char* label, bool on, const s
   if (ImGui::Checkbox(label, &on)) set(setting, on ? "on" : "off");
   mark(setting);
   tip(tooltip + "\n" + control_words(setting, on ? "off" : "on"));
+}
+
+/// One line that is always there, so that no control moves when a command is answered.
+void Sheet::answer() {
+  const ImVec4 red{1.0f, 0.45f, 0.38f, 1.0f};
+  const std::string key(binding_of(KeyAction::kPanel)->name);
+  const std::string line = facts_.answer.empty() ? "Rest on a control: its key or command. " + key + " hides all."
+                                                 : facts_.answer.substr(0, facts_.answer.find('\n'));
+  ImGui::TextColored(facts_.answer_refused ? red : ImGui::GetStyle().Colors[ImGuiCol_TextDisabled], "%s", line.c_str());
+  mark("answer");
+  if (!facts_.answer.empty()) tip(facts_.answer);
 }
 
 void Sheet::beam() {
@@ -238,8 +251,18 @@ void Sheet::lamps() {
   if (button("all as in the rig", "all lamps as the rig file has them\nphare control reset"))
     commands_.push_back(RigControl{RigControl::Reset{}});
   ImGui::SameLine();
-  if (button("save", "writes the places into the rig file\nphare control save"))
+  save();
+}
+
+/// Asks first: a slip of the mouse writes no file.
+void Sheet::save() {
+  if (button("save", "writes the places into the rig file\nphare control save")) ImGui::OpenPopup("write");
+  if (!ImGui::BeginPopup("write")) return;
+  if (button("write " + facts_.rig_file, "the lines of the lamps that were moved")) {
     commands_.push_back(RigControl{RigControl::Save{}});
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
 }
 
 /// In EV as a light meter has it (overlay_lines.cpp).
@@ -351,19 +374,13 @@ void Sheet::messages() {
 
 std::vector<PanelCommand> panel_sections(const PanelFacts& facts, PanelState& state) {
   Sheet sheet(facts, state);
+  sheet.answer();
   sheet.beam();
   sheet.lamps();
   sheet.view();
   sheet.effects();
   sheet.times();
   sheet.messages();
-  if (!facts.answer.empty()) {
-    ImGui::PushTextWrapPos(0.0f);
-    const ImVec4 red{1.0f, 0.45f, 0.38f, 1.0f};
-    ImGui::TextColored(facts.answer_refused ? red : ImGui::GetStyle().Colors[ImGuiCol_TextDisabled], "%s",
-                       facts.answer.c_str());
-    ImGui::PopTextWrapPos();
-  }
   return sheet.take();
 }
 
