@@ -265,6 +265,19 @@ TEST_F(PanelTest, TheDeskIsSetInItsOwnWords) {
   EXPECT_GT(desk_.exposure_per_cdm2, 0.3);
 }
 
+TEST_F(PanelTest, LightIsOfBothLampsAndTheAirOfTheDesk) {
+  drag("light", 0.9, 0.5);
+  EXPECT_NEAR(lamps_.dimming_01(0)[0], 0.5, 0.05);
+  EXPECT_EQ(lamps_.dimming_01(0)[0], lamps_.dimming_01(1)[0]);
+  EXPECT_EQ(lamps_.dimming_01(2)[0], 1.0);
+  EXPECT_NEAR(panel_lamps(lamps_)[0].light_01, 0.5, 0.05);
+  EXPECT_EQ(lamps_.undo_steps(), 0u);
+  click("visibility_m"), click("visibility_m 100");
+  EXPECT_EQ(desk_.visibility_m, 100.0);
+  click("visibility_m"), click("visibility_m clear");
+  EXPECT_FALSE(desk_.visibility_m);
+}
+
 // What every control asks for is a command that is accepted: no word is misspelt.
 TEST_F(PanelTest, EffectsAreForcedAndSayWhy) {
   click("Effects, and why");
@@ -272,10 +285,32 @@ TEST_F(PanelTest, EffectsAreForcedAndSayWhy) {
   ASSERT_NE(panel_.place("effect hdr image"), nullptr);
   EXPECT_EQ(panel_.place("hdr_image"), nullptr) << "the desk has no setting for it";
   for (const EffectRow& row : effect_table()) EXPECT_NE(panel_.place("effect " + std::string(row.name)), nullptr);
+  click("method"), click("method vertex");
+  EXPECT_EQ(desk_.method, Method::kVertex);
   click("shadows");
   EXPECT_EQ(click("shadows hard"), std::vector{control(RigControl::Set{"shadows", "hard"})});
   EXPECT_EQ(desk_.shadows, std::optional<std::size_t>(1));
   EXPECT_EQ(answer_.verdict, Verdict::kAccepted);
+}
+
+// What a control says of the desk is a command that the desk takes, and each control says something.
+TEST_F(PanelTest, EachControlNamesItsKeyOrCommand) {
+  click("Effects, and why");
+  frames(2);
+  std::size_t of_desk = 0;
+  for (const auto& [name, tip] : panel_.tips()) {
+    EXPECT_FALSE(tip.empty()) << name;
+    const std::string words = "phare control set ";
+    const std::size_t at = tip.find(words);
+    if (at == std::string::npos) continue;
+    ++of_desk;
+    Desk desk = desk_;
+    EXPECT_TRUE(apply(desk, desk_command(tip.substr(at + words.size())), {.designs = 3})) << tip;
+  }
+  EXPECT_GT(of_desk, 10u);
+  for (const char* name : {"high beam", "design 1", "lamp", "lamp up", "lamp up more", "light", "all pitch", "undo",
+                           "as in the rig", "save", "camera", "exposure", "mirrors", "shadows"})
+    EXPECT_TRUE(panel_.tips().contains(name)) << name;
 }
 
 TEST_F(PanelTest, TheRoadIsTheRoadsBesideThePanel) {

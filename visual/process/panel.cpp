@@ -136,7 +136,7 @@ std::vector<PanelCommand> Panel::lay_out(const PanelFacts& facts, int width_px, 
   ImGui::Begin("panel", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-  state_.places.clear();
+  state_.places.clear(), state_.tips.clear();
   std::vector<PanelCommand> commands = panel_sections(facts, state_);
   const ImVec2 size = ImGui::GetWindowSize();
   ImGui::End();

@@ -41,7 +41,8 @@ struct PanelState {
     bool sent = false;
     std::size_t design = 0, steps = 0;  ///< where the commands of it stand in what can be taken back
   } drag;
-  std::map<std::string, PanelRect> places;  ///< of this frame's controls, by name
+  std::map<std::string, PanelRect> places;    ///< of this frame's controls, by name
+  std::map<std::string, std::string> tips{};  ///< what each says when the mouse rests on it
 };
 
 /// The controls inside a window of Dear ImGui that has begun (panel_sections.cpp).
@@ -70,6 +71,8 @@ class Panel {
   double right_px() const { return rect_.right_px; }
   /// Where a control lies, by its name ("lamp pitch", "view"); nothing: it is not shown.
   const PanelRect* place(const std::string& control) const;
+  /// What controls say when the mouse rests on them: the key or the command that does the same.
+  const std::map<std::string, std::string>& tips() const { return state_.tips; }
 
  private:
   void feed();

@@ -25,8 +25,15 @@ std::vector<PanelLamp> panel_lamps(const Lamps& lamps) {
   for (const std::string& name : movable_lamps(lamps)) {
     const auto slots = lamps.slots_of(name);
     if (!slots) continue;
-    all.push_back({name, slots->size() == 2, quantities(*slots, lamps.mounts()),
-                   quantities(*slots, lamps.mounts_of_rig(lamps.design_index()))});
+    PanelLamp lamp{name, slots->size() == 2, quantities(*slots, lamps.mounts()),
+                   quantities(*slots, lamps.mounts_of_rig(lamps.design_index()))};
+    double sum = 0.0, sources = 0.0;
+    for (const std::size_t slot : *slots) {
+      lamp.members.push_back(lamps.design().lamps[slot].name);
+      for (const double dimming_01 : lamps.dimming_01(slot)) sum += dimming_01, sources += 1.0;
+    }
+    if (sources > 0.0) lamp.light_01 = sum / sources;
+    all.push_back(std::move(lamp));
   }
   return all;
 }

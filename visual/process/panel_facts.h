@@ -19,6 +19,8 @@ struct PanelLamp {
   std::string name;
   bool pair = false;
   std::array<double, 7> now{}, of_rig{};
+  std::vector<std::string> members{};  ///< it, or both of the pair
+  double light_01 = 1.0;               ///< mean of how their sources are dimmed, as commanded
 };
 
 /// Datagrams of one kind.

@@ -37,8 +37,11 @@ class Sheet {
   void mark(const std::string& name) {
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
     state_.places[name] = {from.x, from.y, to.x, to.y};
+    marked_ = name;
   }
-  static void tip(const std::string& text) {
+  /// Of the control marked last.
+  void tip(const std::string& text) {
+    state_.tips[marked_] = text;
     if (!ImGui::IsItemHovered()) return;
     // Right of the panel, so that it hides no control.
     const float right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth() + 0.5f * ImGui::GetFontSize();
@@ -61,11 +64,13 @@ class Sheet {
     ImGui::TextUnformatted(text);
     ImGui::SameLine(kNameWidth * ImGui::GetFontSize());
   }
-  bool button(const std::string& name, const std::string& tooltip, bool enabled = true) {
+  /// `known_as`: of labels that stand there more than once.
+  bool button(const std::string& label, const std::string& tooltip, bool enabled = true,
+              const std::string& known_as = {}) {
     ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(name.c_str());
+    const bool pressed = ImGui::Button(label.c_str());
     ImGui::EndDisabled();
-    mark(name);
+    mark(known_as.empty() ? label : known_as);
     tip(tooltip);
     return pressed;
   }
@@ -80,12 +85,14 @@ class Sheet {
   bool slide(const std::string& control, double& value, double least, double most, const char* format,
              const std::string& tooltip);
   void mount(const RigControl::Mount& command);
+  void light(const PanelLamp& lamp);
   void save();
   void exposure();
 
   const PanelFacts& facts_;
   PanelState& state_;
   std::vector<PanelCommand> commands_;
+  std::string marked_;
 };
 
 std::string key_of_setting(KeyAction action) {
@@ -179,7 +186,7 @@ void Sheet::mount(const RigControl::Mount& command) {
 /// The same by key and by command.
 std::string mount_words(const PanelLamp& lamp, MountQuantity quantity) {
   const auto i = static_cast<std::size_t>(quantity);
-  return fmt::format("in the rig file {:.3f}\n{} {} {} {}: by keys\nphare control mount \"{}\" {} {:.3f}",
+  return fmt::format("in the rig file {:.3f}\n{} {} {} {}: by keys\nphare control move \"{}\" {} {:.3f}",
                      lamp.of_rig[i], binding_of(KeyAction::kLampChoose)->name,
                      binding_of(KeyAction::kLampQuantity)->name, binding_of(KeyAction::kLampMore)->name,
                      binding_of(KeyAction::kLampLess)->name, lamp.name, kMountQuantityNames[i], lamp.now[i]);
@@ -195,9 +202,8 @@ void Sheet::slider(const PanelLamp& lamp, MountQuantity quantity, const char* la
   double value = lamp.now[i];
   const std::string quantity_name(kMountQuantityNames[i]), control = "lamp " + quantity_name;
   name(label);
-  if (button("-##" + quantity_name, fmt::format("{:g} {} less", step, angle ? "deg" : "m")))
+  if (button("-##" + quantity_name, fmt::format("{:g} {} less", step, angle ? "deg" : "m"), true, control + " less"))
     commands_.push_back(RigControl{RigControl::Mount{lamp.name, quantity, -step * unit, true}});
-  mark(control + " less");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-2.2f * ImGui::GetFontSize());
   const double least =
@@ -206,9 +212,20 @@ void Sheet::slider(const PanelLamp& lamp, MountQuantity quantity, const char* la
     mount({lamp.name, quantity, value * unit, false});
   if (ImGui::IsItemDeactivated()) state_.drag = {};
   ImGui::SameLine();
-  if (button("+##" + quantity_name, fmt::format("{:g} {} more", step, angle ? "deg" : "m")))
+  if (button("+##" + quantity_name, fmt::format("{:g} {} more", step, angle ? "deg" : "m"), true, control + " more"))
     commands_.push_back(RigControl{RigControl::Mount{lamp.name, quantity, step * unit, true}});
-  mark(control + " more");
+}
+
+/// All sources of a lamp, or of both, alike; undo is of places only.
+void Sheet::light(const PanelLamp& lamp) {
+  double percent = 100.0 * lamp.light_01;
+  name("light");
+  ImGui::SetNextItemWidth(-1.0f);
+  if (!slide("light", percent, 0.0, 100.0, "%.0f %%",
+             fmt::format("every source of it\nphare control dim \"{}\" 0 {:.2f}", lamp.members.front(), lamp.light_01)))
+    return;
+  for (const std::string& member : lamp.members)
+    commands_.push_back(RigControl{RigControl::Dim{member, 0, std::clamp(percent / 100.0, 0.0, 1.0)}});
 }
 
 void Sheet::lamps() {
@@ -235,6 +252,7 @@ void Sheet::lamps() {
   slider(lamp, MountQuantity::kYaw, "yaw, left");
   slider(lamp, MountQuantity::kPitch, "pitch, up");
   slider(lamp, MountQuantity::kRoll, "roll");
+  light(lamp);
   double aim_deg = facts_.aim_deg;
   name("all, up");
   ImGui::SetNextItemWidth(-1.0f);
@@ -290,6 +308,9 @@ void Sheet::view() {
   constexpr std::array<std::string_view, 3> kGrids{"off", "10", "20"};
   choose("grid_m", "grid, m", kGrids, desk.grid_m > 0.0 ? fmt::format("{:g}", desk.grid_m) : "off",
          key_of_setting(KeyAction::kGrid));
+  constexpr std::array<std::string_view, 6> kVisibilities{"clear", "1000", "300", "100", "50", "25"};
+  choose("visibility_m", "visibility, m", kVisibilities,
+         desk.visibility_m ? fmt::format("{:.4g}", *desk.visibility_m) : "clear", "fog, with the beams in it");
   exposure();
   flag("road_isolux", "isolux", desk.isolux, key_of_setting(KeyAction::kIsolux));
   ImGui::SameLine();
@@ -321,6 +342,8 @@ std::vector<std::string_view> words_of(std::string_view values) {
 
 void Sheet::effects() {
   if (!section("Effects, and why", false)) return;
+  choose("method", "light at", kMethodNames, std::string(kMethodNames[static_cast<std::size_t>(facts_.desk.method)]),
+         key_of_setting(KeyAction::kMethod));
   for (const EffectRow& row : effect_table()) {
     const EffectDecision& decision = facts_.frame.effects[row.effect];
     const std::string name(row.name);
