@@ -12,7 +12,7 @@
 namespace phare {
 namespace {
 
-using Kind = PointerEvent::Kind;
+using PointerKind = PointerEvent::Kind;
 using rig_command::MountQuantity;
 constexpr double kDeg = 180.0 / std::numbers::pi;
 
@@ -74,7 +74,7 @@ class PanelTest : public testing::Test {
       if (const auto* control = std::get_if<RigControl>(&each)) answer_ = verbs(*control);
     return asked;
   }
-  void point(Kind kind, double x_px, double y_px, double wheel = 0.0) {
+  void point(PointerKind kind, double x_px, double y_px, double wheel = 0.0) {
     const PointerEvent event{.kind = kind, .x_px = x_px, .y_px = y_px, .wheel = wheel};
     panel_.take(std::span(&event, 1));
   }
@@ -93,7 +93,7 @@ class PanelTest : public testing::Test {
   /// All three of a click come at once, as between two frames of a slow picture.
   std::vector<PanelCommand> click(const std::string& control) {
     const auto [x, y] = middle(control);
-    point(Kind::kMove, x, y), point(Kind::kPress, x, y), point(Kind::kRelease, x, y);
+    point(PointerKind::kMove, x, y), point(PointerKind::kPress, x, y), point(PointerKind::kRelease, x, y);
     return frames(4);
   }
   /// Takes hold at a share of the control's width and lets go at another.
@@ -101,13 +101,13 @@ class PanelTest : public testing::Test {
     const PanelRect at = *panel_.place(control);
     const double y = 0.5 * (at.top_px + at.bottom_px);
     const auto x = [&](double share) { return at.left_px + share * (at.right_px - at.left_px); };
-    point(Kind::kMove, x(from_01), y), point(Kind::kPress, x(from_01), y);
+    point(PointerKind::kMove, x(from_01), y), point(PointerKind::kPress, x(from_01), y);
     std::vector<PanelCommand> all = frames(2);
     for (int i = 1; i <= steps; ++i) {
-      point(Kind::kMove, x(from_01 + (to_01 - from_01) * i / steps), y);
+      point(PointerKind::kMove, x(from_01 + (to_01 - from_01) * i / steps), y);
       for (PanelCommand& asked : frame()) all.push_back(std::move(asked));
     }
-    point(Kind::kRelease, x(to_01), y);
+    point(PointerKind::kRelease, x(to_01), y);
     for (PanelCommand& asked : frames(2)) all.push_back(std::move(asked));
     return all;
   }
@@ -127,7 +127,7 @@ PanelCommand control(decltype(RigControl::command) command) {
 TEST_F(PanelTest, LooksOnAsLongAsNobodyTouchesIt) {
   const Desk before = desk_;
   EXPECT_TRUE(frames(10).empty());
-  point(Kind::kMove, 100.0, 200.0);
+  point(PointerKind::kMove, 100.0, 200.0);
   EXPECT_TRUE(frames(10).empty());
   EXPECT_EQ(desk_, before);
   EXPECT_FALSE(panel_.content().draws.empty());
@@ -193,14 +193,14 @@ TEST_F(PanelTest, ASliderMovesThePairAndIsOneStepToTakeBack) {
 TEST_F(PanelTest, ASliderTakesBackOnlyWhatItDid) {
   const PanelRect at = *panel_.place("lamp up");
   const double y = 0.5 * (at.top_px + at.bottom_px), x = 0.5 * (at.left_px + at.right_px);
-  point(Kind::kMove, x, y), point(Kind::kPress, x, y);
+  point(PointerKind::kMove, x, y), point(PointerKind::kPress, x, y);
   frames(2);
-  point(Kind::kMove, x + 20.0, y);
+  point(PointerKind::kMove, x + 20.0, y);
   frames(1);
   ASSERT_TRUE(lamps_.mount({"fog", MountQuantity::kForward, 0.5, true}));
-  point(Kind::kMove, x + 40.0, y);
+  point(PointerKind::kMove, x + 40.0, y);
   frames(1);
-  point(Kind::kRelease, x + 40.0, y);
+  point(PointerKind::kRelease, x + 40.0, y);
   frames(2);
   EXPECT_DOUBLE_EQ(lamps_.mounts().lamps[2].position_m.x, 3.5);
 }
@@ -324,10 +324,10 @@ TEST_F(PanelTest, TheRoadIsTheRoadsBesideThePanel) {
 TEST_F(PanelTest, HidingLetsGo) {
   const PanelRect at = *panel_.place("lamp up");
   const double y = 0.5 * (at.top_px + at.bottom_px), x = 0.5 * (at.left_px + at.right_px);
-  point(Kind::kMove, x, y), point(Kind::kPress, x, y);
+  point(PointerKind::kMove, x, y), point(PointerKind::kPress, x, y);
   frames(2);
   panel_.hide();
-  point(Kind::kMove, x + 60.0, y);
+  point(PointerKind::kMove, x + 60.0, y);
   EXPECT_TRUE(frames(4).empty());
 }
 

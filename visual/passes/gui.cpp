@@ -29,8 +29,8 @@ constexpr std::array<vk::VertexInputAttributeDescription, 3> kAttributes{
      {shader::kGuiColour, 0, vk::Format::eR8G8B8A8Unorm, offsetof(GuiVertex, srgba)}}};
 
 /// Written anew each frame; made anew where it is too small, with room for a panel that grows a little.
-void fill(gpu::Device& device, gpu::HostBuffer& buffer, std::span<const std::byte> bytes, vk::BufferUsageFlags usage,
-          const char* name) {
+void write_into(gpu::Device& device, gpu::HostBuffer& buffer, std::span<const std::byte> bytes,
+                vk::BufferUsageFlags usage, const char* name) {
   if (buffer.bytes < bytes.size()) {
     buffer = gpu::HostBuffer{};
     buffer = gpu::HostBuffer(device, bytes.size() + bytes.size() / 2, usage, name);
@@ -110,10 +110,10 @@ void GuiPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const GuiContent
   if (!*layout_) make();
   const vk::Pipeline by = pipeline(display.format);
   take_atlas(graph, content.atlas);
-  fill(device_, vertices_, std::as_bytes(std::span(content.vertices)), vk::BufferUsageFlagBits::eVertexBuffer,
-       "panel vertices");
-  fill(device_, indices_, std::as_bytes(std::span(content.indices)), vk::BufferUsageFlagBits::eIndexBuffer,
-       "panel indices");
+  write_into(device_, vertices_, std::as_bytes(std::span(content.vertices)), vk::BufferUsageFlagBits::eVertexBuffer,
+             "panel vertices");
+  write_into(device_, indices_, std::as_bytes(std::span(content.indices)), vk::BufferUsageFlagBits::eIndexBuffer,
+             "panel indices");
   graph.pass(
       "gui", {{&letters_, gpu::Use::kSampled, false}, {&display, gpu::Use::kColourTarget, false}},
       [&](gpu::Recorder& commands) {

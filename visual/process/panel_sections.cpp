@@ -330,7 +330,7 @@ const DeskSetting* setting_of(const EffectRow& row) {
 }
 
 /// "auto, off, hard, soft" one by one.
-std::vector<std::string_view> words_of(std::string_view values) {
+std::vector<std::string_view> forced_levels(std::string_view values) {
   std::vector<std::string_view> words;
   while (!values.empty()) {
     const std::size_t comma = std::min(values.find(", "), values.size());
@@ -348,7 +348,7 @@ void Sheet::effects() {
     const EffectDecision& decision = facts_.frame.effects[row.effect];
     const std::string name(row.name);
     if (const DeskSetting* setting = setting_of(row))
-      choose(std::string(setting->name), name.c_str(), words_of(setting->values), setting->get(facts_.desk),
+      choose(std::string(setting->name), name.c_str(), forced_levels(setting->values), setting->get(facts_.desk),
              std::string(setting->what));
     ImGui::PushTextWrapPos(0.0f);
     ImGui::TextDisabled("%s %s: %s", name.c_str(), std::string(row.levels[decision.level]).c_str(),
