@@ -391,6 +391,8 @@ constexpr DeskSetting kSettings[] = {
     {"effects", "off, on, toggle", "in the picture: each effect with its level and the reason", true,
      set_flag<&Desk::effects>, get_flag<&Desk::effects>},
     {"help", "off, on, toggle", "every key", false, set_flag<&Desk::help>, get_flag<&Desk::help>},
+    {"panel", "off, on, toggle", "what the mouse sets: designs, lamps, view, effects; times and messages", true,
+     set_flag<&Desk::panel>, get_flag<&Desk::panel>},
     {"depth_first", "auto, off, on", "a depth pass before the lit one; auto: as the scene calls for", true,
      set_level<&Desk::depth_first, kOffOnNames>, get_level<&Desk::depth_first, kOffOnNames>},
     {"shadows", "auto, off, hard, soft, fine", "of what stands in the beams; auto: as the scene calls for", true,

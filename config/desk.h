@@ -96,6 +96,7 @@ struct Desk {
   bool instruments = true;            ///< speed, gear, lights at the lower edge
   bool effects = false;               ///< among the lines each effect with its level and the reason
   bool help = false;                  ///< every key
+  bool panel = false;                 ///< what is set by the mouse (visual/process/panel.h)
   /// Levels of these effects (visual/effects.h); without one the scene decides.
   std::optional<std::size_t> shadows, depth_first, fog, glare;
   std::optional<double> visibility_m;  ///< meteorological optical range (photometry/table/fog.h); none: clear air

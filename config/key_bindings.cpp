@@ -36,6 +36,7 @@ constexpr KeyBinding kBindings[] = {
     {kBeginAgain, kDrive, key::kBackspace, "Backspace", {}, "begin again from the start"},
     {kHelp, kPicture, key::kF1, "F1", {}, "show or hide these keys", "help toggle"},
     {kHelp, kPicture, '?', "?", {}, "the same", "help toggle"},
+    {kPanel, kPicture, key::kF9, "F9", {}, "the panel: everything by the mouse", "panel toggle"},
     {kCamera, kPicture, 'c', "C", {}, "camera: driver, above, behind, oncoming, mirrors, free", "camera next"},
     {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour, then clipping, then the photo", "view next"},
     {kEffects, kPicture, key::kF3, "F3", {}, "which effects are on, and why", "effects toggle"},
@@ -58,7 +59,7 @@ constexpr KeyBinding kBindings[] = {
     {kLampsDown, kPicture, key::kEnd, "End", {}, "all lamps 0.1 deg down"},
     {kLampUndo, kPicture, 'u', "U", {}, "take back what was moved last"},
     {kLampReset, kPicture, 'U', "Shift+U", {}, "chosen lamps, or all, as in the rig file"},
-    {kLeave, kPicture, key::kEscape, "Esc", {}, "hide these keys, or leave the drive"},
+    {kLeave, kPicture, key::kEscape, "Esc", {}, "hide keys or panel, or leave the drive"},
 };
 
 constexpr PadBinding kPadBindings[] = {

@@ -18,7 +18,7 @@ using KeyCode = std::uint32_t;
 namespace key {
 inline constexpr KeyCode kEscape = 256, kBackspace = 259, kRight = 262, kLeft = 263, kDown = 264, kUp = 265,
                          kPageUp = 266, kPageDown = 267, kHome = 268, kEnd = 269, kF1 = 290, kF2 = 291, kF3 = 292,
-                         kF4 = 293, kF5 = 294, kF6 = 295, kF7 = 296, kF8 = 297;
+                         kF4 = 293, kF5 = 294, kF6 = 295, kF7 = 296, kF8 = 297, kF9 = 298;
 }  // namespace key
 
 enum class KeyAction {
@@ -44,6 +44,7 @@ enum class KeyAction {
   kDemo,
   kBeginAgain,
   kHelp,
+  kPanel,
   kCamera,
   kFalseColour,
   kEffects,
@@ -62,7 +63,7 @@ enum class KeyAction {
   kLampReset,
   kLeave,
 };
-inline constexpr std::size_t kKeyActions = 39;
+inline constexpr std::size_t kKeyActions = 40;
 
 /// Who acts on a key: the car (phare-cockpit), the picture (phare-visual), or the drive as a whole (phare drive).
 enum class KeyActor { kCar, kPicture, kDrive };

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the pictures of docs/gallery.md and README.md anew, by the commands that stand there: docs/make_pictures.sh [phare]
-# Needs ImageMagick's convert (apt-get install imagemagick) to make JPEGs of them. Two drives of 75 s and some short ones.
+# Needs ImageMagick's convert (apt-get install imagemagick) to make JPEGs of them, and xvfb-run (xvfb, xauth) for the window. Two drives of 75 s and some short ones.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 phare=${1:-./phare}
@@ -38,4 +38,6 @@ convert "$out"/three/{left,.,right}/frames/000059.png +append "$out/three.png"
 picture "$out/three.png" three
 "$phare" drive --design halogen --versus led --headless --lockstep --frames 60 --samples 4 --out "$out/ab" --port-base "$ports"
 picture "$out/ab/frames/000059.png" versus
+xvfb-run -a "$phare" drive --lockstep --frames 60 --samples 4 --set panel=on --out "$out/panel" --port-base "$ports"
+picture "$out/panel/frames/000059.png" panel
 ls -l docs/pictures

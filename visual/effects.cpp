@@ -57,6 +57,12 @@ EffectDecision glare(const EffectFacts& facts) {
   return {1, reason};
 }
 
+EffectDecision gui(const EffectFacts& facts) {
+  // Whether it is shown is the user's word already, and what moves lamps by the mouse has to be seen.
+  if (!facts.gui) return {0, "the panel is hidden", true};
+  return {1, "the panel is shown", true};
+}
+
 constexpr std::array<EffectRow, kEffectCount> kTable{
     {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy",
       shadows},
@@ -66,7 +72,8 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
      {Effect::kFog, "fog", kFogNames, "a pass that computes, a buffer of scattered light, and the sky through fog", fog,
       true},
      {Effect::kGlare, "glare", kOffOnNames, "the HDR image; its pass to the display adds what the eye scatters", glare,
-      true}}};
+      true},
+     {Effect::kGui, "gui", kOffOnNames, "a pass of triangles over the picture, an image of letters", gui}}};
 
 constexpr bool in_order() {
   for (std::size_t i = 0; i < kTable.size(); ++i)

@@ -11,8 +11,8 @@
 
 namespace phare {
 
-enum class Effect : std::size_t { kShadows, kDepthFirst, kHdrImage, kOverlay, kFog, kGlare };
-inline constexpr std::size_t kEffectCount = 6;
+enum class Effect : std::size_t { kShadows, kDepthFirst, kHdrImage, kOverlay, kFog, kGlare, kGui };
+inline constexpr std::size_t kEffectCount = 7;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -28,6 +28,7 @@ struct EffectFacts {
   bool parallel_rays = false;              ///< a view from above, through no air
   std::size_t glare_lamps = 0;             ///< that shine into the eye, as far as the display shows it
   double glare_lx = 0.0;                   ///< of them, at the eye
+  bool gui = false;                        ///< the panel is shown over the picture
   bool glare_drawn = false;                ///< decided before: the luminance image is read for it
 };
 

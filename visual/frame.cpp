@@ -62,8 +62,8 @@ double far_mesh_from_m(const PlacedView& view) {
   return view.input.far_mesh_from_m * std::max(1.0, kFarMeshPixel_rad / pixel_rad);
 }
 
-/// What one view calls for, and no more. `lines`: of text that will lie over it.
-ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t lines) {
+/// What one view calls for, and no more. `over`: what will lie over it.
+ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver& over) {
   gpu::FrameGraph& graph = parts.graph;
   const gpu::Counts before = graph.counts();
   const auto image = [&](const char* name, vk::Format format, vk::ImageUsageFlags usage,
@@ -82,7 +82,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, std::size_t line
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
   const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
-  const EffectPlan effects = plan_effects(facts_of(view.input, lit.lamps, casters, lines, glare, parts.device_facts),
+  const EffectPlan effects = plan_effects(facts_of(view.input, lit.lamps, casters, over, glare, parts.device_facts),
                                           view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
@@ -151,7 +151,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
                    &parts.graph.image(name + "display", {parts.target.display_format, extent,
                                                          Usage::eColorAttachment | Usage::eTransferSrc})};
   };
-  const std::size_t lines = text_lines(input);
+  const DrawnOver over = drawn_over(input);
   parts.scene.begin_frame(parts.graph);
   parts.shadows.begin_frame();
   parts.fog.begin_frame();
@@ -164,18 +164,18 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   // The frame's own view, then the others, each into its part of the picture or into one of its own.
   std::vector<ViewResult> views;
   views.push_back(draw_view(
-      parts, {input, 0, input.name.empty() ? "view 1" : input.name, seen, area_of(input.part, seen.extent)}, lines));
+      parts, {input, 0, input.name.empty() ? "view 1" : input.name, seen, area_of(input.part, seen.extent)}, over));
   for (const ViewInput& view : input.more_views) {
     const std::size_t number = views.size();
     const std::string name = view.name.empty() ? "view " + std::to_string(number + 1) : view.name;
     if (!view.own_picture) {
-      views.push_back(draw_view(parts, {view, number, name, seen, area_of(view.part, seen.extent)}, 0));
+      views.push_back(draw_view(parts, {view, number, name, seen, area_of(view.part, seen.extent)}, {}));
       continue;
     }
     Picture own = picture(std::to_string(number + 1) + ": ", {static_cast<std::uint32_t>(view.own_picture->width_px),
                                                               static_cast<std::uint32_t>(view.own_picture->height_px)});
     const vk::Rect2D area = area_of(view.part, own.extent);
-    views.push_back(draw_view(parts, {view, number, name, own, area}, 0));
+    views.push_back(draw_view(parts, {view, number, name, own, area}, {}));
     if (view.want_image) parts.read_image(number, *own.display, area);
     parts.graph.release(*own.display);
   }
@@ -189,6 +189,12 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
     parts.overlay->draw(parts.graph, *seen.display, input.overlay, input.instruments, input.panel, input.marks,
                         input.room);
   }
+
+  // What is set by the mouse.
+  if (views.front().effects.on(Effect::kGui))
+    parts.gui.draw(parts.graph, *seen.display, *input.gui);
+  else
+    parts.gui.hide();
 
   // What is kept of the finished picture.
   if (input.want_image) parts.read_image(0, *seen.display, {{0, 0}, seen.extent});

@@ -9,6 +9,7 @@
 #include "visual/passes/depth.h"
 #include "visual/passes/fog.h"
 #include "visual/passes/glare.h"
+#include "visual/passes/gui.h"
 #include "visual/passes/lit.h"
 #include "visual/passes/overlay.h"
 #include "visual/passes/shadows.h"
@@ -40,6 +41,7 @@ struct FrameParts {
   GlarePass& glare;
   ToneMappingPass& tone_mapping;
   std::unique_ptr<OverlayPass>& overlay;  ///< made by the first frame that calls for it
+  GuiPass& gui;
   /// Copies a part of an image out, for view `view` of the frame.
   std::function<void(std::size_t view, gpu::Image&image, const vk::Rect2D&part)> read_image, read_hdr;
   DeviceFacts device_facts{};

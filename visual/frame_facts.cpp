@@ -3,7 +3,7 @@
 namespace phare {
 
 EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional<std::size_t> casters,
-                     std::size_t lines, std::span<const GlaringLamp> glare, const DeviceFacts& device) {
+                     const DrawnOver& over, std::span<const GlaringLamp> glare, const DeviceFacts& device) {
   double glare_lx = 0.0;
   for (const GlaringLamp& source : glare) glare_lx += source.eye_lx;
   return {.lit_lamps = lit_lamps,
@@ -13,11 +13,12 @@ EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional
           .hdr_wanted = view.want_hdr,
           .false_colour = view.view == View::kFalseColour,
           .clipping = view.view == View::kClipping,
-          .overlay_lines = lines,
+          .overlay_lines = over.lines,
           .visibility_m = view.visibility_m,
           .parallel_rays = view.camera.orthographic_width_m > 0.0,
           .glare_lamps = glare.size(),
-          .glare_lx = glare_lx};
+          .glare_lx = glare_lx,
+          .gui = over.gui};
 }
 
 std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geometry) {
@@ -29,9 +30,10 @@ bool looks_for_casters(const ViewInput& view) {
   return (view.effects[kShadows] ? view.effects : view.picked)[kShadows] != std::size_t{0};
 }
 
-std::size_t text_lines(const FrameInput& input) {
-  return input.overlay.size() + input.instruments.size() + input.panel.rows.size() +
-         (input.panel.title.empty() ? 0u : 1u) + input.marks.size();
+DrawnOver drawn_over(const FrameInput& input) {
+  return {.lines = input.overlay.size() + input.instruments.size() + input.panel.rows.size() +
+                   (input.panel.title.empty() ? 0u : 1u) + input.marks.size(),
+          .gui = input.gui != nullptr};
 }
 
 }  // namespace phare

@@ -13,10 +13,16 @@ struct DeviceFacts {
   bool shadow_maps = true;  ///< it holds one
 };
 
+/// What lies over the frame's picture.
+struct DrawnOver {
+  std::size_t lines = 0;  ///< of text
+  bool gui = false;       ///< the panel
+};
+
 /// `lit_lamps`: that light something in the view; `casters`: pieces of the scene that stand in their light, where they
-/// were looked for; `lines`: of text that will lie over it; `glare`: glare_of() it.
+/// were looked for; `over`: what will lie over it; `glare`: glare_of() it.
 EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional<std::size_t> casters,
-                     std::size_t lines, std::span<const GlaringLamp> glare, const DeviceFacts& device);
+                     const DrawnOver& over, std::span<const GlaringLamp> glare, const DeviceFacts& device);
 
 /// Lamps whose light the eye of the view scatters over its picture (glare_seen).
 std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geometry);
@@ -24,7 +30,6 @@ std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geo
 /// The user has not switched shadows off.
 bool looks_for_casters(const ViewInput& view);
 
-/// Lines of text over the frame's picture.
-std::size_t text_lines(const FrameInput& input);
+DrawnOver drawn_over(const FrameInput& input);
 
 }  // namespace phare

@@ -44,6 +44,7 @@ struct OverlayPanel {
 struct OverlayRoom {
   double lines_width_01 = 1.0;   ///< of the picture's, from its left edge
   double lines_height_01 = 1.0;  ///< of its height; more lines than fit are written smaller, down to half
+  double left_01 = 0.0;          ///< what is left of it is taken, from the picture's left edge
   double panel_top_01 = 0.07;    ///< of a panel above the middle
 
   friend bool operator==(const OverlayRoom&, const OverlayRoom&) = default;

@@ -55,6 +55,7 @@ struct Renderer::Impl {
   GlarePass glare{device};
   ToneMappingPass tone_mapping{device};
   std::unique_ptr<OverlayPass> overlay;
+  GuiPass gui{device};
   FrameTarget target;
   std::map<std::size_t, Copy> images, hdrs;  ///< read back, by view
   vk::raii::CommandBuffers commands{nullptr};
@@ -146,6 +147,7 @@ struct Renderer::Impl {
             .glare = glare,
             .tone_mapping = tone_mapping,
             .overlay = overlay,
+            .gui = gui,
             .read_image = [this](std::size_t view, gpu::Image& image,
                                  const vk::Rect2D& part) { copy_out(image, part, images[view], 4); },
             .read_hdr = [this](std::size_t view, gpu::Image& image,

@@ -16,6 +16,7 @@
 #include "config/desk.h"
 #include "visual/effects.h"
 #include "visual/glare.h"
+#include "visual/gui_content.h"
 #include "visual/overlay_content.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/beam/beam_image.h"
@@ -102,6 +103,7 @@ struct FrameInput : ViewInput {
   OverlayPanel panel{};
   OverlayMarks marks{};  ///< nothing in these four: no overlay pass
   OverlayRoom room{};
+  const GuiContent* gui = nullptr;  ///< over all of these, until draw() returns; nullptr: no gui pass
 };
 
 struct PassTime {

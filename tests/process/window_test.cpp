@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -14,6 +15,7 @@
 #include "net/wire.h"
 #include "tests/paths.h"
 #include "tests/process/drive_run.h"
+#include "visual/process/panel.h"
 
 namespace phare::test {
 namespace {
@@ -36,7 +38,8 @@ class VirtualDisplay {
   VirtualDisplay() {
     const fs::path told = folder_ / "display";
     auto server = ChildProcess::start(
-        "/bin/sh", {"-c", "exec Xvfb -displayfd 5 -screen 0 640x480x24 -nolisten tcp 5>'" + told.string() + "'"});
+        "/bin/sh", {"-c", "exec Xvfb -displayfd 5 -screen 0 640x480x24 -fbdir '" + folder_.path().string() +
+                              "' -nolisten tcp 5>'" + told.string() + "'"});
     if (server) server_ = *server;
     wait_until([&] { return std::ifstream(told) >> number_ ? true : false; });
   }
@@ -48,6 +51,33 @@ class VirtualDisplay {
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
   std::string name() const { return ":" + std::to_string(number_); }
+
+  /// What it shows, rows from the top: XWD version 7, 4 bytes a pixel, blue first, as Xvfb keeps it on a
+  /// little-endian machine. Empty: it cannot be read.
+  std::vector<std::array<int, 3>> screen() const {
+    std::stringstream file;
+    file << std::ifstream(folder_ / "Xvfb_screen0", std::ios::binary).rdbuf();
+    const std::string bytes = file.str();
+    const auto word = [&](std::size_t i) {  // of the header, most significant byte first
+      std::uint32_t value = 0;
+      for (std::size_t k = 0; k < 4; ++k) value = value << 8 | static_cast<unsigned char>(bytes[4 * i + k]);
+      return std::size_t{value};
+    };
+    if (bytes.size() < 100 || word(1) != 7 || word(4) != kWidth_px || word(5) != kHeight_px || word(11) != 32)
+      return {};
+    const std::size_t begin = word(0) + 12 * word(19), row = word(12);
+    if (bytes.size() < begin + row * kHeight_px) return {};
+    std::vector<std::array<int, 3>> pixels;
+    for (std::size_t y = 0; y < kHeight_px; ++y) {
+      for (std::size_t x = 0; x < kWidth_px; ++x) {
+        const char* at = bytes.data() + begin + y * row + 4 * x;
+        const auto channel = [&](int k) { return static_cast<int>(static_cast<unsigned char>(at[k])); };
+        pixels.push_back({channel(2), channel(1), channel(0)});
+      }
+    }
+    return pixels;
+  }
+  static constexpr std::size_t kWidth_px = 640, kHeight_px = 480;
 
   /// Words of xdotool, the window of Phare having the focus.
   void keys(const std::string& words) const {
@@ -75,14 +105,14 @@ class WindowTest : public testing::Test {
     while (!drive_->ended()) std::this_thread::sleep_for(5ms);
   }
 
-  void start(std::vector<std::string> arguments) {
+  void start(std::vector<std::string> arguments, const std::string& size = "320x180") {
     std::vector<std::string> words{"-u",
                                    "WAYLAND_DISPLAY",
                                    "DISPLAY=" + display_->name(),
                                    program("phare"),
                                    "drive",
                                    "--size",
-                                   "320x180",
+                                   size,
                                    "--out",
                                    (folder_ / "out").string(),
                                    "--record",
@@ -180,6 +210,91 @@ TEST_F(WindowTest, LampsAreMovedByKeysAndAClickReadsAPoint) {
     text << std::ifstream(answer).rdbuf();
     return text.str().starts_with("point world ") && text.str().find("headlamp left: ") != std::string::npos;
   })) << "the click chose a point of the road";
+  display_->keys("key Escape");
+  EXPECT_EQ(end(), 0);
+}
+
+/// Where the panel's controls lie in a window of this size. The panel is laid out here as in the window: what stands
+/// above a control is the same.
+class ShownPanel {
+ public:
+  ShownPanel(int width_px, int height_px) : panel_(height_px) {
+    const auto rig = read_rig(source_dir() + "/config/rigs/country_road.toml");
+    EXPECT_TRUE(rig.ok());
+    auto lamps = Lamps::load(*rig);
+    EXPECT_TRUE(lamps.ok());
+    lamps->set_controls({});
+    PanelFacts facts{.lit = "low", .lamps = panel_lamps(*lamps)};
+    for (const DesignConfig& design : rig->designs) facts.designs.push_back(design.name);
+    for (int i = 0; i < 3; ++i) panel_.lay_out(facts, width_px, height_px, 0.02);
+  }
+  /// "X Y" at this share of a control's width.
+  std::string at(const std::string& control, double x_01) const {
+    const PanelRect at = rect(control);
+    return std::to_string(std::lround(at.left_px + x_01 * (at.right_px - at.left_px))) + " " +
+           std::to_string(std::lround(0.5 * (at.top_px + at.bottom_px)));
+  }
+  PanelRect rect(const std::string& control) const {
+    const PanelRect* found = panel_.place(control);
+    EXPECT_NE(found, nullptr) << control;
+    return found != nullptr ? *found : PanelRect{};
+  }
+
+ private:
+  Panel panel_;
+};
+
+TEST_F(WindowTest, APanelMovesLampsByTheMouse) {
+  start({"--validation"}, "640x360");
+  ASSERT_TRUE(comes<VehicleState>([](const VehicleState&) { return true; }));
+  const ShownPanel panel(640, 360);
+  // The bars that head its sections, where no letters are: bluer than anything on a road at night.
+  const auto bars_01 = [&] {
+    const auto pixels = display_->screen();
+    std::size_t like = 0, all = 0;
+    for (const char* section : {"Beam and design", "Lamps"}) {
+      const PanelRect bar = panel.rect(section);
+      for (auto y = std::lround(bar.top_px) + 3; y < std::lround(bar.bottom_px) - 3; ++y) {
+        for (auto x = std::lround(0.6 * bar.right_px); x < std::lround(bar.right_px) - 8; ++x, ++all) {
+          if (pixels.empty()) return -1.0;
+          const auto [red, green, blue] =
+              pixels[static_cast<std::size_t>(y) * VirtualDisplay::kWidth_px + static_cast<std::size_t>(x)];
+          like += blue > red + 30 && blue > green + 15 ? 1u : 0u;
+        }
+      }
+    }
+    EXPECT_GT(all, 500u);
+    return static_cast<double>(like) / static_cast<double>(all);
+  };
+  EXPECT_EQ(bars_01(), 0.0) << "no panel yet (-1: the screen cannot be read)";
+  display_->keys("key F9");
+  EXPECT_TRUE(wait_until([&] { return bars_01() == 1.0; })) << "the panel shows where it was laid out: " << bars_01();
+
+  // From the middle of the slider, which is the rig's height, to a quarter of its width before its end.
+  display_->keys("mousemove --window %1 " + panel.at("lamp up", 0.5) + " mousedown 1 mousemove --window %1 " +
+                 panel.at("lamp up", 0.75) + " mouseup 1");
+  EXPECT_TRUE(comes<LampState>([](const LampState& lamps) {
+    // 0.6 m over the slider's width but its grab; a pixel is some 4 mm.
+    return lamps.z_m.size() == 4 && std::abs(lamps.z_m[0] - 0.82) < 0.03 && lamps.z_m[0] == lamps.z_m[1] &&
+           lamps.z_m[2] == 0.35;
+  })) << "the pair of headlamps is higher";
+  display_->keys("mousemove --window %1 " + panel.at("design 1", 0.1) + " click 1");
+  EXPECT_TRUE(comes<CockpitState>([](const CockpitState& c) { return c.design_index == 1; }));
+  display_->keys("mousemove --window %1 " + panel.at("high beam", 0.5) + " click 1");
+  EXPECT_TRUE(comes<CockpitState>([](const CockpitState& c) { return c.light_switch == LightSwitch::kHigh; }));
+
+  const std::string answer = (folder_ / "answer.txt").string();
+  const std::string ask = "'" + program("phare") + "' control --port-base " + std::to_string(port_base()) +
+                          " set point >'" + answer + "' 2>&1";
+  EXPECT_EQ(std::system(ask.c_str()), 0);
+  std::stringstream text;
+  text << std::ifstream(answer).rdbuf();
+  EXPECT_TRUE(text.str().starts_with("point none")) << "no click went through to the road: " << text.str();
+  display_->keys("key F9");
+  EXPECT_TRUE(wait_until([&] { return bars_01() == 0.0; })) << "hidden again: " << bars_01();
+  display_->keys("key F9 key Escape");
+  EXPECT_TRUE(wait_until([&] { return bars_01() == 0.0; })) << "Esc hides the panel first";
+  EXPECT_FALSE(drive_->ended());
   display_->keys("key Escape");
   EXPECT_EQ(end(), 0);
 }

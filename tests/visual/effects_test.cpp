@@ -26,7 +26,8 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
                {{.hdr_wanted = true}, Effect::kHdrImage},
                {{.overlay_lines = 3}, Effect::kOverlay},
                {{.visibility_m = 80.0}, Effect::kFog},
-               {{.glare_lamps = 1, .glare_lx = 0.5}, Effect::kGlare}};
+               {{.glare_lamps = 1, .glare_lx = 0.5}, Effect::kGlare},
+               {{.gui = true}, Effect::kGui}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);

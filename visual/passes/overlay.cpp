@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
+
+#include "visual/letters.h"
 
 namespace phare {
 
@@ -37,12 +38,10 @@ constexpr float kText_px = 19.0f, kTitle_px = 30.0f, kReferenceHeight_px = 720.0
 constexpr float kLeastText_px = 11.0f;  // smaller letters are not read
 constexpr float kLine = 1.32f;          // from line to line, in letters
 
-/// fonts-dejavu-core of packages.txt; without it Dear ImGui's own letters do.
 ImFont* load_font(const char* file, float size_px) {
-  const std::string path = std::string("/usr/share/fonts/truetype/dejavu/") + file;
-  std::error_code ignored;
+  const std::string path = letters_file(file);
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-  if (!std::filesystem::exists(path, ignored)) return atlas.AddFontDefault();
+  if (path.empty()) return atlas.AddFontDefault();
   return atlas.AddFontFromFileTTF(path.c_str(), size_px);
 }
 
@@ -77,8 +76,9 @@ void wrap(const Pen& pen, const std::string& line, float width_px, std::vector<s
   } while (at != end);
 }
 
-/// Along the upper left edge, within `room_px` of it. Returns where they end, 0 without any.
-float draw_lines(Pen pen, const ImVec2& room_px, const std::vector<std::string>& unwrapped) {
+/// Along the upper left edge, from `left_px` on and within `room_px` of the picture's. Returns where they end, 0
+/// without any.
+float draw_lines(Pen pen, float left_px, const ImVec2& room_px, const std::vector<std::string>& unwrapped) {
   if (unwrapped.empty()) return 0.0f;
   const float edge = 0.5f * pen.size_px, least_px = 0.5f * pen.size_px;
   std::vector<std::string> lines;
@@ -86,31 +86,32 @@ float draw_lines(Pen pen, const ImVec2& room_px, const std::vector<std::string>&
   while (true) {
     lines.clear();
     height = pen.size_px * kLine;
-    for (const std::string& line : unwrapped) wrap(pen, line, room_px.x - 4.0f * edge, lines);
+    for (const std::string& line : unwrapped) wrap(pen, line, room_px.x - left_px - 4.0f * edge, lines);
     if (2.0f * edge + height * static_cast<float>(lines.size()) <= room_px.y || pen.size_px * 0.95f < least_px) break;
     pen.size_px *= 0.95f;
   }
   float width = 0.0f;
   for (const std::string& line : lines) width = std::max(width, pen.width(line));
-  pen.list.AddRectFilled({edge, edge}, {3.0f * edge + width, 2.0f * edge + height * static_cast<float>(lines.size())},
+  pen.list.AddRectFilled({left_px + edge, edge},
+                         {left_px + 3.0f * edge + width, 2.0f * edge + height * static_cast<float>(lines.size())},
                          kPaper, 4.0f);
   float y = 1.5f * edge;
   for (const std::string& line : lines) {
-    pen.write(2.0f * edge, y, kInk, line);
+    pen.write(left_px + 2.0f * edge, y, kInk, line);
     y += height;
   }
   return y + edge;
 }
 
-/// In the middle of the lower edge, or at its right end.
-void draw_instruments(const Pen& small, const Pen& large, const ImVec2& picture,
+/// In the middle of the lower edge from `left_px` on, or at its right end.
+void draw_instruments(const Pen& small, const Pen& large, float left_px, const ImVec2& picture,
                       const std::vector<OverlayInstrument>& instruments, bool to_the_right) {
   if (instruments.empty()) return;
   const float gap = 1.1f * small.size_px;
   float width = gap;
   for (const OverlayInstrument& each : instruments) width += (each.large ? large : small).width(each.text) + gap;
   const float height = 1.3f * large.size_px, top = picture.y - height - 0.5f * small.size_px;
-  float x = std::max((picture.x - width) * (to_the_right ? 1.0f : 0.5f), 0.0f);
+  float x = left_px + std::max((picture.x - left_px - width) * (to_the_right ? 1.0f : 0.5f), 0.0f);
   small.list.AddRectFilled({x, top}, {x + width, top + height}, kPaper, 6.0f);
   x += gap;
   for (const OverlayInstrument& each : instruments) {
@@ -141,8 +142,9 @@ void draw_marks_of(const Pen& pen, const ImVec2& picture, const OverlayMarks& ma
   }
 }
 
-/// `top_px`: what is above it is taken.
-void draw_panel(Pen small, const Pen& large, const ImVec2& picture, float top_px, const OverlayPanel& panel) {
+/// `left_px`, `top_px`: what is left of it and what is above it is taken.
+void draw_panel(Pen small, const Pen& large, float left_px, const ImVec2& picture, float top_px,
+                const OverlayPanel& panel) {
   if (panel.empty()) return;
   const float edge = small.size_px;
   const float title_height = panel.title.empty() ? 0.0f : large.size_px * 1.5f;
@@ -159,7 +161,8 @@ void draw_panel(Pen small, const Pen& large, const ImVec2& picture, float top_px
     width = std::max(width, small.width(row.words) + (row.key.empty() ? 0.0f : key_width));
   const ImVec2 size{width + 2.0f * edge, title_height + line * rows + 1.5f * edge};
   const bool left = panel.place == OverlayPanel::Place::kLeft;
-  const ImVec2 at{left ? edge : std::max(0.5f * (picture.x - size.x), 0.0f), left ? edge : top_px};
+  const ImVec2 at{left_px + (left ? edge : std::max(0.5f * (picture.x - left_px - size.x), 0.0f)),
+                  left ? edge : top_px};
   if (panel.place == OverlayPanel::Place::kAlone) small.list.AddRectFilled({0.0f, 0.0f}, picture, kBlank);
   small.list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, kPaper, 8.0f);
   const float x = at.x + edge;
@@ -183,7 +186,8 @@ OverlayPass::OverlayPass(gpu::Device& device, vk::Format format, std::uint32_t h
                                                   .maxSets = 1,
                                                   .poolSizeCount = 1,
                                                   .pPoolSizes = &size});
-  ImGui::CreateContext();
+  context_ = ImGui::CreateContext();
+  ImGui::SetCurrentContext(context_);    // the panel has one of its own
   ImGui::GetIO().IniFilename = nullptr;  // nothing is kept between runs
   const float scale = static_cast<float>(height_px) / kReferenceHeight_px;
   text_ = load_font("DejaVuSans.ttf", std::max(kText_px * scale, kLeastText_px));
@@ -206,13 +210,15 @@ OverlayPass::OverlayPass(gpu::Device& device, vk::Format format, std::uint32_t h
 
 OverlayPass::~OverlayPass() {
   device_.device.waitIdle();
+  ImGui::SetCurrentContext(context_);
   ImGui_ImplVulkan_Shutdown();
-  ImGui::DestroyContext();
+  ImGui::DestroyContext(context_);
 }
 
 void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::vector<std::string>& lines,
                        const std::vector<OverlayInstrument>& instruments, const OverlayPanel& panel,
                        const OverlayMarks& marks, const OverlayRoom& room) {
+  ImGui::SetCurrentContext(context_);
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(display.extent.width), static_cast<float>(display.extent.height)};
   io.DeltaTime = 1.0f / 60.0f;  // nothing here moves by itself
@@ -227,10 +233,11 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
   // A panel on the left takes the place of the lines.
   const ImVec2 lines_px{static_cast<float>(room.lines_width_01) * io.DisplaySize.x,
                         static_cast<float>(room.lines_height_01) * io.DisplaySize.y};
-  const float top_px = std::max(left ? 0.0f : draw_lines(small, lines_px, lines),
+  const float left_px = static_cast<float>(room.left_01) * io.DisplaySize.x;
+  const float top_px = std::max(left ? 0.0f : draw_lines(small, left_px, lines_px, lines),
                                 static_cast<float>(room.panel_top_01) * io.DisplaySize.y);
-  draw_instruments(small, large, io.DisplaySize, instruments, left);
-  draw_panel(small, large, io.DisplaySize, top_px, panel);
+  draw_instruments(small, large, left_px, io.DisplaySize, instruments, left);
+  draw_panel(small, large, left_px, io.DisplaySize, top_px, panel);
   ImGui::Render();
 
   const vk::ImageView view = *display.view;

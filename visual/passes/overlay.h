@@ -10,6 +10,7 @@
 #include "visual/overlay_content.h"
 
 struct ImFont;
+struct ImGuiContext;
 
 namespace phare {
 
@@ -28,6 +29,7 @@ class OverlayPass {
  private:
   gpu::Device& device_;
   vk::raii::RenderPass render_pass_{nullptr};  // Dear ImGui 1.86 knows no dynamic rendering
+  ImGuiContext* context_ = nullptr;
   ImFont* text_ = nullptr;                     // of the atlas
   ImFont* title_ = nullptr;
   vk::raii::DescriptorPool pool_{nullptr};

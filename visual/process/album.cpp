@@ -66,6 +66,7 @@ void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleStat
   driver.overlay.clear();
   driver.instruments.clear();
   driver.panel = {};
+  driver.gui = nullptr;
 
   // The driver's view as it is, finer, and from above, in one frame.
   constexpr int kFiner = 2;
@@ -106,7 +107,7 @@ void Album::keep_versus(Renderer& renderer, FrameInput driver, const Versus& ver
                         const std::string& label) {
   driver.want_image = false;
   driver.want_hdr = true;  // its alpha is the illuminance
-  driver.overlay.clear(), driver.instruments.clear(), driver.panel = {}, driver.marks = {};
+  driver.overlay.clear(), driver.instruments.clear(), driver.panel = {}, driver.marks = {}, driver.gui = nullptr;
   const PictureSize size = renderer.picture_size();
   const auto view = [&](const Camera& camera, std::vector<PlacedLamp> lamps, PictureSize picture) {
     ViewInput one = driver;

@@ -75,9 +75,11 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.visibility_m);
   const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.visibility_m);
   input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
-  return heading + explain(plan_effects(facts_of(input, lit, casting, text_lines(input), glare_of(input, view),
-                                                 {.software = device.software}),
-                                        input.effects));
+  DrawnOver over = drawn_over(input);
+  over.gui = window && desk.panel;  // nothing is laid out: there is no window yet
+  return heading +
+         explain(plan_effects(facts_of(input, lit, casting, over, glare_of(input, view), {.software = device.software}),
+                              input.effects));
 }
 
 }  // namespace phare

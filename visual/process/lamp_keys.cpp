@@ -35,7 +35,7 @@ std::string mount_text(const Lamps& lamps, std::size_t slot) {
   return text;
 }
 
-std::vector<std::string> LampKeys::choices(const Lamps& lamps) {
+std::vector<std::string> movable_lamps(const Lamps& lamps) {
   std::vector<std::string> names;
   for (const LampConfig& lamp : lamps.design().lamps) {
     if (!lamp.name.ends_with(" left")) continue;
@@ -47,7 +47,7 @@ std::vector<std::string> LampKeys::choices(const Lamps& lamps) {
 }
 
 std::string LampKeys::chosen(const Lamps& lamps) const {
-  const std::vector<std::string> names = choices(lamps);
+  const std::vector<std::string> names = movable_lamps(lamps);
   return choice_ == 0 || choice_ > names.size() ? std::string() : names[choice_ - 1];
 }
 
@@ -72,7 +72,7 @@ std::optional<RigControl> LampKeys::press(KeyAction action, const Lamps& lamps) 
   };
   switch (action) {
     case KeyAction::kLampChoose:
-      choice_ = choice_ >= choices(lamps).size() ? 0 : choice_ + 1;
+      choice_ = choice_ >= movable_lamps(lamps).size() ? 0 : choice_ + 1;
       if (quantity_ == MountQuantity::kSpacing && !pair(lamps)) next_quantity();
       return std::nullopt;
     case KeyAction::kLampQuantity:

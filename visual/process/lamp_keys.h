@@ -16,6 +16,9 @@ namespace phare {
 inline constexpr double kLampStep_m = 0.01;
 inline constexpr double kLampStep_deg = 0.1;
 
+/// What may be moved of the design that shines: pairs, then lamps.
+std::vector<std::string> movable_lamps(const Lamps& lamps);
+
 class LampKeys {
  public:
   /// What the key commands, if anything; others choose.
@@ -25,8 +28,6 @@ class LampKeys {
   std::vector<std::string> lines(const Lamps& lamps) const;
 
  private:
-  /// Pairs, then lamps, of the design that shines.
-  static std::vector<std::string> choices(const Lamps& lamps);
   std::string chosen(const Lamps& lamps) const;
   bool pair(const Lamps& lamps) const;
 

@@ -105,6 +105,8 @@ class Lamps {
   Status mount(const RigControl::Mount& command);
   /// Takes back so many of the latest changes of the design that shines; how many there were.
   std::size_t undo(std::size_t steps);
+  /// How many there are to take back.
+  std::size_t undo_steps() const { return before_[design_].size(); }
   /// A lamp, a pair, or all lamps with their aim as the rig file has them. Error: no such lamp.
   Status reset(const std::string& lamp);
   /// The lamp of this name, or both of a pair, the left one first. Error: neither is there.

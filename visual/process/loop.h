@@ -1,10 +1,12 @@
 // The loop of the visual process, inside: what one turn of it does, verb by verb. run_loop.cpp has the loop itself and
 // how a frame is chosen and drawn, loop_begin.cpp what comes before the first, loop_judge.cpp what is measured in
-// pictures, loop_keep.cpp what is left of them.
+// pictures, loop_keep.cpp what is left of them, loop_panel.cpp the mouse and
+// the panel.
 #pragma once
 
 #include <chrono>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "net/control_desk.h"
 #include "visual/process/drive_log.h"
 #include "visual/process/lamp_keys.h"
+#include "visual/process/panel.h"
 #include "visual/process/picture_instruments.h"
 #include "visual/process/pose_buffer.h"
 #include "visual/process/screens.h"
@@ -49,6 +52,10 @@ class Loop {
   void take(const Datagram& datagram);
   void mind_the_keys();
   void mind_the_mouse();
+  bool on_panel(double x_px, double y_px) const;
+  void mind_the_panel();
+  void show_panel(const Moment& moment);
+  PanelFacts panel_facts(const Moment& moment, double since_s) const;
   void measure(const Moment& moment);
   void light_up(const CockpitState& controls);
   void upload(const std::vector<Lamps::Change>& changes);
@@ -119,7 +126,12 @@ class Loop {
   bool fresh_ = false;     // the lines of the overlay are wanted with the next frame
   bool captured_ = false;  // the picture of this frame is read back
   FrameInput input_;
-  std::vector<Traffic::There> users_;           // other road users in this frame
+  std::vector<Traffic::There> users_;  // other road users in this frame
+  std::unique_ptr<Panel> panel_;       // from when it is first shown
+  std::vector<PanelCommand> panel_asked_;
+  ControlReply panel_answer_;
+  Clock::time_point panel_laid_out_{};
+  bool eye_held_ = false;                       // by a button of the mouse that went down on the road
   std::size_t level_ = s_.options.begin_level;  // of options.levels, where the governor does not lead
   std::optional<Moment> newest_;
 };

@@ -26,6 +26,16 @@ ScreensSetup screens_of(const VisualOptions& options, const Rig& rig) {
           .report = options.report};
 }
 
+/// A panel that nobody sees, for the machine code that draws one: a triangle that covers nothing.
+const GuiContent& unseen_panel() {
+  static const GuiContent content{
+      .atlas = std::make_shared<const GuiAtlas>(GuiAtlas{1, 1, {0}}),
+      .vertices = {{0.0f, 0.0f, 0.0f, 0.0f, {}}, {4.0f, 0.0f, 0.0f, 0.0f, {}}, {0.0f, 4.0f, 0.0f, 0.0f, {}}},
+      .indices = {0, 1, 2},
+      .draws = {{.indices = 3, .right_px = 4.0f, .bottom_px = 4.0f}}};
+  return content;
+}
+
 }  // namespace
 
 Loop::Loop(Session& session)
@@ -70,6 +80,7 @@ void Loop::warm_up() {
   const auto draw = [&](const CockpitState& controls) {
     if (over()) return;  // who does not want to wait leaves
     if (s_.window) input.panel = getting_ready_panel(++step, steps);
+    if (s_.window && last) input.gui = &unseen_panel();
     light_up(controls);
     if (last) upload(versus_.follow(s_.desk, s_.lamps, controls));
     input.lamps = s_.lamps.placed(pose);

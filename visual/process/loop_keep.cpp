@@ -33,7 +33,7 @@ void Loop::keep(const Moment& moment) {
     driver.lamps = s_.lamps.placed(moment.car.pose);
     driver.moving.clear(), driver.glare.clear();  // stills are of the car's own light
     driver.view = View::kPhoto;
-    driver.marks = {};
+    driver.marks = {}, driver.gui = nullptr;
     driver.more_views.clear();
     still_ = Still{driver, moment};
     s_.stills_design = s_.lamps.design_index();

@@ -55,8 +55,9 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
   std::vector<std::string> lines;
   char text[160];
   if (desk.lines) {
-    std::snprintf(text, sizeof text, "%.1f s   frame %.1f ms   %s keys", moment.time.seconds(), moment.frame_ms,
-                  std::string(binding_of(KeyAction::kHelp)->name).c_str());
+    std::snprintf(text, sizeof text, "%.1f s   frame %.1f ms   %s keys   %s panel", moment.time.seconds(),
+                  moment.frame_ms, std::string(binding_of(KeyAction::kHelp)->name).c_str(),
+                  std::string(binding_of(KeyAction::kPanel)->name).c_str());
     lines.emplace_back(text);
     // The luminance that falls on the middle of the tone curve, as a light meter set to ISO 100 has it (ISO 2720,
     // K 12.5).

@@ -26,7 +26,7 @@ constexpr auto kFreshWithin = 1s;       // the first picture waits so long for a
 
 bool Loop::over() {
   if (s_.window && !s_.window->poll()) ended_ = true;
-  if (s_.window) mind_the_keys(), mind_the_mouse();
+  if (s_.window) mind_the_panel(), mind_the_keys(), mind_the_mouse();
   return ended_ || s_.stop.requested();
 }
 
@@ -40,30 +40,6 @@ void Loop::mind_the_keys() {
   }
   if (screens_.press(presses, keyboard.take_any(), s_.desk)) ended_ = true;
   if (const auto keys = keyboard.message(Clock::now())) s_.bus.send(newest_ ? newest_->time : SimTime{}, *keys);
-}
-
-/// A click chooses the place of the scene under it, which stays where it is in the world; one on the sky lets it go.
-/// The mouse moves the free eye.
-void Loop::mind_the_mouse() {
-  const bool clicked = s_.window->take_click();
-  if (const auto move = s_.window->take_moves(); s_.desk.camera == CameraKind::kFree) {
-    // Right button held: turn, a degree for 8 pixels; middle: shift; wheel: along the way one looks. A turn is felt,
-    // not measured: chosen by hand.
-    FreeEye& eye = s_.desk.free_eye;
-    eye.yaw_deg = std::remainder(eye.yaw_deg + move.turn_x_px / 8.0, 360.0);
-    eye.pitch_deg = std::clamp(eye.pitch_deg + move.turn_y_px / 8.0, -89.0, 89.0);
-    const double yaw = eye.yaw_deg * std::numbers::pi / 180.0, pitch = eye.pitch_deg * std::numbers::pi / 180.0;
-    const glm::dvec3 ahead{std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)};
-    const glm::dvec3 left{-std::sin(yaw), std::cos(yaw), 0.0};
-    eye.position_m +=
-        move.wheel * ahead + 0.02 * (move.shift_x_px * left + move.shift_y_px * glm::dvec3(0.0, 0.0, 1.0));
-  }
-  const Window::Mouse mouse = s_.window->mouse();
-  if (!clicked || !newest_ || !mouse.inside) return;
-  const auto at = pick(world_, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
-                                   .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px));
-  s_.desk.point = at ? std::optional(Probe{Probe::Frame::kWorld, at->position_m, at->normal}) : std::nullopt;
-  fresh_ = true;
 }
 
 /// Every accepted datagram, in order.
@@ -245,6 +221,7 @@ void Loop::draw(const Moment& moment) {
       input_.instruments =
           instruments(moment.controls, moment.car.pose, one ? std::string() : s_.lamps.design().name, moment.time);
   }
+  show_panel(moment);
   measure(moment);
   if (drawn_frames_ % 6 == 0 || std::exchange(fresh_, false)) {  // ten times a second: they take rays through the scene
     mind_the_road(moment);
@@ -315,7 +292,8 @@ void Loop::mind_the_road(const Moment& moment) {
 
 std::vector<std::string> Loop::overlay(const Moment& moment) const {
   std::optional<MeasurePoint> under_mouse;
-  if (const Window::Mouse mouse = s_.window->mouse(); mouse.inside && s_.desk.lines) {
+  if (const Window::Mouse mouse = s_.window->mouse();
+      mouse.inside && s_.desk.lines && !on_panel(mouse.x_px, mouse.y_px)) {
     under_mouse = pick(world_, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
                                    .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px));
   }

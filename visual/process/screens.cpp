@@ -33,7 +33,8 @@ bool Screens::press(std::span<const KeyAction> presses, bool any, Desk& desk) {
   for (const KeyAction action : presses) {
     if (const std::string_view set = binding_of(action)->desk; !set.empty()) (void)apply(desk, desk_command(set));
     if (action == KeyAction::kBeginAgain) begin_again_ = setup_.kind != ScreensSetup::Kind::kNone;
-    if (action == KeyAction::kLeave && !std::exchange(desk.help, false)) return true;
+    if (action == KeyAction::kLeave && !std::exchange(desk.help, false) && !std::exchange(desk.panel, false))
+      return true;
   }
   return false;
 }
@@ -58,14 +59,16 @@ OverlayPanel Screens::start_panel() const {
   if (setup_.kind == ScreensSetup::Kind::kReplay) {
     return {.title = "A recorded drive: " + setup_.shown,
             .rows = {row(KeyAction::kCamera, "another camera"), row(KeyAction::kFalseColour, "lux in false colour"),
-                     row(KeyAction::kHelp, "all keys"), row(KeyAction::kLeave, "leave")}};
+                     row(KeyAction::kHelp, "all keys"), row(KeyAction::kPanel, "everything by the mouse"),
+                     row(KeyAction::kLeave, "leave")}};
   }
   OverlayPanel panel{.title = "Phare: you drive, at night"};
   panel.rows = {{key_names({KeyAction::kAccelerate, KeyAction::kBrake}), "accelerate, brake"},
                 {key_names({KeyAction::kSteerLeft, KeyAction::kSteerRight}), "steer"},
                 row(KeyAction::kHighBeam, "high beam"),
                 row(KeyAction::kDesignNext, "the next design of the lamps"),
-                row(KeyAction::kHelp, "all keys")};
+                row(KeyAction::kHelp, "all keys"),
+                row(KeyAction::kPanel, "everything by the mouse")};
   if (setup_.demo) panel.rows.push_back(row(KeyAction::kDemo, "watch the demo driver instead"));
   panel.rows.push_back({"", "Press Up and drive. A gamepad that is plugged in drives as well."});
   return panel;

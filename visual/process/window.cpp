@@ -16,7 +16,8 @@ namespace {
 // The table speaks of keys by GLFW's numbers without knowing GLFW.
 static_assert(key::kEscape == GLFW_KEY_ESCAPE && key::kBackspace == GLFW_KEY_BACKSPACE && key::kF1 == GLFW_KEY_F1 &&
               key::kF2 == GLFW_KEY_F2 && key::kF3 == GLFW_KEY_F3 && key::kF4 == GLFW_KEY_F4 &&
-              key::kF5 == GLFW_KEY_F5 && key::kF6 == GLFW_KEY_F6 && key::kF7 == GLFW_KEY_F7 && key::kF8 == GLFW_KEY_F8);
+              key::kF5 == GLFW_KEY_F5 && key::kF6 == GLFW_KEY_F6 && key::kF7 == GLFW_KEY_F7 &&
+              key::kF8 == GLFW_KEY_F8 && key::kF9 == GLFW_KEY_F9);
 static_assert(key::kPageUp == GLFW_KEY_PAGE_UP && key::kPageDown == GLFW_KEY_PAGE_DOWN && key::kHome == GLFW_KEY_HOME &&
               key::kEnd == GLFW_KEY_END);
 static_assert(key::kUp == GLFW_KEY_UP && key::kDown == GLFW_KEY_DOWN && key::kLeft == GLFW_KEY_LEFT &&
@@ -39,7 +40,7 @@ KeyCode code_of(int glfw_key, int scancode, int mods) {
 struct Window::State {
   GLFWwindow* window = nullptr;
   WindowKeyboard keyboard;
-  bool clicked = false;
+  std::vector<PointerEvent> pointer;
   Moves moves;
   double mouse_x = 0.0, mouse_y = 0.0;
 
@@ -51,6 +52,22 @@ struct Window::State {
     glfwTerminate();
   }
 
+  /// In pixels of the picture: GLFW speaks in screen coordinates.
+  std::pair<double, double> px_per_unit() const {
+    int width = 1, height = 1, width_px = 1, height_px = 1;
+    glfwGetWindowSize(window, &width, &height);
+    glfwGetFramebufferSize(window, &width_px, &height_px);
+    return {static_cast<double>(width_px) / std::max(width, 1), static_cast<double>(height_px) / std::max(height, 1)};
+  }
+  void point(PointerEvent event) {
+    glfwGetCursorPos(window, &event.x_px, &event.y_px);
+    const auto [across, down] = px_per_unit();
+    event.x_px *= across, event.y_px *= down;
+    constexpr auto kMove = PointerEvent::Kind::kMove;
+    if (event.kind == kMove && !pointer.empty() && pointer.back().kind == kMove) pointer.pop_back();
+    pointer.push_back(event);
+  }
+
   static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
     if (action == GLFW_REPEAT) return of(window).keyboard.repeat(code_of(key, scancode, mods));
@@ -59,15 +76,23 @@ struct Window::State {
                             WindowKeyboard::Time::clock::now());
   }
   static void on_button(GLFWwindow* window, int button, int action, int) {
-    if (action == GLFW_PRESS && button == GLFW_MOUSE_BUTTON_LEFT) of(window).clicked = true;
+    using Button = PointerEvent::Button;
+    if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    of(window).point({.kind = action == GLFW_PRESS ? PointerEvent::Kind::kPress : PointerEvent::Kind::kRelease,
+                      .button = button == GLFW_MOUSE_BUTTON_LEFT    ? Button::kLeft
+                                : button == GLFW_MOUSE_BUTTON_RIGHT ? Button::kRight
+                                                                    : Button::kMiddle});
   }
-  static void on_wheel(GLFWwindow* window, double, double lines) { of(window).moves.wheel += lines; }
+  static void on_wheel(GLFWwindow* window, double, double lines) {
+    of(window).point({.kind = PointerEvent::Kind::kWheel, .wheel = lines});
+  }
   static void on_mouse(GLFWwindow* window, double x, double y) {
     State& state = of(window);
     const double right = x - std::exchange(state.mouse_x, x), down = y - std::exchange(state.mouse_y, y);
     const auto held = [&](int button) { return glfwGetMouseButton(window, button) == GLFW_PRESS; };
     if (held(GLFW_MOUSE_BUTTON_RIGHT)) state.moves.turn_x_px -= right, state.moves.turn_y_px -= down;
     if (held(GLFW_MOUSE_BUTTON_MIDDLE)) state.moves.shift_x_px += right, state.moves.shift_y_px += down;
+    state.point({.kind = PointerEvent::Kind::kMove});
   }
   static void on_character(GLFWwindow* window, unsigned character) {
     // On every keyboard another key with Shift.
@@ -116,8 +141,8 @@ bool Window::poll() {
   return glfwWindowShouldClose(state_->window) == GLFW_FALSE;
 }
 
-bool Window::take_click() {
-  return std::exchange(state_->clicked, false);
+std::vector<PointerEvent> Window::take_pointer() {
+  return std::exchange(state_->pointer, {});
 }
 Window::Moves Window::take_moves() {
   return std::exchange(state_->moves, {});
@@ -132,7 +157,6 @@ GLFWwindow* Window::handle() const {
 }
 
 Window::Mouse Window::mouse() const {
-  // GLFW speaks in screen coordinates; the picture has as many pixels as the framebuffer.
   int window_width = 1, window_height = 1;
   Mouse mouse;
   glfwGetWindowSize(state_->window, &window_width, &window_height);
@@ -140,8 +164,8 @@ Window::Mouse Window::mouse() const {
   glfwGetCursorPos(state_->window, &mouse.x_px, &mouse.y_px);
   if (window_width < 1 || window_height < 1 || mouse.width_px < 1 || mouse.height_px < 1) return {};
   mouse.inside = mouse.x_px >= 0 && mouse.y_px >= 0 && mouse.x_px < window_width && mouse.y_px < window_height;
-  mouse.x_px *= static_cast<double>(mouse.width_px) / window_width;
-  mouse.y_px *= static_cast<double>(mouse.height_px) / window_height;
+  const auto [across, down] = state_->px_per_unit();
+  mouse.x_px *= across, mouse.y_px *= down;
   return mouse;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/base/result.h"
+#include "visual/process/pointer_event.h"
 #include "visual/process/window_keyboard.h"
 
 struct GLFWwindow;
@@ -41,11 +42,12 @@ class Window {
     bool inside = false;
   };
   Mouse mouse() const;
-  bool take_click();  ///< of the left button, since the last call
-  /// What the mouse was moved by since the last call: with the right button held, with the middle one, and its wheel.
+  /// What it did since the last call, oldest first; of moves in a row the last.
+  std::vector<PointerEvent> take_pointer();
+  /// What the mouse was moved by since the last call: with the right button held and with the middle one.
   /// Pixels to the right are negative turns: the picture follows the hand; up is positive.
   struct Moves {
-    double turn_x_px = 0.0, turn_y_px = 0.0, shift_x_px = 0.0, shift_y_px = 0.0, wheel = 0.0;
+    double turn_x_px = 0.0, turn_y_px = 0.0, shift_x_px = 0.0, shift_y_px = 0.0;
   };
   Moves take_moves();
   GLFWwindow* handle() const;
