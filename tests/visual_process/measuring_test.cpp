@@ -73,6 +73,7 @@ class Measuring : public testing::Test {
   }
 
   Scene scene_;
+  World world_{scene_};
   Lamps lamps_;
   VehicleState car_;
   Desk desk_;
@@ -261,7 +262,7 @@ TEST_F(Measuring, MarksAreSeenWhereTheyLie) {
 }
 
 TEST_F(Measuring, WhatIsOffCostsNothing) {
-  PictureInstruments off(desk_, lamps_, scene_, RoadLine(), ProbeLog(testing::TempDir(), false));
+  PictureInstruments off(desk_, lamps_, world_, RoadLine(), ProbeLog(testing::TempDir(), false));
   off.see({SimTime{0}, car_, Camera{}, 1.6});
   EXPECT_EQ(off.marks(true).size(), 0u) << "so there is no pass for them";
   EXPECT_TRUE(off.lines().empty());
@@ -286,7 +287,7 @@ TEST_F(Measuring, TheLinesTellTheExposure) {
 }
 
 TEST_F(Measuring, APointOfThePictureIsWhatIsSeenThere) {
-  PictureInstruments instruments(desk_, lamps_, scene_, RoadLine(), ProbeLog());
+  PictureInstruments instruments(desk_, lamps_, world_, RoadLine(), ProbeLog());
   Camera camera;
   camera.eye_m = {0.0, 0.0, 3.2};
   instruments.see({SimTime{0}, car_, camera, 16.0 / 9.0});
@@ -309,7 +310,7 @@ TEST_F(Measuring, ProbesAreKeptTenTimesASecond) {
   std::filesystem::create_directories(folder);
   desk_.probes = {{Probe::Frame::kCar, {23.0, 0.6, 0.0}}, {Probe::Frame::kRoad, {20.0, 0.0, 0.0}}};
   {
-    PictureInstruments instruments(desk_, lamps_, scene_, RoadLine(), ProbeLog(folder, false));
+    PictureInstruments instruments(desk_, lamps_, world_, RoadLine(), ProbeLog(folder, false));
     for (int frame = 0; frame < 30; ++frame) {
       instruments.see({SimTime{frame * 16'666'667}, car_, Camera{}, 1.6});
       EXPECT_TRUE(instruments.log());

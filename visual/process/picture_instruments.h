@@ -19,6 +19,7 @@ class PictureInstruments {
  public:
   /// All three outlive it.
   PictureInstruments(const Desk& desk, const Lamps& lamps, const World& world, RoadLine road, ProbeLog log);
+  PictureInstruments(const Desk&, const Lamps&, World&&, RoadLine, ProbeLog) = delete;
 
   const RoadLine& road() const { return road_; }
   /// The moment that a picture shows: what the others speak of.
