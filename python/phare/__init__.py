@@ -18,6 +18,7 @@ from .control import (
     Answer, Controller, Given, LampLight, LampOfLaw, Program, RoadUser, RoadUserSeen, Sensors, SourceOfLaw, Together,
     read_road_users,
 )
+from .detection import Detection, detect_pedestrians, threshold_cdm2, visibility_level
 from .drive import Report, drive, free_ports
 from .drive_file import Drive, poses, read_drive, write_drive
 from .edges import oncoming_glare, visibility
@@ -30,9 +31,10 @@ from .rating import Iihs, rate_iihs
 from .rig import Channel, Design, LampPlace, Rig, Source, generated_file, shipped_file
 
 __all__ = [
-    "Answer", "BadInput", "Channel", "Comparison", "Controller", "Design", "Drive", "Failed", "Given", "Glare", "Hspr", "Iihs",
+    "Answer", "BadInput", "Channel", "Comparison", "Controller", "Design", "Detection", "Drive", "Failed", "Given", "Glare", "Hspr", "Iihs",
     "Lamp", "LampLight", "LampOfLaw", "LampPlace", "LawFailed", "Mounted", "NotFound", "PhareError", "Program",
     "Report", "Rig", "RoadUser", "RoadUserSeen", "Sensors", "Source", "SourceOfLaw", "Table", "Together", "Verdict",
-    "drive", "free_ports", "generated_file", "judge_glare", "laws", "measure", "oncoming_glare", "poses", "program", "rate_iihs",
-    "read_drive", "read_road_users", "shipped_file", "sweep", "version", "visibility", "write_drive",
+    "detect_pedestrians", "drive", "free_ports", "generated_file", "judge_glare", "laws", "measure", "oncoming_glare", "poses", "program", "rate_iihs",
+    "read_drive", "read_road_users", "shipped_file", "sweep", "threshold_cdm2", "version", "visibility",
+    "visibility_level", "write_drive",
 ]
