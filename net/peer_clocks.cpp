@@ -96,10 +96,13 @@ void to_our_clock(Datagram& datagram, std::int64_t ahead_ns) {
     if (stamp.ns == 0 || __builtin_sub_overflow(stamp.ns, ahead_ns, &stamp.ns)) stamp.ns = 0;  // none
   };
   shift(datagram.sent);
-  if (auto* cockpit = std::get_if<CockpitState>(&datagram.payload)) {
-    shift(cockpit->light_change_wall);
-    shift(cockpit->source_stamp);
-  }
+  const auto shift_controls = [&](CockpitState& controls) {
+    shift(controls.light_change_wall);
+    shift(controls.source_stamp);
+  };
+  if (auto* cockpit = std::get_if<CockpitState>(&datagram.payload)) shift_controls(*cockpit);
+  if (auto* start = std::get_if<FrameStart>(&datagram.payload))
+    shift_controls(start->controls);  // by the sender's clock
 }
 
 }  // namespace phare

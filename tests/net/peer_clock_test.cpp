@@ -204,6 +204,10 @@ TEST(PeerClocks, StampsOfTheCockpitAreReadInOurTime) {
   EXPECT_EQ(datagram.sent.ns, 5'900'000'000);
   EXPECT_EQ(std::get<CockpitState>(datagram.payload).light_change_wall.ns, 4'900'000'000);
   EXPECT_EQ(std::get<CockpitState>(datagram.payload).source_stamp.ns, 0) << "none stays none";
+  // Controls that the first picture hands on are stamped by its clock.
+  Datagram start{Sender::kVisual, 0, 1, 1, SimTime{}, WallTime{6'000'000'000}, FrameStart{1, state, {}, false}};
+  to_our_clock(start, 100'000'000);
+  EXPECT_EQ(std::get<FrameStart>(start.payload).controls.light_change_wall.ns, 4'900'000'000);
 }
 
 }  // namespace
