@@ -1,5 +1,7 @@
 """process: one sweep on this machine, by Dask and by Slurm: the same table, also where workers are killed in the middle."""
 
+import asyncio
+import concurrent.futures
 import io
 import json
 import os
@@ -125,6 +127,20 @@ def test_a_scheduler_that_is_lost_is_told_and_the_sweep_goes_on_without(plan, he
         worker.wait()
     done = sweep.run_plan(plan, out, progress=io.StringIO())
     assert 1 <= done.ran <= 4 and done.file.read_bytes() == here and not leftovers(out)
+
+
+@pytest.mark.parametrize("lost", [OSError("in <TCP (closed)>: Stream is closed"), asyncio.CancelledError(), concurrent.futures.CancelledError()])
+def test_a_scheduler_that_is_lost_in_the_middle_of_an_answer_is_told_too(lost):
+    pytest.importorskip("distributed", reason="Dask is not tried: apt-get install python3-distributed")
+
+    class Broken:
+        status = "finished"
+
+        def result(self):
+            raise lost
+
+    with pytest.raises(phare.Failed, match="tcp://gone: the scheduler is gone; the same command goes on"):
+        sweep.Dask("tcp://gone")._why(Broken(), None)
 
 
 def test_a_cluster_of_its_own(plan, here, tmp_path):

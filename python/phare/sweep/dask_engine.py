@@ -6,10 +6,12 @@ see the folder of the sweep, the plan's files and Phare's programs under the sam
 
 from __future__ import annotations
 
+import asyncio
+import concurrent.futures
 import os
 import time
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any, Callable, Iterator
 
 from ..errors import BadInput, Failed
 from ..programs import program
@@ -76,19 +78,26 @@ class Dask(Engine):
                 yield job, why
             if client.status != "running":
                 raise Failed(self._gone())
-            if not told and time.monotonic() - last_s > _TELL_AFTER_S and not client.scheduler_info()["workers"]:
+            if not told and time.monotonic() - last_s > _TELL_AFTER_S and not self._asked(lambda: client.scheduler_info()["workers"]):
                 told = True
                 work.tell(f"waiting: {self._address} has no worker")
 
     def _gone(self) -> str:
         return f"--dask {self._address}: the scheduler is gone; the same command goes on from here"
 
+    def _asked(self, question: Callable[[], Any]) -> Any:
+        """The scheduler's answer; Failed where the way to it breaks off meanwhile."""
+        try:
+            return question()
+        except (OSError, asyncio.CancelledError, concurrent.futures.CancelledError) as wrong:
+            raise Failed(self._gone()) from wrong
+
     def _why(self, future: Any, work: Work) -> str:
         if future.status in ("cancelled", "lost"):
             raise Failed(self._gone())
         if future.status == "error":
-            wrong = future.exception()
+            wrong = self._asked(future.exception)
             if isinstance(wrong, self._distributed.scheduler.KilledWorker):
                 return "its workers were lost, again and again"
             return f"{type(wrong).__name__}: {wrong}"
-        return "" if future.result() else f"a worker does not see {work.folder}"
+        return "" if self._asked(future.result) else f"a worker does not see {work.folder}"
