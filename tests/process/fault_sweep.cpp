@@ -12,12 +12,13 @@ int main(int argc, char** argv) {
   using namespace phare::test;
   int faults = 200, each = 20;
   std::uint64_t seed = 1;
-  std::string kind = "all";
+  std::string kind = "all", time = "both";
   CLI::App app{"Drives with faults at random times, and what every picture showed meanwhile"};
   app.add_option("--faults", faults, "Of each kind, in real time and in lockstep")->capture_default_str();
   app.add_option("--each", each, "Faults in one drive")->capture_default_str();
   app.add_option("--seed", seed, "Of the first drive; it counts on")->capture_default_str();
   app.add_option("--kind", kind, "kill, stop, both or all")->check(CLI::IsMember({"kill", "stop", "both", "all"}));
+  app.add_option("--time", time, "real, lockstep or both")->check(CLI::IsMember({"real", "lockstep", "both"}));
   CLI11_PARSE(app, argc, argv);
 
   bool good = true;
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   for (int k = 0; k < 3; ++k) {
     if (kind != "all" && kind != names[k]) continue;
     for (const bool lockstep : {false, true}) {
+      if (time != "both" && (time == "lockstep") != lockstep) continue;
       FaultResult sum;
       int drives = 0, lost = 0;
       for (int done = 0; done < faults; done += each, ++drives) {
