@@ -90,6 +90,12 @@ namespace {
 using Heights = std::array<double, 4>;
 using Points = std::array<glm::dvec2, 4>;
 
+// What lies on the road along the way, which is asked for once an axle.
+Heights laid_on(const Road& road, double front_m, double rear_m) {
+  const Two front = road.laid(front_m).z_m, rear = road.laid(rear_m).z_m;
+  return {front[0], front[1], rear[0], rear[1]};
+}
+
 // Beside the surface a wheel keeps its last height, raised or lowered with the wheels that do stand on something. A
 // plane without anything on it is where the car began: its wheels are beside the road.
 void live_heights(const Road& road, const Points& points, double front_m, double rear_m, Heights& height,
@@ -98,9 +104,9 @@ void live_heights(const Road& road, const Points& points, double front_m, double
   std::array<bool, 4> beside{nowhere, nowhere, nowhere, nowhere};
   double moved = 0.0;
   int count = 0;
+  const Heights laid = laid_on(road, front_m, rear_m);
   for (std::size_t i = 0; i < 4 && !nowhere; ++i) {
-    const double z =
-        road.height_m(points[i].x, points[i].y, i < 2 ? front_m : rear_m, i % 2 == 0, height[i], &beside[i]);
+    const double z = road.base_m(points[i].x, points[i].y, height[i], &beside[i]) + laid[i];
     if (beside[i]) continue;
     moved += z - height[i];
     height[i] = z;
@@ -113,8 +119,13 @@ void live_heights(const Road& road, const Points& points, double front_m, double
 
 void batch_heights(const Road& road, const Points& points, double front_m, double rear_m, Heights& height,
                    bool& off_road) {
-  for (std::size_t i = 0; i < 4; ++i)
-    height[i] = road.height_m(points[i].x, points[i].y, i < 2 ? front_m : rear_m, i % 2 == 0, height[i], &off_road);
+  const Heights laid = laid_on(road, front_m, rear_m);
+  for (std::size_t i = 0; i < 4; ++i) {
+    bool beside = false;
+    const double z = road.base_m(points[i].x, points[i].y, height[i], &beside) + laid[i];
+    if (!beside) height[i] = z;
+    off_road |= beside;
+  }
 }
 
 }  // namespace

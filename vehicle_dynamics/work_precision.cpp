@@ -136,13 +136,9 @@ void add_kinematic(const VehicleParams& vehicle, const Road& road, const std::ve
     s.speed_mps = 80.0 / 3.6;
     double path = 0.0;
     const auto stand = [&](double h) {
-      std::array<double, 4> z;
-      for (std::size_t i = 0; i < 4; ++i) {
-        bool off = false;
-        const double at = path + (i < 2 ? vehicle.cg_to_front_m : vehicle.cg_to_front_m - vehicle.wheelbase_m);
-        z[i] = road.at(0.0, 0.0, at, i % 2 == 0, 0.0, &off).z_m;
-      }
-      kinematic::stand_on(vehicle, z, s, h);
+      const Two front = road.laid(path + vehicle.cg_to_front_m).z_m,
+                rear = road.laid(path + vehicle.cg_to_front_m - vehicle.wheelbase_m).z_m;
+      kinematic::stand_on(vehicle, {front[0], front[1], rear[0], rear[1]}, s, h);
     };
     stand(0.0);
     const auto per_grid = std::max<long>(1, std::lround(kGrid_s / dt));

@@ -209,6 +209,29 @@ TEST(StepLoop, BesideTheRoadTheHeightIsHeld) {
   EXPECT_GT(loop.state().z_m, 1.5);
 }
 
+// What lies on a road ends with it: a wheel beside it stands as high as it last did, and does not take the roughness on
+// top of its last height again in every step.
+TEST(StepLoop, BesideARoughRoadTheHeightIsHeld) {
+  for (const Level level : {Level::kKinematic, Level::kSingleTrack, Level::kFull}) {
+    SCOPED_TRACE(static_cast<int>(level));
+    RunSetup setup = kinematic_setup();
+    setup.level = level;
+    setup.road = test::tilted_plane(0.0, 0.0, 20.0);
+    setup.on_top.profiles.push_back(HeightProfile::iso8608(RoughnessClass::kC, 7));
+    Result<SprungParams> sprung = SprungParams::of(setup.vehicle, "test");
+    ASSERT_TRUE(sprung) << sprung.error().text();
+    setup.sprung = *sprung;
+    CarState start;
+    start.speed_mps = 15.0;
+    StepLoop loop(setup, start);
+    loop.run_to(seconds(4.0));
+    ASSERT_TRUE(loop.off_road());
+    ASSERT_GT(loop.state().x_m, 40.0);
+    // Class C is 6 mm rms over all its waves, and its highest point of 1 km below 3 cm.
+    for (const double z : loop.state().contact_z_m) EXPECT_LT(std::abs(z), 0.03);
+  }
+}
+
 // The lever of the parking brake alone, in neutral on 12 %: half of the brakes, at the rear wheels, holds every level;
 // let go, every level rolls.
 TEST(StepLoop, ParkingBrakeHoldsOnAGrade) {

@@ -56,8 +56,10 @@ Geometry geometry(const Params& p, const Input& input, const State& s, double t_
       if (input.road) g.friction[i] = input.road->friction_everywhere;
     } else if (input.road) {
       const Road::Laid& on_it = laid[i / 2];
-      base_m[i] = input.road->base_m(s.x_m + x[i], s.y_m + y[i], input.height_m[i], &g.off_road);
-      g.ground_m[i] = base_m[i] + on_it.z_m[i % 2];
+      bool beside = false;  // what lies on the road ends with it
+      base_m[i] = input.road->base_m(s.x_m + x[i], s.y_m + y[i], input.height_m[i], &beside);
+      g.ground_m[i] = base_m[i] + (beside ? 0.0 : on_it.z_m[i % 2]);
+      g.off_road |= beside;
       g.friction[i] = on_it.friction[i % 2] * input.road->base_friction(s.x_m + x[i], s.y_m + y[i]);
     }
   }

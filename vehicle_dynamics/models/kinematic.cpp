@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "config/base/conventions.h"
+#include "config/base/two.h"
 #include "vehicle_dynamics/models/air.h"
 
 namespace phare::kinematic {
@@ -14,13 +15,22 @@ double sign(double value) {
   return value > 0.0 ? 1.0 : (value < 0.0 ? -1.0 : 0.0);
 }
 
+// The plane under the car, asked for once a step.
+struct Slopes {
+  double pitch_sine, pitch_cosine, roll_sine;
+};
+Slopes slopes_of(const CarState& s) {
+  const SineCosine road = sine_cosine(Two{s.road_pitch_rad, s.road_roll_rad});
+  return {road.sine[0], road.cosine[0], road.sine[1]};
+}
+
 // Speed after dt. Brakes and rolling resistance only ever oppose the motion: they stop the car at exactly 0 and hold it
 // there.
-double next_speed_mps(const VehicleParams& p, const Push& wheels, const CarState& s, double dt) {
+double next_speed_mps(const VehicleParams& p, const Push& wheels, const Slopes& road, const CarState& s, double dt) {
   const double v = s.speed_mps;
   const double drag = drag_n(p.drag_area_m2, v);
-  const double push = wheels.drive_n + p.mass_kg * kGravity_mps2 * std::sin(s.road_pitch_rad) - drag;
-  const double hold = wheels.brake_n + p.rolling_coefficient * p.mass_kg * kGravity_mps2 * std::cos(s.road_pitch_rad);
+  const double push = wheels.drive_n + p.mass_kg * kGravity_mps2 * road.pitch_sine - drag;
+  const double hold = wheels.brake_n + p.rolling_coefficient * p.mass_kg * kGravity_mps2 * road.pitch_cosine;
   const double inertia = p.mass_kg + 4.0 * p.wheel_inertia_kgm2 / (p.tyre_radius_m * p.tyre_radius_m);
 
   if (v == 0.0) return std::abs(push) <= hold ? 0.0 : (push - sign(push) * hold) / inertia * dt;
@@ -54,6 +64,21 @@ struct Approach {
   }
 };
 
+// A drive steps by one length: what follows from it alone is worked out once.
+const Approach& approach_of(const VehicleParams& p, double dt) {
+  struct Known {
+    double frequency_hz, damping, dt_s;
+    Approach approach;
+  };
+  const auto known = [&] {
+    return Known{p.ride_frequency_hz, p.ride_damping, dt,
+                 Approach(2.0 * std::numbers::pi * p.ride_frequency_hz, p.ride_damping, dt)};
+  };
+  thread_local Known last = known();
+  if (last.frequency_hz != p.ride_frequency_hz || last.damping != p.ride_damping || last.dt_s != dt) last = known();
+  return last.approach;
+}
+
 }  // namespace
 
 Attitude quasi_static_attitude(const VehicleParams& p, double fx_mps2, double fy_mps2) {
@@ -83,9 +108,9 @@ double pushed_n(const VehicleParams& p, const CarState& s) {
 namespace {
 
 // What is felt in the car: acceleration less gravity along the road plane.
-Attitude attitude_of(const VehicleParams& p, const CarState& s) {
-  const double fx = s.ax_mps2 - kGravity_mps2 * std::sin(s.road_pitch_rad);
-  const double fy = s.ay_mps2 + kGravity_mps2 * std::cos(s.road_pitch_rad) * std::sin(s.road_roll_rad);
+Attitude attitude_of(const VehicleParams& p, const Slopes& road, const CarState& s) {
+  const double fx = s.ax_mps2 - kGravity_mps2 * road.pitch_sine;
+  const double fy = s.ay_mps2 + kGravity_mps2 * road.pitch_cosine * road.roll_sine;
   return quasi_static_attitude(p, fx, fy);
 }
 
@@ -93,8 +118,9 @@ Attitude attitude_of(const VehicleParams& p, const CarState& s) {
 
 void stand(const VehicleParams& p, const Push& push, CarState& s) {
   constexpr double kMoment_s = 1e-3;
-  s.ax_mps2 = next_speed_mps(p, push, s, kMoment_s) / kMoment_s;
-  const Attitude rest = attitude_of(p, s);
+  const Slopes road = slopes_of(s);
+  s.ax_mps2 = next_speed_mps(p, push, road, s, kMoment_s) / kMoment_s;
+  const Attitude rest = attitude_of(p, road, s);
   s.pitch_rad = rest.pitch_rad, s.roll_rad = rest.roll_rad, s.heave_m = rest.heave_m;
   s.pitch_rate_radps = s.roll_rate_radps = s.heave_rate_mps = 0.0;
 }
@@ -106,8 +132,9 @@ void advance(const VehicleParams& p, double steering_wheel_rad, const Push& push
   s.steer_rad += std::clamp(wheel / p.steering_ratio - s.steer_rad, -most, most);
 
   // speed
+  const Slopes road = slopes_of(s);
   const double before = s.speed_mps;
-  s.speed_mps = next_speed_mps(p, push, s, dt);
+  s.speed_mps = next_speed_mps(p, push, road, s, dt);
   s.ax_mps2 = (s.speed_mps - before) / dt;
   const double v = 0.5 * (before + s.speed_mps);
 
@@ -117,23 +144,25 @@ void advance(const VehicleParams& p, double steering_wheel_rad, const Push& push
   curvature = std::clamp(curvature, -grip, grip);
   const double turned = v * curvature * dt;
   const double half = 0.5 * turned;
-  const double chord = v * dt * (std::abs(half) < 1e-9 ? 1.0 : std::sin(half) / half) * std::cos(s.road_pitch_rad);
-  s.x_m += chord * std::cos(s.yaw_rad + half);
-  s.y_m += chord * std::sin(s.yaw_rad + half);
+  const SineCosine course = sine_cosine(Two{s.yaw_rad + half, half});
+  const double chord = v * dt * (std::abs(half) < 1e-9 ? 1.0 : course.sine[1] / half) * road.pitch_cosine;
+  s.x_m += chord * course.cosine[0];
+  s.y_m += chord * course.sine[0];
   s.yaw_rad += turned;
   s.yaw_rate_radps = s.speed_mps * curvature;
   s.ay_mps2 = s.speed_mps * s.yaw_rate_radps;
 
   // attitude
-  const Attitude target = attitude_of(p, s);
-  const Approach approach(2.0 * std::numbers::pi * p.ride_frequency_hz, p.ride_damping, dt);
+  const Attitude target = attitude_of(p, road, s);
+  const Approach& approach = approach_of(p, dt);
   approach(s.pitch_rad, s.pitch_rate_radps, target.pitch_rad);
   approach(s.roll_rad, s.roll_rate_radps, target.roll_rad);
   approach(s.heave_m, s.heave_rate_mps, target.heave_m);
 }
 
 std::array<glm::dvec2, 4> contact_points(const VehicleParams& p, const CarState& s) {
-  const glm::dvec2 forward(std::cos(s.yaw_rad), std::sin(s.yaw_rad)), left(-forward.y, forward.x);
+  const SineCosine yaw = sine_cosine(both(s.yaw_rad));
+  const glm::dvec2 forward(yaw.cosine[0], yaw.sine[0]), left(-forward.y, forward.x);
   const glm::dvec2 rear(s.x_m, s.y_m);
   const glm::dvec2 front = rear + p.wheelbase_m * forward, side = 0.5 * p.track_m * left;
   return {front + side, front - side, rear + side, rear - side};
@@ -142,9 +171,10 @@ std::array<glm::dvec2, 4> contact_points(const VehicleParams& p, const CarState&
 void stand_on(const VehicleParams& p, const std::array<double, 4>& h, CarState& s, double dt) {
   const double front = 0.5 * (h[0] + h[1]), rear = 0.5 * (h[2] + h[3]);
   const double left = 0.5 * (h[0] + h[2]), right = 0.5 * (h[1] + h[3]);
-  const double pitch = -std::atan((front - rear) / p.wheelbase_m);
-  // Roll turns about the pitched x axis, hence the cosine: R = Rz·Ry·Rx then puts the car's z on the plane's normal.
-  const double roll = std::atan((left - right) / p.track_m * std::cos(pitch));
+  const double rise = (front - rear) / p.wheelbase_m;
+  // Roll turns about the pitched x axis, hence its cosine: R = Rz·Ry·Rx then puts the car's z on the plane's normal.
+  const Two angles = arctangent(Two{rise, (left - right) / p.track_m / std::sqrt(1.0 + rise * rise)});
+  const double pitch = -angles[0], roll = angles[1];
   s.road_pitch_rate_radps = dt > 0.0 ? (pitch - s.road_pitch_rad) / dt : 0.0;
   s.road_roll_rate_radps = dt > 0.0 ? (roll - s.road_roll_rad) / dt : 0.0;
   s.road_pitch_rad = pitch;

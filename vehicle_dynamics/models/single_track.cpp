@@ -239,16 +239,22 @@ Asked ask_road(const Params& p, const chassis::Input& in, const State& s, double
   const auto axle = [&](std::size_t left) __attribute__((always_inline)) {  // twice in every step
     const double path = s.path_m + p.car.x_m[left];
     const Road::Laid here = in.road->laid(path), there = in.road->laid(path + travelled);
-    Two from = here.z_m, to = there.z_m, here_friction = here.friction;
+    Two from = here.z_m, to = there.z_m, here_friction = here.friction, bend_of = both(1.0);
     if (in.road->placed()) {
       const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
       const double dx = (s.u_mps * c - s.v_mps * sn) * dt, dy = (s.u_mps * sn + s.v_mps * c) * dt;
       for (std::size_t side = 0; side < 2; ++side) {
         const std::size_t i = left + side;
         const double x = s.x_m + c * p.car.x_m[i] - sn * p.car.y_m[i], y = s.y_m + sn * p.car.x_m[i] + c * p.car.y_m[i];
-        const double base = in.road->base_m(x, y, in.height_m[i], &off),
-                     next = in.road->base_m(x + dx, y + dy, in.height_m[i], &off);
-        from[side] += base, to[side] += next;
+        bool beside = false;
+        const double base = in.road->base_m(x, y, in.height_m[i], &beside),
+                     next = in.road->base_m(x + dx, y + dy, in.height_m[i], &beside);
+        if (beside) {  // what lies on the road ends with it
+          from[side] = to[side] = in.height_m[i], bend_of[side] = 0.0;
+        } else {
+          from[side] += base, to[side] += next;
+        }
+        off |= beside;
         bank += (side == 0 ? 0.5 : -0.5) * (base + next);
         here_friction[static_cast<int>(side)] *= in.road->base_friction(x, y);
       }
@@ -256,7 +262,7 @@ Asked ask_road(const Params& p, const chassis::Input& in, const State& s, double
       from += in.road->z_m, to += in.road->z_m;
     }
     friction += here_friction;
-    const Two bend = (there.slope - here.slope) * (0.5 * s.u_mps * per_s);
+    const Two bend = bend_of * ((there.slope - here.slope) * (0.5 * s.u_mps * per_s));
     // The exponential step looks at its two ends and takes a straight line between: shifted by what the parabola's mean
     // lies beside theirs, the road pushes as much.
     const Two shift = p.integrator == Integrator::kEtd2 ? bend * (dt * dt / -6.0) : Two{};

@@ -119,6 +119,7 @@ extern "C" Four _ZGVdN4v_cos(Four);
     fx_n[i] = ex[i] * p.long_peak * scale;
     fy_n[i] = ey[i] * p.lat_peak * scale;
   }
+  __builtin_ia32_vzeroupper();  // as in config/base/two.cpp
 }
 
 const bool kFourLanes = __builtin_cpu_supports("avx2");
