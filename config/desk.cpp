@@ -399,6 +399,8 @@ constexpr DeskSetting kSettings[] = {
      set_level<&Desk::shadows, kShadowNames>, get_level<&Desk::shadows, kShadowNames>},
     {"fog", "auto, off, coarse, medium, fine", "light scattered in fog; auto: as the visibility calls for", true,
      set_level<&Desk::fog, kFogNames>, get_level<&Desk::fog, kFogNames>},
+    {"precipitation", "auto, off", "drops and flakes near the eye, one by one; auto: as they fall", true,
+     set_level<&Desk::precipitation, kOffNames>, get_level<&Desk::precipitation, kOffNames>},
     {"glare", "auto, off", "light that lamps scatter in the eye; auto: as they shine into it", true,
      set_level<&Desk::glare, kOffNames>, get_level<&Desk::glare, kOffNames>},
     {"age_years", "1 to 120", "of who looks: how much light the eye scatters", true,
@@ -407,6 +409,10 @@ constexpr DeskSetting kSettings[] = {
      set_number<&Desk::iris_pigment, 0, 12>, get_number<&Desk::iris_pigment>},
     {"visibility_m", "clear, 1 to 100000", "meteorological visibility: fog from it, with the beams in it", true,
      set_visibility, get_visibility, "weather"},
+    {"rain_mmph", "0 to 100", "rain: its drops in the beams, and what it takes of them", true,
+     set_number<&Desk::rain_mmph, 0, 10 * kMostRain_mmph>, get_number<&Desk::rain_mmph>, "weather"},
+    {"snow_mmph", "0 to 10", "snow, mm/h of water: its flakes in the beams, and what it takes of them", true,
+     set_number<&Desk::snow_mmph, 0, 10 * kMostSnow_mmph>, get_number<&Desk::snow_mmph>, "weather"},
 };
 
 }  // namespace

@@ -73,6 +73,8 @@ inline constexpr std::array<std::string_view, 4> kFogNames{"off", "coarse", "med
 
 /// Meteorological visibility that may be set: fog of a steam bath, and air in which nothing near is dimmed.
 inline constexpr double kLeastVisibility_m = 1.0, kMostVisibility_m = 100000.0;
+/// Rain and snow that may be set, mm/h of water: a cloudburst, and a snowstorm.
+inline constexpr int kMostRain_mmph = 100, kMostSnow_mmph = 10;
 
 struct Desk {
   CameraKind camera = CameraKind::kDriver;
@@ -98,8 +100,9 @@ struct Desk {
   bool help = false;                  ///< every key
   bool panel = false;                 ///< what is set by the mouse (visual/process/panel.h)
   /// Levels of these effects (visual/effects.h); without one the scene decides.
-  std::optional<std::size_t> shadows, depth_first, fog, glare;
-  std::optional<double> visibility_m;  ///< meteorological optical range (photometry/table/fog.h); none: clear air
+  std::optional<std::size_t> shadows, depth_first, fog, precipitation, glare;
+  std::optional<double> visibility_m;       ///< meteorological optical range (photometry/table/fog.h); none: no fog
+  double rain_mmph = 0.0, snow_mmph = 0.0;  ///< of water (photometry/table/precipitation.h)
 
   double age_years = 40.0;    ///< of who looks: light scattered in the eye (photometry/table/veil.h)
   double iris_pigment = 0.5;  ///< 0 black, 0.5 brown, 1 light, 1.2 very light and blue

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define PHARE_COMPUTE
 #include "fog.h"
+#include "precipitation.h"
 #include "lib/beam.glsl"
 #include "lib/fog.glsl"
 
@@ -21,12 +22,14 @@ layout(constant_id = kSpecFogSteps) const uint least_steps = 1;
 layout(constant_id = kSpecFogWidest) const float widest_deg = 10.0;
 layout(constant_id = kSpecFogAdd) const uint add = 0;
 
-// 1/sr, between a lamp's light going on as it came (0) and coming back (pi).
-float phase_at(float angle_deg) {
+// 1/sr, between a lamp's light going on as it came (0) and coming back (pi), `way_m` from the eye: what is drawn drop by drop is not in it.
+float phase_at(float angle_deg, float way_m) {
   float at = angle_deg * (float(kFogPhaseSteps) / 180.0);
   float step = min(floor(at), float(kFogPhaseSteps) - 1.0);
-  vec2 ends = texelFetch(phase, int(step)).xy;
-  return mix(ends.x, ends.y, at - step);
+  vec4 ends = texelFetch(phase, int(step));
+  vec2 all_particles = mix(ends.xz, ends.yw, at - step);
+  float drawn = way_m < kDropsFrom_m ? 0.0 : dot(frame.fog.drawn_share.xyz, vec3(lessThan(vec3(way_m), frame.fog.drawn_to_m.xyz)));
+  return all_particles.x - drawn * all_particles.y;
 }
 
 void main() {
@@ -59,7 +62,7 @@ void main() {
       float at_deg = angle_##I + step_deg * point, at = radians(at_deg), past = d_##I * tan(at), r = d_##I / cos(at);                  \
       float cd = lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I),                           \
                             turned_##I * (along_##I + past) - place_##I, 0.0, frame.lamps[I].colour.w).cd;                             \
-      lamp_sum += cd * phase_at(90.0 + at_deg) * fog_left(r + along_##I + past);                                                       \
+      lamp_sum += cd * phase_at(90.0 + at_deg, along_##I + past) * fog_left(r + along_##I + past);                                                       \
       point += narrow ? 1.0 : fract(point) < 0.5 ? 2.0 * kGauss : 1.0 - 2.0 * kGauss;                                                                 \
     }                                                                                                                                  \
     sum += lamp_sum * (radians(narrow ? step_deg : 0.5 * step_deg) / d_##I);                                                                             \

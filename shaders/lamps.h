@@ -111,6 +111,9 @@ struct GpuFog {
   vec4 ray;        // through the upper left corner, from the eye, any length; its changes across and down the view
   vec4 ray_right;
   vec4 ray_down;
+  // Of what rain or snow scatter, drawn drop by drop instead: shares x, y, z of it nearer to the eye than so many m.
+  vec4 drawn_to_m;
+  vec4 drawn_share;
 };
 
 struct GpuFrame {
@@ -121,6 +124,7 @@ struct GpuFrame {
   GpuLamp lamps[kMaxLamps];
   GpuShadow shadows[kMaxLamps];  // of each lamp; read where kSpecShadowMaps has one
   GpuFog fog;                    // read where the air is not clear
+  vec4 size_px;                  // x, y: of the view's part of the picture; z: of a pixel in its middle the solid angle, sr. Read by drops
 };
 
 // Depth of a map is this over the distance along the axis: what is nearer than it casts no shadow.

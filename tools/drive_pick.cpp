@@ -10,6 +10,7 @@
 #include "tools/cost/measure_settings.h"
 #include "tools/cost/progress_line.h"
 #include "tools/cost/settings.h"
+#include "visual/air_of_desk.h"
 #include "visual/photometry/beam/image_levels.h"
 #include "visual/process/governor.h"
 
@@ -84,7 +85,7 @@ Status pick_settings(DriveOptions& options, const Rig& rig) {
                     .width_px = rig.channels.front().width_px,
                     .height_px = rig.channels.front().height_px,
                     .samples = options.picture.samples,
-                    .visibility_m = desk.visibility_m,
+                    .air = air_of(desk),
                     .design = design,
                     .device_name = options.picture.device_name,
                     .progress = {}};

@@ -29,6 +29,7 @@ EffectDecision hdr_image(const EffectFacts& facts) {
   if (facts.clipping)
     return {0, "the view marks what the display clips, where the lamp pass applies the tone curve", true};
   if (facts.glare_drawn) return {1, "light scattered in the eye is added to luminance in cd/m²", true};
+  if (facts.drops_drawn) return {1, "drops are added to luminance in cd/m²", true};
   if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for"};
   return {0, "nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself"};
 }
@@ -39,12 +40,21 @@ EffectDecision overlay(const EffectFacts& facts) {
 }
 
 EffectDecision fog(const EffectFacts& facts) {
-  if (!facts.visibility_m) return {0, "the air is clear"};
+  if (facts.air.clear()) return {0, "the air is clear"};
   if (facts.false_colour) return {0, "the view shows illuminance, as in clear air"};
   if (facts.parallel_rays) return {0, "the view is from above with parallel rays, through no air"};
-  char reason[60];
-  std::snprintf(reason, sizeof reason, "the visibility is %.4g m", *facts.visibility_m);
-  return {2, reason};
+  return {2, words_of(facts.air) + " between the eye and what it sees"};
+}
+
+EffectDecision precipitation(const EffectFacts& facts) {
+  if (!facts.air.falls()) return {0, "neither rain nor snow falls"};
+  if (facts.false_colour) return {0, "the view shows illuminance, as in clear air"};
+  if (facts.clipping) return {0, "the view marks what the display clips of the scene itself"};
+  if (facts.parallel_rays) return {0, "the view is from above with parallel rays, through no air"};
+  if (facts.air_lamps == 0) return {0, "no lamp lights a drop in view"};
+  const bool snow = facts.air.particles().kind == Precipitation::kSnow;
+  return {1, std::to_string(facts.air_lamps) + (facts.air_lamps == 1 ? " lamp lights " : " lamps light ") +
+                 (snow ? "flakes" : "drops") + " near the eye"};
 }
 
 EffectDecision glare(const EffectFacts& facts) {
@@ -71,6 +81,8 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
      {Effect::kOverlay, "overlay", kOffOnNames, "a pass of text over the picture", overlay},
      {Effect::kFog, "fog", kFogNames, "a pass that computes, a buffer of scattered light, and the sky through fog", fog,
       true},
+     {Effect::kPrecipitation, "precipitation", kOffOnNames, "the HDR image; a draw of lines in the lamp pass",
+      precipitation, true},
      {Effect::kGlare, "glare", kOffOnNames, "the HDR image; its pass to the display adds what the eye scatters", glare,
       true},
      {Effect::kGui, "gui", kOffOnNames, "a pass of triangles over the picture, an image of letters", gui}}};
@@ -102,6 +114,7 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
   };
   // What one effect needs of another is a fact for that.
   EffectFacts known = facts;
+  known.drops_drawn = decided(kTable[static_cast<std::size_t>(Effect::kPrecipitation)], facts).level > 0;
   known.glare_drawn = decided(kTable[static_cast<std::size_t>(Effect::kGlare)], facts).level > 0;
   EffectPlan plan;
   for (const EffectRow& row : kTable) plan.decisions[static_cast<std::size_t>(row.effect)] = decided(row, known);

@@ -9,10 +9,12 @@
 #include <string>
 #include <string_view>
 
+#include "visual/photometry/table/air.h"
+
 namespace phare {
 
-enum class Effect : std::size_t { kShadows, kDepthFirst, kHdrImage, kOverlay, kFog, kGlare, kGui };
-inline constexpr std::size_t kEffectCount = 7;
+enum class Effect : std::size_t { kShadows, kDepthFirst, kHdrImage, kOverlay, kFog, kPrecipitation, kGlare, kGui };
+inline constexpr std::size_t kEffectCount = 8;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -24,12 +26,14 @@ struct EffectFacts {
   bool false_colour = false;               ///< the view shows illuminance, not luminance
   bool clipping = false;                   ///< the view marks what the display clips
   std::size_t overlay_lines = 0;           ///< text over the picture
-  std::optional<double> visibility_m{};    ///< of the air; nothing: it is clear
+  Air air{};                               ///< fog, rain, snow
+  std::size_t air_lamps = 0;               ///< whose light goes through what the view sees of the air
   bool parallel_rays = false;              ///< a view from above, through no air
   std::size_t glare_lamps = 0;             ///< that shine into the eye, as far as the display shows it
   double glare_lx = 0.0;                   ///< of them, at the eye
   bool gui = false;                        ///< the panel is shown over the picture
   bool glare_drawn = false;                ///< decided before: the luminance image is read for it
+  bool drops_drawn = false;                ///< decided before: they are added to luminance
 };
 
 /// Level 0 is off. `reason` says the fact that decided.

@@ -82,8 +82,9 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
   const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
-  const EffectPlan effects = plan_effects(facts_of(view.input, lit.lamps, casters, over, glare, parts.device_facts),
-                                          view.input.effects, view.input.picked);
+  const EffectPlan effects =
+      plan_effects(facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, parts.device_facts),
+                   view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
   gpu::Image* light = view.picture.display;
@@ -102,7 +103,11 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
 
   // What fog scatters of the light.
   if (effects.on(Effect::kFog))
-    parts.fog.draw(graph, parts.scene, lit, effects.level(Effect::kFog), view.input, view.area, hdr);
+    parts.fog.draw(graph, parts.scene, lit, effects.level(Effect::kFog), view.input, view.area, hdr,
+                   effects.on(Effect::kPrecipitation));
+
+  // Which drops fall past the eye.
+  if (effects.on(Effect::kPrecipitation)) add_drops(parts.scene, lit, view.input);
 
   // Depth of everything, so that each pixel is lit once.
   const bool depth_done = effects.on(Effect::kDepthFirst);

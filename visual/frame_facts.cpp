@@ -2,11 +2,11 @@
 
 namespace phare {
 
-EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional<std::size_t> casters,
+EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optional<std::size_t> casters,
                      const DrawnOver& over, std::span<const GlaringLamp> glare, const DeviceFacts& device) {
   double glare_lx = 0.0;
   for (const GlaringLamp& source : glare) glare_lx += source.eye_lx;
-  return {.lit_lamps = lit_lamps,
+  return {.lit_lamps = lamps.lit,
           .casters = casters,
           .shadow_maps = device.shadow_maps,
           .software_device = device.software,
@@ -14,7 +14,8 @@ EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional
           .false_colour = view.view == View::kFalseColour,
           .clipping = view.view == View::kClipping,
           .overlay_lines = over.lines,
-          .visibility_m = view.visibility_m,
+          .air = view.air,
+          .air_lamps = lamps.air,
           .parallel_rays = view.camera.orthographic_width_m > 0.0,
           .glare_lamps = glare.size(),
           .glare_lx = glare_lx,

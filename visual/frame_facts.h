@@ -19,9 +19,15 @@ struct DrawnOver {
   bool gui = false;       ///< the panel
 };
 
-/// `lit_lamps`: that light something in the view; `casters`: pieces of the scene that stand in their light, where they
+/// Lamps whose light reaches into a view.
+struct LampsInView {
+  std::size_t lit = 0;  ///< that light something in it
+  std::size_t air = 0;  ///< whose light goes through what it sees of the air
+};
+
+/// `casters`: pieces of the scene that stand in their light, where they
 /// were looked for; `over`: what will lie over it; `glare`: glare_of() it.
-EffectFacts facts_of(const ViewInput& view, std::size_t lit_lamps, std::optional<std::size_t> casters,
+EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optional<std::size_t> casters,
                      const DrawnOver& over, std::span<const GlaringLamp> glare, const DeviceFacts& device);
 
 /// Lamps whose light the eye of the view scatters over its picture (glare_seen).

@@ -5,8 +5,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "visual/photometry/table/fog.h"
-
 namespace phare {
 namespace {
 
@@ -19,9 +17,9 @@ double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
 }  // namespace
 
 GlaringLamp glaring_lamp(const glm::dvec3& lamp_m, double candela, const glm::vec3& colour, const glm::dvec3& eye_m,
-                         std::optional<double> visibility_m) {
+                         const Air& air) {
   const double distance_m = glm::distance(lamp_m, eye_m);
-  const double through_air = visibility_m ? transmittance(extinction_per_m(*visibility_m), distance_m) : 1.0;
+  const double through_air = transmittance(extinction_per_m(air), distance_m);
   return {lamp_m, candela / (distance_m * distance_m) * through_air, colour};
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "visual/photometry/table/air.h"
 #include "visual/photometry/table/veil.h"
 #include "visual/view.h"
 
@@ -18,9 +19,9 @@ struct GlaringLamp {
   glm::vec3 colour{1.0f};   ///< linear sRGB, luminance 1
 };
 
-/// A lamp of so many candela toward an eye elsewhere. `visibility_m`: of the air between them; nothing: it is clear.
+/// A lamp of so many candela toward an eye elsewhere, through that air.
 GlaringLamp glaring_lamp(const glm::dvec3& lamp_m, double candela, const glm::vec3& colour, const glm::dvec3& eye_m,
-                         std::optional<double> visibility_m);
+                         const Air& air);
 
 /// More are left out, the weakest first.
 inline constexpr std::size_t kMostGlaringLamps = 12;

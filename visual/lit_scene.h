@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config/desk.h"
+#include "shaders/precipitation.h"
 #include "visual/beam_store.h"
 #include "visual/gpu/descriptor_sets.h"
 #include "visual/gpu/frame_graph.h"
@@ -85,6 +86,10 @@ struct LitView {
   std::vector<PlacedLamp> air_lamps{};  ///< whose light goes through what the view sees, on a surface or not
   FogGrid fog{};
   vk::DescriptorSet fog_set{};
+  std::vector<LitBy> drops_by{};  ///< lamps in groups, whose light falls on drops; none: no drop is drawn
+  shader::GpuDrops drops{};
+  std::uint32_t drops_count = 0;
+  bool snow = false;
   std::uint32_t lamps = 0;        ///< that light something in it
   std::uint32_t unreached = 0;    ///< left out: they light nothing of what it sees
   std::uint32_t over_limit = 0;   ///< left out somewhere: kLampsPerDraw that are brighter there light it already

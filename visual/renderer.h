@@ -15,13 +15,13 @@
 #include "config/base/result.h"
 #include "config/desk.h"
 #include "visual/effects.h"
+#include "visual/falling.h"
 #include "visual/glare.h"
 #include "visual/gui_content.h"
 #include "visual/overlay_content.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/beam/beam_image.h"
 #include "visual/photometry/beam/image_levels.h"
-#include "visual/photometry/table/fog.h"
 #include "visual/scene/world.h"
 #include "visual/view.h"
 
@@ -79,8 +79,8 @@ struct ViewInput {
   double adaptation_k = 4000.0;      ///< light of this colour temperature looks white
   std::optional<glm::vec3> white;  ///< linear sRGB of the light that does, in place of it (visual/process/adaptation.h)
   double sky_luminance_cdm2 = 0.004;
-  std::optional<double> visibility_m{};     ///< meteorological; nothing: clear air (visual/photometry/table/fog.h)
-  FogDroplets fog_droplets{};               ///< what the fog is made of
+  Air air{};                                ///< fog, rain and snow between lamps, what they light, and the eye
+  Falling falling{};                        ///< of the drops and flakes that are drawn one by one
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;
   Method method = Method::kFragment;

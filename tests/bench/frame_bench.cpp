@@ -240,8 +240,15 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
   for (std::size_t level = 1; level < kFogNames.size(); ++level)
     bench.add(group, "two lamps, fog " + std::string(kFogNames[level]), renderer, [view, level](int round) {
       FrameInput input = without_shadows(view(round));
-      input.visibility_m = 80.0;
+      input.air.visibility_m = 80.0;
       input.effects[static_cast<std::size_t>(Effect::kFog)] = level;
+      return input;
+    });
+  for (const bool snow : {false, true})
+    bench.add(group, snow ? "two lamps, snow 1 mm/h" : "two lamps, rain 10 mm/h", renderer, [view, snow](int round) {
+      FrameInput input = without_shadows(view(round));
+      (snow ? input.air.snow_mmph : input.air.rain_mmph) = snow ? 1.0 : 10.0;
+      input.falling = {.time_s = 0.1 * round, .eye_mps = {20.0, 0.0, 0.0}};
       return input;
     });
   bench.add(group, "two lamps, luminance image", renderer, [view](int round) {
@@ -260,7 +267,7 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
   bench.add(group, "two lamps that sway, fog medium", renderer, [view, frame = 0](int round) mutable {
     FrameInput input = without_shadows(view(round));
     for (PlacedLamp& lamp : input.lamps) lamp.position_m.z += 1e-4 * (++frame % 16);
-    input.visibility_m = 80.0;
+    input.air.visibility_m = 80.0;
     return input;
   });
 }

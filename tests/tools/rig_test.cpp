@@ -77,12 +77,13 @@ TEST(Rig, SetsTheDesk) {
   const std::string desk =
       "[eye]\nadaptation_k = 4500\n[desk]\ncamera = \"chase\"\nisolux_lx = [1, 2.5]\nexposure_per_cdm2 = 0.25\n"
       "design = 0\nprobes = [\"car 25 0 0\", \"world 1 2 3\"]\nlines = \"off\"\n"
-      "[weather]\nvisibility_m = 80\n";
+      "[weather]\nvisibility_m = 80\nrain_mmph = 6\nsnow_mmph = 0.5\n";
   const auto rig = read_rig(write_rig(kGoodRig + desk));
   ASSERT_TRUE(rig) << rig.error().text();
   Desk expected;
-  for (const char* words : {"adaptation_k 4500", "camera chase", "isolux_lx 1 2.5", "exposure_per_cdm2 0.25",
-                            "design 0", "probes car 25 0 0; world 1 2 3", "lines off", "visibility_m 80"})
+  for (const char* words :
+       {"adaptation_k 4500", "camera chase", "isolux_lx 1 2.5", "exposure_per_cdm2 0.25", "design 0",
+        "probes car 25 0 0; world 1 2 3", "lines off", "visibility_m 80", "rain_mmph 6", "snow_mmph 0.5"})
     ASSERT_TRUE(apply(expected, desk_command(words))) << words;
   EXPECT_EQ(rig->desk, expected);
   EXPECT_EQ(read_rig(write_rig(kGoodRig))->desk, Desk{});
@@ -98,6 +99,8 @@ TEST(Rig, SetsTheDesk) {
   EXPECT_EQ(wrong("design = 1"), "phare_rig_test.toml:18: \"desk.design\": 1: the rig has 1, counted from 0");
   EXPECT_EQ(wrong("[weather]\nvisibility_m = 0.2"),
             "phare_rig_test.toml:19: \"weather.visibility_m\": 0.2 is outside 1 to 1e+05; or clear");
+  EXPECT_EQ(wrong("[weather]\nrain_mmph = 200"),
+            "phare_rig_test.toml:19: \"weather.rain_mmph\": 200 is outside 0 to 100");
   EXPECT_NE(wrong("visibility_m = 3").find("no key \"visibility_m\"; there is age_years, camera"), std::string::npos)
       << wrong("visibility_m = 3");
   EXPECT_NE(wrong("isolux = 3").find("did you mean \"isolux_lx\"?"), std::string::npos) << wrong("isolux = 3");

@@ -25,14 +25,17 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
                {{.lit_lamps = 2}, Effect::kDepthFirst},
                {{.hdr_wanted = true}, Effect::kHdrImage},
                {{.overlay_lines = 3}, Effect::kOverlay},
-               {{.visibility_m = 80.0}, Effect::kFog},
+               {{.air = {.visibility_m = 80.0}}, Effect::kFog},
+               {{.air = {.rain_mmph = 4.0}, .air_lamps = 2}, Effect::kPrecipitation},
                {{.glare_lamps = 1, .glare_lx = 0.5}, Effect::kGlare},
                {{.gui = true}, Effect::kGui}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);
     for (const EffectRow& row : effect_table()) {
-      const bool needed = effect == Effect::kGlare && row.effect == Effect::kHdrImage;
+      const bool needed =
+          ((effect == Effect::kGlare || effect == Effect::kPrecipitation) && row.effect == Effect::kHdrImage) ||
+          (effect == Effect::kPrecipitation && row.effect == Effect::kFog);
       EXPECT_EQ(plan.on(row.effect), row.effect == effect || needed) << row.name;
     }
     tried.insert(effect);
@@ -52,8 +55,26 @@ TEST(Effects, DeviceAndViewCountToo) {
   EXPECT_FALSE(plan_effects({.false_colour = true}, forced).on(Effect::kHdrImage));
   EXPECT_FALSE(plan_effects({.clipping = true}, forced).on(Effect::kHdrImage));
   EXPECT_TRUE(plan_effects({}, forced).on(Effect::kHdrImage));
-  EXPECT_FALSE(plan_effects({.false_colour = true, .visibility_m = 80.0}).on(Effect::kFog));
-  EXPECT_FALSE(plan_effects({.visibility_m = 80.0, .parallel_rays = true}).on(Effect::kFog));
+  EXPECT_FALSE(plan_effects({.false_colour = true, .air = {.visibility_m = 80.0}}).on(Effect::kFog));
+  EXPECT_FALSE(plan_effects({.air = {.visibility_m = 80.0}, .parallel_rays = true}).on(Effect::kFog));
+}
+
+TEST(Effects, RainAndSnowAreDrawnWhereALampLightsThem) {
+  const EffectFacts rain{.air = {.rain_mmph = 4.0}, .air_lamps = 1};
+  EXPECT_EQ(plan_effects(rain)[Effect::kPrecipitation].reason, "1 lamp lights drops near the eye");
+  EXPECT_EQ(plan_effects({.air = {.rain_mmph = 1.0, .snow_mmph = 2.0}, .air_lamps = 2})[Effect::kPrecipitation].reason,
+            "2 lamps light flakes near the eye");
+  EXPECT_FALSE(plan_effects({.air = {.rain_mmph = 4.0}}).on(Effect::kPrecipitation)) << "in the dark";
+  EXPECT_FALSE(plan_effects({.air = {.visibility_m = 50.0}, .air_lamps = 2}).on(Effect::kPrecipitation));
+  for (bool EffectFacts::*view : {&EffectFacts::false_colour, &EffectFacts::clipping, &EffectFacts::parallel_rays}) {
+    EffectFacts other = rain;
+    other.*view = true;
+    EXPECT_FALSE(plan_effects(other).on(Effect::kPrecipitation));
+  }
+  EffectChoices off{};
+  off[static_cast<std::size_t>(Effect::kPrecipitation)] = 0;
+  EXPECT_FALSE(plan_effects(rain, off).on(Effect::kHdrImage));
+  EXPECT_TRUE(plan_effects(rain, off).on(Effect::kFog)) << "the air stays as it is";
 }
 
 // The eye scatters light in cd/m², so glare has the luminance image made, even against the user's word; without glare

@@ -74,6 +74,10 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"shadows", "auto", "shadows auto"},
       {"fog", "fine", "fog fine"},
       {"fog", "auto", "fog auto"},
+      {"precipitation", "off", "precipitation off"},
+      {"precipitation", "auto", "precipitation auto"},
+      {"rain_mmph", "12.5", "rain_mmph 12.5"},
+      {"snow_mmph", "2", "snow_mmph 2"},
       {"glare", "off", "glare off"},
       {"glare", "auto", "glare auto"},
       {"age_years", "65", "age_years 65"},
@@ -140,6 +144,11 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"shadows on", "shadows: \"on\" is none of auto, off, hard, soft, fine"},
       {"fog thick", "fog: \"thick\" is none of auto, off, coarse, medium, fine"},
       {"visibility_m 0.5", "visibility_m: 0.5 is outside 1 to 1e+05; or clear"},
+      {"rain_mmph -1", "rain_mmph: -1 is outside 0 to 100"},
+      {"rain_mmph 101", "rain_mmph: 101 is outside 0 to 100"},
+      {"snow_mmph 11", "snow_mmph: 11 is outside 0 to 10"},
+      {"snow_mmph nan", "snow_mmph: expected a number, got \"nan\""},
+      {"precipitation on", "precipitation: \"on\" is none of auto, off"},
       {"glare on", "glare: \"on\" is none of auto, off"},
       {"age_years 0", "age_years: 0 is outside 1 to 120"},
       {"iris_pigment 1.3", "iris_pigment: 1.3 is outside 0 to 1.2"},
@@ -167,7 +176,8 @@ TEST(Desk, ItsDifferenceMakesItAgain) {
   for (const char* words :
        {"camera birds-eye", "view false-colour", "isolux_lx 0.1 0.30000000000000004", "exposure_per_cdm2 0.7",
         "adaptation_k 5500", "design 1", "lines off", "depth_first on", "shadows hard", "fog coarse", "glare off",
-        "age_years 70", "visibility_m 80", "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
+        "precipitation off", "age_years 70", "visibility_m 80", "rain_mmph 7.5", "snow_mmph 0.5",
+        "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
     ASSERT_TRUE(apply(desk, desk_command(words), {.designs = 2})) << words;
   Desk again;
   for (const DeskCommand& command : difference(desk)) ASSERT_TRUE(apply(again, command, {.designs = 2}));

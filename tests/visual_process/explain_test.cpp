@@ -64,10 +64,33 @@ TEST_F(Explain, FogCallsForFogAlone) {
     ASSERT_EQ(foggy.size(), clear.size());
     for (std::size_t i = 0; i < clear.size(); ++i) {
       if (clear[i].starts_with("fog "))
-        EXPECT_EQ(foggy[i], visibility_m == 80.0 ? "fog             medium  the visibility is 80 m"
-                                                 : "fog             medium  the visibility is 300 m");
+        EXPECT_EQ(foggy[i], visibility_m == 80.0
+                                ? "fog             medium  visibility 80 m between the eye and what it sees"
+                                : "fog             medium  visibility 300 m between the eye and what it sees");
       else
         EXPECT_EQ(foggy[i], clear[i]);
+    }
+  }
+}
+
+/// The whole plan of a drive in rain and in snow: its air, its drops, and the luminance image that they are added to.
+TEST_F(Explain, RainCallsForItsAirItsDropsAndTheirImage) {
+  const auto dry = lines(moment(LightSwitch::kLow), software_);
+  for (const bool snow : {false, true}) {
+    desk_.rain_mmph = snow ? 0.0 : 10.0, desk_.snow_mmph = snow ? 2.0 : 0.0;
+    const auto wet = lines(moment(LightSwitch::kLow), software_);
+    ASSERT_EQ(wet.size(), dry.size());
+    for (std::size_t i = 0; i < dry.size(); ++i) {
+      if (wet[i].starts_with("fog "))
+        EXPECT_EQ(wet[i], std::string("fog             medium  ") + (snow ? "snow 2 mm/h" : "rain 10 mm/h") +
+                              " between the eye and what it sees");
+      else if (wet[i].starts_with("precipitation"))
+        EXPECT_EQ(wet[i], std::string("precipitation   on      2 lamps light ") + (snow ? "flakes" : "drops") +
+                              " near the eye");
+      else if (wet[i].starts_with("hdr image"))
+        EXPECT_EQ(wet[i], "hdr image       on      drops are added to luminance in cd/m²");
+      else
+        EXPECT_EQ(wet[i], dry[i]);
     }
   }
 }
@@ -103,7 +126,8 @@ TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
             "hdr image       off     nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself");
   EXPECT_EQ(lit[4], "overlay         off     no line of text to show");
   EXPECT_EQ(lit[5], "fog             off     the air is clear");
-  EXPECT_EQ(lit[6], "glare           off     no lamp shines into the eye");
+  EXPECT_EQ(lit[6], "precipitation   off     neither rain nor snow falls");
+  EXPECT_EQ(lit[7], "glare           off     no lamp shines into the eye");
 
   const auto dark = lines(moment(LightSwitch::kOff), gpu_);
   EXPECT_EQ(dark[0], "# lit: off, design \"pair\", 0.0 s, 0 km/h, on a card");
@@ -117,7 +141,8 @@ TEST_F(Explain, DeviceDeskAndWindowCount) {
   desk_.depth_first = 0;
   EXPECT_EQ(lines(moment(LightSwitch::kLow), gpu_)[2].substr(0, 41), "depth first     off     set by the user; ");
   desk_.visibility_m = 80.0;
-  EXPECT_EQ(lines(moment(LightSwitch::kLow), gpu_)[5], "fog             medium  the visibility is 80 m");
+  EXPECT_EQ(lines(moment(LightSwitch::kLow), gpu_)[5],
+            "fog             medium  visibility 80 m between the eye and what it sees");
   desk_.camera = CameraKind::kBirdsEye;
   EXPECT_NE(lines(moment(LightSwitch::kLow), gpu_)[5].find("off     the view is from above"), std::string::npos);
   desk_.camera = CameraKind::kDriver;

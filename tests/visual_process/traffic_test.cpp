@@ -70,7 +70,7 @@ TEST_F(TrafficTest, ItsLampsGlareAsTheirTablesHaveIt) {
   const auto lamps = Traffic::placed_lamps(users, {0.0, 0.3, 1.2}, {1.0, 0.0, 0.0});
   ASSERT_EQ(lamps.size(), 2u);
   const glm::dvec3 eye_m(0.0, 0.3, 1.2);
-  const auto glare = cars.glare_at(users, eye_m, Scene{}, std::nullopt);
+  const auto glare = cars.glare_at(users, eye_m, Scene{}, {});
   ASSERT_EQ(glare.size(), 2u) << "tail lamps shine the other way";
   const auto table = read_lamp(generated_dir() / "lamps/low_rht.ies", {});
   ASSERT_TRUE(table);
@@ -81,12 +81,12 @@ TEST_F(TrafficTest, ItsLampsGlareAsTheirTablesHaveIt) {
     EXPECT_GT(cd, 0.0);
     EXPECT_NEAR(glare[i].eye_lx, cd / glm::dot(way_m, way_m), 1e-12);
   }
-  const auto in_fog = cars.glare_at(users, eye_m, Scene{}, 50.0);
+  const auto in_fog = cars.glare_at(users, eye_m, Scene{}, {.visibility_m = 50.0});
   EXPECT_NEAR(in_fog[0].eye_lx / glare[0].eye_lx, std::pow(0.05, glm::distance(eye_m, glare[0].place_m) / 50.0), 1e-6);
 
   const Traffic leading = traffic("[[road_user]]\nstart_s_m = 30\ndirection = \"same\"\n");
   const auto ahead = leading.at(0.0, straight());
-  const auto tail = leading.glare_at(ahead, eye_m, Scene{}, std::nullopt);
+  const auto tail = leading.glare_at(ahead, eye_m, Scene{}, {});
   ASSERT_EQ(tail.size(), 2u);
   const glm::dvec3 way_m = eye_m - tail[0].place_m;
   EXPECT_NEAR(tail[0].eye_lx, kTailLamp_cd * std::abs(way_m.x) / std::pow(glm::length(way_m), 3), 1e-12);
@@ -95,7 +95,7 @@ TEST_F(TrafficTest, ItsLampsGlareAsTheirTablesHaveIt) {
   const Traffic dark =
       traffic("[[road_user]]\nstart_s_m = 50\nlights = false\n[[road_user]]\nclass = \"pedestrian\"\n");
   EXPECT_TRUE(Traffic::placed_lamps(dark.at(0.0, straight()), eye_m, {1.0, 0.0, 0.0}).empty());
-  EXPECT_TRUE(dark.glare_at(dark.at(0.0, straight()), eye_m, Scene{}, std::nullopt).empty());
+  EXPECT_TRUE(dark.glare_at(dark.at(0.0, straight()), eye_m, Scene{}, {}).empty());
 }
 
 // The figures are those of the equations by hand: one lamp 10° beside the line of sight; and eyes that come toward us.
@@ -131,8 +131,7 @@ TEST_F(TrafficTest, TheNearestLightsTheScene) {
   ASSERT_EQ(lamps.size(), Traffic::kMostLamps);
   EXPECT_NEAR(lamps[0].position_m.x, 40.0 - 0.6, 1e-9) << "the motorcycle, with one";
   EXPECT_NEAR(lamps[1].position_m.x, 60.0 - 2.18, 1e-9) << "then the car behind it";
-  EXPECT_EQ(column.glare_at(users, eye_m, Scene{}, std::nullopt).size(), 5u + 2u)
-      << "tail lamps of who has passed, too";
+  EXPECT_EQ(column.glare_at(users, eye_m, Scene{}, {}).size(), 5u + 2u) << "tail lamps of who has passed, too";
 }
 
 TEST_F(TrafficTest, WhatIsWrongInTheFileIsNamed) {
@@ -162,9 +161,9 @@ TEST_F(TrafficTest, BodiesHideLampsButNotThoseThatTheyCarry) {
   const glm::dvec3 eye_m{0.0, 0.0, 1.2};
   const Scene nothing;
   World world(nothing, both.meshes());
-  EXPECT_EQ(both.glare_at(users, eye_m, world, std::nullopt).size(), 4u) << "two headlamps, two tail lamps";
+  EXPECT_EQ(both.glare_at(users, eye_m, world, {}).size(), 4u) << "two headlamps, two tail lamps";
   world.move(both.placed_meshes(users));
-  const auto seen = both.glare_at(users, eye_m, world, std::nullopt);
+  const auto seen = both.glare_at(users, eye_m, world, {});
   ASSERT_EQ(seen.size(), 2u) << "the lorry's own tail lamps";
   EXPECT_LT(seen[0].place_m.x, 40.0);
   const SceneChunk* by = occluder(world, {3.4, 0.6, 0.65}, {60.0, 0.0, 3.0});

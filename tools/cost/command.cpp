@@ -20,6 +20,7 @@
 #include "tools/cost/plot.h"
 #include "tools/cost/progress_line.h"
 #include "tools/utc_now.h"
+#include "visual/air_of_desk.h"
 
 namespace phare {
 namespace {
@@ -133,7 +134,7 @@ class CostRun {
     const Result<SettingsTable> table = measure_settings({.rig = &*rig,
                                                           .width_px = plan.width_px,
                                                           .height_px = plan.height_px,
-                                                          .visibility_m = rig->desk.visibility_m,
+                                                          .air = air_of(rig->desk),
                                                           .quick = plan.quick,
                                                           .progress = plan.progress});
     if (!table) return table.error();

@@ -30,8 +30,8 @@ Scene black_wall() {
 
 }  // namespace
 
-std::vector<FogErrors> fog_errors(Renderer& renderer, const IntensityTable& table, double visibility_m,
-                                  PictureSize size, int step_px) {
+std::vector<FogErrors> fog_errors(Renderer& renderer, const IntensityTable& table, const Air& air, PictureSize size,
+                                  int step_px) {
   std::vector<FogErrors> errors;
   if (!renderer.load_scene(black_wall())) return errors;
   const AimedSource source{.table = &table};
@@ -41,7 +41,7 @@ std::vector<FogErrors> fog_errors(Renderer& renderer, const IntensityTable& tabl
   for (const double y_m : {0.6, -0.6})
     input.lamps.push_back({.position_m = {0.0, y_m, 0.65}, .world_from_image = aim_rotation(0.0, -0.01, 0.0)});
   input.sky_luminance_cdm2 = 0.0;
-  input.visibility_m = visibility_m;
+  input.air = air;
   input.want_hdr = true;
   std::vector<PlacedSource> lamps;
   for (const PlacedLamp& lamp : input.lamps) lamps.push_back({&table, lamp.position_m, lamp.world_from_image});
@@ -61,8 +61,7 @@ std::vector<FogErrors> fog_errors(Renderer& renderer, const IntensityTable& tabl
         aside_m = std::min(aside_m, glm::length(glm::cross(lamp.position_m - ray.origin_m, ray.direction)));
       if (aside_m < 0.5) continue;  // beside a lamp itself; between such rays no grid has what is there
       const double length_m = (kWall_m - input.camera.eye_m.x) / ray.direction.x;
-      const double exact = airlight_cdm2(lamps, extinction_per_m(visibility_m), input.fog_droplets, ray.origin_m,
-                                         ray.direction, length_m);
+      const double exact = airlight_cdm2(lamps, air, ray.origin_m, ray.direction, length_m);
       pixels.push_back(
           {static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width_px) + static_cast<std::size_t>(x), exact});
       brightest_cdm2 = std::max(brightest_cdm2, exact);

@@ -16,7 +16,7 @@ struct FogErrors {
 };
 
 /// Of every level of the effect, off first, which finds no light at all. Loads a scene of its own.
-std::vector<FogErrors> fog_errors(Renderer& renderer, const IntensityTable& table, double visibility_m,
-                                  PictureSize size, int step_px);
+std::vector<FogErrors> fog_errors(Renderer& renderer, const IntensityTable& table, const Air& air, PictureSize size,
+                                  int step_px);
 
 }  // namespace phare::cost

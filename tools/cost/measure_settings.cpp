@@ -67,7 +67,7 @@ class Measuring {
     for (const Method method : {Method::kVertex, Method::kVertex1998})
       table.light.push_back({method, ImageLevel::kFloatNodes, {}});
     table.shadows.resize(kShadowNames.size());
-    if (plan_.visibility_m) table.fog.resize(kFogNames.size());
+    if (!plan_.air.clear()) table.fog.resize(kFogNames.size());
     if (const Status made = make_renderers(); !made) return made.error();
 
     std::vector<Case> cases;
@@ -80,7 +80,7 @@ class Measuring {
     for (LightSetting& one : table.light) find_light_errors(one);
     find_shadow_errors(table.shadows);
     take_times(cases);
-    if (plan_.visibility_m)
+    if (!plan_.air.clear())
       if (const Status found = find_fog_errors(table.fog); !found) return found.error();
     return table;
   }
@@ -115,7 +115,7 @@ class Measuring {
     input.effects[static_cast<std::size_t>(Effect::kShadows)] = one.shadows;
     if (one.fog) {
       input.effects[static_cast<std::size_t>(Effect::kFog)] = one.fog;
-      input.visibility_m = plan_.visibility_m;
+      input.air = plan_.air;
     }
     return input;
   }
@@ -175,8 +175,8 @@ class Measuring {
     if (low == nullptr) return Done{};
     LampTables tables;
     if (const Status read = tables.add(*low); !read) return read.error();
-    const std::vector<FogErrors> errors = fog_errors(*exact(), tables.of(*low), *plan_.visibility_m,
-                                                     {plan_.width_px, plan_.height_px}, plan_.width_px / 16);
+    const std::vector<FogErrors> errors =
+        fog_errors(*exact(), tables.of(*low), plan_.air, {plan_.width_px, plan_.height_px}, plan_.width_px / 16);
     for (std::size_t level = 0; level < std::min(errors.size(), levels.size()); ++level)
       levels[level].misplaced = errors[level].misplaced;
     return Done{};
@@ -243,7 +243,7 @@ Result<Validity> validity_of(const SettingsPlan& plan) {
   validity.rig = content_hash(std::as_bytes(std::span(of)));
   validity.picture = std::to_string(plan.width_px) + "x" + std::to_string(plan.height_px) + ", " +
                      std::to_string(plan.samples) + (plan.samples == 1 ? " sample a pixel, " : " samples a pixel, ") +
-                     (plan.visibility_m ? "visibility " + std::to_string(*plan.visibility_m) + " m" : "clear air");
+                     words_of(plan.air);
   return validity;
 }
 

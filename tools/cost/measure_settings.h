@@ -8,14 +8,15 @@
 
 #include "config/rig.h"
 #include "tools/cost/settings.h"
+#include "visual/photometry/table/air.h"
 
 namespace phare::cost {
 
 struct SettingsPlan {
   const Rig* rig = nullptr;
   int width_px = 1280, height_px = 720, samples = 1;
-  std::optional<double> visibility_m{};  ///< nothing: clear air
-  std::size_t design = 0;                ///< whose low beam is drawn
+  Air air{};
+  std::size_t design = 0;  ///< whose low beam is drawn
   std::string device_name{};
   bool quick = true;  ///< fewer places and turns: seconds
   std::function<void(const std::string& doing, double share_01)> progress;

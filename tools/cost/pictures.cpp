@@ -61,7 +61,7 @@ struct Case {
     input.method = method;
     input.effects[static_cast<std::size_t>(Effect::kShadows)] = shadows;
     input.effects[static_cast<std::size_t>(Effect::kFog)] = fog;
-    if (fog) input.visibility_m = kVisibility_m;
+    if (fog) input.air.visibility_m = kVisibility_m;
     input.effects[static_cast<std::size_t>(Effect::kHdrImage)] = hdr ? 1 : 0;
     return input;
   }
@@ -237,8 +237,9 @@ class Pictures {
     plan_.progress("fog against float64", 0.22);
     Result<Renderer> made = Renderer::create({.width_px = plan_.width_px, .height_px = plan_.height_px});
     if (!made) return made.error();
-    std::vector<FogErrors> errors = fog_errors(*made, table_, kVisibility_m, {plan_.width_px, plan_.height_px},
-                                               plan_.width_px / (plan_.quick ? 24 : 60));
+    std::vector<FogErrors> errors =
+        fog_errors(*made, table_, {.visibility_m = kVisibility_m}, {plan_.width_px, plan_.height_px},
+                   plan_.width_px / (plan_.quick ? 24 : 60));
     for (std::size_t level = 0; level < std::min(errors.size(), cases.size()); ++level) {
       char note[64];
       std::snprintf(note, sizeof note, "of the fog's light misplaced: %.2g %%", 100.0 * errors[level].misplaced);

@@ -11,7 +11,9 @@
 #include "shaders/fog.h"
 #include "shaders/fog_sky_frag.h"
 #include "shaders/fog_sky_vert.h"
+#include "visual/falling.h"
 #include "visual/fog_nodes.h"
+#include "visual/passes/constants.h"
 
 namespace phare {
 namespace {
@@ -43,27 +45,11 @@ const std::array<vk::DescriptorSetLayoutBinding, 3> kComputeBindings{
                                    .descriptorCount = 1,
                                    .stageFlags = vk::ShaderStageFlagBits::eCompute}};
 
-/// Constants of a pipeline by their numbers.
-struct Constants {
-  std::vector<std::uint32_t> values;
-  std::vector<vk::SpecializationMapEntry> entries;
-
-  void put(std::uint32_t id, std::uint32_t value) {
-    entries.push_back({.constantID = id, .offset = static_cast<std::uint32_t>(4 * values.size()), .size = 4});
-    values.push_back(value);
-  }
-  void put(const FogGrid& grid) {
-    put(shader::kSpecFogLamps, grid.lamps);
-    put(shader::kSpecFogGrid, grid.columns | grid.rows << 16u);
-    put(shader::kSpecFogSlices, grid.slices);
-  }
-  vk::SpecializationInfo info() const {
-    return {.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
-            .pMapEntries = entries.data(),
-            .dataSize = 4 * values.size(),
-            .pData = values.data()};
-  }
-};
+void put(SpecConstants& constants, const FogGrid& grid) {
+  constants.put(shader::kSpecFogLamps, grid.lamps);
+  constants.put(shader::kSpecFogGrid, grid.columns | grid.rows << 16u);
+  constants.put(shader::kSpecFogSlices, grid.slices);
+}
 
 float luminance(const glm::vec3& rgb) {
   return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
@@ -73,20 +59,28 @@ glm::dvec3 ray_of(const ViewGeometry& view, double x, double y) {
   return glm::dvec3(view.direction_from_clip() * glm::dvec4(x, y, 1.0, 0.0));
 }
 
-shader::GpuFog data_of(const LitScene& scene, const LitView& view, const ViewInput& input, bool hdr) {
+shader::GpuFog data_of(const LitScene& scene, const LitView& view, const ViewInput& input, bool hdr, bool drops) {
   shader::GpuFog fog{};
-  const double extinction = extinction_per_m(*input.visibility_m), albedo = input.fog_droplets.albedo;
-  fog.air = glm::vec4(glm::dvec4(extinction * std::numbers::log2e, extinction * albedo,
+  const double extinction = extinction_per_m(input.air), scattering = scattering_per_m(input.air);
+  fog.air = glm::vec4(glm::dvec4(extinction * std::numbers::log2e, scattering,
                                  std::min(kSliceReach_m, kSliceReachInThickFog / extinction),
                                  transmittance(extinction, kSkyBehind_m)));
   const glm::vec3 exposure = hdr ? glm::vec3(1.0f) : view.sky.exposure_per_cdm2;
   // Under an even sky over dark ground fog is half as bright as the sky.
-  const double under_sky_cdm2 = 0.5 * albedo * static_cast<double>(luminance(glm::vec3(view.sky.zenith())));
+  const double under_sky_cdm2 =
+      0.5 * scattering / extinction * static_cast<double>(luminance(glm::vec3(view.sky.zenith())));
   fog.colour = glm::vec4(scene.mean_colour(view.air_lamps) * exposure, static_cast<float>(under_sky_cdm2));
   const glm::dvec3 corner = ray_of(view.geometry, -1.0, -1.0);
   fog.ray = glm::vec4(glm::vec3(corner), 0.0f);
   fog.ray_right = glm::vec4(glm::vec3(ray_of(view.geometry, 1.0, -1.0) - corner), 0.0f);
   fog.ray_down = glm::vec4(glm::vec3(ray_of(view.geometry, -1.0, 1.0) - corner), 0.0f);
+  if (drops) {
+    const DrawnShares drawn = drawn_shares(input.air.particles(), view.geometry);
+    for (int i = 0; i < static_cast<int>(kDropClasses); ++i) {
+      fog.drawn_to_m[i] = static_cast<float>(drawn.to_m[static_cast<std::size_t>(i)]);
+      fog.drawn_share[i] = static_cast<float>(drawn.shares[static_cast<std::size_t>(i)]);
+    }
+  }
   return fog;
 }
 
@@ -127,17 +121,13 @@ bool FogPass::Source::same(const Source& other) const {
   const auto same_way = [](const glm::dvec3& a, const glm::dvec3& b) {
     return glm::all(glm::lessThan(glm::abs(a - b), glm::dvec3(kSame_m)));
   };
-  return extinction_per_m == other.extinction_per_m && droplets == other.droplets && level == other.level &&
-         area == other.area && std::ranges::equal(lamps, other.lamps, same_lamp) &&
-         std::ranges::equal(ways, other.ways, same_way);
+  return air == other.air && drops == other.drops && level == other.level && area == other.area &&
+         std::ranges::equal(lamps, other.lamps, same_lamp) && std::ranges::equal(ways, other.ways, same_way);
 }
 
-FogPass::Source FogPass::source_of(const LitScene& scene, const LitView& view, std::size_t level,
+FogPass::Source FogPass::source_of(const LitScene& scene, const LitView& view, std::size_t level, bool drops,
                                    const ViewInput& input, const vk::Rect2D& area) {
-  Source source{.extinction_per_m = extinction_per_m(*input.visibility_m),
-                .droplets = input.fog_droplets,
-                .level = level,
-                .area = area};
+  Source source{.air = input.air, .drops = drops, .level = level, .area = area};
   const glm::dmat3& eye = input.camera.world_from_eye;  // way * eye: as the eye has it
   for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1)})
     source.ways.push_back(ray_of(view.geometry, corner.x, corner.y) * eye);
@@ -183,21 +173,26 @@ void FogPass::make(Grid& grid, std::uint64_t texels, std::uint64_t places) {
   device_.device.updateDescriptorSets(writes, nullptr);
 }
 
-void FogPass::fill_phase(const FogDroplets& droplets) {
-  if (droplets_ == droplets) return;
+void FogPass::fill_phase(const Air& air) {
+  if (phase_of_ == air) return;
   if (phase_.bytes == 0) {
-    phase_ = gpu::HostBuffer(device_, 8 * shader::kFogPhaseSteps, vk::BufferUsageFlagBits::eUniformTexelBuffer,
+    phase_ = gpu::HostBuffer(device_, 16 * shader::kFogPhaseSteps, vk::BufferUsageFlagBits::eUniformTexelBuffer,
                              "fog phase function");
-    phase_view_ = vk::raii::BufferView(
-        device_.device, vk::BufferViewCreateInfo{
-                            .buffer = *phase_.buffer, .format = vk::Format::eR32G32Sfloat, .range = VK_WHOLE_SIZE});
+    phase_view_ =
+        vk::raii::BufferView(device_.device, vk::BufferViewCreateInfo{.buffer = *phase_.buffer,
+                                                                      .format = vk::Format::eR32G32B32A32Sfloat,
+                                                                      .range = VK_WHOLE_SIZE});
   }
-  auto* texels = static_cast<glm::vec2*>(phase_.data);
+  auto* texels = static_cast<glm::vec4*>(phase_.data);
   const auto at = [&](std::uint32_t step) {
-    return static_cast<float>(phase_per_sr(droplets, std::numbers::pi * step / shader::kFogPhaseSteps));
+    const double angle = std::numbers::pi * step / shader::kFogPhaseSteps;
+    return glm::vec2(phase_per_sr(air, angle), phase_of_particles_per_sr(air, angle));
   };
-  for (std::uint32_t i = 0; i < shader::kFogPhaseSteps; ++i) texels[i] = {at(i), at(i + 1)};
-  droplets_ = droplets;
+  for (std::uint32_t i = 0; i < shader::kFogPhaseSteps; ++i) {
+    const glm::vec2 here = at(i), next = at(i + 1);
+    texels[i] = {here.x, next.x, here.y, next.y};
+  }
+  phase_of_ = air;
 }
 
 vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
@@ -211,12 +206,12 @@ vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
   }
   const std::size_t size = lamps <= 2 ? 0 : lamps <= 4 ? 1 : 2;
   if (!*modules_[size]) modules_[size] = gpu::make_shader(device_, fog_comp(size, scene.filtered()));
-  Constants constants;
+  SpecConstants constants;
   constants.put(shader::kSpecLampCount, lamps);
   constants.put(shader::kSpecFogSteps, kFogLevels[level].steps);
   constants.put(shader::kSpecFogWidest, std::bit_cast<std::uint32_t>(kFogLevels[level].widest_deg));
   constants.put(shader::kSpecFogAdd, adds ? 1u : 0u);
-  constants.put(grid);
+  put(constants, grid);
   std::uint32_t id = shader::kSpecTables;
   for (const std::uint32_t word : scene.table_words(tables)) constants.put(id++, word);
   const vk::SpecializationInfo info = constants.info();
@@ -233,12 +228,12 @@ vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
 }
 
 void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level_number,
-                   const ViewInput& input, const vk::Rect2D& area, bool hdr) {
+                   const ViewInput& input, const vk::Rect2D& area, bool hdr, bool drops) {
   while (level_number > 1 && texels_of(kFogLevels[level_number]) > device_.properties.limits.maxTexelBufferElements)
     --level_number;
   const FogLevel& level = kFogLevels[level_number];
   view.fog = {level.columns, level.rows, level.slices, view.air_lamps.empty() ? 0u : 1u};
-  fill_phase(input.fog_droplets);
+  fill_phase(input.air);
   if (used_ == grids_.size()) grids_.push_back(std::make_unique<Grid>());
   Grid& grid = *grids_[used_++];
   const vk::Offset2D end(area.offset.x + static_cast<std::int32_t>(area.extent.width),
@@ -247,11 +242,11 @@ void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::
   if (grid.texels.bytes != 16 * texels_of(level) || grid.places.bytes != 8 * places)
     make(grid, texels_of(level), places);
   view.fog_set = grid.set;
-  const shader::GpuFog data = data_of(scene, view, input, hdr);
+  const shader::GpuFog data = data_of(scene, view, input, hdr, drops);
   for (const LitBy& lit : view.lit_by) lit.data->fog = data;
 
   // As it was in the frame before, so it stays.
-  Source source = source_of(scene, view, level_number, input, area);
+  Source source = source_of(scene, view, level_number, drops, input, area);
   if (grid.source && grid.source->same(source)) return;
   grid.source = std::move(source);
   fill_places(grid.places, view, input.camera.eye_m, area);
@@ -291,10 +286,10 @@ void FogSky::draw(gpu::Recorder& commands, const LitScene& scene, const LitView&
       vertex_ = gpu::make_shader(device_, k_fog_sky_vert);
       fragment_ = gpu::make_shader(device_, k_fog_sky_frag);
     }
-    Constants constants;
+    SpecConstants constants;
     constants.put(shader::kSpecOutput, static_cast<std::uint32_t>(output));
     constants.put(shader::kSpecFogSky, sky_seen ? 1u : 0u);
-    constants.put(view.fog);
+    put(constants, view.fog);
     const vk::SpecializationInfo info = constants.info();
     found = pipelines_
                 .emplace(key, make_pipeline(device_, {.vertex = *vertex_,

@@ -49,14 +49,15 @@ class FogPass {
   void begin_frame();
   /// Computes the grid of a view, if it is not as it was, and has the view be lit through fog from here on. A level
   /// whose grid the device has no room for is lowered: 65,536 texels, which every device has, hold the lowest.
+  /// `hdr`: it is lit in cd/m². `drops`: near ones are drawn one by one, and left out of the grid.
   void draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level, const ViewInput& input,
-            const vk::Rect2D& area, bool hdr);
+            const vk::Rect2D& area, bool hdr, bool drops);
 
  private:
   /// What the grid is computed from, as the eye sees it.
   struct Source {
-    double extinction_per_m = 0.0;
-    FogDroplets droplets{};
+    Air air{};
+    bool drops = false;
     std::size_t level = 0;
     vk::Rect2D area{};
     struct Lamp {
@@ -80,10 +81,10 @@ class FogPass {
   /// Tables, lamps, grid, level, whether it adds.
   using Key = std::tuple<std::size_t, std::uint32_t, FogGrid, std::size_t, bool>;
 
-  static Source source_of(const LitScene& scene, const LitView& view, std::size_t level, const ViewInput& input,
-                          const vk::Rect2D& area);
+  static Source source_of(const LitScene& scene, const LitView& view, std::size_t level, bool drops,
+                          const ViewInput& input, const vk::Rect2D& area);
   void make(Grid& grid, std::uint64_t texels, std::uint64_t places);
-  void fill_phase(const FogDroplets& droplets);
+  void fill_phase(const Air& air);
   vk::Pipeline pipeline(const LitScene& scene, const Key& key);
 
   gpu::Device& device_;
@@ -91,7 +92,7 @@ class FogPass {
   gpu::DescriptorSets compute_layout_;        ///< of it only the layout
   std::array<vk::raii::ShaderModule, 3> modules_{nullptr, nullptr, nullptr};
   std::map<Key, vk::raii::Pipeline> pipelines_;
-  std::optional<FogDroplets> droplets_;  ///< of the phase table
+  std::optional<Air> phase_of_;  ///< of the phase table
   gpu::HostBuffer phase_;
   vk::raii::BufferView phase_view_{nullptr};
   std::vector<std::unique_ptr<Grid>> grids_;  ///< of each view with fog

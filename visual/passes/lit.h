@@ -3,6 +3,7 @@
 
 #include "visual/lit_scene.h"
 #include "visual/passes/fog.h"
+#include "visual/passes/precipitation.h"
 
 namespace phare {
 
@@ -19,7 +20,7 @@ struct LitTarget {
 
 class LitPass {
  public:
-  explicit LitPass(gpu::Device& device) : sky_(device), fog_sky_(device) {}
+  explicit LitPass(gpu::Device& device) : sky_(device), fog_sky_(device), drops_(device) {}
 
   /// Before the views of a frame; the frame before is done.
   void begin_frame() { sky_.begin_frame(); }
@@ -28,6 +29,7 @@ class LitPass {
  private:
   SkyPass sky_;
   FogSky fog_sky_;
+  Drops drops_;
 };
 
 }  // namespace phare

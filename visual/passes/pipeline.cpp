@@ -34,14 +34,15 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
       .depthTestEnable = recipe.depth, .depthWriteEnable = recipe.depth_write, .depthCompareOp = recipe.compare};
   using Mask = vk::ColorComponentFlagBits;
   const std::vector<vk::PipelineColorBlendAttachmentState> blends(
-      recipe.colour.size(), {.blendEnable = recipe.blend,
-                             .srcColorBlendFactor = vk::BlendFactor::eSrcAlpha,
-                             .dstColorBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha,
-                             .colorBlendOp = vk::BlendOp::eAdd,
-                             .srcAlphaBlendFactor = vk::BlendFactor::eOne,
-                             .dstAlphaBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha,
-                             .alphaBlendOp = vk::BlendOp::eAdd,
-                             .colorWriteMask = Mask::eR | Mask::eG | Mask::eB | Mask::eA});
+      recipe.colour.size(),
+      {.blendEnable = recipe.blend || recipe.add,
+       .srcColorBlendFactor = recipe.add ? vk::BlendFactor::eOne : vk::BlendFactor::eSrcAlpha,
+       .dstColorBlendFactor = recipe.add ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha,
+       .colorBlendOp = vk::BlendOp::eAdd,
+       .srcAlphaBlendFactor = recipe.add ? vk::BlendFactor::eZero : vk::BlendFactor::eOne,
+       .dstAlphaBlendFactor = recipe.add ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha,
+       .alphaBlendOp = vk::BlendOp::eAdd,
+       .colorWriteMask = Mask::eR | Mask::eG | Mask::eB | Mask::eA});
   const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = static_cast<std::uint32_t>(blends.size()),
                                                     .pAttachments = blends.data()};
   const std::array dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor, vk::DynamicState::eFrontFace};

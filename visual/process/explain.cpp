@@ -72,14 +72,14 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
                 moment.pose.speed_mps * 3.6, device.name.c_str());
   std::optional<std::size_t> casting;
   if (casts) casting = casters_of_all(*casts);
-  input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.visibility_m);
-  const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.visibility_m);
+  input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.air);
+  const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.air);
   input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
   DrawnOver over = drawn_over(input);
   over.gui = window && desk.panel;  // nothing is laid out: there is no window yet
-  return heading +
-         explain(plan_effects(facts_of(input, lit, casting, over, glare_of(input, view), {.software = device.software}),
-                              input.effects));
+  return heading + explain(plan_effects(
+                       facts_of(input, {lit, lit}, casting, over, glare_of(input, view), {.software = device.software}),
+                       input.effects));
 }
 
 }  // namespace phare

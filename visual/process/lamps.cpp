@@ -219,11 +219,11 @@ Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at,
 }
 
 std::vector<GlaringLamp> Lamps::glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const World& world,
-                                         std::optional<double> visibility_m) const {
+                                         const Air& air) const {
   std::vector<GlaringLamp> sources;
   for (const PointLight& light : lights_at(pose, {.position_m = eye_m})) {
     if (light.candela <= 0.0 || light.lamp_m == eye_m || occluder(world, light.lamp_m, eye_m)) continue;
-    sources.push_back(glaring_lamp(light.lamp_m, light.candela, light.colour, eye_m, visibility_m));
+    sources.push_back(glaring_lamp(light.lamp_m, light.candela, light.colour, eye_m, air));
   }
   return sources;
 }

@@ -139,7 +139,7 @@ class Lamps {
   std::vector<PointLight> lights_at(const VehicleState& pose, const MeasurePoint& at) const;
   /// The lamps that shine into an eye, the world and the air between them (nothing: clear).
   std::vector<GlaringLamp> glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const World& world,
-                                    std::optional<double> visibility_m) const;
+                                    const Air& air) const;
   /// The same in the car frame for one set of lit functions of one design: the wall.
   /// `tilt_rad`: of automatic levelling, positive up.
   double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,

@@ -5,6 +5,7 @@
 
 #include "net/control_desk.h"
 #include "net/silence.h"
+#include "visual/air_of_desk.h"
 #include "visual/process/loop.h"
 #include "visual/process/overlay_lines.h"
 
@@ -97,9 +98,10 @@ void Loop::warm_up() {
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
     // The same for fog, where there is some to begin with, and of the light that the drive begins with.
     for (const bool clear : {true, false}) {
-      if (!clear && !s_.desk.visibility_m && !(thorough && last)) continue;
+      if (!clear && air_of(s_.desk).clear() && !(thorough && last)) continue;
       input.effects[static_cast<std::size_t>(Effect::kFog)] = s_.desk.fog;
-      input.visibility_m = clear ? std::nullopt : std::optional(s_.desk.visibility_m.value_or(100.0));
+      input.air = clear ? Air{} : air_of(s_.desk);
+      if (!clear && input.air.clear()) input.air.visibility_m = 100.0;
       for (const bool off : {true, false}) {
         shadows = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
         if (last && s_.desk.mirrors) input.more_views = mirror_views(input, s_.channel(), pose);
@@ -127,7 +129,7 @@ void Loop::warm_up() {
         s_.renderer.draw(halves);
       }
       // Where the governor may step to: not in the drive either.
-      if (!last || !thorough || clear == s_.desk.visibility_m.has_value()) continue;
+      if (!last || !thorough || clear != air_of(s_.desk).clear()) continue;
       for (const GovernorLevel& level : s_.governor.levels()) {
         FrameInput of_level = input;
         of_level.method = level.method;

@@ -9,6 +9,7 @@
 
 #include "config/base/conventions.h"
 #include "config/key_bindings.h"
+#include "visual/air_of_desk.h"
 #include "visual/process/cameras.h"
 
 namespace phare {
@@ -41,9 +42,16 @@ void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& chann
   input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = desk.depth_first;
   input.effects[static_cast<std::size_t>(Effect::kShadows)] = desk.shadows;
   input.effects[static_cast<std::size_t>(Effect::kFog)] = desk.fog;
+  input.effects[static_cast<std::size_t>(Effect::kPrecipitation)] = desk.precipitation;
   input.effects[static_cast<std::size_t>(Effect::kGlare)] = desk.glare;
-  input.visibility_m = desk.visibility_m;
+  input.air = air_of(desk);
   input.viewer = {desk.age_years, desk.iris_pigment};
+}
+
+Falling falling_past(const Desk& desk, const VehicleState& pose, SimTime time) {
+  const bool stands = desk.camera == CameraKind::kFree && desk.free_eye.frame == Probe::Frame::kWorld;
+  return {.time_s = time.seconds(),
+          .eye_mps = stands ? glm::dvec3(0.0) : glm::dvec3(pose.vx_mps, pose.vy_mps, pose.vz_mps)};
 }
 
 CockpitState shown_by_desk(const Desk& desk, CockpitState controls) {
@@ -65,7 +73,7 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
                   moment.eye.fixed() ? ", fixed" : "", std::log2(8.0 / desk.exposure_per_cdm2));
     lines.emplace_back(text);
     if (!moment.picked.empty()) lines.push_back(moment.picked);
-    if (desk.visibility_m) lines.push_back(fmt::format("visibility {:.4g} m; lux as in clear air", *desk.visibility_m));
+    if (const Air air = air_of(desk); !air.clear()) lines.push_back(words_of(air) + "; lux as in clear air");
     if (moment.under_mouse)
       lines.push_back(lux_line("", lamps, moment, *moment.under_mouse, moment.under_mouse->position_m));
   }

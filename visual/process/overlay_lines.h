@@ -22,6 +22,9 @@ namespace phare {
 void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& channel, const VehicleState& pose,
                  const RoadLine* road = nullptr);
 
+/// How the eye goes through what falls: with the car, or it stands in the world.
+Falling falling_past(const Desk& desk, const VehicleState& pose, SimTime time);
+
 /// The controls with the design that the picture shows, whichever the cockpit has chosen.
 CockpitState shown_by_desk(const Desk& desk, CockpitState controls);
 

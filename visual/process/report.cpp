@@ -72,6 +72,8 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["method"] = kMethodNames[static_cast<std::size_t>(session.desk.method)];
   report["weather"] = nlohmann::json::object();
   if (session.desk.visibility_m) report["weather"]["visibility_m"] = *session.desk.visibility_m;
+  if (session.desk.rain_mmph > 0.0) report["weather"]["rain_mmph"] = session.desk.rain_mmph;
+  if (session.desk.snow_mmph > 0.0) report["weather"]["snow_mmph"] = session.desk.snow_mmph;
   report["views"] = nlohmann::json::array();
   for (const ViewResult& view : stats.newest.views) {
     report["views"].push_back({{"name", view.name},

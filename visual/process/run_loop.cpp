@@ -183,8 +183,8 @@ void Loop::mind_the_lamps(SimTime now) {
 /// What shines into the eye of a view: the car's own lamps as given, and those of others.
 std::vector<GlaringLamp> Loop::glare_in(const ViewInput& view, const VehicleState& pose, const Lamps& lamps) const {
   if (view.camera.orthographic_width_m > 0.0) return {};  // no eye
-  std::vector<GlaringLamp> glare = lamps.glare_at(pose, view.camera.eye_m, world_, view.visibility_m);
-  const auto others = s_.traffic.glare_at(users_, view.camera.eye_m, world_, view.visibility_m);
+  std::vector<GlaringLamp> glare = lamps.glare_at(pose, view.camera.eye_m, world_, view.air);
+  const auto others = s_.traffic.glare_at(users_, view.camera.eye_m, world_, view.air);
   glare.insert(glare.end(), others.begin(), others.end());
   return glare;
 }
@@ -194,6 +194,7 @@ void Loop::draw(const Moment& moment) {
   mind_the_lamps(moment.time);
   upload(versus_.follow(s_.desk, s_.lamps, moment.controls));
   set_by_desk(input_, s_.desk, s_.channel(), moment.car.pose, &measuring_.road());
+  input_.falling = falling_past(s_.desk, moment.car.pose, moment.time);
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
   input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
   users_ = s_.traffic.at(moment.time.seconds(), measuring_.road());

@@ -136,11 +136,11 @@ std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users, cons
 }
 
 std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const glm::dvec3& eye_m, const World& world,
-                                           std::optional<double> visibility_m) const {
+                                           const Air& air) const {
   std::vector<GlaringLamp> sources;
   const auto add = [&](const World& around, const glm::dvec3& lamp_m, double cd, const glm::vec3& colour) {
     if (cd <= 0.0 || lamp_m == eye_m || occluder(around, lamp_m, eye_m)) return;
-    sources.push_back(glaring_lamp(lamp_m, cd, colour, eye_m, visibility_m));
+    sources.push_back(glaring_lamp(lamp_m, cd, colour, eye_m, air));
   };
   const glm::vec3 headlamp_colour = light_colour({.table = &headlamp_, .colour_temperature_k = kHalogen_k});
   for (std::size_t i = 0; i < users.size(); ++i) {

@@ -68,7 +68,7 @@ class Traffic {
   /// Lamps that shine into an eye, the world and the air between them. `world`: with all of them in it, as
   /// placed_meshes() has them; the body that carries a lamp does not hide it.
   std::vector<GlaringLamp> glare_at(std::span<const There> users, const glm::dvec3& eye_m, const World& world,
-                                    std::optional<double> visibility_m) const;
+                                    const Air& air) const;
 
  private:
   std::vector<RoadUser> users_;

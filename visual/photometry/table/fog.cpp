@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 
 namespace phare {
@@ -64,49 +63,6 @@ double droplets_scale() {
   return 1.0 / sum;
 }
 
-/// What one lamp adds, over the angle at it: tan(angle) = (s − along)/aside, ds/r² = d(angle)/aside.
-struct LampAlongRay {
-  const PlacedSource& source;
-  const glm::dvec3& eye_m;
-  const glm::dvec3& direction;
-  double extinction, along_m, aside_m;
-  const FogDroplets& droplets;
-
-  double operator()(double angle) const {
-    const double past_m = aside_m * std::tan(angle), s = along_m + past_m;
-    const double r = aside_m / std::cos(angle);
-    const double cd =
-        source.scale * source.table->intensity_cd((eye_m + direction * s - source.position_m) * source.world_from_lamp);
-    if (cd == 0.0) return 0.0;
-    // From the direction of travel, lamp to point, to that from point to eye.
-    return cd * phase_per_sr(droplets, 0.5 * kPi + angle) * std::exp(-extinction * (r + s)) / aside_m;
-  }
-};
-
-/// Gauss and Kronrod, 7 and 15 points; halves where they differ.
-template <typename F>
-double integral(const F& f, double from, double to, double allowed, int halvings) {
-  static constexpr double x[] = {0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
-                                 0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
-                                 0.586087235467691130294144691693013, 0.405845151377397166906606412076961,
-                                 0.207784955007898467600689403773245, 0.0};
-  static constexpr double wk[] = {0.022935322010529224963732008058970, 0.063092092629978553290700663189204,
-                                  0.104790010322250183839876322541518, 0.140653259715525918745189590510238,
-                                  0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
-                                  0.204432940075298892414161999234649, 0.209482141084727828012999174891714};
-  static constexpr double wg[] = {0.129484966168869693270611432679082, 0.279705391489276667901467771423780,
-                                  0.381830050505118944950369775488975, 0.417959183673469387755102040816327};
-  const double middle = 0.5 * (from + to), half = 0.5 * (to - from), centre = f(middle);
-  double kronrod = wk[7] * centre, gauss = wg[3] * centre;
-  for (int i = 0; i < 7; ++i) {
-    const double sum = f(middle - half * x[i]) + f(middle + half * x[i]);
-    kronrod += wk[i] * sum;
-    if (i % 2 == 1) gauss += wg[i / 2] * sum;
-  }
-  if (halvings == 0 || std::abs(kronrod - gauss) * half <= allowed) return kronrod * half;
-  return integral(f, from, middle, 0.5 * allowed, halvings - 1) + integral(f, middle, to, 0.5 * allowed, halvings - 1);
-}
-
 }  // namespace
 
 double extinction_per_m(double visibility_m) {
@@ -117,32 +73,14 @@ double transmittance(double extinction_per_m, double distance_m) {
   return std::exp(-extinction_per_m * distance_m);
 }
 
+double henyey_greenstein_per_sr(double g, double angle_rad) {
+  return henyey_greenstein(g, std::cos(angle_rad));
+}
+
 double phase_per_sr(const FogDroplets& droplets, double angle_rad) {
   if (droplets.henyey_greenstein_g) return henyey_greenstein(*droplets.henyey_greenstein_g, std::cos(angle_rad));
   static const double scale = droplets_scale();
   return scale * droplets_unscaled(angle_rad);
-}
-
-double airlight_cdm2(std::span<const PlacedSource> sources, double extinction_per_m, const FogDroplets& droplets,
-                     const glm::dvec3& eye_m, const glm::dvec3& direction, double length_m) {
-  double sum = 0.0;
-  for (const PlacedSource& source : sources) {
-    const glm::dvec3 to_lamp = source.position_m - eye_m;
-    const double along_m = glm::dot(to_lamp, direction);
-    const double aside_m = std::max(glm::length(glm::cross(to_lamp, direction)), kNearestToLamp_m);
-    const LampAlongRay lamp{source, eye_m, direction, extinction_per_m, along_m, aside_m, droplets};
-    // In pieces, so that no narrow beam falls between the first points.
-    constexpr int kPieces = 64;
-    const double from = std::atan(-along_m / aside_m), to = std::atan((length_m - along_m) / aside_m);
-    std::array<double, kPieces + 1> ends;
-    for (int i = 0; i <= kPieces; ++i) ends[static_cast<std::size_t>(i)] = from + (to - from) * i / kPieces;
-    double rough = 0.0, lamp_sum = 0.0;
-    for (std::size_t i = 0; i < kPieces; ++i) rough += integral(lamp, ends[i], ends[i + 1], 0.0, 0);
-    for (std::size_t i = 0; i < kPieces; ++i)
-      lamp_sum += integral(lamp, ends[i], ends[i + 1], 1e-8 * rough / kPieces, 24);
-    sum += lamp_sum;
-  }
-  return extinction_per_m * droplets.albedo * sum;
 }
 
 }  // namespace phare

@@ -35,6 +35,8 @@ double transmittance(double extinction_per_m, double distance_m);
 /// Share of the scattered light that leaves in a direction, 1/sr; over the whole sphere it is 1. `angle_rad` 0: goes
 /// on as it came; pi: back to the lamp.
 double phase_per_sr(const FogDroplets& droplets, double angle_rad);
+/// The same by Henyey and Greenstein (1941); g is the mean cosine of the angle.
+double henyey_greenstein_per_sr(double g, double angle_rad);
 
 /// A line of sight that passes a lamp nearer than this counts as passing it there: lamps are no points.
 inline constexpr double kNearestToLamp_m = 0.01;
