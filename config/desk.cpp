@@ -401,6 +401,8 @@ constexpr DeskSetting kSettings[] = {
      set_level<&Desk::fog, kFogNames>, get_level<&Desk::fog, kFogNames>},
     {"precipitation", "auto, off", "drops and flakes near the eye, one by one; auto: as they fall", true,
      set_level<&Desk::precipitation, kOffNames>, get_level<&Desk::precipitation, kOffNames>},
+    {"ground", "auto, dry, damp, wet, flooded", "water on the ground; auto: as it rains", true,
+     set_level<&Desk::ground, kWetNames>, get_level<&Desk::ground, kWetNames>, "weather"},
     {"glare", "auto, off", "light that lamps scatter in the eye; auto: as they shine into it", true,
      set_level<&Desk::glare, kOffNames>, get_level<&Desk::glare, kOffNames>},
     {"age_years", "1 to 120", "of who looks: how much light the eye scatters", true,

@@ -71,6 +71,8 @@ inline constexpr std::array<std::string_view, 2> kOffOnNames{"off", "on"};
 inline constexpr std::array<std::string_view, 4> kShadowNames{"off", "hard", "soft", "fine"};
 inline constexpr std::array<std::string_view, 4> kFogNames{"off", "coarse", "medium", "fine"};
 
+inline constexpr std::array<std::string_view, 4> kWetNames{"dry", "damp", "wet", "flooded"};
+
 /// Meteorological visibility that may be set: fog of a steam bath, and air in which nothing near is dimmed.
 inline constexpr double kLeastVisibility_m = 1.0, kMostVisibility_m = 100000.0;
 /// Rain and snow that may be set, mm/h of water: a cloudburst, and a snowstorm.
@@ -100,7 +102,7 @@ struct Desk {
   bool help = false;                  ///< every key
   bool panel = false;                 ///< what is set by the mouse (visual/process/panel.h)
   /// Levels of these effects (visual/effects.h); without one the scene decides.
-  std::optional<std::size_t> shadows, depth_first, fog, precipitation, glare;
+  std::optional<std::size_t> shadows, depth_first, fog, precipitation, ground, glare;
   std::optional<double> visibility_m;       ///< meteorological optical range (photometry/table/fog.h); none: no fog
   double rain_mmph = 0.0, snow_mmph = 0.0;  ///< of water (photometry/table/precipitation.h)
 

@@ -27,6 +27,8 @@ picture "$(at_second "$out/false" 20)" false_colour
 picture "$out/fog/frames/000059.png" fog
 "$phare" drive --headless --lockstep --frames 200 --samples 4 --set snow_mmph=2 --out "$out/snow" --port-base "$ports"
 picture "$out/snow/frames/000199.png" snow
+"$phare" drive --headless --lockstep --frames 60 --samples 4 --traffic config/examples/column.toml --set rain_mmph=10 --out "$out/wet" --port-base "$ports"
+picture "$out/wet/frames/000059.png" wet
 "$phare" drive --headless --lockstep --frames 200 --samples 4 --lamp config/examples/high_beam.ies --set rain_mmph=50 --out "$out/rain" --port-base "$ports"
 picture "$out/rain/frames/000199.png" rain
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --camera oncoming --out "$out/oncoming" --port-base "$ports"

@@ -66,6 +66,15 @@ float sent_back(uint lamp, LampLight light, vec3 n, float level) {
   return sheeting_between(sheetings[index].row[at.before], sheetings[index].row[at.before + 1], at.part, between_deg(toward_lamp, n)) / max(cos_seen, 0.1);
 }
 
+// Luminance of the film on wet ground over the lamp's illuminance.
+float mirrored(uint lamp, LampLight light, vec3 n, float level) {
+  float inverse_eye = inversesqrt(dot(point, point)), cos_seen = -level * inverse_eye;
+  if (light.cos_incidence <= 0.0 || cos_seen <= 0.0) return 0.0;
+  vec3 toward_lamp = (frame.lamps[lamp].position.xyz - point) * light.per_m, toward_eye = point * -inverse_eye;
+  vec3 half_way = normalize(toward_lamp + toward_eye);
+  return water_lobe(wet_alpha, light.cos_incidence, cos_seen, dot(half_way, n), dot(half_way, toward_eye));
+}
+
 // Light of a lamp whose illuminance comes interpolated from the vertices.
 LampLight from_vertices(uint lamp, float lx, float cd, vec3 n, float level) {
   vec3 to_lamp = frame.lamps[lamp].position.xyz - point;
@@ -104,6 +113,7 @@ void main() {
 
   float total_lx = 0.0;
   vec3 coloured_lx = vec3(0.0);
+  vec3 film = vec3(0.0);  // cd/m² that water on the ground mirrors
   vec3 retro_lx = vec3(0.0);  // what a diffuse surface would need to be as bright
 #define LIGHT(I)                                                                                           \
   if (lamp_count > I) {                                                                                    \
@@ -122,6 +132,7 @@ void main() {
     if ((colours >> (8 + I) & 1) != 0) colour = method == kMethodVertex ? vec3(1.0) : PHARE_LAMP_TINT(I, light); \
     total_lx += light.illuminance_lx;                                                                      \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
+    if (wet_alpha > 0.0) film += colour * (light.illuminance_lx * mirrored(I, light, n, level));           \
     if (retro != 0)                                                                                        \
       retro_lx += colour * (light.normal_lx * sent_back(I, light, n, level)); \
   }
@@ -147,6 +158,7 @@ void main() {
   vec3 rho = surface_reflectance(reflectance.rgb);
   vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + n.z));  // the sky's half dome, unoccluded
   if (retro != 0) light += retro_lx * rho;
+  if (wet_alpha > 0.0) light += output_kind == kOutputHdr ? film : film * frame.exposure.rgb;
 #ifdef PHARE_FOG
   light = through_fog(light, point, gl_FragCoord.xy);
 #endif

@@ -31,6 +31,7 @@ const uint kSpecFogGrid = 14u;
 const uint kSpecFogSlices = 15u;
 const uint kSpecTables = 16u;   // kSpecPerTable constants a lamp: the members of its TableShape, below
 const uint kSpecPerTable = 18u;
+const uint kSpecWet = kSpecTables + kSpecPerTable * kMaxLamps;  // float: width of the slopes of the water on the ground; 0: it is dry
 
 // Where illuminance is computed (config/desk.h, Method).
 const uint kMethodFragment = 0u;    // at every pixel

@@ -1,4 +1,4 @@
-// The air that the desk has set.
+// Weather that the desk has set.
 #pragma once
 
 #include "config/desk.h"
@@ -8,6 +8,11 @@ namespace phare {
 
 inline Air air_of(const Desk& desk) {
   return {.visibility_m = desk.visibility_m, .rain_mmph = desk.rain_mmph, .snow_mmph = desk.snow_mmph};
+}
+
+/// There is water on the ground.
+inline bool wet(const Desk& desk) {
+  return desk.ground.value_or(desk.rain_mmph > 0.0 ? 1 : 0) > 0;
 }
 
 }  // namespace phare

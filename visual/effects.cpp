@@ -1,6 +1,7 @@
 #include "visual/effects.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "config/desk.h"
@@ -57,6 +58,30 @@ EffectDecision precipitation(const EffectFacts& facts) {
                  (snow ? "flakes" : "drops") + " near the eye"};
 }
 
+/// Depth of the film over the texture of a road, mm (Gallaway et al. 1979): texture 0.8 mm, 4 m from the crown, 2 %
+/// across. Negative: the texture still stands out.
+double film_mm(double rain_mmph) {
+  constexpr double kTexture_mm = 0.8, kPath_m = 4.0, kSlope = 0.02;
+  return 0.01485 * std::pow(kTexture_mm, 0.11) * std::pow(kPath_m, 0.43) * std::pow(rain_mmph, 0.59) /
+             std::pow(kSlope, 0.42) -
+         kTexture_mm;
+}
+
+EffectDecision wet_ground(const EffectFacts& facts) {
+  constexpr double kDrizzle_mmph = 0.5;  // chosen: less leaves no film
+  if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on", true};
+  if (facts.lit_lamps == 0) return {0, "no lamp is lit"};
+  const double rain = facts.air.rain_mmph;
+  if (rain <= 0.0) return {0, "it does not rain"};
+  char reason[90];
+  const std::size_t level = film_mm(rain) > 0.0 ? 3 : rain >= kDrizzle_mmph ? 2 : 1;
+  std::snprintf(reason, sizeof reason, "rain of %.4g mm/h %s", rain,
+                level == 3   ? "stands over the texture of the road"
+                : level == 2 ? "fills the texture of the road"
+                             : "leaves no film on the road");
+  return {level, reason};
+}
+
 EffectDecision glare(const EffectFacts& facts) {
   if (facts.glare_lamps == 0) return {0, "no lamp shines into the eye"};
   if (facts.false_colour) return {0, "the view shows illuminance, which no eye scatters"};
@@ -83,6 +108,7 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
       true},
      {Effect::kPrecipitation, "precipitation", kOffOnNames, "the HDR image; a draw of lines in the lamp pass",
       precipitation, true},
+     {Effect::kWetGround, "wet ground", kWetNames, "pipelines of ground with water's mirror in them", wet_ground},
      {Effect::kGlare, "glare", kOffOnNames, "the HDR image; its pass to the display adds what the eye scatters", glare,
       true},
      {Effect::kGui, "gui", kOffOnNames, "a pass of triangles over the picture, an image of letters", gui}}};

@@ -13,8 +13,18 @@
 
 namespace phare {
 
-enum class Effect : std::size_t { kShadows, kDepthFirst, kHdrImage, kOverlay, kFog, kPrecipitation, kGlare, kGui };
-inline constexpr std::size_t kEffectCount = 8;
+enum class Effect : std::size_t {
+  kShadows,
+  kDepthFirst,
+  kHdrImage,
+  kOverlay,
+  kFog,
+  kPrecipitation,
+  kWetGround,
+  kGlare,
+  kGui
+};
+inline constexpr std::size_t kEffectCount = 9;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {

@@ -109,6 +109,9 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   // Which drops fall past the eye.
   if (effects.on(Effect::kPrecipitation)) add_drops(parts.scene, lit, view.input);
 
+  // What water makes of the ground.
+  lit.wet = static_cast<std::uint32_t>(effects.level(Effect::kWetGround));
+
   // Depth of everything, so that each pixel is lit once.
   const bool depth_done = effects.on(Effect::kDepthFirst);
   if (depth_done) parts.depth.draw(graph, parts.scene, lit, *depth, view.area);

@@ -90,6 +90,11 @@ static_assert(shader::kMaxIsoluxLevels % 4 == 0);
 static_assert(static_cast<std::uint32_t>(Method::kVertex) == shader::kMethodVertex &&
               static_cast<std::uint32_t>(Method::kVertex1998) == shader::kMethodVertex1998);
 
+/// What water wets in the picture; what stands upright lets it run off.
+bool is_ground(Surface surface) {
+  return surface == Surface::kAsphalt || surface == Surface::kGrass || surface == Surface::kPaint;
+}
+
 bool is_filtered(ImageLevel level) {
   return level == ImageLevel::kNormalised8 || level == ImageLevel::kHalfEven;
 }
@@ -287,6 +292,11 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   values.insert(values.end(), tables.begin(), tables.end());
   std::vector<vk::SpecializationMapEntry> entries;
   for (std::uint32_t i = 0; i < values.size(); ++i) entries.push_back({.constantID = i, .offset = 4 * i, .size = 4});
+  if (variant.wet != 0) {
+    entries.push_back(
+        {.constantID = shader::kSpecWet, .offset = static_cast<std::uint32_t>(4 * values.size()), .size = 4});
+    values.push_back(std::bit_cast<std::uint32_t>(kWetAlpha[variant.wet]));
+  }
   const vk::SpecializationInfo constants{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
                                          .pMapEntries = entries.data(),
                                          .dataSize = 4 * values.size(),
@@ -379,6 +389,7 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     if (common.output == LampOutput::kDisplay || common.output == LampOutput::kHdr ||
         common.output == LampOutput::kClipping)
       variant.fog = view.fog;
+    if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet;
     if (variant.output == LampOutput::kAudit) variant.kind = {.double_sided = variant.kind.double_sided};
     const vk::Pipeline wanted = pipeline(variant);
     if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);

@@ -69,6 +69,10 @@ struct FogGrid {
   friend auto operator<=>(const FogGrid&, const FogGrid&) = default;
 };
 
+/// Width of the slopes of water on the ground, by the levels of the effect: dry, damp, wet, flooded.
+inline constexpr std::array<float, 4> kWetAlpha{0.0f, 0.15f, 0.05f, 0.02f};
+static_assert(kWetAlpha.size() == kWetNames.size());
+
 /// One view of a frame, ready for its passes.
 struct LitView {
   ViewGeometry geometry;
@@ -90,6 +94,7 @@ struct LitView {
   shader::GpuDrops drops{};
   std::uint32_t drops_count = 0;
   bool snow = false;
+  std::uint32_t wet = 0;          ///< of ground, as the levels of the effect
   std::uint32_t lamps = 0;        ///< that light something in it
   std::uint32_t unreached = 0;    ///< left out: they light nothing of what it sees
   std::uint32_t over_limit = 0;   ///< left out somewhere: kLampsPerDraw that are brighter there light it already
@@ -107,6 +112,7 @@ struct LitVariant {
   ShadowLevel shadows{};
   FogGrid fog{};
   Method method = Method::kFragment;
+  std::uint32_t wet = 0;  ///< which of kWetAlpha
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Format format = vk::Format::eUndefined;
   bool depth_done = false;

@@ -3,6 +3,9 @@
 #ifndef PHARE_SURFACE_VARYINGS
 #define PHARE_SURFACE_VARYINGS
 #include "lib/lamp_bindings.glsl"
+#include "lib/wet.h"
+
+layout(constant_id = kSpecWet) const float wet_alpha = 0.0;
 
 // Compiled for 2, 4 and 8 lamps (PHARE_LAMPS): varyings that nobody reads still cost each vertex. Loops over lamps are written out,
 // so that every index is a constant and the lamps a frame has not leave no trace.
@@ -54,10 +57,21 @@ layout(location = 7 + PHARE_LAMPS) PHARE_VARYING vec3 in_shadow[PHARE_LAMPS];
 #endif
 
 #ifdef PHARE_VERTEX
+layout(constant_id = 2) const uint retro = 0;
 layout(constant_id = 3) const uint output_kind = 0;
+
+// What goes back to the lamp is kept over what the surface reflects (GpuMaterial), which water has made darker.
+vec4 wetted(vec4 dry) {
+  const vec3 green = vec3(0.0, 1.0, 0.0);
+  vec3 rho = wet_reflectance(dry.rgb);
+  float darker = dot(rho, green) / max(dot(dry.rgb, green), 1e-6);
+  float left = retro == kRetroMarking ? kMarkingLeft : retro == kRetroFacets ? kFacetsLeft : darker;
+  return vec4(rho, retro == kRetroSheeting ? dry.w : dry.w * left / darker);
+}
 
 void pass_light(vec4 material) {
   const float pi = 3.14159265;
+  if (wet_alpha > 0.0) material = wetted(material);
   reflectance = vec4(material.rgb / pi, material.w);
   if (output_kind == kOutputDisplay || output_kind == kOutputClipping) reflectance.rgb *= frame.exposure.rgb;
   light_colour = frame.lamps[0].colour.rgb;

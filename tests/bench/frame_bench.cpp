@@ -251,6 +251,11 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
       input.falling = {.time_s = 0.1 * round, .eye_mps = {20.0, 0.0, 0.0}};
       return input;
     });
+  bench.add(group, "two lamps, wet ground", renderer, [view](int round) {
+    FrameInput input = without_shadows(view(round));
+    input.effects[static_cast<std::size_t>(Effect::kWetGround)] = 2;
+    return input;
+  });
   bench.add(group, "two lamps, luminance image", renderer, [view](int round) {
     FrameInput input = without_shadows(view(round));
     input.effects[static_cast<std::size_t>(Effect::kHdrImage)] = 1;

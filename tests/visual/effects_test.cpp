@@ -27,6 +27,7 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
                {{.overlay_lines = 3}, Effect::kOverlay},
                {{.air = {.visibility_m = 80.0}}, Effect::kFog},
                {{.air = {.rain_mmph = 4.0}, .air_lamps = 2}, Effect::kPrecipitation},
+               {{.lit_lamps = 1, .software_device = true, .air = {.rain_mmph = 4.0}}, Effect::kWetGround},
                {{.glare_lamps = 1, .glare_lx = 0.5}, Effect::kGlare},
                {{.gui = true}, Effect::kGui}};
   std::set<Effect> tried;
@@ -35,7 +36,7 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
     for (const EffectRow& row : effect_table()) {
       const bool needed =
           ((effect == Effect::kGlare || effect == Effect::kPrecipitation) && row.effect == Effect::kHdrImage) ||
-          (effect == Effect::kPrecipitation && row.effect == Effect::kFog);
+          ((effect == Effect::kPrecipitation || effect == Effect::kWetGround) && row.effect == Effect::kFog);
       EXPECT_EQ(plan.on(row.effect), row.effect == effect || needed) << row.name;
     }
     tried.insert(effect);
@@ -75,6 +76,21 @@ TEST(Effects, RainAndSnowAreDrawnWhereALampLightsThem) {
   off[static_cast<std::size_t>(Effect::kPrecipitation)] = 0;
   EXPECT_FALSE(plan_effects(rain, off).on(Effect::kHdrImage));
   EXPECT_TRUE(plan_effects(rain, off).on(Effect::kFog)) << "the air stays as it is";
+}
+
+// By the depth of the film: Gallaway's formula gives -0.27 mm at 10 mm/h and 0.57 mm at 50 mm/h.
+TEST(Effects, GroundIsAsWetAsItRains) {
+  const auto level_of = [](double rain_mmph) {
+    return kWetNames[plan_effects({.lit_lamps = 1, .air = {.rain_mmph = rain_mmph}}).level(Effect::kWetGround)];
+  };
+  EXPECT_EQ(level_of(0.0), "dry");
+  EXPECT_EQ(level_of(0.2), "damp");
+  EXPECT_EQ(level_of(10.0), "wet");
+  EXPECT_EQ(level_of(50.0), "flooded");
+  EffectChoices after_rain{};
+  after_rain[static_cast<std::size_t>(Effect::kWetGround)] = 2;
+  EXPECT_EQ(plan_effects({.lit_lamps = 1}, after_rain).level(Effect::kWetGround), 2u);
+  EXPECT_FALSE(plan_effects({.lit_lamps = 1, .false_colour = true}, after_rain).on(Effect::kWetGround));
 }
 
 // The eye scatters light in cd/m², so glare has the luminance image made, even against the user's word; without glare

@@ -78,6 +78,8 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"precipitation", "auto", "precipitation auto"},
       {"rain_mmph", "12.5", "rain_mmph 12.5"},
       {"snow_mmph", "2", "snow_mmph 2"},
+      {"ground", "wet", "ground wet"},
+      {"ground", "auto", "ground auto"},
       {"glare", "off", "glare off"},
       {"glare", "auto", "glare auto"},
       {"age_years", "65", "age_years 65"},
@@ -149,6 +151,7 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"snow_mmph 11", "snow_mmph: 11 is outside 0 to 10"},
       {"snow_mmph nan", "snow_mmph: expected a number, got \"nan\""},
       {"precipitation on", "precipitation: \"on\" is none of auto, off"},
+      {"ground soaked", "ground: \"soaked\" is none of auto, dry, damp, wet, flooded"},
       {"glare on", "glare: \"on\" is none of auto, off"},
       {"age_years 0", "age_years: 0 is outside 1 to 120"},
       {"iris_pigment 1.3", "iris_pigment: 1.3 is outside 0 to 1.2"},
@@ -176,7 +179,7 @@ TEST(Desk, ItsDifferenceMakesItAgain) {
   for (const char* words :
        {"camera birds-eye", "view false-colour", "isolux_lx 0.1 0.30000000000000004", "exposure_per_cdm2 0.7",
         "adaptation_k 5500", "design 1", "lines off", "depth_first on", "shadows hard", "fog coarse", "glare off",
-        "precipitation off", "age_years 70", "visibility_m 80", "rain_mmph 7.5", "snow_mmph 0.5",
+        "precipitation off", "ground damp", "age_years 70", "visibility_m 80", "rain_mmph 7.5", "snow_mmph 0.5",
         "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
     ASSERT_TRUE(apply(desk, desk_command(words), {.designs = 2})) << words;
   Desk again;

@@ -120,6 +120,17 @@ TEST_F(TrafficTest, GlareFiguresAreThoseOfTheEquations) {
   EXPECT_NEAR(eyes[0].at.normal.x, -1.0, 1e-9);
 }
 
+// In the mirror of wet ground those show who shine toward the eye.
+TEST_F(TrafficTest, OnWetGroundWhoComesTowardUsLightsTheScene) {
+  const Traffic both = traffic("[[road_user]]\nstart_s_m = 50\n[[road_user]]\nstart_s_m = 30\ndirection = \"same\"\n");
+  const auto users = both.at(0.0, straight());
+  const glm::dvec3 eye_m(0.0, 0.0, 1.2), ahead(1.0, 0.0, 0.0);
+  for (const PlacedLamp& lamp : Traffic::placed_lamps(users, eye_m, ahead)) EXPECT_LT(lamp.position_m.x, 40.0);
+  const auto mirrored = Traffic::placed_lamps(users, eye_m, ahead, true);
+  ASSERT_EQ(mirrored.size(), Traffic::kMostLamps);
+  for (const PlacedLamp& lamp : mirrored) EXPECT_GT(lamp.position_m.x, 40.0);
+}
+
 // The nearest that has not passed lights the scene; all glare.
 TEST_F(TrafficTest, TheNearestLightsTheScene) {
   const Traffic column = traffic(

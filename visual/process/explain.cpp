@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "visual/air_of_desk.h"
 #include "visual/frame_facts.h"
 #include "visual/light_reach.h"
 #include "visual/process/overlay_lines.h"
@@ -53,7 +54,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   World world(scene, traffic.meshes());
   world.move(input.moving);
   const std::vector<PlacedLamp> of_others =
-      Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0]);
+      Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0], wet(desk));
   input.lamps.insert(input.lamps.end(), of_others.begin(), of_others.end());
   std::size_t lit = 0;
   std::optional<std::vector<CastBy>> casts;

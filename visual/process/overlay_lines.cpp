@@ -43,6 +43,7 @@ void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& chann
   input.effects[static_cast<std::size_t>(Effect::kShadows)] = desk.shadows;
   input.effects[static_cast<std::size_t>(Effect::kFog)] = desk.fog;
   input.effects[static_cast<std::size_t>(Effect::kPrecipitation)] = desk.precipitation;
+  input.effects[static_cast<std::size_t>(Effect::kWetGround)] = desk.ground;
   input.effects[static_cast<std::size_t>(Effect::kGlare)] = desk.glare;
   input.air = air_of(desk);
   input.viewer = {desk.age_years, desk.iris_pigment};

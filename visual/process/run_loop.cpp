@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "net/silence.h"
+#include "visual/air_of_desk.h"
 #include "visual/process/loop.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/pick.h"
@@ -199,7 +200,7 @@ void Loop::draw(const Moment& moment) {
   input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
   users_ = s_.traffic.at(moment.time.seconds(), measuring_.road());
   const std::vector<PlacedLamp> their_lamps =
-      Traffic::placed_lamps(users_, input_.camera.eye_m, input_.camera.world_from_eye[0]);
+      Traffic::placed_lamps(users_, input_.camera.eye_m, input_.camera.world_from_eye[0], wet(s_.desk));
   input_.lamps.insert(input_.lamps.end(), their_lamps.begin(), their_lamps.end());
   input_.moving = s_.traffic.placed_meshes(users_);
   world_.move(input_.moving);

@@ -54,10 +54,11 @@ class Traffic {
   /// Headlamps that light the scene: those of the nearest, kMostLamps in all, so that with a car's own two none is
   /// lit by block (visual/lit_scene.h) and every pipeline is made before the drive. Who is behind
   /// `eye_m` lights nothing that is seen along `ahead`: most of a follower's light falls on the car, which has no body.
-  /// All others only glare.
+  /// All others only glare. `mirrored`: on wet ground those come first who shine toward the eye, for what shows most of
+  /// them is their light in its mirror.
   static constexpr std::size_t kMostLamps = 2;
   static std::vector<PlacedLamp> placed_lamps(std::span<const There> users, const glm::dvec3& eye_m,
-                                              const glm::dvec3& ahead);
+                                              const glm::dvec3& ahead, bool mirrored = false);
   /// Where their drivers' eyes are, looking along their way; of those who come toward us, lit or not: nobody
   /// else counts as glared at.
   struct Eye {
