@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "config/base/conventions.h"
 #include "full_car.h"
 #include "vehicle_dynamics/batch.h"
 
@@ -88,22 +89,65 @@ std::uint64_t number_in(const char* variable, std::uint64_t otherwise) {
 
 // What the models make of nothing, by choice (docs/dynamics.md, "Choices that show"): the road's force has a lever
 // about the centre of gravity that turns the body, and its contact does not move with that turning.
-double lever_nm_rad(const full::Params& p, const batch::Row& a, const batch::Row& b) {
-  double along = 0.0, across = 0.0;
+struct Pushed {
+  double along_n = 0.0, aside_n = 0.0;  // of all tyres, along the car's axes, mean of two rows
+};
+Pushed pushed(const batch::Row& a, const batch::Row& b) {
+  Pushed sum;
   for (const batch::Row* row : {&a, &b})
     for (std::size_t i = 0; i < 4; ++i) {
       const double steer = i < 2 ? row->steer_rad : 0.0;
-      along += 0.5 * (row->fx_n[i] * std::cos(steer) - row->fy_n[i] * std::sin(steer));
-      across += 0.5 * (row->fx_n[i] * std::sin(steer) + row->fy_n[i] * std::cos(steer));
+      sum.along_n += 0.5 * (row->fx_n[i] * std::cos(steer) - row->fy_n[i] * std::sin(steer));
+      sum.aside_n += 0.5 * (row->fx_n[i] * std::sin(steer) + row->fy_n[i] * std::cos(steer));
     }
-  return -p.cg_height_m * along * (b.pitch_rad - a.pitch_rad) +
-         p.sprung_kg / p.mass_kg * p.cg_height_m * across * (b.roll_rad - a.roll_rad);
+  return sum;
 }
 
-// Of what was turned over, 5 kJ at least. Seeds 1 to 100, 300 drives: all but five within 0.5 %, those 0.7 to 1.4 % and
-// the same with a quarter of the step: levers on a slope and of the wheels' own inertia are not in lever_nm_rad. Energy
-// from nothing, as a wheel spun up beyond its engine's power once gave, is tens of times as much.
-constexpr double kMostMissing = 0.02;
+// The plane under a car that looks there: > 0 rises ahead, and to the left.
+struct Slopes {
+  double ahead = 0.0, left = 0.0;
+};
+Slopes slopes(const Road& road, double yaw_rad) {
+  const double c = std::cos(yaw_rad), sn = std::sin(yaw_rad);
+  return {road.slope_x * c + road.slope_y * sn, road.slope_y * c - road.slope_x * sn};
+}
+
+// Of full the body turns over the plane: on a slope a car that steers pitches and rolls in the world without any
+// turning of its body.
+double lever_of_full_j(const full::Params& p, const Road& road, const batch::Row& a, const batch::Row& b) {
+  const auto over_plane = [&](const batch::Row& row) {
+    const Slopes plane = slopes(road, row.yaw_rad);
+    const double pitch = -std::atan(plane.ahead);
+    return std::pair(row.pitch_rad - pitch, row.roll_rad - std::atan(plane.left * std::cos(pitch)));
+  };
+  const auto [pitch_a, roll_a] = over_plane(a);
+  const auto [pitch_b, roll_b] = over_plane(b);
+  const Pushed push = pushed(a, b);
+  return -p.cg_height_m * push.along_n * (pitch_b - pitch_a) +
+         p.sprung_kg / p.mass_kg * p.cg_height_m * push.aside_n * (roll_b - roll_a);
+}
+
+// Of single-track it turns by slopes in the world, and what leans it over is weighed in the stiffness of its roll.
+double lever_of_single_track_j(const full::Params& p, const Road& road, const batch::Row& a, const batch::Row& b) {
+  const auto turned = [](const batch::Row& row) {
+    const double pitch = std::tan(row.pitch_rad);
+    return std::pair(pitch, std::tan(row.roll_rad) * std::sqrt(1.0 + pitch * pitch));
+  };
+  const auto [pitch_a, roll_a] = turned(a);
+  const auto [pitch_b, roll_b] = turned(b);
+  const Slopes plane = slopes(road, 0.5 * (a.yaw_rad + b.yaw_rad));
+  const Pushed push = pushed(a, b);
+  const double felt_mps2 = push.aside_n / p.mass_kg * (1.0 + plane.left * plane.left),
+               leant_mps2 = kGravity_mps2 * (0.5 * (roll_a + roll_b) - plane.left);
+  return -p.cg_height_m * push.along_n * (1.0 + plane.ahead * plane.ahead) * (pitch_b - pitch_a) +
+         p.sprung_kg * p.cg_height_m * (felt_mps2 + leant_mps2) * (roll_b - roll_a);
+}
+
+// Of what was turned over, 5 kJ at least. Seeds 1 to 300 and 7000 to 9099 by hundreds, 1,800 drives: 0.88 % at the
+// most, all above 0.5 % of single-track on slopes of 5 to 15 %, where it is slow; why is not known. Energy from
+// nothing, as a wheel spun up beyond its engine's power once gave, is tens of times as much; a front wheel's spin
+// counted aside too was 2.5 %.
+constexpr double kMostMissing = 0.01;
 
 TEST(RandomDriving, KeepsItsEnergy) {
   const std::uint64_t first = number_in("PHARE_SEED", 15),
@@ -122,7 +166,8 @@ TEST(RandomDriving, KeepsItsEnergy) {
         if (!start) start = before = row;
         given_j += std::abs(row.engine_j - before->engine_j) + std::abs(row.road_j - before->road_j);
         most_j = std::max(most_j, std::abs(row.car_j));
-        if (level != Level::kKinematic) lever_j += lever_nm_rad(car, *before, row);
+        if (level == Level::kFull) lever_j += lever_of_full_j(car, s.road, *before, row);
+        if (level == Level::kSingleTrack) lever_j += lever_of_single_track_j(car, s.road, *before, row);
         const double left = lever_j + row.engine_j + row.road_j - (row.car_j - start->car_j) - row.brakes_j -
                             row.tyres_j - row.dampers_j - row.air_j;
         // A car that tumbles turns about its own axes and no longer by the sum of two angles, as lever_nm_rad has it.

@@ -108,7 +108,8 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
   const double ax = held.stopped ? 0.0 : (pull - spin_kg * turning) * p.per_effective_kg;
   const Two pulls = least(largest(ahead - both(0.5 * spin_kg * (ax + turning)), -grip), grip);
   const double front_x = pulls[0], rear_x = pulls[1];
-  const double front_side = held.stopped ? front_y * held.cosine : front_x * held.sine + front_y * held.cosine;
+  // Aside acts what torque gives: the wheels' spin is counted along the car, where its energy is (effective_kg).
+  const double front_side = held.stopped ? front_y * held.cosine : ahead[0] * held.sine + front_y * held.cosine;
   const double fx = held.stopped ? -downhill_n : front_x * held.cosine - front_y * held.sine + rear_x;
   const double fy = front_side + rear_y, felt = fy * p.per_mass_kg;
   const double ay = felt - kGravity_mps2 * held.bank * held.level;
