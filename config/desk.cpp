@@ -1,62 +1,20 @@
 #include "config/desk.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 
+#include "config/desk_cameras.h"
+#include "config/desk_words.h"
 #include "config/formats/toml_table.h"
 
 namespace phare {
 namespace {
 
-/// Shortest decimal that reads back as the same number.
-std::string word_of(double value) {
-  char text[40];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-std::vector<std::string> words_of(std::string_view text) {
-  std::vector<std::string> words;
-  while (true) {
-    const std::size_t begin = text.find_first_not_of(" ,\t");
-    if (begin == std::string_view::npos) return words;
-    text.remove_prefix(begin);
-    const std::size_t end = std::min(text.find_first_of(" ,\t"), text.size());
-    words.emplace_back(text.substr(0, end));
-    text.remove_prefix(end);
-  }
-}
-
-Result<double> number_of(std::string_view word, double least, double most) {
-  double value = 0.0;
-  const auto [stop, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (failed != std::errc() || stop != word.data() + word.size() || !std::isfinite(value))
-    return Error{"", "expected a number, got \"" + std::string(word) + "\""};
-  if (!(value >= least && value <= most))
-    return Error{"", std::string(word) + " is outside " + word_of(least) + " to " + word_of(most)};
-  return value;
-}
-
-Error none_of(std::string_view value, std::span<const std::string_view> choices, std::string_view more = {}) {
-  std::string all;
-  for (const std::string_view choice : choices) all += (all.empty() ? "" : ", ") + std::string(choice);
-  return {"", "\"" + std::string(value) + "\" is none of " + all + (more.empty() ? "" : ", ") + std::string(more)};
-}
-
-/// One of the names, or "next".
-template <std::size_t count, typename Enum>
-Status choose(const std::array<std::string_view, count>& names, Enum& chosen, std::string_view value) {
-  if (value == "next") {
-    chosen = static_cast<Enum>((static_cast<std::size_t>(chosen) + 1) % count);
-    return Done{};
-  }
-  const auto found = std::ranges::find(names, value);
-  if (found == names.end()) return none_of(value, names, "next");
-  chosen = static_cast<Enum>(found - names.begin());
-  return Done{};
-}
+using namespace desk_words;
 
 Status turn(bool& flag, std::string_view value) {
   if (value == "toggle") {
@@ -77,53 +35,11 @@ std::string get_flag(const Desk& desk) {
   return std::string(kOffOnNames[desk.*flag ? 1 : 0]);
 }
 
-Status set_camera(Desk& desk, std::string_view value, const DeskContext&) {
-  return choose(kCameraNames, desk.camera, value);
-}
-std::string get_camera(const Desk& desk) {
-  return std::string(kCameraNames[static_cast<std::size_t>(desk.camera)]);
-}
-
 Status set_compare(Desk& desk, std::string_view value, const DeskContext&) {
   return choose(kCompareNames, desk.compare, value);
 }
 std::string get_compare(const Desk& desk) {
   return std::string(kCompareNames[static_cast<std::size_t>(desk.compare)]);
-}
-
-/// "car|world X Y Z YAW_DEG PITCH_DEG [FOV_DEG]".
-Status set_free_eye(Desk& desk, std::string_view value, const DeskContext&) {
-  const std::vector<std::string> words = words_of(value);
-  const auto frames = std::span(kProbeFrameNames).first(2);
-  FreeEye eye;
-  const auto frame = std::ranges::find(frames, words.empty() ? "" : words.front());
-  if (frame == frames.end()) return none_of(words.empty() ? "" : words.front(), frames);
-  eye.frame = static_cast<Probe::Frame>(frame - frames.begin());
-  if (words.size() != 6 && words.size() != 7)
-    return Error{"",
-                 "expected car or world, x, y, z in m, degrees to the left and up, and the field in degrees if it is "
-                 "not 60"};
-  const auto read = [&](std::size_t word, double least, double most, double& to) -> Status {
-    const auto number = number_of(words[word], least, most);
-    if (!number) return number.error();
-    to = *number;
-    return Done{};
-  };
-  for (int axis = 0; axis < 3; ++axis)
-    if (const Status done = read(static_cast<std::size_t>(axis) + 1, -1e7, 1e7, eye.position_m[axis]); !done)
-      return done.error();
-  if (const Status done = read(4, -360.0, 360.0, eye.yaw_deg); !done) return done.error();
-  if (const Status done = read(5, -89.0, 89.0, eye.pitch_deg); !done) return done.error();
-  if (words.size() == 7)
-    if (const Status done = read(6, 1.0, 170.0, eye.fov_deg); !done) return done.error();
-  desk.free_eye = eye;
-  return Done{};
-}
-std::string get_free_eye(const Desk& desk) {
-  const FreeEye& eye = desk.free_eye;
-  std::string text(kProbeFrameNames[static_cast<std::size_t>(eye.frame)]);
-  for (int axis = 0; axis < 3; ++axis) text += " " + word_of(eye.position_m[axis]);
-  return text + " " + word_of(eye.yaw_deg) + " " + word_of(eye.pitch_deg) + " " + word_of(eye.fov_deg);
 }
 
 Status set_view(Desk& desk, std::string_view value, const DeskContext&) {
@@ -350,9 +266,12 @@ std::string get_visibility(const Desk& desk) {
 }
 
 constexpr DeskSetting kSettings[] = {
-    {"camera", "driver, birds-eye, chase, oncoming, left-mirror, inner-mirror, right-mirror, free, next",
-     "the eye: the driver's, above the road, behind the car, of a driver who meets it, mirrors, free", true, set_camera,
-     get_camera},
+    {"cameras", "none, [add] NAME car|world X Y Z YAW_DEG PITCH_DEG [FOV_DEG]; ..., add NAME, remove NAME",
+     "cameras of one's own; add NAME: as the free eye stands", true, set_cameras, get_cameras},
+    {"camera",
+     "driver, birds-eye, chase, oncoming, left-mirror, inner-mirror, right-mirror, free, a name of cameras, next",
+     "the eye: the driver's, above the road, behind the car, of a driver who meets it, mirrors, free, one's own", true,
+     set_camera, get_camera},
     {"free_eye", "car|world X Y Z YAW_DEG PITCH_DEG [FOV_DEG]",
      "of the camera free: m, degrees to the left and up; moved by the mouse too", true, set_free_eye, get_free_eye},
     {"mirrors", "off, on, toggle", "the three mirrors over the picture", true, set_flag<&Desk::mirrors>,

@@ -47,6 +47,15 @@ struct FreeEye {
   friend bool operator==(const FreeEye&, const FreeEye&) = default;
 };
 
+/// A camera of the user's own, by its name: letters, digits, - and _, no more than kMostOfName, none of kCameraNames.
+struct NamedEye {
+  std::string name;
+  FreeEye eye;
+
+  friend bool operator==(const NamedEye&, const NamedEye&) = default;
+};
+inline constexpr std::size_t kMostCameras = 8, kMostOfName = 24;
+
 /// Two designs in one picture: the one that shines on the left half and the other on the right half of the same view,
 /// or by turns, half a second each.
 enum class Compare { kOff, kSplit, kFlicker };
@@ -80,8 +89,10 @@ inline constexpr int kMostRain_mmph = 100, kMostSnow_mmph = 10;
 
 struct Desk {
   CameraKind camera = CameraKind::kDriver;
-  FreeEye free_eye;      ///< of the camera "free"
-  bool mirrors = false;  ///< the three mirrors as insets over the picture of another camera
+  FreeEye free_eye;               ///< of the camera "free"
+  std::vector<NamedEye> cameras;  ///< the user's own, kMostCameras at most
+  std::string own_camera;         ///< which of them is seen from: the free eye, first as it stands there; empty: none
+  bool mirrors = false;           ///< the three mirrors as insets over the picture of another camera
   Compare compare = Compare::kOff;
   std::optional<std::size_t> versus;  ///< the other design, from 0; none: the one after that which shines
   View view = View::kPhoto;

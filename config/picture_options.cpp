@@ -5,6 +5,7 @@
 #include <charconv>
 #include <limits>
 
+#include "config/desk_cameras.h"
 #include "config/rig.h"
 
 namespace phare {
@@ -25,10 +26,13 @@ CLI::IsMember one_of(const std::array<std::string_view, count>& names) {
   return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
 }
 
-/// Why a desk would not take it, empty where it would; whether a rig has such a design is seen when it is read.
+/// Why a desk would not take it, empty where it would; whether a rig has such a design or camera is seen when it is
+/// read.
 std::string why_not(const DeskCommand& command) {
   Desk desk;
   if (command.value.empty()) return "expected SETTING=VALUE";
+  // A camera may be the rig's own, which is seen when that is read too.
+  if (command.setting == "camera" && check_camera_name(command.value)) return {};
   const auto done = apply(desk, command, {.designs = std::numeric_limits<std::size_t>::max()});
   return done ? std::string() : done.error().text();
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "config/base/whole_file.h"
+#include "config/desk_cameras.h"
 #include "config/formats/toml_table.h"
 #include "config/rig.h"
 #include "config/rig_writer.h"
@@ -291,8 +292,43 @@ Result<std::string> with_mounts(const std::string& text, const std::filesystem::
   return edited;
 }
 
+Result<std::string> with_cameras(const std::string& text, const std::filesystem::path& file,
+                                 std::span<const NamedEye> cameras) {
+  const auto before = good_rig(text, file);
+  if (!before) return before.error();
+  auto root = TomlTable::parse(text, file.string());
+  if (!root) return root.error();
+  std::string list;
+  for (const NamedEye& one : cameras) list += (list.empty() ? "" : ", ") + toml_quoted(camera_words(one));
+  const std::string pair = "cameras = [" + list + "]";
+  Edits edits;
+  TomlTable desk = root->table("desk");
+  if (const auto there = desk.region("cameras")) {
+    const Bytes at = bytes_of(text, *there);
+    edits.replace(at.begin, at.end, "[" + list + "]");
+  } else if (const auto table = root->region("desk")) {
+    if (is_inline(text, desk)) {
+      const Bytes at = bytes_of(text, *table);
+      edits.replace(at.begin + 1, at.begin + 1, " " + pair + ",");
+    } else {
+      const std::size_t line = std::min(text.find('\n', bytes_of(text, *table).begin), text.size());
+      edits.replace(line, line, "\n" + pair);
+    }
+  } else {
+    edits.replace(text.size(), text.size(), std::string(text.ends_with('\n') ? "" : "\n") + "\n[desk]\n" + pair + "\n");
+  }
+  const std::string edited = edits.applied_to(text);
+  const auto after = good_rig(edited, file);
+  if (!after) return Error{file.string(), "cannot be edited (" + after.error().text() + "); nothing is written"};
+  Rig same = *after;
+  same.desk.cameras = before->desk.cameras;
+  if (!std::ranges::equal(after->desk.cameras, cameras) || !(same == *before))
+    return Error{file.string(), "its desk is written in a way that cannot be edited; nothing is written"};
+  return edited;
+}
+
 Status save_mounts(const std::filesystem::path& rig_file, const std::filesystem::path& out,
-                   std::span<const SavedMount> mounts) {
+                   std::span<const SavedMount> mounts, const std::vector<NamedEye>* cameras) {
   const std::filesystem::path to = out.empty() ? rig_file : std::filesystem::absolute(out).lexically_normal();
   std::error_code ignored;
   if (to.parent_path() != std::filesystem::absolute(rig_file).lexically_normal().parent_path())
@@ -301,7 +337,8 @@ Status save_mounts(const std::filesystem::path& rig_file, const std::filesystem:
   std::ifstream stream(rig_file, std::ios::binary);
   if (!stream) return Error{rig_file.string(), "cannot be read"};
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const auto edited = with_mounts(text, rig_file, mounts);
+  auto edited = with_mounts(text, rig_file, mounts);
+  if (edited && cameras != nullptr) edited = with_cameras(*edited, rig_file, *cameras);
   if (!edited) return edited.error();
   return write_whole_file(to, *edited);
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "config/base/result.h"
+#include "config/desk.h"
 
 namespace phare {
 
@@ -31,9 +32,14 @@ struct SavedMount {
 Result<std::string> with_mounts(const std::string& text, const std::filesystem::path& file,
                                 std::span<const SavedMount> mounts);
 
-/// Reads the rig file as it is now, and writes it with these lamps to `out` (empty: to itself): whole, or not at all.
-/// `out` has to lie in the folder of the rig, for its paths. Error: as above, or the disk's.
+/// The text with these cameras of the user's own in it, in place of those it has. Error: as above.
+Result<std::string> with_cameras(const std::string& text, const std::filesystem::path& file,
+                                 std::span<const NamedEye> cameras);
+
+/// Reads the rig file as it is now, and writes it with these lamps, and cameras if they are given, to `out` (empty: to
+/// itself): whole, or not at all. `out` has to lie in the folder of the rig, for its paths. Error: as above, or the
+/// disk's.
 Status save_mounts(const std::filesystem::path& rig_file, const std::filesystem::path& out,
-                   std::span<const SavedMount> mounts);
+                   std::span<const SavedMount> mounts, const std::vector<NamedEye>* cameras = nullptr);
 
 }  // namespace phare

@@ -108,7 +108,7 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
       true},
      {Effect::kPrecipitation, "precipitation", kOffOnNames, "the HDR image; a draw of lines in the lamp pass",
       precipitation, true},
-     {Effect::kWetGround, "wet ground", kWetNames, "pipelines of ground with water's mirror in them", wet_ground},
+     {Effect::kWetGround, "ground", kWetNames, "pipelines of ground with water's mirror in them", wet_ground},
      {Effect::kGlare, "glare", kOffOnNames, "the HDR image; its pass to the display adds what the eye scatters", glare,
       true},
      {Effect::kGui, "gui", kOffOnNames, "a pass of triangles over the picture, an image of letters", gui}}};

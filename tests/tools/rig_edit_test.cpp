@@ -217,5 +217,27 @@ TEST_F(RigSave, WhatTheDiskDoesNotTakeIsSaidAndTheFileStays) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2) << "nothing half-written is left";
 }
 
+/// Cameras of one's own go where the desk is, or where none is behind everything; all else stays, comments too.
+TEST(RigEdit, PutsCamerasIntoTheDesk) {
+  const NamedEye roof{"roof", {.position_m = {0.5, 0.0, 2.25}, .yaw_deg = 0.0, .pitch_deg = -10.0, .fov_deg = 70.0}};
+  const NamedEye kerb{"kerb", {.frame = Probe::Frame::kWorld, .position_m = {60.0, -6.0, 1.6}}};
+  const std::string text(kRig);
+  const auto first = with_cameras(text, "/x/rig.toml", std::vector{roof, kerb});
+  ASSERT_TRUE(first) << first.error().text();
+  EXPECT_TRUE(first->starts_with(text)) << *first;
+  EXPECT_NE(first->find("[desk]\ncameras = [\"roof car 0.5 0 2.25 0 -10 70\", \"kerb world 60 -6 1.6 -12 -8 60\"]\n"),
+            std::string::npos)
+      << *first;
+  const auto fewer = with_cameras(*first, "/x/rig.toml", std::vector{kerb});
+  ASSERT_TRUE(fewer) << fewer.error().text();
+  EXPECT_EQ(fewer->find("roof"), std::string::npos);
+  const auto with_desk =
+      with_cameras(text + "\n[desk]  # mine\ncamera = \"chase\"\n", "/x/rig.toml", std::vector{roof});
+  ASSERT_TRUE(with_desk) << with_desk.error().text();
+  EXPECT_TRUE(
+      with_desk->ends_with("[desk]  # mine\ncameras = [\"roof car 0.5 0 2.25 0 -10 70\"]\ncamera = \"chase\"\n"))
+      << *with_desk;
+}
+
 }  // namespace
 }  // namespace phare

@@ -27,6 +27,8 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"camera", "next", "camera oncoming"},
       {"camera", "free", "camera free"},
       {"camera", "next", "camera driver"},
+      {"cameras", "roof car 0 0 2 0 -5", "cameras roof car 0 0 2 0 -5 60"},
+      {"cameras", "none", "cameras none"},
       {"free_eye", "world 1 2 3 90 -10", "free_eye world 1 2 3 90 -10 60"},
       {"free_eye", "car -6 2.5 2.2 -12 -8 45", "free_eye car -6 2.5 2.2 -12 -8 45"},
       {"mirrors", "on", "mirrors on"},
@@ -98,11 +100,64 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
   for (const DeskSetting& setting : desk_settings()) EXPECT_TRUE(tried.contains(setting.name)) << setting.name;
 }
 
+// Cameras of one's own: kept where the free eye stands, chosen by name and in turn, moved, replaced, removed; and said
+// in words that make the same desk.
+TEST(Desk, HasCamerasOfOnesOwn) {
+  Desk desk;
+  const auto say = [&](const std::string& words) {
+    const std::size_t space = words.find(' ');
+    const auto done = apply(desk, {words.substr(0, space), words.substr(space + 1)}, {});
+    return done ? std::string() : done.error().text();
+  };
+  EXPECT_EQ(say("free_eye car 1 2 3 10 -5 70"), "");
+  EXPECT_EQ(say("cameras add roof"), "");
+  EXPECT_EQ(say("cameras add wall world 20 0 1.2 180 0"), "");
+  ASSERT_EQ(desk.cameras.size(), 2u);
+  EXPECT_EQ(desk.cameras[0].eye.position_m, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(desk.cameras[1].eye.frame, Probe::Frame::kWorld);
+  EXPECT_EQ(say("camera wall"), "");
+  EXPECT_EQ(desk.camera, CameraKind::kFree);
+  EXPECT_EQ(desk.free_eye.position_m.x, 20.0);
+  EXPECT_EQ(say("camera next"), "") << "behind the last the driver's is next";
+  EXPECT_EQ(desk.camera, CameraKind::kDriver);
+  std::string in_turn;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(say("camera next"), "");
+    in_turn += apply(desk, {"camera"}, {})->substr(7) + " ";
+  }
+  EXPECT_EQ(in_turn, "birds-eye chase oncoming left-mirror inner-mirror right-mirror free roof wall driver ");
+
+  // Moved by the mouse it is where it was moved to, until it is chosen anew; kept, it is there for good.
+  EXPECT_EQ(say("camera roof"), "");
+  desk.free_eye.position_m.z = 5.0;
+  EXPECT_EQ(desk.cameras[0].eye.position_m.z, 3.0);
+  Desk told;
+  for (const DeskSetting& setting : desk_settings())
+    ASSERT_TRUE(apply(told, {std::string(setting.name), setting.get(desk)}, {})) << setting.name;
+  EXPECT_EQ(told, desk);
+  EXPECT_EQ(say("cameras add roof"), "");
+  EXPECT_EQ(desk.cameras[0].eye.position_m.z, 5.0);
+  EXPECT_EQ(desk.cameras.size(), 2u);
+  EXPECT_EQ(say("cameras remove roof"), "");
+  EXPECT_TRUE(desk.own_camera.empty());
+  EXPECT_EQ(desk.camera, CameraKind::kFree) << "where it was";
+  for (int i = 0; i < 7; ++i) EXPECT_EQ(say("cameras add c" + std::to_string(i)), "");
+  EXPECT_EQ(say("cameras add c7"), "cameras: at most 8 cameras");
+  EXPECT_EQ(say("cameras none"), "");
+  EXPECT_TRUE(desk.cameras.empty());
+}
+
 TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
   const std::map<std::string, std::string> cases{
       {"camera roof",
        "camera: \"roof\" is none of driver, birds-eye, chase, oncoming, left-mirror, inner-mirror, right-mirror, free, "
        "next"},
+      {"cameras roof", "cameras: roof: where is it? add roof takes the free eye's place"},
+      {"cameras add next", "cameras: \"next\" means something else already"},
+      {"cameras add free car 1 2 3 0 0", "cameras: \"free\" means something else already"},
+      {"cameras add a/b", "cameras: \"a/b\" is no name of a camera: 1 to 24 letters, digits, - and _"},
+      {"cameras roof car 1 2 3 0 95", "cameras: roof: 95 is outside -89 to 89"},
+      {"cameras remove roof", "cameras: there is no camera \"roof\"; there are: none"},
       {"free_eye car 1 2 3",
        "free_eye: expected car or world, x, y, z in m, degrees to the left and up, and the field in degrees if it is "
        "not "
@@ -176,11 +231,26 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
 /// What was written of a desk makes the same desk again: the rig file, the status.
 TEST(Desk, ItsDifferenceMakesItAgain) {
   Desk desk;
-  for (const char* words :
-       {"camera birds-eye", "view false-colour", "isolux_lx 0.1 0.30000000000000004", "exposure_per_cdm2 0.7",
-        "adaptation_k 5500", "design 1", "lines off", "depth_first on", "shadows hard", "fog coarse", "glare off",
-        "precipitation off", "ground damp", "age_years 70", "visibility_m 80", "rain_mmph 7.5", "snow_mmph 0.5",
-        "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
+  for (const char* words : {"cameras roof car 0 0 2 0 -5 60; kerb world 1 2 3 4 5 50",
+                            "camera roof",
+                            "free_eye car 0 0 3 0 -5 60",
+                            "view false-colour",
+                            "isolux_lx 0.1 0.30000000000000004",
+                            "exposure_per_cdm2 0.7",
+                            "adaptation_k 5500",
+                            "design 1",
+                            "lines off",
+                            "depth_first on",
+                            "shadows hard",
+                            "fog coarse",
+                            "glare off",
+                            "precipitation off",
+                            "ground damp",
+                            "age_years 70",
+                            "visibility_m 80",
+                            "rain_mmph 7.5",
+                            "snow_mmph 0.5",
+                            "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
     ASSERT_TRUE(apply(desk, desk_command(words), {.designs = 2})) << words;
   Desk again;
   for (const DeskCommand& command : difference(desk)) ASSERT_TRUE(apply(again, command, {.designs = 2}));
@@ -234,6 +304,7 @@ TEST(Desk, IsTheSameByKeyCommandLineAndBus) {
       by_command_line({"--set", "exposure_per_cdm2=0.5", "--set", "adaptation_k=5000", "--set", "isolux_lx=1,2",
                        "--set", "design=1"}));
   EXPECT_THROW(by_command_line({"--camera", "roof"}), CLI::ParseError);
+  EXPECT_THROW(by_command_line({"--set", "camera=next door"}), CLI::ParseError);
   EXPECT_THROW(by_command_line({"--set", "camera"}), CLI::ParseError);
   EXPECT_THROW(by_command_line({"--set", "kamera=chase"}), CLI::ParseError);
 }

@@ -87,8 +87,8 @@ TEST_F(Explain, RainCallsForItsAirItsDropsAndTheirImage) {
       else if (wet[i].starts_with("precipitation"))
         EXPECT_EQ(wet[i], std::string("precipitation   on      2 lamps light ") + (snow ? "flakes" : "drops") +
                               " near the eye");
-      else if (wet[i].starts_with("wet ground") && !snow)
-        EXPECT_EQ(wet[i], "wet ground      wet     rain of 10 mm/h fills the texture of the road");
+      else if (wet[i].starts_with("ground ") && !snow)
+        EXPECT_EQ(wet[i], "ground          wet     rain of 10 mm/h fills the texture of the road");
       else if (wet[i].starts_with("hdr image"))
         EXPECT_EQ(wet[i], "hdr image       on      drops are added to luminance in cd/m²");
       else
@@ -129,7 +129,7 @@ TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
   EXPECT_EQ(lit[4], "overlay         off     no line of text to show");
   EXPECT_EQ(lit[5], "fog             off     the air is clear");
   EXPECT_EQ(lit[6], "precipitation   off     neither rain nor snow falls");
-  EXPECT_EQ(lit[7], "wet ground      dry     it does not rain");
+  EXPECT_EQ(lit[7], "ground          dry     it does not rain");
   EXPECT_EQ(lit[8], "glare           off     no lamp shines into the eye");
 
   const auto dark = lines(moment(LightSwitch::kOff), gpu_);

@@ -252,6 +252,15 @@ TEST_F(PanelTest, TheDeskIsSetInItsOwnWords) {
   click("camera");
   EXPECT_EQ(click("camera chase"), std::vector{control(RigControl::Set{"camera", "chase"})});
   EXPECT_EQ(desk_.camera, CameraKind::kChase);
+  click("camera"), click("camera free");
+  click("cameras add");
+  EXPECT_EQ(desk_.own_camera, "camera1");
+  ASSERT_EQ(desk_.cameras.size(), 1u);
+  click("camera"), click("camera driver");
+  click("camera"), click("camera camera1");
+  EXPECT_EQ(desk_.own_camera, "camera1");
+  click("cameras remove");
+  EXPECT_TRUE(desk_.cameras.empty());
   click("view");
   click("view false-colour");
   EXPECT_EQ(desk_.view, View::kFalseColour);

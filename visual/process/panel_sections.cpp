@@ -88,6 +88,7 @@ class Sheet {
   void light(const PanelLamp& lamp);
   void save();
   void exposure();
+  void own_camera(const Desk& desk);
 
   const PanelFacts& facts_;
   PanelState& state_;
@@ -103,7 +104,7 @@ void Sheet::choose(const std::string& setting, const char* label, std::span<cons
                    const std::string& now, const std::string& tooltip) {
   name(label);
   ImGui::SetNextItemWidth(-1.0f);
-  const bool open = ImGui::BeginCombo(("##" + setting).c_str(), now.c_str());
+  const bool open = ImGui::BeginCombo(("##" + setting).c_str(), now.c_str(), ImGuiComboFlags_HeightLarge);
   mark(setting);
   if (!open) return tip(tooltip + "\n" + control_words(setting, now));
   for (const std::string_view value : values) {
@@ -294,13 +295,37 @@ void Sheet::exposure() {
     set("exposure_per_cdm2", fmt::format("{:.6g}", 8.0 / std::exp2(ev)));
 }
 
+/// The free eye, moved by the mouse, becomes a camera of the user's own, or that which is seen from is moved to it.
+void Sheet::own_camera(const Desk& desk) {
+  std::string name = desk.own_camera;
+  for (std::size_t n = 1; name.empty(); ++n) {
+    const std::string next = "camera" + std::to_string(n);
+    if (std::ranges::find(desk.cameras, next, &NamedEye::name) == desk.cameras.end()) name = next;
+  }
+  const bool room = !desk.own_camera.empty() || desk.cameras.size() < kMostCameras;
+  if (button("keep as " + name,
+             "a camera of one's own where the free eye stands\n" + control_words("cameras", "add " + name), room,
+             "cameras add")) {
+    set("cameras", "add " + name);
+    if (desk.own_camera.empty()) set("camera", name);
+  }
+  if (desk.own_camera.empty()) return;
+  ImGui::SameLine();
+  if (button("remove", control_words("cameras", "remove " + name), true, "cameras remove"))
+    set("cameras", "remove " + name);
+}
+
 void Sheet::view() {
   if (!section("View", true)) return;
   const Desk& desk = facts_.desk;
   const auto at = [](std::span<const std::string_view> names, auto value) {
     return std::string(names[static_cast<std::size_t>(value)]);
   };
-  choose("camera", "camera", kCameraNames, at(kCameraNames, desk.camera), key_of_setting(KeyAction::kCamera));
+  std::vector<std::string_view> cameras(kCameraNames.begin(), kCameraNames.end());
+  for (const NamedEye& own : desk.cameras) cameras.push_back(own.name);
+  choose("camera", "camera", cameras, desk.own_camera.empty() ? at(kCameraNames, desk.camera) : desk.own_camera,
+         key_of_setting(KeyAction::kCamera));
+  if (desk.camera == CameraKind::kFree) own_camera(desk);
   choose("view", "shows", kViewNames, at(kViewNames, desk.view), key_of_setting(KeyAction::kFalseColour));
   if (facts_.designs.size() > 1)
     choose("compare", "compare A, B", kCompareNames, at(kCompareNames, desk.compare),

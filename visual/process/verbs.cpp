@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <utility>
 
@@ -72,17 +73,22 @@ std::string all_mounts_text(const Lamps& lamps) {
   return text + mounts_text(lamps, "");
 }
 
-ControlReply save(Lamps& lamps, const Rig& rig, const std::string& file) {
+/// `cameras`: as the rig file has them.
+ControlReply save(Lamps& lamps, const Rig& rig, const Desk& desk, std::vector<NamedEye>& cameras,
+                  const std::string& file) {
   const std::vector<SavedMount> changed = lamps.changed_mounts();
   const bool own = file.empty() || std::filesystem::path(file).lexically_normal() == rig.file;
-  if (changed.empty() && own) return accepted(rig.file.string() + ": says so already");
-  if (const Status saved = save_mounts(rig.file, file, changed); !saved) return refused(saved.error().text());
-  if (own) lamps.mounts_are_saved();
-  return accepted((own ? rig.file.string() : file) + print(": %zu lamps", changed.size()));
+  const bool looks = desk.cameras != cameras;
+  if (changed.empty() && !looks && own) return accepted(rig.file.string() + ": says so already");
+  if (const Status saved = save_mounts(rig.file, file, changed, looks ? &desk.cameras : nullptr); !saved)
+    return refused(saved.error().text());
+  if (own) lamps.mounts_are_saved(), cameras = desk.cameras;
+  return accepted((own ? rig.file.string() : file) + print(": %zu lamps", changed.size()) +
+                  (looks ? print(", %zu cameras", desk.cameras.size()) : ""));
 }
 
 /// What changes places and turns of lamps: the first picture's.
-void add_mount_verbs(Verbs& verbs, Lamps& lamps, const Rig& rig) {
+void add_mount_verbs(Verbs& verbs, Lamps& lamps, const Rig& rig, const Desk& desk) {
   verbs.on<RigControl::Mount>([&lamps](const RigControl::Mount& mount) {
     const Status done = lamps.mount(mount);
     return answer(done, done ? mounts_text(lamps, mount.lamp) : "");
@@ -97,7 +103,8 @@ void add_mount_verbs(Verbs& verbs, Lamps& lamps, const Rig& rig) {
     return answer(done, done ? (reset.lamp.empty() ? all_mounts_text(lamps) : mounts_text(lamps, reset.lamp)) : "");
   });
   verbs.on<RigControl::Save>(
-      [&lamps, &rig](const RigControl::Save& command) { return save(lamps, rig, command.file); });
+      [&lamps, &rig, &desk, cameras = std::make_shared<std::vector<NamedEye>>(rig.desk.cameras)](
+          const RigControl::Save& command) { return save(lamps, rig, desk, *cameras, command.file); });
 }
 
 }  // namespace
@@ -118,7 +125,7 @@ Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk, std::uint32_t chann
                   place.lamp + print(": at x %.3f, y %.3f, z %.3f m", place.x_m, place.y_m, place.z_m));
   });
   if (channel == 0) {
-    add_mount_verbs(verbs, lamps, rig);
+    add_mount_verbs(verbs, lamps, rig, desk);
   } else {
     verbs.on<RigControl::Mount>([](const auto&) { return not_mine(); });
     verbs.on<RigControl::Undo>([](const auto&) { return not_mine(); });
