@@ -179,6 +179,55 @@ TEST_F(ReferencePicture, EachPixelIsRightAtTheVeryPlaceThatItShows) {
   }
 }
 
+/// Lamps with light of several colours, fog, a shadow, a mirror, parallel rays.
+TEST_F(ReferencePicture, ShowsWhatThePictureByFragmentShows) {
+  Scene scene = slope();
+  scene.vertices.insert(scene.vertices.end(),
+                        {{{20, -1, 0}, {-1, 0, 0}}, {{20, 1, 0}, {-1, 0, 0}}, {{20, 0, 2}, {-1, 0, 0}}});
+  scene.indices.insert(scene.indices.end(), {0, 2, 1});
+  SceneChunk sign{.node = "sign", .low_m = {20, -1, 0}, .high_m = {20, 1, 2}};
+  sign.first_index = 6, sign.index_count = 3, sign.first_vertex = 4, sign.vertex_count = 3;
+  scene.chunks.push_back(sign);
+  ASSERT_TRUE(renderer->load_scene(scene).ok());
+  const IntensityTable table = steep_beam(PhotometricType::kA);
+  IntensityTable wide = table;
+  for (double& deg : wide.first_deg) deg *= 0.5;
+  const AimedSource sources[]{{.table = &table, .colour_temperature_k = 3000.0}, {.table = &wide}};
+  renderer->set_beam(0, compose_beam_image(sources));
+  const auto pictures_agree = [&](FrameInput input, const char* what) {
+    input.want_image = true;
+    input.method = Method::kFragment;
+    const FrameResult by_fragment = renderer->draw(input);
+    const Image8 expected = renderer->read_image();
+    input.method = Method::kReference;
+    const FrameResult by_reference = renderer->draw(input);
+    const Image8 picture = renderer->read_image();
+    EXPECT_EQ(by_reference.pass_count, by_fragment.pass_count) << what;
+    int lit = 0, worst = 0;
+    for (std::size_t i = 0; i < picture.rgba.size(); ++i) {
+      worst = std::max(worst, std::abs(int{picture.rgba[i]} - int{expected.rgba[i]}));
+      lit += i % 4 == 0 && expected.rgba[i] > 30 ? 1 : 0;
+    }
+    EXPECT_GT(lit, 1000) << what;
+    EXPECT_LE(worst, 1) << what << ": the same light, rounded to 255 steps";
+  };
+  FrameInput input = input_of(Method::kReference);
+  pictures_agree(input, "road and sign, with shadows");
+  input.visibility_m = 80.0;
+  pictures_agree(input, "fog");
+  input.visibility_m.reset();
+  input.camera.world_from_eye[1] = -input.camera.world_from_eye[1];
+  pictures_agree(input, "as in a mirror");
+  input = input_of(Method::kReference);
+  input.part = {.left_01 = 0.25, .top_01 = 0.125, .width_01 = 0.75, .height_01 = 0.875};
+  pictures_agree(input, "a part of the picture");
+  input = input_of(Method::kReference);
+  input.camera = {.eye_m = {30.0, 0.0, 40.0},
+                  .world_from_eye = aim_rotation(0.0, -0.5 * std::numbers::pi, 0.0),
+                  .orthographic_width_m = 60.0};
+  pictures_agree(input, "from above, parallel rays");
+}
+
 TEST(ReferenceRefused, ByADeviceWithoutFloat64) {
   Result<Renderer> renderer = Renderer::create({.width_px = 64, .height_px = 64, .validation = true, .float64 = false});
   ASSERT_TRUE(renderer.ok()) << renderer.error().text();

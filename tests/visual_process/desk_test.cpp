@@ -198,6 +198,18 @@ Desk by_command_line(std::vector<std::string> words) {
   return desk;
 }
 
+TEST(Desk, TellsWhyADeviceWithoutFloat64DrawsByNoReference) {
+  Desk desk;
+  desk.method = Method::kVertex1998;
+  const DeskContext lacking{.no_reference = "the device has no shaderFloat64"};
+  const auto refused = apply(desk, {"method", "reference"}, lacking);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().text(), "method: reference: the device has no shaderFloat64");
+  EXPECT_EQ(desk.method, Method::kVertex1998) << "nothing has changed";
+  EXPECT_TRUE(apply(desk, {"method", "next"}, lacking));
+  EXPECT_EQ(desk.method, Method::kFragment) << "the key passes it by";
+}
+
 TEST(Desk, IsTheSameByKeyCommandLineAndBus) {
   Rig rig;
   rig.designs = {{"one", {}}, {"two", {}}};
