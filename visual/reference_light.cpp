@@ -12,8 +12,6 @@
 namespace phare {
 namespace {
 
-using Usage = vk::BufferUsageFlagBits;
-
 constexpr std::uint32_t kBuffers = 5;
 constexpr vk::DeviceSize kPlaceBytes = sizeof(double) * shader::kReferenceViewWords;
 static_assert(kPlaceBytes % 256 == 0);  // the most that a device may ask of a dynamic offset
@@ -34,7 +32,7 @@ std::array<vk::DescriptorSetLayoutBinding, kBuffers> reference_bindings() {
 /// Grows where it has to; what it held is lost then.
 void make_room(gpu::Device& device, gpu::HostBuffer& buffer, std::size_t words, const char* name) {
   const vk::DeviceSize bytes = sizeof(double) * std::max<std::size_t>(words, 1);
-  if (buffer.bytes < bytes) buffer = gpu::HostBuffer(device, bytes, Usage::eStorageBuffer, name);
+  if (buffer.bytes < bytes) buffer = gpu::HostBuffer(device, bytes, vk::BufferUsageFlagBits::eStorageBuffer, name);
 }
 
 /// Axes of the image (columns, in its frame) that the rows a, b, c of the shader are, and the table's kind.
@@ -144,7 +142,8 @@ void ReferenceLight::point_to_buffers(const Page& page) {
 ReferenceLight::Place ReferenceLight::fill(const LitView& view, const LitBy& lit_by) {
   const std::size_t number = used_++ / kPlacesInPage, place = (used_ - 1) % kPlacesInPage;
   if (number == pages_.size()) {
-    pages_.push_back({gpu::HostBuffer(device_, kPlacesInPage * kPlaceBytes, Usage::eStorageBuffer, "reference views"),
+    pages_.push_back({gpu::HostBuffer(device_, kPlacesInPage * kPlaceBytes, vk::BufferUsageFlagBits::eStorageBuffer,
+                                      "reference views"),
                       sets_.make()});
     point_to_buffers(pages_.back());
   }
