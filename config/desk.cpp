@@ -49,8 +49,15 @@ std::string get_view(const Desk& desk) {
   return std::string(kViewNames[static_cast<std::size_t>(desk.view)]);
 }
 
-Status set_method(Desk& desk, std::string_view value, const DeskContext&) {
-  return choose(kMethodNames, desk.method, value);
+Status set_method(Desk& desk, std::string_view value, const DeskContext& context) {
+  Method chosen = desk.method;
+  if (const Status done = choose(kMethodNames, chosen, value); !done) return done.error();
+  if (chosen == Method::kReference && !context.no_reference.empty()) {
+    if (value != "next") return Error{"", "reference: " + context.no_reference};
+    (void)choose(kMethodNames, chosen, value);
+  }
+  desk.method = chosen;
+  return Done{};
 }
 std::string get_method(const Desk& desk) {
   return std::string(kMethodNames[static_cast<std::size_t>(desk.method)]);
@@ -282,8 +289,8 @@ constexpr DeskSetting kSettings[] = {
      set_number_of_design<&Desk::versus, kNextName>, get_number_of_design<&Desk::versus, kNextName>},
     {"view", "photo, false-colour, clipping, next",
      "as the eye sees it, illuminance by colour, or stripes where the display clips", true, set_view, get_view},
-    {"method", "fragment, vertex, vertex-1998, next", "where illuminance is computed: docs/accuracy.md", true,
-     set_method, get_method},
+    {"method", "fragment, vertex, vertex-1998, reference, next", "where illuminance is computed: docs/accuracy.md",
+     true, set_method, get_method},
     {"isolux_lx", "up to 8 rising numbers, default", "lines of equal illuminance in false colour", true, set_isolux,
      get_isolux},
     {"exposure_per_cdm2", "0.000001 to 1000000", "multiplies luminance before the tone curve", true, set_exposure,

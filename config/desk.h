@@ -67,9 +67,10 @@ enum class View { kPhoto, kFalseColour, kClipping };
 inline constexpr std::array<std::string_view, 3> kViewNames{"photo", "false-colour", "clipping"};
 
 /// Where illuminance is computed (docs/accuracy.md, "Illumination methods"): at every pixel; at the vertices, and
-/// interpolated; or as in 1998: cos(q)/r² at the vertices, times the beam as an 8-bit texture (Lecocq et al. 1999).
-enum class Method { kFragment, kVertex, kVertex1998 };
-inline constexpr std::array<std::string_view, 3> kMethodNames{"fragment", "vertex", "vertex-1998"};
+/// interpolated; as in 1998: cos(q)/r² at the vertices, times the beam as an 8-bit texture (Lecocq et al. 1999); or in
+/// float64 at every pixel.
+enum class Method { kFragment, kVertex, kVertex1998, kReference };
+inline constexpr std::array<std::string_view, 4> kMethodNames{"fragment", "vertex", "vertex-1998", "reference"};
 
 inline constexpr std::array<std::string_view, 4> kProbeFrameNames{"car", "world", "road", "picture"};
 inline constexpr std::size_t kMostProbes = 16;
@@ -133,7 +134,8 @@ struct DeskCommand {
 
 /// What the desk cannot know of itself.
 struct DeskContext {
-  std::size_t designs = 1;  ///< of the rig
+  std::size_t designs = 1;        ///< of the rig
+  std::string no_reference = {};  ///< why the device cannot draw by Method::kReference; empty: it can, or is not known
 };
 
 struct DeskSetting {

@@ -40,7 +40,7 @@ constexpr KeyBinding kBindings[] = {
     {kCamera, kPicture, 'c', "C", {}, "camera: driver, above, behind, oncoming, mirrors, free", "camera next"},
     {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour, then clipping, then the photo", "view next"},
     {kEffects, kPicture, key::kF3, "F3", {}, "which effects are on, and why", "effects toggle"},
-    {kMethod, kPicture, key::kF4, "F4", {}, "where light is computed: pixels, vertices, as in 1998", "method next"},
+    {kMethod, kPicture, key::kF4, "F4", {}, "where light is computed: pixels, vertices, as in 1998, float64", "method next"},
     {kMirrors, kPicture, key::kF7, "F7", {}, "mirrors over the picture", "mirrors toggle"},
     {kCompare,
      kPicture,

@@ -300,12 +300,13 @@ Result<std::string> with_cameras(const std::string& text, const std::filesystem:
   if (!root) return root.error();
   std::string list;
   for (const NamedEye& one : cameras) list += (list.empty() ? "" : ", ") + toml_quoted(camera_words(one));
-  const std::string pair = "cameras = [" + list + "]";
+  list = list.empty() ? "\"none\"" : "[" + list + "]";
+  const std::string pair = "cameras = " + list;
   Edits edits;
   TomlTable desk = root->table("desk");
   if (const auto there = desk.region("cameras")) {
     const Bytes at = bytes_of(text, *there);
-    edits.replace(at.begin, at.end, "[" + list + "]");
+    edits.replace(at.begin, at.end, list);
   } else if (const auto table = root->region("desk")) {
     if (is_inline(text, desk)) {
       const Bytes at = bytes_of(text, *table);

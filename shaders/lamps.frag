@@ -1,6 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#ifdef PHARE_REFERENCE
+#include "lib/reference.glsl"
+#define PHARE_POINT vec3(reference_point)
+#define PHARE_NORMAL vec3(reference_normal)
+#else
 #include "lib/beam.glsl"
+#define PHARE_POINT point
+#define PHARE_NORMAL n
+#endif
 #ifdef PHARE_FOG
 #include "lib/fog.glsl"
 #else
@@ -99,6 +107,10 @@ void main() {
   if (sides == 2) unit = gl_FrontFacing ? unit : -unit;
   vec3 n = point_normal * unit;
   float level = dot(n, point);
+#ifdef PHARE_REFERENCE
+  if (output_kind == kOutputMeasure) place_measured();
+  else place_pixel(unit < 0.0 ? -1.0lf : 1.0lf);
+#endif
 
   if (output_kind == kOutputMeasure) {
     vec4 lx = vec4(0.0);
@@ -140,8 +152,8 @@ void main() {
   if (colours == 0) coloured_lx = total_lx * light_colour;
 
   if (output_kind == kOutputAudit) {
-    result = vec4(point, total_lx);
-    result_normal = vec4(n, float(lamp_count));
+    result = vec4(PHARE_POINT, total_lx);
+    result_normal = vec4(PHARE_NORMAL, float(lamp_count));
     return;
   }
   if (output_kind == kOutputFalseColour) {

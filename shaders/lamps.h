@@ -37,6 +37,7 @@ const uint kSpecWet = kSpecTables + kSpecPerTable * kMaxLamps;  // float: width 
 const uint kMethodFragment = 0u;    // at every pixel
 const uint kMethodVertex = 1u;      // at the vertices, interpolated
 const uint kMethodVertex1998 = 2u;  // cos(q)/r² at the vertices, interpolated; times the beam by pixel, in 255 steps of its peak
+const uint kMethodReference = 3u;   // at every pixel, in float64 (lib/reference.glsl)
 
 const uint kRetroNone = 0u;
 const uint kRetroSheeting = 1u;  // R_A by a table of its own
@@ -145,9 +146,9 @@ struct GpuSheeting {
 
 // Push constants of one draw.
 struct GpuDraw {
-  vec4 origin;         // of the batch, relative to the eye, m
-  vec4 detail_origin;  // of the batch modulo 1024 m, so that detail stays put in float32
-  vec4 turn[3];        // rows that turn what moves into the world; of what stands those of no turn
+  vec4 origin;         // of the batch, relative to the eye, m; w, by method "reference": the draw's first index, as bits
+  vec4 detail_origin;  // of the batch modulo 1024 m, so that detail stays put in float32; w, likewise: its first vertex
+  vec4 turn[3];        // rows that turn what moves into the world; of what stands those of no turn; w: what float32 leaves of the origin, m
 };
 
 PHARE_SHADER_END

@@ -300,7 +300,9 @@ void add_measure(CLI::App& app, Command& chosen) {
       ->add_option("--max-error", options->max_error,
                    "With --table: relative, where more than 0.01 lx is expected [fragment: 1e-5; reference: 1e-9]")
       ->check(CLI::PositiveNumber);
-  command->add_option("--method", options->method, "fragment: the shader that draws the frame; reference: float64")
+  command
+      ->add_option("--method", options->method,
+                   "fragment: the shader that draws the frame; reference: float64, here on the processor")
       ->check(CLI::IsMember({"fragment", "reference"}))
       ->capture_default_str();
   command

@@ -88,7 +88,8 @@ static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetro
 static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
 static_assert(shader::kMaxIsoluxLevels % 4 == 0);
 static_assert(static_cast<std::uint32_t>(Method::kVertex) == shader::kMethodVertex &&
-              static_cast<std::uint32_t>(Method::kVertex1998) == shader::kMethodVertex1998);
+              static_cast<std::uint32_t>(Method::kVertex1998) == shader::kMethodVertex1998 &&
+              static_cast<std::uint32_t>(Method::kReference) == shader::kMethodReference);
 
 /// What water wets in the picture; what stands upright lets it run off.
 bool is_ground(Surface surface) {
@@ -146,12 +147,8 @@ LitScene::LitScene(gpu::Device& device, ImageLevel level)
                                 gpu::make_shader(device, k_lamps_frag_2_shadows),
                                 gpu::make_shader(device, k_lamps_frag_4_shadows),
                                 gpu::make_shader(device, k_lamps_frag_8_shadows)}} {
-  const vk::PushConstantRange push{.stageFlags = kLitStages, .offset = 0, .size = sizeof(shader::GpuDraw)};
   const std::array set_layouts{sets_.layout(), shadow_sets_.layout(), fog_sets_.layout()};
-  layout_ = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = set_layouts.size(),
-                                                                                 .pSetLayouts = set_layouts.data(),
-                                                                                 .pushConstantRangeCount = 1,
-                                                                                 .pPushConstantRanges = &push});
+  layout_ = pipeline_layout(set_layouts);
   filter_sampler_ =
       vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
                                                              .minFilter = vk::Filter::eLinear,
@@ -159,6 +156,15 @@ LitScene::LitScene(gpu::Device& device, ImageLevel level)
                                                              .addressModeV = vk::SamplerAddressMode::eClampToEdge});
   const vk::DeviceSize step = std::max<vk::DeviceSize>(device.properties.limits.minUniformBufferOffsetAlignment, 1);
   stride_ = (sizeof(shader::GpuFrame) + step - 1) / step * step;
+}
+
+vk::raii::PipelineLayout LitScene::pipeline_layout(std::span<const vk::DescriptorSetLayout> sets) {
+  const vk::PushConstantRange push{.stageFlags = kLitStages, .offset = 0, .size = sizeof(shader::GpuDraw)};
+  return vk::raii::PipelineLayout(
+      device_.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = static_cast<std::uint32_t>(sets.size()),
+                                                   .pSetLayouts = sets.data(),
+                                                   .pushConstantRangeCount = 1,
+                                                   .pPushConstantRanges = &push});
 }
 
 void LitScene::set_geometry(SceneBuffers geometry, ShadowCasters casters) {
@@ -174,6 +180,7 @@ void LitScene::set_beam(std::size_t beam, const BeamImage& image) {
   ++beam_versions_[beam];
   cones_[beam] = light_cone(image);
   peaks_cd_.resize(cones_.size());
+  keep_image(beam, image, {});
   peaks_cd_[beam] = image.candela.empty() ? 0.0f : *std::ranges::max_element(image.candela);
 }
 
@@ -181,6 +188,7 @@ void LitScene::change_beam(std::size_t beam, const BeamImage& image, std::span<c
   beams_.change(beam, image, changed);
   ++beam_versions_[beam];
   cones_[beam] = light_cone_after(cones_[beam], image, changed);
+  if (!changed.empty()) keep_image(beam, image, changed);
   for (const TexelRect& rect : changed)
     for (std::size_t row = rect.row; row < rect.end_row; ++row)
       for (std::size_t column = rect.column; column < rect.end_column; ++column)
@@ -189,6 +197,7 @@ void LitScene::change_beam(std::size_t beam, const BeamImage& image, std::span<c
 
 void LitScene::begin_frame(gpu::FrameGraph& graph) {
   views_ = 0;
+  reference_begun_ = false;
   if (beams_.upload(graph) || set_of_.size() > kMostSets) forget_sets();  // a set may name an image that is no more
 }
 
@@ -302,15 +311,14 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
                                          .dataSize = 4 * values.size(),
                                          .pData = values.data()};
   const bool measure = variant.output == LampOutput::kMeasure;
-  const std::size_t size = (variant.lamp_count <= 2   ? 0u
-                            : variant.lamp_count <= 4 ? 1u
-                                                      : 2u) +
-                           (variant.shadow_maps != 0 ? 3u : 0u);
-  vk::raii::ShaderModule& fog_frag = lamps_fog_frag_[size];
-  if (variant.fog.slices != 0 && !*fog_frag) fog_frag = gpu::make_shader(device_, lamps_fog_frag(size, filtered()));
+  // By "reference" one shader serves any number of lamps: its time goes elsewhere.
+  const bool eight = variant.lamp_count > 4 || variant.method == Method::kReference;
+  const std::size_t size = (eight ? 2u : variant.lamp_count > 2 ? 1u : 0u) + (variant.shadow_maps != 0 ? 3u : 0u);
+  const FragmentStage fragment =
+      variant.method == Method::kReference ? reference_stage(variant) : fragment_stage(variant, size);
   PipelineRecipe recipe{
       .vertex = measure ? *measure_vert_[size] : scene_vert(size, variant.method, variant.fog.slices != 0),
-      .fragment = variant.fog.slices != 0 ? *fog_frag : *lamps_frag_[size],
+      .fragment = fragment.module,
       .constants = &constants,
       .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
       .stride = sizeof(GpuVertex),
@@ -321,9 +329,16 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
       .depth_write = !measure && !variant.depth_done,
       .compare = variant.depth_done ? vk::CompareOp::eEqual : vk::CompareOp::eGreater,
       .samples = variant.samples,
-      .layout = *layout_};
+      .layout = fragment.layout};
   if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
   return *pipelines_.emplace(variant, make_pipeline(device_, recipe)).first->second;
+}
+
+LitScene::FragmentStage LitScene::fragment_stage(const LitVariant& variant, std::size_t size) {
+  if (variant.fog.slices == 0) return {*lamps_frag_[size], *layout_};
+  vk::raii::ShaderModule& module = lamps_fog_frag_[size];
+  if (!*module) module = gpu::make_shader(device_, lamps_fog_frag(size, filtered()));
+  return {*module, *layout_};
 }
 
 vk::ShaderModule LitScene::scene_vert(std::size_t size, Method method, bool fog) {
@@ -333,7 +348,7 @@ vk::ShaderModule LitScene::scene_vert(std::size_t size, Method method, bool fog)
     if (!*module) module = gpu::make_shader(device_, scene_fog_vert(shadows, by_vertex, filtered()));
     return *module;
   }
-  if (method == Method::kFragment) return *scene_vert_[size];
+  if (method == Method::kFragment || method == Method::kReference) return *scene_vert_[size];
   vk::raii::ShaderModule& module = lit_by_vertex_vert_[size];
   if (*module) return *module;
   using Code = std::span<const std::uint32_t>;
@@ -373,10 +388,15 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
   bind(commands, view);
   bind_shadows(commands, view);
   bind_fog(commands, view);
+  const bool by_reference = view.method == Method::kReference;
+  if (by_reference) bind_reference(commands, view, view.lit_by.front());
   std::size_t lit_by = 0;
   vk::Pipeline bound;
   for (const DrawItem& item : view.items) {
-    if (item.lit_by != std::exchange(lit_by, item.lit_by)) bind(commands, view.lit_by[lit_by]);
+    if (item.lit_by != std::exchange(lit_by, item.lit_by)) {
+      bind(commands, view.lit_by[lit_by]);
+      if (by_reference) bind_reference(commands, view, view.lit_by[lit_by]);
+    }
     const LitBy& lit = view.lit_by[lit_by];
     LitVariant variant = common;
     variant.lamp_count = lit.lamps;
@@ -393,7 +413,7 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     if (variant.output == LampOutput::kAudit) variant.kind = {.double_sided = variant.kind.double_sided};
     const vk::Pipeline wanted = pipeline(variant);
     if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);
-    push(commands, item.push);
+    push(commands, by_reference ? reference_draw(item) : item.push);
     commands.drawIndexed(item.batch->index_count, 1, item.first_index, item.batch->first_vertex, 0);
   }
 }

@@ -81,6 +81,7 @@ struct LitView {
   std::span<const double> isolux_lx{};  ///< lines of false colour; of the caller, while the view is made
   std::vector<DrawItem> items{};
   std::vector<SceneBatch> moved{};       ///< of what moves, where it is now; items point to them
+  vk::Rect2D area{};                     ///< of the picture, in pixels
   std::span<const PlacedMesh> moving{};  ///< of the caller, while the frame is recorded
   std::vector<LitBy> lit_by{};           ///< one at least
   std::vector<PlacedLamp> lit_lamps{};   ///< that light something in it
@@ -158,6 +159,10 @@ class LitScene {
   /// The shapes of the tables of a set of lamps, as specialization constants from kSpecTables on.
   std::vector<std::uint32_t> table_words(std::size_t tables) const;
   vk::Pipeline pipeline(const LitVariant& variant);
+  /// By the method "reference" (visual/reference_light.h): what ReferenceLight::set_points and fill say, for this
+  /// frame.
+  void set_reference_points(std::span<const double> points);
+  void bind_reference(vk::CommandBuffer commands, const LitView& view, const LitBy& lit_by);
   /// The view's data, and the vertices of the scene.
   void bind(vk::CommandBuffer commands, const LitView& view) const;
   void bind(vk::CommandBuffer commands, const LitBy& lit_by) const;
@@ -174,7 +179,21 @@ class LitScene {
   static constexpr std::size_t kNoBeam = SIZE_MAX;
   using Beams = std::array<std::size_t, shader::kMaxLamps>;
 
+  struct Reference;
+  struct ReferenceDeleter {
+    void operator()(Reference* reference) const;
+  };
+  struct FragmentStage {
+    vk::ShaderModule module;
+    vk::PipelineLayout layout;
+  };
+
   void light_by_block(LitView& view);
+  vk::raii::PipelineLayout pipeline_layout(std::span<const vk::DescriptorSetLayout> sets);
+  FragmentStage fragment_stage(const LitVariant& variant, std::size_t size);
+  FragmentStage reference_stage(const LitVariant& variant);
+  Reference& reference();
+  void keep_image(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed);
   LampReach reach_of(const PlacedLamp& lamp) const {
     return {lamp.position_m, lamp.world_from_image, cones_[lamp.beam]};
   }
@@ -190,7 +209,8 @@ class LitScene {
   BeamStore beams_;
   std::vector<LightCone> cones_;  ///< of each beam
   std::vector<std::uint64_t> beam_versions_;
-  std::vector<float> peaks_cd_;  ///< of each beam; of one that was changed, at most
+  std::vector<BeamImage> images_;  ///< of each beam, where the device has float64
+  std::vector<float> peaks_cd_;    ///< of each beam; of one that was changed, at most
   Grain grain_;
   gpu::DescriptorSets sets_, shadow_sets_, fog_sets_;  ///< of the last two only the layout
   std::map<std::pair<std::size_t, Beams>, vk::DescriptorSet> set_of_;
@@ -206,8 +226,13 @@ class LitScene {
   std::array<vk::raii::ShaderModule, 4> scene_fog_vert_{nullptr, nullptr, nullptr, nullptr};
   Modules lamps_fog_frag_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};  ///< each made when it is called for
   Modules lit_by_vertex_vert_{nullptr, nullptr, nullptr,
-                              nullptr, nullptr, nullptr};  ///< each made when it is called for
+                              nullptr, nullptr, nullptr};   ///< each made when it is called for
+  std::unique_ptr<Reference, ReferenceDeleter> reference_;  ///< made when it is called for
+  bool reference_begun_ = false;                            ///< in this frame
 };
+
+/// The constants of a draw by the method "reference": with its first index and vertex, as GpuDraw has them.
+shader::GpuDraw reference_draw(const DrawItem& item);
 
 /// Of a set of ShadowDepths.
 extern const std::array<vk::DescriptorSetLayoutBinding, 1> kShadowBindings;

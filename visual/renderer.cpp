@@ -13,13 +13,15 @@
 #include "visual/gpu/window_surface.h"
 #include "visual/passes/audit.h"
 #include "visual/passes/measure.h"
+#include "visual/reference_light.h"
 
 namespace phare {
 
 namespace {
 
 gpu::DeviceOptions device_options(const RendererOptions& options) {
-  gpu::DeviceOptions result{.validation = options.validation, .device_name = options.device_name};
+  gpu::DeviceOptions result{
+      .validation = options.validation, .device_name = options.device_name, .float64 = options.float64};
   if (options.window != nullptr) {
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
@@ -27,6 +29,17 @@ gpu::DeviceOptions device_options(const RendererOptions& options) {
     result.instance_extensions.assign(names, names + count);
   }
   return result;
+}
+
+/// As shaders/reference.h has them.
+std::vector<double> relative_points(std::span<const MeasurePoint> points, const glm::dvec3& eye_m) {
+  std::vector<double> words;
+  words.reserve(shader::kReferencePointWords * points.size());
+  for (const MeasurePoint& point : points) {
+    const glm::dvec3 from_eye_m = point.position_m - eye_m, normal = glm::normalize(point.normal);
+    words.insert(words.end(), {from_eye_m.x, from_eye_m.y, from_eye_m.z, normal.x, normal.y, normal.z});
+  }
+  return words;
 }
 
 }  // namespace
@@ -256,7 +269,8 @@ ImageF Renderer::read_hdr(std::size_t view) const {
 }
 
 std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> lamps,
-                                                  std::span<const MeasurePoint> points, std::size_t shadows) {
+                                                  std::span<const MeasurePoint> points, std::size_t shadows,
+                                                  Method method) {
   std::vector<std::vector<float>> result(lamps.size(), std::vector<float>(points.size(), 0.0f));
   if (lamps.empty() || points.empty()) return result;
   constexpr std::size_t kWidth = 1024, kBatch = 1024 * 256;
@@ -271,6 +285,8 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
       vertices.push_back({glm::vec3(point.position_m - camera.eye_m), glm::vec3(glm::normalize(point.normal)), 0});
     const gpu::DeviceBuffer buffer(impl_->device, std::as_bytes(std::span(vertices)),
                                    vk::BufferUsageFlagBits::eVertexBuffer, "points");
+    std::vector<double> exact;
+    if (method == Method::kReference) exact = relative_points(points.subspan(begin, count), camera.eye_m);
     const vk::Extent2D extent{kWidth, static_cast<std::uint32_t>((count + kWidth - 1) / kWidth)};
     gpu::Image lx(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
                   vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc, "lx");
@@ -281,6 +297,8 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
       impl_->submit([&] {
         impl_->scene.begin_frame(impl_->graph);
         LitView view = impl_->scene.view_of_points(ViewGeometry(camera, 1.0), lamps.subspan(lamp, 1));
+        view.method = method;
+        if (method == Method::kReference) impl_->scene.set_reference_points(exact);
         if (shadows > 0) {
           impl_->shadows.begin_frame();
           if (impl_->scene.find_casters(view) > 0) impl_->shadows.draw(impl_->graph, impl_->scene, view, shadows);
@@ -312,6 +330,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
     impl_->scene.begin_frame(impl_->graph);
     LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.moving, input.far_mesh_from_m, {});
     view.method = input.method;
+    view.area = vk::Rect2D{{0, 0}, extent};
     draw_audit(impl_->graph, impl_->scene, view, {position, normal, depth});
     impl_->copy_out(position, position_copy, 16);
     impl_->copy_out(normal, normal_copy, 16);
@@ -334,6 +353,9 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   return samples;
 }
 
+std::optional<std::string> Renderer::no_reference() const {
+  return phare::no_reference(impl_->device);
+}
 std::string Renderer::device() const {
   return std::string(impl_->device.properties.deviceName.data()) + ", " + impl_->device.driver;
 }

@@ -39,6 +39,7 @@ struct RendererOptions {
   GLFWwindow* window = nullptr;                     ///< nullptr: headless
   ImageLevel beam_level = ImageLevel::kFloatNodes;  ///< how beam images are stored and looked up
   std::string device_name{};  ///< pick a device whose name contains this; empty: the first discrete GPU, else any
+  bool float64 = true;        ///< false: as if the device had no shaderFloat64
 };
 
 /// A lamp position in the world this frame.
@@ -189,13 +190,16 @@ class Renderer {
   /// Illuminance in lx at points, per lamp, through the same fragment shader: result[lamp][point]. `shadows`: level of
   /// that effect, 0 for what falls there if nothing stands in the way (occluder() of visual/scene/ray_hit.h tells
   /// exactly).
+  /// `method`: kFragment or kReference.
   std::vector<std::vector<float>> measure(std::span<const PlacedLamp> lamps, std::span<const MeasurePoint> points,
-                                          std::size_t shadows = 0);
+                                          std::size_t shadows = 0, Method method = Method::kFragment);
 
   /// Draws the frame again at `width` x `height` with position and normal out, and returns `count` lit pixels chosen by
   /// `seed`.
   std::vector<AuditSample> audit(const FrameInput& input, std::size_t count, std::uint64_t seed);
 
+  /// Why this device cannot draw by Method::kReference; nothing: it can. To draw by it all the same throws.
+  std::optional<std::string> no_reference() const;
   std::string device() const;                 ///< name, driver, Vulkan version
   std::uint64_t device_memory_bytes() const;  ///< allocated by us and alive
   std::uint64_t validation_messages() const;  ///< since create

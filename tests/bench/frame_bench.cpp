@@ -228,13 +228,15 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
     };
   };
   bench.add(group, "two lamps", renderer, with_shadows(0));
-  for (const Method method : {Method::kVertex, Method::kVertex1998})
+  for (const Method method : {Method::kVertex, Method::kVertex1998, Method::kReference}) {
+    if (method == Method::kReference && renderer.no_reference()) continue;
     bench.add(group, "two lamps by method " + std::string(kMethodNames[static_cast<std::size_t>(method)]), renderer,
               [view, method](int round) {
                 FrameInput input = without_shadows(view(round));
                 input.method = method;
                 return input;
               });
+  }
   for (std::size_t level = 1; level < kShadowNames.size(); ++level)
     bench.add(group, "two lamps, shadows " + std::string(kShadowNames[level]), renderer, with_shadows(level));
   for (std::size_t level = 1; level < kFogNames.size(); ++level)

@@ -231,6 +231,9 @@ TEST(RigEdit, PutsCamerasIntoTheDesk) {
   const auto fewer = with_cameras(*first, "/x/rig.toml", std::vector{kerb});
   ASSERT_TRUE(fewer) << fewer.error().text();
   EXPECT_EQ(fewer->find("roof"), std::string::npos);
+  const auto none = with_cameras(*first, "/x/rig.toml", {});
+  ASSERT_TRUE(none) << none.error().text();
+  EXPECT_TRUE(none->ends_with("\n[desk]\ncameras = \"none\"\n")) << *none;
   const auto with_desk =
       with_cameras(text + "\n[desk]  # mine\ncamera = \"chase\"\n", "/x/rig.toml", std::vector{roof});
   ASSERT_TRUE(with_desk) << with_desk.error().text();

@@ -133,6 +133,8 @@ TEST_F(Audit, ARoundingOfTheDirectionInTheCutOffIsNoError) {
 TEST(AuditBounds, ByVertexNoneIsStatedAndTheUsersHoldsEverywhere) {
   EXPECT_FALSE(audit_bound(ImageLevel::kFloatNodes, Method::kVertex));
   EXPECT_FALSE(audit_bound(ImageLevel::kFloatNodes, Method::kVertex1998));
+  // Float64 whatever way the other methods store the beam.
+  for (const ImageLevel level : kImageLevels) EXPECT_EQ(audit_bound(level, Method::kReference)->relative, 1e-6);
   const auto asked = audit_bound(ImageLevel::kNormalised8, Method::kVertex1998, 0.02);
   ASSERT_TRUE(asked);
   EXPECT_EQ(asked->relative, 0.02);

@@ -41,7 +41,9 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"view", "next", "view clipping"},
       {"view", "next", "view photo"},
       {"method", "vertex-1998", "method vertex-1998"},
+      {"method", "next", "method reference"},
       {"method", "next", "method fragment"},
+      {"method", "reference", "method reference"},
       {"isolux_lx", "0.5, 2 8", "isolux_lx 0.5 2 8"},
       {"isolux_lx", "default", "isolux_lx 1 3 5 10 30 50 100"},
       {"exposure_per_cdm2", "0.25", "exposure_per_cdm2 0.25"},
@@ -167,7 +169,7 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"compare both", "compare: \"both\" is none of off, split, flicker, next"},
       {"versus two", "versus: expected next or a design's number, got \"two\""},
       {"view lux", "view: \"lux\" is none of photo, false-colour, clipping, next"},
-      {"method gouraud", "method: \"gouraud\" is none of fragment, vertex, vertex-1998, next"},
+      {"method gouraud", "method: \"gouraud\" is none of fragment, vertex, vertex-1998, reference, next"},
       {"isolux_lx 3 1", "isolux_lx: the levels have to rise"},
       {"isolux_lx 1 2 3 4 5 6 7 8 9", "isolux_lx: at most 8 levels, not 9"},
       {"isolux_lx ,", "isolux_lx: expected at least one level"},
@@ -277,6 +279,18 @@ Desk by_command_line(std::vector<std::string> words) {
   Desk desk;
   for (const DeskCommand& command : options.desk) EXPECT_TRUE(apply(desk, command, {.designs = 2}));
   return desk;
+}
+
+TEST(Desk, TellsWhyADeviceWithoutFloat64DrawsByNoReference) {
+  Desk desk;
+  desk.method = Method::kVertex1998;
+  const DeskContext lacking{.no_reference = "the device has no shaderFloat64"};
+  const auto refused = apply(desk, {"method", "reference"}, lacking);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().text(), "method: reference: the device has no shaderFloat64");
+  EXPECT_EQ(desk.method, Method::kVertex1998) << "nothing has changed";
+  EXPECT_TRUE(apply(desk, {"method", "next"}, lacking));
+  EXPECT_EQ(desk.method, Method::kFragment) << "the key passes it by";
 }
 
 TEST(Desk, IsTheSameByKeyCommandLineAndBus) {

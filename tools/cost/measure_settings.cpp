@@ -69,6 +69,7 @@ class Measuring {
     table.shadows.resize(kShadowNames.size());
     if (!plan_.air.clear()) table.fog.resize(kFogNames.size());
     if (const Status made = make_renderers(); !made) return made.error();
+    if (!exact()->no_reference()) table.light.push_back({Method::kReference, ImageLevel::kFloatNodes, {}});
 
     std::vector<Case> cases;
     for (LightSetting& one : table.light)

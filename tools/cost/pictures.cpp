@@ -144,6 +144,7 @@ class Pictures {
       if (level == ImageLevel::kFloatNodes) exact = *made;
       add(light, "fragment, " + level_name(level), *made, Method::kFragment, 0);
     }
+    if (!exact->no_reference()) add(light, method_name(Method::kReference), exact, Method::kReference, 0);
     for (int cuts = 0; cuts <= (plan_.quick ? 1 : 2); ++cuts) {
       Renderer* with = exact;
       if (cuts > 0) {

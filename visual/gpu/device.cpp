@@ -106,7 +106,11 @@ Device::Device(const DeviceOptions& options) {
       .queueFamilyIndex = queue_family, .queueCount = 1, .pQueuePriorities = &priority};
   vk::PhysicalDeviceVulkan13Features features13{
       .synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE, .maintenance4 = VK_TRUE};
-  const vk::PhysicalDeviceFeatures features{};
+  const vk::PhysicalDeviceFeatures there = physical.getFeatures();
+  float64 = options.float64 && there.shaderFloat64 == VK_TRUE;
+  primitive_id = there.geometryShader == VK_TRUE;
+  const vk::PhysicalDeviceFeatures features{.geometryShader = primitive_id ? VK_TRUE : VK_FALSE,
+                                            .shaderFloat64 = float64 ? VK_TRUE : VK_FALSE};
   std::vector<const char*> extensions;
   if (!options.instance_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   device = vk::raii::Device(physical,

@@ -53,6 +53,7 @@ struct DeviceOptions {
   bool validation = false;
   std::vector<const char*> instance_extensions{};  ///< what a window needs
   std::string device_name{};  ///< part of the name of the wanted device; empty: the first discrete GPU, else any
+  bool float64 = true;        ///< false: as if the device had no shaderFloat64
 };
 
 /// Throws vk::SystemError or std::runtime_error; the renderer turns these into a Result at its border.
@@ -70,6 +71,8 @@ class Device {
   vk::raii::CommandPool command_pool{nullptr};
   vk::PhysicalDeviceProperties properties{};
   std::string driver;
+  bool float64 = false;       ///< shaderFloat64 is there and enabled
+  bool primitive_id = false;  ///< fragments know their triangle: geometryShader is there and enabled
   std::shared_ptr<std::atomic<std::uint64_t>> validation_messages = std::make_shared<std::atomic<std::uint64_t>>(0);
   MemoryCount allocated_bytes = std::make_shared<std::uint64_t>(0);
   std::shared_ptr<std::uint64_t> pipelines_made = std::make_shared<std::uint64_t>(0);

@@ -172,7 +172,9 @@ glm::dvec2 looks_along(const ViewGeometry& view, const SceneBatch& batch) {
 shader::GpuDraw draw_at(const glm::dvec3& from_eye_m, const glm::dvec3& detail_m, const glm::dmat3& turn) {
   shader::GpuDraw draw{glm::vec4(glm::vec3(from_eye_m), 0.0f), glm::vec4(glm::vec3(detail_m), 0.0f), {}};
   const glm::dmat3 rows = glm::transpose(turn);
-  for (int i = 0; i < 3; ++i) draw.turn[i] = glm::vec4(glm::vec3(rows[i]), 0.0f);
+  for (int i = 0; i < 3; ++i)
+    draw.turn[i] =
+        glm::vec4(glm::vec3(rows[i]), static_cast<float>(from_eye_m[i] - static_cast<double>(draw.origin[i])));
   return draw;
 }
 
@@ -210,8 +212,10 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
   blocks = make_blocks(scene, all);
   moving = make_moving(moving_scene, static_cast<std::uint32_t>(scene.materials.size()), all);
   using Usage = vk::BufferUsageFlagBits;
-  vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.vertices)), Usage::eVertexBuffer, "scene vertices");
-  indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)), Usage::eIndexBuffer, "scene indices");
+  vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.vertices)),
+                               Usage::eVertexBuffer | Usage::eStorageBuffer, "scene vertices");
+  indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)),
+                              Usage::eIndexBuffer | Usage::eStorageBuffer, "scene indices");
   material_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(packed)), Usage::eUniformBuffer, "materials");
   sheeting_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(sheetings)), Usage::eUniformBuffer, "sheetings");
 }

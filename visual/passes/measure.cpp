@@ -17,9 +17,11 @@ void measure_points(gpu::FrameGraph& graph, LitScene& scene, const LitView& view
                                           .tables = view.lit_by.front().tables,
                                           .shadow_maps = view.lit_by.front().shadow_maps,
                                           .shadows = view.shadows,
+                                          .method = view.method,
                                           .format = lx.format}));
     scene.bind(commands, view);
     scene.bind_shadows(commands, view);
+    if (view.method == Method::kReference) scene.bind_reference(commands, view, view.lit_by.front());
     scene.push(commands,
                {.origin = glm::vec4(static_cast<float>(lx.extent.width), static_cast<float>(lx.extent.height), 0, 0),
                 .detail_origin = glm::vec4(0.0f),

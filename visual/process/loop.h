@@ -87,7 +87,7 @@ class Loop {
   void write_stats(SimTime now);
 
   Session& s_;
-  Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk, s_.options.channel);
+  Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk, s_.options.channel, s_.renderer.no_reference().value_or(""));
   LampKeys lamp_keys_;
   LampNews lamp_news_{s_.lamps};
   World world_{s_.scene, s_.traffic.meshes()};  // as it is in this frame

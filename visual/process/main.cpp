@@ -123,6 +123,8 @@ int draw_channel(VisualOptions options) {
   drawing.window = window ? window->handle() : nullptr;
   Result<Renderer> renderer = Renderer::create(drawing);
   if (!renderer) return refuse(with_remedy(renderer.error()));
+  if (const auto reason = renderer->no_reference(); reason && desk.method == Method::kReference)
+    return refuse({"method reference", *reason + " (" + renderer->device() + ")"});
   if (options.road_cuts > 0) scene = refined(*scene, options.road_cuts, is_ground);
   if (const Status loaded = renderer->load_scene(*scene, traffic->meshes()); !loaded) return refuse(loaded.error());
   if (!traffic->empty()) renderer->set_beam(Traffic::kBeam, traffic->beam());

@@ -93,7 +93,9 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
     std::istringstream effects(explain(*moment.effects, false));
     for (std::string line; std::getline(effects, line);) lines.push_back(line);
   }
-  if (desk.method != Method::kFragment)
+  if (desk.method == Method::kReference)
+    lines.emplace_back("light by the method reference: float64 at every pixel");
+  else if (desk.method != Method::kFragment)
     lines.push_back("light by the method " + std::string(kMethodNames[static_cast<std::size_t>(desk.method)]) +
                     ": the picture is not exact, lux in figures is");
   for (std::string& end : lamps.lit_table_ends()) lines.push_back(std::move(end));
