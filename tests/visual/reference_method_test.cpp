@@ -219,9 +219,9 @@ TEST_F(ReferencePicture, ShowsWhatThePictureByFragmentShows) {
   };
   FrameInput input = input_of(Method::kReference);
   pictures_agree(input, "road and sign, with shadows");
-  input.visibility_m = 80.0;
+  input.air.visibility_m = 80.0;
   pictures_agree(input, "fog");
-  input.visibility_m.reset();
+  input.air.visibility_m.reset();
   input.camera.world_from_eye[1] = -input.camera.world_from_eye[1];
   pictures_agree(input, "as in a mirror");
   input = input_of(Method::kReference);
