@@ -157,6 +157,29 @@ TEST_F(PrecipitationOnDevice, StreaksGrowWithSpeed) {
   EXPECT_GT(fast, 2 * still);
 }
 
+/// Mirrors and insets have drops of their own eye, among views in which nothing is drawn drop by drop.
+TEST_F(PrecipitationOnDevice, FallInEveryViewOfAFrame) {
+  FrameInput input = falling({.snow_mmph = 2.0});
+  ViewInput mirror = input;
+  mirror.camera.world_from_eye[1] = -mirror.camera.world_from_eye[1];
+  mirror.part = {0.0, 0.0, 0.5, 0.5};
+  ViewInput dry = input;
+  dry.air = {};
+  dry.part = {0.5, 0.0, 0.5, 0.5};
+  ViewInput false_colour = input;
+  false_colour.view = View::kFalseColour;
+  false_colour.part = {0.5, 0.5, 0.5, 0.5};
+  for (ViewInput* view : {&mirror, &dry, &false_colour}) view->want_hdr = false;
+  input.more_views = {mirror, dry, false_colour};
+  const FrameResult frame = renderer->draw(input);
+  ASSERT_EQ(frame.views.size(), 4u);
+  EXPECT_TRUE(frame.views[0].effects.on(Effect::kPrecipitation));
+  EXPECT_TRUE(frame.views[1].effects.on(Effect::kPrecipitation));
+  EXPECT_FALSE(frame.views[2].effects.on(Effect::kPrecipitation));
+  EXPECT_FALSE(frame.views[3].effects.on(Effect::kPrecipitation));
+  EXPECT_EQ(frame.views[1].draws, frame.views[2].draws + 2) << "the drops, and the tone curve";
+}
+
 /// Where nothing falls the frame is one that knows of no rain; where no lamp shines it is not drawn either.
 TEST_F(PrecipitationOnDevice, CostsNothingWhereNothingFalls) {
   ASSERT_TRUE(renderer->load_scene(yard()).ok());
