@@ -120,5 +120,28 @@ TEST(Cameras, TheFreeEyeStandsOnTheCarOrInTheWorld) {
   EXPECT_NEAR(camera.world_from_eye[0].x, std::cos(10.0 * M_PI / 180.0), 1e-9);
 }
 
+// What warms up the pipelines sees every block of the scene, and through air: parallel rays have none.
+TEST(Cameras, TheOverviewSeesTheWholeSceneThroughAir) {
+  Scene scene;
+  for (const double x : {-1500.0, 0.0, 700.0})
+    for (const double y : {-300.0, 400.0}) {
+      SceneChunk chunk;
+      chunk.low_m = {x, y, -5.0}, chunk.high_m = {x + 10.0, y + 10.0, 12.0};
+      scene.chunks.push_back(chunk);
+    }
+  const Camera camera = overview_camera(scene);
+  EXPECT_EQ(camera.orthographic_width_m, 0.0);
+  for (const double aspect : {1.0, 16.0 / 9.0, 4.0}) {
+    const ViewGeometry view(camera, aspect);
+    for (const SceneChunk& chunk : scene.chunks)
+      for (const glm::dvec3& corner : {chunk.low_m, chunk.high_m}) {
+        const glm::dvec4 clip = view.clip_from_eye() * glm::dvec4(corner - camera.eye_m, 1.0);
+        EXPECT_LE(std::abs(clip.x), clip.w) << aspect;
+        EXPECT_LE(std::abs(clip.y), clip.w) << aspect;
+        EXPECT_TRUE(view.sees(corner, corner)) << aspect;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace phare

@@ -55,13 +55,14 @@ Camera overview_camera(const Scene& scene) {
     high = glm::max(high, chunk.high_m);
   }
   Camera camera;
-  camera.eye_m = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), high.z + 10.0};
+  // Pictures are up to four times as wide as high; half as much again is room for what stands at the edges.
+  const double width_m = 1.5 * std::max({high.x - low.x, 4.0 * (high.y - low.y), 1.0});
+  const double above_m = 0.5 * width_m / std::tan(0.5 * camera.fov_horizontal_rad);
+  camera.eye_m = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), high.z + above_m};
   camera.world_from_eye =
       glm::dmat3{glm::dvec3{0, 0, -1}, glm::dvec3{-1, 0, 0}, glm::dvec3{0, 1, 0}};  // forward, left, up of the eye
-  camera.orthographic_width_m =
-      std::max({high.x - low.x, 4.0 * (high.y - low.y), 1.0});  // of pictures up to four times as wide as high
   camera.near_m = 1.0;
-  camera.far_m = high.z - low.z + 20.0;
+  camera.far_m = 2.0 * (above_m + width_m + high.z - low.z);
   return camera;
 }
 

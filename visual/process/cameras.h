@@ -50,7 +50,7 @@ Camera mirror_camera(CameraKind mirror, const ChannelConfig& channel, const Vehi
 /// The user's.
 Camera free_camera(const FreeEye& eye, const VehicleState& pose);
 
-/// The whole scene from above with parallel rays.
+/// The whole scene from high above, in perspective: what is drawn of the air is drawn there too.
 Camera overview_camera(const Scene& scene);
 
 /// The desk's camera. `ground_z_m`: of the road below the oncoming eye.

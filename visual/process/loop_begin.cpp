@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "net/control_desk.h"
@@ -73,6 +74,7 @@ void Loop::warm_up() {
   FrameInput input;
   set_by_desk(input, s_.desk, s_.channel(), pose, nullptr);
   const Camera first_camera = std::exchange(input.camera, overview_camera(s_.scene));
+  const double far_mesh_from_m = std::exchange(input.far_mesh_from_m, std::numeric_limits<double>::infinity());
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
   const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 2 : 1;
   const std::uint32_t first_design = controls_to_show(s_.bus, Clock::now()).design_index;
@@ -154,6 +156,7 @@ void Loop::warm_up() {
   last = true;
   if (thorough) draw(controls_to_show(s_.bus, Clock::now()));  // low beam
   input.camera = first_camera;
+  input.far_mesh_from_m = far_mesh_from_m;
   input.want_image = s_.album.wanted();
   draw(controls_to_show(s_.bus, Clock::now()));
   s_.lamps.begin_counting();
