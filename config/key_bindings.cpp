@@ -37,7 +37,7 @@ constexpr KeyBinding kBindings[] = {
     {kHelp, kPicture, key::kF1, "F1", {}, "show or hide these keys", "help toggle"},
     {kHelp, kPicture, '?', "?", {}, "the same", "help toggle"},
     {kPanel, kPicture, key::kF9, "F9", {}, "the panel: everything by the mouse", "panel toggle"},
-    {kCamera, kPicture, 'c', "C", {}, "camera: driver, above, behind, oncoming, mirrors, free", "camera next"},
+    {kCamera, kPicture, 'c', "C", {}, "camera: driver, above, behind, oncoming, mirrors, free, one's own", "camera next"},
     {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour, then clipping, then the photo", "view next"},
     {kEffects, kPicture, key::kF3, "F3", {}, "which effects are on, and why", "effects toggle"},
     {kMethod, kPicture, key::kF4, "F4", {}, "where light is computed: pixels, vertices, as in 1998, float64", "method next"},

@@ -108,6 +108,27 @@ def test_dask_gives_the_same_table_though_a_worker_is_killed(plan, here, dask, t
     assert again.ran == 1 and again.file.read_bytes() == here  # the failed one alone
 
 
+def test_jobs_that_the_scheduler_drops_are_asked_for_again(plan, here, dask, tmp_path):
+    address, _ = dask
+    import distributed
+
+    out, dropped = tmp_path / "out", []
+
+    def drop_what_waits():
+        while not list(out.glob("rows/*.json")):
+            time.sleep(0.01)
+        with distributed.Client(address, set_as_default=False) as other:
+            waiting = other.run_on_scheduler(lambda dask_scheduler: [key for key in dask_scheduler.tasks if key.startswith("phare-")])
+            other.cancel([distributed.Future(key, client=other) for key in waiting], force=True)
+            dropped.extend(waiting)
+
+    dropper = threading.Thread(target=drop_what_waits)
+    dropper.start()
+    done = sweep.run_plan(plan, out, engine=sweep.Dask(address), progress=io.StringIO())
+    dropper.join()
+    assert dropped and done.file.read_bytes() == here and not leftovers(out)
+
+
 def test_a_scheduler_that_is_lost_is_told_and_the_sweep_goes_on_without(plan, here, dask, tmp_path):
     address, running = dask
     out = tmp_path / "out"

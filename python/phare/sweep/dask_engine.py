@@ -7,6 +7,7 @@ see the folder of the sweep, the plan's files and Phare's programs under the sam
 from __future__ import annotations
 
 import asyncio
+import collections
 import concurrent.futures
 import os
 import time
@@ -21,6 +22,8 @@ from .task import drive_job
 
 _TELL_AFTER_S = 10.0
 _POLL_S = 0.1
+_BACK_WITHIN_S = 15.0  # a client gives a connection up after about 10
+_MOST_ASKED = 5  # of one job
 
 
 def _on_worker(job: Job, plan: Plan, folder: str, programs: str) -> bool:
@@ -62,18 +65,29 @@ class Dask(Engine):
                 cluster.close()
 
     def _gather(self, client: Any, work: Work) -> Iterator[tuple[Job, str]]:
-        run, programs = f"phare-{os.getpid()}-{time.time_ns()}", str(program().parent)
-        jobs = {  # named anew: no result of an earlier run is taken for theirs
-            client.submit(_on_worker, job, work.plan, str(work.folder), programs, key=f"{run}-{job.number}", pure=False): job
-            for job in work.jobs
-        }
+        programs, asked = str(program().parent), collections.Counter[int]()
+
+        def submitted(job: Job) -> Any:
+            asked[job.number] += 1
+            key = f"phare-{os.getpid()}-{time.time_ns()}-{job.number}"  # named anew: no earlier result is taken for it
+            return client.submit(_on_worker, job, work.plan, str(work.folder), programs, key=key, pure=False)
+
+        jobs = {submitted(job): job for job in work.jobs}
         last_s, told = time.monotonic(), False
         while jobs:
             time.sleep(_POLL_S)
             done = [future for future in jobs if future.status != "pending"]
             for future in done:
                 last_s, told = time.monotonic(), False
-                job, why = jobs.pop(future), self._why(future, work)
+                job = jobs.pop(future)
+                if future.status in ("cancelled", "lost"):
+                    # Dropped on the way, as when the connection broke and came back: asked for again. Should the first
+                    # one still be driven somewhere, each writes beside and renames.
+                    if asked[job.number] >= _MOST_ASKED or not self._is_back(client):
+                        raise Failed(self._gone())
+                    jobs[submitted(job)] = job
+                    continue
+                why = self._why(future, work)
                 future.release()  # a result that nobody holds is not made anew when its worker is lost later
                 yield job, why
             if client.status != "running":
@@ -81,6 +95,13 @@ class Dask(Engine):
             if not told and time.monotonic() - last_s > _TELL_AFTER_S and not self._asked(lambda: client.scheduler_info()["workers"]):
                 told = True
                 work.tell(f"waiting: {self._address} has no worker")
+
+    def _is_back(self, client: Any) -> bool:
+        """The scheduler answers, or does so within the time that a client takes to find it again."""
+        until_s = time.monotonic() + _BACK_WITHIN_S
+        while client.status != "running" and client.status != "closed" and time.monotonic() < until_s:
+            time.sleep(_POLL_S)
+        return client.status == "running"
 
     def _gone(self) -> str:
         return f"--dask {self._address}: the scheduler is gone; the same command goes on from here"
@@ -93,8 +114,6 @@ class Dask(Engine):
             raise Failed(self._gone()) from wrong
 
     def _why(self, future: Any, work: Work) -> str:
-        if future.status in ("cancelled", "lost"):
-            raise Failed(self._gone())
         if future.status == "error":
             wrong = self._asked(future.exception)
             if isinstance(wrong, self._distributed.scheduler.KilledWorker):
