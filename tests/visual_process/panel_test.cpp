@@ -285,6 +285,14 @@ TEST_F(PanelTest, LightIsOfBothLampsAndTheAirOfTheDesk) {
   EXPECT_EQ(desk_.visibility_m, 100.0);
   click("visibility_m"), click("visibility_m clear");
   EXPECT_FALSE(desk_.visibility_m);
+  click("rain_mmph"), click("rain_mmph 10");
+  click("snow_mmph"), click("snow_mmph 0.5");
+  click("ground"), click("ground flooded");
+  EXPECT_EQ(desk_.rain_mmph, 10.0);
+  EXPECT_EQ(desk_.snow_mmph, 0.5);
+  EXPECT_EQ(desk_.ground, 3u);
+  click("ground"), click("ground auto");
+  EXPECT_FALSE(desk_.ground);
 }
 
 // What every control asks for is a command that is accepted: no word is misspelt.

@@ -336,6 +336,13 @@ void Sheet::view() {
   constexpr std::array<std::string_view, 6> kVisibilities{"clear", "1000", "300", "100", "50", "25"};
   choose("visibility_m", "visibility, m", kVisibilities,
          desk.visibility_m ? fmt::format("{:.4g}", *desk.visibility_m) : "clear", "fog, with the beams in it");
+  constexpr std::array<std::string_view, 5> kRains{"0", "2", "10", "25", "50"};
+  choose("rain_mmph", "rain, mm/h", kRains, fmt::format("{:.4g}", desk.rain_mmph), "its drops, and the wet road");
+  constexpr std::array<std::string_view, 4> kSnows{"0", "0.5", "1", "3"};
+  choose("snow_mmph", "snow, mm/h", kSnows, fmt::format("{:.4g}", desk.snow_mmph), "of water: its flakes");
+  constexpr std::array<std::string_view, 5> kGrounds{"auto", kWetNames[0], kWetNames[1], kWetNames[2], kWetNames[3]};
+  choose("ground", "ground", kGrounds, std::string(desk.ground ? kWetNames[*desk.ground] : kGrounds[0]),
+         "water on it; auto: as it rains");
   exposure();
   flag("road_isolux", "isolux", desk.isolux, key_of_setting(KeyAction::kIsolux));
   ImGui::SameLine();
