@@ -323,6 +323,7 @@ Result<std::string> with_cameras(const std::string& text, const std::filesystem:
   if (!after) return Error{file.string(), "cannot be edited (" + after.error().text() + "); nothing is written"};
   Rig same = *after;
   same.desk.cameras = before->desk.cameras;
+  if (!same.desk.own_camera.empty()) same.desk.free_eye = before->desk.free_eye;  // it stands where that camera does
   if (!std::ranges::equal(after->desk.cameras, cameras) || !(same == *before))
     return Error{file.string(), "its desk is written in a way that cannot be edited; nothing is written"};
   return edited;

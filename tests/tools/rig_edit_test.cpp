@@ -234,6 +234,11 @@ TEST(RigEdit, PutsCamerasIntoTheDesk) {
   const auto none = with_cameras(*first, "/x/rig.toml", {});
   ASSERT_TRUE(none) << none.error().text();
   EXPECT_TRUE(none->ends_with("\n[desk]\ncameras = \"none\"\n")) << *none;
+  NamedEye moved = roof;
+  moved.eye.position_m.z = 3.0;
+  const auto chosen = with_cameras(*first + "camera = \"roof\"\n", "/x/rig.toml", std::vector{moved, kerb});
+  ASSERT_TRUE(chosen) << chosen.error().text();
+  EXPECT_NE(chosen->find("roof car 0.5 0 3 0 -10 70"), std::string::npos) << *chosen;
   const auto with_desk =
       with_cameras(text + "\n[desk]  # mine\ncamera = \"chase\"\n", "/x/rig.toml", std::vector{roof});
   ASSERT_TRUE(with_desk) << with_desk.error().text();
