@@ -58,8 +58,11 @@ std::vector<Figure> of_circle(const Manoeuvre& m, const std::vector<Row>& rows) 
   std::vector<double> ay, over, roll, side;
   double most = 0.0;
   for (const Row& r : rows) {
-    most = std::max(most, r.vx_mps * r.yaw_rate_radps);
     const double lateral = r.vx_mps * r.yaw_rate_radps;
+    // Of circles: a car that spins out or tips over turns none any more. Chosen: the wheel rolls it by 0.3 degrees a
+    // second.
+    constexpr double kSteady_radps = 1.0 / kPerDeg;
+    if (std::abs(r.roll_rate_radps) < kSteady_radps) most = std::max(most, lateral);
     if (lateral < 1.0 || lateral > 4.0) continue;  // where cars are linear
     ay.push_back(lateral), roll.push_back(r.roll_rad), side.push_back(std::atan2(r.vy_mps, r.vx_mps));
     over.push_back(steer_at(m.inputs, r.time_s) - m.options.vehicle.wheelbase_m * lateral / (r.vx_mps * r.vx_mps));

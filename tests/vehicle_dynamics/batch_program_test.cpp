@@ -107,7 +107,8 @@ TEST(BatchProgram, DrawsAPage) {
   for (const auto& [options, says] : {std::pair{"--out " + out + " --reference " + in, "--plot FILE.html"},
                                       {"--out " + out + " --plot " + out, "would be overwritten"},
                                       {"--plot " + in, "would be overwritten"},
-                                      {"--plot " + page + " --reference " + written("page_bad.csv", "t,other\n0,1\n"), "has no column that a page shows"},
+                                      {"--plot " + page + " --reference " + written("page_bad.csv", "t,other\n0,1\n"),
+                                       "has no column that a page shows"},
                                       {"--plot " + page + " --reference /nonexistent.csv", "nonexistent"},
                                       {"--plot /nonexistent/page.html", "nonexistent"}}) {
     std::string said;

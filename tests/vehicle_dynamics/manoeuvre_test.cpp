@@ -53,7 +53,9 @@ TEST(Manoeuvre, Iso4138GivesTheGradientsOfTheCar) {
     const Ran r = ran("iso4138", "bmw_320i.toml", level);
     EXPECT_NEAR(r.of("roll gradient"), 8.85, 0.25) << name(level);      // 8.80 to 8.91 deg/g
     EXPECT_NEAR(r.of("understeer gradient"), 0.0, 0.4) << name(level);  // nearly neutral
+    // Between what everyday driving asks and what its tyres give; in full this car tips over at the end.
     EXPECT_GT(r.of("largest lateral acceleration"), 6.0);
+    EXPECT_LT(r.of("largest lateral acceleration"), test::car("bmw_320i.toml").chassis->tyre.lat_peak * kGravity_mps2);
   }
 }
 

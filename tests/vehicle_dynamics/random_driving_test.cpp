@@ -143,11 +143,11 @@ double lever_of_single_track_j(const full::Params& p, const Road& road, const ba
          p.sprung_kg * p.cg_height_m * (felt_mps2 + leant_mps2) * (roll_b - roll_a);
 }
 
-// Of what was turned over, 5 kJ at least. Seeds 1 to 300 and 7000 to 9099 by hundreds, 1,800 drives: 0.88 % at the
-// most, all above 0.5 % of single-track on slopes of 5 to 15 %, where it is slow; why is not known. Energy from
-// nothing, as a wheel spun up beyond its engine's power once gave, is tens of times as much; a front wheel's spin
-// counted aside too was 2.5 %.
-constexpr double kMostMissing = 0.01;
+// Of what was turned over, 5 kJ at least: the half percent that every manoeuvre is asked for (energy_test.cpp).
+constexpr double kMostMissing = 0.005;
+// Of a car that tips over, beyond this, the levers change with its angles, which they are not asked for: one in 8,700
+// drives has 0.59 %.
+constexpr double kTips_rad = 0.35, kMostMissingTipping = 0.01;
 
 TEST(RandomDriving, KeepsItsEnergy) {
   const std::uint64_t first = number_in("PHARE_SEED", 15),
@@ -159,8 +159,8 @@ TEST(RandomDriving, KeepsItsEnergy) {
       Situation s = random_situation(seed, level, 10.0);
       s.options.road = &s.road;
       const full::Params car = test::full_car(s.options.vehicle_place.c_str());
-      double given_j = 0.0, most_j = 0.0, missing = 0.0, lever_j = 0.0;
-      bool tumbles = false;
+      double given_j = 0.0, most_j = 0.0, missing = 0.0, tipping = 0.0, lever_j = 0.0;
+      bool tumbles = false, tips = false;
       std::optional<batch::Row> start, before;
       const auto done = batch::run(s.options, s.inputs, [&](const batch::Row& row) {
         if (!start) start = before = row;
@@ -170,13 +170,16 @@ TEST(RandomDriving, KeepsItsEnergy) {
         if (level == Level::kSingleTrack) lever_j += lever_of_single_track_j(car, s.road, *before, row);
         const double left = lever_j + row.engine_j + row.road_j - (row.car_j - start->car_j) - row.brakes_j -
                             row.tyres_j - row.dampers_j - row.air_j;
-        // A car that tumbles turns about its own axes and no longer by the sum of two angles, as lever_nm_rad has it.
+        // A car that tumbles turns about its own axes and no longer by the sum of two angles, as the levers have it.
         tumbles = tumbles || std::abs(row.roll_rad) > 0.5 || std::abs(row.pitch_rad) > 0.5;
-        if (!tumbles) missing = std::max(missing, std::abs(left) / (std::max(most_j, 5e3) + given_j));
+        tips = tips || std::abs(row.roll_rad) > kTips_rad || std::abs(row.pitch_rad) > kTips_rad;
+        const double share = std::abs(left) / (std::max(most_j, 5e3) + given_j);
+        if (!tumbles) (tips ? tipping : missing) = std::max(tips ? tipping : missing, share);
         before = row;
       });
       ASSERT_TRUE(done.ok()) << s.words << ": " << done.error().text();
-      EXPECT_LT(missing, kMostMissing) << s.words << (done->rolled_over_s ? ", rolled over" : "");
+      EXPECT_LT(missing, kMostMissing) << s.words;
+      EXPECT_LT(tipping, kMostMissingTipping) << s.words << (done->rolled_over_s ? ", rolled over" : "");
       if (missing > worst) worst = missing, where = s.words;
     }
   std::printf("seeds %llu to %llu: %.3f %% missing at the most (%s)\n", static_cast<unsigned long long>(first),

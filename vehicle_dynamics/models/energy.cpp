@@ -92,9 +92,13 @@ Flow flow(const single_track::Params& p, const single_track::Held& h, const sing
     const int lane = static_cast<int>(k);
     const double drive_n = (in.drive_nm[2 * k] + in.drive_nm[2 * k + 1]) * p.per_radius_m;
     const double push_n = k == 0 ? h.front_push_n : h.rear_push_n;
-    const double passed = push_n != 0.0 ? a.ahead_n[lane] / push_n : 1.0;  // of it, by friction
+    // Of it, by friction; what only holds the car against its brakes does no work, though a turned wheel slips aside.
+    const double passed = h.stopped ? 0.0 : push_n != 0.0 ? a.ahead_n[lane] / push_n : 1.0;
     out.engine_w += passed * drive_n * ahead[k];
     out.brakes_w -= passed * (push_n - drive_n) * ahead[k];
+    // What the linkage puts on the body it takes from the road, which lifts it on a slope.
+    const double linkage_n =
+        k == 0 ? -std::min(a.front_x_n, 0.0) * p.front_brake_jack : std::max(a.rear_x_n, 0.0) * p.rear_drive_jack;
     out.tyres_w -= side[k] * aside[k];
     out.car_j += 0.5 * axle.bar_nmprad * leaning * leaning;
     for (std::size_t j = 0; j < 2; ++j) {
@@ -109,7 +113,7 @@ Flow flow(const single_track::Params& p, const single_track::Held& h, const sing
       out.car_j += 0.5 * axle.spring_npm * give * give;
       out.closing_mps[i] = closing, out.damper_n[i] = axle.damper_nspm * closing;
       out.rising_mps[i] = rate;
-      out.up_n[i] = axle.spring_npm * give + axle.damper_nspm * closing, out.ground_m[i] = height;
+      out.up_n[i] = axle.spring_npm * give + axle.damper_nspm * closing + 0.5 * linkage_n, out.ground_m[i] = height;
     }
   }
   out.tyres_w += h.rolling * (a.front_load_n[0] + a.front_load_n[1] + a.rear_load_n[0] + a.rear_load_n[1]) * s.u_mps;
