@@ -310,7 +310,8 @@ Result<std::string> with_cameras(const std::string& text, const std::filesystem:
   } else if (const auto table = root->region("desk")) {
     if (is_inline(text, desk)) {
       const Bytes at = bytes_of(text, *table);
-      edits.replace(at.begin + 1, at.begin + 1, " " + pair + ",");
+      const bool empty = text.find_first_not_of(" \t", at.begin + 1) == at.end - 1;
+      edits.replace(at.begin + 1, at.begin + 1, " " + pair + (empty ? " " : ","));
     } else {
       const std::size_t line = std::min(text.find('\n', bytes_of(text, *table).begin), text.size());
       edits.replace(line, line, "\n" + pair);
@@ -318,12 +319,20 @@ Result<std::string> with_cameras(const std::string& text, const std::filesystem:
   } else {
     edits.replace(text.size(), text.size(), std::string(text.ends_with('\n') ? "" : "\n") + "\n[desk]\n" + pair + "\n");
   }
+  // A drive that began with a camera which is no more begins with the driver's eye.
+  const std::string& chosen = before->desk.own_camera;
+  const bool gone = !chosen.empty() && std::ranges::find(cameras, chosen, &NamedEye::name) == cameras.end();
+  if (const auto there = desk.region("camera"); gone && there) {
+    const Bytes at = bytes_of(text, *there);
+    edits.replace(at.begin, at.end, toml_quoted(std::string(kCameraNames.front())));
+  }
   const std::string edited = edits.applied_to(text);
   const auto after = good_rig(edited, file);
   if (!after) return Error{file.string(), "cannot be edited (" + after.error().text() + "); nothing is written"};
   Rig same = *after;
   same.desk.cameras = before->desk.cameras;
-  if (!same.desk.own_camera.empty()) same.desk.free_eye = before->desk.free_eye;  // it stands where that camera does
+  if (gone) same.desk.camera = before->desk.camera, same.desk.own_camera = chosen;
+  if (!chosen.empty()) same.desk.free_eye = before->desk.free_eye;  // it stands where that camera does
   if (!std::ranges::equal(after->desk.cameras, cameras) || !(same == *before))
     return Error{file.string(), "its desk is written in a way that cannot be edited; nothing is written"};
   return edited;

@@ -45,6 +45,7 @@
 #include "shaders/scene_vert_8_lit_filtered_shadows.h"
 #include "shaders/scene_vert_8_lit_shadows.h"
 #include "shaders/scene_vert_8_shadows.h"
+#include "visual/passes/constants.h"
 
 namespace phare {
 
@@ -280,40 +281,21 @@ vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
 
 vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   if (const auto found = pipelines_.find(variant); found != pipelines_.end()) return *found->second;
-  std::vector<std::uint32_t> values{variant.lamp_count,
-                                    static_cast<std::uint32_t>(variant.kind.surface),
-                                    static_cast<std::uint32_t>(variant.kind.retro),
-                                    static_cast<std::uint32_t>(variant.output),
-                                    variant.lamp_base,
-                                    variant.colours,
-                                    variant.kind.double_sided ? 2u : 1u,
-                                    grain_.first_level,
-                                    variant.shadow_maps,
-                                    variant.shadows.width,
-                                    variant.shadows.height,
-                                    variant.shadows.taps,
-                                    static_cast<std::uint32_t>(variant.method),
-                                    variant.fog.lamps,
-                                    variant.fog.columns | variant.fog.rows << 16u,
-                                    variant.fog.slices};
-  values.resize(shader::kSpecTables);
-  const std::vector<std::uint32_t> tables = table_words(variant.tables);
-  values.insert(values.end(), tables.begin(), tables.end());
-  std::vector<vk::SpecializationMapEntry> entries;
-  for (std::uint32_t i = 0; i < values.size(); ++i) entries.push_back({.constantID = i, .offset = 4 * i, .size = 4});
-  if (variant.wet != 0) {
-    entries.push_back(
-        {.constantID = shader::kSpecWet, .offset = static_cast<std::uint32_t>(4 * values.size()), .size = 4});
-    values.push_back(std::bit_cast<std::uint32_t>(kWetAlpha[variant.wet]));
-  }
-  const vk::SpecializationInfo constants{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
-                                         .pMapEntries = entries.data(),
-                                         .dataSize = 4 * values.size(),
-                                         .pData = values.data()};
+  SpecConstants numbers;
+  numbers.put_all(0, std::array<std::uint32_t, shader::kSpecTables>{
+                         variant.lamp_count, static_cast<std::uint32_t>(variant.kind.surface),
+                         static_cast<std::uint32_t>(variant.kind.retro), static_cast<std::uint32_t>(variant.output),
+                         variant.lamp_base, variant.colours, variant.kind.double_sided ? 2u : 1u, grain_.first_level,
+                         variant.shadow_maps, variant.shadows.width, variant.shadows.height, variant.shadows.taps,
+                         static_cast<std::uint32_t>(variant.method), variant.fog.lamps,
+                         variant.fog.columns | variant.fog.rows << 16u, variant.fog.slices});
+  numbers.put_all(shader::kSpecTables, table_words(variant.tables));
+  if (variant.wet != 0) numbers.put(shader::kSpecWet, std::bit_cast<std::uint32_t>(kWetAlpha[variant.wet]));
+  const vk::SpecializationInfo constants = numbers.info();
   const bool measure = variant.output == LampOutput::kMeasure;
   // By "reference" one shader serves any number of lamps: its time goes elsewhere.
-  const bool eight = variant.lamp_count > 4 || variant.method == Method::kReference;
-  const std::size_t size = (eight ? 2u : variant.lamp_count > 2 ? 1u : 0u) + (variant.shadow_maps != 0 ? 3u : 0u);
+  const std::size_t size = shader_for(variant.method == Method::kReference ? shader::kMaxLamps : variant.lamp_count) +
+                           (variant.shadow_maps != 0 ? 3u : 0u);
   const FragmentStage fragment =
       variant.method == Method::kReference ? reference_stage(variant) : fragment_stage(variant, size);
   PipelineRecipe recipe{

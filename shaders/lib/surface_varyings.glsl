@@ -64,9 +64,8 @@ layout(constant_id = 3) const uint output_kind = 0;
 vec4 wetted(vec4 dry) {
   const vec3 green = vec3(0.0, 1.0, 0.0);
   vec3 rho = wet_reflectance(dry.rgb);
-  float darker = dot(rho, green) / max(dot(dry.rgb, green), 1e-6);
-  float left = retro == kRetroMarking ? kMarkingLeft : retro == kRetroFacets ? kFacetsLeft : darker;
-  return vec4(rho, retro == kRetroSheeting ? dry.w : dry.w * left / darker);
+  if (retro != kRetroMarking && retro != kRetroFacets) return vec4(rho, dry.w);
+  return vec4(rho, dry.w * (retro == kRetroMarking ? kMarkingLeft : kFacetsLeft) * dot(dry.rgb, green) / dot(rho, green));
 }
 
 void pass_light(vec4 material) {

@@ -239,6 +239,14 @@ TEST(RigEdit, PutsCamerasIntoTheDesk) {
   const auto chosen = with_cameras(*first + "camera = \"roof\"\n", "/x/rig.toml", std::vector{moved, kerb});
   ASSERT_TRUE(chosen) << chosen.error().text();
   EXPECT_NE(chosen->find("roof car 0.5 0 3 0 -10 70"), std::string::npos) << *chosen;
+  const auto gone = with_cameras(*chosen, "/x/rig.toml", std::vector{kerb});
+  ASSERT_TRUE(gone) << gone.error().text();
+  EXPECT_TRUE(gone->ends_with("camera = \"driver\"\n")) << *gone;
+  for (const char* desk : {"desk = {}\n", "desk = { }\n", "desk = { grid_m = 10 }\n"}) {
+    const auto in_line = with_cameras(desk + text, "/x/rig.toml", std::vector{roof});
+    ASSERT_TRUE(in_line) << desk << in_line.error().text();
+    EXPECT_TRUE(in_line->starts_with("desk = { cameras = [\"roof ")) << *in_line;
+  }
   const auto with_desk =
       with_cameras(text + "\n[desk]  # mine\ncamera = \"chase\"\n", "/x/rig.toml", std::vector{roof});
   ASSERT_TRUE(with_desk) << with_desk.error().text();

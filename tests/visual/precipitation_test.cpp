@@ -17,18 +17,6 @@
 namespace phare {
 namespace {
 
-Scene black_wall(double x_m) {
-  Scene scene;
-  scene.materials = {{.name = "black", .reflectance = {0.0, 0.0, 0.0}, .double_sided = true}};
-  for (const auto& [y, z] :
-       {std::pair(-200.0, -200.0), std::pair(200.0, -200.0), std::pair(200.0, 200.0), std::pair(-200.0, 200.0)})
-    scene.vertices.push_back({glm::vec3(x_m, y, z), glm::vec3(-1, 0, 0)});
-  scene.indices = {0, 2, 1, 0, 3, 2};
-  scene.chunks = {
-      {.node = "wall", .low_m = {x_m, -200, -200}, .high_m = {x_m, 200, 200}, .index_count = 6, .vertex_count = 4}};
-  return scene;
-}
-
 IntensityTable even_lamp() {
   IntensityTable table;
   table.first_deg = {-60.0, 0.0, 60.0};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "visual/gpu/vulkan.h"
@@ -16,6 +17,10 @@ struct SpecConstants {
     entries.push_back({.constantID = id, .offset = static_cast<std::uint32_t>(4 * values.size()), .size = 4});
     values.push_back(value);
   }
+  /// One after the other from `id` on.
+  void put_all(std::uint32_t id, std::span<const std::uint32_t> all) {
+    for (const std::uint32_t value : all) put(id++, value);
+  }
   /// As long as this stands.
   vk::SpecializationInfo info() const {
     return {.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
@@ -24,5 +29,10 @@ struct SpecConstants {
             .pData = values.data()};
   }
 };
+
+/// Which of the shaders that are compiled for 2, 4 and 8 lamps.
+constexpr std::size_t shader_for(std::uint32_t lamps) {
+  return lamps <= 2 ? 0 : lamps <= 4 ? 1 : 2;
+}
 
 }  // namespace phare

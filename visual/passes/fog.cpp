@@ -204,7 +204,7 @@ vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
     layout_ = vk::raii::PipelineLayout(
         device_.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = layouts.size(), .pSetLayouts = layouts.data()});
   }
-  const std::size_t size = lamps <= 2 ? 0 : lamps <= 4 ? 1 : 2;
+  const std::size_t size = shader_for(lamps);
   if (!*modules_[size]) modules_[size] = gpu::make_shader(device_, fog_comp(size, scene.filtered()));
   SpecConstants constants;
   constants.put(shader::kSpecLampCount, lamps);
@@ -212,8 +212,7 @@ vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
   constants.put(shader::kSpecFogWidest, std::bit_cast<std::uint32_t>(kFogLevels[level].widest_deg));
   constants.put(shader::kSpecFogAdd, adds ? 1u : 0u);
   put(constants, grid);
-  std::uint32_t id = shader::kSpecTables;
-  for (const std::uint32_t word : scene.table_words(tables)) constants.put(id++, word);
+  constants.put_all(shader::kSpecTables, scene.table_words(tables));
   const vk::SpecializationInfo info = constants.info();
   ++*device_.pipelines_made;
   return *pipelines_

@@ -75,14 +75,13 @@ vk::Pipeline Drops::pipeline(const LitScene& scene, const Key& key) {
   static const std::array<ShaderCode, 6> codes{k_precipitation_vert_2,          k_precipitation_vert_4,
                                                k_precipitation_vert_8,          k_precipitation_vert_2_filtered,
                                                k_precipitation_vert_4_filtered, k_precipitation_vert_8_filtered};
-  const std::size_t size = lamps <= 2 ? 0 : lamps <= 4 ? 1 : 2;
+  const std::size_t size = shader_for(lamps);
   if (!*vertices_[size]) vertices_[size] = gpu::make_shader(device_, codes[size + (scene.filtered() ? 3 : 0)]);
   SpecConstants constants;
   constants.put(shader::kSpecLampCount, lamps);
   constants.put(shader::kSpecDropsSnow, snow ? 1u : 0u);
   constants.put(shader::kSpecDropsStrict, device_.properties.limits.strictLines ? 1u : 0u);
-  std::uint32_t id = shader::kSpecTables;
-  for (const std::uint32_t word : scene.table_words(tables)) constants.put(id++, word);
+  constants.put_all(shader::kSpecTables, scene.table_words(tables));
   const vk::SpecializationInfo info = constants.info();
   return *pipelines_
               .emplace(key, make_pipeline(device_, {.vertex = *vertices_[size],
