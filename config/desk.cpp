@@ -35,8 +35,28 @@ std::string get_flag(const Desk& desk) {
   return std::string(kOffOnNames[desk.*flag ? 1 : 0]);
 }
 
+/// Chooses, but for `taken` while the other of two designs and two cameras has the halves of the picture.
+template <std::size_t count, typename Enum>
+Status choose_halves(const std::array<std::string_view, count>& names, Enum& chosen, std::string_view value, bool taken,
+                     const char* by) {
+  Enum wanted = chosen;
+  if (const Status done = choose(names, wanted, value); !done) return done.error();
+  if (taken && wanted == Enum::kSplit) {
+    if (value != "next") return Error{"", std::string("the halves of the picture are taken by ") + by};
+    (void)choose(names, wanted, value);
+  }
+  chosen = wanted;
+  return Done{};
+}
+
 Status set_compare(Desk& desk, std::string_view value, const DeskContext&) {
-  return choose(kCompareNames, desk.compare, value);
+  return choose_halves(kCompareNames, desk.compare, value, desk.layout == Layout::kSplit, "layout split");
+}
+Status set_layout(Desk& desk, std::string_view value, const DeskContext&) {
+  return choose_halves(kLayoutNames, desk.layout, value, desk.compare == Compare::kSplit, "compare split");
+}
+std::string get_layout(const Desk& desk) {
+  return std::string(kLayoutNames[static_cast<std::size_t>(desk.layout)]);
 }
 std::string get_compare(const Desk& desk) {
   return std::string(kCompareNames[static_cast<std::size_t>(desk.compare)]);
@@ -274,13 +294,18 @@ std::string get_visibility(const Desk& desk) {
 
 constexpr DeskSetting kSettings[] = {
     {"cameras", "none, [add] NAME car|world X Y Z YAW_DEG PITCH_DEG [FOV_DEG]; ..., add NAME, remove NAME",
-     "cameras of one's own; add NAME: as the free eye stands", true, set_cameras, get_cameras},
+     "cameras of one's own; add NAME: as the picture is seen now", true, set_cameras, get_cameras},
     {"camera",
-     "driver, birds-eye, chase, oncoming, left-mirror, inner-mirror, right-mirror, free, a name of cameras, next",
-     "the eye: the driver's, above the road, behind the car, of a driver who meets it, mirrors, free, one's own", true,
-     set_camera, get_camera},
+     "driver, birds-eye, chase, oncoming, wall, left-mirror, inner-mirror, right-mirror, free, a name of cameras, next",
+     "the eye: the driver's, above the road, behind the car, of a driver who meets it, before a wall at 25 m, mirrors, "
+     "free, one's own",
+     true, set_camera, get_camera},
+    {"layout", "full, split, inset, next", "one camera, two in halves, or a second one small in a corner", true,
+     set_layout, get_layout},
+    {"second_camera", "a camera but next", "of a layout with two", true, set_second_camera, get_second_camera},
     {"free_eye", "car|world X Y Z YAW_DEG PITCH_DEG [FOV_DEG]",
-     "of the camera free: m, degrees to the left and up; moved by the mouse too", true, set_free_eye, get_free_eye},
+     "of the camera free: m, degrees to the left and up; moved by mouse and keys too", true, set_free_eye,
+     get_free_eye},
     {"mirrors", "off, on, toggle", "the three mirrors over the picture", true, set_flag<&Desk::mirrors>,
      get_flag<&Desk::mirrors>},
     {"compare", "off, split, flicker, next", "two designs in one picture: halves, or by turns", true, set_compare,
@@ -303,6 +328,8 @@ constexpr DeskSetting kSettings[] = {
      "points whose lux the overlay tells and probes.csv keeps", true, set_probes, get_probes},
     {"point", "none, picture X_01 Y_01, car|world X Y Z [NX NY NZ], road S LEFT [UP]",
      "one point read lamp by lamp: what a click in the window chooses", true, set_point, get_point},
+    {"plot", "off, on, toggle", "lux at the probes and at the point over the last 20 s, in the picture", true,
+     set_flag<&Desk::plot>, get_flag<&Desk::plot>},
     {"grid_m", "off, 1 to 100, next", "a grid on the road ahead with this spacing", true, set_grid, get_grid},
     {"road_isolux", "off, on, toggle", "isolux lines on the road of the photo", true, set_flag<&Desk::isolux>,
      get_flag<&Desk::isolux>},

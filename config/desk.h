@@ -32,9 +32,9 @@ struct Probe {
   friend bool operator==(const Probe&, const Probe&) = default;
 };
 /// Eyes that a picture can be drawn from (visual/process/cameras.h).
-enum class CameraKind { kDriver, kBirdsEye, kChase, kOncoming, kLeftMirror, kInnerMirror, kRightMirror, kFree };
-inline constexpr std::array<std::string_view, 8> kCameraNames{"driver",      "birds-eye",    "chase",        "oncoming",
-                                                              "left-mirror", "inner-mirror", "right-mirror", "free"};
+enum class CameraKind { kDriver, kBirdsEye, kChase, kOncoming, kWall, kLeftMirror, kInnerMirror, kRightMirror, kFree };
+inline constexpr std::array<std::string_view, 9> kCameraNames{
+    "driver", "birds-eye", "chase", "oncoming", "wall", "left-mirror", "inner-mirror", "right-mirror", "free"};
 
 /// The eye that the user moves: on the car (level, turning with its heading) or in the world.
 struct FreeEye {
@@ -55,6 +55,10 @@ struct NamedEye {
   friend bool operator==(const NamedEye&, const NamedEye&) = default;
 };
 inline constexpr std::size_t kMostCameras = 8, kMostOfName = 24;
+
+/// How many cameras the picture shows: one; two, in halves; or a second one small in a corner.
+enum class Layout { kFull, kSplit, kInset };
+inline constexpr std::array<std::string_view, 3> kLayoutNames{"full", "split", "inset"};
 
 /// Two designs in one picture: the one that shines on the left half and the other on the right half of the same view,
 /// or by turns, half a second each.
@@ -93,7 +97,9 @@ struct Desk {
   FreeEye free_eye;               ///< of the camera "free"
   std::vector<NamedEye> cameras;  ///< the user's own, kMostCameras at most
   std::string own_camera;         ///< which of them is seen from: the free eye, first as it stands there; empty: none
-  bool mirrors = false;           ///< the three mirrors as insets over the picture of another camera
+  Layout layout = Layout::kFull;
+  std::string second_camera = "chase";  ///< of a layout with two: of kCameraNames or `cameras`
+  bool mirrors = false;                 ///< the three mirrors as insets over the picture of another camera
   Compare compare = Compare::kOff;
   std::optional<std::size_t> versus;  ///< the other design, from 0; none: the one after that which shines
   View view = View::kPhoto;
@@ -107,6 +113,7 @@ struct Desk {
   double grid_m = 0.0;                ///< spacing of the grid on the road ahead; 0: none
   bool isolux = false;                ///< isolux lines on the road of the photo
   bool scale = true;                  ///< the scale of the false colours, where they are
+  bool plot = false;                  ///< lux at the probes and the point over time, in the picture
   bool reach = false;                 ///< how far the beam reaches along the lane's edges, told and kept
   bool lines = true;                  ///< lines of text at the top: time, lux under the mouse, warnings
   bool instruments = true;            ///< speed, gear, lights at the lower edge
@@ -134,7 +141,9 @@ struct DeskCommand {
 
 /// What the desk cannot know of itself.
 struct DeskContext {
-  std::size_t designs = 1;        ///< of the rig
+  std::size_t designs = 1;  ///< of the rig
+  /// Where the present picture is seen from, where that is not the free eye: what a camera that is added takes.
+  std::optional<FreeEye> seen_from = {};
   std::string no_reference = {};  ///< why the device cannot draw by Method::kReference; empty: it can, or is not known
 };
 

@@ -68,11 +68,11 @@ Status check_camera_name(std::string_view name) {
 
 namespace {
 
-/// "NAME", the free eye as it is, or "NAME car|world …"; one of that name is replaced.
-Status put_eye(std::vector<NamedEye>& eyes, std::span<const std::string> words, const FreeEye& free_eye) {
+/// "NAME", as the picture is seen, or "NAME car|world …"; one of that name is replaced.
+Status put_eye(std::vector<NamedEye>& eyes, std::span<const std::string> words, const FreeEye& seen_from) {
   const std::string name = words.empty() ? "" : words.front();
   if (const Status good = check_camera_name(name); !good) return good.error();
-  FreeEye eye = free_eye;
+  FreeEye eye = seen_from;
   if (words.size() > 1) {
     const auto read = eye_of(words.subspan(1));
     if (!read) return Error{"", name + ": " + read.error().reason};
@@ -87,10 +87,20 @@ Status put_eye(std::vector<NamedEye>& eyes, std::span<const std::string> words, 
   return Done{};
 }
 
+bool has(const Desk& desk, std::string_view own) {
+  return std::ranges::find(desk.cameras, own, &NamedEye::name) != desk.cameras.end();
+}
+
+std::vector<std::string_view> all_names(const Desk& desk) {
+  std::vector<std::string_view> names(kCameraNames.begin(), kCameraNames.end());
+  for (const NamedEye& one : desk.cameras) names.push_back(one.name);
+  return names;
+}
+
 }  // namespace
 
 /// "none", one eye after the other with a semicolon between them, "add …", which keeps those there are, "remove NAME".
-Status set_cameras(Desk& desk, std::string_view value, const DeskContext&) {
+Status set_cameras(Desk& desk, std::string_view value, const DeskContext& context) {
   std::vector<NamedEye> eyes;
   if (value.starts_with("remove ")) {
     eyes = desk.cameras;
@@ -107,12 +117,15 @@ Status set_cameras(Desk& desk, std::string_view value, const DeskContext&) {
       const std::vector<std::string> words = words_of(value.substr(0, end));
       value.remove_prefix(std::min(end + 1, value.size()));
       if (!add && words.size() == 1)
-        return Error{"", words.front() + ": where is it? add " + words.front() + " takes the free eye's place"};
-      if (const Status put = put_eye(eyes, words, desk.free_eye); !put) return put.error();
+        return Error{"",
+                     words.front() + ": where is it? add " + words.front() + " takes the place of the present view"};
+      if (const Status put = put_eye(eyes, words, context.seen_from.value_or(desk.free_eye)); !put) return put.error();
     }
   }
   desk.cameras = std::move(eyes);
-  if (std::ranges::find(desk.cameras, desk.own_camera, &NamedEye::name) == desk.cameras.end()) desk.own_camera.clear();
+  if (!has(desk, desk.own_camera)) desk.own_camera.clear();
+  if (!has(desk, desk.second_camera) && std::ranges::count(kCameraNames, desk.second_camera) == 0)
+    desk.second_camera = Desk{}.second_camera;
   return Done{};
 }
 std::string camera_words(const NamedEye& camera) {
@@ -138,16 +151,30 @@ Status set_camera(Desk& desk, std::string_view value, const DeskContext&) {
     const auto next = last_kind ? desk.cameras.begin() : at == desk.cameras.end() ? at : at + 1;
     if ((last_kind || at != desk.cameras.end()) && next != desk.cameras.end()) return look_from(*next);
   }
-  if (const Status chosen = choose(kCameraNames, desk.camera, value); !chosen) {
-    std::vector<std::string_view> names(kCameraNames.begin(), kCameraNames.end());
-    for (const NamedEye& one : desk.cameras) names.push_back(one.name);
-    return none_of(value, names, "next");
-  }
+  if (!choose(kCameraNames, desk.camera, value)) return none_of(value, all_names(desk), "next");
   desk.own_camera.clear();
   return Done{};
 }
 std::string get_camera(const Desk& desk) {
   return desk.own_camera.empty() ? std::string(kCameraNames[static_cast<std::size_t>(desk.camera)]) : desk.own_camera;
+}
+
+Status set_second_camera(Desk& desk, std::string_view value, const DeskContext&) {
+  const std::vector<std::string_view> names = all_names(desk);
+  if (std::ranges::find(names, value) == names.end()) return none_of(value, names);
+  desk.second_camera = value;
+  return Done{};
+}
+std::string get_second_camera(const Desk& desk) {
+  return desk.second_camera;
+}
+
+CameraEye eye_named(const Desk& desk, std::string_view name) {
+  if (const auto own = std::ranges::find(desk.cameras, name, &NamedEye::name); own != desk.cameras.end())
+    return {CameraKind::kFree, own->eye};
+  const auto kind = std::ranges::find(kCameraNames, name);
+  if (kind == kCameraNames.end()) return {};
+  return {static_cast<CameraKind>(kind - kCameraNames.begin()), desk.free_eye};
 }
 
 }  // namespace phare

@@ -37,10 +37,31 @@ constexpr KeyBinding kBindings[] = {
     {kHelp, kPicture, key::kF1, "F1", {}, "show or hide these keys", "help toggle"},
     {kHelp, kPicture, '?', "?", {}, "the same", "help toggle"},
     {kPanel, kPicture, key::kF9, "F9", {}, "the panel: everything by the mouse", "panel toggle"},
-    {kCamera, kPicture, 'c', "C", {}, "camera: driver, above, behind, oncoming, mirrors, free, one's own", "camera next"},
+    {kCamera,
+     kPicture,
+     'c',
+     "C",
+     {},
+     "camera: driver, above, behind, oncoming, wall, mirrors, free, one's own",
+     "camera next"},
+    {kLayout, kPicture, 'v', "V", {}, "a second camera: in halves, in a corner, none", "layout next"},
+    {kEyeForward, kPicture, '8', "8 2", {}, "the free eye forward, back; begins where one sees from"},
+    {kEyeBack, kPicture, '2', "2", {}, ""},
+    {kEyeLeft, kPicture, '4', "4 6", {}, "the same, left, right"},
+    {kEyeRight, kPicture, '6', "6", {}, ""},
+    {kEyeUp, kPicture, '9', "9 3", {}, "the same, up, down"},
+    {kEyeDown, kPicture, '3', "3", {}, ""},
+    {kEyeTurnLeft, kPicture, '7', "7 1", {}, "turns it left, right"},
+    {kEyeTurnRight, kPicture, '1', "1", {}, ""},
     {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour, then clipping, then the photo", "view next"},
     {kEffects, kPicture, key::kF3, "F3", {}, "which effects are on, and why", "effects toggle"},
-    {kMethod, kPicture, key::kF4, "F4", {}, "where light is computed: pixels, vertices, as in 1998, float64", "method next"},
+    {kMethod,
+     kPicture,
+     key::kF4,
+     "F4",
+     {},
+     "where light is computed: pixels, vertices, as in 1998, float64",
+     "method next"},
     {kMirrors, kPicture, key::kF7, "F7", {}, "mirrors over the picture", "mirrors toggle"},
     {kCompare,
      kPicture,
@@ -50,6 +71,7 @@ constexpr KeyBinding kBindings[] = {
      "this design beside the next one: halves, by turns, alone",
      "compare next"},
     {kGrid, kPicture, key::kF5, "F5", {}, "grid on the road: 10 m, 20 m, none", "grid_m next"},
+    {kPlot, kPicture, 't', "T", {}, "lux at the probes over time", "plot toggle"},
     {kIsolux, kPicture, key::kF6, "F6", {}, "isolux lines on the road", "road_isolux toggle"},
     {kLampChoose, kPicture, 'm', "M", {}, "move lamps: which pair or lamp; at the last, none"},
     {kLampQuantity, kPicture, 'x', "X", {}, "what of it: forward, left, up, spacing, yaw, pitch, roll"},
@@ -118,7 +140,8 @@ bool is_driving(KeyAction action) {
 }
 
 bool repeats(KeyAction action) {
-  return action == kLampMore || action == kLampLess || action == kLampsUp || action == kLampsDown;
+  return action == kLampMore || action == kLampLess || action == kLampsUp || action == kLampsDown ||
+         (action >= kEyeForward && action <= kEyeTurnRight);
 }
 
 std::optional<KeyCode> take_terminal_key(std::string_view& bytes) {
@@ -147,6 +170,7 @@ std::string key_list_text(std::string_view indent) {
   for (const KeyBinding& binding : kBindings) width = std::max(width, binding.name.size());
   std::string text;
   for (const KeyBinding& binding : kBindings) {
+    if (binding.what.empty()) continue;
     text += indent;
     text += binding.name;
     text.append(width + 2 - binding.name.size(), ' ');
@@ -159,6 +183,7 @@ std::string key_list_text(std::string_view indent) {
 std::string key_list_markdown() {
   std::string text = "| key | what it does | in a terminal too |\n| --- | --- | --- |\n";
   for (const KeyBinding& binding : kBindings) {
+    if (binding.what.empty()) continue;
     text += "| ";
     text += binding.name;
     text += " | ";

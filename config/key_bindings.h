@@ -61,9 +61,19 @@ enum class KeyAction {
   kLampsDown,
   kLampUndo,
   kLampReset,
+  kEyeForward,
+  kEyeBack,
+  kEyeLeft,
+  kEyeRight,
+  kEyeUp,
+  kEyeDown,
+  kEyeTurnLeft,
+  kEyeTurnRight,
+  kLayout,
+  kPlot,
   kLeave,
 };
-inline constexpr std::size_t kKeyActions = 40;
+inline constexpr std::size_t kKeyActions = 50;
 
 /// Who acts on a key: the car (phare-cockpit), the picture (phare-visual), or the drive as a whole (phare drive).
 enum class KeyActor { kCar, kPicture, kDrive };
@@ -74,7 +84,7 @@ struct KeyBinding {
   KeyCode code;
   std::string_view name;                     ///< as it is printed on the key: "Up", "L", "Shift+L"
   std::array<std::string_view, 2> terminal;  ///< what terminals send for it; empty: only the window has this key
-  std::string_view what;                     ///< what it does, in a few words
+  std::string_view what;                     ///< what it does, in a few words; empty: told with the key before it
   std::string_view desk{};                   ///< a setting of the picture that it changes (config/desk.h)
 };
 

@@ -32,7 +32,8 @@ std::string why_not(const DeskCommand& command) {
   Desk desk;
   if (command.value.empty()) return "expected SETTING=VALUE";
   // A camera may be the rig's own, which is seen when that is read too.
-  if (command.setting == "camera" && check_camera_name(command.value)) return {};
+  if ((command.setting == "camera" || command.setting == "second_camera") && check_camera_name(command.value))
+    return {};
   const auto done = apply(desk, command, {.designs = std::numeric_limits<std::size_t>::max()});
   return done ? std::string() : done.error().text();
 }
@@ -88,8 +89,9 @@ void PictureOptions::add_to(CLI::App& app) {
   const auto checked = [&](const char* option, const char* name, const char* says) {
     setting(option, name, says)->check([name](const std::string& value) { return why_not({name, value}); }, "", name);
   };
-  setting("--camera", "camera", "Eye of the picture: the driver's, one above the road, one behind the car [driver]")
-      ->check(one_of(kCameraNames));
+  checked("--camera", "camera",
+          "Eye of the picture: driver, birds-eye, chase, oncoming, wall, a mirror, free, or one of the rig's own "
+          "cameras [driver]");
   checked("--exposure", "exposure_per_cdm2", "Exposure, 1/(cd/m2) [0.3]");
   checked("--adaptation", "adaptation_k",
           "Light of this colour temperature in K looks white, or auto: the eye follows the lamps [the rig's]");

@@ -34,7 +34,9 @@ TEST(KeyTable, NoKeyTwiceAndEveryActionReachable) {
   for (const KeyBinding& binding : key_bindings()) {
     EXPECT_TRUE(codes.insert(binding.code).second) << binding.name;
     EXPECT_TRUE(names.insert(binding.name).second) << binding.name;
-    EXPECT_FALSE(binding.what.empty()) << binding.name;
+    // What has no words is told with the key before it: "8 2", then "2".
+    EXPECT_TRUE(!binding.what.empty() || (&binding)[-1].name.ends_with(" " + std::string(binding.name)))
+        << binding.name;
     EXPECT_LT(binding.code, 512u) << "what a message of the bus may name";
     actions.insert(binding.action);
     for (const std::string_view bytes : binding.terminal) {

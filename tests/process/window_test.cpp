@@ -214,6 +214,40 @@ TEST_F(WindowTest, LampsAreMovedByKeysAndAClickReadsAPoint) {
   EXPECT_EQ(end(), 0);
 }
 
+// Camera, halves and plot by keys; the free eye goes on from where another camera stands, and what it sees is kept.
+TEST_F(WindowTest, CamerasAreChosenMovedAndKept) {
+  start({"--validation"});
+  ASSERT_TRUE(comes<VehicleState>([](const VehicleState&) { return true; }));
+  const std::string answer = (folder_ / "answer.txt").string();
+  const auto says = [&](const std::string& asked, const std::string& begin) {
+    const std::string ask = "'" + program("phare") + "' control --port-base " + std::to_string(port_base()) + " set " +
+                            asked + " >'" + answer + "' 2>&1";
+    std::string text;
+    EXPECT_TRUE(wait_until([&] {
+      if (std::system(ask.c_str()) != 0) return false;
+      std::stringstream read;
+      read << std::ifstream(answer).rdbuf();
+      text = read.str();
+      return text.starts_with(begin);
+    })) << asked
+        << ": " << text;
+  };
+  display_->keys("key c key c key v key t");
+  says("camera", "camera chase");
+  says("layout", "layout split");
+  says("plot", "plot on");
+  display_->keys("key 8 key 8");  // forward along the view, a metre
+  says("camera", "camera free");
+  says("cameras 'add near'", "cameras near car -8.00");  // from 9 m behind, looking 0.08 rad down
+  display_->keys("key c");
+  says("camera near", "camera near");
+  says("camera wall", "camera wall");
+  display_->keys("mousemove --window %1 40 120 click 1");
+  says("point", "point world ");
+  display_->keys("key Escape");
+  EXPECT_EQ(end(), 0) << "and no message of validation";
+}
+
 /// Where the panel's controls lie in a window of this size. The panel is laid out here as in the window: what stands
 /// above a control is the same.
 class ShownPanel {

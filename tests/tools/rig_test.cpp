@@ -94,8 +94,8 @@ TEST(Rig, SetsTheDesk) {
   };
   EXPECT_EQ(
       wrong("camera = \"roof\""),
-      "phare_rig_test.toml:18: \"desk.camera\": \"roof\" is none of driver, birds-eye, chase, oncoming, left-mirror, "
-      "inner-mirror, right-mirror, free, next");
+      "phare_rig_test.toml:18: \"desk.camera\": \"roof\" is none of driver, birds-eye, chase, oncoming, wall, "
+      "left-mirror, inner-mirror, right-mirror, free, next");
   EXPECT_EQ(wrong("design = 1"), "phare_rig_test.toml:18: \"desk.design\": 1: the rig has 1, counted from 0");
   EXPECT_EQ(wrong("[weather]\nvisibility_m = 0.2"),
             "phare_rig_test.toml:19: \"weather.visibility_m\": 0.2 is outside 1 to 1e+05; or clear");

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "config/desk_cameras.h"
 #include "config/key_bindings.h"
 #include "config/picture_options.h"
 #include "visual/process/screens.h"
@@ -25,6 +26,12 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
   const Case cases[] = {
       {"camera", "chase", "camera chase"},
       {"camera", "next", "camera oncoming"},
+      {"camera", "next", "camera wall"},
+      {"layout", "next", "layout split"},
+      {"layout", "inset", "layout inset"},
+      {"layout", "next", "layout full"},
+      {"second_camera", "birds-eye", "second_camera birds-eye"},
+      {"plot", "on", "plot on"},
       {"camera", "free", "camera free"},
       {"camera", "next", "camera driver"},
       {"cameras", "roof car 0 0 2 0 -5", "cameras roof car 0 0 2 0 -5 60"},
@@ -113,11 +120,11 @@ TEST(Desk, HasCamerasOfOnesOwn) {
   };
   EXPECT_EQ(say("free_eye car 1 2 3 10 -5 70"), "");
   EXPECT_EQ(say("cameras add roof"), "");
-  EXPECT_EQ(say("cameras add wall world 20 0 1.2 180 0"), "");
+  EXPECT_EQ(say("cameras add kerb world 20 0 1.2 180 0"), "");
   ASSERT_EQ(desk.cameras.size(), 2u);
   EXPECT_EQ(desk.cameras[0].eye.position_m, glm::dvec3(1, 2, 3));
   EXPECT_EQ(desk.cameras[1].eye.frame, Probe::Frame::kWorld);
-  EXPECT_EQ(say("camera wall"), "");
+  EXPECT_EQ(say("camera kerb"), "");
   EXPECT_EQ(desk.camera, CameraKind::kFree);
   EXPECT_EQ(desk.free_eye.position_m.x, 20.0);
   EXPECT_EQ(say("camera next"), "") << "behind the last the driver's is next";
@@ -127,7 +134,7 @@ TEST(Desk, HasCamerasOfOnesOwn) {
     EXPECT_EQ(say("camera next"), "");
     in_turn += apply(desk, {"camera"}, {})->substr(7) + " ";
   }
-  EXPECT_EQ(in_turn, "birds-eye chase oncoming left-mirror inner-mirror right-mirror free roof wall driver ");
+  EXPECT_EQ(in_turn, "birds-eye chase oncoming wall left-mirror inner-mirror right-mirror free roof kerb ");
 
   // Moved by the mouse it is where it was moved to, until it is chosen anew; kept, it is there for good.
   EXPECT_EQ(say("camera roof"), "");
@@ -149,12 +156,50 @@ TEST(Desk, HasCamerasOfOnesOwn) {
   EXPECT_TRUE(desk.cameras.empty());
 }
 
+// A camera that is added stands where the picture is seen from; the one that is shown beside another goes with its
+// name.
+TEST(Desk, AddsACameraWhereThePictureIsSeenFrom) {
+  Desk desk;
+  const DeskContext context{.seen_from =
+                                FreeEye{.position_m = {-9, 0, 3.2}, .yaw_deg = 1, .pitch_deg = -4, .fov_deg = 50}};
+  ASSERT_TRUE(apply(desk, desk_command("cameras add behind"), context));
+  EXPECT_EQ(desk.cameras.at(0).eye, *context.seen_from);
+  ASSERT_TRUE(apply(desk, desk_command("cameras add kerb world 1 2 3 4 5"), context));
+  EXPECT_EQ(desk.cameras.at(1).eye.position_m.x, 1.0) << "unless a place is said";
+  EXPECT_EQ(eye_named(desk, "behind").eye, *context.seen_from);
+  EXPECT_EQ(eye_named(desk, "wall").kind, CameraKind::kWall);
+  ASSERT_TRUE(apply(desk, desk_command("second_camera kerb")));
+  ASSERT_TRUE(apply(desk, desk_command("cameras remove behind")));
+  EXPECT_EQ(desk.second_camera, "kerb");
+  ASSERT_TRUE(apply(desk, desk_command("cameras remove kerb")));
+  EXPECT_EQ(desk.second_camera, "chase") << "which there is always";
+}
+
+TEST(Desk, TheHalvesOfThePictureAreOnesOnly) {
+  Desk desk;
+  ASSERT_TRUE(apply(desk, desk_command("compare split")));
+  EXPECT_EQ(apply(desk, desk_command("layout split")).error().text(),
+            "layout: the halves of the picture are taken by compare split");
+  EXPECT_EQ(desk.layout, Layout::kFull);
+  EXPECT_EQ(*apply(desk, desk_command("layout next")), "layout inset") << "the key passes them by";
+  ASSERT_TRUE(apply(desk, desk_command("compare off")));
+  ASSERT_TRUE(apply(desk, desk_command("layout split")));
+  EXPECT_FALSE(apply(desk, desk_command("compare split")));
+  EXPECT_EQ(*apply(desk, desk_command("compare next")), "compare flicker");
+}
+
 TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
   const std::map<std::string, std::string> cases{
       {"camera roof",
-       "camera: \"roof\" is none of driver, birds-eye, chase, oncoming, left-mirror, inner-mirror, right-mirror, free, "
-       "next"},
-      {"cameras roof", "cameras: roof: where is it? add roof takes the free eye's place"},
+       "camera: \"roof\" is none of driver, birds-eye, chase, oncoming, wall, left-mirror, inner-mirror, right-mirror, "
+       "free, next"},
+      {"layout both", "layout: \"both\" is none of full, split, inset, next"},
+      {"second_camera next",
+       "second_camera: \"next\" is none of driver, birds-eye, chase, oncoming, wall, left-mirror, inner-mirror, "
+       "right-mirror, free"},
+      {"plot 1", "plot: \"1\" is none of off, on, toggle"},
+      {"cameras roof", "cameras: roof: where is it? add roof takes the place of the present view"},
+      {"cameras add wall", "cameras: \"wall\" means something else already"},
       {"cameras add next", "cameras: \"next\" means something else already"},
       {"cameras add free car 1 2 3 0 0", "cameras: \"free\" means something else already"},
       {"cameras add a/b", "cameras: \"a/b\" is no name of a camera: 1 to 24 letters, digits, - and _"},
@@ -235,6 +280,9 @@ TEST(Desk, ItsDifferenceMakesItAgain) {
   Desk desk;
   for (const char* words : {"cameras roof car 0 0 2 0 -5 60; kerb world 1 2 3 4 5 50",
                             "camera roof",
+                            "layout inset",
+                            "second_camera kerb",
+                            "plot on",
                             "free_eye car 0 0 3 0 -5 60",
                             "view false-colour",
                             "isolux_lx 0.1 0.30000000000000004",
@@ -317,7 +365,8 @@ TEST(Desk, IsTheSameByKeyCommandLineAndBus) {
       by_command_line({"--exposure", "0.5", "--adaptation", "5000", "--set", "isolux_lx=1 2", "--set", "design=1"}),
       by_command_line({"--set", "exposure_per_cdm2=0.5", "--set", "adaptation_k=5000", "--set", "isolux_lx=1,2",
                        "--set", "design=1"}));
-  EXPECT_THROW(by_command_line({"--camera", "roof"}), CLI::ParseError);
+  EXPECT_EQ(by_command_line({"--camera", "wall"}).camera, CameraKind::kWall);
+  EXPECT_THROW(by_command_line({"--camera", "next door"}), CLI::ParseError);
   EXPECT_THROW(by_command_line({"--set", "camera=next door"}), CLI::ParseError);
   EXPECT_THROW(by_command_line({"--set", "camera"}), CLI::ParseError);
   EXPECT_THROW(by_command_line({"--set", "kamera=chase"}), CLI::ParseError);

@@ -34,7 +34,7 @@ class Explain : public testing::Test {
  protected:
   std::vector<std::string> lines(const AskedMoment& moment, const AskedDevice& device, bool window = false) {
     std::istringstream text(
-        explain_moment(lamps_, desk_, rig_.channels[0], moment, device, scene_, traffic_, road_, window));
+        explain_moment(lamps_, desk_, rig_.channels[0], moment, device, scene_, movers_, traffic_, road_, window));
     std::vector<std::string> all;
     for (std::string line; std::getline(text, line);) all.push_back(line);
     return all;
@@ -49,6 +49,7 @@ class Explain : public testing::Test {
   Lamps lamps_ = std::move(*Lamps::load(rig_));
   Desk desk_;
   Scene scene_;
+  Movers movers_ = std::move(*Movers::read());
   Traffic traffic_;
   std::vector<LanePoint> lane_{{0, 0, 0, 0, 0, 0}, {1000, 1000, 0, 0, 0, 0}};
   RoadLine road_{lane_, {}};
@@ -103,7 +104,7 @@ TEST_F(Explain, AnOncomingCarCallsForGlareAndItsImage) {
   const auto alone = lines(moment(LightSwitch::kLow), software_);
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explain_traffic.toml";
   std::ofstream(file) << "[[road_user]]\nstart_s_m = 60\noffset_m = 3.5\n";
-  traffic_ = std::move(*Traffic::read(file, lane_));
+  traffic_ = std::move(*Traffic::read(file, lane_, movers_));
   const auto met = lines(moment(LightSwitch::kLow), software_);
   ASSERT_EQ(met.size(), alone.size());
   for (std::size_t i = 0; i < met.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -263,7 +264,8 @@ TEST_F(Measuring, MarksAreSeenWhereTheyLie) {
 
 TEST_F(Measuring, WhatIsOffCostsNothing) {
   PictureInstruments off(desk_, lamps_, world_, RoadLine(), ProbeLog(testing::TempDir(), false));
-  off.see({SimTime{0}, car_, Camera{}, 1.6});
+  const FrameInput picture;
+  off.see({SimTime{0}, car_, &picture, 1.6});
   EXPECT_EQ(off.marks(true).size(), 0u) << "so there is no pass for them";
   EXPECT_TRUE(off.lines().empty());
   EXPECT_TRUE(off.log());
@@ -290,7 +292,9 @@ TEST_F(Measuring, APointOfThePictureIsWhatIsSeenThere) {
   PictureInstruments instruments(desk_, lamps_, world_, RoadLine(), ProbeLog());
   Camera camera;
   camera.eye_m = {0.0, 0.0, 3.2};
-  instruments.see({SimTime{0}, car_, camera, 16.0 / 9.0});
+  FrameInput picture;
+  picture.camera = camera;
+  instruments.see({SimTime{0}, car_, &picture, 16.0 / 9.0});
   ASSERT_TRUE(apply(desk_, desk_command("point picture 0.5 0.75")));
   const auto at = instruments.point();
   ASSERT_TRUE(at);
@@ -304,6 +308,67 @@ TEST_F(Measuring, APointOfThePictureIsWhatIsSeenThere) {
   EXPECT_EQ(instruments.answer(), "\npoint: the scene has no lane");
 }
 
+// Lines that rise with the light of each probe, from the left edge to now; what is off is no box.
+TEST_F(Measuring, ThePlotShowsEachProbesLightOverTime) {
+  PictureInstruments instruments(desk_, lamps_, world_, RoadLine(), ProbeLog());
+  const FrameInput picture;
+  desk_.plot = true;
+  desk_.shadows = 0;
+  desk_.probes = {{Probe::Frame::kCar, {23.0, 0.6, 0.0}}, {Probe::Frame::kRoad, {20.0, 0.0, 0.0}}};
+  ASSERT_TRUE(apply(desk_, desk_command("point car 23 0.6 0")));
+  OverlayMarks marks;
+  for (int frame = 0; frame < 30; ++frame) {
+    instruments.see({SimTime{frame * 16'666'667}, car_, &picture, 1.6});
+    marks = instruments.marks(false);
+  }
+  ASSERT_EQ(marks.boxes.size(), 1u);
+  const OverlayMarks::Box& box = marks.boxes.front();
+  std::size_t curves = 0;
+  for (const OverlayMarks::Line& line : marks.lines) {
+    if (line.x0_01 < box.left_01) continue;  // the cross of the point
+    EXPECT_LE(line.x1_01, box.left_01 + box.width_01);
+    EXPECT_GE(std::min(line.y0_01, line.y1_01), box.top_01);
+    EXPECT_LE(std::max(line.y0_01, line.y1_01), box.top_01 + box.height_01);
+    curves += line.x1_01 - line.x0_01 < 0.01 ? 1 : 0;
+  }
+  EXPECT_EQ(curves, 2u * 4u) << "five tenths, of the probe and the point; the road has no lane";
+  const auto has = [&](const std::string& begin) {
+    return std::ranges::any_of(marks.labels,
+                               [&](const OverlayMarks::Label& label) { return label.text.starts_with(begin); });
+  };
+  const double lx = lamps_.illuminance_lx(car_, *placed(desk_.probes[0], car_, RoadLine()));
+  ASSERT_GT(lx, 0.0);
+  char now[40];
+  std::snprintf(now, sizeof now, "%.3g", lx);
+  EXPECT_TRUE(has(std::string("1: ") + now));
+  EXPECT_TRUE(has("2: -"));
+  EXPECT_TRUE(has(std::string("point: ") + now));
+  desk_.plot = false;
+  EXPECT_TRUE(instruments.marks(false).boxes.empty());
+  desk_.plot = true, desk_.probes.clear(), desk_.point.reset();
+  marks = instruments.marks(false);
+  EXPECT_EQ(marks.labels.front().text, "no probe and no point is set") << "and nothing of before";
+}
+
+// Of a picture in halves: marks of its own view lie in its half.
+TEST_F(Measuring, MarksLieInThePartOfTheirView) {
+  PictureInstruments instruments(desk_, lamps_, world_, RoadLine(), ProbeLog());
+  desk_.grid_m = 10.0;
+  FrameInput picture;
+  picture.camera.eye_m = {0.0, 0.0, 3.2};
+  instruments.see({SimTime{0}, car_, &picture, 16.0 / 9.0});
+  const OverlayMarks whole = instruments.marks(true);
+  lay_out(picture, Layout::kSplit, Camera{}, "other");
+  const OverlayMarks half = instruments.marks(true);
+  const auto row = [](const OverlayMarks& marks) {
+    return std::ranges::find(marks.labels, "10 m", &OverlayMarks::Label::text);
+  };
+  ASSERT_NE(row(whole), whole.labels.end());
+  ASSERT_NE(row(half), half.labels.end());
+  EXPECT_NEAR(row(half)->x_01, row(whole)->x_01 - 0.25, 1e-9) << "the middle half of the view, in the left half";
+  EXPECT_NEAR(row(half)->y_01, row(whole)->y_01, 1e-9);
+}
+
 TEST_F(Measuring, ProbesAreKeptTenTimesASecond) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "phare_probe_log";
   std::filesystem::remove_all(folder);
@@ -311,8 +376,9 @@ TEST_F(Measuring, ProbesAreKeptTenTimesASecond) {
   desk_.probes = {{Probe::Frame::kCar, {23.0, 0.6, 0.0}}, {Probe::Frame::kRoad, {20.0, 0.0, 0.0}}};
   {
     PictureInstruments instruments(desk_, lamps_, world_, RoadLine(), ProbeLog(folder, false));
+    const FrameInput picture;
     for (int frame = 0; frame < 30; ++frame) {
-      instruments.see({SimTime{frame * 16'666'667}, car_, Camera{}, 1.6});
+      instruments.see({SimTime{frame * 16'666'667}, car_, &picture, 1.6});
       EXPECT_TRUE(instruments.log());
     }
   }

@@ -304,6 +304,9 @@ TEST_F(PanelTest, EffectsAreForcedAndSayWhy) {
   for (const EffectRow& row : effect_table()) EXPECT_NE(panel_.place("effect " + std::string(row.name)), nullptr);
   click("method"), click("method vertex");
   EXPECT_EQ(desk_.method, Method::kVertex);
+  const auto [x, y] = middle("method");
+  point(PointerKind::kWheel, x, y, -6.0);  // the section is longer than the window
+  frames(4);
   click("shadows");
   EXPECT_EQ(click("shadows hard"), std::vector{control(RigControl::Set{"shadows", "hard"})});
   EXPECT_EQ(desk_.shadows, std::optional<std::size_t>(1));

@@ -37,11 +37,14 @@ TEST(Screens, HelpListsEveryKeyOfTheTable) {
   EXPECT_TRUE(screens.panel({}, 0.0, desk.help).empty());
   EXPECT_FALSE(press(screens, desk, KeyAction::kHelp));
   const OverlayPanel help = screens.panel({}, 0.0, desk.help);
-  ASSERT_EQ(help.rows.size(), key_bindings().size());
-  for (std::size_t i = 0; i < help.rows.size(); ++i) {
-    EXPECT_EQ(help.rows[i].key, key_bindings()[i].name);
-    EXPECT_EQ(help.rows[i].words, key_bindings()[i].what);
+  std::size_t row = 0;
+  for (const KeyBinding& binding : key_bindings()) {
+    if (binding.what.empty()) continue;  // told with the key before it
+    ASSERT_LT(row, help.rows.size());
+    EXPECT_EQ(help.rows[row].key, binding.name);
+    EXPECT_EQ(help.rows[row++].words, binding.what);
   }
+  EXPECT_EQ(row, help.rows.size());
   // Esc takes the help away first, then it leaves.
   EXPECT_FALSE(press(screens, desk, KeyAction::kLeave));
   EXPECT_TRUE(screens.panel({}, 0.0, desk.help).empty());

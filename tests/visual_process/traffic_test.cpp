@@ -25,13 +25,14 @@ class TrafficTest : public testing::Test {
     return path;
   }
   Traffic traffic(const std::string& text) {
-    auto read = Traffic::read(file(text), straight_lane());
+    auto read = Traffic::read(file(text), straight_lane(), movers_);
     EXPECT_TRUE(read) << read.error().text();
     return read ? std::move(*read) : Traffic{};
   }
   /// Straight along x on the plane z = 0, 1 km.
   static std::vector<LanePoint> straight_lane() { return {{0, 0, 0, 0, 0, 0}, {1000, 1000, 0, 0, 0, 0}}; }
   static RoadLine straight() { return RoadLine(straight_lane(), {}); }
+  Movers movers_ = std::move(*Movers::read());
 };
 
 TEST_F(TrafficTest, IsWhereTheFileSaysAndNowhereElse) {
@@ -147,19 +148,18 @@ TEST_F(TrafficTest, TheNearestLightsTheScene) {
 
 TEST_F(TrafficTest, WhatIsWrongInTheFileIsNamed) {
   const auto reason = [&](const std::string& text) {
-    const auto read = Traffic::read(file(text), straight_lane());
+    const auto read = Traffic::read(file(text), straight_lane(), movers_);
     return read ? std::string() : read.error().text();
   };
   EXPECT_NE(reason("[[road_user]]\nclass = \"tank\"\n").find("traffic_test.toml:2"), std::string::npos);
   EXPECT_NE(reason("[[road_user]]\nspeed_kmh = -3\n").find("speed_kmh"), std::string::npos);
   EXPECT_NE(reason("[[road_user]]\nspead_kmh = 3\n").find("spead_kmh"), std::string::npos);
   EXPECT_NE(reason("\n").find("expected [[road_user]]"), std::string::npos);
-  EXPECT_FALSE(Traffic::read(file("[[road_user]]\n"), {})) << "there is no lane to drive along";
-  EXPECT_FALSE(Traffic::read("no_such_file.toml", straight_lane()));
-  const auto none = Traffic::read({}, {});
+  EXPECT_FALSE(Traffic::read(file("[[road_user]]\n"), {}, movers_)) << "there is no lane to drive along";
+  EXPECT_FALSE(Traffic::read("no_such_file.toml", straight_lane(), movers_));
+  const auto none = Traffic::read({}, {}, movers_);
   ASSERT_TRUE(none);
   EXPECT_TRUE(none->empty());
-  EXPECT_TRUE(none->meshes().chunks.empty()) << "without traffic nothing is read";
 }
 
 // A lorry between the eye and an oncoming car hides its lamps, and not its own; it hides the road behind it from ours.
@@ -171,7 +171,7 @@ TEST_F(TrafficTest, BodiesHideLampsButNotThoseThatTheyCarry) {
   ASSERT_EQ(users.size(), 2u);
   const glm::dvec3 eye_m{0.0, 0.0, 1.2};
   const Scene nothing;
-  World world(nothing, both.meshes());
+  World world(nothing, movers_.meshes());
   EXPECT_EQ(both.glare_at(users, eye_m, world, {}).size(), 4u) << "two headlamps, two tail lamps";
   world.move(both.placed_meshes(users));
   const auto seen = both.glare_at(users, eye_m, world, {});

@@ -19,7 +19,8 @@ void add_things(Model& model, const Alignment& road);
 /// "pedestrian_1", "pedestrian_2", "cyclist".
 void add_people(Model& model, const Alignment& road);
 
-/// "car", "lorry", "bicycle", "pedestrian": those that move, each about the origin, x forward.
+/// "car", "lorry", "bicycle", "pedestrian": those that move, each about the origin, x forward; and "wall", 25 m before
+/// the lamps in the camera of that name.
 void add_road_users(Model& model);
 
 struct Clothes {

@@ -40,6 +40,15 @@ glm::dmat4 shifted(double x_m) {
   return frame;
 }
 
+/// A plastered wall across x that is read on its near side, in squares of a metre for light at the vertices; its foot
+/// is below the road, where that falls.
+void draw_wall(Pen pen) {
+  constexpr int kHalf_m = 16, kFoot_m = -3, kTop_m = 9;
+  for (int y = -kHalf_m; y < kHalf_m; ++y)
+    for (int z = kFoot_m; z < kTop_m; ++z)
+      pen.quad(Material::kPlaster, {0.0, y + 1.0, z}, {0.0, y, z}, {0.0, y, z + 1.0}, {0.0, y + 1.0, z + 1.0});
+}
+
 }  // namespace
 
 void add_road_users(Model& model) {
@@ -48,6 +57,7 @@ void add_road_users(Model& model) {
   draw_cyclist(Pen(model.add("bicycle"), shifted(-0.5)));
   draw_walker(Pen(model.add("pedestrian"), shifted(0.0)),
               {Material::kClothDark, Material::kClothBlue, Material::kClothDark}, 0.55, false, false);
+  draw_wall(Pen(model.add("wall"), glm::dmat4(1.0)));
 }
 
 }  // namespace phare::scene

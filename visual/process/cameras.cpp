@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
 #include <utility>
 
 #include "config/base/conventions.h"
+#include "visual/process/props.h"
 
 namespace phare {
 namespace {
@@ -113,9 +115,10 @@ Camera free_camera(const FreeEye& eye, const VehicleState& pose) {
   return camera;
 }
 
-Camera camera_of(const Desk& desk, const ChannelConfig& channel, const VehicleState& pose,
-                 std::optional<double> ground_z_m) {
-  switch (desk.camera) {
+Camera camera_of(const CameraEye& eye, const SeenBy& by) {
+  const ChannelConfig& channel = by.channel;
+  const VehicleState& pose = by.pose;
+  switch (eye.kind) {
     case CameraKind::kDriver:
       break;
     case CameraKind::kBirdsEye:
@@ -123,15 +126,61 @@ Camera camera_of(const Desk& desk, const ChannelConfig& channel, const VehicleSt
     case CameraKind::kChase:
       return chase_camera(channel, pose);
     case CameraKind::kOncoming:
-      return oncoming_camera(channel, pose, ground_z_m);
+      return oncoming_camera(channel, pose, by.ground_z_m);
+    case CameraKind::kWall:
+      return wall_camera(wall_before(by.lamps, pose));
     case CameraKind::kLeftMirror:
     case CameraKind::kInnerMirror:
     case CameraKind::kRightMirror:
-      return mirror_camera(desk.camera, channel, pose);
+      return mirror_camera(eye.kind, channel, pose);
     case CameraKind::kFree:
-      return free_camera(desk.free_eye, pose);
+      return free_camera(eye.eye, pose);
   }
   return driver_camera(channel, pose);
+}
+
+FreeEye free_eye_at(const Camera& camera, const VehicleState& pose) {
+  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+  const glm::dmat3 car_from_world = glm::transpose(world_from_car(0.0, 0.0, pose.yaw_rad));
+  const glm::dvec3 ahead = car_from_world * camera.world_from_eye[0];
+  FreeEye eye{.frame = Probe::Frame::kCar, .position_m = car_from_world * (camera.eye_m - position_of(pose))};
+  // Straight down has no direction: the heading, as the upper edge of the bird's eye has it at the right.
+  const bool level = std::hypot(ahead.x, ahead.y) > 1e-6;
+  eye.yaw_deg = level ? std::atan2(ahead.y, ahead.x) * kDegPerRad : 0.0;
+  eye.pitch_deg = std::clamp(std::asin(std::clamp(ahead.z, -1.0, 1.0)) * kDegPerRad, -89.0, 89.0);
+  eye.fov_deg = camera.fov_horizontal_rad * kDegPerRad;
+  if (camera.orthographic_width_m > 0.0)
+    eye.fov_deg = 2.0 * std::atan(0.5 * camera.orthographic_width_m / std::max(eye.position_m.z, 1.0)) * kDegPerRad;
+  return eye;
+}
+
+Falling falling_past(const CameraEye& eye, const VehicleState& pose, SimTime time) {
+  const bool stands = eye.kind == CameraKind::kFree && eye.eye.frame == Probe::Frame::kWorld;
+  return {.time_s = time.seconds(),
+          .eye_mps = stands ? glm::dvec3(0.0) : glm::dvec3(pose.vx_mps, pose.vy_mps, pose.vz_mps)};
+}
+
+void lay_out(FrameInput& frame, Layout layout, const Camera& second, std::string_view name) {
+  if (layout == Layout::kFull) return;
+  ViewInput view = frame;
+  view.name = "second camera, " + std::string(name);
+  view.camera = second;
+  view.part = kInsetPart;
+  view.want_image = view.want_hdr = false;
+  if (layout == Layout::kSplit) {
+    frame.part = {0.0, 0.0, 0.5, 1.0}, view.part = {0.5, 0.0, 0.5, 1.0};
+    for (Camera* half : {&frame.camera, &view.camera}) half->seen_from_01 = 0.25, half->seen_to_01 = 0.75;
+  }
+  frame.more_views.push_back(std::move(view));
+}
+
+OverlayRoom room_beside(const Desk& desk) {
+  if (desk.mirrors) {
+    OverlayRoom room = kRoomBesideMirrors;
+    if (desk.layout == Layout::kInset) room.panel_top_01 = kRoomBesideInset.panel_top_01;
+    return room;
+  }
+  return desk.layout == Layout::kInset ? kRoomBesideInset : OverlayRoom{};
 }
 
 std::vector<ViewInput> mirror_views(const ViewInput& frame, const ChannelConfig& channel, const VehicleState& pose) {

@@ -1,12 +1,13 @@
-// The eyes: the driver's, one from above, one behind the car.
+// The eyes: the driver's, one from above, one behind the car; and which of them the picture shows, where.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "config/desk.h"
+#include "config/desk_cameras.h"
 #include "config/rig.h"
 #include "net/messages.h"
+#include "visual/process/lamps.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 
@@ -53,9 +54,28 @@ Camera free_camera(const FreeEye& eye, const VehicleState& pose);
 /// The whole scene from high above, in perspective: what is drawn of the air is drawn there too.
 Camera overview_camera(const Scene& scene);
 
-/// The desk's camera. `ground_z_m`: of the road below the oncoming eye.
-Camera camera_of(const Desk& desk, const ChannelConfig& channel, const VehicleState& pose,
-                 std::optional<double> ground_z_m = {});
+/// Where a picture is seen from, and with what.
+struct SeenBy {
+  const ChannelConfig& channel;
+  const Lamps& lamps;  ///< of the car
+  const VehicleState& pose;
+  std::optional<double> ground_z_m{};  ///< of the road below the oncoming eye
+};
+Camera camera_of(const CameraEye& eye, const SeenBy& by);
+/// The free eye that sees the same way, level, on the car; of parallel rays one as high whose picture is as wide at the
+/// car's height.
+FreeEye free_eye_at(const Camera& camera, const VehicleState& pose);
+/// How the eye goes through what falls: with the car, or it stands in the world.
+Falling falling_past(const CameraEye& eye, const VehicleState& pose, SimTime time);
+
+/// Room for the second camera of Layout::kInset: in the upper right corner, clear of the mirrors.
+inline constexpr PicturePart kInsetPart{0.68, 0.02, 0.30, 0.30};
+inline constexpr OverlayRoom kRoomBesideInset{.lines_width_01 = 0.66, .panel_top_01 = 0.34};
+/// What mirrors and the second camera leave.
+OverlayRoom room_beside(const Desk& desk);
+/// The layout: of the picture's own view the part that it leaves to it, and the second camera beside it, with what else
+/// the picture's own view has. In halves each shows the middle of what it sees.
+void lay_out(FrameInput& frame, Layout layout, const Camera& second, std::string_view name);
 
 /// Beside the inner mirror and above the left one; a panel below the inner one.
 inline constexpr OverlayRoom kRoomBesideMirrors{.lines_width_01 = 0.37, .lines_height_01 = 0.61, .panel_top_01 = 0.2};

@@ -6,6 +6,7 @@
 #include "visual/frame_facts.h"
 #include "visual/light_reach.h"
 #include "visual/process/overlay_lines.h"
+#include "visual/process/props.h"
 #include "visual/process/screens.h"
 
 namespace phare {
@@ -32,12 +33,13 @@ Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s) {
 }
 
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
-                           const AskedDevice& device, const Scene& scene, const Traffic& traffic, const RoadLine& road,
-                           bool window) {
+                           const AskedDevice& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
+                           const RoadLine& road, bool window) {
   const CockpitState controls = shown_by_desk(desk, moment.controls);
   lamps.set_controls(controls);
   FrameInput input;
-  set_by_desk(input, desk, channel, moment.pose);
+  set_by_desk(input, desk);
+  input.camera = camera_of(first_eye(desk), seen_by(first_eye(desk), channel, lamps, moment.pose, &road));
   input.lamps = lamps.placed(moment.pose);
   const std::vector<Traffic::There> users = traffic.at(moment.time.seconds(), road);
   if (window) {
@@ -51,7 +53,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   // Those whose light the view can see; what of the scene it falls on is not asked.
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
   input.moving = traffic.placed_meshes(users);
-  World world(scene, traffic.meshes());
+  World world(scene, movers.meshes());
   world.move(input.moving);
   const std::vector<PlacedLamp> of_others =
       Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0], wet(desk));
@@ -59,7 +61,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   std::size_t lit = 0;
   std::optional<std::vector<CastBy>> casts;
   std::optional<ShadowCasters> casters;
-  if (looks_for_casters(input)) casts.emplace(), casters.emplace(scene, traffic.meshes());
+  if (looks_for_casters(input)) casts.emplace(), casters.emplace(scene, movers.meshes());
   for (const PlacedLamp& lamp : input.lamps) {
     const LightCone cone = light_cone(lamp.beam == Traffic::kBeam ? traffic.beam() : lamps.image(lamp.beam));
     const LampReach reach(lamp.position_m, lamp.world_from_image, cone);
@@ -76,6 +78,8 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.air);
   const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.air);
   input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
+  if (const auto props = Props::of(movers))
+    props->add_to(input, desk.camera, lamps, moment.pose, controls.light_switch != LightSwitch::kOff, world);
   DrawnOver over = drawn_over(input);
   over.gui = window && desk.panel;  // nothing is laid out: there is no window yet
   return heading + explain(plan_effects(

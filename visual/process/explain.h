@@ -31,7 +31,7 @@ struct AskedDevice {
 /// "# low, design "reflector", 12.0 s, on llvmpipe": the moment; then a line for each effect: name, level, reason.
 /// `window`: there is one, so that there is an overlay. Switches `lamps` to the moment.
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
-                           const AskedDevice& device, const Scene& scene, const Traffic& traffic, const RoadLine& road,
-                           bool window);
+                           const AskedDevice& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
+                           const RoadLine& road, bool window);
 
 }  // namespace phare

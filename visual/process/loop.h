@@ -52,6 +52,8 @@ class Loop {
   void take(const Datagram& datagram);
   void mind_the_keys();
   void mind_the_mouse();
+  std::optional<FreeEye> seen_from() const;
+  void move_eye(KeyAction key);
   bool on_panel(double x_px, double y_px) const;
   void mind_the_panel();
   void show_panel(const Moment& moment);
@@ -87,10 +89,11 @@ class Loop {
   void write_stats(SimTime now);
 
   Session& s_;
-  Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk, s_.options.channel, s_.renderer.no_reference().value_or(""));
+  Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk, s_.options.channel, s_.renderer.no_reference().value_or(""),
+                              [this] { return seen_from(); });
   LampKeys lamp_keys_;
   LampNews lamp_news_{s_.lamps};
-  World world_{s_.scene, s_.traffic.meshes()};  // as it is in this frame
+  World world_{s_.scene, s_.movers.meshes()};  // as it is in this frame
   PictureInstruments measuring_{s_.desk, s_.lamps, world_, RoadLine(s_.lane, s_.rig.scene_file),
                                 ProbeLog(s_.options.channel == 0 ? s_.options.out : "", s_.options.going_on)};
   DriveLog drive_log_{s_.options.channel == 0 ? s_.options.out : "",

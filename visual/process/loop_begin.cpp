@@ -72,7 +72,8 @@ void Loop::warm_up() {
   const Clock::time_point begin = Clock::now();
   const VehicleState pose;
   FrameInput input;
-  set_by_desk(input, s_.desk, s_.channel(), pose, nullptr);
+  set_by_desk(input, s_.desk);
+  input.camera = camera_of(first_eye(s_.desk), seen_by(first_eye(s_.desk), s_.channel(), s_.lamps, pose));
   const Camera first_camera = std::exchange(input.camera, overview_camera(s_.scene));
   const double far_mesh_from_m = std::exchange(input.far_mesh_from_m, std::numeric_limits<double>::infinity());
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
@@ -93,9 +94,14 @@ void Loop::warm_up() {
                                          controls.light_switch >= LightSwitch::kLow && !controls.fog_front));
     // Their bodies may be of a kind of surface that the scene lacks.
     input.moving.clear();
-    if (met) input.moving = s_.traffic.one_of_each(input.camera.eye_m + 20.0 * input.camera.world_from_eye[0]);
+    const glm::dvec3 ahead_m = input.camera.eye_m + 20.0 * input.camera.world_from_eye[0];
+    if (met) input.moving = s_.traffic.one_of_each(ahead_m);
+    if (thorough)
+      for (const PlacedMesh& prop : s_.props.one_of_each(ahead_m)) input.moving.push_back(prop);
+    // From outside one sees the car's own tail lamps, whichever camera the drive begins with.
     const bool glaring =
-        s_.desk.glare != std::size_t{0} && (met || !s_.lamps.glare_at(pose, first_camera.eye_m, Scene{}, {}).empty());
+        s_.desk.glare != std::size_t{0} &&
+        (met || (last && thorough) || !s_.lamps.glare_at(pose, first_camera.eye_m, Scene{}, {}).empty());
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
     // The same for fog, where there is some to begin with, and of the light that the drive begins with.

@@ -18,7 +18,12 @@ constexpr auto kStatsEvery = 1s;
 /// What measures in the picture, over it and in probes.csv.
 void Loop::measure(const Moment& moment) {
   const PictureSize size = s_.renderer.picture_size();
-  measuring_.see({moment.time, moment.car.pose, input_.camera, static_cast<double>(size.width_px) / size.height_px});
+  const bool wall = s_.desk.camera == CameraKind::kWall;
+  measuring_.see({.time = moment.time,
+                  .car = moment.car.pose,
+                  .picture = &input_,
+                  .aspect = static_cast<double>(size.width_px) / size.height_px,
+                  .wall = wall ? std::optional(wall_before(s_.lamps, moment.car.pose)) : std::nullopt});
   input_.marks = measuring_.marks(drawn_frames_ % 6 == 0);
   if (versus_.lamps() != nullptr) mark_versus(input_.marks, s_.desk, s_.lamps, *versus_.lamps(), moment.time);
   for (const ViewInput& inset : input_.more_views) {

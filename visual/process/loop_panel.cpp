@@ -7,20 +7,18 @@
 #include <utility>
 
 #include "visual/process/loop.h"
-#include "visual/process/pick.h"
 
 namespace phare {
 namespace {
 
-/// The eye that the user moves. Right button held: turn, a degree for 8 pixels; middle: shift; wheel: along the way one
-/// looks. A turn is felt, not measured: chosen by hand.
-void move_eye(FreeEye& eye, const Window::Moves& move, double wheel) {
-  eye.yaw_deg = std::remainder(eye.yaw_deg + move.turn_x_px / 8.0, 360.0);
-  eye.pitch_deg = std::clamp(eye.pitch_deg + move.turn_y_px / 8.0, -89.0, 89.0);
+/// The eye that the user moves: turned, and shifted by so much ahead, to the left and up of where it looks.
+void shift_eye(FreeEye& eye, double left_deg, double up_deg, const glm::dvec3& by_m) {
+  eye.yaw_deg = std::remainder(eye.yaw_deg + left_deg, 360.0);
+  eye.pitch_deg = std::clamp(eye.pitch_deg + up_deg, -89.0, 89.0);
   const double yaw = eye.yaw_deg * std::numbers::pi / 180.0, pitch = eye.pitch_deg * std::numbers::pi / 180.0;
   const glm::dvec3 ahead{std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch)};
   const glm::dvec3 left{-std::sin(yaw), std::cos(yaw), 0.0};
-  eye.position_m += wheel * ahead + 0.02 * (move.shift_x_px * left + move.shift_y_px * glm::dvec3(0.0, 0.0, 1.0));
+  eye.position_m += by_m.x * ahead + by_m.y * left + by_m.z * glm::dvec3(0.0, 0.0, 1.0);
 }
 
 }  // namespace
@@ -42,13 +40,43 @@ void Loop::mind_the_mouse() {
   }
   Window::Moves moves = s_.window->take_moves();
   if (!eye_held_) moves = {};
-  if (s_.desk.camera == CameraKind::kFree) move_eye(s_.desk.free_eye, moves, wheel);
+  // Right button held: turn, a degree for 8 pixels; middle: shift; wheel: along the way one looks. A turn is felt, not
+  // measured: chosen by hand.
+  if (s_.desk.camera == CameraKind::kFree)
+    shift_eye(s_.desk.free_eye, moves.turn_x_px / 8.0, moves.turn_y_px / 8.0,
+              {wheel, 0.02 * moves.shift_x_px, 0.02 * moves.shift_y_px});
   const Window::Mouse mouse = s_.window->mouse();
   if (!click || !newest_ || !mouse.inside) return;
-  const auto at = pick(world_, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
-                                   .ray_through(click->x_px, click->y_px, mouse.width_px, mouse.height_px));
+  const auto at = measuring_.seen_at((click->x_px + 0.5) / mouse.width_px, (click->y_px + 0.5) / mouse.height_px);
   s_.desk.point = at ? std::optional(Probe{Probe::Frame::kWorld, at->position_m, at->normal}) : std::nullopt;
   fresh_ = true;
+}
+
+/// Where the present picture is seen from; nothing: from the free eye.
+std::optional<FreeEye> Loop::seen_from() const {
+  if (s_.desk.camera == CameraKind::kFree || !newest_) return std::nullopt;
+  Camera camera = input_.camera;
+  camera.seen_from_01 = 0.0, camera.seen_to_01 = 1.0;
+  return free_eye_at(camera, newest_->car.pose);
+}
+
+/// A key moves the free eye, which takes the place of another first.
+void Loop::move_eye(KeyAction key) {
+  constexpr double kStep_m = 0.5, kStep_deg = 2.0;
+  struct Step {
+    KeyAction key;
+    glm::dvec3 by_m{0.0};
+    double left_deg = 0.0;
+  };
+  using enum KeyAction;
+  const Step steps[] = {{kEyeForward, {kStep_m, 0, 0}}, {kEyeBack, {-kStep_m, 0, 0}},   {kEyeLeft, {0, kStep_m, 0}},
+                        {kEyeRight, {0, -kStep_m, 0}},  {kEyeUp, {0, 0, kStep_m}},      {kEyeDown, {0, 0, -kStep_m}},
+                        {kEyeTurnLeft, {}, kStep_deg},  {kEyeTurnRight, {}, -kStep_deg}};
+  const auto step = std::ranges::find(steps, key, &Step::key);
+  if (step == std::end(steps)) return;
+  if (const auto eye = seen_from())
+    s_.desk.free_eye = *eye, s_.desk.camera = CameraKind::kFree, s_.desk.own_camera.clear();
+  shift_eye(s_.desk.free_eye, step->left_deg, 0.0, step->by_m);
 }
 
 bool Loop::on_panel(double x_px, double y_px) const {

@@ -49,8 +49,8 @@ std::vector<LanePoint> lane_of(const std::filesystem::path& scene_file) {
 }
 
 /// The device that would draw, and the moment of the options; a line for each effect.
-int explain_and_leave(const VisualOptions& options, const Scene& scene, Lamps& lamps, const Desk& desk,
-                      const ChannelConfig& channel, const Traffic& traffic, const RoadLine& road) {
+int explain_and_leave(const VisualOptions& options, const Scene& scene, const Movers& movers, Lamps& lamps,
+                      const Desk& desk, const ChannelConfig& channel, const Traffic& traffic, const RoadLine& road) {
   AskedMoment moment;
   if (options.drive_file.empty()) {
     moment.controls.light_switch = options.explain_light;
@@ -67,8 +67,9 @@ int explain_and_leave(const VisualOptions& options, const Scene& scene, Lamps& l
   if (!device && !options.device_name.empty()) return refuse(with_remedy(device.error()));
   const AskedDevice asked = device ? AskedDevice{device->name, device->software}
                                    : AskedDevice{"no device (" + device.error().reason + "), as on a software one"};
-  std::fputs(explain_moment(lamps, desk, channel, moment, asked, scene, traffic, road, !options.headless).c_str(),
-             stdout);
+  std::fputs(
+      explain_moment(lamps, desk, channel, moment, asked, scene, movers, traffic, road, !options.headless).c_str(),
+      stdout);
   return kExitDone;
 }
 
@@ -95,10 +96,15 @@ int draw_channel(VisualOptions options) {
   Result<Scene> scene = read_scene(rig->scene_file);
   if (!scene) return refuse(scene.error());
   std::vector<LanePoint> lane = lane_of(rig->scene_file);
-  Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file), lane);
+  Result<Movers> movers = Movers::read();
+  if (!movers) return refuse(movers.error());
+  const Result<Props> props = Props::of(*movers);
+  if (!props) return refuse(props.error());
+  Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file), lane, *movers);
   if (!traffic) return refuse(traffic.error());
   if (options.explain)
-    return explain_and_leave(options, *scene, *lamps, desk, channel, *traffic, RoadLine(lane, rig->scene_file));
+    return explain_and_leave(options, *scene, *movers, *lamps, desk, channel, *traffic,
+                             RoadLine(lane, rig->scene_file));
   LampReplay lamps_then;
   if (!options.drive_file.empty()) {
     const Result<Drive> drive = read_drive(options.drive_file);
@@ -126,7 +132,7 @@ int draw_channel(VisualOptions options) {
   if (const auto reason = renderer->no_reference(); reason && desk.method == Method::kReference)
     return refuse({"method reference", *reason + " (" + renderer->device() + ")"});
   if (options.road_cuts > 0) scene = refined(*scene, options.road_cuts, is_ground);
-  if (const Status loaded = renderer->load_scene(*scene, traffic->meshes()); !loaded) return refuse(loaded.error());
+  if (const Status loaded = renderer->load_scene(*scene, movers->meshes()); !loaded) return refuse(loaded.error());
   if (!traffic->empty()) renderer->set_beam(Traffic::kBeam, traffic->beam());
 
   if (const Status key = take_run_key(*rig); !key) return refuse(key.error());
@@ -145,6 +151,8 @@ int draw_channel(VisualOptions options) {
                   std::move(lamps_json));
   session.eye = eye_of(session);
   session.lamps_then = std::move(lamps_then);
+  session.movers = std::move(*movers);
+  session.props = *props;
   session.traffic = std::move(*traffic);
   session.lane = std::move(lane);
   if (session.options.budget_ms > 0.0 && !session.options.lockstep && !session.options.levels.empty())

@@ -10,7 +10,6 @@
 #include "config/base/conventions.h"
 #include "config/key_bindings.h"
 #include "visual/air_of_desk.h"
-#include "visual/process/cameras.h"
 
 namespace phare {
 namespace {
@@ -27,14 +26,17 @@ std::string lux_line(const char* what, const Lamps& lamps, const OverlayMoment& 
 
 }  // namespace
 
-void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& channel, const VehicleState& pose,
-                 const RoadLine* road) {
-  std::optional<double> ground_z_m;
-  if (road != nullptr && desk.camera == CameraKind::kOncoming) {
+SeenBy seen_by(const CameraEye& eye, const ChannelConfig& channel, const Lamps& lamps, const VehicleState& pose,
+               const RoadLine* road) {
+  SeenBy by{channel, lamps, pose};
+  if (road != nullptr && eye.kind == CameraKind::kOncoming) {
     const glm::dvec3 there_m = oncoming_place_m(pose);
-    ground_z_m = road->ground(there_m.x, there_m.y, there_m.z).position_m.z;
+    by.ground_z_m = road->ground(there_m.x, there_m.y, there_m.z).position_m.z;
   }
-  input.camera = camera_of(desk, channel, pose, ground_z_m);
+  return by;
+}
+
+void set_by_desk(FrameInput& input, const Desk& desk) {
   input.view = desk.view;
   input.method = desk.method;
   input.isolux_lx = desk.isolux_lx;
@@ -47,12 +49,6 @@ void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& chann
   input.effects[static_cast<std::size_t>(Effect::kGlare)] = desk.glare;
   input.air = air_of(desk);
   input.viewer = {desk.age_years, desk.iris_pigment};
-}
-
-Falling falling_past(const Desk& desk, const VehicleState& pose, SimTime time) {
-  const bool stands = desk.camera == CameraKind::kFree && desk.free_eye.frame == Probe::Frame::kWorld;
-  return {.time_s = time.seconds(),
-          .eye_mps = stands ? glm::dvec3(0.0) : glm::dvec3(pose.vx_mps, pose.vy_mps, pose.vz_mps)};
 }
 
 CockpitState shown_by_desk(const Desk& desk, CockpitState controls) {

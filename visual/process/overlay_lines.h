@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "config/desk.h"
+#include "config/desk_cameras.h"
 #include "net/messages.h"
 #include "visual/process/adaptation.h"
+#include "visual/process/cameras.h"
 #include "visual/process/lamps.h"
 #include "visual/process/road_end.h"
 #include "visual/process/road_line.h"
@@ -17,13 +19,15 @@
 
 namespace phare {
 
-/// Camera, view, levels, exposure and chosen effects of a frame.
+/// View, levels, exposure and chosen effects of a frame.
+void set_by_desk(FrameInput& input, const Desk& desk);
+/// The eye that the desk has chosen.
+inline CameraEye first_eye(const Desk& desk) {
+  return {desk.camera, desk.free_eye};
+}
 /// `road`: for the oncoming eye, where it is known.
-void set_by_desk(FrameInput& input, const Desk& desk, const ChannelConfig& channel, const VehicleState& pose,
-                 const RoadLine* road = nullptr);
-
-/// How the eye goes through what falls: with the car, or it stands in the world.
-Falling falling_past(const Desk& desk, const VehicleState& pose, SimTime time);
+SeenBy seen_by(const CameraEye& eye, const ChannelConfig& channel, const Lamps& lamps, const VehicleState& pose,
+               const RoadLine* road = nullptr);
 
 /// The controls with the design that the picture shows, whichever the cockpit has chosen.
 CockpitState shown_by_desk(const Desk& desk, CockpitState controls);

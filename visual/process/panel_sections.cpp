@@ -304,7 +304,7 @@ void Sheet::own_camera(const Desk& desk) {
   }
   const bool room = !desk.own_camera.empty() || desk.cameras.size() < kMostCameras;
   if (button("keep as " + name,
-             "a camera of one's own where the free eye stands\n" + control_words("cameras", "add " + name), room,
+             "a camera of one's own where the picture is seen from\n" + control_words("cameras", "add " + name), room,
              "cameras add")) {
     set("cameras", "add " + name);
     if (desk.own_camera.empty()) set("camera", name);
@@ -325,7 +325,9 @@ void Sheet::view() {
   for (const NamedEye& own : desk.cameras) cameras.push_back(own.name);
   choose("camera", "camera", cameras, desk.own_camera.empty() ? at(kCameraNames, desk.camera) : desk.own_camera,
          key_of_setting(KeyAction::kCamera));
-  if (desk.camera == CameraKind::kFree) own_camera(desk);
+  own_camera(desk);
+  choose("layout", "cameras", kLayoutNames, at(kLayoutNames, desk.layout), key_of_setting(KeyAction::kLayout));
+  if (desk.layout != Layout::kFull) choose("second_camera", "the second", cameras, desk.second_camera, "beside it");
   choose("view", "shows", kViewNames, at(kViewNames, desk.view), key_of_setting(KeyAction::kFalseColour));
   if (facts_.designs.size() > 1)
     choose("compare", "compare A, B", kCompareNames, at(kCompareNames, desk.compare),
@@ -349,6 +351,8 @@ void Sheet::view() {
   flag("mirrors", "mirrors", desk.mirrors, key_of_setting(KeyAction::kMirrors));
   ImGui::SameLine();
   flag("reach", "reach", desk.reach, "how far 1, 3 and 5 lx reach along the lane's edges");
+  ImGui::SameLine();
+  flag("plot", "plot", desk.plot, key_of_setting(KeyAction::kPlot));
   ImGui::SameLine();
   flag("lines", "text", desk.lines, "lines of text at the top");
 }

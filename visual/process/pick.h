@@ -12,4 +12,10 @@ namespace phare {
 /// (visual/scene/ray_hit.h).
 std::optional<MeasurePoint> pick(const World& world, const Ray& ray, double most_m = 1000.0);
 
+/// What a picture shows at a place of it, in shares of its width and height from the upper left corner: of the view
+/// that is drawn there last. `world` has what moves in none of its views; `aspect`: width of the picture over its
+/// height.
+std::optional<MeasurePoint> pick(const World& world, const FrameInput& picture, double aspect, double x_01,
+                                 double y_01);
+
 }  // namespace phare

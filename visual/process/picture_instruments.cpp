@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "visual/process/pick.h"
 #include "visual/process/versus.h"
 
 namespace phare {
@@ -19,12 +18,7 @@ Result<MeasurePoint> PictureInstruments::point() const {
     const auto at = placed(*desk_.point, moment_.car, road_);
     return at ? Result<MeasurePoint>(*at) : Error{"point", "the scene has no lane"};
   }
-  // The picture's shares as pixels of a fine picture of its shape.
-  constexpr int kWide_px = 1'000'000;
-  const int high_px = static_cast<int>(kWide_px / moment_.aspect);
-  const ViewGeometry view(moment_.camera, moment_.aspect);
-  const auto hit = pick(world_, view.ray_through(desk_.point->position_m.x * kWide_px - 0.5,
-                                                 desk_.point->position_m.y * high_px - 0.5, kWide_px, high_px));
+  const auto hit = seen_at(desk_.point->position_m.x, desk_.point->position_m.y);
   return hit ? Result<MeasurePoint>(*hit) : Error{"point", "the picture shows nothing of the scene there"};
 }
 
@@ -32,7 +26,7 @@ Result<PointReading> PictureInstruments::read() const {
   const auto at = point();
   if (!at) return at.error();
   ++work_;
-  return read_point(lamps_, moment_.car, *at, moment_.camera.eye_m, world_, road_, desk_.shadows != 0);
+  return read_point(lamps_, moment_.car, *at, moment_.picture->camera.eye_m, world_, road_, desk_.shadows != 0);
 }
 
 std::vector<std::string> PictureInstruments::lines() const {
@@ -60,16 +54,19 @@ std::string PictureInstruments::answer() const {
 OverlayMarks PictureInstruments::marks(bool anew) {
   OverlayMarks picture;
   const bool photo = desk_.view != View::kFalseColour;
-  const ViewGeometry view(moment_.camera, moment_.aspect);
+  const Camera& camera = moment_.picture->camera;
+  const PicturePart& part = moment_.picture->part;
+  const ViewGeometry view(camera, moment_.aspect * part.width_01 / part.height_01);
   const auto seen = [&](RoadMarks marks) {
-    const bool from_above = moment_.camera.orthographic_width_m > 0.0;
-    return from_above ? marks : seen_marks(std::move(marks), moment_.camera.eye_m, road_);
+    const bool from_above = camera.orthographic_width_m > 0.0;
+    return from_above ? marks : seen_marks(std::move(marks), camera.eye_m, road_);
   };
-  if (desk_.grid_m > 0.0) {
+  // Lines of the road do not lie on a wall that stands on it.
+  if (desk_.grid_m > 0.0 && !moment_.wall) {
     ++work_;
     draw_marks(picture, seen(grid_marks(moment_.car, road_, desk_.grid_m)), view);
   }
-  if (desk_.isolux && photo) {
+  if (desk_.isolux && photo && !moment_.wall) {
     ++work_;
     if (anew || isolux_.lines.empty()) isolux_ = seen(isolux_marks(lamps_, moment_.car, road_, desk_.isolux_lx));
     OverlayMarks lines;
@@ -97,21 +94,49 @@ OverlayMarks PictureInstruments::marks(bool anew) {
       draw_marks(picture, cross, view);
     }
   }
+  if (moment_.wall && desk_.lines) {
+    ++work_;
+    draw_marks(picture, wall_marks(*moment_.wall), view);
+  }
+  put_into(picture, part);
+  plot(picture);
   return picture;
+}
+
+double PictureInstruments::lux_at(const MeasurePoint& at) const {
+  return desk_.shadows != 0 ? lamps_.light_at(moment_.car, at, world_).lx : lamps_.illuminance_lx(moment_.car, at);
+}
+
+std::vector<std::optional<double>> PictureInstruments::probes_lx() const {
+  std::vector<std::optional<double>> lx;
+  for (const Probe& probe : desk_.probes) {
+    const auto at = placed(probe, moment_.car, road_);
+    lx.push_back(at ? std::optional(lux_at(*at)) : std::nullopt);
+  }
+  return lx;
+}
+
+void PictureInstruments::plot(OverlayMarks& picture) {
+  if (!desk_.plot) {
+    plot_ = {};
+    return;
+  }
+  if (plot_.due(moment_.time)) {
+    ++work_;
+    std::vector<std::optional<double>> lx = probes_lx();
+    if (desk_.point) {
+      const auto at = point();
+      lx.push_back(at ? std::optional(lux_at(*at)) : std::nullopt);
+    }
+    plot_.add(moment_.time, std::move(lx));
+  }
+  plot_.draw(picture, desk_.probes.size());
 }
 
 bool PictureInstruments::log() {
   if ((desk_.probes.empty() && !desk_.reach) || !log_.due(moment_.time)) return true;
   ++work_;
-  ProbeRow row{moment_.time, moment_.car, {}, {}};
-  for (const Probe& probe : desk_.probes) {
-    const auto at = placed(probe, moment_.car, road_);
-    std::optional<double>& lx = row.probes_lx.emplace_back();
-    if (at)
-      lx = desk_.shadows != 0 ? lamps_.light_at(moment_.car, *at, world_).lx : lamps_.illuminance_lx(moment_.car, *at);
-  }
-  row.reach = reach_of(lamps_, moment_.car, road_);
-  return log_.write(row);
+  return log_.write({moment_.time, moment_.car, probes_lx(), reach_of(lamps_, moment_.car, road_)});
 }
 
 }  // namespace phare

@@ -9,8 +9,11 @@
 
 #include "config/desk.h"
 #include "visual/process/lamps.h"
+#include "visual/process/pick.h"
 #include "visual/process/point_reading.h"
 #include "visual/process/probe_log.h"
+#include "visual/process/probe_plot.h"
+#include "visual/process/props.h"
 #include "visual/process/road_marks.h"
 
 namespace phare {
@@ -26,10 +29,15 @@ class PictureInstruments {
   struct Moment {
     SimTime time{};
     VehicleState car{};
-    Camera camera{};
-    double aspect = 16.0 / 9.0;
+    const FrameInput* picture = nullptr;  ///< as it is drawn; it outlives the moment
+    double aspect = 16.0 / 9.0;           ///< of the picture
+    std::optional<Wall> wall{};           ///< that its own view shows
   };
   void see(const Moment& moment) { moment_ = moment; }
+  /// What is seen at a place of the picture.
+  std::optional<MeasurePoint> seen_at(double x_01, double y_01) const {
+    return pick(world_, *moment_.picture, moment_.aspect, x_01, y_01);
+  }
 
   /// The point of the desk in the world of that moment. Error: there is none, or the picture shows sky there.
   Result<MeasurePoint> point() const;
@@ -48,6 +56,10 @@ class PictureInstruments {
   std::uint64_t work_done() const { return work_; }
 
  private:
+  double lux_at(const MeasurePoint& at) const;
+  std::vector<std::optional<double>> probes_lx() const;
+  void plot(OverlayMarks& picture);
+
   const Desk& desk_;
   const Lamps& lamps_;
   const World& world_;
@@ -55,6 +67,7 @@ class PictureInstruments {
   ProbeLog log_;
   Moment moment_;
   RoadMarks isolux_;
+  ProbePlot plot_;
   mutable std::uint64_t work_ = 0;
 };
 

@@ -286,6 +286,17 @@ void keep_clear(OverlayMarks& picture, const PicturePart& part) {
   });
 }
 
+void put_into(OverlayMarks& marks, const PicturePart& part) {
+  const auto x = [&](double& at_01) { at_01 = part.left_01 + part.width_01 * at_01; };
+  const auto y = [&](double& at_01) { at_01 = part.top_01 + part.height_01 * at_01; };
+  for (OverlayMarks::Box& box : marks.boxes) {
+    x(box.left_01), y(box.top_01);
+    box.width_01 *= part.width_01, box.height_01 *= part.height_01;
+  }
+  for (OverlayMarks::Line& line : marks.lines) x(line.x0_01), y(line.y0_01), x(line.x1_01), y(line.y1_01);
+  for (OverlayMarks::Label& label : marks.labels) x(label.x_01), y(label.y_01);
+}
+
 void frame_part(OverlayMarks& picture, const PicturePart& part) {
   constexpr OverlayColour kInk{120, 125, 130};
   const double left = part.left_01, top = part.top_01, right = left + part.width_01, bottom = top + part.height_01;

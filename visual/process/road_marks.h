@@ -64,6 +64,8 @@ void draw_scale(OverlayMarks& picture, const std::vector<double>& levels_lx);
 
 /// Takes lines and labels off an inset, which shows another view.
 void keep_clear(OverlayMarks& picture, const PicturePart& part);
+/// Puts what was drawn for a view alone into the part of the picture that it has.
+void put_into(OverlayMarks& marks, const PicturePart& part);
 /// A frame around an inset.
 void frame_part(OverlayMarks& picture, const PicturePart& part);
 

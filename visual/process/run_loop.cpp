@@ -36,6 +36,7 @@ void Loop::mind_the_keys() {
   WindowKeyboard& keyboard = s_.window->keyboard();
   const std::vector<KeyAction> presses = keyboard.take_presses();
   for (const KeyAction press : presses) {
+    move_eye(press);
     // A refusal shows in the overlay: nothing has moved.
     if (const auto command = lamp_keys_.press(press, s_.lamps)) (void)verbs_(*command);
   }
@@ -194,8 +195,14 @@ void Loop::draw(const Moment& moment) {
   light_up(shown_by_desk(s_.desk, moment.controls));
   mind_the_lamps(moment.time);
   upload(versus_.follow(s_.desk, s_.lamps, moment.controls));
-  set_by_desk(input_, s_.desk, s_.channel(), moment.car.pose, &measuring_.road());
-  input_.falling = falling_past(s_.desk, moment.car.pose, moment.time);
+  set_by_desk(input_, s_.desk);
+  const CameraEye eye = first_eye(s_.desk);
+  const auto camera = [&](const CameraEye& of) {
+    return camera_of(of, seen_by(of, s_.channel(), s_.lamps, moment.car.pose, &measuring_.road()));
+  };
+  input_.camera = camera(eye);
+  input_.part = {};
+  input_.falling = falling_past(eye, moment.car.pose, moment.time);
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
   input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
   users_ = s_.traffic.at(moment.time.seconds(), measuring_.road());
@@ -210,10 +217,18 @@ void Loop::draw(const Moment& moment) {
   s_.eye.see(moment.time, versus_.light(s_.lamps));
   input_.white = s_.eye.white();
   if (s_.desk.mirrors) input_.more_views = mirror_views(input_, s_.channel(), moment.car.pose);
+  const CameraEye second = eye_named(s_.desk, s_.desk.second_camera);
+  lay_out(input_, s_.desk.layout, camera(second), s_.desk.second_camera);
+  if (s_.desk.layout != Layout::kFull)
+    input_.more_views.back().falling = falling_past(second, moment.car.pose, moment.time);
   const Lamps& shining = others_turn ? *versus_.lamps() : s_.lamps;
   input_.glare = glare_in(input_, moment.car.pose, shining);
   for (ViewInput& view : input_.more_views) view.glare = glare_in(view, moment.car.pose, shining);
-  input_.room = s_.desk.mirrors ? kRoomBesideMirrors : OverlayRoom{};
+  const bool tail = moment.controls.light_switch != LightSwitch::kOff;
+  s_.props.add_to(input_, eye.kind, shining, moment.car.pose, tail, world_);
+  if (s_.desk.layout != Layout::kFull)
+    s_.props.add_to(input_.more_views.back(), second.kind, shining, moment.car.pose, tail, world_);
+  input_.room = room_beside(s_.desk);
   if (s_.window) {
     screens_.see(moment.controls);
     input_.panel = screens_.panel(moment.controls, moment.time.seconds(), s_.desk.help);
@@ -296,8 +311,7 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
   std::optional<MeasurePoint> under_mouse;
   if (const Window::Mouse mouse = s_.window->mouse();
       mouse.inside && s_.desk.lines && !on_panel(mouse.x_px, mouse.y_px)) {
-    under_mouse = pick(world_, ViewGeometry(input_.camera, static_cast<double>(mouse.width_px) / mouse.height_px)
-                                   .ray_through(mouse.x_px, mouse.y_px, mouse.width_px, mouse.height_px));
+    under_mouse = measuring_.seen_at((mouse.x_px + 0.5) / mouse.width_px, (mouse.y_px + 0.5) / mouse.height_px);
   }
   return overlay_lines(s_.desk, s_.lamps,
                        {.time = moment.time,

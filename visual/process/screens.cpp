@@ -102,7 +102,7 @@ OverlayPanel Screens::road_end_panel() const {
 OverlayPanel Screens::help_panel() const {
   OverlayPanel panel{.title = "Keys", .place = OverlayPanel::Place::kLeft};
   for (const KeyBinding& binding : key_bindings())
-    panel.rows.push_back({std::string(binding.name), std::string(binding.what)});
+    if (!binding.what.empty()) panel.rows.push_back({std::string(binding.name), std::string(binding.what)});
   return panel;
 }
 

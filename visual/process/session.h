@@ -19,7 +19,9 @@
 #include "visual/process/lamp_replay.h"
 #include "visual/process/lamps.h"
 #include "visual/process/law.h"
+#include "visual/process/movers.h"
 #include "visual/process/options.h"
+#include "visual/process/props.h"
 #include "visual/process/switch_to_photon.h"
 #include "visual/process/traffic.h"
 #include "visual/process/window.h"
@@ -82,6 +84,8 @@ struct Session {
   EyeAdaptation eye;
   Governor governor;             ///< in real time, where a budget is given
   nlohmann::json governor_left;  ///< its report, where it has left the lead to the user
+  Movers movers;
+  Props props;  ///< what some cameras show besides
   Traffic traffic;
   LampReplay lamps_then;        ///< of the drive that is shown
   std::vector<LanePoint> lane;  ///< of the scene; empty where it has none

@@ -11,11 +11,11 @@
 #include "visual/image/image.h"
 #include "visual/image/lux_scale.h"
 #include "visual/process/cameras.h"
+#include "visual/process/props.h"
 
 namespace phare {
 namespace {
 
-constexpr double kWall_m = 25.0;  // UN R149, annex 4: measured at 25 m
 constexpr double kHalfWidth_deg = 20.0;
 constexpr double kHalfHeight_deg = 8.0;
 constexpr int kPxPerDeg = 28;
@@ -52,18 +52,6 @@ Image8 isolux_map(int width_px, int height_px, Illuminance illuminance_lx) {
     }
   }
   return map;
-}
-
-/// The middle of the positions that have a low beam.
-glm::dvec3 middle_of_low_beam(const DesignConfig& design, const Lamps::Mounts& mounts) {
-  glm::dvec3 sum{0.0};
-  double count = 0.0;
-  for (std::size_t slot = 0; slot < design.lamps.size(); ++slot) {
-    const bool low = std::ranges::any_of(design.lamps[slot].sources,
-                                         [](const SourceConfig& s) { return s.function == LampFunction::kLow; });
-    if (low) sum += mounts.lamps[slot].position_m, count += 1.0;
-  }
-  return count > 0.0 ? sum / count : sum;
 }
 
 }  // namespace

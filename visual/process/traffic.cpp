@@ -15,7 +15,6 @@
 namespace phare {
 namespace {
 
-constexpr const char* kMeshes = "scenes/road_users.glb";
 constexpr const char* kHeadlamp = "lamps/low_rht.ies";
 constexpr double kHalogen_k = 3200.0;
 constexpr double kDown_rad = 0.01;  // UN R48 6.2.6.1.2: -1 % for lamps below 0.8 m
@@ -47,11 +46,11 @@ glm::dvec3 front_lamp_m(const Traffic::There& user, int lamp) {
                                                              places.aside_m[static_cast<std::size_t>(lamp)],
                                                              places.front_up_m);
 }
-glm::dvec3 tail_lamp_m(const Traffic::There& user, int lamp) {
-  const LampPlaces& places = places_of(user.kind);
-  return user.position_m + user.world_from_user * glm::dvec3(places.back_m,
-                                                             places.aside_m[static_cast<std::size_t>(lamp)],
-                                                             places.back_up_m);
+/// Adds a lamp that shines into an eye, unless something hides it.
+void add_seen(std::vector<GlaringLamp>& seen, const World& around, const glm::dvec3& lamp_m, double cd,
+              const glm::vec3& colour, const glm::dvec3& eye_m, const Air& air) {
+  if (cd <= 0.0 || lamp_m == eye_m || occluder(around, lamp_m, eye_m)) return;
+  seen.push_back(glaring_lamp(lamp_m, cd, colour, eye_m, air));
 }
 
 glm::dmat3 headlamp_turn(const Traffic::There& user) {
@@ -60,28 +59,22 @@ glm::dmat3 headlamp_turn(const Traffic::There& user) {
 
 }  // namespace
 
-Result<Traffic> Traffic::read(const std::filesystem::path& file, const std::vector<LanePoint>& lane) {
+Result<Traffic> Traffic::read(const std::filesystem::path& file, const std::vector<LanePoint>& lane,
+                              const Movers& movers) {
   Traffic traffic;
   if (file.empty()) return traffic;
   auto users = read_road_users(file);
   if (!users) return users.error();
   if (lane.size() < 2) return Error{file.string(), "the scene has no lane beside it that road users would drive along"};
-  auto meshes = read_scene(generated_dir() / kMeshes);
-  if (!meshes) return meshes.error();
   auto lamp = read_lamp(generated_dir() / kHeadlamp, {});
   if (!lamp) return lamp.error();
   traffic.users_ = std::move(*users);
   traffic.lane_.emplace(lane);
-  traffic.meshes_ = std::move(*meshes);
   traffic.headlamp_ = std::move(*lamp);
-  std::vector<std::string> nodes;  // as they are counted
-  for (const auto& chunks : chunks_by_node(traffic.meshes_))
-    nodes.push_back(traffic.meshes_.chunks[chunks.front()].node);
   for (const LampPlaces& places : kPlaces) {
-    const auto node = std::ranges::find(nodes, places.node);
-    if (node == nodes.end())
-      return Error{(generated_dir() / kMeshes).string(), "has no node \"" + std::string(places.node) + "\""};
-    traffic.mesh_of_kind_.push_back(static_cast<std::size_t>(node - nodes.begin()));
+    const auto mesh = movers.mesh(places.node);
+    if (!mesh) return mesh.error();
+    traffic.mesh_of_kind_.push_back(*mesh);
   }
   return traffic;
 }
@@ -141,10 +134,6 @@ std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users, cons
 std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const glm::dvec3& eye_m, const World& world,
                                            const Air& air) const {
   std::vector<GlaringLamp> sources;
-  const auto add = [&](const World& around, const glm::dvec3& lamp_m, double cd, const glm::vec3& colour) {
-    if (cd <= 0.0 || lamp_m == eye_m || occluder(around, lamp_m, eye_m)) return;
-    sources.push_back(glaring_lamp(lamp_m, cd, colour, eye_m, air));
-  };
   const glm::vec3 headlamp_colour = light_colour({.table = &headlamp_, .colour_temperature_k = kHalogen_k});
   for (std::size_t i = 0; i < users.size(); ++i) {
     const There& user = users[i];
@@ -153,16 +142,28 @@ std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const g
     const LampPlaces& places = places_of(user.kind);
     for (int lamp = 0; lamp < places.headlamps; ++lamp) {
       const glm::dvec3 lamp_m = front_lamp_m(user, lamp);
-      add(around, lamp_m, headlamp_.intensity_cd(glm::transpose(headlamp_turn(user)) * (eye_m - lamp_m)),
-          headlamp_colour);
+      add_seen(sources, around, lamp_m, headlamp_.intensity_cd(glm::transpose(headlamp_turn(user)) * (eye_m - lamp_m)),
+               headlamp_colour, eye_m, air);
     }
-    for (int lamp = 0; lamp < places.tail_lamps; ++lamp) {
-      const glm::dvec3 lamp_m = tail_lamp_m(user, lamp);
-      const double behind = -glm::dot(glm::normalize(eye_m - lamp_m), user.world_from_user[0]);
-      add(around, lamp_m, kTailLamp_cd * std::max(behind, 0.0), kTailColour);
-    }
+    const auto tail = tail_lamps_into(user.kind, user.position_m, user.world_from_user, eye_m, around, air);
+    sources.insert(sources.end(), tail.begin(), tail.end());
   }
   return sources;
+}
+
+std::vector<GlaringLamp> tail_lamps_into(RoadUserClass kind, const glm::dvec3& position_m,
+                                         const glm::dmat3& world_from_user, const glm::dvec3& eye_m,
+                                         const World& around, const Air& air) {
+  std::vector<GlaringLamp> seen;
+  const LampPlaces& places = places_of(kind);
+  for (int lamp = 0; lamp < places.tail_lamps; ++lamp) {
+    const glm::dvec3 lamp_m =
+        position_m +
+        world_from_user * glm::dvec3(places.back_m, places.aside_m[static_cast<std::size_t>(lamp)], places.back_up_m);
+    const double behind = -glm::dot(glm::normalize(eye_m - lamp_m), world_from_user[0]);
+    add_seen(seen, around, lamp_m, kTailLamp_cd * std::max(behind, 0.0), kTailColour, eye_m, air);
+  }
+  return seen;
 }
 
 std::vector<Traffic::Eye> Traffic::oncoming_eyes(std::span<const There> users, const glm::dvec3& heading) {

@@ -13,6 +13,7 @@
 #include "config/traffic/road_users.h"
 #include "visual/photometry/table/glare.h"
 #include "visual/photometry/table/intensity_table.h"
+#include "visual/process/movers.h"
 #include "visual/process/road_line.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
@@ -31,13 +32,13 @@ class Traffic {
   static constexpr std::size_t kBeam = 2 * kMostLampsOfDesign;
 
   Traffic() = default;
-  /// Reads road users, their meshes and their lamp. Empty file name: no traffic, and nothing is read. Error, too: no
-  /// lane.
-  static Result<Traffic> read(const std::filesystem::path& file, const std::vector<LanePoint>& lane);
+  /// Reads road users and their lamp; `movers` has their meshes. Empty file name: no traffic, and nothing is read.
+  /// Error, too: no lane.
+  static Result<Traffic> read(const std::filesystem::path& file, const std::vector<LanePoint>& lane,
+                              const Movers& movers);
 
   bool empty() const { return users_.empty(); }
-  const Scene& meshes() const { return meshes_; }  ///< for Renderer::load_scene
-  BeamImage beam() const;                          ///< for Renderer::set_beam(kBeam)
+  BeamImage beam() const;  ///< for Renderer::set_beam(kBeam)
 
   /// One of them where it is now.
   struct There {
@@ -74,10 +75,14 @@ class Traffic {
  private:
   std::vector<RoadUser> users_;
   std::optional<LaneLine> lane_;
-  Scene meshes_;
   std::vector<std::size_t> mesh_of_kind_;
   IntensityTable headlamp_;
 };
+
+/// Tail lamps of a road user that stands there, as they shine into an eye; hidden by what is in `around`.
+std::vector<GlaringLamp> tail_lamps_into(RoadUserClass kind, const glm::dvec3& position_m,
+                                         const glm::dmat3& world_from_user, const glm::dvec3& eye_m,
+                                         const World& around, const Air& air);
 
 /// What lamps do to the eyes of a driver who looks along `ahead` (unit): lux across that line, veil, threshold
 /// increment, de Boer (visual/photometry/table/glare.h).

@@ -109,7 +109,8 @@ void add_mount_verbs(Verbs& verbs, Lamps& lamps, const Rig& rig, const Desk& des
 
 }  // namespace
 
-Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk, std::uint32_t channel, const std::string& no_reference) {
+Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk, std::uint32_t channel, const std::string& no_reference,
+                   std::function<std::optional<FreeEye>()> seen_from) {
   Verbs verbs;
   verbs.on<RigControl::Dim>([&lamps](const RigControl::Dim& dim) {
     const std::string which = dim.source == 0 ? "all sources" : "source " + std::to_string(dim.source);
@@ -142,11 +143,14 @@ Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk, std::uint32_t chann
     if (desk.design) return accepted("the picture shows " + design_text(lamps) + ", as set on the desk");
     return pending("still " + design_text(lamps));
   });
-  verbs.on<RigControl::Set>([&lamps, &desk, no_reference](const RigControl::Set& set) {
-    auto done =
-        apply(desk, {set.setting, set.value}, {.designs = lamps.designs().size(), .no_reference = no_reference});
-    return done ? accepted(std::move(*done)) : refused(done.error().text());
-  });
+  verbs.on<RigControl::Set>(
+      [&lamps, &desk, no_reference, seen_from = std::move(seen_from)](const RigControl::Set& set) {
+        auto done = apply(desk, {set.setting, set.value},
+                          {.designs = lamps.designs().size(),
+                           .seen_from = seen_from ? seen_from() : std::nullopt,
+                           .no_reference = no_reference});
+        return done ? accepted(std::move(*done)) : refused(done.error().text());
+      });
   verbs.on<RigControl::Tell>([&lamps, &desk](const auto&) { return accepted(text_of(lamps, desk)); });
   return verbs;
 }

@@ -1,5 +1,6 @@
 #include "visual/process/versus.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "visual/process/road_marks.h"
@@ -54,6 +55,10 @@ void Versus::split(FrameInput& frame, const VehicleState& pose, std::span<const 
   ViewInput other = frame;
   other.name = "versus";
   other.lamps = placed(pose);
+  // What carries A's lamps carries B's.
+  const auto own = std::ranges::find_if(frame.lamps, [](const PlacedLamp& lamp) { return lamp.beam < kFirstBeam; });
+  if (own != frame.lamps.end())
+    for (PlacedLamp& lamp : other.lamps) lamp.carried_by = own->carried_by;
   other.lamps.insert(other.lamps.end(), also.begin(), also.end());
   other.glare = std::move(glare);
   other.part = kRight;

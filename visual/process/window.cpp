@@ -30,6 +30,8 @@ KeyCode code_of(int glfw_key, int scancode, int mods) {
   const bool latin = printed != nullptr && printed[0] > ' ' && printed[1] == '\0';
   KeyCode code = latin ? static_cast<KeyCode>(printed[0]) : static_cast<KeyCode>(std::max(glfw_key, 0));
   const bool shift = (mods & GLFW_MOD_SHIFT) != 0;
+  if (glfw_key >= GLFW_KEY_KP_0 && glfw_key <= GLFW_KEY_KP_9)
+    code = static_cast<KeyCode>('0' + glfw_key - GLFW_KEY_KP_0);
   if (code >= 'A' && code <= 'Z' && !shift) code = code - 'A' + 'a';
   if (code >= 'a' && code <= 'z' && shift) code = code - 'a' + 'A';
   return code;
