@@ -61,13 +61,13 @@ enum class Layout { kFull, kSplit, kInset };
 inline constexpr std::array<std::string_view, 3> kLayoutNames{"full", "split", "inset"};
 
 /// Two designs in one picture: the one that shines on the left half and the other on the right half of the same view,
-/// or by turns, half a second each.
-enum class Compare { kOff, kSplit, kFlicker };
-inline constexpr std::array<std::string_view, 3> kCompareNames{"off", "split", "flicker"};
+/// or by turns, half a second each; or by colour what the other has more or less, in lux or as a ratio.
+enum class Compare { kOff, kSplit, kFlicker, kDifference, kRatio };
+inline constexpr std::array<std::string_view, 5> kCompareNames{"off", "split", "flicker", "difference", "ratio"};
 
 /// As the eye sees it; illuminance by colour with isolux lines; or as the eye sees it with stripes where the display
-/// clips.
-enum class View { kPhoto, kFalseColour, kClipping };
+/// clips. Two designs compared: Compare says it, and not the setting "view".
+enum class View { kPhoto, kFalseColour, kClipping, kDifference, kRatio };
 inline constexpr std::array<std::string_view, 3> kViewNames{"photo", "false-colour", "clipping"};
 
 /// Where illuminance is computed (docs/accuracy.md, "Illumination methods"): at every pixel; at the vertices, and
@@ -101,6 +101,7 @@ struct Desk {
   std::string second_camera = "chase";  ///< of a layout with two: of kCameraNames or `cameras`
   bool mirrors = false;                 ///< the three mirrors as insets over the picture of another camera
   Compare compare = Compare::kOff;
+  bool versus_aligned = false;        ///< the other design is turned until both cut-offs stand equally high at 25 m
   std::optional<std::size_t> versus;  ///< the other design, from 0; none: the one after that which shines
   View view = View::kPhoto;
   Method method = Method::kFragment;

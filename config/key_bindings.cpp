@@ -68,7 +68,7 @@ constexpr KeyBinding kBindings[] = {
      key::kF8,
      "F8",
      {},
-     "this design beside the next one: halves, by turns, alone",
+     "this design beside the next one: halves, by turns, difference, ratio",
      "compare next"},
     {kGrid, kPicture, key::kF5, "F5", {}, "grid on the road: 10 m, 20 m, none", "grid_m next"},
     {kPlot, kPicture, 't', "T", {}, "lux at the probes over time", "plot toggle"},

@@ -123,7 +123,7 @@ void main() {
     return;
   }
 
-  float total_lx = 0.0;
+  float total_lx = 0.0, of_b_lx = 0.0;
   vec3 coloured_lx = vec3(0.0);
   vec3 film = vec3(0.0);  // cd/m² that water on the ground mirrors
   vec3 retro_lx = vec3(0.0);  // what a diffuse surface would need to be as bright
@@ -143,6 +143,8 @@ void main() {
     if (colours != 0) colour = frame.lamps[I].colour.rgb;                                                  \
     if ((colours >> (8 + I) & 1) != 0) colour = method == kMethodVertex ? vec3(1.0) : PHARE_LAMP_TINT(I, light); \
     total_lx += light.illuminance_lx;                                                                      \
+    if (output_kind == kOutputDifference || output_kind == kOutputRatio)                                   \
+      of_b_lx += light.illuminance_lx * frame.lamps[I].row_b.w;                                            \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
     if (wet_alpha > 0.0) film += colour * (light.illuminance_lx * mirrored(I, light, n, level));           \
     if (retro != 0)                                                                                        \
@@ -164,6 +166,14 @@ void main() {
     for (uint i = 0u; i < kMaxIsoluxLevels; ++i)
       line = max(line, 1.0 - smoothstep(0.6, 1.4, abs(total_lx - frame.isolux_lx[i / 4u][i % 4u]) / width));
     result = vec4(srgb_encoded(mix(colour, vec3(1.0), 0.7 * line)), 1.0);
+    return;
+  }
+
+  if (output_kind == kOutputDifference || output_kind == kOutputRatio) {
+    float of_a_lx = total_lx - of_b_lx;
+    float share = output_kind == kOutputDifference ? difference_share(of_b_lx - of_a_lx) : ratio_share(max(of_b_lx, 1e-3) / max(of_a_lx, 1e-3));
+    if (output_kind == kOutputRatio && max(of_a_lx, of_b_lx) < kVersusDark_lx) share = 0.0;
+    result = vec4(versus_signal(share), 1.0);
     return;
   }
 

@@ -66,6 +66,8 @@ const uint kOutputFalseColour = 2u;  // illuminance by colour with isolux lines
 const uint kOutputMeasure = 3u;      // lx of lamps base..base+3
 const uint kOutputAudit = 4u;        // position and illuminance; normal and illuminance
 const uint kOutputClipping = 5u;     // as the display, with stripes where it clips
+const uint kOutputDifference = 6u;   // of two designs by colour: lux of B less those of A
+const uint kOutputRatio = 7u;        // B over A
 
 // The shape of a lamp's table, constants of the pipeline: on a software device a uniform read costs a pixel as much as ten
 // multiplications, and a varying costs each vertex. Of first in x, of second in y.
@@ -91,7 +93,7 @@ const float kNarrowReach_deg = 46.0;  // half angles of narrow tables take a sho
 struct GpuLamp {
   vec4 position;     // xyz relative to the eye, m; w: the beam's peak, cd
   vec4 row_a;        // w: the square of the way from the eye, m²
-  vec4 row_b;
+  vec4 row_b;        // w: 1 of a lamp of B where two designs are compared, else 0
   vec4 row_c;
   vec4 colour;       // rgb, luminance 1 (with a table of colour: r and b what its texels are multiplied by); w: candela of 1.0 in the table
 };

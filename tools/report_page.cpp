@@ -222,12 +222,21 @@ class Page {
 
   bool summary_of(const char* key) const { return report_.value("drove", json::object()).contains(key); }
 
+  static const char* seen_in_video(const std::string& compare) {
+    if (compare == "flicker") return "In the video they take turns, half a second each.";
+    if (compare == "difference") return "The video has the lux of B less that of A by colour.";
+    if (compare == "ratio") return "The video has the lux of B over that of A by colour.";
+    return "In the video A is on the left, B on the right.";
+  }
+
   /// Two designs on the same drive: what differs in the picture, and how far each reached.
   void versus() {
     const json two = visual_.value("versus", json::object());
     if (two.empty()) return;
     page_ << "<h2>A beside B</h2><p>A: " << value_text(two, "a") << ". B: " << value_text(two, "b")
-          << ". In the video A is on the left, B on the right, unless they take turns.</p><div class=\"pictures\">";
+          << ". " << seen_in_video(two.value("compare", std::string()))
+          << (two.value("aligned", false) ? " B is turned until both cut-offs stand equally high at 25 m." : "")
+          << "</p><div class=\"pictures\">";
     picture("versus.png", "The same moment: A on the left, B on the right");
     picture("versus_difference.png", "Lux on what the driver sees, B less A");
     picture("versus_birds_eye.png", "Lux from above, B less A");

@@ -47,6 +47,10 @@ LampOutput output_of(View view) {
       return LampOutput::kFalseColour;
     case View::kClipping:
       return LampOutput::kClipping;
+    case View::kDifference:
+      return LampOutput::kDifference;
+    case View::kRatio:
+      return LampOutput::kRatio;
     case View::kPhoto:
       break;
   }

@@ -11,7 +11,7 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
           .shadow_maps = device.shadow_maps,
           .software_device = device.software,
           .hdr_wanted = view.want_hdr,
-          .false_colour = view.view == View::kFalseColour,
+          .false_colour = view.view != View::kPhoto && view.view != View::kClipping,
           .clipping = view.view == View::kClipping,
           .overlay_lines = over.lines,
           .air = view.air,

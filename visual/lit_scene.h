@@ -30,8 +30,15 @@ enum class LampOutput : std::uint32_t {
   kFalseColour = 2,
   kMeasure = 3,
   kAudit = 4,
-  kClipping = 5
+  kClipping = 5,
+  kDifference = 6,
+  kRatio = 7
 };
+
+/// Shows lux by colour, and no luminance: no sky, no display curve.
+constexpr bool shows_lux(LampOutput output) {
+  return output == LampOutput::kFalseColour || output == LampOutput::kDifference || output == LampOutput::kRatio;
+}
 
 /// Lamps that light some of what a view sees, kLampsPerDraw at most.
 struct LitBy {

@@ -117,7 +117,7 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
     out.position = glm::vec4(glm::vec3(from_eye_m), peaks_cd_[lamp.beam]);
     const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
     out.row_a = glm::vec4(glm::vec3(rows[0]), static_cast<float>(glm::dot(from_eye_m, from_eye_m)));
-    out.row_b = glm::vec4(glm::vec3(rows[1]), 0.0f);
+    out.row_b = glm::vec4(glm::vec3(rows[1]), lamp.of_b ? 1.0f : 0.0f);
     out.row_c = glm::vec4(glm::vec3(rows[2]), 0.0f);
     beams_.describe(lamp.beam, out);
   }

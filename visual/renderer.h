@@ -49,6 +49,7 @@ struct PlacedLamp {
   std::size_t beam = 0;              ///< index of the beam image set with set_beam
   /// Which of FrameInput::moving carries it, and casts no shadow in its light.
   std::size_t carried_by = SIZE_MAX;
+  bool of_b = false;  ///< of the other design, for View::kDifference and kRatio
 };
 
 /// So many lamps light one draw at most, which is a block of the scene where a view has many. Those that reach nothing

@@ -34,6 +34,29 @@ PHARE_INLINE vec3 false_colour(float illuminance_lx) {
   return mix(colour, vec3(0.8f, 0.05f, 0.02f), clamp(t - 4.0f, 0.0f, 1.0f));
 }
 
+/// Where neither of two designs has as much, their ratio is not told.
+const float kVersusDark_lx = 0.1f;
+
+/// Where B less A lies on a scale from -1 (A has 30 lx more) to 1: even to 1 lx, a third of the way, then by decades.
+PHARE_INLINE float difference_share(float lx) {
+  float size = abs(lx);
+  float share = size <= 1.0f ? size / 3.0f : 1.0f / 3.0f + 2.0f / 3.0f * log(size) / log(30.0f);
+  return lx < 0.0f ? -min(share, 1.0f) : min(share, 1.0f);
+}
+
+/// The same of B over A, -1 at an eighth and 1 at eight times.
+PHARE_INLINE float ratio_share(float ratio) {
+  return clamp(log2(ratio) / 3.0f, -1.0f, 1.0f);
+}
+
+/// Its colour, as the display's signal: black in the middle, over red to yellow where B is brighter, over blue to light blue where A is.
+PHARE_INLINE vec3 versus_signal(float share) {
+  float size = abs(share), first = min(2.0f * size, 1.0f);
+  float light = clamp(2.0f * size - 1.0f, 0.0f, 1.0f);  // the second half of the way goes to the light colour
+  if (share >= 0.0f) return vec3(first, light, 0.5f * light);
+  return clamp(vec3(0.6f * light, 0.35f * (first + 1.6f * light), first), 0.0f, 1.0f);
+}
+
 /// Display-linear to the sRGB signal (IEC 61966-2-1), 0 to 1 each, by a polynomial in the square root: within 0.2 steps of 8 bits. In the
 /// shader, because a target that encodes has a software device decode, blend and encode every block that is drawn.
 PHARE_INLINE vec3 srgb_encoded(vec3 linear) {

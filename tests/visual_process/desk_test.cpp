@@ -41,7 +41,10 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"mirrors", "on", "mirrors on"},
       {"compare", "next", "compare split"},
       {"compare", "flicker", "compare flicker"},
+      {"compare", "next", "compare difference"},
+      {"compare", "next", "compare ratio"},
       {"compare", "next", "compare off"},
+      {"versus_aligned", "on", "versus_aligned on"},
       {"versus", "1", "versus 1"},
       {"versus", "next", "versus next"},
       {"view", "false-colour", "view false-colour"},
@@ -185,7 +188,7 @@ TEST(Desk, TheHalvesOfThePictureAreOnesOnly) {
   ASSERT_TRUE(apply(desk, desk_command("compare off")));
   ASSERT_TRUE(apply(desk, desk_command("layout split")));
   EXPECT_FALSE(apply(desk, desk_command("compare split")));
-  EXPECT_EQ(*apply(desk, desk_command("compare next")), "compare flicker");
+  EXPECT_EQ(*apply(desk, desk_command("compare next")), "compare flicker") << "the key passes them by";
 }
 
 TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
@@ -211,7 +214,8 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
        "60"},
       {"free_eye car 1 2 3 0 95", "free_eye: 95 is outside -89 to 89"},
       {"mirrors 3", "mirrors: \"3\" is none of off, on, toggle"},
-      {"compare both", "compare: \"both\" is none of off, split, flicker, next"},
+      {"compare both", "compare: \"both\" is none of off, split, flicker, difference, ratio, next"},
+      {"versus_aligned 1", "versus_aligned: \"1\" is none of off, on, toggle"},
       {"versus two", "versus: expected next or a design's number, got \"two\""},
       {"view lux", "view: \"lux\" is none of photo, false-colour, clipping, next"},
       {"method gouraud", "method: \"gouraud\" is none of fragment, vertex, vertex-1998, reference, next"},
@@ -283,6 +287,8 @@ TEST(Desk, ItsDifferenceMakesItAgain) {
                             "layout inset",
                             "second_camera kerb",
                             "plot on",
+                            "compare ratio",
+                            "versus_aligned on",
                             "free_eye car 0 0 3 0 -5 60",
                             "view false-colour",
                             "isolux_lx 0.1 0.30000000000000004",

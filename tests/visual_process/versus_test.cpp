@@ -100,6 +100,63 @@ TEST_F(VersusTest, HalvesAreTwoViewsOfOneEye) {
   EXPECT_NE(right.lamps.front().beam, frame.lamps.front().beam);
 }
 
+// The lamps of both light one view, B's told apart; lamps of others, which light both, and glare have no part in it.
+TEST_F(VersusTest, DifferenceAndRatioAreOfBothInOneView) {
+  Versus versus;
+  for (const Compare compare : {Compare::kDifference, Compare::kRatio}) {
+    desk_.compare = compare;
+    (void)versus.follow(desk_, lamps_, controls_);
+    FrameInput frame;
+    frame.lamps = lamps_.placed({});
+    for (PlacedLamp& lamp : frame.lamps) lamp.carried_by = 3;
+    const std::size_t own = frame.lamps.size();
+    const PlacedLamp of_another{.position_m = {50.0, 3.0, 0.6}, .beam = 2 * Versus::kFirstBeam};
+    frame.lamps.push_back(of_another);
+    frame.glare = {{{5.0, 0.0, 1.0}, 1.0}};
+    versus.show(frame, compare, {}, std::span(&of_another, 1), {});
+    EXPECT_EQ(frame.view, compare == Compare::kRatio ? View::kRatio : View::kDifference);
+    EXPECT_TRUE(frame.more_views.empty());
+    EXPECT_TRUE(frame.glare.empty());
+    ASSERT_EQ(frame.lamps.size(), own + versus.placed({}).size());
+    for (std::size_t i = 0; i < frame.lamps.size(); ++i) {
+      EXPECT_EQ(frame.lamps[i].of_b, i >= own);
+      EXPECT_EQ(frame.lamps[i].beam >= Versus::kFirstBeam, i >= own);
+      EXPECT_EQ(frame.lamps[i].carried_by, 3u) << "by one body";
+    }
+  }
+  FrameInput alone;
+  versus.show(alone, Compare::kFlicker, {}, {}, {});
+  EXPECT_EQ(alone.view, View::kPhoto);
+}
+
+// Both cut-offs stand equally high at 25 m, wherever A's lamps are turned to; off, B stays as it is mounted.
+TEST_F(VersusTest, AlignedByTheCutOff) {
+  Versus versus;
+  desk_.compare = Compare::kSplit;
+  (void)versus.follow(desk_, lamps_, controls_);
+  const double b_m = versus.lamps()->cutoff_height_m({}, 25.0).value();
+  lamps_.set_aim(0.02);
+  (void)versus.follow(desk_, lamps_, controls_);
+  const double apart_m = lamps_.cutoff_height_m({}, 25.0).value() - versus.lamps()->cutoff_height_m({}, 25.0).value();
+  EXPECT_FALSE(versus.aligned_rad());
+  desk_.versus_aligned = true;
+  for (int frame = 0; frame < 3; ++frame) {
+    (void)versus.follow(desk_, lamps_, controls_);
+    EXPECT_NEAR(versus.lamps()->cutoff_height_m({}, 25.0).value(), lamps_.cutoff_height_m({}, 25.0).value(), 1e-6);
+    ASSERT_TRUE(versus.aligned_rad());
+    EXPECT_NEAR(*versus.aligned_rad(), apart_m / 25.0, 1e-3 * std::abs(apart_m) + 1e-9) << "of a small angle";
+  }
+  lamps_.set_aim(0.0);
+  desk_.versus_aligned = false;
+  (void)versus.follow(desk_, lamps_, controls_);
+  EXPECT_NEAR(versus.lamps()->cutoff_height_m({}, 25.0).value(), b_m, 1e-9) << "as it was";
+  controls_.light_switch = LightSwitch::kOff;
+  (void)lamps_.set_controls(controls_);
+  desk_.versus_aligned = true;
+  (void)versus.follow(desk_, lamps_, controls_);
+  EXPECT_FALSE(versus.aligned_rad()) << "dark lamps have no cut-off";
+}
+
 TEST_F(VersusTest, TheEyeAdaptsToBoth) {
   Versus versus;
   const glm::vec3 a = lamps_.light().value();

@@ -150,7 +150,7 @@ SkyPass::SkyPass(gpu::Device& device)
 }
 
 vk::ClearValue SkyPass::clear_value(const Sky& sky, LampOutput output, const ViewGeometry& view) {
-  if (output == LampOutput::kFalseColour) return vk::ClearColorValue(std::array{0.0f, 0.0f, 0.1f, 1.0f});
+  if (shows_lux(output)) return vk::ClearColorValue(std::array{0.0f, 0.0f, 0.1f, 1.0f});
   // Parallel rays have one direction, so one colour of sky.
   const double sine = is_parallel(view) ? view.camera().world_from_eye[0].z : 0.0;
   const bool hdr = output == LampOutput::kHdr;
@@ -176,7 +176,7 @@ SkyPass::Dome& SkyPass::dome_of(const Sky& sky, bool hdr) {
 
 void SkyPass::draw(gpu::Recorder& commands, const Sky& sky, const ViewGeometry& view, LampOutput output,
                    vk::Format format, vk::SampleCountFlagBits samples) {
-  if (output == LampOutput::kFalseColour || is_parallel(view)) return;
+  if (shows_lux(output) || is_parallel(view)) return;
   const SkySectors sectors = sky_sectors(view);
   if (sectors.count == 0) return;
   const bool hdr = output == LampOutput::kHdr;

@@ -133,7 +133,7 @@ void Loop::warm_up() {
         }
         if (!last || versus_.lamps() == nullptr) continue;
         FrameInput halves = input;  // the other design's beams may be looked up in another way
-        versus_.split(halves, pose, {}, {});
+        versus_.show(halves, s_.desk.compare, pose, {}, {});
         s_.renderer.draw(halves);
       }
       // Where the governor may step to: not in the drive either.

@@ -25,7 +25,7 @@ void Loop::measure(const Moment& moment) {
                   .aspect = static_cast<double>(size.width_px) / size.height_px,
                   .wall = wall ? std::optional(wall_before(s_.lamps, moment.car.pose)) : std::nullopt});
   input_.marks = measuring_.marks(drawn_frames_ % 6 == 0);
-  if (versus_.lamps() != nullptr) mark_versus(input_.marks, s_.desk, s_.lamps, *versus_.lamps(), moment.time);
+  if (versus_.lamps() != nullptr) mark_versus(input_.marks, s_.desk, s_.lamps, versus_, moment.time);
   for (const ViewInput& inset : input_.more_views) {
     keep_clear(input_.marks, inset.part);
     frame_part(input_.marks, inset.part);

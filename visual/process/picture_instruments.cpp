@@ -77,7 +77,12 @@ OverlayMarks PictureInstruments::marks(bool anew) {
   } else {
     isolux_ = {};
   }
-  if (desk_.scale && !photo) {
+  const bool by_difference = desk_.compare == Compare::kDifference, by_ratio = desk_.compare == Compare::kRatio;
+  const bool compared = (by_difference || by_ratio) && versus_design(desk_, lamps_);
+  if (desk_.scale && compared) {
+    ++work_;
+    draw_versus_scale(picture, by_ratio ? VersusScale::kRatio : VersusScale::kDifference);
+  } else if (desk_.scale && !photo) {
     ++work_;
     draw_scale(picture, desk_.isolux_lx);
   }

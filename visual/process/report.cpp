@@ -120,7 +120,9 @@ nlohmann::json report_json(const Session& session, SimTime now) {
                                  {"in_the_stills", session.stills_design == design}});
   if (const auto& two = session.designs_lit.compared)
     report["versus"] = {{"a", session.lamps.designs()[two->first].name},
-                        {"b", session.lamps.designs()[two->second].name}};
+                        {"b", session.lamps.designs()[two->second].name},
+                        {"compare", kCompareNames[static_cast<std::size_t>(session.desk.compare)]},
+                        {"aligned", session.desk.versus_aligned}};
   report["lamps"] = session.lamps_json;
   report["aims"] = aims_json(session.lamps);
   report["table_ends"] = table_ends_json(session.lamps);

@@ -226,15 +226,21 @@ void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometr
   }
 }
 
-void draw_scale(OverlayMarks& picture, const std::vector<double>& levels_lx) {
-  constexpr double kLowest_lx = 0.3, kHighest_lx = 200.0;  // where the colours begin and end (shaders/lib/tone.h)
+namespace {
+
+struct Tick {
+  double share_01 = 0.0;  ///< from the lower end
+  std::string text;
+};
+
+/// A column of colours at the right edge; `colour_at` of the share from its lower end.
+template <typename ColourAt>
+void draw_column(OverlayMarks& picture, const char* title, const ColourAt& colour_at, const std::vector<Tick>& ticks) {
   constexpr double kLeft_01 = 0.94, kWidth_01 = 0.014, kTop_01 = 0.12, kHeight_01 = 0.5;
   constexpr int kBoxes = 64;
-  const double decades = std::log(kHighest_lx / kLowest_lx);
   picture.boxes.push_back({kLeft_01 - 0.008, kTop_01 - 0.055, 0.065, kHeight_01 + 0.075, {30, 36, 42}, 155});
   for (int i = 0; i < kBoxes; ++i) {
-    const double share = (i + 0.5) / kBoxes;
-    const Colour colour = false_colour(kHighest_lx * std::exp(-decades * share));
+    const Colour colour = colour_at(1.0 - (i + 0.5) / kBoxes);
     picture.boxes.push_back({kLeft_01,
                              kTop_01 + kHeight_01 * i / kBoxes,
                              kWidth_01,
@@ -242,13 +248,33 @@ void draw_scale(OverlayMarks& picture, const std::vector<double>& levels_lx) {
                              {colour.red, colour.green, colour.blue},
                              255});
   }
-  picture.labels.push_back({kLeft_01, kTop_01 - 0.028, "lux", {}});
-  for (const double lx : levels_lx) {
-    if (lx < kLowest_lx || lx > kHighest_lx) continue;
-    const double y = kTop_01 + kHeight_01 * std::log(kHighest_lx / lx) / decades;
+  picture.labels.push_back({kLeft_01, kTop_01 - 0.028, title, {}});
+  for (const Tick& tick : ticks) {
+    const double y = kTop_01 + kHeight_01 * (1.0 - tick.share_01);
     picture.lines.push_back({kLeft_01, y, kLeft_01 + kWidth_01 + 0.004, y, {255, 255, 255}});
-    picture.labels.push_back({kLeft_01 + kWidth_01 + 0.007, y, fmt::format("{:g}", lx), {}});
+    picture.labels.push_back({kLeft_01 + kWidth_01 + 0.007, y, tick.text, {}});
   }
+}
+
+}  // namespace
+
+void draw_scale(OverlayMarks& picture, const std::vector<double>& levels_lx) {
+  constexpr double kLowest_lx = 0.3, kHighest_lx = 200.0;  // where the colours begin and end (shaders/lib/tone.h)
+  const double decades = std::log(kHighest_lx / kLowest_lx);
+  std::vector<Tick> ticks;
+  for (const double lx : levels_lx)
+    if (lx >= kLowest_lx && lx <= kHighest_lx)
+      ticks.push_back({std::log(lx / kLowest_lx) / decades, fmt::format("{:g}", lx)});
+  draw_column(
+      picture, "lux", [&](double share) { return false_colour(kLowest_lx * std::exp(decades * share)); }, ticks);
+}
+
+void draw_versus_scale(OverlayMarks& picture, VersusScale scale) {
+  std::vector<Tick> ticks;
+  for (const auto& [value, text] : versus_marks(scale)) ticks.push_back({0.5 + 0.5 * versus_share(value, scale), text});
+  draw_column(
+      picture, scale == VersusScale::kRatio ? "B/A" : "B-A lux",
+      [](double share) { return versus_colour_at(2.0 * share - 1.0); }, ticks);
 }
 
 void keep_clear(OverlayMarks& picture, const PicturePart& part) {

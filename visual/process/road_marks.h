@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "visual/image/versus_scale.h"
 #include "visual/overlay_content.h"
 #include "visual/process/lamps.h"
 #include "visual/process/road_line.h"
@@ -61,6 +62,9 @@ RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& r
 void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometry& view);
 /// The scale of the false colours at the right edge, with the levels of the isolux lines.
 void draw_scale(OverlayMarks& picture, const std::vector<double>& levels_lx);
+
+/// The scale of two designs compared by colour, there too.
+void draw_versus_scale(OverlayMarks& picture, VersusScale scale);
 
 /// Takes lines and labels off an inset, which shows another view.
 void keep_clear(OverlayMarks& picture, const PicturePart& part);

@@ -249,12 +249,13 @@ void Loop::draw(const Moment& moment) {
 
   // Picked, measured and audited is the whole view.
   FrameInput halves;
-  const bool split = versus_.lamps() != nullptr && s_.desk.compare == Compare::kSplit;
-  if (split) {
+  const bool both = versus_.lamps() != nullptr && s_.desk.compare != Compare::kFlicker;
+  if (both) {
     halves = input_;
-    versus_.split(halves, moment.car.pose, their_lamps, glare_in(input_, moment.car.pose, *versus_.lamps()));
+    versus_.show(halves, s_.desk.compare, moment.car.pose, their_lamps,
+                 glare_in(input_, moment.car.pose, *versus_.lamps()));
   }
-  const FrameResult result = s_.renderer.draw(split ? halves : input_);
+  const FrameResult result = s_.renderer.draw(both ? halves : input_);
   if (over_) return;  // what is counted is the drive
   s_.stats.add(result, captured_);
   log_frame(moment, result);

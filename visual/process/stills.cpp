@@ -105,31 +105,7 @@ Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
   return page;
 }
 
-namespace {
-
-/// -1 to 1 along a scale.
-double versus_share(double value, VersusScale scale) {
-  if (scale == VersusScale::kRatio) return std::clamp(std::log2(value) / 3.0, -1.0, 1.0);
-  // Even to 1 lx, then by decades: 1 lx at a third of the way to 30.
-  const double size = std::abs(value);
-  const double share = size <= 1.0 ? size / 3.0 : 1.0 / 3.0 + 2.0 / 3.0 * std::log(size) / std::log(30.0);
-  return std::copysign(std::min(share, 1.0), value);
-}
-
-}  // namespace
-
-Colour versus_colour(double value, VersusScale scale) {
-  const double share = versus_share(value, scale), size = std::abs(share);
-  const auto part = [](double full, double of) {
-    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(full * of, 0.0, 1.0)));
-  };
-  const double light = std::clamp(2.0 * size - 1.0, 0.0, 1.0);  // the second half of the way goes to the light colour
-  if (share >= 0.0) return {part(1.0, std::min(2.0 * size, 1.0)), part(1.0, light), part(0.5, light)};
-  return {part(0.6, light), part(0.35, std::min(2.0 * size, 1.0) + 1.6 * light), part(1.0, std::min(2.0 * size, 1.0))};
-}
-
 Image8 versus_picture(const ImageF& a, const ImageF& b, VersusScale scale, const std::string& caption) {
-  constexpr double kDark_lx = 0.1;
   const bool ratio = scale == VersusScale::kRatio;
   Image8 page = page_around(a.width_px, a.height_px);
   const std::size_t width = static_cast<std::size_t>(a.width_px);
@@ -137,27 +113,20 @@ Image8 versus_picture(const ImageF& a, const ImageF& b, VersusScale scale, const
     for (int x = 0; x < a.width_px; ++x) {
       const std::size_t alpha = (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)) * 4 + 3;
       const double of_a = static_cast<double>(a.rgba[alpha]), of_b = static_cast<double>(b.rgba[alpha]);
-      const bool dark = ratio && of_a < kDark_lx && of_b < kDark_lx;
+      const bool dark = ratio && std::max(of_a, of_b) < versus_dark_lx();
       const double value = ratio ? std::max(of_b, 1e-3) / std::max(of_a, 1e-3) : of_b - of_a;
       fill_box(page, kMarginLeft_px + x, kMarginTop_px + y, 1, 1, dark ? Colour{0, 0, 0} : versus_colour(value, scale));
     }
   draw_text(page, kMarginLeft_px + 50, 8, caption, kInk);
   // The scale, from B brighter above to A brighter below.
   const int left = kMarginLeft_px + a.width_px + 14, top = kMarginTop_px + 20, height = a.height_px - 40;
-  const std::vector<std::pair<double, const char*>> marks =
-      ratio ? std::vector<std::pair<double, const char*>>{{8, "8"},     {4, "4"},      {2, "2"},      {1, "1"},
-                                                          {0.5, "1/2"}, {0.25, "1/4"}, {0.125, "1/8"}}
-            : std::vector<std::pair<double, const char*>>{{30, "+30"}, {10, "+10"}, {3, "+3"},    {1, "+1"},   {0, "0"},
-                                                          {-1, "-1"},  {-3, "-3"},  {-10, "-10"}, {-30, "-30"}};
+  const std::vector<std::pair<double, const char*>> marks = versus_marks(scale);
   const auto row_of = [&](double value) {
     return top + static_cast<int>(std::lround((1.0 - versus_share(value, scale)) / 2.0 * (height - 1)));
   };
   for (int y = 0; y < height; ++y) {
     const double share = 1.0 - 2.0 * y / (height - 1);
-    const double size = std::abs(share);
-    const double lx = size <= 1.0 / 3.0 ? 3.0 * size : std::pow(30.0, (size - 1.0 / 3.0) * 1.5);
-    fill_box(page, left, top + y, 18, 1,
-             versus_colour(ratio ? std::exp2(3.0 * share) : std::copysign(lx, share), scale));
+    fill_box(page, left, top + y, 18, 1, versus_colour_at(share));
   }
   for (const auto& [value, text] : marks) {
     draw_line(page, left, row_of(value), left + 21, row_of(value), kInk);

@@ -3,6 +3,7 @@
 
 #include "visual/image/canvas.h"
 #include "visual/process/lamps.h"
+#include "visual/image/versus_scale.h"
 
 namespace phare {
 
@@ -16,13 +17,7 @@ Image8 wall_picture(const Lamps& lamps, std::size_t design);
 /// with axes in metres, legend and `caption`.
 Image8 birds_eye_picture(const ImageF& seen, const std::string& caption);
 
-/// kDifference: B less A in lux, from -30 to 30, logarithmic beyond 1. kRatio: B over A from 1/8 to 8, logarithmic;
-/// where neither has 0.1 lx it is dark.
-enum class VersusScale { kDifference, kRatio };
 /// Where B is brighter it is red to yellow, where A is, blue to light blue; with the scale beside it. Of two pictures
 /// of the same size whose alpha is the illuminance.
 Image8 versus_picture(const ImageF& a, const ImageF& b, VersusScale scale, const std::string& caption);
-/// Its colour: of lux, or of a ratio.
-Colour versus_colour(double value, VersusScale scale);
-
 }  // namespace phare

@@ -1,8 +1,13 @@
 #include "visual/process/versus.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
+#include "visual/process/props.h"
 #include "visual/process/road_marks.h"
 
 namespace phare {
@@ -30,12 +35,40 @@ std::vector<Lamps::Change> Versus::follow(const Desk& desk, const Lamps& shown, 
     lamps_->forget_shown();
   }
   // As they are moved while driving, and as recorded.
-  if (const Lamps::Mounts mounts = shown.mounts(*design); lamps_->mounts(*design) != mounts)
-    (void)lamps_->set_mounts(*design, mounts);
+  const Lamps::Mounts mounts = shown.mounts(*design);
+  if (lamps_->mounts(*design) != mounts) (void)lamps_->set_mounts(*design, mounts);
   controls.design_index = static_cast<std::uint32_t>(*design);
   std::vector<Lamps::Change> changes = lamps_->set_controls(controls);
   for (Lamps::Change& change : changes) change.position += kFirstBeam;
+  align(desk, shown, mounts.aim_rad);
   return changes;
+}
+
+void Versus::align(const Desk& desk, const Lamps& shown, double aim_rad) {
+  aligned_rad_.reset();
+  if (!desk.versus_aligned) return;
+  double turned_rad = 0.0;
+  for (int step = 0; step < 3; ++step) {  // of a tangent: each leaves a hundredth of what the one before did
+    const auto a_m = shown.cutoff_height_m({}, kWall_m), b_m = lamps_->cutoff_height_m({}, kWall_m);
+    if (!a_m || !b_m) return;
+    turned_rad += std::atan2(*a_m - *b_m, kWall_m);
+    lamps_->set_aim(aim_rad + turned_rad);
+  }
+  aligned_rad_ = turned_rad;
+}
+
+void Versus::show(FrameInput& frame, Compare compare, const VehicleState& pose, std::span<const PlacedLamp> also,
+                  std::vector<GlaringLamp> glare) const {
+  if (compare == Compare::kSplit) split(frame, pose, also, std::move(glare));
+  if (compare != Compare::kDifference && compare != Compare::kRatio) return;
+  std::erase_if(frame.lamps, [](const PlacedLamp& lamp) { return lamp.beam >= kFirstBeam; });
+  const std::size_t carried = frame.lamps.empty() ? SIZE_MAX : frame.lamps.front().carried_by;
+  for (PlacedLamp& lamp : placed(pose)) {
+    lamp.of_b = true, lamp.carried_by = carried;
+    frame.lamps.push_back(lamp);
+  }
+  frame.view = compare == Compare::kDifference ? View::kDifference : View::kRatio;
+  frame.glare.clear();
 }
 
 std::vector<PlacedLamp> Versus::placed(const VehicleState& pose) const {
@@ -74,17 +107,28 @@ void keep_to_a(OverlayMarks& marks, const Desk& desk, const Lamps& shown, SimTim
   if (Versus::has_turn(desk, now)) marks = {};
 }
 
-void mark_versus(OverlayMarks& marks, const Desk& desk, const Lamps& shown, const Lamps& other, SimTime now) {
+void mark_versus(OverlayMarks& marks, const Desk& desk, const Lamps& shown, const Versus& versus, SimTime now) {
+  const Lamps& other = *versus.lamps();
   constexpr double kName_01 = 0.89;  // above the instruments
   constexpr OverlayColour kInk{255, 225, 160};
+  std::string b = "B: " + other.design().name;
+  if (desk.versus_aligned && versus.aligned_rad())
+    b += fmt::format(", aligned by {:+.2f} deg",
+                     std::round(*versus.aligned_rad() * 18000.0 / std::numbers::pi) / 100.0 + 0.0);
+  else if (desk.versus_aligned)
+    b += ", not aligned: no cut-off";
+  if (desk.compare == Compare::kDifference || desk.compare == Compare::kRatio) {
+    marks.labels.push_back({0.015, kName_01, "A: " + shown.design().name + "   " + b, kInk});
+    return;
+  }
   if (desk.compare == Compare::kFlicker) {
     const bool turn = Versus::has_turn(desk, now);
-    marks.labels.push_back({0.015, kName_01, (turn ? "B: " : "A: ") + (turn ? other : shown).design().name, kInk});
+    marks.labels.push_back({0.015, kName_01, turn ? b : "A: " + shown.design().name, kInk});
     return;
   }
   marks.lines.push_back({0.5, 0.0, 0.5, 1.0, kInk});
   marks.labels.push_back({0.015, kName_01, "A: " + shown.design().name, kInk});
-  marks.labels.push_back({0.508, kName_01, "B: " + other.design().name, kInk});
+  marks.labels.push_back({0.508, kName_01, b, kInk});
 }
 
 }  // namespace phare

@@ -32,15 +32,26 @@ class Versus {
   static bool has_turn(const Desk& desk, SimTime now) {
     return desk.compare == Compare::kFlicker && now.ns % 1'000'000'000 >= 500'000'000;
   }
+  /// As `compare` has both in one picture; by turns, or off, it stays as it is. The difference or the ratio is of their
+  /// own light, by colour (View::kDifference): lamps of others light both.
+  void show(FrameInput& frame, Compare compare, const VehicleState& pose, std::span<const PlacedLamp> also,
+            std::vector<GlaringLamp> glare) const;
   /// The frame's own view is the left half of what it was, and the right half shows B. `also`: lamps of others that
   /// light both; `glare`: into B's eye.
   void split(FrameInput& frame, const VehicleState& pose, std::span<const PlacedLamp> also,
              std::vector<GlaringLamp> glare) const;
 
+  /// How far B is turned up to have its cut-off where A has it, rad; nothing: it is not asked for, or one of them has
+  /// none.
+  std::optional<double> aligned_rad() const { return aligned_rad_; }
+
   std::uint64_t work_done() const { return work_; }
 
  private:
+  void align(const Desk& desk, const Lamps& shown, double aim_rad);
+
   std::unique_ptr<Lamps> lamps_;
+  std::optional<double> aligned_rad_;
   std::uint64_t work_ = 0;
 };
 
@@ -51,6 +62,6 @@ std::optional<std::size_t> versus_design(const Desk& desk, const Lamps& shown);
 void keep_to_a(OverlayMarks& marks, const Desk& desk, const Lamps& shown, SimTime now);
 
 /// The line between the halves and the names of both, or of the one that has its turn.
-void mark_versus(OverlayMarks& marks, const Desk& desk, const Lamps& shown, const Lamps& other, SimTime now);
+void mark_versus(OverlayMarks& marks, const Desk& desk, const Lamps& shown, const Versus& versus, SimTime now);
 
 }  // namespace phare
