@@ -20,8 +20,34 @@ void remove_half_written(const fs::path& out, const std::vector<std::string>& pr
   }
 }
 
+namespace {
+
+/// Folders of the channels beside the first, by the report that is there.
+std::vector<fs::path> channel_folders(const fs::path& out) {
+  std::vector<fs::path> folders;
+  std::ifstream stream(out / "report.json");
+  const nlohmann::json report = nlohmann::json::parse(stream, nullptr, false);
+  if (!report.is_object() || !report.value("processes", nlohmann::json()).is_object()) return folders;
+  for (const auto& [name, process] : report["processes"].items()) {
+    if (!name.starts_with("visual-") || name == "visual-0" || !process.is_object()) continue;
+    const nlohmann::json channel = process.value("channel", nlohmann::json());
+    if (!channel.is_string()) continue;
+    const fs::path folder(channel.get<std::string>());
+    if (!folder.empty() && folder == folder.filename() && folder != "." && folder != "..")
+      folders.push_back(out / folder);
+  }
+  return folders;
+}
+
+}  // namespace
+
 void remove_earlier_output(const fs::path& out, const std::vector<std::string>& process_names) {
   std::error_code ignored;
+  for (const fs::path& folder : channel_folders(out)) {
+    remove_earlier_output(folder, {});
+    fs::remove(folder / "frames", ignored);  // only when empty, as the folder
+    fs::remove(folder, ignored);
+  }
   for (const char* file :
        {"report.json", "index.html", "drive.csv", "probes.csv", "drive.mp4", "drive.mp4.part", "drive.mp4.txt",
         "contact_sheet.png", "drivers_view.png", "birds_eye.png", "wall_25m.png", "versus.png", "versus_difference.png",

@@ -20,6 +20,7 @@
 #include "config/base/paths.h"
 #include "tests/bench/floor.h"
 #include "tests/bench/growth.h"
+#include "tests/bench/instruments.h"
 #include "tests/bench/straight_road.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/readers/read_lamp.h"
@@ -378,6 +379,12 @@ int run(const Options& options) {
   add_parts(bench, "straight road, even nodes", bench.renderer(straight, even), straight_view);
   bench.add("straight road, rounded nodes", "two lamps", bench.renderer(straight, rounded), straight_view);
   add_parts(bench, "country road", bench.renderer(*country, *lamp), country_view);
+  Instruments instruments;
+  Renderer& with_instruments = bench.renderer(*country, *lamp);
+  instruments.load_into(with_instruments);
+  instruments.add_to([&](const std::string& name, const Instruments::View& view) {
+    bench.add("instruments, country road with shadows", name, with_instruments, view);
+  });
   if (options.growth) add_growth(bench, straight, even, options);
 
   Floor floor(even, options.width_px, options.height_px);

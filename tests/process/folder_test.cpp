@@ -116,10 +116,21 @@ TEST_F(Folder, AnotherDriveGoesBesideUnlessItMayOverwrite) {
   // The same again is no other drive; nor is one that may.
   EXPECT_EQ(drive_here("--frames 2 --out out").code, 0);
   std::ofstream(folder_ / "out" / "probes.csv") << "time_s,probe1_lx\n0,4343\n";  // of the drive before
+  // And of its second screen, whose folder its report names; what is not a drive's stays.
+  std::ofstream(folder_ / "out" / "report.json") << R"({"processes": {"visual-1": {"channel": "left"}, "visual-2":
+      {"channel": "../../etc"}, "visual-3": {"channel": "right"}, "visual-0": {"channel": "frames"}}})";
+  for (const char* file : {"out/left/frames/000000.png", "out/left/hdr.exr", "out/right/hdr.exr"}) {
+    fs::create_directories((folder_ / file).parent_path());
+    std::ofstream(folder_ / file) << "x";
+  }
+  std::ofstream(folder_ / "out" / "right" / "notes.txt") << "mine";
   EXPECT_EQ(drive_here("--frames 4 --out out --overwrite").code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "out" / "frames" / "000003.png"));
   EXPECT_FALSE(fs::exists(folder_ / "out" / "probes.csv")) << "its page would tell figures of another drive";
   EXPECT_FALSE(fs::exists(folder_ / "out-3"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "left"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "right" / "hdr.exr"));
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "right" / "notes.txt"));
 }
 
 // A disk that takes no more, here a folder that is gone: the drive goes on, and says at its end what is missing.
