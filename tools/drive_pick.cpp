@@ -45,7 +45,7 @@ Result<SettingsTable> table_of_this_machine(const SettingsPlan& plan) {
   const auto file = keep_settings(*table);
   if (file)
     spdlog::info("measured in {:.0f} s, kept in {}; phare cost --ladder settings measures longer", took_s,
-                 file->string());
+                 file->file.string());
   else
     spdlog::warn("measured in {:.0f} s, and not kept: {}", took_s, file.error().text());
   return table;
@@ -79,12 +79,15 @@ Status pick_settings(DriveOptions& options, const Rig& rig) {
                  "settings are measured by low beam, and design \"" + rig.designs[design].name + "\" has none"};
   FixedSettings fixed{.shadows = desk.shadows, .fog = desk.fog};
   if (method_set) fixed.method = desk.method;
+  // As with the method, a level of the rig's own that is not the default stays.
+  if (rig.beam_image != Rig{}.beam_image) fixed.image = rig.beam_image;
   if (!options.picture.beam_image.empty()) fixed.image = level_named(options.picture.beam_image);
 
   SettingsPlan plan{.rig = &rig,
                     .width_px = rig.channels.front().width_px,
                     .height_px = rig.channels.front().height_px,
                     .samples = options.picture.samples,
+                    .road_cuts = options.picture.road_cuts,
                     .air = air_of(desk),
                     .design = design,
                     .device_name = options.picture.device_name,
@@ -109,8 +112,6 @@ Status pick_settings(DriveOptions& options, const Rig& rig) {
     spdlog::info("{}", line);
   else
     spdlog::warn("{}", line);
-  if (options.budget_ms > 0.0 && !options.lockstep && options.picture.frames > 0)
-    spdlog::info("every picture is kept, which takes time of its own: the governor does not judge such frames");
   if (options.budget_ms > 0.0 && options.lockstep) spdlog::info("lockstep: the governor is off, what is picked stays");
 
   options.picked_arguments = {"--picked", pick.why};

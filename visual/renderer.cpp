@@ -340,15 +340,27 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   std::vector<std::size_t> lit;
   for (std::size_t i = 0; i < std::size_t{extent.width} * extent.height; ++i)
     if (n[4 * i + 3] > 0.0f && p[4 * i + 3] > 0.0f) lit.push_back(i);
+  const auto normal_of = [&](std::size_t i) { return glm::dvec3(n[4 * i], n[4 * i + 1], n[4 * i + 2]); };
+  // How much the normal turns to the next pixels that are lit.
+  const auto turn_per_px = [&](std::size_t i) {
+    double most = 0.0;
+    const std::size_t x = i % extent.width, y = i / extent.width;
+    const auto see = [&](bool there, std::size_t next) {
+      if (there && n[4 * next + 3] > 0.0f) most = std::max(most, glm::distance(normal_of(next), normal_of(i)));
+    };
+    see(x > 0, i - 1), see(x + 1 < extent.width, i + 1);
+    see(y > 0, i - extent.width), see(y + 1 < extent.height, i + extent.width);
+    return most;
+  };
   std::vector<AuditSample> samples;
   std::mt19937_64 random(seed);
   for (std::size_t k = 0; k < count && !lit.empty(); ++k) {
     const std::size_t i = lit[random() % lit.size()];
-    samples.push_back({{input.camera.eye_m + glm::dvec3(p[4 * i], p[4 * i + 1], p[4 * i + 2]),
-                        glm::dvec3(n[4 * i], n[4 * i + 1], n[4 * i + 2])},
+    samples.push_back({{input.camera.eye_m + glm::dvec3(p[4 * i], p[4 * i + 1], p[4 * i + 2]), normal_of(i)},
                        static_cast<double>(p[4 * i + 3]),
                        (static_cast<double>(i % extent.width) + 0.5) / extent.width,
-                       (static_cast<double>(i / extent.width) + 0.5) / extent.height});
+                       (static_cast<double>(i / extent.width) + 0.5) / extent.height,
+                       4.0 * 0x1p-24 * static_cast<double>(i % extent.width + i / extent.width) * turn_per_px(i)});
   }
   return samples;
 }

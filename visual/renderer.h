@@ -160,6 +160,9 @@ struct AuditSample {
   MeasurePoint point;         ///< world position and normal of the pixel
   double illuminance_lx = 0;  ///< by the GPU
   double x_01 = 0, y_01 = 0;  ///< where in the picture, from its upper left corner
+  /// What the interpolated normal may be off by, rad: a device takes a varying for a plane over the picture and reckons
+  /// from its corner, so what turns by g a pixel is rounded at g times the way from there; four such roundings.
+  double normal_room_rad = 0;
 };
 
 class Renderer {

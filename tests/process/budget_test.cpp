@@ -112,5 +112,14 @@ TEST_F(Budget, TheGovernorStepsDownWhileTheBudgetIsMissed) {
   EXPECT_EQ(governor["now"], levels[3]);
 }
 
+// A frame whose picture is kept counts as any other: it takes its time too.
+TEST_F(Budget, FramesWhosePictureIsKeptCount) {
+  write_table();
+  const fs::path out = *folder_ / "kept";
+  DriveRun run(out, folder_->path(), {"--budget-ms", "0.1", "--frames", "120"}, false);
+  EXPECT_EQ(run.wait(), 0);
+  EXPECT_GE(report_of(out)["summary"]["picked"]["governor"]["steps"].size(), 1u) << "80 frames miss it";
+}
+
 }  // namespace
 }  // namespace phare::test

@@ -5,7 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "tools/cost/measure_settings.h"
 
 namespace phare::cost {
 namespace {
@@ -13,7 +18,8 @@ namespace {
 /// Exact light in 20 ms, by vertex in 10; shadows add 0, 4, 6, 20 ms.
 SettingsTable a_table() {
   SettingsTable table{.validity = {"a device, driver 1", "1.0, commit abc", "sha256:12", "1280x720"},
-                      .measured_at = "2026-01-01T00:00:00Z"};
+                      .measured_at = "2026-01-01T00:00:00Z",
+                      .rounds = 12};
   table.light = {{Method::kFragment, ImageLevel::kFloatNodes, {1e-6, 2e-6, 19.0, 20.0}},
                  {Method::kFragment, ImageLevel::kNormalised8, {0.03, 0.3, 18.0, 21.0}},
                  {Method::kFragment, ImageLevel::kHalfNodes, {1e-4, 4e-4, 19.5, 20.5}},
@@ -141,6 +147,44 @@ TEST(Settings, ATableComesBackAsWrittenOrIsRefused) {
   EXPECT_TRUE(refused([](nlohmann::json& j) { j["light"][0]["p95_ms"] = "fast"; }));
   EXPECT_TRUE(refused([](nlohmann::json& j) { j["light"][0]["p95_ms"] = -1.0; }));
   EXPECT_TRUE(refused([](nlohmann::json& j) { j["shadows"][1]["misplaced"] = nullptr; }));
+}
+
+// A quick table does not take the place of a longer one that counts; a longer one, or one of another device, does.
+TEST(Settings, ALongerTableThatCountsStays) {
+  const auto cache = std::filesystem::path(testing::TempDir()) / "settings_test_cache";
+  std::filesystem::remove_all(cache);
+  setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+  SettingsTable quick = a_table(), longer = a_table();
+  longer.rounds = 60, longer.measured_at = "2026-01-02T00:00:00Z";
+  EXPECT_FALSE(keep_settings(quick)->stays);
+  EXPECT_FALSE(keep_settings(longer)->stays);
+  EXPECT_TRUE(keep_settings(quick)->stays);
+  EXPECT_EQ(kept_settings(quick.validity).table, longer);
+  quick.validity.device = "a device, driver 2";
+  EXPECT_FALSE(keep_settings(quick)->stays);
+  EXPECT_EQ(kept_settings(quick.validity).table, quick);
+  unsetenv("XDG_CACHE_HOME");
+}
+
+// All files of a scene count: the buffers that a .gltf names, and the lane beside it.
+TEST(Settings, ASceneIsAllItsFiles) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "settings_test_scene";
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const char* name, const char* text) { std::ofstream(folder / name) << text; };
+  write("road.gltf", R"({"buffers": [{"uri": "road.bin"}, {"uri": "data:,x"}], "images": [{"bufferView": 0}]})");
+  write("road.bin", "one");
+  write("road_lane.csv", "a lane");
+  const auto hash = [&] { return scene_hash(folder / "road.gltf"); };
+  const auto first = hash();
+  ASSERT_TRUE(first) << first.error().text();
+  EXPECT_EQ(*hash(), *first);
+  write("road.bin", "two");
+  const auto second = hash();
+  EXPECT_NE(*second, *first);
+  write("road_lane.csv", "another lane");
+  EXPECT_NE(*hash(), *second);
+  std::filesystem::remove(folder / "road.bin");
+  EXPECT_FALSE(hash()) << "a buffer that is not there";
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
+#include "tests/visual_process/ground_square.h"
+
 namespace phare {
 namespace {
 
@@ -128,6 +130,47 @@ TEST_F(Audit, ARoundingOfTheDirectionInTheCutOffIsNoError) {
   EXPECT_GT(std::abs(sample.illuminance_lx - exact_lx), 1e-4 * exact_lx) << "not steep enough to tell";
   EXPECT_FALSE(
       stats.add(*lamps_, pose_, std::vector{sample}, moment(audit_bound(ImageLevel::kFloatNodes, Method::kFragment))));
+}
+
+// A pixel's place that the device has off its triangle leaves more room, and one on another triangle does not.
+TEST_F(Audit, APlaceOffItsTriangleIsMeasuredAndLeavesThatMuchRoom) {
+  const Scene ground = ground_square(0.0);  // at z = 2 m
+  pose_.z_m = 2.0;
+  AuditMoment at = moment(audit_bound(ImageLevel::kFloatNodes, Method::kFragment));
+  at.eye_m = {0.0, 0.0, 3.2};
+  AuditSample sample;
+  sample.point = {{7.0, 0.3, 2.0}, {0.0, 0.0, 1.0}};
+  const double true_lx = lamps_->illuminance_lx(pose_, sample.point);
+  ASSERT_GT(true_lx, 1.0);
+  sample.point.position_m.z += 2e-5;  // as the device says it; its light is that of 4e-5 m elsewhere
+  MeasurePoint elsewhere = sample.point;
+  elsewhere.position_m.x += 4e-5;
+  sample.illuminance_lx = lamps_->illuminance_lx(pose_, elsewhere);
+  const double off = std::abs(sample.illuminance_lx / lamps_->illuminance_lx(pose_, sample.point) - 1.0);
+  ASSERT_GT(off, 2e-5) << "too little to tell";
+  AuditStats without, with, far;
+  EXPECT_TRUE(without.add(*lamps_, pose_, std::vector{sample}, at)) << "by the level alone";
+  at.scene = &ground;
+  EXPECT_FALSE(with.add(*lamps_, pose_, std::vector{sample}, at));
+  // What is seen there is another surface, 0.2 m in front: its distance is no error of the place.
+  Scene in_front = ground;
+  in_front.chunks[0].origin_m.z += 0.2, in_front.chunks[0].low_m.z += 0.2, in_front.chunks[0].high_m.z += 0.2;
+  at.scene = &in_front;
+  EXPECT_TRUE(far.add(*lamps_, pose_, std::vector{sample}, at));
+}
+
+// Where a surface turns by much from pixel to pixel, its normal has the room that interpolation leaves it.
+TEST_F(Audit, ANormalThatTurnsFastHasRoom) {
+  AuditSample sample;
+  sample.point = {{7.0, 0.3, 0.0}, glm::normalize(glm::dvec3(-0.02, 0.0, 1.0))};
+  MeasurePoint turned = sample.point;
+  turned.normal = glm::normalize(sample.point.normal + glm::dvec3(3e-5, 0.0, 0.0));
+  sample.illuminance_lx = lamps_->illuminance_lx(pose_, turned);
+  const AuditMoment at = moment(audit_bound(ImageLevel::kFloatNodes, Method::kFragment));
+  AuditStats flat, round;
+  EXPECT_TRUE(flat.add(*lamps_, pose_, std::vector{sample}, at));
+  sample.normal_room_rad = 4e-5;
+  EXPECT_FALSE(round.add(*lamps_, pose_, std::vector{sample}, at));
 }
 
 TEST(AuditBounds, ByVertexNoneIsStatedAndTheUsersHoldsEverywhere) {

@@ -140,7 +140,8 @@ class CostRun {
     if (!table) return table.error();
     device_ = table->validity.device;
     if (const auto file = keep_settings(*table); file)
-      kept_ = "kept for phare drive --budget-ms and --tolerance in " + file->string();
+      kept_ = file->stays ? "not kept for phare drive: the table in " + file->file.string() + " was measured longer"
+                          : "kept for phare drive --budget-ms and --tolerance in " + file->file.string();
     else
       left_out_.push_back("settings are not kept: " + file.error().text());
     ladders_.push_back(ladder_of(*table));

@@ -6,6 +6,7 @@
 
 #include "config/base/content_hash.h"
 #include "config/base/whole_file.h"
+#include "config/road/lane.h"
 #include "tools/cost/measure_settings.h"
 
 namespace phare::cost {
@@ -42,14 +43,43 @@ KeptSettings kept_settings(const Validity& wanted) {
   return {*table, {}};
 }
 
-Result<std::filesystem::path> keep_settings(const SettingsTable& table) {
+Result<KeptFile> keep_settings(const SettingsTable& table) {
   const std::filesystem::path file = kept_settings_file(table.validity);
   if (file.empty()) return Error{"", "neither XDG_CACHE_HOME nor HOME names a folder to keep it in"};
+  if (const KeptSettings there = kept_settings(table.validity); there.table && there.table->rounds > table.rounds)
+    return KeptFile{file, true};
   std::error_code failed;
   std::filesystem::create_directories(file.parent_path(), failed);
   if (failed) return Error{file.parent_path().string(), failed.message()};
   if (const Status written = write_whole_file(file, json_of(table).dump(2) + "\n"); !written) return written.error();
-  return file;
+  return KeptFile{file};
+}
+
+Result<std::string> scene_hash(const std::filesystem::path& scene_file) {
+  const Result<std::string> whole = content_hash_of_file(scene_file);
+  if (!whole) return whole.error();
+  std::string of = *whole;
+  const auto add = [&](const std::filesystem::path& file) -> Status {
+    const Result<std::string> hash = content_hash_of_file(file);
+    if (!hash) return hash.error();
+    of += " " + *hash;
+    return Done{};
+  };
+  if (scene_file.extension() == ".gltf") {
+    std::ifstream stream(scene_file);
+    const nlohmann::json gltf = nlohmann::json::parse(stream, nullptr, false);
+    for (const char* kind : {"buffers", "images"})
+      for (const nlohmann::json& one :
+           gltf.is_object() ? gltf.value(kind, nlohmann::json::array()) : nlohmann::json()) {
+        const nlohmann::json uri = one.is_object() ? one.value("uri", nlohmann::json()) : nlohmann::json();
+        if (!uri.is_string() || uri.get<std::string>().starts_with("data:")) continue;
+        if (const Status added = add(scene_file.parent_path() / uri.get<std::string>()); !added) return added.error();
+      }
+  }
+  std::error_code ignored;
+  if (const auto lane = lane_file_of(scene_file); std::filesystem::exists(lane, ignored))
+    if (const Status added = add(lane); !added) return added.error();
+  return content_hash(std::as_bytes(std::span(of)));
 }
 
 }  // namespace phare::cost

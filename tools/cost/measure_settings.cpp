@@ -17,10 +17,15 @@
 #include "visual/process/cameras.h"
 #include "visual/process/lamps.h"
 #include "visual/renderer.h"
+#include "visual/scene/refine.h"
 #include "visual/scene/scene.h"
 
 namespace phare::cost {
 namespace {
+
+int rounds_of(const SettingsPlan& plan) {
+  return plan.quick ? 12 : 60;
+}
 
 constexpr double kDim_lx = 0.01;  // below, no share is taken
 
@@ -62,7 +67,7 @@ class Measuring {
   }
 
   Result<SettingsTable> measure(const Validity& validity) {
-    SettingsTable table{.validity = validity, .measured_at = utc_now()};
+    SettingsTable table{.validity = validity, .measured_at = utc_now(), .rounds = rounds_of(plan_)};
     for (const ImageLevel level : kImageLevels) table.light.push_back({Method::kFragment, level, {}});
     for (const Method method : {Method::kVertex, Method::kVertex1998})
       table.light.push_back({method, ImageLevel::kFloatNodes, {}});
@@ -184,7 +189,7 @@ class Measuring {
   }
 
   void take_times(std::vector<Case>& cases) {
-    const int rounds = plan_.quick ? 12 : 60;
+    const int rounds = rounds_of(plan_);
     for (int round = 0; round < rounds; ++round) {
       plan_.progress("frames, round " + std::to_string(round + 1) + " of " + std::to_string(rounds),
                      0.4 + 0.55 * round / rounds);
@@ -218,7 +223,7 @@ Result<Validity> validity_of(const SettingsPlan& plan) {
   Validity validity{
       .device = device->device() + ", " + std::to_string(std::thread::hardware_concurrency()) + " processors",
       .version = std::string(PHARE_VERSION) + ", commit " + build_commit()};
-  const Result<std::string> scene = content_hash_of_file(plan.rig->scene_file);
+  const Result<std::string> scene = scene_hash(plan.rig->scene_file);
   if (!scene) return scene.error();
   std::string of = *scene;
   LampTables tables;
@@ -245,14 +250,16 @@ Result<Validity> validity_of(const SettingsPlan& plan) {
   validity.picture = std::to_string(plan.width_px) + "x" + std::to_string(plan.height_px) + ", " +
                      std::to_string(plan.samples) + (plan.samples == 1 ? " sample a pixel, " : " samples a pixel, ") +
                      words_of(plan.air);
+  if (plan.road_cuts > 0) validity.picture += ", road cut " + std::to_string(plan.road_cuts) + " times";
   return validity;
 }
 
 Result<SettingsTable> measure_settings(const SettingsPlan& plan) {
   const Result<Validity> validity = validity_of(plan);
   if (!validity) return validity.error();
-  const Result<Scene> scene = read_scene(plan.rig->scene_file);
+  Result<Scene> scene = read_scene(plan.rig->scene_file);
   if (!scene) return scene.error();
+  if (plan.road_cuts > 0) scene = refined(*scene, plan.road_cuts, is_ground);
   Result<Lamps> lamps = Lamps::load(*plan.rig);
   if (!lamps) return lamps.error();
   return Measuring(plan, *scene, *lamps).measure(*validity);

@@ -15,6 +15,7 @@ namespace phare::cost {
 struct SettingsPlan {
   const Rig* rig = nullptr;
   int width_px = 1280, height_px = 720, samples = 1;
+  int road_cuts = 0;  ///< how often each triangle of the ground is cut in four
   Air air{};
   std::size_t design = 0;  ///< whose low beam is drawn
   std::string device_name{};
@@ -37,7 +38,15 @@ struct KeptSettings {
   std::string why_not;  ///< where there is none that counts
 };
 KeptSettings kept_settings(const Validity& wanted);
-/// The file; an error where it cannot be written.
-Result<std::filesystem::path> keep_settings(const SettingsTable& table);
+struct KeptFile {
+  std::filesystem::path file;
+  bool stays = false;  ///< the table there counts too and was measured longer: it stays
+};
+/// Error: it cannot be written.
+Result<KeptFile> keep_settings(const SettingsTable& table);
+
+/// One number for all that a scene is read from: its file, the files that a .gltf names, the lane beside it. Error: one
+/// of them cannot be read.
+Result<std::string> scene_hash(const std::filesystem::path& scene_file);
 
 }  // namespace phare::cost

@@ -87,15 +87,15 @@ json json_of(const SettingsTable& table) {
       rows->push_back(json_of((*figures)[level]));
       rows->back()["level"] = names[level];
     }
-  return {{"device", table.validity.device},  {"version", table.validity.version},
-          {"rig", table.validity.rig},        {"picture", table.validity.picture},
-          {"measured_at", table.measured_at}, {"light", std::move(light)},
-          {"shadows", std::move(shadows)},    {"fog", std::move(fog)}};
+  return {{"device", table.validity.device},   {"version", table.validity.version}, {"rig", table.validity.rig},
+          {"picture", table.validity.picture}, {"measured_at", table.measured_at},  {"rounds", table.rounds},
+          {"light", std::move(light)},         {"shadows", std::move(shadows)},     {"fog", std::move(fog)}};
 }
 
 Result<SettingsTable> table_of_json(const json& from) try {
   SettingsTable table{.validity = {from.at("device"), from.at("version"), from.at("rig"), from.at("picture")},
-                      .measured_at = from.at("measured_at")};
+                      .measured_at = from.at("measured_at"),
+                      .rounds = from.at("rounds")};
   for (const json& row : from.at("light"))
     table.light.push_back({static_cast<Method>(index_of(kMethodNames, row.at("method"))),
                            static_cast<ImageLevel>(index_of(kImageLevelNames, row.at("beam_image"))), figures_of(row)});

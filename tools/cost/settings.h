@@ -43,7 +43,7 @@ struct LightSetting {
 struct Validity {
   std::string device{};   ///< its name, driver and driver's version
   std::string version{};  ///< of this program, with its commit
-  std::string rig{};      ///< hash over scene, lamps and camera
+  std::string rig{};      ///< hash over the scene's files, lamps and camera
   std::string picture{};  ///< size, samples, visibility
 
   friend bool operator==(const Validity&, const Validity&) = default;
@@ -52,6 +52,7 @@ struct Validity {
 struct SettingsTable {
   Validity validity{};
   std::string measured_at{};  ///< UTC
+  int rounds = 0;             ///< frames that each time is taken of
   std::vector<LightSetting> light{};
   std::vector<SettingFigures> shadows{}, fog{};  ///< by level from off; fog: empty in clear air
 

@@ -14,11 +14,16 @@ namespace phare {
 /// What a level of the picture states of itself. At a point lit with E lx an audited pixel is off by at most
 ///   relative · max(E, kDim_lx) + of_peak · Σ peak·cos(q)/r² + what E changes by within kDirection of there
 /// where the sum goes over the lamps, and the last term is the room that float32 has: where light ends or changes
-/// steeply, and where it grazes, a rounding of the direction is much light.
+/// steeply, and where it grazes, a rounding of the direction is much light. Where the device has put the pixel's place
+/// off the triangle that is seen there, the room is kOffPlane times as far as that, if that is farther: of triangles
+/// that pass close by the eye it interpolates a place, and all that the light comes from, with less than float32 has.
+/// The same for the normal, AuditSample::normal_room_rad, where surfaces turn by much from pixel to pixel.
 struct AuditBound {
   /// Of a direction and of a place relative to its distance: eight roundings of float32, which the shader's angles and
   /// the way from the lamp take (docs/accuracy.md).
   static constexpr double kDirection = 8.0 * 5.9604644775390625e-08;
+
+  static constexpr double kOffPlane = 4.0;  ///< other varyings are off as the place is, each by its own roundings
 
   std::string level;       ///< in words
   double relative = 0.0;   ///< of the light there
@@ -54,6 +59,8 @@ struct AuditMoment {
   double time_s = 0.0;
   int width_px = 0, height_px = 0;
   std::optional<AuditBound> bound{};
+  glm::dvec3 eye_m{0.0};         ///< of the picture
+  const Scene* scene = nullptr;  ///< that it shows; nothing: the places of samples are taken for exact
   /// Lux at a point lamp by lamp as the picture has them, in the order of lights_at(); asked for a failure only.
   std::function<std::vector<double>(const MeasurePoint&)> by_lamp{};
 };

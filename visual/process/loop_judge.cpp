@@ -104,6 +104,8 @@ void Loop::audit(const Moment& moment) {
         .width_px = s_.renderer.picture_size().width_px,
         .height_px = s_.renderer.picture_size().height_px,
         .bound = audit_bound(s_.options.beam_image.value_or(s_.rig.beam_image), input_.method, s_.options.audit_bound),
+        .eye_m = own.camera.eye_m,
+        .scene = &s_.scene,
         .by_lamp = [&](const MeasurePoint& at) { return lux_by_lamp(own.lamps, at); }};
     const auto failure = s_.audit.add(s_.lamps, moment.car.pose, samples, where);
     // A lockstep drive fails by it: its launcher says so, once; without one we do, when we leave.

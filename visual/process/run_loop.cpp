@@ -262,7 +262,7 @@ void Loop::draw(const Moment& moment) {
   if (result.pipelines_made > 0)
     spdlog::info("a kind of picture not drawn before: {} pipelines made in this frame, {:.0f} ms",
                  result.pipelines_made, result.wall_ms);
-  if (!captured_ && result.pipelines_made == 0) govern(moment, result.wall_ms);
+  if (result.pipelines_made == 0) govern(moment, result.wall_ms);
   if (moment.car.stale) ++s_.stats.stale_frames;
   s_.fail_safes.add(moment.time, moment.controls);
   const Clock::time_point now = Clock::now();
