@@ -65,6 +65,33 @@ TEST(SingleTrack, ParkingBrakeHoldsByTheWeightOnItsAxle) {
 }
 
 // Over a hole of a metre no tyre hangs on the road, and together they carry what the body's motion says.
+// Drive that its own friction does not carry to the road is held by brakes that could not hold all of it: what the
+// tyres give the car counts. It stands, and what its tyres are told to give adds up to nothing.
+TEST(SingleTrack, BrakesHoldAgainstWheelsThatSpin) {
+  Road slippery;
+  slippery.friction.push_back({.from_m = -100.0, .to_m = 100.0, .left = 0.3, .right = 0.3});
+  for (const Integrator integrator : {Integrator::kSemiImplicitEuler, Integrator::kEtd2, Integrator::kRk4}) {
+    Track car(test::single_car(), 0.0);
+    car.params.integrator = integrator;
+    car.input.road = &slippery;
+    for (std::size_t i = 0; i < 4; ++i)
+      car.input.drive_nm[i] = i < 2 ? 1000.0 : 0.0, car.input.brake_nm[i] = i < 2 ? 900.0 : 800.0;
+    const single_track::Held held = single_track::held(car.params, car.input, car.state, 0.001);
+    const double front_n = 0.3 * car.params.car.tyre.p.long_peak * 2.0 * car.params.car.load_n[0];
+    ASSERT_GT(2000.0 * car.params.per_radius_m, front_n) << "more than friction carries";
+    EXPECT_TRUE(held.stopped);
+    car.run(2.0, 0.001);
+    EXPECT_EQ(car.state.x_m, 0.0);
+    EXPECT_EQ(car.state.u_mps, 0.0);
+    const full::Forces f = single_track::forces(car.params, car.input, car.state);
+    EXPECT_NEAR(f.fx_n[0] + f.fx_n[1] + f.fx_n[2] + f.fx_n[3], 0.0, 1e-9);
+    // Without the rear brakes it drives off.
+    car.input.brake_nm[2] = car.input.brake_nm[3] = 0.0;
+    car.run(1.0, 0.001);
+    EXPECT_GT(car.state.u_mps, 0.1);
+  }
+}
+
 TEST(SingleTrack, LoadsAddUpToWeightAndMotion) {
   Road hole;
   hole.profiles.push_back(HeightProfile::bumps({{.start_m = 10.0, .height_m = -1.0, .length_m = 6.0}}));

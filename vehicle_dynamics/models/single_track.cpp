@@ -321,8 +321,8 @@ Held held(const Params& p, const chassis::Input& in, const State& s, double dt) 
   }
   if (brake > 0.0 && std::max(std::abs(s.u_mps), aside_mps) * p.effective_kg <= dt * brake) {
     // They can stop the car within the step: do they hold it against drive and grade?
-    const double push = front_drive * cosine + rear_drive - p.car.mass_kg * kGravity_mps2 * along * level;
-    // Each axle holds with its brakes up to the friction under what its springs now put on it.
+    const double grade_n = p.car.mass_kg * kGravity_mps2 * along * level;
+    // Each axle pushes as its brakes let it, within the friction under what its springs now put on it.
     const double grip = friction * p.car.tyre.p.long_peak;
     const auto load_n = [&](const Axle& axle, const Under& road, double rest_n) {
       const double sunk = road.height_m[0] + road.height_m[1] - 2.0 * (s.z_m - axle.x_m * s.pitch);
@@ -330,8 +330,13 @@ Held held(const Params& p, const chassis::Input& in, const State& s, double dt) 
     };
     const double front_n = load_n(p.axles[0], front, p.car.load_n[0]),
                  rear_n = load_n(p.axles[1], rear, p.car.load_n[2]);
-    stopped = std::abs(push) <= std::min(front_brake, grip * front_n) + std::min(rear_brake, grip * rear_n);
-    if (!stopped && s.u_mps == 0.0) against = sign(push);
+    const auto pushes_n = [&](double drive_n, double brake_n, double limit_n) {
+      return Two{std::clamp(drive_n - brake_n, -limit_n, limit_n), std::clamp(drive_n + brake_n, -limit_n, limit_n)};
+    };
+    const Two ahead = cosine * pushes_n(front_drive, front_brake, grip * front_n) +
+                      pushes_n(rear_drive, rear_brake, grip * rear_n) - both(grade_n);
+    stopped = ahead[0] <= 0.0 && ahead[1] >= 0.0;
+    if (!stopped && s.u_mps == 0.0) against = sign(ahead[0]);
   }
   const double u = s.u_mps;
   return {.front = front,
