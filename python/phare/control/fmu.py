@@ -7,9 +7,11 @@ import os
 import sys
 import tempfile
 import warnings
+import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 from ..errors import BadInput, LawFailed
 from . import fmu_names as names
@@ -81,17 +83,25 @@ class Fmu(Controller):
         if not self.file.is_file():
             raise self._bad("no such file")
         try:
+            version = self._version()
+            if not version.startswith("3."):
+                raise self._bad(f"is of FMI {version}: expected 3.0")
             described = self._fmpy.read_model_description(str(self.file))
             platforms = self._fmpy.supported_platforms(str(self.file))
+        except BadInput:
+            raise
         except Exception as wrong:  # of zipfile, lxml and FMPy, each with words of its own
             raise self._bad(f"cannot be read as an FMU: {' '.join(str(wrong).split())}") from wrong
-        if not str(described.fmiVersion).startswith("3."):
-            raise self._bad(f"is of FMI {described.fmiVersion}: expected 3.0")
         if described.coSimulation is None:
             raise self._bad("has no co-simulation: a unit of model exchange or scheduled execution alone cannot be a law")
         if self._fmpy.platform not in platforms:
             raise self._bad(f"has no binary for this machine, binaries/{self._fmpy.platform_tuple}; it has {', '.join(platforms) or 'none'}")
         return described
+
+    def _version(self) -> str:
+        """Of FMI, as the first element of its description says."""
+        with zipfile.ZipFile(self.file) as whole, whole.open("modelDescription.xml") as text:
+            return str(next(ElementTree.iterparse(text, ["start"]))[1].get("fmiVersion"))
 
     def _sort(self, variable: Any) -> None:
         ours = names.input_named(variable.name) if variable.causality == "input" else names.output_named(variable.name)
