@@ -85,8 +85,8 @@ def given_at(frame: int, **more) -> phare.Given:
     return phare.Given(frame, frame / 60, 1 / 60 if frame else 0.0, 20.0, lamps=[lamp()], **more)
 
 
-def test_a_unit_answers_as_the_same_law_in_python(unit):
-    folders = set(Path(tempfile.gettempdir()).glob("phare-fmu-*"))
+def test_a_unit_answers_as_the_same_law_in_python(unit, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     fmu, law = Fmu(unit), AutomaticHighBeam()
     for _ in range(2):  # anew each time
         fmu.begin([lamp()])
@@ -98,9 +98,9 @@ def test_a_unit_answers_as_the_same_law_in_python(unit):
             assert lights[-1] == law.step(given).light
         assert lights[59] == "high" and lights[60] == "low" and lights[-1] == "high"
     fmu.begin([lamp()])  # one that has not been stepped is freed too
-    assert set(Path(tempfile.gettempdir()).glob("phare-fmu-*")) != folders
+    assert len(list(tmp_path.glob("phare-fmu-*"))) == 1
     fmu.end()
-    assert set(Path(tempfile.gettempdir()).glob("phare-fmu-*")) == folders
+    assert not list(tmp_path.glob("phare-fmu-*"))
 
 
 def test_a_drive_by_a_unit_repeats_and_is_that_of_the_law_in_python(unit, moving, tmp_path, python_with_fmpy):
@@ -216,6 +216,23 @@ def test_a_unit_that_fails_on_the_way_is_told(unit, tmp_path, code, why):
     law.end()
 
 
+@pytest.mark.parametrize("source, why", [
+    (None, "Failed to load shared library"), ("int nothing;", "fmi3.* is missing in shared library"),
+    ("#define calloc(a, b) NULL\n#include \"high_beam.c\"", "Failed to instantiate FMU"),
+])
+def test_a_unit_that_does_not_begin_is_told_and_leaves_nothing(unit, tmp_path, monkeypatch, source, why):
+    binary = b"no library"
+    if source is not None:
+        (tmp_path / "unit.c").write_text(f"#include <stdlib.h>\n{source}\n")
+        subprocess.run(["gcc", "-shared", "-fPIC", f"-I{EXAMPLE}", tmp_path / "unit.c", "-o", tmp_path / "unit.so"], check=True)
+        binary = (tmp_path / "unit.so").read_bytes()
+    law, here = Fmu(changed(unit, tmp_path / "unit.fmu", binary=binary)), Path.cwd()
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    with pytest.raises(phare.LawFailed, match=f"unit.fmu: .*{why}"):
+        law.begin([lamp()])
+    assert Path.cwd() == here and not list(tmp_path.glob("phare-fmu-*"))
+
+
 def test_a_unit_of_one_step_length_gets_no_other(unit, tmp_path):
     law = Fmu(changed(unit, tmp_path / "unit.fmu", (' canHandleVariableCommunicationStepSize="true"', "")))
     law.begin([lamp()])
@@ -231,3 +248,20 @@ def test_what_a_unit_has_beyond_our_names_is_told(unit, tmp_path):
     with pytest.warns(UserWarning, match="output my_debug"):
         law.begin([lamp()])
     law.end()
+
+
+def test_a_plan_may_name_a_unit_and_drives_anew_when_it_changes(unit, tmp_path):
+    from phare.sweep.job import law_named
+    from phare.sweep.plan import job_hash, read_plan
+
+    shutil.copy(unit, tmp_path / "mine.fmu")
+    (tmp_path / "plan.toml").write_text('[fixed]\nframes = 2\n[vary]\nlaw = ["mine.fmu", "AutomaticHighBeam"]\n')
+    plan = read_plan(tmp_path / "plan.toml")
+    assert law_named(plan.jobs[0].settings["law"]).file == tmp_path / "mine.fmu"
+    before = [job_hash(job, plan) for job in plan.jobs]
+    changed(unit, tmp_path / "mine.fmu", ("example-high-beam-1", "example-high-beam-2"))
+    after = [job_hash(job, plan) for job in plan.jobs]
+    assert before[0] != after[0] and before[1] == after[1]
+    (tmp_path / "mine.fmu").unlink()
+    with pytest.raises(phare.BadInput, match="law: .*mine.fmu is no file"):
+        read_plan(tmp_path / "plan.toml")

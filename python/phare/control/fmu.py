@@ -125,7 +125,7 @@ class Fmu(Controller):
         self.end()
         if self.unknown:
             warnings.warn(f"{self.file}: not known here, inputs keep their start values: {', '.join(self.unknown)}", stacklevel=2)
-        self._folder = tempfile.TemporaryDirectory(prefix="phare-fmu-")
+        self._folder, here = tempfile.TemporaryDirectory(prefix="phare-fmu-"), os.getcwd()
         try:
             self._fmpy.extract(str(self.file), self._folder.name)
             self._unit = self._fmpy.fmi3.FMU3Slave(
@@ -134,7 +134,10 @@ class Fmu(Controller):
             )
             self._unit.instantiate(logMessage=_say)
         except Exception as wrong:
-            self._unit = None  # it has no instance: nothing to be freed but the folder
+            os.chdir(here)  # FMPy goes to the library's folder to load it, and stays there where that fails
+            if self._unit is not None:  # loaded, but no instance
+                self._unit.freeLibrary()
+            self._unit = None
             self.end()
             raise LawFailed(f"{self.file}: {wrong}") from wrong
 
