@@ -310,18 +310,6 @@ TRAFFIC = [phare.RoadUser(start_s_m=120, speed_mps=20.0, offset_m=3.5), phare.Ro
 LOOP = dict(frames=12, **SMALL)
 
 
-@pytest.fixture(scope="module")
-def moving(tmp_path_factory):
-    """A drive of ours at 20 m/s along the road of the demo, on low beam."""
-    file = tmp_path_factory.mktemp("moving") / "moving.pcap"
-    t = np.arange(0, 1.0, 0.02)
-    lane = Lane(phare.generated_file("scenes/country_road_lane.csv"))
-    place = np.array([lane.at(20 + 20 * time, 0.0)[0] for time in t])
-    heading = lane.at(20, 0)[1]
-    phare.write_drive(file, phare.poses(t, x_m=place[:, 0], y_m=place[:, 1], z_m=place[:, 2], yaw_rad=heading, speed_mps=20.0))
-    return file
-
-
 def test_a_law_leads_the_lamps_and_the_drive_repeats(moving, tmp_path):
     rig, hashes = phare.Rig.shipped("matrix"), []
     noisy = phare.Sensors(TRAFFIC, delay_s=0.05, noise_angle_deg=0.1, miss_01=0.2, seed=7)

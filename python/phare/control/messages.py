@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 from .. import phare_pb2 as pb
 from ..errors import LawFailed
@@ -108,6 +109,26 @@ class Given:
             for source in lamp.sources:
                 added.sources.add(**{name: getattr(source, name) for name in source.__slots__})
         return message
+
+    @classmethod
+    def of_proto(cls, message: pb.LawInput, lamps: list[LampOfLaw] | None = None) -> Given:
+        """What to_proto was made of. lamps: those of before, for a message that has none."""
+        def words(kind: type, part: Any, *without: str) -> dict[str, Any]:
+            return {name: getattr(part, name) for name in kind.__slots__ if name not in without}
+
+        given = cls(**words(cls, message, "light", "objects", "ahead", "lamps"), light=LIGHT[message.light_switch])
+        given.objects = [
+            RoadUserSeen(kind=CLASSES[seen.kind], lights=LIGHTS[seen.lights], **words(RoadUserSeen, seen, "kind", "lights"))
+            for seen in message.objects
+        ]
+        given.ahead = [CurveAhead(point.distance_m, point.curvature_1pm) for point in message.ahead]
+        given.lamps = lamps or []
+        if message.lamps:
+            given.lamps = [
+                LampOfLaw(sources=[SourceOfLaw(**words(SourceOfLaw, source)) for source in lamp.sources], **words(LampOfLaw, lamp, "sources"))
+                for lamp in message.lamps
+            ]
+        return given
 
 
 @dataclass(slots=True)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..control.controller import Controller
+from ..control.fmu import Fmu
 from ..control.road_users import read_road_users
 from ..control.sensors import Sensors
 from ..drive import Report, drive
@@ -18,13 +19,15 @@ from ..errors import BadInput
 from ..judge import judge_glare
 from ..measuring import measure
 from ..rig import Rig, shipped_file
-from .plan import Job, Measure, Plan
+from .plan import Job, Measure, Plan, is_fmu
 
 _RANGE_TO_M, _RANGE_STEP_M = 300.0, 0.5
 
 
 def law_named(name: str) -> Controller:
-    """A law by its class: "GlareFree" of phare.laws, or "package.module:Class"; made without arguments."""
+    """A law by its class: "GlareFree" of phare.laws, or "package.module:Class", made without arguments; or the file of an FMU."""
+    if is_fmu(name):
+        return Fmu(name)
     module, _, cls = name.rpartition(":")
     try:
         made = getattr(importlib.import_module(module or "phare.laws"), cls)()

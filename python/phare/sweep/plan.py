@@ -68,12 +68,17 @@ class Plan:
         return list(dict.fromkeys(key for job in self.jobs for key in job.varied))
 
 
+def is_fmu(law: Any) -> bool:
+    """A law that is the file of an FMU, and no class."""
+    return str(law).endswith(".fmu")
+
+
 def job_hash(job: Job, plan: Plan) -> str:
     """Of all that the figures of a job depend on but the programs: settings, contents of the files they name, measures."""
     contents = {}
-    for key in FILES:
+    for key in (*FILES, "law"):
         value = job.settings.get(key)
-        if value is not None:
+        if value is not None and (key != "law" or is_fmu(value)):
             file = Path(str(value).split(",")[0])
             contents[key] = hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else "none"
     text = json.dumps([job.settings, contents, [m.__dict__ for m in plan.measures]], sort_keys=True, default=str)
@@ -122,7 +127,7 @@ def _settings(table: dict[str, Any], place: str, folder: Path) -> dict[str, Any]
             raise BadInput(f"{place}: unknown key {key}; there are {', '.join(FILES + WORDS)}, set.SETTING")
         if isinstance(value, (list, dict)) or (isinstance(value, float) and not math.isfinite(value)):
             raise BadInput(f"{place}: {key} = {value!r}: expected one value")
-        if key in FILES:
+        if key in FILES or key == "law" and is_fmu(value):
             name, comma, rest = str(value).partition(",")
             there = (folder / name).resolve()
             if not there.is_file():
