@@ -169,6 +169,112 @@ Outcome sizes(const Bench& bench) {
   return outcome;
 }
 
+/// Pixels that are wrong before a wall at 10 m: not finite, in fog of 1 m showing what the wall is made of, in haze of
+/// 100 km other than in clear air.
+Outcome fog(const Bench& bench) {
+  Renderer& renderer = *bench.renderer;
+  Outcome outcome;
+  const auto seen = [&](float reflectance, double visibility_m) {
+    Scene scene;
+    scene.materials = {{.name = "wall", .reflectance = glm::vec3(reflectance)}};
+    add(scene, wall(10.0f), {-1, 0, 0});
+    if (!renderer.load_scene(scene)) return ImageF{};
+    FrameInput input = lit_view(renderer);
+    input.sky_luminance_cdm2 = 0.0;
+    if (visibility_m > 0.0) input.air.visibility_m = visibility_m;
+    input.want_hdr = true;
+    renderer.draw(input);
+    return renderer.read_hdr();
+  };
+  const ImageF clear = seen(0.5f, 0.0);
+  for (const double visibility_m : {1.0, 3.0, 10.0, 1e3, 1e5}) {
+    const ImageF grey = seen(0.5f, visibility_m), dark = seen(0.05f, visibility_m);
+    std::size_t wrong = 0;
+    for (const ImageF* image : {&grey, &dark})
+      for (const float value : image->rgba) wrong += std::isfinite(value) ? 0u : 1u;
+    // 10 m there and back: of light e^-39 · e^-39 is left at 1 m; at 100 km 0.08 % is lost, and what the air sends back
+    // beside the lamp is 2 % of a bright wall at most.
+    constexpr float kUnseen = 1e-3f, kHaze = 0.03f;
+    for (std::size_t i = 0; i < grey.rgba.size(); i += 4) {
+      wrong += grey.rgba[i] > 0.0f ? 0u : 1u;  // the fog itself is lit
+      if (visibility_m == 1.0) wrong += std::abs(grey.rgba[i] - dark.rgba[i]) > kUnseen * grey.rgba[i] ? 1u : 0u;
+      if (visibility_m == 1e5) wrong += std::abs(grey.rgba[i] - clear.rgba[i]) > kHaze * clear.rgba[i] ? 1u : 0u;
+    }
+    outcome.device.push_back({visibility_m, static_cast<double>(wrong)});
+  }
+  return outcome;
+}
+
+/// Pixels that a lamp as small as a point makes darker, which only a veil that is no number does.
+Outcome point_glare(const Bench& bench) {
+  Renderer& renderer = *bench.renderer;
+  Scene scene;
+  scene.materials = {{.name = "grey"}};
+  add(scene, wall(50.0f), {-1, 0, 0});
+  if (const Status loaded = renderer.load_scene(scene); !loaded) return {.error = loaded.error().text()};
+  Outcome outcome;
+  const auto seen = [&](const std::vector<GlaringLamp>& glare) {
+    FrameInput input = lit_view(renderer);
+    input.glare = glare;
+    input.want_image = true;
+    renderer.draw(input);
+    return renderer.read_image();
+  };
+  const Image8 without = seen({});
+  // In the middle of a pixel and between four, at the picture's edge, beside the eye and on it.
+  const glm::dvec3 eye_m{0.0, 0.0, 1.2};
+  const glm::dvec3 ways[] = {
+      {5000.0, 0.0, 0.0}, {5000.0, 1e-9, 1e-9}, {10.0, 5.7735, 0.0}, {1e-6, 0.0, 0.0}, {0, 0, 0}};
+  for (const double lx : {1e-12, 1e-3, 1.0, 1e6, 1e12}) {
+    std::size_t darker = 0;
+    for (const glm::dvec3& way : ways) {
+      const Image8 with = seen({{.place_m = eye_m + way, .eye_lx = lx}});
+      for (std::size_t i = 0; i < with.rgba.size(); ++i) darker += with.rgba[i] + 1 < without.rgba[i] ? 1u : 0u;
+    }
+    outcome.device.push_back({lx, static_cast<double>(darker)});
+  }
+  return outcome;
+}
+
+/// Pixels outside that a lamp within a closed box lights.
+Outcome lamp_in_a_box(const Bench& bench) {
+  Renderer& renderer = *bench.renderer;
+  Outcome outcome;
+  for (const float half : {0.06f, 0.1f, 0.5f, 2.0f}) {
+    Scene scene;
+    scene.materials = {{.name = "grey"}};
+    add(scene, {{-20, -50, 0}, {200, -50, 0}, {200, 50, 0}, {-20, -50, 0}, {200, 50, 0}, {-20, 50, 0}}, {0, 0, 1});
+    for (int axis = 0; axis < 3; ++axis)
+      for (const float side : {-1.0f, 1.0f}) {
+        glm::vec3 normal{0.0f}, u{0.0f}, v{0.0f}, middle{6.0f, 0.0f, 3.0f};
+        normal[axis] = side, u[(axis + 1) % 3] = side, v[(axis + 2) % 3] = 1.0f;
+        middle += half * normal;
+        u *= half, v *= half;
+        add(scene, {middle - u - v, middle + u - v, middle + u + v, middle - u - v, middle + u + v, middle - u + v},
+            normal);
+      }
+    if (const Status loaded = renderer.load_scene(scene); !loaded) return {.error = loaded.error().text()};
+    FrameInput input = lit_view(renderer);
+    input.camera.eye_m = {-6.0, 0.0, 4.0};
+    // As wide as a headlamp's beam.
+    static const IntensityTable table = table_of(40.0, 3, 3, [](double, double) { return 30'000.0; });
+    const AimedSource source{.table = &table};
+    renderer.set_beam(0, compose_beam_image(std::span(&source, 1)));
+    input.lamps[0].position_m = {6.0, 0.0, 3.0};
+    input.want_hdr = true;
+    renderer.draw(input);
+    const ImageF image = renderer.read_hdr();
+    std::size_t lit = 0;
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) lit += image.rgba[i] == 0.0f ? 0u : 1u;
+    // Without shadows the ground ahead of it is lit: the case has been tried.
+    input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
+    renderer.draw(input);
+    if (not_finite(renderer.read_hdr()) > 0) outcome.error = "the lamp lights nothing without shadows either";
+    outcome.device.push_back({static_cast<double>(half), static_cast<double>(lit)});
+  }
+  return outcome;
+}
+
 /// Lux by every way of storing a beam, of intensities beyond the largest 16-bit float.
 Outcome half_floats(const Bench&) {
   Outcome outcome;
@@ -199,26 +305,37 @@ std::vector<HardCase> picture_cases() {
                     .source = source,
                     .run = run};
   };
-  return {picture("odd-triangles", "a triangle without area or normal gives NaN, which blooms over the picture",
-                  "a point, a line, a needle of 1 km × 1 mm, no normal, inside out", "values that are not finite",
-                  "kind", 0.0, "none may be", odd_triangles),
-          picture("eye-in-the-lamp", "the way to the lamp and the way to the eye coincide: 0 over 0",
-                  "eye at the lamp, and 1 nm to 1 mm off", "values that are not finite", "apart, m", 0.0, "none may be",
-                  eye_in_the_lamp),
-          picture("depth", "far walls fight for the same depth: z-fighting beyond some hundred metres",
-                  "a wall a ten-thousandth of its distance before a brighter one, 0.2 m to 9 km",
-                  "pixels that show the farther", "distance, m", 0.0,
-                  "float32 depth, near at infinity's side: steps of 6e-8 of the distance", depth),
-          picture("exposure", "half floats overflow or underflow before the tone curve",
-                  "one wall at exposures from 1e-6 to 1e6", "steps that get darker", "exposure, per cd/m²", 0.0,
-                  "more exposure is never darker", exposure),
-          picture("sizes", "a picture of one pixel divides by 0; one of 16,385 is taken and crashes",
-                  "1 × 1 to 17 × 17 drawn; 0, −1, 16,385 and 2^30 refused", "wrong answers", "side, pixels", 0.0,
-                  "drawn or refused, never a crash", sizes),
-          picture("half-float-overflow", "above 65,504 cd a 16-bit float is infinite",
-                  "200,000 cd through each way of storing a beam", "relative error of lux", "level", 5e-3,
-                  "half a step of 8 bits, 2e-3, is the coarsest level's; 1.5e-5 of exposed grids' weights below",
-                  half_floats)};
+  return {
+      picture("odd-triangles", "a triangle without area or normal gives NaN, which blooms over the picture",
+              "a point, a line, a needle of 1 km × 1 mm, no normal, inside out", "values that are not finite", "kind",
+              0.0, "none may be", odd_triangles),
+      picture("eye-in-the-lamp", "the way to the lamp and the way to the eye coincide: 0 over 0",
+              "eye at the lamp, and 1 nm to 1 mm off", "values that are not finite", "apart, m", 0.0, "none may be",
+              eye_in_the_lamp),
+      picture("depth", "far walls fight for the same depth: z-fighting beyond some hundred metres",
+              "a wall a ten-thousandth of its distance before a brighter one, 0.2 m to 9 km",
+              "pixels that show the farther", "distance, m", 0.0,
+              "float32 depth, near at infinity's side: steps of 6e-8 of the distance", depth),
+      picture("exposure", "half floats overflow or underflow before the tone curve",
+              "one wall at exposures from 1e-6 to 1e6", "steps that get darker", "exposure, per cd/m²", 0.0,
+              "more exposure is never darker", exposure),
+      picture("sizes", "a picture of one pixel divides by 0; one of 16,385 is taken and crashes",
+              "1 × 1 to 17 × 17 drawn; 0, −1, 16,385 and 2^30 refused", "wrong answers", "side, pixels", 0.0,
+              "drawn or refused, never a crash", sizes),
+      picture("fog-of-one-metre", "the exponent runs out of float32, or a step of the fog's grid jumps over the light",
+              "a wall at 10 m in fog of 1, 3, 10, 1,000 and 100,000 m", "pixels wrong", "visibility, m", 0.0,
+              "at 1 m e^-78 of the wall is left; at 100 km the picture is that of clear air to 3 %", fog),
+      picture("point-glare", "a lamp smaller than a pixel has no angle: its veil divides by 0 and spreads",
+              "lamps of 1e-12 to 1e12 lx in a pixel's middle, at the edge, beside the eye and on it",
+              "pixels made darker", "lux at the eye", 0.0, "light is added: nothing gets darker", point_glare),
+      picture("lamp-in-a-box", "light leaks through what closes around the lamp",
+              "a lamp in closed boxes of 12 cm to 4 m above a road, shadows as the scene calls for; what is within 5 "
+              "cm casts none",
+              "pixels lit outside", "half the box's side, m", 0.0, "none may be", lamp_in_a_box),
+      picture("half-float-overflow", "above 65,504 cd a 16-bit float is infinite",
+              "200,000 cd through each way of storing a beam", "relative error of lux", "level", 5e-3,
+              "half a step of 8 bits, 2e-3, is the coarsest level's; 1.5e-5 of exposed grids' weights below",
+              half_floats)};
 }
 
 }  // namespace phare::hard

@@ -136,8 +136,9 @@ void Loop::warm_up() {
         versus_.show(halves, s_.desk.compare, pose, {}, {});
         s_.renderer.draw(halves);
       }
-      // Where the governor may step to: not in the drive either.
-      if (!last || !thorough || clear != air_of(s_.desk).clear()) continue;
+      // Where the governor may step to: not in the drive either, by low beam or high beam of each design.
+      const bool beam = controls.light_switch >= LightSwitch::kLow && !controls.fog_front;
+      if (!(last || beam) || !thorough || clear != air_of(s_.desk).clear()) continue;
       for (const GovernorLevel& level : s_.governor.levels()) {
         FrameInput of_level = input;
         of_level.method = level.method;

@@ -39,6 +39,11 @@ std::vector<double> sample_weights(double low_deg, double high_deg, double shift
   return weights;
 }
 
+bool same_light(const IntensityTable& a, const IntensityTable& b) {
+  return &a == &b || (a.type == b.type && a.axis == b.axis && a.screen_distance_m == b.screen_distance_m &&
+                      a.first_deg == b.first_deg && a.second_deg == b.second_deg && a.candela == b.candela);
+}
+
 }  // namespace
 
 HsprGrid::HsprGrid(const HsprLamp& lamp) {
@@ -71,7 +76,14 @@ double HsprGrid::bilinear_cd(double h_deg, double v_deg) const {
 }
 
 HsprLight::HsprLight(std::span<const HsprLamp> lamps) : lamps_(lamps.begin(), lamps.end()) {
-  for (const HsprLamp& lamp : lamps_) grids_.emplace_back(lamp);
+  for (const HsprLamp& lamp : lamps_) {
+    const auto same = std::find_if(
+        lamps_.begin(), lamps_.begin() + static_cast<std::ptrdiff_t>(grids_.size()), [&](const HsprLamp& other) {
+          return other.aim_up_deg == lamp.aim_up_deg && same_light(*other.table, *lamp.table);
+        });
+    const auto before = static_cast<std::size_t>(same - lamps_.begin());
+    grids_.push_back(before < grids_.size() ? grids_[before] : std::make_shared<const HsprGrid>(lamp));
+  }
 }
 
 double HsprLight::spacing_m() const {
@@ -96,7 +108,7 @@ double HsprLight::lux(HsprView view, double x_m, double y_m, double z_m) const {
     const double q = std::sqrt(dx * dx + z_m * z_m), d2 = q * q + dy * dy;
     const double cd = view == HsprView::kPhysical
                           ? physical_cd(k, dx, dy, z_m)
-                          : grids_[k].nearest_cd(std::atan(dx / z_m) * kDegrees, std::atan(dy / q) * kDegrees);
+                          : grids_[k]->nearest_cd(std::atan(dx / z_m) * kDegrees, std::atan(dy / q) * kDegrees);
     sum += cd * z_m / (d2 * std::sqrt(d2));
   }
   return sum;
@@ -107,7 +119,8 @@ double HsprLight::flux_lm(HsprView view, double v_low_deg, double v_high_deg, do
   if (view == HsprView::kPhysical) {
     // The grid is bilinear in H and V: its flux is exact, cosine of V included.
     const auto row_of = [](double v) { return static_cast<std::size_t>(std::lround(v * 20.0) + 300); };
-    for (const HsprGrid& grid : grids_) {
+    for (const auto& grid_of : grids_) {
+      const HsprGrid& grid = *grid_of;
       IntensityTable window;
       for (std::size_t i = 0; i < HsprGrid::kColumns; ++i)
         window.first_deg.push_back((static_cast<double>(i) - 900.0) / 20.0);
@@ -128,7 +141,7 @@ double HsprLight::flux_lm(HsprView view, double v_low_deg, double v_high_deg, do
     for (std::size_t j = 0; j < HsprGrid::kRows; ++j) {
       if (rows[j] == 0.0) continue;
       double row = 0.0;
-      for (std::size_t i = 0; i < HsprGrid::kColumns; ++i) row += columns[i] * grids_[k].at(i, j);
+      for (std::size_t i = 0; i < HsprGrid::kColumns; ++i) row += columns[i] * grids_[k]->at(i, j);
       sum += rows[j] * row;
     }
   }
@@ -148,7 +161,7 @@ std::vector<double> HsprLight::glare_lm(HsprView view, std::span<const HsprStrip
         for (int row = 0; row < kWindowRows; ++row) {
           const double dy = kWindowTop_m - kWindowRow_m * row - lamps_[k].y_m;
           const double q = std::sqrt(dx * dx + z * z), d2 = q * q + dy * dy;
-          const double cd = method ? grids_[k].bilinear_cd(std::atan(dx / z) * kDegrees, std::atan(dy / q) * kDegrees)
+          const double cd = method ? grids_[k]->bilinear_cd(std::atan(dx / z) * kDegrees, std::atan(dy / q) * kDegrees)
                                    : physical_cd(k, dx, dy, z);
           const double cosine = method ? 1.0 : z / std::sqrt(d2);
           result[k] += strip.factor * weight(row, column) * cd * cosine * kWindowColumn_m * kWindowRow_m / d2;
@@ -162,7 +175,7 @@ std::vector<double> HsprLight::glare_lm(HsprView view, std::span<const HsprStrip
 double HsprLight::brightest_cd(std::size_t lamp, double h_from_deg, double h_to_deg, double v_deg) const {
   double brightest = 0.0;
   for (int i = 0; i <= 100; ++i)
-    brightest = std::max(brightest, grids_[lamp].bilinear_cd(h_from_deg + (h_to_deg - h_from_deg) * i / 100.0, v_deg));
+    brightest = std::max(brightest, grids_[lamp]->bilinear_cd(h_from_deg + (h_to_deg - h_from_deg) * i / 100.0, v_deg));
   return brightest;
 }
 

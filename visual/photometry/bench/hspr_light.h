@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -71,7 +72,7 @@ class HsprLight {
   double physical_cd(std::size_t lamp, double dx, double dy, double dz) const;
 
   std::vector<HsprLamp> lamps_;
-  std::vector<HsprGrid> grids_;
+  std::vector<std::shared_ptr<const HsprGrid>> grids_;  ///< of each lamp; of equal tables aimed alike it is one
 };
 
 /// Walks from `from` inwards in even steps to the first place where E is strictly above the threshold; nothing if E
