@@ -136,10 +136,12 @@ void Loop::warm_up() {
         versus_.show(halves, s_.desk.compare, pose, {}, {});
         s_.renderer.draw(halves);
       }
-      // Where the governor may step to: not in the drive either, by low beam or high beam of each design.
-      const bool beam = controls.light_switch >= LightSwitch::kLow && !controls.fog_front;
-      if (!(last || beam) || !thorough || clear != air_of(s_.desk).clear()) continue;
+      // Where the governor may step to: not in the drive either. By every beam only the levels of shadows: another
+      // method is a step that is seldom made, and each of its pictures takes long.
+      if (controls.light_switch < LightSwitch::kLow || !thorough || clear != air_of(s_.desk).clear()) continue;
       for (const GovernorLevel& level : s_.governor.levels()) {
+        const bool shadows_alone = level.method == input.method && level.shadows > 0;
+        if (!last && !shadows_alone) continue;
         FrameInput of_level = input;
         of_level.method = level.method;
         of_level.effects[static_cast<std::size_t>(Effect::kShadows)] = level.shadows;
