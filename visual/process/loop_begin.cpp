@@ -136,12 +136,11 @@ void Loop::warm_up() {
         versus_.show(halves, s_.desk.compare, pose, {}, {});
         s_.renderer.draw(halves);
       }
-      // Where the governor may step to: not in the drive either. By every beam only the levels of shadows: another
-      // method is a step that is seldom made, and each of its pictures takes long.
+      // Where the governor may step to: not in the drive either. But by "reference" with the first beam alone: its
+      // pictures take long.
       if (controls.light_switch < LightSwitch::kLow || !thorough || clear != air_of(s_.desk).clear()) continue;
       for (const GovernorLevel& level : s_.governor.levels()) {
-        const bool shadows_alone = level.method == input.method && level.shadows > 0;
-        if (!last && !shadows_alone) continue;
+        if (!last && level.method == Method::kReference) continue;
         FrameInput of_level = input;
         of_level.method = level.method;
         of_level.effects[static_cast<std::size_t>(Effect::kShadows)] = level.shadows;
