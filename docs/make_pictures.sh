@@ -44,6 +44,10 @@ convert "$out"/three/{left,.,right}/frames/000059.png +append "$out/three.png"
 picture "$out/three.png" three
 "$phare" drive --design halogen --versus led --headless --lockstep --frames 60 --samples 4 --out "$out/ab" --port-base "$ports"
 picture "$out/ab/frames/000059.png" versus
+"$phare" drive --headless --lockstep --frames 60 --samples 4 --camera wall --design halogen --versus led --out "$out/wall" --port-base "$ports"
+picture "$out/wall/frames/000059.png" wall_versus
+"$phare" drive --headless --lockstep --frames 60 --samples 4 --set layout=inset --set compare=difference --design halogen --versus led --out "$out/difference" --port-base "$ports"
+picture "$out/difference/frames/000059.png" difference
 xvfb-run -a "$phare" drive --lockstep --frames 60 --samples 4 --set panel=on --out "$out/panel" --port-base "$ports"
 picture "$out/panel/frames/000059.png" panel
 ls -l docs/pictures

@@ -68,9 +68,10 @@ FreeEye free_eye_at(const Camera& camera, const VehicleState& pose);
 /// How the eye goes through what falls: with the car, or it stands in the world.
 Falling falling_past(const CameraEye& eye, const VehicleState& pose, SimTime time);
 
-/// Room for the second camera of Layout::kInset: in the upper right corner, clear of the mirrors.
-inline constexpr PicturePart kInsetPart{0.68, 0.02, 0.30, 0.30};
-inline constexpr OverlayRoom kRoomBesideInset{.lines_width_01 = 0.66, .panel_top_01 = 0.34};
+/// Room for the second camera of Layout::kInset: in the upper right corner, clear of the mirrors and of the scale of
+/// colours.
+inline constexpr PicturePart kInsetPart{0.625, 0.02, 0.30, 0.30};
+inline constexpr OverlayRoom kRoomBesideInset{.lines_width_01 = 0.61, .panel_top_01 = 0.34};
 /// What mirrors and the second camera leave.
 OverlayRoom room_beside(const Desk& desk);
 /// The layout: of the picture's own view the part that it leaves to it, and the second camera beside it, with what else

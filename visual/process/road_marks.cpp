@@ -236,7 +236,7 @@ struct Tick {
 /// A column of colours at the right edge; `colour_at` of the share from its lower end.
 template <typename ColourAt>
 void draw_column(OverlayMarks& picture, const char* title, const ColourAt& colour_at, const std::vector<Tick>& ticks) {
-  constexpr double kLeft_01 = 0.94, kWidth_01 = 0.014, kTop_01 = 0.12, kHeight_01 = 0.5;
+  constexpr double kLeft_01 = 0.94, kWidth_01 = 0.014, kTop_01 = 0.12, kHeight_01 = 0.47;  // above the right mirror
   constexpr int kBoxes = 64;
   picture.boxes.push_back({kLeft_01 - 0.008, kTop_01 - 0.055, 0.065, kHeight_01 + 0.075, {30, 36, 42}, 155});
   for (int i = 0; i < kBoxes; ++i) {
