@@ -89,9 +89,15 @@ void PictureOptions::add_to(CLI::App& app) {
   const auto checked = [&](const char* option, const char* name, const char* says) {
     setting(option, name, says)->check([name](const std::string& value) { return why_not({name, value}); }, "", name);
   };
-  checked("--camera", "camera",
-          "Eye of the picture: driver, birds-eye, chase, oncoming, wall, a mirror, free, or one of the rig's own "
-          "cameras [driver]");
+  // The names that there are always, for help and completion.
+  std::string cameras;
+  for (const std::string_view name : kCameraNames) cameras += (cameras.empty() ? "{" : ",") + std::string(name);
+  setting("--camera", "camera", "Eye of the picture: one of these, or one of the rig's own cameras [driver]")
+      ->check(
+          [](const std::string& value) {
+            return why_not({"camera", value});
+          },
+          cameras + "}", "camera");
   checked("--exposure", "exposure_per_cdm2", "Exposure, 1/(cd/m2) [0.3]");
   checked("--adaptation", "adaptation_k",
           "Light of this colour temperature in K looks white, or auto: the eye follows the lamps [the rig's]");

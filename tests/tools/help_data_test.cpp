@@ -128,7 +128,7 @@ TEST(Completion, BashOffersCommandsOptionsAndChoices) {
   EXPECT_EQ(offered("phare", "dr"), std::set<std::string>{"drive"});
   EXPECT_TRUE(offered("phare lamp", "").contains("check"));
   EXPECT_EQ(offered("phare drive --camera", ""),
-            (std::set<std::string>{"driver", "birds-eye", "chase", "oncoming", "left-mirror", "inner-mirror",
+            (std::set<std::string>{"driver", "birds-eye", "chase", "oncoming", "wall", "left-mirror", "inner-mirror",
                                    "right-mirror", "free"}));
   EXPECT_EQ(offered("phare drive --headless --camera", "c"), (std::set<std::string>{"chase"}));
   EXPECT_EQ(offered("phare lamp check x.ies --traffic", "r"), (std::set<std::string>{"right"}));
@@ -183,39 +183,13 @@ TEST(PictureOptions, EveryOptionOfVisualReachesItThroughDrive) {
 }
 
 TEST(PictureOptions, AreTurnedBackIntoTheArgumentsTheyWere) {
-  const std::vector<std::string> given{"--frames",
-                                       "3",
-                                       "--size",
-                                       "320x180",
-                                       "--samples",
-                                       "4",
-                                       "--camera",
-                                       "chase",
-                                       "--exposure",
-                                       "1.5",
-                                       "--adaptation",
-                                       "4300",
-                                       "--method",
-                                       "vertex-1998",
-                                       "--false-colour",
-                                       "--set",
-                                       "lines=off",
-                                       "--still-at",
-                                       "2.5",
-                                       "--traffic",
-                                       "/dev/null",
-                                       "--video",
-                                       "--beam-image",
-                                       "half-float-native-nodes",
-                                       "--road-lod",
-                                       "2",
-                                       "--audit-every",
-                                       "0",
-                                       "--audit-bound",
-                                       "1%",
-                                       "--device",
-                                       "llvm",
-                                       "--validation"};
+  const std::vector<std::string> given{
+      "--frames",   "3",           "--size",         "320x180", "--samples",     "4",
+      "--camera",   "chase",       "--exposure",     "1.5",     "--adaptation",  "4300",
+      "--method",   "vertex-1998", "--false-colour", "--set",   "lines=off",     "--still-at",
+      "2.5",        "--traffic",   "/dev/null",      "--video", "--beam-image",  "half-float-native-nodes",
+      "--road-lod", "2",           "--audit-every",  "0",       "--audit-bound", "1%",
+      "--device",   "llvm",        "--validation"};
   PictureOptions options;
   CLI::App app;
   options.add_to(app);
