@@ -133,6 +133,22 @@ TEST_F(Folder, AnotherDriveGoesBesideUnlessItMayOverwrite) {
   EXPECT_TRUE(fs::exists(folder_ / "out" / "right" / "notes.txt"));
 }
 
+// Stills are the driver's, whole and by the car's own light, whatever the pictures show.
+TEST_F(Folder, StillsAreTheDriversWhateverIsShown) {
+  const std::string plain = "--frames 3 --still-at 0.03 ";
+  const Said said = drive_here(plain + "--out plain");
+  ASSERT_EQ(said.code, 0) << said.err;
+  ASSERT_EQ(
+      drive_here(plain + "--camera wall --set layout=split --set second_camera=chase --set mirrors=on --out other")
+          .code,
+      0);
+  for (const char* still : {"drivers_view.png", "birds_eye.png", "wall_25m.png", "hdr.exr"}) {
+    const std::string first = contents_of(folder_ / "plain" / still);
+    EXPECT_FALSE(first.empty()) << still;
+    EXPECT_TRUE(contents_of(folder_ / "other" / still) == first) << still;
+  }
+}
+
 // A disk that takes no more, here a folder that is gone: the drive goes on, and says at its end what is missing.
 TEST_F(Folder, PicturesThatCouldNotBeKeptAreCountedAndEndWithOne) {
   const fs::path out = folder_ / "out";

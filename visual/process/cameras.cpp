@@ -144,7 +144,7 @@ FreeEye free_eye_at(const Camera& camera, const VehicleState& pose) {
   const glm::dmat3 car_from_world = glm::transpose(world_from_car(0.0, 0.0, pose.yaw_rad));
   const glm::dvec3 ahead = car_from_world * camera.world_from_eye[0];
   FreeEye eye{.frame = Probe::Frame::kCar, .position_m = car_from_world * (camera.eye_m - position_of(pose))};
-  // Straight down has no direction: the heading, as the upper edge of the bird's eye has it at the right.
+  // Straight down looks nowhere: the car's heading is up in the picture then.
   const bool level = std::hypot(ahead.x, ahead.y) > 1e-6;
   eye.yaw_deg = level ? std::atan2(ahead.y, ahead.x) * kDegPerRad : 0.0;
   eye.pitch_deg = std::clamp(std::asin(std::clamp(ahead.z, -1.0, 1.0)) * kDegPerRad, -89.0, 89.0);

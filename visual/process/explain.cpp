@@ -78,7 +78,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.air);
   const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.air);
   input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
-  if (const auto props = Props::of(movers))
+  if (const auto props = Props::of(movers))  // whoever has read them has looked
     props->add_to(input, desk.camera, lamps, moment.pose, controls.light_switch != LightSwitch::kOff, world);
   DrawnOver over = drawn_over(input);
   over.gui = window && desk.panel;  // nothing is laid out: there is no window yet

@@ -59,6 +59,8 @@ class Loop {
   void show_panel(const Moment& moment);
   PanelFacts panel_facts(const Moment& moment, double since_s) const;
   void measure(const Moment& moment);
+  std::vector<GlaringLamp> add_views(const Moment& moment, const Lamps& shining);
+  FrameInput still_of(const Moment& moment) const;
   void light_up(const CockpitState& controls);
   void upload(const std::vector<Lamps::Change>& changes);
   EffectChoices picked_effects() const;

@@ -96,6 +96,7 @@ void Loop::audit(const Moment& moment) {
       !input_.lamps.empty()) {
     FrameInput own = input_;  // the car's own light, which is known in float64
     own.lamps = s_.lamps.placed(moment.car.pose);
+    own.camera.seen_from_01 = 0.0, own.camera.seen_to_01 = 1.0;  // the whole view, of which a half may be shown
     own.moving.clear();
     const auto samples = s_.renderer.audit(own, kPixels, static_cast<std::uint64_t>(number) + 1);
     const AuditMoment where{

@@ -29,13 +29,7 @@ void Loop::keep(const Moment& moment) {
     s_.album.keep_frame(number_of(moment), image, label(moment));
   }
   if (wants_stills(moment)) {
-    FrameInput driver = input_;
-    driver.camera = driver_camera(s_.channel(), moment.car.pose);
-    driver.lamps = s_.lamps.placed(moment.car.pose);
-    driver.moving.clear(), driver.glare.clear();  // stills are of the car's own light
-    driver.view = View::kPhoto;
-    driver.marks = {}, driver.gui = nullptr;
-    driver.more_views.clear();
+    const FrameInput driver = still_of(moment);
     still_ = Still{driver, moment};
     s_.stills_design = s_.lamps.design_index();
     // Before the stills, whose last picture says that all are there.
@@ -45,6 +39,20 @@ void Loop::keep(const Moment& moment) {
     progress_ = Clock::now();
     frame_end_ = {};  // not a frame interval
   }
+}
+
+/// The frame as stills have it, whatever camera and layout are shown: the driver's eye over the whole picture, by the
+/// car's own light, with nothing over it.
+FrameInput Loop::still_of(const Moment& moment) const {
+  FrameInput still = input_;
+  still.camera = driver_camera(s_.channel(), moment.car.pose);
+  still.part = {};
+  still.falling = falling_past({}, moment.car.pose, moment.time);
+  still.lamps = s_.lamps.placed(moment.car.pose);
+  still.moving.clear(), still.glare.clear(), still.more_views.clear();
+  still.view = View::kPhoto;
+  still.overlay.clear(), still.instruments.clear(), still.panel = {}, still.marks = {}, still.gui = nullptr;
+  return still;
 }
 
 void Loop::finish() {
@@ -106,11 +114,9 @@ void Loop::log_frame(const Moment& moment, const FrameResult& result) {
 /// that the counts are those of the drive.
 void Loop::keep_other_designs() {
   if (!s_.album.wanted() || s_.stop.requested()) return;
-  if (!still_ && newest_) still_ = Still{input_, *newest_};  // those there are were made by the process before
+  if (!still_ && newest_)
+    still_ = Still{still_of(*newest_), *newest_};  // those there are were made by the process before
   if (!still_) return;
-  still_->driver.more_views.clear(), still_->driver.marks = {}, still_->driver.overlay.clear();
-  still_->driver.instruments.clear(), still_->driver.panel = {}, still_->driver.view = View::kPhoto;
-  still_->driver.moving.clear(), still_->driver.glare.clear();
   for (const auto& [design, seconds] : s_.designs_lit.seconds) {
     if (s_.stills_design == design) continue;
     Lamps lamps = s_.lamps;

@@ -191,16 +191,35 @@ std::vector<GlaringLamp> Loop::glare_in(const ViewInput& view, const VehicleStat
   return glare;
 }
 
+/// The eyes besides the first, what shines into each, and what only some of them see. Returns the car's own tail lamps
+/// as the first eye sees them.
+std::vector<GlaringLamp> Loop::add_views(const Moment& moment, const Lamps& shining) {
+  const VehicleState& pose = moment.car.pose;
+  if (s_.desk.mirrors) input_.more_views = mirror_views(input_, s_.channel(), pose);
+  const bool two = s_.desk.layout != Layout::kFull;
+  const CameraEye second = two ? eye_named(s_.desk, s_.desk.second_camera) : CameraEye{};
+  if (two) {
+    const SeenBy by = seen_by(second, s_.channel(), s_.lamps, pose, &measuring_.road());
+    lay_out(input_, s_.desk.layout, camera_of(second, by), s_.desk.second_camera);
+    input_.more_views.back().falling = falling_past(second, pose, moment.time);
+  }
+  input_.glare = glare_in(input_, pose, shining);
+  for (ViewInput& view : input_.more_views) view.glare = glare_in(view, pose, shining);
+  const bool lit = moment.controls.light_switch != LightSwitch::kOff;
+  const auto of_others = static_cast<std::ptrdiff_t>(input_.glare.size());
+  s_.props.add_to(input_, s_.desk.camera, shining, pose, lit, world_);
+  if (two) s_.props.add_to(input_.more_views.back(), second.kind, shining, pose, lit, world_);
+  input_.room = room_beside(s_.desk);
+  return {input_.glare.begin() + of_others, input_.glare.end()};
+}
+
 void Loop::draw(const Moment& moment) {
   light_up(shown_by_desk(s_.desk, moment.controls));
   mind_the_lamps(moment.time);
   upload(versus_.follow(s_.desk, s_.lamps, moment.controls));
   set_by_desk(input_, s_.desk);
   const CameraEye eye = first_eye(s_.desk);
-  const auto camera = [&](const CameraEye& of) {
-    return camera_of(of, seen_by(of, s_.channel(), s_.lamps, moment.car.pose, &measuring_.road()));
-  };
-  input_.camera = camera(eye);
+  input_.camera = camera_of(eye, seen_by(eye, s_.channel(), s_.lamps, moment.car.pose, &measuring_.road()));
   input_.part = {};
   input_.falling = falling_past(eye, moment.car.pose, moment.time);
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
@@ -216,19 +235,7 @@ void Loop::draw(const Moment& moment) {
   if (std::exchange(eye_set_, s_.desk.eye) != s_.desk.eye) s_.eye = eye_set(s_.desk.eye);
   s_.eye.see(moment.time, versus_.light(s_.lamps));
   input_.white = s_.eye.white();
-  if (s_.desk.mirrors) input_.more_views = mirror_views(input_, s_.channel(), moment.car.pose);
-  const CameraEye second = eye_named(s_.desk, s_.desk.second_camera);
-  lay_out(input_, s_.desk.layout, camera(second), s_.desk.second_camera);
-  if (s_.desk.layout != Layout::kFull)
-    input_.more_views.back().falling = falling_past(second, moment.car.pose, moment.time);
-  const Lamps& shining = others_turn ? *versus_.lamps() : s_.lamps;
-  input_.glare = glare_in(input_, moment.car.pose, shining);
-  for (ViewInput& view : input_.more_views) view.glare = glare_in(view, moment.car.pose, shining);
-  const bool tail = moment.controls.light_switch != LightSwitch::kOff;
-  s_.props.add_to(input_, eye.kind, shining, moment.car.pose, tail, world_);
-  if (s_.desk.layout != Layout::kFull)
-    s_.props.add_to(input_.more_views.back(), second.kind, shining, moment.car.pose, tail, world_);
-  input_.room = room_beside(s_.desk);
+  const std::vector<GlaringLamp> tail_lamps = add_views(moment, others_turn ? *versus_.lamps() : s_.lamps);
   if (s_.window) {
     screens_.see(moment.controls);
     input_.panel = screens_.panel(moment.controls, moment.time.seconds(), s_.desk.help);
@@ -252,8 +259,10 @@ void Loop::draw(const Moment& moment) {
   const bool both = versus_.lamps() != nullptr && s_.desk.compare != Compare::kFlicker;
   if (both) {
     halves = input_;
-    versus_.show(halves, s_.desk.compare, moment.car.pose, their_lamps,
-                 glare_in(input_, moment.car.pose, *versus_.lamps()));
+    std::vector<GlaringLamp> glare = tail_lamps;  // into B's half; a difference has none
+    if (s_.desk.compare == Compare::kSplit)
+      for (const GlaringLamp& lamp : glare_in(input_, moment.car.pose, *versus_.lamps())) glare.push_back(lamp);
+    versus_.show(halves, s_.desk.compare, moment.car.pose, their_lamps, std::move(glare));
   }
   const FrameResult result = s_.renderer.draw(both ? halves : input_);
   if (over_) return;  // what is counted is the drive

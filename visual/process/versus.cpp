@@ -40,19 +40,20 @@ std::vector<Lamps::Change> Versus::follow(const Desk& desk, const Lamps& shown, 
   controls.design_index = static_cast<std::uint32_t>(*design);
   std::vector<Lamps::Change> changes = lamps_->set_controls(controls);
   for (Lamps::Change& change : changes) change.position += kFirstBeam;
-  align(desk, shown, mounts.aim_rad);
+  align(desk, shown, *design, mounts);
   return changes;
 }
 
-void Versus::align(const Desk& desk, const Lamps& shown, double aim_rad) {
+void Versus::align(const Desk& desk, const Lamps& shown, std::size_t design, Lamps::Mounts mounts) {
   aligned_rad_.reset();
   if (!desk.versus_aligned) return;
   double turned_rad = 0.0;
   for (int step = 0; step < 3; ++step) {  // of a tangent: each leaves a hundredth of what the one before did
     const auto a_m = shown.cutoff_height_m({}, kWall_m), b_m = lamps_->cutoff_height_m({}, kWall_m);
     if (!a_m || !b_m) return;
-    turned_rad += std::atan2(*a_m - *b_m, kWall_m);
-    lamps_->set_aim(aim_rad + turned_rad);
+    const double more_rad = std::atan2(*a_m - *b_m, kWall_m);
+    turned_rad += more_rad, mounts.aim_rad += more_rad;
+    (void)lamps_->set_mounts(design, mounts);  // no step that somebody could take back
   }
   aligned_rad_ = turned_rad;
 }

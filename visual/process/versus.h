@@ -48,7 +48,7 @@ class Versus {
   std::uint64_t work_done() const { return work_; }
 
  private:
-  void align(const Desk& desk, const Lamps& shown, double aim_rad);
+  void align(const Desk& desk, const Lamps& shown, std::size_t design, Lamps::Mounts mounts);
 
   std::unique_ptr<Lamps> lamps_;
   std::optional<double> aligned_rad_;
