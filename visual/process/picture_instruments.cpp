@@ -123,7 +123,7 @@ std::vector<std::optional<double>> PictureInstruments::probes_lx() const {
 
 void PictureInstruments::plot(OverlayMarks& picture) {
   if (!desk_.plot) {
-    plot_ = {};
+    plot_.clear();
     return;
   }
   if (plot_.due(moment_.time)) {

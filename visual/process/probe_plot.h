@@ -20,6 +20,7 @@ class ProbePlot {
   /// What the probes have now, and behind them the chosen point where there is one; nothing: it is nowhere. A time
   /// before the newest, or another number of values, begins anew.
   void add(SimTime now, std::vector<std::optional<double>> lx);
+  void clear() { rows_.clear(); }
   /// A box at the right edge: seconds from left to right, lux from 0 to a round number, a line for each value with its
   /// number and what it is now. `probes`: how many of the values are probes.
   void draw(OverlayMarks& picture, std::size_t probes) const;
