@@ -13,6 +13,9 @@
 #include "config/finite_numbers.h"
 #include "config/formats/toml_table.h"
 #include "tools/commands.h"
+#ifdef PHARE_WITH_GRAPHICS
+#include "visual/gpu/failure.h"
+#endif
 
 namespace phare {
 
@@ -115,7 +118,12 @@ int main(int argc, char** argv) {
   try {
     return phare::run(argc, argv);
   } catch (const std::exception& failure) {  // out of memory, a full disk under a stream: leave with a reason
-    std::fprintf(stderr, "phare: %s\n", failure.what());
+#ifdef PHARE_WITH_GRAPHICS
+    const std::string reason = phare::gpu::reason_of(failure);
+#else
+    const std::string reason = failure.what();
+#endif
+    std::fprintf(stderr, "phare: %s\n", reason.c_str());
     return phare::kExitCheckFailed;
   }
 }

@@ -84,7 +84,12 @@ struct Renderer::Impl {
   }
 
   ~Impl() {
-    if (*device.device) device.device.waitIdle();
+    if (!*device.device) return;
+    try {
+      device.device.waitIdle();
+    } catch (const vk::SystemError&) {
+      return;  // of a device that was lost nothing is left to wait for
+    }
   }
 
   void set_target(int width_px, int height_px) {
@@ -178,6 +183,8 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
   if (options.samples != 1 && options.samples != 4) return Error{"samples", "1 or 4 samples a pixel"};
   try {
     return Renderer(std::make_unique<Impl>(options));
+  } catch (const vk::DeviceLostError&) {  // no fault of what was given
+    throw;
   } catch (const std::exception& error) {
     return Error{"vulkan", error.what()};
   }
@@ -196,6 +203,8 @@ Status Renderer::load_scene(const Scene& scene, const Scene& moving) {
   try {
     impl_->set_scene(scene, moving);
     return Done{};
+  } catch (const vk::DeviceLostError&) {  // no fault of what was given
+    throw;
   } catch (const std::exception& error) {
     return Error{scene.file.string(), error.what()};
   }

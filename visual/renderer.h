@@ -167,6 +167,7 @@ struct AuditSample {
 
 class Renderer {
  public:
+  /// What was asked for cannot be had: an Error. A device that is lost, here and in what follows, is thrown.
   static Result<Renderer> create(const RendererOptions& options);
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;

@@ -5,12 +5,15 @@
 #include <signal.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 #include "net/drive_file.h"
 #include "tests/paths.h"
 #include "tests/process/drive_run.h"
+#include "tests/process/gpu_fault.h"
 
 namespace phare::test {
 namespace {
@@ -213,6 +216,34 @@ TEST_P(KillTest, TheDriveGoesOnAsIfNothingHadHappened) {
 }
 INSTANTIATE_TEST_SUITE_P(Each, KillTest, testing::Values("cockpit", "dynamics", "visual-0"),
                          [](const auto& info) { return std::string(info.param, std::strcspn(info.param, "-")); });
+
+// A driver that is reset, a card that is taken away: the visual says so and leaves, one begun anew asks for the device
+// again, and no picture is missing or another.
+TEST_F(DriveTest, ALostDeviceIsAskedForAgain) {
+  const fs::path out = folder_ / "device lost";
+  const GpuFault fault("lost-device:60", folder_ / "device lost told");
+  ASSERT_EQ(drive(out, folder_ / "home", arguments()), 0);
+  ASSERT_TRUE(fault.happened());
+  expect_the_same_pictures(out);
+  const json report = report_of(out);
+  ASSERT_EQ(report["restarts"].size(), 1u);
+  EXPECT_EQ(report["restarts"][0]["process"], "visual-0");
+  EXPECT_EQ(report["restarts"][0]["because"], "exit 1") << "it leaves by itself, and does not crash";
+  EXPECT_EQ(report["summary"]["validation_messages"], 0);
+}
+
+// A command that draws without a launcher: it says what happened, and ends with 1.
+TEST_F(DriveTest, ACommandWhoseDeviceIsLostSaysSo) {
+  const GpuFault fault("lost-device:3", folder_ / "command told");
+  const std::string said = (folder_ / "command said").string();
+  const std::string line = "'" + program("phare") + "' hard-cases depth >'" + said + "' 2>&1";
+  const int status = std::system(line.c_str());
+  ASSERT_TRUE(fault.happened());
+  std::stringstream text;
+  text << std::ifstream(said).rdbuf();
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << ": " << text.str();
+  EXPECT_NE(text.str().find("phare: the graphics device was lost ("), std::string::npos) << text.str();
+}
 
 // A car that answers the controls goes on from the whole state that the killed one left, bit for bit.
 TEST_F(DriveTest, AKilledCarThatAnswersTheControlsGoesOnAsIfNothingHadHappened) {

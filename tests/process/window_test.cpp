@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -15,6 +17,7 @@
 #include "net/wire.h"
 #include "tests/paths.h"
 #include "tests/process/drive_run.h"
+#include "tests/process/gpu_fault.h"
 #include "visual/process/panel.h"
 
 namespace phare::test {
@@ -213,6 +216,42 @@ TEST_F(WindowTest, LampsAreMovedByKeysAndAClickReadsAPoint) {
   display_->keys("key Escape");
   EXPECT_EQ(end(), 0);
 }
+
+/// How many pixels of the screen are not what they were, of a million.
+int changed_ppm(const std::vector<std::array<int, 3>>& before, const std::vector<std::array<int, 3>>& after) {
+  if (before.empty() || before.size() != after.size()) return -1;
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) changed += before[i] == after[i] ? 0u : 1u;
+  return static_cast<int>(1'000'000 * changed / before.size());
+}
+
+class WindowFaultTest : public WindowTest, public testing::WithParamInterface<const char*> {};
+
+// What a display server or a driver does to a window: the drive goes on in the same process, and the window shows what
+// happens in it again.
+TEST_P(WindowFaultTest, TheWindowShowsTheDriveAgain) {
+  const GpuFault fault(GetParam(), folder_ / "told");
+  start({"--validation"});
+  ASSERT_TRUE(wait_until([&] { return fault.happened(); }));
+  display_->keys("keydown Up");
+  EXPECT_TRUE(comes<VehicleState>([](const VehicleState& car) { return car.speed_mps > 3.0; })) << "it moves";
+  display_->keys("keyup Up");
+  const auto before = display_->screen();
+  display_->keys("key F1");
+  EXPECT_TRUE(wait_until([&] { return changed_ppm(before, display_->screen()) > 20'000; })) << "the help is shown";
+  display_->keys("key Escape key Escape");
+  EXPECT_EQ(end(), 0) << "and no message of validation";
+  const nlohmann::json report = report_of(folder_ / "out");
+  EXPECT_EQ(report["summary"]["restarts"], 0);
+}
+INSTANTIATE_TEST_SUITE_P(Each, WindowFaultTest,
+                         testing::Values("lost-surface:8", "lost-surface-shown:8", "out-of-date-shown:8",
+                                         "minimised:8:1500"),
+                         [](const auto& info) {
+                           std::string name(info.param, std::strcspn(info.param, ":"));
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 // Camera, halves and plot by keys; the free eye goes on from where another camera stands, and what it sees is kept.
 TEST_F(WindowTest, CamerasAreChosenMovedAndKept) {

@@ -55,7 +55,8 @@ TEST(HardCases, AWrongLawOfDistanceWouldBeSeen) {
 TEST(HardCases, TheDocumentIsTheTable) {
 #ifdef PHARE_WITH_GRAPHICS
   std::vector<HardCase> cases = light_cases();
-  for (std::vector<HardCase> more : {property_cases(), picture_cases(), vehicle_cases(), bus_cases()})
+  for (std::vector<HardCase> more :
+       {property_cases(), picture_cases(), vehicle_cases(), vehicle_limit_cases(), bus_cases()})
     cases.insert(cases.end(), more.begin(), more.end());
   std::ifstream file(source_dir() + "/docs/hard-cases.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -72,7 +73,7 @@ TEST_P(EveryHardCase, Holds) {
   std::vector<HardCase> cases = property_cases();
   const auto add = [&](const std::vector<HardCase>& more) { cases.insert(cases.end(), more.begin(), more.end()); };
   add(bus_cases());
-  if (GetParam() == 1) add(light_cases()), add(vehicle_cases());
+  if (GetParam() == 1) add(light_cases()), add(vehicle_cases()), add(vehicle_limit_cases());
 #ifdef PHARE_WITH_GRAPHICS
   Result<Renderer> renderer = Renderer::create({.width_px = 64, .height_px = 64, .validation = true});
   ASSERT_TRUE(renderer.ok()) << renderer.error().text();

@@ -37,6 +37,7 @@ std::vector<HardCase> all_cases() {
   add(picture_cases());
 #endif
   add(vehicle_cases());
+  add(vehicle_limit_cases());
   add(bus_cases());
   return cases;
 }

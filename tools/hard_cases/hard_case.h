@@ -47,6 +47,7 @@ struct HardCase {
 std::vector<HardCase> light_cases();
 std::vector<HardCase> property_cases();
 std::vector<HardCase> vehicle_cases();
+std::vector<HardCase> vehicle_limit_cases();
 std::vector<HardCase> bus_cases();
 #ifdef PHARE_WITH_GRAPHICS
 std::vector<HardCase> picture_cases();

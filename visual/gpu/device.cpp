@@ -7,7 +7,15 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "visual/gpu/failure.h"
+
 namespace phare::gpu {
+
+std::string reason_of(const std::exception& failure) {
+  if (dynamic_cast<const vk::DeviceLostError*>(&failure) == nullptr) return failure.what();
+  return "the graphics device was lost (" + std::string(failure.what()) +
+         "): its driver was reset or it was taken away; a process begun anew asks for it again";
+}
 
 namespace {
 

@@ -2,9 +2,13 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <exception>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 extern "C" VkResult glfwCreateWindowSurface(VkInstance, GLFWwindow*, const VkAllocationCallbacks*, VkSurfaceKHR*);
 
@@ -15,13 +19,20 @@ WindowSurface::WindowSurface(Device& device, GLFWwindow* window)
       window_(window),
       acquired_(device.device, vk::SemaphoreCreateInfo{}),
       copied_(device.device, vk::SemaphoreCreateInfo{}) {
+  make_surface();
+  rebuild();
+}
+
+void WindowSurface::make_surface() {
+  swapchain_.clear();  // it goes before its surface
+  surface_.clear();
   VkSurfaceKHR surface = VK_NULL_HANDLE;
-  if (glfwCreateWindowSurface(static_cast<VkInstance>(*device.instance), window, nullptr, &surface) != VK_SUCCESS)
+  if (glfwCreateWindowSurface(static_cast<VkInstance>(*device_.instance), window_, nullptr, &surface) != VK_SUCCESS)
     throw std::runtime_error("the window has no Vulkan surface");
-  surface_ = vk::raii::SurfaceKHR(device.instance, surface);
-  if (!device.physical.getSurfaceSupportKHR(device.queue_family, *surface_))
+  surface_ = vk::raii::SurfaceKHR(device_.instance, surface);
+  if (!device_.physical.getSurfaceSupportKHR(device_.queue_family, *surface_))
     throw std::runtime_error("the Vulkan device cannot present to this window");
-  const std::vector<vk::SurfaceFormatKHR> formats = device.physical.getSurfaceFormatsKHR(*surface_);
+  const std::vector<vk::SurfaceFormatKHR> formats = device_.physical.getSurfaceFormatsKHR(*surface_);
   // The shaders write the sRGB signal themselves, so the format must not encode.
   const auto srgb = std::find_if(formats.begin(), formats.end(), [](const vk::SurfaceFormatKHR& f) {
     return f.colorSpace == vk::ColorSpaceKHR::eSrgbNonlinear &&
@@ -29,20 +40,51 @@ WindowSurface::WindowSurface(Device& device, GLFWwindow* window)
   });
   if (srgb == formats.end()) throw std::runtime_error("the window has no 8-bit sRGB format");
   format_ = srgb->format;
-  rebuild();
+}
+
+/// On X11 such a window keeps its size, and may be shown no picture for ever.
+bool WindowSurface::minimised() const {
+  return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
+}
+
+vk::Extent2D WindowSurface::size_of_window() const {
+  if (minimised()) return {0, 0};
+  const vk::Extent2D there = device_.physical.getSurfaceCapabilitiesKHR(*surface_).currentExtent;
+  if (there.width != UINT32_MAX) return there;
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(window_, &width, &height);
+  return {static_cast<std::uint32_t>(std::max(width, 1)), static_cast<std::uint32_t>(std::max(height, 1))};
 }
 
 void WindowSurface::rebuild() {
   device_.device.waitIdle();
-  const vk::SurfaceCapabilitiesKHR capabilities = device_.physical.getSurfaceCapabilitiesKHR(*surface_);
-  extent_ = capabilities.currentExtent;
-  if (extent_.width == UINT32_MAX) {
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
-    extent_ =
-        vk::Extent2D{static_cast<std::uint32_t>(std::max(width, 1)), static_cast<std::uint32_t>(std::max(height, 1))};
+  for (;;) {
+    try {
+      if (lost_) make_surface();
+      return make_swapchain();
+    } catch (const vk::SurfaceLostKHRError&) {
+      mind_the_loss();
+    }
   }
-  if (extent_.width == 0 || extent_.height == 0) return;  // minimized
+}
+
+void WindowSurface::mind_the_loss() {
+  constexpr int kMostLosses = 3;
+  if (++losses_ > kMostLosses)
+    throw std::runtime_error("the window's surface was lost " + std::to_string(losses_) + " times without a picture");
+  spdlog::warn("the window's surface was lost; making it anew");
+  lost_ = true;
+}
+
+void WindowSurface::make_swapchain() {
+  const vk::Extent2D size = size_of_window();
+  lost_ = false;
+  const bool was_hidden = std::exchange(hidden_, size.width == 0 || size.height == 0);
+  asked_ = Clock::now();
+  if (hidden_ != was_hidden) spdlog::info(hidden_ ? "the window is minimised" : "the window is back");
+  if (hidden_) return;
+  extent_ = size;
+  const vk::SurfaceCapabilitiesKHR capabilities = device_.physical.getSurfaceCapabilitiesKHR(*surface_);
   const std::uint32_t most = capabilities.maxImageCount == 0 ? 3 : capabilities.maxImageCount;
   swapchain_ = vk::raii::SwapchainKHR(
       device_.device, vk::SwapchainCreateInfoKHR{.surface = *surface_,
@@ -59,78 +101,103 @@ void WindowSurface::rebuild() {
                                                  .oldSwapchain = *swapchain_});
 }
 
-bool WindowSurface::present(Image& picture) {
-  if (!*swapchain_) return true;
-  if (picture.extent != extent_) return false;
-  try {
-    const std::vector<vk::Image> images =
-        swapchain_.getImages();  // asked for before acquiring: the validation layer counts on it
-    // With the smallest number of images the window may hold on to all: then this picture is not shown, rather than
-    // waited for without end (VUID-vkAcquireNextImageKHR-surface-07783).
-    constexpr std::uint64_t kPatience_ns = 100'000'000;
-    const auto [acquire_result, index] = swapchain_.acquireNextImage(kPatience_ns, *acquired_);
-    if (acquire_result == vk::Result::eTimeout || acquire_result == vk::Result::eNotReady) return true;
-    const vk::Image target = images[index];
-    vk::raii::CommandBuffers buffers(
-        device_.device, vk::CommandBufferAllocateInfo{.commandPool = *device_.command_pool, .commandBufferCount = 1});
-    const vk::CommandBuffer commands = *buffers.front();
-    commands.begin(vk::CommandBufferBeginInfo{.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    auto turn = [&](vk::Image image, vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 after,
-                    vk::AccessFlags2 wrote, vk::PipelineStageFlags2 before, vk::AccessFlags2 use) {
-      const vk::ImageMemoryBarrier2 barrier{.srcStageMask = after,
-                                            .srcAccessMask = wrote,
-                                            .dstStageMask = before,
-                                            .dstAccessMask = use,
-                                            .oldLayout = from,
-                                            .newLayout = to,
-                                            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                            .image = image,
-                                            .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}};
-      commands.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
-    };
-    using Stage = vk::PipelineStageFlagBits2;
-    using Access = vk::AccessFlagBits2;
-    turn(*picture.image, picture.layout, vk::ImageLayout::eTransferSrcOptimal, picture.stage, picture.access,
-         Stage::eCopy, Access::eTransferRead);
-    turn(target, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal, Stage::eCopy, Access::eNone,
-         Stage::eCopy, Access::eTransferWrite);
-    commands.copyImage(*picture.image, vk::ImageLayout::eTransferSrcOptimal, target,
-                       vk::ImageLayout::eTransferDstOptimal,
-                       vk::ImageCopy{.srcSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                                     .dstSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                                     .extent = {extent_.width, extent_.height, 1}});
-    turn(target, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::ePresentSrcKHR, Stage::eCopy,
-         Access::eTransferWrite, Stage::eNone, Access::eNone);
-    commands.end();
-    picture.layout = vk::ImageLayout::eTransferSrcOptimal;
-    picture.stage = Stage::eCopy;
-    picture.access = Access::eTransferRead;
+bool WindowSurface::back_again() {
+  constexpr auto kAskedEvery = std::chrono::milliseconds(100);
+  if (Clock::now() - asked_ < kAskedEvery) return false;
+  asked_ = Clock::now();
+  const vk::Extent2D size = size_of_window();
+  return size.width > 0 && size.height > 0;
+}
 
-    const vk::SemaphoreSubmitInfo wait{.semaphore = *acquired_, .stageMask = Stage::eCopy};
-    const vk::SemaphoreSubmitInfo signal{.semaphore = *copied_, .stageMask = Stage::eAllCommands};
-    const vk::CommandBufferSubmitInfo buffer{.commandBuffer = commands};
-    const vk::raii::Fence fence(device_.device, vk::FenceCreateInfo{});
-    device_.queue.submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = 1,
-                                          .pWaitSemaphoreInfos = &wait,
-                                          .commandBufferInfoCount = 1,
-                                          .pCommandBufferInfos = &buffer,
-                                          .signalSemaphoreInfoCount = 1,
-                                          .pSignalSemaphoreInfos = &signal},
-                          *fence);
-    const vk::SwapchainKHR swapchain = *swapchain_;
-    const vk::Semaphore done = *copied_;
-    const vk::Result presented = device_.queue.presentKHR(vk::PresentInfoKHR{.waitSemaphoreCount = 1,
-                                                                             .pWaitSemaphores = &done,
-                                                                             .swapchainCount = 1,
-                                                                             .pSwapchains = &swapchain,
-                                                                             .pImageIndices = &index});
-    if (device_.device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
-      throw std::runtime_error("waiting for the GPU failed");
-    return acquire_result == vk::Result::eSuccess && presented == vk::Result::eSuccess;
+bool WindowSurface::present(Image& picture) {
+  try {
+    if (hidden_) return !back_again();
+    if (minimised()) return false;
+    return !*swapchain_ || show(picture);
   } catch (const vk::OutOfDateKHRError&) {
     return false;
+  } catch (const vk::SurfaceLostKHRError&) {
+    mind_the_loss();
+    return false;
   }
+}
+
+bool WindowSurface::show(Image& picture) {
+  if (picture.extent != extent_) return false;
+  const std::vector<vk::Image> images =
+      swapchain_.getImages();  // asked for before acquiring: the validation layer counts on it
+  // With the smallest number of images the window may hold on to all: then this picture is not shown, rather than
+  // waited for without end (VUID-vkAcquireNextImageKHR-surface-07783).
+  constexpr std::uint64_t kPatience_ns = 100'000'000;
+  const auto [acquire_result, index] = swapchain_.acquireNextImage(kPatience_ns, *acquired_);
+  if (acquire_result == vk::Result::eTimeout || acquire_result == vk::Result::eNotReady) return true;
+  const vk::Image target = images[index];
+  vk::raii::CommandBuffers buffers(
+      device_.device, vk::CommandBufferAllocateInfo{.commandPool = *device_.command_pool, .commandBufferCount = 1});
+  const vk::CommandBuffer commands = *buffers.front();
+  commands.begin(vk::CommandBufferBeginInfo{.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  auto turn = [&](vk::Image image, vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 after,
+                  vk::AccessFlags2 wrote, vk::PipelineStageFlags2 before, vk::AccessFlags2 use) {
+    const vk::ImageMemoryBarrier2 barrier{.srcStageMask = after,
+                                          .srcAccessMask = wrote,
+                                          .dstStageMask = before,
+                                          .dstAccessMask = use,
+                                          .oldLayout = from,
+                                          .newLayout = to,
+                                          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                          .image = image,
+                                          .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1}};
+    commands.pipelineBarrier2(vk::DependencyInfo{.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+  };
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  turn(*picture.image, picture.layout, vk::ImageLayout::eTransferSrcOptimal, picture.stage, picture.access,
+       Stage::eCopy, Access::eTransferRead);
+  turn(target, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal, Stage::eCopy, Access::eNone,
+       Stage::eCopy, Access::eTransferWrite);
+  commands.copyImage(*picture.image, vk::ImageLayout::eTransferSrcOptimal, target, vk::ImageLayout::eTransferDstOptimal,
+                     vk::ImageCopy{.srcSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                                   .dstSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                                   .extent = {extent_.width, extent_.height, 1}});
+  turn(target, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::ePresentSrcKHR, Stage::eCopy,
+       Access::eTransferWrite, Stage::eNone, Access::eNone);
+  commands.end();
+  picture.layout = vk::ImageLayout::eTransferSrcOptimal;
+  picture.stage = Stage::eCopy;
+  picture.access = Access::eTransferRead;
+
+  const vk::SemaphoreSubmitInfo wait{.semaphore = *acquired_, .stageMask = Stage::eCopy};
+  const vk::SemaphoreSubmitInfo signal{.semaphore = *copied_, .stageMask = Stage::eAllCommands};
+  const vk::CommandBufferSubmitInfo buffer{.commandBuffer = commands};
+  const vk::raii::Fence fence(device_.device, vk::FenceCreateInfo{});
+  device_.queue.submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = 1,
+                                        .pWaitSemaphoreInfos = &wait,
+                                        .commandBufferInfoCount = 1,
+                                        .pCommandBufferInfos = &buffer,
+                                        .signalSemaphoreInfoCount = 1,
+                                        .pSignalSemaphoreInfos = &signal},
+                        *fence);
+  const vk::SwapchainKHR swapchain = *swapchain_;
+  const vk::Semaphore done = *copied_;
+  // Whatever comes of showing it: what was submitted is waited for before it goes.
+  std::exception_ptr not_shown;
+  bool fits = acquire_result == vk::Result::eSuccess;
+  try {
+    fits = device_.queue.presentKHR(vk::PresentInfoKHR{.waitSemaphoreCount = 1,
+                                                       .pWaitSemaphores = &done,
+                                                       .swapchainCount = 1,
+                                                       .pSwapchains = &swapchain,
+                                                       .pImageIndices = &index}) == vk::Result::eSuccess &&
+           fits;
+  } catch (const vk::SystemError&) {
+    not_shown = std::current_exception();
+  }
+  if (device_.device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
+    throw std::runtime_error("waiting for the GPU failed");
+  if (not_shown) std::rethrow_exception(not_shown);
+  losses_ = 0;
+  return fits;
 }
 
 }  // namespace phare::gpu

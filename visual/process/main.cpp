@@ -8,6 +8,7 @@
 #include "config/base/remedies.h"
 #include "net/drive_file.h"
 #include "net/run_key.h"
+#include "visual/gpu/failure.h"
 #include "visual/process/explain.h"
 #include "visual/process/run_loop.h"
 #include "visual/scene/refine.h"
@@ -185,7 +186,7 @@ int main(int argc, char** argv) {
   try {
     return draw_channel(*parsed.options);
   } catch (const std::exception& failure) {  // the device was lost, or memory ran out: say so once and leave
-    spdlog::critical("phare-visual leaves: {}", failure.what());
+    spdlog::critical("phare-visual leaves: {}", gpu::reason_of(failure));
     return kExitCheckFailed;
   }
 }
