@@ -81,6 +81,11 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
   source.pitch_rad = degrees(table, "pitch_deg", -90.0, 90.0);
   source.roll_rad = degrees(table, "roll_deg", -180.0, 180.0);
   source.colour_temperature_k = table.number_or("colour_temperature_k", source.colour_temperature_k, 1667.0, 25000.0);
+  if (table.has("pixels")) source.pixels = resolve_path(table.text("pixels"), rig_file);
+  if (table.has("pixel_map")) {
+    source.pixel_map = resolve_path(table.text("pixel_map"), rig_file);
+    if (!table.has("pixels")) table.fail("pixel_map", "says where the pixels of \"pixels\" shine, and there are none");
+  }
   if (table.has("chromaticity_xy")) {
     const std::vector<double> xy = table.numbers("chromaticity_xy", 2);
     if (table.has("colour_temperature_k"))
@@ -120,6 +125,8 @@ void read_lamp(TomlTable table, const std::filesystem::path& rig_file, DesignCon
   lamp.aim = read_aim(table);
   for (TomlTable source : table.tables("source")) lamp.sources.push_back(read_source(source, rig_file));
   if (lamp.sources.empty()) table.fail("source", "a lamp needs at least one [[design.lamp.source]]");
+  if (std::ranges::count_if(lamp.sources, [](const SourceConfig& source) { return !source.pixels.empty(); }) > 1)
+    table.fail("source", "a lamp has one source with \"pixels\" at most");
   if (!table.flag_or("pair", false)) {
     design.lamps.push_back(lamp);
     return;

@@ -207,6 +207,8 @@ class RigText {
     if (source.yaw_rad != 0.0) key("yaw_deg", degrees_word(source.yaw_rad));
     if (source.pitch_rad != 0.0) key("pitch_deg", degrees_word(source.pitch_rad));
     if (source.roll_rad != 0.0) key("roll_deg", degrees_word(source.roll_rad));
+    if (!source.pixels.empty()) key("pixels", path(source.pixels), "a pixel light: the picture it begins with");
+    if (!source.pixel_map.empty()) key("pixel_map", path(source.pixel_map), "where its pixels shine");
     if (source.chromaticity_xy)
       out_ << "chromaticity_xy = [" << number_word(source.chromaticity_xy->x) << ", "
            << number_word(source.chromaticity_xy->y) << "]\n";

@@ -48,6 +48,7 @@ const std::array<Roles, Verbs::kKinds> kConcerned{
     kVisual,                               // Undo
     kVisual,                               // Reset
     kVisual,                               // Save
+    kVisual,                               // Frame
 };
 
 }  // namespace

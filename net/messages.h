@@ -158,6 +158,12 @@ struct Save {
   std::string file;
   friend bool operator==(const Save&, const Save&) = default;
 };
+/// The picture that the pixel light of a lamp shines.
+struct Frame {
+  std::string lamp;
+  std::string file;  ///< PNG or PGM, as the visual sees it
+  friend bool operator==(const Frame&, const Frame&) = default;
+};
 /// Changes nothing; the answers say what holds now.
 struct Tell {
   friend bool operator==(const Tell&, const Tell&) = default;
@@ -179,7 +185,8 @@ struct RigControl {
   using Undo = rig_command::Undo;
   using Reset = rig_command::Reset;
   using Save = rig_command::Save;
-  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel, Place, Tell, Set, Mount, Undo, Reset, Save> command;
+  using Frame = rig_command::Frame;
+  std::variant<Pause, Seek, Design, Aim, Quit, Dim, Swivel, Place, Tell, Set, Mount, Undo, Reset, Save, Frame> command;
   std::uint64_t request_id = 0;
   std::uint64_t first_open = 0;
 
@@ -239,6 +246,7 @@ struct LampLight {
   std::string lamp;
   double yaw_rad = 0.0, pitch_rad = 0.0;
   std::vector<double> dimming_01;
+  std::string frame{};  ///< of its pixel light; none: as it is
 
   friend bool operator==(const LampLight&, const LampLight&) = default;
 };

@@ -118,6 +118,10 @@ struct CommandFiller {
   void operator()(const RigControl::Undo& undo) const { to.mutable_undo()->set_steps(undo.steps); }
   void operator()(const RigControl::Reset& reset) const { to.mutable_reset()->set_lamp(reset.lamp); }
   void operator()(const RigControl::Save& save) const { to.mutable_save()->set_file(save.file); }
+  void operator()(const RigControl::Frame& frame) const {
+    to.mutable_frame()->set_lamp(frame.lamp);
+    to.mutable_frame()->set_file(frame.file);
+  }
 };
 
 void fill(wire::RigControl& to, const RigControl& from) {
@@ -172,6 +176,7 @@ void fill(wire::LawAnswer& to, const LawAnswer& from) {
     lamp.set_yaw_rad(light.yaw_rad);
     lamp.set_pitch_rad(light.pitch_rad);
     lamp.mutable_dimming_01()->Add(light.dimming_01.begin(), light.dimming_01.end());
+    if (!light.frame.empty()) lamp.set_frame(light.frame);
   }
 }
 

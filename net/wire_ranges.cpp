@@ -144,6 +144,10 @@ struct CommandChecker {
   void operator()(const RigControl::Undo& undo) const { c.require(undo.steps >= 1 && undo.steps <= kMaxUndoSteps); }
   void operator()(const RigControl::Reset& reset) const { c.require(reset.lamp.size() <= kMaxNameBytes); }
   void operator()(const RigControl::Save& save) const { c.require(save.file.size() <= kMaxErrorBytes); }
+  void operator()(const RigControl::Frame& frame) const {
+    c.require(!frame.lamp.empty() && frame.lamp.size() <= kMaxNameBytes && !frame.file.empty() &&
+              frame.file.size() <= kMaxErrorBytes);
+  }
 };
 
 void check(Checker& c, const RigControl& control) {
@@ -217,6 +221,7 @@ void check(Checker& c, const LawAnswer& a) {
     for (const double angle_rad : {light.yaw_rad, light.pitch_rad}) c.within(angle_rad, kMaxAim_rad);
     c.require(light.dimming_01.size() <= kMaxSources, Refusal::kArrays);
     c.numbers(light.dimming_01, 0.0, 1.0);
+    c.require(light.frame.size() <= kMaxErrorBytes);
   }
 }
 

@@ -131,6 +131,9 @@ bool read(RigControl& to, const wire::RigControl& from) {
     case wire::RigControl::kSave:
       to.command = RigControl::Save{from.save().file()};
       return true;
+    case wire::RigControl::kFrame:
+      to.command = RigControl::Frame{from.frame().lamp(), from.frame().file()};
+      return true;
     case wire::RigControl::COMMAND_NOT_SET:
       break;
   }
@@ -185,6 +188,7 @@ void read(LawAnswer& to, const wire::LawAnswer& from) {
     lamp.yaw_rad = light.yaw_rad();
     lamp.pitch_rad = light.pitch_rad();
     lamp.dimming_01.assign(light.dimming_01().begin(), light.dimming_01().end());
+    lamp.frame = light.frame();
   }
 }
 

@@ -114,6 +114,12 @@ Result<RigControl> move(const Words& w) {
   }
   return RigControl{std::move(*mount)};
 }
+Result<RigControl> frame(const Words& w) {
+  if (w.all.size() != 2) return Error{"", "expected a lamp and a file"};
+  std::string file = std::filesystem::absolute(w.all[1]).lexically_normal().string();
+  if (file.size() > 4096) return Error{"", "more than a message holds"};
+  return RigControl{RigControl::Frame{w.all[0], std::move(file)}};
+}
 Result<RigControl> undo(const Words& w) {
   const double steps = w.numbers.empty() ? 1.0 : w.numbers[0];
   if (!is_count(steps, 1000.0) || steps < 1.0) return Error{"", "1 to 1000 steps"};
@@ -151,6 +157,7 @@ constexpr std::size_t kAny = 1000;
 constexpr Verb kVerbs[] = {
     {"dim", "LAMP SOURCE LIGHT", "LIGHT 0 to 1 for a source of the lamp, counted from 1 (0: all)",
      Takes::kLampAndNumbers, 2, 2, dim},
+    {"frame", "LAMP FILE", "the picture (PNG, PGM) that the lamp's pixel light shines", Takes::kText, 2, 2, frame},
     {"swivel", "LAMP YAW_DEG [PITCH_DEG]", "a whole lamp, left and up positive", Takes::kLampAndNumbers, 1, 2, swivel},
     {"place", "LAMP X_M Y_M Z_M", "a lamp elsewhere on the car: from below the rear axle's middle forward, left, up",
      Takes::kLampAndNumbers, 3, 3, place},

@@ -131,7 +131,7 @@ class Rig:
         for design in document.pop("design"):
             lamps = []
             for lamp in design.pop("lamp"):
-                sources = [Source(**_known(Source, {**s, "file": absolute(s["file"])})) for s in lamp.pop("source")]
+                sources = [Source(**_known(Source, s | {key: absolute(s[key]) for key in ("file", "pixels", "pixel_map") if key in s})) for s in lamp.pop("source")]
                 lamps.append(LampPlace(**_known(LampPlace, lamp), sources=sources))
             designs.append(Design(**_known(Design, design), lamps=lamps))
         channels = [Channel(**_known(Channel, channel)) for channel in document.pop("channel", [])]

@@ -310,6 +310,43 @@ TRAFFIC = [phare.RoadUser(start_s_m=120, speed_mps=20.0, offset_m=3.5), phare.Ro
 LOOP = dict(frames=12, **SMALL)
 
 
+def test_a_law_gives_a_pixel_light_its_pictures(moving, tmp_path):
+    """In lockstep each frame shows the picture of its own answer: twice the same drive, and another one with other pictures."""
+    (tmp_path / "full.csv").write_text("h_deg,v_deg,intensity_cd\n" + "".join(f"{h},{v},60000\n" for v in (-4, 4) for h in (-8, 8)))
+    picture, columns, rows = tmp_path / "left.pgm", 64, 32
+
+    def write(shares):
+        new = tmp_path / "left.new"
+        new.write_bytes(b"P5 %d %d 255\n" % (columns, rows) + shares.astype(np.uint8).tobytes())
+        new.replace(picture)
+
+    class Sweep(phare.Controller):
+        step_px = 4
+
+        def step(self, given):
+            shares = np.zeros((rows, columns))
+            at = self.step_px * given.frame_index % columns
+            shares[:, at : at + 8] = 255
+            write(shares)
+            return phare.Answer(light="high", lamps={"headlamp left": phare.LampLight(frame=str(picture))})
+
+    class Still(Sweep):
+        step_px = 0
+
+    write(np.zeros((rows, columns)))
+    rig = phare.Rig.shipped("country_road")
+    for lamp in rig.designs[0].lamps:
+        if lamp.name == "headlamp":
+            lamp.sources.append(phare.Source("high", str(tmp_path / "full.csv"), more={"pixels": str(picture)}))
+    drives = []
+    for name, law in [("one", Sweep()), ("two", Sweep()), ("still", Still())]:
+        write(np.zeros((rows, columns)))
+        drives.append(phare.drive(rig, drive=moving, controller=law, out=tmp_path / name, **LOOP))
+    assert drives[0].picture_hash == drives[1].picture_hash != drives[2].picture_hash
+    assert drives[0].frame(6).tobytes() != drives[2].frame(6).tobytes()
+    assert drives[0].figures["law"]["refused"] == 0
+
+
 def test_a_law_leads_the_lamps_and_the_drive_repeats(moving, tmp_path):
     rig, hashes = phare.Rig.shipped("matrix"), []
     noisy = phare.Sensors(TRAFFIC, delay_s=0.05, noise_angle_deg=0.1, miss_01=0.2, seed=7)

@@ -108,7 +108,7 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
       return r;
     }
     case kPayloadIndex<RigControl>: {
-      switch (v.whole(13)) {
+      switch (v.whole(14)) {
         case 0:
           return RigControl{RigControl::Pause{v.flag()}};
         case 1:
@@ -141,6 +141,8 @@ Payload payload_of(std::size_t index, std::uint32_t channel, Values& v) {
           return RigControl{RigControl::Reset{v.flag() ? "" : "fog left"}};
         case 12:
           return RigControl{RigControl::Save{v.flag() ? "" : "/home/jemand/prüfung.toml"}};
+        case 13:
+          return RigControl{RigControl::Frame{"headlamp left", "/dev/shm/links ü.pgm"}};
         default:
           return RigControl{RigControl::Quit{}};
       }
@@ -259,6 +261,7 @@ std::vector<Datagram> samples(std::uint64_t seed) {
                                  {RigControl::Undo{3}},
                                  {RigControl::Reset{""}},
                                  {RigControl::Save{""}},
+                                 {RigControl::Frame{"headlamp left", "/dev/shm/left.pgm"}},
                                  {RigControl::Tell{}, 12, 3}};
   for (const RigControl& command : commands) {
     Datagram d = sample(kPayloadIndex<RigControl>, random);

@@ -81,6 +81,8 @@ TEST_F(RigWriter, WhatIsWrittenReadsBackTheSame) {
       source.lamp_set = 2;
       source.emitter = 3;
       source.distance_m = 25.0;
+      source.pixels = folder_ / "pixels.png";
+      source.pixel_map = folder_ / "lens.csv";
       source.chromaticity_xy = glm::dvec2{0.3127, 0.329};
       source.colour_temperature_k = SourceConfig{}.colour_temperature_k;
       rig.designs[2].lamps[0].aim = {AimConfig::Kind::kTurned, -0.01};

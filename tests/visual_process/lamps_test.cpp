@@ -124,6 +124,66 @@ TEST(Lamps, ADimmedSourceChangesItsLampAlone) {
   EXPECT_FALSE(lamps->swivel({"spotlight", 0.1, 0.0}).ok());
 }
 
+/// A PGM of one row of shares, repeated.
+std::filesystem::path picture(const char* name, const std::vector<int>& row, int rows) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
+  std::ofstream out(file, std::ios::binary);
+  out << "P5 " << row.size() << ' ' << rows << " 255\n";
+  for (int j = 0; j < rows; ++j)
+    for (const int share : row) out.put(static_cast<char>(share));
+  return file;
+}
+
+// Pictures by hand and by a law; the truth of points and the beam image follow, for this lamp alone.
+TEST(Lamps, APixelLightShinesItsPicture) {
+  Rig rig = two_lamp_rig();
+  for (LampConfig& lamp : rig.designs[0].lamps)
+    lamp.sources[1].pixels = picture("begin.pgm", {255, 255, 255, 0, 0, 0}, 4);
+  rig.designs[0].lamps[1].name = "other";
+  Result<Lamps> lamps = Lamps::load(rig);
+  ASSERT_TRUE(lamps.ok()) << lamps.error().text();
+  lamps->set_controls(controls(LightSwitch::kHigh));
+  const VehicleState pose;
+  // 25 m ahead of the left lamp, 15 degrees to the left and to the right: low beam's 900 cd, and the pixels' 2500.
+  const auto lux = [&](double side_deg) {
+    const double side = std::tan(side_deg * 3.14159265358979323846 / 180.0);
+    const MeasurePoint wall{{28.0, 0.6 + 25.0 * side, 0.7}, {-1.0, 0.0, 0.0}};
+    double of_left = 0.0;
+    for (const PointLight& light : lamps->lights_at(pose, wall))
+      if (light.lamp == "headlamp") of_left = light.candela;
+    return of_left;
+  };
+  EXPECT_NEAR(lux(15.0), 900.0 + 2500.0, 1e-6);
+  EXPECT_NEAR(lux(-15.0), 900.0, 1e-6);
+
+  ASSERT_TRUE(lamps->frame({"headlamp", picture("turned.pgm", {0, 0, 0, 255, 255, 51}, 4).string()}).ok());
+  const std::vector<Lamps::Change> changes = lamps->set_controls(controls(LightSwitch::kHigh));
+  ASSERT_EQ(changes.size(), 1u) << "the other lamp has its own";
+  EXPECT_FALSE(changes[0].part.empty());
+  EXPECT_NEAR(lux(15.0), 900.0, 1e-6);
+  EXPECT_NEAR(lux(-15.0), 900.0 + 2500.0, 1e-6);
+  EXPECT_NEAR(lux(-25.0), 900.0 + 500.0, 1e-6);
+  EXPECT_TRUE(lamps->set_controls(controls(LightSwitch::kHigh)).empty());
+
+  LawAnswer answer;
+  answer.lamps.push_back({"headlamp", 0.0, 0.0, {}, picture("law.pgm", {0, 0, 0, 0, 255, 0}, 4).string()});
+  ASSERT_TRUE(lamps->follow(answer, 0).ok());
+  lamps->set_controls(controls(LightSwitch::kHigh));
+  EXPECT_NEAR(lux(-15.0), 900.0 + 2500.0, 1e-6);
+  EXPECT_NEAR(lux(-25.0), 900.0, 1e-6);
+
+  const std::string wrong = picture("wrong.pgm", {1, 2, 3}, 4).string();
+  EXPECT_EQ(lamps->frame({"headlamp", wrong}).error().text(),
+            wrong + ": 3 × 4 pixels; the light of lamp \"headlamp\" has 6 × 4");
+  EXPECT_FALSE(lamps->frame({"headlamp", "/no/such.png"}).ok());
+  EXPECT_NEAR(lux(-15.0), 900.0 + 2500.0, 1e-6) << "as before";
+  CockpitState second = controls(LightSwitch::kHigh);
+  second.design_index = 1;
+  lamps->set_controls(second);
+  EXPECT_EQ(lamps->frame({"headlamp", wrong}).error().text(),
+            "lamp \"headlamp\": has no pixel light (\"pixels\" of a source in the rig file)");
+}
+
 TEST(Lamps, ASwivelTurnsALampAndSumsNothing) {
   Result<Lamps> lamps = Lamps::load(two_lamp_rig());
   ASSERT_TRUE(lamps.ok());

@@ -112,7 +112,7 @@ TEST_F(VisualVerbs, HasAHandlerForWhatConcernsAPicture) {
                             {RigControl::Aim{}},   {RigControl::Dim{}},  {RigControl::Swivel{}},
                             {RigControl::Place{}}, {RigControl::Tell{}}, {RigControl::Set{"camera", ""}},
                             {RigControl::Mount{}}, {RigControl::Undo{}}, {RigControl::Reset{}},
-                            {RigControl::Save{}}};
+                            {RigControl::Save{}},  {RigControl::Frame{}}};
   for (const RigControl& control : all)
     EXPECT_EQ(tell(control.command).verdict != Verdict::kNotMine, concerned(control).has(Role::kVisual))
         << control.command.index();

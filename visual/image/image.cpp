@@ -102,6 +102,14 @@ Result<Image8> read_png(const std::filesystem::path& file) {
   return image;
 }
 
+Result<Grey8> read_grey(const std::filesystem::path& file) {
+  int width_px = 0, height_px = 0, channels = 0;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load(file.string().c_str(), &width_px, &height_px, &channels, 1), stbi_image_free);
+  if (!pixels) return Error{file.string(), std::string("not a readable picture: ") + stbi_failure_reason()};
+  return Grey8{width_px, height_px, {pixels.get(), pixels.get() + texels(width_px, height_px)}};
+}
+
 Status write_exr(const std::filesystem::path& file, const ImageF& image) {
   return write_beside(file, [&](const std::string& name) -> std::string {
     try {

@@ -16,6 +16,14 @@ Image8 blank_image(int width_px, int height_px, std::uint8_t red, std::uint8_t g
 Status write_png(const std::filesystem::path& file, const Image8& image);
 Result<Image8> read_png(const std::filesystem::path& file);
 
+/// One channel of 8 bits, rows from above.
+struct Grey8 {
+  int width_px = 0, height_px = 0;
+  std::vector<std::uint8_t> grey;
+};
+/// PNG or PGM; colours as their luma, the numbers as they stand in the file.
+Result<Grey8> read_grey(const std::filesystem::path& file);
+
 /// Writes an OpenEXR file, 32-bit float, ZIP: R, G, B in cd/m² (linear Rec. 709, whiteLuminance 1) and the channel
 /// "illuminance_lx" from the alpha of the image. Written beside and renamed.
 Status write_exr(const std::filesystem::path& file, const ImageF& image);

@@ -120,6 +120,45 @@ Status Lamps::dim(const RigControl::Dim& command) {
   return Done{};
 }
 
+Status Lamps::frame(const RigControl::Frame& command) {
+  const Result<std::size_t> slot = find(command.lamp, design_);
+  if (!slot) return slot.error();
+  return show(design_, *slot, command.file);
+}
+
+Status Lamps::show(std::size_t design, std::size_t slot, const std::string& file) {
+  const LampConfig& lamp = designs_[design].lamps[slot];
+  Position& position = positions_[design][slot];
+  if (!position.pixels) {
+    const auto found = std::ranges::find_if(lamp.sources, [](const SourceConfig& s) { return !s.pixels.empty(); });
+    if (found == lamp.sources.end())
+      return Error{"lamp \"" + lamp.name + "\"", "has no pixel light (\"pixels\" of a source in the rig file)"};
+    position.pixel_source = static_cast<std::size_t>(found - lamp.sources.begin());
+  }
+  const Result<PixelFrame> picture = read_pixel_frame(file);
+  if (!picture) return picture.error();
+  const SourceConfig& source = lamp.sources[position.pixel_source];
+  const PixelLight& raster = position.pixels ? *position.pixels : *tables_.pixel_light(source);
+  if (picture->columns != raster.columns() || picture->rows != raster.rows())
+    return Error{file, std::to_string(picture->columns) + " × " + std::to_string(picture->rows) +
+                           " pixels; the light of lamp \"" + lamp.name + "\" has " + std::to_string(raster.columns()) +
+                           " × " + std::to_string(raster.rows())};
+  if (!position.pixels) {
+    position.pixels = std::make_shared<PixelLight>(raster);
+    position.beam.set_table(position.pixel_source, position.pixels->table());
+  }
+  const std::vector<TexelRect> changed = position.pixels->show(*picture);
+  position.beam.table_changed(position.pixel_source, changed, position.pixels->flux_lm());
+  return Done{};
+}
+
+AimedSource Lamps::aimed(std::size_t design, std::size_t slot, std::size_t source) const {
+  const Position& position = positions_[design][slot];
+  AimedSource light = tables_.aimed(designs_[design].lamps[slot].sources[source]);
+  if (position.pixels && source == position.pixel_source) light.table = &position.pixels->table();
+  return light;
+}
+
 Status Lamps::follow(const LawAnswer& answer, std::uint32_t design_index) {
   law_pitch_rad_ = 0.0;
   for (std::vector<Position>& design : positions_) {
@@ -138,6 +177,8 @@ Status Lamps::follow(const LawAnswer& answer, std::uint32_t design_index) {
       return Error{"lamp \"" + light.lamp + "\"",
                    "has " + std::to_string(sources) + " sources, not " + std::to_string(given)};
     slots.push_back(*slot);
+    if (light.frame.empty()) continue;
+    if (const Status shown = show(design, *slot, light.frame); !shown) return shown.error();
   }
   law_pitch_rad_ = answer.levelling_rad;
   for (std::size_t i = 0; i < slots.size(); ++i) {
@@ -193,7 +234,7 @@ double Lamps::lamp_lx(std::size_t design, std::size_t slot, const std::set<LampF
   const glm::dmat3 turn = turned(position, tilt_rad);
   for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
     if (!lit.contains(lamp.sources[k].function)) continue;
-    const AimedSource light = tables_.aimed(lamp.sources[k]);
+    const AimedSource light = aimed(design, slot, k);
     sum_lx += phare::illuminance_lx(position.mount.position_m, turn * light.car_from_lamp, *light.table,
                                     light.scale * position.dimmed_01(k), at.position_m, at.normal);
   }
@@ -246,7 +287,7 @@ std::vector<PointLight> Lamps::lights_at(const VehicleState& pose, const Measure
     if (!position.beam.image().dark) light.colour = position.beam.image().colour;
     for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
       if (!lit_.contains(lamp.sources[k].function) || position.dimmed_01(k) <= 0.0) continue;
-      const AimedSource source = tables_.aimed(lamp.sources[k]);
+      const AimedSource source = aimed(design_, slot, k);
       const glm::dvec3 direction = glm::transpose(turn * source.car_from_lamp) * way;
       light.peak_cd += source.scale * position.dimmed_01(k) * source.table->peak_cd();
       light.candela += source.scale * position.dimmed_01(k) * source.table->intensity_cd(direction);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -73,6 +74,10 @@ class Lamps {
   /// Dims a source, counted from 1 (0: all), of a lamp of the design that shines; acts with the next controls. Error:
   /// no such lamp or source.
   Status dim(const RigControl::Dim& command);
+
+  /// Has the pixel light of a lamp of the design that shines show a picture; acts with the next controls. Error: no
+  /// such lamp, none with a pixel light, no readable picture, another size; then it shines on as before.
+  Status frame(const RigControl::Frame& command);
 
   // ---- places and turns (lamp_mounts.cpp): each command that changes one can be taken back
 
@@ -188,12 +193,17 @@ class Lamps {
     LampMount mount;
     std::vector<double> law_01{};  ///< of each source, as the control law says; empty: full light
     double law_yaw_rad = 0.0, law_pitch_rad = 0.0;
+    std::shared_ptr<PixelLight> pixels{};  ///< its own, once it was given a picture
+    std::size_t pixel_source = 0;
 
     double dimmed_01(std::size_t source) const { return dimming_01[source] * (law_01.empty() ? 1.0 : law_01[source]); }
   };
   std::string text_of_lit() const;
   /// Before a change of mounts: what undo goes back to. `of`: changes of one name in a row are one step; empty: never.
   void remember(const std::string& of = {});
+  Status show(std::size_t design, std::size_t slot, const std::string& file);
+  /// A source as it is aimed, with the table it has now.
+  AimedSource aimed(std::size_t design, std::size_t slot, std::size_t source) const;
   Result<std::size_t> find(const std::string& lamp, std::size_t design) const;
   Result<std::size_t> find(const std::string& lamp) const { return find(lamp, design_); }
   /// All that turns a lamp besides the aim of its sources; `tilt_rad`: of the car's levelling.

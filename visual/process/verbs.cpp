@@ -116,6 +116,9 @@ Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk, std::uint32_t chann
     const std::string which = dim.source == 0 ? "all sources" : "source " + std::to_string(dim.source);
     return answer(lamps.dim(dim), dim.lamp + ": " + which + print(" at %.4g %%", dim.dimming_01 * 100.0));
   });
+  verbs.on<RigControl::Frame>([&lamps](const RigControl::Frame& frame) {
+    return answer(lamps.frame(frame), frame.lamp + ": shines the picture " + frame.file);
+  });
   verbs.on<RigControl::Swivel>([&lamps](const RigControl::Swivel& swivel) {
     return answer(lamps.swivel(swivel),
                   swivel.lamp + print(": turned %.3f deg left, %.3f deg up", swivel.yaw_rad * kDegPerRad,

@@ -82,7 +82,7 @@ def _joined(one: LampLight, other: LampLight, sources: int) -> LampLight:
         return list(dims) * (sources if len(dims) == 1 else 1) or [1.0] * sources
 
     dims = [a * b for a, b in zip(full(one), full(other))]
-    return LampLight(one.yaw_rad + other.yaw_rad, one.pitch_rad + other.pitch_rad, dims)
+    return LampLight(one.yaw_rad + other.yaw_rad, one.pitch_rad + other.pitch_rad, dims, other.frame or one.frame)
 
 
 class Program(Controller):

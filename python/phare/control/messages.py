@@ -134,11 +134,13 @@ class Given:
 @dataclass(slots=True)
 class LampLight:
     """One lamp: turned in its place (rad; yaw left, pitch up) and the light of each source, 0 to 1: a list in the rig's order, or
-    one number for all; empty: full."""
+    one number for all; empty: full. `frame`: file of the picture (PNG, PGM) that its pixel light shines, best in /dev/shm and
+    written beside and renamed; empty: as it is."""
 
     yaw_rad: float = 0.0
     pitch_rad: float = 0.0
     dimming_01: list[float] | float = field(default_factory=list)
+    frame: str = ""
 
 
 @dataclass(slots=True)
@@ -168,14 +170,14 @@ class Answer:
                     raise LawFailed(f"the law answered a dimming of {dim} for lamp {name!r}: 0 to 1")
             message.lamps.add(
                 lamp=name, yaw_rad=_within("yaw_rad", light.yaw_rad), pitch_rad=_within("pitch_rad", light.pitch_rad),
-                dimming_01=[float(dim) + 0.0 for dim in dims],
+                dimming_01=[float(dim) + 0.0 for dim in dims], frame=str(light.frame),
             )
         return message
 
     @classmethod
     def of_proto(cls, message: pb.LawAnswer) -> Answer:
         """The answer of a law that is another program."""
-        lamps = {light.lamp: LampLight(light.yaw_rad, light.pitch_rad, list(light.dimming_01)) for light in message.lamps}
+        lamps = {light.lamp: LampLight(light.yaw_rad, light.pitch_rad, list(light.dimming_01), light.frame) for light in message.lamps}
         return cls(LIGHT[message.light_switch] if message.light_switch else None, message.levelling_rad, lamps)
 
 

@@ -19,9 +19,11 @@ BeamComposer::BeamComposer(std::vector<double> first_deg, std::vector<double> se
   image_.assign(first_deg_.size() * second_deg_.size(), 0.0f);
 }
 
-std::size_t BeamComposer::add(const IntensityTable& table, const glm::dmat3& image_from_lamp, const glm::vec3& colour) {
+std::size_t BeamComposer::add(const IntensityTable& table, const glm::dmat3& image_from_lamp, const glm::vec3& colour,
+                              bool changes) {
   Source source;
   source.table = &table;
+  source.changes = changes;
   source.image_from_lamp = image_from_lamp;
   source.red_blue = {colour.x, colour.z};
   sample(source);
@@ -52,15 +54,47 @@ void BeamComposer::set_table(std::size_t index, const IntensityTable& table) {
   sample(sources_[index]);
 }
 
+void BeamComposer::table_changed(std::size_t index, std::span<const TexelRect> nodes) {
+  Source& source = sources_[index];
+  const IntensityTable& table = *source.table;
+  if (!as_filed(source)) {
+    stale_.push_back(source.rect);
+    return sample(source);
+  }
+  // Between a node that changed and its neighbours that did not, the light changes too.
+  const auto between = [](const std::vector<double>& grid, const std::vector<double>& own, std::size_t from,
+                          std::size_t to) {
+    const auto begin = from == 0 ? std::lower_bound(grid.begin(), grid.end(), own.front())
+                                 : std::upper_bound(grid.begin(), grid.end(), own[from - 1]);
+    const auto end = to >= own.size() ? std::upper_bound(grid.begin(), grid.end(), own.back())
+                                      : std::lower_bound(grid.begin(), grid.end(), own[to]);
+    return std::pair{static_cast<std::size_t>(begin - grid.begin()), static_cast<std::size_t>(end - grid.begin())};
+  };
+  const std::size_t across = source.rect.end_column - source.rect.column;
+  for (const TexelRect& rect : nodes) {
+    const auto [column, end_column] = between(first_deg_, table.first_deg, rect.column, rect.end_column);
+    const auto [row, end_row] = between(second_deg_, table.second_deg, rect.row, rect.end_row);
+    for (std::size_t j = row; j < end_row; ++j)
+      for (std::size_t i = column; i < end_column; ++i)
+        source.candela[(j - source.rect.row) * across + i - source.rect.column] =
+            static_cast<float>(table.intensity_at_cd({first_deg_[i], second_deg_[j]}));
+    stale_.push_back({column, row, end_column, end_row});
+  }
+}
+
+bool BeamComposer::as_filed(const Source& source) const {
+  const IntensityTable& table = *source.table;
+  return source.image_from_lamp == glm::dmat3{1.0} && table.type == type_ &&
+         (type_ != PhotometricType::kC || table.axis == axis_) && (table.screen_distance_m > 0.0) == screen_;
+}
+
 void BeamComposer::sample(Source& source) {
   const IntensityTable& table = *source.table;
   const std::size_t columns = first_deg_.size(), rows = second_deg_.size();
-  const bool as_filed = source.image_from_lamp == glm::dmat3{1.0} && table.type == type_ &&
-                        (type_ != PhotometricType::kC || table.axis == axis_) &&
-                        (table.screen_distance_m > 0.0) == screen_;
+  const bool own_angles = as_filed(source);
   // In its own angles a table is dark beyond its limits.
   const auto within = [&](const std::vector<double>& nodes, const std::vector<double>& own) {
-    if (!as_filed) return std::pair{std::size_t{0}, nodes.size()};
+    if (!own_angles) return std::pair{std::size_t{0}, nodes.size()};
     const auto begin = std::lower_bound(nodes.begin(), nodes.end(), own.front());
     return std::pair{static_cast<std::size_t>(begin - nodes.begin()),
                      static_cast<std::size_t>(std::upper_bound(begin, nodes.end(), own.back()) - nodes.begin())};
@@ -69,12 +103,13 @@ void BeamComposer::sample(Source& source) {
   const auto [first_row, last_row] = within(second_deg_, table.second_deg);
   std::vector<float> whole(columns * rows, 0.0f);
   TexelRect rect{columns, rows, 0, 0};
+  if (source.changes) rect = {first_column, first_row, last_column, last_row};
   for (std::size_t j = first_row; j < last_row; ++j) {
     for (std::size_t i = first_column; i < last_column; ++i) {
       const TableAngles angles{first_deg_[i], second_deg_[j]};
       const glm::dvec3 direction = screen_ ? screen_direction(angles) : table_direction(type_, axis_, angles);
       const double cd =
-          as_filed ? table.intensity_at_cd(angles) : table.intensity_cd(direction * source.image_from_lamp);
+          own_angles ? table.intensity_at_cd(angles) : table.intensity_cd(direction * source.image_from_lamp);
       if (cd <= 0.0) continue;
       whole[j * columns + i] = static_cast<float>(cd);
       rect = {std::min(rect.column, i), std::min(rect.row, j), std::max(rect.end_column, i + 1),

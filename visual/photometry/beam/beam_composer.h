@@ -40,11 +40,14 @@ class BeamComposer {
   /// Adds a source, undimmed; returns its index. The table must outlive the composer. Columns of `image_from_lamp`: the
   /// lamp's forward, left, up in the image's frame. Sources of the grid's own type that are not turned keep their
   /// nodes. `colour`: linear sRGB of its light, luminance 1.
+  /// `changes`: what of the table is dark now may shine later (table_changed).
   std::size_t add(const IntensityTable& table, const glm::dmat3& image_from_lamp = glm::dmat3{1.0},
-                  const glm::vec3& colour = glm::vec3{1.0f});
+                  const glm::vec3& colour = glm::vec3{1.0f}, bool changes = false);
   void set_dimming(std::size_t source, double scale);                     ///< 0 = off; same value: nothing to do
   void set_swivel(std::size_t source, double yaw_rad, double pitch_rad);  ///< left and up positive
   void set_table(std::size_t source, const IntensityTable& table);
+  /// In a table that changes the candela of these rectangles of its own nodes have.
+  void table_changed(std::size_t source, std::span<const TexelRect> nodes);
 
   /// Whether candela weighted by red and by blue are summed beside candela. Off at first, and costs nothing then;
   /// turned on, the next update sums them for the whole image.
@@ -68,7 +71,9 @@ class BeamComposer {
     TexelRect rect;              ///< where it shines
     std::vector<float> candela;  ///< of the rectangle, undimmed
     bool dirty = true;
+    bool changes = false;
   };
+  bool as_filed(const Source& source) const;
   void sample(Source& source);
   template <typename Row>
   void each_row(const TexelRect& rect, std::size_t j, Row&& row) const;

@@ -18,6 +18,7 @@ struct AimedSource {
   double scale = 1.0;             ///< multiplies candela; 0 = dark
   double colour_temperature_k = 5000.0;
   std::optional<glm::dvec2> chromaticity_xy{};  ///< CIE 1931; in place of the colour temperature
+  bool changes = false;                         ///< the table is a pixel light's
 };
 
 /// R = Rz(yaw)·Ry(-pitch)·Rx(roll), columns forward, left, up of the lamp in the car. Angles as in SourceConfig.

@@ -8,6 +8,7 @@
 
 #include "config/rig.h"
 #include "visual/photometry/beam/beam_image.h"
+#include "visual/photometry/beam/pixel_light.h"
 #include "visual/photometry/readers/read_lamp.h"
 
 namespace phare {
@@ -18,12 +19,16 @@ LampReadSettings read_settings(const SourceConfig& source);
 
 class LampTables {
  public:
-  /// File and read_settings.
-  using Key = std::tuple<std::string, GammaAxis, double, bool, std::size_t, std::size_t, double>;
+  /// File and read_settings; of a pixel light its picture and map.
+  using Key =
+      std::tuple<std::string, GammaAxis, double, bool, std::size_t, std::size_t, double, std::string, std::string>;
   /// Reads the file of a source unless it is here already, with the same settings. The error is the file's.
   Status add(const SourceConfig& source);
   /// Of a source that was added. Stays where it is when this is moved or copied, as long as one of them is there.
   const IntensityTable& of(const SourceConfig& source) const { return *tables_.at(key(source)); }
+  /// Of a source that was added: its pixel light with the picture it begins with, for a copy of one's own; nothing: it
+  /// is none.
+  const PixelLight* pixel_light(const SourceConfig& source) const;
   /// The source as it shines: its table, aim, scale and colour.
   AimedSource aimed(const SourceConfig& source) const;
 
@@ -35,8 +40,10 @@ class LampTables {
 
  private:
   static Key key(const SourceConfig& source);
+  Status add_pixel_light(const SourceConfig& source, const IntensityTable& full);
 
   std::map<Key, std::shared_ptr<const IntensityTable>> tables_;
+  std::map<Key, std::shared_ptr<const PixelLight>> pixel_lights_;  ///< own their tables
 };
 
 }  // namespace phare

@@ -32,6 +32,29 @@ void LiveBeam::set_dimming(std::size_t source, double dimming_01) {
   stale_ = true;
 }
 
+void LiveBeam::set_table(std::size_t source, const IntensityTable& table) {
+  sources_[source].light.table = &table;
+  for (std::optional<Sum>& sum : sums_) {
+    if (!sum) continue;
+    const auto at = std::ranges::find(sum->source_of, source);
+    if (at != sum->source_of.end())
+      sum->composer.set_table(static_cast<std::size_t>(at - sum->source_of.begin()), table);
+  }
+  stale_ = true;
+}
+
+void LiveBeam::table_changed(std::size_t source, std::span<const TexelRect> nodes, double flux_lm) {
+  if (nodes.empty()) return;
+  sources_[source].lumens = sources_[source].light.scale * flux_lm;
+  for (std::optional<Sum>& sum : sums_) {
+    if (!sum) continue;
+    const auto at = std::ranges::find(sum->source_of, source);
+    if (at != sum->source_of.end())
+      sum->composer.table_changed(static_cast<std::size_t>(at - sum->source_of.begin()), nodes);
+  }
+  stale_ = true;
+}
+
 /// The kind that all lit sources have, or the sum of all kinds; nothing when all is dark.
 std::optional<std::size_t> LiveBeam::wanted_sum() const {
   std::optional<std::size_t> wanted;
@@ -56,7 +79,7 @@ LiveBeam::Sum LiveBeam::make_sum(std::size_t which) const {
   for (const AimedSource& light : lights)
     composer.add(*light.table,
                  grid.resampled ? glm::transpose(grid.car_from_image) * light.car_from_lamp : glm::dmat3{1.0},
-                 light_colour(light));
+                 light_colour(light), light.changes);
   return {std::move(grid), std::move(composer), std::move(source_of)};
 }
 

@@ -20,6 +20,10 @@ class LiveBeam {
   explicit LiveBeam(std::vector<AimedSource> sources);
 
   void set_dimming(std::size_t source, double dimming_01);  ///< 0: off, 1: full; the same value: nothing to do
+  /// Another table with the same nodes (of a pixel light).
+  void set_table(std::size_t source, const IntensityTable& table);
+  /// Rectangles of nodes of a table that changes, and the flux it has now.
+  void table_changed(std::size_t source, std::span<const TexelRect> nodes, double flux_lm);
 
   /// What an update did to the image.
   enum class Change { kNone, kPart, kWhole };
