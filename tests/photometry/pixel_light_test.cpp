@@ -175,7 +175,16 @@ TEST(PixelLight, MapsThatAreNoneAreRefused) {
             ":4: the map folds over: h_deg grows with column, v_deg falls with row");
   EXPECT_EQ(error_of(head + "0,0,-6,3\n30,0,6,3\n0,20,-6,-3\n30,20,6,-3\n"),
             ": knots have to reach from 0 to 40 in column and to 20 in row, the size of the picture");
-  EXPECT_FALSE(read_pixel_frame("none.png").ok());
+  EXPECT_EQ(read_pixel_frame("none.png").error().text(), "none.png: is no file");
+  EXPECT_EQ(read_pixel_frame("/dev/zero").error().text(), "/dev/zero: is no file")
+      << "nor a pipe, which would be waited for";
+  const auto wide = test::temporary_file("wide.pgm", "P5 16383 1 255\n" + std::string(16'383, 'x'));
+  EXPECT_EQ(read_pixel_frame(wide).error().reason, "16383 × 1 pixels, more than 16382 across");
+  const auto cut = test::temporary_file("cut.png", "\x89PNG\r\n\x1a\n");
+  EXPECT_EQ(read_pixel_frame(cut).error().text().substr(0, cut.string().size() + 24),
+            cut.string() + ": not a readable picture");
+  const auto short_pgm = test::temporary_file("short.pgm", "P5 40 20 255\nxxxx");
+  EXPECT_FALSE(read_pixel_frame(short_pgm).ok()) << "400 pixels are missing";
 }
 
 // 1.3 million pixels. No bound on time: what it takes is printed, and stands in docs/pixel-light.md.

@@ -11,9 +11,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -102,8 +104,44 @@ Result<Image8> read_png(const std::filesystem::path& file) {
   return image;
 }
 
-Result<Grey8> read_grey(const std::filesystem::path& file) {
+namespace {
+
+Error too_large(const std::filesystem::path& file, int width_px, int height_px, int most_across) {
+  return {file.string(), std::to_string(width_px) + " × " + std::to_string(height_px) + " pixels, more than " +
+                             std::to_string(most_across) + " across"};
+}
+
+/// After "P5": width, height and largest value, with comments, then the rows. Pixels that are missing are an error.
+Result<Grey8> read_pgm(const std::filesystem::path& file, std::istream& in, int most_across) {
+  int numbers[3] = {};
+  for (int& number : numbers) {
+    while (std::isspace(in.peek()) != 0 || in.peek() == '#')
+      if (in.get() == '#') in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    if (!(in >> number) || number < 1) return Error{file.string(), "not a readable picture: no PGM header"};
+  }
+  const auto [width_px, height_px, most] = numbers;
+  if (width_px > most_across || height_px > most_across) return too_large(file, width_px, height_px, most_across);
+  if (most != 255) return Error{file.string(), "not a readable picture: a PGM of 8 bits has 255 for its largest value"};
+  in.get();
+  Grey8 picture{width_px, height_px, std::vector<std::uint8_t>(texels(width_px, height_px))};
+  in.read(reinterpret_cast<char*>(picture.grey.data()), static_cast<std::streamsize>(picture.grey.size()));
+  if (static_cast<std::size_t>(in.gcount()) != picture.grey.size())
+    return Error{file.string(), "not a readable picture: " + std::to_string(in.gcount()) + " of its " +
+                                    std::to_string(picture.grey.size()) + " pixels are there"};
+  return picture;
+}
+
+}  // namespace
+
+Result<Grey8> read_grey(const std::filesystem::path& file, int most_across) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(file, failed)) return Error{file.string(), "is no file"};
+  std::ifstream in(file, std::ios::binary);
+  if (in.get() == 'P' && in.get() == '5') return read_pgm(file, in, most_across);
   int width_px = 0, height_px = 0, channels = 0;
+  if (stbi_info(file.string().c_str(), &width_px, &height_px, &channels) != 0 &&
+      (width_px > most_across || height_px > most_across))
+    return too_large(file, width_px, height_px, most_across);
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load(file.string().c_str(), &width_px, &height_px, &channels, 1), stbi_image_free);
   if (!pixels) return Error{file.string(), std::string("not a readable picture: ") + stbi_failure_reason()};

@@ -21,8 +21,9 @@ struct Grey8 {
   int width_px = 0, height_px = 0;
   std::vector<std::uint8_t> grey;
 };
-/// PNG or PGM; colours as their luma, the numbers as they stand in the file.
-Result<Grey8> read_grey(const std::filesystem::path& file);
+/// PNG or PGM; colours as their luma, the numbers as they stand in the file. Error: no file (a pipe would be waited
+/// for), no picture, or more than `most_across` pixels in a direction, which are not read then.
+Result<Grey8> read_grey(const std::filesystem::path& file, int most_across);
 
 /// Writes an OpenEXR file, 32-bit float, ZIP: R, G, B in cd/m² (linear Rec. 709, whiteLuminance 1) and the channel
 /// "illuminance_lx" from the alpha of the image. Written beside and renamed.

@@ -123,6 +123,7 @@ std::optional<AuditFailure> AuditStats::add(const Lamps& lamps, const VehicleSta
   ++audits_;
   bool found = false;
   bound_ = moment.bound ? moment.bound->text() : "";
+  const std::vector<double> peaks_cd = moment.bound ? lamps.peaks_cd() : std::vector<double>{};
   for (const AuditSample& sample : samples) {
     const double exact_lx = lamps.illuminance_lx(pose, sample.point);
     add(sample.illuminance_lx, exact_lx);
@@ -130,11 +131,12 @@ std::optional<AuditFailure> AuditStats::add(const Lamps& lamps, const VehicleSta
     const std::vector<PointLight> lights = lamps.lights_at(pose, sample.point);
     double peaks_lx = 0.0, far_m = 0.0, facing_lx = 0.0;
     bool resampled = false;
-    for (const PointLight& light : lights) {
+    for (std::size_t lamp = 0; lamp < lights.size(); ++lamp) {
+      const PointLight& light = lights[lamp];
       if (!light.lit) continue;
       const glm::dvec3 way = sample.point.position_m - light.lamp_m;
       const double r_m = glm::length(way);
-      peaks_lx += light.peak_cd * std::max(0.0, -glm::dot(way, sample.point.normal)) / (r_m * r_m * r_m);
+      peaks_lx += peaks_cd[lamp] * std::max(0.0, -glm::dot(way, sample.point.normal)) / (r_m * r_m * r_m);
       facing_lx += light.candela / (r_m * r_m);
       far_m = std::max(far_m, r_m);
       resampled = resampled || light.resampled;

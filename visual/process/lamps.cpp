@@ -289,7 +289,6 @@ std::vector<PointLight> Lamps::lights_at(const VehicleState& pose, const Measure
       if (!lit_.contains(lamp.sources[k].function) || position.dimmed_01(k) <= 0.0) continue;
       const AimedSource source = aimed(design_, slot, k);
       const glm::dvec3 direction = glm::transpose(turn * source.car_from_lamp) * way;
-      light.peak_cd += source.scale * position.dimmed_01(k) * source.table->peak_cd();
       light.candela += source.scale * position.dimmed_01(k) * source.table->intensity_cd(direction);
       const TableAngles angles = source.table->angles_of(direction);
       const auto within = [](const std::vector<double>& nodes, double deg) {
@@ -306,6 +305,20 @@ std::vector<PointLight> Lamps::lights_at(const VehicleState& pose, const Measure
     lights.push_back(std::move(light));
   }
   return lights;
+}
+
+std::vector<double> Lamps::peaks_cd() const {
+  std::vector<double> peaks;
+  for (std::size_t slot = 0; slot < designs_[design_].lamps.size(); ++slot) {
+    const Position& position = positions_[design_][slot];
+    double& peak_cd = peaks.emplace_back(0.0);
+    for (std::size_t k = 0; k < position.dimming_01.size(); ++k) {
+      if (!lit_.contains(designs_[design_].lamps[slot].sources[k].function) || position.dimmed_01(k) <= 0.0) continue;
+      const AimedSource source = aimed(design_, slot, k);
+      peak_cd += source.scale * position.dimmed_01(k) * source.table->peak_cd();
+    }
+  }
+  return peaks;
 }
 
 std::optional<glm::vec3> Lamps::light() const {

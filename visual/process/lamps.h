@@ -42,7 +42,6 @@ struct PointLight {
   glm::dvec3 lamp_m{0.0};  ///< world
   bool lit = false;        ///< some source of it is
   double candela = 0.0;    ///< toward the point, all lit sources
-  double peak_cd = 0.0;    ///< no more anywhere: of all lit sources, each at its own
   bool resampled = false;  ///< its beam image does not have its tables' nodes
   double surface_lx = 0.0;
   double h_deg = 0.0, v_deg = 0.0;  ///< right, up, from the axis of the first lit source as it is aimed
@@ -142,6 +141,9 @@ class Lamps {
   LightAt light_at(const VehicleState& pose, const MeasurePoint& at, const World& world) const;
   /// Every lamp of the design at a point of the world: float64 from the native tables.
   std::vector<PointLight> lights_at(const VehicleState& pose, const MeasurePoint& at) const;
+  /// Of each lamp of the design no more than this anywhere, cd: of all lit sources, each at its own peak. Looks at
+  /// every node of their tables.
+  std::vector<double> peaks_cd() const;
   /// The lamps that shine into an eye, the world and the air between them (nothing: clear).
   std::vector<GlaringLamp> glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const World& world,
                                     const Air& air) const;

@@ -76,15 +76,10 @@ bool is_even(const PixelMap& map) {
 }  // namespace
 
 Result<PixelFrame> read_pixel_frame(const std::filesystem::path& file) {
-  Result<Grey8> picture = read_grey(file);
+  Result<Grey8> picture = read_grey(file, static_cast<int>(kMostPixelsAcross));
   if (!picture) return picture.error();
-  PixelFrame frame{static_cast<std::size_t>(picture->width_px), static_cast<std::size_t>(picture->height_px),
-                   std::move(picture->grey)};
-  if (frame.columns > kMostPixelsAcross || frame.rows > kMostPixelsAcross)
-    return Error{file.string(), std::to_string(frame.columns) + " × " + std::to_string(frame.rows) +
-                                    " pixels; a pixel light has at most " + std::to_string(kMostPixelsAcross) +
-                                    " across"};
-  return frame;
+  return PixelFrame{static_cast<std::size_t>(picture->width_px), static_cast<std::size_t>(picture->height_px),
+                    std::move(picture->grey)};
 }
 
 Result<PixelMap> read_pixel_map(const std::filesystem::path& file, std::size_t columns, std::size_t rows) {
