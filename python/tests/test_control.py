@@ -465,3 +465,89 @@ def test_the_message_of_a_program_is_what_a_law_of_python_is_given():
     assert (message.frame_index, message.light_switch, message.objects[0].kind, message.objects[0].lights) == (5, 3, 2, 2)
     assert message.objects[0].h_left_rad == given.objects[0].h_left_rad and message.ahead[0].curvature_1pm == 0.01
     assert len(message.lamps[0].sources) == 9 and not given.to_proto(with_lamps=False).lamps
+
+
+# ---- limits of a module, pictures on the road
+
+
+def test_a_module_gives_no_more_power_than_it_has():
+    class Full(phare.Controller):
+        def step(self, given):
+            return phare.Answer(light="high")
+
+    lamps = [lamp("left", columns=8), lamp("right", -0.6, columns=8)]
+    limits = phare.laws.ModuleLimits(Full(), power_w=4.0, source_w=1.0)
+    limits.begin(lamps)
+    answer = limits.step(phare.Given(lamps=lamps))
+    dims = answer.lamps["left"].dimming_01
+    assert dims[0] == 1.0 and dims[1:] == pytest.approx([0.5] * 8)  # low beam as it was, 8 W asked
+    assert limits.power_of == pytest.approx({"left": 4.0, "right": 4.0})
+
+    class Some(phare.Controller):
+        def step(self, given):
+            return phare.Answer(light="high", lamps={"left": phare.LampLight(dimming_01=[1.0, 1.0, 0.0, 0.5, 0, 0, 0, 0, 0])})
+
+    limits = phare.laws.ModuleLimits(Some(), power_w=4.0, source_w=1.0)
+    limits.begin(lamps)
+    answer = limits.step(phare.Given(lamps=lamps))
+    assert answer.lamps["left"].dimming_01 == [1.0, 1.0, 0.0, 0.5, 0, 0, 0, 0, 0]  # 1.5 W: nothing to limit
+    assert limits.power_of["left"] == pytest.approx(1.5)
+
+
+def test_a_module_settles_where_heat_and_light_balance():
+    """P = full (130 - T) / 20 above 110 °C and T = 40 + r P: T = (40 * 20 + 130 r P0) / (20 + r P0)."""
+
+    class Full(phare.Controller):
+        def step(self, given):
+            return phare.Answer(light="high")
+
+    lamps = [lamp("left", columns=8)]
+    limits = phare.laws.ModuleLimits(Full(), power_w=100.0, source_w=2.0, k_per_w=6.0, tau_s=60.0)
+    limits.begin(lamps)
+    temperatures = []
+    for frame in range(6000):  # ten time constants
+        answer = limits.step(phare.Given(frame_index=frame, step_s=0.1 if frame else 0.0, lamps=lamps))
+        temperatures.append(limits.temperature_of["left"])
+    full_k = 6.0 * 16.0
+    settled = (40 * 20 + 130 * full_k) / (20 + full_k)
+    assert 110 < settled < 130 and temperatures[-1] == pytest.approx(settled, abs=1e-6)
+    assert answer.lamps["left"].dimming_01[1] == pytest.approx((130 - settled) / 20, abs=1e-6)
+    assert answer.lamps["left"].dimming_01[0] == 1.0
+    # Until it dims, the closed form of one time constant.
+    warm = [(0.1 * k, t) for k, t in enumerate(temperatures) if t < 110]
+    assert len(warm) > 100
+    for time_s, t in warm[1:]:
+        assert t == pytest.approx(40 + full_k * (1 - math.exp(-time_s / 60)), abs=1e-6)
+    with pytest.raises(ValueError, match="ambient_c < from_c"):
+        phare.laws.ModuleLimits(Full(), k_per_w=1.0, ambient_c=120.0)
+
+
+def test_lane_lines_lie_on_the_road_where_the_lane_is():
+    place = lamp("headlamp left", 0.6)
+    law = phare.laws.LaneProjection(columns=800, rows=400, h_deg=(-10, 10), v_deg=(-8, 2), half_width_m=1.1, line_m=0.2)
+    curve = 0.005  # to the left
+    ahead = [messages.CurveAhead(float(d), curve) for d in range(0, 60, 2)]
+    picture = law.draw(phare.Given(ahead=ahead), place)
+    rows, columns = np.nonzero(picture == 255)
+    v = np.radians(2 - 10 * (rows + 0.5) / 400)
+    h = np.radians(-10 + 20 * (columns + 0.5) / 800)
+    ahead_m = 0.66 / np.tan(-v)
+    x, y = 3.45 + ahead_m, 0.6 - ahead_m * np.tan(h)
+    assert ahead_m.min() >= 8 and ahead_m.max() <= 35 and len(rows) > 1000
+    off = np.abs(y - curve * x**2 / 2)  # a circle, to (x/R)² of it: 2 % of 3.7 m
+    assert off.min() > 1.0 - 0.08 and off.max() < 1.2 + 0.08
+    assert (y < curve * x**2 / 2).any() and (y > curve * x**2 / 2).any()
+    assert (picture[:79] == 153).all() and (picture[-1] == 76).all()  # above the horizon, at the lamp's foot
+
+    big = phare.laws.LaneProjection(columns=1664, rows=800, h_deg=(-8, 8), v_deg=(-4, 4))
+    big.begin([place])
+    taken = []
+    for _ in range(5):
+        start = time.perf_counter()
+        answer = big.step(phare.Given(ahead=ahead))
+        taken.append(time.perf_counter() - start)
+    print(f"a lane picture of 1.3 million pixels: {1000 * sorted(taken)[2]:.1f} ms")
+    written = Path(answer.lamps["headlamp left"].frame).read_bytes()
+    assert written.startswith(b"P5 1664 800 255\n") and len(written) == 16 + 1664 * 800
+    big.end()
+    assert not Path(answer.lamps["headlamp left"].frame).exists()

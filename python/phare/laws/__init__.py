@@ -5,5 +5,7 @@ from .bending import BendingLight
 from .glare_free import GlareFree
 from .high_beam import AutomaticHighBeam
 from .levelling import DynamicLevelling
+from .limits import ModuleLimits
+from .road_picture import LaneProjection
 
-__all__ = ["AutomaticHighBeam", "BendingLight", "DynamicLevelling", "Fmu", "GlareFree"]
+__all__ = ["AutomaticHighBeam", "BendingLight", "DynamicLevelling", "Fmu", "GlareFree", "LaneProjection", "ModuleLimits"]
