@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +14,7 @@
 #include "visual/gpu/window_surface.h"
 #include "visual/passes/audit.h"
 #include "visual/passes/measure.h"
+#include "visual/picture_memory.h"
 #include "visual/reference_light.h"
 
 namespace phare {
@@ -92,9 +94,23 @@ struct Renderer::Impl {
     }
   }
 
+  /// Of a software device the machine's memory: its heap is any number.
+  std::uint64_t device_bytes() const {
+    if (device.properties.deviceType == vk::PhysicalDeviceType::eCpu)
+      return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    std::uint64_t most = 0;
+    const vk::PhysicalDeviceMemoryProperties memory = device.physical.getMemoryProperties();
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+      if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
+        most = std::max<std::uint64_t>(most, memory.memoryHeaps[i].size);
+    return most;
+  }
+
   void set_target(int width_px, int height_px) {
     vk::Extent2D extent{static_cast<std::uint32_t>(width_px), static_cast<std::uint32_t>(height_px)};
     if (surface) extent = surface->extent();
+    if (const auto why = too_large(extent.width, extent.height, options.samples, device_bytes()))
+      throw std::runtime_error(*why);
     device.device.waitIdle();
     target = {extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
               surface ? surface->format() : vk::Format::eR8G8B8A8Unorm};
@@ -180,6 +196,10 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
   if (options.width_px < 1 || options.height_px < 1 || options.width_px > static_cast<int>(largest) ||
       options.height_px > static_cast<int>(largest))
     return Error{"picture size", "width and height have to be 1 to 16384 pixels"};
+  constexpr std::int64_t kMostPixels = 1 << 27;  // 8 GB with 4 samples
+  if (std::int64_t{options.width_px} * options.height_px > kMostPixels)
+    return Error{"picture size", std::to_string(options.width_px) + " × " + std::to_string(options.height_px) +
+                                     " is more than " + std::to_string(kMostPixels) + " pixels"};
   if (options.samples != 1 && options.samples != 4) return Error{"samples", "1 or 4 samples a pixel"};
   try {
     return Renderer(std::make_unique<Impl>(options));

@@ -17,6 +17,7 @@
 #include "visual/frame.h"
 #include "visual/image/image.h"
 #include "visual/photometry/table/illuminance.h"
+#include "visual/picture_memory.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
@@ -45,6 +46,18 @@ struct Worst {
     relative = std::max(relative, std::abs(got_lx / expected_lx - 1.0));
   }
 };
+
+TEST(PictureMemory, APictureThatTheDeviceCannotHoldIsRefusedBeforeItIsTried) {
+  constexpr std::uint64_t kGb = 1'000'000'000;
+  EXPECT_EQ(too_large(1280, 720, 4, kGb / 4), std::nullopt);  // 55 MB
+  EXPECT_EQ(too_large(8192, 8192, 4, 16 * kGb).value_or("it fits"),
+            "it fits");  // 4.03 GB
+  EXPECT_EQ(too_large(8192, 8192, 4, 8 * kGb).value_or("it fits"),
+            "a picture of 8192 × 8192 with 4 samples a pixel takes 4.0 GB, more than half of the device's 8.0 GB");
+  const Result<Renderer> square = Renderer::create({.width_px = 16384, .height_px = 16384});
+  ASSERT_FALSE(square.ok());
+  EXPECT_EQ(square.error().text(), "picture size: 16384 × 16384 is more than 134217728 pixels");
+}
 
 TEST_F(RendererTest, MeasuresWhatDoubleComputesForEveryTableType) {
   const std::pair<PhotometricType, GammaAxis> kinds[] = {{PhotometricType::kA, GammaAxis::kGamma0},

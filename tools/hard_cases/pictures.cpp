@@ -166,6 +166,7 @@ Outcome sizes(const Bench& bench) {
   for (const int side : {0, -1, 16385, 1 << 30})
     outcome.device.push_back(
         {static_cast<double>(side), Renderer::create({.width_px = side, .height_px = 64}).ok() ? 1.0 : 0.0});
+  outcome.device.push_back({16384.0, Renderer::create({.width_px = 16384, .height_px = 16384}).ok() ? 1.0 : 0.0});
   return outcome;
 }
 
@@ -320,8 +321,8 @@ std::vector<HardCase> picture_cases() {
               "one wall at exposures from 1e-6 to 1e6", "steps that get darker", "exposure, per cd/m²", 0.0,
               "more exposure is never darker", exposure),
       picture("sizes", "a picture of one pixel divides by 0; one of 16,385 is taken and crashes",
-              "1 × 1 to 17 × 17 drawn; 0, −1, 16,385 and 2^30 refused", "wrong answers", "side, pixels", 0.0,
-              "drawn or refused, never a crash", sizes),
+              "1 × 1 to 17 × 17 drawn; 0, −1, 16,385, 2^30 and 16,384 × 16,384 refused", "wrong answers",
+              "side, pixels", 0.0, "drawn or refused, never a crash", sizes),
       picture("fog-of-one-metre", "the exponent runs out of float32, or a step of the fog's grid jumps over the light",
               "a wall at 10 m in fog of 1, 3, 10, 1,000 and 100,000 m", "pixels wrong", "visibility, m", 0.0,
               "at 1 m e^-78 of the wall is left; at 100 km the picture is that of clear air to 0.2 %", fog),
