@@ -14,8 +14,7 @@
 #else
 #define PHARE_THROUGH_FOG(LIGHT) 1.0
 #endif
-#include "lib/grain.glsl"
-#include "lib/retro.h"
+#include "lib/surface_light.glsl"
 #ifdef PHARE_SHADOWS
 #include "lib/shadow.glsl"
 #else
@@ -23,8 +22,6 @@
 #endif
 #include "lib/tone.h"
 
-layout(constant_id = 1) const uint surface = 0;
-layout(constant_id = 2) const uint retro = 0;
 layout(constant_id = 3) const uint output_kind = 0;
 layout(constant_id = 4) const uint lamp_base = 0;
 layout(constant_id = kSpecColours) const uint colours = 0;
@@ -33,46 +30,6 @@ layout(constant_id = kSpecMethod) const uint method = 0;
 
 layout(location = 0) out vec4 result;
 layout(location = 1) out vec4 result_normal;
-
-// Reflectance detail: one grain at several sizes, all whole tiles in the 1024 m after which `detail` repeats; coarser levels take away
-// what a pixel cannot resolve. Mean factor 1, so that the reflectance of the material holds.
-vec3 surface_reflectance(vec3 rho) {
-  if (surface == 0) return rho;
-  vec3 detail = point + detail_from_point;
-  float footprint = grain_footprint(point);
-#define GRAIN(LAYER, AT, TILES) grain_at(LAYER, (AT) * ((TILES) / 1024.0), (TILES) / 1024.0, footprint)
-  if (surface == 1) {  // asphalt: chippings, patches of binder, darker wheel tracks of the world scale
-    return rho * (0.35 + 0.7 * GRAIN(kGrainFine, detail.xy, 614.0) + 0.6 * GRAIN(kGrainSoft, detail.yx, 46.0));
-  }
-  if (surface == 2) {  // grass: tufts
-    float tufts = GRAIN(kGrainSoft, detail.xy, 317.0);
-    return rho * (0.35 + 0.7 * tufts + 0.6 * GRAIN(kGrainFine, detail.yx, 1024.0)) * vec3(1.0 + 0.3 * (tufts - 0.5), 1.0, 1.0);
-  }
-  if (surface == 3) {  // paint: worn
-    return rho * (0.8 + 0.3 * GRAIN(kGrainFine, detail.xy, 922.0));
-  }
-  if (surface == 4) {  // foliage
-    return rho * (0.3 + 1.4 * grain_at(kGrainFine, detail.xz * (461.0 / 1024.0) + detail.y * (276.0 / 1024.0), 537.0 / 1024.0, footprint));
-  }
-  return rho;
-}
-
-// Luminance over illuminance facing the lamp, as rho/pi has it; n looks to the side that is seen. Retroreflected light keeps the
-// tint of the material and not its darkness.
-float sent_back(uint lamp, LampLight light, vec3 n, float level) {
-  if (light.cos_incidence <= 0.0) return 0.0;
-  float eye2 = dot(point, point), inverse_eye = inversesqrt(eye2), cos_seen = -level * inverse_eye;
-  // By the law of cosines: how far the lamp is from the eye is one number for the lamp.
-  float cos_between = (eye2 + light.distance_m * light.distance_m - frame.lamps[lamp].row_a.w) * (0.5 * inverse_eye) * light.per_m;
-  if (retro == kRetroFacets) return reflectance.w * facets_share(light.cos_incidence, cos_seen, cos_between);
-  vec3 toward_lamp = frame.lamps[lamp].position.xyz - point;
-  float observation_deg = between_deg(toward_lamp, -point);
-  if (retro == kRetroMarking) return marking_sent_back(reflectance.w, observation_deg, light.cos_incidence, cos_seen, cos_between);
-  // R_A is per area of the sheeting: luminance is R_A·E over the cosine of the eye's angle. At grazing angles nothing is left of R_A.
-  SheetingRow at = sheeting_row(observation_deg);
-  uint index = uint(reflectance.w);
-  return sheeting_between(sheetings[index].row[at.before], sheetings[index].row[at.before + 1], at.part, between_deg(toward_lamp, n)) / max(cos_seen, 0.1);
-}
 
 // Luminance of the film on wet ground over the lamp's illuminance.
 float mirrored(uint lamp, LampLight light, vec3 n, float level) {
@@ -148,7 +105,7 @@ void main() {
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
     if (wet_alpha > 0.0) film += colour * (light.illuminance_lx * mirrored(I, light, n, level));           \
     if (retro != 0)                                                                                        \
-      retro_lx += colour * (light.normal_lx * sent_back(I, light, n, level)); \
+      retro_lx += colour * (light.normal_lx * sent_back(I, light, point, n, level, reflectance.w, frame.lamps[I].row_a.w)); \
   }
   PHARE_EACH_LAMP(LIGHT)
   if (colours == 0) coloured_lx = total_lx * light_colour;
@@ -177,7 +134,9 @@ void main() {
     return;
   }
 
-  vec3 rho = surface_reflectance(reflectance.rgb);
+  vec2 detail = surface_detail(point, detail_from_point);
+  vec3 rho = reflectance.rgb * detail.x;
+  rho.r *= detail.y;
   vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + n.z));  // the sky's half dome, unoccluded
   if (retro != 0) light += retro_lx * rho;
   if (wet_alpha > 0.0) light += output_kind == kOutputHdr ? film : film * frame.exposure.rgb;

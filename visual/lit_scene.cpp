@@ -97,6 +97,16 @@ bool is_ground(Surface surface) {
   return surface == Surface::kAsphalt || surface == Surface::kGrass || surface == Surface::kPaint;
 }
 
+LeanKind lean_kind(const LitVariant& variant) {
+  using Surface = LeanKind::Surface;
+  const MaterialKind& kind = variant.kind;
+  const bool plain = kind.surface == phare::Surface::kPlain && kind.retro == RetroKind::kNone && !kind.double_sided &&
+                     variant.output != LampOutput::kAudit;
+  return {.surface = !kind.flat ? Surface::kSmooth : plain ? Surface::kPlain : Surface::kFlat,
+          .alike = variant.alike,
+          .shadows = variant.shadow_maps != 0};
+}
+
 bool is_filtered(ImageLevel level) {
   return level == ImageLevel::kNormalised8 || level == ImageLevel::kHalfEven;
 }
@@ -129,6 +139,7 @@ LitScene::LitScene(gpu::Device& device, ImageLevel level)
       sets_(device, bindings(is_filtered(level))),
       shadow_sets_(device, kShadowBindings),
       fog_sets_(device, kFogBindings),
+      lean_(device),
       scene_vert_{gpu::make_shader(device, k_scene_vert_2),         gpu::make_shader(device, k_scene_vert_4),
                   gpu::make_shader(device, k_scene_vert_8),         gpu::make_shader(device, k_scene_vert_2_shadows),
                   gpu::make_shader(device, k_scene_vert_4_shadows), gpu::make_shader(device, k_scene_vert_8_shadows)},
@@ -279,6 +290,13 @@ vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
   return set;
 }
 
+bool LitScene::is_lean(const LitVariant& variant) const {
+  return variant.lamp_count <= 2 && variant.colours == 0 && variant.fog.slices == 0 && variant.wet == 0 &&
+         variant.method == Method::kFragment && !filtered() &&
+         (variant.output == LampOutput::kDisplay || variant.output == LampOutput::kHdr ||
+          variant.output == LampOutput::kClipping || variant.output == LampOutput::kAudit);
+}
+
 vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   if (const auto found = pipelines_.find(variant); found != pipelines_.end()) return *found->second;
   SpecConstants numbers;
@@ -296,10 +314,14 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   // By "reference" one shader serves any number of lamps: its time goes elsewhere.
   const std::size_t size = shader_for(variant.method == Method::kReference ? shader::kMaxLamps : variant.lamp_count) +
                            (variant.shadow_maps != 0 ? 3u : 0u);
-  const FragmentStage fragment =
-      variant.method == Method::kReference ? reference_stage(variant) : fragment_stage(variant, size);
+  const LeanShaders::Stages* lean = is_lean(variant) ? &lean_.stages(lean_kind(variant)) : nullptr;
+  const FragmentStage fragment = lean != nullptr ? FragmentStage{*lean->fragment, *layout_}
+                                 : variant.method == Method::kReference ? reference_stage(variant)
+                                                                        : fragment_stage(variant, size);
   PipelineRecipe recipe{
-      .vertex = measure ? *measure_vert_[size] : scene_vert(size, variant.method, variant.fog.slices != 0),
+      .vertex = lean != nullptr ? *lean->vertex
+                : measure       ? *measure_vert_[size]
+                                : scene_vert(size, variant.method, variant.fog.slices != 0),
       .fragment = fragment.module,
       .constants = &constants,
       .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
@@ -392,7 +414,12 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
         common.output == LampOutput::kClipping)
       variant.fog = view.fog;
     if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet;
-    if (variant.output == LampOutput::kAudit) variant.kind = {.double_sided = variant.kind.double_sided};
+    if (variant.output == LampOutput::kAudit)
+      variant.kind = {.double_sided = variant.kind.double_sided, .flat = variant.kind.flat};
+    if (is_lean(variant))
+      variant.alike = lit.alike;
+    else
+      variant.kind.flat = false;  // of no account
     const vk::Pipeline wanted = pipeline(variant);
     if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);
     push(commands, by_reference ? reference_draw(item) : item.push);

@@ -15,6 +15,7 @@
 #include "visual/gpu/descriptor_sets.h"
 #include "visual/gpu/frame_graph.h"
 #include "visual/gpu/scene_buffers.h"
+#include "visual/lean_shaders.h"
 #include "visual/light_reach.h"
 #include "visual/passes/grain.h"
 #include "visual/passes/pipeline.h"
@@ -45,6 +46,7 @@ struct LitBy {
   std::uint32_t lamps = 0;
   std::size_t tables = 0;     ///< which of the scene's sets of table shapes
   std::uint32_t colours = 0;  ///< as kSpecColours
+  bool alike = false;         ///< two, whose tables have the same axes
   vk::DescriptorSet set{};
   std::uint32_t data_at = 0;  ///< of their GpuFrame in the buffer, bytes
   shader::GpuFrame* data = nullptr;
@@ -116,6 +118,7 @@ struct LitVariant {
   std::uint32_t lamp_count = 0, lamp_base = 0;
   std::size_t tables = 0;  ///< as LitView
   std::uint32_t colours = 0;
+  bool alike = false;  ///< as LitBy; asked for by lean shaders alone
   std::uint32_t shadow_maps = 0;
   ShadowLevel shadows{};
   FogGrid fog{};
@@ -195,6 +198,7 @@ class LitScene {
     vk::PipelineLayout layout;
   };
 
+  bool is_lean(const LitVariant& variant) const;
   void light_by_block(LitView& view);
   vk::raii::PipelineLayout pipeline_layout(std::span<const vk::DescriptorSetLayout> sets);
   FragmentStage fragment_stage(const LitVariant& variant, std::size_t size);
@@ -229,6 +233,7 @@ class LitScene {
   std::vector<std::vector<shader::TableShape>> table_shapes_;  ///< of the lamps of a view, each set that came up
   std::map<LitVariant, vk::raii::Pipeline> pipelines_;
   using Modules = std::array<vk::raii::ShaderModule, 6>;  ///< for up to 2, 4, 8 lamps; the same with shadows
+  LeanShaders lean_;
   Modules scene_vert_, measure_vert_, lamps_frag_;
   std::array<vk::raii::ShaderModule, 4> scene_fog_vert_{nullptr, nullptr, nullptr, nullptr};
   Modules lamps_fog_frag_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};  ///< each made when it is called for

@@ -121,6 +121,11 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
     out.row_c = glm::vec4(glm::vec3(rows[2]), 0.0f);
     beams_.describe(lamp.beam, out);
   }
+  const auto axes_of = [&](std::size_t lamp) {
+    const shader::GpuLamp& of = frame.lamps[lamp];
+    return std::array{glm::vec3(of.row_a), glm::vec3(of.row_b), glm::vec3(of.row_c)};
+  };
+  lit.alike = lit.lamps == 2 && axes_of(0) == axes_of(1);
   lit.tables = tables_of(std::move(shapes));
   const std::size_t page = views_ / kViewsInPage, place = views_ % kViewsInPage;
   ++views_;

@@ -2,7 +2,11 @@
 #ifndef PHARE_BEAM
 #define PHARE_BEAM
 #include "lib/angles.h"
+#ifdef PHARE_LEAN
+#include "lib/lean_varyings.glsl"
+#else
 #include "lib/surface_varyings.glsl"
+#endif
 #include "lib/table_shapes.glsl"
 
 // An angle as the table has it: the multiple of 45° that is nearest, and the rest in degrees. What lies beyond the table's last angle is a turn less.
@@ -84,7 +88,8 @@ Found on_screen(samplerBuffer table, samplerBuffer guide, sampler2D image, Table
   return found;
 }
 
-// What lies ahead, by tangents of half the angles: two square roots and one division for both angles and 1/r.
+// What lies ahead, by tangents of half the angles: side over hypotenuse and the other side. Three divisions, for one of a common product would
+// wait for both roots and four products.
 Found ahead(samplerBuffer table, samplerBuffer guide, TableShape shape, uint kind, vec2 half_tangent) {
   // Beyond its reach the table is dark; held there, every cell that is read is one of it.
   vec2 t = min(max(half_tangent, shape.reach.xz), shape.reach.yw);
@@ -169,11 +174,9 @@ LampLight lamp_light(samplerBuffer table, samplerBuffer guide, sampler2D image, 
   float h = sqrt(h2), inverse_r, distance_m;
   Found found;
   if (kind <= kLookupRounded) {
-    float r = sqrt(r2), f = h + p.x, s = r + h;
-    float inverse = 1.0 / max(f * s * r, 1e-30);  // at the lamp and behind it f is 0: no light
-    inverse_r = f * s * inverse;
-    distance_m = r;
-    found = ahead(table, guide, shape, kind, vec2(p.y * s, p.z * f) * (r * inverse));
+    distance_m = sqrt(r2);
+    inverse_r = p.x > 0.0 ? 1.0 / distance_m : 0.0;  // beside the lamp and behind it: no light
+    found = ahead(table, guide, shape, kind, vec2(p.y / max(h + p.x, 1e-30), p.z / max(distance_m + h, 1e-30)));
   } else {
     inverse_r = r2 > 0.0 ? inversesqrt(r2) : 0.0;
     distance_m = r2 * inverse_r;
@@ -211,6 +214,8 @@ vec3 lamp_tint(samplerBuffer tint, sampler2D image, TableShape shape, vec4 scale
 // Right after PHARE_LAMP_LIGHT(I).
 #define PHARE_LAMP_TINT(I, LIGHT) lamp_tint(tints[I % kTables], filtered_tints[I % kFilters], PHARE_SHAPE(I), frame.lamps[I].colour, LIGHT.cd)
 
-#define PHARE_LAMP_LIGHT(I) \
-  lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I), in_lamp[I], PHARE_FACING(I) * unit - level, frame.lamps[I].colour.w)
+// `PLACE`: the point in the lamp's frame; `TOWARD`: as lamp_light has it.
+#define PHARE_LIGHT_AT(I, PLACE, TOWARD) \
+  lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I), PLACE, TOWARD, frame.lamps[I].colour.w)
+#define PHARE_LAMP_LIGHT(I) PHARE_LIGHT_AT(I, in_lamp[I], PHARE_FACING(I) * unit - level)
 #endif

@@ -3,6 +3,16 @@
 #include "lamps.h"
 layout(constant_id = 0) const uint lamp_count = 0;
 
+// Compiled for 2, 4 and 8 lamps (PHARE_LAMPS): varyings that nobody reads still cost each vertex. Loops over lamps are written out,
+// so that every index is a constant and the lamps a frame has not leave no trace.
+#if PHARE_LAMPS == 2
+#define PHARE_EACH_LAMP(DO) DO(0) DO(1)
+#elif PHARE_LAMPS == 4
+#define PHARE_EACH_LAMP(DO) DO(0) DO(1) DO(2) DO(3)
+#else
+#define PHARE_EACH_LAMP(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
+#endif
+
 layout(std140, set = 0, binding = 0) uniform Frame { GpuFrame frame; };
 // Compiled for beams that the texture filter weighs (PHARE_FILTERED) or for tables: of what the other needs one descriptor stays. All of
 // both would be 41 sampled images and texel buffers; lavapipe of Mesa 22.3 keeps room for 32 when it resolves samples, and writes beyond.

@@ -2,7 +2,11 @@
 // things, so what faces the lamp never shadows itself, road at grazing light included (visual/passes/shadows.h).
 #ifndef PHARE_SHADOW
 #define PHARE_SHADOW
+#ifdef PHARE_LEAN
+#include "lib/lean_varyings.glsl"
+#else
 #include "lib/surface_varyings.glsl"
+#endif
 
 layout(set = 1, binding = 0) uniform samplerBuffer shadow_depths;  // all maps, one after the other, rows from the top
 layout(constant_id = kSpecShadowWidth) const uint shadow_width = 1;

@@ -7,16 +7,6 @@
 
 layout(constant_id = kSpecWet) const float wet_alpha = 0.0;
 
-// Compiled for 2, 4 and 8 lamps (PHARE_LAMPS): varyings that nobody reads still cost each vertex. Loops over lamps are written out,
-// so that every index is a constant and the lamps a frame has not leave no trace.
-#if PHARE_LAMPS == 2
-#define PHARE_EACH_LAMP(DO) DO(0) DO(1)
-#elif PHARE_LAMPS == 4
-#define PHARE_EACH_LAMP(DO) DO(0) DO(1) DO(2) DO(3)
-#else
-#define PHARE_EACH_LAMP(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
-#endif
-
 #ifndef PHARE_COMPUTE
 #ifdef PHARE_VERTEX
 #define PHARE_VARYING out

@@ -61,8 +61,9 @@ PHARE_INLINE vec3 versus_signal(float share) {
 /// shader, because a target that encodes has a software device decode, blend and encode every block that is drawn.
 PHARE_INLINE vec3 srgb_encoded(vec3 linear) {
   vec3 x = min(linear, vec3(1.0f));
-  vec3 s = sqrt(x);
-  vec3 curve = -0.0370046662f + s * (1.44789933f + s * (-0.944860861f + s * (0.842791033f + s * -0.309571806f)));
+  // Even and odd powers of the root apart: only the last product waits for it.
+  vec3 even = x * (-0.944860861f + x * -0.309571806f) - 0.0370046662f;
+  vec3 curve = even + sqrt(x) * (1.44789933f + x * 0.842791033f);
   return vec3(x.x < 0.0031308f ? 12.92f * x.x : curve.x, x.y < 0.0031308f ? 12.92f * x.y : curve.y,
               x.z < 0.0031308f ? 12.92f * x.z : curve.z);
 }

@@ -76,7 +76,7 @@ TEST(Angles, HalfAnglesAreExactToFloat) {
     narrow = std::max(narrow, std::abs(2.0 * static_cast<double>(t * atan_over_t(t * t)) / exact - 1.0));
   }
   EXPECT_LT(narrow, 2.6e-8 + 3 * std::exp2(-24));
-  EXPECT_LT(wide, 1.7e-8 + 3 * std::exp2(-24));
+  EXPECT_LT(wide, 1.7e-8 + 4 * std::exp2(-24));  // a sum near 1 more
 }
 
 TEST(Tone, TheSignalIsThatOfIec61966) {

@@ -80,7 +80,11 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
   std::map<std::pair<MaterialKind, Cell>, std::vector<const SceneChunk*>> groups;
   for (const SceneChunk* chunk : chunks) {
     const SceneMaterial& material = scene.materials[chunk->material];
-    groups[{{material.surface, material.retro.kind, material.double_sided}, cell_of(*chunk, side_m)}].push_back(chunk);
+    const bool flat =
+        is_flat(std::span(scene.vertices).subspan(chunk->first_vertex, chunk->vertex_count),
+                std::span(scene.indices).subspan(chunk->first_index, chunk->index_count));
+    groups[{{material.surface, material.retro.kind, material.double_sided, flat}, cell_of(*chunk, side_m)}].push_back(
+        chunk);
   }
   std::vector<SceneBatch> batches;
   for (const auto& [key, group] : groups) {

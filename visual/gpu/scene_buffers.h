@@ -19,6 +19,7 @@ struct MaterialKind {
   Surface surface = Surface::kPlain;
   RetroKind retro = RetroKind::kNone;
   bool double_sided = false;
+  bool flat = false;  ///< each triangle's normal is that of its plane (visual/scene/scene.h)
 
   friend auto operator<=>(const MaterialKind&, const MaterialKind&) = default;
 };

@@ -230,6 +230,22 @@ Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
 
 }  // namespace
 
+bool is_flat(std::span<const SceneVertex> vertices, std::span<const std::uint32_t> indices) {
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const SceneVertex &a = vertices[indices[i]], &b = vertices[indices[i + 1]], &c = vertices[indices[i + 2]];
+    if (a.normal != b.normal || a.normal != c.normal) return false;
+    // Corners are rounded where they stand, a normal's parts to 2^-24 of its length.
+    const glm::vec3 largest = glm::max(glm::abs(a.position_m), glm::max(glm::abs(b.position_m), glm::abs(c.position_m)));
+    const double side_m = glm::max(glm::length(b.position_m - a.position_m), glm::length(c.position_m - a.position_m));
+    const double rounding_m = 0x1p-23 * (glm::length(largest) + side_m);
+    for (const SceneVertex* corner : {&b, &c})
+      if (!(std::abs(glm::dot(glm::dvec3(a.normal), glm::dvec3(corner->position_m) - glm::dvec3(a.position_m))) <=
+            2.0 * rounding_m))
+        return false;
+  }
+  return true;
+}
+
 Result<Scene> read_scene(const std::filesystem::path& file) {
   auto model = read_gltf(file);
   if (!model) return model.error();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,10 @@ struct Scene {
   std::vector<std::uint32_t> indices;
   std::vector<SceneChunk> chunks;
 };
+
+/// Each triangle's corners have one normal, that of its plane: what float32 makes of corners aside, a lamp is equally
+/// far before every point of it.
+bool is_flat(std::span<const SceneVertex> vertices, std::span<const std::uint32_t> indices);
 
 /// Reads .gltf or .glb. World frame: x = gltf x, y = -gltf z, z = gltf y. Big meshes are cut into chunks of at most 100
 /// m.
