@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ..control.controller import Controller
-from ..control.messages import Answer, Given, LampLight, LampOfLaw
+from ..control.messages import Answer, Given, LampLight, LampOfLaw, lane_aside_m
 
 
 class LaneProjection(Controller):
@@ -59,7 +59,7 @@ class LaneProjection(Controller):
         picture[meets] = road
         ahead_m = np.where(meets, place.z_m / np.where(meets, self._down, 1.0), np.inf)
         for row in np.flatnonzero((ahead_m >= self.from_m) & (ahead_m <= self.to_m)):
-            aside_m = place.y_m + ahead_m[row] * self._left - self._aside_m(given, place.x_m + ahead_m[row])
+            aside_m = place.y_m + ahead_m[row] * self._left - lane_aside_m(given.ahead, place.x_m + ahead_m[row])
             picture[row, np.abs(np.abs(aside_m) - self.half_width_m) <= self.line_m / 2] = line
         return picture
 
@@ -71,16 +71,3 @@ class LaneProjection(Controller):
         beside.write_bytes(b"P5 %d %d 255\n" % (self.columns, self.rows) + self.draw(given, self._place).tobytes())
         beside.replace(file)  # never half a picture
         return Answer(lamps={self.lamp: LampLight(frame=str(file))})
-
-    @staticmethod
-    def _aside_m(given: Given, ahead_m: float) -> float:
-        """The lane's middle to the left of the car's axis, by the map's curvature."""
-        heading = aside_m = 0.0
-        for one, other in zip(given.ahead, given.ahead[1:]):
-            length_m = min(other.distance_m, ahead_m) - one.distance_m
-            if length_m <= 0:
-                break
-            turn = one.curvature_1pm * length_m
-            aside_m += (heading + turn / 2) * length_m
-            heading += turn
-        return aside_m
