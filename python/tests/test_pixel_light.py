@@ -168,3 +168,36 @@ def test_lane_lines_lie_on_the_road_where_the_lane_is():
     assert written.startswith(b"P5 1664 800 255\n") and len(written) == 16 + 1664 * 800
     big.end()
     assert not Path(answer.lamps["headlamp left"].frame).exists()
+
+
+def test_a_symbol_lies_on_the_road_in_its_lane():
+    """Each pixel's place on the road, by its own way back: the symbol's share there, and nothing of it elsewhere."""
+    place, raster = lamp("headlamp left", 0.6), dict(columns=1200, rows=800, h_deg=(-10.0, 10.0), v_deg=(-8.0, 2.0))
+    ramp = np.outer(np.ones(2), np.linspace(0.0, 1.0, 8))  # to the right brighter
+    law = phare.laws.SymbolProjection(**raster, symbol=ramp, at_m=12.0, length_m=8.0, width_m=2.0, road_01=0.0, above_01=0.0)
+    curve = -0.004  # to the right
+    picture = law.draw(phare.Given(ahead=[messages.CurveAhead(0.5 * d, curve) for d in range(80)]), place)
+    v, h = np.meshgrid(np.radians(2 - 10 * (np.arange(800) + 0.5) / 800), np.radians(-10 + 20 * (np.arange(1200) + 0.5) / 1200), indexing="ij")
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ahead_m = np.where(v < 0, 0.66 / np.tan(-v), np.inf)
+        aside_m = 0.6 - ahead_m * np.tan(h) - curve * (3.45 + ahead_m) ** 2 / 2
+    on_it = (ahead_m > 12.0) & (ahead_m < 20.0) & (np.abs(aside_m) < 1.0)
+    assert picture[~on_it].max() <= 1 and on_it.sum() > 5000  # at the very edge the steps of the lane's curve count
+    # Between the middles of its outer columns the symbol is linear in its width: eight columns of 0.25 m, 0 to 1. The lane as summed in
+    # steps of 0.5 m is off by under curve * 0.5 * 24 / 2 = 2.4 cm, 0.014 of it; then half of 1/255.
+    inner = on_it & (np.abs(aside_m) < 0.875)
+    expected = (0.875 - aside_m[inner]) / 1.75
+    assert np.abs(picture[inner] / 255 - expected).max() < 0.014 + 0.5 / 255
+
+    straight = phare.laws.SymbolProjection(**raster, road_01=0.0, above_01=0.0, line_m=0.2)
+    rows, columns = np.nonzero(straight.draw(phare.Given(), place) == 255)
+    y = 0.6 - 0.66 / np.tan(-v[rows, 0]) * np.tan(h[0, columns])
+    assert ((np.abs(y) < 0.7) | (np.abs(np.abs(y) - 1.1) < 0.11)).all()  # the arrow and both lines
+    turned = phare.laws.arrow(90.0)
+    assert phare.laws.arrow()[:20].sum() > phare.laws.arrow()[-20:].sum() and turned[:, :20].sum() > turned[:, -20:].sum()
+
+
+@pytest.mark.parametrize("words", [dict(symbol=np.full((3, 3), 1.5)), dict(symbol=np.zeros(4)), dict(symbol=np.full((2, 2), np.nan)), dict(at_m=0.0)])
+def test_a_symbol_that_is_none_is_refused(words):
+    with pytest.raises(ValueError, match="symbol|at_m"):
+        phare.laws.SymbolProjection(columns=8, rows=8, h_deg=(-1, 1), v_deg=(-1, 1), **words)
