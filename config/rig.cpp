@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -98,6 +99,17 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
   return source;
 }
 
+/// One, or one for each of the first `emitters` of a file: a matrix in one file.
+std::vector<SourceConfig> read_sources(TomlTable table, const std::filesystem::path& rig_file) {
+  const SourceConfig source = read_source(table, rig_file);
+  if (!table.has("emitters")) return {source};
+  if (table.has("emitter")) table.fail("emitters", "stands for emitter 1 and those that follow; \"emitter\" is one");
+  if (!source.pixels.empty()) table.fail("emitters", "\"pixels\" are of one source");
+  std::vector<SourceConfig> sources(static_cast<std::size_t>(table.integer_or("emitters", 1, 1, 1000)), source);
+  for (std::size_t i = 0; i < sources.size(); ++i) sources[i].emitter = i + 1;
+  return sources;
+}
+
 /// "as-filed", "cut-off", or degrees up.
 AimConfig read_aim(TomlTable& table) {
   AimConfig aim;
@@ -123,7 +135,8 @@ void read_lamp(TomlTable table, const std::filesystem::path& rig_file, DesignCon
   lamp.name = table.text("name");
   lamp.position_m = vector3(table.numbers("position_m", 3));
   lamp.aim = read_aim(table);
-  for (TomlTable source : table.tables("source")) lamp.sources.push_back(read_source(source, rig_file));
+  for (TomlTable source : table.tables("source"))
+    std::ranges::copy(read_sources(source, rig_file), std::back_inserter(lamp.sources));
   if (lamp.sources.empty()) table.fail("source", "a lamp needs at least one [[design.lamp.source]]");
   if (std::ranges::count_if(lamp.sources, [](const SourceConfig& source) { return !source.pixels.empty(); }) > 1)
     table.fail("source", "a lamp has one source with \"pixels\" at most");

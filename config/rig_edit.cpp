@@ -114,10 +114,13 @@ Edits lamp_edits(const std::string& text, TomlTable lamp, const SavedMount& moun
           "name");
   if (lamp.region("aim")) set_key(text, edits, lamp, "aim", "\"as-filed\"", "name");
   std::vector<TomlTable> sources = lamp.tables("source");
-  for (std::size_t i = 0; i < sources.size() && i < mount.sources.size(); ++i) {
-    set_angle(text, edits, sources[i], "yaw_deg", mount.sources[i].yaw_rad);
-    set_angle(text, edits, sources[i], "pitch_deg", mount.sources[i].pitch_rad);
-    set_angle(text, edits, sources[i], "roll_deg", mount.sources[i].roll_rad);
+  std::size_t i = 0;  // of the mount's sources
+  for (TomlTable& source : sources) {
+    if (i >= mount.sources.size()) break;
+    set_angle(text, edits, source, "yaw_deg", mount.sources[i].yaw_rad);
+    set_angle(text, edits, source, "pitch_deg", mount.sources[i].pitch_rad);
+    set_angle(text, edits, source, "roll_deg", mount.sources[i].roll_rad);
+    i += static_cast<std::size_t>(source.integer_or("emitters", 1, 1, 1000));  // one table, turned as one
   }
   return edits;
 }

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstring>
 #include <random>
+#include <utility>
 
 #include "visual/frame.h"
 #include "visual/gpu/window_surface.h"
@@ -73,6 +74,7 @@ struct Renderer::Impl {
   GuiPass gui{device};
   FrameTarget target;
   std::map<std::size_t, Copy> images, hdrs;  ///< read back, by view
+  bool misfit = false;                       ///< the window is another than the newest frame was drawn for
   vk::raii::CommandBuffers commands{nullptr};
   vk::raii::Fence fence{nullptr};
 
@@ -250,15 +252,15 @@ PictureSize Renderer::picture_size() const {
 
 FrameResult Renderer::draw(const FrameInput& input) {
   const auto start = std::chrono::steady_clock::now();
+  if (std::exchange(impl_->misfit, false)) resize(0, 0);  // not before: what the newest frame has kept is still read
   FrameParts parts = impl_->parts();
   FrameResult result;
   gpu::Image* display = nullptr;
   const std::uint64_t pipelines_before = *impl_->device.pipelines_made;
   impl_->forget_copies(input);
   impl_->submit([&] { result.views = draw_frame(parts, input, display); });
-  const bool presented = !impl_->surface || impl_->surface->present(*display);
+  impl_->misfit = impl_->surface && !impl_->surface->present(*display);
   impl_->graph.free_unused();
-  if (!presented) resize(0, 0);
 
   for (const gpu::FrameGraph::Timing& timing : impl_->graph.timings())
     result.passes.push_back({timing.name, timing.ms});

@@ -2,6 +2,7 @@
 #define TINYGLTF_IMPLEMENTATION
 #include "config/formats/gltf_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -86,8 +87,7 @@ glm::dmat4 local_transform(const tinygltf::Node& node) {
   glm::dmat4 matrix(1.0);
   if (node.rotation.size() == 4) {
     const glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    const double length = glm::length(q);
-    if (length > 0.0) matrix = glm::mat4_cast(q / length);
+    matrix = glm::mat4_cast(q / glm::length(q));
   }
   if (node.scale.size() == 3)
     for (int axis = 0; axis < 3; ++axis) matrix[axis] *= node.scale[static_cast<std::size_t>(axis)];
@@ -114,6 +114,8 @@ Status visit(const tinygltf::Model& model, int index, const glm::dmat4& world_fr
 
   const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(index)];
   const std::string& name = node.name.empty() ? parent_name : node.name;
+  if (node.rotation.size() == 4 && std::ranges::all_of(node.rotation, [](double part) { return part == 0.0; }))
+    return bad(place, "its rotation is 0, 0, 0, 0, which turns nowhere");
   const glm::dmat4 world_from_node = world_from_parent * local_transform(node);
   if (!finite(world_from_node)) return bad(place, "its transform is not finite");
   if (node.mesh >= 0) {

@@ -29,12 +29,13 @@ from .measuring import Mounted, measure
 from .programs import program, version
 from .rating import Iihs, rate_iihs
 from .rig import Channel, Design, LampPlace, Rig, Source, generated_file, shipped_file
+from .tracks import TrackTests, track_tests
 
 __all__ = [
     "Answer", "BadInput", "Channel", "Comparison", "Controller", "Design", "Detection", "Drive", "Failed", "Given", "Glare", "Hspr", "Iihs",
     "Lamp", "LampLight", "LampOfLaw", "LampPlace", "LawFailed", "Mounted", "NotFound", "PhareError", "Program",
-    "Report", "Rig", "RoadUser", "RoadUserSeen", "Sensors", "Source", "SourceOfLaw", "Table", "Together", "Verdict",
+    "Report", "Rig", "RoadUser", "RoadUserSeen", "Sensors", "Source", "SourceOfLaw", "Table", "Together", "TrackTests", "Verdict",
     "detect_pedestrians", "drive", "free_ports", "generated_file", "judge_glare", "laws", "measure", "oncoming_glare", "poses", "program", "rate_iihs",
-    "read_drive", "read_road_users", "shipped_file", "sweep", "threshold_cdm2", "version", "visibility",
+    "read_drive", "read_road_users", "shipped_file", "sweep", "threshold_cdm2", "track_tests", "version", "visibility",
     "visibility_level", "write_drive",
 ]

@@ -4,13 +4,17 @@ Limits: FMVSS 108 S9.4.1.6, Table XXI, lux at the receptor from the whole vehicl
 two. They belong to track tests with fixtures whose receptors are prescribed; here receptors sit where a driver's eyes and a car's mirrors
 are by eye, and every moment of any drive counts. So this compares laws, and approves none. Shadows are left out, but for the road's
 own crests.
+
+UN R123, Table 7, candela, half the sum of both sides, for states of a lamp in the laboratory: one transcription; that UN R149 has the
+same is unconfirmed. Here they are held against what shines at a receptor as it passes 50, 100 and 200 m, where it lies within the angles of
+the line; elsewhere they say nothing.
 """
 
 from __future__ import annotations
 
 import html
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Sequence
 
@@ -31,10 +35,23 @@ LIMITS: tuple[tuple[float, float, float, float | None], ...] = (
     (60.0, 120.0, 0.6, 4.0),
     (120.0, 220.0, 0.3, None),
 )
+# Oncoming, at m, from and to degrees to the right of the car's axis, candela of half the sum of both sides. Traffic on the right.
+UN_LINES: tuple[tuple[bool, float, float, float, float], ...] = (
+    (True, 50.0, -4.8, -2.0, 625.0),
+    (True, 100.0, -2.4, -1.0, 1750.0),
+    (True, 200.0, -1.2, -0.5, 5450.0),
+    (False, 50.0, -1.7, 1.0, 1850.0),
+    (False, 50.0, 1.0, 1.7, 2500.0),
+    (False, 100.0, -0.9, 0.5, 5300.0),
+    (False, 100.0, 0.5, 0.9, 7000.0),
+    (False, 200.0, -0.45, 0.45, 16000.0),
+)
 # Of the body's middle: along its heading, to its left, above the road; m. A driver's eyes in a car that keeps right, and the
 # three mirrors of one that drives before us. Chosen by eye.
 EYES_M = ((0.0, 0.35, 1.2),)
 MIRRORS_M = ((0.6, 0.0, 1.25), (0.8, 0.95, 1.0), (0.8, -0.95, 1.0))
+
+_LAMPS_M = (3.45, 0.66)  # of the headlamps: ahead of the rear axle, above the ground; as the shipped rigs have them
 
 
 def limit_lx(range_m: float, oncoming: bool) -> float | None:
@@ -53,16 +70,25 @@ class Glare:
     bins: pd.DataFrame  # of each of LIMITS and direction: the most lux, rounded to 0.1 as the rule does, limit, passed
     above_s: float  # seconds in which anybody is above a limit
     judged_s: float  # seconds in which anybody is where a limit holds
+    un: pd.DataFrame = field(default_factory=pd.DataFrame)  # of each of UN_LINES that anybody has passed: the most candela, limit, passed
+
+    @property
+    def share_01(self) -> float:
+        """Of the time in which a limit holds, how much of it somebody is above one; NaN where none ever does."""
+        return self.above_s / self.judged_s if self.judged_s else float("nan")
 
     def write_page(self, file: str | Path, title: str = "Light at other road users") -> None:
         """Lux over range for each road user, with the limits, and the table of bins; a page of its own."""
-        plots = "".join(_plot(of_user, f"road user {user}") for user, of_user in self.moments.groupby("user"))
+        plots = "".join(_of_user(user, of_user) for user, of_user in self.moments.groupby("user"))
         table = self.bins.to_html(index=False, na_rep="–", float_format=lambda value: f"{value:.2f}")
+        un = self.un.to_html(index=False, float_format=lambda value: f"{value:.0f}") if len(self.un) else "<p>Nobody has passed them.</p>"
         Path(file).write_text(
             f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(title)}</title></head>'
             f'<body style="font:15px sans-serif;margin:2rem"><h1>{html.escape(title)}</h1><p>Above a limit for {self.above_s:.2f} s '
             f"of {self.judged_s:.2f} s in which one holds. Limits: FMVSS 108 Table XXI; receptors and course are not those of "
-            f"its track tests, so this compares, and approves nothing.</p>{plots}{table}</body></html>\n"
+            f"its track tests, so this compares, and approves nothing.</p>{plots}{table}<h2>At 50, 100 and 200 m</h2><p>Candela of half the "
+            f"sum of both sides, against UN R123 Table 7 (one transcription; that UN R149 has the same is unconfirmed), whose lines are "
+            f"states of a lamp in the laboratory.</p>{un}</body></html>\n"
         )
 
 
@@ -79,22 +105,47 @@ def judge_glare(report: Report, rig: Rig, road_users: Sequence[RoadUser], design
     if (frames < 0).any():
         raise BadInput(f"{report.folder}: a drive in real time has no frames that car, controls and law share: drive in lockstep")
     lit = rig.design(design) if design else rig.designs[0]
-    rows = _receptors(car, lane, road_users)
+    rows = receptors_of(car, lane, road_users)
     if rows.empty:
         return Glare(rows.assign(lx=[], limit_lx=[], above=[]), _bins(rows.assign(lx=[])), 0.0, 0.0)
     rows["lx"] = lux_in_drive(rows, report, rig, lit)
+    return judged(rows, 1.0 / rig.frame_rate_hz)
+
+
+def judged(rows: pd.DataFrame, step_s: float) -> Glare:
+    """The judgement of receptors (receptors_of) with their `lx`, in frames of step_s."""
     keys = ["frame", "time_s", "user", "oncoming"]
     moments = rows.groupby(keys, as_index=False).agg(range_m=("range_m", "min"), lx=("lx", "max"))
     moments["limit_lx"] = [limit_lx(r, o) or float("nan") for r, o in zip(moments.range_m, moments.oncoming)]
     moments["above"] = moments.lx.round(1) > moments.limit_lx
-    judged = moments[moments.limit_lx.notna()]
-    step_s = 1.0 / rig.frame_rate_hz
-    above_s = judged[judged.above].frame.nunique() * step_s
-    return Glare(moments.drop(columns="frame"), _bins(moments), above_s, judged.frame.nunique() * step_s)
+    held = moments[moments.limit_lx.notna()]
+    above_s = held[held.above].frame.nunique() * step_s
+    return Glare(moments.drop(columns="frame"), _bins(moments), above_s, held.frame.nunique() * step_s, _un_lines(rows))
 
 
-def _receptors(car: pd.DataFrame, lane: Lane, users: Sequence[RoadUser]) -> pd.DataFrame:
-    """A row a receptor and frame: place and normal in the car's frame."""
+def _un_lines(rows: pd.DataFrame) -> pd.DataFrame:
+    """The most candela towards a receptor in the frames between which it passes the distance of a line, within its angles."""
+    dx, dy, dz = rows.x - _LAMPS_M[0], rows.y, rows.z - _LAMPS_M[1]
+    r = np.sqrt(dx**2 + dy**2 + dz**2)
+    cos = -(rows.nx * dx + rows.ny * dy + rows.nz * dz) / r
+    seen = rows.assign(cd=rows.lx * r**2 / cos / 2, right_deg=np.degrees(np.arctan2(-dy, dx)))[cos > 0.5]
+    found = []
+    for oncoming, at_m, from_deg, to_deg, limit_cd in UN_LINES:
+        most = []
+        for _, one in seen[seen.oncoming == oncoming].sort_values("frame").groupby(["user", "receptor"]):
+            near = np.flatnonzero(np.diff(np.sign(one.range_m.to_numpy() - at_m)) != 0)
+            around = one.iloc[sorted({*near, *(near + 1)})]
+            most += list(around.cd[(around.right_deg > from_deg) & (around.right_deg <= to_deg)])
+        if most:
+            found.append(["oncoming" if oncoming else "preceding", at_m, from_deg, to_deg, max(most), limit_cd, max(most) <= limit_cd])
+    return pd.DataFrame(found, columns=["receptor", "at_m", "from_deg", "to_deg", "most_cd", "limit_cd", "passed"])
+
+
+def receptors_of(car: pd.DataFrame, lane: Lane, users: Sequence[RoadUser]) -> pd.DataFrame:
+    """A row a receptor and frame: place and normal in the car's frame.
+
+    car: by time_s, frame_index, x_m, y_m, z_m, roll_rad, pitch_rad, yaw_rad.
+    """
     eyes, found = Eyes(Sensors(users), lane), []
     for time_s, state in car.iterrows():
         pose = Pose(state.x_m, state.y_m, state.z_m, state.roll_rad, state.pitch_rad, state.yaw_rad)
@@ -111,14 +162,14 @@ def _receptors(car: pd.DataFrame, lane: Lane, users: Sequence[RoadUser]) -> pd.D
             oncoming = float(np.dot(along, origin - place)) > 0
             if ego_s_m is not None and eyes._behind_a_crest(ego_s_m, user.s_m(float(time_s)), pose, place[2] + 1.2):
                 continue
-            for a, b, up in EYES_M if oncoming else MIRRORS_M:
+            for receptor, (a, b, up) in enumerate(EYES_M if oncoming else MIRRORS_M):
                 at = turn @ (place + a * along + b * left + np.array([0, 0, up]) - origin)
                 normal = turn @ (along if oncoming else -along)
                 if at[0] > 4.0:
-                    found.append([int(state.frame_index), float(time_s), number, oncoming, *at, *normal])
-    columns = ["frame", "time_s", "user", "oncoming", "x", "y", "z", "nx", "ny", "nz"]
+                    found.append([int(state.frame_index), float(time_s), number, oncoming, receptor, *at, *normal])
+    columns = ["frame", "time_s", "user", "oncoming", "receptor", "x", "y", "z", "nx", "ny", "nz"]
     rows = pd.DataFrame(found, columns=columns)
-    rows["range_m"] = np.hypot(rows.x - 3.45, rows.y) if len(rows) else []
+    rows["range_m"] = np.hypot(rows.x - _LAMPS_M[0], rows.y) if len(rows) else []
     return rows
 
 
@@ -134,15 +185,21 @@ def _bins(moments: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["receptor", "from_m", "to_m", "most_lx", "limit_lx", "passed"])
 
 
-def _plot(moments: pd.DataFrame, title: str) -> str:
-    """Lux over range on a logarithmic scale of lux, 0.01 to 100; the limit as a line."""
+def _of_user(user: object, moments: pd.DataFrame) -> str:
+    oncoming = bool(moments.oncoming.iloc[0])
+    return plot(moments, oncoming, f'road user {user}, {"oncoming" if oncoming else "preceding"}')
+
+
+def plot(moments: pd.DataFrame, oncoming: bool, title: str) -> str:
+    """Lux over range on a logarithmic scale of lux, 0.01 to 100, red where above; the limit as a line. An SVG with its heading."""
 
     def at(range_m: float, lx: float) -> str:
         return f"{60 + range_m / 220 * 520:.1f},{20 + (2 - math.log10(min(max(lx, 0.01), 100.0))) * 50:.1f}"
 
     near = moments[moments.range_m <= 220].sort_values("time_s")
     line = " ".join(at(r, lx) for r, lx in zip(near.range_m, near.lx))
-    oncoming = bool(moments.oncoming.iloc[0])
+    above = "".join(f'<circle cx="{x}" cy="{y}" r="2"/>' for x, y in (
+        at(r, lx).split(",") for r, lx in zip(near.range_m[near.above], near.lx[near.above])))
     limits = "".join(
         f'<path d="M{at(a, towards if oncoming else before or 0)} L{at(b, towards if oncoming else before or 0)}"/>'
         for a, b, towards, before in LIMITS
@@ -151,8 +208,8 @@ def _plot(moments: pd.DataFrame, title: str) -> str:
     ticks = "".join(f'<text x="52" y="{24 + (2 - e) * 50}" text-anchor="end">{10.0**e:g}</text>' for e in (-2, -1, 0, 1, 2))
     ranges = "".join(f'<text x="{60 + r / 220 * 520:.0f}" y="236" text-anchor="middle">{r}</text>' for r in (0, 60, 120, 180, 220))
     return (
-        f'<h2>{html.escape(title)}, {"oncoming" if oncoming else "preceding"}</h2><svg width="620" height="250" font-size="12">'
+        f'<h2>{html.escape(title)}</h2><svg width="620" height="250" font-size="12">'
         f'<path d="M60 20V220H580" fill="none" stroke="#555"/><g stroke="#b00" stroke-width="2">{limits}</g>'
-        f'<polyline points="{line}" fill="none" stroke="#2a6f97" stroke-width="2"/>{ticks}{ranges}'
+        f'<polyline points="{line}" fill="none" stroke="#2a6f97" stroke-width="2"/><g fill="#b00">{above}</g>{ticks}{ranges}'
         f'<text x="64" y="16">lx</text><text x="600" y="236">m</text></svg>'
     )

@@ -1,9 +1,10 @@
-"""Lux in the frames of a recorded lockstep drive."""
+"""Lux in the frames of a recorded lockstep drive, or of any other course of lamps."""
 
 from __future__ import annotations
 
 import math
-from typing import Any, Sequence
+from dataclasses import dataclass
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -14,26 +15,40 @@ from .measuring import measure
 from .rig import Design, LampPlace, Rig, Source, resolved
 
 
-def lux_in_drive(rows: pd.DataFrame, report: Report, rig: Rig, design: Design) -> np.ndarray:
-    """Lux at points of frames by `phare measure` in float64, source by source, by the lamps as the control law, or without one
-    the stalk, had them. rows: frame; place x, y, z (m) and normal nx, ny, nz in the car's frame. Nothing stands in the way.
-    """
-    car, controls, answers = report.car, report.controls, {}
-    for _, answer in report.drive.payloads("law_answer"):
-        answers[answer.frame_index] = answer
-    stalk = {int(c.frame_index): c for c in controls.itertuples()}
-    tilt = {int(c.frame_index): c.lamp_tilt_rad for c in car.itertuples()}
+@dataclass(frozen=True)
+class Lit:
+    """How the lamps of a design were in each frame: by the control law, or without an answer the stalk."""
+
+    answers: Mapping[int, Any]  # LawAnswer, by frame
+    stalk: Mapping[int, Any]  # light_switch, flash, fog_front, lamp_aim_rad (CockpitState), by frame
+    tilt_rad: Mapping[int, float]  # of the car's own levelling, by frame
+    aims_deg: Mapping[str, float]  # by which a lamp is turned up
+
+
+def lit_in_drive(report: Report, design: Design) -> Lit:
+    """As a recorded lockstep drive has it."""
+    answers = {answer.frame_index: answer for _, answer in report.drive.payloads("law_answer")}
+    stalk = {int(c.frame_index): c for c in report.controls.itertuples()}
+    tilt = {int(c.frame_index): c.lamp_tilt_rad for c in report.car.itertuples()}
     aims = {a["lamp"]: a["turned_deg"] for a in report.raw["processes"]["visual-0"]["aims"] if a["design"] == design.name}
+    return Lit(answers, stalk, tilt, aims)
+
+
+def lux_by_lamps(rows: pd.DataFrame, lit: Lit, rig: Rig, design: Design) -> np.ndarray:
+    """Lux at points of frames by `phare measure` in float64, source by source.
+
+    rows: frame; place x, y, z (m) and normal nx, ny, nz in the car's frame. Nothing stands in the way.
+    """
     keeps_low = bool(rig.more.get("beams", {}).get("high_keeps_low", True))
     total = np.zeros(len(rows))
     for place, name, twin in _lamps(design):
         position = np.array(place.position_m, float) * [1, -1 if twin else 1, 1]
-        aim_rad = math.radians(aims.get(name, place.aim if isinstance(place.aim, (int, float)) else 0.0))
+        aim_rad = math.radians(lit.aims_deg.get(name, place.aim if isinstance(place.aim, (int, float)) else 0.0))
         points, weights = np.zeros((len(rows), 6)), np.zeros((len(rows), len(place.sources)))
         for i, row in enumerate(rows.itertuples()):
-            answer, driver = answers.get(row.frame), stalk[row.frame]
+            answer, driver = lit.answers.get(row.frame), lit.stalk[row.frame]
             light = next((each for each in answer.lamps if each.lamp == name), None) if answer else None
-            up = aim_rad + driver.lamp_aim_rad + tilt[row.frame] + (answer.levelling_rad if answer else 0.0)
+            up = aim_rad + driver.lamp_aim_rad + lit.tilt_rad[row.frame] + (answer.levelling_rad if answer else 0.0)
             yaw, up = (light.yaw_rad, up + light.pitch_rad) if light else (0.0, up)
             turn = Pose(0, 0, 0, 0, -up, yaw).car_from_world()  # lamp from car: pitch is nose down there
             points[i, :3] = position + turn @ (np.array([row.x, row.y, row.z]) - position)
@@ -43,6 +58,11 @@ def lux_in_drive(rows: pd.DataFrame, report: Report, rig: Rig, design: Design) -
         each = measure(words, points, reference=True, each=True)[:, 1:]
         total += (each * weights).sum(axis=1)
     return total
+
+
+def lux_in_drive(rows: pd.DataFrame, report: Report, rig: Rig, design: Design) -> np.ndarray:
+    """lux_by_lamps, by the lamps as a recorded lockstep drive had them."""
+    return lux_by_lamps(rows, lit_in_drive(report, design), rig, design)
 
 
 def _lamps(design: Design) -> list[tuple[LampPlace, str, bool]]:

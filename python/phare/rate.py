@@ -1,13 +1,18 @@
-"""phare rate iihs: the tables of phare.rate_iihs in words."""
+"""phare rate: the tables of phare.rate_iihs and of phare.track_tests in words."""
 
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 
 from .command_line import leave
+from .control.sensors import Sensors
 from .errors import BadInput, PhareError
 from .rating import GOOD_M, POOR_M, UNOFFICIAL, Iihs, rate_iihs
+from .rig import Rig
+from .sweep.job import law_named
+from .tracks import track_tests
 
 
 def _words(done: Iihs, limits: str | None) -> str:
@@ -27,23 +32,56 @@ def _words(done: Iihs, limits: str | None) -> str:
     return "\n\n".join(words) + "\n"
 
 
-def main() -> int:
-    """phare rate iihs. Exit codes: 0 done, 1 failed, 2 bad input."""
-    parser = argparse.ArgumentParser(
-        prog="phare rate", description=f"The drive test of the IIHS as far as it is public; {UNOFFICIAL}.",
-        epilog="Example:\n  phare rate iihs --rig config/rigs/country_road.toml", formatter_class=argparse.RawDescriptionHelpFormatter,
+def _adb(options: argparse.Namespace) -> str:
+    """The eight tracks, and the page where it is asked for."""
+    for flag, value in (("--delay", options.delay), ("--red-range", options.red_range)):
+        if value is not None and not (math.isfinite(value) and value >= 0.0):
+            raise BadInput(f"{flag} {value:g}: 0 or more")
+    seen_m = Sensors().range_m | ({"red": options.red_range} if options.red_range is not None else {})
+    law_named(options.law)  # told before anything is computed
+    done = track_tests(
+        Rig.read(options.rig), lambda: law_named(options.law), sensors=Sensors(delay_s=options.delay, range_m=seen_m), design=options.design
     )
-    parser.add_argument("test", choices=["iihs"])
+    if options.page:
+        done.write_page(options.page, f"{options.law}, camera {options.delay:g} s late")
+    return (
+        f"FMVSS 108 S9.4.1.6, lux by range (limits: one source; receptors and the fixture's place: by eye)\n{done.rows.round(1).to_string(index=False)}\n\n"
+        f"{done.failed} of {len(done.rows)} above the limit, for {done.above_s:.2f} s of {done.measured_s:.2f} s\n\n"
+        "compares laws and lamps; approves none"
+    )
+
+
+def main() -> int:
+    """phare rate. Exit codes: 0 done, 1 failed, 2 bad input."""
+    parser = argparse.ArgumentParser(
+        prog="phare rate", description=f"iihs: the drive test of the IIHS as far as it is public; {UNOFFICIAL}. adb: a control law on the track "
+        "tests of FMVSS 108 for adaptive beams.",
+        epilog="Examples:\n  phare rate iihs --rig config/rigs/country_road.toml\n"
+        "  phare rate adb --rig config/rigs/matrix.toml --law GlareFree --page out/tracks.html",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("test", choices=["iihs", "adb"])
     parser.add_argument("--rig", required=True, help="rig file")
     parser.add_argument("--design", help="design of it [its first]")
-    parser.add_argument("--limits", help="TOML with targets and a glare curve of your own (docs/python.md)")
-    parser.add_argument("--high-beam-assist", action="store_true", help="the car has it: credited by [assist] of the limits")
+    iihs, adb = parser.add_argument_group("iihs"), parser.add_argument_group("adb")
+    iihs.add_argument("--limits", help="TOML with targets and a glare curve of your own (docs/python.md)")
+    iihs.add_argument("--high-beam-assist", action="store_true", help="the car has it: credited by [assist] of the limits")
+    adb.add_argument("--law", default="GlareFree", help="class of phare.laws, module:Class, or an FMU [%(default)s]")
+    adb.add_argument("--delay", type=float, default=0.0, metavar="S", help="how late the camera is, s [0]")
+    adb.add_argument("--red-range", type=float, metavar="M", help="from where the camera sees rear lamps, m [100]")
+    adb.add_argument("--page", help="HTML file with lux over range on each track")
     options = parser.parse_args()
     try:
+        if options.test == "adb":
+            print(_adb(options))
+            return 0
         done = rate_iihs(options.rig, design=options.design, limits=options.limits, assist=options.high_beam_assist)
     except PhareError as wrong:
         print(f"phare rate: {wrong}", file=sys.stderr)
         return 2 if isinstance(wrong, BadInput) else 1
+    except OSError as wrong:
+        print(f"phare rate: {wrong.filename}: {wrong.strerror}", file=sys.stderr)
+        return 2
     print(_words(done, options.limits))
     print(UNOFFICIAL)
     return 0

@@ -35,6 +35,15 @@ def _table(item: Any, **lists: Any) -> dict[str, Any]:
     return {**table, **item.more, **{key: value for key, value in lists.items() if value}}
 
 
+def _each_emitter(table: dict[str, Any]) -> list[dict[str, Any]]:
+    """Of a source that stands for several emitters of one file, a table each, as the programs read it."""
+    count = table.get("emitters")
+    if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= 1000 or "emitter" in table:
+        return [table]  # phare rig check tells what is wrong
+    rest = {key: value for key, value in table.items() if key != "emitters"}
+    return [rest | {"emitter": number} for number in range(1, count + 1)]
+
+
 @dataclass
 class Source:
     """One photometry file in a lamp. Degrees: yaw left, pitch up, roll right side down. `more`: all other keys of
@@ -131,7 +140,11 @@ class Rig:
         for design in document.pop("design"):
             lamps = []
             for lamp in design.pop("lamp"):
-                sources = [Source(**_known(Source, s | {key: absolute(s[key]) for key in ("file", "pixels", "pixel_map") if key in s})) for s in lamp.pop("source")]
+                sources = [
+                    Source(**_known(Source, s | {key: absolute(s[key]) for key in ("file", "pixels", "pixel_map") if key in s}))
+                    for table in lamp.pop("source")
+                    for s in _each_emitter(table)
+                ]
                 lamps.append(LampPlace(**_known(LampPlace, lamp), sources=sources))
             designs.append(Design(**_known(Design, design), lamps=lamps))
         channels = [Channel(**_known(Channel, channel)) for channel in document.pop("channel", [])]

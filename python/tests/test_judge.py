@@ -8,7 +8,7 @@ import pytest
 
 import phare
 from phare.control.road_users import Lane
-from phare.judge import judge_glare, limit_lx
+from phare.judge import judge_glare, judged, limit_lx
 from phare.laws import GlareFree
 
 from conftest import SMALL
@@ -90,6 +90,41 @@ def test_a_slower_camera_is_judged_worse(approach):
         above[delay_s] = judge_glare(report, rig, users).above_s
     assert above[0.0] == 0.0
     assert above[0.2] == pytest.approx(0.2, abs=1.5 / 60)
+
+
+def passing(cd: float, y_m: float, oncoming: bool) -> pd.DataFrame:
+    """A receptor beside the car's axis from 110 m to 40 m before its lamps, and `cd` towards it from their middle."""
+    rows = []
+    for frame, ahead_m in enumerate(np.arange(110.0, 40.0, -0.4)):
+        r = math.sqrt(ahead_m**2 + y_m**2 + 0.54**2)
+        rows.append([frame, frame / 60, 1, oncoming, 0, 3.45 + ahead_m, y_m, 1.2, -1.0, 0.0, 0.0, math.hypot(ahead_m, y_m), cd * ahead_m / r**3])
+    return pd.DataFrame(rows, columns=["frame", "time_s", "user", "oncoming", "receptor", "x", "y", "z", "nx", "ny", "nz", "range_m", "lx"])
+
+
+@pytest.mark.parametrize("cd, y_m, oncoming, lines", [
+    # Both sides together: half the sum is held against the line. 2.9 m to the left are 3.3 degrees at 50 m, 1.7 at 100 m.
+    (1249.0, 2.9, True, [(50.0, 625.0, True), (100.0, 1750.0, True)]),
+    (1251.0, 2.9, True, [(50.0, 625.0, False), (100.0, 1750.0, True)]),
+    # Straight ahead, and 1.2 m to the right (1.4 and 0.7 degrees), where the limits of the same distances are others.
+    (4000.0, 0.0, False, [(50.0, 1850.0, False), (100.0, 5300.0, True)]),
+    (4000.0, -1.2, False, [(50.0, 2500.0, True), (100.0, 7000.0, True)]),
+    # 6 m to the left are 6.8 degrees at 50 m and 3.4 at 100 m: the lines say nothing.
+    (1e6, 6.0, True, []),
+])
+def test_candela_are_held_against_the_lines_of_the_regulation(cd, y_m, oncoming, lines):
+    un = judged(passing(cd, y_m, oncoming), 1 / 60).un
+    assert [(row.at_m, row.limit_cd, row.passed) for row in un.itertuples()] == lines
+    assert all(row.most_cd == pytest.approx(cd / 2, rel=1e-9) for row in un.itertuples())
+
+
+def test_the_share_of_time_in_glare():
+    glare = judged(passing(1500.0, 2.9, True), 1 / 60)
+    # 1,500 cd: over 0.6 lx, rounded to a tenth, up to sqrt(1500 / 0.65) = 48 m of those between 60 and 110; below 60 m 1.8 lx hold.
+    assert glare.share_01 == 0.0 and glare.judged_s == pytest.approx(175 / 60)
+    brighter = judged(passing(6000.0, 2.9, True), 1 / 60)
+    # Up to sqrt(6000 / 0.65) = 96 m, and nearer than sqrt(6000 / 1.85) = 57 m: of 40 to 110 m in steps of 0.4 m.
+    expected = ((96.07 - 60) + (56.95 - 40)) / 70
+    assert brighter.share_01 == pytest.approx(expected, abs=3 * 0.4 / 70)
 
 
 def test_nobody_there_is_no_glare(report):

@@ -1,6 +1,7 @@
 """unit: rigs as objects, held against the programs' reader."""
 
 import copy
+import math
 import tomllib
 
 import pytest
@@ -69,3 +70,30 @@ def test_the_road_users_of_a_rig_are_found_from_elsewhere(tmp_path):
     again = phare.Rig.read(tmp_path / "far" / "rig.toml")
     assert again.more["traffic"] == str(tmp_path / "far" / "others.toml")
     assert phare.Rig.read(again.write(tmp_path / "rig.toml")).problems() == []
+
+
+def test_a_matrix_in_one_file_is_a_source_for_each_segment(tmp_path):
+    """TM-33 with three emitters of 4 degrees side by side: seen by a law one by one, and the light of all."""
+    def emitter(left):
+        data = "".join(f'<IntensityData horz="{h}" vert="{v}">{1000 * (left + 7)}</IntensityData>' for h in (left, left + 4) for v in (-5, 5))
+        return f"<Emitter><LuminousData><PhotometryType>CIE-A</PhotometryType><SymmType>Symm_None</SymmType>{data}</LuminousData></Emitter>"
+
+    matrix = tmp_path / "matrix.xml"
+    matrix.write_text('<?xml version="1.0"?>\n<t:IESTM33-22 xmlns:t="http://www.ies.org/tm-33"><Version>1.1</Version>'
+                      + "".join(map(emitter, (-6, -2, 2))) + "</t:IESTM33-22>\n")
+    rig = phare.Rig.shipped("matrix")
+    head = rig.designs[0].lamps[0]
+    head.sources = [head.sources[0], phare.Source("high", str(matrix), pitch_deg=-0.5, more={"emitters": 3})]
+    file = rig.write(tmp_path / "rig.toml")
+    read = phare.Rig.read(file)
+    assert read.problems() == []
+    assert [source.more.get("emitter") for source in read.designs[0].lamps[0].sources] == [None, 1, 2, 3]
+    (left, right) = phare.control.lamps.lamps_of(read.designs[0])
+    degrees = [(round(math.degrees(s.h_from_rad), 9), round(math.degrees(s.h_to_rad), 9), s.peak_cd) for s in left.sources[1:]]
+    assert degrees == [(-6, -2, 1000), (-2, 2, 5000), (2, 6, 9000)] and len(right.sources) == 4
+    at = [[50.0, y, 0.66, -1.0, 0.0, 0.0] for y in (4.0, 0.0, -4.0)]
+    each = [f"{matrix},x=3.45,y={y},z=0.66,pitch_deg=-0.5,emitter={number}" for y in (0.62, -0.62) for number in (1, 2, 3)]
+    one_file = phare.measure(file, at, beams="high", reference=True)
+    assert one_file == pytest.approx(phare.measure(each, at, reference=True), rel=1e-12)
+    read.designs[0].lamps[0].sources[1].more["emitter"] = 4
+    assert "emitter 4 was asked for, the file has 3" in read.problems()[0]

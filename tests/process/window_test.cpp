@@ -1,5 +1,6 @@
 // process: a drive in a window on a virtual display, with keys pressed in it. What came of them stands in the
 // recording.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -225,33 +226,86 @@ int changed_ppm(const std::vector<std::array<int, 3>>& before, const std::vector
   return static_cast<int>(1'000'000 * changed / before.size());
 }
 
-class WindowFaultTest : public WindowTest, public testing::WithParamInterface<const char*> {};
+class WindowFaultTest : public WindowTest {
+ protected:
+  /// From a window that is as it was on: keys move the car, and the window shows what happens.
+  void expect_a_drive_that_is_seen() {
+    display_->keys("keydown Up");
+    EXPECT_TRUE(comes<VehicleState>([](const VehicleState& car) { return car.speed_mps > 3.0; })) << "it moves";
+    display_->keys("keyup Up");
+    const auto before = display_->screen();
+    display_->keys("key F1");
+    EXPECT_TRUE(wait_until([&] { return changed_ppm(before, display_->screen()) > 20'000; })) << "the help is shown";
+    display_->keys("key Escape key Escape");
+    EXPECT_EQ(end(), 0) << "and no message of validation";
+    EXPECT_EQ(report_of(folder_ / "out")["summary"]["restarts"], 0);
+  }
+};
+
+class WindowFaults : public WindowFaultTest, public testing::WithParamInterface<const char*> {};
 
 // What a display server or a driver does to a window: the drive goes on in the same process, and the window shows what
 // happens in it again.
-TEST_P(WindowFaultTest, TheWindowShowsTheDriveAgain) {
+TEST_P(WindowFaults, TheWindowShowsTheDriveAgain) {
   const GpuFault fault(GetParam(), folder_ / "told");
-  start({"--validation"});
+  start({"--validation", "--frames", "100000"});  // every picture is kept: also the one that it happens to
   ASSERT_TRUE(wait_until([&] { return fault.happened(); }));
-  display_->keys("keydown Up");
-  EXPECT_TRUE(comes<VehicleState>([](const VehicleState& car) { return car.speed_mps > 3.0; })) << "it moves";
-  display_->keys("keyup Up");
-  const auto before = display_->screen();
-  display_->keys("key F1");
-  EXPECT_TRUE(wait_until([&] { return changed_ppm(before, display_->screen()) > 20'000; })) << "the help is shown";
-  display_->keys("key Escape key Escape");
-  EXPECT_EQ(end(), 0) << "and no message of validation";
-  const nlohmann::json report = report_of(folder_ / "out");
-  EXPECT_EQ(report["summary"]["restarts"], 0);
+  expect_a_drive_that_is_seen();
 }
-INSTANTIATE_TEST_SUITE_P(Each, WindowFaultTest,
-                         testing::Values("lost-surface:8", "lost-surface-shown:8", "out-of-date-shown:8",
-                                         "minimised:8:1500"),
+INSTANTIATE_TEST_SUITE_P(Each, WindowFaults,
+                         testing::Values("lost-surface:60", "lost-surface-shown:60", "out-of-date-shown:60",
+                                         "minimised:60:1500"),
                          [](const auto& info) {
                            std::string name(info.param, std::strcspn(info.param, ":"));
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
+
+/// What a window manager does to a window that a person minimises, and to one that is wanted again: ICCCM 4.1.3.1.
+/// False: there is no libX11.
+bool set_wm_state(const std::string& display, unsigned long window, long state) {
+  void* x11 = dlopen("libX11.so.6", RTLD_NOW);
+  if (x11 == nullptr) return false;
+  const auto open = reinterpret_cast<void* (*)(const char*)>(dlsym(x11, "XOpenDisplay"));
+  const auto atom_of = reinterpret_cast<unsigned long (*)(void*, const char*, int)>(dlsym(x11, "XInternAtom"));
+  const auto change = reinterpret_cast<int (*)(void*, unsigned long, unsigned long, unsigned long, int, int,
+                                               const unsigned char*, int)>(dlsym(x11, "XChangeProperty"));
+  const auto close = reinterpret_cast<int (*)(void*)>(dlsym(x11, "XCloseDisplay"));
+  void* const server = open(display.c_str());
+  if (server == nullptr) return false;
+  const unsigned long wm_state = atom_of(server, "WM_STATE", 0);
+  const long words[2] = {state, 0};
+  change(server, window, wm_state, wm_state, 32, 0, reinterpret_cast<const unsigned char*>(words), 2);
+  close(server);
+  return true;
+}
+
+TEST_F(WindowFaultTest, APersonMinimisesTheWindow) {
+  start({"--validation", "--frames", "100000"});
+  ASSERT_TRUE(comes<FrameReport>([](const FrameReport& report) { return !report.drawn.level.empty(); }));
+  const std::string id_file = (folder_ / "id").string();
+  const std::string search =
+      "DISPLAY=" + display_->name() + " xdotool search --onlyvisible --name '^Phare$' >'" + id_file + "'";
+  ASSERT_EQ(std::system(search.c_str()), 0);
+  unsigned long window = 0;
+  ASSERT_TRUE(std::ifstream(id_file) >> window);
+  constexpr long kNormal = 1, kIconic = 3;
+  ASSERT_TRUE(set_wm_state(display_->name(), window, kIconic)) << "no libX11, or no server";
+  const auto drawn = [&] {
+    std::size_t count = 0;
+    for (const Datagram& datagram : recorded())
+      count += std::holds_alternative<FrameReport>(datagram.payload) ? 1u : 0u;
+    return count;
+  };
+  const std::size_t before = drawn();
+  EXPECT_TRUE(wait_until([&] { return drawn() > before + 60; })) << "the drive goes on";
+  const auto shown = display_->screen();
+  const std::size_t then = drawn();
+  EXPECT_TRUE(wait_until([&] { return drawn() > then + 30; }));
+  EXPECT_EQ(changed_ppm(shown, display_->screen()), 0) << "and nothing is shown";
+  ASSERT_TRUE(set_wm_state(display_->name(), window, kNormal));
+  expect_a_drive_that_is_seen();
+}
 
 // Camera, halves and plot by keys; the free eye goes on from where another camera stands, and what it sees is kept.
 TEST_F(WindowTest, CamerasAreChosenMovedAndKept) {

@@ -116,6 +116,24 @@ TEST(RigEdit, ThoseThatNoLongerMirrorBecomeTwo) {
   EXPECT_EQ(rig_of(*again).designs[0].lamps[1].position_m.z, 0.8);
 }
 
+TEST(RigEdit, AMatrixInOneFileIsTurnedAsOne) {
+  std::string text = kRig;
+  const std::string low = "file = \"é low.ies\"   # ours\n";
+  text.insert(text.find(low) + low.size(), "emitters = 2\n");
+  const SavedMount::Turn one{0.0, 0.01, 0.0}, other{0.02, 0.0, 0.0};
+  const SavedMount mounts[] = {{"halogen", "headlamp left", {3.5, 0.7, 0.8}, {one, one, other}},
+                               {"halogen", "headlamp right", {3.5, -0.7, 0.8}, {one, one, {-0.02, 0.0, 0.0}}}};
+  const auto edited = with_mounts(text, "/x/rig.toml", mounts);
+  ASSERT_TRUE(edited) << edited.error().text();
+  const LampConfig& left = rig_of(*edited).designs[0].lamps[0];
+  ASSERT_EQ(left.sources.size(), 3u);
+  EXPECT_NEAR(left.sources[1].pitch_rad, 0.01, 0.51e-6 * kRad);
+  EXPECT_NEAR(left.sources[2].yaw_rad, 0.02, 0.51e-6 * kRad);
+  // Its emitters turned apart cannot be written into one table: nothing is.
+  const SavedMount apart[] = {{"halogen", "headlamp left", {3.5, 0.7, 0.8}, {one, other, other}}};
+  EXPECT_FALSE(with_mounts(text, "/x/rig.toml", apart));
+}
+
 TEST(RigEdit, TablesInBracesAreEditedAndSplit) {
   std::string text = kRig;
   const std::size_t begin = text.find("[[design.lamp]]"), end = text.find("[dynamics]");

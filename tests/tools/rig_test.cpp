@@ -123,6 +123,29 @@ TEST(Rig, BadRigsSayWhere) {
   EXPECT_TRUE(rig_error("[[design.lamp]]", "[[design.lamp]").starts_with("phare_rig_test.toml:8: "));
 }
 
+TEST(Rig, AMatrixInOneFileIsASourceForEachEmitter) {
+  std::string text = kGoodRig;
+  text += "[[design.lamp.source]]\nfunction = \"high\"\nfile = \"matrix.xml\"\nemitters = 3\nyaw_deg = 2\n";
+  const auto rig = read_rig(write_rig(text));
+  ASSERT_TRUE(rig) << rig.error().text();
+  for (const LampConfig& lamp : rig->designs[0].lamps) {
+    ASSERT_EQ(lamp.sources.size(), 4u);
+    for (std::size_t i = 1; i < 4; ++i) {
+      SourceConfig same = lamp.sources[1];
+      same.emitter = i;
+      EXPECT_EQ(lamp.sources[i], same);
+    }
+    EXPECT_EQ(lamp.sources[1].function, LampFunction::kHigh);
+  }
+  EXPECT_EQ(rig_error("yaw_deg = 1", "emitters = 1001"),
+            "phare_rig_test.toml:16: \"design.lamp.source.emitters\": 1001 is outside 1 … 1000");
+  EXPECT_EQ(rig_error("yaw_deg = 1", "emitter = 2\nemitters = 3"),
+            "phare_rig_test.toml:17: \"design.lamp.source.emitters\": stands for emitter 1 and those that follow; "
+            "\"emitter\" is one");
+  EXPECT_EQ(rig_error("yaw_deg = 1", "pixels = \"a.png\"\nemitters = 3"),
+            "phare_rig_test.toml:17: \"design.lamp.source.emitters\": \"pixels\" are of one source");
+}
+
 TEST(Rig, MissingFilesAreNamed) {
   const auto rig = read_rig(write_rig(kGoodRig));
   ASSERT_TRUE(rig);

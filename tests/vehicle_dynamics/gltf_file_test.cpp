@@ -95,6 +95,7 @@ TEST(GltfFile, BrokenOnesGiveAReason) {
       {"\"byteOffset\":36", "\"byteOffset\":4"},  // indices read from floats: out of range
       {"\"byteOffset\":36", "\"byteOffset\":4000000000"},
       {"\"mesh\":0", "\"mesh\":3"},
+      {"\"mesh\":0", "\"mesh\":0,\"rotation\":[0,0,0,0]"},
       {"\"mesh\":0", "\"mesh\":0,\"children\":[0]"},
       {"\"children\":[1]", "\"children\":[0]"},
       {"\"children\":[1]", "\"children\":[77]"},

@@ -330,21 +330,56 @@ Outcome garbage(const Bench& bench) {
   return outcome;
 }
 
+/// Every number of a pose in turn, in a datagram that is whole otherwise.
+Outcome no_numbers_in_a_pose(const Bench&) {
+  using S = VehicleState;
+  constexpr double S::*kNumbers[] = {&S::x_m,
+                                     &S::y_m,
+                                     &S::z_m,
+                                     &S::roll_rad,
+                                     &S::pitch_rad,
+                                     &S::yaw_rad,
+                                     &S::vx_mps,
+                                     &S::vy_mps,
+                                     &S::vz_mps,
+                                     &S::roll_rate_radps,
+                                     &S::pitch_rate_radps,
+                                     &S::yaw_rate_radps,
+                                     &S::ax_mps2,
+                                     &S::ay_mps2,
+                                     &S::speed_mps,
+                                     &S::steer_rad,
+                                     &S::suspension_pitch_rad,
+                                     &S::suspension_roll_rad,
+                                     &S::suspension_heave_m,
+                                     &S::lag_s,
+                                     &S::lamp_tilt_rad};
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  Outcome outcome;
+  const auto taken = [](const VehicleState& pose) {
+    Datagram datagram, read;
+    datagram.sender = Sender::kDynamics;
+    datagram.start_id = datagram.sequence = 1;
+    datagram.payload = pose;
+    const std::string bytes = encode(datagram);
+    return decode_into(std::as_bytes(std::span(bytes)), read) == Refusal::kNone;
+  };
+  for (std::size_t i = 0; i < std::size(kNumbers); ++i) {
+    double wrong = taken(on_circle(1.0)) ? 0.0 : 1.0;  // or refusing all would hold
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInf, -kInf, 1e308, -1e308}) {
+      VehicleState pose = on_circle(1.0);
+      pose.*kNumbers[i] = bad;
+      wrong += taken(pose) ? 1.0 : 0.0;
+    }
+    outcome.float64.push_back({static_cast<double>(i), wrong});
+  }
+  return outcome;
+}
+
 }  // namespace
 
 std::vector<HardCase> bus_cases() {
-  const auto bus = [](const char* name, const char* breaks, const char* setup, const char* unit, const char* along,
-                      double bound, const char* source, std::function<Outcome(const Bench&)> run) {
-    return HardCase{.name = name,
-                    .group = "Time and the bus",
-                    .breaks = breaks,
-                    .setup = setup,
-                    .unit = unit,
-                    .along = along,
-                    .float64_bound = bound,
-                    .source = source,
-                    .run = std::move(run)};
-  };
+  const auto bus = std::bind_front(float64_case, "Time and the bus");
   const char* const time = "time, s";
   // Off by what the car does between two poses, or past the newest: jerk v·ω² = 2.7 m/s³ over at most 0.1 s, by six.
   const char* const curve = "jerk of 2.7 m/s³ over 0.1 s between poses: 4.5e-4 m; twice that";
@@ -388,7 +423,10 @@ std::vector<HardCase> bus_cases() {
           "whole nanoseconds, computed and not added", day),
       bus("garbage", "a broken datagram is read as a pose", "20,000 each of random bytes, cut ones, one bit flipped",
           "taken, or a whole one refused", "kind", 0.0,
-          "CRC-32 finds every single flipped bit; of random bytes 2^-32 pass, and then protobuf", garbage)};
+          "CRC-32 finds every single flipped bit; of random bytes 2^-32 pass, and then protobuf", garbage),
+      bus("no-numbers-in-a-pose", "one NaN from the car and the picture is black until it is begun anew",
+          "NaN, infinity and 1e308 in each of the 21 numbers of a pose", "taken, or a right one refused", "number", 0.0,
+          "none may be", no_numbers_in_a_pose)};
 }
 
 }  // namespace phare::hard

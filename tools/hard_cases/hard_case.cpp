@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace phare::hard {
 namespace {
@@ -77,6 +78,19 @@ std::string plot(const HardCase& hard, const Outcome& outcome) {
 
 }  // namespace
 
+HardCase float64_case(const char* group, const char* name, const char* breaks, const char* setup, const char* unit,
+                      const char* along, double bound, const char* source, std::function<Outcome(const Bench&)> run) {
+  return {.name = name,
+          .group = group,
+          .breaks = breaks,
+          .setup = setup,
+          .unit = unit,
+          .along = along,
+          .float64_bound = bound,
+          .source = source,
+          .run = std::move(run)};
+}
+
 std::optional<double> worst(const std::vector<Found>& found) {
   std::optional<double> most;
   for (const Found& one : found) {
@@ -128,9 +142,9 @@ std::string markdown(const std::vector<HardCase>& cases) {
          "- a lost surface (`VK_ERROR_SURFACE_LOST_KHR`: the display server began anew), reported when a picture is "
          "asked for and when it is shown, and a swapchain out of date while it is shown, where command buffers are "
          "freed that the device still reads: the surface is made anew, 0 restarts, 0 messages of validation, the "
-         "window shows what happens. `WindowFaultTest` of `phare_process_test`\n"
+         "window shows what happens. `WindowFault*` of `phare_process_test`\n"
          "- a minimised window, where images of 0 × 0 are made or the frame waits for ever: no size for 1.5 s; the "
-         "drive goes on, 0 restarts, 0 messages of validation, and the window shows it again. `WindowFaultTest`\n"
+         "drive goes on, 0 restarts, 0 messages of validation, and the window shows it again. `WindowFault*`\n"
          "- the bus with sockets and whole processes: the same storm, a stop of 60 s, kills, a flood, a day in "
          "lockstep "
          "([robustness.md](robustness.md))\n"

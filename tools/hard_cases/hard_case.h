@@ -44,6 +44,10 @@ struct HardCase {
   std::function<Outcome(const Bench&)> run;
 };
 
+/// A case that the processor alone runs.
+HardCase float64_case(const char* group, const char* name, const char* breaks, const char* setup, const char* unit,
+                      const char* along, double bound, const char* source, std::function<Outcome(const Bench&)> run);
+
 std::vector<HardCase> light_cases();
 std::vector<HardCase> property_cases();
 std::vector<HardCase> vehicle_cases();

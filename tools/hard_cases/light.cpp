@@ -1,10 +1,16 @@
 // Light that is hard to compute: near, far, grazing, behind, at the seams of a table, huge and tiny.
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "tools/hard_cases/lamps.h"
 #include "visual/photometry/readers/read_lamp.h"
+#include "visual/scene/scene.h"
 
 namespace phare::hard {
 namespace {
@@ -15,6 +21,43 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kDevice = 1e-5, kFloat64 = 1e-9;
 const char* const kAsked =
     "1e-5 on the device's exact level, 1e-9 in float64: what docs/accuracy.md promises everywhere";
+
+/// A triangle of glTF with this number in a position or a normal, or in its node's place.
+bool scene_taken(const std::filesystem::path& folder, std::size_t at, float value, const std::string& node) {
+  std::array<float, 18> numbers{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+  numbers[at] = value;
+  std::ofstream bin(folder / "scene.bin", std::ios::binary);
+  bin.write(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
+  bin.close();
+  std::ofstream(folder / "scene.gltf")
+      << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0)" << node
+      << R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1}}]}],)"
+      << R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
+      << R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"}],)"
+      << R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":36}],)"
+      << R"("buffers":[{"uri":"scene.bin","byteLength":72}]})";
+  return read_scene(folder / "scene.gltf").ok();
+}
+
+Outcome no_numbers_in_a_scene(const Bench&) {
+  std::string name = (std::filesystem::temp_directory_path() / "phare-hard-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) return {.error = "no temporary folder"};
+  const std::filesystem::path folder = name;
+  Outcome outcome;
+  constexpr float kInf = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
+  double at = 0.0;
+  for (const std::size_t number : {0u, 8u, 9u, 17u})
+    for (const float bad : {kNan, kInf, -kInf})
+      outcome.float64.push_back({at++, scene_taken(folder, number, bad, "") ? 1.0 : 0.0});
+  for (const char* node : {",\"translation\":[1e400,0,0]", ",\"translation\":[nan,0,0]",
+                           ",\"scale\":[1e308,1e308,1e308]", ",\"rotation\":[0,0,0,0]"})
+    outcome.float64.push_back({at++, scene_taken(folder, 0, 0.0f, node) ? 1.0 : 0.0});
+  // And one that is right, or the refusals would prove nothing.
+  outcome.float64.push_back({at, scene_taken(folder, 0, 0.0f, ",\"translation\":[1,0,0]") ? 0.0 : 1.0});
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+  return outcome;
+}
 
 HardCase light(const char* name, const char* breaks, const char* setup, const char* along,
                std::function<Outcome(const Bench&)> run) {
@@ -268,6 +311,11 @@ std::vector<HardCase> light_cases() {
   numbers.float64_bound = 0.0;
   numbers.source = "a file is refused with its line, or read right";
   cases.push_back(std::move(numbers));
+  cases.push_back(float64_case("Light", "no-numbers-in-a-scene",
+                               "one vertex at infinity, and the whole picture is lost",
+                               "glTF with NaN or infinity in a position, a normal, a node's place, size or turn",
+                               "scenes taken that have to be refused, or the other way", "scene", 0.0,
+                               "a file is refused with its place, or read right", no_numbers_in_a_scene));
   for (HardCase& one : cases)
     if (one.name == "behind-the-lamp") {
       one.unit = "lx";

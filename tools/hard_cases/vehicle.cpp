@@ -161,15 +161,7 @@ Outcome far_away(const Bench&) {
 std::vector<HardCase> vehicle_cases() {
   const auto car = [](const char* name, const char* breaks, const char* setup, const char* unit, double bound,
                       const char* source, Outcome (*run)(const Bench&)) {
-    return HardCase{.name = name,
-                    .group = "The car",
-                    .breaks = breaks,
-                    .setup = setup,
-                    .unit = unit,
-                    .along = "time, s",
-                    .float64_bound = bound,
-                    .source = source,
-                    .run = run};
+    return float64_case("The car", name, breaks, setup, unit, "time, s", bound, source, run);
   };
   return {car("parked-on-a-slope", "a standing car creeps, or shakes where slip divides by its speed",
               "20 % up, brakes on, ten seconds, level full", "m moved", 1e-6, "a micrometre: nothing that anyone sees",

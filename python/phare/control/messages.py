@@ -7,6 +7,7 @@ lighting engineers count them; yaw is to the left.
 from __future__ import annotations
 
 import math
+import os
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -43,6 +44,19 @@ class CurveAhead:
 
     distance_m: float
     curvature_1pm: float  # left positive
+
+
+def lane_aside_m(ahead: list[CurveAhead], distance_m: float) -> float:
+    """How far to the left of the car's axis the lane's middle is, that far along it: its curvature ahead, summed twice."""
+    heading = aside_m = 0.0
+    for one, other in zip(ahead, ahead[1:]):
+        length_m = min(other.distance_m, distance_m) - one.distance_m
+        if length_m <= 0:
+            break
+        turn = one.curvature_1pm * length_m
+        aside_m += (heading + turn / 2) * length_m
+        heading += turn
+    return aside_m
 
 
 @dataclass(slots=True)
@@ -140,7 +154,7 @@ class LampLight:
     yaw_rad: float = 0.0
     pitch_rad: float = 0.0
     dimming_01: list[float] | float = field(default_factory=list)
-    frame: str = ""
+    frame: str | os.PathLike[str] = ""
 
 
 @dataclass(slots=True)
@@ -170,7 +184,7 @@ class Answer:
                     raise LawFailed(f"the law answered a dimming of {dim} for lamp {name!r}: 0 to 1")
             message.lamps.add(
                 lamp=name, yaw_rad=_within("yaw_rad", light.yaw_rad), pitch_rad=_within("pitch_rad", light.pitch_rad),
-                dimming_01=[float(dim) + 0.0 for dim in dims], frame=str(light.frame),
+                dimming_01=[float(dim) + 0.0 for dim in dims], frame=_file(name, light.frame),
             )
         return message
 
@@ -179,6 +193,14 @@ class Answer:
         """The answer of a law that is another program."""
         lamps = {light.lamp: LampLight(light.yaw_rad, light.pitch_rad, list(light.dimming_01), light.frame) for light in message.lamps}
         return cls(LIGHT[message.light_switch] if message.light_switch else None, message.levelling_rad, lamps)
+
+
+def _file(lamp: str, frame: str | os.PathLike[str]) -> str:
+    """As the visual processes, whose folder is another, can open it."""
+    file = os.path.abspath(frame) if frame else ""
+    if len(os.fsencode(file)) > 4096:
+        raise LawFailed(f"the law answered a frame for lamp {lamp!r} whose name is longer than 4096 bytes")
+    return file
 
 
 def _within(name: str, value: float) -> float:

@@ -127,11 +127,12 @@ def _road_user(table: dict[str, object], place: str) -> RoadUser:
 
 
 class Lane:
-    """The line we drive on: the CSV beside a scene (config/road/lane.h). World frame, m, rad; curvature positive left."""
+    """The line we drive on: the CSV beside a scene (config/road/lane.h), or a table of its columns. World frame, m, rad; curvature
+    positive left."""
 
-    def __init__(self, file: str | os.PathLike[str]):
+    def __init__(self, file: str | os.PathLike[str] | pd.DataFrame):
         try:
-            table = pd.read_csv(file)
+            table = file if isinstance(file, pd.DataFrame) else pd.read_csv(file)
             self.s_m, self.x_m, self.y_m, self.z_m = (table[name].to_numpy(float) for name in ("s_m", "x_m", "y_m", "z_m"))
             self.heading_rad = np.unwrap(table["heading_rad"].to_numpy(float))
             self.curvature_1pm = table["curvature_1pm"].to_numpy(float)

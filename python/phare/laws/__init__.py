@@ -6,6 +6,9 @@ from .glare_free import GlareFree
 from .high_beam import AutomaticHighBeam
 from .levelling import DynamicLevelling
 from .limits import ModuleLimits
-from .road_picture import LaneProjection
+from .road_picture import LaneProjection, SymbolProjection, arrow
 
-__all__ = ["AutomaticHighBeam", "BendingLight", "DynamicLevelling", "Fmu", "GlareFree", "LaneProjection", "ModuleLimits"]
+__all__ = [
+    "AutomaticHighBeam", "BendingLight", "DynamicLevelling", "Fmu", "GlareFree", "LaneProjection", "ModuleLimits", "SymbolProjection",
+    "arrow",
+]

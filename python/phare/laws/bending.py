@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..control.controller import Controller
-from ..control.messages import Answer, Given, LampLight, LampOfLaw
+from ..control.messages import Answer, Given, LampLight, LampOfLaw, lane_aside_m
 
 
 class BendingLight(Controller):
@@ -44,13 +44,5 @@ class BendingLight(Controller):
         reach_m = given.speed_mps * self.ahead_s
         if len(given.ahead) < 2:
             return given.yaw_rate_radps / given.speed_mps * reach_m / 2  # chord of a circle: half its angle
-        heading = aside_m = 0.0
-        for one, other in zip(given.ahead, given.ahead[1:]):
-            length = min(other.distance_m, reach_m) - one.distance_m
-            if length <= 0:
-                break
-            turn = one.curvature_1pm * length
-            aside_m += (heading + turn / 2) * length
-            heading += turn
         end_m = min(reach_m, given.ahead[-1].distance_m)
-        return math.atan2(aside_m, end_m) if end_m > 0 else 0.0
+        return math.atan2(lane_aside_m(given.ahead, reach_m), end_m) if end_m > 0 else 0.0

@@ -70,6 +70,7 @@ void BeamComposer::table_changed(std::size_t index, std::span<const TexelRect> n
                                       : std::lower_bound(grid.begin(), grid.end(), own[to]);
     return std::pair{static_cast<std::size_t>(begin - grid.begin()), static_cast<std::size_t>(end - grid.begin())};
   };
+  assert(source.changes);  // else only where it shone is kept
   const std::size_t across = source.rect.end_column - source.rect.column;
   for (const TexelRect& rect : nodes) {
     const auto [column, end_column] = between(first_deg_, table.first_deg, rect.column, rect.end_column);

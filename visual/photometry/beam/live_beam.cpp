@@ -32,27 +32,25 @@ void LiveBeam::set_dimming(std::size_t source, double dimming_01) {
   stale_ = true;
 }
 
-void LiveBeam::set_table(std::size_t source, const IntensityTable& table) {
-  sources_[source].light.table = &table;
+template <typename Do>
+void LiveBeam::change_sums_of(std::size_t source, Do&& change) {
   for (std::optional<Sum>& sum : sums_) {
     if (!sum) continue;
     const auto at = std::ranges::find(sum->source_of, source);
-    if (at != sum->source_of.end())
-      sum->composer.set_table(static_cast<std::size_t>(at - sum->source_of.begin()), table);
+    if (at != sum->source_of.end()) change(sum->composer, static_cast<std::size_t>(at - sum->source_of.begin()));
   }
   stale_ = true;
+}
+
+void LiveBeam::set_table(std::size_t source, const IntensityTable& table) {
+  sources_[source].light.table = &table;
+  change_sums_of(source, [&](BeamComposer& composer, std::size_t at) { composer.set_table(at, table); });
 }
 
 void LiveBeam::table_changed(std::size_t source, std::span<const TexelRect> nodes, double flux_lm) {
   if (nodes.empty()) return;
   sources_[source].lumens = sources_[source].light.scale * flux_lm;
-  for (std::optional<Sum>& sum : sums_) {
-    if (!sum) continue;
-    const auto at = std::ranges::find(sum->source_of, source);
-    if (at != sum->source_of.end())
-      sum->composer.table_changed(static_cast<std::size_t>(at - sum->source_of.begin()), nodes);
-  }
-  stale_ = true;
+  change_sums_of(source, [&](BeamComposer& composer, std::size_t at) { composer.table_changed(at, nodes); });
 }
 
 /// The kind that all lit sources have, or the sum of all kinds; nothing when all is dark.

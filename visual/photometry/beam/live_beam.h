@@ -54,6 +54,8 @@ class LiveBeam {
   };
   std::optional<std::size_t> wanted_sum() const;
   Sum make_sum(std::size_t which) const;
+  template <typename Do>
+  void change_sums_of(std::size_t source, Do&& change);
   bool colours_differ() const;  ///< of the sources that shine
   glm::vec3 mean_colour() const;
 
