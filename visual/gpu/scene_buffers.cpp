@@ -74,36 +74,47 @@ void add_orders(SceneBatch& batch, Gathered& all) {
   batch.ordered = true;
 }
 
+/// A chunk as it is drawn. The spans stay good while it is moved: so do the words of a vector.
+struct DrawnChunk {
+  const SceneChunk* chunk;
+  std::optional<FarMesh> far{};  ///< none: in full
+  std::span<const SceneVertex> vertices{};
+  std::span<const std::uint32_t> indices{};
+};
+
+DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std::size_t> far_level) {
+  DrawnChunk drawn{.chunk = &chunk};
+  if (far_level) {
+    drawn.far = far_mesh(scene, chunk, *far_level, kFarLevels[*far_level].from * kFarMeshFrom_m);
+    drawn.vertices = drawn.far->vertices, drawn.indices = drawn.far->indices;
+  } else {
+    drawn.vertices = std::span(scene.vertices).subspan(chunk.first_vertex, chunk.vertex_count);
+    drawn.indices = std::span(scene.indices).subspan(chunk.first_index, chunk.index_count);
+  }
+  return drawn;
+}
+
 // One batch for each kind and cell of `side_m` among the chunks.
 std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m,
                                std::optional<std::size_t> far_level, Gathered& all) {
-  std::map<std::pair<MaterialKind, Cell>, std::vector<const SceneChunk*>> groups;
+  std::map<std::pair<MaterialKind, Cell>, std::vector<DrawnChunk>> groups;
   for (const SceneChunk* chunk : chunks) {
     const SceneMaterial& material = scene.materials[chunk->material];
-    const bool flat =
-        is_flat(std::span(scene.vertices).subspan(chunk->first_vertex, chunk->vertex_count),
-                std::span(scene.indices).subspan(chunk->first_index, chunk->index_count));
-    groups[{{material.surface, material.retro.kind, material.double_sided, flat}, cell_of(*chunk, side_m)}].push_back(
-        chunk);
+    DrawnChunk mesh = drawn(scene, *chunk, far_level);
+    const MaterialKind kind{material.surface, material.retro.kind, material.double_sided,
+                            is_flat(mesh.vertices, mesh.indices)};
+    groups[{kind, cell_of(*chunk, side_m)}].push_back(std::move(mesh));
   }
   std::vector<SceneBatch> batches;
   for (const auto& [key, group] : groups) {
-    SceneBatch batch{.kind = key.first,
-                     .origin_m = group.front()->origin_m,
-                     .low_m = group.front()->low_m,
-                     .high_m = group.front()->high_m};
+    const SceneChunk& first = *group.front().chunk;
+    SceneBatch batch{.kind = key.first, .origin_m = first.origin_m, .low_m = first.low_m, .high_m = first.high_m};
     batch.first_index = static_cast<std::uint32_t>(all.indices.size());
     batch.first_vertex = static_cast<std::int32_t>(all.vertices.size());
-    for (const SceneChunk* chunk : group) {
-      if (far_level) {
-        const FarMesh mesh = far_mesh(scene, *chunk, *far_level, kFarLevels[*far_level].from * kFarMeshFrom_m);
-        append(all, batch, *chunk, mesh.vertices, mesh.indices);
-      } else {
-        append(all, batch, *chunk, std::span(scene.vertices).subspan(chunk->first_vertex, chunk->vertex_count),
-               std::span(scene.indices).subspan(chunk->first_index, chunk->index_count));
-      }
-      batch.low_m = glm::min(batch.low_m, chunk->low_m);
-      batch.high_m = glm::max(batch.high_m, chunk->high_m);
+    for (const DrawnChunk& mesh : group) {
+      append(all, batch, *mesh.chunk, mesh.vertices, mesh.indices);
+      batch.low_m = glm::min(batch.low_m, mesh.chunk->low_m);
+      batch.high_m = glm::max(batch.high_m, mesh.chunk->high_m);
     }
     batch.index_count = static_cast<std::uint32_t>(all.indices.size()) - batch.first_index;
     if (batch.kind.surface == Surface::kFoliage) add_orders(batch, all);
