@@ -22,6 +22,9 @@
 #define PHARE_REACHING(I) 1.0
 #endif
 #include "lib/tone.h"
+#ifdef PHARE_TEXTURED
+#include "lib/textured.glsl"
+#endif
 
 layout(constant_id = 1) const uint surface = 0;
 layout(constant_id = 2) const uint retro = 0;
@@ -103,6 +106,9 @@ float in_8_bits(float cd, float peak_cd) {
 }
 
 void main() {
+#ifdef PHARE_TEXTURED
+  see_texture();
+#endif
   float unit = inversesqrt(dot(point_normal, point_normal));
   if (sides == 2) unit = gl_FrontFacing ? unit : -unit;
   vec3 n = point_normal * unit;
@@ -177,10 +183,19 @@ void main() {
     return;
   }
 
+#ifdef PHARE_TEXTURED
+  vec3 shown = output_kind == kOutputHdr ? vec3(1.0) : frame.exposure.rgb;
+  vec3 rho = (wet_alpha > 0.0 ? wet_reflectance(seen_rho) : seen_rho) * (shown / 3.14159265);
+  if ((look & kLookBase) == 0) rho = surface_reflectance(rho);  // a picture has details of its own
+#else
   vec3 rho = surface_reflectance(reflectance.rgb);
+#endif
   vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + n.z));  // the sky's half dome, unoccluded
   if (retro != 0) light += retro_lx * rho;
   if (wet_alpha > 0.0) light += output_kind == kOutputHdr ? film : film * frame.exposure.rgb;
+#ifdef PHARE_TEXTURED
+  if ((look & kLookEmits) != 0) light += seen_emitted_cdm2 * shown;
+#endif
 #ifdef PHARE_FOG
   light = through_fog(light, point, gl_FragCoord.xy);
 #endif
