@@ -21,6 +21,9 @@
 #define PHARE_REACHING(I) 1.0
 #endif
 #include "lib/tone.h"
+#ifdef PHARE_TEXTURED
+#include "lib/textured.glsl"
+#endif
 
 layout(constant_id = 3) const uint output_kind = 0;
 layout(constant_id = 4) const uint lamp_base = 0;
@@ -60,6 +63,9 @@ float in_8_bits(float cd, float peak_cd) {
 }
 
 void main() {
+#ifdef PHARE_TEXTURED
+  see_texture();
+#endif
   float unit = inversesqrt(dot(point_normal, point_normal));
   if (sides == 2) unit = gl_FrontFacing ? unit : -unit;
   vec3 n = point_normal * unit;
@@ -134,12 +140,25 @@ void main() {
     return;
   }
 
-  vec2 detail = surface_detail(point, detail_from_point);
-  vec3 rho = reflectance.rgb * detail.x;
-  rho.r *= detail.y;
+#ifdef PHARE_TEXTURED
+  vec3 shown = output_kind == kOutputHdr ? vec3(1.0) : frame.exposure.rgb;
+  vec3 rho = (wet_alpha > 0.0 ? wet_reflectance(seen_rho) : seen_rho) * (shown / 3.14159265);
+  bool detailed = (look & kLookBase) == 0;  // a picture has details of its own
+#else
+  vec3 rho = reflectance.rgb;
+  const bool detailed = true;
+#endif
+  if (detailed) {
+    vec2 detail = surface_detail(point, detail_from_point);
+    rho *= detail.x;
+    rho.r *= detail.y;
+  }
   vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + n.z));  // the sky's half dome, unoccluded
   if (retro != 0) light += retro_lx * rho;
   if (wet_alpha > 0.0) light += output_kind == kOutputHdr ? film : film * frame.exposure.rgb;
+#ifdef PHARE_TEXTURED
+  if ((look & kLookEmits) != 0) light += seen_emitted_cdm2 * shown;
+#endif
 #ifdef PHARE_FOG
   light = through_fog(light, point, gl_FragCoord.xy);
 #endif

@@ -8,6 +8,9 @@
 #ifdef PHARE_LIT_BY_VERTEX
 #include "lib/by_vertex.glsl"
 #endif
+#ifdef PHARE_TEXTURED
+#include "lib/textured.glsl"
+#endif
 
 layout(location = 0) in vec3 position_m;  // relative to the batch's origin
 layout(location = 1) in vec3 normal;
@@ -26,5 +29,8 @@ void main() {
 #endif
 #ifdef PHARE_LIT_BY_VERTEX
   light_vertices();
+#endif
+#ifdef PHARE_TEXTURED
+  pass_look();
 #endif
 }

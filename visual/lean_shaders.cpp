@@ -32,13 +32,13 @@
 namespace phare {
 namespace {
 
-using Words = std::span<const std::uint32_t>;
-struct Code {
-  Words vertex, fragment;
+using LeanWords = std::span<const std::uint32_t>;
+struct LeanCode {
+  LeanWords vertex, fragment;
 };
 
 /// By surface, then by alike, then by shadows.
-constexpr std::array<Code, 12> kCode{{
+constexpr std::array<LeanCode, 12> kCode{{
     {k_lean_vert_smooth, k_lean_frag_smooth},
     {k_lean_vert_smooth_shadows, k_lean_frag_smooth_shadows},
     {k_lean_vert_smooth_alike, k_lean_frag_smooth_alike},
@@ -57,7 +57,7 @@ constexpr std::array<Code, 12> kCode{{
 const LeanShaders::Stages& LeanShaders::stages(const LeanKind& kind) {
   const auto found = made_.find(kind);
   if (found != made_.end()) return found->second;
-  const Code& code = kCode[4 * static_cast<std::size_t>(kind.surface) + (kind.alike ? 2 : 0) + (kind.shadows ? 1 : 0)];
+  const LeanCode& code = kCode[4 * static_cast<std::size_t>(kind.surface) + (kind.alike ? 2 : 0) + (kind.shadows ? 1 : 0)];
   return made_.emplace(kind, Stages{gpu::make_shader(*device_, code.vertex), gpu::make_shader(*device_, code.fragment)})
       .first->second;
 }

@@ -60,6 +60,10 @@ void LitScene::set_reference_points(std::span<const double> points) {
   reference().light.set_points(points);
 }
 
+vk::DescriptorSetLayout LitScene::reference_layout() {
+  return reference().light.layout();
+}
+
 LitScene::FragmentStage LitScene::reference_stage(const LitVariant& variant) {
   using Code = std::span<const std::uint32_t>;
   static const std::array<Code, 4> codes{k_lamps_frag_reference, k_lamps_frag_reference_shadows,

@@ -291,8 +291,8 @@ vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
 }
 
 bool LitScene::is_lean(const LitVariant& variant) const {
-  return variant.lamp_count <= 2 && variant.colours == 0 && variant.fog.slices == 0 && variant.wet == 0 &&
-         variant.method == Method::kFragment && !filtered() &&
+  return variant.lamp_count <= 2 && variant.colours == 0 && variant.kind.look == 0 && variant.fog.slices == 0 &&
+         variant.wet == 0 && variant.method == Method::kFragment && !filtered() &&
          (variant.output == LampOutput::kDisplay || variant.output == LampOutput::kHdr ||
           variant.output == LampOutput::kClipping || variant.output == LampOutput::kAudit);
 }
@@ -308,24 +308,33 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
                          static_cast<std::uint32_t>(variant.method), variant.fog.lamps,
                          variant.fog.columns | variant.fog.rows << 16u, variant.fog.slices});
   numbers.put_all(shader::kSpecTables, table_words(variant.tables));
+  const bool textured = variant.kind.look != 0;
+  if (textured) numbers.put(shader::kSpecLook, variant.kind.look);
   if (variant.wet != 0) numbers.put(shader::kSpecWet, std::bit_cast<std::uint32_t>(kWetAlpha[variant.wet]));
   const vk::SpecializationInfo constants = numbers.info();
   const bool measure = variant.output == LampOutput::kMeasure;
   // By "reference" one shader serves any number of lamps: its time goes elsewhere.
   const std::size_t size = shader_for(variant.method == Method::kReference ? shader::kMaxLamps : variant.lamp_count) +
                            (variant.shadow_maps != 0 ? 3u : 0u);
-  const LeanShaders::Stages* lean = is_lean(variant) ? &lean_.stages(lean_kind(variant)) : nullptr;
-  const FragmentStage fragment = lean != nullptr ? FragmentStage{*lean->fragment, *layout_}
-                                 : variant.method == Method::kReference ? reference_stage(variant)
-                                                                        : fragment_stage(variant, size);
+  Stages stages;
+  if (is_lean(variant)) {
+    const LeanShaders::Stages& lean = lean_.stages(lean_kind(variant));
+    stages = {*lean.vertex, {*lean.fragment, *layout_}};
+  } else if (textured) {
+    stages = textured_stages(variant);
+  } else {
+    stages.fragment = variant.method == Method::kReference ? reference_stage(variant) : fragment_stage(variant, size);
+    stages.vertex = measure ? *measure_vert_[size] : scene_vert(size, variant.method, variant.fog.slices != 0);
+  }
+  std::span<const vk::VertexInputAttributeDescription> attributes = std::span(kVertexAttributes).first(measure ? 2 : 3);
+  if (textured) attributes = kTexturedAttributes;
   PipelineRecipe recipe{
-      .vertex = lean != nullptr ? *lean->vertex
-                : measure       ? *measure_vert_[size]
-                                : scene_vert(size, variant.method, variant.fog.slices != 0),
-      .fragment = fragment.module,
+      .vertex = stages.vertex,
+      .fragment = stages.fragment.module,
       .constants = &constants,
-      .attributes = std::span(kVertexAttributes).first(measure ? 2 : 3),
+      .attributes = attributes,
       .stride = sizeof(GpuVertex),
+      .second_stride = textured ? static_cast<std::uint32_t>(sizeof(CornerLook)) : 0u,
       .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
       .cull = variant.kind.double_sided || measure ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack,
       .colour = {variant.format},
@@ -333,7 +342,7 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
       .depth_write = !measure && !variant.depth_done,
       .compare = variant.depth_done ? vk::CompareOp::eEqual : vk::CompareOp::eGreater,
       .samples = variant.samples,
-      .layout = fragment.layout};
+      .layout = stages.fragment.layout};
   if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
   return *pipelines_.emplace(variant, make_pipeline(device_, recipe)).first->second;
 }
@@ -395,6 +404,7 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
   const bool by_reference = view.method == Method::kReference;
   if (by_reference) bind_reference(commands, view, view.lit_by.front());
   std::size_t lit_by = 0;
+  bool plain = true;  // the vertices are bound as those without a look take them
   vk::Pipeline bound;
   for (const DrawItem& item : view.items) {
     if (item.lit_by != std::exchange(lit_by, item.lit_by)) {
@@ -414,8 +424,12 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
         common.output == LampOutput::kClipping)
       variant.fog = view.fog;
     if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet;
-    if (variant.output == LampOutput::kAudit)
-      variant.kind = {.double_sided = variant.kind.double_sided, .flat = variant.kind.flat};
+    if (variant.output == LampOutput::kAudit) {
+      const std::uint32_t look = variant.kind.look;
+      variant.kind = {.double_sided = variant.kind.double_sided,
+                      .flat = variant.kind.flat,
+                      .look = look & shader::kLookCut ? look : 0u};
+    }
     if (is_lean(variant))
       variant.alike = lit.alike;
     else
@@ -423,7 +437,11 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     const vk::Pipeline wanted = pipeline(variant);
     if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);
     push(commands, by_reference ? reference_draw(item) : item.push);
-    commands.drawIndexed(item.batch->index_count, 1, item.first_index, item.batch->first_vertex, 0);
+    const bool look = variant.kind.look != 0;
+    if (look) bind_look(commands, *item.batch, by_reference);
+    if (!look && !plain) bind_vertices(commands);
+    plain = !look;
+    commands.drawIndexed(item.batch->index_count, 1, item.first_index, look ? 0 : item.batch->first_vertex, 0);
   }
 }
 

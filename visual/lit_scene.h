@@ -64,6 +64,7 @@ struct ShadowLevel {
 /// The maps of a view, as texels one after the other.
 struct ShadowDepths {
   gpu::HostBuffer triangles;  ///< that cast them, corner by corner
+  gpu::HostBuffer cut_triangles;  ///< those with holes
   gpu::DeviceBuffer texels;
   vk::raii::BufferView view{nullptr};
   gpu::DescriptorSets sets{};
@@ -162,6 +163,8 @@ class LitScene {
   glm::vec3 mean_colour(std::span<const PlacedLamp> lamps) const;
 
   vk::PipelineLayout layout() const { return *layout_; }
+  /// The same, with the set of a surface's textures behind; only where the scene has some.
+  vk::PipelineLayout textured_layout();
   /// Of the set that holds the lamps, for pipelines that compute.
   vk::DescriptorSetLayout lamps_layout() const { return sets_.layout(); }
   /// Beams are weighed by the texture filter.
@@ -176,6 +179,13 @@ class LitScene {
   /// The view's data, and the vertices of the scene.
   void bind(vk::CommandBuffer commands, const LitView& view) const;
   void bind(vk::CommandBuffer commands, const LitBy& lit_by) const;
+  /// Textures and corners of a batch that has a look: drawn from its first vertex on. After it bind_vertices() for
+  /// others.
+  void bind_look(vk::CommandBuffer commands, const SceneBatch& batch, bool reference = false);
+  void bind_vertices(vk::CommandBuffer commands) const;
+  /// Textures of a material that has some, on a device that draws them.
+  vk::DescriptorSet textures_of(std::size_t material) const { return geometry_.textures.set(material); }
+  bool has_textures() const { return !geometry_.textures.empty(); }
   void bind_shadows(vk::CommandBuffer commands, const LitView& view) const;
   void bind_fog(vk::CommandBuffer commands, const LitView& view) const;
   void push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const;
@@ -193,9 +203,17 @@ class LitScene {
   struct ReferenceDeleter {
     void operator()(Reference* reference) const;
   };
+  struct Textured;
+  struct TexturedDeleter {
+    void operator()(Textured* textured) const;
+  };
   struct FragmentStage {
     vk::ShaderModule module;
     vk::PipelineLayout layout;
+  };
+  struct Stages {
+    vk::ShaderModule vertex;
+    FragmentStage fragment;
   };
 
   bool is_lean(const LitVariant& variant) const;
@@ -203,6 +221,10 @@ class LitScene {
   vk::raii::PipelineLayout pipeline_layout(std::span<const vk::DescriptorSetLayout> sets);
   FragmentStage fragment_stage(const LitVariant& variant, std::size_t size);
   FragmentStage reference_stage(const LitVariant& variant);
+  Textured& textured();
+  Stages textured_stages(const LitVariant& variant);
+  vk::ShaderModule textured_module(std::span<const std::uint32_t> code);
+  vk::DescriptorSetLayout reference_layout();
   Reference& reference();
   void keep_image(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed);
   LampReach reach_of(const PlacedLamp& lamp) const {
@@ -241,6 +263,7 @@ class LitScene {
                               nullptr, nullptr, nullptr};   ///< each made when it is called for
   std::unique_ptr<Reference, ReferenceDeleter> reference_;  ///< made when it is called for
   bool reference_begun_ = false;                            ///< in this frame
+  std::unique_ptr<Textured, TexturedDeleter> textured_;     ///< made when it is called for
 };
 
 /// The constants of a draw by the method "reference": with its first index and vertex, as GpuDraw has them.
@@ -259,5 +282,7 @@ std::span<const std::uint32_t> scene_fog_vert(bool shadows, bool by_vertex, bool
 inline constexpr auto kLitStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 /// Of GpuVertex.
 extern const std::array<vk::VertexInputAttributeDescription, 3> kVertexAttributes;
+/// Of GpuVertex and CornerLook.
+extern const std::array<vk::VertexInputAttributeDescription, 5> kTexturedAttributes;
 
 }  // namespace phare

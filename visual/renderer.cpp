@@ -120,9 +120,9 @@ struct Renderer::Impl {
     hdrs.clear();
   }
 
-  void set_scene(const Scene& new_scene, const Scene& moving) {
+  void set_scene(const Scene& new_scene, const Scene& moving, const Progress& progress = {}) {
     device.device.waitIdle();
-    scene.set_geometry(SceneBuffers(device, new_scene, moving), ShadowCasters(new_scene, moving));
+    scene.set_geometry(SceneBuffers(device, new_scene, moving, progress), ShadowCasters(new_scene, moving));
   }
 
   /// Submits what `record` puts into the graph and waits for it.
@@ -221,9 +221,9 @@ Status Renderer::load_scene(const Scene& scene) {
   return load_scene(scene, Scene{});
 }
 
-Status Renderer::load_scene(const Scene& scene, const Scene& moving) {
+Status Renderer::load_scene(const Scene& scene, const Scene& moving, const Progress& progress) {
   try {
-    impl_->set_scene(scene, moving);
+    impl_->set_scene(scene, moving, progress);
     return Done{};
   } catch (const vk::DeviceLostError&) {  // no fault of what was given
     throw;

@@ -29,7 +29,6 @@ struct GLFWwindow;
 
 namespace phare {
 
-struct Scene;  // visual/scene/scene.h
 
 struct RendererOptions {
   int width_px = 1280;
@@ -175,7 +174,7 @@ class Renderer {
 
   /// `moving`: meshes for what moves, one a node, each about its own origin.
   Status load_scene(const Scene& scene);
-  Status load_scene(const Scene& scene, const Scene& moving);
+  Status load_scene(const Scene& scene, const Scene& moving, const Progress& progress = {});
   /// A new beam image, at any index. Uploaded with the next frame.
   void set_beam(std::size_t index, const BeamImage& image);
   /// The image set last, changed in these rectangles of its nodes only; nodes, type and aim are the same.

@@ -52,18 +52,24 @@ bool shows_its_far_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3&
 }  // namespace
 
 ShadowCasters::ShadowCasters(const Scene& scene, const Scene& moving) {
-  const auto chunk_of = [](const Scene& of, const SceneChunk& from) {
-    Chunk chunk{from.origin_m, from.low_m, from.high_m, of.materials[from.material].double_sided, {}, {}};
+  const auto chunk_of = [](const Scene& of, const SceneChunk& from, std::size_t first_material) {
+    const SceneMaterial& material = of.materials[from.material];
+    Chunk chunk{from.origin_m, from.low_m, from.high_m, material.double_sided, {}, {}};
+    if (from.first_look && material.look.cut_below && material.look.base_texture) {
+      chunk.cut_of = first_material + from.material;
+      for (std::uint32_t i = 0; i < from.vertex_count; ++i) chunk.uvs.push_back(of.looks[*from.first_look + i].uv);
+    }
+    chunk.corners_m.reserve(from.vertex_count);
     for (std::uint32_t i = 0; i < from.vertex_count; ++i)
       chunk.corners_m.push_back(of.vertices[from.first_vertex + i].position_m);
     chunk.indices.assign(of.indices.begin() + from.first_index,
                          of.indices.begin() + from.first_index + from.index_count);
     return chunk;
   };
-  for (const SceneChunk& from : scene.chunks) chunks_.push_back(chunk_of(scene, from));
+  for (const SceneChunk& from : scene.chunks) chunks_.push_back(chunk_of(scene, from, 0));
   for (const std::vector<std::size_t>& of_node : chunks_by_node(moving)) {
     std::vector<Chunk>& mesh = moving_.emplace_back();
-    for (const std::size_t from : of_node) mesh.push_back(chunk_of(moving, moving.chunks[from]));
+    for (const std::size_t from : of_node) mesh.push_back(chunk_of(moving, moving.chunks[from], scene.materials.size()));
   }
 }
 
@@ -73,18 +79,29 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const glm::mat3& turn, const 
   seen.reserve(chunk.corners_m.size());
   for (const glm::vec3& corner : chunk.corners_m) seen.push_back(turn * corner + shift);
   bool casts = false;
+  std::vector<CutCorner>* cut = nullptr;
+  if (chunk.cut_of) {
+    auto of_material = std::ranges::find(cast.cut, *chunk.cut_of, &CutCasters::material);
+    if (of_material == cast.cut.end()) of_material = cast.cut.insert(cast.cut.end(), {*chunk.cut_of});
+    cut = &of_material->corners;
+  }
   for (std::size_t k = 0; k + 2 < chunk.indices.size(); k += 3) {
     const glm::vec3 &a = seen[chunk.indices[k]], &b = seen[chunk.indices[k + 1]], &c = seen[chunk.indices[k + 2]];
     const double nearest = static_cast<double>(std::min({a.x, b.x, c.x}));
     if (static_cast<double>(std::max({a.x, b.x, c.x})) <= kNearest_m || nearest > kShadowsTo_m) continue;
-    if (!chunk.double_sided && !shows_its_far_side(a, b, c)) continue;
+    if (cut == nullptr && !chunk.double_sided && !shows_its_far_side(a, b, c)) continue;
     TangentRect part = at_corner(a);
     widen(part, at_corner(b));
     widen(part, at_corner(c));
     part = common(part, light);
     if (part.left < part.right || part.high < part.low) continue;
-    std::vector<glm::vec3>& triangles = chunk.double_sided ? cast.both_sides : cast.far_sides;
-    triangles.insert(triangles.end(), {a, b, c});
+    if (cut != nullptr) {
+      const auto uv = [&](std::size_t corner) { return chunk.uvs[chunk.indices[k + corner]]; };
+      cut->insert(cut->end(), {{a, uv(0)}, {b, uv(1)}, {c, uv(2)}});
+    } else {
+      std::vector<glm::vec3>& triangles = chunk.double_sided ? cast.both_sides : cast.far_sides;
+      triangles.insert(triangles.end(), {a, b, c});
+    }
     widen(cast.part, part);
     cast.nearest_m = std::min(cast.nearest_m, std::max(nearest, kNearest_m));
     casts = true;

@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,18 @@ struct TangentRect {
   bool empty() const { return left <= right || high <= low; }
 };
 
+/// A corner of a surface with holes, and where of its texture it is.
+struct CutCorner {
+  glm::vec3 corner_m;
+  glm::vec2 uv;
+};
+
+/// Triangles that cast but where their texture has holes: three corners each.
+struct CutCasters {
+  std::size_t material = 0;  ///< of the scene and then of what moves
+  std::vector<CutCorner> corners{};
+};
+
 /// What casts shadows in the light of one lamp.
 struct CastBy {
   std::vector<bool> chunks{};  ///< of the scene and then of what moves, which of them cast; empty: none does
@@ -39,6 +52,7 @@ struct CastBy {
   /// Corners of the triangles that cast, three each: forward, left, up from the lamp, m. Far sides of what is seen from
   /// one side, and all of what is seen from both.
   std::vector<glm::vec3> far_sides{}, both_sides{};
+  std::vector<CutCasters> cut{};  ///< by material
 };
 
 class ShadowCasters {
@@ -58,6 +72,8 @@ class ShadowCasters {
     bool double_sided = false;
     std::vector<glm::vec3> corners_m;  ///< relative to the origin
     std::vector<std::uint32_t> indices;
+    std::optional<std::size_t> cut_of{};  ///< its material has holes: which
+    std::vector<glm::vec2> uvs{};         ///< of its corners then
   };
   /// Adds the triangles of a chunk that cast; false: none does. `turn`, `shift`: from its corners into the lamp's
   /// frame.

@@ -1,6 +1,7 @@
 // The one place where tinygltf is compiled.
 #define TINYGLTF_IMPLEMENTATION
 #include "config/formats/gltf_file.h"
+#undef TINYGLTF_IMPLEMENTATION
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,8 @@
 #include <limits>
 #include <span>
 #include <utility>
+
+#include "config/formats/gltf_meshopt.h"
 
 namespace phare {
 namespace {
@@ -23,8 +26,11 @@ Error bad(std::string place, std::string reason) {
   return Error{std::move(place), std::move(reason)};
 }
 
-// Images do not matter to us: accept them unseen.
-bool ignore_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+// Images are not decoded here. Where they are wanted, those that the JSON itself holds are kept as they come; of others
+// the model says where they lie.
+bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                int size, void* wanted) {
+  if (wanted != nullptr && image->bufferView < 0) image->image.assign(bytes, bytes + size);
   return true;
 }
 
@@ -44,37 +50,6 @@ int json_nesting(std::span<const unsigned char> text) {
     if (c == '}' || c == ']') --depth;
   }
   return deepest;
-}
-
-// The bytes of an accessor: first element, stride and count, proven to lie inside the buffer.
-struct Elements {
-  const unsigned char* first = nullptr;
-  std::size_t stride = 0;
-  std::size_t count = 0;
-};
-
-Result<Elements> elements_of(const tinygltf::Model& model, int index, std::size_t element_bytes) {
-  const std::string place = "accessor " + std::to_string(index);
-  if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) return bad(place, "does not exist");
-  const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
-  if (accessor.sparse.isSparse) return bad(place, "sparse accessors are not supported");
-  if (accessor.bufferView < 0 || static_cast<std::size_t>(accessor.bufferView) >= model.bufferViews.size())
-    return bad(place, "bufferView " + std::to_string(accessor.bufferView) + " does not exist");
-  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
-  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size())
-    return bad(place, "buffer " + std::to_string(view.buffer) + " does not exist");
-  const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-
-  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-    return bad(place, "its bufferView reaches beyond the buffer of " + std::to_string(data.size()) + " bytes");
-  const std::size_t stride = view.byteStride == 0 ? element_bytes : view.byteStride;
-  if (stride < element_bytes) return bad(place, "stride " + std::to_string(stride) + " is smaller than an element");
-  if (accessor.count == 0) return Elements{data.data(), stride, 0};
-  if (accessor.byteOffset > view.byteLength || view.byteLength - accessor.byteOffset < element_bytes ||
-      accessor.count - 1 > (view.byteLength - accessor.byteOffset - element_bytes) / stride)
-    return bad(place, std::to_string(accessor.count) + " elements do not fit into its bufferView of " +
-                          std::to_string(view.byteLength) + " bytes");
-  return Elements{data.data() + view.byteOffset + accessor.byteOffset, stride, accessor.count};
 }
 
 glm::dmat4 local_transform(const tinygltf::Node& node) {
@@ -128,13 +103,19 @@ Status visit(const tinygltf::Model& model, int index, const glm::dmat4& world_fr
   return Done{};
 }
 
-bool harmless_extension(const std::string& name) {
-  return name.starts_with("KHR_materials_") || name.starts_with("KHR_texture_") || name == "KHR_lights_punctual";
+// Without them the triangles are the same: what of them is not drawn is named (visual/scene/scene.h).
+bool of_looks_only(const std::string& name) {
+  return name.starts_with("KHR_materials_") || name.starts_with("KHR_texture_") || name == "EXT_texture_webp" ||
+         name == "KHR_lights_punctual" || name == "EXT_lights_ies";
+}
+
+bool is_read(const std::string& name) {
+  return of_looks_only(name) || name == "KHR_mesh_quantization" || name == kMeshoptExtension;
 }
 
 }  // namespace
 
-Result<tinygltf::Model> read_gltf(const std::filesystem::path& file) try {
+Result<tinygltf::Model> read_gltf(const std::filesystem::path& file, GltfImages images) try {
   const std::string place = file.string();
   std::error_code code;
   if (!std::filesystem::exists(file, code)) return bad(place, "no such file");
@@ -159,8 +140,11 @@ Result<tinygltf::Model> read_gltf(const std::filesystem::path& file) try {
   }
   if (json_nesting(json) > kMaxNesting) return bad(place, "JSON is nested deeper than " + std::to_string(kMaxNesting));
 
+  if (Status done = stand_in_for_fallbacks(bytes, binary); !done) return bad(place, done.error().text());
+
   tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(ignore_image, nullptr);
+  bool wanted = true;
+  loader.SetImageLoader(keep_image, images == GltfImages::kKeep ? &wanted : nullptr);
   tinygltf::Model model;
   std::string error, warning;
   const std::string directory = file.parent_path().string();
@@ -176,44 +160,11 @@ Result<tinygltf::Model> read_gltf(const std::filesystem::path& file) try {
     return bad(place, error.empty() ? "is not a glTF 2.0 file" : error);
   }
   for (const std::string& extension : model.extensionsRequired)
-    if (!harmless_extension(extension))
-      return bad(place, "requires the extension " + extension + ", which is not supported");
+    if (!is_read(extension)) return bad(place, "requires the extension " + extension + ", which is not supported");
+  if (Status done = unpack_meshopt(model); !done) return bad(place, done.error().text());
   return model;
 } catch (const std::exception& problem) {  // out of memory, or a JSON type tinygltf did not expect
   return bad(file.string(), problem.what());
-}
-
-Result<std::vector<glm::vec3>> read_vec3(const tinygltf::Model& model, int accessor) {
-  const Result<Elements> elements = elements_of(model, accessor, 3 * sizeof(float));
-  if (!elements) return elements.error();
-  const tinygltf::Accessor& described = model.accessors[static_cast<std::size_t>(accessor)];
-  const std::string place = "accessor " + std::to_string(accessor);
-  if (described.type != TINYGLTF_TYPE_VEC3 || described.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
-    return bad(place, "expected VEC3 of float");
-  std::vector<glm::vec3> out(elements->count);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    std::memcpy(&out[i], elements->first + i * elements->stride, 3 * sizeof(float));
-    if (!std::isfinite(out[i].x) || !std::isfinite(out[i].y) || !std::isfinite(out[i].z))
-      return bad(place, "element " + std::to_string(i) + " is not finite");
-  }
-  return out;
-}
-
-Result<std::vector<std::uint32_t>> read_indices(const tinygltf::Model& model, int accessor) {
-  const std::string place = "accessor " + std::to_string(accessor);
-  if (accessor < 0 || static_cast<std::size_t>(accessor) >= model.accessors.size()) return bad(place, "does not exist");
-  const tinygltf::Accessor& described = model.accessors[static_cast<std::size_t>(accessor)];
-  std::size_t width = 0;
-  if (described.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) width = 1;
-  if (described.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) width = 2;
-  if (described.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) width = 4;
-  if (width == 0 || described.type != TINYGLTF_TYPE_SCALAR) return bad(place, "expected unsigned SCALAR indices");
-  const Result<Elements> elements = elements_of(model, accessor, width);
-  if (!elements) return elements.error();
-  std::vector<std::uint32_t> out(elements->count, 0);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    std::memcpy(&out[i], elements->first + i * elements->stride, width);  // glTF and we are little-endian
-  return out;
 }
 
 Result<std::vector<std::uint32_t>> read_triangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,

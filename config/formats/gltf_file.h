@@ -1,6 +1,6 @@
 // glTF 2.0 files (.gltf, .glb), read with every index and range checked, so that a broken file gives an error and no
-// crash. Images are not loaded. Used for the scene that is drawn and for the road that is driven on: both see the same
-// triangles.
+// crash. Used for the scene that is drawn and for the road that is driven on: both see the same triangles. Read: all of
+// glTF 2.0's accessors, sparse ones too, KHR_mesh_quantization, EXT_meshopt_compression. docs/scenes.md has the whole list.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -8,7 +8,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,11 +19,26 @@
 
 namespace phare {
 
-/// Reads a file. The error's place is the file; the reason is tinygltf's or ours.
-Result<tinygltf::Model> read_gltf(const std::filesystem::path& file);
+enum class GltfImages {
+  kLeave,  ///< not looked at
+  kKeep    ///< encoded bytes of those in data URIs stay in tinygltf::Image::image
+};
 
-/// Float VEC3 accessor (positions, normals), as stored: glTF axes, mesh frame, metres. Values are finite.
+/// Reads a file. The error's place is the file; the reason is tinygltf's or ours.
+Result<tinygltf::Model> read_gltf(const std::filesystem::path& file, GltfImages images = GltfImages::kLeave);
+
+/// The view's bytes, proven to lie inside its buffer.
+Result<std::span<const unsigned char>> bytes_of_view(const tinygltf::Model& model, int view);
+
+/// VEC3 accessor (positions, normals), as stored: glTF axes, mesh frame, metres; of float or, by KHR_mesh_quantization,
+/// of 8 or 16 bit, normalized or not. Values are finite.
 Result<std::vector<glm::vec3>> read_vec3(const tinygltf::Model& model, int accessor);
+
+/// VEC2 accessor (texture coordinates), likewise.
+Result<std::vector<glm::vec2>> read_vec2(const tinygltf::Model& model, int accessor);
+
+/// VEC3 or VEC4 accessor (colours), likewise; of three components the fourth is 1.
+Result<std::vector<glm::vec4>> read_vec4(const tinygltf::Model& model, int accessor);
 
 /// Index accessor of any unsigned width. Values are NOT yet compared with a vertex count; read_triangles does that.
 Result<std::vector<std::uint32_t>> read_indices(const tinygltf::Model& model, int accessor);

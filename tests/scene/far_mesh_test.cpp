@@ -116,5 +116,23 @@ TEST(FarMesh, KeepsEveryReflectorHoweverSmall) {
   EXPECT_EQ(from_afar(scene).indices.size(), scene.indices.size());
 }
 
+TEST(FarMesh, LooksStayWithTheirCorners) {
+  Scene scene;
+  scene.materials = {{.name = "wall"}};
+  add_box(scene, {0, 0, 0}, {40, 30, 20});
+  SceneChunk chunk = whole(scene);
+  chunk.first_look = 0;
+  for (const SceneVertex& vertex : scene.vertices)
+    scene.looks.push_back({{vertex.position_m.x + vertex.normal.x, vertex.position_m.y + vertex.normal.y}});
+  const FarMesh far = far_mesh(scene, chunk, kFarLevels.size() - 1, kFrom_m);
+  ASSERT_FALSE(far.indices.empty());
+  ASSERT_EQ(far.looks.size(), far.vertices.size());
+  for (std::size_t i = 0; i < far.vertices.size(); ++i) {
+    const SceneVertex& vertex = far.vertices[i];
+    EXPECT_EQ(far.looks[i].uv,
+              glm::vec2(vertex.position_m.x + vertex.normal.x, vertex.position_m.y + vertex.normal.y));
+  }
+}
+
 }  // namespace
 }  // namespace phare

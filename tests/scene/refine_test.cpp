@@ -54,5 +54,20 @@ TEST(Refined, CutsTheGroundInFourAndKeepsItsSurface) {
   }
 }
 
+TEST(Refine, LooksLieBetweenTheirCorners) {
+  Scene scene = road_and_sign();
+  scene.chunks[1].first_look = 0;
+  scene.looks = {{{0, 0}, glm::u16vec4(65535)}, {{1, 0}, glm::u16vec4(0)}, {{0, 1}, glm::u16vec4(65535)}};
+  const Scene finer = refined(scene, 1);
+  ASSERT_TRUE(finer.chunks[1].first_look);
+  EXPECT_FALSE(finer.chunks[0].first_look);
+  ASSERT_EQ(finer.looks.size(), finer.chunks[1].vertex_count);
+  for (std::size_t i = 0; i < finer.looks.size(); ++i) {  // the corners lie at (9, u, v)
+    const glm::vec3 at = finer.vertices[finer.chunks[1].first_vertex + i].position_m;
+    EXPECT_EQ(finer.looks[i].uv, glm::vec2(at.y, at.z));
+    EXPECT_EQ(finer.looks[i].colour.x, at.y == 0.5f ? 32767 : at.y == 1.0f ? 0 : 65535);
+  }
+}
+
 }  // namespace
 }  // namespace phare

@@ -116,8 +116,10 @@ Device::Device(const DeviceOptions& options) {
       .synchronization2 = VK_TRUE, .dynamicRendering = VK_TRUE, .maintenance4 = VK_TRUE};
   const vk::PhysicalDeviceFeatures there = physical.getFeatures();
   float64 = options.float64 && there.shaderFloat64 == VK_TRUE;
+  if (there.samplerAnisotropy == VK_TRUE) most_anisotropy = properties.limits.maxSamplerAnisotropy;
   primitive_id = there.geometryShader == VK_TRUE;
   const vk::PhysicalDeviceFeatures features{.geometryShader = primitive_id ? VK_TRUE : VK_FALSE,
+                                            .samplerAnisotropy = there.samplerAnisotropy,
                                             .shaderFloat64 = float64 ? VK_TRUE : VK_FALSE};
   std::vector<const char*> extensions;
   if (!options.instance_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);

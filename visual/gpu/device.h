@@ -72,6 +72,7 @@ class Device {
   vk::PhysicalDeviceProperties properties{};
   std::string driver;
   bool float64 = false;       ///< shaderFloat64 is there and enabled
+  float most_anisotropy = 1.0f;  ///< of a sampler
   bool primitive_id = false;  ///< fragments know their triangle: geometryShader is there and enabled
   std::shared_ptr<std::atomic<std::uint64_t>> validation_messages = std::make_shared<std::atomic<std::uint64_t>>(0);
   MemoryCount allocated_bytes = std::make_shared<std::uint64_t>(0);

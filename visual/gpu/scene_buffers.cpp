@@ -1,5 +1,7 @@
 #include "visual/gpu/scene_buffers.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,15 +36,19 @@ Cell cell_of(const SceneChunk& chunk, double side_m) {
 struct Gathered {
   std::vector<GpuVertex> vertices;
   std::vector<std::uint32_t> indices;
+  std::vector<CornerLook> looks;
+  bool textures = true;          ///< the device can draw them
+  std::size_t first_material = 0;  ///< of the scene that is gathered
 };
 
 void append(Gathered& all, const SceneBatch& batch, const SceneChunk& chunk, std::span<const SceneVertex> vertices,
-            std::span<const std::uint32_t> indices) {
+            std::span<const std::uint32_t> indices, std::span<const CornerLook> looks) {
   const auto base = static_cast<std::uint32_t>(all.vertices.size()) - static_cast<std::uint32_t>(batch.first_vertex);
   const glm::vec3 shift(chunk.origin_m - batch.origin_m);
   for (const SceneVertex& vertex : vertices)
     all.vertices.push_back({vertex.position_m + shift, vertex.normal, chunk.material});
   for (std::uint32_t index : indices) all.indices.push_back(base + index);
+  if (batch.kind.look != 0) all.looks.insert(all.looks.end(), looks.begin(), looks.end());
 }
 
 glm::dvec2 order_direction(std::uint32_t order) {
@@ -80,16 +86,18 @@ struct DrawnChunk {
   std::optional<FarMesh> far{};  ///< none: in full
   std::span<const SceneVertex> vertices{};
   std::span<const std::uint32_t> indices{};
+  std::span<const CornerLook> looks{};
 };
 
 DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std::size_t> far_level) {
   DrawnChunk drawn{.chunk = &chunk};
   if (far_level) {
     drawn.far = far_mesh(scene, chunk, *far_level, kFarLevels[*far_level].from * kFarMeshFrom_m);
-    drawn.vertices = drawn.far->vertices, drawn.indices = drawn.far->indices;
+    drawn.vertices = drawn.far->vertices, drawn.indices = drawn.far->indices, drawn.looks = drawn.far->looks;
   } else {
     drawn.vertices = std::span(scene.vertices).subspan(chunk.first_vertex, chunk.vertex_count);
     drawn.indices = std::span(scene.indices).subspan(chunk.first_index, chunk.index_count);
+    if (chunk.first_look) drawn.looks = std::span(scene.looks).subspan(*chunk.first_look, chunk.vertex_count);
   }
   return drawn;
 }
@@ -97,22 +105,28 @@ DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std:
 // One batch for each kind and cell of `side_m` among the chunks.
 std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m,
                                std::optional<std::size_t> far_level, Gathered& all) {
-  std::map<std::pair<MaterialKind, Cell>, std::vector<DrawnChunk>> groups;
+  // Of what has a look, one for each material besides: its textures are bound for it.
+  std::map<std::tuple<MaterialKind, std::size_t, Cell>, std::vector<DrawnChunk>> groups;
   for (const SceneChunk* chunk : chunks) {
     const SceneMaterial& material = scene.materials[chunk->material];
+    const std::uint32_t look = all.textures && chunk->first_look ? look_bits(material) : 0;
     DrawnChunk mesh = drawn(scene, *chunk, far_level);
     const MaterialKind kind{material.surface, material.retro.kind, material.double_sided,
-                            is_flat(mesh.vertices, mesh.indices)};
-    groups[{kind, cell_of(*chunk, side_m)}].push_back(std::move(mesh));
+                            look == 0 && is_flat(mesh.vertices, mesh.indices), look};
+    groups[{kind, look != 0 ? all.first_material + chunk->material : 0, cell_of(*chunk, side_m)}].push_back(
+        std::move(mesh));
   }
   std::vector<SceneBatch> batches;
   for (const auto& [key, group] : groups) {
     const SceneChunk& first = *group.front().chunk;
-    SceneBatch batch{.kind = key.first, .origin_m = first.origin_m, .low_m = first.low_m, .high_m = first.high_m};
+    SceneBatch batch{
+        .kind = std::get<0>(key), .origin_m = first.origin_m, .low_m = first.low_m, .high_m = first.high_m};
     batch.first_index = static_cast<std::uint32_t>(all.indices.size());
     batch.first_vertex = static_cast<std::int32_t>(all.vertices.size());
+    batch.first_look = static_cast<std::uint32_t>(all.looks.size());
+    batch.look_of = std::get<1>(key);
     for (const DrawnChunk& mesh : group) {
-      append(all, batch, *mesh.chunk, mesh.vertices, mesh.indices);
+      append(all, batch, *mesh.chunk, mesh.vertices, mesh.indices, mesh.looks);
       batch.low_m = glm::min(batch.low_m, mesh.chunk->low_m);
       batch.high_m = glm::max(batch.high_m, mesh.chunk->high_m);
     }
@@ -123,11 +137,13 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
   return batches;
 }
 
-std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all) {
+std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all, const Progress& progress) {
   std::map<Cell, std::vector<const SceneChunk*>> cells;
   for (const SceneChunk& chunk : scene.chunks) cells[cell_of(chunk, kBlock_m)].push_back(&chunk);
   std::vector<SceneBlock> blocks;
   for (const auto& [cell, chunks] : cells) {
+    if (progress)
+      progress(static_cast<double>(blocks.size()) / static_cast<double>(cells.size()), "levels of detail");
     SceneBlock block{.low_m = chunks.front()->low_m, .high_m = chunks.front()->high_m};
     for (const SceneChunk* chunk : chunks) {
       block.low_m = glm::min(block.low_m, chunk->low_m);
@@ -154,6 +170,7 @@ std::vector<MovingMesh> make_moving(const Scene& scene, std::uint32_t first_mate
     chunks[static_cast<std::size_t>(mesh - meshes.begin())].push_back(&chunk);
   }
   const std::size_t first_vertex = all.vertices.size();
+  all.first_material = first_material;
   for (std::size_t i = 0; i < meshes.size(); ++i)
     meshes[i].batches = gather(scene, chunks[i], kBlock_m, std::nullopt, all);
   for (GpuVertex& vertex : std::span(all.vertices).subspan(first_vertex)) vertex.material += first_material;
@@ -165,7 +182,11 @@ std::vector<MovingMesh> make_moving(const Scene& scene, std::uint32_t first_mate
 shader::GpuMaterial pack_material(const SceneMaterial& material, std::vector<shader::GpuSheeting>& sheetings) {
   constexpr double kPi = std::numbers::pi;
   shader::GpuMaterial packed{glm::vec4(material.reflectance, 0.0f)};
-  const double rho = reflectance_under_a(material.reflectance);
+  // Of a picture of a sign what is white sends back as its class does; of ground and markings it is the mean.
+  const bool by_white = material.look.base_texture && material.retro.kind == RetroKind::kSheeting;
+  constexpr double kBlack = 1e-6;  // sends nothing back, and divides by nothing
+  const double rho =
+      std::max(reflectance_under_a(by_white ? glm::vec3(material.look.base) : material.reflectance), kBlack);
   if (material.retro.kind == RetroKind::kMarking || material.retro.kind == RetroKind::kFacets) {
     packed.reflectance.w = static_cast<float>(sent_back_strength(material.retro, rho) * kPi / rho);
   } else if (material.retro.kind == RetroKind::kSheeting) {
@@ -210,7 +231,8 @@ std::uint32_t SceneBatch::first_index_along(const glm::dvec2& direction) const {
   return first_index + order * index_count;
 }
 
-SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving_scene) {
+SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving_scene,
+                           const Progress& progress) {
   std::vector<shader::GpuMaterial> packed;
   std::vector<shader::GpuSheeting> sheetings;
   for (const SceneMaterial& material : scene.materials) packed.push_back(pack_material(material, sheetings));
@@ -224,13 +246,23 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
   sheetings.resize(shader::kMaxSheetings);
   packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
   Gathered all;
-  blocks = make_blocks(scene, all);
+  if (!scene.looks.empty() || !moving_scene.looks.empty()) {
+    const char* why_not = no_textures(device);
+    all.textures = why_not == nullptr;
+    if (why_not != nullptr) spdlog::warn("surfaces are drawn without their textures on this device: {}", why_not);
+  }
+  blocks = make_blocks(scene, all, progress);
   moving = make_moving(moving_scene, static_cast<std::uint32_t>(scene.materials.size()), all);
   using Usage = vk::BufferUsageFlagBits;
   vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.vertices)),
                                Usage::eVertexBuffer | Usage::eStorageBuffer, "scene vertices");
   indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)),
                               Usage::eIndexBuffer | Usage::eStorageBuffer, "scene indices");
+  if (!all.looks.empty()) {
+    const std::array scenes{&scene, &moving_scene};
+    textures = SurfaceTextures(device, scenes);
+    looks = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.looks)), Usage::eVertexBuffer, "looks of corners");
+  }
   material_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(packed)), Usage::eUniformBuffer, "materials");
   sheeting_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(sheetings)), Usage::eUniformBuffer, "sheetings");
 }

@@ -8,6 +8,7 @@
 
 #include "shaders/lamps.h"
 #include "visual/gpu/device.h"
+#include "visual/gpu/surface_textures.h"
 #include "visual/renderer.h"
 #include "visual/scene/far_mesh.h"
 #include "visual/scene/scene.h"
@@ -20,6 +21,7 @@ struct MaterialKind {
   RetroKind retro = RetroKind::kNone;
   bool double_sided = false;
   bool flat = false;  ///< each triangle's normal is that of its plane (visual/scene/scene.h)
+  std::uint32_t look = 0;  ///< as kSpecLook
 
   friend auto operator<=>(const MaterialKind&, const MaterialKind&) = default;
 };
@@ -42,7 +44,8 @@ struct SceneBatch {
   /// The same triangles in kOrders orders, one behind the other: near ones first for who looks along x, then turned to
   /// the left in even steps. Leaves lie behind leaves, and what is drawn first hides the rest before it is lit.
   bool ordered = false;
-
+  std::uint32_t first_look = 0;  ///< of its vertices, where the kind has a look; then all are of one material
+  std::size_t look_of = 0;       ///< which
   static constexpr std::uint32_t kOrders = 8;
   /// Of the order for who looks along (x, y).
   std::uint32_t first_index_along(const glm::dvec2& direction) const;
@@ -75,9 +78,11 @@ struct SceneBuffers {
   std::vector<SceneBlock> blocks;
   std::vector<MovingMesh> moving;  ///< one for each node of the scene of what moves, in its order
   gpu::DeviceBuffer vertices, indices, material_buffer, sheeting_buffer;
+  gpu::DeviceBuffer looks;  ///< CornerLook of the vertices of batches that have a look, and of no others
+  SurfaceTextures textures;
 
   SceneBuffers() = default;
-  SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving);
+  SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving, const Progress& progress = {});
 
   /// Batches whose bounds touch the view, those of one kind together, near ones first.
   /// Blocks that begin at the multiples kFarLevels of `far_from_m` or beyond are drawn with their far meshes.

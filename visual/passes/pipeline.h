@@ -13,7 +13,8 @@ struct PipelineRecipe {
   vk::ShaderModule fragment{};                        ///< null: depth only
   const vk::SpecializationInfo* constants = nullptr;  ///< of both stages
   std::span<const vk::VertexInputAttributeDescription> attributes{};
-  std::uint32_t stride = 0;  ///< of a vertex; 0: none are read
+  std::uint32_t stride = 0;         ///< of a vertex; 0: none are read
+  std::uint32_t second_stride = 0;  ///< of a vertex in a second buffer; 0: there is none
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
   vk::CullModeFlags cull = vk::CullModeFlagBits::eNone;
   std::vector<vk::Format> colour{};

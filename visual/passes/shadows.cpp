@@ -7,7 +7,11 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "shaders/depth_cut_frag.h"
+#include "shaders/shadow_cut_vert.h"
 #include "shaders/shadow_vert.h"
+#include "shaders/textured.h"
+#include "visual/passes/constants.h"
 
 namespace phare {
 namespace {
@@ -41,16 +45,24 @@ bool may_fall_on(const SceneBatch& batch, const PlacedLamp& lamp, const CastBy& 
          seen.high > cast.part.low && seen.low < cast.part.high;
 }
 
+const glm::vec3& place_of(const glm::vec3& corner) {
+  return corner;
+}
+const glm::vec3& place_of(const CutCorner& corner) {
+  return corner.corner_m;
+}
+
 /// Triangles of `corners` that hold the middle of a texel, of a picture of so many texels either way from the axis to a
 /// tangent of 1.
-void append_seen(std::vector<glm::vec3>& seen, const std::vector<glm::vec3>& corners, const glm::dvec2& texels,
+template <typename Corner>
+void append_seen(std::vector<Corner>& seen, const std::vector<Corner>& corners, const glm::dvec2& texels,
                  const ShadowLevel& level) {
   const glm::vec2 scale(texels), half(0.5f * static_cast<float>(level.width), 0.5f * static_cast<float>(level.height));
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     glm::vec2 low(1e30f), high(-1e30f);
     bool beside = false;  // reaches past the lamp: kept
     for (std::size_t k = 0; k < 3; ++k) {
-      const glm::vec3& corner = corners[i + k];
+      const glm::vec3& corner = place_of(corners[i + k]);
       beside = beside || corner.x < shader::kShadowNear_m;
       const glm::vec2 at = half - glm::vec2(corner.y, corner.z) * scale / corner.x;
       low = glm::min(low, at);
@@ -94,10 +106,20 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
   return maps;
 }
 
-/// The triangles of each picture into the buffer that they are drawn from.
+template <typename Corner>
+void fill_buffer(gpu::Device& device, gpu::HostBuffer& buffer, const std::vector<Corner>& corners) {
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(corners));
+  if (buffer.bytes < bytes.size() || buffer.bytes == 0)
+    buffer = gpu::HostBuffer(device, std::max<vk::DeviceSize>(2 * bytes.size(), 4096),
+                             vk::BufferUsageFlagBits::eVertexBuffer, "shadow casters");
+  std::memcpy(buffer.data, bytes.data(), bytes.size());
+}
+
+/// The triangles of each picture into the buffers that they are drawn from.
 std::vector<ShadowPass::Ranges> fill_triangles(gpu::Device& device, ShadowDepths& depths, const LitView& view,
-                                               std::span<const Map> maps, const ShadowLevel& level) {
+                                               std::span<const Map> maps, const ShadowLevel& level, bool textures) {
   std::vector<glm::vec3> corners;
+  std::vector<CutCorner> cut_corners;
   std::vector<ShadowPass::Ranges> ranges;
   for (const Map& map : maps) {
     for (const double zoom : {1.0, double{shader::kShadowZoom}}) {
@@ -106,15 +128,25 @@ std::vector<ShadowPass::Ranges> fill_triangles(gpu::Device& device, ShadowDepths
         const CastBy& cast = view.casts[map.lamp];
         const auto first = static_cast<std::uint32_t>(corners.size());
         append_seen(corners, side == 0 ? cast.far_sides : cast.both_sides, map.texels * zoom, level);
-        picture[side] = {first, static_cast<std::uint32_t>(corners.size()) - first};
+        if (side == 1 && !textures)  // a device that draws no holes: whole
+          for (const CutCasters& cut : cast.cut) {
+            std::vector<glm::vec3> whole;
+            for (const CutCorner& corner : cut.corners) whole.push_back(corner.corner_m);
+            append_seen(corners, whole, map.texels * zoom, level);
+          }
+        picture.sides[side] = {first, static_cast<std::uint32_t>(corners.size()) - first};
+      }
+      if (!textures) continue;
+      for (const CutCasters& cut : view.casts[map.lamp].cut) {
+        const auto first = static_cast<std::uint32_t>(cut_corners.size());
+        append_seen(cut_corners, cut.corners, map.texels * zoom, level);
+        if (const auto count = static_cast<std::uint32_t>(cut_corners.size()) - first; count > 0)
+          picture.cut.push_back({cut.material, {first, count}});
       }
     }
   }
-  const std::span<const std::byte> bytes = std::as_bytes(std::span(corners));
-  if (depths.triangles.bytes < bytes.size() || depths.triangles.bytes == 0)
-    depths.triangles = gpu::HostBuffer(device, std::max<vk::DeviceSize>(2 * bytes.size(), 4096),
-                                       vk::BufferUsageFlagBits::eVertexBuffer, "shadow casters");
-  std::memcpy(depths.triangles.data, bytes.data(), bytes.size());
+  fill_buffer(device, depths.triangles, corners);
+  if (!cut_corners.empty()) fill_buffer(device, depths.cut_triangles, cut_corners);
   return ranges;
 }
 
@@ -175,6 +207,31 @@ vk::Pipeline ShadowPass::pipeline(const LitScene& scene, bool both_sides) {
   return *pipeline;
 }
 
+vk::Pipeline ShadowPass::cut_pipeline(LitScene& scene) {
+  if (*cut_pipeline_) return *cut_pipeline_;
+  cut_vertex_ = gpu::make_shader(device_, k_shadow_cut_vert);
+  cut_fragment_ = gpu::make_shader(device_, k_depth_cut_frag);
+  const std::array attributes{
+      kVertexAttributes[0],
+      vk::VertexInputAttributeDescription{.location = 1,
+                                          .binding = 0,
+                                          .format = vk::Format::eR32G32Sfloat,
+                                          .offset = offsetof(CutCorner, uv)}};
+  SpecConstants numbers;
+  numbers.put(shader::kSpecLook, shader::kLookBase | shader::kLookCut);
+  const vk::SpecializationInfo constants = numbers.info();
+  cut_pipeline_ = make_pipeline(device_, {.vertex = *cut_vertex_,
+                                          .fragment = *cut_fragment_,
+                                          .constants = &constants,
+                                          .attributes = attributes,
+                                          .stride = sizeof(CutCorner),
+                                          .depth = true,
+                                          .depth_write = true,
+                                          .depth_slope = -1.5f,
+                                          .layout = scene.textured_layout()});
+  return *cut_pipeline_;
+}
+
 void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level_number) {
   while (level_number > 1 && most_shadow_maps(kShadowLevels[level_number], limits_) == 0) --level_number;
   const ShadowLevel& level = kShadowLevels[level_number];
@@ -184,7 +241,7 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
     item.shadowed = std::ranges::any_of(
         maps, [&](const Map& map) { return may_fall_on(*item.batch, view.lit_lamps[map.lamp], view.casts[map.lamp]); });
   ShadowDepths& depths = depths_of(maps.size() * texels_of_map(level));
-  const std::vector<Ranges> ranges = fill_triangles(device_, depths, view, maps, level);
+  const std::vector<Ranges> ranges = fill_triangles(device_, depths, view, maps, level, scene.has_textures());
   const std::size_t in_image = shadow_maps_in_image(level, limits_);
   for (std::size_t first = 0; first < maps.size(); first += in_image) {
     std::vector<Picture> pictures;
@@ -200,7 +257,7 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
   view.depths = &depths;
 }
 
-void ShadowPass::draw_image(gpu::FrameGraph& graph, const LitScene& scene, const ShadowDepths& depths,
+void ShadowPass::draw_image(gpu::FrameGraph& graph, LitScene& scene, const ShadowDepths& depths,
                             const ShadowLevel& level, const std::vector<Picture>& pictures, std::size_t first_texel) {
   const vk::Extent2D extent{level.width, level.height * static_cast<std::uint32_t>(pictures.size())};
   gpu::Image& image = graph.image(
@@ -212,6 +269,11 @@ void ShadowPass::draw_image(gpu::FrameGraph& graph, const LitScene& scene, const
                    vk::ClearDepthStencilValue{0.0f, 0});
     commands.beginRendering(
         vk::RenderingInfo{.renderArea = {{0, 0}, extent}, .layerCount = 1, .pDepthAttachment = &target});
+    const auto push = [&](const Picture& picture) {
+      scene.push(commands, {.origin = glm::vec4(glm::vec2(picture.scale), 0.0f, 0.0f),
+                            .detail_origin = glm::vec4(0.0f),
+                            .turn = {}});
+    };
     commands.bindVertexBuffers(0, *depths.triangles.buffer, vk::DeviceSize{0});
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const Picture& picture = pictures[i];
@@ -219,14 +281,22 @@ void ShadowPass::draw_image(gpu::FrameGraph& graph, const LitScene& scene, const
       set_area(commands, {{0, top}, {level.width, level.height}});
       if (!picture.close) commands.setScissor(0, vk::Rect2D{{1, top + 1}, {level.width - 2, level.height - 2}});
       for (const bool both_sides : {false, true}) {
-        const Range& range = picture.ranges[both_sides ? 1 : 0];
+        const Range& range = picture.ranges.sides[both_sides ? 1 : 0];
         if (range.count == 0) continue;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline(scene, both_sides));
-        scene.push(
-            commands,
-            {.origin = glm::vec4(glm::vec2(picture.scale), 0.0f, 0.0f), .detail_origin = glm::vec4(0.0f), .turn = {}});
+        push(picture);
         commands.draw(range.count, 1, range.first, 0);
       }
+      if (picture.ranges.cut.empty()) continue;
+      commands.bindPipeline(vk::PipelineBindPoint::eGraphics, cut_pipeline(scene));
+      commands.bindVertexBuffers(0, *depths.cut_triangles.buffer, vk::DeviceSize{0});
+      push(picture);
+      for (const CutRange& cut : picture.ranges.cut) {
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, scene.textured_layout(), 3,
+                                    scene.textures_of(cut.material), nullptr);
+        commands.draw(cut.range.count, 1, cut.range.first, 0);
+      }
+      commands.bindVertexBuffers(0, *depths.triangles.buffer, vk::DeviceSize{0});
     }
     commands.endRendering();
   });

@@ -49,8 +49,16 @@ class ShadowPass {
   struct Range {
     std::uint32_t first = 0, count = 0;
   };
-  /// Of one picture: far sides of what is seen from one side, then what is seen from both.
-  using Ranges = std::array<Range, 2>;
+  /// Of a material with holes.
+  struct CutRange {
+    std::size_t material = 0;
+    Range range{};
+  };
+  /// Of one picture: far sides of what is seen from one side, then what is seen from both, then what has holes.
+  struct Ranges {
+    std::array<Range, 2> sides{};
+    std::vector<CutRange> cut{};
+  };
 
  private:
   /// Of the two of a map.
@@ -61,15 +69,18 @@ class ShadowPass {
   };
 
   /// Pictures of one image, one below the other, and their depths into the buffer from `first_texel` on.
-  void draw_image(gpu::FrameGraph& graph, const LitScene& scene, const ShadowDepths& depths, const ShadowLevel& level,
+  void draw_image(gpu::FrameGraph& graph, LitScene& scene, const ShadowDepths& depths, const ShadowLevel& level,
                   const std::vector<Picture>& pictures, std::size_t first_texel);
   vk::Pipeline pipeline(const LitScene& scene, bool both_sides);
+  vk::Pipeline cut_pipeline(LitScene& scene);
   ShadowDepths& depths_of(std::size_t texels);
 
   gpu::Device& device_;
   ShadowLimits limits_;
   vk::raii::ShaderModule vertex_{nullptr};  ///< made with the first map
   std::array<vk::raii::Pipeline, 2> pipelines_{nullptr, nullptr};
+  vk::raii::ShaderModule cut_vertex_{nullptr}, cut_fragment_{nullptr};  ///< made with the first that has holes
+  vk::raii::Pipeline cut_pipeline_{nullptr};
   std::vector<std::unique_ptr<ShadowDepths>> depths_;  ///< of each view with shadows
   std::size_t used_ = 0;                               ///< of them, by this frame
 };

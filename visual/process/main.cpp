@@ -2,6 +2,9 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -74,6 +77,19 @@ int explain_and_leave(const VisualOptions& options, const Scene& scene, const Mo
   return kExitDone;
 }
 
+/// How far a scene is that takes longer to make ready than one waits for gladly, now and then.
+Progress progress_line() {
+  using Clock = std::chrono::steady_clock;
+  static constexpr auto kEvery = std::chrono::seconds(2);
+  return [next = Clock::now() + kEvery](double done_01, std::string_view what) mutable {
+    if (Clock::now() < next) return;
+    next = Clock::now() + kEvery;
+    constexpr int kCells = 20;
+    const auto filled = static_cast<std::size_t>(std::lround(kCells * std::clamp(done_01, 0.0, 1.0)));
+    spdlog::info("{} [{}{}] {:.0f} %", what, std::string(filled, '#'), std::string(kCells - filled, '.'), 100.0 * done_01);
+  };
+}
+
 /// Nothing is written before everything that can be wrong has been read.
 int draw_channel(VisualOptions options) {
   Result<Rig> rig = read_rig(options.rig_file);
@@ -94,8 +110,10 @@ int draw_channel(VisualOptions options) {
   if (!options.levels.empty()) desk.method = options.levels[options.begin_level].method;
   Result<Lamps> lamps = Lamps::load(*rig);
   if (!lamps) return refuse(lamps.error());
-  Result<Scene> scene = read_scene(rig->scene_file);
+  const Progress progress = progress_line();
+  Result<Scene> scene = read_scene(rig->scene_file, progress);
   if (!scene) return refuse(scene.error());
+  for (const std::string& note : scene->notes) spdlog::info("{}: {}", rig->scene_file.filename().string(), note);
   std::vector<LanePoint> lane = lane_of(rig->scene_file);
   Result<Movers> movers = Movers::read();
   if (!movers) return refuse(movers.error());
@@ -133,7 +151,7 @@ int draw_channel(VisualOptions options) {
   if (const auto reason = renderer->no_reference(); reason && desk.method == Method::kReference)
     return refuse({"method reference", *reason + " (" + renderer->device() + ")"});
   if (options.road_cuts > 0) scene = refined(*scene, options.road_cuts, is_ground);
-  if (const Status loaded = renderer->load_scene(*scene, movers->meshes()); !loaded) return refuse(loaded.error());
+  if (const Status loaded = renderer->load_scene(*scene, movers->meshes(), progress); !loaded) return refuse(loaded.error());
   if (!traffic->empty()) renderer->set_beam(Traffic::kBeam, traffic->beam());
 
   if (const Status key = take_run_key(*rig); !key) return refuse(key.error());

@@ -70,7 +70,8 @@ PointReading read_point(const Lamps& lamps, const VehicleState& car, const Measu
     const SceneMaterial& material = hit->scene->materials[hit->chunk->material];
     reading.node = hit->chunk->node, reading.material = material.name;
     rho = glm::dvec3(material.reflectance);
-    retro = &material.retro;
+    if (material.retro.kind != RetroKind::kNone) retro = &material.retro;
+    reading.luminance_cdm2 = glm::dot(glm::dvec3(mean_emitted_cdm2(*hit->scene, material)), {0.2126, 0.7152, 0.0722});
   }
   const glm::dvec3 back{-std::cos(car.yaw_rad), -std::sin(car.yaw_rad), 0.0};
   const glm::dvec3 away = eye_m - at.position_m;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <map>
 #include <numeric>
 
 namespace phare {
@@ -26,6 +25,8 @@ void thin_leaves(FarMesh& mesh, std::uint32_t share) {
       far.indices.push_back(static_cast<std::uint32_t>(far.vertices.size()));
       far.vertices.push_back(vertex);
     }
+    if (!mesh.looks.empty())
+      for (std::size_t k = 0; k < 3; ++k) far.looks.push_back(mesh.looks[mesh.indices[i + k]]);
   }
   mesh = std::move(far);
 }
@@ -34,14 +35,17 @@ void thin_leaves(FarMesh& mesh, std::uint32_t share) {
 void drop_unused(FarMesh& mesh) {
   std::vector<std::uint32_t> place(mesh.vertices.size(), ~0u);
   std::vector<SceneVertex> kept;
+  std::vector<CornerLook> looks;
   for (std::uint32_t& index : mesh.indices) {
     if (place[index] == ~0u) {
       place[index] = static_cast<std::uint32_t>(kept.size());
       kept.push_back(mesh.vertices[index]);
+      if (!mesh.looks.empty()) looks.push_back(mesh.looks[index]);
     }
     index = place[index];
   }
   mesh.vertices = std::move(kept);
+  mesh.looks = std::move(looks);
 }
 
 void simplify(FarMesh& mesh, float error_m) {
@@ -61,11 +65,14 @@ class Pieces {
  public:
   explicit Pieces(const FarMesh& mesh) : of_(mesh.vertices.size()) {
     std::iota(of_.begin(), of_.end(), 0u);
-    std::map<std::array<float, 3>, std::uint32_t> at;
-    for (std::uint32_t i = 0; i < of_.size(); ++i) {
+    std::vector<std::uint32_t> by_place = of_;
+    const auto place = [&](std::uint32_t i) {
       const glm::vec3& p = mesh.vertices[i].position_m;
-      join(i, at.try_emplace({p.x, p.y, p.z}, i).first->second);
-    }
+      return std::array{p.x, p.y, p.z};
+    };
+    std::ranges::sort(by_place, {}, place);
+    for (std::size_t i = 1; i < by_place.size(); ++i)
+      if (place(by_place[i]) == place(by_place[i - 1])) join(by_place[i], by_place[i - 1]);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
       for (std::size_t k = 1; k < 3; ++k) join(mesh.indices[i], mesh.indices[i + k]);
   }
@@ -94,7 +101,7 @@ struct PieceSize {
 // Leaves out what is narrower than a pixel: it would flicker from pixel to pixel.
 void drop_slivers(FarMesh& mesh, float width_m) {
   Pieces pieces(mesh);
-  std::map<std::uint32_t, PieceSize> sizes;
+  std::vector<PieceSize> sizes(mesh.vertices.size());  // of each piece, at its number
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     PieceSize& size = sizes[pieces.of(mesh.indices[i])];
     std::array<glm::vec3, 3> corner;
@@ -121,6 +128,10 @@ FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level,
   FarMesh mesh;
   const auto vertex = scene.vertices.begin() + static_cast<std::ptrdiff_t>(chunk.first_vertex);
   mesh.vertices.assign(vertex, vertex + static_cast<std::ptrdiff_t>(chunk.vertex_count));
+  if (chunk.first_look) {
+    const auto look = scene.looks.begin() + static_cast<std::ptrdiff_t>(*chunk.first_look);
+    mesh.looks.assign(look, look + static_cast<std::ptrdiff_t>(chunk.vertex_count));
+  }
   const auto index = scene.indices.begin() + static_cast<std::ptrdiff_t>(chunk.first_index);
   mesh.indices.assign(index, index + static_cast<std::ptrdiff_t>(chunk.index_count));
   const SceneMaterial& material = scene.materials[chunk.material];

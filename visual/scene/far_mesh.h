@@ -23,6 +23,7 @@ constexpr double kFarThingWidth_rad = 0.8e-3;
 struct FarMesh {
   std::vector<SceneVertex> vertices;  ///< relative to the chunk's origin
   std::vector<std::uint32_t> indices;
+  std::vector<CornerLook> looks{};  ///< one for each vertex, where the chunk has them
 };
 
 /// Ground and things are simplified by quadric error (Garland and Heckbert 1997) by meshoptimizer; foliage is thinned;

@@ -27,8 +27,13 @@ bool meets_box(const glm::dvec3& origin_m, const glm::dvec3& direction, const gl
   return enter_m <= leave_m;
 }
 
-std::optional<double> meets_triangle(const glm::dvec3& origin_m, const glm::dvec3& direction, const glm::dvec3& a,
-                                     const glm::dvec3& ab, const glm::dvec3& ac) {
+/// How far away, and the shares of the second and third corner.
+struct TriangleHit {
+  double distance_m, second, third;
+};
+
+std::optional<TriangleHit> meets_triangle(const glm::dvec3& origin_m, const glm::dvec3& direction, const glm::dvec3& a,
+                                          const glm::dvec3& ab, const glm::dvec3& ac) {
   const glm::dvec3 p = glm::cross(direction, ac);
   const double determinant = glm::dot(ab, p);
   if (std::abs(determinant) < 1e-14) return std::nullopt;
@@ -37,7 +42,19 @@ std::optional<double> meets_triangle(const glm::dvec3& origin_m, const glm::dvec
   const glm::dvec3 q = glm::cross(t, ab);
   const double v = glm::dot(direction, q) / determinant;
   if (u < 0.0 || v < 0.0 || u + v > 1.0) return std::nullopt;
-  return glm::dot(ac, q) / determinant;
+  return TriangleHit{glm::dot(ac, q) / determinant, u, v};
+}
+
+/// Whether the ray goes through a hole of the surface there.
+bool through_hole(const Scene& scene, const SceneChunk& chunk, std::uint32_t first_corner, const TriangleHit& hit) {
+  const PixelLook& look = scene.materials[chunk.material].look;
+  if (!look.cut_below || !look.base_texture || !chunk.first_look) return false;
+  const auto uv = [&](std::uint32_t k) {
+    return glm::dvec2(scene.looks[*chunk.first_look + scene.indices[chunk.first_index + first_corner + k]].uv);
+  };
+  const glm::dvec2 at = uv(0) * (1.0 - hit.second - hit.third) + uv(1) * hit.second + uv(2) * hit.third;
+  const double opacity = texel_at(scene.textures[*look.base_texture], look.sampler, at).w;
+  return opacity * static_cast<double>(look.base.w) < static_cast<double>(*look.cut_below);
 }
 
 /// Of one chunk, nearer than `most_m`, which comes down to where it is met.
@@ -52,9 +69,9 @@ void meet_chunk(std::optional<RayHit>& nearest, const Scene& scene, const SceneC
       return glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i + k]].position_m);
     };
     const glm::dvec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
-    const std::optional<double> distance_m = meets_triangle(local_m, direction, a, ab, ac);
-    if (!distance_m || *distance_m <= least_m || *distance_m >= most_m) continue;
-    most_m = *distance_m;
+    const std::optional<TriangleHit> hit = meets_triangle(local_m, direction, a, ab, ac);
+    if (!hit || hit->distance_m <= least_m || hit->distance_m >= most_m || through_hole(scene, chunk, i, *hit)) continue;
+    most_m = hit->distance_m;
     const glm::dvec3 normal = glm::normalize(glm::cross(ab, ac));
     nearest = RayHit{most_m, glm::dot(normal, direction) > 0.0 ? -normal : normal, &chunk, &scene};
   }

@@ -17,6 +17,7 @@
 
 #include "config/base/content_hash.h"
 #include "config/formats/gltf_file.h"
+#include "visual/scene/materials.h"
 
 namespace phare {
 
@@ -31,78 +32,24 @@ constexpr std::size_t kMostVertices = std::size_t{1} << 26;
 
 struct Corner {
   glm::dvec3 position;
-  glm::dvec3 normal;
+  glm::vec3 normal{0.0f};
 };
 
-Result<Surface> surface_of(const std::string& name) {
-  constexpr std::array<std::pair<const char*, Surface>, 5> names{{{"plain", Surface::kPlain},
-                                                                  {"asphalt", Surface::kAsphalt},
-                                                                  {"grass", Surface::kGrass},
-                                                                  {"paint", Surface::kPaint},
-                                                                  {"foliage", Surface::kFoliage}}};
-  for (const auto& [known, surface] : names) {
-    if (name == known) return surface;
-  }
-  return Error{"", "unknown surface '" + name + "'; known are plain, asphalt, grass, paint, foliage"};
-}
-
-Result<SceneMaterial> read_material(const tinygltf::Material& source) {
-  SceneMaterial material;
-  material.name = source.name;
-  material.double_sided = source.doubleSided;
-  const std::vector<double>& color = source.pbrMetallicRoughness.baseColorFactor;
-  const auto bad = [&source](const std::string& what) { return Error{"", "material '" + source.name + "': " + what}; };
-  if (color.size() < 3) return bad("baseColorFactor needs 4 numbers");
-  for (int i = 0; i < 3; ++i) {
-    const double c = color[static_cast<std::size_t>(i)];
-    if (!(c >= 0.0 && c <= 1.0)) return bad("baseColorFactor is outside 0 … 1");
-    material.reflectance[i] = static_cast<float>(c);
-  }
-  if (!source.extras.IsObject() || !source.extras.Has("phare")) return material;
-  const tinygltf::Value& extras = source.extras.Get("phare");
-  if (!extras.IsObject()) return bad("extras.phare is not an object");
-  if (extras.Has("surface")) {
-    const tinygltf::Value& name = extras.Get("surface");
-    if (!name.IsString()) return bad("extras.phare.surface is not a text");
-    auto surface = surface_of(name.Get<std::string>());
-    if (!surface) return bad(surface.error().reason);
-    material.surface = *surface;
-  }
-  std::string class_name;
-  if (extras.Has("retro")) {
-    const tinygltf::Value& name = extras.Get("retro");
-    if (!name.IsString()) return bad("extras.phare.retro is not a text");
-    class_name = name.Get<std::string>();
-  }
-  const auto figure = [&](const char* key, double most, std::optional<double>& value) -> std::string {
-    if (!extras.Has(key)) return "";
-    const tinygltf::Value& given = extras.Get(key);
-    const double r = given.IsNumber() ? given.GetNumberAsDouble() : -1.0;
-    if (!(r >= 0.0 && r <= most))
-      return std::string(key) + " is not a number from 0 to " + std::to_string(std::lround(most));
-    if (r > 0.0) value = r;
-    return "";
-  };
-  std::optional<double> r_a, r_l;
-  for (const std::string& wrong :
-       {figure("retroreflection_cd_per_lx_m2", 1e4, r_a), figure("retroreflection_mcd_per_lx_m2", 1e5, r_l)})
-    if (!wrong.empty()) return bad(wrong);
-  if (r_a && r_l) return bad("a material has an R_A or an R_L, not both");
-  if (!class_name.empty() || r_a || r_l) {
-    auto retro = retroreflection(class_name, r_a, r_l);
-    if (!retro) return bad(retro.error().reason);
-    material.retro = std::move(*retro);
-  }
-  return material;
-}
+/// Corners of a primitive; looks only where its material has one.
+struct Corners {
+  std::vector<Corner> at;
+  std::vector<CornerLook> looks{};
+};
 
 /// Chunks of one primitive: triangles by cell, corners that are equal in the file stay one vertex within a chunk.
 class Cutter {
  public:
   Cutter(Scene& scene, std::string node, std::uint32_t material)
-      : scene_(&scene), node_(std::move(node)), material_(material) {}
+      : scene_(&scene), node_(std::move(node)), material_(material), look_(!scene.materials[material].look.none()) {}
 
-  void cut(const std::vector<Corner>& corners, const std::vector<std::uint32_t>& indices) {
+  void cut(const Corners& all, const std::vector<std::uint32_t>& indices) {
+    const std::vector<Corner>& corners = all.at;
+    place_.assign(corners.size(), kNowhere);
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const std::uint32_t i : indices) {
       low = glm::min(low, corners[i].position), high = glm::max(high, corners[i].position);
@@ -117,11 +64,17 @@ class Cutter {
       auto& list = cells[{static_cast<int>(cell.x), static_cast<int>(cell.y), static_cast<int>(cell.z)}];
       list.insert(list.end(), {indices[i], indices[i + 1], indices[i + 2]});
     }
-    for (const auto& [cell, list] : cells) add(corners, list);
+    for (auto& [cell, list] : cells) {
+      add(all, list);
+      list = {};
+    }
   }
 
  private:
-  void add(const std::vector<Corner>& corners, const std::vector<std::uint32_t>& indices) {
+  static constexpr std::uint32_t kNowhere = ~0u;
+
+  void add(const Corners& all, const std::vector<std::uint32_t>& indices) {
+    const std::vector<Corner>& corners = all.at;
     SceneChunk chunk;
     chunk.node = node_;
     chunk.material = material_;
@@ -134,15 +87,16 @@ class Cutter {
     chunk.origin_m = glm::round(0.5 * (chunk.low_m + chunk.high_m));
     chunk.first_vertex = static_cast<std::uint32_t>(scene_->vertices.size());
     chunk.first_index = static_cast<std::uint32_t>(scene_->indices.size());
-    std::map<std::uint32_t, std::uint32_t> local;
+    if (look_) chunk.first_look = static_cast<std::uint32_t>(scene_->looks.size());
     for (const std::uint32_t i : indices) {
-      const auto next = static_cast<std::uint32_t>(scene_->vertices.size()) - chunk.first_vertex;
-      const auto [at, fresh] = local.try_emplace(i, next);
-      if (fresh) {
-        scene_->vertices.push_back({glm::vec3(corners[i].position - chunk.origin_m), glm::vec3(corners[i].normal)});
+      if (place_[i] == kNowhere) {
+        place_[i] = static_cast<std::uint32_t>(scene_->vertices.size()) - chunk.first_vertex;
+        scene_->vertices.push_back({glm::vec3(corners[i].position - chunk.origin_m), corners[i].normal});
+        if (look_) scene_->looks.push_back(all.looks[i]);
       }
-      scene_->indices.push_back(at->second);
+      scene_->indices.push_back(place_[i]);
     }
+    for (const std::uint32_t i : indices) place_[i] = kNowhere;
     chunk.vertex_count = static_cast<std::uint32_t>(scene_->vertices.size()) - chunk.first_vertex;
     chunk.index_count = static_cast<std::uint32_t>(indices.size());
     scene_->chunks.push_back(std::move(chunk));
@@ -151,11 +105,100 @@ class Cutter {
   Scene* scene_;
   std::string node_;
   std::uint32_t material_;
+  bool look_;
+  std::vector<std::uint32_t> place_;  ///< of a corner within the chunk
 };
+
+/// Which material of the scene a primitive has; `default_material`: where it names none.
+Result<std::uint32_t> material_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                                  std::uint32_t default_material) {
+  if (primitive.material < 0) return default_material;
+  if (static_cast<std::size_t>(primitive.material) >= model.materials.size())
+    return Error{"", "material " + std::to_string(primitive.material) + " does not exist"};
+  return static_cast<std::uint32_t>(primitive.material);
+}
+
+/// Colours at corners multiply reflectance; where all are white there are none.
+struct ColourSum {
+  glm::dvec3 sum{0.0};
+  double count = 0.0;
+  bool coloured = false;
+};
+
+Status sum_colours(const tinygltf::Model& model, const std::vector<MeshInstance>& instances,
+                   std::uint32_t default_material, std::vector<ColourSum>& sums) {
+  std::vector<bool> seen(model.meshes.size(), false);
+  for (const MeshInstance& instance : instances) {
+    if (seen[static_cast<std::size_t>(instance.mesh)]) continue;
+    seen[static_cast<std::size_t>(instance.mesh)] = true;
+    for (const tinygltf::Primitive& primitive : model.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
+      const auto given = primitive.attributes.find("COLOR_0");
+      if (given == primitive.attributes.end()) continue;
+      const auto bad = [&](const Error& error) { return Error{"", "node '" + instance.name + "': " + error.text()}; };
+      const Result<std::uint32_t> material = material_of(model, primitive, default_material);
+      if (!material) return bad(material.error());
+      const Result<std::vector<glm::vec4>> colours = read_vec4(model, given->second);
+      if (!colours) return bad(colours.error());
+      ColourSum& sum = sums[*material];
+      for (const glm::vec4& colour : *colours) {
+        sum.coloured |= colour != glm::vec4(1.0f);
+        sum.sum += glm::dvec3(glm::clamp(glm::vec3(colour), 0.0f, 1.0f));
+      }
+      sum.count += static_cast<double>(colours->size());
+    }
+  }
+  return Done{};
+}
+
+/// Room for what the file says it has, so that nothing is copied while it grows.
+void reserve_for(const tinygltf::Model& model, const std::vector<MeshInstance>& instances, Scene& scene) {
+  std::size_t bytes = 0;  // what a broken file says beyond them it has not
+  for (const tinygltf::Buffer& buffer : model.buffers) bytes += buffer.data.size();
+  const auto count = [&](int accessor) {
+    const bool there = accessor >= 0 && static_cast<std::size_t>(accessor) < model.accessors.size();
+    return there ? std::min(model.accessors[static_cast<std::size_t>(accessor)].count, bytes) : 0;
+  };
+  std::size_t vertices = 0, indices = 0;
+  for (const MeshInstance& instance : instances)
+    for (const tinygltf::Primitive& primitive : model.meshes[static_cast<std::size_t>(instance.mesh)].primitives)
+      if (const auto position = primitive.attributes.find("POSITION"); position != primitive.attributes.end()) {
+        vertices += count(position->second);
+        indices += count(primitive.indices);
+      }
+  scene.vertices.reserve(std::min(vertices, kMostVertices));
+  scene.indices.reserve(std::min(indices, kMostVertices));
+}
+
+/// Texture coordinates and colours of the corners; those that a primitive has not are 0 and white.
+Status read_looks(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const ReadMaterial& material,
+                  Corners& corners) {
+  corners.looks.resize(corners.at.size());
+  const auto attribute = [&](const std::string& name) {
+    const auto found = primitive.attributes.find(name);
+    return found == primitive.attributes.end() ? -1 : found->second;
+  };
+  const PixelLook& look = material.material.look;
+  const int uv = attribute("TEXCOORD_" + std::to_string(material.uv_set)), colour = attribute("COLOR_0");
+  if (uv >= 0 && (look.base_texture || look.emissive_texture)) {
+    const Result<std::vector<glm::vec2>> read = read_vec2(model, uv);
+    if (!read) return read.error();
+    if (read->size() != corners.at.size()) return Error{"", "as many texture coordinates as positions are needed"};
+    for (std::size_t i = 0; i < read->size(); ++i)
+      corners.looks[i].uv = glm::vec2(material.uv_from_file * glm::dvec3(glm::dvec2((*read)[i]), 1.0));
+  }
+  if (colour >= 0 && look.corner_colours) {
+    const Result<std::vector<glm::vec4>> read = read_vec4(model, colour);
+    if (!read) return read.error();
+    if (read->size() != corners.at.size()) return Error{"", "as many colours as positions are needed"};
+    for (std::size_t i = 0; i < read->size(); ++i)
+      corners.looks[i].colour = glm::u16vec4(glm::clamp((*read)[i], 0.0f, 1.0f) * 65535.0f + 0.5f);
+  }
+  return Done{};
+}
 
 /// One primitive where its node puts it.
 Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const MeshInstance& instance,
-                      std::uint32_t default_material, Scene& scene) {
+                      const std::vector<ReadMaterial>& materials, Scene& scene) {
   const auto bad = [&instance](const std::string& what) { return Error{"", "node '" + instance.name + "': " + what}; };
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end()) return Done{};  // glTF 2.0, 3.7.2.1: such a primitive is not drawn
@@ -166,26 +209,25 @@ Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   if (triangles->empty()) return Done{};
   if (scene.vertices.size() + triangles->size() > kMostVertices) return bad("more than 67 million vertices");
 
-  std::uint32_t material = default_material;
-  if (primitive.material >= 0) {
-    if (static_cast<std::size_t>(primitive.material) >= model.materials.size()) {
-      return bad("material " + std::to_string(primitive.material) + " does not exist");
-    }
-    material = static_cast<std::uint32_t>(primitive.material);
-  }
+  const auto material = material_of(model, primitive, static_cast<std::uint32_t>(materials.size() - 1));
+  if (!material) return bad(material.error().text());
 
   const glm::dmat3 linear(instance.world_from_mesh);
   const double volume = glm::determinant(linear);
   // Normals go with the inverse transpose; the cofactor matrix has its direction and needs no division.
   const glm::dmat3 turn(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                         glm::cross(linear[0], linear[1]));
-  std::vector<Corner> corners;
-  corners.reserve(positions->size());
+  Corners corners;
+  corners.at.reserve(positions->size());
   for (const glm::vec3& p : *positions) {
     const glm::dvec3 world(instance.world_from_mesh * glm::dvec4(glm::dvec3(p), 1.0));
     if (!(glm::length(world) < kFarthest_m)) return bad("a vertex is not within 1e8 m of the origin");
-    corners.push_back({world, glm::dvec3(0.0)});
+    corners.at.push_back({world});
   }
+  *positions = {};
+  if (!materials[*material].material.look.none())
+    if (Status done = read_looks(model, primitive, materials[*material], corners); !done)
+      return bad(done.error().text());
   if (volume < 0.0) {  // a mirrored node turns its triangles inside out
     for (std::size_t i = 0; i + 2 < triangles->size(); i += 3) std::swap((*triangles)[i + 1], (*triangles)[i + 2]);
   }
@@ -194,37 +236,37 @@ Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   if (const auto normal = primitive.attributes.find("NORMAL"); normal != primitive.attributes.end()) {
     auto normals = read_vec3(model, normal->second);
     if (!normals) return bad(normals.error().text());
-    if (normals->size() != corners.size()) return bad("as many normals as positions are needed");
+    if (normals->size() != corners.at.size()) return bad("as many normals as positions are needed");
     whole = true;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t i = 0; i < corners.at.size(); ++i) {
       const glm::dvec3 n = (volume < 0.0 ? -1.0 : 1.0) * (turn * glm::dvec3((*normals)[i]));
       const double length = glm::length(n);
       if (std::isfinite(length) && length > 0.0) {
-        corners[i].normal = n / length;
+        corners.at[i].normal = glm::vec3(n / length);
       } else {
         whole = false;  // this file's normals are not to be trusted
       }
     }
   }
   if (!whole) {  // flat: each triangle has corners of its own
-    std::vector<Corner> own;
+    Corners own;
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i + 2 < triangles->size(); i += 3) {
-      const glm::dvec3 a = corners[(*triangles)[i]].position, b = corners[(*triangles)[i + 1]].position,
-                       c = corners[(*triangles)[i + 2]].position;
-      const glm::dvec3 area = glm::cross(b - a, c - a);
+      const auto at = [&](std::size_t k) { return corners.at[(*triangles)[i + k]].position; };
+      const glm::dvec3 area = glm::cross(at(1) - at(0), at(2) - at(0));
       const double length = glm::length(area);
       if (!(length > 0.0) || !std::isfinite(length)) continue;
-      for (const glm::dvec3& p : {a, b, c}) {
-        kept.push_back(static_cast<std::uint32_t>(own.size()));
-        own.push_back({p, area / length});
+      for (std::size_t k = 0; k < 3; ++k) {
+        kept.push_back(static_cast<std::uint32_t>(own.at.size()));
+        own.at.push_back({at(k), glm::vec3(area / length)});
+        if (!corners.looks.empty()) own.looks.push_back(corners.looks[(*triangles)[i + k]]);
       }
     }
     corners = std::move(own);
     *triangles = std::move(kept);
     if (triangles->empty()) return Done{};
   }
-  Cutter(scene, instance.name, material).cut(corners, *triangles);
+  Cutter(scene, instance.name, *material).cut(corners, *triangles);
   return Done{};
 }
 
@@ -246,8 +288,19 @@ bool is_flat(std::span<const SceneVertex> vertices, std::span<const std::uint32_
   return true;
 }
 
-Result<Scene> read_scene(const std::filesystem::path& file) {
-  auto model = read_gltf(file);
+glm::vec3 mean_emitted_cdm2(const Scene& scene, const SceneMaterial& material) {
+  const PixelLook& look = material.look;
+  if (look.emitted_cdm2 == glm::vec3(0.0f) || !look.emissive_texture) return look.emitted_cdm2;
+  return look.emitted_cdm2 * glm::vec3(mean_of(scene.textures[*look.emissive_texture]));
+}
+
+Result<Scene> read_scene(const std::filesystem::path& file, const Progress& progress) {
+  const std::string what = "reading " + file.filename().string();
+  const auto tell = [&](double done_01) {
+    if (progress) progress(done_01, what);
+  };
+  tell(0.0);
+  auto model = read_gltf(file, GltfImages::kKeep);
   if (!model) return model.error();
   const auto bad = [&file](const Error& error) { return Error{file.string(), error.text()}; };
 
@@ -257,27 +310,52 @@ Result<Scene> read_scene(const std::filesystem::path& file) {
   if (!hash) return hash.error();
   scene.content_hash = *hash;
 
+  // Materials, the last for primitives that name none.
+  const Result<MaterialLibrary> library = MaterialLibrary::read();
+  if (!library) return library.error();
+  SceneNotes notes;
+  note_what_is_not_read(*model, notes);
+  MaterialReader reader(*model, file, *library, scene, notes);
+  std::vector<ReadMaterial> materials;
   for (const tinygltf::Material& source : model->materials) {
-    auto material = read_material(source);
+    auto material = reader.read(source);
     if (!material) return bad(material.error());
-    scene.materials.push_back(*material);
+    materials.push_back(std::move(*material));
   }
-  const auto default_material = static_cast<std::uint32_t>(scene.materials.size());
-  scene.materials.push_back({});  // for primitives that name none
-  scene.materials.back().name = "default";
+  const auto default_material = static_cast<std::uint32_t>(materials.size());
+  materials.emplace_back().material.name = "default";
 
   auto instances = mesh_instances(*model);
   if (!instances) return bad(instances.error());
-  for (const MeshInstance& instance : *instances) {
-    for (const tinygltf::Primitive& primitive : model->meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
-      if (auto status = read_primitive(*model, primitive, instance, default_material, scene); !status) {
-        return bad(status.error());
-      }
+  std::vector<ColourSum> colours(materials.size());
+  if (Status done = sum_colours(*model, *instances, default_material, colours); !done) return bad(done.error());
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    SceneMaterial& material = materials[i].material;
+    if (colours[i].coloured) {
+      material.look.corner_colours = true;
+      material.look.base = glm::vec4(material.look.base_texture || material.look.unlit ? glm::vec3(material.look.base)
+                                                                                       : material.reflectance,
+                                     material.look.base.w);
+      material.reflectance *= glm::vec3(colours[i].sum / colours[i].count);
+    } else if (!material.look.base_texture && !material.look.unlit) {
+      material.look.base = glm::vec4(material.reflectance, material.look.base.w);
     }
+    scene.materials.push_back(material);
   }
+
+  reserve_for(*model, *instances, scene);
+  // What there is to do by now, and what of it is done, in meshes.
+  for (std::size_t i = 0; i < instances->size(); ++i) {
+    const MeshInstance& instance = (*instances)[i];
+    tell(0.2 + 0.8 * static_cast<double>(i) / static_cast<double>(instances->size()));
+    for (const tinygltf::Primitive& primitive : model->meshes[static_cast<std::size_t>(instance.mesh)].primitives)
+      if (Status done = read_primitive(*model, primitive, instance, materials, scene); !done) return bad(done.error());
+  }
+  tell(1.0);
   const bool used = std::any_of(scene.chunks.begin(), scene.chunks.end(),
                                 [&](const SceneChunk& chunk) { return chunk.material == default_material; });
   if (!used) scene.materials.pop_back();
+  scene.notes = notes.lines();
   return scene;
 }
 

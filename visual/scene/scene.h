@@ -1,34 +1,63 @@
-// A scene as drawn: triangles in chunks with bounds, materials. Read from glTF by tinygltf.
+// A scene as drawn: triangles in chunks with bounds, materials. Read from glTF by tinygltf; docs/scenes.md says what of
+// it.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <glm/gtc/type_precision.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/base/result.h"
 #include "visual/scene/retro.h"
+#include "visual/scene/texture.h"
 
 namespace phare {
 
 enum class Surface : std::uint32_t { kPlain = 0, kAsphalt = 1, kGrass = 2, kPaint = 3, kFoliage = 4 };
 
+/// What a material has at every pixel, beside a reflectance that is the same all over. Most have none of it, and are
+/// drawn without.
+struct PixelLook {
+  glm::vec4 base{1.0f};             ///< times base texture and colour at the corner: rho, linear Rec. 709; opacity
+  glm::vec3 emitted_cdm2{0.0f};     ///< times emissive texture; Rec. 709, luminance by 0.2126, 0.7152, 0.0722
+  std::optional<std::size_t> base_texture{}, emissive_texture{};  ///< in Scene::textures
+  TextureSampler sampler{};
+  std::optional<float> cut_below{};  ///< where opacity is less, there is nothing (glTF's alphaMode MASK)
+  bool corner_colours = false;       ///< of glTF's COLOR_0
+  bool unlit = false;                ///< emits base texture and corner colours, by emitted_cdm2
+
+  bool none() const {
+    return !base_texture && !emissive_texture && !cut_below && !corner_colours && emitted_cdm2 == glm::vec3(0.0f);
+  }
+};
+
 struct SceneMaterial {
   std::string name;
-  glm::vec3 reflectance{0.5f};        ///< diffuse rho, linear Rec. 709
+  glm::vec3 reflectance{0.5f};        ///< diffuse rho, linear Rec. 709; of a texture its mean
   Surface surface = Surface::kPlain;  ///< which procedural detail
   Retroreflection retro{};            ///< sheeting, markings; most materials have none
   bool double_sided = false;
+  PixelLook look{};
 };
 
 /// Vertices are relative to `origin_m`, so float32 serves anywhere in the world.
 struct SceneVertex {
   glm::vec3 position_m;
   glm::vec3 normal;
+};
+
+/// The same corner, of materials that have a look at every pixel.
+struct CornerLook {
+  glm::vec2 uv{0.0f};                   ///< of the material's textures, their transform done
+  glm::u16vec4 colour{65535};  ///< linear, 65535 is 1
 };
 
 /// Triangles of one material that are drawn or culled together.
@@ -39,6 +68,7 @@ struct SceneChunk {
   glm::dvec3 low_m{0.0}, high_m{0.0};              ///< bounds in the world
   std::uint32_t first_index = 0, index_count = 0;  ///< in Scene::indices; indices are relative to first_vertex
   std::uint32_t first_vertex = 0, vertex_count = 0;
+  std::optional<std::uint32_t> first_look{};  ///< in Scene::looks, one for each vertex; none: the material has no look
 };
 
 struct Scene {
@@ -48,14 +78,23 @@ struct Scene {
   std::vector<SceneVertex> vertices;
   std::vector<std::uint32_t> indices;
   std::vector<SceneChunk> chunks;
+  std::vector<CornerLook> looks{};
+  std::vector<SceneTexture> textures{};
+  std::vector<std::string> notes{};  ///< what of the file is not drawn as it says, a line each, each said once
 };
 
 /// Each triangle's corners have one normal, that of its plane: what float32 makes of corners aside, a lamp is equally
 /// far before every point of it.
 bool is_flat(std::span<const SceneVertex> vertices, std::span<const std::uint32_t> indices);
 
+/// What a material emits, of a texture its mean; cd/m², Rec. 709.
+glm::vec3 mean_emitted_cdm2(const Scene& scene, const SceneMaterial& material);
+
+/// Called now and then with what is done, 0 to 1, and what is being done.
+using Progress = std::function<void(double done_01, std::string_view what)>;
+
 /// Reads .gltf or .glb. World frame: x = gltf x, y = -gltf z, z = gltf y. Big meshes are cut into chunks of at most 100
 /// m.
-Result<Scene> read_scene(const std::filesystem::path& file);
+Result<Scene> read_scene(const std::filesystem::path& file, const Progress& progress = {});
 
 }  // namespace phare

@@ -1,0 +1,164 @@
+// The lit scene's surfaces that look otherwise at every pixel: their shaders, made when a draw first calls for one, and
+// what is bound for them.
+#include <array>
+#include <span>
+
+#include "shaders/lamps_frag_2_filtered_fog_textured.h"
+#include "shaders/lamps_frag_2_filtered_shadows_fog_textured.h"
+#include "shaders/lamps_frag_2_filtered_shadows_textured.h"
+#include "shaders/lamps_frag_2_filtered_textured.h"
+#include "shaders/lamps_frag_2_fog_textured.h"
+#include "shaders/lamps_frag_2_shadows_fog_textured.h"
+#include "shaders/lamps_frag_2_shadows_textured.h"
+#include "shaders/lamps_frag_2_textured.h"
+#include "shaders/lamps_frag_8_filtered_fog_textured.h"
+#include "shaders/lamps_frag_8_filtered_shadows_fog_textured.h"
+#include "shaders/lamps_frag_8_filtered_shadows_textured.h"
+#include "shaders/lamps_frag_8_filtered_textured.h"
+#include "shaders/lamps_frag_8_fog_textured.h"
+#include "shaders/lamps_frag_8_shadows_fog_textured.h"
+#include "shaders/lamps_frag_8_shadows_textured.h"
+#include "shaders/lamps_frag_8_textured.h"
+#include "shaders/lamps_frag_reference_fog_textured.h"
+#include "shaders/lamps_frag_reference_shadows_fog_textured.h"
+#include "shaders/lamps_frag_reference_shadows_textured.h"
+#include "shaders/lamps_frag_reference_textured.h"
+#include "shaders/scene_vert_2_fog_textured.h"
+#include "shaders/scene_vert_2_lit_filtered_fog_textured.h"
+#include "shaders/scene_vert_2_lit_filtered_shadows_fog_textured.h"
+#include "shaders/scene_vert_2_lit_filtered_shadows_textured.h"
+#include "shaders/scene_vert_2_lit_filtered_textured.h"
+#include "shaders/scene_vert_2_lit_fog_textured.h"
+#include "shaders/scene_vert_2_lit_shadows_fog_textured.h"
+#include "shaders/scene_vert_2_lit_shadows_textured.h"
+#include "shaders/scene_vert_2_lit_textured.h"
+#include "shaders/scene_vert_2_shadows_fog_textured.h"
+#include "shaders/scene_vert_2_shadows_textured.h"
+#include "shaders/scene_vert_2_textured.h"
+#include "shaders/scene_vert_8_lit_filtered_textured.h"
+#include "shaders/scene_vert_8_lit_textured.h"
+#include "shaders/scene_vert_8_textured.h"
+#include "visual/lit_scene.h"
+
+namespace phare {
+namespace {
+
+using Code = std::span<const std::uint32_t>;
+
+/// Bits of the index: shadows, fog, filtered, many lamps.
+Code frag_of(bool shadows, bool fog, bool filtered, bool many) {
+  static const std::array<Code, 16> codes{k_lamps_frag_2_textured,
+                                          k_lamps_frag_2_shadows_textured,
+                                          k_lamps_frag_2_fog_textured,
+                                          k_lamps_frag_2_shadows_fog_textured,
+                                          k_lamps_frag_2_filtered_textured,
+                                          k_lamps_frag_2_filtered_shadows_textured,
+                                          k_lamps_frag_2_filtered_fog_textured,
+                                          k_lamps_frag_2_filtered_shadows_fog_textured,
+                                          k_lamps_frag_8_textured,
+                                          k_lamps_frag_8_shadows_textured,
+                                          k_lamps_frag_8_fog_textured,
+                                          k_lamps_frag_8_shadows_fog_textured,
+                                          k_lamps_frag_8_filtered_textured,
+                                          k_lamps_frag_8_filtered_shadows_textured,
+                                          k_lamps_frag_8_filtered_fog_textured,
+                                          k_lamps_frag_8_filtered_shadows_fog_textured};
+  return codes[(shadows ? 1u : 0u) + (fog ? 2u : 0u) + (filtered ? 4u : 0u) + (many ? 8u : 0u)];
+}
+
+/// Of two lamps; bits of the index: shadows, fog, by vertex, and of these filtered.
+Code vert_of_two(bool shadows, bool fog, bool by_vertex, bool filtered) {
+  static const std::array<Code, 12> codes{k_scene_vert_2_textured,
+                                          k_scene_vert_2_shadows_textured,
+                                          k_scene_vert_2_fog_textured,
+                                          k_scene_vert_2_shadows_fog_textured,
+                                          k_scene_vert_2_lit_textured,
+                                          k_scene_vert_2_lit_shadows_textured,
+                                          k_scene_vert_2_lit_fog_textured,
+                                          k_scene_vert_2_lit_shadows_fog_textured,
+                                          k_scene_vert_2_lit_filtered_textured,
+                                          k_scene_vert_2_lit_filtered_shadows_textured,
+                                          k_scene_vert_2_lit_filtered_fog_textured,
+                                          k_scene_vert_2_lit_filtered_shadows_fog_textured};
+  return codes[(shadows ? 1u : 0u) + (fog ? 2u : 0u) + (by_vertex ? filtered ? 8u : 4u : 0u)];
+}
+
+Code reference_frag_of(bool shadows, bool fog) {
+  static const std::array<Code, 4> codes{k_lamps_frag_reference_textured, k_lamps_frag_reference_shadows_textured,
+                                         k_lamps_frag_reference_fog_textured,
+                                         k_lamps_frag_reference_shadows_fog_textured};
+  return codes[(shadows ? 1u : 0u) + (fog ? 2u : 0u)];
+}
+
+}  // namespace
+
+static_assert(sizeof(CornerLook) == 16 && offsetof(CornerLook, colour) == 8 && sizeof(shader::GpuLook) == 32);
+
+const std::array<vk::VertexInputAttributeDescription, 5> kTexturedAttributes{
+    kVertexAttributes[0], kVertexAttributes[1], kVertexAttributes[2],
+    vk::VertexInputAttributeDescription{.location = 3, .binding = 1, .format = vk::Format::eR32G32Sfloat, .offset = 0},
+    vk::VertexInputAttributeDescription{
+        .location = 4, .binding = 1, .format = vk::Format::eR16G16B16A16Unorm, .offset = 8}};
+
+struct LitScene::Textured {
+  vk::raii::PipelineLayout layout{nullptr}, reference_layout{nullptr};
+  std::map<const std::uint32_t*, vk::raii::ShaderModule> modules;  ///< by their code
+};
+
+void LitScene::TexturedDeleter::operator()(Textured* textured) const {
+  delete textured;
+}
+
+LitScene::Textured& LitScene::textured() {
+  if (textured_) return *textured_;
+  textured_.reset(new Textured);
+  const std::array layouts{sets_.layout(), shadow_sets_.layout(), fog_sets_.layout(), geometry_.textures.layout()};
+  textured_->layout = pipeline_layout(layouts);
+  return *textured_;
+}
+
+vk::PipelineLayout LitScene::textured_layout() {
+  return *textured().layout;
+}
+
+vk::ShaderModule LitScene::textured_module(std::span<const std::uint32_t> code) {
+  const auto [found, fresh] = textured().modules.try_emplace(code.data(), nullptr);
+  if (fresh) found->second = gpu::make_shader(device_, code);
+  return *found->second;
+}
+
+LitScene::Stages LitScene::textured_stages(const LitVariant& variant) {
+  const bool reference = variant.method == Method::kReference, many = reference || variant.lamp_count > 2;
+  const bool shadows = variant.shadow_maps != 0, fog = variant.fog.slices != 0;
+  const bool by_vertex = !reference && variant.method != Method::kFragment;
+  static const std::array<Code, 3> of_many{k_scene_vert_8_textured, k_scene_vert_8_lit_textured,
+                                           k_scene_vert_8_lit_filtered_textured};
+  const Code vertex =
+      many ? of_many[by_vertex ? filtered() ? 2u : 1u : 0u] : vert_of_two(shadows, fog, by_vertex, filtered());
+  if (!reference)
+    return {textured_module(vertex),
+            {textured_module(frag_of(shadows, fog, filtered(), many)), *textured().layout}};
+  Textured& own = textured();
+  if (!*own.reference_layout) {
+    const std::array layouts{sets_.layout(), shadow_sets_.layout(), fog_sets_.layout(), reference_layout(),
+                             geometry_.textures.layout()};
+    own.reference_layout = pipeline_layout(layouts);
+  }
+  return {textured_module(vertex), {textured_module(reference_frag_of(shadows, fog)), *own.reference_layout}};
+}
+
+void LitScene::bind_look(vk::CommandBuffer commands, const SceneBatch& batch, bool reference) {
+  const vk::PipelineLayout layout = reference ? *textured().reference_layout : *textured().layout;
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, reference ? 4 : 3,
+                              geometry_.textures.set(batch.look_of), nullptr);
+  const std::array buffers{*geometry_.vertices.buffer, *geometry_.looks.buffer};
+  const std::array<vk::DeviceSize, 2> offsets{static_cast<vk::DeviceSize>(batch.first_vertex) * sizeof(GpuVertex),
+                                              static_cast<vk::DeviceSize>(batch.first_look) * sizeof(CornerLook)};
+  commands.bindVertexBuffers(0, buffers, offsets);
+}
+
+void LitScene::bind_vertices(vk::CommandBuffer commands) const {
+  commands.bindVertexBuffers(0, *geometry_.vertices.buffer, vk::DeviceSize{0});
+}
+
+}  // namespace phare
