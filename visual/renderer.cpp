@@ -82,7 +82,7 @@ struct Renderer::Impl {
         device.device, vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
     fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
     set_target(options.width_px, options.height_px);
-    set_scene(Scene{}, Scene{});
+    set_scene(Scene{}, Scene{}, std::make_shared<FixedLight>());
   }
 
   ~Impl() {
@@ -118,9 +118,10 @@ struct Renderer::Impl {
     hdrs.clear();
   }
 
-  void set_scene(const Scene& new_scene, const Scene& moving) {
+  void set_scene(const Scene& new_scene, const Scene& moving, std::shared_ptr<const FixedLight> light) {
     device.device.waitIdle();
-    scene.set_geometry(SceneBuffers(device, new_scene, moving), ShadowCasters(new_scene, moving));
+    SceneBuffers buffers(device, new_scene, moving, *light);
+    scene.set_geometry(std::move(buffers), ShadowCasters(new_scene, moving), std::move(light));
   }
 
   /// Submits what `record` puts into the graph and waits for it.
@@ -220,8 +221,12 @@ Status Renderer::load_scene(const Scene& scene) {
 }
 
 Status Renderer::load_scene(const Scene& scene, const Scene& moving) {
+  return load_scene(scene, moving, std::make_shared<FixedLight>());
+}
+
+Status Renderer::load_scene(const Scene& scene, const Scene& moving, std::shared_ptr<const FixedLight> light) {
   try {
-    impl_->set_scene(scene, moving);
+    impl_->set_scene(scene, moving, std::move(light));
     return Done{};
   } catch (const vk::DeviceLostError&) {  // no fault of what was given
     throw;

@@ -29,7 +29,8 @@ struct GLFWwindow;
 
 namespace phare {
 
-struct Scene;  // visual/scene/scene.h
+class FixedLight;  // visual/fixed_light.h
+struct Scene;      // visual/scene/scene.h
 
 struct RendererOptions {
   int width_px = 1280;
@@ -176,6 +177,9 @@ class Renderer {
   /// `moving`: meshes for what moves, one a node, each about its own origin.
   Status load_scene(const Scene& scene);
   Status load_scene(const Scene& scene, const Scene& moving);
+  /// With light that does not change: street lamps, the moon, what shines by itself. Computed now, which takes seconds
+  /// where there are many lamps.
+  Status load_scene(const Scene& scene, const Scene& moving, std::shared_ptr<const FixedLight> light);
   /// A new beam image, at any index. Uploaded with the next frame.
   void set_beam(std::size_t index, const BeamImage& image);
   /// The image set last, changed in these rectangles of its nodes only; nodes, type and aim are the same.

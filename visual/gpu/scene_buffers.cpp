@@ -34,6 +34,8 @@ Cell cell_of(const SceneChunk& chunk, double side_m) {
 struct Gathered {
   std::vector<GpuVertex> vertices;
   std::vector<std::uint32_t> indices;
+  std::vector<FixedVertex> light{};              // of the vertices of what stands
+  std::vector<FixedLight::Meshes> lit_meshes{};  // of the chunks of what stands; none where nothing shines
 };
 
 void append(Gathered& all, const SceneBatch& batch, const SceneChunk& chunk, std::span<const SceneVertex> vertices,
@@ -91,7 +93,12 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     batch.first_index = static_cast<std::uint32_t>(all.indices.size());
     batch.first_vertex = static_cast<std::int32_t>(all.vertices.size());
     for (const SceneChunk* chunk : group) {
-      if (far_level) {
+      if (!all.lit_meshes.empty()) {
+        const auto index = static_cast<std::size_t>(chunk - scene.chunks.data());
+        const FixedMesh& mesh = all.lit_meshes[index][far_level ? 1 + *far_level : 0];
+        append(all, batch, *chunk, mesh.vertices, mesh.indices);
+        all.light.insert(all.light.end(), mesh.light.begin(), mesh.light.end());
+      } else if (far_level) {
         const FarMesh mesh = far_mesh(scene, *chunk, *far_level, kFarLevels[*far_level].from * kFarMeshFrom_m);
         append(all, batch, *chunk, mesh.vertices, mesh.indices);
       } else {
@@ -195,7 +202,8 @@ std::uint32_t SceneBatch::first_index_along(const glm::dvec2& direction) const {
   return first_index + order * index_count;
 }
 
-SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving_scene) {
+SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving_scene,
+                           const FixedLight& light) {
   std::vector<shader::GpuMaterial> packed;
   std::vector<shader::GpuSheeting> sheetings;
   for (const SceneMaterial& material : scene.materials) packed.push_back(pack_material(material, sheetings));
@@ -209,11 +217,15 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
   sheetings.resize(shader::kMaxSheetings);
   packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
   Gathered all;
+  if (light.any()) all.lit_meshes = light.meshes(scene);
   blocks = make_blocks(scene, all);
+  all.lit_meshes.clear();
   moving = make_moving(moving_scene, static_cast<std::uint32_t>(scene.materials.size()), all);
   using Usage = vk::BufferUsageFlagBits;
   vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.vertices)),
                                Usage::eVertexBuffer | Usage::eStorageBuffer, "scene vertices");
+  if (!all.light.empty())
+    fixed_light = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.light)), Usage::eVertexBuffer, "fixed light");
   indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)),
                               Usage::eIndexBuffer | Usage::eStorageBuffer, "scene indices");
   material_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(packed)), Usage::eUniformBuffer, "materials");
@@ -262,6 +274,7 @@ void SceneBuffers::add_visible(std::vector<DrawItem>& items, std::vector<SceneBa
       items.push_back({&placed.back(), batch.first_index,
                        draw_at(there.origin_m - view.camera().eye_m, batch.origin_m, turn),
                        static_cast<float>(*distance)});
+      items.back().moves = static_cast<std::uint32_t>(&mesh - meshes.data());
     }
   }
   near_first(items);

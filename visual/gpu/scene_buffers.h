@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shaders/lamps.h"
+#include "visual/fixed_light.h"
 #include "visual/gpu/device.h"
 #include "visual/renderer.h"
 #include "visual/scene/far_mesh.h"
@@ -62,6 +63,9 @@ struct DrawItem {
   float distance_m = 0.0f;
   std::size_t lit_by = 0;  ///< which of the view's sets of lamps (visual/lit_scene.h)
   bool shadowed = false;   ///< a shadow may fall on it (visual/passes/shadows.h)
+  std::uint32_t moves = kStands;  ///< which of what moves it is
+
+  static constexpr std::uint32_t kStands = UINT32_MAX;
 };
 
 /// What moves, about its own origin.
@@ -74,9 +78,10 @@ struct SceneBuffers {
   std::vector<SceneBlock> blocks;
   std::vector<MovingMesh> moving;  ///< one for each node of the scene of what moves, in its order
   gpu::DeviceBuffer vertices, indices, material_buffer, sheeting_buffer;
+  gpu::DeviceBuffer fixed_light;  ///< FixedVertex of each vertex of what stands; none where nothing shines
 
   SceneBuffers() = default;
-  SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving);
+  SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving, const FixedLight& light);
 
   /// Batches whose bounds touch the view, those of one kind together, near ones first.
   /// Blocks that begin at the multiples kFarLevels of `far_from_m` or beyond are drawn with their far meshes.

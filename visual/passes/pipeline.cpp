@@ -14,11 +14,14 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
                       .module = recipe.fragment,
                       .pName = "main",
                       .pSpecializationInfo = recipe.constants});
-  const vk::VertexInputBindingDescription binding{
-      .binding = 0, .stride = recipe.stride, .inputRate = vk::VertexInputRate::eVertex};
+  const std::array<vk::VertexInputBindingDescription, 2> bindings{
+      {{.binding = 0, .stride = recipe.stride, .inputRate = vk::VertexInputRate::eVertex},
+       {.binding = 1,
+        .stride = recipe.more_stride,
+        .inputRate = recipe.more_by_instance ? vk::VertexInputRate::eInstance : vk::VertexInputRate::eVertex}}};
   const vk::PipelineVertexInputStateCreateInfo input{
-      .vertexBindingDescriptionCount = recipe.stride > 0 ? 1u : 0u,
-      .pVertexBindingDescriptions = &binding,
+      .vertexBindingDescriptionCount = recipe.stride == 0 ? 0u : recipe.more_stride == 0 ? 1u : 2u,
+      .pVertexBindingDescriptions = bindings.data(),
       .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(recipe.attributes.size()),
       .pVertexAttributeDescriptions = recipe.attributes.data()};
   const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = recipe.topology};
