@@ -210,6 +210,15 @@ RigReading read_root(TomlTable root, const std::filesystem::path& file) {
   rig.scene_file = resolve_path(root.text("scene"), rig_file);
   if (const std::string traffic = root.text_or("traffic", ""); !traffic.empty())
     rig.traffic_file = resolve_path(traffic, rig_file);
+  if (const std::string lamps = root.text_or("street_lamps", ""); !lamps.empty())
+    rig.street_lamps_file = resolve_path(lamps, rig_file);
+  if (auto moon = root.table_if("moon")) {
+    MoonConfig shining;
+    shining.azimuth_rad = moon->number_or("azimuth_deg", 0.0, -360.0, 360.0) * kRadPerDeg;
+    shining.elevation_rad = moon->number_or("elevation_deg", 40.0, 0.0, 90.0) * kRadPerDeg;
+    shining.illuminance_lx = moon->number_or("illuminance_lx", 0.0, 0.0, 0.5);
+    if (shining.illuminance_lx > 0.0) rig.moon = shining;
+  }
   rig.vehicle_file = resolve_path(root.text("vehicle"), rig_file);
   rig.cockpit_file = resolve_path(root.text("cockpit"), rig_file);
   if (auto bus = root.table_if("bus")) {
@@ -291,6 +300,8 @@ Status check_rig_files(const Rig& rig) {
   if (auto error = missing(rig.scene_file, "the scene")) return *error;
   if (!rig.traffic_file.empty())
     if (auto error = missing(rig.traffic_file, "the traffic")) return *error;
+  if (!rig.street_lamps_file.empty())
+    if (auto error = missing(rig.street_lamps_file, "the street lamps")) return *error;
   if (auto error = missing(rig.vehicle_file, "the vehicle")) return *error;
   if (auto error = missing(rig.cockpit_file, "the cockpit")) return *error;
   for (const DesignConfig& design : rig.designs) {

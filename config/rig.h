@@ -86,6 +86,15 @@ struct DesignConfig {
   bool operator==(const DesignConfig&) const = default;
 };
 
+/// The moon over the scene, as long as a drive lasts.
+struct MoonConfig {
+  double azimuth_rad = 0.0;    ///< from x toward y
+  double elevation_rad = 0.7;  ///< above the horizon
+  double illuminance_lx = 0.2; ///< on a plane that faces it: full moon, high up, 0.2 to 0.27 lx
+
+  bool operator==(const MoonConfig&) const = default;
+};
+
 /// One visual process: its window and its eye.
 struct ChannelConfig {
   std::string name = "front";
@@ -113,6 +122,8 @@ struct Rig {
   bool real_time_priority = true;      ///< in real time, of cockpit and dynamics, where the kernel allows it
   std::filesystem::path scene_file;    ///< glTF; resolved
   std::filesystem::path traffic_file;  ///< other road users (config/traffic/), resolved; empty: none
+  std::filesystem::path street_lamps_file{};  ///< config/street_lamps.h, resolved; empty: none
+  std::optional<MoonConfig> moon{};           ///< nothing: it does not shine
   std::filesystem::path vehicle_file;  ///< resolved
   std::filesystem::path cockpit_file;  ///< resolved
   std::string dynamics_level = "kinematic";

@@ -71,8 +71,15 @@ class RigText {
     out_ << '\n';
     key("scene", path(rig_.scene_file), "glTF; <its name>_lane.csv beside it is where the car starts");
     if (!rig_.traffic_file.empty()) key("traffic", path(rig_.traffic_file), "other road users");
+    if (!rig_.street_lamps_file.empty()) key("street_lamps", path(rig_.street_lamps_file));
     key("vehicle", path(rig_.vehicle_file));
     key("cockpit", path(rig_.cockpit_file), "where the driver's controls come from");
+    if (rig_.moon) {
+      out_ << "\n[moon]\n";
+      key("azimuth_deg", degrees_word(rig_.moon->azimuth_rad), "from x toward y");
+      key("elevation_deg", degrees_word(rig_.moon->elevation_rad));
+      key("illuminance_lx", number_word(rig_.moon->illuminance_lx), "on a plane that faces it");
+    }
     out_ << "\n[bus]" << note("off loopback also key_file = a file of 64 hexadecimal digits, openssl rand -hex 32");
     key("address", toml_quoted(rig_.bind_address));
     key("port_base", std::to_string(rig_.port_base), "first UDP port");

@@ -43,6 +43,18 @@ float mirrored(uint lamp, LampLight light, vec3 n, float level) {
   return water_lobe(wet_alpha, light.cos_incidence, cos_seen, dot(half_way, n), dot(half_way, toward_eye));
 }
 
+#ifdef PHARE_FIXED
+// Luminance of the film under a street lamp, whose light on the ground itself is in fixed_light.
+vec3 street_lamp_mirrored(uint i, vec3 n, float level) {
+  vec3 to_lamp = frame.mirrored_at[i].xyz - point;
+  float per_m = inversesqrt(dot(to_lamp, to_lamp)), inverse_eye = inversesqrt(dot(point, point));
+  float cos_lamp = max(dot(to_lamp, n) * per_m, 0.0), cos_seen = max(-level * inverse_eye, 1e-4);
+  vec3 toward_lamp = to_lamp * per_m, toward_eye = point * -inverse_eye, half_way = normalize(toward_lamp + toward_eye);
+  float lobe = water_lobe(wet_alpha, cos_lamp, cos_seen, dot(half_way, n), dot(half_way, toward_eye));
+  return frame.mirrored_cd[i].rgb * (per_m * per_m * cos_lamp * lobe);
+}
+#endif
+
 // Light of a lamp whose illuminance comes interpolated from the vertices.
 LampLight from_vertices(uint lamp, float lx, float cd, vec3 n, float level) {
   vec3 to_lamp = frame.lamps[lamp].position.xyz - point;
@@ -121,6 +133,14 @@ void main() {
     result_normal = vec4(PHARE_NORMAL, float(lamp_count));
     return;
   }
+#ifdef PHARE_FIXED
+  if (output_kind != kOutputDifference && output_kind != kOutputRatio) total_lx += fixed_light.w;
+  coloured_lx += fixed_light.rgb;
+  if (wet_alpha > 0.0) {
+#define STREET_LAMP(I) film += street_lamp_mirrored(I, n, level);
+    STREET_LAMP(0) STREET_LAMP(1) STREET_LAMP(2) STREET_LAMP(3) STREET_LAMP(4) STREET_LAMP(5) STREET_LAMP(6) STREET_LAMP(7)
+  }
+#endif
   if (output_kind == kOutputFalseColour) {
     // Isolux lines, one pixel wide by the screen gradient of E.
     vec3 colour = false_colour(total_lx);

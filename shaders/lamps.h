@@ -9,6 +9,7 @@ PHARE_SHADER_BEGIN
 
 const uint kMaxMaterials = 1024u;  // 16 KiB, the uniform buffer that every device has
 const uint kMaxSheetings = 128u;   // 12 KiB
+const uint kMirroredLamps = 8u;    // street lamps that wet ground mirrors toward the eye (PHARE_FIXED)
 
 // Specialization constants of lamps.frag
 const uint kSpecLampCount = 0u;
@@ -31,6 +32,7 @@ const uint kSpecFogGrid = 14u;
 const uint kSpecFogSlices = 15u;
 const uint kSpecTables = 16u;   // kSpecPerTable constants a lamp: the members of its TableShape, below
 const uint kSpecPerTable = 18u;
+const uint kSpecMoves = kSpecTables + kSpecPerTable * kMaxLamps + 1u;  // 1: of what moves, whose light is one for the whole mesh (PHARE_FIXED)
 const uint kSpecWet = kSpecTables + kSpecPerTable * kMaxLamps;  // float: width of the slopes of the water on the ground; 0: it is dry
 
 // Where illuminance is computed (config/desk.h, Method).
@@ -129,6 +131,8 @@ struct GpuFrame {
   GpuShadow shadows[kMaxLamps];  // of each lamp; read where kSpecShadowMaps has one
   GpuFog fog;                    // read where the air is not clear
   vec4 size_px;                  // x, y: of the view's part of the picture; z: of a pixel in its middle the solid angle, sr. Read by drops
+  vec4 mirrored_at[kMirroredLamps];  // street lamps over wet ground, relative to the eye, m
+  vec4 mirrored_cd[kMirroredLamps];  // rgb: of each toward where it is mirrored
 };
 
 // Depth of a map is this over the distance along the axis: what is nearer than it casts no shadow.

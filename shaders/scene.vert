@@ -16,6 +16,13 @@ layout(location = 0) in vec3 position_m;  // relative to the batch's origin
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint material_index;
 
+#ifdef PHARE_FIXED
+layout(location = 3) in vec4 light_here;   // as FixedVertex, or FixedProbe of what moves
+layout(location = 4) in float sky_share;
+layout(location = 5) in vec3 light_way;    // of what moves
+layout(constant_id = kSpecMoves) const uint moves = 0;
+#endif
+
 invariant gl_Position;  // the depth pass and the lamp pass must agree to the bit
 
 void main() {
@@ -24,6 +31,10 @@ void main() {
   detail_from_point = draw.detail_origin.xyz - draw.origin.xyz;
   gl_Position = clip_from_eye() * vec4(point, 1.0);
   pass_light(materials[material_index].reflectance);
+#ifdef PHARE_FIXED
+  fixed_light = moves == 0 ? light_here : light_here * max(0.25 + dot(light_way, normalize(point_normal)), 0.0);
+  ambient_lx *= sky_share;
+#endif
 #ifdef PHARE_FOG_FLAT
   pass_fog();
 #endif

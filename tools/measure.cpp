@@ -17,6 +17,7 @@
 #include "visual/photometry/beam/lamp_tables.h"
 #include "visual/photometry/bench/lamp_aim.h"
 #include "visual/photometry/readers/points_file.h"
+#include "visual/fixed_light.h"
 #include "visual/photometry/table/illuminance.h"
 #ifdef PHARE_WITH_GRAPHICS
 #include "visual/renderer.h"
@@ -28,6 +29,7 @@ namespace {
 struct MeasureOptions {
   std::string rig_file, points, table, out, method = "fragment", design,
                                             beam_image = level_name(ImageLevel::kFloatNodes);
+  std::string street_lamps, scene;
   std::vector<std::string> lamps;
   std::vector<std::string> beams{"low"};
   double max_error = 0.0;  ///< relative; 0: the method's own
@@ -157,6 +159,39 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
 }
 #endif
 
+/// Street lamps in place of a car's: float64, with the shadows of a scene where one is given. The column of the lamp is
+/// that of the strongest.
+int measure_street(const MeasureOptions& options) {
+  if (!options.lamps.empty() || !options.rig_file.empty())
+    return bad_input({"--street-lamps", "is measured alone; --lamp and --rig are a car's lamps"});
+  if (options.points.empty() || options.out.empty()) return bad_input({"", "give --points FILE and --out FILE"});
+  Scene scene;
+  if (!options.scene.empty()) {
+    auto read = read_scene(options.scene);
+    if (!read) return bad_input(read.error());
+    scene = std::move(*read);
+  }
+  const auto light = FixedLight::of(scene, options.street_lamps, std::nullopt);
+  if (!light) return bad_input(light.error());
+  const auto points = read_points(options.points);
+  if (!points) return bad_input(points.error());
+  std::vector<Illuminance> measured;
+  double highest = 0.0;
+  for (const PointRow& row : points->rows) {
+    const auto shares = light->shares_at(row.position_m, row.normal);
+    Illuminance& at = measured.emplace_back();
+    for (const FixedLight::Share& share : shares) at.total_lx += share.lx;
+    at.lamps_lx = {shares.empty() ? 0.0 : shares.front().lx};
+    highest = std::max(highest, at.total_lx);
+  }
+  if (const Status status = write_illuminance(options.out, *points, measured); !status)
+    return bad_input(status.error());
+  std::printf("%s: %zu points, %zu street lamp%s, at most %.6g lx, in float64 on the CPU%s\n", options.out.c_str(),
+              measured.size(), light->street_lamps(), light->street_lamps() == 1 ? "" : "s", highest,
+              options.scene.empty() ? ", nothing stands in their light" : "");
+  return kExitDone;
+}
+
 /// By the chosen method. `device`: what computed it.
 Result<std::vector<Illuminance>> measure_points(const MeasureOptions& options, const std::vector<LampConfig>& lamps,
                                                 const LampTables& tables, const PointsFile& points,
@@ -227,6 +262,8 @@ int measure(const MeasureOptions& options) {
     if (std::find(inputs.begin() + 2, inputs.end(), file) == inputs.end()) inputs.push_back(file);
   }
   if (const Status apart = check_inputs(inputs, {options.out}); !apart) return bad_input(apart.error());
+  if (!options.street_lamps.empty()) return measure_street(options);
+  if (!options.scene.empty()) return bad_input({"--scene", "only with --street-lamps: a car's lamps have no shadows here"});
   if (!options.table.empty()) return measure_table(options);
   if (options.points.empty() || options.out.empty())
     return bad_input({"", "give --points FILE and --out FILE, or --table FILE of a reference set"});
@@ -289,6 +326,10 @@ void add_measure(CLI::App& app, Command& chosen) {
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(kLampFunctionNames.begin(), kLampFunctionNames.end())))
       ->capture_default_str();
+  command->add_option("--street-lamps", options->street_lamps,
+                      "Instead of a car's lamps: a file of street lamps (docs/street-lamps.md), in float64; lamp 1 is the "
+                      "strongest of them at each point");
+  command->add_option("--scene", options->scene, "With --street-lamps: glTF whose shadows count");
   auto* points = command->add_option("--points", options->points, "Points file; \"-\" is standard input");
   command->add_option("--out", options->out, "File to write");
   command

@@ -43,6 +43,8 @@ Status PortableFiles::add_rig(const Rig& rig) {
   if (const Status done = add_scene(rig.scene_file); !done) return done;
   if (!rig.traffic_file.empty())
     if (const Status done = add(rig.traffic_file, "traffic"); !done) return done;
+  if (!rig.street_lamps_file.empty())
+    if (const Status done = add_named(rig.street_lamps_file, "street_lamps"); !done) return done;
   if (const Status done = add_named(rig.vehicle_file, "vehicle"); !done) return done;
   if (const Status done = add_named(rig.cockpit_file, "cockpit"); !done) return done;
   if (!rig.key_file.empty()) {

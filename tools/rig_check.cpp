@@ -9,12 +9,14 @@
 #include "cockpit_io/dbc.h"
 #include "config/cockpit.h"
 #include "config/road/lane.h"
+#include "config/street_lamps.h"
 #include "config/traffic/road_users.h"
 #include "config/vehicle.h"
 #include "tools/lamp_design.h"
 #include "visual/photometry/bench/lamp_aim.h"
 #include "visual/photometry/bench/lint.h"
 #include "visual/photometry/bench/table_end.h"
+#include "visual/photometry/readers/read_lamp.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
@@ -38,6 +40,7 @@ class Checker {
     }
     if (is_there(rig.cockpit_file, "the cockpit")) cockpit(rig.cockpit_file);
     traffic(rig);
+    street_lamps(rig.street_lamps_file);
     lamps(rig);
     return std::move(found_);
   }
@@ -78,6 +81,15 @@ class Checker {
     if (const fs::path lane = lane_file_of(rig.scene_file); !rig.scene_file.empty() && !fs::exists(lane, ignored))
       problem({rig.traffic_file.string(),
                "the scene has no lane beside it that road users would drive along: no " + lane.string()});
+  }
+
+  void street_lamps(const fs::path& file) {
+    if (!is_there(file, "the street lamps")) return;
+    const auto config = read_street_lamps(file);
+    if (!config) return problem(config.error());
+    for (const LuminaireConfig& kind : config->luminaires)
+      if (is_there(kind.file, "the light of luminaire \"" + kind.name + "\" of " + file.string()))
+        if (const auto table = read_lamp(kind.file); !table) problem(table.error());
   }
 
   void cockpit(const fs::path& file) {

@@ -98,6 +98,20 @@ EffectDecision gui(const EffectFacts& facts) {
   return {1, "the panel is shown", true};
 }
 
+EffectDecision fixed_light(const EffectFacts& facts) {
+  std::string what;
+  const auto add = [&](const std::string& one) { what += (what.empty() ? "" : ", ") + one; };
+  const auto counted = [](std::size_t count, const char* noun) {
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+  };
+  if (facts.street_lamps > 0) add(counted(facts.street_lamps, "street lamp"));
+  if (facts.moon) add("the moon");
+  if (facts.luminous > 0) add(counted(facts.luminous, "luminous material"));
+  if (facts.covered) add("a roof over the road");
+  if (what.empty()) return {0, "no street lamp, no moon, and nothing shines by itself"};
+  return {1, what};
+}
+
 constexpr std::array<EffectRow, kEffectCount> kTable{
     {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy",
       shadows},
@@ -111,7 +125,9 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
      {Effect::kWetGround, "ground", kWetNames, "pipelines of ground with water's mirror in them", wet_ground},
      {Effect::kGlare, "glare", kOffOnNames, "the HDR image; its pass to the display adds what the eye scatters", glare,
       true},
-     {Effect::kGui, "gui", kOffOnNames, "a pass of triangles over the picture, an image of letters", gui}}};
+     {Effect::kGui, "gui", kOffOnNames, "a pass of triangles over the picture, an image of letters", gui},
+     {Effect::kFixedLight, "fixed light", kOffOnNames, "20 bytes a vertex, and pipelines that read them", fixed_light,
+      true}}};
 
 constexpr bool in_order() {
   for (std::size_t i = 0; i < kTable.size(); ++i)

@@ -22,9 +22,10 @@ enum class Effect : std::size_t {
   kPrecipitation,
   kWetGround,
   kGlare,
-  kGui
+  kGui,
+  kFixedLight
 };
-inline constexpr std::size_t kEffectCount = 9;
+inline constexpr std::size_t kEffectCount = 10;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -42,6 +43,10 @@ struct EffectFacts {
   std::size_t glare_lamps = 0;             ///< that shine into the eye, as far as the display shows it
   double glare_lx = 0.0;                   ///< of them, at the eye
   bool gui = false;                        ///< the panel is shown over the picture
+  std::size_t street_lamps = 0;            ///< that stand in the scene and are switched on
+  std::size_t luminous = 0;                ///< materials that shine by themselves
+  bool moon = false;                       ///< it shines
+  bool covered = false;                    ///< some of the scene does not see the whole sky
   bool glare_drawn = false;                ///< decided before: the luminance image is read for it
   bool drops_drawn = false;                ///< decided before: they are added to luminance
 };

@@ -87,9 +87,10 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
   const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
-  const EffectPlan effects =
-      plan_effects(facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, parts.device_facts),
-                   view.input.effects, view.input.picked);
+  EffectFacts facts =
+      facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, parts.device_facts);
+  add_facts(facts, parts.scene.fixed_light());
+  const EffectPlan effects = plan_effects(facts, view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
   gpu::Image* light = view.picture.display;
@@ -116,6 +117,9 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
 
   // What water makes of the ground.
   lit.wet = static_cast<std::uint32_t>(effects.level(Effect::kWetGround));
+
+  // What street lamps give, and what shines by itself.
+  if (effects.on(Effect::kFixedLight)) parts.scene.add_fixed_light(lit);
 
   // Depth of everything, so that each pixel is lit once.
   const bool depth_done = effects.on(Effect::kDepthFirst);

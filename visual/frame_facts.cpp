@@ -22,6 +22,13 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
           .gui = over.gui};
 }
 
+void add_facts(EffectFacts& facts, const FixedLight& light) {
+  facts.street_lamps = light.street_lamps();
+  facts.moon = light.moon();
+  facts.luminous = light.luminous();
+  facts.covered = light.covered();
+}
+
 std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geometry) {
   return glare_seen(geometry, view.glare, view.viewer, view.exposure_per_cdm2);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "visual/effects.h"
+#include "visual/fixed_light.h"
 #include "visual/renderer.h"
 
 namespace phare {
@@ -29,6 +30,9 @@ struct LampsInView {
 /// were looked for; `over`: what will lie over it; `glare`: glare_of() it.
 EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optional<std::size_t> casters,
                      const DrawnOver& over, std::span<const GlaringLamp> glare, const DeviceFacts& device);
+
+/// What shines in the scene and does not change.
+void add_facts(EffectFacts& facts, const FixedLight& light);
 
 /// Lamps whose light the eye of the view scatters over its picture (glare_seen).
 std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geometry);

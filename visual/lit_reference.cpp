@@ -69,6 +69,7 @@ LitScene::FragmentStage LitScene::reference_stage(const LitVariant& variant) {
   static const std::array<Code, 4> codes{k_lamps_frag_reference, k_lamps_frag_reference_shadows,
                                          k_lamps_frag_reference_fog, k_lamps_frag_reference_shadows_fog};
   Reference& own = reference();
+  if (variant.fixed_light) return {fixed_module(variant, variant.shadow_maps != 0 ? 5u : 2u, false), *own.layout};
   const std::size_t which = (variant.shadow_maps != 0 ? 1u : 0u) + (variant.fog.slices != 0 ? 2u : 0u);
   if (!*own.frag[which]) own.frag[which] = gpu::make_shader(device_, codes[which]);
   return {*own.frag[which], *own.layout};

@@ -46,6 +46,7 @@
 #include "shaders/scene_vert_8_lit_shadows.h"
 #include "shaders/scene_vert_8_shadows.h"
 #include "visual/passes/constants.h"
+#include "visual/passes/fixed_shaders.h"
 
 namespace phare {
 
@@ -80,7 +81,7 @@ static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offseto
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
 static_assert(sizeof(shader::GpuFog) == 112);
 static_assert(sizeof(shader::GpuFrame) ==
-              96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 48) + sizeof(shader::GpuFog) + 16);
+              96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 48) + sizeof(shader::GpuFog) + 16 + 32 * shader::kMirroredLamps);
 static_assert(sizeof(shader::GpuDraw) == 80 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
@@ -179,8 +180,9 @@ vk::raii::PipelineLayout LitScene::pipeline_layout(std::span<const vk::Descripto
                                                    .pPushConstantRanges = &push});
 }
 
-void LitScene::set_geometry(SceneBuffers geometry, ShadowCasters casters) {
+void LitScene::set_geometry(SceneBuffers geometry, ShadowCasters casters, std::shared_ptr<const FixedLight> light) {
   geometry_ = std::move(geometry);
+  fixed_light_ = std::move(light);
   casters_ = std::move(casters);
   forget_sets();
 }
@@ -209,6 +211,7 @@ void LitScene::change_beam(std::size_t beam, const BeamImage& image, std::span<c
 
 void LitScene::begin_frame(gpu::FrameGraph& graph) {
   views_ = 0;
+  probes_used_ = 0;
   reference_begun_ = false;
   if (beams_.upload(graph) || set_of_.size() > kMostSets) forget_sets();  // a set may name an image that is no more
 }
@@ -291,7 +294,8 @@ vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
 }
 
 bool LitScene::is_lean(const LitVariant& variant) const {
-  return variant.lamp_count <= 2 && variant.colours == 0 && variant.kind.look == 0 && variant.fog.slices == 0 &&
+  return variant.lamp_count <= 2 && variant.colours == 0 && variant.kind.look == 0 && !variant.fixed_light &&
+         variant.fog.slices == 0 &&
          variant.wet == 0 && variant.method == Method::kFragment && !filtered() &&
          (variant.output == LampOutput::kDisplay || variant.output == LampOutput::kHdr ||
           variant.output == LampOutput::kClipping || variant.output == LampOutput::kAudit);
@@ -311,6 +315,7 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   const bool textured = variant.kind.look != 0;
   if (textured) numbers.put(shader::kSpecLook, variant.kind.look);
   if (variant.wet != 0) numbers.put(shader::kSpecWet, std::bit_cast<std::uint32_t>(kWetAlpha[variant.wet]));
+  if (variant.moves) numbers.put(shader::kSpecMoves, 1);
   const vk::SpecializationInfo constants = numbers.info();
   const bool measure = variant.output == LampOutput::kMeasure;
   // By "reference" one shader serves any number of lamps: its time goes elsewhere.
@@ -344,10 +349,17 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
       .samples = variant.samples,
       .layout = stages.fragment.layout};
   if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
+  if (variant.fixed_light) {
+    recipe.vertex = fixed_module(variant, size, true);
+    recipe.attributes = variant.moves ? kProbeAttributes : kFixedAttributes;
+    recipe.second_stride = variant.moves ? sizeof(FixedProbe) : sizeof(FixedVertex);
+    recipe.second_by_instance = variant.moves;
+  }
   return *pipelines_.emplace(variant, make_pipeline(device_, recipe)).first->second;
 }
 
 LitScene::FragmentStage LitScene::fragment_stage(const LitVariant& variant, std::size_t size) {
+  if (variant.fixed_light) return {fixed_module(variant, size, false), *layout_};
   if (variant.fog.slices == 0) return {*lamps_frag_[size], *layout_};
   vk::raii::ShaderModule& module = lamps_fog_frag_[size];
   if (!*module) module = gpu::make_shader(device_, lamps_fog_frag(size, filtered()));
@@ -406,6 +418,7 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
   std::size_t lit_by = 0;
   bool plain = true;  // the vertices are bound as those without a look take them
   vk::Pipeline bound;
+  vk::Buffer bound_light;
   for (const DrawItem& item : view.items) {
     if (item.lit_by != std::exchange(lit_by, item.lit_by)) {
       bind(commands, view.lit_by[lit_by]);
@@ -424,6 +437,9 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
         common.output == LampOutput::kClipping)
       variant.fog = view.fog;
     if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet;
+    variant.fixed_light = view.fixed_light && variant.output != LampOutput::kAudit;
+    variant.moves = variant.fixed_light && item.moves != DrawItem::kStands;
+    if (variant.fixed_light) bind_fixed_light(commands, view, item, bound_light);
     if (variant.output == LampOutput::kAudit) {
       const std::uint32_t look = variant.kind.look;
       variant.kind = {.double_sided = variant.kind.double_sided,
@@ -441,7 +457,8 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     if (look) bind_look(commands, *item.batch, by_reference);
     if (!look && !plain) bind_vertices(commands);
     plain = !look;
-    commands.drawIndexed(item.batch->index_count, 1, item.first_index, look ? 0 : item.batch->first_vertex, 0);
+    commands.drawIndexed(item.batch->index_count, 1, item.first_index, look ? 0 : item.batch->first_vertex,
+                         variant.moves ? probe_in_page(view, item) : 0);
   }
 }
 

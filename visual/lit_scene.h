@@ -106,6 +106,8 @@ struct LitView {
   std::uint32_t drops_count = 0;
   bool snow = false;
   std::uint32_t wet = 0;          ///< of ground, as the levels of the effect
+  bool fixed_light = false;       ///< what does not change shines, too
+  std::size_t first_probe = 0;    ///< of `moving`, among those of the frame
   std::uint32_t lamps = 0;        ///< that light something in it
   std::uint32_t unreached = 0;    ///< left out: they light nothing of what it sees
   std::uint32_t over_limit = 0;   ///< left out somewhere: kLampsPerDraw that are brighter there light it already
@@ -125,6 +127,7 @@ struct LitVariant {
   FogGrid fog{};
   Method method = Method::kFragment;
   std::uint32_t wet = 0;  ///< which of kWetAlpha
+  bool fixed_light = false, moves = false;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Format format = vk::Format::eUndefined;
   bool depth_done = false;
@@ -138,7 +141,8 @@ class LitScene {
   LitScene(gpu::Device& device, ImageLevel level);
 
   /// Nothing is being drawn.
-  void set_geometry(SceneBuffers geometry, ShadowCasters casters);
+  void set_geometry(SceneBuffers geometry, ShadowCasters casters, std::shared_ptr<const FixedLight> light);
+  const FixedLight& fixed_light() const { return *fixed_light_; }
   void set_beam(std::size_t beam, const BeamImage& image);
   void change_beam(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed);
   /// Another number with each change.
@@ -156,6 +160,9 @@ class LitScene {
   LitView view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps);
   /// Finds what stands in the light of the view's lamps; returns how many pieces of the scene.
   std::size_t find_casters(LitView& view) const;
+
+  /// What does not change shines in the view: what moves gets what arrives at it.
+  void add_fixed_light(LitView& view);
 
   /// Lamps of a view, kMaxLamps at most, into data of their own.
   LitBy fill(const LitView& view, std::span<const PlacedLamp> lamps);
@@ -194,6 +201,7 @@ class LitScene {
 
  private:
   static constexpr std::uint32_t kViewsInPage = 16;
+  static constexpr std::size_t kProbesInPage = 256;
   static constexpr std::size_t kMostSets = 256;  ///< kept from frame to frame
   static constexpr std::size_t kLampsForAll = 4;
   static constexpr std::size_t kNoBeam = SIZE_MAX;
@@ -218,6 +226,9 @@ class LitScene {
 
   bool is_lean(const LitVariant& variant) const;
   void light_by_block(LitView& view);
+  void add_mirrored(const LitView& view);
+  void bind_fixed_light(vk::CommandBuffer commands, const LitView& view, const DrawItem& item, vk::Buffer& bound) const;
+  static std::uint32_t probe_in_page(const LitView& view, const DrawItem& item);
   vk::raii::PipelineLayout pipeline_layout(std::span<const vk::DescriptorSetLayout> sets);
   FragmentStage fragment_stage(const LitVariant& variant, std::size_t size);
   FragmentStage reference_stage(const LitVariant& variant);
@@ -231,6 +242,8 @@ class LitScene {
     return {lamp.position_m, lamp.world_from_image, cones_[lamp.beam]};
   }
   vk::ShaderModule scene_vert(std::size_t size, Method method, bool fog);
+  /// Of the shaders of visual/passes/fixed_shaders.h.
+  vk::ShaderModule fixed_module(const LitVariant& variant, std::size_t size, bool vertex);
   std::size_t tables_of(std::vector<shader::TableShape> shapes);
   vk::DescriptorSet set_of(std::size_t page, const Beams& beams);
   void forget_sets();
@@ -239,6 +252,9 @@ class LitScene {
   ImageLevel level_;
   SceneBuffers geometry_;
   ShadowCasters casters_;
+  std::shared_ptr<const FixedLight> fixed_light_ = std::make_shared<FixedLight>();
+  std::vector<std::unique_ptr<gpu::HostBuffer>> probes_;  ///< of what moves in this frame; more are made when needed
+  std::size_t probes_used_ = 0;
   BeamStore beams_;
   std::vector<LightCone> cones_;  ///< of each beam
   std::vector<std::uint64_t> beam_versions_;
@@ -261,6 +277,7 @@ class LitScene {
   Modules lamps_fog_frag_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};  ///< each made when it is called for
   Modules lit_by_vertex_vert_{nullptr, nullptr, nullptr,
                               nullptr, nullptr, nullptr};   ///< each made when it is called for
+  std::map<std::array<std::size_t, 2>, vk::raii::ShaderModule> fixed_modules_;  ///< the same: stage, variant, size
   std::unique_ptr<Reference, ReferenceDeleter> reference_;  ///< made when it is called for
   bool reference_begun_ = false;                            ///< in this frame
   std::unique_ptr<Textured, TexturedDeleter> textured_;     ///< made when it is called for
@@ -284,5 +301,7 @@ inline constexpr auto kLitStages = vk::ShaderStageFlagBits::eVertex | vk::Shader
 extern const std::array<vk::VertexInputAttributeDescription, 3> kVertexAttributes;
 /// Of GpuVertex and CornerLook.
 extern const std::array<vk::VertexInputAttributeDescription, 5> kTexturedAttributes;
+/// The same with a FixedVertex beside each, or a FixedProbe for all.
+extern const std::array<vk::VertexInputAttributeDescription, 6> kFixedAttributes, kProbeAttributes;
 
 }  // namespace phare

@@ -84,7 +84,7 @@ struct Renderer::Impl {
         device.device, vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
     fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
     set_target(options.width_px, options.height_px);
-    set_scene(Scene{}, Scene{});
+    set_scene(Scene{}, Scene{}, std::make_shared<FixedLight>());
   }
 
   ~Impl() {
@@ -120,9 +120,11 @@ struct Renderer::Impl {
     hdrs.clear();
   }
 
-  void set_scene(const Scene& new_scene, const Scene& moving, const Progress& progress = {}) {
+  void set_scene(const Scene& new_scene, const Scene& moving, std::shared_ptr<const FixedLight> light,
+                 const Progress& progress = {}) {
     device.device.waitIdle();
-    scene.set_geometry(SceneBuffers(device, new_scene, moving, progress), ShadowCasters(new_scene, moving));
+    SceneBuffers buffers(device, new_scene, moving, *light, progress);
+    scene.set_geometry(std::move(buffers), ShadowCasters(new_scene, moving), std::move(light));
   }
 
   /// Submits what `record` puts into the graph and waits for it.
@@ -222,8 +224,13 @@ Status Renderer::load_scene(const Scene& scene) {
 }
 
 Status Renderer::load_scene(const Scene& scene, const Scene& moving, const Progress& progress) {
+  return load_scene(scene, moving, std::make_shared<FixedLight>(), progress);
+}
+
+Status Renderer::load_scene(const Scene& scene, const Scene& moving, std::shared_ptr<const FixedLight> light,
+                            const Progress& progress) {
   try {
-    impl_->set_scene(scene, moving, progress);
+    impl_->set_scene(scene, moving, std::move(light), progress);
     return Done{};
   } catch (const vk::DeviceLostError&) {  // no fault of what was given
     throw;

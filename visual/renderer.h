@@ -29,6 +29,7 @@ struct GLFWwindow;
 
 namespace phare {
 
+class FixedLight;  // visual/fixed_light.h
 
 struct RendererOptions {
   int width_px = 1280;
@@ -175,6 +176,10 @@ class Renderer {
   /// `moving`: meshes for what moves, one a node, each about its own origin.
   Status load_scene(const Scene& scene);
   Status load_scene(const Scene& scene, const Scene& moving, const Progress& progress = {});
+  /// With light that does not change: street lamps, the moon, what shines by itself. Computed now, which takes seconds
+  /// where there are many lamps.
+  Status load_scene(const Scene& scene, const Scene& moving, std::shared_ptr<const FixedLight> light,
+                    const Progress& progress = {});
   /// A new beam image, at any index. Uploaded with the next frame.
   void set_beam(std::size_t index, const BeamImage& image);
   /// The image set last, changed in these rectangles of its nodes only; nodes, type and aim are the same.

@@ -20,6 +20,9 @@ layout(location = 2) flat PHARE_VARYING vec3 detail_from_point;  // to the world
 layout(location = 3) flat PHARE_VARYING vec4 reflectance; // rho/pi, exposed where the display is written; w as in GpuMaterial
 layout(location = 4) flat PHARE_VARYING vec3 light_colour;  // of the lamps, where all have one
 layout(location = 5) flat PHARE_VARYING vec3 ambient_lx;  // half of what the whole sky gives a level surface
+#ifdef PHARE_FIXED
+layout(location = 16) PHARE_VARYING vec4 fixed_light;  // of what does not change: rgb lx with what the surface sends out itself, lx
+#endif
 layout(location = 6) PHARE_VARYING vec3 in_lamp[PHARE_LAMPS];  // the point in each lamp's frame, rows a, b, c
 
 // n times the way from the eye to each lamp, n being point_normal; by vertex (kSpecMethod) what each lamp gives there: lx, or cos(q)/r².

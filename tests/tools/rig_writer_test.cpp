@@ -54,7 +54,7 @@ Rig demo_rig(const std::string& name) {
 }
 
 TEST_F(RigWriter, WhatIsWrittenReadsBackTheSame) {
-  for (const char* name : {"country_road.toml", "matrix.toml"}) {
+  for (const char* name : {"country_road.toml", "matrix.toml", "town.toml"}) {
     Rig rig = demo_rig(name);
     if (rig.name == "Country road") {  // everything a rig may say
       ASSERT_TRUE(
@@ -64,6 +64,7 @@ TEST_F(RigWriter, WhatIsWrittenReadsBackTheSame) {
       fs::permissions(rig.key_file, fs::perms::owner_read | fs::perms::owner_write);
       rig.bus_key.emplace().fill(0xaa);
       rig.frame_rate_hz = 50;
+      rig.moon = MoonConfig{0.1234567, 0.3, 0.21};
       rig.real_time_priority = rig.high_keeps_low = false;
       rig.dynamics_level = "full";
       rig.dynamics_step_s = 1.0 / 3000.0;

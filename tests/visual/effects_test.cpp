@@ -29,7 +29,8 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
                {{.air = {.rain_mmph = 4.0}, .air_lamps = 2}, Effect::kPrecipitation},
                {{.lit_lamps = 1, .software_device = true, .air = {.rain_mmph = 4.0}}, Effect::kWetGround},
                {{.glare_lamps = 1, .glare_lx = 0.5}, Effect::kGlare},
-               {{.gui = true}, Effect::kGui}};
+               {{.gui = true}, Effect::kGui},
+               {{.street_lamps = 40}, Effect::kFixedLight}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);
@@ -42,6 +43,17 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
     tried.insert(effect);
   }
   EXPECT_EQ(tried.size(), kEffectCount) << "every row has its case here";
+}
+
+TEST(Effects, FixedLightNamesAllThatShines) {
+  EXPECT_EQ(plan_effects({.street_lamps = 1})[Effect::kFixedLight].reason, "1 street lamp");
+  EXPECT_EQ(plan_effects({.street_lamps = 212, .luminous = 3, .moon = true, .covered = true})[Effect::kFixedLight].reason,
+            "212 street lamps, the moon, 3 luminous materials, a roof over the road");
+  EffectChoices choices{};
+  choices[static_cast<std::size_t>(Effect::kFixedLight)] = 1;
+  EXPECT_FALSE(plan_effects({}, choices).on(Effect::kFixedLight)) << "there is nothing that it could be made of";
+  choices[static_cast<std::size_t>(Effect::kFixedLight)] = 0;
+  EXPECT_FALSE(plan_effects({.moon = true}, choices).on(Effect::kFixedLight));
 }
 
 TEST(Effects, DeviceAndViewCountToo) {

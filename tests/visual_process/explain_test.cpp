@@ -34,7 +34,8 @@ class Explain : public testing::Test {
  protected:
   std::vector<std::string> lines(const AskedMoment& moment, const AskedDevice& device, bool window = false) {
     std::istringstream text(
-        explain_moment(lamps_, desk_, rig_.channels[0], moment, device, scene_, movers_, traffic_, road_, window));
+        explain_moment(lamps_, desk_, rig_.channels[0], moment, device, scene_, movers_, traffic_, road_, fixed_,
+                                          window));
     std::vector<std::string> all;
     for (std::string line; std::getline(text, line);) all.push_back(line);
     return all;
@@ -53,6 +54,7 @@ class Explain : public testing::Test {
   Traffic traffic_;
   std::vector<LanePoint> lane_{{0, 0, 0, 0, 0, 0}, {1000, 1000, 0, 0, 0, 0}};
   RoadLine road_{lane_, {}};
+  FixedLight fixed_;
   const AskedDevice gpu_{"a card", false}, software_{"llvmpipe", true};
 };
 

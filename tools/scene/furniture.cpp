@@ -292,6 +292,10 @@ void draw_village(Node& node, const glm::dmat4& frame) {
 
 }  // namespace
 
+void draw_kerb_post(Pen pen, double outer) {
+  draw_post(pen, outer);
+}
+
 void add_furniture(Model& model, const Alignment& road) {
   add_posts(model, road);
 

@@ -1,10 +1,12 @@
 #include "tools/scene/glb_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 
 namespace phare::scene {
 
@@ -43,7 +45,10 @@ class Writer {
     root_["asset"] = {{"version", "2.0"}, {"generator", "phare-make-scene"}};
     root_["scene"] = 0;
     root_["scenes"] = Json::array({{{"nodes", Json::array()}}});
-    for (const MaterialData& m : kMaterials) {
+    std::size_t used = static_cast<std::size_t>(Material::kSignBack) + 1;
+    for (const Node& node : model.nodes)
+      for (const auto& [material, triangles] : node.parts) used = std::max(used, static_cast<std::size_t>(material) + 1);
+    for (const MaterialData& m : std::span(kMaterials).first(used)) {
       Json material;
       material["name"] = m.name;
       material["pbrMetallicRoughness"] = {
@@ -54,6 +59,8 @@ class Writer {
       Json& own = material["extras"]["phare"] = {{"surface", m.surface}};
       if (*m.retro != '\0') own["retro"] = m.retro;
       if (m.retroreflection_cd_per_lx_m2 > 0.0) own["retroreflection_cd_per_lx_m2"] = m.retroreflection_cd_per_lx_m2;
+      if (m.emission_cdm2 != std::array<double, 3>{}) own["emission_cdm2"] = m.emission_cdm2;
+      if (m.sky_share < 1.0) own["sky_share"] = m.sky_share;
       root_["materials"].push_back(material);
     }
     for (const Node& node : model.nodes) add(node);

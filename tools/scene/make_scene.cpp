@@ -1,4 +1,5 @@
-// phare-make-scene: writes the country road, its lane and the list of places, and road users. Same bytes each run.
+// phare-make-scene: writes the scenes that phare drives through, their lanes and lamps, and road users. Same bytes each
+// run.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include "tools/scene/glb_writer.h"
 #include "tools/scene/lane_files.h"
 #include "tools/scene/parts.h"
+#include "tools/scene/path.h"
 
 namespace {
 
@@ -50,6 +52,16 @@ Status write_scene(const std::filesystem::path& folder) {
   phare::scene::Model users;
   phare::scene::add_road_users(users);
 
+  for (const auto& [name, text] : phare::scene::luminaire_files())
+    if (auto s = write_file(folder / name, text); !s) return s;
+  for (const auto& [name, made] : {std::pair<std::string, phare::scene::MadeScene>("town", phare::scene::make_town()),
+                                   {"motorway", phare::scene::make_motorway()},
+                                   {"tunnel", phare::scene::make_tunnel()}}) {
+    if (auto s = write_file(folder / (name + ".glb"), phare::scene::glb_bytes(made.model)); !s) return s;
+    if (auto s = write_file(folder / (name + "_lane.csv"), made.lane_csv); !s) return s;
+    if (made.street_lamps.empty()) continue;
+    if (auto s = write_file(folder / (name + "_lamps.toml"), made.street_lamps); !s) return s;
+  }
   if (auto s = write_file(folder / "road_users.glb", phare::scene::glb_bytes(users)); !s) return s;
   if (auto s = write_file(folder / "country_road.glb", phare::scene::glb_bytes(model)); !s) return s;
   if (auto s = write_file(folder / "country_road_lane.csv", phare::scene::lane_csv(road)); !s) return s;
@@ -60,10 +72,11 @@ Status write_scene(const std::filesystem::path& folder) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Makes the scene country_road: a two-lane road of 1.8 km with bends, crest, dip and what stands beside it."};
+      "Makes the scenes: a country road of 1.8 km with bends, crest, dip and what stands beside it; a town street with "
+      "its lamps; a motorway; a tunnel."};
   app.footer("Example:\n  phare-make-scene --out build/scenes");
   std::filesystem::path folder;
-  app.add_option("--out", folder, "folder for country_road.glb, country_road_lane.csv, country_road_places.json, road_users.glb")
+  app.add_option("--out", folder, "folder for country_road.glb, town.glb, motorway.glb, tunnel.glb, what belongs to each, and road_users.glb")
       ->required();
   phare::take_finite_numbers_only(app);
   try {

@@ -47,6 +47,29 @@ enum class Material {
   kSheetYellow,
   kSheetBlack,
   kSignBack,
+  // Of town, motorway and tunnel only: the country road's file ends before them.
+  kPavement,
+  kKerb,
+  kFacadeWhite,
+  kFacadeOchre,
+  kFacadeGrey,
+  kFacadeRed,
+  kWindowDark,
+  kWindowWarm,
+  kWindowDim,
+  kWindowCool,
+  kShopFront,
+  kLampGlass,
+  kLampHousing,
+  kConcrete,
+  kSheetBlue,
+  kTunnelRoad,
+  kTunnelPaint,
+  kTunnelWalk,
+  kTunnelPanel,
+  kTunnelVault,
+  kTunnelGlass,
+  kEscapeSign,
   kCount
 };
 
@@ -57,6 +80,8 @@ struct MaterialData {
   const char* retro;    ///< class, or none
   bool double_sided;
   double retroreflection_cd_per_lx_m2 = 0.0;  ///< R_A at 0.33°, 5° in place of the class's; 0: the class's
+  std::array<double, 3> emission_cdm2{};      ///< what it sends out by itself
+  double sky_share = 1.0;                     ///< 0: under a roof
 };
 
 /// Reflectances by eye within published ranges: asphalt 0.07–0.10, grass 0.08–0.15, plaster 0.6–0.7, dark cloth
@@ -103,6 +128,30 @@ inline constexpr std::array<MaterialData, static_cast<std::size_t>(Material::kCo
     {"sheeting yellow", {0.38, 0.26, 0.02}, "plain", "EN 12899-1 RA2 yellow", false},
     {"sign black", {0.030, 0.030, 0.030}, "plain", "", false},
     {"sign back", {0.22, 0.22, 0.23}, "plain", "", false},
+    // Luminances by eye: lit windows at night lie between a few and a hundred cd/m² (unconfirmed); the glass of a
+    // luminaire of 3500 lm over 0.14 m² has some 8000.
+    {"pavement", {0.19, 0.185, 0.175}, "asphalt", "upright facets", false},
+    {"kerb stone", {0.26, 0.255, 0.245}, "plain", "", false},
+    {"facade white", {0.58, 0.57, 0.53}, "plain", "", false},
+    {"facade ochre", {0.48, 0.38, 0.24}, "plain", "", false},
+    {"facade grey", {0.30, 0.30, 0.29}, "plain", "", false},
+    {"facade brick", {0.22, 0.10, 0.07}, "plain", "", false},
+    {"window dark", {0.03, 0.032, 0.035}, "plain", "", false},
+    {"window warm", {0.30, 0.29, 0.27}, "plain", "", false, 0.0, {26.0, 16.0, 6.5}},
+    {"window dim", {0.20, 0.19, 0.17}, "plain", "", false, 0.0, {5.6, 3.1, 1.0}},
+    {"window cool", {0.30, 0.30, 0.30}, "plain", "", false, 0.0, {13.0, 15.0, 14.0}},
+    {"shop front", {0.35, 0.35, 0.34}, "plain", "", false, 0.0, {36.0, 31.0, 22.5}},
+    {"lamp glass", {0.50, 0.50, 0.50}, "plain", "", false, 0.0, {9200.0, 7900.0, 6000.0}},
+    {"lamp housing", {0.10, 0.10, 0.105}, "plain", "", false},
+    {"concrete", {0.31, 0.30, 0.285}, "plain", "", false},
+    {"sheeting blue", {0.02, 0.06, 0.26}, "plain", "EN 12899-1 RA2 blue", false},
+    {"asphalt in tunnel", {0.095, 0.093, 0.090}, "asphalt", "upright facets", false, 0.0, {}, 0.0},
+    {"road paint in tunnel", {0.50, 0.50, 0.48}, "paint", "EN 1436 R4", false, 0.0, {}, 0.0},
+    {"walkway in tunnel", {0.24, 0.235, 0.22}, "plain", "", false, 0.0, {}, 0.0},
+    {"wall panel", {0.62, 0.62, 0.59}, "plain", "", false, 0.0, {}, 0.0},
+    {"vault", {0.24, 0.235, 0.225}, "plain", "", false, 0.0, {}, 0.0},
+    {"tunnel lamp glass", {0.50, 0.50, 0.50}, "plain", "", false, 0.0, {7900.0, 7950.0, 7400.0}, 0.0},
+    {"escape sign", {0.10, 0.30, 0.15}, "plain", "", false, 0.0, {12.0, 150.0, 55.0}, 0.0},
 }};
 
 }  // namespace phare::scene

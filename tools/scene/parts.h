@@ -30,6 +30,10 @@ struct Clothes {
 void draw_walker(Pen pen, const Clothes& clothes, double stride, bool coat, bool bag);
 /// x forward from the middle of the rear wheel, on the ground.
 void draw_cyclist(Pen pen);
+/// A broad-leaved tree about its foot.
+void draw_tree(Pen pen, Random& random, double height, Material leaves);
+/// A post of 1 m with its reflectors; x looks along the road; `outer` is +1 where the road's outside is to the left.
+void draw_kerb_post(Pen pen, double outer);
 /// A saloon of 4.5 m; x forward from the rear axle's middle, on the ground.
 void draw_car(Pen pen);
 

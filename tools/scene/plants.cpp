@@ -171,6 +171,10 @@ class Grove {
 
 }  // namespace
 
+void draw_tree(Pen pen, Random& random, double height, Material leaves) {
+  draw_broadleaf(pen, random, height, leaves);
+}
+
 void add_plants(Model& model, const Alignment& road) {
   Random random(19990928);  // any number; it fixes the wood for ever
   Grove grove(model, road);

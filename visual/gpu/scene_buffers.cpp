@@ -39,6 +39,8 @@ struct Gathered {
   std::vector<CornerLook> looks;
   bool textures = true;          ///< the device can draw them
   std::size_t first_material = 0;  ///< of the scene that is gathered
+  std::vector<FixedVertex> light{};              // of the vertices of what stands
+  std::vector<FixedLight::Meshes> lit_meshes{};  // of the chunks of what stands; none where nothing shines
 };
 
 void append(Gathered& all, const SceneBatch& batch, const SceneChunk& chunk, std::span<const SceneVertex> vertices,
@@ -87,11 +89,17 @@ struct DrawnChunk {
   std::span<const SceneVertex> vertices{};
   std::span<const std::uint32_t> indices{};
   std::span<const CornerLook> looks{};
+  std::span<const FixedVertex> light{};  // none where nothing shines
 };
 
-DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std::size_t> far_level) {
+DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std::size_t> far_level,
+                 const Gathered& all) {
   DrawnChunk drawn{.chunk = &chunk};
-  if (far_level) {
+  if (!all.lit_meshes.empty()) {
+    const auto index = static_cast<std::size_t>(&chunk - scene.chunks.data());
+    const FixedMesh& mesh = all.lit_meshes[index][far_level ? 1 + *far_level : 0];
+    drawn.vertices = mesh.vertices, drawn.indices = mesh.indices, drawn.light = mesh.light;
+  } else if (far_level) {
     drawn.far = far_mesh(scene, chunk, *far_level, kFarLevels[*far_level].from * kFarMeshFrom_m);
     drawn.vertices = drawn.far->vertices, drawn.indices = drawn.far->indices, drawn.looks = drawn.far->looks;
   } else {
@@ -110,7 +118,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
   for (const SceneChunk* chunk : chunks) {
     const SceneMaterial& material = scene.materials[chunk->material];
     const std::uint32_t look = all.textures && chunk->first_look ? look_bits(material) : 0;
-    DrawnChunk mesh = drawn(scene, *chunk, far_level);
+    DrawnChunk mesh = drawn(scene, *chunk, far_level, all);
     const MaterialKind kind{material.surface, material.retro.kind, material.double_sided,
                             look == 0 && is_flat(mesh.vertices, mesh.indices), look};
     groups[{kind, look != 0 ? all.first_material + chunk->material : 0, cell_of(*chunk, side_m)}].push_back(
@@ -127,6 +135,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     batch.look_of = std::get<1>(key);
     for (const DrawnChunk& mesh : group) {
       append(all, batch, *mesh.chunk, mesh.vertices, mesh.indices, mesh.looks);
+      all.light.insert(all.light.end(), mesh.light.begin(), mesh.light.end());
       batch.low_m = glm::min(batch.low_m, mesh.chunk->low_m);
       batch.high_m = glm::max(batch.high_m, mesh.chunk->high_m);
     }
@@ -232,7 +241,7 @@ std::uint32_t SceneBatch::first_index_along(const glm::dvec2& direction) const {
 }
 
 SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving_scene,
-                           const Progress& progress) {
+                           const FixedLight& light, const Progress& progress) {
   std::vector<shader::GpuMaterial> packed;
   std::vector<shader::GpuSheeting> sheetings;
   for (const SceneMaterial& material : scene.materials) packed.push_back(pack_material(material, sheetings));
@@ -247,15 +256,19 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
   packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
   Gathered all;
   if (!scene.looks.empty() || !moving_scene.looks.empty()) {
-    const char* why_not = no_textures(device);
+    const char* why_not = light.any() ? "street lamps, moon and what shines by itself light vertices" : no_textures(device);
     all.textures = why_not == nullptr;
-    if (why_not != nullptr) spdlog::warn("surfaces are drawn without their textures on this device: {}", why_not);
+    if (why_not != nullptr) spdlog::warn("surfaces are drawn without their textures: {}", why_not);
   }
+  if (light.any()) all.lit_meshes = light.meshes(scene);
   blocks = make_blocks(scene, all, progress);
+  all.lit_meshes.clear();
   moving = make_moving(moving_scene, static_cast<std::uint32_t>(scene.materials.size()), all);
   using Usage = vk::BufferUsageFlagBits;
   vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.vertices)),
                                Usage::eVertexBuffer | Usage::eStorageBuffer, "scene vertices");
+  if (!all.light.empty())
+    fixed_light = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.light)), Usage::eVertexBuffer, "fixed light");
   indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)),
                               Usage::eIndexBuffer | Usage::eStorageBuffer, "scene indices");
   if (!all.looks.empty()) {
@@ -309,6 +322,7 @@ void SceneBuffers::add_visible(std::vector<DrawItem>& items, std::vector<SceneBa
       items.push_back({&placed.back(), batch.first_index,
                        draw_at(there.origin_m - view.camera().eye_m, batch.origin_m, turn),
                        static_cast<float>(*distance)});
+      items.back().moves = static_cast<std::uint32_t>(&mesh - meshes.data());
     }
   }
   near_first(items);

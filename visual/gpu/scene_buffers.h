@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shaders/lamps.h"
+#include "visual/fixed_light.h"
 #include "visual/gpu/device.h"
 #include "visual/gpu/surface_textures.h"
 #include "visual/renderer.h"
@@ -66,6 +67,9 @@ struct DrawItem {
   float distance_m = 0.0f;
   std::size_t lit_by = 0;  ///< which of the view's sets of lamps (visual/lit_scene.h)
   bool shadowed = false;   ///< a shadow may fall on it (visual/passes/shadows.h)
+  std::uint32_t moves = kStands;  ///< which of what moves it is
+
+  static constexpr std::uint32_t kStands = UINT32_MAX;
 };
 
 /// What moves, about its own origin.
@@ -79,10 +83,12 @@ struct SceneBuffers {
   std::vector<MovingMesh> moving;  ///< one for each node of the scene of what moves, in its order
   gpu::DeviceBuffer vertices, indices, material_buffer, sheeting_buffer;
   gpu::DeviceBuffer looks;  ///< CornerLook of the vertices of batches that have a look, and of no others
+  gpu::DeviceBuffer fixed_light;  ///< FixedVertex of each vertex of what stands; none where nothing shines
   SurfaceTextures textures;
 
   SceneBuffers() = default;
-  SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving, const Progress& progress = {});
+  SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving, const FixedLight& light,
+               const Progress& progress = {});
 
   /// Batches whose bounds touch the view, those of one kind together, near ones first.
   /// Blocks that begin at the multiples kFarLevels of `far_from_m` or beyond are drawn with their far meshes.

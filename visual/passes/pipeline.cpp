@@ -18,7 +18,9 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
       vk::VertexInputBindingDescription{
           .binding = 0, .stride = recipe.stride, .inputRate = vk::VertexInputRate::eVertex},
       vk::VertexInputBindingDescription{
-          .binding = 1, .stride = recipe.second_stride, .inputRate = vk::VertexInputRate::eVertex}};
+          .binding = 1,
+          .stride = recipe.second_stride,
+          .inputRate = recipe.second_by_instance ? vk::VertexInputRate::eInstance : vk::VertexInputRate::eVertex}};
   const vk::PipelineVertexInputStateCreateInfo input{
       .vertexBindingDescriptionCount = recipe.stride == 0 ? 0u : recipe.second_stride > 0 ? 2u : 1u,
       .pVertexBindingDescriptions = bindings.data(),

@@ -15,6 +15,7 @@ struct PipelineRecipe {
   std::span<const vk::VertexInputAttributeDescription> attributes{};
   std::uint32_t stride = 0;         ///< of a vertex; 0: none are read
   std::uint32_t second_stride = 0;  ///< of a vertex in a second buffer; 0: there is none
+  bool second_by_instance = false;  ///< of that one for a whole draw
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
   vk::CullModeFlags cull = vk::CullModeFlagBits::eNone;
   std::vector<vk::Format> colour{};

@@ -79,6 +79,21 @@ void add_band(const SkyBand& band, const SkySectors& sectors, std::vector<SkyVer
   }
 }
 
+/// A fan of triangles about the moon's middle.
+void add_moon(const MoonDisc& moon, const glm::vec3& colour, std::vector<SkyVertex>& vertices) {
+  constexpr int kCorners = 24;
+  const glm::dvec3 side = glm::normalize(glm::cross(
+                       std::abs(moon.toward.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0), moon.toward)),
+                   up = glm::cross(moon.toward, side);
+  const auto rim = [&](int corner) {
+    const double turn = 2.0 * std::numbers::pi * corner / kCorners;
+    return SkyVertex{glm::vec3(moon.toward + std::tan(kMoonRadius_rad) * (std::cos(turn) * side + std::sin(turn) * up)),
+                     colour};
+  };
+  for (int i = 0; i < kCorners; ++i)
+    vertices.insert(vertices.end(), {SkyVertex{glm::vec3(moon.toward), colour}, rim(i), rim(i + 1)});
+}
+
 }  // namespace
 
 std::vector<SkyBand> sky_bands(const Sky& sky, bool hdr) {
@@ -210,6 +225,11 @@ void SkyPass::draw(gpu::Recorder& commands, const Sky& sky, const ViewGeometry& 
   std::vector<SkyVertex> vertices;
   for (const SkyBand& band : dome.bands)
     if (static_cast<double>(band.low) < sectors.highest_sine) add_band(band, sectors, vertices);
+  if (sky.moon)
+    add_moon(*sky.moon,
+             hdr ? sky.moon->luminance_cdm2
+                 : shader::srgb_encoded(shader::tone_curve(sky.moon->luminance_cdm2 * sky.exposure_per_cdm2)),
+             vertices);
   const std::size_t bytes = vertices.size() * sizeof(SkyVertex);
   if (used_bytes_ + bytes > vertices_.bytes) {
     outgrown_.push_back(std::exchange(

@@ -8,6 +8,7 @@
 #include <array>
 #include <glm/vec4.hpp>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -19,10 +20,20 @@ namespace phare {
 
 enum class LampOutput : std::uint32_t;
 
+/// The moon as it is seen: a disc of half a degree.
+struct MoonDisc {
+  glm::dvec3 toward{0.0, 0.0, 1.0};
+  glm::vec3 luminance_cdm2{0.0f};
+
+  friend bool operator==(const MoonDisc&, const MoonDisc&) = default;
+};
+inline constexpr double kMoonRadius_rad = 0.00452;  ///< of its mean size in the sky, 31.1 minutes of arc across
+
 /// Of one view.
 struct Sky {
   glm::vec3 exposure_per_cdm2{1.0f};
   double zenith_cdm2 = 0.0;
+  std::optional<MoonDisc> moon{};
 
   /// rgb cd/m² at the zenith, bluish; w: factor at the horizon, 3. A clear night far from towns, brightened enough to
   /// be seen on a display; chosen by eye.

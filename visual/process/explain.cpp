@@ -34,7 +34,7 @@ Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s) {
 
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
                            const AskedDevice& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
-                           const RoadLine& road, bool window) {
+                           const RoadLine& road, const FixedLight& fixed, bool window) {
   const CockpitState controls = shown_by_desk(desk, moment.controls);
   lamps.set_controls(controls);
   FrameInput input;
@@ -78,13 +78,17 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.air);
   const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.air);
   input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
+  const std::vector<GlaringLamp> beside = fixed.glare_at(input.camera.eye_m, input.air);
+  if (!input.effects[static_cast<std::size_t>(Effect::kFixedLight)])
+    input.glare.insert(input.glare.end(), beside.begin(), beside.end());
   if (const auto props = Props::of(movers))  // whoever has read them has looked
     props->add_to(input, desk.camera, lamps, moment.pose, controls.light_switch != LightSwitch::kOff, world);
   DrawnOver over = drawn_over(input);
   over.gui = window && desk.panel;  // nothing is laid out: there is no window yet
-  return heading + explain(plan_effects(
-                       facts_of(input, {lit, lit}, casting, over, glare_of(input, view), {.software = device.software}),
-                       input.effects));
+  EffectFacts facts =
+      facts_of(input, {lit, lit}, casting, over, glare_of(input, view), {.software = device.software});
+  add_facts(facts, fixed);
+  return heading + explain(plan_effects(facts, input.effects));
 }
 
 }  // namespace phare

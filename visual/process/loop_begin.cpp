@@ -79,6 +79,7 @@ void Loop::warm_up() {
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
   const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 2 : 1;
   const std::uint32_t first_design = controls_to_show(s_.bus, Clock::now()).design_index;
+  const bool beside = s_.fixed_light->street_lamps() > 0;  // they glare from the first picture on
   int step = 0;
   bool last = false;
   const auto draw = [&](const CockpitState& controls) {
@@ -101,7 +102,7 @@ void Loop::warm_up() {
     // From outside one sees the car's own tail lamps, whichever camera the drive begins with.
     const bool glaring =
         s_.desk.glare != std::size_t{0} &&
-        (met || (last && thorough) || !s_.lamps.glare_at(pose, first_camera.eye_m, Scene{}, {}).empty());
+        (met || beside || (last && thorough) || !s_.lamps.glare_at(pose, first_camera.eye_m, Scene{}, {}).empty());
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
     // The same for fog, where there is some to begin with, and of the light that the drive begins with.
@@ -119,7 +120,7 @@ void Loop::warm_up() {
           blinded.glare = {{input.camera.eye_m + 10.0 * input.camera.world_from_eye[0], 1.0}};
           s_.renderer.draw(blinded);
           // The pass sums two, four, eight or twelve.
-          while (met && last && blinded.glare.size() < kMostGlaringLamps) {
+          while ((met || beside) && last && blinded.glare.size() < kMostGlaringLamps) {
             const std::size_t more =
                 std::min(blinded.glare.size() < 2 ? 3 : 2 * blinded.glare.size() - 1, kMostGlaringLamps);
             blinded.glare.resize(more, blinded.glare.front());

@@ -54,7 +54,8 @@ std::vector<LanePoint> lane_of(const std::filesystem::path& scene_file) {
 
 /// The device that would draw, and the moment of the options; a line for each effect.
 int explain_and_leave(const VisualOptions& options, const Scene& scene, const Movers& movers, Lamps& lamps,
-                      const Desk& desk, const ChannelConfig& channel, const Traffic& traffic, const RoadLine& road) {
+                      const Desk& desk, const ChannelConfig& channel, const Traffic& traffic, const RoadLine& road,
+                      const FixedLight& fixed) {
   AskedMoment moment;
   if (options.drive_file.empty()) {
     moment.controls.light_switch = options.explain_light;
@@ -72,7 +73,8 @@ int explain_and_leave(const VisualOptions& options, const Scene& scene, const Mo
   const AskedDevice asked = device ? AskedDevice{device->name, device->software}
                                    : AskedDevice{"no device (" + device.error().reason + "), as on a software one"};
   std::fputs(
-      explain_moment(lamps, desk, channel, moment, asked, scene, movers, traffic, road, !options.headless).c_str(),
+      explain_moment(lamps, desk, channel, moment, asked, scene, movers, traffic, road, fixed, !options.headless)
+          .c_str(),
       stdout);
   return kExitDone;
 }
@@ -121,9 +123,12 @@ int draw_channel(VisualOptions options) {
   if (!props) return refuse(props.error());
   Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file), lane, *movers);
   if (!traffic) return refuse(traffic.error());
+  if (options.road_cuts > 0) scene = refined(*scene, options.road_cuts, is_ground);
+  Result<FixedLight> fixed = FixedLight::of(*scene, rig->street_lamps_file, rig->moon);
+  if (!fixed) return refuse(fixed.error());
   if (options.explain)
     return explain_and_leave(options, *scene, *movers, *lamps, desk, channel, *traffic,
-                             RoadLine(lane, rig->scene_file));
+                             RoadLine(lane, rig->scene_file), *fixed);
   LampReplay lamps_then;
   if (!options.drive_file.empty()) {
     const Result<Drive> drive = read_drive(options.drive_file);
@@ -150,8 +155,9 @@ int draw_channel(VisualOptions options) {
   if (!renderer) return refuse(with_remedy(renderer.error()));
   if (const auto reason = renderer->no_reference(); reason && desk.method == Method::kReference)
     return refuse({"method reference", *reason + " (" + renderer->device() + ")"});
-  if (options.road_cuts > 0) scene = refined(*scene, options.road_cuts, is_ground);
-  if (const Status loaded = renderer->load_scene(*scene, movers->meshes(), progress); !loaded) return refuse(loaded.error());
+  const auto fixed_light = std::make_shared<const FixedLight>(std::move(*fixed));
+  if (const Status loaded = renderer->load_scene(*scene, movers->meshes(), fixed_light, progress); !loaded)
+    return refuse(loaded.error());
   if (!traffic->empty()) renderer->set_beam(Traffic::kBeam, traffic->beam());
 
   if (const Status key = take_run_key(*rig); !key) return refuse(key.error());
@@ -173,6 +179,7 @@ int draw_channel(VisualOptions options) {
   session.movers = std::move(*movers);
   session.props = *props;
   session.traffic = std::move(*traffic);
+  session.fixed_light = fixed_light;
   session.lane = std::move(lane);
   if (session.options.budget_ms > 0.0 && !session.options.lockstep && !session.options.levels.empty())
     session.governor = Governor(session.options.budget_ms, session.options.levels, session.options.begin_level);

@@ -9,8 +9,8 @@
 namespace phare {
 
 PictureInstruments::PictureInstruments(const Desk& desk, const Lamps& lamps, const World& world, RoadLine road,
-                                       ProbeLog log)
-    : desk_(desk), lamps_(lamps), world_(world), road_(std::move(road)), log_(std::move(log)) {}
+                                       ProbeLog log, const FixedLight* fixed)
+    : desk_(desk), lamps_(lamps), world_(world), fixed_(fixed), road_(std::move(road)), log_(std::move(log)) {}
 
 Result<MeasurePoint> PictureInstruments::point() const {
   if (!desk_.point) return Error{"point", "none is chosen"};
@@ -26,7 +26,8 @@ Result<PointReading> PictureInstruments::read() const {
   const auto at = point();
   if (!at) return at.error();
   ++work_;
-  return read_point(lamps_, moment_.car, *at, moment_.picture->camera.eye_m, world_, road_, desk_.shadows != 0);
+  return read_point(lamps_, moment_.car, *at, moment_.picture->camera.eye_m, world_, road_, desk_.shadows != 0,
+                    desk_.fixed_light ? nullptr : fixed_);
 }
 
 std::vector<std::string> PictureInstruments::lines() const {

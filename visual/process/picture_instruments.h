@@ -20,9 +20,10 @@ namespace phare {
 
 class PictureInstruments {
  public:
-  /// All three outlive it.
-  PictureInstruments(const Desk& desk, const Lamps& lamps, const World& world, RoadLine road, ProbeLog log);
-  PictureInstruments(const Desk&, const Lamps&, World&&, RoadLine, ProbeLog) = delete;
+  /// All four outlive it. `fixed`: street lamps and the moon; null: there are none.
+  PictureInstruments(const Desk& desk, const Lamps& lamps, const World& world, RoadLine road, ProbeLog log,
+                     const FixedLight* fixed = nullptr);
+  PictureInstruments(const Desk&, const Lamps&, World&&, RoadLine, ProbeLog, const FixedLight* = nullptr) = delete;
 
   const RoadLine& road() const { return road_; }
   /// The moment that a picture shows: what the others speak of.
@@ -63,6 +64,7 @@ class PictureInstruments {
   const Desk& desk_;
   const Lamps& lamps_;
   const World& world_;
+  const FixedLight* fixed_;
   RoadLine road_;
   ProbeLog log_;
   Moment moment_;

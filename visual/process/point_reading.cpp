@@ -58,7 +58,7 @@ LampReading read_lamp(const PointLight& light, const MeasurePoint& at, const glm
 }  // namespace
 
 PointReading read_point(const Lamps& lamps, const VehicleState& car, const MeasurePoint& at, const glm::dvec3& eye_m,
-                        const World& world, const RoadLine& road, bool shadows) {
+                        const World& world, const RoadLine& road, bool shadows, const FixedLight* fixed) {
   PointReading reading;
   reading.world = at;
   const glm::dmat3 body = world_from_car(car.roll_rad, car.pitch_rad, car.yaw_rad);
@@ -103,6 +103,8 @@ PointReading read_point(const Lamps& lamps, const VehicleState& car, const Measu
     }
     reading.lamps.push_back(std::move(lamp));
   }
+  if (fixed != nullptr) reading.fixed = fixed->shares_at(at.position_m, at.normal);
+  for (const FixedLight::Share& share : reading.fixed) reading.fixed_lx += share.lx;
   return reading;
 }
 
@@ -117,6 +119,12 @@ std::vector<std::string> lines_of(const PointReading& r) {
                                   r.car_m.y, r.car_m.z, w.x, w.y, w.z);
   if (r.road) where += fmt::format(", road s {:.2f}, {:.2f} m left", r.road->s_m, r.road->lateral_m);
   lines.push_back(std::move(where));
+  if (!r.fixed.empty()) {
+    const FixedLight::Share& most = r.fixed.front();
+    lines.push_back(fmt::format("  besides, of what stands: {:.6g} lx by {}, {:.4g} of {}", r.fixed_lx,
+                                r.fixed.size() == 1 ? "one lamp" : fmt::format("{} lamps", r.fixed.size()), most.lx,
+                                most.lamp ? fmt::format("street lamp {}", *most.lamp + 1) : "the moon"));
+  }
   for (const LampReading& lamp : r.lamps) {
     std::string line = "  " + lamp.lamp + ": ";
     if (lamp.why == WhyDark::kLit)

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "visual/fixed_light.h"
 #include "visual/process/lamps.h"
 #include "visual/process/road_line.h"
 
@@ -42,11 +43,15 @@ struct PointReading {
   double luminance_cdm2 = 0.0;  ///< toward the eye
   double sent_back_cdm2 = 0.0;  ///< of it: what is sent back to where it came from
   std::vector<LampReading> lamps;
+  /// Street lamps and the moon beside the car's own lamps, on the surface: in none of the sums above.
+  double fixed_lx = 0.0;
+  std::vector<FixedLight::Share> fixed{};  ///< strongest first
 };
 
-/// `eye_m`: world. `shadows`: false as if nothing stood in the light.
+/// `eye_m`: world. `shadows`: false as if nothing stood in the light. `fixed`: what shines in the scene itself; null:
+/// nothing is asked.
 PointReading read_point(const Lamps& lamps, const VehicleState& car, const MeasurePoint& at, const glm::dvec3& eye_m,
-                        const World& world, const RoadLine& road, bool shadows);
+                        const World& world, const RoadLine& road, bool shadows, const FixedLight* fixed = nullptr);
 
 /// The reading as lines: the sums, where it is, then each lamp.
 std::vector<std::string> lines_of(const PointReading& reading);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "config/road/lane.h"
 #include "net/bus.h"
 #include "net/clock.h"
+#include "visual/fixed_light.h"
 #include "visual/process/adaptation.h"
 #include "visual/process/album.h"
 #include "visual/process/audit.h"
@@ -87,6 +89,7 @@ struct Session {
   Movers movers;
   Props props;  ///< what some cameras show besides
   Traffic traffic;
+  std::shared_ptr<const FixedLight> fixed_light = std::make_shared<FixedLight>();  ///< street lamps, moon, windows
   LampReplay lamps_then;        ///< of the drive that is shown
   std::vector<LanePoint> lane;  ///< of the scene; empty where it has none
   nlohmann::json lamps_json;    ///< tables with hashes, peak and flux: does not change

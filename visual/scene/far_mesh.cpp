@@ -135,6 +135,8 @@ FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level,
   const auto index = scene.indices.begin() + static_cast<std::ptrdiff_t>(chunk.first_index);
   mesh.indices.assign(index, index + static_cast<std::ptrdiff_t>(chunk.index_count));
   const SceneMaterial& material = scene.materials[chunk.material];
+  // What shines by itself is seen from afar however narrow it is.
+  if (material.emission_cdm2 != glm::vec3(0.0f)) return mesh;
   if (mesh.indices.empty() || material.retro.kind == RetroKind::kSheeting || material.retro.kind == RetroKind::kMarking)
     return mesh;
   switch (material.surface) {

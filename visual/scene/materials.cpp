@@ -187,6 +187,24 @@ Status MaterialReader::read_extras(const tinygltf::Material& source, ReadMateria
     if (!surface) return bad(surface.error().reason);
     material.surface = *surface;
   }
+  if (extras.Has("emission_cdm2")) {
+    const tinygltf::Value& given = extras.Get("emission_cdm2");
+    if (!given.IsArray() || given.ArrayLen() != 3) return bad("extras.phare.emission_cdm2 is not [r, g, b]");
+    for (int i = 0; i < 3; ++i) {
+      const tinygltf::Value& value = given.Get(i);
+      const double c = value.IsNumber() ? value.GetNumberAsDouble() : -1.0;
+      if (!(c >= 0.0 && c <= kMostLuminance_cdm2)) return bad("extras.phare.emission_cdm2 is outside 0 … 1e8 cd/m²");
+      material.emission_cdm2[i] = static_cast<float>(c);
+    }
+    // It is drawn as what a diffuse surface would send (visual/fixed_light.h), so none of these is quite black.
+    material.reflectance = glm::max(material.reflectance, 1e-3f);
+  }
+  if (extras.Has("sky_share")) {
+    const tinygltf::Value& given = extras.Get("sky_share");
+    const double share = given.IsNumber() ? given.GetNumberAsDouble() : -1.0;
+    if (!(share >= 0.0 && share <= 1.0)) return bad("extras.phare.sky_share is not a number from 0 to 1");
+    material.sky_share = static_cast<float>(share);
+  }
   const auto figure = [&](const char* key, double most, std::optional<double>& value) -> std::string {
     if (!extras.Has(key)) return "";
     const tinygltf::Value& given = extras.Get(key);

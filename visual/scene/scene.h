@@ -46,6 +46,8 @@ struct SceneMaterial {
   Retroreflection retro{};            ///< sheeting, markings; most materials have none
   bool double_sided = false;
   PixelLook look{};
+  glm::vec3 emission_cdm2{0.0f};  ///< what it sends out by itself, every way alike: cd/m², linear Rec. 709
+  float sky_share = 1.0f;         ///< of the sky's light that reaches it: 0 inside a tunnel
 };
 
 /// Vertices are relative to `origin_m`, so float32 serves anywhere in the world.

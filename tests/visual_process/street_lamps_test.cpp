@@ -1,0 +1,258 @@
+// unit: street lamps as their file says, their light against closed forms, and how far what vertices keep is off.
+#include "config/street_lamps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+
+#include "config/base/paths.h"
+#include "visual/fixed_light.h"
+
+namespace phare {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path written(const char* name, const std::string& text) {
+  const fs::path file = fs::path(testing::TempDir()) / name;
+  std::ofstream(file) << text;
+  return file;
+}
+
+/// Type C, 1000 cd in every plane from gamma 0 to 90, or only in planes C 45 to 135.
+fs::path even_luminaire(bool street_side_only) {
+  std::string text = "IESNA:LM-63-2002\n[TEST] even\n[MANUFAC] Phare\nTILT=NONE\n1 -1 1 2 9 1 2 0 0 0\n1 1 0\n0 90\n";
+  for (int c = 0; c <= 360; c += 45) text += std::to_string(c) + (c < 360 ? " " : "\n");
+  for (int c = 0; c <= 360; c += 45) text += !street_side_only || c == 90 ? "1000 1000\n" : "0 0\n";
+  return written(street_side_only ? "street_side.ies" : "even.ies", text);
+}
+
+std::string lamp_text(double x, double y, double z, double yaw_deg = 0.0, double tilt_deg = 0.0) {
+  return "[[lamp]]\nluminaire = \"even\"\nposition_m = [" + std::to_string(x) + ", " + std::to_string(y) + ", " +
+         std::to_string(z) + "]\nyaw_deg = " + std::to_string(yaw_deg) + "\ntilt_deg = " + std::to_string(tilt_deg) +
+         "\n";
+}
+
+fs::path lamps_file(const std::string& lamps, bool street_side_only = false, const char* fineness = "medium") {
+  return written("lamps.toml", "fineness = \"" + std::string(fineness) + "\"\n[[luminaire]]\nname = \"even\"\nfile = \"" +
+                                   even_luminaire(street_side_only).string() + "\"\n" + lamps);
+}
+
+/// A level square of 120 m about the origin in one quad.
+Scene square() {
+  Scene scene;
+  scene.materials = {{.name = "ground", .reflectance = glm::vec3(0.2f)}};
+  for (const auto& [x, y] : {std::pair(-60, -60), std::pair(60, -60), std::pair(60, 60), std::pair(-60, 60)})
+    scene.vertices.push_back({glm::vec3(x, y, 0), glm::vec3(0, 0, 1)});
+  scene.indices = {0, 1, 2, 0, 2, 3};
+  scene.chunks = {{.node = "ground", .low_m = {-60, -60, 0}, .high_m = {60, 60, 0}, .index_count = 6, .vertex_count = 4}};
+  return scene;
+}
+
+TEST(StreetLamps, BadFilesAreRefusedWithPlaceAndReason) {
+  const struct {
+    const char* text;
+    const char* says;
+  } cases[] = {{"", "luminaire"},
+               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"b\"\nposition_m = [0, 0, 5]\n",
+                "bad.toml:5: no luminaire \"b\""},
+               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 5]\n",
+                "bad.toml:6: "},
+               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\nscale = -1\n", "bad.toml:4: "},
+               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[luminaire]]\nname = \"a\"\nfile = \"b.ies\"\n",
+                "bad.toml:5: two luminaires are named \"a\""},
+               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 0, 1e9]\n",
+                "10,000 km"},
+               {"fineness = \"finest\"\n[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n", "bad.toml:1: "},
+               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 0, 5]\n"
+                "yaw = 3\n",
+                "bad.toml:7: "}};
+  for (const auto& [text, says] : cases) {
+    const auto read = read_street_lamps(written("bad.toml", text));
+    ASSERT_FALSE(read) << text;
+    EXPECT_NE(read.error().text().find(says), std::string::npos) << read.error().text();
+  }
+  const auto missing = FixedLight::of(
+      square(), written("bad.toml", "[[luminaire]]\nname = \"a\"\nfile = \"none.ies\"\n"), std::nullopt);
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().text().find("none.ies"), std::string::npos);
+}
+
+TEST(StreetLamps, ALampThatIsOffIsCountedAndDark) {
+  const auto read = read_street_lamps(lamps_file(lamp_text(0, 0, 8) + "on = false\n" + lamp_text(9, 0, 8)));
+  ASSERT_TRUE(read) << read.error().text();
+  EXPECT_EQ(read->lamps.size(), 1u);
+  EXPECT_EQ(read->off, 1u);
+}
+
+TEST(StreetLamps, LuxIsThatOfTheClosedForm) {
+  const auto light = FixedLight::of(Scene{}, lamps_file(lamp_text(3, 1, 8) + lamp_text(-20, 4, 6)), std::nullopt);
+  ASSERT_TRUE(light) << light.error().text();
+  for (const glm::dvec3& at : {glm::dvec3(0, 0, 0), glm::dvec3(12, -7, 0), glm::dvec3(-30, 2, 1.5)}) {
+    double expected = 0.0;
+    for (const glm::dvec3& lamp : {glm::dvec3(3, 1, 8), glm::dvec3(-20, 4, 6)}) {
+      const double r = glm::distance(lamp, at);
+      expected += 1000.0 * (lamp.z - at.z) / (r * r * r);
+    }
+    EXPECT_NEAR(light->lux_at(at, {0, 0, 1}), expected, 1e-12 * expected);
+  }
+}
+
+/// C 90 lies toward yaw, C 0 on the right of who looks there; a tilted lamp looks up toward the same side.
+TEST(StreetLamps, TheStreetSideLiesTowardYaw) {
+  const auto at = [](double yaw_deg, double tilt_deg, const glm::dvec3& point) {
+    const auto light = FixedLight::of(Scene{}, lamps_file(lamp_text(0, 0, 8, yaw_deg, tilt_deg), true), std::nullopt);
+    return light ? light->lux_at(point, {0, 0, 1}) : -1.0;
+  };
+  const double ahead = 1000.0 * 8.0 / std::pow(64.0 + 25.0, 1.5);
+  EXPECT_NEAR(at(0.0, 0.0, {5, 0, 0}), ahead, 1e-9);
+  EXPECT_EQ(at(0.0, 0.0, {-5, 0, 0}), 0.0);
+  EXPECT_NEAR(at(90.0, 0.0, {0, 5, 0}), ahead, 1e-9);
+  EXPECT_EQ(at(90.0, 0.0, {0, -5, 0}), 0.0);
+  EXPECT_EQ(at(0.0, 0.0, {0, 5, 0}), 0.0);
+  // Straight below an upright lamp lies in every plane; of a tilted one, away from the street.
+  EXPECT_EQ(at(0.0, 20.0, {0, 0, 0}), 0.0);
+  EXPECT_GT(at(0.0, 20.0, {8.0, 0, 0}), 0.0);
+}
+
+TEST(StreetLamps, WhatStandsHidesAndTheMoonIsALamp) {
+  Scene scene = square();
+  for (const auto& [x, y] : {std::pair(5, -2), std::pair(6, -2), std::pair(6, 2), std::pair(5, 2)})
+    scene.vertices.push_back({glm::vec3(x, y, 3), glm::vec3(0, 0, 1)});
+  scene.chunks.push_back({.node = "board", .low_m = {5, -2, 3}, .high_m = {6, 2, 3}, .first_index = 0, .index_count = 6, .first_vertex = 4, .vertex_count = 4});
+  const MoonConfig moon{.azimuth_rad = 0.0, .elevation_rad = 0.5 * std::numbers::pi, .illuminance_lx = 0.2};
+  const auto light = FixedLight::of(scene, lamps_file(lamp_text(0, 0, 8)), moon);
+  ASSERT_TRUE(light);
+  // Under the board the moon is hidden; where the line to the lamp meets the board, 5.5/(8 - 3)·8 m away, the lamp is.
+  EXPECT_EQ(light->shares_at({5.5, 0, 0}, {0, 0, 1}).size(), 1u);
+  const auto behind = light->shares_at({8.8, 0, 0}, {0, 0, 1});
+  ASSERT_EQ(behind.size(), 1u);
+  EXPECT_FALSE(behind[0].lamp.has_value());
+  EXPECT_NEAR(behind[0].lx, 0.2, 1e-12);
+  EXPECT_EQ(light->shares_at({-8.8, 0, 0}, {0, 0, 1}).size(), 2u);
+  EXPECT_TRUE(light->glare_at({8.8, 0, 0}, {}).empty());
+  EXPECT_EQ(light->glare_at({-8.8, 0, 1}, {}).size(), 1u);
+}
+
+/// What moves: a lamp's own E·cos(q) against E·(1/4 + cos(q)/2), which is a quarter off at worst (q = 0, 90° and 180°).
+TEST(StreetLamps, TheProbeOfWhatMovesIsWithinAQuarter) {
+  const auto light = FixedLight::of(Scene{}, lamps_file(lamp_text(0, 0, 8)), std::nullopt);
+  ASSERT_TRUE(light);
+  const glm::dvec3 at{4, 3, 1};
+  const FixedProbe probe = light->probe(at);
+  const double facing_lx = 1000.0 / glm::dot(glm::dvec3(0, 0, 8) - at, glm::dvec3(0, 0, 8) - at);
+  EXPECT_NEAR(static_cast<double>(probe.light.w), facing_lx, 1e-6 * facing_lx);
+  double worst = 0.0;
+  for (int i = 0; i <= 36; ++i) {
+    const double a = i * std::numbers::pi / 18.0;
+    const glm::dvec3 n{std::cos(a), 0.0, std::sin(a)};
+    const double by_probe = facing_lx * std::max(0.25 + glm::dot(glm::dvec3(probe.way), n), 0.0);
+    worst = std::max(worst, std::abs(by_probe - light->lux_at(at, n)) / facing_lx);
+  }
+  EXPECT_LE(worst, 0.25 + 1e-6);
+  EXPECT_GT(worst, 0.1);
+}
+
+struct Errors {
+  double mean = 0.0, p95 = 0.0, worst = 0.0;
+  std::size_t triangles = 0;
+};
+
+/// Interpolated against exact at random places of the meshes, even over their area, relative to the light there or to
+/// 0.5 lx, what is larger. `near_m`: of places so near to the road's line only.
+Errors errors_of(const FixedLight& light, const Scene& scene, int samples) {
+  struct Piece {
+    const FixedMesh* mesh;
+    const SceneChunk* chunk;
+    std::size_t at;
+  };
+  const auto meshes = light.meshes(scene);
+  std::vector<Piece> pieces;
+  std::vector<double> areas;
+  for (std::size_t c = 0; c < meshes.size(); ++c) {
+    if (scene.materials[scene.chunks[c].material].double_sided) continue;
+    const FixedMesh& mesh = meshes[c][0];
+    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+      const auto p = [&](std::size_t k) { return glm::dvec3(mesh.vertices[mesh.indices[t + k]].position_m); };
+      pieces.push_back({&mesh, &scene.chunks[c], t});
+      areas.push_back(glm::length(glm::cross(p(1) - p(0), p(2) - p(0))));
+    }
+  }
+  Errors errors{.triangles = pieces.size()};
+  std::mt19937_64 random(1999);
+  std::discrete_distribution<std::size_t> which(areas.begin(), areas.end());
+  std::uniform_real_distribution<double> even(0.0, 1.0);
+  std::vector<double> all;
+  for (int i = 0; i < samples; ++i) {
+    const Piece& piece = pieces[which(random)];
+    double u = even(random), v = even(random);
+    if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+    const std::array<double, 3> weights{1.0 - u - v, u, v};
+    glm::dvec3 at = piece.chunk->origin_m, normal(0.0);
+    double lx = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t index = piece.mesh->indices[piece.at + k];
+      at += weights[k] * glm::dvec3(piece.mesh->vertices[index].position_m);
+      normal += weights[k] * glm::dvec3(piece.mesh->vertices[index].normal);
+      lx += weights[k] * static_cast<double>(piece.mesh->light[index].light.w);
+    }
+    const double exact = light.lux_at(at, glm::normalize(normal));
+    all.push_back(std::abs(lx - exact) / std::max(exact, 0.5));
+    errors.mean += all.back() / samples;
+  }
+  std::ranges::sort(all);
+  errors.p95 = all[all.size() * 95 / 100], errors.worst = all.back();
+  return errors;
+}
+
+/// Open ground: light is smooth. A side is left whole where its middle is within the tolerance t, or where it is
+/// shorter than twice the least edge; within a triangle a quadratic is off by 4/3 of its sides' middles at most, and the
+/// least edges are chosen such that lamps of 8 m stay within t there (E''/E = 3/h² on the axis: (3/8)·(2·1.5)²/64 = 5 %
+/// for 1.5 m). Between them twice t, as light is not a quadratic.
+TEST(StreetLamps, OnOpenGroundVerticesKeepLightWithinTwiceTheTolerance) {
+  const Scene scene = square();
+  std::size_t before = 0;
+  for (const char* fineness : {"coarse", "medium", "fine"}) {
+    const double tolerance = kBakeLevels[static_cast<std::size_t>(fineness[0] == 'c' ? 0 : fineness[0] == 'm' ? 1 : 2)].tolerance;
+    const auto light = FixedLight::of(scene, lamps_file(lamp_text(0, 4, 8) + lamp_text(30, -4, 8), false, fineness), std::nullopt);
+    ASSERT_TRUE(light);
+    const Errors errors = errors_of(*light, scene, 4000);
+    std::printf("open ground, %-6s  mean %.2f %%  95 of 100 within %.2f %%  worst %.2f %%  %zu triangles\n", fineness,
+                100.0 * errors.mean, 100.0 * errors.p95, 100.0 * errors.worst, errors.triangles);
+    const double least = fineness[0] == 'c' ? 0.21 : 0.0;  // (3/8)·6²/64: the coarse level's least edge
+    EXPECT_LE(errors.worst, std::max(2.0 * tolerance, least)) << fineness;
+    EXPECT_GT(errors.triangles, before);
+    before = errors.triangles;
+  }
+}
+
+/// In the town shadows of cars, poles and eaves lie between vertices: the mean says what is left of them.
+TEST(StreetLamps, InTheTownTheFinerTheNearer) {
+  const Result<Scene> scene = read_scene(generated_dir() / "scenes/town.glb");
+  ASSERT_TRUE(scene) << scene.error().text();
+  std::ifstream stream(generated_dir() / "scenes/town_lamps.toml");
+  const std::string lamps{std::istreambuf_iterator<char>(stream), {}};
+  // A tenth of the street, so that the test takes seconds: chunks that begin within it.
+  Scene part = *scene;
+  std::erase_if(part.chunks, [](const SceneChunk& chunk) { return chunk.low_m.x < 90.0 || chunk.low_m.x > 160.0; });
+  double before = 1e9;
+  for (const char* fineness : {"coarse", "medium", "fine"}) {
+    const auto light = FixedLight::of(*scene, written("town_lamps.toml", "fineness = \"" + std::string(fineness) + "\"\n" + lamps), std::nullopt);
+    ASSERT_TRUE(light) << light.error().text();
+    EXPECT_GT(light->street_lamps(), 40u);
+    const Errors errors = errors_of(*light, part, 4000);
+    std::printf("town, %-6s  mean %.2f %%  95 of 100 within %.2f %%  worst %.0f %%  %zu triangles\n", fineness,
+                100.0 * errors.mean, 100.0 * errors.p95, 100.0 * errors.worst, errors.triangles);
+    EXPECT_LT(errors.mean, before);
+    before = errors.mean;
+  }
+}
+
+}  // namespace
+}  // namespace phare

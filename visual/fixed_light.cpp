@@ -1,0 +1,319 @@
+#include "visual/fixed_light.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+#include <set>
+#include <thread>
+
+#include "visual/photometry/beam/beam_composer.h"
+#include "visual/photometry/readers/read_lamp.h"
+#include "visual/renderer.h"
+
+namespace phare {
+namespace {
+
+constexpr double kMoon_k = 4100.0;       // sunlight that the moon has reddened; a usual figure
+constexpr double kOffSurface_m = 0.005;  // vertices lie on edges of their neighbours
+constexpr double kBeyondScene_m = 5000.0;
+constexpr double kFloor_lx = 0.5;   // the error is that of so many lux where there are fewer
+constexpr double kLongest_m = 6.0;  // a longer side may have a pool of light between its ends
+constexpr int kMostCuts = 7;
+
+/// Columns: axis (down, tilted up toward the street side), left, and the street side as the lamp's "up".
+glm::dmat3 world_from_luminaire(double yaw_rad, double tilt_rad) {
+  const glm::dvec3 street(std::cos(yaw_rad), std::sin(yaw_rad), 0.0), down(0.0, 0.0, -1.0);
+  const glm::dvec3 axis = std::cos(tilt_rad) * down + std::sin(tilt_rad) * street;
+  const glm::dvec3 up = std::cos(tilt_rad) * street - std::sin(tilt_rad) * down;
+  return {axis, glm::cross(up, axis), up};
+}
+
+}  // namespace
+
+Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::path& street_lamps,
+                                  const std::optional<MoonConfig>& moon) {
+  FixedLight light;
+  if (!street_lamps.empty()) {
+    const auto config = read_street_lamps(street_lamps);
+    if (!config) return config.error();
+    light.level_ = kBakeLevels[static_cast<std::size_t>(config->fineness)];
+    for (const LuminaireConfig& kind : config->luminaires) {
+      auto table = read_lamp(kind.file, {});
+      if (!table) return table.error();
+      const double peak_cd = table->peak_cd() * kind.scale;
+      light.luminaires_.push_back({std::move(*table), {}, kind.scale, peak_cd});
+      Luminaire& last = light.luminaires_.back();
+      last.colour = light_colour({.table = &last.table, .colour_temperature_k = kind.colour_temperature_k});
+    }
+    for (const StreetLampConfig& lamp : config->lamps)
+      light.lamps_.push_back({lamp.position_m, glm::transpose(world_from_luminaire(lamp.yaw_rad, lamp.tilt_rad)),
+                              lamp.luminaire});
+  }
+  if (moon) {
+    const glm::dvec3 toward(std::cos(moon->elevation_rad) * std::cos(moon->azimuth_rad),
+                            std::cos(moon->elevation_rad) * std::sin(moon->azimuth_rad),
+                            std::sin(moon->elevation_rad));
+    light.moon_ = Moon{toward, moon->illuminance_lx, black_body_colour(kMoon_k)};
+  }
+  std::set<std::uint32_t> used;
+  for (const SceneChunk& chunk : scene.chunks) used.insert(chunk.material);
+  for (const std::uint32_t index : used) {
+    const SceneMaterial& material = scene.materials[index];
+    if (material.emission_cdm2 != glm::vec3(0.0f)) ++light.luminous_;
+    if (material.sky_share < 1.0f) light.covered_ = true;
+  }
+  if (!light.lamps_.empty() || light.moon_) light.tree_ = RayTree(scene);
+  return light;
+}
+
+/// Calls add(lamp, colour, direction, lx facing it, lx on the surface) for all that reaches the point. `normal`: null,
+/// nothing faces away.
+template <typename Add>
+void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, const Add& add) const {
+  const glm::dvec3 from_m = normal != nullptr ? point_m + kOffSurface_m * *normal : point_m;
+  for (std::size_t i = 0; i < lamps_.size(); ++i) {
+    const Lamp& lamp = lamps_[i];
+    const glm::dvec3 way = lamp.position_m - point_m;
+    const double r2 = glm::dot(way, way);
+    if (!(r2 > 0.0) || r2 > kStreetLampReach_m * kStreetLampReach_m) continue;
+    const double r = std::sqrt(r2), cosine = normal != nullptr ? glm::dot(way, *normal) / r : 1.0;
+    const Luminaire& kind = luminaires_[lamp.luminaire];
+    if (kind.peak_cd * cosine < kLeastOfLamp_lx * r2) continue;
+    const double facing_lx = kind.scale * kind.table.intensity_cd(lamp.lamp_from_world * -way) / r2;
+    if (facing_lx * cosine < kLeastOfLamp_lx) continue;
+    if (tree_.blocked(from_m, lamp.position_m, 1e-3, kOwnHousing_m)) continue;
+    add(std::optional(i), kind.colour, way / r, facing_lx, facing_lx * cosine);
+  }
+  if (!moon_) return;
+  const double cosine = normal != nullptr ? glm::dot(moon_->toward, *normal) : 1.0;
+  if (cosine > 0.0 && !tree_.blocked(from_m, from_m + kBeyondScene_m * moon_->toward, 1e-3, 0.0))
+    add(std::optional<std::size_t>(), moon_->colour, moon_->toward, moon_->lx, moon_->lx * cosine);
+}
+
+std::vector<FixedLight::Share> FixedLight::shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const {
+  std::vector<Share> shares;
+  each(point_m, &normal, [&](std::optional<std::size_t> lamp, const glm::vec3&, const glm::dvec3&, double, double lx) {
+    shares.push_back({lamp, lx});
+  });
+  std::ranges::stable_sort(shares, std::greater(), &Share::lx);
+  return shares;
+}
+
+double FixedLight::lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) const {
+  double sum = 0.0;
+  for (const Share& share : shares_at(point_m, normal)) sum += share.lx;
+  return sum;
+}
+
+FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material) const {
+  glm::dvec4 sum(0.0);
+  const auto add = [&](std::optional<std::size_t>, const glm::vec3& colour, const glm::dvec3&, double, double lx) {
+    sum += glm::dvec4(glm::dvec3(colour), 1.0) * lx;
+  };
+  each(point_m, &normal, add);
+  if (material.double_sided) {  // one number for both sides: leaves, of which one sees either
+    const glm::dvec3 back = -normal;
+    each(point_m, &back, add);
+    sum *= 0.5;
+  }
+  const glm::dvec3 rho = glm::max(glm::dvec3(material.reflectance), 1e-3);
+  const glm::dvec3 own_lx = glm::dvec3(material.emission_cdm2) * std::numbers::pi / rho;
+  return {glm::vec4(glm::vec3(glm::dvec3(sum) + own_lx), static_cast<float>(sum.w)), material.sky_share};
+}
+
+FixedProbe FixedLight::probe(const glm::dvec3& point_m) const {
+  FixedProbe probe;
+  glm::dvec4 sum(0.0);
+  glm::dvec3 from(0.0);
+  each(point_m, nullptr,
+       [&](std::optional<std::size_t>, const glm::vec3& colour, const glm::dvec3& way, double lx, double) {
+         sum += glm::dvec4(glm::dvec3(colour), 1.0) * lx;
+         from += lx * way;
+       });
+  probe.light = glm::vec4(sum);
+  if (sum.w > 0.0) probe.way = glm::vec3(0.5 * from / sum.w);
+  if (covered_ && tree_.blocked(point_m, point_m + glm::dvec3(0.0, 0.0, 100.0), 1e-3, 0.0)) probe.sky_share = 0.0f;
+  return probe;
+}
+
+std::vector<GlaringLamp> FixedLight::glare_at(const glm::dvec3& eye_m, const Air& air) const {
+  std::vector<GlaringLamp> all;
+  for (const Lamp& lamp : lamps_) {
+    const glm::dvec3 way = eye_m - lamp.position_m;
+    const double r2 = glm::dot(way, way);
+    const Luminaire& kind = luminaires_[lamp.luminaire];
+    if (!(r2 > 0.0) || kind.peak_cd < kLeastOfLamp_lx * r2) continue;
+    const double cd = kind.scale * kind.table.intensity_cd(lamp.lamp_from_world * way);
+    if (cd < kLeastOfLamp_lx * r2) continue;
+    all.push_back(glaring_lamp(lamp.position_m, cd, kind.colour, eye_m, air));
+  }
+  std::ranges::stable_sort(all, std::greater(), &GlaringLamp::eye_lx);
+  std::vector<GlaringLamp> seen;
+  for (const GlaringLamp& lamp : all) {
+    if (seen.size() == kMostGlaringLamps) break;
+    if (!tree_.blocked(eye_m, lamp.place_m, 1e-3, kOwnHousing_m)) seen.push_back(lamp);
+  }
+  return seen;
+}
+
+std::vector<FixedLight::Mirrored> FixedLight::mirrored_into(const glm::dvec3& eye_m, std::size_t most) const {
+  // The ground below the eye: how far down the way is free.
+  double free_m = 0.0, hidden_m = 30.0;
+  if (!tree_.blocked(eye_m, eye_m - glm::dvec3(0.0, 0.0, hidden_m), 1e-3, 0.0)) return {};
+  for (int i = 0; i < 14; ++i) {
+    const double middle_m = 0.5 * (free_m + hidden_m);
+    (tree_.blocked(eye_m, eye_m - glm::dvec3(0.0, 0.0, middle_m), 1e-3, 0.0) ? hidden_m : free_m) = middle_m;
+  }
+  const glm::dvec3 mirror_eye_m = eye_m - glm::dvec3(0.0, 0.0, 2.0 * hidden_m);
+  std::vector<std::pair<double, Mirrored>> all;
+  for (const Lamp& lamp : lamps_) {
+    const glm::dvec3 way = mirror_eye_m - lamp.position_m;
+    const double r2 = glm::dot(way, way), up_m = lamp.position_m.z - (eye_m.z - hidden_m);
+    const Luminaire& kind = luminaires_[lamp.luminaire];
+    if (!(up_m > 0.0) || kind.peak_cd < kLeastOfLamp_lx * r2) continue;
+    const double cd = kind.scale * kind.table.intensity_cd(lamp.lamp_from_world * way);
+    if (cd < kLeastOfLamp_lx * r2) continue;
+    all.push_back({cd / r2, {lamp.position_m, kind.colour * static_cast<float>(cd)}});
+  }
+  std::ranges::stable_sort(all, std::greater(), &std::pair<double, Mirrored>::first);
+  std::vector<Mirrored> seen;
+  for (const auto& [lx, lamp] : all) {
+    if (seen.size() == most) break;
+    const double up_m = lamp.place_m.z - (eye_m.z - hidden_m);
+    const glm::dvec3 ground_m = glm::mix(lamp.place_m, mirror_eye_m, up_m / (up_m + hidden_m));
+    if (!tree_.blocked(ground_m, lamp.place_m, 0.2, kOwnHousing_m)) seen.push_back(lamp);
+  }
+  return seen;
+}
+
+namespace {
+
+/// The light at a vertex, asked once for each place and normal of a chunk.
+class Baker {
+ public:
+  Baker(const FixedLight& light, const Scene& scene, const SceneChunk& chunk)
+      : light_(light), material_(scene.materials[chunk.material]), origin_m_(chunk.origin_m) {}
+
+  const FixedVertex& at(const SceneVertex& vertex) {
+    const auto key = std::bit_cast<std::array<std::uint32_t, 6>>(vertex);
+    const auto [found, fresh] = known_.try_emplace(key);
+    if (fresh)
+      found->second = light_.at(origin_m_ + glm::dvec3(vertex.position_m),
+                                glm::normalize(glm::dvec3(vertex.normal)), material_);
+    return found->second;
+  }
+
+  /// Sides whose middle is off by more than the level allows are halved, in both triangles that share them.
+  void cut(FixedMesh& mesh, const BakeLevel& level) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::optional<std::uint32_t>> middle_of;
+    for (int cut = 0; cut < kMostCuts; ++cut) {
+      bool any = false;
+      const auto middle = [&](std::uint32_t i, std::uint32_t j) -> std::optional<std::uint32_t> {
+        const auto [found, fresh] = middle_of.try_emplace(std::minmax(i, j));
+        if (fresh) found->second = halved(mesh, i, j, level);
+        any = any || found->second;
+        return found->second;
+      };
+      std::vector<std::uint32_t> next;
+      for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+        const std::array<std::uint32_t, 3> c{mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]};
+        const std::array<std::optional<std::uint32_t>, 3> m{middle(c[0], c[1]), middle(c[1], c[2]), middle(c[2], c[0])};
+        split(next, c, m);
+      }
+      mesh.indices = std::move(next);
+      if (!any) break;
+    }
+  }
+
+ private:
+  std::optional<std::uint32_t> halved(FixedMesh& mesh, std::uint32_t i, std::uint32_t j, const BakeLevel& level) {
+    const SceneVertex a = mesh.vertices[i], b = mesh.vertices[j];
+    const double length_m = static_cast<double>(glm::distance(a.position_m, b.position_m));
+    if (length_m < 2.0 * level.least_edge_m) return std::nullopt;
+    const glm::vec3 normal = a.normal + b.normal;
+    if (glm::dot(normal, normal) < 1e-6f) return std::nullopt;
+    const SceneVertex between{0.5f * (a.position_m + b.position_m), glm::normalize(normal)};
+    const double at_a = static_cast<double>(mesh.light[i].light.w), at_b = static_cast<double>(mesh.light[j].light.w);
+    const FixedVertex light = at(between);
+    const double exact = static_cast<double>(light.light.w);
+    const bool off = std::abs(exact - 0.5 * (at_a + at_b)) > level.tolerance * std::max(exact, kFloor_lx);
+    const bool unseen = length_m > kLongest_m && std::max({at_a, at_b, exact}) > 0.1 * kFloor_lx;
+    if (!off && !unseen) return std::nullopt;
+    mesh.vertices.push_back(between);
+    mesh.light.push_back(light);
+    return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  }
+
+  static void split(std::vector<std::uint32_t>& out, std::array<std::uint32_t, 3> c,
+                    std::array<std::optional<std::uint32_t>, 3> m) {
+    const auto emit = [&](std::uint32_t a, std::uint32_t b, std::uint32_t d) { out.insert(out.end(), {a, b, d}); };
+    const int count = (m[0] ? 1 : 0) + (m[1] ? 1 : 0) + (m[2] ? 1 : 0);
+    if (count == 0) return emit(c[0], c[1], c[2]);
+    if (count == 3) {
+      emit(c[0], *m[0], *m[2]);
+      emit(c[1], *m[1], *m[0]);
+      emit(c[2], *m[2], *m[1]);
+      return emit(*m[0], *m[1], *m[2]);
+    }
+    // Turned so that the first side is halved, and of two the second as well.
+    while (!(m[0] && (count == 1 || m[1]))) {
+      std::rotate(c.begin(), c.begin() + 1, c.end());
+      std::rotate(m.begin(), m.begin() + 1, m.end());
+    }
+    if (count == 1) {
+      emit(c[0], *m[0], c[2]);
+      return emit(*m[0], c[1], c[2]);
+    }
+    emit(*m[0], c[1], *m[1]);
+    emit(c[0], *m[0], *m[1]);
+    emit(c[0], *m[1], c[2]);
+  }
+
+  const FixedLight& light_;
+  const SceneMaterial& material_;
+  glm::dvec3 origin_m_;
+  std::map<std::array<std::uint32_t, 6>, FixedVertex> known_;
+};
+static_assert(sizeof(SceneVertex) == sizeof(std::array<std::uint32_t, 6>));
+
+}  // namespace
+
+std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
+  std::vector<Meshes> all(scene.chunks.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < all.size(); i = next++) {
+      const SceneChunk& chunk = scene.chunks[i];
+      Baker baker(*this, scene, chunk);
+      for (std::size_t level = 0; level < all[i].size(); ++level) {
+        FixedMesh& mesh = all[i][level];
+        BakeLevel cuts = level_;
+        if (level == 0) {
+          const auto vertices = scene.vertices.begin() + chunk.first_vertex;
+          const auto indices = scene.indices.begin() + chunk.first_index;
+          mesh.vertices.assign(vertices, vertices + chunk.vertex_count);
+          mesh.indices.assign(indices, indices + chunk.index_count);
+        } else {
+          const double from_m = kFarLevels[level - 1].from * kFarMeshFrom_m;
+          FarMesh far = far_mesh(scene, chunk, level - 1, from_m);
+          mesh.vertices = std::move(far.vertices), mesh.indices = std::move(far.indices);
+          cuts.least_edge_m = std::max(cuts.least_edge_m, 0.015 * from_m);  // a hundred pixels wide, seen edge on
+        }
+        for (const SceneVertex& vertex : mesh.vertices) mesh.light.push_back(baker.at(vertex));
+        if (!lamps_.empty()) baker.cut(mesh, cuts);
+      }
+    }
+  };
+  std::vector<std::jthread> others;
+  for (unsigned i = 1; i < std::max(1u, std::thread::hardware_concurrency()); ++i) others.emplace_back(work);
+  work();
+  others.clear();  // waits
+  return all;
+}
+
+}  // namespace phare

@@ -1,0 +1,137 @@
+// Light that does not change while one drives: street lamps by their own photometry files, the moon, and surfaces that
+// shine by themselves. It falls on a scene that stands, so it is computed once, in float64, when the scene is loaded,
+// and kept at the vertices of meshes that are cut as finely as the light asks for. A frame then pays for one
+// interpolated number, however many lamps there are.
+//
+// E = Σ I(C, gamma)·cos/r² with the shadows of what stands, as everywhere (README.md). Left out: lamps beyond kReach_m
+// or of less than kLeast_lx at a point; light that has been reflected before; shadows of what moves; retroreflection
+// (nobody looks from a street lamp). Surfaces under lamps above the road are Lambert's: a CIE r-table's luminance hangs
+// on the viewer too and cannot be kept at a vertex (visual/photometry/table/road_table.h has it in float64).
+// What moves is lit by how much light arrives at its middle and from where (Probe): 25 % of a lamp off at worst.
+// How far interpolation is off: docs/street-lamps.md. Checked by tests/visual_process/street_lamps_test.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/base/result.h"
+#include "config/rig.h"
+#include "config/street_lamps.h"
+#include "visual/glare.h"
+#include "visual/photometry/table/intensity_table.h"
+#include "visual/scene/far_mesh.h"
+#include "visual/scene/ray_tree.h"
+#include "visual/scene/scene.h"
+
+namespace phare {
+
+/// A street lamp farther away lights nothing: at 200 m one of 3000 cd gives a level road 0.003 lx.
+inline constexpr double kStreetLampReach_m = 200.0;
+/// What one lamp gives a point less of is left out: a thousandth of the least that roads are lit with (EN 13201 P6).
+inline constexpr double kLeastOfLamp_lx = 0.002;
+/// A lamp's own housing and pole, within this of its light, hide nothing.
+inline constexpr double kOwnHousing_m = 0.6;
+
+/// What a vertex keeps.
+struct FixedVertex {
+  glm::vec4 light{0.0f};   ///< rgb: lx, linear Rec. 709, with what the surface itself sends out times pi/rho; w: lx
+  float sky_share = 1.0f;  ///< of the sky's light
+};
+
+/// A mesh as it is drawn: cut where its light asks for it.
+struct FixedMesh {
+  std::vector<SceneVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<FixedVertex> light;
+};
+
+/// What arrives at a place, for what moves: on a surface with normal n, lx·max(0, 1/4 + dot(way, n)).
+struct FixedProbe {
+  glm::vec4 light{0.0f};  ///< as of FixedVertex, on a surface that faces each lamp
+  glm::vec3 way{0.0f};    ///< half the mean direction that it comes from
+  float sky_share = 1.0f;
+};
+
+/// How finely meshes are cut: where the middle of a side is off by more than `tolerance` of its light.
+struct BakeLevel {
+  double tolerance, least_edge_m;
+};
+inline constexpr std::array<BakeLevel, 3> kBakeLevels{{{0.10, 3.0}, {0.05, 1.5}, {0.02, 0.75}}};
+static_assert(kBakeLevels.size() == kFinenessNames.size());
+
+class FixedLight {
+ public:
+  FixedLight() = default;
+  /// What shines in that scene. `street_lamps`: empty, there are none. Error: a file that cannot be read.
+  static Result<FixedLight> of(const Scene& scene, const std::filesystem::path& street_lamps,
+                               const std::optional<MoonConfig>& moon);
+
+  bool any() const { return !lamps_.empty() || moon_ || luminous_ > 0 || covered_; }
+  std::size_t street_lamps() const { return lamps_.size(); }
+  std::size_t luminous() const { return luminous_; }  ///< materials that shine by themselves
+  struct Moon {
+    glm::dvec3 toward{0.0, 0.0, 1.0};
+    double lx = 0.0;  ///< on a plane that faces it
+    glm::vec3 colour{1.0f};
+  };
+  const std::optional<Moon>& moon_toward() const { return moon_; }
+  bool moon() const { return moon_.has_value(); }
+  bool covered() const { return covered_; }  ///< some surface does not see the whole sky
+
+  /// One lamp's, or the moon's, share.
+  struct Share {
+    std::optional<std::size_t> lamp;  ///< nothing: the moon
+    double lx = 0.0;
+  };
+  /// In float64, with shadows: what falls on a point, strongest first.
+  std::vector<Share> shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
+  double lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
+  FixedVertex at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material) const;
+  FixedProbe probe(const glm::dvec3& point_m) const;
+  /// Lamps that shine into an eye, the scene and the air between them; what moves hides none. The strongest
+  /// kMostGlaringLamps: no more are drawn.
+  std::vector<GlaringLamp> glare_at(const glm::dvec3& eye_m, const Air& air) const;
+
+  /// Lamps that level wet ground below an eye mirrors into it: those that would be brightest in a mirror, with what
+  /// shines from each toward the place of the ground where it is seen. The film shows them wherever it is rough enough.
+  struct Mirrored {
+    glm::dvec3 place_m{0.0};
+    glm::vec3 cd{0.0f};  ///< rgb
+  };
+  std::vector<Mirrored> mirrored_into(const glm::dvec3& eye_m, std::size_t most) const;
+
+  /// Of each chunk the mesh near by and those of kFarLevels. On all cores; the same meshes however many.
+  using Meshes = std::array<FixedMesh, 1 + kFarLevels.size()>;
+  std::vector<Meshes> meshes(const Scene& scene) const;
+
+ private:
+  struct Luminaire {
+    IntensityTable table;
+    glm::vec3 colour{1.0f};
+    double scale = 1.0, peak_cd = 0.0;
+  };
+  struct Lamp {
+    glm::dvec3 position_m{0.0};
+    glm::dmat3 lamp_from_world{1.0};
+    std::size_t luminaire = 0;
+  };
+  template <typename Add>
+  void each(const glm::dvec3& point_m, const glm::dvec3* normal, const Add& add) const;
+
+  BakeLevel level_ = kBakeLevels[1];
+  std::vector<Luminaire> luminaires_;
+  std::vector<Lamp> lamps_;
+  std::optional<Moon> moon_;
+  std::size_t luminous_ = 0;
+  bool covered_ = false;
+  RayTree tree_;
+};
+
+}  // namespace phare

@@ -1,0 +1,113 @@
+// The lit scene under light that does not change (visual/fixed_light.h): its pipelines, and what they read beside the
+// vertices. A scene without such light has none of it.
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <numbers>
+
+#include "visual/lit_scene.h"
+#include "visual/passes/fixed_shaders.h"
+
+namespace phare {
+
+namespace {
+
+static_assert(sizeof(FixedVertex) == 20 && offsetof(FixedVertex, sky_share) == 16);
+static_assert(sizeof(FixedProbe) == 32 && offsetof(FixedProbe, way) == 16 && offsetof(FixedProbe, sky_share) == 28);
+
+// As kVertexAttributes, which may not be there yet when these are made.
+vk::VertexInputAttributeDescription of_vertex(std::uint32_t location, vk::Format format, std::uint32_t offset) {
+  return {.location = location, .binding = 0, .format = format, .offset = offset};
+}
+
+vk::VertexInputAttributeDescription beside(std::uint32_t location, vk::Format format, std::uint32_t offset) {
+  return {.location = location, .binding = 1, .format = format, .offset = offset};
+}
+
+}  // namespace
+
+const std::array<vk::VertexInputAttributeDescription, 6> kFixedAttributes{
+    of_vertex(0, vk::Format::eR32G32B32Sfloat, 0),
+    of_vertex(1, vk::Format::eR32G32B32Sfloat, 12),
+    of_vertex(2, vk::Format::eR32Uint, 24),
+    beside(3, vk::Format::eR32G32B32A32Sfloat, 0),
+    beside(4, vk::Format::eR32Sfloat, 16),
+    beside(5, vk::Format::eR32Sfloat, 16)};  // not read of what stands
+
+const std::array<vk::VertexInputAttributeDescription, 6> kProbeAttributes{
+    of_vertex(0, vk::Format::eR32G32B32Sfloat, 0),
+    of_vertex(1, vk::Format::eR32G32B32Sfloat, 12),
+    of_vertex(2, vk::Format::eR32Uint, 24),
+    beside(3, vk::Format::eR32G32B32A32Sfloat, 0),
+    beside(4, vk::Format::eR32Sfloat, 28),
+    beside(5, vk::Format::eR32G32B32Sfloat, 16)};
+
+vk::ShaderModule LitScene::fixed_module(const LitVariant& variant, std::size_t size, bool vertex) {
+  const bool fog = variant.fog.slices != 0, reference = variant.method == Method::kReference;
+  const bool by_vertex = variant.method != Method::kFragment && !reference;
+  const std::size_t which = (vertex ? 1u : 0u) + (fog ? 2u : 0u) + (reference ? 4u : 0u) + (by_vertex ? 8u : 0u);
+  const auto [found, fresh] = fixed_modules_.try_emplace({which, size}, nullptr);
+  if (fresh)
+    found->second = gpu::make_shader(
+        device_, vertex      ? fixed_vert(size, by_vertex, filtered(), fog)
+                 : reference ? fixed_frag_reference(variant.shadow_maps != 0, fog)
+                             : fixed_frag(size, filtered(), fog));
+  return *found->second;
+}
+
+void LitScene::add_fixed_light(LitView& view) {
+  view.fixed_light = true;
+  if (const auto moon = fixed_light_->moon_toward()) {
+    // E on a plane that faces it is L times the disc's solid angle.
+    const double steradians = 2.0 * std::numbers::pi * (1.0 - std::cos(kMoonRadius_rad));
+    view.sky.moon = MoonDisc{moon->toward, moon->colour * static_cast<float>(moon->lx / steradians)};
+  }
+  add_mirrored(view);
+  view.first_probe = probes_used_;
+  for (const PlacedMesh& mesh : view.moving) {
+    const std::size_t page = probes_used_ / kProbesInPage, place = probes_used_ % kProbesInPage;
+    if (page == probes_.size())
+      probes_.push_back(std::make_unique<gpu::HostBuffer>(device_, kProbesInPage * sizeof(FixedProbe),
+                                                          vk::BufferUsageFlagBits::eVertexBuffer, "light on what moves"));
+    // At the middle of its bounds, where light passes over the road and under roofs.
+    glm::dvec3 low_m(0.0), high_m(0.0);
+    bool begun = false;
+    if (mesh.mesh >= geometry_.moving.size()) {  // nothing of it is drawn; its place is counted
+      ++probes_used_;
+      continue;
+    }
+    for (const SceneBatch& batch : geometry_.moving[mesh.mesh].batches) {
+      low_m = begun ? glm::min(low_m, batch.low_m) : batch.low_m;
+      high_m = begun ? glm::max(high_m, batch.high_m) : batch.high_m;
+      begun = true;
+    }
+    static_cast<FixedProbe*>(probes_[page]->data)[place] =
+        fixed_light_->probe(mesh.position_m + mesh.world_from_mesh * (0.5 * (low_m + high_m)));
+    ++probes_used_;
+  }
+}
+
+void LitScene::add_mirrored(const LitView& view) {
+  if (view.wet == 0) return;
+  const glm::dvec3& eye_m = view.geometry.camera().eye_m;
+  const std::vector<FixedLight::Mirrored> lamps = fixed_light_->mirrored_into(eye_m, shader::kMirroredLamps);
+  for (const LitBy& lit : view.lit_by)
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+      lit.data->mirrored_at[i] = glm::vec4(glm::vec3(lamps[i].place_m - eye_m), 0.0f);
+      lit.data->mirrored_cd[i] = glm::vec4(lamps[i].cd, 0.0f);
+    }
+}
+
+void LitScene::bind_fixed_light(vk::CommandBuffer commands, const LitView& view, const DrawItem& item,
+                                vk::Buffer& bound) const {
+  vk::Buffer wanted = *geometry_.fixed_light.buffer;
+  if (item.moves != DrawItem::kStands) wanted = *probes_[(view.first_probe + item.moves) / kProbesInPage]->buffer;
+  if (wanted != bound) commands.bindVertexBuffers(1, bound = wanted, vk::DeviceSize{0});
+}
+
+std::uint32_t LitScene::probe_in_page(const LitView& view, const DrawItem& item) {
+  return static_cast<std::uint32_t>((view.first_probe + item.moves) % kProbesInPage);
+}
+
+}  // namespace phare

@@ -1,0 +1,110 @@
+#include "visual/scene/ray_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+
+namespace phare {
+namespace {
+
+constexpr std::size_t kInLeaf = 4;
+constexpr int kDeepest = 60;  ///< halves of any number of triangles; the stack below holds them
+
+}  // namespace
+
+RayTree::RayTree(const Scene& scene) {
+  std::vector<Triangle> all;
+  for (const SceneChunk& chunk : scene.chunks) {
+    if (scene.materials[chunk.material].surface == Surface::kPaint) continue;
+    for (std::uint32_t i = 0; i + 2 < chunk.index_count; i += 3) {
+      const auto corner = [&](std::uint32_t k) {
+        return chunk.origin_m +
+               glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i + k]].position_m);
+      };
+      const glm::dvec3 a = corner(0);
+      all.push_back({a, corner(1) - a, corner(2) - a});
+    }
+  }
+  if (all.empty()) return;
+  std::vector<std::uint32_t> order(all.size());
+  std::iota(order.begin(), order.end(), 0u);
+  triangles_.reserve(all.size());
+  boxes_.reserve(all.size());
+  build(order, 0, order.size(), all, 0);
+}
+
+std::uint32_t RayTree::build(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end,
+                             const std::vector<Triangle>& all, int depth) {
+  const auto self = static_cast<std::uint32_t>(boxes_.size());
+  boxes_.emplace_back();
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low), low_middle(low), high_middle(-low);
+  const auto middle = [&](std::uint32_t i) { return all[i].a + (all[i].ab + all[i].ac) / 3.0; };
+  for (std::size_t i = begin; i < end; ++i) {
+    const Triangle& t = all[order[i]];
+    for (const glm::dvec3& p : {t.a, t.a + t.ab, t.a + t.ac}) low = glm::min(low, p), high = glm::max(high, p);
+    low_middle = glm::min(low_middle, middle(order[i])), high_middle = glm::max(high_middle, middle(order[i]));
+  }
+  boxes_[self].low = low, boxes_[self].high = high;
+  const glm::dvec3 size = high_middle - low_middle;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  if (end - begin <= kInLeaf || depth >= kDeepest || !(size[axis] > 0.0)) {
+    boxes_[self].first = static_cast<std::uint32_t>(triangles_.size());
+    boxes_[self].count = static_cast<std::uint32_t>(end - begin);
+    for (std::size_t i = begin; i < end; ++i) triangles_.push_back(all[order[i]]);
+    return self;
+  }
+  const std::size_t half = begin + (end - begin) / 2;
+  std::nth_element(order.begin() + static_cast<std::ptrdiff_t>(begin), order.begin() + static_cast<std::ptrdiff_t>(half),
+                   order.begin() + static_cast<std::ptrdiff_t>(end),
+                   [&](std::uint32_t a, std::uint32_t b) { return middle(a)[axis] < middle(b)[axis]; });
+  build(order, begin, half, all, depth + 1);  // stands right behind this box
+  boxes_[self].first = build(order, half, end, all, depth + 1);
+  return self;
+}
+
+bool RayTree::blocked(const glm::dvec3& from_m, const glm::dvec3& to_m, double near_from_m, double near_to_m) const {
+  if (boxes_.empty()) return false;
+  const glm::dvec3 way = to_m - from_m;
+  const double length_m = glm::length(way), most_m = length_m - near_to_m;
+  if (!(most_m > near_from_m)) return false;
+  const glm::dvec3 along = way / length_m, inverse = 1.0 / along;  // an axis it does not go along: infinite, as wanted
+  std::array<std::uint32_t, 2 * kDeepest> stack;
+  std::size_t top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const std::uint32_t at = stack[--top];
+    const Box& box = boxes_[at];
+    double enter_m = near_from_m, leave_m = most_m;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = (box.low[axis] - from_m[axis]) * inverse[axis], b = (box.high[axis] - from_m[axis]) * inverse[axis];
+      // NaN, on a face of a box that the ray lies in: the comparison leaves what there is.
+      enter_m = std::max(enter_m, std::min(a, b)), leave_m = std::min(leave_m, std::max(a, b));
+    }
+    if (enter_m > leave_m) continue;
+    if (box.count == 0) {
+      stack[top++] = box.first;
+      stack[top++] = at + 1;
+      continue;
+    }
+    for (std::uint32_t i = box.first; i < box.first + box.count; ++i) {  // Möller and Trumbore 1997
+      const Triangle& t = triangles_[i];
+      const glm::dvec3 p = glm::cross(along, t.ac);
+      const double determinant = glm::dot(t.ab, p);
+      if (std::abs(determinant) < 1e-14) continue;
+      const glm::dvec3 s = from_m - t.a;
+      const double u = glm::dot(s, p) / determinant;
+      if (u < 0.0 || u > 1.0) continue;
+      const glm::dvec3 q = glm::cross(s, t.ab);
+      const double v = glm::dot(along, q) / determinant;
+      if (v < 0.0 || u + v > 1.0) continue;
+      const double met_m = glm::dot(t.ac, q) / determinant;
+      if (met_m > near_from_m && met_m < most_m) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace phare

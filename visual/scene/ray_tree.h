@@ -1,0 +1,41 @@
+// Whether anything stands between two points, asked many times: the standing scene's triangles in a tree of boxes.
+// The same answer as occluder() (visual/scene/ray_hit.h) gives for what stands, in microseconds; checked against it by
+// tests/scene/ray_tree_test.cpp. float64; nothing that moves is in it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "visual/scene/scene.h"
+
+namespace phare {
+
+class RayTree {
+ public:
+  RayTree() = default;
+  /// All but paint, which lies on roads. Copies what it needs of the scene.
+  explicit RayTree(const Scene& scene);
+
+  /// Something stands on the way from `from_m` to `to_m`, more than `near_from_m` from the one and `near_to_m` from the
+  /// other end.
+  bool blocked(const glm::dvec3& from_m, const glm::dvec3& to_m, double near_from_m, double near_to_m) const;
+
+ private:
+  struct Triangle {
+    glm::dvec3 a, ab, ac;
+  };
+  struct Box {
+    glm::dvec3 low{0.0}, high{0.0};
+    std::uint32_t first = 0;  ///< triangle, or the nearer child; the other one stands behind all of that
+    std::uint32_t count = 0;  ///< of triangles; 0: two children
+  };
+  std::uint32_t build(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end,
+                      const std::vector<Triangle>& all, int depth);
+
+  std::vector<Triangle> triangles_;
+  std::vector<Box> boxes_;
+};
+
+}  // namespace phare
