@@ -240,7 +240,7 @@ int measure_table(const MeasureOptions& options) {
     std::printf(
         "%-16s %-14s %-20s %5zu points, %5zu above %g lx: worst %.2e relative (line %zu); %.2e of the highest\n",
         table_name.c_str(), asked.column.c_str(), file.c_str(), asked.points.size(), errors.judged,
-        ReferenceErrors::kDim_lx, errors.worst_relative, errors.worst_line,
+        asked.dim_lx, errors.worst_relative, errors.worst_line,
         errors.highest_lx > 0.0 ? errors.worst_absolute_lx / errors.highest_lx : 0.0);
   }
   report["device"] = device;

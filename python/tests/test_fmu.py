@@ -265,3 +265,11 @@ def test_a_plan_may_name_a_unit_and_drives_anew_when_it_changes(unit, tmp_path):
     (tmp_path / "mine.fmu").unlink()
     with pytest.raises(phare.BadInput, match="law: .*mine.fmu is no file"):
         read_plan(tmp_path / "plan.toml")
+
+
+def test_in_real_time_the_unit_leads_with_steps_as_they_come(unit, moving):
+    driven = phare.drive(drive=moving, controller=Fmu(unit), lockstep=False, **SMALL)
+    told, steps = driven.figures["law"], driven.law_steps
+    assert told["answers"] >= 1 and told["refused"] == 0 and 0 < told["delay_ms"]["median"] <= told["delay_ms"]["max"]
+    assert steps.light.isin(["low", "high"]).all() and (steps.light == "high").any()  # 72 km/h and nobody there
+    assert (steps.time_s.diff().dropna() > 0).all()

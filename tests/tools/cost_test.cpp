@@ -1,13 +1,20 @@
 // unit: figures of a ladder, which of its levels are worth it, and how they are written.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "config/base/paths.h"
 #include "tools/cost/ladder.h"
 #include "tools/cost/measure_ladders.h"
 #include "tools/cost/page.h"
+#include "tools/cost/plot.h"
 
 namespace phare::cost {
 namespace {
@@ -71,6 +78,31 @@ TEST(CostPage, NamesEveryLevelAndNoTextBecomesMarkup) {
   EXPECT_NE(html.find("&lt;script&gt;"), std::string::npos);
   EXPECT_EQ(html.find("<script>"), std::string::npos);
   EXPECT_EQ(html.find("<?xml"), std::string::npos);
+}
+
+// A name that would run off the page on the right stands to the left of its point.
+TEST(CostPlot, EveryLevelThatIsWorthItIsNamedOnThePage) {
+  Ladder ladder{.name = "poses", .what = "pitch", .reference = "its own", .error_unit = "deg", .time_unit = "ms"};
+  const std::string names[] = {"first", "in between and named", "the dearest, with a long name"};
+  ladder.levels = {level(names[0], 1.0, 1.0), level(names[1], 0.1, 3.0), level(names[2], 0.01, 10.0)};
+  mark_efficient(ladder);
+  const std::string stem =
+      (std::filesystem::temp_directory_path() / ("phare_plot_" + std::to_string(::getpid()))).string();
+  ASSERT_TRUE(plot(ladder, stem));
+  std::ifstream file(stem + ".svg");
+  const std::string svg{std::istreambuf_iterator<char>(file), {}};
+  for (const std::string& name : names) {
+    const std::size_t at = svg.find(">" + name + "<");
+    ASSERT_NE(at, std::string::npos) << name;
+    const std::string text = svg.substr(svg.rfind("<text", at), at - svg.rfind("<text", at));
+    const double x = std::strtod(text.c_str() + text.find("x=\"") + 3, nullptr);
+    // Ten points high, a letter is some six wide; the page is 720.
+    const double width = 6.0 * static_cast<double>(name.size());
+    const bool to_the_left = text.find("text-anchor=\"end\"") != std::string::npos;
+    EXPECT_LE(to_the_left ? x : x + width, 720.0) << text;
+    EXPECT_EQ(to_the_left, name == names[2]) << text;
+  }
+  for (const char* ending : {".svg", ".png"}) std::filesystem::remove(stem + ending);
 }
 
 TEST(PoseLadder, CarryingAPoseOnIsNearerThanHoldingItAndMoreMessagesAreNearerStill) {

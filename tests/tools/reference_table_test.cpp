@@ -128,6 +128,15 @@ TEST_F(ReferenceTable, RelativeErrorsCountInTheLight) {
   EXPECT_EQ(errors.highest_lx, 10.0);
 }
 
+TEST_F(ReferenceTable, WhereNothingIsDimDarkHasToBeDark) {
+  ReferenceCase expected{"low", {}, std::vector<PointRow>(2), {1e-9, 0.0}, 0.0};
+  expected.points[0].line = 2, expected.points[1].line = 3;
+  EXPECT_EQ(compare(expected, {1e-9, 1e-13}).worst_relative, 0.0);
+  EXPECT_EQ(compare(expected, {1e-9, 1e-13}).judged, 2u);
+  EXPECT_NEAR(compare(expected, {2e-9, 0.0}).worst_relative, 1.0, 1e-12);
+  EXPECT_TRUE(std::isinf(compare(expected, {1e-9, 1e-11}).worst_relative));
+}
+
 TEST_F(ReferenceTable, ReadsTheSharedSet) {
   const fs::path set = fs::path(shared_data_dir()) / "photometry-reference";
   if (!fs::exists(set)) GTEST_SKIP() << "no reference set at " << set;
@@ -141,6 +150,12 @@ TEST_F(ReferenceTable, ReadsTheSharedSet) {
   }
   // LM-63, EULUMDAT, goniometer and screen: intensities of 14 files; road and wall with 7, 4 and 3 columns; plates.
   EXPECT_EQ(columns, 14u + 2u * (7u + 4u + 3u) + 1u);
+  const auto hard = read_reference_table(set / "j_hard.csv");
+  ASSERT_TRUE(hard.ok()) << hard.error().text();
+  std::size_t points = 0;
+  for (const ReferenceCase& asked : *hard) points += asked.points.size();
+  EXPECT_EQ(hard->size(), 14u) << "lamps and places";
+  EXPECT_EQ(points, 107u);
 }
 
 }  // namespace

@@ -89,6 +89,22 @@ TEST_F(ReferenceMethod, IsAsExactAsFloat32CandelaAllowOnTheReferenceTables) {
   }
 }
 
+// Grazing, close, far, behind, at nodes, seams and cut-offs: at every point, however dim, what docs/accuracy.md promises
+// of the shader that draws the frame.
+TEST_F(ReferenceMethod, FragmentHoldsItsPromiseAtEveryHardPoint) {
+  const fs::path table = fs::path(shared_data_dir()) / "photometry-reference/j_hard.csv";
+  if (!fs::exists(table)) GTEST_SKIP() << "no " << table;
+  const auto cases = read_reference_table(table);
+  ASSERT_TRUE(cases.ok()) << cases.error().text();
+  std::size_t judged = 0;
+  for (const ReferenceCase& asked : *cases) {
+    const ReferenceErrors errors = compare(asked, measured(asked.lamps, asked.points, Method::kFragment));
+    EXPECT_LT(errors.worst_relative, 1e-5) << asked.column << ", line " << errors.worst_line;
+    judged += errors.judged;
+  }
+  EXPECT_EQ(judged, 107u);
+}
+
 /// A slope of 3 % to the side, from 4 m to 204 m, in oblong triangles whose corners float32 holds exactly.
 Scene slope() {
   Scene scene;

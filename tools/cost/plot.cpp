@@ -96,14 +96,16 @@ void draw(Chart& chart, const Ladder& ladder) {
   if (joined.size() > 1) chart.line(joined, kWorth, 1.5);
   for (const Level& level : ladder.levels)
     chart.circle(x(level), y(level), level.efficient ? 4.5 : 3.0, level.efficient ? kWorth : kOther, 1.0, true);
+  chart.begin_clip({.left = 0, .top = axes.top - 12, .width = kWidth, .height = axes.height + 24});  // no name off the page
   for (const bool of_worth : {true, false})
     for (const Level& level : ladder.levels) {
       if (level.efficient != of_worth) continue;
       std::vector<LabelPlace> places;
-      for (const double up : {0.0, -13.0, 13.0, -26.0, 26.0})
+      for (const double up : {0.0, -13.0, 13.0, -26.0, 26.0, -39.0, 39.0})
         for (const int align : {-1, 1}) places.push_back({x(level) - 9.0 * align, y(level) + up, align});
       chart.label(places, level.name, 10, of_worth ? kWorth : kGrey, of_worth, true);
     }
+  chart.end_clip();
 }
 
 }  // namespace
