@@ -114,6 +114,8 @@ TEST_F(FixedLightOnDevice, WhereNothingShinesThereIsNothingOfIt) {
   renderer->set_beam(0, image_of(cut_off_table(PhotometricType::kA, GammaAxis::kGamma0)));
   ASSERT_TRUE(renderer->load_scene(scene));
   renderer->draw(input);
+  renderer->draw(input);
+  ASSERT_TRUE(renderer->load_scene(scene));  // what the tests before have left is gone
   const FrameResult plain = renderer->draw(input);
   const std::uint64_t plain_bytes = renderer->device_memory_bytes();
   ASSERT_TRUE(renderer->load_scene(scene, Scene{}, light_of(scene, {})));
@@ -232,17 +234,16 @@ TEST_F(FixedLightOnDevice, EveryMethodLevelAndAirDrawsIt) {
     made->set_beam(0, image_of(cut_off_table(PhotometricType::kA, GammaAxis::kGamma0)));
     for (const Method method : {Method::kFragment, Method::kVertex, Method::kVertex1998, Method::kReference}) {
       if (method == Method::kReference && (made->no_reference() || level != ImageLevel::kFloatNodes)) continue;
-      for (const std::size_t lamps : {0u, 2u, 4u, 8u})
-        for (const bool fog : {false, true})
-          for (const std::size_t shadows : {0u, 1u}) {
-            FrameInput input = driver_view();
-            input.method = method;
-            input.lamps.resize(lamps, input.lamps.front());
-            input.moving = {{0, {6, 0, 1}}};
-            if (fog) input.air.visibility_m = 100.0;
-            input.effects[static_cast<std::size_t>(Effect::kShadows)] = shadows;
-            EXPECT_TRUE(made->draw(input).effects.on(Effect::kFixedLight));
-          }
+      for (const std::size_t lamps : {2u, 8u})
+        for (const bool fog : {false, true}) {
+          FrameInput input = driver_view();
+          input.method = method;
+          input.lamps.resize(lamps, input.lamps.front());
+          input.moving = {{0, {6, 0, 1}}};
+          if (fog) input.air.visibility_m = 100.0;
+          input.effects[static_cast<std::size_t>(Effect::kShadows)] = fog ? 0 : 1;
+          EXPECT_TRUE(made->draw(input).effects.on(Effect::kFixedLight));
+        }
     }
     EXPECT_EQ(made->validation_messages(), 0u);
   }
