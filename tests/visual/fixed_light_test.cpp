@@ -156,6 +156,31 @@ TEST_F(FixedLightOnDevice, ASurfaceThatShinesHasItsLuminanceAndARoofKeepsTheSkyO
   EXPECT_EQ(luminance(road), 0.0);
 }
 
+/// E = L·Ω, Ω = 2π(1 - cos 0.259°) sr: 0.2 lx are 3118 cd/m² of the disc; colour of 4100 K by its luminance. Half floats
+/// hold it within 2^-11. The road has E·sin(elevation), and beside the disc there is the sky alone.
+TEST_F(FixedLightOnDevice, TheMoonIsADiscAndLightsTheRoad) {
+  Scene scene = yard();
+  scene.materials[0].surface = Surface::kPlain;
+  const MoonConfig moon{.azimuth_rad = 0.0, .elevation_rad = 0.2, .illuminance_lx = 0.2};
+  auto light = FixedLight::of(scene, {}, moon);
+  ASSERT_TRUE(light);
+  ASSERT_TRUE(renderer->load_scene(scene, Scene{}, std::make_shared<const FixedLight>(std::move(*light))));
+  FrameInput input = dark_view();
+  input.camera.fov_horizontal_rad = 0.1;  // the disc is 29 pixels wide
+  input.camera.world_from_eye = aim_rotation(0.0, 0.2, 0.0);
+  const FrameResult result = renderer->draw(input);
+  EXPECT_EQ(result.effects[Effect::kFixedLight].reason, "the moon");
+  const double steradians = 2.0 * std::numbers::pi * (1.0 - std::cos(0.00452));
+  EXPECT_NEAR(luminance(seen_at(*renderer, input, 160, 90).pixel), 0.2 / steradians, 2e-3 * 0.2 / steradians);
+  EXPECT_EQ(luminance(seen_at(*renderer, input, 185, 90).pixel), 0.0);
+  EXPECT_GT(luminance(seen_at(*renderer, input, 171, 90).pixel), 0.0);
+  input = dark_view();
+  input.camera.world_from_eye = aim_rotation(0.0, -0.3, 0.0);
+  renderer->draw(input);
+  const Seen road = seen_at(*renderer, input, 20, 120);
+  EXPECT_NEAR(static_cast<double>(road.pixel.w), 0.2 * std::sin(0.2), 1e-3 * 0.2);
+}
+
 /// A wet level road under one lamp: the film's lobe at the place of the ground where the lamp is mirrored, in float64.
 TEST_F(FixedLightOnDevice, WetGroundMirrorsTheLamp) {
   Scene scene = yard();
