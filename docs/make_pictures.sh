@@ -38,7 +38,7 @@ picture "$out/traffic/frames/000059.png" traffic
 "$phare" drive --headless --samples 4 --traffic config/examples/crossing.toml --out "$out/crossing" --port-base "$ports"
 picture "$(at_second "$out/crossing" 21.2)" crossing
 # At ten frames a second, for these begin later than the others: the moments of the commands in the gallery.
-for scene in town:24 town_wet:24 tunnel:48 motorway:25; do
+for scene in town:24 town_wet:23 tunnel:48 motorway:25; do
   name=${scene%:*} frames=${scene#*:}
   rig=${name%_wet} rain=(); [ "$name" = "$rig" ] || rain=(--set rain_mmph=4)
   sed "s#\"\.\./#\"$PWD/config/#; s/^frame_rate_hz = 60/frame_rate_hz = 10/" "config/rigs/$rig.toml" > "$out/$name.toml"
