@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "visual/fixed_light.h"
 #include "visual/process/overlay_lines.h"
 
 namespace phare {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "config/base/paths.h"
+#include "visual/fixed_light.h"
 #include "visual/process/explain.h"
 
 namespace phare {

@@ -78,7 +78,7 @@ std::vector<std::pair<std::string, std::string>> luminaire_files() {
   return {{"street_led.ies", lm63("street LED", "road luminaire, wings along the street",
                                   {12.0, 26.0, 62.0, 14.0, 1.0, 0.32, 76.0, 2.2, 0.35}, 3500.0)},
           {"tunnel_led.ies", lm63("tunnel LED", "tunnel luminaire, wide and symmetrical",
-                                  {0.0, 70.0, 52.0, 18.0, 0.8, 0.6, 80.0, 3.0, 1.0}, 3500.0)}};
+                                  {0.0, 70.0, 52.0, 18.0, 0.8, 0.6, 80.0, 3.0, 1.0}, 800.0)}};
 }
 
 }  // namespace phare::scene

@@ -90,7 +90,7 @@ std::string numbered_node(const char* kind, int number) {
 
 std::string street_lamps_toml(const char* heading, const std::vector<MadeLuminaire>& luminaires,
                               const std::vector<MadeLamp>& lamps) {
-  std::string text = std::string("# ") + heading + "\n";
+  std::string text = std::string("# ") + heading + "\nfineness = \"fine\"\n";
   char line[200];
   for (const MadeLuminaire& kind : luminaires) {
     std::snprintf(line, sizeof line, "\n[[luminaire]]\nname = \"%s\"\nfile = \"%s\"\ncolour_temperature_k = %.0f\n",

@@ -12,7 +12,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kBegin_m = 110.0, kEnd_m = 410.0;
+constexpr double kBegin_m = 25.0, kEnd_m = 325.0;
 constexpr double kLane_m = 3.5, kPaved_m = 3.75, kWall_m = 4.65, kKerb_m = 0.15, kPanelTop_m = 3.2, kHigh_m = 5.4;
 constexpr double kLampEvery_m = 8.0, kLampOffset_m = 2.1;
 
@@ -155,7 +155,7 @@ void add_things(Model& model, const Path& path) {
 }  // namespace
 
 MadeScene make_tunnel() {
-  const Path path(520.0, 60.0, {{170.0, 380.0, 420.0}});
+  const Path path(430.0, 60.0, {{40.0, 290.0, 420.0}});
   MadeScene scene;
   int number = 0;
   for (const auto& [begin, end] : {std::pair(path.begin_m(), kBegin_m), std::pair(kBegin_m, kEnd_m),
@@ -167,7 +167,7 @@ MadeScene make_tunnel() {
   add_things(scene.model, path);
   scene.lane_csv = path.lane_csv(-0.5 * kLane_m);
   scene.street_lamps = street_lamps_toml("The lamps of the tunnel, by phare-make-scene (tools/scene/tunnel.cpp).",
-                                         {{"tunnel", "generated/scenes/tunnel_led.ies", 5000.0}}, lamps);
+                                         {{"tunnel", "generated/scenes/tunnel_led.ies", 4000.0}}, lamps);
   return scene;
 }
 
