@@ -443,6 +443,21 @@ TEST(ForeignScene, NamesAndExtrasFindTheLibrary) {
   ASSERT_TRUE(scene.materials.at(0).look.base_texture);
 }
 
+TEST(ForeignScene, ReadingSaysHowFarItIs) {
+  GltfBuilder file;
+  file.square();
+  std::vector<double> done;
+  const auto scene = read_scene(file.write("phare_foreign.gltf"), [&](double done_01, std::string_view what) {
+    EXPECT_EQ(what, "reading phare_foreign.gltf");
+    done.push_back(done_01);
+  });
+  ASSERT_TRUE(scene);
+  EXPECT_TRUE(std::ranges::is_sorted(done));
+  ASSERT_GE(done.size(), 3u);
+  EXPECT_EQ(done.front(), 0.0);
+  EXPECT_EQ(done.back(), 1.0);
+}
+
 TEST(ForeignScene, SharedSamplesHaveTheirTextures) {
   const std::filesystem::path folder = std::filesystem::path(shared_data_dir()) / "gltf";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no " << folder.string() << ", the shared glTF samples";

@@ -261,6 +261,9 @@ TEST_F(FixedLightOnDevice, EveryMethodLevelAndAirDrawsIt) {
       if (method == Method::kReference && (made->no_reference() || level != ImageLevel::kFloatNodes)) continue;
       for (const std::size_t lamps : {2u, 8u})
         for (const bool fog : {false, true}) {
+          // Of eight lamps one method, for it takes a software device seconds to compile each of these.
+          if (lamps == 8 && (method != Method::kFragment || level != ImageLevel::kFloatNodes)) continue;
+          if (method == Method::kReference && fog) continue;
           FrameInput input = driver_view();
           input.method = method;
           input.lamps.resize(lamps, input.lamps.front());

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "visual/fixed_light.h"
+#include "visual/fixed_light.h"
 #include "visual/process/overlay_lines.h"
 
 namespace phare {

@@ -196,11 +196,16 @@ DeviceBuffer::DeviceBuffer(Device& device, std::span<const std::byte> content, v
                            const std::string& name)
     : DeviceBuffer(device, std::max<vk::DeviceSize>(content.size(), 16), usage, name) {
   if (content.empty()) return;
-  HostBuffer staging(device, content.size(), vk::BufferUsageFlagBits::eTransferSrc, name + " staging");
-  std::memcpy(staging.data, content.data(), content.size());
-  device.run_once([&](vk::CommandBuffer commands) {
-    commands.copyBuffer(*staging.buffer, *buffer, vk::BufferCopy{.size = content.size()});
-  });
+  constexpr std::size_t kPiece = std::size_t{64} << 20;  // a scene of ten million triangles has half a GiB
+  const HostBuffer staging(device, std::min(content.size(), kPiece), vk::BufferUsageFlagBits::eTransferSrc,
+                           name + " staging");
+  for (std::size_t at = 0; at < content.size(); at += kPiece) {
+    const std::span<const std::byte> piece = content.subspan(at, std::min(content.size() - at, kPiece));
+    std::memcpy(staging.data, piece.data(), piece.size());
+    device.run_once([&](vk::CommandBuffer commands) {
+      commands.copyBuffer(*staging.buffer, *buffer, vk::BufferCopy{.dstOffset = at, .size = piece.size()});
+    });
+  }
 }
 
 Image::Image(Device& device, const ImageNeed& need, const std::string& name_)

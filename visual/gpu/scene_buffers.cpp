@@ -267,10 +267,12 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
   using Usage = vk::BufferUsageFlagBits;
   vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.vertices)),
                                Usage::eVertexBuffer | Usage::eStorageBuffer, "scene vertices");
+  std::vector<GpuVertex>().swap(all.vertices);  // of large scenes neither is held longer than it is needed
   if (!all.light.empty())
     fixed_light = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.light)), Usage::eVertexBuffer, "fixed light");
   indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)),
                               Usage::eIndexBuffer | Usage::eStorageBuffer, "scene indices");
+  std::vector<std::uint32_t>().swap(all.indices);
   if (!all.looks.empty()) {
     const std::array scenes{&scene, &moving_scene};
     textures = SurfaceTextures(device, scenes);
