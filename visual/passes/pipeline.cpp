@@ -20,7 +20,9 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
         .stride = recipe.more_stride,
         .inputRate = recipe.more_by_instance ? vk::VertexInputRate::eInstance : vk::VertexInputRate::eVertex}}};
   const vk::PipelineVertexInputStateCreateInfo input{
-      .vertexBindingDescriptionCount = recipe.stride == 0 ? 0u : recipe.more_stride == 0 ? 1u : 2u,
+      .vertexBindingDescriptionCount = recipe.stride == 0        ? 0u
+                                       : recipe.more_stride == 0 ? 1u
+                                                                 : 2u,
       .pVertexBindingDescriptions = bindings.data(),
       .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(recipe.attributes.size()),
       .pVertexAttributeDescriptions = recipe.attributes.data()};

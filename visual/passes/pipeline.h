@@ -13,9 +13,9 @@ struct PipelineRecipe {
   vk::ShaderModule fragment{};                        ///< null: depth only
   const vk::SpecializationInfo* constants = nullptr;  ///< of both stages
   std::span<const vk::VertexInputAttributeDescription> attributes{};
-  std::uint32_t stride = 0;  ///< of a vertex; 0: none are read
-  std::uint32_t more_stride = 0;    ///< of what binding 1 has beside it; 0: none
-  bool more_by_instance = false;    ///< one of it for a whole draw
+  std::uint32_t stride = 0;       ///< of a vertex; 0: none are read
+  std::uint32_t more_stride = 0;  ///< of what binding 1 has beside it; 0: none
+  bool more_by_instance = false;  ///< one of it for a whole draw
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
   vk::CullModeFlags cull = vk::CullModeFlagBits::eNone;
   std::vector<vk::Format> colour{};

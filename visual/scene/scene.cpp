@@ -25,7 +25,7 @@ namespace {
 /// Cells are smaller than the 100 m promised for a chunk, for a triangle belongs to the cell of its middle and juts
 /// out.
 constexpr double kCell_m = 72.0;
-constexpr double kFarthest_m = 1e8;  ///< Earth and back; beyond it a file is wrong
+constexpr double kFarthest_m = 1e8;      ///< Earth and back; beyond it a file is wrong
 constexpr double kBrightest_cdm2 = 1e9;  ///< more than the sun's edge; beyond it a file is wrong
 /// A small file can place one mesh many times; this many vertices (1.5 GB) are taken for an error.
 constexpr std::size_t kMostVertices = std::size_t{1} << 26;
