@@ -88,9 +88,9 @@ struct DesignConfig {
 
 /// The moon over the scene, as long as a drive lasts.
 struct MoonConfig {
-  double azimuth_rad = 0.0;    ///< from x toward y
-  double elevation_rad = 0.7;  ///< above the horizon
-  double illuminance_lx = 0.2; ///< on a plane that faces it: full moon, high up, 0.2 to 0.27 lx
+  double azimuth_rad = 0.0;     ///< from x toward y
+  double elevation_rad = 0.7;   ///< above the horizon
+  double illuminance_lx = 0.2;  ///< on a plane that faces it: full moon, high up, 0.2 to 0.27 lx
 
   bool operator==(const MoonConfig&) const = default;
 };
@@ -115,17 +115,17 @@ struct Rig {
   std::string bind_address = "127.0.0.1";  ///< of every process that has no place of its own below
   BusPlaces places{};
   std::uint16_t port_base = 47000;
-  std::optional<BusKey> bus_key{};     ///< of [bus] key_file: 64 hexadecimal digits; required off loopback
-  std::filesystem::path key_file{};    ///< resolved; empty: none
-  bool run_key = true;                 ///< on loopback, without a key_file: a key for each run (net/run_key.h)
-  std::int64_t frame_rate_hz = 60;     ///< of lockstep frames
-  bool real_time_priority = true;      ///< in real time, of cockpit and dynamics, where the kernel allows it
-  std::filesystem::path scene_file;    ///< glTF; resolved
-  std::filesystem::path traffic_file;  ///< other road users (config/traffic/), resolved; empty: none
+  std::optional<BusKey> bus_key{};            ///< of [bus] key_file: 64 hexadecimal digits; required off loopback
+  std::filesystem::path key_file{};           ///< resolved; empty: none
+  bool run_key = true;                        ///< on loopback, without a key_file: a key for each run (net/run_key.h)
+  std::int64_t frame_rate_hz = 60;            ///< of lockstep frames
+  bool real_time_priority = true;             ///< in real time, of cockpit and dynamics, where the kernel allows it
+  std::filesystem::path scene_file;           ///< glTF; resolved
+  std::filesystem::path traffic_file;         ///< other road users (config/traffic/), resolved; empty: none
   std::filesystem::path street_lamps_file{};  ///< config/street_lamps.h, resolved; empty: none
   std::optional<MoonConfig> moon{};           ///< nothing: it does not shine
-  std::filesystem::path vehicle_file;  ///< resolved
-  std::filesystem::path cockpit_file;  ///< resolved
+  std::filesystem::path vehicle_file;         ///< resolved
+  std::filesystem::path cockpit_file;         ///< resolved
   std::string dynamics_level = "kinematic";
   double dynamics_step_s = 0.002;
   bool high_keeps_low = true;  ///< low beam stays lit under high beam

@@ -12,12 +12,12 @@
 #include "config/rig.h"
 #include "tools/commands.h"
 #include "tools/reference_table.h"
+#include "visual/fixed_light.h"
 #include "visual/photometry/beam/beam_image.h"
 #include "visual/photometry/beam/image_levels.h"
 #include "visual/photometry/beam/lamp_tables.h"
 #include "visual/photometry/bench/lamp_aim.h"
 #include "visual/photometry/readers/points_file.h"
-#include "visual/fixed_light.h"
 #include "visual/photometry/table/illuminance.h"
 #ifdef PHARE_WITH_GRAPHICS
 #include "visual/renderer.h"
@@ -263,7 +263,8 @@ int measure(const MeasureOptions& options) {
   }
   if (const Status apart = check_inputs(inputs, {options.out}); !apart) return bad_input(apart.error());
   if (!options.street_lamps.empty()) return measure_street(options);
-  if (!options.scene.empty()) return bad_input({"--scene", "only with --street-lamps: a car's lamps have no shadows here"});
+  if (!options.scene.empty())
+    return bad_input({"--scene", "only with --street-lamps: a car's lamps have no shadows here"});
   if (!options.table.empty()) return measure_table(options);
   if (options.points.empty() || options.out.empty())
     return bad_input({"", "give --points FILE and --out FILE, or --table FILE of a reference set"});
@@ -326,9 +327,10 @@ void add_measure(CLI::App& app, Command& chosen) {
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(kLampFunctionNames.begin(), kLampFunctionNames.end())))
       ->capture_default_str();
-  command->add_option("--street-lamps", options->street_lamps,
-                      "Instead of a car's lamps: a file of street lamps (docs/street-lamps.md), in float64; lamp 1 is the "
-                      "strongest of them at each point");
+  command->add_option(
+      "--street-lamps", options->street_lamps,
+      "Instead of a car's lamps: a file of street lamps (docs/street-lamps.md), in float64; lamp 1 is the "
+      "strongest of them at each point");
   command->add_option("--scene", options->scene, "With --street-lamps: glTF whose shadows count");
   auto* points = command->add_option("--points", options->points, "Points file; \"-\" is standard input");
   command->add_option("--out", options->out, "File to write");

@@ -51,13 +51,12 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
       last.colour = light_colour({.table = &last.table, .colour_temperature_k = kind.colour_temperature_k});
     }
     for (const StreetLampConfig& lamp : config->lamps)
-      light.lamps_.push_back({lamp.position_m, glm::transpose(world_from_luminaire(lamp.yaw_rad, lamp.tilt_rad)),
-                              lamp.luminaire});
+      light.lamps_.push_back(
+          {lamp.position_m, glm::transpose(world_from_luminaire(lamp.yaw_rad, lamp.tilt_rad)), lamp.luminaire});
   }
   if (moon) {
     const glm::dvec3 toward(std::cos(moon->elevation_rad) * std::cos(moon->azimuth_rad),
-                            std::cos(moon->elevation_rad) * std::sin(moon->azimuth_rad),
-                            std::sin(moon->elevation_rad));
+                            std::cos(moon->elevation_rad) * std::sin(moon->azimuth_rad), std::sin(moon->elevation_rad));
     light.moon_ = Moon{toward, moon->illuminance_lx, black_body_colour(kMoon_k)};
   }
   std::set<std::uint32_t> used;
@@ -203,8 +202,8 @@ class Baker {
     const auto key = std::bit_cast<std::array<std::uint32_t, 6>>(vertex);
     const auto [found, fresh] = known_.try_emplace(key);
     if (fresh)
-      found->second = light_.at(origin_m_ + glm::dvec3(vertex.position_m),
-                                glm::normalize(glm::dvec3(vertex.normal)), material_);
+      found->second =
+          light_.at(origin_m_ + glm::dvec3(vertex.position_m), glm::normalize(glm::dvec3(vertex.normal)), material_);
     return found->second;
   }
 

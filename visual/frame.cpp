@@ -87,8 +87,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
   const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
-  EffectFacts facts =
-      facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, parts.device_facts);
+  EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, parts.device_facts);
   add_facts(facts, parts.scene.fixed_light());
   const EffectPlan effects = plan_effects(facts, view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);

@@ -28,20 +28,14 @@ vk::VertexInputAttributeDescription beside(std::uint32_t location, vk::Format fo
 }  // namespace
 
 const std::array<vk::VertexInputAttributeDescription, 6> kFixedAttributes{
-    of_vertex(0, vk::Format::eR32G32B32Sfloat, 0),
-    of_vertex(1, vk::Format::eR32G32B32Sfloat, 12),
-    of_vertex(2, vk::Format::eR32Uint, 24),
-    beside(3, vk::Format::eR32G32B32A32Sfloat, 0),
-    beside(4, vk::Format::eR32Sfloat, 16),
-    beside(5, vk::Format::eR32Sfloat, 16)};  // not read of what stands
+    of_vertex(0, vk::Format::eR32G32B32Sfloat, 0), of_vertex(1, vk::Format::eR32G32B32Sfloat, 12),
+    of_vertex(2, vk::Format::eR32Uint, 24),        beside(3, vk::Format::eR32G32B32A32Sfloat, 0),
+    beside(4, vk::Format::eR32Sfloat, 16),         beside(5, vk::Format::eR32Sfloat, 16)};  // not read of what stands
 
 const std::array<vk::VertexInputAttributeDescription, 6> kProbeAttributes{
-    of_vertex(0, vk::Format::eR32G32B32Sfloat, 0),
-    of_vertex(1, vk::Format::eR32G32B32Sfloat, 12),
-    of_vertex(2, vk::Format::eR32Uint, 24),
-    beside(3, vk::Format::eR32G32B32A32Sfloat, 0),
-    beside(4, vk::Format::eR32Sfloat, 28),
-    beside(5, vk::Format::eR32G32B32Sfloat, 16)};
+    of_vertex(0, vk::Format::eR32G32B32Sfloat, 0), of_vertex(1, vk::Format::eR32G32B32Sfloat, 12),
+    of_vertex(2, vk::Format::eR32Uint, 24),        beside(3, vk::Format::eR32G32B32A32Sfloat, 0),
+    beside(4, vk::Format::eR32Sfloat, 28),         beside(5, vk::Format::eR32G32B32Sfloat, 16)};
 
 vk::ShaderModule LitScene::fixed_module(const LitVariant& variant, std::size_t size, bool vertex) {
   const bool fog = variant.fog.slices != 0, reference = variant.method == Method::kReference;
@@ -49,10 +43,9 @@ vk::ShaderModule LitScene::fixed_module(const LitVariant& variant, std::size_t s
   const std::size_t which = (vertex ? 1u : 0u) + (fog ? 2u : 0u) + (reference ? 4u : 0u) + (by_vertex ? 8u : 0u);
   const auto [found, fresh] = fixed_modules_.try_emplace({which, size}, nullptr);
   if (fresh)
-    found->second = gpu::make_shader(
-        device_, vertex      ? fixed_vert(size, by_vertex, filtered(), fog)
-                 : reference ? fixed_frag_reference(variant.shadow_maps != 0, fog)
-                             : fixed_frag(size, filtered(), fog));
+    found->second = gpu::make_shader(device_, vertex      ? fixed_vert(size, by_vertex, filtered(), fog)
+                                              : reference ? fixed_frag_reference(variant.shadow_maps != 0, fog)
+                                                          : fixed_frag(size, filtered(), fog));
   return *found->second;
 }
 
@@ -68,8 +61,8 @@ void LitScene::add_fixed_light(LitView& view) {
   for (const PlacedMesh& mesh : view.moving) {
     const std::size_t page = probes_used_ / kProbesInPage, place = probes_used_ % kProbesInPage;
     if (page == probes_.size())
-      probes_.push_back(std::make_unique<gpu::HostBuffer>(device_, kProbesInPage * sizeof(FixedProbe),
-                                                          vk::BufferUsageFlagBits::eVertexBuffer, "light on what moves"));
+      probes_.push_back(std::make_unique<gpu::HostBuffer>(
+          device_, kProbesInPage * sizeof(FixedProbe), vk::BufferUsageFlagBits::eVertexBuffer, "light on what moves"));
     // At the middle of its bounds, where light passes over the road and under roofs.
     glm::dvec3 low_m(0.0), high_m(0.0);
     bool begun = false;

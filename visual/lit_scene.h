@@ -276,7 +276,7 @@ class LitScene {
   std::array<vk::raii::ShaderModule, 4> scene_fog_vert_{nullptr, nullptr, nullptr, nullptr};
   Modules lamps_fog_frag_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};  ///< each made when it is called for
   Modules lit_by_vertex_vert_{nullptr, nullptr, nullptr,
-                              nullptr, nullptr, nullptr};   ///< each made when it is called for
+                              nullptr, nullptr, nullptr};                       ///< each made when it is called for
   std::map<std::array<std::size_t, 2>, vk::raii::ShaderModule> fixed_modules_;  ///< the same: stage, variant, size
   std::unique_ptr<Reference, ReferenceDeleter> reference_;  ///< made when it is called for
   bool reference_begun_ = false;                            ///< in this frame

@@ -20,7 +20,8 @@ TEST(RayTree, AnswersAsTheSearchThroughAllTriangles) {
   int hidden = 0;
   constexpr int kRays = 400;
   for (int i = 0; i < kRays; ++i) {
-    const glm::dvec3 point_m{along(random), across(random), up(random)}, lamp_m{along(random), across(random), up(random)};
+    const glm::dvec3 point_m{along(random), across(random), up(random)},
+        lamp_m{along(random), across(random), up(random)};
     const bool blocked = tree.blocked(point_m, lamp_m, 1e-3, 1e-3);
     EXPECT_EQ(blocked, occluder(*scene, lamp_m, point_m) != nullptr) << i;
     hidden += blocked ? 1 : 0;

@@ -47,8 +47,9 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
 
 TEST(Effects, FixedLightNamesAllThatShines) {
   EXPECT_EQ(plan_effects({.street_lamps = 1})[Effect::kFixedLight].reason, "1 street lamp");
-  EXPECT_EQ(plan_effects({.street_lamps = 212, .luminous = 3, .moon = true, .covered = true})[Effect::kFixedLight].reason,
-            "212 street lamps, the moon, 3 luminous materials, a roof over the road");
+  EXPECT_EQ(
+      plan_effects({.street_lamps = 212, .luminous = 3, .moon = true, .covered = true})[Effect::kFixedLight].reason,
+      "212 street lamps, the moon, 3 luminous materials, a roof over the road");
   EffectChoices choices{};
   choices[static_cast<std::size_t>(Effect::kFixedLight)] = 1;
   EXPECT_FALSE(plan_effects({}, choices).on(Effect::kFixedLight)) << "there is nothing that it could be made of";

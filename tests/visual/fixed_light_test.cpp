@@ -96,8 +96,8 @@ TEST_F(FixedLightOnDevice, HundredsOfLampsAreNoDrawAndNoPassMore) {
   FrameInput input = driver_view();
   renderer->set_beam(0, image_of(cut_off_table(PhotometricType::kA, GammaAxis::kGamma0)));
   for (const bool hundreds : {false, true}) {
-    ASSERT_TRUE(renderer->load_scene(scene, Scene{},
-                                     light_of(scene, hundreds ? many : std::vector<glm::dvec3>{{8, 5, 8}})));
+    ASSERT_TRUE(
+        renderer->load_scene(scene, Scene{}, light_of(scene, hundreds ? many : std::vector<glm::dvec3>{{8, 5, 8}})));
     renderer->draw(input);
     of[hundreds ? 1 : 0] = renderer->draw(input);
   }
@@ -156,8 +156,8 @@ TEST_F(FixedLightOnDevice, ASurfaceThatShinesHasItsLuminanceAndARoofKeepsTheSkyO
   EXPECT_EQ(luminance(road), 0.0);
 }
 
-/// E = L·Ω, Ω = 2π(1 - cos 0.259°) sr: 0.2 lx are 3118 cd/m² of the disc; colour of 4100 K by its luminance. Half floats
-/// hold it within 2^-11. The road has E·sin(elevation), and beside the disc there is the sky alone.
+/// E = L·Ω, Ω = 2π(1 - cos 0.259°) sr: 0.2 lx are 3118 cd/m² of the disc; colour of 4100 K by its luminance. Half
+/// floats hold it within 2^-11. The road has E·sin(elevation), and beside the disc there is the sky alone.
 TEST_F(FixedLightOnDevice, TheMoonIsADiscAndLightsTheRoad) {
   Scene scene = yard();
   scene.materials[0].surface = Surface::kPlain;
@@ -206,9 +206,9 @@ TEST_F(FixedLightOnDevice, WetGroundMirrorsTheLamp) {
   const glm::dvec3 to_lamp = lamp - brightest.at, toward_lamp = glm::normalize(to_lamp),
                    toward_eye = glm::normalize(eye - brightest.at), half = glm::normalize(toward_lamp + toward_eye);
   const double lx = 1000.0 * toward_lamp.z / glm::dot(to_lamp, to_lamp);
-  const double lobe = static_cast<double>(shader::water_lobe(
-      0.05f, static_cast<float>(toward_lamp.z), static_cast<float>(toward_eye.z), static_cast<float>(half.z),
-      static_cast<float>(glm::dot(half, toward_eye))));
+  const double lobe = static_cast<double>(
+      shader::water_lobe(0.05f, static_cast<float>(toward_lamp.z), static_cast<float>(toward_eye.z),
+                         static_cast<float>(half.z), static_cast<float>(glm::dot(half, toward_eye))));
   // What the wet asphalt itself sends is below 2 % of it; a pixel's middle is taken for its ray, as the shader does.
   const double body = 0.06 * light->lux_at(brightest.at, {0, 0, 1}) / std::numbers::pi;
   EXPECT_GT(best, 5.0 * body);

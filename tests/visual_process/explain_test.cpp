@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "visual/fixed_light.h"
-#include "visual/fixed_light.h"
 #include "visual/process/overlay_lines.h"
 
 namespace phare {
@@ -35,9 +34,8 @@ Rig rig_of_two_lamps() {
 class Explain : public testing::Test {
  protected:
   std::vector<std::string> lines(const AskedMoment& moment, const AskedDevice& device, bool window = false) {
-    std::istringstream text(
-        explain_moment(lamps_, desk_, rig_.channels[0], moment, device, scene_, movers_, traffic_, road_, fixed_,
-                                          window));
+    std::istringstream text(explain_moment(lamps_, desk_, rig_.channels[0], moment, device, scene_, movers_, traffic_,
+                                           road_, fixed_, window));
     std::vector<std::string> all;
     for (std::string line; std::getline(text, line);) all.push_back(line);
     return all;

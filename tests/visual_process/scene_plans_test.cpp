@@ -47,8 +47,9 @@ Plan plan_of(const char* rig_name, double at_s_m, const std::vector<DeskCommand>
 }
 
 Plan expected(const Plan& on) {
-  Plan plan{{"shadows", "off"},       {"depth first", "off"}, {"hdr image", "off"}, {"overlay", "off"}, {"fog", "off"},
-            {"precipitation", "off"}, {"ground", "dry"},      {"glare", "off"},     {"gui", "off"},     {"fixed light", "off"}};
+  Plan plan{{"shadows", "off"}, {"depth first", "off"},   {"hdr image", "off"}, {"overlay", "off"},
+            {"fog", "off"},     {"precipitation", "off"}, {"ground", "dry"},    {"glare", "off"},
+            {"gui", "off"},     {"fixed light", "off"}};
   for (const auto& [effect, level] : on) plan[effect] = level;
   return plan;
 }
@@ -80,8 +81,7 @@ TEST(ScenePlans, TheTownStreetWithItsLampsOffIsAnyRoad) {
 
 TEST(ScenePlans, TheMotorwayCallsForTheOthersGlareAndForNoLampBesideIt) {
   std::string text;
-  EXPECT_EQ(plan_of("motorway", 20.0, {}, &text),
-            expected({{"shadows", "soft"}, {"hdr image", "on"}, {"glare", "on"}}))
+  EXPECT_EQ(plan_of("motorway", 20.0, {}, &text), expected({{"shadows", "soft"}, {"hdr image", "on"}, {"glare", "on"}}))
       << text;
 }
 

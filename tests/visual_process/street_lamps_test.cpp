@@ -40,7 +40,8 @@ std::string lamp_text(double x, double y, double z, double yaw_deg = 0.0, double
 }
 
 fs::path lamps_file(const std::string& lamps, bool street_side_only = false, const char* fineness = "medium") {
-  return written("lamps.toml", "fineness = \"" + std::string(fineness) + "\"\n[[luminaire]]\nname = \"even\"\nfile = \"" +
+  return written("lamps.toml", "fineness = \"" + std::string(fineness) +
+                                   "\"\n[[luminaire]]\nname = \"even\"\nfile = \"" +
                                    even_luminaire(street_side_only).string() + "\"\n" + lamps);
 }
 
@@ -51,7 +52,8 @@ Scene square() {
   for (const auto& [x, y] : {std::pair(-60, -60), std::pair(60, -60), std::pair(60, 60), std::pair(-60, 60)})
     scene.vertices.push_back({glm::vec3(x, y, 0), glm::vec3(0, 0, 1)});
   scene.indices = {0, 1, 2, 0, 2, 3};
-  scene.chunks = {{.node = "ground", .low_m = {-60, -60, 0}, .high_m = {60, 60, 0}, .index_count = 6, .vertex_count = 4}};
+  scene.chunks = {
+      {.node = "ground", .low_m = {-60, -60, 0}, .high_m = {60, 60, 0}, .index_count = 6, .vertex_count = 4}};
   return scene;
 }
 
@@ -59,27 +61,28 @@ TEST(StreetLamps, BadFilesAreRefusedWithPlaceAndReason) {
   const struct {
     const char* text;
     const char* says;
-  } cases[] = {{"", "luminaire"},
-               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"b\"\nposition_m = [0, 0, 5]\n",
-                "bad.toml:5: \"lamp.luminaire\": no luminaire \"b\""},
-               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 5]\n",
-                "bad.toml:6: "},
-               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\nscale = -1\n", "bad.toml:4: "},
-               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[luminaire]]\nname = \"a\"\nfile = \"b.ies\"\n",
-                "bad.toml:5: \"luminaire.name\": two luminaires are named \"a\""},
-               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 0, 1e9]\n",
-                "10,000 km"},
-               {"fineness = \"finest\"\n[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n", "bad.toml:1: "},
-               {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 0, 5]\n"
-                "yaw = 3\n",
-                "bad.toml:7: "}};
+  } cases[] = {
+      {"", "luminaire"},
+      {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"b\"\nposition_m = [0, 0, 5]\n",
+       "bad.toml:5: \"lamp.luminaire\": no luminaire \"b\""},
+      {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 5]\n",
+       "bad.toml:6: "},
+      {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\nscale = -1\n", "bad.toml:4: "},
+      {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[luminaire]]\nname = \"a\"\nfile = \"b.ies\"\n",
+       "bad.toml:5: \"luminaire.name\": two luminaires are named \"a\""},
+      {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 0, 1e9]\n",
+       "10,000 km"},
+      {"fineness = \"finest\"\n[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n", "bad.toml:1: "},
+      {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 0, 5]\n"
+       "yaw = 3\n",
+       "bad.toml:7: "}};
   for (const auto& [text, says] : cases) {
     const auto read = read_street_lamps(written("bad.toml", text));
     ASSERT_FALSE(read) << text;
     EXPECT_NE(read.error().text().find(says), std::string::npos) << read.error().text();
   }
-  const auto missing = FixedLight::of(
-      square(), written("bad.toml", "[[luminaire]]\nname = \"a\"\nfile = \"none.ies\"\n"), std::nullopt);
+  const auto missing =
+      FixedLight::of(square(), written("bad.toml", "[[luminaire]]\nname = \"a\"\nfile = \"none.ies\"\n"), std::nullopt);
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().text().find("none.ies"), std::string::npos);
 }
@@ -125,7 +128,13 @@ TEST(StreetLamps, WhatStandsHidesAndTheMoonIsALamp) {
   Scene scene = square();
   for (const auto& [x, y] : {std::pair(5, -2), std::pair(6, -2), std::pair(6, 2), std::pair(5, 2)})
     scene.vertices.push_back({glm::vec3(x, y, 3), glm::vec3(0, 0, 1)});
-  scene.chunks.push_back({.node = "board", .low_m = {5, -2, 3}, .high_m = {6, 2, 3}, .first_index = 0, .index_count = 6, .first_vertex = 4, .vertex_count = 4});
+  scene.chunks.push_back({.node = "board",
+                          .low_m = {5, -2, 3},
+                          .high_m = {6, 2, 3},
+                          .first_index = 0,
+                          .index_count = 6,
+                          .first_vertex = 4,
+                          .vertex_count = 4});
   const MoonConfig moon{.azimuth_rad = 0.0, .elevation_rad = 0.5 * std::numbers::pi, .illuminance_lx = 0.2};
   const auto light = FixedLight::of(scene, lamps_file(lamp_text(0, 0, 8)), moon);
   ASSERT_TRUE(light);
@@ -217,15 +226,19 @@ Errors errors_of(const FixedLight& light, const Scene& scene, int samples, bool 
 }
 
 /// Open ground: light is smooth. A side is left whole where its middle is within the tolerance t, or where it is
-/// shorter than twice the least edge; within a triangle a quadratic is off by 4/3 of its sides' middles at most, and the
-/// least edges are chosen such that lamps of 8 m stay within t there (E''/E = 3/h² on the axis: (3/8)·(2·1.5)²/64 = 5 %
-/// for 1.5 m). Between them twice t, as light is not a quadratic.
+/// shorter than twice the least edge; within a triangle a quadratic is off by 4/3 of its sides' middles at most, and
+/// the least edges are chosen such that lamps of 8 m stay within t there (E''/E = 3/h² on the axis: (3/8)·(2·1.5)²/64 =
+/// 5 % for 1.5 m). Between them twice t, as light is not a quadratic.
 TEST(StreetLamps, OnOpenGroundVerticesKeepLightWithinTwiceTheTolerance) {
   const Scene scene = square();
   double before = 1.0;
   for (const char* fineness : {"coarse", "medium", "fine"}) {
-    const double tolerance = kBakeLevels[static_cast<std::size_t>(fineness[0] == 'c' ? 0 : fineness[0] == 'm' ? 1 : 2)].tolerance;
-    const auto light = FixedLight::of(scene, lamps_file(lamp_text(0, 4, 8) + lamp_text(30, -4, 8), false, fineness), std::nullopt);
+    const double tolerance = kBakeLevels[static_cast<std::size_t>(fineness[0] == 'c'   ? 0
+                                                                  : fineness[0] == 'm' ? 1
+                                                                                       : 2)]
+                                 .tolerance;
+    const auto light =
+        FixedLight::of(scene, lamps_file(lamp_text(0, 4, 8) + lamp_text(30, -4, 8), false, fineness), std::nullopt);
     ASSERT_TRUE(light);
     const Errors errors = errors_of(*light, scene, 4000, false, [](const SceneMaterial&) { return true; });
     std::printf("open ground, %-6s  mean %.2f %%  95 of 100 within %.2f %%  worst %.2f %%  %zu triangles\n", fineness,
@@ -250,14 +263,17 @@ TEST(StreetLamps, InTheTownTheFinerTheNearer) {
   std::erase_if(part.chunks, [](const SceneChunk& chunk) { return chunk.low_m.x < 90.0 || chunk.low_m.x > 160.0; });
   double before = 1e9;
   for (const char* fineness : {"coarse", "medium", "fine"}) {
-    const auto light = FixedLight::of(
-        *scene, written("town_lamps.toml", "fineness = \"" + std::string(fineness) + "\"\n" + lamps.substr(lamps.find("[[luminaire]]"))), std::nullopt);
+    const auto light = FixedLight::of(*scene,
+                                      written("town_lamps.toml", "fineness = \"" + std::string(fineness) + "\"\n" +
+                                                                     lamps.substr(lamps.find("[[luminaire]]"))),
+                                      std::nullopt);
     ASSERT_TRUE(light) << light.error().text();
     EXPECT_GT(light->street_lamps(), 40u);
     const auto told = [&](const char* what, const auto& which) {
       const Errors errors = errors_of(*light, part, 4000, true, which);
-      std::printf("town, %s, %-6s  %.2f lx, off by %.2f %% of that in the mean, 95 of 100 within %.2f %%, %zu triangles\n",
-                  what, fineness, errors.mean_lx, 100.0 * errors.mean, 100.0 * errors.p95, errors.triangles);
+      std::printf(
+          "town, %s, %-6s  %.2f lx, off by %.2f %% of that in the mean, 95 of 100 within %.2f %%, %zu triangles\n",
+          what, fineness, errors.mean_lx, 100.0 * errors.mean, 100.0 * errors.p95, errors.triangles);
       return errors;
     };
     const Errors road = told("carriageway and pavement",

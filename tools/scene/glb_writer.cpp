@@ -47,7 +47,8 @@ class Writer {
     root_["scenes"] = Json::array({{{"nodes", Json::array()}}});
     std::size_t used = static_cast<std::size_t>(Material::kSignBack) + 1;
     for (const Node& node : model.nodes)
-      for (const auto& [material, triangles] : node.parts) used = std::max(used, static_cast<std::size_t>(material) + 1);
+      for (const auto& [material, triangles] : node.parts)
+        used = std::max(used, static_cast<std::size_t>(material) + 1);
     for (const MaterialData& m : std::span(kMaterials).first(used)) {
       Json material;
       material["name"] = m.name;

@@ -25,8 +25,9 @@ void add_carriageway(Model& model, const Path& path, int number, double begin, d
     else
       add_strip(node, m, path, begin, end, 10.0, {-outer, z_outer}, {-inner, z_inner});
   };
-  constexpr std::array kAcross_m{kInner_m, kInnerLine_m, 0.5 * (kInnerLine_m + kMiddle_m), kMiddle_m,
-                                 0.5 * (kMiddle_m + kOuterLine_m), kOuterLine_m, kPaved_m};
+  constexpr std::array kAcross_m{
+      kInner_m,     kInnerLine_m, 0.5 * (kInnerLine_m + kMiddle_m), kMiddle_m, 0.5 * (kMiddle_m + kOuterLine_m),
+      kOuterLine_m, kPaved_m};
   for (std::size_t i = 0; i + 1 < kAcross_m.size(); ++i)
     strip(road, Material::kAsphalt, kAcross_m[i], kAcross_m[i + 1], 0.0, 0.0);
   Node& marking = model.add(numbered_node("marking", 2 * number + (side > 0.0 ? 1 : 0)));

@@ -35,7 +35,8 @@ void add_ground(Model& model, const Path& path) {
               {kRightKerb_m - 0.14, kKerb_m});
     add_strip(ground, Material::kPavement, path, begin, end, 5.0, {kLeftKerb_m + 0.14, kKerb_m},
               {kLeftWall_m, kKerb_m});
-    add_strip(ground, Material::kVerge, path, begin, end, 10.0, {kRightWall_m - 40.0, kKerb_m}, {kRightWall_m, kKerb_m});
+    add_strip(ground, Material::kVerge, path, begin, end, 10.0, {kRightWall_m - 40.0, kKerb_m},
+              {kRightWall_m, kKerb_m});
     add_strip(ground, Material::kVerge, path, begin, end, 10.0, {kLeftWall_m, kKerb_m}, {kLeftWall_m + 40.0, kKerb_m});
 
     Node& marking = model.add(numbered_node("marking", number));
@@ -61,7 +62,7 @@ class House {
     const int floors = random_.uniform(0.0, 1.0) < 0.35 ? 2 : random_.uniform(0.0, 1.0) < 0.7 ? 3 : 4;
     const double ground = 3.4, upper = 2.9, top = ground + upper * (floors - 1), depth = 10.0;
     constexpr std::array kWalls{Material::kFacadeWhite, Material::kFacadeOchre, Material::kFacadeGrey,
-                                Material::kFacadeRed, Material::kFacadeWhite, Material::kPlaster};
+                                Material::kFacadeRed,   Material::kFacadeWhite, Material::kPlaster};
     const Material wall = kWalls[static_cast<std::size_t>(random_.uniform(0.0, 5.999))];
     // Front in panes of a floor each, ends, back.
     front(wall, 0.0, ground);
@@ -231,7 +232,8 @@ void add_things(Model& model, const Path& path) {
     ++walker;
   }
   for (const double s : {250.0, 258.0, 266.0, 274.0, 455.0, 463.0, 471.0})  // trees on the left pavement
-    draw_tree(Pen(model.add(numbered_node("tree", 900 + static_cast<int>(s))), path.placed(s, kLeftKerb_m + 0.9, 0.0, kKerb_m)),
+    draw_tree(Pen(model.add(numbered_node("tree", 900 + static_cast<int>(s))),
+                  path.placed(s, kLeftKerb_m + 0.9, 0.0, kKerb_m)),
               random, random.uniform(5.0, 6.2), Material::kLeaves);
 }
 

@@ -22,7 +22,9 @@ bool inside(double s) {
 
 /// A cutting: its banks rise toward the hill.
 void add_banks(Node& node, const Path& path, double begin, double end) {
-  const auto high = [](double s) { return std::max(0.8, 8.0 - 0.08 * std::min(std::abs(s - kBegin_m), std::abs(s - kEnd_m))); };
+  const auto high = [](double s) {
+    return std::max(0.8, 8.0 - 0.08 * std::min(std::abs(s - kBegin_m), std::abs(s - kEnd_m)));
+  };
   Pen pen(node, glm::dmat4(1.0));
   const int steps = std::max(1, static_cast<int>(std::ceil((end - begin) / 10.0)));
   for (int i = 0; i < steps; ++i) {
@@ -100,8 +102,9 @@ void add_portal(Model& model, const Path& path, double s, bool entrance) {
   pen.quad(Material::kGrass, {0, -kHalf_m, kTop_m}, {0, kHalf_m, kTop_m}, {-kBack_m, kHalf_m, kCrest_m},
            {-kBack_m, -kHalf_m, kCrest_m});
   for (const double side : {-1.0, 1.0}) {
-    const dvec3 a(0, side * kHalf_m, kTop_m), b(0.0, side * kWide_m, kTop_m + 3.0), c(-kBack_m, side * kWide_m, kCrest_m),
-        d(-kBack_m, side * kHalf_m, kCrest_m), low(6.0, side * kHalf_m, -0.2), far(6.0, side * kWide_m, 2.0);
+    const dvec3 a(0, side * kHalf_m, kTop_m), b(0.0, side * kWide_m, kTop_m + 3.0),
+        c(-kBack_m, side * kWide_m, kCrest_m), d(-kBack_m, side * kHalf_m, kCrest_m), low(6.0, side * kHalf_m, -0.2),
+        far(6.0, side * kWide_m, 2.0);
     if (side > 0.0) {
       pen.quad(Material::kGrass, a, b, c, d);
       pen.quad(Material::kGrass, low, far, b, a);
@@ -158,9 +161,10 @@ MadeScene make_tunnel() {
   const Path path(430.0, 60.0, {{40.0, 290.0, 420.0}});
   MadeScene scene;
   int number = 0;
-  for (const auto& [begin, end] : {std::pair(path.begin_m(), kBegin_m), std::pair(kBegin_m, kEnd_m),
-                                   std::pair(kEnd_m, path.end_m())})
-    for (double s = begin; s < end - 1e-6; s += kPiece_m) add_piece(scene.model, path, number++, s, std::min(s + kPiece_m, end));
+  for (const auto& [begin, end] :
+       {std::pair(path.begin_m(), kBegin_m), std::pair(kBegin_m, kEnd_m), std::pair(kEnd_m, path.end_m())})
+    for (double s = begin; s < end - 1e-6; s += kPiece_m)
+      add_piece(scene.model, path, number++, s, std::min(s + kPiece_m, end));
   add_portal(scene.model, path, kBegin_m, true);
   add_portal(scene.model, path, kEnd_m, false);
   const std::vector<MadeLamp> lamps = add_lamps(scene.model, path);

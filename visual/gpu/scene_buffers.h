@@ -65,8 +65,8 @@ struct DrawItem {
   std::uint32_t first_index = 0;  ///< of the order that is drawn
   shader::GpuDraw push{};
   float distance_m = 0.0f;
-  std::size_t lit_by = 0;  ///< which of the view's sets of lamps (visual/lit_scene.h)
-  bool shadowed = false;   ///< a shadow may fall on it (visual/passes/shadows.h)
+  std::size_t lit_by = 0;         ///< which of the view's sets of lamps (visual/lit_scene.h)
+  bool shadowed = false;          ///< a shadow may fall on it (visual/passes/shadows.h)
   std::uint32_t moves = kStands;  ///< which of what moves it is
 
   static constexpr std::uint32_t kStands = UINT32_MAX;

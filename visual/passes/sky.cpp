@@ -82,8 +82,9 @@ void add_band(const SkyBand& band, const SkySectors& sectors, std::vector<SkyVer
 /// A fan of triangles about the moon's middle.
 void add_moon(const MoonDisc& moon, const glm::vec3& colour, std::vector<SkyVertex>& vertices) {
   constexpr int kCorners = 24;
-  const glm::dvec3 side = glm::normalize(glm::cross(
-                       std::abs(moon.toward.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0), moon.toward)),
+  const glm::dvec3 side = glm::normalize(
+                       glm::cross(std::abs(moon.toward.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0),
+                                  moon.toward)),
                    up = glm::cross(moon.toward, side);
   const auto rim = [&](int corner) {
     const double turn = 2.0 * std::numbers::pi * corner / kCorners;

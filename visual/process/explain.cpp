@@ -85,8 +85,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
     props->add_to(input, desk.camera, lamps, moment.pose, controls.light_switch != LightSwitch::kOff, world);
   DrawnOver over = drawn_over(input);
   over.gui = window && desk.panel;  // nothing is laid out: there is no window yet
-  EffectFacts facts =
-      facts_of(input, {lit, lit}, casting, over, glare_of(input, view), {.software = device.software});
+  EffectFacts facts = facts_of(input, {lit, lit}, casting, over, glare_of(input, view), {.software = device.software});
   add_facts(facts, fixed);
   return heading + explain(plan_effects(facts, input.effects));
 }

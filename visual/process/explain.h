@@ -32,7 +32,6 @@ struct AskedDevice {
 /// `window`: there is one, so that there is an overlay. Switches `lamps` to the moment.
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
                            const AskedDevice& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
-                           const RoadLine& road, const FixedLight& fixed,
-                           bool window);
+                           const RoadLine& road, const FixedLight& fixed, bool window);
 
 }  // namespace phare

@@ -96,7 +96,10 @@ class Loop {
   LampKeys lamp_keys_;
   LampNews lamp_news_{s_.lamps};
   World world_{s_.scene, s_.movers.meshes()};  // as it is in this frame
-  PictureInstruments measuring_{s_.desk, s_.lamps, world_, RoadLine(s_.lane, s_.rig.scene_file),
+  PictureInstruments measuring_{s_.desk,
+                                s_.lamps,
+                                world_,
+                                RoadLine(s_.lane, s_.rig.scene_file),
                                 ProbeLog(s_.options.channel == 0 ? s_.options.out : "", s_.options.going_on),
                                 s_.fixed_light->any() ? s_.fixed_light.get() : nullptr};
   DriveLog drive_log_{s_.options.channel == 0 ? s_.options.out : "",

@@ -72,10 +72,9 @@ int explain_and_leave(const VisualOptions& options, const Scene& scene, const Mo
   if (!device && !options.device_name.empty()) return refuse(with_remedy(device.error()));
   const AskedDevice asked = device ? AskedDevice{device->name, device->software}
                                    : AskedDevice{"no device (" + device.error().reason + "), as on a software one"};
-  std::fputs(
-      explain_moment(lamps, desk, channel, moment, asked, scene, movers, traffic, road, fixed, !options.headless)
-          .c_str(),
-      stdout);
+  std::fputs(explain_moment(lamps, desk, channel, moment, asked, scene, movers, traffic, road, fixed, !options.headless)
+                 .c_str(),
+             stdout);
   return kExitDone;
 }
 
@@ -127,8 +126,8 @@ int draw_channel(VisualOptions options) {
   Result<FixedLight> fixed = FixedLight::of(*scene, rig->street_lamps_file, rig->moon);
   if (!fixed) return refuse(fixed.error());
   if (options.explain)
-    return explain_and_leave(options, *scene, *movers, *lamps, desk, channel, *traffic,
-                             RoadLine(lane, rig->scene_file), *fixed);
+    return explain_and_leave(options, *scene, *movers, *lamps, desk, channel, *traffic, RoadLine(lane, rig->scene_file),
+                             *fixed);
   LampReplay lamps_then;
   if (!options.drive_file.empty()) {
     const Result<Drive> drive = read_drive(options.drive_file);

@@ -90,7 +90,7 @@ struct Session {
   Props props;  ///< what some cameras show besides
   Traffic traffic;
   std::shared_ptr<const FixedLight> fixed_light = std::make_shared<FixedLight>();  ///< street lamps, moon, windows
-  LampReplay lamps_then;        ///< of the drive that is shown
+  LampReplay lamps_then;                                                           ///< of the drive that is shown
   std::vector<LanePoint> lane;  ///< of the scene; empty where it has none
   nlohmann::json lamps_json;    ///< tables with hashes, peak and flux: does not change
 

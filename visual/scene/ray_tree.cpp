@@ -57,8 +57,8 @@ std::uint32_t RayTree::build(std::vector<std::uint32_t>& order, std::size_t begi
     return self;
   }
   const std::size_t half = begin + (end - begin) / 2;
-  std::nth_element(order.begin() + static_cast<std::ptrdiff_t>(begin), order.begin() + static_cast<std::ptrdiff_t>(half),
-                   order.begin() + static_cast<std::ptrdiff_t>(end),
+  std::nth_element(order.begin() + static_cast<std::ptrdiff_t>(begin),
+                   order.begin() + static_cast<std::ptrdiff_t>(half), order.begin() + static_cast<std::ptrdiff_t>(end),
                    [&](std::uint32_t a, std::uint32_t b) { return middle(a)[axis] < middle(b)[axis]; });
   build(order, begin, half, all, depth + 1);  // stands right behind this box
   boxes_[self].first = build(order, half, end, all, depth + 1);
@@ -79,7 +79,8 @@ bool RayTree::blocked(const glm::dvec3& from_m, const glm::dvec3& to_m, double n
     const Box& box = boxes_[at];
     double enter_m = near_from_m, leave_m = most_m;
     for (int axis = 0; axis < 3; ++axis) {
-      const double a = (box.low[axis] - from_m[axis]) * inverse[axis], b = (box.high[axis] - from_m[axis]) * inverse[axis];
+      const double a = (box.low[axis] - from_m[axis]) * inverse[axis],
+                   b = (box.high[axis] - from_m[axis]) * inverse[axis];
       // NaN, on a face of a box that the ray lies in: the comparison leaves what there is.
       enter_m = std::max(enter_m, std::min(a, b)), leave_m = std::min(leave_m, std::max(a, b));
     }
