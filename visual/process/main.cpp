@@ -86,7 +86,8 @@ Progress progress_line() {
     next = Clock::now() + kEvery;
     constexpr int kCells = 20;
     const auto filled = static_cast<std::size_t>(std::lround(kCells * std::clamp(done_01, 0.0, 1.0)));
-    spdlog::info("{} [{}{}] {:.0f} %", what, std::string(filled, '#'), std::string(kCells - filled, '.'), 100.0 * done_01);
+    spdlog::info("{} [{}{}] {:.0f} %", what, std::string(filled, '#'), std::string(kCells - filled, '.'),
+                 100.0 * done_01);
   };
 }
 
@@ -151,7 +152,8 @@ int draw_channel(VisualOptions options) {
   if (const auto reason = renderer->no_reference(); reason && desk.method == Method::kReference)
     return refuse({"method reference", *reason + " (" + renderer->device() + ")"});
   if (options.road_cuts > 0) scene = refined(*scene, options.road_cuts, is_ground);
-  if (const Status loaded = renderer->load_scene(*scene, movers->meshes(), progress); !loaded) return refuse(loaded.error());
+  const Status loaded = renderer->load_scene(*scene, movers->meshes(), progress);
+  if (!loaded) return refuse(loaded.error());
   if (!traffic->empty()) renderer->set_beam(Traffic::kBeam, traffic->beam());
 
   if (const Status key = take_run_key(*rig); !key) return refuse(key.error());
