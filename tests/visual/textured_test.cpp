@@ -318,7 +318,7 @@ TEST_F(Textured, ASceneWithoutItMakesNothingForIt) {
   // The same wall with and without a look: as many draws, passes and images; of the plain one no byte is for a look.
   SceneMaterial plain{.name = "plain", .reflectance = glm::vec3(0.4f)};
   FrameInput input = view(wall(plain, {}, kWall_m, false));
-  drawn(input);
+  for (int i = 0; i < 3; ++i) drawn(input);  // what the tests before called for is freed
   const FrameResult without = last;
   const std::uint64_t plain_bytes = renderer->device_memory_bytes();
   input = view(wall(with_texture(glm::vec4(1.0f)), {chess(64, {255, 255, 255, 255}, {0, 0, 0, 255})}));
@@ -328,7 +328,7 @@ TEST_F(Textured, ASceneWithoutItMakesNothingForIt) {
   EXPECT_EQ(last.pass_count, without.pass_count);
   EXPECT_EQ(last.images, without.images);
   input = view(wall(plain, {}, kWall_m, false));
-  drawn(input);
+  for (int i = 0; i < 3; ++i) drawn(input);
   EXPECT_EQ(renderer->device_memory_bytes(), plain_bytes);  // nothing of the textures stays
   drawn(input);
   EXPECT_EQ(last.pipelines_made, 0u);
