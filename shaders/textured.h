@@ -7,7 +7,7 @@
 PHARE_SHADER_BEGIN
 
 // Specialization constant: what a material has of it, bits below.
-const uint kSpecLook = kSpecWet + 1u;
+const uint kSpecLook = kSpecMoves + 1u;
 
 const uint kLookBase = 1u;      // a texture of reflectance and opacity
 const uint kLookEmissive = 2u;  // one of what it emits

@@ -69,7 +69,8 @@ ShadowCasters::ShadowCasters(const Scene& scene, const Scene& moving) {
   for (const SceneChunk& from : scene.chunks) chunks_.push_back(chunk_of(scene, from, 0));
   for (const std::vector<std::size_t>& of_node : chunks_by_node(moving)) {
     std::vector<Chunk>& mesh = moving_.emplace_back();
-    for (const std::size_t from : of_node) mesh.push_back(chunk_of(moving, moving.chunks[from], scene.materials.size()));
+    for (const std::size_t from : of_node)
+      mesh.push_back(chunk_of(moving, moving.chunks[from], scene.materials.size()));
   }
 }
 

@@ -165,9 +165,9 @@ Result<std::vector<Vector>> read_vectors(const tinygltf::Model& model, int index
   if (!accessor.sparse.isSparse) return out;
   const Result<std::vector<std::uint32_t>> replaced = sparse_indices(model, accessor, place);
   if (!replaced) return replaced.error();
-  const Result<Elements> values =
-      elements_in_view(model, accessor.sparse.values.bufferView,
-                       static_cast<std::size_t>(accessor.sparse.values.byteOffset), replaced->size(), element_bytes, place);
+  const auto& given = accessor.sparse.values;
+  const Result<Elements> values = elements_in_view(
+      model, given.bufferView, static_cast<std::size_t>(given.byteOffset), replaced->size(), element_bytes, place);
   if (!values) return values.error();
   for (std::size_t i = 0; i < replaced->size(); ++i)
     if (!take(out[(*replaced)[i]], values->first + i * values->stride)) return not_finite((*replaced)[i]);

@@ -1,6 +1,7 @@
 // glTF 2.0 files (.gltf, .glb), read with every index and range checked, so that a broken file gives an error and no
 // crash. Used for the scene that is drawn and for the road that is driven on: both see the same triangles. Read: all of
-// glTF 2.0's accessors, sparse ones too, KHR_mesh_quantization, EXT_meshopt_compression. docs/scenes.md has the whole list.
+// glTF 2.0's accessors, sparse ones too, KHR_mesh_quantization, EXT_meshopt_compression. docs/scenes.md has the whole
+// list.
 #pragma once
 
 #include <tiny_gltf.h>

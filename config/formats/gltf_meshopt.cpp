@@ -49,7 +49,8 @@ std::string wrong_with(const Packed& packed, std::size_t view_bytes) {
   if (packed.mode == "TRIANGLES" && packed.count % 3 != 0) return "its indices are not whole triangles";
   if (packed.filter == "NONE") return "";
   if (!attributes) return "filter " + packed.filter + " of what are no attributes";
-  if (packed.filter == "OCTAHEDRAL") return packed.stride == 4 || packed.stride == 8 ? "" : "its filter needs 4 or 8 bytes";
+  if (packed.filter == "OCTAHEDRAL")
+    return packed.stride == 4 || packed.stride == 8 ? "" : "its filter needs 4 or 8 bytes";
   if (packed.filter == "QUATERNION") return packed.stride == 8 ? "" : "its filter needs 8 bytes";
   return packed.filter == "EXPONENTIAL" ? "" : "unknown filter " + packed.filter;
 }

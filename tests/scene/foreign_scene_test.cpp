@@ -39,7 +39,8 @@ std::vector<glm::dvec3> corners_of(const Scene& scene) {
 }
 
 bool noted(const Scene& scene, const std::string& text) {
-  return std::ranges::any_of(scene.notes, [&](const std::string& line) { return line.find(text) != std::string::npos; });
+  return std::ranges::any_of(scene.notes,
+                             [&](const std::string& line) { return line.find(text) != std::string::npos; });
 }
 
 TEST(ForeignScene, QuantizedNumbersOfEveryKind) {
@@ -170,11 +171,13 @@ PackedFan packed_fan(bool sequence) {
   for (std::size_t i = 0; i < kRim; ++i) {
     const double turn = 2.0 * 3.14159265 * static_cast<double>(i) / kRim;
     positions.insert(positions.end(), {static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn)), 0.0f});
-    triangles.insert(triangles.end(), {0, static_cast<std::uint16_t>(1 + i), static_cast<std::uint16_t>(1 + (i + 1) % kRim)});
+    triangles.insert(triangles.end(),
+                     {0, static_cast<std::uint16_t>(1 + i), static_cast<std::uint16_t>(1 + (i + 1) % kRim)});
   }
   for (std::size_t i = 0; i < positions.size() / 3; ++i) normals.insert(normals.end(), {0.6f, 0.0f, 0.8f, 0.0f});
   std::vector<float> three;
-  for (std::size_t i = 0; i < normals.size(); i += 4) three.insert(three.end(), {normals[i], normals[i + 1], normals[i + 2]});
+  for (std::size_t i = 0; i < normals.size(); i += 4)
+    three.insert(three.end(), {normals[i], normals[i + 1], normals[i + 2]});
   fan.plain.floats("POSITION", positions, "VEC3", 3);
   fan.plain.floats("NORMAL", three, "VEC3", 3);
   fan.plain.primitive()["indices"] = fan.plain.accessor(fan.plain.view(triangles), 5123, triangles.size(), "SCALAR");
@@ -220,8 +223,8 @@ TEST(ForeignScene, WhatMeshoptimizerPackedIsTheSame) {
 TEST(ForeignScene, WhatIsWrongWithAPackedViewIsSaid) {
   const auto wrong = [](const char* key, const Json& value) {
     PackedFan fan = packed_fan(false);
-    fan.packed.root["bufferViews"][static_cast<std::size_t>(fan.positions)]["extensions"]["EXT_meshopt_compression"][key] =
-        value;
+    Json& view = fan.packed.root["bufferViews"][static_cast<std::size_t>(fan.positions)];
+    view["extensions"]["EXT_meshopt_compression"][key] = value;
     const std::string reason = reason_of(fan.packed);
     EXPECT_NE(reason.find("bufferView 0: EXT_meshopt_compression: "), std::string::npos) << reason;
     return reason;
@@ -242,7 +245,8 @@ TEST(ForeignScene, RequiredExtensionsAreRefusedByNameOthersNamedOnce) {
   file.root["extensionsUsed"] = Json::array({"XYZ_curves", "KHR_draco_mesh_compression"});
   const Scene scene = scene_of(file);
   EXPECT_TRUE(noted(scene, "XYZ_curves"));
-  EXPECT_EQ(std::ranges::count_if(scene.notes, [](const auto& line) { return line.find("XYZ") != std::string::npos; }), 1);
+  const auto names_it = [](const auto& line) { return line.find("XYZ") != std::string::npos; };
+  EXPECT_EQ(std::ranges::count_if(scene.notes, names_it), 1);
   file.root["extensionsRequired"] = Json::array({"KHR_draco_mesh_compression"});
   EXPECT_NE(reason_of(file).find("KHR_draco_mesh_compression"), std::string::npos);
 }

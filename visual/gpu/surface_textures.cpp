@@ -45,7 +45,7 @@ vk::raii::Sampler make_sampler(const gpu::Device& device, const TextureSampler& 
                                                                 .mipmapMode = vk::SamplerMipmapMode::eLinear,
                                                                 .addressModeU = address_of(sampler.across),
                                                                 .addressModeV = address_of(sampler.down),
-                                                                .anisotropyEnable = anisotropy > 1.0f && !sampler.nearest,
+                                                                .anisotropyEnable = !sampler.nearest && anisotropy > 1,
                                                                 .maxAnisotropy = anisotropy,
                                                                 .maxLod = VK_LOD_CLAMP_NONE});
 }
@@ -81,7 +81,10 @@ std::vector<std::vector<SceneTexture>> levels_of(const Scene& scene, const Pixel
   const bool emits = look.emissive_texture && !look.unlit;
   layers.push_back(emits ? &scene.textures[*look.emissive_texture] : &white);
   std::uint32_t width = 1, height = 1;
-  for (const SceneTexture* layer : layers) width = std::max(width, layer->width), height = std::max(height, layer->height);
+  for (const SceneTexture* layer : layers) {
+    width = std::max(width, layer->width);
+    height = std::max(height, layer->height);
+  }
   std::vector<std::vector<SceneTexture>> all;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const SceneTexture& layer = *layers[i];

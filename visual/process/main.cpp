@@ -87,7 +87,8 @@ Progress progress_line() {
     next = Clock::now() + kEvery;
     constexpr int kCells = 20;
     const auto filled = static_cast<std::size_t>(std::lround(kCells * std::clamp(done_01, 0.0, 1.0)));
-    spdlog::info("{} [{}{}] {:.0f} %", what, std::string(filled, '#'), std::string(kCells - filled, '.'), 100.0 * done_01);
+    spdlog::info("{} [{}{}] {:.0f} %", what, std::string(filled, '#'), std::string(kCells - filled, '.'),
+                 100.0 * done_01);
   };
 }
 

@@ -2,8 +2,9 @@
 // window and for `phare control set point`.
 //
 // Illuminance is that of `phare measure` (visual/photometry/table/illuminance.h), behind what stands in the scene.
-// Luminance is that of the material's mean reflectance, L = rho·E/pi, what markings, signs and rough ground send back to
-// the eye (visual/scene/retro.h), and what the material emits, on the mean. Checked by tests/visual_process/measuring_test.cpp.
+// Luminance is that of the material's mean reflectance, L = rho·E/pi, what markings, signs and rough ground send back
+// to the eye (visual/scene/retro.h), and what the material emits, on the mean. Checked by
+// tests/visual_process/measuring_test.cpp.
 #pragma once
 
 #include <optional>

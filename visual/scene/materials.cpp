@@ -105,10 +105,12 @@ void note_what_is_not_read(const tinygltf::Model& model, SceneNotes& notes) {
     if (std::ranges::find(kRead, extension) == kRead.end() && !extension.starts_with("KHR_materials_"))
       notes.add("extensions that are not read", extension);
   if (!model.lights.empty())
-    notes.add("lamps of the scene do not shine (KHR_lights_punctual)", std::to_string(model.lights.size()) + " of them");
+    notes.add("lamps of the scene do not shine (KHR_lights_punctual)",
+              std::to_string(model.lights.size()) + " of them");
   if (!model.animations.empty())
     notes.add("animations stand still", std::to_string(model.animations.size()) + " of them");
-  if (!model.skins.empty()) notes.add("skins stand as they were modelled", std::to_string(model.skins.size()) + " of them");
+  if (!model.skins.empty())
+    notes.add("skins stand as they were modelled", std::to_string(model.skins.size()) + " of them");
   std::size_t lines = 0;
   bool morphed = false;
   for (const tinygltf::Mesh& mesh : model.meshes)
@@ -141,7 +143,9 @@ Result<ReadMaterial> MaterialReader::read(const tinygltf::Material& source) {
   } else if (const LibraryMaterial* fits = library_.fitting(source.name); fits != nullptr && !material.look.unlit) {
     const bool colourless = !material.look.base_texture && material.reflectance == glm::vec3(1.0f);
     if (colourless) material.reflectance = fits->reflectance;
-    material.surface = fits->surface == Surface::kFoliage && material.look.base_texture ? Surface::kPlain : fits->surface;
+    // Of foliage whole triangles are left out far away, which of leaves in a picture would be half of each.
+    const bool pictured = fits->surface == Surface::kFoliage && material.look.base_texture;
+    material.surface = pictured ? Surface::kPlain : fits->surface;
     material.retro = fits->retro;
     notes_.add("materials by words in their names (config/materials/surfaces.toml)",
                "'" + source.name + "' as " + fits->name);
@@ -171,8 +175,8 @@ Status MaterialReader::read_extras(const tinygltf::Material& source, ReadMateria
     const LibraryMaterial& known = **found;
     if (material.look.base_texture) {
       // A picture says where a surface is darker; how dark it is on the whole says the library.
-      const float seen = luminance_of(material.reflectance), most = std::max({material.look.base.x, material.look.base.y,
-                                                                              material.look.base.z, 1e-6f});
+      const glm::vec4& base = material.look.base;
+      const float seen = luminance_of(material.reflectance), most = std::max({base.x, base.y, base.z, 1e-6f});
       const float scale = seen > 0.0f ? std::min(luminance_of(known.reflectance) / seen, 1.0f / most) : 1.0f;
       for (int i = 0; i < 3; ++i) material.look.base[i] *= scale;
       material.reflectance *= scale;

@@ -70,7 +70,8 @@ void meet_chunk(std::optional<RayHit>& nearest, const Scene& scene, const SceneC
     };
     const glm::dvec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
     const std::optional<TriangleHit> hit = meets_triangle(local_m, direction, a, ab, ac);
-    if (!hit || hit->distance_m <= least_m || hit->distance_m >= most_m || through_hole(scene, chunk, i, *hit)) continue;
+    if (!hit || hit->distance_m <= least_m || hit->distance_m >= most_m) continue;
+    if (through_hole(scene, chunk, i, *hit)) continue;
     most_m = hit->distance_m;
     const glm::dvec3 normal = glm::normalize(glm::cross(ab, ac));
     nearest = RayHit{most_m, glm::dot(normal, direction) > 0.0 ? -normal : normal, &chunk, &scene};

@@ -61,7 +61,8 @@ Scene refined(const Scene& scene, int times, const std::function<bool(const Scen
       looks.assign(look, look + chunk.vertex_count);
       chunk.first_look = static_cast<std::uint32_t>(result.looks.size());
     }
-    for (int i = 0; i < (which(scene.materials[chunk.material]) ? times : 0); ++i) indices = cut(indices, vertices, looks);
+    for (int i = 0; i < (which(scene.materials[chunk.material]) ? times : 0); ++i)
+      indices = cut(indices, vertices, looks);
     chunk.first_index = static_cast<std::uint32_t>(result.indices.size());
     chunk.first_vertex = static_cast<std::uint32_t>(result.vertices.size());
     chunk.index_count = static_cast<std::uint32_t>(indices.size());

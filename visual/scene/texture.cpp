@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/vec3.hpp>
 #include <memory>
 
 namespace phare {
@@ -86,7 +87,7 @@ Result<SceneTexture> decode_texture(std::span<const unsigned char> bytes, const 
       stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
   if (!pixels) return Error{name, std::string("cannot be decoded: ") + stbi_failure_reason()};
   SceneTexture texture{name, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
-  texture.rgba.assign(pixels.get(), pixels.get() + 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  texture.rgba.assign(pixels.get(), pixels.get() + 4 * std::size_t{texture.width} * texture.height);
   while (std::max(texture.width, texture.height) > kMostTextureSide) texture = halved(texture);
   return texture;
 }
