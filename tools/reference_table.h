@@ -23,7 +23,8 @@ struct ReferenceCase {
 };
 
 /// Knows 0_intensity (candela as lux at 1 m), a_road_flat_<beam>, b_wall25_<beam> and c_plates, with a case
-/// for every file of the beam in whatever format, and j_hard, with one for every lamp and place. Error with file:line when a table or the manifest is malformed.
+/// for every file of the beam in whatever format, and j_hard, with one for every lamp and place. Error with file:line
+/// when a table or the manifest is malformed.
 Result<std::vector<ReferenceCase>> read_reference_table(const std::filesystem::path& table);
 
 /// How far measured values are from a case.

@@ -89,8 +89,8 @@ TEST_F(ReferenceMethod, IsAsExactAsFloat32CandelaAllowOnTheReferenceTables) {
   }
 }
 
-// Grazing, close, far, behind, at nodes, seams and cut-offs: at every point, however dim, what docs/accuracy.md promises
-// of the shader that draws the frame.
+// Grazing, close, far, behind, at nodes, seams and cut-offs: at every point, however dim, what docs/accuracy.md
+// promises of the shader that draws the frame.
 TEST_F(ReferenceMethod, FragmentHoldsItsPromiseAtEveryHardPoint) {
   const fs::path table = fs::path(shared_data_dir()) / "photometry-reference/j_hard.csv";
   if (!fs::exists(table)) GTEST_SKIP() << "no " << table;

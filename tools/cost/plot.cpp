@@ -96,7 +96,8 @@ void draw(Chart& chart, const Ladder& ladder) {
   if (joined.size() > 1) chart.line(joined, kWorth, 1.5);
   for (const Level& level : ladder.levels)
     chart.circle(x(level), y(level), level.efficient ? 4.5 : 3.0, level.efficient ? kWorth : kOther, 1.0, true);
-  chart.begin_clip({.left = 0, .top = axes.top - 12, .width = kWidth, .height = axes.height + 24});  // no name off the page
+  // No name off the page.
+  chart.begin_clip({.left = 0, .top = axes.top - 12, .width = kWidth, .height = axes.height + 24});
   for (const bool of_worth : {true, false})
     for (const Level& level : ladder.levels) {
       if (level.efficient != of_worth) continue;
