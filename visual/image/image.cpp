@@ -19,6 +19,8 @@
 #include <memory>
 #include <string>
 
+#include "visual/image/srgb.h"
+
 namespace phare {
 namespace {
 
@@ -36,19 +38,6 @@ Status write_beside(const std::filesystem::path& file, Write write) {
   if (reason.empty()) return Done{};
   std::filesystem::remove(beside, failed);
   return Error{file.string(), reason};
-}
-
-/// IEC 61966-2-1, 8 bit to linear.
-const std::array<float, 256>& linear_of_srgb() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double c = static_cast<double>(i) / 255.0;
-      values[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-    }
-    return values;
-  }();
-  return table;
 }
 
 std::uint8_t srgb_of_linear(float linear) {

@@ -8,23 +8,13 @@
 #include <glm/vec3.hpp>
 #include <memory>
 
+#include "visual/image/srgb.h"
+
 namespace phare {
 namespace {
 
 /// Pixels of a picture that is still read, to be halved: 1 GiB.
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
-
-const std::array<float, 256>& linear_of_srgb() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double c = static_cast<double>(i) / 255.0;
-      values[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-    }
-    return values;
-  }();
-  return table;
-}
 
 std::uint8_t byte_of(float value_01) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value_01, 0.0f, 1.0f) * 255.0f));
