@@ -261,6 +261,7 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"precipitation on", "precipitation: \"on\" is none of auto, off"},
       {"ground soaked", "ground: \"soaked\" is none of auto, dry, damp, wet, flooded"},
       {"glare on", "glare: \"on\" is none of auto, off"},
+      {"fixed_light on", "fixed_light: \"on\" is none of auto, off"},
       {"age_years 0", "age_years: 0 is outside 1 to 120"},
       {"iris_pigment 1.3", "iris_pigment: 1.3 is outside 0 to 1.2"},
       {"visibility_m foggy", "visibility_m: expected a number, got \"foggy\"; or clear"},

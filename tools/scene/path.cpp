@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
 #include "tools/scene/parts.h"
@@ -43,6 +44,10 @@ glm::dvec3 Path::point(double s_m, double t_m, double z_m) const {
   const double part = at - std::floor(at), heading = heading_rad(s_m);
   return {std::lerp(knots_[i].x, knots_[i + 1].x, part) - t_m * std::sin(heading),
           std::lerp(knots_[i].y, knots_[i + 1].y, part) + t_m * std::cos(heading), z_m};
+}
+
+glm::dmat4 placed_at(glm::dvec3 point, double heading) {
+  return glm::rotate(glm::translate(glm::dmat4(1.0), point), heading, glm::dvec3(0.0, 0.0, 1.0));
 }
 
 glm::dmat4 Path::placed(double s_m, double t_m, double turn_rad, double z_m) const {

@@ -200,10 +200,6 @@ void add_road(Model& model, const Alignment& road) {
   }
 }
 
-glm::dmat4 placed_at(glm::dvec3 point, double heading) {
-  return glm::rotate(glm::translate(glm::dmat4(1.0), point), heading, glm::dvec3(0.0, 0.0, 1.0));
-}
-
 glm::dmat4 placed(const Alignment& road, double s, double t, double turn, double raise) {
   return placed_at(road.point(s, t) + glm::dvec3(0.0, 0.0, raise), heading_rad(s) + turn);
 }

@@ -1,0 +1,80 @@
+// unit: the line that town, motorway and tunnel are laid along.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <sstream>
+#include <string>
+
+#include "tools/scene/path.h"
+
+namespace phare::scene {
+namespace {
+
+// A bend of curvature (1 - cos)/2R turns by half its length over R; before and after it the line is straight.
+TEST(Path, ABendTurnsByHalfItsLengthOverItsRadius) {
+  const Path path(400.0, 50.0, {{100.0, 200.0, 80.0}, {250.0, 350.0, -60.0}});
+  EXPECT_EQ(path.heading_rad(50.0), 0.0);
+  EXPECT_EQ(path.point(50.0, 0.0), glm::dvec3(50.0, 0.0, 0.0));
+  // Simpson's rule over steps of 1 m of a cosine of 100 m: exact to (2 pi/100)^4/2880 of it.
+  EXPECT_NEAR(path.heading_rad(220.0), 100.0 / (2 * 80.0), 1e-6);
+  EXPECT_NEAR(path.heading_rad(380.0), 100.0 / (2 * 80.0) - 100.0 / (2 * 60.0), 1e-6);
+  EXPECT_NEAR(path.curvature_1pm(150.0), 1.0 / 80.0, 1e-15);
+}
+
+TEST(Path, OffsetsAreToItsLeft) {
+  const Path path(400.0, 50.0, {{100.0, 200.0, 80.0}});
+  for (const double s_m : {0.0, 120.5, 150.0, 300.25}) {
+    const glm::dvec3 middle = path.point(s_m, 0.0), left = path.point(s_m, 3.5, 0.2);
+    const double heading = path.heading_rad(s_m);
+    EXPECT_NEAR(glm::distance(glm::dvec2(left), glm::dvec2(middle)), 3.5, 1e-12);
+    EXPECT_NEAR(glm::dot(left - middle, glm::dvec3(std::cos(heading), std::sin(heading), 0.0)), 0.0, 1e-12);
+    EXPECT_GT(glm::dot(left - middle, glm::dvec3(-std::sin(heading), std::cos(heading), 0.0)), 3.4);
+    EXPECT_EQ(left.z, 0.2);
+  }
+}
+
+// Rows of a lane are a metre of its own length apart, also where it bends beside the line.
+TEST(Path, RowsOfALaneAreAMetreApart) {
+  const Path path(400.0, 50.0, {{100.0, 300.0, 60.0}});
+  for (const double t_m : {0.0, -1.75, 5.0}) {
+    std::istringstream csv(path.lane_csv(t_m));
+    std::string line;
+    std::getline(csv, line);
+    EXPECT_EQ(line, "s_m,x_m,y_m,z_m,heading_rad,curvature_1pm");
+    glm::dvec3 before(0.0);
+    int rows = 0;
+    while (std::getline(csv, line)) {
+      int s_m = 0;
+      glm::dvec3 at(0.0);
+      ASSERT_EQ(std::sscanf(line.c_str(), "%d,%lf,%lf,%lf", &s_m, &at.x, &at.y, &at.z), 4);
+      EXPECT_EQ(s_m, rows);
+      // A chord of 1 m of 1/60 m is shorter by 1²/(24·60²) = 1.2e-5; places are linear between knots a metre apart,
+      // off by 1/(8·60) = 2 mm at most, half of it the other way at the next.
+      if (rows > 0) {
+        EXPECT_NEAR(glm::distance(at, before), 1.0, 3e-3) << rows << " at " << t_m;
+      }
+      before = at;
+      ++rows;
+    }
+    EXPECT_GT(rows, 390);
+  }
+}
+
+TEST(Path, PiecesCoverItOnce) {
+  const Path path(120.0, 10.0, {});
+  double at_m = path.begin_m();
+  int next = 0;
+  each_piece(path, [&](int number, double begin_m, double end_m) {
+    EXPECT_EQ(number, next++);
+    EXPECT_EQ(begin_m, at_m);
+    EXPECT_LE(end_m - begin_m, kPiece_m);
+    at_m = end_m;
+  });
+  EXPECT_EQ(at_m, path.end_m());
+  EXPECT_EQ(numbered_node("road", 7), "road_007");
+}
+
+}  // namespace
+}  // namespace phare::scene

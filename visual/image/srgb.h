@@ -1,0 +1,23 @@
+// The display's signal to light: IEC 61966-2-1.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace phare {
+
+/// Linear value, 0 to 1, of each of the 256 steps.
+inline const std::array<float, 256>& linear_of_srgb() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double c = static_cast<double>(i) / 255.0;
+      values[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    }
+    return values;
+  }();
+  return table;
+}
+
+}  // namespace phare
