@@ -125,7 +125,8 @@ TEST(RigEdit, AMatrixInOneFileIsTurnedAsOne) {
                                {"halogen", "headlamp right", {3.5, -0.7, 0.8}, {one, one, {-0.02, 0.0, 0.0}}}};
   const auto edited = with_mounts(text, "/x/rig.toml", mounts);
   ASSERT_TRUE(edited) << edited.error().text();
-  const LampConfig& left = rig_of(*edited).designs[0].lamps[0];
+  const Rig rig = rig_of(*edited);
+  const LampConfig& left = rig.designs[0].lamps[0];
   ASSERT_EQ(left.sources.size(), 3u);
   EXPECT_NEAR(left.sources[1].pitch_rad, 0.01, 0.51e-6 * kRad);
   EXPECT_NEAR(left.sources[2].yaw_rad, 0.02, 0.51e-6 * kRad);
