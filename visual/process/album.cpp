@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 
 #include "net/stats.h"
@@ -51,7 +52,11 @@ void Album::keep_frame(std::int64_t frame_index, const Image8& image, const std:
   } else if (!save(name, image)) {
     return;
   }
-  for (const std::uint8_t byte : image.rgba) frames_hash_ = (frames_hash_ ^ byte) * 0x100000001b3ull;
+  for (std::size_t i = 0; i < image.rgba.size(); i += sizeof(std::uint32_t)) {
+    std::uint32_t pixel;
+    std::memcpy(&pixel, image.rgba.data() + i, sizeof pixel);
+    frames_hash_ = (frames_hash_ ^ pixel) * 0x100000001b3ull;
+  }
   ++kept_frames_;
   if (thumbnails_.wants_next())
     thumbnails_.offer({thumbnail(image, kThumbnailWidth_px), label});

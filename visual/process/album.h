@@ -52,7 +52,8 @@ class Album {
   /// contact_sheet.png; takes eye.json away
   void finish();
 
-  /// One number over the bytes of every kept frame in order (FNV-1a, 64 bit): equal drives give equal numbers.
+  /// One number over the pixels of every kept frame in order (FNV-1a, 64 bit, a pixel at a time): equal drives give
+  /// equal numbers.
   std::uint64_t frames_hash() const { return frames_hash_; }
   std::uint64_t kept_frames() const { return kept_frames_; }
   /// Pictures that the disk did not take, and the first of them with its reason.
