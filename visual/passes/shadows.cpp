@@ -52,11 +52,18 @@ const glm::vec3& place_of(const CutCorner& corner) {
   return corner.corner_m;
 }
 
+/// Of the first picture of a map nothing is read this far from its middle, in texels, where the second shows it larger:
+/// where shaders/lib/shadow.glsl turns to the second, less the two texels around a point that are weighed, and one.
+glm::vec2 half_unread(const ShadowLevel& level) {
+  const glm::vec2 half(0.5f * static_cast<float>(level.width), 0.5f * static_cast<float>(level.height));
+  return (half - 1.0f) / shader::kShadowZoom - 3.0f;
+}
+
 /// Triangles of `corners` that hold the middle of a texel, of a picture of so many texels either way from the axis to a
-/// tangent of 1.
+/// tangent of 1, and that reach out of the `unread` texels either way from its middle.
 template <typename Corner>
 void append_seen(std::vector<Corner>& seen, const std::vector<Corner>& corners, const glm::dvec2& texels,
-                 const ShadowLevel& level) {
+                 const ShadowLevel& level, const glm::vec2& unread) {
   const glm::vec2 scale(texels), half(0.5f * static_cast<float>(level.width), 0.5f * static_cast<float>(level.height));
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     glm::vec2 low(1e30f), high(-1e30f);
@@ -71,7 +78,9 @@ void append_seen(std::vector<Corner>& seen, const std::vector<Corner>& corners, 
     const glm::vec2 first = glm::ceil(low - 0.5f), last = glm::floor(high - 0.5f);
     const bool holds_one = first.x <= last.x && first.y <= last.y && last.x >= 0.0f && last.y >= 0.0f &&
                            first.x < 2.0f * half.x && first.y < 2.0f * half.y;
-    if (beside || holds_one) seen.insert(seen.end(), &corners[i], &corners[i] + 3);
+    const bool is_read = low.x < half.x - unread.x || high.x > half.x + unread.x || low.y < half.y - unread.y ||
+                         high.y > half.y + unread.y;
+    if (beside || (holds_one && is_read)) seen.insert(seen.end(), &corners[i], &corners[i] + 3);
   }
 }
 
@@ -124,22 +133,23 @@ std::vector<ShadowPass::Ranges> fill_triangles(gpu::Device& device, ShadowDepths
   for (const Map& map : maps) {
     for (const double zoom : {1.0, double{shader::kShadowZoom}}) {
       ShadowPass::Ranges& picture = ranges.emplace_back();
+      const glm::vec2 unread = zoom == 1.0 ? half_unread(level) : glm::vec2(-1e30f);
       for (std::size_t side = 0; side < 2; ++side) {
         const CastBy& cast = view.casts[map.lamp];
         const auto first = static_cast<std::uint32_t>(corners.size());
-        append_seen(corners, side == 0 ? cast.far_sides : cast.both_sides, map.texels * zoom, level);
+        append_seen(corners, side == 0 ? cast.far_sides : cast.both_sides, map.texels * zoom, level, unread);
         if (side == 1 && !textures)  // a device that draws no holes: whole
           for (const CutCasters& cut : cast.cut) {
             std::vector<glm::vec3> whole;
             for (const CutCorner& corner : cut.corners) whole.push_back(corner.corner_m);
-            append_seen(corners, whole, map.texels * zoom, level);
+            append_seen(corners, whole, map.texels * zoom, level, unread);
           }
         picture.sides[side] = {first, static_cast<std::uint32_t>(corners.size()) - first};
       }
       if (!textures) continue;
       for (const CutCasters& cut : view.casts[map.lamp].cut) {
         const auto first = static_cast<std::uint32_t>(cut_corners.size());
-        append_seen(cut_corners, cut.corners, map.texels * zoom, level);
+        append_seen(cut_corners, cut.corners, map.texels * zoom, level, unread);
         if (const auto count = static_cast<std::uint32_t>(cut_corners.size()) - first; count > 0)
           picture.cut.push_back({cut.material, {first, count}});
       }
