@@ -14,6 +14,7 @@
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/readers/read_lamp.h"
 #include "visual/renderer.h"
+#include "visual/scene/refine.h"
 
 namespace phare {
 namespace {
@@ -245,6 +246,7 @@ class Baker {
     if (!off && !unseen) return std::nullopt;
     mesh.vertices.push_back(between);
     mesh.light.push_back(light);
+    if (!mesh.looks.empty()) mesh.looks.push_back(look_between(mesh.looks[i], mesh.looks[j]));
     return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
   }
 
@@ -297,10 +299,15 @@ std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
           const auto indices = scene.indices.begin() + chunk.first_index;
           mesh.vertices.assign(vertices, vertices + chunk.vertex_count);
           mesh.indices.assign(indices, indices + chunk.index_count);
+          if (chunk.first_look) {
+            const auto looks = scene.looks.begin() + *chunk.first_look;
+            mesh.looks.assign(looks, looks + chunk.vertex_count);
+          }
         } else {
           const double from_m = kFarLevels[level - 1].from * kFarMeshFrom_m;
           FarMesh far = far_mesh(scene, chunk, level - 1, from_m);
           mesh.vertices = std::move(far.vertices), mesh.indices = std::move(far.indices);
+          mesh.looks = std::move(far.looks);
           cuts.least_edge_m = std::max(cuts.least_edge_m, 0.015 * from_m);  // a hundred pixels wide, seen edge on
         }
         for (const SceneVertex& vertex : mesh.vertices) mesh.light.push_back(baker.at(vertex));

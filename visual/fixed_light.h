@@ -50,6 +50,7 @@ struct FixedMesh {
   std::vector<SceneVertex> vertices;
   std::vector<std::uint32_t> indices;
   std::vector<FixedVertex> light;
+  std::vector<CornerLook> looks{};  ///< one for each vertex, where the chunk has them
 };
 
 /// What arrives at a place, for what moves: on a surface with normal n, lx·max(0, 1/4 + dot(way, n)).

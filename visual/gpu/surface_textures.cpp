@@ -7,6 +7,9 @@
 #include <cstring>
 #include <optional>
 #include <tuple>
+#include <utility>
+
+#include "visual/scene/relief.h"
 
 namespace phare {
 namespace {
@@ -15,13 +18,22 @@ namespace {
 /// markings apart to 60 m; a software device pays for each.
 constexpr float kAnisotropy = 4.0f;
 
-const std::array<vk::DescriptorSetLayoutBinding, 2> kTextureBindings{
+const std::array<vk::DescriptorSetLayoutBinding, 4> kTextureBindings{
     vk::DescriptorSetLayoutBinding{.binding = 0,
                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                    .descriptorCount = 1,
                                    .stageFlags = vk::ShaderStageFlagBits::eFragment},
     vk::DescriptorSetLayoutBinding{.binding = 1,
                                    .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                   .descriptorCount = 1,
+                                   .stageFlags = vk::ShaderStageFlagBits::eFragment},
+    // Of a relief; what has none names its own image there, for lavapipe reads all of a set, and no shader reads it.
+    vk::DescriptorSetLayoutBinding{.binding = 2,
+                                   .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                   .descriptorCount = 1,
+                                   .stageFlags = vk::ShaderStageFlagBits::eFragment},
+    vk::DescriptorSetLayoutBinding{.binding = 3,
+                                   .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                    .descriptorCount = 1,
                                    .stageFlags = vk::ShaderStageFlagBits::eFragment}};
 
@@ -98,11 +110,12 @@ std::vector<std::vector<SceneTexture>> levels_of(const Scene& scene, const Pixel
   return all;
 }
 
-gpu::Image make_image(gpu::Device& device, const std::vector<std::vector<SceneTexture>>& layers) {
+gpu::Image make_image(gpu::Device& device, const std::vector<std::vector<SceneTexture>>& layers,
+                      vk::Format format = vk::Format::eR8G8B8A8Srgb) {
   const std::vector<SceneTexture>& first = layers.front();
   const auto mips = static_cast<std::uint32_t>(first.size()), count = static_cast<std::uint32_t>(layers.size());
   gpu::Image image(device,
-                   {vk::Format::eR8G8B8A8Srgb,
+                   {format,
                     {first[0].width, first[0].height},
                     vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
                     vk::SampleCountFlagBits::e1,
@@ -140,28 +153,38 @@ std::uint32_t look_bits(const SceneMaterial& material) {
   if (look.emitted_cdm2 != glm::vec3(0.0f)) bits |= shader::kLookEmits;
   if (look.emissive_texture && !look.unlit) bits |= shader::kLookEmissive;
   if (look.unlit) bits |= shader::kLookUnlit;
+  if (look.normal_texture) bits |= shader::kLookNormal;
+  if (look.rough_texture) bits |= shader::kLookRough;
   return bits;
 }
 
 const char* no_textures(const gpu::Device& device) {
   const vk::PhysicalDeviceLimits& limits = device.properties.limits;
-  // Behind eight lamps there are 16 locations before theirs; the method "reference" has four sets before theirs.
-  if (std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents) < 72)
-    return "it hands fewer than 72 numbers from corner to pixel";
+  // Behind eight lamps and fixed light there are 17 locations before their three; the method "reference" has four sets
+  // before theirs.
+  if (std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents) < 80)
+    return "it hands fewer than 80 numbers from corner to pixel";
   return limits.maxBoundDescriptorSets < 5 ? "it binds fewer than 5 descriptor sets" : nullptr;
 }
 
 SurfaceTextures::SurfaceTextures(gpu::Device& device, std::span<const Scene* const> scenes) {
   struct Entry {
     std::size_t material = 0, image = 0, sampler = 0;
+    std::optional<std::size_t> normals{}, rough{};
   };
   std::vector<Entry> entries;
   std::vector<TextureSampler> samplers;
   using Key = std::tuple<std::size_t, std::optional<std::size_t>, std::optional<std::size_t>, std::optional<float>>;
   std::map<Key, std::size_t> known;  // several materials may share their pictures
+  std::map<std::tuple<std::size_t, std::size_t, float>, std::size_t> known_normals;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_rough;
   std::vector<std::byte> looks;
-  const auto step = static_cast<std::size_t>(
-      std::max<vk::DeviceSize>(device.properties.limits.minUniformBufferOffsetAlignment, sizeof(shader::GpuLook)));
+  bool reliefs = false;
+  for (const Scene* scene : scenes)
+    reliefs = reliefs || std::ranges::any_of(scene->materials, [](const auto& m) { return m.look.relief(); });
+  constexpr std::size_t kWithRelief = sizeof(shader::GpuLook) + sizeof(shader::GpuRelief);
+  const std::size_t align = device.properties.limits.minUniformBufferOffsetAlignment;
+  const std::size_t step = std::max(reliefs ? (kWithRelief + align - 1) / align * align : sizeof(shader::GpuLook), align);
   std::size_t number = 0;
   for (std::size_t s = 0; s < scenes.size(); ++s)
     for (const SceneMaterial& material : scenes[s]->materials) {
@@ -178,10 +201,28 @@ SurfaceTextures::SurfaceTextures(gpu::Device& device, std::span<const Scene* con
         samplers_.push_back(make_sampler(device, look.sampler));
         sampler = samplers.insert(samplers.end(), look.sampler);
       }
-      entries.push_back({own, image->second, static_cast<std::size_t>(sampler - samplers.begin())});
+      Entry entry{own, image->second, static_cast<std::size_t>(sampler - samplers.begin())};
+      shader::GpuRelief relief{glm::vec4(0.0f, look.roughness, look.metal, 0.0f)};
+      const auto linear_image = [&](auto& among, const auto& key, const auto& levels) {
+        const auto [found, is_new] = among.try_emplace(key, images_.size());
+        if (is_new) images_.push_back(make_image(device, {levels()}, vk::Format::eR8G8B8A8Unorm));
+        return found->second;
+      };
+      if (look.normal_texture) {
+        const SceneTexture& texture = scenes[s]->textures[*look.normal_texture];
+        entry.normals = linear_image(known_normals, std::tuple(s, *look.normal_texture, look.normal_scale),
+                                     [&] { return normal_levels(texture, look.normal_scale); });
+        relief.factors.x = mean_square_slope(texture, look.normal_scale);
+      }
+      if (look.rough_texture)
+        entry.rough = linear_image(known_rough, std::pair(s, *look.rough_texture),
+                                   [&] { return rough_levels(scenes[s]->textures[*look.rough_texture]); });
       const shader::GpuLook packed{look.base, glm::vec4(look.emitted_cdm2, look.cut_below.value_or(0.0f))};
-      looks.resize((entries.size() - 1) * step + sizeof packed);
-      std::memcpy(&looks[(entries.size() - 1) * step], &packed, sizeof packed);
+      const std::size_t at = entries.size() * step;
+      looks.resize(at + (reliefs ? kWithRelief : sizeof packed));
+      std::memcpy(&looks[at], &packed, sizeof packed);
+      if (reliefs) std::memcpy(&looks[at + sizeof packed], &relief, sizeof relief);
+      entries.push_back(entry);
     }
   if (entries.empty()) return;
   looks_ = gpu::DeviceBuffer(device, looks, vk::BufferUsageFlagBits::eUniformBuffer, "looks");
@@ -191,8 +232,15 @@ SurfaceTextures::SurfaceTextures(gpu::Device& device, std::span<const Scene* con
     const vk::DescriptorSet set = sets_[entries[i].material] = descriptors_->make();
     const vk::DescriptorImageInfo image{*samplers_[entries[i].sampler], *images_[entries[i].image].view,
                                         vk::ImageLayout::eShaderReadOnlyOptimal};
-    const vk::DescriptorBufferInfo buffer{*looks_.buffer, i * step, sizeof(shader::GpuLook)};
-    const std::array writes{vk::WriteDescriptorSet{.dstSet = set,
+    const vk::DescriptorBufferInfo buffer{*looks_.buffer, i * step, reliefs ? kWithRelief : sizeof(shader::GpuLook)};
+    // A relief that has but one of them names that twice: its pipeline reads it once.
+    const std::size_t normals = entries[i].normals.value_or(entries[i].rough.value_or(entries[i].image)),
+                      rough = entries[i].rough.value_or(normals);
+    const vk::DescriptorImageInfo normal_image{*samplers_[entries[i].sampler], *images_[normals].view,
+                                               vk::ImageLayout::eShaderReadOnlyOptimal};
+    const vk::DescriptorImageInfo rough_image{*samplers_[entries[i].sampler], *images_[rough].view,
+                                              vk::ImageLayout::eShaderReadOnlyOptimal};
+    std::vector writes{vk::WriteDescriptorSet{.dstSet = set,
                                                    .dstBinding = 0,
                                                    .descriptorCount = 1,
                                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
@@ -202,6 +250,12 @@ SurfaceTextures::SurfaceTextures(gpu::Device& device, std::span<const Scene* con
                                                    .descriptorCount = 1,
                                                    .descriptorType = vk::DescriptorType::eUniformBuffer,
                                                    .pBufferInfo = &buffer}};
+    for (const auto& [binding, info] : {std::pair(2u, &normal_image), std::pair(3u, &rough_image)})
+      writes.push_back({.dstSet = set,
+                        .dstBinding = binding,
+                        .descriptorCount = 1,
+                        .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                        .pImageInfo = info});
     device.device.updateDescriptorSets(writes, nullptr);
   }
 }

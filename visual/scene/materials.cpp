@@ -243,8 +243,19 @@ void MaterialReader::read_look(const tinygltf::Material& source, ReadMaterial& r
   PixelLook& look = material.look;
   const std::string name = "'" + source.name + "'";
   const tinygltf::TextureInfo& base = source.pbrMetallicRoughness.baseColorTexture;
-  read.uv_set = uv_set_of(base.index >= 0 ? base : source.emissiveTexture);
-  read.uv_from_file = transform_of(base.index >= 0 ? base : source.emissiveTexture);
+  const auto lay_by = [&read](const auto& info) {
+    read.uv_set = uv_set_of(info);
+    read.uv_from_file = transform_of(info);
+  };
+  // All lie as the first of these does.
+  if (base.index >= 0)
+    lay_by(base);
+  else if (source.emissiveTexture.index >= 0)
+    lay_by(source.emissiveTexture);
+  else if (source.normalTexture.index >= 0)
+    lay_by(source.normalTexture);
+  else
+    lay_by(source.pbrMetallicRoughness.metallicRoughnessTexture);
   look.base_texture = texture_of(base, name, look.sampler);
 
   // What it sends out itself.
@@ -262,6 +273,7 @@ void MaterialReader::read_look(const tinygltf::Material& source, ReadMaterial& r
       notes_.add("emissive textures laid by other coordinates than the base colour lie as that does", name);
   }
   look.unlit = extension_of(source.extensions, "KHR_materials_unlit") != nullptr;
+  if (!look.unlit) read_relief(source, read);
   if (look.unlit) {
     look.emitted_cdm2 = glm::vec3(look.base) * kUnlitWhite_cdm2;
     look.emissive_texture = look.base_texture;
@@ -282,13 +294,32 @@ void MaterialReader::read_look(const tinygltf::Material& source, ReadMaterial& r
   material.reflectance = glm::vec3(look.base) * glm::vec3(mean);
 }
 
+void MaterialReader::read_relief(const tinygltf::Material& source, ReadMaterial& read) {
+  PixelLook& look = read.material.look;
+  const std::string name = "'" + source.name + "'";
+  const auto take = [&](const auto& info, std::optional<std::size_t>& into) {
+    TextureSampler sampler = look.sampler;
+    const bool first = !look.base_texture && !look.emissive_texture && !look.relief();
+    into = texture_of(info, name, sampler);
+    if (!into) return;
+    if (first) look.sampler = sampler;
+    if (uv_set_of(info) != read.uv_set || transform_of(info) != read.uv_from_file)
+      notes_.add("normal and roughness textures laid by other coordinates than a material's first texture lie as that "
+                 "does",
+                 name);
+  };
+  take(source.normalTexture, look.normal_texture);
+  look.normal_scale = static_cast<float>(std::clamp(source.normalTexture.scale, -100.0, 100.0));
+  const auto& pbr = source.pbrMetallicRoughness;
+  take(pbr.metallicRoughnessTexture, look.rough_texture);
+  look.roughness = static_cast<float>(std::clamp(pbr.roughnessFactor, 0.0, 1.0));
+  look.metal = static_cast<float>(std::clamp(pbr.metallicFactor, 0.0, 1.0));
+}
+
 void MaterialReader::note_what_is_left_out(const tinygltf::Material& source) {
   const std::string name = "'" + source.name + "'";
   const auto& pbr = source.pbrMetallicRoughness;
-  if (source.normalTexture.index >= 0) notes_.add("normal textures are not drawn", name);
-  if (pbr.metallicRoughnessTexture.index >= 0)
-    notes_.add("textures of metal and roughness are not drawn: surfaces are diffuse", name);
-  else if (pbr.metallicFactor > 0.5 && pbr.roughnessFactor < 0.5)
+  if (pbr.metallicRoughnessTexture.index < 0 && pbr.metallicFactor > 0.5 && pbr.roughnessFactor < 0.5)
     notes_.add("smooth metal is drawn as a diffuse surface of its colour", name);
   if (source.occlusionTexture.index >= 0) notes_.add("occlusion textures are not drawn", name);
   for (const auto& [extension, value] : source.extensions)

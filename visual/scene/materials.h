@@ -45,6 +45,7 @@ class MaterialReader {
  private:
   Status read_extras(const tinygltf::Material& source, ReadMaterial& read);
   void read_look(const tinygltf::Material& source, ReadMaterial& read);
+  void read_relief(const tinygltf::Material& source, ReadMaterial& read);
   void note_what_is_left_out(const tinygltf::Material& source);
   /// Nothing: there is none, or it cannot be had, which is noted.
   template <typename Info>

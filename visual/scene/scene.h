@@ -33,9 +33,14 @@ struct PixelLook {
   std::optional<float> cut_below{};  ///< where opacity is less, there is nothing (glTF's alphaMode MASK)
   bool corner_colours = false;       ///< of glTF's COLOR_0
   bool unlit = false;                ///< emits base texture and corner colours, by emitted_cdm2
+  std::optional<std::size_t> normal_texture{}, rough_texture{};  ///< glTF's; of the second green: roughness, blue: metal
+  float normal_scale = 1.0f;          ///< of the normal texture's x and y
+  float roughness = 1.0f, metal = 1.0f;  ///< times the texture's, 0 to 1
 
+  bool relief() const { return normal_texture || rough_texture; }
   bool none() const {
-    return !base_texture && !emissive_texture && !cut_below && !corner_colours && emitted_cdm2 == glm::vec3(0.0f);
+    return !base_texture && !emissive_texture && !cut_below && !corner_colours && !relief() &&
+           emitted_cdm2 == glm::vec3(0.0f);
   }
 };
 
@@ -60,6 +65,7 @@ struct SceneVertex {
 struct CornerLook {
   glm::vec2 uv{0.0f};                   ///< of the material's textures, their transform done
   glm::u16vec4 colour{65535};  ///< linear, 65535 is 1
+  glm::i8vec4 tangent{0};      ///< of materials with relief(): visual/scene/tangents.h
 };
 
 /// Triangles of one material that are drawn or culled together.
