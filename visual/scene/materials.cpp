@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -10,6 +9,8 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+
+#include "config/formats/gltf_uri.h"
 
 namespace phare {
 namespace {
@@ -62,17 +63,6 @@ TextureWrap wrap_of(int gltf) {
   return gltf == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? TextureWrap::kMirror : TextureWrap::kRepeat;
 }
 
-std::string decoded_uri(const std::string& uri) {
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool escape = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
-                        std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
-    out += escape ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
-    if (escape) i += 2;
-  }
-  return out;
-}
-
 }  // namespace
 
 float luminance_of(const glm::vec3& rgb) {
@@ -98,15 +88,12 @@ std::vector<std::string> SceneNotes::lines() const {
 }
 
 void note_what_is_not_read(const tinygltf::Model& model, SceneNotes& notes) {
-  static const std::array<std::string_view, 5> kRead{"KHR_materials_unlit", "KHR_materials_emissive_strength",
-                                                     "KHR_texture_transform", "KHR_mesh_quantization",
-                                                     "EXT_meshopt_compression"};
+  static const std::array<std::string_view, 7> kRead{
+      "KHR_materials_unlit",     "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization",
+      "EXT_meshopt_compression", "KHR_lights_punctual",             "EXT_lights_ies"};
   for (const std::string& extension : model.extensionsUsed)
     if (std::ranges::find(kRead, extension) == kRead.end() && !extension.starts_with("KHR_materials_"))
       notes.add("extensions that are not read", extension);
-  if (!model.lights.empty())
-    notes.add("lamps of the scene do not shine (KHR_lights_punctual)",
-              std::to_string(model.lights.size()) + " of them");
   if (!model.animations.empty())
     notes.add("animations stand still", std::to_string(model.animations.size()) + " of them");
   if (!model.skins.empty())

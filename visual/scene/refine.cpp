@@ -56,6 +56,8 @@ Scene refined(const Scene& scene, int times, const std::function<bool(const Scen
   result.content_hash = scene.content_hash;
   result.materials = scene.materials;
   result.textures = scene.textures;
+  result.lights = scene.lights;
+  result.light_profiles = scene.light_profiles;
   result.notes = scene.notes;
   for (SceneChunk chunk : scene.chunks) {
     const auto index = scene.indices.begin() + chunk.first_index;

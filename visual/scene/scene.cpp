@@ -18,6 +18,7 @@
 #include "config/base/content_hash.h"
 #include "config/formats/gltf_file.h"
 #include "visual/scene/materials.h"
+#include "visual/scene/scene_lights.h"
 #include "visual/scene/tangents.h"
 
 namespace phare {
@@ -360,6 +361,7 @@ Result<Scene> read_scene(const std::filesystem::path& file, const Progress& prog
   const auto default_material = static_cast<std::uint32_t>(materials.size());
   materials.emplace_back().material.name = "default";
 
+  if (Status done = read_scene_lights(*model, file.parent_path(), scene); !done) return bad(done.error());
   auto instances = mesh_instances(*model);
   if (!instances) return bad(instances.error());
   std::vector<ColourSum> colours(materials.size());

@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <functional>
 #include <glm/gtc/type_precision.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <span>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,6 +81,27 @@ struct SceneChunk {
   std::optional<std::uint32_t> first_look{};  ///< in Scene::looks, one for each vertex; none: the material has no look
 };
 
+/// A lamp that stands in the file's scene (visual/scene/scene_lights.h).
+struct SceneLight {
+  enum class Kind : std::uint8_t { kPoint, kSpot, kDirectional, kProfile };
+  std::string name;
+  Kind kind = Kind::kPoint;
+  glm::dvec3 position_m{0.0};
+  glm::dmat3 world_from_light{1.0};  ///< columns: where it looks, left, up
+  glm::vec3 colour{1.0f};            ///< linear Rec. 709, times what follows
+  double intensity = 1.0;            ///< cd; directional: lx on a plane that faces it; profile: times its candela
+  double range_m = std::numeric_limits<double>::infinity();  ///< beyond it there is no light
+  double inner_rad = 0.0, outer_rad = 0.7853981633974483;    ///< of a spot's cone; glTF's default
+  std::size_t profile = 0;                                   ///< in Scene::light_profiles
+};
+
+/// A photometry file that lamps of the scene shine by.
+struct LightProfile {
+  std::string name;              ///< the file, or where in the scene's file it stands
+  std::filesystem::path file{};  ///< empty: within the scene's file
+  std::string bytes{};
+};
+
 struct Scene {
   std::filesystem::path file;
   std::string content_hash;
@@ -88,6 +111,8 @@ struct Scene {
   std::vector<SceneChunk> chunks;
   std::vector<CornerLook> looks{};
   std::vector<SceneTexture> textures{};
+  std::vector<SceneLight> lights{};
+  std::vector<LightProfile> light_profiles{};
   std::vector<std::string> notes{};  ///< what of the file is not drawn as it says, a line each, each said once
 };
 
