@@ -15,8 +15,8 @@
 #include <string>
 #include <utility>
 
-#include "config/base/content_hash.h"
 #include "config/formats/gltf_file.h"
+#include "config/formats/gltf_uri.h"
 #include "visual/scene/materials.h"
 #include "visual/scene/scene_lights.h"
 #include "visual/scene/tangents.h"
@@ -342,7 +342,7 @@ Result<Scene> read_scene(const std::filesystem::path& file, const Progress& prog
 
   Scene scene;
   scene.file = file;
-  auto hash = content_hash_of_file(file);
+  auto hash = content_hash_of_gltf(file);
   if (!hash) return hash.error();
   scene.content_hash = *hash;
 

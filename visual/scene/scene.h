@@ -104,7 +104,7 @@ struct LightProfile {
 
 struct Scene {
   std::filesystem::path file;
-  std::string content_hash;
+  std::string content_hash;  ///< of the file and of what lies beside it (config/formats/gltf_uri.h)
   std::vector<SceneMaterial> materials;
   std::vector<SceneVertex> vertices;
   std::vector<std::uint32_t> indices;
