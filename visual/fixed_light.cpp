@@ -22,6 +22,9 @@ namespace {
 const glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);  // of linear Rec. 709
 constexpr double kMoon_k = 4100.0;       // sunlight that the moon has reddened; a usual figure
 constexpr double kOffSurface_m = 0.005;  // vertices lie on edges of their neighbours
+// A vertex of a wall may lie behind a window, of a pavement under a pole, where nobody sees it: dark, it would darken what
+// is seen a metre around. So light falls on it as if what lies on it so thinly, or it lies within so deeply, were not there.
+constexpr double kCover_m = 0.15, kWithin_m = 0.3;
 constexpr double kBeyondScene_m = 5000.0;
 constexpr double kFloor_lx = 0.5;   // the error is that of so many lux where there are fewer
 constexpr double kLongest_m = 6.0;  // a longer side may have a pool of light between its ends
@@ -124,10 +127,12 @@ double FixedLight::candela(const Lamp& lamp, const glm::dvec3& way) const {
 }
 
 /// Calls add(share of the surface's lx, colour, direction, lx facing it) for all that reaches the point. `normal`: null,
-/// nothing faces away.
+/// nothing faces away. `of_mesh`: as vertices keep it (kCover_m).
 template <typename Add>
-void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, const Add& add) const {
-  const glm::dvec3 from_m = normal != nullptr ? point_m + kOffSurface_m * *normal : point_m;
+void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add) const {
+  glm::dvec3 from_m = normal != nullptr ? point_m + kOffSurface_m * *normal : point_m;
+  const double leave_within_m = of_mesh ? kWithin_m : 0.0;
+  if (of_mesh) from_m += tree_.left_at_m(from_m, *normal, kCover_m) * *normal;
   for (std::size_t i = 0; i < lamps_.size(); ++i) {
     const Lamp& lamp = lamps_[i];
     const glm::dvec3 way = lamp.position_m - point_m;
@@ -139,12 +144,13 @@ void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, const
     if (kind.peak_cd * cosine < kLeastOfLamp_lx * r2) continue;
     const double facing_lx = candela(lamp, -way) / r2;
     if (facing_lx * cosine < kLeastOfLamp_lx) continue;
-    if (tree_.blocked(from_m, lamp.position_m, 1e-3, kOwnHousing_m)) continue;
+    if (tree_.blocked(from_m, lamp.position_m, 1e-3, kOwnHousing_m, leave_within_m)) continue;
     add(Share{.lamp = i, .lx = facing_lx * cosine}, kind.colour, way / r, facing_lx);
   }
   const auto from_far = [&](const Moon& moon, Share share) {
     const double cosine = normal != nullptr ? glm::dot(moon.toward, *normal) : 1.0;
-    if (!(cosine > 0.0) || tree_.blocked(from_m, from_m + kBeyondScene_m * moon.toward, 1e-3, 0.0)) return;
+    if (!(cosine > 0.0) || tree_.blocked(from_m, from_m + kBeyondScene_m * moon.toward, 1e-3, 0.0, leave_within_m))
+      return;
     share.lx = moon.lx * cosine;
     add(share, moon.colour, moon.toward, moon.lx);
   };
@@ -154,7 +160,7 @@ void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, const
 
 std::vector<FixedLight::Share> FixedLight::shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const {
   std::vector<Share> shares;
-  each(point_m, &normal,
+  each(point_m, &normal, false,
        [&](const Share& share, const glm::vec3&, const glm::dvec3&, double) { shares.push_back(share); });
   std::ranges::stable_sort(shares, std::greater(), &Share::lx);
   return shares;
@@ -171,10 +177,10 @@ FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, 
   const auto add = [&](const Share& share, const glm::vec3& colour, const glm::dvec3&, double) {
     sum += glm::dvec4(glm::dvec3(colour), 1.0) * share.lx;
   };
-  each(point_m, &normal, add);
+  each(point_m, &normal, !material.double_sided, add);
   if (material.double_sided) {  // one number for both sides: leaves, of which one sees either
     const glm::dvec3 back = -normal;
-    each(point_m, &back, add);
+    each(point_m, &back, false, add);
     sum *= 0.5;
   }
   const glm::dvec3 rho = glm::max(glm::dvec3(material.reflectance), 1e-3);
@@ -186,7 +192,7 @@ FixedProbe FixedLight::probe(const glm::dvec3& point_m) const {
   FixedProbe probe;
   glm::dvec4 sum(0.0);
   glm::dvec3 from(0.0);
-  each(point_m, nullptr,
+  each(point_m, nullptr, false,
        [&](const Share&, const glm::vec3& colour, const glm::dvec3& way, double lx) {
          sum += glm::dvec4(glm::dvec3(colour), 1.0) * lx;
          from += lx * way;

@@ -101,6 +101,8 @@ class FixedLight {
   /// In float64, with shadows: what falls on a point, strongest first.
   std::vector<Share> shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
   double lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
+  /// As vertices of the scene keep it: one that nobody sees, for something thin lies on it, has the light that falls on
+  /// that; else lux_at().
   FixedVertex at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material) const;
   FixedProbe probe(const glm::dvec3& point_m) const;
   /// Lamps that shine into an eye, the scene and the air between them; what moves hides none. The strongest
@@ -138,7 +140,7 @@ class FixedLight {
   /// cd into a direction of the world, of any length.
   double candela(const Lamp& lamp, const glm::dvec3& way) const;
   template <typename Add>
-  void each(const glm::dvec3& point_m, const glm::dvec3* normal, const Add& add) const;
+  void each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add) const;
 
   BakeLevel level_ = kBakeLevels[1];
   std::vector<Luminaire> luminaires_;
