@@ -9,7 +9,7 @@ layout(location = PHARE_LOOK_LOCATION + 2) in vec4 look_tangent;
 layout(set = PHARE_TEXTURE_SET, binding = 2) uniform sampler2D normal_texels;
 layout(set = PHARE_TEXTURE_SET, binding = 3) uniform sampler2D rough_texels;
 
-// The mean normal of what a pixel shows, no longer than 1, and its direction; mean square slopes of the facets that it does show; alpha of the
+// The mean normal of what a pixel shows, no longer than 1, and its direction; slopes of the facets that it does show, as lit_of_facets takes them; alpha of the
 // mirror, and metal.
 vec3 relief_mean, relief_n;
 float relief_slopes = 0.0, relief_alpha = 1.0, relief_metal = 0.0;
@@ -32,7 +32,7 @@ void see_relief(vec3 n, bool from_behind) {
     if (from_behind) relief_n = -relief_n;  // glTF 2.0, 3.9.6
     relief_mean = relief_n * r;
     hidden = slopes_in(r);
-    relief_slopes = max(relief_of.factors.x - hidden, 0.0);
+    relief_slopes = relief_of.factors.x * max(1.0 - hidden * relief_of.factors.w, 0.0);
   }
   if ((look & kLookRough) != 0) {
     vec2 rough_metal = texture(rough_texels, look_uv).gb * relief_of.factors.yz;
@@ -41,7 +41,7 @@ void see_relief(vec3 n, bool from_behind) {
   }
 }
 
-// Adds a lamp's light. `reached`: as it is coloured, of what is left of it by shadow and fog.
+// Adds a lamp's light, of which shadow and fog have taken their part.
 void light_relief(uint lamp, LampLight light, vec3 colour, bool dry) {
   if (light.illuminance_lx <= 0.0) return;
   vec3 toward_lamp = (frame.lamps[lamp].position.xyz - point) * light.per_m;

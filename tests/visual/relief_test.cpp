@@ -56,13 +56,14 @@ TEST_F(Relief, ANormalTextureTurnsTheLightAndNotTheLux) {
   const std::array<glm::dvec3, 4> tilted{glm::dvec3(0.4, 0.1, 0), {-0.4, 0.1, 0}, {0.1, 0.5, 0}, {0.1, -0.5, 0}};
   SceneTexture normals{"normals", 2, 2, {}};
   std::array<glm::dvec3, 4> n;
-  double slopes = 0.0;
+  double flat = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     const glm::u8vec4 texel = normal_byte(glm::normalize(tilted[i] + glm::dvec3(0, 0, 1)));
     for (int c = 0; c < 4; ++c) normals.rgba.push_back(texel[c]);
     n[i] = normal_of(texel);
-    slopes += 0.25 * (n[i].x * n[i].x + n[i].y * n[i].y) / (n[i].z * n[i].z);
+    flat += 0.25 * std::hypot(n[i].x, n[i].y);
   }
+  const double slopes = 4.0 / std::numbers::pi * flat * flat;  // Slopes::grazing
   SceneMaterial material = plain_material();
   material.look.normal_texture = 0;
   const double lamp_y_m = 3.0;
@@ -198,7 +199,7 @@ TEST_F(Relief, TheBackOfASurfaceHasItsNormalTurnedRound) {
   const glm::dvec3 n = normal_of(texel), back(1, 0, 0), up = glm::cross(back, kRight);
   const glm::dvec3 shaded = -(n.x * kRight + n.y * up + n.z * back);
   const glm::dvec3 to_lamp(-kWall_m, 3.0 - seen.at_m.x, -seen.at_m.y), toward = glm::normalize(to_lamp);
-  const double slopes = (n.x * n.x + n.y * n.y) / (n.z * n.z);
+  const double slopes = 4.0 / std::numbers::pi * (n.x * n.x + n.y * n.y);  // Slopes::grazing
   const double lx = kLamp_cd / glm::dot(to_lamp, to_lamp) * glm::dot(shaded, toward) * smith(slopes, -toward.x);
   EXPECT_NEAR(seen.cdm2.y / (0.5 * kColour.y * lx / std::numbers::pi), 1.0, kTolerance + kFit + 0.004);
 }

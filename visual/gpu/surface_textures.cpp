@@ -212,7 +212,9 @@ SurfaceTextures::SurfaceTextures(gpu::Device& device, std::span<const Scene* con
         const SceneTexture& texture = scenes[s]->textures[*look.normal_texture];
         entry.normals = linear_image(known_normals, std::tuple(s, *look.normal_texture, look.normal_scale),
                                      [&] { return normal_levels(texture, look.normal_scale); });
-        relief.factors.x = mean_square_slope(texture, look.normal_scale);
+        const Slopes slopes = slopes_of(texture, look.normal_scale);
+        relief.factors.x = slopes.grazing;
+        relief.factors.w = slopes.mean_square > 0.0f ? 1.0f / slopes.mean_square : 0.0f;
       }
       if (look.rough_texture)
         entry.rough = linear_image(known_rough, std::pair(s, *look.rough_texture),

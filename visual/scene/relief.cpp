@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 namespace phare {
 namespace {
@@ -77,14 +78,16 @@ std::vector<SceneTexture> normal_levels(const SceneTexture& texture, float scale
   return levels;
 }
 
-float mean_square_slope(const SceneTexture& texture, float scale) {
-  double sum = 0.0;
+Slopes slopes_of(const SceneTexture& texture, float scale) {
+  double square = 0.0, flat = 0.0;
   for (std::size_t i = 0; i < texture.rgba.size(); i += 4) {
     const glm::vec3 normal = unit_normal(&texture.rgba[i], scale);
-    const float up = std::max(normal.z, kLeastUp);
-    sum += static_cast<double>((normal.x * normal.x + normal.y * normal.y) / (up * up));
+    const float up = std::max(normal.z, kLeastUp), along2 = normal.x * normal.x + normal.y * normal.y;
+    square += static_cast<double>(along2 / (up * up));
+    flat += static_cast<double>(std::sqrt(along2));
   }
-  return static_cast<float>(sum / (static_cast<double>(texture.rgba.size()) / 4.0));
+  const double texels = static_cast<double>(texture.rgba.size()) / 4.0, mean = flat / texels;
+  return {static_cast<float>(square / texels), static_cast<float>(4.0 / std::numbers::pi * mean * mean)};
 }
 
 std::vector<SceneTexture> rough_levels(const SceneTexture& texture) {

@@ -25,8 +25,14 @@ MeanNormal mean_normal_at(const SceneTexture& texture, std::uint32_t x, std::uin
 /// Of a texture as the file has it, whole and halved down to one texel; x and y of its normals times `scale`.
 std::vector<SceneTexture> normal_levels(const SceneTexture& texture, float scale);
 
-/// Mean square of a whole normal texture's slopes, both ways together: alpha² of its facets.
-float mean_square_slope(const SceneTexture& texture, float scale);
+/// Of a whole normal texture, x and y times `scale`.
+struct Slopes {
+  float mean_square = 0.0f;  ///< both ways together: alpha² of its facets
+  /// Of the Gaussian slopes that light at a grazing angle takes its facets for: there they have mean(|n_xy|)/π of it,
+  /// Gaussian ones alpha/(2·√π). Of a Gaussian texture, small slopes, it is mean_square.
+  float grazing = 0.0f;
+};
+Slopes slopes_of(const SceneTexture& texture, float scale);
 
 /// Of a texture of roughness (green) and metal (blue).
 std::vector<SceneTexture> rough_levels(const SceneTexture& texture);
