@@ -31,7 +31,7 @@ struct GpuLook {
 
 // Behind it, of a material with kLookRelief. Textures are as visual/scene/relief.h has them.
 struct GpuRelief {
-  vec4 factors;  // x: slopes of the whole normal texture as low light takes them, w: 1 over their mean square (visual/scene/relief.h); y, z: roughness and metal, times the texture's
+  vec4 factors;  // x, y: roughness and metal, times the texture's
 };
 
 PHARE_SHADER_END

@@ -31,7 +31,7 @@ PHARE_INLINE float schlick(float against) {
 
 // A texture's facets have no shadows: those that face a low lamp are lit as if nothing stood before them, those behind are dark, and on the average
 // there would be more light than falls on the surface. Smith's function for Gaussian slopes is what is left: with it the mean over a surface is that
-// of the surface itself. Rational form of Walter et al. (2007), 0.35 % off. `slopes`: their mean square, alpha², of other textures Slopes::grazing; `cosine`: of the lamp over
+// of the surface itself. Rational form of Walter et al. (2007), 0.35 % off. `slopes`: their mean square, alpha², of textures as NormalLevel has them; `cosine`: of the lamp over
 // the surface.
 PHARE_INLINE float lit_of_facets(float slopes, float cosine) {
   float up = cosine / sqrt(max((1.0f - cosine * cosine) * slopes, 1e-12f));

@@ -22,20 +22,20 @@ void see_relief(vec3 n, bool from_behind) {
   float hidden = 0.0;
   if ((look & kLookNormal) != 0) {
     vec4 texel = texture(normal_texels, look_uv);
-    vec3 at = normalize(texel.xyz * 2.0 - 1.0);
-    float r = 1.0 - texel.w * texel.w;
+    float r = 1.0 - texel.w;
+    vec3 at = vec3(texel.xy, sqrt(max(r * r - dot(texel.xy, texel.xy), 0.0)));
     vec3 front = from_behind ? -n : n;
     vec3 along = look_tangent.xyz - front * dot(front, look_tangent.xyz);
     along *= inversesqrt(max(dot(along, along), 1e-12));
     vec3 up = cross(front, along) * (look_tangent.w < 0.0 ? -1.0 : 1.0);
-    relief_n = at.x * along + at.y * up + at.z * front;
-    if (from_behind) relief_n = -relief_n;  // glTF 2.0, 3.9.6
-    relief_mean = relief_n * r;
+    relief_mean = at.x * along + at.y * up + at.z * front;
+    if (from_behind) relief_mean = -relief_mean;  // glTF 2.0, 3.9.6
+    relief_n = normalize(relief_mean);
     hidden = slopes_in(r);
-    relief_slopes = relief_of.factors.x * max(1.0 - hidden * relief_of.factors.w, 0.0);
+    relief_slopes = texel.z;
   }
   if ((look & kLookRough) != 0) {
-    vec2 rough_metal = texture(rough_texels, look_uv).gb * relief_of.factors.yz;
+    vec2 rough_metal = texture(rough_texels, look_uv).gb * relief_of.factors.xy;
     relief_alpha = facets_alpha(rough_metal.x, hidden);
     relief_metal = rough_metal.y;
   }

@@ -49,9 +49,10 @@ vk::SamplerAddressMode address_of(TextureWrap wrap) {
   return vk::SamplerAddressMode::eRepeat;
 }
 
-vk::raii::Sampler make_sampler(const gpu::Device& device, const TextureSampler& sampler) {
+/// `most_anisotropy`: samples along what is seen at a slant.
+vk::raii::Sampler make_sampler(const gpu::Device& device, const TextureSampler& sampler, float most_anisotropy) {
   const vk::Filter near = sampler.nearest ? vk::Filter::eNearest : vk::Filter::eLinear;
-  const float anisotropy = std::min(kAnisotropy, device.most_anisotropy);
+  const float anisotropy = std::min(most_anisotropy, device.most_anisotropy);
   return vk::raii::Sampler(device.device, vk::SamplerCreateInfo{.magFilter = near,
                                                                 .minFilter = vk::Filter::eLinear,
                                                                 .mipmapMode = vk::SamplerMipmapMode::eLinear,
@@ -110,9 +111,15 @@ std::vector<std::vector<SceneTexture>> levels_of(const Scene& scene, const Pixel
   return all;
 }
 
-gpu::Image make_image(gpu::Device& device, const std::vector<std::vector<SceneTexture>>& layers,
-                      vk::Format format = vk::Format::eR8G8B8A8Srgb) {
-  const std::vector<SceneTexture>& first = layers.front();
+/// A level of detail of one layer, as its format has it.
+struct Texels {
+  std::uint32_t width, height;
+  std::span<const std::byte> bytes;
+};
+
+gpu::Image make_image(gpu::Device& device, const std::vector<std::vector<Texels>>& layers, vk::Format format,
+                      const std::string& name) {
+  const std::vector<Texels>& first = layers.front();
   const auto mips = static_cast<std::uint32_t>(first.size()), count = static_cast<std::uint32_t>(layers.size());
   gpu::Image image(device,
                    {format,
@@ -121,24 +128,38 @@ gpu::Image make_image(gpu::Device& device, const std::vector<std::vector<SceneTe
                     vk::SampleCountFlagBits::e1,
                     count,
                     mips},
-                   "texture " + first[0].name);
+                   "texture " + name);
   image.memory = device.allocate(image.image.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal);
   image.bind(device, *image.memory);
-  std::vector<std::uint8_t> texels;
+  std::vector<std::byte> texels;
   std::vector<vk::BufferImageCopy> copies;
   for (std::uint32_t layer = 0; layer < count; ++layer)
     for (std::uint32_t mip = 0; mip < mips; ++mip) {
-      const SceneTexture& level = layers[layer][mip];
+      const Texels& level = layers[layer][mip];
       copies.push_back({.bufferOffset = texels.size(),
                         .imageSubresource = {vk::ImageAspectFlagBits::eColor, mip, layer, 1},
                         .imageExtent = {level.width, level.height, 1}});
-      texels.insert(texels.end(), level.rgba.begin(), level.rgba.end());
+      texels.insert(texels.end(), level.bytes.begin(), level.bytes.end());
     }
   const gpu::HostBuffer staging(device, texels.size(), vk::BufferUsageFlagBits::eTransferSrc, "texture staging");
   std::memcpy(staging.data, texels.data(), texels.size());
   device.run_once(
       [&](vk::CommandBuffer commands) { gpu::record_fill(commands, image, *staging.buffer, copies); });
   return image;
+}
+
+std::vector<Texels> texels_of(const std::vector<SceneTexture>& levels) {
+  std::vector<Texels> texels;
+  for (const SceneTexture& level : levels)
+    texels.push_back({level.width, level.height, std::as_bytes(std::span(level.rgba))});
+  return texels;
+}
+
+std::vector<Texels> texels_of(const std::vector<NormalLevel>& levels) {
+  std::vector<Texels> texels;
+  for (const NormalLevel& level : levels)
+    texels.push_back({level.width, level.height, std::as_bytes(std::span(level.texels))});
+  return texels;
 }
 
 }  // namespace
@@ -170,13 +191,13 @@ const char* no_textures(const gpu::Device& device) {
 SurfaceTextures::SurfaceTextures(gpu::Device& device, std::span<const Scene* const> scenes) {
   struct Entry {
     std::size_t material = 0, image = 0, sampler = 0;
-    std::optional<std::size_t> normals{}, rough{};
+    std::optional<std::size_t> normals{}, rough{}, level_sampler{};
   };
   std::vector<Entry> entries;
-  std::vector<TextureSampler> samplers;
+  std::vector<TextureSampler> samplers, level_samplers;
   using Key = std::tuple<std::size_t, std::optional<std::size_t>, std::optional<std::size_t>, std::optional<float>>;
   std::map<Key, std::size_t> known;  // several materials may share their pictures
-  std::map<std::tuple<std::size_t, std::size_t, float>, std::size_t> known_normals;
+  std::map<std::tuple<std::size_t, std::size_t, float, bool>, std::size_t> known_normals;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> known_rough;
   std::vector<std::byte> looks;
   bool reliefs = false;
@@ -195,30 +216,41 @@ SurfaceTextures::SurfaceTextures(gpu::Device& device, std::span<const Scene* con
       const auto [image, fresh] =
           known.try_emplace({s, look.base_texture, emissive, look.base_texture ? look.cut_below : std::nullopt},
                             images_.size());
-      if (fresh) images_.push_back(make_image(device, levels_of(*scenes[s], look)));
+      if (fresh) {
+        const std::vector<std::vector<SceneTexture>> layers = levels_of(*scenes[s], look);
+        std::vector<std::vector<Texels>> texels;
+        for (const std::vector<SceneTexture>& layer : layers) texels.push_back(texels_of(layer));
+        images_.push_back(make_image(device, texels, vk::Format::eR8G8B8A8Srgb, layers.front().front().name));
+      }
       auto sampler = std::ranges::find(samplers, look.sampler);
       if (sampler == samplers.end()) {
-        samplers_.push_back(make_sampler(device, look.sampler));
+        samplers_.push_back(make_sampler(device, look.sampler, kAnisotropy));
         sampler = samplers.insert(samplers.end(), look.sampler);
       }
       Entry entry{own, image->second, static_cast<std::size_t>(sampler - samplers.begin())};
-      shader::GpuRelief relief{glm::vec4(0.0f, look.roughness, look.metal, 0.0f)};
-      const auto linear_image = [&](auto& among, const auto& key, const auto& levels) {
+      const shader::GpuRelief relief{glm::vec4(look.roughness, look.metal, 0.0f, 0.0f)};
+      const auto image_of = [&](auto& among, const auto& key, vk::Format format, const auto& levels) {
         const auto [found, is_new] = among.try_emplace(key, images_.size());
-        if (is_new) images_.push_back(make_image(device, {levels()}, vk::Format::eR8G8B8A8Unorm));
+        if (is_new) {
+          const auto all = levels();
+          images_.push_back(make_image(device, {texels_of(all)}, format, "of a relief"));
+        }
         return found->second;
       };
-      if (look.normal_texture) {
-        const SceneTexture& texture = scenes[s]->textures[*look.normal_texture];
-        entry.normals = linear_image(known_normals, std::tuple(s, *look.normal_texture, look.normal_scale),
-                                     [&] { return normal_levels(texture, look.normal_scale); });
-        const Slopes slopes = slopes_of(texture, look.normal_scale);
-        relief.factors.x = slopes.grazing;
-        relief.factors.w = slopes.mean_square > 0.0f ? 1.0f / slopes.mean_square : 0.0f;
-      }
+      if (look.normal_texture)
+        entry.normals = image_of(
+            known_normals, std::tuple(s, *look.normal_texture, look.normal_scale, look.sampler.nearest),
+            vk::Format::eR16G16B16A16Sfloat, [&] {
+              return normal_levels(scenes[s]->textures[*look.normal_texture], look.normal_scale, look.sampler.nearest);
+            });
       if (look.rough_texture)
-        entry.rough = linear_image(known_rough, std::pair(s, *look.rough_texture),
-                                   [&] { return rough_levels(scenes[s]->textures[*look.rough_texture]); });
+        entry.rough = image_of(known_rough, std::pair(s, *look.rough_texture), vk::Format::eR8G8B8A8Unorm,
+                               [&] { return rough_levels(scenes[s]->textures[*look.rough_texture]); });
+      if (look.relief()) {
+        auto level = std::ranges::find(level_samplers, look.sampler);
+        if (level == level_samplers.end()) level = level_samplers.insert(level_samplers.end(), look.sampler);
+        entry.level_sampler = static_cast<std::size_t>(level - level_samplers.begin());
+      }
       const shader::GpuLook packed{look.base, glm::vec4(look.emitted_cdm2, look.cut_below.value_or(0.0f))};
       const std::size_t at = entries.size() * step;
       looks.resize(at + (reliefs ? kWithRelief : sizeof packed));
@@ -227,6 +259,9 @@ SurfaceTextures::SurfaceTextures(gpu::Device& device, std::span<const Scene* con
       entries.push_back(entry);
     }
   if (entries.empty()) return;
+  // What a level hides of slopes is known of the level as it is, so a relief is not sampled along a slant.
+  const std::size_t first_level_sampler = samplers_.size();
+  for (const TextureSampler& sampler : level_samplers) samplers_.push_back(make_sampler(device, sampler, 1.0f));
   looks_ = gpu::DeviceBuffer(device, looks, vk::BufferUsageFlagBits::eUniformBuffer, "looks");
   for (const gpu::Image& image : images_) bytes_ += image.bytes;
   descriptors_ = std::make_unique<gpu::DescriptorSets>(device, kTextureBindings);
@@ -238,9 +273,11 @@ SurfaceTextures::SurfaceTextures(gpu::Device& device, std::span<const Scene* con
     // A relief that has but one of them names that twice: its pipeline reads it once.
     const std::size_t normals = entries[i].normals.value_or(entries[i].rough.value_or(entries[i].image)),
                       rough = entries[i].rough.value_or(normals);
-    const vk::DescriptorImageInfo normal_image{*samplers_[entries[i].sampler], *images_[normals].view,
+    const std::size_t sampler =
+        entries[i].level_sampler ? first_level_sampler + *entries[i].level_sampler : entries[i].sampler;
+    const vk::DescriptorImageInfo normal_image{*samplers_[sampler], *images_[normals].view,
                                                vk::ImageLayout::eShaderReadOnlyOptimal};
-    const vk::DescriptorImageInfo rough_image{*samplers_[entries[i].sampler], *images_[rough].view,
+    const vk::DescriptorImageInfo rough_image{*samplers_[sampler], *images_[rough].view,
                                               vk::ImageLayout::eShaderReadOnlyOptimal};
     std::vector writes{vk::WriteDescriptorSet{.dstSet = set,
                                                    .dstBinding = 0,
