@@ -37,6 +37,21 @@ Json json_of_gltf(const std::filesystem::path& file) {
   return Json::parse(stream, nullptr, false);
 }
 
+constexpr const char* kBuffers = "/buffers";
+
+/// What entries of a list name by uri, each once.
+void add_files(const Json& root, const char* list, std::vector<std::filesystem::path>& files) {
+  const Json::json_pointer at(list);
+  if (!root.is_object() || !root.contains(at) || !root[at].is_array()) return;
+  for (const Json& one : root[at]) {
+    if (!one.is_object() || !one.contains("uri") || !one["uri"].is_string()) continue;
+    const std::string uri = one["uri"].get<std::string>();
+    if (uri.empty() || is_data_uri(uri)) continue;
+    const std::filesystem::path file = decoded_uri(uri);
+    if (std::ranges::find(files, file) == files.end()) files.push_back(file);
+  }
+}
+
 }  // namespace
 
 bool is_data_uri(const std::string& uri) {
@@ -69,17 +84,7 @@ std::optional<std::vector<unsigned char>> bytes_of_data_uri(const std::string& u
 std::vector<std::filesystem::path> files_beside(const std::filesystem::path& gltf) {
   const Json root = json_of_gltf(gltf);
   std::vector<std::filesystem::path> files;
-  for (const char* list : {"/buffers", "/images", "/extensions/EXT_lights_ies/lights"}) {
-    const Json::json_pointer at(list);
-    if (!root.is_object() || !root.contains(at) || !root[at].is_array()) continue;
-    for (const Json& one : root[at]) {
-      if (!one.is_object() || !one.contains("uri") || !one["uri"].is_string()) continue;
-      const std::string uri = one["uri"].get<std::string>();
-      if (uri.empty() || is_data_uri(uri)) continue;
-      const std::filesystem::path file = decoded_uri(uri);
-      if (std::ranges::find(files, file) == files.end()) files.push_back(file);
-    }
-  }
+  for (const char* list : {kBuffers, "/images", "/extensions/EXT_lights_ies/lights"}) add_files(root, list, files);
   return files;
 }
 
@@ -88,12 +93,14 @@ Result<std::string> content_hash_of_gltf(const std::filesystem::path& gltf) {
   if (!own) return own;
   const std::vector<std::filesystem::path> beside = files_beside(gltf);
   if (beside.empty()) return own;
+  std::vector<std::filesystem::path> buffers;
+  add_files(json_of_gltf(gltf), kBuffers, buffers);
   std::string all = *own;
   for (const std::filesystem::path& file : beside) {
     std::error_code failed;
     const std::filesystem::path whole = gltf.parent_path() / file;
     std::string hash = "none";
-    if (std::filesystem::is_regular_file(whole, failed)) {
+    if (std::filesystem::is_regular_file(whole, failed) || std::ranges::find(buffers, file) != buffers.end()) {
       Result<std::string> of_file = content_hash_of_file(whole);
       if (!of_file) return of_file;
       hash = *of_file;

@@ -1,6 +1,7 @@
 // Lamps of a glTF file: KHR_lights_punctual and EXT_lights_ies. They stand in the scene as street lamps do
 // (visual/fixed_light.h); here they are read, their photometry files are not looked into. docs/street-lamps.md says what
-// of them counts. Checked by tests/scene/scene_lights_test.cpp.
+// of them counts. Checked by
+// tests/visual_process/scene_lights_test.cpp.
 #pragma once
 
 #include <filesystem>
