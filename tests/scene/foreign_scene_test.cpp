@@ -6,8 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "config/base/content_hash.h"
-#include "config/formats/gltf_uri.h"
 #include "tests/paths.h"
 #include "tests/scene/gltf_builder.h"
 #include "visual/scene/material_library.h"
@@ -364,39 +362,6 @@ TEST(ForeignScene, TexturesThatCannotBeHadAreNamed) {
   EXPECT_TRUE(noted(scene, "KHR_texture_basisu"));
   EXPECT_TRUE(noted(scene, "texture 3 of 'm3' does not exist"));
   for (const SceneMaterial& material : scene.materials) EXPECT_TRUE(material.look.none());
-}
-
-TEST(ForeignScene, TheHashCoversWhatLiesBesideTheFile) {
-  const std::filesystem::path folder(testing::TempDir());
-  const auto put = [&](const char* name, const std::string& bytes) {
-    std::ofstream(folder / name, std::ios::binary) << bytes;
-  };
-  GltfBuilder alone;
-  alone.square();
-  const std::filesystem::path file = alone.write("phare_foreign.gltf");
-  EXPECT_EQ(scene_of(alone).content_hash, *content_hash_of_file(file)) << "as sha256sum says";
-  EXPECT_EQ(files_beside(file), std::vector<std::filesystem::path>{});
-
-  GltfBuilder whole;
-  whole.square();
-  whole.root["images"] = Json::array({{{"uri", "my%20bark.png"}}});
-  whole.root["buffers"] = Json::array({{{"uri", "more.bin"}, {"byteLength", 4}}});
-  whole.root["extensions"]["EXT_lights_ies"]["lights"] = Json::array({{{"uri", "street.ies"}}});
-  const char* names[] = {"my bark.png", "more.bin", "street.ies"};
-  for (const char* name : names) put(name, "1234");
-  const std::string before = scene_of(whole).content_hash;
-  EXPECT_TRUE(before.starts_with("sha256:"));
-  EXPECT_EQ(scene_of(whole).content_hash, before);
-  for (const char* name : names) {
-    put(name, "4321");
-    EXPECT_NE(scene_of(whole).content_hash, before) << name;
-    put(name, "1234");
-    EXPECT_EQ(scene_of(whole).content_hash, before) << name;
-  }
-  std::filesystem::remove(folder / names[0]);
-  EXPECT_NE(scene_of(whole).content_hash, before) << "a picture that is gone";
-  const std::vector<std::filesystem::path> beside{"more.bin", "my bark.png", "street.ies"};
-  EXPECT_EQ(files_beside(whole.write("phare_foreign.gltf")), beside);
 }
 
 // ---- the library

@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "tests/visual/textured_wall.h"
 #include "visual/fixed_light.h"
