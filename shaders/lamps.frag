@@ -24,6 +24,11 @@
 #ifdef PHARE_TEXTURED
 #include "lib/textured.glsl"
 #endif
+#ifdef PHARE_RELIEF
+#include "lib/relief.glsl"
+#else
+#define PHARE_LIGHT_RELIEF(I)
+#endif
 
 layout(constant_id = 3) const uint output_kind = 0;
 layout(constant_id = 4) const uint lamp_base = 0;
@@ -82,6 +87,10 @@ void main() {
   if (sides == 2) unit = gl_FrontFacing ? unit : -unit;
   vec3 n = point_normal * unit;
   float level = dot(n, point);
+#ifdef PHARE_RELIEF
+  see_relief(n, unit < 0.0);
+#define PHARE_LIGHT_RELIEF(I) light_relief(I, light, colour, wet_alpha == 0.0);
+#endif
 #ifdef PHARE_REFERENCE
   if (output_kind == kOutputMeasure) place_measured();
   else place_pixel(unit < 0.0 ? -1.0lf : 1.0lf);
@@ -121,12 +130,19 @@ void main() {
     if (output_kind == kOutputDifference || output_kind == kOutputRatio)                                   \
       of_b_lx += light.illuminance_lx * frame.lamps[I].row_b.w;                                            \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
+    PHARE_LIGHT_RELIEF(I)                                                                                  \
     if (wet_alpha > 0.0) film += colour * (light.illuminance_lx * mirrored(I, light, n, level));           \
     if (retro != 0)                                                                                        \
       retro_lx += colour * (light.normal_lx * sent_back(I, light, point, n, level, reflectance.w, frame.lamps[I].row_a.w)); \
   }
   PHARE_EACH_LAMP(LIGHT)
   if (colours == 0) coloured_lx = total_lx * light_colour;
+#ifdef PHARE_RELIEF
+  coloured_lx = relief_lx;
+#define PHARE_SKY_NORMAL relief_n
+#else
+#define PHARE_SKY_NORMAL n
+#endif
 
   if (output_kind == kOutputAudit) {
     result = vec4(PHARE_POINT, total_lx);
@@ -173,9 +189,12 @@ void main() {
     rho *= detail.x;
     rho.r *= detail.y;
   }
-  vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + n.z));  // the sky's half dome, unoccluded
+  vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + PHARE_SKY_NORMAL.z));  // the sky's half dome, unoccluded
   if (retro != 0) light += retro_lx * rho;
   if (wet_alpha > 0.0) light += output_kind == kOutputHdr ? film : film * frame.exposure.rgb;
+#ifdef PHARE_RELIEF
+  if ((look & kLookRough) != 0) light += output_kind == kOutputHdr ? relief_mirrored : relief_mirrored * frame.exposure.rgb;
+#endif
 #ifdef PHARE_TEXTURED
   if ((look & kLookEmits) != 0) light += seen_emitted_cdm2 * shown;
 #endif

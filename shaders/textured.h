@@ -15,6 +15,10 @@ const uint kLookEmits = 4u;     // it emits light
 const uint kLookCut = 8u;       // where opacity is less than a limit, there is nothing
 const uint kLookColours = 16u;  // the corners have colours
 const uint kLookUnlit = 32u;    // it emits by the texture of reflectance and the corners' colours
+// Only in what is compiled with PHARE_RELIEF (lib/relief.glsl).
+const uint kLookNormal = 64u;   // a texture of normals
+const uint kLookRough = 128u;   // one of roughness and metal
+const uint kLookRelief = kLookNormal | kLookRough;
 
 // Of a material; its textures are the layers of one image, both of them sRGB.
 const uint kBaseLayer = 0u;
@@ -23,6 +27,11 @@ const uint kEmissiveLayer = 1u;
 struct GpuLook {
   vec4 base;     // rho, linear Rec. 709, and opacity: times texture and corners' colour
   vec4 emitted;  // cd/m², by Rec. 709; w: least opacity of what is there
+};
+
+// Behind it, of a material with kLookRelief. Textures are as visual/scene/relief.h has them.
+struct GpuRelief {
+  vec4 factors;  // x, y: roughness and metal, times the texture's
 };
 
 PHARE_SHADER_END

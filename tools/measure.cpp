@@ -163,7 +163,8 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
 /// that of the strongest.
 int measure_street(const MeasureOptions& options) {
   if (!options.lamps.empty() || !options.rig_file.empty())
-    return bad_input({"--street-lamps", "is measured alone; --lamp and --rig are a car's lamps"});
+    return bad_input({options.street_lamps.empty() ? "--scene" : "--street-lamps",
+                      "is measured alone; --lamp and --rig are a car's lamps, which have no shadows here"});
   if (options.points.empty() || options.out.empty()) return bad_input({"", "give --points FILE and --out FILE"});
   Scene scene;
   if (!options.scene.empty()) {
@@ -173,6 +174,8 @@ int measure_street(const MeasureOptions& options) {
   }
   const auto light = FixedLight::of(scene, options.street_lamps, std::nullopt);
   if (!light) return bad_input(light.error());
+  if (options.street_lamps.empty() && light->street_lamps() + light->directional() == 0)
+    return bad_input({options.scene, "has no lamps of its own; --street-lamps names a file of them"});
   const auto points = read_points(options.points);
   if (!points) return bad_input(points.error());
   std::vector<Illuminance> measured;
@@ -262,9 +265,7 @@ int measure(const MeasureOptions& options) {
     if (std::find(inputs.begin() + 2, inputs.end(), file) == inputs.end()) inputs.push_back(file);
   }
   if (const Status apart = check_inputs(inputs, {options.out}); !apart) return bad_input(apart.error());
-  if (!options.street_lamps.empty()) return measure_street(options);
-  if (!options.scene.empty())
-    return bad_input({"--scene", "only with --street-lamps: a car's lamps have no shadows here"});
+  if (!options.street_lamps.empty() || !options.scene.empty()) return measure_street(options);
   if (!options.table.empty()) return measure_table(options);
   if (options.points.empty() || options.out.empty())
     return bad_input({"", "give --points FILE and --out FILE, or --table FILE of a reference set"});
@@ -331,7 +332,7 @@ void add_measure(CLI::App& app, Command& chosen) {
       "--street-lamps", options->street_lamps,
       "Instead of a car's lamps: a file of street lamps (docs/street-lamps.md), in float64; lamp 1 is the "
       "strongest of them at each point");
-  command->add_option("--scene", options->scene, "With --street-lamps: glTF whose shadows count");
+  command->add_option("--scene", options->scene, "Instead of a car's lamps: glTF whose own lamps are measured, and whose shadows count; with --street-lamps both");
   auto* points = command->add_option("--points", options->points, "Points file; \"-\" is standard input");
   command->add_option("--out", options->out, "File to write");
   command

@@ -2,8 +2,8 @@
 
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
+#include "config/formats/gltf_uri.h"
 #include "config/rig_writer.h"
 #include "config/road/lane.h"
 #include "visual/photometry/beam/lamp_tables.h"
@@ -123,22 +123,11 @@ Status PortableFiles::add_named(const fs::path& toml, const std::string& below) 
   return Done{};
 }
 
-/// glTF may keep its buffers in files beside it; the lane lies beside it too. They keep their names.
+/// glTF may keep buffers, pictures and photometry in files beside it; the lane lies beside it too. They keep their names.
 Status PortableFiles::add_scene(const fs::path& scene) {
   if (const Status done = add(scene, "scene"); !done) return done;
   std::set<fs::path> beside{lane_file_of(scene).filename()};
-  if (scene.extension() == ".gltf") {
-    std::ifstream stream(scene);
-    const nlohmann::json gltf = nlohmann::json::parse(stream, nullptr, false);
-    if (gltf.is_object()) {
-      for (const char* kind : {"buffers", "images"}) {
-        for (const nlohmann::json& item : gltf.value(kind, nlohmann::json::array())) {
-          const std::string uri = item.value("uri", "");
-          if (!uri.empty() && !uri.starts_with("data:")) beside.insert(uri);
-        }
-      }
-    }
-  }
+  for (const fs::path& file : files_beside(scene)) beside.insert(file);
   for (const fs::path& name : beside) {
     const fs::path file = (scene.parent_path() / name).lexically_normal();
     if (!is_file(file) || name.is_absolute() || *name.begin() == "..") continue;

@@ -17,6 +17,7 @@
 #include "visual/photometry/bench/lint.h"
 #include "visual/photometry/bench/table_end.h"
 #include "visual/photometry/readers/read_lamp.h"
+#include "visual/fixed_light.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
@@ -61,6 +62,9 @@ class Checker {
     if (!is_there(file, "the scene")) return;
     const auto scene = read_scene(file);
     if (!scene) return problem(scene.error());
+    for (const std::string& note : scene->notes) found_.notes.push_back(file.string() + ": " + note);
+    // Its own lamps' photometry files, too.
+    if (const auto light = FixedLight::of(*scene, {}, std::nullopt); !light) problem(light.error());
     std::error_code ignored;
     const fs::path lane = lane_file_of(file);
     if (!fs::exists(lane, ignored))

@@ -106,6 +106,7 @@ EffectDecision fixed_light(const EffectFacts& facts) {
   };
   if (facts.street_lamps > 0) add(counted(facts.street_lamps, "street lamp"));
   if (facts.moon) add("the moon");
+  if (facts.directional > 0) add(counted(facts.directional, "directional light"));
   if (facts.luminous > 0) add(counted(facts.luminous, "luminous material"));
   if (facts.covered) add("a roof over the road");
   if (what.empty()) return {0, "no street lamp, no moon, and nothing shines by itself"};

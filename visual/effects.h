@@ -44,6 +44,7 @@ struct EffectFacts {
   double glare_lx = 0.0;                   ///< of them, at the eye
   bool gui = false;                        ///< the panel is shown over the picture
   std::size_t street_lamps = 0;            ///< that stand in the scene and are switched on
+  std::size_t directional = 0;             ///< lights of the scene that have a direction alone
   std::size_t luminous = 0;                ///< materials that shine by themselves
   bool moon = false;                       ///< it shines
   bool covered = false;                    ///< some of the scene does not see the whole sky

@@ -14,12 +14,17 @@
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/readers/read_lamp.h"
 #include "visual/renderer.h"
+#include "visual/scene/refine.h"
 
 namespace phare {
 namespace {
 
+const glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);  // of linear Rec. 709
 constexpr double kMoon_k = 4100.0;       // sunlight that the moon has reddened; a usual figure
 constexpr double kOffSurface_m = 0.005;  // vertices lie on edges of their neighbours
+// A vertex of a wall may lie behind a window, of a pavement under a pole, where nobody sees it: dark, it would darken what
+// is seen a metre around. So light falls on it as if what lies on it so thinly, or it lies within so deeply, were not there.
+constexpr double kCover_m = 0.15, kWithin_m = 0.3;
 constexpr double kBeyondScene_m = 5000.0;
 constexpr double kFloor_lx = 0.5;   // the error is that of so many lux where there are fewer
 constexpr double kLongest_m = 6.0;  // a longer side may have a pool of light between its ends
@@ -59,6 +64,7 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
                             std::cos(moon->elevation_rad) * std::sin(moon->azimuth_rad), std::sin(moon->elevation_rad));
     light.moon_ = Moon{toward, moon->illuminance_lx, black_body_colour(kMoon_k)};
   }
+  if (const Status done = light.add_lights_of(scene); !done) return done.error();
   std::set<std::uint32_t> used;
   for (const SceneChunk& chunk : scene.chunks) used.insert(chunk.material);
   for (const std::uint32_t index : used) {
@@ -66,39 +72,96 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
     if (material.emission_cdm2 != glm::vec3(0.0f)) ++light.luminous_;
     if (material.sky_share < 1.0f) light.covered_ = true;
   }
-  if (!light.lamps_.empty() || light.moon_) light.tree_ = RayTree(scene);
+  if (!light.lamps_.empty() || light.moon_ || !light.suns_.empty()) light.tree_ = RayTree(scene);
   return light;
 }
 
-/// Calls add(lamp, colour, direction, lx facing it, lx on the surface) for all that reaches the point. `normal`: null,
-/// nothing faces away.
+/// What is dark, black or off is left out.
+Status FixedLight::add_lights_of(const Scene& scene) {
+  std::vector<IntensityTable> tables;
+  for (const LightProfile& profile : scene.light_profiles) {
+    LampReadSettings settings;
+    settings.format = LampFormat::kLm63;
+    settings.folder = profile.file.parent_path();
+    const std::string name =
+        profile.file.empty() ? scene.file.string() + ": " + profile.name : profile.name;
+    auto table = parse_lamp(profile.bytes, name, settings);
+    if (!table) return table.error();
+    tables.push_back(std::move(*table));
+  }
+  for (const SceneLight& light : scene.lights) {
+    const float luminance = glm::dot(light.colour, kLuminance);
+    const double of_white = light.intensity * static_cast<double>(luminance);
+    if (!(of_white > 0.0)) continue;
+    const glm::vec3 colour = light.colour / luminance;
+    if (light.kind == SceneLight::Kind::kDirectional) {
+      suns_.push_back({-light.world_from_light[0], of_white, colour});
+      continue;
+    }
+    Luminaire kind{.table = {}, .colour = colour, .scale = of_white, .peak_cd = of_white, .has_table = false};
+    if (light.kind == SceneLight::Kind::kProfile) {
+      kind.table = tables[light.profile];
+      kind.has_table = true;
+      kind.peak_cd = kind.table.peak_cd() * of_white;
+    } else if (light.kind == SceneLight::Kind::kSpot) {
+      kind.cos_inner = std::cos(light.inner_rad);
+      kind.cos_outer = std::cos(light.outer_rad);
+    }
+    lamps_.push_back({light.position_m, glm::transpose(light.world_from_light), luminaires_.size(),
+                      light.range_m});
+    luminaires_.push_back(std::move(kind));
+  }
+  return Done{};
+}
+
+double FixedLight::candela(const Lamp& lamp, const glm::dvec3& way) const {
+  const Luminaire& kind = luminaires_[lamp.luminaire];
+  const glm::dvec3 in_lamp = lamp.lamp_from_world * way;
+  if (kind.has_table) return kind.scale * kind.table.intensity_cd(in_lamp);
+  if (kind.cos_outer < -1.0) return kind.scale;
+  // KHR_lights_punctual, "Inner and Outer Cone Angles".
+  const double cosine = in_lamp.x / glm::length(in_lamp);
+  const double part =
+      std::clamp((cosine - kind.cos_outer) / std::max(0.001, kind.cos_inner - kind.cos_outer), 0.0, 1.0);
+  return kind.scale * part * part;
+}
+
+/// Calls add(share of the surface's lx, colour, direction, lx facing it) for all that reaches the point. `normal`: null,
+/// nothing faces away. `of_mesh`: as vertices keep it (kCover_m).
 template <typename Add>
-void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, const Add& add) const {
-  const glm::dvec3 from_m = normal != nullptr ? point_m + kOffSurface_m * *normal : point_m;
+void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add) const {
+  glm::dvec3 from_m = normal != nullptr ? point_m + kOffSurface_m * *normal : point_m;
+  const double leave_within_m = of_mesh ? kWithin_m : 0.0;
+  if (of_mesh) from_m += tree_.left_at_m(from_m, *normal, kCover_m) * *normal;
   for (std::size_t i = 0; i < lamps_.size(); ++i) {
     const Lamp& lamp = lamps_[i];
     const glm::dvec3 way = lamp.position_m - point_m;
     const double r2 = glm::dot(way, way);
-    if (!(r2 > 0.0) || r2 > kStreetLampReach_m * kStreetLampReach_m) continue;
+    const double reach_m = std::min(lamp.range_m, kStreetLampReach_m);
+    if (!(r2 > 0.0) || r2 > reach_m * reach_m) continue;
     const double r = std::sqrt(r2), cosine = normal != nullptr ? glm::dot(way, *normal) / r : 1.0;
     const Luminaire& kind = luminaires_[lamp.luminaire];
     if (kind.peak_cd * cosine < kLeastOfLamp_lx * r2) continue;
-    const double facing_lx = kind.scale * kind.table.intensity_cd(lamp.lamp_from_world * -way) / r2;
+    const double facing_lx = candela(lamp, -way) / r2;
     if (facing_lx * cosine < kLeastOfLamp_lx) continue;
-    if (tree_.blocked(from_m, lamp.position_m, 1e-3, kOwnHousing_m)) continue;
-    add(std::optional(i), kind.colour, way / r, facing_lx, facing_lx * cosine);
+    if (tree_.blocked(from_m, lamp.position_m, 1e-3, kOwnHousing_m, leave_within_m)) continue;
+    add(Share{.lamp = i, .lx = facing_lx * cosine}, kind.colour, way / r, facing_lx);
   }
-  if (!moon_) return;
-  const double cosine = normal != nullptr ? glm::dot(moon_->toward, *normal) : 1.0;
-  if (cosine > 0.0 && !tree_.blocked(from_m, from_m + kBeyondScene_m * moon_->toward, 1e-3, 0.0))
-    add(std::optional<std::size_t>(), moon_->colour, moon_->toward, moon_->lx, moon_->lx * cosine);
+  const auto from_far = [&](const Moon& moon, Share share) {
+    const double cosine = normal != nullptr ? glm::dot(moon.toward, *normal) : 1.0;
+    if (!(cosine > 0.0) || tree_.blocked(from_m, from_m + kBeyondScene_m * moon.toward, 1e-3, 0.0, leave_within_m))
+      return;
+    share.lx = moon.lx * cosine;
+    add(share, moon.colour, moon.toward, moon.lx);
+  };
+  if (moon_) from_far(*moon_, {});
+  for (std::size_t i = 0; i < suns_.size(); ++i) from_far(suns_[i], {.directional = i});
 }
 
 std::vector<FixedLight::Share> FixedLight::shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const {
   std::vector<Share> shares;
-  each(point_m, &normal, [&](std::optional<std::size_t> lamp, const glm::vec3&, const glm::dvec3&, double, double lx) {
-    shares.push_back({lamp, lx});
-  });
+  each(point_m, &normal, false,
+       [&](const Share& share, const glm::vec3&, const glm::dvec3&, double) { shares.push_back(share); });
   std::ranges::stable_sort(shares, std::greater(), &Share::lx);
   return shares;
 }
@@ -111,13 +174,13 @@ double FixedLight::lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) c
 
 FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material) const {
   glm::dvec4 sum(0.0);
-  const auto add = [&](std::optional<std::size_t>, const glm::vec3& colour, const glm::dvec3&, double, double lx) {
-    sum += glm::dvec4(glm::dvec3(colour), 1.0) * lx;
+  const auto add = [&](const Share& share, const glm::vec3& colour, const glm::dvec3&, double) {
+    sum += glm::dvec4(glm::dvec3(colour), 1.0) * share.lx;
   };
-  each(point_m, &normal, add);
+  each(point_m, &normal, !material.double_sided, add);
   if (material.double_sided) {  // one number for both sides: leaves, of which one sees either
     const glm::dvec3 back = -normal;
-    each(point_m, &back, add);
+    each(point_m, &back, false, add);
     sum *= 0.5;
   }
   const glm::dvec3 rho = glm::max(glm::dvec3(material.reflectance), 1e-3);
@@ -129,8 +192,8 @@ FixedProbe FixedLight::probe(const glm::dvec3& point_m) const {
   FixedProbe probe;
   glm::dvec4 sum(0.0);
   glm::dvec3 from(0.0);
-  each(point_m, nullptr,
-       [&](std::optional<std::size_t>, const glm::vec3& colour, const glm::dvec3& way, double lx, double) {
+  each(point_m, nullptr, false,
+       [&](const Share&, const glm::vec3& colour, const glm::dvec3& way, double lx) {
          sum += glm::dvec4(glm::dvec3(colour), 1.0) * lx;
          from += lx * way;
        });
@@ -146,8 +209,8 @@ std::vector<GlaringLamp> FixedLight::glare_at(const glm::dvec3& eye_m, const Air
     const glm::dvec3 way = eye_m - lamp.position_m;
     const double r2 = glm::dot(way, way);
     const Luminaire& kind = luminaires_[lamp.luminaire];
-    if (!(r2 > 0.0) || kind.peak_cd < kLeastOfLamp_lx * r2) continue;
-    const double cd = kind.scale * kind.table.intensity_cd(lamp.lamp_from_world * way);
+    if (!(r2 > 0.0) || r2 > lamp.range_m * lamp.range_m || kind.peak_cd < kLeastOfLamp_lx * r2) continue;
+    const double cd = candela(lamp, way);
     if (cd < kLeastOfLamp_lx * r2) continue;
     all.push_back(glaring_lamp(lamp.position_m, cd, kind.colour, eye_m, air));
   }
@@ -174,8 +237,8 @@ std::vector<FixedLight::Mirrored> FixedLight::mirrored_into(const glm::dvec3& ey
     const glm::dvec3 way = mirror_eye_m - lamp.position_m;
     const double r2 = glm::dot(way, way), up_m = lamp.position_m.z - (eye_m.z - hidden_m);
     const Luminaire& kind = luminaires_[lamp.luminaire];
-    if (!(up_m > 0.0) || kind.peak_cd < kLeastOfLamp_lx * r2) continue;
-    const double cd = kind.scale * kind.table.intensity_cd(lamp.lamp_from_world * way);
+    if (!(up_m > 0.0) || r2 > lamp.range_m * lamp.range_m || kind.peak_cd < kLeastOfLamp_lx * r2) continue;
+    const double cd = candela(lamp, way);
     if (cd < kLeastOfLamp_lx * r2) continue;
     all.push_back({cd / r2, {lamp.position_m, kind.colour * static_cast<float>(cd)}});
   }
@@ -245,6 +308,7 @@ class Baker {
     if (!off && !unseen) return std::nullopt;
     mesh.vertices.push_back(between);
     mesh.light.push_back(light);
+    if (!mesh.looks.empty()) mesh.looks.push_back(look_between(mesh.looks[i], mesh.looks[j]));
     return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
   }
 
@@ -297,14 +361,19 @@ std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
           const auto indices = scene.indices.begin() + chunk.first_index;
           mesh.vertices.assign(vertices, vertices + chunk.vertex_count);
           mesh.indices.assign(indices, indices + chunk.index_count);
+          if (chunk.first_look) {
+            const auto looks = scene.looks.begin() + *chunk.first_look;
+            mesh.looks.assign(looks, looks + chunk.vertex_count);
+          }
         } else {
           const double from_m = kFarLevels[level - 1].from * kFarMeshFrom_m;
           FarMesh far = far_mesh(scene, chunk, level - 1, from_m);
           mesh.vertices = std::move(far.vertices), mesh.indices = std::move(far.indices);
+          mesh.looks = std::move(far.looks);
           cuts.least_edge_m = std::max(cuts.least_edge_m, 0.015 * from_m);  // a hundred pixels wide, seen edge on
         }
         for (const SceneVertex& vertex : mesh.vertices) mesh.light.push_back(baker.at(vertex));
-        if (!lamps_.empty()) baker.cut(mesh, cuts);
+        if (!lamps_.empty() || !suns_.empty()) baker.cut(mesh, cuts);
       }
     }
   };

@@ -3,6 +3,9 @@
 // and kept at the vertices of meshes that are cut as finely as the light asks for. A frame then pays for one
 // interpolated number, however many lamps there are.
 //
+// Lamps of a glTF file (KHR_lights_punctual, EXT_lights_ies) are among them: point and spot by candela, the spot's cone
+// by the extension's own formula, directional ones by lux, as the moon.
+//
 // E = Σ I(C, gamma)·cos/r² with the shadows of what stands, as everywhere (README.md). Left out: lamps beyond kReach_m
 // or of less than kLeast_lx at a point; light that has been reflected before; shadows of what moves; retroreflection
 // (nobody looks from a street lamp). Surfaces under lamps above the road are Lambert's: a CIE r-table's luminance hangs
@@ -16,6 +19,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,6 +54,7 @@ struct FixedMesh {
   std::vector<SceneVertex> vertices;
   std::vector<std::uint32_t> indices;
   std::vector<FixedVertex> light;
+  std::vector<CornerLook> looks{};  ///< one for each vertex, where the chunk has them
 };
 
 /// What arrives at a place, for what moves: on a surface with normal n, lx·max(0, 1/4 + dot(way, n)).
@@ -69,11 +74,12 @@ static_assert(kBakeLevels.size() == kFinenessNames.size());
 class FixedLight {
  public:
   FixedLight() = default;
-  /// What shines in that scene. `street_lamps`: empty, there are none. Error: a file that cannot be read.
+  /// What shines in that scene, its own lamps (visual/scene/scene_lights.h) behind those of the file `street_lamps`,
+  /// which may be empty: there are none. Error: a file that cannot be read.
   static Result<FixedLight> of(const Scene& scene, const std::filesystem::path& street_lamps,
                                const std::optional<MoonConfig>& moon);
 
-  bool any() const { return !lamps_.empty() || moon_ || luminous_ > 0 || covered_; }
+  bool any() const { return !lamps_.empty() || moon_ || !suns_.empty() || luminous_ > 0 || covered_; }
   std::size_t street_lamps() const { return lamps_.size(); }
   std::size_t luminous() const { return luminous_; }  ///< materials that shine by themselves
   struct Moon {
@@ -83,16 +89,20 @@ class FixedLight {
   };
   const std::optional<Moon>& moon_toward() const { return moon_; }
   bool moon() const { return moon_.has_value(); }
+  std::size_t directional() const { return suns_.size(); }  ///< lights of the scene that have a direction alone
   bool covered() const { return covered_; }  ///< some surface does not see the whole sky
 
-  /// One lamp's, or the moon's, share.
+  /// One lamp's share, or that of what has a direction alone.
   struct Share {
-    std::optional<std::size_t> lamp;  ///< nothing: the moon
+    std::optional<std::size_t> lamp{};
+    std::optional<std::size_t> directional{};  ///< neither: the moon
     double lx = 0.0;
   };
   /// In float64, with shadows: what falls on a point, strongest first.
   std::vector<Share> shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
   double lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
+  /// As vertices of the scene keep it: one that nobody sees, for something thin lies on it, has the light that falls on
+  /// that; else lux_at().
   FixedVertex at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material) const;
   FixedProbe probe(const glm::dvec3& point_m) const;
   /// Lamps that shine into an eye, the scene and the air between them; what moves hides none. The strongest
@@ -114,21 +124,29 @@ class FixedLight {
  private:
   struct Luminaire {
     IntensityTable table;
-    glm::vec3 colour{1.0f};
+    glm::vec3 colour{1.0f};  ///< luminance 1
     double scale = 1.0, peak_cd = 0.0;
+    /// Of a lamp without a table: cosines of its cone, where its full light ends and where it is dark; -2: every way.
+    bool has_table = true;
+    double cos_inner = -2.0, cos_outer = -2.0;
   };
   struct Lamp {
     glm::dvec3 position_m{0.0};
     glm::dmat3 lamp_from_world{1.0};
     std::size_t luminaire = 0;
+    double range_m = std::numeric_limits<double>::infinity();  ///< there is nothing of it beyond (KHR_lights_punctual)
   };
+  Status add_lights_of(const Scene& scene);
+  /// cd into a direction of the world, of any length.
+  double candela(const Lamp& lamp, const glm::dvec3& way) const;
   template <typename Add>
-  void each(const glm::dvec3& point_m, const glm::dvec3* normal, const Add& add) const;
+  void each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add) const;
 
   BakeLevel level_ = kBakeLevels[1];
   std::vector<Luminaire> luminaires_;
   std::vector<Lamp> lamps_;
   std::optional<Moon> moon_;
+  std::vector<Moon> suns_;  ///< directional lights of the scene
   std::size_t luminous_ = 0;
   bool covered_ = false;
   RayTree tree_;

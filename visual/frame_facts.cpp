@@ -25,6 +25,7 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
 void add_facts(EffectFacts& facts, const FixedLight& light) {
   facts.street_lamps = light.street_lamps();
   facts.moon = light.moon();
+  facts.directional = light.directional();
   facts.luminous = light.luminous();
   facts.covered = light.covered();
 }

@@ -332,14 +332,12 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
     stages.vertex = measure ? *measure_vert_[size] : scene_vert(size, variant.method, variant.fog.slices != 0);
   }
   std::span<const vk::VertexInputAttributeDescription> attributes = std::span(kVertexAttributes).first(measure ? 2 : 3);
-  if (textured) attributes = kTexturedAttributes;
   PipelineRecipe recipe{
       .vertex = stages.vertex,
       .fragment = stages.fragment.module,
       .constants = &constants,
       .attributes = attributes,
       .stride = sizeof(GpuVertex),
-      .second_stride = textured ? static_cast<std::uint32_t>(sizeof(CornerLook)) : 0u,
       .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
       .cull = variant.kind.double_sided || measure ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack,
       .colour = {variant.format},
@@ -349,7 +347,10 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
       .samples = variant.samples,
       .layout = stages.fragment.layout};
   if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
-  if (variant.fixed_light) {
+  std::vector<vk::VertexInputAttributeDescription> of_textured;
+  if (textured) {
+    add_textured_vertices(variant, recipe, of_textured);
+  } else if (variant.fixed_light) {
     recipe.vertex = fixed_module(variant, size, true);
     recipe.attributes = variant.moves ? kProbeAttributes : kFixedAttributes;
     recipe.second_stride = variant.moves ? sizeof(FixedProbe) : sizeof(FixedVertex);
@@ -439,12 +440,11 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet;
     variant.fixed_light = view.fixed_light && variant.output != LampOutput::kAudit;
     variant.moves = variant.fixed_light && item.moves != DrawItem::kStands;
-    if (variant.fixed_light) bind_fixed_light(commands, view, item, bound_light);
     if (variant.output == LampOutput::kAudit) {
       const std::uint32_t look = variant.kind.look;
       variant.kind = {.double_sided = variant.kind.double_sided,
                       .flat = variant.kind.flat,
-                      .look = look & shader::kLookCut ? look : 0u};
+                      .look = look & shader::kLookCut ? look & ~shader::kLookRelief : 0u};
     }
     if (is_lean(variant))
       variant.alike = lit.alike;
@@ -454,8 +454,14 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);
     push(commands, by_reference ? reference_draw(item) : item.push);
     const bool look = variant.kind.look != 0;
-    if (look) bind_look(commands, *item.batch, by_reference);
-    if (!look && !plain) bind_vertices(commands);
+    if (look) {
+      bind_look(commands, *item.batch, by_reference);
+      bound_light = nullptr;
+      if (variant.fixed_light) bind_fixed_light_of_look(commands, view, item);
+    } else {
+      if (variant.fixed_light) bind_fixed_light(commands, view, item, bound_light);
+      if (!plain) bind_vertices(commands);
+    }
     plain = !look;
     commands.drawIndexed(item.batch->index_count, 1, item.first_index, look ? 0 : item.batch->first_vertex,
                          variant.moves ? probe_in_page(view, item) : 0);

@@ -234,6 +234,10 @@ class LitScene {
   FragmentStage reference_stage(const LitVariant& variant);
   Textured& textured();
   Stages textured_stages(const LitVariant& variant);
+  static void add_textured_vertices(const LitVariant& variant, PipelineRecipe& recipe,
+                                    std::vector<vk::VertexInputAttributeDescription>& attributes);
+  /// After bind_look().
+  void bind_fixed_light_of_look(vk::CommandBuffer commands, const LitView& view, const DrawItem& item) const;
   vk::ShaderModule textured_module(std::span<const std::uint32_t> code);
   vk::DescriptorSetLayout reference_layout();
   Reference& reference();
@@ -299,7 +303,7 @@ std::span<const std::uint32_t> scene_fog_vert(bool shadows, bool by_vertex, bool
 inline constexpr auto kLitStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 /// Of GpuVertex.
 extern const std::array<vk::VertexInputAttributeDescription, 3> kVertexAttributes;
-/// Of GpuVertex and CornerLook.
+/// Of GpuVertex and GpuCornerLook.
 extern const std::array<vk::VertexInputAttributeDescription, 5> kTexturedAttributes;
 /// The same with a FixedVertex beside each, or a FixedProbe for all.
 extern const std::array<vk::VertexInputAttributeDescription, 6> kFixedAttributes, kProbeAttributes;

@@ -39,6 +39,7 @@
 #include "shaders/scene_vert_8_lit_textured.h"
 #include "shaders/scene_vert_8_textured.h"
 #include "visual/lit_scene.h"
+#include "visual/passes/textured_shaders.h"
 
 namespace phare {
 namespace {
@@ -92,13 +93,47 @@ Code reference_frag_of(bool shadows, bool fog) {
 
 }  // namespace
 
-static_assert(sizeof(CornerLook) == 16 && offsetof(CornerLook, colour) == 8 && sizeof(shader::GpuLook) == 32);
+static_assert(sizeof(GpuCornerLook) == 16 && offsetof(GpuCornerLook, colour) == 8 && sizeof(shader::GpuLook) == 32 &&
+              sizeof(shader::GpuRelief) == 16);
+
+namespace {
+
+// Of the buffers: vertices, looks, fixed light, tangents.
+constexpr std::uint32_t kLooksAt = 1, kLightAt = 2, kTangentsAt = 3;
+
+vk::VertexInputAttributeDescription attribute(std::uint32_t location, std::uint32_t binding, vk::Format format,
+                                              std::uint32_t offset) {
+  return {.location = location, .binding = binding, .format = format, .offset = offset};
+}
+
+}  // namespace
 
 const std::array<vk::VertexInputAttributeDescription, 5> kTexturedAttributes{
     kVertexAttributes[0], kVertexAttributes[1], kVertexAttributes[2],
-    vk::VertexInputAttributeDescription{.location = 3, .binding = 1, .format = vk::Format::eR32G32Sfloat, .offset = 0},
-    vk::VertexInputAttributeDescription{
-        .location = 4, .binding = 1, .format = vk::Format::eR16G16B16A16Unorm, .offset = 8}};
+    attribute(3, kLooksAt, vk::Format::eR32G32Sfloat, 0), attribute(4, kLooksAt, vk::Format::eR16G16B16A16Unorm, 8)};
+
+/// As shaders/scene.vert and lib/textured.glsl have them.
+void LitScene::add_textured_vertices(const LitVariant& variant, PipelineRecipe& recipe,
+                                     std::vector<vk::VertexInputAttributeDescription>& attributes) {
+  attributes.assign(kVertexAttributes.begin(), kVertexAttributes.end());
+  std::uint32_t next = 3;
+  if (variant.fixed_light) {
+    attributes.push_back(attribute(next++, kLightAt, vk::Format::eR32G32B32A32Sfloat, 0));
+    attributes.push_back(attribute(next++, kLightAt, vk::Format::eR32Sfloat, variant.moves ? 28 : 16));
+    attributes.push_back(variant.moves ? attribute(next++, kLightAt, vk::Format::eR32G32B32Sfloat, 16)
+                                       : attribute(next++, kLightAt, vk::Format::eR32Sfloat, 16));
+    recipe.third_stride = variant.moves ? sizeof(FixedProbe) : sizeof(FixedVertex);
+    recipe.third_by_instance = variant.moves;
+  }
+  attributes.push_back(attribute(next++, kLooksAt, vk::Format::eR32G32Sfloat, 0));
+  attributes.push_back(attribute(next++, kLooksAt, vk::Format::eR16G16B16A16Unorm, 8));
+  recipe.second_stride = sizeof(GpuCornerLook);
+  if (variant.kind.look & shader::kLookRelief) {
+    attributes.push_back(attribute(next++, kTangentsAt, vk::Format::eR8G8B8A8Snorm, 0));
+    recipe.fourth_stride = sizeof(CornerLook::tangent);
+  }
+  recipe.attributes = attributes;
+}
 
 struct LitScene::Textured {
   vk::raii::PipelineLayout layout{nullptr}, reference_layout{nullptr};
@@ -133,18 +168,27 @@ LitScene::Stages LitScene::textured_stages(const LitVariant& variant) {
   const bool by_vertex = !reference && variant.method != Method::kFragment;
   static const std::array<Code, 3> of_many{k_scene_vert_8_textured, k_scene_vert_8_lit_textured,
                                            k_scene_vert_8_lit_filtered_textured};
+  const TexturedKind apart{.relief = (variant.kind.look & shader::kLookRelief) != 0,
+                           .fixed = variant.fixed_light,
+                           .reference = reference,
+                           .filtered = filtered()};
+  const bool is_apart = apart.relief || apart.fixed;
   const Code vertex =
-      many ? of_many[by_vertex ? filtered() ? 2u : 1u : 0u] : vert_of_two(shadows, fog, by_vertex, filtered());
+      is_apart ? textured_vert(apart, by_vertex)
+      : many ? of_many[by_vertex ? filtered() ? 2u : 1u : 0u] : vert_of_two(shadows, fog, by_vertex, filtered());
   if (!reference)
     return {textured_module(vertex),
-            {textured_module(frag_of(shadows, fog, filtered(), many)), *textured().layout}};
+            {textured_module(is_apart ? textured_frag(apart, shadows, fog) : frag_of(shadows, fog, filtered(), many)),
+             *textured().layout}};
   Textured& own = textured();
   if (!*own.reference_layout) {
     const std::array layouts{sets_.layout(), shadow_sets_.layout(), fog_sets_.layout(), reference_layout(),
                              geometry_.textures.layout()};
     own.reference_layout = pipeline_layout(layouts);
   }
-  return {textured_module(vertex), {textured_module(reference_frag_of(shadows, fog)), *own.reference_layout}};
+  return {textured_module(vertex),
+          {textured_module(is_apart ? textured_frag(apart, shadows, fog) : reference_frag_of(shadows, fog)),
+           *own.reference_layout}};
 }
 
 void LitScene::bind_look(vk::CommandBuffer commands, const SceneBatch& batch, bool reference) {
@@ -153,8 +197,20 @@ void LitScene::bind_look(vk::CommandBuffer commands, const SceneBatch& batch, bo
                               geometry_.textures.set(batch.look_of), nullptr);
   const std::array buffers{*geometry_.vertices.buffer, *geometry_.looks.buffer};
   const std::array<vk::DeviceSize, 2> offsets{static_cast<vk::DeviceSize>(batch.first_vertex) * sizeof(GpuVertex),
-                                              static_cast<vk::DeviceSize>(batch.first_look) * sizeof(CornerLook)};
+                                              static_cast<vk::DeviceSize>(batch.first_look) * sizeof(GpuCornerLook)};
   commands.bindVertexBuffers(0, buffers, offsets);
+  if (batch.kind.look & shader::kLookRelief)
+    commands.bindVertexBuffers(kTangentsAt, *geometry_.tangents.buffer,
+                               static_cast<vk::DeviceSize>(batch.first_tangent) * sizeof(CornerLook::tangent));
+}
+
+void LitScene::bind_fixed_light_of_look(vk::CommandBuffer commands, const LitView& view, const DrawItem& item) const {
+  if (item.moves != DrawItem::kStands)
+    commands.bindVertexBuffers(kLightAt, *probes_[(view.first_probe + item.moves) / kProbesInPage]->buffer,
+                               vk::DeviceSize{0});
+  else
+    commands.bindVertexBuffers(kLightAt, *geometry_.fixed_light.buffer,
+                               static_cast<vk::DeviceSize>(item.batch->first_vertex) * sizeof(FixedVertex));
 }
 
 void LitScene::bind_vertices(vk::CommandBuffer commands) const {

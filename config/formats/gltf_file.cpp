@@ -80,7 +80,7 @@ bool finite(const glm::dmat4& matrix) {
 
 // Depth first; `visited` makes a node that is reached twice (glTF allows one parent) an error, so a cycle ends.
 Status visit(const tinygltf::Model& model, int index, const glm::dmat4& world_from_parent,
-             const std::string& parent_name, int depth, std::vector<bool>& visited, std::vector<MeshInstance>& out) {
+             const std::string& parent_name, int depth, std::vector<bool>& visited, std::vector<NodeInstance>& out) {
   const std::string place = "node " + std::to_string(index);
   if (index < 0 || static_cast<std::size_t>(index) >= model.nodes.size()) return bad(place, "does not exist");
   if (visited[static_cast<std::size_t>(index)]) return bad(place, "has two parents or is its own ancestor");
@@ -93,11 +93,9 @@ Status visit(const tinygltf::Model& model, int index, const glm::dmat4& world_fr
     return bad(place, "its rotation is 0, 0, 0, 0, which turns nowhere");
   const glm::dmat4 world_from_node = world_from_parent * local_transform(node);
   if (!finite(world_from_node)) return bad(place, "its transform is not finite");
-  if (node.mesh >= 0) {
-    if (static_cast<std::size_t>(node.mesh) >= model.meshes.size())
-      return bad(place, "mesh " + std::to_string(node.mesh) + " does not exist");
-    out.push_back(MeshInstance{name, index, node.mesh, world_from_node});
-  }
+  if (node.mesh >= 0 && static_cast<std::size_t>(node.mesh) >= model.meshes.size())
+    return bad(place, "mesh " + std::to_string(node.mesh) + " does not exist");
+  out.push_back({name, index, world_from_node});
   for (const int child : node.children)
     if (Status done = visit(model, child, world_from_node, name, depth + 1, visited, out); !done) return done;
   return Done{};
@@ -140,7 +138,7 @@ Result<tinygltf::Model> read_gltf(const std::filesystem::path& file, GltfImages 
   }
   if (json_nesting(json) > kMaxNesting) return bad(place, "JSON is nested deeper than " + std::to_string(kMaxNesting));
 
-  if (Status done = stand_in_for_fallbacks(bytes, binary); !done) return bad(place, done.error().text());
+  if (Status done = stand_in_for_what_is_left_out(bytes, binary); !done) return bad(place, done.error().text());
 
   tinygltf::TinyGLTF loader;
   bool wanted = true;
@@ -204,7 +202,7 @@ Result<std::vector<std::uint32_t>> read_triangles(const tinygltf::Model& model, 
   return out;
 }
 
-Result<std::vector<MeshInstance>> mesh_instances(const tinygltf::Model& model) {
+Result<std::vector<NodeInstance>> node_instances(const tinygltf::Model& model) {
   std::vector<int> roots;
   if (!model.scenes.empty()) {
     const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
@@ -220,10 +218,20 @@ Result<std::vector<MeshInstance>> mesh_instances(const tinygltf::Model& model) {
     for (std::size_t i = 0; i < is_child.size(); ++i)
       if (!is_child[i]) roots.push_back(static_cast<int>(i));
   }
-  std::vector<MeshInstance> out;
+  std::vector<NodeInstance> out;
   std::vector<bool> visited(model.nodes.size(), false);
   for (const int root : roots)
     if (Status done = visit(model, root, world_from_gltf(), "", 0, visited, out); !done) return done.error();
+  return out;
+}
+
+Result<std::vector<MeshInstance>> mesh_instances(const tinygltf::Model& model) {
+  Result<std::vector<NodeInstance>> nodes = node_instances(model);
+  if (!nodes) return nodes.error();
+  std::vector<MeshInstance> out;
+  for (const NodeInstance& node : *nodes)
+    if (const int mesh = model.nodes[static_cast<std::size_t>(node.node)].mesh; mesh >= 0)
+      out.push_back({node.name, node.node, mesh, node.world_from_node});
   return out;
 }
 

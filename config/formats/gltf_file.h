@@ -49,6 +49,16 @@ Result<std::vector<std::uint32_t>> read_indices(const tinygltf::Model& model, in
 Result<std::vector<std::uint32_t>> read_triangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                                                   std::size_t vertex_count);
 
+/// A node where it stands in the scene.
+struct NodeInstance {
+  std::string name;                 ///< of the node, else of its nearest named ancestor
+  int node = -1;                    ///< index in model.nodes
+  glm::dmat4 world_from_node{1.0};  ///< as MeshInstance has it
+};
+
+/// All nodes of the default scene, with or without a mesh; errors as of mesh_instances().
+Result<std::vector<NodeInstance>> node_instances(const tinygltf::Model& model);
+
 /// A mesh where it stands in the scene.
 struct MeshInstance {
   std::string name;                 ///< of the node, else of its nearest named ancestor

@@ -72,7 +72,7 @@ bool unpack(const Packed& packed, std::vector<unsigned char>& out) {
 
 }  // namespace
 
-Status stand_in_for_fallbacks(std::vector<unsigned char>& file, bool glb) {
+Status stand_in_for_what_is_left_out(std::vector<unsigned char>& file, bool glb) {
   std::size_t begin = 0, length = file.size();
   if (glb) {
     std::uint32_t word = 0;
@@ -80,21 +80,29 @@ Status stand_in_for_fallbacks(std::vector<unsigned char>& file, bool glb) {
     begin = 20, length = word;
   }
   const std::string_view text(reinterpret_cast<const char*>(file.data()) + begin, length);
-  if (text.find(kMeshoptExtension) == std::string_view::npos) return Done{};
+  if (text.find(kMeshoptExtension) == std::string_view::npos && text.find("KHR_lights_punctual") == text.npos)
+    return Done{};
   nlohmann::json root = nlohmann::json::parse(text, nullptr, false);
   if (root.is_discarded() || !root.is_object()) return Done{};  // tinygltf says what is wrong with it
-  const auto buffers = root.find("buffers");
-  if (buffers == root.end() || !buffers->is_array()) return Done{};
   bool changed = false;
-  for (nlohmann::json& buffer : *buffers) {
-    if (!buffer.is_object() || buffer.contains("uri")) continue;
-    const nlohmann::json extension =
-        buffer.value("extensions", nlohmann::json::object()).value(kMeshoptExtension, nlohmann::json::object());
-    if (!extension.is_object() || !extension.value("fallback", false)) continue;
-    buffer["uri"] = "data:application/octet-stream;base64,AA==";
-    buffer["byteLength"] = 1;
-    changed = true;
-  }
+  if (const auto buffers = root.find("buffers"); buffers != root.end() && buffers->is_array())
+    for (nlohmann::json& buffer : *buffers) {
+      if (!buffer.is_object() || buffer.contains("uri")) continue;
+      const nlohmann::json extension =
+          buffer.value("extensions", nlohmann::json::object()).value(kMeshoptExtension, nlohmann::json::object());
+      if (!extension.is_object() || !extension.value("fallback", false)) continue;
+      buffer["uri"] = "data:application/octet-stream;base64,AA==";
+      buffer["byteLength"] = 1;
+      changed = true;
+    }
+  const nlohmann::json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+  if (root.contains(lights) && root[lights].is_array())
+    for (nlohmann::json& light : root[lights]) {
+      const bool spot = light.is_object() && light.contains("type") && light["type"] == "spot";
+      if (!spot || light.contains("spot")) continue;
+      light["spot"] = nlohmann::json::object();
+      changed = true;
+    }
   if (!changed) return Done{};
   std::string json = root.dump();
   if (!glb) {

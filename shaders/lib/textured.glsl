@@ -9,25 +9,44 @@ layout(constant_id = kSpecLook) const uint look = 0;
 // Behind what surface_varyings.glsl and fog_flat.glsl take.
 #if PHARE_LAMPS == 2
 #define PHARE_LOOK_LOCATION 13
+#elif defined(PHARE_FIXED)
+#define PHARE_LOOK_LOCATION 17
 #else
 #define PHARE_LOOK_LOCATION 16
 #endif
+#ifdef PHARE_FIXED
+#define PHARE_LOOK_INPUT 6
+#else
+#define PHARE_LOOK_INPUT 3
+#endif
 
 #ifdef PHARE_VERTEX
-layout(location = 3) in vec2 corner_uv;
-layout(location = 4) in vec4 corner_colour;
+layout(location = PHARE_LOOK_INPUT) in vec2 corner_uv;
+layout(location = PHARE_LOOK_INPUT + 1) in vec4 corner_colour;
 layout(location = PHARE_LOOK_LOCATION) out vec2 look_uv;
 layout(location = PHARE_LOOK_LOCATION + 1) out vec4 look_colour;
+
+#ifdef PHARE_RELIEF
+layout(location = PHARE_LOOK_INPUT + 2) in vec4 corner_tangent;
+layout(location = PHARE_LOOK_LOCATION + 2) out vec4 look_tangent;
+#endif
 
 void pass_look() {
   look_uv = corner_uv;
   look_colour = corner_colour;
+#ifdef PHARE_RELIEF
+  look_tangent = vec4(turned(corner_tangent.xyz), corner_tangent.w);
+#endif
 }
 #else
 layout(location = PHARE_LOOK_LOCATION) in vec2 look_uv;
 layout(location = PHARE_LOOK_LOCATION + 1) in vec4 look_colour;
 layout(set = PHARE_TEXTURE_SET, binding = 0) uniform sampler2DArray look_texels;
+#ifdef PHARE_RELIEF
+layout(std140, set = PHARE_TEXTURE_SET, binding = 1) uniform Look { GpuLook look_of; GpuRelief relief_of; };
+#else
 layout(std140, set = PHARE_TEXTURE_SET, binding = 1) uniform Look { GpuLook look_of; };
+#endif
 
 vec3 seen_rho, seen_emitted_cdm2;
 

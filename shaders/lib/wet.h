@@ -28,13 +28,17 @@ PHARE_INLINE float mirrored_by_water(float cosine) {
   return 0.5f * a * a * (1.0f + b * b);
 }
 
+// Luminance over illuminance, 1/sr, of microfacets that mirror all. Cosines as water_lobe has them.
+PHARE_INLINE float facets_lobe(float alpha, float lamp, float eye, float half_way) {
+  float a2 = alpha * alpha, slope = half_way * half_way * (a2 - 1.0f) + 1.0f;
+  float facets = a2 / (3.14159265f * slope * slope);
+  return facets * (0.5f / max(lamp * sqrt(eye * eye * (1.0f - a2) + a2) + eye * sqrt(lamp * lamp * (1.0f - a2) + a2), 1e-6f));
+}
+
 // Luminance over illuminance, 1/sr, of the film's mirror. `alpha`: width of its slopes. Cosines: of the lamp and of the eye over the ground, of
 // the half way between both over the ground, and of either against it.
 PHARE_INLINE float water_lobe(float alpha, float lamp, float eye, float half_way, float against) {
-  float a2 = alpha * alpha, slope = half_way * half_way * (a2 - 1.0f) + 1.0f;
-  float facets = a2 / (3.14159265f * slope * slope);
-  float seen = 0.5f / max(lamp * sqrt(eye * eye * (1.0f - a2) + a2) + eye * sqrt(lamp * lamp * (1.0f - a2) + a2), 1e-6f);
-  return facets * seen * mirrored_by_water(against);
+  return facets_lobe(alpha, lamp, eye, half_way) * mirrored_by_water(against);
 }
 
 PHARE_SHADER_END

@@ -203,6 +203,7 @@ TEST_F(BadInput, OfADrive) {
 }
 
 TEST_F(BadInput, OfTheOtherCommands) {
+  write("bare.gltf", R"({"asset": {"version": "2.0"}})");
   const std::string measure = "phare measure --method reference --out out.csv ";
   const std::string lamp = " --lamp short.ies,x=0,y=0,z=1";
   const std::string import = "phare import --out out.pcap ";
@@ -216,6 +217,8 @@ TEST_F(BadInput, OfTheOtherCommands) {
       {"lamp without place", measure + "--points good.csv --lamp short.ies,x=0", "is missing (position in m)"},
       {"no lamp", measure + "--points good.csv", "give --rig FILE or --lamp"},
       {"no beam", measure + "--points good.csv --rig rig.toml --beams cornering", "--beams: "},
+      {"a scene without lamps", measure + "--points good.csv --scene bare.gltf", "bare.gltf: has no lamps of its own"},
+      {"a scene and a car", measure + "--points good.csv --scene bare.gltf --rig rig.toml", "--scene: is measured alone"},
       {"no table", "phare measure --table absent.csv", "absent.csv: no such file"},
       {"nowhere to write", "phare measure --method reference --rig rig.toml --points good.csv --out /nonexistent/e.csv",
        "/nonexistent/e.csv"},

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "config/base/paths.h"
@@ -28,6 +29,34 @@ TEST(RayTree, AnswersAsTheSearchThroughAllTriangles) {
   }
   EXPECT_GT(hidden, kRays / 10);
   EXPECT_LT(hidden, kRays * 9 / 10);
+}
+
+/// A box of 0.2 m about (0, 0, 1), its faces looking outward; `both`: seen from both sides.
+Scene box(bool both) {
+  Scene scene;
+  scene.materials = {{.name = "box", .double_sided = both}};
+  for (int i = 0; i < 8; ++i)
+    scene.vertices.push_back({{i & 1 ? 0.1f : -0.1f, i & 2 ? 0.1f : -0.1f, i & 4 ? 1.1f : 0.9f}, {0, 0, 1}});
+  for (const auto& f : {std::array{0u, 2u, 3u, 1u}, {4u, 5u, 7u, 6u}, {0u, 1u, 5u, 4u}, {2u, 6u, 7u, 3u},
+                        {0u, 4u, 6u, 2u}, {1u, 3u, 7u, 5u}})
+    scene.indices.insert(scene.indices.end(), {f[0], f[1], f[2], f[0], f[2], f[3]});
+  scene.chunks = {{.node = "box", .low_m = {-0.1, -0.1, 0.9}, .high_m = {0.1, 0.1, 1.1}, .index_count = 36,
+                   .vertex_count = 8}};
+  return scene;
+}
+
+TEST(RayTree, WhatAPointLiesInIsLeftThroughItsBack) {
+  const RayTree tree(box(false)), seen_from_both(box(true));
+  const glm::dvec3 inside(0.01, 0.02, 1.0), outside(0.01, 0.02, 2.0), below(0.01, 0.02, 0.5);
+  EXPECT_TRUE(tree.blocked(inside, outside, 1e-3, 0.0));
+  EXPECT_FALSE(tree.blocked(inside, outside, 1e-3, 0.0, 0.15));
+  EXPECT_TRUE(tree.blocked(inside, outside, 1e-3, 0.0, 0.05)) << "its back is 0.1 m away";
+  EXPECT_TRUE(seen_from_both.blocked(inside, outside, 1e-3, 0.0, 0.15)) << "that has no back";
+  EXPECT_TRUE(tree.blocked(below, outside, 1e-3, 0.0, 2.0)) << "its front stands in the way";
+  EXPECT_NEAR(tree.left_at_m(inside, {0, 0, 1}, 0.5), 0.1, 1e-6);
+  EXPECT_NEAR(tree.left_at_m(below, {0, 0, 1}, 2.0), 0.6, 1e-6);
+  EXPECT_EQ(tree.left_at_m(inside, {0, 0, 1}, 0.05), 0.0);
+  EXPECT_EQ(seen_from_both.left_at_m(inside, {0, 0, 1}, 0.5), 0.0);
 }
 
 TEST(RayTree, NothingIsFree) {

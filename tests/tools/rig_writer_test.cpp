@@ -335,5 +335,35 @@ TEST_F(Portable, EverythingNamedGoesAlongAndReadsAfterTheMove) {
   EXPECT_TRUE(found.problems.empty()) << found.problems.front().text();
 }
 
+TEST_F(Portable, ASceneOfOthersIsCopiedWithWhatLiesBesideItAndItsNotesAreTold) {
+  const fs::path home = folder_ / "scene of others";
+  fs::create_directories(home);
+  std::ofstream(home / "my bark.png") << "no picture";
+  std::ofstream(home / "street lamp.ies") << "no photometry";
+  std::ofstream(home / "yard.gltf")
+      << R"({"asset": {"version": "2.0"}, "extensionsUsed": ["XYZ_curves"], "images": [{"uri": "my%20bark.png"}],
+           "textures": [{"source": 0}],
+           "materials": [{"name": "bark", "normalTexture": {"index": 0}}],
+           "extensions": {"EXT_lights_ies": {"lights": [{"uri": "street%20lamp.ies"}]}}})";
+  Rig rig = demo_rig("country_road.toml");
+  rig.scene_file = home / "yard.gltf";
+  PortableFiles files(folder_ / "taken");
+  const Status copied = files.copy(rig);
+  ASSERT_TRUE(copied) << copied.error().text();
+  for (const char* name : {"yard.gltf", "my bark.png", "street lamp.ies"})
+    EXPECT_TRUE(fs::is_regular_file(folder_ / "taken/scene" / name)) << name;
+
+  RigWords words;
+  words.path = [](const fs::path& file) { return file.string(); };
+  std::ofstream(folder_ / "others.toml") << rig_text(rig, words);
+  const RigFindings found = check_rig(folder_ / "others.toml");
+  std::string notes;
+  for (const std::string& note : found.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("yard.gltf: extensions that are not read: XYZ_curves"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("my bark.png: is no PNG or JPEG"), std::string::npos) << notes;
+  ASSERT_EQ(found.problems.size(), 1u);
+  EXPECT_NE(found.problems[0].text().find("street lamp.ies"), std::string::npos) << found.problems[0].text();
+}
+
 }  // namespace
 }  // namespace phare

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -150,6 +151,31 @@ TEST(StreetLamps, WhatStandsHidesAndTheMoonIsALamp) {
 }
 
 /// What moves: a lamp's own E·cos(q) against E·(1/4 + cos(q)/2), which is a quarter off at worst (q = 0, 90° and 180°).
+/// A plate of 1 m, 5 cm thick, on the ground: what lies under it nobody sees, and it must not darken what lies around.
+TEST(StreetLamps, WhatNobodySeesIsNoShadowOnWhatIsSeen) {
+  Scene scene = square();
+  SceneChunk plate{.node = "plate", .low_m = {-0.5, -0.5, 0.0}, .high_m = {0.5, 0.5, 0.05}};
+  plate.first_index = static_cast<std::uint32_t>(scene.indices.size());
+  plate.first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
+  for (int i = 0; i < 8; ++i)
+    scene.vertices.push_back({{i & 1 ? 0.5f : -0.5f, i & 2 ? 0.5f : -0.5f, i & 4 ? 0.05f : 0.0f}, {0, 0, 1}});
+  for (const auto& f : {std::array{0u, 2u, 3u, 1u}, {4u, 5u, 7u, 6u}, {0u, 1u, 5u, 4u}, {2u, 6u, 7u, 3u},
+                        {0u, 4u, 6u, 2u}, {1u, 3u, 7u, 5u}})
+    scene.indices.insert(scene.indices.end(), {f[0], f[1], f[2], f[0], f[2], f[3]});
+  plate.index_count = 36, plate.vertex_count = 8;
+  const auto bare = FixedLight::of(square(), lamps_file(lamp_text(3, 0, 3)), std::nullopt);
+  scene.chunks.push_back(plate);
+  const auto light = FixedLight::of(scene, lamps_file(lamp_text(3, 0, 3)), std::nullopt);
+  ASSERT_TRUE(bare && light);
+  const glm::dvec3 up(0, 0, 1), under(0.2, 0.1, 0.0), beside(1.0, 0.0, 0.0), behind(-0.52, 0.0, 0.0);
+  const SceneMaterial& ground = scene.materials[0];
+  EXPECT_EQ(light->lux_at(under, up), 0.0) << "as a point it is dark";
+  EXPECT_NEAR(light->at(under, up, ground).light.w, bare->lux_at(under, up), 1e-5 * bare->lux_at(under, up));
+  EXPECT_EQ(static_cast<double>(light->at(beside, up, ground).light.w),
+            static_cast<double>(static_cast<float>(light->lux_at(beside, up))));
+  EXPECT_EQ(light->at(behind, up, ground).light.w, 0.0f) << "the plate's own shadow stays";
+}
+
 TEST(StreetLamps, TheProbeOfWhatMovesIsWithinAQuarter) {
   const auto light = FixedLight::of(Scene{}, lamps_file(lamp_text(0, 0, 8)), std::nullopt);
   ASSERT_TRUE(light);
@@ -212,7 +238,9 @@ Errors errors_of(const FixedLight& light, const Scene& scene, int samples, bool 
       normal += weights[k] * glm::dvec3(piece.mesh->vertices[index].normal);
       lx += weights[k] * static_cast<double>(piece.mesh->light[index].light.w);
     }
-    const double exact = light.lux_at(at, glm::normalize(normal));
+    // Of what nobody sees, that which vertices keep of it.
+    const double exact = static_cast<double>(
+        light.at(at, glm::normalize(normal), scene.materials[piece.chunk->material]).light.w);
     all.push_back(std::abs(lx - exact) / (to_mean ? 1.0 : std::max(exact, 0.5)));
     errors.mean_lx += exact / samples;
   }

@@ -9,6 +9,7 @@
 
 #include "config/base/commit.h"
 #include "config/base/content_hash.h"
+#include "config/formats/gltf_uri.h"
 #include "config/base/paths.h"
 #include "config/base/shell_word.h"
 #include "config/base/whole_file.h"
@@ -161,7 +162,8 @@ class CostRun {
     if (!device_.empty()) json_["device"] = device_;
     for (const auto& [key, file] :
          {std::pair{"scene", options_.scene}, {"lamp", options_.lamp}, {"vehicle", options_.vehicle}}) {
-      const Result<std::string> hash = content_hash_of_file(file);
+      const bool scene = std::string_view(key) == "scene";
+      const Result<std::string> hash = scene ? content_hash_of_gltf(file) : content_hash_of_file(file);
       if (hash) json_[key] = file + ", " + *hash;
     }
     json_["command"] = options_.command;

@@ -6,6 +6,7 @@
 
 #include "config/base/content_hash.h"
 #include "config/base/whole_file.h"
+#include "config/formats/gltf_uri.h"
 #include "config/road/lane.h"
 #include "tools/cost/measure_settings.h"
 
@@ -56,29 +57,15 @@ Result<KeptFile> keep_settings(const SettingsTable& table) {
 }
 
 Result<std::string> scene_hash(const std::filesystem::path& scene_file) {
-  const Result<std::string> whole = content_hash_of_file(scene_file);
+  const Result<std::string> whole = content_hash_of_gltf(scene_file);
   if (!whole) return whole.error();
   std::string of = *whole;
-  const auto add = [&](const std::filesystem::path& file) -> Status {
-    const Result<std::string> hash = content_hash_of_file(file);
+  std::error_code ignored;
+  if (const auto lane = lane_file_of(scene_file); std::filesystem::exists(lane, ignored)) {
+    const Result<std::string> hash = content_hash_of_file(lane);
     if (!hash) return hash.error();
     of += " " + *hash;
-    return Done{};
-  };
-  if (scene_file.extension() == ".gltf") {
-    std::ifstream stream(scene_file);
-    const nlohmann::json gltf = nlohmann::json::parse(stream, nullptr, false);
-    for (const char* kind : {"buffers", "images"})
-      for (const nlohmann::json& one :
-           gltf.is_object() ? gltf.value(kind, nlohmann::json::array()) : nlohmann::json()) {
-        const nlohmann::json uri = one.is_object() ? one.value("uri", nlohmann::json()) : nlohmann::json();
-        if (!uri.is_string() || uri.get<std::string>().starts_with("data:")) continue;
-        if (const Status added = add(scene_file.parent_path() / uri.get<std::string>()); !added) return added.error();
-      }
   }
-  std::error_code ignored;
-  if (const auto lane = lane_file_of(scene_file); std::filesystem::exists(lane, ignored))
-    if (const Status added = add(lane); !added) return added.error();
   return content_hash(std::as_bytes(std::span(of)));
 }
 

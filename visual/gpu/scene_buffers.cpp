@@ -36,7 +36,8 @@ Cell cell_of(const SceneChunk& chunk, double side_m) {
 struct Gathered {
   std::vector<GpuVertex> vertices;
   std::vector<std::uint32_t> indices;
-  std::vector<CornerLook> looks;
+  std::vector<GpuCornerLook> looks;
+  std::vector<glm::i8vec4> tangents;
   bool textures = true;          ///< the device can draw them
   std::size_t first_material = 0;  ///< of the scene that is gathered
   std::vector<FixedVertex> light{};              // of the vertices of what stands
@@ -50,7 +51,10 @@ void append(Gathered& all, const SceneBatch& batch, const SceneChunk& chunk, std
   for (const SceneVertex& vertex : vertices)
     all.vertices.push_back({vertex.position_m + shift, vertex.normal, chunk.material});
   for (std::uint32_t index : indices) all.indices.push_back(base + index);
-  if (batch.kind.look != 0) all.looks.insert(all.looks.end(), looks.begin(), looks.end());
+  if (batch.kind.look == 0) return;
+  for (const CornerLook& look : looks) all.looks.push_back({look.uv, look.colour});
+  if (batch.kind.look & shader::kLookRelief)
+    for (const CornerLook& look : looks) all.tangents.push_back(look.tangent);
 }
 
 glm::dvec2 order_direction(std::uint32_t order) {
@@ -98,7 +102,7 @@ DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std:
   if (!all.lit_meshes.empty()) {
     const auto index = static_cast<std::size_t>(&chunk - scene.chunks.data());
     const FixedMesh& mesh = all.lit_meshes[index][far_level ? 1 + *far_level : 0];
-    drawn.vertices = mesh.vertices, drawn.indices = mesh.indices, drawn.light = mesh.light;
+    drawn.vertices = mesh.vertices, drawn.indices = mesh.indices, drawn.light = mesh.light, drawn.looks = mesh.looks;
   } else if (far_level) {
     drawn.far = far_mesh(scene, chunk, *far_level, kFarLevels[*far_level].from * kFarMeshFrom_m);
     drawn.vertices = drawn.far->vertices, drawn.indices = drawn.far->indices, drawn.looks = drawn.far->looks;
@@ -132,6 +136,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     batch.first_index = static_cast<std::uint32_t>(all.indices.size());
     batch.first_vertex = static_cast<std::int32_t>(all.vertices.size());
     batch.first_look = static_cast<std::uint32_t>(all.looks.size());
+    batch.first_tangent = static_cast<std::uint32_t>(all.tangents.size());
     batch.look_of = std::get<1>(key);
     for (const DrawnChunk& mesh : group) {
       append(all, batch, *mesh.chunk, mesh.vertices, mesh.indices, mesh.looks);
@@ -256,7 +261,7 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
   packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
   Gathered all;
   if (!scene.looks.empty() || !moving_scene.looks.empty()) {
-    const char* why_not = light.any() ? "street lamps, moon and what shines by itself light vertices" : no_textures(device);
+    const char* why_not = no_textures(device);
     all.textures = why_not == nullptr;
     if (why_not != nullptr) spdlog::warn("surfaces are drawn without their textures: {}", why_not);
   }
@@ -277,6 +282,8 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
     const std::array scenes{&scene, &moving_scene};
     textures = SurfaceTextures(device, scenes);
     looks = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.looks)), Usage::eVertexBuffer, "looks of corners");
+    if (!all.tangents.empty())
+      tangents = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.tangents)), Usage::eVertexBuffer, "tangents");
   }
   material_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(packed)), Usage::eUniformBuffer, "materials");
   sheeting_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(sheetings)), Usage::eUniformBuffer, "sheetings");

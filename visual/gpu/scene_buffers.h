@@ -34,6 +34,12 @@ struct GpuVertex {
   std::uint32_t material = 0;
 };
 
+/// What of a CornerLook every such vertex has; a relief's tangents lie apart.
+struct GpuCornerLook {
+  glm::vec2 uv;
+  glm::u16vec4 colour;
+};
+
 /// Chunks of one kind in one cell of the ground, drawn in one call: on a software device a call costs as much as a
 /// hundred triangles.
 struct SceneBatch {
@@ -47,6 +53,7 @@ struct SceneBatch {
   bool ordered = false;
   std::uint32_t first_look = 0;  ///< of its vertices, where the kind has a look; then all are of one material
   std::size_t look_of = 0;       ///< which
+  std::uint32_t first_tangent = 0;  ///< of its vertices, where the kind has a relief
   static constexpr std::uint32_t kOrders = 8;
   /// Of the order for who looks along (x, y).
   std::uint32_t first_index_along(const glm::dvec2& direction) const;
@@ -82,7 +89,8 @@ struct SceneBuffers {
   std::vector<SceneBlock> blocks;
   std::vector<MovingMesh> moving;  ///< one for each node of the scene of what moves, in its order
   gpu::DeviceBuffer vertices, indices, material_buffer, sheeting_buffer;
-  gpu::DeviceBuffer looks;  ///< CornerLook of the vertices of batches that have a look, and of no others
+  gpu::DeviceBuffer looks;  ///< GpuCornerLook of the vertices of batches that have a look, and of no others
+  gpu::DeviceBuffer tangents;  ///< CornerLook::tangent of those that have a relief
   gpu::DeviceBuffer fixed_light;  ///< FixedVertex of each vertex of what stands; none where nothing shines
   SurfaceTextures textures;
 

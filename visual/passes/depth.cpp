@@ -30,7 +30,7 @@ vk::Pipeline DepthPass::pipeline(LitScene& scene, vk::SampleCountFlagBits sample
     recipe.fragment = *cut_fragment_;
     recipe.constants = &constants;
     recipe.attributes = attributes;
-    recipe.second_stride = sizeof(CornerLook);
+    recipe.second_stride = sizeof(GpuCornerLook);
   }
   return *pipelines_.emplace(std::pair(samples, look), make_pipeline(device_, recipe)).first->second;
 }
@@ -47,7 +47,8 @@ void DepthPass::draw(gpu::FrameGraph& graph, LitScene& scene, const LitView& vie
     vk::Pipeline bound;
     bool plain = true;
     for (const DrawItem& item : view.items) {
-      const std::uint32_t look = item.batch->kind.look & shader::kLookCut ? item.batch->kind.look : 0;
+      const std::uint32_t look =
+          item.batch->kind.look & shader::kLookCut ? item.batch->kind.look & ~shader::kLookRelief : 0;
       const vk::Pipeline wanted = pipeline(scene, depth.samples, look);
       if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);
       scene.push(commands, item.push);

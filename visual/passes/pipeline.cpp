@@ -14,15 +14,20 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
                       .module = recipe.fragment,
                       .pName = "main",
                       .pSpecializationInfo = recipe.constants});
-  const std::array bindings{
-      vk::VertexInputBindingDescription{
-          .binding = 0, .stride = recipe.stride, .inputRate = vk::VertexInputRate::eVertex},
-      vk::VertexInputBindingDescription{
-          .binding = 1,
-          .stride = recipe.second_stride,
-          .inputRate = recipe.second_by_instance ? vk::VertexInputRate::eInstance : vk::VertexInputRate::eVertex}};
+  std::vector<vk::VertexInputBindingDescription> bindings;
+  const auto bind = [&](std::uint32_t binding, std::uint32_t stride, bool by_instance) {
+    if (stride > 0)
+      bindings.push_back(
+          {.binding = binding,
+           .stride = stride,
+           .inputRate = by_instance ? vk::VertexInputRate::eInstance : vk::VertexInputRate::eVertex});
+  };
+  bind(0, recipe.stride, false);
+  bind(1, recipe.second_stride, recipe.second_by_instance);
+  bind(2, recipe.third_stride, recipe.third_by_instance);
+  bind(3, recipe.fourth_stride, false);
   const vk::PipelineVertexInputStateCreateInfo input{
-      .vertexBindingDescriptionCount = recipe.stride == 0 ? 0u : recipe.second_stride > 0 ? 2u : 1u,
+      .vertexBindingDescriptionCount = static_cast<std::uint32_t>(bindings.size()),
       .pVertexBindingDescriptions = bindings.data(),
       .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(recipe.attributes.size()),
       .pVertexAttributeDescriptions = recipe.attributes.data()};

@@ -123,7 +123,9 @@ std::vector<std::string> lines_of(const PointReading& r) {
     const FixedLight::Share& most = r.fixed.front();
     lines.push_back(fmt::format("  besides, of what stands: {:.6g} lx by {}, {:.4g} of {}", r.fixed_lx,
                                 r.fixed.size() == 1 ? "one lamp" : fmt::format("{} lamps", r.fixed.size()), most.lx,
-                                most.lamp ? fmt::format("street lamp {}", *most.lamp + 1) : "the moon"));
+                                most.lamp          ? fmt::format("street lamp {}", *most.lamp + 1)
+                                : most.directional ? fmt::format("directional light {}", *most.directional + 1)
+                                                   : "the moon"));
   }
   for (const LampReading& lamp : r.lamps) {
     std::string line = "  " + lamp.lamp + ": ";

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -10,6 +9,8 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+
+#include "config/formats/gltf_uri.h"
 
 namespace phare {
 namespace {
@@ -62,17 +63,6 @@ TextureWrap wrap_of(int gltf) {
   return gltf == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? TextureWrap::kMirror : TextureWrap::kRepeat;
 }
 
-std::string decoded_uri(const std::string& uri) {
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const bool escape = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
-                        std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
-    out += escape ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
-    if (escape) i += 2;
-  }
-  return out;
-}
-
 }  // namespace
 
 float luminance_of(const glm::vec3& rgb) {
@@ -98,15 +88,12 @@ std::vector<std::string> SceneNotes::lines() const {
 }
 
 void note_what_is_not_read(const tinygltf::Model& model, SceneNotes& notes) {
-  static const std::array<std::string_view, 5> kRead{"KHR_materials_unlit", "KHR_materials_emissive_strength",
-                                                     "KHR_texture_transform", "KHR_mesh_quantization",
-                                                     "EXT_meshopt_compression"};
+  static const std::array<std::string_view, 7> kRead{
+      "KHR_materials_unlit",     "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization",
+      "EXT_meshopt_compression", "KHR_lights_punctual",             "EXT_lights_ies"};
   for (const std::string& extension : model.extensionsUsed)
     if (std::ranges::find(kRead, extension) == kRead.end() && !extension.starts_with("KHR_materials_"))
       notes.add("extensions that are not read", extension);
-  if (!model.lights.empty())
-    notes.add("lamps of the scene do not shine (KHR_lights_punctual)",
-              std::to_string(model.lights.size()) + " of them");
   if (!model.animations.empty())
     notes.add("animations stand still", std::to_string(model.animations.size()) + " of them");
   if (!model.skins.empty())
@@ -243,8 +230,19 @@ void MaterialReader::read_look(const tinygltf::Material& source, ReadMaterial& r
   PixelLook& look = material.look;
   const std::string name = "'" + source.name + "'";
   const tinygltf::TextureInfo& base = source.pbrMetallicRoughness.baseColorTexture;
-  read.uv_set = uv_set_of(base.index >= 0 ? base : source.emissiveTexture);
-  read.uv_from_file = transform_of(base.index >= 0 ? base : source.emissiveTexture);
+  const auto lay_by = [&read](const auto& info) {
+    read.uv_set = uv_set_of(info);
+    read.uv_from_file = transform_of(info);
+  };
+  // All lie as the first of these does.
+  if (base.index >= 0)
+    lay_by(base);
+  else if (source.emissiveTexture.index >= 0)
+    lay_by(source.emissiveTexture);
+  else if (source.normalTexture.index >= 0)
+    lay_by(source.normalTexture);
+  else
+    lay_by(source.pbrMetallicRoughness.metallicRoughnessTexture);
   look.base_texture = texture_of(base, name, look.sampler);
 
   // What it sends out itself.
@@ -262,6 +260,7 @@ void MaterialReader::read_look(const tinygltf::Material& source, ReadMaterial& r
       notes_.add("emissive textures laid by other coordinates than the base colour lie as that does", name);
   }
   look.unlit = extension_of(source.extensions, "KHR_materials_unlit") != nullptr;
+  if (!look.unlit) read_relief(source, read);
   if (look.unlit) {
     look.emitted_cdm2 = glm::vec3(look.base) * kUnlitWhite_cdm2;
     look.emissive_texture = look.base_texture;
@@ -282,13 +281,32 @@ void MaterialReader::read_look(const tinygltf::Material& source, ReadMaterial& r
   material.reflectance = glm::vec3(look.base) * glm::vec3(mean);
 }
 
+void MaterialReader::read_relief(const tinygltf::Material& source, ReadMaterial& read) {
+  PixelLook& look = read.material.look;
+  const std::string name = "'" + source.name + "'";
+  const auto take = [&](const auto& info, std::optional<std::size_t>& into) {
+    TextureSampler sampler = look.sampler;
+    const bool first = !look.base_texture && !look.emissive_texture && !look.relief();
+    into = texture_of(info, name, sampler);
+    if (!into) return;
+    if (first) look.sampler = sampler;
+    if (uv_set_of(info) != read.uv_set || transform_of(info) != read.uv_from_file)
+      notes_.add("normal and roughness textures laid by other coordinates than a material's first texture lie as that "
+                 "does",
+                 name);
+  };
+  take(source.normalTexture, look.normal_texture);
+  look.normal_scale = static_cast<float>(std::clamp(source.normalTexture.scale, -100.0, 100.0));
+  const auto& pbr = source.pbrMetallicRoughness;
+  take(pbr.metallicRoughnessTexture, look.rough_texture);
+  look.roughness = static_cast<float>(std::clamp(pbr.roughnessFactor, 0.0, 1.0));
+  look.metal = static_cast<float>(std::clamp(pbr.metallicFactor, 0.0, 1.0));
+}
+
 void MaterialReader::note_what_is_left_out(const tinygltf::Material& source) {
   const std::string name = "'" + source.name + "'";
   const auto& pbr = source.pbrMetallicRoughness;
-  if (source.normalTexture.index >= 0) notes_.add("normal textures are not drawn", name);
-  if (pbr.metallicRoughnessTexture.index >= 0)
-    notes_.add("textures of metal and roughness are not drawn: surfaces are diffuse", name);
-  else if (pbr.metallicFactor > 0.5 && pbr.roughnessFactor < 0.5)
+  if (pbr.metallicRoughnessTexture.index < 0 && pbr.metallicFactor > 0.5 && pbr.roughnessFactor < 0.5)
     notes_.add("smooth metal is drawn as a diffuse surface of its colour", name);
   if (source.occlusionTexture.index >= 0) notes_.add("occlusion textures are not drawn", name);
   for (const auto& [extension, value] : source.extensions)

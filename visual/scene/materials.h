@@ -45,6 +45,7 @@ class MaterialReader {
  private:
   Status read_extras(const tinygltf::Material& source, ReadMaterial& read);
   void read_look(const tinygltf::Material& source, ReadMaterial& read);
+  void read_relief(const tinygltf::Material& source, ReadMaterial& read);
   void note_what_is_left_out(const tinygltf::Material& source);
   /// Nothing: there is none, or it cannot be had, which is noted.
   template <typename Info>
@@ -59,7 +60,7 @@ class MaterialReader {
   std::map<int, std::optional<std::size_t>> images_;  ///< of the file, where they lie among the scene's textures
 };
 
-/// Extensions, lamps, animations and the like of the file as a whole.
+/// Extensions, animations and the like of the file as a whole.
 void note_what_is_not_read(const tinygltf::Model& model, SceneNotes& notes);
 
 /// rgb of Rec. 709 to what an eye sees of it.

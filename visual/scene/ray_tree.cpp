@@ -25,7 +25,7 @@ RayTree::RayTree(const Scene& scene) {
                glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i + k]].position_m);
       };
       const glm::dvec3 a = corner(0);
-      all.push_back({a, corner(1) - a, corner(2) - a});
+      all.push_back({a, corner(1) - a, corner(2) - a, !scene.materials[chunk.material].double_sided});
     }
   }
   if (all.empty()) return;
@@ -65,19 +65,18 @@ std::uint32_t RayTree::build(std::vector<std::uint32_t>& order, std::size_t begi
   return self;
 }
 
-bool RayTree::blocked(const glm::dvec3& from_m, const glm::dvec3& to_m, double near_from_m, double near_to_m) const {
-  if (boxes_.empty()) return false;
-  const glm::dvec3 way = to_m - from_m;
-  const double length_m = glm::length(way), most_m = length_m - near_to_m;
-  if (!(most_m > near_from_m)) return false;
-  const glm::dvec3 along = way / length_m, inverse = 1.0 / along;  // an axis it does not go along: infinite, as wanted
+template <typename Met>
+bool RayTree::each_met(const glm::dvec3& from_m, const glm::dvec3& along, double near_m, double most_m,
+                       const Met& met) const {
+  if (boxes_.empty() || !(most_m > near_m)) return false;
+  const glm::dvec3 inverse = 1.0 / along;  // an axis it does not go along: infinite, as wanted
   std::array<std::uint32_t, 2 * kDeepest> stack;
   std::size_t top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const std::uint32_t at = stack[--top];
     const Box& box = boxes_[at];
-    double enter_m = near_from_m, leave_m = most_m;
+    double enter_m = near_m, leave_m = most_m;
     for (int axis = 0; axis < 3; ++axis) {
       const double a = (box.low[axis] - from_m[axis]) * inverse[axis],
                    b = (box.high[axis] - from_m[axis]) * inverse[axis];
@@ -102,10 +101,28 @@ bool RayTree::blocked(const glm::dvec3& from_m, const glm::dvec3& to_m, double n
       const double v = glm::dot(along, q) / determinant;
       if (v < 0.0 || u + v > 1.0) continue;
       const double met_m = glm::dot(t.ac, q) / determinant;
-      if (met_m > near_from_m && met_m < most_m) return true;
+      if (met_m > near_m && met_m < most_m && met(met_m, t.one_sided && determinant < 0.0)) return true;
     }
   }
   return false;
+}
+
+bool RayTree::blocked(const glm::dvec3& from_m, const glm::dvec3& to_m, double near_from_m, double near_to_m,
+                      double leave_within_m) const {
+  const glm::dvec3 way = to_m - from_m;
+  const double length_m = glm::length(way);
+  if (!(length_m - near_to_m > near_from_m)) return false;
+  return each_met(from_m, way / length_m, near_from_m, length_m - near_to_m,
+                  [&](double met_m, bool from_behind) { return !from_behind || met_m > leave_within_m; });
+}
+
+double RayTree::left_at_m(const glm::dvec3& from_m, const glm::dvec3& along, double most_m) const {
+  double last_m = 0.0;
+  each_met(from_m, along, 0.0, most_m, [&](double met_m, bool from_behind) {
+    if (from_behind) last_m = std::max(last_m, met_m);
+    return false;
+  });
+  return last_m;
 }
 
 }  // namespace phare

@@ -20,17 +20,26 @@ class RayTree {
 
   /// Something stands on the way from `from_m` to `to_m`, more than `near_from_m` from the one and `near_to_m` from the
   /// other end.
-  bool blocked(const glm::dvec3& from_m, const glm::dvec3& to_m, double near_from_m, double near_to_m) const;
+  /// `leave_within_m`: a body whose back face is passed no farther than that from `from_m` does not count, for that lies
+  /// within it; a surface that is seen from both sides has no back.
+  bool blocked(const glm::dvec3& from_m, const glm::dvec3& to_m, double near_from_m, double near_to_m,
+               double leave_within_m = 0.0) const;
+  /// How far from `from_m`, along a unit direction and `most_m` at most, the last back face is passed; 0: none is.
+  double left_at_m(const glm::dvec3& from_m, const glm::dvec3& along, double most_m) const;
 
  private:
   struct Triangle {
     glm::dvec3 a, ab, ac;
+    bool one_sided = true;
   };
   struct Box {
     glm::dvec3 low{0.0}, high{0.0};
     std::uint32_t first = 0;  ///< triangle, or the nearer child; the other one stands behind all of that
     std::uint32_t count = 0;  ///< of triangles; 0: two children
   };
+  /// Calls met(distance, it is passed from behind) for the triangles between; true: enough, and is true then itself.
+  template <typename Met>
+  bool each_met(const glm::dvec3& from_m, const glm::dvec3& along, double near_m, double most_m, const Met& met) const;
   std::uint32_t build(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end,
                       const std::vector<Triangle>& all, int depth);
 

@@ -9,14 +9,21 @@
 #include <span>
 #include <utility>
 
+#include "visual/scene/tangents.h"
+
 namespace phare {
 namespace {
 
 using Triangles = std::vector<std::uint32_t>;
 
-CornerLook between(const CornerLook& a, const CornerLook& b) {
-  return {0.5f * (a.uv + b.uv), glm::u16vec4((glm::uvec4(a.colour) + glm::uvec4(b.colour)) / 2u)};
+}  // namespace
+
+CornerLook look_between(const CornerLook& a, const CornerLook& b) {
+  return {0.5f * (a.uv + b.uv), glm::u16vec4((glm::uvec4(a.colour) + glm::uvec4(b.colour)) / 2u),
+          tangent_between(a.tangent, b.tangent)};
 }
+
+namespace {
 
 /// Cuts each triangle of `indices` once; `vertices`, and `looks` where there are some, gain the middles of the sides.
 Triangles cut(std::span<const std::uint32_t> indices, std::vector<SceneVertex>& vertices,
@@ -27,7 +34,7 @@ Triangles cut(std::span<const std::uint32_t> indices, std::vector<SceneVertex>& 
     if (fresh) {
       vertices.push_back({0.5f * (vertices[a].position_m + vertices[b].position_m),
                           glm::normalize(vertices[a].normal + vertices[b].normal)});
-      if (!looks.empty()) looks.push_back(between(looks[a], looks[b]));
+      if (!looks.empty()) looks.push_back(look_between(looks[a], looks[b]));
     }
     return found->second;
   };
@@ -49,6 +56,8 @@ Scene refined(const Scene& scene, int times, const std::function<bool(const Scen
   result.content_hash = scene.content_hash;
   result.materials = scene.materials;
   result.textures = scene.textures;
+  result.lights = scene.lights;
+  result.light_profiles = scene.light_profiles;
   result.notes = scene.notes;
   for (SceneChunk chunk : scene.chunks) {
     const auto index = scene.indices.begin() + chunk.first_index;

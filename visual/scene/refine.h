@@ -13,6 +13,9 @@ Scene refined(
     const Scene& scene, int times,
     const std::function<bool(const SceneMaterial&)>& which = [](const SceneMaterial&) { return true; });
 
+/// In the middle between two corners.
+CornerLook look_between(const CornerLook& a, const CornerLook& b);
+
 /// Roads, their markings and the ground beside them, which share sides.
 bool is_ground(const SceneMaterial& material);
 

@@ -15,9 +15,11 @@
 #include <string>
 #include <utility>
 
-#include "config/base/content_hash.h"
 #include "config/formats/gltf_file.h"
+#include "config/formats/gltf_uri.h"
 #include "visual/scene/materials.h"
+#include "visual/scene/scene_lights.h"
+#include "visual/scene/tangents.h"
 
 namespace phare {
 
@@ -179,7 +181,7 @@ Status read_looks(const tinygltf::Model& model, const tinygltf::Primitive& primi
   };
   const PixelLook& look = material.material.look;
   const int uv = attribute("TEXCOORD_" + std::to_string(material.uv_set)), colour = attribute("COLOR_0");
-  if (uv >= 0 && (look.base_texture || look.emissive_texture)) {
+  if (uv >= 0 && (look.base_texture || look.emissive_texture || look.relief())) {
     const Result<std::vector<glm::vec2>> read = read_vec2(model, uv);
     if (!read) return read.error();
     if (read->size() != corners.at.size()) return Error{"", "as many texture coordinates as positions are needed"};
@@ -193,6 +195,37 @@ Status read_looks(const tinygltf::Model& model, const tinygltf::Primitive& primi
     for (std::size_t i = 0; i < read->size(); ++i)
       corners.looks[i].colour = glm::u16vec4(glm::clamp((*read)[i], 0.0f, 1.0f) * 65535.0f + 0.5f);
   }
+  return Done{};
+}
+
+/// Those of the file, turned by its node; where it has none, from the texture coordinates. `own`: its normals are taken,
+/// without which its tangents do not count (glTF 2.0, 3.7.2.1).
+Status read_tangents(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const glm::dmat3& turn,
+                     bool own, Corners& corners, const std::vector<std::uint32_t>& triangles) {
+  const auto given = primitive.attributes.find("TANGENT");
+  if (own && given != primitive.attributes.end()) {
+    const Result<std::vector<glm::vec4>> read = read_vec4(model, given->second);
+    if (!read) return read.error();
+    if (read->size() != corners.at.size()) return Error{"", "as many tangents as positions are needed"};
+    const double side = glm::determinant(turn) < 0.0 ? -1.0 : 1.0;
+    bool whole = true;
+    for (std::size_t i = 0; i < read->size(); ++i) {
+      const glm::dvec3 tangent = turn * glm::dvec3((*read)[i]);
+      const double length = glm::length(tangent);
+      whole = whole && length > 0.0 && std::isfinite(length);
+      if (whole)
+        corners.looks[i].tangent =
+            packed_tangent(glm::vec3(tangent / length), static_cast<float>(side * static_cast<double>((*read)[i].w)));
+    }
+    if (whole) return Done{};
+  }
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<glm::vec2> uvs;
+  for (const Corner& corner : corners.at) positions.push_back(corner.position), normals.push_back(corner.normal);
+  for (const CornerLook& look : corners.looks) uvs.push_back(look.uv);
+  const std::vector<glm::i8vec4> tangents = tangents_of(positions, normals, uvs, triangles);
+  for (std::size_t i = 0; i < tangents.size(); ++i) corners.looks[i].tangent = tangents[i];
   return Done{};
 }
 
@@ -266,6 +299,9 @@ Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
     *triangles = std::move(kept);
     if (triangles->empty()) return Done{};
   }
+  if (materials[*material].material.look.relief())
+    if (Status done = read_tangents(model, primitive, linear, whole, corners, *triangles); !done)
+      return bad(done.error().text());
   Cutter(scene, instance.name, *material).cut(corners, *triangles);
   return Done{};
 }
@@ -306,7 +342,7 @@ Result<Scene> read_scene(const std::filesystem::path& file, const Progress& prog
 
   Scene scene;
   scene.file = file;
-  auto hash = content_hash_of_file(file);
+  auto hash = content_hash_of_gltf(file);
   if (!hash) return hash.error();
   scene.content_hash = *hash;
 
@@ -325,6 +361,7 @@ Result<Scene> read_scene(const std::filesystem::path& file, const Progress& prog
   const auto default_material = static_cast<std::uint32_t>(materials.size());
   materials.emplace_back().material.name = "default";
 
+  if (Status done = read_scene_lights(*model, file.parent_path(), scene); !done) return bad(done.error());
   auto instances = mesh_instances(*model);
   if (!instances) return bad(instances.error());
   std::vector<ColourSum> colours(materials.size());

@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <functional>
 #include <glm/gtc/type_precision.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <span>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,9 +35,14 @@ struct PixelLook {
   std::optional<float> cut_below{};  ///< where opacity is less, there is nothing (glTF's alphaMode MASK)
   bool corner_colours = false;       ///< of glTF's COLOR_0
   bool unlit = false;                ///< emits base texture and corner colours, by emitted_cdm2
+  std::optional<std::size_t> normal_texture{}, rough_texture{};  ///< glTF's; of the second green: roughness, blue: metal
+  float normal_scale = 1.0f;          ///< of the normal texture's x and y
+  float roughness = 1.0f, metal = 1.0f;  ///< times the texture's, 0 to 1
 
+  bool relief() const { return normal_texture || rough_texture; }
   bool none() const {
-    return !base_texture && !emissive_texture && !cut_below && !corner_colours && emitted_cdm2 == glm::vec3(0.0f);
+    return !base_texture && !emissive_texture && !cut_below && !corner_colours && !relief() &&
+           emitted_cdm2 == glm::vec3(0.0f);
   }
 };
 
@@ -60,6 +67,7 @@ struct SceneVertex {
 struct CornerLook {
   glm::vec2 uv{0.0f};                   ///< of the material's textures, their transform done
   glm::u16vec4 colour{65535};  ///< linear, 65535 is 1
+  glm::i8vec4 tangent{0};      ///< of materials with relief(): visual/scene/tangents.h
 };
 
 /// Triangles of one material that are drawn or culled together.
@@ -73,15 +81,38 @@ struct SceneChunk {
   std::optional<std::uint32_t> first_look{};  ///< in Scene::looks, one for each vertex; none: the material has no look
 };
 
+/// A lamp that stands in the file's scene (visual/scene/scene_lights.h).
+struct SceneLight {
+  enum class Kind : std::uint8_t { kPoint, kSpot, kDirectional, kProfile };
+  std::string name;
+  Kind kind = Kind::kPoint;
+  glm::dvec3 position_m{0.0};
+  glm::dmat3 world_from_light{1.0};  ///< columns: where it looks, left, up
+  glm::vec3 colour{1.0f};            ///< linear Rec. 709, times what follows
+  double intensity = 1.0;            ///< cd; directional: lx on a plane that faces it; profile: times its candela
+  double range_m = std::numeric_limits<double>::infinity();  ///< beyond it there is no light
+  double inner_rad = 0.0, outer_rad = 0.7853981633974483;    ///< of a spot's cone; glTF's default
+  std::size_t profile = 0;                                   ///< in Scene::light_profiles
+};
+
+/// A photometry file that lamps of the scene shine by.
+struct LightProfile {
+  std::string name;              ///< the file, or where in the scene's file it stands
+  std::filesystem::path file{};  ///< empty: within the scene's file
+  std::string bytes{};
+};
+
 struct Scene {
   std::filesystem::path file;
-  std::string content_hash;
+  std::string content_hash;  ///< of the file and of what lies beside it (config/formats/gltf_uri.h)
   std::vector<SceneMaterial> materials;
   std::vector<SceneVertex> vertices;
   std::vector<std::uint32_t> indices;
   std::vector<SceneChunk> chunks;
   std::vector<CornerLook> looks{};
   std::vector<SceneTexture> textures{};
+  std::vector<SceneLight> lights{};
+  std::vector<LightProfile> light_profiles{};
   std::vector<std::string> notes{};  ///< what of the file is not drawn as it says, a line each, each said once
 };
 
