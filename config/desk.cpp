@@ -363,6 +363,8 @@ constexpr DeskSetting kSettings[] = {
      set_level<&Desk::glare, kOffNames>, get_level<&Desk::glare, kOffNames>},
     {"fixed_light", "auto, off", "of street lamps, the moon and what shines by itself; auto: as the scene has it", true,
      set_level<&Desk::fixed_light, kOffNames>, get_level<&Desk::fixed_light, kOffNames>},
+    {"eyeshine", "auto, off", "of animals' eyes in the car's lamps; auto: as they look at them", true,
+     set_level<&Desk::eyeshine, kOffNames>, get_level<&Desk::eyeshine, kOffNames>},
     {"age_years", "1 to 120", "of who looks: how much light the eye scatters", true,
      set_number<&Desk::age_years, 1, 1200>, get_number<&Desk::age_years>},
     {"iris_pigment", "0 to 1.2", "of who looks: 0 black, 0.5 brown, 1 light, 1.2 blue", true,

@@ -37,6 +37,8 @@ picture "$out/oncoming/frames/000059.png" oncoming
 picture "$out/traffic/frames/000059.png" traffic
 "$phare" drive --headless --samples 4 --traffic config/examples/crossing.toml --out "$out/crossing" --port-base "$ports"
 picture "$(at_second "$out/crossing" 21.2)" crossing
+"$phare" drive --headless --lockstep --frames 640 --samples 4 --traffic config/examples/deer.toml --out "$out/deer" --port-base "$ports"
+picture "$out/deer/frames/000639.png" deer
 # At ten frames a second, for these begin later than the others: the moments of the commands in the gallery.
 for scene in town:24 town_wet:23 tunnel:48 motorway:25; do
   name=${scene%:*} frames=${scene#*:}

@@ -112,6 +112,14 @@ EffectDecision fixed_light(const EffectFacts& facts) {
   return {1, what};
 }
 
+EffectDecision eyeshine(const EffectFacts& facts) {
+  if (facts.pupils == 0) return {0, "no animal's eye sends light back"};
+  if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on"};
+  if (facts.clipping) return {0, "the view marks what the display clips of the scene itself"};
+  return {1, std::to_string(facts.pupils) +
+                 (facts.pupils == 1 ? " eye of an animal sends" : " eyes of animals send") + " light back"};
+}
+
 constexpr std::array<EffectRow, kEffectCount> kTable{
     {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy",
       shadows},
@@ -127,6 +135,8 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
       true},
      {Effect::kGui, "gui", kOffOnNames, "a pass of triangles over the picture, an image of letters", gui},
      {Effect::kFixedLight, "fixed light", kOffOnNames, "20 bytes a vertex, and pipelines that read them", fixed_light,
+      true},
+     {Effect::kEyeshine, "eyeshine", kOffOnNames, "a draw of a few pixels in the lamp pass for each eye", eyeshine,
       true}}};
 
 constexpr bool in_order() {

@@ -23,9 +23,10 @@ enum class Effect : std::size_t {
   kWetGround,
   kGlare,
   kGui,
-  kFixedLight
+  kFixedLight,
+  kEyeshine
 };
-inline constexpr std::size_t kEffectCount = 10;
+inline constexpr std::size_t kEffectCount = 11;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -42,6 +43,7 @@ struct EffectFacts {
   bool parallel_rays = false;              ///< a view from above, through no air
   std::size_t glare_lamps = 0;             ///< that shine into the eye, as far as the display shows it
   double glare_lx = 0.0;                   ///< of them, at the eye
+  std::size_t pupils = 0;                  ///< of animals, that send light back as far as the display shows it
   bool gui = false;                        ///< the panel is shown over the picture
   std::size_t street_lamps = 0;            ///< that stand in the scene and are switched on
   std::size_t luminous = 0;                ///< materials that shine by themselves

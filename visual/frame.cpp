@@ -87,7 +87,10 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
   const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
-  EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, parts.device_facts);
+  std::vector<PupilInPicture> pupils =
+      pupils_of(view.input, lit.geometry, view.area.extent.width, view.area.extent.height);
+  EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, pupils.size(),
+                               parts.device_facts);
   add_facts(facts, parts.scene.fixed_light());
   const EffectPlan effects = plan_effects(facts, view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);
@@ -113,6 +116,9 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
 
   // Which drops fall past the eye.
   if (effects.on(Effect::kPrecipitation)) add_drops(parts.scene, lit, view.input);
+
+  // Which animals look at the lamps.
+  if (effects.on(Effect::kEyeshine)) lit.pupils = std::move(pupils);
 
   // What water makes of the ground.
   lit.wet = static_cast<std::uint32_t>(effects.level(Effect::kWetGround));

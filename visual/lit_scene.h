@@ -12,6 +12,7 @@
 #include "config/desk.h"
 #include "shaders/precipitation.h"
 #include "visual/beam_store.h"
+#include "visual/eyeshine.h"
 #include "visual/gpu/descriptor_sets.h"
 #include "visual/gpu/frame_graph.h"
 #include "visual/gpu/scene_buffers.h"
@@ -105,6 +106,7 @@ struct LitView {
   shader::GpuDrops drops{};
   std::uint32_t drops_count = 0;
   bool snow = false;
+  std::vector<PupilInPicture> pupils{};  ///< of animals, that send light back
   std::uint32_t wet = 0;          ///< of ground, as the levels of the effect
   bool fixed_light = false;       ///< what does not change shines, too
   std::size_t first_probe = 0;    ///< of `moving`, among those of the frame

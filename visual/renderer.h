@@ -15,6 +15,7 @@
 #include "config/base/result.h"
 #include "config/desk.h"
 #include "visual/effects.h"
+#include "visual/eyeshine.h"
 #include "visual/falling.h"
 #include "visual/glare.h"
 #include "visual/gui_content.h"
@@ -88,6 +89,7 @@ struct ViewInput {
   Method method = Method::kFragment;
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< at most kMostIsoluxLevels
   std::vector<GlaringLamp> glare{};                                                 ///< lamps that shine into this eye
+  std::vector<ShiningPupil> pupils{};  ///< of animals, that send light back to this eye
   Viewer viewer{};                                                                  ///< whose eye it is
   bool want_hdr = false;    ///< the view's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;  ///< read what is seen back

@@ -30,7 +30,8 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
                {{.lit_lamps = 1, .software_device = true, .air = {.rain_mmph = 4.0}}, Effect::kWetGround},
                {{.glare_lamps = 1, .glare_lx = 0.5}, Effect::kGlare},
                {{.gui = true}, Effect::kGui},
-               {{.street_lamps = 40}, Effect::kFixedLight}};
+               {{.street_lamps = 40}, Effect::kFixedLight},
+               {{.pupils = 2}, Effect::kEyeshine}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/csv_table.h"
 #include "tests/paths.h"
 #include "tests/visual/shared_renderer.h"
 #include "tools/csv_columns.h"
