@@ -375,6 +375,8 @@ constexpr DeskSetting kSettings[] = {
      set_number<&Desk::rain_mmph, 0, 10 * kMostRain_mmph>, get_number<&Desk::rain_mmph>, "weather"},
     {"snow_mmph", "0 to 10", "snow, mm/h of water: its flakes in the beams, and what it takes of them", true,
      set_number<&Desk::snow_mmph, 0, 10 * kMostSnow_mmph>, get_number<&Desk::snow_mmph>, "weather"},
+    {"snow_cover", "0 to 1", "snow that lies: the share of level ground, and of what looks up, that it covers", true,
+     set_number<&Desk::snow_cover_01, 0, 10>, get_number<&Desk::snow_cover_01>, "weather"},
 };
 
 }  // namespace

@@ -125,6 +125,7 @@ struct Desk {
   std::optional<std::size_t> shadows, depth_first, fog, precipitation, ground, glare, fixed_light, eyeshine;
   std::optional<double> visibility_m;       ///< meteorological optical range (photometry/table/fog.h); none: no fog
   double rain_mmph = 0.0, snow_mmph = 0.0;  ///< of water (photometry/table/precipitation.h)
+  double snow_cover_01 = 0.0;               ///< share of level ground that snow covers (shaders/lib/snow.h)
 
   double age_years = 40.0;    ///< of who looks: light scattered in the eye (photometry/table/veil.h)
   double iris_pigment = 0.5;  ///< 0 black, 0.5 brown, 1 light, 1.2 very light and blue

@@ -72,6 +72,7 @@ EffectDecision wet_ground(const EffectFacts& facts) {
   if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on", true};
   if (facts.lit_lamps == 0) return {0, "no lamp is lit"};
   const double rain = facts.air.rain_mmph;
+  if (rain > 0.0 && facts.snow_cover_01 >= 0.5) return {0, "snow lies on it"};
   if (rain <= 0.0) return {0, "it does not rain"};
   char reason[90];
   const std::size_t level = film_mm(rain) > 0.0 ? 3 : rain >= kDrizzle_mmph ? 2 : 1;
@@ -120,6 +121,14 @@ EffectDecision eyeshine(const EffectFacts& facts) {
                  (facts.pupils == 1 ? " eye of an animal sends" : " eyes of animals send") + " light back"};
 }
 
+EffectDecision snow_cover(const EffectFacts& facts) {
+  if (facts.snow_cover_01 <= 0.0) return {0, "no snow lies"};
+  if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on", true};
+  char reason[60];
+  std::snprintf(reason, sizeof reason, "snow lies on %.3g %% of level ground", 100.0 * facts.snow_cover_01);
+  return {1, reason};
+}
+
 constexpr std::array<EffectRow, kEffectCount> kTable{
     {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy",
       shadows},
@@ -137,6 +146,8 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
      {Effect::kFixedLight, "fixed light", kOffOnNames, "20 bytes a vertex, and pipelines that read them", fixed_light,
       true},
      {Effect::kEyeshine, "eyeshine", kOffOnNames, "a draw of a few pixels in the lamp pass for each eye", eyeshine,
+      true},
+     {Effect::kSnowCover, "snow cover", kOffOnNames, "pipelines of all surfaces with snow on what looks up", snow_cover,
       true}}};
 
 constexpr bool in_order() {

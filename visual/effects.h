@@ -24,9 +24,10 @@ enum class Effect : std::size_t {
   kGlare,
   kGui,
   kFixedLight,
-  kEyeshine
+  kEyeshine,
+  kSnowCover
 };
-inline constexpr std::size_t kEffectCount = 11;
+inline constexpr std::size_t kEffectCount = 12;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -44,6 +45,7 @@ struct EffectFacts {
   std::size_t glare_lamps = 0;             ///< that shine into the eye, as far as the display shows it
   double glare_lx = 0.0;                   ///< of them, at the eye
   std::size_t pupils = 0;                  ///< of animals, that send light back as far as the display shows it
+  double snow_cover_01 = 0.0;              ///< of level ground
   bool gui = false;                        ///< the panel is shown over the picture
   std::size_t street_lamps = 0;            ///< that stand in the scene and are switched on
   std::size_t luminous = 0;                ///< materials that shine by themselves

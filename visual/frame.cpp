@@ -123,6 +123,9 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   // What water makes of the ground.
   lit.wet = static_cast<std::uint32_t>(effects.level(Effect::kWetGround));
 
+  // What snow makes of all that looks up.
+  if (effects.on(Effect::kSnowCover)) lit.cover_with_snow(view.input.snow_cover_01);
+
   // What street lamps give, and what shines by itself.
   if (effects.on(Effect::kFixedLight)) parts.scene.add_fixed_light(lit);
 

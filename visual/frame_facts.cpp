@@ -20,6 +20,7 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
           .glare_lamps = glare.size(),
           .glare_lx = glare_lx,
           .pupils = pupils,
+          .snow_cover_01 = view.snow_cover_01,
           .gui = over.gui};
 }
 

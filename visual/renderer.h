@@ -84,6 +84,7 @@ struct ViewInput {
   double sky_luminance_cdm2 = 0.004;
   Air air{};                                ///< fog, rain and snow between lamps, what they light, and the eye
   Falling falling{};                        ///< of the drops and flakes that are drawn one by one
+  double snow_cover_01 = 0.0;               ///< share of level ground that snow covers
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;
   Method method = Method::kFragment;

@@ -31,7 +31,8 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
                {{.glare_lamps = 1, .glare_lx = 0.5}, Effect::kGlare},
                {{.gui = true}, Effect::kGui},
                {{.street_lamps = 40}, Effect::kFixedLight},
-               {{.pupils = 2}, Effect::kEyeshine}};
+               {{.pupils = 2}, Effect::kEyeshine},
+               {{.snow_cover_01 = 0.4}, Effect::kSnowCover}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);

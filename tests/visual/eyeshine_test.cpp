@@ -69,7 +69,7 @@ TEST(Eyeshine, PupilsAreFoundPieceByPiece) {
   EXPECT_TRUE(Pupils(yard(), yard()).none());
 }
 
-// 1000 cd at 50 m are 0.4 lx; 300 cd/(lx·m²) of 1 cm² send 0.012 cd; at 1.5°, 60: typed once more from the notes' guess.
+// 1000 cd at 50 m are 0.4 lx; 300 cd/(lx·m²) of 1 cm² send 0.012 cd; at 1.5°, 60: typed once more from the table.
 TEST(Eyeshine, SendsWhatTheTableSays) {
   const SceneMaterial material = eye_material();
   const Pupil pupil{{50.0, 0.0, 1.0}, {-1.0, 0.0, 0.0}, 1e-4, &material};
@@ -139,10 +139,11 @@ TEST_F(EyeshineOnDevice, PixelsTogetherAreTheCandela) {
     const double tangent = 2.0 * std::tan(0.5 * input.camera.fov_horizontal_rad) / 320.0;
     const double found_cd = sum * tangent * tangent * cosine * cosine * cosine * r * r;
     const double body_cdm2 = 0.15 / std::numbers::pi * 10000.0 / (r * r);
-    std::printf("%.0f m: %.4g cd, brightest pixel %.3g cd/m², a body %.3g\n", distance_m, found_cd, brightest, body_cdm2);
+    std::printf("%.0f m: %.4g cd, brightest pixel %.3g cd/m², a body %.3g\n", distance_m, found_cd, brightest,
+                body_cdm2);
     EXPECT_NEAR(found_cd / luminance_of(input.pupils[0].candela), 1.0, 2e-3) << "half floats";
     if (distance_m > 50.0) {
-      EXPECT_GT(brightest, 3.0 * body_cdm2) << distance_m << " m, though a pixel here is as wide as four of a display's";
+      EXPECT_GT(brightest, 3.0 * body_cdm2) << distance_m << " m, in pixels as wide as four of a display";
     }
   }
 }

@@ -44,7 +44,8 @@ void draw_deer(Pen pen) {
   pen.ellipsoid(Material::kDeerCoat, head, {0.085, 0.052, 0.062}, 7, 12);
   part(pen, head + dvec3(0.04, 0, -0.02), 0.04, head + dvec3(0.14, 0, -0.07), 0.024);  // muzzle
   pen.ellipsoid(Material::kDeerEye, head + dvec3(0.16, 0, -0.07), dvec3(0.014), 4, 7);
-  pen.ellipsoid(Material::kClothLight, rump + dvec3(-0.135, 0.0, 0.0), {0.03, 0.07, 0.09}, 5, 9);  // white about the tail
+  // White about the tail.
+  pen.ellipsoid(Material::kClothLight, rump + dvec3(-0.135, 0.0, 0.0), {0.03, 0.07, 0.09}, 5, 9);
   for (const double side : {-1.0, 1.0}) {
     eye(pen, head, side);
     pen.ellipsoid(Material::kDeerCoat, head + dvec3(-0.05, side * 0.075, 0.10), {0.02, 0.03, 0.075}, 5, 8);  // ear
