@@ -31,6 +31,7 @@ EffectDecision hdr_image(const EffectFacts& facts) {
     return {0, "the view marks what the display clips, where the lamp pass applies the tone curve", true};
   if (facts.glare_drawn) return {1, "light scattered in the eye is added to luminance in cd/m²", true};
   if (facts.drops_drawn) return {1, "drops are added to luminance in cd/m²", true};
+  if (facts.screen_drawn) return {1, "drops on the windscreen mix luminance in cd/m²", true};
   if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for"};
   return {0, "nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself"};
 }
@@ -129,6 +130,17 @@ EffectDecision snow_cover(const EffectFacts& facts) {
   return {1, reason};
 }
 
+EffectDecision windscreen(const EffectFacts& facts) {
+  if (!facts.windscreen) return {0, "no windscreen is before the eye"};
+  if (facts.air.rain_mmph <= 0.0) return {0, "no rain falls on the windscreen"};
+  if (facts.false_colour) return {0, "the view shows illuminance, as without it"};
+  if (facts.clipping) return {0, "the view marks what the display clips of the scene itself"};
+  if (facts.parallel_rays) return {0, "the view is from above with parallel rays, by no eye"};
+  char reason[60];
+  std::snprintf(reason, sizeof reason, "rain of %.4g mm/h falls on the windscreen", facts.air.rain_mmph);
+  return {1, reason};
+}
+
 constexpr std::array<EffectRow, kEffectCount> kTable{
     {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy",
       shadows},
@@ -148,7 +160,9 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
      {Effect::kEyeshine, "eyeshine", kOffOnNames, "a draw of a few pixels in the lamp pass for each eye", eyeshine,
       true},
      {Effect::kSnowCover, "snow cover", kOffOnNames, "pipelines of all surfaces with snow on what looks up", snow_cover,
-      true}}};
+      true},
+     {Effect::kWindscreen, "windscreen", kOffOnNames, "the HDR image; two passes, an image of 128 × 96 texels",
+      windscreen, true}}};
 
 constexpr bool in_order() {
   for (std::size_t i = 0; i < kTable.size(); ++i)
@@ -178,6 +192,7 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
   // What one effect needs of another is a fact for that.
   EffectFacts known = facts;
   known.drops_drawn = decided(kTable[static_cast<std::size_t>(Effect::kPrecipitation)], facts).level > 0;
+  known.screen_drawn = decided(kTable[static_cast<std::size_t>(Effect::kWindscreen)], facts).level > 0;
   known.glare_drawn = decided(kTable[static_cast<std::size_t>(Effect::kGlare)], facts).level > 0;
   EffectPlan plan;
   for (const EffectRow& row : kTable) plan.decisions[static_cast<std::size_t>(row.effect)] = decided(row, known);

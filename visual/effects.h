@@ -25,9 +25,10 @@ enum class Effect : std::size_t {
   kGui,
   kFixedLight,
   kEyeshine,
-  kSnowCover
+  kSnowCover,
+  kWindscreen
 };
-inline constexpr std::size_t kEffectCount = 12;
+inline constexpr std::size_t kEffectCount = 13;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -46,6 +47,7 @@ struct EffectFacts {
   double glare_lx = 0.0;                   ///< of them, at the eye
   std::size_t pupils = 0;                  ///< of animals, that send light back as far as the display shows it
   double snow_cover_01 = 0.0;              ///< of level ground
+  bool windscreen = false;                 ///< one is before the eye
   bool gui = false;                        ///< the panel is shown over the picture
   std::size_t street_lamps = 0;            ///< that stand in the scene and are switched on
   std::size_t luminous = 0;                ///< materials that shine by themselves
@@ -53,6 +55,7 @@ struct EffectFacts {
   bool covered = false;                    ///< some of the scene does not see the whole sky
   bool glare_drawn = false;                ///< decided before: the luminance image is read for it
   bool drops_drawn = false;                ///< decided before: they are added to luminance
+  bool screen_drawn = false;               ///< decided before: what lies on it is drawn over luminance
 };
 
 /// Level 0 is off. `reason` says the fact that decided.

@@ -144,6 +144,12 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
                   .black_around = first && !hdr},
                  output);
 
+  // What rain on the windscreen makes of it.
+  if (effects.on(Effect::kWindscreen)) {
+    if (!parts.windscreen) parts.windscreen = std::make_unique<WindscreenPass>(parts.device);
+    parts.windscreen->draw(graph, *light, view.area, lit.geometry, *view.input.windscreen, view.input.air, glare);
+  }
+
   // From cd/m² to the display, with what lamps scatter in the eye. Without an HDR image the lit pass has done it.
   if (effects.on(Effect::kGlare))
     parts.glare.draw(graph, *light, *view.picture.display, view.area, first, lit.sky.exposure_per_cdm2, lit.geometry,
@@ -182,6 +188,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   parts.fog.begin_frame();
   parts.lit.begin_frame();
   parts.glare.begin_frame();
+  if (parts.windscreen) parts.windscreen->begin_frame();
   parts.tone_mapping.begin_frame();
   Picture seen = picture("", parts.target.extent);
   display = seen.display;

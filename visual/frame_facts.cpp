@@ -21,6 +21,7 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
           .glare_lx = glare_lx,
           .pupils = pupils,
           .snow_cover_01 = view.snow_cover_01,
+          .windscreen = view.windscreen.has_value(),
           .gui = over.gui};
 }
 

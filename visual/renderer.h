@@ -25,6 +25,7 @@
 #include "visual/photometry/beam/image_levels.h"
 #include "visual/scene/world.h"
 #include "visual/view.h"
+#include "visual/windscreen.h"
 
 struct GLFWwindow;
 
@@ -85,6 +86,7 @@ struct ViewInput {
   Air air{};                                ///< fog, rain and snow between lamps, what they light, and the eye
   Falling falling{};                        ///< of the drops and flakes that are drawn one by one
   double snow_cover_01 = 0.0;               ///< share of level ground that snow covers
+  std::optional<Windscreen> windscreen{};   ///< before this eye; none: as through a clean one
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;
   Method method = Method::kFragment;

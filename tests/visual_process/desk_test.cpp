@@ -99,6 +99,8 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"glare", "auto", "glare auto"},
       {"fixed_light", "off", "fixed_light off"},
       {"fixed_light", "auto", "fixed_light auto"},
+      {"windscreen", "on", "windscreen on"},
+      {"wiper", "fast", "wiper fast"},
       {"eyeshine", "off", "eyeshine off"},
       {"eyeshine", "auto", "eyeshine auto"},
       {"age_years", "65", "age_years 65"},
@@ -262,6 +264,8 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"snow_mmph 11", "snow_mmph: 11 is outside 0 to 10"},
       {"snow_mmph nan", "snow_mmph: expected a number, got \"nan\""},
       {"precipitation on", "precipitation: \"on\" is none of auto, off"},
+      {"windscreen 1", "windscreen: \"1\" is none of off, on, toggle"},
+      {"wiper on", "wiper: \"on\" is none of off, interval, slow, fast"},
       {"snow_cover 1.5", "snow_cover: 1.5 is outside 0 to 1"},
       {"eyeshine on", "eyeshine: \"on\" is none of auto, off"},
       {"ground soaked", "ground: \"soaked\" is none of auto, dry, damp, wet, flooded"},
@@ -315,6 +319,10 @@ TEST(Desk, ItsDifferenceMakesItAgain) {
                             "visibility_m 80",
                             "rain_mmph 7.5",
                             "snow_mmph 0.5",
+                            "snow_cover 0.4",
+                            "windscreen on",
+                            "wiper interval",
+                            "eyeshine off",
                             "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
     ASSERT_TRUE(apply(desk, desk_command(words), {.designs = 2})) << words;
   Desk again;

@@ -1,5 +1,6 @@
 // Animals' eyes in the picture (visual/eyeshine.h): a square of a few pixels for each, at the end of the lit pass,
-// where nothing nearer hides it. Of it and of what is there already the brighter stays, so no luminance image is called for.
+// where nothing nearer hides it. Of it and of what is there already the brighter stays, so no luminance image is
+// called for.
 // Checked by tests/visual/eyeshine_test.cpp.
 #pragma once
 

@@ -41,6 +41,8 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   FrameInput input;
   set_by_desk(input, desk);
   input.camera = camera_of(first_eye(desk), seen_by(first_eye(desk), channel, lamps, moment.pose, &road));
+  if (desk.windscreen && first_eye(desk).kind == CameraKind::kDriver)
+    input.windscreen = Windscreen{moment.time.seconds(), moment.pose.speed_mps, desk.wiper};
   input.lamps = lamps.placed(moment.pose);
   const std::vector<Traffic::There> users = traffic.at(moment.time.seconds(), road);
   if (window) {

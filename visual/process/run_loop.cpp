@@ -232,6 +232,7 @@ void Loop::draw(const Moment& moment) {
   input_.part = {};
   input_.falling = falling_past(eye, moment.car.pose, moment.time);
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
+  input_.windscreen.reset();
   input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
   users_ = s_.traffic.at(moment.time.seconds(), measuring_.road());
   const std::vector<PlacedLamp> their_lamps =
@@ -245,6 +246,8 @@ void Loop::draw(const Moment& moment) {
   s_.eye.see(moment.time, versus_.light(s_.lamps));
   input_.white = s_.eye.white();
   const std::vector<GlaringLamp> tail_lamps = add_views(moment, others_turn ? *versus_.lamps() : s_.lamps);
+  if (s_.desk.windscreen && eye.kind == CameraKind::kDriver)  // the first eye's alone
+    input_.windscreen = Windscreen{moment.time.seconds(), moment.car.pose.speed_mps, s_.desk.wiper};
   if (s_.window) {
     screens_.see(moment.controls);
     input_.panel = screens_.panel(moment.controls, moment.time.seconds(), s_.desk.help);
