@@ -292,6 +292,16 @@ std::string get_visibility(const Desk& desk) {
   return desk.visibility_m ? word_of(*desk.visibility_m) : "clear";
 }
 
+Status set_wiper(Desk& desk, std::string_view value, const DeskContext&) {
+  const auto found = std::ranges::find(kWiperNames, value);
+  if (found == kWiperNames.end()) return none_of(value, kWiperNames);
+  desk.wiper = static_cast<Wiper>(found - kWiperNames.begin());
+  return Done{};
+}
+std::string get_wiper(const Desk& desk) {
+  return std::string(kWiperNames[static_cast<std::size_t>(desk.wiper)]);
+}
+
 constexpr DeskSetting kSettings[] = {
     {"cameras", "none, [add] NAME car|world X Y Z YAW_DEG PITCH_DEG [FOV_DEG]; ..., add NAME, remove NAME",
      "cameras of one's own; add NAME: as the picture is seen now", true, set_cameras, get_cameras},
@@ -363,6 +373,12 @@ constexpr DeskSetting kSettings[] = {
      set_level<&Desk::glare, kOffNames>, get_level<&Desk::glare, kOffNames>},
     {"fixed_light", "auto, off", "of street lamps, the moon and what shines by itself; auto: as the scene has it", true,
      set_level<&Desk::fixed_light, kOffNames>, get_level<&Desk::fixed_light, kOffNames>},
+    {"eyeshine", "auto, off", "of animals' eyes in the car's lamps; auto: as they look at them", true,
+     set_level<&Desk::eyeshine, kOffNames>, get_level<&Desk::eyeshine, kOffNames>},
+    {"windscreen", "off, on, toggle", "rain on a windscreen before the driver's eye", true,
+     set_flag<&Desk::windscreen>, get_flag<&Desk::windscreen>},
+    {"wiper", "off, interval, slow, fast", "of the windscreen: one stroke in 6 s, 45 or 65 in a minute", true,
+     set_wiper, get_wiper},
     {"age_years", "1 to 120", "of who looks: how much light the eye scatters", true,
      set_number<&Desk::age_years, 1, 1200>, get_number<&Desk::age_years>},
     {"iris_pigment", "0 to 1.2", "of who looks: 0 black, 0.5 brown, 1 light, 1.2 blue", true,
@@ -373,6 +389,8 @@ constexpr DeskSetting kSettings[] = {
      set_number<&Desk::rain_mmph, 0, 10 * kMostRain_mmph>, get_number<&Desk::rain_mmph>, "weather"},
     {"snow_mmph", "0 to 10", "snow, mm/h of water: its flakes in the beams, and what it takes of them", true,
      set_number<&Desk::snow_mmph, 0, 10 * kMostSnow_mmph>, get_number<&Desk::snow_mmph>, "weather"},
+    {"snow_cover", "0 to 1", "snow that lies: the share of level ground, and of what looks up, that it covers", true,
+     set_number<&Desk::snow_cover_01, 0, 10>, get_number<&Desk::snow_cover_01>, "weather"},
 };
 
 }  // namespace

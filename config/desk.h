@@ -85,6 +85,10 @@ inline constexpr std::array<std::string_view, 2> kOffOnNames{"off", "on"};
 inline constexpr std::array<std::string_view, 4> kShadowNames{"off", "hard", "soft", "fine"};
 inline constexpr std::array<std::string_view, 4> kFogNames{"off", "coarse", "medium", "fine"};
 
+/// Of the windscreen, from standing still to its fastest.
+enum class Wiper { kOff, kInterval, kSlow, kFast };
+inline constexpr std::array<std::string_view, 4> kWiperNames{"off", "interval", "slow", "fast"};
+
 inline constexpr std::array<std::string_view, 4> kWetNames{"dry", "damp", "wet", "flooded"};
 
 /// Meteorological visibility that may be set: fog of a steam bath, and air in which nothing near is dimmed.
@@ -122,9 +126,12 @@ struct Desk {
   bool help = false;                  ///< every key
   bool panel = false;                 ///< what is set by the mouse (visual/process/panel.h)
   /// Levels of these effects (visual/effects.h); without one the scene decides.
-  std::optional<std::size_t> shadows, depth_first, fog, precipitation, ground, glare, fixed_light;
+  std::optional<std::size_t> shadows, depth_first, fog, precipitation, ground, glare, fixed_light, eyeshine;
   std::optional<double> visibility_m;       ///< meteorological optical range (photometry/table/fog.h); none: no fog
   double rain_mmph = 0.0, snow_mmph = 0.0;  ///< of water (photometry/table/precipitation.h)
+  double snow_cover_01 = 0.0;               ///< share of level ground that snow covers (shaders/lib/snow.h)
+  bool windscreen = false;                  ///< one before the driver's eye, on which rain falls
+  Wiper wiper = Wiper::kSlow;               ///< of it
 
   double age_years = 40.0;    ///< of who looks: light scattered in the eye (photometry/table/veil.h)
   double iris_pigment = 0.5;  ///< 0 black, 0.5 brown, 1 light, 1.2 very light and blue

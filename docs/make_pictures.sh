@@ -37,6 +37,12 @@ picture "$out/oncoming/frames/000059.png" oncoming
 picture "$out/traffic/frames/000059.png" traffic
 "$phare" drive --headless --samples 4 --traffic config/examples/crossing.toml --out "$out/crossing" --port-base "$ports"
 picture "$(at_second "$out/crossing" 21.2)" crossing
+"$phare" drive --headless --lockstep --frames 640 --samples 4 --traffic config/examples/deer.toml --out "$out/deer" --port-base "$ports"
+picture "$out/deer/frames/000639.png" deer
+"$phare" drive --headless --lockstep --frames 60 --samples 4 --traffic config/examples/column.toml --set snow_cover=0.9 --set exposure_per_cdm2=0.06 --out "$out/snow_cover" --port-base "$ports"
+picture "$out/snow_cover/frames/000059.png" snow_cover
+"$phare" drive --headless --lockstep --frames 80 --samples 4 --traffic config/examples/column.toml --set rain_mmph=10 --set windscreen=on --set wiper=off --out "$out/windscreen" --port-base "$ports"
+picture "$out/windscreen/frames/000079.png" windscreen
 # At ten frames a second, for these begin later than the others: the moments of the commands in the gallery.
 for scene in town:24 town_wet:23 tunnel:48 motorway:25; do
   name=${scene%:*} frames=${scene#*:}

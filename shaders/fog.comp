@@ -11,7 +11,11 @@
 // through near a lamp is short in metres and long in light. There ds/r² = d(angle)/aside.
 
 const float kGauss = 0.28867513;       // of the two points of a step, on either side of its middle
-const float kNarrow = 0.25;             // of the widest step: one point is enough
+const float kNarrow = 0.25;           // of the widest step: one point is enough
+// Where light comes toward the eye and goes on nearly as it came, most of it is scattered, within the few degrees of its beam's own figure:
+// steps there begin at this share of the widest, and are longer by this share of the angle from there.
+const float kFirst = 0.125, kGrows = 0.5;
+const float kRest = 0.01;  // of the widest: no step of less is left over
 const float kFogMost_cdm2 = 65000.0;  // what half floats hold
 
 layout(local_size_x = 64) in;
@@ -55,17 +59,21 @@ void main() {
     float to = frame.fog.air.z * end / max(float(fog_slices) - end, 1e-4 * float(fog_slices));
 #define SCATTER(I)                                                                                                                     \
   if (lamp_count > I) {                                                                                                                \
-    float after = atan2_deg(to - along_##I, d_##I), steps = max(float(least_steps), ceil((after - angle_##I) / widest_deg));           \
-    bool narrow = after - angle_##I < kNarrow * widest_deg;                                                                            \
-    float step_deg = (after - angle_##I) / steps, lamp_sum = 0.0, point = narrow ? 0.5 : 0.5 - kGauss;                                 \
-    while (point < steps) {                                                                                                            \
-      float at_deg = angle_##I + step_deg * point, at = radians(at_deg), past = d_##I * tan(at), r = d_##I / cos(at);                  \
+    float after = atan2_deg(to - along_##I, d_##I), most = (after - angle_##I) / float(least_steps), lamp_sum = 0.0;                     \
+    bool second = false;                                                                                                               \
+    while (angle_##I < after) {                                                                                                        \
+      float step_deg = min(min(most, widest_deg), kFirst * widest_deg + kGrows * (90.0 + angle_##I));                                  \
+      if (angle_##I + step_deg > after - kRest * widest_deg) step_deg = after - angle_##I;                                             \
+      bool narrow = step_deg < kNarrow * widest_deg;                                                                                   \
+      float at_deg = angle_##I + step_deg * (narrow ? 0.5 : second ? 0.5 + kGauss : 0.5 - kGauss);                                     \
+      float at = radians(at_deg), past = d_##I * tan(at), r = d_##I / cos(at);                                                         \
       float cd = lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I),                           \
                             turned_##I * (along_##I + past) - place_##I, 0.0, frame.lamps[I].colour.w).cd;                             \
-      lamp_sum += cd * phase_at(90.0 + at_deg, along_##I + past) * fog_left(r + along_##I + past);                                                       \
-      point += narrow ? 1.0 : fract(point) < 0.5 ? 2.0 * kGauss : 1.0 - 2.0 * kGauss;                                                                 \
+      lamp_sum += (narrow ? step_deg : 0.5 * step_deg) * cd * phase_at(90.0 + at_deg, along_##I + past) * fog_left(r + along_##I + past); \
+      if (narrow || second) angle_##I += step_deg;                                                                                     \
+      second = !narrow && !second;                                                                                                     \
     }                                                                                                                                  \
-    sum += lamp_sum * (radians(narrow ? step_deg : 0.5 * step_deg) / d_##I);                                                                             \
+    sum += lamp_sum * (radians(1.0) / d_##I);                                                                                          \
     angle_##I = after;                                                                                                                 \
   }
     PHARE_EACH_LAMP(SCATTER)

@@ -179,6 +179,7 @@ void main() {
 #ifdef PHARE_TEXTURED
   vec3 shown = output_kind == kOutputHdr ? vec3(1.0) : frame.exposure.rgb;
   vec3 rho = (wet_alpha > 0.0 ? wet_reflectance(seen_rho) : seen_rho) * (shown / 3.14159265);
+  if (snow_lies != kSnowNone) rho = mix(rho, kSnow * (shown / 3.14159265), snow_share(n.z, frame.snow.x));
   bool detailed = (look & kLookBase) == 0;  // a picture has details of its own
 #else
   vec3 rho = reflectance.rgb;
@@ -186,6 +187,8 @@ void main() {
 #endif
   if (detailed) {
     vec2 detail = surface_detail(point, detail_from_point);
+    // Under snow the ground's grain is smoothed: a fifth of it is left, chosen.
+    if (snow_lies != kSnowNone) detail = mix(detail, vec2(1.0), 0.8 * snow_share(n.z, frame.snow.x));
     rho *= detail.x;
     rho.r *= detail.y;
   }

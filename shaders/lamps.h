@@ -33,6 +33,7 @@ const uint kSpecFogSlices = 15u;
 const uint kSpecTables = 16u;   // kSpecPerTable constants a lamp: the members of its TableShape, below
 const uint kSpecPerTable = 18u;
 const uint kSpecMoves = kSpecTables + kSpecPerTable * kMaxLamps + 1u;  // 1: of what moves, whose light is one for the whole mesh (PHARE_FIXED)
+const uint kSpecSnow = kSpecTables + kSpecPerTable * kMaxLamps + 3u;  // whether snow lies on what looks up, below
 const uint kSpecWet = kSpecTables + kSpecPerTable * kMaxLamps;  // float: width of the slopes of the water on the ground; 0: it is dry
 
 // Where illuminance is computed (config/desk.h, Method).
@@ -40,6 +41,11 @@ const uint kMethodFragment = 0u;    // at every pixel
 const uint kMethodVertex = 1u;      // at the vertices, interpolated
 const uint kMethodVertex1998 = 2u;  // cos(q)/r² at the vertices, interpolated; times the beam by pixel, in 255 steps of its peak
 const uint kMethodReference = 3u;   // at every pixel, in float64 (lib/reference.glsl)
+
+// Values of kSpecSnow.
+const uint kSnowNone = 0u;
+const uint kSnowLies = 1u;
+const uint kSnowOnMarking = 2u;  // whose beads are drawn as facets
 
 const uint kRetroNone = 0u;
 const uint kRetroSheeting = 1u;  // R_A by a table of its own
@@ -133,6 +139,7 @@ struct GpuFrame {
   vec4 size_px;                  // x, y: of the view's part of the picture; z: of a pixel in its middle the solid angle, sr. Read by drops
   vec4 mirrored_at[kMirroredLamps];  // street lamps over wet ground, relative to the eye, m
   vec4 mirrored_cd[kMirroredLamps];  // rgb: of each toward where it is mirrored
+  vec4 snow;                         // x: share of level ground that snow covers
 };
 
 // Depth of a map is this over the distance along the axis: what is nearer than it casts no shadow.

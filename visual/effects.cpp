@@ -31,6 +31,7 @@ EffectDecision hdr_image(const EffectFacts& facts) {
     return {0, "the view marks what the display clips, where the lamp pass applies the tone curve", true};
   if (facts.glare_drawn) return {1, "light scattered in the eye is added to luminance in cd/m²", true};
   if (facts.drops_drawn) return {1, "drops are added to luminance in cd/m²", true};
+  if (facts.screen_drawn) return {1, "drops on the windscreen mix luminance in cd/m²", true};
   if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for"};
   return {0, "nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself"};
 }
@@ -72,6 +73,7 @@ EffectDecision wet_ground(const EffectFacts& facts) {
   if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on", true};
   if (facts.lit_lamps == 0) return {0, "no lamp is lit"};
   const double rain = facts.air.rain_mmph;
+  if (rain > 0.0 && facts.snow_cover_01 >= 0.5) return {0, "snow lies on it"};
   if (rain <= 0.0) return {0, "it does not rain"};
   char reason[90];
   const std::size_t level = film_mm(rain) > 0.0 ? 3 : rain >= kDrizzle_mmph ? 2 : 1;
@@ -113,6 +115,33 @@ EffectDecision fixed_light(const EffectFacts& facts) {
   return {1, what};
 }
 
+EffectDecision eyeshine(const EffectFacts& facts) {
+  if (facts.pupils == 0) return {0, "no animal's eye sends light back"};
+  if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on"};
+  if (facts.clipping) return {0, "the view marks what the display clips of the scene itself"};
+  return {1, std::to_string(facts.pupils) +
+                 (facts.pupils == 1 ? " eye of an animal sends" : " eyes of animals send") + " light back"};
+}
+
+EffectDecision snow_cover(const EffectFacts& facts) {
+  if (facts.snow_cover_01 <= 0.0) return {0, "no snow lies"};
+  if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on", true};
+  char reason[60];
+  std::snprintf(reason, sizeof reason, "snow lies on %.3g %% of level ground", 100.0 * facts.snow_cover_01);
+  return {1, reason};
+}
+
+EffectDecision windscreen(const EffectFacts& facts) {
+  if (!facts.windscreen) return {0, "no windscreen is before the eye"};
+  if (facts.air.rain_mmph <= 0.0) return {0, "no rain falls on the windscreen"};
+  if (facts.false_colour) return {0, "the view shows illuminance, as without it"};
+  if (facts.clipping) return {0, "the view marks what the display clips of the scene itself"};
+  if (facts.parallel_rays) return {0, "the view is from above with parallel rays, by no eye"};
+  char reason[60];
+  std::snprintf(reason, sizeof reason, "rain of %.4g mm/h falls on the windscreen", facts.air.rain_mmph);
+  return {1, reason};
+}
+
 constexpr std::array<EffectRow, kEffectCount> kTable{
     {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy",
       shadows},
@@ -128,7 +157,13 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
       true},
      {Effect::kGui, "gui", kOffOnNames, "a pass of triangles over the picture, an image of letters", gui},
      {Effect::kFixedLight, "fixed light", kOffOnNames, "20 bytes a vertex, and pipelines that read them", fixed_light,
-      true}}};
+      true},
+     {Effect::kEyeshine, "eyeshine", kOffOnNames, "a draw of a few pixels in the lamp pass for each eye", eyeshine,
+      true},
+     {Effect::kSnowCover, "snow cover", kOffOnNames, "pipelines of all surfaces with snow on what looks up", snow_cover,
+      true},
+     {Effect::kWindscreen, "windscreen", kOffOnNames, "the HDR image; two passes, an image of 128 × 96 texels",
+      windscreen, true}}};
 
 constexpr bool in_order() {
   for (std::size_t i = 0; i < kTable.size(); ++i)
@@ -158,6 +193,7 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
   // What one effect needs of another is a fact for that.
   EffectFacts known = facts;
   known.drops_drawn = decided(kTable[static_cast<std::size_t>(Effect::kPrecipitation)], facts).level > 0;
+  known.screen_drawn = decided(kTable[static_cast<std::size_t>(Effect::kWindscreen)], facts).level > 0;
   known.glare_drawn = decided(kTable[static_cast<std::size_t>(Effect::kGlare)], facts).level > 0;
   EffectPlan plan;
   for (const EffectRow& row : kTable) plan.decisions[static_cast<std::size_t>(row.effect)] = decided(row, known);

@@ -23,9 +23,12 @@ enum class Effect : std::size_t {
   kWetGround,
   kGlare,
   kGui,
-  kFixedLight
+  kFixedLight,
+  kEyeshine,
+  kSnowCover,
+  kWindscreen
 };
-inline constexpr std::size_t kEffectCount = 10;
+inline constexpr std::size_t kEffectCount = 13;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -42,6 +45,9 @@ struct EffectFacts {
   bool parallel_rays = false;              ///< a view from above, through no air
   std::size_t glare_lamps = 0;             ///< that shine into the eye, as far as the display shows it
   double glare_lx = 0.0;                   ///< of them, at the eye
+  std::size_t pupils = 0;                  ///< of animals, that send light back as far as the display shows it
+  double snow_cover_01 = 0.0;              ///< of level ground
+  bool windscreen = false;                 ///< one is before the eye
   bool gui = false;                        ///< the panel is shown over the picture
   std::size_t street_lamps = 0;            ///< that stand in the scene and are switched on
   std::size_t directional = 0;             ///< lights of the scene that have a direction alone
@@ -50,6 +56,7 @@ struct EffectFacts {
   bool covered = false;                    ///< some of the scene does not see the whole sky
   bool glare_drawn = false;                ///< decided before: the luminance image is read for it
   bool drops_drawn = false;                ///< decided before: they are added to luminance
+  bool screen_drawn = false;               ///< decided before: what lies on it is drawn over luminance
 };
 
 /// Level 0 is off. `reason` says the fact that decided.

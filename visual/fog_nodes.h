@@ -23,23 +23,33 @@ struct NodeBand {
   double from_01 = 0.0, to_01 = 0.0;
 };
 
-struct FogNodes {
-  std::vector<double> columns_01{}, rows_01{};
+/// Of one side: places from 0 to 1, rising, and what they lie about: peaks that are apart, rising.
+struct NodeRow {
+  std::vector<double> at_01{};
+  std::vector<NodePeak> peaks{};
 };
 
-/// `count` places from 0 to 1, rising.
-std::vector<double> place_nodes(std::size_t count, std::span<const NodeBand> bands, std::vector<NodePeak> peaks);
+struct FogNodes {
+  NodeRow columns{}, rows{};
+};
+
+/// `count` places, of which `share_of_peaks` lie about the peaks, where there are any: as many to each factor of
+/// distance from every one.
+NodeRow place_nodes(std::size_t count, std::span<const NodeBand> bands, std::vector<NodePeak> peaks,
+                    double share_of_peaks);
 
 /// A lamp as it stands before the eye: where from it, and the way its light goes, both in the world's directions.
 struct LampInFog {
   glm::dvec3 from_eye_m{}, forward{};
 };
 
-/// For a view of so many pixels.
+/// For a view of so many pixels. `columns_of_peaks`: the share of them about lamps in view.
 FogNodes place_nodes(const ViewGeometry& view, const glm::dvec2& size_px, std::span<const LampInFog> lamps,
-                     std::size_t columns, std::size_t rows);
+                     std::size_t columns, std::size_t rows, double columns_of_peaks);
 
-/// For every pixel of a side where among the nodes its middle lies: node, and what is past it.
-std::vector<double> places_of_pixels(std::span<const double> nodes_01, double first_px, double size_px);
+/// For every pixel of a side where among the nodes its middle lies: node, and the weight of the next. Beside a peak
+/// light falls as one over the distance, which a straight line between nodes overshoots; the weight follows that fall
+/// by the most part (what lies as far across as along the side falls less).
+std::vector<double> places_of_pixels(const NodeRow& nodes, double first_px, double size_px);
 
 }  // namespace phare

@@ -87,7 +87,10 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
   const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
-  EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, parts.device_facts);
+  std::vector<PupilInPicture> pupils =
+      pupils_of(view.input, lit.geometry, view.area.extent.width, view.area.extent.height);
+  EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, pupils.size(),
+                               parts.device_facts);
   add_facts(facts, parts.scene.fixed_light());
   const EffectPlan effects = plan_effects(facts, view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);
@@ -114,8 +117,14 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   // Which drops fall past the eye.
   if (effects.on(Effect::kPrecipitation)) add_drops(parts.scene, lit, view.input);
 
+  // Which animals look at the lamps.
+  if (effects.on(Effect::kEyeshine)) lit.pupils = std::move(pupils);
+
   // What water makes of the ground.
   lit.wet = static_cast<std::uint32_t>(effects.level(Effect::kWetGround));
+
+  // What snow makes of all that looks up.
+  if (effects.on(Effect::kSnowCover)) lit.cover_with_snow(view.input.snow_cover_01);
 
   // What street lamps give, and what shines by itself.
   if (effects.on(Effect::kFixedLight)) parts.scene.add_fixed_light(lit);
@@ -134,6 +143,12 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
                   .keep = !first && !hdr,
                   .black_around = first && !hdr},
                  output);
+
+  // What rain on the windscreen makes of it.
+  if (effects.on(Effect::kWindscreen)) {
+    if (!parts.windscreen) parts.windscreen = std::make_unique<WindscreenPass>(parts.device);
+    parts.windscreen->draw(graph, *light, view.area, lit.geometry, *view.input.windscreen, view.input.air, glare);
+  }
 
   // From cd/m² to the display, with what lamps scatter in the eye. Without an HDR image the lit pass has done it.
   if (effects.on(Effect::kGlare))
@@ -173,6 +188,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   parts.fog.begin_frame();
   parts.lit.begin_frame();
   parts.glare.begin_frame();
+  if (parts.windscreen) parts.windscreen->begin_frame();
   parts.tone_mapping.begin_frame();
   Picture seen = picture("", parts.target.extent);
   display = seen.display;

@@ -14,6 +14,7 @@
 #include "visual/passes/overlay.h"
 #include "visual/passes/shadows.h"
 #include "visual/passes/tone_mapping.h"
+#include "visual/passes/windscreen.h"
 #include "visual/renderer.h"
 
 namespace phare {
@@ -40,6 +41,7 @@ struct FrameParts {
   LitPass& lit;
   GlarePass& glare;
   ToneMappingPass& tone_mapping;
+  std::unique_ptr<WindscreenPass>& windscreen;  ///< made by the first frame that calls for it
   std::unique_ptr<OverlayPass>& overlay;  ///< made by the first frame that calls for it
   GuiPass& gui;
   /// Copies a part of an image out, for view `view` of the frame.

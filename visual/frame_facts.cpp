@@ -3,7 +3,7 @@
 namespace phare {
 
 EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optional<std::size_t> casters,
-                     const DrawnOver& over, std::span<const GlaringLamp> glare, const DeviceFacts& device) {
+                     const DrawnOver& over, std::span<const GlaringLamp> glare, std::size_t pupils, const DeviceFacts& device) {
   double glare_lx = 0.0;
   for (const GlaringLamp& source : glare) glare_lx += source.eye_lx;
   return {.lit_lamps = lamps.lit,
@@ -19,6 +19,9 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
           .parallel_rays = view.camera.orthographic_width_m > 0.0,
           .glare_lamps = glare.size(),
           .glare_lx = glare_lx,
+          .pupils = pupils,
+          .snow_cover_01 = view.snow_cover_01,
+          .windscreen = view.windscreen.has_value(),
           .gui = over.gui};
 }
 
@@ -32,6 +35,11 @@ void add_facts(EffectFacts& facts, const FixedLight& light) {
 
 std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geometry) {
   return glare_seen(geometry, view.glare, view.viewer, view.exposure_per_cdm2);
+}
+
+std::vector<PupilInPicture> pupils_of(const ViewInput& view, const ViewGeometry& geometry, double width_px,
+                                      double height_px) {
+  return pupils_seen(geometry, width_px, height_px, view.pupils, view.exposure_per_cdm2);
 }
 
 bool looks_for_casters(const ViewInput& view) {

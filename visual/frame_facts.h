@@ -27,15 +27,20 @@ struct LampsInView {
 };
 
 /// `casters`: pieces of the scene that stand in their light, where they
-/// were looked for; `over`: what will lie over it; `glare`: glare_of() it.
+/// were looked for; `over`: what will lie over it; `glare`: glare_of() it;
+/// `pupils`: how many pupils_of() it.
 EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optional<std::size_t> casters,
-                     const DrawnOver& over, std::span<const GlaringLamp> glare, const DeviceFacts& device);
+                     const DrawnOver& over, std::span<const GlaringLamp> glare, std::size_t pupils, const DeviceFacts& device);
 
 /// What shines in the scene and does not change.
 void add_facts(EffectFacts& facts, const FixedLight& light);
 
 /// Lamps whose light the eye of the view scatters over its picture (glare_seen).
 std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geometry);
+
+/// Animals' eyes that the view shows (pupils_seen).
+std::vector<PupilInPicture> pupils_of(const ViewInput& view, const ViewGeometry& geometry, double width_px,
+                                      double height_px);
 
 /// The user has not switched shadows off.
 bool looks_for_casters(const ViewInput& view);

@@ -81,7 +81,7 @@ static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offseto
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
 static_assert(sizeof(shader::GpuFog) == 112);
 static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 48) +
-                                              sizeof(shader::GpuFog) + 16 + 32 * shader::kMirroredLamps);
+                                              sizeof(shader::GpuFog) + 32 + 32 * shader::kMirroredLamps);
 static_assert(sizeof(shader::GpuDraw) == 80 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
@@ -295,8 +295,8 @@ vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
 
 bool LitScene::is_lean(const LitVariant& variant) const {
   return variant.lamp_count <= 2 && variant.colours == 0 && variant.kind.look == 0 && !variant.fixed_light &&
-         variant.fog.slices == 0 &&
-         variant.wet == 0 && variant.method == Method::kFragment && !filtered() &&
+         variant.fog.slices == 0 && variant.wet == 0 && variant.snow == LitVariant::kNoSnow &&
+         variant.method == Method::kFragment && !filtered() &&
          (variant.output == LampOutput::kDisplay || variant.output == LampOutput::kHdr ||
           variant.output == LampOutput::kClipping || variant.output == LampOutput::kAudit);
 }
@@ -315,6 +315,7 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   const bool textured = variant.kind.look != 0;
   if (textured) numbers.put(shader::kSpecLook, variant.kind.look);
   if (variant.wet != 0) numbers.put(shader::kSpecWet, std::bit_cast<std::uint32_t>(kWetAlpha[variant.wet]));
+  if (variant.snow != LitVariant::kNoSnow) numbers.put(shader::kSpecSnow, variant.snow);
   if (variant.moves) numbers.put(shader::kSpecMoves, 1);
   const vk::SpecializationInfo constants = numbers.info();
   const bool measure = variant.output == LampOutput::kMeasure;
@@ -438,6 +439,11 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
         common.output == LampOutput::kClipping)
       variant.fog = view.fog;
     if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet;
+    if (view.snow && variant.output != LampOutput::kAudit) {
+      const bool marking = variant.kind.retro == RetroKind::kMarking;
+      variant.snow = marking ? shader::kSnowOnMarking : shader::kSnowLies;
+      if (marking) variant.kind.retro = RetroKind::kFacets;
+    }
     variant.fixed_light = view.fixed_light && variant.output != LampOutput::kAudit;
     variant.moves = variant.fixed_light && item.moves != DrawItem::kStands;
     if (variant.output == LampOutput::kAudit) {

@@ -12,6 +12,7 @@
 #include "config/desk.h"
 #include "shaders/precipitation.h"
 #include "visual/beam_store.h"
+#include "visual/eyeshine.h"
 #include "visual/gpu/descriptor_sets.h"
 #include "visual/gpu/frame_graph.h"
 #include "visual/gpu/scene_buffers.h"
@@ -104,18 +105,24 @@ struct LitView {
   std::vector<LitBy> drops_by{};  ///< lamps in groups, whose light falls on drops; none: no drop is drawn
   shader::GpuDrops drops{};
   std::uint32_t drops_count = 0;
-  bool snow = false;
+  bool flakes = false;  ///< drops are of snow
+  std::vector<PupilInPicture> pupils{};  ///< of animals, that send light back
   std::uint32_t wet = 0;          ///< of ground, as the levels of the effect
+  bool snow = false;              ///< lies on what looks up; how much is in the data of `lit_by`
   bool fixed_light = false;       ///< what does not change shines, too
   std::size_t first_probe = 0;    ///< of `moving`, among those of the frame
   std::uint32_t lamps = 0;        ///< that light something in it
   std::uint32_t unreached = 0;    ///< left out: they light nothing of what it sees
   std::uint32_t over_limit = 0;   ///< left out somewhere: kLampsPerDraw that are brighter there light it already
   std::uint32_t without_map = 0;  ///< cast no shadow, though something stands in their light: there is no room for it
+
+  /// After the lamps are filled in. `cover_01`: share of level ground.
+  void cover_with_snow(double cover_01);
 };
 
 /// What makes a pipeline of lamps.frag.
 struct LitVariant {
+  static constexpr std::uint32_t kNoSnow = shader::kSnowNone;
   MaterialKind kind{};
   LampOutput output = LampOutput::kDisplay;
   std::uint32_t lamp_count = 0, lamp_base = 0;
@@ -127,6 +134,7 @@ struct LitVariant {
   FogGrid fog{};
   Method method = Method::kFragment;
   std::uint32_t wet = 0;  ///< which of kWetAlpha
+  std::uint32_t snow = kNoSnow;
   bool fixed_light = false, moves = false;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Format format = vk::Format::eUndefined;

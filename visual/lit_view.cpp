@@ -90,6 +90,11 @@ LitView LitScene::view_of_points(const ViewGeometry& geometry, std::span<const P
   return view;
 }
 
+void LitView::cover_with_snow(double cover_01) {
+  snow = true;
+  for (const LitBy& lit : lit_by) lit.data->snow.x = static_cast<float>(cover_01);
+}
+
 LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
   LitBy lit;
   shader::GpuFrame frame{};

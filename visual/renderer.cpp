@@ -70,6 +70,7 @@ struct Renderer::Impl {
   LitPass lit{device};
   GlarePass glare{device};
   ToneMappingPass tone_mapping{device};
+  std::unique_ptr<WindscreenPass> windscreen;
   std::unique_ptr<OverlayPass> overlay;
   GuiPass gui{device};
   FrameTarget target;
@@ -184,6 +185,7 @@ struct Renderer::Impl {
             .lit = lit,
             .glare = glare,
             .tone_mapping = tone_mapping,
+            .windscreen = windscreen,
             .overlay = overlay,
             .gui = gui,
             .read_image = [this](std::size_t view, gpu::Image& image,

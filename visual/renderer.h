@@ -15,6 +15,7 @@
 #include "config/base/result.h"
 #include "config/desk.h"
 #include "visual/effects.h"
+#include "visual/eyeshine.h"
 #include "visual/falling.h"
 #include "visual/glare.h"
 #include "visual/gui_content.h"
@@ -24,6 +25,7 @@
 #include "visual/photometry/beam/image_levels.h"
 #include "visual/scene/world.h"
 #include "visual/view.h"
+#include "visual/windscreen.h"
 
 struct GLFWwindow;
 
@@ -83,11 +85,14 @@ struct ViewInput {
   double sky_luminance_cdm2 = 0.004;
   Air air{};                                ///< fog, rain and snow between lamps, what they light, and the eye
   Falling falling{};                        ///< of the drops and flakes that are drawn one by one
+  double snow_cover_01 = 0.0;               ///< share of level ground that snow covers
+  std::optional<Windscreen> windscreen{};   ///< before this eye; none: as through a clean one
   double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
   View view = View::kPhoto;
   Method method = Method::kFragment;
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< at most kMostIsoluxLevels
   std::vector<GlaringLamp> glare{};                                                 ///< lamps that shine into this eye
+  std::vector<ShiningPupil> pupils{};  ///< of animals, that send light back to this eye
   Viewer viewer{};                                                                  ///< whose eye it is
   bool want_hdr = false;    ///< the view's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;  ///< read what is seen back

@@ -14,7 +14,8 @@ namespace phare {
 namespace {
 
 // In the order of the enums.
-constexpr std::array<std::string_view, 5> kClasses{"car", "lorry", "motorcycle", "bicycle", "pedestrian"};
+constexpr std::array<std::string_view, 6> kClasses{"car",     "lorry",      "motorcycle",
+                                                   "bicycle", "pedestrian", "deer"};
 constexpr std::array<std::string_view, 3> kDirections{"oncoming", "same", "standing"};
 constexpr std::array<double, 3> kAlongLane{-1.0, 1.0, 0.0};
 
@@ -22,8 +23,8 @@ struct Size {
   double width_m, height_m, length_m;
 };
 // Usual sizes, chosen by eye.
-constexpr std::array<Size, 5> kSizes{
-    {{1.8, 1.5, 4.3}, {2.5, 3.6, 10.0}, {0.8, 1.4, 2.1}, {0.6, 1.7, 1.8}, {0.5, 1.75, 0.4}}};
+constexpr std::array<Size, 6> kSizes{
+    {{1.8, 1.5, 4.3}, {2.5, 3.6, 10.0}, {0.8, 1.4, 2.1}, {0.6, 1.7, 1.8}, {0.5, 1.75, 0.4}, {0.3, 1.1, 1.2}}};
 
 // Bounds that no road reaches: they catch a mistyped exponent. python/phare/control/road_users.py has the same.
 constexpr double kFarthest_m = 1e6, kFastest_kmh = 1000.0, kLongest_s = 1e9, kSmallest_m = 0.01, kLargest_m = 100.0;
@@ -39,7 +40,8 @@ RoadUser road_user_of(TomlTable table) {
   user.across_mps = table.number_or("across_kmh", 0.0, -kFastest_kmh, kFastest_kmh) / 3.6;
   user.across_from_s = table.number_or("across_from_s", 0.0, -kLongest_s, kLongest_s);
   if (table.has("across_to_s")) user.across_to_s = table.number("across_to_s", user.across_from_s, kLongest_s);
-  user.lights = table.flag_or("lights", true) && user.kind != RoadUserClass::pedestrian;
+  user.lights = table.flag_or("lights", true) && user.kind != RoadUserClass::pedestrian &&
+                user.kind != RoadUserClass::deer;
   user.from_s = table.number_or("from_s", 0.0, -kLongest_s, kLongest_s);
   if (table.has("to_s")) user.to_s = table.number("to_s", -kLongest_s, kLongest_s);
   user.width_m = table.number_or("width_m", kSizes[kind].width_m, kSmallest_m, kLargest_m);

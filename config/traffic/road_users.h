@@ -16,7 +16,7 @@
 
 namespace phare {
 
-enum class RoadUserClass { car, lorry, motorcycle, bicycle, pedestrian };
+enum class RoadUserClass { car, lorry, motorcycle, bicycle, pedestrian, deer };
 enum class RoadUserDirection { oncoming, same, standing };
 
 struct RoadUser {
@@ -27,7 +27,7 @@ struct RoadUser {
   double offset_m = 0.0;   ///< from the lane's line, positive left; until it goes across
   /// Goes across the road from `across_from_s` until `across_to_s`, positive to the left of the lane.
   double across_mps = 0.0, across_from_s = 0.0, across_to_s = std::numeric_limits<double>::infinity();
-  bool lights = true;                                                   ///< its lamps burn; a pedestrian has none
+  bool lights = true;                                                   ///< its lamps burn; a pedestrian and a deer have none
   double from_s = 0.0, to_s = std::numeric_limits<double>::infinity();  ///< there from and until, both included
   double width_m = 1.8, height_m = 1.5, length_m = 4.3;
 };

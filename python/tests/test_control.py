@@ -120,6 +120,8 @@ def test_range_field_of_view_and_lights_count(tmp_path):
     aside = phare.RoadUser("pedestrian", "standing", start_s_m=30, offset_m=14.0, lights=False)
     assert count(aside, fov_deg=60) == 1 and count(aside, fov_deg=40) == 0
     assert count(phare.RoadUser(start_s_m=50, from_s=1.0)) == 0
+    deer = phare.RoadUser("deer", "oncoming", start_s_m=50, lights=False)
+    assert [seen.kind for seen in seen_at(Eyes(phare.Sensors([deer]), lane), 0.0)] == ["unknown"], "no class of a sensor's"
 
 
 def test_a_crest_hides_what_is_behind_it(tmp_path):

@@ -3,9 +3,11 @@
 #ifndef PHARE_SURFACE_VARYINGS
 #define PHARE_SURFACE_VARYINGS
 #include "lib/lamp_bindings.glsl"
+#include "lib/snow.h"
 #include "lib/wet.h"
 
 layout(constant_id = kSpecWet) const float wet_alpha = 0.0;
+layout(constant_id = kSpecSnow) const uint snow_lies = 0;
 
 #ifndef PHARE_COMPUTE
 #ifdef PHARE_VERTEX
@@ -64,6 +66,10 @@ vec4 wetted(vec4 dry) {
 void pass_light(vec4 material) {
   const float pi = 3.14159265;
   if (wet_alpha > 0.0) material = wetted(material);
+  if (snow_lies != kSnowNone) {
+    vec4 covered = snowed(material, snow_share(normalize(point_normal).z, frame.snow.x), snow_lies == kSnowOnMarking);
+    material = retro == kRetroFacets ? covered : vec4(covered.rgb, material.w);
+  }
   reflectance = vec4(material.rgb / pi, material.w);
   if (output_kind == kOutputDisplay || output_kind == kOutputClipping) reflectance.rgb *= frame.exposure.rgb;
   light_colour = frame.lamps[0].colour.rgb;

@@ -254,6 +254,26 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
       input.falling = {.time_s = 0.1 * round, .eye_mps = {20.0, 0.0, 0.0}};
       return input;
     });
+  for (const Wiper wiper : {Wiper::kOff, Wiper::kSlow})
+    bench.add(group, "two lamps, rain 10 mm/h, wiper " + std::string(kWiperNames[static_cast<std::size_t>(wiper)]),
+              renderer, [view, wiper](int round) {
+                FrameInput input = without_shadows(view(round));
+                input.air.rain_mmph = 10.0;
+                input.falling = {.time_s = 0.1 * round, .eye_mps = {20.0, 0.0, 0.0}};
+                input.windscreen = Windscreen{0.1 * round, 20.0, wiper};
+                return input;
+              });
+  bench.add(group, "two lamps, snow cover", renderer, [view](int round) {
+    FrameInput input = without_shadows(view(round));
+    input.snow_cover_01 = 0.9;
+    return input;
+  });
+  bench.add(group, "two lamps, eyeshine of 4", renderer, [view](int round) {
+    FrameInput input = without_shadows(view(round));
+    for (int i = 0; i < 4; ++i)
+      input.pupils.push_back({input.camera.eye_m + glm::dvec3(40.0 + i, 2.0, -0.2), glm::vec3(0.05f), 1e-4});
+    return input;
+  });
   bench.add(group, "two lamps, wet ground", renderer, [view](int round) {
     FrameInput input = without_shadows(view(round));
     input.effects[static_cast<std::size_t>(Effect::kWetGround)] = 2;

@@ -43,7 +43,8 @@ TEST(Retro, SheetingHasTheStandardsFiguresAtTheStandardsGeometries) {
                        At{"ASTM D4956 XI white", 1, 5, 120},      At{"EN ISO 20471 tape", 0.2, 5, 330},
                        At{"EN ISO 20471 tape", 0.2, 20, 290},     At{"EN ISO 20471 tape", 0.33, 40, 60},
                        At{"EN ISO 20471 tape", 1.5, 30, 5},       At{"number plate white", 0.33, 30, 24},
-                       At{"number plate white", 1.5, 5, 5}})
+                       At{"number plate white", 1.5, 5, 5},
+                       At{"tapetum lucidum", 0.2, 5, 300},        At{"tapetum lucidum", 1, 40, 230}})
     EXPECT_NEAR(r_a(at.name, at.observation_deg, at.entrance_deg) / at.cd, 1.0, kTableRounding)
         << at.name << " at " << at.observation_deg << "°, " << at.entrance_deg << "°";
 }
@@ -51,7 +52,7 @@ TEST(Retro, SheetingHasTheStandardsFiguresAtTheStandardsGeometries) {
 TEST(Retro, EveryClassFallsWithBothAnglesAndEndsSomewhere) {
   std::size_t sheetings = 0;
   for (const RetroClass& one : retro_classes()) {
-    if (one.kind != RetroKind::kSheeting || one.whole_device) continue;
+    if ((one.kind != RetroKind::kSheeting && one.kind != RetroKind::kPupil) || one.whole_device) continue;
     ++sheetings;
     for (double entrance = 0.0; entrance < 80.0; entrance += 2.5) {
       double before = 1e9;

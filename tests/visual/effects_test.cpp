@@ -30,14 +30,19 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
                {{.lit_lamps = 1, .software_device = true, .air = {.rain_mmph = 4.0}}, Effect::kWetGround},
                {{.glare_lamps = 1, .glare_lx = 0.5}, Effect::kGlare},
                {{.gui = true}, Effect::kGui},
-               {{.street_lamps = 40}, Effect::kFixedLight}};
+               {{.street_lamps = 40}, Effect::kFixedLight},
+               {{.pupils = 2}, Effect::kEyeshine},
+               {{.snow_cover_01 = 0.4}, Effect::kSnowCover},
+               {{.air = {.rain_mmph = 4.0}, .windscreen = true}, Effect::kWindscreen}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);
     for (const EffectRow& row : effect_table()) {
       const bool needed =
-          ((effect == Effect::kGlare || effect == Effect::kPrecipitation) && row.effect == Effect::kHdrImage) ||
-          ((effect == Effect::kPrecipitation || effect == Effect::kWetGround) && row.effect == Effect::kFog);
+          ((effect == Effect::kGlare || effect == Effect::kPrecipitation || effect == Effect::kWindscreen) &&
+           row.effect == Effect::kHdrImage) ||
+          ((effect == Effect::kPrecipitation || effect == Effect::kWetGround || effect == Effect::kWindscreen) &&
+           row.effect == Effect::kFog);
       EXPECT_EQ(plan.on(row.effect), row.effect == effect || needed) << row.name;
     }
     tried.insert(effect);

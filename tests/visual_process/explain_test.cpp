@@ -121,6 +121,24 @@ TEST_F(Explain, AnOncomingCarCallsForGlareAndItsImage) {
   }
 }
 
+/// A deer at the verge that looks at the car: its eyes, drawn without the luminance image, and its body's shadow.
+TEST_F(Explain, ADeerCallsForItsEyes) {
+  const auto alone = lines(moment(LightSwitch::kLow), software_);
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explain_deer.toml";
+  std::ofstream(file) << "[[road_user]]\nclass = \"deer\"\nstart_s_m = 50\noffset_m = -2.0\n";
+  traffic_ = std::move(*Traffic::read(file, lane_, movers_));
+  const auto met = lines(moment(LightSwitch::kLow), software_);
+  ASSERT_EQ(met.size(), alone.size());
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    if (met[i].starts_with("eyeshine"))
+      EXPECT_EQ(met[i], "eyeshine        on      2 eyes of animals send light back");
+    else if (met[i].starts_with("shadows"))
+      EXPECT_TRUE(met[i].starts_with("shadows         soft ")) << met[i];
+    else
+      EXPECT_EQ(met[i], alone[i]);
+  }
+}
+
 TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
   const auto lit = lines(moment(LightSwitch::kLow), gpu_);
   ASSERT_EQ(lit.size(), 1 + kEffectCount);

@@ -105,6 +105,25 @@ TEST_F(Measuring, APointIsReadAsTheLawsHaveIt) {
   EXPECT_NEAR(reading.car_m.z, 0.0, 1e-12);
 }
 
+// Under snow lux are the same, and luminance is snow's: rough ground of its reflectance, whatever lies below.
+TEST_F(Measuring, SnowChangesLuminanceAndNotLux) {
+  const MeasurePoint at = on_ground(23.0, 0.6);
+  const auto under = [&](double cover_01) {
+    return read_point(lamps_, car_, at, {1.4, 0.4, 3.2}, scene_, RoadLine(), true, nullptr, cover_01);
+  };
+  const PointReading flat = under(0.0), flat_snow = under(1.0);
+  EXPECT_EQ(flat_snow.surface_lx, flat.surface_lx);
+  const double snow = 0.2126 * 0.80 + 0.7152 * 0.82 + 0.0722 * 0.85;  // as surfaces.toml has it
+  // The lamp's light is warm, which moves the mean toward red's 0.80 by less than the 0.02 between red and green.
+  EXPECT_NEAR(flat_snow.luminance_cdm2 / flat.luminance_cdm2, snow / 0.1, 0.2);
+  scene_.materials[0].retro = *retroreflection("upright facets", std::nullopt, std::nullopt);
+  const PointReading rough = under(0.0), half = under(0.5), rough_snow = under(1.0);
+  EXPECT_NEAR(rough_snow.luminance_cdm2 / rough.luminance_cdm2, flat_snow.luminance_cdm2 / flat.luminance_cdm2, 1e-5);
+  EXPECT_NEAR(half.luminance_cdm2, 0.5 * (rough.luminance_cdm2 + rough_snow.luminance_cdm2), 1e-6);
+  scene_.materials[0].retro = *retroreflection("EN 1436 R4", std::nullopt, std::nullopt);
+  EXPECT_NEAR(under(1.0).luminance_cdm2, rough_snow.luminance_cdm2, 1e-6) << "a marking is hidden";
+}
+
 // What rough ground sends back belongs to what the eye sees of it, lamp by lamp; lux stay.
 TEST_F(Measuring, LuminanceHasWhatGroundSendsBack) {
   const MeasurePoint at = on_ground(23.0, 0.6);

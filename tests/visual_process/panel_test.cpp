@@ -287,9 +287,14 @@ TEST_F(PanelTest, LightIsOfBothLampsAndTheAirOfTheDesk) {
   EXPECT_FALSE(desk_.visibility_m);
   click("rain_mmph"), click("rain_mmph 10");
   click("snow_mmph"), click("snow_mmph 0.5");
+  click("snow_cover"), click("snow_cover 0.6");
+  click("windscreen"), click("wiper"), click("wiper fast");
   click("ground"), click("ground flooded");
   EXPECT_EQ(desk_.rain_mmph, 10.0);
   EXPECT_EQ(desk_.snow_mmph, 0.5);
+  EXPECT_EQ(desk_.snow_cover_01, 0.6);
+  EXPECT_TRUE(desk_.windscreen);
+  EXPECT_EQ(desk_.wiper, Wiper::kFast);
   EXPECT_EQ(desk_.ground, 3u);
   click("ground"), click("ground auto");
   EXPECT_FALSE(desk_.ground);
@@ -302,11 +307,15 @@ TEST_F(PanelTest, EffectsAreForcedAndSayWhy) {
   ASSERT_NE(panel_.place("effect hdr image"), nullptr);
   EXPECT_EQ(panel_.place("hdr_image"), nullptr) << "the desk has no setting for it";
   for (const EffectRow& row : effect_table()) EXPECT_NE(panel_.place("effect " + std::string(row.name)), nullptr);
+  const auto scroll = [&](const char* over, double by) {  // the sections are longer than the window
+    const auto [x, y] = middle(over);
+    point(PointerKind::kWheel, x, y, by);
+    frames(4);
+  };
+  scroll("camera", -3.0);
   click("method"), click("method vertex");
   EXPECT_EQ(desk_.method, Method::kVertex);
-  const auto [x, y] = middle("method");
-  point(PointerKind::kWheel, x, y, -6.0);  // the section is longer than the window
-  frames(4);
+  scroll("method", -6.0);
   click("shadows");
   EXPECT_EQ(click("shadows hard"), std::vector{control(RigControl::Set{"shadows", "hard"})});
   EXPECT_EQ(desk_.shadows, std::optional<std::size_t>(1));

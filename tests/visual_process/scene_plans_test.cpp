@@ -49,7 +49,8 @@ Plan plan_of(const char* rig_name, double at_s_m, const std::vector<DeskCommand>
 Plan expected(const Plan& on) {
   Plan plan{{"shadows", "off"}, {"depth first", "off"},   {"hdr image", "off"}, {"overlay", "off"},
             {"fog", "off"},     {"precipitation", "off"}, {"ground", "dry"},    {"glare", "off"},
-            {"gui", "off"},     {"fixed light", "off"}};
+            {"gui", "off"},     {"fixed light", "off"}, {"eyeshine", "off"},  {"snow cover", "off"},
+            {"windscreen", "off"}};
   for (const auto& [effect, level] : on) plan[effect] = level;
   return plan;
 }

@@ -70,6 +70,10 @@ enum class Material {
   kTunnelVault,
   kTunnelGlass,
   kEscapeSign,
+  // Of road users only.
+  kDeerCoat,
+  kDeerEye,
+  kPupil,
   kCount
 };
 
@@ -152,6 +156,10 @@ inline constexpr std::array<MaterialData, static_cast<std::size_t>(Material::kCo
     {"vault", {0.24, 0.235, 0.225}, "plain", "", false, 0.0, {}, 0.0},
     {"tunnel lamp glass", {0.50, 0.50, 0.50}, "plain", "", false, 0.0, {7900.0, 7950.0, 7400.0}, 0.0},
     {"escape sign", {0.10, 0.30, 0.15}, "plain", "", false, 0.0, {12.0, 150.0, 55.0}, 0.0},
+    // A winter coat, grey brown, and the tint of eyeshine: by eye.
+    {"deer coat", {0.15, 0.12, 0.09}, "plain", "", false},
+    {"deer eye", {0.02, 0.02, 0.02}, "plain", "", false},
+    {"animal eye", {0.30, 0.33, 0.20}, "plain", "tapetum lucidum", false},
 }};
 
 }  // namespace phare::scene

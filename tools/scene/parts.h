@@ -19,7 +19,7 @@ void add_things(Model& model, const Alignment& road);
 /// "pedestrian_1", "pedestrian_2", "cyclist".
 void add_people(Model& model, const Alignment& road);
 
-/// "car", "lorry", "bicycle", "pedestrian": those that move, each about the origin, x forward; and "wall", 25 m before
+/// "car", "lorry", "bicycle", "pedestrian", "deer": those that move, each about the origin, x forward; and "wall", 25 m before
 /// the lamps in the camera of that name.
 void add_road_users(Model& model);
 
@@ -28,6 +28,8 @@ struct Clothes {
 };
 /// Walks along x. `stride` is how far the left foot is ahead of the right, m.
 void draw_walker(Pen pen, const Clothes& clothes, double stride, bool coat, bool bag);
+/// A roe deer that stands and looks ahead, x forward from its middle, on the ground.
+void draw_deer(Pen pen);
 /// x forward from the middle of the rear wheel, on the ground.
 void draw_cyclist(Pen pen);
 /// A broad-leaved tree about its foot.

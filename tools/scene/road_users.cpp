@@ -57,6 +57,7 @@ void add_road_users(Model& model) {
   draw_cyclist(Pen(model.add("bicycle"), shifted(-0.5)));
   draw_walker(Pen(model.add("pedestrian"), shifted(0.0)),
               {Material::kClothDark, Material::kClothBlue, Material::kClothDark}, 0.55, false, false);
+  draw_deer(Pen(model.add("deer"), shifted(0.0)));
   draw_wall(Pen(model.add("wall"), glm::dmat4(1.0)));
 }
 

@@ -123,7 +123,9 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     const SceneMaterial& material = scene.materials[chunk->material];
     const std::uint32_t look = all.textures && chunk->first_look ? look_bits(material) : 0;
     DrawnChunk mesh = drawn(scene, *chunk, far_level, all);
-    const MaterialKind kind{material.surface, material.retro.kind, material.double_sided,
+    // A pupil's light is drawn by itself (visual/eyeshine.h).
+    const RetroKind retro = material.retro.kind == RetroKind::kPupil ? RetroKind::kNone : material.retro.kind;
+    const MaterialKind kind{material.surface, retro, material.double_sided,
                             look == 0 && is_flat(mesh.vertices, mesh.indices), look};
     groups[{kind, look != 0 ? all.first_material + chunk->material : 0, cell_of(*chunk, side_m)}].push_back(
         std::move(mesh));

@@ -85,20 +85,21 @@ shader::GpuFog data_of(const LitScene& scene, const LitView& view, const ViewInp
 }
 
 /// Places of the grid's nodes in the view, and of the picture's pixels among them.
-void fill_places(gpu::HostBuffer& buffer, const LitView& view, const glm::dvec3& eye_m, const vk::Rect2D& area) {
+void fill_places(gpu::HostBuffer& buffer, const LitView& view, const glm::dvec3& eye_m, const vk::Rect2D& area,
+                 const FogLevel& level) {
   std::vector<LampInFog> lamps;
   for (const PlacedLamp& lamp : view.air_lamps) lamps.push_back({lamp.position_m - eye_m, lamp.world_from_image[0]});
   const glm::dvec2 size_px(area.extent.width, area.extent.height);
-  const FogNodes nodes = place_nodes(view.geometry, size_px, lamps, view.fog.columns, view.fog.rows);
+  const FogNodes nodes = place_nodes(view.geometry, size_px, lamps, level.columns, level.rows, level.columns_of_peaks);
   auto* texels = static_cast<glm::vec2*>(buffer.data);
-  const auto put = [&](int axis, std::span<const double> nodes_01, double first_px, double side_px) {
-    const std::vector<double> pixels = places_of_pixels(nodes_01, first_px, side_px);
-    for (std::size_t i = 0; i < nodes_01.size(); ++i) texels[i][axis] = static_cast<float>(nodes_01[i]);
+  const auto put = [&](int axis, const NodeRow& row, double first_px, double side_px) {
+    const std::vector<double> pixels = places_of_pixels(row, first_px, side_px);
+    for (std::size_t i = 0; i < row.at_01.size(); ++i) texels[i][axis] = static_cast<float>(row.at_01[i]);
     for (std::size_t i = 0; i < pixels.size(); ++i)
       texels[shader::kFogMostNodes + static_cast<int>(i)][axis] = static_cast<float>(pixels[i]);
   };
-  put(0, nodes.columns_01, area.offset.x, size_px.x);
-  put(1, nodes.rows_01, area.offset.y, size_px.y);
+  put(0, nodes.columns, area.offset.x, size_px.x);
+  put(1, nodes.rows, area.offset.y, size_px.y);
 }
 
 void wait_for_cells(vk::CommandBuffer commands, vk::PipelineStageFlags2 reader, vk::AccessFlags2 reads) {
@@ -248,7 +249,7 @@ void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::
   Source source = source_of(scene, view, level_number, drops, input, area);
   if (grid.source && grid.source->same(source)) return;
   grid.source = std::move(source);
-  fill_places(grid.places, view, input.camera.eye_m, area);
+  fill_places(grid.places, view, input.camera.eye_m, area, level);
   if (view.air_lamps.empty()) return;
 
   std::vector<LitBy> groups;

@@ -23,15 +23,17 @@
 
 namespace phare {
 
-/// Of the grid; steps of a slice for each lamp, at least, and how wide they are at the lamp, at most.
+/// Of the grid; steps of a slice for each lamp, at least, and how wide they are at the lamp, at most; of the columns
+/// those that lie about lamps in view: many of few, so that own beams and what is beside a lamp are off alike.
 struct FogLevel {
   std::uint32_t columns = 0, rows = 0, slices = 0, steps = 0;
   float widest_deg = 0.0f;
+  double columns_of_peaks = 0.0;
 };
 
 /// In the order of the effect's levels (visual/effects.h), the first being off.
 inline constexpr std::array<FogLevel, 4> kFogLevels{
-    {{}, {48, 64, 20, 1, 12.0f}, {72, 112, 24, 1, 4.0f}, {161, 253, 96, 4, 1.0f}}};
+    {{}, {48, 64, 20, 1, 12.0f, 0.65}, {84, 96, 24, 1, 4.0f, 0.75}, {161, 253, 96, 4, 1.0f, 0.55}}};
 
 static_assert(kFogNames.size() == kFogLevels.size());
 

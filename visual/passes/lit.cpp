@@ -36,6 +36,8 @@ void LitPass::draw(gpu::FrameGraph& graph, LitScene& scene, const LitView& view,
         commands, view,
         {.output = output, .samples = target.colour.samples, .format = target.colour.format, .depth_done = done});
     if (foggy) fog_sky_.draw(commands, scene, view, output, target.colour.format, target.colour.samples);
+    if (!view.pupils.empty())
+      eyeshine_.draw(commands, view, target.area, output, target.colour.format, target.colour.samples);
     if (view.drops_count > 0)
       drops_.draw(commands, scene, view, target.area, target.colour.format, target.colour.samples);
     commands.endRendering();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "visual/lit_scene.h"
+#include "visual/passes/eyeshine.h"
 #include "visual/passes/fog.h"
 #include "visual/passes/precipitation.h"
 
@@ -20,7 +21,7 @@ struct LitTarget {
 
 class LitPass {
  public:
-  explicit LitPass(gpu::Device& device) : sky_(device), fog_sky_(device), drops_(device) {}
+  explicit LitPass(gpu::Device& device) : sky_(device), fog_sky_(device), eyeshine_(device), drops_(device) {}
 
   /// Before the views of a frame; the frame before is done.
   void begin_frame() { sky_.begin_frame(); }
@@ -29,6 +30,7 @@ class LitPass {
  private:
   SkyPass sky_;
   FogSky fog_sky_;
+  Eyeshine eyeshine_;
   Drops drops_;
 };
 

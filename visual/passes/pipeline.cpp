@@ -42,16 +42,17 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
   const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = recipe.samples};
   const vk::PipelineDepthStencilStateCreateInfo depth{
       .depthTestEnable = recipe.depth, .depthWriteEnable = recipe.depth_write, .depthCompareOp = recipe.compare};
+  const bool keeps_alpha = recipe.add || recipe.over;
   using Mask = vk::ColorComponentFlagBits;
   const std::vector<vk::PipelineColorBlendAttachmentState> blends(
       recipe.colour.size(),
-      {.blendEnable = recipe.blend || recipe.add,
+      {.blendEnable = recipe.blend || recipe.add || recipe.over || recipe.brighter,
        .srcColorBlendFactor = recipe.add ? vk::BlendFactor::eOne : vk::BlendFactor::eSrcAlpha,
        .dstColorBlendFactor = recipe.add ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha,
-       .colorBlendOp = vk::BlendOp::eAdd,
-       .srcAlphaBlendFactor = recipe.add ? vk::BlendFactor::eZero : vk::BlendFactor::eOne,
-       .dstAlphaBlendFactor = recipe.add ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha,
-       .alphaBlendOp = vk::BlendOp::eAdd,
+       .colorBlendOp = recipe.brighter ? vk::BlendOp::eMax : vk::BlendOp::eAdd,
+       .srcAlphaBlendFactor = keeps_alpha ? vk::BlendFactor::eZero : vk::BlendFactor::eOne,
+       .dstAlphaBlendFactor = keeps_alpha ? vk::BlendFactor::eOne : vk::BlendFactor::eOneMinusSrcAlpha,
+       .alphaBlendOp = recipe.brighter ? vk::BlendOp::eMax : vk::BlendOp::eAdd,
        .colorWriteMask = Mask::eR | Mask::eG | Mask::eB | Mask::eA});
   const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = static_cast<std::uint32_t>(blends.size()),
                                                     .pAttachments = blends.data()};

@@ -23,6 +23,8 @@ struct PipelineRecipe {
   std::vector<vk::Format> colour{};
   bool blend = false;  ///< over what is there, by alpha; what is there stays opaque
   bool add = false;    ///< to what is there, whose alpha stays
+  bool over = false;      ///< over what is there, by alpha; the alpha that is there stays
+  bool brighter = false;  ///< of both stays what is more, each channel by itself
   bool depth = false, depth_write = false;
   vk::CompareOp compare = vk::CompareOp::eGreater;  ///< reversed depth: 1 near, 0 far
   float depth_slope = 0.0f;  ///< added to depth, times how much depth changes from pixel to pixel

@@ -51,7 +51,7 @@ shader::GpuDrops data_of(const ViewInput& input, const ViewGeometry& view) {
 void add_drops(LitScene& scene, LitView& view, const ViewInput& input) {
   view.drops = data_of(input, view.geometry);
   view.drops_count = static_cast<std::uint32_t>(view.drops.drops[kDropClasses - 1].z);
-  view.snow = input.air.particles().kind == Precipitation::kSnow;
+  view.flakes = input.air.particles().kind == Precipitation::kSnow;
   for (std::size_t first = 0; first < view.air_lamps.size(); first += shader::kMaxLamps) {
     const auto count = std::min<std::size_t>(shader::kMaxLamps, view.air_lamps.size() - first);
     view.drops_by.push_back(scene.fill(view, std::span(view.air_lamps).subspan(first, count)));
@@ -105,7 +105,7 @@ void Drops::draw(gpu::Recorder& commands, const LitScene& scene, const LitView& 
                             glm::length(glm::dvec3(ways[1])) / area.extent.height;
     lit.data->size_px = glm::vec4(area.extent.width, area.extent.height, pixel_sr, 0.0f);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
-                          pipeline(scene, {lit.tables, lit.lamps, view.snow, format, samples}));
+                          pipeline(scene, {lit.tables, lit.lamps, view.flakes, format, samples}));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, lit.set, lit.data_at);
     commands.pushConstants<shader::GpuDrops>(*layout_, vk::ShaderStageFlagBits::eVertex, 0, view.drops);
     commands.draw(2 * view.drops_count, 1, 0, 0);

@@ -5,6 +5,7 @@
 #include "visual/air_of_desk.h"
 #include "visual/frame_facts.h"
 #include "visual/light_reach.h"
+#include "visual/process/eyeshine_of_lamps.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/props.h"
 #include "visual/process/screens.h"
@@ -40,6 +41,8 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   FrameInput input;
   set_by_desk(input, desk);
   input.camera = camera_of(first_eye(desk), seen_by(first_eye(desk), channel, lamps, moment.pose, &road));
+  if (desk.windscreen && first_eye(desk).kind == CameraKind::kDriver)
+    input.windscreen = Windscreen{moment.time.seconds(), moment.pose.speed_mps, desk.wiper};
   input.lamps = lamps.placed(moment.pose);
   const std::vector<Traffic::There> users = traffic.at(moment.time.seconds(), road);
   if (window) {
@@ -83,9 +86,12 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
     input.glare.insert(input.glare.end(), beside.begin(), beside.end());
   if (const auto props = Props::of(movers))  // whoever has read them has looked
     props->add_to(input, desk.camera, lamps, moment.pose, controls.light_switch != LightSwitch::kOff, world);
+  input.pupils = eyeshine_of(lamps, moment.pose, Pupils(scene, movers.meshes()), world, input.camera.eye_m, input.air);
   DrawnOver over = drawn_over(input);
   over.gui = window && desk.panel;  // nothing is laid out: there is no window yet
-  EffectFacts facts = facts_of(input, {lit, lit}, casting, over, glare_of(input, view), {.software = device.software});
+  EffectFacts facts =
+      facts_of(input, {lit, lit}, casting, over, glare_of(input, view),
+               pupils_of(input, view, channel.width_px, channel.height_px).size(), {.software = device.software});
   add_facts(facts, fixed);
   return heading + explain(plan_effects(facts, input.effects));
 }

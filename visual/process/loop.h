@@ -13,6 +13,7 @@
 
 #include "net/control_desk.h"
 #include "visual/process/drive_log.h"
+#include "visual/process/eyeshine_of_lamps.h"
 #include "visual/process/lamp_keys.h"
 #include "visual/process/panel.h"
 #include "visual/process/picture_instruments.h"
@@ -96,6 +97,7 @@ class Loop {
   LampKeys lamp_keys_;
   LampNews lamp_news_{s_.lamps};
   World world_{s_.scene, s_.movers.meshes()};  // as it is in this frame
+  Pupils pupils_{s_.scene, s_.movers.meshes()};
   PictureInstruments measuring_{s_.desk,
                                 s_.lamps,
                                 world_,

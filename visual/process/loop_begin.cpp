@@ -75,6 +75,10 @@ void Loop::warm_up() {
   set_by_desk(input, s_.desk);
   input.camera = camera_of(first_eye(s_.desk), seen_by(first_eye(s_.desk), s_.channel(), s_.lamps, pose));
   const Camera first_camera = std::exchange(input.camera, overview_camera(s_.scene));
+  if (s_.desk.windscreen) input.windscreen = Windscreen{.wiper = s_.desk.wiper};
+  // As an animal will look at the lamps.
+  if (!pupils_.none())
+    input.pupils = {{input.camera.eye_m + 10.0 * input.camera.world_from_eye[0], glm::vec3(1.0f), 1e-4}};
   const double far_mesh_from_m = std::exchange(input.far_mesh_from_m, std::numeric_limits<double>::infinity());
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
   const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 2 : 1;

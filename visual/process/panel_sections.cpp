@@ -342,10 +342,15 @@ void Sheet::view() {
   choose("rain_mmph", "rain, mm/h", kRains, fmt::format("{:.4g}", desk.rain_mmph), "its drops, and the wet road");
   constexpr std::array<std::string_view, 4> kSnows{"0", "0.5", "1", "3"};
   choose("snow_mmph", "snow, mm/h", kSnows, fmt::format("{:.4g}", desk.snow_mmph), "of water: its flakes");
+  constexpr std::array<std::string_view, 4> kCovers{"0", "0.3", "0.6", "1"};
+  choose("snow_cover", "snow lies", kCovers, fmt::format("{:.4g}", desk.snow_cover_01), "on this share of the ground");
   constexpr std::array<std::string_view, 5> kGrounds{"auto", kWetNames[0], kWetNames[1], kWetNames[2], kWetNames[3]};
   choose("ground", "ground", kGrounds, std::string(desk.ground ? kWetNames[*desk.ground] : kGrounds[0]),
          "water on it; auto: as it rains");
+  if (desk.windscreen) choose("wiper", "wiper", kWiperNames, at(kWiperNames, desk.wiper), "of the windscreen");
   exposure();
+  flag("windscreen", "windscreen", desk.windscreen, "rain on one before the driver's eye");
+  ImGui::SameLine();
   flag("road_isolux", "isolux", desk.isolux, key_of_setting(KeyAction::kIsolux));
   ImGui::SameLine();
   flag("mirrors", "mirrors", desk.mirrors, key_of_setting(KeyAction::kMirrors));
@@ -357,12 +362,13 @@ void Sheet::view() {
   flag("lines", "text", desk.lines, "lines of text at the top");
 }
 
-/// The setting of the desk that forces an effect: the same name with an underscore. None: it cannot be forced.
+/// The setting of the desk that forces an effect: the same name with an underscore, and auto among its words. None: it
+/// cannot be forced, or what it follows from is set in the section of the view.
 const DeskSetting* setting_of(const EffectRow& row) {
   std::string name(row.name);
   std::ranges::replace(name, ' ', '_');
   const auto found = std::ranges::find(desk_settings(), name, &DeskSetting::name);
-  return found == desk_settings().end() ? nullptr : &*found;
+  return found == desk_settings().end() || !found->values.starts_with("auto") ? nullptr : &*found;
 }
 
 /// "auto, off, hard, soft" one by one.

@@ -13,6 +13,7 @@
 #include "visual/photometry/beam/beam_image.h"
 #include "visual/photometry/table/illuminance.h"
 #include "visual/scene/ray_hit.h"
+#include "visual/scene/snow.h"
 
 namespace phare {
 namespace {
@@ -58,19 +59,24 @@ LampReading read_lamp(const PointLight& light, const MeasurePoint& at, const glm
 }  // namespace
 
 PointReading read_point(const Lamps& lamps, const VehicleState& car, const MeasurePoint& at, const glm::dvec3& eye_m,
-                        const World& world, const RoadLine& road, bool shadows, const FixedLight* fixed) {
+                        const World& world, const RoadLine& road, bool shadows, const FixedLight* fixed,
+                        double snow_cover_01) {
   PointReading reading;
   reading.world = at;
   const glm::dmat3 body = world_from_car(car.roll_rad, car.pitch_rad, car.yaw_rad);
   reading.car_m = glm::transpose(body) * (at.position_m - glm::dvec3(car.x_m, car.y_m, car.z_m));
   reading.road = road.place_of(at.position_m);
   glm::dvec3 rho{0.0};
-  const Retroreflection* retro = nullptr;
+  std::optional<Retroreflection> retro;
+  double snow_01 = 0.0;  // share of the surface that is covered
   if (const auto hit = surface_at(world, at)) {
     const SceneMaterial& material = hit->scene->materials[hit->chunk->material];
     reading.node = hit->chunk->node, reading.material = material.name;
     rho = glm::dvec3(material.reflectance);
-    if (material.retro.kind != RetroKind::kNone) retro = &material.retro;
+    if (material.retro.kind != RetroKind::kNone) retro = material.retro;
+    snow_01 = snow_share(at.normal, snow_cover_01);
+    // Beads lie below; what is left of them has the strength of facets (shaders/lib/snow.h).
+    if (snow_cover_01 > 0.0 && retro && retro->kind == RetroKind::kMarking) retro->kind = RetroKind::kFacets;
     reading.luminance_cdm2 = glm::dot(glm::dvec3(mean_emitted_cdm2(*hit->scene, material)), {0.2126, 0.7152, 0.0722});
   }
   const glm::dvec3 back{-std::cos(car.yaw_rad), -std::sin(car.yaw_rad), 0.0};
@@ -90,16 +96,23 @@ PointReading read_point(const Lamps& lamps, const VehicleState& car, const Measu
       reading.horizontal_lx += lamp.horizontal_lx;
       reading.vertical_lx += lamp.vertical_lx;
       reading.eye_lx += lamp.eye_lx;
-      const double seen = glm::dot(rho * glm::dvec3(light.colour), {0.2126, 0.7152, 0.0722});
-      reading.luminance_cdm2 += lamp.surface_lx * seen / std::numbers::pi;
-      if (retro != nullptr && lamp.surface_lx > 0.0) {
-        const double rho_a = reflectance_under_a(glm::vec3(rho));
+      // What is bare, and what is covered.
+      const auto add = [&](const glm::dvec3& rho_of, const std::optional<Retroreflection>& sends, double share) {
+        const double seen = share * glm::dot(rho_of * glm::dvec3(light.colour), {0.2126, 0.7152, 0.0722});
+        reading.luminance_cdm2 += lamp.surface_lx * seen / std::numbers::pi;
+        if (!sends || lamp.surface_lx <= 0.0) return;
+        const double rho_a = reflectance_under_a(glm::vec3(rho_of));
         const double back_cdm2 =
             lamp.facing_lx * seen / rho_a *
-            sent_back_per_lx(*retro, rho_a, glm::normalize(light.lamp_m - at.position_m), at.normal, to_eye);
+            sent_back_per_lx(*sends, rho_a, glm::normalize(light.lamp_m - at.position_m), at.normal, to_eye);
         reading.sent_back_cdm2 += back_cdm2;
         reading.luminance_cdm2 += back_cdm2;
-      }
+      };
+      add(rho, retro, 1.0 - snow_01);
+      const bool ground = retro && retro->kind == RetroKind::kFacets;
+      if (snow_01 > 0.0)
+        add(snow_reflectance(),
+            ground ? std::optional(Retroreflection{.kind = RetroKind::kFacets}) : std::nullopt, snow_01);
     }
     reading.lamps.push_back(std::move(lamp));
   }

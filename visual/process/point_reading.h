@@ -50,9 +50,10 @@ struct PointReading {
 };
 
 /// `eye_m`: world. `shadows`: false as if nothing stood in the light. `fixed`: what shines in the scene itself; null:
-/// nothing is asked.
+/// nothing is asked. `snow_cover_01`: share of level ground under snow.
 PointReading read_point(const Lamps& lamps, const VehicleState& car, const MeasurePoint& at, const glm::dvec3& eye_m,
-                        const World& world, const RoadLine& road, bool shadows, const FixedLight* fixed = nullptr);
+                        const World& world, const RoadLine& road, bool shadows, const FixedLight* fixed = nullptr,
+                        double snow_cover_01 = 0.0);
 
 /// The reading as lines: the sums, where it is, then each lamp.
 std::vector<std::string> lines_of(const PointReading& reading);

@@ -74,6 +74,7 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   if (session.desk.visibility_m) report["weather"]["visibility_m"] = *session.desk.visibility_m;
   if (session.desk.rain_mmph > 0.0) report["weather"]["rain_mmph"] = session.desk.rain_mmph;
   if (session.desk.snow_mmph > 0.0) report["weather"]["snow_mmph"] = session.desk.snow_mmph;
+  if (session.desk.snow_cover_01 > 0.0) report["weather"]["snow_cover"] = session.desk.snow_cover_01;
   report["views"] = nlohmann::json::array();
   for (const ViewResult& view : stats.newest.views) {
     report["views"].push_back({{"name", view.name},

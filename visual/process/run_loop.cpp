@@ -207,6 +207,11 @@ std::vector<GlaringLamp> Loop::add_views(const Moment& moment, const Lamps& shin
     lay_out(input_, s_.desk.layout, camera_of(second, by), s_.desk.second_camera);
     input_.more_views.back().falling = falling_past(second, pose, moment.time);
   }
+  const auto eyeshine_in = [&](const ViewInput& view) {
+    return eyeshine_of(shining, pose, pupils_, world_, view.camera.eye_m, view.air);
+  };
+  input_.pupils = eyeshine_in(input_);
+  for (ViewInput& view : input_.more_views) view.pupils = eyeshine_in(view);
   input_.glare = glare_in(input_, pose, shining);
   for (ViewInput& view : input_.more_views) view.glare = glare_in(view, pose, shining);
   const bool lit = moment.controls.light_switch != LightSwitch::kOff;
@@ -227,6 +232,7 @@ void Loop::draw(const Moment& moment) {
   input_.part = {};
   input_.falling = falling_past(eye, moment.car.pose, moment.time);
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
+  input_.windscreen.reset();
   input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
   users_ = s_.traffic.at(moment.time.seconds(), measuring_.road());
   const std::vector<PlacedLamp> their_lamps =
@@ -240,6 +246,8 @@ void Loop::draw(const Moment& moment) {
   s_.eye.see(moment.time, versus_.light(s_.lamps));
   input_.white = s_.eye.white();
   const std::vector<GlaringLamp> tail_lamps = add_views(moment, others_turn ? *versus_.lamps() : s_.lamps);
+  if (s_.desk.windscreen && eye.kind == CameraKind::kDriver)  // the first eye's alone
+    input_.windscreen = Windscreen{moment.time.seconds(), moment.car.pose.speed_mps, s_.desk.wiper};
   if (s_.window) {
     screens_.see(moment.controls);
     input_.panel = screens_.panel(moment.controls, moment.time.seconds(), s_.desk.help);
@@ -267,6 +275,9 @@ void Loop::draw(const Moment& moment) {
     if (s_.desk.compare == Compare::kSplit)
       for (const GlaringLamp& lamp : glare_in(input_, moment.car.pose, *versus_.lamps())) glare.push_back(lamp);
     versus_.show(halves, s_.desk.compare, moment.car.pose, their_lamps, std::move(glare));
+    if (s_.desk.compare == Compare::kSplit)  // B's half comes first of the others
+      halves.more_views.front().pupils = eyeshine_of(*versus_.lamps(), moment.car.pose, pupils_, world_,
+                                                     input_.camera.eye_m, input_.air);
   }
   const FrameResult result = s_.renderer.draw(both ? halves : input_);
   if (over_) return;  // what is counted is the drive

@@ -30,11 +30,12 @@ struct LampPlaces {
   int headlamps = 0, tail_lamps = 0;
 };
 /// No mesh of a motorcycle is made: a cycle's stands for it.
-constexpr std::array<LampPlaces, 5> kPlaces{{{"car", 2.18, -2.2, 0.61, 0.8, {-0.6, 0.6}, 2, 2},
+constexpr std::array<LampPlaces, 6> kPlaces{{{"car", 2.18, -2.2, 0.61, 0.8, {-0.6, 0.6}, 2, 2},
                                              {"lorry", 5.03, -5.03, 0.62, 0.82, {-0.95, 0.95}, 2, 2},
                                              {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 1, 1},
                                              {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 0, 1},
-                                             {"pedestrian"}}};
+                                             {"pedestrian"},
+                                             {"deer"}}};
 
 const LampPlaces& places_of(RoadUserClass kind) {
   return kPlaces[static_cast<std::size_t>(kind)];
@@ -167,13 +168,14 @@ std::vector<GlaringLamp> tail_lamps_into(RoadUserClass kind, const glm::dvec3& p
 }
 
 std::vector<Traffic::Eye> Traffic::oncoming_eyes(std::span<const There> users, const glm::dvec3& heading) {
-  // Eye behind the front and above the road; chosen by eye, as the bodies are. A pedestrian does not drive.
-  constexpr std::array<glm::dvec3, 5> kEyes_m{
-      {{0.35, 0.37, 1.2}, {4.2, 0.6, 2.4}, {-0.1, 0.0, 1.5}, {-0.1, 0.0, 1.6}, {0.0, 0.0, 1.65}}};
+  // Eye behind the front and above the road; chosen by eye, as the bodies are. A pedestrian does not drive, nor
+  // does a deer.
+  constexpr std::array<glm::dvec3, 6> kEyes_m{
+      {{0.35, 0.37, 1.2}, {4.2, 0.6, 2.4}, {-0.1, 0.0, 1.5}, {-0.1, 0.0, 1.6}, {0.0, 0.0, 1.65}, {0.5, 0.0, 1.0}}};
   std::vector<Eye> eyes;
   for (std::size_t i = 0; i < users.size(); ++i) {
     const There& user = users[i];
-    if (user.kind == RoadUserClass::pedestrian || glm::dot(user.world_from_user[0], heading) >= 0.0) continue;
+    if (user.kind >= RoadUserClass::pedestrian || glm::dot(user.world_from_user[0], heading) >= 0.0) continue;
     const glm::dvec3 eye_m = user.position_m + user.world_from_user * kEyes_m[static_cast<std::size_t>(user.kind)];
     eyes.push_back({i, {eye_m, user.world_from_user[0]}});
   }

@@ -113,6 +113,16 @@ std::vector<RetroClass> make_classes() {
                  .rows = {{0.33, {300, 100, 50, 25}}, {1.5, {5, 2.5, 1.25, 0.625}}},
                  .source = "UN R3, class IA, official text",
                  .whole_device = true});
+  // A share of 0.3 of what enters the pupil into a cone 2° wide: 0.3/(pi·(1°)²) = 313 cd/(lx·m²) of the pupil's area,
+  // rounded; aslant as the pupil's area is seen. How it ends beyond the cone is chosen.
+  all.push_back({.name = "tapetum lucidum",
+                 .kind = RetroKind::kPupil,
+                 .rows = {{0.2, {300, 282, 260, 230}},
+                          {1.0, {300, 282, 260, 230}},
+                          {1.5, {60, 56, 52, 46}},
+                          {2.0, {12, 11.3, 10.4, 9.2}}},
+                 .source = "a guess of another night road renderer, of the share and the cone; no measurement was found",
+                 .confirmed = false});
   all.push_back({.name = "upright facets",
                  .kind = RetroKind::kFacets,
                  .source = "own derivation; R_L of 10 to 30 mcd/(lx·m²) on dry asphalt is from memory",
@@ -182,7 +192,7 @@ Result<Retroreflection> retroreflection(const std::string& class_name, std::opti
   if (found == nullptr) return Error{"", unknown_name_reason("retro", name, known)};
   made.kind = found->kind;
   made.class_name = class_name;
-  if (found->kind != RetroKind::kSheeting) {
+  if (found->kind != RetroKind::kSheeting && found->kind != RetroKind::kPupil) {
     if (r_a)
       return Error{"", "'" + name + "' is " + (found->kind == RetroKind::kMarking ? "a marking" : "ground") +
                            ": retroreflection_mcd_per_lx_m2 goes with it, not …_cd_per_lx_m2"};
@@ -217,7 +227,7 @@ double sent_back_per_lx(const Retroreflection& retro, double rho, const glm::dve
   if (retro.kind == RetroKind::kNone || cos_incidence <= 0.0f || cos_seen <= 0.0f) return 0.0;
   const auto cos_between = static_cast<float>(glm::dot(to_lamp, to_eye));
   const float observation_deg = shader::between_deg(glm::vec3(to_lamp), glm::vec3(to_eye));
-  if (retro.kind == RetroKind::kSheeting) {
+  if (retro.kind == RetroKind::kSheeting || retro.kind == RetroKind::kPupil) {
     const float entrance_deg = shader::between_deg(glm::vec3(to_lamp), glm::vec3(normal));
     return sheeting_r_a(retro, static_cast<double>(observation_deg), static_cast<double>(entrance_deg)) /
            static_cast<double>(std::max(cos_seen, 0.1f));

@@ -22,7 +22,9 @@
 namespace phare {
 
 /// As in shaders/lamps.h.
-enum class RetroKind : std::uint32_t { kNone = 0, kSheeting = 1, kMarking = 2, kFacets = 3 };
+/// A pupil is sheeting in its figures, but no surface of a picture: it is smaller than a pixel, so what it sends back
+/// is drawn by a pass of its own (visual/eyeshine.h) and the lit pass knows it as a plain surface.
+enum class RetroKind : std::uint32_t { kNone = 0, kSheeting = 1, kMarking = 2, kFacets = 3, kPupil = 4 };
 
 /// What a class prescribes: the least R_L of a marking in the 30 m geometry (observation 1.05°, entrance 88.76°), or
 /// the least R_A of a sheeting at some observation angles.

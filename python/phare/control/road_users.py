@@ -1,7 +1,7 @@
 """Other road users on their way along the lane, from a TOML file:
 
     [[road_user]]
-    class = "car"             # car, lorry, motorcycle, bicycle, pedestrian
+    class = "car"             # car, lorry, motorcycle, bicycle, pedestrian, deer
     direction = "oncoming"    # oncoming, same (as we drive) or standing
     start_s_m = 420           # place of its middle along the lane at time 0
     speed_kmh = 80
@@ -35,6 +35,7 @@ SIZES_M = {
     "motorcycle": (0.8, 1.4, 2.1),
     "bicycle": (0.6, 1.7, 1.8),
     "pedestrian": (0.5, 1.75, 0.4),
+    "deer": (0.3, 1.1, 1.2),
 }
 _DIRECTIONS = {"oncoming": -1.0, "same": 1.0, "standing": 0.0}
 
@@ -121,7 +122,7 @@ def _road_user(table: dict[str, object], place: str) -> RoadUser:
     speed_mps, across_mps = (float(str(given.pop(key, 0.0))) / 3.6 for key in ("speed_kmh", "across_kmh"))
     known = {each.name for each in fields(RoadUser)}
     words = {key: value for key, value in {**size, **given}.items() if key in known}
-    if kind == "pedestrian":
+    if kind in ("pedestrian", "deer"):
         words["lights"] = False
     return RoadUser(kind=kind, direction=direction, speed_mps=speed_mps, across_mps=across_mps, **words)  # type: ignore[arg-type]
 

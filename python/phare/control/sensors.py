@@ -15,7 +15,7 @@ from typing import Sequence
 
 import numpy as np
 
-from .messages import CurveAhead, Given, LampOfLaw, RoadUserSeen
+from .messages import CLASSES, CurveAhead, Given, LampOfLaw, RoadUserSeen
 from .road_users import Lane, RoadUser, read_road_users
 
 
@@ -147,7 +147,7 @@ class Eyes:
         line = (near - origin) / max(float(np.linalg.norm(near - origin)), 1e-9)
         closing = float(np.dot(velocity_mps - speed * along, line))
         seen = RoadUserSeen(
-            number, user.kind, lights, float(at[0]), float(at[1]), float(at[2]), user.width_m, user.height_m, closing, 0, 0, 0, 0
+            number, user.kind if user.kind in CLASSES else "unknown", lights, float(at[0]), float(at[1]), float(at[2]), user.width_m, user.height_m, closing, 0, 0, 0, 0
         )
         set_angles(seen, middle)
         return seen
