@@ -195,6 +195,28 @@ Outcome table_sizes(const Bench& bench) {
   return all;
 }
 
+Outcome one_value(const Bench& bench) {
+  const auto ies = [](const char* counts_and_angles) {
+    return std::string("IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 ") + counts_and_angles;
+  };
+  for (const auto& [name, text] :
+       {std::pair<const char*, std::string>("lamp.csv", "# unit: cd\nV\\H,0\n0,5000\n"),
+        {"lamp.ies", ies("1 1 1 2 0 0 0\n1 1 10\n0\n0\n5000\n")}})
+    if (parse_lamp(text, name, {}).ok()) return {.error = std::string(name) + " of one value was taken"};
+  const auto table = parse_lamp(ies("2 1 1 2 0 0 0\n1 1 10\n0 180\n0\n5000 5000\n"), "lamp.ies", {});
+  if (!table) return {.error = table.error().text()};
+  std::vector<Point> points;
+  std::vector<double> along;
+  for (int up_deg = -90; up_deg <= 90; up_deg += 15)
+    for (int left_deg = -180; left_deg < 180; left_deg += 20) {
+      const double up = up_deg * kRadPerDeg, left = left_deg * kRadPerDeg;
+      const glm::dvec3 way(std::cos(up) * std::cos(left), std::cos(up) * std::sin(left), std::sin(up));
+      points.push_back({10.0 * way, -way});
+      along.push_back(left_deg);
+    }
+  return against(bench, {.table = &*table}, points, std::vector<double>(points.size(), 50.0), along);
+}
+
 Outcome spike(const Bench& bench) {
   // One node of 200,000 cd among zeros: a pyramid over four cells.
   const IntensityTable table =
@@ -293,6 +315,9 @@ std::vector<HardCase> light_cases() {
             "12,000 to 300 cd within 0.1°, on a wall at 25 m in steps of 0.025°", "V, degrees", cutoff),
       light("table-sizes", "a table of four values or of a million is resampled",
             "2 × 2, 100 × 100 and 1,000 × 1,000 nodes of a plane of intensity", "values", table_sizes),
+      light("one-value", "a step between nodes is divided by, and there is one node",
+            "one value, in CSV and LM-63: refused; the same in one plane from pole to pole: that intensity everywhere",
+            "to the left of the axis, degrees", one_value),
       light("one-spike", "filters and mip levels eat a single bright node",
             "200,000 cd at one node of 201 × 201, 0 elsewhere, through it in 0.01°", "H, degrees", spike),
       light("hundred-lamps", "a limit of eight lights, or sums in 16-bit floats",
