@@ -228,6 +228,26 @@ TEST_F(Shadows, AreMadeWhereSomethingStandsInTheLightAndNowhereElse) {
   EXPECT_EQ(renderer->draw(input).effects.level(Effect::kShadows), 0u);
 }
 
+// What only a map's second picture is asked about is not drawn into its first.
+TEST_F(Shadows, AThingInTheMiddleIsDrawnIntoOnePictureOfAMap) {
+  Shape near;  // at the side: it makes the first picture wide
+  near.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
+  near.box({5, 4, 0}, {6, 6, 2});
+  Shape both = near;
+  both.box({60, -1, 0}, {61, 1, 2});
+  const FrameInput input = view_of_the_road();
+  const auto triangles = [&](Shape& shape) {
+    EXPECT_TRUE(renderer->load_scene(shape.scene()).ok());
+    const FrameResult frame = renderer->draw(input);
+    EXPECT_NE(frame.effects.level(Effect::kShadows), 0u);
+    return frame.triangles;
+  };
+  constexpr std::uint64_t kBox = 12, kLamps = 2;
+  const std::uint64_t more = triangles(both) - triangles(near);
+  EXPECT_GT(more, kBox) << "it casts";
+  EXPECT_LE(more, kBox + kLamps * kBox) << "once for each lamp";
+}
+
 TEST_F(Shadows, ALampSeenInManyViewsAndAmongManyLampsCastsTheSameShadow) {
   Shape shape;
   shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
