@@ -17,6 +17,7 @@ import pytest
 import phare
 import slurm_here
 from phare import sweep
+from phare.sweep.engine import Work
 
 PACKAGE = str(Path(phare.__file__).parents[1])
 
@@ -129,6 +130,43 @@ def test_jobs_that_the_scheduler_drops_are_asked_for_again(plan, here, dask, tmp
     assert dropped and done.file.read_bytes() == here and not leftovers(out)
 
 
+class DroppedWhileItIsFetched:
+    """A client whose every job is done, and dropped, the first time it is asked for, while its answer is on the way."""
+
+    status = "running"
+
+    def __init__(self):
+        self.asked = []
+
+    def submit(self, _, job, *rest, **named):
+        self.asked.append(job.number)
+        return DroppedWhileItIsFetched.Done(first=self.asked.count(job.number) == 1)
+
+    class Done:
+        status = "finished"
+
+        def __init__(self, first):
+            self.first = first
+
+        def result(self):
+            if self.first:
+                raise concurrent.futures.CancelledError("dropped")
+            return True
+
+        def release(self):
+            pass
+
+
+def test_a_job_that_is_dropped_while_its_answer_is_fetched_is_asked_for_again(plan, tmp_path):
+    pytest.importorskip("distributed")
+    client = DroppedWhileItIsFetched()
+    work = Work(plan, plan.jobs, tmp_path, tell=lambda line: None)
+    ended = list(sweep.Dask("tcp://nowhere:1")._gather(client, work))
+    assert sorted(job.number for job, _ in ended) == [job.number for job in plan.jobs]
+    assert all(why == "" for _, why in ended)
+    assert sorted(client.asked) == sorted(2 * [job.number for job in plan.jobs])
+
+
 def test_a_scheduler_that_is_lost_is_told_and_the_sweep_goes_on_without(plan, here, dask, tmp_path):
     address, running = dask
     out = tmp_path / "out"
@@ -151,7 +189,7 @@ def test_a_scheduler_that_is_lost_is_told_and_the_sweep_goes_on_without(plan, he
 
 
 @pytest.mark.parametrize("lost", [OSError("in <TCP (closed)>: Stream is closed"), asyncio.CancelledError(), concurrent.futures.CancelledError()])
-def test_a_scheduler_that_is_lost_in_the_middle_of_an_answer_is_told_too(lost):
+def test_a_scheduler_that_is_lost_in_the_middle_of_an_answer_is_told_too(lost, plan, tmp_path):
     pytest.importorskip("distributed", reason="Dask is not tried: apt-get install python3-distributed")
 
     class Broken:
@@ -160,8 +198,14 @@ def test_a_scheduler_that_is_lost_in_the_middle_of_an_answer_is_told_too(lost):
         def result(self):
             raise lost
 
+    class Gone:
+        status = "closed"  # what a client is that has found no way back
+
+        def submit(self, *what, **named):
+            return Broken()
+
     with pytest.raises(phare.Failed, match="tcp://gone: the scheduler is gone; the same command goes on"):
-        sweep.Dask("tcp://gone")._why(Broken(), None)
+        list(sweep.Dask("tcp://gone")._gather(Gone(), Work(plan, plan.jobs, tmp_path, tell=lambda line: None)))
 
 
 def test_a_cluster_of_its_own(plan, here, tmp_path):

@@ -80,14 +80,14 @@ class Dask(Engine):
             for future in done:
                 last_s, told = time.monotonic(), False
                 job = jobs.pop(future)
-                if future.status in ("cancelled", "lost"):
+                why = self._why(future, work)
+                if why is None:
                     # Dropped on the way, as when the connection broke and came back: asked for again. Should the first
                     # one still be driven somewhere, each writes beside and renames.
                     if asked[job.number] >= _MOST_ASKED or not self._is_back(client):
                         raise Failed(self._gone())
                     jobs[submitted(job)] = job
                     continue
-                why = self._why(future, work)
                 future.release()  # a result that nobody holds is not made anew when its worker is lost later
                 yield job, why
             if client.status != "running":
@@ -113,10 +113,18 @@ class Dask(Engine):
         except (OSError, asyncio.CancelledError, concurrent.futures.CancelledError) as wrong:
             raise Failed(self._gone()) from wrong
 
-    def _why(self, future: Any, work: Work) -> str:
-        if future.status == "error":
-            wrong = self._asked(future.exception)
-            if isinstance(wrong, self._distributed.scheduler.KilledWorker):
-                return "its workers were lost, again and again"
-            return f"{type(wrong).__name__}: {wrong}"
-        return "" if self._asked(future.result) else f"a worker does not see {work.folder}"
+    def _why(self, future: Any, work: Work) -> str | None:
+        """Why the job failed; "": it did not. None: it was dropped, before its answer was fetched or while it was."""
+        if future.status in ("cancelled", "lost"):
+            return None
+        try:
+            if future.status != "error":
+                return "" if future.result() else f"a worker does not see {work.folder}"
+            wrong = future.exception()
+        except (asyncio.CancelledError, concurrent.futures.CancelledError):
+            return None
+        except OSError as broken:
+            raise Failed(self._gone()) from broken
+        if isinstance(wrong, self._distributed.scheduler.KilledWorker):
+            return "its workers were lost, again and again"
+        return f"{type(wrong).__name__}: {wrong}"
