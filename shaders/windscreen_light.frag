@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "lib/luminance.h"
 #include "windscreen.h"
 
 // A texel a place on the glass: the light of a drop there, the mean of the picture about it, and of lamps that shine into the eye.
@@ -23,14 +24,13 @@ void main() {
     vec2 at = clamp(middle + way * vec2(cos(angle), sin(angle)), draw.area.xy, draw.area.xy + draw.area.zw - 1.0);
     // What is brighter is small, and met by few samples of few drops.
     vec3 seen = texelFetch(picture, ivec2(at), 0).rgb;
-    seen *= min(1.0, kMostSampled_cdm2 / max(dot(seen, vec3(0.2126, 0.7152, 0.0722)), 1e-6));
+    seen *= min(1.0, kMostSampled_cdm2 / max(luminance_of(seen), 1e-6));
     sum += drop_bends(share) * seen;
   }
   vec3 light = sum / float(kScreenTaps);
   for (int i = 0; i < 2; ++i) {
     vec2 red_blue = unpackHalf2x16(floatBitsToUint(draw.lamps[i].w));
-    vec3 colour = vec3(red_blue.x, (1.0 - 0.2126 * red_blue.x - 0.0722 * red_blue.y) / 0.7152, red_blue.y);
-    light += colour * (drop_bends(distance(draw.lamps[i].xy, middle) / draw.reach.x) * draw.lamps[i].z / draw.reach.y);
+    light += colour_of_red_blue(red_blue) * (drop_bends(distance(draw.lamps[i].xy, middle) / draw.reach.x) * draw.lamps[i].z / draw.reach.y);
   }
   result = vec4(light, 1.0);
 }

@@ -6,6 +6,7 @@
 #include <glm/mat4x4.hpp>
 #include <numbers>
 
+#include "shaders/lib/luminance.h"
 #include "visual/photometry/beam/beam_image.h"
 #include "visual/photometry/table/fog.h"
 
@@ -15,7 +16,7 @@ namespace {
 constexpr double kLeastSeen = 0.5 / 255.0 / 12.92;  // of 8 bits in sRGB, next to black
 
 double cdm2_of(const glm::vec3& rgb) {
-  return static_cast<double>(glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f)));
+  return static_cast<double>(shader::luminance_of(rgb));
 }
 
 }  // namespace

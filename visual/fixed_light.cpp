@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "shaders/lib/luminance.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/readers/read_lamp.h"
 #include "visual/renderer.h"
@@ -19,11 +20,11 @@
 namespace phare {
 namespace {
 
-const glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);  // of linear Rec. 709
 constexpr double kMoon_k = 4100.0;       // sunlight that the moon has reddened; a usual figure
 constexpr double kOffSurface_m = 0.005;  // vertices lie on edges of their neighbours
-// A vertex of a wall may lie behind a window, of a pavement under a pole, where nobody sees it: dark, it would darken what
-// is seen a metre around. So light falls on it as if what lies on it so thinly, or it lies within so deeply, were not there.
+// A vertex of a wall may lie behind a window, of a pavement under a pole, where nobody sees it: dark, it would darken
+// what is seen a metre around. So light falls on it as if what lies on it so thinly, or it lies within so deeply, were
+// not there.
 constexpr double kCover_m = 0.15, kWithin_m = 0.3;
 constexpr double kBeyondScene_m = 5000.0;
 constexpr double kFloor_lx = 0.5;   // the error is that of so many lux where there are fewer
@@ -90,7 +91,7 @@ Status FixedLight::add_lights_of(const Scene& scene) {
     tables.push_back(std::move(*table));
   }
   for (const SceneLight& light : scene.lights) {
-    const float luminance = glm::dot(light.colour, kLuminance);
+    const float luminance = shader::luminance_of(light.colour);
     const double of_white = light.intensity * static_cast<double>(luminance);
     if (!(of_white > 0.0)) continue;
     const glm::vec3 colour = light.colour / luminance;
@@ -126,8 +127,8 @@ double FixedLight::candela(const Lamp& lamp, const glm::dvec3& way) const {
   return kind.scale * part * part;
 }
 
-/// Calls add(share of the surface's lx, colour, direction, lx facing it) for all that reaches the point. `normal`: null,
-/// nothing faces away. `of_mesh`: as vertices keep it (kCover_m).
+/// Calls add(share of the surface's lx, colour, direction, lx facing it) for all that reaches the point. `normal`:
+/// null, nothing faces away. `of_mesh`: as vertices keep it (kCover_m).
 template <typename Add>
 void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add) const {
   glm::dvec3 from_m = normal != nullptr ? point_m + kOffSurface_m * *normal : point_m;

@@ -3,7 +3,8 @@
 namespace phare {
 
 EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optional<std::size_t> casters,
-                     const DrawnOver& over, std::span<const GlaringLamp> glare, std::size_t pupils, const DeviceFacts& device) {
+                     const DrawnOver& over, std::span<const GlaringLamp> glare, std::size_t pupils,
+                     const DeviceFacts& device) {
   double glare_lx = 0.0;
   for (const GlaringLamp& source : glare) glare_lx += source.eye_lx;
   return {.lit_lamps = lamps.lit,

@@ -30,7 +30,8 @@ struct LampsInView {
 /// were looked for; `over`: what will lie over it; `glare`: glare_of() it;
 /// `pupils`: how many pupils_of() it.
 EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optional<std::size_t> casters,
-                     const DrawnOver& over, std::span<const GlaringLamp> glare, std::size_t pupils, const DeviceFacts& device);
+                     const DrawnOver& over, std::span<const GlaringLamp> glare, std::size_t pupils,
+                     const DeviceFacts& device);
 
 /// What shines in the scene and does not change.
 void add_facts(EffectFacts& facts, const FixedLight& light);

@@ -52,6 +52,12 @@ void add_files(const Json& root, const char* list, std::vector<std::filesystem::
   }
 }
 
+std::vector<std::filesystem::path> files_of(const Json& root) {
+  std::vector<std::filesystem::path> files;
+  for (const char* list : {kBuffers, "/images", "/extensions/EXT_lights_ies/lights"}) add_files(root, list, files);
+  return files;
+}
+
 }  // namespace
 
 bool is_data_uri(const std::string& uri) {
@@ -82,19 +88,17 @@ std::optional<std::vector<unsigned char>> bytes_of_data_uri(const std::string& u
 }
 
 std::vector<std::filesystem::path> files_beside(const std::filesystem::path& gltf) {
-  const Json root = json_of_gltf(gltf);
-  std::vector<std::filesystem::path> files;
-  for (const char* list : {kBuffers, "/images", "/extensions/EXT_lights_ies/lights"}) add_files(root, list, files);
-  return files;
+  return files_of(json_of_gltf(gltf));
 }
 
 Result<std::string> content_hash_of_gltf(const std::filesystem::path& gltf) {
   Result<std::string> own = content_hash_of_file(gltf);
   if (!own) return own;
-  const std::vector<std::filesystem::path> beside = files_beside(gltf);
+  const Json root = json_of_gltf(gltf);
+  const std::vector<std::filesystem::path> beside = files_of(root);
   if (beside.empty()) return own;
   std::vector<std::filesystem::path> buffers;
-  add_files(json_of_gltf(gltf), kBuffers, buffers);
+  add_files(root, kBuffers, buffers);
   std::string all = *own;
   for (const std::filesystem::path& file : beside) {
     std::error_code failed;

@@ -2,6 +2,7 @@
 #ifndef PHARE_BEAM
 #define PHARE_BEAM
 #include "lib/angles.h"
+#include "lib/luminance.h"
 #ifdef PHARE_LEAN
 #include "lib/lean_varyings.glsl"
 #else
@@ -208,7 +209,7 @@ vec3 lamp_tint(samplerBuffer tint, sampler2D image, TableShape shape, vec4 scale
                     in_cell(texelFetch(tint, 2 * last_found.cell + 1), last_found.part));
   if (cd <= 0.0) return vec3(1.0);
   red_blue *= scale.xz * (last_found.factor / cd);
-  return max(vec3(red_blue.x, (1.0 - 0.2126 * red_blue.x - 0.0722 * red_blue.y) / 0.7152, red_blue.y), 0.0);
+  return colour_of_red_blue(red_blue);
 }
 
 // Right after PHARE_LAMP_LIGHT(I).

@@ -137,7 +137,7 @@ LampLight reference_light(uint lamp) {
 vec3 reference_tint(float cd) {
   if (cd <= 0.0) return vec3(1.0);
   vec2 red_blue = reference_red_blue / cd;
-  return max(vec3(red_blue.x, (1.0 - 0.2126 * red_blue.x - 0.0722 * red_blue.y) / 0.7152, red_blue.y), 0.0);
+  return colour_of_red_blue(red_blue);
 }
 
 #undef PHARE_LAMP_LIGHT

@@ -1,7 +1,7 @@
 // The one step that leaves photometric units: luminance to display. Fixed exposure, fixed curve, so that two beams compare.
 #ifndef PHARE_SHADERS_LIB_TONE_H
 #define PHARE_SHADERS_LIB_TONE_H
-#include "lib/portable.h"
+#include "lib/luminance.h"
 
 PHARE_SHADER_BEGIN
 
@@ -9,7 +9,7 @@ PHARE_SHADER_BEGIN
 /// applied to luminance so that colours keep their hue.
 PHARE_INLINE vec3 tone_curve(vec3 exposed) {
   const float per_white_squared = 1.0f / (12.0f * 12.0f);
-  float y = dot(exposed, vec3(0.2126f, 0.7152f, 0.0722f));
+  float y = luminance_of(exposed);
   float scale = (1.0f + y * per_white_squared) / (1.0f + y);
   return exposed * scale;
 }

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "shaders/eyeshine.h"
+#include "shaders/lib/luminance.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
 #include "visual/scene/pupils.h"
@@ -42,8 +43,8 @@ Scene two_pupils(const glm::dvec3& at_m) {
   return scene;
 }
 
-double luminance_of(const glm::vec3& rgb) {
-  return static_cast<double>(glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f)));
+double cd_of(const glm::vec3& rgb) {
+  return static_cast<double>(shader::luminance_of(rgb));
 }
 
 /// Light of illuminant A, for which figures are stated.
@@ -76,7 +77,7 @@ TEST(Eyeshine, SendsWhatTheTableSays) {
   const auto candela = [&](double observation_deg, const Air& air) {
     const double up_m = 50.0 * std::tan(observation_deg * std::numbers::pi / 180.0);
     const std::array lights{lamp_of({0.0, 0.0, 1.0}, 1000.0)};
-    return luminance_of(shining(pupil, lights, {0.0, 0.0, 1.0 + up_m}, air).candela);
+    return cd_of(shining(pupil, lights, {0.0, 0.0, 1.0 + up_m}, air).candela);
   };
   // float32: logarithms of the table as in tests/scene/retro_test.cpp, three colours.
   EXPECT_NEAR(candela(0.5, {}) / 0.012, 1.0, 1e-5);
@@ -119,7 +120,7 @@ class EyeshineOnDevice : public SharedRenderer {
     std::vector<double> values;
     const ImageF image = renderer->read_hdr();
     for (std::size_t i = 0; i < image.rgba.size(); i += 4)
-      values.push_back(luminance_of({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]}));
+      values.push_back(cd_of({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]}));
     return values;
   }
   SceneMaterial material_ = eye_material();
@@ -141,7 +142,7 @@ TEST_F(EyeshineOnDevice, PixelsTogetherAreTheCandela) {
     const double body_cdm2 = 0.15 / std::numbers::pi * 10000.0 / (r * r);
     std::printf("%.0f m: %.4g cd, brightest pixel %.3g cd/m², a body %.3g\n", distance_m, found_cd, brightest,
                 body_cdm2);
-    EXPECT_NEAR(found_cd / luminance_of(input.pupils[0].candela), 1.0, 2e-3) << "half floats";
+    EXPECT_NEAR(found_cd / cd_of(input.pupils[0].candela), 1.0, 2e-3) << "half floats";
     if (distance_m > 50.0) {
       EXPECT_GT(brightest, 3.0 * body_cdm2) << distance_m << " m, in pixels as wide as four of a display";
     }
@@ -156,7 +157,7 @@ TEST_F(EyeshineOnDevice, ADiscHasItsLuminance) {
   const Pupil pupil{{0.9, 0.06, 1.1}, {-1.0, 0.0, 0.0}, 1.1e-4, &material_};
   const std::array lights{lamp_of(input.camera.eye_m, 100.0)};  // where the eye is, so that it sees what comes back
   input.pupils = {shining(pupil, lights, input.camera.eye_m, {})};
-  const double cdm2 = luminance_of(input.pupils[0].candela) / input.pupils[0].area_m2;
+  const double cdm2 = cd_of(input.pupils[0].candela) / input.pupils[0].area_m2;
   const std::vector<double> values = luminances(input);
   ASSERT_GT(cdm2, 1.0);
   EXPECT_NEAR(*std::ranges::max_element(values) / cdm2, 1.0, 0.05) << "but for the rim of one pixel";

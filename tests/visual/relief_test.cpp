@@ -225,14 +225,7 @@ TEST_F(Relief, EveryMethodNumberOfLampsAndWeatherShowsIt) {
       }
       scene.indices.insert(scene.indices.end(), post.indices.begin(), post.indices.end());
     }
-    FrameInput input = view(scene);
-    for (std::size_t i = 1; i < lamps; ++i) {
-      input.lamps.push_back(input.lamps[0]);
-      input.lamps.back().position_m.y = 0.2 * static_cast<double>(i);
-    }
-    input.method = method;
-    if (visibility_m > 0.0) input.air = Air{.visibility_m = visibility_m};
-    return pixel(drawn(input), 150, 80);
+    return pixel(drawn(lit_by(view(scene), lamps, method, visibility_m)), 150, 80);
   };
   struct Case {
     std::size_t lamps;

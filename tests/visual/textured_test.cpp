@@ -119,15 +119,7 @@ TEST_F(Textured, EveryMethodNumberOfLampsAndWeatherShowsTheSameSurface) {
   SceneMaterial plain{.name = "plain", .reflectance = glm::vec3(static_cast<float>(rho))};
   const Scene same = wall(plain, {}, kWall_m, false);
   const auto look = [&](const Scene& drawn_scene, std::size_t lamps, Method method, double visibility_m) {
-    FrameInput input = view(drawn_scene);
-    input.lamps.resize(1);
-    for (std::size_t i = 1; i < lamps; ++i) {
-      input.lamps.push_back(input.lamps[0]);
-      input.lamps.back().position_m.y = 0.2 * static_cast<double>(i);
-    }
-    input.method = method;
-    if (visibility_m > 0.0) input.air = Air{.visibility_m = visibility_m};
-    return pixel(drawn(input), 150, 80);
+    return pixel(drawn(lit_by(view(drawn_scene), lamps, method, visibility_m)), 150, 80);
   };
   struct Case {
     std::size_t lamps;

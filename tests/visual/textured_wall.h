@@ -91,6 +91,17 @@ class Textured : public SharedRenderer {
     seen.at_m = {-at_m * half * ((x + 0.5) / 160.0 - 1.0), -at_m * half / aspect * ((y + 0.5) / 90.0 - 1.0)};
     return seen;
   }
+  /// The view by its first lamp and others beside it, in fog where `visibility_m` is above 0.
+  static FrameInput lit_by(FrameInput input, std::size_t lamps, Method method, double visibility_m) {
+    input.lamps.resize(1);
+    for (std::size_t i = 1; i < lamps; ++i) {
+      input.lamps.push_back(input.lamps[0]);
+      input.lamps.back().position_m.y = 0.2 * static_cast<double>(i);
+    }
+    input.method = method;
+    if (visibility_m > 0.0) input.air = Air{.visibility_m = visibility_m};
+    return input;
+  }
   ImageF drawn(const FrameInput& input) {
     last = renderer->draw(input);
     return renderer->read_hdr();

@@ -205,7 +205,8 @@ SurfaceTextures::SurfaceTextures(gpu::Device& device, std::span<const Scene* con
     reliefs = reliefs || std::ranges::any_of(scene->materials, [](const auto& m) { return m.look.relief(); });
   constexpr std::size_t kWithRelief = sizeof(shader::GpuLook) + sizeof(shader::GpuRelief);
   const std::size_t align = device.properties.limits.minUniformBufferOffsetAlignment;
-  const std::size_t step = std::max(reliefs ? (kWithRelief + align - 1) / align * align : sizeof(shader::GpuLook), align);
+  const std::size_t step =
+      std::max(reliefs ? (kWithRelief + align - 1) / align * align : sizeof(shader::GpuLook), align);
   std::size_t number = 0;
   for (std::size_t s = 0; s < scenes.size(); ++s)
     for (const SceneMaterial& material : scenes[s]->materials) {

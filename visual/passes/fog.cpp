@@ -11,6 +11,7 @@
 #include "shaders/fog.h"
 #include "shaders/fog_sky_frag.h"
 #include "shaders/fog_sky_vert.h"
+#include "shaders/lib/luminance.h"
 #include "visual/falling.h"
 #include "visual/fog_nodes.h"
 #include "visual/passes/constants.h"
@@ -51,10 +52,6 @@ void put(SpecConstants& constants, const FogGrid& grid) {
   constants.put(shader::kSpecFogSlices, grid.slices);
 }
 
-float luminance(const glm::vec3& rgb) {
-  return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-}
-
 glm::dvec3 ray_of(const ViewGeometry& view, double x, double y) {
   return glm::dvec3(view.direction_from_clip() * glm::dvec4(x, y, 1.0, 0.0));
 }
@@ -68,7 +65,7 @@ shader::GpuFog data_of(const LitScene& scene, const LitView& view, const ViewInp
   const glm::vec3 exposure = hdr ? glm::vec3(1.0f) : view.sky.exposure_per_cdm2;
   // Under an even sky over dark ground fog is half as bright as the sky.
   const double under_sky_cdm2 =
-      0.5 * scattering / extinction * static_cast<double>(luminance(glm::vec3(view.sky.zenith())));
+      0.5 * scattering / extinction * static_cast<double>(shader::luminance_of(glm::vec3(view.sky.zenith())));
   fog.colour = glm::vec4(scene.mean_colour(view.air_lamps) * exposure, static_cast<float>(under_sky_cdm2));
   const glm::dvec3 corner = ray_of(view.geometry, -1.0, -1.0);
   fog.ray = glm::vec4(glm::vec3(corner), 0.0f);

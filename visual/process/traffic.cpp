@@ -175,7 +175,8 @@ std::vector<Traffic::Eye> Traffic::oncoming_eyes(std::span<const There> users, c
   std::vector<Eye> eyes;
   for (std::size_t i = 0; i < users.size(); ++i) {
     const There& user = users[i];
-    if (user.kind >= RoadUserClass::pedestrian || glm::dot(user.world_from_user[0], heading) >= 0.0) continue;
+    const bool drives = user.kind != RoadUserClass::pedestrian && user.kind != RoadUserClass::deer;
+    if (!drives || glm::dot(user.world_from_user[0], heading) >= 0.0) continue;
     const glm::dvec3 eye_m = user.position_m + user.world_from_user * kEyes_m[static_cast<std::size_t>(user.kind)];
     eyes.push_back({i, {eye_m, user.world_from_user[0]}});
   }

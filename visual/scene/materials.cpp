@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "config/formats/gltf_uri.h"
+#include "shaders/lib/luminance.h"
 
 namespace phare {
 namespace {
@@ -64,10 +65,6 @@ TextureWrap wrap_of(int gltf) {
 }
 
 }  // namespace
-
-float luminance_of(const glm::vec3& rgb) {
-  return glm::dot(rgb, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 void SceneNotes::add(const std::string& reason, const std::string& what) {
   std::vector<std::string>& names = of_[reason];
@@ -163,8 +160,8 @@ Status MaterialReader::read_extras(const tinygltf::Material& source, ReadMateria
     if (material.look.base_texture) {
       // A picture says where a surface is darker; how dark it is on the whole says the library.
       const glm::vec4& base = material.look.base;
-      const float seen = luminance_of(material.reflectance), most = std::max({base.x, base.y, base.z, 1e-6f});
-      const float scale = seen > 0.0f ? std::min(luminance_of(known.reflectance) / seen, 1.0f / most) : 1.0f;
+      const float seen = shader::luminance_of(material.reflectance), most = std::max({base.x, base.y, base.z, 1e-6f});
+      const float scale = seen > 0.0f ? std::min(shader::luminance_of(known.reflectance) / seen, 1.0f / most) : 1.0f;
       for (int i = 0; i < 3; ++i) material.look.base[i] *= scale;
       material.reflectance *= scale;
     } else {
@@ -218,7 +215,7 @@ Status MaterialReader::read_extras(const tinygltf::Material& source, ReadMateria
   }
   if (shining_cdm2) {
     glm::vec3& emitted = material.look.emitted_cdm2;
-    const float own = luminance_of(emitted);
+    const float own = shader::luminance_of(emitted);
     emitted = own > 0.0f ? emitted * static_cast<float>(*shining_cdm2 / static_cast<double>(own))
                          : glm::vec3(static_cast<float>(*shining_cdm2));
   }

@@ -63,7 +63,4 @@ class MaterialReader {
 /// Extensions, animations and the like of the file as a whole.
 void note_what_is_not_read(const tinygltf::Model& model, SceneNotes& notes);
 
-/// rgb of Rec. 709 to what an eye sees of it.
-float luminance_of(const glm::vec3& rgb);
-
 }  // namespace phare

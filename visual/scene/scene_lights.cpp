@@ -223,7 +223,8 @@ Status read_scene_lights(const tinygltf::Model& model, const std::filesystem::pa
       scene.lights.push_back(std::move(light));
     }
   }
-  if (scene.lights.size() > kMostSceneLights) return Error{"lights", "more than 20000 stand in the scene"};
+  if (scene.lights.size() > kMostSceneLights)
+    return Error{"lights", "more than " + std::to_string(kMostSceneLights) + " stand in the scene"};
   return Done{};
 }
 
