@@ -361,7 +361,7 @@ constexpr DeskSetting kSettings[] = {
      set_flag<&Desk::panel>, get_flag<&Desk::panel>},
     {"depth_first", "auto, off, on", "a depth pass before the lit one; auto: as the scene calls for", true,
      set_level<&Desk::depth_first, kOffOnNames>, get_level<&Desk::depth_first, kOffOnNames>},
-    {"shadows", "auto, off, hard, soft, fine", "of what stands in the beams; auto: as the scene calls for", true,
+    {"shadows", "auto, off, hard, soft, fine, rays, lens", "of what stands in the beams; auto: as the scene calls for", true,
      set_level<&Desk::shadows, kShadowNames>, get_level<&Desk::shadows, kShadowNames>},
     {"fog", "auto, off, coarse, medium, fine", "light scattered in fog; auto: as the visibility calls for", true,
      set_level<&Desk::fog, kFogNames>, get_level<&Desk::fog, kFogNames>},

@@ -82,7 +82,9 @@ inline constexpr std::size_t kMostProbes = 16;
 /// Levels of effects that the desk may set, from off to the finest.
 inline constexpr std::array<std::string_view, 1> kOffNames{"off"};
 inline constexpr std::array<std::string_view, 2> kOffOnNames{"off", "on"};
-inline constexpr std::array<std::string_view, 4> kShadowNames{"off", "hard", "soft", "fine"};
+inline constexpr std::array<std::string_view, 6> kShadowNames{"off", "hard", "soft", "fine", "rays", "lens"};
+/// The first that asks the scene's triangles at every pixel: a reference, which only the user chooses.
+inline constexpr std::size_t kRayShadows = 4;
 inline constexpr std::array<std::string_view, 4> kFogNames{"off", "coarse", "medium", "fine"};
 
 /// Of the windscreen, from standing still to its fastest.

@@ -24,7 +24,7 @@ const uint kSpecGrain = 7u;     // first level of the grain that is there
 const uint kSpecShadowMaps = 8u;
 const uint kSpecShadowWidth = 9u;
 const uint kSpecShadowHeight = 10u;
-const uint kSpecShadowTaps = 11u;
+const uint kSpecShadowTaps = 11u;  // above kTapsOfRays: no maps, so many rays to the lamp
 const uint kSpecMethod = 12u;
 // Fog (lib/fog.glsl): 1 where lamps shine in it; columns and 65536 times the rows of its grid; slices.
 const uint kSpecFogLamps = 13u;
@@ -141,6 +141,16 @@ struct GpuFrame {
   vec4 mirrored_cd[kMirroredLamps];  // rgb: of each toward where it is mirrored
   vec4 snow;                         // x: share of level ground that snow covers
 };
+
+// Shadows by rays: the buffer holds, four floats a texel, two texels a lamp (half its opening to the left, w: one more than which mover carries
+// it; half of it up, w: 1 round), then one (x: how many movers), and from kRayMovers on four a mover: rows that take a place into its
+// mesh, and where its tree begins and ends, x and y; last the tree of what stands, where the last texel of the head says: y and z. Of a tree
+// (RayTree::texels) a box is two texels, what it ends with and how many triangles of three texels follow in the fourth floats. GpuShadow then
+// takes a point relative to the eye to where the trees have it.
+const uint kTapsOfRays = 64u;
+const uint kRayHead = 30u;
+const uint kRayMovers = 31u;
+const uint kRayMoverTexels = 4u;
 
 // Depth of a map is this over the distance along the axis: what is nearer than it casts no shadow.
 const float kShadowNear_m = 0.05f;

@@ -77,6 +77,10 @@ Status pick_settings(DriveOptions& options, const Rig& rig) {
   if (!low_beam)
     return Error{asked_text(options),
                  "settings are measured by low beam, and design \"" + rig.designs[design].name + "\" has none"};
+  if (desk.shadows.value_or(0) >= kRayShadows)
+    return Error{asked_text(options), "shadows \"" + std::string(kShadowNames[*desk.shadows]) +
+                                          "\" are a reference, for which nothing is picked; the finest that is: \"" +
+                                          std::string(kShadowNames[kRayShadows - 1]) + "\""};
   FixedSettings fixed{.shadows = desk.shadows, .fog = desk.fog};
   if (method_set) fixed.method = desk.method;
   // As with the method, a level of the rig's own that is not the default stays.

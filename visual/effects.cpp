@@ -143,7 +143,7 @@ EffectDecision windscreen(const EffectFacts& facts) {
 }
 
 constexpr std::array<EffectRow, kEffectCount> kTable{
-    {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy",
+    {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy; rays: the triangles in a buffer",
       shadows},
      {Effect::kDepthFirst, "depth first", kOffOnNames, "a depth pass before the lit pass", depth_first},
      {Effect::kHdrImage, "hdr image", kOffOnNames, "an image of 8 bytes a pixel and the tone-mapping pass", hdr_image},
@@ -187,6 +187,11 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
                   "picked for what is asked of time and accuracy; by itself: " + decision.reason};
     if (!choices[i] || decision.settled) return decision;
     if (row.only_where_called_for && decision.level == 0) return decision;
+    if (row.effect == Effect::kShadows && *choices[i] >= kRayShadows && !by.shadow_rays)
+      return EffectDecision{kRayShadows - 1,
+                            "rays are set by the user, and the device holds no buffer as large as the scene's "
+                            "triangles: the finest maps; by itself: " +
+                                decision.reason};
     return EffectDecision{std::min(*choices[i], row.levels.size() - 1),
                           "set by the user; by itself: " + decision.reason};
   };

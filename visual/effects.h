@@ -35,6 +35,7 @@ struct EffectFacts {
   std::size_t lit_lamps = 0;               ///< positions that give light in this view
   std::optional<std::size_t> casters = 0;  ///< pieces of the scene that stand in their light; nothing: not looked for
   bool shadow_maps = true;                 ///< the device holds one
+  bool shadow_rays = true;                 ///< the device holds the scene's triangles
   bool software_device = false;            ///< vertices cost as much as pixels
   bool hdr_wanted = false;                 ///< something reads luminance in cd/m² (EXR, bird's eye)
   bool false_colour = false;               ///< the view shows illuminance, not luminance

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace phare {
@@ -60,6 +61,8 @@ LampOutput output_of(View view) {
 /// Far meshes are made for pixels of kFarMeshPixel_rad: where a picture's are finer, or its eye looks through a
 /// narrower angle, they begin as much farther away.
 double far_mesh_from_m(const PlacedView& view) {
+  // Rays are asked against the triangles in full: what lies a little below them would be dark.
+  if (asks_for_rays(view.input)) return std::numeric_limits<double>::infinity();
   const Camera& camera = view.input.camera;
   const double pixel_rad =
       camera.fov_horizontal_rad * (camera.seen_to_01 - camera.seen_from_01) / view.area.extent.width;

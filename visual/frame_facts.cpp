@@ -10,6 +10,7 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
   return {.lit_lamps = lamps.lit,
           .casters = casters,
           .shadow_maps = device.shadow_maps,
+          .shadow_rays = device.shadow_rays,
           .software_device = device.software,
           .hdr_wanted = view.want_hdr,
           .false_colour = view.view != View::kPhoto && view.view != View::kClipping,
@@ -46,6 +47,11 @@ std::vector<PupilInPicture> pupils_of(const ViewInput& view, const ViewGeometry&
 bool looks_for_casters(const ViewInput& view) {
   constexpr auto kShadows = static_cast<std::size_t>(Effect::kShadows);
   return (view.effects[kShadows] ? view.effects : view.picked)[kShadows] != std::size_t{0};
+}
+
+bool asks_for_rays(const ViewInput& view) {
+  constexpr auto kShadows = static_cast<std::size_t>(Effect::kShadows);
+  return (view.effects[kShadows] ? view.effects : view.picked)[kShadows].value_or(0) >= kRayShadows;
 }
 
 DrawnOver drawn_over(const FrameInput& input) {

@@ -12,6 +12,7 @@ namespace phare {
 struct DeviceFacts {
   bool software = false;    ///< it computes on the processor
   bool shadow_maps = true;  ///< it holds one
+  bool shadow_rays = true;  ///< it holds the scene's triangles
 };
 
 /// What lies over the frame's picture.
@@ -45,6 +46,9 @@ std::vector<PupilInPicture> pupils_of(const ViewInput& view, const ViewGeometry&
 
 /// The user has not switched shadows off.
 bool looks_for_casters(const ViewInput& view);
+
+/// The user wants shadows by rays.
+bool asks_for_rays(const ViewInput& view);
 
 DrawnOver drawn_over(const FrameInput& input);
 

@@ -184,6 +184,7 @@ void LitScene::set_geometry(SceneBuffers geometry, ShadowCasters casters, std::s
   geometry_ = std::move(geometry);
   fixed_light_ = std::move(light);
   casters_ = std::move(casters);
+  ++geometry_version_;
   forget_sets();
 }
 

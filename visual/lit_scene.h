@@ -55,14 +55,17 @@ struct LitBy {
   std::uint32_t shadow_maps = 0;                         ///< as kSpecShadowMaps
 };
 
-/// Size of a shadow map in texels, and how many of them are read for one point. None: no shadows.
+/// Size of a shadow map in texels, and how many of them are read for one point. None: no shadows. Without a size: so
+/// many rays to the lamp, and shader::kTapsOfRays.
 struct ShadowLevel {
   std::uint32_t width = 0, height = 0, taps = 0;
+
+  bool by_rays() const { return taps > shader::kTapsOfRays; }
 
   friend auto operator<=>(const ShadowLevel&, const ShadowLevel&) = default;
 };
 
-/// The maps of a view, as texels one after the other.
+/// The maps of a view, as texels one after the other; or the scene's triangles, for rays.
 struct ShadowDepths {
   gpu::HostBuffer triangles;  ///< that cast them, corner by corner
   gpu::HostBuffer cut_triangles;  ///< those with holes
@@ -151,6 +154,9 @@ class LitScene {
   /// Nothing is being drawn.
   void set_geometry(SceneBuffers geometry, ShadowCasters casters, std::shared_ptr<const FixedLight> light);
   const FixedLight& fixed_light() const { return *fixed_light_; }
+  const ShadowCasters& casters() const { return casters_; }
+  /// Another number with each scene.
+  std::uint64_t geometry_version() const { return geometry_version_; }
   void set_beam(std::size_t beam, const BeamImage& image);
   void change_beam(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed);
   /// Another number with each change.
@@ -264,6 +270,7 @@ class LitScene {
   ImageLevel level_;
   SceneBuffers geometry_;
   ShadowCasters casters_;
+  std::uint64_t geometry_version_ = 0;
   std::shared_ptr<const FixedLight> fixed_light_ = std::make_shared<FixedLight>();
   std::vector<std::unique_ptr<gpu::HostBuffer>> probes_;  ///< of what moves in this frame; more are made when needed
   std::size_t probes_used_ = 0;

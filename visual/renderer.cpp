@@ -193,7 +193,8 @@ struct Renderer::Impl {
             .read_hdr = [this](std::size_t view, gpu::Image& image,
                                const vk::Rect2D& part) { copy_out(image, part, hdrs[view], 8); },
             .device_facts = {.software = device.properties.deviceType == vk::PhysicalDeviceType::eCpu,
-                             .shadow_maps = shadows.possible()}};
+                             .shadow_maps = shadows.possible(),
+                             .shadow_rays = shadows.rays_possible(scene)}};
   }
 };
 
@@ -340,8 +341,11 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
         view.method = method;
         if (method == Method::kReference) impl_->scene.set_reference_points(exact);
         if (shadows > 0) {
+          if (kShadowLevels[shadows].by_rays() && !impl_->shadows.rays_possible(impl_->scene))
+            throw std::runtime_error("shadows by rays: the device holds no buffer as large as the scene's triangles");
           impl_->shadows.begin_frame();
-          if (impl_->scene.find_casters(view) > 0) impl_->shadows.draw(impl_->graph, impl_->scene, view, shadows);
+          if (kShadowLevels[shadows].by_rays() || impl_->scene.find_casters(view) > 0)
+            impl_->shadows.draw(impl_->graph, impl_->scene, view, shadows);
         }
         measure_points(impl_->graph, impl_->scene, view, lx, *buffer.buffer, static_cast<std::uint32_t>(count), 0);
         impl_->copy_out(lx, copy, 16);

@@ -54,7 +54,13 @@ bool shows_its_far_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3&
 ShadowCasters::ShadowCasters(const Scene& scene, const Scene& moving) {
   const auto chunk_of = [](const Scene& of, const SceneChunk& from, std::size_t first_material) {
     const SceneMaterial& material = of.materials[from.material];
-    Chunk chunk{from.origin_m, from.low_m, from.high_m, material.double_sided, {}, {}};
+    Chunk chunk{from.origin_m,
+                from.low_m,
+                from.high_m,
+                material.double_sided,
+                material.surface == Surface::kPaint,
+                {},
+                {}};
     if (from.first_look && material.look.cut_below && material.look.base_texture) {
       chunk.cut_of = first_material + from.material;
       for (std::uint32_t i = 0; i < from.vertex_count; ++i) chunk.uvs.push_back(of.looks[*from.first_look + i].uv);
@@ -72,6 +78,38 @@ ShadowCasters::ShadowCasters(const Scene& scene, const Scene& moving) {
     for (const std::size_t from : of_node)
       mesh.push_back(chunk_of(moving, moving.chunks[from], scene.materials.size()));
   }
+  const auto count = [&](const std::vector<Chunk>& chunks) {
+    for (const Chunk& chunk : chunks) ray_triangles_ += chunk.paint ? 0 : chunk.indices.size() / 3;
+  };
+  count(chunks_);
+  for (const std::vector<Chunk>& mesh : moving_) count(mesh);
+}
+
+void ShadowCasters::add_triangles(const Chunk& chunk, std::vector<RayTree::Triangle>& triangles) {
+  if (chunk.paint) return;
+  for (std::size_t k = 0; k + 2 < chunk.indices.size(); k += 3) {
+    const auto corner = [&](std::size_t i) {
+      return chunk.origin_m + glm::dvec3(chunk.corners_m[chunk.indices[k + i]]);
+    };
+    const glm::dvec3 a = corner(0);
+    triangles.push_back({a, corner(1) - a, corner(2) - a});
+  }
+}
+
+RayTree ShadowCasters::standing_tree() const {
+  std::vector<RayTree::Triangle> triangles;
+  for (const Chunk& chunk : chunks_) add_triangles(chunk, triangles);
+  return RayTree(triangles);
+}
+
+std::vector<RayTree> ShadowCasters::moving_trees() const {
+  std::vector<RayTree> trees;
+  for (const std::vector<Chunk>& mesh : moving_) {
+    std::vector<RayTree::Triangle> triangles;
+    for (const Chunk& chunk : mesh) add_triangles(chunk, triangles);
+    trees.emplace_back(triangles);
+  }
+  return trees;
 }
 
 bool ShadowCasters::cast_chunk(const Chunk& chunk, const glm::mat3& turn, const glm::vec3& shift,

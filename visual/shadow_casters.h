@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "visual/light_reach.h"
+#include "visual/scene/ray_tree.h"
 #include "visual/scene/world.h"
 
 namespace phare {
@@ -61,6 +62,14 @@ class ShadowCasters {
   /// `moving`: meshes of what moves.
   explicit ShadowCasters(const Scene& scene, const Scene& moving = {});
 
+  /// What rays are asked against, as occluder() does (visual/scene/ray_hit.h): all triangles but paint; what has holes
+  /// as if it had none. Copies them: for who asks for rays.
+  RayTree standing_tree() const;
+  /// In those trees, all together.
+  std::size_t ray_triangles() const { return ray_triangles_; }
+  /// Of each mesh of what moves, about its origin.
+  std::vector<RayTree> moving_trees() const;
+
   /// `world_from_image`: forward, left and up of the lamp at the tip of `reach`. Reads the triangles of every chunk
   /// that is near and in the light. `moving`: where the meshes are now, all but the one that carries the lamp.
   CastBy by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving = {},
@@ -70,17 +79,20 @@ class ShadowCasters {
   struct Chunk {
     glm::dvec3 origin_m{0.0}, low_m{0.0}, high_m{0.0};
     bool double_sided = false;
+    bool paint = false;
     std::vector<glm::vec3> corners_m;  ///< relative to the origin
     std::vector<std::uint32_t> indices;
     std::optional<std::size_t> cut_of{};  ///< its material has holes: which
     std::vector<glm::vec2> uvs{};         ///< of its corners then
   };
+  static void add_triangles(const Chunk& chunk, std::vector<RayTree::Triangle>& triangles);
   /// Adds the triangles of a chunk that cast; false: none does. `turn`, `shift`: from its corners into the lamp's
   /// frame.
   static bool cast_chunk(const Chunk& chunk, const glm::mat3& turn, const glm::vec3& shift, const TangentRect& light,
                          CastBy& cast);
 
   std::vector<Chunk> chunks_;
+  std::size_t ray_triangles_ = 0;
   std::vector<std::vector<Chunk>> moving_;  ///< by mesh
 };
 

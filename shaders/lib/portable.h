@@ -8,6 +8,7 @@
 namespace phare::shader {
 using glm::abs;
 using glm::clamp;
+using glm::cos;
 using glm::cross;
 using glm::dot;
 using glm::exp;
@@ -19,6 +20,7 @@ using glm::max;
 using glm::min;
 using glm::mix;
 using glm::mod;
+using glm::sin;
 using glm::smoothstep;
 using glm::sqrt;
 using glm::uvec4;

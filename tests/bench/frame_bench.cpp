@@ -238,7 +238,7 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
                 return input;
               });
   }
-  for (std::size_t level = 1; level < kShadowNames.size(); ++level)
+  for (std::size_t level = 1; level < kRayShadows; ++level)
     bench.add(group, "two lamps, shadows " + std::string(kShadowNames[level]), renderer, with_shadows(level));
   for (std::size_t level = 1; level < kFogNames.size(); ++level)
     bench.add(group, "two lamps, fog " + std::string(kFogNames[level]), renderer, [view, level](int round) {

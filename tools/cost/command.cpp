@@ -36,7 +36,7 @@ struct CostOptions {
   std::string command;  ///< that repeats the run
 };
 
-const std::vector<std::string> kLadderNames{"light", "shadows", "fog", "exposure", "vehicle", "poses", "settings"};
+const std::vector<std::string> kLadderNames{"light", "shadows", "lens", "fog", "exposure", "vehicle", "poses", "settings"};
 
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
@@ -96,12 +96,12 @@ class CostRun {
   Status measure(Plan& plan) {
     ProgressLine line;
     plan.progress = [&](const std::string& doing, double share_01) { line.show(doing, share_01); };
-    if (wanted("light") || wanted("shadows") || wanted("fog") || wanted("exposure")) {
+    if (wanted("light") || wanted("shadows") || wanted("lens") || wanted("fog") || wanted("exposure")) {
 #ifdef PHARE_WITH_GRAPHICS
       Result<PictureLadders> pictures = picture_ladders(plan);
       if (!pictures) return pictures.error();
       device_ = pictures->device;
-      for (Ladder* ladder : {&pictures->light, &pictures->shadows, &pictures->fog, &pictures->exposure})
+      for (Ladder* ladder : {&pictures->light, &pictures->shadows, &pictures->lens, &pictures->fog, &pictures->exposure})
         if (wanted(ladder->name)) ladders_.push_back(std::move(*ladder));
 #else
       left_out_.push_back("light, shadows, fog and exposure: this build draws nothing");

@@ -21,10 +21,10 @@ struct Plan {
 #ifdef PHARE_WITH_GRAPHICS
 struct PictureLadders {
   std::string device;
-  Ladder light, shadows, fog, exposure;
+  Ladder light, shadows, lens, fog, exposure;
 };
 /// Light: method × beam image level × cuts of the ground, against float64 at the pixels' own points. Shadows: each
-/// level at points of the scene, against rays in float64. Times turn by turn, so that noise hits all levels alike; a
+/// level at points of the scene, against rays in float64: to the lamp's middle, and (lens) over its opening. Times turn by turn, so that noise hits all levels alike; a
 /// frame of the same level goes before each that is timed, as in a drive.
 Result<PictureLadders> picture_ladders(const Plan& plan);
 #endif

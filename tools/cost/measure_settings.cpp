@@ -71,7 +71,7 @@ class Measuring {
     for (const ImageLevel level : kImageLevels) table.light.push_back({Method::kFragment, level, {}});
     for (const Method method : {Method::kVertex, Method::kVertex1998})
       table.light.push_back({method, ImageLevel::kFloatNodes, {}});
-    table.shadows.resize(kShadowNames.size());
+    table.shadows.resize(kRayShadows);
     if (!plan_.air.clear()) table.fog.resize(kFogNames.size());
     if (const Status made = make_renderers(); !made) return made.error();
     if (!exact()->no_reference()) table.light.push_back({Method::kReference, ImageLevel::kFloatNodes, {}});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <span>
 
 #include "tools/cost/fog.h"
@@ -16,6 +17,7 @@
 #include "visual/photometry/table/illuminance.h"
 #include "visual/renderer.h"
 #include "visual/scene/ray_hit.h"
+#include "visual/scene/ray_tree.h"
 #include "visual/scene/refine.h"
 #include "visual/scene/scene.h"
 
@@ -41,6 +43,14 @@ FrameInput view_at(double x_m) {
 
 constexpr double kVisibility_m = 100.0;  // fog in which the beams are seen, and something of the road
 constexpr std::array kPlaces_m{26.9, 60.0, 100.0};
+constexpr int kOpeningRings = 16;  // a straight edge is placed to half a ring: 3 % of the opening
+
+std::string opening_text() {
+  char text[48];
+  const LampOpening opening;
+  std::snprintf(text, sizeof text, "%.0f mm across (stated, not of the file)", 1e3 * opening.width_m);
+  return text;
+}
 
 double exact_lx(const IntensityTable& table, const PlacedLamp& lamp, const MeasurePoint& point) {
   return illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, point.position_m, point.normal);
@@ -73,8 +83,8 @@ class Pictures {
       : plan_(plan), scene_(scene), table_(table) {}
 
   Result<PictureLadders> measure() {
-    std::vector<Case> light, shadows, fog, exposure;
-    if (const Status made = make_cases(light, shadows, fog, exposure); !made) return made.error();
+    std::vector<Case> light, shadows, lens, fog, exposure;
+    if (const Status made = make_cases(light, shadows, lens, fog, exposure); !made) return made.error();
     PictureLadders ladders{
         .device = renderers_.front()->device(),
         .light = {.name = "light",
@@ -83,10 +93,17 @@ class Pictures {
                   .error_unit = "lx",
                   .time_unit = "ms of processor a frame"},
         .shadows = {.name = "shadows",
-                    .what = "what stands in the beams: levels of the shadow maps",
-                    .reference = "float64 with a ray to each lamp, at points of the scene",
+                    .what = "what stands in the beams: levels of the shadow maps, and rays at every pixel",
+                    .reference = "float64 with a ray to each lamp's middle, at points of the scene",
                     .error_unit = "lx",
                     .time_unit = "ms of processor a frame"},
+        .lens = {.name = "lens",
+                 .what = "the same with the lamps as large as they are, " + opening_text() +
+                         ": light is hidden by as much as of the opening is",
+                 .reference = "float64 with " + std::to_string(kOpeningRings * kOpeningRings) +
+                              " rays over each lamp's opening, at points of the scene",
+                 .error_unit = "lx",
+                 .time_unit = "ms of processor a frame"},
         .fog = {.name = "fog",
                 .what = "light that fog of 100 m visibility scatters toward the eye: levels of its grid",
                 .reference = "float64 quadrature along each line of sight, where there is 1 % of the brightest",
@@ -99,11 +116,11 @@ class Pictures {
                      .error_unit = "of 255",
                      .time_unit = "ms of processor a frame"}};
     for (Case& one : light) find_light_errors(one);
-    find_shadow_errors(shadows);
+    find_shadow_errors(shadows, lens);
     if (const Status found = find_fog_errors(fog); !found) return found.error();
     find_exposure_errors(exposure);
-    const std::array all{&light, &shadows, &fog, &exposure};
-    const std::array into{&ladders.light, &ladders.shadows, &ladders.fog, &ladders.exposure};
+    const std::array all{&light, &shadows, &lens, &fog, &exposure};
+    const std::array into{&ladders.light, &ladders.shadows, &ladders.lens, &ladders.fog, &ladders.exposure};
     time_turn_by_turn(all);
     for (std::size_t k = 0; k < all.size(); ++k)
       for (Case& one : *all[k]) into[k]->levels.push_back(std::move(one.level));
@@ -124,8 +141,8 @@ class Pictures {
     return &renderer;
   }
 
-  Status make_cases(std::vector<Case>& light, std::vector<Case>& shadows, std::vector<Case>& fog,
-                    std::vector<Case>& exposure) {
+  Status make_cases(std::vector<Case>& light, std::vector<Case>& shadows, std::vector<Case>& lens,
+                    std::vector<Case>& fog, std::vector<Case>& exposure) {
     const auto add_case = [&](std::vector<Case>& to, Case one) {
       to.push_back(std::move(one));
       Renderer& with = *to.back().renderer;
@@ -155,8 +172,11 @@ class Pictures {
       for (const Method method : {Method::kVertex, Method::kVertex1998})
         add(light, method_name(method) + ", ground cut " + std::to_string(cuts) + " times", with, method, 0);
     }
-    for (std::size_t level = 0; level < kShadowNames.size(); ++level)
+    // A soft edge is no approximation of a hard one.
+    for (std::size_t level = 0; level <= kRayShadows; ++level)
       add(shadows, std::string(kShadowNames[level]), exact, Method::kFragment, level);
+    for (std::size_t level = 0; level < kShadowNames.size(); ++level)
+      add(lens, std::string(kShadowNames[level]), exact, Method::kFragment, level);
     const EffectRow& row = effect_table()[static_cast<std::size_t>(Effect::kFog)];
     for (std::size_t level = 0; level < row.levels.size(); ++level)
       add_case(fog, {.level = {.name = std::string(row.levels[level])}, .renderer = exact, .fog = level});
@@ -192,11 +212,27 @@ class Pictures {
     one.level.note = note;
   }
 
-  void find_shadow_errors(std::vector<Case>& cases) {
-    Renderer& renderer = *cases.front().renderer;
-    std::vector<std::vector<double>> differences(cases.size());
-    std::vector<std::size_t> wrong(cases.size());
-    std::size_t decisions = 0;
+  /// Share of the lamp's opening that the point sees, over places that stand for equal shares: rings of an ellipse.
+  static double seen_share(const RayTree& tree, const PlacedLamp& lamp, const glm::dvec3& point_m) {
+    int seen = 0;
+    for (int ring = 0; ring < kOpeningRings; ++ring)
+      for (int step = 0; step < kOpeningRings; ++step) {
+        const double radius = std::sqrt((ring + 0.5) / kOpeningRings);
+        const double turn = 2.0 * std::numbers::pi * (step + 0.5 + 0.5 * (ring % 2)) / kOpeningRings;
+        const glm::dvec3 place_m =
+            lamp.position_m + 0.5 * radius * (lamp.opening.width_m * std::cos(turn) * lamp.world_from_image[1] +
+                                              lamp.opening.height_m * std::sin(turn) * lamp.world_from_image[2]);
+        seen += tree.blocked(point_m, place_m, 1e-3, 1e-3) ? 0 : 1;
+      }
+    return static_cast<double>(seen) / (kOpeningRings * kOpeningRings);
+  }
+
+  void find_shadow_errors(std::vector<Case>& shadows, std::vector<Case>& lens) {
+    Renderer& renderer = *lens.front().renderer;
+    const RayTree tree(scene_);
+    std::vector<std::vector<double>> of_middle(lens.size()), of_opening(lens.size());
+    std::vector<std::size_t> wrong(lens.size());
+    std::size_t decisions = 0, within_edges = 0;
     for (const double x_m : kPlaces_m) {
       plan_.progress("rays for shadows", 0.2);
       FrameInput input = view_at(x_m);
@@ -204,32 +240,41 @@ class Pictures {
       std::vector<MeasurePoint> points;
       for (const AuditSample& sample : renderer.audit(input, samples() / 2, plan_.seed + 1))
         points.push_back(sample.point);
-      std::vector<std::vector<double>> exact(input.lamps.size());
-      for (std::size_t lamp = 0; lamp < input.lamps.size(); ++lamp)
+      const std::size_t lamps = input.lamps.size();
+      std::vector<std::vector<double>> unhidden(lamps), middle(lamps), opening(lamps);
+      for (std::size_t lamp = 0; lamp < lamps; ++lamp)
         for (const MeasurePoint& point : points) {
           const double lx = exact_lx(table_, input.lamps[lamp], point);
           const bool hidden = lx > 0.0 && occluder(scene_, input.lamps[lamp].position_m, point.position_m) != nullptr;
-          exact[lamp].push_back(hidden ? 0.0 : lx);
+          const double share = lx > 0.0 ? seen_share(tree, input.lamps[lamp], point.position_m) : 0.0;
+          unhidden[lamp].push_back(lx);
+          middle[lamp].push_back(hidden ? 0.0 : lx);
+          opening[lamp].push_back(share * lx);
+          within_edges += share > 0.0 && share < 1.0 ? 1u : 0u;
         }
-      for (std::size_t k = 0; k < cases.size(); ++k) {
+      for (std::size_t k = 0; k < lens.size(); ++k) {
         const std::vector<std::vector<float>> found = renderer.measure(input.lamps, points, k);
         for (std::size_t i = 0; i < points.size(); ++i) {
-          double sum = 0.0;
-          for (std::size_t lamp = 0; lamp < input.lamps.size(); ++lamp) {
-            const double unhidden = exact_lx(table_, input.lamps[lamp], points[i]);
+          double off_middle = 0.0, off_opening = 0.0;
+          for (std::size_t lamp = 0; lamp < lamps; ++lamp) {
             const double lx = static_cast<double>(found[lamp][i]);
-            sum += lx - exact[lamp][i];
-            if (unhidden < kDim_lx) continue;
+            off_middle += lx - middle[lamp][i];
+            off_opening += lx - opening[lamp][i];
+            if (unhidden[lamp][i] < kDim_lx) continue;
             decisions += k == 0 ? 1u : 0u;
-            wrong[k] += (lx > 0.5 * unhidden) != (exact[lamp][i] > 0.0) ? 1u : 0u;
+            wrong[k] += (lx > 0.5 * unhidden[lamp][i]) != (middle[lamp][i] > 0.0) ? 1u : 0u;
           }
-          differences[k].push_back(sum);
+          of_middle[k].push_back(off_middle);
+          of_opening[k].push_back(off_opening);
         }
       }
     }
-    for (std::size_t k = 0; k < cases.size(); ++k) {
-      cases[k].level.error = errors_of(std::move(differences[k]));
-      cases[k].level.note = "lit or dark wrong: " + std::to_string(wrong[k]) + " of " + std::to_string(decisions);
+    for (std::size_t k = 0; k < lens.size(); ++k) {
+      lens[k].level.error = errors_of(std::move(of_opening[k]));
+      lens[k].level.note = "points that see a part of an opening: " + std::to_string(within_edges);
+      if (k >= shadows.size()) continue;
+      shadows[k].level.error = errors_of(std::move(of_middle[k]));
+      shadows[k].level.note = "lit or dark wrong: " + std::to_string(wrong[k]) + " of " + std::to_string(decisions);
     }
   }
 
@@ -278,6 +323,8 @@ class Pictures {
       const double x_m = kPlaces_m[0] + 0.1 * (round % 64);
       for (std::vector<Case>* cases : all)
         for (Case& one : *cases) {
+          // Rays take as long as dozens of others: every tenth round.
+          if (one.shadows >= kRayShadows && round % 10 != 0) continue;
           const FrameInput input = one.view(x_m);
           one.renderer->draw(input);
           const double begin = processor_ms();

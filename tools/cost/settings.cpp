@@ -101,7 +101,7 @@ Result<SettingsTable> table_of_json(const json& from) try {
                            static_cast<ImageLevel>(index_of(kImageLevelNames, row.at("beam_image"))), figures_of(row)});
   for (const json& row : from.at("shadows")) table.shadows.push_back(figures_of(row));
   for (const json& row : from.at("fog")) table.fog.push_back(figures_of(row));
-  bool whole = !table.light.empty() && table.shadows.size() == kShadowNames.size() &&
+  bool whole = !table.light.empty() && table.shadows.size() == kRayShadows &&
                (table.fog.empty() || table.fog.size() == kFogNames.size());
   for (const LightSetting& one : table.light) whole = whole && sound(one.figures);
   for (const auto* ladder : {&table.shadows, &table.fog})

@@ -54,7 +54,8 @@ struct SettingsTable {
   std::string measured_at{};  ///< UTC
   int rounds = 0;             ///< frames that each time is taken of
   std::vector<LightSetting> light{};
-  std::vector<SettingFigures> shadows{}, fog{};  ///< by level from off; fog: empty in clear air
+  /// By level from off; of shadows below kRayShadows, which nothing picks; fog: empty in clear air.
+  std::vector<SettingFigures> shadows{}, fog{};
 
   friend bool operator==(const SettingsTable&, const SettingsTable&) = default;
 };

@@ -178,6 +178,7 @@ ShadowPass::ShadowPass(gpu::Device& device)
 void ShadowPass::begin_frame() {
   depths_.resize(std::min(depths_.size(), used_));
   used_ = 0;
+  if (rays_ && !rays_->begin_frame()) rays_.reset();
 }
 
 ShadowDepths& ShadowPass::depths_of(std::size_t texels) {
@@ -243,6 +244,11 @@ vk::Pipeline ShadowPass::cut_pipeline(LitScene& scene) {
 }
 
 void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level_number) {
+  if (kShadowLevels[level_number].by_rays()) {
+    if (!rays_) rays_ = std::make_unique<ShadowRays>(device_);
+    rays_->place(graph, scene, view, kShadowLevels[level_number]);
+    return;
+  }
   while (level_number > 1 && most_shadow_maps(kShadowLevels[level_number], limits_) == 0) --level_number;
   const ShadowLevel& level = kShadowLevels[level_number];
   const std::vector<Map> maps = place_maps(view, level, most_shadow_maps(level, limits_));

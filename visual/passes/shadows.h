@@ -3,7 +3,8 @@
 //
 // Maps hold the far sides of things (visual/shadow_casters.h), on a plane across the lamp's axis that is fitted to
 // them. Error: an edge is off by half a texel, seen from the lamp; levels differ in texels. Left out: what is more than
-// 75° beside the lamp's axis, 45° above or below it or farther than 300 m from it, and the size of the lamp.
+// 75° beside the lamp's axis, 45° above or below it or farther than 300 m from it, and the size of the lamp. The finest
+// levels have no maps: visual/passes/shadow_rays.h.
 #pragma once
 
 #include <array>
@@ -14,11 +15,21 @@
 
 #include "visual/gpu/frame_graph.h"
 #include "visual/lit_scene.h"
+#include "visual/passes/shadow_rays.h"
 
 namespace phare {
 
+/// Of rays one goes to the lamp's middle, or kLensRays over its opening: an edge has as many steps.
+inline constexpr std::uint32_t kLensRays = 16;
 /// Of each of the two pictures of a map. In the order of the effect's levels (visual/effects.h), the first being off.
-inline constexpr std::array<ShadowLevel, 4> kShadowLevels{{{}, {1024, 512, 1}, {1024, 512, 4}, {2048, 1024, 4}}};
+inline constexpr std::array<ShadowLevel, kShadowNames.size()> kShadowLevels{{{},
+                                                                             {1024, 512, 1},
+                                                                             {1024, 512, 4},
+                                                                             {2048, 1024, 4},
+                                                                             {0, 0, shader::kTapsOfRays + 1},
+                                                                             {0, 0, shader::kTapsOfRays + kLensRays}}};
+static_assert(kShadowLevels[kRayShadows].taps > shader::kTapsOfRays &&
+              kShadowLevels[kRayShadows - 1].taps <= shader::kTapsOfRays);
 
 /// A pixel's pipeline tells so many maps apart: four bits a lamp, 0 being none.
 inline constexpr std::size_t kMostShadowMaps = 15;
@@ -40,9 +51,14 @@ class ShadowPass {
   /// It holds a map of the lowest level.
   bool possible() const { return most_shadow_maps(kShadowLevels[1], limits_) > 0; }
 
+  /// It holds the scene's triangles.
+  bool rays_possible(const LitScene& scene) const {
+    return holds_rays(scene.casters().ray_triangles(), limits_.buffer_texels);
+  }
+
   /// Before the views of a frame; the frame before is done. Maps that it did not call for are freed.
   void begin_frame();
-  /// Draws the maps of the view's lamps and has the view read them from here on.
+  /// Draws the maps of the view's lamps, or places the triangles for rays, and has the view read them from here on.
   void draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level);
 
   /// Corners from `first` on, drawn as one side or both are seen.
@@ -83,6 +99,7 @@ class ShadowPass {
   vk::raii::Pipeline cut_pipeline_{nullptr};
   std::vector<std::unique_ptr<ShadowDepths>> depths_;  ///< of each view with shadows
   std::size_t used_ = 0;                               ///< of them, by this frame
+  std::unique_ptr<ShadowRays> rays_;                   ///< made when a frame first calls for it
 };
 
 }  // namespace phare

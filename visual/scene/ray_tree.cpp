@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace phare {
 namespace {
@@ -28,6 +29,10 @@ RayTree::RayTree(const Scene& scene) {
       all.push_back({a, corner(1) - a, corner(2) - a, !scene.materials[chunk.material].double_sided});
     }
   }
+  *this = RayTree(all);
+}
+
+RayTree::RayTree(const std::vector<Triangle>& all) {
   if (all.empty()) return;
   std::vector<std::uint32_t> order(all.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -63,6 +68,36 @@ std::uint32_t RayTree::build(std::vector<std::uint32_t>& order, std::size_t begi
   build(order, begin, half, all, depth + 1);  // stands right behind this box
   boxes_[self].first = build(order, half, end, all, depth + 1);
   return self;
+}
+
+std::vector<glm::vec4> RayTree::texels(const glm::dvec3& origin_m, std::size_t first) const {
+  std::vector<glm::vec4> texels;
+  texels.reserve(texel_count());
+  // Boxes stand in the order of the walk already. Where one ends is known when those within it are written.
+  std::vector<std::pair<std::size_t, std::size_t>> open;  // its texel, and the box behind all of it
+  const auto close = [&](std::size_t before) {
+    while (!open.empty() && open.back().second <= before) {
+      texels[open.back().first].w = static_cast<float>(first + texels.size());
+      open.pop_back();
+    }
+  };
+  for (std::size_t at = 0; at < boxes_.size(); ++at) {
+    close(at);
+    const Box& box = boxes_[at];
+    const glm::vec3 low(box.low - origin_m), high(box.high - origin_m);
+    const glm::vec3 slack = 2e-7f * glm::max(glm::abs(low), glm::abs(high)) + 1e-6f;
+    std::size_t last = at;  // of the boxes within it
+    while (boxes_[last].count == 0) last = boxes_[last].first;
+    open.emplace_back(texels.size(), last + 1);
+    texels.emplace_back(low - slack, 0.0f);
+    texels.emplace_back(high + slack, static_cast<float>(box.count));
+    for (std::uint32_t i = box.first; box.count > 0 && i < box.first + box.count; ++i) {
+      const Triangle& t = triangles_[i];
+      for (const glm::dvec3& part : {t.a - origin_m, t.ab, t.ac}) texels.emplace_back(glm::vec3(part), 0.0f);
+    }
+  }
+  close(boxes_.size());
+  return texels;
 }
 
 template <typename Met>

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "visual/scene/scene.h"
@@ -15,8 +16,13 @@ namespace phare {
 class RayTree {
  public:
   RayTree() = default;
+  struct Triangle {
+    glm::dvec3 a, ab, ac;
+    bool one_sided = true;
+  };
   /// All but paint, which lies on roads. Copies what it needs of the scene.
   explicit RayTree(const Scene& scene);
+  explicit RayTree(const std::vector<Triangle>& triangles);
 
   /// Something stands on the way from `from_m` to `to_m`, more than `near_from_m` from the one and `near_to_m` from the
   /// other end.
@@ -27,11 +33,15 @@ class RayTree {
   /// How far from `from_m`, along a unit direction and `most_m` at most, the last back face is passed; 0: none is.
   double left_at_m(const glm::dvec3& from_m, const glm::dvec3& along, double most_m) const;
 
+  /// Of texels().
+  std::size_t texel_count() const { return 2 * boxes_.size() + 3 * triangles_.size(); }
+  /// The tree in float32 for a device, relative to `origin_m`, in the order of a walk that needs no stack: of a box its
+  /// low corner and the texel that goes on where it is missed, its high corner and how many triangles follow, three
+  /// texels each (a corner, the ways to the others); else its two children follow. Boxes are as much larger as float32
+  /// rounds. The first will be texel `first`.
+  std::vector<glm::vec4> texels(const glm::dvec3& origin_m, std::size_t first) const;
+
  private:
-  struct Triangle {
-    glm::dvec3 a, ab, ac;
-    bool one_sided = true;
-  };
   struct Box {
     glm::dvec3 low{0.0}, high{0.0};
     std::uint32_t first = 0;  ///< triangle, or the nearer child; the other one stands behind all of that

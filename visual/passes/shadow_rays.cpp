@@ -1,0 +1,146 @@
+#include "visual/passes/shadow_rays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include "visual/passes/shadows.h"
+
+namespace phare {
+namespace {
+
+constexpr double kLargest_m = 64.0;        // a lamp may go so far from where the texels have their origin
+constexpr std::uint64_t kMostTexels = 1u << 24u;  // float32 counts to there
+constexpr std::size_t kMostMovers = 4096;
+
+glm::vec4 row_of(const glm::dvec3& row, double shift) {
+  return {glm::vec3(row), static_cast<float>(shift)};
+}
+
+}  // namespace
+
+bool holds_rays(std::size_t triangles, std::uint64_t buffer_texels) {
+  // Three of a triangle and two of a box; leaves hold two triangles at least, so boxes are no more than triangles.
+  const std::uint64_t head = shader::kRayMovers + std::uint64_t{kMostMovers} * shader::kRayMoverTexels;
+  return head + 5 * std::uint64_t{triangles} + 2 <= std::min(kMostTexels, buffer_texels);
+}
+
+ShadowRays::ShadowRays(gpu::Device& device) : device_(device) {}
+
+bool ShadowRays::begin_frame() {
+  replaced_.clear();
+  return std::exchange(asked_, false);
+}
+
+void ShadowRays::build(const ShadowCasters& casters) {
+  standing_ = casters.standing_tree();
+  meshes_ = casters.moving_trees();
+}
+
+void ShadowRays::upload(const glm::dvec3& near_m, std::size_t movers) {
+  origin_m_ = glm::round(near_m);
+  room_ = std::min(std::max<std::size_t>(2 * movers, 8), kMostMovers);
+  std::vector<glm::vec4> texels(shader::kRayMovers + room_ * shader::kRayMoverTexels);
+  const auto add = [&](const RayTree& tree, const glm::dvec3& origin_m) {
+    const std::size_t first = texels.size();
+    const std::vector<glm::vec4> more = tree.texels(origin_m, first);
+    texels.insert(texels.end(), more.begin(), more.end());
+    return std::pair(static_cast<float>(first), static_cast<float>(texels.size()));
+  };
+  mesh_places_.clear();
+  for (const RayTree& mesh : meshes_) mesh_places_.push_back(add(mesh, glm::dvec3(0.0)));
+  standing_place_ = add(standing_, origin_m_);
+
+  if (texels_) replaced_.push_back(std::move(texels_));
+  texels_ = std::make_unique<ShadowDepths>();
+  texels_->texels =
+      gpu::DeviceBuffer(device_, std::as_bytes(std::span(texels)), vk::BufferUsageFlagBits::eUniformTexelBuffer,
+                        "triangles for rays");
+  texels_->view = vk::raii::BufferView(device_.device, vk::BufferViewCreateInfo{.buffer = *texels_->texels.buffer,
+                                                                                .format = vk::Format::eR32G32B32A32Sfloat,
+                                                                                .range = VK_WHOLE_SIZE});
+  texels_->sets = gpu::DescriptorSets(device_, kShadowBindings);
+  texels_->set = texels_->sets.make();
+  const vk::BufferView view = *texels_->view;
+  device_.device.updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = texels_->set,
+                                                             .dstBinding = 0,
+                                                             .descriptorCount = 1,
+                                                             .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                                                             .pTexelBufferView = &view},
+                                      nullptr);
+}
+
+void ShadowRays::place(gpu::FrameGraph& graph, LitScene& scene, LitView& view, const ShadowLevel& level) {
+  asked_ = true;
+  if (view.lit_lamps.empty()) return;
+  const glm::dvec3& near_m = view.lit_lamps.front().position_m;
+  if (scene_version_ != scene.geometry_version()) {
+    build(scene.casters());
+    scene_version_ = scene.geometry_version();
+    if (texels_) replaced_.push_back(std::move(texels_));
+  }
+  const std::size_t movers = std::min(view.moving.size(), kMostMovers);
+  const glm::dvec3 off_m = glm::abs(near_m - origin_m_);
+  // Up and down less: over a level road heights have to be good to a millionth of a metre.
+  const bool near = std::max(off_m.x, off_m.y) <= kLargest_m && off_m.z <= 4.0;
+  if (!texels_ || !near || movers > room_) upload(near_m, movers);
+
+  // What this view asks: its lamps, and what moves, where it is now.
+  std::vector<glm::vec4> head(shader::kRayMovers + movers * shader::kRayMoverTexels);
+  std::size_t lamps = 0;
+  const glm::dvec3 shift_m = view.geometry.camera().eye_m - origin_m_;
+  const shader::GpuShadow from_eye{row_of({1, 0, 0}, shift_m.x), row_of({0, 1, 0}, shift_m.y),
+                                   row_of({0, 0, 1}, shift_m.z)};
+  for (std::size_t lamp = 0; lamp < view.lit_lamps.size(); ++lamp) {
+    if (lamps == kMostShadowMaps) {
+      ++view.without_map;
+      continue;
+    }
+    const PlacedLamp& of = view.lit_lamps[lamp];
+    const double carried_by = of.carried_by < view.moving.size() ? static_cast<double>(of.carried_by + 1) : 0.0;
+    head[2 * lamps] = row_of(0.5 * of.opening.width_m * of.world_from_image[1], carried_by);
+    head[2 * lamps + 1] = row_of(0.5 * of.opening.height_m * of.world_from_image[2], of.opening.round ? 1.0 : 0.0);
+    ++lamps;
+    for (LitBy& lit : view.lit_by)
+      for (std::size_t k = 0; k < lit.lamps; ++k) {
+        if (lit.lamp_at[k] != lamp) continue;
+        lit.data->shadows[k] = from_eye;
+        lit.shadow_maps |= static_cast<std::uint32_t>(lamps) << (4 * k);
+      }
+  }
+  head[shader::kRayHead] = {static_cast<float>(movers), standing_place_.first, standing_place_.second, 0.0f};
+  for (std::size_t i = 0; i < movers; ++i) {
+    const PlacedMesh& placed = view.moving[i];
+    glm::vec4* const mover = &head[shader::kRayMovers + i * shader::kRayMoverTexels];
+    if (placed.mesh >= meshes_.size()) continue;  // no tree: begins and ends at 0
+    const glm::dvec3 to_origin_m = origin_m_ - placed.position_m;
+    for (int axis = 0; axis < 3; ++axis)
+      mover[axis] =
+          row_of(placed.world_from_mesh[axis], glm::dot(placed.world_from_mesh[axis], to_origin_m));
+    mover[3] = {mesh_places_[placed.mesh].first, mesh_places_[placed.mesh].second, 0.0f, 0.0f};
+  }
+  graph.copy("triangles for rays", {}, [&](gpu::Recorder& commands) {
+    const auto barrier = [&](vk::PipelineStageFlags2 from, vk::AccessFlags2 wrote, vk::PipelineStageFlags2 to,
+                             vk::AccessFlags2 then) {
+      const vk::MemoryBarrier2 memory{.srcStageMask = from, .srcAccessMask = wrote, .dstStageMask = to,
+                                      .dstAccessMask = then};
+      commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &memory});
+    };
+    constexpr auto kFragment = vk::PipelineStageFlagBits2::eFragmentShader;
+    constexpr auto kTransfer = vk::PipelineStageFlagBits2::eAllTransfer;
+    barrier(kFragment, {}, kTransfer, vk::AccessFlagBits2::eTransferWrite);  // a view before has read it
+    constexpr std::size_t kAtOnce = 65'536 / sizeof(glm::vec4);              // Vulkan's limit
+    for (std::size_t first = 0; first < head.size(); first += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, head.size() - first);
+      commands.updateBuffer(*texels_->texels.buffer, first * sizeof(glm::vec4), count * sizeof(glm::vec4), &head[first]);
+    }
+    barrier(kTransfer, vk::AccessFlagBits2::eTransferWrite, kFragment, vk::AccessFlagBits2::eShaderSampledRead);
+  });
+  for (DrawItem& item : view.items) item.shadowed = true;
+  view.shadows = level;
+  view.depths = texels_.get();
+}
+
+}  // namespace phare
