@@ -145,9 +145,13 @@ struct GpuFrame {
 // Shadows by rays: the buffer holds, four floats a texel, two texels a lamp (half its opening to the left, w: one more than which mover carries
 // it; half of it up, w: 1 round), then one (x: how many movers), and from kRayMovers on four a mover: rows that take a place into its
 // mesh, and where its tree begins and ends, x and y; last the tree of what stands, where the last texel of the head says: y and z. Of a tree
-// (RayTree::texels) a box is two texels, what it ends with and how many triangles of three texels follow in the fourth floats. GpuShadow then
-// takes a point relative to the eye to where the trees have it.
+// (RayTree::texels) a box is two texels, what it ends with and how many triangles of three texels follow in the fourth floats. The fourth float
+// of a triangle is where its holes are told, or 0: two texels with its first corner's place in the texture and how far from there the others
+// are, then where the texture's opacities begin: one texel with its width and height, the opacity below which there is nothing, in 255ths, and
+// how it is wrapped (across + 4 * down + 16 where nearest; TextureWrap), then three opacities a float. GpuShadow then takes a point relative to
+// the eye to where the trees have it.
 const uint kTapsOfRays = 64u;
+const uint kLensRays = 16u;  // over an opening: an edge has as many steps; bits of a uint
 const uint kRayHead = 30u;
 const uint kRayMovers = 31u;
 const uint kRayMoverTexels = 4u;

@@ -23,6 +23,7 @@
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/beam/beam_image.h"
 #include "visual/photometry/beam/image_levels.h"
+#include "visual/photometry/table/opening.h"
 #include "visual/scene/world.h"
 #include "visual/view.h"
 #include "visual/windscreen.h"
@@ -44,15 +45,6 @@ struct RendererOptions {
   bool float64 = true;        ///< false: as if the device had no shaderFloat64
 };
 
-/// What light leaves a lamp through, for shadows with soft edges: seen from ahead.
-struct LampOpening {
-  /// Chosen: the lens of a projector is 60 to 70 mm wide. Where a lamp's file has the size of its opening, that counts.
-  double width_m = 0.07, height_m = 0.07;
-  bool round = true;  ///< an ellipse; else a rectangle
-
-  friend bool operator==(const LampOpening&, const LampOpening&) = default;
-};
-
 /// A lamp position in the world this frame.
 struct PlacedLamp {
   glm::dvec3 position_m{0.0};
@@ -61,7 +53,7 @@ struct PlacedLamp {
   /// Which of FrameInput::moving carries it, and casts no shadow in its light.
   std::size_t carried_by = SIZE_MAX;
   bool of_b = false;  ///< of the other design, for View::kDifference and kRatio
-  LampOpening opening{};
+  LampOpening opening{};  ///< whose parts hide their share of the light, where shadows ask for it
 };
 
 /// So many lamps light one draw at most, which is a block of the scene where a view has many. Those that reach nothing

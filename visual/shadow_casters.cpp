@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <map>
 
 #include "shaders/lamps.h"
 
@@ -49,66 +50,90 @@ bool shows_its_far_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3&
   return glm::dot(normal, a) > kBehind_m * glm::length(normal);
 }
 
+Holes holes_in(const Scene& scene, std::size_t material) {
+  const PixelLook& look = scene.materials[material].look;
+  const SceneTexture& texture = scene.textures[*look.base_texture];
+  // Where the base has no opacity, all is a hole.
+  const float below = look.base.w > 0.0f ? 255.0f * *look.cut_below / look.base.w : 256.0f;
+  Holes holes{texture.width, texture.height, look.sampler, below, {}};
+  holes.opacity.reserve(texture.rgba.size() / 4);
+  for (std::size_t i = 3; i < texture.rgba.size(); i += 4) holes.opacity.push_back(texture.rgba[i]);
+  return holes;
+}
+
 }  // namespace
 
+ShadowCasters::Chunk ShadowCasters::chunk_of(const Scene& scene, const SceneChunk& from, std::size_t first_material) {
+  const SceneMaterial& material = scene.materials[from.material];
+  Chunk chunk{.origin_m = from.origin_m,
+              .low_m = from.low_m,
+              .high_m = from.high_m,
+              .double_sided = material.double_sided,
+              .paint = material.surface == Surface::kPaint,
+              .corners_m = {},
+              .indices = {}};
+  if (from.first_look && material.look.cut_below && material.look.base_texture) {
+    chunk.cut_of = first_material + from.material;
+    for (std::uint32_t i = 0; i < from.vertex_count; ++i) chunk.uvs.push_back(scene.looks[*from.first_look + i].uv);
+  }
+  chunk.corners_m.reserve(from.vertex_count);
+  for (std::uint32_t i = 0; i < from.vertex_count; ++i)
+    chunk.corners_m.push_back(scene.vertices[from.first_vertex + i].position_m);
+  chunk.indices.assign(scene.indices.begin() + from.first_index,
+                       scene.indices.begin() + from.first_index + from.index_count);
+  return chunk;
+}
+
 ShadowCasters::ShadowCasters(const Scene& scene, const Scene& moving) {
-  const auto chunk_of = [](const Scene& of, const SceneChunk& from, std::size_t first_material) {
-    const SceneMaterial& material = of.materials[from.material];
-    Chunk chunk{from.origin_m,
-                from.low_m,
-                from.high_m,
-                material.double_sided,
-                material.surface == Surface::kPaint,
-                {},
-                {}};
-    if (from.first_look && material.look.cut_below && material.look.base_texture) {
-      chunk.cut_of = first_material + from.material;
-      for (std::uint32_t i = 0; i < from.vertex_count; ++i) chunk.uvs.push_back(of.looks[*from.first_look + i].uv);
-    }
-    chunk.corners_m.reserve(from.vertex_count);
-    for (std::uint32_t i = 0; i < from.vertex_count; ++i)
-      chunk.corners_m.push_back(of.vertices[from.first_vertex + i].position_m);
-    chunk.indices.assign(of.indices.begin() + from.first_index,
-                         of.indices.begin() + from.first_index + from.index_count);
-    return chunk;
-  };
   for (const SceneChunk& from : scene.chunks) chunks_.push_back(chunk_of(scene, from, 0));
   for (const std::vector<std::size_t>& of_node : chunks_by_node(moving)) {
     std::vector<Chunk>& mesh = moving_.emplace_back();
     for (const std::size_t from : of_node)
       mesh.push_back(chunk_of(moving, moving.chunks[from], scene.materials.size()));
   }
-  const auto count = [&](const std::vector<Chunk>& chunks) {
-    for (const Chunk& chunk : chunks) ray_triangles_ += chunk.paint ? 0 : chunk.indices.size() / 3;
+  std::map<std::size_t, std::size_t> holes_of;  // of a material
+  const auto count = [&](std::vector<Chunk>& chunks) {
+    for (Chunk& chunk : chunks) {
+      if (chunk.paint) continue;
+      ray_triangles_ += chunk.indices.size() / 3;
+      if (!chunk.cut_of) continue;
+      ray_triangles_with_holes_ += chunk.indices.size() / 3;
+      const auto [known, added] = holes_of.try_emplace(*chunk.cut_of, holes_.size());
+      chunk.holes = known->second;
+      if (!added) continue;
+      const bool stands = *chunk.cut_of < scene.materials.size();
+      holes_.push_back(stands ? holes_in(scene, *chunk.cut_of) : holes_in(moving, *chunk.cut_of - scene.materials.size()));
+    }
   };
   count(chunks_);
-  for (const std::vector<Chunk>& mesh : moving_) count(mesh);
+  for (std::vector<Chunk>& mesh : moving_) count(mesh);
 }
 
-void ShadowCasters::add_triangles(const Chunk& chunk, std::vector<RayTree::Triangle>& triangles) {
+void ShadowCasters::add_triangles(const Chunk& chunk, std::vector<RayTree::Triangle>& triangles,
+                                  std::vector<CutTriangle>& cut) {
   if (chunk.paint) return;
   for (std::size_t k = 0; k + 2 < chunk.indices.size(); k += 3) {
     const auto corner = [&](std::size_t i) {
       return chunk.origin_m + glm::dvec3(chunk.corners_m[chunk.indices[k + i]]);
     };
     const glm::dvec3 a = corner(0);
-    triangles.push_back({a, corner(1) - a, corner(2) - a});
+    triangles.push_back({a, corner(1) - a, corner(2) - a, !chunk.double_sided});
+    if (!chunk.cut_of) continue;
+    const auto uv = [&](std::size_t i) { return chunk.uvs[chunk.indices[k + i]]; };
+    cut.push_back({uv(0), uv(1) - uv(0), uv(2) - uv(0), chunk.holes});
+    triangles.back().cut = static_cast<std::uint32_t>(cut.size());
   }
 }
 
-RayTree ShadowCasters::standing_tree() const {
-  std::vector<RayTree::Triangle> triangles;
-  for (const Chunk& chunk : chunks_) add_triangles(chunk, triangles);
-  return RayTree(triangles);
-}
-
-std::vector<RayTree> ShadowCasters::moving_trees() const {
-  std::vector<RayTree> trees;
-  for (const std::vector<Chunk>& mesh : moving_) {
+RayTrees ShadowCasters::ray_trees() const {
+  RayTrees trees;
+  const auto tree_of = [&](const std::vector<Chunk>& chunks) {
     std::vector<RayTree::Triangle> triangles;
-    for (const Chunk& chunk : mesh) add_triangles(chunk, triangles);
-    trees.emplace_back(triangles);
-  }
+    for (const Chunk& chunk : chunks) add_triangles(chunk, triangles, trees.cut);
+    return RayTree(triangles);
+  };
+  trees.standing = tree_of(chunks_);
+  for (const std::vector<Chunk>& mesh : moving_) trees.moving.push_back(tree_of(mesh));
   return trees;
 }
 

@@ -56,19 +56,42 @@ struct CastBy {
   std::vector<CutCasters> cut{};  ///< by material
 };
 
+/// Where a material with holes has them: opacity in 255ths, rows from the top; there is nothing where it is less than
+/// `below`, between texels as the sampler has it.
+struct Holes {
+  std::uint32_t width = 0, height = 0;
+  TextureSampler sampler{};
+  float below = 0.0f;
+  std::vector<std::uint8_t> opacity{};
+};
+
+/// A triangle with holes: where its first corner is of the texture, and how far from there the others are.
+struct CutTriangle {
+  glm::vec2 at{0.0f}, ab{0.0f}, ac{0.0f};
+  std::size_t holes = 0;  ///< which of ShadowCasters::holes()
+};
+
+/// Triangles for rays. `cut` of theirs counts in `cut` here.
+struct RayTrees {
+  RayTree standing{};
+  std::vector<RayTree> moving{};  ///< of each mesh of what moves, about its origin
+  std::vector<CutTriangle> cut{};
+};
+
 class ShadowCasters {
  public:
   ShadowCasters() = default;
   /// `moving`: meshes of what moves.
   explicit ShadowCasters(const Scene& scene, const Scene& moving = {});
 
-  /// What rays are asked against, as occluder() does (visual/scene/ray_hit.h): all triangles but paint; what has holes
-  /// as if it had none. Copies them: for who asks for rays.
-  RayTree standing_tree() const;
-  /// In those trees, all together.
+  /// What rays are asked against, as occluder() does (visual/scene/ray_hit.h): all triangles but paint. Copies them: for
+  /// who asks for rays.
+  RayTrees ray_trees() const;
+  /// Of those: how many triangles, and how many of them have holes.
   std::size_t ray_triangles() const { return ray_triangles_; }
-  /// Of each mesh of what moves, about its origin.
-  std::vector<RayTree> moving_trees() const;
+  std::size_t ray_triangles_with_holes() const { return ray_triangles_with_holes_; }
+  /// The holes of each material that has some.
+  const std::vector<Holes>& holes() const { return holes_; }
 
   /// `world_from_image`: forward, left and up of the lamp at the tip of `reach`. Reads the triangles of every chunk
   /// that is near and in the light. `moving`: where the meshes are now, all but the one that carries the lamp.
@@ -84,15 +107,19 @@ class ShadowCasters {
     std::vector<std::uint32_t> indices;
     std::optional<std::size_t> cut_of{};  ///< its material has holes: which
     std::vector<glm::vec2> uvs{};         ///< of its corners then
+    std::size_t holes = 0;                ///< and which of holes_
   };
-  static void add_triangles(const Chunk& chunk, std::vector<RayTree::Triangle>& triangles);
+  Chunk chunk_of(const Scene& scene, const SceneChunk& from, std::size_t first_material);
+  static void add_triangles(const Chunk& chunk, std::vector<RayTree::Triangle>& triangles,
+                            std::vector<CutTriangle>& cut);
   /// Adds the triangles of a chunk that cast; false: none does. `turn`, `shift`: from its corners into the lamp's
   /// frame.
   static bool cast_chunk(const Chunk& chunk, const glm::mat3& turn, const glm::vec3& shift, const TangentRect& light,
                          CastBy& cast);
 
   std::vector<Chunk> chunks_;
-  std::size_t ray_triangles_ = 0;
+  std::vector<Holes> holes_;
+  std::size_t ray_triangles_ = 0, ray_triangles_with_holes_ = 0;
   std::vector<std::vector<Chunk>> moving_;  ///< by mesh
 };
 

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/base/paths.h"
+#include "config/desk.h"
 #include "tools/cost/ladder.h"
 #include "tools/cost/measure_ladders.h"
 #include "tools/cost/page.h"
@@ -147,15 +148,37 @@ TEST(PictureLadders, EachRungIsNearerToTheTruthThanTheOneBelow) {
   // By vertices the error of a smooth beam falls to a quarter; a cut-off's to a half.
   EXPECT_GT(rms(light, "vertex, ground cut 0 times"), 2.0 * rms(light, "vertex, ground cut 1 times"));
   const Ladder& shadows = ladders->shadows;
-  ASSERT_EQ(shadows.levels.size(), 4u);
+  ASSERT_EQ(shadows.levels.size(), kRayShadows + 1);
   EXPECT_GT(rms(shadows, "off"), 2.0 * rms(shadows, "hard"));
   EXPECT_GE(rms(shadows, "hard"), rms(shadows, "soft"));
   EXPECT_GE(rms(shadows, "soft"), rms(shadows, "fine"));
-  for (const Ladder* ladder : {&ladders->light, &ladders->shadows})
+  // Only the light's own rounding is left: what is hidden is hidden wholly, and the rest is what it is without shadows.
+  EXPECT_LT(rms(shadows, "rays"), 1e-3);
+  EXPECT_LT(rms(shadows, "rays"), 1e-3 * rms(shadows, "off"));
+  const Ladder& lens = ladders->lens;
+  ASSERT_EQ(lens.levels.size(), kShadowNames.size());
+  EXPECT_GT(rms(lens, "off"), 2.0 * rms(lens, "rays"));
+  EXPECT_GT(rms(lens, "rays"), rms(lens, "lens"));
+  for (const Ladder* ladder : {&ladders->light, &ladders->shadows, &ladders->lens})
     for (const Level& one : ladder->levels) {
       EXPECT_GT(one.time.median, 0.0) << one.name;
       EXPECT_GT(one.memory_bytes.value_or(0), 1'000'000u) << one.name;
     }
+}
+
+TEST(PictureLadders, MeasureOnlyWhatIsWanted) {
+  Plan plan;
+  plan.quick = true;
+  plan.width_px = 160, plan.height_px = 90;
+  plan.scene_file = (generated_dir() / "scenes/country_road.glb").string();
+  plan.lamp_file = (generated_dir() / "lamps/low_rht.ies").string();
+  plan.wanted = [](const std::string& ladder) { return ladder == "shadows"; };
+  plan.progress = [](const std::string&, double) {};
+  const Result<PictureLadders> ladders = picture_ladders(plan);
+  ASSERT_TRUE(ladders.ok()) << ladders.error().text();
+  EXPECT_EQ(ladders->shadows.levels.size(), kRayShadows + 1);
+  for (const Ladder* ladder : {&ladders->light, &ladders->lens, &ladders->fog, &ladders->exposure})
+    EXPECT_TRUE(ladder->levels.empty()) << ladder->name;
 }
 #endif
 

@@ -141,13 +141,14 @@ TEST_F(Shadows, OfBoxesFallWhereTheReferenceHasThem) {
   const std::vector<PlacedLamp> lamps = mounted(manifest, "low");
   const auto clear = [&](std::size_t i) { return table.number(i, "edge_clearance_m") >= 0.01; };
   EXPECT_EQ(wrong_rays(table, shape.scene(), lamps, points, clear), 0u);
-  for (std::size_t level = 1; level <= 3; ++level)
-    for (const double clear_m : {0.05, 0.02, 0.01}) {
+  for (std::size_t level = 1; level < kShadowNames.size(); ++level)
+    for (const double clear_m : {0.05, 0.02, 0.01, 0.002}) {
       const auto counts = [&](std::size_t i) { return table.number(i, "edge_clearance_m") >= clear_m; };
-      std::printf("edge clearance %g m, ", clear_m);
+      std::printf("%s, edge clearance %g m, ", std::string(kShadowNames[level]).c_str(), clear_m);
       const std::size_t bad = wrong(table, lamps, points, level, counts);
-      if (clear_m == 0.05) {
-        EXPECT_EQ(bad, 0u) << "level " << level;
+      // A ray's place is good to micrometres. Of lens more than half of an opening tells as its middle does.
+      if (clear_m == 0.05 || level == kRayShadows) {
+        EXPECT_EQ(bad, 0u) << "level " << level << ", " << clear_m << " m";
       }
     }
 }
@@ -181,7 +182,7 @@ TEST_F(Shadows, OfAHillFallWhereTheReferenceHasThem) {
     return table.text(i, "robust_2cm") == "1" && points[i].position_m.x < 70.0;
   };
   EXPECT_EQ(wrong_rays(table, shape.scene(), lamps, points, robust), 0u);
-  for (std::size_t level = 1; level <= 3; ++level) {
+  for (std::size_t level = 1; level <= kRayShadows; ++level) {
     const std::size_t bad = wrong(table, lamps, points, level, robust);
     EXPECT_EQ(bad, 0u) << "level " << level;
   }
@@ -319,7 +320,7 @@ TEST_F(Shadows, ASheetIsLitAndWhatIsBehindItIsDark) {
       points.push_back({{30 + 0.1 * i, -2 + 0.1 * k, 0.05 * i}, glm::normalize(glm::dvec3(-3, 0, 6))});
   const std::size_t on_sheet = points.size();
   for (int k = 1; k < 40; ++k) points.push_back({{45, -2 + 0.1 * k, 1.2}, {-1, 0, 0}});
-  for (std::size_t level = 1; level <= 3; ++level) {
+  for (std::size_t level = 1; level < kShadowNames.size(); ++level) {
     const auto open = renderer->measure(std::span(&lamp, 1), points);
     const auto lx = renderer->measure(std::span(&lamp, 1), points, level);
     for (std::size_t i = 0; i < on_sheet; ++i) {

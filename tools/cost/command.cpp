@@ -75,6 +75,7 @@ class CostRun {
               .lamp_file = options_.lamp,
               .vehicle_file = options_.vehicle,
               .seed = options_.seed,
+              .wanted = [this](const std::string& ladder) { return wanted(ladder); },
               .progress = {}};
     int end = 0;
     if (std::sscanf(options_.size.c_str(), "%dx%d%n", &plan.width_px, &plan.height_px, &end) != 2 ||

@@ -15,6 +15,7 @@ struct Plan {
   std::string scene_file, lamp_file, vehicle_file;
   int width_px = 1280, height_px = 720;
   std::uint64_t seed = 1;
+  std::function<bool(const std::string& ladder)> wanted = [](const std::string&) { return true; };  ///< of pictures
   std::function<void(const std::string& doing, double share_01)> progress;
 };
 
@@ -24,8 +25,9 @@ struct PictureLadders {
   Ladder light, shadows, lens, fog, exposure;
 };
 /// Light: method × beam image level × cuts of the ground, against float64 at the pixels' own points. Shadows: each
-/// level at points of the scene, against rays in float64: to the lamp's middle, and (lens) over its opening. Times turn by turn, so that noise hits all levels alike; a
-/// frame of the same level goes before each that is timed, as in a drive.
+/// level at points of the scene, against rays in float64: to the lamp's middle, and (lens) over its opening. Times turn
+/// by turn, so that noise hits all levels alike; a frame of the same level goes before each that is timed, as in a
+/// drive. Ladders that are not wanted have no levels.
 Result<PictureLadders> picture_ladders(const Plan& plan);
 #endif
 

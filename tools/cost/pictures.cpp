@@ -31,12 +31,12 @@ double processor_ms() {
 }
 
 /// A driver's view on a straight along x, its lamps at `x_m`: lateral places of the shipped country road's right lane.
-FrameInput view_at(double x_m) {
+FrameInput view_at(double x_m, const LampOpening& opening) {
   FrameInput input;
   input.camera.eye_m = {x_m - 1.9, -1.2, 1.22};
   const glm::dmat3 aim = aim_rotation(0.0, -0.01, 0.0);
   for (const double y_m : {-1.0, -2.2})
-    input.lamps.push_back({.position_m = {x_m, y_m, 0.65}, .world_from_image = aim});
+    input.lamps.push_back({.position_m = {x_m, y_m, 0.65}, .world_from_image = aim, .opening = opening});
   input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
   return input;
 }
@@ -44,13 +44,6 @@ FrameInput view_at(double x_m) {
 constexpr double kVisibility_m = 100.0;  // fog in which the beams are seen, and something of the road
 constexpr std::array kPlaces_m{26.9, 60.0, 100.0};
 constexpr int kOpeningRings = 16;  // a straight edge is placed to half a ring: 3 % of the opening
-
-std::string opening_text() {
-  char text[48];
-  const LampOpening opening;
-  std::snprintf(text, sizeof text, "%.0f mm across (stated, not of the file)", 1e3 * opening.width_m);
-  return text;
-}
 
 double exact_lx(const IntensityTable& table, const PlacedLamp& lamp, const MeasurePoint& point) {
   return illuminance_lx(lamp.position_m, lamp.world_from_image, table, 1.0, point.position_m, point.normal);
@@ -64,10 +57,11 @@ struct Case {
   std::size_t shadows = 0;
   std::optional<std::size_t> fog{};  ///< with it the air is foggy
   bool hdr = false;                  ///< by way of the image in cd/m²
+  LampOpening opening{};
   std::vector<double> times_ms{};
 
   FrameInput view(double x_m) const {
-    FrameInput input = view_at(x_m);
+    FrameInput input = view_at(x_m, opening);
     input.method = method;
     input.effects[static_cast<std::size_t>(Effect::kShadows)] = shadows;
     input.effects[static_cast<std::size_t>(Effect::kFog)] = fog;
@@ -80,7 +74,7 @@ struct Case {
 class Pictures {
  public:
   Pictures(const Plan& plan, const Scene& scene, const IntensityTable& table)
-      : plan_(plan), scene_(scene), table_(table) {}
+      : plan_(plan), scene_(scene), table_(table), opening_(stated_opening(table).value_or(LampOpening{})) {}
 
   Result<PictureLadders> measure() {
     std::vector<Case> light, shadows, lens, fog, exposure;
@@ -98,8 +92,8 @@ class Pictures {
                     .error_unit = "lx",
                     .time_unit = "ms of processor a frame"},
         .lens = {.name = "lens",
-                 .what = "the same with the lamps as large as they are, " + opening_text() +
-                         ": light is hidden by as much as of the opening is",
+                 .what = "the same with the lamps as large as they are (" + opening_text(table_) +
+                         "): light is hidden by as much as of the opening is",
                  .reference = "float64 with " + std::to_string(kOpeningRings * kOpeningRings) +
                               " rays over each lamp's opening, at points of the scene",
                  .error_unit = "lx",
@@ -141,45 +135,58 @@ class Pictures {
     return &renderer;
   }
 
-  Status make_cases(std::vector<Case>& light, std::vector<Case>& shadows, std::vector<Case>& lens,
-                    std::vector<Case>& fog, std::vector<Case>& exposure) {
-    const auto add_case = [&](std::vector<Case>& to, Case one) {
-      to.push_back(std::move(one));
-      Renderer& with = *to.back().renderer;
-      with.draw(to.back().view(kPlaces_m[0]));
-      to.back().level.memory_bytes = with.device_memory_bytes();
-    };
-    const auto add = [&](std::vector<Case>& to, const std::string& name, Renderer* with, Method method,
-                         std::size_t level) {
-      add_case(to, {.level = {.name = name}, .renderer = with, .method = method, .shadows = level});
+  void add_case(std::vector<Case>& to, Case one) {
+    to.push_back(std::move(one));
+    Renderer& with = *to.back().renderer;
+    with.draw(to.back().view(kPlaces_m[0]));
+    to.back().level.memory_bytes = with.device_memory_bytes();
+  }
+
+  Status make_light_cases(std::vector<Case>& light, Renderer& exact) {
+    const auto add = [&](const std::string& name, Renderer& with, Method method) {
+      add_case(light, {.level = {.name = name}, .renderer = &with, .method = method});
     };
     const auto method_name = [](Method method) { return std::string(kMethodNames[static_cast<std::size_t>(method)]); };
-    Renderer* exact = nullptr;
     for (const ImageLevel level : kImageLevels) {
-      const Result<Renderer*> made = renderer(scene_, level);
+      const Result<Renderer*> made = level == ImageLevel::kFloatNodes ? &exact : renderer(scene_, level);
       if (!made) return made.error();
-      if (level == ImageLevel::kFloatNodes) exact = *made;
-      add(light, "fragment, " + level_name(level), *made, Method::kFragment, 0);
+      add("fragment, " + level_name(level), **made, Method::kFragment);
     }
-    if (!exact->no_reference()) add(light, method_name(Method::kReference), exact, Method::kReference, 0);
+    if (!exact.no_reference()) add(method_name(Method::kReference), exact, Method::kReference);
     for (int cuts = 0; cuts <= (plan_.quick ? 1 : 2); ++cuts) {
-      Renderer* with = exact;
+      Renderer* with = &exact;
       if (cuts > 0) {
         const Result<Renderer*> made = renderer(refined(scene_, cuts, is_ground), ImageLevel::kFloatNodes);
         if (!made) return made.error();
         with = *made;
       }
       for (const Method method : {Method::kVertex, Method::kVertex1998})
-        add(light, method_name(method) + ", ground cut " + std::to_string(cuts) + " times", with, method, 0);
+        add(method_name(method) + ", ground cut " + std::to_string(cuts) + " times", *with, method);
     }
+    return Done{};
+  }
+
+  Status make_cases(std::vector<Case>& light, std::vector<Case>& shadows, std::vector<Case>& lens,
+                    std::vector<Case>& fog, std::vector<Case>& exposure) {
+    const Result<Renderer*> made = renderer(scene_, ImageLevel::kFloatNodes);
+    if (!made) return made.error();
+    Renderer* const exact = *made;
+    if (plan_.wanted("light"))
+      if (const Status done = make_light_cases(light, *exact); !done) return done.error();
+    const auto add_shadows = [&](std::vector<Case>& to, std::size_t last) {
+      for (std::size_t level = 0; level <= last; ++level)
+        add_case(to, {.level = {.name = std::string(kShadowNames[level])},
+                      .renderer = exact,
+                      .shadows = level,
+                      .opening = opening_});
+    };
     // A soft edge is no approximation of a hard one.
-    for (std::size_t level = 0; level <= kRayShadows; ++level)
-      add(shadows, std::string(kShadowNames[level]), exact, Method::kFragment, level);
-    for (std::size_t level = 0; level < kShadowNames.size(); ++level)
-      add(lens, std::string(kShadowNames[level]), exact, Method::kFragment, level);
+    if (plan_.wanted("shadows")) add_shadows(shadows, kRayShadows);
+    if (plan_.wanted("lens")) add_shadows(lens, kShadowNames.size() - 1);
     const EffectRow& row = effect_table()[static_cast<std::size_t>(Effect::kFog)];
-    for (std::size_t level = 0; level < row.levels.size(); ++level)
+    for (std::size_t level = 0; plan_.wanted("fog") && level < row.levels.size(); ++level)
       add_case(fog, {.level = {.name = std::string(row.levels[level])}, .renderer = exact, .fog = level});
+    if (!plan_.wanted("exposure")) return Done{};
     for (const bool hdr : {false, true})
       add_case(exposure,
                {.level = {.name = hdr ? "16-bit float image, then the tone curve" : "in the lit pass, no image"},
@@ -212,30 +219,40 @@ class Pictures {
     one.level.note = note;
   }
 
-  /// Share of the lamp's opening that the point sees, over places that stand for equal shares: rings of an ellipse.
-  static double seen_share(const RayTree& tree, const PlacedLamp& lamp, const glm::dvec3& point_m) {
+  /// Share of the lamp's opening that the point sees, over places that stand for equal shares: rings of an ellipse,
+  /// or rows of a rectangle. The tree knows no holes; where the scene has some, the slow way.
+  double seen_share(const RayTree& tree, bool holes, const PlacedLamp& lamp, const glm::dvec3& point_m) const {
     int seen = 0;
     for (int ring = 0; ring < kOpeningRings; ++ring)
       for (int step = 0; step < kOpeningRings; ++step) {
-        const double radius = std::sqrt((ring + 0.5) / kOpeningRings);
-        const double turn = 2.0 * std::numbers::pi * (step + 0.5 + 0.5 * (ring % 2)) / kOpeningRings;
+        glm::dvec2 part(2.0 * (ring + 0.5) / kOpeningRings - 1.0, 2.0 * (step + 0.5) / kOpeningRings - 1.0);
+        if (lamp.opening.round) {
+          const double turn = 2.0 * std::numbers::pi * (step + 0.5 + 0.5 * (ring % 2)) / kOpeningRings;
+          part = std::sqrt((ring + 0.5) / kOpeningRings) * glm::dvec2(std::cos(turn), std::sin(turn));
+        }
         const glm::dvec3 place_m =
-            lamp.position_m + 0.5 * radius * (lamp.opening.width_m * std::cos(turn) * lamp.world_from_image[1] +
-                                              lamp.opening.height_m * std::sin(turn) * lamp.world_from_image[2]);
-        seen += tree.blocked(point_m, place_m, 1e-3, 1e-3) ? 0 : 1;
+            lamp.position_m + 0.5 * (lamp.opening.width_m * part.x * lamp.world_from_image[1] +
+                                     lamp.opening.height_m * part.y * lamp.world_from_image[2]);
+        const bool blocked =
+            holes ? occluder(scene_, place_m, point_m) != nullptr : tree.blocked(point_m, place_m, 1e-3, 1e-3);
+        seen += blocked ? 0 : 1;
       }
     return static_cast<double>(seen) / (kOpeningRings * kOpeningRings);
   }
 
   void find_shadow_errors(std::vector<Case>& shadows, std::vector<Case>& lens) {
-    Renderer& renderer = *lens.front().renderer;
+    const std::size_t levels = std::max(shadows.size(), lens.size());
+    if (levels == 0) return;
+    Renderer& renderer = *(lens.empty() ? shadows : lens).front().renderer;
     const RayTree tree(scene_);
-    std::vector<std::vector<double>> of_middle(lens.size()), of_opening(lens.size());
-    std::vector<std::size_t> wrong(lens.size());
+    const bool holes = std::ranges::any_of(
+        scene_.materials, [](const SceneMaterial& material) { return material.look.cut_below.has_value(); });
+    std::vector<std::vector<double>> of_middle(levels), of_opening(levels);
+    std::vector<std::size_t> wrong(levels);
     std::size_t decisions = 0, within_edges = 0;
     for (const double x_m : kPlaces_m) {
       plan_.progress("rays for shadows", 0.2);
-      FrameInput input = view_at(x_m);
+      FrameInput input = view_at(x_m, opening_);
       input.far_mesh_from_m = std::numeric_limits<double>::infinity();
       std::vector<MeasurePoint> points;
       for (const AuditSample& sample : renderer.audit(input, samples() / 2, plan_.seed + 1))
@@ -246,13 +263,14 @@ class Pictures {
         for (const MeasurePoint& point : points) {
           const double lx = exact_lx(table_, input.lamps[lamp], point);
           const bool hidden = lx > 0.0 && occluder(scene_, input.lamps[lamp].position_m, point.position_m) != nullptr;
-          const double share = lx > 0.0 ? seen_share(tree, input.lamps[lamp], point.position_m) : 0.0;
+          const double share =
+              lx > 0.0 && !lens.empty() ? seen_share(tree, holes, input.lamps[lamp], point.position_m) : 0.0;
           unhidden[lamp].push_back(lx);
           middle[lamp].push_back(hidden ? 0.0 : lx);
           opening[lamp].push_back(share * lx);
           within_edges += share > 0.0 && share < 1.0 ? 1u : 0u;
         }
-      for (std::size_t k = 0; k < lens.size(); ++k) {
+      for (std::size_t k = 0; k < levels; ++k) {
         const std::vector<std::vector<float>> found = renderer.measure(input.lamps, points, k);
         for (std::size_t i = 0; i < points.size(); ++i) {
           double off_middle = 0.0, off_opening = 0.0;
@@ -272,7 +290,8 @@ class Pictures {
     for (std::size_t k = 0; k < lens.size(); ++k) {
       lens[k].level.error = errors_of(std::move(of_opening[k]));
       lens[k].level.note = "points that see a part of an opening: " + std::to_string(within_edges);
-      if (k >= shadows.size()) continue;
+    }
+    for (std::size_t k = 0; k < shadows.size(); ++k) {
       shadows[k].level.error = errors_of(std::move(of_middle[k]));
       shadows[k].level.note = "lit or dark wrong: " + std::to_string(wrong[k]) + " of " + std::to_string(decisions);
     }
@@ -280,6 +299,7 @@ class Pictures {
 
   /// In a renderer of its own: it loads another scene.
   Status find_fog_errors(std::vector<Case>& cases) {
+    if (cases.empty()) return Done{};
     plan_.progress("fog against float64", 0.22);
     Result<Renderer> made = Renderer::create({.width_px = plan_.width_px, .height_px = plan_.height_px});
     if (!made) return made.error();
@@ -297,6 +317,7 @@ class Pictures {
   }
 
   void find_exposure_errors(std::vector<Case>& cases) {
+    if (cases.empty()) return;
     plan_.progress("exposure", 0.25);
     std::vector<std::vector<double>> differences(cases.size());
     for (const double x_m : kPlaces_m) {
@@ -341,6 +362,7 @@ class Pictures {
   const Plan& plan_;
   const Scene& scene_;
   const IntensityTable& table_;
+  const LampOpening opening_;
   std::vector<std::unique_ptr<Renderer>> renderers_;
 };
 

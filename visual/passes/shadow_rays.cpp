@@ -15,16 +15,52 @@ constexpr double kLargest_m = 64.0;        // a lamp may go so far from where th
 constexpr std::uint64_t kMostTexels = 1u << 24u;  // float32 counts to there
 constexpr std::size_t kMostMovers = 4096;
 
+constexpr std::size_t kOpacitiesOfTexel = 12;  // three bytes of a float, which counts to 2^24
+
 glm::vec4 row_of(const glm::dvec3& row, double shift) {
   return {glm::vec3(row), static_cast<float>(shift)};
 }
 
+std::uint64_t texels_of(const Holes& holes) {
+  return 1 + (holes.opacity.size() + kOpacitiesOfTexel - 1) / kOpacitiesOfTexel;
+}
+
+/// Opacities of each material with holes, then each triangle that has them (shaders/lamps.h); where those begin.
+std::vector<float> append_holes(std::vector<glm::vec4>& texels, const std::vector<Holes>& all,
+                                const std::vector<CutTriangle>& cut) {
+  std::vector<float> begins;
+  for (const Holes& holes : all) {
+    begins.push_back(static_cast<float>(texels.size()));
+    const auto how = static_cast<float>(static_cast<unsigned>(holes.sampler.across) +
+                                        4 * static_cast<unsigned>(holes.sampler.down) + (holes.sampler.nearest ? 16 : 0));
+    texels.emplace_back(holes.width, holes.height, holes.below, how);
+    const std::size_t first = texels.size();
+    texels.resize(first + texels_of(holes) - 1);
+    for (std::size_t i = 0; i < holes.opacity.size(); ++i)
+      texels[first + i / kOpacitiesOfTexel][static_cast<int>(i / 3 % 4)] +=
+          static_cast<float>(holes.opacity[i] * (1u << (8 * (i % 3))));
+  }
+  std::vector<float> of_cut;
+  for (const CutTriangle& triangle : cut) {
+    of_cut.push_back(static_cast<float>(texels.size()));
+    texels.emplace_back(triangle.at, triangle.ab);
+    texels.emplace_back(triangle.ac, begins[triangle.holes], 0.0f);
+  }
+  return of_cut;
+}
+
 }  // namespace
 
-bool holds_rays(std::size_t triangles, std::uint64_t buffer_texels) {
+std::uint64_t ray_texels(const ShadowCasters& casters) {
+  std::uint64_t texels = shader::kRayMovers + std::uint64_t{kMostMovers} * shader::kRayMoverTexels;
   // Three of a triangle and two of a box; leaves hold two triangles at least, so boxes are no more than triangles.
-  const std::uint64_t head = shader::kRayMovers + std::uint64_t{kMostMovers} * shader::kRayMoverTexels;
-  return head + 5 * std::uint64_t{triangles} + 2 <= std::min(kMostTexels, buffer_texels);
+  texels += 5 * std::uint64_t{casters.ray_triangles()} + 2 * std::uint64_t{casters.ray_triangles_with_holes()};
+  for (const Holes& holes : casters.holes()) texels += texels_of(holes);
+  return texels;
+}
+
+bool holds_rays(std::uint64_t texels, std::uint64_t buffer_texels) {
+  return texels <= std::min(kMostTexels, buffer_texels);
 }
 
 ShadowRays::ShadowRays(gpu::Device& device) : device_(device) {}
@@ -34,24 +70,20 @@ bool ShadowRays::begin_frame() {
   return std::exchange(asked_, false);
 }
 
-void ShadowRays::build(const ShadowCasters& casters) {
-  standing_ = casters.standing_tree();
-  meshes_ = casters.moving_trees();
-}
-
-void ShadowRays::upload(const glm::dvec3& near_m, std::size_t movers) {
+void ShadowRays::upload(const ShadowCasters& casters, const glm::dvec3& near_m, std::size_t movers) {
   origin_m_ = glm::round(near_m);
   room_ = std::min(std::max<std::size_t>(2 * movers, 8), kMostMovers);
   std::vector<glm::vec4> texels(shader::kRayMovers + room_ * shader::kRayMoverTexels);
+  const std::vector<float> of_cut = append_holes(texels, casters.holes(), trees_.cut);
   const auto add = [&](const RayTree& tree, const glm::dvec3& origin_m) {
     const std::size_t first = texels.size();
-    const std::vector<glm::vec4> more = tree.texels(origin_m, first);
+    const std::vector<glm::vec4> more = tree.texels(origin_m, first, of_cut);
     texels.insert(texels.end(), more.begin(), more.end());
     return std::pair(static_cast<float>(first), static_cast<float>(texels.size()));
   };
   mesh_places_.clear();
-  for (const RayTree& mesh : meshes_) mesh_places_.push_back(add(mesh, glm::dvec3(0.0)));
-  standing_place_ = add(standing_, origin_m_);
+  for (const RayTree& mesh : trees_.moving) mesh_places_.push_back(add(mesh, glm::dvec3(0.0)));
+  standing_place_ = add(trees_.standing, origin_m_);
 
   if (texels_) replaced_.push_back(std::move(texels_));
   texels_ = std::make_unique<ShadowDepths>();
@@ -77,7 +109,7 @@ void ShadowRays::place(gpu::FrameGraph& graph, LitScene& scene, LitView& view, c
   if (view.lit_lamps.empty()) return;
   const glm::dvec3& near_m = view.lit_lamps.front().position_m;
   if (scene_version_ != scene.geometry_version()) {
-    build(scene.casters());
+    trees_ = scene.casters().ray_trees();
     scene_version_ = scene.geometry_version();
     if (texels_) replaced_.push_back(std::move(texels_));
   }
@@ -85,7 +117,7 @@ void ShadowRays::place(gpu::FrameGraph& graph, LitScene& scene, LitView& view, c
   const glm::dvec3 off_m = glm::abs(near_m - origin_m_);
   // Up and down less: over a level road heights have to be good to a millionth of a metre.
   const bool near = std::max(off_m.x, off_m.y) <= kLargest_m && off_m.z <= 4.0;
-  if (!texels_ || !near || movers > room_) upload(near_m, movers);
+  if (!texels_ || !near || movers > room_) upload(scene.casters(), near_m, movers);
 
   // What this view asks: its lamps, and what moves, where it is now.
   std::vector<glm::vec4> head(shader::kRayMovers + movers * shader::kRayMoverTexels);
@@ -114,7 +146,7 @@ void ShadowRays::place(gpu::FrameGraph& graph, LitScene& scene, LitView& view, c
   for (std::size_t i = 0; i < movers; ++i) {
     const PlacedMesh& placed = view.moving[i];
     glm::vec4* const mover = &head[shader::kRayMovers + i * shader::kRayMoverTexels];
-    if (placed.mesh >= meshes_.size()) continue;  // no tree: begins and ends at 0
+    if (placed.mesh >= trees_.moving.size()) continue;  // no tree: begins and ends at 0
     const glm::dvec3 to_origin_m = origin_m_ - placed.position_m;
     for (int axis = 0; axis < 3; ++axis)
       mover[axis] =

@@ -4,7 +4,7 @@
 //
 // The same answer as occluder() (visual/scene/ray_hit.h). Error: places are float32 within kLargest_m of the lamp, good
 // to 4e-6 m there, so an edge is off by some micrometres; within 0.002 % of the way nothing hides the point it lies
-// near. Left out: holes in a surface, which hide as if there were none. Checked by tests/visual/shadow_rays_test.cpp.
+// near. Checked by tests/visual/shadow_rays_test.cpp.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,10 @@
 
 namespace phare {
 
-/// A texel buffer of a device holds so many triangles in trees, with what moves.
-bool holds_rays(std::size_t triangles, std::uint64_t buffer_texels);
+/// Texels that trees of these take at most, with what moves.
+std::uint64_t ray_texels(const ShadowCasters& casters);
+/// A texel buffer of a device holds so many.
+bool holds_rays(std::uint64_t texels, std::uint64_t buffer_texels);
 
 class ShadowRays {
  public:
@@ -28,13 +30,11 @@ class ShadowRays {
   void place(gpu::FrameGraph& graph, LitScene& scene, LitView& view, const ShadowLevel& level);
 
  private:
-  void build(const ShadowCasters& casters);
-  void upload(const glm::dvec3& near_m, std::size_t movers);
+  void upload(const ShadowCasters& casters, const glm::dvec3& near_m, std::size_t movers);
 
   gpu::Device& device_;
   std::uint64_t scene_version_ = 0;
-  RayTree standing_;
-  std::vector<RayTree> meshes_;
+  RayTrees trees_;
   glm::dvec3 origin_m_{0.0};                          ///< that the standing tree is relative to
   std::vector<std::pair<float, float>> mesh_places_;  ///< first texel and the one after, in the buffer
   std::pair<float, float> standing_place_{};

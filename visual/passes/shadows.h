@@ -19,15 +19,14 @@
 
 namespace phare {
 
-/// Of rays one goes to the lamp's middle, or kLensRays over its opening: an edge has as many steps.
-inline constexpr std::uint32_t kLensRays = 16;
+/// Of rays one goes to the lamp's middle, or shader::kLensRays over its opening.
 /// Of each of the two pictures of a map. In the order of the effect's levels (visual/effects.h), the first being off.
 inline constexpr std::array<ShadowLevel, kShadowNames.size()> kShadowLevels{{{},
                                                                              {1024, 512, 1},
                                                                              {1024, 512, 4},
                                                                              {2048, 1024, 4},
                                                                              {0, 0, shader::kTapsOfRays + 1},
-                                                                             {0, 0, shader::kTapsOfRays + kLensRays}}};
+                                                                             {0, 0, shader::kTapsOfRays + shader::kLensRays}}};
 static_assert(kShadowLevels[kRayShadows].taps > shader::kTapsOfRays &&
               kShadowLevels[kRayShadows - 1].taps <= shader::kTapsOfRays);
 
@@ -53,7 +52,7 @@ class ShadowPass {
 
   /// It holds the scene's triangles.
   bool rays_possible(const LitScene& scene) const {
-    return holds_rays(scene.casters().ray_triangles(), limits_.buffer_texels);
+    return holds_rays(ray_texels(scene.casters()), limits_.buffer_texels);
   }
 
   /// Before the views of a frame; the frame before is done. Maps that it did not call for are freed.

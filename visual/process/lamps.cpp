@@ -59,10 +59,17 @@ Result<Lamps> Lamps::load(const Rig& rig) {
     std::vector<Position>& positions = lamps.positions_.emplace_back();
     for (const LampConfig& lamp : design.lamps) {
       std::vector<AimedSource> sources;
-      for (const SourceConfig& source : lamp.sources) sources.push_back(lamps.tables_.aimed(source));
+      std::optional<LampOpening> largest;
+      for (const SourceConfig& source : lamp.sources) {
+        sources.push_back(lamps.tables_.aimed(source));
+        const std::optional<LampOpening> stated = stated_opening(*sources.back().table);
+        if (stated && (!largest || stated->width_m * stated->height_m > largest->width_m * largest->height_m))
+          largest = stated;
+      }
       positions.push_back({LiveBeam(std::move(sources)),
                            std::vector<double>(lamp.sources.size(), 1.0),
-                           {.position_m = lamp.position_m}});
+                           {.position_m = lamp.position_m},
+                           largest.value_or(LampOpening{})});
     }
   }
   lamps.shown_.resize(most_positions);
@@ -208,6 +215,7 @@ std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
     if (image.dark) continue;
     placed.push_back({position_of(pose) + rotation * position.mount.position_m,
                       rotation * turned(position, pose.lamp_tilt_rad) * image.car_from_image, slot});
+    placed.back().opening = position.opening;
   }
   return placed;
 }
@@ -372,7 +380,8 @@ std::vector<Lamps::TableInfo> Lamps::tables() const {
   std::vector<TableInfo> infos;
   for (const auto& [key, table] : tables_) {
     infos.push_back(
-        {table->name, table->content_hash, table->peak_cd(), table->flux_lm(), table->notes, LampTables::reading(key)});
+        {table->name, table->content_hash, table->peak_cd(), table->flux_lm(), table->notes, opening_text(*table),
+         LampTables::reading(key)});
   }
   return infos;
 }

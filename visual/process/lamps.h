@@ -19,6 +19,7 @@
 #include "visual/photometry/beam/live_beam.h"
 #include "visual/photometry/bench/lamp_aim.h"
 #include "visual/photometry/bench/table_end.h"
+#include "visual/photometry/table/opening.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
 
@@ -174,6 +175,7 @@ class Lamps {
     std::string name, content_hash;
     double peak_cd = 0.0, flux_lm = 0.0;
     std::vector<std::string> notes;
+    std::string opening;  ///< its size, and whence
     std::string reading;  ///< how the file was read, where a rig says more than its name: "emitter 2, mirrored"
   };
   std::vector<TableInfo> tables() const;
@@ -193,6 +195,7 @@ class Lamps {
     LiveBeam beam;
     std::vector<double> dimming_01;  ///< of each source, as commanded
     LampMount mount;
+    LampOpening opening{};           ///< the largest that the files of its sources state
     std::vector<double> law_01{};  ///< of each source, as the control law says; empty: full light
     double law_yaw_rad = 0.0, law_pitch_rad = 0.0;
     std::shared_ptr<PixelLight> pixels{};  ///< its own, once it was given a picture

@@ -32,6 +32,7 @@ nlohmann::json describe(const Lamps& lamps) {
                       {"content_hash", table.content_hash},
                       {"peak_cd", table.peak_cd},
                       {"flux_lm", table.flux_lm},
+                      {"opening", table.opening},
                       {"notes", table.notes}});
     if (!table.reading.empty()) tables.back()["reading"] = table.reading;
   }

@@ -70,7 +70,8 @@ std::uint32_t RayTree::build(std::vector<std::uint32_t>& order, std::size_t begi
   return self;
 }
 
-std::vector<glm::vec4> RayTree::texels(const glm::dvec3& origin_m, std::size_t first) const {
+std::vector<glm::vec4> RayTree::texels(const glm::dvec3& origin_m, std::size_t first,
+                                       std::span<const float> of_cut) const {
   std::vector<glm::vec4> texels;
   texels.reserve(texel_count());
   // Boxes stand in the order of the walk already. Where one ends is known when those within it are written.
@@ -93,7 +94,9 @@ std::vector<glm::vec4> RayTree::texels(const glm::dvec3& origin_m, std::size_t f
     texels.emplace_back(high + slack, static_cast<float>(box.count));
     for (std::uint32_t i = box.first; box.count > 0 && i < box.first + box.count; ++i) {
       const Triangle& t = triangles_[i];
-      for (const glm::dvec3& part : {t.a - origin_m, t.ab, t.ac}) texels.emplace_back(glm::vec3(part), 0.0f);
+      texels.emplace_back(glm::vec3(t.a - origin_m), t.cut > 0 && t.cut <= of_cut.size() ? of_cut[t.cut - 1] : 0.0f);
+      texels.emplace_back(glm::vec3(t.ab), 0.0f);
+      texels.emplace_back(glm::vec3(t.ac), 0.0f);
     }
   }
   close(boxes_.size());

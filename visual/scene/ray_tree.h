@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "visual/scene/scene.h"
@@ -19,6 +20,7 @@ class RayTree {
   struct Triangle {
     glm::dvec3 a, ab, ac;
     bool one_sided = true;
+    std::uint32_t cut = 0;  ///< one more than which of the triangles with holes it is, as its maker counts them
   };
   /// All but paint, which lies on roads. Copies what it needs of the scene.
   explicit RayTree(const Scene& scene);
@@ -37,9 +39,9 @@ class RayTree {
   std::size_t texel_count() const { return 2 * boxes_.size() + 3 * triangles_.size(); }
   /// The tree in float32 for a device, relative to `origin_m`, in the order of a walk that needs no stack: of a box its
   /// low corner and the texel that goes on where it is missed, its high corner and how many triangles follow, three
-  /// texels each (a corner, the ways to the others); else its two children follow. Boxes are as much larger as float32
-  /// rounds. The first will be texel `first`.
-  std::vector<glm::vec4> texels(const glm::dvec3& origin_m, std::size_t first) const;
+  /// texels each (a corner and what `of_cut` has of the triangle with holes, 0 being none; the ways to the others); else
+  /// its two children follow. Boxes are as much larger as float32 rounds. The first will be texel `first`.
+  std::vector<glm::vec4> texels(const glm::dvec3& origin_m, std::size_t first, std::span<const float> of_cut = {}) const;
 
  private:
   struct Box {

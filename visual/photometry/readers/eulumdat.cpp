@@ -132,6 +132,7 @@ Status Eulumdat::read_header() {
     header.keywords.emplace_back(key, lines_[static_cast<std::size_t>(i)].text);
   header.length_m = value_at(15).value_or(0.0) * 1e-3;
   header.width_m = value_at(16).value_or(0.0) * 1e-3;
+  header.height_m = value_at(17).value_or(0.0) * 1e-3;  // as seen from C 0
   header.output_ratio = value_at(22).value_or(0.0) * 0.01;
   const auto conversion = number(23, "the conversion factor (24)");
   if (!conversion) return conversion.error();

@@ -189,10 +189,9 @@ std::string eulumdat_text(const IntensityTable& given, GammaAxis axis) {
   // opening.
   const std::string length_mm = size_text(1e3 * std::abs(header.length_m));
   const std::string width_mm = size_text(1e3 * std::max(0.0, header.width_m));
-  for (const std::string& value :
-       {length_mm, width_mm, size_text(1e3 * std::abs(header.height_m)), length_mm, width_mm})
-    line(value);
-  for (int i = 0; i < 4; ++i) line("0");
+  const std::string height_mm = size_text(1e3 * std::abs(header.height_m));
+  for (const std::string& value : {length_mm, width_mm, height_mm, length_mm, width_mm}) line(value);
+  for (int i = 0; i < 4; ++i) line(height_mm);  // as seen from C 0, 90, 180 and 270
   line("100");
   line(relative ? number_text(100.0 * table->flux_lm() / flux_lm) : "100");
   for (const char* value : {"1", "0", "1"}) line(value);
