@@ -85,6 +85,8 @@ inline constexpr std::array<std::string_view, 2> kOffOnNames{"off", "on"};
 inline constexpr std::array<std::string_view, 6> kShadowNames{"off", "hard", "soft", "fine", "rays", "lens"};
 /// The first that asks the scene's triangles at every pixel: a reference, which only the user chooses.
 inline constexpr std::size_t kRayShadows = 4;
+/// The first of these at which things cast with all their triangles, however far they are.
+inline constexpr std::size_t kWholeCasters = 3;
 inline constexpr std::array<std::string_view, 4> kFogNames{"off", "coarse", "medium", "fine"};
 
 /// Of the windscreen, from standing still to its fastest.

@@ -88,7 +88,9 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
 
   // What that calls for, and the images it takes.
   std::optional<std::size_t> casters;
-  if (looks_for_casters(view.input)) casters = parts.scene.find_casters(lit);
+  if (looks_for_casters(view.input))
+    casters = parts.scene.find_casters(
+        lit, {whole_casters(view.input) ? HUGE_VAL : far_mesh_from_m(view), &lit.geometry});
   const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
   std::vector<PupilInPicture> pupils =
       pupils_of(view.input, lit.geometry, view.area.extent.width, view.area.extent.height);

@@ -49,6 +49,11 @@ bool looks_for_casters(const ViewInput& view) {
   return (view.effects[kShadows] ? view.effects : view.picked)[kShadows] != std::size_t{0};
 }
 
+bool whole_casters(const ViewInput& view) {
+  constexpr auto kShadows = static_cast<std::size_t>(Effect::kShadows);
+  return (view.effects[kShadows] ? view.effects : view.picked)[kShadows].value_or(0) >= kWholeCasters;
+}
+
 bool asks_for_rays(const ViewInput& view) {
   constexpr auto kShadows = static_cast<std::size_t>(Effect::kShadows);
   return (view.effects[kShadows] ? view.effects : view.picked)[kShadows].value_or(0) >= kRayShadows;

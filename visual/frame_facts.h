@@ -47,6 +47,8 @@ std::vector<PupilInPicture> pupils_of(const ViewInput& view, const ViewGeometry&
 /// The user has not switched shadows off.
 bool looks_for_casters(const ViewInput& view);
 
+/// The user wants a level of shadows at which things cast with all their triangles, however far they are.
+bool whole_casters(const ViewInput& view);
 /// The user wants shadows by rays.
 bool asks_for_rays(const ViewInput& view);
 

@@ -173,7 +173,7 @@ class LitScene {
   /// An eye with lamps and no surface, for points that are given.
   LitView view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps);
   /// Finds what stands in the light of the view's lamps; returns how many pieces of the scene.
-  std::size_t find_casters(LitView& view) const;
+  std::size_t find_casters(LitView& view, const CastersFor& wanted = {}) const;
 
   /// What does not change shines in the view: what moves gets what arrives at it.
   void add_fixed_light(LitView& view);

@@ -39,9 +39,9 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
   return view;
 }
 
-std::size_t LitScene::find_casters(LitView& view) const {
+std::size_t LitScene::find_casters(LitView& view, const CastersFor& wanted) const {
   for (const PlacedLamp& lamp : view.lit_lamps)
-    view.casts.push_back(casters_.by(reach_of(lamp), lamp.world_from_image, view.moving, lamp.carried_by));
+    view.casts.push_back(casters_.by(reach_of(lamp), lamp.world_from_image, view.moving, lamp.carried_by, wanted));
   return casters_of_all(view.casts);
 }
 

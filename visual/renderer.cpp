@@ -125,7 +125,8 @@ struct Renderer::Impl {
                  const Progress& progress = {}) {
     device.device.waitIdle();
     SceneBuffers buffers(device, new_scene, moving, *light, progress);
-    scene.set_geometry(std::move(buffers), ShadowCasters(new_scene, moving), std::move(light));
+    ShadowCasters casters(new_scene, moving, std::move(buffers.far_casters));
+    scene.set_geometry(std::move(buffers), std::move(casters), std::move(light));
   }
 
   /// Submits what `record` puts into the graph and waits for it.

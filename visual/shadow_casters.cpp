@@ -9,6 +9,7 @@
 #include <map>
 
 #include "shaders/lamps.h"
+#include "visual/scene/far_mesh.h"
 
 namespace phare {
 namespace {
@@ -44,6 +45,30 @@ TangentRect at_corner(const glm::vec3& corner) {
   return {left, left, up, up};
 }
 
+/// Of the view's sides, as ShadowCasters::Light has them. What casts goes away from the lamp: past a side it stays past
+/// it once it is there and does not come nearer.
+std::vector<glm::vec4> sides_of(const ViewGeometry& view, const glm::dvec3& lamp_m, const glm::dmat3& world_from_image) {
+  std::vector<glm::vec4> sides;
+  for (const glm::dvec4& side : view.inward()) {
+    const glm::dvec3 inward = side;
+    const double lamp_within_m = glm::dot(inward, lamp_m - view.camera().eye_m) + side.w;
+    sides.emplace_back(glm::vec3(glm::transpose(world_from_image) * inward), std::min(0.0, -lamp_within_m));
+  }
+  return sides;
+}
+
+/// The triangle and all that lies behind it as the lamp sees it is out of view; with room for the texels that are read
+/// about a point.
+bool shadow_is_beyond(std::span<const glm::vec4> sides, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  constexpr float kRoom_rad = 0.02f;
+  return std::ranges::any_of(sides, [&](const glm::vec4& side) {
+    const auto beyond = [&](const glm::vec3& corner) {
+      return glm::dot(glm::vec3(side), corner) < side.w - kRoom_rad * glm::length(corner);
+    };
+    return beyond(a) && beyond(b) && beyond(c);
+  });
+}
+
 bool shows_its_far_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   const glm::vec3 normal = glm::cross(b - a, c - a);
   constexpr float kBehind_m = 1e-4f;  // of the plane of the triangle, the lamp being at the origin
@@ -69,23 +94,29 @@ ShadowCasters::Chunk ShadowCasters::chunk_of(const Scene& scene, const SceneChun
               .low_m = from.low_m,
               .high_m = from.high_m,
               .double_sided = material.double_sided,
-              .paint = material.surface == Surface::kPaint,
-              .corners_m = {},
-              .indices = {}};
+              .paint = material.surface == Surface::kPaint};
   if (from.first_look && material.look.cut_below && material.look.base_texture) {
     chunk.cut_of = first_material + from.material;
-    for (std::uint32_t i = 0; i < from.vertex_count; ++i) chunk.uvs.push_back(scene.looks[*from.first_look + i].uv);
+    for (std::uint32_t i = 0; i < from.vertex_count; ++i) chunk.whole.uvs.push_back(scene.looks[*from.first_look + i].uv);
   }
-  chunk.corners_m.reserve(from.vertex_count);
+  chunk.whole.corners_m.reserve(from.vertex_count);
   for (std::uint32_t i = 0; i < from.vertex_count; ++i)
-    chunk.corners_m.push_back(scene.vertices[from.first_vertex + i].position_m);
-  chunk.indices.assign(scene.indices.begin() + from.first_index,
-                       scene.indices.begin() + from.first_index + from.index_count);
+    chunk.whole.corners_m.push_back(scene.vertices[from.first_vertex + i].position_m);
+  chunk.whole.indices.assign(scene.indices.begin() + from.first_index,
+                             scene.indices.begin() + from.first_index + from.index_count);
   return chunk;
 }
 
-ShadowCasters::ShadowCasters(const Scene& scene, const Scene& moving) {
+const CasterMesh& ShadowCasters::Chunk::mesh_at(double distance_m, double far_from_m) const {
+  const CasterMesh* mesh = &whole;
+  for (std::size_t level = 0; level < far.size(); ++level)
+    if (distance_m >= kFarLevels[level].from * far_from_m) mesh = &far[level];
+  return *mesh;
+}
+
+ShadowCasters::ShadowCasters(const Scene& scene, const Scene& moving, std::vector<FarCasters> far) {
   for (const SceneChunk& from : scene.chunks) chunks_.push_back(chunk_of(scene, from, 0));
+  for (std::size_t i = 0; i < std::min(far.size(), chunks_.size()); ++i) chunks_[i].far = std::move(far[i]);
   for (const std::vector<std::size_t>& of_node : chunks_by_node(moving)) {
     std::vector<Chunk>& mesh = moving_.emplace_back();
     for (const std::size_t from : of_node)
@@ -95,9 +126,9 @@ ShadowCasters::ShadowCasters(const Scene& scene, const Scene& moving) {
   const auto count = [&](std::vector<Chunk>& chunks) {
     for (Chunk& chunk : chunks) {
       if (chunk.paint) continue;
-      ray_triangles_ += chunk.indices.size() / 3;
+      ray_triangles_ += chunk.whole.indices.size() / 3;
       if (!chunk.cut_of) continue;
-      ray_triangles_with_holes_ += chunk.indices.size() / 3;
+      ray_triangles_with_holes_ += chunk.whole.indices.size() / 3;
       const auto [known, added] = holes_of.try_emplace(*chunk.cut_of, holes_.size());
       chunk.holes = known->second;
       if (!added) continue;
@@ -112,14 +143,13 @@ ShadowCasters::ShadowCasters(const Scene& scene, const Scene& moving) {
 void ShadowCasters::add_triangles(const Chunk& chunk, std::vector<RayTree::Triangle>& triangles,
                                   std::vector<CutTriangle>& cut) {
   if (chunk.paint) return;
-  for (std::size_t k = 0; k + 2 < chunk.indices.size(); k += 3) {
-    const auto corner = [&](std::size_t i) {
-      return chunk.origin_m + glm::dvec3(chunk.corners_m[chunk.indices[k + i]]);
-    };
+  const CasterMesh& mesh = chunk.whole;
+  for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+    const auto corner = [&](std::size_t i) { return chunk.origin_m + glm::dvec3(mesh.corners_m[mesh.indices[k + i]]); };
     const glm::dvec3 a = corner(0);
     triangles.push_back({a, corner(1) - a, corner(2) - a, !chunk.double_sided});
     if (!chunk.cut_of) continue;
-    const auto uv = [&](std::size_t i) { return chunk.uvs[chunk.indices[k + i]]; };
+    const auto uv = [&](std::size_t i) { return mesh.uvs[mesh.indices[k + i]]; };
     cut.push_back({uv(0), uv(1) - uv(0), uv(2) - uv(0), chunk.holes});
     triangles.back().cut = static_cast<std::uint32_t>(cut.size());
   }
@@ -137,11 +167,11 @@ RayTrees ShadowCasters::ray_trees() const {
   return trees;
 }
 
-bool ShadowCasters::cast_chunk(const Chunk& chunk, const glm::mat3& turn, const glm::vec3& shift,
-                               const TangentRect& light, CastBy& cast) {
+bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const glm::mat3& turn,
+                               const glm::vec3& shift, const Light& light, CastBy& cast) {
   std::vector<glm::vec3> seen;
-  seen.reserve(chunk.corners_m.size());
-  for (const glm::vec3& corner : chunk.corners_m) seen.push_back(turn * corner + shift);
+  seen.reserve(mesh.corners_m.size());
+  for (const glm::vec3& corner : mesh.corners_m) seen.push_back(turn * corner + shift);
   bool casts = false;
   std::vector<CutCorner>* cut = nullptr;
   if (chunk.cut_of) {
@@ -149,18 +179,19 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const glm::mat3& turn, const 
     if (of_material == cast.cut.end()) of_material = cast.cut.insert(cast.cut.end(), {*chunk.cut_of});
     cut = &of_material->corners;
   }
-  for (std::size_t k = 0; k + 2 < chunk.indices.size(); k += 3) {
-    const glm::vec3 &a = seen[chunk.indices[k]], &b = seen[chunk.indices[k + 1]], &c = seen[chunk.indices[k + 2]];
+  for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
+    const glm::vec3 &a = seen[mesh.indices[k]], &b = seen[mesh.indices[k + 1]], &c = seen[mesh.indices[k + 2]];
     const double nearest = static_cast<double>(std::min({a.x, b.x, c.x}));
     if (static_cast<double>(std::max({a.x, b.x, c.x})) <= kNearest_m || nearest > kShadowsTo_m) continue;
     if (cut == nullptr && !chunk.double_sided && !shows_its_far_side(a, b, c)) continue;
+    if (shadow_is_beyond(light.sides, a, b, c)) continue;
     TangentRect part = at_corner(a);
     widen(part, at_corner(b));
     widen(part, at_corner(c));
-    part = common(part, light);
+    part = common(part, light.part);
     if (part.left < part.right || part.high < part.low) continue;
     if (cut != nullptr) {
-      const auto uv = [&](std::size_t corner) { return chunk.uvs[chunk.indices[k + corner]]; };
+      const auto uv = [&](std::size_t corner) { return mesh.uvs[mesh.indices[k + corner]]; };
       cut->insert(cut->end(), {{a, uv(0)}, {b, uv(1)}, {c, uv(2)}});
     } else {
       std::vector<glm::vec3>& triangles = chunk.double_sided ? cast.both_sides : cast.far_sides;
@@ -174,19 +205,23 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const glm::mat3& turn, const 
 }
 
 CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving,
-                         std::size_t carried_by) const {
+                         std::size_t carried_by, const CastersFor& wanted) const {
   CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing, .nearest_m = kFar};
-  const TangentRect light = widest(reach, world_from_image);
+  Light light{widest(reach, world_from_image)};
+  if (wanted.view != nullptr) light.sides = sides_of(*wanted.view, reach.tip_m, world_from_image);
   const glm::dmat3 image_from_world = glm::transpose(world_from_image);
+  const auto distance_m = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
+    return glm::distance(reach.tip_m, glm::clamp(reach.tip_m, low_m, high_m));
+  };
   const auto near = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
-    const glm::dvec3 to = reach.tip_m - glm::clamp(reach.tip_m, low_m, high_m);
-    return glm::dot(to, to) <= kShadowsTo_m * kShadowsTo_m && reach.meets(low_m, high_m);
+    return distance_m(low_m, high_m) <= kShadowsTo_m && reach.meets(low_m, high_m);
   };
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     const Chunk& chunk = chunks_[i];
     if (!near(chunk.low_m, chunk.high_m)) continue;
     const glm::vec3 shift(image_from_world * (chunk.origin_m - reach.tip_m));
-    cast.chunks[i] = cast_chunk(chunk, glm::mat3(image_from_world), shift, light, cast);
+    const CasterMesh& mesh = chunk.mesh_at(distance_m(chunk.low_m, chunk.high_m), wanted.far_from_m);
+    cast.chunks[i] = cast_chunk(chunk, mesh, glm::mat3(image_from_world), shift, light, cast);
   }
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const PlacedMesh& placed = moving[i];
@@ -200,7 +235,7 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
       if (!near(middle_m - half_m, middle_m + half_m)) continue;
       const glm::dvec3 origin_m = placed.position_m + placed.world_from_mesh * chunk.origin_m;
       const glm::vec3 shift(image_from_world * (origin_m - reach.tip_m));
-      if (cast_chunk(chunk, turn, shift, light, cast)) cast.chunks[chunks_.size() + i] = true;
+      if (cast_chunk(chunk, chunk.whole, turn, shift, light, cast)) cast.chunks[chunks_.size() + i] = true;
     }
   }
   cast.count = static_cast<std::size_t>(std::ranges::count(cast.chunks, true));

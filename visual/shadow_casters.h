@@ -10,6 +10,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "visual/light_reach.h"
 #include "visual/scene/ray_tree.h"
 #include "visual/scene/world.h"
+#include "visual/view.h"
 
 namespace phare {
 
@@ -71,6 +74,28 @@ struct CutTriangle {
   std::size_t holes = 0;  ///< which of ShadowCasters::holes()
 };
 
+/// Triangles of a chunk that may cast.
+struct CasterMesh {
+  std::vector<glm::vec3> corners_m{};  ///< relative to the chunk's origin
+  std::vector<std::uint32_t> indices{};
+  std::vector<glm::vec2> uvs{};  ///< of its corners, where its material has holes
+};
+
+/// So many of kFarLevels begin nearer than kShadowsTo_m from the lamp in a picture of common pixels.
+inline constexpr std::size_t kFarCasterLevels = 3;
+
+/// Of one chunk, by how far from the lamp it is: as kFarLevels has it, those that begin nearer than kShadowsTo_m. None:
+/// the whole mesh everywhere.
+using FarCasters = std::vector<CasterMesh>;
+
+/// What of all that stands in the light is to cast.
+struct CastersFor {
+  /// Chunks that begin at the multiples kFarLevels of it or beyond cast by fewer triangles.
+  double far_from_m = std::numeric_limits<double>::infinity();
+  /// Shadows fall into this view alone; null: anywhere.
+  const ViewGeometry* view = nullptr;
+};
+
 /// Triangles for rays. `cut` of theirs counts in `cut` here.
 struct RayTrees {
   RayTree standing{};
@@ -82,7 +107,8 @@ class ShadowCasters {
  public:
   ShadowCasters() = default;
   /// `moving`: meshes of what moves.
-  explicit ShadowCasters(const Scene& scene, const Scene& moving = {});
+  /// `far`: of each chunk of `scene`, or nothing.
+  explicit ShadowCasters(const Scene& scene, const Scene& moving = {}, std::vector<FarCasters> far = {});
 
   /// What rays are asked against, as occluder() does (visual/scene/ray_hit.h): all triangles but paint. Copies them: for
   /// who asks for rays.
@@ -96,26 +122,33 @@ class ShadowCasters {
   /// `world_from_image`: forward, left and up of the lamp at the tip of `reach`. Reads the triangles of every chunk
   /// that is near and in the light. `moving`: where the meshes are now, all but the one that carries the lamp.
   CastBy by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving = {},
-            std::size_t carried_by = SIZE_MAX) const;
+            std::size_t carried_by = SIZE_MAX, const CastersFor& wanted = {}) const;
 
  private:
   struct Chunk {
     glm::dvec3 origin_m{0.0}, low_m{0.0}, high_m{0.0};
     bool double_sided = false;
     bool paint = false;
-    std::vector<glm::vec3> corners_m;  ///< relative to the origin
-    std::vector<std::uint32_t> indices;
+    CasterMesh whole{};
+    FarCasters far{};
     std::optional<std::size_t> cut_of{};  ///< its material has holes: which
-    std::vector<glm::vec2> uvs{};         ///< of its corners then
     std::size_t holes = 0;                ///< and which of holes_
+
+    const CasterMesh& mesh_at(double distance_m, double far_from_m) const;
   };
   Chunk chunk_of(const Scene& scene, const SceneChunk& from, std::size_t first_material);
   static void add_triangles(const Chunk& chunk, std::vector<RayTree::Triangle>& triangles,
                             std::vector<CutTriangle>& cut);
+  /// Where a lamp's light goes, in the lamp's frame.
+  struct Light {
+    TangentRect part;
+    /// Of each side of the view, its normal inward and how far along that a corner lies at most whose shadow is beyond.
+    std::vector<glm::vec4> sides{};
+  };
   /// Adds the triangles of a chunk that cast; false: none does. `turn`, `shift`: from its corners into the lamp's
   /// frame.
-  static bool cast_chunk(const Chunk& chunk, const glm::mat3& turn, const glm::vec3& shift, const TangentRect& light,
-                         CastBy& cast);
+  static bool cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const glm::mat3& turn, const glm::vec3& shift,
+                         const Light& light, CastBy& cast);
 
   std::vector<Chunk> chunks_;
   std::vector<Holes> holes_;

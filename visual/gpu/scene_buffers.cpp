@@ -16,6 +16,7 @@
 
 #include "visual/photometry/beam/beam_image.h"
 #include "visual/scene/far_mesh.h"
+#include "visual/scene/refine.h"
 
 namespace phare {
 
@@ -41,6 +42,7 @@ struct Gathered {
   bool textures = true;          ///< the device can draw them
   std::size_t first_material = 0;  ///< of the scene that is gathered
   std::vector<FixedVertex> light{};              // of the vertices of what stands
+  std::vector<FarCasters> far_casters{};         // of the chunks of what stands
   std::vector<FixedLight::Meshes> lit_meshes{};  // of the chunks of what stands; none where nothing shines
 };
 
@@ -114,6 +116,15 @@ DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std:
   return drawn;
 }
 
+// Ground casts as a whole: where it hides a lamp behind a crest, a hand's breadth of height is metres of shadow.
+void keep_far_caster(const Scene& scene, const DrawnChunk& mesh, std::size_t level, Gathered& all) {
+  if (level >= kFarCasterLevels || is_ground(scene.materials[mesh.chunk->material])) return;
+  CasterMesh& kept = all.far_casters[static_cast<std::size_t>(mesh.chunk - scene.chunks.data())].emplace_back();
+  for (const SceneVertex& vertex : mesh.vertices) kept.corners_m.push_back(vertex.position_m);
+  kept.indices.assign(mesh.indices.begin(), mesh.indices.end());
+  for (const CornerLook& look : mesh.looks) kept.uvs.push_back(look.uv);
+}
+
 // One batch for each kind and cell of `side_m` among the chunks.
 std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m,
                                std::optional<std::size_t> far_level, Gathered& all) {
@@ -123,6 +134,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     const SceneMaterial& material = scene.materials[chunk->material];
     const std::uint32_t look = all.textures && chunk->first_look ? look_bits(material) : 0;
     DrawnChunk mesh = drawn(scene, *chunk, far_level, all);
+    if (far_level) keep_far_caster(scene, mesh, *far_level, all);
     // A pupil's light is drawn by itself (visual/eyeshine.h).
     const RetroKind retro = material.retro.kind == RetroKind::kPupil ? RetroKind::kNone : material.retro.kind;
     const MaterialKind kind{material.surface, retro, material.double_sided,
@@ -268,7 +280,9 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
     if (why_not != nullptr) spdlog::warn("surfaces are drawn without their textures: {}", why_not);
   }
   if (light.any()) all.lit_meshes = light.meshes(scene);
+  all.far_casters.resize(scene.chunks.size());
   blocks = make_blocks(scene, all, progress);
+  far_casters = std::move(all.far_casters);
   all.lit_meshes.clear();
   moving = make_moving(moving_scene, static_cast<std::uint32_t>(scene.materials.size()), all);
   using Usage = vk::BufferUsageFlagBits;

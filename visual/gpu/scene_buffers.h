@@ -13,6 +13,7 @@
 #include "visual/renderer.h"
 #include "visual/scene/far_mesh.h"
 #include "visual/scene/scene.h"
+#include "visual/shadow_casters.h"
 
 namespace phare {
 
@@ -93,6 +94,7 @@ struct SceneBuffers {
   gpu::DeviceBuffer tangents;  ///< CornerLook::tangent of those that have a relief
   gpu::DeviceBuffer fixed_light;  ///< FixedVertex of each vertex of what stands; none where nothing shines
   SurfaceTextures textures;
+  std::vector<FarCasters> far_casters;  ///< of each chunk of what stands, to be taken
 
   SceneBuffers() = default;
   SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving, const FixedLight& light,

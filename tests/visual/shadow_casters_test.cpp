@@ -1,0 +1,108 @@
+// unit: what casts shadows into a view, and by which of its meshes.
+#include "visual/shadow_casters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+
+#include "visual/photometry/beam/beam_composer.h"
+#include "visual/scene/far_mesh.h"
+
+namespace phare {
+namespace {
+
+using Corners = std::array<glm::vec3, 3>;
+
+Scene scene_of(const std::vector<Corners>& triangles) {
+  Scene scene;
+  scene.materials = {{.name = "leaf", .double_sided = true}};
+  for (const Corners& triangle : triangles) {
+    SceneChunk chunk;
+    chunk.low_m = chunk.high_m = triangle[0];
+    chunk.index_count = chunk.vertex_count = 3;
+    chunk.first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
+    chunk.first_index = static_cast<std::uint32_t>(scene.indices.size());
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      scene.vertices.push_back({triangle[k], glm::vec3(0.0f, 0.0f, 1.0f)});
+      scene.indices.push_back(k);
+      chunk.low_m = glm::min(chunk.low_m, glm::dvec3(triangle[k]));
+      chunk.high_m = glm::max(chunk.high_m, glm::dvec3(triangle[k]));
+    }
+    scene.chunks.push_back(chunk);
+  }
+  return scene;
+}
+
+/// Does the way from `from` to `to` go through it? (Möller and Trumbore 1997)
+bool stands_between(const glm::dvec3& from, const glm::dvec3& to, const Corners& triangle) {
+  const glm::dvec3 a = triangle[0], ab = glm::dvec3(triangle[1]) - a, ac = glm::dvec3(triangle[2]) - a, way = to - from;
+  const glm::dvec3 p = glm::cross(way, ac);
+  const double determinant = glm::dot(ab, p);
+  if (std::abs(determinant) < 1e-12) return false;
+  const glm::dvec3 s = from - a, q = glm::cross(s, ab);
+  const double u = glm::dot(s, p) / determinant, v = glm::dot(way, q) / determinant;
+  const double at = glm::dot(ac, q) / determinant;
+  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && at > 1e-6 && at < 1.0 - 1e-6;
+}
+
+// Of the triangles that hide the lamp from a point in view none is left out, whatever view it is; of the others many
+// are.
+TEST(ShadowCasters, NoneIsLeftOutWhoseShadowFallsIntoTheView) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> even(-1.0, 1.0);
+  const auto anywhere = [&](double size_m) { return size_m * glm::dvec3(even(random), even(random), even(random)); };
+  std::size_t hidden = 0, kept = 0, all = 0;
+  for (int round = 0; round < 60; ++round) {
+    const glm::dvec3 lamp_m{2.0, 0.6, 0.65};
+    Camera camera{.eye_m = {even(random), even(random), 1.2 + even(random)},
+                  .world_from_eye = aim_rotation(1.5 * even(random), 0.4 * even(random), 0.2 * even(random)),
+                  .fov_horizontal_rad = 0.3 + 0.8 * std::abs(even(random))};
+    if (round % 5 == 4) camera.orthographic_width_m = 40.0;
+    const ViewGeometry view(camera, 16.0 / 9.0);
+    const glm::dmat3 lamp_turn = aim_rotation(0.6 * even(random), 0.0, 0.0);
+    std::vector<Corners> triangles;
+    for (int i = 0; i < 200; ++i) {
+      const glm::dvec3 at = lamp_m + lamp_turn * (glm::dvec3(40.0, 0.0, 0.0) + anywhere(38.0));
+      triangles.push_back({glm::vec3(at), glm::vec3(at + anywhere(3.0)), glm::vec3(at + anywhere(3.0))});
+    }
+    const ShadowCasters casters(scene_of(triangles));
+    const LampReach reach(lamp_m, lamp_turn, {{1.0, 0.0, 0.0}, 1.2});
+    const CastBy anywhere_cast = casters.by(reach, lamp_turn);
+    const CastBy cast = casters.by(reach, lamp_turn, {}, SIZE_MAX, {.view = &view});
+    all += anywhere_cast.count, kept += cast.count;
+    for (int point = 0; point < 2000; ++point) {
+      const Ray ray = view.ray_through(static_cast<double>(random() % 1600), static_cast<double>(random() % 900), 1600, 900);
+      const glm::dvec3 seen_m = ray.origin_m + (1.0 + 80.0 * std::abs(even(random))) * ray.direction;
+      for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (!anywhere_cast.count || !anywhere_cast.chunks[i] || !stands_between(lamp_m, seen_m, triangles[i])) continue;
+        ++hidden;
+        ASSERT_TRUE(cast.count > 0 && cast.chunks[i]) << "round " << round << ", triangle " << i;
+      }
+    }
+  }
+  EXPECT_GT(hidden, 1000u) << "points that something hides";
+  EXPECT_LT(kept, all * 3 / 4) << "nothing was left out";
+}
+
+TEST(ShadowCasters, WhatIsFarCastsByItsFarMesh) {
+  const std::vector<Corners> near_and_far{{{{20, -1, 0}, {20, 1, 0}, {20, 0, 2}}}, {{{200, -1, 0}, {200, 1, 0}, {200, 0, 2}}}};
+  // In place of the triangle: nothing at the first level, two triangles at the second.
+  FarCasters far(2);
+  far[1].corners_m = {{200, -1, 0}, {200, 1, 0}, {200, 0, 1}, {200, 0, 2}};
+  far[1].indices = {0, 1, 2, 0, 1, 3};
+  const ShadowCasters casters(scene_of(near_and_far), {}, {far, far});
+  const LampReach reach({0.0, 0.0, 0.65}, glm::dmat3(1.0), {{1.0, 0.0, 0.0}, 1.2});
+  const auto triangles = [&](double far_from_m) {
+    return casters.by(reach, glm::dmat3(1.0), {}, SIZE_MAX, {.far_from_m = far_from_m}).both_sides.size() / 3;
+  };
+  EXPECT_EQ(triangles(std::numeric_limits<double>::infinity()), 2u);
+  EXPECT_EQ(triangles(190.0), 3u) << "beyond " << kFarLevels[1].from << " times as far: the second level";
+  EXPECT_EQ(triangles(250.0), 1u) << "between both: the first";
+  EXPECT_EQ(triangles(1000.0), 2u);
+}
+
+}  // namespace
+}  // namespace phare
