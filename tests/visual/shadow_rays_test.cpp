@@ -204,30 +204,33 @@ TEST_F(ShadowRaysTest, OfWhatMovesFallWhereThoseOfWhatStandsDo) {
   add_box(with_box, {20, -1, 0}, {21, 1, 2});
   add_box(box, {-1, -0.5, 0}, {1, 0.5, 2});
   for (Scene* scene : {&road, &with_box, &box}) close_scene(*scene);
-  FrameInput input = view_of_a_box();
-  ASSERT_TRUE(renderer->load_scene(with_box).ok());
-  renderer->draw(input);
-  const Image8 standing = renderer->read_image();
-  ASSERT_TRUE(renderer->load_scene(road, box).ok());
   // A quarter turn about z: what was 2 m along is 2 m across.
   const std::vector<PlacedMesh> placed{
       {.mesh = 0, .position_m = {20.5, 0, 0}, .world_from_mesh = glm::dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1)}};
-  input.moving = placed;
-  const FrameResult drawn = renderer->draw(input);
-  EXPECT_EQ(drawn.effects.level(Effect::kShadows), kRayShadows);
-  const Image8 moved = renderer->read_image();
-  std::size_t differ = 0;
-  for (std::size_t i = 0; i < moved.rgba.size(); ++i) differ += std::abs(moved.rgba[i] - standing.rgba[i]) > 2;
-  EXPECT_LE(differ, 4u * 60u);  // pixels of the box's own edges
-  // The lamp that it carries is not hidden by it, and another is.
-  input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
-  renderer->draw(input);
-  const Image8 without = renderer->read_image();
-  EXPECT_NE(without.rgba, moved.rgba);
-  input.effects[static_cast<std::size_t>(Effect::kShadows)] = kRayShadows;
-  for (PlacedLamp& lamp : input.lamps) lamp.carried_by = 0;
-  renderer->draw(input);
-  EXPECT_EQ(renderer->read_image().rgba, without.rgba);
+  for (const std::size_t level : {kRayShadows, kLens}) {
+    FrameInput input = view_of_a_box();
+    input.effects[static_cast<std::size_t>(Effect::kShadows)] = level;
+    ASSERT_TRUE(renderer->load_scene(with_box).ok());
+    renderer->draw(input);
+    const Image8 standing = renderer->read_image();
+    ASSERT_TRUE(renderer->load_scene(road, box).ok());
+    input.moving = placed;
+    const FrameResult drawn = renderer->draw(input);
+    EXPECT_EQ(drawn.effects.level(Effect::kShadows), level);
+    const Image8 moved = renderer->read_image();
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < moved.rgba.size(); ++i) differ += std::abs(moved.rgba[i] - standing.rgba[i]) > 2;
+    EXPECT_LE(differ, 4u * 60u) << level;  // pixels of the box's own edges
+    // The lamp that it carries is not hidden by it, and another is.
+    input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
+    renderer->draw(input);
+    const Image8 without = renderer->read_image();
+    EXPECT_NE(without.rgba, moved.rgba);
+    input.effects[static_cast<std::size_t>(Effect::kShadows)] = level;
+    for (PlacedLamp& lamp : input.lamps) lamp.carried_by = 0;
+    renderer->draw(input);
+    EXPECT_EQ(renderer->read_image().rgba, without.rgba);
+  }
 }
 
 TEST_F(ShadowRaysTest, LeaveNothingBehindAndCostNothingWhereTheyAreNotAskedFor) {

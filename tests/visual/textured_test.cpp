@@ -158,7 +158,8 @@ TEST_F(Textured, HolesLetLightThrough) {
   for (double y = -3.75; y < 3.9; y += 0.5)
     for (double z = -3.75; z < 3.9; z += 0.5) points.push_back({{10.0, y, z}, {-1, 0, 0}});
   const std::vector<float> lx = renderer->measure(input.lamps, points, 2).front();
-  EXPECT_EQ(renderer->measure(input.lamps, points, kRayShadows).front(), lx);
+  for (const std::size_t by_rays : {kRayShadows, kRayShadows + 1})
+    EXPECT_EQ(renderer->measure(input.lamps, points, by_rays).front(), lx) << by_rays;
   const World world(scene);
   for (std::size_t i = 0; i < points.size(); ++i) {
     // Where the way to the lamp passes the fence: half-way, an eighth of a texel from its edge at least.
