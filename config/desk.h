@@ -83,7 +83,7 @@ inline constexpr std::size_t kMostProbes = 16;
 inline constexpr std::array<std::string_view, 1> kOffNames{"off"};
 inline constexpr std::array<std::string_view, 2> kOffOnNames{"off", "on"};
 inline constexpr std::array<std::string_view, 4> kShadowNames{"off", "hard", "soft", "fine"};
-inline constexpr std::array<std::string_view, 4> kFogNames{"off", "coarse", "medium", "fine"};
+inline constexpr std::array<std::string_view, 5> kFogNames{"off", "coarse", "medium", "fine", "finest"};
 
 /// Of the windscreen, from standing still to its fastest.
 enum class Wiper { kOff, kInterval, kSlow, kFast };
