@@ -363,7 +363,7 @@ constexpr DeskSetting kSettings[] = {
      set_level<&Desk::depth_first, kOffOnNames>, get_level<&Desk::depth_first, kOffOnNames>},
     {"shadows", "auto, off, hard, soft, fine, rays, lens", "of what stands in the beams; auto: as the scene calls for", true,
      set_level<&Desk::shadows, kShadowNames>, get_level<&Desk::shadows, kShadowNames>},
-    {"fog", "auto, off, coarse, medium, fine", "light scattered in fog; auto: as the visibility calls for", true,
+    {"fog", "auto, off, coarse, medium, fine, finest", "light scattered in fog; auto: as the visibility calls for", true,
      set_level<&Desk::fog, kFogNames>, get_level<&Desk::fog, kFogNames>},
     {"precipitation", "auto, off", "drops and flakes near the eye, one by one; auto: as they fall", true,
      set_level<&Desk::precipitation, kOffNames>, get_level<&Desk::precipitation, kOffNames>},

@@ -15,7 +15,7 @@ const uint kSpecFogSky = 6u;     // 1: some of the sky comes through
 
 // Texels of two numbers: of the grid's column and row k, where they lie across and down the view, 0 to 1; after these of the picture's
 // column and row k of pixels, where in the grid they lie, in columns and rows.
-const int kFogMostNodes = 256;
+const int kFogMostNodes = 340;
 
 // The phase function at even angles from 0° to 180°.
 const uint kFogPhaseSteps = 1440u;

@@ -189,5 +189,50 @@ TEST(TableEnd, TheLowerEdgeIsNoSide) {
   }
 }
 
+/// A TM-33 file of segments, each with a peak of its own.
+std::string matrix_file(int segments) {
+  std::string text = "<IESTM33-22>\n";
+  for (int segment = 1; segment <= segments; ++segment) {
+    text += "<Emitter><LuminousData><PhotometryType>A</PhotometryType><SymmType>None</SymmType>\n";
+    for (const int h : {-1, 1}) {
+      for (const int v : {-1, 0})
+        text += "<IntensityData horz=\"" + std::to_string(h) + "\" vert=\"" + std::to_string(v) + "\">" +
+                std::to_string(100 * segment) + "</IntensityData>\n";
+    }
+    text += "</LuminousData></Emitter>\n";
+  }
+  return text + "</IESTM33-22>\n";
+}
+
+TEST_F(MountedLamp, AFileOfManySegmentsIsReadOnceForAllOfThem) {
+  const std::filesystem::path file = folder_ / "matrix.xml";
+  std::ofstream(file, std::ios::binary) << matrix_file(3);
+  SourceConfig source;
+  source.file = file;
+  const auto add = [&](std::size_t emitter) {
+    source.emitter = emitter;
+    const Status read = tables_.add(source);
+    EXPECT_TRUE(read.ok()) << (read ? "" : read.error().text());
+  };
+  add(1);
+  const IntensityTable alone = *read_lamp(file, read_settings(source));
+  std::ofstream(file, std::ios::binary) << "not read again";
+  for (const std::size_t emitter : {2u, 3u}) {
+    add(emitter);
+    EXPECT_EQ(tables_.of(source).peak_cd(), 100.0 * static_cast<double>(emitter));
+    EXPECT_EQ(tables_.of(source).content_hash, alone.content_hash);
+    EXPECT_EQ(tables_.of(source).name, alone.name);
+    EXPECT_EQ(tables_.of(source).first_deg, alone.first_deg);
+  }
+  source.emitter = 4;
+  const Status none = tables_.add(source);
+  ASSERT_FALSE(none.ok());
+  EXPECT_NE(none.error().text().find("emitter 4 was asked for, the file has 3"), std::string::npos);
+  tables_.close();
+  source.emitter = 3;
+  source.mirror = true;  // another reading of it: the file as it is now
+  EXPECT_FALSE(tables_.add(source).ok());
+}
+
 }  // namespace
 }  // namespace phare

@@ -45,16 +45,6 @@ ChildProcess start_drive(const fs::path& out, const fs::path& from, const std::v
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "phare-process-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) std::abort();
-  path_ = name;
-}
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 std::uint16_t port_base() {
   return static_cast<std::uint16_t>(10000 + getpid() % 240 * 40);
 }

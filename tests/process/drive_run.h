@@ -13,25 +13,12 @@
 #include <vector>
 
 #include "tools/child_process.h"
+#include "tools/temporary_folder.h"
 
 namespace phare::test {
 
 /// Generous: the machine may be busy, and a wait that is too short is no finding.
 inline constexpr std::chrono::seconds kPatience{120};
-
-/// A folder of its own below the system's temporary folder; gone when this goes.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A range of UDP ports that other tests of this machine do not use while RESOURCE_LOCK udp_ports is held.
 std::uint16_t port_base();

@@ -13,7 +13,7 @@ class GpuFault {
  public:
   /// `told` is a file that is not there yet, and is once the fault has happened; it happens once.
   GpuFault(const std::string& fault, std::filesystem::path told) : told_(std::move(told)) {
-    setenv("VK_ADD_LAYER_PATH", (build_dir() + "/tests/process").c_str(), 1);
+    setenv("VK_ADD_LAYER_PATH", (build_dir() + "/lib/phare").c_str(), 1);
     setenv("VK_INSTANCE_LAYERS", "VK_LAYER_PHARE_gpu_faults", 1);
     setenv("PHARE_GPU_FAULT", fault.c_str(), 1);
     setenv("PHARE_GPU_FAULT_TOLD", told_.c_str(), 1);

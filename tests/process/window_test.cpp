@@ -19,6 +19,7 @@
 #include "tests/paths.h"
 #include "tests/process/drive_run.h"
 #include "tests/process/gpu_fault.h"
+#include "tools/virtual_display.h"
 #include "visual/process/panel.h"
 
 namespace phare::test {
@@ -34,33 +35,16 @@ bool wait_until(const std::function<bool()>& true_at_last) {
   return false;
 }
 
-/// Xvfb on a display of its own; gone when this goes.
-class VirtualDisplay {
+/// A display that is looked at and typed into.
+class TypedDisplay : public VirtualDisplay {
  public:
-  static bool possible() { return find_in_path("Xvfb") && find_in_path("xdotool"); }
-  /// On a free number, which it tells when it listens: a server that was killed leaves its lock and its socket.
-  VirtualDisplay() {
-    const fs::path told = folder_ / "display";
-    auto server = ChildProcess::start(
-        "/bin/sh", {"-c", "exec Xvfb -displayfd 5 -screen 0 640x480x24 -fbdir '" + folder_.path().string() +
-                              "' -nolisten tcp 5>'" + told.string() + "'"});
-    if (server) server_ = *server;
-    wait_until([&] { return std::ifstream(told) >> number_ ? true : false; });
-  }
-  ~VirtualDisplay() {
-    if (!server_) return;
-    server_->send_signal(SIGTERM);
-    while (!server_->ended()) std::this_thread::sleep_for(5ms);
-  }
-  VirtualDisplay(const VirtualDisplay&) = delete;
-  VirtualDisplay& operator=(const VirtualDisplay&) = delete;
-  std::string name() const { return ":" + std::to_string(number_); }
+  static bool possible() { return VirtualDisplay::possible() && find_in_path("xdotool"); }
 
   /// What it shows, rows from the top: XWD version 7, 4 bytes a pixel, blue first, as Xvfb keeps it on a
   /// little-endian machine. Empty: it cannot be read.
   std::vector<std::array<int, 3>> screen() const {
     std::stringstream file;
-    file << std::ifstream(folder_ / "Xvfb_screen0", std::ios::binary).rdbuf();
+    file << std::ifstream(screen_file(), std::ios::binary).rdbuf();
     const std::string bytes = file.str();
     const auto word = [&](std::size_t i) {  // of the header, most significant byte first
       std::uint32_t value = 0;
@@ -81,8 +65,6 @@ class VirtualDisplay {
     }
     return pixels;
   }
-  static constexpr std::size_t kWidth_px = 640, kHeight_px = 480;
-
   /// Words of xdotool, the window of Phare having the focus.
   void keys(const std::string& words) const {
     const std::string line = "DISPLAY=" + name() +
@@ -90,17 +72,12 @@ class VirtualDisplay {
                              " >/dev/null 2>&1";
     EXPECT_EQ(std::system(line.c_str()), 0) << line;
   }
-
- private:
-  TemporaryFolder folder_;
-  int number_ = -1;  ///< none, until the server listens
-  std::optional<ChildProcess> server_;
 };
 
 class WindowTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!VirtualDisplay::possible()) GTEST_SKIP() << "no Xvfb, or no xdotool";
+    if (!TypedDisplay::possible()) GTEST_SKIP() << "no Xvfb, or no xdotool";
     display_.emplace();
   }
   void TearDown() override {
@@ -154,7 +131,7 @@ class WindowTest : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  std::optional<VirtualDisplay> display_;
+  std::optional<TypedDisplay> display_;
   std::optional<ChildProcess> drive_;
 };
 

@@ -1,4 +1,5 @@
 // phare cost: what accuracy costs on this machine.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -9,6 +10,7 @@
 
 #include "config/base/commit.h"
 #include "config/base/content_hash.h"
+#include "config/base/input_files.h"
 #include "config/formats/gltf_uri.h"
 #include "config/base/paths.h"
 #include "config/base/shell_word.h"
@@ -20,6 +22,7 @@
 #include "tools/cost/page.h"
 #include "tools/cost/plot.h"
 #include "tools/cost/progress_line.h"
+#include "tools/cost/ranks.h"
 #include "tools/utc_now.h"
 #include "visual/air_of_desk.h"
 
@@ -30,7 +33,7 @@ using namespace cost;
 
 struct CostOptions {
   bool quick = false, json = false;
-  std::string out = "cost", scene, lamp, vehicle, rig, size = "1280x720";
+  std::string out = "cost", against, scene, lamp, vehicle, rig, size = "1280x720";
   std::vector<std::string> ladders;
   std::uint64_t seed = 1;
   std::string command;  ///< that repeats the run
@@ -81,14 +84,37 @@ class CostRun {
     if (std::sscanf(options_.size.c_str(), "%dx%d%n", &plan.width_px, &plan.height_px, &end) != 2 ||
         static_cast<std::size_t>(end) != options_.size.size())
       return bad_input({"--size " + options_.size, "is not WIDTHxHEIGHT in pixels"});
+    if (const Status read = read_run_before(); !read) return bad_input(read.error());
     if (const Status measured = measure(plan); !measured) return bad_input(measured.error());
     for (Ladder& ladder : ladders_) mark_efficient(ladder);
     if (const Status written = write(); !written) return bad_input(written.error());
     print();
-    return kExitDone;
+    return ranks_alike() ? kExitDone : kExitCheckFailed;
   }
 
  private:
+  /// Before anything is measured: a file that is none is told at once.
+  Status read_run_before() {
+    if (options_.against.empty()) return Done{};
+    constexpr std::uintmax_t kMostBytes = 64u << 20;
+    const auto text = read_input_bytes(options_.against, kMostBytes);
+    if (!text) return text.error();
+    before_ = nlohmann::json::parse(*text, nullptr, false);
+    if (const auto sound = compare_ranks(before_, before_); !sound)
+      return Error{options_.against, sound.error().reason};
+    return Done{};
+  }
+
+  /// As in the run before, if there is one.
+  bool ranks_alike() const {
+    if (options_.against.empty()) return true;
+    const auto ranks = compare_ranks(json_, before_);
+    std::fprintf(options_.json ? stderr : stdout, "against %s\n%s", options_.against.c_str(), text_of(*ranks).c_str());
+    for (const std::string& line : unlike(json_, before_))
+      std::fprintf(options_.json ? stderr : stdout, "  not the same: %s\n", line.c_str());
+    return std::ranges::all_of(*ranks, &RanksAlike::alike);
+  }
+
   bool wanted(const std::string& name) const {
     return options_.ladders.empty() ||
            std::find(options_.ladders.begin(), options_.ladders.end(), name) != options_.ladders.end();
@@ -199,7 +225,7 @@ class CostRun {
   std::vector<Ladder> ladders_;
   std::vector<std::string> left_out_;
   std::string device_, kept_;
-  nlohmann::json json_;
+  nlohmann::json json_, before_;
 };
 
 }  // namespace
@@ -219,6 +245,8 @@ void add_cost(CLI::App& app, Command& chosen) {
   command->add_option("--ladder", options->ladders, "Only this one, more than once for several [all]")
       ->check(CLI::IsMember(kLadderNames));
   command->add_option("--out", options->out, "Folder to write")->capture_default_str();
+  command->add_option("--against", options->against,
+                      "cost.json of another run: whether both rank the levels alike; exit code 1 if not");
   command->add_flag("--json", options->json, "Print all figures as JSON");
   command->add_option("--scene", options->scene,
                       "Scene (.glb, .gltf) with a straight road along x from the origin [the shipped country road]");

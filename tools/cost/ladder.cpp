@@ -52,7 +52,15 @@ Errors errors_of(std::vector<double> differences) {
 Times times_of(std::vector<double> times) {
   if (times.empty()) return {};
   std::ranges::sort(times);
-  return {.median = share(times, 0.5), .p95 = share(times, 0.95), .samples = times.size()};
+  Times found{.median = share(times, 0.5), .p95 = share(times, 0.95), .samples = times.size()};
+  // So many of n times lie below the median: n / 2, give or take 1.96 standard deviations of √n / 2.
+  const auto n = static_cast<double>(times.size());
+  const double below = std::floor(0.5 * (n - 1.96 * std::sqrt(n)));
+  if (below >= 1.0) {
+    const auto first = static_cast<std::size_t>(below) - 1;
+    found.within = std::max(found.median - times[first], times[times.size() - 1 - first] - found.median);
+  }
+  return found;
 }
 
 void mark_efficient(Ladder& ladder) {
@@ -115,6 +123,7 @@ nlohmann::json json_of(const Ladder& ladder) {
     if (level.error.rms) row["error"]["rms"] = *level.error.rms;
     if (level.error.p99) row["error"]["p99"] = *level.error.p99;
     if (level.time.p95) row["time"]["p95"] = *level.time.p95;
+    if (level.time.within) row["time"]["within"] = *level.time.within;
     if (level.memory_bytes) row["memory_bytes"] = *level.memory_bytes;
     if (!level.note.empty()) row["note"] = level.note;
     json["levels"].push_back(std::move(row));

@@ -204,6 +204,7 @@ class Measuring {
       const Times times = times_of(std::move(one.times_ms));
       one.figures->median_ms = times.median;
       one.figures->p95_ms = *times.p95;
+      one.figures->within_ms = times.within.value_or(0.0);
     }
   }
 

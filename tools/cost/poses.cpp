@@ -74,47 +74,47 @@ SimTime time_of(std::size_t sample) {
 
 /// One level: `hz` messages a second over the wire; each picture shows the newest pose, or carries it on to its own
 /// time.
-Level measure(const std::vector<VehicleState>& states, int hz, bool carried_on, int rounds) {
-  const std::size_t between = static_cast<std::size_t>(kTruth_hz / hz);
+struct PoseLevel {
+  int hz = 0;
+  bool carried_on = false;
+  std::vector<double> differences_deg{};  ///< of pitch, the same in every round
+  std::vector<double> times_ms{};         ///< of processor a second driven, of each round
+};
+
+void drive(const std::vector<VehicleState>& states, PoseLevel& level) {
+  const std::size_t between = static_cast<std::size_t>(kTruth_hz / level.hz);
   const auto per_frame = static_cast<std::size_t>(kTruth_hz / kFrames_hz);
-  std::vector<double> differences, times;
-  for (int round = 0; round < rounds; ++round) {
-    PoseBuffer buffer;
-    Datagram sent, received;
-    sent.sender = Sender::kDynamics;
-    sent.start_id = sent.sequence = 1;
-    std::string bytes;
-    differences.clear();
-    double busy_ms = 0.0;
-    // Pictures fall between messages in a new place each time: 7 is prime to every rate.
-    std::size_t next_frame = per_frame;
-    VehicleState newest;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (i % between == 0) {
-        const double begin = thread_ms();
-        sent.sim_time = time_of(i);
-        sent.payload = states[i];
-        encode_into(sent, bytes);
-        if (decode_into(std::as_bytes(std::span(bytes)), received) == Refusal::kNone) {
-          newest = std::get<VehicleState>(received.payload);
-          if (carried_on) buffer.push(received.sim_time, newest);
-        }
-        ++sent.sequence;
-        busy_ms += thread_ms() - begin;
-      }
-      if (i < next_frame) continue;
-      next_frame = i + per_frame + 7;
+  PoseBuffer buffer;
+  Datagram sent, received;
+  sent.sender = Sender::kDynamics;
+  sent.start_id = sent.sequence = 1;
+  std::string bytes;
+  level.differences_deg.clear();
+  double busy_ms = 0.0;
+  // Pictures fall between messages in a new place each time: 7 is prime to every rate.
+  std::size_t next_frame = per_frame;
+  VehicleState newest;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (i % between == 0) {
       const double begin = thread_ms();
-      const VehicleState shown = carried_on ? buffer.at(time_of(i))->pose : newest;
+      sent.sim_time = time_of(i);
+      sent.payload = states[i];
+      encode_into(sent, bytes);
+      if (decode_into(std::as_bytes(std::span(bytes)), received) == Refusal::kNone) {
+        newest = std::get<VehicleState>(received.payload);
+        if (level.carried_on) buffer.push(received.sim_time, newest);
+      }
+      ++sent.sequence;
       busy_ms += thread_ms() - begin;
-      differences.push_back(kDegPerRad * (shown.pitch_rad - states[i].pitch_rad));
     }
-    times.push_back(busy_ms / kSeconds);
+    if (i < next_frame) continue;
+    next_frame = i + per_frame + 7;
+    const double begin = thread_ms();
+    const VehicleState shown = level.carried_on ? buffer.at(time_of(i))->pose : newest;
+    busy_ms += thread_ms() - begin;
+    level.differences_deg.push_back(kDegPerRad * (shown.pitch_rad - states[i].pitch_rad));
   }
-  Level level{.name = std::to_string(hz) + " Hz, " + (carried_on ? "carried on by its rates" : "held")};
-  level.error = errors_of(std::move(differences));
-  level.time = times_of(std::move(times));
-  return level;
+  level.times_ms.push_back(busy_ms / kSeconds);
 }
 
 }  // namespace
@@ -130,9 +130,17 @@ Result<Ladder> pose_ladder(const Plan& plan) {
                 .reference = "the car's own pitch at the time of each picture",
                 .error_unit = "deg",
                 .time_unit = "ms of processor a second driven"};
+  std::vector<PoseLevel> levels;
   for (const int hz : {20, 50, 100, 250, 500, 1000})
-    for (const bool carried_on : {false, true})
-      ladder.levels.push_back(measure(*states, hz, carried_on, plan.quick ? 3 : 15));
+    for (const bool carried_on : {false, true}) levels.push_back({hz, carried_on});
+  for (int round = 0; round < (plan.quick ? 7 : 25); ++round)
+    for (PoseLevel& level : levels) drive(*states, level);
+  for (PoseLevel& level : levels) {
+    Level& row = ladder.levels.emplace_back();
+    row.name = std::to_string(level.hz) + " Hz, " + (level.carried_on ? "carried on by its rates" : "held");
+    row.error = errors_of(std::move(level.differences_deg));
+    row.time = times_of(std::move(level.times_ms));
+  }
   return ladder;
 }
 

@@ -26,11 +26,12 @@ std::string print(const char* format, double a, double b = 0.0) {
 bool sound(const SettingFigures& figures) {
   const auto share = [](double value) { return std::isfinite(value) && value >= 0.0; };
   return share(figures.misplaced) && share(figures.p99.value_or(0.0)) && share(figures.median_ms) &&
-         share(figures.p95_ms) && figures.median_ms <= figures.p95_ms;
+         share(figures.p95_ms) && share(figures.within_ms) && figures.median_ms <= figures.p95_ms;
 }
 
 json json_of(const SettingFigures& figures) {
   json row{{"misplaced", figures.misplaced}, {"median_ms", figures.median_ms}, {"p95_ms", figures.p95_ms}};
+  if (figures.within_ms > 0.0) row["within_ms"] = figures.within_ms;
   if (figures.p99) row["p99"] = *figures.p99;
   return row;
 }
@@ -39,6 +40,7 @@ SettingFigures figures_of(const json& row) {
   SettingFigures figures{
       .misplaced = row.at("misplaced"), .p99 = {}, .median_ms = row.at("median_ms"), .p95_ms = row.at("p95_ms")};
   if (row.contains("p99")) figures.p99 = row["p99"].get<double>();
+  if (row.contains("within_ms")) figures.within_ms = row["within_ms"].get<double>();
   return figures;
 }
 
@@ -142,6 +144,11 @@ std::vector<Setting> all_settings(const SettingsTable& table, const FixedSetting
       setting.worst_share = std::max(setting.p99, worst_of(table.shadows, shadows, fixed.shadows));
       setting.median_ms = light.figures.median_ms + more(table.shadows, shadows, &SettingFigures::median_ms);
       setting.p95_ms = light.figures.p95_ms + more(table.shadows, shadows, &SettingFigures::p95_ms);
+      // Off takes nothing, so nothing of it is off.
+      const auto within = [](const std::vector<SettingFigures>& ladder, std::size_t level) {
+        return level == 0 ? 0.0 : ladder[level].within_ms + ladder.front().within_ms;
+      };
+      setting.within_ms = light.figures.within_ms + within(table.shadows, shadows);
       if (table.fog.empty()) settings.push_back(setting);
       for (std::size_t fog = 0; fog < table.fog.size(); ++fog) {
         if (fixed.fog.value_or(fog) != fog) continue;
@@ -151,6 +158,7 @@ std::vector<Setting> all_settings(const SettingsTable& table, const FixedSetting
         foggy.worst_share = std::max(foggy.worst_share, worst_of(table.fog, fog, fixed.fog));
         foggy.median_ms += more(table.fog, fog, &SettingFigures::median_ms);
         foggy.p95_ms += more(table.fog, fog, &SettingFigures::p95_ms);
+        foggy.within_ms += within(table.fog, fog);
         settings.push_back(foggy);
       }
     }
@@ -217,7 +225,7 @@ Ladder ladder_of(const SettingsTable& table) {
     Level& level = ladder.levels.emplace_back();
     level.name = setting.text();
     level.error = {.rms = {}, .p99 = 100.0 * setting.p99, .max = 100.0 * setting.misplaced};
-    level.time = {.median = setting.median_ms, .p95 = setting.p95_ms};
+    level.time = {.median = setting.median_ms, .p95 = setting.p95_ms, .within = setting.within_ms};
     level.note = "99 %: of single lux, of light alone; worst: of all the light, what is misplaced";
   }
   return ladder;

@@ -27,6 +27,7 @@ struct SettingFigures {
   double misplaced = 0.0;       ///< a share of the light
   std::optional<double> p99{};  ///< a share of the light there; of light only
   double median_ms = 0.0, p95_ms = 0.0;
+  double within_ms = 0.0;  ///< as Times::within, of the median; 0 where it is not known
 
   friend bool operator==(const SettingFigures&, const SettingFigures&) = default;
 };
@@ -81,6 +82,7 @@ struct Setting {
   double misplaced = 0.0, p99 = 0.0;  ///< p99: of light
   double worst_share = 0.0;           ///< the largest of what a tolerance is held against
   double median_ms = 0.0, p95_ms = 0.0;
+  double within_ms = 0.0;  ///< of the median, if all that is added is off at once
 
   /// "fragment, float32-native-nodes, shadows soft".
   std::string text() const;

@@ -38,8 +38,9 @@ Result<std::vector<Ladder>> vehicle_ladders(const Plan& plan) {
     Level level{.name = level_name};
     level.error.max = kDegPerRad * line.pitch_error_rad;
     level.error.samples = 1000;
-    level.time.median = 1e3 / line.real_time;
-    level.time.samples = short_run ? 1 : 3;
+    std::vector<double> ms_a_second;
+    for (const double run_s : line.runs_s) ms_a_second.push_back(1e3 * run_s / work_precision::kEnd_s);
+    level.time = times_of(std::move(ms_a_second));
     ladders.back().levels.push_back(level);
   }
   return ladders;

@@ -35,6 +35,7 @@ std::vector<HardCase> all_cases() {
   add(property_cases());
 #ifdef PHARE_WITH_GRAPHICS
   add(picture_cases());
+  add(whole_drive_cases());
 #endif
   add(vehicle_cases());
   add(vehicle_limit_cases());
@@ -87,12 +88,13 @@ int run_cases(const HardCaseOptions& options) {
     outcomes.push_back(one.run(bench));
     const Outcome& outcome = outcomes.back();
     const Standing found = standing(one, outcome);
+    const std::string& why = outcome.error.empty() ? outcome.not_run : outcome.error;
     std::printf("%-26s %-8s %-20s %-20s %s%s\n", one.name.c_str(),
                 found == Standing::kHeld     ? "held"
                 : found == Standing::kMissed ? "MISSED"
                                              : "not run",
                 cell(outcome.device, one.device_bound).c_str(), cell(outcome.float64, one.float64_bound).c_str(),
-                one.unit.c_str(), outcome.error.empty() ? "" : ("; " + outcome.error).c_str());
+                one.unit.c_str(), why.empty() ? "" : ("; " + why).c_str());
     std::fflush(stdout);
     if (found != Standing::kMissed) continue;
     ++missed;

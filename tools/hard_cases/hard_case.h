@@ -26,6 +26,7 @@ struct Outcome {
   std::vector<Found> device{};   ///< by the shader that draws the frame, or by the device
   std::vector<Found> float64{};  ///< by the CPU
   std::string error{};           ///< the case could not be run
+  std::string not_run{};         ///< what this machine lacks for it
 };
 
 /// What the cases need: the device, if this build draws, and a seed.
@@ -55,6 +56,7 @@ std::vector<HardCase> vehicle_limit_cases();
 std::vector<HardCase> bus_cases();
 #ifdef PHARE_WITH_GRAPHICS
 std::vector<HardCase> picture_cases();
+std::vector<HardCase> whole_drive_cases();
 #endif
 
 /// The largest value; NaN and infinity count as infinity. Nothing found: none.

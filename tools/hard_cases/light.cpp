@@ -1,7 +1,6 @@
 // Light that is hard to compute: near, far, grazing, behind, at the seams of a table, huge and tiny.
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -9,6 +8,7 @@
 #include <numbers>
 
 #include "tools/hard_cases/lamps.h"
+#include "tools/temporary_folder.h"
 #include "visual/photometry/readers/read_lamp.h"
 #include "visual/scene/scene.h"
 
@@ -40,9 +40,9 @@ bool scene_taken(const std::filesystem::path& folder, std::size_t at, float valu
 }
 
 Outcome no_numbers_in_a_scene(const Bench&) {
-  std::string name = (std::filesystem::temp_directory_path() / "phare-hard-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) return {.error = "no temporary folder"};
-  const std::filesystem::path folder = name;
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
+  if (folder.empty()) return {.error = "no temporary folder"};
   Outcome outcome;
   constexpr float kInf = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
   double at = 0.0;
@@ -54,8 +54,6 @@ Outcome no_numbers_in_a_scene(const Bench&) {
     outcome.float64.push_back({at++, scene_taken(folder, 0, 0.0f, node) ? 1.0 : 0.0});
   // And one that is right, or the refusals would prove nothing.
   outcome.float64.push_back({at, scene_taken(folder, 0, 0.0f, ",\"translation\":[1,0,0]") ? 0.0 : 1.0});
-  std::error_code ignored;
-  std::filesystem::remove_all(folder, ignored);
   return outcome;
 }
 

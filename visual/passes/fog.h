@@ -32,8 +32,11 @@ struct FogLevel {
 };
 
 /// In the order of the effect's levels (visual/effects.h), the first being off.
-inline constexpr std::array<FogLevel, 4> kFogLevels{
-    {{}, {48, 64, 20, 1, 12.0f, 0.65}, {84, 96, 24, 1, 4.0f, 0.75}, {161, 253, 96, 4, 1.0f, 0.55}}};
+inline constexpr std::array<FogLevel, 5> kFogLevels{{{},
+                                                    {48, 64, 20, 1, 12.0f, 0.65},
+                                                    {84, 96, 24, 1, 4.0f, 0.75},
+                                                    {161, 253, 96, 4, 1.0f, 0.55},
+                                                    {207, 325, 122, 6, 0.6f, 0.55}}};
 
 static_assert(kFogNames.size() == kFogLevels.size());
 
@@ -42,6 +45,7 @@ constexpr std::uint64_t texels_of(const FogLevel& level) {
   return std::uint64_t{level.columns + 1} * (level.rows + 1) * level.slices;
 }
 static_assert(texels_of(kFogLevels[1]) <= 65536, "what every device has room for");
+static_assert(16 * texels_of(kFogLevels.back()) <= std::uint64_t{1} << 27, "the least maxStorageBufferRange");
 
 class FogPass {
  public:

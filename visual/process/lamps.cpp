@@ -53,6 +53,7 @@ Result<Lamps> Lamps::load(const Rig& rig) {
       }
     }
   }
+  lamps.tables_.close();
   lamps.aimings_ = aim_lamps(lamps.designs_, lamps.tables_);
   lamps.table_ends_ = phare::table_ends(lamps.designs_, lamps.tables_, rig.channels);
   for (const DesignConfig& design : lamps.designs_) {

@@ -31,7 +31,12 @@ Status LampTables::add(const SourceConfig& source) {
                    "can be read only once: its lamps need the same axis, c0_deg, mirror, "
                    "lamp_set, emitter and distance_m"};
   }
-  Result<IntensityTable> table = read_lamp(source.file, read_settings(source));
+  if (!open_ || open_->path() != source.file) {
+    auto file = LampFile::open(source.file);
+    if (!file) return file.error();
+    open_ = std::make_shared<LampFile>(std::move(*file));
+  }
+  Result<IntensityTable> table = open_->table(read_settings(source));
   if (!table) return table.error();
   if (!source.pixels.empty()) return add_pixel_light(source, *table);
   tables_.emplace(key(source), std::make_shared<const IntensityTable>(std::move(*table)));

@@ -22,8 +22,10 @@ class LampTables {
   /// File and read_settings; of a pixel light its picture and map.
   using Key =
       std::tuple<std::string, GammaAxis, double, bool, std::size_t, std::size_t, double, std::string, std::string>;
-  /// Reads the file of a source unless it is here already, with the same settings. The error is the file's.
+  /// Reads the file of a source unless it is here already, with the same settings. The error is the file's. The file
+  /// stays open for the sources that follow, until one has another or close().
   Status add(const SourceConfig& source);
+  void close() { open_.reset(); }
   /// Of a source that was added. Stays where it is when this is moved or copied, as long as one of them is there.
   const IntensityTable& of(const SourceConfig& source) const { return *tables_.at(key(source)); }
   /// Of a source that was added: its pixel light with the picture it begins with, for a copy of one's own; nothing: it
@@ -43,6 +45,7 @@ class LampTables {
   Status add_pixel_light(const SourceConfig& source, const IntensityTable& full);
 
   std::map<Key, std::shared_ptr<const IntensityTable>> tables_;
+  std::shared_ptr<LampFile> open_;
   std::map<Key, std::shared_ptr<const PixelLight>> pixel_lights_;  ///< own their tables
 };
 

@@ -57,56 +57,71 @@ LampFormat find_format(std::string_view bytes, std::string_view name) {
   return LampFormat::kFind;
 }
 
-Result<IntensityTable> parse_lamp(std::string_view bytes, const std::string& name, const LampReadSettings& settings) {
-  if (bytes.empty()) return Error{name, "is empty"};
-  const LampFormat format = settings.format == LampFormat::kFind ? find_format(bytes, name) : settings.format;
-  if (const Status has = has_what_is_asked(format, name, settings); !has) return has.error();
+Result<IntensityTable> LampFile::read(LampFormat format, std::string_view text, const LampReadSettings& settings) {
+  switch (format) {
+    case LampFormat::kLm63:
+      return parse_lm63(text, name_, settings);
+    case LampFormat::kEulumdat:
+      return parse_eulumdat(text, name_, settings);
+    case LampFormat::kTm33:
+      return parse_tm33(text, name_, settings, tree_);
+    case LampFormat::kCsv:
+      return parse_lamp_csv(text, name_, settings);
+    case LampFormat::kFind:
+      break;
+  }
+  return Error{name_, "looks like none of LM-63 (.ies), EULUMDAT (.ldt), TM-33 (.xml) and CSV; --format says which"};
+}
+
+Result<IntensityTable> LampFile::table(LampReadSettings settings) {
+  if (read_) settings.folder = path_.parent_path();
+  if (bytes_.empty()) return Error{name_, "is empty"};
+  const LampFormat format = settings.format == LampFormat::kFind ? find_format(bytes_, name_) : settings.format;
+  if (const Status has = has_what_is_asked(format, name_, settings); !has) return has.error();
   std::string storage, note;
-  const std::string_view text = without_marks(bytes, name, storage, note);
-  const auto read = [&]() -> Result<IntensityTable> {
-    switch (format) {
-      case LampFormat::kLm63:
-        return parse_lm63(text, name, settings);
-      case LampFormat::kEulumdat:
-        return parse_eulumdat(text, name, settings);
-      case LampFormat::kTm33:
-        return parse_tm33(text, name, settings);
-      case LampFormat::kCsv:
-        return parse_lamp_csv(text, name, settings);
-      case LampFormat::kFind:
-        break;
-    }
-    return Error{name, "looks like none of LM-63 (.ies), EULUMDAT (.ldt), TM-33 (.xml) and CSV; --format says which"};
-  };
+  const std::string_view text = without_marks(bytes_, name_, storage, note);
   // Hashing a large file takes as long as reading its numbers; it goes beside it. (The default policy falls back to
   // hashing in get() when no thread can be had.)
   constexpr std::size_t kWorthAThread = 1u << 20;
-  const auto hash_bytes = [bytes] { return content_hash(std::as_bytes(std::span(bytes.data(), bytes.size()))); };
+  const auto hash_bytes = [this] { return content_hash(std::as_bytes(std::span(bytes_.data(), bytes_.size()))); };
   std::future<std::string> hash;
-  if (bytes.size() > kWorthAThread) hash = std::async(std::launch::async | std::launch::deferred, hash_bytes);
-  auto table = read();
+  if (hash_.empty() && bytes_.size() > kWorthAThread)
+    hash = std::async(std::launch::async | std::launch::deferred, hash_bytes);
+  auto table = read(format, text, settings);
   if (!table) return table.error();
-  table->content_hash = hash.valid() ? hash.get() : hash_bytes();
+  if (hash_.empty()) hash_ = hash.valid() ? hash.get() : hash_bytes();
+  table->content_hash = hash_;
   if (table->type == PhotometricType::kC) table->header.read_c0_deg = settings.c0_turn_deg;
   table->header.read_mirrored = settings.mirror_h;
-  note_unused(*table, format, name, settings);
+  note_unused(*table, format, name_, settings);
   if (!note.empty()) table->notes.insert(table->notes.begin(), note);
   if (settings.mirror_h) {
     mirror_left_right(*table);
-    table->notes.push_back(name + ": left and right turned round, as asked");
+    table->notes.push_back(name_ + ": left and right turned round, as asked");
   }
+  if (read_) table->name = is_standard_input(path_) ? name_ : path_.filename().string();
   return table;
 }
 
-Result<IntensityTable> read_lamp(const std::filesystem::path& file, const LampReadSettings& settings) {
+Result<LampFile> LampFile::open(const std::filesystem::path& file) {
   const std::string name = input_name(file);
-  const auto bytes = read_photometry_bytes(file, name);
+  auto bytes = read_photometry_bytes(file, name);
   if (!bytes) return bytes.error();
-  LampReadSettings here = settings;
-  here.folder = file.parent_path();
-  auto table = parse_lamp(*bytes, name, here);
-  if (table) table->name = is_standard_input(file) ? name : file.filename().string();
-  return table;
+  auto kept = std::make_shared<const std::string>(std::move(*bytes));
+  LampFile opened(*kept, name);
+  opened.read_ = std::move(kept);
+  opened.path_ = file;
+  return opened;
+}
+
+Result<IntensityTable> parse_lamp(std::string_view bytes, const std::string& name, const LampReadSettings& settings) {
+  return LampFile(bytes, name).table(settings);
+}
+
+Result<IntensityTable> read_lamp(const std::filesystem::path& file, const LampReadSettings& settings) {
+  auto opened = LampFile::open(file);
+  if (!opened) return opened.error();
+  return opened->table(settings);
 }
 
 Result<IntensityTable> read_lm63(const std::filesystem::path& file, GammaAxis axis) {

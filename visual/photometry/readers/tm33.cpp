@@ -37,15 +37,15 @@ class Tm33 {
     table_.axis = settings.axis;
     table_.header.format = "TM-33";
   }
-  Result<IntensityTable> read();
+  Result<IntensityTable> read(const pugi::xml_node& root);
+  std::string place(std::ptrdiff_t offset) const {
+    const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
+    return name_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n'));
+  }
 
  private:
   Error error(const pugi::xml_node& node, std::string reason) const {
     return {place(node.offset_debug()), std::move(reason)};
-  }
-  std::string place(std::ptrdiff_t offset) const {
-    const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
-    return name_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n'));
   }
   pugi::xml_node child(const pugi::xml_node& node, std::initializer_list<std::string_view> names) const {
     for (const pugi::xml_node& c : node.children()) {
@@ -192,11 +192,7 @@ Status Tm33::read_intensities(const pugi::xml_node& data) {
   return Done{};
 }
 
-Result<IntensityTable> Tm33::read() {
-  pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_buffer(text_.data(), text_.size());
-  if (!parsed) return Error{place(parsed.offset), std::string("not XML: ") + parsed.description()};
-  const pugi::xml_node root = document.document_element();
+Result<IntensityTable> Tm33::read(const pugi::xml_node& root) {
   const std::string_view root_name = local_name(root);
   if (!root_name.starts_with("IESTM33") && root_name != "LuminaireOpticalData")
     return error(root, "the root element is " + in_quotes(root_name) + ", not IESTM33-22 or LuminaireOpticalData");
@@ -227,8 +223,16 @@ Result<IntensityTable> Tm33::read() {
 
 }  // namespace
 
-Result<IntensityTable> parse_tm33(std::string_view text, const std::string& name, const LampReadSettings& settings) {
-  return Tm33(text, name, settings).read();
+Result<IntensityTable> parse_tm33(std::string_view text, const std::string& name, const LampReadSettings& settings,
+                                  std::shared_ptr<pugi::xml_document>& tree) {
+  Tm33 reader(text, name, settings);
+  if (!tree) {
+    auto document = std::make_shared<pugi::xml_document>();
+    const pugi::xml_parse_result parsed = document->load_buffer(text.data(), text.size());
+    if (!parsed) return Error{reader.place(parsed.offset), std::string("not XML: ") + parsed.description()};
+    tree = std::move(document);
+  }
+  return reader.read(tree->document_element());
 }
 
 }  // namespace phare

@@ -1,12 +1,13 @@
-// A Vulkan layer whose device or window fails when it is told to: what drivers do once in a month, when a test wants
-// it. Enabled by VK_INSTANCE_LAYERS=VK_LAYER_PHARE_gpu_faults, found by VK_ADD_LAYER_PATH; it lies above the validation
+// A Vulkan layer whose device or window fails when it is told to: what drivers do once in a month, when a hard case or a
+// test wants it. Enabled by VK_INSTANCE_LAYERS=VK_LAYER_PHARE_gpu_faults, found by VK_ADD_LAYER_PATH; it lies above the validation
 // layer, which sees what the program makes of the failure. PHARE_GPU_FAULT says which, N counted from 1:
 //   lost-device:N         the Nth submission, and all that is asked of that device afterwards: VK_ERROR_DEVICE_LOST
 //   lost-surface:N        the Nth acquired image, and all of that surface until it is destroyed: VK_ERROR_SURFACE_LOST
 //   lost-surface-shown:N  the same from the Nth presented image on
 //   out-of-date-shown:N   the Nth presented image: VK_ERROR_OUT_OF_DATE
 //   minimised:N:MS        from the Nth acquired image on the window has no size, for so many milliseconds
-// PHARE_GPU_FAULT_TOLD is a file that is made when it happens; a process that finds it there fails no more.
+// PHARE_GPU_FAULT_TOLD is a file that is made when it happens; a process that finds it there fails no more. Beside it
+// FILE.shown is made when the window has shown PHARE_GPU_FAULT_SHOWN pictures again, presented without a complaint.
 #include <fcntl.h>
 #include <unistd.h>
 #include <vulkan/vk_layer.h>
@@ -46,9 +47,12 @@ struct State {
   PFN_vkGetInstanceProcAddr next_instance = nullptr;
   PFN_vkGetDeviceProcAddr next_device = nullptr;
   VkInstance instance = VK_NULL_HANDLE;
+  // Asked for while the instance is made: later, with no layer below, the loader answers with what leads here again.
+  PFN_vkDestroySurfaceKHR destroy_surface = nullptr;
+  PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR surface_capabilities = nullptr;
   VkDevice device = VK_NULL_HANDLE;
-  long submitted = 0, acquired = 0, presented = 0;
-  bool device_lost = false, surface_lost = false;
+  long submitted = 0, acquired = 0, presented = 0, shown_again = 0;
+  bool happened = false, device_lost = false, surface_lost = false;
   Clock::time_point small_until{};
   bool was_small = false;
 };
@@ -58,20 +62,27 @@ template <class Function>
 Function below(const char* name) {
   return reinterpret_cast<Function>(state.device != VK_NULL_HANDLE ? state.next_device(state.device, name) : nullptr);
 }
-template <class Function>
-Function below_instance(const char* name) {
-  return reinterpret_cast<Function>(state.next_instance(state.instance, name));
+
+/// False: it is there already.
+bool make_file(const std::string& path) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file < 0) return false;
+  close(file);
+  return true;
 }
 
 /// Whether it is time for this fault, the first time that it is.
 bool now(const char* kind, long count) {
   if (state.fault.kind != kind || count != state.fault.at) return false;
   const char* told = std::getenv("PHARE_GPU_FAULT_TOLD");
-  if (told == nullptr) return true;
-  const int file = open(told, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (file < 0) return false;
-  close(file);
-  return true;
+  state.happened = told == nullptr || make_file(told);
+  return state.happened;
+}
+
+void count_shown_again() {
+  const char *told = std::getenv("PHARE_GPU_FAULT_TOLD"), *count = std::getenv("PHARE_GPU_FAULT_SHOWN");
+  if (told == nullptr || count == nullptr || !state.happened) return;
+  if (++state.shown_again == std::strtol(count, nullptr, 10)) make_file(std::string(told) + ".shown");
 }
 
 bool is_small() {
@@ -126,6 +137,7 @@ VKAPI_ATTR VkResult VKAPI_CALL queue_present(VkQueue queue, const VkPresentInfoK
     return VK_ERROR_SURFACE_LOST_KHR;
   }
   if (now("out-of-date-shown", state.presented)) return VK_ERROR_OUT_OF_DATE_KHR;
+  if (shown == VK_SUCCESS || shown == VK_SUBOPTIMAL_KHR) count_shown_again();
   return shown;
 }
 
@@ -137,15 +149,14 @@ VKAPI_ATTR VkResult VKAPI_CALL create_swapchain(VkDevice device, const VkSwapcha
 
 VKAPI_ATTR void VKAPI_CALL destroy_surface(VkInstance instance, VkSurfaceKHR surface,
                                            const VkAllocationCallbacks* allocator) {
-  below_instance<PFN_vkDestroySurfaceKHR>("vkDestroySurfaceKHR")(instance, surface, allocator);
+  state.destroy_surface(instance, surface, allocator);
   state.surface_lost = false;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL surface_capabilities(VkPhysicalDevice device, VkSurfaceKHR surface,
                                                     VkSurfaceCapabilitiesKHR* capabilities) {
   if (state.surface_lost) return VK_ERROR_SURFACE_LOST_KHR;
-  const VkResult result = below_instance<PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR>(
-      "vkGetPhysicalDeviceSurfaceCapabilitiesKHR")(device, surface, capabilities);
+  const VkResult result = state.surface_capabilities(device, surface, capabilities);
   if (is_small()) capabilities->currentExtent = {0, 0};
   return result;
 }
@@ -167,7 +178,13 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
   link->u.pLayerInfo = link->u.pLayerInfo->pNext;
   const auto create = reinterpret_cast<PFN_vkCreateInstance>(state.next_instance(VK_NULL_HANDLE, "vkCreateInstance"));
   const VkResult result = create(info, allocator, instance);
-  if (result == VK_SUCCESS) state.instance = *instance;
+  if (result != VK_SUCCESS) return result;
+  state.instance = *instance;
+  const auto ask = [&]<class Function>(const char* name, Function& function) {
+    function = reinterpret_cast<Function>(state.next_instance(*instance, name));
+  };
+  ask("vkDestroySurfaceKHR", state.destroy_surface);
+  ask("vkGetPhysicalDeviceSurfaceCapabilitiesKHR", state.surface_capabilities);
   return result;
 }
 
