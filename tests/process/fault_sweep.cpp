@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
       FaultResult sum;
       int drives = 0, lost = 0;
       for (int done = 0; done < faults; done += each, ++drives) {
-        const TemporaryFolder folder;
+        const phare::TemporaryFolder folder;
         const FaultResult one = drive_with_faults({.kind = static_cast<FaultSetup::Kind>(k),
                                                    .lockstep = lockstep,
                                                    .faults = std::min(each, faults - done),
