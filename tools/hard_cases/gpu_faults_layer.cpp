@@ -1,6 +1,6 @@
-// A Vulkan layer whose device or window fails when it is told to: what drivers do once in a month, when a hard case or a
-// test wants it. Enabled by VK_INSTANCE_LAYERS=VK_LAYER_PHARE_gpu_faults, found by VK_ADD_LAYER_PATH; it lies above the validation
-// layer, which sees what the program makes of the failure. PHARE_GPU_FAULT says which, N counted from 1:
+// A Vulkan layer whose device or window fails when it is told to: what drivers do once in a month, when a hard case or
+// a test wants it. Enabled by VK_INSTANCE_LAYERS=VK_LAYER_PHARE_gpu_faults, found by VK_ADD_LAYER_PATH; it lies above
+// the validation layer, which sees what the program makes of the failure. PHARE_GPU_FAULT says which, N counted from 1:
 //   lost-device:N         the Nth submission, and all that is asked of that device afterwards: VK_ERROR_DEVICE_LOST
 //   lost-surface:N        the Nth acquired image, and all of that surface until it is destroyed: VK_ERROR_SURFACE_LOST
 //   lost-surface-shown:N  the same from the Nth presented image on
