@@ -151,6 +151,7 @@ struct GpuFrame {
 // how it is wrapped (across + 4 * down + 16 where nearest; TextureWrap), then three opacities a float. GpuShadow then takes a point relative to
 // the eye to where the trees have it.
 const uint kTapsOfRays = 64u;
+const uint kTapsWithHoles = 64u;  // besides, where something has holes
 const uint kLensRays = 16u;  // over an opening: an edge has as many steps; bits of a uint
 const uint kRayHead = 30u;
 const uint kRayMovers = 31u;

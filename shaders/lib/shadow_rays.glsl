@@ -4,6 +4,9 @@
 #define PHARE_SHADERS_LIB_SHADOW_RAYS_GLSL
 #include "lib/opening.h"
 
+// A software device takes its time for a branch that nothing goes into.
+#define kHolesInRays (shadow_taps > kTapsOfRays + kTapsWithHoles)
+
 int wrapped(int i, int size, uint how) {
   if (how == 2u) return clamp(i, 0, size - 1);
   int period = how == 1u ? 2 * size : size;
@@ -56,7 +59,7 @@ bool tree_blocks(int at, int end, vec3 from, vec3 along, float nearest, float fa
       float inverse_determinant = 1.0 / dot(ab, p);  // of a triangle seen along its plane: infinite or none, and nothing below holds
       float u = dot(s, p) * inverse_determinant, v = dot(along, q) * inverse_determinant, met = dot(ac, q) * inverse_determinant;
       if (u >= -slack && v >= -slack && u + v <= 1.0 + slack && met > nearest && met < farthest &&
-          (corner.w == 0.0 || !through_hole(int(corner.w), u, v)))
+          (!kHolesInRays || corner.w == 0.0 || !through_hole(int(corner.w), u, v)))
         return true;
     }
   }
@@ -84,17 +87,27 @@ bool ray_blocked(vec3 from, vec3 to, float carried_by) {
 
 vec2 opening_places[kLensRays];
 
+// Most of what a quantity that is linear in the ray is away from that of the middle: places are within 1 each way.
+float spread(vec3 of) {
+  return abs(of.y) + abs(of.z);
+}
+
 // The same of all rays to the lamp's opening at once: which of `hidden`, a bit a ray, a triangle stands before besides. A ray goes from `from` by
-// `middle` and its place's parts of `left` and `up`; boxes are taken larger by the opening, which no ray leaves. Determinants are linear in the
-// ray, so a triangle is worked out once.
+// `middle` and its place's parts of `left` and `up`: on each axis by between `slowest` and `fastest`. Determinants are linear in the ray, so a
+// triangle is worked out once.
 uint tree_hides(int at, int end, vec3 from, vec3 middle, vec3 left, vec3 up, float nearest, float farthest, uint hidden) {
   const float slack = 1e-6;
   const uint all = (1u << kLensRays) - 1u;
   vec3 wide = abs(left) + abs(up);
-  vec3 inverse = 1.0 / mix(middle, vec3(1e-12), lessThan(abs(middle), vec3(1e-12)));
+  vec3 fastest = middle + wide, slowest = middle - wide;
+  vec3 by_fastest = 1.0 / mix(fastest, vec3(1e-12), lessThan(abs(fastest), vec3(1e-12)));
+  vec3 by_slowest = 1.0 / mix(slowest, vec3(1e-12), lessThan(abs(slowest), vec3(1e-12)));
+  bvec3 up_low = greaterThan(by_fastest, vec3(0.0)), down_high = lessThan(by_slowest, vec3(0.0));
+  const vec3 never = vec3(3e38);
   while (at < end && hidden != all) {
     vec4 low = texelFetch(shadow_depths, at), high = texelFetch(shadow_depths, at + 1);
-    vec3 a = (low.xyz - wide - from) * inverse, b = (high.xyz + wide - from) * inverse, first = min(a, b), last = max(a, b);
+    vec3 a = (low.xyz - from) * by_fastest, b = (high.xyz - from) * by_slowest;
+    vec3 first = max(mix(-never, a, up_low), mix(-never, b, down_high)), last = min(mix(a, never, up_low), mix(b, never, down_high));
     if (max(max(first.x, first.y), max(first.z, nearest)) > min(min(last.x, last.y), min(last.z, farthest))) {
       at = int(low.w);
       continue;
@@ -107,12 +120,18 @@ uint tree_hides(int at, int end, vec3 from, vec3 middle, vec3 left, vec3 up, flo
       float meets = dot(ac, of_v);
       vec3 determinants = vec3(dot(of_determinant, middle), dot(of_determinant, left), dot(of_determinant, up));
       vec3 us = vec3(dot(of_u, middle), dot(of_u, left), dot(of_u, up)), vs = vec3(dot(of_v, middle), dot(of_v, left), dot(of_v, up));
+      // Where no ray goes along its plane, most triangles are left out for all rays at once.
+      float way = sign(determinants.x), least = abs(determinants.x) - spread(determinants), most = abs(determinants.x) + spread(determinants);
+      vec3 rest = determinants - us - vs;
+      if (least > 0.0 && (way * us.x + spread(us) < -slack * most || way * vs.x + spread(vs) < -slack * most ||
+                          way * rest.x + spread(rest) < -slack * most || way * meets <= nearest * least || way * meets >= farthest * most))
+        continue;
       for (uint i = 0; i < kLensRays; ++i) {
         vec3 ray = vec3(1.0, opening_places[i]);
         float inverse_determinant = 1.0 / dot(determinants, ray);
         float u = dot(us, ray) * inverse_determinant, v = dot(vs, ray) * inverse_determinant, met = meets * inverse_determinant;
         if (u >= -slack && v >= -slack && u + v <= 1.0 + slack && met > nearest && met < farthest && (hidden >> i & 1u) == 0u &&
-            (corner.w == 0.0 || !through_hole(int(corner.w), u, v)))
+            (!kHolesInRays || corner.w == 0.0 || !through_hole(int(corner.w), u, v)))
           hidden |= 1u << i;
       }
     }
@@ -144,7 +163,7 @@ float opening_seen(vec3 from, vec3 to, vec4 left, vec4 up) {
 float reaching_by_rays(vec3 at, uint lamp, uint map) {
   vec3 middle = frame.lamps[lamp].position.xyz + vec3(frame.shadows[lamp].u.w, frame.shadows[lamp].v.w, frame.shadows[lamp].w.w);
   vec4 left = texelFetch(shadow_depths, 2 * int(map)), up = texelFetch(shadow_depths, 2 * int(map) + 1);
-  if (shadow_taps - kTapsOfRays == 1) return ray_blocked(at, middle, left.w) ? 0.0 : 1.0;
+  if ((shadow_taps - kTapsOfRays) % kTapsWithHoles == 1) return ray_blocked(at, middle, left.w) ? 0.0 : 1.0;
   return opening_seen(at, middle, left, up);
 }
 #endif

@@ -115,7 +115,7 @@ class Pictures {
     find_exposure_errors(exposure);
     const std::array all{&light, &shadows, &lens, &fog, &exposure};
     const std::array into{&ladders.light, &ladders.shadows, &ladders.lens, &ladders.fog, &ladders.exposure};
-    time_turn_by_turn(all);
+    time_turn_by_turn(all, lens, shadows);
     for (std::size_t k = 0; k < all.size(); ++k)
       for (Case& one : *all[k]) into[k]->levels.push_back(std::move(one.level));
     return ladders;
@@ -336,7 +336,8 @@ class Pictures {
     for (std::size_t k = 0; k < cases.size(); ++k) cases[k].level.error = errors_of(std::move(differences[k]));
   }
 
-  void time_turn_by_turn(std::span<std::vector<Case>* const> all) {
+  void time_turn_by_turn(std::span<std::vector<Case>* const> all, const std::vector<Case>& lens,
+                         std::vector<Case>& shadows) {
     const int rounds = plan_.quick ? 9 : 60;
     for (int round = 0; round < rounds; ++round) {
       plan_.progress("frames, round " + std::to_string(round + 1) + " of " + std::to_string(rounds),
@@ -344,15 +345,18 @@ class Pictures {
       const double x_m = kPlaces_m[0] + 0.1 * (round % 64);
       for (std::vector<Case>* cases : all)
         for (Case& one : *cases) {
-          // Rays take as long as dozens of others: every tenth round.
-          if (one.shadows >= kRayShadows && round % 10 != 0) continue;
+          // Rays take as long as dozens of others: every tenth round, in one ladder, and beside them nothing is warmed up.
+          const bool by_rays = one.shadows >= kRayShadows;
+          if (by_rays && (round % 10 != 0 || (cases == &shadows && !lens.empty()))) continue;
           const FrameInput input = one.view(x_m);
-          one.renderer->draw(input);
+          if (!by_rays) one.renderer->draw(input);
           const double begin = processor_ms();
           one.renderer->draw(input);
           one.times_ms.push_back(processor_ms() - begin);
         }
     }
+    for (std::size_t level = kRayShadows; level < std::min(shadows.size(), lens.size()); ++level)
+      shadows[level].times_ms = lens[level].times_ms;
     for (std::vector<Case>* cases : all)
       for (Case& one : *cases) one.level.time = times_of(std::move(one.times_ms));
   }

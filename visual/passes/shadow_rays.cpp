@@ -172,6 +172,7 @@ void ShadowRays::place(gpu::FrameGraph& graph, LitScene& scene, LitView& view, c
   });
   for (DrawItem& item : view.items) item.shadowed = true;
   view.shadows = level;
+  if (!scene.casters().holes().empty()) view.shadows.taps += shader::kTapsWithHoles;
   view.depths = texels_.get();
 }
 
