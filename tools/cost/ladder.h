@@ -26,7 +26,7 @@ Errors errors_of(std::vector<double> differences);
 struct Times {
   double median = 0.0;
   std::optional<double> p95{};  ///< where single ones were timed
-  /// The median of all times lies so near with 95 %, by order statistics (ISO 16269-7:2001); none of fewer than 6.
+  /// The median of all times lies so near with 95 %, by order statistics (ISO 16269-7:2001); none of fewer than 8.
   std::optional<double> within{};
   std::size_t samples = 0;
 };

@@ -24,7 +24,7 @@ namespace phare::cost {
 namespace {
 
 int rounds_of(const SettingsPlan& plan) {
-  return plan.quick ? 12 : 60;
+  return plan.quick ? 8 : 60;
 }
 
 constexpr double kDim_lx = 0.01;  // below, no share is taken

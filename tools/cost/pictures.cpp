@@ -338,7 +338,7 @@ class Pictures {
 
   void time_turn_by_turn(std::span<std::vector<Case>* const> all, const std::vector<Case>& lens,
                          std::vector<Case>& shadows) {
-    const int rounds = plan_.quick ? 9 : 60;
+    const int rounds = plan_.quick ? 8 : 60;
     for (int round = 0; round < rounds; ++round) {
       plan_.progress("frames, round " + std::to_string(round + 1) + " of " + std::to_string(rounds),
                      0.3 + 0.7 * round / rounds);
