@@ -143,8 +143,8 @@ EffectDecision windscreen(const EffectFacts& facts) {
 }
 
 constexpr std::array<EffectRow, kEffectCount> kTable{
-    {{Effect::kShadows, "shadows", kShadowNames, "a depth map for each lamp with something in its light, and its copy; rays: the triangles in a buffer",
-      shadows},
+    {{Effect::kShadows, "shadows", kShadowNames,
+      "a depth map for each lamp with something in its light, and its copy; rays: the triangles in a buffer", shadows},
      {Effect::kDepthFirst, "depth first", kOffOnNames, "a depth pass before the lit pass", depth_first},
      {Effect::kHdrImage, "hdr image", kOffOnNames, "an image of 8 bytes a pixel and the tone-mapping pass", hdr_image},
      {Effect::kOverlay, "overlay", kOffOnNames, "a pass of text over the picture", overlay},

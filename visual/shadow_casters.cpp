@@ -110,7 +110,7 @@ ShadowCasters::Chunk ShadowCasters::chunk_of(const Scene& scene, const SceneChun
 const CasterMesh& ShadowCasters::Chunk::mesh_at(double distance_m, double far_from_m) const {
   const CasterMesh* mesh = &whole;
   for (std::size_t level = 0; level < far.size(); ++level)
-    if (distance_m >= kFarLevels[level].from * far_from_m) mesh = &far[level];
+    if (far[level] && distance_m >= kFarLevels[level].from * far_from_m) mesh = &*far[level];
   return *mesh;
 }
 

@@ -84,9 +84,9 @@ struct CasterMesh {
 /// So many of kFarLevels begin nearer than kShadowsTo_m from the lamp in a picture of common pixels.
 inline constexpr std::size_t kFarCasterLevels = 3;
 
-/// Of one chunk, by how far from the lamp it is: as kFarLevels has it, those that begin nearer than kShadowsTo_m. None:
-/// the whole mesh everywhere.
-using FarCasters = std::vector<CasterMesh>;
+/// Of one chunk, by how far from the lamp it is: as kFarLevels has it, those that begin nearer than kShadowsTo_m; none
+/// where it is the mesh before. Empty: the whole mesh everywhere.
+using FarCasters = std::vector<std::optional<CasterMesh>>;
 
 /// What of all that stands in the light is to cast.
 struct CastersFor {

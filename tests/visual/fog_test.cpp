@@ -280,7 +280,7 @@ TEST_F(FogOnDevice, RaysAreThoseOfTheReference) {
       kind.push_back(off);
       if (&kind == &own && off >= *std::ranges::max_element(own)) worst_row = i;
     }
-    ASSERT_GE(own.size(), 5u);
+    ASSERT_GT(own.size(), level == 4 ? 4u : 12u);
     const auto worst_and_median = [](std::vector<double>& offs) {
       std::ranges::sort(offs);
       return std::pair(offs.back(), offs[offs.size() / 2]);
@@ -291,7 +291,7 @@ TEST_F(FogOnDevice, RaysAreThoseOfTheReference) {
         "%s: %zu rays, worst relative difference %.2g (row %zu), median %.2g; %zu beside oncoming lamps %.2g, %.2g\n",
         std::string(kFogNames[level]).c_str(), own.size(), worst, worst_row, median, oncoming.size(), worst_oncoming,
         median_oncoming);
-    constexpr std::array<double, 5> kMost{0.0, 0.25, 0.05, 0.005, 0.005}, kMostOncoming{0.0, 1.0, 0.05, 0.02, 0.02};
+    constexpr std::array<double, 5> kMost{0.0, 0.25, 0.05, 0.005, 0.003}, kMostOncoming{0.0, 1.0, 0.05, 0.02, 0.01};
     EXPECT_LE(worst, kMost[level]) << kFogNames[level];
     EXPECT_LE(worst_oncoming, kMostOncoming[level]) << kFogNames[level];
   }

@@ -90,9 +90,9 @@ TEST(ShadowCasters, NoneIsLeftOutWhoseShadowFallsIntoTheView) {
 TEST(ShadowCasters, WhatIsFarCastsByItsFarMesh) {
   const std::vector<Corners> near_and_far{{{{20, -1, 0}, {20, 1, 0}, {20, 0, 2}}}, {{{200, -1, 0}, {200, 1, 0}, {200, 0, 2}}}};
   // In place of the triangle: nothing at the first level, two triangles at the second.
-  FarCasters far(2);
-  far[1].corners_m = {{200, -1, 0}, {200, 1, 0}, {200, 0, 1}, {200, 0, 2}};
-  far[1].indices = {0, 1, 2, 0, 1, 3};
+  FarCasters far(3);
+  far[0].emplace();
+  far[1] = {.corners_m = {{200, -1, 0}, {200, 1, 0}, {200, 0, 1}, {200, 0, 2}}, .indices = {0, 1, 2, 0, 1, 3}};
   const ShadowCasters casters(scene_of(near_and_far), {}, {far, far});
   const LampReach reach({0.0, 0.0, 0.65}, glm::dmat3(1.0), {{1.0, 0.0, 0.0}, 1.2});
   const auto triangles = [&](double far_from_m) {
@@ -102,6 +102,7 @@ TEST(ShadowCasters, WhatIsFarCastsByItsFarMesh) {
   EXPECT_EQ(triangles(190.0), 3u) << "beyond " << kFarLevels[1].from << " times as far: the second level";
   EXPECT_EQ(triangles(250.0), 1u) << "between both: the first";
   EXPECT_EQ(triangles(1000.0), 2u);
+  EXPECT_EQ(triangles(60.0), 3u) << "beyond the third level, which is the mesh before";
 }
 
 }  // namespace

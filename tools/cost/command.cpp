@@ -122,11 +122,11 @@ class CostRun {
   }
 
   Status measure(Plan& plan) {
-    if (options_.quick && options_.ladders.empty()) left_out_.push_back("lens: --ladder lens, or without --quick");
     ProgressLine line;
     plan.progress = [&](const std::string& doing, double share_01) { line.show(doing, share_01); };
     if (wanted("light") || wanted("shadows") || wanted("lens") || wanted("fog") || wanted("exposure")) {
 #ifdef PHARE_WITH_GRAPHICS
+      if (options_.quick && options_.ladders.empty()) left_out_.push_back("lens: --ladder lens, or without --quick");
       Result<PictureLadders> pictures = picture_ladders(plan);
       if (!pictures) return pictures.error();
       device_ = pictures->device;

@@ -305,7 +305,7 @@ class Pictures {
     if (!made) return made.error();
     std::vector<FogErrors> errors =
         fog_errors(*made, table_, {.visibility_m = kVisibility_m}, {plan_.width_px, plan_.height_px},
-                   plan_.width_px / (plan_.quick ? 24 : 60));
+                   plan_.width_px / (plan_.quick ? 16 : 60));
     for (std::size_t level = 0; level < std::min(errors.size(), cases.size()); ++level) {
       char note[64];
       std::snprintf(note, sizeof note, "of the fog's light misplaced: %.2g %%", 100.0 * errors[level].misplaced);
@@ -338,7 +338,7 @@ class Pictures {
 
   void time_turn_by_turn(std::span<std::vector<Case>* const> all, const std::vector<Case>& lens,
                          std::vector<Case>& shadows) {
-    const int rounds = plan_.quick ? 8 : 60;
+    const int rounds = plan_.quick ? 7 : 60;
     for (int round = 0; round < rounds; ++round) {
       plan_.progress("frames, round " + std::to_string(round + 1) + " of " + std::to_string(rounds),
                      0.3 + 0.7 * round / rounds);

@@ -119,7 +119,16 @@ DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std:
 // Ground casts as a whole: where it hides a lamp behind a crest, a hand's breadth of height is metres of shadow.
 void keep_far_caster(const Scene& scene, const DrawnChunk& mesh, std::size_t level, Gathered& all) {
   if (level >= kFarCasterLevels || is_ground(scene.materials[mesh.chunk->material])) return;
-  CasterMesh& kept = all.far_casters[static_cast<std::size_t>(mesh.chunk - scene.chunks.data())].emplace_back();
+  FarCasters& far = all.far_casters[static_cast<std::size_t>(mesh.chunk - scene.chunks.data())];
+  // What loses no triangle is the mesh before: a large scene is not kept twice.
+  std::size_t before = mesh.chunk->index_count;
+  for (const std::optional<CasterMesh>& kept : far)
+    if (kept) before = kept->indices.size();
+  if (mesh.indices.size() == before) {
+    far.emplace_back();
+    return;
+  }
+  CasterMesh& kept = far.emplace_back().emplace();
   for (const SceneVertex& vertex : mesh.vertices) kept.corners_m.push_back(vertex.position_m);
   kept.indices.assign(mesh.indices.begin(), mesh.indices.end());
   for (const CornerLook& look : mesh.looks) kept.uvs.push_back(look.uv);

@@ -19,8 +19,8 @@
 
 namespace phare {
 
-/// Of rays one goes to the lamp's middle, or shader::kLensRays over its opening.
-/// Of each of the two pictures of a map. In the order of the effect's levels (visual/effects.h), the first being off.
+/// In the order of the effect's levels (visual/effects.h), the first being off: of each of the two pictures of a map; of
+/// rays one to the lamp's middle, or shader::kLensRays over its opening.
 inline constexpr std::array<ShadowLevel, kShadowNames.size()> kShadowLevels{{{},
                                                                              {1024, 512, 1},
                                                                              {1024, 512, 4},
