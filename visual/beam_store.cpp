@@ -73,6 +73,7 @@ bool BeamStore::fit(Texels& texels, vk::Format format, std::size_t count, std::s
   if (count > most)
     throw std::runtime_error("the device's texel buffers hold " + std::to_string(most) + " texels, and a " + name +
                              " takes " + std::to_string(count));
+  if (*texels.view) device_.wait_for_frames();
   texels = {};  // first, so that both never take memory at once
   texels.buffer = gpu::DeviceBuffer(device_, count * bytes_each, vk::BufferUsageFlagBits::eUniformTexelBuffer, name);
   texels.view = vk::raii::BufferView(
@@ -85,6 +86,7 @@ bool BeamStore::fit(Texels& texels, vk::Format format, std::size_t count, std::s
 bool BeamStore::fit(gpu::Image& image, vk::Format format, const PackedBeam& packed, const char* name) {
   const vk::Extent2D extent{packed.columns, packed.rows_of_candela};
   if (*image.image && image.extent == extent && image.format == format) return false;
+  if (*image.image) device_.wait_for_frames();
   image = gpu::Image(device_, format, extent, vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
                      name);
   return true;
@@ -111,7 +113,7 @@ bool BeamStore::fit_all(Beam& beam) {
 // Rows of texels of a part, in a buffer of `row` texels a row.
 void BeamStore::fill(vk::CommandBuffer commands, const gpu::DeviceBuffer& buffer, std::span<const std::byte> bytes,
                      const TexelRect& part, std::size_t row, std::size_t bytes_each) {
-  const gpu::Staging::Place from = staging_.put(bytes);
+  const gpu::Staging::Place from = staging_->put(device_, bytes);
   const std::size_t row_bytes = (part.end_column - part.column) * bytes_each;
   std::vector<vk::BufferCopy> copies;
   for (std::size_t j = part.row; j < part.end_row; ++j)
@@ -123,7 +125,7 @@ void BeamStore::fill(vk::CommandBuffer commands, const gpu::DeviceBuffer& buffer
 
 void BeamStore::fill(vk::CommandBuffer commands, gpu::Image& image, std::span<const std::byte> bytes,
                      const TexelRect& part) {
-  const gpu::Staging::Place from = staging_.put(bytes);
+  const gpu::Staging::Place from = staging_->put(device_, bytes);
   const vk::BufferImageCopy copy{
       .bufferOffset = from.offset,
       .imageSubresource = {image.aspect, 0, 0, 1},
@@ -161,7 +163,7 @@ void BeamStore::upload(vk::CommandBuffer commands, Beam& beam, bool whole) {
 }
 
 bool BeamStore::upload(gpu::FrameGraph& graph) {
-  staging_.begin_frame();
+  staging_->begin_frame();
   bool made = false;
   std::vector<std::pair<Beam*, bool>> changed;  // with whether all of it did
   for (Beam& beam : beams_) {

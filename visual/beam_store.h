@@ -20,8 +20,8 @@ class BeamStore {
   void change(std::size_t index, const BeamImage& image, std::span<const TexelRect> changed);
   /// One that was never set is dark.
   const PackedBeam& beam(std::size_t index) const { return at(index).packed; }
-  /// Uploads what changed, in a pass of the frame that is being recorded; the frame before is done. True when buffers
-  /// or images are new ones and descriptors have to follow.
+  /// Uploads what changed, in a pass of the frame that is being recorded. True when buffers or images are new ones and
+  /// descriptors have to follow.
   bool upload(gpu::FrameGraph& graph);
   /// Fills the table fields of a lamp with beam `index`.
   void describe(std::size_t index, shader::GpuLamp& lamp) const;
@@ -64,7 +64,7 @@ class BeamStore {
   void upload(vk::CommandBuffer commands, Beam& beam, bool whole);
 
   gpu::Device& device_;
-  gpu::Staging staging_{device_};
+  gpu::PerFrame<gpu::Staging> staging_{device_};
   std::vector<Beam> beams_;
   Beam never_set_;
   Texels nothing_;  ///< what descriptors name that nobody reads

@@ -57,17 +57,19 @@ void LitScene::add_fixed_light(LitView& view) {
     view.sky.moon = MoonDisc{moon->toward, moon->colour * static_cast<float>(moon->lx / steradians)};
   }
   add_mirrored(view);
-  view.first_probe = probes_used_;
+  auto& probes = written_->probes;
+  std::size_t& used = written_->probes_used;
+  view.first_probe = used;
   for (const PlacedMesh& mesh : view.moving) {
-    const std::size_t page = probes_used_ / kProbesInPage, place = probes_used_ % kProbesInPage;
-    if (page == probes_.size())
-      probes_.push_back(std::make_unique<gpu::HostBuffer>(
+    const std::size_t page = used / kProbesInPage, place = used % kProbesInPage;
+    if (page == probes.size())
+      probes.push_back(std::make_unique<gpu::HostBuffer>(
           device_, kProbesInPage * sizeof(FixedProbe), vk::BufferUsageFlagBits::eVertexBuffer, "light on what moves"));
     // At the middle of its bounds, where light passes over the road and under roofs.
     glm::dvec3 low_m(0.0), high_m(0.0);
     bool begun = false;
     if (mesh.mesh >= geometry_.moving.size()) {  // nothing of it is drawn; its place is counted
-      ++probes_used_;
+      ++used;
       continue;
     }
     for (const SceneBatch& batch : geometry_.moving[mesh.mesh].batches) {
@@ -75,9 +77,9 @@ void LitScene::add_fixed_light(LitView& view) {
       high_m = begun ? glm::max(high_m, batch.high_m) : batch.high_m;
       begun = true;
     }
-    static_cast<FixedProbe*>(probes_[page]->data)[place] =
+    static_cast<FixedProbe*>(probes[page]->data)[place] =
         fixed_light_->probe(mesh.position_m + mesh.world_from_mesh * (0.5 * (low_m + high_m)));
-    ++probes_used_;
+    ++used;
   }
 }
 
@@ -95,7 +97,7 @@ void LitScene::add_mirrored(const LitView& view) {
 void LitScene::bind_fixed_light(vk::CommandBuffer commands, const LitView& view, const DrawItem& item,
                                 vk::Buffer& bound) const {
   vk::Buffer wanted = *geometry_.fixed_light.buffer;
-  if (item.moves != DrawItem::kStands) wanted = *probes_[(view.first_probe + item.moves) / kProbesInPage]->buffer;
+  if (item.moves != DrawItem::kStands) wanted = *written_->probes[(view.first_probe + item.moves) / kProbesInPage]->buffer;
   if (wanted != bound) commands.bindVertexBuffers(1, bound = wanted, vk::DeviceSize{0});
 }
 

@@ -50,6 +50,7 @@ LitScene::Reference& LitScene::reference() {
   }
   if (!reference_begun_) {
     images_.resize(beam_versions_.size());
+    device_.wait_for_frames();  // its buffers are written in place
     reference_->light.begin_frame(images_, beam_versions_, geometry_);
     reference_begun_ = true;
   }

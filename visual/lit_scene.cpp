@@ -185,7 +185,7 @@ void LitScene::set_geometry(SceneBuffers geometry, ShadowCasters casters, std::s
   fixed_light_ = std::move(light);
   casters_ = std::move(casters);
   ++geometry_version_;
-  forget_sets();
+  ++beams_made_;
 }
 
 void LitScene::set_beam(std::size_t beam, const BeamImage& image) {
@@ -211,15 +211,14 @@ void LitScene::change_beam(std::size_t beam, const BeamImage& image, std::span<c
 }
 
 void LitScene::begin_frame(gpu::FrameGraph& graph) {
-  views_ = 0;
-  probes_used_ = 0;
+  Written& written = *written_;
+  written.views = written.probes_used = 0;
   reference_begun_ = false;
-  if (beams_.upload(graph) || set_of_.size() > kMostSets) forget_sets();  // a set may name an image that is no more
-}
-
-void LitScene::forget_sets() {
-  set_of_.clear();
-  sets_.clear();
+  if (beams_.upload(graph)) ++beams_made_;
+  // A set may name a buffer or an image that is no more.
+  if (std::exchange(written.names_of, beams_made_) == beams_made_ && written.set_of.size() <= kMostSets) return;
+  written.set_of.clear();
+  sets_.begin_frame();
 }
 
 bool LitScene::filtered() const {
@@ -246,12 +245,12 @@ std::size_t LitScene::tables_of(std::vector<shader::TableShape> shapes) {
 }
 
 vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
-  const auto [found, fresh] = set_of_.try_emplace({page, beams});
+  const auto [found, fresh] = written_->set_of.try_emplace({page, beams});
   if (!fresh) return found->second;
   const vk::DescriptorSet set = found->second = sets_.make();
   using Type = vk::DescriptorType;
   const std::array buffers{std::tuple(0u, Type::eUniformBufferDynamic,
-                                      vk::DescriptorBufferInfo{*pages_[page]->buffer, 0, sizeof(shader::GpuFrame)}),
+                                      vk::DescriptorBufferInfo{*written_->pages[page]->buffer, 0, sizeof(shader::GpuFrame)}),
                            std::tuple(3u, Type::eUniformBuffer,
                                       vk::DescriptorBufferInfo{*geometry_.material_buffer.buffer, 0, VK_WHOLE_SIZE}),
                            std::tuple(5u, Type::eUniformBuffer,

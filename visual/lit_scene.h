@@ -67,8 +67,14 @@ struct ShadowLevel {
 
 /// The maps of a view, as texels one after the other; or the scene's triangles, for rays.
 struct ShadowDepths {
-  gpu::HostBuffer triangles;  ///< that cast them, corner by corner
-  gpu::HostBuffer cut_triangles;  ///< those with holes
+  explicit ShadowDepths(gpu::Device& device) : triangles(device) {}
+
+  /// That cast them, corner by corner.
+  struct Triangles {
+    gpu::HostBuffer whole;
+    gpu::HostBuffer cut;  ///< those with holes
+  };
+  gpu::PerFrame<Triangles> triangles;
   gpu::DeviceBuffer texels;
   vk::raii::BufferView view{nullptr};
   gpu::DescriptorSets sets{};
@@ -164,7 +170,7 @@ class LitScene {
   bool is_dark(std::size_t beam) const { return beams_.beam(beam).dark; }
   std::uint64_t uploaded_texels() const { return beams_.uploaded_texels(); }
 
-  /// Before the views of a frame; the frame before is done. Uploads the beams that changed, in a pass.
+  /// Before the views of a frame. Uploads the beams that changed, in a pass.
   void begin_frame(gpu::FrameGraph& graph);
   /// A view of the scene with those of the lamps that reach something in it. Up to kLampsForAll light all that it sees;
   /// of more, each block is lit by those that reach it: fewer to sum, at the price of a pipeline for every number.
@@ -264,7 +270,6 @@ class LitScene {
   vk::ShaderModule fixed_module(const LitVariant& variant, std::size_t size, bool vertex);
   std::size_t tables_of(std::vector<shader::TableShape> shapes);
   vk::DescriptorSet set_of(std::size_t page, const Beams& beams);
-  void forget_sets();
 
   gpu::Device& device_;
   ImageLevel level_;
@@ -272,8 +277,6 @@ class LitScene {
   ShadowCasters casters_;
   std::uint64_t geometry_version_ = 0;
   std::shared_ptr<const FixedLight> fixed_light_ = std::make_shared<FixedLight>();
-  std::vector<std::unique_ptr<gpu::HostBuffer>> probes_;  ///< of what moves in this frame; more are made when needed
-  std::size_t probes_used_ = 0;
   BeamStore beams_;
   std::vector<LightCone> cones_;  ///< of each beam
   std::vector<std::uint64_t> beam_versions_;
@@ -281,12 +284,20 @@ class LitScene {
   std::vector<float> peaks_cd_;    ///< of each beam; of one that was changed, at most
   Grain grain_;
   gpu::DescriptorSets sets_, shadow_sets_, fog_sets_;  ///< of the last two only the layout
-  std::map<std::pair<std::size_t, Beams>, vk::DescriptorSet> set_of_;
   vk::raii::PipelineLayout layout_{nullptr};
   vk::raii::Sampler filter_sampler_{nullptr};
   vk::DeviceSize stride_ = 0;                            ///< of the data of one view
-  std::vector<std::unique_ptr<gpu::HostBuffer>> pages_;  ///< data of views; more are made when a frame has more views
-  std::size_t views_ = 0;                                ///< of this frame
+  /// What one frame writes for its own draws; more pages are made when it needs them.
+  struct Written {
+    std::vector<std::unique_ptr<gpu::HostBuffer>> pages;   ///< data of views
+    std::size_t views = 0;
+    std::vector<std::unique_ptr<gpu::HostBuffer>> probes;  ///< of what moves
+    std::size_t probes_used = 0;
+    std::map<std::pair<std::size_t, Beams>, vk::DescriptorSet> set_of;
+    std::uint64_t names_of = 0;  ///< beams_made_ when the sets were made
+  };
+  gpu::PerFrame<Written> written_{device_};
+  std::uint64_t beams_made_ = 0;  ///< how often buffers or images of beams were made anew
   std::vector<std::vector<shader::TableShape>> table_shapes_;  ///< of the lamps of a view, each set that came up
   std::map<LitVariant, vk::raii::Pipeline> pipelines_;
   using Modules = std::array<vk::raii::ShaderModule, 6>;  ///< for up to 2, 4, 8 lamps; the same with shadows

@@ -206,7 +206,7 @@ void LitScene::bind_look(vk::CommandBuffer commands, const SceneBatch& batch, bo
 
 void LitScene::bind_fixed_light_of_look(vk::CommandBuffer commands, const LitView& view, const DrawItem& item) const {
   if (item.moves != DrawItem::kStands)
-    commands.bindVertexBuffers(kLightAt, *probes_[(view.first_probe + item.moves) / kProbesInPage]->buffer,
+    commands.bindVertexBuffers(kLightAt, *written_->probes[(view.first_probe + item.moves) / kProbesInPage]->buffer,
                                vk::DeviceSize{0});
   else
     commands.bindVertexBuffers(kLightAt, *geometry_.fixed_light.buffer,

@@ -132,13 +132,14 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
   };
   lit.alike = lit.lamps == 2 && axes_of(0) == axes_of(1);
   lit.tables = tables_of(std::move(shapes));
-  const std::size_t page = views_ / kViewsInPage, place = views_ % kViewsInPage;
-  ++views_;
-  if (page == pages_.size())
-    pages_.push_back(std::make_unique<gpu::HostBuffer>(device_, kViewsInPage * stride_,
+  auto& pages = written_->pages;
+  const std::size_t view_number = written_->views++;
+  const std::size_t page = view_number / kViewsInPage, place = view_number % kViewsInPage;
+  if (page == pages.size())
+    pages.push_back(std::make_unique<gpu::HostBuffer>(device_, kViewsInPage * stride_,
                                                        vk::BufferUsageFlagBits::eUniformBuffer, "views"));
   lit.data_at = static_cast<std::uint32_t>(place * stride_);
-  lit.data = reinterpret_cast<shader::GpuFrame*>(static_cast<std::byte*>(pages_[page]->data) + lit.data_at);
+  lit.data = reinterpret_cast<shader::GpuFrame*>(static_cast<std::byte*>(pages[page]->data) + lit.data_at);
   std::memcpy(lit.data, &frame, sizeof frame);
   lit.set = set_of(page, bound);
   return lit;

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <random>
@@ -32,6 +33,12 @@ gpu::DeviceOptions device_options(const RendererOptions& options) {
     result.instance_extensions.assign(names, names + count);
   }
   return result;
+}
+
+/// Something of the frame is read back.
+bool is_kept(const FrameInput& input) {
+  const auto kept = [](const ViewInput& view) { return view.want_image || view.want_hdr; };
+  return kept(input) || std::ranges::any_of(input.more_views, kept);
 }
 
 /// As shaders/reference.h has them.
@@ -76,14 +83,34 @@ struct Renderer::Impl {
   FrameTarget target;
   std::map<std::size_t, Copy> images, hdrs;  ///< read back, by view
   bool misfit = false;                       ///< the window is another than the newest frame was drawn for
-  vk::raii::CommandBuffers commands{nullptr};
-  vk::raii::Fence fence{nullptr};
+
+  using Clock = std::chrono::steady_clock;
+  /// What goes to the device at once.
+  struct Submission {
+    vk::raii::CommandBuffers commands{nullptr};
+    vk::raii::Fence fence{nullptr};
+    bool on_way = false;
+    Clock::time_point begun{};  ///< of a frame: when it was called for
+    bool kept = false;          ///< of a frame: something of it is read back
+  };
+  std::array<Submission, gpu::kMostFramesInFlight> submissions;  ///< by Device::frame
+  /// Of the newest frame that is done, until they are told.
+  struct Times {
+    double wall_ms = 0.0, gpu_ms = 0.0;
+    bool kept = false;
+    std::vector<PassTime> passes;
+  };
+  std::optional<Times> times;
+  Clock::time_point done{};  ///< the newest frame that is
 
   explicit Impl(const RendererOptions& wanted) : options(wanted), device(device_options(wanted)) {
-    if (options.window != nullptr) surface = std::make_unique<gpu::WindowSurface>(device, options.window);
-    commands = vk::raii::CommandBuffers(
-        device.device, vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
-    fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
+    if (options.window != nullptr)
+      surface = std::make_unique<gpu::WindowSurface>(device, options.window, options.frames_in_flight);
+    for (Submission& submission : submissions) {
+      submission.commands = vk::raii::CommandBuffers(
+          device.device, vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
+      submission.fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
+    }
     set_target(options.width_px, options.height_px);
     set_scene(Scene{}, Scene{}, std::make_shared<FixedLight>());
   }
@@ -114,6 +141,7 @@ struct Renderer::Impl {
     if (surface) extent = surface->extent();
     if (const auto why = too_large(extent.width, extent.height, options.samples, device_bytes()))
       throw std::runtime_error(*why);
+    finish();
     device.device.waitIdle();
     target = {extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
               surface ? surface->format() : vk::Format::eR8G8B8A8Unorm};
@@ -123,33 +151,73 @@ struct Renderer::Impl {
 
   void set_scene(const Scene& new_scene, const Scene& moving, std::shared_ptr<const FixedLight> light,
                  const Progress& progress = {}) {
+    finish();
     device.device.waitIdle();
     SceneBuffers buffers(device, new_scene, moving, *light, progress);
     ShadowCasters casters(new_scene, moving, std::move(buffers.far_casters));
     scene.set_geometry(std::move(buffers), std::move(casters), std::move(light));
   }
 
-  /// Submits what `record` puts into the graph and waits for it.
+  void wait_for(Submission& submission) {
+    if (!std::exchange(submission.on_way, false)) return;
+    if (device.device.waitForFences(*submission.fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
+      throw std::runtime_error("waiting for the GPU failed");
+    device.frames_on_way = std::ranges::any_of(submissions, &Submission::on_way);
+  }
+
+  /// Submits what `record` puts into the graph.
   template <typename Record>
-  void submit(Record&& record) {
-    const vk::CommandBuffer buffer = *commands.front();
+  Submission& submit(Record&& record) {
+    Submission& now = submissions[device.frame];
+    wait_for(now);  // one that failed to be recorded has left another of this number
+    const vk::CommandBuffer buffer = *now.commands.front();
     buffer.reset();
     buffer.begin(vk::CommandBufferBeginInfo{.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     graph.begin(buffer);
     record();
     graph.end();
     buffer.end();
-    device.device.resetFences(*fence);
-    device.queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &buffer}, *fence);
-    if (device.device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
-      throw std::runtime_error("waiting for the GPU failed");
+    device.device.resetFences(*now.fence);
+    device.queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &buffer}, *now.fence);
+    now.on_way = device.frames_on_way = true;
+    return now;
   }
+
+  /// The same, alone on the device.
+  template <typename Record>
+  void submit_and_wait(Record&& record) {
+    finish();
+    wait_for(submit(std::forward<Record>(record)));
+  }
+
+  /// Waits for the frame of this number, shows it and takes its times.
+  void finish(std::size_t frame) {
+    Submission& submission = submissions[frame];
+    if (!submission.on_way) return;
+    wait_for(submission);
+    if (surface) misfit = !surface->show(frame) || misfit;
+    const Clock::time_point now = Clock::now(), from = std::max(submission.begun, std::exchange(done, now));
+    times = {.wall_ms = std::chrono::duration<double, std::milli>(now - from).count(),
+             .gpu_ms = graph.total_ms(frame),
+             .kept = submission.kept,
+             .passes = {}};
+    for (const gpu::FrameGraph::Timing& timing : graph.timings(frame)) times->passes.push_back({timing.name, timing.ms});
+  }
+
+  void finish() {
+    finish(other_frame());
+    finish(device.frame);
+  }
+  /// Than the one recorded last: if it is on its way, the older one.
+  std::size_t other_frame() const { return (device.frame + 1) % submissions.size(); }
 
   void copy_out(gpu::Image& image, const vk::Rect2D& part, Copy& copy, vk::DeviceSize bytes_per_texel) {
     copy.extent = part.extent;
     const vk::DeviceSize bytes = bytes_per_texel * part.extent.width * part.extent.height;
-    if (copy.buffer.bytes != bytes)
+    if (copy.buffer.bytes != bytes) {
+      device.wait_for_frames();
       copy.buffer = gpu::HostBuffer(device, bytes, vk::BufferUsageFlagBits::eTransferDst, image.name + " copy", true);
+    }
     graph.copy("read back " + image.name, {{&image, gpu::Use::kCopySource, false}}, [&](gpu::Recorder& c) {
       c.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *copy.buffer.buffer,
                           vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
@@ -157,8 +225,8 @@ struct Renderer::Impl {
                                               .imageExtent = {part.extent.width, part.extent.height, 1}});
       const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
                                        .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
-                                       .dstStageMask = vk::PipelineStageFlagBits2::eHost,
-                                       .dstAccessMask = vk::AccessFlagBits2::eHostRead};
+                                       .dstStageMask = vk::PipelineStageFlagBits2::eHost | vk::PipelineStageFlagBits2::eCopy,
+                                       .dstAccessMask = vk::AccessFlagBits2::eHostRead | vk::AccessFlagBits2::eTransferWrite};
       c.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
     });
   }
@@ -171,8 +239,15 @@ struct Renderer::Impl {
     const auto unasked = [&](std::size_t view, bool ViewInput::*wanted) {
       return view > 0 && (view > input.more_views.size() || !(input.more_views[view - 1].*wanted));
     };
-    std::erase_if(images, [&](const auto& copy) { return unasked(copy.first, &ViewInput::want_image); });
-    std::erase_if(hdrs, [&](const auto& copy) { return unasked(copy.first, &ViewInput::want_hdr); });
+    const auto forget = [&](std::map<std::size_t, Copy>& copies, bool ViewInput::*wanted) {
+      for (auto copy = copies.begin(); copy != copies.end();) {
+        const bool gone = unasked(copy->first, wanted);
+        if (gone) device.wait_for_frames();
+        copy = gone ? copies.erase(copy) : std::next(copy);
+      }
+    };
+    forget(images, &ViewInput::want_image);
+    forget(hdrs, &ViewInput::want_hdr);
   }
 
   FrameParts parts() {
@@ -208,6 +283,8 @@ Result<Renderer> Renderer::create(const RendererOptions& options) {
   if (std::int64_t{options.width_px} * options.height_px > kMostPixels)
     return Error{"picture size", std::to_string(options.width_px) + " × " + std::to_string(options.height_px) +
                                      " is more than " + std::to_string(kMostPixels) + " pixels"};
+  if (options.frames_in_flight < 1 || options.frames_in_flight > gpu::kMostFramesInFlight)
+    return Error{"frames in flight", "1 or " + std::to_string(gpu::kMostFramesInFlight)};
   if (options.samples != 1 && options.samples != 4) return Error{"samples", "1 or 4 samples a pixel"};
   try {
     return Renderer(std::make_unique<Impl>(options));
@@ -252,6 +329,7 @@ void Renderer::change_beam(std::size_t index, const BeamImage& image, std::span<
 }
 
 void Renderer::resize(int width_px, int height_px) {
+  impl_->finish();
   if (impl_->surface) impl_->surface->rebuild();
   impl_->set_target(width_px, height_px);
 }
@@ -262,20 +340,23 @@ PictureSize Renderer::picture_size() const {
 }
 
 FrameResult Renderer::draw(const FrameInput& input) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto begun = Impl::Clock::now();
   if (std::exchange(impl_->misfit, false)) resize(0, 0);  // not before: what the newest frame has kept is still read
   FrameParts parts = impl_->parts();
   FrameResult result;
   gpu::Image* display = nullptr;
   const std::uint64_t pipelines_before = *impl_->device.pipelines_made;
   impl_->forget_copies(input);
-  impl_->submit([&] { result.views = draw_frame(parts, input, display); });
-  impl_->misfit = impl_->surface && !impl_->surface->present(*display);
+  if (impl_->options.frames_in_flight > 1) impl_->device.frame = impl_->other_frame();
+  Impl::Submission& frame = impl_->submit([&] { result.views = draw_frame(parts, input, display); });
+  frame.begun = begun;
+  frame.kept = is_kept(input);
+  result.pipelines_made = *impl_->device.pipelines_made - pipelines_before;
+  impl_->finish(impl_->other_frame());
+  impl_->misfit = (impl_->surface && !impl_->surface->take(*display)) || impl_->misfit;
+  if (impl_->options.frames_in_flight == 1 || result.pipelines_made > 0) impl_->finish();
   impl_->graph.free_unused();
 
-  for (const gpu::FrameGraph::Timing& timing : impl_->graph.timings())
-    result.passes.push_back({timing.name, timing.ms});
-  result.gpu_ms = impl_->graph.total_ms();
   const gpu::Counts& counts = impl_->graph.counts();
   result.effects = result.views.front().effects;
   result.draws = counts.draws;
@@ -284,12 +365,23 @@ FrameResult Renderer::draw(const FrameInput& input) {
   result.images = counts.images;
   result.image_bytes = counts.image_bytes;
   result.shared_image_bytes = counts.shared_bytes;
-  result.pipelines_made = *impl_->device.pipelines_made - pipelines_before;
-  result.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  auto times = std::exchange(impl_->times, std::nullopt);
+  result.timed = times.has_value();
+  if (times) {
+    result.wall_ms = times->wall_ms;
+    result.gpu_ms = times->gpu_ms;
+    result.timed_kept = times->kept;
+    result.passes = std::move(times->passes);
+  }
   return result;
 }
 
+void Renderer::finish() {
+  impl_->finish();
+}
+
 Image8 Renderer::read_image(std::size_t view) const {
+  impl_->finish();
   const Impl::Copy& copy = Impl::copy_of(impl_->images, view);
   Image8 image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
   image.rgba.resize(copy.buffer.bytes);
@@ -301,6 +393,7 @@ Image8 Renderer::read_image(std::size_t view) const {
 }
 
 ImageF Renderer::read_hdr(std::size_t view) const {
+  impl_->finish();
   const Impl::Copy& copy = Impl::copy_of(impl_->hdrs, view);
   ImageF image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
   const auto* half = static_cast<const std::uint16_t*>(copy.buffer.data);
@@ -336,7 +429,7 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
     // One lamp at a time: what each gives is asked for, dark ones included.
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
       if (impl_->scene.is_dark(lamps[lamp].beam)) continue;
-      impl_->submit([&] {
+      impl_->submit_and_wait([&] {
         impl_->scene.begin_frame(impl_->graph);
         LitView view = impl_->scene.view_of_points(ViewGeometry(camera, 1.0), lamps.subspan(lamp, 1));
         view.method = method;
@@ -371,7 +464,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
   gpu::Image depth(impl_->device, vk::Format::eD32Sfloat, extent, Usage::eDepthStencilAttachment, "audit depth");
   Impl::Copy position_copy, normal_copy;
   const ViewGeometry geometry(input.camera, static_cast<double>(extent.width) / extent.height);
-  impl_->submit([&] {
+  impl_->submit_and_wait([&] {
     impl_->scene.begin_frame(impl_->graph);
     LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.moving, input.far_mesh_from_m, {});
     view.method = input.method;

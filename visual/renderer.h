@@ -43,6 +43,9 @@ struct RendererOptions {
   ImageLevel beam_level = ImageLevel::kFloatNodes;  ///< how beam images are stored and looked up
   std::string device_name{};  ///< pick a device whose name contains this; empty: the first discrete GPU, else any
   bool float64 = true;        ///< false: as if the device had no shaderFloat64
+  /// 1: a frame is waited for. 2: one is recorded while the device draws the one before, and a picture is up to a frame
+  /// older when it is seen. One that takes a new pipeline is waited for all the same.
+  std::size_t frames_in_flight = 1;
 };
 
 /// A lamp position in the world this frame.
@@ -133,8 +136,12 @@ struct ViewResult {
 };
 
 struct FrameResult {
-  double wall_ms = 0.0;  ///< from the call until the GPU was done
-  double gpu_ms = 0.0;   ///< first to last time stamp
+  /// Times: of this frame; where frames overlap, of the newest that is done. Nothing: they were told with a frame before.
+  bool timed = true;
+  bool timed_kept = false;  ///< of the frame they are of, something was read back
+  /// From the call until the GPU was done, and the picture shown; where frames overlap, from when the one before was.
+  double wall_ms = 0.0;
+  double gpu_ms = 0.0;  ///< first to last time stamp
   std::vector<PassTime> passes;
   EffectPlan effects;             ///< of the frame's own view: what was on, and why
   std::vector<ViewResult> views;  ///< its own, then the others
@@ -196,9 +203,11 @@ class Renderer {
   /// Of the frame's picture: of a window what it has now, not what was asked for.
   PictureSize picture_size() const;
 
-  /// Draws one frame and waits for it. In a window it is also presented.
+  /// Draws one frame and waits for it, or where frames overlap for the one before. In a window that is also presented.
   FrameResult draw(const FrameInput& input);
-  /// After draw with want_image: the picture of the frame's own view with all that lies over it, or what another view
+  /// Waits for all frames and shows them: for who has nothing to draw just now.
+  void finish();
+  /// After draw with want_image, which is waited for: the picture of the frame's own view with all that lies over it, or what another view
   /// drew (`view` counts from 1).
   Image8 read_image(std::size_t view = 0) const;
   ImageF read_hdr(std::size_t view = 0) const;  ///< after draw with want_hdr: the part of that view

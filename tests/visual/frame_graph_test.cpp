@@ -84,6 +84,8 @@ TEST_F(FrameGraphTest, ImagesOneAfterTheOtherShareMemoryAndKeepTheirOwnContent) 
 }
 
 TEST_F(FrameGraphTest, MemoryGoesWithTheLastImageThatUsesIt) {
+  frame([&] { clear("b", graph.image("b", kNeed), 0.5f); });  // room for time stamps stays
+  frame([] {});
   const std::uint64_t before = *device.allocated_bytes;
   frame([&] {
     Image& a = graph.image("a", kNeed);
@@ -150,7 +152,7 @@ TEST_F(FrameGraphTest, AnyNumberOfPassesIsTimed) {
     frame([&] {
       for (std::size_t i = 0; i < count; ++i) clear("pass", graph.image("a", kNeed), 0.5f);
     });
-    EXPECT_EQ(graph.timings().size(), count);
+    EXPECT_EQ(graph.timings(0).size(), count);
     EXPECT_EQ(graph.counts().passes, count);
   }
 }

@@ -38,6 +38,7 @@ TEST(FrameStats, CapturedFramesStayOutOfTheOtherFigure) {
   quick.wall_ms = 4.0;
   quick.passes = {{"lamps", 3.0}};
   slow.wall_ms = 90.0;
+  slow.timed_kept = true;
   for (int i = 0; i < 10; ++i) stats.add(quick, false);
   stats.add(slow, true);
   EXPECT_EQ(stats.frames, 11u);
@@ -45,6 +46,23 @@ TEST(FrameStats, CapturedFramesStayOutOfTheOtherFigure) {
   EXPECT_EQ(stats.wall_ms.max(), 90.0);
   EXPECT_EQ(stats.wall_no_capture_ms.max(), 4.0);
   EXPECT_EQ(stats.pass_ms.at("lamps").count(), 10u);
+}
+
+TEST(FrameStats, WhatIsToldWithoutTimesKeepsThoseBefore) {
+  FrameStats stats;
+  FrameResult timed, on_its_way;
+  timed.wall_ms = 4.0;
+  timed.passes = {{"lamps", 3.0}};
+  on_its_way.timed = false;
+  on_its_way.draws = 7;
+  stats.add(timed, false);
+  stats.add(on_its_way, true);
+  EXPECT_EQ(stats.frames, 2u);
+  EXPECT_EQ(stats.captured_frames, 1u);
+  EXPECT_EQ(stats.wall_ms.count(), 1u);
+  EXPECT_EQ(stats.newest.wall_ms, 4.0);
+  EXPECT_EQ(stats.newest.passes.size(), 1u);
+  EXPECT_EQ(stats.newest.draws, 7u);
 }
 
 TEST(AuditStats, ShareOnlyWhereThereIsLight) {

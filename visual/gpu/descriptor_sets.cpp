@@ -12,24 +12,35 @@ DescriptorSets::DescriptorSets(Device& device, std::span<const vk::DescriptorSet
 }
 
 vk::DescriptorSet DescriptorSets::make() {
-  if (made_ == pools_.size() * kInPool)
-    pools_.emplace_back(device_->device,
-                        vk::DescriptorPoolCreateInfo{.maxSets = kInPool,
-                                                     .poolSizeCount = static_cast<std::uint32_t>(sizes_.size()),
-                                                     .pPoolSizes = sizes_.data()});
+  auto& [pools, made] = pools_of_[device_->frame];
+  if (made == pools.size() * kInPool)
+    pools.emplace_back(device_->device,
+                       vk::DescriptorPoolCreateInfo{.maxSets = kInPool,
+                                                    .poolSizeCount = static_cast<std::uint32_t>(sizes_.size()),
+                                                    .pPoolSizes = sizes_.data()});
   const vk::DescriptorSetLayout layout = *layout_;
   const vk::DescriptorSet set =
       (*device_->device)
           .allocateDescriptorSets(vk::DescriptorSetAllocateInfo{
-              .descriptorPool = *pools_[made_ / kInPool], .descriptorSetCount = 1, .pSetLayouts = &layout})
+              .descriptorPool = *pools[made / kInPool], .descriptorSetCount = 1, .pSetLayouts = &layout})
           .front();
-  ++made_;
+  ++made;
   return set;
 }
 
+void DescriptorSets::Pools::clear() {
+  if (made == 0) return;
+  for (const vk::raii::DescriptorPool& pool : pools) pool.reset();
+  made = 0;
+}
+
+void DescriptorSets::begin_frame() {
+  if (device_ != nullptr) pools_of_[device_->frame].clear();
+}
+
 void DescriptorSets::clear() {
-  for (const vk::raii::DescriptorPool& pool : pools_) pool.reset();
-  made_ = 0;
+  if (device_ != nullptr) device_->wait_for_frames();
+  for (Pools& pools : pools_of_) pools.clear();
 }
 
 }  // namespace phare::gpu

@@ -160,6 +160,10 @@ void Device::run_once(const std::function<void(vk::CommandBuffer)>& record) {
     throw std::runtime_error("waiting for the GPU failed");
 }
 
+void Device::wait_for_frames() {
+  if (std::exchange(frames_on_way, false)) queue.waitIdle();
+}
+
 void Device::name(vk::ObjectType type, std::uint64_t handle, const std::string& text) const {
   if (!*messenger) return;
   device.setDebugUtilsObjectNameEXT(

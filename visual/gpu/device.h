@@ -2,6 +2,7 @@
 // has tens.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -56,6 +57,9 @@ struct DeviceOptions {
   bool float64 = true;        ///< false: as if the device had no shaderFloat64
 };
 
+/// So many frames may be on their way to the device: one is recorded while it draws the one before.
+inline constexpr std::size_t kMostFramesInFlight = 2;
+
 /// Throws vk::SystemError or std::runtime_error; the renderer turns these into a Result at its border.
 class Device {
  public:
@@ -77,11 +81,32 @@ class Device {
   std::shared_ptr<std::atomic<std::uint64_t>> validation_messages = std::make_shared<std::atomic<std::uint64_t>>(0);
   MemoryCount allocated_bytes = std::make_shared<std::uint64_t>(0);
   std::shared_ptr<std::uint64_t> pipelines_made = std::make_shared<std::uint64_t>(0);
+  std::size_t frame = 0;       ///< which of kMostFramesInFlight is recorded, or was last; 0 where one goes at a time
+  bool frames_on_way = false;  ///< some that were submitted have not been waited for
 
+  /// Until nothing that frames before have left is read any more: for what is made anew or freed, which is rare.
+  void wait_for_frames();
   Memory allocate(const vk::MemoryRequirements& need, vk::MemoryPropertyFlags flags);
   /// Records, submits and waits.
   void run_once(const std::function<void(vk::CommandBuffer)>& record);
   void name(vk::ObjectType type, std::uint64_t handle, const std::string& text) const;
+};
+
+/// One for each frame that may be on its way: the one that is being recorded has nothing in it that the device reads.
+template <typename T>
+class PerFrame {
+ public:
+  explicit PerFrame(const Device& device) : frame_(&device.frame) {}
+  T& operator*() { return each_[*frame_]; }
+  const T& operator*() const { return each_[*frame_]; }
+  T* operator->() { return &**this; }
+  const T* operator->() const { return &**this; }
+  std::array<T, kMostFramesInFlight>& all() { return each_; }
+  const T& of(std::size_t frame) const { return each_[frame]; }
+
+ private:
+  const std::size_t* frame_;
+  std::array<T, kMostFramesInFlight> each_{};
 };
 
 /// A buffer the CPU can write (or read) all the time.

@@ -58,11 +58,11 @@ FrameGraph::FrameGraph(Device& device) : device_(device) {}
 void FrameGraph::begin(vk::CommandBuffer commands) {
   commands_ = commands;
   prefix_.clear();
-  names_.clear();
+  recorded_->names.clear();
   counts_ = {};
   std::erase_if(images_, [](const auto& named) { return !named.second.slot; });  // making them failed
   for (auto& [name, held] : images_) held.asked = held.slot->taken = held.slot->released = false;
-  for (const vk::raii::QueryPool& pool : stamps_) commands_.resetQueryPool(*pool, 0, 2 * kPassesInPool);
+  for (const vk::raii::QueryPool& pool : recorded_->stamps) commands_.resetQueryPool(*pool, 0, 2 * kPassesInPool);
 }
 
 // The smallest that an image of this frame has left behind and that is large enough; else new memory.
@@ -91,6 +91,7 @@ Image& FrameGraph::image(const std::string& name, const ImageNeed& need) {
   if (held.asked && !(there && free)) return image(name + " again", need);
   if (!there || !free) {
     if (held.slot && held.slot->last == &held) held.slot->last = nullptr;
+    if (held.slot) device_.wait_for_frames();
     held.image = {};  // first, so that both never take memory at once
     held.slot = nullptr;
     held.image = Image(device_, need, name);
@@ -119,6 +120,7 @@ void FrameGraph::release(const Image& image) {
 }
 
 void FrameGraph::free_unused() {
+  if (std::ranges::any_of(images_, [](const auto& named) { return !named.second.asked; })) device_.wait_for_frames();
   std::erase_if(images_, [](const auto& named) {
     const Held& held = named.second;
     if (!held.asked && held.slot && held.slot->last == &held) held.slot->last = nullptr;
@@ -152,11 +154,12 @@ void FrameGraph::copy(const std::string& name, const std::vector<ImageUse>& uses
 
 void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse>& uses,
                              const std::function<void(Recorder&)>& record) {
-  const auto at = static_cast<std::uint32_t>(names_.size());
-  if (at / kPassesInPool == stamps_.size()) {
-    stamps_.emplace_back(device_.device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp,
-                                                                 .queryCount = 2 * kPassesInPool});
-    commands_.resetQueryPool(*stamps_.back(), 0, 2 * kPassesInPool);
+  auto& [stamps, read, names] = *recorded_;
+  const auto at = static_cast<std::uint32_t>(names.size());
+  if (at / kPassesInPool == stamps.size()) {
+    stamps.emplace_back(device_.device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp,
+                                                                .queryCount = 2 * kPassesInPool});
+    commands_.resetQueryPool(*stamps.back(), 0, 2 * kPassesInPool);
   }
   std::vector<vk::ImageMemoryBarrier2> barriers;
   for (const ImageUse& use : uses) {
@@ -181,43 +184,54 @@ void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse
     commands_.pipelineBarrier2(
         vk::DependencyInfo{.imageMemoryBarrierCount = static_cast<std::uint32_t>(barriers.size()),
                            .pImageMemoryBarriers = barriers.data()});
-  const vk::QueryPool pool = *stamps_[at / kPassesInPool];
+  const vk::QueryPool pool = *stamps[at / kPassesInPool];
   const std::uint32_t first = 2 * (at % kPassesInPool);
   commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first);
   Recorder recorder(commands_, counts_);
   record(recorder);
   commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first + 1);
-  names_.push_back(prefix_ + name);
+  names.push_back(prefix_ + name);
 }
 
 void FrameGraph::end() {
+  read_back_stamps();
   commands_ = nullptr;
 }
 
-// Two a pass; none if the device has not written them all.
-std::vector<std::uint64_t> FrameGraph::read_stamps() const {
-  std::vector<std::uint64_t> all;
-  for (std::size_t begin = 0; begin < names_.size(); begin += kPassesInPool) {
-    const auto count = 2 * static_cast<std::uint32_t>(std::min<std::size_t>(names_.size() - begin, kPassesInPool));
-    const auto [status, stamps] = stamps_[begin / kPassesInPool].getResults<std::uint64_t>(
-        0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
-    if (status != vk::Result::eSuccess) return {};
-    all.insert(all.end(), stamps.begin(), stamps.end());
+void FrameGraph::read_back_stamps() {
+  auto& [stamps, read, names] = *recorded_;
+  constexpr vk::DeviceSize kPoolBytes = 2 * kPassesInPool * sizeof(std::uint64_t);
+  if (read.bytes < stamps.size() * kPoolBytes)
+    read = HostBuffer(device_, stamps.size() * kPoolBytes, vk::BufferUsageFlagBits::eTransferDst, "time stamps", true);
+  for (std::size_t begin = 0; begin < names.size(); begin += kPassesInPool) {
+    const std::size_t pool = begin / kPassesInPool;
+    const auto count = 2 * static_cast<std::uint32_t>(std::min<std::size_t>(names.size() - begin, kPassesInPool));
+    commands_.copyQueryPoolResults(*stamps[pool], 0, count, *read.buffer, pool * kPoolBytes, sizeof(std::uint64_t),
+                                   vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
   }
-  return all;
+  const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
+                                   .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
+                                   .dstStageMask = vk::PipelineStageFlagBits2::eHost,
+                                   .dstAccessMask = vk::AccessFlagBits2::eHostRead};
+  commands_.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
 }
 
-std::vector<FrameGraph::Timing> FrameGraph::timings() const {
+std::span<const std::uint64_t> FrameGraph::read_stamps(std::size_t frame) const {
+  const Passes& of = recorded_.of(frame);
+  return {static_cast<const std::uint64_t*>(of.read.data), 2 * of.names.size()};
+}
+
+std::vector<FrameGraph::Timing> FrameGraph::timings(std::size_t frame) const {
   std::vector<Timing> result;
-  const std::vector<std::uint64_t> stamps = read_stamps();
+  const std::span<const std::uint64_t> stamps = read_stamps(frame);
   const double ms_per_tick = static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
   for (std::size_t i = 0; 2 * i < stamps.size(); ++i)
-    result.push_back({names_[i], static_cast<double>(stamps[2 * i + 1] - stamps[2 * i]) * ms_per_tick});
+    result.push_back({recorded_.of(frame).names[i], static_cast<double>(stamps[2 * i + 1] - stamps[2 * i]) * ms_per_tick});
   return result;
 }
 
-double FrameGraph::total_ms() const {
-  const std::vector<std::uint64_t> stamps = read_stamps();
+double FrameGraph::total_ms(std::size_t frame) const {
+  const std::span<const std::uint64_t> stamps = read_stamps(frame);
   if (stamps.empty()) return 0.0;
   return static_cast<double>(stamps.back() - stamps.front()) *
          static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -79,7 +80,7 @@ class FrameGraph {
  public:
   explicit FrameGraph(Device& device);
 
-  /// Starts a frame: records into `commands` from here on. The frame before is done.
+  /// Starts a frame: records into `commands` from here on. Of the frames before, that of the same number is done.
   void begin(vk::CommandBuffer commands);
   /// Goes before the names of the passes that follow, to tell views apart.
   void set_prefix(const std::string& prefix) { prefix_ = prefix; }
@@ -95,7 +96,7 @@ class FrameGraph {
   void copy(const std::string& name, const std::vector<ImageUse>& uses, const std::function<void(Recorder&)>& record);
   void end();
 
-  /// Frees the images that the frame just recorded did not ask for. Its predecessors are done; it need not be.
+  /// Frees the images that the frame just recorded did not ask for. If there are some, frames are waited for.
   void free_unused();
 
   const Counts& counts() const { return counts_; }
@@ -104,10 +105,10 @@ class FrameGraph {
     std::string name;
     double ms = 0.0;
   };
-  /// After the GPU is done: milliseconds of each pass of the last frame.
-  std::vector<Timing> timings() const;
+  /// Once the GPU is done with the frame of this number (Device::frame): milliseconds of each of its passes.
+  std::vector<Timing> timings(std::size_t frame) const;
   /// From the first to the last time stamp, ms.
-  double total_ms() const;
+  double total_ms(std::size_t frame) const;
 
  private:
   struct Held;
@@ -130,13 +131,20 @@ class FrameGraph {
   void count_images();
   void record_pass(const std::string& name, const std::vector<ImageUse>& uses,
                    const std::function<void(Recorder&)>& record);
-  std::vector<std::uint64_t> read_stamps() const;
+  void read_back_stamps();
+  std::span<const std::uint64_t> read_stamps(std::size_t frame) const;
+
+  /// Of one frame.
+  struct Passes {
+    std::vector<vk::raii::QueryPool> stamps;  ///< each of kPassesInPool passes; more are made when a frame needs them
+    HostBuffer read;  ///< two stamps a pass, once the frame is done; asked of its pool, a device may wait for all frames
+    std::vector<std::string> names;
+  };
 
   Device& device_;
-  std::vector<vk::raii::QueryPool> stamps_;  ///< each of kPassesInPool passes; more are made when a frame needs them
+  PerFrame<Passes> recorded_{device_};
   vk::CommandBuffer commands_;
   std::string prefix_;
-  std::vector<std::string> names_;
   std::map<std::string, Held> images_;
   Counts counts_;
 };

@@ -12,13 +12,13 @@ void Staging::begin_frame() {
   used_ = 0;
 }
 
-Staging::Place Staging::put(std::span<const std::byte> bytes) {
+Staging::Place Staging::put(Device& device, std::span<const std::byte> bytes) {
   while (page_ < pages_.size() && used_ + bytes.size() > pages_[page_].bytes) {
     ++page_;
     used_ = 0;
   }
   if (page_ == pages_.size())
-    pages_.emplace_back(device_, std::max<vk::DeviceSize>(kPage, bytes.size()), vk::BufferUsageFlagBits::eTransferSrc,
+    pages_.emplace_back(device, std::max<vk::DeviceSize>(kPage, bytes.size()), vk::BufferUsageFlagBits::eTransferSrc,
                         "staging");
   const Place place{*pages_[page_].buffer, used_};
   std::memcpy(static_cast<std::byte*>(pages_[page_].data) + used_, bytes.data(), bytes.size());

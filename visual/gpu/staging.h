@@ -10,8 +10,6 @@ namespace phare::gpu {
 
 class Staging {
  public:
-  explicit Staging(Device& device) : device_(device) {}
-
   /// What was put before has been copied: its room is used again, and freed where the frame before had no need of it.
   void begin_frame();
 
@@ -19,12 +17,11 @@ class Staging {
     vk::Buffer buffer{};
     vk::DeviceSize offset = 0;  ///< a multiple of 16
   };
-  Place put(std::span<const std::byte> bytes);
+  Place put(Device& device, std::span<const std::byte> bytes);
 
  private:
   static constexpr vk::DeviceSize kPage = 1 << 20;  // a beam of 256 x 128 nodes takes half of it
 
-  Device& device_;
   std::vector<HostBuffer> pages_;
   std::size_t page_ = 0;     ///< being filled
   vk::DeviceSize used_ = 0;  ///< of it

@@ -14,11 +14,15 @@ extern "C" VkResult glfwCreateWindowSurface(VkInstance, GLFWwindow*, const VkAll
 
 namespace phare::gpu {
 
-WindowSurface::WindowSurface(Device& device, GLFWwindow* window)
-    : device_(device),
-      window_(window),
-      acquired_(device.device, vk::SemaphoreCreateInfo{}),
-      copied_(device.device, vk::SemaphoreCreateInfo{}) {
+WindowSurface::WindowSurface(Device& device, GLFWwindow* window, std::size_t frames_in_flight)
+    : device_(device), window_(window), frames_in_flight_(frames_in_flight) {
+  for (Taken& taken : taken_.all()) {
+    taken.acquired = vk::raii::Semaphore(device.device, vk::SemaphoreCreateInfo{});
+    taken.copied = vk::raii::Semaphore(device.device, vk::SemaphoreCreateInfo{});
+    taken.commands = vk::raii::CommandBuffers(
+        device.device, vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
+    taken.fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
+  }
   make_surface();
   rebuild();
 }
@@ -85,10 +89,12 @@ void WindowSurface::make_swapchain() {
   if (hidden_) return;
   extent_ = size;
   const vk::SurfaceCapabilitiesKHR capabilities = device_.physical.getSurfaceCapabilitiesKHR(*surface_);
-  const std::uint32_t most = capabilities.maxImageCount == 0 ? 3 : capabilities.maxImageCount;
+  // One is held from when its picture is taken until it is shown.
+  const auto fewest = std::max(capabilities.minImageCount + static_cast<std::uint32_t>(frames_in_flight_) - 1, 2u);
+  const std::uint32_t most = capabilities.maxImageCount == 0 ? fewest : capabilities.maxImageCount;
   swapchain_ = vk::raii::SwapchainKHR(
       device_.device, vk::SwapchainCreateInfoKHR{.surface = *surface_,
-                                                 .minImageCount = std::clamp(capabilities.minImageCount, 2u, most),
+                                                 .minImageCount = std::min(fewest, most),
                                                  .imageFormat = format_,
                                                  .imageColorSpace = vk::ColorSpaceKHR::eSrgbNonlinear,
                                                  .imageExtent = extent_,
@@ -109,11 +115,10 @@ bool WindowSurface::back_again() {
   return size.width > 0 && size.height > 0;
 }
 
-bool WindowSurface::present(Image& picture) {
+template <typename Do>
+bool WindowSurface::minding_loss(Do&& act) {
   try {
-    if (hidden_) return !back_again();
-    if (minimised()) return false;
-    return !*swapchain_ || show(picture);
+    return act();
   } catch (const vk::OutOfDateKHRError&) {
     return false;
   } catch (const vk::SurfaceLostKHRError&) {
@@ -122,19 +127,27 @@ bool WindowSurface::present(Image& picture) {
   }
 }
 
-bool WindowSurface::show(Image& picture) {
+bool WindowSurface::take(Image& picture) {
+  return minding_loss([&] {
+    if (hidden_) return !back_again();
+    if (minimised()) return false;
+    return !*swapchain_ || copy(picture);
+  });
+}
+
+bool WindowSurface::copy(Image& picture) {
   if (picture.extent != extent_) return false;
+  Taken& taken = *taken_;
   const std::vector<vk::Image> images =
       swapchain_.getImages();  // asked for before acquiring: the validation layer counts on it
   // With the smallest number of images the window may hold on to all: then this picture is not shown, rather than
   // waited for without end (VUID-vkAcquireNextImageKHR-surface-07783).
   constexpr std::uint64_t kPatience_ns = 100'000'000;
-  const auto [acquire_result, index] = swapchain_.acquireNextImage(kPatience_ns, *acquired_);
+  const auto [acquire_result, index] = swapchain_.acquireNextImage(kPatience_ns, *taken.acquired);
   if (acquire_result == vk::Result::eTimeout || acquire_result == vk::Result::eNotReady) return true;
   const vk::Image target = images[index];
-  vk::raii::CommandBuffers buffers(
-      device_.device, vk::CommandBufferAllocateInfo{.commandPool = *device_.command_pool, .commandBufferCount = 1});
-  const vk::CommandBuffer commands = *buffers.front();
+  const vk::CommandBuffer commands = *taken.commands.front();
+  commands.reset();
   commands.begin(vk::CommandBufferBeginInfo{.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   auto turn = [&](vk::Image image, vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 after,
                   vk::AccessFlags2 wrote, vk::PipelineStageFlags2 before, vk::AccessFlags2 use) {
@@ -167,37 +180,48 @@ bool WindowSurface::show(Image& picture) {
   picture.stage = Stage::eCopy;
   picture.access = Access::eTransferRead;
 
-  const vk::SemaphoreSubmitInfo wait{.semaphore = *acquired_, .stageMask = Stage::eCopy};
-  const vk::SemaphoreSubmitInfo signal{.semaphore = *copied_, .stageMask = Stage::eAllCommands};
+  const vk::SemaphoreSubmitInfo wait{.semaphore = *taken.acquired, .stageMask = Stage::eCopy};
+  const vk::SemaphoreSubmitInfo signal{.semaphore = *taken.copied, .stageMask = Stage::eAllCommands};
   const vk::CommandBufferSubmitInfo buffer{.commandBuffer = commands};
-  const vk::raii::Fence fence(device_.device, vk::FenceCreateInfo{});
+  device_.device.resetFences(*taken.fence);
   device_.queue.submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = 1,
                                         .pWaitSemaphoreInfos = &wait,
                                         .commandBufferInfoCount = 1,
                                         .pCommandBufferInfos = &buffer,
                                         .signalSemaphoreInfoCount = 1,
                                         .pSignalSemaphoreInfos = &signal},
-                        *fence);
-  const vk::SwapchainKHR swapchain = *swapchain_;
-  const vk::Semaphore done = *copied_;
-  // Whatever comes of showing it: what was submitted is waited for before it goes.
-  std::exception_ptr not_shown;
-  bool fits = acquire_result == vk::Result::eSuccess;
-  try {
-    fits = device_.queue.presentKHR(vk::PresentInfoKHR{.waitSemaphoreCount = 1,
-                                                       .pWaitSemaphores = &done,
-                                                       .swapchainCount = 1,
-                                                       .pSwapchains = &swapchain,
-                                                       .pImageIndices = &index}) == vk::Result::eSuccess &&
-           fits;
-  } catch (const vk::SystemError&) {
-    not_shown = std::current_exception();
-  }
-  if (device_.device.waitForFences(*fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
-    throw std::runtime_error("waiting for the GPU failed");
-  if (not_shown) std::rethrow_exception(not_shown);
-  losses_ = 0;
-  return fits;
+                        *taken.fence);
+  taken.image = index;
+  taken.fits = acquire_result == vk::Result::eSuccess;
+  return true;
+}
+
+bool WindowSurface::show(std::size_t frame) {
+  Taken& taken = taken_.all()[frame];
+  const std::optional<std::uint32_t> index = std::exchange(taken.image, std::nullopt);
+  if (!index) return true;
+  return minding_loss([&] {
+    const vk::SwapchainKHR swapchain = *swapchain_;
+    const vk::Semaphore done = *taken.copied;
+    // Whatever comes of showing it: what was submitted is waited for.
+    std::exception_ptr not_shown;
+    bool fits = taken.fits;
+    try {
+      fits = device_.queue.presentKHR(vk::PresentInfoKHR{.waitSemaphoreCount = 1,
+                                                         .pWaitSemaphores = &done,
+                                                         .swapchainCount = 1,
+                                                         .pSwapchains = &swapchain,
+                                                         .pImageIndices = &*index}) == vk::Result::eSuccess &&
+             fits;
+    } catch (const vk::SystemError&) {
+      not_shown = std::current_exception();
+    }
+    if (device_.device.waitForFences(*taken.fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
+      throw std::runtime_error("waiting for the GPU failed");
+    if (not_shown) std::rethrow_exception(not_shown);
+    losses_ = 0;
+    return fits;
+  });
 }
 
 }  // namespace phare::gpu

@@ -1,7 +1,9 @@
-// The swapchain of a window: the finished picture is copied into it.
+// The swapchain of a window: the finished picture is copied into it by commands behind its own, and shown once the
+// device has done both.
 #pragma once
 
 #include <chrono>
+#include <optional>
 
 #include "visual/gpu/frame_graph.h"
 
@@ -11,7 +13,8 @@ namespace phare::gpu {
 
 class WindowSurface {
  public:
-  WindowSurface(Device& device, GLFWwindow* window);
+  /// `frames_in_flight`: so many pictures may be taken before the first of them is shown.
+  WindowSurface(Device& device, GLFWwindow* window, std::size_t frames_in_flight);
 
   vk::Format format() const { return format_; }
   vk::Extent2D extent() const { return extent_; }
@@ -19,9 +22,12 @@ class WindowSurface {
   /// size (minimised) keeps the extent it had, for pictures that are still asked for, and is shown nothing. Throws when
   /// the surface is lost over and over.
   void rebuild();
-  /// Copies `picture` (same size and format) to the window. False: the swapchain does not fit the window any more,
-  /// rebuild and draw again. A minimised window takes no time.
-  bool present(Image& picture);
+  /// Copies `picture` (same size and format), that of the frame recorded last, for the window. False: the swapchain does
+  /// not fit the window any more, rebuild and draw again. A minimised window takes no time.
+  bool take(Image& picture);
+  /// Shows what was taken in the frame of this number (Device::frame), if it was, and waits for its copy. False: as of
+  /// take().
+  bool show(std::size_t frame);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -32,10 +38,22 @@ class WindowSurface {
   bool minimised() const;
   vk::Extent2D size_of_window() const;
   bool back_again();
-  bool show(Image& picture);
+  bool copy(Image& picture);
+  template <typename Do>
+  bool minding_loss(Do&& act);
+
+  /// The copy of one frame's picture.
+  struct Taken {
+    vk::raii::Semaphore acquired{nullptr}, copied{nullptr};
+    vk::raii::CommandBuffers commands{nullptr};
+    vk::raii::Fence fence{nullptr};
+    std::optional<std::uint32_t> image{};  ///< of the swapchain; nothing: none is to be shown
+    bool fits = true;
+  };
 
   Device& device_;
   GLFWwindow* window_;
+  std::size_t frames_in_flight_;
   vk::raii::SurfaceKHR surface_{nullptr};
   vk::raii::SwapchainKHR swapchain_{nullptr};
   vk::Format format_ = vk::Format::eB8G8R8A8Unorm;
@@ -44,7 +62,7 @@ class WindowSurface {
   Clock::time_point asked_{};  ///< when its size was asked for
   bool lost_ = false;          ///< the surface is to be made anew
   int losses_ = 0;             ///< since a picture was shown
-  vk::raii::Semaphore acquired_{nullptr}, copied_{nullptr};
+  PerFrame<Taken> taken_{device_};
 };
 
 }  // namespace phare::gpu

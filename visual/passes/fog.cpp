@@ -110,6 +110,7 @@ void wait_for_cells(vk::CommandBuffer commands, vk::PipelineStageFlags2 reader, 
 }  // namespace
 
 void FogPass::begin_frame() {
+  if (used_ < grids_.size()) device_.wait_for_frames();
   grids_.resize(std::min(grids_.size(), used_));
   used_ = 0;
 }
@@ -138,6 +139,7 @@ FogPass::Source FogPass::source_of(const LitScene& scene, const LitView& view, s
 }
 
 void FogPass::make(Grid& grid, std::uint64_t texels, std::uint64_t places) {
+  device_.wait_for_frames();
   grid = {};
   grid.texels =
       gpu::DeviceBuffer(device_, 16 * texels,
@@ -173,6 +175,7 @@ void FogPass::make(Grid& grid, std::uint64_t texels, std::uint64_t places) {
 
 void FogPass::fill_phase(const Air& air) {
   if (phase_of_ == air) return;
+  device_.wait_for_frames();
   if (phase_.bytes == 0) {
     phase_ = gpu::HostBuffer(device_, 16 * shader::kFogPhaseSteps, vk::BufferUsageFlagBits::eUniformTexelBuffer,
                              "fog phase function");
@@ -245,6 +248,7 @@ void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::
   // As it was in the frame before, so it stays.
   Source source = source_of(scene, view, level_number, drops, input, area);
   if (grid.source && grid.source->same(source)) return;
+  device_.wait_for_frames();
   grid.source = std::move(source);
   fill_places(grid.places, view, input.camera.eye_m, area, level);
   if (view.air_lamps.empty()) return;
@@ -258,6 +262,11 @@ void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::
   graph.pass("fog", {}, [&](gpu::Recorder& commands) {
     using Stage = vk::PipelineStageFlagBits2;
     using Access = vk::AccessFlagBits2;
+    // The frame before may still read the cells.
+    const vk::MemoryBarrier2 once_read{.srcStageMask = Stage::eFragmentShader,
+                                       .dstStageMask = Stage::eComputeShader,
+                                       .dstAccessMask = Access::eShaderStorageWrite};
+    commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &once_read});
     for (std::size_t i = 0; i < groups.size(); ++i) {
       if (i > 0)
         wait_for_cells(commands, Stage::eComputeShader, Access::eShaderStorageRead | Access::eShaderStorageWrite);

@@ -51,7 +51,8 @@ shader::GpuGlare data_of(const glm::vec3& exposure_per_cdm2, const ViewGeometry&
 }  // namespace
 
 void GlarePass::begin_frame() {
-  if (std::exchange(used_, 0) > 0) sets_.clear();
+  used_ = 0;
+  sets_.begin_frame();
 }
 
 void GlarePass::make() {
@@ -82,10 +83,10 @@ void GlarePass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& d
   const auto lamps_summed =
       std::clamp(std::bit_ceil(static_cast<std::uint32_t>(sources.size())), 2u, shader::kMostGlareLamps);
   const vk::Pipeline by = pipeline(display.format, lamps_summed);
-  if (used_ == data_.size())
-    data_.push_back(std::make_unique<gpu::HostBuffer>(device_, sizeof(shader::GpuGlare),
+  if (used_ == data_->size())
+    data_->push_back(std::make_unique<gpu::HostBuffer>(device_, sizeof(shader::GpuGlare),
                                                       vk::BufferUsageFlagBits::eUniformBuffer, "glare"));
-  const gpu::HostBuffer& data = *data_[used_++];
+  const gpu::HostBuffer& data = *(*data_)[used_++];
   *static_cast<shader::GpuGlare*>(data.data) = data_of(exposure_per_cdm2, view, sources, viewer);
   const vk::DescriptorImageInfo input{*sampler_, *hdr_cdm2.view, vk::ImageLayout::eShaderReadOnlyOptimal};
   const vk::DescriptorBufferInfo lamps{*data.buffer, 0, VK_WHOLE_SIZE};

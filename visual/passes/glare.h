@@ -31,7 +31,7 @@ class GlarePass {
 
   gpu::Device& device_;
   gpu::DescriptorSets sets_;  ///< one a view; the pass has nothing before its first
-  std::vector<std::unique_ptr<gpu::HostBuffer>> data_;
+  gpu::PerFrame<std::vector<std::unique_ptr<gpu::HostBuffer>>> data_{device_};
   std::size_t used_ = 0;  ///< of data_, in this frame
   vk::raii::PipelineLayout layout_{nullptr};
   vk::raii::Sampler sampler_{nullptr};

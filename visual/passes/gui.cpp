@@ -81,6 +81,7 @@ vk::Pipeline GuiPass::pipeline(vk::Format format) {
 
 void GuiPass::take_atlas(gpu::FrameGraph& graph, const std::shared_ptr<const GuiAtlas>& atlas) {
   if (atlas_ == atlas) return;
+  device_.wait_for_frames();
   atlas_ = atlas;
   const vk::Extent2D extent{atlas->width_px, atlas->height_px};
   letters_ =
@@ -110,9 +111,10 @@ void GuiPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const GuiContent
   if (!*layout_) make();
   const vk::Pipeline by = pipeline(display.format);
   take_atlas(graph, content.atlas);
-  write_into(device_, vertices_, std::as_bytes(std::span(content.vertices)), vk::BufferUsageFlagBits::eVertexBuffer,
+  auto& [vertices, indices] = *triangles_;
+  write_into(device_, vertices, std::as_bytes(std::span(content.vertices)), vk::BufferUsageFlagBits::eVertexBuffer,
              "panel vertices");
-  write_into(device_, indices_, std::as_bytes(std::span(content.indices)), vk::BufferUsageFlagBits::eIndexBuffer,
+  write_into(device_, indices, std::as_bytes(std::span(content.indices)), vk::BufferUsageFlagBits::eIndexBuffer,
              "panel indices");
   graph.pass(
       "gui", {{&letters_, gpu::Use::kSampled, false}, {&display, gpu::Use::kColourTarget, false}},
@@ -126,8 +128,8 @@ void GuiPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const GuiContent
         set_area(commands, display.extent);
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics, by);
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, set_, nullptr);
-        commands.bindVertexBuffers(0, *vertices_.buffer, vk::DeviceSize{0});
-        commands.bindIndexBuffer(*indices_.buffer, 0, vk::IndexType::eUint16);
+        commands.bindVertexBuffers(0, *vertices.buffer, vk::DeviceSize{0});
+        commands.bindIndexBuffer(*indices.buffer, 0, vk::IndexType::eUint16);
         commands.pushConstants<shader::GuiConstants>(
             *layout_, vk::ShaderStageFlagBits::eVertex, 0,
             shader::GuiConstants{
@@ -144,10 +146,12 @@ void GuiPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const GuiContent
 
 void GuiPass::hide() {
   if (!atlas_) return;
+  device_.wait_for_frames();
   atlas_.reset();
   sets_.clear();
   letters_ = gpu::Image{};
-  upload_ = gpu::HostBuffer{}, vertices_ = gpu::HostBuffer{}, indices_ = gpu::HostBuffer{};
+  upload_ = gpu::HostBuffer{};
+  triangles_.all() = {};
 }
 
 }  // namespace phare

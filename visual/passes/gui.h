@@ -17,7 +17,7 @@ class GuiPass {
   explicit GuiPass(gpu::Device& device) : device_(device) {}
 
   void draw(gpu::FrameGraph& graph, gpu::Image& display, const GuiContent& content);
-  /// No panel in this frame: letters and triangles are freed. The frame before is done.
+  /// No panel in this frame: letters and triangles are freed.
   void hide();
 
  private:
@@ -34,7 +34,11 @@ class GuiPass {
   // While a panel is shown.
   std::shared_ptr<const GuiAtlas> atlas_;
   gpu::Image letters_;
-  gpu::HostBuffer upload_, vertices_, indices_;
+  gpu::HostBuffer upload_;
+  struct Triangles {
+    gpu::HostBuffer vertices, indices;
+  };
+  gpu::PerFrame<Triangles> triangles_{device_};
   vk::DescriptorSet set_{};
 };
 

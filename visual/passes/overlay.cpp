@@ -199,7 +199,7 @@ OverlayPass::OverlayPass(gpu::Device& device, vk::Format format, std::uint32_t h
   info.QueueFamily = device.queue_family;
   info.Queue = static_cast<VkQueue>(*device.queue);
   info.DescriptorPool = static_cast<VkDescriptorPool>(*pool_);
-  info.MinImageCount = info.ImageCount = 2;
+  info.MinImageCount = info.ImageCount = gpu::kMostFramesInFlight;
   info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
   info.CheckVkResultFn = check;
   ImGui_ImplVulkan_Init(&info, static_cast<VkRenderPass>(*render_pass_));
@@ -241,7 +241,8 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
   ImGui::Render();
 
   const vk::ImageView view = *display.view;
-  framebuffer_ = vk::raii::Framebuffer(device_.device, vk::FramebufferCreateInfo{.renderPass = *render_pass_,
+  vk::raii::Framebuffer& framebuffer = framebuffer_->picture;
+  framebuffer = vk::raii::Framebuffer(device_.device, vk::FramebufferCreateInfo{.renderPass = *render_pass_,
                                                                                  .attachmentCount = 1,
                                                                                  .pAttachments = &view,
                                                                                  .width = display.extent.width,
@@ -250,7 +251,7 @@ void OverlayPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const std::v
   graph.pass("overlay", {{&display, gpu::Use::kColourTarget, false}}, [&](gpu::Recorder& commands) {
     commands.beginRenderPass(
         vk::RenderPassBeginInfo{
-            .renderPass = *render_pass_, .framebuffer = *framebuffer_, .renderArea = {{0, 0}, display.extent}},
+            .renderPass = *render_pass_, .framebuffer = *framebuffer, .renderArea = {{0, 0}, display.extent}},
         vk::SubpassContents::eInline);
     ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(),
                                     static_cast<VkCommandBuffer>(static_cast<vk::CommandBuffer&>(commands)));

@@ -33,7 +33,10 @@ class OverlayPass {
   ImFont* text_ = nullptr;                     // of the atlas
   ImFont* title_ = nullptr;
   vk::raii::DescriptorPool pool_{nullptr};
-  vk::raii::Framebuffer framebuffer_{nullptr};  // of the newest frame, which is waited for before the next
+  struct Buffers {
+    vk::raii::Framebuffer picture{nullptr};
+  };
+  gpu::PerFrame<Buffers> framebuffer_{device_};
 };
 
 }  // namespace phare

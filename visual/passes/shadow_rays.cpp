@@ -66,6 +66,7 @@ bool holds_rays(std::uint64_t texels, std::uint64_t buffer_texels) {
 ShadowRays::ShadowRays(gpu::Device& device) : device_(device) {}
 
 bool ShadowRays::begin_frame() {
+  if (!replaced_.empty()) device_.wait_for_frames();
   replaced_.clear();
   return std::exchange(asked_, false);
 }
@@ -86,7 +87,7 @@ void ShadowRays::upload(const ShadowCasters& casters, const glm::dvec3& near_m, 
   standing_place_ = add(trees_.standing, origin_m_);
 
   if (texels_) replaced_.push_back(std::move(texels_));
-  texels_ = std::make_unique<ShadowDepths>();
+  texels_ = std::make_unique<ShadowDepths>(device_);
   texels_->texels =
       gpu::DeviceBuffer(device_, std::as_bytes(std::span(texels)), vk::BufferUsageFlagBits::eUniformTexelBuffer,
                         "triangles for rays");

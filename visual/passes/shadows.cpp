@@ -155,8 +155,8 @@ std::vector<ShadowPass::Ranges> fill_triangles(gpu::Device& device, ShadowDepths
       }
     }
   }
-  fill_buffer(device, depths.triangles, corners);
-  if (!cut_corners.empty()) fill_buffer(device, depths.cut_triangles, cut_corners);
+  fill_buffer(device, depths.triangles->whole, corners);
+  if (!cut_corners.empty()) fill_buffer(device, depths.triangles->cut, cut_corners);
   return ranges;
 }
 
@@ -176,16 +176,21 @@ ShadowPass::ShadowPass(gpu::Device& device)
       limits_{device.properties.limits.maxTexelBufferElements, device.properties.limits.maxImageDimension2D} {}
 
 void ShadowPass::begin_frame() {
+  if (used_ < depths_.size()) device_.wait_for_frames();
   depths_.resize(std::min(depths_.size(), used_));
   used_ = 0;
-  if (rays_ && !rays_->begin_frame()) rays_.reset();
+  if (rays_ && !rays_->begin_frame()) {
+    device_.wait_for_frames();
+    rays_.reset();
+  }
 }
 
 ShadowDepths& ShadowPass::depths_of(std::size_t texels) {
-  if (used_ == depths_.size()) depths_.push_back(std::make_unique<ShadowDepths>());
+  if (used_ == depths_.size()) depths_.push_back(std::make_unique<ShadowDepths>(device_));
   ShadowDepths& depths = *depths_[used_++];
   if (depths.texels.bytes == 4 * texels) return depths;
-  depths = {};
+  if (depths.texels.bytes > 0) device_.wait_for_frames();
+  depths = ShadowDepths(device_);
   depths.texels = gpu::DeviceBuffer(device_, 4 * texels, vk::BufferUsageFlagBits::eUniformTexelBuffer, "shadow depths");
   depths.view = vk::raii::BufferView(
       device_.device, vk::BufferViewCreateInfo{
@@ -290,7 +295,7 @@ void ShadowPass::draw_image(gpu::FrameGraph& graph, LitScene& scene, const Shado
                             .detail_origin = glm::vec4(0.0f),
                             .turn = {}});
     };
-    commands.bindVertexBuffers(0, *depths.triangles.buffer, vk::DeviceSize{0});
+    commands.bindVertexBuffers(0, *depths.triangles->whole.buffer, vk::DeviceSize{0});
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const Picture& picture = pictures[i];
       const auto top = static_cast<std::int32_t>(i * level.height);
@@ -305,18 +310,23 @@ void ShadowPass::draw_image(gpu::FrameGraph& graph, LitScene& scene, const Shado
       }
       if (picture.ranges.cut.empty()) continue;
       commands.bindPipeline(vk::PipelineBindPoint::eGraphics, cut_pipeline(scene));
-      commands.bindVertexBuffers(0, *depths.cut_triangles.buffer, vk::DeviceSize{0});
+      commands.bindVertexBuffers(0, *depths.triangles->cut.buffer, vk::DeviceSize{0});
       push(picture);
       for (const CutRange& cut : picture.ranges.cut) {
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, scene.textured_layout(), 3,
                                     scene.textures_of(cut.material), nullptr);
         commands.draw(cut.range.count, 1, cut.range.first, 0);
       }
-      commands.bindVertexBuffers(0, *depths.triangles.buffer, vk::DeviceSize{0});
+      commands.bindVertexBuffers(0, *depths.triangles->whole.buffer, vk::DeviceSize{0});
     }
     commands.endRendering();
   });
   graph.copy("shadow depths", {{&image, gpu::Use::kCopySource, false}}, [&](gpu::Recorder& commands) {
+    // The frame before may still read its own.
+    const vk::MemoryBarrier2 once_read{.srcStageMask = vk::PipelineStageFlagBits2::eFragmentShader,
+                                       .dstStageMask = vk::PipelineStageFlagBits2::eCopy,
+                                       .dstAccessMask = vk::AccessFlagBits2::eTransferWrite};
+    commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &once_read});
     commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *depths.texels.buffer,
                                vk::BufferImageCopy{.bufferOffset = 4 * first_texel,
                                                    .imageSubresource = {vk::ImageAspectFlagBits::eDepth, 0, 0, 1},

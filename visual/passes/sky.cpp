@@ -157,8 +157,7 @@ glm::vec4 Sky::zenith() const {
 SkyPass::SkyPass(gpu::Device& device)
     : device_(device),
       vertex_{gpu::make_shader(device, k_sky_vert), gpu::make_shader(device, k_sky_vert_flat)},
-      fragment_{gpu::make_shader(device, k_sky_frag), gpu::make_shader(device, k_sky_frag_flat)},
-      vertices_(device, kFirstBytes, vk::BufferUsageFlagBits::eVertexBuffer, kName) {
+      fragment_{gpu::make_shader(device, k_sky_frag), gpu::make_shader(device, k_sky_frag_flat)} {
   const vk::PushConstantRange push{
       .stageFlags = vk::ShaderStageFlagBits::eVertex, .offset = 0, .size = sizeof(shader::SkyConstants)};
   layout_ = vk::raii::PipelineLayout(
@@ -176,8 +175,8 @@ vk::ClearValue SkyPass::clear_value(const Sky& sky, LampOutput output, const Vie
 }
 
 void SkyPass::begin_frame() {
-  views_ = used_bytes_ = 0;
-  outgrown_.clear();
+  views_ = vertices_->used_bytes = 0;
+  vertices_->outgrown.clear();
 }
 
 SkyPass::Dome& SkyPass::dome_of(const Sky& sky, bool hdr) {
@@ -232,15 +231,17 @@ void SkyPass::draw(gpu::Recorder& commands, const Sky& sky, const ViewGeometry& 
                  : shader::srgb_encoded(shader::tone_curve(sky.moon->luminance_cdm2 * sky.exposure_per_cdm2)),
              vertices);
   const std::size_t bytes = vertices.size() * sizeof(SkyVertex);
-  if (used_bytes_ + bytes > vertices_.bytes) {
-    outgrown_.push_back(std::exchange(
-        vertices_, gpu::HostBuffer(device_, 2 * (used_bytes_ + bytes), vk::BufferUsageFlagBits::eVertexBuffer, kName)));
-    used_bytes_ = 0;
+  auto& [buffer, outgrown, used_bytes] = *vertices_;
+  if (used_bytes + bytes > buffer.bytes) {
+    const vk::DeviceSize more = std::max<vk::DeviceSize>(kFirstBytes, 2 * (used_bytes + bytes));
+    outgrown.push_back(std::exchange(
+        buffer, gpu::HostBuffer(device_, more, vk::BufferUsageFlagBits::eVertexBuffer, kName)));
+    used_bytes = 0;
   }
-  const vk::DeviceSize at = std::exchange(used_bytes_, used_bytes_ + bytes);
-  std::memcpy(static_cast<std::byte*>(vertices_.data) + at, vertices.data(), bytes);
+  const vk::DeviceSize at = std::exchange(used_bytes, used_bytes + bytes);
+  std::memcpy(static_cast<std::byte*>(buffer.data) + at, vertices.data(), bytes);
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *found->second);
-  commands.bindVertexBuffers(0, *vertices_.buffer, at);
+  commands.bindVertexBuffers(0, *buffer.buffer, at);
   commands.pushConstants<shader::SkyConstants>(*layout_, vk::ShaderStageFlagBits::eVertex, 0, push);
   commands.draw(static_cast<std::uint32_t>(vertices.size()), 1, 0, 0);
 }

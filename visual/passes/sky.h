@@ -89,9 +89,13 @@ class SkyPass {
   std::array<vk::raii::ShaderModule, 2> vertex_, fragment_;  ///< blended, flat
   std::map<std::tuple<LampOutput, vk::Format, vk::SampleCountFlagBits>, vk::raii::Pipeline> pipelines_;
   std::vector<Dome> domes_;
-  gpu::HostBuffer vertices_;               ///< of all views, one after the other
-  std::vector<gpu::HostBuffer> outgrown_;  ///< of this frame
-  std::size_t used_bytes_ = 0;
+  /// Of all views of a frame, one after the other.
+  struct Vertices {
+    gpu::HostBuffer buffer;
+    std::vector<gpu::HostBuffer> outgrown;
+    std::size_t used_bytes = 0;
+  };
+  gpu::PerFrame<Vertices> vertices_{device_};
   std::size_t views_ = 0;  ///< of this frame
 };
 

@@ -37,7 +37,7 @@ ToneMappingPass::ToneMappingPass(gpu::Device& device)
 }
 
 void ToneMappingPass::begin_frame() {
-  sets_.clear();
+  sets_.begin_frame();
 }
 
 void ToneMappingPass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& display, const vk::Rect2D& area,

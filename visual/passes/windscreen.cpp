@@ -118,7 +118,7 @@ WindscreenPass::WindscreenPass(gpu::Device& device)
 }
 
 void WindscreenPass::begin_frame() {
-  if (sets_.count() > 0) sets_.clear();
+  sets_.begin_frame();
 }
 
 vk::DescriptorSet WindscreenPass::reads(const gpu::Image& image) {

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "visual/renderer.h"
 
@@ -77,7 +78,7 @@ inline nlohmann::json to_json(const LogHistogram& histogram) {
 
 /// Times of the frames of a run, ms.
 struct FrameStats {
-  LogHistogram wall_ms;             ///< every frame
+  LogHistogram wall_ms;             ///< every frame that was timed
   LogHistogram wall_no_capture_ms;  ///< frames whose picture was not read back
   LogHistogram gpu_ms;              ///< frames whose picture was not read back
   LogHistogram interval_ms;         ///< from the end of one frame to the end of the next, waiting included
@@ -98,21 +99,27 @@ struct FrameStats {
   /// Seconds from the end of the first frame to the end of the newest, whatever happened in between.
   double seconds() const { return first_end ? std::chrono::duration<double>(*last_end - *first_end).count() : 0.0; }
   /// Frames by seconds; 0 while there is no second frame.
-  double frames_per_s() const { return seconds() > 0.0 ? static_cast<double>(wall_ms.count() - 1) / seconds() : 0.0; }
+  double frames_per_s() const { return seconds() > 0.0 ? static_cast<double>(frames - 1) / seconds() : 0.0; }
+
+  void keep(const FrameResult& result) {
+    FrameResult before = std::exchange(newest, result);
+    if (result.timed) return;
+    newest.wall_ms = before.wall_ms, newest.gpu_ms = before.gpu_ms;
+    newest.passes = std::move(before.passes);
+  }
 
   void add(const FrameResult& result, bool captured) {
     ++frames;
-    wall_ms.add(result.wall_ms);
-    newest = result;
+    keep(result);
     if (result.pipelines_made > 0) {
       ++making_frames;
       pipelines_made += result.pipelines_made;
       longest_making_ms = std::max(longest_making_ms, result.wall_ms);
     }
-    if (captured) {
-      ++captured_frames;
-      return;
-    }
+    if (captured) ++captured_frames;
+    if (!result.timed) return;
+    wall_ms.add(result.wall_ms);
+    if (result.timed_kept) return;
     wall_no_capture_ms.add(result.wall_ms);
     gpu_ms.add(result.gpu_ms);
     for (const PassTime& pass : result.passes) pass_ms[pass.name].add(pass.ms);

@@ -87,7 +87,7 @@ class Loop {
   void mind_the_road(const Moment& moment);
   std::vector<std::string> overlay(const Moment& moment) const;
   void mind_who_is_glared_at(DriveRow& row, const Moment& moment);
-  void log_frame(const Moment& moment, const FrameResult& result);
+  void log_frame(const Moment& moment);
   void keep_other_designs();
   void write_stats(SimTime now);
 

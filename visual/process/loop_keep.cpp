@@ -77,7 +77,7 @@ void Loop::mind_who_is_glared_at(DriveRow& row, const Moment& moment) {
 }
 
 /// A row of drive.csv, and how long each design has shone.
-void Loop::log_frame(const Moment& moment, const FrameResult& result) {
+void Loop::log_frame(const Moment& moment) {
   DesignsLit& designs = s_.designs_lit;
   designs.see(s_.lamps.lit_text().empty() ? std::nullopt : std::optional(s_.lamps.design_index()), moment.time);
   if (versus_.lamps() != nullptr) designs.see_beside(s_.lamps.design_index(), versus_.lamps()->design_index());
@@ -91,8 +91,8 @@ void Loop::log_frame(const Moment& moment, const FrameResult& result) {
                .pose_held = moment.car.stale,
                .picture = captured_,
                .cutoff_m = s_.lamps.cutoff_height_m(moment.car.pose, kCutoffWall_m),
-               .frame_ms = result.wall_ms,
-               .gpu_ms = result.gpu_ms};
+               .frame_ms = s_.stats.newest.wall_ms,
+               .gpu_ms = s_.stats.newest.gpu_ms};
   if (row.cutoff_m) {  // above the road at the wall: a slope moves the mark with the road, a crest or a dip does not
     constexpr double kLamps_m = 3.3;  // ahead of the rear axle, in cars like ours
     const VehicleState& car = moment.car.pose;

@@ -93,6 +93,13 @@ Progress progress_line() {
   };
 }
 
+/// Only in real time is there time to gain; channels that show one moment wait for each other, and a budget was measured
+/// with one frame at a time.
+std::size_t frames_in_flight(const VisualOptions& options, const Rig& rig) {
+  const bool alone = options.lockstep || rig.channels.size() > 1 || options.budget_ms > 0.0;
+  return alone ? 1 : static_cast<std::size_t>(options.frames_in_flight);
+}
+
 /// Nothing is written before everything that can be wrong has been read.
 int draw_channel(VisualOptions options) {
   Result<Rig> rig = read_rig(options.rig_file);
@@ -151,6 +158,7 @@ int draw_channel(VisualOptions options) {
   drawing.validation = options.validation;
   drawing.beam_level = options.beam_image.value_or(rig->beam_image);
   drawing.device_name = options.device_name;
+  drawing.frames_in_flight = frames_in_flight(options, *rig);
   drawing.window = window ? window->handle() : nullptr;
   Result<Renderer> renderer = Renderer::create(drawing);
   if (!renderer) return refuse(with_remedy(renderer.error()));

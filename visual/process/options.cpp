@@ -82,6 +82,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   options.width_px = picture.width_px;
   options.height_px = picture.height_px;
   options.samples = picture.samples;
+  options.frames_in_flight = picture.frames_in_flight;
   options.still_at_s = picture.still_at_s;
   options.video = picture.video;
   if (!picture.traffic.empty()) options.traffic_file = picture.traffic;

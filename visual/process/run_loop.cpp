@@ -123,6 +123,7 @@ std::optional<Moment> Loop::display_moment() {
     return std::nullopt;
   }
   if (!pacer_.due()) {
+    s_.renderer.finish();  // there is time to wait for the picture
     s_.bus.wait(pacer_.left());
     return std::nullopt;
   }
@@ -282,13 +283,14 @@ void Loop::draw(const Moment& moment) {
   const FrameResult result = s_.renderer.draw(both ? halves : input_);
   if (over_) return;  // what is counted is the drive
   s_.stats.add(result, captured_);
-  log_frame(moment, result);
+  log_frame(moment);
   if (result.pipelines_made > 0)
     spdlog::info("a kind of picture not drawn before: {} pipelines made in this frame, {:.0f} ms",
                  result.pipelines_made, result.wall_ms);
-  if (result.pipelines_made == 0) govern(moment, result.wall_ms);
+  if (result.timed && result.pipelines_made == 0) govern(moment, result.wall_ms);
   if (moment.car.stale) ++s_.stats.stale_frames;
   s_.fail_safes.add(moment.time, moment.controls);
+  if (s_.switches.is_change(moment.controls)) s_.renderer.finish();  // the driver waits for it
   const Clock::time_point now = Clock::now();
   s_.stats.frame_ended(now);
   if (frame_end_ != Clock::time_point{})

@@ -9,8 +9,7 @@ void SwitchToPhoton::frame_finished(const CockpitState& controls, SimTime frame_
   constexpr std::size_t kRemembered = 64, kListed = 200;
   finished_.push_back(finished);
   if (finished_.size() > kRemembered) finished_.pop_front();
-  const bool changed =
-      !first_frame_ && controls.light_changes != drawn_changes_;  // the first frame shows what was before it
+  const bool changed = is_change(controls);
   first_frame_ = false;
   drawn_changes_ = controls.light_changes;
   if (!changed) return;

@@ -17,6 +17,11 @@ class SwitchToPhoton {
   void frame_finished(const CockpitState& controls, SimTime frame_sim, WallTime finished,
                       std::int64_t lockstep_rate_hz);
 
+  /// The next finished frame will be the first to show a change, if it is drawn with these.
+  bool is_change(const CockpitState& controls) const {
+    return !first_frame_ && controls.light_changes != drawn_changes_;  // the first frame shows what was before it
+  }
+
   /// {"changes", "frames": {"1": n, "2": n, …}, "ms": {…}, "newest": [{"change", "frames", "ms", "sim_s"}]} newest 200
   /// changes.
   nlohmann::json json() const;
