@@ -391,6 +391,9 @@ constexpr DeskSetting kSettings[] = {
      set_number<&Desk::snow_mmph, 0, 10 * kMostSnow_mmph>, get_number<&Desk::snow_mmph>, "weather"},
     {"snow_cover", "0 to 1", "snow that lies: the share of level ground, and of what looks up, that it covers", true,
      set_number<&Desk::snow_cover_01, 0, 10>, get_number<&Desk::snow_cover_01>, "weather"},
+    {"weather_ahead", "auto, off, on",
+     "what other weather takes is made before a drive in real time; auto: in a window, or if it begins in some", true,
+     set_level<&Desk::weather_ahead, kOffOnNames>, get_level<&Desk::weather_ahead, kOffOnNames>, "weather"},
 };
 
 }  // namespace

@@ -136,6 +136,7 @@ struct Desk {
   double snow_cover_01 = 0.0;               ///< share of level ground that snow covers (shaders/lib/snow.h)
   bool windscreen = false;                  ///< one before the driver's eye, on which rain falls
   Wiper wiper = Wiper::kSlow;               ///< of it
+  std::optional<std::size_t> weather_ahead;  ///< other weather is made ready before a drive in real time
 
   double age_years = 40.0;    ///< of who looks: light scattered in the eye (photometry/table/veil.h)
   double iris_pigment = 0.5;  ///< 0 black, 0.5 brown, 1 light, 1.2 very light and blue

@@ -45,7 +45,7 @@ float mirrored(uint lamp, LampLight light, vec3 n, float level) {
   if (light.cos_incidence <= 0.0 || cos_seen <= 0.0) return 0.0;
   vec3 toward_lamp = (frame.lamps[lamp].position.xyz - point) * light.per_m, toward_eye = point * -inverse_eye;
   vec3 half_way = normalize(toward_lamp + toward_eye);
-  return water_lobe(wet_alpha, light.cos_incidence, cos_seen, dot(half_way, n), dot(half_way, toward_eye));
+  return water_lobe(frame.ground.y, light.cos_incidence, cos_seen, dot(half_way, n), dot(half_way, toward_eye));
 }
 
 #ifdef PHARE_FIXED
@@ -55,7 +55,7 @@ vec3 street_lamp_mirrored(uint i, vec3 n, float level) {
   float per_m = inversesqrt(dot(to_lamp, to_lamp)), inverse_eye = inversesqrt(dot(point, point));
   float cos_lamp = max(dot(to_lamp, n) * per_m, 0.0), cos_seen = max(-level * inverse_eye, 1e-4);
   vec3 toward_lamp = to_lamp * per_m, toward_eye = point * -inverse_eye, half_way = normalize(toward_lamp + toward_eye);
-  float lobe = water_lobe(wet_alpha, cos_lamp, cos_seen, dot(half_way, n), dot(half_way, toward_eye));
+  float lobe = water_lobe(frame.ground.y, cos_lamp, cos_seen, dot(half_way, n), dot(half_way, toward_eye));
   return frame.mirrored_cd[i].rgb * (per_m * per_m * cos_lamp * lobe);
 }
 #endif
@@ -89,7 +89,7 @@ void main() {
   float level = dot(n, point);
 #ifdef PHARE_RELIEF
   see_relief(n, unit < 0.0);
-#define PHARE_LIGHT_RELIEF(I) light_relief(I, light, colour, wet_alpha == 0.0);
+#define PHARE_LIGHT_RELIEF(I) light_relief(I, light, colour, wet_ground == 0u);
 #endif
 #ifdef PHARE_REFERENCE
   if (output_kind == kOutputMeasure) place_measured();
@@ -131,7 +131,7 @@ void main() {
       of_b_lx += light.illuminance_lx * frame.lamps[I].row_b.w;                                            \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
     PHARE_LIGHT_RELIEF(I)                                                                                  \
-    if (wet_alpha > 0.0) film += colour * (light.illuminance_lx * mirrored(I, light, n, level));           \
+    if (wet_ground != 0u) film += colour * (light.illuminance_lx * mirrored(I, light, n, level));           \
     if (retro != 0)                                                                                        \
       retro_lx += colour * (light.normal_lx * sent_back(I, light, point, n, level, reflectance.w, frame.lamps[I].row_a.w)); \
   }
@@ -152,7 +152,7 @@ void main() {
 #ifdef PHARE_FIXED
   if (output_kind != kOutputDifference && output_kind != kOutputRatio) total_lx += fixed_light.w;
   coloured_lx += fixed_light.rgb;
-  if (wet_alpha > 0.0) {
+  if (wet_ground != 0u) {
 #define STREET_LAMP(I) film += street_lamp_mirrored(I, n, level);
     STREET_LAMP(0) STREET_LAMP(1) STREET_LAMP(2) STREET_LAMP(3) STREET_LAMP(4) STREET_LAMP(5) STREET_LAMP(6) STREET_LAMP(7)
   }
@@ -178,8 +178,8 @@ void main() {
 
 #ifdef PHARE_TEXTURED
   vec3 shown = output_kind == kOutputHdr ? vec3(1.0) : frame.exposure.rgb;
-  vec3 rho = (wet_alpha > 0.0 ? wet_reflectance(seen_rho) : seen_rho) * (shown / 3.14159265);
-  if (snow_lies != kSnowNone) rho = mix(rho, kSnow * (shown / 3.14159265), snow_share(n.z, frame.snow.x));
+  vec3 rho = (wet_ground != 0u ? wet_reflectance(seen_rho) : seen_rho) * (shown / 3.14159265);
+  if (snow_lies != kSnowNone) rho = mix(rho, kSnow * (shown / 3.14159265), snow_share(n.z, frame.ground.x));
   bool detailed = (look & kLookBase) == 0;  // a picture has details of its own
 #else
   vec3 rho = reflectance.rgb;
@@ -188,13 +188,13 @@ void main() {
   if (detailed) {
     vec2 detail = surface_detail(point, detail_from_point);
     // Under snow the ground's grain is smoothed: a fifth of it is left, chosen.
-    if (snow_lies != kSnowNone) detail = mix(detail, vec2(1.0), 0.8 * snow_share(n.z, frame.snow.x));
+    if (snow_lies != kSnowNone) detail = mix(detail, vec2(1.0), 0.8 * snow_share(n.z, frame.ground.x));
     rho *= detail.x;
     rho.r *= detail.y;
   }
   vec3 light = rho * (coloured_lx + ambient_lx * (1.0 + PHARE_SKY_NORMAL.z));  // the sky's half dome, unoccluded
   if (retro != 0) light += retro_lx * rho;
-  if (wet_alpha > 0.0) light += output_kind == kOutputHdr ? film : film * frame.exposure.rgb;
+  if (wet_ground != 0u) light += output_kind == kOutputHdr ? film : film * frame.exposure.rgb;
 #ifdef PHARE_RELIEF
   if ((look & kLookRough) != 0) light += output_kind == kOutputHdr ? relief_mirrored : relief_mirrored * frame.exposure.rgb;
 #endif

@@ -34,7 +34,7 @@ const uint kSpecTables = 16u;   // kSpecPerTable constants a lamp: the members o
 const uint kSpecPerTable = 18u;
 const uint kSpecMoves = kSpecTables + kSpecPerTable * kMaxLamps + 1u;  // 1: of what moves, whose light is one for the whole mesh (PHARE_FIXED)
 const uint kSpecSnow = kSpecTables + kSpecPerTable * kMaxLamps + 3u;  // whether snow lies on what looks up, below
-const uint kSpecWet = kSpecTables + kSpecPerTable * kMaxLamps;  // float: width of the slopes of the water on the ground; 0: it is dry
+const uint kSpecWet = kSpecTables + kSpecPerTable * kMaxLamps;  // 1: there is water on the ground
 
 // Where illuminance is computed (config/desk.h, Method).
 const uint kMethodFragment = 0u;    // at every pixel
@@ -139,7 +139,7 @@ struct GpuFrame {
   vec4 size_px;                  // x, y: of the view's part of the picture; z: of a pixel in its middle the solid angle, sr. Read by drops
   vec4 mirrored_at[kMirroredLamps];  // street lamps over wet ground, relative to the eye, m
   vec4 mirrored_cd[kMirroredLamps];  // rgb: of each toward where it is mirrored
-  vec4 snow;                         // x: share of level ground that snow covers
+  vec4 ground;                       // x: share of level ground that snow covers; y: width of the slopes of the water on it
 };
 
 // Shadows by rays: the buffer holds, four floats a texel, two texels a lamp (half its opening to the left, w: one more than which mover carries

@@ -31,6 +31,7 @@ struct GpuScreen {
   vec4 wiper;               // x: time, s; y: from stroke to stroke, s, 0: it stands; z: a stroke, s
   vec4 water;               // x: of the places that get a drop, share a second; y: opacity of a place; z: its radius, px
   vec4 area;                // as above
+  vec4 wind;                // x: which way large drops run, 1 up the glass, -1 down; y: how far all are drawn out; z: time, s, of drops that run
 };
 
 // A number for a number: Fibonacci hashing, twice.
@@ -74,6 +75,25 @@ PHARE_INLINE float screen_disc(float from_middle) {
   float square = min(from_middle * from_middle, 1.0f);
   return 1.0f - square * square;
 }
+
+// Of drops that have run together: what one covers, over the mean of all; `uniform_01`: 0 to below 1. Its mean is 1 to 1 %.
+PHARE_INLINE float drop_area(float uniform_01) {
+  return 0.45f + 0.55f * min(-log(max(1.0f - uniform_01, 1e-6f)), 5.0f);
+}
+// Larger ones run.
+const float kRunsFrom_area = 1.6f;
+const float kRunsFor_s = 3.0f, kRuns_mps = 0.03f;  // until another one lies in its place; by and by
+
+// Where within a drop, 0 its middle, 1 its outline: `at` across and along it, over its half axes. It is wider at the end that is behind, by
+// `taper`, and its outline is lobed: `lobes` of twice and three times the angle. Neither changes what it covers, to second order of `lobes`.
+PHARE_INLINE float within_drop(vec2 at, float taper, vec4 lobes) {
+  float across = at.x / max(1.0f - taper * at.y, 0.1f), along = at.y;
+  float square = across * across + along * along, inverse = 1.0f / sqrt(max(square, 1e-8f));
+  float c = across * inverse, s = along * inverse;
+  float lobe = lobes.x * (c * c - s * s) + lobes.y * 2.0f * c * s + lobes.z * c * (c * c - 3.0f * s * s) + lobes.w * s * (3.0f * c * c - s * s);
+  return sqrt(square) / (1.0f + lobe);
+}
+const float kMostOfLobes = 0.2f;  // of both kinds together
 
 PHARE_SHADER_END
 #endif

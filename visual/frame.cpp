@@ -126,7 +126,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   if (effects.on(Effect::kEyeshine)) lit.pupils = std::move(pupils);
 
   // What water makes of the ground.
-  lit.wet = static_cast<std::uint32_t>(effects.level(Effect::kWetGround));
+  if (effects.on(Effect::kWetGround)) lit.wet_ground(effects.level(Effect::kWetGround));
 
   // What snow makes of all that looks up.
   if (effects.on(Effect::kSnowCover)) lit.cover_with_snow(view.input.snow_cover_01);

@@ -84,7 +84,7 @@ void LitScene::add_fixed_light(LitView& view) {
 }
 
 void LitScene::add_mirrored(const LitView& view) {
-  if (view.wet == 0) return;
+  if (!view.wet) return;
   const glm::dvec3& eye_m = view.geometry.camera().eye_m;
   const std::vector<FixedLight::Mirrored> lamps = fixed_light_->mirrored_into(eye_m, shader::kMirroredLamps);
   for (const LitBy& lit : view.lit_by)

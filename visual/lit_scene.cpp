@@ -295,7 +295,7 @@ vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
 
 bool LitScene::is_lean(const LitVariant& variant) const {
   return variant.lamp_count <= 2 && variant.colours == 0 && variant.kind.look == 0 && !variant.fixed_light &&
-         variant.fog.slices == 0 && variant.wet == 0 && variant.snow == LitVariant::kNoSnow &&
+         variant.fog.slices == 0 && !variant.wet && variant.snow == LitVariant::kNoSnow &&
          variant.method == Method::kFragment && !filtered() &&
          (variant.output == LampOutput::kDisplay || variant.output == LampOutput::kHdr ||
           variant.output == LampOutput::kClipping || variant.output == LampOutput::kAudit);
@@ -314,7 +314,7 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   numbers.put_all(shader::kSpecTables, table_words(variant.tables));
   const bool textured = variant.kind.look != 0;
   if (textured) numbers.put(shader::kSpecLook, variant.kind.look);
-  if (variant.wet != 0) numbers.put(shader::kSpecWet, std::bit_cast<std::uint32_t>(kWetAlpha[variant.wet]));
+  if (variant.wet) numbers.put(shader::kSpecWet, 1);
   if (variant.snow != LitVariant::kNoSnow) numbers.put(shader::kSpecSnow, variant.snow);
   if (variant.moves) numbers.put(shader::kSpecMoves, 1);
   const vk::SpecializationInfo constants = numbers.info();

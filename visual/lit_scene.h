@@ -116,8 +116,8 @@ struct LitView {
   std::uint32_t drops_count = 0;
   bool flakes = false;  ///< drops are of snow
   std::vector<PupilInPicture> pupils{};  ///< of animals, that send light back
-  std::uint32_t wet = 0;          ///< of ground, as the levels of the effect
-  bool snow = false;              ///< lies on what looks up; how much is in the data of `lit_by`
+  bool wet = false;               ///< there is water on the ground; how rough it is is in the data of `lit_by`
+  bool snow = false;              ///< lies on what looks up; how much is in the same place
   bool fixed_light = false;       ///< what does not change shines, too
   std::size_t first_probe = 0;    ///< of `moving`, among those of the frame
   std::uint32_t lamps = 0;        ///< that light something in it
@@ -125,8 +125,9 @@ struct LitView {
   std::uint32_t over_limit = 0;   ///< left out somewhere: kLampsPerDraw that are brighter there light it already
   std::uint32_t without_map = 0;  ///< cast no shadow, though something stands in their light: there is no room for it
 
-  /// After the lamps are filled in. `cover_01`: share of level ground.
+  /// After the lamps are filled in. `cover_01`: share of level ground; `level`: of kWetAlpha.
   void cover_with_snow(double cover_01);
+  void wet_ground(std::size_t level);
 };
 
 /// What makes a pipeline of lamps.frag.
@@ -142,7 +143,7 @@ struct LitVariant {
   ShadowLevel shadows{};
   FogGrid fog{};
   Method method = Method::kFragment;
-  std::uint32_t wet = 0;  ///< which of kWetAlpha
+  bool wet = false;
   std::uint32_t snow = kNoSnow;
   bool fixed_light = false, moves = false;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;

@@ -92,7 +92,12 @@ LitView LitScene::view_of_points(const ViewGeometry& geometry, std::span<const P
 
 void LitView::cover_with_snow(double cover_01) {
   snow = true;
-  for (const LitBy& lit : lit_by) lit.data->snow.x = static_cast<float>(cover_01);
+  for (const LitBy& lit : lit_by) lit.data->ground.x = static_cast<float>(cover_01);
+}
+
+void LitView::wet_ground(std::size_t level) {
+  wet = true;
+  for (const LitBy& lit : lit_by) lit.data->ground.y = kWetAlpha[level];
 }
 
 LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {

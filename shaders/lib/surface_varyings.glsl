@@ -6,7 +6,7 @@
 #include "lib/snow.h"
 #include "lib/wet.h"
 
-layout(constant_id = kSpecWet) const float wet_alpha = 0.0;
+layout(constant_id = kSpecWet) const uint wet_ground = 0;
 layout(constant_id = kSpecSnow) const uint snow_lies = 0;
 
 #ifndef PHARE_COMPUTE
@@ -65,9 +65,9 @@ vec4 wetted(vec4 dry) {
 
 void pass_light(vec4 material) {
   const float pi = 3.14159265;
-  if (wet_alpha > 0.0) material = wetted(material);
+  if (wet_ground != 0u) material = wetted(material);
   if (snow_lies != kSnowNone) {
-    vec4 covered = snowed(material, snow_share(normalize(point_normal).z, frame.snow.x), snow_lies == kSnowOnMarking);
+    vec4 covered = snowed(material, snow_share(normalize(point_normal).z, frame.ground.x), snow_lies == kSnowOnMarking);
     material = retro == kRetroFacets ? covered : vec4(covered.rgb, material.w);
   }
   reflectance = vec4(material.rgb / pi, material.w);

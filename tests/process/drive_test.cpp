@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "net/drive_file.h"
 #include "tests/paths.h"
@@ -114,6 +116,36 @@ TEST_F(DriveTest, NoFrameOfADriveMakesAPipeline) {
     EXPECT_EQ(made["pipelines"], 0) << set[1] << ": " << made;
     fs::remove_all(folder_ / "ahead");
   }
+}
+
+// Weather that begins in a drive switches within one frame, for which nothing is left to make.
+TEST_F(DriveTest, WeatherThatBeginsInADriveMakesNoPipeline) {
+  const fs::path out = folder_ / "weather";
+  DriveRun run(out, folder_ / "home", {"--frames", "100000", "--set", "weather_ahead=on"}, /*lockstep=*/false);
+  ASSERT_TRUE(run.wait_for_frame(2));
+  const auto control = [](const std::vector<std::string>& words) {
+    std::vector<std::string> arguments{"control", "--port-base", std::to_string(port_base())};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    auto child = ChildProcess::start(program_beside_us("phare"), arguments);
+    if (!child.ok()) return -1;
+    while (!child->ended()) std::this_thread::sleep_for(std::chrono::milliseconds(5));  // it gives up by itself
+    return child->ended()->exit_code;
+  };
+  for (const auto& [setting, value] :
+       {std::pair("windscreen", "on"), {"rain_mmph", "0.2"}, {"rain_mmph", "40"}, {"snow_cover", "0.3"},
+        {"rain_mmph", "0"}, {"snow_mmph", "1"}, {"snow_cover", "0"}, {"snow_mmph", "0"}, {"ground", "wet"},
+        {"ground", "auto"}, {"visibility_m", "80"}, {"visibility_m", "clear"}, {"snow_cover", "0.6"}}) {
+    ASSERT_EQ(control({"set", setting, value}), 0) << setting;
+    std::int64_t newest = 0;  // what has been drawn when the answer came may have been without; the one after has it
+    for (const fs::directory_entry& picture : fs::directory_iterator(out / "frames"))
+      newest = std::max<std::int64_t>(newest, std::atoll(picture.path().stem().c_str()));
+    ASSERT_TRUE(run.wait_for_frame(newest + 3)) << setting << " " << value;
+  }
+  ASSERT_EQ(control({"quit"}), 0);
+  ASSERT_EQ(run.wait(), 0);
+  const json visual = report_of(out)["processes"]["visual-0"];
+  EXPECT_EQ(visual["made_in_the_drive"]["pipelines"], 0) << visual["made_in_the_drive"];
+  EXPECT_GT(visual["frames"], 2 + 3 * 13);
 }
 
 // A control unit beside the rig dims the segments of one matrix lamp: the picture follows, the other processes do not

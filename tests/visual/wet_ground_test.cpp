@@ -144,6 +144,25 @@ TEST_F(WetGroundOnDevice, ShowsTheFilmOfTheFunctions) {
   }
 }
 
+/// Water takes pipelines of its own; how wet it is, which is a number in the data, takes none. A renderer of its own:
+/// that of the other tests may have them.
+TEST_F(WetGroundOnDevice, HowWetMakesNoPipeline) {
+  Result<Renderer> own = Renderer::create({.width_px = 320, .height_px = 180, .validation = true});
+  ASSERT_TRUE(own) << own.error().text();
+  own->set_beam(0, image_of(even_lamp()));
+  ASSERT_TRUE(own->load_scene(ground(0.1f, Surface::kAsphalt)).ok());
+  FrameInput input = lit_from({1.5, 0.6, 0.65}, 0.0);
+  const auto made = [&](std::size_t level) {
+    input.effects[kWet] = level;
+    return own->draw(input).pipelines_made;
+  };
+  made(0);
+  EXPECT_GT(made(1), 0u);
+  EXPECT_EQ(made(3), 0u);
+  EXPECT_EQ(made(2), 0u);
+  EXPECT_EQ(own->validation_messages(), 0u);
+}
+
 /// By the own lamps ground is darker as its body says; what stands upright, and dry ground, stay as they were.
 TEST_F(WetGroundOnDevice, IsDarkerByItsOwnLampsAndCostsNothingDry) {
   renderer->set_beam(0, image_of(even_lamp()));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -45,6 +46,36 @@ TEST(Windscreen, TheBladeGoesThereAndBack) {
   }
   EXPECT_GT(shader::since_wiped(0.5f, 3.0f, 0.0f, kStroke).x, 1000.0f) << "it stands";
   EXPECT_NEAR(shader::since_wiped(0.5f, 10.0f * kPeriod + 0.25f, kPeriod, kStroke).x, 0.05f, 1e-4f);
+}
+
+// Sizes and shapes change nothing of what drops cover: integrals over sizes, and over a drop in its own half axes.
+TEST(Windscreen, ShapesCoverWhatADiscWould) {
+  double mean = 0.0;
+  constexpr int kSizes = 100000;
+  for (int i = 0; i < kSizes; ++i)
+    mean += static_cast<double>(shader::drop_area((static_cast<float>(i) + 0.5f) / kSizes)) / kSizes;
+  EXPECT_NEAR(mean, 1.0, 0.55 * std::exp(-5.0) + 1e-3) << "but for those cut off at the largest size";
+  const double disc = 2.0 / 3.0 * std::numbers::pi;
+  for (const float taper : {-0.6f, 0.0f, 0.25f, 0.6f})
+    for (const float lobe : {0.0f, 1.0f}) {
+      // The most that the shader draws, of each kind half.
+      const float each = lobe * shader::kMostOfLobes / std::sqrt(8.0f);
+      double covered = 0.0;
+      float farthest = 0.0f;
+      constexpr float kStep = 0.005f;
+      for (float x = -2.0f; x <= 2.0f; x += kStep)
+        for (float y = -2.0f; y <= 2.0f; y += kStep) {
+          const float within = shader::within_drop({x, y}, taper, glm::vec4(each, -each, each, each));
+          if (within >= 1.0f) continue;
+          covered += static_cast<double>(shader::screen_disc(within)) * static_cast<double>(kStep * kStep);
+          farthest = std::max({farthest, std::abs(x) / (1.0f + 0.35f * std::abs(taper)), std::abs(y)});
+        }
+      // Lobes of amplitude a of either kind: (1 + m)² has the mean 1 + a², and as much with the taper. Sums: a step's square.
+      const double a = static_cast<double>(lobe * shader::kMostOfLobes) / 2.0;
+      EXPECT_NEAR(covered / disc, 1.0, a * a * (1.0 + std::abs(static_cast<double>(taper))) + 1e-3)
+          << taper << ", " << lobe;
+      EXPECT_LE(farthest, 1.0f + shader::kMostOfLobes) << "within the triangles that are drawn for it";
+    }
 }
 
 class WindscreenOnDevice : public SharedRenderer {
@@ -97,9 +128,9 @@ TEST_F(WindscreenOnDevice, DropsSpreadTheirShareOfALampsLight) {
   EXPECT_LT(later, 0.5 * standing);
   EXPECT_LT(fresh, 0.8 * later);
   const double rate = covered_per_s({.rain_mmph = 10.0}, 20.0);
-  // In the middle the blade has passed at 0.68 s: 0.64 s of rain lie there, a hundred discs, whose weights have a mean
-  // square of 4/3: three standard deviations of their sum.
-  EXPECT_NEAR(later / (rate * 0.64), 1.0, 3.0 * std::sqrt(4.0 / 3.0 / 100.0));
+  // In the middle the blade has passed at 0.68 s: 0.64 s of rain lie there, a hundred drops, whose weights have a mean
+  // square of 4/3 and their areas one of 1.3: three standard deviations of their sum.
+  EXPECT_NEAR(later / (rate * 0.64), 1.0, 3.0 * std::sqrt(1.3 * 4.0 / 3.0 / 100.0));
   FrameInput none = glared(Wiper::kOff, 0.0);
   none.windscreen.reset();
   EXPECT_EQ(seen_lx(none), 0.0);

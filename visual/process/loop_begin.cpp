@@ -9,6 +9,7 @@
 #include "visual/air_of_desk.h"
 #include "visual/process/loop.h"
 #include "visual/process/overlay_lines.h"
+#include "visual/process/weather_ahead.h"
 
 namespace phare {
 
@@ -168,12 +169,44 @@ void Loop::warm_up() {
   // As the drive begins, over the whole scene where there is time, then as it is seen.
   last = true;
   if (thorough) draw(controls_to_show(s_.bus, Clock::now()));  // low beam
+  if (thorough && makes_weather_ready(s_.desk, s_.window.has_value())) warm_up_weather(input);
   input.camera = first_camera;
   input.far_mesh_from_m = far_mesh_from_m;
   input.want_image = s_.album.wanted();
   draw(controls_to_show(s_.bus, Clock::now()));
   s_.lamps.begin_counting();
   if (!ended_) spdlog::info("ready after {:.1f} s", std::chrono::duration<double>(Clock::now() - begin).count());
+}
+
+/// Of the light that `input` has: every kind of weather that the drive may come to, where an occluder stands in the
+/// beams and where none does, with the lamps of others and without. Few pixels: they have no part in what is made.
+void Loop::warm_up_weather(FrameInput input) {
+  const std::vector<WeatherAhead> weathers = weathers_ahead(s_.desk);
+  input.part = {.width_01 = 1.0 / 16.0, .height_01 = 1.0 / 16.0};
+  input.more_views.clear();
+  const bool glares = s_.desk.glare != std::size_t{0} && (!s_.traffic.empty() || s_.fixed_light->street_lamps() > 0);
+  int step = 0;
+  for (const WeatherAhead& weather : weathers) {
+    input.air = weather.air;
+    input.snow_cover_01 = weather.snow_cover_01;
+    input.effects[static_cast<std::size_t>(Effect::kWetGround)] = weather.ground;
+    // A screen may be set before the eye in the drive, too.
+    input.windscreen = Windscreen{.wiper = s_.desk.wiper};
+    if (s_.window) input.panel = getting_ready_panel(++step, static_cast<int>(weathers.size()));
+    for (const bool off : {true, false}) {
+      if (over()) return;
+      input.effects[static_cast<std::size_t>(Effect::kShadows)] = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
+      FrameInput of_others = input;
+      for (std::size_t lamp = 0; lamp <= (s_.traffic.empty() ? 0 : Traffic::kMostLamps); ++lamp) {
+        if (lamp > 0) of_others.lamps.push_back({input.camera.eye_m, input.camera.world_from_eye, Traffic::kBeam});
+        of_others.glare.clear();
+        s_.renderer.draw(of_others);
+        if (!glares) continue;
+        of_others.glare = {{input.camera.eye_m + 10.0 * input.camera.world_from_eye[0], 1.0}};
+        s_.renderer.draw(of_others);
+      }
+    }
+  }
 }
 
 /// "Up, and waiting for the first pose."
