@@ -375,6 +375,8 @@ constexpr DeskSetting kSettings[] = {
      set_level<&Desk::fixed_light, kOffNames>, get_level<&Desk::fixed_light, kOffNames>},
     {"eyeshine", "auto, off", "of animals' eyes in the car's lamps; auto: as they look at them", true,
      set_level<&Desk::eyeshine, kOffNames>, get_level<&Desk::eyeshine, kOffNames>},
+    {"spray", "auto, off", "behind others' wheels on wet ground; auto: as they throw it up", true,
+     set_level<&Desk::spray, kOffNames>, get_level<&Desk::spray, kOffNames>},
     {"windscreen", "off, on, toggle", "rain on a windscreen before the driver's eye", true,
      set_flag<&Desk::windscreen>, get_flag<&Desk::windscreen>},
     {"wiper", "off, interval, slow, fast", "of the windscreen: one stroke in 6 s, 45 or 65 in a minute", true,

@@ -130,7 +130,7 @@ struct Desk {
   bool help = false;                  ///< every key
   bool panel = false;                 ///< what is set by the mouse (visual/process/panel.h)
   /// Levels of these effects (visual/effects.h); without one the scene decides.
-  std::optional<std::size_t> shadows, depth_first, fog, precipitation, ground, glare, fixed_light, eyeshine;
+  std::optional<std::size_t> shadows, depth_first, fog, precipitation, ground, glare, fixed_light, eyeshine, spray;
   std::optional<double> visibility_m;       ///< meteorological optical range (photometry/table/fog.h); none: no fog
   double rain_mmph = 0.0, snow_mmph = 0.0;  ///< of water (photometry/table/precipitation.h)
   double snow_cover_01 = 0.0;               ///< share of level ground that snow covers (shaders/lib/snow.h)

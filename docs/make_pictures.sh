@@ -43,6 +43,8 @@ picture "$out/deer/frames/000639.png" deer
 picture "$out/snow_cover/frames/000059.png" snow_cover
 "$phare" drive --headless --lockstep --frames 80 --samples 4 --traffic config/examples/column.toml --set rain_mmph=10 --set windscreen=on --set wiper=off --out "$out/windscreen" --port-base "$ports"
 picture "$out/windscreen/frames/000079.png" windscreen
+"$phare" drive --headless --lockstep --frames 45 --samples 4 --traffic config/examples/spray.toml --set rain_mmph=25 --out "$out/spray" --port-base "$ports"
+picture "$out/spray/frames/000044.png" spray
 # At ten frames a second, for these begin later than the others: the moments of the commands in the gallery.
 for scene in town:24 town_wet:23 tunnel:48 motorway:25; do
   name=${scene%:*} frames=${scene#*:}

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "config/desk.h"
+#include "visual/ground_water.h"
 
 namespace phare {
 namespace {
@@ -32,6 +33,7 @@ EffectDecision hdr_image(const EffectFacts& facts) {
   if (facts.glare_drawn) return {1, "light scattered in the eye is added to luminance in cd/m²", true};
   if (facts.drops_drawn) return {1, "drops are added to luminance in cd/m²", true};
   if (facts.screen_drawn) return {1, "drops on the windscreen mix luminance in cd/m²", true};
+  if (facts.spray_drawn) return {1, "spray mixes luminance in cd/m²", true};
   if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for"};
   return {0, "nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself"};
 }
@@ -57,15 +59,6 @@ EffectDecision precipitation(const EffectFacts& facts) {
   const bool snow = facts.air.particles().kind == Precipitation::kSnow;
   return {1, std::to_string(facts.air_lamps) + (facts.air_lamps == 1 ? " lamp lights " : " lamps light ") +
                  (snow ? "flakes" : "drops") + " near the eye"};
-}
-
-/// Depth of the film over the texture of a road, mm (Gallaway et al. 1979): texture 0.8 mm, 4 m from the crown, 2 %
-/// across. Negative: the texture still stands out.
-double film_mm(double rain_mmph) {
-  constexpr double kTexture_mm = 0.8, kPath_m = 4.0, kSlope = 0.02;
-  return 0.01485 * std::pow(kTexture_mm, 0.11) * std::pow(kPath_m, 0.43) * std::pow(rain_mmph, 0.59) /
-             std::pow(kSlope, 0.42) -
-         kTexture_mm;
 }
 
 EffectDecision wet_ground(const EffectFacts& facts) {
@@ -142,6 +135,19 @@ EffectDecision windscreen(const EffectFacts& facts) {
   return {1, reason};
 }
 
+EffectDecision spray(const EffectFacts& facts) {
+  if (facts.ground == 0) return {0, "the ground is dry"};
+  if (facts.spraying == 0) return {0, "no vehicle in view is fast enough to throw up water"};
+  if (facts.lit_lamps == 0) return {0, "no lamp is lit"};
+  if (facts.false_colour) return {0, "the view shows illuminance, as in clear air"};
+  if (facts.clipping) return {0, "the view marks what the display clips of the scene itself"};
+  if (facts.parallel_rays) return {0, "the view is from above with parallel rays, through no air"};
+  char reason[80];
+  std::snprintf(reason, sizeof reason, "%zu vehicle%s up water of %.2g mm", facts.spraying,
+                facts.spraying == 1 ? " throws" : "s throw", water_mm(facts.air.rain_mmph, facts.ground));
+  return {1, reason};
+}
+
 constexpr std::array<EffectRow, kEffectCount> kTable{
     {{Effect::kShadows, "shadows", kShadowNames,
       "a depth map for each lamp with something in its light, and its copy; rays: the triangles in a buffer", shadows},
@@ -163,7 +169,9 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
      {Effect::kSnowCover, "snow cover", kOffOnNames, "pipelines of all surfaces with snow on what looks up", snow_cover,
       true},
      {Effect::kWindscreen, "windscreen", kOffOnNames, "the HDR image; two passes, an image of 128 × 96 texels",
-      windscreen, true}}};
+      windscreen, true},
+     {Effect::kSpray, "spray", kOffOnNames, "the HDR image; a draw of puffs in the lamp pass for each vehicle", spray,
+      true}}};
 
 constexpr bool in_order() {
   for (std::size_t i = 0; i < kTable.size(); ++i)
@@ -197,6 +205,8 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
   };
   // What one effect needs of another is a fact for that.
   EffectFacts known = facts;
+  known.ground = decided(kTable[static_cast<std::size_t>(Effect::kWetGround)], facts).level;
+  known.spray_drawn = decided(kTable[static_cast<std::size_t>(Effect::kSpray)], known).level > 0;
   known.drops_drawn = decided(kTable[static_cast<std::size_t>(Effect::kPrecipitation)], facts).level > 0;
   known.screen_drawn = decided(kTable[static_cast<std::size_t>(Effect::kWindscreen)], facts).level > 0;
   known.glare_drawn = decided(kTable[static_cast<std::size_t>(Effect::kGlare)], facts).level > 0;

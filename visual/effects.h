@@ -26,9 +26,10 @@ enum class Effect : std::size_t {
   kFixedLight,
   kEyeshine,
   kSnowCover,
-  kWindscreen
+  kWindscreen,
+  kSpray
 };
-inline constexpr std::size_t kEffectCount = 13;
+inline constexpr std::size_t kEffectCount = 14;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -49,6 +50,7 @@ struct EffectFacts {
   std::size_t pupils = 0;                  ///< of animals, that send light back as far as the display shows it
   double snow_cover_01 = 0.0;              ///< of level ground
   bool windscreen = false;                 ///< one is before the eye
+  std::size_t spraying = 0;                ///< vehicles in view that throw up water where there is some
   bool gui = false;                        ///< the panel is shown over the picture
   std::size_t street_lamps = 0;            ///< that stand in the scene and are switched on
   std::size_t directional = 0;             ///< lights of the scene that have a direction alone
@@ -58,6 +60,8 @@ struct EffectFacts {
   bool glare_drawn = false;                ///< decided before: the luminance image is read for it
   bool drops_drawn = false;                ///< decided before: they are added to luminance
   bool screen_drawn = false;               ///< decided before: what lies on it is drawn over luminance
+  bool spray_drawn = false;                ///< decided before: it is drawn over luminance
+  std::size_t ground = 0;                  ///< decided before: how wet it is, of kWetNames
 };
 
 /// Level 0 is off. `reason` says the fact that decided.

@@ -5,6 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "visual/ground_water.h"
+#include "visual/passes/spray.h"
+
 namespace phare {
 namespace {
 
@@ -94,8 +97,9 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
   std::vector<PupilInPicture> pupils =
       pupils_of(view.input, lit.geometry, view.area.extent.width, view.area.extent.height);
+  const std::vector<SprayingVehicle> spraying = spraying_seen(lit.geometry, view.input.spraying);
   EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, pupils.size(),
-                               parts.device_facts);
+                               spraying.size(), parts.device_facts);
   add_facts(facts, parts.scene.fixed_light());
   const EffectPlan effects = plan_effects(facts, view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);
@@ -121,6 +125,10 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
 
   // Which drops fall past the eye.
   if (effects.on(Effect::kPrecipitation)) add_drops(parts.scene, lit, view.input);
+
+  // What vehicles throw up of the water on the ground.
+  if (effects.on(Effect::kSpray))
+    add_spray(parts.scene, lit, spraying, water_mm(view.input.air.rain_mmph, effects.level(Effect::kWetGround)));
 
   // Which animals look at the lamps.
   if (effects.on(Effect::kEyeshine)) lit.pupils = std::move(pupils);

@@ -4,7 +4,7 @@ namespace phare {
 
 EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optional<std::size_t> casters,
                      const DrawnOver& over, std::span<const GlaringLamp> glare, std::size_t pupils,
-                     const DeviceFacts& device) {
+                     std::size_t spraying, const DeviceFacts& device) {
   double glare_lx = 0.0;
   for (const GlaringLamp& source : glare) glare_lx += source.eye_lx;
   return {.lit_lamps = lamps.lit,
@@ -24,6 +24,7 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
           .pupils = pupils,
           .snow_cover_01 = view.snow_cover_01,
           .windscreen = view.windscreen.has_value(),
+          .spraying = spraying,
           .gui = over.gui};
 }
 

@@ -29,10 +29,10 @@ struct LampsInView {
 
 /// `casters`: pieces of the scene that stand in their light, where they
 /// were looked for; `over`: what will lie over it; `glare`: glare_of() it;
-/// `pupils`: how many pupils_of() it.
+/// `pupils`: how many pupils_of() it; `spraying`: how many spraying_seen() by it.
 EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optional<std::size_t> casters,
                      const DrawnOver& over, std::span<const GlaringLamp> glare, std::size_t pupils,
-                     const DeviceFacts& device);
+                     std::size_t spraying, const DeviceFacts& device);
 
 /// What shines in the scene and does not change.
 void add_facts(EffectFacts& facts, const FixedLight& light);

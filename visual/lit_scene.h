@@ -11,6 +11,7 @@
 
 #include "config/desk.h"
 #include "shaders/precipitation.h"
+#include "shaders/spray.h"
 #include "visual/beam_store.h"
 #include "visual/eyeshine.h"
 #include "visual/gpu/descriptor_sets.h"
@@ -115,6 +116,8 @@ struct LitView {
   shader::GpuDrops drops{};
   std::uint32_t drops_count = 0;
   bool flakes = false;  ///< drops are of snow
+  std::vector<LitBy> spray_by{};            ///< lamps whose light falls on spray; none: none is drawn
+  std::vector<shader::GpuSpray> spray{};    ///< behind each vehicle, farthest first
   std::vector<PupilInPicture> pupils{};  ///< of animals, that send light back
   bool wet = false;               ///< there is water on the ground; how rough it is is in the data of `lit_by`
   bool snow = false;              ///< lies on what looks up; how much is in the same place

@@ -25,6 +25,7 @@
 #include "visual/photometry/beam/image_levels.h"
 #include "visual/photometry/table/opening.h"
 #include "visual/scene/world.h"
+#include "visual/spray.h"
 #include "visual/view.h"
 #include "visual/windscreen.h"
 
@@ -98,6 +99,7 @@ struct ViewInput {
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< at most kMostIsoluxLevels
   std::vector<GlaringLamp> glare{};                                                 ///< lamps that shine into this eye
   std::vector<ShiningPupil> pupils{};  ///< of animals, that send light back to this eye
+  std::vector<SprayingVehicle> spraying{};  ///< where the ground is wet
   Viewer viewer{};                                                                  ///< whose eye it is
   bool want_hdr = false;    ///< the view's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;  ///< read what is seen back

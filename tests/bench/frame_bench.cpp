@@ -254,6 +254,20 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
       input.falling = {.time_s = 0.1 * round, .eye_mps = {20.0, 0.0, 0.0}};
       return input;
     });
+  for (const bool spray : {false, true})
+    bench.add(group, spray ? "two lamps, wet ground, spray of a car" : "two lamps, wet ground", renderer,
+              [view, spray](int round) {
+                FrameInput input = without_shadows(view(round));
+                input.effects[static_cast<std::size_t>(Effect::kWetGround)] = 2;
+                input.want_hdr = true;
+                if (!spray) return input;
+                SprayingVehicle car{.speed_mps = 25.0, .tail_cd = 8.0, .time_s = 0.1 * round};
+                for (std::size_t i = 0; i < car.wheels_m.size(); ++i)
+                  car.wheels_m[i] = input.camera.eye_m - glm::dvec3(0.0, 0.0, input.camera.eye_m.z) +
+                                    (40.0 - 30.0 * static_cast<double>(i)) * input.camera.world_from_eye[0];
+                input.spraying = {car};
+                return input;
+              });
   for (const Wiper wiper : {Wiper::kOff, Wiper::kSlow})
     bench.add(group, "two lamps, rain 10 mm/h, wiper " + std::string(kWiperNames[static_cast<std::size_t>(wiper)]),
               renderer, [view, wiper](int round) {

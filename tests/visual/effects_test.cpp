@@ -33,16 +33,20 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
                {{.street_lamps = 40}, Effect::kFixedLight},
                {{.pupils = 2}, Effect::kEyeshine},
                {{.snow_cover_01 = 0.4}, Effect::kSnowCover},
-               {{.air = {.rain_mmph = 4.0}, .windscreen = true}, Effect::kWindscreen}};
+               {{.air = {.rain_mmph = 4.0}, .windscreen = true}, Effect::kWindscreen},
+               {{.lit_lamps = 1, .software_device = true, .air = {.rain_mmph = 4.0}, .spraying = 1}, Effect::kSpray}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);
     for (const EffectRow& row : effect_table()) {
       const bool needed =
-          ((effect == Effect::kGlare || effect == Effect::kPrecipitation || effect == Effect::kWindscreen) &&
+          ((effect == Effect::kGlare || effect == Effect::kPrecipitation || effect == Effect::kWindscreen ||
+            effect == Effect::kSpray) &&
            row.effect == Effect::kHdrImage) ||
-          ((effect == Effect::kPrecipitation || effect == Effect::kWetGround || effect == Effect::kWindscreen) &&
-           row.effect == Effect::kFog);
+          ((effect == Effect::kPrecipitation || effect == Effect::kWetGround || effect == Effect::kWindscreen ||
+            effect == Effect::kSpray) &&
+           row.effect == Effect::kFog) ||
+          (effect == Effect::kSpray && row.effect == Effect::kWetGround);
       EXPECT_EQ(plan.on(row.effect), row.effect == effect || needed) << row.name;
     }
     tried.insert(effect);
@@ -109,6 +113,34 @@ TEST(Effects, GroundIsAsWetAsItRains) {
   after_rain[static_cast<std::size_t>(Effect::kWetGround)] = 2;
   EXPECT_EQ(plan_effects({.lit_lamps = 1}, after_rain).level(Effect::kWetGround), 2u);
   EXPECT_FALSE(plan_effects({.lit_lamps = 1, .false_colour = true}, after_rain).on(Effect::kWetGround));
+}
+
+// Where the ground is wet, by rain or by the user's word, and a vehicle is fast enough; not where no luminance is
+// shown.
+TEST(Effects, SprayNeedsWaterAVehicleAndALamp) {
+  const EffectFacts facts{.lit_lamps = 2, .air = {.rain_mmph = 10.0}, .spraying = 1};
+  EXPECT_EQ(plan_effects(facts)[Effect::kSpray].reason, "1 vehicle throws up water of 0.53 mm");
+  EXPECT_EQ(plan_effects({.lit_lamps = 2, .spraying = 3})[Effect::kSpray].reason, "the ground is dry");
+  EffectChoices choices{};
+  choices[static_cast<std::size_t>(Effect::kWetGround)] = 3;
+  EXPECT_EQ(plan_effects({.lit_lamps = 2, .spraying = 3}, choices)[Effect::kSpray].reason,
+            "3 vehicles throw up water of 1.2 mm");
+  EXPECT_FALSE(plan_effects({.lit_lamps = 2}, choices).on(Effect::kSpray));
+  EXPECT_FALSE(plan_effects({.spraying = 3}, choices).on(Effect::kSpray)) << "in the dark";
+  choices[static_cast<std::size_t>(Effect::kWetGround)] = 0;
+  EXPECT_FALSE(plan_effects(facts, choices).on(Effect::kSpray)) << "the ground is dry by the user's word";
+  for (bool EffectFacts::*view : {&EffectFacts::false_colour, &EffectFacts::clipping, &EffectFacts::parallel_rays}) {
+    EffectFacts other = facts;
+    other.*view = true;
+    EXPECT_FALSE(plan_effects(other).on(Effect::kSpray));
+  }
+  choices = {};
+  choices[static_cast<std::size_t>(Effect::kSpray)] = 0;
+  choices[static_cast<std::size_t>(Effect::kPrecipitation)] = 0;
+  EXPECT_FALSE(plan_effects(facts, choices).on(Effect::kSpray));
+  EXPECT_FALSE(plan_effects(facts, choices).on(Effect::kHdrImage));
+  choices[static_cast<std::size_t>(Effect::kSpray)] = 1;
+  EXPECT_FALSE(plan_effects({.lit_lamps = 2}, choices).on(Effect::kSpray)) << "there is nothing that it could be of";
 }
 
 // The eye scatters light in cd/m², so glare has the luminance image made, even against the user's word; without glare

@@ -107,6 +107,8 @@ TEST(Desk, DoesEverySettingAndSaysWhatHolds) {
       {"wiper", "fast", "wiper fast"},
       {"eyeshine", "off", "eyeshine off"},
       {"eyeshine", "auto", "eyeshine auto"},
+      {"spray", "off", "spray off"},
+      {"spray", "auto", "spray auto"},
       {"age_years", "65", "age_years 65"},
       {"iris_pigment", "1.2", "iris_pigment 1.2"},
       {"visibility_m", "80", "visibility_m 80"},
@@ -273,6 +275,7 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"snow_cover 1.5", "snow_cover: 1.5 is outside 0 to 1"},
       {"weather_ahead soon", "weather_ahead: \"soon\" is none of auto, off, on"},
       {"eyeshine on", "eyeshine: \"on\" is none of auto, off"},
+      {"spray on", "spray: \"on\" is none of auto, off"},
       {"ground soaked", "ground: \"soaked\" is none of auto, dry, damp, wet, flooded"},
       {"glare on", "glare: \"on\" is none of auto, off"},
       {"fixed_light on", "fixed_light: \"on\" is none of auto, off"},
@@ -328,6 +331,7 @@ TEST(Desk, ItsDifferenceMakesItAgain) {
                             "windscreen on",
                             "wiper interval",
                             "eyeshine off",
+                            "spray off",
                             "probes car 1 2 3 0.6 0 0.8; world -1e6 0 0.1"})
     ASSERT_TRUE(apply(desk, desk_command(words), {.designs = 2})) << words;
   Desk again;

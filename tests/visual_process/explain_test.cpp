@@ -92,6 +92,8 @@ TEST_F(Explain, RainCallsForItsAirItsDropsAndTheirImage) {
                               " near the eye");
       else if (wet[i].starts_with("ground ") && !snow)
         EXPECT_EQ(wet[i], "ground          wet     rain of 10 mm/h fills the texture of the road");
+      else if (wet[i].starts_with("spray ") && !snow)
+        EXPECT_EQ(wet[i], "spray           off     no vehicle in view is fast enough to throw up water");
       else if (wet[i].starts_with("hdr image"))
         EXPECT_EQ(wet[i], "hdr image       on      drops are added to luminance in cd/m²");
       else
@@ -119,6 +121,19 @@ TEST_F(Explain, AnOncomingCarCallsForGlareAndItsImage) {
     else
       EXPECT_EQ(met[i], alone[i]);
   }
+}
+
+/// A car ahead at 90 km/h on wet ground: its spray besides all that it calls for on dry ground.
+TEST_F(Explain, AFastCarOnWetGroundThrowsUpSpray) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explain_spray.toml";
+  std::ofstream(file) << "[[road_user]]\ndirection = \"same\"\nstart_s_m = 40\nspeed_kmh = 90\n";
+  traffic_ = std::move(*Traffic::read(file, lane_, movers_));
+  const auto spray = [&] { return lines(moment(LightSwitch::kLow), software_).back(); };
+  EXPECT_EQ(spray(), "spray           off     the ground is dry");
+  desk_.ground = 2;
+  EXPECT_EQ(spray(), "spray           on      1 vehicle throws up water of 0.4 mm");
+  desk_.spray = 0;
+  EXPECT_TRUE(spray().starts_with("spray           off     set by the user")) << spray();
 }
 
 /// A deer at the verge that looks at the car: its eyes, drawn without the luminance image, and its body's shadow.

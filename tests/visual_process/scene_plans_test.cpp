@@ -50,7 +50,7 @@ Plan expected(const Plan& on) {
   Plan plan{{"shadows", "off"}, {"depth first", "off"},   {"hdr image", "off"}, {"overlay", "off"},
             {"fog", "off"},     {"precipitation", "off"}, {"ground", "dry"},    {"glare", "off"},
             {"gui", "off"},     {"fixed light", "off"}, {"eyeshine", "off"},  {"snow cover", "off"},
-            {"windscreen", "off"}};
+            {"windscreen", "off"}, {"spray", "off"}};
   for (const auto& [effect, level] : on) plan[effect] = level;
   return plan;
 }
@@ -71,7 +71,8 @@ TEST(ScenePlans, TheTownStreetInRainCallsForWaterBesides) {
                                                                           {"precipitation", "on"},
                                                                           {"ground", "wet"},
                                                                           {"glare", "on"},
-                                                                          {"fixed light", "on"}}))
+                                                                          {"fixed light", "on"},
+                                                                          {"spray", "on"}}))
       << text;
 }
 

@@ -99,6 +99,47 @@ TEST_F(TrafficTest, ItsLampsGlareAsTheirTablesHaveIt) {
   EXPECT_TRUE(dark.glare_at(dark.at(0.0, straight()), eye_m, Scene{}, {}).empty());
 }
 
+// Fast ones with motors throw up water, from where their rear wheels were; who has just come, came straight.
+TEST_F(TrafficTest, FastVehiclesThrowUpWater) {
+  const Traffic cars = traffic(R"([[road_user]]
+class = "bicycle"
+direction = "same"
+start_s_m = 20
+speed_kmh = 36
+[[road_user]]
+direction = "same"
+start_s_m = 30
+speed_kmh = 90
+[[road_user]]
+start_s_m = 600
+speed_kmh = 72
+from_s = 4.0
+[[road_user]]
+direction = "same"
+start_s_m = 40
+speed_kmh = 29
+[[road_user]]
+direction = "same"
+class = "lorry"
+start_s_m = 60
+speed_kmh = 90
+lights = false
+)");
+  const RoadLine road = straight();
+  const auto spraying = cars.spraying(cars.at(4.5, road), 4.5, road);
+  ASSERT_EQ(spraying.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double ago_s = 0.5 * static_cast<double>(i) * kSprayAge_s;
+    EXPECT_NEAR(spraying[0].wheels_m[i].x, 30.0 + 25.0 * (4.5 - ago_s) - 1.5, 1e-9);
+    EXPECT_NEAR(spraying[1].wheels_m[i].x, 600.0 - 20.0 * (4.5 - ago_s) + 1.5, 1e-9);
+  }
+  EXPECT_NEAR(spraying[0].tail_m[0].x, 30.0 + 25.0 * 4.5 - 2.2, 1e-9);
+  EXPECT_EQ(spraying[0].tail_cd, kTailLamp_cd);
+  EXPECT_EQ(spraying[2].tail_cd, 0.0);
+  EXPECT_GT(spraying[2].tyres_m, spraying[0].tyres_m);
+  EXPECT_NE(spraying[0].number, spraying[2].number);
+}
+
 // The figures are those of the equations by hand: one lamp 10° beside the line of sight; and eyes that come toward us.
 TEST_F(TrafficTest, GlareFiguresAreThoseOfTheEquations) {
   const glm::dvec3 eye_m(1.0, 2.0, 1.2), ahead(1.0, 0.0, 0.0);

@@ -38,6 +38,8 @@ void LitPass::draw(gpu::FrameGraph& graph, LitScene& scene, const LitView& view,
     if (foggy) fog_sky_.draw(commands, scene, view, output, target.colour.format, target.colour.samples);
     if (!view.pupils.empty())
       eyeshine_.draw(commands, view, target.area, output, target.colour.format, target.colour.samples);
+    if (!view.spray_by.empty())
+      spray_.draw(commands, scene, view, target.colour.format, target.colour.samples);
     if (view.drops_count > 0)
       drops_.draw(commands, scene, view, target.area, target.colour.format, target.colour.samples);
     commands.endRendering();

@@ -5,6 +5,7 @@
 #include "visual/passes/eyeshine.h"
 #include "visual/passes/fog.h"
 #include "visual/passes/precipitation.h"
+#include "visual/passes/spray.h"
 
 namespace phare {
 
@@ -21,7 +22,8 @@ struct LitTarget {
 
 class LitPass {
  public:
-  explicit LitPass(gpu::Device& device) : sky_(device), fog_sky_(device), eyeshine_(device), drops_(device) {}
+  explicit LitPass(gpu::Device& device)
+      : sky_(device), fog_sky_(device), eyeshine_(device), spray_(device), drops_(device) {}
 
   /// Before the views of a frame; the frame before is done.
   void begin_frame() { sky_.begin_frame(); }
@@ -31,6 +33,7 @@ class LitPass {
   SkyPass sky_;
   FogSky fog_sky_;
   Eyeshine eyeshine_;
+  Spray spray_;
   Drops drops_;
 };
 

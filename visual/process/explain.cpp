@@ -56,6 +56,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   // Those whose light the view can see; what of the scene it falls on is not asked.
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
   input.moving = traffic.placed_meshes(users);
+  if (wet(desk)) input.spraying = traffic.spraying(users, moment.time.seconds(), road);
   World world(scene, movers.meshes());
   world.move(input.moving);
   const std::vector<PlacedLamp> of_others =
@@ -91,7 +92,8 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   over.gui = window && desk.panel;  // nothing is laid out: there is no window yet
   EffectFacts facts =
       facts_of(input, {lit, lit}, casting, over, glare_of(input, view),
-               pupils_of(input, view, channel.width_px, channel.height_px).size(), {.software = device.software});
+               pupils_of(input, view, channel.width_px, channel.height_px).size(),
+               spraying_seen(view, input.spraying).size(), {.software = device.software});
   add_facts(facts, fixed);
   return heading + explain(plan_effects(facts, input.effects));
 }

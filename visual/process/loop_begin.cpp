@@ -80,6 +80,13 @@ void Loop::warm_up() {
   // As an animal will look at the lamps.
   if (!pupils_.none())
     input.pupils = {{input.camera.eye_m + 10.0 * input.camera.world_from_eye[0], glm::vec3(1.0f), 1e-4}};
+  // As vehicles will throw up water, where the ground is wet.
+  if (!s_.traffic.empty()) {
+    SprayingVehicle vehicle{.speed_mps = 2.0 * kSprayFrom_mps};
+    for (std::size_t i = 0; i < vehicle.wheels_m.size(); ++i)
+      vehicle.wheels_m[i] = input.camera.eye_m + (20.0 - 5.0 * static_cast<double>(i)) * input.camera.world_from_eye[0];
+    input.spraying = {vehicle};
+  }
   const double far_mesh_from_m = std::exchange(input.far_mesh_from_m, std::numeric_limits<double>::infinity());
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
   const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 2 : 1;

@@ -49,7 +49,8 @@ FrameInput Loop::still_of(const Moment& moment) const {
   still.part = {};
   still.falling = falling_past({}, moment.car.pose, moment.time);
   still.lamps = s_.lamps.placed(moment.car.pose);
-  still.moving.clear(), still.glare.clear(), still.pupils.clear(), still.windscreen.reset(), still.more_views.clear();
+  still.moving.clear(), still.glare.clear(), still.pupils.clear(), still.spraying.clear();
+  still.windscreen.reset(), still.more_views.clear();
   still.view = View::kPhoto;
   still.overlay.clear(), still.instruments.clear(), still.panel = {}, still.marks = {}, still.gui = nullptr;
   return still;

@@ -240,6 +240,8 @@ void Loop::draw(const Moment& moment) {
       Traffic::placed_lamps(users_, input_.camera.eye_m, input_.camera.world_from_eye[0], wet(s_.desk));
   input_.lamps.insert(input_.lamps.end(), their_lamps.begin(), their_lamps.end());
   input_.moving = s_.traffic.placed_meshes(users_);
+  input_.spraying.clear();
+  if (wet(s_.desk)) input_.spraying = s_.traffic.spraying(users_, moment.time.seconds(), measuring_.road());
   world_.move(input_.moving);
   input_.picked = picked_effects();
   input_.more_views.clear();

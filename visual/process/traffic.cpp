@@ -87,16 +87,57 @@ BeamImage Traffic::beam() const {
 
 std::vector<Traffic::There> Traffic::at(double time_s, const RoadLine& road) const {
   std::vector<There> there;
-  for (const RoadUser& user : users_) {
-    const std::optional<RoadUserPose> pose = pose_of(user, *lane_, time_s);
-    if (!pose) continue;
-    const MeasurePoint on_road = road.ground(pose->x_m, pose->y_m, pose->z_m);
-    const glm::dvec3 heading(std::cos(pose->heading_rad), std::sin(pose->heading_rad), 0.0);
-    const glm::dvec3 left = glm::normalize(glm::cross(on_road.normal, heading));
-    const glm::dvec3 forward = glm::cross(left, on_road.normal);
-    there.push_back({user.kind, on_road.position_m, {forward, left, on_road.normal}, user.lights});
-  }
+  for (std::size_t i = 0; i < users_.size(); ++i)
+    if (const auto user = there_at(i, time_s, road)) there.push_back(*user);
   return there;
+}
+
+std::optional<Traffic::There> Traffic::there_at(std::size_t number, double time_s, const RoadLine& road) const {
+  const RoadUser& user = users_[number];
+  const std::optional<RoadUserPose> pose = pose_of(user, *lane_, time_s);
+  if (!pose) return std::nullopt;
+  const MeasurePoint on_road = road.ground(pose->x_m, pose->y_m, pose->z_m);
+  const glm::dvec3 heading(std::cos(pose->heading_rad), std::sin(pose->heading_rad), 0.0);
+  const glm::dvec3 left = glm::normalize(glm::cross(on_road.normal, heading));
+  const glm::dvec3 forward = glm::cross(left, on_road.normal);
+  return There{user.kind,   on_road.position_m, {forward, left, on_road.normal},
+               user.lights, number,             pose->speed_mps};
+}
+
+std::vector<SprayingVehicle> Traffic::spraying(std::span<const There> users, double time_s,
+                                               const RoadLine& road) const {
+  std::vector<SprayingVehicle> vehicles;
+  for (const There& user : users) {
+    const LampPlaces& places = places_of(user.kind);
+    const bool motor = user.kind == RoadUserClass::car || user.kind == RoadUserClass::lorry ||
+                       user.kind == RoadUserClass::motorcycle;
+    if (!motor || spray_share_01(user.speed_mps) <= 0.0) continue;
+    const auto in_world = [&](const There& at, const glm::dvec3& place) {
+      return at.position_m + at.world_from_user * place;
+    };
+    const bool lorry = user.kind == RoadUserClass::lorry, one_track = user.kind == RoadUserClass::motorcycle;
+    // Chosen: rear wheels 0.7 m before the back; tyres 0.2 m wide, of a lorry twice two of 0.3 m.
+    const glm::dvec3 wheels(places.back_m + 0.7, 0.0, 0.0);
+    SprayingVehicle vehicle{.left = user.world_from_user[1],
+                            .half_track_m = one_track ? 0.0 : lorry ? 0.95 : 0.75,
+                            .tyres_m = one_track ? 0.2 : lorry ? 1.2 : 0.4,
+                            .speed_mps = user.speed_mps,
+                            .tail_cd = user.lights ? (places.tail_lamps == 1 ? 0.5 : 1.0) * kTailLamp_cd : 0.0,
+                            .time_s = time_s,
+                            .number = static_cast<std::uint32_t>(user.number)};
+    vehicle.wheels_m[0] = in_world(user, wheels);
+    for (std::size_t i = 1; i < vehicle.wheels_m.size(); ++i) {
+      const double ago_s = 0.5 * static_cast<double>(i) * kSprayAge_s;
+      const auto then = there_at(user.number, time_s - ago_s, road);
+      // Who was not there yet came straight.
+      vehicle.wheels_m[i] = then ? in_world(*then, wheels)
+                                 : vehicle.wheels_m[0] - user.world_from_user[0] * (user.speed_mps * ago_s);
+    }
+    for (std::size_t i = 0; i < vehicle.tail_m.size(); ++i)
+      vehicle.tail_m[i] = in_world(user, {places.back_m, places.aside_m[i], places.back_up_m});
+    vehicles.push_back(vehicle);
+  }
+  return vehicles;
 }
 
 std::vector<PlacedMesh> Traffic::placed_meshes(std::span<const There> users) const {

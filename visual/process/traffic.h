@@ -46,12 +46,16 @@ class Traffic {
     glm::dvec3 position_m{0.0};       ///< of its middle, on the road
     glm::dmat3 world_from_user{1.0};  ///< columns: forward, left, up of the road there
     bool lights = true;
+    std::size_t number = 0;  ///< among those of the file
+    double speed_mps = 0.0;
   };
   std::vector<There> at(double time_s, const RoadLine& road) const;
 
   std::vector<PlacedMesh> placed_meshes(std::span<const There> users) const;
   /// One of each kind that the file has, all at one place: what a warm-up draws.
   std::vector<PlacedMesh> one_of_each(const glm::dvec3& place_m) const;
+  /// Those that throw up spray where the ground is wet: with motors, and fast enough. `users`: at `time_s`.
+  std::vector<SprayingVehicle> spraying(std::span<const There> users, double time_s, const RoadLine& road) const;
   /// Headlamps that light the scene: those of the nearest, kMostLamps in all, so that with a car's own two none is
   /// lit by block (visual/lit_scene.h) and every pipeline is made before the drive. Who is behind
   /// `eye_m` lights nothing that is seen along `ahead`: most of a follower's light falls on the car, which has no body.
@@ -73,6 +77,8 @@ class Traffic {
                                     const Air& air) const;
 
  private:
+  std::optional<There> there_at(std::size_t number, double time_s, const RoadLine& road) const;
+
   std::vector<RoadUser> users_;
   std::optional<LaneLine> lane_;
   std::vector<std::size_t> mesh_of_kind_;
