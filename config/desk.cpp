@@ -373,6 +373,8 @@ constexpr DeskSetting kSettings[] = {
      set_level<&Desk::glare, kOffNames>, get_level<&Desk::glare, kOffNames>},
     {"fixed_light", "auto, off", "of street lamps, the moon and what shines by itself; auto: as the scene has it", true,
      set_level<&Desk::fixed_light, kOffNames>, get_level<&Desk::fixed_light, kOffNames>},
+    {"asphalt", "auto, lambert, r-table", "how it sends light of street lamps to the eye; auto: by its r-table", true,
+     set_level<&Desk::asphalt, kAsphaltNames>, get_level<&Desk::asphalt, kAsphaltNames>},
     {"eyeshine", "auto, off", "of animals' eyes in the car's lamps; auto: as they look at them", true,
      set_level<&Desk::eyeshine, kOffNames>, get_level<&Desk::eyeshine, kOffNames>},
     {"spray", "auto, off", "behind others' wheels on wet ground; auto: as they throw it up", true,

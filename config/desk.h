@@ -94,6 +94,8 @@ enum class Wiper { kOff, kInterval, kSlow, kFast };
 inline constexpr std::array<std::string_view, 4> kWiperNames{"off", "interval", "slow", "fast"};
 
 inline constexpr std::array<std::string_view, 4> kWetNames{"dry", "damp", "wet", "flooded"};
+/// How asphalt sends the light of street lamps to the eye: every way alike, or by an r-table (CIE 144).
+inline constexpr std::array<std::string_view, 2> kAsphaltNames{"lambert", "r-table"};
 
 /// Meteorological visibility that may be set: fog of a steam bath, and air in which nothing near is dimmed.
 inline constexpr double kLeastVisibility_m = 1.0, kMostVisibility_m = 100000.0;
@@ -130,7 +132,8 @@ struct Desk {
   bool help = false;                  ///< every key
   bool panel = false;                 ///< what is set by the mouse (visual/process/panel.h)
   /// Levels of these effects (visual/effects.h); without one the scene decides.
-  std::optional<std::size_t> shadows, depth_first, fog, precipitation, ground, glare, fixed_light, eyeshine, spray;
+  std::optional<std::size_t> shadows, depth_first, fog, precipitation, ground, glare, fixed_light, eyeshine, spray,
+      asphalt;
   std::optional<double> visibility_m;       ///< meteorological optical range (photometry/table/fog.h); none: no fog
   double rain_mmph = 0.0, snow_mmph = 0.0;  ///< of water (photometry/table/precipitation.h)
   double snow_cover_01 = 0.0;               ///< share of level ground that snow covers (shaders/lib/snow.h)

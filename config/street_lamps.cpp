@@ -31,6 +31,8 @@ Result<StreetLampsConfig> read_street_lamps(const std::filesystem::path& file) {
   config.file = whole;
   config.fineness =
       static_cast<Fineness>(document->choice_or("fineness", static_cast<std::size_t>(config.fineness), kFinenessNames));
+  if (const std::string table = document->text_or("r_table", ""); !table.empty())
+    config.r_table_file = resolve_path(table, whole);
   std::vector<std::string> names;
   for (TomlTable table : document->tables("luminaire")) {
     config.luminaires.push_back(luminaire_of(table, whole));

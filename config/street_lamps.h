@@ -36,6 +36,7 @@ inline constexpr std::array<std::string_view, 3> kFinenessNames{"coarse", "mediu
 struct StreetLampsConfig {
   std::filesystem::path file;
   Fineness fineness = Fineness::kMedium;
+  std::filesystem::path r_table_file{};  ///< of asphalt (visual/fixed_light.h), resolved; empty: none
   std::vector<LuminaireConfig> luminaires;
   std::vector<StreetLampConfig> lamps;  ///< those that are switched on
   std::size_t off = 0;                  ///< lamps that are not

@@ -22,6 +22,12 @@ layout(location = 4) in float sky_share;
 layout(location = 5) in vec3 light_way;    // of what moves
 layout(constant_id = kSpecMoves) const uint moves = 0;
 #endif
+#ifdef PHARE_ROAD
+#include "lib/road.h"
+layout(location = 12) in uvec4 road_a;  // as FixedRoad
+layout(location = 13) in uvec4 road_b;
+layout(location = 14) in uvec4 road_c;
+#endif
 
 invariant gl_Position;  // the depth pass and the lamp pass must agree to the bit
 
@@ -34,6 +40,9 @@ void main() {
 #ifdef PHARE_FIXED
   fixed_light = moves == 0 ? light_here : light_here * max(0.25 + dot(light_way, normalize(point_normal)), 0.0);
   ambient_lx *= sky_share;
+#ifdef PHARE_ROAD
+  fixed_light.rgb *= road_over_diffuse(road_a, road_b, road_c, point, normalize(point_normal));
+#endif
 #endif
 #ifdef PHARE_FOG_FLAT
   pass_fog();

@@ -148,6 +148,16 @@ EffectDecision spray(const EffectFacts& facts) {
   return {1, reason};
 }
 
+EffectDecision asphalt(const EffectFacts& facts) {
+  if (!facts.r_table) return {0, "no street lamp and no moon shines on asphalt"};
+  if (!facts.fixed_drawn) return {0, "street lamps and the moon are not drawn"};
+  if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on"};
+  if (facts.parallel_rays) return {0, "the view is from above, where asphalt is diffuse"};
+  if (facts.ground > 0) return {0, "water lies on it, whose film mirrors street lamps"};
+  if (facts.snow_cover_01 > 0.0) return {0, "snow lies on it"};
+  return {1, "street lamps or the moon shine on asphalt"};
+}
+
 constexpr std::array<EffectRow, kEffectCount> kTable{
     {{Effect::kShadows, "shadows", kShadowNames,
       "a depth map for each lamp with something in its light, and its copy; rays: the triangles in a buffer", shadows},
@@ -171,6 +181,8 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
      {Effect::kWindscreen, "windscreen", kOffOnNames, "the HDR image; two passes, an image of 128 × 96 texels",
       windscreen, true},
      {Effect::kSpray, "spray", kOffOnNames, "the HDR image; a draw of puffs in the lamp pass for each vehicle", spray,
+      true},
+     {Effect::kAsphalt, "asphalt", kAsphaltNames, "48 bytes a vertex of asphalt, and pipelines that read them", asphalt,
       true}}};
 
 constexpr bool in_order() {
@@ -210,6 +222,7 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
   known.drops_drawn = decided(kTable[static_cast<std::size_t>(Effect::kPrecipitation)], facts).level > 0;
   known.screen_drawn = decided(kTable[static_cast<std::size_t>(Effect::kWindscreen)], facts).level > 0;
   known.glare_drawn = decided(kTable[static_cast<std::size_t>(Effect::kGlare)], facts).level > 0;
+  known.fixed_drawn = decided(kTable[static_cast<std::size_t>(Effect::kFixedLight)], facts).level > 0;
   EffectPlan plan;
   for (const EffectRow& row : kTable) plan.decisions[static_cast<std::size_t>(row.effect)] = decided(row, known);
   return plan;

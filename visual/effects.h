@@ -27,9 +27,10 @@ enum class Effect : std::size_t {
   kEyeshine,
   kSnowCover,
   kWindscreen,
-  kSpray
+  kSpray,
+  kAsphalt
 };
-inline constexpr std::size_t kEffectCount = 14;
+inline constexpr std::size_t kEffectCount = 15;
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -57,6 +58,8 @@ struct EffectFacts {
   std::size_t luminous = 0;                ///< materials that shine by themselves
   bool moon = false;                       ///< it shines
   bool covered = false;                    ///< some of the scene does not see the whole sky
+  bool r_table = false;                    ///< of what these light some is asphalt
+  bool fixed_drawn = false;                ///< decided before: what shines in the scene is drawn
   bool glare_drawn = false;                ///< decided before: the luminance image is read for it
   bool drops_drawn = false;                ///< decided before: they are added to luminance
   bool screen_drawn = false;               ///< decided before: what lies on it is drawn over luminance

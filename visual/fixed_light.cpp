@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "shaders/lib/luminance.h"
+#include "shaders/lib/road.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/readers/read_lamp.h"
 #include "visual/renderer.h"
@@ -30,6 +31,7 @@ constexpr double kBeyondScene_m = 5000.0;
 constexpr double kFloor_lx = 0.5;   // the error is that of so many lux where there are fewer
 constexpr double kLongest_m = 6.0;  // a longer side may have a pool of light between its ends
 constexpr int kMostCuts = 7;
+constexpr double kStreaksOff = 2.0;  // times the tolerance: luminance of asphalt by its r-table, from any side
 
 /// Columns: axis (down, tilted up toward the street side), left, and the street side as the lamp's "up".
 glm::dmat3 world_from_luminaire(double yaw_rad, double tilt_rad) {
@@ -48,6 +50,11 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
     const auto config = read_street_lamps(street_lamps);
     if (!config) return config.error();
     light.level_ = kBakeLevels[static_cast<std::size_t>(config->fineness)];
+    if (!config->r_table_file.empty()) {
+      const auto table = read_r_table(config->r_table_file);
+      if (!table) return table.error();
+      light.lobes_ = RoadLobes::of(*table);
+    }
     for (const LuminaireConfig& kind : config->luminaires) {
       auto table = read_lamp(kind.file, {});
       if (!table) return table.error();
@@ -72,6 +79,7 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
     const SceneMaterial& material = scene.materials[index];
     if (material.emission_cdm2 != glm::vec3(0.0f)) ++light.luminous_;
     if (material.sky_share < 1.0f) light.covered_ = true;
+    if (light.r_table(material)) light.r_table_ = true;
   }
   if (!light.lamps_.empty() || light.moon_ || !light.suns_.empty()) light.tree_ = RayTree(scene);
   return light;
@@ -173,10 +181,71 @@ double FixedLight::lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) c
   return sum;
 }
 
-FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material) const {
+bool FixedLight::r_table(const SceneMaterial& material) const {
+  return material.r_table && !material.double_sided && material.emission_cdm2 == glm::vec3(0.0f) &&
+         (!lamps_.empty() || moon_ || !suns_.empty());
+}
+
+namespace {
+
+/// Of one lamp on asphalt, cd/m² by its r-table.
+struct RoadLight {
+  RoadLobe lobe;
+  glm::dvec2 toward{1.0, 0.0};  ///< along the ground, length 1
+};
+
+RoadLight road_light(const RoadLobes& lobes, const glm::dvec3& normal, const glm::dvec3& way, double lx) {
+  const double up = glm::dot(way, normal);
+  const glm::dvec3 level = way - up * normal;
+  const double tangent = glm::length(level) / up, across = glm::length(glm::dvec2(level));
+  RoadLight light{lobes.at(tangent)};
+  if (across > 0.0) light.toward = glm::dvec2(level) / across;
+  const double one_over_cos2 = 1.0 + tangent * tangent, q_of_r = one_over_cos2 * std::sqrt(one_over_cos2);
+  for (double* number : {&light.lobe.mean, &light.lobe.along, &light.lobe.peak}) *number *= lx * q_of_r;
+  return light;
+}
+
+FixedRoad packed(std::vector<RoadLight>& lights, double diffuse_cdm2) {
+  std::array<float, 24> numbers{};
+  double mean = lights.empty() ? 1.0 : 0.0;  // in the dark as if diffuse: so it is between that and a lit vertex, too
+  glm::dvec2 along(0.0);
+  std::ranges::stable_sort(lights, std::greater(), [](const RoadLight& light) { return light.lobe.peak; });
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const RoadLobe& lobe = lights[i].lobe;
+    const double peak = lobe.peak / diffuse_cdm2, unit = static_cast<double>(shader::kStreakUnit);
+    mean += lobe.mean / diffuse_cdm2;
+    along += lobe.along / diffuse_cdm2 * lights[i].toward;
+    // Weaker than half floats hold sharpness over peak: less than 0.3 % of diffuse light at the sharpest.
+    if (i < shader::kRoadStreaks && peak > 0.0 && lobe.sharp / (peak * unit) < 6e4 && 1.0 / (peak * unit) < 6e4) {
+      const glm::dvec2 toward = lobe.sharp / (peak * unit) * lights[i].toward;
+      numbers[3 + 3 * i] = static_cast<float>(toward.x), numbers[4 + 3 * i] = static_cast<float>(toward.y);
+      numbers[5 + 3 * i] = static_cast<float>(1.0 / (peak * unit));
+      continue;
+    }
+    if (i < shader::kRoadStreaks) numbers[5 + 3 * i] = shader::kNoStreak;
+    // Of a Poisson kernel the mean and the first harmonic.
+    const double root = std::sqrt(1.0 + 2.0 * lobe.sharp), even = peak / root;
+    mean += even;
+    if (lobe.sharp > 0.0) along += 2.0 * even * (1.0 + lobe.sharp - root) / lobe.sharp * lights[i].toward;
+  }
+  for (std::size_t i = lights.size(); i < shader::kRoadStreaks; ++i) numbers[5 + 3 * i] = shader::kNoStreak;
+  numbers[0] = static_cast<float>(mean), numbers[1] = static_cast<float>(along.x);
+  numbers[2] = static_cast<float>(along.y);
+  FixedRoad road;
+  for (std::size_t i = 0; i < road.halves.size(); ++i)
+    road.halves[i] = glm::packHalf2x16({numbers[2 * i], numbers[2 * i + 1]});
+  return road;
+}
+
+}  // namespace
+
+FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material,
+                           FixedRoad* road) const {
   glm::dvec4 sum(0.0);
-  const auto add = [&](const Share& share, const glm::vec3& colour, const glm::dvec3&, double) {
+  std::vector<RoadLight> on_road;
+  const auto add = [&](const Share& share, const glm::vec3& colour, const glm::dvec3& way, double) {
     sum += glm::dvec4(glm::dvec3(colour), 1.0) * share.lx;
+    if (road != nullptr) on_road.push_back(road_light(lobes_, normal, way, share.lx));
   };
   each(point_m, &normal, !material.double_sided, add);
   if (material.double_sided) {  // one number for both sides: leaves, of which one sees either
@@ -185,6 +254,10 @@ FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, 
     sum *= 0.5;
   }
   const glm::dvec3 rho = glm::max(glm::dvec3(material.reflectance), 1e-3);
+  if (road != nullptr) {
+    const double reflectance = static_cast<double>(shader::luminance_of(glm::vec3(rho)));
+    *road = packed(on_road, sum.w * reflectance / std::numbers::pi);
+  }
   const glm::dvec3 own_lx = glm::dvec3(material.emission_cdm2) * std::numbers::pi / rho;
   return {glm::vec4(glm::vec3(glm::dvec3(sum) + own_lx), static_cast<float>(sum.w)), material.sky_share};
 }
@@ -260,15 +333,15 @@ namespace {
 class Baker {
  public:
   Baker(const FixedLight& light, const Scene& scene, const SceneChunk& chunk)
-      : light_(light), material_(scene.materials[chunk.material]), origin_m_(chunk.origin_m) {}
+      : light_(light),
+        material_(scene.materials[chunk.material]),
+        origin_m_(chunk.origin_m),
+        r_table_(light.r_table(material_)) {}
 
-  const FixedVertex& at(const SceneVertex& vertex) {
-    const auto key = std::bit_cast<std::array<std::uint32_t, 6>>(vertex);
-    const auto [found, fresh] = known_.try_emplace(key);
-    if (fresh)
-      found->second =
-          light_.at(origin_m_ + glm::dvec3(vertex.position_m), glm::normalize(glm::dvec3(vertex.normal)), material_);
-    return found->second;
+  void add(FixedMesh& mesh, const SceneVertex& vertex) {
+    const Kept& kept = at(vertex);
+    mesh.light.push_back(kept.light);
+    if (r_table_) mesh.road.push_back(kept.road);
   }
 
   /// Sides whose middle is off by more than the level allows are halved, in both triangles that share them.
@@ -294,6 +367,48 @@ class Baker {
   }
 
  private:
+  struct Kept {
+    FixedVertex light;
+    FixedRoad road;
+  };
+
+  const Kept& at(const SceneVertex& vertex) {
+    const auto key = std::bit_cast<std::array<std::uint32_t, 6>>(vertex);
+    const auto [found, fresh] = known_.try_emplace(key);
+    if (fresh)
+      found->second.light =
+          light_.at(origin_m_ + glm::dvec3(vertex.position_m), glm::normalize(glm::dvec3(vertex.normal)), material_,
+                    r_table_ ? &found->second.road : nullptr);
+    return found->second;
+  }
+
+  /// Of asphalt luminance, from all around, is off by more in the middle.
+  static bool streaks_off(const FixedMesh& mesh, std::uint32_t i, std::uint32_t j, const Kept& middle,
+                          const BakeLevel& level) {
+    constexpr int kWays = 24;  // half as wide as a streak of a lamp 20° over the road
+    std::array<double, kWays> exact, between;
+    double most = 0.0;
+    for (int k = 0; k < kWays; ++k) {
+      const double turn = 2.0 * std::numbers::pi * k / kWays;
+      const glm::vec2 way(std::cos(turn), std::sin(turn));
+      const auto seen = [&way](const FixedVertex& light, const FixedRoad& road) {
+        const auto word = [&road](std::size_t at) {
+          return shader::uvec4(road.halves[at], road.halves[at + 1], road.halves[at + 2], road.halves[at + 3]);
+        };
+        return static_cast<double>(light.light.w * shader::of_the_table(word(0), word(4), word(8), way));
+      };
+      const auto at = static_cast<std::size_t>(k);
+      exact[at] = seen(middle.light, middle.road);
+      between[at] = 0.5 * (seen(mesh.light[i], mesh.road[i]) + seen(mesh.light[j], mesh.road[j]));
+      most = std::max(most, exact[at]);
+    }
+    if (most < kFloor_lx) return false;
+    for (std::size_t k = 0; k < kWays; ++k)
+      if (std::abs(exact[k] - between[k]) > kStreaksOff * level.tolerance * std::max(exact[k], 0.25 * most))
+        return true;
+    return false;
+  }
+
   std::optional<std::uint32_t> halved(FixedMesh& mesh, std::uint32_t i, std::uint32_t j, const BakeLevel& level) {
     const SceneVertex a = mesh.vertices[i], b = mesh.vertices[j];
     const double length_m = static_cast<double>(glm::distance(a.position_m, b.position_m));
@@ -302,13 +417,13 @@ class Baker {
     if (glm::dot(normal, normal) < 1e-6f) return std::nullopt;
     const SceneVertex between{0.5f * (a.position_m + b.position_m), glm::normalize(normal)};
     const double at_a = static_cast<double>(mesh.light[i].light.w), at_b = static_cast<double>(mesh.light[j].light.w);
-    const FixedVertex light = at(between);
-    const double exact = static_cast<double>(light.light.w);
+    const Kept& middle = at(between);
+    const double exact = static_cast<double>(middle.light.light.w);
     const bool off = std::abs(exact - 0.5 * (at_a + at_b)) > level.tolerance * std::max(exact, kFloor_lx);
     const bool unseen = length_m > kLongest_m && std::max({at_a, at_b, exact}) > 0.1 * kFloor_lx;
-    if (!off && !unseen) return std::nullopt;
+    if (!off && !unseen && !(r_table_ && streaks_off(mesh, i, j, middle, level))) return std::nullopt;
     mesh.vertices.push_back(between);
-    mesh.light.push_back(light);
+    add(mesh, between);
     if (!mesh.looks.empty()) mesh.looks.push_back(look_between(mesh.looks[i], mesh.looks[j]));
     return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
   }
@@ -341,7 +456,8 @@ class Baker {
   const FixedLight& light_;
   const SceneMaterial& material_;
   glm::dvec3 origin_m_;
-  std::map<std::array<std::uint32_t, 6>, FixedVertex> known_;
+  bool r_table_;
+  std::map<std::array<std::uint32_t, 6>, Kept> known_;
 };
 static_assert(sizeof(SceneVertex) == sizeof(std::array<std::uint32_t, 6>));
 
@@ -373,7 +489,7 @@ std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
           mesh.looks = std::move(far.looks);
           cuts.least_edge_m = std::max(cuts.least_edge_m, 0.015 * from_m);  // a hundred pixels wide, seen edge on
         }
-        for (const SceneVertex& vertex : mesh.vertices) mesh.light.push_back(baker.at(vertex));
+        for (const SceneVertex& vertex : mesh.vertices) baker.add(mesh, vertex);
         if (!lamps_.empty() || !suns_.empty()) baker.cut(mesh, cuts);
       }
     }

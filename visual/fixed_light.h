@@ -8,8 +8,8 @@
 //
 // E = Σ I(C, gamma)·cos/r² with the shadows of what stands, as everywhere (README.md). Left out: lamps beyond kReach_m
 // or of less than kLeast_lx at a point; light that has been reflected before; shadows of what moves; retroreflection
-// (nobody looks from a street lamp). Surfaces under lamps above the road are Lambert's: a CIE r-table's luminance hangs
-// on the viewer too and cannot be kept at a vertex (visual/photometry/table/road_table.h has it in float64).
+// (nobody looks from a street lamp). Surfaces under lamps above the road are Lambert's, but for asphalt: its vertices
+// keep what an r-table makes of the lamps for an eye from anywhere (FixedRoad).
 // What moves is lit by how much light arrives at its middle and from where (Probe): 25 % of a lamp off at worst.
 // How far interpolation is off: docs/street-lamps.md. Checked by tests/visual_process/street_lamps_test.cpp.
 #pragma once
@@ -30,6 +30,7 @@
 #include "config/street_lamps.h"
 #include "visual/glare.h"
 #include "visual/photometry/table/intensity_table.h"
+#include "visual/photometry/table/road_lobes.h"
 #include "visual/scene/far_mesh.h"
 #include "visual/scene/ray_tree.h"
 #include "visual/scene/scene.h"
@@ -49,12 +50,20 @@ struct FixedVertex {
   float sky_share = 1.0f;  ///< of the sky's light
 };
 
+/// What a vertex of asphalt keeps besides: luminance by an r-table over that of a diffuse surface, of the way of sight
+/// along the ground (shaders/lib/road.h). Of the shader::kRoadStreaks lamps whose streaks are the brightest each by
+/// itself, of all others the even part and the first harmonic of theirs. As if all light had the colour of their sum.
+struct FixedRoad {
+  std::array<std::uint32_t, 12> halves{};  ///< pairs of half floats
+};
+
 /// A mesh as it is drawn: cut where its light asks for it.
 struct FixedMesh {
   std::vector<SceneVertex> vertices;
   std::vector<std::uint32_t> indices;
   std::vector<FixedVertex> light;
   std::vector<CornerLook> looks{};  ///< one for each vertex, where the chunk has them
+  std::vector<FixedRoad> road{};    ///< the same, where the chunk is of asphalt
 };
 
 /// What arrives at a place, for what moves: on a surface with normal n, lx·max(0, 1/4 + dot(way, n)).
@@ -90,6 +99,9 @@ class FixedLight {
   const std::optional<Moon>& moon_toward() const { return moon_; }
   bool moon() const { return moon_.has_value(); }
   std::size_t directional() const { return suns_.size(); }  ///< lights of the scene that have a direction alone
+  bool r_table() const { return r_table_; }  ///< some asphalt is lit by lamps, the moon or what has a direction alone
+  /// Vertices of the material keep a FixedRoad.
+  bool r_table(const SceneMaterial& material) const;
   bool covered() const { return covered_; }  ///< some surface does not see the whole sky
 
   /// One lamp's share, or that of what has a direction alone.
@@ -103,7 +115,8 @@ class FixedLight {
   double lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
   /// As vertices of the scene keep it: one that nobody sees, for something thin lies on it, has the light that falls on
   /// that; else lux_at().
-  FixedVertex at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material) const;
+  FixedVertex at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material,
+                 FixedRoad* road = nullptr) const;
   FixedProbe probe(const glm::dvec3& point_m) const;
   /// Lamps that shine into an eye, the scene and the air between them; what moves hides none. The strongest
   /// kMostGlaringLamps: no more are drawn.
@@ -148,7 +161,8 @@ class FixedLight {
   std::optional<Moon> moon_;
   std::vector<Moon> suns_;  ///< directional lights of the scene
   std::size_t luminous_ = 0;
-  bool covered_ = false;
+  bool covered_ = false, r_table_ = false;
+  RoadLobes lobes_ = RoadLobes::asphalt();
   RayTree tree_;
 };
 

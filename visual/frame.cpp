@@ -141,6 +141,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
 
   // What street lamps give, and what shines by itself.
   if (effects.on(Effect::kFixedLight)) parts.scene.add_fixed_light(lit);
+  lit.r_table = effects.on(Effect::kAsphalt);
 
   // Depth of everything, so that each pixel is lit once.
   const bool depth_done = effects.on(Effect::kDepthFirst);

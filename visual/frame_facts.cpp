@@ -34,6 +34,7 @@ void add_facts(EffectFacts& facts, const FixedLight& light) {
   facts.directional = light.directional();
   facts.luminous = light.luminous();
   facts.covered = light.covered();
+  facts.r_table = light.r_table();
 }
 
 std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geometry) {

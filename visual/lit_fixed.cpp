@@ -13,7 +13,10 @@ namespace phare {
 
 namespace {
 
+constexpr std::uint32_t kRoadAt = 4;  // behind all buffers of what is textured
+
 static_assert(sizeof(FixedVertex) == 20 && offsetof(FixedVertex, sky_share) == 16);
+static_assert(sizeof(FixedRoad) == 48);
 static_assert(sizeof(FixedProbe) == 32 && offsetof(FixedProbe, way) == 16 && offsetof(FixedProbe, sky_share) == 28);
 
 // As kVertexAttributes, which may not be there yet when these are made.
@@ -39,11 +42,13 @@ const std::array<vk::VertexInputAttributeDescription, 6> kProbeAttributes{
 
 vk::ShaderModule LitScene::fixed_module(const LitVariant& variant, std::size_t size, bool vertex) {
   const bool fog = variant.fog.slices != 0, reference = variant.method == Method::kReference;
-  const bool by_vertex = variant.method != Method::kFragment && !reference;
-  const std::size_t which = (vertex ? 1u : 0u) + (fog ? 2u : 0u) + (reference ? 4u : 0u) + (by_vertex ? 8u : 0u);
+  const bool by_vertex = variant.method != Method::kFragment && !reference, road = vertex && variant.kind.road;
+  const std::size_t which = (vertex ? 1u : 0u) + (fog ? 2u : 0u) + (reference ? 4u : 0u) +
+                            (by_vertex ? 8u : 0u) + (road ? 16u : 0u);
   const auto [found, fresh] = fixed_modules_.try_emplace({which, size}, nullptr);
   if (fresh)
-    found->second = gpu::make_shader(device_, vertex      ? fixed_vert(size, by_vertex, filtered(), fog)
+    found->second = gpu::make_shader(device_, road        ? road_vert(size, by_vertex, filtered(), fog)
+                                              : vertex    ? fixed_vert(size, by_vertex, filtered(), fog)
                                               : reference ? fixed_frag_reference(variant.shadow_maps != 0, fog)
                                                           : fixed_frag(size, filtered(), fog));
   return *found->second;
@@ -99,6 +104,30 @@ void LitScene::bind_fixed_light(vk::CommandBuffer commands, const LitView& view,
   vk::Buffer wanted = *geometry_.fixed_light.buffer;
   if (item.moves != DrawItem::kStands) wanted = *written_->probes[(view.first_probe + item.moves) / kProbesInPage]->buffer;
   if (wanted != bound) commands.bindVertexBuffers(1, bound = wanted, vk::DeviceSize{0});
+}
+
+void LitScene::bind_road(vk::CommandBuffer commands, const SceneBatch& batch) const {
+  const auto first = static_cast<vk::DeviceSize>(batch.first_vertex);
+  if (batch.kind.look == 0) {
+    const std::array buffers{*geometry_.vertices.buffer, *geometry_.fixed_light.buffer};
+    const std::array<vk::DeviceSize, 2> offsets{first * sizeof(GpuVertex), first * sizeof(FixedVertex)};
+    commands.bindVertexBuffers(0, buffers, offsets);
+  }
+  commands.bindVertexBuffers(kRoadAt, *geometry_.road.buffer,
+                             static_cast<vk::DeviceSize>(batch.first_road) * sizeof(FixedRoad));
+}
+
+/// As shaders/scene.vert has them.
+void LitScene::add_road_vertices(PipelineRecipe& recipe,
+                                 std::vector<vk::VertexInputAttributeDescription>& attributes) {
+  constexpr std::uint32_t kFirst = 12, kWords = 4;
+  for (std::uint32_t i = 0; i < sizeof(FixedRoad) / (4 * kWords); ++i)
+    attributes.push_back({.location = kFirst + i,
+                          .binding = kRoadAt,
+                          .format = vk::Format::eR32G32B32A32Uint,
+                          .offset = 4 * kWords * i});
+  recipe.fifth_stride = sizeof(FixedRoad);
+  recipe.attributes = attributes;
 }
 
 std::uint32_t LitScene::probe_in_page(const LitView& view, const DrawItem& item) {

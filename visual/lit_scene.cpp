@@ -348,15 +348,17 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
       .samples = variant.samples,
       .layout = stages.fragment.layout};
   if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
-  std::vector<vk::VertexInputAttributeDescription> of_textured;
+  std::vector<vk::VertexInputAttributeDescription> own;
   if (textured) {
-    add_textured_vertices(variant, recipe, of_textured);
+    add_textured_vertices(variant, recipe, own);
   } else if (variant.fixed_light) {
     recipe.vertex = fixed_module(variant, size, true);
     recipe.attributes = variant.moves ? kProbeAttributes : kFixedAttributes;
     recipe.second_stride = variant.moves ? sizeof(FixedProbe) : sizeof(FixedVertex);
     recipe.second_by_instance = variant.moves;
+    if (variant.kind.road) own.assign(kFixedAttributes.begin(), kFixedAttributes.end());
   }
+  if (variant.kind.road) add_road_vertices(recipe, own);
   return *pipelines_.emplace(variant, make_pipeline(device_, recipe)).first->second;
 }
 
@@ -446,6 +448,7 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     }
     variant.fixed_light = view.fixed_light && variant.output != LampOutput::kAudit;
     variant.moves = variant.fixed_light && item.moves != DrawItem::kStands;
+    variant.kind.road = variant.kind.road && variant.fixed_light && view.r_table;
     if (variant.output == LampOutput::kAudit) {
       const std::uint32_t look = variant.kind.look;
       variant.kind = {.double_sided = variant.kind.double_sided,
@@ -459,17 +462,20 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     const vk::Pipeline wanted = pipeline(variant);
     if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);
     push(commands, by_reference ? reference_draw(item) : item.push);
-    const bool look = variant.kind.look != 0;
+    const bool look = variant.kind.look != 0, apart = look || variant.kind.road;
     if (look) {
       bind_look(commands, *item.batch, by_reference);
       bound_light = nullptr;
       if (variant.fixed_light) bind_fixed_light_of_look(commands, view, item);
+    } else if (variant.kind.road) {
+      bound_light = nullptr;
     } else {
       if (variant.fixed_light) bind_fixed_light(commands, view, item, bound_light);
       if (!plain) bind_vertices(commands);
     }
-    plain = !look;
-    commands.drawIndexed(item.batch->index_count, 1, item.first_index, look ? 0 : item.batch->first_vertex,
+    if (variant.kind.road) bind_road(commands, *item.batch);
+    plain = !apart;
+    commands.drawIndexed(item.batch->index_count, 1, item.first_index, apart ? 0 : item.batch->first_vertex,
                          variant.moves ? probe_in_page(view, item) : 0);
   }
 }

@@ -122,6 +122,7 @@ struct LitView {
   bool wet = false;               ///< there is water on the ground; how rough it is is in the data of `lit_by`
   bool snow = false;              ///< lies on what looks up; how much is in the same place
   bool fixed_light = false;       ///< what does not change shines, too
+  bool r_table = false;           ///< on asphalt by its r-table
   std::size_t first_probe = 0;    ///< of `moving`, among those of the frame
   std::uint32_t lamps = 0;        ///< that light something in it
   std::uint32_t unreached = 0;    ///< left out: they light nothing of what it sees
@@ -252,12 +253,15 @@ class LitScene {
   void light_by_block(LitView& view);
   void add_mirrored(const LitView& view);
   void bind_fixed_light(vk::CommandBuffer commands, const LitView& view, const DrawItem& item, vk::Buffer& bound) const;
+  /// Of asphalt by its r-table: drawn from its first vertex on. After it bind_vertices() for others.
+  void bind_road(vk::CommandBuffer commands, const SceneBatch& batch) const;
   static std::uint32_t probe_in_page(const LitView& view, const DrawItem& item);
   vk::raii::PipelineLayout pipeline_layout(std::span<const vk::DescriptorSetLayout> sets);
   FragmentStage fragment_stage(const LitVariant& variant, std::size_t size);
   FragmentStage reference_stage(const LitVariant& variant);
   Textured& textured();
   Stages textured_stages(const LitVariant& variant);
+  static void add_road_vertices(PipelineRecipe& recipe, std::vector<vk::VertexInputAttributeDescription>& attributes);
   static void add_textured_vertices(const LitVariant& variant, PipelineRecipe& recipe,
                                     std::vector<vk::VertexInputAttributeDescription>& attributes);
   /// After bind_look().

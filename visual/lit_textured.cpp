@@ -170,6 +170,7 @@ LitScene::Stages LitScene::textured_stages(const LitVariant& variant) {
                                            k_scene_vert_8_lit_filtered_textured};
   const TexturedKind apart{.relief = (variant.kind.look & shader::kLookRelief) != 0,
                            .fixed = variant.fixed_light,
+                           .road = variant.kind.road,
                            .reference = reference,
                            .filtered = filtered()};
   const bool is_apart = apart.relief || apart.fixed;

@@ -101,7 +101,8 @@ TEST(Rig, SetsTheDesk) {
             "phare_rig_test.toml:19: \"weather.visibility_m\": 0.2 is outside 1 to 1e+05; or clear");
   EXPECT_EQ(wrong("[weather]\nrain_mmph = 200"),
             "phare_rig_test.toml:19: \"weather.rain_mmph\": 200 is outside 0 to 100");
-  EXPECT_NE(wrong("visibility_m = 3").find("no key \"visibility_m\"; there is age_years, camera"), std::string::npos)
+  EXPECT_NE(wrong("visibility_m = 3").find("no key \"visibility_m\"; there is age_years, asphalt, camera"),
+            std::string::npos)
       << wrong("visibility_m = 3");
   EXPECT_NE(wrong("isolux = 3").find("did you mean \"isolux_lx\"?"), std::string::npos) << wrong("isolux = 3");
 }

@@ -34,7 +34,8 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
                {{.pupils = 2}, Effect::kEyeshine},
                {{.snow_cover_01 = 0.4}, Effect::kSnowCover},
                {{.air = {.rain_mmph = 4.0}, .windscreen = true}, Effect::kWindscreen},
-               {{.lit_lamps = 1, .software_device = true, .air = {.rain_mmph = 4.0}, .spraying = 1}, Effect::kSpray}};
+               {{.lit_lamps = 1, .software_device = true, .air = {.rain_mmph = 4.0}, .spraying = 1}, Effect::kSpray},
+               {{.street_lamps = 40, .r_table = true}, Effect::kAsphalt}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);
@@ -46,7 +47,8 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
           ((effect == Effect::kPrecipitation || effect == Effect::kWetGround || effect == Effect::kWindscreen ||
             effect == Effect::kSpray) &&
            row.effect == Effect::kFog) ||
-          (effect == Effect::kSpray && row.effect == Effect::kWetGround);
+          (effect == Effect::kSpray && row.effect == Effect::kWetGround) ||
+          (effect == Effect::kAsphalt && row.effect == Effect::kFixedLight);
       EXPECT_EQ(plan.on(row.effect), row.effect == effect || needed) << row.name;
     }
     tried.insert(effect);
@@ -64,6 +66,28 @@ TEST(Effects, FixedLightNamesAllThatShines) {
   EXPECT_FALSE(plan_effects({}, choices).on(Effect::kFixedLight)) << "there is nothing that it could be made of";
   choices[static_cast<std::size_t>(Effect::kFixedLight)] = 0;
   EXPECT_FALSE(plan_effects({.moon = true}, choices).on(Effect::kFixedLight));
+}
+
+TEST(Effects, AsphaltIsByItsRTableWhereStreetLampsLightItDry) {
+  const EffectFacts town{.lit_lamps = 2, .street_lamps = 52, .r_table = true};
+  EXPECT_TRUE(plan_effects(town).on(Effect::kAsphalt));
+  EffectFacts other = town;
+  other.air.rain_mmph = 4.0;
+  EXPECT_EQ(plan_effects(other)[Effect::kAsphalt].reason, "water lies on it, whose film mirrors street lamps");
+  other = town, other.snow_cover_01 = 0.2;
+  EXPECT_EQ(plan_effects(other)[Effect::kAsphalt].reason, "snow lies on it");
+  for (bool EffectFacts::*view : {&EffectFacts::false_colour, &EffectFacts::parallel_rays}) {
+    other = town, other.*view = true;
+    EXPECT_FALSE(plan_effects(other).on(Effect::kAsphalt));
+  }
+  EffectChoices choices{};
+  choices[static_cast<std::size_t>(Effect::kFixedLight)] = 0;
+  EXPECT_FALSE(plan_effects(town, choices).on(Effect::kAsphalt)) << "its light is switched off";
+  choices = {};
+  choices[static_cast<std::size_t>(Effect::kAsphalt)] = 0;
+  EXPECT_FALSE(plan_effects(town, choices).on(Effect::kAsphalt));
+  choices[static_cast<std::size_t>(Effect::kAsphalt)] = 1;
+  EXPECT_FALSE(plan_effects({.street_lamps = 52}, choices).on(Effect::kAsphalt)) << "there is none";
 }
 
 TEST(Effects, DeviceAndViewCountToo) {

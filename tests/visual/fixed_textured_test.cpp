@@ -133,7 +133,9 @@ TEST_F(FixedTextured, EveryMethodLevelAndAirDrawsIt) {
     Result<Renderer> made =
         Renderer::create({.width_px = 160, .height_px = 90, .validation = true, .beam_level = level});
     ASSERT_TRUE(made);
-    for (const SceneMaterial& material : {with_texture(glm::vec4(1.0f)), relief}) {
+    SceneMaterial road = with_texture(glm::vec4(1.0f)), rough_road = relief;
+    road.r_table = rough_road.r_table = true;
+    for (const SceneMaterial& material : {with_texture(glm::vec4(1.0f)), relief, road, rough_road}) {
       Scene scene = wall(material, {chess(8, {230, 188, 128, 255}, {60, 90, 120, 255})});
       hang_bulb(scene, {2.0, 1.0, 1.0});
       ASSERT_TRUE(made->load_scene(scene, Scene{}, std::make_shared<const FixedLight>(*FixedLight::of(scene, {}, {}))));
@@ -147,7 +149,9 @@ TEST_F(FixedTextured, EveryMethodLevelAndAirDrawsIt) {
           input.lamps = {{.position_m = {0, 0, 0}, .world_from_image = glm::dmat3(1.0)}};
           input.method = method;
           if (fog) input.air.visibility_m = 100.0;
-          EXPECT_TRUE(made->draw(input).effects.on(Effect::kFixedLight));
+          const FrameResult drawn = made->draw(input);
+          EXPECT_TRUE(drawn.effects.on(Effect::kFixedLight));
+          EXPECT_EQ(drawn.effects.on(Effect::kAsphalt), material.r_table);
         }
     }
     EXPECT_EQ(made->validation_messages(), 0u);

@@ -50,7 +50,7 @@ Plan expected(const Plan& on) {
   Plan plan{{"shadows", "off"}, {"depth first", "off"},   {"hdr image", "off"}, {"overlay", "off"},
             {"fog", "off"},     {"precipitation", "off"}, {"ground", "dry"},    {"glare", "off"},
             {"gui", "off"},     {"fixed light", "off"}, {"eyeshine", "off"},  {"snow cover", "off"},
-            {"windscreen", "off"}, {"spray", "off"}};
+            {"windscreen", "off"}, {"spray", "off"},    {"asphalt", "lambert"}};
   for (const auto& [effect, level] : on) plan[effect] = level;
   return plan;
 }
@@ -58,7 +58,11 @@ Plan expected(const Plan& on) {
 TEST(ScenePlans, TheTownStreetCallsForItsLampsAndTheirGlare) {
   std::string text;
   EXPECT_EQ(plan_of("town", 20.0, {}, &text),
-            expected({{"shadows", "soft"}, {"hdr image", "on"}, {"glare", "on"}, {"fixed light", "on"}}))
+            expected({{"shadows", "soft"},
+                      {"hdr image", "on"},
+                      {"glare", "on"},
+                      {"fixed light", "on"},
+                      {"asphalt", "r-table"}}))
       << text;
   EXPECT_NE(text.find("street lamps, 5 luminous materials\n"), std::string::npos) << text;
 }
@@ -90,7 +94,11 @@ TEST(ScenePlans, TheMotorwayCallsForTheOthersGlareAndForNoLampBesideIt) {
 TEST(ScenePlans, TheTunnelCallsForItsLampsAndItsRoof) {
   std::string text;
   EXPECT_EQ(plan_of("tunnel", 150.0, {}, &text),
-            expected({{"shadows", "soft"}, {"hdr image", "on"}, {"glare", "on"}, {"fixed light", "on"}}))
+            expected({{"shadows", "soft"},
+                      {"hdr image", "on"},
+                      {"glare", "on"},
+                      {"fixed light", "on"},
+                      {"asphalt", "r-table"}}))
       << text;
   EXPECT_NE(text.find("a roof over the road"), std::string::npos) << text;
 }

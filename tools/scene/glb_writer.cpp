@@ -62,6 +62,7 @@ class Writer {
       if (m.retroreflection_cd_per_lx_m2 > 0.0) own["retroreflection_cd_per_lx_m2"] = m.retroreflection_cd_per_lx_m2;
       if (m.emission_cdm2 != std::array<double, 3>{}) own["emission_cdm2"] = m.emission_cdm2;
       if (m.sky_share < 1.0) own["sky_share"] = m.sky_share;
+      if (!m.r_table) own["r_table"] = false;
       root_["materials"].push_back(material);
     }
     for (const Node& node : model.nodes) add(node);

@@ -86,6 +86,7 @@ struct MaterialData {
   double retroreflection_cd_per_lx_m2 = 0.0;  ///< R_A at 0.33°, 5° in place of the class's; 0: the class's
   std::array<double, 3> emission_cdm2{};      ///< what it sends out by itself
   double sky_share = 1.0;                     ///< 0: under a roof
+  bool r_table = true;                        ///< false: asphalt that is none, only as rough as it
 };
 
 /// Reflectances by eye within published ranges: asphalt 0.07–0.10, grass 0.08–0.15, plaster 0.6–0.7, dark cloth
@@ -134,7 +135,7 @@ inline constexpr std::array<MaterialData, static_cast<std::size_t>(Material::kCo
     {"sign back", {0.22, 0.22, 0.23}, "plain", "", false},
     // Luminances by eye: lit windows at night lie between a few and a hundred cd/m² (unconfirmed); the glass of a
     // luminaire of 3500 lm over 0.14 m² has some 8000.
-    {"pavement", {0.19, 0.185, 0.175}, "asphalt", "upright facets", false},
+    {"pavement", {0.19, 0.185, 0.175}, "asphalt", "upright facets", false, 0.0, {}, 1.0, false},
     {"kerb stone", {0.26, 0.255, 0.245}, "plain", "", false},
     {"facade white", {0.58, 0.57, 0.53}, "plain", "", false},
     {"facade ochre", {0.48, 0.38, 0.24}, "plain", "", false},

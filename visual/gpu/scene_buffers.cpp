@@ -42,6 +42,7 @@ struct Gathered {
   bool textures = true;          ///< the device can draw them
   std::size_t first_material = 0;  ///< of the scene that is gathered
   std::vector<FixedVertex> light{};              // of the vertices of what stands
+  std::vector<FixedRoad> road{};                 // of the vertices of its asphalt
   std::vector<FarCasters> far_casters{};         // of the chunks of what stands
   std::vector<FixedLight::Meshes> lit_meshes{};  // of the chunks of what stands; none where nothing shines
 };
@@ -96,6 +97,7 @@ struct DrawnChunk {
   std::span<const std::uint32_t> indices{};
   std::span<const CornerLook> looks{};
   std::span<const FixedVertex> light{};  // none where nothing shines
+  std::span<const FixedRoad> road{};
 };
 
 DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std::size_t> far_level,
@@ -105,6 +107,7 @@ DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std:
     const auto index = static_cast<std::size_t>(&chunk - scene.chunks.data());
     const FixedMesh& mesh = all.lit_meshes[index][far_level ? 1 + *far_level : 0];
     drawn.vertices = mesh.vertices, drawn.indices = mesh.indices, drawn.light = mesh.light, drawn.looks = mesh.looks;
+    drawn.road = mesh.road;
   } else if (far_level) {
     drawn.far = far_mesh(scene, chunk, *far_level, kFarLevels[*far_level].from * kFarMeshFrom_m);
     drawn.vertices = drawn.far->vertices, drawn.indices = drawn.far->indices, drawn.looks = drawn.far->looks;
@@ -147,7 +150,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     // A pupil's light is drawn by itself (visual/eyeshine.h).
     const RetroKind retro = material.retro.kind == RetroKind::kPupil ? RetroKind::kNone : material.retro.kind;
     const MaterialKind kind{material.surface, retro, material.double_sided,
-                            look == 0 && is_flat(mesh.vertices, mesh.indices), look};
+                            look == 0 && is_flat(mesh.vertices, mesh.indices), look, !mesh.road.empty()};
     groups[{kind, look != 0 ? all.first_material + chunk->material : 0, cell_of(*chunk, side_m)}].push_back(
         std::move(mesh));
   }
@@ -160,10 +163,12 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     batch.first_vertex = static_cast<std::int32_t>(all.vertices.size());
     batch.first_look = static_cast<std::uint32_t>(all.looks.size());
     batch.first_tangent = static_cast<std::uint32_t>(all.tangents.size());
+    batch.first_road = static_cast<std::uint32_t>(all.road.size());
     batch.look_of = std::get<1>(key);
     for (const DrawnChunk& mesh : group) {
       append(all, batch, *mesh.chunk, mesh.vertices, mesh.indices, mesh.looks);
       all.light.insert(all.light.end(), mesh.light.begin(), mesh.light.end());
+      all.road.insert(all.road.end(), mesh.road.begin(), mesh.road.end());
       batch.low_m = glm::min(batch.low_m, mesh.chunk->low_m);
       batch.high_m = glm::max(batch.high_m, mesh.chunk->high_m);
     }
@@ -300,6 +305,8 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
   std::vector<GpuVertex>().swap(all.vertices);  // of large scenes neither is held longer than it is needed
   if (!all.light.empty())
     fixed_light = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.light)), Usage::eVertexBuffer, "fixed light");
+  if (!all.road.empty())
+    road = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.road)), Usage::eVertexBuffer, "asphalt");
   indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)),
                               Usage::eIndexBuffer | Usage::eStorageBuffer, "scene indices");
   std::vector<std::uint32_t>().swap(all.indices);

@@ -24,6 +24,7 @@ struct MaterialKind {
   bool double_sided = false;
   bool flat = false;  ///< each triangle's normal is that of its plane (visual/scene/scene.h)
   std::uint32_t look = 0;  ///< as kSpecLook
+  bool road = false;  ///< asphalt whose vertices keep a FixedRoad
 
   friend auto operator<=>(const MaterialKind&, const MaterialKind&) = default;
 };
@@ -55,6 +56,7 @@ struct SceneBatch {
   std::uint32_t first_look = 0;  ///< of its vertices, where the kind has a look; then all are of one material
   std::size_t look_of = 0;       ///< which
   std::uint32_t first_tangent = 0;  ///< of its vertices, where the kind has a relief
+  std::uint32_t first_road = 0;     ///< of its vertices, where the kind is of asphalt
   static constexpr std::uint32_t kOrders = 8;
   /// Of the order for who looks along (x, y).
   std::uint32_t first_index_along(const glm::dvec2& direction) const;
@@ -93,6 +95,7 @@ struct SceneBuffers {
   gpu::DeviceBuffer looks;  ///< GpuCornerLook of the vertices of batches that have a look, and of no others
   gpu::DeviceBuffer tangents;  ///< CornerLook::tangent of those that have a relief
   gpu::DeviceBuffer fixed_light;  ///< FixedVertex of each vertex of what stands; none where nothing shines
+  gpu::DeviceBuffer road;  ///< FixedRoad of the vertices of asphalt; none where no lamp shines on it
   SurfaceTextures textures;
   std::vector<FarCasters> far_casters;  ///< of each chunk of what stands, to be taken
 

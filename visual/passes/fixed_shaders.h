@@ -13,5 +13,7 @@ std::span<const std::uint32_t> fixed_frag(std::size_t size, bool filtered, bool 
 std::span<const std::uint32_t> fixed_frag_reference(bool shadows, bool fog);
 /// Fog is passed by vertices for two lamps at most; of more it is that of clear air.
 std::span<const std::uint32_t> fixed_vert(std::size_t size, bool by_vertex, bool filtered, bool fog);
+/// The same for asphalt by an r-table (PHARE_ROAD).
+std::span<const std::uint32_t> road_vert(std::size_t size, bool by_vertex, bool filtered, bool fog);
 
 }  // namespace phare

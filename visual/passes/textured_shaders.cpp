@@ -39,6 +39,12 @@
 #include "shaders/lamps_frag_reference_textured_fixed.h"
 #include "shaders/lamps_frag_reference_textured_relief.h"
 #include "shaders/lamps_frag_reference_textured_relief_fixed.h"
+#include "shaders/road_vert_8_lit_filtered_textured_fixed.h"
+#include "shaders/road_vert_8_lit_filtered_textured_relief_fixed.h"
+#include "shaders/road_vert_8_lit_textured_fixed.h"
+#include "shaders/road_vert_8_lit_textured_relief_fixed.h"
+#include "shaders/road_vert_8_textured_fixed.h"
+#include "shaders/road_vert_8_textured_relief_fixed.h"
 #include "shaders/scene_vert_8_lit_filtered_textured_fixed.h"
 #include "shaders/scene_vert_8_lit_filtered_textured_relief.h"
 #include "shaders/scene_vert_8_lit_filtered_textured_relief_fixed.h"
@@ -116,7 +122,16 @@ std::span<const std::uint32_t> textured_vert(const TexturedKind& kind, bool by_v
       k_scene_vert_8_textured_relief_fixed,
       k_scene_vert_8_lit_textured_relief_fixed,
       k_scene_vert_8_lit_filtered_textured_relief_fixed};
-  return codes[3 * which_of(kind) + (by_vertex ? kind.filtered ? 2u : 1u : 0u)];
+  static const std::array<Code, 6> codes_road{
+      k_road_vert_8_textured_fixed,
+      k_road_vert_8_lit_textured_fixed,
+      k_road_vert_8_lit_filtered_textured_fixed,
+      k_road_vert_8_textured_relief_fixed,
+      k_road_vert_8_lit_textured_relief_fixed,
+      k_road_vert_8_lit_filtered_textured_relief_fixed};
+  const std::size_t method = by_vertex ? kind.filtered ? 2u : 1u : 0u;
+  if (kind.road) return codes_road[3 * (which_of(kind) - 1) + method];
+  return codes[3 * which_of(kind) + method];
 }
 
 }  // namespace phare

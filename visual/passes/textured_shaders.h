@@ -10,6 +10,7 @@ namespace phare {
 /// One of the two is there.
 struct TexturedKind {
   bool relief = false, fixed = false;
+  bool road = false;  ///< asphalt by an r-table, with fixed light
   bool reference = false, filtered = false;
 };
 

@@ -48,6 +48,7 @@ void set_by_desk(FrameInput& input, const Desk& desk) {
   input.effects[static_cast<std::size_t>(Effect::kWetGround)] = desk.ground;
   input.effects[static_cast<std::size_t>(Effect::kGlare)] = desk.glare;
   input.effects[static_cast<std::size_t>(Effect::kFixedLight)] = desk.fixed_light;
+  input.effects[static_cast<std::size_t>(Effect::kAsphalt)] = desk.asphalt;
   input.effects[static_cast<std::size_t>(Effect::kEyeshine)] = desk.eyeshine;
   input.effects[static_cast<std::size_t>(Effect::kSpray)] = desk.spray;
   input.air = air_of(desk);

@@ -49,6 +49,7 @@ LibraryMaterial read_one(TomlTable& table) {
     material.surface = *surface;
   else
     table.fail("surface", surface.error().reason);
+  material.r_table = table.flag_or("r_table", material.surface == Surface::kAsphalt);
   if (const std::string retro = table.text_or("retro", ""); !retro.empty()) {
     Result<Retroreflection> read = retroreflection(retro, std::nullopt, std::nullopt);
     if (read)

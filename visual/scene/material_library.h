@@ -18,6 +18,7 @@ struct LibraryMaterial {
   glm::vec3 reflectance{0.5f};  ///< diffuse rho, linear Rec. 709
   Surface surface = Surface::kPlain;
   Retroreflection retro{};
+  bool r_table = false;  ///< asphalt, unless said otherwise (visual/scene/scene.h)
   std::vector<std::string> words{};  ///< lower case letters
   std::string source{};
   bool confirmed = true;

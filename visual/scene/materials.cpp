@@ -131,6 +131,7 @@ Result<ReadMaterial> MaterialReader::read(const tinygltf::Material& source) {
     const bool pictured = fits->surface == Surface::kFoliage && material.look.base_texture;
     material.surface = pictured ? Surface::kPlain : fits->surface;
     material.retro = fits->retro;
+    material.r_table = fits->r_table;
     notes_.add("materials by words in their names (config/materials/surfaces.toml)",
                "'" + source.name + "' as " + fits->name);
   }
@@ -169,11 +170,17 @@ Status MaterialReader::read_extras(const tinygltf::Material& source, ReadMateria
     }
     material.surface = known.surface;
     material.retro = known.retro;
+    material.r_table = known.r_table;
   }
   if (!surface_name.empty()) {
     const Result<Surface> surface = surface_named(surface_name);
     if (!surface) return bad(surface.error().reason);
     material.surface = *surface;
+    material.r_table = *surface == Surface::kAsphalt;
+  }
+  if (extras.Has("r_table")) {
+    if (!extras.Get("r_table").IsBool()) return bad("extras.phare.r_table is neither true nor false");
+    material.r_table = extras.Get("r_table").Get<bool>();
   }
   if (extras.Has("emission_cdm2")) {
     const tinygltf::Value& given = extras.Get("emission_cdm2");

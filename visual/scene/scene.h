@@ -51,6 +51,7 @@ struct SceneMaterial {
   glm::vec3 reflectance{0.5f};        ///< diffuse rho, linear Rec. 709; of a texture its mean
   Surface surface = Surface::kPlain;  ///< which procedural detail
   Retroreflection retro{};            ///< sheeting, markings; most materials have none
+  bool r_table = false;  ///< under lamps above it luminance follows a road's r-table (visual/fixed_light.h)
   bool double_sided = false;
   PixelLook look{};
   glm::vec3 emission_cdm2{0.0f};  ///< what it sends out by itself, every way alike: cd/m², linear Rec. 709
