@@ -67,8 +67,10 @@ void main() {
       bool narrow = step_deg < kNarrow * widest_deg;                                                                                   \
       float at_deg = angle_##I + step_deg * (narrow ? 0.5 : second ? 0.5 + kGauss : 0.5 - kGauss);                                     \
       float at = radians(at_deg), past = d_##I * tan(at), r = d_##I / cos(at);                                                         \
-      float cd = lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I),                           \
-                            turned_##I * (along_##I + past) - place_##I, 0.0, frame.lamps[I].colour.w).cd;                             \
+      float cd = 0.0;                                                                                                                  \
+      if (r >= frame.lamps[I].row_c.w)                                                                                                 \
+        cd = lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I),                               \
+                        turned_##I * (along_##I + past) - place_##I, 0.0, frame.lamps[I].colour.w).cd;                                 \
       lamp_sum += (narrow ? step_deg : 0.5 * step_deg) * cd * phase_at(90.0 + at_deg, along_##I + past) * fog_left(r + along_##I + past); \
       if (narrow || second) angle_##I += step_deg;                                                                                     \
       second = !narrow && !second;                                                                                                     \

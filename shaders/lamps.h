@@ -102,7 +102,7 @@ struct GpuLamp {
   vec4 position;     // xyz relative to the eye, m; w: the beam's peak, cd
   vec4 row_a;        // w: the square of the way from the eye, m²
   vec4 row_b;        // w: 1 of a lamp of B where two designs are compared, else 0
-  vec4 row_c;
+  vec4 row_c;        // w: air nearer to the lamp does not shine (lib/fog.glsl), m
   vec4 colour;       // rgb, luminance 1 (with a table of colour: r and b what its texels are multiplied by); w: candela of 1.0 in the table
 };
 

@@ -128,7 +128,8 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
     const glm::dmat3 rows = lamp.world_from_image * beam.rows;  // columns: a, b, c in the world
     out.row_a = glm::vec4(glm::vec3(rows[0]), static_cast<float>(glm::dot(from_eye_m, from_eye_m)));
     out.row_b = glm::vec4(glm::vec3(rows[1]), lamp.of_b ? 1.0f : 0.0f);
-    out.row_c = glm::vec4(glm::vec3(rows[2]), 0.0f);
+    const bool from_behind = glm::dot(from_eye_m, lamp.world_from_image[0]) > 0.0;
+    out.row_c = glm::vec4(glm::vec3(rows[2]), from_behind ? static_cast<float>(lamp.body_m) : 0.0f);
     beams_.describe(lamp.beam, out);
   }
   const auto axes_of = [&](std::size_t lamp) {

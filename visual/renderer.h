@@ -57,6 +57,7 @@ struct PlacedLamp {
   /// Which of FrameInput::moving carries it, and casts no shadow in its light.
   std::size_t carried_by = SIZE_MAX;
   bool of_b = false;  ///< of the other design, for View::kDifference and kRatio
+  double body_m = 0.0;  ///< of its vehicle's body: from behind it, air nearer to it is not seen to shine
   LampOpening opening{};  ///< whose parts hide their share of the light, where shadows ask for it
 };
 

@@ -116,12 +116,11 @@ void FogPass::begin_frame() {
 }
 
 bool FogPass::Source::same(const Source& other) const {
-  const auto same_lamp = [](const Lamp& a, const Lamp& b) { return a.beam == b.beam && a.version == b.version; };
   const auto same_way = [](const glm::dvec3& a, const glm::dvec3& b) {
     return glm::all(glm::lessThan(glm::abs(a - b), glm::dvec3(kSame_m)));
   };
   return air == other.air && drops == other.drops && level == other.level && area == other.area &&
-         std::ranges::equal(lamps, other.lamps, same_lamp) && std::ranges::equal(ways, other.ways, same_way);
+         lamps == other.lamps && std::ranges::equal(ways, other.ways, same_way);
 }
 
 FogPass::Source FogPass::source_of(const LitScene& scene, const LitView& view, std::size_t level, bool drops,
@@ -131,7 +130,7 @@ FogPass::Source FogPass::source_of(const LitScene& scene, const LitView& view, s
   for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1)})
     source.ways.push_back(ray_of(view.geometry, corner.x, corner.y) * eye);
   for (const PlacedLamp& lamp : view.air_lamps) {
-    source.lamps.push_back({lamp.beam, scene.beam_version(lamp.beam)});
+    source.lamps.push_back({lamp.beam, scene.beam_version(lamp.beam), lamp.body_m});
     source.ways.push_back((lamp.position_m - input.camera.eye_m) * eye);
     for (int axis = 0; axis < 3; ++axis) source.ways.push_back(lamp.world_from_image[axis] * eye);
   }

@@ -69,6 +69,9 @@ class FogPass {
     struct Lamp {
       std::size_t beam = 0;
       std::uint64_t version = 0;
+      double body_m = 0.0;
+
+      friend bool operator==(const Lamp&, const Lamp&) = default;
     };
     std::vector<Lamp> lamps{};
     std::vector<glm::dvec3> ways{};  ///< of rays and lamps, m

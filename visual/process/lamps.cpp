@@ -20,6 +20,10 @@ glm::dmat3 rotation_of(const VehicleState& pose) {
   return world_from_car(pose.roll_rad, pose.pitch_rad, pose.yaw_rad);
 }
 
+/// A headlamp stands at the edge of the bonnet, which hides from the driver what it lights within some decimetres: a
+/// glaring spot in fog, where the picture shows no bonnet. Chosen.
+constexpr double kBodyAboutLamp_m = 0.6;
+
 }  // namespace
 
 std::set<LampFunction> lit_functions(const CockpitState& controls, bool high_keeps_low) {
@@ -217,6 +221,7 @@ std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
     placed.push_back({position_of(pose) + rotation * position.mount.position_m,
                       rotation * turned(position, pose.lamp_tilt_rad) * image.car_from_image, slot});
     placed.back().opening = position.opening;
+    placed.back().body_m = kBodyAboutLamp_m;
   }
   return placed;
 }
