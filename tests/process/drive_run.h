@@ -18,7 +18,7 @@
 namespace phare::test {
 
 /// Generous: the machine may be busy, and a wait that is too short is no finding.
-inline constexpr std::chrono::seconds kPatience{120};
+inline constexpr std::chrono::seconds kPatience{240};
 
 /// A range of UDP ports that other tests of this machine do not use while RESOURCE_LOCK udp_ports is held.
 std::uint16_t port_base();
