@@ -151,7 +151,11 @@ void main() {
   }
 #ifdef PHARE_FIXED
   if (output_kind != kOutputDifference && output_kind != kOutputRatio) total_lx += fixed_light.w;
+#ifdef PHARE_RELIEF
+  coloured_lx += fixed_light.rgb * relief_of_fixed(n);
+#else
   coloured_lx += fixed_light.rgb;
+#endif
   if (wet_ground != 0u) {
 #define STREET_LAMP(I) film += street_lamp_mirrored(I, n, level);
     STREET_LAMP(0) STREET_LAMP(1) STREET_LAMP(2) STREET_LAMP(3) STREET_LAMP(4) STREET_LAMP(5) STREET_LAMP(6) STREET_LAMP(7)

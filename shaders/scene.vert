@@ -21,6 +21,9 @@ layout(location = 3) in vec4 light_here;   // as FixedVertex, or FixedProbe of w
 layout(location = 4) in float sky_share;
 layout(location = 5) in vec3 light_way;    // of what moves
 layout(constant_id = kSpecMoves) const uint moves = 0;
+#ifdef PHARE_RELIEF
+layout(location = 11) in vec3 light_from;  // as FixedWay
+#endif
 #endif
 #ifdef PHARE_ROAD
 #include "lib/road.h"
@@ -40,6 +43,11 @@ void main() {
 #ifdef PHARE_FIXED
   fixed_light = moves == 0 ? light_here : light_here * max(0.25 + dot(light_way, normalize(point_normal)), 0.0);
   ambient_lx *= sky_share;
+#ifdef PHARE_RELIEF
+  vec3 from = moves == 0 ? light_from : vec3(0.0);
+  fixed_way_xy = from.xy;
+  fixed_way_z = from.z;
+#endif
 #ifdef PHARE_ROAD
   fixed_light.rgb *= road_over_diffuse(road_a, road_b, road_c, point, normalize(point_normal));
 #endif

@@ -240,11 +240,13 @@ FixedRoad packed(std::vector<RoadLight>& lights, double diffuse_cdm2) {
 }  // namespace
 
 FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material,
-                           FixedRoad* road) const {
+                           FixedRoad* road, FixedWay* way_to) const {
   glm::dvec4 sum(0.0);
+  glm::dvec3 facing(0.0);
   std::vector<RoadLight> on_road;
-  const auto add = [&](const Share& share, const glm::vec3& colour, const glm::dvec3& way, double) {
+  const auto add = [&](const Share& share, const glm::vec3& colour, const glm::dvec3& way, double facing_lx) {
     sum += glm::dvec4(glm::dvec3(colour), 1.0) * share.lx;
+    facing += facing_lx * way;
     if (road != nullptr) on_road.push_back(road_light(lobes_, normal, way, share.lx));
   };
   each(point_m, &normal, !material.double_sided, add);
@@ -257,6 +259,10 @@ FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, 
   if (road != nullptr) {
     const double reflectance = static_cast<double>(shader::luminance_of(glm::vec3(rho)));
     *road = packed(on_road, sum.w * reflectance / std::numbers::pi);
+  }
+  if (way_to != nullptr) {
+    const bool turned = !material.double_sided && material.emission_cdm2 == glm::vec3(0.0f);
+    *way_to = !turned ? glm::vec3(0.0f) : glm::vec3(sum.w > 0.0 ? facing / sum.w : normal);
   }
   const glm::dvec3 own_lx = glm::dvec3(material.emission_cdm2) * std::numbers::pi / rho;
   return {glm::vec4(glm::vec3(glm::dvec3(sum) + own_lx), static_cast<float>(sum.w)), material.sky_share};
@@ -336,12 +342,14 @@ class Baker {
       : light_(light),
         material_(scene.materials[chunk.material]),
         origin_m_(chunk.origin_m),
-        r_table_(light.r_table(material_)) {}
+        r_table_(light.r_table(material_)),
+        relief_(material_.look.relief()) {}
 
   void add(FixedMesh& mesh, const SceneVertex& vertex) {
     const Kept& kept = at(vertex);
     mesh.light.push_back(kept.light);
     if (r_table_) mesh.road.push_back(kept.road);
+    if (relief_) mesh.ways.push_back(kept.way);
   }
 
   /// Sides whose middle is off by more than the level allows are halved, in both triangles that share them.
@@ -370,6 +378,7 @@ class Baker {
   struct Kept {
     FixedVertex light;
     FixedRoad road;
+    FixedWay way{0.0f};
   };
 
   const Kept& at(const SceneVertex& vertex) {
@@ -378,7 +387,7 @@ class Baker {
     if (fresh)
       found->second.light =
           light_.at(origin_m_ + glm::dvec3(vertex.position_m), glm::normalize(glm::dvec3(vertex.normal)), material_,
-                    r_table_ ? &found->second.road : nullptr);
+                    r_table_ ? &found->second.road : nullptr, relief_ ? &found->second.way : nullptr);
     return found->second;
   }
 
@@ -456,7 +465,7 @@ class Baker {
   const FixedLight& light_;
   const SceneMaterial& material_;
   glm::dvec3 origin_m_;
-  bool r_table_;
+  bool r_table_, relief_;
   std::map<std::array<std::uint32_t, 6>, Kept> known_;
 };
 static_assert(sizeof(SceneVertex) == sizeof(std::array<std::uint32_t, 6>));

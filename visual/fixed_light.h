@@ -57,6 +57,11 @@ struct FixedRoad {
   std::array<std::uint32_t, 12> halves{};  ///< pairs of half floats
 };
 
+/// What a vertex of a relief keeps besides: whence its light comes, Σ E·l over what falls on the surface, E of each
+/// lamp facing it and l its direction. Light on a facet n is that times dot(n, way), whatever the lamps, as long as
+/// none of them is below the facet. 0 where the relief does not turn it: surfaces lit from both sides, or that shine.
+using FixedWay = glm::vec3;
+
 /// A mesh as it is drawn: cut where its light asks for it.
 struct FixedMesh {
   std::vector<SceneVertex> vertices;
@@ -64,6 +69,7 @@ struct FixedMesh {
   std::vector<FixedVertex> light;
   std::vector<CornerLook> looks{};  ///< one for each vertex, where the chunk has them
   std::vector<FixedRoad> road{};    ///< the same, where the chunk is of asphalt
+  std::vector<FixedWay> ways{};     ///< the same, where it has a relief
 };
 
 /// What arrives at a place, for what moves: on a surface with normal n, lx·max(0, 1/4 + dot(way, n)).
@@ -116,7 +122,7 @@ class FixedLight {
   /// As vertices of the scene keep it: one that nobody sees, for something thin lies on it, has the light that falls on
   /// that; else lux_at().
   FixedVertex at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material,
-                 FixedRoad* road = nullptr) const;
+                 FixedRoad* road = nullptr, FixedWay* way = nullptr) const;
   FixedProbe probe(const glm::dvec3& point_m) const;
   /// Lamps that shine into an eye, the scene and the air between them; what moves hides none. The strongest
   /// kMostGlaringLamps: no more are drawn.

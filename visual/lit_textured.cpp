@@ -98,8 +98,9 @@ static_assert(sizeof(GpuCornerLook) == 16 && offsetof(GpuCornerLook, colour) == 
 
 namespace {
 
-// Of the buffers: vertices, looks, fixed light, tangents.
-constexpr std::uint32_t kLooksAt = 1, kLightAt = 2, kTangentsAt = 3;
+// Of the buffers: vertices, looks, fixed light, tangents, what asphalt keeps (visual/lit_fixed.cpp), and whence light
+// comes on reliefs.
+constexpr std::uint32_t kLooksAt = 1, kLightAt = 2, kTangentsAt = 3, kWaysAt = 5;
 
 vk::VertexInputAttributeDescription attribute(std::uint32_t location, std::uint32_t binding, vk::Format format,
                                               std::uint32_t offset) {
@@ -131,6 +132,12 @@ void LitScene::add_textured_vertices(const LitVariant& variant, PipelineRecipe& 
   if (variant.kind.look & shader::kLookRelief) {
     attributes.push_back(attribute(next++, kTangentsAt, vk::Format::eR8G8B8A8Snorm, 0));
     recipe.fourth_stride = sizeof(CornerLook::tangent);
+    if (variant.fixed_light) {
+      constexpr std::uint32_t kWayIn = 11;
+      // Not read of what moves.
+      attributes.push_back(attribute(kWayIn, variant.moves ? kLightAt : kWaysAt, vk::Format::eR32G32B32Sfloat, 0));
+      recipe.sixth_stride = variant.moves ? 0u : sizeof(FixedWay);
+    }
   }
   recipe.attributes = attributes;
 }
@@ -212,6 +219,9 @@ void LitScene::bind_fixed_light_of_look(vk::CommandBuffer commands, const LitVie
   else
     commands.bindVertexBuffers(kLightAt, *geometry_.fixed_light.buffer,
                                static_cast<vk::DeviceSize>(item.batch->first_vertex) * sizeof(FixedVertex));
+  if (item.moves == DrawItem::kStands && (item.batch->kind.look & shader::kLookRelief) != 0)
+    commands.bindVertexBuffers(kWaysAt, *geometry_.ways.buffer,
+                               static_cast<vk::DeviceSize>(item.batch->first_tangent) * sizeof(FixedWay));
 }
 
 void LitScene::bind_vertices(vk::CommandBuffer commands) const {

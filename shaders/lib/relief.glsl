@@ -6,6 +6,10 @@
 #include "lib/textured.glsl"
 
 layout(location = PHARE_LOOK_LOCATION + 2) in vec4 look_tangent;
+#ifdef PHARE_FIXED
+layout(location = PHARE_LOOK_LOCATION, component = 2) in vec2 fixed_way_xy;  // as FixedWay (visual/fixed_light.h)
+layout(location = 0, component = 3) in float fixed_way_z;
+#endif
 layout(set = PHARE_TEXTURE_SET, binding = 2) uniform sampler2D normal_texels;
 layout(set = PHARE_TEXTURE_SET, binding = 3) uniform sampler2D rough_texels;
 
@@ -60,4 +64,16 @@ void light_relief(uint lamp, LampLight light, vec3 colour, bool dry) {
   }
   relief_lx += lx * below;
 }
+
+#ifdef PHARE_FIXED
+// What facets make of light that does not change, which comes from one side on the whole: as of one lamp there. On a
+// plane dot(n, way) is 1; on what is curved corners have ways of their own normals.
+float relief_of_fixed(vec3 n) {
+  vec3 way = vec3(fixed_way_xy, fixed_way_z);
+  float facing = dot(n, way);
+  if (facing <= 0.0) return 1.0;
+  float lit = lit_of_facets(relief_slopes, facing * inversesqrt(dot(way, way)));
+  return max(dot(relief_mean, way), 0.0) / facing * lit;
+}
+#endif
 #endif

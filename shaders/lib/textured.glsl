@@ -29,6 +29,11 @@ layout(location = PHARE_LOOK_LOCATION + 1) out vec4 look_colour;
 #ifdef PHARE_RELIEF
 layout(location = PHARE_LOOK_INPUT + 2) in vec4 corner_tangent;
 layout(location = PHARE_LOOK_LOCATION + 2) out vec4 look_tangent;
+#ifdef PHARE_FIXED
+// Beside others, for a device may hand 80 numbers and no more.
+layout(location = PHARE_LOOK_LOCATION, component = 2) out vec2 fixed_way_xy;
+layout(location = 0, component = 3) out float fixed_way_z;
+#endif
 #endif
 
 void pass_look() {

@@ -10,7 +10,6 @@
 
 #include "tests/visual/textured_wall.h"
 #include "visual/fixed_light.h"
-#include "visual/scene/tangents.h"
 
 namespace phare {
 namespace {
@@ -103,26 +102,6 @@ TEST_F(FixedTextured, WhatMovesHasItsTextureToo) {
   EXPECT_NEAR(full.cdm2.y, full.lx / std::numbers::pi, 2.0 * kTolerance * full.cdm2.y);
   EXPECT_NEAR(dim.cdm2.y / full.cdm2.y, static_cast<double>(linear_of_srgb_byte(188)),
               2.0 * kTolerance + decode_room(188));
-}
-
-TEST_F(FixedTextured, WithAReliefTheLightOfWhatStandsIsTheSurfacesOwn) {
-  SceneMaterial material = with_texture(glm::vec4(1.0f));
-  const SceneTexture grey = chess(1, {188, 188, 188, 255}, {188, 188, 188, 255});
-  SceneMaterial relief = material;
-  relief.look.normal_texture = relief.look.rough_texture = 1;
-  const SceneTexture tilted{"tilted", 1, 1, {180, 128, 200, 255}};
-  std::vector<Pixel> seen;
-  for (const SceneMaterial& of : {material, relief}) {
-    Scene scene = wall(of, {grey, tilted});
-    for (CornerLook& look : scene.looks) look.tangent = packed_tangent({0, -1, 0}, 1.0f);
-    hang_bulb(scene, {2.0, 1.0, 1.0});
-    FrameInput input = lit(scene);
-    input.lamps.clear();
-    seen.push_back(pixel(drawn(input), 150, 80));
-  }
-  EXPECT_GT(seen[0].cdm2.y, 1.0);
-  EXPECT_NEAR(seen[1].cdm2.y / seen[0].cdm2.y, 1.0, kTolerance);
-  EXPECT_NEAR(seen[1].lx / seen[0].lx, 1.0, kTolerance);
 }
 
 /// Every shader that is made for it, under validation.

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
 
 #include "tests/visual/textured_wall.h"
+#include "visual/fixed_light.h"
 #include "visual/scene/relief.h"
 #include "visual/scene/tangents.h"
 
@@ -84,6 +86,142 @@ TEST_F(Relief, ANormalTextureTurnsTheLightAndNotTheLux) {
       EXPECT_NEAR(seen.lx / wall_lx(seen.at_m, lamp_y_m), 1.0, kTolerance);
     }
   for (const int count : met) EXPECT_GT(count, 20);
+}
+
+/// Of one lamp that stands in the scene whence its light comes is (to the lamp)/(how far it is before the wall), which
+/// is linear on the wall, so corners keep it exactly; lux, interpolated, is taken as the pixel has it.
+TEST_F(Relief, ALampOfTheSceneIsTurnedAsThoseOfTheCarAre) {
+  const std::array<glm::dvec3, 4> tilted{glm::dvec3(0.4, 0.1, 0), {-0.4, -0.1, 0}, {0.1, 0.5, 0}, {-0.1, -0.5, 0}};
+  SceneTexture normals{"normals", 2, 2, {}};
+  std::array<glm::dvec3, 4> n;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const glm::u8vec4 texel = normal_byte(glm::normalize(tilted[i] + glm::dvec3(0, 0, 1)));
+    for (int c = 0; c < 4; ++c) normals.rgba.push_back(texel[c]);
+    n[i] = normal_of(texel);
+  }
+  const double slopes = static_cast<double>(normal_levels(normals, 1.0f, true).front().slopes());
+  SceneMaterial material = plain_material();
+  material.look.normal_texture = 0;
+  Scene scene = relief_wall(material, {normals});
+  const glm::dvec3 bulb_m(kWall_m - 6.0, 2.0, 1.0);
+  scene.lights.push_back({.name = "bulb", .position_m = bulb_m, .intensity = 4000.0});
+  auto light = FixedLight::of(scene, {}, std::nullopt);
+  ASSERT_TRUE(light);
+  FrameInput input = view(scene);
+  input.lamps.clear();
+  ASSERT_TRUE(renderer->load_scene(scene, Scene{}, std::make_shared<const FixedLight>(std::move(*light))));
+  const ImageF picture = drawn(input);
+  double strongest = 0.0;
+  int met = 0;
+  for (int y = 20; y < 160; y += 9)
+    for (int x = 70; x < 250; x += 9) {
+      const Pixel seen = pixel(picture, x, y);
+      const glm::dvec2 texel((4.0 - seen.at_m.x) / 4.0, (4.0 - seen.at_m.y) / 4.0);
+      if (std::abs(texel.x - 1.0) < 0.05 || std::abs(texel.y - 1.0) < 0.05 || texel.x < 0.02 || texel.y < 0.02 ||
+          texel.x > 1.98 || texel.y > 1.98)
+        continue;
+      ++met;
+      const std::size_t which = (texel.x > 1.0 ? 1u : 0u) + (texel.y > 1.0 ? 2u : 0u);
+      const glm::dvec3 toward = glm::normalize(bulb_m - glm::dvec3(kWall_m, seen.at_m));
+      const double cosine = glm::dot(toward, kFront);
+      const double turned = std::max(glm::dot(in_world(n[which]), toward), 0.0) / cosine * smith(slopes, cosine);
+      EXPECT_NEAR(seen.cdm2.y / (0.5 * seen.lx * turned / std::numbers::pi), 1.0, 2.0 * kTolerance + kFit)
+          << x << ' ' << y;
+      strongest = std::max(strongest, std::abs(turned - 1.0));
+    }
+  EXPECT_GT(met, 100);
+  EXPECT_GT(strongest, 0.2) << "there is something to be told apart";
+}
+
+/// Of all lamps that shine on a corner together; none of what has one number for both sides, or shines itself.
+TEST_F(Relief, CornersKeepWhenceLampsOfTheSceneShine) {
+  SceneMaterial material = plain_material();
+  material.look.normal_texture = 0;
+  Scene scene = wall(material, {chess(1, {128, 128, 255, 255}, {128, 128, 255, 255})});
+  const std::array<glm::dvec3, 2> bulbs_m{glm::dvec3(kWall_m - 6.0, 2.0, 1.0), glm::dvec3(kWall_m - 2.0, -3.0, 2.0)};
+  for (const glm::dvec3& bulb_m : bulbs_m)
+    scene.lights.push_back({.name = "bulb", .position_m = bulb_m, .intensity = 4000.0});
+  auto light = FixedLight::of(scene, {}, std::nullopt);
+  ASSERT_TRUE(light);
+  const glm::dvec3 at_m(kWall_m, 1.0, -2.0), facet = glm::normalize(glm::dvec3(-1.0, 0.2, 0.3));
+  double on_facet_lx = 0.0, on_wall_lx = 0.0;
+  for (const glm::dvec3& bulb_m : bulbs_m) {
+    const glm::dvec3 way = bulb_m - at_m;
+    on_facet_lx += 4000.0 * glm::dot(way, facet) / std::pow(glm::length(way), 3.0);
+    on_wall_lx += 4000.0 * glm::dot(way, kFront) / std::pow(glm::length(way), 3.0);
+  }
+  FixedWay way(9.0f);
+  EXPECT_NEAR(static_cast<double>(light->at(at_m, kFront, material, nullptr, &way).light.w), on_wall_lx, 1e-5);
+  EXPECT_NEAR(on_wall_lx * glm::dot(glm::dvec3(way), facet), on_facet_lx, 1e-5 * on_facet_lx);
+  EXPECT_NEAR(glm::dot(glm::dvec3(way), kFront), 1.0, 1e-6);
+  light->at(at_m, -kFront, material, nullptr, &way);
+  EXPECT_EQ(way, glm::vec3(-kFront)) << "in the dark";
+  material.double_sided = true;
+  light->at(at_m, kFront, material, nullptr, &way);
+  EXPECT_EQ(way, glm::vec3(0.0f));
+  material.double_sided = false;
+  material.emission_cdm2 = glm::vec3(1.0f);
+  light->at(at_m, kFront, material, nullptr, &way);
+  EXPECT_EQ(way, glm::vec3(0.0f));
+}
+
+/// What moves has the surface's own light of lamps of the scene; so has what is rough alone, also where it is curved.
+TEST_F(Relief, WhatNoLampOfTheSceneTurnsIsAsBrightAsWithoutIt) {
+  const SceneTexture tilted{"tilted", 1, 1, {180, 128, 200, 255}};
+  for (const bool moves : {true, false}) {
+    std::array<Pixel, 2> seen;
+    for (const bool turned : {false, true}) {
+      SceneMaterial material = with_texture(glm::vec4(1.0f));
+      if (turned) material.look.rough_texture = 1;
+      if (turned && moves) material.look.normal_texture = 1;
+      const SceneTexture grey = chess(1, {188, 188, 188, 255}, {188, 188, 188, 255});
+      Scene drawn_so = relief_wall(material, {grey, tilted}, moves ? 0.0 : kWall_m);
+      if (!moves)  // as if bulged
+        for (SceneVertex& vertex : drawn_so.vertices)
+          vertex.normal = glm::normalize(glm::vec3(-1.0f, 0.2f * vertex.position_m.y, 0.2f * vertex.position_m.z));
+      Scene stands = moves ? wall({.name = "plain"}, {}, 30.0, false) : drawn_so;
+      stands.lights.push_back({.name = "bulb", .position_m = {2.0, 1.0, 3.0}, .intensity = 4000.0});
+      auto light = FixedLight::of(stands, {}, std::nullopt);
+      ASSERT_TRUE(light);
+      FrameInput input = view(stands);
+      input.lamps.clear();
+      if (moves) input.moving = {{0, {kWall_m, 0, 0}}};
+      ASSERT_TRUE(renderer->load_scene(stands, moves ? drawn_so : Scene{},
+                                       std::make_shared<const FixedLight>(std::move(*light))));
+      seen[turned ? 1 : 0] = pixel(drawn(input), 150, 80);
+    }
+    EXPECT_GT(seen[0].cdm2.y, 1.0);
+    EXPECT_NEAR(seen[1].cdm2.y / seen[0].cdm2.y, 1.0, kTolerance) << moves;
+    EXPECT_NEAR(seen[1].lx / seen[0].lx, 1.0, kTolerance) << moves;
+  }
+}
+
+/// Not what has textures but no relief, nor a relief where nothing shines.
+TEST_F(Relief, OnlyUnderLampsOfTheSceneItKeepsWhenceTheyShine) {
+  const SceneTexture picture = chess(1, {128, 128, 255, 255}, {128, 128, 255, 255});
+  const auto bytes = [&](bool relief, bool lamp) {
+    SceneMaterial material = with_texture(glm::vec4(1.0f));
+    if (relief) material.look.normal_texture = 0;
+    Scene scene = relief_wall(material, {picture});
+    // Many corners, for memory is counted in blocks.
+    while (scene.vertices.size() < 40000) {
+      const std::size_t count = scene.vertices.size();
+      for (std::size_t i = 0; i < count; ++i) {
+        scene.vertices.push_back(scene.vertices[i]);
+        scene.looks.push_back(scene.looks[i]);
+      }
+    }
+    scene.chunks[0].vertex_count = static_cast<std::uint32_t>(scene.vertices.size());
+    if (lamp) scene.lights.push_back({.name = "bulb", .position_m = {2.0, 1.0, 3.0}, .intensity = 4000.0});
+    auto light = FixedLight::of(scene, {}, std::nullopt);
+    EXPECT_TRUE(light);
+    FrameInput input = view(scene);
+    EXPECT_TRUE(renderer->load_scene(scene, Scene{}, std::make_shared<const FixedLight>(std::move(*light))));
+    for (int i = 0; i < 3; ++i) drawn(input);
+    return static_cast<double>(renderer->device_memory_bytes());
+  };
+  const double of_lamp = bytes(false, true) - bytes(false, false), with_relief = bytes(true, true) - bytes(true, false);
+  EXPECT_GT(with_relief - of_lamp, 40000.0 * sizeof(FixedWay));
 }
 
 TEST_F(Relief, OnTheAverageALowLampGivesWhatItGivesTheSurface) {

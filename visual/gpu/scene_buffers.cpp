@@ -42,6 +42,7 @@ struct Gathered {
   bool textures = true;          ///< the device can draw them
   std::size_t first_material = 0;  ///< of the scene that is gathered
   std::vector<FixedVertex> light{};              // of the vertices of what stands
+  std::vector<FixedWay> ways{};                  // of its vertices that have a relief
   std::vector<FixedRoad> road{};                 // of the vertices of its asphalt
   std::vector<FarCasters> far_casters{};         // of the chunks of what stands
   std::vector<FixedLight::Meshes> lit_meshes{};  // of the chunks of what stands; none where nothing shines
@@ -98,6 +99,7 @@ struct DrawnChunk {
   std::span<const CornerLook> looks{};
   std::span<const FixedVertex> light{};  // none where nothing shines
   std::span<const FixedRoad> road{};
+  std::span<const FixedWay> ways{};
 };
 
 DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std::size_t> far_level,
@@ -107,7 +109,7 @@ DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std:
     const auto index = static_cast<std::size_t>(&chunk - scene.chunks.data());
     const FixedMesh& mesh = all.lit_meshes[index][far_level ? 1 + *far_level : 0];
     drawn.vertices = mesh.vertices, drawn.indices = mesh.indices, drawn.light = mesh.light, drawn.looks = mesh.looks;
-    drawn.road = mesh.road;
+    drawn.road = mesh.road, drawn.ways = mesh.ways;
   } else if (far_level) {
     drawn.far = far_mesh(scene, chunk, *far_level, kFarLevels[*far_level].from * kFarMeshFrom_m);
     drawn.vertices = drawn.far->vertices, drawn.indices = drawn.far->indices, drawn.looks = drawn.far->looks;
@@ -168,6 +170,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     for (const DrawnChunk& mesh : group) {
       append(all, batch, *mesh.chunk, mesh.vertices, mesh.indices, mesh.looks);
       all.light.insert(all.light.end(), mesh.light.begin(), mesh.light.end());
+      if (batch.kind.look & shader::kLookRelief) all.ways.insert(all.ways.end(), mesh.ways.begin(), mesh.ways.end());
       all.road.insert(all.road.end(), mesh.road.begin(), mesh.road.end());
       batch.low_m = glm::min(batch.low_m, mesh.chunk->low_m);
       batch.high_m = glm::max(batch.high_m, mesh.chunk->high_m);
@@ -305,6 +308,8 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
   std::vector<GpuVertex>().swap(all.vertices);  // of large scenes neither is held longer than it is needed
   if (!all.light.empty())
     fixed_light = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.light)), Usage::eVertexBuffer, "fixed light");
+  if (!all.ways.empty())
+    ways = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.ways)), Usage::eVertexBuffer, "light on reliefs");
   if (!all.road.empty())
     road = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.road)), Usage::eVertexBuffer, "asphalt");
   indices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.indices)),

@@ -95,6 +95,7 @@ struct SceneBuffers {
   gpu::DeviceBuffer looks;  ///< GpuCornerLook of the vertices of batches that have a look, and of no others
   gpu::DeviceBuffer tangents;  ///< CornerLook::tangent of those that have a relief
   gpu::DeviceBuffer fixed_light;  ///< FixedVertex of each vertex of what stands; none where nothing shines
+  gpu::DeviceBuffer ways;  ///< FixedWay of those vertices that have a relief and stand, as `tangents`
   gpu::DeviceBuffer road;  ///< FixedRoad of the vertices of asphalt; none where no lamp shines on it
   SurfaceTextures textures;
   std::vector<FarCasters> far_casters;  ///< of each chunk of what stands, to be taken

@@ -27,6 +27,7 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
   bind(2, recipe.third_stride, recipe.third_by_instance);
   bind(3, recipe.fourth_stride, false);
   bind(4, recipe.fifth_stride, false);
+  bind(5, recipe.sixth_stride, false);
   const vk::PipelineVertexInputStateCreateInfo input{
       .vertexBindingDescriptionCount = static_cast<std::uint32_t>(bindings.size()),
       .pVertexBindingDescriptions = bindings.data(),

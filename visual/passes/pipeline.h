@@ -16,7 +16,7 @@ struct PipelineRecipe {
   std::uint32_t stride = 0;         ///< of a vertex; 0: none are read
   std::uint32_t second_stride = 0;  ///< of a vertex in a second buffer; 0: there is none
   bool second_by_instance = false;  ///< of that one for a whole draw
-  std::uint32_t third_stride = 0, fourth_stride = 0, fifth_stride = 0;  ///< the same of three more
+  std::uint32_t third_stride = 0, fourth_stride = 0, fifth_stride = 0, sixth_stride = 0;  ///< the same of four more
   bool third_by_instance = false;
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
   vk::CullModeFlags cull = vk::CullModeFlagBits::eNone;
