@@ -189,7 +189,7 @@ TEST(PictureOptions, AreTurnedBackIntoTheArgumentsTheyWere) {
       "--method",   "vertex-1998", "--false-colour", "--set",   "lines=off",     "--still-at",
       "2.5",        "--traffic",   "/dev/null",      "--video", "--beam-image",  "half-float-native-nodes",
       "--road-lod", "2",           "--audit-every",  "0",       "--audit-bound", "1%",
-      "--device",   "llvm",        "--validation"};
+      "--frames-in-flight", "1", "--device", "llvm", "--validation"};
   PictureOptions options;
   CLI::App app;
   options.add_to(app);

@@ -128,7 +128,11 @@ TEST_F(Explain, AFastCarOnWetGroundThrowsUpSpray) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explain_spray.toml";
   std::ofstream(file) << "[[road_user]]\ndirection = \"same\"\nstart_s_m = 40\nspeed_kmh = 90\n";
   traffic_ = std::move(*Traffic::read(file, lane_, movers_));
-  const auto spray = [&] { return lines(moment(LightSwitch::kLow), software_).back(); };
+  const auto spray = [&] {
+    const auto all = lines(moment(LightSwitch::kLow), software_);
+    const auto line = std::ranges::find_if(all, [](const std::string& each) { return each.starts_with("spray "); });
+    return line == all.end() ? std::string() : *line;
+  };
   EXPECT_EQ(spray(), "spray           off     the ground is dry");
   desk_.ground = 2;
   EXPECT_EQ(spray(), "spray           on      1 vehicle throws up water of 0.4 mm");
