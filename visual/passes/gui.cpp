@@ -55,13 +55,7 @@ void GuiPass::make() {
   sets_ = gpu::DescriptorSets(device_, std::span(&kAtlas, 1));
   vertex_ = gpu::make_shader(device_, k_gui_vert);
   fragment_ = gpu::make_shader(device_, k_gui_frag);
-  const vk::PushConstantRange push{
-      .stageFlags = vk::ShaderStageFlagBits::eVertex, .offset = 0, .size = sizeof(shader::GuiConstants)};
-  const vk::DescriptorSetLayout set_layout = sets_.layout();
-  layout_ = vk::raii::PipelineLayout(
-      device_.device,
-      vk::PipelineLayoutCreateInfo{
-          .setLayoutCount = 1, .pSetLayouts = &set_layout, .pushConstantRangeCount = 1, .pPushConstantRanges = &push});
+  layout_ = pushing_layout(device_, sets_.layout(), vk::ShaderStageFlagBits::eVertex, sizeof(shader::GuiConstants));
   sampler_ = vk::raii::Sampler(
       device_.device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear, .minFilter = vk::Filter::eLinear});
 }

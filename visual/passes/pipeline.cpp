@@ -4,6 +4,15 @@
 
 namespace phare {
 
+vk::raii::PipelineLayout pushing_layout(const gpu::Device& device, vk::DescriptorSetLayout set,
+                                        vk::ShaderStageFlags stages, std::uint32_t bytes) {
+  const vk::PushConstantRange push{.stageFlags = stages, .offset = 0, .size = bytes};
+  return vk::raii::PipelineLayout(
+      device.device,
+      vk::PipelineLayoutCreateInfo{
+          .setLayoutCount = 1, .pSetLayouts = &set, .pushConstantRangeCount = 1, .pPushConstantRanges = &push});
+}
+
 vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe& recipe) {
   std::vector<vk::PipelineShaderStageCreateInfo> stages{{.stage = vk::ShaderStageFlagBits::eVertex,
                                                          .module = recipe.vertex,

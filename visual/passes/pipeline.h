@@ -34,6 +34,10 @@ struct PipelineRecipe {
 
 vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe& recipe);
 
+/// One descriptor set, and push constants of these stages.
+vk::raii::PipelineLayout pushing_layout(const gpu::Device& device, vk::DescriptorSetLayout set,
+                                        vk::ShaderStageFlags stages, std::uint32_t bytes);
+
 /// Viewport and scissor over a part of the target, y down as Vulkan has it. `mirrored`: left and right are swapped, as
 /// in a mirror, so front faces turn the other way round.
 void set_area(vk::CommandBuffer commands, const vk::Rect2D& area, bool mirrored = false);

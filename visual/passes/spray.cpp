@@ -27,12 +27,8 @@ vk::Pipeline Spray::pipeline(const LitScene& scene, const Key& key) {
   if (const auto found = pipelines_.find(key); found != pipelines_.end()) return *found->second;
   const auto& [tables, lamps, format, samples] = key;
   if (!*layout_) {
-    const vk::DescriptorSetLayout sets = scene.lamps_layout();
-    const vk::PushConstantRange push{vk::ShaderStageFlagBits::eVertex, 0, sizeof(shader::GpuSpray)};
-    layout_ = vk::raii::PipelineLayout(
-        device_.device,
-        vk::PipelineLayoutCreateInfo{
-            .setLayoutCount = 1, .pSetLayouts = &sets, .pushConstantRangeCount = 1, .pPushConstantRanges = &push});
+    layout_ =
+        pushing_layout(device_, scene.lamps_layout(), vk::ShaderStageFlagBits::eVertex, sizeof(shader::GpuSpray));
     fragment_ = gpu::make_shader(device_, k_spray_frag);
   }
   using ShaderCode = std::span<const std::uint32_t>;

@@ -26,13 +26,8 @@ ToneMappingPass::ToneMappingPass(gpu::Device& device)
       sets_(device, std::span(&kInput, 1)),
       vertex_(gpu::make_shader(device, k_fullscreen_vert)),
       fragment_(gpu::make_shader(device, k_tone_mapping_frag)) {
-  const vk::PushConstantRange push{
-      .stageFlags = vk::ShaderStageFlagBits::eFragment, .offset = 0, .size = sizeof(shader::ToneConstants)};
-  const vk::DescriptorSetLayout set_layout = sets_.layout();
-  layout_ = vk::raii::PipelineLayout(
-      device.device,
-      vk::PipelineLayoutCreateInfo{
-          .setLayoutCount = 1, .pSetLayouts = &set_layout, .pushConstantRangeCount = 1, .pPushConstantRanges = &push});
+  layout_ =
+      pushing_layout(device, sets_.layout(), vk::ShaderStageFlagBits::eFragment, sizeof(shader::ToneConstants));
   sampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo{});
 }
 

@@ -97,21 +97,13 @@ shader::GpuScreen screen_of(const ViewGeometry& view, const vk::Rect2D& area, co
   return data;
 }
 
-vk::raii::PipelineLayout layout_for(gpu::Device& device, vk::DescriptorSetLayout set, std::uint32_t bytes) {
-  const vk::PushConstantRange push{kVertexOrFragment, 0, bytes};
-  return vk::raii::PipelineLayout(
-      device.device,
-      vk::PipelineLayoutCreateInfo{
-          .setLayoutCount = 1, .pSetLayouts = &set, .pushConstantRangeCount = 1, .pPushConstantRanges = &push});
-}
-
 }  // namespace
 
 WindscreenPass::WindscreenPass(gpu::Device& device)
     : device_(device),
       sets_(device, std::span(&kScreenInput, 1)),
-      light_layout_(layout_for(device, sets_.layout(), sizeof(shader::GpuScreenLight))),
-      layout_(layout_for(device, sets_.layout(), sizeof(shader::GpuScreen))),
+      light_layout_(pushing_layout(device, sets_.layout(), kVertexOrFragment, sizeof(shader::GpuScreenLight))),
+      layout_(pushing_layout(device, sets_.layout(), kVertexOrFragment, sizeof(shader::GpuScreen))),
       sampler_(device.device, vk::SamplerCreateInfo{}) {
   const vk::raii::ShaderModule whole = gpu::make_shader(device, k_fullscreen_vert),
                                light = gpu::make_shader(device, k_windscreen_light_frag),
