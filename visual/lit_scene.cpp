@@ -475,7 +475,7 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
     }
     if (variant.kind.road) bind_road(commands, *item.batch);
     plain = !apart;
-    commands.drawIndexed(item.batch->index_count, 1, item.first_index, apart ? 0 : item.batch->first_vertex,
+    commands.drawIndexed(item.index_count, 1, item.first_index, apart ? 0 : item.batch->first_vertex,
                          variant.moves ? probe_in_page(view, item) : 0);
   }
 }

@@ -1,12 +1,14 @@
 #include "visual/shadow_casters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "shaders/lamps.h"
 #include "visual/scene/far_mesh.h"
@@ -37,14 +39,6 @@ TangentRect widest(const LampReach& reach, const glm::dmat3& world_from_image) {
   return {-most, most, -high, high};
 }
 
-/// A corner in the lamp's frame: forward, left, up. What lies beside the lamp or behind it counts as just ahead, so
-/// that a triangle that reaches past the lamp fills its view to the edge.
-TangentRect at_corner(const glm::vec3& corner) {
-  const double ahead = std::max(static_cast<double>(corner.x), kNearest_m);
-  const double left = static_cast<double>(corner.y) / ahead, up = static_cast<double>(corner.z) / ahead;
-  return {left, left, up, up};
-}
-
 /// Of the view's sides, as ShadowCasters::Light has them. What casts goes away from the lamp: past a side it stays past
 /// it once it is there and does not come nearer.
 std::vector<glm::vec4> sides_of(const ViewGeometry& view, const glm::dvec3& lamp_m, const glm::dmat3& world_from_image) {
@@ -57,15 +51,52 @@ std::vector<glm::vec4> sides_of(const ViewGeometry& view, const glm::dvec3& lamp
   return sides;
 }
 
-/// The triangle and all that lies behind it as the lamp sees it is out of view; with room for the texels that are read
-/// about a point.
-bool shadow_is_beyond(std::span<const glm::vec4> sides, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+/// How far within a side of the view a corner is, m; below 0 it and all that lies behind it as the lamp sees it are out of
+/// view. With room for the texels that are read about a point.
+float within(const glm::vec4& side, const glm::vec3& corner) {
   constexpr float kRoom_rad = 0.02f;
+  return glm::dot(glm::vec3(side), corner) - side.w + kRoom_rad * glm::length(corner);
+}
+
+bool shadow_is_beyond(std::span<const glm::vec4> sides, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   return std::ranges::any_of(sides, [&](const glm::vec4& side) {
-    const auto beyond = [&](const glm::vec3& corner) {
-      return glm::dot(glm::vec3(side), corner) < side.w - kRoom_rad * glm::length(corner);
-    };
-    return beyond(a) && beyond(b) && beyond(c);
+    return within(side, a) < 0.0f && within(side, b) < 0.0f && within(side, c) < 0.0f;
+  });
+}
+
+/// Keeps what of a polygon has `inside` >= 0 (Sutherland and Hodgman 1974), or a little more where it is convex.
+template <typename Inside>
+void clip(std::vector<glm::vec3>& polygon, std::vector<glm::vec3>& room, const Inside& inside) {
+  room.clear();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const float at_a = inside(a), at_b = inside(b);
+    if (at_a >= 0.0f) room.push_back(a);
+    if ((at_a >= 0.0f) != (at_b >= 0.0f)) room.push_back(a + (b - a) * (at_a / (at_a - at_b)));
+  }
+  polygon.swap(room);
+}
+
+/// What a triangle fills of the lamp's view, as far as its shadow may be seen.
+TangentRect part_of(const std::array<glm::vec3, 3>& corners, std::span<const glm::vec4> sides) {
+  const auto widened_by = [](TangentRect part, const glm::vec3& corner) {
+    const double left = static_cast<double>(corner.y / corner.x), up = static_cast<double>(corner.z / corner.x);
+    widen(part, {left, left, up, up});
+    return part;
+  };
+  thread_local std::vector<glm::vec3> polygon, room;
+  polygon.assign(corners.begin(), corners.end());
+  clip(polygon, room, [](const glm::vec3& corner) { return corner.x - shader::kShadowNear_m; });
+  for (const glm::vec4& side : sides)
+    clip(polygon, room, [&](const glm::vec3& corner) { return within(side, corner); });
+  return std::accumulate(polygon.begin(), polygon.end(), kNothing, widened_by);
+}
+
+/// The triangle lies ahead and within `part` as it is.
+bool fills_no_more(const std::array<glm::vec3, 3>& corners, const TangentRect& part) {
+  return std::ranges::all_of(corners, [&](const glm::vec3& corner) {
+    const double left = static_cast<double>(corner.y / corner.x), up = static_cast<double>(corner.z / corner.x);
+    return corner.x >= shader::kShadowNear_m && left >= part.right && left <= part.left && up >= part.low && up <= part.high;
   });
 }
 
@@ -185,11 +216,11 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
     if (static_cast<double>(std::max({a.x, b.x, c.x})) <= kNearest_m || nearest > kShadowsTo_m) continue;
     if (cut == nullptr && !chunk.double_sided && !shows_its_far_side(a, b, c)) continue;
     if (shadow_is_beyond(light.sides, a, b, c)) continue;
-    TangentRect part = at_corner(a);
-    widen(part, at_corner(b));
-    widen(part, at_corner(c));
-    part = common(part, light.part);
-    if (part.left < part.right || part.high < part.low) continue;
+    if (!fills_no_more({a, b, c}, cast.part)) {
+      const TangentRect part = common(part_of({a, b, c}, light.sides), light.part);
+      if (part.left < part.right || part.high < part.low) continue;
+      widen(cast.part, part);
+    }
     if (cut != nullptr) {
       const auto uv = [&](std::size_t corner) { return mesh.uvs[mesh.indices[k + corner]]; };
       cut->insert(cut->end(), {{a, uv(0)}, {b, uv(1)}, {c, uv(2)}});
@@ -197,7 +228,6 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
       std::vector<glm::vec3>& triangles = chunk.double_sided ? cast.both_sides : cast.far_sides;
       triangles.insert(triangles.end(), {a, b, c});
     }
-    widen(cast.part, part);
     cast.nearest_m = std::min(cast.nearest_m, std::max(nearest, kNearest_m));
     casts = true;
   }

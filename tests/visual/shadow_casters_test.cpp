@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "visual/caster_grid.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/scene/far_mesh.h"
 
@@ -80,11 +81,77 @@ TEST(ShadowCasters, NoneIsLeftOutWhoseShadowFallsIntoTheView) {
         if (!anywhere_cast.count || !anywhere_cast.chunks[i] || !stands_between(lamp_m, seen_m, triangles[i])) continue;
         ++hidden;
         ASSERT_TRUE(cast.count > 0 && cast.chunks[i]) << "round " << round << ", triangle " << i;
+        const glm::dvec3 at = glm::transpose(lamp_turn) * (seen_m - lamp_m);
+        if (glm::length(glm::dvec2(at.y, at.z)) > std::tan(1.2) * at.x || std::abs(at.z) > kHighestShadow * at.x) continue;
+        constexpr double kRounding = 1e-5;
+        ASSERT_TRUE(at.y > cast.part.right * at.x - kRounding && at.y < cast.part.left * at.x + kRounding &&
+                    at.z > cast.part.low * at.x - kRounding && at.z < cast.part.high * at.x + kRounding)
+            << "round " << round << ": the map does not hold " << at.y / at.x << ", " << at.z / at.x;
       }
     }
   }
   EXPECT_GT(hidden, 1000u) << "points that something hides";
   EXPECT_LT(kept, all * 3 / 4) << "nothing was left out";
+}
+
+// A wall that runs past the car: what of it stands beside the lamp shades nothing that the driver sees.
+TEST(ShadowCasters, AMapIsAsWideAsWhatShadesTheView) {
+  const std::vector<Corners> wall{{glm::vec3(-40, 6, 0), glm::vec3(60, 6, 0), glm::vec3(60, 6, 4)},
+                                  {glm::vec3(-40, 6, 0), glm::vec3(60, 6, 4), glm::vec3(-40, 6, 4)}};
+  const ShadowCasters casters(scene_of(wall));
+  const LampReach reach({2.0, 0.6, 0.65}, glm::dmat3(1.0), {{1.0, 0.0, 0.0}, 1.4});
+  const ViewGeometry view({.eye_m = {0.0, 0.3, 1.2}}, 16.0 / 9.0);
+  EXPECT_DOUBLE_EQ(casters.by(reach, glm::dmat3(1.0)).part.left, kWidestShadow);
+  const CastBy cast = casters.by(reach, glm::dmat3(1.0), {}, SIZE_MAX, {.view = &view});
+  ASSERT_EQ(cast.count, 2u);
+  // Where the left edge of the view of 60 degrees meets the wall.
+  const double from_eye_m = (6.0 - 0.3) / std::tan(std::numbers::pi / 6.0);
+  EXPECT_NEAR(cast.part.left, (6.0 - 0.6) / (from_eye_m - 2.0), 0.1);
+}
+
+// A box that something shades is never told clear, wherever it and what casts are; most boxes before and beside it are.
+TEST(CasterGrid, NoBoxIsClearOnWhichAShadowFalls) {
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> even(-1.0, 1.0);
+  const auto anywhere = [&](double size_m) { return size_m * glm::dvec3(even(random), even(random), even(random)); };
+  std::size_t shaded = 0, clear = 0, boxes = 0;
+  for (int round = 0; round < 80; ++round) {
+    const glm::dvec3 lamp_m{2.0, 0.6, 0.65};
+    const glm::dmat3 turn = aim_rotation(0.6 * even(random), 0.1 * even(random), 0.0);
+    std::vector<Corners> triangles;
+    for (int i = 0; i < 12; ++i) {
+      const double far_m = 3.0 + 40.0 * std::abs(even(random)), size_m = round % 4 == 3 ? 30.0 : 2.0;
+      const glm::dvec3 at = lamp_m + turn * glm::dvec3(far_m, 0.6 * far_m * even(random), 0.2 * far_m * even(random));
+      triangles.push_back({glm::vec3(at), glm::vec3(at + anywhere(size_m)), glm::vec3(at + anywhere(size_m))});
+    }
+    const CastBy cast = ShadowCasters(scene_of(triangles)).by(LampReach(lamp_m, turn, {{1.0, 0.0, 0.0}, 1.3}), turn);
+    if (cast.count == 0) continue;
+    const glm::dvec2 half = half_sides(cast.part);
+    const CasterGrid grid(cast, half, half / glm::dvec2(255.0, 127.0));
+    for (int i = 0; i < 400; ++i) {
+      // Some hold the lamp or reach past it.
+      const glm::dvec3 middle_m = lamp_m + turn * glm::dvec3(25.0 + 26.0 * even(random), 15.0 * even(random), 3.0 * even(random));
+      const glm::dvec3 half_m = glm::abs(anywhere(i % 10 == 0 ? 12.0 : 1.5));
+      ++boxes;
+      const bool told = grid.may_shade(box_corners(glm::transpose(turn), lamp_m, middle_m - half_m, middle_m + half_m));
+      clear += told ? 0 : 1;
+      if (told) continue;
+      for (int point = 0; point < 60; ++point) {
+        const glm::dvec3 at_m = middle_m + half_m * glm::dvec3(even(random), even(random), even(random));
+        const glm::dvec3 at = glm::transpose(turn) * (at_m - lamp_m);
+        if (at.x < 0.05 || std::abs(at.y) > half.x * at.x || std::abs(at.z) > half.y * at.x) continue;
+        for (const Corners& triangle : triangles) {
+          const bool hidden = stands_between(lamp_m, at_m, triangle);
+          shaded += hidden;
+          ASSERT_FALSE(hidden) << "round " << round << ", box " << i << " at " << at.x << ", " << at.y << ", " << at.z;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(shaded, 0u);
+  EXPECT_GT(boxes, 20'000u);
+  EXPECT_GT(clear, boxes / 3);
+  EXPECT_LT(clear, boxes);
 }
 
 TEST(ShadowCasters, WhatIsFarCastsByItsFarMesh) {

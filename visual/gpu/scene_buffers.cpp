@@ -90,6 +90,52 @@ void add_orders(SceneBatch& batch, Gathered& all) {
   batch.ordered = true;
 }
 
+// Pieces of a batch of ground, at most and of how many triangles at least: more of them tell more exactly what a shadow can
+// reach, and each costs a test a lamp.
+constexpr std::size_t kPieces = 256, kLeastTriangles = 2;
+
+// Which of the cells of a grid of 1024 × 1024 over the ground comes when, cells that lie together near each other (Morton 1966).
+std::uint32_t morton(const glm::vec2& at_01) {
+  const auto spread = [](float of_01) {
+    auto bits = static_cast<std::uint32_t>(glm::clamp(of_01, 0.0f, 1.0f) * 1023.0f);
+    bits = (bits | bits << 8u) & 0x00ff00ffu;
+    bits = (bits | bits << 4u) & 0x0f0f0f0fu;
+    bits = (bits | bits << 2u) & 0x33333333u;
+    return (bits | bits << 1u) & 0x55555555u;
+  };
+  return spread(at_01.x) | spread(at_01.y) << 1u;
+}
+
+void cut_into_pieces(SceneBatch& batch, Gathered& all) {
+  struct Triangle {
+    std::array<std::uint32_t, 3> corners;
+    std::uint32_t place;
+  };
+  const std::span<std::uint32_t> indices = std::span(all.indices).subspan(batch.first_index, batch.index_count);
+  const auto at = [&](std::uint32_t corner) -> const glm::vec3& {
+    return all.vertices[static_cast<std::size_t>(batch.first_vertex) + corner].position_m;
+  };
+  const glm::vec2 low(batch.low_m - batch.origin_m), size(batch.high_m - batch.low_m);
+  const glm::vec2 per_m = 1.0f / glm::max(size, 1e-3f);
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 0; i < indices.size(); i += 3) {
+    const glm::vec3 middle = (at(indices[i]) + at(indices[i + 1]) + at(indices[i + 2])) / 3.0f;
+    triangles.push_back({{indices[i], indices[i + 1], indices[i + 2]}, morton((glm::vec2(middle) - low) * per_m)});
+  }
+  std::ranges::stable_sort(triangles, {}, &Triangle::place);
+  const std::size_t each = std::max(kLeastTriangles, (triangles.size() + kPieces - 1) / kPieces);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (i % each == 0) batch.pieces.push_back({glm::vec3(1e30f), glm::vec3(-1e30f)});
+    BatchPiece& piece = batch.pieces.back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      indices[3 * i + k] = triangles[i].corners[k];
+      piece.low_m = glm::min(piece.low_m, at(triangles[i].corners[k]));
+      piece.high_m = glm::max(piece.high_m, at(triangles[i].corners[k]));
+    }
+    piece.index_count += 3;
+  }
+}
+
 /// A chunk as it is drawn. The spans stay good while it is moved: so do the words of a vector.
 struct DrawnChunk {
   const SceneChunk* chunk;
@@ -139,9 +185,9 @@ void keep_far_caster(const Scene& scene, const DrawnChunk& mesh, std::size_t lev
   for (const CornerLook& look : mesh.looks) kept.uvs.push_back(look.uv);
 }
 
-// One batch for each kind and cell of `side_m` among the chunks.
+// One batch for each kind and cell of `side_m` among the chunks. What stands is ground that shadows fall on by pieces.
 std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m,
-                               std::optional<std::size_t> far_level, Gathered& all) {
+                               std::optional<std::size_t> far_level, bool stands, Gathered& all) {
   // Of what has a look, one for each material besides: its textures are bound for it.
   std::map<std::tuple<MaterialKind, std::size_t, Cell>, std::vector<DrawnChunk>> groups;
   for (const SceneChunk* chunk : chunks) {
@@ -176,8 +222,11 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
       batch.high_m = glm::max(batch.high_m, mesh.chunk->high_m);
     }
     batch.index_count = static_cast<std::uint32_t>(all.indices.size()) - batch.first_index;
-    if (batch.kind.surface == Surface::kFoliage) add_orders(batch, all);
-    if (batch.index_count > 0) batches.push_back(batch);
+    if (batch.kind.surface == Surface::kFoliage)
+      add_orders(batch, all);
+    else if (stands && (batch.kind.surface == Surface::kAsphalt || batch.kind.surface == Surface::kGrass))
+      cut_into_pieces(batch, all);
+    if (batch.index_count > 0) batches.push_back(std::move(batch));
   }
   return batches;
 }
@@ -194,9 +243,9 @@ std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all, const Pro
       block.low_m = glm::min(block.low_m, chunk->low_m);
       block.high_m = glm::max(block.high_m, chunk->high_m);
     }
-    block.near = gather(scene, chunks, kBlock_m, std::nullopt, all);
+    block.near = gather(scene, chunks, kBlock_m, std::nullopt, true, all);
     for (std::size_t level = 0; level < kFarLevels.size(); ++level)
-      block.far[level] = gather(scene, chunks, kBlock_m, level, all);
+      block.far[level] = gather(scene, chunks, kBlock_m, level, true, all);
     blocks.push_back(std::move(block));
   }
   return blocks;
@@ -217,7 +266,7 @@ std::vector<MovingMesh> make_moving(const Scene& scene, std::uint32_t first_mate
   const std::size_t first_vertex = all.vertices.size();
   all.first_material = first_material;
   for (std::size_t i = 0; i < meshes.size(); ++i)
-    meshes[i].batches = gather(scene, chunks[i], kBlock_m, std::nullopt, all);
+    meshes[i].batches = gather(scene, chunks[i], kBlock_m, std::nullopt, false, all);
   for (GpuVertex& vertex : std::span(all.vertices).subspan(first_vertex)) vertex.material += first_material;
   return meshes;
 }
@@ -259,12 +308,14 @@ shader::GpuDraw draw_at(const glm::dvec3& from_eye_m, const glm::dvec3& detail_m
   return draw;
 }
 
-// Those of one kind together.
+// Those of one kind together; paint before the road that it lies on.
 void near_first(std::vector<DrawItem>& items) {
-  std::sort(items.begin(), items.end(), [](const DrawItem& a, const DrawItem& b) {
-    return std::tuple(a.batch->kind, a.distance_m, a.batch->first_index) <
-           std::tuple(b.batch->kind, b.distance_m, b.batch->first_index);
-  });
+  const auto place = [](const DrawItem& item) {
+    const MaterialKind& kind = item.batch->kind;
+    return std::tuple(kind.surface == Surface::kPaint ? Surface::kPlain : kind.surface, kind, item.distance_m,
+                      item.batch->first_index);
+  };
+  std::sort(items.begin(), items.end(), [&](const DrawItem& a, const DrawItem& b) { return place(a) < place(b); });
 }
 
 }  // namespace
@@ -338,7 +389,7 @@ std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far
       const std::optional<double> distance = view.sees(batch.low_m, batch.high_m);
       if (!distance) continue;
       const glm::dvec3 detail = batch.origin_m - glm::floor(batch.origin_m / 1024.0) * 1024.0;
-      items.push_back({&batch, batch.first_index_along(looks_along(view, batch)),
+      items.push_back({&batch, batch.first_index_along(looks_along(view, batch)), batch.index_count,
                        draw_at(batch.origin_m - view.camera().eye_m, detail, glm::dmat3(1.0)),
                        static_cast<float>(*distance)});
     }
@@ -365,7 +416,7 @@ void SceneBuffers::add_visible(std::vector<DrawItem>& items, std::vector<SceneBa
       const std::optional<double> distance = view.sees(there.low_m, there.high_m);
       if (!distance) continue;
       placed.push_back(there);
-      items.push_back({&placed.back(), batch.first_index,
+      items.push_back({&placed.back(), batch.first_index, batch.index_count,
                        draw_at(there.origin_m - view.camera().eye_m, batch.origin_m, turn),
                        static_cast<float>(*distance)});
       items.back().moves = static_cast<std::uint32_t>(&mesh - meshes.data());

@@ -42,6 +42,12 @@ struct GpuCornerLook {
   glm::u16vec4 colour;
 };
 
+/// Triangles of a batch that lie together, and a box about them relative to the batch's origin, m.
+struct BatchPiece {
+  glm::vec3 low_m{0.0f}, high_m{0.0f};
+  std::uint32_t index_count = 0;
+};
+
 /// Chunks of one kind in one cell of the ground, drawn in one call: on a software device a call costs as much as a
 /// hundred triangles.
 struct SceneBatch {
@@ -50,6 +56,8 @@ struct SceneBatch {
   glm::dvec3 low_m{0.0}, high_m{0.0};
   std::uint32_t first_index = 0, index_count = 0;
   std::int32_t first_vertex = 0;
+  /// One behind the other all of its triangles, of ground that stands; else none.
+  std::vector<BatchPiece> pieces{};
   /// The same triangles in kOrders orders, one behind the other: near ones first for who looks along x, then turned to
   /// the left in even steps. Leaves lie behind leaves, and what is drawn first hides the rest before it is lit.
   bool ordered = false;
@@ -72,7 +80,7 @@ struct SceneBlock {
 /// One batch to draw, ready for its push constants.
 struct DrawItem {
   const SceneBatch* batch = nullptr;
-  std::uint32_t first_index = 0;  ///< of the order that is drawn
+  std::uint32_t first_index = 0, index_count = 0;  ///< of the order that is drawn, all of it or a part
   shader::GpuDraw push{};
   float distance_m = 0.0f;
   std::size_t lit_by = 0;         ///< which of the view's sets of lamps (visual/lit_scene.h)

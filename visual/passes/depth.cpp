@@ -55,7 +55,7 @@ void DepthPass::draw(gpu::FrameGraph& graph, LitScene& scene, const LitView& vie
       if (look != 0) scene.bind_look(commands, *item.batch);
       if (look == 0 && !plain) scene.bind_vertices(commands);
       plain = look == 0;
-      commands.drawIndexed(item.batch->index_count, 1, item.first_index, plain ? item.batch->first_vertex : 0, 0);
+      commands.drawIndexed(item.index_count, 1, item.first_index, plain ? item.batch->first_vertex : 0, 0);
     }
     commands.endRendering();
   });

@@ -6,11 +6,13 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
+#include <optional>
 
 #include "shaders/depth_cut_frag.h"
 #include "shaders/shadow_cut_vert.h"
 #include "shaders/shadow_vert.h"
 #include "shaders/textured.h"
+#include "visual/caster_grid.h"
 #include "visual/passes/constants.h"
 
 namespace phare {
@@ -24,25 +26,6 @@ shader::GpuShadow place_of(const PlacedLamp& lamp, const glm::dvec3& eye_m, cons
   };
   return {row(lamp.world_from_image[1] * -texels.x), row(lamp.world_from_image[2] * -texels.y),
           row(lamp.world_from_image[0])};
-}
-
-/// Whether a shadow of the lamp's map may fall on the box: some of it is behind the nearest thing that casts one, and
-/// on the map.
-bool may_fall_on(const SceneBatch& batch, const PlacedLamp& lamp, const CastBy& cast) {
-  const glm::dmat3 image_from_world = glm::transpose(lamp.world_from_image);
-  TangentRect seen{1e30, -1e30, 1e30, -1e30};
-  double farthest_m = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 at{corner & 1 ? batch.low_m.x : batch.high_m.x, corner & 2 ? batch.low_m.y : batch.high_m.y,
-                        corner & 4 ? batch.low_m.z : batch.high_m.z};
-    const glm::dvec3 d = image_from_world * (at - lamp.position_m);
-    farthest_m = std::max(farthest_m, d.x);
-    const double ahead = std::max(d.x, 1e-3);
-    seen = {std::min(seen.right, d.y / ahead), std::max(seen.left, d.y / ahead), std::min(seen.low, d.z / ahead),
-            std::max(seen.high, d.z / ahead)};
-  }
-  return farthest_m > cast.nearest_m && seen.left > cast.part.right && seen.right < cast.part.left &&
-         seen.high > cast.part.low && seen.low < cast.part.high;
 }
 
 const glm::vec3& place_of(const glm::vec3& corner) {
@@ -113,6 +96,62 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
       }
   }
   return maps;
+}
+
+/// Where a map may hide light.
+struct Shade {
+  glm::dmat3 image_from_world;
+  glm::dvec3 lamp_m;
+  CasterGrid grid;
+
+  bool may_fall_on(const glm::dvec3& low_m, const glm::dvec3& high_m) const {
+    return grid.may_shade(box_corners(image_from_world, lamp_m, low_m, high_m));
+  }
+};
+
+/// Ground that begins farther away fills so little of a picture that its pieces are not told apart: chosen.
+constexpr float kPiecesTo_m = 60.0f;
+
+/// Tells which of the view's draws a shadow may fall on. Of near ground that is done by pieces: those that none can reach are
+/// drawn first, as where nothing casts.
+void tell_shadowed(LitView& view, std::span<const Map> maps) {
+  std::vector<Shade> shades;
+  for (const Map& map : maps) {
+    const PlacedLamp& lamp = view.lit_lamps[map.lamp];
+    const CastBy& cast = view.casts[map.lamp];
+    shades.push_back({glm::transpose(lamp.world_from_image), lamp.position_m,
+                      CasterGrid(cast, half_sides(cast.part), 1.0 / map.texels)});
+  }
+  const auto may_fall_on = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
+    return std::ranges::any_of(shades, [&](const Shade& shade) { return shade.may_fall_on(low_m, high_m); });
+  };
+  std::vector<DrawItem> items, shadowed;
+  for (DrawItem& item : view.items) {
+    const SceneBatch& batch = *item.batch;
+    item.shadowed = may_fall_on(batch.low_m, batch.high_m);
+    if (!item.shadowed || batch.pieces.empty() || item.distance_m > kPiecesTo_m) {
+      items.push_back(item);
+      continue;
+    }
+    shadowed.clear();
+    std::uint32_t first_index = item.first_index;
+    std::optional<bool> before;
+    for (const BatchPiece& piece : batch.pieces) {
+      const bool here =
+          may_fall_on(batch.origin_m + glm::dvec3(piece.low_m), batch.origin_m + glm::dvec3(piece.high_m));
+      std::vector<DrawItem>& run = here ? shadowed : items;
+      if (before != here) {
+        run.push_back(item);
+        run.back().first_index = first_index, run.back().index_count = 0;
+        run.back().shadowed = here;
+      }
+      run.back().index_count += piece.index_count;
+      first_index += piece.index_count;
+      before = here;
+    }
+    items.insert(items.end(), shadowed.begin(), shadowed.end());
+  }
+  view.items = std::move(items);
 }
 
 template <typename Corner>
@@ -258,9 +297,7 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
   const ShadowLevel& level = kShadowLevels[level_number];
   const std::vector<Map> maps = place_maps(view, level, most_shadow_maps(level, limits_));
   if (maps.empty()) return;
-  for (DrawItem& item : view.items)
-    item.shadowed = std::ranges::any_of(
-        maps, [&](const Map& map) { return may_fall_on(*item.batch, view.lit_lamps[map.lamp], view.casts[map.lamp]); });
+  tell_shadowed(view, maps);
   ShadowDepths& depths = depths_of(maps.size() * texels_of_map(level));
   const std::vector<Ranges> ranges = fill_triangles(device_, depths, view, maps, level, scene.has_textures());
   const std::size_t in_image = shadow_maps_in_image(level, limits_);

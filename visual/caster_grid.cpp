@@ -1,0 +1,169 @@
+#include "visual/caster_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <limits>
+
+#include "shaders/lamps.h"
+
+namespace phare {
+namespace {
+
+/// Tangents of corners as they come, and the least way forward of what is ahead of the lamp.
+struct Bounds {
+  float right = std::numeric_limits<float>::infinity(), left = -right, low = right, high = -right, nearest_m = right;
+
+  void add(const glm::vec3& ahead) {
+    const float y = ahead.y / ahead.x, z = ahead.z / ahead.x;
+    right = std::min(right, y), left = std::max(left, y);
+    low = std::min(low, z), high = std::max(high, z);
+    nearest_m = std::min(nearest_m, ahead.x);
+  }
+  /// Of an edge that passes the plane just before the lamp, the point where it does.
+  void add_crossing(const glm::vec3& a, const glm::vec3& b) {
+    const float near_m = shader::kShadowNear_m;
+    if ((a.x < near_m) == (b.x < near_m)) return;
+    const glm::vec3 at = a + (b - a) * ((near_m - a.x) / (b.x - a.x));
+    add({near_m, at.y, at.z});
+  }
+  glm::vec2 least() const { return {right, low}; }
+  glm::vec2 most() const { return {left, high}; }
+};
+
+Bounds bounds_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  Bounds bounds;
+  bool all = true;
+  for (const glm::vec3& corner : {a, b, c}) {
+    if (corner.x >= shader::kShadowNear_m)
+      bounds.add(corner);
+    else
+      all = false;
+  }
+  if (all) return bounds;
+  bounds.add_crossing(a, b);
+  bounds.add_crossing(b, c);
+  bounds.add_crossing(c, a);
+  return bounds;
+}
+
+}  // namespace
+
+BoxCorners box_corners(const glm::dmat3& image_from_world, const glm::dvec3& lamp_m, const glm::dvec3& low_m,
+                       const glm::dvec3& high_m) {
+  const glm::vec3 first(image_from_world * (low_m - lamp_m));
+  const glm::mat3 sides(image_from_world[0] * (high_m.x - low_m.x), image_from_world[1] * (high_m.y - low_m.y),
+                        image_from_world[2] * (high_m.z - low_m.z));
+  BoxCorners corners;
+  for (std::size_t i = 0; i < 8; ++i)
+    corners[i] = first + (i & 1 ? sides[0] : glm::vec3(0.0f)) + (i & 2 ? sides[1] : glm::vec3(0.0f)) +
+                 (i & 4 ? sides[2] : glm::vec3(0.0f));
+  return corners;
+}
+
+CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const glm::dvec2& texel)
+    : nearest_m_(static_cast<std::size_t>(kColumns * kRows), std::numeric_limits<float>::infinity()),
+      nearest_of_block_m_(nearest_m_.size() / (kBlock * kBlock), std::numeric_limits<float>::infinity()) {
+  // Texels that are weighed about a point, half of one that is added, and one for rounding.
+  constexpr double kRoom_texels = 3.0;
+  const auto axis = [&](double half, double finest, int cells, double of_texel) {
+    return Axis{static_cast<float>(half), static_cast<float>(finest), 0.5f * static_cast<float>(cells),
+                static_cast<float>(0.5 * cells * (half + finest) / half), static_cast<float>(kRoom_texels * of_texel)};
+  };
+  across_ = axis(half_sides.x, 0.3, kColumns, texel.x);
+  up_ = axis(half_sides.y, 0.1, kRows, texel.y);
+  const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const Bounds bounds = bounds_of(a, b, c);
+    const Cells cells = cells_of(bounds.least(), bounds.most());
+    for (int row = cells.first_row; row < cells.end_row; ++row)
+      for (int column = cells.first_column; column < cells.end_column; ++column) {
+        float& nearest_m = nearest_m_[static_cast<std::size_t>(row * kColumns + column)];
+        nearest_m = std::min(nearest_m, bounds.nearest_m);
+      }
+  };
+  for (const std::vector<glm::vec3>* corners : {&cast.far_sides, &cast.both_sides})
+    for (std::size_t i = 0; i + 2 < corners->size(); i += 3) add((*corners)[i], (*corners)[i + 1], (*corners)[i + 2]);
+  for (const CutCasters& cut : cast.cut)
+    for (std::size_t i = 0; i + 2 < cut.corners.size(); i += 3)
+      add(cut.corners[i].corner_m, cut.corners[i + 1].corner_m, cut.corners[i + 2].corner_m);
+  for (int row = 0; row < kRows; ++row)
+    for (int column = 0; column < kColumns; ++column) {
+      float& block_m = nearest_of_block_m_[static_cast<std::size_t>(row / kBlock * (kColumns / kBlock) + column / kBlock)];
+      block_m = std::min(block_m, nearest_m_[static_cast<std::size_t>(row * kColumns + column)]);
+    }
+}
+
+bool CasterGrid::may_shade(const BoxCorners& box) const {
+  Bounds bounds;
+  float farthest_m = 0.0f;
+  bool all = true;
+  for (const glm::vec3& corner : box) {
+    farthest_m = std::max(farthest_m, corner.x);
+    if (corner.x >= shader::kShadowNear_m)
+      bounds.add(corner);
+    else
+      all = false;
+  }
+  if (!all)
+    for (std::size_t i = 0; i < 8; ++i)
+      for (const std::size_t side : {1u, 2u, 4u})
+        if ((i & side) == 0) bounds.add_crossing(box[i], box[i | side]);
+  if (bounds.nearest_m > farthest_m) return false;  // behind the lamp
+  const glm::vec2 least = bounds.least(), most = bounds.most();
+  const Cells cells = cells_of({across_.widened(least.x, -1.0f), up_.widened(least.y, -1.0f)},
+                               {across_.widened(most.x, 1.0f), up_.widened(most.y, 1.0f)});
+  glm::vec3 low = box[0], high = box[0];
+  for (const glm::vec3& corner : box) low = glm::min(low, corner), high = glm::max(high, corner);
+  // Where the box is seen in some columns or rows, it is so far forward at most: ground below the lamp is near in low rows.
+  const auto farthest_in = [&](const Axis& axis, int first, int end, float least_m, float most_m) {
+    const float from = axis.widened(axis.tangent(first), -1.0f), to = axis.widened(axis.tangent(end), 1.0f);
+    if (to < 0.0f) return std::min(farthest_m, std::min(least_m, 0.0f) / to);
+    if (from > 0.0f) return std::min(farthest_m, std::max(most_m, 0.0f) / from);
+    return farthest_m;
+  };
+  const auto in_block = [&](int first_row, int first_column) {
+    const int end_row = std::min(first_row + kBlock, cells.end_row);
+    const int begin_column = std::max(first_column, cells.first_column);
+    const int end_column = std::min(first_column + kBlock, cells.end_column);
+    for (int row = std::max(first_row, cells.first_row); row < end_row; ++row) {
+      const float in_row_m = farthest_in(up_, row, row + 1, low.z, high.z);
+      for (int column = begin_column; column < end_column; ++column) {
+        const float nearest_m = nearest_m_[static_cast<std::size_t>(row * kColumns + column)];
+        if (nearest_m < in_row_m && nearest_m < farthest_in(across_, column, column + 1, low.y, high.y)) return true;
+      }
+    }
+    return false;
+  };
+  for (int row = cells.first_row / kBlock * kBlock; row < cells.end_row; row += kBlock) {
+    const float in_rows_m = farthest_in(up_, row, row + kBlock, low.z, high.z);
+    for (int column = cells.first_column / kBlock * kBlock; column < cells.end_column; column += kBlock)
+      if (nearest_of_block_m_[static_cast<std::size_t>(row / kBlock * (kColumns / kBlock) + column / kBlock)] < in_rows_m &&
+          in_block(row, column))
+        return true;
+  }
+  return false;
+}
+
+// Of the lower or right side of a cell.
+float CasterGrid::Axis::tangent(int cell) const {
+  const float at = (static_cast<float>(cell) - middle) / cells;
+  return finest * at / (1.0f - std::abs(at));
+}
+
+float CasterGrid::Axis::at(float tangent) const {
+  return middle + cells * tangent / (std::abs(tangent) + finest);
+}
+
+// A kShadowZoom-th of the room where the map's second picture is read on both sides of it.
+float CasterGrid::Axis::widened(float tangent, float way) const {
+  const bool close = std::abs(tangent) < half / shader::kShadowZoom - 4.0f * room;
+  return tangent + way * (close ? room / shader::kShadowZoom : room);
+}
+
+CasterGrid::Cells CasterGrid::cells_of(const glm::vec2& least, const glm::vec2& most) const {
+  const auto within = [](float cell, int cells) { return static_cast<int>(std::clamp(cell, 0.0f, static_cast<float>(cells))); };
+  return {within(across_.at(least.x), kColumns), within(across_.at(most.x) + 1.0f, kColumns),
+          within(up_.at(least.y), kRows), within(up_.at(most.y) + 1.0f, kRows)};
+}
+
+}  // namespace phare

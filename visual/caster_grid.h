@@ -1,0 +1,50 @@
+// Where in a lamp's view something that casts may hide its light, coarsely and on the safe side, so that pieces of a
+// scene that no shadow can reach are drawn without asking for one. Pure: no device.
+#pragma once
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "visual/shadow_casters.h"
+
+namespace phare {
+
+/// Corners of a box of the world in a lamp's frame: forward, left, up, m.
+using BoxCorners = std::array<glm::vec3, 8>;
+BoxCorners box_corners(const glm::dmat3& image_from_world, const glm::dvec3& lamp_m, const glm::dvec3& low_m,
+                       const glm::dvec3& high_m);
+
+class CasterGrid {
+ public:
+  /// Of the view to the tangents `half_sides` either way. `texel`: tangents across one of the map's first picture; of the
+  /// second, in the middle, it is a kShadowZoom-th.
+  CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const glm::dvec2& texel);
+
+  /// False only if nothing that casts is nearer to the lamp, along its axis, than a point of the box behind it, or than
+  /// one beside that whose texels are weighed with its own.
+  bool may_shade(const BoxCorners& box) const;
+
+ private:
+  static constexpr int kColumns = 256, kRows = 128, kBlock = 8;
+  struct Cells {
+    int first_column = 0, end_column = 0, first_row = 0, end_row = 0;
+  };
+  /// Tangents to cells of one side: finer toward the axis, where a degree of road is long.
+  struct Axis {
+    float half = 1.0f, finest = 1.0f, middle = 0.0f, cells = 0.0f, room = 0.0f;
+    float at(float tangent) const;
+    float tangent(int cell) const;
+    float widened(float tangent, float way) const;
+  };
+  Cells cells_of(const glm::vec2& least, const glm::vec2& most) const;
+
+  Axis across_, up_;
+  /// Row by row from the lowest, in each from the rightmost: how far forward the nearest triangle that may show in the
+  /// cell begins, m; and the nearest of each block of cells.
+  std::vector<float> nearest_m_, nearest_of_block_m_;
+};
+
+}  // namespace phare
