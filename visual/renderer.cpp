@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstring>
 #include <random>
 #include <utility>
 
@@ -384,8 +383,8 @@ Image8 Renderer::read_image(std::size_t view) const {
   impl_->finish();
   const Impl::Copy& copy = Impl::copy_of(impl_->images, view);
   Image8 image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
-  image.rgba.resize(copy.buffer.bytes);
-  std::memcpy(image.rgba.data(), copy.buffer.data, image.rgba.size());
+  const auto* texels = static_cast<const std::uint8_t*>(copy.buffer.data);
+  image.rgba.assign(texels, texels + copy.buffer.bytes);
   if (impl_->target.display_format == vk::Format::eB8G8R8A8Unorm)
     for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) std::swap(image.rgba[i], image.rgba[i + 2]);
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
+#include <utility>
 
 #include "visual/image/canvas.h"
 #include "visual/image/contact_sheet.h"
@@ -60,6 +62,38 @@ TEST(Png, ReadsBackAndIsTheSameBytesTwice) {
   EXPECT_EQ(back->width_px, 37);
   EXPECT_EQ(back->height_px, 23);
   EXPECT_EQ(back->rgba, image.rgba);
+}
+
+// Rows of one pixel, of an even and an odd number; more rows than are deflated at once, and none that repeats another, so
+// that the file is larger than what was thought enough for it.
+TEST(Png, ReadsBackInEverySizeAndWhereNothingCanBeSaved) {
+  std::mt19937 random(7);
+  for (const auto& [width_px, height_px] : {std::pair{1, 1}, {1, 40}, {2, 17}, {3, 16}, {64, 1}, {641, 479}}) {
+    Image8 image = blank_image(width_px, height_px, 0, 0, 0);
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+      if (i % 4 != 3) image.rgba[i] = static_cast<std::uint8_t>(random());
+    ASSERT_TRUE(write_png(temporary("noise.png"), image).ok());
+    const Result<Image8> back = read_png(temporary("noise.png"));
+    ASSERT_TRUE(back.ok()) << back.error().text();
+    EXPECT_EQ(back->width_px, width_px);
+    EXPECT_EQ(back->height_px, height_px);
+    EXPECT_EQ(back->rgba, image.rgba) << width_px << " x " << height_px;
+  }
+}
+
+// Of a picture's alpha nothing is kept, and nothing spoils a colour.
+TEST(Png, AlphaIsLeftOut) {
+  Image8 image = pattern(37, 23);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = static_cast<std::uint8_t>(i * 7);
+  ASSERT_TRUE(write_png(temporary("alpha.png"), image).ok());
+  const Result<Image8> back = read_png(temporary("alpha.png"));
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(back->rgba, pattern(37, 23).rgba);
+}
+
+TEST(Png, OfNoPixelIsAnErrorAndLeavesNothing) {
+  EXPECT_FALSE(write_png(temporary("none.png"), Image8{}).ok());
+  EXPECT_FALSE(std::filesystem::exists(temporary("none.png")));
 }
 
 TEST(Png, AFolderThatIsNotThereIsAnErrorAndLeavesNothing) {

@@ -6,7 +6,6 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
-#include <png.h>
 #include <stb_image.h>
 #include <unistd.h>
 
@@ -19,6 +18,7 @@
 #include <memory>
 #include <string>
 
+#include "visual/image/png.h"
 #include "visual/image/srgb.h"
 
 namespace phare {
@@ -63,54 +63,12 @@ Image8 blank_image(int width_px, int height_px, std::uint8_t red, std::uint8_t g
   return image;
 }
 
-namespace {
-
-struct PngWriter {
-  std::string png;
-  std::vector<png_byte> row;
-  png_structp writer = nullptr;
-  png_infop info = nullptr;
-  ~PngWriter() { png_destroy_write_struct(&writer, &info); }
-};
-
-/// A bare function: libpng leaves it by longjmp when it fails, past nothing that would have to be destroyed. Level 2 of
-/// zlib after the difference to the pixel before: on a night road a fifth of the time of zlib's usual level 6, and a
-/// quarter more bytes.
-bool encode_png(PngWriter& to, const Image8& image) {
-  to.writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  to.info = to.writer != nullptr ? png_create_info_struct(to.writer) : nullptr;
-  if (to.info == nullptr || setjmp(png_jmpbuf(to.writer)) != 0) return false;
-  png_set_write_fn(
-      to.writer, &to.png,
-      [](png_structp writer, png_bytep data, std::size_t size) {
-        static_cast<std::string*>(png_get_io_ptr(writer))->append(reinterpret_cast<const char*>(data), size);
-      },
-      nullptr);
-  png_set_IHDR(to.writer, to.info, static_cast<png_uint_32>(image.width_px), static_cast<png_uint_32>(image.height_px),
-               8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_filter(to.writer, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-  png_set_compression_level(to.writer, 2);
-  png_write_info(to.writer, to.info);
-  const std::size_t width = static_cast<std::size_t>(image.width_px);
-  to.row.resize(3 * width);
-  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height_px); ++y) {
-    const std::uint8_t* from = image.rgba.data() + 4 * width * y;
-    for (std::size_t x = 0; x < width; ++x)
-      for (std::size_t c = 0; c < 3; ++c) to.row[3 * x + c] = from[4 * x + c];
-    png_write_row(to.writer, to.row.data());
-  }
-  png_write_end(to.writer, nullptr);
-  return true;
-}
-
-}  // namespace
-
 Status write_png(const std::filesystem::path& file, const Image8& image) {
   return write_beside(file, [&](const std::string& name) -> std::string {
-    PngWriter encoded;
-    if (!encode_png(encoded, image)) return "the picture cannot be encoded";
+    const auto png = encode_png(image);
+    if (!png) return "the picture cannot be encoded";
     std::ofstream stream(name, std::ios::binary);
-    stream.write(encoded.png.data(), static_cast<std::streamsize>(encoded.png.size()));
+    stream.write(reinterpret_cast<const char*>(png->data()), static_cast<std::streamsize>(png->size()));
     stream.close();
     return stream ? "" : "the picture cannot be written here";
   });

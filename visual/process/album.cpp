@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
@@ -44,24 +45,22 @@ Result<Album> Album::open(const std::filesystem::path& folder, bool going_on) {
   return album;
 }
 
-void Album::keep_frame(std::int64_t frame_index, const Image8& image, const std::string& label) {
+void Album::keep_frame(std::int64_t frame_index, Image8 image, const std::string& label) {
   char name[40];
   std::snprintf(name, sizeof name, "frames/%06lld.png", static_cast<long long>(frame_index));
-  if (writer_) {
-    for (const Status& written : writer_->take(folder_ / name, image)) keep(written);
-  } else if (!save(name, image)) {
-    return;
-  }
-  for (std::size_t i = 0; i < image.rgba.size(); i += sizeof(std::uint32_t)) {
-    std::uint32_t pixel;
-    std::memcpy(&pixel, image.rgba.data() + i, sizeof pixel);
-    frames_hash_ = (frames_hash_ ^ pixel) * 0x100000001b3ull;
+  if (!writer_ && !save(name, image)) return;
+  for (std::size_t i = 0; i < image.rgba.size(); i += sizeof(std::uint64_t)) {
+    std::uint64_t pixels = 0;
+    std::memcpy(&pixels, image.rgba.data() + i, std::min(sizeof pixels, image.rgba.size() - i));
+    frames_hash_ = (frames_hash_ ^ pixels) * 0x100000001b3ull;
   }
   ++kept_frames_;
   if (thumbnails_.wants_next())
     thumbnails_.offer({thumbnail(image, kThumbnailWidth_px), label});
   else
     thumbnails_.skip();
+  if (!writer_) return;
+  for (const Status& written : writer_->take(folder_ / name, std::move(image))) keep(written);
 }
 
 void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps,

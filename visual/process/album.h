@@ -30,7 +30,7 @@ class Album {
   void write_beside() { writer_ = std::make_unique<PictureWriter>(); }
   bool busy() const { return writer_ && writer_->busy(); }
   /// frames/NNNNNN.png, and a thumbnail for the contact sheet.
-  void keep_frame(std::int64_t frame_index, const Image8& image, const std::string& label);
+  void keep_frame(std::int64_t frame_index, Image8 image, const std::string& label);
   /// drivers_view.png (drawn at twice the size and averaged), hdr.exr, birds_eye.png, wall_25m.png. `driver` is the
   /// driver's frame; the map below the bird's eye is made of it with another camera. drivers_view.png is `width_px` x
   /// `height_px`; hdr.exr has the size of the renderer's picture.
@@ -52,7 +52,7 @@ class Album {
   /// contact_sheet.png; takes eye.json away
   void finish();
 
-  /// One number over the pixels of every kept frame in order (FNV-1a, 64 bit, a pixel at a time): equal drives give
+  /// One number over the pixels of every kept frame in order (FNV-1a, 64 bit, two pixels at a time): equal drives give
   /// equal numbers.
   std::uint64_t frames_hash() const { return frames_hash_; }
   std::uint64_t kept_frames() const { return kept_frames_; }

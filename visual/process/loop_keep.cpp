@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "net/stats.h"
 #include "visual/air_of_desk.h"
@@ -26,7 +27,7 @@ void Loop::keep(const Moment& moment) {
     if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);
     if (moment.controls.fail_safe) draw_text(image, 12, 60, "FAIL-SAFE low beam", {255, 90, 60}, 2);
     if (!moment.controls.source_fault.empty()) draw_text(image, 12, 36, moment.controls.source_fault, {255, 90, 60}, 2);
-    s_.album.keep_frame(number_of(moment), image, label(moment));
+    s_.album.keep_frame(number_of(moment), std::move(image), label(moment));
   }
   if (wants_stills(moment)) {
     const FrameInput driver = still_of(moment);

@@ -1,0 +1,123 @@
+#include "visual/image/png.h"
+
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string_view>
+
+namespace phare {
+namespace {
+
+constexpr std::size_t kChannels = 3;
+constexpr std::uint8_t kSub = 1;  // the filter: each pixel less the one before it
+
+void append_u32(std::vector<std::uint8_t>& to, std::uint32_t value) {
+  for (const int shift : {24, 16, 8, 0}) to.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+/// The chunk's length and name. What follows is its content, until end_chunk().
+std::size_t begin_chunk(std::vector<std::uint8_t>& to, std::string_view name) {
+  append_u32(to, 0);
+  const std::size_t begin = to.size();
+  to.insert(to.end(), name.begin(), name.end());
+  return begin;
+}
+
+void end_chunk(std::vector<std::uint8_t>& to, std::size_t begin) {
+  const std::size_t bytes = to.size() - begin;
+  for (std::size_t i = 0; i < 4; ++i) to[begin - 4 + i] = static_cast<std::uint8_t>((bytes - 4) >> (24 - 8 * i));
+  append_u32(to, crc32_gzip_refl(0, to.data() + begin, bytes));
+}
+
+/// Each of eight bytes of `a` less its own of `b`: what one borrows must not reach the next.
+std::uint64_t less_by_bytes(std::uint64_t a, std::uint64_t b) {
+  constexpr std::uint64_t kHigh = 0x8080808080808080ull;
+  return ((a | kHigh) - (b & ~kHigh)) ^ ((a ^ ~b) & kHigh);
+}
+
+/// A row of RGBA as PNG has it: the filter, then the pixels without alpha, two at a time. Writes one byte past it.
+void filter_row(const std::uint8_t* rgba, std::size_t width_px, std::uint8_t* to) {
+  *to++ = kSub;
+  std::memcpy(to, rgba, 4);
+  std::size_t x = 1;
+  for (to += kChannels; x + 2 <= width_px; x += 2, to += 2 * kChannels) {
+    std::array<std::uint64_t, 2> pixels;  // with the pixel before
+    std::memcpy(&pixels[0], rgba + 4 * x - 4, 8);
+    std::memcpy(&pixels[1], rgba + 4 * x, 8);
+    const std::uint64_t less = less_by_bytes(pixels[1], pixels[0]);
+    std::array<std::uint8_t, 8> bytes;
+    std::memcpy(bytes.data(), &less, 8);
+    std::memcpy(to, bytes.data(), 4);
+    std::memcpy(to + kChannels, bytes.data() + 4, 4);
+  }
+  if (x < width_px)
+    for (std::size_t c = 0; c < kChannels; ++c) to[c] = static_cast<std::uint8_t>(rgba[4 * x + c] - rgba[4 * x + c - 4]);
+}
+
+/// Deflates all rows to the end of `to`, some at a time, which stay in the processor's cache.
+bool append_pixels(std::vector<std::uint8_t>& to, const Image8& image) {
+  constexpr std::size_t kRowsAtOnce = 16, kLeastRoom = 1 << 16;
+  const auto width = static_cast<std::size_t>(image.width_px), height = static_cast<std::size_t>(image.height_px);
+  const std::size_t row_bytes = 1 + kChannels * width;
+  std::vector<std::uint8_t> rows(kRowsAtOnce * row_bytes + 1);
+  std::vector<std::uint8_t> level_memory(ISAL_DEF_LVL1_DEFAULT);
+  const auto stream = std::make_unique<isal_zstream>();
+  isal_deflate_init(stream.get());
+  stream->gzip_flag = IGZIP_ZLIB;
+  stream->level = 1;
+  stream->level_buf = level_memory.data();
+  stream->level_buf_size = static_cast<std::uint32_t>(level_memory.size());
+  std::size_t written = to.size();
+  to.resize(written + row_bytes * height / 4 + kLeastRoom);  // of most pictures more than enough
+  for (std::size_t y = 0; y < height; y += kRowsAtOnce) {
+    const std::size_t count = std::min(kRowsAtOnce, height - y);
+    for (std::size_t i = 0; i < count; ++i)
+      filter_row(image.rgba.data() + 4 * width * (y + i), width, rows.data() + i * row_bytes);
+    stream->next_in = rows.data();
+    stream->avail_in = static_cast<std::uint32_t>(count * row_bytes);
+    stream->end_of_stream = y + count == height ? 1 : 0;
+    const auto done = [&] {
+      return stream->avail_in == 0 && (stream->end_of_stream == 0 || stream->internal_state.state == ZSTATE_END);
+    };
+    while (!done()) {
+      if (to.size() - written < kLeastRoom) to.resize(2 * to.size());
+      const std::size_t room = std::min<std::size_t>(to.size() - written, std::numeric_limits<std::uint32_t>::max());
+      stream->next_out = to.data() + written;
+      stream->avail_out = static_cast<std::uint32_t>(room);
+      if (isal_deflate(stream.get()) != COMP_OK) return false;
+      written += room - stream->avail_out;
+    }
+  }
+  to.resize(written);
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::uint8_t>> encode_png(const Image8& image) {
+  constexpr std::size_t kMostOfAChunk = 0x7fffffff;
+  if (image.width_px < 1 || image.height_px < 1) return std::nullopt;
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  std::vector<std::uint8_t> png(kSignature.begin(), kSignature.end());
+
+  std::size_t begin = begin_chunk(png, "IHDR");
+  append_u32(png, static_cast<std::uint32_t>(image.width_px));
+  append_u32(png, static_cast<std::uint32_t>(image.height_px));
+  constexpr std::uint8_t kBits = 8, kRgb = 2;
+  for (const std::uint8_t byte : {kBits, kRgb, std::uint8_t{0}, std::uint8_t{0}, std::uint8_t{0}}) png.push_back(byte);
+  end_chunk(png, begin);
+
+  begin = begin_chunk(png, "IDAT");
+  if (!append_pixels(png, image) || png.size() - begin - 4 > kMostOfAChunk) return std::nullopt;
+  end_chunk(png, begin);
+
+  end_chunk(png, begin_chunk(png, "IEND"));
+  return png;
+}
+
+}  // namespace phare
