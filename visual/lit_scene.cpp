@@ -4,8 +4,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <deque>
 #include <functional>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -301,9 +303,34 @@ bool LitScene::is_lean(const LitVariant& variant) const {
           variant.output == LampOutput::kClipping || variant.output == LampOutput::kAudit);
 }
 
-vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
-  if (const auto found = pipelines_.find(variant); found != pipelines_.end()) return *found->second;
-  SpecConstants numbers;
+std::vector<vk::Pipeline> LitScene::pipelines(std::span<const LitVariant> variants) {
+  std::vector<vk::Pipeline> all;
+  all.reserve(variants.size());
+  std::set<LitVariant> missing;
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    if (i > 0 && variants[i] == variants[i - 1]) {
+      all.push_back(all.back());
+      continue;
+    }
+    const auto found = pipelines_.find(variants[i]);
+    if (found == pipelines_.end()) missing.insert(variants[i]);
+    all.push_back(found != pipelines_.end() ? *found->second : vk::Pipeline());
+  }
+  if (missing.empty()) return all;
+  std::deque<Recipe> recipes;
+  std::vector<const PipelineRecipe*> wanted;
+  for (const LitVariant& variant : missing) {
+    write_recipe(variant, recipes.emplace_back());
+    wanted.push_back(&recipes.back().pipeline);
+  }
+  std::vector<vk::raii::Pipeline> made = make_pipelines(device_, wanted);
+  auto pipeline = made.begin();
+  for (const LitVariant& variant : missing) pipelines_.emplace(variant, std::move(*pipeline++));
+  return pipelines(variants);
+}
+
+void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
+  SpecConstants& numbers = to.numbers;
   numbers.put_all(0, std::array<std::uint32_t, shader::kSpecTables>{
                          variant.lamp_count, static_cast<std::uint32_t>(variant.kind.surface),
                          static_cast<std::uint32_t>(variant.kind.retro), static_cast<std::uint32_t>(variant.output),
@@ -317,7 +344,7 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
   if (variant.wet) numbers.put(shader::kSpecWet, 1);
   if (variant.snow != LitVariant::kNoSnow) numbers.put(shader::kSpecSnow, variant.snow);
   if (variant.moves) numbers.put(shader::kSpecMoves, 1);
-  const vk::SpecializationInfo constants = numbers.info();
+  to.constants = numbers.info();
   const bool measure = variant.output == LampOutput::kMeasure;
   // By "reference" one shader serves any number of lamps: its time goes elsewhere.
   const std::size_t size = shader_for(variant.method == Method::kReference ? shader::kMaxLamps : variant.lamp_count) +
@@ -333,10 +360,11 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
     stages.vertex = measure ? *measure_vert_[size] : scene_vert(size, variant.method, variant.fog.slices != 0);
   }
   std::span<const vk::VertexInputAttributeDescription> attributes = std::span(kVertexAttributes).first(measure ? 2 : 3);
-  PipelineRecipe recipe{
+  PipelineRecipe& recipe = to.pipeline;
+  recipe = {
       .vertex = stages.vertex,
       .fragment = stages.fragment.module,
-      .constants = &constants,
+      .constants = &to.constants,
       .attributes = attributes,
       .stride = sizeof(GpuVertex),
       .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
@@ -348,7 +376,7 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
       .samples = variant.samples,
       .layout = stages.fragment.layout};
   if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
-  std::vector<vk::VertexInputAttributeDescription> own;
+  std::vector<vk::VertexInputAttributeDescription>& own = to.attributes;
   if (textured) {
     add_textured_vertices(variant, recipe, own);
   } else if (variant.fixed_light) {
@@ -359,7 +387,6 @@ vk::Pipeline LitScene::pipeline(const LitVariant& variant) {
     if (variant.kind.road) own.assign(kFixedAttributes.begin(), kFixedAttributes.end());
   }
   if (variant.kind.road) add_road_vertices(recipe, own);
-  return *pipelines_.emplace(variant, make_pipeline(device_, recipe)).first->second;
 }
 
 LitScene::FragmentStage LitScene::fragment_stage(const LitVariant& variant, std::size_t size) {
@@ -413,7 +440,46 @@ void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) con
   commands.pushConstants<shader::GpuDraw>(*layout_, kLitStages, 0, draw);
 }
 
-void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant common) {
+LitVariant LitScene::variant_of(const LitView& view, const DrawItem& item, const LitVariant& common) const {
+  const LitBy& lit = view.lit_by[item.lit_by];
+  LitVariant variant = common;
+  variant.lamp_count = lit.lamps;
+  variant.tables = lit.tables;
+  variant.colours = common.output == LampOutput::kAudit ? 0 : lit.colours;
+  variant.kind = item.batch->kind;
+  variant.method = view.method;
+  variant.shadow_maps = item.shadowed && common.output != LampOutput::kAudit ? lit.shadow_maps : 0;
+  variant.shadows = variant.shadow_maps != 0 ? view.shadows : ShadowLevel{};
+  if (common.output == LampOutput::kDisplay || common.output == LampOutput::kHdr ||
+      common.output == LampOutput::kClipping)
+    variant.fog = view.fog;
+  if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet;
+  if (view.snow && variant.output != LampOutput::kAudit) {
+    const bool marking = variant.kind.retro == RetroKind::kMarking;
+    variant.snow = marking ? shader::kSnowOnMarking : shader::kSnowLies;
+    if (marking) variant.kind.retro = RetroKind::kFacets;
+  }
+  variant.fixed_light = view.fixed_light && variant.output != LampOutput::kAudit;
+  variant.moves = variant.fixed_light && item.moves != DrawItem::kStands;
+  variant.kind.road = variant.kind.road && variant.fixed_light && view.r_table;
+  if (variant.output == LampOutput::kAudit) {
+    const std::uint32_t look = variant.kind.look;
+    variant.kind = {.double_sided = variant.kind.double_sided,
+                    .flat = variant.kind.flat,
+                    .look = look & shader::kLookCut ? look & ~shader::kLookRelief : 0u};
+  }
+  if (is_lean(variant))
+    variant.alike = lit.alike;
+  else
+    variant.kind.flat = false;  // of no account
+  return variant;
+}
+
+void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVariant& common) {
+  std::vector<LitVariant> variants;
+  variants.reserve(view.items.size());
+  for (const DrawItem& item : view.items) variants.push_back(variant_of(view, item, common));
+  const std::vector<vk::Pipeline> wanted = pipelines(variants);
   bind(commands, view);
   bind_shadows(commands, view);
   bind_fog(commands, view);
@@ -423,44 +489,14 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, LitVariant com
   bool plain = true;  // the vertices are bound as those without a look take them
   vk::Pipeline bound;
   vk::Buffer bound_light;
-  for (const DrawItem& item : view.items) {
+  for (std::size_t i = 0; i < view.items.size(); ++i) {
+    const DrawItem& item = view.items[i];
     if (item.lit_by != std::exchange(lit_by, item.lit_by)) {
       bind(commands, view.lit_by[lit_by]);
       if (by_reference) bind_reference(commands, view, view.lit_by[lit_by]);
     }
-    const LitBy& lit = view.lit_by[lit_by];
-    LitVariant variant = common;
-    variant.lamp_count = lit.lamps;
-    variant.tables = lit.tables;
-    variant.colours = common.output == LampOutput::kAudit ? 0 : lit.colours;
-    variant.kind = item.batch->kind;
-    variant.method = view.method;
-    variant.shadow_maps = item.shadowed && common.output != LampOutput::kAudit ? lit.shadow_maps : 0;
-    variant.shadows = variant.shadow_maps != 0 ? view.shadows : ShadowLevel{};
-    if (common.output == LampOutput::kDisplay || common.output == LampOutput::kHdr ||
-        common.output == LampOutput::kClipping)
-      variant.fog = view.fog;
-    if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet;
-    if (view.snow && variant.output != LampOutput::kAudit) {
-      const bool marking = variant.kind.retro == RetroKind::kMarking;
-      variant.snow = marking ? shader::kSnowOnMarking : shader::kSnowLies;
-      if (marking) variant.kind.retro = RetroKind::kFacets;
-    }
-    variant.fixed_light = view.fixed_light && variant.output != LampOutput::kAudit;
-    variant.moves = variant.fixed_light && item.moves != DrawItem::kStands;
-    variant.kind.road = variant.kind.road && variant.fixed_light && view.r_table;
-    if (variant.output == LampOutput::kAudit) {
-      const std::uint32_t look = variant.kind.look;
-      variant.kind = {.double_sided = variant.kind.double_sided,
-                      .flat = variant.kind.flat,
-                      .look = look & shader::kLookCut ? look & ~shader::kLookRelief : 0u};
-    }
-    if (is_lean(variant))
-      variant.alike = lit.alike;
-    else
-      variant.kind.flat = false;  // of no account
-    const vk::Pipeline wanted = pipeline(variant);
-    if (wanted != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted);
+    const LitVariant& variant = variants[i];
+    if (wanted[i] != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted[i]);
     push(commands, by_reference ? reference_draw(item) : item.push);
     const bool look = variant.kind.look != 0, apart = look || variant.kind.road;
     if (look) {

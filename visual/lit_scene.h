@@ -19,6 +19,7 @@
 #include "visual/gpu/scene_buffers.h"
 #include "visual/lean_shaders.h"
 #include "visual/light_reach.h"
+#include "visual/passes/constants.h"
 #include "visual/passes/grain.h"
 #include "visual/passes/pipeline.h"
 #include "visual/passes/sky.h"
@@ -203,7 +204,9 @@ class LitScene {
   bool filtered() const;
   /// The shapes of the tables of a set of lamps, as specialization constants from kSpecTables on.
   std::vector<std::uint32_t> table_words(std::size_t tables) const;
-  vk::Pipeline pipeline(const LitVariant& variant);
+  vk::Pipeline pipeline(const LitVariant& variant) { return pipelines(std::span(&variant, 1)).front(); }
+  /// Of each, in their order. Those that are not there yet are made together.
+  std::vector<vk::Pipeline> pipelines(std::span<const LitVariant> variants);
   /// By the method "reference" (visual/reference_light.h): what ReferenceLight::set_points and fill say, for this
   /// frame.
   void set_reference_points(std::span<const double> points);
@@ -222,7 +225,7 @@ class LitScene {
   void bind_fog(vk::CommandBuffer commands, const LitView& view) const;
   void push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const;
   /// All that the view sees; of `common` all counts but the material and the lamps.
-  void draw(gpu::Recorder& commands, const LitView& view, LitVariant common);
+  void draw(gpu::Recorder& commands, const LitView& view, const LitVariant& common);
 
  private:
   static constexpr std::uint32_t kViewsInPage = 16;
@@ -249,7 +252,17 @@ class LitScene {
     FragmentStage fragment;
   };
 
+  /// With what it points to.
+  struct Recipe {
+    SpecConstants numbers{};
+    vk::SpecializationInfo constants{};
+    std::vector<vk::VertexInputAttributeDescription> attributes{};
+    PipelineRecipe pipeline{};
+  };
+
   bool is_lean(const LitVariant& variant) const;
+  LitVariant variant_of(const LitView& view, const DrawItem& item, const LitVariant& common) const;
+  void write_recipe(const LitVariant& variant, Recipe& recipe);
   void light_by_block(LitView& view);
   void add_mirrored(const LitView& view);
   void bind_fixed_light(vk::CommandBuffer commands, const LitView& view, const DrawItem& item, vk::Buffer& bound) const;

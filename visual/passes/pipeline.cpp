@@ -1,6 +1,12 @@
 #include "visual/passes/pipeline.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
+#include <future>
+#include <optional>
+#include <thread>
+#include <utility>
 
 namespace phare {
 
@@ -13,7 +19,9 @@ vk::raii::PipelineLayout pushing_layout(const gpu::Device& device, vk::Descripto
           .setLayoutCount = 1, .pSetLayouts = &set, .pushConstantRangeCount = 1, .pPushConstantRanges = &push});
 }
 
-vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe& recipe) {
+namespace {
+
+vk::raii::Pipeline compile(const gpu::Device& device, const PipelineRecipe& recipe) {
   std::vector<vk::PipelineShaderStageCreateInfo> stages{{.stage = vk::ShaderStageFlagBits::eVertex,
                                                          .module = recipe.vertex,
                                                          .pName = "main",
@@ -74,7 +82,6 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
       .colorAttachmentCount = static_cast<std::uint32_t>(recipe.colour.size()),
       .pColorAttachmentFormats = recipe.colour.data(),
       .depthAttachmentFormat = recipe.depth ? vk::Format::eD32Sfloat : vk::Format::eUndefined};
-  ++*device.pipelines_made;
   return vk::raii::Pipeline(device.device, nullptr,
                             vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
                                                            .stageCount = static_cast<std::uint32_t>(stages.size()),
@@ -88,6 +95,31 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
                                                            .pColorBlendState = &blend,
                                                            .pDynamicState = &dynamics,
                                                            .layout = recipe.layout});
+}
+
+}  // namespace
+
+vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe& recipe) {
+  ++*device.pipelines_made;
+  return compile(device, recipe);
+}
+
+std::vector<vk::raii::Pipeline> make_pipelines(const gpu::Device& device,
+                                               std::span<const PipelineRecipe* const> recipes) {
+  std::vector<std::optional<vk::raii::Pipeline>> made(recipes.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < recipes.size(); i = next++) made[i] = compile(device, *recipes[i]);
+  };
+  std::vector<std::future<void>> others;
+  const std::size_t at_once = std::min<std::size_t>(recipes.size(), std::thread::hardware_concurrency());
+  while (others.size() + 1 < at_once) others.push_back(std::async(std::launch::async, work));
+  work();
+  for (std::future<void>& other : others) other.get();  // or throws what it threw
+  *device.pipelines_made += recipes.size();
+  std::vector<vk::raii::Pipeline> all;
+  for (std::optional<vk::raii::Pipeline>& pipeline : made) all.push_back(std::move(*pipeline));
+  return all;
 }
 
 void set_area(vk::CommandBuffer commands, const vk::Rect2D& area, bool mirrored) {
