@@ -58,8 +58,7 @@ const LeanShaders::Stages& LeanShaders::stages(const LeanKind& kind) {
   const auto found = made_.find(kind);
   if (found != made_.end()) return found->second;
   const LeanCode& code = kCode[4 * static_cast<std::size_t>(kind.surface) + (kind.alike ? 2 : 0) + (kind.shadows ? 1 : 0)];
-  return made_.emplace(kind, Stages{gpu::make_shader(*device_, code.vertex), gpu::make_shader(*device_, code.fragment)})
-      .first->second;
+  return made_.emplace(kind, Stages{gpu::make_shader(*device_, code.vertex), code.fragment}).first->second;
 }
 
 }  // namespace phare

@@ -2,7 +2,9 @@
 // in clear air by the method "fragment". Each is made when it is first called for.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <span>
 
 #include "visual/gpu/vulkan.h"
 
@@ -29,7 +31,8 @@ class LeanShaders {
  public:
   explicit LeanShaders(const gpu::Device& device) : device_(&device) {}
   struct Stages {
-    vk::raii::ShaderModule vertex, fragment;
+    vk::raii::ShaderModule vertex;
+    std::span<const std::uint32_t> fragment;
   };
   const Stages& stages(const LeanKind& kind);
 

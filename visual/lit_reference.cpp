@@ -8,6 +8,7 @@
 #include "shaders/lamps_frag_reference_shadows.h"
 #include "shaders/lamps_frag_reference_shadows_fog.h"
 #include "visual/lit_scene.h"
+#include "visual/passes/fixed_shaders.h"
 #include "visual/reference_light.h"
 
 namespace phare {
@@ -16,7 +17,6 @@ struct LitScene::Reference {
   explicit Reference(gpu::Device& device) : light(device) {}
   ReferenceLight light;
   vk::raii::PipelineLayout layout{nullptr};
-  std::array<vk::raii::ShaderModule, 4> frag{nullptr, nullptr, nullptr, nullptr};  ///< shadows, fog: bits of the index
 };
 
 void LitScene::ReferenceDeleter::operator()(Reference* reference) const {
@@ -66,14 +66,12 @@ vk::DescriptorSetLayout LitScene::reference_layout() {
 }
 
 LitScene::FragmentStage LitScene::reference_stage(const LitVariant& variant) {
-  using Code = std::span<const std::uint32_t>;
   static const std::array<Code, 4> codes{k_lamps_frag_reference, k_lamps_frag_reference_shadows,
                                          k_lamps_frag_reference_fog, k_lamps_frag_reference_shadows_fog};
-  Reference& own = reference();
-  if (variant.fixed_light) return {fixed_module(variant, variant.shadow_maps != 0 ? 5u : 2u, false), *own.layout};
-  const std::size_t which = (variant.shadow_maps != 0 ? 1u : 0u) + (variant.fog.slices != 0 ? 2u : 0u);
-  if (!*own.frag[which]) own.frag[which] = gpu::make_shader(device_, codes[which]);
-  return {*own.frag[which], *own.layout};
+  const Reference& own = reference();
+  const bool shadows = variant.shadow_maps != 0, fog = variant.fog.slices != 0;
+  if (variant.fixed_light) return {fixed_frag_reference(shadows, fog), *own.layout};
+  return {codes[(shadows ? 1u : 0u) + (fog ? 2u : 0u)], *own.layout};
 }
 
 void LitScene::bind_reference(vk::CommandBuffer commands, const LitView& view, const LitBy& lit_by) {

@@ -47,6 +47,7 @@
 #include "shaders/scene_vert_8_lit_filtered_shadows.h"
 #include "shaders/scene_vert_8_lit_shadows.h"
 #include "shaders/scene_vert_8_shadows.h"
+#include "visual/gpu/spirv.h"
 #include "visual/passes/constants.h"
 #include "visual/passes/fixed_shaders.h"
 
@@ -149,19 +150,7 @@ LitScene::LitScene(gpu::Device& device, ImageLevel level)
       measure_vert_{
           gpu::make_shader(device, k_measure_vert_2),         gpu::make_shader(device, k_measure_vert_4),
           gpu::make_shader(device, k_measure_vert_8),         gpu::make_shader(device, k_measure_vert_2_shadows),
-          gpu::make_shader(device, k_measure_vert_4_shadows), gpu::make_shader(device, k_measure_vert_8_shadows)},
-      lamps_frag_{is_filtered(level)
-                      ? Modules{gpu::make_shader(device, k_lamps_frag_2_filtered),
-                                gpu::make_shader(device, k_lamps_frag_4_filtered),
-                                gpu::make_shader(device, k_lamps_frag_8_filtered),
-                                gpu::make_shader(device, k_lamps_frag_2_filtered_shadows),
-                                gpu::make_shader(device, k_lamps_frag_4_filtered_shadows),
-                                gpu::make_shader(device, k_lamps_frag_8_filtered_shadows)}
-                      : Modules{gpu::make_shader(device, k_lamps_frag_2), gpu::make_shader(device, k_lamps_frag_4),
-                                gpu::make_shader(device, k_lamps_frag_8),
-                                gpu::make_shader(device, k_lamps_frag_2_shadows),
-                                gpu::make_shader(device, k_lamps_frag_4_shadows),
-                                gpu::make_shader(device, k_lamps_frag_8_shadows)}} {
+          gpu::make_shader(device, k_measure_vert_4_shadows), gpu::make_shader(device, k_measure_vert_8_shadows)} {
   const std::array set_layouts{sets_.layout(), shadow_sets_.layout(), fog_sets_.layout()};
   layout_ = pipeline_layout(set_layouts);
   filter_sampler_ =
@@ -352,7 +341,7 @@ void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
   Stages stages;
   if (is_lean(variant)) {
     const LeanShaders::Stages& lean = lean_.stages(lean_kind(variant));
-    stages = {*lean.vertex, {*lean.fragment, *layout_}};
+    stages = {*lean.vertex, {lean.fragment, *layout_}};
   } else if (textured) {
     stages = textured_stages(variant);
   } else {
@@ -363,7 +352,7 @@ void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
   PipelineRecipe& recipe = to.pipeline;
   recipe = {
       .vertex = stages.vertex,
-      .fragment = stages.fragment.module,
+      .fragment = fragment_module(stages.fragment.code, variant.shadow_maps != 0 && !variant.shadows.by_rays()),
       .constants = &to.constants,
       .attributes = attributes,
       .stride = sizeof(GpuVertex),
@@ -380,7 +369,7 @@ void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
   if (textured) {
     add_textured_vertices(variant, recipe, own);
   } else if (variant.fixed_light) {
-    recipe.vertex = fixed_module(variant, size, true);
+    recipe.vertex = fixed_vertex(variant, size);
     recipe.attributes = variant.moves ? kProbeAttributes : kFixedAttributes;
     recipe.second_stride = variant.moves ? sizeof(FixedProbe) : sizeof(FixedVertex);
     recipe.second_by_instance = variant.moves;
@@ -390,11 +379,23 @@ void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
 }
 
 LitScene::FragmentStage LitScene::fragment_stage(const LitVariant& variant, std::size_t size) {
-  if (variant.fixed_light) return {fixed_module(variant, size, false), *layout_};
-  if (variant.fog.slices == 0) return {*lamps_frag_[size], *layout_};
-  vk::raii::ShaderModule& module = lamps_fog_frag_[size];
-  if (!*module) module = gpu::make_shader(device_, lamps_fog_frag(size, filtered()));
-  return {*module, *layout_};
+  const bool fog = variant.fog.slices != 0;
+  if (variant.fixed_light) return {fixed_frag(size, filtered(), fog), *layout_};
+  if (fog) return {lamps_fog_frag(size, filtered()), *layout_};
+  static const std::array<Code, 6> tables{k_lamps_frag_2,         k_lamps_frag_4,         k_lamps_frag_8,
+                                          k_lamps_frag_2_shadows, k_lamps_frag_4_shadows, k_lamps_frag_8_shadows};
+  static const std::array<Code, 6> filters{k_lamps_frag_2_filtered,         k_lamps_frag_4_filtered,
+                                           k_lamps_frag_8_filtered,         k_lamps_frag_2_filtered_shadows,
+                                           k_lamps_frag_4_filtered_shadows, k_lamps_frag_8_filtered_shadows};
+  return {(filtered() ? filters : tables)[size], *layout_};
+}
+
+vk::ShaderModule LitScene::fragment_module(Code code, bool by_maps) {
+  const auto [found, fresh] = fragment_modules_.try_emplace({code.data(), by_maps}, nullptr);
+  if (fresh)
+    found->second = by_maps ? gpu::make_shader(device_, gpu::returning_one(code, "reaching_by_rays"))
+                            : gpu::make_shader(device_, code);
+  return *found->second;
 }
 
 vk::ShaderModule LitScene::scene_vert(std::size_t size, Method method, bool fog) {
@@ -407,7 +408,6 @@ vk::ShaderModule LitScene::scene_vert(std::size_t size, Method method, bool fog)
   if (method == Method::kFragment || method == Method::kReference) return *scene_vert_[size];
   vk::raii::ShaderModule& module = lit_by_vertex_vert_[size];
   if (*module) return *module;
-  using Code = std::span<const std::uint32_t>;
   const std::array<Code, 6> tables{k_scene_vert_2_lit,         k_scene_vert_4_lit,         k_scene_vert_8_lit,
                                    k_scene_vert_2_lit_shadows, k_scene_vert_4_lit_shadows, k_scene_vert_8_lit_shadows};
   const std::array<Code, 6> filters{k_scene_vert_2_lit_filtered,         k_scene_vert_4_lit_filtered,

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "config/desk.h"
@@ -243,8 +244,9 @@ class LitScene {
   struct TexturedDeleter {
     void operator()(Textured* textured) const;
   };
+  using Code = std::span<const std::uint32_t>;
   struct FragmentStage {
-    vk::ShaderModule module;
+    Code code;
     vk::PipelineLayout layout;
   };
   struct Stages {
@@ -272,6 +274,8 @@ class LitScene {
   vk::raii::PipelineLayout pipeline_layout(std::span<const vk::DescriptorSetLayout> sets);
   FragmentStage fragment_stage(const LitVariant& variant, std::size_t size);
   FragmentStage reference_stage(const LitVariant& variant);
+  /// `by_maps`: without the code that traces rays, which takes a device far longer to compile than all the rest.
+  vk::ShaderModule fragment_module(Code code, bool by_maps);
   Textured& textured();
   Stages textured_stages(const LitVariant& variant);
   static void add_road_vertices(PipelineRecipe& recipe, std::vector<vk::VertexInputAttributeDescription>& attributes);
@@ -288,7 +292,7 @@ class LitScene {
   }
   vk::ShaderModule scene_vert(std::size_t size, Method method, bool fog);
   /// Of the shaders of visual/passes/fixed_shaders.h.
-  vk::ShaderModule fixed_module(const LitVariant& variant, std::size_t size, bool vertex);
+  vk::ShaderModule fixed_vertex(const LitVariant& variant, std::size_t size);
   std::size_t tables_of(std::vector<shader::TableShape> shapes);
   vk::DescriptorSet set_of(std::size_t page, const Beams& beams);
 
@@ -323,9 +327,9 @@ class LitScene {
   std::map<LitVariant, vk::raii::Pipeline> pipelines_;
   using Modules = std::array<vk::raii::ShaderModule, 6>;  ///< for up to 2, 4, 8 lamps; the same with shadows
   LeanShaders lean_;
-  Modules scene_vert_, measure_vert_, lamps_frag_;
+  Modules scene_vert_, measure_vert_;
+  std::map<std::pair<const std::uint32_t*, bool>, vk::raii::ShaderModule> fragment_modules_;  ///< by code, and by_maps
   std::array<vk::raii::ShaderModule, 4> scene_fog_vert_{nullptr, nullptr, nullptr, nullptr};
-  Modules lamps_fog_frag_{nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};  ///< each made when it is called for
   Modules lit_by_vertex_vert_{nullptr, nullptr, nullptr,
                               nullptr, nullptr, nullptr};                       ///< each made when it is called for
   std::map<std::array<std::size_t, 2>, vk::raii::ShaderModule> fixed_modules_;  ///< the same: stage, variant, size

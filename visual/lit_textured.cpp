@@ -186,8 +186,7 @@ LitScene::Stages LitScene::textured_stages(const LitVariant& variant) {
       : many ? of_many[by_vertex ? filtered() ? 2u : 1u : 0u] : vert_of_two(shadows, fog, by_vertex, filtered());
   if (!reference)
     return {textured_module(vertex),
-            {textured_module(is_apart ? textured_frag(apart, shadows, fog) : frag_of(shadows, fog, filtered(), many)),
-             *textured().layout}};
+            {is_apart ? textured_frag(apart, shadows, fog) : frag_of(shadows, fog, filtered(), many), *textured().layout}};
   Textured& own = textured();
   if (!*own.reference_layout) {
     const std::array layouts{sets_.layout(), shadow_sets_.layout(), fog_sets_.layout(), reference_layout(),
@@ -195,8 +194,7 @@ LitScene::Stages LitScene::textured_stages(const LitVariant& variant) {
     own.reference_layout = pipeline_layout(layouts);
   }
   return {textured_module(vertex),
-          {textured_module(is_apart ? textured_frag(apart, shadows, fog) : reference_frag_of(shadows, fog)),
-           *own.reference_layout}};
+          {is_apart ? textured_frag(apart, shadows, fog) : reference_frag_of(shadows, fog), *own.reference_layout}};
 }
 
 void LitScene::bind_look(vk::CommandBuffer commands, const SceneBatch& batch, bool reference) {
