@@ -31,20 +31,15 @@ struct Bounds {
   glm::vec2 most() const { return {left, high}; }
 };
 
-Bounds bounds_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+/// Of a triangle that reaches past the lamp.
+CastBounds open_bounds(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   Bounds bounds;
-  bool all = true;
-  for (const glm::vec3& corner : {a, b, c}) {
-    if (corner.x >= shader::kShadowNear_m)
-      bounds.add(corner);
-    else
-      all = false;
-  }
-  if (all) return bounds;
+  for (const glm::vec3& corner : {a, b, c})
+    if (corner.x >= shader::kShadowNear_m) bounds.add(corner);
   bounds.add_crossing(a, b);
   bounds.add_crossing(b, c);
   bounds.add_crossing(c, a);
-  return bounds;
+  return {bounds.least(), bounds.most(), bounds.nearest_m};
 }
 
 }  // namespace
@@ -72,20 +67,24 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
   };
   across_ = axis(half_sides.x, 0.3, kColumns, texel.x);
   up_ = axis(half_sides.y, 0.1, kRows, texel.y);
-  const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    const Bounds bounds = bounds_of(a, b, c);
-    const Cells cells = cells_of(bounds.least(), bounds.most());
+  const auto add = [&](const CastBounds& bounds) {
+    const Cells cells = cells_of(bounds.least, bounds.most);
     for (int row = cells.first_row; row < cells.end_row; ++row)
       for (int column = cells.first_column; column < cells.end_column; ++column) {
         float& nearest_m = nearest_m_[static_cast<std::size_t>(row * kColumns + column)];
         nearest_m = std::min(nearest_m, bounds.nearest_m);
       }
   };
-  for (const std::vector<glm::vec3>* corners : {&cast.far_sides, &cast.both_sides})
-    for (std::size_t i = 0; i + 2 < corners->size(); i += 3) add((*corners)[i], (*corners)[i + 1], (*corners)[i + 2]);
+  for (const WholeCasters* whole : {&cast.far_sides, &cast.both_sides})
+    for (std::size_t i = 0; i < whole->bounds.size(); ++i) {
+      const glm::vec3* corners = &whole->corners[3 * i];
+      add(whole->bounds[i].beside ? open_bounds(corners[0], corners[1], corners[2]) : whole->bounds[i]);
+    }
   for (const CutCasters& cut : cast.cut)
-    for (std::size_t i = 0; i + 2 < cut.corners.size(); i += 3)
-      add(cut.corners[i].corner_m, cut.corners[i + 1].corner_m, cut.corners[i + 2].corner_m);
+    for (std::size_t i = 0; i < cut.bounds.size(); ++i) {
+      const CutCorner* corners = &cut.corners[3 * i];
+      add(cut.bounds[i].beside ? open_bounds(corners[0].corner_m, corners[1].corner_m, corners[2].corner_m) : cut.bounds[i]);
+    }
   for (int row = 0; row < kRows; ++row)
     for (int column = 0; column < kColumns; ++column) {
       float& block_m = nearest_of_block_m_[static_cast<std::size_t>(row / kBlock * (kColumns / kBlock) + column / kBlock)];
@@ -94,6 +93,7 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
 }
 
 bool CasterGrid::may_shade(const BoxCorners& box) const {
+  if (nearest_m_.empty()) return false;
   Bounds bounds;
   float farthest_m = 0.0f;
   bool all = true;

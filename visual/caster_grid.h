@@ -19,6 +19,7 @@ BoxCorners box_corners(const glm::dmat3& image_from_world, const glm::dvec3& lam
 
 class CasterGrid {
  public:
+  CasterGrid() = default;  ///< nothing casts
   /// Of the view to the tangents `half_sides` either way. `texel`: tangents across one of the map's first picture; of the
   /// second, in the middle, it is a kShadowZoom-th.
   CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const glm::dvec2& texel);

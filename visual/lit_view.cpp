@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "config/base/on_all_cores.h"
 #include "visual/lit_scene.h"
 
 namespace phare {
@@ -40,8 +41,11 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
 }
 
 std::size_t LitScene::find_casters(LitView& view, const CastersFor& wanted) const {
-  for (const PlacedLamp& lamp : view.lit_lamps)
-    view.casts.push_back(casters_.by(reach_of(lamp), lamp.world_from_image, view.moving, lamp.carried_by, wanted));
+  view.casts.resize(view.lit_lamps.size());
+  on_all_cores(view.casts.size(), [&](std::size_t i) {
+    const PlacedLamp& lamp = view.lit_lamps[i];
+    view.casts[i] = casters_.by(reach_of(lamp), lamp.world_from_image, view.moving, lamp.carried_by, wanted);
+  });
   return casters_of_all(view.casts);
 }
 

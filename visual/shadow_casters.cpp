@@ -52,16 +52,35 @@ std::vector<glm::vec4> sides_of(const ViewGeometry& view, const glm::dvec3& lamp
 }
 
 /// How far within a side of the view a corner is, m; below 0 it and all that lies behind it as the lamp sees it are out of
-/// view. With room for the texels that are read about a point.
-float within(const glm::vec4& side, const glm::vec3& corner) {
+/// view. With room for the texels that are read about a point. `distance_m`: of the corner from the lamp.
+float within(const glm::vec4& side, const glm::vec3& corner, float distance_m) {
   constexpr float kRoom_rad = 0.02f;
-  return glm::dot(glm::vec3(side), corner) - side.w + kRoom_rad * glm::length(corner);
+  return glm::dot(glm::vec3(side), corner) - side.w + kRoom_rad * distance_m;
 }
 
-bool shadow_is_beyond(std::span<const glm::vec4> sides, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-  return std::ranges::any_of(sides, [&](const glm::vec4& side) {
-    return within(side, a) < 0.0f && within(side, b) < 0.0f && within(side, c) < 0.0f;
-  });
+/// A corner as the lamp has it.
+struct SeenCorner {
+  glm::vec3 at_m{0.0f};
+  glm::vec2 tangents{0.0f};   ///< to the left and up, where it is ahead of the lamp
+  std::uint32_t beyond = 0;   ///< of which sides of the view, a bit each
+  bool ahead = false;
+};
+
+SeenCorner seen_corner(const glm::vec3& at_m, std::span<const glm::vec4> sides) {
+  SeenCorner corner{.at_m = at_m, .ahead = at_m.x >= shader::kShadowNear_m};
+  if (corner.ahead) corner.tangents = glm::vec2(at_m.y, at_m.z) / at_m.x;
+  if (sides.empty()) return corner;
+  const float distance_m = glm::length(at_m);
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    if (within(sides[i], at_m, distance_m) < 0.0f) corner.beyond |= 1u << i;
+  return corner;
+}
+
+CastBounds bounds_of(const SeenCorner& a, const SeenCorner& b, const SeenCorner& c) {
+  return {.least = glm::min(a.tangents, glm::min(b.tangents, c.tangents)),
+          .most = glm::max(a.tangents, glm::max(b.tangents, c.tangents)),
+          .nearest_m = std::min({a.at_m.x, b.at_m.x, c.at_m.x}),
+          .beside = !a.ahead || !b.ahead || !c.ahead};
 }
 
 /// Keeps what of a polygon has `inside` >= 0 (Sutherland and Hodgman 1974), or a little more where it is convex.
@@ -88,16 +107,14 @@ TangentRect part_of(const std::array<glm::vec3, 3>& corners, std::span<const glm
   polygon.assign(corners.begin(), corners.end());
   clip(polygon, room, [](const glm::vec3& corner) { return corner.x - shader::kShadowNear_m; });
   for (const glm::vec4& side : sides)
-    clip(polygon, room, [&](const glm::vec3& corner) { return within(side, corner); });
+    clip(polygon, room, [&](const glm::vec3& corner) { return within(side, corner, glm::length(corner)); });
   return std::accumulate(polygon.begin(), polygon.end(), kNothing, widened_by);
 }
 
-/// The triangle lies ahead and within `part` as it is.
-bool fills_no_more(const std::array<glm::vec3, 3>& corners, const TangentRect& part) {
-  return std::ranges::all_of(corners, [&](const glm::vec3& corner) {
-    const double left = static_cast<double>(corner.y / corner.x), up = static_cast<double>(corner.z / corner.x);
-    return corner.x >= shader::kShadowNear_m && left >= part.right && left <= part.left && up >= part.low && up <= part.high;
-  });
+/// All of the triangle lies in `part`.
+bool lies_in(const CastBounds& bounds, const TangentRect& part) {
+  const glm::dvec2 least = bounds.least, most = bounds.most;
+  return !bounds.beside && least.x >= part.right && most.x <= part.left && least.y >= part.low && most.y <= part.high;
 }
 
 bool shows_its_far_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
@@ -200,35 +217,38 @@ RayTrees ShadowCasters::ray_trees() const {
 
 bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const glm::mat3& turn,
                                const glm::vec3& shift, const Light& light, CastBy& cast) {
-  std::vector<glm::vec3> seen;
+  std::vector<SeenCorner> seen;
   seen.reserve(mesh.corners_m.size());
-  for (const glm::vec3& corner : mesh.corners_m) seen.push_back(turn * corner + shift);
+  for (const glm::vec3& corner : mesh.corners_m) seen.push_back(seen_corner(turn * corner + shift, light.sides));
   bool casts = false;
-  std::vector<CutCorner>* cut = nullptr;
+  CutCasters* cut = nullptr;
   if (chunk.cut_of) {
     auto of_material = std::ranges::find(cast.cut, *chunk.cut_of, &CutCasters::material);
     if (of_material == cast.cut.end()) of_material = cast.cut.insert(cast.cut.end(), {*chunk.cut_of});
-    cut = &of_material->corners;
+    cut = &*of_material;
   }
+  WholeCasters& whole = chunk.double_sided ? cast.both_sides : cast.far_sides;
   for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
-    const glm::vec3 &a = seen[mesh.indices[k]], &b = seen[mesh.indices[k + 1]], &c = seen[mesh.indices[k + 2]];
-    const double nearest = static_cast<double>(std::min({a.x, b.x, c.x}));
-    if (static_cast<double>(std::max({a.x, b.x, c.x})) <= kNearest_m || nearest > kShadowsTo_m) continue;
-    if (cut == nullptr && !chunk.double_sided && !shows_its_far_side(a, b, c)) continue;
-    if (shadow_is_beyond(light.sides, a, b, c)) continue;
-    if (!fills_no_more({a, b, c}, cast.part)) {
-      const TangentRect part = common(part_of({a, b, c}, light.sides), light.part);
+    const SeenCorner &a = seen[mesh.indices[k]], &b = seen[mesh.indices[k + 1]], &c = seen[mesh.indices[k + 2]];
+    if ((a.beyond & b.beyond & c.beyond) != 0) continue;
+    const CastBounds bounds = bounds_of(a, b, c);
+    const double nearest_m = static_cast<double>(bounds.nearest_m);
+    if (!(a.ahead || b.ahead || c.ahead) || nearest_m > kShadowsTo_m) continue;
+    if (cut == nullptr && !chunk.double_sided && !shows_its_far_side(a.at_m, b.at_m, c.at_m)) continue;
+    if (!lies_in(bounds, cast.part)) {
+      const TangentRect part = common(part_of({a.at_m, b.at_m, c.at_m}, light.sides), light.part);
       if (part.left < part.right || part.high < part.low) continue;
       widen(cast.part, part);
     }
     if (cut != nullptr) {
       const auto uv = [&](std::size_t corner) { return mesh.uvs[mesh.indices[k + corner]]; };
-      cut->insert(cut->end(), {{a, uv(0)}, {b, uv(1)}, {c, uv(2)}});
+      cut->corners.insert(cut->corners.end(), {{a.at_m, uv(0)}, {b.at_m, uv(1)}, {c.at_m, uv(2)}});
+      cut->bounds.push_back(bounds);
     } else {
-      std::vector<glm::vec3>& triangles = chunk.double_sided ? cast.both_sides : cast.far_sides;
-      triangles.insert(triangles.end(), {a, b, c});
+      whole.corners.insert(whole.corners.end(), {a.at_m, b.at_m, c.at_m});
+      whole.bounds.push_back(bounds);
     }
-    cast.nearest_m = std::min(cast.nearest_m, std::max(nearest, kNearest_m));
+    cast.nearest_m = std::min(cast.nearest_m, std::max(nearest_m, kNearest_m));
     casts = true;
   }
   return casts;

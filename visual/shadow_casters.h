@@ -41,10 +41,24 @@ struct CutCorner {
   glm::vec2 uv;
 };
 
-/// Triangles that cast but where their texture has holes: three corners each.
+/// What a triangle fills of a lamp's view.
+struct CastBounds {
+  glm::vec2 least{0.0f}, most{0.0f};  ///< tangents to the left and up
+  float nearest_m = 0.0f;             ///< along the axis
+  bool beside = false;                ///< it reaches past the lamp: all of this is left open
+};
+
+/// Triangles that cast but where their texture has holes: three corners each, and bounds of each.
 struct CutCasters {
   std::size_t material = 0;  ///< of the scene and then of what moves
   std::vector<CutCorner> corners{};
+  std::vector<CastBounds> bounds{};
+};
+
+/// Triangles that cast: three corners each, forward, left, up from the lamp, m; and bounds of each.
+struct WholeCasters {
+  std::vector<glm::vec3> corners{};
+  std::vector<CastBounds> bounds{};
 };
 
 /// What casts shadows in the light of one lamp.
@@ -53,9 +67,8 @@ struct CastBy {
   std::size_t count = 0;       ///< of those
   TangentRect part{};          ///< that they fill
   double nearest_m = 0.0;      ///< along the axis
-  /// Corners of the triangles that cast, three each: forward, left, up from the lamp, m. Far sides of what is seen from
-  /// one side, and all of what is seen from both.
-  std::vector<glm::vec3> far_sides{}, both_sides{};
+  /// Far sides of what is seen from one side, and all of what is seen from both.
+  WholeCasters far_sides{}, both_sides{};
   std::vector<CutCasters> cut{};  ///< by material
 };
 

@@ -163,7 +163,7 @@ TEST(ShadowCasters, WhatIsFarCastsByItsFarMesh) {
   const ShadowCasters casters(scene_of(near_and_far), {}, {far, far});
   const LampReach reach({0.0, 0.0, 0.65}, glm::dmat3(1.0), {{1.0, 0.0, 0.0}, 1.2});
   const auto triangles = [&](double far_from_m) {
-    return casters.by(reach, glm::dmat3(1.0), {}, SIZE_MAX, {.far_from_m = far_from_m}).both_sides.size() / 3;
+    return casters.by(reach, glm::dmat3(1.0), {}, SIZE_MAX, {.far_from_m = far_from_m}).both_sides.bounds.size();
   };
   EXPECT_EQ(triangles(std::numeric_limits<double>::infinity()), 2u);
   EXPECT_EQ(triangles(190.0), 3u) << "beyond " << kFarLevels[1].from << " times as far: the second level";

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <future>
 #include <optional>
-#include <thread>
 #include <utility>
+
+#include "config/base/on_all_cores.h"
 
 namespace phare {
 
@@ -107,15 +106,7 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
 std::vector<vk::raii::Pipeline> make_pipelines(const gpu::Device& device,
                                                std::span<const PipelineRecipe* const> recipes) {
   std::vector<std::optional<vk::raii::Pipeline>> made(recipes.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < recipes.size(); i = next++) made[i] = compile(device, *recipes[i]);
-  };
-  std::vector<std::future<void>> others;
-  const std::size_t at_once = std::min<std::size_t>(recipes.size(), std::thread::hardware_concurrency());
-  while (others.size() + 1 < at_once) others.push_back(std::async(std::launch::async, work));
-  work();
-  for (std::future<void>& other : others) other.get();  // or throws what it threw
+  on_all_cores(recipes.size(), [&](std::size_t i) { made[i] = compile(device, *recipes[i]); });
   *device.pipelines_made += recipes.size();
   std::vector<vk::raii::Pipeline> all;
   for (std::optional<vk::raii::Pipeline>& pipeline : made) all.push_back(std::move(*pipeline));

@@ -8,6 +8,7 @@
 #include <glm/mat4x4.hpp>
 #include <optional>
 
+#include "config/base/on_all_cores.h"
 #include "shaders/depth_cut_frag.h"
 #include "shaders/shadow_cut_vert.h"
 #include "shaders/shadow_vert.h"
@@ -28,13 +29,6 @@ shader::GpuShadow place_of(const PlacedLamp& lamp, const glm::dvec3& eye_m, cons
           row(lamp.world_from_image[0])};
 }
 
-const glm::vec3& place_of(const glm::vec3& corner) {
-  return corner;
-}
-const glm::vec3& place_of(const CutCorner& corner) {
-  return corner.corner_m;
-}
-
 /// Of the first picture of a map nothing is read this far from its middle, in texels, where the second shows it larger:
 /// where shaders/lib/shadow.glsl turns to the second, less the two texels around a point that are weighed, and one.
 glm::vec2 half_unread(const ShadowLevel& level) {
@@ -42,28 +36,21 @@ glm::vec2 half_unread(const ShadowLevel& level) {
   return (half - 1.0f) / shader::kShadowZoom - 3.0f;
 }
 
-/// Triangles of `corners` that hold the middle of a texel, of a picture of so many texels either way from the axis to a
-/// tangent of 1, and that reach out of the `unread` texels either way from its middle.
+/// Triangles that hold the middle of a texel, of a picture of so many texels either way from the axis to a tangent of 1,
+/// and that reach out of the `unread` texels either way from its middle.
 template <typename Corner>
-void append_seen(std::vector<Corner>& seen, const std::vector<Corner>& corners, const glm::dvec2& texels,
-                 const ShadowLevel& level, const glm::vec2& unread) {
+void append_seen(std::vector<Corner>& seen, const std::vector<Corner>& corners, const std::vector<CastBounds>& bounds,
+                 const glm::dvec2& texels, const ShadowLevel& level, const glm::vec2& unread) {
   const glm::vec2 scale(texels), half(0.5f * static_cast<float>(level.width), 0.5f * static_cast<float>(level.height));
-  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-    glm::vec2 low(1e30f), high(-1e30f);
-    bool beside = false;  // reaches past the lamp: kept
-    for (std::size_t k = 0; k < 3; ++k) {
-      const glm::vec3& corner = place_of(corners[i + k]);
-      beside = beside || corner.x < shader::kShadowNear_m;
-      const glm::vec2 at = half - glm::vec2(corner.y, corner.z) * scale / corner.x;
-      low = glm::min(low, at);
-      high = glm::max(high, at);
-    }
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const CastBounds& triangle = bounds[i];
+    const glm::vec2 low = half - triangle.most * scale, high = half - triangle.least * scale;
     const glm::vec2 first = glm::ceil(low - 0.5f), last = glm::floor(high - 0.5f);
     const bool holds_one = first.x <= last.x && first.y <= last.y && last.x >= 0.0f && last.y >= 0.0f &&
                            first.x < 2.0f * half.x && first.y < 2.0f * half.y;
     const bool is_read = low.x < half.x - unread.x || high.x > half.x + unread.x || low.y < half.y - unread.y ||
                          high.y > half.y + unread.y;
-    if (beside || (holds_one && is_read)) seen.insert(seen.end(), &corners[i], &corners[i] + 3);
+    if (triangle.beside || (holds_one && is_read)) seen.insert(seen.end(), &corners[3 * i], &corners[3 * i] + 3);
   }
 }
 
@@ -100,9 +87,9 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
 
 /// Where a map may hide light.
 struct Shade {
-  glm::dmat3 image_from_world;
-  glm::dvec3 lamp_m;
-  CasterGrid grid;
+  glm::dmat3 image_from_world{1.0};
+  glm::dvec3 lamp_m{0.0};
+  CasterGrid grid{};
 
   bool may_fall_on(const glm::dvec3& low_m, const glm::dvec3& high_m) const {
     return grid.may_shade(box_corners(image_from_world, lamp_m, low_m, high_m));
@@ -114,14 +101,7 @@ constexpr float kPiecesTo_m = 60.0f;
 
 /// Tells which of the view's draws a shadow may fall on. Of near ground that is done by pieces: those that none can reach are
 /// drawn first, as where nothing casts.
-void tell_shadowed(LitView& view, std::span<const Map> maps) {
-  std::vector<Shade> shades;
-  for (const Map& map : maps) {
-    const PlacedLamp& lamp = view.lit_lamps[map.lamp];
-    const CastBy& cast = view.casts[map.lamp];
-    shades.push_back({glm::transpose(lamp.world_from_image), lamp.position_m,
-                      CasterGrid(cast, half_sides(cast.part), 1.0 / map.texels)});
-  }
+void tell_shadowed(LitView& view, std::span<const Shade> shades) {
   const auto may_fall_on = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
     return std::ranges::any_of(shades, [&](const Shade& shade) { return shade.may_fall_on(low_m, high_m); });
   };
@@ -163,36 +143,55 @@ void fill_buffer(gpu::Device& device, gpu::HostBuffer& buffer, const std::vector
   std::memcpy(buffer.data, bytes.data(), bytes.size());
 }
 
-/// The triangles of each picture into the buffers that they are drawn from.
-std::vector<ShadowPass::Ranges> fill_triangles(gpu::Device& device, ShadowDepths& depths, const LitView& view,
-                                               std::span<const Map> maps, const ShadowLevel& level, bool textures) {
+/// What is drawn into the two pictures of a map.
+struct Drawn {
+  std::vector<glm::vec3> corners{};
+  std::vector<CutCorner> cut_corners{};
+  std::array<ShadowPass::Ranges, 2> pictures{};
+};
+
+Drawn drawn_into(const Map& map, const CastBy& cast, const ShadowLevel& level, bool textures) {
+  Drawn drawn;
+  for (std::size_t close = 0; close < 2; ++close) {
+    const glm::dvec2 texels = map.texels * (close == 1 ? double{shader::kShadowZoom} : 1.0);
+    const glm::vec2 unread = close == 1 ? glm::vec2(-1e30f) : half_unread(level);
+    ShadowPass::Ranges& picture = drawn.pictures[close];
+    for (std::size_t side = 0; side < 2; ++side) {
+      const WholeCasters& whole = side == 0 ? cast.far_sides : cast.both_sides;
+      const auto first = static_cast<std::uint32_t>(drawn.corners.size());
+      append_seen(drawn.corners, whole.corners, whole.bounds, texels, level, unread);
+      if (side == 1 && !textures)  // a device that draws no holes: whole
+        for (const CutCasters& cut : cast.cut) {
+          std::vector<glm::vec3> corners;
+          for (const CutCorner& corner : cut.corners) corners.push_back(corner.corner_m);
+          append_seen(drawn.corners, corners, cut.bounds, texels, level, unread);
+        }
+      picture.sides[side] = {first, static_cast<std::uint32_t>(drawn.corners.size()) - first};
+    }
+    if (!textures) continue;
+    for (const CutCasters& cut : cast.cut) {
+      const auto first = static_cast<std::uint32_t>(drawn.cut_corners.size());
+      append_seen(drawn.cut_corners, cut.corners, cut.bounds, texels, level, unread);
+      if (const auto count = static_cast<std::uint32_t>(drawn.cut_corners.size()) - first; count > 0)
+        picture.cut.push_back({cut.material, {first, count}});
+    }
+  }
+  return drawn;
+}
+
+/// The triangles of each picture into the buffers that they are drawn from, behind those of the maps before.
+std::vector<ShadowPass::Ranges> fill_triangles(gpu::Device& device, ShadowDepths& depths, std::span<Drawn> maps) {
   std::vector<glm::vec3> corners;
   std::vector<CutCorner> cut_corners;
   std::vector<ShadowPass::Ranges> ranges;
-  for (const Map& map : maps) {
-    for (const double zoom : {1.0, double{shader::kShadowZoom}}) {
-      ShadowPass::Ranges& picture = ranges.emplace_back();
-      const glm::vec2 unread = zoom == 1.0 ? half_unread(level) : glm::vec2(-1e30f);
-      for (std::size_t side = 0; side < 2; ++side) {
-        const CastBy& cast = view.casts[map.lamp];
-        const auto first = static_cast<std::uint32_t>(corners.size());
-        append_seen(corners, side == 0 ? cast.far_sides : cast.both_sides, map.texels * zoom, level, unread);
-        if (side == 1 && !textures)  // a device that draws no holes: whole
-          for (const CutCasters& cut : cast.cut) {
-            std::vector<glm::vec3> whole;
-            for (const CutCorner& corner : cut.corners) whole.push_back(corner.corner_m);
-            append_seen(corners, whole, map.texels * zoom, level, unread);
-          }
-        picture.sides[side] = {first, static_cast<std::uint32_t>(corners.size()) - first};
-      }
-      if (!textures) continue;
-      for (const CutCasters& cut : view.casts[map.lamp].cut) {
-        const auto first = static_cast<std::uint32_t>(cut_corners.size());
-        append_seen(cut_corners, cut.corners, map.texels * zoom, level, unread);
-        if (const auto count = static_cast<std::uint32_t>(cut_corners.size()) - first; count > 0)
-          picture.cut.push_back({cut.material, {first, count}});
-      }
+  for (Drawn& map : maps) {
+    for (ShadowPass::Ranges& picture : map.pictures) {
+      for (ShadowPass::Range& side : picture.sides) side.first += static_cast<std::uint32_t>(corners.size());
+      for (ShadowPass::CutRange& cut : picture.cut) cut.range.first += static_cast<std::uint32_t>(cut_corners.size());
+      ranges.push_back(std::move(picture));
     }
+    corners.insert(corners.end(), map.corners.begin(), map.corners.end());
+    cut_corners.insert(cut_corners.end(), map.cut_corners.begin(), map.cut_corners.end());
   }
   fill_buffer(device, depths.triangles->whole, corners);
   if (!cut_corners.empty()) fill_buffer(device, depths.triangles->cut, cut_corners);
@@ -297,9 +296,18 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
   const ShadowLevel& level = kShadowLevels[level_number];
   const std::vector<Map> maps = place_maps(view, level, most_shadow_maps(level, limits_));
   if (maps.empty()) return;
-  tell_shadowed(view, maps);
+  std::vector<Shade> shades(maps.size());
+  std::vector<Drawn> drawn(maps.size());
+  on_all_cores(maps.size(), [&](std::size_t i) {
+    const PlacedLamp& lamp = view.lit_lamps[maps[i].lamp];
+    const CastBy& cast = view.casts[maps[i].lamp];
+    drawn[i] = drawn_into(maps[i], cast, level, scene.has_textures());
+    shades[i] = {glm::transpose(lamp.world_from_image), lamp.position_m,
+                 CasterGrid(cast, half_sides(cast.part), 1.0 / maps[i].texels)};
+  });
+  tell_shadowed(view, shades);
   ShadowDepths& depths = depths_of(maps.size() * texels_of_map(level));
-  const std::vector<Ranges> ranges = fill_triangles(device_, depths, view, maps, level, scene.has_textures());
+  const std::vector<Ranges> ranges = fill_triangles(device_, depths, drawn);
   const std::size_t in_image = shadow_maps_in_image(level, limits_);
   for (std::size_t first = 0; first < maps.size(); first += in_image) {
     std::vector<Picture> pictures;
