@@ -133,6 +133,7 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
                             "picked",
                             "switch_to_photon",
                             "device",
+                            "frames_in_flight",
                             "device_memory_bytes",
                             "size_px",
                             "sim_time_s",

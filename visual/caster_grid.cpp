@@ -110,13 +110,14 @@ bool CasterGrid::may_shade(const BoxCorners& box) const {
         if ((i & side) == 0) bounds.add_crossing(box[i], box[i | side]);
   if (bounds.nearest_m > farthest_m) return false;  // behind the lamp
   const glm::vec2 least = bounds.least(), most = bounds.most();
-  const Cells cells = cells_of({across_.widened(least.x, -1.0f), up_.widened(least.y, -1.0f)},
-                               {across_.widened(most.x, 1.0f), up_.widened(most.y, 1.0f)});
+  const bool close = across_.close(least.x, most.x) && up_.close(least.y, most.y);
+  const Cells cells = cells_of({across_.widened(least.x, -1.0f, close), up_.widened(least.y, -1.0f, close)},
+                               {across_.widened(most.x, 1.0f, close), up_.widened(most.y, 1.0f, close)});
   glm::vec3 low = box[0], high = box[0];
   for (const glm::vec3& corner : box) low = glm::min(low, corner), high = glm::max(high, corner);
   // Where the box is seen in some columns or rows, it is so far forward at most: ground below the lamp is near in low rows.
   const auto farthest_in = [&](const Axis& axis, int first, int end, float least_m, float most_m) {
-    const float from = axis.widened(axis.tangent(first), -1.0f), to = axis.widened(axis.tangent(end), 1.0f);
+    const float from = axis.widened(axis.tangent(first), -1.0f, close), to = axis.widened(axis.tangent(end), 1.0f, close);
     if (to < 0.0f) return std::min(farthest_m, std::min(least_m, 0.0f) / to);
     if (from > 0.0f) return std::min(farthest_m, std::max(most_m, 0.0f) / from);
     return farthest_m;
@@ -154,9 +155,12 @@ float CasterGrid::Axis::at(float tangent) const {
   return middle + cells * tangent / (std::abs(tangent) + finest);
 }
 
-// A kShadowZoom-th of the room where the map's second picture is read on both sides of it.
-float CasterGrid::Axis::widened(float tangent, float way) const {
-  const bool close = std::abs(tangent) < half / shader::kShadowZoom - 4.0f * room;
+/// Between these the map's second picture is read, if that holds across and up: with texels to spare, which are weighed about a point.
+bool CasterGrid::Axis::close(float least, float most) const {
+  return std::max(-least, most) < half / shader::kShadowZoom - 4.0f * room;
+}
+
+float CasterGrid::Axis::widened(float tangent, float way, bool close) const {
   return tangent + way * (close ? room / shader::kShadowZoom : room);
 }
 

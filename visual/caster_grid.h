@@ -38,7 +38,8 @@ class CasterGrid {
     float half = 1.0f, finest = 1.0f, middle = 0.0f, cells = 0.0f, room = 0.0f;
     float at(float tangent) const;
     float tangent(int cell) const;
-    float widened(float tangent, float way) const;
+    bool close(float least, float most) const;
+    float widened(float tangent, float way, bool close) const;
   };
   Cells cells_of(const glm::vec2& least, const glm::vec2& most) const;
 

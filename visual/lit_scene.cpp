@@ -479,6 +479,10 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVaria
   std::vector<LitVariant> variants;
   variants.reserve(view.items.size());
   for (const DrawItem& item : view.items) variants.push_back(variant_of(view, item, common));
+  // A shadow may reach in the next frame what none reaches in this one: its pipeline is made with the others.
+  if (view.depths != nullptr)
+    for (DrawItem item : view.items)
+      if (!std::exchange(item.shadowed, true)) variants.push_back(variant_of(view, item, common));
   const std::vector<vk::Pipeline> wanted = pipelines(variants);
   bind(commands, view);
   bind_shadows(commands, view);

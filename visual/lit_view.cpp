@@ -82,7 +82,7 @@ void LitScene::light_by_block(LitView& view) {
   }
   view.over_limit = static_cast<std::uint32_t>(std::ranges::count(left_out, true));
   std::ranges::stable_sort(view.items, {},
-                           [](const DrawItem& item) { return std::pair(item.batch->kind, item.lit_by); });
+                           [](const DrawItem& item) { return std::pair(drawn_by(item.batch->kind), item.lit_by); });
 }
 
 LitView LitScene::view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps) {

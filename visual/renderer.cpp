@@ -508,6 +508,9 @@ std::optional<std::string> Renderer::no_reference() const {
 std::string Renderer::device() const {
   return std::string(impl_->device.properties.deviceName.data()) + ", " + impl_->device.driver;
 }
+std::size_t Renderer::frames_in_flight() const {
+  return impl_->options.frames_in_flight;
+}
 std::uint64_t Renderer::device_memory_bytes() const {
   return *impl_->device.allocated_bytes;
 }

@@ -229,6 +229,7 @@ class Renderer {
   /// Why this device cannot draw by Method::kReference; nothing: it can. To draw by it all the same throws.
   std::optional<std::string> no_reference() const;
   std::string device() const;                 ///< name, driver, Vulkan version
+  std::size_t frames_in_flight() const;       ///< as RendererOptions has it
   std::uint64_t device_memory_bytes() const;  ///< allocated by us and alive
   std::uint64_t validation_messages() const;  ///< since create
   std::uint64_t uploaded_texels() const;      ///< of beam images, since create

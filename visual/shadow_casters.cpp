@@ -16,8 +16,6 @@
 namespace phare {
 namespace {
 
-const double kNearest_m = static_cast<double>(shader::kShadowNear_m);  // along the axis
-
 void widen(TangentRect& part, const TangentRect& by) {
   part = {std::min(part.right, by.right), std::max(part.left, by.left), std::min(part.low, by.low),
           std::max(part.high, by.high)};
@@ -232,8 +230,7 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
     const SeenCorner &a = seen[mesh.indices[k]], &b = seen[mesh.indices[k + 1]], &c = seen[mesh.indices[k + 2]];
     if ((a.beyond & b.beyond & c.beyond) != 0) continue;
     const CastBounds bounds = bounds_of(a, b, c);
-    const double nearest_m = static_cast<double>(bounds.nearest_m);
-    if (!(a.ahead || b.ahead || c.ahead) || nearest_m > kShadowsTo_m) continue;
+    if (!(a.ahead || b.ahead || c.ahead) || static_cast<double>(bounds.nearest_m) > kShadowsTo_m) continue;
     if (cut == nullptr && !chunk.double_sided && !shows_its_far_side(a.at_m, b.at_m, c.at_m)) continue;
     if (!lies_in(bounds, cast.part)) {
       const TangentRect part = common(part_of({a.at_m, b.at_m, c.at_m}, light.sides), light.part);
@@ -248,7 +245,6 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
       whole.corners.insert(whole.corners.end(), {a.at_m, b.at_m, c.at_m});
       whole.bounds.push_back(bounds);
     }
-    cast.nearest_m = std::min(cast.nearest_m, std::max(nearest_m, kNearest_m));
     casts = true;
   }
   return casts;
@@ -256,7 +252,7 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
 
 CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving,
                          std::size_t carried_by, const CastersFor& wanted) const {
-  CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing, .nearest_m = kFar};
+  CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing};
   Light light{widest(reach, world_from_image)};
   if (wanted.view != nullptr) light.sides = sides_of(*wanted.view, reach.tip_m, world_from_image);
   const glm::dmat3 image_from_world = glm::transpose(world_from_image);

@@ -65,8 +65,7 @@ struct WholeCasters {
 struct CastBy {
   std::vector<bool> chunks{};  ///< of the scene and then of what moves, which of them cast; empty: none does
   std::size_t count = 0;       ///< of those
-  TangentRect part{};          ///< that they fill
-  double nearest_m = 0.0;      ///< along the axis
+  TangentRect part{};          ///< that they fill, as far as what they hide may be seen
   /// Far sides of what is seen from one side, and all of what is seen from both.
   WholeCasters far_sides{}, both_sides{};
   std::vector<CutCasters> cut{};  ///< by material

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <future>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -20,7 +21,10 @@ void on_all_cores(std::size_t count, const Work& work) {
   };
   std::vector<std::future<void>> others;
   const std::size_t at_once = std::min<std::size_t>(count, std::max(1u, std::thread::hardware_concurrency()));
-  while (others.size() + 1 < at_once) others.push_back(std::async(std::launch::async, turns));
+  try {
+    while (others.size() + 1 < at_once) others.push_back(std::async(std::launch::async, turns));
+  } catch (const std::system_error&) {  // no more threads can be had: those there are do it
+  }
   turns();
   for (std::future<void>& other : others) other.get();
 }

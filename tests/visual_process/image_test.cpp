@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <string_view>
 #include <utility>
 
 #include "visual/image/canvas.h"
@@ -62,6 +63,44 @@ TEST(Png, ReadsBackAndIsTheSameBytesTwice) {
   EXPECT_EQ(back->width_px, 37);
   EXPECT_EQ(back->height_px, 23);
   EXPECT_EQ(back->rgba, image.rgba);
+}
+
+std::uint32_t big_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (const char byte : bytes.substr(0, 4)) value = value << 8u | static_cast<std::uint8_t>(byte);
+  return value;
+}
+
+// What stb_image does not look at and other readers do: CRC-32 of each chunk (PNG, annex D) and Adler-32 of what was deflated (RFC 1950).
+TEST(Png, HasTheChecksumsOfItsChunksAndOfItsRows) {
+  const Image8 image = pattern(37, 23);
+  ASSERT_TRUE(write_png(temporary("sums.png"), image).ok());
+  const std::string png = bytes_of(temporary("sums.png"));
+  std::string deflated;
+  for (std::size_t at = 8; at < png.size();) {
+    const std::size_t length = big_endian(std::string_view(png).substr(at));
+    const std::string_view named = std::string_view(png).substr(at + 4, 4 + length);
+    std::uint32_t crc = ~0u;
+    for (const char byte : named) {
+      crc ^= static_cast<std::uint8_t>(byte);
+      for (int bit = 0; bit < 8; ++bit) crc = crc >> 1u ^ (crc & 1u ? 0xedb88320u : 0u);
+    }
+    EXPECT_EQ(big_endian(std::string_view(png).substr(at + 8 + length)), ~crc) << named.substr(0, 4);
+    if (named.starts_with("IDAT")) deflated += named.substr(4);
+    at += 12 + length;
+  }
+  std::uint32_t sum = 1, sum_of_sums = 0;
+  const auto add = [&](unsigned byte) { sum = (sum + byte) % 65521u, sum_of_sums = (sum_of_sums + sum) % 65521u; };
+  for (std::size_t row = 0; row < 23; ++row) {
+    add(1);  // each pixel less the one before
+    for (std::size_t x = 0; x < 37; ++x)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t i = 4 * (37 * row + x) + c;
+        add(static_cast<std::uint8_t>(image.rgba[i] - (x > 0 ? image.rgba[i - 4] : 0)));
+      }
+  }
+  ASSERT_GT(deflated.size(), 6u);
+  EXPECT_EQ(big_endian(std::string_view(deflated).substr(deflated.size() - 4)), sum_of_sums << 16u | sum);
 }
 
 // Rows of one pixel, of an even and an odd number; more rows than are deflated at once, and none that repeats another, so

@@ -185,9 +185,9 @@ void keep_far_caster(const Scene& scene, const DrawnChunk& mesh, std::size_t lev
   for (const CornerLook& look : mesh.looks) kept.uvs.push_back(look.uv);
 }
 
-// One batch for each kind and cell of `side_m` among the chunks. What stands is ground that shadows fall on by pieces.
+// One batch for each kind and cell of `side_m` among the chunks; `pieces`: of ground.
 std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m,
-                               std::optional<std::size_t> far_level, bool stands, Gathered& all) {
+                               std::optional<std::size_t> far_level, bool pieces, Gathered& all) {
   // Of what has a look, one for each material besides: its textures are bound for it.
   std::map<std::tuple<MaterialKind, std::size_t, Cell>, std::vector<DrawnChunk>> groups;
   for (const SceneChunk* chunk : chunks) {
@@ -224,7 +224,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     batch.index_count = static_cast<std::uint32_t>(all.indices.size()) - batch.first_index;
     if (batch.kind.surface == Surface::kFoliage)
       add_orders(batch, all);
-    else if (stands && (batch.kind.surface == Surface::kAsphalt || batch.kind.surface == Surface::kGrass))
+    else if (pieces && (batch.kind.surface == Surface::kAsphalt || batch.kind.surface == Surface::kGrass))
       cut_into_pieces(batch, all);
     if (batch.index_count > 0) batches.push_back(std::move(batch));
   }
@@ -245,7 +245,7 @@ std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all, const Pro
     }
     block.near = gather(scene, chunks, kBlock_m, std::nullopt, true, all);
     for (std::size_t level = 0; level < kFarLevels.size(); ++level)
-      block.far[level] = gather(scene, chunks, kBlock_m, level, true, all);
+      block.far[level] = gather(scene, chunks, kBlock_m, level, false, all);
     blocks.push_back(std::move(block));
   }
   return blocks;
@@ -308,12 +308,10 @@ shader::GpuDraw draw_at(const glm::dvec3& from_eye_m, const glm::dvec3& detail_m
   return draw;
 }
 
-// Those of one kind together; paint before the road that it lies on.
+// Those of one kind together.
 void near_first(std::vector<DrawItem>& items) {
   const auto place = [](const DrawItem& item) {
-    const MaterialKind& kind = item.batch->kind;
-    return std::tuple(kind.surface == Surface::kPaint ? Surface::kPlain : kind.surface, kind, item.distance_m,
-                      item.batch->first_index);
+    return std::tuple(drawn_by(item.batch->kind), item.distance_m, item.batch->first_index);
   };
   std::sort(items.begin(), items.end(), [&](const DrawItem& a, const DrawItem& b) { return place(a) < place(b); });
 }

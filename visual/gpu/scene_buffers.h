@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shaders/lamps.h"
@@ -28,6 +29,11 @@ struct MaterialKind {
 
   friend auto operator<=>(const MaterialKind&, const MaterialKind&) = default;
 };
+
+/// Kinds in the order in which they are drawn: paint before the road that it lies on, which it hides.
+inline auto drawn_by(const MaterialKind& kind) {
+  return std::pair(kind.surface == Surface::kPaint ? Surface::kPlain : kind.surface, kind);
+}
 
 /// A vertex on the device.
 struct GpuVertex {
@@ -56,7 +62,7 @@ struct SceneBatch {
   glm::dvec3 low_m{0.0}, high_m{0.0};
   std::uint32_t first_index = 0, index_count = 0;
   std::int32_t first_vertex = 0;
-  /// One behind the other all of its triangles, of ground that stands; else none.
+  /// One behind the other all of its triangles, of ground that stands and is drawn in full; else none.
   std::vector<BatchPiece> pieces{};
   /// The same triangles in kOrders orders, one behind the other: near ones first for who looks along x, then turned to
   /// the left in even steps. Leaves lie behind leaves, and what is drawn first hides the rest before it is lit.

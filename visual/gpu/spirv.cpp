@@ -90,7 +90,7 @@ std::vector<std::uint32_t> returning_one(Words code, std::string_view function) 
   });
   const auto label = std::find_if(begin, all.end(), [](Words each) { return op_of(each) == kLabel; });
   const auto end = std::find_if(begin, all.end(), [](Words each) { return op_of(each) == kFunctionEnd; });
-  if (one == all.end() || label == all.end() || end == all.end()) return as_it_was;
+  if (one == all.end() || end == all.end() || label >= end) return as_it_was;
 
   std::set<std::uint32_t> gone;
   for (auto each = label + 1; each != end; ++each) gone.insert(result_of(*each));

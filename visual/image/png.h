@@ -10,7 +10,7 @@
 
 namespace phare {
 
-/// Nothing, when it cannot be encoded: no pixel, or more than a PNG holds. The same bytes every time on one machine.
+/// Nothing, when it cannot be encoded: no pixel, or more than a chunk of a PNG holds. The same bytes every time on one machine.
 std::optional<std::vector<std::uint8_t>> encode_png(const Image8& image);
 
 }  // namespace phare

@@ -53,6 +53,7 @@ void Album::keep_frame(std::int64_t frame_index, Image8 image, const std::string
     std::uint64_t pixels = 0;
     std::memcpy(&pixels, image.rgba.data() + i, std::min(sizeof pixels, image.rgba.size() - i));
     frames_hash_ = (frames_hash_ ^ pixels) * 0x100000001b3ull;
+    frames_hash_ ^= frames_hash_ >> 32u;  // a product carries upward alone
   }
   ++kept_frames_;
   if (thumbnails_.wants_next())

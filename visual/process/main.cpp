@@ -197,7 +197,8 @@ int draw_channel(VisualOptions options) {
   session.lane = std::move(lane);
   if (session.options.budget_ms > 0.0 && !session.options.lockstep && !session.options.levels.empty())
     session.governor = Governor(session.options.budget_ms, session.options.levels, session.options.begin_level);
-  spdlog::info("drawing '{}' on {}", session.channel().name, session.renderer.device());
+  spdlog::info("drawing '{}' on {}, {}", session.channel().name, session.renderer.device(),
+               session.renderer.frames_in_flight() == 1 ? "one frame at a time" : "two frames in flight");
   run_loop(session);
   // Under a launcher it is the launcher that ends with 1: one that ended so itself would be started again.
   if (session.album.not_kept() > 0 && session.options.alive_file.empty()) {
@@ -220,7 +221,7 @@ int draw_channel(VisualOptions options) {
 int main(int argc, char** argv) {
   const ParsedOptions parsed = parse_options(argc, argv);
   if (!parsed.options) return parsed.exit_code;
-  spdlog::set_default_logger(spdlog::stderr_logger_st("visual"));
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("visual"));
   spdlog::set_level(spdlog::level::from_str(parsed.options->log_level));
   try {
     return draw_channel(*parsed.options);

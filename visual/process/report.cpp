@@ -43,6 +43,7 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["lockstep"] = session.options.lockstep;
   report["sim_time_s"] = now.seconds();
   report["device"] = session.renderer.device();
+  report["frames_in_flight"] = session.renderer.frames_in_flight();
   report["device_memory_bytes"] = session.renderer.device_memory_bytes();
   report["validation"] = session.options.validation;
   report["validation_messages"] = session.renderer.validation_messages();
