@@ -159,7 +159,7 @@ const uint kRayMoverTexels = 4u;
 
 // Depth of a map is this over the distance along the axis: what is nearer than it casts no shadow.
 const float kShadowNear_m = 0.05f;
-const float kShadowZoom = 4.0f;
+const float kShadowZoom = 2.0f;
 
 struct GpuMaterial {
   // rgb rho; w, sheeting: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there, facets: what they send

@@ -349,8 +349,8 @@ TEST(ShadowLimits, ADeviceHoldsSoManyMapsAndSaysSo) {
   const ShadowLimits promised{.buffer_texels = 65'536, .image_side = 4096};
   EXPECT_EQ(shadow_maps_in_image(soft, promised), 4u);
   EXPECT_EQ(most_shadow_maps(soft, promised), 0u);
-  EXPECT_EQ(most_shadow_maps(soft, {.buffer_texels = 3u << 19, .image_side = 4096}), 3u);
-  EXPECT_EQ(most_shadow_maps(soft, {.buffer_texels = 1u << 27, .image_side = 511}), 0u);
+  EXPECT_EQ(most_shadow_maps(soft, {.buffer_texels = 3u * 2u * 768u * 512u, .image_side = 4096}), 3u);
+  EXPECT_EQ(most_shadow_maps(soft, {.buffer_texels = 1u << 27, .image_side = 767}), 0u);
   EXPECT_EQ(most_shadow_maps(kShadowLevels[3], {.buffer_texels = 1u << 27, .image_side = 16'384}), kMostShadowMaps);
 }
 

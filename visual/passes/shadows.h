@@ -22,9 +22,9 @@ namespace phare {
 /// In the order of the effect's levels (visual/effects.h), the first being off: of each of the two pictures of a map; of
 /// rays one to the lamp's middle, or shader::kLensRays over its opening.
 inline constexpr std::array<ShadowLevel, kShadowNames.size()> kShadowLevels{{{},
-                                                                             {512, 512, 1},
-                                                                             {512, 512, 4},
-                                                                             {1024, 1024, 4},
+                                                                             {768, 512, 1},
+                                                                             {768, 512, 4},
+                                                                             {1536, 1024, 4},
                                                                              {0, 0, shader::kTapsOfRays + 1},
                                                                              {0, 0, shader::kTapsOfRays + shader::kLensRays}}};
 static_assert(kShadowLevels[kRayShadows].taps > shader::kTapsOfRays &&
