@@ -108,11 +108,12 @@ struct GpuLamp {
 
 // How a point relative to the eye falls on a lamp's shadow map: (dot(u, p), dot(v, p)) / dot(w, p) in texels to the right of the middle and
 // below it, dot(w, p) the distance along the lamp's axis in m; p as (x, y, z, 1). A map is two pictures of one size, one after the other:
-// all that casts shadows, then the middle kShadowZoom times as large, where the beam is bright and the road far away.
+// all that casts shadows, then the middle zoom.x times as large, where the beam is bright and the road far away.
 struct GpuShadow {
   vec4 u;
   vec4 v;
   vec4 w;
+  vec4 zoom;
 };
 
 // Light scattered in fog (lib/fog.glsl): of rays through the nodes of a grid over the view, to the ends of slices. Slices end where
@@ -159,7 +160,6 @@ const uint kRayMoverTexels = 4u;
 
 // Depth of a map is this over the distance along the axis: what is nearer than it casts no shadow.
 const float kShadowNear_m = 0.05f;
-const float kShadowZoom = 2.0f;
 
 struct GpuMaterial {
   // rgb rho; w, sheeting: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there, facets: what they send

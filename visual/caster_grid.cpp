@@ -56,14 +56,14 @@ BoxCorners box_corners(const glm::dmat3& image_from_world, const glm::dvec3& lam
   return corners;
 }
 
-CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const glm::dvec2& texel)
+CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const glm::dvec2& texel, double zoom)
     : nearest_m_(static_cast<std::size_t>(kColumns * kRows), std::numeric_limits<float>::infinity()),
       nearest_of_block_m_(nearest_m_.size() / (kBlock * kBlock), std::numeric_limits<float>::infinity()) {
   // Texels that are weighed about a point, half of one that is added, and one for rounding.
   constexpr double kRoom_texels = 3.0;
   const auto axis = [&](double half, double finest, int cells, double of_texel) {
     return Axis{static_cast<float>(half), static_cast<float>(finest), 0.5f * static_cast<float>(cells),
-                static_cast<float>(0.5 * cells * (half + finest) / half), static_cast<float>(kRoom_texels * of_texel)};
+                static_cast<float>(0.5 * cells * (half + finest) / half), static_cast<float>(kRoom_texels * of_texel), static_cast<float>(zoom)};
   };
   across_ = axis(half_sides.x, 0.3, kColumns, texel.x);
   up_ = axis(half_sides.y, 0.1, kRows, texel.y);
@@ -157,11 +157,11 @@ float CasterGrid::Axis::at(float tangent) const {
 
 /// Between these the map's second picture is read, if that holds across and up: with texels to spare, which are weighed about a point.
 bool CasterGrid::Axis::close(float least, float most) const {
-  return std::max(-least, most) < half / shader::kShadowZoom - 4.0f * room;
+  return std::max(-least, most) < half / zoom - 4.0f * room;
 }
 
 float CasterGrid::Axis::widened(float tangent, float way, bool close) const {
-  return tangent + way * (close ? room / shader::kShadowZoom : room);
+  return tangent + way * (close ? room / zoom : room);
 }
 
 CasterGrid::Cells CasterGrid::cells_of(const glm::vec2& least, const glm::vec2& most) const {

@@ -20,9 +20,9 @@ BoxCorners box_corners(const glm::dmat3& image_from_world, const glm::dvec3& lam
 class CasterGrid {
  public:
   CasterGrid() = default;  ///< nothing casts
-  /// Of the view to the tangents `half_sides` either way. `texel`: tangents across one of the map's first picture; of the
-  /// second, in the middle, it is a kShadowZoom-th.
-  CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const glm::dvec2& texel);
+  /// Of the view to the tangents `half_sides` either way. `texel`: tangents across one of the map's first picture; the
+  /// second shows the middle `zoom` times as large.
+  CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const glm::dvec2& texel, double zoom);
 
   /// False only if nothing that casts is nearer to the lamp, along its axis, than a point of the box behind it, or than
   /// one beside that whose texels are weighed with its own.
@@ -35,7 +35,7 @@ class CasterGrid {
   };
   /// Tangents to cells of one side: finer toward the axis, where a degree of road is long.
   struct Axis {
-    float half = 1.0f, finest = 1.0f, middle = 0.0f, cells = 0.0f, room = 0.0f;
+    float half = 1.0f, finest = 1.0f, middle = 0.0f, cells = 0.0f, room = 0.0f, zoom = 1.0f;
     float at(float tangent) const;
     float tangent(int cell) const;
     bool close(float least, float most) const;

@@ -83,7 +83,7 @@ static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour)
 static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, cells) == 64);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
 static_assert(sizeof(shader::GpuFog) == 112);
-static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 48) +
+static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 64) +
                                               sizeof(shader::GpuFog) + 32 + 32 * shader::kMirroredLamps);
 static_assert(sizeof(shader::GpuDraw) == 80 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);

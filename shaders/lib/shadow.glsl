@@ -18,11 +18,11 @@ layout(constant_id = kSpecShadowTaps) const uint shadow_taps = 1;
 const float kShadowBias = 1.0005;
 
 // `at`: as GpuShadow has it, not divided yet. The outermost texels hold nothing, so beyond the map all is lit.
-float reaching(vec3 at, uint map) {
+float reaching(vec3 at, uint map, float zoom) {
   float inverse_w = 1.0 / max(at.z, 1e-3);
   float nearer = kShadowNear_m * inverse_w * kShadowBias;
   vec2 middle = 0.5 * vec2(float(shadow_width), float(shadow_height));
-  vec2 from_middle = at.xy * inverse_w, large = from_middle * kShadowZoom;
+  vec2 from_middle = at.xy * inverse_w, large = from_middle * zoom;
   bool close = all(lessThan(abs(large), middle - 1.0));
   // Half a texel up: below the line where a slope meets the valley behind it a lamp looks into the ground, where there is no far side.
   vec2 texel = middle + (close ? large : from_middle) - vec2(0.0, 0.5);
@@ -54,5 +54,5 @@ float reaching(vec3 at, uint map) {
 #define PHARE_REACHING(I) \
   ((shadow_maps >> (4 * I) & 15u) == 0u ? 1.0                                                                          \
    : shadow_taps > kTapsOfRays ? reaching_by_rays(PHARE_SHADOW_AT(I), I, (shadow_maps >> (4 * I) & 15u) - 1u) \
-                               : reaching(PHARE_SHADOW_AT(I), (shadow_maps >> (4 * I) & 15u) - 1u))
+                               : reaching(PHARE_SHADOW_AT(I), (shadow_maps >> (4 * I) & 15u) - 1u, frame.shadows[I].zoom.x))
 #endif

@@ -125,7 +125,7 @@ void ShadowRays::place(gpu::FrameGraph& graph, LitScene& scene, LitView& view, c
   std::size_t lamps = 0;
   const glm::dvec3 shift_m = view.geometry.camera().eye_m - origin_m_;
   const shader::GpuShadow from_eye{row_of({1, 0, 0}, shift_m.x), row_of({0, 1, 0}, shift_m.y),
-                                   row_of({0, 0, 1}, shift_m.z)};
+                                   row_of({0, 0, 1}, shift_m.z), glm::vec4(1.0f)};
   for (std::size_t lamp = 0; lamp < view.lit_lamps.size(); ++lamp) {
     if (lamps == kMostShadowMaps) {
       ++view.without_map;

@@ -20,20 +20,27 @@ namespace phare {
 namespace {
 
 /// How the map takes points relative to the eye. Its outermost texels stay empty: beyond it all is lit.
-shader::GpuShadow place_of(const PlacedLamp& lamp, const glm::dvec3& eye_m, const glm::dvec2& texels) {
+shader::GpuShadow place_of(const PlacedLamp& lamp, const glm::dvec3& eye_m, const glm::dvec2& texels, double zoom) {
   const glm::dvec3 from_lamp = eye_m - lamp.position_m;
   const auto row = [&](const glm::dvec3& direction) {
     return glm::vec4(glm::vec3(direction), static_cast<float>(glm::dot(direction, from_lamp)));
   };
   return {row(lamp.world_from_image[1] * -texels.x), row(lamp.world_from_image[2] * -texels.y),
-          row(lamp.world_from_image[0])};
+          row(lamp.world_from_image[0]), glm::vec4(static_cast<float>(zoom), glm::vec3(0.0f))};
+}
+
+/// How many times as large a map's second picture shows its middle: that holds all that a driver sees of the road and what stands
+/// beside it, tangents of 1 across and 0.25 up and down, but at least a quarter of each side and at most half. Chosen by the edge of a
+/// verge's shadow, which comes in steps where the first picture shows it.
+double zoom_of(const glm::dvec2& half) {
+  return std::clamp(std::min(half.x / 1.0, half.y / 0.25), 2.0, 4.0);
 }
 
 /// Of the first picture of a map nothing is read this far from its middle, in texels, where the second shows it larger:
 /// where shaders/lib/shadow.glsl turns to the second, less the two texels around a point that are weighed, and one.
-glm::vec2 half_unread(const ShadowLevel& level) {
+glm::vec2 half_unread(const ShadowLevel& level, double zoom) {
   const glm::vec2 half(0.5f * static_cast<float>(level.width), 0.5f * static_cast<float>(level.height));
-  return (half - 1.0f) / shader::kShadowZoom - 3.0f;
+  return (half - 1.0f) / static_cast<float>(zoom) - 3.0f;
 }
 
 /// Triangles that hold the middle of a texel, of a picture of so many texels either way from the axis to a tangent of 1,
@@ -61,6 +68,7 @@ std::size_t texels_of_map(const ShadowLevel& level) {
 struct Map {
   std::size_t lamp = 0;    ///< of the view
   glm::dvec2 texels{0.0};  ///< of its first picture, to a tangent of 1
+  double zoom = 1.0;       ///< of its second
 };
 
 /// A map for each lamp that something stands before, `most` of them; the view's data say where points fall on it.
@@ -73,8 +81,9 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
       continue;
     }
     const glm::dvec2 half = half_sides(view.casts[lamp].part);
-    maps.push_back({lamp, {(0.5 * level.width - 1.0) / half.x, (0.5 * level.height - 1.0) / half.y}});
-    const shader::GpuShadow place = place_of(view.lit_lamps[lamp], view.geometry.camera().eye_m, maps.back().texels);
+    maps.push_back({lamp, {(0.5 * level.width - 1.0) / half.x, (0.5 * level.height - 1.0) / half.y}, zoom_of(half)});
+    const shader::GpuShadow place = place_of(view.lit_lamps[lamp], view.geometry.camera().eye_m,
+                                             maps.back().texels, maps.back().zoom);
     for (LitBy& lit : view.lit_by)
       for (std::size_t k = 0; k < lit.lamps; ++k) {
         if (lit.lamp_at[k] != lamp) continue;
@@ -153,8 +162,8 @@ struct Drawn {
 Drawn drawn_into(const Map& map, const CastBy& cast, const ShadowLevel& level, bool textures) {
   Drawn drawn;
   for (std::size_t close = 0; close < 2; ++close) {
-    const glm::dvec2 texels = map.texels * (close == 1 ? double{shader::kShadowZoom} : 1.0);
-    const glm::vec2 unread = close == 1 ? glm::vec2(-1e30f) : half_unread(level);
+    const glm::dvec2 texels = map.texels * (close == 1 ? map.zoom : 1.0);
+    const glm::vec2 unread = close == 1 ? glm::vec2(-1e30f) : half_unread(level, map.zoom);
     ShadowPass::Ranges& picture = drawn.pictures[close];
     for (std::size_t side = 0; side < 2; ++side) {
       const WholeCasters& whole = side == 0 ? cast.far_sides : cast.both_sides;
@@ -303,7 +312,7 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
     const CastBy& cast = view.casts[maps[i].lamp];
     drawn[i] = drawn_into(maps[i], cast, level, scene.has_textures());
     shades[i] = {glm::transpose(lamp.world_from_image), lamp.position_m,
-                 CasterGrid(cast, half_sides(cast.part), 1.0 / maps[i].texels)};
+                 CasterGrid(cast, half_sides(cast.part), 1.0 / maps[i].texels, maps[i].zoom)};
   });
   tell_shadowed(view, shades);
   ShadowDepths& depths = depths_of(maps.size() * texels_of_map(level));
@@ -314,7 +323,7 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
     for (std::size_t map = first; map < std::min(maps.size(), first + in_image); ++map)
       for (const bool close : {false, true})
         pictures.push_back({.close = close,
-                            .scale = maps[map].texels * (close ? double{shader::kShadowZoom} : 1.0) /
+                            .scale = maps[map].texels * (close ? maps[map].zoom : 1.0) /
                                      glm::dvec2(0.5 * level.width, 0.5 * level.height),
                             .ranges = ranges[2 * map + (close ? 1 : 0)]});
     draw_image(graph, scene, depths, level, pictures, first * texels_of_map(level));

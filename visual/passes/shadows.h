@@ -78,7 +78,7 @@ class ShadowPass {
  private:
   /// Of the two of a map.
   struct Picture {
-    bool close = false;     ///< the middle, kShadowZoom times as large
+    bool close = false;     ///< the middle, larger
     glm::dvec2 scale{1.0};  ///< tangents to the picture's half sides
     Ranges ranges{};
   };
