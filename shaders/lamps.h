@@ -35,6 +35,7 @@ const uint kSpecPerTable = 18u;
 const uint kSpecMoves = kSpecTables + kSpecPerTable * kMaxLamps + 1u;  // 1: of what moves, whose light is one for the whole mesh (PHARE_FIXED)
 const uint kSpecSnow = kSpecTables + kSpecPerTable * kMaxLamps + 3u;  // whether snow lies on what looks up, below
 const uint kSpecWet = kSpecTables + kSpecPerTable * kMaxLamps;  // 1: there is water on the ground
+const uint kSpecBent = kSpecSnow + 1u;  // 1: its normals lean from its planes, so planes that are turned away from a lamp may seem lit
 
 // Where illuminance is computed (config/desk.h, Method).
 const uint kMethodFragment = 0u;    // at every pixel
@@ -108,7 +109,7 @@ struct GpuLamp {
 
 // How a point relative to the eye falls on a lamp's shadow map: (dot(u, p), dot(v, p)) / dot(w, p) in texels to the right of the middle and
 // below it, dot(w, p) the distance along the lamp's axis in m; p as (x, y, z, 1). A map is two pictures of one size, one after the other:
-// all that casts shadows, then the middle zoom.x times as large, where the beam is bright and the road far away.
+// all that casts shadows, then the middle zoom.x times as large, where the beam is bright and the road far away. zoom.y: -1 in a mirror, else 1.
 struct GpuShadow {
   vec4 u;
   vec4 v;

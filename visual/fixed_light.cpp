@@ -1,7 +1,6 @@
 #include "visual/fixed_light.h"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
@@ -9,8 +8,8 @@
 #include <map>
 #include <numbers>
 #include <set>
-#include <thread>
 
+#include "config/base/on_all_cores.h"
 #include "shaders/lib/luminance.h"
 #include "shaders/lib/road.h"
 #include "visual/photometry/beam/beam_composer.h"
@@ -474,39 +473,32 @@ static_assert(sizeof(SceneVertex) == sizeof(std::array<std::uint32_t, 6>));
 
 std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
   std::vector<Meshes> all(scene.chunks.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < all.size(); i = next++) {
-      const SceneChunk& chunk = scene.chunks[i];
-      Baker baker(*this, scene, chunk);
-      for (std::size_t level = 0; level < all[i].size(); ++level) {
-        FixedMesh& mesh = all[i][level];
-        BakeLevel cuts = level_;
-        if (level == 0) {
-          const auto vertices = scene.vertices.begin() + chunk.first_vertex;
-          const auto indices = scene.indices.begin() + chunk.first_index;
-          mesh.vertices.assign(vertices, vertices + chunk.vertex_count);
-          mesh.indices.assign(indices, indices + chunk.index_count);
-          if (chunk.first_look) {
-            const auto looks = scene.looks.begin() + *chunk.first_look;
-            mesh.looks.assign(looks, looks + chunk.vertex_count);
-          }
-        } else {
-          const double from_m = kFarLevels[level - 1].from * kFarMeshFrom_m;
-          FarMesh far = far_mesh(scene, chunk, level - 1, from_m);
-          mesh.vertices = std::move(far.vertices), mesh.indices = std::move(far.indices);
-          mesh.looks = std::move(far.looks);
-          cuts.least_edge_m = std::max(cuts.least_edge_m, 0.015 * from_m);  // a hundred pixels wide, seen edge on
+  on_all_cores(all.size(), [&](std::size_t i) {
+    const SceneChunk& chunk = scene.chunks[i];
+    Baker baker(*this, scene, chunk);
+    for (std::size_t level = 0; level < all[i].size(); ++level) {
+      FixedMesh& mesh = all[i][level];
+      BakeLevel cuts = level_;
+      if (level == 0) {
+        const auto vertices = scene.vertices.begin() + chunk.first_vertex;
+        const auto indices = scene.indices.begin() + chunk.first_index;
+        mesh.vertices.assign(vertices, vertices + chunk.vertex_count);
+        mesh.indices.assign(indices, indices + chunk.index_count);
+        if (chunk.first_look) {
+          const auto looks = scene.looks.begin() + *chunk.first_look;
+          mesh.looks.assign(looks, looks + chunk.vertex_count);
         }
-        for (const SceneVertex& vertex : mesh.vertices) baker.add(mesh, vertex);
-        if (!lamps_.empty() || !suns_.empty()) baker.cut(mesh, cuts);
+      } else {
+        const double from_m = kFarLevels[level - 1].from * kFarMeshFrom_m;
+        FarMesh far = far_mesh(scene, chunk, level - 1, from_m);
+        mesh.vertices = std::move(far.vertices), mesh.indices = std::move(far.indices);
+        mesh.looks = std::move(far.looks);
+        cuts.least_edge_m = std::max(cuts.least_edge_m, 0.015 * from_m);  // a hundred pixels wide, seen edge on
       }
+      for (const SceneVertex& vertex : mesh.vertices) baker.add(mesh, vertex);
+      if (!lamps_.empty() || !suns_.empty()) baker.cut(mesh, cuts);
     }
-  };
-  std::vector<std::jthread> others;
-  for (unsigned i = 1; i < std::max(1u, std::thread::hardware_concurrency()); ++i) others.emplace_back(work);
-  work();
-  others.clear();  // waits
+  });
   return all;
 }
 

@@ -4,25 +4,11 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
-#include <deque>
 #include <functional>
 #include <optional>
-#include <set>
 #include <tuple>
 #include <utility>
 
-#include "shaders/lamps_frag_2.h"
-#include "shaders/lamps_frag_2_filtered.h"
-#include "shaders/lamps_frag_2_filtered_shadows.h"
-#include "shaders/lamps_frag_2_shadows.h"
-#include "shaders/lamps_frag_4.h"
-#include "shaders/lamps_frag_4_filtered.h"
-#include "shaders/lamps_frag_4_filtered_shadows.h"
-#include "shaders/lamps_frag_4_shadows.h"
-#include "shaders/lamps_frag_8.h"
-#include "shaders/lamps_frag_8_filtered.h"
-#include "shaders/lamps_frag_8_filtered_shadows.h"
-#include "shaders/lamps_frag_8_shadows.h"
 #include "shaders/measure_vert_2.h"
 #include "shaders/measure_vert_2_shadows.h"
 #include "shaders/measure_vert_4.h"
@@ -30,26 +16,12 @@
 #include "shaders/measure_vert_8.h"
 #include "shaders/measure_vert_8_shadows.h"
 #include "shaders/scene_vert_2.h"
-#include "shaders/scene_vert_2_lit.h"
-#include "shaders/scene_vert_2_lit_filtered.h"
-#include "shaders/scene_vert_2_lit_filtered_shadows.h"
-#include "shaders/scene_vert_2_lit_shadows.h"
 #include "shaders/scene_vert_2_shadows.h"
 #include "shaders/scene_vert_4.h"
-#include "shaders/scene_vert_4_lit.h"
-#include "shaders/scene_vert_4_lit_filtered.h"
-#include "shaders/scene_vert_4_lit_filtered_shadows.h"
-#include "shaders/scene_vert_4_lit_shadows.h"
 #include "shaders/scene_vert_4_shadows.h"
 #include "shaders/scene_vert_8.h"
-#include "shaders/scene_vert_8_lit.h"
-#include "shaders/scene_vert_8_lit_filtered.h"
-#include "shaders/scene_vert_8_lit_filtered_shadows.h"
-#include "shaders/scene_vert_8_lit_shadows.h"
 #include "shaders/scene_vert_8_shadows.h"
-#include "visual/gpu/spirv.h"
 #include "visual/passes/constants.h"
-#include "visual/passes/fixed_shaders.h"
 
 namespace phare {
 
@@ -95,21 +67,6 @@ static_assert(shader::kMaxIsoluxLevels % 4 == 0);
 static_assert(static_cast<std::uint32_t>(Method::kVertex) == shader::kMethodVertex &&
               static_cast<std::uint32_t>(Method::kVertex1998) == shader::kMethodVertex1998 &&
               static_cast<std::uint32_t>(Method::kReference) == shader::kMethodReference);
-
-/// What water wets in the picture; what stands upright lets it run off.
-bool is_ground(Surface surface) {
-  return surface == Surface::kAsphalt || surface == Surface::kGrass || surface == Surface::kPaint;
-}
-
-LeanKind lean_kind(const LitVariant& variant) {
-  using Surface = LeanKind::Surface;
-  const MaterialKind& kind = variant.kind;
-  const bool plain = kind.surface == phare::Surface::kPlain && kind.retro == RetroKind::kNone && !kind.double_sided &&
-                     variant.output != LampOutput::kAudit;
-  return {.surface = !kind.flat ? Surface::kSmooth : plain ? Surface::kPlain : Surface::kFlat,
-          .alike = variant.alike,
-          .shadows = variant.shadow_maps != 0};
-}
 
 bool is_filtered(ImageLevel level) {
   return level == ImageLevel::kNormalised8 || level == ImageLevel::kHalfEven;
@@ -284,139 +241,6 @@ vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
   return set;
 }
 
-bool LitScene::is_lean(const LitVariant& variant) const {
-  return variant.lamp_count <= 2 && variant.colours == 0 && variant.kind.look == 0 && !variant.fixed_light &&
-         variant.fog.slices == 0 && !variant.wet && variant.snow == LitVariant::kNoSnow &&
-         variant.method == Method::kFragment && !filtered() &&
-         (variant.output == LampOutput::kDisplay || variant.output == LampOutput::kHdr ||
-          variant.output == LampOutput::kClipping || variant.output == LampOutput::kAudit);
-}
-
-std::vector<vk::Pipeline> LitScene::pipelines(std::span<const LitVariant> variants) {
-  std::vector<vk::Pipeline> all;
-  all.reserve(variants.size());
-  std::set<LitVariant> missing;
-  for (std::size_t i = 0; i < variants.size(); ++i) {
-    if (i > 0 && variants[i] == variants[i - 1]) {
-      all.push_back(all.back());
-      continue;
-    }
-    const auto found = pipelines_.find(variants[i]);
-    if (found == pipelines_.end()) missing.insert(variants[i]);
-    all.push_back(found != pipelines_.end() ? *found->second : vk::Pipeline());
-  }
-  if (missing.empty()) return all;
-  std::deque<Recipe> recipes;
-  std::vector<const PipelineRecipe*> wanted;
-  for (const LitVariant& variant : missing) {
-    write_recipe(variant, recipes.emplace_back());
-    wanted.push_back(&recipes.back().pipeline);
-  }
-  std::vector<vk::raii::Pipeline> made = make_pipelines(device_, wanted);
-  auto pipeline = made.begin();
-  for (const LitVariant& variant : missing) pipelines_.emplace(variant, std::move(*pipeline++));
-  return pipelines(variants);
-}
-
-void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
-  SpecConstants& numbers = to.numbers;
-  numbers.put_all(0, std::array<std::uint32_t, shader::kSpecTables>{
-                         variant.lamp_count, static_cast<std::uint32_t>(variant.kind.surface),
-                         static_cast<std::uint32_t>(variant.kind.retro), static_cast<std::uint32_t>(variant.output),
-                         variant.lamp_base, variant.colours, variant.kind.double_sided ? 2u : 1u, grain_.first_level,
-                         variant.shadow_maps, variant.shadows.width, variant.shadows.height, variant.shadows.taps,
-                         static_cast<std::uint32_t>(variant.method), variant.fog.lamps,
-                         variant.fog.columns | variant.fog.rows << 16u, variant.fog.slices});
-  numbers.put_all(shader::kSpecTables, table_words(variant.tables));
-  const bool textured = variant.kind.look != 0;
-  if (textured) numbers.put(shader::kSpecLook, variant.kind.look);
-  if (variant.wet) numbers.put(shader::kSpecWet, 1);
-  if (variant.snow != LitVariant::kNoSnow) numbers.put(shader::kSpecSnow, variant.snow);
-  if (variant.moves) numbers.put(shader::kSpecMoves, 1);
-  to.constants = numbers.info();
-  const bool measure = variant.output == LampOutput::kMeasure;
-  // By "reference" one shader serves any number of lamps: its time goes elsewhere.
-  const std::size_t size = shader_for(variant.method == Method::kReference ? shader::kMaxLamps : variant.lamp_count) +
-                           (variant.shadow_maps != 0 ? 3u : 0u);
-  Stages stages;
-  if (is_lean(variant)) {
-    const LeanShaders::Stages& lean = lean_.stages(lean_kind(variant));
-    stages = {*lean.vertex, {lean.fragment, *layout_}};
-  } else if (textured) {
-    stages = textured_stages(variant);
-  } else {
-    stages.fragment = variant.method == Method::kReference ? reference_stage(variant) : fragment_stage(variant, size);
-    stages.vertex = measure ? *measure_vert_[size] : scene_vert(size, variant.method, variant.fog.slices != 0);
-  }
-  std::span<const vk::VertexInputAttributeDescription> attributes = std::span(kVertexAttributes).first(measure ? 2 : 3);
-  PipelineRecipe& recipe = to.pipeline;
-  recipe = {
-      .vertex = stages.vertex,
-      .fragment = fragment_module(stages.fragment.code, variant.shadow_maps != 0 && !variant.shadows.by_rays()),
-      .constants = &to.constants,
-      .attributes = attributes,
-      .stride = sizeof(GpuVertex),
-      .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
-      .cull = variant.kind.double_sided || measure ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack,
-      .colour = {variant.format},
-      .depth = !measure,
-      .depth_write = !measure && !variant.depth_done,
-      .compare = variant.depth_done ? vk::CompareOp::eEqual : vk::CompareOp::eGreater,
-      .samples = variant.samples,
-      .layout = stages.fragment.layout};
-  if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
-  std::vector<vk::VertexInputAttributeDescription>& own = to.attributes;
-  if (textured) {
-    add_textured_vertices(variant, recipe, own);
-  } else if (variant.fixed_light) {
-    recipe.vertex = fixed_vertex(variant, size);
-    recipe.attributes = variant.moves ? kProbeAttributes : kFixedAttributes;
-    recipe.second_stride = variant.moves ? sizeof(FixedProbe) : sizeof(FixedVertex);
-    recipe.second_by_instance = variant.moves;
-    if (variant.kind.road) own.assign(kFixedAttributes.begin(), kFixedAttributes.end());
-  }
-  if (variant.kind.road) add_road_vertices(recipe, own);
-}
-
-LitScene::FragmentStage LitScene::fragment_stage(const LitVariant& variant, std::size_t size) {
-  const bool fog = variant.fog.slices != 0;
-  if (variant.fixed_light) return {fixed_frag(size, filtered(), fog), *layout_};
-  if (fog) return {lamps_fog_frag(size, filtered()), *layout_};
-  static const std::array<Code, 6> tables{k_lamps_frag_2,         k_lamps_frag_4,         k_lamps_frag_8,
-                                          k_lamps_frag_2_shadows, k_lamps_frag_4_shadows, k_lamps_frag_8_shadows};
-  static const std::array<Code, 6> filters{k_lamps_frag_2_filtered,         k_lamps_frag_4_filtered,
-                                           k_lamps_frag_8_filtered,         k_lamps_frag_2_filtered_shadows,
-                                           k_lamps_frag_4_filtered_shadows, k_lamps_frag_8_filtered_shadows};
-  return {(filtered() ? filters : tables)[size], *layout_};
-}
-
-vk::ShaderModule LitScene::fragment_module(Code code, bool by_maps) {
-  const auto [found, fresh] = fragment_modules_.try_emplace({code.data(), by_maps}, nullptr);
-  if (fresh)
-    found->second = by_maps ? gpu::make_shader(device_, gpu::returning_one(code, "reaching_by_rays"))
-                            : gpu::make_shader(device_, code);
-  return *found->second;
-}
-
-vk::ShaderModule LitScene::scene_vert(std::size_t size, Method method, bool fog) {
-  if (fog && size % 3 == 0) {
-    const bool shadows = size != 0, by_vertex = method != Method::kFragment;
-    vk::raii::ShaderModule& module = scene_fog_vert_[(shadows ? 1u : 0u) + (by_vertex ? 2u : 0u)];
-    if (!*module) module = gpu::make_shader(device_, scene_fog_vert(shadows, by_vertex, filtered()));
-    return *module;
-  }
-  if (method == Method::kFragment || method == Method::kReference) return *scene_vert_[size];
-  vk::raii::ShaderModule& module = lit_by_vertex_vert_[size];
-  if (*module) return *module;
-  const std::array<Code, 6> tables{k_scene_vert_2_lit,         k_scene_vert_4_lit,         k_scene_vert_8_lit,
-                                   k_scene_vert_2_lit_shadows, k_scene_vert_4_lit_shadows, k_scene_vert_8_lit_shadows};
-  const std::array<Code, 6> filters{k_scene_vert_2_lit_filtered,         k_scene_vert_4_lit_filtered,
-                                    k_scene_vert_8_lit_filtered,         k_scene_vert_2_lit_filtered_shadows,
-                                    k_scene_vert_4_lit_filtered_shadows, k_scene_vert_8_lit_filtered_shadows};
-  module = gpu::make_shader(device_, (is_filtered(level_) ? filters : tables)[size]);
-  return *module;
-}
-
 void LitScene::bind(vk::CommandBuffer commands, const LitBy& lit_by) const {
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, lit_by.set, lit_by.data_at);
 }
@@ -438,41 +262,6 @@ void LitScene::bind_fog(vk::CommandBuffer commands, const LitView& view) const {
 
 void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const {
   commands.pushConstants<shader::GpuDraw>(*layout_, kLitStages, 0, draw);
-}
-
-LitVariant LitScene::variant_of(const LitView& view, const DrawItem& item, const LitVariant& common) const {
-  const LitBy& lit = view.lit_by[item.lit_by];
-  LitVariant variant = common;
-  variant.lamp_count = lit.lamps;
-  variant.tables = lit.tables;
-  variant.colours = common.output == LampOutput::kAudit ? 0 : lit.colours;
-  variant.kind = item.batch->kind;
-  variant.method = view.method;
-  variant.shadow_maps = item.shadowed && common.output != LampOutput::kAudit ? lit.shadow_maps : 0;
-  variant.shadows = variant.shadow_maps != 0 ? view.shadows : ShadowLevel{};
-  if (common.output == LampOutput::kDisplay || common.output == LampOutput::kHdr ||
-      common.output == LampOutput::kClipping)
-    variant.fog = view.fog;
-  if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet;
-  if (view.snow && variant.output != LampOutput::kAudit) {
-    const bool marking = variant.kind.retro == RetroKind::kMarking;
-    variant.snow = marking ? shader::kSnowOnMarking : shader::kSnowLies;
-    if (marking) variant.kind.retro = RetroKind::kFacets;
-  }
-  variant.fixed_light = view.fixed_light && variant.output != LampOutput::kAudit;
-  variant.moves = variant.fixed_light && item.moves != DrawItem::kStands;
-  variant.kind.road = variant.kind.road && variant.fixed_light && view.r_table;
-  if (variant.output == LampOutput::kAudit) {
-    const std::uint32_t look = variant.kind.look;
-    variant.kind = {.double_sided = variant.kind.double_sided,
-                    .flat = variant.kind.flat,
-                    .look = look & shader::kLookCut ? look & ~shader::kLookRelief : 0u};
-  }
-  if (is_lean(variant))
-    variant.alike = lit.alike;
-  else
-    variant.kind.flat = false;  // of no account
-  return variant;
 }
 
 void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVariant& common) {

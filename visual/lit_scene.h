@@ -152,6 +152,7 @@ struct LitVariant {
   bool wet = false;
   std::uint32_t snow = kNoSnow;
   bool fixed_light = false, moves = false;
+  bool bent = false;  ///< as SceneBatch; where maps are read
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Format format = vk::Format::eUndefined;
   bool depth_done = false;

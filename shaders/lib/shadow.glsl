@@ -17,12 +17,20 @@ layout(constant_id = kSpecShadowTaps) const uint shadow_taps = 1;
 // the point apart.
 const float kShadowBias = 1.0005;
 
+layout(constant_id = kSpecBent) const uint bent = 0;
+
+// Of a pixel's plane, away from the lamp while the eye sees it: a far side itself, at the depth that stands in the map.
+bool turned_away(vec3 at, float side) {
+  return dot(cross(dFdx(at), dFdy(at)), at) * side <= 0.0;
+}
+
 // `at`: as GpuShadow has it, not divided yet. The outermost texels hold nothing, so beyond the map all is lit.
-float reaching(vec3 at, uint map, float zoom) {
+float reaching(vec3 at, uint map, vec2 zoom) {
+  if (bent != 0u && turned_away(at, zoom.y)) return 0.0;
   float inverse_w = 1.0 / max(at.z, 1e-3);
   float nearer = kShadowNear_m * inverse_w * kShadowBias;
   vec2 middle = 0.5 * vec2(float(shadow_width), float(shadow_height));
-  vec2 from_middle = at.xy * inverse_w, large = from_middle * zoom;
+  vec2 from_middle = at.xy * inverse_w, large = from_middle * zoom.x;
   bool close = all(lessThan(abs(large), middle - 1.0));
   // Half a texel up: below the line where a slope meets the valley behind it a lamp looks into the ground, where there is no far side.
   vec2 texel = middle + (close ? large : from_middle) - vec2(0.0, 0.5);
@@ -54,5 +62,5 @@ float reaching(vec3 at, uint map, float zoom) {
 #define PHARE_REACHING(I) \
   ((shadow_maps >> (4 * I) & 15u) == 0u ? 1.0                                                                          \
    : shadow_taps > kTapsOfRays ? reaching_by_rays(PHARE_SHADOW_AT(I), I, (shadow_maps >> (4 * I) & 15u) - 1u) \
-                               : reaching(PHARE_SHADOW_AT(I), (shadow_maps >> (4 * I) & 15u) - 1u, frame.shadows[I].zoom.x))
+                               : reaching(PHARE_SHADOW_AT(I), (shadow_maps >> (4 * I) & 15u) - 1u, frame.shadows[I].zoom.xy))
 #endif

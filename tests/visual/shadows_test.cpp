@@ -344,6 +344,58 @@ TEST_F(Shadows, MoreLampsThanADrawSumsCastAllOfThem) {
   EXPECT_EQ(renderer->read_image().rgba, expected.rgba);
 }
 
+// A ditch beside the road, its corners' normals smoothed: at the top of its near slope they face the lamp, though the slope
+// is turned away. Rays have it dark.
+TEST_F(Shadows, ASlopeTurnedFromTheLampIsDarkThoughItsNormalsFaceIt) {
+  const std::array<glm::dvec2, 6> profile{{{5, 0}, {-3, 0}, {-3.7, -0.35}, {-4.4, -0.7}, {-6.4, 0.3}, {-30, 0.3}}};
+  const auto upward = [&](std::size_t side) {
+    const glm::dvec2 along = profile[side] - profile[side + 1];
+    return glm::normalize(glm::dvec3(0, -along.y, along.x));
+  };
+  Scene scene;
+  scene.materials = {{.name = "grass", .reflectance = glm::vec3(0.3f)}};
+  for (std::size_t i = 0; i < profile.size(); ++i)
+    for (const double x : {-10.0, 70.0}) {
+      const glm::dvec3 normal = upward(i == 0 ? 0 : i - 1) + upward(std::min(i, profile.size() - 2));
+      scene.vertices.push_back({{x, profile[i].x, profile[i].y}, glm::vec3(glm::normalize(normal))});
+    }
+  for (std::uint32_t i = 0; i + 2 < scene.vertices.size(); i += 2)
+    for (const std::uint32_t corner : {0u, 2u, 1u, 1u, 2u, 3u}) scene.indices.push_back(i + corner);
+  SceneChunk chunk{.node = "ground", .low_m = {-10, -30, -0.7}, .high_m = {70, 5, 0.3}};
+  chunk.index_count = static_cast<std::uint32_t>(scene.indices.size());
+  chunk.vertex_count = static_cast<std::uint32_t>(scene.vertices.size());
+  scene.chunks = {chunk};
+  ASSERT_TRUE(renderer->load_scene(scene).ok());
+
+  FrameInput input = view_of_the_road();
+  input.want_image = true;
+  input.camera.eye_m = {-4.0, -5.0, 5.0};  // into the ditch
+  const std::vector<PlacedLamp> two = input.lamps;
+  for (const bool mirrored : {false, true})
+    for (const std::size_t lamps : {std::size_t{2}, std::size_t{4}, std::size_t{6}}) {
+      input.camera.world_from_eye = aim_rotation(0.0, -0.4, 0.0);
+      if (mirrored) input.camera.world_from_eye[1] *= -1.0;
+      input.lamps = two;
+      while (input.lamps.size() < lamps) input.lamps.push_back(two[input.lamps.size() % 2]);
+      const auto picture = [&](std::size_t level) {
+        input.effects[static_cast<std::size_t>(Effect::kShadows)] = level;
+        renderer->draw(input);
+        return renderer->read_image();
+      };
+      const Image8 open = picture(0), by_rays = picture(kRayShadows), by_maps = picture(2);
+      std::size_t in_shadow = 0, lit = 0, dark = 0;
+      for (std::size_t i = 1; i < open.rgba.size(); i += 4) {
+        in_shadow += int(open.rgba[i]) - int(by_rays.rgba[i]) > 6;
+        lit += int(by_maps.rgba[i]) - int(by_rays.rgba[i]) > 6;
+        dark += int(by_rays.rgba[i]) - int(by_maps.rgba[i]) > 6;
+      }
+      std::printf("%zu lamps%s: %zu pixels in shadow, %zu lit and %zu dark for all that\n", lamps,
+                  mirrored ? ", mirrored" : "", in_shadow, lit, dark);
+      EXPECT_GT(in_shadow, 1000u);
+      EXPECT_LT(lit + dark, in_shadow / 20) << "more than the edges";
+    }
+}
+
 TEST(ShadowLimits, ADeviceHoldsSoManyMapsAndSaysSo) {
   const ShadowLevel& soft = kShadowLevels[2];
   const ShadowLimits promised{.buffer_texels = 65'536, .image_side = 4096};

@@ -215,6 +215,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     batch.look_of = std::get<1>(key);
     for (const DrawnChunk& mesh : group) {
       append(all, batch, *mesh.chunk, mesh.vertices, mesh.indices, mesh.looks);
+      batch.bent = batch.bent || is_bent(mesh.vertices, mesh.indices);
       all.light.insert(all.light.end(), mesh.light.begin(), mesh.light.end());
       if (batch.kind.look & shader::kLookRelief) all.ways.insert(all.ways.end(), mesh.ways.begin(), mesh.ways.end());
       all.road.insert(all.road.end(), mesh.road.begin(), mesh.road.end());

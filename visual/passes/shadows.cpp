@@ -20,13 +20,13 @@ namespace phare {
 namespace {
 
 /// How the map takes points relative to the eye. Its outermost texels stay empty: beyond it all is lit.
-shader::GpuShadow place_of(const PlacedLamp& lamp, const glm::dvec3& eye_m, const glm::dvec2& texels, double zoom) {
-  const glm::dvec3 from_lamp = eye_m - lamp.position_m;
+shader::GpuShadow place_of(const PlacedLamp& lamp, const ViewGeometry& view, const glm::dvec2& texels, double zoom) {
+  const glm::dvec3 from_lamp = view.camera().eye_m - lamp.position_m;
   const auto row = [&](const glm::dvec3& direction) {
     return glm::vec4(glm::vec3(direction), static_cast<float>(glm::dot(direction, from_lamp)));
   };
   return {row(lamp.world_from_image[1] * -texels.x), row(lamp.world_from_image[2] * -texels.y),
-          row(lamp.world_from_image[0]), glm::vec4(static_cast<float>(zoom), glm::vec3(0.0f))};
+          row(lamp.world_from_image[0]), glm::vec4(zoom, view.mirrored() ? -1.0 : 1.0, 0.0, 0.0)};
 }
 
 /// How many times as large a map's second picture shows its middle: that holds all that a driver sees of the road and what stands
@@ -82,8 +82,7 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
     }
     const glm::dvec2 half = half_sides(view.casts[lamp].part);
     maps.push_back({lamp, {(0.5 * level.width - 1.0) / half.x, (0.5 * level.height - 1.0) / half.y}, zoom_of(half)});
-    const shader::GpuShadow place = place_of(view.lit_lamps[lamp], view.geometry.camera().eye_m,
-                                             maps.back().texels, maps.back().zoom);
+    const shader::GpuShadow place = place_of(view.lit_lamps[lamp], view.geometry, maps.back().texels, maps.back().zoom);
     for (LitBy& lit : view.lit_by)
       for (std::size_t k = 0; k < lit.lamps; ++k) {
         if (lit.lamp_at[k] != lamp) continue;

@@ -324,6 +324,18 @@ bool is_flat(std::span<const SceneVertex> vertices, std::span<const std::uint32_
   return true;
 }
 
+bool is_bent(std::span<const SceneVertex> vertices, std::span<const std::uint32_t> indices) {
+  const float least_cos = std::cos(glm::radians(3.0f));
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const SceneVertex &a = vertices[indices[i]], &b = vertices[indices[i + 1]], &c = vertices[indices[i + 2]];
+    const glm::vec3 across = glm::cross(b.position_m - a.position_m, c.position_m - a.position_m);
+    const float twice_m2 = glm::length(across);
+    for (const SceneVertex* corner : {&a, &b, &c})
+      if (glm::dot(corner->normal, across) < least_cos * twice_m2 * glm::length(corner->normal)) return true;
+  }
+  return false;
+}
+
 glm::vec3 mean_emitted_cdm2(const Scene& scene, const SceneMaterial& material) {
   const PixelLook& look = material.look;
   if (look.emitted_cdm2 == glm::vec3(0.0f) || !look.emissive_texture) return look.emitted_cdm2;

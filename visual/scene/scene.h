@@ -121,6 +121,10 @@ struct Scene {
 /// far before every point of it.
 bool is_flat(std::span<const SceneVertex> vertices, std::span<const std::uint32_t> indices);
 
+/// A corner's normal leans by more than 3° from that of its triangle's plane, so a lamp may stand behind the plane and
+/// before the corner.
+bool is_bent(std::span<const SceneVertex> vertices, std::span<const std::uint32_t> indices);
+
 /// What a material emits, of a texture its mean; cd/m², Rec. 709.
 glm::vec3 mean_emitted_cdm2(const Scene& scene, const SceneMaterial& material);
 
