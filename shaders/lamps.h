@@ -31,7 +31,7 @@ const uint kSpecFogLamps = 13u;
 const uint kSpecFogGrid = 14u;
 const uint kSpecFogSlices = 15u;
 const uint kSpecTables = 16u;   // kSpecPerTable constants a lamp: the members of its TableShape, below
-const uint kSpecPerTable = 18u;
+const uint kSpecPerTable = 22u;
 const uint kSpecMoves = kSpecTables + kSpecPerTable * kMaxLamps + 1u;  // 1: of what moves, whose light is one for the whole mesh (PHARE_FIXED)
 const uint kSpecSnow = kSpecTables + kSpecPerTable * kMaxLamps + 3u;  // whether snow lies on what looks up, below
 const uint kSpecWet = kSpecTables + kSpecPerTable * kMaxLamps;  // 1: there is water on the ground
@@ -56,14 +56,15 @@ const uint kRetroFacets = 3u;    // rough ground
 // How the node before a direction is found. Even: nodes a step apart, from a phase; where wanted a fine step about 0° and a coarse one
 // beyond. "Ahead" is for tables with no first angle beyond 90°; what lies at 90° or behind counts as dark.
 const uint kLookupAhead = 0u;   // even
-const uint kLookupRounded = 1u; // even but for rounding: where a node really lies stands in the guide, an entry a node
-const uint kLookupTurn = 2u;    // even, first angle 0° to 360°, second from its pole (type C: C and gamma), no coarse step
-const uint kLookupGuide = 3u;   // any nodes, found through the guide
-const uint kLookupScreen = 4u;  // nodes evenly on a flat screen, found by projection: no angle is computed
-const uint kLookupScreenGuide = 5u;   // any nodes on a flat screen, found through the guide
-const uint kLookupFilter = 6u;        // texels evenly over the range, weights by the texture filter
-const uint kLookupFilterAhead = 7u;   // the same for tables that look ahead
-const uint kLookupFilterScreen = 8u;  // the same on a flat screen
+const uint kLookupDecimals = 1u; // even, then rounded to so many decimals: where a node really lies is computed
+const uint kLookupRounded = 2u; // even but for rounding of any kind: where a node really lies stands in the guide, an entry a node
+const uint kLookupTurn = 3u;    // even, first angle 0° to 360°, second from its pole (type C: C and gamma), no coarse step
+const uint kLookupGuide = 4u;   // any nodes, found through the guide
+const uint kLookupScreen = 5u;  // nodes evenly on a flat screen, found by projection: no angle is computed
+const uint kLookupScreenGuide = 6u;   // any nodes on a flat screen, found through the guide
+const uint kLookupFilter = 7u;        // texels evenly over the range, weights by the texture filter
+const uint kLookupFilterAhead = 8u;   // the same for tables that look ahead
+const uint kLookupFilterScreen = 9u;  // the same on a flat screen
 const uint kLookupKind = 15u;         // mask of these
 const uint kLookupScaled = 16u;       // the table is not in candela
 const uint kLookupEdge = 32u;         // light at the table's edge: directions have to be compared with it; else dark nodes end it
@@ -84,11 +85,14 @@ struct TableShape {
   uint lookup;   // kind and bits, above
   vec2 per;      // even: nodes per radian (screen: per tangent); guide: bins per degree; filter: texture coordinates per radian (tangent)
   vec2 phase;    // even: node k lies k + phase steps from 0°; guide: lowest multiple of 45°; filter: offset of the coordinate
-  vec2 fine;     // even: fine nodes on either side of 0° (turn: nodes in 45°); guide: bins in 45°
+  vec2 fine;     // even: fine nodes on either side of 0° (turn: nodes in 45°); decimals: what a step is over a whole number of units; guide: bins in 45°
   float coarse;  // even: fine steps in a coarse one, inverted; guide, rounded: entry where the guide of second begins
   vec4 range;    // first and last, of first, then of second; even: nodes from 0°; guide: degrees; filter: radians (tangents)
   vec4 reach;    // ahead: tangents of half the angles beyond which there is only darkness, as range; screen guide: x, y degrees per tangent
   vec2 cells;    // cells in a row, and the index of the cell of node (0, 0)
+  // Decimals: before it was rounded to whole units of the last decimal, node k lay k·fine + from units beside a whole number of them.
+  vec2 from;
+  vec2 unit;  // in steps
 };
 // A cell is one texel, the four nodes (k, j), (k + 1, j), (k, j + 1), (k + 1, j + 1), row by row: as many cells as nodes and one row and
 // column before them; beyond the table's edge the nodes are dark. The guide: shaders/lib/beam.glsl.

@@ -127,6 +127,15 @@ void describe_ahead(PackedBeam& packed, const EvenAxis& first, const EvenAxis& s
   if (narrow(first)) shape.lookup |= shader::kLookupNarrow;
   if (narrow(second)) shape.lookup |= 2u * shader::kLookupNarrow;
   if (first.beside.empty() && second.beside.empty()) return;
+  const auto computed = [](const EvenAxis& axis) { return axis.beside.empty() || axis.decimals; };
+  if (computed(first) && computed(second)) {
+    shape.lookup |= shader::kLookupDecimals;
+    const EvenAxis::Decimals x = first.decimals.value_or(EvenAxis::Decimals{}), y = second.decimals.value_or(EvenAxis::Decimals{});
+    shape.fine = {x.part, y.part};
+    shape.from = {x.from, y.from};
+    shape.unit = {x.unit, y.unit};
+    return;
+  }
   shape.lookup |= shader::kLookupRounded;
   for (const EvenAxis* axis : {&first, &second}) {
     const auto beside = [&](std::int64_t i) {

@@ -1,5 +1,6 @@
 #include "visual/even_axis.h"
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -11,6 +12,75 @@ namespace {
 constexpr std::int64_t kMaxEvenNodes = 4096;   // of one axis
 constexpr std::int64_t kSmallCells = 1 << 16;  // 1 MiB, which the processor's caches hold
 constexpr std::int64_t kOctant = 45'000'000;   // millionths of a degree
+
+struct Line {
+  double at_0 = 0.0, step = 0.0;
+
+  double at(std::size_t i) const { return at_0 + step * static_cast<double>(i); }
+};
+
+// From which the farthest of the values, at 0, 1, 2 …, is the least off (Chebyshev): three are off by as much, by turns
+// above and below, and are exchanged for farther ones until there is none.
+Line nearest_line(const std::vector<double>& values) {
+  std::array<std::size_t, 3> three{0, values.size() / 2, values.size() - 1};
+  Line line;
+  for (std::size_t turn = 0; turn < values.size(); ++turn) {
+    const auto [a, b, c] = three;
+    line.step = (values[c] - values[a]) / static_cast<double>(c - a);
+    line.at_0 = values[a] - line.step * static_cast<double>(a);
+    const double off = 0.5 * (values[b] - line.at(b));
+    line.at_0 += off;
+    std::size_t farthest = a;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (std::abs(values[i] - line.at(i)) > std::abs(values[farthest] - line.at(farthest))) farthest = i;
+    const double most = values[farthest] - line.at(farthest);
+    if (std::abs(most) <= std::abs(off) * (1.0 + 1e-9) + 1e-12) break;
+    const bool as_b = (most > 0.0) == (off > 0.0);
+    if (farthest < a)
+      three = as_b ? std::array{farthest, a, c} : std::array{farthest, b, c};
+    else if (farthest < b)
+      three = as_b ? std::array{a, farthest, c} : std::array{farthest, b, c};
+    else if (farthest < c)
+      three = as_b ? std::array{a, farthest, c} : std::array{a, b, farthest};
+    else
+      three = as_b ? std::array{a, c, farthest} : std::array{a, b, farthest};
+  }
+  return line;
+}
+
+// Makes of the axis that of the nodes before they were rounded to decimals, if they were: all of them, as float32 has
+// it in the shader.
+void find_decimals(EvenAxis& axis, const std::vector<double>& nodes) {
+  // What the shader leaves out, half the square of a unit in steps, is then 2e-6 of the way between two nodes.
+  constexpr double kLargestUnit = 2e-3;
+  constexpr int kMostDecimals = 6;
+  double per_unit = 1.0;
+  const auto is_whole = [&](double node) { return std::abs(node * per_unit - std::round(node * per_unit)) < 1e-4; };
+  int decimals = 0;
+  while (decimals <= kMostDecimals && !std::ranges::all_of(nodes, is_whole)) ++decimals, per_unit *= 10.0;
+  if (decimals > kMostDecimals || !(axis.step * per_unit * kLargestUnit > 1.0)) return;
+  std::vector<double> units;
+  for (const double node : nodes) units.push_back(std::round(node * per_unit));
+  const Line line = nearest_line(units);
+  const double first = line.at_0 / line.step, whole = std::floor(line.step);
+  EvenAxis found{.step = line.step / per_unit,
+                 .first = static_cast<std::int64_t>(std::floor(first + 1e-9)),
+                 .count = axis.count};
+  found.phase = std::max(first - static_cast<double>(found.first), 0.0);
+  const double of_0 = line.at_0 - line.step * static_cast<double>(found.first);
+  const EvenAxis::Decimals rounded{1.0 / line.step, line.step - whole, of_0 - std::floor(of_0)};
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto node = static_cast<double>(found.first + static_cast<std::int64_t>(i));
+    const double shift = static_cast<double>(static_cast<float>(rounded.part)) * node;
+    const double before = shift + static_cast<double>(static_cast<float>(rounded.from));
+    // float32 may round the product and the sum.
+    const double rounding = 0x1p-23 * (std::abs(shift) + 2.0);
+    if (std::abs(units[i] - whole * node - std::floor(of_0) - before) > 0.5 - rounding) return;
+    found.beside.push_back((nodes[i] - found.angle(node)) / found.step);
+  }
+  found.decimals = rounded;
+  axis = found;
+}
 
 // Nodes as evenly as their ends say, but for rounding; nothing if one lies more than a fifth of a step beside.
 std::optional<EvenAxis> rounded_axis(const std::vector<double>& nodes) {
@@ -27,7 +97,10 @@ std::optional<EvenAxis> rounded_axis(const std::vector<double>& nodes) {
     most = std::max(most, std::abs(axis.beside.back()));
   }
   if (most > 0.2) return std::nullopt;
-  if (most * axis.step < 1e-9) axis.beside.clear();  // computed, not read: as even as double is
+  if (most * axis.step < 1e-9)
+    axis.beside.clear();  // computed, not read: as even as double is
+  else
+    find_decimals(axis, nodes);
   return axis;
 }
 

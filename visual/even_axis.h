@@ -22,6 +22,12 @@ struct EvenAxis {
   std::int64_t first = 0;   ///< node
   std::int64_t count = 0;
   std::vector<double> beside{};  ///< of nodes rounded in the file: how many steps beside it each lies; else empty
+  /// Of nodes that were rounded to decimals: in units of the last one, which is `unit` steps, node k lay part·k + from
+  /// beside a whole number.
+  struct Decimals {
+    double unit = 0.0, part = 0.0, from = 0.0;
+  };
+  std::optional<Decimals> decimals{};
 
   std::int64_t last() const { return first + count - 1; }
   double angle(double node) const {

@@ -52,7 +52,7 @@ namespace {
 
 // std140 and std430 agree for these: all members are 16 bytes.
 static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour) == 64);
-static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, cells) == 64);
+static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, unit) == 80);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
 static_assert(sizeof(shader::GpuFog) == 112);
 static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 64) +

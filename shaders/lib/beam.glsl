@@ -35,6 +35,16 @@ vec2 rounded_before(samplerBuffer guide, float entry_of_0, float at) {
   return past < 0.0 ? vec2(nearest - 1.0, 1.0 + past * g.z) : vec2(nearest, past * g.w);
 }
 
+// Nodes past node `node`, of nodes that were rounded to so many decimals. It may be a little below 0 or above 1: the next node has another
+// slope there, which for that little (half a unit, EvenAxis) comes to nothing.
+vec2 past_decimals(TableShape shape, vec2 at, vec2 node) {
+  vec2 units = node * shape.fine + shape.from;
+  vec2 over = units - roundEven(units);  // it lies that much before where it would without rounding
+  // The next one is rounded up or down: the way to it is longer or shorter.
+  vec2 nodes = mix(1.0 / (1.0 - shape.fine * shape.unit), 1.0 / (1.0 + (1.0 - shape.fine) * shape.unit), greaterThanEqual(over, 0.5 - shape.fine));
+  return (at - node + over * shape.unit) * nodes;
+}
+
 // A table's value and where it was found: its table of colour lies on the same nodes.
 struct Found {
   float value;   // as the table has it
@@ -104,6 +114,12 @@ Found ahead(samplerBuffer table, samplerBuffer guide, TableShape shape, uint kin
     vec2 u = rounded_before(guide, -shape.range.x, at.x);
     vec2 v = rounded_before(guide, shape.coarse - shape.range.z, at.y);
     vec2 node = vec2(u.x, v.x), part = vec2(u.y, v.y);
+    if ((shape.lookup & kLookupEdge) != 0) lit = within(node + part, shape.range);
+    return found_in_cell(table, shape, node, part, lit);
+  }
+  if (kind == kLookupDecimals) {
+    vec2 before = floor(at), past = past_decimals(shape, at, before), beside = floor(past);
+    vec2 node = before + beside, part = past - beside;
     if ((shape.lookup & kLookupEdge) != 0) lit = within(node + part, shape.range);
     return found_in_cell(table, shape, node, part, lit);
   }

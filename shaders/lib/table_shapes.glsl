@@ -22,12 +22,16 @@
   PHARE_SHAPE_CONSTANT(I, 14, float, reach_l_y) \
   PHARE_SHAPE_CONSTANT(I, 15, float, reach_h_y) \
   PHARE_SHAPE_CONSTANT(I, 16, float, cells_row) \
-  PHARE_SHAPE_CONSTANT(I, 17, float, cells_0)
+  PHARE_SHAPE_CONSTANT(I, 17, float, cells_0)   \
+  PHARE_SHAPE_CONSTANT(I, 18, float, from_x)    \
+  PHARE_SHAPE_CONSTANT(I, 19, float, from_y)    \
+  PHARE_SHAPE_CONSTANT(I, 20, float, unit_x)    \
+  PHARE_SHAPE_CONSTANT(I, 21, float, unit_y)
 
 #define PHARE_SHAPE(I)                                                                                                      \
   TableShape(lookup_##I, vec2(per_x_##I, per_y_##I), vec2(phase_x_##I, phase_y_##I), vec2(fine_x_##I, fine_y_##I), coarse_##I, \
              vec4(low_x_##I, high_x_##I, low_y_##I, high_y_##I), vec4(reach_l_x_##I, reach_h_x_##I, reach_l_y_##I, reach_h_y_##I), \
-             vec2(cells_row_##I, cells_0_##I))
+             vec2(cells_row_##I, cells_0_##I), vec2(from_x_##I, from_y_##I), vec2(unit_x_##I, unit_y_##I))
 
 PHARE_EACH_LAMP(PHARE_SHAPE_CONSTANTS)
 #endif
