@@ -1,7 +1,9 @@
 #include "visual/caster_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 
@@ -42,6 +44,55 @@ CastBounds open_bounds(const glm::vec3& a, const glm::vec3& b, const glm::vec3& 
   return {bounds.least(), bounds.most(), bounds.nearest_m};
 }
 
+/// p·(to the left) + q·up + r, and the most of it within a rectangle.
+struct Slope {
+  float p = 0.0f, q = 0.0f, r = 0.0f;
+
+  float most_in(const glm::vec2& least, const glm::vec2& most) const {
+    return p * (p > 0.0f ? most.x : least.x) + q * (q > 0.0f ? most.y : least.y) + r;
+  }
+};
+
+/// A triangle as the lamp sees it, all of it ahead: where it is, and how near there.
+class SeenTriangle {
+ public:
+  SeenTriangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const CastBounds& bounds)
+      : nearest_m_(bounds.nearest_m), farthest_m_(std::max({a.x, b.x, c.x})) {
+    // Of tangents, which are 4 at most, rounded.
+    constexpr float kRounding = 1e-5f;
+    const std::array<glm::vec2, 3> at{glm::vec2(a.y, a.z) / a.x, glm::vec2(b.y, b.z) / b.x, glm::vec2(c.y, c.z) / c.x};
+    const auto across = [](const glm::vec2& u, const glm::vec2& v) { return u.x * v.y - u.y * v.x; };
+    const float area = across(at[1] - at[0], at[2] - at[0]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::vec2 along = (at[(i + 1) % 3] - at[i]) * (area < 0.0f ? -1.0f : 1.0f);
+      const float room = kRounding * (std::abs(along.x) + std::abs(along.y));
+      if (std::abs(area) > 1e-7f) inside_[i] = {-along.y, along.x, along.y * at[i].x - along.x * at[i].y + room};
+    }
+    // 1 over the way forward is even over the lamp's view.
+    const glm::vec3 normal = glm::cross(b - a, c - a);
+    const float away = glm::dot(normal, a);
+    if (std::abs(away) > 1e-4f * glm::length(normal)) {
+      const glm::vec3 per_m = normal * (1.001f / away);
+      per_m_ = {per_m.y, per_m.z, per_m.x};
+    } else {
+      per_m_.r = 1e30f;
+    }
+  }
+
+  /// How far forward what of it shows in a rectangle of tangents begins; infinite where nothing does.
+  float nearest_in_m(const glm::vec2& least, const glm::vec2& most) const {
+    for (const Slope& side : inside_)
+      if (side.most_in(least, most) < 0.0f) return std::numeric_limits<float>::infinity();
+    const float per_m = per_m_.most_in(least, most);
+    return per_m * farthest_m_ > 1.0f ? std::max(1.0f / per_m, nearest_m_) : farthest_m_;
+  }
+
+ private:
+  float nearest_m_, farthest_m_;
+  std::array<Slope, 3> inside_{};
+  Slope per_m_{};
+};
+
 }  // namespace
 
 BoxCorners box_corners(const glm::dmat3& image_from_world, const glm::dvec3& lamp_m, const glm::dvec3& low_m,
@@ -67,23 +118,36 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
   };
   across_ = axis(half_sides.x, 0.3, kColumns, texel.x);
   up_ = axis(half_sides.y, 0.1, kRows, texel.y);
-  const auto add = [&](const CastBounds& bounds) {
+  std::array<float, kColumns + 1> columns{};
+  std::array<float, kRows + 1> rows{};
+  for (int i = 0; i <= kColumns; ++i) columns[static_cast<std::size_t>(i)] = across_.tangent(i);
+  for (int i = 0; i <= kRows; ++i) rows[static_cast<std::size_t>(i)] = up_.tangent(i);
+  const auto fill = [&](const CastBounds& bounds, const auto& nearest_in_m) {
     const Cells cells = cells_of(bounds.least, bounds.most);
     for (int row = cells.first_row; row < cells.end_row; ++row)
       for (int column = cells.first_column; column < cells.end_column; ++column) {
-        float& nearest_m = nearest_m_[static_cast<std::size_t>(row * kColumns + column)];
-        nearest_m = std::min(nearest_m, bounds.nearest_m);
+        const auto i = static_cast<std::size_t>(column), j = static_cast<std::size_t>(row);
+        float& nearest_m = nearest_m_[j * kColumns + i];
+        nearest_m = std::min(nearest_m, nearest_in_m({columns[i], rows[j]}, {columns[i + 1], rows[j + 1]}));
       }
+  };
+  const auto add = [&](const CastBounds& bounds, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    if (bounds.beside) {
+      const CastBounds open = open_bounds(a, b, c);
+      return fill(open, [&](const glm::vec2&, const glm::vec2&) { return open.nearest_m; });
+    }
+    const SeenTriangle seen(a, b, c, bounds);
+    fill(bounds, [&](const glm::vec2& least, const glm::vec2& most) { return seen.nearest_in_m(least, most); });
   };
   for (const WholeCasters* whole : {&cast.far_sides, &cast.both_sides})
     for (std::size_t i = 0; i < whole->bounds.size(); ++i) {
       const glm::vec3* corners = &whole->corners[3 * i];
-      add(whole->bounds[i].beside ? open_bounds(corners[0], corners[1], corners[2]) : whole->bounds[i]);
+      add(whole->bounds[i], corners[0], corners[1], corners[2]);
     }
   for (const CutCasters& cut : cast.cut)
     for (std::size_t i = 0; i < cut.bounds.size(); ++i) {
       const CutCorner* corners = &cut.corners[3 * i];
-      add(cut.bounds[i].beside ? open_bounds(corners[0].corner_m, corners[1].corner_m, corners[2].corner_m) : cut.bounds[i]);
+      add(cut.bounds[i], corners[0].corner_m, corners[1].corner_m, corners[2].corner_m);
     }
   for (int row = 0; row < kRows; ++row)
     for (int column = 0; column < kColumns; ++column) {

@@ -90,49 +90,70 @@ void add_orders(SceneBatch& batch, Gathered& all) {
   batch.ordered = true;
 }
 
-// Pieces of a batch of ground, at most and of how many triangles at least: more of them tell more exactly what a shadow can
+// Pieces of a batch, at most about so many, and what is not cut further: more of them tell more exactly what a shadow can
 // reach, and each costs a test a lamp.
 constexpr std::size_t kPieces = 256, kLeastTriangles = 2;
+constexpr float kSmall_m = 4.0f;
 
-// Which of the cells of a grid of 1024 × 1024 over the ground comes when, cells that lie together near each other (Morton 1966).
-std::uint32_t morton(const glm::vec2& at_01) {
-  const auto spread = [](float of_01) {
-    auto bits = static_cast<std::uint32_t>(glm::clamp(of_01, 0.0f, 1.0f) * 1023.0f);
-    bits = (bits | bits << 8u) & 0x00ff00ffu;
-    bits = (bits | bits << 4u) & 0x0f0f0f0fu;
-    bits = (bits | bits << 2u) & 0x33333333u;
-    return (bits | bits << 1u) & 0x55555555u;
-  };
-  return spread(at_01.x) | spread(at_01.y) << 1u;
+struct PieceTriangle {
+  std::array<std::uint32_t, 3> corners{};
+  glm::vec3 low_m{0.0f}, high_m{0.0f};
+
+  glm::vec3 middle_m() const { return 0.5f * (low_m + high_m); }
+};
+
+BatchPiece around(std::span<const PieceTriangle> triangles) {
+  BatchPiece piece{glm::vec3(1e30f), glm::vec3(-1e30f)};
+  for (const PieceTriangle& triangle : triangles) {
+    piece.low_m = glm::min(piece.low_m, triangle.low_m);
+    piece.high_m = glm::max(piece.high_m, triangle.high_m);
+  }
+  piece.index_count = static_cast<std::uint32_t>(3 * triangles.size());
+  return piece;
 }
 
-void cut_into_pieces(SceneBatch& batch, Gathered& all) {
-  struct Triangle {
-    std::array<std::uint32_t, 3> corners;
-    std::uint32_t place;
-  };
+// Halves them across their longer side until they are few or small; the triangles come to lie in the order of the pieces.
+void halve(std::span<PieceTriangle> triangles, std::size_t few, std::vector<BatchPiece>& pieces) {
+  const BatchPiece all = around(triangles);
+  const glm::vec3 size_m = all.high_m - all.low_m;
+  if (triangles.size() <= few || std::max(size_m.x, size_m.y) <= kSmall_m) {
+    pieces.push_back(all);
+    return;
+  }
+  glm::vec3 low_m(1e30f), high_m(-1e30f);
+  for (const PieceTriangle& triangle : triangles) {
+    low_m = glm::min(low_m, triangle.middle_m());
+    high_m = glm::max(high_m, triangle.middle_m());
+  }
+  const int axis = high_m.x - low_m.x >= high_m.y - low_m.y ? 0 : 1;
+  const std::size_t half = (triangles.size() / 2 + 1) / 2 * 2;  // what was a quad stays one
+  std::ranges::stable_sort(triangles, {}, [axis](const PieceTriangle& triangle) { return triangle.middle_m()[axis]; });
+  halve(triangles.first(half), few, pieces);
+  halve(triangles.subspan(half), few, pieces);
+}
+
+// `ends`: of the indices of each mesh. No piece holds triangles of two: a post that stands on a road is no part of it.
+void cut_into_pieces(SceneBatch& batch, std::span<const std::size_t> ends, Gathered& all) {
   const std::span<std::uint32_t> indices = std::span(all.indices).subspan(batch.first_index, batch.index_count);
   const auto at = [&](std::uint32_t corner) -> const glm::vec3& {
     return all.vertices[static_cast<std::size_t>(batch.first_vertex) + corner].position_m;
   };
-  const glm::vec2 low(batch.low_m - batch.origin_m), size(batch.high_m - batch.low_m);
-  const glm::vec2 per_m = 1.0f / glm::max(size, 1e-3f);
-  std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i < indices.size(); i += 3) {
-    const glm::vec3 middle = (at(indices[i]) + at(indices[i + 1]) + at(indices[i + 2])) / 3.0f;
-    triangles.push_back({{indices[i], indices[i + 1], indices[i + 2]}, morton((glm::vec2(middle) - low) * per_m)});
-  }
-  std::ranges::stable_sort(triangles, {}, &Triangle::place);
-  const std::size_t each = std::max(kLeastTriangles, (triangles.size() + kPieces - 1) / kPieces);
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    if (i % each == 0) batch.pieces.push_back({glm::vec3(1e30f), glm::vec3(-1e30f)});
-    BatchPiece& piece = batch.pieces.back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      indices[3 * i + k] = triangles[i].corners[k];
-      piece.low_m = glm::min(piece.low_m, at(triangles[i].corners[k]));
-      piece.high_m = glm::max(piece.high_m, at(triangles[i].corners[k]));
+  const std::size_t few = std::max(kLeastTriangles, (indices.size() / 3 + kPieces - 1) / kPieces);
+  std::vector<PieceTriangle> triangles;
+  std::size_t i = 0;
+  for (const std::size_t end : ends) {
+    triangles.clear();
+    const std::size_t first = i;
+    for (; i < end; i += 3) {
+      const glm::vec3 &a = at(indices[i]), &b = at(indices[i + 1]), &c = at(indices[i + 2]);
+      triangles.push_back({{indices[i], indices[i + 1], indices[i + 2]},
+                           glm::min(a, glm::min(b, c)),
+                           glm::max(a, glm::max(b, c))});
     }
-    piece.index_count += 3;
+    if (triangles.empty()) continue;
+    halve(triangles, few, batch.pieces);
+    auto to = indices.begin() + static_cast<std::ptrdiff_t>(first);
+    for (const PieceTriangle& triangle : triangles) to = std::ranges::copy(triangle.corners, to).out;
   }
 }
 
@@ -213,8 +234,10 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     batch.first_tangent = static_cast<std::uint32_t>(all.tangents.size());
     batch.first_road = static_cast<std::uint32_t>(all.road.size());
     batch.look_of = std::get<1>(key);
+    std::vector<std::size_t> ends;
     for (const DrawnChunk& mesh : group) {
       append(all, batch, *mesh.chunk, mesh.vertices, mesh.indices, mesh.looks);
+      ends.push_back(all.indices.size() - batch.first_index);
       batch.bent = batch.bent || is_bent(mesh.vertices, mesh.indices);
       all.light.insert(all.light.end(), mesh.light.begin(), mesh.light.end());
       if (batch.kind.look & shader::kLookRelief) all.ways.insert(all.ways.end(), mesh.ways.begin(), mesh.ways.end());
@@ -225,8 +248,8 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     batch.index_count = static_cast<std::uint32_t>(all.indices.size()) - batch.first_index;
     if (batch.kind.surface == Surface::kFoliage)
       add_orders(batch, all);
-    else if (pieces && (batch.kind.surface == Surface::kAsphalt || batch.kind.surface == Surface::kGrass))
-      cut_into_pieces(batch, all);
+    else if (pieces)
+      cut_into_pieces(batch, ends, all);
     if (batch.index_count > 0) batches.push_back(std::move(batch));
   }
   return batches;
