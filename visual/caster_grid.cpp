@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
@@ -44,20 +45,15 @@ CastBounds open_bounds(const glm::vec3& a, const glm::vec3& b, const glm::vec3& 
   return {bounds.least(), bounds.most(), bounds.nearest_m};
 }
 
-/// p·(to the left) + q·up + r, and the most of it within a rectangle.
+/// p·(to the left) + q·up + r, by tangents.
 struct Slope {
   float p = 0.0f, q = 0.0f, r = 0.0f;
-
-  float most_in(const glm::vec2& least, const glm::vec2& most) const {
-    return p * (p > 0.0f ? most.x : least.x) + q * (q > 0.0f ? most.y : least.y) + r;
-  }
 };
 
 /// A triangle as the lamp sees it, all of it ahead: where it is, and how near there.
-class SeenTriangle {
- public:
-  SeenTriangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const CastBounds& bounds)
-      : nearest_m_(bounds.nearest_m), farthest_m_(std::max({a.x, b.x, c.x})) {
+struct SeenTriangle {
+  SeenTriangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float nearest_m)
+      : least_per_m(1.0f / std::max({a.x, b.x, c.x})), most_per_m(1.0f / nearest_m) {
     // Of tangents, which are 4 at most, rounded.
     constexpr float kRounding = 1e-5f;
     const std::array<glm::vec2, 3> at{glm::vec2(a.y, a.z) / a.x, glm::vec2(b.y, b.z) / b.x, glm::vec2(c.y, c.z) / c.x};
@@ -66,32 +62,43 @@ class SeenTriangle {
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::vec2 along = (at[(i + 1) % 3] - at[i]) * (area < 0.0f ? -1.0f : 1.0f);
       const float room = kRounding * (std::abs(along.x) + std::abs(along.y));
-      if (std::abs(area) > 1e-7f) inside_[i] = {-along.y, along.x, along.y * at[i].x - along.x * at[i].y + room};
+      if (std::abs(area) > 1e-7f) inside[i] = {-along.y, along.x, along.y * at[i].x - along.x * at[i].y + room};
     }
     // 1 over the way forward is even over the lamp's view.
     const glm::vec3 normal = glm::cross(b - a, c - a);
     const float away = glm::dot(normal, a);
     if (std::abs(away) > 1e-4f * glm::length(normal)) {
-      const glm::vec3 per_m = normal * (1.001f / away);
-      per_m_ = {per_m.y, per_m.z, per_m.x};
+      const glm::vec3 each = normal * (1.001f / away);
+      per_m = {each.y, each.z, each.x};
     } else {
-      per_m_.r = 1e30f;
+      per_m.r = most_per_m;
     }
   }
 
-  /// How far forward what of it shows in a rectangle of tangents begins; infinite where nothing does.
-  float nearest_in_m(const glm::vec2& least, const glm::vec2& most) const {
-    for (const Slope& side : inside_)
-      if (side.most_in(least, most) < 0.0f) return std::numeric_limits<float>::infinity();
-    const float per_m = per_m_.most_in(least, most);
-    return per_m * farthest_m_ > 1.0f ? std::max(1.0f / per_m, nearest_m_) : farthest_m_;
+  /// Tangents to the left between which some of it may show, from `low` to `high`; none: the first is larger.
+  glm::vec2 across_between(float low, float high) const {
+    constexpr float kBeyond = 1e6f;
+    glm::vec2 span(-kBeyond, kBeyond);
+    for (const Slope& side : inside) {
+      const float rest = side.q * (side.q > 0.0f ? high : low) + side.r;
+      if (side.p > 0.0f)
+        span.x = std::max(span.x, -rest / side.p);
+      else if (side.p < 0.0f)
+        span.y = std::min(span.y, -rest / side.p);
+      else if (rest < 0.0f)
+        return {1.0f, 0.0f};
+    }
+    return glm::clamp(span, -kBeyond, kBeyond);
   }
 
- private:
-  float nearest_m_, farthest_m_;
-  std::array<Slope, 3> inside_{};
-  Slope per_m_{};
+  float least_per_m, most_per_m;
+  std::array<Slope, 3> inside{};
+  Slope per_m{};
 };
+
+/// Tangent above the lamp's axis up to which cells are kept apart: most of what is asked about is ground, and most of what
+/// casts is leaves high above it.
+constexpr float kHigh = 0.05f;
 
 }  // namespace
 
@@ -108,8 +115,7 @@ BoxCorners box_corners(const glm::dmat3& image_from_world, const glm::dvec3& lam
 }
 
 CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const glm::dvec2& texel, double zoom)
-    : nearest_m_(static_cast<std::size_t>(kColumns * kRows), std::numeric_limits<float>::infinity()),
-      nearest_of_block_m_(nearest_m_.size() / (kBlock * kBlock), std::numeric_limits<float>::infinity()) {
+    : per_m_(static_cast<std::size_t>(kColumns * kRows)), per_m_of_block_(per_m_.size() / (kBlock * kBlock)) {
   // Texels that are weighed about a point, half of one that is added, and one for rounding.
   constexpr double kRoom_texels = 3.0;
   const auto axis = [&](double half, double finest, int cells, double of_texel) {
@@ -118,26 +124,47 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
   };
   across_ = axis(half_sides.x, 0.3, kColumns, texel.x);
   up_ = axis(half_sides.y, 0.1, kRows, texel.y);
+  end_row_ = std::min(kRows, static_cast<int>(up_.at(kHigh)) + 1);
+  const auto column_of = [&](float left) { return static_cast<int>(std::clamp(across_.at(left), 0.0f, static_cast<float>(kColumns))); };
   std::array<float, kColumns + 1> columns{};
   std::array<float, kRows + 1> rows{};
   for (int i = 0; i <= kColumns; ++i) columns[static_cast<std::size_t>(i)] = across_.tangent(i);
   for (int i = 0; i <= kRows; ++i) rows[static_cast<std::size_t>(i)] = up_.tangent(i);
-  const auto fill = [&](const CastBounds& bounds, const auto& nearest_in_m) {
-    const Cells cells = cells_of(bounds.least, bounds.most);
+  const auto raise = [&](const Cells& cells, float per_m) {
     for (int row = cells.first_row; row < cells.end_row; ++row)
       for (int column = cells.first_column; column < cells.end_column; ++column) {
-        const auto i = static_cast<std::size_t>(column), j = static_cast<std::size_t>(row);
-        float& nearest_m = nearest_m_[j * kColumns + i];
-        nearest_m = std::min(nearest_m, nearest_in_m({columns[i], rows[j]}, {columns[i + 1], rows[j + 1]}));
+        float& most = per_m_[static_cast<std::size_t>(row * kColumns + column)];
+        most = std::max(most, per_m);
       }
+  };
+  const auto raise_by = [&](const SeenTriangle& seen, const Cells& cells) {
+    for (int row = cells.first_row; row < cells.end_row; ++row) {
+      const float low = rows[static_cast<std::size_t>(row)], high = rows[static_cast<std::size_t>(row) + 1];
+      const glm::vec2 span = seen.across_between(low, high);
+      if (span.x > span.y) continue;
+      const int first = std::max(cells.first_column, column_of(span.x)), end = std::min(cells.end_column, column_of(span.y) + 1);
+      const float in_row = seen.per_m.q * (seen.per_m.q > 0.0f ? high : low) + seen.per_m.r;
+      const float* const side = &columns[seen.per_m.p > 0.0f ? 1 : 0];
+      float* const most = &per_m_[static_cast<std::size_t>(row) * kColumns];
+      for (int column = first; column < end; ++column)
+        most[column] = std::max(most[column],
+                                std::clamp(seen.per_m.p * side[column] + in_row, seen.least_per_m, seen.most_per_m));
+    }
+  };
+  const auto below = [this](Cells cells, float per_m) {
+    if (cells.end_row > end_row_) above_per_m_ = std::max(above_per_m_, per_m), cells.end_row = end_row_;
+    return cells;
   };
   const auto add = [&](const CastBounds& bounds, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     if (bounds.beside) {
       const CastBounds open = open_bounds(a, b, c);
-      return fill(open, [&](const glm::vec2&, const glm::vec2&) { return open.nearest_m; });
+      return raise(below(cells_of(open.least, open.most), 1.0f / open.nearest_m), 1.0f / open.nearest_m);
     }
-    const SeenTriangle seen(a, b, c, bounds);
-    fill(bounds, [&](const glm::vec2& least, const glm::vec2& most) { return seen.nearest_in_m(least, most); });
+    const Cells cells = below(cells_of(bounds.least, bounds.most), 1.0f / bounds.nearest_m);
+    constexpr int kFew = 4;
+    if ((cells.end_row - cells.first_row) * (cells.end_column - cells.first_column) <= kFew)
+      return raise(cells, 1.0f / bounds.nearest_m);
+    raise_by(SeenTriangle(a, b, c, bounds.nearest_m), cells);
   };
   for (const WholeCasters* whole : {&cast.far_sides, &cast.both_sides})
     for (std::size_t i = 0; i < whole->bounds.size(); ++i) {
@@ -151,13 +178,13 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
     }
   for (int row = 0; row < kRows; ++row)
     for (int column = 0; column < kColumns; ++column) {
-      float& block_m = nearest_of_block_m_[static_cast<std::size_t>(row / kBlock * (kColumns / kBlock) + column / kBlock)];
-      block_m = std::min(block_m, nearest_m_[static_cast<std::size_t>(row * kColumns + column)]);
+      float& most = per_m_of_block_[static_cast<std::size_t>(row / kBlock * (kColumns / kBlock) + column / kBlock)];
+      most = std::max(most, per_m_[static_cast<std::size_t>(row * kColumns + column)]);
     }
 }
 
 bool CasterGrid::may_shade(const BoxCorners& box) const {
-  if (nearest_m_.empty()) return false;
+  if (per_m_.empty()) return false;
   Bounds bounds;
   float farthest_m = 0.0f;
   bool all = true;
@@ -175,8 +202,12 @@ bool CasterGrid::may_shade(const BoxCorners& box) const {
   if (bounds.nearest_m > farthest_m) return false;  // behind the lamp
   const glm::vec2 least = bounds.least(), most = bounds.most();
   const bool close = across_.close(least.x, most.x) && up_.close(least.y, most.y);
-  const Cells cells = cells_of({across_.widened(least.x, -1.0f, close), up_.widened(least.y, -1.0f, close)},
+  Cells cells = cells_of({across_.widened(least.x, -1.0f, close), up_.widened(least.y, -1.0f, close)},
                                {across_.widened(most.x, 1.0f, close), up_.widened(most.y, 1.0f, close)});
+  if (cells.end_row > end_row_) {
+    if (above_per_m_ * farthest_m > 1.0f) return true;
+    cells.end_row = end_row_;
+  }
   glm::vec3 low = box[0], high = box[0];
   for (const glm::vec3& corner : box) low = glm::min(low, corner), high = glm::max(high, corner);
   // Where the box is seen in some columns or rows, it is so far forward at most: ground below the lamp is near in low rows.
@@ -193,8 +224,8 @@ bool CasterGrid::may_shade(const BoxCorners& box) const {
     for (int row = std::max(first_row, cells.first_row); row < end_row; ++row) {
       const float in_row_m = farthest_in(up_, row, row + 1, low.z, high.z);
       for (int column = begin_column; column < end_column; ++column) {
-        const float nearest_m = nearest_m_[static_cast<std::size_t>(row * kColumns + column)];
-        if (nearest_m < in_row_m && nearest_m < farthest_in(across_, column, column + 1, low.y, high.y)) return true;
+        const float per_m = per_m_[static_cast<std::size_t>(row * kColumns + column)];
+        if (per_m * in_row_m > 1.0f && per_m * farthest_in(across_, column, column + 1, low.y, high.y) > 1.0f) return true;
       }
     }
     return false;
@@ -202,7 +233,7 @@ bool CasterGrid::may_shade(const BoxCorners& box) const {
   for (int row = cells.first_row / kBlock * kBlock; row < cells.end_row; row += kBlock) {
     const float in_rows_m = farthest_in(up_, row, row + kBlock, low.z, high.z);
     for (int column = cells.first_column / kBlock * kBlock; column < cells.end_column; column += kBlock)
-      if (nearest_of_block_m_[static_cast<std::size_t>(row / kBlock * (kColumns / kBlock) + column / kBlock)] < in_rows_m &&
+      if (per_m_of_block_[static_cast<std::size_t>(row / kBlock * (kColumns / kBlock) + column / kBlock)] * in_rows_m > 1.0f &&
           in_block(row, column))
         return true;
   }

@@ -158,7 +158,7 @@ TEST(CasterGrid, NoBoxIsClearOnWhichAShadowFalls) {
     }
   }
   EXPECT_GT(boxes, 20'000u);
-  EXPECT_GT(clear, boxes / 3);
+  EXPECT_GT(clear, boxes / 4);
   EXPECT_LT(clear, boxes);
 }
 

@@ -98,6 +98,7 @@ int run_cases(const HardCaseOptions& options) {
     std::fflush(stdout);
     if (found != Standing::kMissed) continue;
     ++missed;
+    if (!outcome.missed.empty()) std::printf("  %s\n", outcome.missed.c_str());
     char tighten[48] = "";
     if (options.tighten != 1.0) std::snprintf(tighten, sizeof tighten, " --tighten %.9g", options.tighten);
     std::printf("  again: phare hard-cases %s --seed %llu%s\n", one.name.c_str(),

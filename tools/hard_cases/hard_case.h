@@ -27,6 +27,7 @@ struct Outcome {
   std::vector<Found> float64{};  ///< by the CPU
   std::string error{};           ///< the case could not be run
   std::string not_run{};         ///< what this machine lacks for it
+  std::string missed{};          ///< what its numbers do not tell of how it missed
 };
 
 /// What the cases need: the device, if this build draws, and a seed.

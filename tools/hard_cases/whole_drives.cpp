@@ -95,7 +95,14 @@ Outcome lost_device(const Bench&) {
     char name[40];
     std::snprintf(name, sizeof name, "frames/%06d.png", frame);
     const std::string here = bytes_of(folder / "undisturbed" / name), there = bytes_of(folder / "disturbed" / name);
-    outcome.device.push_back({static_cast<double>(frame), here.empty() || here != there ? 1.0 : 0.0});
+    const bool same = !here.empty() && here == there;
+    outcome.device.push_back({static_cast<double>(frame), same ? 0.0 : 1.0});
+    if (same) continue;
+    const auto picture = [](const std::string& bytes) {
+      return bytes.empty() ? std::string("none") : std::to_string(bytes.size()) + " bytes";
+    };
+    outcome.missed += (outcome.missed.empty() ? "frame " : "; frame ") + std::to_string(frame) + ": undisturbed " +
+                      picture(here) + ", disturbed " + picture(there);
   }
   return outcome;
 }
