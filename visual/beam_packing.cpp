@@ -130,7 +130,8 @@ void describe_ahead(PackedBeam& packed, const EvenAxis& first, const EvenAxis& s
   const auto computed = [](const EvenAxis& axis) { return axis.beside.empty() || axis.decimals; };
   if (computed(first) && computed(second)) {
     shape.lookup |= shader::kLookupDecimals;
-    const EvenAxis::Decimals x = first.decimals.value_or(EvenAxis::Decimals{}), y = second.decimals.value_or(EvenAxis::Decimals{});
+    const EvenAxis::Decimals x = first.decimals.value_or(EvenAxis::Decimals{}),
+                             y = second.decimals.value_or(EvenAxis::Decimals{});
     shape.fine = {x.part, y.part};
     shape.from = {x.from, y.from};
     shape.unit = {x.unit, y.unit};

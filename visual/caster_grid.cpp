@@ -96,8 +96,8 @@ struct SeenTriangle {
   Slope per_m{};
 };
 
-/// Tangent above the lamp's axis up to which cells are kept apart: most of what is asked about is ground, and most of what
-/// casts is leaves high above it.
+/// Tangent above the lamp's axis up to which cells are kept apart: most of what is asked about is ground, and most of
+/// what casts is leaves high above it.
 constexpr float kHigh = 0.05f;
 
 }  // namespace
@@ -119,13 +119,19 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
   // Texels that are weighed about a point, half of one that is added, and one for rounding.
   constexpr double kRoom_texels = 3.0;
   const auto axis = [&](double half, double finest, int cells, double of_texel) {
-    return Axis{static_cast<float>(half), static_cast<float>(finest), 0.5f * static_cast<float>(cells),
-                static_cast<float>(0.5 * cells * (half + finest) / half), static_cast<float>(kRoom_texels * of_texel), static_cast<float>(zoom)};
+    return Axis{static_cast<float>(half),
+                static_cast<float>(finest),
+                0.5f * static_cast<float>(cells),
+                static_cast<float>(0.5 * cells * (half + finest) / half),
+                static_cast<float>(kRoom_texels * of_texel),
+                static_cast<float>(zoom)};
   };
   across_ = axis(half_sides.x, 0.3, kColumns, texel.x);
   up_ = axis(half_sides.y, 0.1, kRows, texel.y);
   end_row_ = std::min(kRows, static_cast<int>(up_.at(kHigh)) + 1);
-  const auto column_of = [&](float left) { return static_cast<int>(std::clamp(across_.at(left), 0.0f, static_cast<float>(kColumns))); };
+  const auto column_of = [&](float left) {
+    return static_cast<int>(std::clamp(across_.at(left), 0.0f, static_cast<float>(kColumns)));
+  };
   std::array<float, kColumns + 1> columns{};
   std::array<float, kRows + 1> rows{};
   for (int i = 0; i <= kColumns; ++i) columns[static_cast<std::size_t>(i)] = across_.tangent(i);
@@ -142,13 +148,14 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
       const float low = rows[static_cast<std::size_t>(row)], high = rows[static_cast<std::size_t>(row) + 1];
       const glm::vec2 span = seen.across_between(low, high);
       if (span.x > span.y) continue;
-      const int first = std::max(cells.first_column, column_of(span.x)), end = std::min(cells.end_column, column_of(span.y) + 1);
+      const int first = std::max(cells.first_column, column_of(span.x)),
+                end = std::min(cells.end_column, column_of(span.y) + 1);
       const float in_row = seen.per_m.q * (seen.per_m.q > 0.0f ? high : low) + seen.per_m.r;
       const float* const side = &columns[seen.per_m.p > 0.0f ? 1 : 0];
       float* const most = &per_m_[static_cast<std::size_t>(row) * kColumns];
       for (int column = first; column < end; ++column)
-        most[column] = std::max(most[column],
-                                std::clamp(seen.per_m.p * side[column] + in_row, seen.least_per_m, seen.most_per_m));
+        most[column] =
+            std::max(most[column], std::clamp(seen.per_m.p * side[column] + in_row, seen.least_per_m, seen.most_per_m));
     }
   };
   const auto below = [this](Cells cells, float per_m) {
@@ -203,16 +210,18 @@ bool CasterGrid::may_shade(const BoxCorners& box) const {
   const glm::vec2 least = bounds.least(), most = bounds.most();
   const bool close = across_.close(least.x, most.x) && up_.close(least.y, most.y);
   Cells cells = cells_of({across_.widened(least.x, -1.0f, close), up_.widened(least.y, -1.0f, close)},
-                               {across_.widened(most.x, 1.0f, close), up_.widened(most.y, 1.0f, close)});
+                         {across_.widened(most.x, 1.0f, close), up_.widened(most.y, 1.0f, close)});
   if (cells.end_row > end_row_) {
     if (above_per_m_ * farthest_m > 1.0f) return true;
     cells.end_row = end_row_;
   }
   glm::vec3 low = box[0], high = box[0];
   for (const glm::vec3& corner : box) low = glm::min(low, corner), high = glm::max(high, corner);
-  // Where the box is seen in some columns or rows, it is so far forward at most: ground below the lamp is near in low rows.
+  // Where the box is seen in some columns or rows, it is so far forward at most: ground below the lamp is near in low
+  // rows.
   const auto farthest_in = [&](const Axis& axis, int first, int end, float least_m, float most_m) {
-    const float from = axis.widened(axis.tangent(first), -1.0f, close), to = axis.widened(axis.tangent(end), 1.0f, close);
+    const float from = axis.widened(axis.tangent(first), -1.0f, close),
+                to = axis.widened(axis.tangent(end), 1.0f, close);
     if (to < 0.0f) return std::min(farthest_m, std::min(least_m, 0.0f) / to);
     if (from > 0.0f) return std::min(farthest_m, std::max(most_m, 0.0f) / from);
     return farthest_m;
@@ -225,7 +234,8 @@ bool CasterGrid::may_shade(const BoxCorners& box) const {
       const float in_row_m = farthest_in(up_, row, row + 1, low.z, high.z);
       for (int column = begin_column; column < end_column; ++column) {
         const float per_m = per_m_[static_cast<std::size_t>(row * kColumns + column)];
-        if (per_m * in_row_m > 1.0f && per_m * farthest_in(across_, column, column + 1, low.y, high.y) > 1.0f) return true;
+        if (per_m * in_row_m > 1.0f && per_m * farthest_in(across_, column, column + 1, low.y, high.y) > 1.0f)
+          return true;
       }
     }
     return false;
@@ -233,7 +243,8 @@ bool CasterGrid::may_shade(const BoxCorners& box) const {
   for (int row = cells.first_row / kBlock * kBlock; row < cells.end_row; row += kBlock) {
     const float in_rows_m = farthest_in(up_, row, row + kBlock, low.z, high.z);
     for (int column = cells.first_column / kBlock * kBlock; column < cells.end_column; column += kBlock)
-      if (per_m_of_block_[static_cast<std::size_t>(row / kBlock * (kColumns / kBlock) + column / kBlock)] * in_rows_m > 1.0f &&
+      if (per_m_of_block_[static_cast<std::size_t>(row / kBlock * (kColumns / kBlock) + column / kBlock)] * in_rows_m >
+              1.0f &&
           in_block(row, column))
         return true;
   }
@@ -250,7 +261,8 @@ float CasterGrid::Axis::at(float tangent) const {
   return middle + cells * tangent / (std::abs(tangent) + finest);
 }
 
-/// Between these the map's second picture is read, if that holds across and up: with texels to spare, which are weighed about a point.
+/// Between these the map's second picture is read, if that holds across and up: with texels to spare, which are weighed
+/// about a point.
 bool CasterGrid::Axis::close(float least, float most) const {
   return std::max(-least, most) < half / zoom - 4.0f * room;
 }
@@ -260,7 +272,9 @@ float CasterGrid::Axis::widened(float tangent, float way, bool close) const {
 }
 
 CasterGrid::Cells CasterGrid::cells_of(const glm::vec2& least, const glm::vec2& most) const {
-  const auto within = [](float cell, int cells) { return static_cast<int>(std::clamp(cell, 0.0f, static_cast<float>(cells))); };
+  const auto within = [](float cell, int cells) {
+    return static_cast<int>(std::clamp(cell, 0.0f, static_cast<float>(cells)));
+  };
   return {within(across_.at(least.x), kColumns), within(across_.at(most.x) + 1.0f, kColumns),
           within(up_.at(least.y), kRows), within(up_.at(most.y) + 1.0f, kRows)};
 }

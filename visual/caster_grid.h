@@ -44,8 +44,8 @@ class CasterGrid {
   Cells cells_of(const glm::vec2& least, const glm::vec2& most) const;
 
   Axis across_, up_;
-  /// Row by row from the lowest, in each from the rightmost: 1 over how far forward what may show in the cell begins, 1/m,
-  /// 0 where nothing does; and the most in each block of cells.
+  /// Row by row from the lowest, in each from the rightmost: 1 over how far forward what may show in the cell begins,
+  /// 1/m, 0 where nothing does; and the most in each block of cells.
   std::vector<float> per_m_, per_m_of_block_;
   int end_row_ = 0;           ///< of those that are kept
   float above_per_m_ = 0.0f;  ///< the most above them

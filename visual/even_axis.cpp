@@ -63,9 +63,8 @@ void find_decimals(EvenAxis& axis, const std::vector<double>& nodes) {
   for (const double node : nodes) units.push_back(std::round(node * per_unit));
   const Line line = nearest_line(units);
   const double first = line.at_0 / line.step, whole = std::floor(line.step);
-  EvenAxis found{.step = line.step / per_unit,
-                 .first = static_cast<std::int64_t>(std::floor(first + 1e-9)),
-                 .count = axis.count};
+  EvenAxis found{
+      .step = line.step / per_unit, .first = static_cast<std::int64_t>(std::floor(first + 1e-9)), .count = axis.count};
   found.phase = std::max(first - static_cast<double>(found.first), 0.0);
   const double of_0 = line.at_0 - line.step * static_cast<double>(found.first);
   const EvenAxis::Decimals rounded{1.0 / line.step, line.step - whole, of_0 - std::floor(of_0)};

@@ -46,7 +46,9 @@ LeanKind lean_kind(const LitVariant& variant) {
   const MaterialKind& kind = variant.kind;
   const bool plain = kind.surface == phare::Surface::kPlain && kind.retro == RetroKind::kNone && !kind.double_sided &&
                      variant.output != LampOutput::kAudit;
-  return {.surface = !kind.flat ? Surface::kSmooth : plain ? Surface::kPlain : Surface::kFlat,
+  return {.surface = !kind.flat ? Surface::kSmooth
+                     : plain    ? Surface::kPlain
+                                : Surface::kFlat,
           .alike = variant.alike,
           .shadows = variant.shadow_maps != 0};
 }
@@ -156,20 +158,19 @@ void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
   }
   std::span<const vk::VertexInputAttributeDescription> attributes = std::span(kVertexAttributes).first(measure ? 2 : 3);
   PipelineRecipe& recipe = to.pipeline;
-  recipe = {
-      .vertex = stages.vertex,
-      .fragment = fragment_module(stages.fragment.code, variant.shadow_maps != 0 && !variant.shadows.by_rays()),
-      .constants = &to.constants,
-      .attributes = attributes,
-      .stride = sizeof(GpuVertex),
-      .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
-      .cull = variant.kind.double_sided || measure ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack,
-      .colour = {variant.format},
-      .depth = !measure,
-      .depth_write = !measure && !variant.depth_done,
-      .compare = variant.depth_done ? vk::CompareOp::eEqual : vk::CompareOp::eGreater,
-      .samples = variant.samples,
-      .layout = stages.fragment.layout};
+  recipe = {.vertex = stages.vertex,
+            .fragment = fragment_module(stages.fragment.code, variant.shadow_maps != 0 && !variant.shadows.by_rays()),
+            .constants = &to.constants,
+            .attributes = attributes,
+            .stride = sizeof(GpuVertex),
+            .topology = measure ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList,
+            .cull = variant.kind.double_sided || measure ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack,
+            .colour = {variant.format},
+            .depth = !measure,
+            .depth_write = !measure && !variant.depth_done,
+            .compare = variant.depth_done ? vk::CompareOp::eEqual : vk::CompareOp::eGreater,
+            .samples = variant.samples,
+            .layout = stages.fragment.layout};
   if (variant.output == LampOutput::kAudit) recipe.colour.push_back(variant.format);
   std::vector<vk::VertexInputAttributeDescription>& own = to.attributes;
   if (textured) {

@@ -185,8 +185,9 @@ LitScene::Stages LitScene::textured_stages(const LitVariant& variant) {
       is_apart ? textured_vert(apart, by_vertex)
       : many ? of_many[by_vertex ? filtered() ? 2u : 1u : 0u] : vert_of_two(shadows, fog, by_vertex, filtered());
   if (!reference)
-    return {textured_module(vertex),
-            {is_apart ? textured_frag(apart, shadows, fog) : frag_of(shadows, fog, filtered(), many), *textured().layout}};
+    return {
+        textured_module(vertex),
+        {is_apart ? textured_frag(apart, shadows, fog) : frag_of(shadows, fog, filtered(), many), *textured().layout}};
   Textured& own = textured();
   if (!*own.reference_layout) {
     const std::array layouts{sets_.layout(), shadow_sets_.layout(), fog_sets_.layout(), reference_layout(),

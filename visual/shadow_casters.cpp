@@ -49,8 +49,8 @@ std::vector<glm::vec4> sides_of(const ViewGeometry& view, const glm::dvec3& lamp
   return sides;
 }
 
-/// How far within a side of the view a corner is, m; below 0 it and all that lies behind it as the lamp sees it are out of
-/// view. With room for the texels that are read about a point. `distance_m`: of the corner from the lamp.
+/// How far within a side of the view a corner is, m; below 0 it and all that lies behind it as the lamp sees it are out
+/// of view. With room for the texels that are read about a point. `distance_m`: of the corner from the lamp.
 float within(const glm::vec4& side, const glm::vec3& corner, float distance_m) {
   constexpr float kRoom_rad = 0.02f;
   return glm::dot(glm::vec3(side), corner) - side.w + kRoom_rad * distance_m;
@@ -59,8 +59,8 @@ float within(const glm::vec4& side, const glm::vec3& corner, float distance_m) {
 /// A corner as the lamp has it.
 struct SeenCorner {
   glm::vec3 at_m{0.0f};
-  glm::vec2 tangents{0.0f};   ///< to the left and up, where it is ahead of the lamp
-  std::uint32_t beyond = 0;   ///< of which sides of the view, a bit each
+  glm::vec2 tangents{0.0f};  ///< to the left and up, where it is ahead of the lamp
+  std::uint32_t beyond = 0;  ///< of which sides of the view, a bit each
   bool ahead = false;
 };
 

@@ -11,8 +11,8 @@
 
 namespace phare {
 
-/// Calls work(0) to work(count - 1), each once, and waits for all; throws what one of them threw. Threads are begun for it, so a
-/// turn should be worth some tenths of a millisecond.
+/// Calls work(0) to work(count - 1), each once, and waits for all; throws what one of them threw. Threads are begun for
+/// it, so a turn should be worth some tenths of a millisecond.
 template <typename Work>
 void on_all_cores(std::size_t count, const Work& work) {
   std::atomic<std::size_t> next = 0;

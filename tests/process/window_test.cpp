@@ -225,7 +225,8 @@ class WindowFaults : public WindowFaultTest, public testing::WithParamInterface<
 // happens in it again.
 TEST_P(WindowFaults, TheWindowShowsTheDriveAgain) {
   const GpuFault fault(GetParam(), folder_ / "told");
-  start({"--validation", "--frames", "100000", "--frames-in-flight", "2"});  // every picture is kept: also the one that it happens to
+  start({"--validation", "--frames", "100000", "--frames-in-flight",
+         "2"});  // every picture is kept: also the one that it happens to
   ASSERT_TRUE(wait_until([&] { return fault.happened(); }));
   expect_a_drive_that_is_seen();
 }

@@ -95,8 +95,8 @@ std::vector<Format> formats() {
   for (int j = -40; j <= 30; ++j) uneven_v.push_back(0.3 * j + 0.1323456789 * std::cos(j));
   const IntensityTable bent = on(PhotometricType::kA, GammaAxis::kGamma0, bent_h, bent_v);
   const IntensityTable uneven = on(PhotometricType::kA, GammaAxis::kGamma0, uneven_h, uneven_v);
-  // Evenly about 0°, which is no node; and 256 × 128 nodes as a program writes them, rounded to 1e-4°: also with ends that
-  // are rounded, with one that is not as the others say, and so coarsely that a node's place has to be read.
+  // Evenly about 0°, which is no node; and 256 × 128 nodes as a program writes them, rounded to 1e-4°: also with ends
+  // that are rounded, with one that is not as the others say, and so coarsely that a node's place has to be read.
   const IntensityTable half =
       on(PhotometricType::kA, GammaAxis::kGamma0, steps(-39.75, 39.75, 0.5), steps(-13.9, 9.9, 0.2));
   const auto written = [](double from, double to, int count, double per_unit = 1e4) {
@@ -252,9 +252,9 @@ TEST(FormatsOnDevice, NodesThatAreRoundedPartTheirCellsWhereTheyLie) {
     for (std::size_t i = 1; i + 1 < table->first_deg.size(); i += 3)
       for (std::size_t j = 1; j + 1 < table->second_deg.size(); j += 2)
         for (const double beside_deg : {-6e-5, -2e-5, 2e-5, 6e-5}) {
-          const glm::dvec3 d = mounted().world_from_image *
-                               table_direction(table->type, table->axis, {table->first_deg[i] + beside_deg,
-                                                                          table->second_deg[j] - 0.6 * beside_deg});
+          const glm::dvec3 d = mounted().world_from_image * table_direction(table->type, table->axis,
+                                                                            {table->first_deg[i] + beside_deg,
+                                                                             table->second_deg[j] - 0.6 * beside_deg});
           points.push_back({mounted().position_m + 7.0 * d, -d});
         }
     renderer->set_beam(0, compose_beam_image(source));

@@ -82,7 +82,8 @@ TEST(ShadowCasters, NoneIsLeftOutWhoseShadowFallsIntoTheView) {
         ++hidden;
         ASSERT_TRUE(cast.count > 0 && cast.chunks[i]) << "round " << round << ", triangle " << i;
         const glm::dvec3 at = glm::transpose(lamp_turn) * (seen_m - lamp_m);
-        if (glm::length(glm::dvec2(at.y, at.z)) > std::tan(1.2) * at.x || std::abs(at.z) > kHighestShadow * at.x) continue;
+        if (glm::length(glm::dvec2(at.y, at.z)) > std::tan(1.2) * at.x || std::abs(at.z) > kHighestShadow * at.x)
+          continue;
         constexpr double kRounding = 1e-5;
         ASSERT_TRUE(at.y > cast.part.right * at.x - kRounding && at.y < cast.part.left * at.x + kRounding &&
                     at.z > cast.part.low * at.x - kRounding && at.z < cast.part.high * at.x + kRounding)
@@ -132,7 +133,8 @@ TEST(CasterGrid, NoBoxIsClearOnWhichAShadowFalls) {
     const CasterGrid grid(cast, half, texel, zoom);
     for (int i = 0; i < 1500; ++i) {
       // Some hold the lamp or reach past it.
-      const glm::dvec3 middle_m = lamp_m + turn * glm::dvec3(25.0 + 26.0 * even(random), 15.0 * even(random), 3.0 * even(random));
+      const glm::dvec3 middle_m =
+          lamp_m + turn * glm::dvec3(25.0 + 26.0 * even(random), 15.0 * even(random), 3.0 * even(random));
       const glm::dvec3 half_m = glm::abs(anywhere(i % 10 == 0 ? 12.0 : 1.5));
       ++boxes;
       const bool told = grid.may_shade(box_corners(glm::transpose(turn), lamp_m, middle_m - half_m, middle_m + half_m));
@@ -144,7 +146,8 @@ TEST(CasterGrid, NoBoxIsClearOnWhichAShadowFalls) {
         const glm::dvec3 at_m = middle_m + half_m * in_box;
         const glm::dvec3 at = glm::transpose(turn) * (at_m - lamp_m);
         if (at.x < 0.05 || std::abs(at.y) > half.x * at.x || std::abs(at.z) > half.y * at.x) continue;
-        // The texels about the point are weighed with its own (shaders/lib/shadow.glsl): those of the second picture in the middle, both ways.
+        // The texels about the point are weighed with its own (shaders/lib/shadow.glsl): those of the second picture in
+        // the middle, both ways.
         const bool close = zoom * std::abs(at.y) < half.x * at.x && zoom * std::abs(at.z) < half.y * at.x;
         for (const double across : {-1.0, 0.0, 1.0})
           for (const double up : {-1.0, 0.0, 1.5}) {

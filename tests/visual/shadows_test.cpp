@@ -229,13 +229,14 @@ TEST_F(Shadows, AreMadeWhereSomethingStandsInTheLightAndNowhereElse) {
   EXPECT_EQ(renderer->draw(input).effects.level(Effect::kShadows), 0u);
 }
 
-// Of ground in many triangles those that no shadow can reach are drawn as where nothing casts; the picture is that of rays, which
-// are asked everywhere, but for the width of a texel.
+// Of ground in many triangles those that no shadow can reach are drawn as where nothing casts; the picture is that of
+// rays, which are asked everywhere, but for the width of a texel.
 TEST_F(Shadows, PiecesOfGroundThatNoneReachesAreDrawnWithoutAndLookTheSame) {
   Shape shape;
   for (int x = 0; x < 40; ++x)
     for (int y = -6; y < 6; ++y)
-      shape.quad({2.0 * x, 2.0 * y, 0}, {2.0 * x + 2, 2.0 * y, 0}, {2.0 * x + 2, 2.0 * y + 2, 0}, {2.0 * x, 2.0 * y + 2, 0});
+      shape.quad({2.0 * x, 2.0 * y, 0}, {2.0 * x + 2, 2.0 * y, 0}, {2.0 * x + 2, 2.0 * y + 2, 0},
+                 {2.0 * x, 2.0 * y + 2, 0});
   Scene scene = shape.scene();
   Shape posts;
   for (const double x : {9.0, 13.0, 18.0}) posts.box({x, 1.5, 0}, {x + 0.3, 2.0, 1.5});
@@ -267,7 +268,9 @@ TEST_F(Shadows, PiecesOfGroundThatNoneReachesAreDrawnWithoutAndLookTheSame) {
   EXPECT_GT(by_maps.views.front().draws, by_rays.views.front().draws + 2) << "no piece is drawn without";
   std::size_t in_shadow = 0, differ = 0;
   for (std::size_t i = 0; i < seen.rgba.size(); i += 4) {
-    const auto off = [&](const Image8& other) { return std::abs(int(expected.rgba[i + 1]) - int(other.rgba[i + 1])) > 6; };
+    const auto off = [&](const Image8& other) {
+      return std::abs(int(expected.rgba[i + 1]) - int(other.rgba[i + 1])) > 6;
+    };
     in_shadow += off(open), differ += off(seen);
   }
   std::printf("%zu pixels in shadow, %zu differ from rays\n", in_shadow, differ);
@@ -344,8 +347,8 @@ TEST_F(Shadows, MoreLampsThanADrawSumsCastAllOfThem) {
   EXPECT_EQ(renderer->read_image().rgba, expected.rgba);
 }
 
-// A ditch beside the road, its corners' normals smoothed: at the top of its near slope they face the lamp, though the slope
-// is turned away. Rays have it dark.
+// A ditch beside the road, its corners' normals smoothed: at the top of its near slope they face the lamp, though the
+// slope is turned away. Rays have it dark.
 TEST_F(Shadows, ASlopeTurnedFromTheLampIsDarkThoughItsNormalsFaceIt) {
   const std::array<glm::dvec2, 6> profile{{{5, 0}, {-3, 0}, {-3.7, -0.35}, {-4.4, -0.7}, {-6.4, 0.3}, {-30, 0.3}}};
   const auto upward = [&](std::size_t side) {

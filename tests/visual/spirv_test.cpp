@@ -19,7 +19,8 @@ std::uint32_t op(std::uint32_t instruction, std::uint32_t words) {
   return words << 16u | instruction;
 }
 
-/// float is 1, its function's kind 2, 1.0 is 3, the function 4: it returns -p of its argument 5, which is 7 and decorated.
+/// float is 1, its function's kind 2, 1.0 is 3, the function 4: it returns -p of its argument 5, which is 7 and
+/// decorated.
 Words shader_with(const char (&name)[8], std::uint32_t constant) {
   Words words{0x07230203, 0x00010600, 0, 10, 0};
   const auto add = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
@@ -28,15 +29,15 @@ Words shader_with(const char (&name)[8], std::uint32_t constant) {
   add({op(5, 4), 4, letters[0], letters[1]});  // OpName
   add({op(71, 3), 7, 42});                     // OpDecorate NoContraction
   add({op(71, 3), 3, 42});
-  add({op(22, 3), 1, 32});          // OpTypeFloat
-  add({op(33, 4), 2, 1, 1});        // OpTypeFunction
+  add({op(22, 3), 1, 32});           // OpTypeFloat
+  add({op(33, 4), 2, 1, 1});         // OpTypeFunction
   add({op(43, 4), 1, 3, constant});  // OpConstant
-  add({op(54, 5), 1, 4, 0, 2});     // OpFunction
-  add({op(55, 3), 1, 5});           // OpFunctionParameter
-  add({op(248, 2), 6});             // OpLabel
-  add({op(127, 4), 1, 7, 5});       // OpFNegate
-  add({op(254, 2), 7});             // OpReturnValue
-  add({op(56, 1)});                 // OpFunctionEnd
+  add({op(54, 5), 1, 4, 0, 2});      // OpFunction
+  add({op(55, 3), 1, 5});            // OpFunctionParameter
+  add({op(248, 2), 6});              // OpLabel
+  add({op(127, 4), 1, 7, 5});        // OpFNegate
+  add({op(254, 2), 7});              // OpReturnValue
+  add({op(56, 1)});                  // OpFunctionEnd
   return words;
 }
 

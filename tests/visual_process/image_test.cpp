@@ -71,7 +71,8 @@ std::uint32_t big_endian(std::string_view bytes) {
   return value;
 }
 
-// What stb_image does not look at and other readers do: CRC-32 of each chunk (PNG, annex D) and Adler-32 of what was deflated (RFC 1950).
+// What stb_image does not look at and other readers do: CRC-32 of each chunk (PNG, annex D) and Adler-32 of what was
+// deflated (RFC 1950).
 TEST(Png, HasTheChecksumsOfItsChunksAndOfItsRows) {
   const Image8 image = pattern(37, 23);
   ASSERT_TRUE(write_png(temporary("sums.png"), image).ok());
@@ -103,8 +104,8 @@ TEST(Png, HasTheChecksumsOfItsChunksAndOfItsRows) {
   EXPECT_EQ(big_endian(std::string_view(deflated).substr(deflated.size() - 4)), sum_of_sums << 16u | sum);
 }
 
-// Rows of one pixel, of an even and an odd number; more rows than are deflated at once, and none that repeats another, so
-// that the file is larger than what was thought enough for it.
+// Rows of one pixel, of an even and an odd number; more rows than are deflated at once, and none that repeats another,
+// so that the file is larger than what was thought enough for it.
 TEST(Png, ReadsBackInEverySizeAndWhereNothingCanBeSaved) {
   std::mt19937 random(7);
   for (const auto& [width_px, height_px] : {std::pair{1, 1}, {1, 40}, {2, 17}, {3, 16}, {64, 1}, {641, 479}}) {

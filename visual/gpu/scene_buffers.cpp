@@ -90,8 +90,8 @@ void add_orders(SceneBatch& batch, Gathered& all) {
   batch.ordered = true;
 }
 
-// Pieces of a batch, at most about so many, and what is not cut further: more of them tell more exactly what a shadow can
-// reach, and each costs a test a lamp.
+// Pieces of a batch, at most about so many, and what is not cut further: more of them tell more exactly what a shadow
+// can reach, and each costs a test a lamp.
 constexpr std::size_t kPieces = 256, kLeastTriangles = 2;
 constexpr float kSmall_m = 4.0f;
 
@@ -112,7 +112,8 @@ BatchPiece around(std::span<const PieceTriangle> triangles) {
   return piece;
 }
 
-// Halves them across their longer side until they are few or small; the triangles come to lie in the order of the pieces.
+// Halves them across their longer side until they are few or small; the triangles come to lie in the order of the
+// pieces.
 void halve(std::span<PieceTriangle> triangles, std::size_t few, std::vector<BatchPiece>& pieces) {
   const BatchPiece all = around(triangles);
   const glm::vec3 size_m = all.high_m - all.low_m;
@@ -146,9 +147,8 @@ void cut_into_pieces(SceneBatch& batch, std::span<const std::size_t> ends, Gathe
     const std::size_t first = i;
     for (; i < end; i += 3) {
       const glm::vec3 &a = at(indices[i]), &b = at(indices[i + 1]), &c = at(indices[i + 2]);
-      triangles.push_back({{indices[i], indices[i + 1], indices[i + 2]},
-                           glm::min(a, glm::min(b, c)),
-                           glm::max(a, glm::max(b, c))});
+      triangles.push_back(
+          {{indices[i], indices[i + 1], indices[i + 2]}, glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))});
     }
     if (triangles.empty()) continue;
     halve(triangles, few, batch.pieces);

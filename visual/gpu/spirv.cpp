@@ -83,7 +83,8 @@ std::vector<std::uint32_t> returning_one(Words code, std::string_view function) 
   const std::vector<Words> all = instructions_of(code);
   const auto name = std::ranges::find_if(all, [&](Words one) { return is_named(one, function); });
   if (name == all.end()) return as_it_was;
-  const auto begin = std::ranges::find_if(all, [&](Words one) { return op_of(one) == kFunction && one[2] == (*name)[1]; });
+  const auto begin =
+      std::ranges::find_if(all, [&](Words one) { return op_of(one) == kFunction && one[2] == (*name)[1]; });
   if (begin == all.end()) return as_it_was;
   const auto one = std::ranges::find_if(all, [&](Words each) {
     return op_of(each) == kConstant && each[1] == (*begin)[1] && each[3] == std::bit_cast<std::uint32_t>(1.0f);

@@ -56,7 +56,8 @@ void filter_row(const std::uint8_t* rgba, std::size_t width_px, std::uint8_t* to
     std::memcpy(to + kChannels, bytes.data() + 4, 4);
   }
   if (x < width_px)
-    for (std::size_t c = 0; c < kChannels; ++c) to[c] = static_cast<std::uint8_t>(rgba[4 * x + c] - rgba[4 * x + c - 4]);
+    for (std::size_t c = 0; c < kChannels; ++c)
+      to[c] = static_cast<std::uint8_t>(rgba[4 * x + c] - rgba[4 * x + c - 4]);
 }
 
 /// Deflates all rows to the end of `to`, some at a time, which stay in the processor's cache.

@@ -1,5 +1,5 @@
-// Pictures as the bytes of a PNG file: red, green, blue, 8 bits each, without loss. ISA-L deflates what is left of each pixel less
-// the one before it: on a night road a fifth of the time that zlib takes at level 2, and as many bytes.
+// Pictures as the bytes of a PNG file: red, green, blue, 8 bits each, without loss. ISA-L deflates what is left of each
+// pixel less the one before it: on a night road a fifth of the time that zlib takes at level 2, and as many bytes.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace phare {
 
-/// Nothing, when it cannot be encoded: no pixel, or more than a chunk of a PNG holds. The same bytes every time on one machine.
+/// Nothing, when it cannot be encoded: no pixel, or more than a chunk of a PNG holds. The same bytes every time on one
+/// machine.
 std::optional<std::vector<std::uint8_t>> encode_png(const Image8& image);
 
 }  // namespace phare

@@ -35,7 +35,8 @@ struct PipelineRecipe {
 vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe& recipe);
 /// One of each, in their order; as many at once as there are processors, for a software device takes tenths of a second
 /// to compile a large shader.
-std::vector<vk::raii::Pipeline> make_pipelines(const gpu::Device& device, std::span<const PipelineRecipe* const> recipes);
+std::vector<vk::raii::Pipeline> make_pipelines(const gpu::Device& device,
+                                               std::span<const PipelineRecipe* const> recipes);
 
 /// One descriptor set, and push constants of these stages.
 vk::raii::PipelineLayout pushing_layout(const gpu::Device& device, vk::DescriptorSetLayout set,

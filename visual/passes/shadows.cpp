@@ -29,9 +29,9 @@ shader::GpuShadow place_of(const PlacedLamp& lamp, const ViewGeometry& view, con
           row(lamp.world_from_image[0]), glm::vec4(zoom, view.mirrored() ? -1.0 : 1.0, 0.0, 0.0)};
 }
 
-/// How many times as large a map's second picture shows its middle: that holds all that a driver sees of the road and what stands
-/// beside it, tangents of 1 across and 0.25 up and down, but at least a quarter of each side and at most half. Chosen by the edge of a
-/// verge's shadow, which comes in steps where the first picture shows it.
+/// How many times as large a map's second picture shows its middle: that holds all that a driver sees of the road and
+/// what stands beside it, tangents of 1 across and 0.25 up and down, but at least a quarter of each side and at most
+/// half. Chosen by the edge of a verge's shadow, which comes in steps where the first picture shows it.
 double zoom_of(const glm::dvec2& half) {
   return std::clamp(std::min(half.x / 1.0, half.y / 0.25), 2.0, 4.0);
 }
@@ -43,8 +43,8 @@ glm::vec2 half_unread(const ShadowLevel& level, double zoom) {
   return (half - 1.0f) / static_cast<float>(zoom) - 3.0f;
 }
 
-/// Triangles that hold the middle of a texel, of a picture of so many texels either way from the axis to a tangent of 1,
-/// and that reach out of the `unread` texels either way from its middle.
+/// Triangles that hold the middle of a texel, of a picture of so many texels either way from the axis to a tangent of
+/// 1, and that reach out of the `unread` texels either way from its middle.
 template <typename Corner>
 void append_seen(std::vector<Corner>& seen, const std::vector<Corner>& corners, const std::vector<CastBounds>& bounds,
                  const glm::dvec2& texels, const ShadowLevel& level, const glm::vec2& unread) {
@@ -107,8 +107,8 @@ struct Shade {
 /// Ground that begins farther away fills so little of a picture that its pieces are not told apart: chosen.
 constexpr float kPiecesTo_m = 60.0f;
 
-/// Tells which of the view's draws a shadow may fall on. Of near ground that is done by pieces: those that none can reach are
-/// drawn first, as where nothing casts.
+/// Tells which of the view's draws a shadow may fall on. Of near ground that is done by pieces: those that none can
+/// reach are drawn first, as where nothing casts.
 void tell_shadowed(LitView& view, std::span<const Shade> shades) {
   const auto may_fall_on = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
     return std::ranges::any_of(shades, [&](const Shade& shade) { return shade.may_fall_on(low_m, high_m); });

@@ -21,12 +21,13 @@ namespace phare {
 
 /// In the order of the effect's levels (visual/effects.h), the first being off: of each of the two pictures of a map; of
 /// rays one to the lamp's middle, or shader::kLensRays over its opening.
-inline constexpr std::array<ShadowLevel, kShadowNames.size()> kShadowLevels{{{},
-                                                                             {768, 512, 1},
-                                                                             {768, 512, 4},
-                                                                             {1536, 1024, 4},
-                                                                             {0, 0, shader::kTapsOfRays + 1},
-                                                                             {0, 0, shader::kTapsOfRays + shader::kLensRays}}};
+inline constexpr std::array<ShadowLevel, kShadowNames.size()> kShadowLevels{
+    {{},
+     {768, 512, 1},
+     {768, 512, 4},
+     {1536, 1024, 4},
+     {0, 0, shader::kTapsOfRays + 1},
+     {0, 0, shader::kTapsOfRays + shader::kLensRays}}};
 static_assert(kShadowLevels[kRayShadows].taps > shader::kTapsOfRays &&
               kShadowLevels[kRayShadows - 1].taps <= shader::kTapsOfRays);
 

@@ -93,8 +93,9 @@ Progress progress_line() {
   };
 }
 
-/// Only in real time is there time to gain; channels that show one moment wait for each other, and a budget was measured
-/// with one frame at a time. A software device draws with the very processors that would prepare the next frame.
+/// Only in real time is there time to gain; channels that show one moment wait for each other, and a budget was
+/// measured with one frame at a time. A software device draws with the very processors that would prepare the next
+/// frame.
 Result<std::size_t> frames_in_flight(const VisualOptions& options, const Rig& rig) {
   if (options.lockstep || rig.channels.size() > 1 || options.budget_ms > 0.0) return std::size_t{1};
   if (options.frames_in_flight) return static_cast<std::size_t>(*options.frames_in_flight);
