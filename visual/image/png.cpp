@@ -1,12 +1,9 @@
 #include "visual/image/png.h"
 
-#include <isa-l/crc.h>
-#include <isa-l/igzip_lib.h>
+#include <libdeflate.h>
 
-#include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -31,7 +28,7 @@ std::size_t begin_chunk(std::vector<std::uint8_t>& to, std::string_view name) {
 void end_chunk(std::vector<std::uint8_t>& to, std::size_t begin) {
   const std::size_t bytes = to.size() - begin;
   for (std::size_t i = 0; i < 4; ++i) to[begin - 4 + i] = static_cast<std::uint8_t>((bytes - 4) >> (24 - 8 * i));
-  append_u32(to, crc32_gzip_refl(0, to.data() + begin, bytes));
+  append_u32(to, libdeflate_crc32(0, to.data() + begin, bytes));
 }
 
 /// Each of eight bytes of `a` less its own of `b`: what one borrows must not reach the next.
@@ -60,42 +57,22 @@ void filter_row(const std::uint8_t* rgba, std::size_t width_px, std::uint8_t* to
       to[c] = static_cast<std::uint8_t>(rgba[4 * x + c] - rgba[4 * x + c - 4]);
 }
 
-/// Deflates all rows to the end of `to`, some at a time, which stay in the processor's cache.
+/// Deflates all rows to the end of `to`.
 bool append_pixels(std::vector<std::uint8_t>& to, const Image8& image) {
-  constexpr std::size_t kRowsAtOnce = 16, kLeastRoom = 1 << 16;
+  constexpr int kFastest = 1;
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(kFastest), &libdeflate_free_compressor);
+  if (!compressor) return false;
   const auto width = static_cast<std::size_t>(image.width_px), height = static_cast<std::size_t>(image.height_px);
-  const std::size_t row_bytes = 1 + kChannels * width;
-  std::vector<std::uint8_t> rows(kRowsAtOnce * row_bytes + 1);
-  std::vector<std::uint8_t> level_memory(ISAL_DEF_LVL1_DEFAULT);
-  const auto stream = std::make_unique<isal_zstream>();
-  isal_deflate_init(stream.get());
-  stream->gzip_flag = IGZIP_ZLIB;
-  stream->level = 1;
-  stream->level_buf = level_memory.data();
-  stream->level_buf_size = static_cast<std::uint32_t>(level_memory.size());
-  std::size_t written = to.size();
-  to.resize(written + row_bytes * height / 4 + kLeastRoom);  // of most pictures more than enough
-  for (std::size_t y = 0; y < height; y += kRowsAtOnce) {
-    const std::size_t count = std::min(kRowsAtOnce, height - y);
-    for (std::size_t i = 0; i < count; ++i)
-      filter_row(image.rgba.data() + 4 * width * (y + i), width, rows.data() + i * row_bytes);
-    stream->next_in = rows.data();
-    stream->avail_in = static_cast<std::uint32_t>(count * row_bytes);
-    stream->end_of_stream = y + count == height ? 1 : 0;
-    const auto done = [&] {
-      return stream->avail_in == 0 && (stream->end_of_stream == 0 || stream->internal_state.state == ZSTATE_END);
-    };
-    while (!done()) {
-      if (to.size() - written < kLeastRoom) to.resize(2 * to.size());
-      const std::size_t room = std::min<std::size_t>(to.size() - written, std::numeric_limits<std::uint32_t>::max());
-      stream->next_out = to.data() + written;
-      stream->avail_out = static_cast<std::uint32_t>(room);
-      if (isal_deflate(stream.get()) != COMP_OK) return false;
-      written += room - stream->avail_out;
-    }
-  }
-  to.resize(written);
-  return true;
+  const std::size_t row_bytes = 1 + kChannels * width, bytes = row_bytes * height;
+  const auto rows = std::make_unique_for_overwrite<std::uint8_t[]>(bytes + 1);
+  for (std::size_t y = 0; y < height; ++y) filter_row(image.rgba.data() + 4 * width * y, width, &rows[y * row_bytes]);
+  const std::size_t before = to.size();
+  to.resize(before + libdeflate_zlib_compress_bound(compressor.get(), bytes));
+  const std::size_t written =
+      libdeflate_zlib_compress(compressor.get(), rows.get(), bytes, to.data() + before, to.size() - before);
+  to.resize(before + written);
+  return written > 0;
 }
 
 }  // namespace
