@@ -84,10 +84,12 @@ LitVariant LitScene::variant_of(const LitView& view, const DrawItem& item, const
                     .flat = variant.kind.flat,
                     .look = look & shader::kLookCut ? look & ~shader::kLookRelief : 0u};
   }
-  if (is_lean(variant))
+  if (is_lean(variant)) {
     variant.alike = lit.alike;
-  else
+    variant.bent = variant.bent && !variant.kind.flat;
+  } else {
     variant.kind.flat = false;  // of no account
+  }
   return variant;
 }
 

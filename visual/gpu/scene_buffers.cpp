@@ -11,6 +11,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -275,6 +276,28 @@ std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all, const Pro
   return blocks;
 }
 
+// Where some of a kind is bent all of it counts as bent, near and far: else a drive would come to pairs of both that were
+// not there before it, and have pipelines made for them.
+void bend_by_kind(std::vector<SceneBlock>& blocks, std::vector<MovingMesh>& moving) {
+  const auto every_batch = [&](const auto& visit) {
+    for (SceneBlock& block : blocks) {
+      std::ranges::for_each(block.near, visit);
+      for (std::vector<SceneBatch>& far : block.far) std::ranges::for_each(far, visit);
+    }
+    for (MovingMesh& mesh : moving) std::ranges::for_each(mesh.batches, visit);
+  };
+  const auto kind_of = [](const SceneBatch& batch) {
+    MaterialKind kind = batch.kind;
+    kind.flat = kind.road = false;  // of which there may be both
+    return kind;
+  };
+  std::set<MaterialKind> bent;
+  every_batch([&](const SceneBatch& batch) {
+    if (batch.bent) bent.insert(kind_of(batch));
+  });
+  every_batch([&](SceneBatch& batch) { batch.bent = bent.contains(kind_of(batch)); });
+}
+
 // `first_material`: theirs stand behind those of the scene.
 std::vector<MovingMesh> make_moving(const Scene& scene, std::uint32_t first_material, Gathered& all) {
   std::vector<MovingMesh> meshes;
@@ -375,6 +398,7 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
   far_casters = std::move(all.far_casters);
   all.lit_meshes.clear();
   moving = make_moving(moving_scene, static_cast<std::uint32_t>(scene.materials.size()), all);
+  bend_by_kind(blocks, moving);
   using Usage = vk::BufferUsageFlagBits;
   vertices = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.vertices)),
                                Usage::eVertexBuffer | Usage::eStorageBuffer, "scene vertices");

@@ -71,7 +71,7 @@ struct SceneBatch {
   std::size_t look_of = 0;       ///< which
   std::uint32_t first_tangent = 0;  ///< of its vertices, where the kind has a relief
   std::uint32_t first_road = 0;     ///< of its vertices, where the kind is of asphalt
-  bool bent = false;                ///< some of it (visual/scene/scene.h)
+  bool bent = false;                ///< some of its kind (visual/scene/scene.h)
   static constexpr std::uint32_t kOrders = 8;
   /// Of the order for who looks along (x, y).
   std::uint32_t first_index_along(const glm::dvec2& direction) const;
