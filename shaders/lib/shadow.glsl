@@ -42,7 +42,7 @@ float reaching(vec3 at, uint map, vec2 zoom) {
   // The four texels around the point, each lit or not, weighted by how near it is.
   texel = min(max(texel - 0.5, vec2(0.0)), 2.0 * middle - 2.0);
   vec2 corner = floor(texel), part = texel - corner;
-  int index = first + int(corner.y * float(shadow_width) + corner.x);  // exact: a picture has fewer than 2^24 texels
+  int index = first + int(corner.y) * row + int(corner.x);
   vec4 depths = vec4(texelFetch(shadow_depths, index).r, texelFetch(shadow_depths, index + 1).r, texelFetch(shadow_depths, index + row).r,
                      texelFetch(shadow_depths, index + row + 1).r);
   vec4 lit = vec4(lessThanEqual(depths, vec4(nearer)));

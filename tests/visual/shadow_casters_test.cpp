@@ -115,7 +115,7 @@ TEST(CasterGrid, NoBoxIsClearOnWhichAShadowFalls) {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> even(-1.0, 1.0);
   const auto anywhere = [&](double size_m) { return size_m * glm::dvec3(even(random), even(random), even(random)); };
-  std::size_t clear = 0, boxes = 0;
+  std::size_t clear = 0, boxes = 0, low = 0, clear_low = 0;
   for (int round = 0; round < 80; ++round) {
     const glm::dvec3 lamp_m{2.0, 0.6, 0.65};
     const glm::dmat3 turn = aim_rotation(0.6 * even(random), 0.1 * even(random), 0.0);
@@ -139,6 +139,7 @@ TEST(CasterGrid, NoBoxIsClearOnWhichAShadowFalls) {
       ++boxes;
       const bool told = grid.may_shade(box_corners(glm::transpose(turn), lamp_m, middle_m - half_m, middle_m + half_m));
       clear += told ? 0 : 1;
+      if ((glm::transpose(turn) * (middle_m - lamp_m)).z < 0.0) ++low, clear_low += told ? 0 : 1;
       if (told) continue;
       for (int point = 0; point < 40; ++point) {
         glm::dvec3 in_box(even(random), even(random), even(random));
@@ -161,7 +162,8 @@ TEST(CasterGrid, NoBoxIsClearOnWhichAShadowFalls) {
     }
   }
   EXPECT_GT(boxes, 20'000u);
-  EXPECT_GT(clear, boxes / 4);
+  // High above the axis the grid keeps one number for all.
+  EXPECT_GT(clear_low, low / 3);
   EXPECT_LT(clear, boxes);
 }
 

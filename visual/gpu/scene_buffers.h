@@ -62,7 +62,7 @@ struct SceneBatch {
   glm::dvec3 low_m{0.0}, high_m{0.0};
   std::uint32_t first_index = 0, index_count = 0;
   std::int32_t first_vertex = 0;
-  /// One behind the other all of its triangles, of ground that stands and is drawn in full; else none.
+  /// One behind the other all of its triangles, of what stands and is drawn in full, but leaves; else none.
   std::vector<BatchPiece> pieces{};
   /// The same triangles in kOrders orders, one behind the other: near ones first for who looks along x, then turned to
   /// the left in even steps. Leaves lie behind leaves, and what is drawn first hides the rest before it is lit.

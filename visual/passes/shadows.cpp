@@ -104,10 +104,10 @@ struct Shade {
   }
 };
 
-/// Ground that begins farther away fills so little of a picture that its pieces are not told apart: chosen.
+/// What begins farther away fills so little of a picture that its pieces are not told apart: chosen.
 constexpr float kPiecesTo_m = 60.0f;
 
-/// Tells which of the view's draws a shadow may fall on. Of near ground that is done by pieces: those that none can
+/// Tells which of the view's draws a shadow may fall on. Of what is near that is done by pieces: those that none can
 /// reach are drawn first, as where nothing casts.
 void tell_shadowed(LitView& view, std::span<const Shade> shades) {
   const auto may_fall_on = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
