@@ -56,7 +56,7 @@ const uint kRetroFacets = 3u;    // rough ground
 // How the node before a direction is found. Even: nodes a step apart, from a phase; where wanted a fine step about 0° and a coarse one
 // beyond. "Ahead" is for tables with no first angle beyond 90°; what lies at 90° or behind counts as dark.
 const uint kLookupAhead = 0u;   // even
-const uint kLookupDecimals = 1u; // even, then rounded to so many decimals: where a node really lies is computed
+const uint kLookupDecimals = 1u;  // even, then rounded to so many decimals: which node is before is computed
 const uint kLookupRounded = 2u; // even but for rounding of any kind: where a node really lies stands in the guide, an entry a node
 const uint kLookupTurn = 3u;    // even, first angle 0° to 360°, second from its pole (type C: C and gamma), no coarse step
 const uint kLookupGuide = 4u;   // any nodes, found through the guide
@@ -94,8 +94,9 @@ struct TableShape {
   vec2 from;
   vec2 unit;  // in steps
 };
-// A cell is one texel, the four nodes (k, j), (k + 1, j), (k, j + 1), (k + 1, j + 1), row by row: as many cells as nodes and one row and
-// column before them; beyond the table's edge the nodes are dark. The guide: shaders/lib/beam.glsl.
+// A cell is one texel, the four nodes (k, j), (k + 1, j), (k, j + 1), (k + 1, j + 1), row by row: as many cells as
+// nodes and one row and column before them; beyond the table's edge the nodes are dark. Of nodes rounded to decimals,
+// in place of them what the cell's bilinear function comes to where they lay before. The guide: shaders/lib/beam.glsl.
 
 const float kNarrowReach_deg = 46.0;  // half angles of narrow tables take a short polynomial (lib/angles.h)
 

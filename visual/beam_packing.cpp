@@ -105,6 +105,19 @@ void describe_even(PackedBeam& packed, const EvenAxis& first, const EvenAxis& se
   count_cells(packed, first.first, second.first);
 }
 
+// Of each cell, from the one before the first node: where its corners lie that are a step apart, 0 and 1 at its nodes.
+std::vector<glm::dvec2> corners_of(const EvenAxis& axis) {
+  std::vector<glm::dvec2> corners;
+  const auto beside = [&](std::int64_t i) {
+    return i < 0 || i >= axis.count || axis.beside.empty() ? 0.0 : axis.beside[static_cast<std::size_t>(i)];
+  };
+  for (std::int64_t i = -1; i < axis.count; ++i) {
+    const double width = 1.0 + beside(i + 1) - beside(i);
+    corners.emplace_back(-beside(i) / width, (1.0 - beside(i)) / width);
+  }
+  return corners;
+}
+
 // Half a step beyond the table at most, so that what is looked up there is one of its outer cells.
 glm::vec2 reach_of(const EvenAxis& axis, bool narrow) {
   const double most_deg = narrow ? 46.4 : 90.2;
@@ -135,6 +148,13 @@ void describe_ahead(PackedBeam& packed, const EvenAxis& first, const EvenAxis& s
     shape.fine = {x.part, y.part};
     shape.from = {x.from, y.from};
     shape.unit = {x.unit, y.unit};
+    const auto ends = [](const EvenAxis& axis) {
+      const glm::dvec2 even(axis.first, axis.last());
+      return axis.beside.empty() ? even : even + glm::dvec2(axis.beside.front(), axis.beside.back());
+    };
+    shape.range = glm::dvec4(ends(first), ends(second));
+    packed.column_corners = corners_of(first);
+    packed.row_corners = corners_of(second);
     return;
   }
   shape.lookup |= shader::kLookupRounded;

@@ -1,7 +1,9 @@
 // A beam image as the shaders read it: cells of four nodes each, one fetch a look-up. Where the nodes of both axes are
 // multiples of a step (a fine one near 0° and a coarse one beyond; or from a phase), on that even grid: every node of
-// the table is one of it, so bilinear interpolation on it is that of the table. Nodes that are even but for the
-// rounding of a file keep their true places in a guide, an entry a node; any others are found through a guide of bins.
+// the table is one of it, so bilinear interpolation on it is that of the table. Nodes that were even before they were
+// rounded to decimals lie on the even grid, with the values that their cells' bilinear functions have there; nodes that
+// are even but for rounding of another kind keep their true places in a guide, an entry a node; any others are found
+// through a guide of bins.
 // A flat screen keeps its nodes too, by their tangents: evenly in metres, or through a guide. Cheaper levels lie on a
 // fixed even grid and leave the weights to the texture filter.
 #pragma once
@@ -41,6 +43,7 @@ struct PackedBeam {
   // Where the texels come from, to pack a part again.
   bool transposed = false;
   std::vector<NodePlace> column_places, row_places;
+  std::vector<glm::dvec2> column_corners, row_corners;  ///< of nodes rounded to decimals, of each cell; else empty
   std::vector<double> column_tangents, row_tangents;  ///< of a flat screen's nodes; else empty
 
   std::uint32_t lookup() const { return shape.lookup & shader::kLookupKind; }

@@ -16,14 +16,22 @@ TexelRect texels_about(const PackedBeam& packed, const TexelRect& nodes) {
 namespace {
 
 // Each texel of `rect` as `put(bytes, texel)` writes it; `texel`: four nodes of a cell, or a value.
-template <typename Value>
+template <typename Wide, typename Value>
 std::array<Value, 4> nodes_of_cell(const PackedBeam& packed, const std::vector<Value>& nodes, std::size_t column,
                                    std::size_t row) {
   const auto at = [&](std::size_t i, std::size_t j) {  // counted from the node before the first
     const bool there = i > 0 && j > 0 && i <= packed.columns && j <= packed.rows_of_candela;
     return there ? nodes[(j - 1) * packed.columns + i - 1] : Value{};
   };
-  return {at(column, row), at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)};
+  const std::array cell{at(column, row), at(column + 1, row), at(column, row + 1), at(column + 1, row + 1)};
+  if (packed.column_corners.empty()) return cell;
+  const auto between = [](const Wide& from, const Wide& to, double part) { return from + (to - from) * part; };
+  const glm::dvec2 x = packed.column_corners[column], y = packed.row_corners[row];
+  const auto corner = [&](double s, double t) {
+    return static_cast<Value>(
+        between(between(Wide(cell[0]), Wide(cell[1]), s), between(Wide(cell[2]), Wide(cell[3]), s), t));
+  };
+  return {corner(x.x, y.x), corner(x.y, y.x), corner(x.x, y.y), corner(x.y, y.y)};
 }
 
 template <typename Texel>
@@ -55,7 +63,7 @@ std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& texe
       return bytes_of(texels, [&](std::size_t i, std::size_t j) { return half_from_float(filtered(i, j)); });
     case ImageLevel::kHalfNodes:
       return bytes_of(texels, [&](std::size_t i, std::size_t j) {
-        const auto cd = nodes_of_cell(packed, packed.candela, i, j);
+        const auto cd = nodes_of_cell<double>(packed, packed.candela, i, j);
         std::array<std::uint16_t, 4> halves;
         std::transform(cd.begin(), cd.end(), halves.begin(),
                        [&](float value) { return half_from_float(value / packed.scale_cd); });
@@ -64,7 +72,8 @@ std::vector<std::byte> texels_of(const PackedBeam& packed, const TexelRect& texe
     case ImageLevel::kFloatNodes:
       break;
   }
-  return bytes_of(texels, [&](std::size_t i, std::size_t j) { return nodes_of_cell(packed, packed.candela, i, j); });
+  return bytes_of(texels,
+                  [&](std::size_t i, std::size_t j) { return nodes_of_cell<double>(packed, packed.candela, i, j); });
 }
 
 std::vector<std::byte> tint_texels_of(const PackedBeam& packed, const TexelRect& texels) {
@@ -75,7 +84,7 @@ std::vector<std::byte> tint_texels_of(const PackedBeam& packed, const TexelRect&
       return std::array{half_from_float(tint.x), half_from_float(tint.y)};
     });
   const auto reds_and_blues = [&](std::size_t i, std::size_t j) {
-    const auto tint = nodes_of_cell(packed, packed.tints, i, j);
+    const auto tint = nodes_of_cell<glm::dvec2>(packed, packed.tints, i, j);
     return std::array{tint[0].x, tint[1].x, tint[2].x, tint[3].x, tint[0].y, tint[1].y, tint[2].y, tint[3].y};
   };
   if (packed.level == ImageLevel::kFloatNodes) return bytes_of(texels, reds_and_blues);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::int64_t kMaxEvenNodes = 4096;   // of one axis
 constexpr std::int64_t kSmallCells = 1 << 16;  // 1 MiB, which the processor's caches hold
+constexpr double kAsEven = 1e-6;               // steps beside: less than float32 tells of an angle
 constexpr std::int64_t kOctant = 45'000'000;   // millionths of a degree
 
 struct Line {
@@ -51,8 +52,9 @@ Line nearest_line(const std::vector<double>& values) {
 // Makes of the axis that of the nodes before they were rounded to decimals, if they were: all of them, as float32 has
 // it in the shader.
 void find_decimals(EvenAxis& axis, const std::vector<double>& nodes) {
-  // What the shader leaves out, half the square of a unit in steps, is then 2e-6 of the way between two nodes.
-  constexpr double kLargestUnit = 2e-3;
+  // The corners of a cell lie within a unit of its nodes: half floats have room for what is brighter there by 5 % on
+  // either axis.
+  constexpr double kLargestUnit = 0.05;
   constexpr int kMostDecimals = 6;
   double per_unit = 1.0;
   const auto is_whole = [&](double node) { return std::abs(node * per_unit - std::round(node * per_unit)) < 1e-4; };
@@ -96,8 +98,8 @@ std::optional<EvenAxis> rounded_axis(const std::vector<double>& nodes) {
     most = std::max(most, std::abs(axis.beside.back()));
   }
   if (most > 0.2) return std::nullopt;
-  if (most * axis.step < 1e-9)
-    axis.beside.clear();  // computed, not read: as even as double is
+  if (most < kAsEven)
+    axis.beside.clear();
   else
     find_decimals(axis, nodes);
   return axis;

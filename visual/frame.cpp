@@ -72,6 +72,10 @@ double far_mesh_from_m(const PlacedView& view) {
   return view.input.far_mesh_from_m * std::max(1.0, kFarMeshPixel_rad / pixel_rad);
 }
 
+/// Far meshes cast from nearer than they are seen: a texel of a shadow map is at least 2 mrad wide, in its second
+/// picture too, and what they are off by is then 1.25 mrad from the lamp (kFarThingError_rad).
+constexpr double kFarCasters = 0.6;
+
 /// What one view calls for, and no more. `over`: what will lie over it.
 ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver& over) {
   gpu::FrameGraph& graph = parts.graph;
@@ -93,7 +97,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input))
     casters = parts.scene.find_casters(
-        lit, {whole_casters(view.input) ? HUGE_VAL : far_mesh_from_m(view), &lit.geometry});
+        lit, {whole_casters(view.input) ? HUGE_VAL : kFarCasters * far_mesh_from_m(view), &lit.geometry});
   const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
   std::vector<PupilInPicture> pupils =
       pupils_of(view.input, lit.geometry, view.area.extent.width, view.area.extent.height);

@@ -215,8 +215,8 @@ RayTrees ShadowCasters::ray_trees() const {
 
 bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const glm::mat3& turn,
                                const glm::vec3& shift, const Light& light, CastBy& cast) {
-  std::vector<SeenCorner> seen;
-  seen.reserve(mesh.corners_m.size());
+  thread_local std::vector<SeenCorner> seen;
+  seen.clear();
   for (const glm::vec3& corner : mesh.corners_m) seen.push_back(seen_corner(turn * corner + shift, light.sides));
   bool casts = false;
   CutCasters* cut = nullptr;
@@ -242,7 +242,7 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
       cut->corners.insert(cut->corners.end(), {{a.at_m, uv(0)}, {b.at_m, uv(1)}, {c.at_m, uv(2)}});
       cut->bounds.push_back(bounds);
     } else {
-      whole.corners.insert(whole.corners.end(), {a.at_m, b.at_m, c.at_m});
+      for (const SeenCorner* corner : {&a, &b, &c}) whole.corners.push_back(corner->at_m);
       whole.bounds.push_back(bounds);
     }
     casts = true;
@@ -252,7 +252,12 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
 
 CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving,
                          std::size_t carried_by, const CastersFor& wanted) const {
+  constexpr std::size_t kCommonTriangles = 4096;  // of either kind, on a country road
   CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing};
+  for (WholeCasters* whole : {&cast.far_sides, &cast.both_sides}) {
+    whole->corners.reserve(3 * kCommonTriangles);
+    whole->bounds.reserve(kCommonTriangles);
+  }
   Light light{widest(reach, world_from_image)};
   if (wanted.view != nullptr) light.sides = sides_of(*wanted.view, reach.tip_m, world_from_image);
   const glm::dmat3 image_from_world = glm::transpose(world_from_image);

@@ -35,14 +35,11 @@ vec2 rounded_before(samplerBuffer guide, float entry_of_0, float at) {
   return past < 0.0 ? vec2(nearest - 1.0, 1.0 + past * g.z) : vec2(nearest, past * g.w);
 }
 
-// Nodes past node `node`, of nodes that were rounded to so many decimals. It may be a little below 0 or above 1: the next node has another
-// slope there, which for that little (half a unit, EvenAxis) comes to nothing.
-vec2 past_decimals(TableShape shape, vec2 at, vec2 node) {
-  vec2 units = node * shape.fine + shape.from;
+// The node before, of nodes that were rounded to so many decimals: the one nearest by count is rounded again, and may have gone past `at`.
+vec2 decimals_before(TableShape shape, vec2 at) {
+  vec2 units = roundEven(at) * shape.fine + shape.from;
   vec2 over = units - roundEven(units);  // it lies that much before where it would without rounding
-  // The next one is rounded up or down: the way to it is longer or shorter.
-  vec2 nodes = mix(1.0 / (1.0 - shape.fine * shape.unit), 1.0 / (1.0 + (1.0 - shape.fine) * shape.unit), greaterThanEqual(over, 0.5 - shape.fine));
-  return (at - node + over * shape.unit) * nodes;
+  return floor(at + over * shape.unit);
 }
 
 // A table's value and where it was found: its table of colour lies on the same nodes.
@@ -118,10 +115,11 @@ Found ahead(samplerBuffer table, samplerBuffer guide, TableShape shape, uint kin
     return found_in_cell(table, shape, node, part, lit);
   }
   if (kind == kLookupDecimals) {
-    vec2 before = floor(at), past = past_decimals(shape, at, before), beside = floor(past);
-    vec2 node = before + beside, part = past - beside;
-    if ((shape.lookup & kLookupEdge) != 0) lit = within(node + part, shape.range);
-    return found_in_cell(table, shape, node, part, lit);
+    if ((shape.lookup & kLookupEdge) != 0) lit = within(at, shape.range);
+    vec2 node = decimals_before(shape, at);
+    Found found = found_in_cell(table, shape, node, at - node, lit);
+    found.value = max(found.value, 0.0);  // the cell's corners may lie beyond its nodes, darker than dark
+    return found;
   }
   if (shape.coarse != 1.0) {
     vec2 fine = min(max(at, -shape.fine), shape.fine);

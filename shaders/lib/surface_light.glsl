@@ -16,13 +16,13 @@ layout(constant_id = kSpecRetro) const uint retro = 0;
 vec2 surface_detail(vec3 point, vec3 detail_from_point) {
   if (surface == 0) return vec2(1.0);
   vec3 detail = point + detail_from_point;
-  float footprint = grain_footprint(point);
+  float footprint = surface == 4 ? grain_footprint(point) : grain_footprint(point.xy);
 #define GRAIN(LAYER, AT, TILES) grain_at(LAYER, (AT) * ((TILES) / 1024.0), (TILES) / 1024.0, footprint)
   if (surface == 1)  // asphalt: chippings, patches of binder, darker wheel tracks of the world scale
     return vec2(0.35 + 0.7 * GRAIN(kGrainFine, detail.xy, 614.0) + 0.6 * GRAIN(kGrainSoft, detail.yx, 46.0), 1.0);
   if (surface == 2) {  // grass: tufts
     float tufts = GRAIN(kGrainSoft, detail.xy, 317.0);
-    return vec2(0.35 + 0.7 * tufts + 0.6 * GRAIN(kGrainFine, detail.yx, 1024.0), 1.0 + 0.3 * (tufts - 0.5));
+    return vec2(0.35 + 0.7 * tufts + 0.6 * GRAIN(kGrainFine, detail.yx, 1024.0), 0.85 + 0.3 * tufts);
   }
   if (surface == 3)  // paint: worn
     return vec2(0.8 + 0.3 * GRAIN(kGrainFine, detail.xy, 922.0), 1.0);
@@ -35,11 +35,11 @@ vec2 surface_detail(vec3 point, vec3 detail_from_point) {
 // Retroreflected light keeps the tint of the material and not its darkness. `strength`: w of GpuMaterial; `eye_lamp2`: the square of the way from
 // the eye to the lamp, m².
 float sent_back(uint lamp, LampLight light, vec3 point, vec3 n, float level, float strength, float eye_lamp2) {
-  if (light.cos_incidence <= 0.0) return 0.0;
   float eye2 = dot(point, point), inverse_eye = inversesqrt(eye2), cos_seen = -level * inverse_eye;
   // By the law of cosines: how far the lamp is from the eye is one number for the lamp.
   float cos_between = (eye2 + light.distance_m * light.distance_m - eye_lamp2) * (0.5 * inverse_eye) * light.per_m;
   if (retro == kRetroFacets) return strength * facets_share(light.cos_incidence, cos_seen, cos_between);
+  if (light.cos_incidence <= 0.0) return 0.0;
   vec3 toward_lamp = frame.lamps[lamp].position.xyz - point;
   float observation_deg = between_deg(toward_lamp, -point);
   if (retro == kRetroMarking) return marking_sent_back(strength, observation_deg, light.cos_incidence, cos_seen, cos_between);

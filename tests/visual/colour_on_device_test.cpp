@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "visual/photometry/beam/live_beam.h"
 #include "visual/renderer.h"
@@ -14,11 +15,21 @@ namespace {
 constexpr int kWidth = 401, kHeight = 41;
 constexpr double kHalfWidth_deg = 20.0;
 
+enum class Nodes { kEven, kUneven, kRounded };
+
+std::string text_of(Nodes nodes) {
+  return nodes == Nodes::kEven ? "Even" : nodes == Nodes::kUneven ? "Uneven" : "Rounded";
+}
+
 // A lobe of 1000 cd and more between two H, zero outside.
-IntensityTable lobe(double from_deg, double to_deg, bool uneven) {
+IntensityTable lobe(double from_deg, double to_deg, Nodes nodes) {
   IntensityTable table;
-  for (int i = -40; i <= 40; ++i) table.first_deg.push_back(0.5 * i + (uneven ? 0.1 * std::sin(i) : 0.0));
-  for (int j = -20; j <= 20; ++j) table.second_deg.push_back(0.5 * j + (uneven ? 0.1 * std::sin(j) : 0.0));
+  const auto node = [&](int i) {
+    if (nodes == Nodes::kRounded) return std::round(100.0 * i / 2.1) / 100.0;
+    return 0.5 * i + (nodes == Nodes::kUneven ? 0.1 * std::sin(i) : 0.0);
+  };
+  for (int i = -43; i <= 43; ++i) table.first_deg.push_back(node(i));
+  for (int j = -20; j <= 20; ++j) table.second_deg.push_back(node(j));
   for (double v : table.second_deg)
     for (double h : table.first_deg) {
       const double part = (h - from_deg) / (to_deg - from_deg);
@@ -97,15 +108,15 @@ Judged judge(Renderer& renderer, const IntensityTable& a, double a_scale, glm::d
 // matrices of four digits that are not quite each other's inverse by 1e-4.
 constexpr double kChromaticityLimit = 5e-4;
 
-class ColourOnDevice : public testing::TestWithParam<std::tuple<ImageLevel, bool>> {};
+class ColourOnDevice : public testing::TestWithParam<std::tuple<ImageLevel, Nodes>> {};
 
 TEST_P(ColourOnDevice, EachSourceKeepsItsColourAndTheOverlapMixes) {
-  const auto [level, uneven] = GetParam();
+  const auto [level, nodes] = GetParam();
   Result<Renderer> renderer =
       Renderer::create({.width_px = kWidth, .height_px = kHeight, .validation = true, .beam_level = level});
   ASSERT_TRUE(renderer.ok()) << renderer.error().text();
   ASSERT_TRUE(renderer->load_scene(white_wall()).ok());
-  const IntensityTable low = lobe(-15.0, 4.0, uneven), high = lobe(-4.0, 15.0, uneven);
+  const IntensityTable low = lobe(-15.0, 4.0, nodes), high = lobe(-4.0, 15.0, nodes);
   const glm::dvec2 cool = planckian(5500.0), warm = planckian(3200.0);
   LiveBeam beam({{.table = &low, .colour_temperature_k = 5500.0}, {.table = &high, .colour_temperature_k = 3200.0}});
   beam.set_dimming(0, 1.0);
@@ -120,7 +131,7 @@ TEST_P(ColourOnDevice, EachSourceKeepsItsColourAndTheOverlapMixes) {
   ASSERT_EQ(beam.update(), LiveBeam::Change::kWhole);
   renderer->set_beam(0, beam.image());
   const Judged mixed = judge(*renderer, low, 1.0, cool, high, 1.0, warm);
-  std::printf("%s%s: chromaticity within %.1e of float64\n", level_name(level).c_str(), uneven ? ", uneven" : "",
+  std::printf("%s, %s: chromaticity within %.1e of float64\n", level_name(level).c_str(), text_of(nodes).c_str(),
               mixed.worst);
   EXPECT_LT(mixed.worst, kChromaticityLimit);
   EXPECT_GT(mixed.first_alone, 50);
@@ -148,12 +159,12 @@ TEST_P(ColourOnDevice, EachSourceKeepsItsColourAndTheOverlapMixes) {
 INSTANTIATE_TEST_SUITE_P(Levels, ColourOnDevice,
                          testing::Combine(testing::Values(ImageLevel::kHalfEven, ImageLevel::kHalfNodes,
                                                           ImageLevel::kFloatNodes),
-                                          testing::Bool()),
+                                          testing::Values(Nodes::kEven, Nodes::kUneven, Nodes::kRounded)),
                          [](const auto& info) {
                            return std::string(std::get<0>(info.param) == ImageLevel::kHalfEven    ? "HalfEven"
                                               : std::get<0>(info.param) == ImageLevel::kHalfNodes ? "HalfNodes"
                                                                                                   : "FloatNodes") +
-                                  (std::get<1>(info.param) ? "Uneven" : "Even");
+                                  text_of(std::get<1>(info.param));
                          });
 
 // Colour is beside the lux and not in them: to the bit.
@@ -161,7 +172,7 @@ TEST(ColourOnDevice, LuxAreTheSameWhateverTheColours) {
   Result<Renderer> renderer = Renderer::create({.width_px = kWidth, .height_px = kHeight, .validation = true});
   ASSERT_TRUE(renderer.ok()) << renderer.error().text();
   ASSERT_TRUE(renderer->load_scene(white_wall()).ok());
-  const IntensityTable low = lobe(-15.0, 4.0, false), high = lobe(-4.0, 15.0, false);
+  const IntensityTable low = lobe(-15.0, 4.0, Nodes::kEven), high = lobe(-4.0, 15.0, Nodes::kEven);
   std::vector<std::vector<float>> lux;
   std::vector<std::vector<float>> drawn;
   for (const double kelvin : {5500.0, 3200.0}) {

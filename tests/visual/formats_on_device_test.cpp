@@ -96,7 +96,8 @@ std::vector<Format> formats() {
   const IntensityTable bent = on(PhotometricType::kA, GammaAxis::kGamma0, bent_h, bent_v);
   const IntensityTable uneven = on(PhotometricType::kA, GammaAxis::kGamma0, uneven_h, uneven_v);
   // Evenly about 0°, which is no node; and 256 × 128 nodes as a program writes them, rounded to 1e-4°: also with ends
-  // that are rounded, with one that is not as the others say, and so coarsely that a node's place has to be read.
+  // that are rounded, with one that is not as the others say, which takes a second fetch, and coarsely, by up to a 67th
+  // of the way between two nodes; and so finely that they are even.
   const IntensityTable half =
       on(PhotometricType::kA, GammaAxis::kGamma0, steps(-39.75, 39.75, 0.5), steps(-13.9, 9.9, 0.2));
   const auto written = [](double from, double to, int count, double per_unit = 1e4) {
@@ -114,6 +115,8 @@ std::vector<Format> formats() {
   auto one_beside = off_v;
   one_beside[60] += 1e-4;
   const IntensityTable beside = on(PhotometricType::kA, GammaAxis::kGamma0, off_h, one_beside);
+  const IntensityTable finely =
+      on(PhotometricType::kA, GammaAxis::kGamma0, written(-45, 45, 256, 1e7), written(-20, 10, 128, 1e7));
   const IntensityTable thirds =
       on(PhotometricType::kA, GammaAxis::kGamma0, written(-40, 40, 241, 100), written(-40.0 / 3, 10, 71, 1000));
   LampReadSettings gamma90;
@@ -126,9 +129,10 @@ std::vector<Format> formats() {
           {"a_half.ies", lm63_text(half), kLookupAhead},
           {"a_rounded.ies", lm63_text(rounded), kLookupDecimals},
           {"b_rounded.ies", lm63_text(b_rounded), kLookupDecimals},
+          {"a_finely.ies", lm63_text(finely), kLookupAhead},
           {"a_ends.ies", lm63_text(ends), kLookupDecimals},
           {"a_beside.ies", lm63_text(beside), kLookupRounded},
-          {"a_thirds.ies", lm63_text(thirds), kLookupRounded},
+          {"a_thirds.ies", lm63_text(thirds), kLookupDecimals},
           {"a_bent.ies", lm63_text(bent), kLookupRounded},
           {"a_uneven.ies", lm63_text(uneven), kLookupGuide},
           {"b.ies", lm63_text(b), kLookupAhead},
@@ -239,7 +243,8 @@ TEST(FormatsOnDevice, EveryFormatIsItsTable) {
   EXPECT_EQ(renderer->validation_messages(), 0u);
 }
 
-// Beside nodes, nearer than rounding has moved them: there the cell that counting names may be the wrong one.
+// Beside nodes, nearer than rounding has moved them: there the cell that counting names may be the wrong one, whose
+// function is another one there.
 TEST(FormatsOnDevice, NodesThatAreRoundedPartTheirCellsWhereTheyLie) {
   Result<Renderer> renderer = Renderer::create({.width_px = 64, .height_px = 64, .validation = true});
   ASSERT_TRUE(renderer.ok()) << renderer.error().text();

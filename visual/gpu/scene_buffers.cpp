@@ -425,6 +425,7 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
 
 std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far_from_m) const {
   std::vector<DrawItem> items;
+  items.reserve(256);  // some hundred are seen
   for (const SceneBlock& block : blocks) {
     const std::optional<double> block_at = view.sees(block.low_m, block.high_m);
     if (!block_at) continue;

@@ -69,7 +69,8 @@ void write_cells(std::span<std::uint8_t> texels, const std::vector<float>& image
     }
 }
 
-/// Texels that a layer has room for from a level on: grain_layer() of shaders/lib/grain.glsl.
+/// Texels of a layer from a level on; the first half of it is for the levels after that, each where its own number of
+/// texels says (shaders/lib/grain.glsl).
 constexpr std::uint32_t layer_texels(std::uint32_t level) {
   return 2 * kSize * kSize >> 2 * level;
 }
@@ -90,7 +91,7 @@ Grain make_grain(gpu::Device& device) {
       soft = halved(soft, 2 * size);
     }
     if (level < grain.first_level) continue;
-    const std::uint32_t begin = layer - layer_texels(level);
+    const std::uint32_t begin = size * size;
     write_cells(std::span(texels).subspan(4 * begin), fine, size);
     write_cells(std::span(texels).subspan(4 * (layer + begin)), soft, size);
   }

@@ -160,6 +160,7 @@ struct Drawn {
 
 Drawn drawn_into(const Map& map, const CastBy& cast, const ShadowLevel& level, bool textures) {
   Drawn drawn;
+  drawn.corners.reserve(3 * (cast.far_sides.bounds.size() + cast.both_sides.bounds.size()));
   for (std::size_t close = 0; close < 2; ++close) {
     const glm::dvec2 texels = map.texels * (close == 1 ? map.zoom : 1.0);
     const glm::vec2 unread = close == 1 ? glm::vec2(-1e30f) : half_unread(level, map.zoom);

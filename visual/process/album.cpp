@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 
 #include "net/stats.h"
@@ -15,7 +14,6 @@
 namespace phare {
 namespace {
 
-constexpr int kThumbnailWidth_px = 320;
 constexpr std::size_t kSheetPictures = 16;
 constexpr const char* kLastStill = "wall_25m.png";  // written last: where it is, the others are whole
 
@@ -48,20 +46,7 @@ Result<Album> Album::open(const std::filesystem::path& folder, bool going_on) {
 void Album::keep_frame(std::int64_t frame_index, Image8 image, const std::string& label) {
   char name[40];
   std::snprintf(name, sizeof name, "frames/%06lld.png", static_cast<long long>(frame_index));
-  if (!writer_ && !save(name, image)) return;
-  for (std::size_t i = 0; i < image.rgba.size(); i += sizeof(std::uint64_t)) {
-    std::uint64_t pixels = 0;
-    std::memcpy(&pixels, image.rgba.data() + i, std::min(sizeof pixels, image.rgba.size() - i));
-    frames_hash_ = (frames_hash_ ^ pixels) * 0x100000001b3ull;
-    frames_hash_ ^= frames_hash_ >> 32u;  // a product carries upward alone
-  }
-  ++kept_frames_;
-  if (thumbnails_.wants_next())
-    thumbnails_.offer({thumbnail(image, kThumbnailWidth_px), label});
-  else
-    thumbnails_.skip();
-  if (!writer_) return;
-  for (const Status& written : writer_->take(folder_ / name, std::move(image))) keep(written);
+  for (const Status& written : frames_.keep(folder_ / name, std::move(image), label)) keep(written);
 }
 
 void Album::keep_stills(Renderer& renderer, FrameInput driver, const VehicleState& pose, const Lamps& lamps,
@@ -142,11 +127,10 @@ void Album::keep_eye(const nlohmann::json& state) {
 
 void Album::finish() {
   if (!wanted()) return;
-  if (writer_)
-    for (const Status& written : writer_->finish()) keep(written);
+  for (const Status& written : frames_.finish()) keep(written);
   std::error_code ignored;
   std::filesystem::remove(folder_ / kEyeState, ignored);
-  const std::vector<LabelledImage> pictures = thumbnails_.pick(kSheetPictures);
+  const std::vector<LabelledImage> pictures = frames_.thumbnails(kSheetPictures);
   if (!pictures.empty()) save("contact_sheet.png", contact_sheet(pictures));
 }
 

@@ -1,17 +1,16 @@
 // The folder of pictures that a drive leaves behind.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "config/base/result.h"
-#include "visual/image/contact_sheet.h"
 #include "visual/process/cameras.h"
+#include "visual/process/frame_pictures.h"
 #include "visual/process/lamps.h"
-#include "visual/process/picture_writer.h"
 #include "visual/process/versus.h"
 
 namespace phare {
@@ -25,10 +24,8 @@ class Album {
   static Result<Album> open(const std::filesystem::path& folder, bool going_on = false);
 
   bool wanted() const { return !folder_.empty(); }
-  /// Pictures of frames are written beside the drawing from now on: real time waits for no disk. While busy() the next
-  /// one would have to wait.
-  void write_beside() { writer_ = std::make_unique<PictureWriter>(); }
-  bool busy() const { return writer_ && writer_->busy(); }
+  void write_beside() { frames_.write_beside(); }  ///< pictures of frames
+  bool busy() const { return frames_.busy(); }
   /// frames/NNNNNN.png, and a thumbnail for the contact sheet.
   void keep_frame(std::int64_t frame_index, Image8 image, const std::string& label);
   /// drivers_view.png (drawn at twice the size and averaged), hdr.exr, birds_eye.png, wall_25m.png. `driver` is the
@@ -45,17 +42,14 @@ class Album {
   void keep_versus(Renderer& renderer, FrameInput driver, const Versus& versus, const VehicleState& pose,
                    const std::string& label);
   bool has_stills() const { return has_stills_; }
-  /// eye.json: what the eye is adapted to after this frame, for a process that takes the place of this one.
+  /// eye.json: what the eye is adapted to now, for a process that takes the place of this one.
   void keep_eye(const nlohmann::json& state);
   /// What the process before left of it, when going on.
   const std::optional<nlohmann::json>& eye() const { return eye_; }
   /// contact_sheet.png; takes eye.json away
   void finish();
 
-  /// One number over the pixels of every kept frame in order (FNV-1a, 64 bit, two pixels at a time): equal drives give
-  /// equal numbers.
-  std::uint64_t frames_hash() const { return frames_hash_; }
-  std::uint64_t kept_frames() const { return kept_frames_; }
+  const FramePictures& frames() const { return frames_; }
   /// Pictures that the disk did not take, and the first of them with its reason.
   std::uint64_t not_kept() const { return not_kept_; }
   /// Something else that was to be kept and is not: counted as a picture is, and told.
@@ -69,12 +63,9 @@ class Album {
   bool keep(const Status& written);
 
   std::filesystem::path folder_;
-  std::unique_ptr<PictureWriter> writer_;
-  Thumbnails thumbnails_;
+  FramePictures frames_;
   std::optional<nlohmann::json> eye_;
   bool has_stills_ = false;
-  std::uint64_t frames_hash_ = 0xcbf29ce484222325ull;
-  std::uint64_t kept_frames_ = 0;
   std::int64_t frames_found_ = 0;
   std::uint64_t not_kept_ = 0;
   std::string first_not_kept_;

@@ -127,7 +127,7 @@ class Loop {
   DisplayClock clock_;
   std::int64_t drawn_index_ = -1;  // lockstep
   std::int64_t drawn_frames_ = 0;
-  std::int64_t next_picture_ns_ = 0;
+  std::int64_t next_picture_ns_ = 0, next_eye_ns_ = 0;
   Clock::time_point progress_ = Clock::now(), stats_written_ = Clock::now(), frame_end_{};
   Screens screens_;
   RoadEnd road_end_{s_.scene, s_.lane};

@@ -17,11 +17,15 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::int64_t kKeyframe_ns = 100'000'000;  // of the video
+constexpr std::int64_t kEye_ns = 100'000'000;       // in real time: an eye adapts in seconds
 
 }  // namespace
 
 void Loop::keep(const Moment& moment) {
-  if (!s_.eye.fixed()) s_.album.keep_eye(s_.eye.json());
+  if (!s_.eye.fixed() && (s_.options.lockstep || moment.time.ns >= next_eye_ns_)) {
+    s_.album.keep_eye(s_.eye.json());
+    next_eye_ns_ = moment.time.ns + kEye_ns;
+  }
   if (captured_) {
     Image8 image = s_.renderer.read_image();
     if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);

@@ -3,6 +3,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <utility>
+
 namespace phare {
 
 PictureWriter::PictureWriter() : thread_([this] { work(); }) {}
@@ -21,10 +23,10 @@ bool PictureWriter::busy() const {
   return waiting_.size() >= kMostWaiting;
 }
 
-std::vector<Status> PictureWriter::take(std::filesystem::path file, Image8 image) {
+std::vector<Status> PictureWriter::take(std::function<Status()> write) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting; });
-  waiting_.emplace_back(std::move(file), std::move(image));
+  waiting_.push_back(std::move(write));
   changed_.notify_all();
   return std::exchange(done_, {});
 }
@@ -37,17 +39,18 @@ std::vector<Status> PictureWriter::finish() {
 
 void PictureWriter::work() {
   // After the frames: of a thread, on Linux. Where it is not granted, nothing is lost but evenness.
-  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
+  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
     if (waiting_.empty()) return;
-    const auto [file, image] = std::move(waiting_.front());
+    std::function<Status()> write = std::move(waiting_.front());
     waiting_.pop_front();
     writing_ = true;
     changed_.notify_all();
     lock.unlock();
-    Status written = write_png(file, image);
+    Status written = write();
+    write = nullptr;  // with its picture
     lock.lock();
     writing_ = false;
     done_.push_back(std::move(written));

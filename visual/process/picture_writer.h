@@ -3,13 +3,12 @@
 
 #include <condition_variable>
 #include <deque>
-#include <filesystem>
+#include <functional>
 #include <mutex>
 #include <thread>
-#include <utility>
 #include <vector>
 
-#include "visual/image/image.h"
+#include "config/base/result.h"
 
 namespace phare {
 
@@ -20,8 +19,8 @@ class PictureWriter {
 
   /// A picture that came now would have to wait.
   bool busy() const;
-  /// Waits while busy. What came of the pictures before.
-  std::vector<Status> take(std::filesystem::path file, Image8 image);
+  /// `write` is what is to be done with one, after those before it. Waits while busy. What came of the pictures before.
+  std::vector<Status> take(std::function<Status()> write);
   /// Waits for all; what came of them.
   std::vector<Status> finish();
 
@@ -31,7 +30,7 @@ class PictureWriter {
   static constexpr std::size_t kMostWaiting = 2;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::pair<std::filesystem::path, Image8>> waiting_;
+  std::deque<std::function<Status()>> waiting_;
   std::vector<Status> done_;
   bool writing_ = false, ends_ = false;
   std::thread thread_;

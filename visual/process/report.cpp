@@ -128,8 +128,8 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["lamps"] = session.lamps_json;
   report["aims"] = aims_json(session.lamps);
   report["table_ends"] = table_ends_json(session.lamps);
-  report["kept_frames"] = {{"count", session.album.kept_frames()},
-                           {"hash", fmt::format("{:016x}", session.album.frames_hash())},
+  report["kept_frames"] = {{"count", session.album.frames().kept()},
+                           {"hash", fmt::format("{:016x}", session.album.frames().hash())},
                            {"not_kept", session.album.not_kept()},
                            {"first_not_kept", session.album.first_not_kept()}};
   return report;
