@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "shaders/lamps.h"
+#include "visual/caster_grid.h"
 #include "visual/scene/far_mesh.h"
 
 namespace phare {
@@ -264,8 +265,15 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
   const auto distance_m = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
     return glm::distance(reach.tip_m, glm::clamp(reach.tip_m, low_m, high_m));
   };
+  // What is beyond a side with all of its corners is so with all that lies between them: it is convex.
+  const auto shades_the_view = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
+    std::uint32_t beyond = ~0u;
+    for (const glm::vec3& corner : box_corners(image_from_world, reach.tip_m, low_m, high_m))
+      beyond &= seen_corner(corner, light.sides).beyond;
+    return beyond == 0;
+  };
   const auto near = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
-    return distance_m(low_m, high_m) <= kShadowsTo_m && reach.meets(low_m, high_m);
+    return distance_m(low_m, high_m) <= kShadowsTo_m && reach.meets(low_m, high_m) && shades_the_view(low_m, high_m);
   };
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     const Chunk& chunk = chunks_[i];
