@@ -7,6 +7,8 @@
 
 #include "visual/ground_water.h"
 #include "visual/passes/spray.h"
+#include "visual/scene/far_mesh.h"
+#include "visual/shadow_casters.h"
 
 namespace phare {
 namespace {
@@ -72,9 +74,8 @@ double far_mesh_from_m(const PlacedView& view) {
   return view.input.far_mesh_from_m * std::max(1.0, kFarMeshPixel_rad / pixel_rad);
 }
 
-/// Far meshes cast from nearer than they are seen: a texel of a shadow map is at least 2 mrad wide, in its second
-/// picture too, and what they are off by is then 1.25 mrad from the lamp (kFarThingError_rad).
-constexpr double kFarCasters = 0.6;
+static_assert(kFarCasters * kFarMeshFrom_m * kFarLevels[kFarCasterLevels - 1].from < kShadowsTo_m &&
+              kFarCasters * kFarMeshFrom_m * kFarLevels[kFarCasterLevels].from >= kShadowsTo_m);
 
 /// What one view calls for, and no more. `over`: what will lie over it.
 ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver& over) {

@@ -93,8 +93,13 @@ struct CasterMesh {
   std::vector<glm::vec2> uvs{};  ///< of its corners, where its material has holes
 };
 
+/// Far meshes cast from nearer than they are seen: what they are off by is then 1.25 mrad from the lamp
+/// (kFarThingError_rad), half a texel of a map that reaches to the sides. Chosen: at 0.4 pictures change in three times
+/// as many pixels (docs/accuracy.md).
+inline constexpr double kFarCasters = 0.6;
+
 /// So many of kFarLevels begin nearer than kShadowsTo_m from the lamp in a picture of common pixels.
-inline constexpr std::size_t kFarCasterLevels = 3;
+inline constexpr std::size_t kFarCasterLevels = 4;
 
 /// Of one chunk, by how far from the lamp it is: as kFarLevels has it, those that begin nearer than kShadowsTo_m; none
 /// where it is the mesh before. Empty: the whole mesh everywhere.

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ import pytest
 import phare
 import slurm_here
 from phare import sweep
+from phare.sweep import dask_engine
 from phare.sweep.engine import Work
 
 PACKAGE = str(Path(phare.__file__).parents[1])
@@ -123,11 +125,11 @@ def test_jobs_that_the_scheduler_drops_are_asked_for_again(plan, here, dask, tmp
             other.cancel([distributed.Future(key, client=other) for key in waiting], force=True)
             dropped.extend(waiting)
 
-    dropper = threading.Thread(target=drop_what_waits)
+    dropper = threading.Thread(target=drop_what_waits, daemon=True)
     dropper.start()
     done = sweep.run_plan(plan, out, engine=sweep.Dask(address), progress=io.StringIO())
-    dropper.join()
-    assert dropped and done.file.read_bytes() == here and not leftovers(out)
+    dropper.join(timeout=60)
+    assert not dropper.is_alive() and dropped and done.file.read_bytes() == here and not leftovers(out)
 
 
 class DroppedWhileItIsFetched:
@@ -148,7 +150,7 @@ class DroppedWhileItIsFetched:
         def __init__(self, first):
             self.first = first
 
-        def result(self):
+        def result(self, timeout=None):
             if self.first:
                 raise concurrent.futures.CancelledError("dropped")
             return True
@@ -165,6 +167,47 @@ def test_a_job_that_is_dropped_while_its_answer_is_fetched_is_asked_for_again(pl
     assert sorted(job.number for job, _ in ended) == [job.number for job in plan.jobs]
     assert all(why == "" for _, why in ended)
     assert sorted(client.asked) == sorted(2 * [job.number for job in plan.jobs])
+
+
+class ForgottenWithoutAWord:
+    """A client whose every job is forgotten by its scheduler the first time it is asked for, and is done the second time."""
+
+    status = "running"
+
+    def __init__(self):
+        self.jobs = {}
+        self.scheduler = types.SimpleNamespace(get_task_status=self.state)
+
+    def submit(self, _, job, *rest, key, **named):
+        first = all(of.number != job.number for of in self.jobs.values())
+        self.jobs[key] = future = ForgottenWithoutAWord.Future(key, job.number, "pending" if first else "finished")
+        return future
+
+    def state(self, keys):
+        return {key: None if self.jobs[key].status == "pending" else "memory" for key in keys}
+
+    def sync(self, ask, callback_timeout, **named):
+        return ask(**named)
+
+    class Future:
+        def __init__(self, key, number, status):
+            self.key, self.number, self.status = key, number, status
+
+        def result(self, timeout=None):
+            return True
+
+        def release(self):
+            pass
+
+
+def test_jobs_that_the_scheduler_forgets_without_a_word_are_asked_for_again(plan, tmp_path, monkeypatch):
+    pytest.importorskip("distributed")
+    monkeypatch.setattr(dask_engine, "_TELL_AFTER_S", 0.3)
+    client = ForgottenWithoutAWord()
+    client.scheduler_info = lambda: {"workers": {"one": {}}}
+    ended = list(sweep.Dask("tcp://nowhere:1")._gather(client, Work(plan, plan.jobs, tmp_path, tell=lambda line: None)))
+    assert sorted(job.number for job, _ in ended) == [job.number for job in plan.jobs] and all(why == "" for _, why in ended)
+    assert sorted(of.number for of in client.jobs.values()) == sorted(2 * [job.number for job in plan.jobs])
 
 
 def test_a_scheduler_that_is_lost_is_told_and_the_sweep_goes_on_without(plan, here, dask, tmp_path):
@@ -195,7 +238,7 @@ def test_a_scheduler_that_is_lost_in_the_middle_of_an_answer_is_told_too(lost, p
     class Broken:
         status = "finished"
 
-        def result(self):
+        def result(self, timeout=None):
             raise lost
 
     class Gone:

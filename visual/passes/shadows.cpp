@@ -113,28 +113,38 @@ void tell_shadowed(LitView& view, std::span<const Shade> shades) {
   const auto may_fall_on = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
     return std::ranges::any_of(shades, [&](const Shade& shade) { return shade.may_fall_on(low_m, high_m); });
   };
-  std::vector<DrawItem> items, shadowed;
-  for (DrawItem& item : view.items) {
+  std::vector<std::vector<bool>> on_pieces(view.items.size());
+  on_all_cores(view.items.size(), [&](std::size_t i) {
+    DrawItem& item = view.items[i];
     const SceneBatch& batch = *item.batch;
     item.shadowed = may_fall_on(batch.low_m, batch.high_m);
-    if (!item.shadowed || batch.pieces.empty() || item.distance_m > kPiecesTo_m) {
+    if (!item.shadowed || item.distance_m > kPiecesTo_m) return;
+    for (const BatchPiece& piece : batch.pieces)
+      on_pieces[i].push_back(
+          may_fall_on(batch.origin_m + glm::dvec3(piece.low_m), batch.origin_m + glm::dvec3(piece.high_m)));
+  });
+  std::vector<DrawItem> items, shadowed;
+  items.reserve(2 * view.items.size());
+  for (std::size_t i = 0; i < view.items.size(); ++i) {
+    const DrawItem& item = view.items[i];
+    if (on_pieces[i].empty()) {
       items.push_back(item);
       continue;
     }
     shadowed.clear();
     std::uint32_t first_index = item.first_index;
     std::optional<bool> before;
-    for (const BatchPiece& piece : batch.pieces) {
-      const bool here =
-          may_fall_on(batch.origin_m + glm::dvec3(piece.low_m), batch.origin_m + glm::dvec3(piece.high_m));
+    for (std::size_t k = 0; k < on_pieces[i].size(); ++k) {
+      const std::uint32_t count = item.batch->pieces[k].index_count;
+      const bool here = on_pieces[i][k];
       std::vector<DrawItem>& run = here ? shadowed : items;
       if (before != here) {
         run.push_back(item);
         run.back().first_index = first_index, run.back().index_count = 0;
         run.back().shadowed = here;
       }
-      run.back().index_count += piece.index_count;
-      first_index += piece.index_count;
+      run.back().index_count += count;
+      first_index += count;
       before = here;
     }
     items.insert(items.end(), shadowed.begin(), shadowed.end());

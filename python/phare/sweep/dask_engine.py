@@ -24,6 +24,7 @@ _TELL_AFTER_S = 10.0
 _POLL_S = 0.1
 _BACK_WITHIN_S = 15.0  # a client gives a connection up after about 10
 _MOST_ASKED = 5  # of one job
+_ANSWER_S = 30.0  # one bit, or the state of some jobs
 
 
 def _on_worker(job: Job, plan: Plan, folder: str, programs: str) -> bool:
@@ -72,8 +73,16 @@ class Dask(Engine):
             key = f"phare-{os.getpid()}-{time.time_ns()}-{job.number}"  # named anew: no earlier result is taken for it
             return client.submit(_on_worker, job, work.plan, str(work.folder), programs, key=key, pure=False)
 
+        def ask_again(job: Job) -> None:
+            # Dropped on the way, as when the connection broke and came back. Should the first one still be driven somewhere, each
+            # writes beside and renames.
+            if asked[job.number] >= _MOST_ASKED or not self._is_back(client):
+                raise Failed(self._gone())
+            jobs[submitted(job)] = job
+
         jobs = {submitted(job): job for job in work.jobs}
         last_s, told = time.monotonic(), False
+        checked_s = last_s
         while jobs:
             time.sleep(_POLL_S)
             done = [future for future in jobs if future.status != "pending"]
@@ -82,16 +91,16 @@ class Dask(Engine):
                 job = jobs.pop(future)
                 why = self._why(future, work)
                 if why is None:
-                    # Dropped on the way, as when the connection broke and came back: asked for again. Should the first
-                    # one still be driven somewhere, each writes beside and renames.
-                    if asked[job.number] >= _MOST_ASKED or not self._is_back(client):
-                        raise Failed(self._gone())
-                    jobs[submitted(job)] = job
+                    ask_again(job)
                     continue
                 future.release()  # a result that nobody holds is not made anew when its worker is lost later
                 yield job, why
             if client.status != "running":
                 raise Failed(self._gone())
+            if time.monotonic() - max(last_s, checked_s) > _TELL_AFTER_S:
+                checked_s = time.monotonic()
+                for future in self._forgotten(client, list(jobs)):
+                    ask_again(jobs.pop(future))
             if not told and time.monotonic() - last_s > _TELL_AFTER_S and not self._asked(lambda: client.scheduler_info()["workers"]):
                 told = True
                 work.tell(f"waiting: {self._address} has no worker")
@@ -113,15 +122,23 @@ class Dask(Engine):
         except (OSError, asyncio.CancelledError, concurrent.futures.CancelledError) as wrong:
             raise Failed(self._gone()) from wrong
 
+    def _forgotten(self, client: Any, waiting: list[Any]) -> list[Any]:
+        """Those of the futures waited for that the scheduler does not know: word that they were dropped may be lost."""
+        try:
+            states = client.sync(client.scheduler.get_task_status, keys=[future.key for future in waiting], callback_timeout=_ANSWER_S)
+        except (OSError, asyncio.CancelledError, concurrent.futures.CancelledError):
+            return []  # asked again later; whether the client is still there is looked at in each turn
+        return [future for future in waiting if states[future.key] is None and future.status == "pending"]
+
     def _why(self, future: Any, work: Work) -> str | None:
         """Why the job failed; "": it did not. None: it was dropped, before its answer was fetched or while it was."""
         if future.status in ("cancelled", "lost"):
             return None
         try:
             if future.status != "error":
-                return "" if future.result() else f"a worker does not see {work.folder}"
-            wrong = future.exception()
-        except (asyncio.CancelledError, concurrent.futures.CancelledError):
+                return "" if future.result(_ANSWER_S) else f"a worker does not see {work.folder}"
+            wrong = future.exception(_ANSWER_S)
+        except (asyncio.CancelledError, concurrent.futures.CancelledError, TimeoutError, asyncio.TimeoutError):
             return None
         except OSError as broken:
             raise Failed(self._gone()) from broken
