@@ -253,12 +253,7 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
 
 CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving,
                          std::size_t carried_by, const CastersFor& wanted) const {
-  constexpr std::size_t kCommonTriangles = 4096;  // of either kind, on a country road
   CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing};
-  for (WholeCasters* whole : {&cast.far_sides, &cast.both_sides}) {
-    whole->corners.reserve(3 * kCommonTriangles);
-    whole->bounds.reserve(kCommonTriangles);
-  }
   Light light{widest(reach, world_from_image)};
   if (wanted.view != nullptr) light.sides = sides_of(*wanted.view, reach.tip_m, world_from_image);
   const glm::dmat3 image_from_world = glm::transpose(world_from_image);

@@ -126,7 +126,7 @@ class Dask(Engine):
         """Those of the futures waited for that the scheduler does not know: word that they were dropped may be lost."""
         try:
             states = client.sync(client.scheduler.get_task_status, keys=[future.key for future in waiting], callback_timeout=_ANSWER_S)
-        except (OSError, asyncio.CancelledError, concurrent.futures.CancelledError):
+        except (OSError, asyncio.TimeoutError, asyncio.CancelledError, concurrent.futures.CancelledError):
             return []  # asked again later; whether the client is still there is looked at in each turn
         return [future for future in waiting if states[future.key] is None and future.status == "pending"]
 
