@@ -90,6 +90,10 @@ std::vector<vk::DescriptorSetLayoutBinding> bindings(bool filtered) {
   return bindings;
 }
 
+vk::MultiDrawIndexedInfoEXT triangles_of(const DrawItem& item) {
+  return {.firstIndex = item.first_index, .indexCount = item.index_count, .vertexOffset = item.batch->first_vertex};
+}
+
 }  // namespace
 
 LitScene::LitScene(gpu::Device& device, ImageLevel level)
@@ -282,16 +286,17 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVaria
   bool plain = true;  // the vertices are bound as those without a look take them
   vk::Pipeline bound;
   vk::Buffer bound_light;
+  std::vector<vk::MultiDrawIndexedInfoEXT> run;
   for (std::size_t i = 0; i < view.items.size(); ++i) {
     const DrawItem& item = view.items[i];
+    const LitVariant& variant = variants[i];
+    const bool look = variant.kind.look != 0, apart = look || variant.kind.road;
     if (item.lit_by != std::exchange(lit_by, item.lit_by)) {
       bind(commands, view.lit_by[lit_by]);
       if (by_reference) bind_reference(commands, view, view.lit_by[lit_by]);
     }
-    const LitVariant& variant = variants[i];
     if (wanted[i] != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound = wanted[i]);
     push(commands, by_reference ? reference_draw(item) : item.push);
-    const bool look = variant.kind.look != 0, apart = look || variant.kind.road;
     if (look) {
       bind_look(commands, *item.batch, by_reference);
       bound_light = nullptr;
@@ -304,8 +309,17 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVaria
     }
     if (variant.kind.road) bind_road(commands, *item.batch);
     plain = !apart;
-    commands.drawIndexed(item.index_count, 1, item.first_index, apart ? 0 : item.batch->first_vertex,
-                         variant.moves ? probe_in_page(view, item) : 0);
+    if (apart || variant.moves || by_reference) {
+      commands.drawIndexed(item.index_count, 1, item.first_index, apart ? 0 : item.batch->first_vertex,
+                           variant.moves ? probe_in_page(view, item) : 0);
+      continue;
+    }
+    // With those that follow and differ in their triangles alone.
+    run = {triangles_of(item)};
+    while (i + 1 < view.items.size() && wanted[i + 1] == bound && view.items[i + 1].lit_by == lit_by &&
+           view.items[i + 1].is_placed_as(item))
+      run.push_back(triangles_of(view.items[++i]));
+    commands.drawIndexed(run);
   }
 }
 

@@ -55,6 +55,17 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, const DeviceO
   return vk::raii::Instance(context, info);
 }
 
+bool has_multi_draw(const vk::raii::PhysicalDevice& device) {
+  return std::ranges::any_of(device.enumerateDeviceExtensionProperties(),
+                             [](const vk::ExtensionProperties& extension) {
+                               return std::string_view(extension.extensionName.data()) ==
+                                      VK_EXT_MULTI_DRAW_EXTENSION_NAME;
+                             }) &&
+         device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceMultiDrawFeaturesEXT>()
+                 .get<vk::PhysicalDeviceMultiDrawFeaturesEXT>()
+                 .multiDraw == VK_TRUE;
+}
+
 }  // namespace
 
 vk::raii::PhysicalDevice pick_device(const vk::raii::Instance& instance, const std::string& wanted) {
@@ -122,6 +133,12 @@ Device::Device(const DeviceOptions& options) {
                                             .samplerAnisotropy = there.samplerAnisotropy,
                                             .shaderFloat64 = float64 ? VK_TRUE : VK_FALSE};
   std::vector<const char*> extensions;
+  vk::PhysicalDeviceMultiDrawFeaturesEXT of_multi_draw{.multiDraw = VK_TRUE};
+  const bool draws_many = has_multi_draw(physical);
+  if (draws_many) {
+    extensions.push_back(VK_EXT_MULTI_DRAW_EXTENSION_NAME);
+    features13.pNext = &of_multi_draw;
+  }
   if (!options.instance_extensions.empty()) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   device = vk::raii::Device(physical,
                             vk::DeviceCreateInfo{.pNext = &features13,
@@ -130,6 +147,11 @@ Device::Device(const DeviceOptions& options) {
                                                  .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                                  .ppEnabledExtensionNames = extensions.data(),
                                                  .pEnabledFeatures = &features});
+  if (draws_many)
+    multi_draw = {reinterpret_cast<PFN_vkCmdDrawMultiIndexedEXT>(device.getProcAddr("vkCmdDrawMultiIndexedEXT")),
+                  physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMultiDrawPropertiesEXT>()
+                      .get<vk::PhysicalDeviceMultiDrawPropertiesEXT>()
+                      .maxMultiDrawCount};
   queue = vk::raii::Queue(device, queue_family, 0);
   command_pool = vk::raii::CommandPool(
       device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,

@@ -60,6 +60,12 @@ struct DeviceOptions {
 /// So many frames may be on their way to the device: one is recorded while it draws the one before.
 inline constexpr std::size_t kMostFramesInFlight = 2;
 
+/// Draws that differ in their triangles alone, in one call (VK_EXT_multi_draw).
+struct MultiDraw {
+  PFN_vkCmdDrawMultiIndexedEXT draw = nullptr;  ///< none: the device has no such call
+  std::uint32_t most = 0;                       ///< draws in one
+};
+
 /// Throws vk::SystemError or std::runtime_error; the renderer turns these into a Result at its border.
 class Device {
  public:
@@ -77,6 +83,7 @@ class Device {
   std::string driver;
   bool float64 = false;       ///< shaderFloat64 is there and enabled
   float most_anisotropy = 1.0f;  ///< of a sampler
+  MultiDraw multi_draw;
   bool primitive_id = false;  ///< fragments know their triangle: geometryShader is there and enabled
   std::shared_ptr<std::atomic<std::uint64_t>> validation_messages = std::make_shared<std::atomic<std::uint64_t>>(0);
   MemoryCount allocated_bytes = std::make_shared<std::uint64_t>(0);

@@ -53,6 +53,23 @@ State state_of(Use use) {
 
 }  // namespace
 
+void Recorder::drawIndexed(std::span<const vk::MultiDrawIndexedInfoEXT> draws) {
+  if (draws.size() < 2 || multi_draw_.draw == nullptr) {
+    for (const vk::MultiDrawIndexedInfoEXT& one : draws)
+      drawIndexed(one.indexCount, 1, one.firstIndex, one.vertexOffset, 0);
+    return;
+  }
+  for (; !draws.empty(); draws = draws.subspan(std::min<std::size_t>(draws.size(), multi_draw_.most))) {
+    const std::span<const vk::MultiDrawIndexedInfoEXT> now =
+        draws.first(std::min<std::size_t>(draws.size(), multi_draw_.most));
+    std::uint32_t indices = 0;
+    for (const vk::MultiDrawIndexedInfoEXT& one : now) indices += one.indexCount;
+    count(indices, 1);
+    multi_draw_.draw(*this, static_cast<std::uint32_t>(now.size()),
+                     reinterpret_cast<const VkMultiDrawIndexedInfoEXT*>(now.data()), 1, 0, sizeof now.front(), nullptr);
+  }
+}
+
 FrameGraph::FrameGraph(Device& device) : device_(device) {}
 
 void FrameGraph::begin(vk::CommandBuffer commands) {
@@ -187,7 +204,7 @@ void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse
   const vk::QueryPool pool = *stamps[at / kPassesInPool];
   const std::uint32_t first = 2 * (at % kPassesInPool);
   commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first);
-  Recorder recorder(commands_, counts_);
+  Recorder recorder(commands_, counts_, device_.multi_draw);
   record(recorder);
   commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first + 1);
   names.push_back(prefix_ + name);

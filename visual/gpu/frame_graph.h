@@ -57,7 +57,8 @@ struct Counts {
 /// The commands of one pass; what it draws is counted.
 class Recorder : public vk::CommandBuffer {
  public:
-  Recorder(vk::CommandBuffer commands, Counts& counts) : vk::CommandBuffer(commands), counts_(counts) {}
+  Recorder(vk::CommandBuffer commands, Counts& counts, const MultiDraw& multi_draw)
+      : vk::CommandBuffer(commands), counts_(counts), multi_draw_(multi_draw) {}
   void draw(std::uint32_t vertices, std::uint32_t instances, std::uint32_t first_vertex, std::uint32_t first_instance) {
     count(vertices, instances);
     vk::CommandBuffer::draw(vertices, instances, first_vertex, first_instance);
@@ -67,6 +68,8 @@ class Recorder : public vk::CommandBuffer {
     count(indices, instances);
     vk::CommandBuffer::drawIndexed(indices, instances, first_index, vertex_offset, first_instance);
   }
+  /// One instance of each, in their order: one call where the device takes them so.
+  void drawIndexed(std::span<const vk::MultiDrawIndexedInfoEXT> draws);
 
  private:
   void count(std::uint32_t vertices, std::uint32_t instances) {
@@ -74,6 +77,7 @@ class Recorder : public vk::CommandBuffer {
     counts_.triangles += std::uint64_t{vertices} / 3 * instances;
   }
   Counts& counts_;
+  const MultiDraw& multi_draw_;
 };
 
 class FrameGraph {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -33,6 +34,15 @@ Cell cell_of(const SceneChunk& chunk, double side_m) {
   const glm::dvec3 centre = (chunk.low_m + chunk.high_m) * 0.5;
   return {static_cast<std::int64_t>(std::floor(centre.x / side_m)),
           static_cast<std::int64_t>(std::floor(centre.y / side_m))};
+}
+
+/// Of far meshes: one for all in a cube of the side in which the grain of surfaces repeats, so that they are drawn
+/// together. Float32 holds places in it to 0.06 mm.
+glm::dvec3 far_origin_m(const SceneChunk& chunk) {
+  constexpr double kSide_m = 1024.0;
+  constexpr glm::dvec3 kMiddle(0.5, 0.5, 0.0);  // ground is about as high everywhere, and had better not lie in two
+  const glm::dvec3 centre = (chunk.low_m + chunk.high_m) * (0.5 / kSide_m);
+  return (glm::round(centre - kMiddle) + kMiddle) * kSide_m;
 }
 
 struct Gathered {
@@ -227,8 +237,10 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
   std::vector<SceneBatch> batches;
   for (const auto& [key, group] : groups) {
     const SceneChunk& first = *group.front().chunk;
-    SceneBatch batch{
-        .kind = std::get<0>(key), .origin_m = first.origin_m, .low_m = first.low_m, .high_m = first.high_m};
+    SceneBatch batch{.kind = std::get<0>(key),
+                     .origin_m = far_level ? far_origin_m(first) : first.origin_m,
+                     .low_m = first.low_m,
+                     .high_m = first.high_m};
     batch.first_index = static_cast<std::uint32_t>(all.indices.size());
     batch.first_vertex = static_cast<std::int32_t>(all.vertices.size());
     batch.first_look = static_cast<std::uint32_t>(all.looks.size());
@@ -370,6 +382,10 @@ std::uint32_t SceneBatch::first_index_along(const glm::dvec2& direction) const {
   const double turns = std::atan2(direction.y, direction.x) / (2.0 * std::numbers::pi);
   const auto order = static_cast<std::uint32_t>(std::lround((turns + 1.0) * kOrders)) % kOrders;
   return first_index + order * index_count;
+}
+
+bool DrawItem::is_placed_as(const DrawItem& other) const {
+  return moves == other.moves && std::memcmp(&push, &other.push, sizeof push) == 0;
 }
 
 SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving_scene,

@@ -95,6 +95,9 @@ struct DrawItem {
   std::uint32_t moves = kStands;  ///< which of what moves it is
 
   static constexpr std::uint32_t kStands = UINT32_MAX;
+
+  /// Its push constants are the same.
+  bool is_placed_as(const DrawItem& other) const;
 };
 
 /// What moves, about its own origin.

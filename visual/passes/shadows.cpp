@@ -104,6 +104,18 @@ struct Shade {
   }
 };
 
+/// Of those of one kind about one origin, that are drawn in one call where nothing else tells them apart, first those
+/// that no shadow reaches.
+void draw_together(std::vector<DrawItem>& items) {
+  for (auto begin = items.begin(); begin != items.end();) {
+    const auto end = std::find_if_not(begin, items.end(), [&](const DrawItem& item) {
+      return item.batch->kind == begin->batch->kind && item.is_placed_as(*begin);
+    });
+    std::stable_partition(begin, end, [](const DrawItem& item) { return !item.shadowed; });
+    begin = end;
+  }
+}
+
 /// What begins farther away fills so little of a picture that its pieces are not told apart: chosen.
 constexpr float kPiecesTo_m = 60.0f;
 
@@ -150,6 +162,7 @@ void tell_shadowed(LitView& view, std::span<const Shade> shades) {
     items.insert(items.end(), shadowed.begin(), shadowed.end());
   }
   view.items = std::move(items);
+  draw_together(view.items);
 }
 
 template <typename Corner>
