@@ -63,7 +63,11 @@ void Supervisor::let_go() {
 /// One that hangs cannot be asked to end.
 void Supervisor::end_if_hung(Watched& process) {
   if (!process.watchdog || !process.ended_because.empty()) return;
-  const auto why = process.watchdog->hung(Clock::now(), process.alive->newest(), use_of(process.child->pid()));
+  constexpr auto kEvery = std::chrono::milliseconds(50);  // it is long against a look, and short against what hangs
+  const auto now = Clock::now();
+  if (process.looked && now - *process.looked < kEvery) return;
+  process.looked = now;
+  const auto why = process.watchdog->hung(now, process.alive->newest(), use_of(process.child->pid()));
   if (!why) return;
   process.ended_because = *why;
   spdlog::error("{} is {}; ending it", process.spec.name, *why);

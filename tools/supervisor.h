@@ -83,7 +83,8 @@ class Supervisor {
     std::deque<Clock::time_point> restarted;  ///< within the window
     std::optional<AliveFile> alive;
     std::optional<Watchdog> watchdog;  ///< of the child that runs
-    std::string ended_because;         ///< we have ended it: why
+    std::optional<Clock::time_point> looked{};  ///< for signs of life
+    std::string ended_because;                  ///< we have ended it: why
   };
   Status begin(Watched& process, const std::vector<std::string>& arguments);
   void end_if_hung(Watched& process);

@@ -93,6 +93,7 @@ struct Renderer::Impl {
     bool kept = false;          ///< of a frame: something of it is read back
   };
   std::array<Submission, gpu::kMostFramesInFlight> submissions;  ///< by Device::frame
+  std::size_t kept_by = 0;                                       ///< the newest of them that has something read back
   /// Of the newest frame that is done, until they are told.
   struct Times {
     double wall_ms = 0.0, gpu_ms = 0.0;
@@ -144,8 +145,6 @@ struct Renderer::Impl {
     device.device.waitIdle();
     target = {extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
               surface ? surface->format() : vk::Format::eR8G8B8A8Unorm};
-    images.clear();
-    hdrs.clear();
   }
 
   void set_scene(const Scene& new_scene, const Scene& moving, std::shared_ptr<const FixedLight> light,
@@ -206,6 +205,11 @@ struct Renderer::Impl {
   void finish() {
     finish(other_frame());
     finish(device.frame);
+  }
+  /// Until what was kept last is there.
+  void finish_kept() {
+    if (kept_by == device.frame) finish(other_frame());
+    finish(kept_by);
   }
   /// Than the one recorded last: if it is on its way, the older one.
   std::size_t other_frame() const { return (device.frame + 1) % submissions.size(); }
@@ -350,6 +354,7 @@ FrameResult Renderer::draw(const FrameInput& input) {
   Impl::Submission& frame = impl_->submit([&] { result.views = draw_frame(parts, input, display); });
   frame.begun = begun;
   frame.kept = is_kept(input);
+  if (frame.kept) impl_->kept_by = impl_->device.frame;
   result.pipelines_made = *impl_->device.pipelines_made - pipelines_before;
   impl_->finish(impl_->other_frame());
   impl_->misfit = (impl_->surface && !impl_->surface->take(*display)) || impl_->misfit;
@@ -379,8 +384,12 @@ void Renderer::finish() {
   impl_->finish();
 }
 
+bool Renderer::has_kept() const {
+  return !impl_->submissions[impl_->kept_by].on_way;
+}
+
 Image8 Renderer::read_image(std::size_t view) const {
-  impl_->finish();
+  impl_->finish_kept();
   const Impl::Copy& copy = Impl::copy_of(impl_->images, view);
   Image8 image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
   const auto* texels = static_cast<const std::uint8_t*>(copy.buffer.data);
@@ -392,7 +401,7 @@ Image8 Renderer::read_image(std::size_t view) const {
 }
 
 ImageF Renderer::read_hdr(std::size_t view) const {
-  impl_->finish();
+  impl_->finish_kept();
   const Impl::Copy& copy = Impl::copy_of(impl_->hdrs, view);
   ImageF image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
   const auto* half = static_cast<const std::uint16_t*>(copy.buffer.data);

@@ -210,8 +210,10 @@ class Renderer {
   FrameResult draw(const FrameInput& input);
   /// Waits for all frames and shows them: for who has nothing to draw just now.
   void finish();
-  /// After draw with want_image, which is waited for: the picture of the frame's own view with all that lies over it, or what another view
-  /// drew (`view` counts from 1).
+  /// What the newest frame with want_image or want_hdr keeps is there: reading it waits for nothing.
+  bool has_kept() const;
+  /// After draw with want_image, before the next one with it; that frame is waited for: the picture of the frame's own
+  /// view with all that lies over it, or what another view drew (`view` counts from 1).
   Image8 read_image(std::size_t view = 0) const;
   ImageF read_hdr(std::size_t view = 0) const;  ///< after draw with want_hdr: the part of that view
 

@@ -44,7 +44,7 @@ class Helpers {
 
   /// How many of so many there are.
   std::size_t begin_threads(std::size_t wanted) {
-    const std::size_t most = std::max(1u, std::thread::hardware_concurrency()) - 1;
+    static const std::size_t most = std::max(1u, std::thread::hardware_concurrency()) - 1;  // a file is read for it
     wanted = std::min(wanted, most);
     const std::lock_guard lock(mutex_);
     try {

@@ -9,6 +9,7 @@
 #include <stb_image.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -40,10 +41,18 @@ Status write_beside(const std::filesystem::path& file, Write write) {
   return Error{file.string(), reason};
 }
 
+/// The step of 8 bits that is nearest in the signal.
 std::uint8_t srgb_of_linear(float linear) {
-  const double c =
-      linear <= 0.0031308f ? 12.92 * linear : 1.055 * std::pow(static_cast<double>(linear), 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(std::fmin(std::fmax(c, 0.0), 1.0) * 255.0));
+  // Light of the signals half-way between two steps: a search among them is a tenth of a power.
+  static const std::array<float, 255> between = [] {
+    std::array<float, 255> light{};
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      const double c = (static_cast<double>(i) + 0.5) / 255.0;
+      light[i] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    }
+    return light;
+  }();
+  return static_cast<std::uint8_t>(std::ranges::upper_bound(between, linear) - between.begin());
 }
 
 std::size_t texels(int width_px, int height_px) {

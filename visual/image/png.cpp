@@ -1,9 +1,11 @@
 #include "visual/image/png.h"
 
-#include <libdeflate.h>
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
 
 #include <array>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -28,7 +30,7 @@ std::size_t begin_chunk(std::vector<std::uint8_t>& to, std::string_view name) {
 void end_chunk(std::vector<std::uint8_t>& to, std::size_t begin) {
   const std::size_t bytes = to.size() - begin;
   for (std::size_t i = 0; i < 4; ++i) to[begin - 4 + i] = static_cast<std::uint8_t>((bytes - 4) >> (24 - 8 * i));
-  append_u32(to, libdeflate_crc32(0, to.data() + begin, bytes));
+  append_u32(to, crc32_gzip_refl(0, to.data() + begin, bytes));
 }
 
 /// Each of eight bytes of `a` less its own of `b`: what one borrows must not reach the next.
@@ -57,22 +59,32 @@ void filter_row(const std::uint8_t* rgba, std::size_t width_px, std::uint8_t* to
       to[c] = static_cast<std::uint8_t>(rgba[4 * x + c] - rgba[4 * x + c - 4]);
 }
 
-/// Deflates all rows to the end of `to`.
+/// Deflates all rows to the end of `to`, in one piece: in pieces ISA-L looks at what the buffer held before, and its
+/// bytes may be others for the same picture.
 bool append_pixels(std::vector<std::uint8_t>& to, const Image8& image) {
-  constexpr int kFastest = 1;
-  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(kFastest), &libdeflate_free_compressor);
-  if (!compressor) return false;
   const auto width = static_cast<std::size_t>(image.width_px), height = static_cast<std::size_t>(image.height_px);
   const std::size_t row_bytes = 1 + kChannels * width, bytes = row_bytes * height;
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+  const std::size_t room = bytes + bytes / 1024 + 1024;  // of what nothing is saved of: 5 bytes a block of 64 KiB
+  if (room > kMost) return false;
   const auto rows = std::make_unique_for_overwrite<std::uint8_t[]>(bytes + 1);
   for (std::size_t y = 0; y < height; ++y) filter_row(image.rgba.data() + 4 * width * y, width, &rows[y * row_bytes]);
-  const std::size_t before = to.size();
-  to.resize(before + libdeflate_zlib_compress_bound(compressor.get(), bytes));
-  const std::size_t written =
-      libdeflate_zlib_compress(compressor.get(), rows.get(), bytes, to.data() + before, to.size() - before);
-  to.resize(before + written);
-  return written > 0;
+  std::vector<std::uint8_t> level_memory(ISAL_DEF_LVL1_DEFAULT);
+  const auto stream = std::make_unique<isal_zstream>();
+  isal_deflate_stateless_init(stream.get());
+  stream->gzip_flag = IGZIP_ZLIB;
+  stream->level = 1;
+  stream->level_buf = level_memory.data();
+  stream->level_buf_size = static_cast<std::uint32_t>(level_memory.size());
+  stream->end_of_stream = 1;
+  stream->next_in = rows.get();
+  stream->avail_in = static_cast<std::uint32_t>(bytes);
+  const auto deflated = std::make_unique_for_overwrite<std::uint8_t[]>(room);
+  stream->next_out = deflated.get();
+  stream->avail_out = static_cast<std::uint32_t>(room);
+  if (isal_deflate_stateless(stream.get()) != COMP_OK) return false;
+  to.insert(to.end(), deflated.get(), deflated.get() + stream->total_out);
+  return true;
 }
 
 }  // namespace

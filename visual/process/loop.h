@@ -89,6 +89,7 @@ class Loop {
   std::vector<std::string> overlay(const Moment& moment) const;
   void mind_who_is_glared_at(DriveRow& row, const Moment& moment);
   void log_frame(const Moment& moment);
+  void keep_capture();
   void keep_other_designs();
   void write_stats(SimTime now);
 
@@ -137,6 +138,13 @@ class Loop {
   bool over_ = false;      // the drive is, and the window stays
   bool fresh_ = false;     // the lines of the overlay are wanted with the next frame
   bool captured_ = false;  // the picture of this frame is read back
+  /// A picture that is read back, and what it was of.
+  struct Capture {
+    std::int64_t number;
+    Moment moment;
+    std::string label;
+  };
+  std::optional<Capture> capture_;
   FrameInput input_;
   std::vector<Traffic::There> users_;  // other road users in this frame
   std::unique_ptr<Panel> panel_;       // from when it is first shown

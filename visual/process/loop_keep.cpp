@@ -26,14 +26,10 @@ void Loop::keep(const Moment& moment) {
     s_.album.keep_eye(s_.eye.json());
     next_eye_ns_ = moment.time.ns + kEye_ns;
   }
-  if (captured_) {
-    Image8 image = s_.renderer.read_image();
-    if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);
-    if (moment.controls.fail_safe) draw_text(image, 12, 60, "FAIL-SAFE low beam", {255, 90, 60}, 2);
-    if (!moment.controls.source_fault.empty()) draw_text(image, 12, 36, moment.controls.source_fault, {255, 90, 60}, 2);
-    s_.album.keep_frame(number_of(moment), std::move(image), label(moment));
-  }
-  if (wants_stills(moment)) {
+  if (captured_) capture_ = {number_of(moment), moment, label(moment)};
+  const bool stills = wants_stills(moment);
+  if (stills || s_.renderer.has_kept()) keep_capture();
+  if (stills) {
     const FrameInput driver = still_of(moment);
     still_ = Still{driver, moment};
     s_.stills_design = s_.lamps.design_index();
@@ -44,6 +40,18 @@ void Loop::keep(const Moment& moment) {
     progress_ = Clock::now();
     frame_end_ = {};  // not a frame interval
   }
+}
+
+/// Where frames overlap that of a frame is there when the next one has been drawn.
+void Loop::keep_capture() {
+  if (!capture_) return;
+  const auto& [number, moment, label] = *capture_;
+  Image8 image = s_.renderer.read_image();
+  if (moment.car.stale) draw_text(image, 12, 12, "pose held: no VehicleState", {255, 90, 60}, 2);
+  if (moment.controls.fail_safe) draw_text(image, 12, 60, "FAIL-SAFE low beam", {255, 90, 60}, 2);
+  if (!moment.controls.source_fault.empty()) draw_text(image, 12, 36, moment.controls.source_fault, {255, 90, 60}, 2);
+  s_.album.keep_frame(number, std::move(image), label);
+  capture_.reset();
 }
 
 /// The frame as stills have it, whatever camera and layout are shown: the driver's eye over the whole picture, by the
@@ -63,6 +71,7 @@ FrameInput Loop::still_of(const Moment& moment) const {
 
 void Loop::finish() {
   s_.bus.on_datagram = nullptr;
+  keep_capture();
   keep_other_designs();
   s_.album.finish();
   if (newest_ && s_.album.not_kept() > 0) report(*newest_);  // the stills too: the statistics may find no room either

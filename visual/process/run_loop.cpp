@@ -123,7 +123,8 @@ std::optional<Moment> Loop::display_moment() {
     return std::nullopt;
   }
   if (!pacer_.due()) {
-    s_.renderer.finish();  // there is time to wait for the picture
+    if (std::chrono::duration<double, std::milli>(pacer_.left()).count() > s_.stats.newest.wall_ms)
+      s_.renderer.finish();  // there is time to wait for the picture
     s_.bus.wait(pacer_.left());
     return std::nullopt;
   }
@@ -267,6 +268,7 @@ void Loop::draw(const Moment& moment) {
     if (s_.window) input_.overlay = overlay(moment);
   }
   captured_ = wants_picture(moment);
+  if (captured_) keep_capture();  // before another takes its place
   input_.want_image = captured_;
 
   // Picked, measured and audited is the whole view.
