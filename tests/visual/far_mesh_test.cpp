@@ -55,6 +55,34 @@ TEST(FarMeshes, ChangeAPictureOfTheCountryRoadLessThanOneSees) {
   EXPECT_EQ(renderer->validation_messages(), 0u);
 }
 
+TEST(FarMeshes, AreDrawnTogetherWhereTheDeviceTakesManyDrawsInOneCall) {
+  const Result<Scene> scene = read_scene(generated_dir() / "scenes/country_road.glb");
+  ASSERT_TRUE(scene.ok());
+  std::vector<Image8> pictures;
+  std::vector<FrameResult> frames;
+  for (const bool multi_draw : {true, false}) {
+    Result<Renderer> renderer =
+        Renderer::create({.width_px = 1280, .height_px = 720, .validation = true, .multi_draw = multi_draw});
+    ASSERT_TRUE(renderer.ok()) << renderer.error().text();
+    ASSERT_TRUE(renderer->load_scene(*scene).ok());
+    FrameInput input;
+    input.camera.eye_m = {25.0, -1.2, 1.22};
+    input.sky_luminance_cdm2 = 1.0;
+    input.exposure_per_cdm2 = 1.0;
+    input.want_image = true;
+    frames.push_back(renderer->draw(input));
+    pictures.push_back(renderer->read_image());
+    EXPECT_EQ(renderer->validation_messages(), 0u);
+  }
+  EXPECT_EQ(pictures[0].rgba, pictures[1].rgba);
+  EXPECT_EQ(frames[0].triangles, frames[1].triangles);
+  std::printf("%u draws of %llu triangles, one by one %u\n", frames[0].draws,
+              static_cast<unsigned long long>(frames[0].triangles), frames[1].draws);
+  EXPECT_LE(frames[0].draws, frames[1].draws);
+  if (frames[0].draws == frames[1].draws) GTEST_SKIP() << "the device has no VK_EXT_multi_draw";
+  EXPECT_LT(2 * frames[0].draws, frames[1].draws) << "what is far has one origin for all";
+}
+
 TEST(FarMeshes, BeginFartherAwayWherePixelsAreFiner) {
   const Result<Scene> scene = read_scene(generated_dir() / "scenes/country_road.glb");
   ASSERT_TRUE(scene.ok());

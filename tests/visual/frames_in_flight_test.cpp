@@ -121,6 +121,28 @@ TEST(FramesInFlight, EachIsDrawnFromWhatWasWrittenForIt) {
   EXPECT_EQ(one->validation_messages() + two->validation_messages(), 0u);
 }
 
+TEST(FramesInFlight, APictureIsReadWhileTheNextFrameIsDrawn) {
+  Result<Renderer> one = renderer_with(1), two = renderer_with(2);
+  ASSERT_TRUE(one && two);
+  const GuiContent gui = panel();
+  const Image8 alone = picture_of(*one, 2, 0, gui);
+  EXPECT_TRUE(one->has_kept()) << "it was waited for";
+  (void)picture_of(*two, 2, 0, gui);  // pipelines: who makes one waits for it
+  FrameInput input = frame_of(2);
+  input.want_image = true;
+  two->draw(input);
+  EXPECT_FALSE(two->has_kept()) << "it is on its way";
+  input.want_image = false;
+  two->draw(input);
+  EXPECT_TRUE(two->has_kept());
+  EXPECT_EQ(two->read_image().rgba, alone.rgba);
+  EXPECT_FALSE(two->draw(input).timed_kept) << "of the frame that was on its way while the picture was read";
+  two->resize(kWidth_px / 2, kHeight_px / 2);
+  two->draw(input);
+  EXPECT_EQ(two->read_image().rgba, alone.rgba) << "what is kept stays when the size changes";
+  EXPECT_EQ(one->validation_messages() + two->validation_messages(), 0u);
+}
+
 TEST(FramesInFlight, TimesAreToldOnceForEachFrame) {
   Result<Renderer> renderer = renderer_with(2);
   ASSERT_TRUE(renderer);

@@ -169,6 +169,28 @@ TEST(BoxDownscale, AveragesInLinearLight) {
   EXPECT_EQ(thumbnail(blank_image(200, 100, 9, 9, 9), 320).width_px, 200);
 }
 
+// IEC 61966-2-1 by its own formula; what lies within rounding of half-way between two steps may be either.
+TEST(BoxDownscale, GivesTheNearestStepOfEveryMean) {
+  Image8 image = blank_image(512, 512, 0, 0, 0);
+  for (int a = 0; a < 256; ++a)
+    for (int b = 0; b < 256; ++b) {
+      const auto step = static_cast<std::uint8_t>(a), other = static_cast<std::uint8_t>(b);
+      fill_box(image, 2 * a, 2 * b, 1, 2, {step, step, step});
+      fill_box(image, 2 * a + 1, 2 * b, 1, 2, {other, other, other});
+    }
+  const Image8 small = box_downscale(image, 2);
+  const auto linear = [](int step) {
+    const double c = step / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  for (int a = 0; a < 256; ++a)
+    for (int b = 0; b < 256; ++b) {
+      const double mean = 0.5 * (linear(a) + linear(b));
+      const double c = mean <= 0.0031308 ? 12.92 * mean : 1.055 * std::pow(mean, 1.0 / 2.4) - 0.055;
+      ASSERT_NEAR(small.rgba[4 * static_cast<std::size_t>(256 * b + a)], 255.0 * c, 0.5 + 1e-4) << a << ' ' << b;
+    }
+}
+
 TEST(Text, PutsInkInsideItsBox) {
   Image8 image = blank_image(200, 40, 0, 0, 0);
   draw_text(image, 10, 10, "25 m ±20°", {255, 255, 255});

@@ -134,7 +134,7 @@ Device::Device(const DeviceOptions& options) {
                                             .shaderFloat64 = float64 ? VK_TRUE : VK_FALSE};
   std::vector<const char*> extensions;
   vk::PhysicalDeviceMultiDrawFeaturesEXT of_multi_draw{.multiDraw = VK_TRUE};
-  const bool draws_many = has_multi_draw(physical);
+  const bool draws_many = options.multi_draw && has_multi_draw(physical);
   if (draws_many) {
     extensions.push_back(VK_EXT_MULTI_DRAW_EXTENSION_NAME);
     features13.pNext = &of_multi_draw;

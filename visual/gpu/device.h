@@ -55,6 +55,7 @@ struct DeviceOptions {
   std::vector<const char*> instance_extensions{};  ///< what a window needs
   std::string device_name{};  ///< part of the name of the wanted device; empty: the first discrete GPU, else any
   bool float64 = true;        ///< false: as if the device had no shaderFloat64
+  bool multi_draw = true;     ///< false: as if it had no VK_EXT_multi_draw
 };
 
 /// So many frames may be on their way to the device: one is recorded while it draws the one before.
