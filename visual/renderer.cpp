@@ -216,6 +216,10 @@ struct Renderer::Impl {
   /// Than the one recorded last: if it is on its way, the older one.
   std::size_t other_frame() const { return (device.frame + 1) % submissions.size(); }
 
+  /// Lavapipe shows a picture when all is done that was submitted before: the next frame is recorded meanwhile, and
+  /// submitted after.
+  bool shows_in_turn() const { return surface && device.properties.deviceType == vk::PhysicalDeviceType::eCpu; }
+
   void copy_out(gpu::Image& image, const vk::Rect2D& part, Copy& copy, vk::DeviceSize bytes_per_texel) {
     copy.extent = part.extent;
     const vk::DeviceSize bytes = bytes_per_texel * part.extent.width * part.extent.height;
@@ -353,7 +357,10 @@ FrameResult Renderer::draw(const FrameInput& input) {
   const std::uint64_t pipelines_before = *impl_->device.pipelines_made;
   impl_->forget_copies(input);
   if (impl_->options.frames_in_flight > 1) impl_->device.frame = impl_->other_frame();
-  Impl::Submission& frame = impl_->submit([&] { result.views = draw_frame(parts, input, display); });
+  Impl::Submission& frame = impl_->submit([&] {
+    result.views = draw_frame(parts, input, display);
+    if (impl_->shows_in_turn()) impl_->finish(impl_->other_frame());
+  });
   frame.begun = begun;
   frame.kept = is_kept(input);
   if (frame.kept) impl_->kept_by = impl_->device.frame;
