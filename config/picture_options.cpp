@@ -146,7 +146,7 @@ void PictureOptions::add_to(CLI::App& app) {
           "", "percent");
   declare(app.add_option("--frames-in-flight", frames_in_flight,
                          "In real time: 2 prepares a frame while the device draws the one before, 1 shows each sooner "
-                         "[2]"))
+                         "[2; in a window without a GPU 1]"))
       ->check(CLI::IsMember({1, 2}));
   declare(app.add_option("--device", device_name, "Take the Vulkan device whose name contains this"));
   declare(app.add_flag("--validation", validation, "Vulkan validation with synchronization validation"));

@@ -45,7 +45,7 @@ class PictureOptions {
   int road_cuts = 0;       ///< how often each triangle of the ground is cut in four
   std::int64_t audit_every = 300;     ///< frames; 0: never
   std::optional<double> audit_bound;  ///< a share of the light, in place of what the level states
-  std::optional<int> frames_in_flight{};  ///< in real time; else two
+  std::optional<int> frames_in_flight{};  ///< in real time; else two, in a window without a GPU one
   std::string device_name;
   bool validation = false;
 

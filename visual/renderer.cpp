@@ -95,7 +95,7 @@ struct Renderer::Impl {
     bool kept = false;          ///< of a frame: something of it is read back
   };
   std::array<Submission, gpu::kMostFramesInFlight> submissions;  ///< by Device::frame
-  std::size_t kept_by = 0;                                       ///< the newest of them that has something read back
+  std::size_t kept_by = 0;                                       ///< which of them has read something back last
   /// Of the newest frame that is done, until they are told.
   struct Times {
     double wall_ms = 0.0, gpu_ms = 0.0;
@@ -208,8 +208,11 @@ struct Renderer::Impl {
     finish(other_frame());
     finish(device.frame);
   }
-  /// Until what was kept last is there.
+  /// What was kept last is there: its frame is done, or another has its number by now.
+  bool has_kept() const { return !submissions[kept_by].on_way || !submissions[kept_by].kept; }
+  /// Until it is.
   void finish_kept() {
+    if (has_kept()) return;
     if (kept_by == device.frame) finish(other_frame());
     finish(kept_by);
   }
@@ -394,7 +397,7 @@ void Renderer::finish() {
 }
 
 bool Renderer::has_kept() const {
-  return !impl_->submissions[impl_->kept_by].on_way;
+  return impl_->has_kept();
 }
 
 Image8 Renderer::read_image(std::size_t view) const {

@@ -137,6 +137,7 @@ TEST(FramesInFlight, APictureIsReadWhileTheNextFrameIsDrawn) {
   EXPECT_TRUE(two->has_kept());
   EXPECT_EQ(two->read_image().rgba, alone.rgba);
   EXPECT_FALSE(two->draw(input).timed_kept) << "of the frame that was on its way while the picture was read";
+  EXPECT_TRUE(two->has_kept()) << "the frame that has its number now keeps nothing";
   two->resize(kWidth_px / 2, kHeight_px / 2);
   two->draw(input);
   EXPECT_EQ(two->read_image().rgba, alone.rgba) << "what is kept stays when the size changes";

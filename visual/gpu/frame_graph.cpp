@@ -59,9 +59,9 @@ void Recorder::drawIndexed(std::span<const vk::MultiDrawIndexedInfoEXT> draws) {
       drawIndexed(one.indexCount, 1, one.firstIndex, one.vertexOffset, 0);
     return;
   }
-  for (; !draws.empty(); draws = draws.subspan(std::min<std::size_t>(draws.size(), multi_draw_.most))) {
-    const std::span<const vk::MultiDrawIndexedInfoEXT> now =
-        draws.first(std::min<std::size_t>(draws.size(), multi_draw_.most));
+  while (!draws.empty()) {
+    const auto now = draws.first(std::min<std::size_t>(draws.size(), multi_draw_.most));
+    draws = draws.subspan(now.size());
     std::uint32_t indices = 0;
     for (const vk::MultiDrawIndexedInfoEXT& one : now) indices += one.indexCount;
     count(indices, 1);

@@ -94,10 +94,15 @@ Progress progress_line() {
 }
 
 /// Only in real time is there time to gain; channels that show one moment wait for each other, and a budget was
-/// measured with one frame at a time.
-std::size_t frames_in_flight(const VisualOptions& options, const Rig& rig) {
-  if (options.lockstep || rig.channels.size() > 1 || options.budget_ms > 0.0) return 1;
-  return static_cast<std::size_t>(options.frames_in_flight.value_or(2));
+/// measured with one frame at a time. In a window a software device, which shows a picture with the very processors
+/// that draw the next, gains nothing by it, and a driver would see the light 10 ms later.
+Result<std::size_t> frames_in_flight(const VisualOptions& options, const Rig& rig) {
+  if (options.lockstep || rig.channels.size() > 1 || options.budget_ms > 0.0) return std::size_t{1};
+  if (options.frames_in_flight) return static_cast<std::size_t>(*options.frames_in_flight);
+  if (options.headless) return std::size_t{2};
+  const Result<VulkanDevice> device = vulkan_device(options.device_name);
+  if (!device) return device.error();
+  return std::size_t{device->software ? 1u : 2u};
 }
 
 /// Nothing is written before everything that can be wrong has been read.
@@ -158,7 +163,9 @@ int draw_channel(VisualOptions options) {
   drawing.validation = options.validation;
   drawing.beam_level = options.beam_image.value_or(rig->beam_image);
   drawing.device_name = options.device_name;
-  drawing.frames_in_flight = frames_in_flight(options, *rig);
+  const Result<std::size_t> in_flight = frames_in_flight(options, *rig);
+  if (!in_flight) return refuse(with_remedy(in_flight.error()));
+  drawing.frames_in_flight = *in_flight;
   drawing.window = window ? window->handle() : nullptr;
   Result<Renderer> renderer = Renderer::create(drawing);
   if (!renderer) return refuse(with_remedy(renderer.error()));

@@ -33,7 +33,7 @@ struct VisualOptions {
   std::int64_t frames = 0;  ///< > 0: save every one of this many frames, then leave
   int width_px = 0, height_px = 0;  ///< 0: the channel's
   int samples = 1;
-  std::optional<int> frames_in_flight{};                ///< in real time; else two
+  std::optional<int> frames_in_flight{};                ///< in real time; else two, in a window without a GPU one
   std::vector<DeskCommand> desk;                        ///< what the command line sets of the picture, after the rig
   std::optional<std::filesystem::path> traffic_file{};  ///< in place of the rig's
   bool video = false;                                   ///< keep a picture of every frame
