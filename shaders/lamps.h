@@ -69,6 +69,10 @@ const uint kLookupKind = 15u;         // mask of these
 const uint kLookupScaled = 16u;       // the table is not in candela
 const uint kLookupEdge = 32u;         // light at the table's edge: directions have to be compared with it; else dark nodes end it
 const uint kLookupNarrow = 64u;       // of first, and twice that of second: no node beyond kNarrowReach_deg
+// Only a display's 8 bits are written: angles by fewer terms, and of nodes rounded to decimals the cell where they lay
+// before, whose function goes on past its nodes by half a last decimal. Set for the lit pass, by the output and not by
+// the table.
+const uint kLookupShown = 256u;
 
 const uint kOutputDisplay = 0u;      // the display's signal (sRGB), tone curve applied here
 const uint kOutputHdr = 1u;          // cd/m² and illuminance in alpha
@@ -112,9 +116,10 @@ struct GpuLamp {
   vec4 colour;       // rgb, luminance 1 (with a table of colour: r and b what its texels are multiplied by); w: candela of 1.0 in the table
 };
 
-// How a point relative to the eye falls on a lamp's shadow map: (dot(u, p), dot(v, p)) / dot(w, p) in texels to the right of the middle and
-// below it, dot(w, p) the distance along the lamp's axis in m; p as (x, y, z, 1). A map is two pictures of one size, one after the other:
-// all that casts shadows, then the middle zoom.x times as large, where the beam is bright and the road far away. zoom.y: -1 in a mirror, else 1.
+// How a point relative to the eye falls on a lamp's shadow map: (dot(u, p), dot(v, p)) / dot(w, p) in texels to the
+// right of the middle and below it, dot(w, p) the distance along the lamp's axis in m; p as (x, y, z, 1). A map is two
+// pictures of one size, one after the other: all that casts shadows, then the middle zoom.x times as large, where the
+// beam is bright and the road far away; one number for all maps of a view. zoom.y: -1 in a mirror, else 1.
 struct GpuShadow {
   vec4 u;
   vec4 v;

@@ -29,7 +29,7 @@ void main() {
   vec3 first = frame.lamps[0].position.xyz, second = frame.lamps[1].position.xyz;
   in_first = vec4(in_frame(0, point - first), 0.0);
 #ifdef PHARE_ALIKE
-  to_second = in_frame(0, first - second);
+  to_second = vec4(in_frame(0, first - second), 1.0);
 #else
   in_second = in_frame(1, point - second);
 #endif
@@ -53,6 +53,9 @@ void main() {
   detail = vec4(draw.detail_origin.xyz - draw.origin.xyz, material.w);
 #endif
 #ifdef PHARE_SHADOWS
+#ifdef PHARE_ALIKE
+  to_second.w = frame.shadows[shadow_maps % 16u != 0u ? 0 : 1].zoom.x;
+#endif
 #define PHARE_SHADOW_OF(I)                                                                                                           \
   if ((shadow_maps >> (4 * I) & 15u) != 0u)                                                                                          \
     in_shadow[I] = vec3(dot(frame.shadows[I].u, vec4(point, 1.0)), dot(frame.shadows[I].v, vec4(point, 1.0)), dot(frame.shadows[I].w, vec4(point, 1.0)));

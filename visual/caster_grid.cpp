@@ -34,15 +34,39 @@ struct Bounds {
   glm::vec2 most() const { return {left, high}; }
 };
 
-/// Of a triangle that reaches past the lamp.
-CastBounds open_bounds(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-  Bounds bounds;
-  for (const glm::vec3& corner : {a, b, c})
-    if (corner.x >= shader::kShadowNear_m) bounds.add(corner);
-  bounds.add_crossing(a, b);
-  bounds.add_crossing(b, c);
-  bounds.add_crossing(c, a);
-  return {bounds.least(), bounds.most(), bounds.nearest_m};
+/// What of a triangle that reaches past the lamp lies before a plane across its axis: none, three or four corners.
+struct Clipped {
+  std::array<glm::vec3, 4> corners{};
+  std::size_t count = 0;
+};
+
+Clipped ahead_of(float near_m, const std::array<glm::vec3, 3>& triangle) {
+  Clipped clipped;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::vec3 &a = triangle[i], &b = triangle[(i + 1) % 3];
+    if (a.x >= near_m) clipped.corners[clipped.count++] = a;
+    if ((a.x < near_m) == (b.x < near_m)) continue;
+    const glm::vec3 at = a + (b - a) * ((near_m - a.x) / (b.x - a.x));
+    clipped.corners[clipped.count++] = {near_m, at.y, at.z};
+  }
+  return clipped;
+}
+
+/// A map to the tangents `half_sides` holds nothing of a triangle that is nearer: what lies far beside the axis comes
+/// into it far ahead.
+float begins_m(const std::array<glm::vec3, 3>& triangle, const glm::vec2& half_sides) {
+  glm::vec2 nearest(std::numeric_limits<float>::infinity());
+  glm::vec2 least(nearest), most(-nearest);
+  for (const glm::vec3& corner : triangle) {
+    const glm::vec2 beside(corner.y, corner.z);
+    nearest = glm::min(nearest, glm::abs(beside)), least = glm::min(least, beside), most = glm::max(most, beside);
+  }
+  // With three hundredths to spare, for the texels that are weighed about a point.
+  constexpr float kSpare = 0.97f;
+  float begin_m = shader::kShadowNear_m;
+  for (int axis = 0; axis < 2; ++axis)
+    if (least[axis] > 0.0f || most[axis] < 0.0f) begin_m = std::max(begin_m, kSpare * nearest[axis] / half_sides[axis]);
+  return begin_m;
 }
 
 /// p·(to the left) + q·up + r, by tangents.
@@ -54,14 +78,16 @@ struct Slope {
 struct SeenTriangle {
   SeenTriangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, float nearest_m)
       : least_per_m(1.0f / std::max({a.x, b.x, c.x})), most_per_m(1.0f / nearest_m) {
-    // Of tangents, which are 4 at most, rounded.
-    constexpr float kRounding = 1e-5f;
     const std::array<glm::vec2, 3> at{glm::vec2(a.y, a.z) / a.x, glm::vec2(b.y, b.z) / b.x, glm::vec2(c.y, c.z) / c.x};
+    // Of tangents, which are 4 at most where a triangle is whole, rounded.
+    float largest = 4.0f;
+    for (const glm::vec2& tangent : at) largest = std::max({largest, std::abs(tangent.x), std::abs(tangent.y)});
+    const float rounding = 2.5e-6f * largest;
     const auto across = [](const glm::vec2& u, const glm::vec2& v) { return u.x * v.y - u.y * v.x; };
     const float area = across(at[1] - at[0], at[2] - at[0]);
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::vec2 along = (at[(i + 1) % 3] - at[i]) * (area < 0.0f ? -1.0f : 1.0f);
-      const float room = kRounding * (std::abs(along.x) + std::abs(along.y));
+      const float room = rounding * (std::abs(along.x) + std::abs(along.y));
       if (std::abs(area) > 1e-7f) inside[i] = {-along.y, along.x, along.y * at[i].x - along.x * at[i].y + room};
     }
     // 1 over the way forward is even over the lamp's view.
@@ -162,16 +188,21 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
     if (cells.end_row > end_row_) above_per_m_ = std::max(above_per_m_, per_m), cells.end_row = end_row_;
     return cells;
   };
-  const auto add = [&](const CastBounds& bounds, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-    if (bounds.beside) {
-      const CastBounds open = open_bounds(a, b, c);
-      return raise(below(cells_of(open.least, open.most), 1.0f / open.nearest_m), 1.0f / open.nearest_m);
-    }
+  const auto add_ahead = [&](const CastBounds& bounds, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const Cells cells = below(cells_of(bounds.least, bounds.most), 1.0f / bounds.nearest_m);
     constexpr int kFew = 4;
     if ((cells.end_row - cells.first_row) * (cells.end_column - cells.first_column) <= kFew)
       return raise(cells, 1.0f / bounds.nearest_m);
     raise_by(SeenTriangle(a, b, c, bounds.nearest_m), cells);
+  };
+  const auto add = [&](const CastBounds& bounds, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    if (!bounds.beside) return add_ahead(bounds, a, b, c);
+    const Clipped clipped = ahead_of(begins_m({a, b, c}, half_sides), {a, b, c});
+    for (std::size_t i = 2; i < clipped.count; ++i) {
+      Bounds of;
+      for (const std::size_t corner : {std::size_t{0}, i - 1, i}) of.add(clipped.corners[corner]);
+      add_ahead({of.least(), of.most(), of.nearest_m}, clipped.corners[0], clipped.corners[i - 1], clipped.corners[i]);
+    }
   };
   for (const WholeCasters* whole : {&cast.far_sides, &cast.both_sides})
     for (std::size_t i = 0; i < whole->bounds.size(); ++i) {

@@ -136,7 +136,9 @@ void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
                          variant.shadow_maps, variant.shadows.width, variant.shadows.height, variant.shadows.taps,
                          static_cast<std::uint32_t>(variant.method), variant.fog.lamps,
                          variant.fog.columns | variant.fog.rows << 16u, variant.fog.slices});
-  numbers.put_all(shader::kSpecTables, table_words(variant.tables));
+  const bool shown = (variant.output == LampOutput::kDisplay || variant.output == LampOutput::kClipping) &&
+                     variant.method == Method::kFragment;
+  numbers.put_all(shader::kSpecTables, table_words(variant.tables, shown));
   const bool textured = variant.kind.look != 0;
   if (textured) numbers.put(shader::kSpecLook, variant.kind.look);
   if (variant.wet) numbers.put(shader::kSpecWet, 1);

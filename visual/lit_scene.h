@@ -204,8 +204,9 @@ class LitScene {
   vk::DescriptorSetLayout lamps_layout() const { return sets_.layout(); }
   /// Beams are weighed by the texture filter.
   bool filtered() const;
-  /// The shapes of the tables of a set of lamps, as specialization constants from kSpecTables on.
-  std::vector<std::uint32_t> table_words(std::size_t tables) const;
+  /// The shapes of the tables of a set of lamps, as specialization constants from kSpecTables on. `shown`: only for the
+  /// 8 bits of a display (shader::kLookupShown).
+  std::vector<std::uint32_t> table_words(std::size_t tables, bool shown = false) const;
   vk::Pipeline pipeline(const LitVariant& variant) { return pipelines(std::span(&variant, 1)).front(); }
   /// Of each, in their order. Those that are not there yet are made together.
   std::vector<vk::Pipeline> pipelines(std::span<const LitVariant> variants);

@@ -96,14 +96,19 @@ Found on_screen(samplerBuffer table, samplerBuffer guide, sampler2D image, Table
   return found;
 }
 
+// Half an angle over its tangent, of the axis whose bit is kLookupNarrow or twice that.
+float half_angle(TableShape shape, uint narrow, float t2) {
+  if ((shape.lookup & kLookupShown) != 0) return (shape.lookup & narrow) != 0 ? atan_over_t_shown(t2) : atan_over_t_wide_shown(t2);
+  return (shape.lookup & narrow) != 0 ? atan_over_t(t2) : atan_over_t_wide(t2);
+}
+
 // What lies ahead, by tangents of half the angles: side over hypotenuse and the other side. Three divisions, for one of a common product would
 // wait for both roots and four products.
 Found ahead(samplerBuffer table, samplerBuffer guide, TableShape shape, uint kind, vec2 half_tangent) {
   // Beyond its reach the table is dark; held there, every cell that is read is one of it.
   vec2 t = min(max(half_tangent, shape.reach.xz), shape.reach.yw);
   vec2 t2 = t * t;
-  vec2 angle = 2.0 * t * vec2((shape.lookup & kLookupNarrow) != 0 ? atan_over_t(t2.x) : atan_over_t_wide(t2.x),
-                              (shape.lookup & 2 * kLookupNarrow) != 0 ? atan_over_t(t2.y) : atan_over_t_wide(t2.y));
+  vec2 angle = 2.0 * t * vec2(half_angle(shape, kLookupNarrow, t2.x), half_angle(shape, 2 * kLookupNarrow, t2.y));
   // In nodes from one next to 0°: beside the cut-off the numbers are small and the parts exact.
   vec2 at = angle * shape.per - shape.phase;
   bool lit = true;
@@ -116,7 +121,7 @@ Found ahead(samplerBuffer table, samplerBuffer guide, TableShape shape, uint kin
   }
   if (kind == kLookupDecimals) {
     if ((shape.lookup & kLookupEdge) != 0) lit = within(at, shape.range);
-    vec2 node = decimals_before(shape, at);
+    vec2 node = (shape.lookup & kLookupShown) != 0 ? floor(at) : decimals_before(shape, at);
     Found found = found_in_cell(table, shape, node, at - node, lit);
     found.value = max(found.value, 0.0);  // the cell's corners may lie beyond its nodes, darker than dark
     return found;

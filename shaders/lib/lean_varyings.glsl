@@ -20,8 +20,8 @@
 
 layout(location = 0) PHARE_VARYING vec4 in_first;  // the point in the first lamp's frame, rows a, b, c; w, not flat: n times the way from eye to lamp
 #ifdef PHARE_ALIKE
-layout(location = 1) flat PHARE_VARYING vec3 to_second;  // what to add for the second's frame
-#define PHARE_IN_SECOND (in_first.xyz + to_second)
+layout(location = 1) flat PHARE_VARYING vec4 to_second;  // what to add for the second's frame; w: as zoom.x of GpuShadow, which all of a view share
+#define PHARE_IN_SECOND (in_first.xyz + to_second.xyz)
 #else
 layout(location = 1) PHARE_VARYING vec3 in_second;
 #define PHARE_IN_SECOND in_second

@@ -59,8 +59,14 @@ float reaching(vec3 at, uint map, vec2 zoom) {
 #define PHARE_SHADOW_AT(I) in_shadow[I]
 #endif
 
+#ifdef PHARE_ALIKE
+#define PHARE_SHADOW_ZOOM(I) vec2(to_second.w, frame.shadows[I].zoom.y)
+#else
+#define PHARE_SHADOW_ZOOM(I) frame.shadows[I].zoom.xy
+#endif
+
 #define PHARE_REACHING(I) \
   ((shadow_maps >> (4 * I) & 15u) == 0u ? 1.0                                                                          \
    : shadow_taps > kTapsOfRays ? reaching_by_rays(PHARE_SHADOW_AT(I), I, (shadow_maps >> (4 * I) & 15u) - 1u) \
-                               : reaching(PHARE_SHADOW_AT(I), (shadow_maps >> (4 * I) & 15u) - 1u, frame.shadows[I].zoom.xy))
+                               : reaching(PHARE_SHADOW_AT(I), (shadow_maps >> (4 * I) & 15u) - 1u, PHARE_SHADOW_ZOOM(I)))
 #endif

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "shaders/lamps.h"
 #include "visual/caster_grid.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/scene/far_mesh.h"
@@ -153,9 +154,10 @@ TEST(CasterGrid, NoBoxIsClearOnWhichAShadowFalls) {
         for (const double across : {-1.0, 0.0, 1.0})
           for (const double up : {-1.0, 0.0, 1.5}) {
             const glm::dvec2 beside = glm::dvec2(across, up) * texel * (close ? 1.0 / zoom : 1.0) * at.x;
-            const glm::dvec3 read_m = lamp_m + turn * (at + glm::dvec3(0.0, beside));
-            for (const Corners& triangle : triangles)
-              ASSERT_FALSE(stands_between(lamp_m, read_m, triangle))
+            const glm::dvec3 to_read_m = turn * (at + glm::dvec3(0.0, beside)), read_m = lamp_m + to_read_m;
+            const glm::dvec3 from_m = lamp_m + to_read_m * (static_cast<double>(shader::kShadowNear_m) / at.x);
+            for (const Corners& triangle : triangles)  // a map holds nothing that is nearer
+              ASSERT_FALSE(stands_between(from_m, read_m, triangle))
                   << "round " << round << ", box " << i << " at " << at.x << ", " << at.y << ", " << at.z;
           }
       }

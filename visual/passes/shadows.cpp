@@ -68,12 +68,13 @@ std::size_t texels_of_map(const ShadowLevel& level) {
 struct Map {
   std::size_t lamp = 0;    ///< of the view
   glm::dvec2 texels{0.0};  ///< of its first picture, to a tangent of 1
-  double zoom = 1.0;       ///< of its second
+  double zoom = 1.0;       ///< of its second; the same for all of a view
 };
 
 /// A map for each lamp that something stands before, `most` of them; the view's data say where points fall on it.
 std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t most) {
   std::vector<Map> maps;
+  double zoom = HUGE_VAL;
   for (std::size_t lamp = 0; lamp < view.casts.size(); ++lamp) {
     if (view.casts[lamp].count == 0) continue;
     if (maps.size() == most) {
@@ -81,13 +82,18 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
       continue;
     }
     const glm::dvec2 half = half_sides(view.casts[lamp].part);
-    maps.push_back({lamp, {(0.5 * level.width - 1.0) / half.x, (0.5 * level.height - 1.0) / half.y}, zoom_of(half)});
-    const shader::GpuShadow place = place_of(view.lit_lamps[lamp], view.geometry, maps.back().texels, maps.back().zoom);
+    maps.push_back({lamp, {(0.5 * level.width - 1.0) / half.x, (0.5 * level.height - 1.0) / half.y}});
+    zoom = std::min(zoom, zoom_of(half));
+  }
+  for (std::size_t map = 0; map < maps.size(); ++map) {
+    maps[map].zoom = zoom;
+    const std::size_t lamp = maps[map].lamp;
+    const shader::GpuShadow place = place_of(view.lit_lamps[lamp], view.geometry, maps[map].texels, zoom);
     for (LitBy& lit : view.lit_by)
       for (std::size_t k = 0; k < lit.lamps; ++k) {
         if (lit.lamp_at[k] != lamp) continue;
         lit.data->shadows[k] = place;
-        lit.shadow_maps |= static_cast<std::uint32_t>(maps.size()) << (4 * k);
+        lit.shadow_maps |= static_cast<std::uint32_t>(map + 1) << (4 * k);
       }
   }
   return maps;
