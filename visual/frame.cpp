@@ -98,7 +98,9 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   std::optional<std::size_t> casters;
   if (looks_for_casters(view.input))
     casters = parts.scene.find_casters(
-        lit, {whole_casters(view.input) ? HUGE_VAL : kFarCasters * far_mesh_from_m(view), &lit.geometry});
+        lit, {.far_from_m = whole_casters(view.input) ? HUGE_VAL : kFarCasters * far_mesh_from_m(view),
+              .view = &lit.geometry,
+              .faint_lx = faint_lx(view.input)});
   const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
   std::vector<PupilInPicture> pupils =
       pupils_of(view.input, lit.geometry, view.area.extent.width, view.area.extent.height);

@@ -1,5 +1,7 @@
 #include "visual/frame_facts.h"
 
+#include <numbers>
+
 namespace phare {
 
 EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optional<std::size_t> casters,
@@ -54,6 +56,10 @@ bool looks_for_casters(const ViewInput& view) {
 bool whole_casters(const ViewInput& view) {
   constexpr auto kShadows = static_cast<std::size_t>(Effect::kShadows);
   return (view.effects[kShadows] ? view.effects : view.picked)[kShadows].value_or(0) >= kWholeCasters;
+}
+
+double faint_lx(const ViewInput& view) {
+  return whole_casters(view) ? 0.0 : std::numbers::pi * kFaintShown / view.exposure_per_cdm2;
 }
 
 bool asks_for_rays(const ViewInput& view) {

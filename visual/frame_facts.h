@@ -49,6 +49,11 @@ bool looks_for_casters(const ViewInput& view);
 
 /// The user wants a level of shadows at which things cast with all their triangles, however far they are.
 bool whole_casters(const ViewInput& view);
+/// CastersFor::faint_lx at the view's exposure: 0 at those levels, else what makes white paper kFaintShown.
+double faint_lx(const ViewInput& view);
+/// Of the display's white, in linear light: 8 of 255 in a picture, and less than 1 of 255 on leaves. Chosen: 0.01 lx
+/// at the exposure of a drive at night, a twentieth of what the full moon gives.
+inline constexpr double kFaintShown = 0.0025;
 /// The user wants shadows by rays.
 bool asks_for_rays(const ViewInput& view);
 

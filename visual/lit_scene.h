@@ -306,6 +306,7 @@ class LitScene {
   std::shared_ptr<const FixedLight> fixed_light_ = std::make_shared<FixedLight>();
   BeamStore beams_;
   std::vector<LightCone> cones_;  ///< of each beam
+  std::vector<LightPeaks> peaks_;  ///< the same
   std::vector<std::uint64_t> beam_versions_;
   std::vector<BeamImage> images_;  ///< of each beam, where the device has float64
   std::vector<float> peaks_cd_;    ///< of each beam; of one that was changed, at most

@@ -44,7 +44,9 @@ std::size_t LitScene::find_casters(LitView& view, const CastersFor& wanted) cons
   view.casts.resize(view.lit_lamps.size());
   on_all_cores(view.casts.size(), [&](std::size_t i) {
     const PlacedLamp& lamp = view.lit_lamps[i];
-    view.casts[i] = casters_.by(reach_of(lamp), lamp.world_from_image, view.moving, lamp.carried_by, wanted);
+    CastersFor by_lamp = wanted;
+    by_lamp.peaks = &peaks_[lamp.beam];
+    view.casts[i] = casters_.by(reach_of(lamp), lamp.world_from_image, view.moving, lamp.carried_by, by_lamp);
   });
   return casters_of_all(view.casts);
 }

@@ -232,6 +232,7 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
     if ((a.beyond & b.beyond & c.beyond) != 0) continue;
     const CastBounds bounds = bounds_of(a, b, c);
     if (!(a.ahead || b.ahead || c.ahead) || static_cast<double>(bounds.nearest_m) > kShadowsTo_m) continue;
+    if (!bounds.beside && light.faint(bounds.least, bounds.most, bounds.nearest_m)) continue;
     if (cut == nullptr && !chunk.double_sided && !shows_its_far_side(a.at_m, b.at_m, c.at_m)) continue;
     if (!lies_in(bounds, cast.part)) {
       const TangentRect part = common(part_of({a.at_m, b.at_m, c.at_m}, light.sides), light.part);
@@ -254,7 +255,8 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
 CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving,
                          std::size_t carried_by, const CastersFor& wanted) const {
   CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing};
-  Light light{widest(reach, world_from_image)};
+  Light light{.part = widest(reach, world_from_image)};
+  if (wanted.faint_lx > 0.0) light.peaks = wanted.peaks, light.faint_lx = static_cast<float>(wanted.faint_lx);
   if (wanted.view != nullptr) light.sides = sides_of(*wanted.view, reach.tip_m, world_from_image);
   const glm::dmat3 image_from_world = glm::transpose(world_from_image);
   const auto distance_m = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
@@ -267,8 +269,18 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
       beyond &= seen_corner(corner, light.sides).beyond;
     return beyond == 0;
   };
+  const auto stands_in_faint_light = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
+    glm::vec2 least(std::numeric_limits<float>::infinity()), most(-least);
+    for (const glm::vec3& corner : box_corners(image_from_world, reach.tip_m, low_m, high_m)) {
+      if (corner.x < shader::kShadowNear_m) return false;
+      const glm::vec2 tangents = glm::vec2(corner.y, corner.z) / corner.x;
+      least = glm::min(least, tangents), most = glm::max(most, tangents);
+    }
+    return light.faint(least, most, static_cast<float>(distance_m(low_m, high_m)));
+  };
   const auto near = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
-    return distance_m(low_m, high_m) <= kShadowsTo_m && reach.meets(low_m, high_m) && shades_the_view(low_m, high_m);
+    return distance_m(low_m, high_m) <= kShadowsTo_m && reach.meets(low_m, high_m) && shades_the_view(low_m, high_m) &&
+           !stands_in_faint_light(low_m, high_m);
   };
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     const Chunk& chunk = chunks_[i];

@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "visual/light_peaks.h"
 #include "visual/light_reach.h"
 #include "visual/scene/ray_tree.h"
 #include "visual/scene/world.h"
@@ -111,6 +112,9 @@ struct CastersFor {
   double far_from_m = std::numeric_limits<double>::infinity();
   /// Shadows fall into this view alone; null: anywhere.
   const ViewGeometry* view = nullptr;
+  /// What hides no more than so much of the lamp's light, lx facing it, casts none; 0: all that stands in it casts.
+  double faint_lx = 0.0;
+  const LightPeaks* peaks = nullptr;  ///< of the lamp's beam; null: it may shine anywhere
 };
 
 /// Triangles for rays. `cut` of theirs counts in `cut` here.
@@ -161,6 +165,13 @@ class ShadowCasters {
     TangentRect part;
     /// Of each side of the view, its normal inward and how far along that a corner lies at most whose shadow is beyond.
     std::vector<glm::vec4> sides{};
+    const LightPeaks* peaks = nullptr;  ///< with `faint_lx`, as CastersFor has them
+    float faint_lx = 0.0f;
+
+    /// All that shines between these tangents is faint where it has come so far.
+    bool faint(const glm::vec2& least, const glm::vec2& most, float distance_m) const {
+      return peaks != nullptr && !peaks->exceeds(least, most, faint_lx * distance_m * distance_m);
+    }
   };
   /// Adds the triangles of a chunk that cast; false: none does. `turn`, `shift`: from its corners into the lamp's
   /// frame.

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <random>
 
 #include "tests/visual/yard.h"
+#include "visual/light_peaks.h"
 
 namespace phare {
 namespace {
@@ -127,6 +130,60 @@ TEST(LightReach, ADarkBeamReachesNothingAndAChangeWidensTheCone) {
   const LightCone after = light_cone_after(before, image, std::span(&whole, 1));
   EXPECT_GT(after.half_angle_rad, before.half_angle_rad + 0.4);
   EXPECT_EQ(light_cone_after(before, image, {}).half_angle_rad, before.half_angle_rad);
+}
+
+// A bound from above, wherever one asks and however large a part; and one that tells dark parts of a beam from lit
+// ones.
+TEST(LightPeaks, NoDirectionHasMoreThanIsTold) {
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  std::size_t asked = 0, told_dark = 0;
+  for (const IntensityTable& table : tables()) {
+    const AimedSource source{.table = &table};
+    const BeamImage image = compose_beam_image(std::span(&source, 1));
+    const LightPeaks peaks(image);
+    for (int i = 0; i < 400; ++i) {
+      const glm::dvec2 middle(3.5 * any(random), any(random)),
+          half = glm::abs(glm::dvec2(any(random), 0.3 * any(random)));
+      const glm::dvec2 least = middle - half, most = middle + half;
+      double brightest_cd = 0.0;
+      for (int k = 0; k < 60; ++k) {
+        const glm::dvec2 at = middle + half * glm::dvec2(any(random), any(random));
+        brightest_cd = std::max(brightest_cd, table.intensity_cd({1.0, at.x, at.y}));
+      }
+      // The image holds float32.
+      if (brightest_cd > 0.0) {
+        EXPECT_TRUE(peaks.exceeds(least, most, static_cast<float>(0.9999 * brightest_cd)))
+            << "type " << static_cast<int>(table.type) << ": " << brightest_cd << " cd between " << least.x << " and "
+            << most.x << ", " << least.y << " and " << most.y;
+      }
+      ++asked, told_dark += peaks.exceeds(least, most, 0.0f) ? 0 : 1;
+      EXPECT_FALSE(peaks.exceeds(least, most, 1000.5f)) << "more than the table has";
+    }
+  }
+  EXPECT_GT(told_dark, asked / 4);
+  EXPECT_FALSE(LightPeaks().exceeds({-1.0f, -1.0f}, {1.0f, 1.0f}, 0.0f)) << "a dark beam";
+}
+
+// A part that changes counts at once, there and where light runs on to the next node; what was bright stays counted.
+TEST(LightPeaks, AreRaisedWhereABeamChanges) {
+  const IntensityTable table = window_table(PhotometricType::kA, GammaAxis::kGamma0, 0.0, 0.0, 5.0);
+  const AimedSource source{.table = &table};
+  BeamImage image = compose_beam_image(std::span(&source, 1));
+  LightPeaks peaks(image);
+  const glm::vec2 least(0.55f, 0.2f), most(0.6f, 0.25f);  // 30° to the left, 12° up
+  ASSERT_FALSE(peaks.exceeds(least, most, 0.0f));
+  const auto nearest = [](const std::vector<double>& nodes, double deg) {
+    const auto found = std::ranges::min_element(nodes, {}, [deg](double node) { return std::abs(node - deg); });
+    return static_cast<std::size_t>(found - nodes.begin());
+  };
+  const TableAngles at = table_angles(image.type, image.axis, {1.0, 0.575, 0.225});
+  const std::size_t column = nearest(image.first_deg, at.first_deg), row = nearest(image.second_deg, at.second_deg);
+  image.candela[row * image.first_deg.size() + column] = 4000.0f;
+  const TexelRect changed{column, row, column + 1, row + 1};
+  peaks.raise(image, std::span(&changed, 1));
+  EXPECT_TRUE(peaks.exceeds(least, most, 3999.0f));
+  EXPECT_TRUE(peaks.exceeds({-0.01f, -0.01f}, {0.01f, 0.01f}, 999.0f)) << "what shone before";
 }
 
 }  // namespace

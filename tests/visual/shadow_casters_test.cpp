@@ -111,6 +111,30 @@ TEST(ShadowCasters, AMapIsAsWideAsWhatShadesTheView) {
   EXPECT_NEAR(cast.part.left, (6.0 - 0.6) / (from_eye_m - 2.0), 0.1);
 }
 
+// What a lamp's last light falls on casts nothing where that is asked for: by how much light comes so far, and there.
+TEST(ShadowCasters, WhatStandsInFaintLightCastsNothing) {
+  // 100 cd above the axis, 10,000 below it.
+  IntensityTable table;
+  table.first_deg = {-60.0, 60.0}, table.second_deg = {-30.0, -1.0, 0.0, 30.0};
+  table.candela = {1e4, 1e4, 1e4, 1e4, 100.0, 100.0, 100.0, 100.0};
+  const AimedSource source{.table = &table};
+  const BeamImage image = compose_beam_image(std::span(&source, 1));
+  const LightPeaks peaks(image);
+  const LampReach reach({0.0, 0.0, 0.0}, glm::dmat3(1.0), light_cone(image));
+  const auto cast = [&](float x_m, float z_m, double faint_lx) {
+    const std::vector<Corners> one{{glm::vec3(x_m, -1, z_m), glm::vec3(x_m, 1, z_m), glm::vec3(x_m, 0, z_m + 1)}};
+    return ShadowCasters(scene_of(one))
+        .by(reach, glm::dmat3(1.0), {}, SIZE_MAX, {.faint_lx = faint_lx, .peaks = &peaks})
+        .count;
+  };
+  // 100 cd are 0.01 lx at 100 m; there a metre is more than the bound is coarse by.
+  EXPECT_EQ(cast(95.0f, 20.0f, 0.01), 1u);
+  EXPECT_EQ(cast(105.0f, 20.0f, 0.01), 0u);
+  EXPECT_EQ(cast(105.0f, 20.0f, 0.0), 1u) << "all casts where nothing is too faint";
+  EXPECT_EQ(cast(105.0f, -20.0f, 0.01), 1u) << "in the bright part of the beam";
+  EXPECT_EQ(cast(105.0f, -0.5f, 0.01), 1u) << "from the bright part into the faint";
+}
+
 // A box that something shades is never told clear, wherever it and what casts are; most boxes before and beside it are.
 TEST(CasterGrid, NoBoxIsClearOnWhichAShadowFalls) {
   std::mt19937_64 random(17);

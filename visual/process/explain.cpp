@@ -67,11 +67,14 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   std::optional<ShadowCasters> casters;
   if (looks_for_casters(input)) casts.emplace(), casters.emplace(scene, movers.meshes());
   for (const PlacedLamp& lamp : input.lamps) {
-    const LightCone cone = light_cone(lamp.beam == Traffic::kBeam ? traffic.beam() : lamps.image(lamp.beam));
-    const LampReach reach(lamp.position_m, lamp.world_from_image, cone);
+    const BeamImage& image = lamp.beam == Traffic::kBeam ? traffic.beam() : lamps.image(lamp.beam);
+    const LampReach reach(lamp.position_m, lamp.world_from_image, light_cone(image));
     if (!reach.meets(view)) continue;
     ++lit;
-    if (casts) casts->push_back(casters->by(reach, lamp.world_from_image, input.moving, lamp.carried_by));
+    if (!casts) continue;
+    const LightPeaks peaks(image);
+    casts->push_back(casters->by(reach, lamp.world_from_image, input.moving, lamp.carried_by,
+                                 {.faint_lx = faint_lx(input), .peaks = &peaks}));
   }
   char heading[240];
   std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
