@@ -39,53 +39,46 @@ constexpr double kBeside = 1e-3;
 
 }  // namespace
 
-LightPeaks::LightPeaks(const BeamImage& image) {
-  if (image.dark || image.candela.empty()) return;
-  most_cd_.resize(static_cast<std::size_t>(kColumns * kRows));
-  raise(image, {0, 0, image.first_deg.size(), image.second_deg.size()});
-}
-
-void LightPeaks::raise(const BeamImage& image, std::span<const TexelRect> changed) {
-  if (most_cd_.empty()) {
-    *this = LightPeaks(image);
-    return;
-  }
-  for (const TexelRect& rect : changed) raise(image, rect);
-}
-
-void LightPeaks::raise(const BeamImage& image, const TexelRect& rect) {
-  if (rect.empty()) return;
-  const std::size_t columns = image.first_deg.size(), rows = image.second_deg.size();
-  // Blocks of nodes, few enough that their corners' directions cost little. Light between nodes is theirs, so a block
-  // ends where the next begins, and one reaches past the rectangle.
-  const std::size_t first_column = rect.column == 0 ? 0 : rect.column - 1, first_row = rect.row == 0 ? 0 : rect.row - 1;
-  const std::size_t end_column = std::min(rect.end_column, columns - 1), end_row = std::min(rect.end_row, rows - 1);
+void LightPeaks::place_blocks(const BeamGrid& grid) {
+  grid_ = grid;
+  blocks_.clear();
+  // As large as a cell at most where tables are fine, and so few that their corners' directions cost little.
   constexpr std::size_t kBlocks = 64;
-  const std::size_t wide = (end_column - first_column + kBlocks) / kBlocks,
-                    high = (end_row - first_row + kBlocks) / kBlocks;
-  const auto place_of = [&](std::size_t column, std::size_t row) {
-    const TableAngles at{image.first_deg[column], image.second_deg[row]};
-    const glm::dvec3 way =
-        image.screen_distance_m > 0.0 ? screen_direction(at) : table_direction(image.type, image.axis, at);
-    const double ahead = std::max(way.x, kBeside);
-    return std::pair(
-        glm::vec2(kAcross.at(static_cast<float>(way.y / ahead)), kUp.at(static_cast<float>(way.z / ahead))),
-        way.x > 0.0);
+  const auto ends_of = [](std::size_t nodes) {
+    const std::size_t wide = (nodes - 1 + kBlocks - 1) / kBlocks;
+    std::vector<std::size_t> ends;  // with the middles between: lines of a table are bent
+    for (std::size_t at = 0; at + 1 < nodes; at += wide) {
+      const std::size_t last = std::min(at + wide, nodes - 1);
+      ends.insert(ends.end(), {at, (at + last) / 2});
+    }
+    ends.push_back(nodes - 1);
+    return ends;
   };
-  for (std::size_t row = first_row; row < end_row; row += high)
-    for (std::size_t column = first_column; column < end_column; column += wide) {
-      const std::size_t last_row = std::min(row + high, end_row), last_column = std::min(column + wide, end_column);
-      float most_cd = 0.0f;
-      for (std::size_t j = row; j <= last_row; ++j)
-        for (std::size_t i = column; i <= last_column; ++i) most_cd = std::max(most_cd, image.candela[j * columns + i]);
-      if (most_cd == 0.0f) continue;
+  const std::vector<std::size_t> columns = ends_of(grid.first_deg.size()), rows = ends_of(grid.second_deg.size());
+  struct Place {
+    glm::vec2 at{0.0f};
+    bool ahead = false;
+  };
+  std::vector<Place> places;
+  places.reserve(columns.size() * rows.size());
+  for (const std::size_t row : rows)
+    for (const std::size_t column : columns) {
+      const TableAngles at{grid.first_deg[column], grid.second_deg[row]};
+      const glm::dvec3 way =
+          grid.screen_distance_m > 0.0 ? screen_direction(at) : table_direction(grid.type, grid.axis, at);
+      const double ahead = std::max(way.x, kBeside);
+      places.push_back(
+          {{kAcross.at(static_cast<float>(way.y / ahead)), kUp.at(static_cast<float>(way.z / ahead))}, way.x > 0.0});
+    }
+  for (std::size_t j = 0; j + 2 < rows.size(); j += 2)
+    for (std::size_t i = 0; i + 2 < columns.size(); i += 2) {
       glm::vec2 least(std::numeric_limits<float>::infinity()), most(-least);
       bool ahead = false;
-      for (const std::size_t j : {row, (row + last_row) / 2, last_row})
-        for (const std::size_t i : {column, (column + last_column) / 2, last_column}) {
-          const auto [place, is_ahead] = place_of(i, j);
-          least = glm::min(least, place), most = glm::max(most, place);
-          ahead = ahead || is_ahead;
+      for (std::size_t row = j; row <= j + 2; ++row)
+        for (std::size_t column = i; column <= i + 2; ++column) {
+          const Place& place = places[row * columns.size() + column];
+          least = glm::min(least, place.at), most = glm::max(most, place.at);
+          ahead = ahead || place.ahead;
         }
       if (!ahead) continue;
       // Lines of the table are bent between these, by less than the block's own size; levels of beam images blur by a
@@ -93,12 +86,61 @@ void LightPeaks::raise(const BeamImage& image, const TexelRect& rect) {
       const glm::vec2 room = 0.5f * (most - least) + 1.0f;
       const Cells across = cells_between(least.x - room.x, most.x + room.x, kColumns),
                   up = cells_between(least.y - room.y, most.y + room.y, kRows);
-      for (int j = up.first; j < up.end; ++j)
-        for (int i = across.first; i < across.end; ++i) {
-          float& cell = most_cd_[static_cast<std::size_t>(j * kColumns + i)];
-          cell = std::max(cell, most_cd);
-        }
+      const auto node = [](std::size_t index) { return static_cast<std::uint16_t>(index); };
+      const auto cell = [](int index) { return static_cast<std::uint8_t>(index); };
+      blocks_.push_back({node(columns[i]), node(columns[i + 2]), node(rows[j]), node(rows[j + 2]), cell(across.first),
+                         cell(across.end), cell(up.first), cell(up.end)});
     }
+}
+
+void LightPeaks::set(const BeamImage& image) {
+  most_cd_.clear();
+  constexpr std::size_t kMostNodes = std::numeric_limits<std::uint16_t>::max();
+  if (image.dark || image.candela.empty()) return;
+  if (image.first_deg.size() > kMostNodes || image.second_deg.size() > kMostNodes) {
+    blocks_.clear(), grid_ = {};
+    most_cd_.assign(static_cast<std::size_t>(kColumns * kRows), std::numeric_limits<float>::infinity());
+    return;
+  }
+  if (image.type != grid_.type || image.axis != grid_.axis || image.screen_distance_m != grid_.screen_distance_m ||
+      image.first_deg != grid_.first_deg || image.second_deg != grid_.second_deg)
+    place_blocks(image);
+  for (Block& block : blocks_) read(image, block);
+  fill_cells();
+}
+
+void LightPeaks::change(const BeamImage& image, std::span<const TexelRect> changed) {
+  if (image.dark || most_cd_.empty() || blocks_.empty()) {
+    set(image);
+    return;
+  }
+  // Light runs on to the nodes beside, which are the ends of other blocks.
+  for (Block& block : blocks_)
+    if (std::ranges::any_of(changed, [&](const TexelRect& rect) {
+          return block.column < rect.end_column && block.last_column >= rect.column && block.row < rect.end_row &&
+                 block.last_row >= rect.row;
+        }))
+      read(image, block);
+  fill_cells();
+}
+
+void LightPeaks::read(const BeamImage& image, Block& block) {
+  const std::size_t columns = image.first_deg.size();
+  block.most_cd = 0.0f;
+  for (std::size_t row = block.row; row <= block.last_row; ++row) {
+    const float* const nodes = &image.candela[row * columns];
+    block.most_cd = std::max(block.most_cd, *std::max_element(nodes + block.column, nodes + block.last_column + 1));
+  }
+}
+
+void LightPeaks::fill_cells() {
+  most_cd_.assign(static_cast<std::size_t>(kColumns * kRows), 0.0f);
+  for (const Block& block : blocks_)
+    for (int row = block.low; row < block.high && block.most_cd > 0.0f; ++row)
+      for (int column = block.right; column < block.left; ++column) {
+        float& cell = most_cd_[static_cast<std::size_t>(row * kColumns + column)];
+        cell = std::max(cell, block.most_cd);
+      }
 }
 
 bool LightPeaks::exceeds(const glm::vec2& least, const glm::vec2& most, float cd) const {

@@ -2,6 +2,7 @@
 // light casts no shadow in a map. Pure: no device.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>
@@ -14,19 +15,32 @@ namespace phare {
 class LightPeaks {
  public:
   LightPeaks() = default;  ///< of a dark beam
-  explicit LightPeaks(const BeamImage& image);
 
-  /// When only these rectangles of nodes have changed; nowhere less than before.
-  void raise(const BeamImage& image, std::span<const TexelRect> changed);
+  /// Where the nodes lie in the lamp's view is kept for the next image on the same ones.
+  void set(const BeamImage& image);
+  /// The same where only these rectangles of nodes have changed: what it then tells hangs on the image alone.
+  void change(const BeamImage& image, std::span<const TexelRect> changed);
 
   /// False only if no direction between these tangents, to the left and up over the way forward of the image's frame,
   /// has more than `cd`. Beyond the tangents of shadow_casters.h: as at them.
   bool exceeds(const glm::vec2& least, const glm::vec2& most, float cd) const;
 
  private:
+  /// Cells of the lamp's view, finer toward its axis: columns from the rightmost, rows from the lowest.
   static constexpr int kColumns = 64, kRows = 64;
-  void raise(const BeamImage& image, const TexelRect& rect);
-  std::vector<float> most_cd_;  ///< row by row from the lowest, in each from the rightmost; empty: dark
+  /// Nodes of a table, both ends included, and the cells in which their light may be, ends beyond.
+  struct Block {
+    std::uint16_t column = 0, last_column = 0, row = 0, last_row = 0;
+    std::uint8_t right = 0, left = 0, low = 0, high = 0;
+    float most_cd = 0.0f;
+  };
+  void place_blocks(const BeamGrid& grid);
+  static void read(const BeamImage& image, Block& block);
+  void fill_cells();
+
+  BeamGrid grid_;  ///< of the blocks
+  std::vector<Block> blocks_;
+  std::vector<float> most_cd_;  ///< row by row; empty: dark
 };
 
 }  // namespace phare

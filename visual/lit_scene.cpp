@@ -147,7 +147,7 @@ void LitScene::set_beam(std::size_t beam, const BeamImage& image) {
   ++beam_versions_[beam];
   cones_[beam] = light_cone(image);
   peaks_.resize(cones_.size());
-  peaks_[beam] = LightPeaks(image);
+  peaks_[beam].set(image);
   peaks_cd_.resize(cones_.size());
   keep_image(beam, image, {});
   peaks_cd_[beam] = image.candela.empty() ? 0.0f : *std::ranges::max_element(image.candela);
@@ -157,7 +157,7 @@ void LitScene::change_beam(std::size_t beam, const BeamImage& image, std::span<c
   beams_.change(beam, image, changed);
   ++beam_versions_[beam];
   cones_[beam] = light_cone_after(cones_[beam], image, changed);
-  peaks_[beam].raise(image, changed);
+  peaks_[beam].change(image, changed);
   if (!changed.empty()) keep_image(beam, image, changed);
   for (const TexelRect& rect : changed)
     for (std::size_t row = rect.row; row < rect.end_row; ++row)

@@ -141,7 +141,8 @@ TEST(LightPeaks, NoDirectionHasMoreThanIsTold) {
   for (const IntensityTable& table : tables()) {
     const AimedSource source{.table = &table};
     const BeamImage image = compose_beam_image(std::span(&source, 1));
-    const LightPeaks peaks(image);
+    LightPeaks peaks;
+    peaks.set(image);
     for (int i = 0; i < 400; ++i) {
       const glm::dvec2 middle(3.5 * any(random), any(random)),
           half = glm::abs(glm::dvec2(any(random), 0.3 * any(random)));
@@ -165,12 +166,14 @@ TEST(LightPeaks, NoDirectionHasMoreThanIsTold) {
   EXPECT_FALSE(LightPeaks().exceeds({-1.0f, -1.0f}, {1.0f, 1.0f}, 0.0f)) << "a dark beam";
 }
 
-// A part that changes counts at once, there and where light runs on to the next node; what was bright stays counted.
-TEST(LightPeaks, AreRaisedWhereABeamChanges) {
+// A part that changes counts at once, there and where light runs on to the next node; and when it is as it was, so is
+// all that is told: a picture must not hang on what was lit before it.
+TEST(LightPeaks, AreThoseOfTheBeamAsItIsNow) {
   const IntensityTable table = window_table(PhotometricType::kA, GammaAxis::kGamma0, 0.0, 0.0, 5.0);
   const AimedSource source{.table = &table};
   BeamImage image = compose_beam_image(std::span(&source, 1));
-  LightPeaks peaks(image);
+  LightPeaks peaks;
+  peaks.set(image);
   const glm::vec2 least(0.55f, 0.2f), most(0.6f, 0.25f);  // 30° to the left, 12° up
   ASSERT_FALSE(peaks.exceeds(least, most, 0.0f));
   const auto nearest = [](const std::vector<double>& nodes, double deg) {
@@ -179,11 +182,15 @@ TEST(LightPeaks, AreRaisedWhereABeamChanges) {
   };
   const TableAngles at = table_angles(image.type, image.axis, {1.0, 0.575, 0.225});
   const std::size_t column = nearest(image.first_deg, at.first_deg), row = nearest(image.second_deg, at.second_deg);
-  image.candela[row * image.first_deg.size() + column] = 4000.0f;
+  float& node_cd = image.candela[row * image.first_deg.size() + column];
+  node_cd = 4000.0f;
   const TexelRect changed{column, row, column + 1, row + 1};
-  peaks.raise(image, std::span(&changed, 1));
+  peaks.change(image, std::span(&changed, 1));
   EXPECT_TRUE(peaks.exceeds(least, most, 3999.0f));
   EXPECT_TRUE(peaks.exceeds({-0.01f, -0.01f}, {0.01f, 0.01f}, 999.0f)) << "what shone before";
+  node_cd = 0.0f;
+  peaks.change(image, std::span(&changed, 1));
+  EXPECT_FALSE(peaks.exceeds(least, most, 0.0f));
 }
 
 }  // namespace

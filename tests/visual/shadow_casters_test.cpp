@@ -119,7 +119,8 @@ TEST(ShadowCasters, WhatStandsInFaintLightCastsNothing) {
   table.candela = {1e4, 1e4, 1e4, 1e4, 100.0, 100.0, 100.0, 100.0};
   const AimedSource source{.table = &table};
   const BeamImage image = compose_beam_image(std::span(&source, 1));
-  const LightPeaks peaks(image);
+  LightPeaks peaks;
+  peaks.set(image);
   const LampReach reach({0.0, 0.0, 0.0}, glm::dmat3(1.0), light_cone(image));
   const auto cast = [&](float x_m, float z_m, double faint_lx) {
     const std::vector<Corners> one{{glm::vec3(x_m, -1, z_m), glm::vec3(x_m, 1, z_m), glm::vec3(x_m, 0, z_m + 1)}};

@@ -72,7 +72,8 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
     if (!reach.meets(view)) continue;
     ++lit;
     if (!casts) continue;
-    const LightPeaks peaks(image);
+    LightPeaks peaks;
+    peaks.set(image);
     casts->push_back(casters->by(reach, lamp.world_from_image, input.moving, lamp.carried_by,
                                  {.faint_lx = faint_lx(input), .peaks = &peaks}));
   }
