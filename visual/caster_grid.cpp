@@ -145,10 +145,7 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
   // Texels that are weighed about a point, half of one that is added, and one for rounding.
   constexpr double kRoom_texels = 3.0;
   const auto axis = [&](double half, double finest, int cells, double of_texel) {
-    return Axis{static_cast<float>(half),
-                static_cast<float>(finest),
-                0.5f * static_cast<float>(cells),
-                static_cast<float>(0.5 * cells * (half + finest) / half),
+    return Axis{{static_cast<float>(half), static_cast<float>(finest), cells},
                 static_cast<float>(kRoom_texels * of_texel),
                 static_cast<float>(zoom)};
   };
@@ -280,16 +277,6 @@ bool CasterGrid::may_shade(const BoxCorners& box) const {
         return true;
   }
   return false;
-}
-
-// Of the lower or right side of a cell.
-float CasterGrid::Axis::tangent(int cell) const {
-  const float at = (static_cast<float>(cell) - middle) / cells;
-  return finest * at / (1.0f - std::abs(at));
-}
-
-float CasterGrid::Axis::at(float tangent) const {
-  return middle + cells * tangent / (std::abs(tangent) + finest);
 }
 
 /// Between these the map's second picture is read, if that holds across and up: with texels to spare, which are weighed

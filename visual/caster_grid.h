@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "visual/shadow_casters.h"
+#include "visual/tangent_cells.h"
 
 namespace phare {
 
@@ -33,11 +34,9 @@ class CasterGrid {
   struct Cells {
     int first_column = 0, end_column = 0, first_row = 0, end_row = 0;
   };
-  /// Tangents to cells of one side: finer toward the axis, where a degree of road is long.
-  struct Axis {
-    float half = 1.0f, finest = 1.0f, middle = 0.0f, cells = 0.0f, room = 0.0f, zoom = 1.0f;
-    float at(float tangent) const;
-    float tangent(int cell) const;
+  /// `room`: tangents across what is weighed about a point in the map's first picture.
+  struct Axis : TangentCells {
+    float room = 0.0f, zoom = 1.0f;
     bool close(float least, float most) const;
     float widened(float tangent, float way, bool close) const;
   };

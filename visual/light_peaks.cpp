@@ -6,20 +6,10 @@
 #include <limits>
 
 #include "visual/shadow_casters.h"
+#include "visual/tangent_cells.h"
 
 namespace phare {
 namespace {
-
-/// Tangents to cells of one side, of so many about the axis: finer there. As CasterGrid has them.
-struct Axis {
-  float half, finest;
-  int cells;
-
-  float at(float tangent) const {
-    const float middle = 0.5f * static_cast<float>(cells);
-    return middle + middle * (half + finest) / half * tangent / (std::abs(tangent) + finest);
-  }
-};
 
 struct Cells {
   int first = 0, end = 0;
@@ -32,7 +22,10 @@ Cells cells_between(float least, float most, int cells) {
           static_cast<int>(std::clamp(std::floor(most), 0.0f, last)) + 1};
 }
 
-constexpr Axis kAcross{static_cast<float>(kWidestShadow), 0.3f, 64}, kUp{static_cast<float>(kHighestShadow), 0.1f, 64};
+/// Finest as those of CasterGrid: half a degree across and a sixth up.
+constexpr int kColumns = 64, kRows = 64;
+constexpr TangentCells kAcross{static_cast<float>(kWidestShadow), 0.3f, kColumns},
+    kUp{static_cast<float>(kHighestShadow), 0.1f, kRows};
 
 /// What is at the side of the lamp or behind it, all of which lies beyond the outermost cells, to the side it is on.
 constexpr double kBeside = 1e-3;

@@ -26,9 +26,8 @@ class LightPeaks {
   bool exceeds(const glm::vec2& least, const glm::vec2& most, float cd) const;
 
  private:
-  /// Cells of the lamp's view, finer toward its axis: columns from the rightmost, rows from the lowest.
-  static constexpr int kColumns = 64, kRows = 64;
-  /// Nodes of a table, both ends included, and the cells in which their light may be, ends beyond.
+  /// Nodes of a table, both ends included, and the cells of the lamp's view in which their light may be, ends
+  /// beyond: columns from the rightmost, rows from the lowest.
   struct Block {
     std::uint16_t column = 0, last_column = 0, row = 0, last_row = 0;
     std::uint8_t right = 0, left = 0, low = 0, high = 0;

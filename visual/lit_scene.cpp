@@ -181,13 +181,14 @@ bool LitScene::filtered() const {
 }
 
 std::vector<std::uint32_t> LitScene::table_words(std::size_t tables, bool shown) const {
-  // In steps, that a cell's function may go on past its nodes: a thousandth of a pixel, seen from the lamp.
-  constexpr float kPastNodes = 1e-3f;
+  // The last decimal, in steps: a cell's function goes on past its nodes by half of that, in steps of 1° a hundredth of
+  // a pixel of 60° over 1280.
+  constexpr float kLastDecimal = 1e-3f;
   std::vector<std::uint32_t> all;
   for (shader::TableShape shape : table_shapes_[tables]) {
     const std::uint32_t kind = shape.lookup & shader::kLookupKind;
     if (shown && (kind == shader::kLookupAhead ||
-                  (kind == shader::kLookupDecimals && shape.unit.x <= kPastNodes && shape.unit.y <= kPastNodes)))
+                  (kind == shader::kLookupDecimals && shape.unit.x <= kLastDecimal && shape.unit.y <= kLastDecimal)))
       shape.lookup |= shader::kLookupShown;
     const auto words = std::bit_cast<std::array<std::uint32_t, shader::kSpecPerTable>>(shape);
     all.insert(all.end(), words.begin(), words.end());

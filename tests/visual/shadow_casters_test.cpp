@@ -212,5 +212,22 @@ TEST(ShadowCasters, WhatIsFarCastsByItsFarMesh) {
   EXPECT_EQ(triangles(60.0), 3u) << "beyond the third level, which is the mesh before";
 }
 
+// The far slope of a ditch runs past the lamps, and the road beside them lies nearer to the axis than it: nothing
+// shades it.
+TEST(CasterGrid, WhatRunsPastTheLampLeavesTheRoadBeforeItClear) {
+  const std::vector<Corners> slope{{glm::vec3(-3, -7, 0), glm::vec3(5, -7, 0), glm::vec3(5, -6.5, -0.5)}};
+  const glm::dvec3 lamp_m{0.0, 0.0, 0.65};
+  const CastBy cast =
+      ShadowCasters(scene_of(slope)).by(LampReach(lamp_m, glm::dmat3(1.0), {{1.0, 0.0, 0.0}, 1.3}), glm::dmat3(1.0));
+  ASSERT_EQ(cast.count, 1u);
+  const glm::dvec2 half = half_sides(cast.part);
+  const CasterGrid grid(cast, half, half / glm::dvec2(255.0, 127.0), 2.0);
+  const auto may_shade = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
+    return grid.may_shade(box_corners(glm::dmat3(1.0), lamp_m, low_m, high_m));
+  };
+  EXPECT_FALSE(may_shade({-1.0, -3.5, -0.02}, {4.0, 1.7, 0.02})) << "the lane";
+  EXPECT_TRUE(may_shade({4.0, -12.0, -0.5}, {6.0, -9.0, 0.0})) << "ground behind the slope";
+}
+
 }  // namespace
 }  // namespace phare
