@@ -1,5 +1,6 @@
 // Views of the lit scene: which lamps light what a view sees, and the data that its draws read.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -13,10 +14,14 @@ namespace phare {
 
 LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps,
                        std::span<const PlacedMesh> moving, double far_mesh_from_m, std::span<const double> isolux_lx) {
-  LitView view{
-      .geometry = geometry, .sky = sky, .isolux_lx = isolux_lx, .items = geometry_.visible(geometry, far_mesh_from_m)};
+  LitView view{.geometry = geometry, .sky = sky, .isolux_lx = isolux_lx};
+  std::optional<Horizon> horizon;
+  if (std::isfinite(far_mesh_from_m) && geometry.camera().orthographic_width_m <= 0.0)
+    horizon.emplace(geometry_.ground, geometry.camera().eye_m);
+  Horizon* hides = horizon ? &*horizon : nullptr;
+  view.items = geometry_.visible(geometry, far_mesh_from_m, hides);
   view.moving = moving;
-  if (!moving.empty()) geometry_.add_visible(view.items, view.moved, geometry, moving);
+  if (!moving.empty()) geometry_.add_visible(view.items, view.moved, geometry, moving, hides);
   for (const PlacedLamp& lamp : lamps) {
     if (is_dark(lamp.beam)) continue;
     const LampReach reach = reach_of(lamp);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -90,22 +91,61 @@ TEST(FarMesh, APlateThatIsSeenFromOneSideOnlyCountsByItsHalf) {
   EXPECT_TRUE(from_afar(scene, 0.36 / kFarThingWidth_rad).indices.empty());
 }
 
-// It sends light back too, and is no point of light: a plane of a hundred squares is a few triangles from afar.
-TEST(FarMesh, RoughGroundIsSimplifiedLikeSmoothGround) {
+/// Squares of 4 m, ten each way, as high as `height` says.
+Scene meadow(float (*height)(int x, int y)) {
   Scene scene;
   scene.materials = {{.name = "meadow", .surface = Surface::kGrass}};
   for (int x = 0; x <= 10; ++x)
     for (int y = 0; y <= 10; ++y)
-      scene.vertices.push_back({{4.0f * static_cast<float>(x), 4.0f * static_cast<float>(y), 0.0f}, {0, 0, 1}});
+      scene.vertices.push_back({{4.0f * static_cast<float>(x), 4.0f * static_cast<float>(y), height(x, y)}, {0, 0, 1}});
   for (std::uint32_t x = 0; x < 10; ++x)
     for (std::uint32_t y = 0; y < 10; ++y) {
       const std::uint32_t i = 11 * x + y;
       for (const std::uint32_t corner : {i, i + 11, i + 12, i, i + 12, i + 1}) scene.indices.push_back(corner);
     }
+  return scene;
+}
+
+// It sends light back too, and is no point of light: of a plane of a hundred squares its sides stay, and little within.
+TEST(FarMesh, RoughGroundIsSimplifiedLikeSmoothGround) {
+  Scene scene = meadow([](int, int) { return 0.0f; });
   const std::size_t smooth = from_afar(scene).indices.size();
   EXPECT_LT(smooth, scene.indices.size() / 4);
   scene.materials[0].retro.kind = RetroKind::kFacets;
   EXPECT_EQ(from_afar(scene).indices.size(), smooth);
+}
+
+// Else one would see between it and the ground beside it, which is simplified by itself or not at all.
+TEST(FarMesh, GroundKeepsItsSides) {
+  const Scene scene = meadow([](int x, int y) { return 0.01f * static_cast<float>(x * y % 3); });
+  const FarMesh far = from_afar(scene);
+  EXPECT_LT(far.indices.size(), scene.indices.size() / 2);
+  for (const SceneVertex& vertex : scene.vertices) {
+    const glm::vec3 p = vertex.position_m;
+    if (p.x > 0.0f && p.x < 40.0f && p.y > 0.0f && p.y < 40.0f) continue;
+    EXPECT_TRUE(std::ranges::any_of(far.indices, [&](std::uint32_t i) { return far.vertices[i].position_m == p; }))
+        << p.x << ' ' << p.y;
+  }
+}
+
+// A lump of leaves hides what is in it, from afar too: it is closed. Leaves that are seen from both sides are thinned.
+TEST(FarMesh, ClosedFoliageStaysClosed) {
+  Scene scene;
+  scene.materials = {{.name = "lump", .surface = Surface::kFoliage}};
+  add_box(scene, {0, 0, 0}, {4, 4, 4});
+  const auto area_vector = [](const FarMesh& mesh) {
+    glm::vec3 sum(0.0f);
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      const auto corner = [&](std::size_t k) { return mesh.vertices[mesh.indices[i + k]].position_m; };
+      sum += glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+    }
+    return glm::length(sum);
+  };
+  const FarMesh lump = from_afar(scene);
+  EXPECT_EQ(lump.indices.size(), scene.indices.size());
+  EXPECT_LT(area_vector(lump), 1e-4f);
+  scene.materials[0].double_sided = true;
+  EXPECT_LT(from_afar(scene).indices.size(), scene.indices.size());
 }
 
 TEST(FarMesh, KeepsEveryReflectorHoweverSmall) {

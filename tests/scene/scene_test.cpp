@@ -176,7 +176,7 @@ TEST(CountryRoad, HasEverythingThatStandsBesideARoad) {
   EXPECT_EQ(nodes["pedestrian"].size(), 2u);
   EXPECT_GE(nodes["sign"].size(), 10u);
   EXPECT_GE(nodes["tree"].size(), 40u);
-  EXPECT_LE(country_road().materials.size(), 40u);
+  EXPECT_LE(country_road().materials.size(), 45u);
   double sheeting = 0.0, marking = 0.0;
   bool asphalt = false, paint = false, foliage = false;
   for (const SceneMaterial& m : country_road().materials) {

@@ -2,14 +2,20 @@
 // for the same.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
+#include <vector>
 
 #include "config/base/paths.h"
 #include "tests/bench/straight_road.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/readers/read_lamp.h"
 #include "visual/renderer.h"
+#include "visual/scene/ray_hit.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
@@ -55,6 +61,125 @@ TEST(FarMeshes, ChangeAPictureOfTheCountryRoadLessThanOneSees) {
   EXPECT_EQ(renderer->validation_messages(), 0u);
 }
 
+/// Under a bright sky the ground is dark: a light pixel under a dark one is a crack through which one sees the sky.
+std::vector<glm::ivec2> cracks_in(const Image8& image) {
+  std::vector<glm::ivec2> cracks;
+  for (int x = 0; x < image.width_px; ++x) {
+    bool dark_above = false;
+    for (int y = 0; y < image.height_px; ++y) {
+      const auto pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width_px) + static_cast<std::size_t>(x);
+      const bool light = image.rgba[4 * pixel + 1] > 100;
+      if (light && dark_above) cracks.emplace_back(x, y);
+      dark_above = dark_above || !light;
+    }
+  }
+  return cracks;
+}
+
+// What is behind a crack may not be drawn at all (visual/scene/horizon.h).
+TEST(FarMeshes, NobodySeesTheSkyThroughTheGround) {
+  const Result<Scene> read = read_scene(generated_dir() / "scenes/country_road.glb");
+  ASSERT_TRUE(read.ok());
+  Scene scene = *read;  // its ground alone, and black
+  std::erase_if(scene.chunks, [&](const SceneChunk& chunk) {
+    const Surface surface = scene.materials[chunk.material].surface;
+    return surface != Surface::kAsphalt && surface != Surface::kGrass;
+  });
+  for (SceneMaterial& material : scene.materials) material.reflectance = glm::vec3(0.0f);
+  Result<Renderer> renderer = Renderer::create({.width_px = 1280, .height_px = 720, .validation = true});
+  ASSERT_TRUE(renderer.ok()) << renderer.error().text();
+  ASSERT_TRUE(renderer->load_scene(scene).ok());
+  FrameInput input;
+  input.sky_luminance_cdm2 = 100.0;
+  input.want_image = true;
+  std::size_t whole_cracks = 0;
+  for (double x_m = 20.0; x_m < 590.0; x_m += 8.5) {
+    const auto below = ray_hit(scene, {x_m, -1.2, 200.0}, {0, 0, -1}, 0.0, 500.0);
+    ASSERT_TRUE(below) << x_m;
+    input.camera.eye_m = {x_m, -1.2, 201.22 - below->distance_m};
+    const auto seen = [&](double far_mesh_from_m) {
+      input.far_mesh_from_m = far_mesh_from_m;
+      renderer->draw(input);
+      return cracks_in(renderer->read_image());
+    };
+    // Of whole meshes one sees some too: chunks round the places of the corners that they share apart.
+    const std::vector<glm::ivec2> whole = seen(std::numeric_limits<double>::infinity());
+    whole_cracks += whole.size();
+    for (const glm::ivec2& crack : seen(kFarMeshFrom_m))
+      EXPECT_TRUE(std::ranges::count(whole, crack))
+          << "from x = " << x_m << " m at pixel " << crack.x << ", " << crack.y;
+  }
+  std::printf("%zu pixels of whole meshes\n", whole_cracks);
+  EXPECT_LT(whole_cracks, 10u);
+  EXPECT_EQ(renderer->validation_messages(), 0u);
+}
+
+/// A ridge across the way, 6 m high at 150 m, and behind it fifty plates that face the eye, one on top of another.
+Scene ridge(float foot_m) {
+  Scene scene;
+  scene.materials = {{.name = "meadow", .reflectance = glm::vec3(0.2f), .surface = Surface::kGrass},
+                     {.name = "plates", .reflectance = glm::vec3(0.8f)}};
+  scene.materials[1].retro.kind = RetroKind::kSheeting;  // stays whole from afar
+  const auto begin = [&](const char* node, std::uint32_t material) {
+    SceneChunk chunk{.node = node, .material = material};
+    chunk.low_m = glm::dvec3(1e9), chunk.high_m = glm::dvec3(-1e9);
+    chunk.first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
+    chunk.first_index = static_cast<std::uint32_t>(scene.indices.size());
+    return chunk;
+  };
+  const auto add = [&](SceneChunk& chunk, const std::array<glm::vec3, 4>& corners, const glm::vec3& normal) {
+    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) scene.indices.push_back(chunk.vertex_count + i);
+    for (const glm::vec3& corner : corners) {
+      scene.vertices.push_back({corner, normal});
+      chunk.low_m = glm::min(chunk.low_m, glm::dvec3(corner));
+      chunk.high_m = glm::max(chunk.high_m, glm::dvec3(corner));
+    }
+    chunk.vertex_count += 4, chunk.index_count += 6;
+  };
+  SceneChunk ground = begin("ground", 0), plates = ground;
+  const auto height = [](float x) { return std::max(0.0f, 6.0f - 0.2f * std::abs(x - 150.0f)); };
+  for (float x = -50.0f; x < 400.0f; x += 5.0f)
+    for (float y = -100.0f; y < 100.0f; y += 50.0f)
+      add(ground,
+          {glm::vec3(x, y, height(x)),
+           {x + 5, y, height(x + 5)},
+           {x + 5, y + 50, height(x + 5)},
+           {x, y + 50, height(x)}},
+          {0, 0, 1});
+  scene.chunks.push_back(ground);
+  plates = begin("plates", 1);
+  for (int i = 0; i < 50; ++i) {
+    const float low = foot_m + 0.05f * static_cast<float>(i), high = low + 0.05f;
+    add(plates, {glm::vec3(260, 5, low), {260, -5, low}, {260, -5, high}, {260, 5, high}}, {-1, 0, 0});
+  }
+  scene.chunks.push_back(plates);
+  return scene;
+}
+
+TEST(FarMeshes, WhatARidgeHidesIsNotDrawn) {
+  for (const bool hidden : {true, false}) {
+    Result<Renderer> renderer = Renderer::create({.width_px = 1280, .height_px = 720, .validation = true});
+    ASSERT_TRUE(renderer.ok()) << renderer.error().text();
+    ASSERT_TRUE(renderer->load_scene(ridge(hidden ? 0.0f : 9.0f)).ok());
+    FrameInput input;
+    input.camera.eye_m = {0.0, 0.0, 1.2};
+    input.sky_luminance_cdm2 = 1.0;
+    input.want_image = true;
+    const std::uint64_t drawn = renderer->draw(input).triangles;
+    const Image8 picture = renderer->read_image();
+    input.far_mesh_from_m = std::numeric_limits<double>::infinity();
+    const std::uint64_t whole = renderer->draw(input).triangles;
+    std::size_t other = 0;
+    const Image8 whole_picture = renderer->read_image();
+    for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+      other += std::abs(int{picture.rgba[i]} - int{whole_picture.rgba[i]}) > 2 ? 1 : 0;
+    EXPECT_EQ(other, 0u) << hidden;
+    EXPECT_EQ(whole - drawn, hidden ? 100u : 0u);
+    EXPECT_EQ(renderer->validation_messages(), 0u);
+  }
+}
+
 TEST(FarMeshes, AreDrawnTogetherWhereTheDeviceTakesManyDrawsInOneCall) {
   const Result<Scene> scene = read_scene(generated_dir() / "scenes/country_road.glb");
   ASSERT_TRUE(scene.ok());
@@ -80,7 +205,7 @@ TEST(FarMeshes, AreDrawnTogetherWhereTheDeviceTakesManyDrawsInOneCall) {
               static_cast<unsigned long long>(frames[0].triangles), frames[1].draws);
   EXPECT_LE(frames[0].draws, frames[1].draws);
   if (frames[0].draws == frames[1].draws) GTEST_SKIP() << "the device has no VK_EXT_multi_draw";
-  EXPECT_LT(2 * frames[0].draws, frames[1].draws) << "what is far has one origin for all";
+  EXPECT_LT(3 * frames[0].draws, 2 * frames[1].draws) << "what is far has one origin for all";
 }
 
 TEST(FarMeshes, BeginFartherAwayWherePixelsAreFiner) {

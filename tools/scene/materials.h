@@ -47,6 +47,9 @@ enum class Material {
   kSheetYellow,
   kSheetBlack,
   kSignBack,
+  kLeavesWithin,
+  kBushWithin,
+  kLeavesAutumnWithin,
   // Of town, motorway and tunnel only: the country road's file ends before them.
   kPavement,
   kKerb,
@@ -133,6 +136,10 @@ inline constexpr std::array<MaterialData, static_cast<std::size_t>(Material::kCo
     {"sheeting yellow", {0.38, 0.26, 0.02}, "plain", "EN 12899-1 RA2 yellow", false},
     {"sign black", {0.030, 0.030, 0.030}, "plain", "", false},
     {"sign back", {0.22, 0.22, 0.23}, "plain", "", false},
+    // Of closed lumps within crowns, which hide what is in them: seen from outside alone.
+    {"leaves within", {0.050, 0.090, 0.025}, "foliage", "", false},
+    {"bush within", {0.065, 0.100, 0.035}, "foliage", "", false},
+    {"leaves light within", {0.085, 0.105, 0.030}, "foliage", "", false},
     // Luminances by eye: lit windows at night lie between a few and a hundred cd/m² (unconfirmed); the glass of a
     // luminaire of 3500 lm over 0.14 m² has some 8000.
     {"pavement", {0.19, 0.185, 0.175}, "asphalt", "upright facets", false, 0.0, {}, 1.0, false},

@@ -35,7 +35,13 @@ void draw_clump(Pen& pen, Material m, Random& random, dvec3 at, dvec3 normal, do
   pen.triangle(m, Triangle{{a, c, d}, {normal, normal, normal}});
 }
 
-/// A lump with a bumpy surface: an icosahedron, each corner moved.
+/// That of the lumps within a crown of these leaves.
+Material within(Material leaves) {
+  if (leaves == Material::kBush) return Material::kBushWithin;
+  return leaves == Material::kLeavesAutumn ? Material::kLeavesAutumnWithin : Material::kLeavesWithin;
+}
+
+/// A lump with a bumpy surface, closed: an icosahedron, each corner moved.
 void draw_lump(Pen& pen, Material m, Random& random, dvec3 centre, dvec3 radii) {
   const double g = 0.5 * (1.0 + std::sqrt(5.0));
   std::vector<dvec3> corners;
@@ -90,7 +96,7 @@ void draw_broadleaf(Pen pen, Random& random, double height, Material leaves) {
   }
   const dvec3 heart = lean + dvec3(0.0, 0.0, 0.58 * height);
   for (const Lobe& lobe : lobes) {
-    draw_lump(pen, leaves, random, lobe.centre, 0.68 * lobe.radii);
+    draw_lump(pen, within(leaves), random, lobe.centre, 0.68 * lobe.radii);
     for (int i = 0; i < 18; ++i) {
       const dvec3 way = direction(random);
       const dvec3 at = lobe.centre + lobe.radii * way * random.uniform(0.68, 1.1);
@@ -134,7 +140,7 @@ void draw_spruce(Pen pen, Random& random, double height) {
 
 void draw_bush(Pen pen, Random& random, double size) {
   const dvec3 centre(0.0, 0.0, 0.42 * size);
-  draw_lump(pen, Material::kBush, random, centre, dvec3(0.55, 0.55, 0.42) * size);
+  draw_lump(pen, within(Material::kBush), random, centre, dvec3(0.55, 0.55, 0.42) * size);
   for (int i = 0; i < 14; ++i) {
     dvec3 way = direction(random);
     way.z = std::abs(way.z);

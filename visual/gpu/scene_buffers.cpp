@@ -103,8 +103,13 @@ void add_orders(SceneBatch& batch, Gathered& all) {
 
 // Pieces of a batch, at most about so many, and what is not cut further: more of them tell more exactly what a shadow
 // can reach, and each costs a test a lamp.
-constexpr std::size_t kPieces = 256, kLeastTriangles = 2;
-constexpr float kSmall_m = 4.0f;
+struct PieceSizes {
+  std::size_t most_pieces, least_triangles;
+  float small_m;
+};
+constexpr PieceSizes kNearPieces{256, 2, 4.0f};
+// What the ground hides of what is far away: a piece more to draw costs as much as some triangles.
+constexpr PieceSizes kFarPieces{64, 16, 8.0f};
 
 struct PieceTriangle {
   std::array<std::uint32_t, 3> corners{};
@@ -125,10 +130,10 @@ BatchPiece around(std::span<const PieceTriangle> triangles) {
 
 // Halves them across their longer side until they are few or small; the triangles come to lie in the order of the
 // pieces.
-void halve(std::span<PieceTriangle> triangles, std::size_t few, std::vector<BatchPiece>& pieces) {
+void halve(std::span<PieceTriangle> triangles, std::size_t few, float small_m, std::vector<BatchPiece>& pieces) {
   const BatchPiece all = around(triangles);
   const glm::vec3 size_m = all.high_m - all.low_m;
-  if (triangles.size() <= few || std::max(size_m.x, size_m.y) <= kSmall_m) {
+  if (triangles.size() <= few || std::max(size_m.x, size_m.y) <= small_m) {
     pieces.push_back(all);
     return;
   }
@@ -140,17 +145,18 @@ void halve(std::span<PieceTriangle> triangles, std::size_t few, std::vector<Batc
   const int axis = high_m.x - low_m.x >= high_m.y - low_m.y ? 0 : 1;
   const std::size_t half = (triangles.size() / 2 + 1) / 2 * 2;  // what was a quad stays one
   std::ranges::stable_sort(triangles, {}, [axis](const PieceTriangle& triangle) { return triangle.middle_m()[axis]; });
-  halve(triangles.first(half), few, pieces);
-  halve(triangles.subspan(half), few, pieces);
+  halve(triangles.first(half), few, small_m, pieces);
+  halve(triangles.subspan(half), few, small_m, pieces);
 }
 
 // `ends`: of the indices of each mesh. No piece holds triangles of two: a post that stands on a road is no part of it.
-void cut_into_pieces(SceneBatch& batch, std::span<const std::size_t> ends, Gathered& all) {
+void cut_into_pieces(SceneBatch& batch, std::span<const std::size_t> ends, const PieceSizes& sizes, Gathered& all) {
   const std::span<std::uint32_t> indices = std::span(all.indices).subspan(batch.first_index, batch.index_count);
   const auto at = [&](std::uint32_t corner) -> const glm::vec3& {
     return all.vertices[static_cast<std::size_t>(batch.first_vertex) + corner].position_m;
   };
-  const std::size_t few = std::max(kLeastTriangles, (indices.size() / 3 + kPieces - 1) / kPieces);
+  const std::size_t few =
+      std::max(sizes.least_triangles, (indices.size() / 3 + sizes.most_pieces - 1) / sizes.most_pieces);
   std::vector<PieceTriangle> triangles;
   std::size_t i = 0;
   for (const std::size_t end : ends) {
@@ -162,7 +168,7 @@ void cut_into_pieces(SceneBatch& batch, std::span<const std::size_t> ends, Gathe
           {{indices[i], indices[i + 1], indices[i + 2]}, glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))});
     }
     if (triangles.empty()) continue;
-    halve(triangles, few, batch.pieces);
+    halve(triangles, few, sizes.small_m, batch.pieces);
     auto to = indices.begin() + static_cast<std::ptrdiff_t>(first);
     for (const PieceTriangle& triangle : triangles) to = std::ranges::copy(triangle.corners, to).out;
   }
@@ -217,9 +223,9 @@ void keep_far_caster(const Scene& scene, const DrawnChunk& mesh, std::size_t lev
   for (const CornerLook& look : mesh.looks) kept.uvs.push_back(look.uv);
 }
 
-// One batch for each kind and cell of `side_m` among the chunks; `pieces`: of ground.
+// One batch for each kind and cell of `side_m` among the chunks.
 std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m,
-                               std::optional<std::size_t> far_level, bool pieces, Gathered& all) {
+                               std::optional<std::size_t> far_level, bool stands, Gathered& all) {
   // Of what has a look, one for each material besides: its textures are bound for it.
   std::map<std::tuple<MaterialKind, std::size_t, Cell>, std::vector<DrawnChunk>> groups;
   for (const SceneChunk* chunk : chunks) {
@@ -261,8 +267,8 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     batch.index_count = static_cast<std::uint32_t>(all.indices.size()) - batch.first_index;
     if (batch.kind.surface == Surface::kFoliage)
       add_orders(batch, all);
-    else if (pieces)
-      cut_into_pieces(batch, ends, all);
+    else if (stands)
+      cut_into_pieces(batch, ends, far_level ? kFarPieces : kNearPieces, all);
     if (batch.index_count > 0) batches.push_back(std::move(batch));
   }
   return batches;
@@ -282,7 +288,7 @@ std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all, const Pro
     }
     block.near = gather(scene, chunks, kBlock_m, std::nullopt, true, all);
     for (std::size_t level = 0; level < kFarLevels.size(); ++level)
-      block.far[level] = gather(scene, chunks, kBlock_m, level, false, all);
+      block.far[level] = gather(scene, chunks, kBlock_m, level, true, all);
     blocks.push_back(std::move(block));
   }
   return blocks;
@@ -367,10 +373,36 @@ shader::GpuDraw draw_at(const glm::dvec3& from_eye_m, const glm::dvec3& detail_m
   return draw;
 }
 
+bool hidden(Horizon* horizon, const glm::dvec3& low_m, const glm::dvec3& high_m) {
+  return horizon != nullptr && horizon->hides(low_m, high_m);
+}
+
+// Of the last item the pieces that the view sees, those that follow one another as one.
+void keep_seen(std::vector<DrawItem>& items, const ViewGeometry& view, Horizon& horizon) {
+  const SceneBatch& batch = *items.back().batch;
+  if (batch.pieces.size() < 2) return;
+  const DrawItem whole = items.back();
+  items.pop_back();
+  std::uint32_t first_index = whole.first_index;
+  bool seen_before = false;
+  for (const BatchPiece& piece : batch.pieces) {
+    const glm::dvec3 low_m = batch.origin_m + glm::dvec3(piece.low_m),
+                     high_m = batch.origin_m + glm::dvec3(piece.high_m);
+    const bool seen = view.sees(low_m, high_m) && !horizon.hides(low_m, high_m);
+    if (seen && !seen_before) {
+      items.push_back(whole);
+      items.back().first_index = first_index, items.back().index_count = 0;
+    }
+    if (seen) items.back().index_count += piece.index_count;
+    seen_before = seen;
+    first_index += piece.index_count;
+  }
+}
+
 // Those of one kind together.
 void near_first(std::vector<DrawItem>& items) {
   const auto place = [](const DrawItem& item) {
-    return std::tuple(drawn_by(item.batch->kind), item.distance_m, item.batch->first_index);
+    return std::tuple(drawn_by(item.batch->kind), item.distance_m, item.batch->first_index, item.first_index);
   };
   std::sort(items.begin(), items.end(), [&](const DrawItem& a, const DrawItem& b) { return place(a) < place(b); });
 }
@@ -402,6 +434,7 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
                              std::to_string(shader::kMaxSheetings) + " are drawn");
   sheetings.resize(shader::kMaxSheetings);
   packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
+  ground = GroundHeights(scene);
   Gathered all;
   if (!scene.looks.empty() || !moving_scene.looks.empty()) {
     const char* why_not = no_textures(device);
@@ -439,22 +472,23 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
   sheeting_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(sheetings)), Usage::eUniformBuffer, "sheetings");
 }
 
-std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far_from_m) const {
+std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far_from_m, Horizon* horizon) const {
   std::vector<DrawItem> items;
   items.reserve(256);  // some hundred are seen
   for (const SceneBlock& block : blocks) {
     const std::optional<double> block_at = view.sees(block.low_m, block.high_m);
-    if (!block_at) continue;
+    if (!block_at || hidden(horizon, block.low_m, block.high_m)) continue;
     const std::vector<SceneBatch>* batches = &block.near;
     for (std::size_t level = 0; level < kFarLevels.size(); ++level)
       if (*block_at >= kFarLevels[level].from * far_from_m) batches = &block.far[level];
     for (const SceneBatch& batch : *batches) {
       const std::optional<double> distance = view.sees(batch.low_m, batch.high_m);
-      if (!distance) continue;
+      if (!distance || hidden(horizon, batch.low_m, batch.high_m)) continue;
       const glm::dvec3 detail = batch.origin_m - glm::floor(batch.origin_m / 1024.0) * 1024.0;
       items.push_back({&batch, batch.first_index_along(looks_along(view, batch)), batch.index_count,
                        draw_at(batch.origin_m - view.camera().eye_m, detail, glm::dmat3(1.0)),
                        static_cast<float>(*distance)});
+      if (batches != &block.near && horizon != nullptr) keep_seen(items, view, *horizon);
     }
   }
   near_first(items);
@@ -462,7 +496,7 @@ std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far
 }
 
 void SceneBuffers::add_visible(std::vector<DrawItem>& items, std::vector<SceneBatch>& placed, const ViewGeometry& view,
-                               std::span<const PlacedMesh> meshes) const {
+                               std::span<const PlacedMesh> meshes, Horizon* horizon) const {
   std::size_t count = 0;
   for (const PlacedMesh& mesh : meshes) count += mesh.mesh < moving.size() ? moving[mesh.mesh].batches.size() : 0;
   placed.reserve(count);  // items point to them
@@ -477,7 +511,7 @@ void SceneBuffers::add_visible(std::vector<DrawItem>& items, std::vector<SceneBa
       there.low_m = middle_m - half_m, there.high_m = middle_m + half_m;
       there.origin_m = mesh.position_m + turn * batch.origin_m;
       const std::optional<double> distance = view.sees(there.low_m, there.high_m);
-      if (!distance) continue;
+      if (!distance || hidden(horizon, there.low_m, there.high_m)) continue;
       placed.push_back(there);
       items.push_back({&placed.back(), batch.first_index, batch.index_count,
                        draw_at(there.origin_m - view.camera().eye_m, batch.origin_m, turn),

@@ -13,6 +13,8 @@
 #include "visual/gpu/surface_textures.h"
 #include "visual/renderer.h"
 #include "visual/scene/far_mesh.h"
+#include "visual/scene/ground_heights.h"
+#include "visual/scene/horizon.h"
 #include "visual/scene/scene.h"
 #include "visual/shadow_casters.h"
 
@@ -62,7 +64,7 @@ struct SceneBatch {
   glm::dvec3 low_m{0.0}, high_m{0.0};
   std::uint32_t first_index = 0, index_count = 0;
   std::int32_t first_vertex = 0;
-  /// One behind the other all of its triangles, of what stands and is drawn in full, but leaves; else none.
+  /// One behind the other all of its triangles, of what stands, but leaves; else none.
   std::vector<BatchPiece> pieces{};
   /// The same triangles in kOrders orders, one behind the other: near ones first for who looks along x, then turned to
   /// the left in even steps. Leaves lie behind leaves, and what is drawn first hides the rest before it is lit.
@@ -116,6 +118,7 @@ struct SceneBuffers {
   gpu::DeviceBuffer ways;  ///< FixedWay of those vertices that have a relief and stand, as `tangents`
   gpu::DeviceBuffer road;  ///< FixedRoad of the vertices of asphalt; none where no lamp shines on it
   SurfaceTextures textures;
+  GroundHeights ground;
   std::vector<FarCasters> far_casters;  ///< of each chunk of what stands, to be taken
 
   SceneBuffers() = default;
@@ -123,11 +126,12 @@ struct SceneBuffers {
                const Progress& progress = {});
 
   /// Batches whose bounds touch the view, those of one kind together, near ones first.
-  /// Blocks that begin at the multiples kFarLevels of `far_from_m` or beyond are drawn with their far meshes.
-  std::vector<DrawItem> visible(const ViewGeometry& view, double far_from_m) const;
+  /// Blocks that begin at the multiples kFarLevels of `far_from_m` or beyond are drawn with their far meshes, and of
+  /// these the pieces that touch the view. `horizon`: of the view's eye; what it hides is left out; or nullptr.
+  std::vector<DrawItem> visible(const ViewGeometry& view, double far_from_m, Horizon* horizon) const;
   /// The same for what moves. `placed`: keeps the batches where they are now, for the items.
   void add_visible(std::vector<DrawItem>& items, std::vector<SceneBatch>& placed, const ViewGeometry& view,
-                   std::span<const PlacedMesh> meshes) const;
+                   std::span<const PlacedMesh> meshes, Horizon* horizon) const;
 };
 
 }  // namespace phare

@@ -136,7 +136,7 @@ void tell_shadowed(LitView& view, std::span<const Shade> shades) {
     DrawItem& item = view.items[i];
     const SceneBatch& batch = *item.batch;
     item.shadowed = may_fall_on(batch.low_m, batch.high_m);
-    if (!item.shadowed || item.distance_m > kPiecesTo_m) return;
+    if (!item.shadowed || item.distance_m > kPiecesTo_m || item.index_count != batch.index_count) return;
     for (const BatchPiece& piece : batch.pieces)
       on_pieces[i].push_back(
           may_fall_on(batch.origin_m + glm::dvec3(piece.low_m), batch.origin_m + glm::dvec3(piece.high_m)));

@@ -48,14 +48,14 @@ void drop_unused(FarMesh& mesh) {
   mesh.looks = std::move(looks);
 }
 
-void simplify(FarMesh& mesh, float error_m) {
+void simplify(FarMesh& mesh, float error_m, unsigned options = 0) {
   const float* positions = &mesh.vertices.front().position_m.x;
   const float scale = meshopt_simplifyScale(positions, mesh.vertices.size(), sizeof(SceneVertex));
   if (!(scale > 0.0f)) return;
   std::vector<std::uint32_t> indices(mesh.indices.size());
   indices.resize(meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), positions,
                                   mesh.vertices.size(), sizeof(SceneVertex), std::size_t{3},
-                                  std::min(1.0f, error_m / scale), 0u, nullptr));
+                                  std::min(1.0f, error_m / scale), options, nullptr));
   mesh.indices = std::move(indices);
   drop_unused(mesh);
 }
@@ -139,18 +139,20 @@ FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level,
   if (material.emission_cdm2 != glm::vec3(0.0f)) return mesh;
   if (mesh.indices.empty() || material.retro.kind == RetroKind::kSheeting || material.retro.kind == RetroKind::kMarking)
     return mesh;
-  switch (material.surface) {
+  const bool closed = material.surface == Surface::kFoliage && !material.double_sided;
+  switch (closed ? Surface::kPlain : material.surface) {
     case Surface::kFoliage:
       thin_leaves(mesh, kFarLevels[level].leaves_per_leaf);
       break;
     case Surface::kAsphalt:
     case Surface::kGrass:
-      simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m));
+      // Sides are kept, or one would see between chunks through the ground.
+      simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m), meshopt_SimplifyLockBorder);
       break;
     case Surface::kPlain:
       drop_slivers(mesh, static_cast<float>(kFarThingWidth_rad * from_m));
       if (mesh.indices.empty()) break;
-      simplify(mesh, static_cast<float>(kFarThingError_rad * from_m));
+      simplify(mesh, static_cast<float>((closed ? kFarLumpError_rad : kFarThingError_rad) * from_m));
       break;
     case Surface::kPaint:
       if (level + 1 == kFarLevels.size()) simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m));

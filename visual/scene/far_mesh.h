@@ -13,12 +13,14 @@ struct FarLevel {
   double from;                    ///< multiple of FrameInput::far_mesh_from_m
   std::uint32_t leaves_per_leaf;  ///< of so many leaf triangles one stays, grown to their area
 };
-inline constexpr std::array<FarLevel, 5> kFarLevels{{{0.4, 1}, {1.0, 3}, {1.7, 5}, {2.5, 9}, {4.5, 16}}};
+inline constexpr std::array<FarLevel, 5> kFarLevels{{{0.4, 2}, {1.0, 5}, {1.7, 8}, {2.5, 14}, {4.5, 24}}};
 /// Errors in the place of corners, as angles from the level's beginning. A pixel of 1280 across 60° is 0.8 mrad.
 constexpr double kFarGroundError_rad = 0.2e-3;  ///< road and ground, which a crest shows edge on
 constexpr double kFarThingError_rad = 0.75e-3;  ///< things beside the road
 /// Of these, what is narrower is left out: less than a pixel wide, it comes and goes from pixel to pixel.
 constexpr double kFarThingWidth_rad = 0.8e-3;
+/// Closed lumps within crowns, whose outline is their leaves'.
+constexpr double kFarLumpError_rad = 1.9e-3;
 
 struct FarMesh {
   std::vector<SceneVertex> vertices;  ///< relative to the chunk's origin
@@ -26,9 +28,10 @@ struct FarMesh {
   std::vector<CornerLook> looks{};  ///< one for each vertex, where the chunk has them
 };
 
-/// Ground and things are simplified by quadric error (Garland and Heckbert 1997) by meshoptimizer; foliage is thinned;
-/// retroreflectors and markings stay whole, and paint but at the last level, for what is seen of them far away is their
-/// exact place. `from_m`: the nearest distance this mesh is drawn at.
+/// Ground and things are simplified by quadric error (Garland and Heckbert 1997) by meshoptimizer, ground but for its
+/// sides; foliage that is seen from both sides is thinned; retroreflectors and markings stay whole, and paint but at
+/// the last level, for what is seen of them far away is their exact place. `from_m`: the nearest distance this mesh is
+/// drawn at.
 FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level, double from_m);
 
 }  // namespace phare
