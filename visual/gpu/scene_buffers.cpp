@@ -37,12 +37,12 @@ Cell cell_of(const SceneChunk& chunk, double side_m) {
 }
 
 /// Of far meshes: one for all in a cube of the side in which the grain of surfaces repeats, so that they are drawn
-/// together. Float32 holds places in it to 0.06 mm.
+/// together; a road that begins at the world's origin, as most do, lies in the middle of one. Float32 holds places in
+/// it to 0.06 mm.
 glm::dvec3 far_origin_m(const SceneChunk& chunk) {
   constexpr double kSide_m = 1024.0;
-  constexpr glm::dvec3 kMiddle(0.5, 0.5, 0.0);  // ground is about as high everywhere, and had better not lie in two
   const glm::dvec3 centre = (chunk.low_m + chunk.high_m) * (0.5 / kSide_m);
-  return (glm::round(centre - kMiddle) + kMiddle) * kSide_m;
+  return glm::round(centre) * kSide_m;
 }
 
 struct Gathered {
