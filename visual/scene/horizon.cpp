@@ -39,7 +39,9 @@ glm::dvec2 direction_of(double way) {
 Horizon::Horizon(const GroundHeights& ground, const glm::dvec3& eye_m) : ground_(&ground), eye_m_(eye_m) {
   row_of_.fill(-1);
   const bool above = !ground.none() && ground.least_m(glm::dvec2(eye_m)) < eye_m.z;
-  if (above) steps_ = static_cast<std::size_t>(kTo_m / ground.cell_m()) + 1;
+  if (!above) return;
+  steps_ = static_cast<std::size_t>(kTo_m / ground.cell_m()) + 1;
+  above_.reserve(kSectors / 4 * steps_);  // of a wide view
 }
 
 const float* Horizon::sector(int number) {
