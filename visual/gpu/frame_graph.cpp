@@ -43,8 +43,8 @@ State state_of(Use use) {
       return {Layout::eGeneral, Stage::eComputeShader, Access::eShaderStorageWrite | Access::eShaderStorageRead};
     case Use::kCopySource:
       return {Layout::eTransferSrcOptimal, Stage::eCopy, Access::eTransferRead};
-    case Use::kCopyTarget:
-      return {Layout::eTransferDstOptimal, Stage::eCopy, Access::eTransferWrite};
+    case Use::kClearTarget:
+      return {Layout::eTransferDstOptimal, Stage::eClear, Access::eTransferWrite};
     case Use::kPresent:
       return {Layout::ePresentSrcKHR, Stage::eBottomOfPipe, Access::eNone};
   }

@@ -25,7 +25,7 @@ enum class Use {
   kStorageRead,   ///< by compute
   kStorageWrite,  ///< by compute, which may read it too
   kCopySource,
-  kCopyTarget,
+  kClearTarget,  ///< by a command of its own, not as it is drawn into
   kPresent
 };
 
