@@ -369,8 +369,8 @@ void ShadowPass::draw_image(gpu::FrameGraph& graph, LitScene& scene, const Shado
       "shadow maps",
       {vk::Format::eD32Sfloat, extent, Usage::eDepthStencilAttachment | Usage::eTransferSrc | Usage::eTransferDst});
   const vk::ClearDepthStencilValue nothing{0.0f, 0};
-  // Lavapipe clears as it draws tile by tile, 256 bytes at a time; at once it takes half of the processor's time. Not so
-  // of a picture, whose tiles are all drawn into while what was cleared is still in the cache.
+  // Lavapipe clears as it draws tile by tile, 256 bytes at a time; at once it takes half of the processor's time. Not
+  // so of a picture, whose tiles are all drawn into while what was cleared is still in the cache.
   const bool at_once = device_.properties.deviceType == vk::PhysicalDeviceType::eCpu;
   if (at_once)
     graph.copy("clear shadows", {{&image, gpu::Use::kClearTarget, true}}, [&](gpu::Recorder& commands) {
