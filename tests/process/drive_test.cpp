@@ -16,6 +16,7 @@
 #include "tests/paths.h"
 #include "tests/process/drive_run.h"
 #include "tests/process/gpu_fault.h"
+#include "visual/image/image.h"
 
 namespace phare::test {
 namespace {
@@ -38,6 +39,20 @@ json facts_of(const json& report) {
   facts["light_frames"] = visual["switch_to_photon"]["frames"];
   for (const char* key : {"scene", "vehicle", "lamps", "drive", "rig", "ends"}) facts["report"][key] = report[key];
   return facts;
+}
+
+/// How two pictures differ, in words: in their pixels, or only in how these were deflated.
+std::string pixels_that_differ(const fs::path& a, const fs::path& b) {
+  const Result<Image8> one = read_png(a), other = read_png(b);
+  if (!one.ok() || !other.ok()) return ", no pictures that can be read";
+  if (one->rgba.size() != other->rgba.size()) return ", of another size";
+  std::size_t count = 0, first = 0;
+  for (std::size_t i = one->rgba.size(); i-- > 0;)
+    if (one->rgba[i] != other->rgba[i]) ++count, first = i / 4;
+  if (count == 0) return ", pixels as in the other";
+  const auto width = static_cast<std::size_t>(one->width_px);
+  return ", " + std::to_string(count) + " channels of its pixels, the first at " + std::to_string(first % width) +
+         ", " + std::to_string(first / width);
 }
 
 /// The undisturbed drive, driven once for all tests of this program.
@@ -74,7 +89,10 @@ class DriveTest : public testing::Test {
 
   void expect_the_same_pictures(const fs::path& out) {
     const auto different = differences(quiet_.pictures, pictures_of(out));
-    EXPECT_TRUE(different.empty()) << different.size() << " pictures differ, first " << different.front();
+    if (different.empty()) return;
+    const std::string& first = different.front();
+    ADD_FAILURE() << different.size() << " pictures differ, first " << first
+                  << pixels_that_differ(quiet_.folder / "quiet" / first, out / first);
   }
 
   const QuietDrive& quiet_;
