@@ -95,7 +95,7 @@ struct ViewInput {
   Falling falling{};                        ///< of the drops and flakes that are drawn one by one
   double snow_cover_01 = 0.0;               ///< share of level ground that snow covers
   std::optional<Windscreen> windscreen{};   ///< before this eye; none: as through a clean one
-  double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: the whole meshes everywhere
+  double far_mesh_from_m = kFarMeshFrom_m;  ///< infinity: whole meshes everywhere, hidden by the ground or not
   View view = View::kPhoto;
   Method method = Method::kFragment;
   std::vector<double> isolux_lx{kIsoluxLevels_lx.begin(), kIsoluxLevels_lx.end()};  ///< at most kMostIsoluxLevels

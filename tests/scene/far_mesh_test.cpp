@@ -128,7 +128,8 @@ TEST(FarMesh, GroundKeepsItsSides) {
   }
 }
 
-// A lump of leaves hides what is in it, from afar too: it is closed. Leaves that are seen from both sides are thinned.
+// A lump of leaves hides what is in it, from afar too: it is closed. Leaves are thinned, though their material is seen
+// from one side alone, as a file's is that does not say otherwise: narrower than a pixel, they are not left out.
 TEST(FarMesh, ClosedFoliageStaysClosed) {
   Scene scene;
   scene.materials = {{.name = "lump", .surface = Surface::kFoliage}};
@@ -146,6 +147,17 @@ TEST(FarMesh, ClosedFoliageStaysClosed) {
   EXPECT_LT(area_vector(lump), 1e-4f);
   scene.materials[0].double_sided = true;
   EXPECT_LT(from_afar(scene).indices.size(), scene.indices.size());
+
+  Scene leaves;
+  leaves.materials = {{.name = "leaves", .surface = Surface::kFoliage}};
+  const std::uint32_t count = 10 * kFarLevels.back().leaves_per_leaf;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float x = 0.5f * static_cast<float>(i);
+    for (const glm::vec3 corner : {glm::vec3(x, 0, 0), {x + 0.2f, 0, 0}, {x, 0, 0.2f}})
+      leaves.indices.push_back(static_cast<std::uint32_t>(leaves.vertices.size())),
+          leaves.vertices.push_back({corner, {0, -1, 0}});
+  }
+  EXPECT_EQ(from_afar(leaves).indices.size(), std::size_t{3 * 10});
 }
 
 TEST(FarMesh, KeepsEveryReflectorHoweverSmall) {

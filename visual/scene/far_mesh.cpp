@@ -90,18 +90,15 @@ struct PieceSize {
   glm::vec3 low{1e30f}, high{-1e30f}, area_vector{0.0f};
   float area_m2 = 0.0f;
 
+  bool closed() const { return glm::length(area_vector) < 0.05f * area_m2; }
   // As it looks on average from all sides: of a closed body a quarter of its surface is seen (Cauchy 1832), of a plate
   // half.
-  float width_m() const {
-    const bool closed = glm::length(area_vector) < 0.05f * area_m2;
-    return area_m2 / ((closed ? 4.0f : 2.0f) * glm::length(high - low));
-  }
+  float width_m() const { return area_m2 / ((closed() ? 4.0f : 2.0f) * glm::length(high - low)); }
 };
 
-// Leaves out what is narrower than a pixel: it would flicker from pixel to pixel.
-void drop_slivers(FarMesh& mesh, float width_m) {
-  Pieces pieces(mesh);
-  std::vector<PieceSize> sizes(mesh.vertices.size());  // of each piece, at its number
+// Of each piece, at its number; the rest is empty.
+std::vector<PieceSize> sizes_of(const FarMesh& mesh, Pieces& pieces) {
+  std::vector<PieceSize> sizes(mesh.vertices.size());
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     PieceSize& size = sizes[pieces.of(mesh.indices[i])];
     std::array<glm::vec3, 3> corner;
@@ -114,6 +111,20 @@ void drop_slivers(FarMesh& mesh, float width_m) {
     size.area_vector += area;
     size.area_m2 += glm::length(area);
   }
+  return sizes;
+}
+
+// Lumps that hide what is in them; else leaves, each a surface of its own.
+bool is_closed(const FarMesh& mesh) {
+  Pieces pieces(mesh);
+  return std::ranges::all_of(sizes_of(mesh, pieces),
+                             [](const PieceSize& size) { return size.area_m2 == 0.0f || size.closed(); });
+}
+
+// Leaves out what is narrower than a pixel: it would flicker from pixel to pixel.
+void drop_slivers(FarMesh& mesh, float width_m) {
+  Pieces pieces(mesh);
+  const std::vector<PieceSize> sizes = sizes_of(mesh, pieces);
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
     if (sizes[pieces.of(mesh.indices[i])].width_m() >= width_m)
@@ -139,7 +150,7 @@ FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level,
   if (material.emission_cdm2 != glm::vec3(0.0f)) return mesh;
   if (mesh.indices.empty() || material.retro.kind == RetroKind::kSheeting || material.retro.kind == RetroKind::kMarking)
     return mesh;
-  const bool closed = material.surface == Surface::kFoliage && !material.double_sided;
+  const bool closed = material.surface == Surface::kFoliage && !material.double_sided && is_closed(mesh);
   switch (closed ? Surface::kPlain : material.surface) {
     case Surface::kFoliage:
       thin_leaves(mesh, kFarLevels[level].leaves_per_leaf);

@@ -29,9 +29,9 @@ struct FarMesh {
 };
 
 /// Ground and things are simplified by quadric error (Garland and Heckbert 1997) by meshoptimizer, ground but for its
-/// sides; foliage that is seen from both sides is thinned; retroreflectors and markings stay whole, and paint but at
-/// the last level, for what is seen of them far away is their exact place. `from_m`: the nearest distance this mesh is
-/// drawn at.
+/// sides; so are closed lumps of foliage that are seen from one side, and leaves are thinned; retroreflectors and
+/// markings stay whole, and paint but at the last level, for what is seen of them far away is their exact place.
+/// `from_m`: the nearest distance this mesh is drawn at.
 FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level, double from_m);
 
 }  // namespace phare
