@@ -101,79 +101,6 @@ void add_orders(SceneBatch& batch, Gathered& all) {
   batch.ordered = true;
 }
 
-// Pieces of a batch, at most about so many, and what is not cut further: more of them tell more exactly what a shadow
-// can reach, and each costs a test a lamp.
-struct PieceSizes {
-  std::size_t most_pieces, least_triangles;
-  float small_m;
-};
-constexpr PieceSizes kNearPieces{256, 2, 4.0f};
-// What the ground hides of what is far away: a piece more to draw costs as much as some triangles.
-constexpr PieceSizes kFarPieces{64, 16, 8.0f};
-
-struct PieceTriangle {
-  std::array<std::uint32_t, 3> corners{};
-  glm::vec3 low_m{0.0f}, high_m{0.0f};
-
-  glm::vec3 middle_m() const { return 0.5f * (low_m + high_m); }
-};
-
-BatchPiece around(std::span<const PieceTriangle> triangles) {
-  BatchPiece piece{glm::vec3(1e30f), glm::vec3(-1e30f)};
-  for (const PieceTriangle& triangle : triangles) {
-    piece.low_m = glm::min(piece.low_m, triangle.low_m);
-    piece.high_m = glm::max(piece.high_m, triangle.high_m);
-  }
-  piece.index_count = static_cast<std::uint32_t>(3 * triangles.size());
-  return piece;
-}
-
-// Halves them across their longer side until they are few or small; the triangles come to lie in the order of the
-// pieces.
-void halve(std::span<PieceTriangle> triangles, std::size_t few, float small_m, std::vector<BatchPiece>& pieces) {
-  const BatchPiece all = around(triangles);
-  const glm::vec3 size_m = all.high_m - all.low_m;
-  if (triangles.size() <= few || std::max(size_m.x, size_m.y) <= small_m) {
-    pieces.push_back(all);
-    return;
-  }
-  glm::vec3 low_m(1e30f), high_m(-1e30f);
-  for (const PieceTriangle& triangle : triangles) {
-    low_m = glm::min(low_m, triangle.middle_m());
-    high_m = glm::max(high_m, triangle.middle_m());
-  }
-  const int axis = high_m.x - low_m.x >= high_m.y - low_m.y ? 0 : 1;
-  const std::size_t half = (triangles.size() / 2 + 1) / 2 * 2;  // what was a quad stays one
-  std::ranges::stable_sort(triangles, {}, [axis](const PieceTriangle& triangle) { return triangle.middle_m()[axis]; });
-  halve(triangles.first(half), few, small_m, pieces);
-  halve(triangles.subspan(half), few, small_m, pieces);
-}
-
-// `ends`: of the indices of each mesh. No piece holds triangles of two: a post that stands on a road is no part of it.
-void cut_into_pieces(SceneBatch& batch, std::span<const std::size_t> ends, const PieceSizes& sizes, Gathered& all) {
-  const std::span<std::uint32_t> indices = std::span(all.indices).subspan(batch.first_index, batch.index_count);
-  const auto at = [&](std::uint32_t corner) -> const glm::vec3& {
-    return all.vertices[static_cast<std::size_t>(batch.first_vertex) + corner].position_m;
-  };
-  const std::size_t few =
-      std::max(sizes.least_triangles, (indices.size() / 3 + sizes.most_pieces - 1) / sizes.most_pieces);
-  std::vector<PieceTriangle> triangles;
-  std::size_t i = 0;
-  for (const std::size_t end : ends) {
-    triangles.clear();
-    const std::size_t first = i;
-    for (; i < end; i += 3) {
-      const glm::vec3 &a = at(indices[i]), &b = at(indices[i + 1]), &c = at(indices[i + 2]);
-      triangles.push_back(
-          {{indices[i], indices[i + 1], indices[i + 2]}, glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))});
-    }
-    if (triangles.empty()) continue;
-    halve(triangles, few, sizes.small_m, batch.pieces);
-    auto to = indices.begin() + static_cast<std::ptrdiff_t>(first);
-    for (const PieceTriangle& triangle : triangles) to = std::ranges::copy(triangle.corners, to).out;
-  }
-}
-
 /// A chunk as it is drawn. The spans stay good while it is moved: so do the words of a vector.
 struct DrawnChunk {
   const SceneChunk* chunk;
@@ -268,7 +195,12 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     if (batch.kind.surface == Surface::kFoliage)
       add_orders(batch, all);
     else if (stands)
-      cut_into_pieces(batch, ends, far_level ? kFarPieces : kNearPieces, all);
+      batch.pieces = cut_into_pieces(
+          std::span(all.indices).subspan(batch.first_index, batch.index_count), ends,
+          [&](std::uint32_t corner) {
+            return all.vertices[static_cast<std::size_t>(batch.first_vertex) + corner].position_m;
+          },
+          far_level ? kFarPieces : kNearPieces);
     if (batch.index_count > 0) batches.push_back(std::move(batch));
   }
   return batches;

@@ -12,6 +12,7 @@
 #include "visual/gpu/device.h"
 #include "visual/gpu/surface_textures.h"
 #include "visual/renderer.h"
+#include "visual/scene/batch_pieces.h"
 #include "visual/scene/far_mesh.h"
 #include "visual/scene/ground_heights.h"
 #include "visual/scene/horizon.h"
@@ -48,12 +49,6 @@ struct GpuVertex {
 struct GpuCornerLook {
   glm::vec2 uv;
   glm::u16vec4 colour;
-};
-
-/// Triangles of a batch that lie together, and a box about them relative to the batch's origin, m.
-struct BatchPiece {
-  glm::vec3 low_m{0.0f}, high_m{0.0f};
-  std::uint32_t index_count = 0;
 };
 
 /// Chunks of one kind in one cell of the ground, drawn in one call: on a software device a call costs as much as a
