@@ -155,7 +155,8 @@ void Bus::transmit(std::size_t payload_index) {
     const Endpoint& to = endpoints_[static_cast<std::size_t>(role)][channel];
     if (!socket_.send_to(to, bytes_of(last_bytes_[payload_index]))) ++counters_.send_failures;
   };
-  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl, Role::kLaw}) {
+  // The recorder first: on one machine its record then has every cause before its effects.
+  for (const Role role : {Role::kRecorder, Role::kCockpit, Role::kDynamics, Role::kControl, Role::kLaw}) {
     if (row.receivers.has(role)) send_to(role, 0);
   }
   if (row.receivers.has(Role::kVisual)) {

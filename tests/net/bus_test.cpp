@@ -236,6 +236,22 @@ TEST(Bus, ADatagramArrivesWhenItComesAndNotWhenItIsRead) {
   EXPECT_GE(std::chrono::steady_clock::now() - visual.newest<CockpitState>()->heard, std::chrono::milliseconds(60));
 }
 
+TEST(Bus, TheRecorderHearsOfACauseBeforeAnyoneAnswersIt) {
+  const Rig rig = test_rig();
+  Bus visual = open_bus(rig, Role::kVisual), recorder = open_bus(rig, Role::kRecorder);
+  Bus dynamics = open_bus(rig, Role::kDynamics), cockpit = open_bus(rig, Role::kCockpit);
+  for (int i = 0; i < 50; ++i) {
+    visual.send(SimTime{i}, report(i, 0, 1));
+    recorder.poll();
+    const std::int64_t recorded_ns = recorder.newest<FrameReport>()->received.ns;
+    for (Bus* bus : {&dynamics, &cockpit}) {
+      bus->poll();
+      ASSERT_EQ(bus->newest<FrameReport>()->value.frame_index, i);
+      EXPECT_LE(recorded_ns, bus->newest<FrameReport>()->received.ns);
+    }
+  }
+}
+
 TEST(Bus, NeverSendsWhatNobodyWouldTake) {
   const Rig rig = test_rig();
   Bus cockpit = open_bus(rig, Role::kCockpit);

@@ -9,13 +9,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <random>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "visual/image/canvas.h"
 #include "visual/image/contact_sheet.h"
 #include "visual/image/lux_scale.h"
+#include "visual/image/png.h"
 
 namespace phare {
 namespace {
@@ -63,6 +66,24 @@ TEST(Png, ReadsBackAndIsTheSameBytesTwice) {
   EXPECT_EQ(back->width_px, 37);
   EXPECT_EQ(back->height_px, 23);
   EXPECT_EQ(back->rgba, image.rgba);
+}
+
+// Blocks that come and go, so that what the encoder takes for itself lies elsewhere each time.
+TEST(Png, IsTheSameBytesWhereverItsMemoryLies) {
+  std::mt19937 random(1);
+  std::vector<std::unique_ptr<char[]>> blocks(64);
+  for (int i = 0; i < 250; ++i) {
+    Image8 image{40, 12, std::vector<std::uint8_t>(4 * 40 * 12)};
+    for (std::uint8_t& channel : image.rgba) channel = static_cast<std::uint8_t>(random() % 3);
+    const auto first = encode_png(image);
+    ASSERT_TRUE(first);
+    int others = 0;
+    for (int again = 0; again < 300; ++again) {
+      blocks[random() % blocks.size()] = std::make_unique_for_overwrite<char[]>(16 * (1 + random() % 6000));
+      if (encode_png(image) != first) ++others;
+    }
+    EXPECT_EQ(others, 0);
+  }
 }
 
 std::uint32_t big_endian(std::string_view bytes) {

@@ -1,5 +1,6 @@
 // Pictures as the bytes of a PNG file: red, green, blue, 8 bits each, without loss. ISA-L compresses what is left of
-// each pixel less the one before it: on a night road a fifth of the time that zlib takes at level 2, and as many bytes.
+// each pixel less the one before it: on a night road a sixth of the time that zlib takes at level 2, for 18 % more
+// bytes.
 #pragma once
 
 #include <cstdint>
