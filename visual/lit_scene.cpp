@@ -278,7 +278,7 @@ void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) con
   commands.pushConstants<shader::GpuDraw>(*layout_, kLitStages, 0, draw);
 }
 
-void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVariant& common) {
+std::vector<LitVariant> LitScene::variants_of(const LitView& view, const LitVariant& common) const {
   std::vector<LitVariant> variants;
   variants.reserve(view.items.size());
   for (const DrawItem& item : view.items) variants.push_back(variant_of(view, item, common));
@@ -286,6 +286,15 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVaria
   if (view.depths != nullptr)
     for (DrawItem item : view.items)
       if (!std::exchange(item.shadowed, true)) variants.push_back(variant_of(view, item, common));
+  return variants;
+}
+
+void LitScene::prepare(const LitView& view, const LitVariant& common) {
+  (void)pipelines(variants_of(view, common));
+}
+
+void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVariant& common) {
+  const std::vector<LitVariant> variants = variants_of(view, common);
   const std::vector<vk::Pipeline> wanted = pipelines(variants);
   bind(commands, view);
   bind_shadows(commands, view);

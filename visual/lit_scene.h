@@ -229,6 +229,8 @@ class LitScene {
   void push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const;
   /// All that the view sees; of `common` all counts but the material and the lamps.
   void draw(gpu::Recorder& commands, const LitView& view, const LitVariant& common);
+  /// Makes the pipelines that this takes.
+  void prepare(const LitView& view, const LitVariant& common);
 
  private:
   static constexpr std::uint32_t kViewsInPage = 16;
@@ -266,6 +268,7 @@ class LitScene {
 
   bool is_lean(const LitVariant& variant) const;
   LitVariant variant_of(const LitView& view, const DrawItem& item, const LitVariant& common) const;
+  std::vector<LitVariant> variants_of(const LitView& view, const LitVariant& common) const;
   void write_recipe(const LitVariant& variant, Recipe& recipe);
   void light_by_block(LitView& view);
   void add_mirrored(const LitView& view);

@@ -8,12 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <random>
 #include <utility>
 
+#include "visual/audit_picture.h"
 #include "visual/frame.h"
 #include "visual/gpu/window_surface.h"
-#include "visual/passes/audit.h"
 #include "visual/passes/measure.h"
 #include "visual/picture_memory.h"
 #include "visual/reference_light.h"
@@ -104,6 +103,12 @@ struct Renderer::Impl {
   };
   std::optional<Times> times;
   Clock::time_point done{};  ///< the newest frame that is
+  struct Audit {
+    std::optional<ViewInput> asked{};       ///< with the next frame
+    std::unique_ptr<AuditPicture> drawn{};  ///< until it is taken
+    std::size_t by = 0;                     ///< the frame it was drawn with
+    bool on_way = false;                    ///< which is not done
+  } audit;
 
   explicit Impl(const RendererOptions& wanted) : options(wanted), device(device_options(wanted)) {
     if (options.window != nullptr)
@@ -230,21 +235,23 @@ struct Renderer::Impl {
       device.wait_for_frames();
       copy.buffer = gpu::HostBuffer(device, bytes, vk::BufferUsageFlagBits::eTransferDst, image.name + " copy", true);
     }
-    graph.copy("read back " + image.name, {{&image, gpu::Use::kCopySource, false}}, [&](gpu::Recorder& c) {
-      c.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *copy.buffer.buffer,
-                          vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
-                                              .imageOffset = {part.offset.x, part.offset.y, 0},
-                                              .imageExtent = {part.extent.width, part.extent.height, 1}});
-      const vk::MemoryBarrier2 to_host{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
-                                       .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
-                                       .dstStageMask = vk::PipelineStageFlagBits2::eHost | vk::PipelineStageFlagBits2::eCopy,
-                                       .dstAccessMask = vk::AccessFlagBits2::eHostRead | vk::AccessFlagBits2::eTransferWrite};
-      c.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
-    });
+    graph.read_back(image, part, copy.buffer);
   }
   void copy_out(gpu::Image& image, Copy& copy, vk::DeviceSize bytes_per_texel) {
     copy_out(image, {{0, 0}, image.extent}, copy, bytes_per_texel);
   }
+
+  void draw_audit() {
+    if (!audit.asked) return;
+    if (audit.on_way) device.wait_for_frames();  // nobody took the one before
+    audit.drawn = std::make_unique<AuditPicture>(device, target.extent);
+    audit.drawn->draw(graph, scene, *audit.asked);
+    audit.asked.reset();
+    audit.by = device.frame;
+    audit.on_way = true;
+  }
+  /// Not after another frame has taken its number: draw() asks in time.
+  void end_audit() { audit.on_way = audit.on_way && submissions[audit.by].on_way; }
 
   /// Copies of further views go when a frame does not ask for them; those of the frame's own view are used again.
   void forget_copies(const FrameInput& input) {
@@ -360,8 +367,11 @@ FrameResult Renderer::draw(const FrameInput& input) {
   const std::uint64_t pipelines_before = *impl_->device.pipelines_made;
   impl_->forget_copies(input);
   if (impl_->options.frames_in_flight > 1) impl_->device.frame = impl_->other_frame();
+  gpu::Counts counts;  // of the frame alone
   Impl::Submission& frame = impl_->submit([&] {
     result.views = draw_frame(parts, input, display);
+    counts = impl_->graph.counts();
+    impl_->draw_audit();
     if (impl_->shows_in_turn()) impl_->finish(impl_->other_frame());
   });
   frame.begun = begun;
@@ -371,16 +381,17 @@ FrameResult Renderer::draw(const FrameInput& input) {
   impl_->finish(impl_->other_frame());
   impl_->misfit = (impl_->surface && !impl_->surface->take(*display)) || impl_->misfit;
   if (impl_->options.frames_in_flight == 1 || result.pipelines_made > 0) impl_->finish();
+  impl_->end_audit();
   impl_->graph.free_unused();
 
-  const gpu::Counts& counts = impl_->graph.counts();
   result.effects = result.views.front().effects;
   result.draws = counts.draws;
   result.pass_count = counts.passes;
   result.triangles = counts.triangles;
-  result.images = counts.images;
-  result.image_bytes = counts.image_bytes;
-  result.shared_image_bytes = counts.shared_bytes;
+  const gpu::Counts& held = impl_->graph.counts();
+  result.images = held.images;
+  result.image_bytes = held.image_bytes;
+  result.shared_image_bytes = held.shared_bytes;
   auto times = std::exchange(impl_->times, std::nullopt);
   result.timed = times.has_value();
   if (times) {
@@ -472,55 +483,29 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
 }
 
 std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t count, std::uint64_t seed) {
-  // As wide a view as the picture's, in fewer pixels.
-  constexpr std::uint32_t kWidth = 320;
-  const vk::Extent2D& whole = impl_->target.extent;
-  const vk::Extent2D extent{kWidth, std::clamp(kWidth * whole.height / std::max(whole.width, 1u), 1u, 4 * kWidth)};
-  using Usage = vk::ImageUsageFlagBits;
-  gpu::Image position(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
-                      Usage::eColorAttachment | Usage::eTransferSrc, "audit position");
-  gpu::Image normal(impl_->device, vk::Format::eR32G32B32A32Sfloat, extent,
-                    Usage::eColorAttachment | Usage::eTransferSrc, "audit normal");
-  gpu::Image depth(impl_->device, vk::Format::eD32Sfloat, extent, Usage::eDepthStencilAttachment, "audit depth");
-  Impl::Copy position_copy, normal_copy;
-  const ViewGeometry geometry(input.camera, static_cast<double>(extent.width) / extent.height);
+  AuditPicture picture(impl_->device, impl_->target.extent);
   impl_->submit_and_wait([&] {
     impl_->scene.begin_frame(impl_->graph);
-    LitView view = impl_->scene.view(geometry, sky_of(input), input.lamps, input.moving, input.far_mesh_from_m, {});
-    view.method = input.method;
-    view.area = vk::Rect2D{{0, 0}, extent};
-    draw_audit(impl_->graph, impl_->scene, view, {position, normal, depth});
-    impl_->copy_out(position, position_copy, 16);
-    impl_->copy_out(normal, normal_copy, 16);
+    picture.draw(impl_->graph, impl_->scene, input);
   });
-  const auto* p = static_cast<const float*>(position_copy.buffer.data);
-  const auto* n = static_cast<const float*>(normal_copy.buffer.data);
-  std::vector<std::size_t> lit;
-  for (std::size_t i = 0; i < std::size_t{extent.width} * extent.height; ++i)
-    if (n[4 * i + 3] > 0.0f && p[4 * i + 3] > 0.0f) lit.push_back(i);
-  const auto normal_of = [&](std::size_t i) { return glm::dvec3(n[4 * i], n[4 * i + 1], n[4 * i + 2]); };
-  // How much the normal turns to the next pixels that are lit.
-  const auto turn_per_px = [&](std::size_t i) {
-    double most = 0.0;
-    const std::size_t x = i % extent.width, y = i / extent.width;
-    const auto see = [&](bool there, std::size_t next) {
-      if (there && n[4 * next + 3] > 0.0f) most = std::max(most, glm::distance(normal_of(next), normal_of(i)));
-    };
-    see(x > 0, i - 1), see(x + 1 < extent.width, i + 1);
-    see(y > 0, i - extent.width), see(y + 1 < extent.height, i + extent.width);
-    return most;
-  };
-  std::vector<AuditSample> samples;
-  std::mt19937_64 random(seed);
-  for (std::size_t k = 0; k < count && !lit.empty(); ++k) {
-    const std::size_t i = lit[random() % lit.size()];
-    samples.push_back({{input.camera.eye_m + glm::dvec3(p[4 * i], p[4 * i + 1], p[4 * i + 2]), normal_of(i)},
-                       static_cast<double>(p[4 * i + 3]),
-                       (static_cast<double>(i % extent.width) + 0.5) / extent.width,
-                       (static_cast<double>(i / extent.width) + 0.5) / extent.height,
-                       4.0 * 0x1p-24 * static_cast<double>(i % extent.width + i / extent.width) * turn_per_px(i)});
-  }
-  return samples;
+  return picture.samples(count, seed);
+}
+
+void Renderer::prepare_audit(const ViewInput& view) {
+  impl_->submit_and_wait([&] {
+    impl_->scene.begin_frame(impl_->graph);
+    AuditPicture::prepare(impl_->scene, view, impl_->target.extent);
+  });
+}
+
+void Renderer::ask_audit(ViewInput view) {
+  impl_->audit.asked = std::move(view);
+}
+
+std::optional<std::vector<AuditSample>> Renderer::take_audit(std::size_t count, std::uint64_t seed) {
+  impl_->end_audit();
+  if (!impl_->audit.drawn || impl_->audit.on_way) return std::nullopt;
+  return std::exchange(impl_->audit.drawn, nullptr)->samples(count, seed);
 }
 
 std::optional<std::string> Renderer::no_reference() const {

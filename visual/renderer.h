@@ -225,9 +225,16 @@ class Renderer {
   std::vector<std::vector<float>> measure(std::span<const PlacedLamp> lamps, std::span<const MeasurePoint> points,
                                           std::size_t shadows = 0, Method method = Method::kFragment);
 
-  /// Draws the frame again at `width` x `height` with position and normal out, and returns `count` lit pixels chosen by
-  /// `seed`.
+  /// Draws the view again in fewer pixels, with position and normal out, waits for it, and returns `count` lit pixels
+  /// chosen by `seed`.
   std::vector<AuditSample> audit(const FrameInput& input, std::size_t count, std::uint64_t seed);
+  /// The same without waiting: it is drawn with the next frame, by beams as they are then, and can be taken when that
+  /// frame is done. Its draws are not counted among the frame's.
+  void ask_audit(ViewInput view);
+  /// Makes the pipelines that an audit of this view takes.
+  void prepare_audit(const ViewInput& view);
+  /// Once; nothing: none was asked for, or it is not done.
+  std::optional<std::vector<AuditSample>> take_audit(std::size_t count, std::uint64_t seed);
 
   /// Why this device cannot draw by Method::kReference; nothing: it can. To draw by it all the same throws.
   std::optional<std::string> no_reference() const;

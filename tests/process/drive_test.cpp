@@ -198,6 +198,19 @@ TEST_F(DriveTest, TheSameBitForBitFromAnotherWorkingDirectory) {
   EXPECT_EQ(facts_of(quiet_.report), facts_of(report_of(elsewhere / "again")));
 }
 
+// The stills take a second to make, in which nobody could drive.
+TEST_F(DriveTest, StillsOfADriveInRealTimeAreMadeWhenItIsOver) {
+  const fs::path out = folder_ / "real time";
+  DriveRun run(out, folder_ / "home", {"--frames", "330", "--still-at", "1"}, false);
+  ASSERT_TRUE(run.wait_for_frame(310));  // the car has been fast enough for a second and a half
+  EXPECT_FALSE(fs::exists(out / "drivers_view.png"));
+  EXPECT_FALSE(fs::exists(out / "wall_25m.png"));
+  ASSERT_EQ(run.wait(), 0);
+  for (const char* still : {"drivers_view.png", "birds_eye.png", "wall_25m.png", "hdr.exr"})
+    EXPECT_TRUE(fs::exists(out / still)) << still;
+  EXPECT_EQ(report_of(out)["processes"]["visual-0"]["self_audit"]["audits"], 2);
+}
+
 TEST_F(DriveTest, TheSameOffLoopbackWithAKey) {
   std::ifstream rig(source_dir() + "/config/rigs/country_road.toml");
   std::string text{std::istreambuf_iterator<char>(rig), {}};

@@ -97,6 +97,28 @@ TEST(DriveLog, ReachIsDueTenTimesASecond) {
   fs::remove_all(folder);
 }
 
+// A search takes a tenth of a second: a drive looks for all of them before it begins, whichever design shines then.
+TEST(DriveLog, CutoffsThatWereFoundBeforehandAreNotLookedForAgain) {
+  const auto rig = read_rig(source_dir() + "/config/rigs/country_road.toml");
+  ASSERT_TRUE(rig.ok());
+  ASSERT_EQ(rig->designs.size(), 2u);
+  auto lamps = Lamps::load(*rig), late = Lamps::load(*rig);
+  ASSERT_TRUE(lamps.ok() && late.ok());
+  lamps->find_cutoffs();
+  EXPECT_EQ(lamps->cutoff_searches(), 2u) << "left and right are alike";
+  CockpitState controls;
+  controls.light_switch = LightSwitch::kLow;
+  for (controls.design_index = 0; controls.design_index < 2; ++controls.design_index) {
+    (void)lamps->set_controls(controls);
+    (void)late->set_controls(controls);
+    const auto height_m = lamps->cutoff_height_m({}, 25.0);
+    EXPECT_TRUE(height_m.has_value());
+    EXPECT_EQ(height_m, late->cutoff_height_m({}, 25.0));
+    EXPECT_EQ(late->cutoff_searches(), controls.design_index + 1u);
+  }
+  EXPECT_EQ(lamps->cutoff_searches(), 2u);
+}
+
 TEST(DriveLog, CutoffOnTheWallFollowsPitchAndLevelling) {
   const auto rig = read_rig(source_dir() + "/config/rigs/country_road.toml");
   ASSERT_TRUE(rig.ok());

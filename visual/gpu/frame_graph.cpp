@@ -169,6 +169,22 @@ void FrameGraph::copy(const std::string& name, const std::vector<ImageUse>& uses
   record_pass(name, uses, record);
 }
 
+void FrameGraph::read_back(Image& image, const vk::Rect2D& part, const HostBuffer& to) {
+  copy("read back " + image.name, {{&image, Use::kCopySource, false}}, [&](Recorder& commands) {
+    commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *to.buffer,
+                               vk::BufferImageCopy{.imageSubresource = {vk::ImageAspectFlagBits::eColor, 0, 0, 1},
+                                                   .imageOffset = {part.offset.x, part.offset.y, 0},
+                                                   .imageExtent = {part.extent.width, part.extent.height, 1}});
+    using Stage = vk::PipelineStageFlagBits2;
+    using Access = vk::AccessFlagBits2;
+    const vk::MemoryBarrier2 to_host{.srcStageMask = Stage::eCopy,
+                                     .srcAccessMask = Access::eTransferWrite,
+                                     .dstStageMask = Stage::eHost | Stage::eCopy,
+                                     .dstAccessMask = Access::eHostRead | Access::eTransferWrite};
+    commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &to_host});
+  });
+}
+
 void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse>& uses,
                              const std::function<void(Recorder&)>& record) {
   auto& [stamps, read, names] = *recorded_;

@@ -98,6 +98,8 @@ class FrameGraph {
   void pass(const std::string& name, const std::vector<ImageUse>& uses, const std::function<void(Recorder&)>& record);
   /// The same for one that only copies.
   void copy(const std::string& name, const std::vector<ImageUse>& uses, const std::function<void(Recorder&)>& record);
+  /// A part of an image into a buffer that holds as many texels, for the processor.
+  void read_back(Image& image, const vk::Rect2D& part, const HostBuffer& to);
   void end();
 
   /// Frees the images that the frame just recorded did not ask for. If there are some, frames are waited for.

@@ -21,7 +21,7 @@ void draw_audit(gpu::FrameGraph& graph, LitScene& scene, const LitView& view, co
                                                   .pColorAttachments = targets.data(),
                                                   .pDepthAttachment = &depth});
         set_area(commands, {{0, 0}, target.position.extent}, view.geometry.mirrored());
-        scene.draw(commands, view, {.output = LampOutput::kAudit, .format = target.position.format});
+        scene.draw(commands, view, {.output = LampOutput::kAudit, .format = kAuditFormat});
         commands.endRendering();
       });
 }

@@ -11,6 +11,8 @@ struct AuditTarget {
   gpu::Image& depth;
 };
 
+inline constexpr vk::Format kAuditFormat = vk::Format::eR32G32B32A32Sfloat;  ///< of position and normal
+
 void draw_audit(gpu::FrameGraph& graph, LitScene& scene, const LitView& view, const AuditTarget& target);
 
 }  // namespace phare

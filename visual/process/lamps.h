@@ -157,6 +157,9 @@ class Lamps {
   /// of them: with mounts, levelling and the body's pitch (lamp_cutoff.cpp). Nothing: low beam is dark, or has no
   /// cut-off.
   std::optional<double> cutoff_height_m(const VehicleState& pose, double wall_m) const;
+  /// Of every design, on all processors: a lamp takes a tenth of a second, which a drive has no room for.
+  void find_cutoffs() const { find_cutoffs(0, designs_.size()); }
+  std::uint64_t cutoff_searches() const { return cutoff_searches_; }  ///< in the light of so many lamps
 
   /// Mean colour of the light of all sources that shine, weighted by flux, linear sRGB of luminance 1; nothing when all
   /// are dark.
@@ -187,6 +190,7 @@ class Lamps {
   std::vector<std::string> lit_table_ends() const;
 
  private:
+  void find_cutoffs(std::size_t first_design, std::size_t count) const;
   /// Of one lamp; the point in the car's frame.
   double lamp_lx(std::size_t design, std::size_t slot, const std::set<LampFunction>& lit, const MeasurePoint& at,
                  double tilt_rad) const;
@@ -221,6 +225,7 @@ class Lamps {
   std::vector<SourceEnd> table_ends_;
   /// [design][lamp], of the low beam as mounted in the rig; found when first asked for.
   mutable std::map<std::size_t, std::vector<std::optional<double>>> cutoffs_deg_;
+  mutable std::uint64_t cutoff_searches_ = 0;
   std::vector<std::vector<Position>> positions_;   ///< [design][lamp]
   std::vector<std::optional<std::size_t>> shown_;  ///< per slot, the design whose image it holds
   std::vector<Mounts> of_rig_;                     ///< of each design

@@ -46,10 +46,12 @@ class Loop {
   void draw(const Moment& moment);
   void report(const Moment& moment);
   void keep(const Moment& moment);
-  void audit(const Moment& moment);
+  void take_audit();
+  void mind_the_stats(const Moment& moment);
   void finish();
 
  private:
+  struct Still;
   void take(const Datagram& datagram);
   void mind_the_keys();
   void mind_the_mouse();
@@ -61,7 +63,8 @@ class Loop {
   PanelFacts panel_facts(const Moment& moment, double since_s) const;
   void measure(const Moment& moment);
   std::vector<GlaringLamp> add_views(const Moment& moment, const Lamps& shining);
-  FrameInput still_of(const Moment& moment) const;
+  Still still_of(const Moment& moment) const;
+  void keep_stills();
   void light_up(const CockpitState& controls);
   void upload(const std::vector<Lamps::Change>& changes);
   EffectChoices picked_effects() const;
@@ -85,6 +88,8 @@ class Loop {
   std::string picked_line() const;
   /// What a lockstep drive fails by.
   std::string audit_failure() const;
+  void ask_audit(const Moment& moment);
+  void finish_audit();
   void mind_the_road(const Moment& moment);
   std::vector<std::string> overlay(const Moment& moment) const;
   void mind_who_is_glared_at(DriveRow& row, const Moment& moment);
@@ -110,12 +115,24 @@ class Loop {
                       s_.options.going_on,
                       {.versus = s_.desk.compare != Compare::kOff, .traffic = !s_.traffic.empty()}};
   Versus versus_;
-  /// The moment of the stills, to draw the other designs in.
+  /// The moment of the stills, to draw it and the other designs in, and how the lamps shone then.
   struct Still {
     FrameInput driver;
     Moment moment;
+    Lamps lamps;
+    Versus versus;
+    std::string label;
   };
   std::optional<Still> still_;
+  /// An audit that is drawn with a frame, and what that was of.
+  struct AskedAudit {
+    std::int64_t number;
+    Moment moment;
+    ViewInput view;
+    Lamps lamps;  ///< as they shone: by the time it is done they may shine otherwise
+    PictureSize size;
+  };
+  std::unique_ptr<AskedAudit> audit_;
   ControlDesk commands_;
   EyeSetting eye_set_ = s_.desk.eye;
   struct Asked {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "config/base/on_all_cores.h"
 #include "net/control_desk.h"
 #include "net/silence.h"
 #include "visual/air_of_desk.h"
@@ -94,6 +95,9 @@ void Loop::warm_up() {
   const bool beside = s_.fixed_light->street_lamps() > 0;  // they glare from the first picture on
   int step = 0;
   bool last = false;
+  // Else found when first asked for, and missed there.
+  if (thorough && (drive_log_.wanted() || s_.window))
+    on_all_cores(2, [&](std::size_t i) { i == 0 ? s_.lamps.find_cutoffs() : measuring_.road().prepare(); });
   const auto draw = [&](const CockpitState& controls) {
     if (over()) return;  // who does not want to wait leaves
     if (s_.window) input.panel = getting_ready_panel(++step, steps);
@@ -115,6 +119,7 @@ void Loop::warm_up() {
     const bool glaring =
         s_.desk.glare != std::size_t{0} &&
         (met || beside || (last && thorough) || !s_.lamps.glare_at(pose, first_camera.eye_m, Scene{}, {}).empty());
+    if (thorough && s_.options.audit_every > 0) s_.renderer.prepare_audit(input);
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
     // The same for fog, where there is some to begin with, and of the light that the drive begins with.

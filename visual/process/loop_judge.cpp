@@ -88,34 +88,55 @@ void Loop::govern(const Moment& moment, double frame_ms) {
   spdlog::info("governor: {}", governor.text(*step));
 }
 
-void Loop::audit(const Moment& moment) {
-  constexpr std::size_t kPixels = 32;
-  const std::int64_t number = number_of(moment);
+/// With the frame that is drawn next, which does not wait for it.
+void Loop::ask_audit(const Moment& moment) {
+  const std::int64_t number = s_.options.lockstep ? moment.frame_index : drawn_frames_;
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
-  if (!over_ && !others_turn && s_.options.audit_every > 0 && number % s_.options.audit_every == 0 &&
-      !input_.lamps.empty()) {
-    FrameInput own = input_;  // the car's own light, which is known in float64
-    own.lamps = s_.lamps.placed(moment.car.pose);
-    own.camera.seen_from_01 = 0.0, own.camera.seen_to_01 = 1.0;  // the whole view, of which a half may be shown
-    own.moving.clear();
-    const auto samples = s_.renderer.audit(own, kPixels, static_cast<std::uint64_t>(number) + 1);
-    const AuditMoment where{
-        .frame = number,
-        .time_s = moment.time.seconds(),
-        .width_px = s_.renderer.picture_size().width_px,
-        .height_px = s_.renderer.picture_size().height_px,
-        .bound = audit_bound(s_.options.beam_image.value_or(s_.rig.beam_image), input_.method, s_.options.audit_bound),
-        .eye_m = own.camera.eye_m,
-        .scene = &s_.scene,
-        .by_lamp = [&](const MeasurePoint& at) { return lux_by_lamp(own.lamps, at); }};
-    const auto failure = s_.audit.add(s_.lamps, moment.car.pose, samples, where);
-    // A lockstep drive fails by it: its launcher says so, once; without one we do, when we leave.
-    if (failure && !s_.options.lockstep) spdlog::warn("self-audit: {}", failure->text());
-  }
+  if (over_ || others_turn || s_.options.audit_every <= 0 || number % s_.options.audit_every != 0 ||
+      input_.lamps.empty())
+    return;
+  finish_audit();          // where every frame is audited, of the one before
+  ViewInput own = input_;  // the car's own light, which is known in float64
+  own.lamps = s_.lamps.placed(moment.car.pose);
+  own.camera.seen_from_01 = 0.0, own.camera.seen_to_01 = 1.0;  // the whole view, of which a half may be shown
+  own.moving.clear();
+  s_.renderer.ask_audit(own);
+  audit_ =
+      std::make_unique<AskedAudit>(AskedAudit{number, moment, std::move(own), s_.lamps, s_.renderer.picture_size()});
+}
+
+/// Of a frame that is done.
+void Loop::take_audit() {
+  constexpr std::size_t kPixels = 32;
+  if (!audit_) return;
+  const auto samples = s_.renderer.take_audit(kPixels, static_cast<std::uint64_t>(audit_->number) + 1);
+  if (!samples) return;
+  const std::unique_ptr<AskedAudit> of = std::exchange(audit_, nullptr);
+  const AuditMoment where{
+      .frame = of->number,
+      .time_s = of->moment.time.seconds(),
+      .width_px = of->size.width_px,
+      .height_px = of->size.height_px,
+      .bound = audit_bound(s_.options.beam_image.value_or(s_.rig.beam_image), of->view.method, s_.options.audit_bound),
+      .eye_m = of->view.camera.eye_m,
+      .scene = &s_.scene,
+      .by_lamp = [&](const MeasurePoint& at) { return lux_by_lamp(of->view.lamps, at); }};
+  const auto failure = s_.audit.add(of->lamps, of->moment.car.pose, *samples, where);
+  // A lockstep drive fails by it: its launcher says so, once; without one we do, when we leave.
+  if (failure && !s_.options.lockstep) spdlog::warn("self-audit: {}", failure->text());
+}
+
+void Loop::finish_audit() {
+  if (!audit_) return;
+  s_.renderer.finish();
+  take_audit();
+}
+
+void Loop::mind_the_stats(const Moment& moment) {
   if (Clock::now() - stats_written_ > kStatsEvery) write_stats(moment.time);
 }
 
-/// Of every lamp of the design, as the picture's shader has it.
+/// Of every lamp of the design, as the picture's shader has it: where frames overlap, by beams a frame younger.
 std::vector<double> Loop::lux_by_lamp(std::span<const PlacedLamp> lamps, const MeasurePoint& at) {
   std::vector<double> lux(s_.lamps.design().lamps.size(), 0.0);
   const auto measured = s_.renderer.measure(lamps, std::span(&at, 1));

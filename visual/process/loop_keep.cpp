@@ -19,6 +19,11 @@ using namespace std::chrono_literals;
 constexpr std::int64_t kKeyframe_ns = 100'000'000;  // of the video
 constexpr std::int64_t kEye_ns = 100'000'000;       // in real time: an eye adapts in seconds
 
+/// Of the lamps that shine, from this place among the renderer's on.
+void set_beams(Renderer& renderer, const Lamps& lamps, const VehicleState& pose, std::size_t first_beam) {
+  for (const PlacedLamp& lamp : lamps.placed(pose)) renderer.set_beam(first_beam + lamp.beam, lamps.image(lamp.beam));
+}
+
 }  // namespace
 
 void Loop::keep(const Moment& moment) {
@@ -28,18 +33,33 @@ void Loop::keep(const Moment& moment) {
   }
   if (captured_) capture_ = {number_of(moment), moment, label(moment)};
   const bool stills = wants_stills(moment);
-  if (stills || s_.renderer.has_kept()) keep_capture();
-  if (stills) {
-    const FrameInput driver = still_of(moment);
-    still_ = Still{driver, moment};
-    s_.stills_design = s_.lamps.design_index();
-    // Before the stills, whose last picture says that all are there.
-    if (versus_.lamps() != nullptr) s_.album.keep_versus(s_.renderer, driver, versus_, moment.car.pose, label(moment));
-    s_.album.keep_stills(s_.renderer, driver, moment.car.pose, s_.lamps, s_.options.width_px, s_.options.height_px,
-                         label(moment));
-    progress_ = Clock::now();
-    frame_end_ = {};  // not a frame interval
+  if (stills) still_ = still_of(moment);
+  // They take a second, which a drive in real time has when it is over.
+  const bool there_is_time = s_.options.lockstep || ended_ || over_;
+  const bool now = still_ && there_is_time && !s_.album.has_stills();
+  if (now || s_.renderer.has_kept()) keep_capture();
+  if (now) keep_stills();
+}
+
+void Loop::keep_stills() {
+  const Still& still = *still_;
+  const VehicleState& pose = still.moment.car.pose;
+  const bool by_then_otherwise = newest_ && still.moment.time != newest_->time;
+  if (by_then_otherwise) {
+    set_beams(s_.renderer, still.lamps, pose, 0);
+    if (still.versus.lamps() != nullptr) set_beams(s_.renderer, *still.versus.lamps(), pose, Versus::kFirstBeam);
   }
+  s_.stills_design = still.lamps.design_index();
+  // Before the stills, whose last picture says that all are there.
+  if (still.versus.lamps() != nullptr) s_.album.keep_versus(s_.renderer, still.driver, still.versus, pose, still.label);
+  s_.album.keep_stills(s_.renderer, still.driver, pose, still.lamps, s_.options.width_px, s_.options.height_px,
+                       still.label);
+  if (by_then_otherwise) {  // a window may stay, in which they shine as they do now
+    s_.lamps.forget_shown();
+    versus_.forget_shown();
+  }
+  progress_ = Clock::now();
+  frame_end_ = {};  // not a frame interval
 }
 
 /// Where frames overlap that of a frame is there when the next one has been drawn.
@@ -56,7 +76,7 @@ void Loop::keep_capture() {
 
 /// The frame as stills have it, whatever camera and layout are shown: the driver's eye over the whole picture, by the
 /// car's own light, with nothing over it.
-FrameInput Loop::still_of(const Moment& moment) const {
+Loop::Still Loop::still_of(const Moment& moment) const {
   FrameInput still = input_;
   still.camera = driver_camera(s_.channel(), moment.car.pose);
   still.part = {};
@@ -66,12 +86,14 @@ FrameInput Loop::still_of(const Moment& moment) const {
   still.windscreen.reset(), still.more_views.clear();
   still.view = View::kPhoto;
   still.overlay.clear(), still.instruments.clear(), still.panel = {}, still.marks = {}, still.gui = nullptr;
-  return still;
+  return {std::move(still), moment, s_.lamps, versus_.copy(), label(moment)};
 }
 
 void Loop::finish() {
   s_.bus.on_datagram = nullptr;
+  finish_audit();
   keep_capture();
+  if (still_ && !s_.album.has_stills()) keep_stills();
   keep_other_designs();
   s_.album.finish();
   if (newest_ && s_.album.not_kept() > 0) report(*newest_);  // the stills too: the statistics may find no room either
@@ -129,8 +151,7 @@ void Loop::log_frame(const Moment& moment) {
 /// that the counts are those of the drive.
 void Loop::keep_other_designs() {
   if (!s_.album.wanted() || s_.stop.requested()) return;
-  if (!still_ && newest_)
-    still_ = Still{still_of(*newest_), *newest_};  // those there are were made by the process before
+  if (!still_ && newest_) still_ = still_of(*newest_);  // those there are were made by the process before
   if (!still_) return;
   for (const auto& [design, seconds] : s_.designs_lit.seconds) {
     if (s_.stills_design == design) continue;
@@ -142,7 +163,7 @@ void Loop::keep_other_designs() {
     (void)lamps.set_controls(controls);
     FrameInput driver = still_->driver;
     driver.lamps = lamps.placed(still_->moment.car.pose);
-    for (const PlacedLamp& lamp : driver.lamps) s_.renderer.set_beam(lamp.beam, lamps.image(lamp.beam));
+    set_beams(s_.renderer, lamps, still_->moment.car.pose, 0);
     char label[160];
     std::snprintf(label, sizeof label, "%.1f s  low  %s", still_->moment.time.seconds(), lamps.design().name.c_str());
     s_.album.keep_design(s_.renderer, driver, still_->moment.car.pose, lamps, design, label);
@@ -165,7 +186,7 @@ bool Loop::wants_picture(const Moment& moment) {
 /// Low beam at speed past the wanted time tells most; at the end whatever there is.
 bool Loop::wants_stills(const Moment& moment) const {
   constexpr double kTellingSpeed_mps = 8.0;
-  if (!s_.album.wanted() || s_.album.has_stills()) return false;
+  if (!s_.album.wanted() || s_.album.has_stills() || still_) return false;
   if (ended_ || over_) return true;
   if (moment.time.seconds() < s_.options.still_at_s) return false;
   return moment.controls.light_switch == LightSwitch::kLow && !moment.controls.flash &&

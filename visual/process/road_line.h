@@ -19,8 +19,9 @@ class RoadLine {
  public:
   RoadLine() = default;
   /// `lane`: of the scene, may be empty; then s and lateral are the car's x and y. The surface is read when the first
-  /// height is asked for.
+  /// height is asked for, or before.
   RoadLine(std::vector<LanePoint> lane, std::filesystem::path scene_file);
+  void prepare() const { (void)surface(); }
 
   struct Place {
     double s_m = 0.0, lateral_m = 0.0;  ///< lateral: to the left

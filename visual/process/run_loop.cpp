@@ -284,6 +284,7 @@ void Loop::draw(const Moment& moment) {
       halves.more_views.front().pupils = eyeshine_of(*versus_.lamps(), moment.car.pose, pupils_, world_,
                                                      input_.camera.eye_m, input_.air);
   }
+  ask_audit(moment);
   const FrameResult result = s_.renderer.draw(both ? halves : input_);
   if (over_) return;  // what is counted is the drive
   s_.stats.add(result, captured_);
@@ -374,7 +375,8 @@ void run_loop(Session& session) {
     // Reported when its picture is on the disk: a visual killed in between is given the same frame again, and no
     // picture is missing.
     loop.keep(*moment);
-    loop.audit(*moment);
+    loop.take_audit();
+    loop.mind_the_stats(*moment);
     loop.report(*moment);
   }
   loop.finish();

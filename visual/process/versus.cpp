@@ -44,6 +44,14 @@ std::vector<Lamps::Change> Versus::follow(const Desk& desk, const Lamps& shown, 
   return changes;
 }
 
+Versus Versus::copy() const {
+  Versus same;
+  if (lamps_) same.lamps_ = std::make_unique<Lamps>(*lamps_);
+  same.aligned_rad_ = aligned_rad_;
+  same.work_ = work_;
+  return same;
+}
+
 void Versus::align(const Desk& desk, const Lamps& shown, std::size_t design, Lamps::Mounts mounts) {
   aligned_rad_.reset();
   if (!desk.versus_aligned) return;

@@ -21,6 +21,13 @@ class Versus {
   /// Adopts desk and controls, after A has. What changed of B's beams, with their places among the renderer's.
   std::vector<Lamps::Change> follow(const Desk& desk, const Lamps& shown, CockpitState controls);
 
+  /// As it is now.
+  Versus copy() const;
+  /// The renderer holds none of B's beams: all are reported again.
+  void forget_shown() {
+    if (lamps_) lamps_->forget_shown();
+  }
+
   /// B as it shines; none: nothing is compared.
   const Lamps* lamps() const { return lamps_.get(); }
   /// B's lamps in the world, with the places of their beams.
