@@ -78,6 +78,11 @@ LitVariant LitScene::variant_of(const LitView& view, const DrawItem& item, const
   variant.fixed_light = view.fixed_light && variant.output != LampOutput::kAudit;
   variant.moves = variant.fixed_light && item.moves != DrawItem::kStands;
   variant.kind.road = variant.kind.road && variant.fixed_light && view.r_table;
+  if (shows_lux(variant.output)) {  // whatever the surface does with it
+    variant.kind.surface = Surface::kPlain;
+    variant.kind.retro = RetroKind::kNone;
+    variant.colours = 0;
+  }
   if (variant.output == LampOutput::kAudit) {
     const std::uint32_t look = variant.kind.look;
     variant.kind = {.double_sided = variant.kind.double_sided,

@@ -320,6 +320,18 @@ TEST(ViewLamps, ManyLampsLightEachBlockThatTheyReach) {
   EXPECT_EQ(renderer.validation_messages(), 0u);
 }
 
+// What a surface does with light is no part of its illuminance: of false colours all kinds of surface are one.
+TEST(ViewLamps, LuxByColourIsOfOneKindOfSurface) {
+  Renderer renderer = made(kFrameWidth, kFrameHeight);
+  FrameInput input = driver_view();
+  const std::uint64_t photo = renderer.draw(input).pipelines_made;
+  input.view = View::kFalseColour;
+  const std::uint64_t lux = renderer.draw(input).pipelines_made;
+  EXPECT_EQ(photo, 3u);
+  EXPECT_EQ(lux, 1u);
+  EXPECT_EQ(renderer.validation_messages(), 0u);
+}
+
 // A beam that changes is copied by a pass of the frame itself, one that does not by none.
 TEST(ViewLamps, AChangedBeamIsAPassOfTheFrame) {
   Renderer renderer = made(kFrameWidth, kFrameHeight);
