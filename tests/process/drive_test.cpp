@@ -202,7 +202,7 @@ TEST_F(DriveTest, TheSameBitForBitFromAnotherWorkingDirectory) {
 TEST_F(DriveTest, StillsOfADriveInRealTimeAreMadeWhenItIsOver) {
   const fs::path out = folder_ / "real time";
   DriveRun run(out, folder_ / "home", {"--frames", "330", "--still-at", "1"}, false);
-  ASSERT_TRUE(run.wait_for_frame(310));  // the car has been fast enough for a second and a half
+  ASSERT_TRUE(run.wait_for_frame(250));  // 4.2 s at least; the car is fast enough for stills from 3.6 s on
   EXPECT_FALSE(fs::exists(out / "drivers_view.png"));
   EXPECT_FALSE(fs::exists(out / "wall_25m.png"));
   ASSERT_EQ(run.wait(), 0);

@@ -32,8 +32,7 @@ void Loop::keep(const Moment& moment) {
     next_eye_ns_ = moment.time.ns + kEye_ns;
   }
   if (captured_) capture_ = {number_of(moment), moment, label(moment)};
-  const bool stills = wants_stills(moment);
-  if (stills) still_ = still_of(moment);
+  if (wants_stills(moment)) still_ = still_of(moment);
   // They take a second, which a drive in real time has when it is over.
   const bool there_is_time = s_.options.lockstep || ended_ || over_;
   const bool now = still_ && there_is_time && !s_.album.has_stills();
