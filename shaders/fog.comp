@@ -50,7 +50,8 @@ void main() {
   float along_##I = dot(direction, lamp_##I), d2_##I = max(dot(aside_##I, aside_##I), 1e-4), d_##I = sqrt(d2_##I); \
   float angle_##I = atan2_deg(-along_##I, d_##I); \
   vec3 turned_##I = vec3(dot(frame.lamps[I].row_a.xyz, direction), dot(frame.lamps[I].row_b.xyz, direction), dot(frame.lamps[I].row_c.xyz, direction)); \
-  vec3 place_##I = vec3(dot(frame.lamps[I].row_a.xyz, lamp_##I), dot(frame.lamps[I].row_b.xyz, lamp_##I), dot(frame.lamps[I].row_c.xyz, lamp_##I));
+  vec3 place_##I = vec3(dot(frame.lamps[I].row_a.xyz, lamp_##I), dot(frame.lamps[I].row_b.xyz, lamp_##I), dot(frame.lamps[I].row_c.xyz, lamp_##I)); \
+  TableShape shape_##I = PHARE_SHAPE(I);
   PHARE_EACH_LAMP(RAY_OF_LAMP)
 
   float sum = 0.0;
@@ -69,8 +70,7 @@ void main() {
       float at = radians(at_deg), past = d_##I * tan(at), r = d_##I / cos(at);                                                         \
       float cd = 0.0;                                                                                                                  \
       if (r >= frame.lamps[I].row_c.w)                                                                                                 \
-        cd = lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I),                               \
-                        turned_##I * (along_##I + past) - place_##I, 0.0, frame.lamps[I].colour.w).cd;                                 \
+        cd = lamp_light_##I(shape_##I, turned_##I * (along_##I + past) - place_##I, 0.0).cd;                                           \
       lamp_sum += (narrow ? step_deg : 0.5 * step_deg) * cd * phase_at(90.0 + at_deg, along_##I + past) * fog_left(r + along_##I + past); \
       if (narrow || second) angle_##I += step_deg;                                                                                     \
       second = !narrow && !second;                                                                                                     \

@@ -73,6 +73,12 @@ const uint kLookupNarrow = 64u;       // of first, and twice that of second: no 
 // before, whose function goes on past its nodes by half a last decimal. Set for the lit pass, by the output and not by
 // the table.
 const uint kLookupShown = 256u;
+const uint kLookupCoarse = 512u;  // ahead, even: a coarse step beyond the fine ones
+const uint kLookupLast =
+    1024u;  // decimals: the last one is so small a part of a step that kLookupShown may leave it out
+const uint kLookupOfFrame =
+    2048u;  // all but `lookup` is read from the frame (GpuShape): one pipeline for many lights, and a slower one
+const uint kLookupAsFirst = 4096u;  // the same, of the first lamp
 
 const uint kOutputDisplay = 0u;      // the display's signal (sRGB), tone curve applied here
 const uint kOutputHdr = 1u;          // cd/m² and illuminance in alpha
@@ -83,8 +89,8 @@ const uint kOutputClipping = 5u;     // as the display, with stripes where it cl
 const uint kOutputDifference = 6u;   // of two designs by colour: lux of B less those of A
 const uint kOutputRatio = 7u;        // B over A
 
-// The shape of a lamp's table, constants of the pipeline: on a software device a uniform read costs a pixel as much as ten
-// multiplications, and a varying costs each vertex. Of first in x, of second in y.
+// The shape of a lamp's table, constants of the pipeline where it can be: on a software device a uniform read costs a
+// pixel as much as ten multiplications, and a varying costs each vertex. Of first in x, of second in y.
 struct TableShape {
   uint lookup;   // kind and bits, above
   vec2 per;      // even: nodes per radian (screen: per tangent); guide: bins per degree; filter: texture coordinates per radian (tangent)
@@ -114,6 +120,16 @@ struct GpuLamp {
   vec4 row_b;        // w: 1 of a lamp of B where two designs are compared, else 0
   vec4 row_c;        // w: air nearer to the lamp does not shine (lib/fog.glsl), m
   vec4 colour;       // rgb, luminance 1 (with a table of colour: r and b what its texels are multiplied by); w: candela of 1.0 in the table
+};
+
+// A TableShape without its lookup, for pipelines that serve tables of any shape.
+struct GpuShape {
+  vec4 range;
+  vec4 reach;
+  vec4 per_phase;
+  vec4 fine_cells;
+  vec4 from_unit;
+  vec4 coarse;  // in x
 };
 
 // How a point relative to the eye falls on a lamp's shadow map: (dot(u, p), dot(v, p)) / dot(w, p) in texels to the
@@ -151,6 +167,7 @@ struct GpuFrame {
   vec4 size_px;                  // x, y: of the view's part of the picture; z: of a pixel in its middle the solid angle, sr. Read by drops
   vec4 mirrored_at[kMirroredLamps];  // street lamps over wet ground, relative to the eye, m
   vec4 mirrored_cd[kMirroredLamps];  // rgb: of each toward where it is mirrored
+  GpuShape shapes[kMaxLamps];        // of each lamp's table; read where its lookup has kLookupOfFrame
   vec4 ground;                       // x: share of level ground that snow covers; y: width of the slopes of the water on it
 };
 

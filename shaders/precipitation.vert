@@ -73,8 +73,7 @@ void main() {
   if (lamp_count > I) {                                                                                                                   \
     vec3 way = middle - frame.lamps[I].position.xyz;                                                                                      \
     vec3 in_table = vec3(dot(frame.lamps[I].row_a.xyz, way), dot(frame.lamps[I].row_b.xyz, way), dot(frame.lamps[I].row_c.xyz, way));     \
-    LampLight lamp = lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I), in_table, 0.0,           \
-                                frame.lamps[I].colour.w);                                                                                 \
+    LampLight lamp = PHARE_LIGHT_AT(I, in_table, 0.0);                                                                                    \
     float turn = -dot(way, middle) * lamp.per_m / r, s = 1.0 + g * g - 2.0 * g * turn;                                                    \
     float phase = (1.0 - g * g) / (4.0 * radians(180.0) * s * sqrt(s));                                                                   \
     candela += frame.lamps[I].colour.rgb * (lamp.cd * min(lamp.per_m * lamp.per_m, 1e4) * phase * fog_left(lamp.distance_m));             \

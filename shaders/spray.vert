@@ -48,8 +48,7 @@ void main() {
     vec3 way = at - frame.lamps[I].position.xyz;                                                                      \
     vec3 in_table = vec3(dot(frame.lamps[I].row_a.xyz, way), dot(frame.lamps[I].row_b.xyz, way),                      \
                          dot(frame.lamps[I].row_c.xyz, way));                                                         \
-    LampLight lamp = lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I),      \
-                                in_table, 0.0, frame.lamps[I].colour.w);                                              \
+    LampLight lamp = PHARE_LIGHT_AT(I, in_table, 0.0);                                                                \
     float phase = spray_phase(g, -dot(way, at) * lamp.per_m / r);                                                     \
     float facing_lx = lamp.cd * min(lamp.per_m * lamp.per_m, 1e4) * fog_left(lamp.distance_m);                        \
     lx += frame.lamps[I].colour.rgb * (facing_lx * phase);                                                            \

@@ -139,7 +139,10 @@ void describe_ahead(PackedBeam& packed, const EvenAxis& first, const EvenAxis& s
   shape.reach = {x.x, x.y, y.x, y.y};
   if (narrow(first)) shape.lookup |= shader::kLookupNarrow;
   if (narrow(second)) shape.lookup |= 2u * shader::kLookupNarrow;
-  if (first.beside.empty() && second.beside.empty()) return;
+  if (first.beside.empty() && second.beside.empty()) {
+    if (first.coarse != 1) shape.lookup |= shader::kLookupCoarse;
+    return;
+  }
   const auto computed = [](const EvenAxis& axis) { return axis.beside.empty() || axis.decimals; };
   if (computed(first) && computed(second)) {
     shape.lookup |= shader::kLookupDecimals;
@@ -148,6 +151,10 @@ void describe_ahead(PackedBeam& packed, const EvenAxis& first, const EvenAxis& s
     shape.fine = {x.part, y.part};
     shape.from = {x.from, y.from};
     shape.unit = {x.unit, y.unit};
+    // A cell's function goes on past its nodes by half of a last decimal, in steps of 1° a hundredth of a pixel of 60°
+    // over 1280.
+    constexpr float kLastDecimal = 1e-3f;
+    if (shape.unit.x <= kLastDecimal && shape.unit.y <= kLastDecimal) shape.lookup |= shader::kLookupLast;
     const auto ends = [](const EvenAxis& axis) {
       const glm::dvec2 even(axis.first, axis.last());
       return axis.beside.empty() ? even : even + glm::dvec2(axis.beside.front(), axis.beside.back());
@@ -278,6 +285,35 @@ float scale_for(ImageLevel level, const BeamImage& image) {
 }
 
 }  // namespace
+
+shader::TableShape for_any_light(shader::TableShape shape) {
+  const std::uint32_t kind = shape.lookup & shader::kLookupKind;
+  const auto plain = [&](std::uint32_t of) { shape.lookup = of | shader::kLookupScaled | shader::kLookupEdge; };
+  if (kind == shader::kLookupAhead && (shape.lookup & shader::kLookupCoarse) == 0) {
+    // Even nodes are rounded to whole steps.
+    shape.fine = shape.from = shape.unit = glm::vec2(0.0f);
+    plain(shader::kLookupDecimals | shader::kLookupLast);
+  } else if (kind == shader::kLookupAhead) {
+    plain(shader::kLookupAhead | shader::kLookupCoarse);
+  } else if (kind == shader::kLookupDecimals) {
+    plain(shader::kLookupDecimals | (shape.lookup & shader::kLookupLast));
+  } else if (kind == shader::kLookupRounded) {
+    plain(shader::kLookupRounded);
+  } else {
+    shape.lookup |= shader::kLookupScaled;
+  }
+  shape.lookup |= shader::kLookupOfFrame;
+  return shape;
+}
+
+shader::GpuShape shape_in_frame(const shader::TableShape& shape) {
+  return {.range = shape.range,
+          .reach = shape.reach,
+          .per_phase = glm::vec4(shape.per, shape.phase),
+          .fine_cells = glm::vec4(shape.fine, shape.cells),
+          .from_unit = glm::vec4(shape.from, shape.unit),
+          .coarse = glm::vec4(shape.coarse, 0.0f, 0.0f, 0.0f)};
+}
 
 PackedBeam pack_beam(const BeamImage& image, ImageLevel level) {
   PackedBeam packed;

@@ -66,6 +66,11 @@ struct PackedBeam {
   }
 };
 
+/// The same table by the lookup that serves most: pipelines with that in place of the table's own take the shape from
+/// the frame, so that tables of many shapes are of one. What they find is the same.
+shader::TableShape for_any_light(shader::TableShape shape);
+shader::GpuShape shape_in_frame(const shader::TableShape& shape);
+
 /// An even grid has at most 1 M cells, and 8 for each node of the table unless it is small. Guides of bins hold at most
 /// one node a bin, so bins are as narrow as the closest nodes; at most 8192 in 45°: nodes closer than 0.0055° make the
 /// guide inexact there by less than one such bin. kNormalised8 is scaled by the image's peak, half floats by a

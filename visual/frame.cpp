@@ -204,7 +204,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
                                                          Usage::eColorAttachment | Usage::eTransferSrc})};
   };
   const DrawnOver over = drawn_over(input);
-  parts.scene.begin_frame(parts.graph);
+  parts.scene.begin_frame(parts.graph, input.shapes);
   parts.shadows.begin_frame();
   parts.fog.begin_frame();
   parts.lit.begin_frame();

@@ -32,11 +32,6 @@
 namespace phare {
 namespace {
 
-using LeanWords = std::span<const std::uint32_t>;
-struct LeanCode {
-  LeanWords vertex, fragment;
-};
-
 /// By surface, then by alike, then by shadows.
 constexpr std::array<LeanCode, 12> kCode{{
     {k_lean_vert_smooth, k_lean_frag_smooth},
@@ -54,11 +49,8 @@ constexpr std::array<LeanCode, 12> kCode{{
 
 }  // namespace
 
-const LeanShaders::Stages& LeanShaders::stages(const LeanKind& kind) {
-  const auto found = made_.find(kind);
-  if (found != made_.end()) return found->second;
-  const LeanCode& code = kCode[4 * static_cast<std::size_t>(kind.surface) + (kind.alike ? 2 : 0) + (kind.shadows ? 1 : 0)];
-  return made_.emplace(kind, Stages{gpu::make_shader(*device_, code.vertex), code.fragment}).first->second;
+const LeanCode& lean_code(const LeanKind& kind) {
+  return kCode[4 * static_cast<std::size_t>(kind.surface) + (kind.alike ? 2 : 0) + (kind.shadows ? 1 : 0)];
 }
 
 }  // namespace phare

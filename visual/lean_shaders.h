@@ -1,18 +1,11 @@
-// The shaders of what most of a night drive is (shaders/lean.frag): two lamps at most, of one colour, light dry surfaces
-// in clear air by the method "fragment". Each is made when it is first called for.
+// The shaders of what most of a night drive is (shaders/lean.frag): two lamps at most, of one colour, light dry
+// surfaces in clear air by the method "fragment".
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <span>
 
-#include "visual/gpu/vulkan.h"
-
 namespace phare {
-
-namespace gpu {
-struct Device;
-}
 
 struct LeanKind {
   enum class Surface : std::uint8_t {
@@ -27,18 +20,9 @@ struct LeanKind {
   friend auto operator<=>(const LeanKind&, const LeanKind&) = default;
 };
 
-class LeanShaders {
- public:
-  explicit LeanShaders(const gpu::Device& device) : device_(&device) {}
-  struct Stages {
-    vk::raii::ShaderModule vertex;
-    std::span<const std::uint32_t> fragment;
-  };
-  const Stages& stages(const LeanKind& kind);
-
- private:
-  const gpu::Device* device_;
-  std::map<LeanKind, Stages> made_;
+struct LeanCode {
+  std::span<const std::uint32_t> vertex, fragment;
 };
+const LeanCode& lean_code(const LeanKind& kind);
 
 }  // namespace phare

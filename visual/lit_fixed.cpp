@@ -40,15 +40,10 @@ const std::array<vk::VertexInputAttributeDescription, 6> kProbeAttributes{
     of_vertex(2, vk::Format::eR32Uint, 24),        beside(3, vk::Format::eR32G32B32A32Sfloat, 0),
     beside(4, vk::Format::eR32Sfloat, 28),         beside(5, vk::Format::eR32G32B32Sfloat, 16)};
 
-vk::ShaderModule LitScene::fixed_vertex(const LitVariant& variant, std::size_t size) {
+LitScene::Code LitScene::fixed_vertex(const LitVariant& variant, std::size_t size) const {
   const bool fog = variant.fog.slices != 0, road = variant.kind.road;
   const bool by_vertex = variant.method != Method::kFragment && variant.method != Method::kReference;
-  const std::size_t which = (fog ? 1u : 0u) + (by_vertex ? 2u : 0u) + (road ? 4u : 0u);
-  const auto [found, fresh] = fixed_modules_.try_emplace({which, size}, nullptr);
-  if (fresh)
-    found->second = gpu::make_shader(
-        device_, road ? road_vert(size, by_vertex, filtered(), fog) : fixed_vert(size, by_vertex, filtered(), fog));
-  return *found->second;
+  return road ? road_vert(size, by_vertex, filtered(), fog) : fixed_vert(size, by_vertex, filtered(), fog);
 }
 
 void LitScene::add_fixed_light(LitView& view) {

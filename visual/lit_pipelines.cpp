@@ -17,19 +17,31 @@
 #include "shaders/lamps_frag_8_filtered.h"
 #include "shaders/lamps_frag_8_filtered_shadows.h"
 #include "shaders/lamps_frag_8_shadows.h"
+#include "shaders/measure_vert_2.h"
+#include "shaders/measure_vert_2_shadows.h"
+#include "shaders/measure_vert_4.h"
+#include "shaders/measure_vert_4_shadows.h"
+#include "shaders/measure_vert_8.h"
+#include "shaders/measure_vert_8_shadows.h"
+#include "shaders/scene_vert_2.h"
 #include "shaders/scene_vert_2_lit.h"
 #include "shaders/scene_vert_2_lit_filtered.h"
 #include "shaders/scene_vert_2_lit_filtered_shadows.h"
 #include "shaders/scene_vert_2_lit_shadows.h"
+#include "shaders/scene_vert_2_shadows.h"
+#include "shaders/scene_vert_4.h"
 #include "shaders/scene_vert_4_lit.h"
 #include "shaders/scene_vert_4_lit_filtered.h"
 #include "shaders/scene_vert_4_lit_filtered_shadows.h"
 #include "shaders/scene_vert_4_lit_shadows.h"
+#include "shaders/scene_vert_4_shadows.h"
+#include "shaders/scene_vert_8.h"
 #include "shaders/scene_vert_8_lit.h"
 #include "shaders/scene_vert_8_lit_filtered.h"
 #include "shaders/scene_vert_8_lit_filtered_shadows.h"
 #include "shaders/scene_vert_8_lit_shadows.h"
-#include "visual/gpu/spirv.h"
+#include "shaders/scene_vert_8_shadows.h"
+#include "visual/lean_shaders.h"
 #include "visual/lit_scene.h"
 #include "visual/passes/fixed_shaders.h"
 
@@ -39,6 +51,13 @@ namespace {
 /// What water wets in the picture; what stands upright lets it run off.
 bool is_ground(Surface surface) {
   return surface == Surface::kAsphalt || surface == Surface::kGrass || surface == Surface::kPaint;
+}
+
+std::span<const std::uint32_t> measure_vert(std::size_t size) {
+  static const std::array<std::span<const std::uint32_t>, 6> codes{k_measure_vert_2,         k_measure_vert_4,
+                                                                   k_measure_vert_8,         k_measure_vert_2_shadows,
+                                                                   k_measure_vert_4_shadows, k_measure_vert_8_shadows};
+  return codes[size];
 }
 
 LeanKind lean_kind(const LitVariant& variant) {
@@ -55,11 +74,25 @@ LeanKind lean_kind(const LitVariant& variant) {
 
 }  // namespace
 
-LitVariant LitScene::variant_of(const LitView& view, const DrawItem& item, const LitVariant& common) const {
+LitVariant LitScene::variant_of(const LitView& view, const DrawItem& item, const LitVariant& common,
+                                const LitVariant* before) const {
+  const LitBy& lit = view.lit_by[item.lit_by];
+  LitVariant own = variant_for(lit.tables, view, item, common);
+  const auto made = [&](std::size_t tables) {
+    return pipelines_.contains(tables == lit.tables ? own : variant_for(tables, view, item, common));
+  };
+  // Most items are as the one before.
+  if (shapes_ == ShapesFrom::kPipeline || (before != nullptr && own == *before)) return own;
+  const std::size_t tables = tables_for(lit, made);
+  return tables == lit.tables ? own : variant_for(tables, view, item, common);
+}
+
+LitVariant LitScene::variant_for(std::size_t tables, const LitView& view, const DrawItem& item,
+                                 const LitVariant& common) const {
   const LitBy& lit = view.lit_by[item.lit_by];
   LitVariant variant = common;
   variant.lamp_count = lit.lamps;
-  variant.tables = lit.tables;
+  variant.tables = tables;
   variant.colours = common.output == LampOutput::kAudit ? 0 : lit.colours;
   variant.kind = item.batch->kind;
   variant.method = view.method;
@@ -99,8 +132,8 @@ LitVariant LitScene::variant_of(const LitView& view, const DrawItem& item, const
 }
 
 bool LitScene::is_lean(const LitVariant& variant) const {
-  return variant.lamp_count <= 2 && variant.colours == 0 && variant.kind.look == 0 && !variant.fixed_light &&
-         variant.fog.slices == 0 && !variant.wet && variant.snow == LitVariant::kNoSnow &&
+  return variant.lamp_count <= 2 && !reads_shapes(variant.tables) && variant.colours == 0 && variant.kind.look == 0 &&
+         !variant.fixed_light && variant.fog.slices == 0 && !variant.wet && variant.snow == LitVariant::kNoSnow &&
          variant.method == Method::kFragment && !filtered() &&
          (variant.output == LampOutput::kDisplay || variant.output == LampOutput::kHdr ||
           variant.output == LampOutput::kClipping || variant.output == LampOutput::kAudit);
@@ -157,18 +190,18 @@ void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
                            (variant.shadow_maps != 0 ? 3u : 0u);
   Stages stages;
   if (is_lean(variant)) {
-    const LeanShaders::Stages& lean = lean_.stages(lean_kind(variant));
-    stages = {*lean.vertex, {lean.fragment, *layout_}};
+    const LeanCode& lean = lean_code(lean_kind(variant));
+    stages = {lean.vertex, {lean.fragment, *layout_}};
   } else if (textured) {
     stages = textured_stages(variant);
   } else {
     stages.fragment = variant.method == Method::kReference ? reference_stage(variant) : fragment_stage(variant, size);
-    stages.vertex = measure ? *measure_vert_[size] : scene_vert(size, variant.method, variant.fog.slices != 0);
+    stages.vertex = measure ? measure_vert(size) : scene_vert(size, variant.method, variant.fog.slices != 0);
   }
   std::span<const vk::VertexInputAttributeDescription> attributes = std::span(kVertexAttributes).first(measure ? 2 : 3);
   PipelineRecipe& recipe = to.pipeline;
-  recipe = {.vertex = stages.vertex,
-            .fragment = fragment_module(stages.fragment.code, variant.shadow_maps != 0 && !variant.shadows.by_rays()),
+  recipe = {.vertex_code = stages.vertex,
+            .fragment_code = stages.fragment.code,
             .constants = &to.constants,
             .attributes = attributes,
             .stride = sizeof(GpuVertex),
@@ -185,7 +218,7 @@ void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
   if (textured) {
     add_textured_vertices(variant, recipe, own);
   } else if (variant.fixed_light) {
-    recipe.vertex = fixed_vertex(variant, size);
+    recipe.vertex_code = fixed_vertex(variant, size);
     recipe.attributes = variant.moves ? kProbeAttributes : kFixedAttributes;
     recipe.second_stride = variant.moves ? sizeof(FixedProbe) : sizeof(FixedVertex);
     recipe.second_by_instance = variant.moves;
@@ -206,31 +239,18 @@ LitScene::FragmentStage LitScene::fragment_stage(const LitVariant& variant, std:
   return {(filtered() ? filters : tables)[size], *layout_};
 }
 
-vk::ShaderModule LitScene::fragment_module(Code code, bool by_maps) {
-  const auto [found, fresh] = fragment_modules_.try_emplace({code.data(), by_maps}, nullptr);
-  if (fresh)
-    found->second = by_maps ? gpu::make_shader(device_, gpu::returning_one(code, "reaching_by_rays"))
-                            : gpu::make_shader(device_, code);
-  return *found->second;
-}
-
-vk::ShaderModule LitScene::scene_vert(std::size_t size, Method method, bool fog) {
-  if (fog && size % 3 == 0) {
-    const bool shadows = size != 0, by_vertex = method != Method::kFragment;
-    vk::raii::ShaderModule& module = scene_fog_vert_[(shadows ? 1u : 0u) + (by_vertex ? 2u : 0u)];
-    if (!*module) module = gpu::make_shader(device_, scene_fog_vert(shadows, by_vertex, filtered()));
-    return *module;
-  }
-  if (method == Method::kFragment || method == Method::kReference) return *scene_vert_[size];
-  vk::raii::ShaderModule& module = lit_by_vertex_vert_[size];
-  if (*module) return *module;
-  const std::array<Code, 6> tables{k_scene_vert_2_lit,         k_scene_vert_4_lit,         k_scene_vert_8_lit,
-                                   k_scene_vert_2_lit_shadows, k_scene_vert_4_lit_shadows, k_scene_vert_8_lit_shadows};
-  const std::array<Code, 6> filters{k_scene_vert_2_lit_filtered,         k_scene_vert_4_lit_filtered,
-                                    k_scene_vert_8_lit_filtered,         k_scene_vert_2_lit_filtered_shadows,
-                                    k_scene_vert_4_lit_filtered_shadows, k_scene_vert_8_lit_filtered_shadows};
-  module = gpu::make_shader(device_, (filtered() ? filters : tables)[size]);
-  return *module;
+LitScene::Code LitScene::scene_vert(std::size_t size, Method method, bool fog) const {
+  const bool by_vertex = method != Method::kFragment && method != Method::kReference;
+  if (fog && size % 3 == 0) return scene_fog_vert(size != 0, by_vertex, filtered());
+  static const std::array<Code, 6> plain{k_scene_vert_2,         k_scene_vert_4,         k_scene_vert_8,
+                                         k_scene_vert_2_shadows, k_scene_vert_4_shadows, k_scene_vert_8_shadows};
+  static const std::array<Code, 6> tables{k_scene_vert_2_lit,         k_scene_vert_4_lit,
+                                          k_scene_vert_8_lit,         k_scene_vert_2_lit_shadows,
+                                          k_scene_vert_4_lit_shadows, k_scene_vert_8_lit_shadows};
+  static const std::array<Code, 6> filters{k_scene_vert_2_lit_filtered,         k_scene_vert_4_lit_filtered,
+                                           k_scene_vert_8_lit_filtered,         k_scene_vert_2_lit_filtered_shadows,
+                                           k_scene_vert_4_lit_filtered_shadows, k_scene_vert_8_lit_filtered_shadows};
+  return (!by_vertex ? plain : filtered() ? filters : tables)[size];
 }
 
 }  // namespace phare

@@ -9,18 +9,6 @@
 #include <tuple>
 #include <utility>
 
-#include "shaders/measure_vert_2.h"
-#include "shaders/measure_vert_2_shadows.h"
-#include "shaders/measure_vert_4.h"
-#include "shaders/measure_vert_4_shadows.h"
-#include "shaders/measure_vert_8.h"
-#include "shaders/measure_vert_8_shadows.h"
-#include "shaders/scene_vert_2.h"
-#include "shaders/scene_vert_2_shadows.h"
-#include "shaders/scene_vert_4.h"
-#include "shaders/scene_vert_4_shadows.h"
-#include "shaders/scene_vert_8.h"
-#include "shaders/scene_vert_8_shadows.h"
 #include "visual/passes/constants.h"
 
 namespace phare {
@@ -55,7 +43,7 @@ static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour)
 static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, unit) == 80);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
 static_assert(sizeof(shader::GpuFog) == 112);
-static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 64) +
+static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 64 + 96) +
                                               sizeof(shader::GpuFog) + 32 + 32 * shader::kMirroredLamps);
 static_assert(sizeof(shader::GpuDraw) == 80 && sizeof(shader::GpuMaterial) == 16);
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
@@ -103,15 +91,7 @@ LitScene::LitScene(gpu::Device& device, ImageLevel level)
       grain_(make_grain(device)),
       sets_(device, bindings(is_filtered(level))),
       shadow_sets_(device, kShadowBindings),
-      fog_sets_(device, kFogBindings),
-      lean_(device),
-      scene_vert_{gpu::make_shader(device, k_scene_vert_2),         gpu::make_shader(device, k_scene_vert_4),
-                  gpu::make_shader(device, k_scene_vert_8),         gpu::make_shader(device, k_scene_vert_2_shadows),
-                  gpu::make_shader(device, k_scene_vert_4_shadows), gpu::make_shader(device, k_scene_vert_8_shadows)},
-      measure_vert_{
-          gpu::make_shader(device, k_measure_vert_2),         gpu::make_shader(device, k_measure_vert_4),
-          gpu::make_shader(device, k_measure_vert_8),         gpu::make_shader(device, k_measure_vert_2_shadows),
-          gpu::make_shader(device, k_measure_vert_4_shadows), gpu::make_shader(device, k_measure_vert_8_shadows)} {
+      fog_sets_(device, kFogBindings) {
   const std::array set_layouts{sets_.layout(), shadow_sets_.layout(), fog_sets_.layout()};
   layout_ = pipeline_layout(set_layouts);
   filter_sampler_ =
@@ -165,9 +145,10 @@ void LitScene::change_beam(std::size_t beam, const BeamImage& image, std::span<c
         peaks_cd_[beam] = std::max(peaks_cd_[beam], image.candela[row * image.first_deg.size() + column]);
 }
 
-void LitScene::begin_frame(gpu::FrameGraph& graph) {
+void LitScene::begin_frame(gpu::FrameGraph& graph, ShapesFrom shapes) {
   Written& written = *written_;
   written.views = written.probes_used = 0;
+  shapes_ = shapes;
   reference_begun_ = false;
   if (beams_.upload(graph)) ++beams_made_;
   // A set may name a buffer or an image that is no more.
@@ -181,19 +162,20 @@ bool LitScene::filtered() const {
 }
 
 std::vector<std::uint32_t> LitScene::table_words(std::size_t tables, bool shown) const {
-  // The last decimal, in steps: a cell's function goes on past its nodes by half of that, in steps of 1° a hundredth of
-  // a pixel of 60° over 1280.
-  constexpr float kLastDecimal = 1e-3f;
   std::vector<std::uint32_t> all;
   for (shader::TableShape shape : table_shapes_[tables]) {
     const std::uint32_t kind = shape.lookup & shader::kLookupKind;
-    if (shown && (kind == shader::kLookupAhead ||
-                  (kind == shader::kLookupDecimals && shape.unit.x <= kLastDecimal && shape.unit.y <= kLastDecimal)))
+    if (shown && (kind == shader::kLookupAhead || (shape.lookup & shader::kLookupLast) != 0))
       shape.lookup |= shader::kLookupShown;
     const auto words = std::bit_cast<std::array<std::uint32_t, shader::kSpecPerTable>>(shape);
     all.insert(all.end(), words.begin(), words.end());
   }
   return all;
+}
+
+bool LitScene::reads_shapes(std::size_t tables) const {
+  const std::vector<shader::TableShape>& shapes = table_shapes_[tables];
+  return !shapes.empty() && (shapes.front().lookup & shader::kLookupOfFrame) != 0;
 }
 
 std::size_t LitScene::tables_of(std::vector<shader::TableShape> shapes) {
@@ -281,11 +263,14 @@ void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) con
 std::vector<LitVariant> LitScene::variants_of(const LitView& view, const LitVariant& common) const {
   std::vector<LitVariant> variants;
   variants.reserve(view.items.size());
-  for (const DrawItem& item : view.items) variants.push_back(variant_of(view, item, common));
+  const auto add = [&](const DrawItem& item) {
+    variants.push_back(variant_of(view, item, common, variants.empty() ? nullptr : &variants.back()));
+  };
+  for (const DrawItem& item : view.items) add(item);
   // A shadow may reach in the next frame what none reaches in this one: its pipeline is made with the others.
   if (view.depths != nullptr)
     for (DrawItem item : view.items)
-      if (!std::exchange(item.shadowed, true)) variants.push_back(variant_of(view, item, common));
+      if (!std::exchange(item.shadowed, true)) add(item);
   return variants;
 }
 

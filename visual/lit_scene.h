@@ -7,6 +7,8 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -18,7 +20,6 @@
 #include "visual/gpu/descriptor_sets.h"
 #include "visual/gpu/frame_graph.h"
 #include "visual/gpu/scene_buffers.h"
-#include "visual/lean_shaders.h"
 #include "visual/light_reach.h"
 #include "visual/passes/constants.h"
 #include "visual/passes/grain.h"
@@ -49,6 +50,7 @@ constexpr bool shows_lux(LampOutput output) {
 struct LitBy {
   std::uint32_t lamps = 0;
   std::size_t tables = 0;     ///< which of the scene's sets of table shapes
+  std::size_t any_tables = 0;  ///< the same, of shapes that pipelines read from the frame
   std::uint32_t colours = 0;  ///< as kSpecColours
   bool alike = false;         ///< two, whose tables have the same axes
   vk::DescriptorSet set{};
@@ -179,7 +181,23 @@ class LitScene {
   std::uint64_t uploaded_texels() const { return beams_.uploaded_texels(); }
 
   /// Before the views of a frame. Uploads the beams that changed, in a pass.
-  void begin_frame(gpu::FrameGraph& graph);
+  void begin_frame(gpu::FrameGraph& graph, ShapesFrom shapes = ShapesFrom::kPipeline);
+  /// Which tables a pipeline is for; `made`: whether there is one for these.
+  template <typename Made>
+  std::size_t tables_for(const LitBy& lit, Made&& made) const {
+    if (shapes_ == ShapesFrom::kPipeline) return lit.tables;
+    if (shapes_ == ShapesFrom::kEither && (made(lit.tables) || !made(lit.any_tables))) return lit.tables;
+    return lit.any_tables;
+  }
+  /// A key of pipelines whose first part are the tables.
+  template <typename Key, typename Pipeline>
+  Key key_for(const LitBy& lit, const std::map<Key, Pipeline>& made, std::type_identity_t<Key> key) const {
+    std::get<0>(key) = tables_for(lit, [&](std::size_t tables) {
+      std::get<0>(key) = tables;
+      return made.contains(key);
+    });
+    return key;
+  }
   /// A view of the scene with those of the lamps that reach something in it. Up to kLampsForAll light all that it sees;
   /// of more, each block is lit by those that reach it: fewer to sum, at the price of a pipeline for every number.
   LitView view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps,
@@ -254,7 +272,7 @@ class LitScene {
     vk::PipelineLayout layout;
   };
   struct Stages {
-    vk::ShaderModule vertex;
+    Code vertex;
     FragmentStage fragment;
   };
 
@@ -267,7 +285,11 @@ class LitScene {
   };
 
   bool is_lean(const LitVariant& variant) const;
-  LitVariant variant_of(const LitView& view, const DrawItem& item, const LitVariant& common) const;
+  /// `before`: of another item of the same list.
+  LitVariant variant_of(const LitView& view, const DrawItem& item, const LitVariant& common,
+                        const LitVariant* before) const;
+  /// Of those tables of the item's lamps.
+  LitVariant variant_for(std::size_t tables, const LitView& view, const DrawItem& item, const LitVariant& common) const;
   std::vector<LitVariant> variants_of(const LitView& view, const LitVariant& common) const;
   void write_recipe(const LitVariant& variant, Recipe& recipe);
   void light_by_block(LitView& view);
@@ -279,8 +301,6 @@ class LitScene {
   vk::raii::PipelineLayout pipeline_layout(std::span<const vk::DescriptorSetLayout> sets);
   FragmentStage fragment_stage(const LitVariant& variant, std::size_t size);
   FragmentStage reference_stage(const LitVariant& variant);
-  /// `by_maps`: without the code that traces rays, which takes a device far longer to compile than all the rest.
-  vk::ShaderModule fragment_module(Code code, bool by_maps);
   Textured& textured();
   Stages textured_stages(const LitVariant& variant);
   static void add_road_vertices(PipelineRecipe& recipe, std::vector<vk::VertexInputAttributeDescription>& attributes);
@@ -288,17 +308,18 @@ class LitScene {
                                     std::vector<vk::VertexInputAttributeDescription>& attributes);
   /// After bind_look().
   void bind_fixed_light_of_look(vk::CommandBuffer commands, const LitView& view, const DrawItem& item) const;
-  vk::ShaderModule textured_module(std::span<const std::uint32_t> code);
   vk::DescriptorSetLayout reference_layout();
   Reference& reference();
   void keep_image(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed);
   LampReach reach_of(const PlacedLamp& lamp) const {
     return {lamp.position_m, lamp.world_from_image, cones_[lamp.beam]};
   }
-  vk::ShaderModule scene_vert(std::size_t size, Method method, bool fog);
+  Code scene_vert(std::size_t size, Method method, bool fog) const;
   /// Of the shaders of visual/passes/fixed_shaders.h.
-  vk::ShaderModule fixed_vertex(const LitVariant& variant, std::size_t size);
+  Code fixed_vertex(const LitVariant& variant, std::size_t size) const;
   std::size_t tables_of(std::vector<shader::TableShape> shapes);
+  /// Pipelines of these tables read shapes from the frame.
+  bool reads_shapes(std::size_t tables) const;
   vk::DescriptorSet set_of(std::size_t page, const Beams& beams);
 
   gpu::Device& device_;
@@ -306,6 +327,7 @@ class LitScene {
   SceneBuffers geometry_;
   ShadowCasters casters_;
   std::uint64_t geometry_version_ = 0;
+  ShapesFrom shapes_ = ShapesFrom::kPipeline;  ///< of this frame
   std::shared_ptr<const FixedLight> fixed_light_ = std::make_shared<FixedLight>();
   BeamStore beams_;
   std::vector<LightCone> cones_;  ///< of each beam
@@ -331,14 +353,6 @@ class LitScene {
   std::uint64_t beams_made_ = 0;  ///< how often buffers or images of beams were made anew
   std::vector<std::vector<shader::TableShape>> table_shapes_;  ///< of the lamps of a view, each set that came up
   std::map<LitVariant, vk::raii::Pipeline> pipelines_;
-  using Modules = std::array<vk::raii::ShaderModule, 6>;  ///< for up to 2, 4, 8 lamps; the same with shadows
-  LeanShaders lean_;
-  Modules scene_vert_, measure_vert_;
-  std::map<std::pair<const std::uint32_t*, bool>, vk::raii::ShaderModule> fragment_modules_;  ///< by code, and by_maps
-  std::array<vk::raii::ShaderModule, 4> scene_fog_vert_{nullptr, nullptr, nullptr, nullptr};
-  Modules lit_by_vertex_vert_{nullptr, nullptr, nullptr,
-                              nullptr, nullptr, nullptr};                       ///< each made when it is called for
-  std::map<std::array<std::size_t, 2>, vk::raii::ShaderModule> fixed_modules_;  ///< the same: stage, variant, size
   std::unique_ptr<Reference, ReferenceDeleter> reference_;  ///< made when it is called for
   bool reference_begun_ = false;                            ///< in this frame
   std::unique_ptr<Textured, TexturedDeleter> textured_;     ///< made when it is called for

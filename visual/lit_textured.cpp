@@ -144,7 +144,6 @@ void LitScene::add_textured_vertices(const LitVariant& variant, PipelineRecipe& 
 
 struct LitScene::Textured {
   vk::raii::PipelineLayout layout{nullptr}, reference_layout{nullptr};
-  std::map<const std::uint32_t*, vk::raii::ShaderModule> modules;  ///< by their code
 };
 
 void LitScene::TexturedDeleter::operator()(Textured* textured) const {
@@ -161,12 +160,6 @@ LitScene::Textured& LitScene::textured() {
 
 vk::PipelineLayout LitScene::textured_layout() {
   return *textured().layout;
-}
-
-vk::ShaderModule LitScene::textured_module(std::span<const std::uint32_t> code) {
-  const auto [found, fresh] = textured().modules.try_emplace(code.data(), nullptr);
-  if (fresh) found->second = gpu::make_shader(device_, code);
-  return *found->second;
 }
 
 LitScene::Stages LitScene::textured_stages(const LitVariant& variant) {
@@ -186,7 +179,7 @@ LitScene::Stages LitScene::textured_stages(const LitVariant& variant) {
       : many ? of_many[by_vertex ? filtered() ? 2u : 1u : 0u] : vert_of_two(shadows, fog, by_vertex, filtered());
   if (!reference)
     return {
-        textured_module(vertex),
+        vertex,
         {is_apart ? textured_frag(apart, shadows, fog) : frag_of(shadows, fog, filtered(), many), *textured().layout}};
   Textured& own = textured();
   if (!*own.reference_layout) {
@@ -194,7 +187,7 @@ LitScene::Stages LitScene::textured_stages(const LitVariant& variant) {
                              geometry_.textures.layout()};
     own.reference_layout = pipeline_layout(layouts);
   }
-  return {textured_module(vertex),
+  return {vertex,
           {is_apart ? textured_frag(apart, shadows, fog) : reference_frag_of(shadows, fog), *own.reference_layout}};
 }
 

@@ -124,12 +124,20 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
         i < view.isolux_lx.size() ? static_cast<float>(view.isolux_lx[i]) : kNowhere_lx;
   Beams bound;
   bound.fill(kNoBeam);
-  std::vector<shader::TableShape> shapes;
+  std::vector<shader::TableShape> shapes, for_any;
   std::optional<glm::vec3> first_colour;
   for (const PlacedLamp& lamp : lamps) {
     const PackedBeam& beam = beams_.beam(lamp.beam);
     bound[lit.lamps] = lamp.beam;
     shapes.push_back(beam.shape);
+    const shader::TableShape any = for_any_light(beam.shape);
+    frame.shapes[lit.lamps] = shape_in_frame(any);
+    const auto as_first = [&] {
+      return std::memcmp(&frame.shapes[0], &frame.shapes[lit.lamps], sizeof frame.shapes[0]) == 0 &&
+             any.lookup == for_any.front().lookup;
+    };
+    const bool first = for_any.empty();
+    for_any.emplace_back().lookup = any.lookup | (!first && as_first() ? shader::kLookupAsFirst : 0u);
     if (first_colour && *first_colour != beam.colour) lit.colours |= 1u;
     if (beam.tinted()) lit.colours |= 1u << (8 + lit.lamps);
     first_colour = beam.colour;
@@ -149,6 +157,7 @@ LitBy LitScene::fill(const LitView& view, std::span<const PlacedLamp> lamps) {
   };
   lit.alike = lit.lamps == 2 && axes_of(0) == axes_of(1);
   lit.tables = tables_of(std::move(shapes));
+  lit.any_tables = tables_of(std::move(for_any));
   auto& pages = written_->pages;
   const std::size_t view_number = written_->views++;
   const std::size_t page = view_number / kViewsInPage, place = view_number % kViewsInPage;

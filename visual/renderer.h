@@ -111,6 +111,13 @@ struct ViewInput {
   EffectChoices picked{};                    ///< levels where the facts call for the effect (plan_effects)
 };
 
+/// Where pipelines have the shapes of lamps' tables from.
+enum class ShapesFrom : std::uint8_t {
+  kPipeline,  ///< their own constants: the fastest, and made for each light (low, high, both, of each design)
+  kEither,    ///< the same where it is made; else the frame, where that is made; so no frame is late for a light
+  kFrame      ///< one for many lights
+};
+
 /// A frame: its own view, and what is drawn over it.
 struct FrameInput : ViewInput {
   std::vector<ViewInput> more_views{};  ///< drawn after it, in order: mirrors, insets, another design beside it
@@ -119,6 +126,7 @@ struct FrameInput : ViewInput {
   OverlayPanel panel{};
   OverlayMarks marks{};  ///< nothing in these four: no overlay pass
   OverlayRoom room{};
+  ShapesFrom shapes = ShapesFrom::kPipeline;
   const GuiContent* gui = nullptr;  ///< over all of these, until draw() returns; nullptr: no gui pass
 };
 

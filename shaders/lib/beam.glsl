@@ -72,28 +72,46 @@ bool within(vec2 at, vec4 range) {
 }
 
 // A flat screen: a projection in place of angles. E on the screen is bilinear there, and I = E·D²·(1 + t²)^1.5.
-Found on_screen(samplerBuffer table, samplerBuffer guide, sampler2D image, TableShape shape, uint kind, vec3 p) {
+float screen_factor(vec3 p) {
   vec2 at = p.yz * (1.0 / p.x);
   float s = 1.0 + dot(at, at);
-  bool lit = p.x > 0.0;
-  // The screen's rim belongs to it, and float32 misses it by a little: what is nearer than that counts as within.
-  if (kind == kLookupScreen) at = at * shape.per - shape.phase;
-  if (kind == kLookupScreenGuide) at *= shape.reach.xy;
+  return s * sqrt(s);
+}
+
+// The screen's rim belongs to it, and float32 misses it by a little: what is nearer to it than `rim` counts as within.
+bool on_screen(vec3 p, vec2 at, vec2 inside, float rim) {
+  return p.x > 0.0 && all(lessThan(abs(at - inside), vec2(rim)));
+}
+
+#ifdef PHARE_FILTERED
+Found filtered_screen(sampler2D image, TableShape shape, vec3 p) {
+  vec2 at = p.yz * (1.0 / p.x), inside = min(max(at, shape.range.xz), shape.range.yw);
+  return found_by_filter(image, shape, inside, on_screen(p, at, inside, 1e-6));
+}
+
+Found filtered_ahead(sampler2D image, TableShape shape, vec3 p, float h) {
+  vec2 angles = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h));
+  return found_by_filter(image, shape, angles, p.x > 0.0 && within(angles, shape.range));
+}
+
+Found filtered_round(sampler2D image, TableShape shape, vec3 p, float h) {
+  vec2 angles = radians(vec2(atan2_deg(p.y, p.x), atan2_deg(p.z, h)));
+  angles.x += angles.x < shape.range.x ? radians(360.0) : 0.0;
+  return found_by_filter(image, shape, angles, within(angles, shape.range));
+}
+#else
+Found on_even_screen(samplerBuffer table, TableShape shape, vec3 p) {
+  vec2 at = p.yz * (1.0 / p.x) * shape.per - shape.phase;
+  vec2 inside = min(max(at, shape.range.xz), shape.range.yw), node = floor(inside);
+  return found_in_cell(table, shape, node, inside - node, on_screen(p, at, inside, 1e-3));
+}
+
+Found on_guided_screen(samplerBuffer table, samplerBuffer guide, TableShape shape, vec3 p) {
+  vec2 at = p.yz * (1.0 / p.x) * shape.reach.xy;
   vec2 inside = min(max(at, shape.range.xz), shape.range.yw);
-  lit = lit && all(lessThan(abs(at - inside), vec2(kind == kLookupScreen ? 1e-3 : kind == kLookupScreenGuide ? 2e-5 : 1e-6)));
-  Found found;
-  if (kind == kLookupFilterScreen) {
-    found = found_by_filter(image, shape, inside, lit);
-  } else if (kind == kLookupScreenGuide) {
-    vec2 u = node_before(guide, 0.0, shape.fine.x, vec2(0.0, inside.x), 0.0, 0.0, shape.per.x);
-    vec2 v = node_before(guide, shape.coarse, shape.fine.y, vec2(0.0, inside.y), 0.0, 0.0, shape.per.y);
-    found = found_in_cell(table, shape, vec2(u.x, v.x), vec2(u.y, v.y), lit);
-  } else {
-    vec2 node = floor(inside);
-    found = found_in_cell(table, shape, node, inside - node, lit);
-  }
-  found.factor = s * sqrt(s);
-  return found;
+  vec2 u = node_before(guide, 0.0, shape.fine.x, vec2(0.0, inside.x), 0.0, 0.0, shape.per.x);
+  vec2 v = node_before(guide, shape.coarse, shape.fine.y, vec2(0.0, inside.y), 0.0, 0.0, shape.per.y);
+  return found_in_cell(table, shape, vec2(u.x, v.x), vec2(u.y, v.y), on_screen(p, at, inside, 2e-5));
 }
 
 // Half an angle over its tangent, of the axis whose bit is kLookupNarrow or twice that.
@@ -102,37 +120,44 @@ float half_angle(TableShape shape, uint narrow, float t2) {
   return (shape.lookup & narrow) != 0 ? atan_over_t(t2) : atan_over_t_wide(t2);
 }
 
-// What lies ahead, by tangents of half the angles: side over hypotenuse and the other side. Three divisions, for one of a common product would
-// wait for both roots and four products.
-Found ahead(samplerBuffer table, samplerBuffer guide, TableShape shape, uint kind, vec2 half_tangent) {
+// What lies ahead, by tangents of half the angles: side over hypotenuse and the other side. In nodes from one next to 0°: beside the cut-off the
+// numbers are small and the parts exact.
+vec2 ahead_at(TableShape shape, vec2 half_tangent) {
   // Beyond its reach the table is dark; held there, every cell that is read is one of it.
   vec2 t = min(max(half_tangent, shape.reach.xz), shape.reach.yw);
   vec2 t2 = t * t;
   vec2 angle = 2.0 * t * vec2(half_angle(shape, kLookupNarrow, t2.x), half_angle(shape, 2 * kLookupNarrow, t2.y));
-  // In nodes from one next to 0°: beside the cut-off the numbers are small and the parts exact.
-  vec2 at = angle * shape.per - shape.phase;
-  bool lit = true;
-  if (kind == kLookupRounded) {
-    vec2 u = rounded_before(guide, -shape.range.x, at.x);
-    vec2 v = rounded_before(guide, shape.coarse - shape.range.z, at.y);
-    vec2 node = vec2(u.x, v.x), part = vec2(u.y, v.y);
-    if ((shape.lookup & kLookupEdge) != 0) lit = within(node + part, shape.range);
-    return found_in_cell(table, shape, node, part, lit);
-  }
-  if (kind == kLookupDecimals) {
-    if ((shape.lookup & kLookupEdge) != 0) lit = within(at, shape.range);
-    vec2 node = (shape.lookup & kLookupShown) != 0 ? floor(at) : decimals_before(shape, at);
-    Found found = found_in_cell(table, shape, node, at - node, lit);
-    found.value = max(found.value, 0.0);  // the cell's corners may lie beyond its nodes, darker than dark
-    return found;
-  }
-  if (shape.coarse != 1.0) {
+  return angle * shape.per - shape.phase;
+}
+
+bool within_edge(TableShape shape, vec2 at) {
+  return (shape.lookup & kLookupEdge) == 0 || within(at, shape.range);
+}
+
+Found ahead_even(samplerBuffer table, TableShape shape, vec2 half_tangent) {
+  vec2 at = ahead_at(shape, half_tangent);
+  if ((shape.lookup & kLookupCoarse) != 0) {
     vec2 fine = min(max(at, -shape.fine), shape.fine);
     at = fine + (at - fine) * shape.coarse;
   }
-  if ((shape.lookup & kLookupEdge) != 0) lit = within(at, shape.range);
   vec2 node = floor(at);
-  return found_in_cell(table, shape, node, at - node, lit);
+  return found_in_cell(table, shape, node, at - node, within_edge(shape, at));
+}
+
+Found ahead_decimals(samplerBuffer table, TableShape shape, vec2 half_tangent) {
+  vec2 at = ahead_at(shape, half_tangent);
+  vec2 node = (shape.lookup & kLookupShown) != 0 ? floor(at) : decimals_before(shape, at);
+  Found found = found_in_cell(table, shape, node, at - node, within_edge(shape, at));
+  found.value = max(found.value, 0.0);  // the cell's corners may lie beyond its nodes, darker than dark
+  return found;
+}
+
+Found ahead_rounded(samplerBuffer table, samplerBuffer guide, TableShape shape, vec2 half_tangent) {
+  vec2 at = ahead_at(shape, half_tangent);
+  vec2 u = rounded_before(guide, -shape.range.x, at.x);
+  vec2 v = rounded_before(guide, shape.coarse - shape.range.z, at.y);
+  vec2 node = vec2(u.x, v.x), part = vec2(u.y, v.y);
+  return found_in_cell(table, shape, node, part, within_edge(shape, node + part));
 }
 
 // All round: type C.
@@ -159,19 +184,7 @@ Found guided(samplerBuffer table, samplerBuffer guide, TableShape shape, vec3 p,
   if (!lit) u.x = v.x = -1.0;
   return found_in_cell(table, shape, vec2(u.x, v.x), vec2(u.y, v.y), lit);
 }
-
-Found by_filter(sampler2D image, TableShape shape, uint kind, vec3 p, float h) {
-  vec2 angles;
-  bool lit = true;
-  if (kind == kLookupFilterAhead) {
-    angles = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h));
-    lit = p.x > 0.0;
-  } else {
-    angles = radians(vec2(atan2_deg(p.y, p.x), atan2_deg(p.z, h)));
-    angles.x += angles.x < shape.range.x ? radians(360.0) : 0.0;
-  }
-  return found_by_filter(image, shape, angles, lit && within(angles, shape.range));
-}
+#endif
 
 struct LampLight {
   float illuminance_lx;  // on the surface
@@ -182,60 +195,112 @@ struct LampLight {
   float per_m;  // its inverse
 };
 
+// From a lamp to a point, in the frame of its table: p.
+struct LampWay {
+  float h;  // hypot(p.x, p.y)
+  float distance_m;
+  float per_m;        // its inverse; 0 where the lamp sends no light
+  vec2 half_tangent;  // of the angles, ahead
+};
+
+// Three divisions, for one of a common product would wait for both roots and four products.
+LampWay way_ahead(vec3 p) {
+  float h2 = p.x * p.x + p.y * p.y;
+  float h = sqrt(h2), distance_m = sqrt(h2 + p.z * p.z);
+  // Beside the lamp and behind it: no light.
+  return LampWay(h, distance_m, p.x > 0.0 ? 1.0 / distance_m : 0.0, vec2(p.y / max(h + p.x, 1e-30), p.z / max(distance_m + h, 1e-30)));
+}
+
+LampWay way_round(vec3 p) {
+  float h2 = p.x * p.x + p.y * p.y;
+  float r2 = h2 + p.z * p.z;
+  float per_m = r2 > 0.0 ? inversesqrt(r2) : 0.0;
+  return LampWay(sqrt(h2), r2 * per_m, per_m, vec2(0.0));
+}
+
 // Where the lamp before was found in its table.
 Found last_found;
 
-// By a lamp from which the point is at `p`, in the frame of its table; `toward`: the part of the way to the lamp along the surface's normal. The rows of
-// a lamp's frame are orthonormal, so p is as long as the way.
-LampLight lamp_light(samplerBuffer table, samplerBuffer guide, sampler2D image, TableShape shape, vec3 p, float toward, float scale_cd) {
-  uint kind = shape.lookup & kLookupKind;
-  float h2 = p.x * p.x + p.y * p.y;
-  float r2 = h2 + p.z * p.z;
-  float h = sqrt(h2), inverse_r, distance_m;
-  Found found;
-  if (kind <= kLookupRounded) {
-    distance_m = sqrt(r2);
-    inverse_r = p.x > 0.0 ? 1.0 / distance_m : 0.0;  // beside the lamp and behind it: no light
-    found = ahead(table, guide, shape, kind, vec2(p.y / max(h + p.x, 1e-30), p.z / max(distance_m + h, 1e-30)));
-  } else {
-    inverse_r = r2 > 0.0 ? inversesqrt(r2) : 0.0;
-    distance_m = r2 * inverse_r;
-    if (kind == kLookupTurn) found = around(table, shape, p, h);
-    else if (kind == kLookupGuide) found = guided(table, guide, shape, p, h);
-    else if (kind == kLookupFilter || kind == kLookupFilterAhead) found = by_filter(image, shape, kind, p, h);
-    else found = on_screen(table, guide, image, shape, kind, p);
-  }
-  float cd = found.value;
-  if (kind == kLookupScreen || kind == kLookupScreenGuide || kind == kLookupFilterScreen) cd = cd > 0.0 ? cd * found.factor : 0.0;
-  if ((shape.lookup & kLookupScaled) != 0) cd *= scale_cd;
+// `toward`: the part of the way to the lamp along the surface's normal. The rows of a lamp's frame are orthonormal, so p is as long as the way.
+LampLight light_of(Found found, float cd, LampWay way, float toward) {
   last_found = found;
   LampLight light;
   light.cd = cd;
-  light.distance_m = distance_m;
-  light.per_m = inverse_r;
-  light.cos_incidence = max(toward, 0.0) * inverse_r;
-  light.normal_lx = cd * (inverse_r * inverse_r);
+  light.distance_m = way.distance_m;
+  light.per_m = way.per_m;
+  light.cos_incidence = max(toward, 0.0) * way.per_m;
+  light.normal_lx = cd * (way.per_m * way.per_m);
   light.illuminance_lx = light.normal_lx * light.cos_incidence;
   return light;
 }
 
+float screen_cd(Found found) {
+  return found.value > 0.0 ? found.value * found.factor : 0.0;
+}
+
+// A lamp's light at p in the frame of its table: a function a lamp, so that its lookup is a constant of the pipeline wherever it decides, and
+// what it does not call for is gone before a device compiles it.
+#define PHARE_KIND(I) (lookup_##I & kLookupKind)
+#define PHARE_FIND(I, KIND, FOUND) if (PHARE_KIND(I) == KIND) found = FOUND;
+#ifdef PHARE_FILTERED
+#define PHARE_IS_AHEAD(I) false
+#define PHARE_IS_SCREEN(I) (PHARE_KIND(I) == kLookupFilterScreen)
+#define PHARE_FIND_ONE(I)                                                                          \
+  PHARE_FIND(I, kLookupFilterAhead, filtered_ahead(filtered[I % kFilters], shape, p, way.h))       \
+  PHARE_FIND(I, kLookupFilter, filtered_round(filtered[I % kFilters], shape, p, way.h))            \
+  PHARE_FIND(I, kLookupFilterScreen, filtered_screen(filtered[I % kFilters], shape, p))
+#else
+#define PHARE_IS_AHEAD(I) (PHARE_KIND(I) <= kLookupRounded)
+#define PHARE_IS_SCREEN(I) (PHARE_KIND(I) == kLookupScreen || PHARE_KIND(I) == kLookupScreenGuide)
+#define PHARE_FIND_ONE(I)                                                                                                    \
+  PHARE_FIND(I, kLookupAhead, ahead_even(cells[I % kTables], shape, way.half_tangent))                                       \
+  PHARE_FIND(I, kLookupDecimals, ahead_decimals(cells[I % kTables], shape, way.half_tangent))                                \
+  PHARE_FIND(I, kLookupRounded, ahead_rounded(cells[I % kTables], guides[I % kTables], shape, way.half_tangent))             \
+  PHARE_FIND(I, kLookupTurn, around(cells[I % kTables], shape, p, way.h))                                                    \
+  PHARE_FIND(I, kLookupGuide, guided(cells[I % kTables], guides[I % kTables], shape, p, way.h))                              \
+  PHARE_FIND(I, kLookupScreen, on_even_screen(cells[I % kTables], shape, p))                                                 \
+  PHARE_FIND(I, kLookupScreenGuide, on_guided_screen(cells[I % kTables], guides[I % kTables], shape, p))
+#endif
+#define PHARE_LIGHT_OF_LAMP(I)                                                    \
+  LampLight lamp_light_##I(TableShape shape, vec3 p, float toward) {              \
+    LampWay way;                                                                  \
+    if (PHARE_IS_AHEAD(I)) way = way_ahead(p);                                    \
+    else way = way_round(p);                                                      \
+    Found found;                                                                  \
+    PHARE_FIND_ONE(I)                                                             \
+    float cd = found.value;                                                       \
+    if (PHARE_IS_SCREEN(I)) {                                                     \
+      found.factor = screen_factor(p);                                            \
+      cd = screen_cd(found);                                                      \
+    }                                                                             \
+    if ((lookup_##I & kLookupScaled) != 0) cd *= frame.lamps[I].colour.w;         \
+    return light_of(found, cd, way, toward);                                      \
+  }
+PHARE_EACH_LAMP(PHARE_LIGHT_OF_LAMP)
+
 // Linear Rec. 709 of the light that was looked up last, luminance 1: red and blue from their own table, green is what luminance leaves.
-vec3 lamp_tint(samplerBuffer tint, sampler2D image, TableShape shape, vec4 scale, float cd) {
-  vec2 red_blue;
-  if ((shape.lookup & kLookupKind) >= kLookupFilter) red_blue = textureLod(image, last_found.part, 0.0).rg;
-  else
-    red_blue = vec2(in_cell(texelFetch(tint, 2 * last_found.cell), last_found.part),
-                    in_cell(texelFetch(tint, 2 * last_found.cell + 1), last_found.part));
+vec3 tint_of(vec2 red_blue, vec4 scale, float cd) {
   if (cd <= 0.0) return vec3(1.0);
   red_blue *= scale.xz * (last_found.factor / cd);
   return colour_of_red_blue(red_blue);
 }
 
-// Right after PHARE_LAMP_LIGHT(I).
-#define PHARE_LAMP_TINT(I, LIGHT) lamp_tint(tints[I % kTables], filtered_tints[I % kFilters], PHARE_SHAPE(I), frame.lamps[I].colour, LIGHT.cd)
+#ifdef PHARE_FILTERED
+vec2 found_tint(sampler2D image) {
+  return textureLod(image, last_found.part, 0.0).rg;
+}
+#define PHARE_FOUND_TINT(I) found_tint(filtered_tints[I % kFilters])
+#else
+vec2 found_tint(samplerBuffer tint) {
+  return vec2(in_cell(texelFetch(tint, 2 * last_found.cell), last_found.part), in_cell(texelFetch(tint, 2 * last_found.cell + 1), last_found.part));
+}
+#define PHARE_FOUND_TINT(I) found_tint(tints[I % kTables])
+#endif
 
-// `PLACE`: the point in the lamp's frame; `TOWARD`: as lamp_light has it.
-#define PHARE_LIGHT_AT(I, PLACE, TOWARD) \
-  lamp_light(cells[I % kTables], guides[I % kTables], filtered[I % kFilters], PHARE_SHAPE(I), PLACE, TOWARD, frame.lamps[I].colour.w)
+// Right after PHARE_LAMP_LIGHT(I).
+#define PHARE_LAMP_TINT(I, LIGHT) tint_of(PHARE_FOUND_TINT(I), frame.lamps[I].colour, LIGHT.cd)
+
+// `PLACE`: the point in the lamp's frame.
+#define PHARE_LIGHT_AT(I, PLACE, TOWARD) lamp_light_##I(PHARE_SHAPE(I), PLACE, TOWARD)
 #define PHARE_LAMP_LIGHT(I) PHARE_LIGHT_AT(I, in_lamp[I], PHARE_FACING(I) * unit - level)
 #endif

@@ -14,6 +14,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <regex>
 #include <string>
 
@@ -305,6 +306,18 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
         input.glare.push_back({input.camera.eye_m + glm::dvec3(50.0, 2.0 + 0.1 * static_cast<double>(i), -0.5), 0.2});
       return input;
     });
+  // By pipelines for any light, in place of those for the tables of this one.
+  for (const auto& [name, wet, visibility_m] :
+       {std::tuple("clear air", 0u, std::optional<double>()), std::tuple("fog medium", 0u, std::optional(80.0)),
+        std::tuple("wet ground", 2u, std::optional<double>())})
+    bench.add(group, std::string("two lamps, ") + name + ", shapes from the frame", renderer,
+              [view, wet, visibility_m](int round) {
+                FrameInput input = without_shadows(view(round));
+                input.air.visibility_m = visibility_m;
+                if (wet > 0) input.effects[static_cast<std::size_t>(Effect::kWetGround)] = wet;
+                input.shapes = ShapesFrom::kFrame;
+                return input;
+              });
   // What is kept while lamps and eye keep their places to one another, computed in each frame.
   bench.add(group, "two lamps that sway, fog medium", renderer, [view, frame = 0](int round) mutable {
     FrameInput input = without_shadows(view(round));

@@ -1,77 +1,95 @@
-// Unit: shaders without one of their functions.
+// Unit: shaders with their specialization constants set for good.
 #include "visual/gpu/spirv.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <iterator>
+#include <map>
+#include <stdexcept>
 #include <vector>
 
+#include "shaders/lamps.h"
 #include "shaders/lamps_frag_4_shadows.h"
+#include "visual/passes/constants.h"
 
 namespace phare::gpu {
 namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-std::uint32_t op(std::uint32_t instruction, std::uint32_t words) {
-  return words << 16u | instruction;
+/// How many instructions of each kind (SPIR-V 1.6, 3.52), after the header of five words.
+std::map<std::uint32_t, std::size_t> instructions_of(std::span<const std::uint32_t> code) {
+  std::map<std::uint32_t, std::size_t> counts;
+  for (std::size_t at = 5; at < code.size(); at += code[at] >> 16u) {
+    ++counts[code[at] & 0xffffu];
+    if (code[at] >> 16u == 0) break;
+  }
+  return counts;
 }
 
-/// float is 1, its function's kind 2, 1.0 is 3, the function 4: it returns -p of its argument 5, which is 7 and
-/// decorated.
-Words shader_with(const char (&name)[8], std::uint32_t constant) {
-  Words words{0x07230203, 0x00010600, 0, 10, 0};
-  const auto add = [&](const Words& more) { words.insert(words.end(), more.begin(), more.end()); };
-  std::uint32_t letters[2];
-  std::memcpy(letters, name, 8);
-  add({op(5, 4), 4, letters[0], letters[1]});  // OpName
-  add({op(71, 3), 7, 42});                     // OpDecorate NoContraction
-  add({op(71, 3), 3, 42});
-  add({op(22, 3), 1, 32});           // OpTypeFloat
-  add({op(33, 4), 2, 1, 1});         // OpTypeFunction
-  add({op(43, 4), 1, 3, constant});  // OpConstant
-  add({op(54, 5), 1, 4, 0, 2});      // OpFunction
-  add({op(55, 3), 1, 5});            // OpFunctionParameter
-  add({op(248, 2), 6});              // OpLabel
-  add({op(127, 4), 1, 7, 5});        // OpFNegate
-  add({op(254, 2), 7});              // OpReturnValue
-  add({op(56, 1)});                  // OpFunctionEnd
-  return words;
+constexpr std::uint32_t kName = 5, kConstant = 43, kSpecConstant = 50, kSpecConstantOp = 52, kFunction = 54;
+
+/// Two lamps that look ahead, asphalt, maps.
+SpecConstants two_lamps(std::uint32_t taps) {
+  SpecConstants constants;
+  constants.put(shader::kSpecLampCount, 2);
+  constants.put(shader::kSpecSurface, 1);
+  constants.put(shader::kSpecShadowMaps, 0x21);
+  constants.put(shader::kSpecShadowTaps, taps);
+  constants.put(shader::kSpecTables, shader::kLookupDecimals);
+  constants.put(shader::kSpecTables + shader::kSpecPerTable, shader::kLookupDecimals);
+  constants.put(shader::kSpecTables + 1, std::bit_cast<std::uint32_t>(1145.5f));
+  return constants;
 }
 
-constexpr std::uint32_t kOne = 0x3f800000;
-
-TEST(ReturningOne, LeavesOfAFunctionItsHeadAndOneReturn) {
-  const Words changed = returning_one(shader_with("ray(f1;", kOne), "ray");
-  Words expected{0x07230203, 0x00010600, 0, 10, 0};
-  const auto add = [&](const Words& more) { expected.insert(expected.end(), more.begin(), more.end()); };
-  add({op(71, 3), 3, 42});  // what names or decorates what is gone is gone, too
-  add({op(22, 3), 1, 32});
-  add({op(33, 4), 2, 1, 1});
-  add({op(43, 4), 1, 3, kOne});
-  add({op(54, 5), 1, 4, 0, 2});
-  add({op(55, 3), 1, 5});
-  add({op(248, 2), 6});
-  add({op(254, 2), 3});
-  add({op(56, 1)});
-  EXPECT_EQ(changed, expected);
+TEST(Specialised, KeepsNoConstantThatCouldBeOtherwiseAndNoName) {
+  const Words less = specialised(k_lamps_frag_4_shadows, two_lamps(4).info());
+  std::map<std::uint32_t, std::size_t> before = instructions_of(k_lamps_frag_4_shadows), after = instructions_of(less);
+  EXPECT_GT(before[kSpecConstant], 40u);
+  EXPECT_EQ(after[kSpecConstant], 0u);
+  EXPECT_EQ(after[kSpecConstantOp], 0u);
+  EXPECT_EQ(after[kName], 0u);
 }
 
-TEST(ReturningOne, LeavesAShaderAsItWas) {
-  const Words shader = shader_with("ray(f1;", kOne);
-  EXPECT_EQ(returning_one(shader, "ra"), shader) << "another name";
-  EXPECT_EQ(returning_one(shader_with("ray(f1;", 0), "ray"), shader_with("ray(f1;", 0)) << "no 1.0";
-  const Words cut(shader.begin(), shader.end() - 1);
-  EXPECT_EQ(returning_one(cut, "ray"), cut) << "no end of the function";
-  const Words torn(shader.begin(), shader.end() - 2);
-  EXPECT_EQ(returning_one(torn, "ray"), torn) << "an instruction that is cut off";
+// What a device compiles for a pipeline follows from this: if a condition were no longer one of constants alone,
+// nothing else would tell but the time.
+TEST(Specialised, LeavesWhatTheConstantsCallFor) {
+  const Words by_map = specialised(k_lamps_frag_4_shadows, two_lamps(4).info()),
+              by_rays = specialised(k_lamps_frag_4_shadows, two_lamps(shader::kTapsOfRays + 1).info());
+  SpecConstants none;
+  none.put(shader::kSpecLampCount, 0);
+  const Words dark = specialised(k_lamps_frag_4_shadows, none.info());
+  const std::size_t whole = std::size(k_lamps_frag_4_shadows);
+  EXPECT_LT(3 * by_map.size(), whole) << "one kind of table of seven, two lamps of four, no rays";
+  EXPECT_LT(by_map.size(), by_rays.size());
+  EXPECT_LT(3 * dark.size(), 2 * by_map.size());
+  EXPECT_LT(instructions_of(by_map)[kFunction], instructions_of(by_rays)[kFunction]);
 }
 
-// If the function's name changed, shaders would be as slow to compile as before, and nothing else would tell.
-TEST(ReturningOne, FindsTheRaysOfOurShaders) {
-  EXPECT_LT(returning_one(k_lamps_frag_4_shadows, "reaching_by_rays").size(), std::size(k_lamps_frag_4_shadows));
+TEST(Specialised, ValuesAreTheirWordsWhateverTheirType) {
+  const auto holds = [](std::span<const std::uint32_t> code, std::uint32_t value) {
+    for (std::size_t at = 5; at < code.size() && code[at] >> 16u != 0; at += code[at] >> 16u)
+      if ((code[at] & 0xffffu) == kConstant && code[at] >> 16u == 4 && code[at + 3] == value) return true;
+    return false;
+  };
+  const std::uint32_t steps = std::bit_cast<std::uint32_t>(1145.5f);
+  EXPECT_FALSE(holds(k_lamps_frag_4_shadows, steps));
+  EXPECT_TRUE(holds(specialised(k_lamps_frag_4_shadows, two_lamps(4).info()), steps));
+}
+
+TEST(Specialised, IsTheSameEachTime) {
+  EXPECT_EQ(specialised(k_lamps_frag_4_shadows, two_lamps(4).info()),
+            specialised(k_lamps_frag_4_shadows, two_lamps(4).info()));
+}
+
+TEST(Specialised, WhatIsNoShaderIsRefused) {
+  const Words none{1, 2, 3}, torn(std::begin(k_lamps_frag_4_shadows), std::begin(k_lamps_frag_4_shadows) + 100);
+  EXPECT_THROW((void)specialised(none, {}), std::runtime_error);
+  EXPECT_THROW((void)specialised({}, {}), std::runtime_error);
+  EXPECT_THROW((void)specialised(torn, {}), std::runtime_error);
 }
 
 }  // namespace

@@ -37,6 +37,32 @@ TEST(WeatherAhead, NoTwoAreOfAKind) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(all[i].same_kind(all[j])) << all[i].name << ", " << all[j].name;
 }
 
+TEST(WeatherAhead, LightsAreSwitchedInWhatFallsOrHangsInTheAir) {
+  Desk desk;
+  const std::vector<WeatherAhead> clear = weathers_for_lights(desk);
+  for (const char* name : {"fog", "rain", "snow"}) EXPECT_TRUE(among(clear, name)) << name;
+  EXPECT_EQ(clear.size(), 3u);
+  desk.snow_cover_01 = 0.5;
+  EXPECT_EQ(weathers_for_lights(desk).size(), 4u) << "and in that which the drive begins with";
+}
+
+TEST(LightsAhead, BeginWithThatWhichShinesAndNameEachOnce) {
+  CockpitState shining;
+  shining.light_switch = LightSwitch::kLow;
+  shining.design_index = 2;
+  const std::vector<CockpitState> lights = lights_ahead(shining);
+  ASSERT_EQ(lights.size(), 4u) << "low and high, each with fog lamps and without";
+  EXPECT_EQ(lights.front(), shining);
+  EXPECT_TRUE(lights[1].fog_front) << "most likely next";
+  EXPECT_EQ(lights[1].light_switch, LightSwitch::kLow);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    EXPECT_EQ(lights[i].design_index, 2u);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(lights[i], lights[j]);
+  }
+  shining.light_switch = LightSwitch::kPosition;
+  EXPECT_EQ(lights_ahead(shining).size(), 6u) << "position lamps with fog lamps and without, besides";
+}
+
 TEST(WeatherAhead, IsMadeWhereADriveMayComeToIt) {
   Desk desk;
   EXPECT_TRUE(makes_weather_ready(desk, true)) << "a window has the panel";

@@ -14,6 +14,7 @@
 #include "shaders/lib/luminance.h"
 #include "visual/falling.h"
 #include "visual/fog_nodes.h"
+#include "visual/gpu/spirv.h"
 #include "visual/passes/constants.h"
 
 namespace phare {
@@ -204,8 +205,6 @@ vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
     layout_ = vk::raii::PipelineLayout(
         device_.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = layouts.size(), .pSetLayouts = layouts.data()});
   }
-  const std::size_t size = shader_for(lamps);
-  if (!*modules_[size]) modules_[size] = gpu::make_shader(device_, fog_comp(size, scene.filtered()));
   SpecConstants constants;
   constants.put(shader::kSpecLampCount, lamps);
   constants.put(shader::kSpecFogSteps, kFogLevels[level].steps);
@@ -213,16 +212,17 @@ vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
   constants.put(shader::kSpecFogAdd, adds ? 1u : 0u);
   put(constants, grid);
   constants.put_all(shader::kSpecTables, scene.table_words(tables));
-  const vk::SpecializationInfo info = constants.info();
+  const vk::raii::ShaderModule module =
+      gpu::make_shader(device_, gpu::specialised(fog_comp(shader_for(lamps), scene.filtered()), constants.info()));
   ++*device_.pipelines_made;
   return *pipelines_
-              .emplace(key, vk::raii::Pipeline(
-                                device_.device, nullptr,
-                                vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
-                                                                        .module = *modules_[size],
-                                                                        .pName = "main",
-                                                                        .pSpecializationInfo = &info},
-                                                              .layout = *layout_}))
+              .emplace(
+                  key,
+                  vk::raii::Pipeline(
+                      device_.device, nullptr,
+                      vk::ComputePipelineCreateInfo{
+                          .stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *module, .pName = "main"},
+                          .layout = *layout_}))
               .first->second;
 }
 
@@ -269,8 +269,9 @@ void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::
     for (std::size_t i = 0; i < groups.size(); ++i) {
       if (i > 0)
         wait_for_cells(commands, Stage::eComputeShader, Access::eShaderStorageRead | Access::eShaderStorageWrite);
-      commands.bindPipeline(vk::PipelineBindPoint::eCompute,
-                            pipeline(scene, {groups[i].tables, groups[i].lamps, view.fog, level_number, i > 0}));
+      commands.bindPipeline(
+          vk::PipelineBindPoint::eCompute,
+          pipeline(scene, scene.key_for(groups[i], pipelines_, {0, groups[i].lamps, view.fog, level_number, i > 0})));
       commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, groups[i].set, groups[i].data_at);
       commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 1, grid.compute_set, nullptr);
       commands.dispatch((level.columns * level.rows + shader::kFogGroup - 1) / shader::kFogGroup, 1, 1);

@@ -87,7 +87,7 @@ class FogPass {
     vk::DescriptorSet set{}, compute_set{};
     std::optional<Source> source{};  ///< of what the texels hold
   };
-  /// Tables, lamps, grid, level, whether it adds.
+  /// Tables (LitScene::key_for), lamps, grid, level, whether it adds.
   using Key = std::tuple<std::size_t, std::uint32_t, FogGrid, std::size_t, bool>;
 
   static Source source_of(const LitScene& scene, const LitView& view, std::size_t level, bool drops,
@@ -99,7 +99,6 @@ class FogPass {
   gpu::Device& device_;
   vk::raii::PipelineLayout layout_{nullptr};  ///< made with the first grid
   gpu::DescriptorSets compute_layout_;        ///< of it only the layout
-  std::array<vk::raii::ShaderModule, 3> modules_{nullptr, nullptr, nullptr};
   std::map<Key, vk::raii::Pipeline> pipelines_;
   std::optional<Air> phase_of_;  ///< of the phase table
   gpu::HostBuffer phase_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "config/base/on_all_cores.h"
+#include "visual/gpu/spirv.h"
 
 namespace phare {
 
@@ -21,15 +22,18 @@ vk::raii::PipelineLayout pushing_layout(const gpu::Device& device, vk::Descripto
 namespace {
 
 vk::raii::Pipeline compile(const gpu::Device& device, const PipelineRecipe& recipe) {
-  std::vector<vk::PipelineShaderStageCreateInfo> stages{{.stage = vk::ShaderStageFlagBits::eVertex,
-                                                         .module = recipe.vertex,
-                                                         .pName = "main",
-                                                         .pSpecializationInfo = recipe.constants}};
-  if (recipe.fragment)
-    stages.push_back({.stage = vk::ShaderStageFlagBits::eFragment,
-                      .module = recipe.fragment,
-                      .pName = "main",
-                      .pSpecializationInfo = recipe.constants});
+  std::vector<vk::raii::ShaderModule> own;  // until the pipeline is made
+  std::vector<vk::PipelineShaderStageCreateInfo> stages;
+  const auto add = [&](vk::ShaderStageFlagBits stage, vk::ShaderModule module, std::span<const std::uint32_t> code) {
+    if (!code.empty()) module = *own.emplace_back(gpu::make_shader(device, gpu::specialised(code, *recipe.constants)));
+    if (module)
+      stages.push_back({.stage = stage,
+                        .module = module,
+                        .pName = "main",
+                        .pSpecializationInfo = code.empty() ? recipe.constants : nullptr});
+  };
+  add(vk::ShaderStageFlagBits::eVertex, recipe.vertex, recipe.vertex_code);
+  add(vk::ShaderStageFlagBits::eFragment, recipe.fragment, recipe.fragment_code);
   std::vector<vk::VertexInputBindingDescription> bindings;
   const auto bind = [&](std::uint32_t binding, std::uint32_t stride, bool by_instance) {
     if (stride > 0)

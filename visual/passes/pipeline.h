@@ -10,7 +10,9 @@ namespace phare {
 
 struct PipelineRecipe {
   vk::ShaderModule vertex{};
-  vk::ShaderModule fragment{};                        ///< null: depth only
+  vk::ShaderModule fragment{};  ///< null: depth only
+  /// In place of these, shaders that are much more than the constants leave of them (visual/gpu/spirv.h).
+  std::span<const std::uint32_t> vertex_code{}, fragment_code{};
   const vk::SpecializationInfo* constants = nullptr;  ///< of both stages
   std::span<const vk::VertexInputAttributeDescription> attributes{};
   std::uint32_t stride = 0;         ///< of a vertex; 0: none are read

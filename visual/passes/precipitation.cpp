@@ -100,8 +100,9 @@ void Drops::draw(gpu::Recorder& commands, const LitScene& scene, const LitView& 
     const double pixel_sr = 2.0 * glm::length(glm::dvec3(ways[0])) / area.extent.width * 2.0 *
                             glm::length(glm::dvec3(ways[1])) / area.extent.height;
     lit.data->size_px = glm::vec4(area.extent.width, area.extent.height, pixel_sr, 0.0f);
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
-                          pipeline(scene, {lit.tables, lit.lamps, view.flakes, format, samples}));
+    commands.bindPipeline(
+        vk::PipelineBindPoint::eGraphics,
+        pipeline(scene, scene.key_for(lit, pipelines_, {0, lit.lamps, view.flakes, format, samples})));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, lit.set, lit.data_at);
     commands.pushConstants<shader::GpuDrops>(*layout_, vk::ShaderStageFlagBits::eVertex, 0, view.drops);
     commands.draw(2 * view.drops_count, 1, 0, 0);

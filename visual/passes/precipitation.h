@@ -29,6 +29,7 @@ class Drops {
 
  private:
   /// Tables, lamps, snow.
+  /// The tables first (LitScene::key_for).
   using Key = std::tuple<std::size_t, std::uint32_t, bool, vk::Format, vk::SampleCountFlagBits>;
   vk::Pipeline pipeline(const LitScene& scene, const Key& key);
 

@@ -57,7 +57,8 @@ vk::Pipeline Spray::pipeline(const LitScene& scene, const Key& key) {
 void Spray::draw(gpu::Recorder& commands, const LitScene& scene, const LitView& view, vk::Format format,
                  vk::SampleCountFlagBits samples) {
   for (const LitBy& lit : view.spray_by) {
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline(scene, {lit.tables, lit.lamps, format, samples}));
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
+                          pipeline(scene, scene.key_for(lit, pipelines_, {0, lit.lamps, format, samples})));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, lit.set, lit.data_at);
     for (const shader::GpuSpray& spray : view.spray) {
       commands.pushConstants<shader::GpuSpray>(*layout_, vk::ShaderStageFlagBits::eVertex, 0, spray);

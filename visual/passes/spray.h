@@ -30,6 +30,7 @@ class Spray {
 
  private:
   /// Tables, lamps.
+  /// The tables first (LitScene::key_for).
   using Key = std::tuple<std::size_t, std::uint32_t, vk::Format, vk::SampleCountFlagBits>;
   vk::Pipeline pipeline(const LitScene& scene, const Key& key);
 

@@ -74,6 +74,8 @@ class Loop {
   void mind_the_lamps(SimTime now);
   void warm_up();
   void warm_up_weather(FrameInput input);
+  void warm_up_views(FrameInput input);
+  void warm_up_lights(FrameInput input);
   void announce();
   void repeat_when_stalled();
   std::optional<Moment> lockstep_moment();

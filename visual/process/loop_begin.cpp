@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "config/base/on_all_cores.h"
@@ -40,6 +41,12 @@ const GuiContent& unseen_panel() {
   return content;
 }
 
+void set_weather(FrameInput& input, const WeatherAhead& weather) {
+  input.air = weather.air;
+  input.snow_cover_01 = weather.snow_cover_01;
+  input.effects[static_cast<std::size_t>(Effect::kWetGround)] = weather.ground;
+}
+
 }  // namespace
 
 Loop::Loop(Session& session)
@@ -61,6 +68,7 @@ Loop::Loop(Session& session)
   s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
   if (!session.options.lockstep) drawn_frames_ = std::max(session.album.frames_found(), drive_log_.frames_before());
   if (!session.options.lockstep && session.album.wanted()) session.album.write_beside();
+  if (!session.options.lockstep) input_.shapes = ShapesFrom::kEither;
   warm_up();
   announce();
   ready_ = Clock::now();
@@ -197,11 +205,10 @@ void Loop::warm_up_weather(FrameInput input) {
   input.part = {.width_01 = 1.0 / 16.0, .height_01 = 1.0 / 16.0};
   input.more_views.clear();
   const bool glares = s_.desk.glare != std::size_t{0} && (!s_.traffic.empty() || s_.fixed_light->street_lamps() > 0);
+  warm_up_views(input);
   int step = 0;
   for (const WeatherAhead& weather : weathers) {
-    input.air = weather.air;
-    input.snow_cover_01 = weather.snow_cover_01;
-    input.effects[static_cast<std::size_t>(Effect::kWetGround)] = weather.ground;
+    set_weather(input, weather);
     // A screen may be set before the eye in the drive, too.
     input.windscreen = Windscreen{.wiper = s_.desk.wiper};
     if (s_.window) input.panel = getting_ready_panel(++step, static_cast<int>(weathers.size()));
@@ -217,6 +224,51 @@ void Loop::warm_up_weather(FrameInput input) {
         of_others.glare = {{input.camera.eye_m + 10.0 * input.camera.world_from_eye[0], 1.0}};
         s_.renderer.draw(of_others);
       }
+    }
+  }
+  warm_up_lights(std::move(input));
+}
+
+/// What else a person may choose to see in a window, in the air that the drive begins with.
+void Loop::warm_up_views(FrameInput input) {
+  if (!s_.window) return;
+  set_weather(input, weather_of(s_.desk));
+  for (const View view : {View::kFalseColour, View::kClipping}) {
+    input.view = view;
+    for (const bool off : {true, false}) {
+      if (over()) return;
+      input.effects[static_cast<std::size_t>(Effect::kShadows)] = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
+      s_.renderer.draw(input);
+    }
+  }
+  input.camera.world_from_eye = glm::dmat3(1.0);  // level ahead: the sky
+  s_.renderer.draw(input);
+}
+
+/// Weather for which one switches lights, under those that a person may switch to. Lights whose tables have shapes of
+/// their own, but lamps no more than one before, share pipelines that read shapes from the frame: slower by a fifth,
+/// and no frame waits for them.
+void Loop::warm_up_lights(FrameInput input) {
+  const std::vector<WeatherAhead> weathers = weathers_for_lights(s_.desk);
+  std::vector<CockpitState> lights = lights_ahead(controls_to_show(s_.bus, Clock::now()));
+  std::set<std::size_t> lamps{input.lamps.size()};
+  lights.erase(lights.begin());
+  for (const CockpitState& light : lights) {
+    light_up(light);
+    input.lamps = s_.lamps.placed(VehicleState{});
+    input.shapes = ShapesFrom::kPipeline;
+    for (const WeatherAhead& weather : weathers) {
+      set_weather(input, weather);
+      std::uint64_t made = 0;
+      for (const bool off : {true, false}) {
+        if (over()) return;
+        input.effects[static_cast<std::size_t>(Effect::kShadows)] =
+            off ? std::optional<std::size_t>(0) : s_.desk.shadows;
+        made += s_.renderer.draw(input).pipelines_made;
+      }
+      if (&weather != &weathers.front()) continue;
+      if (made == 0) break;  // its pipelines are those of a light before
+      if (!lamps.insert(input.lamps.size()).second) input.shapes = ShapesFrom::kFrame;
     }
   }
 }

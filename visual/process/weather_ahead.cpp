@@ -34,6 +34,31 @@ std::vector<WeatherAhead> weathers_ahead(const Desk& desk) {
   return all;
 }
 
+std::vector<WeatherAhead> weathers_for_lights(const Desk& desk) {
+  std::vector<WeatherAhead> all = weathers_ahead(desk);
+  std::erase_if(all, [](const WeatherAhead& weather) { return weather.air.clear() || weather.snow_cover_01 > 0.0; });
+  if (const WeatherAhead own = weather_of(desk); !own.same_kind({})) all.push_back(own);
+  return all;
+}
+
+std::vector<CockpitState> lights_ahead(const CockpitState& shining) {
+  std::vector<CockpitState> lights;
+  const auto add = [&](LightSwitch light, bool fog_front) {
+    const auto same = [&](const CockpitState& known) {
+      return known.light_switch == light && known.fog_front == fog_front;
+    };
+    if (std::ranges::any_of(lights, same)) return;
+    CockpitState& added = lights.emplace_back(shining);
+    added.light_switch = light;
+    added.fog_front = fog_front;
+  };
+  add(shining.light_switch, shining.fog_front);
+  add(shining.light_switch, !shining.fog_front);
+  for (const LightSwitch light : {LightSwitch::kLow, LightSwitch::kHigh})
+    for (const bool fog_front : {false, true}) add(light, fog_front);
+  return lights;
+}
+
 bool makes_weather_ready(const Desk& desk, bool window) {
   const WeatherAhead own = weather_of(desk);
   const bool weather = !own.air.clear() || own.ground > 0 || own.snow_cover_01 > 0.0;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/desk.h"
+#include "net/messages.h"
 #include "visual/photometry/table/air.h"
 
 namespace phare {
@@ -27,6 +28,14 @@ WeatherAhead weather_of(const Desk& desk);
 
 /// The kinds that the desk's own is none of.
 std::vector<WeatherAhead> weathers_ahead(const Desk& desk);
+
+/// Those in which a person may switch lights, also the desk's own: what falls or hangs in the air over ground that no
+/// snow covers.
+std::vector<WeatherAhead> weathers_for_lights(const Desk& desk);
+
+/// The lights that a person may switch to, of the design that shines: first that which shines, then the same with the
+/// front fog lamps the other way, then low and high beam without them and with.
+std::vector<CockpitState> lights_ahead(const CockpitState& shining);
 
 /// Whether they are made ready: as the desk says; by itself in a window, where a person may set weather, and where the
 /// drive begins in some.
