@@ -74,10 +74,8 @@ const uint kLookupNarrow = 64u;       // of first, and twice that of second: no 
 // the table.
 const uint kLookupShown = 256u;
 const uint kLookupCoarse = 512u;  // ahead, even: a coarse step beyond the fine ones
-const uint kLookupLast =
-    1024u;  // decimals: the last one is so small a part of a step that kLookupShown may leave it out
-const uint kLookupOfFrame =
-    2048u;  // all but `lookup` is read from the frame (GpuShape): one pipeline for many lights, and a slower one
+const uint kLookupLast = 1024u;   // decimals: the last is so small a part of a step that kLookupShown leaves it out
+const uint kLookupOfFrame = 2048u;  // all but `lookup` is read from the frame (GpuShape): for many lights, and slower
 const uint kLookupAsFirst = 4096u;  // the same, of the first lamp
 
 const uint kOutputDisplay = 0u;      // the display's signal (sRGB), tone curve applied here
