@@ -27,7 +27,6 @@
 #include "shaders/lean_vert_smooth_alike.h"
 #include "shaders/lean_vert_smooth_alike_shadows.h"
 #include "shaders/lean_vert_smooth_shadows.h"
-#include "visual/gpu/device.h"
 
 namespace phare {
 namespace {

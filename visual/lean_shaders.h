@@ -16,8 +16,6 @@ struct LeanKind {
   Surface surface = Surface::kSmooth;
   bool alike = false;  ///< the tables of both lamps have the same axes
   bool shadows = false;
-
-  friend auto operator<=>(const LeanKind&, const LeanKind&) = default;
 };
 
 struct LeanCode {

@@ -42,7 +42,7 @@ namespace {
 static_assert(sizeof(shader::GpuLamp) == 80 && offsetof(shader::GpuLamp, colour) == 64);
 static_assert(sizeof(shader::TableShape) == 4 * shader::kSpecPerTable && offsetof(shader::TableShape, unit) == 80);
 static_assert(offsetof(shader::GpuFrame, exposure) == 64 && offsetof(shader::GpuFrame, lamps) == 128);
-static_assert(sizeof(shader::GpuFog) == 112);
+static_assert(sizeof(shader::GpuFog) == 112 && sizeof(shader::GpuShape) == 96);
 static_assert(sizeof(shader::GpuFrame) == 96 + 4 * shader::kMaxIsoluxLevels + shader::kMaxLamps * (80 + 64 + 96) +
                                               sizeof(shader::GpuFog) + 32 + 32 * shader::kMirroredLamps);
 static_assert(sizeof(shader::GpuDraw) == 80 && sizeof(shader::GpuMaterial) == 16);

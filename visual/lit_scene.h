@@ -49,10 +49,10 @@ constexpr bool shows_lux(LampOutput output) {
 /// Lamps that light some of what a view sees, kLampsPerDraw at most.
 struct LitBy {
   std::uint32_t lamps = 0;
-  std::size_t tables = 0;     ///< which of the scene's sets of table shapes
+  std::size_t tables = 0;      ///< which of the scene's sets of table shapes
   std::size_t any_tables = 0;  ///< the same, of shapes that pipelines read from the frame
-  std::uint32_t colours = 0;  ///< as kSpecColours
-  bool alike = false;         ///< two, whose tables have the same axes
+  std::uint32_t colours = 0;   ///< as kSpecColours
+  bool alike = false;          ///< two, whose tables have the same axes
   vk::DescriptorSet set{};
   std::uint32_t data_at = 0;  ///< of their GpuFrame in the buffer, bytes
   shader::GpuFrame* data = nullptr;
@@ -366,7 +366,7 @@ extern const std::array<vk::DescriptorSetLayoutBinding, 1> kShadowBindings;
 /// Of LitView::fog_set.
 extern const std::array<vk::DescriptorSetLayoutBinding, 2> kFogBindings;
 
-/// lamps.frag for fog, in the order of LitScene's modules.
+/// lamps.frag for fog, for up to 2, 4, 8 lamps and the same with shadows.
 std::span<const std::uint32_t> lamps_fog_frag(std::size_t size, bool filtered);
 /// scene.vert for fog and two lamps at most on surfaces; of more it is that of clear air.
 std::span<const std::uint32_t> scene_fog_vert(bool shadows, bool by_vertex, bool filtered);

@@ -266,7 +266,7 @@ float screen_cd(Found found) {
     LampWay way;                                                                  \
     if (PHARE_IS_AHEAD(I)) way = way_ahead(p);                                    \
     else way = way_round(p);                                                      \
-    Found found;                                                                  \
+    Found found = Found(0.0, 1.0, vec2(0.0), 0);                                  \
     PHARE_FIND_ONE(I)                                                             \
     float cd = found.value;                                                       \
     if (PHARE_IS_SCREEN(I)) {                                                     \

@@ -175,6 +175,11 @@ TEST_F(DriveTest, WeatherThatBeginsInADriveMakesNoPipeline) {
   const json visual = report_of(out)["processes"]["visual-0"];
   EXPECT_EQ(visual["made_in_the_drive"]["pipelines"], 0) << visual["made_in_the_drive"];
   EXPECT_GT(visual["frames"], 2 + 3 * (13 + 4));
+  std::ifstream rows(out / "drive.csv");
+  std::size_t with_fog_lamps = 0;
+  for (std::string row; std::getline(rows, row);)
+    with_fog_lamps += row.find("\"low fog\"") != std::string::npos ? 1 : 0;
+  EXPECT_GT(with_fog_lamps, 3u * 4u) << "they shone";
 }
 
 // A control unit beside the rig dims the segments of one matrix lamp: the picture follows, the other processes do not

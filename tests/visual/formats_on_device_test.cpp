@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -291,6 +292,48 @@ TEST(FormatsOnDevice, ShapesFromTheFrameLightAsThoseOfThePipeline) {
   // Even with a coarse step; even, and rounded to decimals, fine ones and others; rounded otherwise; a whole turn; any
   // nodes; a screen's, even and any.
   EXPECT_EQ(lookups.size(), 8u) << "of " << formats().size() << " formats";
+  EXPECT_EQ(renderer->validation_messages(), 0u);
+}
+
+// Two lamps: of one table, whose shape the first has for both, and of two, where each has its own. What a display
+// shows, by shorter polynomials here and longer ones there, is the same to a step of 255; in fog too, whose grid is
+// read in half floats: a thousandth, and a step is eight of them.
+// Where a table ends in the midst of its light, a pixel on that limit may fall on either side of it.
+TEST(FormatsOnDevice, TwoLampsLightFromTheFrameAsFromThePipeline) {
+  Result<Renderer> renderer = Renderer::create({.width_px = 320, .height_px = 180, .validation = true});
+  ASSERT_TRUE(renderer.ok()) << renderer.error().text();
+  ASSERT_TRUE(renderer->load_scene(yard()).ok());
+  const std::vector<Format> all = formats();
+  const auto shown = [&](ShapesFrom shapes, bool foggy) {
+    FrameInput input = driver_view();
+    input.lamps[0].beam = 0, input.lamps[1].beam = 1;
+    input.shapes = shapes;
+    if (foggy) input.air.visibility_m = 60.0;
+    input.want_image = true;
+    renderer->draw(input);
+    return renderer->read_image();
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::array<std::size_t, 2> of_lamp{i, i % 2 == 0 ? i : (i + 5) % all.size()};
+    for (std::size_t lamp = 0; lamp < 2; ++lamp) {
+      const Format& format = all[of_lamp[lamp]];
+      const auto table = parse_lamp(format.text, format.name, format.settings);
+      ASSERT_TRUE(table.ok()) << table.error().text();
+      renderer->set_beam(lamp, image_of(*table));
+    }
+    for (const bool foggy : {false, true}) {
+      const Image8 own = shown(ShapesFrom::kPipeline, foggy), any = shown(ShapesFrom::kFrame, foggy);
+      std::size_t bright = 0, steps = 0, ends = 0;
+      for (std::size_t k = 0; k < own.rgba.size(); ++k) {
+        bright += own.rgba[k] > 40 && k % 4 != 3 ? 1 : 0;
+        steps += own.rgba[k] != any.rgba[k] ? 1 : 0;
+        ends += std::abs(own.rgba[k] - any.rgba[k]) > 1 ? 1 : 0;
+      }
+      EXPECT_GT(bright, own.rgba.size() / 10) << all[i].name;
+      EXPECT_LT(steps, own.rgba.size() / 50) << all[i].name;
+      EXPECT_LE(ends, 9u) << all[i].name << (foggy ? ", in fog" : "") << ": three pixels on a table's limit";
+    }
+  }
   EXPECT_EQ(renderer->validation_messages(), 0u);
 }
 

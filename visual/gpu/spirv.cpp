@@ -1,5 +1,6 @@
 #include "visual/gpu/spirv.h"
 
+#include <cstddef>
 #include <cstring>
 #include <spirv-tools/optimizer.hpp>
 #include <stdexcept>
@@ -13,6 +14,7 @@ std::vector<std::uint32_t> specialised(std::span<const std::uint32_t> code, cons
   for (std::uint32_t i = 0; i < constants.mapEntryCount; ++i) {
     const vk::SpecializationMapEntry& entry = constants.pMapEntries[i];
     std::uint32_t word = 0;
+    if (entry.size != sizeof word) throw std::runtime_error("a shader's constant is no word of 32 bits");
     std::memcpy(&word, static_cast<const std::byte*>(constants.pData) + entry.offset, sizeof word);
     values[entry.constantID] = {word};
   }
@@ -21,8 +23,7 @@ std::vector<std::uint32_t> specialised(std::span<const std::uint32_t> code, cons
   optimizer.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&, const char* message) {
     why += why.empty() ? message : std::string("; ") + message;
   });
-  optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass())
-      .RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
+  optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(values))
       .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
       .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass())
       .RegisterPass(spvtools::CreateDeadBranchElimPass())

@@ -12,8 +12,8 @@
 namespace phare::gpu {
 
 /// The shader with these values of its specialization constants for good (those that are not named: their defaults),
-/// without the branches and functions that nothing reaches then, and without names. What it computes is the same, bit
-/// for bit. Throws std::runtime_error with the reason, where it is no shader.
+/// without the branches and functions that nothing reaches then. What it computes is the same, bit for bit. All
+/// constants are words of 32 bits. Throws std::runtime_error with the reason, where it is no shader.
 std::vector<std::uint32_t> specialised(std::span<const std::uint32_t> code, const vk::SpecializationInfo& constants);
 
 }  // namespace phare::gpu

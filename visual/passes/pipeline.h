@@ -11,7 +11,8 @@ namespace phare {
 struct PipelineRecipe {
   vk::ShaderModule vertex{};
   vk::ShaderModule fragment{};  ///< null: depth only
-  /// In place of these, shaders that are much more than the constants leave of them (visual/gpu/spirv.h).
+  /// In place of these, shaders that are much more than the constants, which must be there, leave of them
+  /// (visual/gpu/spirv.h).
   std::span<const std::uint32_t> vertex_code{}, fragment_code{};
   const vk::SpecializationInfo* constants = nullptr;  ///< of both stages
   std::span<const vk::VertexInputAttributeDescription> attributes{};

@@ -28,8 +28,7 @@ class Drops {
             vk::Format format, vk::SampleCountFlagBits samples);
 
  private:
-  /// Tables, lamps, snow.
-  /// The tables first (LitScene::key_for).
+  /// Tables (LitScene::key_for), lamps, snow.
   using Key = std::tuple<std::size_t, std::uint32_t, bool, vk::Format, vk::SampleCountFlagBits>;
   vk::Pipeline pipeline(const LitScene& scene, const Key& key);
 

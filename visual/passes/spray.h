@@ -29,8 +29,7 @@ class Spray {
             vk::SampleCountFlagBits samples);
 
  private:
-  /// Tables, lamps.
-  /// The tables first (LitScene::key_for).
+  /// Tables (LitScene::key_for), lamps.
   using Key = std::tuple<std::size_t, std::uint32_t, vk::Format, vk::SampleCountFlagBits>;
   vk::Pipeline pipeline(const LitScene& scene, const Key& key);
 

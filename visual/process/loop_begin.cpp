@@ -99,7 +99,7 @@ void Loop::warm_up() {
   const double far_mesh_from_m = std::exchange(input.far_mesh_from_m, std::numeric_limits<double>::infinity());
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
   const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 2 : 1;
-  const std::uint32_t first_design = controls_to_show(s_.bus, Clock::now()).design_index;
+  const std::uint32_t first_design = shown_by_desk(s_.desk, controls_to_show(s_.bus, Clock::now())).design_index;
   const bool beside = s_.fixed_light->street_lamps() > 0;  // they glare from the first picture on
   int step = 0;
   bool last = false;
@@ -188,12 +188,12 @@ void Loop::warm_up() {
   }
   // As the drive begins, over the whole scene where there is time, then as it is seen.
   last = true;
-  if (thorough) draw(controls_to_show(s_.bus, Clock::now()));  // low beam
+  if (thorough) draw(shown_by_desk(s_.desk, controls_to_show(s_.bus, Clock::now())));  // low beam
   if (thorough && makes_weather_ready(s_.desk, s_.window.has_value())) warm_up_weather(input);
   input.camera = first_camera;
   input.far_mesh_from_m = far_mesh_from_m;
   input.want_image = s_.album.wanted();
-  draw(controls_to_show(s_.bus, Clock::now()));
+  draw(shown_by_desk(s_.desk, controls_to_show(s_.bus, Clock::now())));
   s_.lamps.begin_counting();
   if (!ended_) spdlog::info("ready after {:.1f} s", std::chrono::duration<double>(Clock::now() - begin).count());
 }
@@ -245,18 +245,22 @@ void Loop::warm_up_views(FrameInput input) {
   s_.renderer.draw(input);
 }
 
-/// Weather for which one switches lights, under those that a person may switch to. Lights whose tables have shapes of
-/// their own, but lamps no more than one before, share pipelines that read shapes from the frame: slower by a fifth,
-/// and no frame waits for them.
+/// Weather for which one switches lights, under those that a person may switch to; among street lamps with their glare,
+/// which is in every picture. Lights whose tables have shapes of their own, but as many lamps as one before, share
+/// pipelines that read shapes from the frame: slower by a fifth, and no frame waits for them.
 void Loop::warm_up_lights(FrameInput input) {
   const std::vector<WeatherAhead> weathers = weathers_for_lights(s_.desk);
-  std::vector<CockpitState> lights = lights_ahead(controls_to_show(s_.bus, Clock::now()));
+  std::vector<CockpitState> lights = lights_ahead(shown_by_desk(s_.desk, controls_to_show(s_.bus, Clock::now())));
+  input.glare.clear();
+  if (s_.desk.glare != std::size_t{0} && s_.fixed_light->street_lamps() > 0)
+    input.glare = {{input.camera.eye_m + 10.0 * input.camera.world_from_eye[0], 1.0}};
   std::set<std::size_t> lamps{input.lamps.size()};
   lights.erase(lights.begin());
   for (const CockpitState& light : lights) {
     light_up(light);
     input.lamps = s_.lamps.placed(VehicleState{});
     input.shapes = ShapesFrom::kPipeline;
+    bool apart = false;  // its pipelines are not those of a light before
     for (const WeatherAhead& weather : weathers) {
       set_weather(input, weather);
       std::uint64_t made = 0;
@@ -266,8 +270,7 @@ void Loop::warm_up_lights(FrameInput input) {
             off ? std::optional<std::size_t>(0) : s_.desk.shadows;
         made += s_.renderer.draw(input).pipelines_made;
       }
-      if (&weather != &weathers.front()) continue;
-      if (made == 0) break;  // its pipelines are those of a light before
+      if (made == 0 || std::exchange(apart, true)) continue;
       if (!lamps.insert(input.lamps.size()).second) input.shapes = ShapesFrom::kFrame;
     }
   }

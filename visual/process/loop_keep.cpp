@@ -84,6 +84,7 @@ Loop::Still Loop::still_of(const Moment& moment) const {
   still.moving.clear(), still.glare.clear(), still.pupils.clear(), still.spraying.clear();
   still.windscreen.reset(), still.more_views.clear();
   still.view = View::kPhoto;
+  still.shapes = ShapesFrom::kPipeline;  // there is time
   still.overlay.clear(), still.instruments.clear(), still.panel = {}, still.marks = {}, still.gui = nullptr;
   return {std::move(still), moment, s_.lamps, versus_.copy(), label(moment)};
 }

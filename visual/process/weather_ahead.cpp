@@ -37,7 +37,6 @@ std::vector<WeatherAhead> weathers_ahead(const Desk& desk) {
 std::vector<WeatherAhead> weathers_for_lights(const Desk& desk) {
   std::vector<WeatherAhead> all = weathers_ahead(desk);
   std::erase_if(all, [](const WeatherAhead& weather) { return weather.air.clear() || weather.snow_cover_01 > 0.0; });
-  if (const WeatherAhead own = weather_of(desk); !own.same_kind({})) all.push_back(own);
   return all;
 }
 

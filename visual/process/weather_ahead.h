@@ -29,8 +29,7 @@ WeatherAhead weather_of(const Desk& desk);
 /// The kinds that the desk's own is none of.
 std::vector<WeatherAhead> weathers_ahead(const Desk& desk);
 
-/// Those in which a person may switch lights, also the desk's own: what falls or hangs in the air over ground that no
-/// snow covers.
+/// Those of them in which a person may switch lights: what falls or hangs in the air over ground that no snow covers.
 std::vector<WeatherAhead> weathers_for_lights(const Desk& desk);
 
 /// The lights that a person may switch to, of the design that shines: first that which shines, then the same with the
