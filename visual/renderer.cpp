@@ -395,6 +395,9 @@ FrameResult Renderer::draw(const FrameInput& input) {
   auto times = std::exchange(impl_->times, std::nullopt);
   result.timed = times.has_value();
   if (times) {
+    // When the frame before was done is not known, where this one made pipelines first: all of the call is its own.
+    if (result.pipelines_made > 0)
+      times->wall_ms = std::chrono::duration<double, std::milli>(Impl::Clock::now() - begun).count();
     result.wall_ms = times->wall_ms;
     result.gpu_ms = times->gpu_ms;
     result.timed_kept = times->kept;

@@ -151,7 +151,8 @@ struct FrameResult {
   /// Times: of this frame; where frames overlap, of the newest that is done. Nothing: they were told with a frame before.
   bool timed = true;
   bool timed_kept = false;  ///< of the frame they are of, something was read back
-  /// From the call until the GPU was done, and the picture shown; where frames overlap, from when the one before was.
+  /// From the call until the GPU was done, and the picture shown; where frames overlap, from when the one before was,
+  /// but of a frame that made a pipeline from the call.
   double wall_ms = 0.0;
   double gpu_ms = 0.0;  ///< first to last time stamp
   std::vector<PassTime> passes;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <vector>
 
@@ -169,6 +170,25 @@ TEST(FramesInFlight, TimesAreToldOnceForEachFrame) {
 TEST(FramesInFlight, OneOrTwo) {
   EXPECT_FALSE(Renderer::create({.width_px = 16, .height_px = 16, .frames_in_flight = 0}));
   EXPECT_FALSE(Renderer::create({.width_px = 16, .height_px = 16, .frames_in_flight = 3}));
+}
+
+// Both are one interval, up to what follows the device's end.
+TEST(FramesInFlight, AFrameThatMakesPipelinesSaysHowLongThatTook) {
+  Result<Renderer> renderer =
+      Renderer::create({.width_px = 320, .height_px = 180, .validation = true, .frames_in_flight = 2});
+  ASSERT_TRUE(renderer.ok()) << renderer.error().text();
+  ASSERT_TRUE(renderer->load_scene(yard()).ok());
+  renderer->set_beam(0, beam_of(0));
+  FrameInput input = driver_view();
+  for (int i = 0; i < 3; ++i) renderer->draw(input);
+  input.air.visibility_m = 60.0;
+  const auto begin = std::chrono::steady_clock::now();
+  const FrameResult result = renderer->draw(input);
+  const double took_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  ASSERT_GT(result.pipelines_made, 0u);
+  EXPECT_GT(result.wall_ms, 0.9 * took_ms);
+  EXPECT_LE(result.wall_ms, took_ms);
+  EXPECT_EQ(renderer->validation_messages(), 0u);
 }
 
 }  // namespace

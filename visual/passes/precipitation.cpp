@@ -71,8 +71,6 @@ vk::Pipeline Drops::pipeline(const LitScene& scene, const Key& key) {
   static const std::array<ShaderCode, 6> codes{k_precipitation_vert_2,          k_precipitation_vert_4,
                                                k_precipitation_vert_8,          k_precipitation_vert_2_filtered,
                                                k_precipitation_vert_4_filtered, k_precipitation_vert_8_filtered};
-  const std::size_t size = shader_for(lamps);
-  if (!*vertices_[size]) vertices_[size] = gpu::make_shader(device_, codes[size + (scene.filtered() ? 3 : 0)]);
   SpecConstants constants;
   constants.put(shader::kSpecLampCount, lamps);
   constants.put(shader::kSpecDropsSnow, snow ? 1u : 0u);
@@ -80,15 +78,16 @@ vk::Pipeline Drops::pipeline(const LitScene& scene, const Key& key) {
   constants.put_all(shader::kSpecTables, scene.table_words(tables));
   const vk::SpecializationInfo info = constants.info();
   return *pipelines_
-              .emplace(key, make_pipeline(device_, {.vertex = *vertices_[size],
-                                                    .fragment = *fragment_,
-                                                    .constants = &info,
-                                                    .topology = vk::PrimitiveTopology::eLineList,
-                                                    .colour = {format},
-                                                    .add = true,
-                                                    .depth = true,
-                                                    .samples = samples,
-                                                    .layout = *layout_}))
+              .emplace(key,
+                       make_pipeline(device_, {.fragment = *fragment_,
+                                               .vertex_code = codes[shader_for(lamps) + (scene.filtered() ? 3 : 0)],
+                                               .constants = &info,
+                                               .topology = vk::PrimitiveTopology::eLineList,
+                                               .colour = {format},
+                                               .add = true,
+                                               .depth = true,
+                                               .samples = samples,
+                                               .layout = *layout_}))
               .first->second;
 }
 

@@ -34,7 +34,6 @@ class Drops {
 
   gpu::Device& device_;
   vk::raii::PipelineLayout layout_{nullptr};  ///< made with the first pipeline
-  std::array<vk::raii::ShaderModule, 3> vertices_{nullptr, nullptr, nullptr};
   vk::raii::ShaderModule fragment_{nullptr};
   std::map<Key, vk::raii::Pipeline> pipelines_;
 };

@@ -35,22 +35,21 @@ vk::Pipeline Spray::pipeline(const LitScene& scene, const Key& key) {
   static const std::array<ShaderCode, 6> codes{k_spray_vert_2,          k_spray_vert_4,
                                                k_spray_vert_8,          k_spray_vert_2_filtered,
                                                k_spray_vert_4_filtered, k_spray_vert_8_filtered};
-  const std::size_t size = shader_for(lamps);
-  if (!*vertices_[size]) vertices_[size] = gpu::make_shader(device_, codes[size + (scene.filtered() ? 3 : 0)]);
   SpecConstants constants;
   constants.put(shader::kSpecLampCount, lamps);
   constants.put_all(shader::kSpecTables, scene.table_words(tables));
   const vk::SpecializationInfo info = constants.info();
   return *pipelines_
-              .emplace(key, make_pipeline(device_, {.vertex = *vertices_[size],
-                                                    .fragment = *fragment_,
-                                                    .constants = &info,
-                                                    .topology = vk::PrimitiveTopology::eTriangleStrip,
-                                                    .colour = {format},
-                                                    .over = true,
-                                                    .depth = true,
-                                                    .samples = samples,
-                                                    .layout = *layout_}))
+              .emplace(key,
+                       make_pipeline(device_, {.fragment = *fragment_,
+                                               .vertex_code = codes[shader_for(lamps) + (scene.filtered() ? 3 : 0)],
+                                               .constants = &info,
+                                               .topology = vk::PrimitiveTopology::eTriangleStrip,
+                                               .colour = {format},
+                                               .over = true,
+                                               .depth = true,
+                                               .samples = samples,
+                                               .layout = *layout_}))
               .first->second;
 }
 
