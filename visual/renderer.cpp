@@ -213,6 +213,18 @@ struct Renderer::Impl {
     finish(other_frame());
     finish(device.frame);
   }
+  bool finish_within(std::chrono::nanoseconds most) {
+    const Clock::time_point until = Clock::now() + most;
+    for (const std::size_t frame : {other_frame(), device.frame}) {
+      if (!submissions[frame].on_way) continue;
+      const auto left = std::max(until - Clock::now(), Clock::duration::zero());
+      if (device.device.waitForFences(*submissions[frame].fence, VK_TRUE, static_cast<std::uint64_t>(left.count())) ==
+          vk::Result::eTimeout)
+        return false;
+      finish(frame);
+    }
+    return true;
+  }
   /// What was kept last is there: its frame is done, or another has its number by now.
   bool has_kept() const { return !submissions[kept_by].on_way || !submissions[kept_by].kept; }
   /// Until it is.
@@ -408,6 +420,10 @@ FrameResult Renderer::draw(const FrameInput& input) {
 
 void Renderer::finish() {
   impl_->finish();
+}
+
+bool Renderer::finish_within(std::chrono::nanoseconds most) {
+  return impl_->finish_within(most);
 }
 
 bool Renderer::has_kept() const {

@@ -2,6 +2,7 @@
 // process and by `phare measure`.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -220,6 +221,8 @@ class Renderer {
   FrameResult draw(const FrameInput& input);
   /// Waits for all frames and shows them: for who has nothing to draw just now.
   void finish();
+  /// The same, but waits no longer than that. False: one is still on its way.
+  bool finish_within(std::chrono::nanoseconds most);
   /// What the newest frame with want_image or want_hdr keeps is there: reading it waits for nothing.
   bool has_kept() const;
   /// After draw with want_image, before the next one with it; that frame is waited for: the picture of the frame's own

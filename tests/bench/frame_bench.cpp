@@ -230,6 +230,12 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
     };
   };
   bench.add(group, "two lamps", renderer, with_shadows(0));
+  for (const bool on : {false, true})  // what the device decides: what does it cost, or save?
+    bench.add(group, on ? "two lamps, depth first" : "two lamps, not depth first", renderer, [view, on](int round) {
+      FrameInput input = without_shadows(view(round));
+      input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = on ? 1 : 0;
+      return input;
+    });
   for (const Method method : {Method::kVertex, Method::kVertex1998, Method::kReference}) {
     if (method == Method::kReference && renderer.no_reference()) continue;
     bench.add(group, "two lamps by method " + std::string(kMethodNames[static_cast<std::size_t>(method)]), renderer,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "tests/visual/shared_renderer.h"
@@ -164,6 +165,33 @@ TEST(FramesInFlight, TimesAreToldOnceForEachFrame) {
   input.want_image = false;
   before = renderer->draw(input);
   EXPECT_TRUE(before.timed && before.timed_kept) << "of the one that was kept, and finished meanwhile";
+  EXPECT_EQ(renderer->validation_messages(), 0u);
+}
+
+// The time of a frame ends when the device has done it, not when the next one is drawn.
+TEST(FramesInFlight, WhoHasTimeWaitsForAFrameAsLongAsHeLikes) {
+  Result<Renderer> renderer = renderer_with(2);
+  ASSERT_TRUE(renderer);
+  renderer->set_beam(0, beam_of(0));
+  const FrameInput input = driver_view();
+  for (int i = 0; i < 3; ++i) renderer->draw(input);
+  ASSERT_TRUE(renderer->finish_within(std::chrono::minutes(1)));
+  renderer->draw(input);  // takes the times of the one before
+  const auto begin = std::chrono::steady_clock::now();
+  renderer->draw(input);
+  EXPECT_TRUE(renderer->finish_within(std::chrono::minutes(1)));
+  const double took_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(took_ms));
+  const FrameResult after = renderer->draw(input);
+  ASSERT_TRUE(after.timed);
+  EXPECT_GT(after.wall_ms, 0.0);
+  EXPECT_LE(after.wall_ms, took_ms);
+  FrameInput many = input;
+  many.more_views.assign(60, input);
+  renderer->draw(many);  // makes no pipelines, and takes the device a while
+  EXPECT_FALSE(renderer->finish_within(std::chrono::nanoseconds(0)));
+  EXPECT_TRUE(renderer->finish_within(std::chrono::minutes(1)));
+  EXPECT_TRUE(renderer->finish_within(std::chrono::nanoseconds(0))) << "nothing is on its way";
   EXPECT_EQ(renderer->validation_messages(), 0u);
 }
 

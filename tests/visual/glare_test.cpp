@@ -108,7 +108,8 @@ TEST_F(GlareOnDevice, PixelsAreTheEquation) {
     ASSERT_TRUE(result.effects.on(Effect::kGlare)) << explain(result.effects);
     const Image8 image = renderer->read_image();
     const ViewGeometry view(input.camera, 320.0 / 180.0);
-    int off = 0, lit = 0;
+    int lit = 0;
+    float worst = 0.0f;
     for (int y = 0; y < image.height_px; ++y)
       for (int x = 0; x < image.width_px; ++x) {
         const glm::dvec3 way = view.ray_through(x, y, image.width_px, image.height_px).direction;
@@ -119,12 +120,14 @@ TEST_F(GlareOnDevice, PixelsAreTheEquation) {
         const glm::vec3 shown = shader::srgb_encoded(shader::tone_curve(glm::vec3(veil_cdm2 * 0.3)));
         for (int channel = 0; channel < 3; ++channel) {
           const int value = image.rgba[static_cast<std::size_t>(4 * (y * image.width_px + x) + channel)];
-          // A step is one where rounding falls the other way; the equation's float32 is far below that.
-          off += std::abs(static_cast<float>(value) - 255.0f * glm::clamp(shown[channel], 0.0f, 1.0f)) > 0.55f ? 1 : 0;
+          worst =
+              std::max(worst, std::abs(static_cast<float>(value) - 255.0f * glm::clamp(shown[channel], 0.0f, 1.0f)));
           lit += value > 2 ? 1 : 0;
         }
       }
-    EXPECT_EQ(off, 0);
+    // Of a step of 8 bits a device may be off by 0.6 as it rounds (Direct3D's functional specification, to UNORM;
+    // Vulkan names no number); the equation's float32 is far below that.
+    EXPECT_LT(worst, 0.61f);
     EXPECT_GT(lit, 320 * 180) << "the veil lies over the whole picture";
   }
 }

@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Samples, Views, testing::Values(1, 4));
 
 TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
   Renderer renderer = made(kFrameWidth, kFrameHeight);
-  FrameInput input = driver_view();
+  FrameInput input = without_depth_first(driver_view());
   input.want_hdr = true;
   renderer.draw(input);  // the buffer for reading back is there now
   input.want_hdr = false;
@@ -144,7 +144,7 @@ TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
   EXPECT_EQ(unlit.views.front().lamps, 0u);
 
   FrameInput three = input;
-  three.more_views = {side_view(), side_view()};
+  three.more_views = {without_depth_first(side_view()), without_depth_first(side_view())};
   three.more_views[0].part = kInset;
   three.more_views[1].part = {.left_01 = 0.0, .top_01 = 0.7, .width_01 = 0.3, .height_01 = 0.3};
   const FrameResult drawn = renderer.draw(three);
@@ -178,17 +178,17 @@ TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
 
 TEST(ViewCounts, ThereIsNoLimitToTheNumberOfViews) {
   Renderer renderer = made(kFrameWidth, kFrameHeight);
-  FrameInput input = driver_view();
+  FrameInput input = without_depth_first(driver_view());
   input.want_image = true;
   renderer.draw(input);
   const Image8 once = renderer.read_image();
-  input.more_views.assign(40, driver_view());
+  input.more_views.assign(40, without_depth_first(driver_view()));
   const FrameResult result = renderer.draw(input);
   EXPECT_EQ(result.pass_count, 41u);
   EXPECT_EQ(result.passes.size(), 42u) << "and one that reads back";
   EXPECT_EQ(result.views.back().name, "view 41");
   EXPECT_EQ(different(renderer.read_image(), once), 0u) << "41 times the same";
-  EXPECT_EQ(renderer.draw(driver_view()).passes.size(), 1u);
+  EXPECT_EQ(renderer.draw(without_depth_first(driver_view())).passes.size(), 1u);
   EXPECT_EQ(renderer.validation_messages(), 0u);
 }
 
@@ -323,7 +323,7 @@ TEST(ViewLamps, ManyLampsLightEachBlockThatTheyReach) {
 // What a surface does with light is no part of its illuminance: of false colours all kinds of surface are one.
 TEST(ViewLamps, LuxByColourIsOfOneKindOfSurface) {
   Renderer renderer = made(kFrameWidth, kFrameHeight);
-  FrameInput input = driver_view();
+  FrameInput input = without_depth_first(driver_view());
   const std::uint64_t photo = renderer.draw(input).pipelines_made;
   input.view = View::kFalseColour;
   const std::uint64_t lux = renderer.draw(input).pipelines_made;

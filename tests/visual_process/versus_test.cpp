@@ -42,13 +42,16 @@ TEST_F(VersusTest, OffIsNoWork) {
 // B is a copy of A's lamps, and its beams are summed from tables: they outlive whoever read them.
 TEST_F(VersusTest, CopiedLampsShineWhenThoseTheyWereCopiedFromAreGone) {
   auto first = std::make_unique<Lamps>(lamps_);
-  const double lx = first->illuminance_in_car_lx(0, {LampFunction::kLow}, {.position_m = {25.0, 0.0, 0.0}});
+  const auto ahead_lx = [](const Lamps& lamps) {
+    return illuminance_lx(lamps.sources_in_car(0, {LampFunction::kLow}), {25.0, 0.0, 0.0}, {-1.0, 0.0, 0.0});
+  };
+  const double lx = ahead_lx(*first);
   Lamps copy = *first;
   first.reset();
   controls_.light_switch = LightSwitch::kHigh;
   EXPECT_FALSE(copy.set_controls(controls_).empty());
   EXPECT_GT(lx, 0.0);
-  EXPECT_EQ(copy.illuminance_in_car_lx(0, {LampFunction::kLow}, {.position_m = {25.0, 0.0, 0.0}}), lx);
+  EXPECT_EQ(ahead_lx(copy), lx);
 }
 
 TEST_F(VersusTest, TheOtherDesignHasBeamsOfItsOwn) {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "config/base/conventions.h"
-#include "visual/photometry/table/illuminance.h"
 #include "visual/scene/ray_hit.h"
 
 namespace phare {
@@ -229,30 +228,37 @@ std::vector<PlacedLamp> Lamps::placed(const VehicleState& pose) const {
 double Lamps::illuminance_lx(const VehicleState& pose, const MeasurePoint& at) const {
   const glm::dmat3 car_from_world = glm::transpose(rotation_of(pose));
   const MeasurePoint in_car{car_from_world * (at.position_m - position_of(pose)), car_from_world * at.normal};
-  return illuminance_in_car_lx(design_, lit_, in_car, pose.lamp_tilt_rad);
+  return phare::illuminance_lx(sources_in_car(design_, lit_, pose.lamp_tilt_rad), in_car.position_m, in_car.normal);
 }
 
-double Lamps::illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
-                                    double tilt_rad) const {
-  double total_lx = 0.0;
-  for (std::size_t slot = 0; slot < designs_[design].lamps.size(); ++slot)
-    total_lx += lamp_lx(design, slot, lit, at, tilt_rad);
-  return total_lx;
-}
-
-double Lamps::lamp_lx(std::size_t design, std::size_t slot, const std::set<LampFunction>& lit, const MeasurePoint& at,
-                      double tilt_rad) const {
-  double sum_lx = 0.0;
+void Lamps::add_sources(std::vector<PlacedSource>& sources, std::size_t design, std::size_t slot,
+                        const std::set<LampFunction>& lit, double tilt_rad) const {
   const LampConfig& lamp = designs_[design].lamps[slot];
   const Position& position = positions_[design][slot];
   const glm::dmat3 turn = turned(position, tilt_rad);
   for (std::size_t k = 0; k < lamp.sources.size(); ++k) {
     if (!lit.contains(lamp.sources[k].function)) continue;
     const AimedSource light = aimed(design, slot, k);
-    sum_lx += phare::illuminance_lx(position.mount.position_m, turn * light.car_from_lamp, *light.table,
-                                    light.scale * position.dimmed_01(k), at.position_m, at.normal);
+    sources.push_back({.table = light.table,
+                       .position_m = position.mount.position_m,
+                       .world_from_lamp = turn * light.car_from_lamp,
+                       .scale = light.scale * position.dimmed_01(k),
+                       .lamp = slot});
   }
-  return sum_lx;
+}
+
+std::vector<PlacedSource> Lamps::sources_in_car(std::size_t design, const std::set<LampFunction>& lit,
+                                                double tilt_rad) const {
+  std::vector<PlacedSource> sources;
+  for (std::size_t slot = 0; slot < designs_[design].lamps.size(); ++slot)
+    add_sources(sources, design, slot, lit, tilt_rad);
+  return sources;
+}
+
+double Lamps::lamp_lx(std::size_t slot, const MeasurePoint& at, double tilt_rad) const {
+  std::vector<PlacedSource> sources;
+  add_sources(sources, design_, slot, lit_, tilt_rad);
+  return phare::illuminance_lx(sources, at.position_m, at.normal);
 }
 
 Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at, const World& world) const {
@@ -261,7 +267,7 @@ Lamps::LightAt Lamps::light_at(const VehicleState& pose, const MeasurePoint& at,
   LightAt light;
   double most_lx = 0.0;
   for (std::size_t slot = 0; slot < designs_[design_].lamps.size(); ++slot) {
-    const double lx = lamp_lx(design_, slot, lit_, in_car, pose.lamp_tilt_rad);
+    const double lx = lamp_lx(slot, in_car, pose.lamp_tilt_rad);
     if (lx <= 0.0) continue;
     const glm::dvec3 lamp_m = position_of(pose) + world_from_car * positions_[design_][slot].mount.position_m;
     const SceneChunk* by = occluder(world, lamp_m, at.position_m);
@@ -295,7 +301,7 @@ std::vector<PointLight> Lamps::lights_at(const VehicleState& pose, const Measure
     PointLight light;
     light.lamp = lamp.name;
     light.lamp_m = position_of(pose) + world_from_car * position.mount.position_m;
-    light.surface_lx = lamp_lx(design_, slot, lit_, in_car, pose.lamp_tilt_rad);
+    light.surface_lx = lamp_lx(slot, in_car, pose.lamp_tilt_rad);
     light.resampled = position.beam.image().resampled;
     light.behind = light.out_of_table = true;
     if (!position.beam.image().dark) light.colour = position.beam.image().colour;

@@ -19,6 +19,7 @@
 #include "visual/photometry/beam/live_beam.h"
 #include "visual/photometry/bench/lamp_aim.h"
 #include "visual/photometry/bench/table_end.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/photometry/table/opening.h"
 #include "visual/renderer.h"
 #include "visual/scene/scene.h"
@@ -148,10 +149,10 @@ class Lamps {
   /// The lamps that shine into an eye, the world and the air between them (nothing: clear).
   std::vector<GlaringLamp> glare_at(const VehicleState& pose, const glm::dvec3& eye_m, const World& world,
                                     const Air& air) const;
-  /// The same in the car frame for one set of lit functions of one design: the wall.
-  /// `tilt_rad`: of automatic levelling, positive up.
-  double illuminance_in_car_lx(std::size_t design, const std::set<LampFunction>& lit, const MeasurePoint& at,
-                               double tilt_rad = 0.0) const;
+  /// What one set of functions of one design lights by, with the car's frame for the world: the wall. Not beyond the
+  /// next change of these lamps. `tilt_rad`: of automatic levelling, positive up.
+  std::vector<PlacedSource> sources_in_car(std::size_t design, const std::set<LampFunction>& lit,
+                                           double tilt_rad = 0.0) const;
 
   /// Height of the low beam's cut-off, the mean of its lamps, above the car's ground on an upright wall `wall_m` ahead
   /// of them: with mounts, levelling and the body's pitch (lamp_cutoff.cpp). Nothing: low beam is dark, or has no
@@ -191,9 +192,10 @@ class Lamps {
 
  private:
   void find_cutoffs(std::size_t first_design, std::size_t count) const;
-  /// Of one lamp; the point in the car's frame.
-  double lamp_lx(std::size_t design, std::size_t slot, const std::set<LampFunction>& lit, const MeasurePoint& at,
-                 double tilt_rad) const;
+  /// Of one lamp of the design as it shines; the point in the car's frame.
+  double lamp_lx(std::size_t slot, const MeasurePoint& at, double tilt_rad) const;
+  void add_sources(std::vector<PlacedSource>& sources, std::size_t design, std::size_t slot,
+                   const std::set<LampFunction>& lit, double tilt_rad) const;
   /// One lamp of a design as it is now.
   struct Position {
     LiveBeam beam;

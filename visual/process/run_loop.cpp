@@ -123,8 +123,7 @@ std::optional<Moment> Loop::display_moment() {
     return std::nullopt;
   }
   if (!pacer_.due()) {
-    if (std::chrono::duration<double, std::milli>(pacer_.left()).count() > s_.stats.newest.wall_ms)
-      s_.renderer.finish();  // there is time to wait for the picture
+    s_.renderer.finish_within(pacer_.left());  // a picture is shown, and its time known, as soon as it is done
     s_.bus.wait(pacer_.left());
     return std::nullopt;
   }

@@ -63,15 +63,16 @@ Image8 wall_picture(const Lamps& lamps, std::size_t design_index) {
             height_px = static_cast<int>(2.0 * kHalfHeight_deg) * kPxPerDeg;
   constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
+  const std::vector<PlacedSource> sources = lamps.sources_in_car(design_index, {LampFunction::kLow});
   // Type A: azimuth h about the vertical axis, then elevation v; H to the right, so y falls.
-  const auto illuminance_lx = [&](double h_deg, double v_deg) {
+  const auto wall_lx = [&](double h_deg, double v_deg) {
     const double h_rad = h_deg * kRadPerDeg, v_rad = v_deg * kRadPerDeg;
     const glm::dvec3 on_wall_m{kWall_m, -kWall_m * std::tan(h_rad), kWall_m / std::cos(h_rad) * std::tan(v_rad)};
-    return lamps.illuminance_in_car_lx(design_index, {LampFunction::kLow}, {origin_m + on_wall_m, {-1.0, 0.0, 0.0}});
+    return illuminance_lx(sources, origin_m + on_wall_m, {-1.0, 0.0, 0.0});
   };
   double brightest_lx = 0.0;
   Image8 map = isolux_map(width_px, height_px, [&](int x, int y) {
-    const double e_lx = illuminance_lx((x + 0.5) / kPxPerDeg - kHalfWidth_deg, kHalfHeight_deg - (y + 0.5) / kPxPerDeg);
+    const double e_lx = wall_lx((x + 0.5) / kPxPerDeg - kHalfWidth_deg, kHalfHeight_deg - (y + 0.5) / kPxPerDeg);
     brightest_lx = std::max(brightest_lx, e_lx);
     return e_lx;
   });

@@ -21,6 +21,14 @@ double illuminance_lx(const glm::dvec3& lamp_m, const glm::dmat3& world_from_lam
   return intensity_cd * (facing / std::sqrt(r2)) / r2;
 }
 
+double illuminance_lx(std::span<const PlacedSource> sources, const glm::dvec3& point_m, const glm::dvec3& unit_normal) {
+  double sum_lx = 0.0;
+  for (const PlacedSource& source : sources)
+    sum_lx +=
+        illuminance_lx(source.position_m, source.world_from_lamp, *source.table, source.scale, point_m, unit_normal);
+  return sum_lx;
+}
+
 Illuminance illuminance_lx(std::span<const PlacedSource> sources, std::size_t lamp_count, const glm::dvec3& point_m,
                            const glm::dvec3& unit_normal) {
   Illuminance result;

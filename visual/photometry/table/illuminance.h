@@ -26,6 +26,9 @@ struct PlacedSource {
 double illuminance_lx(const glm::dvec3& lamp_m, const glm::dmat3& world_from_lamp, const IntensityTable& table,
                       double scale, const glm::dvec3& point_m, const glm::dvec3& unit_normal);
 
+/// Of several sources, summed in their order.
+double illuminance_lx(std::span<const PlacedSource> sources, const glm::dvec3& point_m, const glm::dvec3& unit_normal);
+
 /// Illuminance of several sources, lamp by lamp.
 struct Illuminance {
   double total_lx = 0.0;
