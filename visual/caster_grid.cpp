@@ -140,8 +140,7 @@ BoxCorners box_corners(const glm::dmat3& image_from_world, const glm::dvec3& lam
   return corners;
 }
 
-CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const glm::dvec2& texel, double zoom)
-    : per_m_(static_cast<std::size_t>(kColumns * kRows)), per_m_of_block_(per_m_.size() / (kBlock * kBlock)) {
+CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const glm::dvec2& texel, double zoom) {
   // Texels that are weighed about a point, half of one that is added, and one for rounding.
   constexpr double kRoom_texels = 3.0;
   const auto axis = [&](double half, double finest, int cells, double of_texel) {
@@ -152,6 +151,9 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
   across_ = axis(half_sides.x, 0.3, kColumns, texel.x);
   up_ = axis(half_sides.y, 0.1, kRows, texel.y);
   end_row_ = std::min(kRows, static_cast<int>(up_.at(kHigh)) + 1);
+  const int blocks_up = (end_row_ + kBlock - 1) / kBlock;
+  per_m_.resize(static_cast<std::size_t>(blocks_up * kBlock * kColumns));
+  per_m_of_block_.resize(static_cast<std::size_t>(blocks_up * (kColumns / kBlock)));
   const auto column_of = [&](float left) {
     return static_cast<int>(std::clamp(across_.at(left), 0.0f, static_cast<float>(kColumns)));
   };
@@ -211,11 +213,16 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
       const CutCorner* corners = &cut.corners[3 * i];
       add(cut.bounds[i], corners[0].corner_m, corners[1].corner_m, corners[2].corner_m);
     }
-  for (int row = 0; row < kRows; ++row)
-    for (int column = 0; column < kColumns; ++column) {
-      float& most = per_m_of_block_[static_cast<std::size_t>(row / kBlock * (kColumns / kBlock) + column / kBlock)];
-      most = std::max(most, per_m_[static_cast<std::size_t>(row * kColumns + column)]);
+  for (int block = 0; block < blocks_up; ++block) {
+    std::array<float, kColumns> most{};
+    for (int row = block * kBlock; row < (block + 1) * kBlock; ++row) {
+      const float* const in_row = &per_m_[static_cast<std::size_t>(row * kColumns)];
+      for (std::size_t column = 0; column < kColumns; ++column) most[column] = std::max(most[column], in_row[column]);
     }
+    float* const of_block = &per_m_of_block_[static_cast<std::size_t>(block * (kColumns / kBlock))];
+    for (std::size_t column = 0; column < kColumns; ++column)
+      of_block[column / kBlock] = std::max(of_block[column / kBlock], most[column]);
+  }
 }
 
 bool CasterGrid::may_shade(const BoxCorners& box) const {

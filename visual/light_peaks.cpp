@@ -136,10 +136,14 @@ void LightPeaks::fill_cells() {
       }
 }
 
-bool LightPeaks::exceeds(const glm::vec2& least, const glm::vec2& most, float cd) const {
+glm::vec2 LightPeaks::cell_of(const glm::vec2& tangents) {
+  return {kAcross.at(tangents.x), kUp.at(tangents.y)};
+}
+
+bool LightPeaks::exceeds_in(const glm::vec2& least_cell, const glm::vec2& most_cell, float cd) const {
   if (most_cd_.empty()) return false;
-  const Cells across = cells_between(kAcross.at(least.x), kAcross.at(most.x), kColumns),
-              up = cells_between(kUp.at(least.y), kUp.at(most.y), kRows);
+  const Cells across = cells_between(least_cell.x, most_cell.x, kColumns),
+              up = cells_between(least_cell.y, most_cell.y, kRows);
   for (int j = up.first; j < up.end; ++j) {
     const float* const row = &most_cd_[static_cast<std::size_t>(j * kColumns)];
     if (std::any_of(row + across.first, row + across.end, [cd](float most_here) { return most_here > cd; }))

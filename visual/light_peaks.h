@@ -23,7 +23,12 @@ class LightPeaks {
 
   /// False only if no direction between these tangents, to the left and up over the way forward of the image's frame,
   /// has more than `cd`. Beyond the tangents of shadow_casters.h: as at them.
-  bool exceeds(const glm::vec2& least, const glm::vec2& most, float cd) const;
+  bool exceeds(const glm::vec2& least, const glm::vec2& most, float cd) const {
+    return exceeds_in(cell_of(least), cell_of(most), cd);
+  }
+  /// The same for who asks about many tangents of the same corners: cells rise with tangents.
+  static glm::vec2 cell_of(const glm::vec2& tangents);
+  bool exceeds_in(const glm::vec2& least_cell, const glm::vec2& most_cell, float cd) const;
 
  private:
   /// Nodes of a table, both ends included, and the cells of the lamp's view in which their light may be, ends

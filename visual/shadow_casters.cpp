@@ -61,13 +61,15 @@ float within(const glm::vec4& side, const glm::vec3& corner, float distance_m) {
 struct SeenCorner {
   glm::vec3 at_m{0.0f};
   glm::vec2 tangents{0.0f};  ///< to the left and up, where it is ahead of the lamp
+  glm::vec2 cell{0.0f};      ///< the same in cells of LightPeaks, where those are asked
   std::uint32_t beyond = 0;  ///< of which sides of the view, a bit each
   bool ahead = false;
 };
 
-SeenCorner seen_corner(const glm::vec3& at_m, std::span<const glm::vec4> sides) {
+SeenCorner seen_corner(const glm::vec3& at_m, std::span<const glm::vec4> sides, bool with_cell) {
   SeenCorner corner{.at_m = at_m, .ahead = at_m.x >= shader::kShadowNear_m};
   if (corner.ahead) corner.tangents = glm::vec2(at_m.y, at_m.z) / at_m.x;
+  if (corner.ahead && with_cell) corner.cell = LightPeaks::cell_of(corner.tangents);
   if (sides.empty()) return corner;
   const float distance_m = glm::length(at_m);
   for (std::size_t i = 0; i < sides.size(); ++i)
@@ -116,11 +118,32 @@ bool lies_in(const CastBounds& bounds, const TangentRect& part) {
   return !bounds.beside && least.x >= part.right && most.x <= part.left && least.y >= part.low && most.y <= part.high;
 }
 
-bool shows_its_far_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+/// From `lamp_m`, in the frame of the triangle.
+bool shows_its_far_side(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& lamp_m) {
   const glm::vec3 normal = glm::cross(b - a, c - a);
-  constexpr float kBehind_m = 1e-4f;  // of the plane of the triangle, the lamp being at the origin
-  return glm::dot(normal, a) > kBehind_m * glm::length(normal);
+  constexpr float kBehind_m = 1e-4f;  // of the plane of the triangle
+  const float behind = glm::dot(normal, a - lamp_m);
+  return behind > 0.0f && behind * behind > kBehind_m * kBehind_m * glm::dot(normal, normal);
 }
+
+/// Corners of a mesh as the lamp has them, each worked out when it is first asked for.
+class SeenCorners {
+ public:
+  void begin(std::size_t count) {
+    if (count > corners_.size()) corners_.resize(count), round_of_.resize(count, round_);
+    ++round_;
+  }
+  template <typename See>
+  const SeenCorner& at(std::uint32_t i, See&& see) {
+    if (round_of_[i] != round_) corners_[i] = see(i), round_of_[i] = round_;
+    return corners_[i];
+  }
+
+ private:
+  std::vector<SeenCorner> corners_;
+  std::vector<std::uint64_t> round_of_;
+  std::uint64_t round_ = 0;
+};
 
 Holes holes_in(const Scene& scene, std::size_t material) {
   const PixelLook& look = scene.materials[material].look;
@@ -216,9 +239,15 @@ RayTrees ShadowCasters::ray_trees() const {
 
 bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const glm::mat3& turn,
                                const glm::vec3& shift, const Light& light, CastBy& cast) {
-  thread_local std::vector<SeenCorner> seen;
-  seen.clear();
-  for (const glm::vec3& corner : mesh.corners_m) seen.push_back(seen_corner(turn * corner + shift, light.sides));
+  thread_local SeenCorners corners;
+  corners.begin(mesh.corners_m.size());
+  const auto seen = [&](std::size_t k) -> const SeenCorner& {
+    return corners.at(mesh.indices[k], [&](std::uint32_t corner) {
+      return seen_corner(turn * mesh.corners_m[corner] + shift, light.sides, light.peaks != nullptr);
+    });
+  };
+  const glm::vec3 lamp_m = -(glm::inverse(turn) * shift);
+  const bool far_sides = !chunk.cut_of && !chunk.double_sided;
   bool casts = false;
   CutCasters* cut = nullptr;
   if (chunk.cut_of) {
@@ -228,12 +257,15 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
   }
   WholeCasters& whole = chunk.double_sided ? cast.both_sides : cast.far_sides;
   for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
-    const SeenCorner &a = seen[mesh.indices[k]], &b = seen[mesh.indices[k + 1]], &c = seen[mesh.indices[k + 2]];
+    const auto corner_m = [&](std::size_t i) { return mesh.corners_m[mesh.indices[k + i]]; };
+    if (far_sides && !shows_its_far_side(corner_m(0), corner_m(1), corner_m(2), lamp_m)) continue;
+    const SeenCorner &a = seen(k), &b = seen(k + 1), &c = seen(k + 2);
     if ((a.beyond & b.beyond & c.beyond) != 0) continue;
     const CastBounds bounds = bounds_of(a, b, c);
     if (!(a.ahead || b.ahead || c.ahead) || static_cast<double>(bounds.nearest_m) > kShadowsTo_m) continue;
-    if (!bounds.beside && light.faint(bounds.least, bounds.most, bounds.nearest_m)) continue;
-    if (cut == nullptr && !chunk.double_sided && !shows_its_far_side(a.at_m, b.at_m, c.at_m)) continue;
+    if (!bounds.beside && light.faint(glm::min(a.cell, glm::min(b.cell, c.cell)),
+                                      glm::max(a.cell, glm::max(b.cell, c.cell)), bounds.nearest_m))
+      continue;
     if (!lies_in(bounds, cast.part)) {
       const TangentRect part = common(part_of({a.at_m, b.at_m, c.at_m}, light.sides), light.part);
       if (part.left < part.right || part.high < part.low) continue;
@@ -255,6 +287,9 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
 CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving,
                          std::size_t carried_by, const CastersFor& wanted) const {
   CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing};
+  constexpr std::size_t kUsual = 1024;
+  for (WholeCasters* whole : {&cast.far_sides, &cast.both_sides})
+    whole->corners.reserve(3 * kUsual), whole->bounds.reserve(kUsual);
   Light light{.part = widest(reach, world_from_image)};
   if (wanted.faint_lx > 0.0) light.peaks = wanted.peaks, light.faint_lx = static_cast<float>(wanted.faint_lx);
   if (wanted.view != nullptr) light.sides = sides_of(*wanted.view, reach.tip_m, world_from_image);
@@ -266,7 +301,7 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
   const auto shades_the_view = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
     std::uint32_t beyond = ~0u;
     for (const glm::vec3& corner : box_corners(image_from_world, reach.tip_m, low_m, high_m))
-      beyond &= seen_corner(corner, light.sides).beyond;
+      beyond &= seen_corner(corner, light.sides, false).beyond;
     return beyond == 0;
   };
   const auto stands_in_faint_light = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
@@ -276,7 +311,8 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
       const glm::vec2 tangents = glm::vec2(corner.y, corner.z) / corner.x;
       least = glm::min(least, tangents), most = glm::max(most, tangents);
     }
-    return light.faint(least, most, static_cast<float>(distance_m(low_m, high_m)));
+    return light.faint(LightPeaks::cell_of(least), LightPeaks::cell_of(most),
+                       static_cast<float>(distance_m(low_m, high_m)));
   };
   const auto near = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
     return distance_m(low_m, high_m) <= kShadowsTo_m && reach.meets(low_m, high_m) && shades_the_view(low_m, high_m) &&

@@ -168,9 +168,9 @@ class ShadowCasters {
     const LightPeaks* peaks = nullptr;  ///< with `faint_lx`, as CastersFor has them
     float faint_lx = 0.0f;
 
-    /// All that shines between these tangents is faint where it has come so far.
-    bool faint(const glm::vec2& least, const glm::vec2& most, float distance_m) const {
-      return peaks != nullptr && !peaks->exceeds(least, most, faint_lx * distance_m * distance_m);
+    /// All that shines between these cells of `peaks` is faint where it has come so far.
+    bool faint(const glm::vec2& least_cell, const glm::vec2& most_cell, float distance_m) const {
+      return peaks != nullptr && !peaks->exceeds_in(least_cell, most_cell, faint_lx * distance_m * distance_m);
     }
   };
   /// Adds the triangles of a chunk that cast; false: none does. `turn`, `shift`: from its corners into the lamp's
