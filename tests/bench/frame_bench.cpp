@@ -230,12 +230,22 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
     };
   };
   bench.add(group, "two lamps", renderer, with_shadows(0));
-  for (const bool on : {false, true})  // what the device decides: what does it cost, or save?
-    bench.add(group, on ? "two lamps, depth first" : "two lamps, not depth first", renderer, [view, on](int round) {
-      FrameInput input = without_shadows(view(round));
-      input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = on ? 1 : 0;
-      return input;
-    });
+  // What the plan decides by how dear a pixel is: what does it cost, or save?
+  const auto add_depth_first = [&](const std::string& name, Method method, std::size_t shadows) {
+    for (const bool on : {false, true})
+      bench.add(group, name + (on ? ", depth first" : ", not depth first"), renderer,
+                [view, method, shadows, on](int round) {
+                  FrameInput input = view(round);
+                  input.method = method;
+                  input.effects[static_cast<std::size_t>(Effect::kShadows)] = shadows;
+                  input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = on ? 1 : 0;
+                  return input;
+                });
+  };
+  add_depth_first("two lamps", Method::kFragment, 0);
+  for (std::size_t level = 2; level < kShadowNames.size(); ++level)
+    add_depth_first("two lamps, shadows " + std::string(kShadowNames[level]), Method::kFragment, level);
+  if (!renderer.no_reference()) add_depth_first("two lamps by method reference", Method::kReference, 0);
   for (const Method method : {Method::kVertex, Method::kVertex1998, Method::kReference}) {
     if (method == Method::kReference && renderer.no_reference()) continue;
     bench.add(group, "two lamps by method " + std::string(kMethodNames[static_cast<std::size_t>(method)]), renderer,
