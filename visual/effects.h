@@ -38,7 +38,7 @@ struct EffectFacts {
   std::optional<std::size_t> casters = 0;  ///< pieces of the scene that stand in their light; nothing: not looked for
   bool shadow_maps = true;                 ///< the device holds one
   bool shadow_rays = true;                 ///< the device holds the scene's triangles
-  bool software_device = false;            ///< vertices cost as much as pixels
+  bool in_float64 = false;                 ///< light is computed in it at every pixel
   bool hdr_wanted = false;                 ///< something reads luminance in cd/m² (EXR, bird's eye)
   bool false_colour = false;               ///< the view shows illuminance, not luminance
   bool clipping = false;                   ///< the view marks what the display clips
@@ -59,6 +59,7 @@ struct EffectFacts {
   bool moon = false;                       ///< it shines
   bool covered = false;                    ///< some of the scene does not see the whole sky
   bool r_table = false;                    ///< of what these light some is asphalt
+  bool by_rays = false;                    ///< decided before: shadows have them at every pixel
   bool fixed_drawn = false;                ///< decided before: what shines in the scene is drawn
   bool glare_drawn = false;                ///< decided before: the luminance image is read for it
   bool drops_drawn = false;                ///< decided before: they are added to luminance

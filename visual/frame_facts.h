@@ -10,7 +10,6 @@ namespace phare {
 
 /// What a device can do, as the effects ask for it.
 struct DeviceFacts {
-  bool software = false;    ///< it computes on the processor
   bool shadow_maps = true;  ///< it holds one
   bool shadow_rays = true;  ///< it holds the scene's triangles
 };

@@ -299,9 +299,7 @@ struct Renderer::Impl {
                                  const vk::Rect2D& part) { copy_out(image, part, images[view], 4); },
             .read_hdr = [this](std::size_t view, gpu::Image& image,
                                const vk::Rect2D& part) { copy_out(image, part, hdrs[view], 8); },
-            .device_facts = {.software = device.properties.deviceType == vk::PhysicalDeviceType::eCpu,
-                             .shadow_maps = shadows.possible(),
-                             .shadow_rays = shadows.rays_possible(scene)}};
+            .device_facts = {.shadow_maps = shadows.possible(), .shadow_rays = shadows.rays_possible(scene)}};
   }
 };
 

@@ -265,7 +265,7 @@ class Renderer {
 /// A device as it would be taken by Renderer::create.
 struct VulkanDevice {
   std::string name;
-  bool software = false;  ///< it computes on the processor: vertices cost as much as pixels
+  bool software = false;  ///< it computes on the processor
 };
 /// `name_part`: as RendererOptions::device_name. Error: there is none; no device is opened.
 Result<VulkanDevice> vulkan_device(const std::string& name_part);

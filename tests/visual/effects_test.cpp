@@ -21,20 +21,20 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
   const struct {
     EffectFacts facts;
     Effect effect;
-  } cases[] = {{{.lit_lamps = 2, .casters = 3, .software_device = true}, Effect::kShadows},
-               {{.lit_lamps = 2}, Effect::kDepthFirst},
+  } cases[] = {{{.lit_lamps = 2, .casters = 3}, Effect::kShadows},
+               {{.lit_lamps = 2, .in_float64 = true}, Effect::kDepthFirst},
                {{.hdr_wanted = true}, Effect::kHdrImage},
                {{.overlay_lines = 3}, Effect::kOverlay},
                {{.air = {.visibility_m = 80.0}}, Effect::kFog},
                {{.air = {.rain_mmph = 4.0}, .air_lamps = 2}, Effect::kPrecipitation},
-               {{.lit_lamps = 1, .software_device = true, .air = {.rain_mmph = 4.0}}, Effect::kWetGround},
+               {{.lit_lamps = 1, .air = {.rain_mmph = 4.0}}, Effect::kWetGround},
                {{.glare_lamps = 1, .glare_lx = 0.5}, Effect::kGlare},
                {{.gui = true}, Effect::kGui},
                {{.street_lamps = 40}, Effect::kFixedLight},
                {{.pupils = 2}, Effect::kEyeshine},
                {{.snow_cover_01 = 0.4}, Effect::kSnowCover},
                {{.air = {.rain_mmph = 4.0}, .windscreen = true}, Effect::kWindscreen},
-               {{.lit_lamps = 1, .software_device = true, .air = {.rain_mmph = 4.0}, .spraying = 1}, Effect::kSpray},
+               {{.lit_lamps = 1, .air = {.rain_mmph = 4.0}, .spraying = 1}, Effect::kSpray},
                {{.street_lamps = 40, .r_table = true}, Effect::kAsphalt}};
   std::set<Effect> tried;
   for (const auto& [facts, effect] : cases) {
@@ -93,7 +93,6 @@ TEST(Effects, AsphaltIsByItsRTableWhereStreetLampsLightItDry) {
 TEST(Effects, DeviceAndViewCountToo) {
   EXPECT_FALSE(plan_effects({.lit_lamps = 2, .casters = 3, .shadow_maps = false}).on(Effect::kShadows));
   EXPECT_FALSE(plan_effects({.lit_lamps = 2, .casters = std::nullopt}).on(Effect::kShadows));
-  EXPECT_FALSE(plan_effects({.lit_lamps = 2, .software_device = true}).on(Effect::kDepthFirst));
   EXPECT_FALSE(plan_effects({.hdr_wanted = true, .false_colour = true}).on(Effect::kHdrImage));
   EXPECT_FALSE(plan_effects({.hdr_wanted = true, .clipping = true}).on(Effect::kHdrImage));
   // Nor by force: the tone curve would make a photo of them.
@@ -104,6 +103,22 @@ TEST(Effects, DeviceAndViewCountToo) {
   EXPECT_TRUE(plan_effects({}, forced).on(Effect::kHdrImage));
   EXPECT_FALSE(plan_effects({.false_colour = true, .air = {.visibility_m = 80.0}}).on(Effect::kFog));
   EXPECT_FALSE(plan_effects({.air = {.visibility_m = 80.0}, .parallel_rays = true}).on(Effect::kFog));
+}
+
+// A pixel that is drawn twice is a loss where it is dear.
+TEST(Effects, DepthComesFirstWhereAPixelIsDear) {
+  const auto on = [](const EffectFacts& facts, const EffectChoices& choices = {}) {
+    return plan_effects(facts, choices).on(Effect::kDepthFirst);
+  };
+  EXPECT_FALSE(on({.lit_lamps = 2}));
+  EXPECT_TRUE(on({.lit_lamps = 2, .in_float64 = true}));
+  EXPECT_FALSE(on({.in_float64 = true})) << "no lamp is lit";
+  EffectChoices choices{};
+  for (std::size_t level = 0; level < kShadowNames.size(); ++level) {
+    choices[static_cast<std::size_t>(Effect::kShadows)] = level;
+    EXPECT_EQ(on({.lit_lamps = 2, .casters = 3}, choices), level >= kRayShadows) << kShadowNames[level];
+    EXPECT_FALSE(on({.lit_lamps = 2, .casters = 3, .shadow_rays = false}, choices)) << "the device has no rays";
+  }
 }
 
 TEST(Effects, RainAndSnowAreDrawnWhereALampLightsThem) {
@@ -192,7 +207,7 @@ TEST(Effects, TheUserDecidesAndThePlanSaysSo) {
   EffectChoices choices{};
   choices[static_cast<std::size_t>(Effect::kDepthFirst)] = 1;
   choices[static_cast<std::size_t>(Effect::kOverlay)] = 0;
-  const EffectPlan plan = plan_effects({.lit_lamps = 2, .software_device = true, .overlay_lines = 1}, choices);
+  const EffectPlan plan = plan_effects({.lit_lamps = 2, .overlay_lines = 1}, choices);
   EXPECT_TRUE(plan.on(Effect::kDepthFirst));
   EXPECT_FALSE(plan.on(Effect::kOverlay));
   EXPECT_NE(plan[Effect::kDepthFirst].reason.find("user"), std::string::npos);
@@ -206,7 +221,7 @@ TEST(Effects, WhatIsPickedHoldsWhereItIsCalledFor) {
   const auto shadows = static_cast<std::size_t>(Effect::kShadows);
   EffectChoices picked{}, choices{};
   picked[shadows] = 1;
-  const EffectFacts called{.lit_lamps = 2, .casters = 3, .software_device = true};
+  const EffectFacts called{.lit_lamps = 2, .casters = 3};
   EXPECT_EQ(plan_effects(called, {}, picked).level(Effect::kShadows), 1u);
   EXPECT_NE(plan_effects(called, {}, picked)[Effect::kShadows].reason.find("picked"), std::string::npos);
   EXPECT_EQ(plan_effects({.lit_lamps = 2, .casters = 0}, {}, picked).level(Effect::kShadows), 0u);

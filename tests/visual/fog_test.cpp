@@ -195,7 +195,7 @@ TEST_F(FogOnDevice, WithinItsBodyACarsLampLightsNoAirForWhoSitsInIt) {
 /// from is another.
 TEST_F(FogOnDevice, TheGridIsKeptWhileACarsLampsShineAsTheyDid) {
   ASSERT_TRUE(renderer->load_scene(black_wall(40.0)).ok());
-  FrameInput input = without_depth_first(foggy(80.0));
+  FrameInput input = foggy(80.0);
   input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
   const auto passes = [&] { return renderer->draw(input).pass_count; };
   input.air.visibility_m.reset();

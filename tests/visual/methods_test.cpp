@@ -131,7 +131,7 @@ TEST_F(Methods, TheTextureOf1998HasItsSteps) {
 
 TEST_F(Methods, APictureByVertexIsThatOfPixelsWhereTheRoadIsFine) {
   ASSERT_TRUE(renderer->load_scene(road(0.125)).ok());
-  FrameInput input = without_depth_first(from_above(Method::kFragment));
+  FrameInput input = from_above(Method::kFragment);
   input.want_image = true;
   renderer->draw(input);
   const Image8 expected = renderer->read_image();

@@ -201,7 +201,7 @@ TEST_F(Shadows, AreMadeWhereSomethingStandsInTheLightAndNowhereElse) {
   Shape road;
   road.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
   ASSERT_TRUE(renderer->load_scene(road.scene()).ok());
-  FrameInput input = without_depth_first(view_of_the_road());
+  FrameInput input = view_of_the_road();
   const FrameResult flat = renderer->draw(input);
   EXPECT_EQ(flat.effects.level(Effect::kShadows), 0u);
   EXPECT_EQ(flat.pass_count, 1u);

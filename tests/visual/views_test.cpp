@@ -122,9 +122,32 @@ TEST_P(Views, EachIsWhatItIsAlone) {
 }
 INSTANTIATE_TEST_SUITE_P(Samples, Views, testing::Values(1, 4));
 
+// The second pass finds the very depths that the first one left, whatever lights it.
+TEST(DepthFirst, ThePictureIsTheSame) {
+  Renderer renderer = made(kFrameWidth, kFrameHeight);
+  const auto drawn = [&](FrameInput input, std::size_t shadows, bool depth_first) {
+    input.want_image = true;
+    input.effects[static_cast<std::size_t>(Effect::kShadows)] = shadows;
+    input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = depth_first ? 1 : 0;
+    EXPECT_EQ(renderer.draw(input).effects.on(Effect::kDepthFirst), depth_first);
+    return renderer.read_image();
+  };
+  FrameInput input = driver_view();
+  std::vector<Image8> by_level;
+  for (std::size_t level = 0; level < kShadowNames.size(); ++level) {
+    by_level.push_back(drawn(input, level, false));
+    EXPECT_EQ(different(drawn(input, level, true), by_level.back()), 0u) << kShadowNames[level];
+  }
+  EXPECT_GT(different(by_level.back(), by_level.front()), 0u) << "nothing casts a shadow";
+  if (renderer.no_reference()) GTEST_SKIP() << *renderer.no_reference();
+  input.method = Method::kReference;
+  EXPECT_EQ(different(drawn(input, 0, true), drawn(input, 0, false)), 0u);
+  EXPECT_EQ(renderer.validation_messages(), 0u);
+}
+
 TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
   Renderer renderer = made(kFrameWidth, kFrameHeight);
-  FrameInput input = without_depth_first(driver_view());
+  FrameInput input = driver_view();
   input.want_hdr = true;
   renderer.draw(input);  // the buffer for reading back is there now
   input.want_hdr = false;
@@ -144,7 +167,7 @@ TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
   EXPECT_EQ(unlit.views.front().lamps, 0u);
 
   FrameInput three = input;
-  three.more_views = {without_depth_first(side_view()), without_depth_first(side_view())};
+  three.more_views = {side_view(), side_view()};
   three.more_views[0].part = kInset;
   three.more_views[1].part = {.left_01 = 0.0, .top_01 = 0.7, .width_01 = 0.3, .height_01 = 0.3};
   const FrameResult drawn = renderer.draw(three);
@@ -178,17 +201,17 @@ TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
 
 TEST(ViewCounts, ThereIsNoLimitToTheNumberOfViews) {
   Renderer renderer = made(kFrameWidth, kFrameHeight);
-  FrameInput input = without_depth_first(driver_view());
+  FrameInput input = driver_view();
   input.want_image = true;
   renderer.draw(input);
   const Image8 once = renderer.read_image();
-  input.more_views.assign(40, without_depth_first(driver_view()));
+  input.more_views.assign(40, driver_view());
   const FrameResult result = renderer.draw(input);
   EXPECT_EQ(result.pass_count, 41u);
   EXPECT_EQ(result.passes.size(), 42u) << "and one that reads back";
   EXPECT_EQ(result.views.back().name, "view 41");
   EXPECT_EQ(different(renderer.read_image(), once), 0u) << "41 times the same";
-  EXPECT_EQ(renderer.draw(without_depth_first(driver_view())).passes.size(), 1u);
+  EXPECT_EQ(renderer.draw(driver_view()).passes.size(), 1u);
   EXPECT_EQ(renderer.validation_messages(), 0u);
 }
 
@@ -323,7 +346,7 @@ TEST(ViewLamps, ManyLampsLightEachBlockThatTheyReach) {
 // What a surface does with light is no part of its illuminance: of false colours all kinds of surface are one.
 TEST(ViewLamps, LuxByColourIsOfOneKindOfSurface) {
   Renderer renderer = made(kFrameWidth, kFrameHeight);
-  FrameInput input = without_depth_first(driver_view());
+  FrameInput input = driver_view();
   const std::uint64_t photo = renderer.draw(input).pipelines_made;
   input.view = View::kFalseColour;
   const std::uint64_t lux = renderer.draw(input).pipelines_made;

@@ -66,13 +66,6 @@ inline FrameInput driver_view() {
   return input;
 }
 
-/// Whether a view draws depth first is a matter of the device: not where a test counts passes or pipelines.
-template <typename View>
-View without_depth_first(View view) {
-  view.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = 0;
-  return view;
-}
-
 /// A black wall across x, seen from the eye, so that all light in the picture is the air's.
 inline Scene black_wall(double x_m) {
   Scene scene;

@@ -37,8 +37,8 @@ Plan plan_of(const char* rig_name, double at_s_m, const std::vector<DeskCommand>
   moment.controls.light_switch = LightSwitch::kLow;
   const LanePoint at = *LaneLine(*lane).at(at_s_m, 0.0);
   moment.pose.x_m = at.x_m, moment.pose.y_m = at.y_m, moment.pose.z_m = at.z_m, moment.pose.yaw_rad = at.heading_rad;
-  const std::string all = explain_moment(*lamps, desk, rig->channels[0], moment, {"llvmpipe", true}, *scene, *movers,
-                                         *traffic, RoadLine(*lane, rig->scene_file), *fixed, false);
+  const std::string all = explain_moment(*lamps, desk, rig->channels[0], moment, "llvmpipe", *scene, *movers, *traffic,
+                                         RoadLine(*lane, rig->scene_file), *fixed, false);
   if (text != nullptr) *text = all;
   std::istringstream lines(all);
   for (std::string line; std::getline(lines, line);)

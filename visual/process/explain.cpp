@@ -34,7 +34,7 @@ Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s) {
 }
 
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
-                           const AskedDevice& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
+                           const std::string& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
                            const RoadLine& road, const FixedLight& fixed, bool window) {
   const CockpitState controls = shown_by_desk(desk, moment.controls);
   lamps.set_controls(controls);
@@ -80,7 +80,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   char heading[240];
   std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
                 lamps.lit_text().c_str(), lamps.design().name.c_str(), moment.time.seconds(),
-                moment.pose.speed_mps * 3.6, device.name.c_str());
+                moment.pose.speed_mps * 3.6, device.c_str());
   std::optional<std::size_t> casting;
   if (casts) casting = casters_of_all(*casts);
   input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.air);
@@ -94,10 +94,9 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   input.pupils = eyeshine_of(lamps, moment.pose, Pupils(scene, movers.meshes()), world, input.camera.eye_m, input.air);
   DrawnOver over = drawn_over(input);
   over.gui = window && desk.panel;  // nothing is laid out: there is no window yet
-  EffectFacts facts =
-      facts_of(input, {lit, lit}, casting, over, glare_of(input, view),
-               pupils_of(input, view, channel.width_px, channel.height_px).size(),
-               spraying_seen(view, input.spraying).size(), {.software = device.software});
+  EffectFacts facts = facts_of(input, {lit, lit}, casting, over, glare_of(input, view),
+                               pupils_of(input, view, channel.width_px, channel.height_px).size(),
+                               spraying_seen(view, input.spraying).size(), {});
   add_facts(facts, fixed);
   return heading + explain(plan_effects(facts, input.effects));
 }

@@ -22,16 +22,11 @@ struct AskedMoment {
 /// A drive at `at_s` of simulated time: the newest controls and the newest pose until then. Error: it has neither.
 Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s);
 
-/// What computes: of the device that would be taken.
-struct AskedDevice {
-  std::string name;
-  bool software = true;
-};
-
 /// "# low, design "reflector", 12.0 s, on llvmpipe": the moment; then a line for each effect: name, level, reason.
-/// `window`: there is one, so that there is an overlay. Switches `lamps` to the moment.
+/// `device`: the name of what would be taken. `window`: there is one, so that there is an overlay. Switches `lamps` to
+/// the moment.
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
-                           const AskedDevice& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
+                           const std::string& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
                            const RoadLine& road, const FixedLight& fixed, bool window);
 
 }  // namespace phare

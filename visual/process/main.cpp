@@ -71,8 +71,7 @@ int explain_and_leave(const VisualOptions& options, const Scene& scene, const Mo
   }
   const Result<VulkanDevice> device = vulkan_device(options.device_name);
   if (!device && !options.device_name.empty()) return refuse(with_remedy(device.error()));
-  const AskedDevice asked = device ? AskedDevice{device->name, device->software}
-                                   : AskedDevice{"no device (" + device.error().reason + "), as on a software one"};
+  const std::string asked = device ? device->name : "no device (" + device.error().reason + ")";
   std::fputs(explain_moment(lamps, desk, channel, moment, asked, scene, movers, traffic, road, fixed, !options.headless)
                  .c_str(),
              stdout);
