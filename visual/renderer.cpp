@@ -12,6 +12,7 @@
 
 #include "visual/audit_picture.h"
 #include "visual/frame.h"
+#include "visual/gpu/submissions.h"
 #include "visual/gpu/window_surface.h"
 #include "visual/passes/measure.h"
 #include "visual/picture_memory.h"
@@ -69,7 +70,10 @@ struct Renderer::Impl {
   RendererOptions options;
   gpu::Device device;
   gpu::FrameGraph graph{device};
-  std::unique_ptr<gpu::WindowSurface> surface;
+  std::unique_ptr<gpu::WindowSurface> surface =
+      options.window == nullptr
+          ? nullptr
+          : std::make_unique<gpu::WindowSurface>(device, options.window, options.frames_in_flight);
   LitScene scene{device, options.beam_level};
   ShadowPass shadows{device};
   FogPass fog{device};
@@ -82,27 +86,7 @@ struct Renderer::Impl {
   GuiPass gui{device};
   FrameTarget target;
   std::map<std::size_t, Copy> images, hdrs;  ///< read back, by view
-  bool misfit = false;                       ///< the window is another than the newest frame was drawn for
-
-  using Clock = std::chrono::steady_clock;
-  /// What goes to the device at once.
-  struct Submission {
-    vk::raii::CommandBuffers commands{nullptr};
-    vk::raii::Fence fence{nullptr};
-    bool on_way = false;
-    Clock::time_point begun{};  ///< of a frame: when it was called for
-    bool kept = false;          ///< of a frame: something of it is read back
-  };
-  std::array<Submission, gpu::kMostFramesInFlight> submissions;  ///< by Device::frame
-  std::size_t kept_by = 0;                                       ///< which of them has read something back last
-  /// Of the newest frame that is done, until they are told.
-  struct Times {
-    double wall_ms = 0.0, gpu_ms = 0.0;
-    bool kept = false;
-    std::vector<PassTime> passes;
-  };
-  std::optional<Times> times;
-  Clock::time_point done{};  ///< the newest frame that is
+  gpu::Submissions submissions{device, graph, surface.get()};
   struct Audit {
     std::optional<ViewInput> asked{};       ///< with the next frame
     std::unique_ptr<AuditPicture> drawn{};  ///< until it is taken
@@ -111,13 +95,6 @@ struct Renderer::Impl {
   } audit;
 
   explicit Impl(const RendererOptions& wanted) : options(wanted), device(device_options(wanted)) {
-    if (options.window != nullptr)
-      surface = std::make_unique<gpu::WindowSurface>(device, options.window, options.frames_in_flight);
-    for (Submission& submission : submissions) {
-      submission.commands = vk::raii::CommandBuffers(
-          device.device, vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
-      submission.fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
-    }
     set_target(options.width_px, options.height_px);
     set_scene(Scene{}, Scene{}, std::make_shared<FixedLight>());
   }
@@ -148,7 +125,7 @@ struct Renderer::Impl {
     if (surface) extent = surface->extent();
     if (const auto why = too_large(extent.width, extent.height, options.samples, device_bytes()))
       throw std::runtime_error(*why);
-    finish();
+    submissions.finish();
     device.device.waitIdle();
     target = {extent, options.samples > 1 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1,
               surface ? surface->format() : vk::Format::eR8G8B8A8Unorm};
@@ -156,85 +133,12 @@ struct Renderer::Impl {
 
   void set_scene(const Scene& new_scene, const Scene& moving, std::shared_ptr<const FixedLight> light,
                  const Progress& progress = {}) {
-    finish();
+    submissions.finish();
     device.device.waitIdle();
     SceneBuffers buffers(device, new_scene, moving, *light, progress);
     ShadowCasters casters(new_scene, moving, std::move(buffers.far_casters));
     scene.set_geometry(std::move(buffers), std::move(casters), std::move(light));
   }
-
-  void wait_for(Submission& submission) {
-    if (!std::exchange(submission.on_way, false)) return;
-    if (device.device.waitForFences(*submission.fence, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
-      throw std::runtime_error("waiting for the GPU failed");
-    device.frames_on_way = std::ranges::any_of(submissions, &Submission::on_way);
-  }
-
-  /// Submits what `record` puts into the graph.
-  template <typename Record>
-  Submission& submit(Record&& record) {
-    Submission& now = submissions[device.frame];
-    wait_for(now);  // one that failed to be recorded has left another of this number
-    const vk::CommandBuffer buffer = *now.commands.front();
-    buffer.reset();
-    buffer.begin(vk::CommandBufferBeginInfo{.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    graph.begin(buffer);
-    record();
-    graph.end();
-    buffer.end();
-    device.device.resetFences(*now.fence);
-    device.queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &buffer}, *now.fence);
-    now.on_way = device.frames_on_way = true;
-    return now;
-  }
-
-  /// The same, alone on the device.
-  template <typename Record>
-  void submit_and_wait(Record&& record) {
-    finish();
-    wait_for(submit(std::forward<Record>(record)));
-  }
-
-  /// Waits for the frame of this number, shows it and takes its times.
-  void finish(std::size_t frame) {
-    Submission& submission = submissions[frame];
-    if (!submission.on_way) return;
-    wait_for(submission);
-    if (surface) misfit = !surface->show(frame) || misfit;
-    const Clock::time_point now = Clock::now(), from = std::max(submission.begun, std::exchange(done, now));
-    times = {.wall_ms = std::chrono::duration<double, std::milli>(now - from).count(),
-             .gpu_ms = graph.total_ms(frame),
-             .kept = submission.kept,
-             .passes = {}};
-    for (const gpu::FrameGraph::Timing& timing : graph.timings(frame)) times->passes.push_back({timing.name, timing.ms});
-  }
-
-  void finish() {
-    finish(other_frame());
-    finish(device.frame);
-  }
-  bool finish_within(std::chrono::nanoseconds most) {
-    const Clock::time_point until = Clock::now() + most;
-    for (const std::size_t frame : {other_frame(), device.frame}) {
-      if (!submissions[frame].on_way) continue;
-      const auto left = std::max(until - Clock::now(), Clock::duration::zero());
-      if (device.device.waitForFences(*submissions[frame].fence, VK_TRUE, static_cast<std::uint64_t>(left.count())) ==
-          vk::Result::eTimeout)
-        return false;
-      finish(frame);
-    }
-    return true;
-  }
-  /// What was kept last is there: its frame is done, or another has its number by now.
-  bool has_kept() const { return !submissions[kept_by].on_way || !submissions[kept_by].kept; }
-  /// Until it is.
-  void finish_kept() {
-    if (has_kept()) return;
-    if (kept_by == device.frame) finish(other_frame());
-    finish(kept_by);
-  }
-  /// Than the one recorded last: if it is on its way, the older one.
-  std::size_t other_frame() const { return (device.frame + 1) % submissions.size(); }
 
   /// Lavapipe shows a picture when all is done that was submitted before: the next frame is recorded meanwhile, and
   /// submitted after.
@@ -263,7 +167,7 @@ struct Renderer::Impl {
     audit.on_way = true;
   }
   /// Not after another frame has taken its number: draw() asks in time.
-  void end_audit() { audit.on_way = audit.on_way && submissions[audit.by].on_way; }
+  void end_audit() { audit.on_way = audit.on_way && submissions.on_way(audit.by); }
 
   /// Copies of further views go when a frame does not ask for them; those of the frame's own view are used again.
   void forget_copies(const FrameInput& input) {
@@ -358,7 +262,7 @@ void Renderer::change_beam(std::size_t index, const BeamImage& image, std::span<
 }
 
 void Renderer::resize(int width_px, int height_px) {
-  impl_->finish();
+  impl_->submissions.finish();
   if (impl_->surface) impl_->surface->rebuild();
   impl_->set_target(width_px, height_px);
 }
@@ -369,28 +273,28 @@ PictureSize Renderer::picture_size() const {
 }
 
 FrameResult Renderer::draw(const FrameInput& input) {
-  const auto begun = Impl::Clock::now();
-  if (std::exchange(impl_->misfit, false)) resize(0, 0);  // not before: what the newest frame has kept is still read
+  using Clock = gpu::Submissions::Clock;
+  const auto begun = Clock::now();
+  gpu::Submissions& submissions = impl_->submissions;
+  if (impl_->submissions.take_misfit()) resize(0, 0);  // not before: what the newest frame has kept is still read
   FrameParts parts = impl_->parts();
   FrameResult result;
   gpu::Image* display = nullptr;
   const std::uint64_t pipelines_before = *impl_->device.pipelines_made;
   impl_->forget_copies(input);
-  if (impl_->options.frames_in_flight > 1) impl_->device.frame = impl_->other_frame();
+  if (impl_->options.frames_in_flight > 1) impl_->device.frame = submissions.other_frame();
   gpu::Counts counts;  // of the frame alone
-  Impl::Submission& frame = impl_->submit([&] {
+  submissions.submit([&] {
     result.views = draw_frame(parts, input, display);
     counts = impl_->graph.counts();
     impl_->draw_audit();
-    if (impl_->shows_in_turn()) impl_->finish(impl_->other_frame());
+    if (impl_->shows_in_turn()) submissions.finish(submissions.other_frame());
   });
-  frame.begun = begun;
-  frame.kept = is_kept(input);
-  if (frame.kept) impl_->kept_by = impl_->device.frame;
+  submissions.is_frame(begun, is_kept(input));
   result.pipelines_made = *impl_->device.pipelines_made - pipelines_before;
-  impl_->finish(impl_->other_frame());
-  impl_->misfit = (impl_->surface && !impl_->surface->take(*display)) || impl_->misfit;
-  if (impl_->options.frames_in_flight == 1 || result.pipelines_made > 0) impl_->finish();
+  submissions.finish(submissions.other_frame());
+  submissions.show(*display);
+  if (impl_->options.frames_in_flight == 1 || result.pipelines_made > 0) submissions.finish();
   impl_->end_audit();
   impl_->graph.free_unused();
 
@@ -402,46 +306,52 @@ FrameResult Renderer::draw(const FrameInput& input) {
   result.images = held.images;
   result.image_bytes = held.image_bytes;
   result.shared_image_bytes = held.shared_bytes;
-  auto times = std::exchange(impl_->times, std::nullopt);
+  auto times = submissions.take_times();
   result.timed = times.has_value();
   if (times) {
     // When the frame before was done is not known, where this one made pipelines first: all of the call is its own.
     if (result.pipelines_made > 0)
-      times->wall_ms = std::chrono::duration<double, std::milli>(Impl::Clock::now() - begun).count();
+      times->wall_ms = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
     result.wall_ms = times->wall_ms;
     result.gpu_ms = times->gpu_ms;
     result.timed_kept = times->kept;
-    result.passes = std::move(times->passes);
+    for (gpu::FrameGraph::Timing& pass : times->passes) result.passes.push_back({std::move(pass.name), pass.ms});
   }
   return result;
 }
 
 void Renderer::finish() {
-  impl_->finish();
+  impl_->submissions.finish();
 }
 
 bool Renderer::finish_within(std::chrono::nanoseconds most) {
-  return impl_->finish_within(most);
+  return impl_->submissions.finish_within(most);
 }
 
 bool Renderer::has_kept() const {
-  return impl_->has_kept();
+  return impl_->submissions.has_kept();
 }
 
 Image8 Renderer::read_image(std::size_t view) const {
-  impl_->finish_kept();
+  impl_->submissions.finish_kept();
   const Impl::Copy& copy = Impl::copy_of(impl_->images, view);
   Image8 image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
   const auto* texels = static_cast<const std::uint8_t*>(copy.buffer.data);
   image.rgba.assign(texels, texels + copy.buffer.bytes);
-  if (impl_->target.display_format == vk::Format::eB8G8R8A8Unorm)
-    for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) std::swap(image.rgba[i], image.rgba[i + 2]);
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  // Four bytes at once: a picture of 3840 x 2160 is read between two frames.
+  const bool blue_first = impl_->target.display_format == vk::Format::eB8G8R8A8Unorm;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    std::uint32_t pixel = 0;
+    std::memcpy(&pixel, &image.rgba[i], 4);
+    if (blue_first) pixel = (pixel & 0xff00u) | (pixel & 0xffu) << 16 | (pixel >> 16 & 0xffu);
+    pixel |= 0xff000000u;
+    std::memcpy(&image.rgba[i], &pixel, 4);
+  }
   return image;
 }
 
 ImageF Renderer::read_hdr(std::size_t view) const {
-  impl_->finish_kept();
+  impl_->submissions.finish_kept();
   const Impl::Copy& copy = Impl::copy_of(impl_->hdrs, view);
   ImageF image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
   const auto* half = static_cast<const std::uint16_t*>(copy.buffer.data);
@@ -477,7 +387,7 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
     // One lamp at a time: what each gives is asked for, dark ones included.
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
       if (impl_->scene.is_dark(lamps[lamp].beam)) continue;
-      impl_->submit_and_wait([&] {
+      impl_->submissions.submit_and_wait([&] {
         impl_->scene.begin_frame(impl_->graph);
         LitView view = impl_->scene.view_of_points(ViewGeometry(camera, 1.0), lamps.subspan(lamp, 1));
         view.method = method;
@@ -501,7 +411,7 @@ std::vector<std::vector<float>> Renderer::measure(std::span<const PlacedLamp> la
 
 std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t count, std::uint64_t seed) {
   AuditPicture picture(impl_->device, impl_->target.extent);
-  impl_->submit_and_wait([&] {
+  impl_->submissions.submit_and_wait([&] {
     impl_->scene.begin_frame(impl_->graph);
     picture.draw(impl_->graph, impl_->scene, input);
   });
@@ -509,7 +419,7 @@ std::vector<AuditSample> Renderer::audit(const FrameInput& input, std::size_t co
 }
 
 void Renderer::prepare_audit(const ViewInput& view) {
-  impl_->submit_and_wait([&] {
+  impl_->submissions.submit_and_wait([&] {
     impl_->scene.begin_frame(impl_->graph);
     AuditPicture::prepare(impl_->scene, view, impl_->target.extent);
   });
