@@ -67,5 +67,5 @@ picture "$out/difference/frames/000059.png" difference
 xvfb-run -a "$phare" drive --lockstep --frames 60 --samples 4 --set panel=on --out "$out/panel" --port-base "$ports"
 picture "$out/panel/frames/000059.png" panel
 "$phare" cost --quick --out "$out/cost"
-for ladder in light shadows fog vehicle-full poses; do cp "$out/cost/$ladder.svg" "docs/pictures/cost_$ladder.svg"; done
+for ladder in light shadows lens fog vehicle-full poses; do cp "$out/cost/$ladder.svg" "docs/pictures/cost_$ladder.svg"; done
 ls -l docs/pictures

@@ -354,7 +354,7 @@ class Pictures {
           const FrameInput input = one.view(x_m);
           // What another ladder held is given up by the second frame without it: 132 MB of fog took 10 ms.
           if (&one == &cases->front()) one.renderer->draw(input);
-          if (!by_rays) one.renderer->draw(input);
+          if (!by_rays || !on_processor_) one.renderer->draw(input);
           const double begin = processor_ms();
           const double wall_ms = one.renderer->draw(input).wall_ms;
           one.times_ms.push_back(on_processor_ ? processor_ms() - begin : wall_ms);
