@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the pictures of docs/gallery.md, docs/accuracy.md and README.md anew, by the commands that stand there: docs/make_pictures.sh [phare]
-# Needs ImageMagick's convert (apt-get install imagemagick) to make JPEGs of them, and xvfb-run (xvfb, xauth) for the window. Two drives of 75 s and some short ones.
+# Needs ImageMagick's convert (apt-get install imagemagick) to make JPEGs of them, and xvfb-run (xvfb, xauth) for the window. Two drives of 75 s and some short ones, and five minutes of phare cost.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 phare=${1:-./phare}
@@ -66,6 +66,6 @@ picture "$out/wall/frames/000059.png" wall_versus
 picture "$out/difference/frames/000059.png" difference
 xvfb-run -a "$phare" drive --lockstep --frames 60 --samples 4 --set panel=on --out "$out/panel" --port-base "$ports"
 picture "$out/panel/frames/000059.png" panel
-"$phare" cost --quick --out "$out/cost"
+"$phare" cost --out "$out/cost"
 for ladder in light shadows lens fog vehicle-full poses; do cp "$out/cost/$ladder.svg" "docs/pictures/cost_$ladder.svg"; done
 ls -l docs/pictures

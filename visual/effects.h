@@ -38,7 +38,6 @@ struct EffectFacts {
   std::optional<std::size_t> casters = 0;  ///< pieces of the scene that stand in their light; nothing: not looked for
   bool shadow_maps = true;                 ///< the device holds one
   bool shadow_rays = true;                 ///< the device holds the scene's triangles
-  bool in_float64 = false;                 ///< light is computed in it at every pixel
   bool hdr_wanted = false;                 ///< something reads luminance in cd/m² (EXR, bird's eye)
   bool false_colour = false;               ///< the view shows illuminance, not luminance
   bool clipping = false;                   ///< the view marks what the display clips

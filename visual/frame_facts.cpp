@@ -13,7 +13,6 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
           .casters = casters,
           .shadow_maps = device.shadow_maps,
           .shadow_rays = device.shadow_rays,
-          .in_float64 = view.method == Method::kReference,
           .hdr_wanted = view.want_hdr,
           .false_colour = view.view != View::kPhoto && view.view != View::kClipping,
           .clipping = view.view == View::kClipping,

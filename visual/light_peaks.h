@@ -26,7 +26,7 @@ class LightPeaks {
   bool exceeds(const glm::vec2& least, const glm::vec2& most, float cd) const {
     return exceeds_in(cell_of(least), cell_of(most), cd);
   }
-  /// The same for who asks about many tangents of the same corners: cells rise with tangents.
+  /// The same by cells, worked out once a corner: they rise with tangents.
   static glm::vec2 cell_of(const glm::vec2& tangents);
   bool exceeds_in(const glm::vec2& least_cell, const glm::vec2& most_cell, float cd) const;
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstring>
 #include <utility>
 
 #include "visual/audit_picture.h"
@@ -276,7 +277,7 @@ FrameResult Renderer::draw(const FrameInput& input) {
   using Clock = gpu::Submissions::Clock;
   const auto begun = Clock::now();
   gpu::Submissions& submissions = impl_->submissions;
-  if (impl_->submissions.take_misfit()) resize(0, 0);  // not before: what the newest frame has kept is still read
+  if (submissions.take_misfit()) resize(0, 0);  // not before: what the newest frame has kept is still read
   FrameParts parts = impl_->parts();
   FrameResult result;
   gpu::Image* display = nullptr;
@@ -290,10 +291,10 @@ FrameResult Renderer::draw(const FrameInput& input) {
     impl_->draw_audit();
     if (impl_->shows_in_turn()) submissions.finish(submissions.other_frame());
   });
-  submissions.is_frame(begun, is_kept(input));
+  submissions.mark_frame(begun, is_kept(input));
   result.pipelines_made = *impl_->device.pipelines_made - pipelines_before;
   submissions.finish(submissions.other_frame());
-  submissions.show(*display);
+  submissions.take_picture(*display);
   if (impl_->options.frames_in_flight == 1 || result.pipelines_made > 0) submissions.finish();
   impl_->end_audit();
   impl_->graph.free_unused();
@@ -338,7 +339,7 @@ Image8 Renderer::read_image(std::size_t view) const {
   Image8 image{static_cast<int>(copy.extent.width), static_cast<int>(copy.extent.height), {}};
   const auto* texels = static_cast<const std::uint8_t*>(copy.buffer.data);
   image.rgba.assign(texels, texels + copy.buffer.bytes);
-  // Four bytes at once: a picture of 3840 x 2160 is read between two frames.
+  // Four bytes at once, the first lowest (x86): a picture of 3840 x 2160 is read between two frames.
   const bool blue_first = impl_->target.display_format == vk::Format::eB8G8R8A8Unorm;
   for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
     std::uint32_t pixel = 0;

@@ -221,7 +221,8 @@ class Renderer {
   FrameResult draw(const FrameInput& input);
   /// Waits for all frames and shows them: for who has nothing to draw just now.
   void finish();
-  /// The same, but waits no longer than that. False: one is still on its way.
+  /// The same, but waits for the device no longer than that; to show a picture may take longer. False: one is still on
+  /// its way.
   bool finish_within(std::chrono::nanoseconds most);
   /// What the newest frame with want_image or want_hdr keeps is there: reading it waits for nothing.
   bool has_kept() const;

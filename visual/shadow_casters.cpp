@@ -238,7 +238,7 @@ RayTrees ShadowCasters::ray_trees() const {
 }
 
 bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const glm::mat3& turn,
-                               const glm::vec3& shift, const Light& light, CastBy& cast) {
+                               const glm::vec3& shift, const glm::vec3& lamp_m, const Light& light, CastBy& cast) {
   thread_local SeenCorners corners;
   corners.begin(mesh.corners_m.size());
   const auto seen = [&](std::size_t k) -> const SeenCorner& {
@@ -246,7 +246,6 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
       return seen_corner(turn * mesh.corners_m[corner] + shift, light.sides, light.peaks != nullptr);
     });
   };
-  const glm::vec3 lamp_m = -(glm::inverse(turn) * shift);
   const bool far_sides = !chunk.cut_of && !chunk.double_sided;
   bool casts = false;
   CutCasters* cut = nullptr;
@@ -287,7 +286,7 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
 CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_image, std::span<const PlacedMesh> moving,
                          std::size_t carried_by, const CastersFor& wanted) const {
   CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing};
-  constexpr std::size_t kUsual = 1024;
+  constexpr std::size_t kUsual = 1024;  // triangles on a country road: memory that need not grow
   for (WholeCasters* whole : {&cast.far_sides, &cast.both_sides})
     whole->corners.reserve(3 * kUsual), whole->bounds.reserve(kUsual);
   Light light{.part = widest(reach, world_from_image)};
@@ -323,7 +322,8 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
     if (!near(chunk.low_m, chunk.high_m)) continue;
     const glm::vec3 shift(image_from_world * (chunk.origin_m - reach.tip_m));
     const CasterMesh& mesh = chunk.mesh_at(distance_m(chunk.low_m, chunk.high_m), wanted.far_from_m);
-    cast.chunks[i] = cast_chunk(chunk, mesh, glm::mat3(image_from_world), shift, light, cast);
+    cast.chunks[i] = cast_chunk(chunk, mesh, glm::mat3(image_from_world), shift,
+                                glm::vec3(reach.tip_m - chunk.origin_m), light, cast);
   }
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const PlacedMesh& placed = moving[i];
@@ -331,13 +331,15 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
     const glm::dmat3 extent(glm::abs(placed.world_from_mesh[0]), glm::abs(placed.world_from_mesh[1]),
                             glm::abs(placed.world_from_mesh[2]));
     const glm::mat3 turn(image_from_world * placed.world_from_mesh);
+    const glm::dvec3 lamp_m = glm::transpose(placed.world_from_mesh) * (reach.tip_m - placed.position_m);
     for (const Chunk& chunk : moving_[placed.mesh]) {
       const glm::dvec3 middle_m = placed.position_m + placed.world_from_mesh * (0.5 * (chunk.low_m + chunk.high_m));
       const glm::dvec3 half_m = extent * (0.5 * (chunk.high_m - chunk.low_m));
       if (!near(middle_m - half_m, middle_m + half_m)) continue;
       const glm::dvec3 origin_m = placed.position_m + placed.world_from_mesh * chunk.origin_m;
       const glm::vec3 shift(image_from_world * (origin_m - reach.tip_m));
-      if (cast_chunk(chunk, chunk.whole, turn, shift, light, cast)) cast.chunks[chunks_.size() + i] = true;
+      if (cast_chunk(chunk, chunk.whole, turn, shift, glm::vec3(lamp_m - chunk.origin_m), light, cast))
+        cast.chunks[chunks_.size() + i] = true;
     }
   }
   cast.count = static_cast<std::size_t>(std::ranges::count(cast.chunks, true));

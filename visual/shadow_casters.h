@@ -174,9 +174,9 @@ class ShadowCasters {
     }
   };
   /// Adds the triangles of a chunk that cast; false: none does. `turn`, `shift`: from its corners into the lamp's
-  /// frame.
+  /// frame; `lamp_m`: the lamp in theirs.
   static bool cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const glm::mat3& turn, const glm::vec3& shift,
-                         const Light& light, CastBy& cast);
+                         const glm::vec3& lamp_m, const Light& light, CastBy& cast);
 
   std::vector<Chunk> chunks_;
   std::vector<Holes> holes_;

@@ -22,7 +22,7 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
     EffectFacts facts;
     Effect effect;
   } cases[] = {{{.lit_lamps = 2, .casters = 3}, Effect::kShadows},
-               {{.lit_lamps = 2, .in_float64 = true}, Effect::kDepthFirst},
+               {{.lit_lamps = 2, .by_rays = true}, Effect::kDepthFirst},
                {{.hdr_wanted = true}, Effect::kHdrImage},
                {{.overlay_lines = 3}, Effect::kOverlay},
                {{.air = {.visibility_m = 80.0}}, Effect::kFog},
@@ -111,8 +111,6 @@ TEST(Effects, DepthComesFirstWhereAPixelIsDear) {
     return plan_effects(facts, choices).on(Effect::kDepthFirst);
   };
   EXPECT_FALSE(on({.lit_lamps = 2}));
-  EXPECT_TRUE(on({.lit_lamps = 2, .in_float64 = true}));
-  EXPECT_FALSE(on({.in_float64 = true})) << "no lamp is lit";
   EffectChoices choices{};
   for (std::size_t level = 0; level < kShadowNames.size(); ++level) {
     choices[static_cast<std::size_t>(Effect::kShadows)] = level;

@@ -360,7 +360,6 @@ TEST_F(RendererTest, WhatNoFrameCallsForIsFreed) {
   const FrameResult dark = renderer->draw(input);
   EXPECT_EQ(dark.pass_count, 1u);
   EXPECT_EQ(dark.images, 2u);
-  EXPECT_FALSE(dark.effects.on(Effect::kDepthFirst));
 }
 
 TEST_F(RendererTest, AnotherSizeAndBackTakesTheSameMemory) {

@@ -240,6 +240,7 @@ TEST_F(ShadowRaysTest, LeaveNothingBehindAndCostNothingWhereTheyAreNotAskedFor) 
   close_scene(scene);
   ASSERT_TRUE(renderer->load_scene(scene).ok());
   FrameInput input = view_of_a_box();
+  input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = 0;
   const auto drawn_with = [&](std::size_t level) {
     input.effects[static_cast<std::size_t>(Effect::kShadows)] = level;
     renderer->draw(input);

@@ -123,8 +123,10 @@ TEST_P(Views, EachIsWhatItIsAlone) {
 INSTANTIATE_TEST_SUITE_P(Samples, Views, testing::Values(1, 4));
 
 // The second pass finds the very depths that the first one left, whatever lights it.
-TEST(DepthFirst, ThePictureIsTheSame) {
-  Renderer renderer = made(kFrameWidth, kFrameHeight);
+class DepthFirst : public testing::TestWithParam<int> {};
+
+TEST_P(DepthFirst, ThePictureIsTheSame) {
+  Renderer renderer = made(kFrameWidth, kFrameHeight, GetParam());
   const auto drawn = [&](FrameInput input, std::size_t shadows, bool depth_first) {
     input.want_image = true;
     input.effects[static_cast<std::size_t>(Effect::kShadows)] = shadows;
@@ -139,11 +141,14 @@ TEST(DepthFirst, ThePictureIsTheSame) {
     EXPECT_EQ(different(drawn(input, level, true), by_level.back()), 0u) << kShadowNames[level];
   }
   EXPECT_GT(different(by_level.back(), by_level.front()), 0u) << "nothing casts a shadow";
-  if (renderer.no_reference()) GTEST_SKIP() << *renderer.no_reference();
-  input.method = Method::kReference;
-  EXPECT_EQ(different(drawn(input, 0, true), drawn(input, 0, false)), 0u);
+  if (!renderer.no_reference()) {
+    input.method = Method::kReference;
+    EXPECT_EQ(different(drawn(input, 0, true), drawn(input, 0, false)), 0u);
+  }
   EXPECT_EQ(renderer.validation_messages(), 0u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Samples, DepthFirst, testing::Values(1, 4));
 
 TEST(ViewCounts, NothingLitOneViewThreeViewsHdrOnAndOff) {
   Renderer renderer = made(kFrameWidth, kFrameHeight);

@@ -179,10 +179,12 @@ TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
   EXPECT_EQ(dark[2], "depth first     off     no lamp is lit: a pixel drawn twice costs nothing");
 }
 
-TEST_F(Explain, DeviceDeskAndWindowCount) {
+TEST_F(Explain, DeskAndWindowCount) {
   desk_.design = 1;
-  desk_.method = Method::kReference;
-  EXPECT_TRUE(lines(moment(LightSwitch::kLow), device_)[2].starts_with("depth first     on      light in float64"));
+  const std::string of_other = lines(moment(LightSwitch::kLow), device_)[0];
+  EXPECT_EQ(of_other.find("design \"pair\""), std::string::npos) << of_other;
+  desk_.shadows = kRayShadows;
+  EXPECT_TRUE(lines(moment(LightSwitch::kLow), device_)[2].starts_with("depth first     on      shadows by rays"));
   desk_.depth_first = 0;
   EXPECT_EQ(lines(moment(LightSwitch::kLow), device_)[2].substr(0, 41), "depth first     off     set by the user; ");
   desk_.visibility_m = 80.0;

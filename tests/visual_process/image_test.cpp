@@ -88,14 +88,6 @@ TEST(Png, IsTheSameBytesWhereverItsMemoryLies) {
   }
 }
 
-std::uint32_t big_endian(std::string_view bytes) {
-  std::uint32_t value = 0;
-  for (const char byte : bytes.substr(0, 4)) value = value << 8u | static_cast<std::uint8_t>(byte);
-  return value;
-}
-
-// What stb_image does not look at and other readers do: CRC-32 of each chunk (PNG, annex D) and Adler-32 of what was
-// deflated (RFC 1950).
 /// Whether anything stands in the upper halves of the sixteen vector registers.
 [[gnu::target("avx"), gnu::noinline]] bool upper_halves_in_use() {
   std::array<std::uint64_t, 2> any{};
@@ -124,6 +116,14 @@ TEST(Png, LeavesTheUpperHalvesOfVectorRegistersClear) {
   EXPECT_FALSE(in_use);
 }
 
+std::uint32_t big_endian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (const char byte : bytes.substr(0, 4)) value = value << 8u | static_cast<std::uint8_t>(byte);
+  return value;
+}
+
+// What stb_image does not look at and other readers do: CRC-32 of each chunk (PNG, annex D) and Adler-32 of what was
+// deflated (RFC 1950).
 TEST(Png, HasTheChecksumsOfItsChunksAndOfItsRows) {
   const Image8 image = pattern(37, 23);
   ASSERT_TRUE(write_png(temporary("sums.png"), image).ok());

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "tests/paths.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/process/stills.h"
 
 namespace phare {

@@ -39,13 +39,13 @@ void Submissions::end(vk::CommandBuffer buffer) {
   now.on_way = device_.frames_on_way = true;
 }
 
-void Submissions::is_frame(Clock::time_point begun, bool kept) {
+void Submissions::mark_frame(Clock::time_point begun, bool kept) {
   submissions_[device_.frame].begun = begun;
   submissions_[device_.frame].kept = kept;
   if (kept) kept_by_ = device_.frame;
 }
 
-void Submissions::show(Image& display) {
+void Submissions::take_picture(Image& display) {
   misfit_ = (surface_ != nullptr && !surface_->take(display)) || misfit_;
 }
 

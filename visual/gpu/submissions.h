@@ -1,5 +1,5 @@
 // What is on its way to the device: frames that it has been given and has not done, shown in the window and timed when
-// it has. As many at once as Device::frame counts.
+// it has. kMostFramesInFlight at once, numbered by Device::frame.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class Submissions {
   struct Times {
     double wall_ms = 0.0;  ///< from its call, or from when the frame before was done
     double gpu_ms = 0.0;
-    bool kept = false;
+    bool kept = false;  ///< something of it was read back
     std::vector<FrameGraph::Timing> passes;
   };
 
@@ -44,10 +44,10 @@ class Submissions {
     submit(std::forward<Record>(record));
     wait_for(submissions_[device_.frame]);
   }
-  /// What was submitted last is a frame: when it was called for, and whether something of it is read back.
-  void is_frame(Clock::time_point begun, bool kept);
+  /// Of what was submitted last, a frame: when it was called for, and whether something of it is read back.
+  void mark_frame(Clock::time_point begun, bool kept);
   /// Its picture, for the window.
-  void show(Image& display);
+  void take_picture(Image& display);
 
   /// Waits for the frame of this number, shows it and takes its times.
   void finish(std::size_t frame);

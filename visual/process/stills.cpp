@@ -10,6 +10,7 @@
 #include "visual/image/canvas.h"
 #include "visual/image/image.h"
 #include "visual/image/lux_scale.h"
+#include "visual/photometry/table/illuminance.h"
 #include "visual/process/cameras.h"
 #include "visual/process/props.h"
 
