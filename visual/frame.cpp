@@ -198,7 +198,8 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
 }  // namespace
 
 std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, gpu::Image*& display) {
-  const auto picture = [&](const std::string& name, vk::Extent2D extent) {
+  const auto picture = [&](const std::string& of_view, vk::Extent2D extent) {
+    const std::string name = parts.target.name + of_view;
     return Picture{name, extent,
                    &parts.graph.image(name + "display", {parts.target.display_format, extent,
                                                          Usage::eColorAttachment | Usage::eTransferSrc})};
@@ -246,7 +247,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   // What is set by the mouse.
   if (views.front().effects.on(Effect::kGui))
     parts.gui.draw(parts.graph, *seen.display, *input.gui);
-  else
+  else if (parts.target.seen)
     parts.gui.hide();
 
   // What is kept of the finished picture.

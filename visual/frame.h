@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "visual/frame_facts.h"
 #include "visual/gpu/frame_graph.h"
@@ -24,6 +25,8 @@ struct FrameTarget {
   vk::Extent2D extent{};
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Format display_format = vk::Format::eR8G8B8A8Unorm;
+  std::string name{};  ///< before the names of its images
+  bool seen = true;    ///< false: of a rehearsal, between two that are
 };
 
 /// Factors that take luminance to the tone curve: exposure, and the balance that makes the eye's white white.

@@ -165,6 +165,35 @@ std::vector<vk::Pipeline> LitScene::pipelines(std::span<const LitVariant> varian
   return pipelines(variants);
 }
 
+void LitScene::make_beside(const std::set<LitVariant>& missing) {
+  rehearsal_->left += missing.size();
+  if (missing.empty() || being_made_) return;
+  being_made_ = std::make_unique<BeingMade>();
+  BeingMade& making = *being_made_;
+  std::vector<const PipelineRecipe*> wanted;
+  for (const LitVariant& variant : missing) {
+    making.variants.push_back(variant);
+    write_recipe(variant, making.recipes.emplace_back());
+    wanted.push_back(&making.recipes.back().pipeline);
+  }
+  making.made =
+      std::async(std::launch::async, [&device = device_, wanted = std::move(wanted), stop = making.stop.get_token()] {
+        return make_in_turn(device, wanted, stop);
+      });
+}
+
+void LitScene::take_made() {
+  if (!being_made_ || !being_made_->is_done()) return;
+  std::vector<vk::raii::Pipeline> made = being_made_->made.get();
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    // One of a light that was switched on meanwhile may be there.
+    if (!pipelines_.emplace(being_made_->variants[i], std::move(made[i])).second) continue;
+    undrawn_.insert(being_made_->variants[i]);
+    ++*device_.pipelines_made;
+  }
+  being_made_.reset();
+}
+
 void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {
   SpecConstants& numbers = to.numbers;
   numbers.put_all(0, std::array<std::uint32_t, shader::kSpecTables>{

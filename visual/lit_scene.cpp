@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -113,6 +115,7 @@ vk::raii::PipelineLayout LitScene::pipeline_layout(std::span<const vk::Descripto
 }
 
 void LitScene::set_geometry(SceneBuffers geometry, ShadowCasters casters, std::shared_ptr<const FixedLight> light) {
+  being_made_.reset();
   geometry_ = std::move(geometry);
   fixed_light_ = std::move(light);
   casters_ = std::move(casters);
@@ -260,26 +263,73 @@ void LitScene::push(vk::CommandBuffer commands, const shader::GpuDraw& draw) con
   commands.pushConstants<shader::GpuDraw>(*layout_, kLitStages, 0, draw);
 }
 
-std::vector<LitVariant> LitScene::variants_of(const LitView& view, const LitVariant& common) const {
+std::vector<LitVariant> LitScene::variants_of(const LitView& view, std::span<const DrawItem> items,
+                                              const LitVariant& common) const {
   std::vector<LitVariant> variants;
-  variants.reserve(view.items.size());
-  const auto add = [&](const DrawItem& item) {
+  variants.reserve(items.size());
+  for (const DrawItem& item : items)
     variants.push_back(variant_of(view, item, common, variants.empty() ? nullptr : &variants.back()));
-  };
-  for (const DrawItem& item : view.items) add(item);
-  // A shadow may reach in the next frame what none reaches in this one: its pipeline is made with the others.
-  if (view.depths != nullptr)
-    for (DrawItem item : view.items)
-      if (!std::exchange(item.shadowed, true)) add(item);
   return variants;
 }
 
+std::vector<DrawItem> LitScene::shadowed_next(const LitView& view) {
+  std::vector<DrawItem> items;
+  if (view.depths == nullptr) return items;
+  for (DrawItem item : view.items)
+    if (!std::exchange(item.shadowed, true)) items.push_back(item);
+  return items;
+}
+
 void LitScene::prepare(const LitView& view, const LitVariant& common) {
-  (void)pipelines(variants_of(view, common));
+  std::vector<LitVariant> variants = variants_of(view, view.items, common);
+  std::ranges::copy(variants_of(view, shadowed_next(view), common), std::back_inserter(variants));
+  if (!rehearsal_) {
+    (void)pipelines(variants);
+    return;
+  }
+  std::set<LitVariant> missing;
+  std::ranges::copy_if(variants, std::inserter(missing, missing.end()),
+                       [&](const LitVariant& variant) { return !pipelines_.contains(variant); });
+  make_beside(missing);
+}
+
+std::vector<DrawItem> LitScene::rehearsed(const LitView& view, const LitVariant& common) {
+  std::vector<DrawItem> all = view.items;
+  std::ranges::copy(shadowed_next(view), std::back_inserter(all));
+  const std::vector<LitVariant> variants = variants_of(view, all, common);
+  std::set<LitVariant> missing, waiting;
+  std::vector<DrawItem> drawn;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!pipelines_.contains(variants[i])) {
+      missing.insert(variants[i]);
+    } else if (undrawn_.contains(variants[i])) {
+      if (drawn.size() < rehearsal_->most) {
+        drawn.push_back(all[i]);
+        undrawn_.erase(variants[i]);
+      } else {
+        waiting.insert(variants[i]);
+      }
+    }
+  }
+  rehearsal_->left += waiting.size();
+  make_beside(missing);
+  return drawn;
 }
 
 void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVariant& common) {
-  const std::vector<LitVariant> variants = variants_of(view, common);
+  if (rehearsal_) {
+    const std::vector<DrawItem> items = rehearsed(view, common);
+    draw_items(commands, view, items, variants_of(view, items, common));
+    return;
+  }
+  std::vector<LitVariant> variants = variants_of(view, view.items, common);
+  std::ranges::copy(variants_of(view, shadowed_next(view), common), std::back_inserter(variants));
+  draw_items(commands, view, view.items, variants);
+}
+
+void LitScene::draw_items(gpu::Recorder& commands, const LitView& view, std::span<const DrawItem> items,
+                          std::span<const LitVariant> variants) {
+  if (items.empty()) return;
   const std::vector<vk::Pipeline> wanted = pipelines(variants);
   bind(commands, view);
   bind_shadows(commands, view);
@@ -291,8 +341,8 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVaria
   vk::Pipeline bound;
   vk::Buffer bound_light;
   std::vector<vk::MultiDrawIndexedInfoEXT> run;
-  for (std::size_t i = 0; i < view.items.size(); ++i) {
-    const DrawItem& item = view.items[i];
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const DrawItem& item = items[i];
     const LitVariant& variant = variants[i];
     const bool look = variant.kind.look != 0, apart = look || variant.kind.road;
     if (item.lit_by != std::exchange(lit_by, item.lit_by)) {
@@ -320,9 +370,9 @@ void LitScene::draw(gpu::Recorder& commands, const LitView& view, const LitVaria
     }
     // With those that follow and differ in their triangles alone.
     run = {triangles_of(item)};
-    while (i + 1 < view.items.size() && wanted[i + 1] == bound && view.items[i + 1].lit_by == lit_by &&
-           view.items[i + 1].is_placed_as(item))
-      run.push_back(triangles_of(view.items[++i]));
+    while (i + 1 < items.size() && wanted[i + 1] == bound && items[i + 1].lit_by == lit_by &&
+           items[i + 1].is_placed_as(item))
+      run.push_back(triangles_of(items[++i]));
     commands.drawIndexed(run);
   }
 }

@@ -4,9 +4,15 @@
 #pragma once
 
 #include <array>
+#include <chrono>
+#include <deque>
+#include <future>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <span>
+#include <stop_token>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -247,8 +253,17 @@ class LitScene {
   void push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const;
   /// All that the view sees; of `common` all counts but the material and the lamps.
   void draw(gpu::Recorder& commands, const LitView& view, const LitVariant& common);
-  /// Makes the pipelines that this takes.
+  /// Makes the pipelines that this takes; in a rehearsal has them made beside the frames.
   void prepare(const LitView& view, const LitVariant& common);
+  /// From here on draw() has pipelines that are missing made beside the frames, and draws once with so many at most of
+  /// those that are done, and nothing else.
+  void begin_rehearsal(std::size_t most) {
+    take_made();
+    rehearsal_ = Rehearsal{.most = most};
+  }
+  /// How many are left, to be made or to be drawn with.
+  std::size_t end_rehearsal() { return std::exchange(rehearsal_, std::nullopt)->left; }
+  bool is_making() const { return being_made_ && !being_made_->is_done(); }
 
  private:
   static constexpr std::uint32_t kViewsInPage = 16;
@@ -284,13 +299,38 @@ class LitScene {
     PipelineRecipe pipeline{};
   };
 
+  struct Rehearsal {
+    std::size_t most = 0, left = 0;
+  };
+  /// Pipelines that a thread makes beside the frames.
+  struct BeingMade {
+    std::vector<LitVariant> variants{};
+    std::deque<Recipe> recipes{};
+    std::stop_source stop{};
+    std::future<std::vector<vk::raii::Pipeline>> made{};  ///< of the variants, in their order
+
+    bool is_done() const { return made.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+    ~BeingMade() { stop.request_stop(); }
+  };
+
   bool is_lean(const LitVariant& variant) const;
   /// `before`: of another item of the same list.
   LitVariant variant_of(const LitView& view, const DrawItem& item, const LitVariant& common,
                         const LitVariant* before) const;
   /// Of those tables of the item's lamps.
   LitVariant variant_for(std::size_t tables, const LitView& view, const DrawItem& item, const LitVariant& common) const;
-  std::vector<LitVariant> variants_of(const LitView& view, const LitVariant& common) const;
+  std::vector<LitVariant> variants_of(const LitView& view, std::span<const DrawItem> items,
+                                      const LitVariant& common) const;
+  /// A shadow may reach in the next frame what none reaches in this one.
+  static std::vector<DrawItem> shadowed_next(const LitView& view);
+  /// In a rehearsal: what is missing is left to make, and begun where nothing else is being made.
+  void make_beside(const std::set<LitVariant>& missing);
+  void take_made();
+  /// One for each pipeline that was made beside the frames and is drawn with now.
+  std::vector<DrawItem> rehearsed(const LitView& view, const LitVariant& common);
+  /// `variants`: of the items, then of what else is made with them.
+  void draw_items(gpu::Recorder& commands, const LitView& view, std::span<const DrawItem> items,
+                  std::span<const LitVariant> variants);
   void write_recipe(const LitVariant& variant, Recipe& recipe);
   void light_by_block(LitView& view);
   void add_mirrored(const LitView& view);
@@ -328,6 +368,8 @@ class LitScene {
   ShadowCasters casters_;
   std::uint64_t geometry_version_ = 0;
   ShapesFrom shapes_ = ShapesFrom::kPipeline;  ///< of this frame
+  std::optional<Rehearsal> rehearsal_;
+  std::set<LitVariant> undrawn_;  ///< made beside the frames, not drawn with yet
   std::shared_ptr<const FixedLight> fixed_light_ = std::make_shared<FixedLight>();
   BeamStore beams_;
   std::vector<LightCone> cones_;  ///< of each beam
@@ -356,6 +398,7 @@ class LitScene {
   std::unique_ptr<Reference, ReferenceDeleter> reference_;  ///< made when it is called for
   bool reference_begun_ = false;                            ///< in this frame
   std::unique_ptr<Textured, TexturedDeleter> textured_;     ///< made when it is called for
+  std::unique_ptr<BeingMade> being_made_;                   ///< the last: its thread uses what stands above
 };
 
 /// The constants of a draw by the method "reference": with its first index and vertex, as GpuDraw has them.

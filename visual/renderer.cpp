@@ -186,10 +186,11 @@ struct Renderer::Impl {
     forget(hdrs, &ViewInput::want_hdr);
   }
 
-  FrameParts parts() {
+  FrameParts parts() { return parts_for(target); }
+  FrameParts parts_for(const FrameTarget& of) {
     return {.device = device,
             .graph = graph,
-            .target = target,
+            .target = of,
             .scene = scene,
             .shadows = shadows,
             .fog = fog,
@@ -319,6 +320,32 @@ FrameResult Renderer::draw(const FrameInput& input) {
     for (gpu::FrameGraph::Timing& pass : times->passes) result.passes.push_back({std::move(pass.name), pass.ms});
   }
   return result;
+}
+
+Rehearsal Renderer::rehearse(const FrameInput& input, std::size_t most, bool audited) {
+  FrameInput seen = input;
+  seen.overlay.clear(), seen.instruments.clear();
+  seen.panel = {}, seen.marks = {}, seen.gui = nullptr;
+  seen.want_image = seen.want_hdr = false;
+  for (ViewInput& view : seen.more_views) view.want_image = view.want_hdr = false;
+  FrameTarget few = impl_->target;
+  few.name = "rehearsal: ", few.seen = false;
+  few.extent.width = std::min(few.extent.width, 64u);
+  few.extent.height = std::min(few.extent.height, 36u);
+  FrameParts parts = impl_->parts_for(few);
+  gpu::Image* display = nullptr;
+  const std::uint64_t before = *impl_->device.pipelines_made;
+  impl_->scene.begin_rehearsal(most);
+  impl_->submissions.submit_and_wait([&] {
+    draw_frame(parts, seen, display);
+    if (audited) AuditPicture::prepare(impl_->scene, seen, impl_->target.extent);
+  });
+  const std::size_t left = impl_->scene.end_rehearsal();
+  return {*impl_->device.pipelines_made - before, left};
+}
+
+bool Renderer::is_making() const {
+  return impl_->scene.is_making();
 }
 
 void Renderer::finish() {

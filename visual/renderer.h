@@ -168,6 +168,15 @@ struct FrameResult {
   std::uint64_t pipelines_made = 0;      ///< because no frame before needed them: such a frame is late
 };
 
+/// What a rehearsal of a frame has made, and how many pipelines are left to make or to draw with.
+struct Rehearsal {
+  std::uint64_t made = 0;
+  std::size_t left = 0;
+
+  /// A frame like it finds all that it takes.
+  bool ready() const { return made == 0 && left == 0; }
+};
+
 struct Image8 {
   int width_px = 0, height_px = 0;
   std::vector<std::uint8_t> rgba;  ///< sRGB, rows from the top
@@ -219,6 +228,14 @@ class Renderer {
 
   /// Draws one frame and waits for it, or where frames overlap for the one before. In a window that is also presented.
   FrameResult draw(const FrameInput& input);
+  /// Makes what this frame would have to make, in steps, for who goes on drawing others meanwhile. Pipelines of
+  /// surfaces that are missing are made beside the frames, by a thread of its own; with `most` of those that it has
+  /// done the scene is drawn on a few pixels and waited for, since a software device makes its code when a pipeline
+  /// first draws. All else that is missing is made at once. Nothing is shown; overlay, panel and what is read back are
+  /// left out. `audited`: with what an audit of its own view takes.
+  Rehearsal rehearse(const FrameInput& input, std::size_t most, bool audited = false);
+  /// Pipelines are being made beside the frames: until it is done a rehearsal finds nothing new.
+  bool is_making() const;
   /// Waits for all frames and shows them: for who has nothing to draw just now.
   void finish();
   /// The same, but waits for the device no longer than that; to show a picture may take longer. False: one is still on

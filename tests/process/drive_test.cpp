@@ -136,24 +136,50 @@ TEST_F(DriveTest, NoFrameOfADriveMakesAPipeline) {
   }
 }
 
+/// `phare control` for the drive of a test: its exit code.
+int control(const std::vector<std::string>& words) {
+  std::vector<std::string> arguments{"control", "--port-base", std::to_string(port_base())};
+  arguments.insert(arguments.end(), words.begin(), words.end());
+  auto child = ChildProcess::start(program_beside_us("phare"), arguments);
+  if (!child.ok()) return -1;
+  while (!child->ended()) std::this_thread::sleep_for(std::chrono::milliseconds(5));  // it gives up by itself
+  return child->ended()->exit_code;
+}
+
+std::int64_t newest_picture(const fs::path& out) {
+  std::int64_t newest = 0;
+  for (const fs::directory_entry& picture : fs::directory_iterator(out / "frames"))
+    newest = std::max<std::int64_t>(newest, std::atoll(picture.path().stem().c_str()));
+  return newest;
+}
+
+// A picture of a kind that nobody has thought of before the drive is made beside its frames: none is late for it.
+TEST_F(DriveTest, AnotherKindOfPictureIsMadeBesideTheFrames) {
+  const fs::path out = folder_ / "kinds";
+  DriveRun run(out, folder_ / "home", {"--frames", "100000", "--validation", "--set", "weather_ahead=off"},
+               /*lockstep=*/false);
+  ASSERT_TRUE(run.wait_for_frame(2));
+  for (const auto& [setting, value] : {std::pair("method", "vertex"), {"snow_cover", "0.5"}}) {
+    ASSERT_EQ(control({"set", setting, value}), 0) << setting;
+    ASSERT_TRUE(run.wait_for_frame(newest_picture(out) + 240)) << setting;  // some seconds
+  }
+  ASSERT_EQ(control({"quit"}), 0);
+  ASSERT_EQ(run.wait(), 0);
+  const json report = report_of(out), made = report["processes"]["visual-0"]["made_in_the_drive"];
+  EXPECT_EQ(made["pipelines"], 0) << made;
+  EXPECT_EQ(made["kinds_followed"], 2) << made;
+  EXPECT_GT(made["beside_the_frames"], 2) << made;
+  EXPECT_EQ(report["summary"]["validation_messages"], 0);
+}
+
 // Weather that begins in a drive switches within one frame, for which nothing is left to make.
 TEST_F(DriveTest, WeatherThatBeginsInADriveMakesNoPipeline) {
   const fs::path out = folder_ / "weather";
   DriveRun run(out, folder_ / "home", {"--frames", "100000", "--set", "weather_ahead=on"}, /*lockstep=*/false);
   ASSERT_TRUE(run.wait_for_frame(2));
-  const auto control = [](const std::vector<std::string>& words) {
-    std::vector<std::string> arguments{"control", "--port-base", std::to_string(port_base())};
-    arguments.insert(arguments.end(), words.begin(), words.end());
-    auto child = ChildProcess::start(program_beside_us("phare"), arguments);
-    if (!child.ok()) return -1;
-    while (!child->ended()) std::this_thread::sleep_for(std::chrono::milliseconds(5));  // it gives up by itself
-    return child->ended()->exit_code;
-  };
   const auto draws = [&](const char* setting, const char* value) {
-    std::int64_t newest = 0;  // what has been drawn when the answer came may have been without; the one after has it
-    for (const fs::directory_entry& picture : fs::directory_iterator(out / "frames"))
-      newest = std::max<std::int64_t>(newest, std::atoll(picture.path().stem().c_str()));
-    ASSERT_TRUE(run.wait_for_frame(newest + 3)) << setting << " " << value;
+    // What has been drawn when the answer came may have been without; the one after has it.
+    ASSERT_TRUE(run.wait_for_frame(newest_picture(out) + 3)) << setting << " " << value;
   };
   for (const auto& [setting, value] :
        {std::pair("windscreen", "on"), {"rain_mmph", "0.2"}, {"rain_mmph", "40"}, {"snow_cover", "0.3"},
@@ -174,6 +200,7 @@ TEST_F(DriveTest, WeatherThatBeginsInADriveMakesNoPipeline) {
   ASSERT_EQ(run.wait(), 0);
   const json visual = report_of(out)["processes"]["visual-0"];
   EXPECT_EQ(visual["made_in_the_drive"]["pipelines"], 0) << visual["made_in_the_drive"];
+  EXPECT_EQ(visual["made_in_the_drive"]["beside_the_frames"], 0) << visual["made_in_the_drive"];
   EXPECT_GT(visual["frames"], 2 + 3 * (13 + 4));
   std::ifstream rows(out / "drive.csv");
   std::size_t with_fog_lamps = 0;

@@ -117,6 +117,14 @@ std::vector<vk::raii::Pipeline> make_pipelines(const gpu::Device& device,
   return all;
 }
 
+std::vector<vk::raii::Pipeline> make_in_turn(const gpu::Device& device, std::span<const PipelineRecipe* const> recipes,
+                                             const std::stop_token& stop) {
+  std::vector<vk::raii::Pipeline> made;
+  for (const PipelineRecipe* recipe : recipes)
+    if (!stop.stop_requested()) made.push_back(compile(device, *recipe));
+  return made;
+}
+
 void set_area(vk::CommandBuffer commands, const vk::Rect2D& area, bool mirrored) {
   commands.setViewport(0, vk::Viewport{.x = static_cast<float>(area.offset.x),
                                        .y = static_cast<float>(area.offset.y),

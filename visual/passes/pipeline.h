@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "visual/gpu/device.h"
@@ -40,6 +41,11 @@ vk::raii::Pipeline make_pipeline(const gpu::Device& device, const PipelineRecipe
 /// to compile a large shader.
 std::vector<vk::raii::Pipeline> make_pipelines(const gpu::Device& device,
                                                std::span<const PipelineRecipe* const> recipes);
+
+/// The same one after the other, on the thread of who calls; not those that are left when it is told to stop. Nothing
+/// is counted: the device's counts are not this thread's.
+std::vector<vk::raii::Pipeline> make_in_turn(const gpu::Device& device, std::span<const PipelineRecipe* const> recipes,
+                                             const std::stop_token& stop);
 
 /// One descriptor set, and push constants of these stages.
 vk::raii::PipelineLayout pushing_layout(const gpu::Device& device, vk::DescriptorSetLayout set,

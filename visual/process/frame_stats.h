@@ -89,6 +89,9 @@ struct FrameStats {
   std::uint64_t making_frames = 0;  ///< that had to make a pipeline, which a warm-up should have made
   std::uint64_t pipelines_made = 0;
   double longest_making_ms = 0.0;
+  std::uint64_t kinds_followed = 0;       ///< pictures of another kind, when what they take was made beside the frames
+  std::uint64_t pipelines_rehearsed = 0;  ///< for them
+  double longest_rehearsal_ms = 0.0;      ///< between two frames
   FrameResult newest;
   std::optional<std::chrono::steady_clock::time_point> first_end, last_end;  ///< of the first and the newest frame
 

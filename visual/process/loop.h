@@ -1,7 +1,7 @@
 // The loop of the visual process, inside: what one turn of it does, verb by verb. run_loop.cpp has the loop itself and
 // how a frame is chosen and drawn, loop_begin.cpp what comes before the first, loop_judge.cpp what is measured in
 // pictures, loop_keep.cpp what is left of them, loop_panel.cpp the mouse and
-// the panel.
+// the panel, loop_change.cpp how the picture follows the desk.
 #pragma once
 
 #include <chrono>
@@ -65,6 +65,9 @@ class Loop {
   std::vector<GlaringLamp> add_views(const Moment& moment, const Lamps& shining);
   Still still_of(const Moment& moment) const;
   void keep_stills();
+  void follow_desk(const Moment& moment);
+  bool is_ready(const Moment& moment);
+  Rehearsal rehearse(const Moment& moment);
   void light_up(const CockpitState& controls);
   void upload(const std::vector<Lamps::Change>& changes);
   EffectChoices picked_effects() const;
@@ -165,6 +168,14 @@ class Loop {
   };
   std::optional<Capture> capture_;
   FrameInput input_;
+  Desk shown_ = s_.desk;  ///< as the picture shows it
+  /// The desk asks for a picture that the device is not ready for.
+  struct Change {
+    Clock::time_point asked;
+    std::uint64_t rehearsals = 0, pipelines = 0;
+    std::size_t at_once = 1;  ///< to draw with in the next rehearsal
+  };
+  std::optional<Change> change_;
   std::vector<Traffic::There> users_;  // other road users in this frame
   std::unique_ptr<Panel> panel_;       // from when it is first shown
   std::vector<PanelCommand> panel_asked_;

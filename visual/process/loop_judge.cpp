@@ -25,7 +25,7 @@ void Loop::measure(const Moment& moment) {
                   .aspect = static_cast<double>(size.width_px) / size.height_px,
                   .wall = wall ? std::optional(wall_before(s_.lamps, moment.car.pose)) : std::nullopt});
   input_.marks = measuring_.marks(drawn_frames_ % 6 == 0);
-  if (versus_.lamps() != nullptr) mark_versus(input_.marks, s_.desk, s_.lamps, versus_, moment.time);
+  if (versus_.lamps() != nullptr) mark_versus(input_.marks, shown_, s_.lamps, versus_, moment.time);
   for (const ViewInput& inset : input_.more_views) {
     keep_clear(input_.marks, inset.part);
     frame_part(input_.marks, inset.part);
@@ -91,7 +91,7 @@ void Loop::govern(const Moment& moment, double frame_ms) {
 /// With the frame that is drawn next, which does not wait for it.
 void Loop::ask_audit(const Moment& moment) {
   const std::int64_t number = s_.options.lockstep ? moment.frame_index : drawn_frames_;
-  const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
+  const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(shown_, moment.time);
   if (over_ || others_turn || s_.options.audit_every <= 0 || number % s_.options.audit_every != 0 ||
       input_.lamps.empty())
     return;

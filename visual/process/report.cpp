@@ -64,7 +64,10 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   for (const auto& [pass, times] : stats.pass_ms) report["pass_ms"][pass] = to_json(times);
   report["made_in_the_drive"] = {{"pipelines", stats.pipelines_made},
                                  {"frames", stats.making_frames},
-                                 {"longest_frame_ms", stats.longest_making_ms}};
+                                 {"longest_frame_ms", stats.longest_making_ms},
+                                 {"kinds_followed", stats.kinds_followed},
+                                 {"beside_the_frames", stats.pipelines_rehearsed},
+                                 {"longest_between_frames_ms", stats.longest_rehearsal_ms}};
   report["draws"] = stats.newest.draws;
   report["passes"] = stats.newest.pass_count;
   report["triangles"] = stats.newest.triangles;

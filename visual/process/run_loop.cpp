@@ -189,7 +189,7 @@ std::vector<GlaringLamp> Loop::glare_in(const ViewInput& view, const VehicleStat
   std::vector<GlaringLamp> glare = lamps.glare_at(pose, view.camera.eye_m, world_, view.air);
   const auto others = s_.traffic.glare_at(users_, view.camera.eye_m, world_, view.air);
   glare.insert(glare.end(), others.begin(), others.end());
-  if (!s_.desk.fixed_light) {  // not switched off
+  if (!shown_.fixed_light) {  // not switched off
     const auto beside = s_.fixed_light->glare_at(view.camera.eye_m, view.air);
     glare.insert(glare.end(), beside.begin(), beside.end());
   }
@@ -227,21 +227,22 @@ void Loop::draw(const Moment& moment) {
   light_up(shown_by_desk(s_.desk, moment.controls));
   mind_the_lamps(moment.time);
   upload(versus_.follow(s_.desk, s_.lamps, moment.controls));
-  set_by_desk(input_, s_.desk);
+  follow_desk(moment);
+  set_by_desk(input_, shown_);
   const CameraEye eye = first_eye(s_.desk);
   input_.camera = camera_of(eye, seen_by(eye, s_.channel(), s_.lamps, moment.car.pose, &measuring_.road()));
   input_.part = {};
   input_.falling = falling_past(eye, moment.car.pose, moment.time);
-  const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(s_.desk, moment.time);
+  const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(shown_, moment.time);
   input_.windscreen.reset();
   input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
   users_ = s_.traffic.at(moment.time.seconds(), measuring_.road());
   const std::vector<PlacedLamp> their_lamps =
-      Traffic::placed_lamps(users_, input_.camera.eye_m, input_.camera.world_from_eye[0], wet(s_.desk));
+      Traffic::placed_lamps(users_, input_.camera.eye_m, input_.camera.world_from_eye[0], wet(shown_));
   input_.lamps.insert(input_.lamps.end(), their_lamps.begin(), their_lamps.end());
   input_.moving = s_.traffic.placed_meshes(users_);
   input_.spraying.clear();
-  if (wet(s_.desk)) input_.spraying = s_.traffic.spraying(users_, moment.time.seconds(), measuring_.road());
+  if (wet(shown_)) input_.spraying = s_.traffic.spraying(users_, moment.time.seconds(), measuring_.road());
   world_.move(input_.moving);
   input_.picked = picked_effects();
   input_.more_views.clear();
@@ -249,8 +250,8 @@ void Loop::draw(const Moment& moment) {
   s_.eye.see(moment.time, versus_.light(s_.lamps));
   input_.white = s_.eye.white();
   const std::vector<GlaringLamp> tail_lamps = add_views(moment, others_turn ? *versus_.lamps() : s_.lamps);
-  if (s_.desk.windscreen && eye.kind == CameraKind::kDriver)  // the first eye's alone
-    input_.windscreen = Windscreen{moment.time.seconds(), moment.car.pose.speed_mps, s_.desk.wiper};
+  if (shown_.windscreen && eye.kind == CameraKind::kDriver)  // the first eye's alone
+    input_.windscreen = Windscreen{moment.time.seconds(), moment.car.pose.speed_mps, shown_.wiper};
   if (s_.window) {
     screens_.see(moment.controls);
     input_.panel = screens_.panel(moment.controls, moment.time.seconds(), s_.desk.help);
@@ -272,14 +273,15 @@ void Loop::draw(const Moment& moment) {
 
   // Picked, measured and audited is the whole view.
   FrameInput halves;
-  const bool both = versus_.lamps() != nullptr && s_.desk.compare != Compare::kFlicker;
+  const bool both =
+      versus_.lamps() != nullptr && shown_.compare != Compare::kOff && shown_.compare != Compare::kFlicker;
   if (both) {
     halves = input_;
     std::vector<GlaringLamp> glare = tail_lamps;  // into B's half; a difference has none
-    if (s_.desk.compare == Compare::kSplit)
+    if (shown_.compare == Compare::kSplit)
       for (const GlaringLamp& lamp : glare_in(input_, moment.car.pose, *versus_.lamps())) glare.push_back(lamp);
-    versus_.show(halves, s_.desk.compare, moment.car.pose, their_lamps, std::move(glare));
-    if (s_.desk.compare == Compare::kSplit)  // B's half comes first of the others
+    versus_.show(halves, shown_.compare, moment.car.pose, their_lamps, std::move(glare));
+    if (shown_.compare == Compare::kSplit)  // B's half comes first of the others
       halves.more_views.front().pupils = eyeshine_of(*versus_.lamps(), moment.car.pose, pupils_, world_,
                                                      input_.camera.eye_m, input_.air);
   }
