@@ -24,8 +24,9 @@ void Loop::measure(const Moment& moment) {
                   .picture = &input_,
                   .aspect = static_cast<double>(size.width_px) / size.height_px,
                   .wall = wall ? std::optional(wall_before(s_.lamps, moment.car.pose)) : std::nullopt});
-  input_.marks = measuring_.marks(drawn_frames_ % 6 == 0);
-  if (versus_.lamps() != nullptr) mark_versus(input_.marks, shown_, s_.lamps, versus_, moment.time);
+  input_.marks = measuring_.marks(drawn_frames_ % 6 == 0, shown_);
+  if (versus_.lamps() != nullptr && shown_.compare != Compare::kOff)
+    mark_versus(input_.marks, shown_, s_.lamps, versus_, moment.time);
   for (const ViewInput& inset : input_.more_views) {
     keep_clear(input_.marks, inset.part);
     frame_part(input_.marks, inset.part);

@@ -52,9 +52,9 @@ std::string PictureInstruments::answer() const {
   return text;
 }
 
-OverlayMarks PictureInstruments::marks(bool anew) {
+OverlayMarks PictureInstruments::marks(bool anew, const Desk& shown) {
   OverlayMarks picture;
-  const bool photo = desk_.view != View::kFalseColour;
+  const bool photo = shown.view != View::kFalseColour;
   const Camera& camera = moment_.picture->camera;
   const PicturePart& part = moment_.picture->part;
   const ViewGeometry view(camera, moment_.aspect * part.width_01 / part.height_01);
@@ -72,14 +72,14 @@ OverlayMarks PictureInstruments::marks(bool anew) {
     if (anew || isolux_.lines.empty()) isolux_ = seen(isolux_marks(lamps_, moment_.car, road_, desk_.isolux_lx));
     OverlayMarks lines;
     draw_marks(lines, isolux_, view);
-    keep_to_a(lines, desk_, lamps_, moment_.time);
+    keep_to_a(lines, shown, lamps_, moment_.time);
     picture.lines.insert(picture.lines.end(), lines.lines.begin(), lines.lines.end());
     picture.labels.insert(picture.labels.end(), lines.labels.begin(), lines.labels.end());
   } else {
     isolux_ = {};
   }
-  const bool by_difference = desk_.compare == Compare::kDifference, by_ratio = desk_.compare == Compare::kRatio;
-  const bool compared = (by_difference || by_ratio) && versus_design(desk_, lamps_);
+  const bool by_difference = shown.compare == Compare::kDifference, by_ratio = shown.compare == Compare::kRatio;
+  const bool compared = (by_difference || by_ratio) && versus_design(shown, lamps_);
   if (desk_.scale && compared) {
     ++work_;
     draw_versus_scale(picture, by_ratio ? VersusScale::kRatio : VersusScale::kDifference);

@@ -49,8 +49,9 @@ class PictureInstruments {
   /// Of the answer to `set point`; empty without one.
   std::string answer() const;
   /// What is drawn over the picture. Isolux lines are found again where `anew`, and seen from the new place in any
-  /// case.
-  OverlayMarks marks(bool anew);
+  /// case. `shown`: the desk as the picture shows it, which it may not have come to follow yet.
+  OverlayMarks marks(bool anew, const Desk& shown);
+  OverlayMarks marks(bool anew) { return marks(anew, desk_); }
   /// A row of probes.csv, where one is due. False, once: the disk did not take it.
   bool log();
 
