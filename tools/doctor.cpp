@@ -29,7 +29,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "visual/renderer.h"
+#include "visual/vulkan_devices.h"
 #endif
 
 namespace phare {

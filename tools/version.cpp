@@ -4,7 +4,7 @@
 #include "config/base/commit.h"
 #include "tools/commands.h"
 #ifdef PHARE_WITH_GRAPHICS
-#include "visual/renderer.h"
+#include "visual/vulkan_devices.h"
 #endif
 
 namespace phare {

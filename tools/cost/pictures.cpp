@@ -20,6 +20,7 @@
 #include "visual/scene/ray_tree.h"
 #include "visual/scene/refine.h"
 #include "visual/scene/scene.h"
+#include "visual/vulkan_devices.h"
 
 namespace phare::cost {
 namespace {

@@ -15,6 +15,7 @@
 #include "visual/process/explain.h"
 #include "visual/process/run_loop.h"
 #include "visual/scene/refine.h"
+#include "visual/vulkan_devices.h"
 
 namespace {
 
