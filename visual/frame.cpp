@@ -206,7 +206,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   };
   const DrawnOver over = drawn_over(input);
   parts.scene.begin_frame(parts.graph, input.shapes);
-  parts.shadows.begin_frame();
+  parts.shadows.begin_frame(parts.target.seen);
   parts.fog.begin_frame();
   parts.lit.begin_frame();
   parts.glare.begin_frame();

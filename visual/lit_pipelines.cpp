@@ -184,14 +184,14 @@ void LitScene::make_beside(const std::set<LitVariant>& missing) {
 
 void LitScene::take_made() {
   if (!being_made_ || !being_made_->is_done()) return;
-  std::vector<vk::raii::Pipeline> made = being_made_->made.get();
+  const std::unique_ptr<BeingMade> done = std::move(being_made_);
+  std::vector<vk::raii::Pipeline> made = done->made.get();
   for (std::size_t i = 0; i < made.size(); ++i) {
     // One of a light that was switched on meanwhile may be there.
-    if (!pipelines_.emplace(being_made_->variants[i], std::move(made[i])).second) continue;
-    undrawn_.insert(being_made_->variants[i]);
+    if (!pipelines_.emplace(done->variants[i], std::move(made[i])).second) continue;
+    undrawn_.insert(done->variants[i]);
     ++*device_.pipelines_made;
   }
-  being_made_.reset();
 }
 
 void LitScene::write_recipe(const LitVariant& variant, Recipe& to) {

@@ -335,12 +335,19 @@ Rehearsal Renderer::rehearse(const FrameInput& input, std::size_t most, bool aud
   FrameParts parts = impl_->parts_for(few);
   gpu::Image* display = nullptr;
   const std::uint64_t before = *impl_->device.pipelines_made;
+  impl_->submissions.finish();  // with what was recorded before
   impl_->scene.begin_rehearsal(most);
-  impl_->submissions.submit_and_wait([&] {
-    draw_frame(parts, seen, display);
-    if (audited) AuditPicture::prepare(impl_->scene, seen, impl_->target.extent);
-  });
-  const std::size_t left = impl_->scene.end_rehearsal();
+  std::size_t left = 0;
+  try {
+    impl_->submissions.submit_and_wait([&] {
+      draw_frame(parts, seen, display);
+      if (audited) AuditPicture::prepare(impl_->scene, seen, impl_->target.extent);
+    });
+    left = impl_->scene.end_rehearsal();
+  } catch (...) {
+    (void)impl_->scene.end_rehearsal();
+    throw;
+  }
   return {*impl_->device.pipelines_made - before, left};
 }
 

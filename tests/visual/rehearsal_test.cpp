@@ -137,7 +137,7 @@ TEST(Rehearsal, FramesAboutItStayAsTheyAre) {
   }
 }
 
-TEST(Rehearsal, WhoLeavesMeanwhileWaitsForNoMoreThanOnePipeline) {
+TEST(Rehearsal, WhoLeavesMeanwhileLeavesNothingBehindThatIsStillUsed) {
   std::unique_ptr<Renderer> renderer = fresh();
   ASSERT_TRUE(renderer);
   renderer->draw(driver_view());

@@ -251,11 +251,11 @@ ShadowPass::ShadowPass(gpu::Device& device)
     : device_(device),
       limits_{device.properties.limits.maxTexelBufferElements, device.properties.limits.maxImageDimension2D} {}
 
-void ShadowPass::begin_frame() {
+void ShadowPass::begin_frame(bool seen) {
   if (used_ < depths_.size()) device_.wait_for_frames();
   depths_.resize(std::min(depths_.size(), used_));
   used_ = 0;
-  if (rays_ && !rays_->begin_frame()) {
+  if (seen && rays_ && !rays_->begin_frame()) {
     device_.wait_for_frames();
     rays_.reset();
   }

@@ -56,8 +56,9 @@ class ShadowPass {
     return holds_rays(ray_texels(scene.casters()), limits_.buffer_texels);
   }
 
-  /// Before the views of a frame; the frame before is done. Maps that it did not call for are freed.
-  void begin_frame();
+  /// Before the views of a frame; the frame before is done. Maps that it did not call for are freed. `seen`: false of a
+  /// rehearsal, for which no triangles for rays are freed.
+  void begin_frame(bool seen = true);
   /// Draws the maps of the view's lamps, or places the triangles for rays, and has the view read them from here on.
   void draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level);
 

@@ -67,7 +67,9 @@ class Loop {
   void keep_stills();
   void follow_desk(const Moment& moment);
   bool is_ready(const Moment& moment);
-  Rehearsal rehearse(const Moment& moment);
+  struct Rehearsed;
+  std::vector<Rehearsed> rehearsals() const;
+  Rehearsal rehearse(const Rehearsed& as, const Moment& moment);
   void light_up(const CockpitState& controls);
   void upload(const std::vector<Lamps::Change>& changes);
   EffectChoices picked_effects() const;
@@ -171,11 +173,14 @@ class Loop {
   Desk shown_ = s_.desk;  ///< as the picture shows it
   /// The desk asks for a picture that the device is not ready for.
   struct Change {
+    Desk to;
     Clock::time_point asked;
-    std::uint64_t rehearsals = 0, pipelines = 0;
+    std::size_t done = 0;                         ///< of rehearsals()
+    std::uint64_t rehearsals = 0, pipelines = 0;  ///< that found something to make, and made
     std::size_t at_once = 1;  ///< to draw with in the next rehearsal
   };
   std::optional<Change> change_;
+  bool half_made_ = false;             ///< a change was given up before all was made
   std::vector<Traffic::There> users_;  // other road users in this frame
   std::unique_ptr<Panel> panel_;       // from when it is first shown
   std::vector<PanelCommand> panel_asked_;

@@ -85,7 +85,7 @@ void Loop::govern(const Moment& moment, double frame_ms) {
   }
   const auto step = governor.add(moment.time.seconds(), frame_ms);
   if (!step) return;
-  s_.desk.method = governor.levels()[step->to].method;
+  s_.desk.method = shown_.method = governor.levels()[step->to].method;  // made before the drive
   spdlog::info("governor: {}", governor.text(*step));
 }
 

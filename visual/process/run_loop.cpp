@@ -226,7 +226,9 @@ std::vector<GlaringLamp> Loop::add_views(const Moment& moment, const Lamps& shin
 void Loop::draw(const Moment& moment) {
   light_up(shown_by_desk(s_.desk, moment.controls));
   mind_the_lamps(moment.time);
-  upload(versus_.follow(s_.desk, s_.lamps, moment.controls));
+  Desk compared = s_.desk;  // until the picture has left a comparison
+  if (!s_.options.lockstep && compared.compare == Compare::kOff) compared.compare = shown_.compare;
+  upload(versus_.follow(compared, s_.lamps, moment.controls));
   follow_desk(moment);
   set_by_desk(input_, shown_);
   const CameraEye eye = first_eye(s_.desk);
@@ -247,7 +249,7 @@ void Loop::draw(const Moment& moment) {
   input_.picked = picked_effects();
   input_.more_views.clear();
   if (std::exchange(eye_set_, s_.desk.eye) != s_.desk.eye) s_.eye = eye_set(s_.desk.eye);
-  s_.eye.see(moment.time, versus_.light(s_.lamps));
+  s_.eye.see(moment.time, shown_.compare == Compare::kOff ? s_.lamps.light() : versus_.light(s_.lamps));
   input_.white = s_.eye.white();
   const std::vector<GlaringLamp> tail_lamps = add_views(moment, others_turn ? *versus_.lamps() : s_.lamps);
   if (shown_.windscreen && eye.kind == CameraKind::kDriver)  // the first eye's alone
@@ -293,7 +295,7 @@ void Loop::draw(const Moment& moment) {
   if (result.pipelines_made > 0)
     spdlog::info("a kind of picture not drawn before: {} pipelines made in this frame, {:.0f} ms",
                  result.pipelines_made, result.wall_ms);
-  if (result.timed && result.pipelines_made == 0) govern(moment, result.wall_ms);
+  if (result.timed && result.pipelines_made == 0 && !change_) govern(moment, result.wall_ms);
   if (moment.car.stale) ++s_.stats.stale_frames;
   s_.fail_safes.add(moment.time, moment.controls);
   if (s_.switches.is_change(moment.controls)) s_.renderer.finish();  // the driver waits for it
@@ -346,7 +348,7 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
       mouse.inside && s_.desk.lines && !on_panel(mouse.x_px, mouse.y_px)) {
     under_mouse = measuring_.seen_at((mouse.x_px + 0.5) / mouse.width_px, (mouse.y_px + 0.5) / mouse.height_px);
   }
-  return overlay_lines(s_.desk, s_.lamps,
+  return overlay_lines(shown_, s_.lamps,
                        {.time = moment.time,
                         .controls = moment.controls,
                         .pose = moment.car.pose,

@@ -1,6 +1,6 @@
 // Kinds of weather that a running drive may come to, each with pipelines of its own: what is drawn before a drive, so
-// that no frame in it makes them. Pure. Not among them, so that their first frame is late: where nothing falls, fog
-// over water or snow, and water together with snow that lies.
+// that no frame in it makes them. Pure. Not among them, so that the picture follows some time later
+// (visual/process/loop_change.cpp): where nothing falls, fog over water or snow, and water with snow that lies.
 // Checked by tests/visual_process/weather_ahead_test.cpp.
 #pragma once
 
