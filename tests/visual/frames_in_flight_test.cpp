@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
+#include "tests/visual/panel_content.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
-#include "visual/gui_content.h"
 #include "visual/overlay_content.h"
 
 namespace phare {
@@ -87,16 +87,6 @@ Image8 picture_of(Renderer& renderer, std::size_t kept, std::size_t after, const
   return renderer.read_image();
 }
 
-GuiContent panel() {
-  GuiContent content;
-  content.atlas = std::make_shared<const GuiAtlas>(GuiAtlas{1, 1, {255}});
-  for (const auto& [x, y] : {std::pair(10.0f, 10.0f), {60.0f, 10.0f}, {60.0f, 40.0f}, {10.0f, 40.0f}})
-    content.vertices.push_back({x, y, 0.5f, 0.5f, {200, 100, 50, 255}});
-  content.indices = {0, 1, 2, 0, 2, 3};
-  content.draws = {{.indices = 6, .right_px = 1920.0f, .bottom_px = 1080.0f}};
-  return content;
-}
-
 Result<Renderer> renderer_with(std::size_t frames_in_flight) {
   Result<Renderer> made = Renderer::create(
       {.width_px = kWidth_px, .height_px = kHeight_px, .validation = true, .frames_in_flight = frames_in_flight});
@@ -107,7 +97,7 @@ Result<Renderer> renderer_with(std::size_t frames_in_flight) {
 TEST(FramesInFlight, EachIsDrawnFromWhatWasWrittenForIt) {
   Result<Renderer> one = renderer_with(1), two = renderer_with(2);
   ASSERT_TRUE(one && two);
-  const GuiContent gui = panel();
+  const GuiContent gui = panel(1920.0f, 1080.0f);
   for (std::size_t kept = 2; kept <= kFrames; kept += 3)  // pipelines: who makes one waits for it
     (void)picture_of(*two, kept, 0, gui);
   std::vector<Image8> all;
@@ -126,7 +116,7 @@ TEST(FramesInFlight, EachIsDrawnFromWhatWasWrittenForIt) {
 TEST(FramesInFlight, APictureIsReadWhileTheNextFrameIsDrawn) {
   Result<Renderer> one = renderer_with(1), two = renderer_with(2);
   ASSERT_TRUE(one && two);
-  const GuiContent gui = panel();
+  const GuiContent gui = panel(1920.0f, 1080.0f);
   const Image8 alone = picture_of(*one, 2, 0, gui);
   EXPECT_TRUE(one->has_kept()) << "it was waited for";
   (void)picture_of(*two, 2, 0, gui);  // pipelines: who makes one waits for it

@@ -7,9 +7,9 @@
 #include <thread>
 #include <vector>
 
+#include "tests/visual/panel_content.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
-#include "visual/gui_content.h"
 
 namespace phare {
 namespace {
@@ -102,19 +102,9 @@ TEST(Rehearsal, DrawsWithNoMorePipelinesThanItIsTold) {
   EXPECT_TRUE(renderer->rehearse(input, 1).ready());
 }
 
-GuiContent panel() {
-  GuiContent content;
-  content.atlas = std::make_shared<const GuiAtlas>(GuiAtlas{1, 1, {255}});
-  for (const auto& [x, y] : {std::pair(10.0f, 10.0f), {60.0f, 10.0f}, {60.0f, 40.0f}, {10.0f, 40.0f}})
-    content.vertices.push_back({x, y, 0.5f, 0.5f, {200, 100, 50, 255}});
-  content.indices = {0, 1, 2, 0, 2, 3};
-  content.draws = {{.indices = 6, .right_px = 320.0f, .bottom_px = 180.0f}};
-  return content;
-}
-
 // With all that a frame keeps for the next one: fog and maps of shadows, panel, overlay, what is read back.
 TEST(Rehearsal, FramesAboutItStayAsTheyAre) {
-  const GuiContent gui = panel();
+  const GuiContent gui = panel(320.0f, 180.0f);
   const auto frame = [&](int number) {
     FrameInput input = driver_view();
     input.camera.eye_m.x += 0.5 * number;
