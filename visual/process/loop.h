@@ -67,6 +67,8 @@ class Loop {
   void keep_stills();
   void follow_desk(const Moment& moment);
   bool is_ready(const Moment& moment);
+  void finish_change(const Moment& moment);
+  bool is_rehearsed(const Moment& moment);
   struct Rehearsed;
   std::vector<Rehearsed> rehearsals() const;
   Rehearsal rehearse(const Rehearsed& as, const Moment& moment);
@@ -171,7 +173,7 @@ class Loop {
   std::optional<Capture> capture_;
   FrameInput input_;
   Desk shown_ = s_.desk;  ///< as the picture shows it
-  /// The desk asks for a picture that the device is not ready for.
+  /// The desk asks, or has asked, for a picture that the device was not ready for.
   struct Change {
     Desk to;
     Clock::time_point asked;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
-#include <limits>
 #include <vector>
 
 #include "visual/air_of_desk.h"
@@ -15,61 +14,51 @@ namespace phare {
 
 namespace {
 
-/// Of pipelines that were made beside the frames, drawn with between two of these: as many as take a short while. Some
-/// 5 ms each where Mesa has kept its code from a drive before, else up to 200.
+/// Of pipelines that were made beside the frames, drawn with between two of these: as many as take a short while, or as
+/// long as a frame. Some 5 ms each where Mesa has kept its code from a drive before, else up to 200.
 constexpr std::size_t kMostAtOnce = 4;
-constexpr std::chrono::milliseconds kShortWhile{20};
+constexpr double kShortWhile_ms = 20.0;
 
 }  // namespace
 
 /// What a picture of the kind that is asked for may come to, once the drive goes on.
 struct Loop::Rehearsed {
-  enum class Eye { kAsNow, kOverview, kAbove } eye = Eye::kAsNow;  ///< above: parallel rays
-  std::size_t others = 0;                                          ///< lamps of others
+  std::size_t others = 0;  ///< lamps of others
   bool glare = false, shadows = true;
+  bool above = false;  ///< seen by parallel rays
 };
 
 /// A picture of another kind may take pipelines that no picture before took, tenths of a second for all of them: they
 /// are made beside the frames, while the picture goes on as it was, then it follows. Where nothing is missing it
 /// follows at once, and in lockstep, where a slow frame harms nobody.
 void Loop::follow_desk(const Moment& moment) {
-  if (!s_.options.lockstep && newest_ && !same_kind(s_.desk, shown_)) {
+  const bool live = !s_.options.lockstep && newest_;
+  if (live && !same_kind(s_.desk, shown_)) {
     if (!is_ready(moment)) {
       shown_ = with_kind_of(s_.desk, shown_);
       return;
     }
-  } else if (change_ && change_->rehearsals > 0) {
-    half_made_ = true;
+  } else if (live && change_) {
+    finish_change(moment);
   }
-  change_.reset();
   shown_ = s_.desk;
 }
 
-/// For the picture that the desk asks for.
+/// For the picture that the desk asks for, as it would be drawn now.
 bool Loop::is_ready(const Moment& moment) {
-  const Clock::time_point begin = Clock::now();
+  constexpr std::size_t kNow = 2;  // of rehearsals(): with shadows and without
   if (!change_ || !same_kind(change_->to, s_.desk)) {
     half_made_ = half_made_ || (change_ && change_->rehearsals > 0);
-    change_ = Change{.to = s_.desk, .asked = begin};
+    change_ = Change{.to = s_.desk, .asked = Clock::now()};
   }
   Change& change = *change_;
   if (s_.renderer.is_making() && change.rehearsals > 0) return false;
-  const std::vector<Rehearsed> all = rehearsals();
-  while (change.done < all.size()) {
-    const Rehearsal rehearsal = rehearse(all[change.done], moment);
-    const auto took = Clock::now() - begin;
-    if (!rehearsal.ready()) {
-      ++change.rehearsals;
-      change.pipelines += rehearsal.made;
-      change.at_once = took < kShortWhile ? std::min(2 * change.at_once, kMostAtOnce) : 1;
-      s_.stats.pipelines_rehearsed += rehearsal.made;
-      s_.stats.longest_rehearsal_ms =
-          std::max(s_.stats.longest_rehearsal_ms, std::chrono::duration<double, std::milli>(took).count());
-      return false;
-    }
+  while (change.done < kNow) {
+    if (!is_rehearsed(moment)) return false;
     // All of a kind is made at once: where one picture of it is there, and nothing was left half made, all are.
-    if (change.rehearsals == 0 && !half_made_) return true;
-    if (++change.done < all.size() && took > kShortWhile) return false;
+    if (change.rehearsals > 0 || half_made_) continue;
+    change_.reset();
+    return true;
   }
   if (change.rehearsals == 0) return true;
   ++s_.stats.kinds_followed;
@@ -79,17 +68,48 @@ bool Loop::is_ready(const Moment& moment) {
   return true;
 }
 
-/// As it would be drawn now; then over the whole scene with all that a drive comes to: lamps of others, their glare,
-/// and something that stands in the beams or nothing; and from above.
+/// The picture has followed: what the drive may come to in it, one step a frame.
+void Loop::finish_change(const Moment& moment) {
+  if (!same_kind(change_->to, s_.desk)) {  // it was given up before it was shown
+    half_made_ = true;
+    change_.reset();
+  } else if (change_->done == rehearsals().size()) {
+    change_.reset();
+  } else if (!s_.renderer.is_making()) {
+    (void)is_rehearsed(moment);
+  }
+}
+
+/// The next of rehearsals(), which is done when it finds nothing left to make.
+bool Loop::is_rehearsed(const Moment& moment) {
+  const Clock::time_point begin = Clock::now();
+  Change& change = *change_;
+  const Rehearsal rehearsal = rehearse(rehearsals()[change.done], moment);
+  if (rehearsal.ready()) {
+    ++change.done;
+    return true;
+  }
+  const double took_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  const bool short_while = took_ms < std::max(kShortWhile_ms, s_.stats.newest.wall_ms);
+  ++change.rehearsals;
+  change.pipelines += rehearsal.made;
+  change.at_once = short_while ? std::min(2 * change.at_once, kMostAtOnce) : 1;
+  s_.stats.pipelines_rehearsed += rehearsal.made;
+  s_.stats.longest_rehearsal_ms = std::max(s_.stats.longest_rehearsal_ms, took_ms);
+  return false;
+}
+
+/// As it would be drawn now, with something that stands in the beams and with nothing; then with what a drive comes to:
+/// lamps of others, and their glare; and from above.
 std::vector<Loop::Rehearsed> Loop::rehearsals() const {
-  std::vector<Rehearsed> all{{}};
+  std::vector<Rehearsed> all;
   const std::size_t others = s_.traffic.empty() ? 0 : Traffic::kMostLamps;
   const bool glares = s_.desk.glare != std::size_t{0} && (!s_.traffic.empty() || s_.fixed_light->street_lamps() > 0);
   for (std::size_t lamps = 0; lamps <= others; ++lamps)
     for (const bool glare : {false, true})
       for (const bool shadows : {true, false})
-        if (glares || !glare) all.push_back({Rehearsed::Eye::kOverview, lamps, glare, shadows});
-  all.push_back({.eye = Rehearsed::Eye::kAbove});
+        if (glares || !glare) all.push_back({lamps, glare, shadows});
+  all.push_back({.above = true});
   return all;
 }
 
@@ -104,25 +124,20 @@ Rehearsal Loop::rehearse(const Rehearsed& as, const Moment& moment) {
   if (s_.desk.windscreen) next.windscreen = Windscreen{.wiper = s_.desk.wiper};
   next.spraying.clear();
   if (wet(s_.desk)) next.spraying = s_.traffic.spraying(users_, moment.time.seconds(), measuring_.road());
+  if (as.above) next.camera = birds_eye_camera(moment.car.pose);
   // The own lamps, whoever had his turn.
   std::vector<PlacedLamp> of_others;
   std::ranges::copy_if(next.lamps, std::back_inserter(of_others),
                        [](const PlacedLamp& lamp) { return lamp.beam == Traffic::kBeam; });
+  if (as.others > 0) of_others.assign(as.others, {next.camera.eye_m, next.camera.world_from_eye, Traffic::kBeam});
   next.lamps = s_.lamps.placed(moment.car.pose);
-  if (as.eye != Rehearsed::Eye::kAsNow) {
-    const bool above = as.eye == Rehearsed::Eye::kAbove;
-    next.camera = above ? birds_eye_camera(moment.car.pose) : overview_camera(s_.scene);
-    next.far_mesh_from_m = std::numeric_limits<double>::infinity();
-    of_others.assign(as.others, {next.camera.eye_m, next.camera.world_from_eye, Traffic::kBeam});
-    next.glare.clear();
-    if (as.glare) next.glare = {{next.camera.eye_m + 10.0 * next.camera.world_from_eye[0], 1.0}};
-    if (!as.shadows) next.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
-  }
   next.lamps.insert(next.lamps.end(), of_others.begin(), of_others.end());
+  if (as.glare) next.glare = {{next.camera.eye_m + 10.0 * next.camera.world_from_eye[0], 1.0}};
+  if (!as.shadows) next.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
   // By turns each design has the whole picture; in halves both are in one.
   const Compare compare = s_.desk.compare == Compare::kFlicker ? Compare::kSplit : s_.desk.compare;
   if (versus_.lamps() != nullptr) versus_.show(next, compare, moment.car.pose, of_others, next.glare);
-  const bool audited = s_.options.audit_every > 0 && as.eye == Rehearsed::Eye::kOverview && of_others.empty();
+  const bool audited = s_.options.audit_every > 0 && !as.above && as.others == 0;
   return s_.renderer.rehearse(next, change_->at_once, audited);
 }
 
