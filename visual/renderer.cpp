@@ -335,7 +335,6 @@ Rehearsal Renderer::rehearse(const FrameInput& input, std::size_t most, bool aud
   FrameParts parts = impl_->parts_for(few);
   gpu::Image* display = nullptr;
   const std::uint64_t before = *impl_->device.pipelines_made;
-  impl_->submissions.finish();  // with what was recorded before
   impl_->scene.begin_rehearsal(most);
   std::size_t left = 0;
   try {

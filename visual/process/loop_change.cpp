@@ -71,7 +71,7 @@ bool Loop::is_ready(const Moment& moment) {
 /// The picture has followed: what the drive may come to in it, one step a frame.
 void Loop::finish_change(const Moment& moment) {
   if (!same_kind(change_->to, s_.desk)) {  // it was given up before it was shown
-    half_made_ = true;
+    half_made_ = half_made_ || change_->rehearsals > 0;
     change_.reset();
   } else if (change_->done == rehearsals().size()) {
     change_.reset();
