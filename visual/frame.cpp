@@ -92,6 +92,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   LitView lit = parts.scene.view(ViewGeometry(view.input.camera, aspect), sky_of(view.input), view.input.lamps,
                                  view.input.moving, far_mesh_from_m(view), view.input.isolux_lx);
   lit.method = view.input.method;
+  lit.map_each_lamp = view.input.map_each_lamp;
   lit.area = view.area;
 
   // What that calls for, and the images it takes.

@@ -117,6 +117,7 @@ struct LitView {
   std::vector<LitBy> lit_by{};           ///< one at least
   std::vector<PlacedLamp> lit_lamps{};   ///< that light something in it
   std::vector<CastBy> casts{};           ///< what stands in the light of each
+  bool map_each_lamp = false;            ///< as ViewInput
   ShadowLevel shadows{};                 ///< of the maps that are read
   const ShadowDepths* depths = nullptr;
   std::vector<PlacedLamp> air_lamps{};  ///< whose light goes through what the view sees, on a surface or not

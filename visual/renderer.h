@@ -106,6 +106,9 @@ struct ViewInput {
   Viewer viewer{};                                                                  ///< whose eye it is
   bool want_hdr = false;    ///< the view's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;  ///< read what is seen back
+  /// Where one lamp has a shadow map, each has one, be it empty. The same picture, by fewer kinds of pipelines: none
+  /// has to be made when something comes into the beam of one lamp and not of another.
+  bool map_each_lamp = false;
   PicturePart part{};
   std::optional<PictureSize> own_picture{};  ///< 1 to 16384 pixels a side; else it is drawn into the frame's picture
   EffectChoices effects{};                   ///< levels that the user has set; else the facts of the view decide

@@ -172,6 +172,24 @@ TEST_F(DriveTest, AnotherKindOfPictureIsMadeBesideTheFrames) {
   EXPECT_EQ(report["summary"]["validation_messages"], 0);
 }
 
+// Vehicles that come toward us light the road with one lamp or two, and what stands in the beams of some of the lamps
+// does not stand in those of the others; then the other design shines.
+TEST_F(DriveTest, MeetingOthersMakesNoPipeline) {
+  const fs::path out = folder_ / "others";
+  DriveRun run(out, folder_ / "home",
+               {"--frames", "100000", "--rig", source_dir() + "/config/rigs/motorway.toml", "--script",
+                source_dir() + "/config/drives/motorway_script.toml"},
+               /*lockstep=*/false);
+  ASSERT_TRUE(run.wait_for_frame(2));
+  std::this_thread::sleep_for(std::chrono::seconds(8));  // three have gone by
+  ASSERT_EQ(control({"set", "design", "1"}), 0);
+  std::this_thread::sleep_for(std::chrono::seconds(5));
+  ASSERT_EQ(control({"quit"}), 0);
+  ASSERT_EQ(run.wait(), 0);
+  const json visual = report_of(out)["processes"]["visual-0"];
+  EXPECT_EQ(visual["made_in_the_drive"]["pipelines"], 0) << visual["made_in_the_drive"];
+}
+
 // Weather that begins in a drive switches within one frame, for which nothing is left to make.
 TEST_F(DriveTest, WeatherThatBeginsInADriveMakesNoPipeline) {
   const fs::path out = folder_ / "weather";

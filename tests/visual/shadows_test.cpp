@@ -319,6 +319,34 @@ TEST_F(Shadows, ALampSeenInManyViewsAndAmongManyLampsCastsTheSameShadow) {
   EXPECT_EQ(renderer->read_image(1).rgba, alone.rgba);
 }
 
+// What comes into the beam of one lamp and not of the other makes no pipeline where each lamp has a map: the same
+// picture, by those for both.
+TEST_F(Shadows, InTheBeamOfOneLampAreDrawnAsInThoseOfBoth) {
+  Shape shape;
+  shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
+  shape.box({20, -1, 0}, {21, 1, 2});
+  ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
+  FrameInput both = view_of_the_road();
+  both.want_image = both.map_each_lamp = true;
+  const FrameResult of_both = renderer->draw(both);
+  FrameInput one = both;
+  one.lamps.back().position_m = {21.5, -0.62, 0.65};  // the box is behind it
+  const FrameResult each = renderer->draw(one);
+  EXPECT_EQ(each.pipelines_made, 0u);
+  EXPECT_EQ(each.image_bytes, of_both.image_bytes);
+  const std::vector<std::uint8_t> expected = renderer->read_image().rgba;
+
+  one.map_each_lamp = false;
+  const FrameResult alone = renderer->draw(one);
+  EXPECT_LT(alone.image_bytes, each.image_bytes) << "one map";
+  EXPECT_EQ(renderer->read_image().rgba, expected);
+
+  // Where nothing stands in any beam there is none to read.
+  one.map_each_lamp = true;
+  for (PlacedLamp& lamp : one.lamps) lamp.position_m.x = 21.5;
+  EXPECT_EQ(renderer->draw(one).effects.level(Effect::kShadows), 0u);
+}
+
 // As many maps as lamps that something stands before, in as many images as the device's largest takes.
 TEST_F(Shadows, MoreLampsThanADrawSumsCastAllOfThem) {
   Shape shape;

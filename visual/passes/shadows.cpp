@@ -67,23 +67,30 @@ std::size_t texels_of_map(const ShadowLevel& level) {
 
 struct Map {
   std::size_t lamp = 0;    ///< of the view
+  glm::dvec2 half{1.0};    ///< sides of what its first picture shows, tangents
   glm::dvec2 texels{0.0};  ///< of its first picture, to a tangent of 1
   double zoom = 1.0;       ///< of its second; the same for all of a view
 };
 
-/// A map for each lamp that something stands before, `most` of them; the view's data say where points fall on it.
+/// A map for each lamp that something stands before, `most` of them; the view's data say where points fall on it. An
+/// empty one for each of the others, where the view asks for that and there is room.
 std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t most) {
   std::vector<Map> maps;
   double zoom = HUGE_VAL;
+  const bool each = view.map_each_lamp && view.casts.size() <= most && casters_of_all(view.casts) > 0;
   for (std::size_t lamp = 0; lamp < view.casts.size(); ++lamp) {
-    if (view.casts[lamp].count == 0) continue;
+    const bool casts = view.casts[lamp].count > 0;
+    if (!casts && !each) continue;
     if (maps.size() == most) {
       ++view.without_map;
       continue;
     }
-    const glm::dvec2 half = half_sides(view.casts[lamp].part);
-    maps.push_back({lamp, {(0.5 * level.width - 1.0) / half.x, (0.5 * level.height - 1.0) / half.y}});
-    zoom = std::min(zoom, zoom_of(half));
+    Map& map = maps.emplace_back(Map{.lamp = lamp});
+    if (casts) {
+      map.half = half_sides(view.casts[lamp].part);
+      zoom = std::min(zoom, zoom_of(map.half));
+    }
+    map.texels = (0.5 * glm::dvec2(level.width, level.height) - 1.0) / map.half;
   }
   for (std::size_t map = 0; map < maps.size(); ++map) {
     maps[map].zoom = zoom;
@@ -341,7 +348,7 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
     const CastBy& cast = view.casts[maps[i].lamp];
     drawn[i] = drawn_into(maps[i], cast, level, scene.has_textures());
     shades[i] = {glm::transpose(lamp.world_from_image), lamp.position_m,
-                 CasterGrid(cast, half_sides(cast.part), 1.0 / maps[i].texels, maps[i].zoom)};
+                 CasterGrid(cast, maps[i].half, 1.0 / maps[i].texels, maps[i].zoom)};
   });
   tell_shadowed(view, shades);
   ShadowDepths& depths = depths_of(maps.size() * texels_of_map(level));

@@ -41,6 +41,9 @@ const GuiContent& unseen_panel() {
   return content;
 }
 
+/// Of a picture that nobody is to see: they have no part in what is made for it.
+constexpr PicturePart kFewPixels{.width_01 = 1.0 / 16.0, .height_01 = 1.0 / 16.0};
+
 void set_weather(FrameInput& input, const WeatherAhead& weather) {
   input.air = weather.air;
   input.snow_cover_01 = weather.snow_cover_01;
@@ -68,7 +71,7 @@ Loop::Loop(Session& session)
   s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
   if (!session.options.lockstep) drawn_frames_ = std::max(session.album.frames_found(), drive_log_.frames_before());
   if (!session.options.lockstep && session.album.wanted()) session.album.write_beside();
-  if (!session.options.lockstep) input_.shapes = ShapesFrom::kEither;
+  if (!session.options.lockstep) input_.shapes = ShapesFrom::kEither, input_.map_each_lamp = true;
   warm_up();
   announce();
   ready_ = Clock::now();
@@ -82,6 +85,7 @@ void Loop::warm_up() {
   const Clock::time_point begin = Clock::now();
   const VehicleState pose;
   FrameInput input;
+  input.map_each_lamp = input_.map_each_lamp;
   set_by_desk(input, s_.desk);
   input.camera = camera_of(first_eye(s_.desk), seen_by(first_eye(s_.desk), s_.channel(), s_.lamps, pose));
   const Camera first_camera = std::exchange(input.camera, overview_camera(s_.scene));
@@ -98,8 +102,8 @@ void Loop::warm_up() {
   }
   const double far_mesh_from_m = std::exchange(input.far_mesh_from_m, std::numeric_limits<double>::infinity());
   const bool thorough = !s_.options.lockstep && !s_.options.going_on;
+  if (thorough) input.part = kFewPixels;
   const int steps = thorough ? 5 * static_cast<int>(s_.lamps.designs().size()) + 2 : 1;
-  const std::uint32_t first_design = shown_by_desk(s_.desk, controls_to_show(s_.bus, Clock::now())).design_index;
   const bool beside = s_.fixed_light->street_lamps() > 0;  // they glare from the first picture on
   int step = 0;
   bool last = false;
@@ -113,10 +117,9 @@ void Loop::warm_up() {
     light_up(controls);
     if (last) upload(versus_.follow(s_.desk, s_.lamps, controls));
     input.lamps = s_.lamps.placed(pose);
-    // Others are met with the design and the beams that a drive mostly has; each more would take seconds.
+    // Others are met with the beams that a drive mostly has; with fog lamps besides each would take seconds more.
     const bool met =
-        !s_.traffic.empty() && (last || (controls.design_index == first_design &&
-                                         controls.light_switch >= LightSwitch::kLow && !controls.fog_front));
+        !s_.traffic.empty() && (last || (controls.light_switch >= LightSwitch::kLow && !controls.fog_front));
     // Their bodies may be of a kind of surface that the scene lacks.
     input.moving.clear();
     const glm::dvec3 ahead_m = input.camera.eye_m + 20.0 * input.camera.world_from_eye[0];
@@ -154,7 +157,7 @@ void Loop::warm_up() {
           // Of others one lamp lights the scene, or two.
           for (std::size_t lamp = 1; met && lamp <= Traffic::kMostLamps; ++lamp) {
             blinded.lamps.push_back({input.camera.eye_m, input.camera.world_from_eye, Traffic::kBeam});
-            if (last || lamp == Traffic::kMostLamps) s_.renderer.draw(blinded);
+            s_.renderer.draw(blinded);
           }
         }
         if (!last || versus_.lamps() == nullptr) continue;
@@ -190,6 +193,7 @@ void Loop::warm_up() {
   last = true;
   if (thorough) draw(shown_by_desk(s_.desk, controls_to_show(s_.bus, Clock::now())));  // low beam
   if (thorough && makes_weather_ready(s_.desk, s_.window.has_value())) warm_up_weather(input);
+  input.part = {};
   input.camera = first_camera;
   input.far_mesh_from_m = far_mesh_from_m;
   input.want_image = s_.album.wanted();
@@ -199,10 +203,9 @@ void Loop::warm_up() {
 }
 
 /// Of the light that `input` has: every kind of weather that the drive may come to, where an occluder stands in the
-/// beams and where none does, with the lamps of others and without. Few pixels: they have no part in what is made.
+/// beams and where none does, with the lamps of others and without.
 void Loop::warm_up_weather(FrameInput input) {
   const std::vector<WeatherAhead> weathers = weathers_ahead(s_.desk);
-  input.part = {.width_01 = 1.0 / 16.0, .height_01 = 1.0 / 16.0};
   input.more_views.clear();
   const bool glares = s_.desk.glare != std::size_t{0} && (!s_.traffic.empty() || s_.fixed_light->street_lamps() > 0);
   warm_up_views(input);
