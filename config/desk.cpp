@@ -396,8 +396,9 @@ constexpr DeskSetting kSettings[] = {
     {"snow_cover", "0 to 1", "snow that lies: the share of level ground, and of what looks up, that it covers", true,
      set_number<&Desk::snow_cover_01, 0, 10>, get_number<&Desk::snow_cover_01>, "weather"},
     {"weather_ahead", "auto, off, on",
-     "what other weather takes is made before a drive in real time; auto: in a window, or if it begins in some", true,
-     set_level<&Desk::weather_ahead, kOffOnNames>, get_level<&Desk::weather_ahead, kOffOnNames>, "weather"},
+     "what other weather takes is made before a drive in real time; auto: in a window, for 8 s or so, or if it begins "
+     "in some",
+     true, set_level<&Desk::weather_ahead, kOffOnNames>, get_level<&Desk::weather_ahead, kOffOnNames>, "weather"},
 };
 
 }  // namespace

@@ -80,9 +80,9 @@ class Loop {
   std::vector<GlaringLamp> glare_in(const ViewInput& view, const VehicleState& pose, const Lamps& lamps) const;
   void mind_the_lamps(SimTime now);
   void warm_up();
-  void warm_up_weather(FrameInput input);
+  void warm_up_weather(FrameInput input, Clock::time_point until);
   void warm_up_views(FrameInput input);
-  void warm_up_lights(FrameInput input);
+  void warm_up_lights(FrameInput input, Clock::time_point until);
   void announce();
   void repeat_when_stalled();
   std::optional<Moment> lockstep_moment();

@@ -44,6 +44,9 @@ const GuiContent& unseen_panel() {
 /// Of a picture that nobody is to see: they have no part in what is made for it.
 constexpr PicturePart kFewPixels{.width_01 = 1.0 / 16.0, .height_01 = 1.0 / 16.0};
 
+/// So long a person waits before a window for weather that the drive may come to; chosen.
+constexpr auto kMostWait = 8s;
+
 void set_weather(FrameInput& input, const WeatherAhead& weather) {
   input.air = weather.air;
   input.snow_cover_01 = weather.snow_cover_01;
@@ -192,7 +195,10 @@ void Loop::warm_up() {
   // As the drive begins, over the whole scene where there is time, then as it is seen.
   last = true;
   if (thorough) draw(shown_by_desk(s_.desk, controls_to_show(s_.bus, Clock::now())));  // low beam
-  if (thorough && makes_weather_ready(s_.desk, s_.window.has_value())) warm_up_weather(input);
+  if (thorough && makes_weather_ready(s_.desk, s_.window.has_value())) {
+    const bool waited_for = s_.window && !s_.desk.weather_ahead;
+    warm_up_weather(input, waited_for ? Clock::now() + kMostWait : Clock::time_point::max());
+  }
   input.part = {};
   input.camera = first_camera;
   input.far_mesh_from_m = far_mesh_from_m;
@@ -204,13 +210,20 @@ void Loop::warm_up() {
 
 /// Of the light that `input` has: every kind of weather that the drive may come to, where an occluder stands in the
 /// beams and where none does, with the lamps of others and without.
-void Loop::warm_up_weather(FrameInput input) {
+/// A kind of weather that is begun is made to its end; once `until` is past, the others are left to Loop::follow_desk.
+void Loop::warm_up_weather(FrameInput input, Clock::time_point until) {
   const std::vector<WeatherAhead> weathers = weathers_ahead(s_.desk);
   input.more_views.clear();
   const bool glares = s_.desk.glare != std::size_t{0} && (!s_.traffic.empty() || s_.fixed_light->street_lamps() > 0);
   warm_up_views(input);
   int step = 0;
   for (const WeatherAhead& weather : weathers) {
+    if (Clock::now() >= until) {
+      spdlog::info(
+          "weather made ahead: {} kinds of {}; the others are made when they are set (--set weather_ahead=on: all)",
+          step, weathers.size());
+      return;
+    }
     set_weather(input, weather);
     // A screen may be set before the eye in the drive, too.
     input.windscreen = Windscreen{.wiper = s_.desk.wiper};
@@ -229,7 +242,7 @@ void Loop::warm_up_weather(FrameInput input) {
       }
     }
   }
-  warm_up_lights(std::move(input));
+  warm_up_lights(std::move(input), until);
 }
 
 /// What else a person may choose to see in a window, in the air that the drive begins with.
@@ -250,8 +263,8 @@ void Loop::warm_up_views(FrameInput input) {
 
 /// Weather for which one switches lights, under those that a person may switch to; among street lamps with their glare,
 /// which is in every picture. Lights whose tables have shapes of their own, but as many lamps as one before, share
-/// pipelines that read shapes from the frame: slower by a fifth, and no frame waits for them.
-void Loop::warm_up_lights(FrameInput input) {
+/// pipelines that read shapes from the frame: slower by a fifth, and no frame waits for them. Until `until`.
+void Loop::warm_up_lights(FrameInput input, Clock::time_point until) {
   const std::vector<WeatherAhead> weathers = weathers_for_lights(s_.desk);
   std::vector<CockpitState> lights = lights_ahead(shown_by_desk(s_.desk, controls_to_show(s_.bus, Clock::now())));
   input.glare.clear();
@@ -265,6 +278,7 @@ void Loop::warm_up_lights(FrameInput input) {
     input.shapes = ShapesFrom::kPipeline;
     bool apart = false;  // its pipelines are not those of a light before
     for (const WeatherAhead& weather : weathers) {
+      if (Clock::now() >= until) return;
       set_weather(input, weather);
       std::uint64_t made = 0;
       for (const bool off : {true, false}) {
