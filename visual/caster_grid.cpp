@@ -7,7 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <utility>
 
+#include "config/base/on_all_cores.h"
 #include "shaders/lamps.h"
 
 namespace phare {
@@ -154,6 +156,33 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
   const int blocks_up = (end_row_ + kBlock - 1) / kBlock;
   per_m_.resize(static_cast<std::size_t>(blocks_up * kBlock * kColumns));
   per_m_of_block_.resize(static_cast<std::size_t>(blocks_up * (kColumns / kBlock)));
+  add_in_parts(cast, half_sides);
+  for (int block = 0; block < blocks_up; ++block) {
+    std::array<float, kColumns> most{};
+    for (int row = block * kBlock; row < (block + 1) * kBlock; ++row) {
+      const float* const in_row = &per_m_[static_cast<std::size_t>(row * kColumns)];
+      for (std::size_t column = 0; column < kColumns; ++column) most[column] = std::max(most[column], in_row[column]);
+    }
+    float* const of_block = &per_m_of_block_[static_cast<std::size_t>(block * (kColumns / kBlock))];
+    for (std::size_t column = 0; column < kColumns; ++column)
+      of_block[column / kBlock] = std::max(of_block[column / kBlock], most[column]);
+  }
+}
+
+void CasterGrid::add_in_parts(const CastBy& cast, const glm::vec2& half_sides) {
+  std::size_t triangles = cast.far_sides.bounds.size() + cast.both_sides.bounds.size();
+  for (const CutCasters& cut : cast.cut) triangles += cut.bounds.size();
+  const std::size_t parts = parts_of_casters(triangles);
+  std::vector<CasterGrid> others(parts - 1, *this);
+  on_all_cores(parts,
+               [&](std::size_t part) { (part == 0 ? *this : others[part - 1]).add(cast, half_sides, part, parts); });
+  for (const CasterGrid& other : others) {
+    for (std::size_t i = 0; i < per_m_.size(); ++i) per_m_[i] = std::max(per_m_[i], other.per_m_[i]);
+    above_per_m_ = std::max(above_per_m_, other.above_per_m_);
+  }
+}
+
+void CasterGrid::add(const CastBy& cast, const glm::vec2& half_sides, std::size_t part, std::size_t parts) {
   const auto column_of = [&](float left) {
     return static_cast<int>(std::clamp(across_.at(left), 0.0f, static_cast<float>(kColumns)));
   };
@@ -194,7 +223,7 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
       return raise(cells, 1.0f / bounds.nearest_m);
     raise_by(SeenTriangle(a, b, c, bounds.nearest_m), cells);
   };
-  const auto add = [&](const CastBounds& bounds, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const auto add_one = [&](const CastBounds& bounds, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     if (!bounds.beside) return add_ahead(bounds, a, b, c);
     const Clipped clipped = ahead_of(begins_m({a, b, c}, half_sides), {a, b, c});
     for (std::size_t i = 2; i < clipped.count; ++i) {
@@ -203,26 +232,17 @@ CasterGrid::CasterGrid(const CastBy& cast, const glm::dvec2& half_sides, const g
       add_ahead({of.least(), of.most(), of.nearest_m}, clipped.corners[0], clipped.corners[i - 1], clipped.corners[i]);
     }
   };
+  const auto of_part = [&](std::size_t count) { return std::pair(count * part / parts, count * (part + 1) / parts); };
   for (const WholeCasters* whole : {&cast.far_sides, &cast.both_sides})
-    for (std::size_t i = 0; i < whole->bounds.size(); ++i) {
+    for (auto [i, end] = of_part(whole->bounds.size()); i < end; ++i) {
       const glm::vec3* corners = &whole->corners[3 * i];
-      add(whole->bounds[i], corners[0], corners[1], corners[2]);
+      add_one(whole->bounds[i], corners[0], corners[1], corners[2]);
     }
   for (const CutCasters& cut : cast.cut)
-    for (std::size_t i = 0; i < cut.bounds.size(); ++i) {
+    for (auto [i, end] = of_part(cut.bounds.size()); i < end; ++i) {
       const CutCorner* corners = &cut.corners[3 * i];
-      add(cut.bounds[i], corners[0].corner_m, corners[1].corner_m, corners[2].corner_m);
+      add_one(cut.bounds[i], corners[0].corner_m, corners[1].corner_m, corners[2].corner_m);
     }
-  for (int block = 0; block < blocks_up; ++block) {
-    std::array<float, kColumns> most{};
-    for (int row = block * kBlock; row < (block + 1) * kBlock; ++row) {
-      const float* const in_row = &per_m_[static_cast<std::size_t>(row * kColumns)];
-      for (std::size_t column = 0; column < kColumns; ++column) most[column] = std::max(most[column], in_row[column]);
-    }
-    float* const of_block = &per_m_of_block_[static_cast<std::size_t>(block * (kColumns / kBlock))];
-    for (std::size_t column = 0; column < kColumns; ++column)
-      of_block[column / kBlock] = std::max(of_block[column / kBlock], most[column]);
-  }
 }
 
 bool CasterGrid::may_shade(const BoxCorners& box) const {

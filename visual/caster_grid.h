@@ -41,6 +41,9 @@ class CasterGrid {
     float widened(float tangent, float way, bool close) const;
   };
   Cells cells_of(const glm::vec2& least, const glm::vec2& most) const;
+  void add_in_parts(const CastBy& cast, const glm::vec2& half_sides);
+  /// Of all that casts one of so many parts.
+  void add(const CastBy& cast, const glm::vec2& half_sides, std::size_t part, std::size_t parts);
 
   Axis across_, up_;
   /// Row by row from the lowest, in each from the rightmost: 1 over how far forward what may show in the cell begins,

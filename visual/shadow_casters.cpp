@@ -10,6 +10,7 @@
 #include <map>
 #include <numeric>
 
+#include "config/base/on_all_cores.h"
 #include "shaders/lamps.h"
 #include "visual/caster_grid.h"
 #include "visual/scene/far_mesh.h"
@@ -145,6 +146,29 @@ class SeenCorners {
   std::uint64_t round_ = 0;
 };
 
+void append(WholeCasters& to, const WholeCasters& from) {
+  to.corners.insert(to.corners.end(), from.corners.begin(), from.corners.end());
+  to.bounds.insert(to.bounds.end(), from.bounds.begin(), from.bounds.end());
+}
+
+CutCasters& of_material(std::vector<CutCasters>& all, std::size_t material) {
+  const auto known = std::ranges::find(all, material, &CutCasters::material);
+  return known != all.end() ? *known : all.emplace_back(CutCasters{material});
+}
+
+/// What another part of the chunks casts.
+void append(CastBy& to, const CastBy& from) {
+  for (std::size_t i = 0; i < to.chunks.size(); ++i) to.chunks[i] = to.chunks[i] || from.chunks[i];
+  widen(to.part, from.part);
+  append(to.far_sides, from.far_sides);
+  append(to.both_sides, from.both_sides);
+  for (const CutCasters& cut : from.cut) {
+    CutCasters& known = of_material(to.cut, cut.material);
+    known.corners.insert(known.corners.end(), cut.corners.begin(), cut.corners.end());
+    known.bounds.insert(known.bounds.end(), cut.bounds.begin(), cut.bounds.end());
+  }
+}
+
 Holes holes_in(const Scene& scene, std::size_t material) {
   const PixelLook& look = scene.materials[material].look;
   const SceneTexture& texture = scene.textures[*look.base_texture];
@@ -248,12 +272,7 @@ bool ShadowCasters::cast_chunk(const Chunk& chunk, const CasterMesh& mesh, const
   };
   const bool far_sides = !chunk.cut_of && !chunk.double_sided;
   bool casts = false;
-  CutCasters* cut = nullptr;
-  if (chunk.cut_of) {
-    auto of_material = std::ranges::find(cast.cut, *chunk.cut_of, &CutCasters::material);
-    if (of_material == cast.cut.end()) of_material = cast.cut.insert(cast.cut.end(), {*chunk.cut_of});
-    cut = &*of_material;
-  }
+  CutCasters* const cut = chunk.cut_of ? &of_material(cast.cut, *chunk.cut_of) : nullptr;
   WholeCasters& whole = chunk.double_sided ? cast.both_sides : cast.far_sides;
   for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3) {
     const auto corner_m = [&](std::size_t i) { return mesh.corners_m[mesh.indices[k + i]]; };
@@ -287,8 +306,6 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
                          std::size_t carried_by, const CastersFor& wanted) const {
   CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing};
   constexpr std::size_t kUsual = 1024;  // triangles on a country road: memory that need not grow
-  for (WholeCasters* whole : {&cast.far_sides, &cast.both_sides})
-    whole->corners.reserve(3 * kUsual), whole->bounds.reserve(kUsual);
   Light light{.part = widest(reach, world_from_image)};
   if (wanted.faint_lx > 0.0) light.peaks = wanted.peaks, light.faint_lx = static_cast<float>(wanted.faint_lx);
   if (wanted.view != nullptr) light.sides = sides_of(*wanted.view, reach.tip_m, world_from_image);
@@ -317,13 +334,30 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
     return distance_m(low_m, high_m) <= kShadowsTo_m && reach.meets(low_m, high_m) && shades_the_view(low_m, high_m) &&
            !stands_in_faint_light(low_m, high_m);
   };
+  /// A chunk that is near and in the light, as cast_chunk() takes it.
+  struct Near {
+    const Chunk* chunk = nullptr;
+    const CasterMesh* mesh = nullptr;
+    glm::mat3 turn;
+    glm::vec3 shift, lamp_m;
+    std::size_t piece = 0;         ///< of CastBy::chunks
+    std::size_t triangles_to = 0;  ///< of all up to it
+  };
+  std::vector<Near> lit;
+  const auto add = [&](Near one) {
+    if (one.mesh->indices.size() < 3) return;
+    one.triangles_to = (lit.empty() ? 0 : lit.back().triangles_to) + one.mesh->indices.size() / 3;
+    lit.push_back(one);
+  };
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     const Chunk& chunk = chunks_[i];
     if (!near(chunk.low_m, chunk.high_m)) continue;
-    const glm::vec3 shift(image_from_world * (chunk.origin_m - reach.tip_m));
-    const CasterMesh& mesh = chunk.mesh_at(distance_m(chunk.low_m, chunk.high_m), wanted.far_from_m);
-    cast.chunks[i] = cast_chunk(chunk, mesh, glm::mat3(image_from_world), shift,
-                                glm::vec3(reach.tip_m - chunk.origin_m), light, cast);
+    add({.chunk = &chunk,
+         .mesh = &chunk.mesh_at(distance_m(chunk.low_m, chunk.high_m), wanted.far_from_m),
+         .turn = glm::mat3(image_from_world),
+         .shift = glm::vec3(image_from_world * (chunk.origin_m - reach.tip_m)),
+         .lamp_m = glm::vec3(reach.tip_m - chunk.origin_m),
+         .piece = i});
   }
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const PlacedMesh& placed = moving[i];
@@ -337,14 +371,34 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
       const glm::dvec3 half_m = extent * (0.5 * (chunk.high_m - chunk.low_m));
       if (!near(middle_m - half_m, middle_m + half_m)) continue;
       const glm::dvec3 origin_m = placed.position_m + placed.world_from_mesh * chunk.origin_m;
-      const glm::vec3 shift(image_from_world * (origin_m - reach.tip_m));
-      if (cast_chunk(chunk, chunk.whole, turn, shift, glm::vec3(lamp_m - chunk.origin_m), light, cast))
-        cast.chunks[chunks_.size() + i] = true;
+      add({.chunk = &chunk,
+           .mesh = &chunk.whole,
+           .turn = turn,
+           .shift = glm::vec3(image_from_world * (origin_m - reach.tip_m)),
+           .lamp_m = glm::vec3(lamp_m - chunk.origin_m),
+           .piece = chunks_.size() + i});
     }
   }
+  const std::size_t triangles = lit.empty() ? 0 : lit.back().triangles_to, parts = parts_of_casters(triangles);
+  std::vector<CastBy> of_parts(parts, cast);
+  on_all_cores(parts, [&](std::size_t part) {
+    CastBy& own = of_parts[part];
+    own.far_sides.reserve(kUsual), own.both_sides.reserve(kUsual);
+    for (const Near& one : lit) {
+      if ((one.triangles_to - 1) * parts / triangles != part) continue;
+      if (cast_chunk(*one.chunk, *one.mesh, one.turn, one.shift, one.lamp_m, light, own)) own.chunks[one.piece] = true;
+    }
+  });
+  cast = std::move(of_parts.front());
+  for (std::size_t part = 1; part < parts; ++part) append(cast, of_parts[part]);
   cast.count = static_cast<std::size_t>(std::ranges::count(cast.chunks, true));
   if (cast.count == 0) return {};
   return cast;
+}
+
+std::size_t parts_of_casters(std::size_t triangles) {
+  constexpr std::size_t kOfPart = 4096, kMost = 8;
+  return std::clamp(triangles / kOfPart, std::size_t{1}, kMost);
 }
 
 std::size_t casters_of_all(std::span<const CastBy> casts) {

@@ -60,6 +60,8 @@ struct CutCasters {
 struct WholeCasters {
   std::vector<glm::vec3> corners{};
   std::vector<CastBounds> bounds{};
+
+  void reserve(std::size_t triangles) { corners.reserve(3 * triangles), bounds.reserve(triangles); }
 };
 
 /// What casts shadows in the light of one lamp.
@@ -183,6 +185,10 @@ class ShadowCasters {
   std::size_t ray_triangles_ = 0, ray_triangles_with_holes_ = 0;
   std::vector<std::vector<Chunk>> moving_;  ///< by mesh
 };
+
+/// In how many parts so many triangles of one lamp are worked on at once: what comes out is the same wherever it is, so
+/// by their number alone.
+std::size_t parts_of_casters(std::size_t triangles);
 
 /// How many pieces of the scene cast in the light of any of them.
 std::size_t casters_of_all(std::span<const CastBy> casts);

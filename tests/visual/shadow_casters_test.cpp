@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -134,6 +135,55 @@ TEST(ShadowCasters, WhatStandsInFaintLightCastsNothing) {
   EXPECT_EQ(cast(105.0f, 20.0f, 0.0), 1u) << "all casts where nothing is too faint";
   EXPECT_EQ(cast(105.0f, -20.0f, 0.01), 1u) << "in the bright part of the beam";
   EXPECT_EQ(cast(105.0f, -0.5f, 0.01), 1u) << "from the bright part into the faint";
+}
+
+// Of many triangles parts are worked on at once: the same casts as of each third alone, few enough to be one part.
+TEST(ShadowCasters, InPartsAreWhatTheyAreInOne) {
+  std::mt19937_64 random(29);
+  std::uniform_real_distribution<double> even(-1.0, 1.0);
+  const auto anywhere = [&](double size_m) { return size_m * glm::dvec3(even(random), even(random), even(random)); };
+  const glm::dvec3 lamp_m{2.0, 0.6, 0.65};
+  const glm::dmat3 turn = aim_rotation(0.1, -0.02, 0.0);
+  constexpr std::size_t kThird = 5000;
+  std::vector<Corners> triangles;
+  while (triangles.size() < 3 * kThird) {
+    const double far_m = 3.0 + 40.0 * std::abs(even(random));
+    const glm::dvec3 at = lamp_m + turn * glm::dvec3(far_m, 0.6 * far_m * even(random), 0.2 * far_m * even(random));
+    triangles.push_back({glm::vec3(at), glm::vec3(at + anywhere(0.1)), glm::vec3(at + anywhere(0.1))});
+  }
+  ASSERT_GT(parts_of_casters(3 * kThird), 1u);
+  ASSERT_EQ(parts_of_casters(kThird), 1u);
+  const auto cast_by = [&](const std::vector<Corners>& some) {
+    return ShadowCasters(scene_of(some)).by(LampReach(lamp_m, turn, {{1.0, 0.0, 0.0}, 1.3}), turn);
+  };
+  const CastBy all = cast_by(triangles);
+  const glm::dvec2 half = half_sides(all.part), texel = half / glm::dvec2(255.0, 127.0);
+  const CasterGrid grid(all, half, texel, 4.0);
+  std::vector<CasterGrid> of_thirds;
+  std::vector<glm::vec3> corners;
+  std::size_t count = 0;
+  for (std::size_t third = 0; third < 3; ++third) {
+    const auto begin = triangles.begin() + static_cast<std::ptrdiff_t>(third * kThird);
+    const CastBy cast = cast_by({begin, begin + kThird});
+    count += cast.count;
+    corners.insert(corners.end(), cast.both_sides.corners.begin(), cast.both_sides.corners.end());
+    of_thirds.emplace_back(cast, half, texel, 4.0);
+  }
+  EXPECT_EQ(all.count, count);
+  EXPECT_GT(count, 10'000u);
+  EXPECT_EQ(all.both_sides.corners, corners);
+  std::size_t clear = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const glm::dvec3 middle_m =
+        lamp_m + turn * glm::dvec3(25.0 + 24.0 * even(random), 15.0 * even(random), 3.0 * even(random));
+    const glm::dvec3 half_m = glm::abs(anywhere(0.3));
+    const BoxCorners box = box_corners(glm::transpose(turn), lamp_m, middle_m - half_m, middle_m + half_m);
+    const bool told = grid.may_shade(box);
+    ASSERT_EQ(told, std::ranges::any_of(of_thirds, [&](const CasterGrid& of) { return of.may_shade(box); })) << i;
+    clear += told ? 0 : 1;
+  }
+  EXPECT_GT(clear, 100u);
+  EXPECT_LT(clear, 19'900u);
 }
 
 // A box that something shades is never told clear, wherever it and what casts are; most boxes before and beside it are.

@@ -343,12 +343,15 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
   if (maps.empty()) return;
   std::vector<Shade> shades(maps.size());
   std::vector<Drawn> drawn(maps.size());
-  on_all_cores(maps.size(), [&](std::size_t i) {
+  on_all_cores(2 * maps.size(), [&](std::size_t turn) {
+    const std::size_t i = turn / 2;
     const PlacedLamp& lamp = view.lit_lamps[maps[i].lamp];
     const CastBy& cast = view.casts[maps[i].lamp];
-    drawn[i] = drawn_into(maps[i], cast, level, scene.has_textures());
-    shades[i] = {glm::transpose(lamp.world_from_image), lamp.position_m,
-                 CasterGrid(cast, maps[i].half, 1.0 / maps[i].texels, maps[i].zoom)};
+    if (turn % 2 == 0)
+      shades[i] = {glm::transpose(lamp.world_from_image), lamp.position_m,
+                   CasterGrid(cast, maps[i].half, 1.0 / maps[i].texels, maps[i].zoom)};
+    else
+      drawn[i] = drawn_into(maps[i], cast, level, scene.has_textures());
   });
   tell_shadowed(view, shades);
   ShadowDepths& depths = depths_of(maps.size() * texels_of_map(level));
