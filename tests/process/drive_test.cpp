@@ -214,12 +214,22 @@ TEST_F(DriveTest, WeatherThatBeginsInADriveMakesNoPipeline) {
     ASSERT_EQ(control({"set", setting, value}), 0) << setting;
     draws(setting, value);
   }
+  // The car comes from afar, and the frame that shows it there first may be the one that follows the desk, too.
+  ASSERT_EQ(control({"set", "snow_mmph", "0"}), 0);
+  for (int tenth = 0; tenth < 10; ++tenth) {
+    ASSERT_EQ(control({"seek", "10"}), 0);
+    draws("seek", "10");
+    ASSERT_EQ(control({"seek", "52"}), 0);
+    std::this_thread::sleep_for(tenth * std::chrono::milliseconds(6));  // frames are 16.7 ms apart, poses kept back 50
+    ASSERT_EQ(control({"set", "visibility_m", tenth % 2 == 0 ? "clear" : "80"}), 0);
+    draws("seek", "52");
+  }
   ASSERT_EQ(control({"quit"}), 0);
   ASSERT_EQ(run.wait(), 0);
   const json visual = report_of(out)["processes"]["visual-0"];
   EXPECT_EQ(visual["made_in_the_drive"]["pipelines"], 0) << visual["made_in_the_drive"];
   EXPECT_EQ(visual["made_in_the_drive"]["beside_the_frames"], 0) << visual["made_in_the_drive"];
-  EXPECT_GT(visual["frames"], 2 + 3 * (13 + 4));
+  EXPECT_GT(visual["frames"], 2 + 3 * (13 + 4 + 20));
   std::ifstream rows(out / "drive.csv");
   std::size_t with_fog_lamps = 0;
   for (std::string row; std::getline(rows, row);)

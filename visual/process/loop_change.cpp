@@ -113,7 +113,7 @@ std::vector<Loop::Rehearsed> Loop::rehearsals() const {
   return all;
 }
 
-/// Where the car was in the frame before.
+/// Where the car and its camera are now, after a seek far from where others were in the frame before.
 Rehearsal Loop::rehearse(const Rehearsed& as, const Moment& moment) {
   FrameInput next = input_;
   next.part = {};

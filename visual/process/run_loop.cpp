@@ -229,10 +229,10 @@ void Loop::draw(const Moment& moment) {
   Desk compared = s_.desk;  // until the picture has left a comparison
   if (!s_.options.lockstep && compared.compare == Compare::kOff) compared.compare = shown_.compare;
   upload(versus_.follow(compared, s_.lamps, moment.controls));
-  follow_desk(moment);
-  set_by_desk(input_, shown_);
   const CameraEye eye = first_eye(s_.desk);
   input_.camera = camera_of(eye, seen_by(eye, s_.channel(), s_.lamps, moment.car.pose, &measuring_.road()));
+  follow_desk(moment);
+  set_by_desk(input_, shown_);
   input_.part = {};
   input_.falling = falling_past(eye, moment.car.pose, moment.time);
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(shown_, moment.time);
