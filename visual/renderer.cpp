@@ -336,6 +336,7 @@ Rehearsal Renderer::rehearse(const FrameInput& input, std::size_t most, bool aud
   gpu::Image* display = nullptr;
   const std::uint64_t before = *impl_->device.pipelines_made;
   impl_->scene.begin_rehearsal(most);
+  const std::uint64_t taken = *impl_->device.pipelines_made - before;
   std::size_t left = 0;
   try {
     impl_->submissions.submit_and_wait([&] {
@@ -347,7 +348,7 @@ Rehearsal Renderer::rehearse(const FrameInput& input, std::size_t most, bool aud
     (void)impl_->scene.end_rehearsal();
     throw;
   }
-  return {*impl_->device.pipelines_made - before, left};
+  return {*impl_->device.pipelines_made - before - taken, taken, left};
 }
 
 bool Renderer::is_making() const {

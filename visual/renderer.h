@@ -173,7 +173,8 @@ struct FrameResult {
 
 /// What a rehearsal of a frame has made, and how many pipelines are left to make or to draw with.
 struct Rehearsal {
-  std::uint64_t made = 0;
+  std::uint64_t made = 0;   ///< for itself
+  std::uint64_t taken = 0;  ///< made beside the frames since the one before, whatever that was a rehearsal of
   std::size_t left = 0;
 
   /// A frame like it finds all that it takes.

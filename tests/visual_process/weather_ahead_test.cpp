@@ -51,7 +51,7 @@ TEST(LightsAhead, BeginWithThatWhichShinesAndNameEachOnce) {
   shining.light_switch = LightSwitch::kLow;
   shining.design_index = 2;
   const std::vector<CockpitState> lights = lights_ahead(shining);
-  ASSERT_EQ(lights.size(), 4u) << "low and high, each with fog lamps and without";
+  ASSERT_EQ(lights.size(), 5u) << "low and high, each with fog lamps and without, and none";
   EXPECT_EQ(lights.front(), shining);
   EXPECT_TRUE(lights[1].fog_front) << "most likely next";
   EXPECT_EQ(lights[1].light_switch, LightSwitch::kLow);
@@ -60,7 +60,7 @@ TEST(LightsAhead, BeginWithThatWhichShinesAndNameEachOnce) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(lights[i], lights[j]);
   }
   shining.light_switch = LightSwitch::kPosition;
-  EXPECT_EQ(lights_ahead(shining).size(), 6u) << "position lamps with fog lamps and without, besides";
+  EXPECT_EQ(lights_ahead(shining).size(), 7u) << "position lamps with fog lamps and without, besides";
 }
 
 TEST(WeatherAhead, IsMadeWhereADriveMayComeToIt) {

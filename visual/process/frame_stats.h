@@ -90,6 +90,7 @@ struct FrameStats {
   std::uint64_t pipelines_made = 0;
   double longest_making_ms = 0.0;
   std::uint64_t kinds_followed = 0;       ///< pictures of another kind, when what they take was made beside the frames
+  std::uint64_t kinds_complete = 0;       ///< of which nothing is left to make, whatever light is switched on
   std::uint64_t pipelines_rehearsed = 0;  ///< for them
   double longest_rehearsal_ms = 0.0;      ///< between two frames
   FrameResult newest;

@@ -70,7 +70,12 @@ class Loop {
   void finish_change(const Moment& moment);
   bool is_rehearsed(const Moment& moment);
   struct Rehearsed;
+  bool is_made(const Desk& desk) const;
+  void give_up_change();
+  std::vector<Rehearsed> rehearsals_by_this_light() const;
   std::vector<Rehearsed> rehearsals() const;
+  std::vector<CockpitState> other_lights(const Moment& moment) const;
+  std::vector<PlacedLamp> placed_by(const CockpitState& light, const VehicleState& pose);
   Rehearsal rehearse(const Rehearsed& as, const Moment& moment);
   void light_up(const CockpitState& controls);
   void upload(const std::vector<Lamps::Change>& changes);
@@ -179,10 +184,15 @@ class Loop {
     Clock::time_point asked;
     std::size_t done = 0;                         ///< of rehearsals()
     std::uint64_t rehearsals = 0, pipelines = 0;  ///< that found something to make, and made
-    std::size_t at_once = 1;  ///< to draw with in the next rehearsal
+    std::size_t at_once = 1;                      ///< to draw with in the next rehearsal
+    bool followed = false;                        ///< by the picture; what is left is what the drive may come to
+    std::vector<CockpitState> lights{};
+    std::unique_ptr<Lamps> lamps{};  ///< by one of `lights`
+    Clock::time_point rests_until{};
   };
   std::optional<Change> change_;
   bool half_made_ = false;             ///< a change was given up before all was made
+  std::vector<Desk> made_;             ///< kinds of picture of which nothing is left to make
   std::vector<Traffic::There> users_;  // other road users in this frame
   std::unique_ptr<Panel> panel_;       // from when it is first shown
   std::vector<PanelCommand> panel_asked_;

@@ -205,6 +205,7 @@ void Loop::warm_up() {
   input.want_image = s_.album.wanted();
   draw(shown_by_desk(s_.desk, controls_to_show(s_.bus, Clock::now())));
   s_.lamps.begin_counting();
+  if (thorough) made_.push_back(s_.desk);
   if (!ended_) spdlog::info("ready after {:.1f} s", std::chrono::duration<double>(Clock::now() - begin).count());
 }
 

@@ -9,6 +9,7 @@
 #include "visual/process/loop.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/picture_kind.h"
+#include "visual/process/weather_ahead.h"
 
 namespace phare {
 
@@ -19,6 +20,9 @@ namespace {
 constexpr std::size_t kMostAtOnce = 4;
 constexpr double kShortWhile_ms = 20.0;
 
+/// Lights that nobody may switch to are made ready in a fifth of the time.
+constexpr int kRests = 4;
+
 }  // namespace
 
 /// What a picture of the kind that is asked for may come to, once the drive goes on.
@@ -26,6 +30,7 @@ struct Loop::Rehearsed {
   std::size_t others = 0;  ///< lamps of others
   bool glare = false, shadows = true;
   bool above = false;  ///< seen by parallel rays
+  std::optional<CockpitState> light{};  ///< of one's own lamps; none: as they shine
 };
 
 /// A picture of another kind may take pipelines that no picture before took, tenths of a second for all of them: they
@@ -44,22 +49,31 @@ void Loop::follow_desk(const Moment& moment) {
   shown_ = s_.desk;
 }
 
+bool Loop::is_made(const Desk& desk) const {
+  return std::ranges::any_of(made_, [&](const Desk& made) { return same_kind(made, desk); });
+}
+
+/// A change that is given up may leave a kind half made, by which the next one can not tell what is there.
+void Loop::give_up_change() {
+  half_made_ = half_made_ || (change_->rehearsals > 0 && !change_->followed);
+  change_.reset();
+}
+
 /// For the picture that the desk asks for, as it would be drawn now.
 bool Loop::is_ready(const Moment& moment) {
   constexpr std::size_t kNow = 2;  // of rehearsals(): with shadows and without
-  if (!change_ || !same_kind(change_->to, s_.desk)) {
-    half_made_ = half_made_ || (change_ && change_->rehearsals > 0);
-    change_ = Change{.to = s_.desk, .asked = Clock::now()};
-  }
+  if (change_ && !same_kind(change_->to, s_.desk)) give_up_change();
+  if (is_made(s_.desk)) return true;
+  if (!change_) change_ = Change{.to = s_.desk, .asked = Clock::now(), .lights = other_lights(moment)};
   Change& change = *change_;
   if (s_.renderer.is_making() && change.rehearsals > 0) return false;
   while (change.done < kNow) {
     if (!is_rehearsed(moment)) return false;
-    // All of a kind is made at once: where one picture of it is there, and nothing was left half made, all are.
-    if (change.rehearsals > 0 || half_made_) continue;
-    change_.reset();
-    return true;
+    // All of a kind is made at once: where one picture of it is there, and nothing was left half made, all are, but for
+    // other lights.
+    if (change.rehearsals == 0 && !half_made_) change.done = rehearsals_by_this_light().size();
   }
+  change.followed = true;
   if (change.rehearsals == 0) return true;
   ++s_.stats.kinds_followed;
   spdlog::info(
@@ -71,11 +85,12 @@ bool Loop::is_ready(const Moment& moment) {
 /// The picture has followed: what the drive may come to in it, one step a frame.
 void Loop::finish_change(const Moment& moment) {
   if (!same_kind(change_->to, s_.desk)) {  // it was given up before it was shown
-    half_made_ = half_made_ || change_->rehearsals > 0;
-    change_.reset();
+    give_up_change();
   } else if (change_->done == rehearsals().size()) {
+    made_.push_back(change_->to);
+    ++s_.stats.kinds_complete;
     change_.reset();
-  } else if (!s_.renderer.is_making()) {
+  } else if (!s_.renderer.is_making() && Clock::now() >= change_->rests_until) {
     (void)is_rehearsed(moment);
   }
 }
@@ -84,24 +99,26 @@ void Loop::finish_change(const Moment& moment) {
 bool Loop::is_rehearsed(const Moment& moment) {
   const Clock::time_point begin = Clock::now();
   Change& change = *change_;
-  const Rehearsal rehearsal = rehearse(rehearsals()[change.done], moment);
+  const Rehearsed next = rehearsals()[change.done];
+  const Rehearsal rehearsal = rehearse(next, moment);
+  if (next.light) change.rests_until = Clock::now() + kRests * (Clock::now() - begin);
+  const double took_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  change.pipelines += rehearsal.made + rehearsal.taken;
+  s_.stats.pipelines_rehearsed += rehearsal.made + rehearsal.taken;
+  s_.stats.longest_rehearsal_ms = std::max(s_.stats.longest_rehearsal_ms, took_ms);
   if (rehearsal.ready()) {
-    ++change.done;
+    ++change.done, change.at_once = 1;
     return true;
   }
-  const double took_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   const bool short_while = took_ms < std::max(kShortWhile_ms, s_.stats.newest.wall_ms);
   ++change.rehearsals;
-  change.pipelines += rehearsal.made;
   change.at_once = short_while ? std::min(2 * change.at_once, kMostAtOnce) : 1;
-  s_.stats.pipelines_rehearsed += rehearsal.made;
-  s_.stats.longest_rehearsal_ms = std::max(s_.stats.longest_rehearsal_ms, took_ms);
   return false;
 }
 
 /// As it would be drawn now, with something that stands in the beams and with nothing; then with what a drive comes to:
 /// lamps of others, and their glare; and from above.
-std::vector<Loop::Rehearsed> Loop::rehearsals() const {
+std::vector<Loop::Rehearsed> Loop::rehearsals_by_this_light() const {
   std::vector<Rehearsed> all;
   const std::size_t others = s_.traffic.empty() ? 0 : Traffic::kMostLamps;
   const bool glares = s_.desk.glare != std::size_t{0} && (!s_.traffic.empty() || s_.fixed_light->street_lamps() > 0);
@@ -111,6 +128,42 @@ std::vector<Loop::Rehearsed> Loop::rehearsals() const {
         if (glares || !glare) all.push_back({lamps, glare, shadows});
   all.push_back({.above = true});
   return all;
+}
+
+std::vector<Loop::Rehearsed> Loop::rehearsals() const {
+  std::vector<Rehearsed> all = rehearsals_by_this_light();
+  for (const CockpitState& light : change_->lights)
+    for (const bool shadows : {true, false}) all.push_back({.shadows = shadows, .light = light});
+  return all;
+}
+
+/// The lights that a person may switch to, and those of other designs. None where two designs are compared: both are
+/// there.
+std::vector<CockpitState> Loop::other_lights(const Moment& moment) const {
+  if (versus_.lamps() != nullptr) return {};
+  const CockpitState shining = shown_by_desk(s_.desk, moment.controls);
+  std::vector<CockpitState> lights = lights_ahead(shining);
+  lights.erase(lights.begin());
+  for (std::uint32_t design = 0; design < s_.lamps.designs().size(); ++design) {
+    if (design == s_.lamps.design_index()) continue;
+    lights.push_back(shining);
+    lights.back().design_index = design;
+  }
+  return lights;
+}
+
+/// One's own lamps by another light, with beams where those of another design are when two are compared.
+std::vector<PlacedLamp> Loop::placed_by(const CockpitState& light, const VehicleState& pose) {
+  if (!change_->lamps) {
+    change_->lamps = std::make_unique<Lamps>(s_.lamps);
+    change_->lamps->forget_shown();
+  }
+  std::vector<Lamps::Change> changes = change_->lamps->set_controls(light);
+  for (Lamps::Change& change : changes) change.position += Versus::kFirstBeam;
+  upload(changes);
+  std::vector<PlacedLamp> lamps = change_->lamps->placed(pose);
+  for (PlacedLamp& lamp : lamps) lamp.beam += Versus::kFirstBeam;
+  return lamps;
 }
 
 /// Where the car and its camera are now, after a seek far from where others were in the frame before.
@@ -130,7 +183,9 @@ Rehearsal Loop::rehearse(const Rehearsed& as, const Moment& moment) {
   std::ranges::copy_if(next.lamps, std::back_inserter(of_others),
                        [](const PlacedLamp& lamp) { return lamp.beam == Traffic::kBeam; });
   if (as.others > 0) of_others.assign(as.others, {next.camera.eye_m, next.camera.world_from_eye, Traffic::kBeam});
-  next.lamps = s_.lamps.placed(moment.car.pose);
+  next.lamps = as.light ? placed_by(*as.light, moment.car.pose) : s_.lamps.placed(moment.car.pose);
+  // Many lights have as many lamps: one reading of tables serves them, but for that which comes next most likely.
+  if (as.light && as.light->light_switch != moment.controls.light_switch) next.shapes = ShapesFrom::kFrame;
   next.lamps.insert(next.lamps.end(), of_others.begin(), of_others.end());
   if (as.glare) next.glare = {{next.camera.eye_m + 10.0 * next.camera.world_from_eye[0], 1.0}};
   if (!as.shadows) next.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;

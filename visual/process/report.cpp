@@ -66,6 +66,7 @@ nlohmann::json report_json(const Session& session, SimTime now) {
                                  {"frames", stats.making_frames},
                                  {"longest_frame_ms", stats.longest_making_ms},
                                  {"kinds_followed", stats.kinds_followed},
+                                 {"kinds_complete", stats.kinds_complete},
                                  {"beside_the_frames", stats.pipelines_rehearsed},
                                  {"longest_between_frames_ms", stats.longest_rehearsal_ms}};
   report["draws"] = stats.newest.draws;

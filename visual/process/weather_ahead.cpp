@@ -55,6 +55,7 @@ std::vector<CockpitState> lights_ahead(const CockpitState& shining) {
   add(shining.light_switch, !shining.fog_front);
   for (const LightSwitch light : {LightSwitch::kLow, LightSwitch::kHigh})
     for (const bool fog_front : {false, true}) add(light, fog_front);
+  add(LightSwitch::kOff, false);
   return lights;
 }
 

@@ -33,7 +33,7 @@ std::vector<WeatherAhead> weathers_ahead(const Desk& desk);
 std::vector<WeatherAhead> weathers_for_lights(const Desk& desk);
 
 /// The lights that a person may switch to, of the design that shines: first that which shines, then the same with the
-/// front fog lamps the other way, then low and high beam without them and with.
+/// front fog lamps the other way, then low and high beam without them and with, then none.
 std::vector<CockpitState> lights_ahead(const CockpitState& shining);
 
 /// Whether they are made ready: as the desk says; by itself in a window, where a person may set weather, and where the
