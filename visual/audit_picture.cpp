@@ -19,7 +19,7 @@ vk::Extent2D extent_for(const vk::Extent2D& picture) {
 
 LitView lit_view(LitScene& scene, const ViewInput& view, const vk::Extent2D& extent) {
   const ViewGeometry geometry(view.camera, static_cast<double>(extent.width) / extent.height);
-  LitView lit = scene.view(geometry, sky_of(view), view.lamps, view.moving, view.far_mesh_from_m, {});
+  LitView lit = scene.view(geometry, sky_of(view), view.lamps, view.moving, view.far_mesh_from_m, {}, view.few_kinds);
   lit.method = view.method;
   lit.area = vk::Rect2D{{0, 0}, extent};
   return lit;

@@ -90,9 +90,8 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   // What is seen, by which lamps.
   const double aspect = static_cast<double>(view.area.extent.width) / static_cast<double>(view.area.extent.height);
   LitView lit = parts.scene.view(ViewGeometry(view.input.camera, aspect), sky_of(view.input), view.input.lamps,
-                                 view.input.moving, far_mesh_from_m(view), view.input.isolux_lx);
+                                 view.input.moving, far_mesh_from_m(view), view.input.isolux_lx, view.input.few_kinds);
   lit.method = view.input.method;
-  lit.map_each_lamp = view.input.map_each_lamp;
   lit.area = view.area;
 
   // What that calls for, and the images it takes.

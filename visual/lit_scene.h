@@ -117,7 +117,7 @@ struct LitView {
   std::vector<LitBy> lit_by{};           ///< one at least
   std::vector<PlacedLamp> lit_lamps{};   ///< that light something in it
   std::vector<CastBy> casts{};           ///< what stands in the light of each
-  bool map_each_lamp = false;            ///< as ViewInput
+  bool few_kinds = false;                ///< as ViewInput
   ShadowLevel shadows{};                 ///< of the maps that are read
   const ShadowDepths* depths = nullptr;
   std::vector<PlacedLamp> air_lamps{};  ///< whose light goes through what the view sees, on a surface or not
@@ -207,8 +207,10 @@ class LitScene {
   }
   /// A view of the scene with those of the lamps that reach something in it. Up to kLampsForAll light all that it sees;
   /// of more, each block is lit by those that reach it: fewer to sum, at the price of a pipeline for every number.
+  /// `few_kinds`: as ViewInput.
   LitView view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps,
-               std::span<const PlacedMesh> moving, double far_mesh_from_m, std::span<const double> isolux_lx);
+               std::span<const PlacedMesh> moving, double far_mesh_from_m, std::span<const double> isolux_lx,
+               bool few_kinds = false);
   /// An eye with lamps and no surface, for points that are given.
   LitView view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps);
   /// Finds what stands in the light of the view's lamps; returns how many pieces of the scene.
@@ -270,7 +272,6 @@ class LitScene {
   static constexpr std::uint32_t kViewsInPage = 16;
   static constexpr std::size_t kProbesInPage = 256;
   static constexpr std::size_t kMostSets = 256;  ///< kept from frame to frame
-  static constexpr std::size_t kLampsForAll = 4;
   static constexpr std::size_t kNoBeam = SIZE_MAX;
   using Beams = std::array<std::size_t, shader::kMaxLamps>;
 

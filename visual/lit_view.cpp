@@ -4,6 +4,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -13,8 +14,9 @@
 namespace phare {
 
 LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<const PlacedLamp> lamps,
-                       std::span<const PlacedMesh> moving, double far_mesh_from_m, std::span<const double> isolux_lx) {
-  LitView view{.geometry = geometry, .sky = sky, .isolux_lx = isolux_lx};
+                       std::span<const PlacedMesh> moving, double far_mesh_from_m, std::span<const double> isolux_lx,
+                       bool few_kinds) {
+  LitView view{.geometry = geometry, .sky = sky, .isolux_lx = isolux_lx, .few_kinds = few_kinds};
   std::optional<Horizon> horizon;
   if (std::isfinite(far_mesh_from_m) && geometry.camera().orthographic_width_m <= 0.0)
     horizon.emplace(geometry_.ground, geometry.camera().eye_m);
@@ -22,19 +24,27 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
   view.items = geometry_.visible(geometry, far_mesh_from_m, hides);
   view.moving = moving;
   if (!moving.empty()) geometry_.add_visible(view.items, view.moved, geometry, moving, hides);
+  std::vector<bool> reached;
+  std::vector<PlacedLamp> bright;
   for (const PlacedLamp& lamp : lamps) {
     if (is_dark(lamp.beam)) continue;
+    bright.push_back(lamp);
     const LampReach reach = reach_of(lamp);
     const bool in_air = reach.meets(geometry);
     if (in_air) view.air_lamps.push_back(lamp);
     const bool reaches = in_air && std::ranges::any_of(view.items, [&](const DrawItem& item) {
                            return reach.meets(item.batch->low_m, item.batch->high_m);
                          });
-    if (reaches)
-      view.lit_lamps.push_back(lamp);
-    else
-      ++view.unreached;
+    reached.push_back(reaches);
   }
+  // By few kinds those after the first, which are a pair of another vehicle, light what is seen both or neither.
+  if (few_kinds && bright.size() > kLampsForAll && bright.size() <= shader::kMaxLamps) {
+    const auto after = reached.begin() + kLampsForAll;
+    std::fill(after, reached.end(), std::find(after, reached.end(), true) != reached.end());
+  }
+  for (std::size_t i = 0; i < bright.size(); ++i)
+    if (reached[i]) view.lit_lamps.push_back(bright[i]);
+  view.unreached += static_cast<std::uint32_t>(std::ranges::count(reached, false));
   view.lamps = static_cast<std::uint32_t>(view.lit_lamps.size());
   if (view.lamps > kLampsForAll) {
     light_by_block(view);
@@ -77,6 +87,10 @@ void LitScene::light_by_block(LitView& view) {
       for (std::size_t i = shader::kMaxLamps; i < here.size(); ++i) left_out[here[i]] = true;
       here.resize(shader::kMaxLamps);
       std::ranges::sort(here);
+    }
+    if (view.few_kinds && lamps.size() <= shader::kMaxLamps) {
+      here.resize(here.empty() || here.back() < kLampsForAll ? kLampsForAll : lamps.size());
+      std::iota(here.begin(), here.end(), std::size_t{0});
     }
     const auto [set, fresh] = sets.try_emplace(here, view.lit_by.size());
     if (fresh) {

@@ -66,6 +66,8 @@ struct PlacedLamp {
 /// So many lamps light one draw at most, which is a block of the scene where a view has many. Those that reach nothing
 /// of it do not count.
 inline constexpr std::size_t kLampsPerDraw = shader::kMaxLamps;
+/// So many light all that a view sees; of more, each block of the scene is lit by those that reach it.
+inline constexpr std::size_t kLampsForAll = 4;
 
 /// Blocks of the scene farther than this are drawn with fewer triangles: their errors are made for this distance.
 constexpr double kFarMeshFrom_m = 150.0;
@@ -106,9 +108,10 @@ struct ViewInput {
   Viewer viewer{};                                                                  ///< whose eye it is
   bool want_hdr = false;    ///< the view's HDR image is called for (EXR): adds the tone-mapping pass
   bool want_image = false;  ///< read what is seen back
-  /// Where one lamp has a shadow map, each has one, be it empty. The same picture, by fewer kinds of pipelines: none
-  /// has to be made when something comes into the beam of one lamp and not of another.
-  bool map_each_lamp = false;
+  /// The same picture by fewer kinds of pipelines, so that none has to be made for where something stands or how far
+  /// lamps of others reach. Where one lamp has a shadow map, each has one, be it empty. Of more lamps than four, a
+  /// block of the scene is lit by the first four or by all.
+  bool few_kinds = false;
   PicturePart part{};
   std::optional<PictureSize> own_picture{};  ///< 1 to 16384 pixels a side; else it is drawn into the frame's picture
   EffectChoices effects{};                   ///< levels that the user has set; else the facts of the view decide

@@ -155,7 +155,7 @@ std::int64_t newest_picture(const fs::path& out) {
 
 /// Once so many kinds of picture are complete, as the report says that a running drive writes.
 bool wait_for_kinds(const fs::path& out, std::uint64_t kinds) {
-  for (int tenths = 0; tenths < 600; ++tenths) {
+  for (int tenths = 0; tenths < 10 * kPatience.count(); ++tenths) {
     std::ifstream stats(out / "visual-0.json");
     const json now = json::parse(stats, nullptr, false);
     if (now.is_object() && now["made_in_the_drive"]["kinds_complete"] >= kinds) return true;
@@ -210,6 +210,27 @@ TEST_F(DriveTest, MeetingOthersMakesNoPipeline) {
   ASSERT_EQ(run.wait(), 0);
   const json visual = report_of(out)["processes"]["visual-0"];
   EXPECT_EQ(visual["made_in_the_drive"]["pipelines"], 0) << visual["made_in_the_drive"];
+}
+
+// Front fog lamps among the lamps of others, of which nothing was made ready: who comes lights the road when that is.
+TEST_F(DriveTest, FrontFogLampsAmongOthersMakeNoPipeline) {
+  const fs::path out = folder_ / "fog_among_others", script = folder_ / "fog.toml";
+  std::ifstream without(source_dir() + "/config/drives/motorway_script.toml");
+  std::ofstream(script) << without.rdbuf() << "\n[[event]]\nat_s_m = 20\nfog = true\n";
+  DriveRun run(
+      out, folder_ / "home",
+      {"--frames", "100000", "--rig", source_dir() + "/config/rigs/motorway.toml", "--script", script.string()},
+      /*lockstep=*/false);
+  ASSERT_TRUE(run.wait_for_frame(2));
+  std::this_thread::sleep_for(std::chrono::seconds(12));
+  ASSERT_EQ(control({"quit"}), 0);
+  ASSERT_EQ(run.wait(), 0);
+  std::ifstream rows(out / "drive.csv");
+  const std::string lit{std::istreambuf_iterator<char>(rows), {}};
+  EXPECT_NE(lit.find("\"low fog\""), std::string::npos);
+  const json visual = report_of(out)["processes"]["visual-0"];
+  EXPECT_EQ(visual["made_in_the_drive"]["pipelines"], 0) << visual["made_in_the_drive"];
+  EXPECT_GT(visual["made_in_the_drive"]["beside_the_frames"], 0) << visual["made_in_the_drive"];
 }
 
 // Weather that begins in a drive switches within one frame, for which nothing is left to make.

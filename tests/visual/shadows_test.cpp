@@ -327,7 +327,7 @@ TEST_F(Shadows, InTheBeamOfOneLampAreDrawnAsInThoseOfBoth) {
   shape.box({20, -1, 0}, {21, 1, 2});
   ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
   FrameInput both = view_of_the_road();
-  both.want_image = both.map_each_lamp = true;
+  both.want_image = both.few_kinds = true;
   const FrameResult of_both = renderer->draw(both);
   FrameInput one = both;
   one.lamps.back().position_m = {21.5, -0.62, 0.65};  // the box is behind it
@@ -336,13 +336,13 @@ TEST_F(Shadows, InTheBeamOfOneLampAreDrawnAsInThoseOfBoth) {
   EXPECT_EQ(each.image_bytes, of_both.image_bytes);
   const std::vector<std::uint8_t> expected = renderer->read_image().rgba;
 
-  one.map_each_lamp = false;
+  one.few_kinds = false;
   const FrameResult alone = renderer->draw(one);
   EXPECT_LT(alone.image_bytes, each.image_bytes) << "one map";
   EXPECT_EQ(renderer->read_image().rgba, expected);
 
   // Where nothing stands in any beam there is none to read.
-  one.map_each_lamp = true;
+  one.few_kinds = true;
   for (PlacedLamp& lamp : one.lamps) lamp.position_m.x = 21.5;
   EXPECT_EQ(renderer->draw(one).effects.level(Effect::kShadows), 0u);
 }

@@ -348,6 +348,43 @@ TEST(ViewLamps, ManyLampsLightEachBlockThatTheyReach) {
   EXPECT_EQ(renderer.validation_messages(), 0u);
 }
 
+// A pair of lamps of another vehicle beside four: where one of the two reaches what is seen no more, no pipeline is
+// made for it, and the picture is the same.
+TEST(ViewLamps, ByFewKindsAPairTakesNoPipelineForHowFarItReaches) {
+  Renderer renderer = made(kFrameWidth, kFrameHeight);
+  FrameInput four = driver_view();
+  four.want_image = four.few_kinds = true;
+  for (const double dz_m : {0.1, 0.2})
+    for (const PlacedLamp& lamp : driver_view().lamps) {
+      four.lamps.push_back(lamp);
+      four.lamps.back().position_m.z += dz_m;
+    }
+  four.lamps.resize(4);
+  renderer.draw(four);
+  FrameInput six = four;
+  for (const double y_m : {2.0, 3.0}) {
+    six.lamps.push_back(four.lamps.front());
+    six.lamps.back().position_m += glm::dvec3(30.0, y_m, 0.0);
+  }
+  EXPECT_EQ(renderer.draw(six).views.front().lamps, 6u);
+  const Image8 by_both = renderer.read_image();
+
+  FrameInput five = six;
+  five.lamps.back().world_from_image = aim_rotation(std::numbers::pi, 0.0, 0.0);
+  five.lamps.back().position_m.x = -4.0;
+  const FrameResult few = renderer.draw(five);
+  EXPECT_EQ(few.pipelines_made, 0u);
+  const Image8 by_one = renderer.read_image();
+  EXPECT_GT(different(by_one, by_both), 1000u);
+
+  five.few_kinds = false;
+  const FrameResult many = renderer.draw(five);
+  EXPECT_GT(many.pipelines_made, 0u);
+  EXPECT_EQ(many.views.front().lamps_unreached, 1u);
+  EXPECT_EQ(different(renderer.read_image(), by_one), 0u);
+  EXPECT_EQ(renderer.validation_messages(), 0u);
+}
+
 // What a surface does with light is no part of its illuminance: of false colours all kinds of surface are one.
 TEST(ViewLamps, LuxByColourIsOfOneKindOfSurface) {
   Renderer renderer = made(kFrameWidth, kFrameHeight);

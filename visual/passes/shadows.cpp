@@ -77,7 +77,7 @@ struct Map {
 std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t most) {
   std::vector<Map> maps;
   double zoom = HUGE_VAL;
-  const bool each = view.map_each_lamp && view.casts.size() <= most && casters_of_all(view.casts) > 0;
+  const bool each = view.few_kinds && view.casts.size() <= most && casters_of_all(view.casts) > 0;
   for (std::size_t lamp = 0; lamp < view.casts.size(); ++lamp) {
     const bool casts = view.casts[lamp].count > 0;
     if (!casts && !each) continue;

@@ -1,14 +1,16 @@
 // The loop of the visual process, inside: what one turn of it does, verb by verb. run_loop.cpp has the loop itself and
 // how a frame is chosen and drawn, loop_begin.cpp what comes before the first, loop_judge.cpp what is measured in
 // pictures, loop_keep.cpp what is left of them, loop_panel.cpp the mouse and
-// the panel, loop_change.cpp how the picture follows the desk.
+// the panel, loop_change.cpp how the picture follows the desk, loop_lamps.cpp which lamps are in it.
 #pragma once
 
 #include <chrono>
 #include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "net/control_desk.h"
@@ -69,14 +71,31 @@ class Loop {
   bool is_ready(const Moment& moment);
   void finish_change(const Moment& moment);
   bool is_rehearsed(const Moment& moment);
-  struct Rehearsed;
+  /// What a picture of a kind may come to in the drive.
+  struct Rehearsed {
+    std::optional<std::size_t> others{};  ///< lamps of others; none: those that shine now
+    std::optional<bool> glare{};          ///< none: what glares now
+    bool shadows = true;
+    bool above = false;                   ///< seen by parallel rays
+    std::optional<CockpitState> light{};  ///< of one's own lamps; none: as they shine
+  };
+  /// By rehearsals so far.
+  struct Making {
+    std::uint64_t rehearsals = 0, pipelines = 0;  ///< that found something to make, and made
+    std::size_t at_once = 1;                      ///< to draw with in the next one
+  };
+  bool is_rehearsed(const Rehearsed& as, const Desk& desk, Making& made, const Moment& moment);
+  CameraEye place_eye(const Moment& moment);
+  CockpitState light_to_show(const Moment& moment);
+  std::optional<FrameInput> without_new_lamps(const Moment& moment);
   bool is_made(const Desk& desk) const;
   void give_up_change();
+  std::vector<Rehearsed> rehearsals_now() const;
   std::vector<Rehearsed> rehearsals_by_this_light() const;
   std::vector<Rehearsed> rehearsals() const;
-  std::vector<CockpitState> other_lights(const Moment& moment) const;
+  std::vector<CockpitState> other_lights(const CockpitState& controls) const;
   std::vector<PlacedLamp> placed_by(const CockpitState& light, const VehicleState& pose);
-  Rehearsal rehearse(const Rehearsed& as, const Moment& moment);
+  Rehearsal rehearse(const Rehearsed& as, const Desk& desk, std::size_t at_once, const Moment& moment);
   void light_up(const CockpitState& controls);
   void upload(const std::vector<Lamps::Change>& changes);
   EffectChoices picked_effects() const;
@@ -178,21 +197,52 @@ class Loop {
   std::optional<Capture> capture_;
   FrameInput input_;
   Desk shown_ = s_.desk;  ///< as the picture shows it
+  /// Lamps by which a picture is lit, as far as pipelines are made for them.
+  struct LitWith {
+    std::uint32_t design = 0;
+    std::set<LampFunction> functions{};
+    std::size_t others = 0;  ///< lamps of others
+    bool glare = false;
+
+    friend auto operator<=>(const LitWith&, const LitWith&) = default;
+  };
   /// The desk asks, or has asked, for a picture that the device was not ready for.
   struct Change {
     Desk to;
     Clock::time_point asked;
-    std::size_t done = 0;                         ///< of rehearsals()
-    std::uint64_t rehearsals = 0, pipelines = 0;  ///< that found something to make, and made
-    std::size_t at_once = 1;                      ///< to draw with in the next rehearsal
-    bool followed = false;                        ///< by the picture; what is left is what the drive may come to
+    LitWith now{};         ///< when it was asked for
+    std::size_t done = 0;  ///< of rehearsals()
+    Making made{};
+    bool followed = false;  ///< by the picture; what is left is what the drive may come to
     std::vector<CockpitState> lights{};
-    std::unique_ptr<Lamps> lamps{};  ///< by one of `lights`
     Clock::time_point rests_until{};
   };
   std::optional<Change> change_;
   bool half_made_ = false;             ///< a change was given up before all was made
   std::vector<Desk> made_;             ///< kinds of picture of which nothing is left to make
+  std::unique_ptr<Lamps> other_light_;  ///< of a rehearsal
+  bool rehearsed_ = false;              ///< in this frame
+  using Kind = std::size_t;             ///< of picture: of kinds_
+  Kind shown_kind();
+  LitWith lit_with(const CockpitState& light, std::size_t others, bool glare) const;
+  void is_ready_for(const Rehearsed& as, const Moment& moment);
+  static std::vector<LitWith> comes_to(const LitWith& lit, std::size_t own);
+  bool may_show(const LitWith& lit, Rehearsed as, std::size_t own, const Moment& moment);
+  std::optional<LitWith> nearest_ready(const LitWith& lit, std::size_t own);
+  bool is_drawn(const LitWith& lit, const Rehearsed& as, const Moment& moment);
+  std::vector<Desk> kinds_;
+  std::set<std::pair<Kind, LitWith>> ready_for_;
+  LitWith lit_with_;    ///< in the newest frame
+  CockpitState light_;  ///< the same, of one's own lamps: the controls that it shows
+  std::vector<GlaringLamp> glare_before_;
+  /// What the picture waits for.
+  struct Awaited {
+    std::pair<Kind, LitWith> what;
+    Clock::time_point since;
+    bool shadows = true;  ///< what is rehearsed next
+    Making made{};
+  };
+  std::optional<Awaited> awaited_;
   std::vector<Traffic::There> users_;  // other road users in this frame
   std::unique_ptr<Panel> panel_;       // from when it is first shown
   std::vector<PanelCommand> panel_asked_;

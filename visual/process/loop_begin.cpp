@@ -74,7 +74,7 @@ Loop::Loop(Session& session)
   s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
   if (!session.options.lockstep) drawn_frames_ = std::max(session.album.frames_found(), drive_log_.frames_before());
   if (!session.options.lockstep && session.album.wanted()) session.album.write_beside();
-  if (!session.options.lockstep) input_.shapes = ShapesFrom::kEither, input_.map_each_lamp = true;
+  if (!session.options.lockstep) input_.shapes = ShapesFrom::kEither, input_.few_kinds = true;
   warm_up();
   announce();
   ready_ = Clock::now();
@@ -88,7 +88,7 @@ void Loop::warm_up() {
   const Clock::time_point begin = Clock::now();
   const VehicleState pose;
   FrameInput input;
-  input.map_each_lamp = input_.map_each_lamp;
+  input.few_kinds = input_.few_kinds;
   set_by_desk(input, s_.desk);
   input.camera = camera_of(first_eye(s_.desk), seen_by(first_eye(s_.desk), s_.channel(), s_.lamps, pose));
   const Camera first_camera = std::exchange(input.camera, overview_camera(s_.scene));
@@ -134,6 +134,11 @@ void Loop::warm_up() {
         s_.desk.glare != std::size_t{0} &&
         (met || beside || (last && thorough) || !s_.lamps.glare_at(pose, first_camera.eye_m, Scene{}, {}).empty());
     if (thorough && s_.options.audit_every > 0) s_.renderer.prepare_audit(input);
+    const auto is_ready = [&](std::size_t others, bool glare) {
+      if (thorough) ready_for_.insert({shown_kind(), lit_with(controls, others, glare)});
+    };
+    is_ready(0, false);
+    for (std::size_t lamps = 0; glaring && lamps <= (met ? Traffic::kMostLamps : 0); ++lamps) is_ready(lamps, true);
     // Without shadows and with them: the drive goes from one to the other as things come into the beams.
     std::optional<std::size_t>& shadows = input.effects[static_cast<std::size_t>(Effect::kShadows)];
     // The same for fog, where there is some to begin with, and of the light that the drive begins with.

@@ -223,14 +223,21 @@ std::vector<GlaringLamp> Loop::add_views(const Moment& moment, const Lamps& shin
   return {input_.glare.begin() + of_others, input_.glare.end()};
 }
 
+CameraEye Loop::place_eye(const Moment& moment) {
+  const CameraEye eye = first_eye(s_.desk);
+  input_.camera = camera_of(eye, seen_by(eye, s_.channel(), s_.lamps, moment.car.pose, &measuring_.road()));
+  return eye;
+}
+
 void Loop::draw(const Moment& moment) {
-  light_up(shown_by_desk(s_.desk, moment.controls));
+  rehearsed_ = false;
+  place_eye(moment);
+  light_up(light_to_show(moment));
   mind_the_lamps(moment.time);
   Desk compared = s_.desk;  // until the picture has left a comparison
   if (!s_.options.lockstep && compared.compare == Compare::kOff) compared.compare = shown_.compare;
   upload(versus_.follow(compared, s_.lamps, moment.controls));
-  const CameraEye eye = first_eye(s_.desk);
-  input_.camera = camera_of(eye, seen_by(eye, s_.channel(), s_.lamps, moment.car.pose, &measuring_.road()));
+  const CameraEye eye = place_eye(moment);  // the lamps may have been moved
   follow_desk(moment);
   set_by_desk(input_, shown_);
   input_.part = {};
@@ -288,7 +295,8 @@ void Loop::draw(const Moment& moment) {
                                                      input_.camera.eye_m, input_.air);
   }
   ask_audit(moment);
-  const FrameResult result = s_.renderer.draw(both ? halves : input_);
+  const std::optional<FrameInput> without = without_new_lamps(moment);
+  const FrameResult result = s_.renderer.draw(both ? halves : without ? *without : input_);
   if (over_) return;  // what is counted is the drive
   s_.stats.add(result, captured_);
   log_frame(moment);
@@ -298,7 +306,7 @@ void Loop::draw(const Moment& moment) {
   if (result.timed && result.pipelines_made == 0 && !change_) govern(moment, result.wall_ms);
   if (moment.car.stale) ++s_.stats.stale_frames;
   s_.fail_safes.add(moment.time, moment.controls);
-  if (s_.switches.is_change(moment.controls)) s_.renderer.finish();  // the driver waits for it
+  if (s_.switches.is_change(light_)) s_.renderer.finish();  // the driver waits for it
   const Clock::time_point now = Clock::now();
   s_.stats.frame_ended(now);
   if (frame_end_ != Clock::time_point{})
@@ -313,13 +321,13 @@ void Loop::draw(const Moment& moment) {
     ended_ = !over_;
     if (over_) screens_.drive_over();
   }
-  s_.switches.frame_finished(moment.controls, moment.time, wall_now(), s_.options.lockstep ? s_.rig.frame_rate_hz : 0);
+  s_.switches.frame_finished(light_, moment.time, wall_now(), s_.options.lockstep ? s_.rig.frame_rate_hz : 0);
 }
 
 void Loop::report(const Moment& moment) {
   FrameReport report{
       moment.frame_index,      s_.options.channel,        static_cast<std::uint32_t>(s_.rig.channels.size()),
-      s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms,    moment.controls.light_changes,
+      s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms,    light_.light_changes,
       moment.car.pose,         moment.car.stale,          moment.controls.light_switch,
       moment.controls.flash,   moment.controls.fail_safe, s_.album.not_kept(),
       audit_failure(),         s_.lock.number()};

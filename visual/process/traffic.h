@@ -57,7 +57,8 @@ class Traffic {
   /// Those that throw up spray where the ground is wet: with motors, and fast enough. `users`: at `time_s`.
   std::vector<SprayingVehicle> spraying(std::span<const There> users, double time_s, const RoadLine& road) const;
   /// Headlamps that light the scene: those of the nearest, kMostLamps in all, so that with a car's own two none is
-  /// lit by block (visual/lit_scene.h) and every pipeline is made before the drive. Who is behind
+  /// lit by block (visual/lit_scene.h) and every pipeline is made before the drive; with front fog lamps besides they
+  /// are made in it, beside the frames (loop_lamps.cpp). Who is behind
   /// `eye_m` lights nothing that is seen along `ahead`: most of a follower's light falls on the car, which has no body.
   /// All others only glare. `mirrored`: on wet ground those come first who shine toward the eye, for what shows most of
   /// them is their light in its mirror.
