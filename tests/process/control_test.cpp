@@ -85,9 +85,10 @@ TEST_F(Control, ARunningRigAnswers) {
   // senders speak, and the stream goes on.
   const std::string one = "timeout 100 '" + program("phare") + "' control --port-base " + std::to_string(port_base()) +
                           " aim 0.1 >/dev/null; ";
-  heard = control("-", "{ echo design 1; echo '# nothing'; echo 'dim \"headlamp left\" 1 0'; " + one +
-                           "echo 'dim \"nobody\" 1 0'; " + one +
-                           "echo design 7; echo aim nan; echo 'dim \"headlamp left\" 1 1'; echo design 0; } | ");
+  heard =
+      control("--wait 60 -", "{ echo design 1; echo '# nothing'; echo 'dim \"headlamp left\" 1 0'; " + one +
+                                 "echo 'dim \"nobody\" 1 0'; " + one +
+                                 "echo design 7; echo aim nan; echo 'dim \"headlamp left\" 1 1'; echo design 0; } | ");
   EXPECT_EQ(heard.code, 2);
   std::vector<std::string> lines;
   std::istringstream in(heard.out);

@@ -59,6 +59,7 @@ bool Loop::is_drawn(const LitWith& lit, const Rehearsed& as, const Moment& momen
   if (ready_for_.contains(what)) return true;
   if (std::exchange(rehearsed_, true)) return false;
   if (!awaited_ || awaited_->what != what) awaited_ = Awaited{what, Clock::now()};
+  if (s_.renderer.is_making() && awaited_->made.rehearsals > 0) return false;
   for (Rehearsed next = as;;) {
     next.shadows = awaited_->shadows;
     if (!is_rehearsed(next, shown_, awaited_->made, moment)) return false;
