@@ -225,7 +225,7 @@ class Loop {
   using Kind = std::size_t;             ///< of picture: of kinds_
   Kind shown_kind();
   LitWith lit_with(const CockpitState& light, std::size_t others, bool glare) const;
-  void is_ready_for(const Rehearsed& as, const Moment& moment);
+  void is_ready_for(const Rehearsed& as);
   static std::vector<LitWith> comes_to(const LitWith& lit, std::size_t own);
   bool may_show(const LitWith& lit, Rehearsed as, std::size_t own, const Moment& moment);
   std::optional<LitWith> nearest_ready(const LitWith& lit, std::size_t own);

@@ -44,7 +44,7 @@ void Loop::follow_desk(const Moment& moment) {
   if (!follows) return;
   const std::vector<Rehearsed> all = rehearsals();
   for (std::size_t i = 0; i < change_->done; ++i)
-    if (!all[i].above) is_ready_for(all[i], moment);
+    if (!all[i].above) is_ready_for(all[i]);
 }
 
 bool Loop::is_made(const Desk& desk) const {
@@ -61,8 +61,11 @@ void Loop::give_up_change() {
 bool Loop::is_ready(const Moment& moment) {
   if (change_ && !same_kind(change_->to, s_.desk)) give_up_change();
   if (is_made(s_.desk)) return true;
-  if (!change_)
-    change_ = Change{.to = s_.desk, .asked = Clock::now(), .now = lit_with_, .lights = other_lights(moment.controls)};
+  if (!change_) change_ = Change{.to = s_.desk, .asked = Clock::now(), .now = lit_with_};
+  // What was rehearsed was so by the light that shone then.
+  if (change_->now.design != lit_with_.design || change_->now.functions != lit_with_.functions)
+    change_->now = lit_with_, change_->done = 0;
+  if (change_->done == 0) change_->lights = other_lights(moment.controls);
   Change& change = *change_;
   if (s_.renderer.is_making() && change.made.rehearsals > 0) return false;
   while (change.done < rehearsals_now().size()) {
@@ -102,7 +105,7 @@ bool Loop::is_rehearsed(const Moment& moment) {
   if (next.light) change.rests_until = Clock::now() + kRests * (Clock::now() - begin);
   if (!done) return false;
   ++change.done;
-  if (change.followed && !next.shadows && !next.above) is_ready_for(next, moment);
+  if (change.followed && !next.shadows && !next.above) is_ready_for(next);
   return true;
 }
 

@@ -18,8 +18,8 @@ Loop::LitWith Loop::lit_with(const CockpitState& light, std::size_t others, bool
 }
 
 /// It was drawn, or rehearsed, without shadows and with them.
-void Loop::is_ready_for(const Rehearsed& as, const Moment& moment) {
-  const CockpitState light = as.light ? *as.light : shown_by_desk(s_.desk, moment.controls);
+void Loop::is_ready_for(const Rehearsed& as) {
+  const CockpitState& light = as.light ? *as.light : light_;
   const std::size_t others = as.others.value_or(lit_with_.others);
   ready_for_.insert({shown_kind(), lit_with(light, others, as.glare.value_or(lit_with_.glare))});
 }
@@ -92,17 +92,17 @@ CockpitState Loop::light_to_show(const Moment& moment) {
   return light;
 }
 
-/// With all lamps of others, glaring or not; else with fewer, if there is anything.
+/// With as many lamps of others as there is anything for, as they glare or else otherwise.
 std::optional<Loop::LitWith> Loop::nearest_ready(const LitWith& lit, std::size_t own) {
   const Kind kind = shown_kind();
-  for (LitWith with = lit;; --with.others) {
-    for (const bool glare : {lit.glare, !lit.glare}) {
-      with.glare = glare;
-      const auto is_ready = [&](const LitWith& one) { return ready_for_.contains({kind, one}); };
+  const auto is_ready = [&](const LitWith& one) { return ready_for_.contains({kind, one}); };
+  for (const bool glare : {lit.glare, !lit.glare}) {
+    LitWith with = lit;
+    with.glare = glare;
+    for (with.others = lit.others + 1; with.others-- > 0;)
       if (std::ranges::all_of(comes_to(with, own), is_ready)) return with;
-    }
-    if (with.others == 0) return std::nullopt;
   }
+  return std::nullopt;
 }
 
 /// The frame without the lamps of others or the glare that it lacks pipelines for; none: it lacks nothing. Where it
