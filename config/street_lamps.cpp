@@ -31,6 +31,8 @@ Result<StreetLampsConfig> read_street_lamps(const std::filesystem::path& file) {
   config.file = whole;
   config.fineness =
       static_cast<Fineness>(document->choice_or("fineness", static_cast<std::size_t>(config.fineness), kFinenessNames));
+  config.reflected = static_cast<Reflected>(
+      document->choice_or("reflected", static_cast<std::size_t>(config.reflected), kReflectedNames));
   if (const std::string table = document->text_or("r_table", ""); !table.empty())
     config.r_table_file = resolve_path(table, whole);
   std::vector<std::string> names;

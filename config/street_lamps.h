@@ -33,9 +33,14 @@ struct StreetLampConfig {
 enum class Fineness { kCoarse, kMedium, kFine };
 inline constexpr std::array<std::string_view, 3> kFinenessNames{"coarse", "medium", "fine"};
 
+/// How often light is taken on from surface to surface where the sky does not reach (visual/reflected_light.h).
+enum class Reflected { kOff, kOnce, kAll };
+inline constexpr std::array<std::string_view, 3> kReflectedNames{"off", "once", "all"};
+
 struct StreetLampsConfig {
   std::filesystem::path file;
   Fineness fineness = Fineness::kMedium;
+  Reflected reflected = Reflected::kAll;
   std::filesystem::path r_table_file{};  ///< of asphalt (visual/fixed_light.h), resolved; empty: none
   std::vector<LuminaireConfig> luminaires;
   std::vector<StreetLampConfig> lamps;  ///< those that are switched on

@@ -1,21 +1,16 @@
 #include "visual/fixed_light.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <map>
 #include <numbers>
 #include <set>
 
-#include "config/base/on_all_cores.h"
 #include "shaders/lib/luminance.h"
 #include "shaders/lib/road.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/readers/read_lamp.h"
-#include "visual/renderer.h"
-#include "visual/scene/refine.h"
 
 namespace phare {
 namespace {
@@ -27,10 +22,6 @@ constexpr double kOffSurface_m = 0.005;  // vertices lie on edges of their neigh
 // not there.
 constexpr double kCover_m = 0.15, kWithin_m = 0.3;
 constexpr double kBeyondScene_m = 5000.0;
-constexpr double kFloor_lx = 0.5;   // the error is that of so many lux where there are fewer
-constexpr double kLongest_m = 6.0;  // a longer side may have a pool of light between its ends
-constexpr int kMostCuts = 7;
-constexpr double kStreaksOff = 2.0;  // times the tolerance: luminance of asphalt by its r-table, from any side
 
 /// Columns: axis (down, tilted up toward the street side), left, and the street side as the lamp's "up".
 glm::dmat3 world_from_luminaire(double yaw_rad, double tilt_rad) {
@@ -45,9 +36,11 @@ glm::dmat3 world_from_luminaire(double yaw_rad, double tilt_rad) {
 Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::path& street_lamps,
                                   const std::optional<MoonConfig>& moon) {
   FixedLight light;
+  Reflected reflected = Reflected::kAll;
   if (!street_lamps.empty()) {
     const auto config = read_street_lamps(street_lamps);
     if (!config) return config.error();
+    reflected = config->reflected;
     light.level_ = kBakeLevels[static_cast<std::size_t>(config->fineness)];
     if (!config->r_table_file.empty()) {
       const auto table = read_r_table(config->r_table_file);
@@ -81,6 +74,18 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
     if (light.r_table(material)) light.r_table_ = true;
   }
   if (!light.lamps_.empty() || light.moon_ || !light.suns_.empty()) light.tree_ = RayTree(scene);
+  if (light.covered_ && (!light.lamps_.empty() || !light.suns_.empty())) {
+    const auto direct = [&light](const glm::dvec3& point_m, const glm::dvec3& normal) {
+      glm::dvec4 sum(0.0);
+      light.each(point_m, &normal, false, [&](const Share& share, const glm::vec3& colour, const glm::dvec3&, double) {
+        sum += glm::dvec4(glm::dvec3(colour), 1.0) * share.lx;
+      });
+      return sum;
+    };
+    light.reflected_ = ReflectedLight(scene, reflected, direct, [&light](const glm::dvec3& point_m) {
+      return light.nearest_lamp_m(point_m, point_m);
+    });
+  }
   return light;
 }
 
@@ -91,8 +96,7 @@ Status FixedLight::add_lights_of(const Scene& scene) {
     LampReadSettings settings;
     settings.format = LampFormat::kLm63;
     settings.folder = profile.file.parent_path();
-    const std::string name =
-        profile.file.empty() ? scene.file.string() + ": " + profile.name : profile.name;
+    const std::string name = profile.file.empty() ? scene.file.string() + ": " + profile.name : profile.name;
     auto table = parse_lamp(profile.bytes, name, settings);
     if (!table) return table.error();
     tables.push_back(std::move(*table));
@@ -115,8 +119,7 @@ Status FixedLight::add_lights_of(const Scene& scene) {
       kind.cos_inner = std::cos(light.inner_rad);
       kind.cos_outer = std::cos(light.outer_rad);
     }
-    lamps_.push_back({light.position_m, glm::transpose(light.world_from_light), luminaires_.size(),
-                      light.range_m});
+    lamps_.push_back({light.position_m, glm::transpose(light.world_from_light), luminaires_.size(), light.range_m});
     luminaires_.push_back(std::move(kind));
   }
   return Done{};
@@ -166,10 +169,24 @@ void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, bool 
   for (std::size_t i = 0; i < suns_.size(); ++i) from_far(suns_[i], {.directional = i});
 }
 
+double FixedLight::nearest_lamp_m(const glm::dvec3& a_m, const glm::dvec3& b_m) const {
+  double least_m2 = std::numeric_limits<double>::infinity();
+  const glm::dvec3 along = b_m - a_m;
+  const double length_m2 = glm::dot(along, along);
+  for (const Lamp& lamp : lamps_) {
+    const glm::dvec3 way = lamp.position_m - a_m;
+    const double at = length_m2 > 0.0 ? std::clamp(glm::dot(way, along) / length_m2, 0.0, 1.0) : 0.0;
+    const glm::dvec3 off = way - at * along;
+    least_m2 = std::min(least_m2, glm::dot(off, off));
+  }
+  return std::sqrt(least_m2);
+}
+
 std::vector<FixedLight::Share> FixedLight::shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const {
   std::vector<Share> shares;
   each(point_m, &normal, false,
        [&](const Share& share, const glm::vec3&, const glm::dvec3&, double) { shares.push_back(share); });
+  if (const double lx = reflected_.at(point_m, normal).w; lx > 0.0) shares.push_back({.reflected = true, .lx = lx});
   std::ranges::stable_sort(shares, std::greater(), &Share::lx);
   return shares;
 }
@@ -204,9 +221,10 @@ RoadLight road_light(const RoadLobes& lobes, const glm::dvec3& normal, const glm
   return light;
 }
 
-FixedRoad packed(std::vector<RoadLight>& lights, double diffuse_cdm2) {
+/// `reflected`: the share of `diffuse_cdm2` that comes from all sides.
+FixedRoad packed(std::vector<RoadLight>& lights, double diffuse_cdm2, double reflected) {
   std::array<float, 24> numbers{};
-  double mean = lights.empty() ? 1.0 : 0.0;  // in the dark as if diffuse: so it is between that and a lit vertex, too
+  double mean = lights.empty() ? 1.0 : reflected;  // in the dark as if diffuse: so it is toward a lit vertex, too
   glm::dvec2 along(0.0);
   std::ranges::stable_sort(lights, std::greater(), [](const RoadLight& light) { return light.lobe.peak; });
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -239,7 +257,7 @@ FixedRoad packed(std::vector<RoadLight>& lights, double diffuse_cdm2) {
 }  // namespace
 
 FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material,
-                           FixedRoad* road, FixedWay* way_to) const {
+                           FixedRoad* road, FixedWay* way_to, const glm::dvec4* reflected_lx) const {
   glm::dvec4 sum(0.0);
   glm::dvec3 facing(0.0);
   std::vector<RoadLight> on_road;
@@ -254,10 +272,13 @@ FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, 
     each(point_m, &back, false, add);
     sum *= 0.5;
   }
+  const glm::dvec4 reflected = reflected_lx != nullptr ? *reflected_lx : reflected_at(point_m, normal, material);
+  sum += reflected;
+  facing += reflected.w * normal;
   const glm::dvec3 rho = glm::max(glm::dvec3(material.reflectance), 1e-3);
   if (road != nullptr) {
     const double reflectance = static_cast<double>(shader::luminance_of(glm::vec3(rho)));
-    *road = packed(on_road, sum.w * reflectance / std::numbers::pi);
+    *road = packed(on_road, sum.w * reflectance / std::numbers::pi, sum.w > 0.0 ? reflected.w / sum.w : 0.0);
   }
   if (way_to != nullptr) {
     const bool turned = !material.double_sided && material.emission_cdm2 == glm::vec3(0.0f);
@@ -267,15 +288,24 @@ FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, 
   return {glm::vec4(glm::vec3(glm::dvec3(sum) + own_lx), static_cast<float>(sum.w)), material.sky_share};
 }
 
+glm::dvec4 FixedLight::reflected_at(const glm::dvec3& point_m, const glm::dvec3& normal,
+                                    const SceneMaterial& material) const {
+  const glm::dvec4 above = reflected_.at(point_m, normal);
+  return material.double_sided ? 0.5 * (above + reflected_.at(point_m, -normal)) : above;
+}
+
 FixedProbe FixedLight::probe(const glm::dvec3& point_m) const {
   FixedProbe probe;
   glm::dvec4 sum(0.0);
   glm::dvec3 from(0.0);
-  each(point_m, nullptr, false,
-       [&](const Share&, const glm::vec3& colour, const glm::dvec3& way, double lx) {
-         sum += glm::dvec4(glm::dvec3(colour), 1.0) * lx;
-         from += lx * way;
-       });
+  each(point_m, nullptr, false, [&](const Share&, const glm::vec3& colour, const glm::dvec3& way, double lx) {
+    sum += glm::dvec4(glm::dvec3(colour), 1.0) * lx;
+    from += lx * way;
+  });
+  reflected_.each_way(point_m, [&](const glm::dvec3& way, const glm::dvec4& lx) {
+    sum += lx;
+    from += lx.w * way;
+  });
   probe.light = glm::vec4(sum);
   if (sum.w > 0.0) probe.way = glm::vec3(0.5 * from / sum.w);
   if (covered_ && tree_.blocked(point_m, point_m + glm::dvec3(0.0, 0.0, 100.0), 1e-3, 0.0)) probe.sky_share = 0.0f;
@@ -330,176 +360,6 @@ std::vector<FixedLight::Mirrored> FixedLight::mirrored_into(const glm::dvec3& ey
     if (!tree_.blocked(ground_m, lamp.place_m, 0.2, kOwnHousing_m)) seen.push_back(lamp);
   }
   return seen;
-}
-
-namespace {
-
-/// The light at a vertex, asked once for each place and normal of a chunk.
-class Baker {
- public:
-  Baker(const FixedLight& light, const Scene& scene, const SceneChunk& chunk)
-      : light_(light),
-        material_(scene.materials[chunk.material]),
-        origin_m_(chunk.origin_m),
-        r_table_(light.r_table(material_)),
-        relief_(material_.look.relief()) {}
-
-  void add(FixedMesh& mesh, const SceneVertex& vertex) {
-    const Kept& kept = at(vertex);
-    mesh.light.push_back(kept.light);
-    if (r_table_) mesh.road.push_back(kept.road);
-    if (relief_) mesh.ways.push_back(kept.way);
-  }
-
-  /// Sides whose middle is off by more than the level allows are halved, in both triangles that share them.
-  void cut(FixedMesh& mesh, const BakeLevel& level) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::optional<std::uint32_t>> middle_of;
-    for (int cut = 0; cut < kMostCuts; ++cut) {
-      bool any = false;
-      const auto middle = [&](std::uint32_t i, std::uint32_t j) -> std::optional<std::uint32_t> {
-        const auto [found, fresh] = middle_of.try_emplace(std::minmax(i, j));
-        if (fresh) found->second = halved(mesh, i, j, level);
-        any = any || found->second;
-        return found->second;
-      };
-      std::vector<std::uint32_t> next;
-      for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-        const std::array<std::uint32_t, 3> c{mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]};
-        const std::array<std::optional<std::uint32_t>, 3> m{middle(c[0], c[1]), middle(c[1], c[2]), middle(c[2], c[0])};
-        split(next, c, m);
-      }
-      mesh.indices = std::move(next);
-      if (!any) break;
-    }
-  }
-
- private:
-  struct Kept {
-    FixedVertex light;
-    FixedRoad road;
-    FixedWay way{0.0f};
-  };
-
-  const Kept& at(const SceneVertex& vertex) {
-    const auto key = std::bit_cast<std::array<std::uint32_t, 6>>(vertex);
-    const auto [found, fresh] = known_.try_emplace(key);
-    if (fresh)
-      found->second.light =
-          light_.at(origin_m_ + glm::dvec3(vertex.position_m), glm::normalize(glm::dvec3(vertex.normal)), material_,
-                    r_table_ ? &found->second.road : nullptr, relief_ ? &found->second.way : nullptr);
-    return found->second;
-  }
-
-  /// Of asphalt luminance, from all around, is off by more in the middle.
-  static bool streaks_off(const FixedMesh& mesh, std::uint32_t i, std::uint32_t j, const Kept& middle,
-                          const BakeLevel& level) {
-    constexpr int kWays = 24;  // half as wide as a streak of a lamp 20° over the road
-    std::array<double, kWays> exact, between;
-    double most = 0.0;
-    for (int k = 0; k < kWays; ++k) {
-      const double turn = 2.0 * std::numbers::pi * k / kWays;
-      const glm::vec2 way(std::cos(turn), std::sin(turn));
-      const auto seen = [&way](const FixedVertex& light, const FixedRoad& road) {
-        const auto word = [&road](std::size_t at) {
-          return shader::uvec4(road.halves[at], road.halves[at + 1], road.halves[at + 2], road.halves[at + 3]);
-        };
-        return static_cast<double>(light.light.w * shader::of_the_table(word(0), word(4), word(8), way));
-      };
-      const auto at = static_cast<std::size_t>(k);
-      exact[at] = seen(middle.light, middle.road);
-      between[at] = 0.5 * (seen(mesh.light[i], mesh.road[i]) + seen(mesh.light[j], mesh.road[j]));
-      most = std::max(most, exact[at]);
-    }
-    if (most < kFloor_lx) return false;
-    for (std::size_t k = 0; k < kWays; ++k)
-      if (std::abs(exact[k] - between[k]) > kStreaksOff * level.tolerance * std::max(exact[k], 0.25 * most))
-        return true;
-    return false;
-  }
-
-  std::optional<std::uint32_t> halved(FixedMesh& mesh, std::uint32_t i, std::uint32_t j, const BakeLevel& level) {
-    const SceneVertex a = mesh.vertices[i], b = mesh.vertices[j];
-    const double length_m = static_cast<double>(glm::distance(a.position_m, b.position_m));
-    if (length_m < 2.0 * level.least_edge_m) return std::nullopt;
-    const glm::vec3 normal = a.normal + b.normal;
-    if (glm::dot(normal, normal) < 1e-6f) return std::nullopt;
-    const SceneVertex between{0.5f * (a.position_m + b.position_m), glm::normalize(normal)};
-    const double at_a = static_cast<double>(mesh.light[i].light.w), at_b = static_cast<double>(mesh.light[j].light.w);
-    const Kept& middle = at(between);
-    const double exact = static_cast<double>(middle.light.light.w);
-    const bool off = std::abs(exact - 0.5 * (at_a + at_b)) > level.tolerance * std::max(exact, kFloor_lx);
-    const bool unseen = length_m > kLongest_m && std::max({at_a, at_b, exact}) > 0.1 * kFloor_lx;
-    if (!off && !unseen && !(r_table_ && streaks_off(mesh, i, j, middle, level))) return std::nullopt;
-    mesh.vertices.push_back(between);
-    add(mesh, between);
-    if (!mesh.looks.empty()) mesh.looks.push_back(look_between(mesh.looks[i], mesh.looks[j]));
-    return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
-  }
-
-  static void split(std::vector<std::uint32_t>& out, std::array<std::uint32_t, 3> c,
-                    std::array<std::optional<std::uint32_t>, 3> m) {
-    const auto emit = [&](std::uint32_t a, std::uint32_t b, std::uint32_t d) { out.insert(out.end(), {a, b, d}); };
-    const int count = (m[0] ? 1 : 0) + (m[1] ? 1 : 0) + (m[2] ? 1 : 0);
-    if (count == 0) return emit(c[0], c[1], c[2]);
-    if (count == 3) {
-      emit(c[0], *m[0], *m[2]);
-      emit(c[1], *m[1], *m[0]);
-      emit(c[2], *m[2], *m[1]);
-      return emit(*m[0], *m[1], *m[2]);
-    }
-    // Turned so that the first side is halved, and of two the second as well.
-    while (!(m[0] && (count == 1 || m[1]))) {
-      std::rotate(c.begin(), c.begin() + 1, c.end());
-      std::rotate(m.begin(), m.begin() + 1, m.end());
-    }
-    if (count == 1) {
-      emit(c[0], *m[0], c[2]);
-      return emit(*m[0], c[1], c[2]);
-    }
-    emit(*m[0], c[1], *m[1]);
-    emit(c[0], *m[0], *m[1]);
-    emit(c[0], *m[1], c[2]);
-  }
-
-  const FixedLight& light_;
-  const SceneMaterial& material_;
-  glm::dvec3 origin_m_;
-  bool r_table_, relief_;
-  std::map<std::array<std::uint32_t, 6>, Kept> known_;
-};
-static_assert(sizeof(SceneVertex) == sizeof(std::array<std::uint32_t, 6>));
-
-}  // namespace
-
-std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
-  std::vector<Meshes> all(scene.chunks.size());
-  on_all_cores(all.size(), [&](std::size_t i) {
-    const SceneChunk& chunk = scene.chunks[i];
-    Baker baker(*this, scene, chunk);
-    for (std::size_t level = 0; level < all[i].size(); ++level) {
-      FixedMesh& mesh = all[i][level];
-      BakeLevel cuts = level_;
-      if (level == 0) {
-        const auto vertices = scene.vertices.begin() + chunk.first_vertex;
-        const auto indices = scene.indices.begin() + chunk.first_index;
-        mesh.vertices.assign(vertices, vertices + chunk.vertex_count);
-        mesh.indices.assign(indices, indices + chunk.index_count);
-        if (chunk.first_look) {
-          const auto looks = scene.looks.begin() + *chunk.first_look;
-          mesh.looks.assign(looks, looks + chunk.vertex_count);
-        }
-      } else {
-        const double from_m = kFarLevels[level - 1].from * kFarMeshFrom_m;
-        FarMesh far = far_mesh(scene, chunk, level - 1, from_m);
-        mesh.vertices = std::move(far.vertices), mesh.indices = std::move(far.indices);
-        mesh.looks = std::move(far.looks);
-        cuts.least_edge_m = std::max(cuts.least_edge_m, 0.015 * from_m);  // a hundred pixels wide, seen edge on
-      }
-      for (const SceneVertex& vertex : mesh.vertices) baker.add(mesh, vertex);
-      if (!lamps_.empty() || !suns_.empty()) baker.cut(mesh, cuts);
-    }
-  });
-  return all;
 }
 
 }  // namespace phare

@@ -7,11 +7,12 @@
 // by the extension's own formula, directional ones by lux, as the moon.
 //
 // E = Σ I(C, gamma)·cos/r² with the shadows of what stands, as everywhere (README.md). Left out: lamps beyond kReach_m
-// or of less than kLeast_lx at a point; light that has been reflected before; shadows of what moves; retroreflection
-// (nobody looks from a street lamp). Surfaces under lamps above the road are Lambert's, but for asphalt: its vertices
-// keep what an r-table makes of the lamps for an eye from anywhere (FixedRoad).
-// What moves is lit by how much light arrives at its middle and from where (Probe): 25 % of a lamp off at worst.
-// How far interpolation is off: docs/street-lamps.md. Checked by tests/visual_process/street_lamps_test.cpp.
+// or of less than kLeast_lx at a point; light that has been reflected before, but where the sky does not reach
+// (visual/reflected_light.h); shadows of what moves; retroreflection (nobody looks from a street lamp). Surfaces under
+// lamps above the road are Lambert's, but for asphalt: its vertices keep what an r-table makes of the lamps for an eye
+// from anywhere (FixedRoad). What moves is lit by how much light arrives at its middle and from where (Probe): 25 % of
+// a lamp off at worst. How far interpolation is off: docs/street-lamps.md. Checked by
+// tests/visual_process/street_lamps_test.cpp.
 #pragma once
 
 #include <array>
@@ -31,6 +32,7 @@
 #include "visual/glare.h"
 #include "visual/photometry/table/intensity_table.h"
 #include "visual/photometry/table/road_lobes.h"
+#include "visual/reflected_light.h"
 #include "visual/scene/far_mesh.h"
 #include "visual/scene/ray_tree.h"
 #include "visual/scene/scene.h"
@@ -79,7 +81,8 @@ struct FixedProbe {
   float sky_share = 1.0f;
 };
 
-/// How finely meshes are cut: where the middle of a side is off by more than `tolerance` of its light.
+/// How finely meshes are cut: where the middle of a side is off by more than `tolerance` of its light, down to the
+/// least edge; that is of lamps 8 m away, and near by of nearer lamps shorter in that proportion.
 struct BakeLevel {
   double tolerance, least_edge_m;
 };
@@ -110,19 +113,27 @@ class FixedLight {
   bool r_table(const SceneMaterial& material) const;
   bool covered() const { return covered_; }  ///< some surface does not see the whole sky
 
+  /// Pieces of covered surfaces that send light on; 0: there is nothing covered, or no lamp, or it is switched off.
+  std::size_t reflecting() const { return reflected_.patches(); }
+
   /// One lamp's share, or that of what has a direction alone.
   struct Share {
     std::optional<std::size_t> lamp{};
-    std::optional<std::size_t> directional{};  ///< neither: the moon
+    std::optional<std::size_t> directional{};  ///< neither: the moon, or
+    bool reflected = false;                    ///< what covered surfaces send on
     double lx = 0.0;
   };
   /// In float64, with shadows: what falls on a point, strongest first.
   std::vector<Share> shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
   double lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
+  /// How far the nearest lamp is from the line between two places; infinity where there is none.
+  double nearest_lamp_m(const glm::dvec3& a_m, const glm::dvec3& b_m) const;
   /// As vertices of the scene keep it: one that nobody sees, for something thin lies on it, has the light that falls on
-  /// that; else lux_at().
+  /// that; else lux_at(). `reflected_lx`: as reflected_at() gives it, where that is known.
   FixedVertex at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material,
-                 FixedRoad* road = nullptr, FixedWay* way = nullptr) const;
+                 FixedRoad* road = nullptr, FixedWay* way = nullptr, const glm::dvec4* reflected_lx = nullptr) const;
+  /// Of that what covered surfaces send on, lx: linear Rec. 709 and photopic.
+  glm::dvec4 reflected_at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material) const;
   FixedProbe probe(const glm::dvec3& point_m) const;
   /// Lamps that shine into an eye, the scene and the air between them; what moves hides none. The strongest
   /// kMostGlaringLamps: no more are drawn.
@@ -170,6 +181,7 @@ class FixedLight {
   bool covered_ = false, r_table_ = false;
   RoadLobes lobes_ = RoadLobes::asphalt();
   RayTree tree_;
+  ReflectedLight reflected_;
 };
 
 }  // namespace phare

@@ -35,6 +35,7 @@ void add_facts(EffectFacts& facts, const FixedLight& light) {
   facts.directional = light.directional();
   facts.luminous = light.luminous();
   facts.covered = light.covered();
+  facts.reflecting = light.reflecting();
   facts.r_table = light.r_table();
 }
 

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <glm/geometric.hpp>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include "config/base/paths.h"
 #include "visual/scene/ray_hit.h"
@@ -29,6 +32,37 @@ TEST(RayTree, AnswersAsTheSearchThroughAllTriangles) {
   }
   EXPECT_GT(hidden, kRays / 10);
   EXPECT_LT(hidden, kRays * 9 / 10);
+}
+
+TEST(RayTree, TheFirstThatIsMetIsTheNearestOfAll) {
+  std::mt19937_64 random(1968);
+  std::uniform_real_distribution<double> place(-5.0, 5.0), side(-1.0, 1.0);
+  const auto vector = [&](auto& of) { return glm::dvec3(of(random), of(random), of(random)); };
+  std::vector<RayTree::Triangle> all;
+  for (int i = 0; i < 300; ++i) all.push_back({vector(place), vector(side), vector(side), i % 3 != 0});
+  const RayTree tree(all);
+  std::vector<RayTree> alone;
+  for (const RayTree::Triangle& triangle : all) alone.emplace_back(std::vector{triangle});
+  int met = 0, from_behind = 0;
+  for (int i = 0; i < 400; ++i) {
+    const glm::dvec3 from_m = vector(place), along = glm::normalize(vector(side));
+    const double most_m = i % 2 == 0 ? 30.0 : 4.0, leave_m = i % 5 == 0 ? 2.0 : 0.0;
+    std::optional<RayTree::Met> nearest;
+    for (std::uint32_t k = 0; k < all.size(); ++k)
+      if (const auto one = alone[k].first_met(from_m, along, most_m, leave_m);
+          one && (!nearest || one->at_m < nearest->at_m))
+        nearest = {one->at_m, one->from_behind, k};
+    const auto first = tree.first_met(from_m, along, most_m, leave_m);
+    ASSERT_EQ(first.has_value(), nearest.has_value()) << i;
+    if (!first) continue;
+    EXPECT_EQ(first->triangle, nearest->triangle) << i;
+    EXPECT_EQ(first->at_m, nearest->at_m) << i;
+    EXPECT_EQ(first->from_behind, nearest->from_behind) << i;
+    EXPECT_FALSE(first->from_behind && (all[first->triangle].one_sided ? first->at_m <= leave_m : true)) << i;
+    ++met, from_behind += first->from_behind ? 1 : 0;
+  }
+  EXPECT_GT(met, 50);
+  EXPECT_GT(from_behind, 10);
 }
 
 /// A box of 0.2 m about (0, 0, 1), its faces looking outward; `both`: seen from both sides.

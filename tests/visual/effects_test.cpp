@@ -61,6 +61,8 @@ TEST(Effects, FixedLightNamesAllThatShines) {
   EXPECT_EQ(
       plan_effects({.street_lamps = 212, .luminous = 3, .moon = true, .covered = true})[Effect::kFixedLight].reason,
       "212 street lamps, the moon, 3 luminous materials, a roof over the road");
+  EXPECT_EQ(plan_effects({.street_lamps = 2, .covered = true, .reflecting = 7000})[Effect::kFixedLight].reason,
+            "2 street lamps, a roof over the road, 7000 pieces under it send light on");
   EffectChoices choices{};
   choices[static_cast<std::size_t>(Effect::kFixedLight)] = 1;
   EXPECT_FALSE(plan_effects({}, choices).on(Effect::kFixedLight)) << "there is nothing that it could be made of";

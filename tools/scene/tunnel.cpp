@@ -1,5 +1,6 @@
 // A road that goes through a hill: two lanes in a tunnel of 300 m with a bend, two rows of luminaires. Layout by us
 // after the German guide RABT: walls 4.65 m from the middle, walkways of 0.9 m, 5.4 m high.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -10,10 +11,11 @@
 namespace phare::scene {
 namespace {
 
-using glm::dvec3;
+using glm::dvec2, glm::dvec3;
 
 constexpr double kBegin_m = 25.0, kEnd_m = 325.0;
 constexpr double kLane_m = 3.5, kPaved_m = 3.75, kWall_m = 4.65, kKerb_m = 0.15, kPanelTop_m = 3.2, kHigh_m = 5.4;
+constexpr dvec2 kCut_m{0.9, 0.7};  // what the vault cuts off of the corners above the walls: across, up
 constexpr double kLampEvery_m = 8.0, kLampOffset_m = 2.1;
 
 bool inside(double s) {
@@ -78,9 +80,9 @@ void add_piece(Model& model, const Path& path, int number, double begin, double 
     strip(walk, Material::kTunnelWalk, {kPaved_m, kKerb_m}, {kWall_m, kKerb_m});
     strip(tube, Material::kTunnelPanel, {kWall_m, kKerb_m}, {kWall_m, 1.2});
     strip(tube, Material::kTunnelPanel, {kWall_m, 1.2}, {kWall_m, kPanelTop_m});
-    strip(tube, Material::kTunnelVault, {kWall_m, kPanelTop_m}, {kWall_m, kHigh_m - 0.7});
-    strip(tube, Material::kTunnelVault, {kWall_m, kHigh_m - 0.7}, {kWall_m - 0.9, kHigh_m});
-    strip(tube, Material::kTunnelVault, {kWall_m - 0.9, kHigh_m}, {1.6, kHigh_m});
+    strip(tube, Material::kTunnelVault, {kWall_m, kPanelTop_m}, {kWall_m, kHigh_m - kCut_m.y});
+    strip(tube, Material::kTunnelVault, {kWall_m, kHigh_m - kCut_m.y}, {kWall_m - kCut_m.x, kHigh_m});
+    strip(tube, Material::kTunnelVault, {kWall_m - kCut_m.x, kHigh_m}, {1.6, kHigh_m});
     strip(tube, Material::kTunnelVault, {1.6, kHigh_m}, {0.0, kHigh_m});
   }
 }
@@ -93,24 +95,48 @@ void add_portal(Model& model, const Path& path, double s, bool entrance) {
   const auto slab = [&](double y0, double y1, double z0, double z1) {
     pen.box(Material::kConcrete, {-kThick_m, y0, z0}, {0.05, y1, z1});
   };
-  slab(-kHalf_m, -kWall_m, -0.2, kTop_m);
-  slab(kWall_m, kHalf_m, -0.2, kTop_m);
-  slab(-kWall_m, kWall_m, kHigh_m, kTop_m);
+  // It frames the tube, a little within walls and vault, and closes the ends of the walkways and what the vault cuts
+  // off.
+  constexpr double kFrame_m = 0.02, kSide_m = kWall_m - kFrame_m, kOver_m = kHigh_m - kFrame_m;
+  constexpr double kSlope = kCut_m.y / kCut_m.x;
+  const double frame_m = kFrame_m * std::hypot(1.0, kSlope);
+  const dvec2 foot(kSide_m, kHigh_m - frame_m - kSlope * (kCut_m.x - kFrame_m));
+  const dvec2 head(kWall_m - kCut_m.x - (frame_m - kFrame_m) / kSlope, kOver_m);
+  slab(-kSide_m, kSide_m, kOver_m, kTop_m);
+  for (const double side : {-1.0, 1.0}) {
+    const auto ends = [&](double a, double b) { return std::minmax({side * a, side * b}); };
+    const auto [from, to] = ends(kSide_m, kHalf_m);
+    slab(from, to, -0.2, kTop_m);
+    const auto [walk_from, walk_to] = ends(kPaved_m + 0.01, kSide_m);
+    slab(walk_from, walk_to, -0.2, kKerb_m - 0.005);
+    const auto at = [&](double x, const dvec2& yz) { return dvec3(x, side * yz.x, yz.y); };
+    const dvec2 corner(kSide_m, kOver_m);
+    const dvec3 a = at(0.05, foot), b = at(0.05, head), c = at(-kThick_m, head), d = at(-kThick_m, foot);
+    if (side > 0.0) {
+      pen.triangle(Material::kConcrete, a, at(0.05, corner), b);
+      pen.quad(Material::kConcrete, a, b, c, d);
+    } else {
+      pen.triangle(Material::kConcrete, b, at(0.05, corner), a);
+      pen.quad(Material::kConcrete, d, c, b, a);
+    }
+  }
   pen.box(Material::kConcrete, {-kThick_m - 0.2, -kHalf_m - 0.2, kTop_m}, {0.35, kHalf_m + 0.2, kTop_m + 0.4});
-  // The hill above and beside it.
+  // The hill above and beside it, and wing walls that hold it back.
   constexpr double kWide_m = 70.0, kBack_m = 25.0, kCrest_m = 15.0;
   pen.quad(Material::kGrass, {0, -kHalf_m, kTop_m}, {0, kHalf_m, kTop_m}, {-kBack_m, kHalf_m, kCrest_m},
            {-kBack_m, -kHalf_m, kCrest_m});
   for (const double side : {-1.0, 1.0}) {
     const dvec3 a(0, side * kHalf_m, kTop_m), b(0.0, side * kWide_m, kTop_m + 3.0),
         c(-kBack_m, side * kWide_m, kCrest_m), d(-kBack_m, side * kHalf_m, kCrest_m), low(6.0, side * kHalf_m, -0.2),
-        far(6.0, side * kWide_m, 2.0);
+        far(6.0, side * kWide_m, 2.0), under(0.0, side * kHalf_m, -0.2);
     if (side > 0.0) {
       pen.quad(Material::kGrass, a, b, c, d);
       pen.quad(Material::kGrass, low, far, b, a);
+      pen.triangle(Material::kConcrete, under, low, a);
     } else {
       pen.quad(Material::kGrass, b, a, d, c);
       pen.quad(Material::kGrass, far, low, a, b);
+      pen.triangle(Material::kConcrete, low, under, a);
     }
   }
 }

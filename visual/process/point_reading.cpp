@@ -111,8 +111,8 @@ PointReading read_point(const Lamps& lamps, const VehicleState& car, const Measu
       add(rho, retro, 1.0 - snow_01);
       const bool ground = retro && retro->kind == RetroKind::kFacets;
       if (snow_01 > 0.0)
-        add(snow_reflectance(),
-            ground ? std::optional(Retroreflection{.kind = RetroKind::kFacets}) : std::nullopt, snow_01);
+        add(snow_reflectance(), ground ? std::optional(Retroreflection{.kind = RetroKind::kFacets}) : std::nullopt,
+            snow_01);
     }
     reading.lamps.push_back(std::move(lamp));
   }
@@ -120,6 +120,19 @@ PointReading read_point(const Lamps& lamps, const VehicleState& car, const Measu
   for (const FixedLight::Share& share : reading.fixed) reading.fixed_lx += share.lx;
   return reading;
 }
+
+namespace {
+
+/// "2 lamps and what walls and roof reflect".
+std::string by_words(const std::vector<FixedLight::Share>& shares) {
+  const bool reflected = std::ranges::any_of(shares, &FixedLight::Share::reflected);
+  const std::size_t lamps = shares.size() - (reflected ? 1 : 0);
+  const std::string words = lamps == 1 ? "one lamp" : fmt::format("{} lamps", lamps);
+  if (!reflected) return words;
+  return (lamps > 0 ? words + " and " : "") + "what walls and roof reflect";
+}
+
+}  // namespace
 
 std::vector<std::string> lines_of(const PointReading& r) {
   std::vector<std::string> lines;
@@ -135,9 +148,10 @@ std::vector<std::string> lines_of(const PointReading& r) {
   if (!r.fixed.empty()) {
     const FixedLight::Share& most = r.fixed.front();
     lines.push_back(fmt::format("  besides, of what stands: {:.6g} lx by {}, {:.4g} of {}", r.fixed_lx,
-                                r.fixed.size() == 1 ? "one lamp" : fmt::format("{} lamps", r.fixed.size()), most.lx,
+                                by_words(r.fixed), most.lx,
                                 most.lamp          ? fmt::format("street lamp {}", *most.lamp + 1)
                                 : most.directional ? fmt::format("directional light {}", *most.directional + 1)
+                                : most.reflected   ? "walls and roof"
                                                    : "the moon"));
   }
   for (const LampReading& lamp : r.lamps) {

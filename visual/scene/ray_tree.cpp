@@ -37,6 +37,7 @@ RayTree::RayTree(const std::vector<Triangle>& all) {
   std::vector<std::uint32_t> order(all.size());
   std::iota(order.begin(), order.end(), 0u);
   triangles_.reserve(all.size());
+  order_.reserve(all.size());
   boxes_.reserve(all.size());
   build(order, 0, order.size(), all, 0);
 }
@@ -58,7 +59,7 @@ std::uint32_t RayTree::build(std::vector<std::uint32_t>& order, std::size_t begi
   if (end - begin <= kInLeaf || depth >= kDeepest || !(size[axis] > 0.0)) {
     boxes_[self].first = static_cast<std::uint32_t>(triangles_.size());
     boxes_[self].count = static_cast<std::uint32_t>(end - begin);
-    for (std::size_t i = begin; i < end; ++i) triangles_.push_back(all[order[i]]);
+    for (std::size_t i = begin; i < end; ++i) triangles_.push_back(all[order[i]]), order_.push_back(order[i]);
     return self;
   }
   const std::size_t half = begin + (end - begin) / 2;
@@ -103,16 +104,16 @@ std::vector<glm::vec4> RayTree::texels(const glm::dvec3& origin_m, std::size_t f
   return texels;
 }
 
-template <typename Met>
-bool RayTree::each_met(const glm::dvec3& from_m, const glm::dvec3& along, double near_m, double most_m,
-                       const Met& met) const {
+template <typename Each>
+bool RayTree::each_met(const glm::dvec3& from_m, const glm::dvec3& along, double near_m, const double& most_m,
+                       const Each& met) const {
   if (boxes_.empty() || !(most_m > near_m)) return false;
   const glm::dvec3 inverse = 1.0 / along;  // an axis it does not go along: infinite, as wanted
-  std::array<std::uint32_t, 2 * kDeepest> stack;
-  std::size_t top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const std::uint32_t at = stack[--top];
+  struct Entered {
+    std::uint32_t box;
+    double at_m;  ///< infinity: it is missed
+  };
+  const auto enter = [&](std::uint32_t at) {
     const Box& box = boxes_[at];
     double enter_m = near_m, leave_m = most_m;
     for (int axis = 0; axis < 3; ++axis) {
@@ -121,10 +122,20 @@ bool RayTree::each_met(const glm::dvec3& from_m, const glm::dvec3& along, double
       // NaN, on a face of a box that the ray lies in: the comparison leaves what there is.
       enter_m = std::max(enter_m, std::min(a, b)), leave_m = std::min(leave_m, std::max(a, b));
     }
-    if (enter_m > leave_m) continue;
+    return Entered{at, enter_m > leave_m ? std::numeric_limits<double>::infinity() : enter_m};
+  };
+  std::array<Entered, 2 * kDeepest> stack;
+  std::size_t top = 0;
+  if (const Entered all = enter(0); all.at_m <= most_m) stack[top++] = all;
+  while (top > 0) {
+    const Entered here = stack[--top];
+    if (here.at_m > most_m) continue;  // it has become shorter
+    const Box& box = boxes_[here.box];
     if (box.count == 0) {
-      stack[top++] = box.first;
-      stack[top++] = at + 1;
+      Entered first = enter(here.box + 1), second = enter(box.first);
+      if (second.at_m < first.at_m) std::swap(first, second);
+      if (second.at_m <= most_m) stack[top++] = second;
+      if (first.at_m <= most_m) stack[top++] = first;
       continue;
     }
     for (std::uint32_t i = box.first; i < box.first + box.count; ++i) {  // Möller and Trumbore 1997
@@ -139,7 +150,7 @@ bool RayTree::each_met(const glm::dvec3& from_m, const glm::dvec3& along, double
       const double v = glm::dot(along, q) / determinant;
       if (v < 0.0 || u + v > 1.0) continue;
       const double met_m = glm::dot(t.ac, q) / determinant;
-      if (met_m > near_m && met_m < most_m && met(met_m, t.one_sided && determinant < 0.0)) return true;
+      if (met_m > near_m && met_m < most_m && met(met_m, t.one_sided && determinant < 0.0, i)) return true;
     }
   }
   return false;
@@ -150,13 +161,24 @@ bool RayTree::blocked(const glm::dvec3& from_m, const glm::dvec3& to_m, double n
   const glm::dvec3 way = to_m - from_m;
   const double length_m = glm::length(way);
   if (!(length_m - near_to_m > near_from_m)) return false;
-  return each_met(from_m, way / length_m, near_from_m, length_m - near_to_m,
-                  [&](double met_m, bool from_behind) { return !from_behind || met_m > leave_within_m; });
+  return each_met(
+      from_m, way / length_m, near_from_m, length_m - near_to_m,
+      [&](double met_m, bool from_behind, std::uint32_t) { return !from_behind || met_m > leave_within_m; });
+}
+
+std::optional<RayTree::Met> RayTree::first_met(const glm::dvec3& from_m, const glm::dvec3& along, double most_m,
+                                               double leave_within_m) const {
+  std::optional<Met> first;
+  each_met(from_m, along, 0.0, most_m, [&](double met_m, bool from_behind, std::uint32_t i) {
+    if (!from_behind || met_m > leave_within_m) first = {met_m, from_behind, order_[i]}, most_m = met_m;
+    return false;
+  });
+  return first;
 }
 
 double RayTree::left_at_m(const glm::dvec3& from_m, const glm::dvec3& along, double most_m) const {
   double last_m = 0.0;
-  each_met(from_m, along, 0.0, most_m, [&](double met_m, bool from_behind) {
+  each_met(from_m, along, 0.0, most_m, [&](double met_m, bool from_behind, std::uint32_t) {
     if (from_behind) last_m = std::max(last_m, met_m);
     return false;
   });
