@@ -105,6 +105,7 @@ EffectDecision fixed_light(const EffectFacts& facts) {
   if (facts.luminous > 0) add(counted(facts.luminous, "luminous material"));
   if (facts.covered) add("a roof over the road");
   if (facts.reflecting > 0) add(std::to_string(facts.reflecting) + " pieces under it send light on");
+  if (facts.too_many_reflecting) add("too many pieces under it to send light on");
   if (what.empty()) return {0, "no street lamp, no moon, and nothing shines by itself"};
   return {1, what};
 }

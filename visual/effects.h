@@ -58,6 +58,7 @@ struct EffectFacts {
   bool moon = false;                       ///< it shines
   bool covered = false;                    ///< some of the scene does not see the whole sky
   std::size_t reflecting = 0;              ///< pieces of that which send light of street lamps on
+  bool too_many_reflecting = false;        ///< so that none does
   bool r_table = false;                    ///< of what these light some is asphalt
   bool by_rays = false;                    ///< decided before: shadows have them at every pixel
   bool fixed_drawn = false;                ///< decided before: what shines in the scene is drawn

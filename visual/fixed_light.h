@@ -115,6 +115,7 @@ class FixedLight {
 
   /// Pieces of covered surfaces that send light on; 0: there is nothing covered, or no lamp, or it is switched off.
   std::size_t reflecting() const { return reflected_.patches(); }
+  bool too_many_reflecting() const { return reflected_.too_many(); }
 
   /// One lamp's share, or that of what has a direction alone.
   struct Share {

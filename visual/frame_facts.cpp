@@ -36,6 +36,7 @@ void add_facts(EffectFacts& facts, const FixedLight& light) {
   facts.luminous = light.luminous();
   facts.covered = light.covered();
   facts.reflecting = light.reflecting();
+  facts.too_many_reflecting = light.too_many_reflecting();
   facts.r_table = light.r_table();
 }
 

@@ -1,6 +1,7 @@
 #include "visual/reflected_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,9 +16,11 @@ namespace phare {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint32_t kPatchRays = 64, kPointRays = 256;
+constexpr std::uint32_t kPatchRays = 64, kPointRays = 256, kRoundRays = 128;
 constexpr double kShortest_m = 0.25, kLongest_m = 2.0;
-constexpr int kMostCuts = 24;
+constexpr int kMostCuts = 40;
+constexpr std::size_t kMostPatches = 200000;  // ten seconds of a processor; a scene with more has longer ones
+constexpr double kLongestScale = 64.0;
 constexpr double kFarthest_m = 200.0;
 constexpr double kOff_m = 0.005;    // the surface, where rays begin
 constexpr double kWithin_m = 0.3;   // as deep a point may lie in what stands (visual/fixed_light.cpp)
@@ -45,6 +48,63 @@ struct Patch {
   const SceneMaterial* material;
 };
 
+/// A scene's triangles, those that send light on cut into patches.
+struct Pieces {
+  std::vector<RayTree::Triangle> triangles;
+  std::vector<std::uint32_t> patch_of;
+  std::vector<Patch> patches;
+  std::vector<std::pair<glm::dvec3, glm::dvec3>> boxes_m;
+
+  /// False: there are more than kMostPatches of that length.
+  bool cut(const Scene& scene, const ReflectedLight::NearestLamp& nearest_lamp_m, double scale);
+
+ private:
+  void add(const SceneMaterial& material, bool sends, const std::array<glm::dvec3, 3>& corners, int cuts,
+           const ReflectedLight::NearestLamp& nearest_lamp_m, double scale);
+};
+
+bool Pieces::cut(const Scene& scene, const ReflectedLight::NearestLamp& nearest_lamp_m, double scale) {
+  *this = {};
+  for (const SceneChunk& chunk : scene.chunks) {
+    const SceneMaterial& material = scene.materials[chunk.material];
+    if (material.surface == Surface::kPaint) continue;  // it lies on what sends the light on
+    const bool sends = material.sky_share < 1.0f && material.emission_cdm2 == glm::vec3(0.0f);
+    if (sends) boxes_m.emplace_back(chunk.low_m - kReflectedReach_m, chunk.high_m + kReflectedReach_m);
+    for (std::uint32_t i = 0; i + 2 < chunk.index_count; i += 3) {
+      const auto corner = [&](std::uint32_t k) {
+        return chunk.origin_m +
+               glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i + k]].position_m);
+      };
+      add(material, sends, {corner(0), corner(1), corner(2)}, kMostCuts, nearest_lamp_m, scale);
+      if (patches.size() > kMostPatches) return false;
+    }
+  }
+  return true;
+}
+
+void Pieces::add(const SceneMaterial& material, bool sends, const std::array<glm::dvec3, 3>& corners, int cuts,
+                 const ReflectedLight::NearestLamp& nearest_lamp_m, double scale) {
+  if (patches.size() > kMostPatches) return;
+  const auto& [a, b, c] = corners;
+  const glm::dvec3 middle_m = (a + b + c) / 3.0, across = glm::cross(b - a, c - a);
+  if (!(glm::length(across) > 0.0)) return;
+  const double ab = glm::distance(a, b), bc = glm::distance(b, c), ca = glm::distance(c, a);
+  const double longest_m = std::max({ab, bc, ca});
+  const auto piece = [&](const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r, int left) {
+    add(material, sends, {p, q, r}, left, nearest_lamp_m, scale);
+  };
+  if (sends && cuts > 0 && longest_m > scale * kShortest_m &&
+      longest_m > scale * std::clamp(nearest_lamp_m(middle_m), kShortest_m, kLongest_m)) {
+    if (ab < longest_m) return bc < longest_m ? piece(c, a, b, cuts) : piece(b, c, a, cuts);
+    const glm::dvec3 half = 0.5 * (a + b);
+    piece(a, half, c, cuts - 1);
+    return piece(half, b, c, cuts - 1);
+  }
+  triangles.push_back({a, b - a, c - a, !material.double_sided});
+  patch_of.push_back(sends ? static_cast<std::uint32_t>(patches.size()) : kNone);
+  if (sends) patches.push_back({middle_m, glm::normalize(across), &material});
+}
+
 glm::dvec4 sent(const SceneMaterial& material, const glm::dvec4& lx) {
   const glm::dvec3 rgb = glm::dvec3(material.reflectance) * glm::dvec3(lx);
   return {rgb, static_cast<double>(shader::luminance_of(glm::vec3(rgb)))};
@@ -55,40 +115,17 @@ glm::dvec4 sent(const SceneMaterial& material, const glm::dvec4& lx) {
 ReflectedLight::ReflectedLight(const Scene& scene, Reflected times, const Direct& direct,
                                const NearestLamp& nearest_lamp_m) {
   if (times == Reflected::kOff) return;
-  std::vector<RayTree::Triangle> triangles;
-  std::vector<Patch> patches;
-  for (const SceneChunk& chunk : scene.chunks) {
-    const SceneMaterial& material = scene.materials[chunk.material];
-    if (material.surface == Surface::kPaint) continue;  // it lies on what sends the light on
-    const bool sends = material.sky_share < 1.0f && material.emission_cdm2 == glm::vec3(0.0f);
-    if (sends) boxes_m_.emplace_back(chunk.low_m - kReflectedReach_m, chunk.high_m + kReflectedReach_m);
-    const auto add = [&](const auto& again, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
-                         int cuts) -> void {
-      const double ab = glm::distance(a, b), bc = glm::distance(b, c), ca = glm::distance(c, a);
-      const glm::dvec3 middle_m = (a + b + c) / 3.0, across = glm::cross(b - a, c - a);
-      if (!(glm::length(across) > 0.0)) return;
-      const double longest_m = std::max({ab, bc, ca});
-      if (sends && cuts > 0 && longest_m > kShortest_m &&
-          longest_m > std::clamp(nearest_lamp_m(middle_m), kShortest_m, kLongest_m)) {
-        if (ab < longest_m) return bc < longest_m ? again(again, c, a, b, cuts) : again(again, b, c, a, cuts);
-        const glm::dvec3 half = 0.5 * (a + b);
-        again(again, a, half, c, cuts - 1);
-        return again(again, half, b, c, cuts - 1);
-      }
-      triangles.push_back({a, b - a, c - a, !material.double_sided});
-      patch_of_.push_back(sends ? static_cast<std::uint32_t>(patches.size()) : kNone);
-      if (sends) patches.push_back({middle_m, glm::normalize(across), &material});
-    };
-    for (std::uint32_t i = 0; i + 2 < chunk.index_count; i += 3) {
-      const auto corner = [&](std::uint32_t k) {
-        return chunk.origin_m +
-               glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i + k]].position_m);
-      };
-      add(add, corner(0), corner(1), corner(2), kMostCuts);
+  Pieces pieces;
+  for (double scale = 1.0; !pieces.cut(scene, nearest_lamp_m, scale); scale *= 2.0)
+    if (scale > kLongestScale) {
+      too_many_ = true;
+      return;
     }
-  }
+  const std::vector<Patch>& patches = pieces.patches;
   if (patches.empty()) return;
-  tree_ = RayTree(triangles);
+  patch_of_ = std::move(pieces.patch_of);
+  boxes_m_ = std::move(pieces.boxes_m);
+  tree_ = RayTree(pieces.triangles);
 
   constexpr std::size_t kTogether = 64;
   std::vector<glm::dvec4> lamps_lx(patches.size());
@@ -167,11 +204,11 @@ glm::dvec4 ReflectedLight::at(const glm::dvec3& point_m, const glm::dvec3& norma
 void ReflectedLight::each_way(const glm::dvec3& point_m,
                               const std::function<void(const glm::dvec3&, const glm::dvec4&)>& arrives) const {
   if (!reaches(point_m)) return;
-  for (std::uint32_t k = 0; k < kPointRays; ++k) {
-    const glm::dvec3 way = direction(k, kPointRays, glm::dmat3(1.0), 0.0, true);
-    // Luminance sent/pi over 4·pi/kPointRays of the sphere.
+  for (std::uint32_t k = 0; k < kRoundRays; ++k) {
+    const glm::dvec3 way = direction(k, kRoundRays, glm::dmat3(1.0), 0.0, true);
+    // Luminance sent/pi over 4·pi/kRoundRays of the sphere.
     if (const std::uint32_t patch = seen(point_m, way); patch != kNone)
-      arrives(way, sent_lx_[patch] * (4.0 / kPointRays));
+      arrives(way, sent_lx_[patch] * (4.0 / kRoundRays));
   }
 }
 

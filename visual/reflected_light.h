@@ -5,7 +5,8 @@
 //
 // Covered surfaces (SceneMaterial::sky_share below 1) send light on; all others only hide it, and so do those that
 // shine by themselves. It is received by whatever stands within kReflectedReach_m of them. Of a patch one number is
-// kept, in the middle; patches are as long as the nearest lamp is far, 0.25 to 2 m. How far that is off:
+// kept, in the middle; patches are as long as the nearest lamp is far, 0.25 to 2 m, and of large scenes longer in
+// proportion, so that there are 200,000 at most. How far that is off:
 // docs/street-lamps.md. float64. Checked by tests/visual_process/reflected_light_test.cpp.
 #pragma once
 
@@ -38,11 +39,12 @@ class ReflectedLight {
   ReflectedLight(const Scene& scene, Reflected times, const Direct& direct, const NearestLamp& nearest_lamp_m);
 
   std::size_t patches() const { return sent_lx_.size(); }
+  bool too_many() const { return too_many_; }  ///< so that nothing is reflected
   /// Any of it may be received there.
   bool reaches(const glm::dvec3& point_m) const;
   /// What falls on a surface, lx as of Direct.
   glm::dvec4 at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
-  /// Calls arrives(unit direction that it comes from, lx facing it) for so many ways, evenly over the sphere.
+  /// Calls arrives(unit direction that it comes from, lx facing it) for 128 ways, evenly over the sphere.
   void each_way(const glm::dvec3& point_m,
                 const std::function<void(const glm::dvec3&, const glm::dvec4&)>& arrives) const;
 
@@ -52,6 +54,7 @@ class ReflectedLight {
   glm::dvec3 off_corners(const glm::dvec3& point_m, const glm::dvec3& normal) const;
 
   RayTree tree_;
+  bool too_many_ = false;
   std::vector<std::uint32_t> patch_of_;                     ///< of the tree's triangles
   std::vector<glm::dvec4> sent_lx_;                         ///< rho·E of each patch
   std::vector<std::pair<glm::dvec3, glm::dvec3>> boxes_m_;  ///< corners of where it is received

@@ -40,15 +40,14 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
   for (const auto& [facts, effect] : cases) {
     const EffectPlan plan = plan_effects(facts);
     for (const EffectRow& row : effect_table()) {
-      const bool needed =
-          ((effect == Effect::kGlare || effect == Effect::kPrecipitation || effect == Effect::kWindscreen ||
-            effect == Effect::kSpray) &&
-           row.effect == Effect::kHdrImage) ||
-          ((effect == Effect::kPrecipitation || effect == Effect::kWetGround || effect == Effect::kWindscreen ||
-            effect == Effect::kSpray) &&
-           row.effect == Effect::kFog) ||
-          (effect == Effect::kSpray && row.effect == Effect::kWetGround) ||
-          (effect == Effect::kAsphalt && row.effect == Effect::kFixedLight);
+      const bool needed = ((effect == Effect::kGlare || effect == Effect::kPrecipitation ||
+                            effect == Effect::kWindscreen || effect == Effect::kSpray) &&
+                           row.effect == Effect::kHdrImage) ||
+                          ((effect == Effect::kPrecipitation || effect == Effect::kWetGround ||
+                            effect == Effect::kWindscreen || effect == Effect::kSpray) &&
+                           row.effect == Effect::kFog) ||
+                          (effect == Effect::kSpray && row.effect == Effect::kWetGround) ||
+                          (effect == Effect::kAsphalt && row.effect == Effect::kFixedLight);
       EXPECT_EQ(plan.on(row.effect), row.effect == effect || needed) << row.name;
     }
     tried.insert(effect);
@@ -63,6 +62,8 @@ TEST(Effects, FixedLightNamesAllThatShines) {
       "212 street lamps, the moon, 3 luminous materials, a roof over the road");
   EXPECT_EQ(plan_effects({.street_lamps = 2, .covered = true, .reflecting = 7000})[Effect::kFixedLight].reason,
             "2 street lamps, a roof over the road, 7000 pieces under it send light on");
+  EXPECT_EQ(plan_effects({.street_lamps = 2, .covered = true, .too_many_reflecting = true})[Effect::kFixedLight].reason,
+            "2 street lamps, a roof over the road, too many pieces under it to send light on");
   EffectChoices choices{};
   choices[static_cast<std::size_t>(Effect::kFixedLight)] = 1;
   EXPECT_FALSE(plan_effects({}, choices).on(Effect::kFixedLight)) << "there is nothing that it could be made of";

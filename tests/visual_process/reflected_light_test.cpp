@@ -147,7 +147,7 @@ TEST(ReflectedLight, UnderAnEvenlyLitRoofItIsTheViewFactor) {
     light.each_way({x, y, 0.0}, [&](const glm::dvec3& way, const glm::dvec4& facing) {
       on_level += facing.w * std::max(way.z, 0.0);
     });
-    EXPECT_NEAR(on_level, 50.0 * factor, 4.0 * 50.0 * std::pow(256.0, -0.75));
+    EXPECT_NEAR(on_level, 50.0 * factor, 4.0 * 50.0 * std::pow(128.0, -0.75));
   }
   EXPECT_EQ(light.at({kWide_m + kReflectedReach_m + 1.0, 0.0, 0.0}, {0, 0, 1}).w, 0.0) << "out of reach";
 }
@@ -236,6 +236,26 @@ TEST(ReflectedLight, AClickTellsIt) {
   EXPECT_EQ(line(), "  besides, of what stands: 5 lx by one lamp and what walls and roof reflect, 4 of street lamp 4");
   reading.fixed = {{.reflected = true, .lx = 5.0}};
   EXPECT_EQ(line(), "  besides, of what stands: 5 lx by what walls and roof reflect, 5 of walls and roof");
+}
+
+/// Ground of 4 km would be cut into 8 million pieces of 2 m, and a mesh of more triangles than that is left alone.
+TEST(ReflectedLight, LargeScenesHaveLongerPiecesOrNone) {
+  const ReflectedLight::Direct direct = [](const glm::dvec3&, const glm::dvec3&) { return glm::dvec4(10.0); };
+  const ReflectedLight::NearestLamp far = [](const glm::dvec3&) { return 1e9; };
+  Scene scene;
+  scene.materials = {covered(glm::vec3(0.5f))};
+  add_quad(scene, "ground", {glm::vec3(-2000, -2000, 0), {2000, -2000, 0}, {2000, 2000, 0}, {-2000, 2000, 0}});
+  const ReflectedLight ground(scene, Reflected::kOnce, direct, far);
+  EXPECT_FALSE(ground.too_many());
+  EXPECT_GT(ground.patches(), 50000u);
+  EXPECT_LE(ground.patches(), 200000u);
+  EXPECT_NEAR(ground.at({10, 10, 1}, {0, 0, -1}).w, 5.0, 5.0 * std::pow(256.0, -0.75)) << "all below is ground";
+  for (int i = 0; i < 200000; ++i) scene.indices.insert(scene.indices.end(), {0, 1, 2});
+  scene.chunks[0].index_count += 600000;
+  const ReflectedLight none(scene, Reflected::kAll, direct, far);
+  EXPECT_TRUE(none.too_many());
+  EXPECT_EQ(none.patches(), 0u);
+  EXPECT_EQ(none.at({10, 10, 1}, {0, 0, -1}).w, 0.0);
 }
 
 /// No roof, no piece, no ray.
