@@ -26,7 +26,8 @@ constexpr double kOff_m = 0.005;    // the surface, where rays begin
 constexpr double kWithin_m = 0.3;   // as deep a point may lie in what stands (visual/fixed_light.cpp)
 constexpr double kCorner_m = 0.03;  // as far points keep from what ends or stands there
 constexpr double kSettled = 1e-4;   // of the brightest patch: so little changes the last time
-constexpr int kMostTimes = 1000;    // 1e-4 is left after so many where surfaces send 99 % on
+constexpr double kWhitest = 0.95;   // of what falls on it a surface sends on at most, as fresh snow does
+constexpr int kMostTimes = 400;     // 0.95 to that power is 1e-9
 
 /// So many directions over the half space about `normal` by the cosine (or, `even`, over the sphere): along a spiral.
 glm::dvec3 direction(std::uint32_t k, std::uint32_t of, const glm::dmat3& frame, double turn, bool even) {
@@ -106,7 +107,7 @@ void Pieces::add(const SceneMaterial& material, bool sends, const std::array<glm
 }
 
 glm::dvec4 sent(const SceneMaterial& material, const glm::dvec4& lx) {
-  const glm::dvec3 rgb = glm::dvec3(material.reflectance) * glm::dvec3(lx);
+  const glm::dvec3 rgb = glm::min(glm::dvec3(material.reflectance), kWhitest) * glm::dvec3(lx);
   return {rgb, static_cast<double>(shader::luminance_of(glm::vec3(rgb)))};
 }
 
@@ -138,9 +139,11 @@ ReflectedLight::ReflectedLight(const Scene& scene, Reflected times, const Direct
       if (patch.material->double_sided) lamps_lx[i] = 0.5 * (lamps_lx[i] + direct(patch.middle_m, -patch.normal));
       const glm::dmat3 frame = frame_of(patch.normal);
       const double turn = static_cast<double>(i) * std::numbers::sqrt2;  // what each is off by is not that of the next
-      for (std::uint32_t k = 0; again && k < kPatchRays; ++k)
+      for (std::uint32_t k = 0; again && k < kPatchRays; ++k) {
+        const double side = patch.material->double_sided && k % 2 == 1 ? -1.0 : 1.0;
         sees[i * kPatchRays + k] =
-            seen(patch.middle_m + kOff_m * patch.normal, direction(k, kPatchRays, frame, turn, false));
+            seen(patch.middle_m + side * kOff_m * patch.normal, side * direction(k, kPatchRays, frame, turn, false));
+      }
     }
   });
   std::vector<glm::dvec4> next(patches.size());
