@@ -184,7 +184,8 @@ int measure_street(const MeasureOptions& options) {
     const auto shares = light->shares_at(row.position_m, row.normal);
     Illuminance& at = measured.emplace_back();
     for (const FixedLight::Share& share : shares) at.total_lx += share.lx;
-    at.lamps_lx = {shares.empty() ? 0.0 : shares.front().lx};
+    const auto lamp = std::ranges::find(shares, false, &FixedLight::Share::reflected);  // strongest first
+    at.lamps_lx = {lamp == shares.end() ? 0.0 : lamp->lx};
     highest = std::max(highest, at.total_lx);
   }
   if (const Status status = write_illuminance(options.out, *points, measured); !status)

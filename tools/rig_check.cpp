@@ -64,7 +64,7 @@ class Checker {
     if (!scene) return problem(scene.error());
     for (const std::string& note : scene->notes) found_.notes.push_back(file.string() + ": " + note);
     // Its own lamps' photometry files, too.
-    if (const auto light = FixedLight::of(*scene, {}, std::nullopt); !light) problem(light.error());
+    if (const auto light = FixedLight::of(*scene, {}, std::nullopt, Reflected::kOff); !light) problem(light.error());
     std::error_code ignored;
     const fs::path lane = lane_file_of(file);
     if (!fs::exists(lane, ignored))

@@ -34,13 +34,13 @@ glm::dmat3 world_from_luminaire(double yaw_rad, double tilt_rad) {
 }  // namespace
 
 Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::path& street_lamps,
-                                  const std::optional<MoonConfig>& moon) {
+                                  const std::optional<MoonConfig>& moon, const std::optional<Reflected>& reflected) {
   FixedLight light;
-  Reflected reflected = Reflected::kAll;
+  Reflected times = Reflected::kAll;
   if (!street_lamps.empty()) {
     const auto config = read_street_lamps(street_lamps);
     if (!config) return config.error();
-    reflected = config->reflected;
+    times = config->reflected;
     light.level_ = kBakeLevels[static_cast<std::size_t>(config->fineness)];
     if (!config->r_table_file.empty()) {
       const auto table = read_r_table(config->r_table_file);
@@ -82,9 +82,9 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
       });
       return sum;
     };
-    light.reflected_ = ReflectedLight(scene, reflected, direct, [&light](const glm::dvec3& point_m) {
-      return light.nearest_lamp_m(point_m, point_m);
-    });
+    std::vector<glm::dvec3> lamps_m;
+    for (const Lamp& lamp : light.lamps_) lamps_m.push_back(lamp.position_m);
+    light.reflected_ = ReflectedLight(scene, reflected.value_or(times), direct, lamps_m);
   }
   return light;
 }
@@ -169,17 +169,13 @@ void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, bool 
   for (std::size_t i = 0; i < suns_.size(); ++i) from_far(suns_[i], {.directional = i});
 }
 
-double FixedLight::nearest_lamp_m(const glm::dvec3& a_m, const glm::dvec3& b_m) const {
-  double least_m2 = std::numeric_limits<double>::infinity();
-  const glm::dvec3 along = b_m - a_m;
-  const double length_m2 = glm::dot(along, along);
-  for (const Lamp& lamp : lamps_) {
-    const glm::dvec3 way = lamp.position_m - a_m;
-    const double at = length_m2 > 0.0 ? std::clamp(glm::dot(way, along) / length_m2, 0.0, 1.0) : 0.0;
-    const glm::dvec3 off = way - at * along;
-    least_m2 = std::min(least_m2, glm::dot(off, off));
-  }
-  return std::sqrt(least_m2);
+std::vector<glm::dvec3> FixedLight::lamps_near(const glm::dvec3& low_m, const glm::dvec3& high_m,
+                                               double within_m) const {
+  std::vector<glm::dvec3> near;
+  for (const Lamp& lamp : lamps_)
+    if (glm::distance(lamp.position_m, glm::clamp(lamp.position_m, low_m, high_m)) < within_m)
+      near.push_back(lamp.position_m);
+  return near;
 }
 
 std::vector<FixedLight::Share> FixedLight::shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const {
@@ -288,10 +284,10 @@ FixedVertex FixedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, 
   return {glm::vec4(glm::vec3(glm::dvec3(sum) + own_lx), static_cast<float>(sum.w)), material.sky_share};
 }
 
-glm::dvec4 FixedLight::reflected_at(const glm::dvec3& point_m, const glm::dvec3& normal,
-                                    const SceneMaterial& material) const {
-  const glm::dvec4 above = reflected_.at(point_m, normal);
-  return material.double_sided ? 0.5 * (above + reflected_.at(point_m, -normal)) : above;
+glm::dvec4 FixedLight::reflected_at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material,
+                                    std::uint32_t ways) const {
+  if (!material.double_sided) return reflected_.at(point_m, normal, true, ways);
+  return 0.5 * (reflected_.at(point_m, normal, false, ways) + reflected_.at(point_m, -normal, false, ways));
 }
 
 FixedProbe FixedLight::probe(const glm::dvec3& point_m) const {

@@ -93,9 +93,9 @@ class FixedLight {
  public:
   FixedLight() = default;
   /// What shines in that scene, its own lamps (visual/scene/scene_lights.h) behind those of the file `street_lamps`,
-  /// which may be empty: there are none. Error: a file that cannot be read.
+  /// which may be empty: there are none. `reflected`: in place of what that says. Error: a file that cannot be read.
   static Result<FixedLight> of(const Scene& scene, const std::filesystem::path& street_lamps,
-                               const std::optional<MoonConfig>& moon);
+                               const std::optional<MoonConfig>& moon, const std::optional<Reflected>& reflected = {});
 
   bool any() const { return !lamps_.empty() || moon_ || !suns_.empty() || luminous_ > 0 || covered_; }
   std::size_t street_lamps() const { return lamps_.size(); }
@@ -127,14 +127,15 @@ class FixedLight {
   /// In float64, with shadows: what falls on a point, strongest first.
   std::vector<Share> shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
   double lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
-  /// How far the nearest lamp is from the line between two places; infinity where there is none.
-  double nearest_lamp_m(const glm::dvec3& a_m, const glm::dvec3& b_m) const;
+  /// Where lamps are that are so near a box.
+  std::vector<glm::dvec3> lamps_near(const glm::dvec3& low_m, const glm::dvec3& high_m, double within_m) const;
   /// As vertices of the scene keep it: one that nobody sees, for something thin lies on it, has the light that falls on
   /// that; else lux_at(). `reflected_lx`: as reflected_at() gives it, where that is known.
   FixedVertex at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material,
                  FixedRoad* road = nullptr, FixedWay* way = nullptr, const glm::dvec4* reflected_lx = nullptr) const;
   /// Of that what covered surfaces send on, lx: linear Rec. 709 and photopic.
-  glm::dvec4 reflected_at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material) const;
+  glm::dvec4 reflected_at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material,
+                          std::uint32_t ways = kReflectedWays) const;
   FixedProbe probe(const glm::dvec3& point_m) const;
   /// Lamps that shine into an eye, the scene and the air between them; what moves hides none. The strongest
   /// kMostGlaringLamps: no more are drawn.

@@ -22,19 +22,24 @@ constexpr double kLongest_m = 6.0;  // a longer side may have a pool of light be
 // distance of the lamp.
 constexpr double kHigh_m = 8.0;
 constexpr double kLeastShare = 0.05;  // of the lengths: lamps nearer than 0.4 m are taken for so far away
-constexpr double kReflected_m = 5.0;  // light that is reflected is even along shorter sides
+constexpr double kReflected_m = 2.0;  // light that is reflected is even along shorter sides
+/// So many vertices ask for it along kReflectedWays; where there are more, along fewer, down to kFewestWays.
+constexpr std::size_t kMostAsk = 200000;
+constexpr std::uint32_t kFewestWays = 16;
 constexpr int kMostCuts = 10;
 constexpr double kStreaksOff = 2.0;  // times the tolerance: luminance of asphalt by its r-table, from any side
 
 /// The light at a vertex, asked once for each place and normal of a chunk.
 class Baker {
  public:
-  Baker(const FixedLight& light, const Scene& scene, const SceneChunk& chunk)
+  Baker(const FixedLight& light, const Scene& scene, const SceneChunk& chunk, std::uint32_t ways)
       : light_(light),
         material_(scene.materials[chunk.material]),
         origin_m_(chunk.origin_m),
         r_table_(light.r_table(material_)),
-        relief_(material_.look.relief()) {}
+        relief_(material_.look.relief()),
+        lamps_m_(light.lamps_near(chunk.low_m, chunk.high_m, kHigh_m)),
+        ways_(ways) {}
 
   void add(FixedMesh& mesh, const SceneVertex& vertex) {
     const Kept& kept = at(vertex);
@@ -82,7 +87,7 @@ class Baker {
     Kept& kept = found->second;
     const glm::dvec3 at_m = origin_m_ + glm::dvec3(vertex.position_m);
     const glm::dvec3 normal = glm::normalize(glm::dvec3(vertex.normal));
-    kept.reflected_lx = reflected_lx ? *reflected_lx : light_.reflected_at(at_m, normal, material_);
+    kept.reflected_lx = reflected_lx ? *reflected_lx : light_.reflected_at(at_m, normal, material_, ways_);
     kept.light = light_.at(at_m, normal, material_, r_table_ ? &kept.road : nullptr, relief_ ? &kept.way : nullptr,
                            &kept.reflected_lx);
     return kept;
@@ -117,9 +122,14 @@ class Baker {
 
   /// Of the lengths above, for a side between two vertices.
   double share_of_lengths(const SceneVertex& a, const SceneVertex& b) const {
-    const double lamp_m =
-        light_.nearest_lamp_m(origin_m_ + glm::dvec3(a.position_m), origin_m_ + glm::dvec3(b.position_m));
-    return std::clamp(lamp_m / kHigh_m, kLeastShare, 1.0);
+    const glm::dvec3 a_m = origin_m_ + glm::dvec3(a.position_m), along(b.position_m - a.position_m);
+    const double length_m2 = glm::dot(along, along);
+    double lamp_m = kHigh_m;
+    for (const glm::dvec3& at_m : lamps_m_) {
+      const double at = length_m2 > 0.0 ? std::clamp(glm::dot(at_m - a_m, along) / length_m2, 0.0, 1.0) : 0.0;
+      lamp_m = std::min(lamp_m, glm::distance(at_m, a_m + at * along));
+    }
+    return std::max(lamp_m / kHigh_m, kLeastShare);
   }
 
   std::optional<std::uint32_t> halved(FixedMesh& mesh, std::uint32_t i, std::uint32_t j, const BakeLevel& level,
@@ -138,7 +148,9 @@ class Baker {
       reflected_lx = 0.5 * (at(a).reflected_lx + at(b).reflected_lx);
     const Kept& middle = at(between, reflected_lx);
     const double exact = static_cast<double>(middle.light.light.w);
-    const bool off = std::abs(exact - 0.5 * (at_a + at_b)) > level.tolerance * std::max(exact, kFloor_lx);
+    // What rays are off by is nothing to cut for: their number to -3/4 of what they bring.
+    const double rays_lx = middle.reflected_lx.w * std::pow(static_cast<double>(ways_), -0.75);
+    const bool off = std::abs(exact - 0.5 * (at_a + at_b)) > level.tolerance * std::max(exact, kFloor_lx) + rays_lx;
     const bool unseen = length_m > share * kLongest_m && std::max({at_a, at_b, exact}) > 0.1 * kFloor_lx;
     if (!off && !unseen && !(r_table_ && streaks_off(mesh, i, j, middle, level))) return std::nullopt;
     mesh.vertices.push_back(between);
@@ -176,6 +188,8 @@ class Baker {
   const SceneMaterial& material_;
   glm::dvec3 origin_m_;
   bool r_table_, relief_;
+  std::vector<glm::dvec3> lamps_m_;  ///< nearer than kHigh_m to any of it
+  std::uint32_t ways_;               ///< reflected light is asked for along so many
   std::map<std::array<std::uint32_t, 6>, Kept> known_;
 };
 static_assert(sizeof(SceneVertex) == sizeof(std::array<std::uint32_t, 6>));
@@ -184,9 +198,14 @@ static_assert(sizeof(SceneVertex) == sizeof(std::array<std::uint32_t, 6>));
 
 std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
   std::vector<Meshes> all(scene.chunks.size());
+  std::size_t ask = 0;
+  for (const SceneChunk& chunk : scene.chunks)
+    if (reflected_.reaches(0.5 * (chunk.low_m + chunk.high_m))) ask += chunk.vertex_count;
+  const auto ways = static_cast<std::uint32_t>(
+      std::max<std::size_t>(kFewestWays, kReflectedWays * std::min(kMostAsk, ask) / std::max<std::size_t>(ask, 1)));
   on_all_cores(all.size(), [&](std::size_t i) {
     const SceneChunk& chunk = scene.chunks[i];
-    Baker baker(*this, scene, chunk);
+    Baker baker(*this, scene, chunk, ways);
     for (std::size_t level = 0; level < all[i].size(); ++level) {
       FixedMesh& mesh = all[i][level];
       BakeLevel cuts = level_;

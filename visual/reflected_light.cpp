@@ -16,18 +16,18 @@ namespace phare {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint32_t kPatchRays = 64, kPointRays = 256, kRoundRays = 128;
+constexpr std::uint32_t kPatchRays = 64, kRoundRays = 128;
 constexpr double kShortest_m = 0.25, kLongest_m = 2.0;
-constexpr int kMostCuts = 40;
+constexpr int kMostHalvings = 40;
 constexpr std::size_t kMostPatches = 200000;  // ten seconds of a processor; a scene with more has longer ones
 constexpr double kLongestScale = 64.0;
 constexpr double kFarthest_m = 200.0;
-constexpr double kOff_m = 0.005;    // the surface, where rays begin
-constexpr double kWithin_m = 0.3;   // as deep a point may lie in what stands (visual/fixed_light.cpp)
-constexpr double kCorner_m = 0.03;  // as far points keep from what ends or stands there
-constexpr double kSettled = 1e-4;   // of the brightest patch: so little changes the last time
-constexpr double kWhitest = 0.95;   // of what falls on it a surface sends on at most, as fresh snow does
-constexpr int kMostTimes = 400;     // 0.95 to that power is 1e-9
+constexpr double kOff_m = 0.005;                 // the surface, where rays begin
+constexpr double kDeep_m = 0.3, kThin_m = 0.15;  // of meshes: kWithin_m and kCover_m of visual/fixed_light.cpp
+constexpr double kCorner_m = 0.03;               // as far points keep from what ends or stands there
+constexpr double kSettled = 1e-4;                // of the brightest patch: so little changes the last time
+constexpr double kWhitest = 0.95;                // of what falls on it a surface sends on at most, as fresh snow does
+constexpr int kMostTimes = 400;                  // 0.95 to that power is 1e-9
 
 /// So many directions over the half space about `normal` by the cosine (or, `even`, over the sphere): along a spiral.
 glm::dvec3 direction(std::uint32_t k, std::uint32_t of, const glm::dmat3& frame, double turn, bool even) {
@@ -57,26 +57,30 @@ struct Pieces {
   std::vector<std::pair<glm::dvec3, glm::dvec3>> boxes_m;
 
   /// False: there are more than kMostPatches of that length.
-  bool cut(const Scene& scene, const ReflectedLight::NearestLamp& nearest_lamp_m, double scale);
+  bool cut(const Scene& scene, const std::vector<glm::dvec3>& lamps_m, double scale);
 
  private:
   void add(const SceneMaterial& material, bool sends, const std::array<glm::dvec3, 3>& corners, int cuts,
-           const ReflectedLight::NearestLamp& nearest_lamp_m, double scale);
+           const std::vector<glm::dvec3>& near_m, double scale);
 };
 
-bool Pieces::cut(const Scene& scene, const ReflectedLight::NearestLamp& nearest_lamp_m, double scale) {
+bool Pieces::cut(const Scene& scene, const std::vector<glm::dvec3>& lamps_m, double scale) {
   *this = {};
+  std::vector<glm::dvec3> near_m;
   for (const SceneChunk& chunk : scene.chunks) {
     const SceneMaterial& material = scene.materials[chunk.material];
     if (material.surface == Surface::kPaint) continue;  // it lies on what sends the light on
     const bool sends = material.sky_share < 1.0f && material.emission_cdm2 == glm::vec3(0.0f);
     if (sends) boxes_m.emplace_back(chunk.low_m - kReflectedReach_m, chunk.high_m + kReflectedReach_m);
+    near_m.clear();  // those that may be nearer to a piece than its longest side
+    for (const glm::dvec3& lamp_m : lamps_m)
+      if (glm::distance(lamp_m, glm::clamp(lamp_m, chunk.low_m, chunk.high_m)) < kLongest_m) near_m.push_back(lamp_m);
     for (std::uint32_t i = 0; i + 2 < chunk.index_count; i += 3) {
       const auto corner = [&](std::uint32_t k) {
         return chunk.origin_m +
                glm::dvec3(scene.vertices[chunk.first_vertex + scene.indices[chunk.first_index + i + k]].position_m);
       };
-      add(material, sends, {corner(0), corner(1), corner(2)}, kMostCuts, nearest_lamp_m, scale);
+      add(material, sends, {corner(0), corner(1), corner(2)}, kMostHalvings, near_m, scale);
       if (patches.size() > kMostPatches) return false;
     }
   }
@@ -84,7 +88,7 @@ bool Pieces::cut(const Scene& scene, const ReflectedLight::NearestLamp& nearest_
 }
 
 void Pieces::add(const SceneMaterial& material, bool sends, const std::array<glm::dvec3, 3>& corners, int cuts,
-                 const ReflectedLight::NearestLamp& nearest_lamp_m, double scale) {
+                 const std::vector<glm::dvec3>& near_m, double scale) {
   if (patches.size() > kMostPatches) return;
   const auto& [a, b, c] = corners;
   const glm::dvec3 middle_m = (a + b + c) / 3.0, across = glm::cross(b - a, c - a);
@@ -92,11 +96,12 @@ void Pieces::add(const SceneMaterial& material, bool sends, const std::array<glm
   const double ab = glm::distance(a, b), bc = glm::distance(b, c), ca = glm::distance(c, a);
   const double longest_m = std::max({ab, bc, ca});
   const auto piece = [&](const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r, int left) {
-    add(material, sends, {p, q, r}, left, nearest_lamp_m, scale);
+    add(material, sends, {p, q, r}, left, near_m, scale);
   };
-  if (sends && cuts > 0 && longest_m > scale * kShortest_m &&
-      longest_m > scale * std::clamp(nearest_lamp_m(middle_m), kShortest_m, kLongest_m)) {
-    if (ab < longest_m) return bc < longest_m ? piece(c, a, b, cuts) : piece(b, c, a, cuts);
+  if (sends && ab < longest_m) return bc < longest_m ? piece(c, a, b, cuts) : piece(b, c, a, cuts);
+  double side_m = kLongest_m;
+  for (const glm::dvec3& lamp_m : near_m) side_m = std::min(side_m, glm::distance(lamp_m, middle_m));
+  if (sends && cuts > 0 && longest_m > scale * std::max(side_m, kShortest_m)) {
     const glm::dvec3 half = 0.5 * (a + b);
     piece(a, half, c, cuts - 1);
     return piece(half, b, c, cuts - 1);
@@ -114,11 +119,11 @@ glm::dvec4 sent(const SceneMaterial& material, const glm::dvec4& lx) {
 }  // namespace
 
 ReflectedLight::ReflectedLight(const Scene& scene, Reflected times, const Direct& direct,
-                               const NearestLamp& nearest_lamp_m) {
+                               const std::vector<glm::dvec3>& lamps_m) {
   if (times == Reflected::kOff) return;
   Pieces pieces;
-  for (double scale = 1.0; !pieces.cut(scene, nearest_lamp_m, scale); scale *= 2.0)
-    if (scale > kLongestScale) {
+  for (double scale = 1.0; !pieces.cut(scene, lamps_m, scale); scale *= 2.0)
+    if (scale >= kLongestScale) {
       too_many_ = true;
       return;
     }
@@ -127,6 +132,7 @@ ReflectedLight::ReflectedLight(const Scene& scene, Reflected times, const Direct
   patch_of_ = std::move(pieces.patch_of);
   boxes_m_ = std::move(pieces.boxes_m);
   tree_ = RayTree(pieces.triangles);
+  pieces.triangles = {};
 
   constexpr std::size_t kTogether = 64;
   std::vector<glm::dvec4> lamps_lx(patches.size());
@@ -141,8 +147,8 @@ ReflectedLight::ReflectedLight(const Scene& scene, Reflected times, const Direct
       const double turn = static_cast<double>(i) * std::numbers::sqrt2;  // what each is off by is not that of the next
       for (std::uint32_t k = 0; again && k < kPatchRays; ++k) {
         const double side = patch.material->double_sided && k % 2 == 1 ? -1.0 : 1.0;
-        sees[i * kPatchRays + k] =
-            seen(patch.middle_m + side * kOff_m * patch.normal, side * direction(k, kPatchRays, frame, turn, false));
+        sees[i * kPatchRays + k] = seen(patch.middle_m + side * kOff_m * patch.normal,
+                                        side * direction(k, kPatchRays, frame, turn, false), 0.0);
       }
     }
   });
@@ -169,8 +175,8 @@ bool ReflectedLight::reaches(const glm::dvec3& point_m) const {
   });
 }
 
-std::uint32_t ReflectedLight::seen(const glm::dvec3& from_m, const glm::dvec3& along) const {
-  const auto met = tree_.first_met(from_m, along, kFarthest_m, kWithin_m);
+std::uint32_t ReflectedLight::seen(const glm::dvec3& from_m, const glm::dvec3& along, double leave_within_m) const {
+  const auto met = tree_.first_met(from_m, along, kFarthest_m, leave_within_m);
   return met && !met->from_behind ? patch_of_[met->triangle] : kNone;
 }
 
@@ -193,15 +199,19 @@ glm::dvec3 ReflectedLight::off_corners(const glm::dvec3& point_m, const glm::dve
   return glm::length(free) > 1e-6 ? from_m + kCorner_m * glm::normalize(free) : from_m;
 }
 
-glm::dvec4 ReflectedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal) const {
+glm::dvec4 ReflectedLight::at(const glm::dvec3& point_m, const glm::dvec3& normal, bool of_mesh,
+                              std::uint32_t ways) const {
   if (!reaches(point_m)) return glm::dvec4(0.0);
-  const glm::dvec3 from_m = off_corners(point_m, normal);
+  glm::dvec3 from_m = off_corners(point_m, normal);
+  if (of_mesh) from_m += tree_.left_at_m(from_m, normal, kThin_m) * normal;
   const glm::dmat3 frame = frame_of(normal);
   glm::dvec4 sum(0.0);
-  for (std::uint32_t k = 0; k < kPointRays; ++k)
-    if (const std::uint32_t patch = seen(from_m, direction(k, kPointRays, frame, 0.0, false)); patch != kNone)
-      sum += sent_lx_[patch];
-  return sum / static_cast<double>(kPointRays);
+  const double leave_within_m = of_mesh ? kDeep_m : 0.0;
+  for (std::uint32_t k = 0; k < ways; ++k) {
+    const std::uint32_t patch = seen(from_m, direction(k, ways, frame, 0.0, false), leave_within_m);
+    if (patch != kNone) sum += sent_lx_[patch];
+  }
+  return sum / static_cast<double>(ways);
 }
 
 void ReflectedLight::each_way(const glm::dvec3& point_m,
@@ -210,7 +220,7 @@ void ReflectedLight::each_way(const glm::dvec3& point_m,
   for (std::uint32_t k = 0; k < kRoundRays; ++k) {
     const glm::dvec3 way = direction(k, kRoundRays, glm::dmat3(1.0), 0.0, true);
     // Luminance sent/pi over 4·pi/kRoundRays of the sphere.
-    if (const std::uint32_t patch = seen(point_m, way); patch != kNone)
+    if (const std::uint32_t patch = seen(point_m, way, 0.0); patch != kNone)
       arrives(way, sent_lx_[patch] * (4.0 / kRoundRays));
   }
 }

@@ -210,7 +210,7 @@ class Loop {
   struct Change {
     Desk to;
     Clock::time_point asked;
-    LitWith now{};         ///< when it was asked for
+    LitWith now{};         ///< when it was asked for, or when one's own light changed since
     std::size_t done = 0;  ///< of rehearsals()
     Making made{};
     bool followed = false;  ///< by the picture; what is left is what the drive may come to

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <utility>
+#include <vector>
 
 #include "visual/process/loop.h"
 #include "visual/process/overlay_lines.h"
@@ -92,17 +93,24 @@ CockpitState Loop::light_to_show(const Moment& moment) {
   return light;
 }
 
-/// With as many lamps of others as there is anything for, as they glare or else otherwise.
+/// With as many lamps of others as there is anything for. That they do not glare yet is less than that they are not
+/// there; that they still glare, more.
 std::optional<Loop::LitWith> Loop::nearest_ready(const LitWith& lit, std::size_t own) {
   const Kind kind = shown_kind();
   const auto is_ready = [&](const LitWith& one) { return ready_for_.contains({kind, one}); };
-  for (const bool glare : {lit.glare, !lit.glare}) {
-    LitWith with = lit;
-    with.glare = glare;
-    for (with.others = lit.others + 1; with.others-- > 0;)
-      if (std::ranges::all_of(comes_to(with, own), is_ready)) return with;
+  std::vector<LitWith> best;
+  const auto add = [&](std::size_t others, bool glare) {
+    best.push_back(lit);
+    best.back().others = others, best.back().glare = glare;
+  };
+  for (std::size_t others = lit.others + 1; others-- > 0;) {
+    if (lit.glare) add(others, true);
+    add(others, false);
   }
-  return std::nullopt;
+  for (std::size_t others = lit.others + 1; !lit.glare && others-- > 0;) add(others, true);
+  const auto found = std::ranges::find_if(
+      best, [&](const LitWith& with) { return std::ranges::all_of(comes_to(with, own), is_ready); });
+  return found != best.end() ? std::optional(*found) : std::nullopt;
 }
 
 /// The frame without the lamps of others or the glare that it lacks pipelines for; none: it lacks nothing. Where it

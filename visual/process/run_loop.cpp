@@ -329,7 +329,7 @@ void Loop::report(const Moment& moment) {
       moment.frame_index,      s_.options.channel,        static_cast<std::uint32_t>(s_.rig.channels.size()),
       s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms,    light_.light_changes,
       moment.car.pose,         moment.car.stale,          light_.light_switch,
-      light_.flash,            moment.controls.fail_safe, s_.album.not_kept(),
+      light_.flash,            light_.fail_safe,         s_.album.not_kept(),
       audit_failure(),         s_.lock.number()};
   s_.bus.send(moment.time, report);
   progress_ = Clock::now();  // keeping the picture may have taken longer than a stall
