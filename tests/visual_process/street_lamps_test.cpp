@@ -289,9 +289,9 @@ TEST(StreetLamps, OnOpenGroundVerticesKeepLightWithinTwiceTheTolerance) {
   }
 }
 
-/// A lamp on a wall is 0.3 to 2 m from it, and a side of 1.5 m spans a pool of light. Sides are at most as long as
-/// 2·least_edge/8 of their distance d from the lamp, and where E goes with 1/d³, E''/E = 12/d²: off by 12/8 of the
-/// square of that in the middle of a side, by 4/3 of it in that of a triangle.
+/// A lamp on a wall is half a metre to 2 m from it, and a side of 1.5 m spans a pool of light. Sides are at most as
+/// long as 2·least_edge/8 of their distance d from the lamp, and where E goes with 1/d³, E''/E = 12/d²: off by 12/8 of
+/// the square of that in the middle of a side, by 4/3 of it in that of a triangle.
 TEST(StreetLamps, SidesAreTheShorterTheNearerTheirLamp) {
   for (const char* fineness : {"coarse", "medium", "fine"}) {
     const BakeLevel level = kBakeLevels[fineness[0] == 'c' ? 0 : fineness[0] == 'm' ? 1 : 2];

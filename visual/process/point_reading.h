@@ -44,7 +44,8 @@ struct PointReading {
   double luminance_cdm2 = 0.0;  ///< toward the eye
   double sent_back_cdm2 = 0.0;  ///< of it: what is sent back to where it came from
   std::vector<LampReading> lamps;
-  /// Street lamps and the moon beside the car's own lamps, on the surface: in none of the sums above.
+  /// Street lamps, the moon and what walls and roof reflect, beside the car's own lamps, on the surface: in none of the
+  /// sums above.
   double fixed_lx = 0.0;
   std::vector<FixedLight::Share> fixed{};  ///< strongest first
 };
