@@ -208,6 +208,8 @@ std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
     Baker baker(*this, scene, chunk, ways);
     for (std::size_t level = 0; level < all[i].size(); ++level) {
       FixedMesh& mesh = all[i][level];
+      if (level > 0 && level <= kFirstFarLevel && scene.materials[chunk.material].surface != Surface::kFoliage)
+        continue;
       BakeLevel cuts = level_;
       if (level == 0) {
         const auto vertices = scene.vertices.begin() + chunk.first_vertex;

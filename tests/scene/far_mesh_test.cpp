@@ -146,10 +146,12 @@ TEST(FarMesh, ClosedFoliageStaysClosed) {
   EXPECT_EQ(lump.indices.size(), scene.indices.size());
   EXPECT_LT(area_vector(lump), 1e-4f);
   scene.materials[0].double_sided = true;
+  EXPECT_EQ(from_afar(scene).indices.size(), scene.indices.size()) << "as large as leaves become, 8 m² of 9.6 m²";
+  for (SceneVertex& vertex : scene.vertices) vertex.position_m *= 0.1f;
   EXPECT_LT(from_afar(scene).indices.size(), scene.indices.size());
 
   Scene leaves;
-  leaves.materials = {{.name = "leaves", .surface = Surface::kFoliage}};
+  leaves.materials = {{.name = "leaves", .surface = Surface::kFoliage}};  // of 0.02 m², the smaller the more for one
   const std::uint32_t count = 10 * kFarLevels.back().leaves_per_leaf;
   for (std::uint32_t i = 0; i < count; ++i) {
     const float x = 0.5f * static_cast<float>(i);
@@ -158,6 +160,35 @@ TEST(FarMesh, ClosedFoliageStaysClosed) {
           leaves.vertices.push_back({corner, {0, -1, 0}});
   }
   EXPECT_EQ(from_afar(leaves).indices.size(), std::size_t{3 * 10});
+}
+
+// The smaller leaves are the more of them become one, up to the level's bound; their area stays.
+TEST(FarMesh, LeavesAreThinnedByTheirSize) {
+  for (const float side_m : {0.1f, 0.5f, 1.0f, 3.0f}) {
+    Scene leaves;
+    leaves.materials = {{.name = "leaves", .surface = Surface::kFoliage}};
+    for (std::uint32_t i = 0; i < 1000; ++i)
+      for (const glm::vec3 corner : {glm::vec3(0, 0, 0), {side_m, 0, 0}, {0, 0, side_m}}) {
+        leaves.indices.push_back(static_cast<std::uint32_t>(leaves.vertices.size()));
+        leaves.vertices.push_back({corner + glm::vec3(static_cast<float>(i), 0, 0), {0, -1, 0}});
+      }
+    const double leaf_m2 = 0.5 * static_cast<double>(side_m) * static_cast<double>(side_m);
+    for (std::size_t level = 0; level < kFarLevels.size(); ++level) {
+      const FarMesh far = far_mesh(leaves, whole(leaves), level, kFarLevels[level].from * 150.0);
+      const double stay = static_cast<double>(far.indices.size()) / 3.0, of = 1000.0 / stay;
+      EXPECT_LE(of, kFarLevels[level].leaves_per_leaf) << side_m << " m at level " << level;
+      // Half a leaf of rounding, and that the last of a thousand stand for fewer.
+      EXPECT_LE(of * leaf_m2, std::max(kFarLevels[level].leaf_m2 + 0.5 * leaf_m2, leaf_m2))
+          << side_m << " m at " << level;
+      double area_m2 = 0.0;
+      for (std::size_t i = 0; i + 2 < far.indices.size(); i += 3) {
+        const auto corner = [&](std::size_t k) { return far.vertices[far.indices[i + k]].position_m; };
+        area_m2 += 0.5 * static_cast<double>(glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0))));
+      }
+      EXPECT_NEAR(area_m2 / (1000.0 * leaf_m2), 1.0, std::ceil(of) / 1000.0 + 1e-3)
+          << side_m << " m at level " << level;
+    }
+  }
 }
 
 TEST(FarMesh, KeepsEveryReflectorHoweverSmall) {

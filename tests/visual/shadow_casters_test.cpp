@@ -256,10 +256,10 @@ TEST(ShadowCasters, WhatIsFarCastsByItsFarMesh) {
     return casters.by(reach, glm::dmat3(1.0), {}, SIZE_MAX, {.far_from_m = far_from_m}).both_sides.bounds.size();
   };
   EXPECT_EQ(triangles(std::numeric_limits<double>::infinity()), 2u);
-  EXPECT_EQ(triangles(190.0), 3u) << "beyond " << kFarLevels[1].from << " times as far: the second level";
-  EXPECT_EQ(triangles(250.0), 1u) << "between both: the first";
-  EXPECT_EQ(triangles(1000.0), 2u);
-  EXPECT_EQ(triangles(60.0), 3u) << "beyond the third level, which is the mesh before";
+  EXPECT_EQ(triangles(300.0), 3u) << "beyond " << kFarLevels[1].from << " times as far: the second level";
+  EXPECT_EQ(triangles(600.0), 1u) << "between both: the first";
+  EXPECT_EQ(triangles(2000.0), 2u);
+  EXPECT_EQ(triangles(150.0), 3u) << "beyond the third level, which is the mesh before";
 }
 
 // The far slope of a ditch runs past the lamps, and the road beside them lies nearer to the axis than it: nothing

@@ -73,6 +73,10 @@ enum class Material {
   kTunnelVault,
   kTunnelGlass,
   kEscapeSign,
+  kCarPaintSilver,
+  kCarPaintBlack,
+  kCarPaintRed,
+  kCarPaintWhite,
   // Of road users only.
   kDeerCoat,
   kDeerEye,
@@ -136,10 +140,11 @@ inline constexpr std::array<MaterialData, static_cast<std::size_t>(Material::kCo
     {"sheeting yellow", {0.38, 0.26, 0.02}, "plain", "EN 12899-1 RA2 yellow", false},
     {"sign black", {0.030, 0.030, 0.030}, "plain", "", false},
     {"sign back", {0.22, 0.22, 0.23}, "plain", "", false},
-    // Of closed lumps within crowns, which hide what is in them: seen from outside alone.
-    {"leaves within", {0.050, 0.090, 0.025}, "foliage", "", false},
-    {"bush within", {0.065, 0.100, 0.035}, "foliage", "", false},
-    {"leaves light within", {0.085, 0.105, 0.030}, "foliage", "", false},
+    // Of closed lumps within crowns, which hide what is in them: seen from outside alone, and two thirds in the leaves'
+    // shade.
+    {"leaves within", {0.017, 0.030, 0.008}, "foliage", "", false},
+    {"bush within", {0.022, 0.033, 0.012}, "foliage", "", false},
+    {"leaves light within", {0.028, 0.035, 0.010}, "foliage", "", false},
     // Luminances by eye: lit windows at night lie between a few and a hundred cd/m² (unconfirmed); the glass of a
     // luminaire of 3500 lm over 0.14 m² has some 8000.
     {"pavement", {0.19, 0.185, 0.175}, "asphalt", "upright facets", false, 0.0, {}, 1.0, false},
@@ -164,6 +169,10 @@ inline constexpr std::array<MaterialData, static_cast<std::size_t>(Material::kCo
     {"vault", {0.24, 0.235, 0.225}, "plain", "", false, 0.0, {}, 0.0},
     {"tunnel lamp glass", {0.50, 0.50, 0.50}, "plain", "", false, 0.0, {7900.0, 7950.0, 7400.0}, 0.0},
     {"escape sign", {0.10, 0.30, 0.15}, "plain", "", false, 0.0, {12.0, 150.0, 55.0}, 0.0},
+    {"car paint silver", {0.30, 0.30, 0.31}, "plain", "", false},
+    {"car paint black", {0.022, 0.022, 0.024}, "plain", "", false},
+    {"car paint red", {0.160, 0.022, 0.018}, "plain", "", false},
+    {"car paint white", {0.58, 0.58, 0.56}, "plain", "", false},
     // A winter coat, grey brown, and the tint of eyeshine: by eye.
     {"deer coat", {0.15, 0.12, 0.09}, "plain", "", false},
     {"deer eye", {0.02, 0.02, 0.02}, "plain", "", false},

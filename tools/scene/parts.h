@@ -37,7 +37,7 @@ void draw_tree(Pen pen, Random& random, double height, Material leaves);
 /// A post of 1 m with its reflectors; x looks along the road; `outer` is +1 where the road's outside is to the left.
 void draw_kerb_post(Pen pen, double outer);
 /// A saloon of 4.5 m; x forward from the rear axle's middle, on the ground.
-void draw_car(Pen pen);
+void draw_car(Pen pen, Material paint = Material::kCarPaint);
 
 /// Object frame on the ground at station and offset: x along the road turned left by turn_rad, z straight up.
 glm::dmat4 placed(const Alignment& road, double s_m, double t_m, double turn_rad = 0.0, double raise_m = 0.0);

@@ -22,7 +22,9 @@ dvec3 direction(Random& random) {
   return {r * std::cos(a), r * std::sin(a), z};
 }
 
-/// One clump: two irregular triangles about a point of the crown, lit as the crown's surface there.
+constexpr int kLeavesOfClump = 8;
+
+/// One clump: leaves over an irregular patch about a point of the crown, lit as the crown's surface there.
 void draw_clump(Pen& pen, Material m, Random& random, dvec3 at, dvec3 normal, double size) {
   // Partly in the crown's surface, partly standing out of it.
   const dvec3 u = glm::normalize(glm::cross(normal, direction(random) + 0.1 * normal));
@@ -31,8 +33,17 @@ void draw_clump(Pen& pen, Material m, Random& random, dvec3 at, dvec3 normal, do
     return at + size * (a * random.uniform(0.7, 1.3) * u + b * random.uniform(0.7, 1.3) * v);
   };
   const dvec3 a = corner(-0.8, -0.3), b = corner(0.3, -0.8), c = corner(0.8, 0.4), d = corner(-0.2, 0.9);
-  pen.triangle(m, Triangle{{a, b, c}, {normal, normal, normal}});
-  pen.triangle(m, Triangle{{a, c, d}, {normal, normal, normal}});
+  Random strewn = random;  // so that where trees stand depends on no leaf
+  for (int i = 0; i < kLeavesOfClump; ++i) {
+    const double s = strewn.uniform(-0.35, 1.35), t = strewn.uniform(-0.35, 1.35), turn = strewn.uniform(0.0, kTurn);
+    const dvec3 stalk = (1 - s) * ((1 - t) * a + t * d) + s * ((1 - t) * b + t * c) +
+                        strewn.uniform(-0.4, 0.3) * size * glm::cross(u, v);
+    const dvec3 along = glm::normalize(std::cos(turn) * u + std::sin(turn) * v + strewn.uniform(-0.5, 0.5) * normal);
+    const dvec3 across = glm::normalize(glm::cross(along, direction(strewn) + 0.1 * normal));
+    const double length = strewn.uniform(0.5, 0.95) * size, width = strewn.uniform(0.5, 0.8) * length;
+    const dvec3 widest = stalk + strewn.uniform(0.3, 0.6) * length * along + width * across;
+    pen.triangle(m, Triangle{{stalk, widest, stalk + length * along}, {normal, normal, normal}});
+  }
 }
 
 /// That of the lumps within a crown of these leaves.
@@ -96,7 +107,7 @@ void draw_broadleaf(Pen pen, Random& random, double height, Material leaves) {
   }
   const dvec3 heart = lean + dvec3(0.0, 0.0, 0.58 * height);
   for (const Lobe& lobe : lobes) {
-    draw_lump(pen, within(leaves), random, lobe.centre, 0.68 * lobe.radii);
+    draw_lump(pen, within(leaves), random, lobe.centre, 0.58 * lobe.radii);
     for (int i = 0; i < 18; ++i) {
       const dvec3 way = direction(random);
       const dvec3 at = lobe.centre + lobe.radii * way * random.uniform(0.68, 1.1);

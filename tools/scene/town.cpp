@@ -200,12 +200,15 @@ std::vector<MadeLamp> add_lamps(Model& model, const Path& path) {
 }
 
 void add_things(Model& model, const Path& path) {
-  Random random(77);
+  Random random(77), colours(78);
+  constexpr std::array kPaints{Material::kCarPaint, Material::kCarPaintSilver, Material::kCarPaintBlack,
+                               Material::kCarPaintRed, Material::kCarPaintWhite};
   int number = 0;
   for (double s = path.begin_m() + 6.0; s < path.end_m() - 6.0; s += 6.2) {  // parked in line on the right
     if (std::abs(s - kCrossing_m) < 11.0 || random.uniform(0.0, 1.0) < 0.25) continue;
     const double t = kRightKerb_m + 1.05 + random.uniform(-0.08, 0.08);
-    draw_car(Pen(model.add(numbered_node("car_parked", number++)), path.placed(s - 1.24, t)));
+    const auto paint = static_cast<std::size_t>(colours.uniform(0.0, 1.0) * kPaints.size());
+    draw_car(Pen(model.add(numbered_node("car_parked", number++)), path.placed(s - 1.24, t)), kPaints.at(paint));
   }
   const std::array<Clothes, 3> clothes{{{Material::kClothDark, Material::kClothDark, Material::kClothDark},
                                         {Material::kClothBlue, Material::kClothLight, Material::kClothLight},

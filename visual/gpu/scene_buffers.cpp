@@ -27,6 +27,8 @@ namespace {
 // Side of the cells that batches are gathered in. Smaller culls better, larger draws fewer: chosen by timing the
 // country road.
 constexpr double kBlock_m = 96.0;
+/// Trees have more levels and more triangles than the rest: theirs change by the tree.
+constexpr double kLeavesBlock_m = 24.0;
 
 using Cell = std::pair<std::int64_t, std::int64_t>;
 
@@ -136,6 +138,7 @@ DrawnChunk drawn(const Scene& scene, const SceneChunk& chunk, std::optional<std:
 void keep_far_caster(const Scene& scene, const DrawnChunk& mesh, std::size_t level, Gathered& all) {
   if (level >= kFarCasterLevels || is_ground(scene.materials[mesh.chunk->material])) return;
   FarCasters& far = all.far_casters[static_cast<std::size_t>(mesh.chunk - scene.chunks.data())];
+  far.resize(level);  // those that it has none of
   // What loses no triangle is the mesh before: a large scene is not kept twice.
   std::size_t before = mesh.chunk->index_count;
   for (const std::optional<CasterMesh>& kept : far)
@@ -207,19 +210,23 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
 }
 
 std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all, const Progress& progress) {
-  std::map<Cell, std::vector<const SceneChunk*>> cells;
-  for (const SceneChunk& chunk : scene.chunks) cells[cell_of(chunk, kBlock_m)].push_back(&chunk);
+  std::map<std::pair<bool, Cell>, std::vector<const SceneChunk*>> cells;
+  for (const SceneChunk& chunk : scene.chunks) {
+    const bool leaves = scene.materials[chunk.material].surface == Surface::kFoliage;
+    cells[{leaves, cell_of(chunk, leaves ? kLeavesBlock_m : kBlock_m)}].push_back(&chunk);
+  }
   std::vector<SceneBlock> blocks;
   for (const auto& [cell, chunks] : cells) {
     if (progress)
       progress(static_cast<double>(blocks.size()) / static_cast<double>(cells.size()), "levels of detail");
-    SceneBlock block{.low_m = chunks.front()->low_m, .high_m = chunks.front()->high_m};
+    SceneBlock block{
+        .low_m = chunks.front()->low_m, .high_m = chunks.front()->high_m, .first_far = cell.first ? 0 : kFirstFarLevel};
     for (const SceneChunk* chunk : chunks) {
       block.low_m = glm::min(block.low_m, chunk->low_m);
       block.high_m = glm::max(block.high_m, chunk->high_m);
     }
     block.near = gather(scene, chunks, kBlock_m, std::nullopt, true, all);
-    for (std::size_t level = 0; level < kFarLevels.size(); ++level)
+    for (std::size_t level = block.first_far; level < kFarLevels.size(); ++level)
       block.far[level] = gather(scene, chunks, kBlock_m, level, true, all);
     blocks.push_back(std::move(block));
   }
@@ -411,7 +418,7 @@ std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far
     const std::optional<double> block_at = view.sees(block.low_m, block.high_m);
     if (!block_at || hidden(horizon, block.low_m, block.high_m)) continue;
     const std::vector<SceneBatch>* batches = &block.near;
-    for (std::size_t level = 0; level < kFarLevels.size(); ++level)
+    for (std::size_t level = block.first_far; level < kFarLevels.size(); ++level)
       if (*block_at >= kFarLevels[level].from * far_from_m) batches = &block.far[level];
     for (const SceneBatch& batch : *batches) {
       const std::optional<double> distance = view.sees(batch.low_m, batch.high_m);

@@ -13,8 +13,20 @@ namespace phare {
 
 namespace {
 
-void thin_leaves(FarMesh& mesh, std::uint32_t share) {
+double area_m2(const FarMesh& mesh) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const auto corner = [&](std::size_t k) { return mesh.vertices[mesh.indices[i + k]].position_m; };
+    sum += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+  }
+  return sum;
+}
+
+void thin_leaves(FarMesh& mesh, const FarLevel& level) {
   FarMesh far;
+  const double leaves = static_cast<double>(mesh.indices.size() / 3);
+  const auto share = static_cast<std::uint32_t>(
+      std::clamp(std::round(level.leaf_m2 * leaves / std::max(area_m2(mesh), 1e-9)), 1.0, 1.0 * level.leaves_per_leaf));
   const float grow = std::sqrt(static_cast<float>(share));
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += std::size_t{3} * share) {
     std::array<SceneVertex, 3> leaf{mesh.vertices[mesh.indices[i]], mesh.vertices[mesh.indices[i + 1]],
@@ -153,7 +165,7 @@ FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level,
   const bool closed = material.surface == Surface::kFoliage && !material.double_sided && is_closed(mesh);
   switch (closed ? Surface::kPlain : material.surface) {
     case Surface::kFoliage:
-      thin_leaves(mesh, kFarLevels[level].leaves_per_leaf);
+      thin_leaves(mesh, kFarLevels[level]);
       break;
     case Surface::kAsphalt:
     case Surface::kGrass:

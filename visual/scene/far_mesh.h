@@ -11,9 +11,13 @@ namespace phare {
 
 struct FarLevel {
   double from;                    ///< multiple of FrameInput::far_mesh_from_m
-  std::uint32_t leaves_per_leaf;  ///< of so many leaf triangles one stays, grown to their area
+  double leaf_m2;                 ///< leaf triangles are thinned, and the rest grown to the area of all, up to so large
+  std::uint32_t leaves_per_leaf;  ///< of so many at most one stays
 };
-inline constexpr std::array<FarLevel, 5> kFarLevels{{{0.4, 2}, {1.0, 5}, {1.7, 8}, {2.5, 14}, {4.5, 24}}};
+inline constexpr std::array<FarLevel, 6> kFarLevels{
+    {{0.3, 0.25, 2}, {0.4, 0.6, 5}, {1.0, 1.6, 14}, {1.7, 3.2, 24}, {2.5, 5.6, 48}, {4.5, 9.6, 96}}};
+/// Those before it thin leaves alone; the rest is whole there.
+inline constexpr std::size_t kFirstFarLevel = 1;
 /// Errors in the place of corners, as angles from the level's beginning. A pixel of 1280 across 60° is 0.8 mrad.
 constexpr double kFarGroundError_rad = 0.2e-3;  ///< road and ground, which a crest shows edge on
 constexpr double kFarThingError_rad = 0.75e-3;  ///< things beside the road
