@@ -22,10 +22,10 @@ dvec3 direction(Random& random) {
   return {r * std::cos(a), r * std::sin(a), z};
 }
 
-constexpr int kLeavesOfClump = 8;
+constexpr int kLeavesOfTreeClump = 8, kLeavesOfBushClump = 5;
 
 /// One clump: leaves over an irregular patch about a point of the crown, lit as the crown's surface there.
-void draw_clump(Pen& pen, Material m, Random& random, dvec3 at, dvec3 normal, double size) {
+void draw_clump(Pen& pen, Material m, Random& random, dvec3 at, dvec3 normal, double size, int leaves) {
   // Partly in the crown's surface, partly standing out of it.
   const dvec3 u = glm::normalize(glm::cross(normal, direction(random) + 0.1 * normal));
   const dvec3 v = glm::normalize(glm::cross(normal, u) + random.uniform(-0.2, 0.9) * normal);
@@ -34,7 +34,7 @@ void draw_clump(Pen& pen, Material m, Random& random, dvec3 at, dvec3 normal, do
   };
   const dvec3 a = corner(-0.8, -0.3), b = corner(0.3, -0.8), c = corner(0.8, 0.4), d = corner(-0.2, 0.9);
   Random strewn = random;  // so that where trees stand depends on no leaf
-  for (int i = 0; i < kLeavesOfClump; ++i) {
+  for (int i = 0; i < leaves; ++i) {
     const double s = strewn.uniform(-0.35, 1.35), t = strewn.uniform(-0.35, 1.35), turn = strewn.uniform(0.0, kTurn);
     const dvec3 stalk = (1 - s) * ((1 - t) * a + t * d) + s * ((1 - t) * b + t * c) +
                         strewn.uniform(-0.4, 0.3) * size * glm::cross(u, v);
@@ -112,7 +112,7 @@ void draw_broadleaf(Pen pen, Random& random, double height, Material leaves) {
       const dvec3 way = direction(random);
       const dvec3 at = lobe.centre + lobe.radii * way * random.uniform(0.68, 1.1);
       draw_clump(pen, leaves, random, at, glm::normalize(0.6 * way + 0.6 * glm::normalize(at - heart)),
-                 random.uniform(0.045, 0.078) * height);
+                 random.uniform(0.045, 0.078) * height, kLeavesOfTreeClump);
     }
   }
 }
@@ -131,12 +131,17 @@ void draw_spruce(Pen pen, Random& random, double height) {
       const dvec3 out(std::cos(a), std::sin(a), 0.0), side(-out.y, out.x, 0.0);
       const dvec3 root(0.0, 0.0, up + 0.05 * height * random.uniform(0.8, 1.2));
       const dvec3 tip = dvec3(0.0, 0.0, up - random.uniform(0.16, 0.34) * length) + length * out;
-      const dvec3 elbow = 0.55 * length * out + dvec3(0.0, 0.0, up - 0.02 * height);
-      const dvec3 left = elbow + wide * side - dvec3(0, 0, 0.12 * length),
-                  right = elbow - wide * side - dvec3(0, 0, 0.12 * length);
-      const dvec3 normal = glm::normalize(out + dvec3(0.0, 0.0, 0.6));
-      pen.triangle(Material::kSpruce, Triangle{{root, right, tip}, {normal, normal, normal}});
-      pen.triangle(Material::kSpruce, Triangle{{root, tip, left}, {normal, normal, normal}});
+      const dvec3 normal = glm::normalize(out + dvec3(0.0, 0.0, 0.6)), sag(0.0, 0.0, 0.12 * length);
+      const auto spine = [&](double share) { return (1.0 - share) * root + share * tip; };
+      // Two twigs to each side, so that its outline is ragged.
+      for (const double hand : {-wide, wide}) {
+        const auto twig = [&](double from, double to, double at, double reach_share) {
+          const dvec3 end = spine(at) + hand * reach_share * side - sag;
+          pen.triangle(Material::kSpruce, Triangle{{spine(from), end, spine(to)}, {normal, normal, normal}});
+        };
+        twig(0.0, 0.6, 0.48, 1.0);
+        twig(0.3, 1.0, 0.86, 0.65);
+      }
     }
   }
   // The leader, three blades.
@@ -156,7 +161,7 @@ void draw_bush(Pen pen, Random& random, double size) {
     dvec3 way = direction(random);
     way.z = std::abs(way.z);
     draw_clump(pen, Material::kBush, random, centre + dvec3(0.62, 0.62, 0.5) * size * way, way,
-               random.uniform(0.16, 0.3) * size);
+               random.uniform(0.16, 0.3) * size, kLeavesOfBushClump);
   }
 }
 
