@@ -137,8 +137,15 @@ TEST(PictureLadders, EachRungIsNearerToTheTruthThanTheOneBelow) {
   plan.scene_file = (generated_dir() / "scenes/country_road.glb").string();
   plan.lamp_file = (generated_dir() / "lamps/low_rht.ies").string();
   plan.progress = [](const std::string&, double) {};
+  plan.wanted = [](const std::string& ladder) { return ladder != "shadows"; };
   const Result<PictureLadders> ladders = picture_ladders(plan);
   ASSERT_TRUE(ladders.ok()) << ladders.error().text();
+  // Of 1500 points five are lit or dark wrong, and which is the nearer is chance; of 15,000 some fifty, and by each of
+  // three seeds hard is off by a quarter more than soft, and soft by two fifths more than fine.
+  plan.quick = false;
+  plan.wanted = [](const std::string& ladder) { return ladder == "shadows"; };
+  const Result<PictureLadders> of_shadows = picture_ladders(plan);
+  ASSERT_TRUE(of_shadows.ok()) << of_shadows.error().text();
   const Ladder& light = ladders->light;
   EXPECT_GT(rms(light, "fragment, normalised-8bit-1999"), 10.0 * rms(light, "fragment, half-float-texture-filter"));
   EXPECT_GT(rms(light, "fragment, half-float-texture-filter"), rms(light, "fragment, half-float-native-nodes"));
@@ -147,7 +154,7 @@ TEST(PictureLadders, EachRungIsNearerToTheTruthThanTheOneBelow) {
   EXPECT_LT(rms(light, "fragment, float32-native-nodes"), 1e-3);
   // By vertices the error of a smooth beam falls to a quarter; a cut-off's to a half.
   EXPECT_GT(rms(light, "vertex, ground cut 0 times"), 2.0 * rms(light, "vertex, ground cut 1 times"));
-  const Ladder& shadows = ladders->shadows;
+  const Ladder& shadows = of_shadows->shadows;
   ASSERT_EQ(shadows.levels.size(), kRayShadows + 1);
   EXPECT_GT(rms(shadows, "off"), 2.0 * rms(shadows, "hard"));
   EXPECT_GE(rms(shadows, "hard"), rms(shadows, "soft"));

@@ -136,8 +136,7 @@ double Alignment::height_m(double s, double t) const {
   // Beside it: verge, ditch, then the land takes over from the road's profile.
   const double ditch = ditch_share(s, t);
   z -= 0.05 * (std::min(d, 5.3) - kPavedHalfWidth_m);
-  // A swale, lit where the lamps are near: in a steep ditch nothing is, and it reads as a black band.
-  z -= 0.35 * ditch * smooth_step(5.3, 6.8, d) * (1.0 - smooth_step(7.1, 8.0, d));
+  z -= 0.5 * ditch * smooth_step(5.3, 6.3, d) * (1.0 - smooth_step(6.9, 8.4, d));
   if (d > 8.0) {
     const Station station = at(s);
     const glm::dvec3 p = station.position_m + station.left() * t;

@@ -14,8 +14,8 @@ constexpr double kChunk_m = 50.0, kCell_m = 10.0;
 constexpr double kBegin_m = -kMargin_m, kEnd_m = kLength_m + kMargin_m;
 constexpr std::array kRoadOffsets_m{-kPavedHalfWidth_m, -3.25, kLaneCentre_m, -0.4, 0.0, 0.4, 1.625, 3.25,
                                     kPavedHalfWidth_m};
-constexpr std::array kNearOffsets_m{kPavedHalfWidth_m, 5.3, 6.8, 7.1, 8.0};
-constexpr std::array kFarOffsets_m{8.0, 11.0, 16.0, 24.0, 36.0, 54.0, 78.0, 104.0, 130.0};
+constexpr std::array kNearOffsets_m{kPavedHalfWidth_m, 5.3, 6.3, 6.9, 8.4};
+constexpr std::array kFarOffsets_m{8.4, 11.0, 16.0, 24.0, 36.0, 54.0, 78.0, 104.0, 130.0};
 constexpr double kMarkingHeight_m = 0.007;  ///< thick paint, and out of the way of the depth buffer
 
 std::string numbered(const char* kind, std::size_t i) {
