@@ -208,8 +208,7 @@ std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
     Baker baker(*this, scene, chunk, ways);
     for (std::size_t level = 0; level < all[i].size(); ++level) {
       FixedMesh& mesh = all[i][level];
-      if (level > 0 && level <= kFirstFarLevel && scene.materials[chunk.material].surface != Surface::kFoliage)
-        continue;
+      if (level > 0 && level - 1 < first_far_level(scene.materials[chunk.material])) continue;
       BakeLevel cuts = level_;
       if (level == 0) {
         const auto vertices = scene.vertices.begin() + chunk.first_vertex;

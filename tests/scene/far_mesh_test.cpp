@@ -174,12 +174,12 @@ TEST(FarMesh, LeavesAreThinnedByTheirSize) {
       }
     const double leaf_m2 = 0.5 * static_cast<double>(side_m) * static_cast<double>(side_m);
     for (std::size_t level = 0; level < kFarLevels.size(); ++level) {
-      const FarMesh far = far_mesh(leaves, whole(leaves), level, kFarLevels[level].from * 150.0);
+      const FarMesh far = far_mesh(leaves, whole(leaves), level, kFrom_m);
       const double stay = static_cast<double>(far.indices.size()) / 3.0, of = 1000.0 / stay;
-      EXPECT_LE(of, kFarLevels[level].leaves_per_leaf) << side_m << " m at level " << level;
-      // Half a leaf of rounding, and that the last of a thousand stand for fewer.
-      EXPECT_LE(of * leaf_m2, std::max(kFarLevels[level].leaf_m2 + 0.5 * leaf_m2, leaf_m2))
-          << side_m << " m at " << level;
+      const double most = kFarLevels[level].leaves_per_leaf, wanted = kFarLevels[level].leaf_m2 / leaf_m2;
+      // Half a leaf of rounding; the last of a thousand may stand for fewer, up to 96 of them.
+      EXPECT_LE(of, std::clamp(wanted + 0.5, 1.0, most)) << side_m << " m at level " << level;
+      EXPECT_GE(1.1 * of, std::min(wanted - 0.5, most)) << side_m << " m at level " << level;
       double area_m2 = 0.0;
       for (std::size_t i = 0; i + 2 < far.indices.size(); i += 3) {
         const auto corner = [&](std::size_t k) { return far.vertices[far.indices[i + k]].position_m; };

@@ -141,7 +141,7 @@ TEST(PictureLadders, EachRungIsNearerToTheTruthThanTheOneBelow) {
   const Result<PictureLadders> ladders = picture_ladders(plan);
   ASSERT_TRUE(ladders.ok()) << ladders.error().text();
   // Of 1500 points five are lit or dark wrong, and which is the nearer is chance; of 15,000 some fifty, and by each of
-  // three seeds hard is off by a quarter more than soft, and soft by two fifths more than fine.
+  // three seeds hard is off by a third more than soft, and soft by two fifths more than fine.
   plan.quick = false;
   plan.wanted = [](const std::string& ladder) { return ladder == "shadows"; };
   const Result<PictureLadders> of_shadows = picture_ladders(plan);

@@ -27,7 +27,7 @@ namespace {
 // Side of the cells that batches are gathered in. Smaller culls better, larger draws fewer: chosen by timing the
 // country road.
 constexpr double kBlock_m = 96.0;
-/// Trees have more levels and more triangles than the rest: theirs change by the tree.
+// Of leaves, which have a level more and many triangles: theirs changes by the tree.
 constexpr double kLeavesBlock_m = 24.0;
 
 using Cell = std::pair<std::int64_t, std::int64_t>;
@@ -210,17 +210,16 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
 }
 
 std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all, const Progress& progress) {
-  std::map<std::pair<bool, Cell>, std::vector<const SceneChunk*>> cells;
+  std::map<std::pair<std::size_t, Cell>, std::vector<const SceneChunk*>> cells;
   for (const SceneChunk& chunk : scene.chunks) {
-    const bool leaves = scene.materials[chunk.material].surface == Surface::kFoliage;
-    cells[{leaves, cell_of(chunk, leaves ? kLeavesBlock_m : kBlock_m)}].push_back(&chunk);
+    const std::size_t first_far = first_far_level(scene.materials[chunk.material]);
+    cells[{first_far, cell_of(chunk, first_far == 0 ? kLeavesBlock_m : kBlock_m)}].push_back(&chunk);
   }
   std::vector<SceneBlock> blocks;
   for (const auto& [cell, chunks] : cells) {
     if (progress)
       progress(static_cast<double>(blocks.size()) / static_cast<double>(cells.size()), "levels of detail");
-    SceneBlock block{
-        .low_m = chunks.front()->low_m, .high_m = chunks.front()->high_m, .first_far = cell.first ? 0 : kFirstFarLevel};
+    SceneBlock block{.low_m = chunks.front()->low_m, .high_m = chunks.front()->high_m, .first_far = cell.first};
     for (const SceneChunk* chunk : chunks) {
       block.low_m = glm::min(block.low_m, chunk->low_m);
       block.high_m = glm::max(block.high_m, chunk->high_m);

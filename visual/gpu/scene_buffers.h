@@ -78,7 +78,7 @@ struct SceneBatch {
 struct SceneBlock {
   glm::dvec3 low_m{0.0}, high_m{0.0};
   std::vector<SceneBatch> near{};
-  std::size_t first_far = 0;  ///< levels before it are as near
+  std::size_t first_far = 0;  ///< far levels before it are empty: drawn by `near`
   std::array<std::vector<SceneBatch>, kFarLevels.size()> far{};
 };
 
