@@ -1,6 +1,7 @@
 // Light that does not change while one drives: street lamps by their own photometry files, the moon, and surfaces that
 // shine by themselves. It falls on a scene that stands, so it is computed once, in float64, when the scene is loaded,
-// and kept at the vertices of meshes that are cut as finely as the light asks for. A frame then pays for one
+// and kept at the vertices of meshes that are cut as finely as the light asks for, such that what lies between them is
+// nearest to it (visual/fixed_light_fit.h). A frame then pays for one
 // interpolated number, however many lamps there are.
 //
 // Lamps of a glTF file (KHR_lights_punctual, EXT_lights_ies) are among them: point and spot by candela, the spot's cone
@@ -72,6 +73,7 @@ struct FixedMesh {
   std::vector<CornerLook> looks{};  ///< one for each vertex, where the chunk has them
   std::vector<FixedRoad> road{};    ///< the same, where the chunk is of asphalt
   std::vector<FixedWay> ways{};     ///< the same, where it has a relief
+  std::vector<glm::dvec4> reflected_lx{};  ///< the same while light is fitted, where any is reflected: part of `light`
 };
 
 /// What arrives at a place, for what moves: on a surface with normal n, lx·max(0, 1/4 + dot(way, n)).

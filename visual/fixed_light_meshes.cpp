@@ -10,6 +10,7 @@
 #include "config/base/on_all_cores.h"
 #include "shaders/lib/road.h"
 #include "visual/fixed_light.h"
+#include "visual/fixed_light_fit.h"
 #include "visual/renderer.h"
 #include "visual/scene/refine.h"
 
@@ -46,6 +47,7 @@ class Baker {
     mesh.light.push_back(kept.light);
     if (r_table_) mesh.road.push_back(kept.road);
     if (relief_) mesh.ways.push_back(kept.way);
+    if (light_.reflecting() > 0) mesh.reflected_lx.push_back(kept.reflected_lx);
   }
 
   /// Sides whose middle is off by more than the level allows are halved, in both triangles that share them.
@@ -203,13 +205,16 @@ std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
     if (reflected_.reaches(0.5 * (chunk.low_m + chunk.high_m))) ask += chunk.vertex_count;
   const auto ways = static_cast<std::uint32_t>(
       std::max<std::size_t>(kFewestWays, kReflectedWays * std::min(kMostAsk, ask) / std::max<std::size_t>(ask, 1)));
+  std::array<double, 1 + kFarLevels.size()> least_edges_m{level_.least_edge_m};
+  for (std::size_t far = 0; far < kFarLevels.size(); ++far)  // a hundred pixels wide, seen edge on
+    least_edges_m[1 + far] = std::max(level_.least_edge_m, 0.015 * kFarLevels[far].from * kFarMeshFrom_m);
   on_all_cores(all.size(), [&](std::size_t i) {
     const SceneChunk& chunk = scene.chunks[i];
     Baker baker(*this, scene, chunk, ways);
     for (std::size_t level = 0; level < all[i].size(); ++level) {
       FixedMesh& mesh = all[i][level];
       if (level > 0 && level - 1 < first_far_level(scene.materials[chunk.material])) continue;
-      BakeLevel cuts = level_;
+      const BakeLevel cuts{level_.tolerance, least_edges_m[level]};
       if (level == 0) {
         const auto vertices = scene.vertices.begin() + chunk.first_vertex;
         const auto indices = scene.indices.begin() + chunk.first_index;
@@ -224,12 +229,12 @@ std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
         FarMesh far = far_mesh(scene, chunk, level - 1, from_m);
         mesh.vertices = std::move(far.vertices), mesh.indices = std::move(far.indices);
         mesh.looks = std::move(far.looks);
-        cuts.least_edge_m = std::max(cuts.least_edge_m, 0.015 * from_m);  // a hundred pixels wide, seen edge on
       }
       for (const SceneVertex& vertex : mesh.vertices) baker.add(mesh, vertex);
       if (!lamps_.empty() || !suns_.empty()) baker.cut(mesh, cuts, level == 0);
     }
   });
+  if (!lamps_.empty() || !suns_.empty()) fit_light(*this, scene, all, least_edges_m);
   return all;
 }
 
