@@ -162,13 +162,15 @@ void main() {
   }
 #endif
   if (output_kind == kOutputFalseColour) {
-    // Isolux lines, one pixel wide by the screen gradient of E.
+    // Isolux lines, one pixel wide by the screen gradient of E. Where light ends between two pixels, at the edge of a shadow or of a surface, there
+    // is no line: it would be drawn in those groups of pixels alone that the edge goes through, in dashes.
     vec3 colour = false_colour(total_lx);
     float width = max(fwidth(total_lx), 1e-6);
+    float smooth_here = 1.0 - smoothstep(0.4, 0.8, width / max(total_lx, 1e-6));
     float line = 0.0;
     for (uint i = 0u; i < kMaxIsoluxLevels; ++i)
       line = max(line, 1.0 - smoothstep(0.6, 1.4, abs(total_lx - frame.isolux_lx[i / 4u][i % 4u]) / width));
-    result = vec4(srgb_encoded(mix(colour, vec3(1.0), 0.7 * line)), 1.0);
+    result = vec4(srgb_encoded(mix(colour, vec3(1.0), 0.7 * line * smooth_here)), 1.0);
     return;
   }
 

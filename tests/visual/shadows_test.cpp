@@ -196,6 +196,36 @@ FrameInput view_of_the_road() {
   return input;
 }
 
+// In false colour light ends at the edge of a shadow, within a pixel: a line of equal lux there would be drawn where
+// the edge goes through a group of four pixels and not where it goes between two, in dashes.
+TEST_F(Shadows, HaveNoDashesOfIsoluxLinesAtTheirEdges) {
+  Shape road;
+  road.quad({-5, -30, 0}, {100, -30, 0}, {100, 30, 0}, {-5, 30, 0});
+  road.box({12, 1, 0}, {12.1, 2, 2});
+  ASSERT_TRUE(renderer->load_scene(road.scene()).ok());
+  FrameInput input = view_of_the_road();
+  input.camera.eye_m = {0, 0, 14};
+  input.camera.world_from_eye = aim_rotation(0.0, -0.6, 0.0);
+  input.view = View::kFalseColour;
+  input.isolux_lx = {0.5};  // the road behind the box has more, its shadow none
+  input.want_image = true;
+  std::array<std::size_t, 2> white{}, dark{};
+  for (const bool shadows : {false, true}) {
+    input.effects[static_cast<std::size_t>(Effect::kShadows)] = shadows ? 1 : 0;
+    renderer->draw(input);
+    const Image8 picture = renderer->read_image();
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+      const auto channel = [&](std::size_t c) { return static_cast<int>(picture.rgba[i + c]); };
+      if (channel(0) > 140 && channel(1) > 140 && channel(2) > 140) ++white[shadows ? 1 : 0];
+      if (channel(0) + channel(1) + channel(2) < 60) ++dark[shadows ? 1 : 0];
+    }
+  }
+  EXPECT_GT(dark[1], dark[0] + 500) << "the shadow is seen";
+  // The line of 0.5 lx around the whole beam is cut by four edges, some pixels each.
+  EXPECT_LE(white[1], white[0] + 20);
+  EXPECT_GT(white[0], 200u);
+}
+
 // What is not called for costs nothing: no pass, no image, no draw.
 TEST_F(Shadows, AreMadeWhereSomethingStandsInTheLightAndNowhereElse) {
   Shape road;
