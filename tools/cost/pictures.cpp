@@ -44,6 +44,8 @@ FrameInput view_at(double x_m, const LampOpening& opening) {
 
 constexpr double kVisibility_m = 100.0;  // fog in which the beams are seen, and something of the road
 constexpr std::array kPlaces_m{26.9, 60.0, 100.0};
+// Behind trees, posts and a person on the verge.
+constexpr std::array kShadowPlaces_m{26.9, 60.0, 168.0};
 constexpr int kOpeningRings = 16;  // a straight edge is placed to half a ring: 3 % of the opening
 
 double exact_lx(const IntensityTable& table, const PlacedLamp& lamp, const MeasurePoint& point) {
@@ -254,7 +256,7 @@ class Pictures {
     std::vector<std::vector<double>> of_middle(levels), of_opening(levels);
     std::vector<std::size_t> wrong(levels);
     std::size_t decisions = 0, within_edges = 0;
-    for (const double x_m : kPlaces_m) {
+    for (const double x_m : kShadowPlaces_m) {
       plan_.progress("rays for shadows", 0.2);
       FrameInput input = view_at(x_m, opening_);
       input.far_mesh_from_m = std::numeric_limits<double>::infinity();

@@ -47,8 +47,8 @@ double land(double x, double y) {
          0.35 * std::sin(y / 43.0 + 1.3 + 0.5 * std::sin(x / 61.0)) + 0.2 * std::sin((x + 1.7 * y) / 23.0 + 0.4);
 }
 
-/// 1 where a ditch runs beside the road, 0 at the lay-by, the farm yard and the way into the field.
-double ditch_share(double s, double t) {
+/// 1 where a swale runs beside the road, 0 at the lay-by, the farm yard and the way into the field.
+double swale_share(double s, double t) {
   const auto gap = [s](double begin, double end) {
     return smooth_step(begin - 6.0, begin, s) * (1.0 - smooth_step(end, end + 6.0, s));
   };
@@ -133,16 +133,18 @@ double Alignment::height_m(double s, double t) const {
   const double d = std::abs(t);
   if (d <= kPavedHalfWidth_m) return z;
 
-  // Beside it: verge, ditch, then the land takes over from the road's profile.
-  const double ditch = ditch_share(s, t);
+  // Beside it: verge, a swale so shallow that low beams light it all, then the land takes over from the road's profile.
+  // Where it is deeper than the lamps are high over its far edge it is a black band; where they just reach it, light
+  // glances along its slope.
+  const double swale = swale_share(s, t);
   z -= 0.05 * (std::min(d, 5.3) - kPavedHalfWidth_m);
-  z -= 0.5 * ditch * smooth_step(5.3, 6.3, d) * (1.0 - smooth_step(6.9, 8.4, d));
+  z -= 0.06 * swale * smooth_step(5.3, 6.6, d) * (1.0 - smooth_step(6.9, 8.4, d));
   if (d > 8.0) {
     const Station station = at(s);
     const glm::dvec3 p = station.position_m + station.left() * t;
     const double away = smooth_step(8.0, 70.0, d);
     const double bank = (0.5 + 0.5 * std::sin(s / 47.0 + (t > 0.0 ? 0.9 : 3.4))) * smooth_step(8.4, 16.0, d);
-    z += 1.1 * bank * ditch + away * (2.6 * land(p.x, p.y) + 0.45 * (0.0 - hump(kCrest, s) - hump(kDip, s)));
+    z += 1.1 * bank * swale + away * (2.6 * land(p.x, p.y) + 0.45 * (0.0 - hump(kCrest, s) - hump(kDip, s)));
     z += 7.0 * smooth_step(45.0, 130.0, d) * (0.55 + 0.5 * land(0.45 * p.x - 90.0, 0.45 * p.y + 300.0));  // ridges
     z += 0.045 * std::max(0.0, d - 14.0) * (0.9 + 0.5 * land(0.6 * p.x + 200.0, 0.6 * p.y));
   }

@@ -38,7 +38,7 @@ std::vector<double> rows_in_cell(double begin) {
   return rows;
 }
 
-/// Normal of the smooth surface; one-sided differences would see the kinks of the ditch, so about a decimetre wide.
+/// Normal of the smooth surface; one-sided differences would see the kinks of the verge, so about a decimetre wide.
 glm::dvec3 normal_at(const Alignment& road, double s, double t, double reach) {
   const glm::dvec3 along = road.point(s + reach, t) - road.point(s - reach, t);
   const glm::dvec3 across = road.point(s, t + reach) - road.point(s, t - reach);
