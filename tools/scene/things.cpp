@@ -70,15 +70,25 @@ void add_fence(Model& model, const Alignment& road, double begin, double end, do
       node = &model.add(name);
     }
     Pen pen(*node, placed(road, s, t));
-    pen.cone(Material::kWoodOld, {0.0, 0.0, -0.4}, 0.06, {0.0, 0.0, 1.15 + 0.07 * std::sin(7.0 * i)}, 0.055, 6);
+    // Without what nobody sees: the foot in the ground, rails' ends within posts.
+    std::vector<dvec3> foot, top;
+    for (int corner = 0; corner < 6; ++corner) {
+      const double turn = std::numbers::pi * corner / 3.0;
+      foot.push_back({0.06 * std::cos(turn), 0.06 * std::sin(turn), -0.4});
+      top.push_back({0.055 * std::cos(turn), 0.055 * std::sin(turn), 1.15 + 0.07 * std::sin(7.0 * i)});
+    }
+    pen.loft(Material::kWoodOld, {foot, top}, false);
+    pen.polygon(Material::kWoodOld, top);
     if (s + kSpan_m > end) break;
     const dvec3 a = road.point(s, t), b = road.point(s + kSpan_m, t);
     Pen rails(*node, glm::dmat4(1.0));
     const dvec3 side = 0.04 * glm::normalize(glm::cross(b - a, dvec3(0, 0, 1)));
     for (const double z : {0.5, 0.95}) {
       const dvec3 low(0, 0, z), high(0, 0, z + 0.1);
-      rails.block(Material::kWoodOld, {{a - side + low, b - side + low, b + side + low, a + side + low, a - side + high,
-                                        b - side + high, b + side + high, a + side + high}});
+      rails.loft(Material::kWoodOld,
+                 {{a - side + low, a + side + low, a + side + high, a - side + high},
+                  {b - side + low, b + side + low, b + side + high, b - side + high}},
+                 false);
     }
   }
 }
