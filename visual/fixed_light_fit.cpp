@@ -21,11 +21,15 @@ constexpr double kSmooth = 0.05, kLeast_lx = 0.5;  // off by less, of the light 
 constexpr double kPlace_m = 1e-3;                  // corners nearer to each other are one
 constexpr double kNormal = 1e-2;                   // the same, of normals
 
+// Of larger scenes samples are fewer, and beyond so many corners there are none: light stays what it is at corners.
+constexpr std::size_t kMostOfAll = 2000000;
+constexpr std::size_t kMostCorners = 4000000;
+
 struct Sample {
   std::array<std::uint32_t, 3> corner{};  ///< of all
-  glm::dvec3 weight{0.0};
-  glm::dvec4 lx{0.0};
-  double area_m2 = 0.0;
+  glm::vec3 weight{0.0f};
+  glm::vec4 lx{0.0f};
+  float area_m2 = 0.0f;
 };
 
 /// Places in a triangle that lie evenly: the sequence of Roberts (2018, "The Unreasonable Effectiveness of
@@ -72,98 +76,124 @@ glm::dvec4 direct_lx(const FixedMesh& mesh, std::size_t vertex) {
   return glm::dvec4(mesh.light[vertex].light) - reflected;
 }
 
-/// What falls on a triangle besides what is reflected, which is even.
-std::vector<Sample> samples_of(const FixedLight& light, const SceneChunk& chunk, const SceneMaterial& material,
-                               const FixedMesh& mesh, std::size_t t, double sample_m2) {
+std::size_t triangles_of(const FixedMesh& mesh) {
+  return mesh.indices.size() / 3;
+}
+
+double area_m2(const FixedMesh& mesh, std::size_t triangle) {
+  const auto at = [&](std::size_t k) { return glm::dvec3(mesh.vertices[mesh.indices[3 * triangle + k]].position_m); };
+  return 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+}
+
+std::size_t most_samples(double area_m2, double sample_m2) {
+  return static_cast<std::size_t>(std::min(static_cast<double>(kMostSamples), area_m2 / sample_m2));
+}
+
+/// What falls on a triangle besides what is reflected, which is even; corners are those of the mesh.
+void take_samples(std::vector<Sample>& into, const FixedLight& light, const SceneChunk& chunk,
+                  const SceneMaterial& material, const FixedMesh& mesh, std::size_t triangle, double sample_m2) {
+  std::array<std::uint32_t, 3> corner{};
   std::array<glm::dvec3, 3> at_m, normals;
   std::array<glm::dvec4, 3> lx;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t vertex = mesh.indices[t + k];
-    at_m[k] = glm::dvec3(mesh.vertices[vertex].position_m), normals[k] = glm::dvec3(mesh.vertices[vertex].normal);
-    lx[k] = direct_lx(mesh, vertex);
+    corner[k] = mesh.indices[3 * triangle + k];
+    const SceneVertex& vertex = mesh.vertices[corner[k]];
+    at_m[k] = glm::dvec3(vertex.position_m), normals[k] = glm::dvec3(vertex.normal), lx[k] = direct_lx(mesh, corner[k]);
   }
-  const double area_m2 = 0.5 * glm::length(glm::cross(at_m[1] - at_m[0], at_m[2] - at_m[0]));
-  const std::size_t most = std::min(kMostSamples, static_cast<std::size_t>(area_m2 / sample_m2));
-  std::vector<Sample> samples;
+  const double all_m2 = area_m2(mesh, triangle);
+  const std::size_t most = most_samples(all_m2, sample_m2), first = into.size();
   bool smooth = true;
-  while (samples.size() < (smooth ? std::min(most, kFirstSamples) : most)) {
-    Sample& sample = samples.emplace_back();
-    sample.weight = place_in_triangle(samples.size() - 1);
-    const auto between = [&weight = sample.weight](const auto& of) {
-      return weight[0] * of[0] + weight[1] * of[1] + weight[2] * of[2];
-    };
+  for (std::size_t i = 0; i < (smooth ? std::min(most, kFirstSamples) : most); ++i) {
+    const glm::dvec3 weight = place_in_triangle(i);
+    const auto between = [&weight](const auto& of) { return weight.x * of[0] + weight.y * of[1] + weight.z * of[2]; };
+    const glm::dvec3 normal = between(normals);
+    if (!(glm::dot(normal, normal) > 1e-6)) continue;  // of a file: they look away from each other
     const glm::dvec4 none(0.0);
-    sample.lx = glm::dvec4(
-        light.at(chunk.origin_m + between(at_m), glm::normalize(between(normals)), material, nullptr, nullptr, &none)
-            .light);
-    smooth = smooth && std::abs(sample.lx.w - between(lx).w) < kSmooth * std::max(sample.lx.w, kLeast_lx);
+    const glm::vec4 there =
+        light.at(chunk.origin_m + between(at_m), glm::normalize(normal), material, nullptr, nullptr, &none).light;
+    into.push_back({corner, weight, there});
+    const double exact = static_cast<double>(there.w);
+    smooth = smooth && std::abs(exact - between(lx).w) < kSmooth * std::max(exact, kLeast_lx);
   }
-  for (Sample& sample : samples) sample.area_m2 = area_m2 / static_cast<double>(samples.size());
-  return samples;
+  const auto share_m2 = static_cast<float>(all_m2 / static_cast<double>(into.size() - first));
+  for (std::size_t i = first; i < into.size(); ++i) into[i].area_m2 = share_m2;
+}
+
+/// Of one level, by chunk.
+std::vector<std::vector<Sample>> all_samples(const FixedLight& light, const Scene& scene,
+                                             const std::vector<FixedLight::Meshes>& meshes, std::size_t level,
+                                             double sample_m2) {
+  const auto most_of_all = [&] {
+    std::size_t most = 0;
+    for (const FixedLight::Meshes& of : meshes)
+      for (std::size_t t = 0; t < triangles_of(of[level]); ++t) most += most_samples(area_m2(of[level], t), sample_m2);
+    return most;
+  };
+  while (most_of_all() > kMostOfAll) sample_m2 *= 2.0;
+  std::vector<std::vector<Sample>> taken(meshes.size());
+  on_all_cores(meshes.size(), [&](std::size_t c) {
+    const SceneChunk& chunk = scene.chunks[c];
+    for (std::size_t t = 0; t < triangles_of(meshes[c][level]); ++t)
+      take_samples(taken[c], light, chunk, scene.materials[chunk.material], meshes[c][level], t, sample_m2);
+  });
+  return taken;
+}
+
+/// Least squares by steps: light at corners, of samples that name them.
+std::vector<glm::dvec4> fitted(std::vector<glm::dvec4> lx, const std::vector<std::vector<Sample>>& by_chunk) {
+  std::vector<double> weight_m2(lx.size(), 0.0);
+  const auto each = [&by_chunk](const auto& with) {
+    for (const std::vector<Sample>& samples : by_chunk)
+      for (const Sample& sample : samples)
+        with(glm::dvec4(sample.lx), sample.corner,
+             std::array{static_cast<double>(sample.weight.x), static_cast<double>(sample.weight.y),
+                        static_cast<double>(sample.weight.z)},
+             static_cast<double>(sample.area_m2));
+  };
+  each([&](const glm::dvec4&, const auto& corner, const auto& weight, double area) {
+    for (std::size_t k = 0; k < 3; ++k) weight_m2[corner[k]] += area * weight[k];
+  });
+  std::vector<glm::dvec4> change(lx.size());
+  for (int step = 0; step < kSteps; ++step) {
+    std::ranges::fill(change, glm::dvec4(0.0));
+    each([&](glm::dvec4 off, const auto& corner, const auto& weight, double area) {
+      for (std::size_t k = 0; k < 3; ++k) off -= weight[k] * lx[corner[k]];
+      for (std::size_t k = 0; k < 3; ++k) change[corner[k]] += area * weight[k] * off;
+    });
+    for (std::size_t i = 0; i < lx.size(); ++i)
+      if (weight_m2[i] > 0.0) lx[i] = glm::max(lx[i] + change[i] / weight_m2[i], 0.0);
+  }
+  return lx;
 }
 
 void fit_level(const FixedLight& light, const Scene& scene, std::vector<FixedLight::Meshes>& meshes, std::size_t level,
                double least_edge_m) {
+  std::size_t count = 0;
+  for (const FixedLight::Meshes& of : meshes) count += of[level].vertices.size();
+  if (count > kMostCorners) return;
   const double apart_m = (level == 0 ? kApart : kFarApart) * least_edge_m;
-  std::vector<std::vector<std::vector<Sample>>> taken(meshes.size());
-  on_all_cores(meshes.size(), [&](std::size_t c) {
-    const SceneChunk& chunk = scene.chunks[c];
-    const FixedMesh& mesh = meshes[c][level];
-    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
-      taken[c].push_back(samples_of(light, chunk, scene.materials[chunk.material], mesh, t, apart_m * apart_m));
-  });
+  std::vector<std::vector<Sample>> samples = all_samples(light, scene, meshes, level, apart_m * apart_m);
 
   Corners corners;
   std::vector<std::vector<std::uint32_t>> corner_of(meshes.size());
-  std::vector<glm::dvec4> fitted_lx;
-  std::vector<double> weight_m2;
-  std::vector<Sample> all;
+  std::vector<glm::dvec4> before_lx;
   for (std::size_t c = 0; c < meshes.size(); ++c) {
     const SceneChunk& chunk = scene.chunks[c];
     const FixedMesh& mesh = meshes[c][level];
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       const SceneVertex& vertex = mesh.vertices[v];
-      const std::uint32_t corner =
-          corners.at(chunk.material, chunk.origin_m + glm::dvec3(vertex.position_m), glm::dvec3(vertex.normal));
-      corner_of[c].push_back(corner);
-      fitted_lx.resize(corners.size());
-      fitted_lx[corner] = direct_lx(mesh, v);
+      corner_of[c].push_back(
+          corners.at(chunk.material, chunk.origin_m + glm::dvec3(vertex.position_m), glm::dvec3(vertex.normal)));
+      before_lx.resize(corners.size());
+      before_lx[corner_of[c][v]] = direct_lx(mesh, v);
     }
-    weight_m2.resize(corners.size(), 0.0);
-    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-      const std::array<std::uint32_t, 3> of{corner_of[c][mesh.indices[t]], corner_of[c][mesh.indices[t + 1]],
-                                            corner_of[c][mesh.indices[t + 2]]};
-      for (Sample& sample : taken[c][t / 3]) {
-        sample.corner = of;
-        for (glm::length_t k = 0; k < 3; ++k)
-          weight_m2[of[static_cast<std::size_t>(k)]] += sample.area_m2 * sample.weight[k];
-        all.push_back(sample);
-      }
-    }
-    taken[c].clear();
+    for (Sample& sample : samples[c])
+      for (std::uint32_t& corner : sample.corner) corner = corner_of[c][corner];
   }
-
-  const std::vector<glm::dvec4> before_lx = fitted_lx;
-  std::vector<glm::dvec4> change(fitted_lx.size());
-  for (int step = 0; step < kSteps; ++step) {
-    std::ranges::fill(change, glm::dvec4(0.0));
-    for (const Sample& sample : all) {
-      glm::dvec4 off = sample.lx;
-      for (glm::length_t k = 0; k < 3; ++k)
-        off -= sample.weight[k] * fitted_lx[sample.corner[static_cast<std::size_t>(k)]];
-      for (glm::length_t k = 0; k < 3; ++k)
-        change[sample.corner[static_cast<std::size_t>(k)]] += sample.area_m2 * sample.weight[k] * off;
-    }
-    for (std::size_t i = 0; i < fitted_lx.size(); ++i)
-      if (weight_m2[i] > 0.0) fitted_lx[i] = glm::max(fitted_lx[i] + change[i] / weight_m2[i], 0.0);
-  }
-  for (std::size_t c = 0; c < meshes.size(); ++c) {
-    FixedMesh& mesh = meshes[c][level];
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      const std::uint32_t corner = corner_of[c][v];
-      mesh.light[v].light += glm::vec4(fitted_lx[corner] - before_lx[corner]);
-    }
-  }
+  const std::vector<glm::dvec4> lx = fitted(before_lx, samples);
+  for (std::size_t c = 0; c < meshes.size(); ++c)
+    for (std::size_t v = 0; v < corner_of[c].size(); ++v)
+      meshes[c][level].light[v].light += glm::vec4(lx[corner_of[c][v]] - before_lx[corner_of[c][v]]);
 }
 
 }  // namespace
