@@ -369,6 +369,28 @@ TEST_F(Measuring, ThePlotShowsEachProbesLightOverTime) {
   EXPECT_EQ(marks.labels.front().text, "no probe and no point is set") << "and nothing of before";
 }
 
+// Labels of the isolux lines go on along their lines where those of the grid are.
+TEST_F(Measuring, GridAndIsoluxLinesHaveNoLabelOnAnother) {
+  PictureInstruments instruments(desk_, lamps_, world_, RoadLine(), ProbeLog());
+  desk_.grid_m = 5.0;
+  desk_.isolux = true;
+  desk_.isolux_lx = {1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0};
+  FrameInput picture;
+  std::size_t labels = 0;
+  for (const double up_m : {3.2, 4.0, 6.0, 10.0}) {
+    picture.camera.eye_m = {0.0, 0.0, up_m};
+    instruments.see({SimTime{0}, car_, &picture, 16.0 / 9.0});
+    const OverlayMarks marks = instruments.marks(true);
+    labels += marks.labels.size();
+    for (std::size_t i = 0; i < marks.labels.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_TRUE(std::abs(marks.labels[i].x_01 - marks.labels[k].x_01) >= 0.04 ||
+                    std::abs(marks.labels[i].y_01 - marks.labels[k].y_01) >= 0.025)
+            << marks.labels[i].text << " on " << marks.labels[k].text << " from " << up_m << " m";
+  }
+  EXPECT_GT(labels, 30u);
+}
+
 // Of a picture in halves: marks of its own view lie in its half.
 TEST_F(Measuring, MarksLieInThePartOfTheirView) {
   PictureInstruments instruments(desk_, lamps_, world_, RoadLine(), ProbeLog());

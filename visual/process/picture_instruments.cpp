@@ -71,7 +71,7 @@ OverlayMarks PictureInstruments::marks(bool anew, const Desk& shown) {
     ++work_;
     if (anew || isolux_.lines.empty()) isolux_ = seen(isolux_marks(lamps_, moment_.car, road_, desk_.isolux_lx));
     OverlayMarks lines;
-    draw_marks(lines, isolux_, view);
+    draw_marks(lines, isolux_, view, picture.labels);
     keep_to_a(lines, shown, lamps_, moment_.time);
     picture.lines.insert(picture.lines.end(), lines.lines.begin(), lines.lines.end());
     picture.labels.insert(picture.labels.end(), lines.labels.begin(), lines.labels.end());

@@ -198,7 +198,8 @@ RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& r
   return seen;
 }
 
-void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometry& view) {
+void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometry& view,
+                std::span<const OverlayMarks::Label> others) {
   const glm::dmat4 clip_from_eye = view.clip_from_eye();
   const glm::dvec3 eye_m = view.camera().eye_m;
   for (const RoadMarks::Line& line : marks.lines)
@@ -215,11 +216,11 @@ void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometr
     for (const glm::dvec3& place_m : places) {
       const auto at = seen_line(clip_from_eye, place_m - eye_m, place_m - eye_m);
       if (!at || !in_picture(at->first)) continue;
-      const bool taken = std::ranges::any_of(picture.labels, [&](const OverlayMarks::Label& other) {
+      const auto taken = [&](const OverlayMarks::Label& other) {
         return std::abs(other.x_01 - at->first.x_01) < kLabelWidth_01 &&
                std::abs(other.y_01 - at->first.y_01) < kLabelHeight_01;
-      });
-      if (taken) continue;
+      };
+      if (std::ranges::any_of(picture.labels, taken) || std::ranges::any_of(others, taken)) continue;
       picture.labels.push_back({at->first.x_01, at->first.y_01, label.text, label.colour});
       break;
     }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,8 +59,9 @@ RoadMarks isolux_marks(const Lamps& lamps, const VehicleState& car, const RoadLi
 
 /// Without what a crest hides from this eye.
 RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& road);
-/// As the eye sees them, all of them.
-void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometry& view);
+/// As the eye sees them, all of them; no label on another of the picture or of `others`.
+void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometry& view,
+                std::span<const OverlayMarks::Label> others = {});
 /// The scale of the false colours at the right edge, with the levels of the isolux lines.
 void draw_scale(OverlayMarks& picture, const std::vector<double>& levels_lx);
 
