@@ -196,6 +196,26 @@ TEST_F(Control, APointIsReadAsMeasureHasIt) {
   EXPECT_EQ(run.wait(), 0);
 }
 
+// Under a tunnel's roof nothing but what road and walls send on: the column of the strongest lamp is 0, the sum is not.
+TEST_F(Control, ReflectedLightIsInNoLampsColumn) {
+  std::ofstream(folder_ / "p.csv") << "x_m,y_m,z_m,nx,ny,nz\n100,0,5,0,0,-1\n";
+  const std::string scenes = scene_dir();
+  const std::string measure = "'" + program("phare") + "' measure --street-lamps '" + scenes +
+                              "/tunnel_lamps.toml' --scene '" + scenes + "/tunnel.glb' --points '" +
+                              (folder_ / "p.csv").string() + "' --out '" + (folder_ / "lx.csv").string() +
+                              "' >/dev/null";
+  ASSERT_EQ(std::system(measure.c_str()), 0);
+  std::ifstream table(folder_ / "lx.csv");
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,illuminance_lx_1");
+  std::getline(table, line);
+  double sum_lx = 0.0, lamp_lx = -1.0;
+  ASSERT_EQ(std::sscanf(line.c_str(), "100,0,5,0,0,-1,%lf,%lf", &sum_lx, &lamp_lx), 2) << line;
+  EXPECT_GT(sum_lx, 2.0);
+  EXPECT_EQ(lamp_lx, 0.0);
+}
+
 // Each instrument that is off is no pass and no view; those that draw over the picture share the overlay's pass.
 TEST_F(Control, InstrumentsThatAreOffCostNoPass) {
   const auto visual = [&](const char* out, const std::vector<std::string>& settings) {
