@@ -1,8 +1,7 @@
 // Light that does not change while one drives: street lamps by their own photometry files, the moon, and surfaces that
 // shine by themselves. It falls on a scene that stands, so it is computed once, in float64, when the scene is loaded,
 // and kept at the vertices of meshes that are cut as finely as the light asks for, such that what lies between them is
-// nearest to it (visual/fixed_light_fit.h). A frame then pays for one
-// interpolated number, however many lamps there are.
+// nearest to it (visual/fixed_light_fit.h). A frame then pays for one interpolated number, however many lamps there are.
 //
 // Lamps of a glTF file (KHR_lights_punctual, EXT_lights_ies) are among them: point and spot by candela, the spot's cone
 // by the extension's own formula, directional ones by lux, as the moon.
