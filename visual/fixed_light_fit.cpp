@@ -20,6 +20,8 @@ constexpr std::size_t kFirstSamples = 4, kMostSamples = 16;
 constexpr double kSmooth = 0.05, kLeast_lx = 0.5;  // off by less, of the light there or of so many lux
 constexpr double kPlace_m = 1e-3;                  // corners nearer to each other are one
 constexpr double kNormal = 1e-2;                   // the same, of normals
+// Numbers of files and their halves lie on no boundary of such cells, where float32 would tell on which side.
+constexpr double kCell = 0.2718;
 
 // Of larger scenes samples are fewer, and beyond so many corners there are none: light stays what it is at corners.
 constexpr std::size_t kMostOfAll = 2000000;
@@ -45,7 +47,9 @@ glm::dvec3 place_in_triangle(std::size_t i) {
 class Corners {
  public:
   std::uint32_t at(std::uint32_t material, const glm::dvec3& place_m, const glm::dvec3& normal) {
-    const auto whole = [](double value, double unit) { return static_cast<std::int64_t>(std::llround(value / unit)); };
+    const auto whole = [](double value, double unit) {
+      return static_cast<std::int64_t>(std::llround(value / unit + kCell));
+    };
     const Key key{material,
                   whole(place_m.x, kPlace_m),
                   whole(place_m.y, kPlace_m),
@@ -115,6 +119,7 @@ void take_samples(std::vector<Sample>& into, const FixedLight& light, const Scen
     const double exact = static_cast<double>(there.w);
     smooth = smooth && std::abs(exact - between(lx).w) < kSmooth * std::max(exact, kLeast_lx);
   }
+  if (into.size() == first) return;
   const auto share_m2 = static_cast<float>(all_m2 / static_cast<double>(into.size() - first));
   for (std::size_t i = first; i < into.size(); ++i) into[i].area_m2 = share_m2;
 }

@@ -235,6 +235,8 @@ std::vector<FixedLight::Meshes> FixedLight::meshes(const Scene& scene) const {
     }
   });
   if (!lamps_.empty() || !suns_.empty()) fit_light(*this, scene, all, least_edges_m);
+  for (Meshes& of : all)
+    for (FixedMesh& mesh : of) std::vector<glm::dvec4>().swap(mesh.reflected_lx);
   return all;
 }
 
