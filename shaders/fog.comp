@@ -70,7 +70,7 @@ void main() {
       float at = radians(at_deg), past = d_##I * tan(at), r = d_##I / cos(at);                                                         \
       float cd = 0.0;                                                                                                                  \
       if (r >= frame.lamps[I].row_c.w)                                                                                                 \
-        cd = lamp_light_##I(shape_##I, turned_##I * (along_##I + past) - place_##I, 0.0).cd;                                           \
+        cd = light_at_##I(shape_##I, turned_##I * (along_##I + past) - place_##I, 0.0).cd;                                             \
       lamp_sum += (narrow ? step_deg : 0.5 * step_deg) * cd * phase_at(90.0 + at_deg, along_##I + past) * fog_left(r + along_##I + past); \
       if (narrow || second) angle_##I += step_deg;                                                                                     \
       second = !narrow && !second;                                                                                                     \

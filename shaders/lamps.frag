@@ -18,6 +18,8 @@
 #ifdef PHARE_SHADOWS
 #include "lib/shadow.glsl"
 #else
+#define PHARE_SEEK_SHADOW(I)
+#define PHARE_READ_SHADOW(I)
 #define PHARE_REACHING(I) 1.0
 #endif
 #include "lib/tone.h"
@@ -96,11 +98,15 @@ void main() {
   else place_pixel(unit < 0.0 ? -1.0lf : 1.0lf);
 #endif
 
+  PHARE_EACH_LAMP(PHARE_SEEK_LAMP)
+  PHARE_EACH_LAMP(PHARE_SEEK_SHADOW)
+  PHARE_EACH_LAMP(PHARE_READ_SHADOW)
+  PHARE_EACH_LAMP(PHARE_READ_LAMP)
   if (output_kind == kOutputMeasure) {
     vec4 lx = vec4(0.0);
 #define MEASURE(I) \
   if (I / 4 == lamp_base / 4) {                  \
-    if (lamp_count > I) lx[I % 4] = PHARE_LAMP_LIGHT(I).illuminance_lx * PHARE_REACHING(I); \
+    if (lamp_count > I) lx[I % 4] = PHARE_SOUGHT_LIGHT(I).illuminance_lx * PHARE_REACHING(I); \
   }
     PHARE_EACH_LAMP(MEASURE)
     result = lx;
@@ -114,7 +120,7 @@ void main() {
 #define LIGHT(I)                                                                                           \
   if (lamp_count > I) {                                                                                    \
     LampLight light;                                                                                       \
-    if (method != kMethodVertex) light = PHARE_LAMP_LIGHT(I);                                              \
+    if (method != kMethodVertex) light = PHARE_SOUGHT_LIGHT(I);                                            \
     if (method == kMethodVertex) light = from_vertices(I, PHARE_FACING(I), 0.0, n, level);                 \
     if (method == kMethodVertex1998) {                                                                     \
       float cd = in_8_bits(light.cd, frame.lamps[I].position.w);                                           \

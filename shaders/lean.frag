@@ -6,6 +6,8 @@
 #ifdef PHARE_SHADOWS
 #include "lib/shadow.glsl"
 #else
+#define PHARE_SEEK_SHADOW(I)
+#define PHARE_READ_SHADOW(I)
 #define PHARE_REACHING(I) 1.0
 #endif
 #include "lib/tone.h"
@@ -42,21 +44,31 @@ void main() {
 #else
 #define EYE_LAMP2(I) (I == 0 ? lit.w : unlit.w)
 #endif
+#define TOWARD(I) (I == 0 ? toward.x : toward.y)
+#define SEEK(I)      \
+  Sought sought_##I; \
+  if (lamp_count > I) sought_##I = PHARE_SEEK_AT(I, I == 0 ? in_first.xyz : PHARE_IN_SECOND);
+  PHARE_EACH_LAMP(SEEK)
 #ifdef PHARE_PLAIN
-#define SENT_BACK(I, REACH)
+#define SENT_BACK(I) 0.0
 #else
-#define SENT_BACK(I, REACH) \
-  if (retro != 0) sent_lx += light.normal_lx * REACH * sent_back(I, light, place.xyz, n, level, detail.w, EYE_LAMP2(I));
+#define SENT_BACK(I) sent_back_##I
+#define SEND_BACK(I)          \
+  float sent_back_##I = 0.0; \
+  if (retro != 0 && lamp_count > I) sent_back_##I = sent_back(I, aimed(sought_##I.way, TOWARD(I)), place.xyz, n, level, detail.w, EYE_LAMP2(I));
+  PHARE_EACH_LAMP(SEND_BACK)
 #endif
-#define LIGHT(I)                                                                                             \
-  if (lamp_count > I) {                                                                                      \
-    LampLight light = PHARE_LIGHT_AT(I, I == 0 ? in_first.xyz : PHARE_IN_SECOND, I == 0 ? toward.x : toward.y); \
-    float reach = PHARE_REACHING(I);                                                                         \
-    total_lx += light.illuminance_lx * reach;                                                                \
-    SENT_BACK(I, reach)                                                                                      \
+  PHARE_EACH_LAMP(PHARE_SEEK_SHADOW)
+  PHARE_EACH_LAMP(PHARE_READ_SHADOW)
+  PHARE_EACH_LAMP(PHARE_READ_LAMP)
+#define LIGHT(I)                                                      \
+  if (lamp_count > I) {                                               \
+    LampLight light = sought_light_##I(sought_##I, TOWARD(I));        \
+    float reach = PHARE_REACHING(I);                                  \
+    total_lx += light.illuminance_lx * reach;                         \
+    if (retro != 0) sent_lx += light.normal_lx * reach * SENT_BACK(I); \
   }
-  LIGHT(0)
-  LIGHT(1)
+  PHARE_EACH_LAMP(LIGHT)
 
 #ifndef PHARE_PLAIN
   if (output_kind == kOutputAudit) {

@@ -42,9 +42,9 @@ vec2 decimals_before(TableShape shape, vec2 at) {
   return floor(at + over * shape.unit);
 }
 
-// A table's value and where it was found: its table of colour lies on the same nodes.
+// Where a direction lies in a table: its table of colour lies on the same nodes.
 struct Found {
-  float value;   // as the table has it
+  bool lit;      // within the table
   float factor;  // candela are this times the value (without the table's scale)
   vec2 part;     // between the nodes of the cell; filter: the texture coordinate
   int cell;
@@ -55,16 +55,12 @@ float in_cell(vec4 nodes, vec2 part) {
   return mix(low_high.x, low_high.y, part.y);
 }
 
-Found found_in_cell(samplerBuffer table, TableShape shape, vec2 node, vec2 part, bool lit) {
-  int cell = int(node.y * shape.cells.x + (node.x + shape.cells.y));
-  float value = in_cell(texelFetch(table, cell), part);
-  return Found(lit ? value : 0.0, 1.0, part, cell);
+Found found_in_cell(TableShape shape, vec2 node, vec2 part, bool lit) {
+  return Found(lit, 1.0, part, int(node.y * shape.cells.x + (node.x + shape.cells.y)));
 }
 
-Found found_by_filter(sampler2D table, TableShape shape, vec2 at, bool lit) {
-  vec2 coordinate = at * shape.per + shape.phase;
-  float value = textureLod(table, coordinate, 0.0).r;
-  return Found(lit ? value : 0.0, 1.0, coordinate, 0);
+Found found_by_filter(TableShape shape, vec2 at, bool lit) {
+  return Found(lit, 1.0, at * shape.per + shape.phase, 0);
 }
 
 bool within(vec2 at, vec4 range) {
@@ -84,34 +80,34 @@ bool on_screen(vec3 p, vec2 at, vec2 inside, float rim) {
 }
 
 #ifdef PHARE_FILTERED
-Found filtered_screen(sampler2D image, TableShape shape, vec3 p) {
+Found filtered_screen(TableShape shape, vec3 p) {
   vec2 at = p.yz * (1.0 / p.x), inside = min(max(at, shape.range.xz), shape.range.yw);
-  return found_by_filter(image, shape, inside, on_screen(p, at, inside, 1e-6));
+  return found_by_filter(shape, inside, on_screen(p, at, inside, 1e-6));
 }
 
-Found filtered_ahead(sampler2D image, TableShape shape, vec3 p, float h) {
+Found filtered_ahead(TableShape shape, vec3 p, float h) {
   vec2 angles = vec2(atan2_forward_rad(p.y, p.x), atan2_forward_rad(p.z, h));
-  return found_by_filter(image, shape, angles, p.x > 0.0 && within(angles, shape.range));
+  return found_by_filter(shape, angles, p.x > 0.0 && within(angles, shape.range));
 }
 
-Found filtered_round(sampler2D image, TableShape shape, vec3 p, float h) {
+Found filtered_round(TableShape shape, vec3 p, float h) {
   vec2 angles = radians(vec2(atan2_deg(p.y, p.x), atan2_deg(p.z, h)));
   angles.x += angles.x < shape.range.x ? radians(360.0) : 0.0;
-  return found_by_filter(image, shape, angles, within(angles, shape.range));
+  return found_by_filter(shape, angles, within(angles, shape.range));
 }
 #else
-Found on_even_screen(samplerBuffer table, TableShape shape, vec3 p) {
+Found on_even_screen(TableShape shape, vec3 p) {
   vec2 at = p.yz * (1.0 / p.x) * shape.per - shape.phase;
   vec2 inside = min(max(at, shape.range.xz), shape.range.yw), node = floor(inside);
-  return found_in_cell(table, shape, node, inside - node, on_screen(p, at, inside, 1e-3));
+  return found_in_cell(shape, node, inside - node, on_screen(p, at, inside, 1e-3));
 }
 
-Found on_guided_screen(samplerBuffer table, samplerBuffer guide, TableShape shape, vec3 p) {
+Found on_guided_screen(samplerBuffer guide, TableShape shape, vec3 p) {
   vec2 at = p.yz * (1.0 / p.x) * shape.reach.xy;
   vec2 inside = min(max(at, shape.range.xz), shape.range.yw);
   vec2 u = node_before(guide, 0.0, shape.fine.x, vec2(0.0, inside.x), 0.0, 0.0, shape.per.x);
   vec2 v = node_before(guide, shape.coarse, shape.fine.y, vec2(0.0, inside.y), 0.0, 0.0, shape.per.y);
-  return found_in_cell(table, shape, vec2(u.x, v.x), vec2(u.y, v.y), on_screen(p, at, inside, 2e-5));
+  return found_in_cell(shape, vec2(u.x, v.x), vec2(u.y, v.y), on_screen(p, at, inside, 2e-5));
 }
 
 // Half an angle over its tangent, of the axis whose bit is kLookupNarrow or twice that.
@@ -134,34 +130,32 @@ bool within_edge(TableShape shape, vec2 at) {
   return (shape.lookup & kLookupEdge) == 0 || within(at, shape.range);
 }
 
-Found ahead_even(samplerBuffer table, TableShape shape, vec2 half_tangent) {
+Found ahead_even(TableShape shape, vec2 half_tangent) {
   vec2 at = ahead_at(shape, half_tangent);
   if ((shape.lookup & kLookupCoarse) != 0) {
     vec2 fine = min(max(at, -shape.fine), shape.fine);
     at = fine + (at - fine) * shape.coarse;
   }
   vec2 node = floor(at);
-  return found_in_cell(table, shape, node, at - node, within_edge(shape, at));
+  return found_in_cell(shape, node, at - node, within_edge(shape, at));
 }
 
-Found ahead_decimals(samplerBuffer table, TableShape shape, vec2 half_tangent) {
+Found ahead_decimals(TableShape shape, vec2 half_tangent) {
   vec2 at = ahead_at(shape, half_tangent);
   vec2 node = (shape.lookup & kLookupShown) != 0 ? floor(at) : decimals_before(shape, at);
-  Found found = found_in_cell(table, shape, node, at - node, within_edge(shape, at));
-  found.value = max(found.value, 0.0);  // the cell's corners may lie beyond its nodes, darker than dark
-  return found;
+  return found_in_cell(shape, node, at - node, within_edge(shape, at));
 }
 
-Found ahead_rounded(samplerBuffer table, samplerBuffer guide, TableShape shape, vec2 half_tangent) {
+Found ahead_rounded(samplerBuffer guide, TableShape shape, vec2 half_tangent) {
   vec2 at = ahead_at(shape, half_tangent);
   vec2 u = rounded_before(guide, -shape.range.x, at.x);
   vec2 v = rounded_before(guide, shape.coarse - shape.range.z, at.y);
   vec2 node = vec2(u.x, v.x), part = vec2(u.y, v.y);
-  return found_in_cell(table, shape, node, part, within_edge(shape, node + part));
+  return found_in_cell(shape, node, part, within_edge(shape, node + part));
 }
 
 // All round: type C.
-Found around(samplerBuffer table, TableShape shape, vec3 p, float h) {
+Found around(TableShape shape, vec3 p, float h) {
   vec2 first = atan2_octants(p.y, p.x), second = atan2_octants(h, -p.z);
   vec2 past = vec2(first.y, second.y) * shape.per;
   vec2 node = vec2(first.x, second.x) * shape.fine + floor(past);
@@ -172,17 +166,17 @@ Found around(samplerBuffer table, TableShape shape, vec3 p, float h) {
   if (beyond.x != 0.0) part.x = 0.0;
   if (beyond.y != 0.0) part.y = 0.0;
   node = min(max(node, shape.range.xz), shape.range.yw);
-  return found_in_cell(table, shape, node, part, lit);
+  return found_in_cell(shape, node, part, lit);
 }
 
-Found guided(samplerBuffer table, samplerBuffer guide, TableShape shape, vec3 p, float h) {
+Found guided(samplerBuffer guide, TableShape shape, vec3 p, float h) {
   vec2 first = table_angle(p.y, p.x, shape.range.y), second = table_angle(p.z, h, shape.range.w);
   bool lit = within(vec2(first.x, second.x) * 45.0 + vec2(first.y, second.y), shape.range);
   vec2 u = node_before(guide, 0.0, shape.fine.x, first, shape.phase.x, floor((shape.range.y + 22.5) / 45.0), shape.per.x);
   vec2 v = node_before(guide, shape.coarse, shape.fine.y, second, shape.phase.y, floor((shape.range.w + 22.5) / 45.0), shape.per.y);
   // Directions outside the table may have any bin: they read its first cell.
   if (!lit) u.x = v.x = -1.0;
-  return found_in_cell(table, shape, vec2(u.x, v.x), vec2(u.y, v.y), lit);
+  return found_in_cell(shape, vec2(u.x, v.x), vec2(u.y, v.y), lit);
 }
 #endif
 
@@ -218,63 +212,88 @@ LampWay way_round(vec3 p) {
   return LampWay(sqrt(h2), r2 * per_m, per_m, vec2(0.0));
 }
 
+// Where a lamp is seen from a point, where that lies in its table, and what stands there.
+struct Sought {
+  LampWay way;
+  Found found;
+  vec4 nodes;  // of the cell; filter: the value in x
+};
+
 // Where the lamp before was found in its table.
 Found last_found;
 
-// `toward`: the part of the way to the lamp along the surface's normal. The rows of a lamp's frame are orthonormal, so p is as long as the way.
-LampLight light_of(Found found, float cd, LampWay way, float toward) {
-  last_found = found;
+// What hangs on where the lamp is alone; no light yet. `toward`: the part of the way to the lamp along the surface's normal. The rows of a lamp's
+// frame are orthonormal, so p is as long as the way.
+LampLight aimed(LampWay way, float toward) {
   LampLight light;
-  light.cd = cd;
   light.distance_m = way.distance_m;
   light.per_m = way.per_m;
   light.cos_incidence = max(toward, 0.0) * way.per_m;
-  light.normal_lx = cd * (way.per_m * way.per_m);
+  light.cd = light.normal_lx = light.illuminance_lx = 0.0;
+  return light;
+}
+
+LampLight light_of(Sought sought, float cd, float toward) {
+  last_found = sought.found;
+  LampLight light = aimed(sought.way, toward);
+  light.cd = cd;
+  light.normal_lx = cd * (light.per_m * light.per_m);
   light.illuminance_lx = light.normal_lx * light.cos_incidence;
   return light;
 }
 
-float screen_cd(Found found) {
-  return found.value > 0.0 ? found.value * found.factor : 0.0;
-}
-
-// A lamp's light at p in the frame of its table: a function a lamp, so that its lookup is a constant of the pipeline wherever it decides, and
-// what it does not call for is gone before a device compiles it.
+// A lamp's light at p in the frame of its table: functions a lamp, so that its lookup is a constant of the pipeline wherever it decides, and
+// what it does not call for is gone before a device compiles it. In two steps: roots, quotients and polynomials of where to read, each of which
+// waits for the one before, then what is read there. Who asks for several lamps takes the first step for each of them before the second for any,
+// and on a software device one lamp is computed while another waits.
 #define PHARE_KIND(I) (lookup_##I & kLookupKind)
-#define PHARE_FIND(I, KIND, FOUND) if (PHARE_KIND(I) == KIND) found = FOUND;
+#define PHARE_FIND(I, KIND, FOUND) if (PHARE_KIND(I) == KIND) sought.found = FOUND;
 #ifdef PHARE_FILTERED
 #define PHARE_IS_AHEAD(I) false
 #define PHARE_IS_SCREEN(I) (PHARE_KIND(I) == kLookupFilterScreen)
-#define PHARE_FIND_ONE(I)                                                                          \
-  PHARE_FIND(I, kLookupFilterAhead, filtered_ahead(filtered[I % kFilters], shape, p, way.h))       \
-  PHARE_FIND(I, kLookupFilter, filtered_round(filtered[I % kFilters], shape, p, way.h))            \
-  PHARE_FIND(I, kLookupFilterScreen, filtered_screen(filtered[I % kFilters], shape, p))
+#define PHARE_FIND_ONE(I)                                                           \
+  PHARE_FIND(I, kLookupFilterAhead, filtered_ahead(shape, p, sought.way.h))         \
+  PHARE_FIND(I, kLookupFilter, filtered_round(shape, p, sought.way.h))              \
+  PHARE_FIND(I, kLookupFilterScreen, filtered_screen(shape, p))
+#define PHARE_NODES(I, FOUND) textureLod(filtered[I % kFilters], FOUND.part, 0.0)
+#define PHARE_VALUE(SOUGHT) SOUGHT.nodes.x
 #else
 #define PHARE_IS_AHEAD(I) (PHARE_KIND(I) <= kLookupRounded)
 #define PHARE_IS_SCREEN(I) (PHARE_KIND(I) == kLookupScreen || PHARE_KIND(I) == kLookupScreenGuide)
-#define PHARE_FIND_ONE(I)                                                                                                    \
-  PHARE_FIND(I, kLookupAhead, ahead_even(cells[I % kTables], shape, way.half_tangent))                                       \
-  PHARE_FIND(I, kLookupDecimals, ahead_decimals(cells[I % kTables], shape, way.half_tangent))                                \
-  PHARE_FIND(I, kLookupRounded, ahead_rounded(cells[I % kTables], guides[I % kTables], shape, way.half_tangent))             \
-  PHARE_FIND(I, kLookupTurn, around(cells[I % kTables], shape, p, way.h))                                                    \
-  PHARE_FIND(I, kLookupGuide, guided(cells[I % kTables], guides[I % kTables], shape, p, way.h))                              \
-  PHARE_FIND(I, kLookupScreen, on_even_screen(cells[I % kTables], shape, p))                                                 \
-  PHARE_FIND(I, kLookupScreenGuide, on_guided_screen(cells[I % kTables], guides[I % kTables], shape, p))
+#define PHARE_FIND_ONE(I)                                                                                    \
+  PHARE_FIND(I, kLookupAhead, ahead_even(shape, sought.way.half_tangent))                                    \
+  PHARE_FIND(I, kLookupDecimals, ahead_decimals(shape, sought.way.half_tangent))                             \
+  PHARE_FIND(I, kLookupRounded, ahead_rounded(guides[I % kTables], shape, sought.way.half_tangent))          \
+  PHARE_FIND(I, kLookupTurn, around(shape, p, sought.way.h))                                                 \
+  PHARE_FIND(I, kLookupGuide, guided(guides[I % kTables], shape, p, sought.way.h))                           \
+  PHARE_FIND(I, kLookupScreen, on_even_screen(shape, p))                                                     \
+  PHARE_FIND(I, kLookupScreenGuide, on_guided_screen(guides[I % kTables], shape, p))
+#define PHARE_NODES(I, FOUND) texelFetch(cells[I % kTables], FOUND.cell)
+#define PHARE_VALUE(SOUGHT) in_cell(SOUGHT.nodes, SOUGHT.found.part)
 #endif
-#define PHARE_LIGHT_OF_LAMP(I)                                                    \
-  LampLight lamp_light_##I(TableShape shape, vec3 p, float toward) {              \
-    LampWay way;                                                                  \
-    if (PHARE_IS_AHEAD(I)) way = way_ahead(p);                                    \
-    else way = way_round(p);                                                      \
-    Found found = Found(0.0, 1.0, vec2(0.0), 0);                                  \
-    PHARE_FIND_ONE(I)                                                             \
-    float cd = found.value;                                                       \
-    if (PHARE_IS_SCREEN(I)) {                                                     \
-      found.factor = screen_factor(p);                                            \
-      cd = screen_cd(found);                                                      \
-    }                                                                             \
-    if ((lookup_##I & kLookupScaled) != 0) cd *= frame.lamps[I].colour.w;         \
-    return light_of(found, cd, way, toward);                                      \
+#define PHARE_LIGHT_OF_LAMP(I)                                                                                               \
+  Sought seek_##I(TableShape shape, vec3 p) {                                                                                \
+    Sought sought;                                                                                                           \
+    if (PHARE_IS_AHEAD(I)) sought.way = way_ahead(p);                                                                        \
+    else sought.way = way_round(p);                                                                                          \
+    sought.found = Found(false, 1.0, vec2(0.0), 0);                                                                          \
+    PHARE_FIND_ONE(I)                                                                                                        \
+    if (PHARE_IS_SCREEN(I)) sought.found.factor = screen_factor(p);                                                          \
+    return sought;                                                                                                           \
+  }                                                                                                                          \
+  void read_##I(inout Sought sought) { sought.nodes = PHARE_NODES(I, sought.found); }                                        \
+  LampLight sought_light_##I(Sought sought, float toward) {                                                                  \
+    float cd = PHARE_VALUE(sought);                                                                                          \
+    cd = sought.found.lit ? cd : 0.0;                                                                                        \
+    if (PHARE_KIND(I) == kLookupDecimals) cd = max(cd, 0.0); /* a cell's corners may lie beyond its nodes, darker than dark */ \
+    if (PHARE_IS_SCREEN(I)) cd = cd > 0.0 ? cd * sought.found.factor : 0.0;                                                  \
+    if ((lookup_##I & kLookupScaled) != 0) cd *= frame.lamps[I].colour.w;                                                    \
+    return light_of(sought, cd, toward);                                                                                     \
+  }                                                                                                                          \
+  LampLight light_at_##I(TableShape shape, vec3 p, float toward) {                                                           \
+    Sought sought = seek_##I(shape, p);                                                                                      \
+    read_##I(sought);                                                                                                        \
+    return sought_light_##I(sought, toward);                                                                                 \
   }
 PHARE_EACH_LAMP(PHARE_LIGHT_OF_LAMP)
 
@@ -297,10 +316,19 @@ vec2 found_tint(samplerBuffer tint) {
 #define PHARE_FOUND_TINT(I) found_tint(tints[I % kTables])
 #endif
 
-// Right after PHARE_LAMP_LIGHT(I).
+// Right after the lamp's light.
 #define PHARE_LAMP_TINT(I, LIGHT) tint_of(PHARE_FOUND_TINT(I), frame.lamps[I].colour, LIGHT.cd)
 
 // `PLACE`: the point in the lamp's frame.
-#define PHARE_LIGHT_AT(I, PLACE, TOWARD) lamp_light_##I(PHARE_SHAPE(I), PLACE, TOWARD)
+#define PHARE_SEEK_AT(I, PLACE) seek_##I(PHARE_SHAPE(I), PLACE)
+#define PHARE_LIGHT_AT(I, PLACE, TOWARD) light_at_##I(PHARE_SHAPE(I), PLACE, TOWARD)
 #define PHARE_LAMP_LIGHT(I) PHARE_LIGHT_AT(I, in_lamp[I], PHARE_FACING(I) * unit - level)
+
+// Of each lamp of a surface, one after the other.
+#define PHARE_SEEK_LAMP(I) \
+  Sought sought_##I;       \
+  if (lamp_count > I) sought_##I = PHARE_SEEK_AT(I, in_lamp[I]);
+#define PHARE_READ_LAMP(I) \
+  if (lamp_count > I) read_##I(sought_##I);
+#define PHARE_SOUGHT_LIGHT(I) sought_light_##I(sought_##I, PHARE_FACING(I) * unit - level)
 #endif

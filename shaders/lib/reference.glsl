@@ -140,8 +140,12 @@ vec3 reference_tint(float cd) {
   return colour_of_red_blue(red_blue);
 }
 
-#undef PHARE_LAMP_LIGHT
+#undef PHARE_SEEK_LAMP
+#undef PHARE_READ_LAMP
+#undef PHARE_SOUGHT_LIGHT
 #undef PHARE_LAMP_TINT
-#define PHARE_LAMP_LIGHT(I) reference_light(I)
+#define PHARE_SEEK_LAMP(I)
+#define PHARE_READ_LAMP(I)
+#define PHARE_SOUGHT_LIGHT(I) reference_light(I)
 #define PHARE_LAMP_TINT(I, LIGHT) reference_tint(LIGHT.cd)
 #endif
