@@ -99,6 +99,14 @@ void main() {
 #endif
 
   PHARE_EACH_LAMP(PHARE_SEEK_LAMP)
+#define SEND_BACK(I)                                                              \
+  float sent_back_##I = 0.0, mirrored_##I = 0.0;                                  \
+  if (lamp_count > I && method == kMethodFragment) {                              \
+    LampLight from = PHARE_AIMED(I);                                              \
+    if (wet_ground != 0u) mirrored_##I = mirrored(I, from, n, level);             \
+    if (retro != 0) sent_back_##I = sent_back(I, from, point, n, level, reflectance.w, frame.lamps[I].row_a.w); \
+  }
+  PHARE_EACH_LAMP(SEND_BACK)
   PHARE_EACH_LAMP(PHARE_SEEK_SHADOW)
   PHARE_EACH_LAMP(PHARE_READ_SHADOW)
   PHARE_EACH_LAMP(PHARE_READ_LAMP)
@@ -137,9 +145,12 @@ void main() {
       of_b_lx += light.illuminance_lx * frame.lamps[I].row_b.w;                                            \
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
     PHARE_LIGHT_RELIEF(I)                                                                                  \
-    if (wet_ground != 0u) film += colour * (light.illuminance_lx * mirrored(I, light, n, level));           \
-    if (retro != 0)                                                                                        \
-      retro_lx += colour * (light.normal_lx * sent_back(I, light, point, n, level, reflectance.w, frame.lamps[I].row_a.w)); \
+    if (method != kMethodFragment) {                                                                       \
+      if (wet_ground != 0u) mirrored_##I = mirrored(I, light, n, level);                                   \
+      if (retro != 0) sent_back_##I = sent_back(I, light, point, n, level, reflectance.w, frame.lamps[I].row_a.w); \
+    }                                                                                                      \
+    if (wet_ground != 0u) film += colour * (light.illuminance_lx * mirrored_##I);                          \
+    if (retro != 0) retro_lx += colour * (light.normal_lx * sent_back_##I);                                \
   }
   PHARE_EACH_LAMP(LIGHT)
   if (colours == 0) coloured_lx = total_lx * light_colour;

@@ -330,5 +330,6 @@ vec2 found_tint(samplerBuffer tint) {
   if (lamp_count > I) sought_##I = PHARE_SEEK_AT(I, in_lamp[I]);
 #define PHARE_READ_LAMP(I) \
   if (lamp_count > I) read_##I(sought_##I);
+#define PHARE_AIMED(I) aimed(sought_##I.way, PHARE_FACING(I) * unit - level)
 #define PHARE_SOUGHT_LIGHT(I) sought_light_##I(sought_##I, PHARE_FACING(I) * unit - level)
 #endif

@@ -142,10 +142,12 @@ vec3 reference_tint(float cd) {
 
 #undef PHARE_SEEK_LAMP
 #undef PHARE_READ_LAMP
+#undef PHARE_AIMED
 #undef PHARE_SOUGHT_LIGHT
 #undef PHARE_LAMP_TINT
 #define PHARE_SEEK_LAMP(I)
 #define PHARE_READ_LAMP(I)
+#define PHARE_AIMED(I) LampLight(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 #define PHARE_SOUGHT_LIGHT(I) reference_light(I)
 #define PHARE_LAMP_TINT(I, LIGHT) reference_tint(LIGHT.cd)
 #endif
