@@ -243,9 +243,9 @@ LampLight light_of(Sought sought, float cd, float toward) {
 }
 
 // A lamp's light at p in the frame of its table: functions a lamp, so that its lookup is a constant of the pipeline wherever it decides, and
-// what it does not call for is gone before a device compiles it. In two steps: roots, quotients and polynomials of where to read, each of which
-// waits for the one before, then what is read there. Who asks for several lamps takes the first step for each of them before the second for any,
-// and on a software device one lamp is computed while another waits.
+// what it does not call for is gone before a device compiles it. In three steps: where to read, by roots, quotients and polynomials each of which
+// waits for the one before; reading; light. Who asks for several lamps takes each step for all of them before the next for any, and on a software
+// device one lamp is computed while another waits.
 #define PHARE_KIND(I) (lookup_##I & kLookupKind)
 #define PHARE_FIND(I, KIND, FOUND) if (PHARE_KIND(I) == KIND) sought.found = FOUND;
 #ifdef PHARE_FILTERED
