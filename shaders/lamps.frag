@@ -99,12 +99,15 @@ void main() {
 #endif
 
   PHARE_EACH_LAMP(PHARE_SEEK_LAMP)
-#define SEND_BACK(I)                                                              \
-  float sent_back_##I = 0.0, mirrored_##I = 0.0;                                  \
-  if (lamp_count > I && method == kMethodFragment) {                              \
-    LampLight from = PHARE_AIMED(I);                                              \
-    if (wet_ground != 0u) mirrored_##I = mirrored(I, from, n, level);             \
-    if (retro != 0) sent_back_##I = sent_back(I, from, point, n, level, reflectance.w, frame.lamps[I].row_a.w); \
+  // What the surface sends back and water mirrors, over the lamp's light: by the method "fragment" known before tables are read.
+#define SEND_BACK_OF(I, LIGHT)                                                                                  \
+  if (wet_ground != 0u) mirrored_##I = mirrored(I, LIGHT, n, level);                                            \
+  if (retro != 0) sent_back_##I = sent_back(I, LIGHT, point, n, level, reflectance.w, frame.lamps[I].row_a.w);
+#define SEND_BACK(I)                                  \
+  float sent_back_##I = 0.0, mirrored_##I = 0.0;      \
+  if (lamp_count > I && method == kMethodFragment) {  \
+    LampLight from = PHARE_AIMED(I);                  \
+    SEND_BACK_OF(I, from)                             \
   }
   PHARE_EACH_LAMP(SEND_BACK)
   PHARE_EACH_LAMP(PHARE_SEEK_SHADOW)
@@ -146,8 +149,7 @@ void main() {
     if (colours != 0) coloured_lx += light.illuminance_lx * colour;                                        \
     PHARE_LIGHT_RELIEF(I)                                                                                  \
     if (method != kMethodFragment) {                                                                       \
-      if (wet_ground != 0u) mirrored_##I = mirrored(I, light, n, level);                                   \
-      if (retro != 0) sent_back_##I = sent_back(I, light, point, n, level, reflectance.w, frame.lamps[I].row_a.w); \
+      SEND_BACK_OF(I, light)                                                                               \
     }                                                                                                      \
     if (wet_ground != 0u) film += colour * (light.illuminance_lx * mirrored_##I);                          \
     if (retro != 0) retro_lx += colour * (light.normal_lx * sent_back_##I);                                \
