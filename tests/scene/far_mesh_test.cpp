@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -78,6 +80,43 @@ TEST(FarMesh, APostAtFortyFiveDegreesIsAsNarrowAsOneThatStandsUpright) {
     EXPECT_EQ(from_afar(upright, from_m).indices.empty(), from_afar(leaning, from_m).indices.empty()) << from_m;
   EXPECT_FALSE(from_afar(upright, 140.0).indices.empty()) << "0.117 m wide on average, 0.112 m a pixel";
   EXPECT_TRUE(from_afar(upright, 160.0).indices.empty());
+}
+
+// A ball of triangles: each corner stands in six of them with a normal of each, and the simplifier moves none that has
+// more than two.
+TEST(FarMesh, ABodyWithFlatSidesIsSimplifiedAndStaysFlat) {
+  Scene scene;
+  scene.materials = {{.name = "stone"}};
+  constexpr int kAround = 48, kUp = 24;
+  constexpr float kPi = 3.14159265f;
+  const auto at = [](int i, int j) {
+    const float turn = 2.0f * kPi * static_cast<float>(i % kAround) / kAround, up = kPi * static_cast<float>(j) / kUp;
+    if (j % kUp == 0) return glm::vec3(0.0f, 0.0f, std::cos(up));  // one corner at each pole
+    return glm::vec3(std::sin(up) * std::cos(turn), std::sin(up) * std::sin(turn), std::cos(up));
+  };
+  for (int j = 0; j < kUp; ++j)
+    for (int i = 0; i < kAround; ++i)
+      for (const auto& corners : {std::array{at(i, j), at(i, j + 1), at(i + 1, j + 1)},
+                                  std::array{at(i, j), at(i + 1, j + 1), at(i + 1, j)}}) {
+        const glm::vec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        if (glm::length(across) < 1e-6f) continue;  // at the poles
+        for (const glm::vec3& corner : corners) {
+          scene.indices.push_back(static_cast<std::uint32_t>(scene.vertices.size()));
+          scene.vertices.push_back({corner, glm::normalize(across)});
+        }
+      }
+  ASSERT_TRUE(is_flat(scene.vertices, scene.indices));
+  const double from_m = 0.1 / kFarThingError_rad;  // off by 10 cm at most
+  const FarMesh mesh = from_afar(scene, from_m);
+  EXPECT_LT(mesh.indices.size(), scene.indices.size() / 8);
+  EXPECT_GT(mesh.indices.size(), 3u * 12u);
+  EXPECT_TRUE(is_flat(mesh.vertices, mesh.indices));
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const auto corner = [&](std::size_t k) { return mesh.vertices[mesh.indices[i + k]].position_m; };
+    const glm::vec3 middle = (corner(0) + corner(1) + corner(2)) / 3.0f;
+    EXPECT_GT(glm::length(middle), 1.0f - 2.0f * 0.1f);
+    EXPECT_GT(glm::dot(mesh.vertices[mesh.indices[i]].normal, middle), 0.0f) << "turned inside out";
+  }
 }
 
 TEST(FarMesh, APlateThatIsSeenFromOneSideOnlyCountsByItsHalf) {

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numeric>
+#include <span>
 
 namespace phare {
 
@@ -126,6 +129,73 @@ std::vector<PieceSize> sizes_of(const FarMesh& mesh, Pieces& pieces) {
   return sizes;
 }
 
+// Appends them as triangles of places, each corner with the normal there that is nearest to its triangle's plane; of a
+// flat mesh that of the plane. `normals`: at each place.
+void append_places(FarMesh& mesh, std::span<const std::uint32_t> places, std::span<const glm::vec3> at_m,
+                   std::span<const std::vector<glm::vec3>> normals, bool flat) {
+  constexpr float kNear = 0.7f;  // cosine: of a normal that leans more than 45°, the plane's is taken
+  std::map<std::array<std::uint32_t, 6>, std::uint32_t> known;
+  for (std::size_t i = 0; i + 2 < places.size(); i += 3) {
+    const glm::vec3 a_m = at_m[places[i]];
+    const glm::vec3 across = glm::cross(at_m[places[i + 1]] - a_m, at_m[places[i + 2]] - a_m);
+    if (!(glm::length(across) > 0.0f)) continue;
+    const glm::vec3 plane = glm::normalize(across);
+    for (std::size_t k = 0; k < 3; ++k) {
+      SceneVertex corner{at_m[places[i + k]], plane};
+      float nearest = kNear;
+      if (!flat)
+        for (const glm::vec3& normal : normals[places[i + k]])
+          if (const float cosine = glm::dot(normal, plane); cosine > nearest) nearest = cosine, corner.normal = normal;
+      const auto [found, fresh] = known.try_emplace(std::bit_cast<std::array<std::uint32_t, 6>>(corner),
+                                                    static_cast<std::uint32_t>(mesh.vertices.size()));
+      if (fresh) mesh.vertices.push_back(corner);
+      mesh.indices.push_back(found->second);
+    }
+  }
+}
+
+// A hard edge has a corner for each of its sides, and the simplifier moves none that has more than two: of a body with
+// flat sides it leaves all. So places are simplified. What is narrow keeps its edges, or it would be gone while it is
+// still wider than a pixel.
+void simplify_things(FarMesh& mesh, float error_m) {
+  constexpr float kNarrow = 2.0f;  // times the error; chosen
+  const std::size_t corners = mesh.vertices.size();
+  const bool flat = is_flat(mesh.vertices, mesh.indices);
+  std::vector<glm::vec3> place_m(corners);
+  std::ranges::transform(mesh.vertices, place_m.begin(), &SceneVertex::position_m);
+  std::vector<std::uint32_t> place_of(corners);
+  const std::size_t places = meshopt_generateVertexRemap(place_of.data(), static_cast<const std::uint32_t*>(nullptr),
+                                                         corners, place_m.data(), corners, sizeof(glm::vec3));
+  std::vector<glm::vec3> at_m(places);
+  std::vector<std::vector<glm::vec3>> normals(places);
+  for (std::size_t i = 0; i < corners; ++i) {
+    at_m[place_of[i]] = place_m[i];
+    normals[place_of[i]].push_back(mesh.vertices[i].normal);
+  }
+  Pieces pieces(mesh);
+  const std::vector<PieceSize> sizes = sizes_of(mesh, pieces);
+  std::vector<std::uint32_t> wide, narrow;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const bool is_wide = sizes[pieces.of(mesh.indices[i])].width_m() >= kNarrow * error_m;
+    for (std::size_t k = i; k < i + 3; ++k)
+      if (is_wide)
+        wide.push_back(place_of[mesh.indices[k]]);
+      else
+        narrow.push_back(mesh.indices[k]);
+  }
+  mesh.indices = std::move(narrow);
+  if (!mesh.indices.empty())
+    simplify(mesh, error_m);
+  else
+    mesh.vertices.clear();
+  const float scale = meshopt_simplifyScale(&at_m.front().x, places, sizeof(glm::vec3));
+  if (wide.empty() || !(scale > 0.0f)) return;
+  std::vector<std::uint32_t> fewer(wide.size());
+  fewer.resize(meshopt_simplify(fewer.data(), wide.data(), wide.size(), &at_m.front().x, places, sizeof(glm::vec3),
+                                std::size_t{3}, std::min(1.0f, error_m / scale), 0, nullptr));
+  append_places(mesh, fewer, at_m, normals, flat);
+}
+
 // Lumps that hide what is in them; else leaves, each a surface of its own.
 bool is_closed(const FarMesh& mesh) {
   Pieces pieces(mesh);
@@ -175,7 +245,10 @@ FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level,
     case Surface::kPlain:
       drop_slivers(mesh, static_cast<float>(kFarThingWidth_rad * from_m));
       if (mesh.indices.empty()) break;
-      simplify(mesh, static_cast<float>((closed ? kFarLumpError_rad : kFarThingError_rad) * from_m));
+      if (closed || !mesh.looks.empty())
+        simplify(mesh, static_cast<float>((closed ? kFarLumpError_rad : kFarThingError_rad) * from_m));
+      else
+        simplify_things(mesh, static_cast<float>(kFarThingError_rad * from_m));
       break;
     case Surface::kPaint:
       if (level + 1 == kFarLevels.size()) simplify(mesh, static_cast<float>(kFarGroundError_rad * from_m));
