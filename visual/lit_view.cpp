@@ -23,7 +23,7 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
   Horizon* hides = horizon ? &*horizon : nullptr;
   view.items = geometry_.visible(geometry, far_mesh_from_m, hides);
   view.moving = moving;
-  if (!moving.empty()) geometry_.add_visible(view.items, view.moved, geometry, moving, hides);
+  if (!moving.empty()) geometry_.add_visible(view.items, view.moved, geometry, moving, far_mesh_from_m, hides);
   std::vector<bool> reached;
   std::vector<PlacedLamp> bright;
   for (const PlacedLamp& lamp : lamps) {

@@ -78,6 +78,55 @@ std::vector<glm::ivec2> cracks_in(const Image8& image) {
 }
 
 // What is behind a crack may not be drawn at all (visual/scene/horizon.h).
+TEST(FarMeshes, RoadUsersAreDrawnByFewerTrianglesFromAfarAndLookTheSame) {
+  const Result<Scene> users = read_scene(generated_dir() / "scenes/road_users.glb");
+  ASSERT_TRUE(users.ok());
+  Result<Renderer> renderer = Renderer::create({.width_px = 1280, .height_px = 720, .validation = true});
+  ASSERT_TRUE(renderer.ok()) << renderer.error().text();
+  ASSERT_TRUE(renderer->load_scene(bench::straight_road(), *users).ok());
+  FrameInput input;
+  input.sky_luminance_cdm2 = 1.0;
+  input.exposure_per_cdm2 = 1.0;
+  input.camera.eye_m = {10.0, 0.0, 1.22};
+  input.want_image = true;
+  const FrameResult road = renderer->draw(input);
+  const std::size_t meshes = chunks_by_node(*users).size();
+  ASSERT_GT(meshes, 3u);
+  const auto drawn_at = [&](double ahead_m, double far_mesh_from_m, Image8& picture) {
+    input.far_mesh_from_m = far_mesh_from_m;
+    input.moving.clear();
+    for (std::size_t mesh = 0; mesh < meshes; ++mesh)
+      input.moving.push_back(
+          {.mesh = mesh,
+           .position_m =
+               input.camera.eye_m +
+               glm::dvec3(ahead_m, 0.05 * ahead_m * (static_cast<double>(mesh) - 0.5 * static_cast<double>(meshes)),
+                          -1.22)});
+    const std::uint64_t triangles = renderer->draw(input).triangles;
+    picture = renderer->read_image();
+    return triangles - road.triangles;
+  };
+  Image8 whole, from_afar;
+  for (const double ahead_m : {100.0, 300.0}) {
+    const std::uint64_t fewer = drawn_at(ahead_m, kFarMeshFrom_m, from_afar);
+    const std::uint64_t whole_triangles = drawn_at(ahead_m, 1e6, whole);
+    std::size_t changed = 0, more_than_8 = 0;
+    for (std::size_t i = 0; i < whole.rgba.size(); i += 4) {
+      const int difference = std::abs(static_cast<int>(whole.rgba[i + 1]) - static_cast<int>(from_afar.rgba[i + 1]));
+      if (difference > 0) ++changed;
+      if (difference > 8) ++more_than_8;
+    }
+    std::printf("%.0f m: %llu triangles in place of %llu; %zu pixels changed, %zu by more than 8 of 255\n", ahead_m,
+                static_cast<unsigned long long>(fewer), static_cast<unsigned long long>(whole_triangles), changed,
+                more_than_8);
+    EXPECT_LT(fewer, ahead_m > 200.0 ? whole_triangles / 10 : whole_triangles / 2);
+    EXPECT_LT(more_than_8, 200u) << "of 921,600";
+  }
+  EXPECT_EQ(drawn_at(30.0, kFarMeshFrom_m, from_afar), drawn_at(30.0, 1e6, whole)) << "near by all are drawn";
+  EXPECT_EQ(from_afar.rgba, whole.rgba);
+  EXPECT_EQ(renderer->validation_messages(), 0u);
+}
+
 TEST(FarMeshes, NobodySeesTheSkyThroughTheGround) {
   const Result<Scene> read = read_scene(generated_dir() / "scenes/country_road.glb");
   ASSERT_TRUE(read.ok());

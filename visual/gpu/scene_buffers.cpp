@@ -38,6 +38,9 @@ Cell cell_of(const SceneChunk& chunk, double side_m) {
           static_cast<std::int64_t>(std::floor(centre.y / side_m))};
 }
 
+/// Of its parts what moves is drawn from afar as a whole: none is nearer than its origin by more than a lorry is long.
+constexpr double kMovingRoom_m = 10.0;
+
 /// Of far meshes: one for all in a cube of the side in which the grain of surfaces repeats, so that they are drawn
 /// together; a road that begins at the world's origin, as most do, lies in the middle of one. Float32 holds places in
 /// it to 0.06 mm.
@@ -153,6 +156,11 @@ void keep_far_caster(const Scene& scene, const DrawnChunk& mesh, std::size_t lev
   for (const CornerLook& look : mesh.looks) kept.uvs.push_back(look.uv);
 }
 
+bool is_flat_whole(const Scene& scene, const SceneChunk& chunk) {
+  return is_flat(std::span(scene.vertices).subspan(chunk.first_vertex, chunk.vertex_count),
+                 std::span(scene.indices).subspan(chunk.first_index, chunk.index_count));
+}
+
 // One batch for each kind and cell of `side_m` among the chunks.
 std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const SceneChunk*>& chunks, double side_m,
                                std::optional<std::size_t> far_level, bool stands, Gathered& all) {
@@ -162,11 +170,13 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     const SceneMaterial& material = scene.materials[chunk->material];
     const std::uint32_t look = all.textures && chunk->first_look ? look_bits(material) : 0;
     DrawnChunk mesh = drawn(scene, *chunk, far_level, all);
-    if (far_level) keep_far_caster(scene, mesh, *far_level, all);
+    if (far_level && stands) keep_far_caster(scene, mesh, *far_level, all);
     // A pupil's light is drawn by itself (visual/eyeshine.h).
     const RetroKind retro = material.retro.kind == RetroKind::kPupil ? RetroKind::kNone : material.retro.kind;
-    const MaterialKind kind{material.surface, retro, material.double_sided,
-                            look == 0 && is_flat(mesh.vertices, mesh.indices), look, !mesh.road.empty()};
+    // What moves is of the same kinds from afar: it comes nearer, and no pipeline is to be made then.
+    const bool flat = stands || !far_level ? is_flat(mesh.vertices, mesh.indices) : is_flat_whole(scene, *chunk);
+    const MaterialKind kind{material.surface,  retro, material.double_sided,
+                            look == 0 && flat, look,  !mesh.road.empty()};
     groups[{kind, look != 0 ? all.first_material + chunk->material : 0, cell_of(*chunk, side_m)}].push_back(
         std::move(mesh));
   }
@@ -174,7 +184,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
   for (const auto& [key, group] : groups) {
     const SceneChunk& first = *group.front().chunk;
     SceneBatch batch{.kind = std::get<0>(key),
-                     .origin_m = far_level ? far_origin_m(first) : first.origin_m,
+                     .origin_m = far_level && stands ? far_origin_m(first) : first.origin_m,
                      .low_m = first.low_m,
                      .high_m = first.high_m};
     batch.first_index = static_cast<std::uint32_t>(all.indices.size());
@@ -240,7 +250,10 @@ void bend_by_kind(std::vector<SceneBlock>& blocks, std::vector<MovingMesh>& movi
       std::ranges::for_each(block.near, visit);
       for (std::vector<SceneBatch>& far : block.far) std::ranges::for_each(far, visit);
     }
-    for (MovingMesh& mesh : moving) std::ranges::for_each(mesh.batches, visit);
+    for (MovingMesh& mesh : moving) {
+      std::ranges::for_each(mesh.batches, visit);
+      for (std::vector<SceneBatch>& far : mesh.far) std::ranges::for_each(far, visit);
+    }
   };
   const auto kind_of = [](const SceneBatch& batch) {
     MaterialKind kind = batch.kind;
@@ -268,8 +281,11 @@ std::vector<MovingMesh> make_moving(const Scene& scene, std::uint32_t first_mate
   }
   const std::size_t first_vertex = all.vertices.size();
   all.first_material = first_material;
-  for (std::size_t i = 0; i < meshes.size(); ++i)
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
     meshes[i].batches = gather(scene, chunks[i], kBlock_m, std::nullopt, false, all);
+    for (std::size_t level = kFirstFarOfThings; level < kFarLevels.size(); ++level)
+      meshes[i].far[level] = gather(scene, chunks[i], kBlock_m, level, false, all);
+  }
   for (GpuVertex& vertex : std::span(all.vertices).subspan(first_vertex)) vertex.material += first_material;
   return meshes;
 }
@@ -434,15 +450,19 @@ std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far
 }
 
 void SceneBuffers::add_visible(std::vector<DrawItem>& items, std::vector<SceneBatch>& placed, const ViewGeometry& view,
-                               std::span<const PlacedMesh> meshes, Horizon* horizon) const {
+                               std::span<const PlacedMesh> meshes, double far_from_m, Horizon* horizon) const {
   std::size_t count = 0;
   for (const PlacedMesh& mesh : meshes) count += mesh.mesh < moving.size() ? moving[mesh.mesh].batches.size() : 0;
-  placed.reserve(count);  // items point to them
+  placed.reserve(count);  // items point to them; from afar there are no more
   for (const PlacedMesh& mesh : meshes) {
     if (mesh.mesh >= moving.size()) continue;
     const glm::dmat3& turn = mesh.world_from_mesh;
     const glm::dmat3 extent(glm::abs(turn[0]), glm::abs(turn[1]), glm::abs(turn[2]));
-    for (const SceneBatch& batch : moving[mesh.mesh].batches) {
+    const double distance_m = glm::distance(view.camera().eye_m, mesh.position_m);
+    const std::vector<SceneBatch>* batches = &moving[mesh.mesh].batches;
+    for (std::size_t level = kFirstFarOfThings; level < kFarLevels.size(); ++level)
+      if (distance_m >= kFarLevels[level].from * far_from_m + kMovingRoom_m) batches = &moving[mesh.mesh].far[level];
+    for (const SceneBatch& batch : *batches) {
       SceneBatch there = batch;
       const glm::dvec3 middle_m = mesh.position_m + turn * (0.5 * (batch.low_m + batch.high_m));
       const glm::dvec3 half_m = extent * (0.5 * (batch.high_m - batch.low_m));

@@ -102,6 +102,7 @@ struct DrawItem {
 struct MovingMesh {
   std::string node;
   std::vector<SceneBatch> batches{};
+  std::array<std::vector<SceneBatch>, kFarLevels.size()> far{};  ///< as drawn from afar: from kFirstFarOfThings on
 };
 
 struct SceneBuffers {
@@ -127,7 +128,7 @@ struct SceneBuffers {
   std::vector<DrawItem> visible(const ViewGeometry& view, double far_from_m, Horizon* horizon) const;
   /// The same for what moves. `placed`: keeps the batches where they are now, for the items.
   void add_visible(std::vector<DrawItem>& items, std::vector<SceneBatch>& placed, const ViewGeometry& view,
-                   std::span<const PlacedMesh> meshes, Horizon* horizon) const;
+                   std::span<const PlacedMesh> meshes, double far_from_m, Horizon* horizon) const;
 };
 
 }  // namespace phare

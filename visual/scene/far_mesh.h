@@ -16,9 +16,11 @@ struct FarLevel {
 };
 inline constexpr std::array<FarLevel, 6> kFarLevels{
     {{0.3, 0.25, 2}, {0.4, 0.6, 5}, {1.0, 1.6, 14}, {1.7, 3.2, 24}, {2.5, 5.6, 48}, {4.5, 9.6, 96}}};
-/// Of kFarLevels the first that changes a chunk of this material: the one before thins leaves alone.
+/// Of kFarLevels the first that changes anything but leaves.
+inline constexpr std::size_t kFirstFarOfThings = 1;
+/// Of kFarLevels the first that changes a chunk of this material.
 inline std::size_t first_far_level(const SceneMaterial& material) {
-  return material.surface == Surface::kFoliage ? 0 : 1;
+  return material.surface == Surface::kFoliage ? 0 : kFirstFarOfThings;
 }
 /// Errors in the place of corners, as angles from the level's beginning. A pixel of 1280 across 60° is 0.8 mrad.
 constexpr double kFarGroundError_rad = 0.2e-3;  ///< road and ground, which a crest shows edge on
