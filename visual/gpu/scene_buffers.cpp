@@ -38,9 +38,6 @@ Cell cell_of(const SceneChunk& chunk, double side_m) {
           static_cast<std::int64_t>(std::floor(centre.y / side_m))};
 }
 
-/// Of its parts what moves is drawn from afar as a whole: none is nearer than its origin by more than a lorry is long.
-constexpr double kMovingRoom_m = 10.0;
-
 /// Of far meshes: one for all in a cube of the side in which the grain of surfaces repeats, so that they are drawn
 /// together; a road that begins at the world's origin, as most do, lies in the middle of one. Float32 holds places in
 /// it to 0.06 mm.
@@ -174,7 +171,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     // A pupil's light is drawn by itself (visual/eyeshine.h).
     const RetroKind retro = material.retro.kind == RetroKind::kPupil ? RetroKind::kNone : material.retro.kind;
     // What moves is of the same kinds from afar: it comes nearer, and no pipeline is to be made then.
-    const bool flat = stands || !far_level ? is_flat(mesh.vertices, mesh.indices) : is_flat_whole(scene, *chunk);
+    const bool flat = stands ? is_flat(mesh.vertices, mesh.indices) : is_flat_whole(scene, *chunk);
     const MaterialKind kind{material.surface,  retro, material.double_sided,
                             look == 0 && flat, look,  !mesh.road.empty()};
     groups[{kind, look != 0 ? all.first_material + chunk->material : 0, cell_of(*chunk, side_m)}].push_back(
@@ -285,6 +282,9 @@ std::vector<MovingMesh> make_moving(const Scene& scene, std::uint32_t first_mate
     meshes[i].batches = gather(scene, chunks[i], kBlock_m, std::nullopt, false, all);
     for (std::size_t level = kFirstFarOfThings; level < kFarLevels.size(); ++level)
       meshes[i].far[level] = gather(scene, chunks[i], kBlock_m, level, false, all);
+    for (const SceneChunk* chunk : chunks[i])
+      meshes[i].radius_m =
+          std::max(meshes[i].radius_m, glm::length(glm::max(glm::abs(chunk->low_m), glm::abs(chunk->high_m))));
   }
   for (GpuVertex& vertex : std::span(all.vertices).subspan(first_vertex)) vertex.material += first_material;
   return meshes;
@@ -458,10 +458,10 @@ void SceneBuffers::add_visible(std::vector<DrawItem>& items, std::vector<SceneBa
     if (mesh.mesh >= moving.size()) continue;
     const glm::dmat3& turn = mesh.world_from_mesh;
     const glm::dmat3 extent(glm::abs(turn[0]), glm::abs(turn[1]), glm::abs(turn[2]));
-    const double distance_m = glm::distance(view.camera().eye_m, mesh.position_m);
+    const double distance_m = glm::distance(view.camera().eye_m, mesh.position_m) - moving[mesh.mesh].radius_m;
     const std::vector<SceneBatch>* batches = &moving[mesh.mesh].batches;
     for (std::size_t level = kFirstFarOfThings; level < kFarLevels.size(); ++level)
-      if (distance_m >= kFarLevels[level].from * far_from_m + kMovingRoom_m) batches = &moving[mesh.mesh].far[level];
+      if (distance_m >= kFarLevels[level].from * far_from_m) batches = &moving[mesh.mesh].far[level];
     for (const SceneBatch& batch : *batches) {
       SceneBatch there = batch;
       const glm::dvec3 middle_m = mesh.position_m + turn * (0.5 * (batch.low_m + batch.high_m));

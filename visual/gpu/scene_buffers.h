@@ -103,6 +103,7 @@ struct MovingMesh {
   std::string node;
   std::vector<SceneBatch> batches{};
   std::array<std::vector<SceneBatch>, kFarLevels.size()> far{};  ///< as drawn from afar: from kFirstFarOfThings on
+  double radius_m = 0.0;                                         ///< about its origin, of all of it
 };
 
 struct SceneBuffers {
