@@ -63,15 +63,20 @@ void drop_unused(FarMesh& mesh) {
   mesh.looks = std::move(looks);
 }
 
+// Of triangles between places that are `stride` bytes apart in memory, fewer that are within the error of them.
+std::vector<std::uint32_t> fewer(std::span<const std::uint32_t> indices, const glm::vec3& first_place_m,
+                                 std::size_t places, std::size_t stride, float error_m, unsigned options = 0) {
+  const float scale = meshopt_simplifyScale(&first_place_m.x, places, stride);
+  if (!(scale > 0.0f)) return {indices.begin(), indices.end()};
+  std::vector<std::uint32_t> kept(indices.size());
+  kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), &first_place_m.x, places, stride,
+                               std::size_t{3}, std::min(1.0f, error_m / scale), options, nullptr));
+  return kept;
+}
+
 void simplify(FarMesh& mesh, float error_m, unsigned options = 0) {
-  const float* positions = &mesh.vertices.front().position_m.x;
-  const float scale = meshopt_simplifyScale(positions, mesh.vertices.size(), sizeof(SceneVertex));
-  if (!(scale > 0.0f)) return;
-  std::vector<std::uint32_t> indices(mesh.indices.size());
-  indices.resize(meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), positions,
-                                  mesh.vertices.size(), sizeof(SceneVertex), std::size_t{3},
-                                  std::min(1.0f, error_m / scale), options, nullptr));
-  mesh.indices = std::move(indices);
+  mesh.indices = fewer(mesh.indices, mesh.vertices.front().position_m, mesh.vertices.size(), sizeof(SceneVertex),
+                       error_m, options);
   drop_unused(mesh);
 }
 
@@ -162,7 +167,9 @@ void simplify_things(FarMesh& mesh, float error_m) {
   const std::size_t corners = mesh.vertices.size();
   const bool flat = is_flat(mesh.vertices, mesh.indices);
   std::vector<glm::vec3> place_m(corners);
-  std::ranges::transform(mesh.vertices, place_m.begin(), &SceneVertex::position_m);
+  std::ranges::transform(mesh.vertices, place_m.begin(), [](const SceneVertex& vertex) {
+    return vertex.position_m + 0.0f;  // places are compared byte by byte, and -0 is 0
+  });
   std::vector<std::uint32_t> place_of(corners);
   const std::size_t places = meshopt_generateVertexRemap(place_of.data(), static_cast<const std::uint32_t*>(nullptr),
                                                          corners, place_m.data(), corners, sizeof(glm::vec3));
@@ -188,12 +195,8 @@ void simplify_things(FarMesh& mesh, float error_m) {
     simplify(mesh, error_m);
   else
     mesh.vertices.clear();
-  const float scale = meshopt_simplifyScale(&at_m.front().x, places, sizeof(glm::vec3));
-  if (wide.empty() || !(scale > 0.0f)) return;
-  std::vector<std::uint32_t> fewer(wide.size());
-  fewer.resize(meshopt_simplify(fewer.data(), wide.data(), wide.size(), &at_m.front().x, places, sizeof(glm::vec3),
-                                std::size_t{3}, std::min(1.0f, error_m / scale), 0, nullptr));
-  append_places(mesh, fewer, at_m, normals, flat);
+  if (!wide.empty())
+    append_places(mesh, fewer(wide, at_m.front(), places, sizeof(glm::vec3), error_m), at_m, normals, flat);
 }
 
 // Lumps that hide what is in them; else leaves, each a surface of its own.
