@@ -102,7 +102,7 @@ struct CasterMesh {
 inline constexpr double kFarCasters = 0.6;
 
 /// So many of kFarLevels begin nearer than kShadowsTo_m from the lamp in a picture of common pixels.
-inline constexpr std::size_t kFarCasterLevels = 5;
+inline constexpr std::size_t kFarCasterLevels = 6;
 
 /// Of one chunk, by how far from the lamp it is: as kFarLevels has it, those that begin nearer than kShadowsTo_m; none
 /// where it is the mesh before. Empty: the whole mesh everywhere.

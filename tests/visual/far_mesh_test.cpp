@@ -77,7 +77,6 @@ std::vector<glm::ivec2> cracks_in(const Image8& image) {
   return cracks;
 }
 
-// What is behind a crack may not be drawn at all (visual/scene/horizon.h).
 TEST(FarMeshes, RoadUsersAreDrawnByFewerTrianglesFromAfarAndLookTheSame) {
   const Result<Scene> users = read_scene(generated_dir() / "scenes/road_users.glb");
   ASSERT_TRUE(users.ok());
@@ -129,6 +128,36 @@ TEST(FarMeshes, RoadUsersAreDrawnByFewerTrianglesFromAfarAndLookTheSame) {
   EXPECT_EQ(renderer->validation_messages(), 0u);
 }
 
+// A block of 96 m is drawn as its nearest thing asks for: where many stand in it, those far behind would be drawn
+// whole.
+TEST(FarMeshes, CarsThatStandCloseTogetherAreEachDrawnByHowFarTheyAre) {
+  Result<Scene> scene = read_scene(generated_dir() / "scenes/road_users.glb");
+  ASSERT_TRUE(scene.ok());
+  std::vector<SceneChunk> cars;
+  for (const SceneChunk& part : scene->chunks)
+    for (double x_m = 4.0; part.node == "car" && x_m < 96.0; x_m += 8.0) {
+      const glm::dvec3 there(x_m, 4.0, 0.0);
+      cars.push_back(part);
+      cars.back().origin_m += there, cars.back().low_m += there, cars.back().high_m += there;
+    }
+  ASSERT_FALSE(cars.empty());
+  scene->chunks = std::move(cars);
+  Result<Renderer> renderer = Renderer::create({.width_px = 1280, .height_px = 720, .validation = true});
+  ASSERT_TRUE(renderer.ok()) << renderer.error().text();
+  ASSERT_TRUE(renderer->load_scene(*scene).ok());
+  FrameInput input;
+  input.camera.eye_m = {-40.0, 0.0, 1.22};
+  const std::uint64_t drawn = renderer->draw(input).triangles;
+  input.far_mesh_from_m = std::numeric_limits<double>::infinity();
+  const std::uint64_t whole = renderer->draw(input).triangles;
+  std::printf("%llu triangles in place of %llu\n", static_cast<unsigned long long>(drawn),
+              static_cast<unsigned long long>(whole));
+  // Three of four cars stand beyond 60 m, and are drawn by less than half of their triangles (the test above).
+  EXPECT_LT(drawn, whole * 5 / 8);
+  EXPECT_EQ(renderer->validation_messages(), 0u);
+}
+
+// What is behind a crack may not be drawn at all (visual/scene/horizon.h).
 TEST(FarMeshes, NobodySeesTheSkyThroughTheGround) {
   const Result<Scene> read = read_scene(generated_dir() / "scenes/country_road.glb");
   ASSERT_TRUE(read.ok());

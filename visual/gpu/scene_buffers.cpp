@@ -27,8 +27,11 @@ namespace {
 // Side of the cells that batches are gathered in. Smaller culls better, larger draws fewer: chosen by timing the
 // country road.
 constexpr double kBlock_m = 96.0;
-// Of leaves, which have a level more and many triangles: theirs changes by the tree.
-constexpr double kLeavesBlock_m = 24.0;
+// Of leaves, which have many triangles: their level changes by the tree. So does that of things where more than
+// kManyTriangles of them stand in a block, as houses and parked cars do in a town; else a call costs more than it
+// saves.
+constexpr double kSmallBlock_m = 24.0;
+constexpr std::size_t kManyTriangles = 3000;  // chosen by timing the town and the country road
 
 using Cell = std::pair<std::int64_t, std::int64_t>;
 
@@ -217,16 +220,24 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
 }
 
 std::vector<SceneBlock> make_blocks(const Scene& scene, Gathered& all, const Progress& progress) {
-  std::map<std::pair<std::size_t, Cell>, std::vector<const SceneChunk*>> cells;
+  const auto is_thing = [&](const SceneChunk& chunk) {
+    return scene.materials[chunk.material].surface == Surface::kPlain;
+  };
+  std::map<Cell, std::size_t> triangles_of_things;  // by blocks of kBlock_m
+  for (const SceneChunk& chunk : scene.chunks)
+    if (is_thing(chunk)) triangles_of_things[cell_of(chunk, kBlock_m)] += chunk.index_count / 3;
+  std::map<std::tuple<std::size_t, bool, Cell>, std::vector<const SceneChunk*>> cells;
   for (const SceneChunk& chunk : scene.chunks) {
-    const std::size_t first_far = first_far_level(scene.materials[chunk.material]);
-    cells[{first_far, cell_of(chunk, first_far == 0 ? kLeavesBlock_m : kBlock_m)}].push_back(&chunk);
+    const SceneMaterial& material = scene.materials[chunk.material];
+    const bool small = material.surface == Surface::kFoliage ||
+                       (is_thing(chunk) && triangles_of_things[cell_of(chunk, kBlock_m)] > kManyTriangles);
+    cells[{first_far_level(material), small, cell_of(chunk, small ? kSmallBlock_m : kBlock_m)}].push_back(&chunk);
   }
   std::vector<SceneBlock> blocks;
   for (const auto& [cell, chunks] : cells) {
     if (progress)
       progress(static_cast<double>(blocks.size()) / static_cast<double>(cells.size()), "levels of detail");
-    SceneBlock block{.low_m = chunks.front()->low_m, .high_m = chunks.front()->high_m, .first_far = cell.first};
+    SceneBlock block{.low_m = chunks.front()->low_m, .high_m = chunks.front()->high_m, .first_far = std::get<0>(cell)};
     for (const SceneChunk* chunk : chunks) {
       block.low_m = glm::min(block.low_m, chunk->low_m);
       block.high_m = glm::max(block.high_m, chunk->high_m);

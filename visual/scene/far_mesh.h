@@ -14,8 +14,8 @@ struct FarLevel {
   double leaf_m2;                 ///< leaf triangles are thinned, and the rest grown to the area of all, up to so large
   std::uint32_t leaves_per_leaf;  ///< of so many at most one stays
 };
-inline constexpr std::array<FarLevel, 6> kFarLevels{
-    {{0.3, 0.25, 2}, {0.4, 0.6, 5}, {1.0, 1.6, 14}, {1.7, 3.2, 24}, {2.5, 5.6, 48}, {4.5, 9.6, 96}}};
+inline constexpr std::array<FarLevel, 7> kFarLevels{
+    {{0.3, 0.25, 2}, {0.4, 0.6, 5}, {0.63, 1.0, 9}, {1.0, 1.6, 14}, {1.7, 3.2, 24}, {2.5, 5.6, 48}, {4.5, 9.6, 96}}};
 /// Of kFarLevels the first that changes anything but leaves.
 inline constexpr std::size_t kFirstFarOfThings = 1;
 /// Of kFarLevels the first that changes a chunk of this material.
