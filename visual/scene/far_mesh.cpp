@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <span>
@@ -107,29 +108,28 @@ class Pieces {
 };
 
 struct PieceSize {
+  static constexpr float kClosed = 0.05f;  // of its area
   glm::vec3 low{1e30f}, high{-1e30f}, area_vector{0.0f};
   float area_m2 = 0.0f;
 
-  bool closed() const { return glm::length(area_vector) < 0.05f * area_m2; }
+  void add(const std::array<glm::vec3, 3>& corners) {
+    for (const glm::vec3& corner : corners) low = glm::min(low, corner), high = glm::max(high, corner);
+    const glm::vec3 area = 0.5f * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    area_vector += area;
+    area_m2 += glm::length(area);
+  }
+  bool closed() const { return glm::length(area_vector) < kClosed * area_m2; }
   // As it looks on average from all sides: of a closed body a quarter of its surface is seen (Cauchy 1832), of a plate
   // half.
   float width_m() const { return area_m2 / ((closed() ? 4.0f : 2.0f) * glm::length(high - low)); }
 };
 
-// Of each piece, at its number; the rest is empty.
-std::vector<PieceSize> sizes_of(const FarMesh& mesh, Pieces& pieces) {
+// Of each piece of the triangles, at its number; the rest is empty.
+std::vector<PieceSize> sizes_of(const FarMesh& mesh, Pieces& pieces, std::span<const std::uint32_t> indices) {
   std::vector<PieceSize> sizes(mesh.vertices.size());
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    PieceSize& size = sizes[pieces.of(mesh.indices[i])];
-    std::array<glm::vec3, 3> corner;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corner[k] = mesh.vertices[mesh.indices[i + k]].position_m;
-      size.low = glm::min(size.low, corner[k]);
-      size.high = glm::max(size.high, corner[k]);
-    }
-    const glm::vec3 area = 0.5f * glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-    size.area_vector += area;
-    size.area_m2 += glm::length(area);
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const auto corner = [&](std::size_t k) { return mesh.vertices[indices[i + k]].position_m; };
+    sizes[pieces.of(indices[i])].add({corner(0), corner(1), corner(2)});
   }
   return sizes;
 }
@@ -159,11 +159,23 @@ void append_places(FarMesh& mesh, std::span<const std::uint32_t> places, std::sp
   }
 }
 
+// It is as long, wide and high as it was but for the error, and shows to every side the area that it showed, but for a
+// strip along it that is half of the error wide: a simplifier tells its own error by planes, and lets a tube become
+// shorter, or a plate that is not seen from behind.
+bool has_kept_its_shape(const PieceSize& was, const PieceSize& is, float error_m) {
+  const glm::vec3 off = glm::max(is.low - was.low, was.high - is.high);
+  return std::max({off.x, off.y, off.z}) <= error_m &&
+         glm::length(is.area_vector - was.area_vector) <=
+             std::max(PieceSize::kClosed * was.area_m2, 0.5f * error_m * glm::length(was.high - was.low));
+}
+
 // A hard edge has a corner for each of its sides, and the simplifier moves none that has more than two: of a body with
 // flat sides it leaves all. So places are simplified. What is narrow keeps its edges, or it would be gone while it is
-// still wider than a pixel.
+// still wider than a pixel; and so does what has a look, which edges part. What loses its shape is simplified with less
+// error, and in the end not at all.
 void simplify_things(FarMesh& mesh, float error_m) {
   constexpr float kNarrow = 2.0f;  // times the error; chosen
+  constexpr int kTries = 4;        // each with half of the error of the one before; chosen
   const std::size_t corners = mesh.vertices.size();
   const bool flat = is_flat(mesh.vertices, mesh.indices);
   std::vector<glm::vec3> place_m(corners);
@@ -174,42 +186,54 @@ void simplify_things(FarMesh& mesh, float error_m) {
   const std::size_t places = meshopt_generateVertexRemap(place_of.data(), static_cast<const std::uint32_t*>(nullptr),
                                                          corners, place_m.data(), corners, sizeof(glm::vec3));
   std::vector<glm::vec3> at_m(places);
+  std::vector<std::uint32_t> vertex_at(places);
   std::vector<std::vector<glm::vec3>> normals(places);
-  for (std::size_t i = 0; i < corners; ++i) {
+  for (std::uint32_t i = 0; i < corners; ++i) {
     at_m[place_of[i]] = place_m[i];
+    vertex_at[place_of[i]] = i;
     normals[place_of[i]].push_back(mesh.vertices[i].normal);
   }
   Pieces pieces(mesh);
-  const std::vector<PieceSize> sizes = sizes_of(mesh, pieces);
-  std::vector<std::uint32_t> wide, narrow;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const bool is_wide = sizes[pieces.of(mesh.indices[i])].width_m() >= kNarrow * error_m;
-    for (std::size_t k = i; k < i + 3; ++k)
-      if (is_wide)
-        wide.push_back(place_of[mesh.indices[k]]);
+  const std::vector<PieceSize> whole = sizes_of(mesh, pieces, mesh.indices);
+  std::vector<std::uint32_t> left = mesh.indices, by_vertices, by_places;
+  for (float error = error_m; !left.empty() && error * (1 << kTries) > error_m; error *= 0.5f) {
+    std::vector<std::uint32_t> wide, narrow;
+    for (const std::uint32_t vertex : left)
+      if (mesh.looks.empty() && whole[pieces.of(vertex)].width_m() >= kNarrow * error)
+        wide.push_back(place_of[vertex]);
       else
-        narrow.push_back(mesh.indices[k]);
+        narrow.push_back(vertex);
+    if (!wide.empty()) wide = fewer(wide, at_m.front(), places, sizeof(glm::vec3), error);
+    if (!narrow.empty()) narrow = fewer(narrow, mesh.vertices.front().position_m, corners, sizeof(SceneVertex), error);
+    std::vector<std::uint32_t> both = narrow;
+    for (const std::uint32_t place : wide) both.push_back(vertex_at[place]);
+    const std::vector<PieceSize> now = sizes_of(mesh, pieces, both);
+    const auto good = [&](std::uint32_t vertex) {
+      const std::uint32_t piece = pieces.of(vertex);
+      return has_kept_its_shape(whole[piece], now[piece], error_m);
+    };
+    std::ranges::copy_if(narrow, std::back_inserter(by_vertices), good);
+    std::ranges::copy_if(wide, std::back_inserter(by_places),
+                         [&](std::uint32_t place) { return good(vertex_at[place]); });
+    std::erase_if(left, good);
   }
-  mesh.indices = std::move(narrow);
-  if (!mesh.indices.empty())
-    simplify(mesh, error_m);
-  else
-    mesh.vertices.clear();
-  if (!wide.empty())
-    append_places(mesh, fewer(wide, at_m.front(), places, sizeof(glm::vec3), error_m), at_m, normals, flat);
+  mesh.indices = std::move(by_vertices);
+  mesh.indices.insert(mesh.indices.end(), left.begin(), left.end());
+  drop_unused(mesh);
+  append_places(mesh, by_places, at_m, normals, flat);
 }
 
 // Lumps that hide what is in them; else leaves, each a surface of its own.
 bool is_closed(const FarMesh& mesh) {
   Pieces pieces(mesh);
-  return std::ranges::all_of(sizes_of(mesh, pieces),
+  return std::ranges::all_of(sizes_of(mesh, pieces, mesh.indices),
                              [](const PieceSize& size) { return size.area_m2 == 0.0f || size.closed(); });
 }
 
 // Leaves out what is narrower than a pixel: it would flicker from pixel to pixel.
 void drop_slivers(FarMesh& mesh, float width_m) {
   Pieces pieces(mesh);
-  const std::vector<PieceSize> sizes = sizes_of(mesh, pieces);
+  const std::vector<PieceSize> sizes = sizes_of(mesh, pieces, mesh.indices);
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
     if (sizes[pieces.of(mesh.indices[i])].width_m() >= width_m)
@@ -248,8 +272,8 @@ FarMesh far_mesh(const Scene& scene, const SceneChunk& chunk, std::size_t level,
     case Surface::kPlain:
       drop_slivers(mesh, static_cast<float>(kFarThingWidth_rad * from_m));
       if (mesh.indices.empty()) break;
-      if (closed || !mesh.looks.empty())
-        simplify(mesh, static_cast<float>((closed ? kFarLumpError_rad : kFarThingError_rad) * from_m));
+      if (closed)  // lumps, whose outline is their leaves'
+        simplify(mesh, static_cast<float>(kFarLumpError_rad * from_m));
       else
         simplify_things(mesh, static_cast<float>(kFarThingError_rad * from_m));
       break;
