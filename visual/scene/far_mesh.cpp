@@ -196,7 +196,8 @@ void simplify_things(FarMesh& mesh, float error_m) {
   Pieces pieces(mesh);
   const std::vector<PieceSize> whole = sizes_of(mesh, pieces, mesh.indices);
   std::vector<std::uint32_t> left = mesh.indices, by_vertices, by_places;
-  for (float error = error_m; !left.empty() && error * (1 << kTries) > error_m; error *= 0.5f) {
+  float error = error_m;
+  for (int tried = 0; tried < kTries && !left.empty(); ++tried, error *= 0.5f) {
     std::vector<std::uint32_t> wide, narrow;
     for (const std::uint32_t vertex : left)
       if (mesh.looks.empty() && whole[pieces.of(vertex)].width_m() >= kNarrow * error)
