@@ -47,6 +47,9 @@ Status choose_designs(Rig& rig, const Rig& as_filed, DriveOptions& options) {
     }
     options.desk.push_back("design=" + std::to_string(*design));
   }
+  if (!options.lamps.any() && (options.versus.empty() || design_named(rig, options.versus))) {
+    if (const Status status = nothing_of_a_lamp(options.lamps); !status) return status;
+  }
   if (options.versus.empty()) return Done{};
   const bool shown_by_hand =
       std::ranges::any_of(options.picture.desk, [](const DeskCommand& command) { return command.setting == "design"; });
@@ -172,9 +175,8 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
   auto* drive_file =
       command.add_option("--drive", options->drive, "Drive file to replay [without a window: the demo drive]");
   auto* script = command.add_option("--script", options->script, "Script for the driver model")->excludes(drive_file);
-  command.add_option("--log", options->log, "candump log that moves the controls")
-      ->excludes(drive_file)
-      ->excludes(script);
+  auto* log = command.add_option("--log", options->log, "candump log that moves the controls");
+  log->excludes(drive_file)->excludes(script);
   command.add_option("--dbc", options->dbc, "DBC file for --log [the cockpit file's]");
   add_lamp_flags(&command, options->lamps);
   command.add_option("--design", options->design, "Design of the rig that is shown, by its name or number");
@@ -229,6 +231,7 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
   command.add_flag("--fog", options->explain_fog, "With --explain: the front fog lamps too")
       ->excludes(drive_file)
       ->needs(explain);
+  explain->excludes(script)->excludes(log);
   auto* budget =
       command
           .add_option("--budget-ms", options->budget_ms,

@@ -447,6 +447,13 @@ Result<AimConfig> parse_aim(const std::string& text) {
   return AimConfig{AimConfig::Kind::kTurned, *up_deg * kRadPerDegree};
 }
 
+Status nothing_of_a_lamp(const LampFlags& flags) {
+  const std::string remedy = "give --lamp, --lamp-high or --lamp-fog";
+  if (!flags.aim.empty()) return Error{"--aim " + flags.aim, "aims a lamp of one's own: " + remedy};
+  if (flags.others == "none") return Error{"--lamp-others none", "is about lamps beside one's own: " + remedy};
+  return Done{};
+}
+
 Result<LampDesignNotes> put_lamp_design(Rig& rig, const LampFlags& flags) {
   return DesignMaker(rig, flags).make();
 }

@@ -45,6 +45,9 @@ struct LampDesignNotes {
   std::vector<std::string> lines, warnings;
 };
 
+/// Where no lamp of one's own is given: error, what of the flags is about one.
+Status nothing_of_a_lamp(const LampFlags& flags);
+
 /// Puts the design first and has the rig keep it. Every file is read. Errors: a file that is not there or cannot be
 /// read, no light in front, a file given twice, no place for it.
 Result<LampDesignNotes> put_lamp_design(Rig& rig, const LampFlags& flags);

@@ -49,9 +49,8 @@ int rig_new(const RigNewOptions& options) {
   if (const Status status = check_rig_files(*rig); !status) return bad_input(status.error());
   if (options.portable && options.out.empty())
     return bad_input({"--portable", "copies into a folder beside the rig: give --out FILE"});
-  if (!options.lamps.any() && !options.lamps.aim.empty())
-    return bad_input(
-        {"--aim " + options.lamps.aim, "aims a lamp of one's own: give --lamp, --lamp-high or --lamp-fog"});
+  if (!options.lamps.any())
+    if (const Status status = nothing_of_a_lamp(options.lamps); !status) return bad_input(status.error());
   const fs::path out = options.out.empty() ? fs::path{} : fs::absolute(options.out).lexically_normal();
   std::error_code ignored;
   if (!out.empty() && fs::exists(out, ignored))

@@ -10,6 +10,11 @@
 namespace phare {
 namespace {
 
+/// Whether nothing shines that ground can mirror or a drop send on: no lamp of a vehicle, no light of the scene.
+bool nothing_shines(const EffectFacts& facts) {
+  return facts.lit_lamps == 0 && facts.street_lamps == 0 && !facts.moon && facts.directional == 0;
+}
+
 EffectDecision shadows(const EffectFacts& facts) {
   if (facts.lit_lamps == 0) return {0, "no lamp is lit"};
   if (!facts.casters) return {0, "what stands in the light of the lamps is not looked for"};
@@ -34,6 +39,7 @@ EffectDecision hdr_image(const EffectFacts& facts) {
   if (facts.drops_drawn) return {1, "drops are added to luminance in cd/m²", true};
   if (facts.screen_drawn) return {1, "drops on the windscreen mix luminance in cd/m²", true};
   if (facts.spray_drawn) return {1, "spray mixes luminance in cd/m²", true};
+  if (facts.roofed) return {1, "rain or snow falls where the roof ends, and nothing is to be made anew there", true};
   if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for"};
   return {0, "nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself"};
 }
@@ -55,6 +61,7 @@ EffectDecision precipitation(const EffectFacts& facts) {
   if (facts.false_colour) return {0, "the view shows illuminance, as in clear air"};
   if (facts.clipping) return {0, "the view marks what the display clips of the scene itself"};
   if (facts.parallel_rays) return {0, "the view is from above with parallel rays, through no air"};
+  if (facts.roofed) return {0, "the eye is under a roof"};
   if (facts.air_lamps == 0) return {0, "no lamp lights a drop in view"};
   const bool snow = facts.air.particles().kind == Precipitation::kSnow;
   return {1, std::to_string(facts.air_lamps) + (facts.air_lamps == 1 ? " lamp lights " : " lamps light ") +
@@ -64,7 +71,7 @@ EffectDecision precipitation(const EffectFacts& facts) {
 EffectDecision wet_ground(const EffectFacts& facts) {
   constexpr double kDrizzle_mmph = 0.5;  // chosen: less leaves no film
   if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on", true};
-  if (facts.lit_lamps == 0) return {0, "no lamp is lit"};
+  if (nothing_shines(facts)) return {0, "no lamp is lit, and no moon shines"};
   const double rain = facts.air.rain_mmph;
   if (rain > 0.0 && facts.snow_cover_01 >= 0.5) return {0, "snow lies on it"};
   if (rain <= 0.0) return {0, "it does not rain"};
@@ -129,6 +136,7 @@ EffectDecision snow_cover(const EffectFacts& facts) {
 EffectDecision windscreen(const EffectFacts& facts) {
   if (!facts.windscreen) return {0, "no windscreen is before the eye"};
   if (facts.air.rain_mmph <= 0.0) return {0, "no rain falls on the windscreen"};
+  if (facts.roofed) return {0, "the windscreen is under a roof"};
   if (facts.false_colour) return {0, "the view shows illuminance, as without it"};
   if (facts.clipping) return {0, "the view marks what the display clips of the scene itself"};
   if (facts.parallel_rays) return {0, "the view is from above with parallel rays, by no eye"};

@@ -57,6 +57,7 @@ struct EffectFacts {
   std::size_t luminous = 0;                ///< materials that shine by themselves
   bool moon = false;                       ///< it shines
   bool covered = false;                    ///< some of the scene does not see the whole sky
+  bool roofed = false;                     ///< the eye is below a roof of the scene while rain or snow falls
   std::size_t reflecting = 0;              ///< pieces of that which send light of street lamps on
   bool too_many_reflecting = false;        ///< so that none does
   bool r_table = false;                    ///< of what these light some is asphalt

@@ -73,7 +73,7 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
     if (material.sky_share < 1.0f) light.covered_ = true;
     if (light.r_table(material)) light.r_table_ = true;
   }
-  if (!light.lamps_.empty() || light.moon_ || !light.suns_.empty()) light.tree_ = RayTree(scene);
+  if (!light.lamps_.empty() || light.moon_ || !light.suns_.empty() || light.covered_) light.tree_ = RayTree(scene);
   if (light.covered_ && (!light.lamps_.empty() || !light.suns_.empty())) {
     const auto direct = [&light](const glm::dvec3& point_m, const glm::dvec3& normal) {
       glm::dvec4 sum(0.0);
@@ -304,8 +304,12 @@ FixedProbe FixedLight::probe(const glm::dvec3& point_m) const {
   });
   probe.light = glm::vec4(sum);
   if (sum.w > 0.0) probe.way = glm::vec3(0.5 * from / sum.w);
-  if (covered_ && tree_.blocked(point_m, point_m + glm::dvec3(0.0, 0.0, 100.0), 1e-3, 0.0)) probe.sky_share = 0.0f;
+  if (roofed(point_m)) probe.sky_share = 0.0f;
   return probe;
+}
+
+bool FixedLight::roofed(const glm::dvec3& point_m) const {
+  return covered_ && tree_.blocked(point_m, point_m + glm::dvec3(0.0, 0.0, 100.0), 1e-3, 0.0);
 }
 
 std::vector<GlaringLamp> FixedLight::glare_at(const glm::dvec3& eye_m, const Air& air) const {

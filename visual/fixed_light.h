@@ -113,6 +113,8 @@ class FixedLight {
   /// Vertices of the material keep a FixedRoad.
   bool r_table(const SceneMaterial& material) const;
   bool covered() const { return covered_; }  ///< some surface does not see the whole sky
+  /// Where some surface does not: whether there is a roof, anything but paint, within 100 m straight above.
+  bool roofed(const glm::dvec3& point_m) const;
 
   /// Pieces of covered surfaces that send light on; 0: there is nothing covered, or no lamp, or it is switched off.
   std::size_t reflecting() const { return reflected_.patches(); }

@@ -107,7 +107,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   const std::vector<SprayingVehicle> spraying = spraying_seen(lit.geometry, view.input.spraying);
   EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, pupils.size(),
                                spraying.size(), parts.device_facts);
-  add_facts(facts, parts.scene.fixed_light());
+  add_facts(facts, parts.scene.fixed_light(), view.input.camera.eye_m);
   const EffectPlan effects = plan_effects(facts, view.input.effects, view.input.picked);
   const bool hdr = effects.on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);

@@ -29,12 +29,13 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
           .gui = over.gui};
 }
 
-void add_facts(EffectFacts& facts, const FixedLight& light) {
+void add_facts(EffectFacts& facts, const FixedLight& light, const glm::dvec3& eye_m) {
   facts.street_lamps = light.street_lamps();
   facts.moon = light.moon();
   facts.directional = light.directional();
   facts.luminous = light.luminous();
   facts.covered = light.covered();
+  facts.roofed = facts.air.falls() && light.roofed(eye_m);
   facts.reflecting = light.reflecting();
   facts.too_many_reflecting = light.too_many_reflecting();
   facts.r_table = light.r_table();

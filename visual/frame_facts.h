@@ -34,7 +34,7 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
                      std::size_t spraying, const DeviceFacts& device);
 
 /// What shines in the scene and does not change.
-void add_facts(EffectFacts& facts, const FixedLight& light);
+void add_facts(EffectFacts& facts, const FixedLight& light, const glm::dvec3& eye_m);
 
 /// Lamps whose light the eye of the view scatters over its picture (glare_seen).
 std::vector<GlaringLamp> glare_of(const ViewInput& view, const ViewGeometry& geometry);

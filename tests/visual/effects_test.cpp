@@ -55,6 +55,34 @@ TEST(Effects, EachFactSwitchesItsEffectAndNoOther) {
   EXPECT_EQ(tried.size(), kEffectCount) << "every row has its case here";
 }
 
+/// Water mirrors street lamps and the moon as it does lamps of vehicles, and nothing where all is dark.
+TEST(Effects, GroundIsWetUnderWhateverShinesOnIt) {
+  const Air rain{.rain_mmph = 10.0};
+  EXPECT_EQ(plan_effects({.air = rain}).level(Effect::kWetGround), 0u);
+  EXPECT_EQ(plan_effects({.air = rain})[Effect::kWetGround].reason, "no lamp is lit, and no moon shines");
+  for (const EffectFacts& facts :
+       {EffectFacts{.air = rain, .street_lamps = 1}, EffectFacts{.air = rain, .directional = 1},
+        EffectFacts{.air = rain, .moon = true}, EffectFacts{.lit_lamps = 1, .air = rain}})
+    EXPECT_EQ(plan_effects(facts).level(Effect::kWetGround), 2u);
+  const EffectFacts asphalt{.air = rain, .street_lamps = 1, .r_table = true};
+  EXPECT_EQ(plan_effects(asphalt).level(Effect::kAsphalt), 0u) << "whose table is of a dry road";
+}
+
+/// Under a roof no drop is drawn; the image of luminance stays, or one would be made where the roof ends.
+TEST(Effects, NothingFallsUnderARoof) {
+  const EffectFacts rain{.lit_lamps = 2, .air = {.rain_mmph = 4.0}, .air_lamps = 2, .windscreen = true};
+  EffectFacts roofed = rain;
+  roofed.roofed = true;
+  EXPECT_TRUE(plan_effects(rain).on(Effect::kPrecipitation));
+  EXPECT_TRUE(plan_effects(rain).on(Effect::kWindscreen));
+  const EffectPlan plan = plan_effects(roofed);
+  EXPECT_FALSE(plan.on(Effect::kPrecipitation));
+  EXPECT_EQ(plan[Effect::kPrecipitation].reason, "the eye is under a roof");
+  EXPECT_FALSE(plan.on(Effect::kWindscreen));
+  EXPECT_TRUE(plan.on(Effect::kHdrImage));
+  EXPECT_TRUE(plan.on(Effect::kWetGround)) << "of what is not covered";
+}
+
 TEST(Effects, FixedLightNamesAllThatShines) {
   EXPECT_EQ(plan_effects({.street_lamps = 1})[Effect::kFixedLight].reason, "1 street lamp");
   EXPECT_EQ(

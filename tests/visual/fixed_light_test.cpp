@@ -136,6 +136,25 @@ TEST_F(FixedLightOnDevice, WhereNothingShinesThereIsNothingOfIt) {
   EXPECT_EQ(off.draws, plain.draws);
 }
 
+/// A slab 5 m above: there is no lamp, and it is a roof only where something says that the sky does not reach it.
+TEST(FixedLight, ARoofIsWhatStandsAboveWhereTheSkyDoesNotReach) {
+  Scene scene;
+  scene.materials = {{.name = "slab"}};
+  for (const glm::vec3& corner : {glm::vec3(0, 0, 5), {10, 0, 5}, {10, 10, 5}, {0, 10, 5}})
+    scene.vertices.push_back({corner, {0, 0, -1}});
+  scene.indices = {0, 2, 1, 0, 3, 2};
+  SceneChunk slab{.node = "slab"};
+  slab.index_count = 6, slab.vertex_count = 4;
+  slab.low_m = {0, 0, 5}, slab.high_m = {10, 10, 5};
+  scene.chunks = {slab};
+  EXPECT_FALSE(light_of(scene, {})->roofed({5, 5, 1}));
+  scene.materials[0].sky_share = 0.0f;
+  const auto light = light_of(scene, {});
+  EXPECT_TRUE(light->roofed({5, 5, 1}));
+  EXPECT_FALSE(light->roofed({5, 5, 6})) << "above it";
+  EXPECT_FALSE(light->roofed({11, 5, 1})) << "beside it";
+}
+
 TEST_F(FixedLightOnDevice, ASurfaceThatShinesHasItsLuminanceAndARoofKeepsTheSkyOut) {
   Scene scene = yard();
   for (SceneMaterial& material : scene.materials) material.surface = Surface::kPlain;

@@ -139,6 +139,35 @@ TEST_F(SnowCoverOnDevice, ChangesLuminanceAndNotLux) {
       << "what stands upright is bare";
 }
 
+/// What the sky does not reach stays bare and dry: the same pixels as without snow and rain, and everything else has
+/// it.
+TEST_F(SnowCoverOnDevice, NeitherItNorRainReachesWhatIsUnderARoof) {
+  Scene scene = street();
+  scene.materials[0].surface = scene.materials[1].surface = Surface::kAsphalt;
+  const glm::dvec3 roofed(8.0, 1.0, 0.0), open(8.0, -1.0, 0.0);
+  const auto drawn = [&](double cover_01, std::size_t ground) {
+    FrameInput input = view(cover_01);
+    input.effects[static_cast<std::size_t>(Effect::kWetGround)] = ground;
+    renderer->draw(input);
+    return std::pair(at(renderer->read_hdr(), input, roofed).cdm2, at(renderer->read_hdr(), input, open).cdm2);
+  };
+  for (const float sky_share : {1.0f, 0.0f}) {
+    scene.materials[0].sky_share = sky_share;
+    ASSERT_TRUE(renderer->load_scene(scene).ok());
+    const auto dry = drawn(0.0, 0), snow = drawn(1.0, 0), wet = drawn(0.0, 2);
+    EXPECT_GT(snow.second, 1.2 * dry.second);
+    EXPECT_LT(wet.second, 0.9 * dry.second);
+    if (sky_share > 0.5f) {
+      EXPECT_GT(snow.first, 1.2 * dry.first);
+      EXPECT_LT(wet.first, 0.9 * dry.first);
+    } else {
+      // Of one material and one lamp; shaders that are lean differ from those that know snow by roundings.
+      EXPECT_NEAR(snow.first, dry.first, 2e-3 * dry.first);
+      EXPECT_NEAR(wet.first, dry.first, 2e-3 * dry.first);
+    }
+  }
+}
+
 TEST_F(SnowCoverOnDevice, CostsNothingWithout) {
   ASSERT_TRUE(renderer->load_scene(street()).ok());
   FrameInput input = view(0.0);

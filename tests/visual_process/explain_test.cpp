@@ -123,6 +123,27 @@ TEST_F(Explain, AnOncomingCarCallsForGlareAndItsImage) {
   }
 }
 
+/// What rain changes of luminance is not called for where two designs are compared by illuminance.
+TEST_F(Explain, TheDifferenceOfTwoDesignsIsOfIlluminance) {
+  desk_.rain_mmph = 10.0;
+  const auto level = [&](const std::string& effect) {
+    for (const std::string& line : lines(moment(LightSwitch::kLow), device_))
+      if (line.starts_with(effect + " ")) return line.substr(16, line.find(' ', 16) - 16);
+    return std::string();
+  };
+  for (const auto& [effect, photo, lux] : {std::tuple("fog", "medium", "off"),
+                                           {"precipitation", "on", "off"},
+                                           {"ground", "wet", "dry"},
+                                           {"hdr image", "on", "off"}}) {
+    desk_.compare = Compare::kSplit;
+    EXPECT_EQ(level(effect), photo) << effect;
+    for (const Compare compare : {Compare::kDifference, Compare::kRatio}) {
+      desk_.compare = compare;
+      EXPECT_EQ(level(effect), lux) << effect;
+    }
+  }
+}
+
 /// A car ahead at 90 km/h on wet ground: its spray besides all that it calls for on dry ground.
 TEST_F(Explain, AFastCarOnWetGroundThrowsUpSpray) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explain_spray.toml";

@@ -175,8 +175,13 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
     const RetroKind retro = material.retro.kind == RetroKind::kPupil ? RetroKind::kNone : material.retro.kind;
     // What moves is of the same kinds from afar: it comes nearer, and no pipeline is to be made then.
     const bool flat = stands ? is_flat(mesh.vertices, mesh.indices) : is_flat_whole(scene, *chunk);
-    const MaterialKind kind{material.surface,  retro, material.double_sided,
-                            look == 0 && flat, look,  !mesh.road.empty()};
+    const MaterialKind kind{.surface = material.surface,
+                            .retro = retro,
+                            .double_sided = material.double_sided,
+                            .flat = look == 0 && flat,
+                            .look = look,
+                            .road = !mesh.road.empty(),
+                            .roofed = material.sky_share < 0.5f};
     groups[{kind, look != 0 ? all.first_material + chunk->material : 0, cell_of(*chunk, side_m)}].push_back(
         std::move(mesh));
   }
@@ -265,7 +270,7 @@ void bend_by_kind(std::vector<SceneBlock>& blocks, std::vector<MovingMesh>& movi
   };
   const auto kind_of = [](const SceneBatch& batch) {
     MaterialKind kind = batch.kind;
-    kind.flat = kind.road = false;  // of which there may be both
+    kind.flat = kind.road = kind.roofed = false;  // of which there may be both
     return kind;
   };
   std::set<MaterialKind> bent;

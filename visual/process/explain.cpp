@@ -9,6 +9,7 @@
 #include "visual/process/overlay_lines.h"
 #include "visual/process/props.h"
 #include "visual/process/screens.h"
+#include "visual/process/versus.h"
 
 namespace phare {
 
@@ -43,6 +44,11 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   input.camera = camera_of(first_eye(desk), seen_by(first_eye(desk), channel, lamps, moment.pose, &road));
   if (desk.windscreen && first_eye(desk).kind == CameraKind::kDriver)
     input.windscreen = Windscreen{moment.time.seconds(), moment.pose.speed_mps, desk.wiper};
+  // The difference of two designs is of their illuminance: none of what changes luminance alone is called for.
+  if (versus_design(desk, lamps)) {
+    if (desk.compare == Compare::kDifference) input.view = View::kDifference;
+    if (desk.compare == Compare::kRatio) input.view = View::kRatio;
+  }
   input.lamps = lamps.placed(moment.pose);
   const std::vector<Traffic::There> users = traffic.at(moment.time.seconds(), road);
   if (window) {
@@ -97,7 +103,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   EffectFacts facts = facts_of(input, {lit, lit}, casting, over, glare_of(input, view),
                                pupils_of(input, view, channel.width_px, channel.height_px).size(),
                                spraying_seen(view, input.spraying).size(), {});
-  add_facts(facts, fixed);
+  add_facts(facts, fixed, input.camera.eye_m);
   return heading + explain(plan_effects(facts, input.effects));
 }
 

@@ -1,4 +1,5 @@
 // phare-visual: one channel of the picture. Reads the rig, its scene and its lamps, then draws what the bus says.
+#include <fmt/format.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -60,12 +61,16 @@ int explain_and_leave(const VisualOptions& options, const Scene& scene, const Mo
                       const FixedLight& fixed) {
   AskedMoment moment;
   if (options.drive_file.empty()) {
+    if (options.still_at_s >= 0.0) return refuse({"--still-at", "is a moment of a drive, and none is asked about"});
     moment.controls.light_switch = options.explain_light;
     moment.controls.fog_front = options.explain_fog;
   } else {
     const Result<Drive> drive = read_drive(options.drive_file);
     if (!drive) return refuse(drive.error());
-    const double at_s = options.still_at_s < 0.0 ? 0.2 * drive->duration.seconds() : options.still_at_s;
+    const double ends_s = drive->duration.seconds();
+    const double at_s = options.still_at_s < 0.0 ? 0.2 * ends_s : options.still_at_s;
+    if (at_s > ends_s)
+      return refuse({"--still-at", fmt::format("{:g} s is after the end of the drive, {:.1f} s", at_s, ends_s)});
     Result<AskedMoment> asked = moment_of_drive(*drive, at_s);
     if (!asked) return refuse(asked.error());
     moment = std::move(*asked);
