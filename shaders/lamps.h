@@ -188,8 +188,9 @@ const uint kRayMoverTexels = 4u;
 const float kShadowNear_m = 0.05f;
 
 struct GpuMaterial {
-  // rgb rho; w, sheeting: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there, facets: what they send
-  // back at a share of 1, in cd/(lx·m²), by which luminance follows from rho/pi: times pi over rho's luminance under illuminant A
+  // rgb rho; w, sheeting: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there,
+  // facets: what they send back at a share of 1 (of markings whose R_L was measured wet below 0), in cd/(lx·m²), by
+  // which luminance follows from rho/pi: times pi over rho's luminance under illuminant A
   vec4 reflectance;
 };
 

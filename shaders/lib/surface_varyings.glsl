@@ -55,17 +55,21 @@ layout(location = 7 + PHARE_LAMPS) PHARE_VARYING vec3 in_shadow[PHARE_LAMPS];
 layout(constant_id = 2) const uint retro = 0;
 layout(constant_id = 3) const uint output_kind = 0;
 
-// What goes back to the lamp is kept over what the surface reflects (GpuMaterial), which water has made darker.
-vec4 wetted(vec4 dry) {
+// What goes back to the lamp is kept over what the surface reflects (GpuMaterial), which water has made darker. A figure that was measured wet is
+// kept as it is: what the darker body no longer gives of it in the 30 m geometry is sent back beside it.
+vec4 wetted(vec4 dry, bool figure_of_wet) {
   const vec3 green = vec3(0.0, 1.0, 0.0);
   vec3 rho = wet_reflectance(dry.rgb);
   if (retro != kRetroMarking && retro != kRetroFacets) return vec4(rho, dry.w);
+  if (figure_of_wet) return vec4(rho, (dry.w * dry.g + kCosIncidenceAt30m * (dry.g - rho.g)) / rho.g);
   return vec4(rho, dry.w * (retro == kRetroMarking ? kMarkingLeft : kFacetsLeft) * dot(dry.rgb, green) / dot(rho, green));
 }
 
 void pass_light(vec4 material) {
   const float pi = 3.14159265;
-  if (wet_ground != 0u) material = wetted(material);
+  bool figure_of_wet = retro == kRetroMarking && material.w < 0.0;
+  material.w = abs(material.w);
+  if (wet_ground != 0u) material = wetted(material, figure_of_wet);
   if (snow_lies != kSnowNone) {
     vec4 covered = snowed(material, snow_share(normalize(point_normal).z, frame.ground.x), snow_lies == kSnowOnMarking);
     material = retro == kRetroFacets ? covered : vec4(covered.rgb, material.w);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "shaders/lib/wet.h"
 #include "tests/visual/shared_renderer.h"
@@ -96,6 +97,47 @@ class WetGroundOnDevice : public SharedRenderer {
   }
   static constexpr auto kWet = static_cast<std::size_t>(Effect::kWetGround);
 };
+
+/// R_L as measured wet is what the wet marking sends back in the geometry of EN 1436; of one as measured dry the beads
+/// lie under water: 12 % of what it sends back beside its body is left, and about half of that.
+TEST_F(WetGroundOnDevice, MarkingsKeepWhatWasMeasuredWet) {
+  renderer->set_beam(0, image_of(even_lamp()));
+  // The eye 0.55 m above the lamp, both looking along the road; the marking is 30 m away.
+  FrameInput input = lit_from({0.0, 0.0, 0.65}, 0.0);
+  input.camera.world_from_eye = aim_rotation(0.0, -std::atan2(1.2, 30.0), 0.0);
+  const double lx = 1000.0 / (30.0 * 30.0 + 0.65 * 0.65);  // on a plane that faces the lamp
+  std::optional<double> paint;  // what its wear makes of the first, dry: every class has the same there
+  const double body = 0.4 / std::numbers::pi * 0.65 / std::hypot(30.0, 0.65);
+  const double body_wet = static_cast<double>(shader::wet_reflectance(glm::vec3(0.4f)).x) / 0.4 * body;
+  for (const auto& [name, dry_mcd, wet_mcd] : {std::tuple("EN 1436 R4", 200.0, 1e3 * (0.12 * (0.2 - body) + body_wet)),
+                                               {"EN 1436 RW1", 25.0, 25.0},
+                                               {"EN 1436 RW2", 35.0, 35.0},
+                                               {"EN 1436 RR1", 25.0, 25.0}}) {
+    Scene scene = ground(0.4f, Surface::kPaint);
+    scene.materials[0].retro = *retroreflection(name, std::nullopt, std::nullopt);
+    ASSERT_TRUE(renderer->load_scene(scene).ok());
+    for (const std::size_t level : {0u, 2u}) {
+      input.effects[kWet] = level;
+      renderer->draw(input);
+      const ImageF image = renderer->read_hdr();
+      // The mean of the pixels about the middle, in whose corner the marking is 30 m away.
+      double sum = 0.0;
+      for (const int dx : {-1, 0})
+        for (const int dy : {-1, 0}) {
+          const float* rgb = &image.rgba[4 * (static_cast<std::size_t>(image.height_px / 2 + dy) *
+                                                  static_cast<std::size_t>(image.width_px) +
+                                              static_cast<std::size_t>(image.width_px / 2 + dx))];
+          sum += 0.25 * (0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) +
+                         0.0722 * static_cast<double>(rgb[2]));
+        }
+      const double mcd = 1e3 * sum / lx, expected_mcd = level == 0 ? dry_mcd : wet_mcd;
+      if (!paint) paint = mcd / expected_mcd;
+      std::printf("%s, %s: %.2f mcd/(lx m2), times %.3f of the paint there\n", name, level == 0 ? "dry" : "wet", mcd,
+                  *paint);
+      EXPECT_NEAR(mcd, *paint * expected_mcd, 0.02 * *paint * expected_mcd);
+    }
+  }
+}
 
 /// Black ground shows the film alone: an oncoming lamp in its mirror, by the functions above in float64's geometry.
 TEST_F(WetGroundOnDevice, ShowsTheFilmOfTheFunctions) {

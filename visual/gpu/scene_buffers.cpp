@@ -318,6 +318,7 @@ shader::GpuMaterial pack_material(const SceneMaterial& material, std::vector<sha
       std::max(reflectance_under_a(by_white ? glm::vec3(material.look.base) : material.reflectance), kBlack);
   if (material.retro.kind == RetroKind::kMarking || material.retro.kind == RetroKind::kFacets) {
     packed.reflectance.w = static_cast<float>(sent_back_strength(material.retro, rho) * kPi / rho);
+    if (material.retro.of_wet) packed.reflectance.w = -packed.reflectance.w;
   } else if (material.retro.kind == RetroKind::kSheeting) {
     packed.reflectance.w = static_cast<float>(sheetings.size());
     shader::GpuSheeting& sheeting = sheetings.emplace_back();

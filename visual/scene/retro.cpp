@@ -26,6 +26,12 @@ RetroClass marking(const char* name, double mcd, const char* source, bool confir
       .name = name, .kind = RetroKind::kMarking, .r_l_mcd_per_lx_m2 = mcd, .source = source, .confirmed = confirmed};
 }
 
+RetroClass wet_marking(const char* name, double mcd, const char* source) {
+  RetroClass made = marking(name, mcd, source);
+  made.wet = true;
+  return made;
+}
+
 /// Rows of entrance angles 5°, 30°, 40°.
 struct Row3 {
   double observation_deg;
@@ -57,9 +63,9 @@ std::vector<RetroClass> make_classes() {
       marking("EN 1436 R3", 150.0, kDry),
       marking("EN 1436 R4", 200.0, kDry),
       marking("EN 1436 R5", 300.0, kDry),
-      marking("EN 1436 RW1", 25.0, kWet),
-      marking("EN 1436 RW2", 35.0, kWet),
-      marking("EN 1436 RR1", 25.0, "EN 1436, in rain, as one text has it"),
+      wet_marking("EN 1436 RW1", 25.0, kWet),
+      wet_marking("EN 1436 RW2", 35.0, kWet),
+      wet_marking("EN 1436 RR1", 25.0, "EN 1436, in rain, as one text has it"),
       sheeting("EN 12899-1 RA1 white", {{0.2, {70, 30, 10}}, {0.33, {50, 24, 9}}, {2.0, {5, 2.5, 1.5}}}, kEn12899,
                false),
       sheeting("EN 12899-1 RA1 yellow", {{0.2, {50, 22, 7}}, {0.33, {35, 16, 6}}, {2.0, {3, 1.5, 1}}}, kEn12899, false),
@@ -197,6 +203,7 @@ Result<Retroreflection> retroreflection(const std::string& class_name, std::opti
       return Error{"", "'" + name + "' is " + (found->kind == RetroKind::kMarking ? "a marking" : "ground") +
                            ": retroreflection_mcd_per_lx_m2 goes with it, not …_cd_per_lx_m2"};
     made.r_l_mcd_per_lx_m2 = r_l.value_or(found->r_l_mcd_per_lx_m2);
+    made.of_wet = found->wet;
     return made;
   }
   if (r_l)

@@ -32,6 +32,7 @@ struct RetroClass {
   std::string name;
   RetroKind kind = RetroKind::kNone;
   double r_l_mcd_per_lx_m2 = 0.0;  ///< of a marking
+  bool wet = false;                ///< as measured on a wet one, or in rain
   struct Row {
     double observation_deg = 0.0;              ///< one of kObservations_deg
     std::array<double, 4> r_a_cd_per_lx_m2{};  ///< at kEntrances_deg
@@ -52,6 +53,7 @@ struct Retroreflection {
   RetroKind kind = RetroKind::kNone;
   std::string class_name{};
   double r_l_mcd_per_lx_m2 = 0.0;  ///< in the 30 m geometry, all light together; facets: 0 as rho gives
+  bool of_wet = false;             ///< that figure is of the wet marking, which keeps it where the ground is wet
   std::array<glm::vec4, kObservations_deg.size()>
       ln_r_a{};  ///< of sheeting: ln of cd/(lx·m²), [observation], xyzw entrance
 };
