@@ -48,6 +48,18 @@ TEST(FrameStats, CapturedFramesStayOutOfTheOtherFigure) {
   EXPECT_EQ(stats.pass_ms.at("lamps").count(), 10u);
 }
 
+// In a drive that keeps every frame passes are timed all the same: reading back is one of its own.
+TEST(FrameStats, PassesOfKeptFramesAreTimed) {
+  FrameStats stats;
+  FrameResult kept;
+  kept.timed_kept = true;
+  kept.passes = {{"shadows", 2.0}, {"lamps", 3.0}, {"read back display", 9.0}};
+  for (int i = 0; i < 5; ++i) stats.add(kept, true);
+  EXPECT_EQ(stats.pass_ms.at("lamps").count(), 5u);
+  EXPECT_EQ(stats.pass_ms.at("lamps").max(), 3.0);
+  EXPECT_EQ(stats.gpu_ms.count(), 0u) << "from the first stamp to the last, reading back with it";
+}
+
 TEST(FrameStats, WhatIsToldWithoutTimesKeepsThoseBefore) {
   FrameStats stats;
   FrameResult timed, on_its_way;

@@ -82,7 +82,7 @@ struct FrameStats {
   LogHistogram wall_no_capture_ms;  ///< frames whose picture was not read back
   LogHistogram gpu_ms;              ///< frames whose picture was not read back
   LogHistogram interval_ms;         ///< from the end of one frame to the end of the next, waiting included
-  std::map<std::string, LogHistogram> pass_ms;
+  std::map<std::string, LogHistogram> pass_ms;  ///< every frame that was timed: reading back is a pass of its own
   std::uint64_t frames = 0;
   std::uint64_t captured_frames = 0;
   std::uint64_t stale_frames = 0;   ///< drawn with a held pose
@@ -123,10 +123,10 @@ struct FrameStats {
     if (captured) ++captured_frames;
     if (!result.timed) return;
     wall_ms.add(result.wall_ms);
+    for (const PassTime& pass : result.passes) pass_ms[pass.name].add(pass.ms);
     if (result.timed_kept) return;
     wall_no_capture_ms.add(result.wall_ms);
     gpu_ms.add(result.gpu_ms);
-    for (const PassTime& pass : result.passes) pass_ms[pass.name].add(pass.ms);
   }
 };
 
