@@ -77,14 +77,17 @@ class Tables {
     const json rows = report_["processes"].value("visual-0", json::object()).value("effects", json::array());
     if (rows.empty()) return;
     page_ << "<h2>Effects</h2><div class=\"scroll\"><table><tr><th></th><th class=\"text\">level</th><th "
-             "class=\"text\">because</th><th class=\"text\">needs</th></tr>";
+             "class=\"text\">because</th><th class=\"text\">needs</th><th>passes</th><th>MB</th><th>ms</th></tr>";
     for (const json& row : rows) {
       page_ << "<tr><td>" << value_text(row, "name") << "</td>";
       for (const char* key : {"level", "because", "needs"})
         page_ << "<td class=\"text\">" << value_text(row, key) << "</td>";
-      page_ << "</tr>";
+      page_ << "<td>" << value_text(row, "passes") << "</td><td>" << number(row.value("bytes", 0.0) / 1e6, "%.1f")
+            << "</td><td>" << value_text(row, "ms") << "</td></tr>";
     }
-    page_ << "</table></div><p>Of the last frame. Any other moment: phare drive … --explain.</p>";
+    page_ << "</table></div><p>Of the last frame, over all its views; ms on the device: median of the frames in which "
+             "the effect had passes of its own. What draws within the lamp pass is timed with that. Any other moment: "
+             "phare drive … --explain.</p>";
   }
 
   /// How many frames it took, as bars: 1 is the first frame that could show the new beam.

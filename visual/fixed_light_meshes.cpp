@@ -18,7 +18,7 @@ namespace phare {
 namespace {
 
 constexpr double kFloor_lx = 0.5;   // the error is that of so many lux where there are fewer
-constexpr double kLongest_m = 6.0;  // a longer side may have a pool of light between its ends
+constexpr double kLongestSide_m = 6.0;  // a longer side may have a pool of light between its ends
 // Those lengths are of lamps so far away. What interpolation is off by goes with the square of a side's length over the
 // distance of the lamp.
 constexpr double kHigh_m = 8.0;
@@ -153,7 +153,7 @@ class Baker {
     // What rays are off by is nothing to cut for: their number to -3/4 of what they bring.
     const double rays_lx = middle.reflected_lx.w * std::pow(static_cast<double>(ways_), -0.75);
     const bool off = std::abs(exact - 0.5 * (at_a + at_b)) > level.tolerance * std::max(exact, kFloor_lx) + rays_lx;
-    const bool unseen = length_m > share * kLongest_m && std::max({at_a, at_b, exact}) > 0.1 * kFloor_lx;
+    const bool unseen = length_m > share * kLongestSide_m && std::max({at_a, at_b, exact}) > 0.1 * kFloor_lx;
     if (!off && !unseen && !(r_table_ && streaks_off(mesh, i, j, middle, level))) return std::nullopt;
     mesh.vertices.push_back(between);
     add(mesh, between);

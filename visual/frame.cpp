@@ -77,6 +77,18 @@ double far_mesh_from_m(const PlacedView& view) {
 static_assert(kFarCasters * kFarMeshFrom_m * kFarLevels[kFarCasterLevels - 1].from < kShadowsTo_m &&
               kFarCasters * kFarMeshFrom_m * kFarLevels[kFarCasterLevels].from >= kShadowsTo_m);
 
+/// While it lives, what the graph is given is counted for an effect.
+class CountedFor {
+ public:
+  CountedFor(Effect effect, gpu::FrameGraph& graph) : graph_(graph) { graph_.set_account(account_of(effect)); }
+  ~CountedFor() { graph_.set_account(gpu::kFrameAccount); }
+  CountedFor(const CountedFor&) = delete;
+  CountedFor& operator=(const CountedFor&) = delete;
+
+ private:
+  gpu::FrameGraph& graph_;
+};
+
 /// What one view calls for, and no more. `over`: what will lie over it.
 ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver& over) {
   gpu::FrameGraph& graph = parts.graph;
@@ -114,6 +126,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   gpu::Image* light = view.picture.display;
   LampOutput output = output_of(view.input.view);
   if (hdr) {
+    const CountedFor counted(Effect::kHdrImage, graph);
     light = image("hdr_cdm2", kHdrFormat, Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc);
     output = LampOutput::kHdr;
   }
@@ -123,12 +136,17 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   const bool first = !std::exchange(view.picture.begun, true);
 
   // What each lamp sees, where something stands in its light.
-  if (effects.on(Effect::kShadows)) parts.shadows.draw(graph, parts.scene, lit, effects.level(Effect::kShadows));
+  if (effects.on(Effect::kShadows)) {
+    const CountedFor counted(Effect::kShadows, graph);
+    parts.shadows.draw(graph, parts.scene, lit, effects.level(Effect::kShadows));
+  }
 
   // What fog scatters of the light.
-  if (effects.on(Effect::kFog))
+  if (effects.on(Effect::kFog)) {
+    const CountedFor counted(Effect::kFog, graph);
     parts.fog.draw(graph, parts.scene, lit, effects.level(Effect::kFog), view.input, view.area, hdr,
                    effects.on(Effect::kPrecipitation));
+  }
 
   // Which drops fall past the eye.
   if (effects.on(Effect::kPrecipitation)) add_drops(parts.scene, lit, view.input);
@@ -152,7 +170,10 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
 
   // Depth of everything, so that each pixel is lit once.
   const bool depth_done = effects.on(Effect::kDepthFirst);
-  if (depth_done) parts.depth.draw(graph, parts.scene, lit, *depth, view.area);
+  if (depth_done) {
+    const CountedFor counted(Effect::kDepthFirst, graph);
+    parts.depth.draw(graph, parts.scene, lit, *depth, view.area);
+  }
 
   // Every surface under every lamp; the sky behind.
   parts.lit.draw(graph, parts.scene, lit,
@@ -167,16 +188,20 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
 
   // What rain on the windscreen makes of it.
   if (effects.on(Effect::kWindscreen)) {
+    const CountedFor counted(Effect::kWindscreen, graph);
     if (!parts.windscreen) parts.windscreen = std::make_unique<WindscreenPass>(parts.device);
     parts.windscreen->draw(graph, *light, view.area, lit.geometry, *view.input.windscreen, view.input.air, glare);
   }
 
   // From cd/m² to the display, with what lamps scatter in the eye. Without an HDR image the lit pass has done it.
-  if (effects.on(Effect::kGlare))
+  if (effects.on(Effect::kGlare)) {
+    const CountedFor counted(Effect::kGlare, graph);
     parts.glare.draw(graph, *light, *view.picture.display, view.area, first, lit.sky.exposure_per_cdm2, lit.geometry,
                      glare, view.input.viewer);
-  else if (hdr)
+  } else if (hdr) {
+    const CountedFor counted(Effect::kHdrImage, graph);
     parts.tone_mapping.draw(graph, *light, *view.picture.display, view.area, first, lit.sky.exposure_per_cdm2);
+  }
   if (hdr && view.input.want_hdr) parts.read_hdr(view.number, *light, view.area);
 
   // What the next view may use.
@@ -237,6 +262,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
 
   // What the driver is told besides.
   if (views.front().effects.on(Effect::kOverlay)) {
+    const CountedFor counted(Effect::kOverlay, parts.graph);
     if (!parts.overlay)
       parts.overlay =
           std::make_unique<OverlayPass>(parts.device, parts.target.display_format, parts.target.extent.height);
@@ -245,10 +271,12 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   }
 
   // What is set by the mouse.
-  if (views.front().effects.on(Effect::kGui))
+  if (views.front().effects.on(Effect::kGui)) {
+    const CountedFor counted(Effect::kGui, parts.graph);
     parts.gui.draw(parts.graph, *seen.display, *input.gui);
-  else if (parts.target.seen)
+  } else if (parts.target.seen) {
     parts.gui.hide();
+  }
 
   // What is kept of the finished picture.
   if (input.want_image) parts.read_image(0, *seen.display, {{0, 0}, seen.extent});

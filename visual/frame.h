@@ -33,6 +33,15 @@ struct FrameTarget {
 glm::vec3 exposure_of(const ViewInput& input);
 Sky sky_of(const ViewInput& input);
 
+/// The frame graph's number for an effect.
+constexpr gpu::Account account_of(Effect effect) {
+  return static_cast<std::size_t>(effect) + 1;
+}
+constexpr Effect effect_of(gpu::Account account) {
+  return static_cast<Effect>(account - 1);
+}
+static_assert(kEffectCount < gpu::kAccounts);
+
 struct FrameParts {
   gpu::Device& device;
   gpu::FrameGraph& graph;

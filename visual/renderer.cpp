@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "visual/audit_picture.h"
+#include "visual/effects_of_frame.h"
 #include "visual/frame.h"
 #include "visual/gpu/submissions.h"
 #include "visual/gpu/window_surface.h"
@@ -41,6 +42,12 @@ gpu::DeviceOptions device_options(const RendererOptions& options) {
 bool is_kept(const FrameInput& input) {
   const auto kept = [](const ViewInput& view) { return view.want_image || view.want_hdr; };
   return kept(input) || std::ranges::any_of(input.more_views, kept);
+}
+
+/// Passes of the frame as it was counted; images are counted when those that it did not ask for are gone.
+EffectCost cost_of(gpu::Account account, const gpu::Counts& frame, const gpu::Counts& held) {
+  return {.passes = frame.accounts[account].passes,
+          .bytes = held.accounts[account].image_bytes + frame.accounts[account].kept_bytes};
 }
 
 /// As shaders/reference.h has them.
@@ -300,7 +307,7 @@ FrameResult Renderer::draw(const FrameInput& input) {
   impl_->end_audit();
   impl_->graph.free_unused();
 
-  result.effects = result.views.front().effects;
+  result.effects = plan_over(result.views);
   result.draws = counts.draws;
   result.pass_count = counts.passes;
   result.triangles = counts.triangles;
@@ -308,6 +315,9 @@ FrameResult Renderer::draw(const FrameInput& input) {
   result.images = held.images;
   result.image_bytes = held.image_bytes;
   result.shared_image_bytes = held.shared_bytes;
+  result.other_cost = cost_of(gpu::kFrameAccount, counts, held);
+  for (const EffectRow& row : effect_table())
+    result.effect_costs[static_cast<std::size_t>(row.effect)] = cost_of(account_of(row.effect), counts, held);
   auto times = submissions.take_times();
   result.timed = times.has_value();
   if (times) {
@@ -317,7 +327,10 @@ FrameResult Renderer::draw(const FrameInput& input) {
     result.wall_ms = times->wall_ms;
     result.gpu_ms = times->gpu_ms;
     result.timed_kept = times->kept;
-    for (gpu::FrameGraph::Timing& pass : times->passes) result.passes.push_back({std::move(pass.name), pass.ms});
+    for (gpu::FrameGraph::Timing& pass : times->passes) {
+      result.passes.push_back({.name = std::move(pass.name), .ms = pass.ms});
+      if (pass.account != gpu::kFrameAccount) result.passes.back().effect = effect_of(pass.account);
+    }
   }
   return result;
 }

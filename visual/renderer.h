@@ -2,6 +2,7 @@
 // process and by `phare measure`.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
@@ -140,6 +141,13 @@ struct FrameInput : ViewInput {
 struct PassTime {
   std::string name;
   double ms = 0.0;
+  std::optional<Effect> effect{};  ///< that calls for it; none: it is there in any frame
+};
+
+/// What an effect adds to a frame, over all its views. What it draws within the pass of another is not told apart.
+struct EffectCost {
+  std::uint32_t passes = 0;  ///< that draw
+  std::uint64_t bytes = 0;   ///< of its images, also where they use the memory of others, and of what its passes keep
 };
 
 /// What one view took.
@@ -163,7 +171,9 @@ struct FrameResult {
   double wall_ms = 0.0;
   double gpu_ms = 0.0;  ///< first to last time stamp
   std::vector<PassTime> passes;
-  EffectPlan effects;             ///< of the frame's own view: what was on, and why
+  EffectPlan effects;  ///< what was on in any view, and why (visual/effects_of_frame.h)
+  std::array<EffectCost, kEffectCount> effect_costs{};  ///< in the order of Effect
+  EffectCost other_cost{};                              ///< what no effect calls for
   std::vector<ViewResult> views;  ///< its own, then the others
   std::uint32_t draws = 0;        ///< those of the overlay left out
   std::uint32_t pass_count = 0;   ///< passes that draw; reading back draws nothing

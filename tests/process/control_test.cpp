@@ -232,6 +232,18 @@ TEST_F(Control, InstrumentsThatAreOffCostNoPass) {
   const nlohmann::json mirrors = visual("mirrors", {"mirrors=on"});
   EXPECT_EQ(mirrors["views"].size(), 4u);
   EXPECT_GE(mirrors["passes"].get<int>(), on["passes"].get<int>() + 3) << "one a mirror at least";
+  // Each effect says what it takes, in a drive that keeps all its frames too.
+  const auto row = [](const nlohmann::json& report, const char* name) {
+    return *std::ranges::find(report["effects"], name, [](const nlohmann::json& each) { return each["name"]; });
+  };
+  EXPECT_EQ(row(off, "overlay")["passes"], 0);
+  EXPECT_FALSE(row(off, "overlay").contains("ms"));
+  EXPECT_EQ(row(on, "overlay")["passes"], 1);
+  EXPECT_GT(row(on, "overlay")["ms"].get<double>(), 0.0);
+  EXPECT_EQ(row(on, "eyeshine")["bytes"], 0);
+  EXPECT_EQ(on["pass_ms"]["lamps"]["count"], on["frames"]);
+  EXPECT_TRUE(on["views"][0]["effects"].empty());
+  for (const nlohmann::json& view : mirrors["views"]) EXPECT_TRUE(view["effects"].is_array());
   EXPECT_TRUE(std::filesystem::exists(folder_ / "on" / "probes.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "off" / "probes.csv"));
 }

@@ -25,6 +25,8 @@ TEST(Report, MergesWhatThereIs) {
   std::ofstream(out / "visual-0.json")
       << R"({"process":"visual","frames":10,"frames_per_s":62.5,"drawn_s":0.144,"frame_ms":{"count":10,"min":1.0,"median":2.0,"p95":3.0,"p99":4.0,"max":5.0},)"
          R"("interval_ms":{"count":9,"min":1.0,"median":10.0,"p95":3.0,"p99":4.0,"max":5.0},"pass_ms":{"lamps":{"median":1.0}},"device":"<lavapipe>",)"
+         R"("effects":[{"name":"shadows","level":"soft","because":"a post","needs":"maps","passes":2,"bytes":4300000,"ms":0.25},)"
+         R"({"name":"eyeshine","level":"on","because":"a deer","needs":"a draw","passes":0,"bytes":0}],)"
          R"("frames_stale_pose":2,"fail_safe":{"frames":3,"count":1,"times":[{"from_s":1.5,"to_s":1.75,"because":"no cockpit for 0.3 s: low beam"}]}})";
   std::ofstream(out / "birds_eye.png") << "x";
 
@@ -60,6 +62,8 @@ TEST(Report, MergesWhatThereIs) {
   EXPECT_NE(page.find("3 pictures with the low beam of the fail-safe, 1 times"), std::string::npos);
   EXPECT_NE(page.find("1.500 to 1.750 s: no cockpit for 0.3 s: low beam"), std::string::npos);
   EXPECT_NE(page.find("2 pictures with a pose that was held"), std::string::npos);
+  EXPECT_NE(page.find("<td class=\"text\">maps</td><td>2</td><td>4.3</td><td>0.25</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td class=\"text\">a draw</td><td>0</td><td>0.0</td><td>–</td>"), std::string::npos);
   EXPECT_EQ(page.find("wall_25m.png"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos);  // self-contained
 }

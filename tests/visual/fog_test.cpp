@@ -366,6 +366,9 @@ TEST_F(FogOnDevice, ClearAirCostsNothingBeforeAndAfter) {
   EXPECT_EQ(kFogNames[fog_frame.effects.level(Effect::kFog)], "medium");
   EXPECT_EQ(fog_frame.effects[Effect::kFog].reason, "visibility 80 m between the eye and what it sees");
   EXPECT_EQ(fog_frame.pass_count, std::get<0>(before) + 1) << "the grid";
+  EXPECT_EQ(fog_frame.effect_costs[fog()].passes, 1u);
+  EXPECT_GE(fog_frame.effect_costs[fog()].bytes, 16 * texels_of(kFogLevels[2]));
+  EXPECT_EQ(fog_frame.other_cost.passes, std::get<0>(before));
   EXPECT_NE(renderer->read_image().rgba, std::get<6>(before)) << "within one frame";
   const std::uint64_t in_fog = renderer->device_memory_bytes();
   const auto after = clear_air();

@@ -100,6 +100,44 @@ TEST_F(FrameGraphTest, MemoryGoesWithTheLastImageThatUsesIt) {
   EXPECT_EQ(*device.allocated_bytes, before);
 }
 
+// A pass, an image and what a pass keeps are counted for the account that is set; copies are timed for it, and are no
+// passes. Images that share memory count in full, each for its own.
+TEST_F(FrameGraphTest, EachAccountHasWhatWasCountedForIt) {
+  HostBuffer to = buffer();
+  for (int round = 0; round < 2; ++round) {
+    frame([&] {
+      Image& a = graph.image("a", kNeed);
+      clear("a", a, 1.0f);
+      graph.release(a);
+      graph.set_account(3);
+      Image& b = graph.image("b", kNeed);  // in the memory of a
+      clear("b", b, 0.0f);
+      clear("b again", b, 0.0f);
+      graph.count_kept(&to, 100);
+      graph.count_kept(&to, 100);
+      read(b, to);
+      graph.set_account(kFrameAccount);
+      graph.count_kept(&to, 100);  // counted
+    });
+    const Counts& counts = graph.counts();
+    EXPECT_EQ(counts.accounts[kFrameAccount].passes, 1u);
+    EXPECT_EQ(counts.accounts[3].passes, 2u);
+    EXPECT_EQ(counts.accounts[3].kept_bytes, 100u);
+    EXPECT_EQ(counts.accounts[kFrameAccount].kept_bytes, 0u);
+    EXPECT_EQ(counts.accounts[3].image_bytes, counts.image_bytes) << "all the memory there is";
+    EXPECT_EQ(counts.accounts[kFrameAccount].image_bytes, counts.image_bytes);
+    EXPECT_EQ(counts.shared_bytes, counts.image_bytes);
+    const std::vector<FrameGraph::Timing> timed = graph.timings(0);
+    ASSERT_EQ(timed.size(), 4u);
+    EXPECT_EQ(timed[0].account, kFrameAccount);
+    for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(timed[i].account, 3u) << timed[i].name;
+  }
+  frame([&] { clear("a", graph.image("a", kNeed), 1.0f); });
+  EXPECT_EQ(graph.counts().accounts[3].passes, 0u);
+  EXPECT_EQ(graph.counts().accounts[3].image_bytes, 0u);
+  EXPECT_EQ(graph.counts().accounts[3].kept_bytes, 0u);
+}
+
 // Asked for again while another has its memory, or with another need: the first one stays whole.
 TEST_F(FrameGraphTest, AnImageAskedForTwiceIsNeverTakenFromAPassThatUsesIt) {
   HostBuffer first = buffer(), second = buffer();

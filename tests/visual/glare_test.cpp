@@ -10,6 +10,7 @@
 #include "shaders/lib/veil.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
+#include "visual/effects_of_frame.h"
 
 namespace phare {
 namespace {
@@ -181,6 +182,11 @@ TEST_F(GlareOnDevice, ViewsHaveTheirOwnVeil) {
   const FrameResult result = renderer->draw(input);
   EXPECT_FALSE(result.views[0].effects.on(Effect::kGlare));
   EXPECT_TRUE(result.views[1].effects.on(Effect::kGlare));
+  // The frame has it, by the view that calls for it, and what that has otherwise than the frame's own is told.
+  EXPECT_EQ(result.effects[Effect::kGlare].reason, "in view 2: 1 lamp shines into the eye, 1 lx");
+  EXPECT_EQ(result.effect_costs[static_cast<std::size_t>(Effect::kGlare)].passes, 1u);
+  EXPECT_EQ(differing_effects(result.views[0], result.views[0]), std::vector<Effect>{});
+  EXPECT_EQ(differing_effects(result.views[0], result.views[1]), (std::vector{Effect::kHdrImage, Effect::kGlare}));
   const Image8 image = renderer->read_image();
   const auto at = [&](int x) { return static_cast<int>(image.rgba[static_cast<std::size_t>(4 * (90 * 320 + x))]); };
   EXPECT_EQ(at(80), 0);

@@ -12,6 +12,7 @@
 #include "shaders/lib/opening.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
+#include "visual/effects_of_frame.h"
 #include "visual/passes/shadows.h"
 #include "visual/renderer.h"
 #include "visual/scene/ray_hit.h"
@@ -253,6 +254,11 @@ TEST_F(ShadowRaysTest, LeaveNothingBehindAndCostNothingWhereTheyAreNotAskedFor) 
   EXPECT_GT(renderer->device_memory_bytes(), bytes);
   EXPECT_EQ(rays.images, off.images);  // no map
   EXPECT_EQ(rays.draws, off.draws);
+  const EffectCost& cost = rays.effect_costs[static_cast<std::size_t>(Effect::kShadows)];
+  EXPECT_EQ(cost.passes, 0u) << "its triangles are copied";
+  EXPECT_GT(cost.bytes, 0u);
+  EXPECT_LE(cost.bytes, renderer->device_memory_bytes() - bytes);
+  EXPECT_TRUE(effect_time_ms(rays, Effect::kShadows).has_value());
   const FrameResult again = drawn_with(0);
   EXPECT_EQ(renderer->device_memory_bytes(), bytes);
   EXPECT_EQ(again.pass_count, off.pass_count);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "tests/paths.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
+#include "visual/effects_of_frame.h"
 #include "visual/photometry/table/illuminance.h"
 #include "visual/renderer.h"
 #include "visual/scene/ray_hit.h"
@@ -243,10 +245,22 @@ TEST_F(Shadows, AreMadeWhereSomethingStandsInTheLightAndNowhereElse) {
   EXPECT_EQ(kShadowNames[shadowed.effects.level(Effect::kShadows)], "soft");
   EXPECT_EQ(shadowed.pass_count, 2u);
   EXPECT_GT(shadowed.image_bytes, flat.image_bytes);
+  constexpr auto kShadows = static_cast<std::size_t>(Effect::kShadows);
+  const auto maps = std::ranges::count(shadowed.passes, std::string("shadows"), &PassTime::name);
+  EXPECT_EQ(shadowed.effect_costs[kShadows].passes, static_cast<std::uint32_t>(maps));
+  EXPECT_EQ(shadowed.other_cost.passes, 1u) << "the lamp pass";
+  // The depths in an image, and once more in the buffer that is read.
+  EXPECT_GE(shadowed.effect_costs[kShadows].bytes, shadowed.image_bytes - flat.image_bytes);
+  const ShadowLevel& level = kShadowLevels[shadowed.effects.level(Effect::kShadows)];
+  EXPECT_GE(shadowed.effect_costs[kShadows].bytes, 2 * sizeof(float) * 2 * level.width * level.height);
+  EXPECT_GT(effect_time_ms(shadowed, Effect::kShadows).value_or(0.0), 0.0);
 
   input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
   const FrameResult off = renderer->draw(input);
   EXPECT_EQ(off.pass_count, flat.pass_count);
+  EXPECT_EQ(off.effect_costs[kShadows].passes, 0u);
+  EXPECT_EQ(off.effect_costs[kShadows].bytes, 0u);
+  EXPECT_FALSE(effect_time_ms(off, Effect::kShadows).has_value());
   EXPECT_EQ(off.images, flat.images);
   EXPECT_EQ(off.image_bytes, flat.image_bytes);
   EXPECT_EQ(off.draws, flat.draws);

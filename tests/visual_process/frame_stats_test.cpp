@@ -53,11 +53,17 @@ TEST(FrameStats, PassesOfKeptFramesAreTimed) {
   FrameStats stats;
   FrameResult kept;
   kept.timed_kept = true;
-  kept.passes = {{"shadows", 2.0}, {"lamps", 3.0}, {"read back display", 9.0}};
+  kept.passes = {{.name = "shadows", .ms = 2.0, .effect = Effect::kShadows},
+                 {.name = "shadow depths", .ms = 1.0, .effect = Effect::kShadows},
+                 {.name = "lamps", .ms = 3.0},
+                 {.name = "read back display", .ms = 9.0}};
   for (int i = 0; i < 5; ++i) stats.add(kept, true);
   EXPECT_EQ(stats.pass_ms.at("lamps").count(), 5u);
   EXPECT_EQ(stats.pass_ms.at("lamps").max(), 3.0);
   EXPECT_EQ(stats.gpu_ms.count(), 0u) << "from the first stamp to the last, reading back with it";
+  EXPECT_EQ(stats.effect_ms.size(), 1u);
+  EXPECT_EQ(stats.effect_ms.at(Effect::kShadows).count(), 5u);
+  EXPECT_EQ(stats.effect_ms.at(Effect::kShadows).max(), 3.0) << "its copy with its map";
 }
 
 TEST(FrameStats, WhatIsToldWithoutTimesKeepsThoseBefore) {

@@ -75,7 +75,9 @@ FrameGraph::FrameGraph(Device& device) : device_(device) {}
 void FrameGraph::begin(vk::CommandBuffer commands) {
   commands_ = commands;
   prefix_.clear();
-  recorded_->names.clear();
+  account_ = kFrameAccount;
+  kept_.clear();
+  recorded_->passes.clear();
   counts_ = {};
   std::erase_if(images_, [](const auto& named) { return !named.second.slot; });  // making them failed
   for (auto& [name, held] : images_) held.asked = held.slot->taken = held.slot->released = false;
@@ -117,6 +119,7 @@ Image& FrameGraph::image(const std::string& name, const ImageNeed& need) {
     held.need = need;
   }
   held.asked = held.slot->taken = true;
+  held.account = account_;
   held.slot->released = false;
   if (const Held* last = std::exchange(held.slot->last, &held); last != nullptr && last != &held) {
     // What is in the memory is another image's, and its passes come first. Our own last use comes before those, but
@@ -149,17 +152,26 @@ void FrameGraph::free_unused() {
 void FrameGraph::count_images() {
   counts_.images = static_cast<std::uint32_t>(images_.size());
   counts_.image_bytes = counts_.shared_bytes = 0;
+  for (AccountCounts& account : counts_.accounts) account.image_bytes = 0;
   std::set<const Slot*> slots;
   for (const auto& [name, held] : images_) {
     if (slots.insert(held.slot.get()).second) counts_.image_bytes += held.slot->bytes;
     counts_.shared_bytes += held.image.bytes;
+    counts_.accounts[held.account].image_bytes += held.image.bytes;
   }
   counts_.shared_bytes -= std::min(counts_.shared_bytes, counts_.image_bytes);
+}
+
+void FrameGraph::count_kept(const void* what, vk::DeviceSize bytes) {
+  if (std::ranges::find(kept_, what) != kept_.end()) return;
+  kept_.push_back(what);
+  counts_.accounts[account_].kept_bytes += bytes;
 }
 
 void FrameGraph::pass(const std::string& name, const std::vector<ImageUse>& uses,
                       const std::function<void(Recorder&)>& record) {
   ++counts_.passes;
+  ++counts_.accounts[account_].passes;
   record_pass(name, uses, record);
 }
 
@@ -187,8 +199,8 @@ void FrameGraph::read_back(Image& image, const vk::Rect2D& part, const HostBuffe
 
 void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse>& uses,
                              const std::function<void(Recorder&)>& record) {
-  auto& [stamps, read, names] = *recorded_;
-  const auto at = static_cast<std::uint32_t>(names.size());
+  auto& [stamps, read, passes] = *recorded_;
+  const auto at = static_cast<std::uint32_t>(passes.size());
   if (at / kPassesInPool == stamps.size()) {
     stamps.emplace_back(device_.device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp,
                                                                 .queryCount = 2 * kPassesInPool});
@@ -223,7 +235,7 @@ void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse
   Recorder recorder(commands_, counts_, device_.multi_draw);
   record(recorder);
   commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first + 1);
-  names.push_back(prefix_ + name);
+  passes.push_back({prefix_ + name, account_});
 }
 
 void FrameGraph::end() {
@@ -232,13 +244,13 @@ void FrameGraph::end() {
 }
 
 void FrameGraph::read_back_stamps() {
-  auto& [stamps, read, names] = *recorded_;
+  auto& [stamps, read, passes] = *recorded_;
   constexpr vk::DeviceSize kPoolBytes = 2 * kPassesInPool * sizeof(std::uint64_t);
   if (read.bytes < stamps.size() * kPoolBytes)
     read = HostBuffer(device_, stamps.size() * kPoolBytes, vk::BufferUsageFlagBits::eTransferDst, "time stamps", true);
-  for (std::size_t begin = 0; begin < names.size(); begin += kPassesInPool) {
+  for (std::size_t begin = 0; begin < passes.size(); begin += kPassesInPool) {
     const std::size_t pool = begin / kPassesInPool;
-    const auto count = 2 * static_cast<std::uint32_t>(std::min<std::size_t>(names.size() - begin, kPassesInPool));
+    const auto count = 2 * static_cast<std::uint32_t>(std::min<std::size_t>(passes.size() - begin, kPassesInPool));
     commands_.copyQueryPoolResults(*stamps[pool], 0, count, *read.buffer, pool * kPoolBytes, sizeof(std::uint64_t),
                                    vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
   }
@@ -251,15 +263,17 @@ void FrameGraph::read_back_stamps() {
 
 std::span<const std::uint64_t> FrameGraph::read_stamps(std::size_t frame) const {
   const Passes& of = recorded_.of(frame);
-  return {static_cast<const std::uint64_t*>(of.read.data), 2 * of.names.size()};
+  return {static_cast<const std::uint64_t*>(of.read.data), 2 * of.passes.size()};
 }
 
 std::vector<FrameGraph::Timing> FrameGraph::timings(std::size_t frame) const {
   std::vector<Timing> result;
+  const std::vector<Recorded>& passes = recorded_.of(frame).passes;
   const std::span<const std::uint64_t> stamps = read_stamps(frame);
   const double ms_per_tick = static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
   for (std::size_t i = 0; 2 * i < stamps.size(); ++i)
-    result.push_back({recorded_.of(frame).names[i], static_cast<double>(stamps[2 * i + 1] - stamps[2 * i]) * ms_per_tick});
+    result.push_back(
+        {passes[i].name, passes[i].account, static_cast<double>(stamps[2 * i + 1] - stamps[2 * i]) * ms_per_tick});
   return result;
 }
 

@@ -3,6 +3,8 @@
 // those whose lives do not overlap share memory.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -35,6 +37,18 @@ struct ImageUse {
   bool discard = false;  ///< what was in it is not needed
 };
 
+/// Passes and memory are counted for whoever calls for them; the graph knows of those only their number.
+using Account = std::size_t;
+inline constexpr Account kFrameAccount = 0;  ///< the frame itself
+inline constexpr Account kAccounts = 32;
+
+/// What a frame did for one account.
+struct AccountCounts {
+  std::uint32_t passes = 0;       ///< that draw
+  std::uint64_t image_bytes = 0;  ///< of its images, also where they use the memory of others
+  std::uint64_t kept_bytes = 0;   ///< of what its passes keep for themselves
+};
+
 /// What a frame did, counted where it is recorded.
 struct Counts {
   std::uint32_t passes = 0;        ///< that draw
@@ -44,8 +58,9 @@ struct Counts {
   std::uint32_t images = 0;        ///< images of the frame that live
   std::uint64_t image_bytes = 0;   ///< memory they take
   std::uint64_t shared_bytes = 0;  ///< memory they would take besides, if none used that of another after it
+  std::array<AccountCounts, kAccounts> accounts{};
 
-  /// What was recorded since `before`, of the same frame.
+  /// What was recorded since `before`, of the same frame; not by accounts.
   Counts since(const Counts& before) const {
     return {.passes = passes - before.passes,
             .copies = copies - before.copies,
@@ -88,6 +103,11 @@ class FrameGraph {
   void begin(vk::CommandBuffer commands);
   /// Goes before the names of the passes that follow, to tell views apart.
   void set_prefix(const std::string& prefix) { prefix_ = prefix; }
+  /// The passes, images and memory that follow are counted for it. A frame begins with its own.
+  void set_account(Account account) { account_ = account; }
+  /// Memory that a pass keeps for itself, over frames: a buffer, or an image of its own. Told twice in a frame, it is
+  /// counted once.
+  void count_kept(const void* what, vk::DeviceSize bytes);
   /// An image of this frame by its name; what is in it is left from an earlier frame at best. The reference holds until
   /// the end of the frame. An image of another need takes the place of one of the same name. Asked for twice in a frame
   /// it is the same image, unless its need changed or its memory went to another.
@@ -109,6 +129,7 @@ class FrameGraph {
 
   struct Timing {
     std::string name;
+    Account account = kFrameAccount;
     double ms = 0.0;
   };
   /// Once the GPU is done with the frame of this number (Device::frame): milliseconds of each of its passes.
@@ -132,6 +153,7 @@ class FrameGraph {
     Image image;
     std::shared_ptr<Slot> slot;
     bool asked = false;
+    Account account = kFrameAccount;  ///< that it was given to last
   };
   std::shared_ptr<Slot> slot_for(const vk::MemoryRequirements& need);
   void count_images();
@@ -140,17 +162,23 @@ class FrameGraph {
   void read_back_stamps();
   std::span<const std::uint64_t> read_stamps(std::size_t frame) const;
 
+  struct Recorded {
+    std::string name;
+    Account account = kFrameAccount;
+  };
   /// Of one frame.
   struct Passes {
     std::vector<vk::raii::QueryPool> stamps;  ///< each of kPassesInPool passes; more are made when a frame needs them
     HostBuffer read;  ///< two stamps a pass, once the frame is done; asked of its pool, a device may wait for all frames
-    std::vector<std::string> names;
+    std::vector<Recorded> passes;
   };
 
   Device& device_;
   PerFrame<Passes> recorded_{device_};
   vk::CommandBuffer commands_;
   std::string prefix_;
+  Account account_ = kFrameAccount;
+  std::vector<const void*> kept_;  ///< counted in this frame
   std::map<std::string, Held> images_;
   Counts counts_;
 };

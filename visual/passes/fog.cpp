@@ -240,6 +240,7 @@ void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::
   const auto places = static_cast<std::uint64_t>(shader::kFogMostNodes + std::max(end.x, end.y));
   if (grid.texels.bytes != 16 * texels_of(level) || grid.places.bytes != 8 * places)
     make(grid, texels_of(level), places);
+  graph.count_kept(&grid, grid.texels.bytes + grid.places.bytes);
   view.fog_set = grid.set;
   const shader::GpuFog data = data_of(scene, view, input, hdr, drops);
   for (const LitBy& lit : view.lit_by) lit.data->fog = data;

@@ -105,6 +105,7 @@ void GuiPass::draw(gpu::FrameGraph& graph, gpu::Image& display, const GuiContent
   if (!*layout_) make();
   const vk::Pipeline by = pipeline(display.format);
   take_atlas(graph, content.atlas);
+  graph.count_kept(&letters_, letters_.bytes);
   auto& [vertices, indices] = *triangles_;
   write_into(device_, vertices, std::as_bytes(std::span(content.vertices)), vk::BufferUsageFlagBits::eVertexBuffer,
              "panel vertices");

@@ -154,6 +154,7 @@ void ShadowRays::place(gpu::FrameGraph& graph, LitScene& scene, LitView& view, c
           row_of(placed.world_from_mesh[axis], glm::dot(placed.world_from_mesh[axis], to_origin_m));
     mover[3] = {mesh_places_[placed.mesh].first, mesh_places_[placed.mesh].second, 0.0f, 0.0f};
   }
+  graph.count_kept(texels_.get(), texels_->texels.bytes);
   graph.copy("triangles for rays", {}, [&](gpu::Recorder& commands) {
     const auto barrier = [&](vk::PipelineStageFlags2 from, vk::AccessFlags2 wrote, vk::PipelineStageFlags2 to,
                              vk::AccessFlags2 then) {

@@ -367,6 +367,7 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
                             .ranges = ranges[2 * map + (close ? 1 : 0)]});
     draw_image(graph, scene, depths, level, pictures, first * texels_of_map(level));
   }
+  graph.count_kept(&depths, depths.texels.bytes);
   view.shadows = level;
   view.depths = &depths;
 }

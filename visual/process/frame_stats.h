@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "visual/effects_of_frame.h"
 #include "visual/renderer.h"
 
 namespace phare {
@@ -83,6 +84,7 @@ struct FrameStats {
   LogHistogram gpu_ms;              ///< frames whose picture was not read back
   LogHistogram interval_ms;         ///< from the end of one frame to the end of the next, waiting included
   std::map<std::string, LogHistogram> pass_ms;  ///< every frame that was timed: reading back is a pass of its own
+  std::map<Effect, LogHistogram> effect_ms;     ///< frames in which it has a pass
   std::uint64_t frames = 0;
   std::uint64_t captured_frames = 0;
   std::uint64_t stale_frames = 0;   ///< drawn with a held pose
@@ -124,6 +126,8 @@ struct FrameStats {
     if (!result.timed) return;
     wall_ms.add(result.wall_ms);
     for (const PassTime& pass : result.passes) pass_ms[pass.name].add(pass.ms);
+    for (const EffectRow& row : effect_table())
+      if (const auto ms = effect_time_ms(result, row.effect)) effect_ms[row.effect].add(*ms);
     if (result.timed_kept) return;
     wall_no_capture_ms.add(result.wall_ms);
     gpu_ms.add(result.gpu_ms);

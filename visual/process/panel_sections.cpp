@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include "visual/effects.h"
+#include "visual/effects_of_frame.h"
 #include "visual/process/lamp_keys.h"
 #include "visual/process/panel.h"
 
@@ -382,6 +385,17 @@ std::vector<std::string_view> forced_levels(std::string_view values) {
   return words;
 }
 
+/// ", 2 passes, 4.2 MB, 0.31 ms": what it added to the newest frame; nothing for what draws in the pass of another.
+std::string cost_text(const FrameResult& frame, Effect effect) {
+  const EffectCost& cost = frame.effect_costs[static_cast<std::size_t>(effect)];
+  const std::optional<double> ms = effect_time_ms(frame, effect);
+  std::string text;
+  if (cost.passes > 0) text += fmt::format(", {} {}", cost.passes, cost.passes == 1 ? "pass" : "passes");
+  if (cost.bytes > 0) text += fmt::format(", {:.1f} MB", static_cast<double>(cost.bytes) / 1e6);
+  if (ms) text += fmt::format(", {:.2f} ms", *ms);
+  return text;
+}
+
 void Sheet::effects() {
   if (!section("Effects, and why", false)) return;
   choose("method", "light at", kMethodNames, std::string(kMethodNames[static_cast<std::size_t>(facts_.desk.method)]),
@@ -393,8 +407,8 @@ void Sheet::effects() {
       choose(std::string(setting->name), name.c_str(), forced_levels(setting->values), setting->get(facts_.desk),
              std::string(setting->what));
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextDisabled("%s %s: %s", name.c_str(), std::string(row.levels[decision.level]).c_str(),
-                        decision.reason.c_str());
+    ImGui::TextDisabled("%s %s: %s%s", name.c_str(), std::string(row.levels[decision.level]).c_str(),
+                        decision.reason.c_str(), cost_text(facts_.frame, row.effect).c_str());
     ImGui::PopTextWrapPos();
     mark("effect " + name);
     tip("needs " + std::string(row.needs));

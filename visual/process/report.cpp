@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "net/stats.h"
+#include "visual/effects_of_frame.h"
 
 namespace phare {
 
@@ -29,6 +30,35 @@ nlohmann::json table_ends_json(const Lamps& lamps) {
     if (end.end.below) ends.back()["nearest_road_m"] = end.end.nearest_road_m;
   }
   return ends;
+}
+
+/// Effects that are otherwise in this view than in the frame's own.
+nlohmann::json view_effects_json(const FrameResult& frame, const ViewResult& view) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Effect effect : differing_effects(frame.views.front(), view)) {
+    const EffectRow& row = effect_table()[static_cast<std::size_t>(effect)];
+    const EffectDecision& decision = view.effects[effect];
+    rows.push_back({{"name", row.name}, {"level", row.levels[decision.level]}, {"because", decision.reason}});
+  }
+  return rows;
+}
+
+/// What was on in the newest frame, why, and what it took; `ms` only where the effect has had a pass, median.
+nlohmann::json effects_json(const FrameStats& stats) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const EffectRow& row : effect_table()) {
+    const EffectDecision& decision = stats.newest.effects[row.effect];
+    const EffectCost& cost = stats.newest.effect_costs[static_cast<std::size_t>(row.effect)];
+    rows.push_back({{"name", row.name},
+                    {"level", row.levels[decision.level]},
+                    {"because", decision.reason},
+                    {"needs", row.needs},
+                    {"passes", cost.passes},
+                    {"bytes", cost.bytes}});
+    if (const auto times = stats.effect_ms.find(row.effect); times != stats.effect_ms.end())
+      rows.back()["ms"] = times->second.percentile(0.5);
+  }
+  return rows;
 }
 
 }  // namespace
@@ -89,17 +119,10 @@ nlohmann::json report_json(const Session& session, SimTime now) {
                                {"lamps", view.lamps},
                                {"lamps_that_reach_nothing", view.lamps_unreached},
                                {"lamps_over_the_limit", view.lamps_over_limit},
-                               {"lamps_without_a_shadow_map", view.lamps_without_map}});
+                               {"lamps_without_a_shadow_map", view.lamps_without_map},
+                               {"effects", view_effects_json(stats.newest, view)}});
   }
-  report["effects"] = nlohmann::json::array();
-  for (const EffectRow& row : effect_table()) {
-    const EffectDecision& decision = stats.newest.effects[row.effect];
-    report["effects"].push_back({{"name", row.name},
-                                 {"level", row.levels[decision.level]},
-                                 {"because", decision.reason},
-                                 {"needs", row.needs}});
-  }
-
+  report["effects"] = effects_json(stats);
   report["beams"] = {{"image", level_name(session.options.beam_image.value_or(session.rig.beam_image))},
                      {"compositions", session.lamps.compositions()},
                      {"summed_texels", session.lamps.summed_texels()},
