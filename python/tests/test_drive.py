@@ -47,6 +47,8 @@ def test_other_road_users_are_drawn_and_their_glare_is_told(report, tmp_path):
     assert met.picture_hash != report.picture_hash
     rows = pd.read_csv(met.folder / "drive.csv")
     assert (rows.veil_cdm2 > 0).all() and (rows.others_eye_lx > 0).all() and rows.de_boer.between(1, 9).all()
+    assert (rows.others_veil_cdm2 > 0).all() and rows.others_de_boer.between(1, 9).all()
+    np.testing.assert_allclose(rows.others_threshold_increment_percent, 65 * rows.others_veil_cdm2, rtol=5e-4)  # four digits, adapted to 1 cd/m²
     assert "glare_lx" not in pd.read_csv(report.folder / "drive.csv").columns
     with pytest.raises(phare.BadInput, match="road_user"):
         file.write_text("[[car]]\n")

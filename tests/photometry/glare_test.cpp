@@ -26,6 +26,14 @@ TEST(Glare, DiscomfortIsWhatTheFormulaHas) {
   EXPECT_NEAR(de_boer(0.06 * std::pow(6.0, 0.46), 6.0, 0.04), 3.0, 1e-12);
 }
 
+// The formula alone has 72.6, 12.6 and 9.27 for the first three, such light as comes through fog, and -2.6 for the
+// last.
+TEST(Glare, DiscomfortStaysOnItsScale) {
+  for (const double lx : {2.5e-35, 2.5e-5, 1.2e-3}) EXPECT_EQ(de_boer(lx, 120.0, 1.0), 9.0) << lx;
+  EXPECT_NEAR(de_boer(1.8e-3, 120.0, 1.0), 8.913, 5e-4) << "on the scale it is what it was";
+  EXPECT_EQ(de_boer(1e3, 120.0, 1.0), 1.0);
+}
+
 TEST(Glare, VeilsOfLampsAddUp) {
   // Age 30, pigment 0.5, 0.5 lx: 7.65966 cd/m² at 1°, 1.29697 at 2°, 0.034585 at 10°, worked out apart; last digit.
   const Viewer viewer{30.0, 0.5};

@@ -44,15 +44,20 @@ DriveRow row_of(std::int64_t frame) {
 TEST(DriveLog, TrafficHasColumnsOfItsOwn) {
   DriveRow row = row_of(0);
   row.glare = {.illuminance_lx = 0.25, .veil_cdm2 = 0.0625, .threshold_increment_percent = 4.0625, .de_boer = 5.5};
-  row.others_eye_lx = 0.125;
+  row.others_glare = {
+      .illuminance_lx = 0.125, .veil_cdm2 = 0.03125, .threshold_increment_percent = 2.03125, .de_boer = 6.25};
   const DriveColumns columns{.traffic = true};
   EXPECT_EQ(cells_of(drive_row(row, columns)), cells_of(drive_columns(columns)));
-  EXPECT_NE(drive_columns(columns).find(",glare_lx,veil_cdm2,threshold_increment_percent,de_boer,others_eye_lx\n"),
-            std::string::npos);
-  EXPECT_NE(drive_row(row, columns).find(",0.25,0.0625,4.062,5.500,0.125\n"), std::string::npos)
+  EXPECT_TRUE(drive_columns(columns).ends_with(
+      ",glare_lx,veil_cdm2,threshold_increment_percent,de_boer,others_eye_lx,others_veil_cdm2,"
+      "others_threshold_increment_percent,others_de_boer\n"));
+  EXPECT_TRUE(drive_row(row, columns).ends_with(",0.25,0.0625,4.062,5.500,0.125,0.03125,2.031,6.250\n"))
       << drive_row(row, columns);
   row.glare = {};
-  EXPECT_NE(drive_row(row, columns).find(",0,0,0,,0.125\n"), std::string::npos) << "no light, no figure of discomfort";
+  EXPECT_TRUE(drive_row(row, columns).ends_with(",0,0,0,,0.125,0.03125,2.031,6.250\n")) << "no light, no figure";
+  row.others_glare = {};
+  EXPECT_TRUE(drive_row(row, columns).ends_with(",0,0,0,,0,0,0,\n"));
+  EXPECT_EQ(cells_of(drive_row(row, columns)), cells_of(drive_columns(columns)));
 }
 
 TEST(DriveLog, HasOneRowAFrameAlsoOverARestart) {

@@ -162,6 +162,55 @@ TEST_F(TrafficTest, GlareFiguresAreThoseOfTheEquations) {
   EXPECT_NEAR(eyes[0].at.normal.x, -1.0, 1e-9);
 }
 
+// One lamp of 900 cd to all sides, and an eye 80 m ahead of it and 4 m to its left. By hand: 80.1 m, 2.8624° from the
+// line of sight, 900/6416 lx times the cosine; the veil at 40 years and pigment 0.5 is 1.16067 cd/m² a lux; de Boer's
+// 5 − 2·log10(E/(0.003·6·171.74^0.46)).
+TEST_F(TrafficTest, WhatOurLampsDoToWhoComesTowardUs) {
+  const fs::path even = fs::path(testing::TempDir()) / "traffic_test_even.ies";
+  std::ofstream(even) << "IESNA:LM-63-2002\n[TEST] even\n[MANUFAC] Phare\nTILT=NONE\n1 -1 1 2 2 3 2 0 0 0\n1 1 0\n"
+                         "-20 20\n-30 30\n900 900\n900 900\n";
+  LampConfig lamp;
+  lamp.position_m = {0.0, 0.0, 1.2};
+  lamp.sources.push_back({.function = LampFunction::kLow, .file = even});
+  Rig rig;
+  rig.designs.emplace_back().lamps = {lamp};
+  auto lamps = Lamps::load(rig);
+  ASSERT_TRUE(lamps) << lamps.error().text();
+  CockpitState controls;
+  controls.light_switch = LightSwitch::kLow;
+  (void)lamps->set_controls(controls);
+
+  const Traffic both = traffic(
+      "[[road_user]]\nstart_s_m = 160\noffset_m = 4.37\n"
+      "[[road_user]]\nstart_s_m = 80.35\noffset_m = 4.37\n"
+      "[[road_user]]\nstart_s_m = 20\noffset_m = 8\nclass = \"pedestrian\"\n");
+  const auto users = both.at(0.0, straight());
+  const auto eyes = Traffic::oncoming_eyes(users, {1.0, 0.0, 0.0});
+  ASSERT_EQ(eyes.size(), 2u);
+  const Scene nothing;
+  World world(nothing, movers_.meshes());
+  world.move(both.placed_meshes(users));
+  const Viewer viewer{40.0, 0.5};
+  // Six digits above, four of de Boer's: half of the last.
+  const Glare clear = glare_at_oncoming_eyes(*lamps, {}, eyes, world, {}, viewer);
+  EXPECT_NEAR(clear.illuminance_lx, 0.140099, 5e-7) << "the nearer one, out of a body as if of glass";
+  EXPECT_NEAR(clear.veil_cdm2, 0.162609, 5e-7);
+  EXPECT_NEAR(clear.threshold_increment_percent, 10.5696, 5e-5);
+  EXPECT_NEAR(clear.de_boer.value(), 5.2738, 5e-5);
+  // In fog a twentieth is left after 80 m: exp(-2.9957·80.1/80).
+  const Glare fog = glare_at_oncoming_eyes(*lamps, {}, eyes, world, {.visibility_m = 80.0}, viewer);
+  EXPECT_NEAR(fog.illuminance_lx / clear.illuminance_lx, 0.0498132, 5e-7);
+  EXPECT_NEAR(fog.veil_cdm2 / clear.veil_cdm2, 0.0498132, 5e-7);
+  EXPECT_NEAR(fog.threshold_increment_percent / clear.threshold_increment_percent, 0.0498132, 5e-7);
+  EXPECT_NEAR(fog.de_boer.value(), 7.8791, 5e-5);
+
+  controls.light_switch = LightSwitch::kOff;
+  (void)lamps->set_controls(controls);
+  const Glare dark = glare_at_oncoming_eyes(*lamps, {}, eyes, world, {}, viewer);
+  EXPECT_EQ(dark.illuminance_lx, 0.0);
+  EXPECT_FALSE(dark.de_boer);
+}
+
 // In the mirror of wet ground those show who shine toward the eye.
 TEST_F(TrafficTest, OnWetGroundWhoComesTowardUsLightsTheScene) {
   const Traffic both = traffic("[[road_user]]\nstart_s_m = 50\n[[road_user]]\nstart_s_m = 30\ndirection = \"same\"\n");

@@ -19,6 +19,12 @@ std::string cell(const std::string& text) {
   return quoted + "\"";
 }
 
+std::string glare_cells(const Glare& glare) {
+  const std::string cells =
+      fmt::format(",{:.5g},{:.5g},{:.4g},", glare.illuminance_lx, glare.veil_cdm2, glare.threshold_increment_percent);
+  return glare.de_boer ? cells + fmt::format("{:.3f}", *glare.de_boer) : cells;
+}
+
 }  // namespace
 
 std::string drive_columns(DriveColumns columns) {
@@ -29,7 +35,10 @@ std::string drive_columns(DriveColumns columns) {
   text += ",frame_ms,gpu_ms";
   for (const double lx : kReachLevels_lx)
     if (columns.versus) text += fmt::format(",versus_reach_{:g}lx_left_m,versus_reach_{:g}lx_right_m", lx, lx);
-  if (columns.traffic) text += ",glare_lx,veil_cdm2,threshold_increment_percent,de_boer,others_eye_lx";
+  if (columns.traffic)
+    text +=
+        ",glare_lx,veil_cdm2,threshold_increment_percent,de_boer,others_eye_lx,others_veil_cdm2,"
+        "others_threshold_increment_percent,others_de_boer";
   return text + "\n";
 }
 
@@ -47,12 +56,7 @@ std::string drive_row(const DriveRow& row, DriveColumns columns) {
   put(row.reach);
   text += fmt::format(",{:.3f},{:.3f}", row.frame_ms, row.gpu_ms);
   if (columns.versus) put(row.versus_reach);
-  if (columns.traffic) {
-    text += fmt::format(",{:.5g},{:.5g},{:.4g},", row.glare.illuminance_lx, row.glare.veil_cdm2,
-                        row.glare.threshold_increment_percent);
-    if (row.glare.de_boer) text += fmt::format("{:.3f}", *row.glare.de_boer);
-    text += fmt::format(",{:.5g}", row.others_eye_lx);
-  }
+  if (columns.traffic) text += glare_cells(row.glare) + glare_cells(row.others_glare);
   return text + "\n";
 }
 

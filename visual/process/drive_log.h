@@ -28,8 +28,8 @@ struct DriveRow {
   std::vector<Reach> reach{};         ///< ten times a second; empty in between
   std::vector<Reach> versus_reach{};  ///< of the other design, where two are compared
   double frame_ms = 0.0, gpu_ms = 0.0;
-  Glare glare{};               ///< of the lamps of others, at the driver's eyes
-  double others_eye_lx = 0.0;  ///< by our lamps at the eyes of who comes toward us, the most
+  Glare glare{};         ///< of the lamps of others, at the driver's eyes
+  Glare others_glare{};  ///< of our lamps, at those eyes of who comes toward us that get the most light
 };
 
 /// What stands in a row besides what every drive has.

@@ -108,9 +108,8 @@ void Loop::mind_who_is_glared_at(DriveRow& row, const Moment& moment) {
   const Viewer viewer{s_.desk.age_years, s_.desk.iris_pigment};
   row.glare =
       glare_figures(s_.traffic.glare_at(users_, driver.eye_m, world_, air_of(shown_)), driver.eye_m, ahead, viewer);
-  for (const Traffic::Eye& eye : Traffic::oncoming_eyes(users_, ahead))
-    row.others_eye_lx =
-        std::max(row.others_eye_lx, s_.lamps.light_at(car, eye.at, world_.without(eye.user)).lx);  // as if of glass
+  row.others_glare =
+      glare_at_oncoming_eyes(s_.lamps, car, Traffic::oncoming_eyes(users_, ahead), world_, air_of(shown_), viewer);
 }
 
 /// A row of drive.csv, and how long each design has shone.

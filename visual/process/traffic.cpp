@@ -237,4 +237,15 @@ Glare glare_figures(std::span<const GlaringLamp> lamps, const glm::dvec3& eye_m,
   return glare_at_eye(viewer, sources, kAdaptation_cdm2);
 }
 
+Glare glare_at_oncoming_eyes(const Lamps& lamps, const VehicleState& car, std::span<const Traffic::Eye> eyes,
+                             const World& world, const Air& air, const Viewer& viewer) {
+  Glare most;
+  for (const Traffic::Eye& eye : eyes) {
+    const auto shining = lamps.glare_at(car, eye.at.position_m, world.without(eye.user), air);
+    const Glare glare = glare_figures(shining, eye.at.position_m, eye.at.normal, viewer);
+    if (glare.illuminance_lx > most.illuminance_lx) most = glare;
+  }
+  return most;
+}
+
 }  // namespace phare

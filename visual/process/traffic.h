@@ -13,6 +13,7 @@
 #include "config/traffic/road_users.h"
 #include "visual/photometry/table/glare.h"
 #include "visual/photometry/table/intensity_table.h"
+#include "visual/process/lamps.h"
 #include "visual/process/movers.h"
 #include "visual/process/road_line.h"
 #include "visual/renderer.h"
@@ -95,5 +96,11 @@ std::vector<GlaringLamp> tail_lamps_into(RoadUserClass kind, const glm::dvec3& p
 /// increment, de Boer (visual/photometry/table/glare.h).
 Glare glare_figures(std::span<const GlaringLamp> lamps, const glm::dvec3& eye_m, const glm::dvec3& ahead,
                     const Viewer& viewer);
+
+/// What our lamps do to the drivers whose eyes these are, as glare_figures() has it, the world and the air between: the
+/// figures of the one eye that gets the most lux. A driver looks straight along his way, out of a body as if of glass;
+/// he is adapted as ours is, and `viewer` is he, too: nobody says how old he is.
+Glare glare_at_oncoming_eyes(const Lamps& lamps, const VehicleState& car, std::span<const Traffic::Eye> eyes,
+                             const World& world, const Air& air, const Viewer& viewer);
 
 }  // namespace phare

@@ -18,7 +18,7 @@ Glare glare_at_eye(const Viewer& viewer, std::span<const GlareSource> sources, d
     discomfort += source.illuminance_lx / (per_lamp * std::pow(angle_min, 0.46));
   }
   glare.threshold_increment_percent = threshold_increment_percent(glare.veil_cdm2, adaptation_cdm2);
-  if (discomfort > 0.0) glare.de_boer = 5.0 - 2.0 * std::log10(discomfort);
+  if (discomfort > 0.0) glare.de_boer = std::clamp(5.0 - 2.0 * std::log10(discomfort), kDeBoerWorst, kDeBoerBest);
   return glare;
 }
 

@@ -3,7 +3,8 @@
 // Veil: the sum over the lamps of E·(CIE 146:2002 general equation, veil.h). Threshold increment: CIE 150 (veil.h).
 // Discomfort on de Boer's scale (9 just noticeable, 7 satisfactory, 5 just acceptable, 3 disturbing, 1 unbearable):
 // Schmidt-Clausen & Bindels 1974, W = 5 − 2·log10 Σ E/(0.003·(1 + √(L_a/0.04))·θ^0.46), E in lx, θ in minutes of arc,
-// L_a in cd/m²; the constants are unconfirmed (from memory, not from print). Left out: how long a lamp is seen, its
+// L_a in cd/m²; the constants are unconfirmed (from memory, not from print). W runs on past the scale without end
+// (2.5e-35 lx at 2°: 72.6); what the scale has no word for is told as its end. Left out: how long a lamp is seen, its
 // size and colour, the windscreen. All in float64. Checked by tests/photometry/glare_test.cpp.
 #pragma once
 
@@ -20,11 +21,14 @@ struct GlareSource {
   double angle_deg = 0.0;       ///< from the line of sight; nearer than 0.1° counts as 0.1°, as in veil.h
 };
 
+/// Ends of de Boer's scale: unbearable, just noticeable.
+inline constexpr double kDeBoerWorst = 1.0, kDeBoerBest = 9.0;
+
 struct Glare {
   double illuminance_lx = 0.0;  ///< of all sources
   double veil_cdm2 = 0.0;
   double threshold_increment_percent = 0.0;
-  std::optional<double> de_boer;  ///< not clamped to the scale; none where no light comes
+  std::optional<double> de_boer;  ///< 1 to 9, held to the scale's ends; none where no light comes
 };
 
 /// `adaptation_cdm2`: luminance of the scene that the eye is adapted to, above 0; it stands for the background of the
