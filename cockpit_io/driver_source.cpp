@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/base/paths.h"
 #include "config/cockpit.h"
 #include "config/formats/toml_table.h"
 #include "config/rig.h"

@@ -174,13 +174,6 @@ void check_names_differ(TomlTable& table, std::string_view key, const std::vecto
 
 }  // namespace
 
-std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file) {
-  if (named.empty() || named.is_absolute()) return named;
-  if (*named.begin() == "generated")
-    return std::filesystem::absolute(generated_dir() / named.lexically_relative("generated"));
-  return std::filesystem::absolute(naming_file.parent_path() / named).lexically_normal();
-}
-
 LampConfig lamp_across(LampConfig lamp) {
   lamp.position_m.y = -lamp.position_m.y;
   for (SourceConfig& source : lamp.sources) {

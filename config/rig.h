@@ -172,11 +172,6 @@ inline constexpr std::array<std::string_view, 5> kDynamicsLevelNames{"pose", "ki
 /// first that is not, and where the rig file names it.
 Status check_rig_files(const Rig& rig);
 
-/// Path of a file named in a config file: absolute as it is; "generated/…" below the directory the build generated
-/// lamps and scenes into (environment PHARE_GENERATED_DIR, else the build's own); anything else relative to the naming
-/// file's directory.
-std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file);
-
 /// A lamp given on the command line:
 /// FILE,x=1.5,y=0.6,z=0.65,yaw_deg=0,pitch_deg=-0.5729,roll_deg=0[,axis=gamma0|gamma90][,c0_deg=0][,mirror=0|1]
 /// [,lamp_set=1][,emitter=1][,distance_m=25][,scale=1]

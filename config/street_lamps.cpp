@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "config/base/paths.h"
 #include "config/formats/toml_table.h"
 #include "config/rig.h"
 

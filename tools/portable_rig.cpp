@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "config/base/paths.h"
 #include "config/formats/gltf_uri.h"
 #include "config/rig_writer.h"
 #include "config/road/lane.h"

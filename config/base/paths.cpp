@@ -34,6 +34,13 @@ std::filesystem::path generated_dir() {
   return is_installed() ? share_dir() / "generated" : std::filesystem::path(PHARE_BUILD_GENERATED_DIR);
 }
 
+std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file) {
+  if (named.empty() || named.is_absolute()) return named;
+  if (*named.begin() == "generated")
+    return std::filesystem::absolute(generated_dir() / named.lexically_relative("generated"));
+  return std::filesystem::absolute(naming_file.parent_path() / named).lexically_normal();
+}
+
 std::filesystem::path packages_file() {
   return config_dir().parent_path() / "packages.txt";
 }

@@ -13,6 +13,10 @@ std::filesystem::path config_dir();
 /// <prefix>/share/phare/generated of an installed program, else the build's own.
 std::filesystem::path generated_dir();
 
+/// Path of a file named in a config file: absolute as it is; "generated/…" below generated_dir(); anything else
+/// relative to the naming file's directory.
+std::filesystem::path resolve_path(const std::filesystem::path& named, const std::filesystem::path& naming_file);
+
 /// The list of Debian packages: share/phare/packages.txt of an installed program, else that of the tree.
 std::filesystem::path packages_file();
 

@@ -187,6 +187,10 @@ bool TomlTable::has(std::string_view key) const {
   return node_->table != nullptr && node_->table->contains(key);
 }
 
+bool TomlTable::is_text(std::string_view key) const {
+  return has(key) && node_->table->get(key)->is_string();
+}
+
 double TomlTable::number(std::string_view key, double min, double max) {
   const toml::node* value = document_->value(*node_, key, true);
   if (value == nullptr) return std::clamp(0.0, min, max);

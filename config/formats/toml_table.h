@@ -34,6 +34,7 @@ class TomlTable {
   std::string text(std::string_view key);
   std::string text_or(std::string_view key, std::string_view fallback);
   bool flag_or(std::string_view key, bool fallback);
+  bool is_text(std::string_view key) const;  ///< for keys that take a text or something else
   std::int64_t integer(std::string_view key, std::int64_t min, std::int64_t max);
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, std::int64_t min, std::int64_t max);
   /// A required text that is one of `choices`; otherwise an error naming the nearest. Returns its index.

@@ -5,9 +5,12 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
+#include "config/base/paths.h"
 #include "config/formats/toml_table.h"
 
 namespace phare {
@@ -17,6 +20,7 @@ namespace {
 constexpr std::array<std::string_view, 6> kClasses{"car",     "lorry",      "motorcycle",
                                                    "bicycle", "pedestrian", "deer"};
 constexpr std::array<std::string_view, 3> kDirections{"oncoming", "same", "standing"};
+constexpr std::array<std::string_view, 3> kLights{"off", "low", "high"};
 constexpr std::array<double, 3> kAlongLane{-1.0, 1.0, 0.0};
 
 struct Size {
@@ -29,6 +33,34 @@ constexpr std::array<Size, 6> kSizes{
 // Bounds that no road reaches: they catch a mistyped exponent. python/phare/control/road_users.py has the same.
 constexpr double kFarthest_m = 1e6, kFastest_kmh = 1000.0, kLongest_s = 1e9, kSmallest_m = 0.01, kLargest_m = 100.0;
 
+/// Whether a lamp key may stand where it does: only who has headlamps has files of them, and a high beam.
+void expect_headlamps(TomlTable& table, const char* key, RoadUserClass kind) {
+  if (kind == RoadUserClass::car || kind == RoadUserClass::lorry || kind == RoadUserClass::motorcycle) return;
+  table.fail(key, "a " + std::string(kClasses[static_cast<std::size_t>(kind)]) + " has no headlamps");
+}
+
+RoadUserLights lights_of(TomlTable& table, RoadUserClass kind) {
+  // Asked for as a flag where it is no text, so that what is neither is told.
+  const bool text = table.is_text("lights");
+  const auto lights = text ? static_cast<RoadUserLights>(table.choice("lights", kLights))
+                           : (table.flag_or("lights", true) ? RoadUserLights::low : RoadUserLights::off);
+  if (lights == RoadUserLights::high) expect_headlamps(table, "lights", kind);
+  return kind == RoadUserClass::pedestrian || kind == RoadUserClass::deer ? RoadUserLights::off : lights;
+}
+
+/// Empty where it is not named.
+std::filesystem::path lamp_file_of(TomlTable& table, const char* key, RoadUserClass kind) {
+  if (table.text_or(key, "").empty()) {
+    if (table.is_text(key)) table.fail(key, "expected the name of a file");
+    return {};
+  }
+  expect_headlamps(table, key, kind);
+  const std::filesystem::path file = resolve_path(table.text(key), table.file());
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(file, unreadable)) table.fail(key, file.string() + ": no such file");
+  return file;
+}
+
 RoadUser road_user_of(TomlTable table) {
   RoadUser user;
   const std::size_t kind = table.choice_or("class", 0, kClasses);
@@ -40,8 +72,9 @@ RoadUser road_user_of(TomlTable table) {
   user.across_mps = table.number_or("across_kmh", 0.0, -kFastest_kmh, kFastest_kmh) / 3.6;
   user.across_from_s = table.number_or("across_from_s", 0.0, -kLongest_s, kLongest_s);
   if (table.has("across_to_s")) user.across_to_s = table.number("across_to_s", user.across_from_s, kLongest_s);
-  user.lights = table.flag_or("lights", true) && user.kind != RoadUserClass::pedestrian &&
-                user.kind != RoadUserClass::deer;
+  user.lights = lights_of(table, user.kind);
+  user.low_beam_file = lamp_file_of(table, "low_beam", user.kind);
+  user.high_beam_file = lamp_file_of(table, "high_beam", user.kind);
   user.from_s = table.number_or("from_s", 0.0, -kLongest_s, kLongest_s);
   if (table.has("to_s")) user.to_s = table.number("to_s", -kLongest_s, kLongest_s);
   user.width_m = table.number_or("width_m", kSizes[kind].width_m, kSmallest_m, kLargest_m);

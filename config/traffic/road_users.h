@@ -18,6 +18,7 @@ namespace phare {
 
 enum class RoadUserClass { car, lorry, motorcycle, bicycle, pedestrian, deer };
 enum class RoadUserDirection { oncoming, same, standing };
+enum class RoadUserLights { off, low, high };
 
 struct RoadUser {
   RoadUserClass kind = RoadUserClass::car;
@@ -27,9 +28,13 @@ struct RoadUser {
   double offset_m = 0.0;   ///< from the lane's line, positive left; until it goes across
   /// Goes across the road from `across_from_s` until `across_to_s`, positive to the left of the lane.
   double across_mps = 0.0, across_from_s = 0.0, across_to_s = std::numeric_limits<double>::infinity();
-  bool lights = true;                                                   ///< its lamps burn; a pedestrian and a deer have none
+  /// What of its headlamps burns, and with it its tail lamps; high beam is added to low beam. A pedestrian and a deer
+  /// have no lamps, a bicycle has no headlamps.
+  RoadUserLights lights = RoadUserLights::low;
   double from_s = 0.0, to_s = std::numeric_limits<double>::infinity();  ///< there from and until, both included
   double width_m = 1.8, height_m = 1.5, length_m = 4.3;
+  /// Photometry of one headlamp, absolute; empty: who shows it chooses. Not read here.
+  std::filesystem::path low_beam_file{}, high_beam_file{};
 };
 
 /// Errors with file:line and reason.

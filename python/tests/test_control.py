@@ -61,12 +61,16 @@ def test_a_file_of_road_users_is_read(tmp_path):
     lorry, walker = phare.read_road_users(file)
     assert (lorry.kind, lorry.speed_mps, lorry.s_m(2.0), lorry.height_m) == ("lorry", 20.0, 140.0, 3.6)
     assert walker.s_m(9.0) == 50.0 and not walker.lights
+    file.write_text('[[road_user]]\nlights = "high"\nlow_beam = "low.ies"\nhigh_beam = "high.ies"\n'
+                    '[[road_user]]\nlights = "off"\n[[road_user]]\nlights = false\n')
+    assert [user.lights for user in phare.read_road_users(file)] == [True, False, False], "sensors see that there is light"
 
 
 @pytest.mark.parametrize("line, why", [
     ("speeed_kmh = 3", "unknown key speeed_kmh"), ('class = "tram"', "class tram"), ("start_s_m = '3'", "expected a float"),
     ("speed_kmh = -3", "expected 0 to 1000: direction"), ("width_m = 0", "expected 0.01 to 100"), ("to_s = inf", "expected -1e"),
     ("across_to_s = -1", "expected across_from_s or more"),
+    ('lights = "full"', "lights full: expected one of off, low, high"), ("low_beam = 3", "expected a str"),
     ('direction = "up"', "direction up"), ("start_s_m = nan", "nan"),
 ])
 def test_what_is_wrong_with_road_users_is_said(tmp_path, line, why):

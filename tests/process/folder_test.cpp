@@ -68,7 +68,9 @@ TEST_F(Folder, WhatAnyProcessCannotReadLeavesTheDriveBeforeAsItLay) {
   std::ofstream(folder_ / "typo.toml") << "[source]\nkind = \"keybord\"\n";
   std::ofstream(folder_ / "typo_script.toml") << "lane = 3\n";
   std::ofstream(folder_ / "typo_traffic.toml") << "[[road_user]]\nclass = \"kar\"\n";
-  for (const char* wrong : {"--cockpit typo.toml", "--script typo_script.toml", "--traffic typo_traffic.toml"}) {
+  std::ofstream(folder_ / "typo_lamp.toml") << "[[road_user]]\nlow_beam = \"nowhere.ies\"\n";
+  for (const char* wrong : {"--cockpit typo.toml", "--script typo_script.toml", "--traffic typo_traffic.toml",
+                            "--traffic typo_lamp.toml"}) {
     const Said said = drive_here("--frames 3 --out out --record evening.pcap --overwrite " + std::string(wrong));
     EXPECT_EQ(said.code, 2) << said.err;
     EXPECT_NE(said.err.find("typo"), std::string::npos) << said.err;

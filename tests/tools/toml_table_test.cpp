@@ -37,6 +37,7 @@ x_m = 2.0
   EXPECT_EQ(table->number("mass_kg", 0, 5000), 1200.0);
   EXPECT_EQ(table->text("name"), "hatch");
   EXPECT_TRUE(table->flag_or("abs", false));
+  EXPECT_TRUE(table->is_text("name") && !table->is_text("abs") && !table->is_text("nowhere"));
   EXPECT_EQ(table->integer("axles", 1, 4), 2);
   EXPECT_EQ(table->numbers("offset_m", 3), (std::vector<double>{1, 2.5, 3}));
   EXPECT_EQ(table->texts_or_empty("tags"), (std::vector<std::string>{"a", "b"}));

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "tests/csv_table.h"
 #include "tests/paths.h"
@@ -128,11 +130,38 @@ TEST(RoadUsers, HaveTheSizeOfTheirClassUnlessSaid) {
   ASSERT_TRUE(users.ok()) << users.error().text();
   ASSERT_EQ(users->size(), 3u);
   EXPECT_EQ((*users)[0].width_m, 1.8);
-  EXPECT_TRUE((*users)[0].lights);
+  EXPECT_EQ((*users)[0].lights, RoadUserLights::low);
   EXPECT_EQ((*users)[1].height_m, 4.0);
   EXPECT_EQ((*users)[1].length_m, 10.0);
   EXPECT_EQ((*users)[1].speed_mps, 20.0);
-  EXPECT_FALSE((*users)[2].lights);  // a pedestrian has none
+  EXPECT_EQ((*users)[2].lights, RoadUserLights::off);  // a pedestrian has none
+}
+
+// Lamp files are named beside the file that names them; what burns is a flag or a word.
+TEST(RoadUsers, NameTheirLampsAndWhatOfThemBurns) {
+  const std::filesystem::path here = std::filesystem::path(testing::TempDir()).lexically_normal();
+  for (const char* name : {"road_user_low.ies", "road_user_high.ies"}) std::ofstream(here / name) << "not read here";
+  const auto users = read_road_users(users_written(R"([[road_user]]
+low_beam = "road_user_low.ies"
+high_beam = "road_user_high.ies"
+lights = "high"
+[[road_user]]
+lights = "low"
+[[road_user]]
+lights = "off"
+[[road_user]]
+lights = false
+[[road_user]]
+class = "bicycle"
+lights = "low"
+)"));
+  ASSERT_TRUE(users.ok()) << users.error().text();
+  EXPECT_EQ((*users)[0].low_beam_file, here / "road_user_low.ies");
+  EXPECT_EQ((*users)[0].high_beam_file, here / "road_user_high.ies");
+  EXPECT_TRUE((*users)[1].low_beam_file.empty());
+  const RoadUserLights wanted[] = {RoadUserLights::high, RoadUserLights::low, RoadUserLights::off, RoadUserLights::off,
+                                   RoadUserLights::low};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ((*users)[i].lights, wanted[i]) << i;
 }
 
 TEST(RoadUsers, OfTheShippedExampleAreRead) {
@@ -144,15 +173,29 @@ TEST(RoadUsers, OfTheShippedExampleAreRead) {
 TEST(RoadUsers, WhatIsWrongIsSaidWithItsLine) {
   const struct {
     const char *line, *why;
-  } cases[] = {{"speeed_kmh = 3", "speed_kmh"},    {"class = \"tram\"", "tram"}, {"start_s_m = '3'", "start_s_m"},
-               {"speed_kmh = -3", "speed_kmh"},    {"width_m = 0", "width_m"},   {"direction = \"up\"", "up"},
-               {"start_s_m = nan", "start_s_m"},   {"to_s = inf", "to_s"},       {"lights = 1", "lights"},
-               {"across_to_s = -1", "across_to_s"}};
+  } cases[] = {{"speeed_kmh = 3", "speed_kmh"},
+               {"class = \"tram\"", "tram"},
+               {"start_s_m = '3'", "start_s_m"},
+               {"speed_kmh = -3", "speed_kmh"},
+               {"width_m = 0", "width_m"},
+               {"direction = \"up\"", "up"},
+               {"start_s_m = nan", "start_s_m"},
+               {"to_s = inf", "to_s"},
+               {"lights = 1", "lights"},
+               {"across_to_s = -1", "across_to_s"},
+               {"lights = \"full\"", "none of off, low, high"},
+               {"low_beam = \"nowhere.ies\"", "nowhere.ies: no such file"},
+               {"high_beam = 3", "high_beam"},
+               {"low_beam = \"\"", "name of a file"},
+               {"class = \"bicycle\"\nlights = \"high\"", "no headlamps"},
+               {"class = \"deer\"\nlow_beam = \"users.toml\"", "a deer has no headlamps"}};
   for (const auto& wrong : cases) {
     SCOPED_TRACE(wrong.line);
     const auto users = read_road_users(users_written(std::string("[[road_user]]\n") + wrong.line + "\n"));
     ASSERT_FALSE(users.ok());
-    EXPECT_NE(users.error().text().find("road_users.toml:2"), std::string::npos) << users.error().text();
+    const int line = std::string_view(wrong.line).find('\n') == std::string_view::npos ? 2 : 3;
+    EXPECT_NE(users.error().text().find("road_users.toml:" + std::to_string(line) + ":"), std::string::npos)
+        << users.error().text();
     EXPECT_NE(users.error().reason.find(wrong.why), std::string::npos) << users.error().text();
   }
   EXPECT_FALSE(read_road_users(users_written("")).ok());

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -97,6 +98,50 @@ TEST_F(TrafficTest, ItsLampsGlareAsTheirTablesHaveIt) {
       traffic("[[road_user]]\nstart_s_m = 50\nlights = false\n[[road_user]]\nclass = \"pedestrian\"\n");
   EXPECT_TRUE(Traffic::placed_lamps(dark.at(0.0, straight()), eye_m, {1.0, 0.0, 0.0}).empty());
   EXPECT_TRUE(dark.glare_at(dark.at(0.0, straight()), eye_m, Scene{}, {}).empty());
+}
+
+/// Of the same intensity everywhere within ±30° x ±20°, beside the traffic file.
+void even_beside(const char* name, int cd) {
+  std::ofstream out(fs::path(testing::TempDir()) / name);
+  out << "IESNA:LM-63-2002\n[TEST] even\n[MANUFAC] Phare\nTILT=NONE\n1 -1 1 2 2 3 2 0 0 0\n1 1 0\n-20 20\n-30 30\n";
+  for (int i = 0; i < 4; ++i) out << cd << '\n';
+}
+
+// 900 cd of low beam and 2100 of high beam are 3000 cd toward an eye, where high beam is on; the picture's beams are
+// the same lamps, each light once.
+TEST_F(TrafficTest, ItsLampsAreThoseThatItNames) {
+  even_beside("traffic_low.ies", 900);
+  even_beside("traffic_high.ies", 2100);
+  const std::string named = "[[road_user]]\nstart_s_m = 60\nlow_beam = \"traffic_low.ies\"\n";
+  const std::string high = "high_beam = \"traffic_high.ies\"\nlights = ";
+  const Traffic cars = traffic(named + named + high + "\"low\"\n" + named + high + "\"high\"\n" + named + high +
+                               "\"off\"\n" + "[[road_user]]\nstart_s_m = 60\nlights = \"high\"\n");
+  const auto users = cars.at(0.0, straight());
+  ASSERT_EQ(users.size(), 5u);
+  ASSERT_EQ(cars.beams(), 4u) << "the sample car's, low, low and high, the sample car's with high";
+  const glm::dvec3 eye_m(0.0, 0.0, 1.2), ahead(1.0, 0.0, 0.0);
+  // 57.82 m ahead of the eye, 0.6 m beside it, 0.59 m below: 3343.86 m².
+  const auto lx_of = [&](std::size_t user) {
+    const auto seen = cars.glare_at(std::span(users).subspan(user, 1), eye_m, Scene{}, {});
+    return seen.empty() ? 0.0 : seen[0].eye_lx;
+  };
+  EXPECT_NEAR(lx_of(0), 900.0 / 3343.8605, 1e-9);
+  EXPECT_NEAR(lx_of(1), 900.0 / 3343.8605, 1e-9);
+  EXPECT_NEAR(lx_of(2), 3000.0 / 3343.8605, 1e-9);
+  EXPECT_EQ(lx_of(3), 0.0);
+  const auto lit_by = [&](std::size_t user) {
+    return Traffic::placed_lamps(std::span(users).subspan(user, 1), eye_m, ahead).at(0).beam - Traffic::kBeam;
+  };
+  EXPECT_EQ(lit_by(0), lit_by(1));
+  EXPECT_EQ(std::ranges::max(cars.beam(lit_by(1)).candela), 900.0f);
+  EXPECT_EQ(std::ranges::max(cars.beam(lit_by(2)).candela), 3000.0f);
+  EXPECT_GT(std::ranges::max(cars.beam(lit_by(4)).candela), 1.2f * std::ranges::max(cars.beam(0).candela));
+
+  // What is no lamp is told by the lamp's own line.
+  std::ofstream(fs::path(testing::TempDir()) / "traffic_low.ies") << "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1\n";
+  const auto broken = Traffic::read(file(named), straight_lane(), movers_);
+  ASSERT_FALSE(broken);
+  EXPECT_NE(broken.error().text().find("traffic_low.ies:"), std::string::npos) << broken.error().text();
 }
 
 // Fast ones with motors throw up water, from where their rear wheels were; who has just come, came straight.

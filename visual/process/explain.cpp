@@ -73,7 +73,8 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   std::optional<ShadowCasters> casters;
   if (looks_for_casters(input)) casts.emplace(), casters.emplace(scene, movers.meshes());
   for (const PlacedLamp& lamp : input.lamps) {
-    const BeamImage& image = lamp.beam == Traffic::kBeam ? traffic.beam() : lamps.image(lamp.beam);
+    const BeamImage& image =
+        Traffic::is_theirs(lamp) ? traffic.beam(lamp.beam - Traffic::kBeam) : lamps.image(lamp.beam);
     const LampReach reach(lamp.position_m, lamp.world_from_image, light_cone(image));
     if (!reach.meets(view)) continue;
     ++lit;

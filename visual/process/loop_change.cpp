@@ -209,8 +209,7 @@ Rehearsal Loop::rehearse(const Rehearsed& as, const Desk& desk, std::size_t at_o
   if (as.above) next.camera = birds_eye_camera(moment.car.pose);
   // The own lamps, whoever had his turn.
   std::vector<PlacedLamp> of_others;
-  std::ranges::copy_if(next.lamps, std::back_inserter(of_others),
-                       [](const PlacedLamp& lamp) { return lamp.beam == Traffic::kBeam; });
+  std::ranges::copy_if(next.lamps, std::back_inserter(of_others), Traffic::is_theirs);
   if (as.others) of_others.assign(*as.others, {next.camera.eye_m, next.camera.world_from_eye, Traffic::kBeam});
   next.lamps = as.light ? placed_by(*as.light, moment.car.pose) : s_.lamps.placed(moment.car.pose);
   // Many lights have as many lamps: one reading of tables serves them, but for that which comes next most likely.

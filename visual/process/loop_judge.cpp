@@ -48,7 +48,7 @@ void Loop::answer_probes() {
     if (newest_) {
       reply.illuminance_lx.assign(points.size(), 0.0);
       std::vector<PlacedLamp> own = input_.lamps;
-      std::erase_if(own, [](const PlacedLamp& lamp) { return lamp.beam == Traffic::kBeam; });
+      std::erase_if(own, Traffic::is_theirs);
       const std::vector<std::vector<float>> lx = s_.renderer.measure(own, points);
       const bool shadows = s_.desk.shadows != 0;
       for (std::size_t lamp = 0; lamp < lx.size(); ++lamp)

@@ -116,7 +116,7 @@ std::optional<Loop::LitWith> Loop::nearest_ready(const LitWith& lit, std::size_t
 /// The frame without the lamps of others or the glare that it lacks pipelines for; none: it lacks nothing. Where it
 /// lacks them for lamps that glare no more, it glares as before. What is measured and logged is as it shines.
 std::optional<FrameInput> Loop::without_new_lamps(const Moment& moment) {
-  const auto of_others = [](const PlacedLamp& lamp) { return lamp.beam == Traffic::kBeam; };
+  const auto of_others = Traffic::is_theirs;
   LitWith lit = lit_with_;
   lit.others = static_cast<std::size_t>(std::ranges::count_if(input_.lamps, of_others));
   const std::size_t own = input_.lamps.size() - lit.others;

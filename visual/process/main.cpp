@@ -179,7 +179,8 @@ int draw_channel(VisualOptions options) {
   const auto fixed_light = std::make_shared<const FixedLight>(std::move(*fixed));
   if (const Status loaded = renderer->load_scene(*scene, movers->meshes(), fixed_light, progress); !loaded)
     return refuse(loaded.error());
-  if (!traffic->empty()) renderer->set_beam(Traffic::kBeam, traffic->beam());
+  for (std::size_t beam = 0; beam < traffic->beams(); ++beam)
+    renderer->set_beam(Traffic::kBeam + beam, traffic->beam(beam));
 
   if (const Status key = take_run_key(*rig); !key) return refuse(key.error());
   Result<Bus> bus = Bus::open(*rig, Role::kVisual, options.channel);

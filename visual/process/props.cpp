@@ -121,7 +121,7 @@ void Props::add_to(ViewInput& view, CameraKind kind, const Lamps& lamps, const V
   if (!shows_own_car(kind, view.camera, car)) return;
   const PlacedMesh body = own_car(car_, car);
   for (PlacedLamp& lamp : view.lamps)
-    if (lamp.beam != Traffic::kBeam) lamp.carried_by = view.moving.size();
+    if (!Traffic::is_theirs(lamp)) lamp.carried_by = view.moving.size();
   view.moving.push_back(body);
   if (!lit || view.camera.orthographic_width_m > 0.0) return;
   const auto tail =

@@ -15,7 +15,7 @@
 namespace phare {
 namespace {
 
-constexpr const char* kHeadlamp = "lamps/low_rht.ies";
+constexpr const char *kLowBeam = "lamps/low_rht.ies", *kHighBeam = "lamps/high.ies";  // in generated_dir()
 constexpr double kHalogen_k = 3200.0;
 constexpr double kDown_rad = 0.01;  // UN R48 6.2.6.1.2: -1 % for lamps below 0.8 m
 
@@ -67,11 +67,19 @@ Result<Traffic> Traffic::read(const std::filesystem::path& file, const std::vect
   auto users = read_road_users(file);
   if (!users) return users.error();
   if (lane.size() < 2) return Error{file.string(), "the scene has no lane beside it that road users would drive along"};
-  auto lamp = read_lamp(generated_dir() / kHeadlamp, {});
-  if (!lamp) return lamp.error();
   traffic.users_ = std::move(*users);
   traffic.lane_.emplace(lane);
-  traffic.headlamp_ = std::move(*lamp);
+  const auto named_or = [](const std::filesystem::path& named, const char* shipped) {
+    return named.empty() ? generated_dir() / shipped : named;
+  };
+  if (const auto first = traffic.headlamp({named_or({}, kLowBeam)}); !first) return first.error();
+  for (const RoadUser& user : traffic.users_) {
+    std::vector<std::filesystem::path> files{named_or(user.low_beam_file, kLowBeam)};
+    if (user.lights == RoadUserLights::high) files.push_back(named_or(user.high_beam_file, kHighBeam));
+    const auto beam = traffic.headlamp(std::move(files));
+    if (!beam) return beam.error();
+    traffic.headlamp_of_user_.push_back(*beam);
+  }
   for (const LampPlaces& places : kPlaces) {
     const auto mesh = movers.mesh(places.node);
     if (!mesh) return mesh.error();
@@ -80,9 +88,30 @@ Result<Traffic> Traffic::read(const std::filesystem::path& file, const std::vect
   return traffic;
 }
 
-BeamImage Traffic::beam() const {
-  const AimedSource source{.table = &headlamp_, .colour_temperature_k = kHalogen_k};
-  return compose_beam_image(std::span(&source, 1));
+Result<std::size_t> Traffic::headlamp(std::vector<std::filesystem::path> files) {
+  const auto known = std::ranges::find(headlamps_, files, &Headlamp::files);
+  if (known != headlamps_.end()) return static_cast<std::size_t>(known - headlamps_.begin());
+  Headlamp lamp{.files = std::move(files)};
+  for (const std::filesystem::path& file : lamp.files) {
+    auto table = read_lamp(file, {});
+    if (!table) return table.error();
+    lamp.tables.push_back(std::move(*table));
+  }
+  headlamps_.push_back(std::move(lamp));
+  return headlamps_.size() - 1;
+}
+
+double Traffic::Headlamp::intensity_cd(const glm::dvec3& direction) const {
+  double cd = 0.0;
+  for (const IntensityTable& table : tables) cd += table.intensity_cd(direction);
+  return cd;
+}
+
+BeamImage Traffic::beam(std::size_t number) const {
+  std::vector<AimedSource> sources;
+  for (const IntensityTable& table : headlamps_[number].tables)
+    sources.push_back({.table = &table, .colour_temperature_k = kHalogen_k});
+  return compose_beam_image(sources);
 }
 
 std::vector<Traffic::There> Traffic::at(double time_s, const RoadLine& road) const {
@@ -100,8 +129,13 @@ std::optional<Traffic::There> Traffic::there_at(std::size_t number, double time_
   const glm::dvec3 heading(std::cos(pose->heading_rad), std::sin(pose->heading_rad), 0.0);
   const glm::dvec3 left = glm::normalize(glm::cross(on_road.normal, heading));
   const glm::dvec3 forward = glm::cross(left, on_road.normal);
-  return There{user.kind,   on_road.position_m, {forward, left, on_road.normal},
-               user.lights, number,             pose->speed_mps};
+  return There{.kind = user.kind,
+               .position_m = on_road.position_m,
+               .world_from_user = {forward, left, on_road.normal},
+               .lights = user.lights != RoadUserLights::off,
+               .number = number,
+               .speed_mps = pose->speed_mps,
+               .beam = headlamp_of_user_[number]};
 }
 
 std::vector<SprayingVehicle> Traffic::spraying(std::span<const There> users, double time_s,
@@ -169,14 +203,14 @@ std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users, cons
   std::vector<PlacedLamp> lamps;
   for (const std::size_t i : near)
     for (int lamp = 0; lamp < places_of(users[i].kind).headlamps && lamps.size() < kMostLamps; ++lamp)
-      lamps.push_back({front_lamp_m(users[i], lamp), headlamp_turn(users[i]), kBeam, i});
+      lamps.push_back({front_lamp_m(users[i], lamp), headlamp_turn(users[i]), kBeam + users[i].beam, i});
   return lamps;
 }
 
 std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const glm::dvec3& eye_m, const World& world,
                                            const Air& air) const {
   std::vector<GlaringLamp> sources;
-  const glm::vec3 headlamp_colour = light_colour({.table = &headlamp_, .colour_temperature_k = kHalogen_k});
+  const glm::vec3 headlamp_colour = light_colour({.colour_temperature_k = kHalogen_k});
   for (std::size_t i = 0; i < users.size(); ++i) {
     const There& user = users[i];
     if (!user.lights) continue;
@@ -184,8 +218,8 @@ std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const g
     const LampPlaces& places = places_of(user.kind);
     for (int lamp = 0; lamp < places.headlamps; ++lamp) {
       const glm::dvec3 lamp_m = front_lamp_m(user, lamp);
-      add_seen(sources, around, lamp_m, headlamp_.intensity_cd(glm::transpose(headlamp_turn(user)) * (eye_m - lamp_m)),
-               headlamp_colour, eye_m, air);
+      const glm::dvec3 toward_eye = glm::transpose(headlamp_turn(user)) * (eye_m - lamp_m);
+      add_seen(sources, around, lamp_m, headlamps_[user.beam].intensity_cd(toward_eye), headlamp_colour, eye_m, air);
     }
     const auto tail = tail_lamps_into(user.kind, user.position_m, user.world_from_user, eye_m, around, air);
     sources.insert(sources.end(), tail.begin(), tail.end());

@@ -1,9 +1,10 @@
 // Other road users in the picture: their bodies, their lamps and what these throw into the driver's eye. Where they are
 // is a function of simulated time (config/traffic/road_users.h), on the road that is drawn.
 //
-// A car's, lorry's or motorcycle's headlamps are two (of a motorcycle one) low beams with the table that the scene's
-// own sample car has, aimed 1 % down; tail lamps are points of kTailLamp_cd that light nothing. Bodies cast shadows and
-// hide lamps, but not those that they carry. Checked by tests/visual_process/traffic_test.cpp.
+// A car's, lorry's or motorcycle's headlamps are two (of a motorcycle one) with the tables of the files that it names,
+// else those that the scene's own sample car has: low beam, and high beam added to it where it is on, aimed 1 % down.
+// Tail lamps are points of kTailLamp_cd that light nothing; brake lamps are left out, for speeds are constant. Bodies
+// cast shadows and hide lamps, but not those that they carry. Checked by tests/visual_process/traffic_test.cpp.
 #pragma once
 
 #include <filesystem>
@@ -29,17 +30,19 @@ inline constexpr double kTailLamp_cd = 8.0;
 
 class Traffic {
  public:
-  /// Where the beam of all their headlamps lies among the renderer's: behind those of two designs.
+  /// Where the beams of their headlamps begin among the renderer's: behind those of two designs.
   static constexpr std::size_t kBeam = 2 * kMostLampsOfDesign;
+  static bool is_theirs(const PlacedLamp& lamp) { return lamp.beam >= kBeam; }
 
   Traffic() = default;
-  /// Reads road users and their lamp; `movers` has their meshes. Empty file name: no traffic, and nothing is read.
+  /// Reads road users and their lamps; `movers` has their meshes. Empty file name: no traffic, and nothing is read.
   /// Error, too: no lane.
   static Result<Traffic> read(const std::filesystem::path& file, const std::vector<LanePoint>& lane,
                               const Movers& movers);
 
   bool empty() const { return users_.empty(); }
-  BeamImage beam() const;  ///< for Renderer::set_beam(kBeam)
+  std::size_t beams() const { return headlamps_.size(); }  ///< different ones; the first is the sample car's low beam
+  BeamImage beam(std::size_t number) const;                ///< for Renderer::set_beam(kBeam + number)
 
   /// One of them where it is now.
   struct There {
@@ -49,6 +52,7 @@ class Traffic {
     bool lights = true;
     std::size_t number = 0;  ///< among those of the file
     double speed_mps = 0.0;
+    std::size_t beam = 0;  ///< of its headlamps, among beams()
   };
   std::vector<There> at(double time_s, const RoadLine& road) const;
 
@@ -79,12 +83,22 @@ class Traffic {
                                     const Air& air) const;
 
  private:
+  /// What one headlamp shines by: the table of its low beam, and of its high beam where that is on.
+  struct Headlamp {
+    std::vector<std::filesystem::path> files{};
+    std::vector<IntensityTable> tables{};  ///< of each file
+    double intensity_cd(const glm::dvec3& direction) const;
+  };
+  /// Where it is among headlamps_; reads what is not there yet.
+  Result<std::size_t> headlamp(std::vector<std::filesystem::path> files);
+
   std::optional<There> there_at(std::size_t number, double time_s, const RoadLine& road) const;
 
   std::vector<RoadUser> users_;
   std::optional<LaneLine> lane_;
   std::vector<std::size_t> mesh_of_kind_;
-  IntensityTable headlamp_;
+  std::vector<Headlamp> headlamps_;
+  std::vector<std::size_t> headlamp_of_user_;
 };
 
 /// Tail lamps of a road user that stands there, as they shine into an eye; hidden by what is in `around`.

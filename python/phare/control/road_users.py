@@ -7,7 +7,8 @@
     speed_kmh = 80
     offset_m = 3.5            # from the line we drive on, positive left
     across_kmh = 0            # goes across the road, positive to the left, from across_from_s [0] until across_to_s [for ever]
-    lights = true             # its lamps burn
+    lights = true             # its lamps burn: true or "low", "high" (high beam besides), false or "off"
+    low_beam, high_beam       # photometry files of its headlamps, for the picture: the sensors see that there is light, not how much
     from_s = 0.0              # when it is there, s of simulated time
     to_s = 1e9
     width_m, height_m, length_m   # default: by its class, chosen by eye
@@ -73,10 +74,11 @@ class RoadUser:
         return -1.0 if self.direction == "oncoming" else 1.0
 
 
+_LIGHTS = {"off": False, "low": True, "high": True}
 _KEYS = {
     "class": str, "direction": str, "start_s_m": float, "speed_kmh": float, "offset_m": float, "across_kmh": float,
     "across_from_s": float, "across_to_s": float, "lights": bool, "from_s": float,
-    "to_s": float, "width_m": float, "height_m": float, "length_m": float,
+    "to_s": float, "width_m": float, "height_m": float, "length_m": float, "low_beam": str, "high_beam": str,
 }
 
 # Bounds that no road reaches, as in config/traffic/road_users.cpp: they catch a mistyped exponent.
@@ -102,6 +104,10 @@ def _road_user(table: dict[str, object], place: str) -> RoadUser:
         if key not in _KEYS:
             raise BadInput(f"{place}: unknown key {key}; there are {', '.join(_KEYS)}")
         wanted = _KEYS[key]
+        if key == "lights" and isinstance(value, str):
+            if value not in _LIGHTS:
+                raise BadInput(f"{place}: lights {value}: expected one of {', '.join(_LIGHTS)}")
+            value = _LIGHTS[value]
         if wanted is float and isinstance(value, int) and not isinstance(value, bool):
             value = float(value)
         if not isinstance(value, wanted) or (isinstance(value, float) and math.isnan(value)):
