@@ -25,6 +25,7 @@ constexpr double kMaxFrame_ms = 1e9;
 constexpr std::int64_t kMaxWall_ns = 4'000'000'000'000'000'000;
 constexpr double kMaxAim_rad = 1.6;
 constexpr double kMaxNormal = 1.001;
+constexpr double kLeastNormal = 1e-6;  ///< in length: less has no direction
 constexpr double kMaxIlluminance_lx = 1e15;
 constexpr std::int64_t kMaxFrameIndex = 1'000'000'000'000;
 constexpr std::uint64_t kMaxSequence = std::uint64_t{1} << 62;
@@ -162,6 +163,8 @@ void check(Checker& c, const ProbeRequest& r) {
   for (const auto* array : {&r.y_m, &r.z_m, &r.nx, &r.ny, &r.nz}) c.require(array->size() == count, Refusal::kArrays);
   for (const auto* array : {&r.x_m, &r.y_m, &r.z_m}) c.numbers(*array, -kMaxCoordinate_m, kMaxCoordinate_m);
   for (const auto* array : {&r.nx, &r.ny, &r.nz}) c.numbers(*array, -kMaxNormal, kMaxNormal);
+  for (std::size_t i = 0; i < count && i < r.nz.size() && i < r.ny.size() && i < r.nx.size(); ++i)
+    c.require(std::hypot(r.nx[i], r.ny[i], r.nz[i]) >= kLeastNormal);
 }
 
 void check(Checker& c, const ProbeReply& r) {

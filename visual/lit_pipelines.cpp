@@ -102,9 +102,9 @@ LitVariant LitScene::variant_for(std::size_t tables, const LitView& view, const 
   if (common.output == LampOutput::kDisplay || common.output == LampOutput::kHdr ||
       common.output == LampOutput::kClipping)
     variant.fog = view.fog;
-  const bool roofed = std::exchange(variant.kind.roofed, false);
-  if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet && !roofed;
-  if (view.snow && !roofed && variant.output != LampOutput::kAudit) {
+  const bool sheltered = std::exchange(variant.kind.sheltered, false);
+  if (variant.output != LampOutput::kAudit && is_ground(variant.kind.surface)) variant.wet = view.wet && !sheltered;
+  if (view.snow && !sheltered && variant.output != LampOutput::kAudit) {
     const bool marking = variant.kind.retro == RetroKind::kMarking;
     variant.snow = marking ? shader::kSnowOnMarking : shader::kSnowLies;
     if (marking) variant.kind.retro = RetroKind::kFacets;

@@ -58,11 +58,11 @@ layout(constant_id = 3) const uint output_kind = 0;
 // What goes back to the lamp is kept over what the surface reflects (GpuMaterial), which water has made darker. A figure that was measured wet is
 // kept as it is: what the darker body no longer gives of it in the 30 m geometry is sent back beside it.
 vec4 wetted(vec4 dry, bool figure_of_wet) {
-  const vec3 green = vec3(0.0, 1.0, 0.0);
   vec3 rho = wet_reflectance(dry.rgb);
   if (retro != kRetroMarking && retro != kRetroFacets) return vec4(rho, dry.w);
-  if (figure_of_wet) return vec4(rho, (dry.w * dry.g + kCosIncidenceAt30m * (dry.g - rho.g)) / rho.g);
-  return vec4(rho, dry.w * (retro == kRetroMarking ? kMarkingLeft : kFacetsLeft) * dot(dry.rgb, green) / dot(rho, green));
+  float green_left = max(rho.g, 1e-6);  // of black ground too something is divided by
+  if (figure_of_wet) return vec4(rho, (dry.w * dry.g + kCosIncidenceAt30m * (dry.g - rho.g)) / green_left);
+  return vec4(rho, dry.w * (retro == kRetroMarking ? kMarkingLeft : kFacetsLeft) * dry.g / green_left);
 }
 
 void pass_light(vec4 material) {

@@ -315,6 +315,11 @@ TEST(WireRefuses, ValuesOutOfRange) {
       {kClock, [](D& m) { m.mutable_clock_probe()->set_asked_wall_ns(std::numeric_limits<std::int64_t>::max()); }},
       {kClock, [](D& m) { m.mutable_clock_probe()->set_heard_wall_ns(-1); }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_nx(0, 1.1); }},
+      {kRequest,
+       [](D& m) {
+         auto& request = *m.mutable_probe_request();
+         request.set_nx(0, 0.0), request.set_ny(0, 0.0), request.set_nz(0, 0.0);
+       }},
       {kRequest, [](D& m) { m.mutable_probe_request()->set_x_m(0, 1e9); }},
       {kReply, [](D& m) { m.mutable_probe_reply()->set_illuminance_lx(0, -1.0); }},
   };

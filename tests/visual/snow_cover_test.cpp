@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 #include <tuple>
 
 #include "shaders/lib/snow.h"
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
+#include "visual/fixed_light.h"
 #include "visual/scene/material_library.h"
 
 namespace phare {
@@ -166,6 +168,49 @@ TEST_F(SnowCoverOnDevice, NeitherItNorRainReachesWhatIsUnderARoof) {
       EXPECT_NEAR(wet.first, dry.first, 2e-3 * dry.first);
     }
   }
+}
+
+/// What shines by itself keeps its luminance, however dark it is: snow melts on it, and its light is no reflected one.
+TEST_F(SnowCoverOnDevice, WhatShinesKeepsItsLuminance) {
+  Scene scene = street();
+  scene.materials[0].reflectance = glm::vec3(0.001f);  // as black is read where it shines
+  scene.materials[0].retro = {};
+  scene.materials[0].surface = Surface::kAsphalt;
+  scene.materials[0].emission_cdm2 = glm::vec3(20.0f);
+  auto light = FixedLight::of(scene, {}, std::nullopt);
+  ASSERT_TRUE(light);
+  ASSERT_TRUE(renderer->load_scene(scene, Scene{}, std::make_shared<const FixedLight>(std::move(*light))));
+  std::optional<double> bare;  // 20 cd/m² with the grain of asphalt there
+  for (const double cover_01 : {0.0, 1.0})
+    for (const std::size_t ground : {0u, 2u}) {
+      FrameInput input = view(cover_01);
+      input.lamps.clear();
+      input.effects[static_cast<std::size_t>(Effect::kWetGround)] = ground;
+      renderer->draw(input);
+      const double cdm2 = at(renderer->read_hdr(), input, {12.0, 3.0, 0.0}).cdm2;
+      if (!bare) bare = cdm2;
+      EXPECT_GT(cdm2, 10.0);
+      EXPECT_NEAR(cdm2, *bare, 1e-3 * *bare) << cover_01 << ", " << ground;
+    }
+}
+
+/// Nothing is divided by black: every pixel of it is a number, wet and under snow, as asphalt, paint and marking.
+TEST_F(SnowCoverOnDevice, BlackGroundIsDrawnInNumbers) {
+  for (const glm::vec3& colour : {glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, 1.0f)})
+    for (const char* retro : {"upright facets", "EN 1436 R4", "EN 1436 RW2"}) {
+      Scene scene = street();
+      scene.materials[0] = {.name = "black",
+                            .reflectance = colour,
+                            .surface = Surface::kPaint,
+                            .retro = *retroreflection(retro, std::nullopt, std::nullopt)};
+      ASSERT_TRUE(renderer->load_scene(scene).ok());
+      for (const double cover_01 : {0.0, 0.5}) {
+        FrameInput input = view(cover_01);
+        input.effects[static_cast<std::size_t>(Effect::kWetGround)] = 2;
+        renderer->draw(input);
+        for (const float value : renderer->read_hdr().rgba) ASSERT_TRUE(std::isfinite(value)) << retro;
+      }
+    }
 }
 
 TEST_F(SnowCoverOnDevice, CostsNothingWithout) {

@@ -119,6 +119,7 @@ Device::Device(const DeviceOptions& options) {
   });
   if (family == families.end()) throw std::runtime_error("the Vulkan device has no graphics queue");
   queue_family = static_cast<std::uint32_t>(family - families.begin());
+  if (family->timestampValidBits > 0) stamp_bits = ~std::uint64_t{0} >> (64 - family->timestampValidBits);
 
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue_info{

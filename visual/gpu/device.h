@@ -78,6 +78,7 @@ class Device {
   vk::raii::PhysicalDevice physical{nullptr};
   vk::raii::Device device{nullptr};
   std::uint32_t queue_family = 0;
+  std::uint64_t stamp_bits = 0;  ///< those of a time stamp that count, of which a card may have 36; 0: it has no stamps
   vk::raii::Queue queue{nullptr};
   vk::raii::CommandPool command_pool{nullptr};
   vk::PhysicalDeviceProperties properties{};

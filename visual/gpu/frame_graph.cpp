@@ -231,10 +231,10 @@ void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse
                            .pImageMemoryBarriers = barriers.data()});
   const vk::QueryPool pool = *stamps[at / kPassesInPool];
   const std::uint32_t first = 2 * (at % kPassesInPool);
-  commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first);
+  if (device_.stamp_bits != 0) commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first);
   Recorder recorder(commands_, counts_, device_.multi_draw);
   record(recorder);
-  commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first + 1);
+  if (device_.stamp_bits != 0) commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, pool, first + 1);
   passes.push_back({prefix_ + name, account_});
 }
 
@@ -244,6 +244,7 @@ void FrameGraph::end() {
 }
 
 void FrameGraph::read_back_stamps() {
+  if (device_.stamp_bits == 0) return;
   auto& [stamps, read, passes] = *recorded_;
   constexpr vk::DeviceSize kPoolBytes = 2 * kPassesInPool * sizeof(std::uint64_t);
   if (read.bytes < stamps.size() * kPoolBytes)
@@ -263,7 +264,12 @@ void FrameGraph::read_back_stamps() {
 
 std::span<const std::uint64_t> FrameGraph::read_stamps(std::size_t frame) const {
   const Passes& of = recorded_.of(frame);
+  if (device_.stamp_bits == 0) return {};
   return {static_cast<const std::uint64_t*>(of.read.data), 2 * of.passes.size()};
+}
+
+double FrameGraph::ticks_between(std::uint64_t first, std::uint64_t last) const {
+  return static_cast<double>((last - first) & device_.stamp_bits);
 }
 
 std::vector<FrameGraph::Timing> FrameGraph::timings(std::size_t frame) const {
@@ -273,15 +279,15 @@ std::vector<FrameGraph::Timing> FrameGraph::timings(std::size_t frame) const {
   const double ms_per_tick = static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
   for (std::size_t i = 0; 2 * i < stamps.size(); ++i)
     result.push_back(
-        {passes[i].name, passes[i].account, static_cast<double>(stamps[2 * i + 1] - stamps[2 * i]) * ms_per_tick});
+        {passes[i].name, passes[i].account, ticks_between(stamps[2 * i], stamps[2 * i + 1]) * ms_per_tick});
   return result;
 }
 
 double FrameGraph::total_ms(std::size_t frame) const {
   const std::span<const std::uint64_t> stamps = read_stamps(frame);
   if (stamps.empty()) return 0.0;
-  return static_cast<double>(stamps.back() - stamps.front()) *
-         static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
+  return ticks_between(stamps.front(), stamps.back()) * static_cast<double>(device_.properties.limits.timestampPeriod) *
+         1e-6;
 }
 
 }  // namespace phare::gpu

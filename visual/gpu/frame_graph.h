@@ -161,6 +161,7 @@ class FrameGraph {
                    const std::function<void(Recorder&)>& record);
   void read_back_stamps();
   std::span<const std::uint64_t> read_stamps(std::size_t frame) const;
+  double ticks_between(std::uint64_t first, std::uint64_t last) const;
 
   struct Recorded {
     std::string name;

@@ -181,7 +181,7 @@ std::vector<SceneBatch> gather(const Scene& scene, const std::vector<const Scene
                             .flat = look == 0 && flat,
                             .look = look,
                             .road = !mesh.road.empty(),
-                            .roofed = material.sky_share < 0.5f};
+                            .sheltered = material.sky_share < 0.5f || material.emission_cdm2 != glm::vec3(0.0f)};
     groups[{kind, look != 0 ? all.first_material + chunk->material : 0, cell_of(*chunk, side_m)}].push_back(
         std::move(mesh));
   }
@@ -270,7 +270,7 @@ void bend_by_kind(std::vector<SceneBlock>& blocks, std::vector<MovingMesh>& movi
   };
   const auto kind_of = [](const SceneBatch& batch) {
     MaterialKind kind = batch.kind;
-    kind.flat = kind.road = kind.roofed = false;  // of which there may be both
+    kind.flat = kind.road = kind.sheltered = false;  // of which there may be both
     return kind;
   };
   std::set<MaterialKind> bent;

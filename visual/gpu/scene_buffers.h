@@ -29,7 +29,8 @@ struct MaterialKind {
   bool flat = false;  ///< each triangle's normal is that of its plane (visual/scene/scene.h)
   std::uint32_t look = 0;  ///< as kSpecLook
   bool road = false;  ///< asphalt whose vertices keep a FixedRoad
-  bool roofed = false;  ///< less than half of the sky reaches it: neither rain nor snow does (chosen)
+  /// Neither rain nor snow lies on it (chosen): less than half of the sky reaches it, or it shines by itself.
+  bool sheltered = false;
 
   friend auto operator<=>(const MaterialKind&, const MaterialKind&) = default;
 };
