@@ -43,7 +43,7 @@ std::string PortableFiles::word(const fs::path& file) const {
 Status PortableFiles::add_rig(const Rig& rig) {
   if (const Status done = add_scene(rig.scene_file); !done) return done;
   if (!rig.traffic_file.empty())
-    if (const Status done = add(rig.traffic_file, "traffic"); !done) return done;
+    if (const Status done = add_named(rig.traffic_file, "traffic"); !done) return done;
   if (!rig.street_lamps_file.empty())
     if (const Status done = add_named(rig.street_lamps_file, "street_lamps"); !done) return done;
   if (const Status done = add_named(rig.vehicle_file, "vehicle"); !done) return done;

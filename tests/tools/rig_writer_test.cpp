@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "config/traffic/road_users.h"
 #include "tests/paths.h"
 #include "tools/lamp_design.h"
 #include "tools/portable_rig.h"
@@ -303,6 +304,8 @@ TEST_F(Portable, EverythingNamedGoesAlongAndReadsAfterTheMove) {
                                             ",right=" + (home / "other/a.ies").string()}})
                   .ok());
   rig.cockpit_file = home / "cockpit.toml";
+  rig.traffic_file = home / "others.toml";
+  std::ofstream(rig.traffic_file) << "[[road_user]]\nlow_beam = \"other/a.ies\"\n";
   fs::create_directories(away);
   PortableFiles files(away / "my_files");
   const Status copied = files.copy(rig);
@@ -327,6 +330,9 @@ TEST_F(Portable, EverythingNamedGoesAlongAndReadsAfterTheMove) {
       << text_of(moved->cockpit_file);
   EXPECT_EQ(text_of(moved->designs[0].lamps[0].sources[0].file), text_of(lamps_dir() + "/low_rht.ies"));
   EXPECT_EQ(text_of(moved->designs[0].lamps[1].sources[0].file), text_of(lamps_dir() + "/led_low_rht.ies"));
+  const auto others = read_road_users(moved->traffic_file);
+  ASSERT_TRUE(others) << others.error().text();
+  EXPECT_TRUE(others->front().low_beam_file.string().starts_with(base)) << others->front().low_beam_file;
   for (const DesignConfig& design : moved->designs)
     for (const LampConfig& lamp : design.lamps)
       for (const SourceConfig& source : lamp.sources)
