@@ -81,7 +81,8 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
   source.yaw_rad = degrees(table, "yaw_deg", -180.0, 180.0);
   source.pitch_rad = degrees(table, "pitch_deg", -90.0, 90.0);
   source.roll_rad = degrees(table, "roll_deg", -180.0, 180.0);
-  source.colour_temperature_k = table.number_or("colour_temperature_k", source.colour_temperature_k, 1667.0, 25000.0);
+  source.colour_temperature_k =
+      table.number_or("colour_temperature_k", source.colour_temperature_k, kCoolestSource_k, kHottestSource_k);
   if (table.has("pixels")) source.pixels = resolve_path(table.text("pixels"), rig_file);
   if (table.has("pixel_map")) {
     source.pixel_map = resolve_path(table.text("pixel_map"), rig_file);

@@ -18,7 +18,7 @@ LuminaireConfig luminaire_of(TomlTable table, const std::filesystem::path& file)
   luminaire.name = table.text("name");
   luminaire.file = resolve_path(table.text("file"), file);
   luminaire.scale = table.number_or("scale", 1.0, 1e-6, 1e6);
-  luminaire.colour_temperature_k = table.number_or("colour_temperature_k", 4000.0, 1667.0, 25000.0);
+  luminaire.colour_temperature_k = table.number_or("colour_temperature_k", 4000.0, kCoolestSource_k, kHottestSource_k);
   return luminaire;
 }
 

@@ -395,7 +395,7 @@ Result<LampChoice> parse_lamp_choice(const std::string& flag, LampFunction funct
     }
     if (key == "colour_temperature_k") {
       const auto kelvin = number_of(value);
-      if (!kelvin || *kelvin < 1667.0 || *kelvin > 25000.0)
+      if (!kelvin || *kelvin < kCoolestSource_k || *kelvin > kHottestSource_k)
         return wrong("\"colour_temperature_k\": expected 1667 to 25000, got \"" + value + "\"");
       choice.source.colour_temperature_k = *kelvin;
       continue;

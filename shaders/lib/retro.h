@@ -35,6 +35,8 @@ PHARE_INLINE float facets_share(float cos_incidence, float cos_seen, float cos_b
 
 /// That of the 30 m geometry: light at 1.2412°, eye at 2.2906° above the ground.
 const float kFacetsAt30m = 0.5414125f;
+/// Of the lamp in that geometry (EN 1436), 0.65 m high and 30 m away: cosine of its light's incidence on the ground.
+const float kCosIncidenceAt30m = 0.02166158f;
 
 /// What a marking sends back, in units of `whole`: R_L in the 30 m geometry without the diffuse part, over rho/pi. Its paint lies on rough
 /// ground and is as rough, so a part is facets of its own rho, at most half of R_L (chosen); beads send the rest.

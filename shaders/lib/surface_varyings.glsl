@@ -3,6 +3,7 @@
 #ifndef PHARE_SURFACE_VARYINGS
 #define PHARE_SURFACE_VARYINGS
 #include "lib/lamp_bindings.glsl"
+#include "lib/retro.h"
 #include "lib/snow.h"
 #include "lib/wet.h"
 

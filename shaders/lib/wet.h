@@ -17,9 +17,6 @@ const float kHeldFromBelow = 1.0f - (1.0f - kHeldFromOutside) / (kWater * kWater
 const float kMarkingLeft = 0.12f;
 const float kFacetsLeft = 0.15f;
 
-// Of a lamp's light on a marking in the 30 m geometry of EN 1436: the lamp is 0.65 m high.
-const float kCosIncidenceAt30m = 0.0216616f;
-
 PHARE_INLINE vec3 wet_reflectance(vec3 dry) {
   return dry * ((1.0f - kHeldFromOutside) * (1.0f - kHeldFromBelow)) / (vec3(1.0f) - dry * kHeldFromBelow);
 }

@@ -100,6 +100,14 @@ TEST_F(FrameGraphTest, MemoryGoesWithTheLastImageThatUsesIt) {
   EXPECT_EQ(*device.allocated_bytes, before);
 }
 
+// A card whose stamps have 36 bits begins anew within two hours; all bits above are not to be counted.
+TEST(TimeStamps, BeginAnewWhereTheirBitsEnd) {
+  constexpr std::uint64_t k36 = (std::uint64_t{1} << 36) - 1, kAll = ~std::uint64_t{0};
+  EXPECT_EQ(ticks_between(100, 350, k36), 250.0);
+  EXPECT_EQ(ticks_between(k36 - 99, 150, k36), 250.0);
+  EXPECT_EQ(ticks_between(kAll - 99, 150, kAll), 250.0);
+}
+
 // A pass, an image and what a pass keeps are counted for the account that is set; copies are timed for it, and are no
 // passes. Images that share memory count in full, each for its own.
 TEST_F(FrameGraphTest, EachAccountHasWhatWasCountedForIt) {

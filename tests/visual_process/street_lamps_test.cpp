@@ -76,6 +76,8 @@ TEST(StreetLamps, BadFilesAreRefusedWithPlaceAndReason) {
       {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 5]\n",
        "bad.toml:6: "},
       {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\nscale = -1\n", "bad.toml:4: "},
+      {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\ncolour_temperature_k = 1200\n",
+       "bad.toml:4: \"luminaire.colour_temperature_k\": 1200 is outside 1667 … 25000"},
       {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[luminaire]]\nname = \"a\"\nfile = \"b.ies\"\n",
        "bad.toml:5: \"luminaire.name\": two luminaires are named \"a\""},
       {"[[luminaire]]\nname = \"a\"\nfile = \"a.ies\"\n[[lamp]]\nluminaire = \"a\"\nposition_m = [0, 0, 1e9]\n",

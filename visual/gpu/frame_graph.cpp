@@ -268,26 +268,22 @@ std::span<const std::uint64_t> FrameGraph::read_stamps(std::size_t frame) const 
   return {static_cast<const std::uint64_t*>(of.read.data), 2 * of.passes.size()};
 }
 
-double FrameGraph::ticks_between(std::uint64_t first, std::uint64_t last) const {
-  return static_cast<double>((last - first) & device_.stamp_bits);
-}
-
 std::vector<FrameGraph::Timing> FrameGraph::timings(std::size_t frame) const {
   std::vector<Timing> result;
   const std::vector<Recorded>& passes = recorded_.of(frame).passes;
   const std::span<const std::uint64_t> stamps = read_stamps(frame);
   const double ms_per_tick = static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
   for (std::size_t i = 0; 2 * i < stamps.size(); ++i)
-    result.push_back(
-        {passes[i].name, passes[i].account, ticks_between(stamps[2 * i], stamps[2 * i + 1]) * ms_per_tick});
+    result.push_back({passes[i].name, passes[i].account,
+                      ticks_between(stamps[2 * i], stamps[2 * i + 1], device_.stamp_bits) * ms_per_tick});
   return result;
 }
 
 double FrameGraph::total_ms(std::size_t frame) const {
   const std::span<const std::uint64_t> stamps = read_stamps(frame);
   if (stamps.empty()) return 0.0;
-  return ticks_between(stamps.front(), stamps.back()) * static_cast<double>(device_.properties.limits.timestampPeriod) *
-         1e-6;
+  return ticks_between(stamps.front(), stamps.back(), device_.stamp_bits) *
+         static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
 }
 
 }  // namespace phare::gpu

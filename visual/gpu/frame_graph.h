@@ -37,6 +37,11 @@ struct ImageUse {
   bool discard = false;  ///< what was in it is not needed
 };
 
+/// Of two time stamps of which the bits in `stamp_bits` count (Device): they begin anew where those end.
+constexpr double ticks_between(std::uint64_t first, std::uint64_t last, std::uint64_t stamp_bits) {
+  return static_cast<double>((last - first) & stamp_bits);
+}
+
 /// Passes and memory are counted for whoever calls for them; the graph knows of those only their number.
 using Account = std::size_t;
 inline constexpr Account kFrameAccount = 0;  ///< the frame itself
@@ -161,7 +166,6 @@ class FrameGraph {
                    const std::function<void(Recorder&)>& record);
   void read_back_stamps();
   std::span<const std::uint64_t> read_stamps(std::size_t frame) const;
-  double ticks_between(std::uint64_t first, std::uint64_t last) const;
 
   struct Recorded {
     std::string name;

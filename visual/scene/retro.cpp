@@ -222,7 +222,7 @@ Result<Retroreflection> retroreflection(const std::string& class_name, std::opti
 
 double sent_back_strength(const Retroreflection& retro, double rho) {
   if (retro.kind == RetroKind::kFacets && retro.r_l_mcd_per_lx_m2 == 0.0) return rho / std::numbers::pi;
-  const double cos_incidence = 0.65 / std::hypot(30.0, 0.65);  // EN 1436: lamp 0.65 m high, 30 m away
+  const auto cos_incidence = static_cast<double>(shader::kCosIncidenceAt30m);
   const double beside = std::max(1e-3 * retro.r_l_mcd_per_lx_m2 - rho / std::numbers::pi * cos_incidence, 0.0);
   return retro.kind == RetroKind::kFacets ? beside / static_cast<double>(shader::kFacetsAt30m) : beside;
 }

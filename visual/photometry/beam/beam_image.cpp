@@ -14,6 +14,8 @@
 #include <glm/trigonometric.hpp>
 #include <iterator>
 
+#include "config/rig.h"
+
 namespace phare {
 namespace {
 
@@ -215,7 +217,7 @@ glm::vec3 light_colour(const AimedSource& source) {
 }
 
 glm::vec3 black_body_colour(double temperature_k) {
-  const double t = std::clamp(temperature_k, 1667.0, 25000.0);
+  const double t = std::clamp(temperature_k, kCoolestSource_k, kHottestSource_k);
   const double x = t <= 4000.0 ? -0.2661239e9 / (t * t * t) - 0.2343589e6 / (t * t) + 0.8776956e3 / t + 0.179910
                                : -3.0258469e9 / (t * t * t) + 2.1070379e6 / (t * t) + 0.2226347e3 / t + 0.240390;
   const double y = t <= 2222.0   ? ((-1.1063814 * x - 1.34811020) * x + 2.18555832) * x - 0.20219683
