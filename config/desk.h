@@ -87,7 +87,7 @@ inline constexpr std::array<std::string_view, 6> kShadowNames{"off", "hard", "so
 inline constexpr std::size_t kRayShadows = 4;
 /// The first of these at which things cast with all their triangles, however far they are.
 inline constexpr std::size_t kWholeCasters = 3;
-inline constexpr std::array<std::string_view, 5> kFogNames{"off", "coarse", "medium", "fine", "finest"};
+inline constexpr std::array<std::string_view, 6> kFogNames{"off", "coarse", "medium", "fine", "shadowed", "finest"};
 
 /// Of the windscreen, from standing still to its fastest.
 enum class Wiper { kOff, kInterval, kSlow, kFast };

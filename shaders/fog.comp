@@ -5,6 +5,12 @@
 #include "precipitation.h"
 #include "lib/beam.glsl"
 #include "lib/fog.glsl"
+#ifdef PHARE_AIR_SHADOWS
+#define PHARE_SHADOW_SET 2
+#include "lib/shadow_map.glsl"
+layout(constant_id = kSpecShadowMaps) const uint shadow_maps = 0;
+#define PHARE_MAP_OF(I) (shadow_maps >> (4 * I) & 15u)
+#endif
 
 // Light that fog scatters into the rays of the grid, summed slice by slice from the eye. Of each lamp a slice is taken at points that lie
 // evenly in the angle at the lamp (equiangular sampling, Kulla and Fajardo 2012), more of them the more of it the slice takes: the way
@@ -36,6 +42,35 @@ float phase_at(float angle_deg, float way_m) {
   return all_particles.x - drawn * all_particles.y;
 }
 
+#ifdef PHARE_AIR_SHADOWS
+// How much of the air's way between two angles at the lamp its light reaches, by as many places on the way: even in metres, for a tangent takes
+// longer than the rest. `eye`, `ray`: as the map has the eye, and a metre of the ray.
+float reaching_air(uint lamp, uint map, vec3 eye, vec3 ray, float along_m, float aside_m, float from_deg, float over_deg) {
+  float from_m = along_m + aside_m * tan(radians(from_deg)), to_m = along_m + aside_m * tan(radians(from_deg + over_deg));
+  float reaching = 0.0;
+  for (uint i = 0u; i < shadow_taps; ++i) {
+    vec3 at = eye + ray * mix(from_m, to_m, (float(i) + 0.5) / float(shadow_taps));
+    ShadowPlace place = shadow_seek(at, map, frame.shadows[lamp].zoom.x, 1u);
+    reaching += texelFetch(shadow_depths, place.index).r > place.nearer ? 0.0 : 1.0;
+  }
+  return reaching / float(shadow_taps);
+}
+
+#define RAY_IN_MAP(I) \
+  vec3 eye_in_map_##I, ray_in_map_##I; \
+  if (PHARE_MAP_OF(I) != 0u) { \
+    GpuShadow to = frame.shadows[I]; \
+    eye_in_map_##I = vec3(to.u.w, to.v.w, to.w.w); \
+    ray_in_map_##I = vec3(dot(to.u.xyz, direction), dot(to.v.xyz, direction), dot(to.w.xyz, direction)); \
+  }
+#define SHADE_AIR(I, FROM_DEG, OVER_DEG) \
+  if (PHARE_MAP_OF(I) != 0u && cd > 0.0) \
+    cd *= reaching_air(I, PHARE_MAP_OF(I) - 1u, eye_in_map_##I, ray_in_map_##I, along_##I, d_##I, FROM_DEG, OVER_DEG);
+#else
+#define RAY_IN_MAP(I)
+#define SHADE_AIR(I, FROM_DEG, OVER_DEG)
+#endif
+
 void main() {
   int columns = int(fog_grid & 0xffffu), rows = int(fog_grid >> 16u);
   int index = int(gl_GlobalInvocationID.x);
@@ -51,7 +86,8 @@ void main() {
   float angle_##I = atan2_deg(-along_##I, d_##I); \
   vec3 turned_##I = vec3(dot(frame.lamps[I].row_a.xyz, direction), dot(frame.lamps[I].row_b.xyz, direction), dot(frame.lamps[I].row_c.xyz, direction)); \
   vec3 place_##I = vec3(dot(frame.lamps[I].row_a.xyz, lamp_##I), dot(frame.lamps[I].row_b.xyz, lamp_##I), dot(frame.lamps[I].row_c.xyz, lamp_##I)); \
-  TableShape shape_##I = PHARE_SHAPE(I);
+  TableShape shape_##I = PHARE_SHAPE(I); \
+  RAY_IN_MAP(I)
   PHARE_EACH_LAMP(RAY_OF_LAMP)
 
   float sum = 0.0;
@@ -71,6 +107,7 @@ void main() {
       float cd = 0.0;                                                                                                                  \
       if (r >= frame.lamps[I].row_c.w)                                                                                                 \
         cd = light_at_##I(shape_##I, turned_##I * (along_##I + past) - place_##I, 0.0).cd;                                             \
+      SHADE_AIR(I, angle_##I + (second ? 0.5 * step_deg : 0.0), narrow ? step_deg : 0.5 * step_deg)                                    \
       lamp_sum += (narrow ? step_deg : 0.5 * step_deg) * cd * phase_at(90.0 + at_deg, along_##I + past) * fog_left(r + along_##I + past); \
       if (narrow || second) angle_##I += step_deg;                                                                                     \
       second = !narrow && !second;                                                                                                     \

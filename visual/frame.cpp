@@ -138,7 +138,8 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   // What each lamp sees, where something stands in its light.
   if (effects.on(Effect::kShadows)) {
     const CountedFor counted(Effect::kShadows, graph);
-    parts.shadows.draw(graph, parts.scene, lit, effects.level(Effect::kShadows));
+    parts.shadows.draw(graph, parts.scene, lit, effects.level(Effect::kShadows),
+                       has_shadows(effects.level(Effect::kFog)));
   }
 
   // What fog scatters of the light.

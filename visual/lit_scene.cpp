@@ -26,7 +26,7 @@ const std::array<vk::DescriptorSetLayoutBinding, 1> kShadowBindings{
     vk::DescriptorSetLayoutBinding{.binding = 0,
                                    .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
                                    .descriptorCount = 1,
-                                   .stageFlags = kLitStages}};
+                                   .stageFlags = kLitStages | vk::ShaderStageFlagBits::eCompute}};
 
 const std::array<vk::DescriptorSetLayoutBinding, 2> kFogBindings{
     vk::DescriptorSetLayoutBinding{.binding = 0,

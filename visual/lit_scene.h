@@ -92,6 +92,18 @@ struct ShadowDepths {
   vk::DescriptorSet set{};
 };
 
+/// Maps that points in the air are looked up in.
+struct AirShadows {
+  /// Which of the maps a lamp has, 1 being the first, 0 none, and how points fall on it.
+  struct Map {
+    std::uint32_t number = 0;
+    shader::GpuShadow place{};
+  };
+  ShadowLevel level{};
+  const ShadowDepths* depths = nullptr;
+  std::vector<Map> maps{};  ///< of each of the view's `lit_lamps`; empty: there are none
+};
+
 /// Shape of the grid of light scattered in fog, as kSpecFogLamps and what follows it. None: clear air.
 struct FogGrid {
   std::uint32_t columns = 0, rows = 0, slices = 0;
@@ -120,7 +132,9 @@ struct LitView {
   bool few_kinds = false;                ///< as ViewInput
   ShadowLevel shadows{};                 ///< of the maps that are read
   const ShadowDepths* depths = nullptr;
+  AirShadows air_shadows{};             ///< where shadows are drawn
   std::vector<PlacedLamp> air_lamps{};  ///< whose light goes through what the view sees, on a surface or not
+  std::vector<std::optional<std::size_t>> air_lit{};  ///< which of `lit_lamps` each of them is, if one
   FogGrid fog{};
   vk::DescriptorSet fog_set{};
   std::vector<LitBy> drops_by{};  ///< lamps in groups, whose light falls on drops; none: no drop is drawn
@@ -229,6 +243,8 @@ class LitScene {
   vk::PipelineLayout textured_layout();
   /// Of the set that holds the lamps, for pipelines that compute.
   vk::DescriptorSetLayout lamps_layout() const { return sets_.layout(); }
+  /// Of the set that holds shadow maps.
+  vk::DescriptorSetLayout shadow_layout() const { return shadow_sets_.layout(); }
   /// Beams are weighed by the texture filter.
   bool filtered() const;
   /// The shapes of the tables of a set of lamps, as specialization constants from kSpecTables on. `shown`: only for the

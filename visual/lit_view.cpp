@@ -26,12 +26,13 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
   if (!moving.empty()) geometry_.add_visible(view.items, view.moved, geometry, moving, far_mesh_from_m, hides);
   std::vector<bool> reached;
   std::vector<PlacedLamp> bright;
+  std::vector<std::size_t> in_air_of;
   for (const PlacedLamp& lamp : lamps) {
     if (is_dark(lamp.beam)) continue;
     bright.push_back(lamp);
     const LampReach reach = reach_of(lamp);
     const bool in_air = reach.meets(geometry);
-    if (in_air) view.air_lamps.push_back(lamp);
+    if (in_air) view.air_lamps.push_back(lamp), in_air_of.push_back(bright.size() - 1);
     const bool reaches = in_air && std::ranges::any_of(view.items, [&](const DrawItem& item) {
                            return reach.meets(item.batch->low_m, item.batch->high_m);
                          });
@@ -42,8 +43,13 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
     const auto after = reached.begin() + kLampsForAll;
     std::fill(after, reached.end(), std::find(after, reached.end(), true) != reached.end());
   }
-  for (std::size_t i = 0; i < bright.size(); ++i)
-    if (reached[i]) view.lit_lamps.push_back(bright[i]);
+  std::vector<std::optional<std::size_t>> lit_as(bright.size());
+  for (std::size_t i = 0; i < bright.size(); ++i) {
+    if (!reached[i]) continue;
+    lit_as[i] = view.lit_lamps.size();
+    view.lit_lamps.push_back(bright[i]);
+  }
+  for (const std::size_t i : in_air_of) view.air_lit.push_back(lit_as[i]);
   view.unreached += static_cast<std::uint32_t>(std::ranges::count(reached, false));
   view.lamps = static_cast<std::uint32_t>(view.lit_lamps.size());
   if (view.lamps > kLampsForAll) {

@@ -106,6 +106,19 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
       input.effects[static_cast<std::size_t>(Effect::kFog)] = level;
       return input;
     });
+  for (const std::size_t level : {std::size_t{2}, std::size_t{4}})
+    bench.add(group,
+              "two lamps driven on, shadows " + std::string(kShadowNames[2]) + ", fog " + std::string(kFogNames[level]),
+              renderer, [with_shadows, level, frame = 0](int round) mutable {
+                FrameInput input = with_shadows(2)(round);
+                input.air.visibility_m = 80.0;
+                // Driven on by so much that a grid with shadows is another.
+                const glm::dvec3 way_m = 0.01 * (++frame % 16) * input.camera.world_from_eye[0];
+                input.camera.eye_m += way_m;
+                for (PlacedLamp& lamp : input.lamps) lamp.position_m += way_m;
+                input.effects[static_cast<std::size_t>(Effect::kFog)] = level;
+                return input;
+              });
   for (const bool snow : {false, true})
     bench.add(group, snow ? "two lamps, snow 1 mm/h" : "two lamps, rain 10 mm/h", renderer, [view, snow](int round) {
       FrameInput input = without_shadows(view(round));

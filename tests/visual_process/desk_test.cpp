@@ -265,7 +265,7 @@ TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
       {"help me", "help: \"me\" is none of off, on, toggle"},
       {"depth_first 2", "depth_first: \"2\" is none of auto, off, on"},
       {"shadows on", "shadows: \"on\" is none of auto, off, hard, soft, fine, rays, lens"},
-      {"fog thick", "fog: \"thick\" is none of auto, off, coarse, medium, fine, finest"},
+      {"fog thick", "fog: \"thick\" is none of auto, off, coarse, medium, fine, shadowed, finest"},
       {"visibility_m 0.5", "visibility_m: 0.5 is outside 1 to 1e+05; or clear"},
       {"rain_mmph -1", "rain_mmph: -1 is outside 0 to 100"},
       {"rain_mmph 101", "rain_mmph: 101 is outside 0 to 100"},

@@ -121,7 +121,8 @@ bool FogPass::Source::same(const Source& other) const {
     return glm::all(glm::lessThan(glm::abs(a - b), glm::dvec3(kSame_m)));
   };
   return air == other.air && drops == other.drops && level == other.level && area == other.area &&
-         lamps == other.lamps && std::ranges::equal(ways, other.ways, same_way);
+         lamps == other.lamps && std::ranges::equal(ways, other.ways, same_way) && scene == other.scene &&
+         std::ranges::equal(world, other.world, same_way);
 }
 
 FogPass::Source FogPass::source_of(const LitScene& scene, const LitView& view, std::size_t level, bool drops,
@@ -135,6 +136,14 @@ FogPass::Source FogPass::source_of(const LitScene& scene, const LitView& view, s
     source.ways.push_back((lamp.position_m - input.camera.eye_m) * eye);
     for (int axis = 0; axis < 3; ++axis) source.ways.push_back(lamp.world_from_image[axis] * eye);
   }
+  if (!has_shadows(level) || view.air_shadows.depths == nullptr) return source;
+  source.scene = scene.geometry_version();
+  const auto add_place = [&](const glm::dvec3& place_m, const glm::dmat3& turn) {
+    source.world.push_back(place_m);
+    for (int axis = 0; axis < 3; ++axis) source.world.push_back(turn[axis]);
+  };
+  add_place(input.camera.eye_m, eye);
+  for (const PlacedMesh& mesh : view.moving) add_place(mesh.position_m, mesh.world_from_mesh);
   return source;
 }
 
@@ -198,10 +207,10 @@ void FogPass::fill_phase(const Air& air) {
 
 vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
   if (const auto found = pipelines_.find(key); found != pipelines_.end()) return *found->second;
-  const auto& [tables, lamps, grid, level, adds] = key;
+  const auto& [tables, lamps, grid, level, adds, maps, shadows] = key;
   if (!*layout_) {
     compute_layout_ = gpu::DescriptorSets(device_, kComputeBindings);
-    const std::array layouts{scene.lamps_layout(), compute_layout_.layout()};
+    const std::array layouts{scene.lamps_layout(), compute_layout_.layout(), scene.shadow_layout()};
     layout_ = vk::raii::PipelineLayout(
         device_.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = layouts.size(), .pSetLayouts = layouts.data()});
   }
@@ -211,9 +220,15 @@ vk::Pipeline FogPass::pipeline(const LitScene& scene, const Key& key) {
   constants.put(shader::kSpecFogWidest, std::bit_cast<std::uint32_t>(kFogLevels[level].widest_deg));
   constants.put(shader::kSpecFogAdd, adds ? 1u : 0u);
   put(constants, grid);
+  if (maps != 0) {
+    constants.put(shader::kSpecShadowMaps, maps);
+    constants.put(shader::kSpecShadowWidth, shadows.width);
+    constants.put(shader::kSpecShadowHeight, shadows.height);
+    constants.put(shader::kSpecShadowTaps, kFogLevels[level].shadow_places);
+  }
   constants.put_all(shader::kSpecTables, scene.table_words(tables));
-  const vk::raii::ShaderModule module =
-      gpu::make_shader(device_, gpu::specialised(fog_comp(shader_for(lamps), scene.filtered()), constants.info()));
+  const vk::raii::ShaderModule module = gpu::make_shader(
+      device_, gpu::specialised(fog_comp(shader_for(lamps), scene.filtered(), maps != 0), constants.info()));
   ++*device_.pipelines_made;
   return *pipelines_
               .emplace(
@@ -253,11 +268,19 @@ void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::
   fill_places(grid.places, view, input.camera.eye_m, area, level);
   if (view.air_lamps.empty()) return;
 
+  const bool shadowed = has_shadows(level_number) && view.air_shadows.depths != nullptr;
   std::vector<LitBy> groups;
   for (std::size_t first = 0; first < view.air_lamps.size(); first += shader::kMaxLamps) {
     const auto count = std::min<std::size_t>(shader::kMaxLamps, view.air_lamps.size() - first);
     groups.push_back(scene.fill(view, std::span(view.air_lamps).subspan(first, count)));
     groups.back().data->fog = data;
+    if (!shadowed) continue;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!view.air_lit[first + k]) continue;
+      const AirShadows::Map& map = view.air_shadows.maps[*view.air_lit[first + k]];
+      groups.back().shadow_maps |= map.number << (4 * k);
+      groups.back().data->shadows[k] = map.place;
+    }
   }
   graph.pass("fog", {}, [&](gpu::Recorder& commands) {
     using Stage = vk::PipelineStageFlagBits2;
@@ -272,9 +295,14 @@ void FogPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::
         wait_for_cells(commands, Stage::eComputeShader, Access::eShaderStorageRead | Access::eShaderStorageWrite);
       commands.bindPipeline(
           vk::PipelineBindPoint::eCompute,
-          pipeline(scene, scene.key_for(groups[i], pipelines_, {0, groups[i].lamps, view.fog, level_number, i > 0})));
+          pipeline(scene, scene.key_for(groups[i], pipelines_,
+                                        {0, groups[i].lamps, view.fog, level_number, i > 0, groups[i].shadow_maps,
+                                         groups[i].shadow_maps != 0 ? view.air_shadows.level : ShadowLevel{}})));
       commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, groups[i].set, groups[i].data_at);
       commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 1, grid.compute_set, nullptr);
+      if (groups[i].shadow_maps != 0)
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 2, view.air_shadows.depths->set,
+                                    nullptr);
       commands.dispatch((level.columns * level.rows + shader::kFogGroup - 1) / shader::kFogGroup, 1, 1);
     }
     wait_for_cells(commands, Stage::eFragmentShader, Access::eShaderSampledRead);

@@ -3,11 +3,13 @@
 // view is lit (shaders/lib/fog.glsl). Surfaces and sky are dimmed by the way through the fog, and lamps by theirs.
 //
 // The grid depends on lamps and eye, not on what they see: while a car's own lamps shine as they did, it is kept from
-// frame to frame, and a frame costs no more than reading it.
+// frame to frame, and a frame costs no more than reading it. At levels with shadows it depends on what stands in the
+// light, too, and is kept only while all of that, lamps and eye stay where they are in the world.
 //
-// Error: of the sums over each slice (points for each lamp, even in the angle at the lamp), and of interpolation
-// between rays and slices; levels differ in both. Left out: shadows in fog, and of lamps of several colours where in
-// the fog each colour is. Checked by tests/visual/fog_test.cpp.
+// Error: of the sums over each slice (points for each lamp, even in the angle at the lamp), of interpolation between
+// rays and slices, and of shadows that begin or end within a step, by places on its way; levels differ in all of them.
+// Left out: shadows at levels without, those of lamps that light no surface in view, and of lamps of several colours
+// where in the fog each colour is. Checked by tests/visual/fog_test.cpp.
 #pragma once
 
 #include <array>
@@ -24,21 +26,29 @@
 namespace phare {
 
 /// Of the grid; steps of a slice for each lamp, at least, and how wide they are at the lamp, at most; of the columns
-/// those that lie about lamps in view: many of few, so that own beams and what is beside a lamp are off alike.
+/// those that lie about lamps in view: many of few, so that own beams and what is beside a lamp are off alike. Places
+/// on the way of a step that are looked up in shadow maps; 0: the fog has no shadows.
 struct FogLevel {
   std::uint32_t columns = 0, rows = 0, slices = 0, steps = 0;
   float widest_deg = 0.0f;
   double columns_of_peaks = 0.0;
+  std::uint32_t shadow_places = 0;
 };
 
 /// In the order of the effect's levels (visual/effects.h), the first being off.
-inline constexpr std::array<FogLevel, 5> kFogLevels{{{},
-                                                    {48, 64, 20, 1, 12.0f, 0.65},
-                                                    {84, 96, 24, 1, 4.0f, 0.75},
-                                                    {161, 253, 96, 4, 1.0f, 0.55},
-                                                    {207, 325, 122, 6, 0.6f, 0.55}}};
+inline constexpr std::array<FogLevel, 6> kFogLevels{{{},
+                                                     {48, 64, 20, 1, 12.0f, 0.65},
+                                                     {84, 96, 24, 1, 4.0f, 0.75},
+                                                     {161, 253, 96, 4, 1.0f, 0.55},
+                                                     {84, 96, 24, 1, 4.0f, 0.75, 3},
+                                                     {207, 325, 122, 6, 0.6f, 0.55, 4}}};
 
 static_assert(kFogNames.size() == kFogLevels.size());
+
+/// Whether fog has shadows at a level of the effect.
+constexpr bool has_shadows(std::size_t fog_level) {
+  return kFogLevels[fog_level].shadow_places > 0;
+}
 
 /// Texels of a level's grid: cells of four rays, one more each way, in each slice.
 constexpr std::uint64_t texels_of(const FogLevel& level) {
@@ -74,7 +84,9 @@ class FogPass {
       friend bool operator==(const Lamp&, const Lamp&) = default;
     };
     std::vector<Lamp> lamps{};
-    std::vector<glm::dvec3> ways{};  ///< of rays and lamps, m
+    std::vector<glm::dvec3> ways{};   ///< of rays and lamps, m
+    std::uint64_t scene = 0;          ///< with shadows: its version
+    std::vector<glm::dvec3> world{};  ///< with shadows: where the eye and what moves are, m, and how they are turned
     bool same(const Source& other) const;
   };
   /// Of one view.
@@ -87,8 +99,9 @@ class FogPass {
     vk::DescriptorSet set{}, compute_set{};
     std::optional<Source> source{};  ///< of what the texels hold
   };
-  /// Tables (LitScene::key_for), lamps, grid, level, whether it adds.
-  using Key = std::tuple<std::size_t, std::uint32_t, FogGrid, std::size_t, bool>;
+  /// Tables (LitScene::key_for), lamps, grid, level, whether it adds, maps of the lamps (as kSpecShadowMaps) and
+  /// theirs.
+  using Key = std::tuple<std::size_t, std::uint32_t, FogGrid, std::size_t, bool, std::uint32_t, ShadowLevel>;
 
   static Source source_of(const LitScene& scene, const LitView& view, std::size_t level, bool drops,
                           const ViewInput& input, const vk::Rect2D& area);
@@ -123,6 +136,6 @@ class FogSky {
 };
 
 /// fog.comp for up to 2, 4, 8 lamps.
-std::span<const std::uint32_t> fog_comp(std::size_t size, bool filtered);
+std::span<const std::uint32_t> fog_comp(std::size_t size, bool filtered, bool shadows);
 
 }  // namespace phare

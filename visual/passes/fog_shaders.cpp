@@ -1,10 +1,16 @@
 // The shaders of fog, of each number of lamps: apart, for their code is long and few files need it.
 #include "shaders/fog_comp_2.h"
 #include "shaders/fog_comp_2_filtered.h"
+#include "shaders/fog_comp_2_filtered_shadows.h"
+#include "shaders/fog_comp_2_shadows.h"
 #include "shaders/fog_comp_4.h"
 #include "shaders/fog_comp_4_filtered.h"
+#include "shaders/fog_comp_4_filtered_shadows.h"
+#include "shaders/fog_comp_4_shadows.h"
 #include "shaders/fog_comp_8.h"
 #include "shaders/fog_comp_8_filtered.h"
+#include "shaders/fog_comp_8_filtered_shadows.h"
+#include "shaders/fog_comp_8_shadows.h"
 #include "shaders/lamps_frag_2_filtered_fog.h"
 #include "shaders/lamps_frag_2_filtered_shadows_fog.h"
 #include "shaders/lamps_frag_2_fog.h"
@@ -46,10 +52,13 @@ std::span<const std::uint32_t> scene_fog_vert(bool shadows, bool by_vertex, bool
   return shadows ? ShaderCode(k_scene_vert_2_lit_shadows_fog) : ShaderCode(k_scene_vert_2_lit_fog);
 }
 
-std::span<const std::uint32_t> fog_comp(std::size_t size, bool filtered) {
-  static const std::array<ShaderCode, 3> tables{k_fog_comp_2, k_fog_comp_4, k_fog_comp_8};
-  static const std::array<ShaderCode, 3> filters{k_fog_comp_2_filtered, k_fog_comp_4_filtered, k_fog_comp_8_filtered};
-  return (filtered ? filters : tables)[size];
+std::span<const std::uint32_t> fog_comp(std::size_t size, bool filtered, bool shadows) {
+  static const std::array<ShaderCode, 6> tables{k_fog_comp_2,         k_fog_comp_4,         k_fog_comp_8,
+                                                k_fog_comp_2_shadows, k_fog_comp_4_shadows, k_fog_comp_8_shadows};
+  static const std::array<ShaderCode, 6> filters{k_fog_comp_2_filtered,         k_fog_comp_4_filtered,
+                                                 k_fog_comp_8_filtered,         k_fog_comp_2_filtered_shadows,
+                                                 k_fog_comp_4_filtered_shadows, k_fog_comp_8_filtered_shadows};
+  return (filtered ? filters : tables)[size + (shadows ? 3 : 0)];
 }
 
 }  // namespace phare

@@ -92,10 +92,12 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
     }
     map.texels = (0.5 * glm::dvec2(level.width, level.height) - 1.0) / map.half;
   }
+  view.air_shadows.maps.resize(view.lit_lamps.size());
   for (std::size_t map = 0; map < maps.size(); ++map) {
     maps[map].zoom = zoom;
     const std::size_t lamp = maps[map].lamp;
     const shader::GpuShadow place = place_of(view.lit_lamps[lamp], view.geometry, maps[map].texels, zoom);
+    view.air_shadows.maps[lamp] = {static_cast<std::uint32_t>(map + 1), place};
     for (LitBy& lit : view.lit_by)
       for (std::size_t k = 0; k < lit.lamps; ++k) {
         if (lit.lamp_at[k] != lamp) continue;
@@ -331,12 +333,21 @@ vk::Pipeline ShadowPass::cut_pipeline(LitScene& scene) {
   return *cut_pipeline_;
 }
 
-void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level_number) {
-  if (kShadowLevels[level_number].by_rays()) {
-    if (!rays_) rays_ = std::make_unique<ShadowRays>(device_);
-    rays_->place(graph, scene, view, kShadowLevels[level_number]);
+void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level, bool in_air) {
+  if (!kShadowLevels[level].by_rays()) {
+    draw_maps(graph, scene, view, level);
     return;
   }
+  if (in_air) {
+    draw_maps(graph, scene, view, kRayShadows - 1);
+    for (LitBy& lit : view.lit_by) lit.shadow_maps = 0;
+    view.without_map = 0;
+  }
+  if (!rays_) rays_ = std::make_unique<ShadowRays>(device_);
+  rays_->place(graph, scene, view, kShadowLevels[level]);
+}
+
+void ShadowPass::draw_maps(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level_number) {
   while (level_number > 1 && most_shadow_maps(kShadowLevels[level_number], limits_) == 0) --level_number;
   const ShadowLevel& level = kShadowLevels[level_number];
   const std::vector<Map> maps = place_maps(view, level, most_shadow_maps(level, limits_));
@@ -368,8 +379,8 @@ void ShadowPass::draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, st
     draw_image(graph, scene, depths, level, pictures, first * texels_of_map(level));
   }
   graph.count_kept(&depths, depths.texels.bytes);
-  view.shadows = level;
-  view.depths = &depths;
+  view.shadows = view.air_shadows.level = level;
+  view.depths = view.air_shadows.depths = &depths;
 }
 
 void ShadowPass::draw_image(gpu::FrameGraph& graph, LitScene& scene, const ShadowDepths& depths,
@@ -427,7 +438,9 @@ void ShadowPass::draw_image(gpu::FrameGraph& graph, LitScene& scene, const Shado
   });
   graph.copy("shadow depths", {{&image, gpu::Use::kCopySource, false}}, [&](gpu::Recorder& commands) {
     // The frame before may still read its own.
-    const vk::MemoryBarrier2 once_read{.srcStageMask = vk::PipelineStageFlagBits2::eFragmentShader,
+    constexpr vk::PipelineStageFlags2 kReaders =
+        vk::PipelineStageFlagBits2::eFragmentShader | vk::PipelineStageFlagBits2::eComputeShader;
+    const vk::MemoryBarrier2 once_read{.srcStageMask = kReaders,
                                        .dstStageMask = vk::PipelineStageFlagBits2::eCopy,
                                        .dstAccessMask = vk::AccessFlagBits2::eTransferWrite};
     commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &once_read});
@@ -437,7 +450,7 @@ void ShadowPass::draw_image(gpu::FrameGraph& graph, LitScene& scene, const Shado
                                                    .imageExtent = {extent.width, extent.height, 1}});
     const vk::MemoryBarrier2 to_shader{.srcStageMask = vk::PipelineStageFlagBits2::eCopy,
                                        .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
-                                       .dstStageMask = vk::PipelineStageFlagBits2::eFragmentShader,
+                                       .dstStageMask = kReaders,
                                        .dstAccessMask = vk::AccessFlagBits2::eShaderSampledRead};
     commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &to_shader});
   });

@@ -60,7 +60,8 @@ class ShadowPass {
   /// rehearsal, for which no triangles for rays are freed.
   void begin_frame(bool seen = true);
   /// Draws the maps of the view's lamps, or places the triangles for rays, and has the view read them from here on.
-  void draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level);
+  /// `in_air`: points in the air are looked up in maps, so with rays there are maps for those (LitView::air_shadows).
+  void draw(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level, bool in_air = false);
 
   /// Corners from `first` on, drawn as one side or both are seen.
   struct Range {
@@ -85,6 +86,7 @@ class ShadowPass {
     Ranges ranges{};
   };
 
+  void draw_maps(gpu::FrameGraph& graph, LitScene& scene, LitView& view, std::size_t level);
   /// Pictures of one image, one below the other, and their depths into the buffer from `first_texel` on.
   void draw_image(gpu::FrameGraph& graph, LitScene& scene, const ShadowDepths& depths, const ShadowLevel& level,
                   const std::vector<Picture>& pictures, std::size_t first_texel);
