@@ -31,9 +31,20 @@ Status look_up(const Dbc& dbc, const DbcSignal& signal, const std::string& place
   return Error{place, unknown_name_reason("value", value.name, names) + " (of signal " + signal.name + ")"};
 }
 
-/// Where the car has the signal elsewhere than the DBC file says: "16|4@1+".
-Status lay_out(const ControlMapping& mapping, const DbcMessage& message, DbcSignal& signal) {
-  if (mapping.bits.empty()) return Done{};
+Status look_up_all(const Dbc& dbc, const DbcSignal& signal, ControlMapping& mapping) {
+  for (SignalLevel& level : mapping.levels) {
+    if (const Status status = look_up(dbc, signal, mapping.place, level.when); !status) return status;
+  }
+  for (NamedValue& value : mapping.on) {
+    if (const Status status = look_up(dbc, signal, mapping.place, value); !status) return status;
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<DbcSignal> laid_out(const ControlMapping& mapping, const DbcMessage& message, const DbcSignal& signal) {
+  if (mapping.bits.empty()) return signal;
   TextScanner scan(mapping.bits);
   const auto start = scan.number<std::uint32_t>();
   const auto length = start && scan.take('|') ? scan.number<std::uint32_t>() : std::nullopt;
@@ -54,21 +65,8 @@ Status lay_out(const ControlMapping& mapping, const DbcMessage& message, DbcSign
   if (!fits)
     return Error{mapping.place, "bits \"" + mapping.bits + "\" do not fit message " + message.name + " of " +
                                     std::to_string(message.length_bytes) + " bytes"};
-  signal = std::move(laid);
-  return Done{};
+  return laid;
 }
-
-Status look_up_all(const Dbc& dbc, const DbcSignal& signal, ControlMapping& mapping) {
-  for (SignalLevel& level : mapping.levels) {
-    if (const Status status = look_up(dbc, signal, mapping.place, level.when); !status) return status;
-  }
-  for (NamedValue& value : mapping.on) {
-    if (const Status status = look_up(dbc, signal, mapping.place, value); !status) return status;
-  }
-  return Done{};
-}
-
-}  // namespace
 
 Result<SignalMap> SignalMap::bind(const CockpitConfig& config, Dbc dbc, std::int64_t start_ns) {
   SignalMap map;
@@ -88,10 +86,9 @@ Result<SignalMap> SignalMap::bind(const CockpitConfig& config, Dbc dbc, std::int
       if (!found) return found.error();
       others[i] = *found;
     }
-    DbcMessage& laid_out = map.dbc_.messages[*message];
-    if (const Status status = lay_out(mapping, laid_out, laid_out.signals[*signal]); !status) return status.error();
-    if (const Status status = look_up_all(map.dbc_, dbc_message.signals[*signal], mapping); !status)
-      return status.error();
+    auto laid = laid_out(mapping, dbc_message, dbc_message.signals[*signal]);
+    if (!laid) return laid.error();
+    if (const Status status = look_up_all(map.dbc_, *laid, mapping); !status) return status.error();
 
     auto bound =
         std::find_if(map.messages_.begin(), map.messages_.end(), [&](const auto& m) { return m.message == *message; });
@@ -101,7 +98,7 @@ Result<SignalMap> SignalMap::bind(const CockpitConfig& config, Dbc dbc, std::int
     bound->timeout_ns = std::max(bound->timeout_ns, static_cast<std::int64_t>(mapping.timeout_s * 1e9));
     const double debounce_s = mapping.debounce_s.value_or(config.debounce_s);
     bound->controls.push_back({ControlReader(std::move(mapping), static_cast<std::int64_t>(debounce_s * 1e9)),
-                               *signal,
+                               std::move(*laid),
                                others[0],
                                others[1],
                                {}});
@@ -157,7 +154,7 @@ bool SignalMap::BoundControl::decides_beam() const {
 
 SignalMap::Read SignalMap::read(BoundControl& control, const DbcMessage& message, const CanFrame& frame,
                                 std::int64_t at_ns, BeamBits& bits, DriverInput& input) {
-  const DbcSignal& signal = message.signals[control.signal];
+  const DbcSignal& signal = control.signal;
   const auto decoded = decode(message, signal, frame);
   // Of a multiplexed message each frame holds a part; the others come with the next frames.
   if (!decoded && !signal.multiplexor.empty() && bytes_needed(signal) <= frame.length) return Read::kAbsent;

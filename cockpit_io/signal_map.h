@@ -16,6 +16,10 @@
 
 namespace phare {
 
+/// A control's signal as the control reads it: where the cockpit file says that the car has it ("16|4@1+"), else as the
+/// DBC file has it. Error: bits that are none, or do not fit the message.
+Result<DbcSignal> laid_out(const ControlMapping& mapping, const DbcMessage& message, const DbcSignal& signal);
+
 class SignalMap {
  public:
   enum class Taken {
@@ -52,7 +56,7 @@ class SignalMap {
  private:
   struct BoundControl {
     ControlReader reader;
-    std::size_t signal = 0;  ///< index in its message
+    DbcSignal signal{};  ///< as this control reads it: `bits` of another leave it alone
     std::optional<std::size_t> fine_signal, sign_signal;
     std::vector<double> unknown;  ///< values without a meaning that have been told
     /// A value without a meaning leaves the beam open: as if it had not come.

@@ -10,5 +10,5 @@ layout(location = 0) out vec4 result;
 
 void main() {
   vec3 light = pupil.light.rgb * eyeshine_share(gl_FragCoord.xy - pupil.place.xy, pupil.place.z);
-  result = output_kind == kOutputHdr ? vec4(light, 0.0) : vec4(srgb_encoded(tone_curve(light)), 1.0);
+  result = output_kind == kOutputHdr ? vec4(min(light, kHalfMost), 0.0) : vec4(srgb_encoded(tone_curve(light)), 1.0);
 }

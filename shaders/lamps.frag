@@ -233,5 +233,5 @@ void main() {
     result = vec4(srgb_encoded(clipping_marked(tone_curve(light), gl_FragCoord.xy)), 1.0);
     return;
   }
-  result = output_kind == kOutputHdr ? vec4(light, total_lx) : vec4(srgb_encoded(tone_curve(light)), 1.0);
+  result = output_kind == kOutputHdr ? min(vec4(light, total_lx), kHalfMost) : vec4(srgb_encoded(tone_curve(light)), 1.0);
 }

@@ -8,6 +8,6 @@ layout(push_constant) uniform Constants { ToneConstants constants; };
 layout(location = 0) out vec4 result;
 
 void main() {
-  vec3 luminance = texelFetch(hdr_cdm2, ivec2(gl_FragCoord.xy), 0).rgb;
+  vec3 luminance = held_by_half(texelFetch(hdr_cdm2, ivec2(gl_FragCoord.xy), 0).rgb);
   result = vec4(srgb_encoded(tone_curve(luminance * constants.exposure.rgb)), 1.0);
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "lib/luminance.h"
+#include "lib/tone.h"
 #include "windscreen.h"
 
 // A texel a place on the glass: the light of a drop there, the mean of the picture about it, and of lamps that shine into the eye.
@@ -23,7 +23,7 @@ void main() {
     float share = sqrt((float(i) + 0.5) / float(kScreenTaps)), way = share * draw.reach.x, angle = turn + 2.3999632 * float(i);
     vec2 at = clamp(middle + way * vec2(cos(angle), sin(angle)), draw.area.xy, draw.area.xy + draw.area.zw - 1.0);
     // What is brighter is small, and met by few samples of few drops.
-    vec3 seen = texelFetch(picture, ivec2(at), 0).rgb;
+    vec3 seen = held_by_half(texelFetch(picture, ivec2(at), 0).rgb);
     seen *= min(1.0, kMostSampled_cdm2 / max(luminance_of(seen), 1e-6));
     sum += drop_bends(share) * seen;
   }

@@ -53,34 +53,45 @@ void AuditPicture::draw(gpu::FrameGraph& graph, LitScene& scene, const ViewInput
   graph.read_back(normal_, lit.area, normals_);
 }
 
+std::vector<std::size_t> audited_pixels(std::span<const glm::vec4> places, std::span<const glm::vec4> normals,
+                                        std::size_t count, std::uint64_t seed) {
+  // Light that is missing is among the dark ones, and what is no number is neither lit nor dark.
+  std::vector<std::size_t> lit, dark;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (normals[i].w > 0.0f) (places[i].w <= 0.0f ? dark : lit).push_back(i);
+  if (lit.empty()) return {};
+  std::vector<std::size_t> chosen;
+  std::mt19937_64 random(seed);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::vector<std::size_t>& from = k % kDarkPixelIn == kDarkPixelIn - 1 && !dark.empty() ? dark : lit;
+    chosen.push_back(from[random() % from.size()]);
+  }
+  return chosen;
+}
+
 std::vector<AuditSample> AuditPicture::samples(std::size_t count, std::uint64_t seed) const {
-  const auto* p = static_cast<const float*>(positions_.data);
-  const auto* n = static_cast<const float*>(normals_.data);
-  std::vector<std::size_t> lit;
-  for (std::size_t i = 0; i < std::size_t{extent_.width} * extent_.height; ++i)
-    if (n[4 * i + 3] > 0.0f && p[4 * i + 3] > 0.0f) lit.push_back(i);
-  const auto normal_of = [&](std::size_t i) { return glm::dvec3(n[4 * i], n[4 * i + 1], n[4 * i + 2]); };
-  // How much the normal turns to the next pixels that are lit.
+  const std::size_t pixels = std::size_t{extent_.width} * extent_.height;
+  const std::span places(static_cast<const glm::vec4*>(positions_.data), pixels);
+  const std::span normals(static_cast<const glm::vec4*>(normals_.data), pixels);
+  const auto normal_of = [&](std::size_t i) { return glm::dvec3(normals[i]); };
+  // How much the normal turns to the next pixels where there is a surface.
   const auto turn_per_px = [&](std::size_t i) {
     double most = 0.0;
     const std::size_t x = i % extent_.width, y = i / extent_.width;
     const auto see = [&](bool there, std::size_t next) {
-      if (there && n[4 * next + 3] > 0.0f) most = std::max(most, glm::distance(normal_of(next), normal_of(i)));
+      if (there && normals[next].w > 0.0f) most = std::max(most, glm::distance(normal_of(next), normal_of(i)));
     };
     see(x > 0, i - 1), see(x + 1 < extent_.width, i + 1);
     see(y > 0, i - extent_.width), see(y + 1 < extent_.height, i + extent_.width);
     return most;
   };
   std::vector<AuditSample> samples;
-  std::mt19937_64 random(seed);
-  for (std::size_t k = 0; k < count && !lit.empty(); ++k) {
-    const std::size_t i = lit[random() % lit.size()];
-    samples.push_back({{eye_m_ + glm::dvec3(p[4 * i], p[4 * i + 1], p[4 * i + 2]), normal_of(i)},
-                       static_cast<double>(p[4 * i + 3]),
+  for (const std::size_t i : audited_pixels(places, normals, count, seed))
+    samples.push_back({{eye_m_ + glm::dvec3(places[i]), normal_of(i)},
+                       static_cast<double>(places[i].w),
                        (static_cast<double>(i % extent_.width) + 0.5) / extent_.width,
                        (static_cast<double>(i / extent_.width) + 0.5) / extent_.height,
                        4.0 * 0x1p-24 * static_cast<double>(i % extent_.width + i / extent_.width) * turn_per_px(i)});
-  }
   return samples;
 }
 

@@ -2,12 +2,22 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "visual/lit_scene.h"
 #include "visual/renderer.h"
 
 namespace phare {
+
+/// Of so many pixels that are audited one is dark: light that should be there and is not is found there alone.
+inline constexpr std::size_t kDarkPixelIn = 4;
+
+/// Which pixels of a picture are computed again, by `seed`; none where none is lit. `places`: w the illuminance, lx;
+/// `normals`: w above 0 where there is a surface that lamps may light. What is no number counts as lit.
+std::vector<std::size_t> audited_pixels(std::span<const glm::vec4> places, std::span<const glm::vec4> normals,
+                                        std::size_t count, std::uint64_t seed);
 
 class AuditPicture {
  public:
@@ -18,7 +28,7 @@ class AuditPicture {
   static void prepare(LitScene& scene, const ViewInput& view, const vk::Extent2D& picture);
   /// Into what is recorded; once. Of the view the camera, the lamps, what moves and the method.
   void draw(gpu::FrameGraph& graph, LitScene& scene, const ViewInput& view);
-  /// `count` lit pixels chosen by `seed`, after the device has done it.
+  /// `count` pixels (audited_pixels) chosen by `seed`, after the device has done it.
   std::vector<AuditSample> samples(std::size_t count, std::uint64_t seed) const;
 
  private:

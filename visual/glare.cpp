@@ -40,7 +40,9 @@ std::vector<GlaringLamp> glare_seen(const ViewGeometry& view, std::span<const Gl
   if (view.camera().orthographic_width_m > 0.0) return seen;  // from everywhere at once, by no eye
   for (const GlaringLamp& source : sources) {
     if (!(source.eye_lx > 0.0)) continue;
-    const double most_cdm2 = source.eye_lx * veil_general_per_sr(viewer, least_angle_deg(view, source.place_m));
+    const double least_deg = least_angle_deg(view, source.place_m);
+    const double most_cdm2 = source.eye_lx * std::max(std::cos(least_deg * std::numbers::pi / 180.0), 0.0) *
+                             veil_general_per_sr(viewer, least_deg);
     if (most_cdm2 * display_per_cdm2 >= kHalfStep) seen.push_back(source);
   }
   std::ranges::sort(seen, std::greater{}, &GlaringLamp::eye_lx);

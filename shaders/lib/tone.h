@@ -14,6 +14,15 @@ PHARE_INLINE vec3 tone_curve(vec3 exposed) {
   return exposed * scale;
 }
 
+/// What a half float holds. Where a light beyond that is written, some devices hold the most there is and some
+/// infinity, of which tone_curve() is no number.
+const float kHalfMost = 65504.0f;
+
+/// Light read from half floats.
+PHARE_INLINE vec3 held_by_half(vec3 light) {
+  return min(light, vec3(kHalfMost));
+}
+
 /// What the display clips, in stripes of 4 pixels: red where a channel is above 1, blue where all are below half a step of 8 bits.
 PHARE_INLINE vec3 clipping_marked(vec3 linear, vec2 pixel) {
   const float half_step = 0.5f / 255.0f / 12.92f;

@@ -243,5 +243,25 @@ TEST(CockpitFile, BitsThatTheCarHasElsewhereAreChecked) {
   }
 }
 
+TEST(CockpitFile, BitsOfOneControlLeaveAnotherOfTheSameSignalAlone) {
+  const auto config = parse_cockpit(
+      "[source]\nkind = \"log\"\n"
+      "[control.flash]\nmessage = \"M\"\nsignal = \"S\"\n"
+      "[control.fog_front]\nmessage = \"M\"\nsignal = \"S\"\nbits = \"8|1@1+\"\n",
+      "c.toml");
+  ASSERT_TRUE(config) << config.error().text();
+  auto map = SignalMap::bind(*config, *parse_dbc("BO_ 1 M: 2 X\n SG_ S : 0|1@1+ (1,0) [0|0] \"\" X\n", "m.dbc"), 0);
+  ASSERT_TRUE(map) << map.error().text();
+  const auto read = [&](std::uint8_t first, std::uint8_t second) {
+    CanFrame frame{.id = 1, .length = 2};
+    frame.data[0] = first, frame.data[1] = second;
+    DriverInput input;
+    EXPECT_EQ(map->take(frame, 1'000'000'000, input), SignalMap::Taken::kDecoded);
+    return std::pair(input.switches.flash, input.switches.fog_front);
+  };
+  EXPECT_EQ(read(1, 0), std::pair(true, false));
+  EXPECT_EQ(read(0, 1), std::pair(false, true));
+}
+
 }  // namespace
 }  // namespace phare

@@ -1,6 +1,10 @@
 // An audit that is drawn with a frame: the same figures as one by itself, and nothing that a driver would wait for.
+#include "visual/audit_picture.h"
+
 #include <gtest/gtest.h>
 
+#include <array>
+#include <limits>
 #include <stdexcept>
 #include <tuple>
 #include <vector>
@@ -18,6 +22,22 @@ Renderer made(std::size_t frames_in_flight) {
   if (!renderer->load_scene(yard()).ok()) throw std::runtime_error("the yard is a scene");
   renderer->set_beam(0, image_of(cut_off_table(PhotometricType::kA, GammaAxis::kGamma0)));
   return std::move(*renderer);
+}
+
+// A pixel that is no number and one whose light is missing are found; the sky is not asked.
+TEST(Audits, NeitherWhatIsNoNumberNorMissingLightIsLeftOut) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  std::vector<glm::vec4> places(8, glm::vec4(0.0f)), normals(8, glm::vec4(0.0f));
+  for (std::size_t i = 0; i < 4; ++i) normals[i].w = 2.0f;  // the others are sky
+  places[0].w = 5.0f, places[1].w = 3.0f, places[2].w = none;
+  std::array<std::size_t, 8> counts{};
+  for (const std::size_t pixel : audited_pixels(places, normals, 400, 7)) ++counts.at(pixel);
+  EXPECT_EQ(counts[3], 400 / kDarkPixelIn) << "dark";
+  for (const std::size_t lit : {0u, 1u, 2u}) EXPECT_NEAR(static_cast<double>(counts[lit]), 100.0, 40.0) << lit;
+  EXPECT_EQ(counts[4] + counts[5] + counts[6] + counts[7], 0u);
+  places[2].w = places[3].w = 1.0f;
+  EXPECT_EQ(audited_pixels(places, normals, 400, 7).size(), 400u) << "none is dark";
+  EXPECT_TRUE(audited_pixels(places, {normals.begin() + 4, normals.end()}, 400, 7).empty()) << "nothing is seen";
 }
 
 // Asked for, an audit is drawn with the next frame, which neither waits for it nor counts it as its own.

@@ -55,7 +55,8 @@ TEST(Glare, WhatTheDisplayCannotShowIsLeftOut) {
   EXPECT_EQ(glare_seen(view, in_view, viewer, 1e-6).size(), 0u);
   // The bound is where the veil of the nearest point of the view is half a step of 8 bits.
   const double beside_deg = least_angle_deg(view, aside({}, 60.0));
-  const double edge_lx = 0.5 / 255.0 / 12.92 / 0.3 / veil_general_per_sr(viewer, beside_deg);
+  const double edge_lx = 0.5 / 255.0 / 12.92 / 0.3 / veil_general_per_sr(viewer, beside_deg) /
+                         std::cos(beside_deg * std::numbers::pi / 180.0);
   const std::vector<GlaringLamp> more{{aside({}, 60.0), 1.01 * edge_lx}}, less{{aside({}, 60.0), 0.99 * edge_lx}};
   EXPECT_EQ(glare_seen(view, more, viewer, 0.3).size(), 1u);
   EXPECT_EQ(glare_seen(view, less, viewer, 0.3).size(), 0u);
@@ -115,9 +116,13 @@ TEST_F(GlareOnDevice, PixelsAreTheEquation) {
       for (int x = 0; x < image.width_px; ++x) {
         const glm::dvec3 way = view.ray_through(x, y, image.width_px, image.height_px).direction;
         glm::dvec3 veil_cdm2(0.0);
-        for (const GlaringLamp& source : input.glare)
+        for (const GlaringLamp& source : input.glare) {
+          const double apart_deg = angle_deg(way, source.place_m - input.camera.eye_m);
+          // Illuminance is that of a plane across the line of sight.
           veil_cdm2 += glm::dvec3(source.colour) * source.eye_lx *
-                       veil_general_per_sr(viewer, angle_deg(way, source.place_m - input.camera.eye_m));
+                       std::max(std::cos(apart_deg * std::numbers::pi / 180.0), 0.0) *
+                       veil_general_per_sr(viewer, apart_deg);
+        }
         const glm::vec3 shown = shader::srgb_encoded(shader::tone_curve(glm::vec3(veil_cdm2 * 0.3)));
         for (int channel = 0; channel < 3; ++channel) {
           const int value = image.rgba[static_cast<std::size_t>(4 * (y * image.width_px + x) + channel)];

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "shaders/lib/angles.h"
@@ -113,6 +114,15 @@ TEST(Tone, DarkStaysProportionalWhiteIsReachedAndOnlyBrighterIsClipped) {
     }
     last = now;
   }
+}
+
+// Where half floats hold no more, some devices write infinity, of which the curve is no number.
+TEST(Tone, InfiniteLightIsWhite) {
+  const vec3 most(std::numeric_limits<float>::infinity());
+  EXPECT_TRUE(std::isnan(tone_curve(most).x));
+  EXPECT_GT(tone_curve(held_by_half(most) * 0.3f).x, 1.0f);
+  EXPECT_EQ(srgb_encoded(tone_curve(held_by_half(most) * 0.3f)).x, srgb_encoded(vec3(1.0f)).x);
+  EXPECT_EQ(held_by_half(vec3(0.25f)).x, 0.25f);
 }
 
 TEST(FalseColour, RisesInBrightnessUpToTheYellowOfThirtyLux) {

@@ -18,7 +18,6 @@ WindowSurface::WindowSurface(Device& device, GLFWwindow* window, std::size_t fra
     : device_(device), window_(window), frames_in_flight_(frames_in_flight) {
   for (Taken& taken : taken_.all()) {
     taken.acquired = vk::raii::Semaphore(device.device, vk::SemaphoreCreateInfo{});
-    taken.copied = vk::raii::Semaphore(device.device, vk::SemaphoreCreateInfo{});
     taken.commands = vk::raii::CommandBuffers(
         device.device, vk::CommandBufferAllocateInfo{.commandPool = *device.command_pool, .commandBufferCount = 1});
     taken.fence = vk::raii::Fence(device.device, vk::FenceCreateInfo{});
@@ -105,6 +104,9 @@ void WindowSurface::make_swapchain() {
                                                  .presentMode = vk::PresentModeKHR::eFifo,
                                                  .clipped = VK_TRUE,
                                                  .oldSwapchain = *swapchain_});
+  copied_.clear();  // the device is idle, and what was shown is of the swapchain before
+  for (std::size_t i = 0; i < swapchain_.getImages().size(); ++i)
+    copied_.emplace_back(device_.device, vk::SemaphoreCreateInfo{});
 }
 
 bool WindowSurface::back_again() {
@@ -181,7 +183,7 @@ bool WindowSurface::copy(Image& picture) {
   picture.access = Access::eTransferRead;
 
   const vk::SemaphoreSubmitInfo wait{.semaphore = *taken.acquired, .stageMask = Stage::eCopy};
-  const vk::SemaphoreSubmitInfo signal{.semaphore = *taken.copied, .stageMask = Stage::eAllCommands};
+  const vk::SemaphoreSubmitInfo signal{.semaphore = *copied_[index], .stageMask = Stage::eAllCommands};
   const vk::CommandBufferSubmitInfo buffer{.commandBuffer = commands};
   device_.device.resetFences(*taken.fence);
   device_.queue.submit2(vk::SubmitInfo2{.waitSemaphoreInfoCount = 1,
@@ -202,7 +204,7 @@ bool WindowSurface::show(std::size_t frame) {
   if (!index) return true;
   return minding_loss([&] {
     const vk::SwapchainKHR swapchain = *swapchain_;
-    const vk::Semaphore done = *taken.copied;
+    const vk::Semaphore done = *copied_[*index];
     // Whatever comes of showing it: what was submitted is waited for.
     std::exception_ptr not_shown;
     bool fits = taken.fits;

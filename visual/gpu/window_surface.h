@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <optional>
+#include <vector>
 
 #include "visual/gpu/frame_graph.h"
 
@@ -44,7 +45,7 @@ class WindowSurface {
 
   /// The copy of one frame's picture.
   struct Taken {
-    vk::raii::Semaphore acquired{nullptr}, copied{nullptr};
+    vk::raii::Semaphore acquired{nullptr};
     vk::raii::CommandBuffers commands{nullptr};
     vk::raii::Fence fence{nullptr};
     std::optional<std::uint32_t> image{};  ///< of the swapchain; nothing: none is to be shown
@@ -56,6 +57,9 @@ class WindowSurface {
   std::size_t frames_in_flight_;
   vk::raii::SurfaceKHR surface_{nullptr};
   vk::raii::SwapchainKHR swapchain_{nullptr};
+  /// Of each of its images: that the copy is done. A fence of the copy says nothing of the showing that waits for it,
+  /// so it may be signalled again only once its image is acquired again.
+  std::vector<vk::raii::Semaphore> copied_{};
   vk::Format format_ = vk::Format::eB8G8R8A8Unorm;
   vk::Extent2D extent_{1, 1};
   bool hidden_ = false;        ///< minimised: it has no size

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "visual/photometry/beam/image_levels.h"
 #include "visual/scene/ray_hit.h"
@@ -113,7 +114,8 @@ nlohmann::json AuditFailure::json() const {
 }
 
 void AuditStats::add(double gpu_lx, double reference_lx) {
-  const double residual_lx = std::abs(gpu_lx - reference_lx);
+  const double off_lx = std::abs(gpu_lx - reference_lx);
+  const double residual_lx = std::isnan(off_lx) ? std::numeric_limits<double>::infinity() : off_lx;
   residual_lx_.add(residual_lx);
   if (reference_lx > kDim_lx) residual_percent_.add(100.0 * residual_lx / reference_lx);
 }
