@@ -277,6 +277,29 @@ std::vector<double> TomlTable::numbers_or(std::string_view key, std::span<const 
   return numbers(key, fallback.size());
 }
 
+std::vector<std::vector<double>> TomlTable::rows_or_empty(std::string_view key, std::size_t columns) {
+  const toml::node* value = document_->value(*node_, key, false);
+  std::vector<std::vector<double>> rows;
+  if (value == nullptr) return rows;
+  const auto* array = value->as_array();
+  bool good = array != nullptr && !array->empty();
+  for (std::size_t i = 0; good && i < array->size(); ++i) {
+    const auto* row = (*array)[i].as_array();
+    good = row != nullptr && row->size() == columns;
+    if (!good) break;
+    std::vector<double>& numbers = rows.emplace_back();
+    for (const toml::node& element : *row) {
+      const auto number = finite_number(element);
+      good = good && number.has_value();
+      numbers.push_back(number.value_or(0.0));
+    }
+  }
+  if (good) return rows;
+  document_->wrong(*node_, key, *value,
+                   "expected an array of arrays of " + std::to_string(columns) + " finite numbers");
+  return {};
+}
+
 std::vector<std::variant<double, std::string>> TomlTable::values_or_empty(std::string_view key) {
   const toml::node* value = document_->value(*node_, key, false);
   std::vector<std::variant<double, std::string>> result;

@@ -43,6 +43,9 @@ class TomlTable {
   /// A required array of exactly `count` finite numbers (0: any count); zeros when it is not.
   std::vector<double> numbers(std::string_view key, std::size_t count);
   std::vector<double> numbers_or(std::string_view key, std::span<const double> fallback);
+  /// An array of arrays of exactly `columns` finite numbers; empty when the key is missing, and when it is anything
+  /// else.
+  std::vector<std::vector<double>> rows_or_empty(std::string_view key, std::size_t columns);
   /// Numbers and texts: one of them, or an array of them; empty when the key is missing.
   std::vector<std::variant<double, std::string>> values_or_empty(std::string_view key);
   /// An array of texts; empty when the key is missing.

@@ -136,13 +136,11 @@ def _targets(car: pd.DataFrame, lane: Lane, users: Sequence[RoadUser], eye: np.n
         next_s = float(time_s) + _EVERY_S - 1e-9
         turn = Pose(state.x_m, state.y_m, state.z_m, state.roll_rad, state.pitch_rad, state.yaw_rad).car_from_world()
         for number, user in enumerate(users, 1):
-            if user.kind != "pedestrian" or not user.from_s <= float(time_s) <= user.to_s:
-                continue
-            there = lane.at(user.s_m(float(time_s)), user.aside_m(float(time_s)))
+            there = user.pose(lane, float(time_s)) if user.kind == "pedestrian" else None
             if there is None:
                 continue
             for height in HEIGHTS_M:
-                at = turn @ (there[0] + np.array([0.0, 0.0, height]) - np.array([state.x_m, state.y_m, state.z_m]))
+                at = turn @ (there.place_m + np.array([0.0, 0.0, height]) - np.array([state.x_m, state.y_m, state.z_m]))
                 way = at - eye
                 distance = float(np.linalg.norm(way))
                 if at[0] < eye[0] + _NEAREST_M or distance > _FARTHEST_M:

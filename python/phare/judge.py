@@ -152,15 +152,13 @@ def receptors_of(car: pd.DataFrame, lane: Lane, users: Sequence[RoadUser]) -> pd
         origin, turn = np.array([state.x_m, state.y_m, state.z_m]), pose.car_from_world()
         ego_s_m = lane.nearest_s_m(state.x_m, state.y_m)
         for number, user in enumerate(users, 1):
-            there = lane.at(user.s_m(float(time_s)), user.aside_m(float(time_s)))
-            if user.direction == "standing" or there is None or not user.from_s <= float(time_s) <= user.to_s:
+            there = user.pose(lane, float(time_s))
+            if user.direction == "standing" or there is None:
                 continue
-            place, lane_heading = there
-            heading = lane_heading + (math.pi if user.heading < 0 else 0.0)
-            along = np.array([math.cos(heading), math.sin(heading), 0.0])
-            left = np.array([-math.sin(heading), math.cos(heading), 0.0])
+            place, along = there.place_m, there.along
+            left = np.array([-along[1], along[0], 0.0])
             oncoming = float(np.dot(along, origin - place)) > 0
-            if ego_s_m is not None and eyes._behind_a_crest(ego_s_m, user.s_m(float(time_s)), pose, place[2] + 1.2):
+            if ego_s_m is not None and eyes._behind_a_crest(ego_s_m, there.s_m, pose, place[2] + 1.2):
                 continue
             for receptor, (a, b, up) in enumerate(EYES_M if oncoming else MIRRORS_M):
                 at = turn @ (place + a * along + b * left + np.array([0, 0, up]) - origin)

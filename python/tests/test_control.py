@@ -59,8 +59,9 @@ def test_a_file_of_road_users_is_read(tmp_path):
     file.write_text('[[road_user]]\nclass = "lorry"\ndirection = "same"\nstart_s_m = 100\nspeed_kmh = 72\n'
                     '[[road_user]]\nclass = "pedestrian"\ndirection = "standing"\nstart_s_m = 50\n')
     lorry, walker = phare.read_road_users(file)
-    assert (lorry.kind, lorry.speed_mps, lorry.s_m(2.0), lorry.height_m) == ("lorry", 20.0, 140.0, 3.6)
-    assert walker.s_m(9.0) == 50.0 and not walker.lights
+    lane = straight_lane(tmp_path)
+    assert (lorry.kind, lorry.speed_mps, lorry.pose(lane, 2.0).s_m, lorry.height_m) == ("lorry", 20.0, 140.0, 3.6)
+    assert walker.pose(lane, 9.0).s_m == 50.0 and not walker.lights
     file.write_text('[[road_user]]\nlights = "high"\nlow_beam = "low.ies"\nhigh_beam = "high.ies"\n'
                     '[[road_user]]\nlights = "off"\n[[road_user]]\nlights = false\n')
     assert [user.lights for user in phare.read_road_users(file)] == [True, False, False], "sensors see that there is light"
@@ -72,6 +73,11 @@ def test_a_file_of_road_users_is_read(tmp_path):
     ("across_to_s = -1", "expected across_from_s or more"),
     ('lights = "full"', "lights full: expected one of off, low, high"), ("low_beam = 3", "expected a str"),
     ('direction = "up"', "direction up"), ("start_s_m = nan", "nan"),
+    ("speeds = [[0, 80], [0, 70]]", "speeds: times do not rise"), ("speeds = [[0]]", "speeds: expected an array of arrays"),
+    ("speeds = [[0, 1001]]", "speeds: a speed is outside"), ("speeds = [[0, 1]]\nspeed_kmh = 3", "speeds: there is speed_kmh, too"),
+    ('speeds = [[0, 1]]\ndirection = "standing"', "speeds: who is standing has none"), ("brake = 1", "expected a bool"),
+    ('class = "bicycle"\nbrake = true', "brake: a bicycle has no brake lamps"), ('path = ""', "path: expected the name"),
+    ('path = "none.csv"', "path: .*none.csv: cannot be read"), ('path = "p.csv"\nspeed_kmh = 3', "speed_kmh: there is a path, too"),
 ])
 def test_what_is_wrong_with_road_users_is_said(tmp_path, line, why):
     file = tmp_path / "users.toml"
@@ -88,11 +94,53 @@ def test_road_users_are_where_the_drives_own_reader_has_them():
     assert set(table.user) == set(range(1, len(users) + 1)) and set(table.there) == {0, 1}
     for row in table.itertuples():
         user = users[row.user - 1]
-        found = lane.at(user.s_m(row.time_s), user.aside_m(row.time_s)) if user.from_s <= row.time_s <= user.to_s else None
+        found = user.pose(lane, row.time_s)
         assert (found is not None) == bool(row.there)
         if found is not None:
-            assert found[0] == pytest.approx([row.x_m, row.y_m, row.z_m], rel=0, abs=1e-10)
-            assert found[1] == pytest.approx(row.lane_heading_rad, rel=0, abs=1e-13)
+            assert found.place_m == pytest.approx([row.x_m, row.y_m, row.z_m], rel=0, abs=1e-10)
+            if user.across_mps == 0.0:
+                turned = math.pi if user.direction == "oncoming" else 0.0
+                assert found.heading_rad - turned == pytest.approx(row.lane_heading_rad, rel=0, abs=1e-13)
+
+
+def test_speeds_and_recorded_ways_are_those_of_the_drives_own_reader():
+    """tests/traffic/path_poses.csv, which tests/traffic/recorded_path_test.cpp is held to as well."""
+    folder = Path(__file__).parents[2] / "tests/traffic"
+    lane, users = Lane(folder / "bend_lane.csv"), phare.read_road_users(folder / "paths.toml")
+    table = pd.read_csv(folder / "path_poses.csv")
+    assert set(table.user) == set(range(1, len(users) + 1)) and set(table.there) == {0, 1} and set(table.brakes) == {0, 1}
+    for row in table.itertuples():
+        found = users[row.user - 1].pose(lane, row.time_s)
+        assert (found is not None) == bool(row.there)
+        if found is not None:
+            assert [*found.place_m, found.s_m] == pytest.approx([row.x_m, row.y_m, row.z_m, row.s_m], rel=0, abs=1e-10)
+            assert [found.heading_rad, found.speed_mps] == pytest.approx([row.heading_rad, row.speed_mps], rel=0, abs=1e-12)
+            assert found.brakes == bool(row.brakes)
+
+
+@pytest.mark.parametrize("text, why", [
+    ("time_s,s_m,offset_m\n0,1,0\n0,2,0\n", "p.csv:3: time_s does not rise"), ("time_s,s_m\n0,1\n1,2\n", "p.csv:1: has no column offset_m"),
+    ("s_m,offset_m\n0,1\n1,2\n", "p.csv:1: has no column time_s"), ("time_s,s_m,offset_m\n0,1,nan\n1,2,0\n", 'p.csv:2: "nan" is not a finite'),
+    ("time_s,s_m,offset_m\n0,1,0\n", "p.csv: a path has at least two rows"), ("", "p.csv: has no header line"),
+    ("time_s,s_m,offset_m,x_m\n0,1,0,1\n1,2,0,2\n", "one of both"), ("time_s\n0\n1\n", "has neither columns"),
+    ("time_s,s_m,offset_m\n0,1,0\n1,2\n", "p.csv:3: 2 cells"), ("time_s,s_m,offset_m\n0,0,0\n1,300,0\n", "p.csv:3: goes faster"),
+])
+def test_what_is_wrong_with_a_recorded_way_is_said(tmp_path, text, why):
+    (tmp_path / "p.csv").write_text(text)
+    (tmp_path / "users.toml").write_text('[[road_user]]\npath = "p.csv"\n')
+    with pytest.raises(phare.BadInput, match=f"users.toml: road_user 1: path: .*{why}") as said:
+        phare.read_road_users(tmp_path / "users.toml")
+    assert str(said.value).count("p.csv") == 1
+
+
+def test_a_car_that_slows_down_is_seen_by_its_brake_lamps_and_its_speed(tmp_path):
+    lane = straight_lane(tmp_path)
+    user = phare.RoadUser(direction="same", start_s_m=40, lights=False, speeds=((0.0, 20.0), (1.0, 20.0), (3.0, 10.0)))
+    eyes = Eyes(phare.Sensors([user]), lane)
+    assert seen_at(eyes, 0.1)[0].lights == "none"
+    (seen,) = seen_at(eyes, 2.0)
+    assert seen.lights == "red" and seen.x_m == pytest.approx(40 + 20 + 17.5 - 2.15)
+    assert seen.closing_mps == pytest.approx(20.0 - 15.0)
 
 
 # ---- sensors

@@ -69,8 +69,10 @@ TEST_F(Folder, WhatAnyProcessCannotReadLeavesTheDriveBeforeAsItLay) {
   std::ofstream(folder_ / "typo_script.toml") << "lane = 3\n";
   std::ofstream(folder_ / "typo_traffic.toml") << "[[road_user]]\nclass = \"kar\"\n";
   std::ofstream(folder_ / "typo_lamp.toml") << "[[road_user]]\nlow_beam = \"nowhere.ies\"\n";
+  std::ofstream(folder_ / "typo_path.toml") << "[[road_user]]\npath = \"typo_path.csv\"\n";
+  std::ofstream(folder_ / "typo_path.csv") << "time_s,s_m,offset_m\n0,50,0\n0,60,0\n";
   for (const char* wrong : {"--cockpit typo.toml", "--script typo_script.toml", "--traffic typo_traffic.toml",
-                            "--traffic typo_lamp.toml"}) {
+                            "--traffic typo_lamp.toml", "--traffic typo_path.toml"}) {
     const Said said = drive_here("--frames 3 --out out --record evening.pcap --overwrite " + std::string(wrong));
     EXPECT_EQ(said.code, 2) << said.err;
     EXPECT_NE(said.err.find("typo"), std::string::npos) << said.err;

@@ -305,7 +305,9 @@ TEST_F(Portable, EverythingNamedGoesAlongAndReadsAfterTheMove) {
                   .ok());
   rig.cockpit_file = home / "cockpit.toml";
   rig.traffic_file = home / "others.toml";
-  std::ofstream(rig.traffic_file) << "[[road_user]]\nlow_beam = \"other/a.ies\"\n";
+  std::ofstream(rig.traffic_file) << "[[road_user]]\nlow_beam = \"other/a.ies\"\ntail_lamp = \"other/a.ies\"\n"
+                                  << "brake_lamp = \"lamps/a.ies\"\npath = \"lead.csv\"\n";
+  std::ofstream(home / "lead.csv") << "time_s,s_m,offset_m\n0,50,0\n2,90,0\n";
   fs::create_directories(away);
   PortableFiles files(away / "my_files");
   const Status copied = files.copy(rig);
@@ -332,7 +334,11 @@ TEST_F(Portable, EverythingNamedGoesAlongAndReadsAfterTheMove) {
   EXPECT_EQ(text_of(moved->designs[0].lamps[1].sources[0].file), text_of(lamps_dir() + "/led_low_rht.ies"));
   const auto others = read_road_users(moved->traffic_file);
   ASSERT_TRUE(others) << others.error().text();
-  EXPECT_TRUE(others->front().low_beam_file.string().starts_with(base)) << others->front().low_beam_file;
+  for (const fs::path& file :
+       {others->front().low_beam_file, others->front().tail_lamp_file, others->front().brake_lamp_file})
+    EXPECT_TRUE(file.string().starts_with(base)) << file;
+  ASSERT_TRUE(others->front().path) << "its recorded way went along";
+  EXPECT_EQ(others->front().path->to_s(), 2.0);
   for (const DesignConfig& design : moved->designs)
     for (const LampConfig& lamp : design.lamps)
       for (const SourceConfig& source : lamp.sources)

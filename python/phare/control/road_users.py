@@ -8,7 +8,11 @@
     offset_m = 3.5            # from the line we drive on, positive left
     across_kmh = 0            # goes across the road, positive to the left, from across_from_s [0] until across_to_s [for ever]
     lights = true             # its lamps burn: true or "low", "high" (high beam besides), false or "off"
+    brake = true              # its brake lamps burn, or (false) do not; without the key as it slows down
     low_beam, high_beam       # photometry files of its headlamps, for the picture: the sensors see that there is light, not how much
+    tail_lamp, brake_lamp     # the same of the lamps at its back
+    speeds = [[0, 80], [5, 80], [8, 40]]   # in place of speed_kmh: s and km/h, straight between them
+    path = "lead.csv"         # in place of direction, start_s_m, speeds, offset_m, across_*: its recorded way (recorded_path.py)
     from_s = 0.0              # when it is there, s of simulated time
     to_s = 1e9
     width_m, height_m, length_m   # default: by its class, chosen by eye
@@ -21,13 +25,16 @@ from __future__ import annotations
 
 import math
 import os
+from bisect import bisect_right
 from dataclasses import dataclass, fields
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from ..errors import BadInput
 from ..toml_in import read_toml
+from .recorded_path import RecordedPath
 
 # Width, height, length in m: usual sizes, chosen by eye.
 SIZES_M = {
@@ -39,6 +46,26 @@ SIZES_M = {
     "deer": (0.3, 1.1, 1.2),
 }
 _DIRECTIONS = {"oncoming": -1.0, "same": 1.0, "standing": 0.0}
+_MOTORS = ("car", "lorry", "motorcycle")
+# Brake lamps burn while it loses more than 0.7 m/s² in the mean of half a second: config/traffic/road_users.h has the sources.
+BRAKES_MPS2, BRAKES_WITHIN_S = 0.7, 0.5
+
+
+@dataclass(frozen=True)
+class RoadUserPose:
+    """World frame, m, rad: the middle of its length and width on the road's line; heading is the way it looks. s_m and z of a way in the
+    world are those of the lane where it comes nearest."""
+
+    place_m: np.ndarray
+    s_m: float
+    heading_rad: float
+    speed_mps: float
+    brakes: bool
+
+    @property
+    def along(self) -> np.ndarray:
+        """The way it looks, level."""
+        return np.array([math.cos(self.heading_rad), math.sin(self.heading_rad), 0.0])
 
 
 @dataclass(frozen=True)
@@ -59,27 +86,83 @@ class RoadUser:
     width_m: float = 1.8
     height_m: float = 1.5
     length_m: float = 4.3
+    speeds: tuple[tuple[float, float], ...] = ()  # s and m/s, in place of speed_mps
+    path: RecordedPath | None = None  # in place of all that says where it is
+    brake: bool | None = None
 
-    def s_m(self, time_s: float) -> float:
-        """Place of its middle along the lane."""
-        return self.start_s_m + _DIRECTIONS[self.direction] * self.speed_mps * time_s
+    def pose(self, lane: Lane, time_s: float) -> RoadUserPose | None:
+        """Where it is; None while it is not there."""
+        if not self.from_s <= time_s <= self.to_s:
+            return None
+        if self.path is not None:
+            return self._on_path(self.path, lane, time_s)
+        along = _DIRECTIONS[self.direction]
+        speed, way_m = (_speed_mps(self.speeds, time_s), _way_m(self.speeds, time_s)) if self.speeds else (self.speed_mps, self.speed_mps * time_s)
+        across_s = min(max(time_s, self.across_from_s), self.across_to_s) - self.across_from_s
+        s_m = self.start_s_m + along * way_m
+        found = lane.at(s_m, self.offset_m + self.across_mps * across_s)
+        if found is None:
+            return None
+        goes_across = self.across_mps != 0.0 and self.across_from_s <= time_s < self.across_to_s
+        # Looks along its way; who stands until it goes across looks across before and after it too.
+        turn = math.pi if self.direction == "oncoming" else 0.0
+        if goes_across or (self.across_mps != 0.0 and not self.speeds and along * speed == 0.0):
+            turn = math.atan2(self.across_mps, along * speed)
+        now_mps = math.hypot(along * speed, self.across_mps if goes_across else 0.0)
+        return RoadUserPose(found[0], s_m, found[1] + turn, now_mps, self.brakes(time_s))
 
-    def aside_m(self, time_s: float) -> float:
-        """Place beside the lane's line, positive left: its offset, and how far it has gone across."""
-        return self.offset_m + self.across_mps * (min(max(time_s, self.across_from_s), self.across_to_s) - self.across_from_s)
+    def brakes(self, time_s: float) -> bool:
+        """Whether its brake lamps burn."""
+        if self.kind not in _MOTORS:
+            return False
+        if self.brake is not None:
+            return self.brake
+        from_s, to_s = time_s - 0.5 * BRAKES_WITHIN_S, time_s + 0.5 * BRAKES_WITHIN_S
+        if self.path is not None:
+            from_s, to_s = max(from_s, self.path.from_s), min(to_s, self.path.to_s)
+            return self.path.at(from_s)[3] - self.path.at(to_s)[3] > BRAKES_MPS2 * (to_s - from_s)
+        return bool(self.speeds) and _speed_mps(self.speeds, from_s) - _speed_mps(self.speeds, to_s) > BRAKES_MPS2 * (to_s - from_s)
 
-    @property
-    def heading(self) -> float:
-        """1: as the lane goes, -1: against it."""
-        return -1.0 if self.direction == "oncoming" else 1.0
+    def _on_path(self, path: RecordedPath, lane: Lane, time_s: float) -> RoadUserPose | None:
+        first, second, heading, speed = path.at(time_s)
+        if path.on_lane:
+            found = lane.at(first, second)
+            return None if found is None else RoadUserPose(found[0], first, found[1] + heading, speed, self.brakes(time_s))
+        s_m, z_m = lane.nearest(first, second)
+        return RoadUserPose(np.array([first, second, z_m]), s_m, heading, speed, self.brakes(time_s))
+
+
+def _speed_mps(speeds: tuple[tuple[float, float], ...], time_s: float) -> float:
+    """Straight between the times, before the first and behind the last as there."""
+    behind = bisect_right(speeds, time_s, key=lambda at: at[0])
+    if behind == 0:
+        return speeds[0][1]
+    (a_s, a), (b_s, b) = speeds[behind - 1], speeds[min(behind, len(speeds) - 1)]
+    return a if behind == len(speeds) else a + (b - a) / (b_s - a_s) * (time_s - a_s)
+
+
+def _way_m(speeds: tuple[tuple[float, float], ...], time_s: float) -> float:
+    """How far it has come since time 0: the integral of its speeds."""
+
+    def since_first_m(until_s: float) -> float:
+        m = min(until_s - speeds[0][0], 0.0) * speeds[0][1]
+        for (a_s, a), (b_s, b) in zip(speeds, speeds[1:]):
+            if until_s > a_s:
+                here_s = min(until_s, b_s) - a_s
+                m += (a + 0.5 * (b - a) / (b_s - a_s) * here_s) * here_s
+        return m + max(until_s - speeds[-1][0], 0.0) * speeds[-1][1]
+
+    return since_first_m(time_s) - since_first_m(0.0)
 
 
 _LIGHTS = {"off": False, "low": True, "high": True}
 _KEYS = {
     "class": str, "direction": str, "start_s_m": float, "speed_kmh": float, "offset_m": float, "across_kmh": float,
     "across_from_s": float, "across_to_s": float, "lights": bool, "from_s": float,
-    "to_s": float, "width_m": float, "height_m": float, "length_m": float, "low_beam": str, "high_beam": str,
+    "to_s": float, "width_m": float, "height_m": float, "length_m": float, "low_beam": str, "high_beam": str, "brake": bool,
+    "tail_lamp": str, "brake_lamp": str, "speeds": list, "path": str,
 }
+_NOT_WITH_PATH = ("direction", "start_s_m", "speed_kmh", "speeds", "offset_m", "across_kmh", "across_from_s", "across_to_s")
 
 # Bounds that no road reaches, as in config/traffic/road_users.cpp: they catch a mistyped exponent.
 _RANGES = {
@@ -95,10 +178,34 @@ def read_road_users(file: str | os.PathLike[str]) -> list[RoadUser]:
     listed = document.get("road_user")
     if set(document) != {"road_user"} or not isinstance(listed, list) or not all(isinstance(table, dict) for table in listed):
         raise BadInput(f"{file}: expected [[road_user]] and nothing else")
-    return [_road_user(table, f"{file}: road_user {number}") for number, table in enumerate(listed, 1)]
+    folder = Path(file).resolve().parent
+    return [_road_user(table, f"{file}: road_user {number}", folder) for number, table in enumerate(listed, 1)]
 
 
-def _road_user(table: dict[str, object], place: str) -> RoadUser:
+def _speeds(table: dict[str, object], place: str) -> tuple[tuple[float, float], ...]:
+    rows = table.get("speeds", [])
+    number = (int, float)
+    assert isinstance(rows, list)
+    if "speeds" not in table:
+        return ()
+    if "speed_kmh" in table:
+        raise BadInput(f"{place}: speeds: there is speed_kmh, too; one of both")
+    if table.get("direction") == "standing":
+        raise BadInput(f"{place}: speeds: who is standing has none")
+    if not rows or not all(
+        isinstance(row, list) and len(row) == 2 and all(isinstance(x, number) and not isinstance(x, bool) and math.isfinite(x) for x in row) for row in rows
+    ):
+        raise BadInput(f"{place}: speeds: expected an array of arrays of 2 finite numbers")
+    if any(abs(row[0]) > 1e9 for row in rows):
+        raise BadInput(f"{place}: speeds: a time is outside -1e9 … 1e9 s")
+    if any(not 0.0 <= row[1] <= 1000.0 for row in rows):
+        raise BadInput(f"{place}: speeds: a speed is outside 0 … 1000 km/h")
+    if any(not after[0] > before[0] for before, after in zip(rows, rows[1:])):
+        raise BadInput(f"{place}: speeds: times do not rise")
+    return tuple((float(time_s), float(kmh) / 3.6) for time_s, kmh in rows)
+
+
+def _road_user(table: dict[str, object], place: str, folder: Path) -> RoadUser:
     given: dict[str, object] = {}
     for key, value in table.items():
         if key not in _KEYS:
@@ -113,6 +220,9 @@ def _road_user(table: dict[str, object], place: str) -> RoadUser:
         if not isinstance(value, wanted) or (isinstance(value, float) and math.isnan(value)):
             raise BadInput(f"{place}: {key} = {value!r}: expected a {wanted.__name__}")
         given[key] = value
+    for key in _NOT_WITH_PATH if "path" in table else ():
+        if key in table:
+            raise BadInput(f"{place}: {key}: there is a path, too, which says where it is; one of both")
     kind, direction = str(given.pop("class", "car")), str(given.pop("direction", "oncoming"))
     if kind not in SIZES_M:
         raise BadInput(f"{place}: class {kind}: expected one of {', '.join(SIZES_M)}")
@@ -130,6 +240,19 @@ def _road_user(table: dict[str, object], place: str) -> RoadUser:
     words = {key: value for key, value in {**size, **given}.items() if key in known}
     if kind in ("pedestrian", "deer"):
         words["lights"] = False
+    if "brake" in table and kind not in _MOTORS:
+        raise BadInput(f"{place}: brake: a {kind} has no brake lamps")
+    words["speeds"] = _speeds(table, place)
+    if "path" in table:
+        if not table["path"]:
+            raise BadInput(f"{place}: path: expected the name of a file")
+        try:
+            path = RecordedPath.read(folder / str(table["path"]))
+        except BadInput as wrong:
+            raise BadInput(f"{place}: path: {wrong}") from wrong
+        words |= {
+            "path": path, "from_s": max(float(str(words.get("from_s", 0.0))), path.from_s), "to_s": min(float(str(words.get("to_s", math.inf))), path.to_s),
+        }
     return RoadUser(kind=kind, direction=direction, speed_mps=speed_mps, across_mps=across_mps, **words)  # type: ignore[arg-type]
 
 
@@ -153,6 +276,17 @@ class Lane:
         heading = float(np.interp(s_m, self.s_m, self.heading_rad))
         place = np.array([np.interp(s_m, self.s_m, line) for line in (self.x_m, self.y_m, self.z_m)])
         return place + offset_m * np.array([-math.sin(heading), math.cos(heading), 0.0]), heading
+
+    def nearest(self, x_m: float, y_m: float) -> tuple[float, float]:
+        """Where along the line it comes nearest to a place, and how high it is there."""
+        along_x, along_y = np.diff(self.x_m), np.diff(self.y_m)
+        square = along_x**2 + along_y**2
+        foot = ((x_m - self.x_m[:-1]) * along_x + (y_m - self.y_m[:-1]) * along_y) / np.where(square > 0.0, square, 1.0)
+        share = np.where(square > 0.0, np.clip(foot, 0.0, 1.0), 0.0)
+        off = (self.x_m[:-1] + share * along_x - x_m) ** 2 + (self.y_m[:-1] + share * along_y - y_m) ** 2
+        i = int(off.argmin())
+        s_m = float(self.s_m[i] + share[i] * (self.s_m[i + 1] - self.s_m[i]))
+        return s_m, float(np.interp(s_m, self.s_m, self.z_m))
 
     def nearest_s_m(self, x_m: float, y_m: float) -> float | None:
         """Where along the line a place lies, to the nearest point of the file; None when it is more than 15 m off."""

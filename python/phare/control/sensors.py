@@ -122,30 +122,27 @@ class Eyes:
         ego_s_m: float | None,
     ) -> RoadUserSeen | None:
         """As it is, without noise; None where it cannot be seen."""
-        if self.lane is None or not user.from_s <= time_s <= user.to_s:
+        there = user.pose(self.lane, time_s) if self.lane is not None else None
+        if there is None:
             return None
-        found = self.lane.at(user.s_m(time_s), user.aside_m(time_s))
-        if found is None:
-            return None
-        place, lane_heading = found
-        along = user.heading * np.array([math.cos(lane_heading), math.sin(lane_heading), 0.0])
+        place, along = there.place_m, there.along
         origin = np.array([pose.x_m, pose.y_m, pose.z_m])
         towards_us = float(np.dot(along, origin - place)) > 0
         near = place + (0.5 if towards_us else -0.5) * user.length_m * along
         turn = pose.car_from_world()
         at = turn @ (near - origin)
-        lights = "none" if not user.lights else "white" if towards_us else "red"
+        shows = user.lights or (there.brakes and not towards_us)  # brake lamps burn without the others, too
+        lights = "none" if not shows else "white" if towards_us else "red"
         to_camera = at - np.array(self.sensors.camera_m)
         distance_m = math.hypot(to_camera[0], to_camera[1])
         if to_camera[0] <= 0 or distance_m > self.sensors.range_m[lights]:
             return None
         if abs(math.atan2(to_camera[1], to_camera[0])) > math.radians(self.sensors.fov_deg) / 2:
             return None
-        if ego_s_m is not None and self._behind_a_crest(ego_s_m, user.s_m(time_s), pose, place[2] + 0.8 * user.height_m):
+        if ego_s_m is not None and self._behind_a_crest(ego_s_m, there.s_m, pose, place[2] + 0.8 * user.height_m):
             return None
-        speed = user.speed_mps if user.direction != "standing" else 0.0
         line = (near - origin) / max(float(np.linalg.norm(near - origin)), 1e-9)
-        closing = float(np.dot(velocity_mps - speed * along, line))
+        closing = float(np.dot(velocity_mps - there.speed_mps * along, line))
         seen = RoadUserSeen(
             number, user.kind if user.kind in CLASSES else "unknown", lights, float(at[0]), float(at[1]), float(at[2]), user.width_m, user.height_m, closing, 0, 0, 0, 0
         )
