@@ -144,6 +144,98 @@ TEST_F(TrafficTest, ItsLampsAreThoseThatItNames) {
   EXPECT_NE(broken.error().text().find("traffic_low.ies:"), std::string::npos) << broken.error().text();
 }
 
+// 20 m/s until 1 s, then 5 m/s² down to 10 m/s at 3 s: a car 45 m ahead then shows 125 cd besides its 8, in the place
+// of its tail lamps, also where these are off; before and after it does not, and nothing else is seen for it.
+TEST_F(TrafficTest, WhoSlowsDownShowsBrakeLamps) {
+  const std::string slows = "[[road_user]]\ndirection = \"same\"\nstart_s_m = 45\nspeeds = [[1, 72], [3, 36]]\n";
+  const auto seen_at = [&](const Traffic& cars, double time_s) {
+    const auto users = cars.at(time_s, straight());
+    EXPECT_EQ(users.size(), 1u);
+    const glm::dvec3 eye_m(users.at(0).position_m.x - 45.0, 0.0, 0.8);  // at the height of the lamps, behind the middle
+    return cars.glare_at(users, eye_m, Scene{}, {});
+  };
+  // Each 0.6 m aside and 42.8 m ahead.
+  const double square_m2 = 42.8 * 42.8 + 0.6 * 0.6, cosine = 42.8 / std::sqrt(square_m2);
+  const Traffic cars = traffic(slows);
+  for (const auto& [time_s, cd] : {std::pair{0.5, 8.0}, {2.0, 133.0}, {5.0, 8.0}}) {
+    const auto seen = seen_at(cars, time_s);
+    ASSERT_EQ(seen.size(), 2u) << time_s;
+    for (const GlaringLamp& lamp : seen) {
+      EXPECT_NEAR(lamp.eye_lx, cd * cosine / square_m2, 1e-12) << time_s;
+      EXPECT_GT(lamp.colour.x, 10.0f * lamp.colour.y) << "red";
+    }
+  }
+  EXPECT_NEAR(cars.at(2.0, straight())[0].position_m.x, 45.0 + 20.0 + 17.5, 1e-9);
+  EXPECT_EQ(cars.at(2.0, straight())[0].speed_mps, 15.0);
+
+  const Traffic dark = traffic(slows + "lights = false\n");
+  EXPECT_TRUE(seen_at(dark, 0.5).empty());
+  ASSERT_EQ(seen_at(dark, 2.0).size(), 2u);
+  EXPECT_NEAR(seen_at(dark, 2.0)[0].eye_lx, 125.0 * cosine / square_m2, 1e-12);
+  EXPECT_TRUE(Traffic::placed_lamps(dark.at(2.0, straight()), {}, {1.0, 0.0, 0.0}).empty()) << "they light nothing";
+  // What one sees in its spray, too.
+  const RoadLine road = straight();
+  EXPECT_EQ(cars.spraying(cars.at(2.0, road), 2.0, road).at(0).tail_cd, kTailLamp_cd + kBrakeLamp_cd);
+  EXPECT_EQ(dark.spraying(dark.at(2.0, road), 2.0, road).at(0).tail_cd, kBrakeLamp_cd);
+  EXPECT_EQ(cars.spraying(cars.at(0.5, road), 0.5, road).at(0).tail_cd, kTailLamp_cd);
+}
+
+// Files of the lamps at a back, whose axes point backward; one file of two users is read once and stays where it is.
+TEST_F(TrafficTest, ItsRearLampsAreThoseThatItNames) {
+  even_beside("traffic_tail.ies", 12);
+  even_beside("traffic_brake.ies", 240);
+  const std::string one =
+      "[[road_user]]\ndirection = \"same\"\nstart_s_m = 30\ntail_lamp = \"traffic_tail.ies\"\nbrake_lamp = "
+      "\"traffic_brake.ies\"\n";
+  Traffic read = traffic(one + one + "brake = true\n");
+  const Traffic cars = std::move(read);
+  const auto users = cars.at(0.0, straight());
+  ASSERT_EQ(users.size(), 2u);
+  // 27.8 m behind, 0.6 m beside and 0.4 m above: 773.36 m².
+  const auto lx_of = [&](std::size_t user) {
+    const auto seen = cars.glare_at(std::span(users).subspan(user, 1), {0.0, 0.0, 1.2}, Scene{}, {});
+    EXPECT_EQ(seen.size(), 2u);
+    return seen.empty() ? 0.0 : seen[0].eye_lx;
+  };
+  EXPECT_NEAR(lx_of(0), 12.0 / 773.36, 1e-9);
+  EXPECT_NEAR(lx_of(1), 252.0 / 773.36, 1e-9);
+  EXPECT_TRUE(cars.glare_at(std::span(users).first(1), {60.0, 0.0, 1.2}, Scene{}, {}).size() == 2u)
+      << "from ahead its headlamps alone";
+
+  // A lamp that shines to its own left shines to the right of the car that it ends.
+  const auto table = read_lamp(generated_dir() / "lamps/low_rht.ies", {});
+  ASSERT_TRUE(table);
+  const RearLight light{.tail = &*table};
+  const glm::dvec3 to_its_left = glm::normalize(glm::dvec3(1.0, 0.1, -0.02));
+  const double cd = table->intensity_cd(to_its_left);
+  EXPECT_NEAR(light.intensity_cd({-to_its_left.x, -to_its_left.y, to_its_left.z}), cd, 1e-9 * cd);
+  EXPECT_GT(std::abs(light.intensity_cd({-to_its_left.x, to_its_left.y, to_its_left.z}) - cd), 0.01 * cd);
+
+  std::ofstream(fs::path(testing::TempDir()) / "traffic_brake.ies") << "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1\n";
+  const auto broken = Traffic::read(file(one), straight_lane(), movers_);
+  ASSERT_FALSE(broken);
+  EXPECT_NE(broken.error().text().find("traffic_brake.ies:"), std::string::npos) << broken.error().text();
+}
+
+// The body, its lamps and its spray are where its recording has it.
+TEST_F(TrafficTest, FollowsARecordedPath) {
+  std::ofstream(fs::path(testing::TempDir()) / "traffic_path.csv")
+      << "time_s,x_m,y_m,heading_rad\n0,100,3.5,3.141592653589793\n2,60,3.5,3.141592653589793\n";
+  const Traffic cars = traffic("[[road_user]]\npath = \"traffic_path.csv\"\n");
+  const RoadLine road = straight();
+  const auto users = cars.at(1.5, road);
+  ASSERT_EQ(users.size(), 1u);
+  EXPECT_NEAR(users[0].position_m.x, 70.0, 1e-9);
+  EXPECT_NEAR(users[0].speed_mps, 20.0, 1e-9);
+  EXPECT_NEAR(users[0].world_from_user[0].x, -1.0, 1e-12);
+  EXPECT_NEAR(cars.placed_meshes(users)[0].position_m.x, 70.0, 1e-9);
+  const auto lamps = Traffic::placed_lamps(users, {0.0, 0.0, 1.2}, {1.0, 0.0, 0.0});
+  ASSERT_EQ(lamps.size(), 2u);
+  EXPECT_NEAR(lamps[0].position_m.x, 70.0 - 2.18, 1e-9);
+  EXPECT_NEAR(cars.spraying(users, 1.5, road).at(0).wheels_m[1].x, 70.0 + 10.0 * kSprayAge_s + 1.5, 1e-9);
+  EXPECT_TRUE(cars.at(2.01, road).empty());
+}
+
 // Fast ones with motors throw up water, from where their rear wheels were; who has just come, came straight.
 TEST_F(TrafficTest, FastVehiclesThrowUpWater) {
   const Traffic cars = traffic(R"([[road_user]]

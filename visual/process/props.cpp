@@ -124,8 +124,8 @@ void Props::add_to(ViewInput& view, CameraKind kind, const Lamps& lamps, const V
     if (!Traffic::is_theirs(lamp)) lamp.carried_by = view.moving.size();
   view.moving.push_back(body);
   if (!lit || view.camera.orthographic_width_m > 0.0) return;
-  const auto tail =
-      tail_lamps_into(RoadUserClass::car, body.position_m, body.world_from_mesh, view.camera.eye_m, world, view.air);
+  const auto tail = rear_lamps_into(RoadUserClass::car, {}, body.position_m, body.world_from_mesh, view.camera.eye_m,
+                                    world, view.air);
   view.glare.insert(view.glare.end(), tail.begin(), tail.end());
 }
 

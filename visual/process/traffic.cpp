@@ -79,6 +79,10 @@ Result<Traffic> Traffic::read(const std::filesystem::path& file, const std::vect
     const auto beam = traffic.headlamp(std::move(files));
     if (!beam) return beam.error();
     traffic.headlamp_of_user_.push_back(*beam);
+    const auto tail = traffic.rear_lamp(user.tail_lamp_file), brake = traffic.rear_lamp(user.brake_lamp_file);
+    if (!tail) return tail.error();
+    if (!brake) return brake.error();
+    traffic.rear_of_user_.push_back({.tail = *tail, .brake = *brake});
   }
   for (const LampPlaces& places : kPlaces) {
     const auto mesh = movers.mesh(places.node);
@@ -99,6 +103,23 @@ Result<std::size_t> Traffic::headlamp(std::vector<std::filesystem::path> files) 
   }
   headlamps_.push_back(std::move(lamp));
   return headlamps_.size() - 1;
+}
+
+Result<const IntensityTable*> Traffic::rear_lamp(const std::filesystem::path& file) {
+  if (file.empty()) return nullptr;
+  if (const auto known = rear_lamps_.find(file); known != rear_lamps_.end()) return &known->second;
+  auto table = read_lamp(file, {});
+  if (!table) return table.error();
+  return &rear_lamps_.emplace(file, std::move(*table)).first->second;
+}
+
+double RearLight::intensity_cd(const glm::dvec3& direction) const {
+  const auto of = [&](const IntensityTable* table, double axis_cd) {
+    // Half a turn about z: the lamp's own x is backward, its y to the right.
+    if (table != nullptr) return table->intensity_cd({-direction.x, -direction.y, direction.z});
+    return axis_cd * std::max(-direction.x, 0.0);
+  };
+  return (tail_on ? of(tail, kTailLamp_cd) : 0.0) + (brake_on ? of(brake, kBrakeLamp_cd) : 0.0);
 }
 
 double Traffic::Headlamp::intensity_cd(const glm::dvec3& direction) const {
@@ -129,13 +150,17 @@ std::optional<Traffic::There> Traffic::there_at(std::size_t number, double time_
   const glm::dvec3 heading(std::cos(pose->heading_rad), std::sin(pose->heading_rad), 0.0);
   const glm::dvec3 left = glm::normalize(glm::cross(on_road.normal, heading));
   const glm::dvec3 forward = glm::cross(left, on_road.normal);
+  RearLight rear = rear_of_user_[number];
+  rear.tail_on = user.lights != RoadUserLights::off;
+  rear.brake_on = pose->brakes;
   return There{.kind = user.kind,
                .position_m = on_road.position_m,
                .world_from_user = {forward, left, on_road.normal},
                .lights = user.lights != RoadUserLights::off,
                .number = number,
                .speed_mps = pose->speed_mps,
-               .beam = headlamp_of_user_[number]};
+               .beam = headlamp_of_user_[number],
+               .rear = rear};
 }
 
 std::vector<SprayingVehicle> Traffic::spraying(std::span<const There> users, double time_s,
@@ -153,10 +178,14 @@ std::vector<SprayingVehicle> Traffic::spraying(std::span<const There> users, dou
     // Chosen: rear wheels 0.7 m before the back; tyres 0.2 m wide, of a lorry twice two of 0.3 m.
     const glm::dvec3 wheels(places.back_m + 0.7, 0.0, 0.0);
     SprayingVehicle vehicle{.left = user.world_from_user[1],
-                            .half_track_m = one_track ? 0.0 : lorry ? 0.95 : 0.75,
-                            .tyres_m = one_track ? 0.2 : lorry ? 1.2 : 0.4,
+                            .half_track_m = one_track ? 0.0
+                                            : lorry   ? 0.95
+                                                      : 0.75,
+                            .tyres_m = one_track ? 0.2
+                                       : lorry   ? 1.2
+                                                 : 0.4,
                             .speed_mps = user.speed_mps,
-                            .tail_cd = user.lights ? (places.tail_lamps == 1 ? 0.5 : 1.0) * kTailLamp_cd : 0.0,
+                            .tail_cd = (places.tail_lamps == 1 ? 0.5 : 1.0) * user.rear.intensity_cd({-1.0, 0.0, 0.0}),
                             .time_s = time_s,
                             .number = static_cast<std::uint32_t>(user.number)};
     vehicle.wheels_m[0] = in_world(user, wheels);
@@ -213,21 +242,21 @@ std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const g
   const glm::vec3 headlamp_colour = light_colour({.colour_temperature_k = kHalogen_k});
   for (std::size_t i = 0; i < users.size(); ++i) {
     const There& user = users[i];
-    if (!user.lights) continue;
+    if (!user.lights && !user.rear.brake_on) continue;
     const World around = world.without(i);
-    const LampPlaces& places = places_of(user.kind);
-    for (int lamp = 0; lamp < places.headlamps; ++lamp) {
+    const int headlamps = user.lights ? places_of(user.kind).headlamps : 0;
+    for (int lamp = 0; lamp < headlamps; ++lamp) {
       const glm::dvec3 lamp_m = front_lamp_m(user, lamp);
       const glm::dvec3 toward_eye = glm::transpose(headlamp_turn(user)) * (eye_m - lamp_m);
       add_seen(sources, around, lamp_m, headlamps_[user.beam].intensity_cd(toward_eye), headlamp_colour, eye_m, air);
     }
-    const auto tail = tail_lamps_into(user.kind, user.position_m, user.world_from_user, eye_m, around, air);
-    sources.insert(sources.end(), tail.begin(), tail.end());
+    const auto rear = rear_lamps_into(user.kind, user.rear, user.position_m, user.world_from_user, eye_m, around, air);
+    sources.insert(sources.end(), rear.begin(), rear.end());
   }
   return sources;
 }
 
-std::vector<GlaringLamp> tail_lamps_into(RoadUserClass kind, const glm::dvec3& position_m,
+std::vector<GlaringLamp> rear_lamps_into(RoadUserClass kind, const RearLight& light, const glm::dvec3& position_m,
                                          const glm::dmat3& world_from_user, const glm::dvec3& eye_m,
                                          const World& around, const Air& air) {
   std::vector<GlaringLamp> seen;
@@ -236,8 +265,8 @@ std::vector<GlaringLamp> tail_lamps_into(RoadUserClass kind, const glm::dvec3& p
     const glm::dvec3 lamp_m =
         position_m +
         world_from_user * glm::dvec3(places.back_m, places.aside_m[static_cast<std::size_t>(lamp)], places.back_up_m);
-    const double behind = -glm::dot(glm::normalize(eye_m - lamp_m), world_from_user[0]);
-    add_seen(seen, around, lamp_m, kTailLamp_cd * std::max(behind, 0.0), kTailColour, eye_m, air);
+    const double cd = light.intensity_cd(glm::transpose(world_from_user) * glm::normalize(eye_m - lamp_m));
+    add_seen(seen, around, lamp_m, cd, kTailColour, eye_m, air);
   }
   return seen;
 }

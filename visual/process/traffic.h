@@ -3,11 +3,14 @@
 //
 // A car's, lorry's or motorcycle's headlamps are two (of a motorcycle one) with the tables of the files that it names,
 // else those that the scene's own sample car has: low beam, and high beam added to it where it is on, aimed 1 % down.
-// Tail lamps are points of kTailLamp_cd that light nothing; brake lamps are left out, for speeds are constant. Bodies
-// cast shadows and hide lamps, but not those that they carry. Checked by tests/visual_process/traffic_test.cpp.
+// Tail lamps, and the brake lamps of who brakes (config/traffic/road_users.h), are points that light nothing but spray:
+// of the files that it names, else of kTailLamp_cd and kBrakeLamp_cd. Both of a side stand in one place and add up.
+// Bodies cast shadows and hide lamps, but not those that they carry. Left out: a third brake lamp, a tail lamp's share
+// that goes out as it brakes. Checked by tests/visual_process/traffic_test.cpp.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -27,6 +30,17 @@ namespace phare {
 inline constexpr double kAdaptation_cdm2 = 1.0;
 /// Rear position lamps: 4 to 17 cd along the axis (UN R148, R1); chosen in the middle.
 inline constexpr double kTailLamp_cd = 8.0;
+/// Stop lamps: 60 to 260 cd along the axis (UN R148, S1); chosen in the middle, as many times the least as the most is
+/// of it. Unconfirmed, as the tail lamps' figures: by memory of the rule.
+inline constexpr double kBrakeLamp_cd = 125.0;
+
+/// What burns at a back, of each lamp there.
+struct RearLight {
+  bool tail_on = true, brake_on = false;
+  const IntensityTable *tail = nullptr, *brake = nullptr;  ///< x backward; nullptr: the constants, by the cosine
+  /// Toward `direction` (unit, in the vehicle's frame), both together.
+  double intensity_cd(const glm::dvec3& direction) const;
+};
 
 class Traffic {
  public:
@@ -35,6 +49,8 @@ class Traffic {
   static bool is_theirs(const PlacedLamp& lamp) { return lamp.beam >= kBeam; }
 
   Traffic() = default;
+  Traffic(Traffic&&) = default;  // not to be copied: what There has points into it
+  Traffic& operator=(Traffic&&) = default;
   /// Reads road users and their lamps; `movers` has their meshes. Empty file name: no traffic, and nothing is read.
   /// Error, too: no lane.
   static Result<Traffic> read(const std::filesystem::path& file, const std::vector<LanePoint>& lane,
@@ -53,6 +69,7 @@ class Traffic {
     std::size_t number = 0;  ///< among those of the file
     double speed_mps = 0.0;
     std::size_t beam = 0;  ///< of its headlamps, among beams()
+    RearLight rear{};      ///< its tables are the Traffic's
   };
   std::vector<There> at(double time_s, const RoadLine& road) const;
 
@@ -91,6 +108,8 @@ class Traffic {
   };
   /// Where it is among headlamps_; reads what is not there yet.
   Result<std::size_t> headlamp(std::vector<std::filesystem::path> files);
+  /// A lamp at a back; nullptr: no file is named. Reads what is not there yet.
+  Result<const IntensityTable*> rear_lamp(const std::filesystem::path& file);
 
   std::optional<There> there_at(std::size_t number, double time_s, const RoadLine& road) const;
 
@@ -99,10 +118,12 @@ class Traffic {
   std::vector<std::size_t> mesh_of_kind_;
   std::vector<Headlamp> headlamps_;
   std::vector<std::size_t> headlamp_of_user_;
+  std::map<std::filesystem::path, IntensityTable> rear_lamps_;  // their places stay as others come, and as it is moved
+  std::vector<RearLight> rear_of_user_;                         // with what burns left open
 };
 
-/// Tail lamps of a road user that stands there, as they shine into an eye; hidden by what is in `around`.
-std::vector<GlaringLamp> tail_lamps_into(RoadUserClass kind, const glm::dvec3& position_m,
+/// Lamps at the back of a road user that stands there, as they shine into an eye; hidden by what is in `around`.
+std::vector<GlaringLamp> rear_lamps_into(RoadUserClass kind, const RearLight& light, const glm::dvec3& position_m,
                                          const glm::dmat3& world_from_user, const glm::dvec3& eye_m,
                                          const World& around, const Air& air);
 
