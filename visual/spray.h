@@ -45,7 +45,7 @@ struct SprayingVehicle {
   double tyres_m = 0.4;  ///< width of what its tyres roll over
   double speed_mps = 0.0;
   std::array<glm::dvec3, 2> tail_m{};  ///< its tail lamps
-  double tail_cd = 0.0;                ///< of each straight behind
+  double tail_cd = 0.0;                ///< of each straight behind, with a brake lamp that burns beside it
   double time_s = 0.0;
   std::uint32_t number = 0;  ///< that its puffs differ from those of others
 };

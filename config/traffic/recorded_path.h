@@ -8,7 +8,8 @@
 // that of the way at each row, and who stands looks as he came. Who reverses needs the column.
 // Left out: height, pitch and roll, which the road under it has; that a way beside the lane is longer or shorter than
 // the line in a bend, for the speed. The same as python/phare/control/recorded_path.py has;
-// both are held to tests/traffic/path_poses.csv. Checked by tests/traffic/recorded_path_test.cpp.
+// both are held to tests/traffic/path_poses.csv, and the curve to SciPy's (python/tests/test_control.py). Checked by
+// tests/traffic/recorded_path_test.cpp.
 #pragma once
 
 #include <filesystem>

@@ -118,6 +118,25 @@ def test_speeds_and_recorded_ways_are_those_of_the_drives_own_reader():
             assert found.brakes == bool(row.brakes)
 
 
+def test_a_recorded_way_is_the_monotone_cubic_of_another_program(tmp_path):
+    """SciPy's PchipInterpolator, the same method of Fritsch and Butland."""
+    from scipy.interpolate import PchipInterpolator
+
+    random = np.random.default_rng(7)
+    steps_s = random.uniform(0.05, 2.0, 40)
+    time_s = np.cumsum(steps_s)
+    s_m, offset_m = np.cumsum(steps_s * random.uniform(-3.0, 20.0, 40)), random.uniform(-2.0, 2.0, 40)
+    pd.DataFrame({"s_m": s_m, "time_s": time_s, "offset_m": offset_m}).to_csv(tmp_path / "p.csv", index=False)
+    (tmp_path / "users.toml").write_text('[[road_user]]\npath = "p.csv"\n')
+    path = phare.read_road_users(tmp_path / "users.toml")[0].path
+    curves = PchipInterpolator(time_s, s_m), PchipInterpolator(time_s, offset_m)
+    for then_s in np.linspace(time_s[0], time_s[-1], 500):
+        first, second, _, speed = path.at(float(then_s))
+        # A few roundings of 2^-53 of some 500 m, for the speed over steps of 0.05 s and more: 1e-12 each.
+        assert [first, second] == pytest.approx([float(curve(then_s)) for curve in curves], rel=0, abs=1e-10)
+        assert speed == pytest.approx(math.hypot(*(float(curve(then_s, 1)) for curve in curves)), rel=0, abs=1e-10)
+
+
 @pytest.mark.parametrize("text, why", [
     ("time_s,s_m,offset_m\n0,1,0\n0,2,0\n", "p.csv:3: time_s does not rise"), ("time_s,s_m\n0,1\n1,2\n", "p.csv:1: has no column offset_m"),
     ("s_m,offset_m\n0,1\n1,2\n", "p.csv:1: has no column time_s"), ("time_s,s_m,offset_m\n0,1,nan\n1,2,0\n", 'p.csv:2: "nan" is not a finite'),

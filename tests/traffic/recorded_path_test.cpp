@@ -4,12 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "config/traffic/road_users.h"
 #include "tests/csv_table.h"

@@ -168,6 +168,10 @@ TEST(RoadUsers, OfTheShippedExampleAreRead) {
   const auto users = read_road_users(source_dir() + "/config/examples/traffic.toml");
   ASSERT_TRUE(users.ok()) << users.error().text();
   EXPECT_EQ(users->size(), 3u);
+  const auto braking = read_road_users(source_dir() + "/config/examples/braking.toml");
+  ASSERT_TRUE(braking.ok()) << braking.error().text();
+  EXPECT_EQ(braking->at(0).speeds.size(), 5u);
+  EXPECT_TRUE(braking->at(1).path);
 }
 
 TEST(RoadUsers, WhatIsWrongIsSaidWithItsLine) {
