@@ -123,6 +123,23 @@ TEST_F(Explain, AnOncomingCarCallsForGlareAndItsImage) {
   }
 }
 
+/// What casts its shadow out of the view casts none, as in the frame.
+TEST_F(Explain, AShadowThatNobodySeesIsNotCalledFor) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "explain_hidden.toml";
+  std::ofstream(file) << "[[road_user]]\nclass = \"deer\"\nstart_s_m = 50\noffset_m = -2.0\n";
+  traffic_ = std::move(*Traffic::read(file, lane_, movers_));
+  const auto shadows = [&] {
+    for (const std::string& line : lines(moment(LightSwitch::kLow), device_))
+      if (line.starts_with("shadows ")) return line;
+    return std::string();
+  };
+  EXPECT_TRUE(shadows().starts_with("shadows         soft ")) << shadows();
+  desk_.camera = CameraKind::kFree;
+  desk_.free_eye = {
+      .position_m = {30.0, 0.0, 1.2}, .yaw_deg = 180.0, .pitch_deg = 0.0};  // before the deer, looking back
+  EXPECT_EQ(shadows(), "shadows         off     nothing stands in the light of the lamps");
+}
+
 /// What rain changes of luminance is not called for where two designs are compared by illuminance.
 TEST_F(Explain, TheDifferenceOfTwoDesignsIsOfIlluminance) {
   desk_.rain_mmph = 10.0;

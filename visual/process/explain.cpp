@@ -82,7 +82,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
     LightPeaks peaks;
     peaks.set(image);
     casts->push_back(casters->by(reach, lamp.world_from_image, input.moving, lamp.carried_by,
-                                 {.faint_lx = faint_lx(input), .peaks = &peaks}));
+                                 {.view = &view, .faint_lx = faint_lx(input), .peaks = &peaks}));
   }
   char heading[240];
   std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
