@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,6 +13,7 @@
 #include "config/rig.h"
 #include "tools/commands.h"
 #include "tools/reference_table.h"
+#include "tools/scene_shadows.h"
 #include "visual/fixed_light.h"
 #include "visual/photometry/beam/beam_image.h"
 #include "visual/photometry/beam/image_levels.h"
@@ -163,8 +165,7 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
 /// that of the strongest.
 int measure_street(const MeasureOptions& options) {
   if (!options.lamps.empty() || !options.rig_file.empty())
-    return bad_input({options.street_lamps.empty() ? "--scene" : "--street-lamps",
-                      "is measured alone; --lamp and --rig are a car's lamps, which have no shadows here"});
+    return bad_input({"--street-lamps", "is measured alone; --lamp and --rig are a car's lamps"});
   if (options.points.empty() || options.out.empty()) return bad_input({"", "give --points FILE and --out FILE"});
   Scene scene;
   if (!options.scene.empty()) {
@@ -257,16 +258,19 @@ int measure_table(const MeasureOptions& options) {
 }
 
 int measure(const MeasureOptions& options) {
-  std::vector<std::string> inputs{options.points, options.rig_file};
+  std::vector<std::string> inputs{options.points, options.rig_file, options.scene, options.street_lamps};
+  const std::size_t before_lamps = inputs.size();
   for (const std::string& text : options.lamps) {
     auto lamp = parse_lamp_argument(text);
     if (!lamp) return bad_input(lamp.error());
     // Two lamps may share one file, standard input too: it is read once.
     const std::string file = lamp->sources.front().file.string();
-    if (std::find(inputs.begin() + 2, inputs.end(), file) == inputs.end()) inputs.push_back(file);
+    if (std::find(inputs.begin() + static_cast<std::ptrdiff_t>(before_lamps), inputs.end(), file) == inputs.end())
+      inputs.push_back(file);
   }
   if (const Status apart = check_inputs(inputs, {options.out}); !apart) return bad_input(apart.error());
-  if (!options.street_lamps.empty() || !options.scene.empty()) return measure_street(options);
+  const bool of_a_car = !options.lamps.empty() || !options.rig_file.empty();
+  if (!options.street_lamps.empty() || (!options.scene.empty() && !of_a_car)) return measure_street(options);
   if (!options.table.empty()) return measure_table(options);
   if (options.points.empty() || options.out.empty())
     return bad_input({"", "give --points FILE and --out FILE, or --table FILE of a reference set"});
@@ -277,11 +281,28 @@ int measure(const MeasureOptions& options) {
   const auto points = read_points(options.points);
   if (!points) return bad_input(points.error());
 
+  Scene scene;
+  if (!options.scene.empty()) {
+    auto read = read_scene(options.scene);
+    if (!read) return bad_input(read.error());
+    scene = std::move(*read);
+  }
+
   std::string device;
-  const auto measured = measure_points(options, *lamps, *tables, *points, device);
+  auto measured = measure_points(options, *lamps, *tables, *points, device);
   if (!measured) return bad_input(measured.error());
-  const std::vector<Illuminance>& illuminance = *measured;
-  if (const Status status = write_illuminance(options.out, *points, illuminance); !status)
+  std::vector<Illuminance>& illuminance = *measured;
+  std::vector<HiddenBy> hidden;
+  std::map<std::string, std::size_t> shadows;  // of each object: points that lie in its shadow of some lamp
+  if (!options.scene.empty()) {
+    std::vector<glm::dvec3> lamps_m;
+    for (const LampConfig& lamp : *lamps) lamps_m.push_back(lamp.position_m);
+    hidden = take_shadows(scene, lamps_m, points->rows, illuminance);
+    for (const HiddenBy& names : hidden)
+      for (const std::string& name : std::set<std::string>(names.begin(), names.end()))
+        if (!name.empty()) ++shadows[name];
+  }
+  if (const Status status = write_illuminance(options.out, *points, illuminance, hidden); !status)
     return bad_input(status.error());
 
   double highest = 0.0;
@@ -297,10 +318,13 @@ int measure(const MeasureOptions& options) {
             {{"lamp", lamp.name}, {"file", source.file.string()}, {"content_hash", table.content_hash}});
       }
     }
-    std::printf("%s\n", report.dump(2).c_str());
+    if (!options.scene.empty()) report["scene"] = options.scene, report["points_in_shadow_of"] = shadows;
+    std::printf("%s\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else {
     std::printf("%s: %zu points, %zu lamp%s, at most %.6g lx, by %s (%s)\n", options.out.c_str(), illuminance.size(),
                 lamps->size(), lamps->size() == 1 ? "" : "s", highest, options.method.c_str(), device.c_str());
+    for (const auto& [name, count] : shadows)
+      std::printf("  %zu point%s in the shadow of %s\n", count, count == 1 ? "" : "s", name.c_str());
   }
   return kExitDone;
 }
@@ -312,7 +336,8 @@ void add_measure(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("measure", "Illuminance in lux at points");
   command->footer(
       "Points: CSV with x_m,y_m,z_m,nx,ny,nz. The answer repeats them and adds illuminance_lx and one column per "
-      "lamp.\n"
+      "lamp;\nwith --scene also hidden_by_1 and so on: the object that stands in that lamp's light, empty where none "
+      "does.\n"
       "Example:\n  phare measure --lamp low_beam.ies,x=1.5,y=0.6,z=0.65,pitch_deg=-0.573 --points points.csv --out "
       "points_lx.csv\n  phare measure --table road_table/a_road_flat_low.csv --method reference");
   command->add_option("--rig", options->rig_file, "Rig file whose lamps are measured; the car stands at the origin");
@@ -333,14 +358,18 @@ void add_measure(CLI::App& app, Command& chosen) {
       "--street-lamps", options->street_lamps,
       "Instead of a car's lamps: a file of street lamps (docs/street-lamps.md), in float64; lamp 1 is the "
       "strongest of them at each point");
-  command->add_option("--scene", options->scene, "Instead of a car's lamps: glTF whose own lamps are measured, and whose shadows count; with --street-lamps both");
+  auto* scene = command->add_option(
+      "--scene", options->scene,
+      "glTF whose shadows count, by ray. With --lamp or --rig: in a car's light, and the object that "
+      "shades is named; without: in that of its own lamps, which are measured, and of --street-lamps");
   auto* points = command->add_option("--points", options->points, "Points file; \"-\" is standard input");
   command->add_option("--out", options->out, "File to write");
   command
       ->add_option("--table", options->table,
                    "Instead of points: a table of a photometry reference set (manifest.json beside it), held against "
                    "every photometry file it knows; exit 1 when one is further off than --max-error")
-      ->excludes(points);
+      ->excludes(points)
+      ->excludes(scene);
   command
       ->add_option("--max-error", options->max_error,
                    "With --table: relative, where more than 0.01 lx is expected [fragment: 1e-5; reference: 1e-9]")

@@ -52,6 +52,7 @@ def measure(
     design: str | None = None,
     reference: bool = False,
     each: bool = False,
+    scene: PathLike | None = None,
 ) -> np.ndarray:
     """Illuminance in lux at points, of shape (points,).
 
@@ -60,6 +61,7 @@ def measure(
     points: (n, 3) positions in m, or (n, 6) with the unit normal of the surface; without one it is horizontal, (0, 0, 1).
     reference: float64 on the processor instead of the shader that draws the frame (relative difference below 1e-5).
     each: of each lamp alone besides: shape (points, 1 + lamps), the sum first.
+    scene: a glTF file whose shadows count; a lamp that something hides from a point gives it nothing.
     """
     at = np.atleast_2d(np.asarray(points, float))
     if at.ndim != 2 or at.shape[1] not in (3, 6):
@@ -76,7 +78,8 @@ def measure(
         lines = ["x_m,y_m,z_m,nx,ny,nz", *(",".join(repr(value) for value in row) for row in at.tolist())]
         file.write_text("\n".join(lines) + "\n")
         method = ["--method", "reference"] if reference else []
-        run(["measure", *words, "--points", file, "--out", out, *method])
+        shadows = ["--scene", os.fspath(scene)] if scene is not None else []
+        run(["measure", *words, "--points", file, "--out", out, *method, *shadows])
         answer = pd.read_csv(out, float_precision="round_trip")
     columns = [name for name in answer.columns if name.startswith("illuminance_lx")]
     lux = answer[columns].to_numpy(float)

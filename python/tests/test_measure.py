@@ -1,5 +1,8 @@
 """reference: lux at points against the photometric law, by hand."""
 
+import base64
+import json
+
 import numpy as np
 import pytest
 
@@ -33,6 +36,23 @@ def test_a_rig_stands_for_its_lamps():
     rig = phare.shipped_file("rigs/country_road.toml")
     low, both = (phare.measure(rig, [[40, 0, 0]], beams=beams, reference=True) for beams in ("low", ["low", "high"]))
     assert both[0] > low[0] > 0
+
+
+def test_a_scene_has_shadows(examples, tmp_path):
+    # A square of 2 m upright 10 m ahead, from the ground: glTF has y up, and its -z is the left.
+    corners = np.array([[10, 0, -1], [10, 0, 1], [10, 2, 1], [10, 2, -1]], "<f4").tobytes()
+    raw = corners + np.array([0, 1, 2, 0, 2, 3], "<u2").tobytes()
+    scene = tmp_path / "board.gltf"
+    scene.write_text(json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "board", "mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "buffers": [{"byteLength": len(raw), "uri": "data:application/octet-stream;base64," + base64.b64encode(raw).decode()}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [10, 0, -1], "max": [10, 2, 1]},
+                      {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}]}))
+    lamp, wall = phare.Mounted(examples / "high_beam.ies", 0, 0, 1), [[20, 1.99, 1, -1, 0, 0], [20, 2.01, 1, -1, 0, 0]]
+    bare, shaded = (phare.measure(lamp, wall, reference=True, scene=file) for file in (None, scene))
+    assert bare[0] > 0 and shaded[0] == 0 and shaded[1] == bare[1] > 0
 
 
 def test_what_cannot_be_measured_is_refused(examples):

@@ -1,4 +1,4 @@
-// Runs `phare lamp …` as a user does, and keeps what it said.
+// Runs `phare lamp …` and others as a user does, and keeps what it said.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -46,11 +46,12 @@ class LampProgram : public testing::Test {
     int code = 0;
     std::string out, err;
   };
+  Said lamp(const std::string& arguments) const { return phare("lamp " + arguments); }
   /// `arguments` as a shell reads them, redirections included; what is not redirected comes back.
-  Said lamp(const std::string& arguments) const {
+  Said phare(const std::string& arguments) const {
     const std::string out = in("stdout.txt"), err = in("stderr.txt");
-    const int status = std::system(
-        ("{ \"" + program("phare") + "\" lamp " + arguments + "; } >'" + out + "' 2>'" + err + "'").c_str());
+    const int status =
+        std::system(("{ \"" + program("phare") + "\" " + arguments + "; } >'" + out + "' 2>'" + err + "'").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(out), content_of(err)};
   }
 

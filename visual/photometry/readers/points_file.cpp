@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <initializer_list>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -54,7 +55,8 @@ Result<double> number(std::string_view field, const std::string& place, std::str
 /// Reads a CSV file and hands each row's line and the numbers of `columns` to `row`. Returns the header line.
 template <std::size_t n>
 Result<std::string> read_rows(
-    const std::filesystem::path& path, const std::array<const char*, n>& columns, const char* taken_prefix,
+    const std::filesystem::path& path, const std::array<const char*, n>& columns,
+    std::initializer_list<std::string_view> taken_prefixes,
     const std::function<Status(const std::string&, std::size_t, const std::array<double, n>&)>& row) {
   constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 30;
   const std::string name = input_name(path);
@@ -84,7 +86,7 @@ Result<std::string> read_rows(
         if (index[k] == column_count) return Error{place, "column " + std::string(columns[k]) + " is missing"};
       }
       for (const std::string_view field : fields) {
-        if (field.starts_with(taken_prefix)) {
+        if (std::ranges::any_of(taken_prefixes, [&](std::string_view taken) { return field.starts_with(taken); })) {
           return Error{place, "column " + std::string(field) + " is there already; the result would have it twice"};
         }
       }
@@ -113,13 +115,22 @@ std::string digits_17(double value) {
   return buffer;
 }
 
+/// As a field of CSV that stays on its line, whatever a name holds.
+std::string csv_field(std::string text) {
+  for (char& letter : text)
+    if (static_cast<unsigned char>(letter) < ' ') letter = ' ';
+  if (text.find_first_of(",\"") == std::string::npos && trimmed(text) == text && !text.starts_with('#')) return text;
+  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
+  return '"' + text + '"';
+}
+
 }  // namespace
 
 Result<PointsFile> read_points(const std::filesystem::path& path) {
   PointsFile points;
   const std::array<const char*, 6> columns{"x_m", "y_m", "z_m", "nx", "ny", "nz"};
   auto header = read_rows<6>(
-      path, columns, "illuminance_lx",
+      path, columns, {"illuminance_lx", "hidden_by_"},
       [&](const std::string& line, std::size_t line_number, const std::array<double, 6>& v) -> Status {
         PointRow row{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, line, line_number};
         // Scaled first, so that no length over- or underflows on the way.
@@ -136,15 +147,19 @@ Result<PointsFile> read_points(const std::filesystem::path& path) {
 }
 
 Status write_illuminance(const std::filesystem::path& path, const PointsFile& points,
-                         std::span<const Illuminance> illuminance) {
+                         std::span<const Illuminance> illuminance, std::span<const HiddenBy> hidden) {
   assert(illuminance.size() == points.rows.size());
+  assert(hidden.empty() || hidden.size() == points.rows.size());
   const std::size_t lamps = illuminance.empty() ? 0 : illuminance.front().lamps_lx.size();
   std::string content = points.header + ",illuminance_lx";
   for (std::size_t k = 1; k <= lamps; ++k) content += ",illuminance_lx_" + std::to_string(k);
+  for (std::size_t k = 1; k <= lamps && !hidden.empty(); ++k) content += ",hidden_by_" + std::to_string(k);
   content += '\n';
   for (std::size_t i = 0; i < points.rows.size(); ++i) {
     content += points.rows[i].text + "," + digits_17(illuminance[i].total_lx);
     for (const double e : illuminance[i].lamps_lx) content += "," + digits_17(e);
+    if (!hidden.empty())
+      for (const std::string& name : hidden[i]) content += "," + csv_field(name);
     content += '\n';
   }
   return write_whole_file(path, content);
@@ -153,7 +168,7 @@ Status write_illuminance(const std::filesystem::path& path, const PointsFile& po
 Result<AnglesFile> read_angles(const std::filesystem::path& path) {
   AnglesFile angles;
   const std::array<const char*, 2> columns{"h_deg", "v_deg"};
-  auto header = read_rows<2>(path, columns, "intensity_cd",
+  auto header = read_rows<2>(path, columns, {"intensity_cd"},
                              [&](const std::string& line, std::size_t, const std::array<double, 2>& v) -> Status {
                                angles.rows.push_back({{v[0], v[1]}, line});
                                return Done{};

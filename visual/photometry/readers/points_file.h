@@ -26,14 +26,18 @@ struct PointsFile {
   std::vector<PointRow> rows;
 };
 
-/// Reads columns x_m,y_m,z_m,nx,ny,nz, in any order, among any others. Blank lines and lines that begin with # are
-/// skipped.
+/// Reads columns x_m,y_m,z_m,nx,ny,nz, in any order, among any others but those that write_illuminance() adds. Blank
+/// lines and lines that begin with # are skipped.
 Result<PointsFile> read_points(const std::filesystem::path& path);
 
+/// What hides each lamp from a point, by name; empty: nothing does.
+using HiddenBy = std::vector<std::string>;
+
 /// Writes the input's columns and illuminance_lx, illuminance_lx_1 … _n, with 17 significant digits, by
-/// write_whole_file. `illuminance` belongs to `points.rows`, row by row, all with the same number of lamps.
+/// write_whole_file. `illuminance` belongs to `points.rows`, row by row, all with the same number of lamps. `hidden`,
+/// as long, or empty: nothing stands in the light. It adds hidden_by_1 … _n, in double quotes where CSV asks for them.
 Status write_illuminance(const std::filesystem::path& path, const PointsFile& points,
-                         std::span<const Illuminance> illuminance);
+                         std::span<const Illuminance> illuminance, std::span<const HiddenBy> hidden = {});
 
 /// One line of an angles file: columns h_deg,v_deg, the table's own two angles (for type C: C and gamma). A flat screen
 /// has no angles of its own: there they are azimuth and elevation, as in type A.
