@@ -189,8 +189,9 @@ const float kShadowNear_m = 0.05f;
 
 struct GpuMaterial {
   // rgb rho; w, sheeting: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there,
-  // facets: what they send back at a share of 1 (of markings whose R_L was measured wet below 0), in cd/(lx·m²), by
-  // which luminance follows from rho/pi: times pi over rho's luminance under illuminant A
+  // facets: what they send back at a share of 1, in cd/(lx·m²), by which luminance follows from rho/pi: times pi over
+  // rho's luminance under illuminant A. Of a marking with an R_L of its own when wet there is, as many places from the
+  // last as it is from the first, in x what stays of its w on wet ground, and -1 in w.
   vec4 reflectance;
 };
 

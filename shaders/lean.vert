@@ -50,7 +50,7 @@ void main() {
   plane_normal = vec4(n, 0.0);
 #endif
 #ifndef PHARE_PLAIN
-  detail = vec4(draw.detail_origin.xyz - draw.origin.xyz, abs(material.w));
+  detail = vec4(draw.detail_origin.xyz - draw.origin.xyz, material.w);
 #endif
 #ifdef PHARE_SHADOWS
 #ifdef PHARE_ALIKE

@@ -15,5 +15,5 @@ void main() {
   vec2 pixel = vec2(gl_VertexIndex % width, gl_VertexIndex / width) + 0.5;
   gl_Position = vec4(pixel / draw.origin.xy * 2.0 - 1.0, 0.5, 1.0);
   gl_PointSize = 1.0;
-  pass_light(vec4(0.0));
+  pass_light(vec4(0.0), 0u);
 }

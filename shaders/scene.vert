@@ -39,7 +39,7 @@ void main() {
   point_normal = turned(normal);
   detail_from_point = draw.detail_origin.xyz - draw.origin.xyz;
   gl_Position = clip_from_eye() * vec4(point, 1.0);
-  pass_light(materials[material_index].reflectance);
+  pass_light(materials[material_index].reflectance, material_index);
 #ifdef PHARE_FIXED
   fixed_light = moves == 0 ? light_here : light_here * max(0.25 + dot(light_way, normalize(point_normal)), 0.0);
   ambient_lx *= sky_share;

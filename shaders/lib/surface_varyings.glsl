@@ -3,7 +3,6 @@
 #ifndef PHARE_SURFACE_VARYINGS
 #define PHARE_SURFACE_VARYINGS
 #include "lib/lamp_bindings.glsl"
-#include "lib/retro.h"
 #include "lib/snow.h"
 #include "lib/wet.h"
 
@@ -56,21 +55,22 @@ layout(location = 7 + PHARE_LAMPS) PHARE_VARYING vec3 in_shadow[PHARE_LAMPS];
 layout(constant_id = 2) const uint retro = 0;
 layout(constant_id = 3) const uint output_kind = 0;
 
-// What goes back to the lamp is kept over what the surface reflects (GpuMaterial), which water has made darker. A figure that was measured wet is
-// kept as it is: what the darker body no longer gives of it in the 30 m geometry is sent back beside it.
-vec4 wetted(vec4 dry, bool figure_of_wet) {
+// What goes back to the lamp is kept over what the surface reflects (GpuMaterial), which water has made darker. `marking_left`: what of a
+// marking's own stays.
+vec4 wetted(vec4 dry, float marking_left) {
   vec3 rho = wet_reflectance(dry.rgb);
   if (retro != kRetroMarking && retro != kRetroFacets) return vec4(rho, dry.w);
   float green_left = max(rho.g, 1e-6);  // of black ground too something is divided by
-  if (figure_of_wet) return vec4(rho, (dry.w * dry.g + kCosIncidenceAt30m * (dry.g - rho.g)) / green_left);
-  return vec4(rho, dry.w * (retro == kRetroMarking ? kMarkingLeft : kFacetsLeft) * dry.g / green_left);
+  return vec4(rho, dry.w * (retro == kRetroMarking ? marking_left : kFacetsLeft) * dry.g / green_left);
 }
 
-void pass_light(vec4 material) {
+// `index`: the material's.
+void pass_light(vec4 material, uint index) {
   const float pi = 3.14159265;
-  bool figure_of_wet = retro == kRetroMarking && material.w < 0.0;
-  material.w = abs(material.w);
-  if (wet_ground != 0u) material = wetted(material, figure_of_wet);
+  if (wet_ground != 0u) {
+    vec4 of_wet = materials[kMaxMaterials - 1u - index].reflectance;  // GpuMaterial
+    material = wetted(material, of_wet.w < 0.0 ? of_wet.x : kMarkingLeft);
+  }
   if (snow_lies != kSnowNone) {
     vec4 covered = snowed(material, snow_share(normalize(point_normal).z, frame.ground.x), snow_lies == kSnowOnMarking);
     material = retro == kRetroFacets ? covered : vec4(covered.rgb, material.w);

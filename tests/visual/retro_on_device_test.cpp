@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "visual/photometry/table/illuminance.h"
 #include "visual/renderer.h"
@@ -34,7 +35,7 @@ class Patch {
   }
   /// Luminance toward the eye of a patch of 0.2 m about `at`, cd/m².
   double luminance_cdm2(const SceneMaterial& material, glm::dvec3 at, glm::dvec3 normal, glm::dvec3 eye,
-                        glm::dvec3 lamp, double kelvin = 2856.0) {
+                        glm::dvec3 lamp, double kelvin = 2856.0, std::size_t wet = 0) {
     Scene scene;
     scene.materials = {material};
     const glm::dvec3 u =
@@ -61,6 +62,7 @@ class Patch {
     input.lamps = {{.position_m = lamp, .world_from_image = {ahead, side, glm::cross(ahead, side)}}};
     input.sky_luminance_cdm2 = 0.0;
     input.want_hdr = true;
+    input.effects[static_cast<std::size_t>(Effect::kWetGround)] = wet;
     renderer->draw(input);
     const ImageF picture = renderer->read_hdr();
     const std::size_t middle = (15 * 31 + 15) * 4;
@@ -156,6 +158,31 @@ TEST_F(RetroOnDevice, AMarkingChangesSensiblyNearerAndFarther) {
   }
 }
 
+// Type II on wet ground; dry it is its dry class, to the bit. Ordinary beads keep 12 %.
+TEST_F(RetroOnDevice, AMarkingOfTypeTwoIsItsWetClassOnWetGround) {
+  const auto seen = [](const char* name, std::size_t wet) {
+    const glm::dvec3 at(30, 0, 0);
+    SceneMaterial material = of_class(name, kPaint);
+    material.surface = Surface::kPaint;
+    return 1e3 * Patch::shared().luminance_cdm2(material, at, kUp, kEye, kLamp, 2856.0, wet) /
+           Patch::facing_lx(at, kLamp);
+  };
+  const double grain = seen("EN 1436 R4", 0) / 200.0;  // of the paint, at this place: all light is times this
+  EXPECT_NEAR(grain, 1.0, 0.1);
+  for (const auto& [name, dry, wet] : {std::tuple{"EN 1436 R2 RW1", "EN 1436 R2", 25.0},
+                                       {"EN 1436 R3 RW2", "EN 1436 R3", 35.0},
+                                       {"EN 1436 R5 RW6", "EN 1436 R5", 150.0}}) {
+    EXPECT_EQ(seen(name, 0), seen(dry, 0)) << name;
+    for (std::size_t level = 1; level < kWetNames.size(); ++level) {
+      const double mcd = seen(name, level) / grain;
+      std::printf("%s, %s: %.2f mcd/(lx·m²)\n", name, std::string(kWetNames[level]).c_str(), mcd);
+      // Two readings, and what a damp film's wide slopes mirror: 0.2 mcd.
+      EXPECT_NEAR(mcd, wet, 3.0 * kHalfFloat * wet + 0.3) << name << ", level " << level;
+    }
+  }
+  EXPECT_NEAR(seen("EN 1436 R4", 3) / seen("EN 1436 R4", 0), 0.12, 0.01);
+}
+
 TEST_F(RetroOnDevice, AMarkingSendsNothingBackToWhereTheLampIsNot) {
   const glm::dvec3 at(30, 0, 0), oncoming(60, 0, 0.65);
   const double with = Patch::shared().luminance_cdm2(of_class("EN 1436 R5", kPaint), at, kUp, kEye, oncoming);
@@ -179,6 +206,9 @@ TEST_F(RetroOnDevice, ASignHasItsFigureAtTheStandardsAngles) {
                              {"EN 12899-1 RA2 red", red, 0.33, 5, 25},
                              {"EN 12899-1 RA2 yellow", yellow, 0.33, 5, 120},
                              {"EN 12899-1 RA1 white", white, 0.33, 30, 24},
+                             {"DIN 67520 RA3B white", white, 0.33, 30, 165},
+                             {"DIN 67520 RA3B white", white, 1, 40, 3.5},
+                             {"DIN 67520 RA3A white", white, 0.2, 20, 450},
                              {"EN ISO 20471 tape", white, 0.33, 20, 200}}) {
     const glm::dvec3 lamp(0, 0, 2), at(60, 0, 2),
         normal = aim_rotation(plate.entrance_deg * kRadPerDeg, 0, 0) * glm::dvec3(-1, 0, 0);

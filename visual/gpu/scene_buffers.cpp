@@ -13,10 +13,8 @@
 #include <numbers>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <tuple>
 
-#include "visual/photometry/beam/beam_image.h"
 #include "visual/scene/far_mesh.h"
 #include "visual/scene/refine.h"
 
@@ -306,28 +304,6 @@ std::vector<MovingMesh> make_moving(const Scene& scene, std::uint32_t first_mate
   return meshes;
 }
 
-// Coefficients are of luminance under illuminant A, as R_A is measured; the shader multiplies by rho/pi, which gives
-// the tint, so what rho takes is given back. Product of colours in Rec. 709: not spectral.
-shader::GpuMaterial pack_material(const SceneMaterial& material, std::vector<shader::GpuSheeting>& sheetings) {
-  constexpr double kPi = std::numbers::pi;
-  shader::GpuMaterial packed{glm::vec4(material.reflectance, 0.0f)};
-  // Of a picture of a sign what is white sends back as its class does; of ground and markings it is the mean.
-  const bool by_white = material.look.base_texture && material.retro.kind == RetroKind::kSheeting;
-  constexpr double kBlack = 1e-6;  // sends nothing back, and divides by nothing
-  const double rho =
-      std::max(reflectance_under_a(by_white ? glm::vec3(material.look.base) : material.reflectance), kBlack);
-  if (material.retro.kind == RetroKind::kMarking || material.retro.kind == RetroKind::kFacets) {
-    packed.reflectance.w = static_cast<float>(sent_back_strength(material.retro, rho) * kPi / rho);
-    if (material.retro.of_wet) packed.reflectance.w = -packed.reflectance.w;
-  } else if (material.retro.kind == RetroKind::kSheeting) {
-    packed.reflectance.w = static_cast<float>(sheetings.size());
-    shader::GpuSheeting& sheeting = sheetings.emplace_back();
-    for (std::size_t i = 0; i < material.retro.ln_r_a.size(); ++i)
-      sheeting.row[i] = material.retro.ln_r_a[i] + static_cast<float>(std::log(kPi / rho));
-  }
-  return packed;
-}
-
 // Across the ground, of a view to a batch; within it, straight ahead.
 glm::dvec2 looks_along(const ViewGeometry& view, const SceneBatch& batch) {
   const glm::dvec3& eye_m = view.camera().eye_m;
@@ -393,18 +369,7 @@ bool DrawItem::is_placed_as(const DrawItem& other) const {
 
 SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene& moving_scene,
                            const FixedLight& light, const Progress& progress) {
-  std::vector<shader::GpuMaterial> packed;
-  std::vector<shader::GpuSheeting> sheetings;
-  for (const SceneMaterial& material : scene.materials) packed.push_back(pack_material(material, sheetings));
-  for (const SceneMaterial& material : moving_scene.materials) packed.push_back(pack_material(material, sheetings));
-  if (packed.size() > shader::kMaxMaterials)
-    throw std::runtime_error(std::to_string(packed.size()) + " materials, at most " +
-                             std::to_string(shader::kMaxMaterials) + " are drawn");
-  if (sheetings.size() > shader::kMaxSheetings)
-    throw std::runtime_error(std::to_string(sheetings.size()) + " retroreflective sheetings, at most " +
-                             std::to_string(shader::kMaxSheetings) + " are drawn");
-  sheetings.resize(shader::kMaxSheetings);
-  packed.resize(shader::kMaxMaterials, {glm::vec4(0.5f, 0.5f, 0.5f, 0.0f)});
+  const PackedMaterials packed = pack_materials(scene, moving_scene);
   ground = GroundHeights(scene);
   Gathered all;
   if (!scene.looks.empty() || !moving_scene.looks.empty()) {
@@ -439,8 +404,10 @@ SceneBuffers::SceneBuffers(gpu::Device& device, const Scene& scene, const Scene&
     if (!all.tangents.empty())
       tangents = gpu::DeviceBuffer(device, std::as_bytes(std::span(all.tangents)), Usage::eVertexBuffer, "tangents");
   }
-  material_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(packed)), Usage::eUniformBuffer, "materials");
-  sheeting_buffer = gpu::DeviceBuffer(device, std::as_bytes(std::span(sheetings)), Usage::eUniformBuffer, "sheetings");
+  material_buffer =
+      gpu::DeviceBuffer(device, std::as_bytes(std::span(packed.materials)), Usage::eUniformBuffer, "materials");
+  sheeting_buffer =
+      gpu::DeviceBuffer(device, std::as_bytes(std::span(packed.sheetings)), Usage::eUniformBuffer, "sheetings");
 }
 
 std::vector<DrawItem> SceneBuffers::visible(const ViewGeometry& view, double far_from_m, Horizon* horizon) const {

@@ -51,7 +51,9 @@ LibraryMaterial read_one(TomlTable& table) {
     table.fail("surface", surface.error().reason);
   material.r_table = table.flag_or("r_table", material.surface == Surface::kAsphalt);
   if (const std::string retro = table.text_or("retro", ""); !retro.empty()) {
-    Result<Retroreflection> read = retroreflection(retro, std::nullopt, std::nullopt);
+    std::optional<double> r_a;
+    if (table.has("retroreflection_cd_per_lx_m2")) r_a = table.number("retroreflection_cd_per_lx_m2", 1e-3, 1e4);
+    Result<Retroreflection> read = retroreflection(retro, r_a, std::nullopt);
     if (read)
       material.retro = std::move(*read);
     else

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <string_view>
 
 #include "config/formats/toml_table.h"
 #include "shaders/lib/retro.h"
+#include "shaders/lib/wet.h"
 
 namespace phare {
 namespace {
@@ -14,9 +16,17 @@ namespace {
 static_assert(kObservations_deg.size() == shader::kSheetingRows);
 
 constexpr double kNotGiven = -1.0;
+const double kCosThirtyMetres{shader::kCosIncidenceAt30m};
 constexpr double kDarkest = 1e-3;  ///< cd/(lx·m²): what counts as nothing, for the logarithm
 
-constexpr const char* kEn12899 = "EN 12899-1, from memory";
+constexpr const char* kEn12899 =
+    "StVZVO 1998 (Austria, BGBl. II 238/1998), annex 2, types 1 and 2, as printed; that EN 12899-1 has the same is "
+    "from "
+    "memory";
+constexpr const char* kRa3 =
+    "from memory, of BS 8408 and DIN 67520; two digests of DIN 67520 give 300 as the least of both, without angles";
+constexpr const char* kR3IvaWhite = "UN R3, class IVA, 20' to 40° official text; the rest from memory";
+constexpr const char* kR3Iva = "UN R3, class IVA, from memory";
 constexpr const char* kPlateLaw = "French order of 15 April 1996 on number plates, equal to EN 12899-1 RA1 at 0.33°";
 constexpr const char* kD4956 = "ASTM D4956-01, from a transcription; entrance -4° taken as 5°";
 constexpr const char* kD4956Unread = "ASTM D4956, from memory; entrance -4° taken as 5°";
@@ -26,9 +36,9 @@ RetroClass marking(const char* name, double mcd, const char* source, bool confir
       .name = name, .kind = RetroKind::kMarking, .r_l_mcd_per_lx_m2 = mcd, .source = source, .confirmed = confirmed};
 }
 
-RetroClass wet_marking(const char* name, double mcd, const char* source) {
-  RetroClass made = marking(name, mcd, source);
-  made.wet = true;
+RetroClass wet_marking(const char* name, double mcd, const char* source, bool confirmed = true) {
+  RetroClass made = marking(name, mcd, source, confirmed);
+  made.wet_mcd_per_lx_m2 = mcd;
   return made;
 }
 
@@ -44,7 +54,7 @@ RetroClass sheeting(const char* name, std::initializer_list<Row3> rows, const ch
   return made;
 }
 
-/// A colour of a D4956 type: white's rows times the ratio of its figure at 0.2° to white's.
+/// A colour: white's rows times the ratio of its first figure (D4956: at 0.2°, RA3B: at 0.33°) to white's.
 RetroClass tinted(const char* name, RetroClass white, double ratio) {
   white.name = name;
   for (RetroClass::Row& row : white.rows)
@@ -57,6 +67,7 @@ std::vector<RetroClass> make_classes() {
   constexpr const char* kDry = "EN 1436, dry, least R_L in use, as two texts have it";
   constexpr const char* kDryOne = "EN 1436, dry, as one text has it";
   constexpr const char* kWet = "EN 1436, wet, as one text has it";
+  constexpr const char* kWetUnread = "EN 1436, wet, from memory";
   std::vector<RetroClass> all{
       marking("EN 1436 R1", 80.0, "EN 1436, from memory", false),
       marking("EN 1436 R2", 100.0, kDryOne),
@@ -65,28 +76,63 @@ std::vector<RetroClass> make_classes() {
       marking("EN 1436 R5", 300.0, kDry),
       wet_marking("EN 1436 RW1", 25.0, kWet),
       wet_marking("EN 1436 RW2", 35.0, kWet),
+      wet_marking("EN 1436 RW3", 50.0, kWetUnread, false),
+      wet_marking("EN 1436 RW4", 75.0, kWetUnread, false),
+      wet_marking("EN 1436 RW5", 100.0, kWetUnread, false),
+      wet_marking("EN 1436 RW6", 150.0, kWetUnread, false),
       wet_marking("EN 1436 RR1", 25.0, "EN 1436, in rain, as one text has it"),
+      wet_marking("EN 1436 RR2", 35.0, "EN 1436, in rain, from memory; a French level is 35, as one text has it",
+                  false),
+      wet_marking("EN 1436 RR3", 50.0, "EN 1436, in rain, from memory", false),
       sheeting("EN 12899-1 RA1 white", {{0.2, {70, 30, 10}}, {0.33, {50, 24, 9}}, {2.0, {5, 2.5, 1.5}}}, kEn12899,
-               false),
-      sheeting("EN 12899-1 RA1 yellow", {{0.2, {50, 22, 7}}, {0.33, {35, 16, 6}}, {2.0, {3, 1.5, 1}}}, kEn12899, false),
-      sheeting("EN 12899-1 RA1 red", {{0.2, {14.5, 6, 2}}, {0.33, {10, 4, 1.8}}, {2.0, {1, 0.5, 0.5}}}, kEn12899,
-               false),
+               true),
+      sheeting("EN 12899-1 RA1 yellow", {{0.2, {50, 22, 7}}, {0.33, {35, 16, 6}}, {2.0, {3, 1.5, 1}}}, kEn12899, true),
+      sheeting("EN 12899-1 RA1 red", {{0.2, {14.5, 6, 2}}, {0.33, {10, 4, 1.8}}, {2.0, {1, 0.5, 0.5}}}, kEn12899, true),
       sheeting("EN 12899-1 RA1 green", {{0.2, {9, 3.5, 1.5}}, {0.33, {7, 3, 1.2}}, {2.0, {0.5, 0.3, 0.2}}}, kEn12899,
-               false),
-      sheeting("EN 12899-1 RA1 blue", {{0.2, {4, 1.7, 0.5}}, {0.33, {2, 1, kNotGiven}}}, kEn12899, false),
+               true),
+      sheeting("EN 12899-1 RA1 blue", {{0.2, {4, 1.7, 0.5}}, {0.33, {2, 1, 0.1}}, {2.0, {0.1, 0.1, 0.1}}}, kEn12899,
+               true),
       sheeting("EN 12899-1 RA2 white", {{0.2, {250, 150, 110}}, {0.33, {180, 100, 95}}, {2.0, {5, 2.5, 1.5}}}, kEn12899,
-               false),
+               true),
       sheeting("EN 12899-1 RA2 yellow", {{0.2, {170, 100, 70}}, {0.33, {120, 70, 60}}, {2.0, {3, 1.5, 1}}}, kEn12899,
-               false),
-      sheeting("EN 12899-1 RA2 red", {{0.2, {45, 25, 15}}, {0.33, {25, 14, 13}}, {2.0, {1, 0.4, 0.3}}}, kEn12899,
-               false),
+               true),
+      sheeting("EN 12899-1 RA2 red", {{0.2, {45, 25, 15}}, {0.33, {25, 14, 13}}, {2.0, {1, 0.4, 0.3}}}, kEn12899, true),
       sheeting("EN 12899-1 RA2 green", {{0.2, {45, 25, 12}}, {0.33, {21, 12, 11}}, {2.0, {0.5, 0.3, 0.2}}}, kEn12899,
-               false),
-      sheeting("EN 12899-1 RA2 blue", {{0.2, {20, 11, 8}}, {0.33, {14, 8, 7}}, {2.0, {0.2, kNotGiven, kNotGiven}}},
-               kEn12899, false),
+               true),
+      sheeting("EN 12899-1 RA2 blue", {{0.2, {20, 11, 8}}, {0.33, {14, 8, 7}}, {2.0, {0.2, 0.1, 0.1}}}, kEn12899, true),
       sheeting("number plate white", {{0.33, {50, 24, 9}}, {1.5, {5, 2.5, 1.5}}}, kPlateLaw, true),
       sheeting("number plate yellow", {{0.33, {35, 16, 6}}, {1.5, {3, 1.5, 1}}}, kPlateLaw, true),
   };
+  // Type II: a class dry and another wet, each pair "EN 1436 R3 RW2".
+  const std::vector<RetroClass> markings(all.begin(), std::ranges::find(all, "EN 1436 RR1", &RetroClass::name));
+  for (const RetroClass& dry : markings) {
+    for (const RetroClass& wet : markings) {
+      const bool pair = !dry.name.starts_with("EN 1436 RW") && wet.name.starts_with("EN 1436 RW");
+      if (!pair || wet.r_l_mcd_per_lx_m2 >= dry.r_l_mcd_per_lx_m2) continue;
+      all.push_back(marking((dry.name + wet.name.substr(std::string_view("EN 1436").size())).c_str(),
+                            dry.r_l_mcd_per_lx_m2, "EN 1436, type II: both classes", dry.confirmed && wet.confirmed));
+      all.back().wet_mcd_per_lx_m2 = wet.r_l_mcd_per_lx_m2;
+    }
+  }
+  // Microprisms. A says nothing beyond 0.33°; there as B: chosen.
+  all.push_back({.name = "DIN 67520 RA3A white",
+                 .kind = RetroKind::kSheeting,
+                 .rows = {{0.2, {625, 450, 325, 200}},
+                          {0.33, {425, 300, 225, 150}},
+                          {1.0, {35, 30, 20, 3.5}},
+                          {1.5, {15, 13, 9, 1.5}}},
+                 .source = kRa3,
+                 .confirmed = false});
+  const RetroClass three_b{.name = "DIN 67520 RA3B white",
+                           .kind = RetroKind::kSheeting,
+                           .rows = {{0.33, {300, 240, 165, 30}}, {1.0, {35, 30, 20, 3.5}}, {1.5, {15, 13, 9, 1.5}}},
+                           .source = kRa3,
+                           .confirmed = false};
+  for (const RetroClass& made :
+       {three_b, tinted("DIN 67520 RA3B yellow", three_b, 195.0 / 300.0),
+        tinted("DIN 67520 RA3B red", three_b, 60.0 / 300.0), tinted("DIN 67520 RA3B green", three_b, 30.0 / 300.0),
+        tinted("DIN 67520 RA3B blue", three_b, 19.0 / 300.0)})
+    all.push_back(made);
   const RetroClass one =
       sheeting("ASTM D4956 I white", {{0.2, {70, 30, kNotGiven}}, {0.5, {30, 15, kNotGiven}}}, kD4956, true);
   const RetroClass three =
@@ -118,6 +164,27 @@ std::vector<RetroClass> make_classes() {
                  .kind = RetroKind::kSheeting,
                  .rows = {{0.33, {300, 100, 50, 25}}, {1.5, {5, 2.5, 1.25, 0.625}}},
                  .source = "UN R3, class IA, official text",
+                 .whole_device = true});
+  // mcd/lx at 0°, 20°, 30°, 40° to the side; ±10° up and down, where it has 1200 of white's 1800, is left out. For what
+  // stands beside a road: of post reflectors (EN 12899-3) no figures were found.
+  const RetroClass iva{.name = "UN R3 IVA white",
+                       .kind = RetroKind::kSheeting,
+                       .rows = {{0.33, {1800, 610, 540, 470}}, {1.5, {34, 15, 15, 15}}},
+                       .source = kR3IvaWhite,
+                       .confirmed = false,
+                       .whole_device = true};
+  all.push_back(iva);
+  all.push_back({.name = "UN R3 IVA amber",
+                 .kind = RetroKind::kSheeting,
+                 .rows = {{0.33, {1125, 380, 335, 290}}, {1.5, {21, 10, 10, 10}}},
+                 .source = kR3Iva,
+                 .confirmed = false,
+                 .whole_device = true});
+  all.push_back({.name = "UN R3 IVA red",
+                 .kind = RetroKind::kSheeting,
+                 .rows = {{0.33, {450, 150, 135, 115}}, {1.5, {9, 4, 4, 4}}},
+                 .source = kR3Iva,
+                 .confirmed = false,
                  .whole_device = true});
   // A share of 0.3 of what enters the pupil into a cone 2° wide: 0.3/(pi·(1°)²) = 313 cd/(lx·m²) of the pupil's area,
   // rounded; aslant as the pupil's area is seen. How it ends beyond the cone is chosen.
@@ -203,7 +270,8 @@ Result<Retroreflection> retroreflection(const std::string& class_name, std::opti
       return Error{"", "'" + name + "' is " + (found->kind == RetroKind::kMarking ? "a marking" : "ground") +
                            ": retroreflection_mcd_per_lx_m2 goes with it, not …_cd_per_lx_m2"};
     made.r_l_mcd_per_lx_m2 = r_l.value_or(found->r_l_mcd_per_lx_m2);
-    made.of_wet = found->wet;
+    if (found->wet_mcd_per_lx_m2 > 0.0)
+      made.wet_mcd_per_lx_m2 = found->wet_mcd_per_lx_m2 * made.r_l_mcd_per_lx_m2 / found->r_l_mcd_per_lx_m2;
     return made;
   }
   if (r_l)
@@ -222,9 +290,15 @@ Result<Retroreflection> retroreflection(const std::string& class_name, std::opti
 
 double sent_back_strength(const Retroreflection& retro, double rho) {
   if (retro.kind == RetroKind::kFacets && retro.r_l_mcd_per_lx_m2 == 0.0) return rho / std::numbers::pi;
-  const auto cos_incidence = static_cast<double>(shader::kCosIncidenceAt30m);
-  const double beside = std::max(1e-3 * retro.r_l_mcd_per_lx_m2 - rho / std::numbers::pi * cos_incidence, 0.0);
+  const double beside = std::max(1e-3 * retro.r_l_mcd_per_lx_m2 - rho / std::numbers::pi * kCosThirtyMetres, 0.0);
   return retro.kind == RetroKind::kFacets ? beside / static_cast<double>(shader::kFacetsAt30m) : beside;
+}
+
+double wet_share(const Retroreflection& marking, double rho) {
+  const double wet_rho = static_cast<double>(shader::wet_reflectance(glm::vec3(static_cast<float>(rho))).x);
+  const double beside = 1e-3 * marking.wet_mcd_per_lx_m2 - wet_rho / std::numbers::pi * kCosThirtyMetres;
+  const double dry = sent_back_strength(marking, rho);
+  return dry > 0.0 ? std::max(beside / dry, 0.0) : 0.0;
 }
 
 double sent_back_per_lx(const Retroreflection& retro, double rho, const glm::dvec3& to_lamp, const glm::dvec3& normal,

@@ -5,6 +5,7 @@
 //   Observation angle: lamp, surface, eye. Entrance angle: between the normal and the way to the lamp.
 // Source: each class names its own. No standard was read here in its own text; what other texts did not confirm either
 //   says so (`confirmed`), and docs/light.md lists it.
+// RA1 and RA2 are as an Austrian ordinance prints them, whose types 1 and 2 they are.
 // Leaves out: rotation of the sheeting, orientation of the two planes, rain, dirt, colour over angle.
 // Checked by tests/scene/retro_test.cpp, tests/visual/retro_on_device_test.cpp.
 #pragma once
@@ -32,7 +33,7 @@ struct RetroClass {
   std::string name;
   RetroKind kind = RetroKind::kNone;
   double r_l_mcd_per_lx_m2 = 0.0;  ///< of a marking
-  bool wet = false;                ///< as measured on a wet one, or in rain
+  double wet_mcd_per_lx_m2 = 0.0;  ///< its R_L when wet: of classes measured wet or in rain, and of type II
   struct Row {
     double observation_deg = 0.0;              ///< one of kObservations_deg
     std::array<double, 4> r_a_cd_per_lx_m2{};  ///< at kEntrances_deg
@@ -53,20 +54,27 @@ struct Retroreflection {
   RetroKind kind = RetroKind::kNone;
   std::string class_name{};
   double r_l_mcd_per_lx_m2 = 0.0;  ///< in the 30 m geometry, all light together; facets: 0 as rho gives
-  bool of_wet = false;             ///< that figure is of the wet marking, which keeps it where the ground is wet
+  /// The same on wet ground, of classes measured wet or in rain and of type II; 0: ordinary beads, which keep what
+  /// shaders/lib/wet.h leaves them.
+  double wet_mcd_per_lx_m2 = 0.0;
   std::array<glm::vec4, kObservations_deg.size()>
       ln_r_a{};  ///< of sheeting: ln of cd/(lx·m²), [observation], xyzw entrance
 };
 
 /// By its class, or by a measured figure, or both: a class gives the shape over the angles, the figure then replaces
-/// its own. R_A is that at (0.33°, 5°), R_L that in the 30 m geometry (of markings and facets). A figure alone has the
-/// shape of EN 12899-1 RA2 white. Error: no such class (naming the nearest), or a figure of the other kind.
+/// its own. R_A is that at (0.33°, 5°), R_L that in the 30 m geometry (of markings and facets); the wet R_L of a type
+/// II changes with it. A figure alone has the shape of EN 12899-1 RA2 white. Error: no such class (naming the nearest),
+/// or a figure of the other kind.
 Result<Retroreflection> retroreflection(const std::string& class_name, std::optional<double> r_a_cd_per_lx_m2,
                                         std::optional<double> r_l_mcd_per_lx_m2);
 
 /// What is sent back beside diffuse rho/pi, luminance toward the eye over the illuminance on a plane facing the lamp in
 /// cd/(lx·m²): of a marking in the 30 m geometry, of facets at a share of 1 (shaders/lib/retro.h). `rho`: as below.
 double sent_back_strength(const Retroreflection& retro, double rho);
+
+/// On wet ground: what a marking's sent_back_strength() keeps, so that with what its darker paint gives it has its wet
+/// R_L in the 30 m geometry. Only of markings that have one.
+double wet_share(const Retroreflection& marking, double rho);
 
 /// Luminance toward the eye over the illuminance on a plane facing the lamp, cd/(lx·m²), of what is sent back beside
 /// diffuse rho/pi, as the shader computes it. `rho`: reflectance_under_a() of the material. Unit vectors, of one frame;
