@@ -19,6 +19,7 @@
 #include "config/base/paths.h"
 #include "config/desk.h"
 #include "config/formats/toml_table.h"
+#include "config/spectrum.h"
 
 namespace phare {
 namespace {
@@ -96,6 +97,17 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
     if (xy.size() == 2 && !(xy[0] >= 0.0 && xy[1] >= 0.01 && xy[0] + xy[1] <= 1.0))
       table.fail("chromaticity_xy", "x and y of CIE 1931: x >= 0, y >= 0.01, x + y <= 1");
     if (xy.size() == 2) source.chromaticity_xy = glm::dvec2{xy[0], xy[1]};
+  }
+  if (table.has("spectrum")) {
+    source.spectrum = resolve_path(table.text("spectrum"), rig_file);
+    for (const char* other : {"colour_temperature_k", "chromaticity_xy"})
+      if (table.has(other))
+        table.fail("spectrum", "a light has one of spectrum, colour_temperature_k, chromaticity_xy");
+    const auto xy = read_spectrum_xy(source.spectrum);
+    if (xy)
+      source.chromaticity_xy = *xy;
+    else
+      table.fail("spectrum", xy.error().text());
   }
   return source;
 }

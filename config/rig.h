@@ -51,6 +51,7 @@ struct SourceConfig {
   double roll_rad = 0.0;     ///< > 0 right side down
   double colour_temperature_k = 5000.0;
   std::optional<glm::dvec2> chromaticity_xy{};  ///< CIE 1931; in place of the colour temperature
+  std::filesystem::path spectrum{};  ///< what chromaticity_xy is of (config/spectrum.h), resolved; empty: none
   std::filesystem::path pixels{};               ///< a pixel light: the picture it begins with, resolved; empty: none
   std::filesystem::path pixel_map{};  ///< where its pixels shine, resolved; empty: evenly over the table's angles
 

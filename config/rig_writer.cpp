@@ -216,7 +216,9 @@ class RigText {
     if (source.roll_rad != 0.0) key("roll_deg", degrees_word(source.roll_rad));
     if (!source.pixels.empty()) key("pixels", path(source.pixels), "a pixel light: the picture it begins with");
     if (!source.pixel_map.empty()) key("pixel_map", path(source.pixel_map), "where its pixels shine");
-    if (source.chromaticity_xy)
+    if (!source.spectrum.empty())
+      key("spectrum", path(source.spectrum), "power over wavelength: its colour");
+    else if (source.chromaticity_xy)
       out_ << "chromaticity_xy = [" << number_word(source.chromaticity_xy->x) << ", "
            << number_word(source.chromaticity_xy->y) << "]\n";
     else

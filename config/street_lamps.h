@@ -5,7 +5,9 @@
 
 #include <array>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +21,7 @@ struct LuminaireConfig {
   std::filesystem::path file;  ///< type C, gamma 0 its axis; resolved
   double scale = 1.0;          ///< multiplies candela: dimming, maintenance factor
   double colour_temperature_k = 4000.0;
+  std::optional<glm::dvec2> chromaticity_xy{};  ///< CIE 1931, of its spectrum; in place of the colour temperature
 };
 
 /// The luminaire's axis (gamma 0) looks down, its plane C 90 toward `yaw_rad`: the street side of a road luminaire.
@@ -50,7 +53,7 @@ struct StreetLampsConfig {
 /// So many of a file are read; more is taken for an error.
 inline constexpr std::size_t kMostStreetLamps = 20000;
 
-/// Errors with file:line and reason. The photometry files are not opened.
+/// Errors with file:line and reason. Spectra are read, the photometry files are not opened.
 Result<StreetLampsConfig> read_street_lamps(const std::filesystem::path& file);
 
 }  // namespace phare

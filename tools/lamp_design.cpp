@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 
+#include "config/spectrum.h"
 #include "visual/photometry/bench/lamp_aim.h"
 #include "visual/photometry/bench/lint.h"
 #include "visual/photometry/bench/table_end.h"
@@ -352,7 +353,8 @@ const char* const kLampFlagsHelp =
     "A lamp of one's own is FILE[,KEY=VALUE…] for a pair from one file, or left=FILE,right=FILE[,KEY=VALUE…]. It sits "
     "where "
     "the rig's first design has that lamp; x, y (of the left one), z in m say another place. Further keys: pitch_deg, "
-    "yaw_deg, roll_deg, scale, mirror=1, colour_temperature_k; type C and EULUMDAT: axis=gamma0|gamma90, c0_deg; "
+    "yaw_deg, roll_deg, scale, mirror=1, colour_temperature_k or spectrum (a CSV file); type C and EULUMDAT: "
+    "axis=gamma0|gamma90, c0_deg; "
     "lamp_set, "
     "emitter; distance_m. A file name may hold commas; one that holds \",word=\" stands in double quotes, a quote in "
     "it "
@@ -381,6 +383,7 @@ Result<LampChoice> parse_lamp_choice(const std::string& flag, LampFunction funct
   const auto wrong = [&](const std::string& reason) { return Error{flag + " " + text, reason}; };
   std::vector<std::string> words = words_of(text);
   std::optional<std::string> sides[2];
+  bool kelvin_given = false;
   std::string rest;
   const bool file_first = !words.front().starts_with("left=") && !words.front().starts_with("right=");
   std::string file = file_first ? words.front() : "";
@@ -398,6 +401,14 @@ Result<LampChoice> parse_lamp_choice(const std::string& flag, LampFunction funct
       if (!kelvin || *kelvin < kCoolestSource_k || *kelvin > kHottestSource_k)
         return wrong("\"colour_temperature_k\": expected 1667 to 25000, got \"" + value + "\"");
       choice.source.colour_temperature_k = *kelvin;
+      kelvin_given = true;
+      continue;
+    }
+    if (key == "spectrum") {
+      choice.source.spectrum = fs::absolute(value).lexically_normal();
+      const auto xy = read_spectrum_xy(choice.source.spectrum);
+      if (!xy) return xy.error();
+      choice.source.chromaticity_xy = *xy;
       continue;
     }
     if (key == "x" || key == "y" || key == "z") {
@@ -417,9 +428,12 @@ Result<LampChoice> parse_lamp_choice(const std::string& flag, LampFunction funct
   // The keys are those of `phare measure --lamp`, read by the same reader.
   auto parsed = parse_lamp_argument("lamp,x=0,y=0,z=0" + rest);
   if (!parsed) return wrong(parsed.error().reason);
-  const double colour = choice.source.colour_temperature_k;
+  if (kelvin_given && choice.source.chromaticity_xy) return wrong("a spectrum or a colour_temperature_k, not both");
+  const SourceConfig coloured = choice.source;
   choice.source = parsed->sources.front();
-  choice.source.colour_temperature_k = colour;
+  choice.source.colour_temperature_k = coloured.colour_temperature_k;
+  choice.source.chromaticity_xy = coloured.chromaticity_xy;
+  choice.source.spectrum = coloured.spectrum;
   choice.source.file.clear();
   choice.two_files = !file_first;
   for (int side = 0; side < 2; ++side) {

@@ -34,7 +34,8 @@ struct LampChoice {
   bool two_files = false, pitch_given = false, axis_given = false;
 };
 /// FILE[,key=value…] or left=FILE,right=FILE[,key=value…] with the keys of `phare measure --lamp` and
-/// colour_temperature_k. A file name may hold commas; one that holds ",word=" stands in double quotes, a quote doubled.
+/// colour_temperature_k or spectrum. A file name may hold commas; one that holds ",word=" stands in double quotes, a
+/// quote doubled.
 Result<LampChoice> parse_lamp_choice(const std::string& flag, LampFunction function, const std::string& text);
 
 /// "as-filed", "cut-off" or degrees up.

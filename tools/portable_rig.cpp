@@ -56,7 +56,7 @@ Status PortableFiles::add_rig(const Rig& rig) {
     for (const LampConfig& lamp : design.lamps) {
       for (const SourceConfig& source : lamp.sources) {
         if (const Status done = add(source.file, "lamps"); !done) return done;
-        for (const fs::path& file : {source.pixels, source.pixel_map})
+        for (const fs::path& file : {source.pixels, source.pixel_map, source.spectrum})
           if (const Status done = file.empty() ? Status(Done{}) : add(file, "lamps"); !done) return done;
         if (const Status read = tables.add(source); !read) return read.error();
         const fs::path tilt = source.file.parent_path() / tables.of(source).header.tilt;

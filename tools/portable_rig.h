@@ -16,8 +16,8 @@ class PortableFiles {
   explicit PortableFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// Scene with its lane and buffers, vehicle, cockpit with its DBC, script and further cockpits, key file, every
-  /// photometry file with its TILT file. Error: the folder is there already, or something cannot be copied; then
-  /// nothing stays.
+  /// photometry file with its TILT file, pixels and spectrum. Error: the folder is there already, or something cannot
+  /// be copied; then nothing stays.
   Status copy(const Rig& rig);
   /// Where the copy of a file lies, as the rig beside the folder names it.
   std::string word(const std::filesystem::path& file) const;

@@ -45,6 +45,7 @@ json lamps_of(const Rig& rig) {
         if (source.mirror) row["mirror"] = true;
         if (!source.pixels.empty()) row["pixels"] = named_by_content(source.pixels);
         if (!source.pixel_map.empty()) row["pixel_map"] = named_by_content(source.pixel_map);
+        if (!source.spectrum.empty()) row["spectrum"] = named_by_content(source.spectrum);
         if (source.c0_turn_deg != 0.0) row["c0_deg"] = source.c0_turn_deg;
         if (source.axis == GammaAxis::kGamma90) row["axis"] = "gamma90";
         lamps.push_back(std::move(row));

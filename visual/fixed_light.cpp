@@ -53,7 +53,9 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
       const double peak_cd = table->peak_cd() * kind.scale;
       light.luminaires_.push_back({std::move(*table), {}, kind.scale, peak_cd});
       Luminaire& last = light.luminaires_.back();
-      last.colour = light_colour({.table = &last.table, .colour_temperature_k = kind.colour_temperature_k});
+      last.colour = light_colour({.table = &last.table,
+                                  .colour_temperature_k = kind.colour_temperature_k,
+                                  .chromaticity_xy = kind.chromaticity_xy});
     }
     for (const StreetLampConfig& lamp : config->lamps)
       light.lamps_.push_back(

@@ -141,7 +141,7 @@ class Rig:
             lamps = []
             for lamp in design.pop("lamp"):
                 sources = [
-                    Source(**_known(Source, s | {key: absolute(s[key]) for key in ("file", "pixels", "pixel_map") if key in s}))
+                    Source(**_known(Source, s | {key: absolute(s[key]) for key in ("file", "pixels", "pixel_map", "spectrum") if key in s}))
                     for table in lamp.pop("source")
                     for s in _each_emitter(table)
                 ]

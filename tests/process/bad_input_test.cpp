@@ -193,6 +193,7 @@ TEST_F(BadInput, OfADrive) {
       {"lamp: low and high", drive + "--lamp good.ies --lamp-high good.ies", "good.ies is given twice"},
       {"lamp: given twice", drive + "--lamp good.ies --lamp dark.ies", "--lamp: given twice"},
       {"lamp: unknown key", drive + "--lamp good.ies,pitch=1", "did you mean \"pitch_deg\"?"},
+      {"lamp: no spectrum", drive + "--lamp good.ies,spectrum=absent.csv", "absent.csv: "},
       {"lamp: aim", drive + "--lamp good.ies --aim up", "--aim up: expected as-filed, cut-off, or degrees up"},
       {"aim without lamp", drive + "--aim -1", "--aim -1: aims a lamp of one's own"},
       {"rig.toml of others",

@@ -110,6 +110,17 @@ TEST_F(OwnLamp, TwoFilesAPlaceAndEveryKey) {
   EXPECT_NE(all(*notes).find("; no high beam, fog lamp"), std::string::npos) << all(*notes);
 }
 
+TEST_F(OwnLamp, ASpectrumIsItsColourInEveryLamp) {
+  Rig rig = demo();
+  const std::string spectrum = file("line.csv", "wavelength_nm,power\n585,0\n590,2\n595,0\n");
+  ASSERT_TRUE(put_lamp_design(rig, {.low = {ours("low_rht.ies") + ",spectrum=" + spectrum}, .others = "none"}));
+  for (const LampConfig& lamp : rig.designs.front().lamps) {
+    EXPECT_EQ(lamp.sources[0].spectrum, spectrum);
+    ASSERT_TRUE(lamp.sources[0].chromaticity_xy);
+    EXPECT_NEAR(lamp.sources[0].chromaticity_xy->x, 0.575, 2e-3);
+  }
+}
+
 TEST_F(OwnLamp, LowAndHighShareTheirPlace) {
   Rig rig = demo();
   const auto notes = put_lamp_design(rig, {.low = {ours("low_rht.ies")}, .high = {ours("led_high.ies")}});
@@ -188,6 +199,11 @@ TEST_F(OwnLamp, WhatIsRefusedSaysWhichAndWhy) {
   ends(refusal({.low = {low + ",y=-0.6"}}), ": a pair is given by its left lamp, y > 0");
   ends(refusal({.low = {low + ",colour_temperature_k=10"}}),
        ": \"colour_temperature_k\": expected 1667 to 25000, got \"10\"");
+  const std::string spectrum = file("led.csv", "wavelength_nm,power\n450,1\n455,-2\n");
+  ends(refusal({.low = {low + ",spectrum=" + spectrum}}), "led.csv:3: power is negative");
+  const std::string line = file("line.csv", "wavelength_nm,power\n450,1\n455,2\n");
+  ends(refusal({.low = {low + ",colour_temperature_k=4300,spectrum=" + line}}),
+       ": a spectrum or a colour_temperature_k, not both");
   ends(refusal({.low = {low}, .aim = "up"}), "--aim up: expected as-filed, cut-off, or degrees up (-90 to 90)");
   ends(refusal({.low = {low}, .aim = "nan"}), "expected as-filed, cut-off, or degrees up (-90 to 90)");
   const std::string bad =

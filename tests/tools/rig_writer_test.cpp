@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "config/spectrum.h"
 #include "config/traffic/road_users.h"
 #include "tests/paths.h"
 #include "tools/lamp_design.h"
@@ -87,6 +88,10 @@ TEST_F(RigWriter, WhatIsWrittenReadsBackTheSame) {
       source.pixel_map = folder_ / "lens.csv";
       source.chromaticity_xy = glm::dvec2{0.3127, 0.329};
       source.colour_temperature_k = SourceConfig{}.colour_temperature_k;
+      SourceConfig& by_spectrum = rig.designs[2].lamps[0].sources[0];
+      by_spectrum.spectrum = write("led.csv", "wavelength_nm,power\n450,1\n455,2\n460,1\n");
+      by_spectrum.chromaticity_xy = read_spectrum_xy(by_spectrum.spectrum).value();
+      by_spectrum.colour_temperature_k = SourceConfig{}.colour_temperature_k;
       rig.designs[2].lamps[0].aim = {AimConfig::Kind::kTurned, -0.01};
     }
     rig.file = folder_ / "copy.toml";
@@ -308,6 +313,9 @@ TEST_F(Portable, EverythingNamedGoesAlongAndReadsAfterTheMove) {
   std::ofstream(rig.traffic_file) << "[[road_user]]\nlow_beam = \"other/a.ies\"\ntail_lamp = \"other/a.ies\"\n"
                                   << "brake_lamp = \"lamps/a.ies\"\npath = \"lead.csv\"\n";
   std::ofstream(home / "lead.csv") << "time_s,s_m,offset_m\n0,50,0\n2,90,0\n";
+  SourceConfig& by_spectrum = rig.designs[0].lamps[0].sources[0];
+  by_spectrum.spectrum = home / "other/led.csv";
+  std::ofstream(by_spectrum.spectrum) << "wavelength_nm,power\n450,1\n455,2\n460,1\n";
   fs::create_directories(away);
   PortableFiles files(away / "my_files");
   const Status copied = files.copy(rig);
@@ -331,6 +339,9 @@ TEST_F(Portable, EverythingNamedGoesAlongAndReadsAfterTheMove) {
   EXPECT_NE(text_of(moved->cockpit_file).find("dbc = \"phare_stalk.dbc\"\n# \"a remark\"\n"), std::string::npos)
       << text_of(moved->cockpit_file);
   EXPECT_EQ(text_of(moved->designs[0].lamps[0].sources[0].file), text_of(lamps_dir() + "/low_rht.ies"));
+  EXPECT_TRUE(moved->designs[0].lamps[0].sources[0].spectrum.string().starts_with(base));
+  ASSERT_TRUE(moved->designs[0].lamps[0].sources[0].chromaticity_xy);
+  EXPECT_LT(moved->designs[0].lamps[0].sources[0].chromaticity_xy->y, 0.05) << "as blue as its spectrum";
   EXPECT_EQ(text_of(moved->designs[0].lamps[1].sources[0].file), text_of(lamps_dir() + "/led_low_rht.ies"));
   const auto others = read_road_users(moved->traffic_file);
   ASSERT_TRUE(others) << others.error().text();
