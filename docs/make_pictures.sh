@@ -25,6 +25,8 @@ picture "$out/chase/frames/000059.png" chase
 picture "$(at_second "$out/false" 20)" false_colour
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --set visibility_m=80 --out "$out/fog" --port-base "$ports"
 picture "$out/fog/frames/000059.png" fog
+"$phare" drive --headless --lockstep --frames 60 --samples 4 --traffic config/examples/column.toml --set visibility_m=300 --out "$out/fog_300m" --port-base "$ports"
+picture "$out/fog_300m/frames/000059.png" fog_300m
 "$phare" drive --headless --lockstep --frames 200 --samples 4 --set snow_mmph=2 --out "$out/snow" --port-base "$ports"
 picture "$out/snow/frames/000199.png" snow
 "$phare" drive --headless --lockstep --frames 60 --samples 4 --traffic config/examples/column.toml --set rain_mmph=10 --out "$out/wet" --port-base "$ports"
