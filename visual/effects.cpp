@@ -216,7 +216,12 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
       decision = {std::min(*picked[i], row.levels.size() - 1),
                   "picked for what is asked of time and accuracy; by itself: " + decision.reason};
     if (!choices[i] || decision.settled) return decision;
-    if (row.only_where_called_for && decision.level == 0) return decision;
+    if (row.only_where_called_for && decision.level == 0) {
+      if (*choices[i] > 0)
+        decision.reason += "; " + std::string(row.levels[std::min(*choices[i], row.levels.size() - 1)]) +
+                           ", set by the user, waits for that";
+      return decision;
+    }
     if (row.effect == Effect::kShadows && *choices[i] >= kRayShadows && !by.shadow_rays)
       return EffectDecision{kRayShadows - 1,
                             "rays are set by the user, and the device holds no buffer as large as the scene's "

@@ -242,6 +242,13 @@ TEST(Effects, TheUserDecidesAndThePlanSaysSo) {
   EXPECT_NE(plan[Effect::kDepthFirst].reason.find("user"), std::string::npos);
   choices[static_cast<std::size_t>(Effect::kDepthFirst)] = 99;
   EXPECT_EQ(plan_effects({}, choices)[Effect::kDepthFirst].level, 1u) << "the finest there is";
+  // A level of what only weather makes is not lost in clear air, nor silent.
+  choices[static_cast<std::size_t>(Effect::kFog)] = 3;
+  const EffectPlan clear = plan_effects({.lit_lamps = 2}, choices);
+  EXPECT_FALSE(clear.on(Effect::kFog));
+  EXPECT_EQ(clear[Effect::kFog].reason, "the air is clear; fine, set by the user, waits for that");
+  choices[static_cast<std::size_t>(Effect::kFog)] = 0;
+  EXPECT_EQ(plan_effects({.lit_lamps = 2}, choices)[Effect::kFog].reason, "the air is clear");
 }
 
 // What a budget has picked holds where the scene calls for the effect, and makes none; the user's word counts before
