@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the pictures of docs/gallery.md, docs/accuracy.md and README.md anew, by the commands that stand there: docs/make_pictures.sh [phare]
-# Needs ImageMagick's convert (apt-get install imagemagick) to make JPEGs of them, and xvfb-run (xvfb, xauth) for the window. Two drives of 75 s and some short ones, and five minutes of phare cost.
+# Needs ImageMagick's convert (apt-get install imagemagick) to make JPEGs of them, and xvfb-run (xvfb, xauth) for the window. Two drives of 75 s and some short ones, and eight minutes of phare cost.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 phare=${1:-./phare}

@@ -188,6 +188,36 @@ TEST(PictureLadders, MeasureOnlyWhatIsWanted) {
   for (const Ladder* ladder : {&ladders->light, &ladders->lens, &ladders->fog, &ladders->exposure})
     EXPECT_TRUE(ladder->levels.empty()) << ladder->name;
 }
+
+TEST(EffectLadders, EveryLevelIsOffByWhatItLeavesOutAndARoadThatCallsForNothingLosesNothing) {
+  Plan plan;
+  plan.quick = true;
+  plan.width_px = 320, plan.height_px = 180;
+  plan.progress = [](const std::string&, double) {};
+  const Result<EffectLadders> found = effect_ladders(plan);
+  ASSERT_TRUE(found.ok()) << found.error().text();
+  std::vector<std::string> names;
+  for (const Ladder& ladder : found->ladders) {
+    names.push_back(ladder.name);
+    ASSERT_EQ(ladder.levels.size(), ladder.name == "ground" ? kWetNames.size() : 2u) << ladder.name;
+    const double off = ladder.levels.front().error.rms.value_or(-1.0);
+    // A pupil is some pixels of 57,600, each off by tens of steps of 255.
+    if (ladder.name == "nothing") {
+      EXPECT_EQ(off, 0.0);
+    } else {
+      EXPECT_GT(off, ladder.name == "eyeshine" ? 0.05 : 0.3) << ladder.name;
+    }
+    EXPECT_EQ(ladder.levels.back().error.max, 0.0) << ladder.name << ": the reference itself";
+    for (std::size_t k = 0; k < ladder.levels.size(); ++k) {
+      EXPECT_GT(ladder.levels[k].time.median, 0.0) << ladder.name;
+      if (k > 0) {
+        EXPECT_LE(*ladder.levels[k].error.rms, *ladder.levels[k - 1].error.rms) << ladder.name;
+      }
+    }
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"precipitation", "ground", "glare", "snow-cover", "spray", "windscreen",
+                                             "eyeshine", "nothing"}));
+}
 #endif
 
 }  // namespace

@@ -39,7 +39,8 @@ struct CostOptions {
   std::string command;  ///< that repeats the run
 };
 
-const std::vector<std::string> kLadderNames{"light", "shadows", "lens", "fog", "exposure", "vehicle", "poses", "settings"};
+const std::vector<std::string> kLadderNames{"light",   "shadows", "lens",  "fog",     "exposure",
+                                            "effects", "vehicle", "poses", "settings"};
 
 std::string processor() {
   std::ifstream info("/proc/cpuinfo");
@@ -116,7 +117,8 @@ class CostRun {
   }
 
   bool wanted(const std::string& name) const {
-    if (options_.quick && options_.ladders.empty() && name == "lens") return false;  // its truth takes too long
+    // The truth of one and the eight scenes of the other take too long.
+    if (options_.quick && options_.ladders.empty() && (name == "lens" || name == "effects")) return false;
     return options_.ladders.empty() ||
            std::find(options_.ladders.begin(), options_.ladders.end(), name) != options_.ladders.end();
   }
@@ -126,7 +128,8 @@ class CostRun {
     plan.progress = [&](const std::string& doing, double share_01) { line.show(doing, share_01); };
     if (wanted("light") || wanted("shadows") || wanted("lens") || wanted("fog") || wanted("exposure")) {
 #ifdef PHARE_WITH_GRAPHICS
-      if (options_.quick && options_.ladders.empty()) left_out_.push_back("lens: --ladder lens, or without --quick");
+      if (options_.quick && options_.ladders.empty())
+        left_out_.push_back("lens, effects: --ladder lens --ladder effects, or without --quick");
       Result<PictureLadders> pictures = picture_ladders(plan);
       if (!pictures) return pictures.error();
       device_ = pictures->device;
@@ -134,6 +137,16 @@ class CostRun {
         if (wanted(ladder->name)) ladders_.push_back(std::move(*ladder));
 #else
       left_out_.push_back("light, shadows, fog and exposure: this build draws nothing");
+#endif
+    }
+    if (wanted("effects")) {
+#ifdef PHARE_WITH_GRAPHICS
+      Result<EffectLadders> effects = effect_ladders(plan);
+      if (!effects) return effects.error();
+      device_ = effects->device;
+      ladders_.insert(ladders_.end(), effects->ladders.begin(), effects->ladders.end());
+#else
+      left_out_.push_back("effects: this build draws nothing");
 #endif
     }
     if (wanted("vehicle")) {
@@ -238,8 +251,9 @@ void add_cost(CLI::App& app, Command& chosen) {
   options->lamp = (generated_dir() / "lamps/low_rht.ies").string();
   options->vehicle = config_path("vehicles/bmw_320i.toml");
   options->rig = config_path("rigs/country_road.toml");
-  CLI::App* command = app.add_subcommand(
-      "cost", "What accuracy costs on this machine: error and time of every level of light, shadows, car and messages");
+  CLI::App* command = app.add_subcommand("cost",
+                                         "What accuracy costs on this machine: error and time of every level of light, "
+                                         "shadows, effects, car and messages");
   command->footer(
       "Example:\n  phare cost --quick --ladder poses --out cost\n"
       "Writes index.html (one page, to be mailed), cost.json, cost.csv and a plot of each ladder.");

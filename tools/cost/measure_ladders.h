@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "config/base/result.h"
 #include "tools/cost/ladder.h"
@@ -29,6 +30,16 @@ struct PictureLadders {
 /// by turn, so that noise hits all levels alike; a frame of the same level goes before each that is timed, as in a
 /// drive. Ladders that are not wanted have no levels.
 Result<PictureLadders> picture_ladders(const Plan& plan);
+
+struct EffectLadders {
+  std::string device;
+  std::vector<Ladder> ladders;
+};
+/// Precipitation, wet ground, glare, snow cover, spray, windscreen, eyeshine, each in a moment of the shipped country
+/// road that calls for it: every level against the picture at the highest, in steps of the display. And a road that
+/// calls for none of what only a scene calls for, with all of it set off and left to the scene: the same picture for
+/// the same time. All else is as the scene calls for it, the luminance image too. Times as those of picture_ladders().
+Result<EffectLadders> effect_ladders(const Plan& plan);
 #endif
 
 /// Integrator and step of each vehicle level, against the same level at its finest.

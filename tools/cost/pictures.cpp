@@ -1,6 +1,4 @@
 // The ladders of light, shadows, fog and exposure.
-#include <time.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <span>
 
 #include "tools/cost/fog.h"
+#include "tools/cost/frame_clock.h"
 #include "tools/cost/measure_ladders.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/beam/image_levels.h"
@@ -20,16 +19,9 @@
 #include "visual/scene/ray_tree.h"
 #include "visual/scene/refine.h"
 #include "visual/scene/scene.h"
-#include "visual/vulkan_devices.h"
 
 namespace phare::cost {
 namespace {
-
-double processor_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
 
 /// A driver's view on a straight along x, its lamps at `x_m`: lateral places of the shipped country road's right lane.
 FrameInput view_at(double x_m, const LampOpening& opening) {
@@ -77,10 +69,7 @@ struct Case {
 class Pictures {
  public:
   Pictures(const Plan& plan, const Scene& scene, const IntensityTable& table)
-      : plan_(plan), scene_(scene), table_(table), opening_(stated_opening(table).value_or(LampOpening{})) {
-    const Result<VulkanDevice> device = vulkan_device("");
-    on_processor_ = device && device->software;
-  }
+      : plan_(plan), scene_(scene), table_(table), opening_(stated_opening(table).value_or(LampOpening{})) {}
 
   Result<PictureLadders> measure() {
     std::vector<Case> light, shadows, lens, fog, exposure;
@@ -91,30 +80,30 @@ class Pictures {
                   .what = "illuminance of a picture by two low beams, method, beam image and cuts of the ground",
                   .reference = "float64 at the pixels' own points",
                   .error_unit = "lx",
-                  .time_unit = time_unit()},
+                  .time_unit = clock_.unit()},
         .shadows = {.name = "shadows",
                     .what = "what stands in the beams: levels of the shadow maps, and rays at every pixel",
                     .reference = "float64 with a ray to each lamp's middle, at points of the scene",
                     .error_unit = "lx",
-                    .time_unit = time_unit()},
+                    .time_unit = clock_.unit()},
         .lens = {.name = "lens",
                  .what = "the same with the lamps as large as they are (" + opening_text(table_) +
                          "): light is hidden by as much as of the opening is",
                  .reference = "float64 with " + std::to_string(kOpeningRings * kOpeningRings) +
                               " rays over each lamp's opening, at points of the scene",
                  .error_unit = "lx",
-                 .time_unit = time_unit()},
+                 .time_unit = clock_.unit()},
         .fog = {.name = "fog",
                 .what = "light that fog of 100 m visibility scatters toward the eye: levels of its grid",
                 .reference = "float64 quadrature along each line of sight, where there is 1 % of the brightest",
                 .error_unit = "%",
-                .time_unit = time_unit()},
+                .time_unit = clock_.unit()},
         .exposure = {.name = "exposure",
                      .what = "from luminance to the picture: where exposure and tone curve are applied, and what image "
                              "holds cd/m² until then; there is one of 16-bit floats, and none of 32",
                      .reference = "the tone curve in the lit pass, float32 throughout",
                      .error_unit = "of 255",
-                     .time_unit = time_unit()}};
+                     .time_unit = clock_.unit()}};
     for (Case& one : light) find_light_errors(one);
     find_shadow_errors(shadows, lens);
     if (const Status found = find_fog_errors(fog); !found) return found.error();
@@ -357,10 +346,8 @@ class Pictures {
           const FrameInput input = one.view(x_m);
           // What another ladder held is given up by the second frame without it: 132 MB of fog took 10 ms.
           if (&one == &cases->front()) one.renderer->draw(input);
-          if (!by_rays || !on_processor_) one.renderer->draw(input);
-          const double begin = processor_ms();
-          const double wall_ms = one.renderer->draw(input).wall_ms;
-          one.times_ms.push_back(on_processor_ ? processor_ms() - begin : wall_ms);
+          if (!by_rays || !clock_.on_processor()) one.renderer->draw(input);
+          one.times_ms.push_back(clock_.draw_ms(*one.renderer, input));
         }
     }
     for (std::size_t level = kRayShadows; level < std::min(shadows.size(), lens.size()); ++level)
@@ -371,15 +358,12 @@ class Pictures {
 
   static constexpr double kDim_lx = 0.01;  // below, nothing is called wrong
 
-  /// What a GPU does takes none of the processor's time; on the processor that is the surer measure.
-  std::string time_unit() const { return on_processor_ ? "ms of processor a frame" : "ms a frame"; }
-
   const Plan& plan_;
   const Scene& scene_;
   const IntensityTable& table_;
   const LampOpening opening_;
   std::vector<std::unique_ptr<Renderer>> renderers_;
-  bool on_processor_ = true;
+  const FrameClock clock_;
 };
 
 }  // namespace

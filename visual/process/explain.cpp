@@ -34,15 +34,17 @@ Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s) {
   return moment;
 }
 
-std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
-                           const std::string& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
-                           const RoadLine& road, const FixedLight& fixed, bool window) {
+FrameInput frame_of_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
+                           const Scene& scene, const Movers& movers, const Traffic& traffic, const RoadLine& road,
+                           const FixedLight& fixed) {
   const CockpitState controls = shown_by_desk(desk, moment.controls);
   lamps.set_controls(controls);
   FrameInput input;
   set_by_desk(input, desk);
-  input.camera = camera_of(first_eye(desk), seen_by(first_eye(desk), channel, lamps, moment.pose, &road));
-  if (desk.windscreen && first_eye(desk).kind == CameraKind::kDriver)
+  const CameraEye eye = first_eye(desk);
+  input.camera = camera_of(eye, seen_by(eye, channel, lamps, moment.pose, &road));
+  input.falling = falling_past(eye, moment.pose, moment.time);
+  if (desk.windscreen && eye.kind == CameraKind::kDriver)
     input.windscreen = Windscreen{moment.time.seconds(), moment.pose.speed_mps, desk.wiper};
   // The difference of two designs is of their illuminance: none of what changes luminance alone is called for.
   if (versus_design(desk, lamps)) {
@@ -51,7 +53,31 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   }
   input.lamps = lamps.placed(moment.pose);
   const std::vector<Traffic::There> users = traffic.at(moment.time.seconds(), road);
+  input.moving = traffic.placed_meshes(users);
+  if (wet(desk)) input.spraying = traffic.spraying(users, moment.time.seconds(), road);
+  World world(scene, movers.meshes());
+  world.move(input.moving);
+  const std::vector<PlacedLamp> of_others =
+      Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0], wet(desk));
+  input.lamps.insert(input.lamps.end(), of_others.begin(), of_others.end());
+  input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.air);
+  const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.air);
+  input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
+  const std::vector<GlaringLamp> beside = fixed.glare_at(input.camera.eye_m, input.air);
+  if (!input.effects[static_cast<std::size_t>(Effect::kFixedLight)])
+    input.glare.insert(input.glare.end(), beside.begin(), beside.end());
+  if (const auto props = Props::of(movers))  // whoever has read them has looked
+    props->add_to(input, desk.camera, lamps, moment.pose, controls.light_switch != LightSwitch::kOff, world);
+  input.pupils = eyeshine_of(lamps, moment.pose, Pupils(scene, movers.meshes()), world, input.camera.eye_m, input.air);
+  return input;
+}
+
+std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
+                           const std::string& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
+                           const RoadLine& road, const FixedLight& fixed, bool window) {
+  FrameInput input = frame_of_moment(lamps, desk, channel, moment, scene, movers, traffic, road, fixed);
   if (window) {
+    const CockpitState controls = shown_by_desk(desk, moment.controls);
     EyeAdaptation eye = eye_set(desk.eye);
     eye.see(moment.time, lamps.light());
     input.overlay =
@@ -61,13 +87,6 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   }
   // Those whose light the view can see; what of the scene it falls on is not asked.
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
-  input.moving = traffic.placed_meshes(users);
-  if (wet(desk)) input.spraying = traffic.spraying(users, moment.time.seconds(), road);
-  World world(scene, movers.meshes());
-  world.move(input.moving);
-  const std::vector<PlacedLamp> of_others =
-      Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0], wet(desk));
-  input.lamps.insert(input.lamps.end(), of_others.begin(), of_others.end());
   std::size_t lit = 0;
   std::optional<std::vector<CastBy>> casts;
   std::optional<ShadowCasters> casters;
@@ -90,15 +109,6 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
                 moment.pose.speed_mps * 3.6, device.c_str());
   std::optional<std::size_t> casting;
   if (casts) casting = casters_of_all(*casts);
-  input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.air);
-  const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.air);
-  input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
-  const std::vector<GlaringLamp> beside = fixed.glare_at(input.camera.eye_m, input.air);
-  if (!input.effects[static_cast<std::size_t>(Effect::kFixedLight)])
-    input.glare.insert(input.glare.end(), beside.begin(), beside.end());
-  if (const auto props = Props::of(movers))  // whoever has read them has looked
-    props->add_to(input, desk.camera, lamps, moment.pose, controls.light_switch != LightSwitch::kOff, world);
-  input.pupils = eyeshine_of(lamps, moment.pose, Pupils(scene, movers.meshes()), world, input.camera.eye_m, input.air);
   DrawnOver over = drawn_over(input);
   over.gui = window && desk.panel;  // nothing is laid out: there is no window yet
   EffectFacts facts = facts_of(input, {lit, lit}, casting, over, glare_of(input, view),

@@ -8,6 +8,7 @@
 #include "visual/process/lamps.h"
 #include "visual/process/options.h"
 #include "visual/process/traffic.h"
+#include "visual/renderer.h"
 #include "visual/shadow_casters.h"
 
 namespace phare {
@@ -21,6 +22,12 @@ struct AskedMoment {
 
 /// A drive at `at_s` of simulated time: the newest controls and the newest pose until then. Error: it has neither.
 Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s);
+
+/// What the picture of that moment is drawn from, as the first eye sees it; nothing lies over it. Switches `lamps` to
+/// the moment.
+FrameInput frame_of_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
+                           const Scene& scene, const Movers& movers, const Traffic& traffic, const RoadLine& road,
+                           const FixedLight& fixed);
 
 /// "# low, design "reflector", 12.0 s, on llvmpipe": the moment; then a line for each effect: name, level, reason.
 /// `device`: the name of what would be taken. `window`: there is one, so that there is an overlay. Switches `lamps` to
