@@ -316,6 +316,8 @@ TEST(ReadScene, RefusesWhatIsWrongWithAReason) {
   EXPECT_NE(reason(node, R"({"extras":{"phare":{"retroreflection_mcd_per_lx_m2":-4}}})").find("mcd"),
             std::string::npos);
   EXPECT_NE(reason(node, R"({"extras":{"phare":3}})").find("phare"), std::string::npos);
+  EXPECT_NE(reason(node, R"({"extras":{"phare":{"retrro":"EN 1436 R3"}}})").find("did you mean \"retro\""),
+            std::string::npos);
   EXPECT_NE(reason(node, R"({"pbrMetallicRoughness":{"baseColorFactor":[2,0,0,1]}})").find("0 … 1"), std::string::npos);
   EXPECT_NE(reason(R"({"mesh":0,"translation":[1e30,0,0]})", "{}").find("1e8"), std::string::npos);
   EXPECT_NE(reason(R"({"mesh":5})", "{}").find("mesh"), std::string::npos);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "config/formats/gltf_uri.h"
+#include "config/formats/toml_table.h"
 #include "shaders/lib/luminance.h"
 
 namespace phare {
@@ -144,6 +145,18 @@ Status MaterialReader::read_extras(const tinygltf::Material& source, ReadMateria
   const auto bad = [](const std::string& what) { return Error{"", what}; };
   const tinygltf::Value& extras = source.extras.Get("phare");
   if (!extras.IsObject()) return bad("extras.phare is not an object");
+  static const std::vector<std::string> keys{"material",
+                                             "surface",
+                                             "retro",
+                                             "r_table",
+                                             "emission_cdm2",
+                                             "sky_share",
+                                             "retroreflection_cd_per_lx_m2",
+                                             "retroreflection_mcd_per_lx_m2",
+                                             "luminance_cdm2"};
+  for (const std::string& key : extras.Keys())
+    if (std::ranges::find(keys, key) == keys.end())
+      return bad("extras.phare: " + unknown_name_reason("key", key, keys));
   const auto text = [&](const char* key, std::string& value) -> std::string {
     if (!extras.Has(key)) return "";
     if (!extras.Get(key).IsString()) return std::string("extras.phare.") + key + " is not a text";
