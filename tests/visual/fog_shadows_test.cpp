@@ -178,6 +178,9 @@ TEST_F(FogShadows, TheGridIsKeptWhileAllStandsStill) {
   };
   EXPECT_TRUE(computed());
   EXPECT_FALSE(computed()) << "the same frame once more";
+  input.effects[kShadows] = 3;
+  EXPECT_TRUE(computed()) << "finer maps";
+  EXPECT_FALSE(computed());
   drive_on();
   EXPECT_TRUE(computed()) << "nearer to the box";
   input.effects[kFog] = level_named("medium");

@@ -122,7 +122,7 @@ bool FogPass::Source::same(const Source& other) const {
   };
   return air == other.air && drops == other.drops && level == other.level && area == other.area &&
          lamps == other.lamps && std::ranges::equal(ways, other.ways, same_way) && scene == other.scene &&
-         std::ranges::equal(world, other.world, same_way);
+         shadows == other.shadows && std::ranges::equal(world, other.world, same_way);
 }
 
 FogPass::Source FogPass::source_of(const LitScene& scene, const LitView& view, std::size_t level, bool drops,
@@ -138,6 +138,7 @@ FogPass::Source FogPass::source_of(const LitScene& scene, const LitView& view, s
   }
   if (!has_shadows(level) || view.air_shadows.depths == nullptr) return source;
   source.scene = scene.geometry_version();
+  source.shadows = view.air_shadows.level;
   const auto add_place = [&](const glm::dvec3& place_m, const glm::dmat3& turn) {
     source.world.push_back(place_m);
     for (int axis = 0; axis < 3; ++axis) source.world.push_back(turn[axis]);

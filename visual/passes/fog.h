@@ -86,6 +86,7 @@ class FogPass {
     std::vector<Lamp> lamps{};
     std::vector<glm::dvec3> ways{};   ///< of rays and lamps, m
     std::uint64_t scene = 0;          ///< with shadows: its version
+    ShadowLevel shadows{};            ///< of the maps
     std::vector<glm::dvec3> world{};  ///< with shadows: where the eye and what moves are, m, and how they are turned
     bool same(const Source& other) const;
   };
