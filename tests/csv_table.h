@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace phare {
+namespace phare::test {
 
 struct CsvTable {
   std::vector<std::string> names;
@@ -35,4 +35,4 @@ inline CsvTable read_csv_table(const std::filesystem::path& file) {
   return table;
 }
 
-}  // namespace phare
+}  // namespace phare::test

@@ -89,7 +89,8 @@ TEST_F(MeasureScene, EndsTheLightOfEachLampAtTheEdgeAndNamesWhatHidesIt) {
   const std::vector<std::string> lines = lines_of("lux.csv");
   ASSERT_EQ(lines.size(), 10u);
   EXPECT_EQ(lines[0], "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,illuminance_lx_1,illuminance_lx_2,hidden_by_1,hidden_by_2");
-  const CsvTable open = read_csv_table(folder_ / "open.csv"), lux = read_csv_table(folder_ / "lux.csv");
+  const test::CsvTable open = test::read_csv_table(folder_ / "open.csv"),
+                       lux = test::read_csv_table(folder_ / "lux.csv");
   const std::vector<std::string> hides{"barn", "", "barn", "", "barn", "", "", "", ""};
   for (std::size_t i = 0; i < hides.size(); ++i) {
     const double open_lx = open.number(i, "illuminance_lx_1");
@@ -129,7 +130,7 @@ TEST_F(MeasureScene, AgreesWithTheReferenceSetsBox) {
   for (const nlohmann::json& box : manifest["occluder_boxes"])
     boxes.push_back({"box", corner(box["min"]), corner(box["max"])});
   file("box.gltf", gltf_of(boxes));
-  const CsvTable expected = read_csv_table(data / "d_shadow.csv");
+  const test::CsvTable expected = test::read_csv_table(data / "d_shadow.csv");
   std::string points = "x_m,y_m,z_m,nx,ny,nz\n";
   for (std::size_t i = 0; i < expected.rows.size(); ++i) {
     for (const char* name : {"x", "y", "z", "nx", "ny"}) points += expected.text(i, name) + ",";
@@ -148,7 +149,7 @@ TEST_F(MeasureScene, AgreesWithTheReferenceSetsBox) {
   const Said said = measure(words + " --points '" + in("points.csv") + "' --out '" + in("lux.csv") + "' --scene '" +
                             in("box.gltf") + "'");
   ASSERT_EQ(said.code, 0) << said.err;
-  const CsvTable lux = read_csv_table(folder_ / "lux.csv");
+  const test::CsvTable lux = test::read_csv_table(folder_ / "lux.csv");
   ASSERT_EQ(lux.rows.size(), expected.rows.size());
   std::size_t judged = 0, dark = 0, wrong = 0;
   double worst = 0.0;

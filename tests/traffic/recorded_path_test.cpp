@@ -45,7 +45,7 @@ TEST(RecordedPaths, AreWhereThePythonPackageHasThem) {
   const auto points = read_lane(tests_dir("traffic/bend_lane.csv"));
   ASSERT_TRUE(points) << points.error().text();
   const LaneLine lane(*points);
-  const CsvTable wanted = read_csv_table(tests_dir("traffic/path_poses.csv"));
+  const test::CsvTable wanted = test::read_csv_table(tests_dir("traffic/path_poses.csv"));
   std::size_t there = 0, braking = 0;
   for (std::size_t row = 0; row < wanted.rows.size(); ++row) {
     SCOPED_TRACE("row " + std::to_string(row + 2));

@@ -36,7 +36,7 @@ TEST(RoadUsers, AreWhereThePythonPackageHasThem) {
   const auto users = read_road_users(tests_dir("traffic/users.toml"));
   ASSERT_TRUE(users.ok()) << users.error().text();
   const LaneLine lane = bend();
-  const CsvTable wanted = read_csv_table(tests_dir("traffic/poses.csv"));
+  const test::CsvTable wanted = test::read_csv_table(tests_dir("traffic/poses.csv"));
   ASSERT_GT(wanted.rows.size(), 0u);
   std::set<std::size_t> seen;
   int there = 0, away = 0;

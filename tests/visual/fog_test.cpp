@@ -269,7 +269,7 @@ TEST_F(FogOnDevice, RaysAreThoseOfTheReference) {
           {.position_m = vec(m["position_m"]), .world_from_image = {vec(m["forward"]), vec(m["left"]), vec(m["up"])}});
     return lamps;
   };
-  const CsvTable table = read_csv_table(folder / "h_airlight.csv");
+  const test::CsvTable table = test::read_csv_table(folder / "h_airlight.csv");
   for (const std::size_t level : {1u, 2u, 3u, 4u, 5u}) {
     // Of the car's own lamps, and of rays that pass oncoming ones at 50 m, from 0.1 m beside them on.
     std::vector<double> own, oncoming;

@@ -150,7 +150,7 @@ TEST_F(MethodsOnReference, ErrorOfEachOverTheLevelsOfTheSurface) {
                      aside = on_hill(x, y + kStep_m) - on_hill(x, y - kStep_m);
     return MeasurePoint{on_hill(x, y), glm::normalize(glm::cross(along, aside))};
   };
-  const CsvTable plates = read_csv_table(data_ / "c_plates.csv");
+  const test::CsvTable plates = test::read_csv_table(data_ / "c_plates.csv");
   const auto add_plates = [&](Squares& squares, double side_m) {
     for (std::size_t i = 0; i < plates.rows.size(); ++i) {
       const MeasurePoint at{{plates.number(i, "x"), plates.number(i, "y"), plates.number(i, "z")},
@@ -228,7 +228,7 @@ TEST_F(MethodsOnReference, ErrorOfEachOverTheLevelsOfTheSurface) {
 // Points that are given: each lamp that the hill does not hide, against the set's own numbers.
 TEST_F(MethodsOnReference, TheHillsPointsByPixelAndByFloat64) {
   use("high");
-  const CsvTable table = read_csv_table(data_ / "e_hill.csv");
+  const test::CsvTable table = test::read_csv_table(data_ / "e_hill.csv");
   std::vector<MeasurePoint> points;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     points.push_back({{table.number(i, "x"), table.number(i, "y"), table.number(i, "z")},

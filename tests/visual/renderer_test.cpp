@@ -164,7 +164,7 @@ TEST_F(RendererTest, AgreesWithTheReferenceTables) {
                         {"b_wall25_high.csv", "high", "E[high_B]", "high_B"},
                         {"b_wall25_fog.csv", "fog", "E", "fog_A"},
                         {"b_wall25_fog.csv", "fog", "E[fog_C]", "fog_C"}}) {
-    const CsvTable csv = read_csv_table(data / c.table);
+    const test::CsvTable csv = test::read_csv_table(data / c.table);
     ASSERT_LT(csv.column(c.column), csv.names.size()) << c.table << " " << c.column;
     const nlohmann::json& file = manifest["files"][c.file];
     const bool gamma0_ahead = !file.contains("frame_in_lamp_axes") || file["frame_in_lamp_axes"]["g0"][0] == 1;

@@ -45,7 +45,7 @@ class Shadows : public SharedRenderer {
   }
 
   /// Points where the map's answer (more than half lit) is not that of the table, of those that `counts` names.
-  std::size_t wrong(const CsvTable& table, const std::vector<PlacedLamp>& lamps,
+  std::size_t wrong(const test::CsvTable& table, const std::vector<PlacedLamp>& lamps,
                     const std::vector<MeasurePoint>& points, std::size_t level,
                     const std::function<bool(std::size_t)>& counts) {
     const auto open = renderer->measure(lamps, points), shadowed = renderer->measure(lamps, points, level);
@@ -70,7 +70,7 @@ class Shadows : public SharedRenderer {
   }
 
   /// The same of the ray against the scene.
-  std::size_t wrong_rays(const CsvTable& table, const Scene& scene, const std::vector<PlacedLamp>& lamps,
+  std::size_t wrong_rays(const test::CsvTable& table, const Scene& scene, const std::vector<PlacedLamp>& lamps,
                          const std::vector<MeasurePoint>& points, const std::function<bool(std::size_t)>& counts) {
     const auto open = renderer->measure(lamps, points);
     std::size_t judged = 0, bad = 0;
@@ -99,7 +99,7 @@ TEST_F(Shadows, OfBoxesFallWhereTheReferenceHasThem) {
   for (const nlohmann::json& box : manifest["occluder_boxes"]) shape.box(corner(box["min"]), corner(box["max"]));
   shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
   ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
-  const CsvTable table = read_csv_table(data / "d_shadow.csv");
+  const test::CsvTable table = test::read_csv_table(data / "d_shadow.csv");
   std::vector<MeasurePoint> points;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     points.push_back({{table.number(i, "x"), table.number(i, "y"), table.number(i, "z")},
@@ -138,7 +138,7 @@ TEST_F(Shadows, OfAHillFallWhereTheReferenceHasThem) {
     shape.quad(ground(x, -12), ground(x + 0.02, -12), ground(x + 0.02, 12), ground(x, 12));
   }
   ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
-  const CsvTable table = read_csv_table(data / "e_hill.csv");
+  const test::CsvTable table = test::read_csv_table(data / "e_hill.csv");
   std::vector<MeasurePoint> points;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     points.push_back({{table.number(i, "x"), table.number(i, "y"), table.number(i, "z")},
