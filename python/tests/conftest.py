@@ -22,6 +22,15 @@ from phare.control.road_users import Lane  # noqa: E402
 SMALL = dict(size=(160, 90), more=["--audit-every", "0"])
 
 
+def straight_lane(tmp_path: Path, heights=None) -> Lane:
+    """1 km due x, level or with these heights every 10 m."""
+    file = tmp_path / "lane.csv"
+    z = np.zeros(101) if heights is None else heights
+    rows = [f"{10 * i},{10 * i},0,{z[i]},0,0" for i in range(101)]
+    file.write_text("s_m,x_m,y_m,z_m,heading_rad,curvature_1pm\n" + "\n".join(rows) + "\n")
+    return Lane(file)
+
+
 @pytest.fixture(scope="session")
 def examples() -> Path:
     return phare.shipped_file("examples")

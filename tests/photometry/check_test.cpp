@@ -258,9 +258,9 @@ TEST(Check, ReaimAllowanceIsUsedAndReported) {
   const IntensityTable table = stepped(0.135, 0.0, std::tan(glm::radians(15.0)));
   Rulebook small = rule("r112-passing-b");
   small.rows = {{.id = "a", .clause = "", .at = {{0.6, -0.25}}, .min_cd = 2000.0, .max_of = "", .unconfirmed = ""}};
-  const CheckResult fixed = check(table, small, {.traffic = Traffic::kRight, .aim = {}, .reaim = false});
+  const CheckResult fixed = check(table, small, {.traffic = TrafficSide::kRight, .aim = {}, .reaim = false});
   EXPECT_EQ(row_of(fixed, "a").verdict, RuleVerdict::kFail) << row_of(fixed, "a").lowest;
-  const CheckResult turned = check(table, small, {.traffic = Traffic::kRight, .aim = {}, .reaim = true});
+  const CheckResult turned = check(table, small, {.traffic = TrafficSide::kRight, .aim = {}, .reaim = true});
   EXPECT_TRUE(turned.reaimed);
   EXPECT_NE(row_of(turned, "a").verdict, RuleVerdict::kFail) << row_of(turned, "a").lowest;
   EXPECT_LE(std::abs(turned.aim_right_deg), 0.75 + 1e-9);

@@ -142,7 +142,7 @@ TEST(Mirror, AnAssumedSideIsCalledSo) {
   EXPECT_FALSE(result.other_side.empty());
   EXPECT_EQ(traffic_source_name(result.traffic_source), "assumed");
   CheckOptions given;
-  given.traffic = Traffic::kLeft;
+  given.traffic = TrafficSide::kLeft;
   EXPECT_EQ(check(flat, rule("r112-passing-b"), given).traffic_source, TrafficSource::kGiven);
   EXPECT_EQ(check(lamps().front().table, rule("r112-passing-b")).traffic_source, TrafficSource::kFound);
 }

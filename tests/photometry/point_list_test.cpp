@@ -224,7 +224,7 @@ TEST(CheckPoints, TheSideOfTraffic) {
   }
   EXPECT_EQ(judged("Point,cd\nHV,500\n", "r112-passing-b").traffic_source, TrafficSource::kAssumed);
   CheckOptions given;
-  given.traffic = Traffic::kRight;
+  given.traffic = TrafficSide::kRight;
   EXPECT_FALSE(judged(left, "r112-passing-b", given).left_hand);
 }
 

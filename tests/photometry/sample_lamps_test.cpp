@@ -70,7 +70,7 @@ TEST(SampleLamps, ARightHandBeamFailsTheLeftHandRows) {
   ASSERT_TRUE(rule.ok()) << rule.error().text();
   const IntensityTable* table[] = {&lamp("low_rht.ies").table};
   CheckOptions options;
-  options.traffic = Traffic::kLeft;
+  options.traffic = TrafficSide::kLeft;
   EXPECT_GT(check_lamp(table, *rule, options).failed, 2u);
 }
 

@@ -117,9 +117,9 @@ std::string market_of(const std::string& asked) {
 Status judge(const LampCheckOptions& options, const Inputs& inputs, const Rulebook& rule,
              std::span<const Rulebook> rules, bool every, std::vector<Judged>& all) {
   CheckOptions check;
-  check.traffic = options.traffic == "left"    ? Traffic::kLeft
-                  : options.traffic == "right" ? Traffic::kRight
-                                               : Traffic::kFind;
+  check.traffic = options.traffic == "left"    ? TrafficSide::kLeft
+                  : options.traffic == "right" ? TrafficSide::kRight
+                                               : TrafficSide::kFind;
   check.reaim = options.reaim;
   check.aim_name = options.aim;
   check.led_module = options.led_module && (!every || rule.has_led_module_limits());

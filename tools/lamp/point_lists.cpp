@@ -49,8 +49,8 @@ CheckResult check_list(const PointList& list, const Rulebook& rule, std::span<co
                        CheckOptions options, std::vector<std::string>& unused) {
   int for_right = 0;
   for (const Rulebook& other : rules) for_right += other.function == rule.function ? points_for_right(list, other) : 0;
-  const bool find = options.traffic == Traffic::kFind;
-  if (find) options.traffic = for_right < 0 ? Traffic::kLeft : Traffic::kRight;
+  const bool find = options.traffic == TrafficSide::kFind;
+  if (find) options.traffic = for_right < 0 ? TrafficSide::kLeft : TrafficSide::kRight;
   CheckResult result = check_points(list, rule, options, &unused);
   if (find) result.traffic_source = for_right != 0 ? TrafficSource::kFound : TrafficSource::kAssumed;
   return result;

@@ -21,8 +21,7 @@ constexpr double kDarkest = 1e-3;  ///< cd/(lx·m²): what counts as nothing, fo
 
 constexpr const char* kEn12899 =
     "StVZVO 1998 (Austria, BGBl. II 238/1998), annex 2, types 1 and 2, as printed; that EN 12899-1 has the same is "
-    "from "
-    "memory";
+    "from memory";
 constexpr const char* kRa3 =
     "from memory, of BS 8408 and DIN 67520; two digests of DIN 67520 give 300 as the least of both, without angles";
 constexpr const char* kR3IvaWhite = "UN R3, class IVA, 20' to 40° official text; the rest from memory";

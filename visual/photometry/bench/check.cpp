@@ -398,8 +398,8 @@ CheckResult check_lamp(std::span<const IntensityTable* const> tables, const Rule
     if (table == tables.front() || shape.tells_side()) result.shape = std::move(shape);
     if (result.shape.tells_side()) break;
   }
-  if (options.traffic != Traffic::kFind) {
-    result.left_hand = options.traffic == Traffic::kLeft;
+  if (options.traffic != TrafficSide::kFind) {
+    result.left_hand = options.traffic == TrafficSide::kLeft;
     result.traffic_source = TrafficSource::kGiven;
   } else if (result.shape.tells_side()) {
     // Rules of other beams are the same for both sides; their rows stay as printed.

@@ -90,10 +90,10 @@ struct CheckResult {
   RuleVerdict verdict = RuleVerdict::kPass;
 };
 
-enum class Traffic { kFind, kRight, kLeft };
+enum class TrafficSide { kFind, kRight, kLeft };
 
 struct CheckOptions {
-  Traffic traffic = Traffic::kFind;  ///< kFind: by the side on which the cut-off rises
+  TrafficSide traffic = TrafficSide::kFind;  ///< kFind: by the side on which the cut-off rises
   std::optional<HV> aim;             ///< turn the lamp by this (right, up) instead of what the rule says
   bool reaim = true;                 ///< use the rule's allowance where the first aim fails
   std::string aim_name{};            ///< which of the rule's aims ("VOL", "VOR"); empty or unknown: by the beam

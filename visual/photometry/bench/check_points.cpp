@@ -204,10 +204,10 @@ CheckResult check_points(const PointList& list, const Rulebook& rulebook, const 
   result.function = rule.function;
   result.aim_method = "as measured";
   const int for_right = points_for_right(list, rule);
-  result.left_hand = options.traffic == Traffic::kFind ? for_right < 0 : options.traffic == Traffic::kLeft;
-  result.traffic_source = options.traffic != Traffic::kFind ? TrafficSource::kGiven
-                          : for_right != 0                  ? TrafficSource::kFound
-                                                            : TrafficSource::kAssumed;
+  result.left_hand = options.traffic == TrafficSide::kFind ? for_right < 0 : options.traffic == TrafficSide::kLeft;
+  result.traffic_source = options.traffic != TrafficSide::kFind ? TrafficSource::kGiven
+                          : for_right != 0                      ? TrafficSource::kFound
+                                                                : TrafficSource::kAssumed;
   PointJudge judge(list, result.left_hand);
   for (const RuleRow& row : rule.rows) result.rows.push_back(judge.judge(rule, row));
   const auto not_measured = [&](std::string id, const std::string& clause, std::string unit, double min, double max) {
