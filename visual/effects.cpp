@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
+#include <vector>
 
 #include "config/desk.h"
 #include "visual/ground_water.h"
@@ -37,7 +39,8 @@ EffectDecision hdr_image(const EffectFacts& facts) {
     return {0, "the view marks what the display clips, where the lamp pass applies the tone curve", true};
   if (facts.glare_drawn) return {1, "light scattered in the eye is added to luminance in cd/m²", true};
   if (facts.drops_drawn) return {1, "drops are added to luminance in cd/m²", true};
-  if (facts.screen_drawn) return {1, "drops on the windscreen mix luminance in cd/m²", true};
+  if (!facts.over_luminance.empty())
+    return {1, std::string(facts.over_luminance) + " is drawn over luminance in cd/m²", true};
   if (facts.spray_drawn) return {1, "spray mixes luminance in cd/m²", true};
   if (facts.roofed) return {1, "rain or snow falls where the roof ends, and nothing is to be made anew there", true};
   if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for"};
@@ -189,7 +192,7 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
      {Effect::kSnowCover, "snow cover", kOffOnNames, "pipelines of all surfaces with snow on what looks up", snow_cover,
       true},
      {Effect::kWindscreen, "windscreen", kOffOnNames, "the HDR image; two passes, an image of 128 × 96 texels",
-      windscreen, true},
+      windscreen, true, true},
      {Effect::kSpray, "spray", kOffOnNames, "the HDR image; a draw of puffs in the lamp pass for each vehicle", spray,
       true},
      {Effect::kAsphalt, "asphalt", kAsphaltNames, "48 bytes a vertex of asphalt, and pipelines that read them", asphalt,
@@ -202,10 +205,33 @@ constexpr bool in_order() {
 }
 static_assert(in_order());
 
+/// With those that are added.
+std::vector<EffectRow>& rows() {
+  static std::vector<EffectRow> rows = [] {
+    std::vector<EffectRow> own(kTable.begin(), kTable.end());
+    own.reserve(kMostEffects);
+    return own;
+  }();
+  return rows;
+}
+
 }  // namespace
 
-const std::array<EffectRow, kEffectCount>& effect_table() {
-  return kTable;
+std::span<const EffectRow> effect_table() {
+  return rows();
+}
+
+AddedRow::AddedRow(EffectRow row) : effect_(static_cast<Effect>(rows().size())) {
+  if (rows().size() == kMostEffects)
+    throw std::invalid_argument("no room for another effect: " + std::string(row.name));
+  if (std::ranges::find(rows(), row.name, &EffectRow::name) != rows().end())
+    throw std::invalid_argument("there is an effect of this name: " + std::string(row.name));
+  row.effect = effect_;
+  rows().push_back(row);
+}
+
+AddedRow::~AddedRow() {
+  rows().pop_back();
 }
 
 EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, const EffectChoices& picked) {
@@ -236,17 +262,20 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
   known.ground = decided(kTable[static_cast<std::size_t>(Effect::kWetGround)], facts).level;
   known.spray_drawn = decided(kTable[static_cast<std::size_t>(Effect::kSpray)], known).level > 0;
   known.drops_drawn = decided(kTable[static_cast<std::size_t>(Effect::kPrecipitation)], facts).level > 0;
-  known.screen_drawn = decided(kTable[static_cast<std::size_t>(Effect::kWindscreen)], facts).level > 0;
   known.glare_drawn = decided(kTable[static_cast<std::size_t>(Effect::kGlare)], facts).level > 0;
   known.fixed_drawn = decided(kTable[static_cast<std::size_t>(Effect::kFixedLight)], facts).level > 0;
+  for (const EffectRow& row : effect_table())
+    if (row.over_luminance && known.over_luminance.empty() && decided(row, known).level > 0)
+      known.over_luminance = row.name;
   EffectPlan plan;
-  for (const EffectRow& row : kTable) plan.decisions[static_cast<std::size_t>(row.effect)] = decided(row, known);
+  for (const EffectRow& row : effect_table())
+    plan.decisions[static_cast<std::size_t>(row.effect)] = decided(row, known);
   return plan;
 }
 
 std::string explain(const EffectPlan& plan, bool columns) {
   std::string text;
-  for (const EffectRow& row : kTable) {
+  for (const EffectRow& row : effect_table()) {
     const EffectDecision& decision = plan[row.effect];
     std::string line(row.name);
     if (!columns) {

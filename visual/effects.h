@@ -1,5 +1,6 @@
 // The effects of a frame: for each its name, its levels, what it needs, and what decides. Pure: no device, no image.
-// To add one: its row here, its pass (one stem in passes/ and shaders/), its test.
+// To add one: its row here, its pass (one stem in passes/ and shaders/), its test. One that draws over a picture needs
+// no word in the frame; a program that uses the renderer can bring its own (visual/picture_effect.h).
 #pragma once
 
 #include <array>
@@ -30,7 +31,8 @@ enum class Effect : std::size_t {
   kSpray,
   kAsphalt
 };
-inline constexpr std::size_t kEffectCount = 15;
+inline constexpr std::size_t kEffectCount = 15;  ///< those above
+inline constexpr std::size_t kMostEffects = 31;  ///< with those that are added
 
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
@@ -65,7 +67,7 @@ struct EffectFacts {
   bool fixed_drawn = false;                ///< decided before: what shines in the scene is drawn
   bool glare_drawn = false;                ///< decided before: the luminance image is read for it
   bool drops_drawn = false;                ///< decided before: they are added to luminance
-  bool screen_drawn = false;               ///< decided before: what lies on it is drawn over luminance
+  std::string_view over_luminance{};       ///< decided before: an effect that is drawn over it
   bool spray_drawn = false;                ///< decided before: it is drawn over luminance
   std::size_t ground = 0;                  ///< decided before: how wet it is, of kWetNames
 };
@@ -84,16 +86,33 @@ struct EffectRow {
   std::string_view needs;                    ///< passes and images that it adds
   EffectDecision (*decide)(const EffectFacts& facts);
   bool only_where_called_for = false;  ///< the user may choose its level, and switch it off, but not make it
+  bool over_luminance = false;         ///< it draws over the image of luminance, and calls for that
 };
 
-/// In the order of Effect.
-const std::array<EffectRow, kEffectCount>& effect_table();
+/// In the order of Effect; what is added, after it.
+std::span<const EffectRow> effect_table();
+
+/// One effect more, as long as it lives. Neither while another thread plans, nor within the life of a plan; the last
+/// that was added goes first. More than kMostEffects, or one whose name is taken: std::invalid_argument.
+class AddedRow {
+ public:
+  /// `row.effect` is chosen here.
+  explicit AddedRow(EffectRow row);
+  ~AddedRow();
+  AddedRow(const AddedRow&) = delete;
+  AddedRow& operator=(const AddedRow&) = delete;
+
+  Effect effect() const { return effect_; }
+
+ private:
+  Effect effect_;
+};
 
 /// A level that the user has set, for each effect; nothing: the facts decide.
-using EffectChoices = std::array<std::optional<std::size_t>, kEffectCount>;
+using EffectChoices = std::array<std::optional<std::size_t>, kMostEffects>;
 
 struct EffectPlan {
-  std::array<EffectDecision, kEffectCount> decisions{};
+  std::array<EffectDecision, kMostEffects> decisions{};
 
   const EffectDecision& operator[](Effect effect) const { return decisions[static_cast<std::size_t>(effect)]; }
   std::size_t level(Effect effect) const { return (*this)[effect].level; }

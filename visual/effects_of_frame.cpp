@@ -7,7 +7,7 @@ namespace phare {
 EffectPlan plan_over(std::span<const ViewResult> views) {
   EffectPlan plan = views.front().effects;
   for (const ViewResult& view : views.subspan(1))
-    for (std::size_t i = 0; i < kEffectCount; ++i) {
+    for (std::size_t i = 0; i < effect_table().size(); ++i) {
       const EffectDecision& there = view.effects.decisions[i];
       if (EffectDecision& told = plan.decisions[i]; told.level == 0 && there.level > 0)
         told = {there.level, "in " + view.name + ": " + there.reason, there.settled};

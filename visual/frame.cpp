@@ -19,6 +19,13 @@ using Usage = vk::ImageUsageFlagBits;
 // else fits.
 constexpr vk::Format kHdrFormat = vk::Format::eR16G16B16A16Sfloat;
 
+// Without them a frame is what one that calls for none is held to (tests/visual/plain_frame.cpp).
+#ifdef PHARE_WITHOUT_EFFECTS
+constexpr bool kEffectsBuilt = false;
+#else
+constexpr bool kEffectsBuilt = true;
+#endif
+
 /// A picture that views are drawn into: the frame's, or a view's own.
 struct Picture {
   std::string name;  ///< before the names of its images
@@ -107,21 +114,27 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   lit.area = view.area;
 
   // What that calls for, and the images it takes.
-  std::optional<std::size_t> casters;
-  if (looks_for_casters(view.input))
-    casters = parts.scene.find_casters(
-        lit, {.far_from_m = whole_casters(view.input) ? HUGE_VAL : kFarCasters * far_mesh_from_m(view),
-              .view = &lit.geometry,
-              .faint_lx = faint_lx(view.input)});
-  const std::vector<GlaringLamp> glare = glare_of(view.input, lit.geometry);
-  std::vector<PupilInPicture> pupils =
-      pupils_of(view.input, lit.geometry, view.area.extent.width, view.area.extent.height);
-  const std::vector<SprayingVehicle> spraying = spraying_seen(lit.geometry, view.input.spraying);
-  EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, pupils.size(),
-                               spraying.size(), parts.device_facts);
-  add_facts(facts, parts.scene.fixed_light(), view.input.camera.eye_m);
-  const EffectPlan effects = plan_effects(facts, view.input.effects, view.input.picked);
-  const bool hdr = effects.on(Effect::kHdrImage);
+  std::vector<GlaringLamp> glare;
+  std::vector<PupilInPicture> pupils;
+  std::vector<SprayingVehicle> spraying;
+  EffectPlan effects;
+  if (kEffectsBuilt) {
+    std::optional<std::size_t> casters;
+    if (looks_for_casters(view.input))
+      casters = parts.scene.find_casters(
+          lit, {.far_from_m = whole_casters(view.input) ? HUGE_VAL : kFarCasters * far_mesh_from_m(view),
+                .view = &lit.geometry,
+                .faint_lx = faint_lx(view.input)});
+    glare = glare_of(view.input, lit.geometry);
+    pupils = pupils_of(view.input, lit.geometry, view.area.extent.width, view.area.extent.height);
+    spraying = spraying_seen(lit.geometry, view.input.spraying);
+    EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, pupils.size(),
+                                 spraying.size(), parts.device_facts);
+    add_facts(facts, parts.scene.fixed_light(), view.input.camera.eye_m);
+    effects = plan_effects(facts, view.input.effects, view.input.picked);
+  }
+  const auto on = [&](Effect effect) { return kEffectsBuilt && effects.on(effect); };
+  const bool hdr = on(Effect::kHdrImage);
   gpu::Image* depth = image("depth", vk::Format::eD32Sfloat, Usage::eDepthStencilAttachment, parts.target.samples);
   gpu::Image* light = view.picture.display;
   LampOutput output = output_of(view.input.view);
@@ -136,41 +149,41 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
   const bool first = !std::exchange(view.picture.begun, true);
 
   // What each lamp sees, where something stands in its light.
-  if (effects.on(Effect::kShadows)) {
+  if (on(Effect::kShadows)) {
     const CountedFor counted(Effect::kShadows, graph);
     parts.shadows.draw(graph, parts.scene, lit, effects.level(Effect::kShadows),
                        has_shadows(effects.level(Effect::kFog)));
   }
 
   // What fog scatters of the light.
-  if (effects.on(Effect::kFog)) {
+  if (on(Effect::kFog)) {
     const CountedFor counted(Effect::kFog, graph);
     parts.fog.draw(graph, parts.scene, lit, effects.level(Effect::kFog), view.input, view.area, hdr,
-                   effects.on(Effect::kPrecipitation));
+                   on(Effect::kPrecipitation));
   }
 
   // Which drops fall past the eye.
-  if (effects.on(Effect::kPrecipitation)) add_drops(parts.scene, lit, view.input);
+  if (on(Effect::kPrecipitation)) add_drops(parts.scene, lit, view.input);
 
   // What vehicles throw up of the water on the ground.
-  if (effects.on(Effect::kSpray))
+  if (on(Effect::kSpray))
     add_spray(parts.scene, lit, spraying, water_mm(view.input.air.rain_mmph, effects.level(Effect::kWetGround)));
 
   // Which animals look at the lamps.
-  if (effects.on(Effect::kEyeshine)) lit.pupils = std::move(pupils);
+  if (on(Effect::kEyeshine)) lit.pupils = std::move(pupils);
 
   // What water makes of the ground.
-  if (effects.on(Effect::kWetGround)) lit.wet_ground(effects.level(Effect::kWetGround));
+  if (on(Effect::kWetGround)) lit.wet_ground(effects.level(Effect::kWetGround));
 
   // What snow makes of all that looks up.
-  if (effects.on(Effect::kSnowCover)) lit.cover_with_snow(view.input.snow_cover_01);
+  if (on(Effect::kSnowCover)) lit.cover_with_snow(view.input.snow_cover_01);
 
   // What street lamps give, and what shines by itself.
-  if (effects.on(Effect::kFixedLight)) parts.scene.add_fixed_light(lit);
-  lit.r_table = effects.on(Effect::kAsphalt);
+  if (on(Effect::kFixedLight)) parts.scene.add_fixed_light(lit);
+  lit.r_table = on(Effect::kAsphalt);
 
   // Depth of everything, so that each pixel is lit once.
-  const bool depth_done = effects.on(Effect::kDepthFirst);
+  const bool depth_done = on(Effect::kDepthFirst);
   if (depth_done) {
     const CountedFor counted(Effect::kDepthFirst, graph);
     parts.depth.draw(graph, parts.scene, lit, *depth, view.area);
@@ -187,15 +200,24 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
                   .black_around = first && !hdr},
                  output);
 
-  // What rain on the windscreen makes of it.
-  if (effects.on(Effect::kWindscreen)) {
-    const CountedFor counted(Effect::kWindscreen, graph);
-    if (!parts.windscreen) parts.windscreen = std::make_unique<WindscreenPass>(parts.device);
-    parts.windscreen->draw(graph, *light, view.area, lit.geometry, *view.input.windscreen, view.input.air, glare);
-  }
+  // What is drawn over it: rain on the windscreen, and what a program adds.
+  const auto draw_over = [&](DrawsOver what, gpu::Image& picture) {
+    for (const PictureEffectKind& kind : picture_effects()) {
+      if (kind.over != what || !on(kind.effect)) continue;
+      const CountedFor counted(kind.effect, graph);
+      parts.picture_effects.draw(kind, {.graph = graph,
+                                        .picture = picture,
+                                        .area = view.area,
+                                        .input = view.input,
+                                        .geometry = lit.geometry,
+                                        .glare = glare,
+                                        .level = effects.level(kind.effect)});
+    }
+  };
+  draw_over(DrawsOver::kLuminance, *light);
 
   // From cd/m² to the display, with what lamps scatter in the eye. Without an HDR image the lit pass has done it.
-  if (effects.on(Effect::kGlare)) {
+  if (on(Effect::kGlare)) {
     const CountedFor counted(Effect::kGlare, graph);
     parts.glare.draw(graph, *light, *view.picture.display, view.area, first, lit.sky.exposure_per_cdm2, lit.geometry,
                      glare, view.input.viewer);
@@ -203,6 +225,7 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
     const CountedFor counted(Effect::kHdrImage, graph);
     parts.tone_mapping.draw(graph, *light, *view.picture.display, view.area, first, lit.sky.exposure_per_cdm2);
   }
+  draw_over(DrawsOver::kDisplay, *view.picture.display);
   if (hdr && view.input.want_hdr) parts.read_hdr(view.number, *light, view.area);
 
   // What the next view may use.
@@ -236,7 +259,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   parts.fog.begin_frame();
   parts.lit.begin_frame();
   parts.glare.begin_frame();
-  if (parts.windscreen) parts.windscreen->begin_frame();
+  parts.picture_effects.begin_frame();
   parts.tone_mapping.begin_frame();
   Picture seen = picture("", parts.target.extent);
   display = seen.display;
@@ -262,7 +285,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   parts.graph.set_prefix("");
 
   // What the driver is told besides.
-  if (views.front().effects.on(Effect::kOverlay)) {
+  if (kEffectsBuilt && views.front().effects.on(Effect::kOverlay)) {
     const CountedFor counted(Effect::kOverlay, parts.graph);
     if (!parts.overlay)
       parts.overlay =
@@ -272,7 +295,7 @@ std::vector<ViewResult> draw_frame(FrameParts& parts, const FrameInput& input, g
   }
 
   // What is set by the mouse.
-  if (views.front().effects.on(Effect::kGui)) {
+  if (kEffectsBuilt && views.front().effects.on(Effect::kGui)) {
     const CountedFor counted(Effect::kGui, parts.graph);
     parts.gui.draw(parts.graph, *seen.display, *input.gui);
   } else if (parts.target.seen) {

@@ -15,7 +15,7 @@
 #include "visual/passes/overlay.h"
 #include "visual/passes/shadows.h"
 #include "visual/passes/tone_mapping.h"
-#include "visual/passes/windscreen.h"
+#include "visual/picture_effect.h"
 #include "visual/renderer.h"
 
 namespace phare {
@@ -40,7 +40,7 @@ constexpr gpu::Account account_of(Effect effect) {
 constexpr Effect effect_of(gpu::Account account) {
   return static_cast<Effect>(account - 1);
 }
-static_assert(kEffectCount < gpu::kAccounts);
+static_assert(kMostEffects < gpu::kAccounts);
 
 struct FrameParts {
   gpu::Device& device;
@@ -53,7 +53,7 @@ struct FrameParts {
   LitPass& lit;
   GlarePass& glare;
   ToneMappingPass& tone_mapping;
-  std::unique_ptr<WindscreenPass>& windscreen;  ///< made by the first frame that calls for it
+  PictureEffects& picture_effects;
   std::unique_ptr<OverlayPass>& overlay;  ///< made by the first frame that calls for it
   GuiPass& gui;
   /// Copies a part of an image out, for view `view` of the frame.

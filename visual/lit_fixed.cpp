@@ -91,14 +91,14 @@ void LitScene::add_mirrored(const LitView& view) {
     }
 }
 
-void LitScene::bind_fixed_light(vk::CommandBuffer commands, const LitView& view, const DrawItem& item,
+void LitScene::bind_fixed_light(gpu::Recorder& commands, const LitView& view, const DrawItem& item,
                                 vk::Buffer& bound) const {
   vk::Buffer wanted = *geometry_.fixed_light.buffer;
   if (item.moves != DrawItem::kStands) wanted = *written_->probes[(view.first_probe + item.moves) / kProbesInPage]->buffer;
   if (wanted != bound) commands.bindVertexBuffers(1, bound = wanted, vk::DeviceSize{0});
 }
 
-void LitScene::bind_road(vk::CommandBuffer commands, const SceneBatch& batch) const {
+void LitScene::bind_road(gpu::Recorder& commands, const SceneBatch& batch) const {
   const auto first = static_cast<vk::DeviceSize>(batch.first_vertex);
   if (batch.kind.look == 0) {
     const std::array buffers{*geometry_.vertices.buffer, *geometry_.fixed_light.buffer};

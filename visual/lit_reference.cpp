@@ -74,7 +74,7 @@ LitScene::FragmentStage LitScene::reference_stage(const LitVariant& variant) {
   return {codes[(shadows ? 1u : 0u) + (fog ? 2u : 0u)], *own.layout};
 }
 
-void LitScene::bind_reference(vk::CommandBuffer commands, const LitView& view, const LitBy& lit_by) {
+void LitScene::bind_reference(gpu::Recorder& commands, const LitView& view, const LitBy& lit_by) {
   Reference& own = reference();
   const ReferenceLight::Place place = own.light.fill(view, lit_by);
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *own.layout, shader::kReferenceSet, place.set,

@@ -240,22 +240,22 @@ vk::DescriptorSet LitScene::set_of(std::size_t page, const Beams& beams) {
   return set;
 }
 
-void LitScene::bind(vk::CommandBuffer commands, const LitBy& lit_by) const {
+void LitScene::bind(gpu::Recorder& commands, const LitBy& lit_by) const {
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, lit_by.set, lit_by.data_at);
 }
 
-void LitScene::bind(vk::CommandBuffer commands, const LitView& view) const {
+void LitScene::bind(gpu::Recorder& commands, const LitView& view) const {
   bind(commands, view.lit_by.front());
   commands.bindVertexBuffers(0, *geometry_.vertices.buffer, vk::DeviceSize{0});
   commands.bindIndexBuffer(*geometry_.indices.buffer, 0, vk::IndexType::eUint32);
 }
 
-void LitScene::bind_shadows(vk::CommandBuffer commands, const LitView& view) const {
+void LitScene::bind_shadows(gpu::Recorder& commands, const LitView& view) const {
   if (view.depths != nullptr)
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 1, view.depths->set, nullptr);
 }
 
-void LitScene::bind_fog(vk::CommandBuffer commands, const LitView& view) const {
+void LitScene::bind_fog(gpu::Recorder& commands, const LitView& view) const {
   if (view.fog_set) commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 2, view.fog_set, nullptr);
 }
 

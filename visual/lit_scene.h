@@ -256,19 +256,19 @@ class LitScene {
   /// By the method "reference" (visual/reference_light.h): what ReferenceLight::set_points and fill say, for this
   /// frame.
   void set_reference_points(std::span<const double> points);
-  void bind_reference(vk::CommandBuffer commands, const LitView& view, const LitBy& lit_by);
+  void bind_reference(gpu::Recorder& commands, const LitView& view, const LitBy& lit_by);
   /// The view's data, and the vertices of the scene.
-  void bind(vk::CommandBuffer commands, const LitView& view) const;
-  void bind(vk::CommandBuffer commands, const LitBy& lit_by) const;
+  void bind(gpu::Recorder& commands, const LitView& view) const;
+  void bind(gpu::Recorder& commands, const LitBy& lit_by) const;
   /// Textures and corners of a batch that has a look: drawn from its first vertex on. After it bind_vertices() for
   /// others.
-  void bind_look(vk::CommandBuffer commands, const SceneBatch& batch, bool reference = false);
-  void bind_vertices(vk::CommandBuffer commands) const;
+  void bind_look(gpu::Recorder& commands, const SceneBatch& batch, bool reference = false);
+  void bind_vertices(gpu::Recorder& commands) const;
   /// Textures of a material that has some, on a device that draws them.
   vk::DescriptorSet textures_of(std::size_t material) const { return geometry_.textures.set(material); }
   bool has_textures() const { return !geometry_.textures.empty(); }
-  void bind_shadows(vk::CommandBuffer commands, const LitView& view) const;
-  void bind_fog(vk::CommandBuffer commands, const LitView& view) const;
+  void bind_shadows(gpu::Recorder& commands, const LitView& view) const;
+  void bind_fog(gpu::Recorder& commands, const LitView& view) const;
   void push(vk::CommandBuffer commands, const shader::GpuDraw& draw) const;
   /// All that the view sees; of `common` all counts but the material and the lamps.
   void draw(gpu::Recorder& commands, const LitView& view, const LitVariant& common);
@@ -352,9 +352,9 @@ class LitScene {
   void write_recipe(const LitVariant& variant, Recipe& recipe);
   void light_by_block(LitView& view);
   void add_mirrored(const LitView& view);
-  void bind_fixed_light(vk::CommandBuffer commands, const LitView& view, const DrawItem& item, vk::Buffer& bound) const;
+  void bind_fixed_light(gpu::Recorder& commands, const LitView& view, const DrawItem& item, vk::Buffer& bound) const;
   /// Of asphalt by its r-table: drawn from its first vertex on. After it bind_vertices() for others.
-  void bind_road(vk::CommandBuffer commands, const SceneBatch& batch) const;
+  void bind_road(gpu::Recorder& commands, const SceneBatch& batch) const;
   static std::uint32_t probe_in_page(const LitView& view, const DrawItem& item);
   vk::raii::PipelineLayout pipeline_layout(std::span<const vk::DescriptorSetLayout> sets);
   FragmentStage fragment_stage(const LitVariant& variant, std::size_t size);
@@ -365,7 +365,7 @@ class LitScene {
   static void add_textured_vertices(const LitVariant& variant, PipelineRecipe& recipe,
                                     std::vector<vk::VertexInputAttributeDescription>& attributes);
   /// After bind_look().
-  void bind_fixed_light_of_look(vk::CommandBuffer commands, const LitView& view, const DrawItem& item) const;
+  void bind_fixed_light_of_look(gpu::Recorder& commands, const LitView& view, const DrawItem& item) const;
   vk::DescriptorSetLayout reference_layout();
   Reference& reference();
   void keep_image(std::size_t beam, const BeamImage& image, std::span<const TexelRect> changed);

@@ -191,7 +191,7 @@ LitScene::Stages LitScene::textured_stages(const LitVariant& variant) {
           {is_apart ? textured_frag(apart, shadows, fog) : reference_frag_of(shadows, fog), *own.reference_layout}};
 }
 
-void LitScene::bind_look(vk::CommandBuffer commands, const SceneBatch& batch, bool reference) {
+void LitScene::bind_look(gpu::Recorder& commands, const SceneBatch& batch, bool reference) {
   const vk::PipelineLayout layout = reference ? *textured().reference_layout : *textured().layout;
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, reference ? 4 : 3,
                               geometry_.textures.set(batch.look_of), nullptr);
@@ -204,7 +204,7 @@ void LitScene::bind_look(vk::CommandBuffer commands, const SceneBatch& batch, bo
                                static_cast<vk::DeviceSize>(batch.first_tangent) * sizeof(CornerLook::tangent));
 }
 
-void LitScene::bind_fixed_light_of_look(vk::CommandBuffer commands, const LitView& view, const DrawItem& item) const {
+void LitScene::bind_fixed_light_of_look(gpu::Recorder& commands, const LitView& view, const DrawItem& item) const {
   if (item.moves != DrawItem::kStands)
     commands.bindVertexBuffers(kLightAt, *written_->probes[(view.first_probe + item.moves) / kProbesInPage]->buffer,
                                vk::DeviceSize{0});
@@ -216,7 +216,7 @@ void LitScene::bind_fixed_light_of_look(vk::CommandBuffer commands, const LitVie
                                static_cast<vk::DeviceSize>(item.batch->first_tangent) * sizeof(FixedWay));
 }
 
-void LitScene::bind_vertices(vk::CommandBuffer commands) const {
+void LitScene::bind_vertices(gpu::Recorder& commands) const {
   commands.bindVertexBuffers(0, *geometry_.vertices.buffer, vk::DeviceSize{0});
 }
 

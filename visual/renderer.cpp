@@ -89,7 +89,7 @@ struct Renderer::Impl {
   LitPass lit{device};
   GlarePass glare{device};
   ToneMappingPass tone_mapping{device};
-  std::unique_ptr<WindscreenPass> windscreen;
+  PictureEffects picture_effects{device};
   std::unique_ptr<OverlayPass> overlay;
   GuiPass gui{device};
   FrameTarget target;
@@ -205,7 +205,7 @@ struct Renderer::Impl {
             .lit = lit,
             .glare = glare,
             .tone_mapping = tone_mapping,
-            .windscreen = windscreen,
+            .picture_effects = picture_effects,
             .overlay = overlay,
             .gui = gui,
             .read_image = [this](std::size_t view, gpu::Image& image,
@@ -309,6 +309,7 @@ FrameResult Renderer::draw(const FrameInput& input) {
 
   result.effects = plan_over(result.views);
   result.draws = counts.draws;
+  result.binds = counts.binds;
   result.pass_count = counts.passes;
   result.triangles = counts.triangles;
   const gpu::Counts& held = impl_->graph.counts();

@@ -172,10 +172,11 @@ struct FrameResult {
   double gpu_ms = 0.0;  ///< first to last time stamp
   std::vector<PassTime> passes;
   EffectPlan effects;  ///< what was on in any view, and why (visual/effects_of_frame.h)
-  std::array<EffectCost, kEffectCount> effect_costs{};  ///< in the order of Effect
+  std::array<EffectCost, kMostEffects> effect_costs{};  ///< in the order of Effect
   EffectCost other_cost{};                              ///< what no effect calls for
   std::vector<ViewResult> views;  ///< its own, then the others
   std::uint32_t draws = 0;        ///< those of the overlay left out
+  std::uint32_t binds = 0;        ///< of pipelines, sets, vertices and indices; likewise
   std::uint32_t pass_count = 0;   ///< passes that draw; reading back draws nothing
   std::uint64_t triangles = 0;
   std::uint32_t images = 0;  ///< images of the frame that live, and their bytes

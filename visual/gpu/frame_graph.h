@@ -59,6 +59,7 @@ struct Counts {
   std::uint32_t passes = 0;        ///< that draw
   std::uint32_t copies = 0;        ///< passes that only copy
   std::uint32_t draws = 0;         ///< draw commands, those of the overlay's library left out
+  std::uint32_t binds = 0;         ///< of pipelines, sets, vertices and indices, those of that library left out
   std::uint64_t triangles = 0;     ///< of them
   std::uint32_t images = 0;        ///< images of the frame that live
   std::uint64_t image_bytes = 0;   ///< memory they take
@@ -70,11 +71,12 @@ struct Counts {
     return {.passes = passes - before.passes,
             .copies = copies - before.copies,
             .draws = draws - before.draws,
+            .binds = binds - before.binds,
             .triangles = triangles - before.triangles};
   }
 };
 
-/// The commands of one pass; what it draws is counted.
+/// The commands of one pass; what it draws and binds is counted.
 class Recorder : public vk::CommandBuffer {
  public:
   Recorder(vk::CommandBuffer commands, Counts& counts, const MultiDraw& multi_draw)
@@ -87,6 +89,25 @@ class Recorder : public vk::CommandBuffer {
                    std::int32_t vertex_offset, std::uint32_t first_instance) {
     count(indices, instances);
     vk::CommandBuffer::drawIndexed(indices, instances, first_index, vertex_offset, first_instance);
+  }
+  void bindPipeline(vk::PipelineBindPoint point, vk::Pipeline pipeline) {
+    ++counts_.binds;
+    vk::CommandBuffer::bindPipeline(point, pipeline);
+  }
+  void bindDescriptorSets(vk::PipelineBindPoint point, vk::PipelineLayout layout, std::uint32_t first,
+                          const vk::ArrayProxy<const vk::DescriptorSet>& sets,
+                          const vk::ArrayProxy<const std::uint32_t>& offsets) {
+    ++counts_.binds;
+    vk::CommandBuffer::bindDescriptorSets(point, layout, first, sets, offsets);
+  }
+  void bindVertexBuffers(std::uint32_t first, const vk::ArrayProxy<const vk::Buffer>& buffers,
+                         const vk::ArrayProxy<const vk::DeviceSize>& offsets) {
+    ++counts_.binds;
+    vk::CommandBuffer::bindVertexBuffers(first, buffers, offsets);
+  }
+  void bindIndexBuffer(vk::Buffer buffer, vk::DeviceSize offset, vk::IndexType type) {
+    ++counts_.binds;
+    vk::CommandBuffer::bindIndexBuffer(buffer, offset, type);
   }
   /// One instance of each, in their order: one call where the device takes them so.
   void drawIndexed(std::span<const vk::MultiDrawIndexedInfoEXT> draws);

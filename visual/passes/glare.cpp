@@ -102,7 +102,7 @@ void GlarePass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Image& d
                                         .descriptorType = vk::DescriptorType::eUniformBuffer,
                                         .pBufferInfo = &lamps}},
                                       nullptr);
-  map_to_display(graph, "glare", hdr_cdm2, display, area, first, [&](vk::CommandBuffer commands) {
+  map_to_display(graph, "glare", hdr_cdm2, display, area, first, [&](gpu::Recorder& commands) {
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, by);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, set, nullptr);
   });

@@ -51,7 +51,7 @@ void ToneMappingPass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Im
                              .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                              .pImageInfo = &input},
       nullptr);
-  map_to_display(graph, "tone mapping", hdr_cdm2, display, area, first, [&](vk::CommandBuffer commands) {
+  map_to_display(graph, "tone mapping", hdr_cdm2, display, area, first, [&](gpu::Recorder& commands) {
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_.at(display.format));
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, set, nullptr);
     commands.pushConstants<shader::ToneConstants>(*layout_, vk::ShaderStageFlagBits::eFragment, 0,
@@ -60,7 +60,7 @@ void ToneMappingPass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, gpu::Im
 }
 
 void map_to_display(gpu::FrameGraph& graph, const char* name, gpu::Image& hdr_cdm2, gpu::Image& display,
-                    const vk::Rect2D& area, bool first, const std::function<void(vk::CommandBuffer)>& bind) {
+                    const vk::Rect2D& area, bool first, const std::function<void(gpu::Recorder&)>& bind) {
   const vk::Rect2D whole{{0, 0}, display.extent};
   const bool black_around = first && area != whole;
   graph.pass(name, {{&hdr_cdm2, gpu::Use::kSampled, false}, {&display, gpu::Use::kColourTarget, first}},

@@ -14,7 +14,7 @@ namespace phare {
 /// A pass that reads the HDR image and writes a part of the picture. `first`: nothing else in the picture is to stay;
 /// outside the part it becomes black. `bind`: the pipeline, and what it reads.
 void map_to_display(gpu::FrameGraph& graph, const char* name, gpu::Image& hdr_cdm2, gpu::Image& display,
-                    const vk::Rect2D& area, bool first, const std::function<void(vk::CommandBuffer)>& bind);
+                    const vk::Rect2D& area, bool first, const std::function<void(gpu::Recorder&)>& bind);
 
 class ToneMappingPass {
  public:

@@ -132,13 +132,14 @@ vk::DescriptorSet WindscreenPass::reads(const gpu::Image& image) {
   return set;
 }
 
-void WindscreenPass::draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, const vk::Rect2D& area,
-                          const ViewGeometry& view, const Windscreen& screen, const Air& air,
-                          std::span<const GlaringLamp> lamps) {
+void WindscreenPass::draw(const PictureDraw& at) {
   using Use = vk::ImageUsageFlagBits;
+  gpu::FrameGraph& graph = at.graph;
+  gpu::Image& hdr_cdm2 = at.picture;
+  const vk::Rect2D area = at.area;
   gpu::Image& light = graph.image("windscreen", {kScreenFormat, kScreenExtent, Use::eColorAttachment | Use::eSampled});
-  const shader::GpuScreenLight light_data = light_of(view, area, lamps);
-  const shader::GpuScreen data = screen_of(view, area, screen, air);
+  const shader::GpuScreenLight light_data = light_of(at.geometry, area, at.glare);
+  const shader::GpuScreen data = screen_of(at.geometry, area, *at.input.windscreen, at.input.air);
   const auto begin = [](gpu::Recorder& commands, const gpu::Image& target, const vk::Rect2D& part,
                         vk::AttachmentLoadOp load) {
     const vk::RenderingAttachmentInfo colour =

@@ -3,24 +3,17 @@
 // Checked by tests/visual/windscreen_test.cpp.
 #pragma once
 
-#include <span>
-
-#include "visual/glare.h"
 #include "visual/gpu/descriptor_sets.h"
-#include "visual/gpu/frame_graph.h"
-#include "visual/windscreen.h"
+#include "visual/picture_effect.h"
 
 namespace phare {
 
-class WindscreenPass {
+class WindscreenPass final : public PictureEffect {
  public:
   explicit WindscreenPass(gpu::Device& device);
 
-  /// Before the views of a frame; the frame before is done.
-  void begin_frame();
-  /// `hdr_cdm2`: of a view, one sample a pixel. `lamps`: that shine into the eye.
-  void draw(gpu::FrameGraph& graph, gpu::Image& hdr_cdm2, const vk::Rect2D& area, const ViewGeometry& view,
-            const Windscreen& screen, const Air& air, std::span<const GlaringLamp> lamps);
+  void begin_frame() override;
+  void draw(const PictureDraw& at) override;
 
  private:
   vk::DescriptorSet reads(const gpu::Image& image);
