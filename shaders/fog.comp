@@ -22,6 +22,7 @@ const float kNarrow = 0.25;           // of the widest step: one point is enough
 // steps there begin at this share of the widest, and are longer by this share of the angle from there.
 const float kFirst = 0.125, kGrows = 0.5;
 const float kRest = 0.01;  // of the widest: no step of less is left over
+const float kNowhere_deg = 1000.0;  // in place of the angle at a lamp up to which its vehicle's body hides a ray, on both sides
 const float kFogMost_cdm2 = 65000.0;  // what half floats hold
 
 layout(local_size_x = 64) in;
@@ -84,6 +85,7 @@ void main() {
   vec3 lamp_##I = frame.lamps[I].position.xyz, aside_##I = cross(direction, lamp_##I);                                            \
   float along_##I = dot(direction, lamp_##I), d2_##I = max(dot(aside_##I, aside_##I), 1e-4), d_##I = sqrt(d2_##I); \
   float angle_##I = atan2_deg(-along_##I, d_##I); \
+  float hidden_##I = d_##I < frame.lamps[I].row_c.w ? degrees(acos(d_##I / frame.lamps[I].row_c.w)) : -kNowhere_deg; \
   vec3 turned_##I = vec3(dot(frame.lamps[I].row_a.xyz, direction), dot(frame.lamps[I].row_b.xyz, direction), dot(frame.lamps[I].row_c.xyz, direction)); \
   vec3 place_##I = vec3(dot(frame.lamps[I].row_a.xyz, lamp_##I), dot(frame.lamps[I].row_b.xyz, lamp_##I), dot(frame.lamps[I].row_c.xyz, lamp_##I)); \
   TableShape shape_##I = PHARE_SHAPE(I); \
@@ -99,17 +101,20 @@ void main() {
     float after = atan2_deg(to - along_##I, d_##I), most = (after - angle_##I) / float(least_steps), lamp_sum = 0.0;                     \
     bool second = false;                                                                                                               \
     while (angle_##I < after) {                                                                                                        \
+      if (angle_##I >= -hidden_##I && angle_##I < hidden_##I) {                                                                        \
+        angle_##I = min(hidden_##I, after);                                                                                            \
+        continue;                                                                                                                      \
+      }                                                                                                                                \
+      float stop = angle_##I < -hidden_##I ? min(-hidden_##I, after) : after;                                                          \
       float step_deg = min(min(most, widest_deg), kFirst * widest_deg + kGrows * (90.0 + angle_##I));                                  \
-      if (angle_##I + step_deg > after - kRest * widest_deg) step_deg = after - angle_##I;                                             \
+      if (angle_##I + step_deg > stop - kRest * widest_deg) step_deg = stop - angle_##I;                                               \
       bool narrow = step_deg < kNarrow * widest_deg;                                                                                   \
       float at_deg = angle_##I + step_deg * (narrow ? 0.5 : second ? 0.5 + kGauss : 0.5 - kGauss);                                     \
       float at = radians(at_deg), past = d_##I * tan(at), r = d_##I / cos(at);                                                         \
-      float cd = 0.0;                                                                                                                  \
-      if (r >= frame.lamps[I].row_c.w)                                                                                                 \
-        cd = light_at_##I(shape_##I, turned_##I * (along_##I + past) - place_##I, 0.0).cd;                                             \
+      float cd = light_at_##I(shape_##I, turned_##I * (along_##I + past) - place_##I, 0.0).cd;                                         \
       SHADE_AIR(I, angle_##I + (second ? 0.5 * step_deg : 0.0), narrow ? step_deg : 0.5 * step_deg)                                    \
       lamp_sum += (narrow ? step_deg : 0.5 * step_deg) * cd * phase_at(90.0 + at_deg, along_##I + past) * fog_left(r + along_##I + past); \
-      if (narrow || second) angle_##I += step_deg;                                                                                     \
+      if (narrow || second) angle_##I = step_deg < stop - angle_##I ? angle_##I + step_deg : stop;                                     \
       second = !narrow && !second;                                                                                                     \
     }                                                                                                                                  \
     sum += lamp_sum * (radians(1.0) / d_##I);                                                                                          \
