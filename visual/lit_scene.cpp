@@ -120,6 +120,7 @@ void LitScene::set_geometry(SceneBuffers geometry, ShadowCasters casters, std::s
   fixed_light_ = std::move(light);
   casters_ = std::move(casters);
   ++geometry_version_;
+  kept_casters_.clear();
   ++beams_made_;
 }
 
@@ -153,6 +154,7 @@ void LitScene::begin_frame(gpu::FrameGraph& graph, ShapesFrom shapes) {
   written.views = written.probes_used = 0;
   shapes_ = shapes;
   reference_begun_ = false;
+  kept_casters_.begin_frame();
   if (beams_.upload(graph)) ++beams_made_;
   // A set may name a buffer or an image that is no more.
   if (std::exchange(written.names_of, beams_made_) == beams_made_ && written.set_of.size() <= kMostSets) return;

@@ -22,10 +22,12 @@
 #include "shaders/precipitation.h"
 #include "shaders/spray.h"
 #include "visual/beam_store.h"
+#include "visual/caster_grid.h"
 #include "visual/eyeshine.h"
 #include "visual/gpu/descriptor_sets.h"
 #include "visual/gpu/frame_graph.h"
 #include "visual/gpu/scene_buffers.h"
+#include "visual/kept_casters.h"
 #include "visual/light_reach.h"
 #include "visual/passes/constants.h"
 #include "visual/passes/grain.h"
@@ -90,6 +92,18 @@ struct ShadowDepths {
   vk::raii::BufferView view{nullptr};
   gpu::DescriptorSets sets{};
   vk::DescriptorSet set{};
+
+  /// What the texels hold: of each map what it was drawn from.
+  struct Held {
+    std::shared_ptr<const CastBy> cast{};
+    glm::dvec2 half{1.0}, texels{0.0};
+    double zoom = 1.0;
+
+    friend bool operator==(const Held&, const Held&) = default;
+  };
+  std::vector<Held> held{};
+  ShadowLevel level{};
+  std::vector<CasterGrid> grids{};  ///< of each map, where it may hide light
 };
 
 /// Maps that points in the air are looked up in.
@@ -128,7 +142,7 @@ struct LitView {
   std::span<const PlacedMesh> moving{};  ///< of the caller, while the frame is recorded
   std::vector<LitBy> lit_by{};           ///< one at least
   std::vector<PlacedLamp> lit_lamps{};   ///< that light something in it
-  std::vector<CastBy> casts{};           ///< what stands in the light of each
+  KeptCasters::Casts casts{};            ///< what stands in the light of each
   bool few_kinds = false;                ///< as ViewInput
   ShadowLevel shadows{};                 ///< of the maps that are read
   const ShadowDepths* depths = nullptr;
@@ -228,7 +242,7 @@ class LitScene {
   /// An eye with lamps and no surface, for points that are given.
   LitView view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps);
   /// Finds what stands in the light of the view's lamps; returns how many pieces of the scene.
-  std::size_t find_casters(LitView& view, const CastersFor& wanted = {}) const;
+  std::size_t find_casters(LitView& view, const CastersFor& wanted = {});
 
   /// What does not change shines in the view: what moves gets what arrives at it.
   void add_fixed_light(LitView& view);
@@ -385,6 +399,7 @@ class LitScene {
   SceneBuffers geometry_;
   ShadowCasters casters_;
   std::uint64_t geometry_version_ = 0;
+  KeptCasters kept_casters_;
   ShapesFrom shapes_ = ShapesFrom::kPipeline;  ///< of this frame
   std::optional<Rehearsal> rehearsal_;
   std::set<LitVariant> undrawn_;  ///< made beside the frames, not drawn with yet

@@ -61,14 +61,16 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
   return view;
 }
 
-std::size_t LitScene::find_casters(LitView& view, const CastersFor& wanted) const {
-  view.casts.resize(view.lit_lamps.size());
-  on_all_cores(view.casts.size(), [&](std::size_t i) {
-    const PlacedLamp& lamp = view.lit_lamps[i];
-    CastersFor by_lamp = wanted;
-    by_lamp.peaks = &peaks_[lamp.beam];
-    view.casts[i] = casters_.by(reach_of(lamp), lamp.world_from_image, view.moving, lamp.carried_by, by_lamp);
-  });
+std::size_t LitScene::find_casters(LitView& view, const CastersFor& wanted) {
+  std::vector<KeptCasters::Lamp> lamps;
+  for (const PlacedLamp& lamp : view.lit_lamps)
+    lamps.push_back({.reach = reach_of(lamp),
+                     .world_from_image = lamp.world_from_image,
+                     .carried_by = lamp.carried_by,
+                     .beam = lamp.beam,
+                     .version = beam_version(lamp.beam),
+                     .peaks = &peaks_[lamp.beam]});
+  view.casts = kept_casters_.find(casters_, lamps, view.moving, wanted);
   return casters_of_all(view.casts);
 }
 

@@ -349,7 +349,7 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
     one.triangles_to = (lit.empty() ? 0 : lit.back().triangles_to) + one.mesh->indices.size() / 3;
     lit.push_back(one);
   };
-  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+  for (std::size_t i = 0; i < chunks_.size() && wanted.standing == nullptr; ++i) {
     const Chunk& chunk = chunks_[i];
     if (!near(chunk.low_m, chunk.high_m)) continue;
     add({.chunk = &chunk,
@@ -391,6 +391,12 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
   });
   cast = std::move(of_parts.front());
   for (std::size_t part = 1; part < parts; ++part) append(cast, of_parts[part]);
+  if (wanted.standing != nullptr && wanted.standing->count > 0) {
+    CastBy all = *wanted.standing;
+    all.chunks.resize(cast.chunks.size());
+    append(all, cast);
+    cast = std::move(all);
+  }
   cast.count = static_cast<std::size_t>(std::ranges::count(cast.chunks, true));
   if (cast.count == 0) return {};
   return cast;
@@ -401,11 +407,11 @@ std::size_t parts_of_casters(std::size_t triangles) {
   return std::clamp(triangles / kOfPart, std::size_t{1}, kMost);
 }
 
-std::size_t casters_of_all(std::span<const CastBy> casts) {
+std::size_t casters_of_all(std::span<const std::shared_ptr<const CastBy>> casts) {
   std::vector<bool> any;
-  for (const CastBy& cast : casts) {
-    any.resize(std::max(any.size(), cast.chunks.size()));
-    for (std::size_t i = 0; i < cast.chunks.size(); ++i) any[i] = any[i] || cast.chunks[i];
+  for (const auto& cast : casts) {
+    any.resize(std::max(any.size(), cast->chunks.size()));
+    for (std::size_t i = 0; i < cast->chunks.size(); ++i) any[i] = any[i] || cast->chunks[i];
   }
   return static_cast<std::size_t>(std::ranges::count(any, true));
 }

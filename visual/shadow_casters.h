@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -117,6 +118,8 @@ struct CastersFor {
   /// What hides no more than so much of the lamp's light, lx facing it, casts none; 0: all that stands in it casts.
   double faint_lx = 0.0;
   const LightPeaks* peaks = nullptr;  ///< of the lamp's beam; null: it may shine anywhere
+  /// What stands in the same light, found before with nothing moving: only what moves is looked for and added.
+  const CastBy* standing = nullptr;
 };
 
 /// Triangles for rays. `cut` of theirs counts in `cut` here.
@@ -191,7 +194,7 @@ class ShadowCasters {
 std::size_t parts_of_casters(std::size_t triangles);
 
 /// How many pieces of the scene cast in the light of any of them.
-std::size_t casters_of_all(std::span<const CastBy> casts);
+std::size_t casters_of_all(std::span<const std::shared_ptr<const CastBy>> casts);
 
 /// Half the sides of a part about the axis that holds `part`: tangents across and up. In steps, so that the texels of a
 /// map stay where they are while what it shows changes a little.

@@ -79,7 +79,7 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
   double zoom = HUGE_VAL;
   const bool each = view.few_kinds && view.casts.size() <= most && casters_of_all(view.casts) > 0;
   for (std::size_t lamp = 0; lamp < view.casts.size(); ++lamp) {
-    const bool casts = view.casts[lamp].count > 0;
+    const bool casts = view.casts[lamp]->count > 0;
     if (!casts && !each) continue;
     if (maps.size() == most) {
       ++view.without_map;
@@ -87,7 +87,7 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
     }
     Map& map = maps.emplace_back(Map{.lamp = lamp});
     if (casts) {
-      map.half = half_sides(view.casts[lamp].part);
+      map.half = half_sides(view.casts[lamp]->part);
       zoom = std::min(zoom, zoom_of(map.half));
     }
     map.texels = (0.5 * glm::dvec2(level.width, level.height) - 1.0) / map.half;
@@ -112,7 +112,7 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
 struct Shade {
   glm::dmat3 image_from_world{1.0};
   glm::dvec3 lamp_m{0.0};
-  CasterGrid grid{};
+  const CasterGrid& grid;
 
   bool may_fall_on(const glm::dvec3& low_m, const glm::dvec3& high_m) const {
     return grid.may_shade(box_corners(image_from_world, lamp_m, low_m, high_m));
@@ -187,6 +187,14 @@ void fill_buffer(gpu::Device& device, gpu::HostBuffer& buffer, const std::vector
     buffer = gpu::HostBuffer(device, std::max<vk::DeviceSize>(2 * bytes.size(), 4096),
                              vk::BufferUsageFlagBits::eVertexBuffer, "shadow casters");
   std::memcpy(buffer.data, bytes.data(), bytes.size());
+}
+
+/// Where pictures of maps are drawn, one below the other.
+gpu::Image& map_image(gpu::FrameGraph& graph, const ShadowLevel& level, std::size_t pictures) {
+  using Usage = vk::ImageUsageFlagBits;
+  return graph.image("shadow maps", {vk::Format::eD32Sfloat,
+                                     {level.width, level.height * static_cast<std::uint32_t>(pictures)},
+                                     Usage::eDepthStencilAttachment | Usage::eTransferSrc | Usage::eTransferDst});
 }
 
 /// What is drawn into the two pictures of a map.
@@ -352,32 +360,43 @@ void ShadowPass::draw_maps(gpu::FrameGraph& graph, LitScene& scene, LitView& vie
   const ShadowLevel& level = kShadowLevels[level_number];
   const std::vector<Map> maps = place_maps(view, level, most_shadow_maps(level, limits_));
   if (maps.empty()) return;
-  std::vector<Shade> shades(maps.size());
-  std::vector<Drawn> drawn(maps.size());
-  on_all_cores(2 * maps.size(), [&](std::size_t turn) {
-    const std::size_t i = turn / 2;
-    const PlacedLamp& lamp = view.lit_lamps[maps[i].lamp];
-    const CastBy& cast = view.casts[maps[i].lamp];
-    if (turn % 2 == 0)
-      shades[i] = {glm::transpose(lamp.world_from_image), lamp.position_m,
-                   CasterGrid(cast, maps[i].half, 1.0 / maps[i].texels, maps[i].zoom)};
-    else
-      drawn[i] = drawn_into(maps[i], cast, level, scene.has_textures());
-  });
-  tell_shadowed(view, shades);
   ShadowDepths& depths = depths_of(maps.size() * texels_of_map(level));
-  const std::vector<Ranges> ranges = fill_triangles(device_, depths, drawn);
   const std::size_t in_image = shadow_maps_in_image(level, limits_);
-  for (std::size_t first = 0; first < maps.size(); first += in_image) {
-    std::vector<Picture> pictures;
-    for (std::size_t map = first; map < std::min(maps.size(), first + in_image); ++map)
-      for (const bool close : {false, true})
-        pictures.push_back({.close = close,
-                            .scale = maps[map].texels * (close ? maps[map].zoom : 1.0) /
-                                     glm::dvec2(0.5 * level.width, 0.5 * level.height),
-                            .ranges = ranges[2 * map + (close ? 1 : 0)]});
-    draw_image(graph, scene, depths, level, pictures, first * texels_of_map(level));
+  std::vector<ShadowDepths::Held> held;
+  for (const Map& map : maps) held.push_back({view.casts[map.lamp], map.half, map.texels, map.zoom});
+  if (depths.held == held && depths.level == level) {
+    // All stands still: the maps are as they were, and so is the memory that they will be drawn in.
+    graph.release(map_image(graph, level, 2 * std::min(maps.size(), in_image)));
+  } else {
+    depths.held = std::move(held), depths.level = level;
+    depths.grids.resize(maps.size());
+    std::vector<Drawn> drawn(maps.size());
+    on_all_cores(2 * maps.size(), [&](std::size_t turn) {
+      const std::size_t i = turn / 2;
+      const CastBy& cast = *view.casts[maps[i].lamp];
+      if (turn % 2 == 0)
+        depths.grids[i] = CasterGrid(cast, maps[i].half, 1.0 / maps[i].texels, maps[i].zoom);
+      else
+        drawn[i] = drawn_into(maps[i], cast, level, scene.has_textures());
+    });
+    const std::vector<Ranges> ranges = fill_triangles(device_, depths, drawn);
+    for (std::size_t first = 0; first < maps.size(); first += in_image) {
+      std::vector<Picture> pictures;
+      for (std::size_t map = first; map < std::min(maps.size(), first + in_image); ++map)
+        for (const bool close : {false, true})
+          pictures.push_back({.close = close,
+                              .scale = maps[map].texels * (close ? maps[map].zoom : 1.0) /
+                                       glm::dvec2(0.5 * level.width, 0.5 * level.height),
+                              .ranges = ranges[2 * map + (close ? 1 : 0)]});
+      draw_image(graph, scene, depths, level, pictures, first * texels_of_map(level));
+    }
   }
+  std::vector<Shade> shades;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const PlacedLamp& lamp = view.lit_lamps[maps[i].lamp];
+    shades.push_back({glm::transpose(lamp.world_from_image), lamp.position_m, depths.grids[i]});
+  }
+  tell_shadowed(view, shades);
   graph.count_kept(&depths, depths.texels.bytes);
   view.shadows = view.air_shadows.level = level;
   view.depths = view.air_shadows.depths = &depths;
@@ -385,11 +404,8 @@ void ShadowPass::draw_maps(gpu::FrameGraph& graph, LitScene& scene, LitView& vie
 
 void ShadowPass::draw_image(gpu::FrameGraph& graph, LitScene& scene, const ShadowDepths& depths,
                             const ShadowLevel& level, const std::vector<Picture>& pictures, std::size_t first_texel) {
-  const vk::Extent2D extent{level.width, level.height * static_cast<std::uint32_t>(pictures.size())};
-  using Usage = vk::ImageUsageFlagBits;
-  gpu::Image& image = graph.image(
-      "shadow maps",
-      {vk::Format::eD32Sfloat, extent, Usage::eDepthStencilAttachment | Usage::eTransferSrc | Usage::eTransferDst});
+  gpu::Image& image = map_image(graph, level, pictures.size());
+  const vk::Extent2D extent = image.extent;
   const vk::ClearDepthStencilValue nothing{0.0f, 0};
   // Lavapipe clears as it draws tile by tile, 256 bytes at a time; at once it takes half of the processor's time. Not
   // so of a picture, whose tiles are all drawn into while what was cleared is still in the cache.

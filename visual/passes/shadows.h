@@ -1,6 +1,8 @@
 // Shadows of what stands in the light of a view's lamps: a map of depths for each lamp that something stands before,
 // rendered once a view and read where the view is lit (shaders/lib/shadow.glsl).
 //
+// While lamps, eye and all in their light stand still, maps are kept from frame to frame (visual/kept_casters.h).
+//
 // Maps hold the far sides of things (visual/shadow_casters.h), on a plane across the lamp's axis that is fitted to
 // them. Error: an edge is off by half a texel, seen from the lamp; levels differ in texels. Left out: what is more than
 // 75° beside the lamp's axis, 45° above or below it or farther than 300 m from it, what hides faint light alone

@@ -88,7 +88,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   // Those whose light the view can see; what of the scene it falls on is not asked.
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
   std::size_t lit = 0;
-  std::optional<std::vector<CastBy>> casts;
+  std::optional<std::vector<std::shared_ptr<const CastBy>>> casts;
   std::optional<ShadowCasters> casters;
   if (looks_for_casters(input)) casts.emplace(), casters.emplace(scene, movers.meshes());
   for (const PlacedLamp& lamp : input.lamps) {
@@ -100,8 +100,9 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
     if (!casts) continue;
     LightPeaks peaks;
     peaks.set(image);
-    casts->push_back(casters->by(reach, lamp.world_from_image, input.moving, lamp.carried_by,
-                                 {.view = &view, .faint_lx = faint_lx(input), .peaks = &peaks}));
+    casts->push_back(
+        std::make_shared<const CastBy>(casters->by(reach, lamp.world_from_image, input.moving, lamp.carried_by,
+                                                   {.view = &view, .faint_lx = faint_lx(input), .peaks = &peaks})));
   }
   char heading[240];
   std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
