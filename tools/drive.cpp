@@ -136,6 +136,9 @@ int explain_drive(DriveOptions& options) {
       arguments.insert(arguments.end(), {"--drive", options.drive});
     }
     if (options.explain_fog) arguments.push_back("--fog");
+    if (options.explain_cost) arguments.push_back("--cost");
+    if (options.lockstep) arguments.push_back("--lockstep");
+    for (const std::string& setting : options.desk) arguments.insert(arguments.end(), {"--set", setting});
     const std::vector<std::string> picture = options.picture.arguments();
     arguments.insert(arguments.end(), picture.begin(), picture.end());
     if (rig->channels.size() > 1) std::printf("# %s\n", rig->channels[channel].name.c_str());

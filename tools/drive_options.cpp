@@ -167,6 +167,7 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
       "Examples:\n  phare drive\n  phare drive --headless --lockstep --frames 60 --out out\n"
       "  phare drive --script config/drives/country_road_script.toml --headless --lockstep --record evening.pcap\n"
       "  phare drive --explain --light high\n"
+      "  phare drive --headless --lockstep --explain --cost --still-at 5 --set visibility_m=80\n"
       "  phare drive --design halogen --versus led --headless --lockstep --frames 60 --out ab\n"
       "  phare drive --budget-ms 40 --headless --frames 60 --size 320x180 --out quick\n"
       "  phare drive --lamp led_low_beam.ies --lamp-high high_beam.ies --headless --lockstep --frames 60 --out own\n" +
@@ -223,13 +224,18 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
   command.add_flag("--json", options->json, "Print the report as JSON");
   auto* explain = command.add_flag("--explain", options->explain,
                                    "No drive: print each effect with its level and the reason, for the moment "
-                                   "--still-at of the drive, or for --light and --fog");
+                                   "--still-at of the drive, or for --light and --fog; no device is asked");
   command.add_option("--light", options->explain_light, "With --explain: the light switch [low]")
       ->check(CLI::IsMember(std::vector<std::string>(kLightSwitchNames.begin(), kLightSwitchNames.end())))
       ->excludes(drive_file)
       ->needs(explain);
   command.add_flag("--fog", options->explain_fog, "With --explain: the front fog lamps too")
       ->excludes(drive_file)
+      ->needs(explain);
+  command
+      .add_flag("--cost", options->explain_cost,
+                "With --explain: draw that moment on the device, without a window, --frames times [30], and print "
+                "passes, bytes and ms of each effect too")
       ->needs(explain);
   explain->excludes(script)->excludes(log);
   auto* budget =

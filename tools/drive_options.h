@@ -25,6 +25,7 @@ struct DriveOptions {
   bool explain = false;       ///< which effects a moment calls for, instead of a drive
   std::string explain_light;  ///< that moment is not of a drive: the light switch, and
   bool explain_fog = false;   ///< the front fog lamps
+  bool explain_cost = false;  ///< draw it, and tell what each effect takes
   PictureOptions picture;
   std::uint16_t port_base = 0;
   LampFlags lamps;

@@ -87,7 +87,7 @@ class Tables {
     }
     page_ << "</table></div><p>Of the last frame, over all its views; ms on the device: median of the frames in which "
              "the effect had passes of its own. What draws within the lamp pass is timed with that. Any other moment: "
-             "phare drive … --explain.</p>";
+             "phare drive … --explain --cost.</p>";
   }
 
   /// How many frames it took, as bars: 1 is the first frame that could show the new beam.

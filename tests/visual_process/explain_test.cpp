@@ -198,7 +198,8 @@ TEST_F(Explain, ADeerCallsForItsEyes) {
 
 TEST_F(Explain, ALineForEachEffectWithLevelAndReason) {
   const auto lit = lines(moment(LightSwitch::kLow), device_);
-  ASSERT_EQ(lit.size(), 1 + kEffectCount);
+  ASSERT_EQ(lit.size(), 1 + kEffectCount + 1);
+  EXPECT_EQ(lit.back(), "# --explain --cost draws this moment and adds passes, bytes and ms");
   EXPECT_EQ(lit[0], "# lit: low, design \"pair\", 0.0 s, 0 km/h, on a card");
   EXPECT_EQ(lit[1], "shadows         off     nothing stands in the light of the lamps");
   EXPECT_EQ(lit[2],

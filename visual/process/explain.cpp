@@ -1,5 +1,8 @@
 #include "visual/process/explain.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdio>
 
 #include "visual/air_of_desk.h"
@@ -72,19 +75,26 @@ FrameInput frame_of_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   return input;
 }
 
+void lay_over(FrameInput& input, const Lamps& lamps, const Desk& desk, const AskedMoment& moment) {
+  const CockpitState controls = shown_by_desk(desk, moment.controls);
+  EyeAdaptation eye = eye_set(desk.eye);
+  eye.see(moment.time, lamps.light());
+  input.overlay =
+      overlay_lines(desk, lamps, {.time = moment.time, .controls = controls, .pose = moment.pose, .eye = eye});
+  if (desk.instruments) input.instruments = instruments(controls, moment.pose, lamps.design().name, moment.time);
+  input.panel = Screens({}).panel(controls, moment.time.seconds(), desk.help);
+}
+
+std::string moment_text(const Lamps& lamps, const AskedMoment& moment, const std::string& device) {
+  return fmt::format("# lit: {}, design \"{:.60}\", {:.1f} s, {:.0f} km/h, on {:.80}\n", lamps.lit_text(),
+                     lamps.design().name, moment.time.seconds(), moment.pose.speed_mps * 3.6, device);
+}
+
 std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& channel, const AskedMoment& moment,
                            const std::string& device, const Scene& scene, const Movers& movers, const Traffic& traffic,
                            const RoadLine& road, const FixedLight& fixed, bool window) {
   FrameInput input = frame_of_moment(lamps, desk, channel, moment, scene, movers, traffic, road, fixed);
-  if (window) {
-    const CockpitState controls = shown_by_desk(desk, moment.controls);
-    EyeAdaptation eye = eye_set(desk.eye);
-    eye.see(moment.time, lamps.light());
-    input.overlay =
-        overlay_lines(desk, lamps, {.time = moment.time, .controls = controls, .pose = moment.pose, .eye = eye});
-    if (desk.instruments) input.instruments = instruments(controls, moment.pose, lamps.design().name, moment.time);
-    input.panel = Screens({}).panel(controls, moment.time.seconds(), desk.help);
-  }
+  if (window) lay_over(input, lamps, desk, moment);
   // Those whose light the view can see; what of the scene it falls on is not asked.
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
   std::size_t lit = 0;
@@ -104,10 +114,6 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
         std::make_shared<const CastBy>(casters->by(reach, lamp.world_from_image, input.moving, lamp.carried_by,
                                                    {.view = &view, .faint_lx = faint_lx(input), .peaks = &peaks})));
   }
-  char heading[240];
-  std::snprintf(heading, sizeof heading, "# lit: %s, design \"%.60s\", %.1f s, %.0f km/h, on %.80s\n",
-                lamps.lit_text().c_str(), lamps.design().name.c_str(), moment.time.seconds(),
-                moment.pose.speed_mps * 3.6, device.c_str());
   std::optional<std::size_t> casting;
   if (casts) casting = casters_of_all(*casts);
   DrawnOver over = drawn_over(input);
@@ -116,7 +122,41 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
                                pupils_of(input, view, channel.width_px, channel.height_px).size(),
                                spraying_seen(view, input.spraying).size(), {});
   add_facts(facts, fixed, input.camera.eye_m);
-  return heading + explain(plan_effects(facts, input.effects));
+  return moment_text(lamps, moment, device) + explain(plan_effects(facts, input.effects)) +
+         "# --explain --cost draws this moment and adds passes, bytes and ms\n";
+}
+
+std::string explain_costs(const FrameStats& drawn, const FrameResult& anew, PictureSize size) {
+  const FrameResult& frame = drawn.newest;
+  std::size_t level_width = 8;
+  for (const EffectRow& row : effect_table())
+    level_width = std::max(level_width, row.levels[frame.effects.level(row.effect)].size() + 1);
+  const auto line = [&](std::string_view name, std::string_view level, std::string_view passes, std::string_view bytes,
+                        std::string_view ms, std::string_view reason) {
+    return fmt::format("{:<16}{:<{}}{:>6}{:>11}{:>9}  {}\n", name, level, level_width, passes, bytes, ms, reason);
+  };
+  const auto in_ms = [](const LogHistogram& times) { return fmt::format("{:.2f}", times.percentile(0.5)); };
+
+  std::string text =
+      fmt::format("# {} × {}, medians of {} frames: {} ms a frame, {} ms of them on the device\n", size.width_px,
+                  size.height_px, drawn.frames, in_ms(drawn.wall_ms), in_ms(drawn.gpu_ms));
+  text += line("# effect", "level", "passes", "bytes", "ms", "because");
+  std::string kept;
+  for (const EffectRow& row : effect_table()) {
+    const auto i = static_cast<std::size_t>(row.effect);
+    const EffectDecision& decision = frame.effects[row.effect];
+    const EffectCost& cost = frame.effect_costs[i];
+    const auto times = drawn.effect_ms.find(row.effect);
+    text += line(row.name, row.levels[decision.level], fmt::to_string(cost.passes), fmt::to_string(cost.bytes),
+                 times == drawn.effect_ms.end() ? "-" : in_ms(times->second), decision.reason);
+    if (const std::uint32_t passes = anew.effect_costs[i].passes; passes > cost.passes)
+      kept += fmt::format("# {}: kept from the frame before; {} {}, {:.2f} ms where the eye turns against the lamps\n",
+                          row.name, passes, passes == 1 ? "pass" : "passes",
+                          effect_time_ms(anew, row.effect).value_or(0.0));
+  }
+  text += line("# any frame", "", fmt::to_string(frame.other_cost.passes), fmt::to_string(frame.other_cost.bytes),
+               in_ms(drawn.other_ms), "the picture itself, with what effects draw in its passes");
+  return text + kept;
 }
 
 }  // namespace phare

@@ -85,6 +85,7 @@ struct FrameStats {
   LogHistogram interval_ms;         ///< from the end of one frame to the end of the next, waiting included
   std::map<std::string, LogHistogram> pass_ms;  ///< every frame that was timed: reading back is a pass of its own
   std::map<Effect, LogHistogram> effect_ms;     ///< frames in which it has a pass
+  LogHistogram other_ms;                        ///< every frame that was timed: passes that no effect calls for
   std::uint64_t frames = 0;
   std::uint64_t captured_frames = 0;
   std::uint64_t stale_frames = 0;   ///< drawn with a held pose
@@ -128,6 +129,9 @@ struct FrameStats {
     for (const PassTime& pass : result.passes) pass_ms[pass.name].add(pass.ms);
     for (const EffectRow& row : effect_table())
       if (const auto ms = effect_time_ms(result, row.effect)) effect_ms[row.effect].add(*ms);
+    double other = 0.0;
+    for (const PassTime& pass : result.passes) other += pass.effect ? 0.0 : pass.ms;
+    other_ms.add(other);
     if (result.timed_kept) return;
     wall_no_capture_ms.add(result.wall_ms);
     gpu_ms.add(result.gpu_ms);

@@ -13,7 +13,7 @@
 #include "net/drive_file.h"
 #include "net/run_key.h"
 #include "visual/gpu/failure.h"
-#include "visual/process/explain.h"
+#include "visual/process/cost_of_moment.h"
 #include "visual/process/run_loop.h"
 #include "visual/scene/refine.h"
 #include "visual/vulkan_devices.h"
@@ -55,15 +55,35 @@ std::vector<LanePoint> lane_of(const std::filesystem::path& scene_file) {
   return lane ? std::move(*lane) : std::vector<LanePoint>{};
 }
 
-/// The device that would draw, and the moment of the options; a line for each effect.
-int explain_and_leave(const VisualOptions& options, const Scene& scene, const Movers& movers, Lamps& lamps,
-                      const Desk& desk, const ChannelConfig& channel, const Traffic& traffic, const RoadLine& road,
-                      const FixedLight& fixed) {
-  AskedMoment moment;
+RendererOptions drawing_of(const VisualOptions& options, const Rig& rig) {
+  RendererOptions drawing;
+  drawing.width_px = options.width_px;
+  drawing.height_px = options.height_px;
+  drawing.samples = options.samples;
+  drawing.validation = options.validation;
+  drawing.beam_level = options.beam_image.value_or(rig.beam_image);
+  drawing.device_name = options.device_name;
+  return drawing;
+}
+
+/// Error: there is no device that draws so.
+Result<Renderer> renderer_of(const RendererOptions& drawing, const Desk& desk) {
+  Result<Renderer> renderer = Renderer::create(drawing);
+  if (!renderer) return with_remedy(renderer.error());
+  if (const auto reason = renderer->no_reference(); reason && desk.method == Method::kReference)
+    return Error{"method reference", *reason + " (" + renderer->device() + ")"};
+  return renderer;
+}
+
+/// The device that would draw, and the moment of the options; a line for each effect. With --cost it does draw.
+int explain_and_leave(const VisualOptions& options, const Rig& rig, Lamps& lamps, const Desk& desk,
+                      const MomentScene& from, const std::shared_ptr<const FixedLight>& fixed) {
+  AskedMoment moment, before;
   if (options.drive_file.empty()) {
     if (options.still_at_s >= 0.0) return refuse({"--still-at", "is a moment of a drive, and none is asked about"});
     moment.controls.light_switch = options.explain_light;
     moment.controls.fog_front = options.explain_fog;
+    before = moment;
   } else {
     const Result<Drive> drive = read_drive(options.drive_file);
     if (!drive) return refuse(drive.error());
@@ -74,11 +94,31 @@ int explain_and_leave(const VisualOptions& options, const Scene& scene, const Mo
     Result<AskedMoment> asked = moment_of_drive(*drive, at_s);
     if (!asked) return refuse(asked.error());
     moment = std::move(*asked);
+    const Result<AskedMoment> a_frame_earlier =
+        moment_of_drive(*drive, at_s - 1.0 / static_cast<double>(rig.frame_rate_hz));
+    before = a_frame_earlier ? *a_frame_earlier : moment;
+  }
+  if (options.explain_cost) {
+    Result<Renderer> renderer = renderer_of(drawing_of(options, rig), desk);
+    if (!renderer) return refuse(renderer.error());
+    if (const Status loaded = renderer->load_scene(from.scene, from.movers.meshes(), fixed); !loaded)
+      return refuse(loaded.error());
+    const std::string costs = cost_of_moment(*renderer, lamps, desk, from,
+                                             {.before = before,
+                                              .moment = moment,
+                                              .window = !options.headless,
+                                              .lockstep = options.lockstep,
+                                              .frames = options.frames > 0 ? options.frames : kCostFrames});
+    std::fputs((moment_text(lamps, moment, renderer->device()) + costs).c_str(), stdout);
+    if (renderer->validation_messages() == 0) return kExitDone;
+    spdlog::error("{} Vulkan validation messages", renderer->validation_messages());
+    return kExitCheckFailed;
   }
   const Result<VulkanDevice> device = vulkan_device(options.device_name);
   if (!device && !options.device_name.empty()) return refuse(with_remedy(device.error()));
   const std::string asked = device ? device->name : "no device (" + device.error().reason + ")";
-  std::fputs(explain_moment(lamps, desk, channel, moment, asked, scene, movers, traffic, road, fixed, !options.headless)
+  std::fputs(explain_moment(lamps, desk, from.channel, moment, asked, from.scene, from.movers, from.traffic, from.road,
+                            from.fixed, !options.headless)
                  .c_str(),
              stdout);
   return kExitDone;
@@ -144,9 +184,11 @@ int draw_channel(VisualOptions options) {
   if (options.road_cuts > 0) scene = refined(*scene, options.road_cuts, is_ground);
   Result<FixedLight> fixed = FixedLight::of(*scene, rig->street_lamps_file, rig->moon);
   if (!fixed) return refuse(fixed.error());
+  const auto fixed_light = std::make_shared<const FixedLight>(std::move(*fixed));
   if (options.explain)
-    return explain_and_leave(options, *scene, *movers, *lamps, desk, channel, *traffic, RoadLine(lane, rig->scene_file),
-                             *fixed);
+    return explain_and_leave(
+        options, *rig, *lamps, desk,
+        {channel, *scene, *movers, *props, *traffic, RoadLine(lane, rig->scene_file), *fixed_light}, fixed_light);
   LampReplay lamps_then;
   if (!options.drive_file.empty()) {
     const Result<Drive> drive = read_drive(options.drive_file);
@@ -161,22 +203,13 @@ int draw_channel(VisualOptions options) {
     if (!opened) return refuse(opened.error());
     window = std::move(*opened);
   }
-  RendererOptions drawing;
-  drawing.width_px = options.width_px;
-  drawing.height_px = options.height_px;
-  drawing.samples = options.samples;
-  drawing.validation = options.validation;
-  drawing.beam_level = options.beam_image.value_or(rig->beam_image);
-  drawing.device_name = options.device_name;
+  RendererOptions drawing = drawing_of(options, *rig);
   const Result<std::size_t> in_flight = frames_in_flight(options, *rig);
   if (!in_flight) return refuse(with_remedy(in_flight.error()));
   drawing.frames_in_flight = *in_flight;
   drawing.window = window ? window->handle() : nullptr;
-  Result<Renderer> renderer = Renderer::create(drawing);
-  if (!renderer) return refuse(with_remedy(renderer.error()));
-  if (const auto reason = renderer->no_reference(); reason && desk.method == Method::kReference)
-    return refuse({"method reference", *reason + " (" + renderer->device() + ")"});
-  const auto fixed_light = std::make_shared<const FixedLight>(std::move(*fixed));
+  Result<Renderer> renderer = renderer_of(drawing, desk);
+  if (!renderer) return refuse(renderer.error());
   if (const Status loaded = renderer->load_scene(*scene, movers->meshes(), fixed_light, progress); !loaded)
     return refuse(loaded.error());
   for (std::size_t beam = 0; beam < traffic->beams(); ++beam)

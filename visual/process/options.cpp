@@ -40,7 +40,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--report", options.report, "With --guide: where the end screen says that the report will lie");
   auto* explain = app.add_flag("--explain", options.explain,
                                "Print each effect with its level and the reason, for the moment --still-at of --drive "
-                               "or for --light and --fog; nothing is drawn");
+                               "or for --light and --fog; nothing is drawn but with --cost");
   std::string light;
   app.add_option("--light", light, "With --explain: the light switch [low]")
       ->check(CLI::IsMember(std::vector<std::string>(kLightSwitchNames.begin(), kLightSwitchNames.end())))
@@ -48,6 +48,10 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       ->needs(explain);
   app.add_flag("--fog", options.explain_fog, "With --explain: the front fog lamps too")
       ->excludes(drive)
+      ->needs(explain);
+  app.add_flag("--cost", options.explain_cost,
+               "With --explain: draw that moment without a window, --frames times [30], and print passes, bytes and ms "
+               "of each effect too")
       ->needs(explain);
   // From phare drive, which picks them: no words for people.
   app.add_option("--budget-ms", options.budget_ms)->check(CLI::PositiveNumber)->group("");

@@ -29,6 +29,7 @@ struct VisualOptions {
   bool explain = false;                           ///< tell which effects a moment calls for, and leave
   LightSwitch explain_light = LightSwitch::kLow;  ///< of that moment, where no drive says it
   bool explain_fog = false;
+  bool explain_cost = false;  ///< draw that moment, and tell what each effect takes
   bool going_on = false;    ///< takes the place of a process that was killed in this drive: what it left in `out` stays
   std::int64_t frames = 0;  ///< > 0: save every one of this many frames, then leave
   int width_px = 0, height_px = 0;  ///< 0: the channel's
