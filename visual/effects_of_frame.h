@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "visual/renderer.h"
@@ -20,5 +21,11 @@ std::vector<Effect> differing_effects(const ViewResult& own, const ViewResult& v
 
 /// On the device: passes that the effect calls for, those that only copy too; nothing: it has none among those timed.
 std::optional<double> effect_time_ms(const FrameResult& frame, Effect effect);
+
+/// ", 2 passes, 4.2 MB, 0.31 ms": what it added to the frame; nothing for what draws in the pass of another.
+std::string cost_text(const FrameResult& frame, Effect effect);
+
+/// "shadows soft, 1 pass, 12.6 MB, 3.04 ms: 69 pieces …" for each effect, in letters that are not all equally wide.
+std::vector<std::string> effect_sentences(const FrameResult& frame);
 
 }  // namespace phare

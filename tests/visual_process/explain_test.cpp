@@ -267,8 +267,11 @@ TEST_F(Explain, TheLinesShowWhatTheDeskSays) {
   VehicleState pose;
   pose.x_m = 100.0;
   const EyeAdaptation eye;
-  const EffectPlan effects = plan_effects({.lit_lamps = 2});
-  OverlayMoment moment{.controls = controls, .pose = pose, .eye = eye, .effects = &effects};
+  FrameResult frame;
+  frame.effects = plan_effects({.lit_lamps = 2, .casters = 3});
+  frame.effect_costs[static_cast<std::size_t>(Effect::kShadows)] = {2, 12'580'000};
+  frame.passes = {{"shadow maps", 1.5, Effect::kShadows}, {"copy of maps", 0.25, Effect::kShadows}, {"lamps", 9.0, {}}};
+  OverlayMoment moment{.controls = controls, .pose = pose, .eye = eye, .frame = &frame};
   EXPECT_EQ(overlay_lines(desk_, lamps_, moment).size(), 2u + lamps_.lit_table_ends().size());
   desk_.lines = false;
   moment.pose_held = true;
@@ -278,6 +281,9 @@ TEST_F(Explain, TheLinesShowWhatTheDeskSays) {
   desk_.effects = true;
   const auto with_effects = overlay_lines(desk_, lamps_, moment);
   EXPECT_EQ(with_effects.size(), only.size() + kEffectCount);
+  EXPECT_EQ(with_effects.front(),
+            "shadows soft, 2 passes, 12.6 MB, 1.75 ms: 3 pieces of the scene stand in the light of the lamps");
+  EXPECT_EQ(with_effects[3], "overlay off: no line of text to show") << "what is off takes nothing";
   for (const std::string& line : with_effects)
     EXPECT_EQ(line.find("  "), std::string::npos) << "no columns in letters of many widths: " << line;
   moment.road = RoadPlace::kPastEnd;

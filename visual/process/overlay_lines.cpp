@@ -5,11 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/vec3.hpp>
-#include <sstream>
+#include <utility>
 
 #include "config/base/conventions.h"
 #include "config/key_bindings.h"
 #include "visual/air_of_desk.h"
+#include "visual/effects_of_frame.h"
 
 namespace phare {
 namespace {
@@ -90,10 +91,8 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
     lines.push_back(at ? lux_line(text, lamps, moment, *at, probe.position_m)
                        : std::string(text) + "the scene has no lane");
   }
-  if (desk.effects && moment.effects != nullptr) {
-    std::istringstream effects(explain(*moment.effects, false));
-    for (std::string line; std::getline(effects, line);) lines.push_back(line);
-  }
+  if (desk.effects && moment.frame != nullptr)
+    for (std::string& line : effect_sentences(*moment.frame)) lines.push_back(std::move(line));
   if (desk.method == Method::kReference)
     lines.emplace_back("light by the method reference: float64 at every pixel");
   else if (desk.method != Method::kFragment)

@@ -40,7 +40,7 @@ struct OverlayMoment {
   bool pose_held = false;
   double frame_ms = 0.0;  ///< of the frame before
   const EyeAdaptation& eye;
-  const EffectPlan* effects = nullptr;        ///< of the frame before
+  const FrameResult* frame = nullptr;         ///< the one before: its effects and what they took
   std::optional<MeasurePoint> under_mouse{};  ///< of the world
   const RoadLine* road_line = nullptr;        ///< for probes of the road
   std::vector<std::string> point{};           ///< the point that is read, and the reach (point_reading.h, road_marks.h)

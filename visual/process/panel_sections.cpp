@@ -385,17 +385,6 @@ std::vector<std::string_view> forced_levels(std::string_view values) {
   return words;
 }
 
-/// ", 2 passes, 4.2 MB, 0.31 ms": what it added to the newest frame; nothing for what draws in the pass of another.
-std::string cost_text(const FrameResult& frame, Effect effect) {
-  const EffectCost& cost = frame.effect_costs[static_cast<std::size_t>(effect)];
-  const std::optional<double> ms = effect_time_ms(frame, effect);
-  std::string text;
-  if (cost.passes > 0) text += fmt::format(", {} {}", cost.passes, cost.passes == 1 ? "pass" : "passes");
-  if (cost.bytes > 0) text += fmt::format(", {:.1f} MB", static_cast<double>(cost.bytes) / 1e6);
-  if (ms) text += fmt::format(", {:.2f} ms", *ms);
-  return text;
-}
-
 void Sheet::effects() {
   if (!section("Effects, and why", false)) return;
   choose("method", "light at", kMethodNames, std::string(kMethodNames[static_cast<std::size_t>(facts_.desk.method)]),

@@ -363,7 +363,7 @@ std::vector<std::string> Loop::overlay(const Moment& moment) const {
                         .pose_held = moment.car.stale,
                         .frame_ms = s_.stats.newest.wall_ms,
                         .eye = s_.eye,
-                        .effects = &s_.stats.newest.effects,
+                        .frame = &s_.stats.newest,
                         .under_mouse = under_mouse,
                         .road_line = &measuring_.road(),
                         .point = measuring_.lines(),
