@@ -80,7 +80,6 @@ inline constexpr std::array<std::string_view, 4> kProbeFrameNames{"car", "world"
 inline constexpr std::size_t kMostProbes = 16;
 
 /// Levels of effects that the desk may set, from off to the finest.
-inline constexpr std::array<std::string_view, 1> kOffNames{"off"};
 inline constexpr std::array<std::string_view, 2> kOffOnNames{"off", "on"};
 inline constexpr std::array<std::string_view, 6> kShadowNames{"off", "hard", "soft", "fine", "rays", "lens"};
 /// The first that asks the scene's triangles at every pixel: a reference, which only the user chooses.
@@ -132,8 +131,8 @@ struct Desk {
   bool help = false;                  ///< every key
   bool panel = false;                 ///< what is set by the mouse (visual/process/panel.h)
   /// Levels of these effects (visual/effects.h); without one the scene decides.
-  std::optional<std::size_t> shadows, depth_first, fog, precipitation, ground, glare, fixed_light, eyeshine, spray,
-      asphalt;
+  std::optional<std::size_t> shadows, depth_first, hdr_image, overlay, fog, precipitation, ground, glare, fixed_light,
+      eyeshine, spray, asphalt, snow_cover_drawn, windscreen_drawn;
   std::optional<double> visibility_m;       ///< meteorological optical range (photometry/table/fog.h); none: no fog
   double rain_mmph = 0.0, snow_mmph = 0.0;  ///< of water (photometry/table/precipitation.h)
   double snow_cover_01 = 0.0;               ///< share of level ground that snow covers (shaders/lib/snow.h)

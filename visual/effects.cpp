@@ -43,7 +43,7 @@ EffectDecision hdr_image(const EffectFacts& facts) {
     return {1, std::string(facts.over_luminance) + " is drawn over luminance in cd/m²", true};
   if (facts.spray_drawn) return {1, "spray mixes luminance in cd/m²", true};
   if (facts.roofed) return {1, "rain or snow falls where the roof ends, and nothing is to be made anew there", true};
-  if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for"};
+  if (facts.hdr_wanted) return {1, "the luminance image in cd/m² is called for", true};
   return {0, "nothing reads luminance in cd/m²: the lamp pass applies the tone curve itself"};
 }
 
@@ -76,7 +76,7 @@ EffectDecision wet_ground(const EffectFacts& facts) {
   if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on", true};
   if (nothing_shines(facts)) return {0, "no lamp is lit, and no moon shines"};
   const double rain = facts.air.rain_mmph;
-  if (rain > 0.0 && facts.snow_cover_01 >= 0.5) return {0, "snow lies on it"};
+  if (rain > 0.0 && facts.snow_drawn && facts.snow_cover_01 >= 0.5) return {0, "snow lies on it"};
   if (rain <= 0.0) return {0, "it does not rain"};
   char reason[90];
   const std::size_t level = film_mm(rain) > 0.0 ? 3 : rain >= kDrizzle_mmph ? 2 : 1;
@@ -167,7 +167,7 @@ EffectDecision asphalt(const EffectFacts& facts) {
   if (facts.false_colour) return {0, "the view shows illuminance, whatever it falls on"};
   if (facts.parallel_rays) return {0, "the view is from above, where asphalt is diffuse"};
   if (facts.ground > 0) return {0, "water lies on it, whose film mirrors street lamps"};
-  if (facts.snow_cover_01 > 0.0) return {0, "snow lies on it"};
+  if (facts.snow_drawn) return {0, "snow lies on it"};
   return {1, "street lamps or the moon shine on asphalt"};
 }
 
@@ -176,7 +176,7 @@ constexpr std::array<EffectRow, kEffectCount> kTable{
       "a depth map for each lamp with something in its light, and its copy; rays: the triangles in a buffer", shadows},
      {Effect::kDepthFirst, "depth first", kOffOnNames, "a depth pass before the lit pass", depth_first},
      {Effect::kHdrImage, "hdr image", kOffOnNames, "an image of 8 bytes a pixel and the tone-mapping pass", hdr_image},
-     {Effect::kOverlay, "overlay", kOffOnNames, "a pass of text over the picture", overlay},
+     {Effect::kOverlay, "overlay", kOffOnNames, "a pass of text over the picture", overlay, true},
      {Effect::kFog, "fog", kFogNames, "a pass that computes, a buffer of scattered light, and the sky through fog", fog,
       true},
      {Effect::kPrecipitation, "precipitation", kOffOnNames, "the HDR image; a draw of lines in the lamp pass",
@@ -241,11 +241,15 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
     if (!choices[i] && picked[i] && decision.level > 0)
       decision = {std::min(*picked[i], row.levels.size() - 1),
                   "picked for what is asked of time and accuracy; by itself: " + decision.reason};
-    if (!choices[i] || decision.settled) return decision;
+    if (!choices[i]) return decision;
+    const std::size_t chosen = std::min(*choices[i], row.levels.size() - 1);
+    if (decision.settled) {
+      if (chosen != decision.level)
+        decision.reason += "; " + std::string(row.levels[chosen]) + ", set by the user, waits for that to end";
+      return decision;
+    }
     if (row.only_where_called_for && decision.level == 0) {
-      if (*choices[i] > 0)
-        decision.reason += "; " + std::string(row.levels[std::min(*choices[i], row.levels.size() - 1)]) +
-                           ", set by the user, waits for that";
+      if (chosen > 0) decision.reason += "; " + std::string(row.levels[chosen]) + ", set by the user, waits for that";
       return decision;
     }
     if (row.effect == Effect::kShadows && *choices[i] >= kRayShadows && !by.shadow_rays)
@@ -253,13 +257,13 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
                             "rays are set by the user, and the device holds no buffer as large as the scene's "
                             "triangles: the finest maps; by itself: " +
                                 decision.reason};
-    return EffectDecision{std::min(*choices[i], row.levels.size() - 1),
-                          "set by the user; by itself: " + decision.reason};
+    return EffectDecision{chosen, "set by the user; by itself: " + decision.reason};
   };
   // What one effect needs of another is a fact for that.
   EffectFacts known = facts;
   known.by_rays |= decided(kTable[static_cast<std::size_t>(Effect::kShadows)], facts).level >= kRayShadows;
-  known.ground = decided(kTable[static_cast<std::size_t>(Effect::kWetGround)], facts).level;
+  known.snow_drawn = decided(kTable[static_cast<std::size_t>(Effect::kSnowCover)], facts).level > 0;
+  known.ground = decided(kTable[static_cast<std::size_t>(Effect::kWetGround)], known).level;
   known.spray_drawn = decided(kTable[static_cast<std::size_t>(Effect::kSpray)], known).level > 0;
   known.drops_drawn = decided(kTable[static_cast<std::size_t>(Effect::kPrecipitation)], facts).level > 0;
   known.glare_drawn = decided(kTable[static_cast<std::size_t>(Effect::kGlare)], facts).level > 0;

@@ -69,6 +69,7 @@ struct EffectFacts {
   bool drops_drawn = false;                ///< decided before: they are added to luminance
   std::string_view over_luminance{};       ///< decided before: an effect that is drawn over it
   bool spray_drawn = false;                ///< decided before: it is drawn over luminance
+  bool snow_drawn = false;                 ///< decided before: it lies on the ground
   std::size_t ground = 0;                  ///< decided before: how wet it is, of kWetNames
 };
 

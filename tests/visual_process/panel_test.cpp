@@ -305,7 +305,6 @@ TEST_F(PanelTest, EffectsAreForcedAndSayWhy) {
   click("Effects, and why");
   ASSERT_NE(panel_.place("shadows"), nullptr);
   ASSERT_NE(panel_.place("effect hdr image"), nullptr);
-  EXPECT_EQ(panel_.place("hdr_image"), nullptr) << "the desk has no setting for it";
   for (const EffectRow& row : effect_table()) EXPECT_NE(panel_.place("effect " + std::string(row.name)), nullptr);
   const auto scroll = [&](const char* over, double by) {  // the sections are longer than the window
     const auto [x, y] = middle(over);

@@ -67,8 +67,7 @@ FrameInput frame_of_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.air);
   input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
   const std::vector<GlaringLamp> beside = fixed.glare_at(input.camera.eye_m, input.air);
-  if (!input.effects[static_cast<std::size_t>(Effect::kFixedLight)])
-    input.glare.insert(input.glare.end(), beside.begin(), beside.end());
+  if (desk.fixed_light != std::size_t{0}) input.glare.insert(input.glare.end(), beside.begin(), beside.end());
   if (const auto props = Props::of(movers))  // whoever has read them has looked
     props->add_to(input, desk.camera, lamps, moment.pose, controls.light_switch != LightSwitch::kOff, world);
   input.pupils = eyeshine_of(lamps, moment.pose, Pupils(scene, movers.meshes()), world, input.camera.eye_m, input.air);

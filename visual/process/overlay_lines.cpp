@@ -11,6 +11,7 @@
 #include "config/key_bindings.h"
 #include "visual/air_of_desk.h"
 #include "visual/effects_of_frame.h"
+#include "visual/process/effect_doors.h"
 
 namespace phare {
 namespace {
@@ -42,16 +43,7 @@ void set_by_desk(FrameInput& input, const Desk& desk) {
   input.method = desk.method;
   input.isolux_lx = desk.isolux_lx;
   input.exposure_per_cdm2 = desk.exposure_per_cdm2;
-  input.effects[static_cast<std::size_t>(Effect::kDepthFirst)] = desk.depth_first;
-  input.effects[static_cast<std::size_t>(Effect::kShadows)] = desk.shadows;
-  input.effects[static_cast<std::size_t>(Effect::kFog)] = desk.fog;
-  input.effects[static_cast<std::size_t>(Effect::kPrecipitation)] = desk.precipitation;
-  input.effects[static_cast<std::size_t>(Effect::kWetGround)] = desk.ground;
-  input.effects[static_cast<std::size_t>(Effect::kGlare)] = desk.glare;
-  input.effects[static_cast<std::size_t>(Effect::kFixedLight)] = desk.fixed_light;
-  input.effects[static_cast<std::size_t>(Effect::kAsphalt)] = desk.asphalt;
-  input.effects[static_cast<std::size_t>(Effect::kEyeshine)] = desk.eyeshine;
-  input.effects[static_cast<std::size_t>(Effect::kSpray)] = desk.spray;
+  input.effects = choices_of(desk);
   input.air = air_of(desk);
   input.snow_cover_01 = desk.snow_cover_01;
   input.viewer = {desk.age_years, desk.iris_pigment};

@@ -10,6 +10,7 @@
 
 #include "visual/effects.h"
 #include "visual/effects_of_frame.h"
+#include "visual/process/effect_doors.h"
 #include "visual/process/lamp_keys.h"
 #include "visual/process/panel.h"
 
@@ -365,13 +366,10 @@ void Sheet::view() {
   flag("lines", "text", desk.lines, "lines of text at the top");
 }
 
-/// The setting of the desk that forces an effect: the same name with an underscore, and auto among its words. None: it
-/// cannot be forced, or what it follows from is set in the section of the view.
-const DeskSetting* setting_of(const EffectRow& row) {
-  std::string name(row.name);
-  std::ranges::replace(name, ' ', '_');
-  const auto found = std::ranges::find(desk_settings(), name, &DeskSetting::name);
-  return found == desk_settings().end() || !found->values.starts_with("auto") ? nullptr : &*found;
+/// The setting of the desk that chooses an effect's level. None: it is on where its setting is.
+const DeskSetting* setting_of(Effect effect) {
+  const EffectDoor& door = effect_doors()[static_cast<std::size_t>(effect)];
+  return door.level == nullptr ? nullptr : &*std::ranges::find(desk_settings(), door.setting, &DeskSetting::name);
 }
 
 /// "auto, off, hard, soft" one by one.
@@ -392,7 +390,9 @@ void Sheet::effects() {
   for (const EffectRow& row : effect_table()) {
     const EffectDecision& decision = facts_.frame.effects[row.effect];
     const std::string name(row.name);
-    if (const DeskSetting* setting = setting_of(row))
+    const DeskSetting* setting = setting_of(row.effect);
+    // Two controls of one name would be one for the mouse: what the section of the view shows stands there alone.
+    if (setting != nullptr && !state_.places.contains(std::string(setting->name)))
       choose(std::string(setting->name), name.c_str(), forced_levels(setting->values), setting->get(facts_.desk),
              std::string(setting->what));
     ImGui::PushTextWrapPos(0.0f);

@@ -27,7 +27,8 @@ Result<PointReading> PictureInstruments::read() const {
   if (!at) return at.error();
   ++work_;
   return read_point(lamps_, moment_.car, *at, moment_.picture->camera.eye_m, world_, road_, desk_.shadows != 0,
-                    desk_.fixed_light ? nullptr : fixed_, desk_.snow_cover_01);
+                    desk_.fixed_light == std::size_t{0} ? nullptr : fixed_,
+                    desk_.snow_cover_drawn == std::size_t{0} ? 0.0 : desk_.snow_cover_01);
 }
 
 std::vector<std::string> PictureInstruments::lines() const {

@@ -10,7 +10,8 @@ namespace {
 template <typename OfDesk>
 auto levels(OfDesk& desk) {
   return std::tie(desk.compare, desk.view, desk.method, desk.shadows, desk.depth_first, desk.fog, desk.precipitation,
-                  desk.ground, desk.glare, desk.fixed_light, desk.eyeshine, desk.spray, desk.asphalt, desk.windscreen);
+                  desk.ground, desk.glare, desk.fixed_light, desk.eyeshine, desk.spray, desk.asphalt, desk.windscreen,
+                  desk.hdr_image, desk.snow_cover_drawn, desk.windscreen_drawn);
 }
 
 template <typename OfDesk>

@@ -189,7 +189,7 @@ std::vector<GlaringLamp> Loop::glare_in(const ViewInput& view, const VehicleStat
   std::vector<GlaringLamp> glare = lamps.glare_at(pose, view.camera.eye_m, world_, view.air);
   const auto others = s_.traffic.glare_at(users_, view.camera.eye_m, world_, view.air);
   glare.insert(glare.end(), others.begin(), others.end());
-  if (!shown_.fixed_light) {  // not switched off
+  if (shown_.fixed_light != std::size_t{0}) {
     const auto beside = s_.fixed_light->glare_at(view.camera.eye_m, view.air);
     glare.insert(glare.end(), beside.begin(), beside.end());
   }
