@@ -18,7 +18,7 @@ bool nothing_shines(const EffectFacts& facts) {
 }
 
 EffectDecision shadows(const EffectFacts& facts) {
-  if (facts.lit_lamps == 0) return {0, "no lamp is lit"};
+  if (facts.lit_lamps == 0 && facts.casters.value_or(0) == 0) return {0, "no lamp is lit"};
   if (!facts.casters) return {0, "what stands in the light of the lamps is not looked for"};
   if (*facts.casters == 0) return {0, "nothing stands in the light of the lamps"};
   if (!facts.shadow_maps) return {0, "the device holds no buffer as large as a shadow map"};

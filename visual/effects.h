@@ -37,7 +37,9 @@ inline constexpr std::size_t kMostEffects = 31;  ///< with those that are added
 /// What is known before a frame is drawn: of its lamps, its view, what is asked of it, and the device.
 struct EffectFacts {
   std::size_t lit_lamps = 0;               ///< positions that give light in this view
-  std::optional<std::size_t> casters = 0;  ///< pieces of the scene that stand in their light; nothing: not looked for
+  /// Pieces of the scene that stand in their light, and where fog has shadows in that of lamps that light air alone;
+  /// nothing: not looked for.
+  std::optional<std::size_t> casters = 0;
   bool shadow_maps = true;                 ///< the device holds one
   bool shadow_rays = true;                 ///< the device holds the scene's triangles
   bool hdr_wanted = false;                 ///< something reads luminance in cd/m² (EXR, bird's eye)

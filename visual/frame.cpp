@@ -84,6 +84,13 @@ double far_mesh_from_m(const PlacedView& view) {
 static_assert(kFarCasters * kFarMeshFrom_m * kFarLevels[kFarCasterLevels - 1].from < kShadowsTo_m &&
               kFarCasters * kFarMeshFrom_m * kFarLevels[kFarCasterLevels].from >= kShadowsTo_m);
 
+/// Fog is asked for at a level with shadows: those in light that falls on no surface in view are seen, too.
+bool has_shadows_in_air(const ViewInput& view) {
+  constexpr auto kFog = static_cast<std::size_t>(Effect::kFog);
+  const std::size_t level = (view.effects[kFog] ? view.effects : view.picked)[kFog].value_or(0);
+  return !view.air.clear() && has_shadows(std::min(level, kFogLevels.size() - 1));
+}
+
 /// While it lives, what the graph is given is counted for an effect.
 class CountedFor {
  public:
@@ -122,9 +129,11 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
     std::optional<std::size_t> casters;
     if (looks_for_casters(view.input))
       casters = parts.scene.find_casters(
-          lit, {.far_from_m = whole_casters(view.input) ? HUGE_VAL : kFarCasters * far_mesh_from_m(view),
-                .view = &lit.geometry,
-                .faint_lx = faint_lx(view.input)});
+          lit,
+          {.far_from_m = whole_casters(view.input) ? HUGE_VAL : kFarCasters * far_mesh_from_m(view),
+           .view = &lit.geometry,
+           .faint_lx = faint_lx(view.input)},
+          has_shadows_in_air(view.input));
     glare = glare_of(view.input, lit.geometry);
     pupils = pupils_of(view.input, lit.geometry, view.area.extent.width, view.area.extent.height);
     spraying = spraying_seen(lit.geometry, view.input.spraying);

@@ -115,7 +115,7 @@ struct AirShadows {
   };
   ShadowLevel level{};
   const ShadowDepths* depths = nullptr;
-  std::vector<Map> maps{};  ///< of each of the view's `lit_lamps`; empty: there are none
+  std::vector<Map> maps{};  ///< of each of the view's `casts`; empty: there are none
 };
 
 /// Shape of the grid of light scattered in fog, as kSpecFogLamps and what follows it. None: clear air.
@@ -142,13 +142,14 @@ struct LitView {
   std::span<const PlacedMesh> moving{};  ///< of the caller, while the frame is recorded
   std::vector<LitBy> lit_by{};           ///< one at least
   std::vector<PlacedLamp> lit_lamps{};   ///< that light something in it
-  KeptCasters::Casts casts{};            ///< what stands in the light of each
+  KeptCasters::Casts casts{};            ///< what stands in the light of each, then of each of `air_alone`
   bool few_kinds = false;                ///< as ViewInput
   ShadowLevel shadows{};                 ///< of the maps that are read
   const ShadowDepths* depths = nullptr;
   AirShadows air_shadows{};             ///< where shadows are drawn
   std::vector<PlacedLamp> air_lamps{};  ///< whose light goes through what the view sees, on a surface or not
-  std::vector<std::optional<std::size_t>> air_lit{};  ///< which of `lit_lamps` each of them is, if one
+  std::vector<PlacedLamp> air_alone{};  ///< those of them that light no surface, where air has shadows
+  std::vector<std::optional<std::size_t>> air_lit{};  ///< whose of `casts` the light of each of them is, if one's
   FogGrid fog{};
   vk::DescriptorSet fog_set{};
   std::vector<LitBy> drops_by{};  ///< lamps in groups, whose light falls on drops; none: no drop is drawn
@@ -168,6 +169,9 @@ struct LitView {
   std::uint32_t over_limit = 0;   ///< left out somewhere: kLampsPerDraw that are brighter there light it already
   std::uint32_t without_map = 0;  ///< cast no shadow, though something stands in their light: there is no room for it
 
+  const PlacedLamp& lamp_of_cast(std::size_t i) const {
+    return i < lit_lamps.size() ? lit_lamps[i] : air_alone[i - lit_lamps.size()];
+  }
   /// After the lamps are filled in. `cover_01`: share of level ground; `level`: of kWetAlpha.
   void cover_with_snow(double cover_01);
   void wet_ground(std::size_t level);
@@ -242,7 +246,7 @@ class LitScene {
   /// An eye with lamps and no surface, for points that are given.
   LitView view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps);
   /// Finds what stands in the light of the view's lamps; returns how many pieces of the scene.
-  std::size_t find_casters(LitView& view, const CastersFor& wanted = {});
+  std::size_t find_casters(LitView& view, const CastersFor& wanted = {}, bool in_air = false);
 
   /// What does not change shines in the view: what moves gets what arrives at it.
   void add_fixed_light(LitView& view);

@@ -61,15 +61,22 @@ LitView LitScene::view(const ViewGeometry& geometry, const Sky& sky, std::span<c
   return view;
 }
 
-std::size_t LitScene::find_casters(LitView& view, const CastersFor& wanted) {
+std::size_t LitScene::find_casters(LitView& view, const CastersFor& wanted, bool in_air) {
+  for (std::size_t i = 0; in_air && i < view.air_lamps.size(); ++i) {
+    if (view.air_lit[i]) continue;
+    view.air_lit[i] = view.lit_lamps.size() + view.air_alone.size();
+    view.air_alone.push_back(view.air_lamps[i]);
+  }
   std::vector<KeptCasters::Lamp> lamps;
-  for (const PlacedLamp& lamp : view.lit_lamps)
+  for (std::size_t i = 0; i < view.lit_lamps.size() + view.air_alone.size(); ++i) {
+    const PlacedLamp& lamp = view.lamp_of_cast(i);
     lamps.push_back({.reach = reach_of(lamp),
                      .world_from_image = lamp.world_from_image,
                      .carried_by = lamp.carried_by,
                      .beam = lamp.beam,
                      .version = beam_version(lamp.beam),
                      .peaks = &peaks_[lamp.beam]});
+  }
   view.casts = kept_casters_.find(casters_, lamps, view.moving, wanted);
   return casters_of_all(view.casts);
 }

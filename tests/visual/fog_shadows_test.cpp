@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <vector>
 
 #include "tests/visual/shape.h"
@@ -45,6 +46,7 @@ struct Box {
 class FogShadows : public SharedRenderer {
  protected:
   static constexpr double kWall_m = 40.0;
+  static constexpr double kSky_m = 300.0;  // beyond it at a visibility of 80 m 1e-5 is left of what is scattered there
 
   void SetUp() override {
     SharedRenderer::SetUp();
@@ -112,7 +114,8 @@ class FogShadows : public SharedRenderer {
     double p95 = 0.0;    ///< relative, of rays with a hundredth of the brightest and more
     std::size_t rays = 0;
   };
-  Off off(const FrameInput& input) {
+  /// `open`: no wall ends the rays, but the sky.
+  Off off(const FrameInput& input, bool open = false) {
     renderer->draw(input);
     const ImageF image = renderer->read_hdr();
     const ViewGeometry view(input.camera, double{1} * image.width_px / image.height_px);
@@ -120,7 +123,7 @@ class FogShadows : public SharedRenderer {
     for (int y = 3; y < image.height_px; y += 7)
       for (int x = 2; x < image.width_px; x += 7) {
         const Ray ray = view.ray_through(x, y, image.width_px, image.height_px);
-        double length_m = (kWall_m - ray.origin_m.x) / ray.direction.x;
+        double length_m = open ? kSky_m : (kWall_m - ray.origin_m.x) / ray.direction.x;
         const auto [hit, out] = box_.within(ray.origin_m, ray.direction * length_m);
         if (hit < out) length_m *= hit;
         const float* rgb = &image.rgba[4 * static_cast<std::size_t>(y * image.width_px + x)];
@@ -159,6 +162,29 @@ TEST_F(FogShadows, BehindABoxTheAirIsAsDarkAsInFloat64) {
   EXPECT_LE(shadowed.share, 0.01);
   EXPECT_LE(finest.p95, 0.006);
   EXPECT_LE(finest.share, 0.001);
+}
+
+/// The beams pass through the picture and fall on nothing in it; what stands in them is beside it.
+TEST_F(FogShadows, InLightThatFallsOnNothingInView) {
+  Shape shape;
+  shape.box(box_.low_m, box_.high_m);
+  ASSERT_TRUE(renderer->load_scene(shape.scene({.name = "black", .reflectance = {0.0, 0.0, 0.0}})).ok());
+  const auto across = [](std::string_view level) {
+    FrameInput input = from_beside(level);
+    input.camera.eye_m = {20.0, 9.0, 0.8};
+    input.camera.world_from_eye = aim_rotation(-0.5 * std::numbers::pi, 0.0, 0.0);
+    return input;
+  };
+  const FrameResult drawn = renderer->draw(across("shadowed"));
+  EXPECT_EQ(drawn.views.front().lamps, 0u) << "nothing in view is lit";
+  EXPECT_TRUE(drawn.effects.on(Effect::kShadows)) << drawn.effects[Effect::kShadows].reason;
+  EXPECT_FALSE(renderer->draw(across("medium")).effects.on(Effect::kShadows)) << "nobody sees them";
+  const Off without = off(across("medium"), true), shadowed = off(across("shadowed"), true);
+  EXPECT_GT(without.share, 0.1);
+  EXPECT_LE(shadowed.share, 0.01);
+  FrameInput by_rays = across("shadowed");
+  by_rays.effects[kShadows] = kRayShadows;
+  EXPECT_LE(off(by_rays, true).share, 0.01);
 }
 
 /// Surfaces by rays: the air has maps all the same.

@@ -92,11 +92,11 @@ std::vector<Map> place_maps(LitView& view, const ShadowLevel& level, std::size_t
     }
     map.texels = (0.5 * glm::dvec2(level.width, level.height) - 1.0) / map.half;
   }
-  view.air_shadows.maps.resize(view.lit_lamps.size());
+  view.air_shadows.maps.resize(view.casts.size());
   for (std::size_t map = 0; map < maps.size(); ++map) {
     maps[map].zoom = zoom;
     const std::size_t lamp = maps[map].lamp;
-    const shader::GpuShadow place = place_of(view.lit_lamps[lamp], view.geometry, maps[map].texels, zoom);
+    const shader::GpuShadow place = place_of(view.lamp_of_cast(lamp), view.geometry, maps[map].texels, zoom);
     view.air_shadows.maps[lamp] = {static_cast<std::uint32_t>(map + 1), place};
     for (LitBy& lit : view.lit_by)
       for (std::size_t k = 0; k < lit.lamps; ++k) {
@@ -393,6 +393,7 @@ void ShadowPass::draw_maps(gpu::FrameGraph& graph, LitScene& scene, LitView& vie
   }
   std::vector<Shade> shades;
   for (std::size_t i = 0; i < maps.size(); ++i) {
+    if (maps[i].lamp >= view.lit_lamps.size()) break;  // those that light air alone come last, and shade no surface
     const PlacedLamp& lamp = view.lit_lamps[maps[i].lamp];
     shades.push_back({glm::transpose(lamp.world_from_image), lamp.position_m, depths.grids[i]});
   }
