@@ -19,7 +19,7 @@
 #include "config/base/paths.h"
 #include "config/desk.h"
 #include "config/formats/toml_table.h"
-#include "config/spectrum.h"
+#include "config/light_colour.h"
 
 namespace phare {
 namespace {
@@ -82,33 +82,15 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
   source.yaw_rad = degrees(table, "yaw_deg", -180.0, 180.0);
   source.pitch_rad = degrees(table, "pitch_deg", -90.0, 90.0);
   source.roll_rad = degrees(table, "roll_deg", -180.0, 180.0);
-  source.colour_temperature_k =
-      table.number_or("colour_temperature_k", source.colour_temperature_k, kCoolestSource_k, kHottestSource_k);
   if (table.has("pixels")) source.pixels = resolve_path(table.text("pixels"), rig_file);
   if (table.has("pixel_map")) {
     source.pixel_map = resolve_path(table.text("pixel_map"), rig_file);
     if (!table.has("pixels")) table.fail("pixel_map", "says where the pixels of \"pixels\" shine, and there are none");
   }
-  if (table.has("chromaticity_xy")) {
-    const std::vector<double> xy = table.numbers("chromaticity_xy", 2);
-    if (table.has("colour_temperature_k"))
-      table.fail("chromaticity_xy", "a light has a colour temperature or a chromaticity, not both");
-    // Inside the triangle that holds every real colour, and bright enough in y to divide by it.
-    if (xy.size() == 2 && !(xy[0] >= 0.0 && xy[1] >= 0.01 && xy[0] + xy[1] <= 1.0))
-      table.fail("chromaticity_xy", "x and y of CIE 1931: x >= 0, y >= 0.01, x + y <= 1");
-    if (xy.size() == 2) source.chromaticity_xy = glm::dvec2{xy[0], xy[1]};
-  }
-  if (table.has("spectrum")) {
-    source.spectrum = resolve_path(table.text("spectrum"), rig_file);
-    for (const char* other : {"colour_temperature_k", "chromaticity_xy"})
-      if (table.has(other))
-        table.fail("spectrum", "a light has one of spectrum, colour_temperature_k, chromaticity_xy");
-    const auto xy = read_spectrum_xy(source.spectrum);
-    if (xy)
-      source.chromaticity_xy = *xy;
-    else
-      table.fail("spectrum", xy.error().text());
-  }
+  const LightColour colour = read_light_colour(table);
+  source.colour_temperature_k = colour.colour_temperature_k.value_or(source.colour_temperature_k);
+  source.chromaticity_xy = colour.chromaticity_xy;
+  source.spectrum = colour.spectrum;
   return source;
 }
 

@@ -5,8 +5,7 @@
 
 #include "config/base/paths.h"
 #include "config/formats/toml_table.h"
-#include "config/rig.h"
-#include "config/spectrum.h"
+#include "config/light_colour.h"
 
 namespace phare {
 namespace {
@@ -19,16 +18,9 @@ LuminaireConfig luminaire_of(TomlTable table, const std::filesystem::path& file)
   luminaire.name = table.text("name");
   luminaire.file = resolve_path(table.text("file"), file);
   luminaire.scale = table.number_or("scale", 1.0, 1e-6, 1e6);
-  luminaire.colour_temperature_k = table.number_or("colour_temperature_k", 4000.0, kCoolestSource_k, kHottestSource_k);
-  if (table.has("spectrum")) {
-    if (table.has("colour_temperature_k"))
-      table.fail("spectrum", "a light has a spectrum or a colour temperature, not both");
-    const auto xy = read_spectrum_xy(resolve_path(table.text("spectrum"), file));
-    if (xy)
-      luminaire.chromaticity_xy = *xy;
-    else
-      table.fail("spectrum", xy.error().text());
-  }
+  const LightColour colour = read_light_colour(table);
+  luminaire.colour_temperature_k = colour.colour_temperature_k.value_or(luminaire.colour_temperature_k);
+  luminaire.chromaticity_xy = colour.chromaticity_xy;
   return luminaire;
 }
 

@@ -21,7 +21,7 @@ struct LuminaireConfig {
   std::filesystem::path file;  ///< type C, gamma 0 its axis; resolved
   double scale = 1.0;          ///< multiplies candela: dimming, maintenance factor
   double colour_temperature_k = 4000.0;
-  std::optional<glm::dvec2> chromaticity_xy{};  ///< CIE 1931, of its spectrum; in place of the colour temperature
+  std::optional<glm::dvec2> chromaticity_xy{};  ///< CIE 1931; in place of the colour temperature
 };
 
 /// The luminaire's axis (gamma 0) looks down, its plane C 90 toward `yaw_rad`: the street side of a road luminaire.

@@ -129,7 +129,12 @@ TEST(Spectrum, AStreetLampHasOneOfSpectrumAndTemperature) {
   const auto both = read_street_lamps(written("both.toml", text + "colour_temperature_k = 4000\n"));
   ASSERT_FALSE(both);
   EXPECT_NE(both.error().text().find("both.toml:4"), std::string::npos) << both.error().text();
-  EXPECT_NE(both.error().text().find("not both"), std::string::npos) << both.error().text();
+  EXPECT_NE(both.error().text().find("one of spectrum, colour_temperature_k"), std::string::npos)
+      << both.error().text();
+  const auto by_xy = read_street_lamps(
+      written("xy.toml", "[[luminaire]]\nname = \"amber\"\nfile = \"a.ies\"\nchromaticity_xy = [0.56, 0.42]\n"));
+  ASSERT_TRUE(by_xy) << by_xy.error().text();
+  EXPECT_EQ(by_xy->luminaires[0].chromaticity_xy, glm::dvec2(0.56, 0.42));
 }
 
 }  // namespace
