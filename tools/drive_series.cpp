@@ -98,6 +98,14 @@ Result<std::optional<DriveSeries>> read_drive_series(const std::filesystem::path
   DriveSeries series;
   series.reach_m = columns_with(rows, "reach_", "_m");
   for (TimeSeries& other : columns_with(rows, "versus_reach_", "_m")) series.reach_m.push_back(std::move(other));
+  struct GlareLines {
+    std::vector<TimeSeries>& lines;
+    const char* column;
+  };
+  const std::array<GlareLines, 3> glare{{{series.veil_cdm2, "veil_cdm2"},
+                                         {series.threshold_increment_percent, "threshold_increment_percent"},
+                                         {series.de_boer, "de_boer"}}};
+  for (const GlareLines& of : glare) of.lines = {{.name = "the driver"}, {.name = "who comes toward the car"}};
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   double x_m = kNone, y_m = kNone;
   for (auto row = rows.next();; row = rows.next()) {
@@ -110,6 +118,10 @@ Result<std::optional<DriveSeries>> read_drive_series(const std::filesystem::path
     add(series.cutoff_m, time_s, rows.number("cutoff_25m_m"));
     for (TimeSeries& reach : series.reach_m)
       if (const double value = rows.number(reach.name); !std::isnan(value)) add(reach, time_s, value);
+    for (const GlareLines& of : glare) {
+      add(of.lines[0], time_s, rows.number(of.column));
+      add(of.lines[1], time_s, rows.number(std::string("others_") + of.column));
+    }
     if (rows.text("picture") == "1") series.pictures.push_back({std::atoll(rows.text("frame").c_str()), time_s});
     const std::string &lit = rows.text("lit"), &design = rows.text("design");
     if (series.lit.empty() || series.lit.back().lit != lit || series.lit.back().design != design) {
@@ -121,6 +133,10 @@ Result<std::optional<DriveSeries>> read_drive_series(const std::filesystem::path
     if (!std::isnan(x_m)) series.distance_m += std::hypot(to_x_m - x_m, to_y_m - y_m);
     x_m = to_x_m, y_m = to_y_m;
   }
+  for (const GlareLines& of : glare)
+    std::erase_if(of.lines, [](const TimeSeries& line) {
+      return std::ranges::none_of(line.value, [](double value) { return value > 0.0; });
+    });
   if (Rows probes(folder / "probes.csv"); probes.there()) {
     series.probes_lx = columns_with(probes, "probe", "_lx");
     for (auto row = probes.next(); row && *row; row = probes.next())

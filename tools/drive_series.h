@@ -35,6 +35,9 @@ struct DriveSeries {
   TimeSeries speed_kmh, pitch_deg, cutoff_m;
   std::vector<TimeSeries> reach_m;    ///< left and right of each level, as drive.csv names them
   std::vector<TimeSeries> probes_lx;  ///< of probes.csv; none where it is not there
+  /// What lamps do to the driver's eyes, others' lamps, and to those of who comes toward the car, ours; only lines that
+  /// have a value somewhere, of veil and threshold increment one above 0.
+  std::vector<TimeSeries> veil_cdm2, threshold_increment_percent, de_boer;
   std::vector<Picture> pictures;
   std::vector<Lit> lit;
 };

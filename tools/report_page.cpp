@@ -212,6 +212,17 @@ class Page {
       }
       plot(std::move(reach));
     }
+    plot({.title = "Veil over the eyes by lamps that shine into them",
+          .unit = "cd/m²",
+          .lines = series_->veil_cdm2,
+          .from_zero = true});
+    plot({.title = "Threshold increment by these lamps",
+          .unit = "%",
+          .lines = series_->threshold_increment_percent,
+          .from_zero = true});
+    plot({.title = "Discomfort by these lamps on de Boer's scale: 9 just seen, 1 unbearable",
+          .unit = "1 to 9",
+          .lines = series_->de_boer});
     if (!series_->probes_lx.empty())
       plot({.title = "At the probes", .unit = "lx", .lines = series_->probes_lx, .from_zero = true});
     page_ << "<p>Blue: high beam shines; darker: nothing does. Every frame in numbers: "

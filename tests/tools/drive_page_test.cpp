@@ -138,6 +138,37 @@ TEST_F(DrivePage, IsOneFileToBeMailed) {
   EXPECT_NE(page.find("data:video/mp4;base64," + base64("content of drive.mp4")), std::string::npos);
 }
 
+// Glare has its plots where somebody came toward the car, and nowhere else: neither where drive.csv has no such columns
+// nor where all of them are 0.
+TEST_F(DrivePage, ShowsGlareWhereSomebodyCame) {
+  const char* const titles[] = {"Veil over the eyes by lamps that shine into them, cd/m²",
+                                "Threshold increment by these lamps, %", "Discomfort by these lamps on de Boer"};
+  const auto with_glare = [&](bool came) {
+    std::ofstream csv(out_ / "drive.csv");
+    csv << "frame,time_s,x_m,y_m,pitch_rad,speed_mps,lit,design,picture,veil_cdm2,threshold_increment_percent,de_boer,"
+           "others_veil_cdm2,others_threshold_increment_percent,others_de_boer\n";
+    for (int i = 0; i <= 40; ++i)
+      csv << i << "," << 0.1 * i << "," << i << ",0,0,10,low,one,0,0,0,,"
+          << (came && i > 20 && i < 30 ? "0.5,32,4.5" : "0,0,") << "\n";
+    csv.close();
+    return report_page(report(), out_);
+  };
+  const std::string without = report_page(report(), out_), alone = with_glare(false), met = with_glare(true);
+  for (const char* title : titles) {
+    EXPECT_EQ(without.find(title), std::string::npos) << title;
+    EXPECT_EQ(alone.find(title), std::string::npos) << title;
+    EXPECT_NE(met.find(title), std::string::npos) << title;
+  }
+  const auto read = read_drive_series(out_);
+  ASSERT_TRUE(read.ok()) << read.error().text();
+  const DriveSeries& series = **read;
+  ASSERT_EQ(series.veil_cdm2.size(), 1u) << "nothing shone into the driver's eyes";
+  EXPECT_EQ(series.veil_cdm2[0].name, "who comes toward the car");
+  EXPECT_EQ(std::ranges::max(series.veil_cdm2[0].value), 0.5);
+  EXPECT_EQ(series.de_boer.at(0).value.at(25), 4.5);
+  EXPECT_TRUE(std::isnan(series.de_boer.at(0).value.at(5)));
+}
+
 // Of 6000 values in 1000 columns the one that stands out is drawn.
 TEST(TimePlot, LosesNoPeak) {
   TimeSeries line{.name = "line"};
