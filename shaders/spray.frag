@@ -7,11 +7,8 @@ layout(location = 1) in vec2 aside;      // from the puff's middle, in the plane
 layout(location = 2) flat in vec4 puff;  // distance² and radius², m²; what it scatters over that; what the air leaves
 layout(location = 3) in vec3 point;      // in that plane, from the eye, m
 layout(location = 4) flat in vec4 behind;  // the way that tail lamps shine, times cd; g
-layout(location = 5) flat in vec3 tail[2];
+layout(location = 5) flat in vec4 tail[2];  // where they are; w: red and blue of their light, whose luminance is 1
 layout(location = 0) out vec4 result;
-
-// As visual/process/traffic.cpp has it.
-const vec3 kTail = vec3(1.0, 0.02, 0.01) / (0.2126 + 0.7152 * 0.02 + 0.0722 * 0.01);
 
 // By a lamp next to which light changes much within a puff: at every pixel, and as if it were kSprayNearest_m aside.
 float by_tail_lamp(vec3 lamp) {
@@ -23,6 +20,8 @@ float by_tail_lamp(vec3 lamp) {
 
 void main() {
   float w2 = dot(aside, aside), b2 = w2 * puff.x / (puff.x + w2);  // by which the line of sight passes the middle
-  vec3 light = luminance + kTail * (puff.w * (by_tail_lamp(tail[0]) + by_tail_lamp(tail[1])));
+  float red = tail[0].w, blue = tail[1].w, green = (1.0 - 0.2126 * red - 0.0722 * blue) / 0.7152;
+  float by_tail = puff.w * (by_tail_lamp(tail[0].xyz) + by_tail_lamp(tail[1].xyz));
+  vec3 light = luminance + vec3(red, max(green, 0.0), blue) * by_tail;
   result = vec4(light, 1.0 - exp(-puff.z * spray_column(b2 / puff.y)));
 }

@@ -19,7 +19,7 @@ struct GpuSpray {
   vec4 left;      // xyz: of the vehicle; w: half its track, m
   vec4 puff;      // x: what one scatters as it is thrown up, m²; y: its radius then, m; z: it grows by, m/s; w: a life, s
   vec4 light;     // x: g; y: from puff to puff, s; z: of a tail lamp straight behind, cd
-  vec4 tail[2];   // xyz: of the tail lamps
+  vec4 tail[2];   // xyz: of the tail lamps; w: red and blue of their light, whose luminance is 1
 };
 
 // What wraps the eye and its lamps is left out: none of it to here, all of it from there on. Chosen.

@@ -14,7 +14,7 @@ layout(location = 1) out vec2 aside;
 layout(location = 2) flat out vec4 puff;
 layout(location = 3) out vec3 point;
 layout(location = 4) flat out vec4 behind;
-layout(location = 5) flat out vec3 tail[2];
+layout(location = 5) flat out vec4 tail[2];
 
 void main() {
   luminance = vec3(0.0);
@@ -22,8 +22,8 @@ void main() {
   puff = vec4(1.0, 1.0, 0.0, 0.0);
   point = vec3(1.0, 0.0, 0.0);
   behind = vec4(normalize(draw.trail[1].xyz - draw.trail[0].xyz) * draw.light.z, draw.light.x);
-  tail[0] = draw.tail[0].xyz;
-  tail[1] = draw.tail[1].xyz;
+  tail[0] = draw.tail[0];
+  tail[1] = draw.tail[1];
   gl_Position = vec4(0.0, 0.0, 2.0, 1.0);  // seen by nobody
   uint i = draw.trail[2].w != 0.0 ? uint(gl_InstanceIndex) : kSprayPuffs - 1u - uint(gl_InstanceIndex);
   SprayPuff one = spray_puff(draw, i);

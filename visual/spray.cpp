@@ -49,7 +49,9 @@ shader::GpuSpray spray_of(const SprayingVehicle& vehicle, double water_mm, const
   spray.puff = glm::vec4(glm::dvec4(spray_scatters_m2_per_m(vehicle, water_mm) * vehicle.speed_mps * step_s,
                                     kSprayPuff_m, kSprayGrows_mps, kSprayLife_s));
   spray.light = glm::vec4(glm::dvec4(kSprayG, step_s, vehicle.tail_cd, 0.0));
-  for (std::size_t i = 0; i < 2; ++i) spray.tail[i] = from_eye(vehicle.tail_m[i], 0.0);
+  // Green follows from luminance 1.
+  const glm::dvec3 colour(vehicle.tail_colour);
+  for (std::size_t i = 0; i < 2; ++i) spray.tail[i] = from_eye(vehicle.tail_m[i], i == 0 ? colour.x : colour.z);
   return spray;
 }
 

@@ -36,6 +36,9 @@ inline constexpr double kSprayDrop_mm = 0.2;
 inline constexpr double kSprayPuff_m = 0.7, kSprayGrows_mps = 0.8;  ///< radius as it is thrown up
 inline constexpr double kSprayG = 0.70;                             ///< Henyey and Greenstein's, as of rain
 
+/// Red of signal lamps, linear sRGB of luminance 1. Chosen by eye: no display has the red that UN R148 asks for.
+inline const glm::vec3 kSignalRed = glm::vec3(1.0f, 0.02f, 0.01f) / (0.2126f + 0.7152f * 0.02f + 0.0722f * 0.01f);
+
 /// A vehicle that is fast enough to throw up water.
 struct SprayingVehicle {
   /// Between its rear wheels on the road: now, half of kSprayAge_s ago, and all of it.
@@ -46,6 +49,7 @@ struct SprayingVehicle {
   double speed_mps = 0.0;
   std::array<glm::dvec3, 2> tail_m{};  ///< its tail lamps
   double tail_cd = 0.0;                ///< of each straight behind, with a brake lamp that burns beside it
+  glm::vec3 tail_colour = kSignalRed;  ///< of both together, linear sRGB, luminance 1
   double time_s = 0.0;
   std::uint32_t number = 0;  ///< that its puffs differ from those of others
 };

@@ -44,21 +44,29 @@ RoadUserLights lights_of(TomlTable& table, RoadUserClass kind) {
   const bool text = table.is_text("lights");
   const auto lights = text ? static_cast<RoadUserLights>(table.choice("lights", kLights))
                            : (table.flag_or("lights", true) ? RoadUserLights::low : RoadUserLights::off);
-  if (lights == RoadUserLights::high) expect_lamps(table, "lights", kind, has_motor(kind), "headlamps");
+  if (lights == RoadUserLights::high) expect_lamps(table, "lights", kind, has_motor(kind), "high beam");
   return kind == RoadUserClass::pedestrian || kind == RoadUserClass::deer ? RoadUserLights::off : lights;
 }
 
-/// Empty where it is not named.
-std::filesystem::path lamp_file_of(TomlTable& table, const char* key, RoadUserClass kind, bool has, const char* lamps) {
-  if (table.text_or(key, "").empty()) {
-    if (table.is_text(key)) table.fail(key, "expected the name of a file");
-    return {};
-  }
-  expect_lamps(table, key, kind, has, lamps);
-  const std::filesystem::path file = resolve_path(table.text(key), table.file());
+std::filesystem::path lamp_file_of(TomlTable& table, const char* key) {
+  const std::string name = table.text(key);
+  const std::filesystem::path file = resolve_path(name, table.file());
   std::error_code unreadable;
-  if (!std::filesystem::is_regular_file(file, unreadable)) table.fail(key, file.string() + ": no such file");
+  if (name.empty())
+    table.fail(key, "expected the name of a file");
+  else if (!std::filesystem::is_regular_file(file, unreadable))
+    table.fail(key, file.string() + ": no such file");
   return file;
+}
+
+/// A file's name, or a table of that and of a colour.
+RoadUserLamp lamp_of(TomlTable& table, const char* key, RoadUserClass kind, bool has, const char* lamps) {
+  if (!table.has(key)) return {};
+  expect_lamps(table, key, kind, has, lamps);
+  if (table.is_text(key)) return {.file = lamp_file_of(table, key)};
+  TomlTable lamp = table.table(key);
+  return {.file = lamp.has("file") ? lamp_file_of(lamp, "file") : std::filesystem::path(),
+          .colour = read_light_colour(lamp)};
 }
 
 std::vector<SpeedAt> speeds_of(TomlTable& table, RoadUserDirection direction) {
@@ -143,11 +151,13 @@ RoadUser road_user_of(TomlTable table) {
     user.brake = table.flag_or("brake", false);
     expect_lamps(table, "brake", user.kind, has_motor(user.kind), "brake lamps");
   }
-  const bool motor = has_motor(user.kind), tail_lamps = motor || user.kind == RoadUserClass::bicycle;
-  user.low_beam_file = lamp_file_of(table, "low_beam", user.kind, motor, "headlamps");
-  user.high_beam_file = lamp_file_of(table, "high_beam", user.kind, motor, "headlamps");
-  user.tail_lamp_file = lamp_file_of(table, "tail_lamp", user.kind, tail_lamps, "tail lamps");
-  user.brake_lamp_file = lamp_file_of(table, "brake_lamp", user.kind, motor, "brake lamps");
+  const bool motor = has_motor(user.kind), lamps = motor || user.kind == RoadUserClass::bicycle;
+  user.low_beam = lamp_of(table, "low_beam", user.kind, lamps, "headlamps");
+  user.high_beam = lamp_of(table, "high_beam", user.kind, motor, lamps ? "high beam" : "headlamps");
+  user.tail_lamp = lamp_of(table, "tail_lamp", user.kind, lamps, "tail lamps");
+  user.brake_lamp = lamp_of(table, "brake_lamp", user.kind, motor, "brake lamps");
+  user.third_brake_lamp =
+      lamp_of(table, "third_brake_lamp", user.kind, user.kind == RoadUserClass::car, "third brake lamp");
   user.from_s = table.number_or("from_s", 0.0, -kLongest_s, kLongest_s);
   if (table.has("to_s")) user.to_s = table.number("to_s", -kLongest_s, kLongest_s);
   take_path(table, user);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "config/base/result.h"
+#include "config/light_colour.h"
 #include "config/road/lane.h"
 #include "config/traffic/recorded_path.h"
 
@@ -29,11 +30,19 @@ enum class RoadUserLights { off, low, high };
 /// braking, and a pedal is down a little before the car slows.
 inline constexpr double kBrakes_mps2 = 0.7, kBrakesWithin_s = 0.5;
 
-/// Has lamps for driving and brake lamps: a car, a lorry, a motorcycle.
+/// Has high beam and brake lamps: a car, a lorry, a motorcycle.
 bool has_motor(RoadUserClass kind);
 
 struct SpeedAt {
   double time_s = 0.0, speed_mps = 0.0;
+};
+
+/// A lamp as its road user names it; who shows it chooses what is not said.
+struct RoadUserLamp {
+  std::filesystem::path file{};  ///< photometry, absolute; empty: none named. Not read here.
+  LightColour colour{};
+
+  bool operator==(const RoadUserLamp&) const = default;
 };
 
 struct RoadUser {
@@ -51,15 +60,13 @@ struct RoadUser {
   /// Goes across the road from `across_from_s` until `across_to_s`, positive to the left of the lane.
   double across_mps = 0.0, across_from_s = 0.0, across_to_s = std::numeric_limits<double>::infinity();
   /// What of its headlamps burns, and with it its tail lamps; high beam is added to low beam. A pedestrian and a deer
-  /// have no lamps, a bicycle has no headlamps.
+  /// have no lamps, a bicycle has no high beam.
   RoadUserLights lights = RoadUserLights::low;
   std::optional<bool> brake{};  ///< its brake lamps burn, or do not; nothing: as it slows down
   double from_s = 0.0, to_s = std::numeric_limits<double>::infinity();  ///< there from and until, both included
   double width_m = 1.8, height_m = 1.5, length_m = 4.3;
-  /// Photometry of one headlamp, absolute; empty: who shows it chooses. Not read here.
-  std::filesystem::path low_beam_file{}, high_beam_file{};
-  /// The same of one lamp at its back, whose axis points backward.
-  std::filesystem::path tail_lamp_file{}, brake_lamp_file{};
+  RoadUserLamp low_beam{}, high_beam{};                        ///< of one headlamp
+  RoadUserLamp tail_lamp{}, brake_lamp{}, third_brake_lamp{};  ///< of one at its back, whose axis points backward
 };
 
 /// Errors with file:line and reason.

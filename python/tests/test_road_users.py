@@ -22,15 +22,17 @@ def test_a_file_of_road_users_is_read(tmp_path):
     assert (lorry.kind, lorry.speed_mps, lorry.pose(lane, 2.0).s_m, lorry.height_m) == ("lorry", 20.0, 140.0, 3.6)
     assert walker.pose(lane, 9.0).s_m == 50.0 and not walker.lights
     file.write_text('[[road_user]]\nlights = "high"\nlow_beam = "low.ies"\nhigh_beam = "high.ies"\n'
+                    'tail_lamp = { file = "tail.ies", colour_temperature_k = 2000 }\nthird_brake_lamp = { spectrum = "led.csv" }\n'
                     '[[road_user]]\nlights = "off"\n[[road_user]]\nlights = false\n')
     assert [user.lights for user in phare.read_road_users(file)] == [True, False, False], "sensors see that there is light"
 
 
 @pytest.mark.parametrize("line, why", [
+    ("low_beam = { colour_k = 3000 }", "low_beam: unknown key colour_k"), ("tail_lamp = 3", "expected the name of a file, or a table"),
     ("speeed_kmh = 3", "unknown key speeed_kmh"), ('class = "tram"', "class tram"), ("start_s_m = '3'", "expected a float"),
     ("speed_kmh = -3", "expected 0 to 1000: direction"), ("width_m = 0", "expected 0.01 to 100"), ("to_s = inf", "expected -1e"),
     ("across_to_s = -1", "expected across_from_s or more"),
-    ('lights = "full"', "lights full: expected one of off, low, high"), ("low_beam = 3", "expected a str"),
+    ('lights = "full"', "lights full: expected one of off, low, high"), ("low_beam = 3", "low_beam = 3: expected the name of a file"),
     ('direction = "up"', "direction up"), ("start_s_m = nan", "nan"),
     ("speeds = [[0, 80], [0, 70]]", "speeds: times do not rise"), ("speeds = [[0]]", "speeds: expected an array of arrays"),
     ("speeds = [[0, 1001]]", "speeds: a speed is outside"), ("speeds = [[0, 1]]\nspeed_kmh = 3", "speeds: there is speed_kmh, too"),

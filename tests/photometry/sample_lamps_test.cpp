@@ -65,6 +65,16 @@ TEST(SampleLamps, PassTheirRules) {
   }
 }
 
+// 1000 cd at least at HV, which is the brightest place of V-V, and 200 cd at most 3.4° above: TA 23, 10 lx and 2 lx 10
+// m away.
+TEST(SampleLamps, ABicyclesIsWithinTa23) {
+  const IntensityTable& table = lamp("bicycle.ies").table;
+  EXPECT_NEAR(table.intensity_at_cd({0.0, 0.0}), 3000.0, 20.0);
+  EXPECT_EQ(table.peak_cd(), table.intensity_at_cd({0.0, 0.0}));
+  for (double h = -10.0; h <= 10.0; h += 1.0)
+    for (double v = 3.4; v <= 20.0; v += 0.2) EXPECT_LT(table.intensity_at_cd({h, v}), 200.0) << h << " " << v;
+}
+
 TEST(SampleLamps, ARightHandBeamFailsTheLeftHandRows) {
   const auto rule = find_rulebook(rules_dir(), "r149-passing-c");
   ASSERT_TRUE(rule.ok()) << rule.error().text();

@@ -311,7 +311,8 @@ TEST_F(Portable, EverythingNamedGoesAlongAndReadsAfterTheMove) {
   rig.cockpit_file = home / "cockpit.toml";
   rig.traffic_file = home / "others.toml";
   std::ofstream(rig.traffic_file) << "[[road_user]]\nlow_beam = \"other/a.ies\"\ntail_lamp = \"other/a.ies\"\n"
-                                  << "brake_lamp = \"lamps/a.ies\"\npath = \"lead.csv\"\n";
+                                  << "brake_lamp = \"lamps/a.ies\"\nthird_brake_lamp = { file = \"lamps/a.ies\" }\n"
+                                  << "high_beam = { spectrum = \"other/led.csv\" }\npath = \"lead.csv\"\n";
   std::ofstream(home / "lead.csv") << "time_s,s_m,offset_m\n0,50,0\n2,90,0\n";
   SourceConfig& by_spectrum = rig.designs[0].lamps[0].sources[0];
   by_spectrum.spectrum = home / "other/led.csv";
@@ -346,7 +347,8 @@ TEST_F(Portable, EverythingNamedGoesAlongAndReadsAfterTheMove) {
   const auto others = read_road_users(moved->traffic_file);
   ASSERT_TRUE(others) << others.error().text();
   for (const fs::path& file :
-       {others->front().low_beam_file, others->front().tail_lamp_file, others->front().brake_lamp_file})
+       {others->front().low_beam.file, others->front().tail_lamp.file, others->front().brake_lamp.file,
+        others->front().third_brake_lamp.file, others->front().high_beam.colour.spectrum})
     EXPECT_TRUE(file.string().starts_with(base)) << file;
   ASSERT_TRUE(others->front().path) << "its recorded way went along";
   EXPECT_EQ(others->front().path->to_s(), 2.0);

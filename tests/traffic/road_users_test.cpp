@@ -156,12 +156,43 @@ class = "bicycle"
 lights = "low"
 )"));
   ASSERT_TRUE(users.ok()) << users.error().text();
-  EXPECT_EQ((*users)[0].low_beam_file, here / "road_user_low.ies");
-  EXPECT_EQ((*users)[0].high_beam_file, here / "road_user_high.ies");
-  EXPECT_TRUE((*users)[1].low_beam_file.empty());
+  EXPECT_EQ((*users)[0].low_beam.file, here / "road_user_low.ies");
+  EXPECT_EQ((*users)[0].high_beam.file, here / "road_user_high.ies");
+  EXPECT_TRUE((*users)[1].low_beam.file.empty());
   const RoadUserLights wanted[] = {RoadUserLights::high, RoadUserLights::low, RoadUserLights::off, RoadUserLights::off,
                                    RoadUserLights::low};
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ((*users)[i].lights, wanted[i]) << i;
+}
+
+// A lamp is a file, or a table of a file and a colour with the keys of a rig's source; both may be left out.
+TEST(RoadUsers, NameTheColoursOfTheirLamps) {
+  const std::filesystem::path here = std::filesystem::path(testing::TempDir()).lexically_normal();
+  std::ofstream(here / "road_user_low.ies") << "not read here";
+  std::ofstream(here / "road_user_led.csv") << "wavelength_nm,power\n450,1\n455,2\n460,1\n";
+  const auto users = read_road_users(users_written(R"([[road_user]]
+low_beam = { file = "road_user_low.ies", colour_temperature_k = 3000 }
+high_beam = { colour_temperature_k = 6000.0 }
+brake_lamp = { chromaticity_xy = [0.68, 0.32] }
+third_brake_lamp = "road_user_low.ies"
+[road_user.tail_lamp]
+spectrum = "road_user_led.csv"
+[[road_user]]
+class = "bicycle"
+low_beam = { file = "road_user_low.ies" }
+)"));
+  ASSERT_TRUE(users.ok()) << users.error().text();
+  const RoadUser& car = (*users)[0];
+  EXPECT_EQ(car.low_beam.file, here / "road_user_low.ies");
+  EXPECT_EQ(car.low_beam.colour.colour_temperature_k, 3000.0);
+  EXPECT_TRUE(car.high_beam.file.empty());
+  EXPECT_EQ(car.high_beam.colour.colour_temperature_k, 6000.0);
+  EXPECT_EQ(car.brake_lamp.colour.chromaticity_xy, glm::dvec2(0.68, 0.32));
+  EXPECT_EQ(car.third_brake_lamp.file, here / "road_user_low.ies");
+  EXPECT_EQ(car.tail_lamp.colour.spectrum, here / "road_user_led.csv");
+  ASSERT_TRUE(car.tail_lamp.colour.chromaticity_xy);
+  EXPECT_LT(car.tail_lamp.colour.chromaticity_xy->y, 0.05) << "blue";
+  EXPECT_EQ((*users)[1].low_beam.file, here / "road_user_low.ies");
+  EXPECT_FALSE((*users)[1].low_beam.colour.said());
 }
 
 TEST(RoadUsers, OfTheShippedExampleAreRead) {
@@ -191,7 +222,15 @@ TEST(RoadUsers, WhatIsWrongIsSaidWithItsLine) {
                {"low_beam = \"nowhere.ies\"", "nowhere.ies: no such file"},
                {"high_beam = 3", "high_beam"},
                {"low_beam = \"\"", "name of a file"},
-               {"class = \"bicycle\"\nlights = \"high\"", "no headlamps"},
+               {"class = \"bicycle\"\nlights = \"high\"", "a bicycle has no high beam"},
+               {"class = \"bicycle\"\nhigh_beam = \"users.toml\"", "a bicycle has no high beam"},
+               {"class = \"lorry\"\nthird_brake_lamp = \"users.toml\"", "a lorry has no third brake lamp"},
+               {"low_beam = { colour_temperature_k = 800 }", "colour_temperature_k"},
+               {"low_beam = { colour_k = 3000 }", "colour_temperature_k"},
+               {"low_beam = { file = \"nowhere.ies\" }", "nowhere.ies: no such file"},
+               {"low_beam = { spectrum = \"nowhere.csv\" }", "nowhere.csv"},
+               {"tail_lamp = { colour_temperature_k = 3000, chromaticity_xy = [0.3, 0.3] }", "not both"},
+               {"brake_lamp = { chromaticity_xy = [0.9, 0.3] }", "x + y <= 1"},
                {"class = \"deer\"\nlow_beam = \"users.toml\"", "a deer has no headlamps"}};
   for (const auto& wrong : cases) {
     SCOPED_TRACE(wrong.line);

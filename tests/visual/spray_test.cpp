@@ -246,6 +246,31 @@ TEST_F(SprayOnDevice, IsTheIntegralThroughItsCloud) {
   EXPECT_LT(std::abs(red.sum), 0.2);
 }
 
+// Of no other light than its tail lamps' it has their colour, in half floats: 1 part in 1000 of each value.
+TEST_F(SprayOnDevice, HasTheColourOfItsTailLamps) {
+  ASSERT_TRUE(renderer->load_scene(wall(0.0f)).ok());
+  IntensityTable faint;  // that a lamp is lit
+  faint.first_deg = faint.second_deg = {-60.0, 0.0, 60.0};
+  faint.candela.assign(9, 1e-3);
+  renderer->set_beam(0, image_of(faint));
+  FrameInput input = following(30.0);
+  const auto mean = [&](const glm::vec3& colour) {
+    input.spraying[0].tail_colour = colour;
+    input.spraying[0].tail_cd = 800.0;
+    renderer->draw(input);
+    const ImageF image = renderer->read_hdr();
+    glm::dvec3 sum{0.0};
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+      sum += glm::dvec3(image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]);
+    return sum;
+  };
+  const glm::dvec3 red = mean(kSignalRed), amber = mean({2.5f, 0.65f, 0.05f});
+  EXPECT_GT(red.x, 0.0);
+  EXPECT_NEAR(red.y / red.x, 0.02, 2e-4);
+  EXPECT_NEAR(amber.z / amber.x, 0.02, 2e-4);
+  EXPECT_NEAR(amber.y / amber.x, (1.0 - 0.2126 * 2.5 - 0.0722 * 0.05) / 0.7152 / 2.5, 2e-3);
+}
+
 // What lies behind is seen by what the cloud leaves: of a wall a thousand times as bright as the spray before it.
 TEST_F(SprayOnDevice, DimsWhatLiesBehind) {
   ASSERT_TRUE(renderer->load_scene(wall(1.0f)).ok());

@@ -159,8 +159,8 @@ TEST_F(TrafficTest, WhoSlowsDownShowsBrakeLamps) {
   const Traffic cars = traffic(slows);
   for (const auto& [time_s, cd] : {std::pair{0.5, 8.0}, {2.0, 133.0}, {5.0, 8.0}}) {
     const auto seen = seen_at(cars, time_s);
-    ASSERT_EQ(seen.size(), 2u) << time_s;
-    for (const GlaringLamp& lamp : seen) {
+    ASSERT_EQ(seen.size(), cd > 100.0 ? 3u : 2u) << time_s << ": the third brake lamp last, traffic_lamps_test.cpp";
+    for (const GlaringLamp& lamp : std::span(seen).first(2)) {
       EXPECT_NEAR(lamp.eye_lx, cd * cosine / square_m2, 1e-12) << time_s;
       EXPECT_GT(lamp.colour.x, 10.0f * lamp.colour.y) << "red";
     }
@@ -170,7 +170,7 @@ TEST_F(TrafficTest, WhoSlowsDownShowsBrakeLamps) {
 
   const Traffic dark = traffic(slows + "lights = false\n");
   EXPECT_TRUE(seen_at(dark, 0.5).empty());
-  ASSERT_EQ(seen_at(dark, 2.0).size(), 2u);
+  ASSERT_EQ(seen_at(dark, 2.0).size(), 3u);
   EXPECT_NEAR(seen_at(dark, 2.0)[0].eye_lx, 125.0 * cosine / square_m2, 1e-12);
   EXPECT_TRUE(Traffic::placed_lamps(dark.at(2.0, straight()), {}, {1.0, 0.0, 0.0}).empty()) << "they light nothing";
   // What one sees in its spray, too.
@@ -194,7 +194,7 @@ TEST_F(TrafficTest, ItsRearLampsAreThoseThatItNames) {
   // 27.8 m behind, 0.6 m beside and 0.4 m above: 773.36 m².
   const auto lx_of = [&](std::size_t user) {
     const auto seen = cars.glare_at(std::span(users).subspan(user, 1), {0.0, 0.0, 1.2}, Scene{}, {});
-    EXPECT_EQ(seen.size(), 2u);
+    EXPECT_EQ(seen.size(), user == 0 ? 2u : 3u);
     return seen.empty() ? 0.0 : seen[0].eye_lx;
   };
   EXPECT_NEAR(lx_of(0), 12.0 / 773.36, 1e-9);
@@ -205,11 +205,11 @@ TEST_F(TrafficTest, ItsRearLampsAreThoseThatItNames) {
   // A lamp that shines to its own left shines to the right of the car that it ends.
   const auto table = read_lamp(generated_dir() / "lamps/low_rht.ies", {});
   ASSERT_TRUE(table);
-  const RearLight light{.tail = &*table};
+  const RearLight light{.tail = {.table = &*table}};
   const glm::dvec3 to_its_left = glm::normalize(glm::dvec3(1.0, 0.1, -0.02));
   const double cd = table->intensity_cd(to_its_left);
-  EXPECT_NEAR(light.intensity_cd({-to_its_left.x, -to_its_left.y, to_its_left.z}), cd, 1e-9 * cd);
-  EXPECT_GT(std::abs(light.intensity_cd({-to_its_left.x, to_its_left.y, to_its_left.z}) - cd), 0.01 * cd);
+  EXPECT_NEAR(light.toward({-to_its_left.x, -to_its_left.y, to_its_left.z}).cd, cd, 1e-9 * cd);
+  EXPECT_GT(std::abs(light.toward({-to_its_left.x, to_its_left.y, to_its_left.z}).cd - cd), 0.01 * cd);
 
   std::ofstream(fs::path(testing::TempDir()) / "traffic_brake.ies") << "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1\n";
   const auto broken = Traffic::read(file(one), straight_lane(), movers_);

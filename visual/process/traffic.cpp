@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
@@ -15,11 +16,8 @@
 namespace phare {
 namespace {
 
-constexpr const char *kLowBeam = "lamps/low_rht.ies", *kHighBeam = "lamps/high.ies";  // in generated_dir()
-constexpr double kHalogen_k = 3200.0;
-constexpr double kDown_rad = 0.01;  // UN R48 6.2.6.1.2: -1 % for lamps below 0.8 m
-
-const glm::vec3 kTailColour = glm::vec3(1.0f, 0.02f, 0.01f) / (0.2126f + 0.7152f * 0.02f + 0.0722f * 0.01f);
+// In generated_dir().
+constexpr const char *kLowBeam = "lamps/low_rht.ies", *kHighBeam = "lamps/high.ies", *kBicycle = "lamps/bicycle.ies";
 
 /// Of a kind of road user, in its frame, m. The mesh says where (tools/scene/road_users.cpp, things.cpp).
 struct LampPlaces {
@@ -28,14 +26,19 @@ struct LampPlaces {
   double front_up_m = 0.0, back_up_m = 0.0;
   std::array<double, 2> aside_m{};  ///< of two of them; one lamp: only the first counts
   int headlamps = 0, tail_lamps = 0;
+  /// Of headlamps: UN R48 6.2.6.1.2, -1 % for lamps below 0.8 m. A bicycle's peak meets the road 10 m ahead, as its
+  /// riders are told (unconfirmed: by secondary sources).
+  double down_rad = 0.01;
+  std::optional<glm::dvec3> third_brake_m{};
 };
-/// No mesh of a motorcycle is made: a cycle's stands for it.
-constexpr std::array<LampPlaces, 6> kPlaces{{{"car", 2.18, -2.2, 0.61, 0.8, {-0.6, 0.6}, 2, 2},
-                                             {"lorry", 5.03, -5.03, 0.62, 0.82, {-0.95, 0.95}, 2, 2},
-                                             {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 1, 1},
-                                             {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 0, 1},
-                                             {"pedestrian"},
-                                             {"deer"}}};
+/// No mesh of a motorcycle is made: a cycle's stands for it. A car's third brake lamp sits at the roof's rear edge.
+constexpr std::array<LampPlaces, 6> kPlaces{
+    {{"car", 2.18, -2.2, 0.61, 0.8, {-0.6, 0.6}, 2, 2, 0.01, glm::dvec3(-1.4, 0.0, 1.37)},
+     {"lorry", 5.03, -5.03, 0.62, 0.82, {-0.95, 0.95}, 2, 2},
+     {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 1, 1},
+     {"bicycle", 0.6, -0.8, 0.75, 0.65, {0.0, 0.0}, 1, 1, 0.075},
+     {"pedestrian"},
+     {"deer"}}};
 
 const LampPlaces& places_of(RoadUserClass kind) {
   return kPlaces[static_cast<std::size_t>(kind)];
@@ -48,14 +51,35 @@ glm::dvec3 front_lamp_m(const Traffic::There& user, int lamp) {
                                                              places.front_up_m);
 }
 /// Adds a lamp that shines into an eye, unless something hides it.
-void add_seen(std::vector<GlaringLamp>& seen, const World& around, const glm::dvec3& lamp_m, double cd,
-              const glm::vec3& colour, const glm::dvec3& eye_m, const Air& air) {
-  if (cd <= 0.0 || lamp_m == eye_m || occluder(around, lamp_m, eye_m)) return;
-  seen.push_back(glaring_lamp(lamp_m, cd, colour, eye_m, air));
+void add_seen(std::vector<GlaringLamp>& seen, const World& around, const glm::dvec3& lamp_m, const LampShine& shine,
+              const glm::dvec3& eye_m, const Air& air) {
+  if (shine.cd <= 0.0 || lamp_m == eye_m || occluder(around, lamp_m, eye_m)) return;
+  seen.push_back(glaring_lamp(lamp_m, shine.cd, shine.colour, eye_m, air));
 }
 
 glm::dmat3 headlamp_turn(const Traffic::There& user) {
-  return user.world_from_user * aim_rotation(0.0, -kDown_rad, 0.0);
+  return user.world_from_user * aim_rotation(0.0, -places_of(user.kind).down_rad, 0.0);
+}
+
+/// What it names, and the rest as is usual for its kind.
+RoadUserLamp headlamp_of(RoadUserClass kind, RoadUserLamp lamp, const char* shipped) {
+  if (lamp.file.empty()) lamp.file = generated_dir() / shipped;
+  if (!lamp.colour.said())
+    lamp.colour.colour_temperature_k = kind == RoadUserClass::bicycle ? kBicycleLamp_k : kHalogen_k;
+  return lamp;
+}
+
+AimedSource source_of(const LightColour& colour, const IntensityTable* table) {
+  AimedSource source{.table = table, .chromaticity_xy = colour.chromaticity_xy};
+  source.colour_temperature_k = colour.colour_temperature_k.value_or(source.colour_temperature_k);
+  return source;
+}
+
+/// Of a lamp at a back, toward `direction` in the vehicle's frame.
+double rear_cd(const RearLamp& lamp, double axis_cd, const glm::dvec3& direction) {
+  // Half a turn about z: the lamp's own x is backward, its y to the right.
+  if (lamp.table != nullptr) return lamp.table->intensity_cd({-direction.x, -direction.y, direction.z});
+  return axis_cd * std::max(-direction.x, 0.0);
 }
 
 }  // namespace
@@ -69,20 +93,20 @@ Result<Traffic> Traffic::read(const std::filesystem::path& file, const std::vect
   if (lane.size() < 2) return Error{file.string(), "the scene has no lane beside it that road users would drive along"};
   traffic.users_ = std::move(*users);
   traffic.lane_.emplace(lane);
-  const auto named_or = [](const std::filesystem::path& named, const char* shipped) {
-    return named.empty() ? generated_dir() / shipped : named;
-  };
-  if (const auto first = traffic.headlamp({named_or({}, kLowBeam)}); !first) return first.error();
+  if (const auto first = traffic.headlamp({headlamp_of(RoadUserClass::car, {}, kLowBeam)}); !first)
+    return first.error();
   for (const RoadUser& user : traffic.users_) {
-    std::vector<std::filesystem::path> files{named_or(user.low_beam_file, kLowBeam)};
-    if (user.lights == RoadUserLights::high) files.push_back(named_or(user.high_beam_file, kHighBeam));
-    const auto beam = traffic.headlamp(std::move(files));
+    const bool bicycle = user.kind == RoadUserClass::bicycle;
+    std::vector<RoadUserLamp> lamps{headlamp_of(user.kind, user.low_beam, bicycle ? kBicycle : kLowBeam)};
+    if (user.lights == RoadUserLights::high) lamps.push_back(headlamp_of(user.kind, user.high_beam, kHighBeam));
+    const auto beam = traffic.headlamp(std::move(lamps));
     if (!beam) return beam.error();
     traffic.headlamp_of_user_.push_back(*beam);
-    const auto tail = traffic.rear_lamp(user.tail_lamp_file), brake = traffic.rear_lamp(user.brake_lamp_file);
-    if (!tail) return tail.error();
-    if (!brake) return brake.error();
-    traffic.rear_of_user_.push_back({.tail = *tail, .brake = *brake});
+    const auto tail = traffic.rear_lamp(user.tail_lamp), brake = traffic.rear_lamp(user.brake_lamp),
+               third = traffic.rear_lamp(user.third_brake_lamp);
+    for (const auto* lamp : {&tail, &brake, &third})
+      if (!*lamp) return lamp->error();
+    traffic.rear_of_user_.push_back({.tail = *tail, .brake = *brake, .third_brake = *third});
   }
   for (const LampPlaces& places : kPlaces) {
     const auto mesh = movers.mesh(places.node);
@@ -92,46 +116,64 @@ Result<Traffic> Traffic::read(const std::filesystem::path& file, const std::vect
   return traffic;
 }
 
-Result<std::size_t> Traffic::headlamp(std::vector<std::filesystem::path> files) {
-  const auto known = std::ranges::find(headlamps_, files, &Headlamp::files);
+Result<std::size_t> Traffic::headlamp(std::vector<RoadUserLamp> lamps) {
+  const auto known = std::ranges::find(headlamps_, lamps, &Headlamp::lamps);
   if (known != headlamps_.end()) return static_cast<std::size_t>(known - headlamps_.begin());
-  Headlamp lamp{.files = std::move(files)};
-  for (const std::filesystem::path& file : lamp.files) {
-    auto table = read_lamp(file, {});
+  Headlamp headlamp{.lamps = std::move(lamps)};
+  for (const RoadUserLamp& lamp : headlamp.lamps) {
+    auto table = read_lamp(lamp.file, {});
     if (!table) return table.error();
-    lamp.tables.push_back(std::move(*table));
+    headlamp.tables.push_back(std::move(*table));
   }
-  headlamps_.push_back(std::move(lamp));
+  headlamps_.push_back(std::move(headlamp));
   return headlamps_.size() - 1;
 }
 
-Result<const IntensityTable*> Traffic::rear_lamp(const std::filesystem::path& file) {
-  if (file.empty()) return nullptr;
-  if (const auto known = rear_lamps_.find(file); known != rear_lamps_.end()) return &known->second;
-  auto table = read_lamp(file, {});
-  if (!table) return table.error();
-  return &rear_lamps_.emplace(file, std::move(*table)).first->second;
+Result<RearLamp> Traffic::rear_lamp(const RoadUserLamp& named) {
+  RearLamp lamp;
+  if (named.colour.said()) lamp.colour = light_colour(source_of(named.colour, nullptr));
+  if (named.file.empty()) return lamp;
+  auto known = rear_lamps_.find(named.file);
+  if (known == rear_lamps_.end()) {
+    auto table = read_lamp(named.file, {});
+    if (!table) return table.error();
+    known = rear_lamps_.emplace(named.file, std::move(*table)).first;
+  }
+  lamp.table = &known->second;
+  return lamp;
 }
 
-double RearLight::intensity_cd(const glm::dvec3& direction) const {
-  const auto of = [&](const IntensityTable* table, double axis_cd) {
-    // Half a turn about z: the lamp's own x is backward, its y to the right.
-    if (table != nullptr) return table->intensity_cd({-direction.x, -direction.y, direction.z});
-    return axis_cd * std::max(-direction.x, 0.0);
-  };
-  return (tail_on ? of(tail, kTailLamp_cd) : 0.0) + (brake_on ? of(brake, kBrakeLamp_cd) : 0.0);
+void LampShine::add(double more_cd, const glm::vec3& of_colour) {
+  if (more_cd <= 0.0) return;
+  cd += more_cd;
+  colour = glm::mix(colour, of_colour, static_cast<float>(more_cd / cd));
 }
 
-double Traffic::Headlamp::intensity_cd(const glm::dvec3& direction) const {
-  double cd = 0.0;
-  for (const IntensityTable& table : tables) cd += table.intensity_cd(direction);
-  return cd;
+LampShine RearLight::toward(const glm::dvec3& direction) const {
+  LampShine shine;
+  if (tail_on) shine.add(rear_cd(tail, kTailLamp_cd, direction), tail.colour);
+  if (brake_on) shine.add(rear_cd(brake, kBrakeLamp_cd, direction), brake.colour);
+  return shine;
+}
+
+LampShine RearLight::third_toward(const glm::dvec3& direction) const {
+  LampShine shine;
+  if (brake_on) shine.add(rear_cd(third_brake, kThirdBrakeLamp_cd, direction), third_brake.colour);
+  return shine;
+}
+
+LampShine Traffic::Headlamp::toward(const glm::dvec3& direction) const {
+  LampShine shine;
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    shine.add(tables[i].intensity_cd(direction), light_colour(source_of(lamps[i].colour, nullptr)));
+  return shine;
 }
 
 BeamImage Traffic::beam(std::size_t number) const {
+  const Headlamp& headlamp = headlamps_[number];
   std::vector<AimedSource> sources;
-  for (const IntensityTable& table : headlamps_[number].tables)
-    sources.push_back({.table = &table, .colour_temperature_k = kHalogen_k});
+  for (std::size_t i = 0; i < headlamp.tables.size(); ++i)
+    sources.push_back(source_of(headlamp.lamps[i].colour, &headlamp.tables[i]));
   return compose_beam_image(sources);
 }
 
@@ -175,6 +217,7 @@ std::vector<SprayingVehicle> Traffic::spraying(std::span<const There> users, dou
       return at.position_m + at.world_from_user * place;
     };
     const bool lorry = user.kind == RoadUserClass::lorry, one_track = user.kind == RoadUserClass::motorcycle;
+    const LampShine behind = user.rear.toward({-1.0, 0.0, 0.0});
     // Chosen: rear wheels 0.7 m before the back; tyres 0.2 m wide, of a lorry twice two of 0.3 m.
     const glm::dvec3 wheels(places.back_m + 0.7, 0.0, 0.0);
     SprayingVehicle vehicle{.left = user.world_from_user[1],
@@ -185,7 +228,8 @@ std::vector<SprayingVehicle> Traffic::spraying(std::span<const There> users, dou
                                        : lorry   ? 1.2
                                                  : 0.4,
                             .speed_mps = user.speed_mps,
-                            .tail_cd = (places.tail_lamps == 1 ? 0.5 : 1.0) * user.rear.intensity_cd({-1.0, 0.0, 0.0}),
+                            .tail_cd = (places.tail_lamps == 1 ? 0.5 : 1.0) * behind.cd,
+                            .tail_colour = behind.colour,
                             .time_s = time_s,
                             .number = static_cast<std::uint32_t>(user.number)};
     vehicle.wheels_m[0] = in_world(user, wheels);
@@ -239,7 +283,6 @@ std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users, cons
 std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const glm::dvec3& eye_m, const World& world,
                                            const Air& air) const {
   std::vector<GlaringLamp> sources;
-  const glm::vec3 headlamp_colour = light_colour({.colour_temperature_k = kHalogen_k});
   for (std::size_t i = 0; i < users.size(); ++i) {
     const There& user = users[i];
     if (!user.lights && !user.rear.brake_on) continue;
@@ -248,7 +291,7 @@ std::vector<GlaringLamp> Traffic::glare_at(std::span<const There> users, const g
     for (int lamp = 0; lamp < headlamps; ++lamp) {
       const glm::dvec3 lamp_m = front_lamp_m(user, lamp);
       const glm::dvec3 toward_eye = glm::transpose(headlamp_turn(user)) * (eye_m - lamp_m);
-      add_seen(sources, around, lamp_m, headlamps_[user.beam].intensity_cd(toward_eye), headlamp_colour, eye_m, air);
+      add_seen(sources, around, lamp_m, headlamps_[user.beam].toward(toward_eye), eye_m, air);
     }
     const auto rear = rear_lamps_into(user.kind, user.rear, user.position_m, user.world_from_user, eye_m, around, air);
     sources.insert(sources.end(), rear.begin(), rear.end());
@@ -261,12 +304,18 @@ std::vector<GlaringLamp> rear_lamps_into(RoadUserClass kind, const RearLight& li
                                          const World& around, const Air& air) {
   std::vector<GlaringLamp> seen;
   const LampPlaces& places = places_of(kind);
+  const auto in_world = [&](const glm::dvec3& place) { return position_m + world_from_user * place; };
+  const auto toward_eye = [&](const glm::dvec3& lamp_m) {
+    return glm::transpose(world_from_user) * glm::normalize(eye_m - lamp_m);
+  };
   for (int lamp = 0; lamp < places.tail_lamps; ++lamp) {
     const glm::dvec3 lamp_m =
-        position_m +
-        world_from_user * glm::dvec3(places.back_m, places.aside_m[static_cast<std::size_t>(lamp)], places.back_up_m);
-    const double cd = light.intensity_cd(glm::transpose(world_from_user) * glm::normalize(eye_m - lamp_m));
-    add_seen(seen, around, lamp_m, cd, kTailColour, eye_m, air);
+        in_world({places.back_m, places.aside_m[static_cast<std::size_t>(lamp)], places.back_up_m});
+    add_seen(seen, around, lamp_m, light.toward(toward_eye(lamp_m)), eye_m, air);
+  }
+  if (places.third_brake_m) {
+    const glm::dvec3 lamp_m = in_world(*places.third_brake_m);
+    add_seen(seen, around, lamp_m, light.third_toward(toward_eye(lamp_m)), eye_m, air);
   }
   return seen;
 }

@@ -1,12 +1,14 @@
 // Other road users in the picture: their bodies, their lamps and what these throw into the driver's eye. Where they are
 // is a function of simulated time (config/traffic/road_users.h), on the road that is drawn.
 //
-// A car's, lorry's or motorcycle's headlamps are two (of a motorcycle one) with the tables of the files that it names,
-// else those that the scene's own sample car has: low beam, and high beam added to it where it is on, aimed 1 % down.
-// Tail lamps, and the brake lamps of who brakes (config/traffic/road_users.h), are points that light nothing but spray:
-// of the files that it names, else of kTailLamp_cd and kBrakeLamp_cd. Both of a side stand in one place and add up.
-// Bodies cast shadows and hide lamps, but not those that they carry. Left out: a third brake lamp, a tail lamp's share
-// that goes out as it brakes. Checked by tests/visual_process/traffic_test.cpp.
+// A car's or lorry's headlamps are two, a motorcycle's or bicycle's one, with the tables of the files that it names,
+// else those that the scene's own sample car has (a bicycle: generated/lamps/bicycle.ies): low beam, and high beam
+// added to it where it is on, aimed down as kPlaces has it. Tail lamps, and the brake lamps of who brakes
+// (config/traffic/road_users.h), are points that light nothing but spray: of the files that it names, else of
+// kTailLamp_cd and kBrakeLamp_cd. Both of a side stand in one place and add up; a car has a third brake lamp above
+// them, which does not light spray. Each lamp has the colour that it is given. Bodies cast shadows and hide lamps, but
+// not those that they carry. Left out: a tail lamp's share that goes out as it brakes. Checked by
+// tests/visual_process/traffic_test.cpp and traffic_lamps_test.cpp.
 #pragma once
 
 #include <filesystem>
@@ -33,13 +35,31 @@ inline constexpr double kTailLamp_cd = 8.0;
 /// Stop lamps: 60 to 260 cd along the axis (UN R148, S1); chosen in the middle, as many times the least as the most is
 /// of it. Unconfirmed, as the tail lamps' figures: by memory of the rule.
 inline constexpr double kBrakeLamp_cd = 125.0;
+/// A car's third stop lamp: 25 to 110 cd along the axis (UN R148, S3); chosen and unconfirmed likewise.
+inline constexpr double kThirdBrakeLamp_cd = 52.0;
+/// White of a headlamp whose colour is not said: a halogen bulb's, and of a bicycle a white LED's (chosen).
+inline constexpr double kHalogen_k = 3200.0, kBicycleLamp_k = 5000.0;
+
+/// Light that goes one way, of one lamp or of several in one place.
+struct LampShine {
+  double cd = 0.0;
+  glm::vec3 colour = kSignalRed;  ///< linear sRGB, luminance 1; of no light whatever it was
+  void add(double more_cd, const glm::vec3& of_colour);
+};
+
+/// A lamp at a back. nullptr: the constant of what it is for, by the cosine.
+struct RearLamp {
+  const IntensityTable* table = nullptr;  ///< its x points backward
+  glm::vec3 colour = kSignalRed;
+};
 
 /// What burns at a back, of each lamp there.
 struct RearLight {
   bool tail_on = true, brake_on = false;
-  const IntensityTable *tail = nullptr, *brake = nullptr;  ///< x backward; nullptr: the constants, by the cosine
-  /// Toward `direction` (unit, in the vehicle's frame), both together.
-  double intensity_cd(const glm::dvec3& direction) const;
+  RearLamp tail{}, brake{}, third_brake{};
+  /// Toward `direction` (unit, in the vehicle's frame), tail and brake lamp of one side together.
+  LampShine toward(const glm::dvec3& direction) const;
+  LampShine third_toward(const glm::dvec3& direction) const;
 };
 
 class Traffic {
@@ -102,14 +122,14 @@ class Traffic {
  private:
   /// What one headlamp shines by: the table of its low beam, and of its high beam where that is on.
   struct Headlamp {
-    std::vector<std::filesystem::path> files{};
-    std::vector<IntensityTable> tables{};  ///< of each file
-    double intensity_cd(const glm::dvec3& direction) const;
+    std::vector<RoadUserLamp> lamps{};     ///< with file and colour
+    std::vector<IntensityTable> tables{};  ///< of each
+    LampShine toward(const glm::dvec3& direction) const;
   };
   /// Where it is among headlamps_; reads what is not there yet.
-  Result<std::size_t> headlamp(std::vector<std::filesystem::path> files);
-  /// A lamp at a back; nullptr: no file is named. Reads what is not there yet.
-  Result<const IntensityTable*> rear_lamp(const std::filesystem::path& file);
+  Result<std::size_t> headlamp(std::vector<RoadUserLamp> lamps);
+  /// Reads what is not there yet.
+  Result<RearLamp> rear_lamp(const RoadUserLamp& lamp);
 
   std::optional<There> there_at(std::size_t number, double time_s, const RoadLine& road) const;
 

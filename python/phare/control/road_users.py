@@ -10,7 +10,7 @@
     lights = true             # its lamps burn: true or "low", "high" (high beam besides), false or "off"
     brake = true              # its brake lamps burn, or (false) do not; without the key as it slows down
     low_beam, high_beam       # photometry files of its headlamps, for the picture: the sensors see that there is light, not how much
-    tail_lamp, brake_lamp     # the same of the lamps at its back
+    tail_lamp, brake_lamp, third_brake_lamp     # the same of the lamps at its back; each a file or a table of file and colour
     speeds = [[0, 80], [5, 80], [8, 40]]   # in place of speed_kmh: s and km/h, straight between them
     path = "lead.csv"         # in place of direction, start_s_m, speeds, offset_m, across_*: its recorded way (recorded_path.py)
     from_s = 0.0              # when it is there, s of simulated time
@@ -159,9 +159,11 @@ _LIGHTS = {"off": False, "low": True, "high": True}
 _KEYS = {
     "class": str, "direction": str, "start_s_m": float, "speed_kmh": float, "offset_m": float, "across_kmh": float,
     "across_from_s": float, "across_to_s": float, "lights": bool, "from_s": float,
-    "to_s": float, "width_m": float, "height_m": float, "length_m": float, "low_beam": str, "high_beam": str, "brake": bool,
-    "tail_lamp": str, "brake_lamp": str, "speeds": list, "path": str,
+    "to_s": float, "width_m": float, "height_m": float, "length_m": float, "brake": bool, "speeds": list, "path": str,
 }
+# For the picture, which reads their files and colours (docs/traffic.md): a file's name or a table.
+_LAMPS = ("low_beam", "high_beam", "tail_lamp", "brake_lamp", "third_brake_lamp")
+_OF_LAMP = ("file", "colour_temperature_k", "chromaticity_xy", "spectrum")
 _NOT_WITH_PATH = ("direction", "start_s_m", "speed_kmh", "speeds", "offset_m", "across_kmh", "across_from_s", "across_to_s")
 
 # Bounds that no road reaches, as in config/traffic/road_users.cpp: they catch a mistyped exponent.
@@ -208,8 +210,14 @@ def _speeds(table: dict[str, object], place: str) -> tuple[tuple[float, float], 
 def _road_user(table: dict[str, object], place: str, folder: Path) -> RoadUser:
     given: dict[str, object] = {}
     for key, value in table.items():
+        if key in _LAMPS:
+            if not isinstance(value, str | dict):
+                raise BadInput(f"{place}: {key} = {value!r}: expected the name of a file, or a table of {', '.join(_OF_LAMP)}")
+            for unknown in set(value) - set(_OF_LAMP) if isinstance(value, dict) else ():
+                raise BadInput(f"{place}: {key}: unknown key {unknown}; there are {', '.join(_OF_LAMP)}")
+            continue
         if key not in _KEYS:
-            raise BadInput(f"{place}: unknown key {key}; there are {', '.join(_KEYS)}")
+            raise BadInput(f"{place}: unknown key {key}; there are {', '.join([*_KEYS, *_LAMPS])}")
         wanted = _KEYS[key]
         if key == "lights" and isinstance(value, str):
             if value not in _LIGHTS:

@@ -18,7 +18,7 @@
 namespace phare {
 namespace {
 
-constexpr const char* kKindNames[] = {"low", "low", "high", "fog", "cornering", "high"};
+constexpr const char* kKindNames[] = {"low", "low", "high", "fog", "cornering", "bicycle", "high"};
 
 /// Rulebooks, each read once.
 class Rules {

@@ -11,7 +11,7 @@
 
 namespace phare {
 
-enum class SampleKind { kLowRight, kLowLeft, kHigh, kFog, kCornering, kSegment };
+enum class SampleKind { kLowRight, kLowLeft, kHigh, kFog, kCornering, kBicycle, kSegment };
 
 struct SampleLamp {
   std::string file;  ///< "low_rht.ies", "matrix/r1_c01.ies"
@@ -22,7 +22,7 @@ struct SampleLamp {
 };
 
 /// The lamps `phare-make-lamps` writes: low_rht, low_lht, high, fog, cornering_left, cornering_right, led_low_rht,
-/// led_low_lht, led_high.
+/// led_low_lht, led_high, bicycle.
 std::vector<SampleLamp> sample_lamps();
 
 inline constexpr int kMatrixRows = 3;
