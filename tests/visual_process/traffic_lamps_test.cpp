@@ -103,6 +103,22 @@ TEST_F(TrafficLamps, OfTwoColoursMixByTheirLight) {
   EXPECT_NEAR(static_cast<double>(lit.tints[0].y / lit.candela[0]), mixed.z, 1e-5);
 }
 
+// What a warm-up draws: one beam of each colour that shines, and one of several, for they take pipelines of their own.
+TEST_F(TrafficLamps, AreMetInEachKindOfLight) {
+  const auto met = [&](const std::string& text) {
+    auto beams = traffic(text).beams_to_meet();
+    for (std::size_t& beam : beams) beam -= Traffic::kBeam;
+    return beams;
+  };
+  using Beams = std::vector<std::size_t>;
+  const std::string car = "[[road_user]]\n", cold = "low_beam = { colour_temperature_k = 6000 }\n";
+  EXPECT_EQ(met(car + "[[road_user]]\nlights = \"high\"\n"), Beams({0})) << "both of 3200 K";
+  EXPECT_EQ(met("[[road_user]]\nlights = \"high\"\n"), Beams({0}));
+  EXPECT_EQ(met(car + cold + car + cold), Beams({1})) << "nobody shines by the sample car's";
+  EXPECT_EQ(met(car + car + cold + "lights = \"high\"\n" + car + cold), Beams({0, 1, 2})) << "high beam of 3200 K";
+  EXPECT_EQ(met(car + cold + "lights = false\n[[road_user]]\nclass = \"pedestrian\"\n"), Beams({0}));
+}
+
 // Amber tail lamps of 8 cd and brake lamps of 125 cd as they are: in the dots and in spray.
 TEST_F(TrafficLamps, AtABackHaveTheirs) {
   const std::string follows = "[[road_user]]\ndirection = \"same\"\nstart_s_m = 30\nspeed_kmh = 72\n";

@@ -163,9 +163,23 @@ void Loop::warm_up() {
             s_.renderer.draw(blinded);
           }
           // Of others one lamp lights the scene, or two.
-          for (std::size_t lamp = 1; met && lamp <= Traffic::kMostLamps; ++lamp) {
-            blinded.lamps.push_back({input.camera.eye_m, input.camera.world_from_eye, Traffic::kBeam});
-            s_.renderer.draw(blinded);
+          for (const std::size_t beam : met ? s_.traffic.beams_to_meet() : std::vector<std::size_t>{}) {
+            const auto draw_beside = [&](const std::vector<PlacedLamp>& own) {
+              blinded.lamps = own;
+              for (std::size_t lamp = 1; lamp <= Traffic::kMostLamps; ++lamp) {
+                blinded.lamps.push_back({input.camera.eye_m, input.camera.world_from_eye, beam});
+                s_.renderer.draw(blinded);
+              }
+            };
+            draw_beside(input.lamps);
+            if (!last || beam == Traffic::kBeam) continue;
+            // Light of its own colour shares no pipelines with the car's as they pass: what the own lamps do not reach,
+            // and when they shine past the eye.
+            draw_beside({});
+            std::vector<GlaringLamp> glare = std::exchange(blinded.glare, {});
+            draw_beside(input.lamps);
+            draw_beside({});
+            blinded.glare = std::move(glare);
           }
         }
         if (!last || versus_.lamps() == nullptr) continue;
@@ -237,15 +251,18 @@ void Loop::warm_up_weather(FrameInput input, Clock::time_point until) {
     for (const bool off : {true, false}) {
       if (over()) return;
       input.effects[static_cast<std::size_t>(Effect::kShadows)] = off ? std::optional<std::size_t>(0) : s_.desk.shadows;
-      FrameInput of_others = input;
-      for (std::size_t lamp = 0; lamp <= (s_.traffic.empty() ? 0 : Traffic::kMostLamps); ++lamp) {
-        if (lamp > 0) of_others.lamps.push_back({input.camera.eye_m, input.camera.world_from_eye, Traffic::kBeam});
+      const auto draw_with = [&](std::size_t lamps, std::size_t beam) {
+        FrameInput of_others = input;
+        of_others.lamps.resize(input.lamps.size() + lamps, {input.camera.eye_m, input.camera.world_from_eye, beam});
         of_others.glare.clear();
         s_.renderer.draw(of_others);
-        if (!glares) continue;
+        if (!glares) return;
         of_others.glare = {{input.camera.eye_m + 10.0 * input.camera.world_from_eye[0], 1.0}};
         s_.renderer.draw(of_others);
-      }
+      };
+      draw_with(0, Traffic::kBeam);
+      for (const std::size_t beam : s_.traffic.empty() ? std::vector<std::size_t>{} : s_.traffic.beams_to_meet())
+        for (std::size_t lamps = 1; lamps <= Traffic::kMostLamps; ++lamps) draw_with(lamps, beam);
     }
   }
   warm_up_lights(std::move(input), until);

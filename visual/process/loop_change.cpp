@@ -210,7 +210,8 @@ Rehearsal Loop::rehearse(const Rehearsed& as, const Desk& desk, std::size_t at_o
   // The own lamps, whoever had his turn.
   std::vector<PlacedLamp> of_others;
   std::ranges::copy_if(next.lamps, std::back_inserter(of_others), Traffic::is_theirs);
-  if (as.others) of_others.assign(*as.others, {next.camera.eye_m, next.camera.world_from_eye, Traffic::kBeam});
+  if (as.others)
+    of_others.assign(*as.others, {next.camera.eye_m, next.camera.world_from_eye, s_.traffic.beams_to_meet().front()});
   next.lamps = as.light ? placed_by(*as.light, moment.car.pose) : s_.lamps.placed(moment.car.pose);
   // Many lights have as many lamps: one reading of tables serves them, but for that which comes next most likely.
   if (as.light && as.light->light_switch != moment.controls.light_switch) next.shapes = ShapesFrom::kFrame;

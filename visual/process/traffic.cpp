@@ -177,6 +177,29 @@ BeamImage Traffic::beam(std::size_t number) const {
   return compose_beam_image(sources);
 }
 
+std::vector<std::size_t> Traffic::beams_to_meet() const {
+  std::vector<std::size_t> beams;
+  std::vector<std::optional<glm::vec3>> seen;  // nothing: of several colours
+  for (std::size_t i = 0; i < users_.size(); ++i) {
+    if (users_[i].lights == RoadUserLights::off || places_of(users_[i].kind).headlamps == 0) continue;
+    std::optional<glm::vec3> colour;
+    for (const RoadUserLamp& lamp : headlamps_[headlamp_of_user_[i]].lamps) {
+      const glm::vec3 its = light_colour(source_of(lamp.colour, nullptr));
+      const bool mixed = colour && *colour != its;
+      colour = its;
+      if (!mixed) continue;
+      colour.reset();
+      break;
+    }
+    if (std::ranges::find(seen, colour) != seen.end()) continue;
+    seen.push_back(colour);
+    const bool usual = colour == light_colour({.colour_temperature_k = kHalogen_k});
+    beams.push_back(usual ? kBeam : kBeam + headlamp_of_user_[i]);
+  }
+  if (beams.empty()) beams.push_back(kBeam);
+  return beams;
+}
+
 std::vector<Traffic::There> Traffic::at(double time_s, const RoadLine& road) const {
   std::vector<There> there;
   for (std::size_t i = 0; i < users_.size(); ++i)

@@ -79,6 +79,9 @@ class Traffic {
   bool empty() const { return users_.empty(); }
   std::size_t beams() const { return headlamps_.size(); }  ///< different ones; the first is the sample car's low beam
   BeamImage beam(std::size_t number) const;                ///< for Renderer::set_beam(kBeam + number)
+  /// Where in the renderer the beams lie that a warm-up draws: of all that shine one for each colour, and one of
+  /// several colours, which take pipelines of their own; kBeam stands for all of kHalogen_k. At least one.
+  std::vector<std::size_t> beams_to_meet() const;
 
   /// One of them where it is now.
   struct There {
