@@ -17,12 +17,20 @@ bool nothing_shines(const EffectFacts& facts) {
   return facts.lit_lamps == 0 && facts.street_lamps == 0 && !facts.moon && facts.directional == 0;
 }
 
+/// What no map shows, where a lamp has light there. Rays go every way.
+std::string past_the_maps(const EffectFacts& facts) {
+  if (facts.wide_lamps == 0 || facts.by_rays) return "";
+  return "; light of " + std::to_string(facts.wide_lamps) + (facts.wide_lamps == 1 ? " lamp" : " lamps") +
+         " more than 75° beside the axis goes through what stands there, but by rays";
+}
+
 EffectDecision shadows(const EffectFacts& facts) {
   if (facts.lit_lamps == 0 && facts.casters.value_or(0) == 0) return {0, "no lamp is lit"};
   if (!facts.casters) return {0, "what stands in the light of the lamps is not looked for"};
-  if (*facts.casters == 0) return {0, "nothing stands in the light of the lamps"};
+  if (*facts.casters == 0) return {0, "nothing stands in the light of the lamps" + past_the_maps(facts)};
   if (!facts.shadow_maps) return {0, "the device holds no buffer as large as a shadow map"};
-  return {2, std::to_string(*facts.casters) + " pieces of the scene stand in the light of the lamps"};
+  return {2, std::to_string(*facts.casters) + " pieces of the scene stand in the light of the lamps" +
+                 past_the_maps(facts)};
 }
 
 EffectDecision depth_first(const EffectFacts& facts) {

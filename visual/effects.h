@@ -40,6 +40,7 @@ struct EffectFacts {
   /// Pieces of the scene that stand in their light, and where fog has shadows in that of lamps that light air alone;
   /// nothing: not looked for.
   std::optional<std::size_t> casters = 0;
+  std::size_t wide_lamps = 0;              ///< of the lit ones, whose light goes past the sides of a shadow map
   bool shadow_maps = true;                 ///< the device holds one
   bool shadow_rays = true;                 ///< the device holds the scene's triangles
   bool hdr_wanted = false;                 ///< something reads luminance in cd/m² (EXR, bird's eye)

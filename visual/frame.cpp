@@ -137,8 +137,8 @@ ViewResult draw_view(FrameParts& parts, const PlacedView& view, const DrawnOver&
     glare = glare_of(view.input, lit.geometry);
     pupils = pupils_of(view.input, lit.geometry, view.area.extent.width, view.area.extent.height);
     spraying = spraying_seen(lit.geometry, view.input.spraying);
-    EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size()}, casters, over, glare, pupils.size(),
-                                 spraying.size(), parts.device_facts);
+    EffectFacts facts = facts_of(view.input, {lit.lamps, lit.air_lamps.size(), parts.scene.wide_lamps(lit)}, casters,
+                                 over, glare, pupils.size(), spraying.size(), parts.device_facts);
     add_facts(facts, parts.scene.fixed_light(), view.input.camera.eye_m);
     effects = plan_effects(facts, view.input.effects, view.input.picked);
   }

@@ -11,6 +11,7 @@ EffectFacts facts_of(const ViewInput& view, const LampsInView& lamps, std::optio
   for (const GlaringLamp& source : glare) glare_lx += source.eye_lx;
   return {.lit_lamps = lamps.lit,
           .casters = casters,
+          .wide_lamps = lamps.wide,
           .shadow_maps = device.shadow_maps,
           .shadow_rays = device.shadow_rays,
           .hdr_wanted = view.want_hdr,

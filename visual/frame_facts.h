@@ -24,6 +24,7 @@ struct DrawnOver {
 struct LampsInView {
   std::size_t lit = 0;  ///< that light something in it
   std::size_t air = 0;  ///< whose light goes through what it sees of the air
+  std::size_t wide = 0;  ///< of those that are lit, LightPeaks::is_wide()
 };
 
 /// `casters`: pieces of the scene that stand in their light, where they

@@ -50,7 +50,7 @@ void LightPeaks::place_blocks(const BeamGrid& grid) {
   const std::vector<std::size_t> columns = ends_of(grid.first_deg.size()), rows = ends_of(grid.second_deg.size());
   struct Place {
     glm::vec2 at{0.0f};
-    bool ahead = false;
+    bool ahead = false, wide = false, high = false;
   };
   std::vector<Place> places;
   places.reserve(columns.size() * rows.size());
@@ -60,34 +60,47 @@ void LightPeaks::place_blocks(const BeamGrid& grid) {
       const glm::dvec3 way =
           grid.screen_distance_m > 0.0 ? screen_direction(at) : table_direction(grid.type, grid.axis, at);
       const double ahead = std::max(way.x, kBeside);
-      places.push_back(
-          {{kAcross.at(static_cast<float>(way.y / ahead)), kUp.at(static_cast<float>(way.z / ahead))}, way.x > 0.0});
+      places.push_back({{kAcross.at(static_cast<float>(way.y / ahead)), kUp.at(static_cast<float>(way.z / ahead))},
+                        way.x > 0.0,
+                        std::abs(way.y) > kWidestShadow * way.x,
+                        std::abs(way.z) > kHighestShadow * std::abs(way.x)});
     }
   for (std::size_t j = 0; j + 2 < rows.size(); j += 2)
     for (std::size_t i = 0; i + 2 < columns.size(); i += 2) {
       glm::vec2 least(std::numeric_limits<float>::infinity()), most(-least);
-      bool ahead = false;
+      bool ahead = false, wide = false, high = false;
       for (std::size_t row = j; row <= j + 2; ++row)
         for (std::size_t column = i; column <= i + 2; ++column) {
           const Place& place = places[row * columns.size() + column];
           least = glm::min(least, place.at), most = glm::max(most, place.at);
-          ahead = ahead || place.ahead;
+          ahead = ahead || place.ahead, wide = wide || place.wide, high = high || place.high;
         }
-      if (!ahead) continue;
+      const auto node = [](std::size_t index) { return static_cast<std::uint16_t>(index); };
+      Block block{.column = node(columns[i]),
+                  .last_column = node(columns[i + 2]),
+                  .row = node(rows[j]),
+                  .last_row = node(rows[j + 2]),
+                  .wide_beyond = wide,
+                  .high_beyond = high};
+      if (!ahead) {
+        blocks_.push_back(block);
+        continue;
+      }
       // Lines of the table are bent between these, by less than the block's own size; levels of beam images blur by a
       // texel, which is less than a cell.
       const glm::vec2 room = 0.5f * (most - least) + 1.0f;
       const Cells across = cells_between(least.x - room.x, most.x + room.x, kColumns),
                   up = cells_between(least.y - room.y, most.y + room.y, kRows);
-      const auto node = [](std::size_t index) { return static_cast<std::uint16_t>(index); };
       const auto cell = [](int index) { return static_cast<std::uint8_t>(index); };
-      blocks_.push_back({node(columns[i]), node(columns[i + 2]), node(rows[j]), node(rows[j + 2]), cell(across.first),
-                         cell(across.end), cell(up.first), cell(up.end)});
+      block.right = cell(across.first), block.left = cell(across.end);
+      block.low = cell(up.first), block.high = cell(up.end);
+      blocks_.push_back(block);
     }
 }
 
 void LightPeaks::set(const BeamImage& image) {
   most_cd_.clear();
+  peak_cd_ = wide_cd_ = high_cd_ = 0.0f;
   constexpr std::size_t kMostNodes = std::numeric_limits<std::uint16_t>::max();
   if (image.dark || image.candela.empty()) return;
   if (image.first_deg.size() > kMostNodes || image.second_deg.size() > kMostNodes) {
@@ -128,12 +141,17 @@ void LightPeaks::read(const BeamImage& image, Block& block) {
 
 void LightPeaks::fill_cells() {
   most_cd_.assign(static_cast<std::size_t>(kColumns * kRows), 0.0f);
-  for (const Block& block : blocks_)
+  peak_cd_ = wide_cd_ = high_cd_ = 0.0f;
+  for (const Block& block : blocks_) {
+    peak_cd_ = std::max(peak_cd_, block.most_cd);
+    if (block.wide_beyond) wide_cd_ = std::max(wide_cd_, block.most_cd);
+    if (block.high_beyond) high_cd_ = std::max(high_cd_, block.most_cd);
     for (int row = block.low; row < block.high && block.most_cd > 0.0f; ++row)
       for (int column = block.right; column < block.left; ++column) {
         float& cell = most_cd_[static_cast<std::size_t>(row * kColumns + column)];
         cell = std::max(cell, block.most_cd);
       }
+  }
 }
 
 glm::vec2 LightPeaks::cell_of(const glm::vec2& tangents) {

@@ -247,6 +247,8 @@ class LitScene {
   LitView view_of_points(const ViewGeometry& geometry, std::span<const PlacedLamp> lamps);
   /// Finds what stands in the light of the view's lamps; returns how many pieces of the scene.
   std::size_t find_casters(LitView& view, const CastersFor& wanted = {}, bool in_air = false);
+  /// Lamps of the view with light past the sides of any map of shadows (LightPeaks).
+  std::size_t wide_lamps(const LitView& view) const;
 
   /// What does not change shines in the view: what moves gets what arrives at it.
   void add_fixed_light(LitView& view);

@@ -81,6 +81,11 @@ std::size_t LitScene::find_casters(LitView& view, const CastersFor& wanted, bool
   return casters_of_all(view.casts);
 }
 
+std::size_t LitScene::wide_lamps(const LitView& view) const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(view.lit_lamps, [&](const PlacedLamp& lamp) { return peaks_[lamp.beam].is_wide(); }));
+}
+
 void LitScene::light_by_block(LitView& view) {
   const std::span<const PlacedLamp> lamps = view.lit_lamps;
   std::vector<LampReach> reaches;

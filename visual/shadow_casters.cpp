@@ -30,12 +30,12 @@ TangentRect common(const TangentRect& a, const TangentRect& b) {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr TangentRect kNothing{kFar, -kFar, kFar, -kFar};
 
-/// Tangents that a cone of light about the axis reaches.
-TangentRect widest(const LampReach& reach, const glm::dmat3& world_from_image) {
+/// Tangents that a cone of light about the axis reaches. `is_high`: there is light far up or down.
+TangentRect widest(const LampReach& reach, const glm::dmat3& world_from_image, bool is_high) {
   const double off_axis = std::acos(std::clamp(glm::dot(reach.cone.axis, world_from_image[0]), -1.0, 1.0));
   const double angle = off_axis + reach.cone.half_angle_rad;
   const double most = angle < std::atan(kWidestShadow) ? std::tan(angle) : kWidestShadow;
-  const double high = std::min(most, kHighestShadow);
+  const double high = is_high ? most : std::min(most, kHighestShadow);
   return {-most, most, -high, high};
 }
 
@@ -306,7 +306,7 @@ CastBy ShadowCasters::by(const LampReach& reach, const glm::dmat3& world_from_im
                          std::size_t carried_by, const CastersFor& wanted) const {
   CastBy cast{.chunks = std::vector<bool>(chunks_.size() + moving.size()), .part = kNothing};
   constexpr std::size_t kUsual = 1024;  // triangles on a country road: memory that need not grow
-  Light light{.part = widest(reach, world_from_image)};
+  Light light{.part = widest(reach, world_from_image, wanted.peaks != nullptr && wanted.peaks->is_high())};
   if (wanted.faint_lx > 0.0) light.peaks = wanted.peaks, light.faint_lx = static_cast<float>(wanted.faint_lx);
   if (wanted.view != nullptr) light.sides = sides_of(*wanted.view, reach.tip_m, world_from_image);
   const glm::dmat3 image_from_world = glm::transpose(world_from_image);

@@ -28,7 +28,8 @@ namespace phare {
 /// Nothing farther from a lamp than this casts a shadow.
 inline constexpr double kShadowsTo_m = 300.0;
 /// Tangents to the left or right of the lamp's axis, and above or below it, beyond which nothing casts a shadow: 75°,
-/// and 45°. What stands higher beside a car is a crown in the last of its light, and would take texels from all else.
+/// and 45°. What stands higher beside a car is a crown in the last of its light, and would take texels from all else;
+/// of a beam that has light there (LightPeaks::is_high()) it casts to 75°.
 inline constexpr double kWidestShadow = 3.73, kHighestShadow = 1.0;
 
 /// A part of what a lamp sees: tangents to the left and up, over the way forward.

@@ -121,6 +121,23 @@ TEST(Effects, AsphaltIsByItsRTableWhereStreetLampsLightItDry) {
   EXPECT_FALSE(plan_effects({.street_lamps = 52}, choices).on(Effect::kAsphalt)) << "there is none";
 }
 
+// Light past the sides of the maps is told wherever maps are drawn, or would be.
+TEST(Effects, ShadowsTellOfLightPastTheirMaps) {
+  const std::string beside =
+      "; light of 2 lamps more than 75° beside the axis goes through what stands there, but by rays";
+  EffectFacts facts{.lit_lamps = 2, .casters = 3, .wide_lamps = 2};
+  EXPECT_EQ(plan_effects(facts)[Effect::kShadows].reason,
+            "3 pieces of the scene stand in the light of the lamps" + beside);
+  facts.casters = 0;
+  EXPECT_EQ(plan_effects(facts)[Effect::kShadows].reason, "nothing stands in the light of the lamps" + beside);
+  facts.casters = 3;
+  EffectChoices rays{};
+  rays[static_cast<std::size_t>(Effect::kShadows)] = kRayShadows;
+  EXPECT_EQ(plan_effects(facts, rays)[Effect::kShadows].reason.find("75°"), std::string::npos);
+  facts.shadow_rays = false;
+  EXPECT_NE(plan_effects(facts, rays)[Effect::kShadows].reason.find("75°"), std::string::npos) << "maps in their place";
+}
+
 TEST(Effects, DeviceAndViewCountToo) {
   EXPECT_FALSE(plan_effects({.lit_lamps = 2, .casters = 3, .shadow_maps = false}).on(Effect::kShadows));
   EXPECT_FALSE(plan_effects({.lit_lamps = 2, .casters = std::nullopt}).on(Effect::kShadows));

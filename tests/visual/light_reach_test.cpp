@@ -166,6 +166,28 @@ TEST(LightPeaks, NoDirectionHasMoreThanIsTold) {
   EXPECT_FALSE(LightPeaks().exceeds({-1.0f, -1.0f}, {1.0f, 1.0f}, 0.0f)) << "a dark beam";
 }
 
+// More than a hundredth of the brightest, past 75° to the side or past 45° up: by where nodes have it.
+TEST(LightPeaks, TellLightPastTheSidesOfMaps) {
+  const auto peaks_of = [](double side_deg, double up_deg, double cd) {
+    IntensityTable table;
+    for (int deg = -90; deg <= 90; ++deg) table.first_deg.push_back(deg), table.second_deg.push_back(deg);
+    for (const double v : table.second_deg)
+      for (const double h : table.first_deg)
+        table.candela.push_back(h == 0.0 && v == 0.0 ? 1000.0 : h == side_deg && v == up_deg ? cd : 0.0);
+    const AimedSource source{.table = &table};
+    LightPeaks peaks;
+    peaks.set(compose_beam_image(std::span(&source, 1)));
+    return std::pair(peaks.is_wide(), peaks.is_high());
+  };
+  EXPECT_EQ(peaks_of(30, 35, 1000), std::pair(false, false));
+  EXPECT_EQ(peaks_of(70, 0, 1000), std::pair(false, false));
+  EXPECT_EQ(peaks_of(80, 0, 20), std::pair(true, false));
+  EXPECT_EQ(peaks_of(-80, 0, 9), std::pair(false, false)) << "less than a hundredth";
+  EXPECT_EQ(peaks_of(0, -50, 20), std::pair(false, true));
+  EXPECT_EQ(peaks_of(0, 50, 9), std::pair(false, false));
+  EXPECT_FALSE(LightPeaks().is_wide() || LightPeaks().is_high()) << "a dark beam";
+}
+
 // A part that changes counts at once, there and where light runs on to the next node; and when it is as it was, so is
 // all that is told: a picture must not hang on what was lit before it.
 TEST(LightPeaks, AreThoseOfTheBeamAsItIsNow) {

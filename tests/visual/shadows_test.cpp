@@ -435,6 +435,42 @@ TEST_F(Shadows, ASlopeTurnedFromTheLampIsDarkThoughItsNormalsFaceIt) {
     }
 }
 
+// A plate above the lamp, 45° to 63° up. Of a beam that shines there too it casts; what goes past the sides of any map
+// is told.
+TEST_F(Shadows, OfABeamThatShinesHighAreMadeThereAndWhatIsBesideIsTold) {
+  Shape shape;
+  shape.box({1, -1, 3}, {2, 1, 3.2});
+  ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
+  const auto even_to = [](double first_deg) {
+    IntensityTable table;
+    table.first_deg = {-first_deg, first_deg}, table.second_deg = {-70, 70};
+    table.candela.assign(4, 1000.0);
+    return image_of(table);
+  };
+  const std::vector<PlacedLamp> lamps{{.position_m = {0, 0, 1}}};
+  const std::vector<MeasurePoint> points{{{3.5, 0, 6}, {0, 0, -1}}, {{3.5, 4, 6}, {0, 0, -1}}, {{7, 0, 6}, {0, 0, -1}}};
+  renderer->set_beam(0, even_to(60.0));
+  const auto open = renderer->measure(lamps, points);
+  for (std::size_t level = 1; level < kShadowNames.size(); ++level) {
+    const auto shadowed = renderer->measure(lamps, points, level);
+    EXPECT_GT(open[0][0], 1.0f);
+    EXPECT_EQ(shadowed[0][0], 0.0f) << kShadowNames[level];
+    EXPECT_EQ(shadowed[0][1], open[0][1]) << kShadowNames[level];
+    EXPECT_EQ(shadowed[0][2], open[0][2]) << kShadowNames[level];
+  }
+  FrameInput input;
+  input.camera = {.eye_m = {-3, 0, 1.5}};
+  input.lamps = lamps;
+  const auto reason = [&] { return renderer->draw(input).effects[Effect::kShadows].reason; };
+  EXPECT_EQ(reason().find("75°"), std::string::npos) << reason();
+  renderer->set_beam(0, even_to(85.0));
+  EXPECT_NE(reason().find("; light of 1 lamp more than 75° beside the axis goes through what stands there"),
+            std::string::npos)
+      << reason();
+  input.effects[static_cast<std::size_t>(Effect::kShadows)] = kRayShadows;
+  EXPECT_EQ(reason().find("75°"), std::string::npos) << "rays go every way: " << reason();
+}
+
 TEST(ShadowLimits, ADeviceHoldsSoManyMapsAndSaysSo) {
   const ShadowLevel& soft = kShadowLevels[2];
   const ShadowLimits promised{.buffer_texels = 65'536, .image_side = 4096};

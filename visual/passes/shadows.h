@@ -5,8 +5,8 @@
 //
 // Maps hold the far sides of things (visual/shadow_casters.h), on a plane across the lamp's axis that is fitted to
 // them. Error: an edge is off by half a texel, seen from the lamp; levels differ in texels. Left out: what is more than
-// 75° beside the lamp's axis, 45° above or below it or farther than 300 m from it, what hides faint light alone
-// (kFaintShown), and the size of the lamp. The finest levels have no maps: visual/passes/shadow_rays.h.
+// 75° beside the lamp's axis, 45° above or below it (75° of beams with light there) or farther than 300 m from it, what
+// hides faint light alone (kFaintShown), and the size of the lamp. The finest levels have no maps: visual/passes/shadow_rays.h.
 #pragma once
 
 #include <array>

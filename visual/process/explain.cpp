@@ -96,7 +96,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   if (window) lay_over(input, lamps, desk, moment);
   // Those whose light the view can see; what of the scene it falls on is not asked.
   const ViewGeometry view(input.camera, static_cast<double>(channel.width_px) / channel.height_px);
-  std::size_t lit = 0;
+  std::size_t lit = 0, wide = 0;
   std::optional<std::vector<std::shared_ptr<const CastBy>>> casts;
   std::optional<ShadowCasters> casters;
   if (looks_for_casters(input)) casts.emplace(), casters.emplace(scene, movers.meshes());
@@ -109,6 +109,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
     if (!casts) continue;
     LightPeaks peaks;
     peaks.set(image);
+    if (peaks.is_wide()) ++wide;
     casts->push_back(
         std::make_shared<const CastBy>(casters->by(reach, lamp.world_from_image, input.moving, lamp.carried_by,
                                                    {.view = &view, .faint_lx = faint_lx(input), .peaks = &peaks})));
@@ -117,7 +118,7 @@ std::string explain_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   if (casts) casting = casters_of_all(*casts);
   DrawnOver over = drawn_over(input);
   over.gui = window && desk.panel;  // nothing is laid out: there is no window yet
-  EffectFacts facts = facts_of(input, {lit, lit}, casting, over, glare_of(input, view),
+  EffectFacts facts = facts_of(input, {lit, lit, wide}, casting, over, glare_of(input, view),
                                pupils_of(input, view, channel.width_px, channel.height_px).size(),
                                spraying_seen(view, input.spraying).size(), {});
   add_facts(facts, fixed, input.camera.eye_m);
