@@ -21,6 +21,7 @@
 #include "visual/photometry/bench/lamp_aim.h"
 #include "visual/photometry/readers/points_file.h"
 #include "visual/photometry/table/illuminance.h"
+#include "visual/scene/ray_hit.h"
 #ifdef PHARE_WITH_GRAPHICS
 #include "visual/renderer.h"
 #endif
@@ -161,8 +162,30 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
 }
 #endif
 
+/// Of each object, points that lie in its shadow of some lamp.
+std::map<std::string, std::size_t> points_in_shadow(const std::vector<HiddenBy>& hidden) {
+  std::map<std::string, std::size_t> shadows;
+  for (const HiddenBy& names : hidden)
+    for (const std::string& name : std::set<std::string>(names.begin(), names.end()))
+      if (!name.empty()) ++shadows[name];
+  return shadows;
+}
+
+void print_shadows(const std::map<std::string, std::size_t>& shadows) {
+  for (const auto& [name, count] : shadows)
+    std::printf("  %zu point%s in the shadow of %s\n", count, count == 1 ? "" : "s", name.c_str());
+}
+
+/// What stands in the light of the lamp that would be the strongest there, by its node; empty: nothing does.
+std::string hides_strongest(const FixedLight& light, const World& world, const PointRow& row, double strongest_lx) {
+  const auto hidden = light.hidden_at(row.position_m, row.normal);
+  if (hidden.empty() || hidden.front().share.lx <= strongest_lx) return "";
+  const SceneChunk* by = occluder(world, hidden.front().from_m, row.position_m);
+  return by != nullptr ? name_of(*by) : "";
+}
+
 /// Street lamps in place of a car's: float64, with the shadows of a scene where one is given. The column of the lamp is
-/// that of the strongest.
+/// that of the strongest that shines there, that of what hides it of the one that would be.
 int measure_street(const MeasureOptions& options) {
   if (!options.lamps.empty() || !options.rig_file.empty())
     return bad_input({"--street-lamps", "is measured alone; --lamp and --rig are a car's lamps"});
@@ -180,6 +203,8 @@ int measure_street(const MeasureOptions& options) {
   const auto points = read_points(options.points);
   if (!points) return bad_input(points.error());
   std::vector<Illuminance> measured;
+  std::vector<HiddenBy> hidden;
+  const World world(scene);
   double highest = 0.0;
   for (const PointRow& row : points->rows) {
     const auto shares = light->shares_at(row.position_m, row.normal);
@@ -187,13 +212,24 @@ int measure_street(const MeasureOptions& options) {
     for (const FixedLight::Share& share : shares) at.total_lx += share.lx;
     const auto lamp = std::ranges::find(shares, false, &FixedLight::Share::reflected);  // strongest first
     at.lamps_lx = {lamp == shares.end() ? 0.0 : lamp->lx};
+    if (!options.scene.empty()) hidden.push_back({hides_strongest(*light, world, row, at.lamps_lx.front())});
     highest = std::max(highest, at.total_lx);
   }
-  if (const Status status = write_illuminance(options.out, *points, measured); !status)
+  if (const Status status = write_illuminance(options.out, *points, measured, hidden); !status)
     return bad_input(status.error());
+  const auto shadows = points_in_shadow(hidden);
+  if (options.json) {
+    nlohmann::json report{
+        {"out", options.out},        {"method", "reference"},         {"device", "float64 on the CPU"},
+        {"points", measured.size()}, {"max_illuminance_lx", highest}, {"street_lamps", light->street_lamps()}};
+    if (!options.scene.empty()) report["scene"] = options.scene, report["points_in_shadow_of"] = shadows;
+    std::printf("%s\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    return kExitDone;
+  }
   std::printf("%s: %zu points, %zu street lamp%s, at most %.6g lx, in float64 on the CPU%s\n", options.out.c_str(),
               measured.size(), light->street_lamps(), light->street_lamps() == 1 ? "" : "s", highest,
               options.scene.empty() ? ", nothing stands in their light" : "");
+  print_shadows(shadows);
   return kExitDone;
 }
 
@@ -293,15 +329,12 @@ int measure(const MeasureOptions& options) {
   if (!measured) return bad_input(measured.error());
   std::vector<Illuminance>& illuminance = *measured;
   std::vector<HiddenBy> hidden;
-  std::map<std::string, std::size_t> shadows;  // of each object: points that lie in its shadow of some lamp
   if (!options.scene.empty()) {
     std::vector<glm::dvec3> lamps_m;
     for (const LampConfig& lamp : *lamps) lamps_m.push_back(lamp.position_m);
     hidden = take_shadows(scene, lamps_m, points->rows, illuminance);
-    for (const HiddenBy& names : hidden)
-      for (const std::string& name : std::set<std::string>(names.begin(), names.end()))
-        if (!name.empty()) ++shadows[name];
   }
+  const auto shadows = points_in_shadow(hidden);
   if (const Status status = write_illuminance(options.out, *points, illuminance, hidden); !status)
     return bad_input(status.error());
 
@@ -323,8 +356,7 @@ int measure(const MeasureOptions& options) {
   } else {
     std::printf("%s: %zu points, %zu lamp%s, at most %.6g lx, by %s (%s)\n", options.out.c_str(), illuminance.size(),
                 lamps->size(), lamps->size() == 1 ? "" : "s", highest, options.method.c_str(), device.c_str());
-    for (const auto& [name, count] : shadows)
-      std::printf("  %zu point%s in the shadow of %s\n", count, count == 1 ? "" : "s", name.c_str());
+    print_shadows(shadows);
   }
   return kExitDone;
 }
@@ -337,7 +369,7 @@ void add_measure(CLI::App& app, Command& chosen) {
   command->footer(
       "Points: CSV with x_m,y_m,z_m,nx,ny,nz. The answer repeats them and adds illuminance_lx and one column per "
       "lamp;\nwith --scene also hidden_by_1 and so on: the object that stands in that lamp's light, empty where none "
-      "does.\n"
+      "does; of street\nlamps in that of the one which would be the strongest.\n"
       "Example:\n  phare measure --lamp low_beam.ies,x=1.5,y=0.6,z=0.65,pitch_deg=-0.573 --points points.csv --out "
       "points_lx.csv\n  phare measure --table road_table/a_road_flat_low.csv --method reference");
   command->add_option("--rig", options->rig_file, "Rig file whose lamps are measured; the car stands at the origin");
@@ -361,7 +393,7 @@ void add_measure(CLI::App& app, Command& chosen) {
   auto* scene = command->add_option(
       "--scene", options->scene,
       "glTF whose shadows count, by ray. With --lamp or --rig: in a car's light, and the object that "
-      "shades is named; without: in that of its own lamps, which are measured, and of --street-lamps");
+      "shades is named; without: in that of its own lamps, which are measured, and of --street-lamps, likewise");
   auto* points = command->add_option("--points", options->points, "Points file; \"-\" is standard input");
   command->add_option("--out", options->out, "File to write");
   command

@@ -140,9 +140,11 @@ double FixedLight::candela(const Lamp& lamp, const glm::dvec3& way) const {
 }
 
 /// Calls add(share of the surface's lx, colour, direction, lx facing it) for all that reaches the point. `normal`:
-/// null, nothing faces away. `of_mesh`: as vertices keep it (kCover_m).
+/// null, nothing faces away. `of_mesh`: as vertices keep it (kCover_m). `hidden`: for what would
+/// reach it and is hidden.
 template <typename Add>
-void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add) const {
+void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add,
+                      bool hidden) const {
   glm::dvec3 from_m = normal != nullptr ? point_m + kOffSurface_m * *normal : point_m;
   const double leave_within_m = of_mesh ? kWithin_m : 0.0;
   if (of_mesh) from_m += tree_.left_at_m(from_m, *normal, kCover_m) * *normal;
@@ -157,13 +159,13 @@ void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, bool 
     if (kind.peak_cd * cosine < kLeastOfLamp_lx * r2) continue;
     const double facing_lx = candela(lamp, -way) / r2;
     if (facing_lx * cosine < kLeastOfLamp_lx) continue;
-    if (tree_.blocked(from_m, lamp.position_m, 1e-3, kOwnHousing_m, leave_within_m)) continue;
+    if (tree_.blocked(from_m, lamp.position_m, 1e-3, kOwnHousing_m, leave_within_m) != hidden) continue;
     add(Share{.lamp = i, .lx = facing_lx * cosine}, kind.colour, way / r, facing_lx);
   }
   const auto from_far = [&](const Moon& moon, Share share) {
     const double cosine = normal != nullptr ? glm::dot(moon.toward, *normal) : 1.0;
-    if (!(cosine > 0.0) || tree_.blocked(from_m, from_m + kBeyondScene_m * moon.toward, 1e-3, 0.0, leave_within_m))
-      return;
+    if (!(cosine > 0.0)) return;
+    if (tree_.blocked(from_m, from_m + kBeyondScene_m * moon.toward, 1e-3, 0.0, leave_within_m) != hidden) return;
     share.lx = moon.lx * cosine;
     add(share, moon.colour, moon.toward, moon.lx);
   };
@@ -187,6 +189,18 @@ std::vector<FixedLight::Share> FixedLight::shares_at(const glm::dvec3& point_m, 
   if (const double lx = reflected_.at(point_m, normal).w; lx > 0.0) shares.push_back({.reflected = true, .lx = lx});
   std::ranges::stable_sort(shares, std::greater(), &Share::lx);
   return shares;
+}
+
+std::vector<FixedLight::Hidden> FixedLight::hidden_at(const glm::dvec3& point_m, const glm::dvec3& normal) const {
+  std::vector<Hidden> all;
+  each(
+      point_m, &normal, false,
+      [&](const Share& share, const glm::vec3&, const glm::dvec3& way, double) {
+        all.push_back({share, share.lamp ? lamps_[*share.lamp].position_m : point_m + kBeyondScene_m * way});
+      },
+      true);
+  std::ranges::stable_sort(all, std::greater(), [](const Hidden& one) { return one.share.lx; });
+  return all;
 }
 
 double FixedLight::lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) const {

@@ -129,6 +129,13 @@ class FixedLight {
   };
   /// In float64, with shadows: what falls on a point, strongest first.
   std::vector<Share> shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
+  /// The same of what would fall there and is hidden. `from_m`: where it comes from, of what has a direction alone
+  /// beyond the scene.
+  struct Hidden {
+    Share share{};
+    glm::dvec3 from_m{0.0};
+  };
+  std::vector<Hidden> hidden_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
   double lux_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
   /// Where lamps are that are so near a box.
   std::vector<glm::dvec3> lamps_near(const glm::dvec3& low_m, const glm::dvec3& high_m, double within_m) const;
@@ -175,7 +182,8 @@ class FixedLight {
   /// cd into a direction of the world, of any length.
   double candela(const Lamp& lamp, const glm::dvec3& way) const;
   template <typename Add>
-  void each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add) const;
+  void each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add,
+            bool hidden = false) const;
 
   BakeLevel level_ = kBakeLevels[1];
   std::vector<Luminaire> luminaires_;

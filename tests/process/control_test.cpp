@@ -208,7 +208,7 @@ TEST_F(Control, ReflectedLightIsInNoLampsColumn) {
   std::ifstream table(folder_ / "lx.csv");
   std::string line;
   std::getline(table, line);
-  EXPECT_EQ(line, "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,illuminance_lx_1");
+  EXPECT_EQ(line, "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,illuminance_lx_1,hidden_by_1");
   std::getline(table, line);
   double sum_lx = 0.0, lamp_lx = -1.0;
   ASSERT_EQ(std::sscanf(line.c_str(), "100,0,5,0,0,-1,%lf,%lf", &sum_lx, &lamp_lx), 2) << line;

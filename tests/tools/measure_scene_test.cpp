@@ -109,6 +109,47 @@ TEST_F(MeasureScene, EndsTheLightOfEachLampAtTheEdgeAndNamesWhatHidesIt) {
   EXPECT_EQ(report["points_in_shadow_of"]["shed, \"red\""], 1);
 }
 
+// Street lamps 6 m up, of which a wall hides one, the stronger, from a part of the road: what is left is the other's,
+// and the wall is named. Where the weaker is hidden, the stronger shines and nothing is named.
+TEST_F(MeasureScene, StreetLampsCastShadowsAndWhatHidesTheStrongestIsNamed) {
+  file("even.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n1000 1000\n");
+  file("yard.gltf", gltf_of({{"wall", {4, -3, 0}, {4.2, 3, 4}}}));
+  std::string lamps = "[[luminaire]]\nname = \"a\"\nfile = \"even.ies\"\n";
+  for (const char* place : {"0.0, 0.0, 6.0", "20.0, 0.0, 6.0"})
+    lamps += std::string("[[lamp]]\nluminaire = \"a\"\nposition_m = [") + place + "]\n";
+  file("lamps.toml", lamps);
+  file("points.csv",
+       "x_m,y_m,z_m,nx,ny,nz\n"
+       "2,0,0,0,0,1\n"     // before the wall, which hides the far lamp
+       "6,0,0,0,0,1\n"     // behind it: the near one, stronger, is hidden
+       "6,8,0,0,0,1\n"     // aside
+       "16,0,0,0,0,1\n");  // beyond the shadow, which ends at 12.6 m
+  const std::string words = "--street-lamps '" + in("lamps.toml") + "' --points '" + in("points.csv") + "' --out '";
+  ASSERT_EQ(measure(words + in("open.csv") + "'").code, 0);
+  EXPECT_EQ(lines_of("open.csv")[0], "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,illuminance_lx_1") << "nothing to name";
+  const Said said = measure(words + in("lux.csv") + "' --scene '" + in("yard.gltf") + "'");
+  ASSERT_EQ(said.code, 0) << said.err;
+  EXPECT_NE(said.out.find("1 point in the shadow of wall"), std::string::npos) << said.out;
+  EXPECT_EQ(lines_of("lux.csv")[0], "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,illuminance_lx_1,hidden_by_1");
+  const test::CsvTable lux = test::read_csv_table(folder_ / "lux.csv");
+  const auto lx_of = [](double lamp_x_m, double x_m, double y_m) {
+    const double r2 = (lamp_x_m - x_m) * (lamp_x_m - x_m) + y_m * y_m + 36.0;
+    return 1000.0 * 6.0 / (r2 * std::sqrt(r2));
+  };
+  const double rounding = 1e-9;
+  EXPECT_NEAR(lux.number(0, "illuminance_lx"), lx_of(0, 2, 0), rounding);
+  EXPECT_NEAR(lux.number(1, "illuminance_lx"), lx_of(20, 6, 0), rounding);
+  EXPECT_NEAR(lux.number(2, "illuminance_lx"), lx_of(0, 6, 8) + lx_of(20, 6, 8), rounding);
+  EXPECT_NEAR(lux.number(3, "illuminance_lx"), lx_of(0, 16, 0) + lx_of(20, 16, 0), rounding);
+  const std::vector<std::string> hides{"", "wall", "", ""};
+  for (std::size_t i = 0; i < hides.size(); ++i)
+    EXPECT_EQ(lux.rows[i].size() > 8 ? lux.rows[i][8] : "", hides[i]) << lines_of("lux.csv")[i + 1];
+  const Said json = measure(words + in("again.csv") + "' --json --scene '" + in("yard.gltf") + "'");
+  const nlohmann::json report = nlohmann::json::parse(json.out);
+  EXPECT_EQ(report["points_in_shadow_of"]["wall"], 1);
+  EXPECT_EQ(report["street_lamps"], 2);
+}
+
 TEST_F(MeasureScene, RefusesWhatItWouldWriteTwice) {
   file("even.ies", kEvenLamp);
   file("yard.gltf", gltf_of({{"barn", {10, -2, 0}, {11, 2, 2}}}));
